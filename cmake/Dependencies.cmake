@@ -1,0 +1,19 @@
+# Every third-party library, found in one place; all are packages of Debian 12 (packages.txt).
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(yaml-cpp REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+# lcm.pc of Debian asks for glib's development files, which neither our code nor lcm's headers need.
+find_path(LCM_INCLUDE lcm/lcm.h REQUIRED)
+find_library(LCM_LIBRARY lcm REQUIRED)
+add_library(lcm SHARED IMPORTED)
+set_target_properties(lcm PROPERTIES IMPORTED_LOCATION ${LCM_LIBRARY}
+                                     INTERFACE_INCLUDE_DIRECTORIES ${LCM_INCLUDE})
+find_program(LCM_GEN lcm-gen REQUIRED)
+# yaml-cpp 0.7 of Debian defines the target without its namespace.
+if(NOT TARGET yaml-cpp::yaml-cpp)
+  add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)
+endif()

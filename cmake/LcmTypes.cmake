@@ -1,0 +1,24 @@
+# Generates C++ headers (included as SYSTEM: the generator's code warns under -Wconversion) and
+# Python modules from lcmtypes/*.lcm.
+function(levitas_lcm_types target)
+  set(cpp ${PROJECT_BINARY_DIR}/lcmtypes/cpp)
+  set(python ${PROJECT_BINARY_DIR}/lcmtypes/python)
+  set(outputs "")
+  foreach(source IN LISTS ARGN)
+    get_filename_component(stem ${source} NAME_WE)
+    set(header ${cpp}/levitas_msg/${stem}.hpp)
+    add_custom_command(
+      OUTPUT ${header} ${python}/levitas_msg/${stem}.py
+      COMMAND ${LCM_GEN} --cpp --cpp-hpath ${cpp} ${CMAKE_CURRENT_SOURCE_DIR}/${source}
+      COMMAND ${LCM_GEN} --python --ppath ${python} ${CMAKE_CURRENT_SOURCE_DIR}/${source}
+      DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${source}
+      COMMENT "lcm-gen ${source}"
+      VERBATIM)
+    list(APPEND outputs ${header})
+  endforeach()
+  add_custom_target(${target}_generate DEPENDS ${outputs})
+  levitas_library(${target} LAYER 0)
+  add_dependencies(${target} ${target}_generate)
+  target_include_directories(${target} SYSTEM INTERFACE ${cpp})
+  target_link_libraries(${target} INTERFACE lcm)
+endfunction()

@@ -1,0 +1,31 @@
+#pragma once
+// Numbers of a rig that both the controller and the plant need (and nothing else of the rig).
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/axes.hpp"
+
+namespace levitas {
+
+struct RigNumbers {
+  std::string name;                     ///< "flexible_rotor"
+  std::vector<std::string> channels;    ///< axis names in order: de_x, de_y, nde_x, nde_y
+  std::vector<std::string> bearings;    ///< bearing names in order: de, nde; axes 2b and 2b+1
+  std::int64_t period_ns{100'000};      ///< [ns] sampling period
+  double bias_current_a{};              ///< [A] i0
+  double max_coil_current_a{};          ///< [A] a coil current stays within 0 .. this
+  double clearance_m{};                 ///< [m] radial clearance of the touchdown bearings
+  double sensor_range_m{};              ///< [m] the converter covers +- this
+  double max_speed_rad_per_s{};         ///< [rad/s] rated speed; the over-speed trip refers to it
+  AxisArray sensor_polarity{};          ///< +1 or -1 per axis, see controller/cycle
+  AxisArray actuator_polarity{};        ///< +1 or -1 per axis
+  double standing_orbit_objective_m{};  ///< [m] orbit radius at standstill to stay below
+  double spinning_orbit_objective_m{};  ///< [m] orbit radius while rotating to stay below
+
+  [[nodiscard]] std::size_t axes() const noexcept { return channels.size(); }
+  [[nodiscard]] double period_s() const noexcept { return static_cast<double>(period_ns) * 1e-9; }
+};
+
+}  // namespace levitas

@@ -1,0 +1,39 @@
+#pragma once
+// What the controller faces: a simulated rig over LCM, a real bus, a test. Chosen by --port;
+// nothing else in the controller changes with it.
+//
+// Thread     loop thread only.
+// Blocking   Read waits at most until the deadline it is given; Write never waits.
+// Staleness  Read returns the NEWEST frame; older ones that were queued are counted as skipped.
+// Failure    never throws; results are values. A closed or broken port reads as kNothing.
+
+#include <cstdint>
+
+#include "common/frames.hpp"
+
+namespace levitas::port {
+
+enum class ReadResult : std::uint8_t {
+  kFrame,    ///< a new frame was written to the argument
+  kNothing,  ///< no new frame before the deadline
+};
+
+struct PortCounters {
+  std::uint64_t frames_read{};
+  std::uint64_t frames_skipped{};   ///< overtaken by a newer frame before they were read
+  std::uint64_t frames_rejected{};  ///< undecodable, wrong axis count
+  std::uint64_t currents_written{};
+  std::uint64_t write_failures{};  ///< the transport could not take it
+};
+
+class RigPort {
+ public:
+  virtual ~RigPort() = default;
+  /// Waits until CLOCK_MONOTONIC reaches `deadline_ns` at the latest; a deadline in the past polls.
+  virtual ReadResult Read(SensorFrame& frame, std::int64_t deadline_ns) noexcept = 0;
+  /// False when the frame could not be handed to the transport (counted).
+  virtual bool Write(const CurrentFrame& frame) noexcept = 0;
+  [[nodiscard]] virtual PortCounters counters() const noexcept = 0;
+};
+
+}  // namespace levitas::port

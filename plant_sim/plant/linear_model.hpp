@@ -1,0 +1,28 @@
+#pragma once
+// The plant linearised about the centred rotor: for poles, margins, observers and identification.
+//
+// Continuous   x' = A x + B ic,  y = C x : states ordered as StateLayout, magnet F = ki ic + ks x,
+//              amplifier and sensor filters included, no contact, gravity, unbalance or noise.
+// Discrete     zero-order hold over one period with the rig's delay as extra states (the commands
+//              not yet acting); exact for whole and fractional delays.
+
+#include <Eigen/Core>
+
+#include "plant_sim/plant/plant_config.hpp"
+
+namespace levitas::plant {
+
+struct LinearModel {
+  Eigen::MatrixXd a;
+  Eigen::MatrixXd b;
+  Eigen::MatrixXd c;
+};
+
+/// Continuous model at a constant speed. `bias_current_a` defaults to each magnet's design value.
+[[nodiscard]] LinearModel Linearise(const PlantConfig& config, double speed_rad_per_s);
+
+/// Sampled model: x[n+1] = A x[n] + B u[n], y[n] = C x[n], with u[n] the command from sample n.
+[[nodiscard]] LinearModel Discretise(const LinearModel& continuous, double period_s,
+                                     double delay_samples);
+
+}  // namespace levitas::plant

@@ -1,0 +1,79 @@
+#pragma once
+// Complete description of a simulated rig: parts and how they are arranged. SI units.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/axes.hpp"
+#include "plant_sim/rotor/rotor_config.hpp"
+
+namespace levitas::plant {
+
+/// F(ic, x) = k [ ((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2 ],  ki = 4 k i0/s0^2, ks = 4 k i0^2/s0^3
+struct MagnetConfig {
+  double force_constant_n_m2_per_a2{};  ///< k
+  double bias_current_a{};      ///< i0, design value (the commanded bias may differ in time)
+  double gap_m{};               ///< s0
+  double max_coil_current_a{};  ///< each coil within 0 .. this
+};
+
+struct AmplifierConfig {
+  double bandwidth_hz{};  ///< first-order current loop
+  double slew_a_per_s{};  ///< limit of |d ic/dt|; 0 = none
+  int dac_bits{};         ///< quantisation of ic over +- max_coil_current; 0 = none
+};
+
+struct SensorConfig {
+  double bandwidth_hz{};  ///< first order
+  double noise_rms_m{};   ///< white, per sample
+  int adc_bits{};         ///< 0 = no quantisation
+  double range_m{};       ///< converter covers +- range, clips beyond
+};
+
+/// Touchdown (retainer) bearing at the actuator plane.
+struct TouchdownConfig {
+  double clearance_m{};  ///< radial
+  double stiffness_n_per_m{};
+  double damping_n_s_per_m{};
+  double friction{};          ///< Coulomb coefficient, on the sliding surface
+  double journal_radius_m{};  ///< for the sliding speed of a rotating shaft
+};
+
+struct BearingConfig {
+  std::string name;  ///< "de": its axes are de_x, de_y
+  double actuator_z_m{};
+  double sensor_z_m{};
+  MagnetConfig magnet;
+  AmplifierConfig amplifier;
+  SensorConfig sensor;
+  TouchdownConfig touchdown;
+};
+
+struct UnbalanceMass {
+  double z_m{};
+  double moment_kg_m{};  ///< mass times eccentricity
+  double phase_rad{};
+};
+
+struct DriveConfig {
+  double max_acceleration_rad_per_s2{};
+  double coast_down_1_per_s{};     ///< without torque the speed decays as d omega/dt = -c omega ...
+  double coast_down_rad_per_s2{};  ///< ... - this (dry friction) until it stands
+};
+
+struct PlantConfig {
+  std::int64_t period_ns{};
+  double delay_samples{};  ///< sampling instant -> current command acts; fractions allowed
+  rotor::RotorConfig rotor;
+  std::vector<BearingConfig> bearings;
+  std::vector<UnbalanceMass> unbalance;
+  double gravity_m_per_s2{};
+  double gravity_direction_rad{};  ///< in the x-y plane, from +x towards +y
+  DriveConfig drive;
+  AxisArray sensor_polarity{};    ///< +1 or -1 per axis: how the probe is wired
+  AxisArray actuator_polarity{};  ///< +1 or -1 per axis: how the coils are wired
+  int substeps{};                 ///< fixed integration steps per period
+};
+
+}  // namespace levitas::plant

@@ -1,0 +1,54 @@
+#pragma once
+// Timoshenko beam finite elements of a rotor, in one plane of the complex coordinate r = x + j y.
+//
+// Equation    M r'' - j W G r' + K r = f, per node deflection and slope (r, r'); W rotor speed,
+//             positive from x to y; G collects polar inertia. Derivation: docs/derivations.md.
+// Sources     Nelson (1980), Timoshenko element with rotary inertia and gyroscopic effect;
+//             Cowper (1966), shear coefficient 6(1+v)/(7+6v).
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "plant_sim/rotor/rotor_config.hpp"
+
+namespace levitas::rotor {
+
+struct FiniteElementModel {
+  std::vector<double> node_z_m;
+  Eigen::MatrixXd mass;        ///< [kg, kg m, kg m2], 2 per node: deflection, slope
+  Eigen::MatrixXd gyroscopic;  ///< per unit speed, symmetric
+  Eigen::MatrixXd stiffness;   ///< [N/m, N, N m]
+  double total_mass_kg{};
+};
+
+/// Nodes fall on every section end, disc, ring and each z of `planes_m`.
+[[nodiscard]] FiniteElementModel Assemble(const RotorConfig& config,
+                                          const std::vector<double>& planes_m);
+
+struct WhirlFrequencies {
+  std::vector<double> backward_hz;  ///< magnitudes, ascending, flexible modes only
+  std::vector<double> forward_hz;
+};
+
+/// Undamped free-free whirl frequencies of the full model at a speed, the first `count` of each.
+[[nodiscard]] WhirlFrequencies FreeWhirl(const FiniteElementModel& model, double speed_rad_per_s,
+                                         std::size_t count);
+
+/// Modal coordinates of one plane, mass-normalised: q'' + 2 z w q' + w^2 q - j W G q' = Phi^T f.
+struct ModalRotor {
+  Eigen::VectorXd frequency_rad_per_s;  ///< 0 for the rigid modes, which come first
+  Eigen::VectorXd damping_ratio;
+  Eigen::MatrixXd gyroscopic;  ///< Phi^T G Phi
+  Eigen::MatrixXd shapes;      ///< deflection at each node of the model, nodes x modes
+  Eigen::MatrixXd slopes;      ///< slope at each node, nodes x modes
+  std::vector<double> node_z_m;
+  double total_mass_kg{};
+
+  /// Row of `shapes` at a plane that is a node (within 1e-9 m); throws std::invalid_argument else.
+  [[nodiscard]] Eigen::RowVectorXd ShapeAt(double z_m) const;
+};
+
+[[nodiscard]] ModalRotor Reduce(const FiniteElementModel& model, std::size_t modes_per_plane,
+                                double modal_damping_ratio);
+
+}  // namespace levitas::rotor

@@ -1,0 +1,49 @@
+#pragma once
+// Takes cycle records from the loop thread through a wait-free ring and, in its own thread, writes
+// the session, derives events (mode changes, trips, refusals, lost frames), and freezes the 0.5 s
+// before and after a trip to a session file of its own.
+//
+// Loop side   Post: wait-free, never allocates; full means lost and counted.
+// Safety      written data reaches the kernel at least every 50 ms.
+// Events      are also handed to `on_event` (recorder's thread), for telemetry and the console.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "controller/cycle/cycle_io.hpp"
+#include "session/session_header.hpp"
+
+namespace levitas::session {
+
+struct RecorderOptions {
+  std::string session_path;  ///< empty: nothing is recorded (trips still freeze)
+  std::string trip_folder;   ///< where trip files go
+  SessionHeader header;
+  double trip_window_s{0.5};  ///< before and after
+  std::function<void(const Event&)> on_event;
+  std::function<void(const cycle::CycleRecord&)> on_record;  ///< every record, recorder's thread
+};
+
+class Recorder {
+ public:
+  explicit Recorder(RecorderOptions options);
+  /// Drains the ring, finishes an unfinished trip file, joins.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Loop thread only.
+  void Post(const cycle::CycleRecord& record) noexcept;
+  [[nodiscard]] std::uint64_t lost() const noexcept;
+  /// Path of the newest complete trip file, empty if none. Any thread.
+  [[nodiscard]] std::string trip_file() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace levitas::session
