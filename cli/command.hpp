@@ -1,0 +1,20 @@
+#pragma once
+// One `amb` command per source file: each adds its subcommand, options and action to the program.
+//
+// An action returns the exit status of the contract, or throws Problem, which main() prints as one
+// message. Every command that computes takes --json FILE beside what it prints for people.
+
+#include <CLI/App.hpp>
+#include <functional>
+
+#include "common/problem.hpp"
+
+namespace levitas::cli {
+
+/// Set by the parsed subcommand; run by main() after parsing.
+using Action = std::function<ExitStatus()>;
+
+// The commands, in the order of the help. Each is defined in <name>_command.cpp.
+// (Add: declaration here, entry in main.cpp, source in CMakeLists.txt.)
+
+}  // namespace levitas::cli
