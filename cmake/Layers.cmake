@@ -9,6 +9,8 @@
 # third-party targets that stay inside the sources.
 
 set_property(GLOBAL PROPERTY LEVITAS_LIBRARIES "")
+# What `./amb run` needs: the programs without tests and benchmarks.
+add_custom_target(programs)
 
 function(levitas_library name)
   cmake_parse_arguments(A "" "LAYER;FOLDER" "SOURCES;USES;LINKS;PRIVATE_LINKS" ${ARGN})
@@ -40,6 +42,7 @@ function(levitas_program name)
   target_link_libraries(${name} PRIVATE levitas_options ${A_USES} ${A_PRIVATE_LINKS})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  add_dependencies(programs ${name})
 endfunction()
 
 # The library that owns `folder`: the longest declared folder that is a prefix of it.

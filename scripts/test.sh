@@ -1,0 +1,70 @@
+# Sourced by ./amb: builds and runs the tests.
+#
+#   run_tests                 every label of preset release
+#   run_tests unit loop       these labels
+#   run_tests -R Pid          whatever ctest understands
+#   run_tests --all           what CI runs: besides, format, clang-tidy, ASan+UBSan and TSan
+
+test_labels="unit loop replay process build"
+
+# ctest_preset PRESET ARGUMENT...: one line of progress, then ctest's own closing lines.
+ctest_preset() {
+  local preset=$1 log=$build_root/amb-test-$1.log line status=0
+  shift
+  local pattern='^ *([0-9]+/[0-9]+) Test +#[0-9]+: ([^ ]+)'
+  say "testing preset $preset"
+  ctest --test-dir "$build_root/$preset" -j "${LEVITAS_JOBS:-2}" --output-on-failure \
+        --no-tests=error "$@" 2>&1 | tee "$log" | while IFS= read -r line; do
+    if [[ $line =~ $pattern ]]; then progress "testing ${BASH_REMATCH[1]} ${BASH_REMATCH[2]}"; fi
+  done || status=$?
+  progress_end
+  # From the closing line on: the share that passed, what did not run, what failed, times.
+  sed -n '/% tests passed/,$p' "$log"
+  if [ "$status" -ne 0 ]; then
+    grep -q '% tests passed' "$log" || tail -n 5 "$log"
+    say "tests failed in preset $preset; what they printed is in $log"
+  fi
+  return "$status"
+}
+
+prepare_preset() {
+  take_lock
+  install_packages "$root/packages.txt" "${@:2}"
+  configure "$1"
+  build_preset "$1"
+  release_lock
+}
+
+# Every stage runs even when an earlier one failed, so that one run names everything.
+run_all() {
+  local failed=()
+  prepare_preset release "$root/packages-ci.txt"
+  ctest_preset release || failed+=("release tests")
+  prepare_preset asan-ubsan
+  ctest_preset asan-ubsan -L '^(unit|loop|replay|process)$' || failed+=("asan-ubsan tests")
+  prepare_preset tsan
+  ctest_preset tsan -L '^(unit|process)$' || failed+=("tsan tests")
+  if [ ${#failed[@]} -ne 0 ]; then
+    say "failed: $(IFS=,; echo "${failed[*]}")"
+    return 1
+  fi
+  say "everything passed"
+}
+
+run_tests() {
+  if [ "${1:-}" = --all ]; then
+    [ $# -eq 1 ] || { say "./amb test --all takes nothing else"; return 2; }
+    run_all
+    return
+  fi
+  local labels=()
+  while [ $# -gt 0 ] && [[ $1 != -* ]]; do
+    [[ " $test_labels " == *" $1 "* ]] || { say "no test label '$1'; labels: $test_labels"; return 2; }
+    labels+=("$1")
+    shift
+  done
+  local selection=()
+  [ ${#labels[@]} -eq 0 ] || selection=(-L "^($(IFS='|'; echo "${labels[*]}"))\$")
+  prepare_preset release
+  ctest_preset release "${selection[@]}" "$@"
+}
