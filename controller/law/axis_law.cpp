@@ -1,0 +1,135 @@
+#include "controller/law/axis_law.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace levitas::law {
+namespace {
+
+std::size_t LongestChain(const std::vector<DiscreteLaw>& laws,
+                         std::vector<Section> DiscreteLaw::*chain) {
+  std::size_t longest = 0;
+  for (const DiscreteLaw& law : laws) longest = std::max(longest, (law.*chain).size());
+  return longest;
+}
+
+// The i-th section of a chain; a shorter chain is filled up with sections that pass everything.
+Section At(const std::vector<Section>& chain, std::size_t i) {
+  return i < chain.size() ? chain[i] : Section{};
+}
+
+template <std::size_t kWidth>
+void LeadLags(const LawCoefficients& coefficients, LawState& state, Lanes& signal) noexcept {
+  for (std::size_t k = 0; k < coefficients.lead_lags().size(); ++k) {
+    const FirstOrderLanes& c = coefficients.lead_lags()[k];
+    Lanes& memory = state.lead_lags[k];
+    for (std::size_t i = 0; i < kWidth; ++i) {
+      const double in = signal.at[i];
+      const double out = c.b0.at[i] * in + memory.at[i];
+      memory.at[i] = c.b1.at[i] * in - c.a1.at[i] * out;
+      signal.at[i] = out;
+    }
+  }
+}
+
+template <std::size_t kWidth>
+void Notches(const LawCoefficients& coefficients, LawState& state, Lanes& signal) noexcept {
+  for (std::size_t k = 0; k < coefficients.notches().size(); ++k) {
+    const SecondOrderLanes& c = coefficients.notches()[k];
+    LawState::TwoDelays& memory = state.notches[k];
+    for (std::size_t i = 0; i < kWidth; ++i) {
+      const double in = signal.at[i];
+      const double out = c.b0.at[i] * in + memory.first.at[i];
+      memory.first.at[i] = c.b1.at[i] * in - c.a1.at[i] * out + memory.second.at[i];
+      memory.second.at[i] = c.b2.at[i] * in - c.a2.at[i] * out;
+      signal.at[i] = out;
+    }
+  }
+}
+
+template <std::size_t kWidth>
+LawOutput PidAndLimit(const PidLanes& c, LawState& state, const Lanes& error_m,
+                      const AxisArray& excitation_a, double limit_a) noexcept {
+  Lanes wanted_a;
+  for (std::size_t i = 0; i < kWidth; ++i) {
+    const double e = error_m.at[i];
+    const double memory = state.derivative_a.at[i];
+    wanted_a.at[i] = c.direct.at[i] * e + state.integral_a.at[i] + memory + excitation_a[i];
+    state.derivative_a.at[i] = c.derivative.at[i] * e + c.pole.at[i] * memory;
+  }
+  LawOutput out;
+  for (std::size_t i = 0; i < kWidth; ++i) {
+    const double wanted = wanted_a.at[i];
+    const double given = std::min(std::max(wanted, -limit_a), limit_a);
+    const double increment = c.integral.at[i] * error_m.at[i];
+    const bool limited = wanted != given;
+    const bool winding_up = limited && increment * wanted > 0.0;
+    state.integral_a.at[i] += winding_up ? 0.0 : increment;
+    out.control_current_a[i] = given;
+    out.saturated_axes = static_cast<std::uint16_t>(out.saturated_axes | (limited ? 1U << i : 0U));
+  }
+  return out;
+}
+
+template <std::size_t kWidth>
+LawOutput StepWidth(const LawCoefficients& coefficients, LawState& state, const AxisArray& error_m,
+                    const AxisArray& excitation_a, double limit_a) noexcept {
+  Lanes signal{error_m};
+  LeadLags<kWidth>(coefficients, state, signal);
+  Notches<kWidth>(coefficients, state, signal);
+  return PidAndLimit<kWidth>(coefficients.pid(), state, signal, excitation_a, limit_a);
+}
+
+}  // namespace
+
+LawCoefficients::LawCoefficients(const LawConfig& config) : axes_(config.axes.size()) {
+  if (axes_ == 0 || axes_ > kMaxAxes) {
+    throw std::invalid_argument("law: " + std::to_string(axes_) + " axes, allowed 1 to " +
+                                std::to_string(kMaxAxes));
+  }
+  std::vector<DiscreteLaw> laws;
+  for (const AxisLawConfig& axis : config.axes) laws.push_back(Discretise(axis, config.period_s));
+  lead_lags_.resize(LongestChain(laws, &DiscreteLaw::lead_lags));
+  notches_.resize(LongestChain(laws, &DiscreteLaw::notches));
+  for (std::size_t i = 0; i < axes_; ++i) {
+    const DiscretePid& pid = laws[i].pid;
+    pid_.direct.at[i] = pid.proportional_a_per_m + pid.integral_a_per_m + pid.derivative_a_per_m;
+    pid_.integral.at[i] = 2.0 * pid.integral_a_per_m;
+    pid_.derivative.at[i] = -pid.derivative_a_per_m * (1.0 + pid.derivative_pole);
+    pid_.pole.at[i] = -pid.derivative_pole;
+    for (std::size_t k = 0; k < lead_lags_.size(); ++k) {
+      const Section section = At(laws[i].lead_lags, k);
+      lead_lags_[k].b0.at[i] = section.b0;
+      lead_lags_[k].b1.at[i] = section.b1;
+      lead_lags_[k].a1.at[i] = section.a1;
+    }
+    for (std::size_t k = 0; k < notches_.size(); ++k) {
+      const Section section = At(laws[i].notches, k);
+      notches_[k].b0.at[i] = section.b0;
+      notches_[k].b1.at[i] = section.b1;
+      notches_[k].b2.at[i] = section.b2;
+      notches_[k].a1.at[i] = section.a1;
+      notches_[k].a2.at[i] = section.a2;
+    }
+  }
+}
+
+LawState::LawState(const LawCoefficients& coefficients)
+    : lead_lags(coefficients.lead_lags().size()), notches(coefficients.notches().size()) {}
+
+void LawState::Reset() noexcept {
+  std::fill(lead_lags.begin(), lead_lags.end(), Lanes{});
+  std::fill(notches.begin(), notches.end(), TwoDelays{});
+  integral_a = Lanes{};
+  derivative_a = Lanes{};
+}
+
+LawOutput Step(const LawCoefficients& coefficients, LawState& state, const AxisArray& error_m,
+               const AxisArray& excitation_a, double limit_a) noexcept {
+  return coefficients.axes() <= 4
+             ? StepWidth<4>(coefficients, state, error_m, excitation_a, limit_a)
+             : StepWidth<8>(coefficients, state, error_m, excitation_a, limit_a);
+}
+
+}  // namespace levitas::law
