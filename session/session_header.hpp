@@ -23,6 +23,9 @@ struct SessionHeader {
   std::string machine;
   std::string source;  ///< "lcm", "can:can0", or the imported file's name
   std::vector<std::string> channels;
+  /// Empty for a whole session; in a trip file the path of the session it was cut out of, or
+  /// "unrecorded run". Such a file starts in the middle of a run and cannot be replayed.
+  std::string excerpt_of;
 };
 
 /// Something a person should know, as recorded and published.

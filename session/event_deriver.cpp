@@ -1,0 +1,125 @@
+#include "session/event_deriver.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace levitas::session {
+namespace {
+
+constexpr const char* kMissingFrame = "cycle(s) without a new sensor frame";
+constexpr const char* kMissedDeadline = "period(s) skipped: the loop was too late";
+
+std::string Speed(double rad_per_s) {
+  return fmt::format("{:.0f} rpm", rad_per_s * 30.0 / std::numbers::pi);
+}
+
+bool FrameUsable(const cycle::CycleRecord& record) noexcept { return record.in.frame_present; }
+
+}  // namespace
+
+EventDeriver::EventDeriver(std::vector<std::string> channels, std::int64_t period_ns)
+    : channels_(std::move(channels)),
+      second_cycles_(
+          static_cast<std::uint64_t>(1'000'000'000 / std::max<std::int64_t>(period_ns, 1))) {}
+
+Event EventDeriver::Make(const cycle::CycleRecord& record, Event::Severity severity,
+                         std::string text) const {
+  return {.cycle = record.in.cycle,
+          .time_ns = record.in.frame.sample_time_ns,
+          .severity = severity,
+          .mode = record.out.mode,
+          .fault = record.out.fault,
+          .axis = record.out.fault_axis,
+          .value = record.out.fault_value,
+          .limit = record.out.fault_limit,
+          .text = std::move(text)};
+}
+
+void EventDeriver::Lost(const cycle::CycleRecord& record, std::vector<Event>& events) const {
+  if (!have_previous_ || record.in.cycle <= previous_.in.cycle + 1) return;
+  const std::uint64_t lost = record.in.cycle - previous_.in.cycle - 1;
+  events.push_back(
+      Make(record, Event::Severity::kWarning,
+           fmt::format("{} record(s) lost before cycle {}: the recorder could not keep "
+                       "up; the control cycle was not affected",
+                       lost, record.in.cycle)));
+}
+
+void EventDeriver::Command(const cycle::CycleRecord& record, std::vector<Event>& events) const {
+  const OperatorCommand command = record.in.op.command;
+  if (command == OperatorCommand::kNone) return;
+  const Mode before = have_previous_ ? previous_.out.mode : Mode::kOff;
+  if (record.out.command_refused) {
+    events.push_back(Make(record, Event::Severity::kWarning,
+                          fmt::format("command {} refused in mode {} (cycle {})", Name(command),
+                                      Name(before), record.in.cycle)));
+    return;
+  }
+  const std::string with = command == OperatorCommand::kSpin
+                               ? fmt::format(" to {}", Speed(record.in.op.speed_rad_per_s))
+                               : std::string{};
+  events.push_back(
+      Make(record, Event::Severity::kInformation,
+           fmt::format("command {}{} (cycle {})", Name(command), with, record.in.cycle)));
+}
+
+void EventDeriver::ModeAndFault(const cycle::CycleRecord& record,
+                                std::vector<Event>& events) const {
+  const Mode mode_before = have_previous_ ? previous_.out.mode : Mode::kOff;
+  const Fault fault_before = have_previous_ ? previous_.out.fault : Fault::kNone;
+  if (record.out.fault != Fault::kNone && fault_before == Fault::kNone) {
+    events.push_back(Make(record, Event::Severity::kTrip, TripText(record, channels_)));
+  } else if (record.out.mode != mode_before) {
+    events.push_back(Make(record, Event::Severity::kInformation,
+                          fmt::format("{} -> {} (cycle {})", Name(mode_before),
+                                      Name(record.out.mode), record.in.cycle)));
+  }
+}
+
+void EventDeriver::Tell(Tally& tally, const cycle::CycleRecord& record, const char* what,
+                        std::vector<Event>& events) const {
+  events.push_back(
+      Make(record, Event::Severity::kWarning,
+           fmt::format("{} {}, the first in cycle {}", tally.untold, what, tally.first_cycle)));
+  tally.untold = 0;
+  tally.last_told_cycle = record.in.cycle;
+  tally.ever_told = true;
+}
+
+void EventDeriver::Add(Tally& tally, std::uint64_t count, const cycle::CycleRecord& record,
+                       const char* what, std::vector<Event>& events) const {
+  if (count > 0) {
+    if (tally.untold == 0) tally.first_cycle = record.in.cycle;
+    tally.untold += count;
+  }
+  const bool due = !tally.ever_told || record.in.cycle >= tally.last_told_cycle + second_cycles_;
+  if (tally.untold > 0 && due) Tell(tally, record, what, events);
+}
+
+void EventDeriver::Step(const cycle::CycleRecord& record, std::vector<Event>& events) {
+  Lost(record, events);
+  const bool both_frames = have_previous_ && FrameUsable(record) && previous_.in.frame.axes > 0;
+  if (both_frames && record.in.frame.rig_session != previous_.in.frame.rig_session) {
+    events.push_back(Make(record, Event::Severity::kWarning,
+                          fmt::format("the rig restarted (cycle {})", record.in.cycle)));
+  }
+  Command(record, events);
+  ModeAndFault(record, events);
+  Add(missed_deadlines_, record.in.missed_deadlines, record, kMissedDeadline, events);
+  // Before the rig's first frame nothing is missing: it is being waited for.
+  const bool rig_known = record.in.frame.axes > 0;
+  Add(missing_frames_, rig_known && !FrameUsable(record) ? 1 : 0, record, kMissingFrame, events);
+  previous_ = record;
+  have_previous_ = true;
+}
+
+void EventDeriver::Finish(std::vector<Event>& events) {
+  if (missed_deadlines_.untold > 0) Tell(missed_deadlines_, previous_, kMissedDeadline, events);
+  if (missing_frames_.untold > 0) Tell(missing_frames_, previous_, kMissingFrame, events);
+}
+
+}  // namespace levitas::session

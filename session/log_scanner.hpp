@@ -1,0 +1,62 @@
+#pragma once
+// Walks through the events of an LCM event log, sound or damaged.
+//
+// Damage   the scanner only judges the frame of an event (sync word, lengths, end of file). The
+//          reader judges its content; when that is bad it calls SkipToSync, which searches from
+//          just behind the bad event's sync word: whatever a damaged length swallowed is found.
+// Memory   a window of the file, never the whole of it.
+// Failure  BadInput when the file cannot be opened or read.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace levitas::session {
+
+struct RawEvent {
+  std::uint64_t offset{};
+  std::uint64_t end{};  ///< offset of the first byte behind it
+  std::int64_t time_us{};
+  std::string_view channel;            ///< valid until the scanner is used again
+  std::span<const std::uint8_t> data;  ///< valid until the scanner is used again
+};
+
+class LogScanner {
+ public:
+  explicit LogScanner(const std::string& path);
+  ~LogScanner();
+  LogScanner(const LogScanner&) = delete;
+  LogScanner& operator=(const LogScanner&) = delete;
+
+  enum class Look : std::uint8_t {
+    kEvent,     ///< a complete event stands here
+    kNotEvent,  ///< no event starts here
+    kCutOff,    ///< an event starts here and reaches beyond the end of the file
+    kEnd,       ///< the file ends exactly here
+  };
+  /// Judges the current position; does not move.
+  [[nodiscard]] Look At(RawEvent& event);
+  void MoveTo(std::uint64_t offset) noexcept { offset_ = offset; }
+  /// Moves to the next sync word after the current position, else to the end of the file.
+  /// False in the latter case.
+  bool SkipToSync();
+  [[nodiscard]] std::uint64_t offset() const noexcept { return offset_; }
+  [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
+
+ private:
+  /// Bytes `from` .. `from + count` of the file, fewer at its end.
+  std::span<const std::uint8_t> Window(std::uint64_t from, std::size_t count);
+
+  std::string path_;
+  int fd_{-1};
+  std::uint64_t size_{0};
+  std::uint64_t offset_{0};
+  std::uint64_t window_offset_{0};
+  std::size_t window_bytes_{0};
+  std::vector<std::uint8_t> window_;
+};
+
+}  // namespace levitas::session

@@ -1,0 +1,161 @@
+#include "session/recorder.hpp"
+
+#include <fmt/core.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include <chrono>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "common/problem.hpp"
+#include "common/spsc_ring.hpp"
+#include "session/event_deriver.hpp"
+#include "session/session_writer.hpp"
+#include "session/trip_freezer.hpp"
+
+namespace levitas::session {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+// 3 s at 10 kHz: more than a disk that syncs its journal makes a writer wait.
+constexpr std::size_t kRingRecords = 32'768;
+constexpr auto kIdle = std::chrono::milliseconds(5);
+// With kIdle well below the promised 50 ms.
+constexpr auto kFlushEvery = std::chrono::milliseconds(25);
+
+/// The recorder inherits the loop's SCHED_FIFO when it is made in the loop's thread; it must never
+/// compete with it. Failure is harmless: then it was not real time in the first place.
+void LeaveRealTime() noexcept {
+  sched_param parameters{};
+  (void)::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &parameters);
+}
+
+}  // namespace
+
+struct Recorder::Impl {
+  explicit Impl(RecorderOptions given)
+      : options(std::move(given)),
+        ring(kRingRecords),
+        deriver(options.header.channels, options.header.period_ns) {
+    if (!options.session_path.empty()) {
+      session = std::make_unique<SessionWriter>(options.session_path, options.header);
+    }
+    SessionHeader excerpt = options.header;
+    excerpt.excerpt_of = options.session_path;
+    freezer = std::make_unique<TripFreezer>(options.trip_folder, excerpt, options.trip_window_s);
+    thread = std::thread([this] { Run(); });
+  }
+
+  void Run() {
+    LeaveRealTime();
+    Clock::time_point flushed = Clock::now();
+    for (;;) {
+      const bool last_round = stop.load(std::memory_order_acquire);
+      cycle::CycleRecord record;
+      // Bounded, so that a loop as fast as this thread cannot keep it from flushing.
+      constexpr int kBurst = 1000;
+      int taken = 0;
+      while (taken < kBurst && ring.Take(record)) {
+        Take(record);
+        ++taken;
+      }
+      if (taken == kBurst) {
+        if (Clock::now() - flushed < kFlushEvery) continue;
+      } else if (last_round) {
+        break;
+      }
+      if (Clock::now() - flushed >= kFlushEvery) {
+        Guarded([this] { Flush(); });
+        flushed = Clock::now();
+      }
+      if (taken < kBurst) std::this_thread::sleep_for(kIdle);
+    }
+    events.clear();
+    deriver.Finish(events);
+    Tell();
+    Guarded([this] { freezer->Finish(); });
+    Publish();
+    Guarded([this] { Flush(); });
+  }
+
+  void Take(const cycle::CycleRecord& record) {
+    events.clear();
+    deriver.Step(record, events);
+    Guarded([&] {
+      if (session) session->Write(record);
+    });
+    Guarded([&] { freezer->Take(record, events); });
+    Publish();
+    Tell();
+    if (options.on_record) options.on_record(record);
+  }
+
+  /// Writes and reports the derived events.
+  void Tell() {
+    for (const Event& event : events) {
+      Guarded([&] {
+        if (session) session->Write(event);
+      });
+      if (options.on_event) options.on_event(event);
+    }
+  }
+
+  void Flush() {
+    if (session) session->Flush();
+    freezer->Flush();
+  }
+
+  void Publish() {
+    if (freezer->newest() == published) return;
+    published = freezer->newest();
+    const std::lock_guard lock(trip_mutex);
+    trip_path = published;
+  }
+
+  /// A full disk ends the recording with one message; the controller goes on.
+  template <class Function>
+  void Guarded(Function function) {
+    if (failed) return;
+    try {
+      function();
+    } catch (const std::exception& error) {
+      failed = true;
+      if (options.on_event) {
+        options.on_event({.severity = Event::Severity::kWarning, .text = error.what()});
+      }
+    }
+  }
+
+  RecorderOptions options;
+  SpscRing<cycle::CycleRecord> ring;
+  EventDeriver deriver;
+  std::unique_ptr<SessionWriter> session;
+  std::unique_ptr<TripFreezer> freezer;  ///< never null
+  std::vector<Event> events;
+  bool failed{false};
+  std::string published;  ///< recorder's thread
+  mutable std::mutex trip_mutex;
+  std::string trip_path;
+  std::atomic<bool> stop{false};
+  std::thread thread;
+};
+
+Recorder::Recorder(RecorderOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+
+Recorder::~Recorder() {
+  impl_->stop.store(true, std::memory_order_release);
+  impl_->thread.join();
+}
+
+void Recorder::Post(const cycle::CycleRecord& record) noexcept { impl_->ring.Post(record); }
+std::uint64_t Recorder::lost() const noexcept { return impl_->ring.lost(); }
+
+std::string Recorder::trip_file() const {
+  const std::lock_guard lock(impl_->trip_mutex);
+  return impl_->trip_path;
+}
+
+}  // namespace levitas::session

@@ -1,0 +1,142 @@
+#include "session/session_writer.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "common/problem.hpp"
+#include "session/log_format.hpp"
+#include "session/record_codec.hpp"
+
+namespace levitas::session {
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t{256} << 10;
+// A copy of the header is written again after this many records (10 s at 10 kHz) and at the end: a
+// session whose first block is damaged is then still readable.
+constexpr std::uint64_t kRecordsPerHeaderCopy = 100'000;
+
+}  // namespace
+
+struct SessionWriter::Impl {
+  Impl(std::string file_path, const SessionHeader& header)
+      : path(std::move(file_path)),
+        codec(header.channels.size()),
+        period_ns(header.period_ns),
+        start_utc_ns(header.start_utc_ns) {
+    fd = ::open(path.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
+    if (fd < 0) {
+      throw BadInput(
+          fmt::format("{}: cannot be created: {}. Name a file in a folder you may write "
+                      "to.",
+                      path, std::strerror(errno)));
+    }
+    buffer.reserve(kBufferBytes + kMaxDataBytes / 16);
+    EncodeHeader(header, header_bytes);
+    Append(kHeaderChannel, header_bytes, start_utc_ns / 1000);
+  }
+
+  ~Impl() {
+    if (fd >= 0) ::close(fd);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void Append(std::string_view channel, const Bytes& data, std::int64_t time_us) {
+    const std::size_t size = kEventHeaderBytes + channel.size() + data.size();
+    const std::size_t at = buffer.size();
+    buffer.resize(at + size);
+    std::uint8_t* to = buffer.data() + at;
+    PutEventHeader(to, {.number = number++,
+                        .time_us = time_us,
+                        .channel_bytes = static_cast<std::int32_t>(channel.size()),
+                        .data_bytes = static_cast<std::int32_t>(data.size())});
+    std::memcpy(to + kEventHeaderBytes, channel.data(), channel.size());
+    std::memcpy(to + kEventHeaderBytes + channel.size(), data.data(), data.size());
+    if (buffer.size() >= kBufferBytes) Flush();
+  }
+
+  void Flush() {
+    std::size_t done = 0;
+    while (done < buffer.size()) {
+      const ssize_t wrote = ::write(fd, buffer.data() + done, buffer.size() - done);
+      if (wrote < 0 && errno == EINTR) continue;
+      if (wrote <= 0) {
+        const int error = errno;
+        buffer.clear();  // so that the destructor does not try, and fail, again
+        throw Problem(ExitStatus::kOther,
+                      fmt::format("{}: recording stopped: {}. What was written before is readable.",
+                                  path, std::strerror(error)));
+      }
+      done += static_cast<std::size_t>(wrote);
+    }
+    buffer.clear();
+  }
+
+  /// Time of a record in the log, so that players keep the recorded pace: the controller's own
+  /// count of periods, those it missed included. Unlike the rig's stamp it survives a rig restart.
+  std::int64_t TimeUs(const cycle::CycleRecord& record) {
+    if (!first_cycle_known) {
+      first_cycle = record.in.cycle;
+      first_cycle_known = true;
+    } else {
+      missed += record.in.missed_deadlines;
+    }
+    const auto periods = static_cast<std::int64_t>(record.in.cycle - first_cycle + missed);
+    last_time_us = (start_utc_ns + periods * period_ns) / 1000;
+    return last_time_us;
+  }
+
+  std::string path;
+  RecordCodec codec;
+  std::int64_t period_ns;
+  std::int64_t start_utc_ns;
+  int fd{-1};
+  Bytes buffer;
+  Bytes scratch;
+  Bytes header_bytes;
+  std::int64_t number{0};
+  std::uint64_t records{0};
+  std::uint64_t first_cycle{0};
+  std::uint64_t missed{0};
+  bool first_cycle_known{false};
+  std::int64_t last_time_us{start_utc_ns / 1000};
+};
+
+SessionWriter::SessionWriter(const std::string& path, const SessionHeader& header)
+    : impl_(std::make_unique<Impl>(path, header)) {
+  impl_->Flush();
+}
+
+SessionWriter::~SessionWriter() {
+  try {
+    if (impl_->records > 0) {
+      impl_->Append(kHeaderChannel, impl_->header_bytes, impl_->last_time_us);
+    }
+    impl_->Flush();
+  } catch (const std::exception&) {
+    // A destructor cannot report; Flush before it is how a caller learns of a full disk.
+  }
+}
+
+void SessionWriter::Write(const cycle::CycleRecord& record) {
+  impl_->codec.Encode(record, impl_->scratch);
+  impl_->Append(kCycleChannel, impl_->scratch, impl_->TimeUs(record));
+  if (++impl_->records % kRecordsPerHeaderCopy == 0) {
+    impl_->Append(kHeaderChannel, impl_->header_bytes, impl_->last_time_us);
+  }
+}
+
+void SessionWriter::Write(const Event& event) {
+  EncodeEvent(event, impl_->scratch);
+  impl_->Append(kEventChannel, impl_->scratch, impl_->last_time_us);
+}
+
+void SessionWriter::Flush() { impl_->Flush(); }
+
+}  // namespace levitas::session

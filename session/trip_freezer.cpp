@@ -1,0 +1,100 @@
+#include "session/trip_freezer.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+namespace levitas::session {
+namespace {
+
+std::uint64_t Cycles(double window_s, std::int64_t period_ns) {
+  const double period_s = static_cast<double>(std::max<std::int64_t>(period_ns, 1)) * 1e-9;
+  return static_cast<std::uint64_t>(std::llround(std::max(window_s, 0.0) / period_s));
+}
+
+/// A path that does not exist yet: two trips in one millisecond get numbers.
+std::string FreePath(const std::string& folder, const std::string& name) {
+  namespace fs = std::filesystem;
+  const fs::path base = fs::path(folder.empty() ? "." : folder) / name;
+  fs::path path = base;
+  for (int copy = 2; fs::exists(path); ++copy) {
+    path = base;
+    path.replace_filename(
+        fmt::format("{}-{}{}", base.stem().string(), copy, base.extension().string()));
+  }
+  return path.string();
+}
+
+}  // namespace
+
+std::string TripFileName(std::int64_t utc_ns, Fault fault) {
+  const auto seconds = static_cast<std::time_t>(utc_ns / 1'000'000'000);
+  const auto milliseconds = utc_ns / 1'000'000 % 1000;
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  return fmt::format("trip-{:04}{:02}{:02}T{:02}{:02}{:02}.{:03}Z-{}.lcmlog", utc.tm_year + 1900,
+                     utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec, milliseconds,
+                     Name(fault));
+}
+
+TripFreezer::TripFreezer(std::string folder, SessionHeader header, double window_s)
+    : folder_(std::move(folder)),
+      header_(std::move(header)),
+      window_cycles_(Cycles(window_s, header_.period_ns)),
+      before_(std::max<std::uint64_t>(window_cycles_, 1)) {}
+
+void TripFreezer::Open(const cycle::CycleRecord& record) {
+  const auto utc_ns = [this](std::uint64_t cycle) {
+    return header_.start_utc_ns +
+           static_cast<std::int64_t>(cycle - first_cycle_) * header_.period_ns;
+  };
+  const std::size_t oldest = (next_ + before_.size() - filled_) % before_.size();
+  SessionHeader header = header_;
+  if (filled_ > 0) header.start_utc_ns = utc_ns(before_[oldest].in.cycle);
+  if (header.excerpt_of.empty()) header.excerpt_of = "an unrecorded run";
+  if (!folder_.empty()) std::filesystem::create_directories(folder_);
+  path_ = FreePath(folder_, TripFileName(utc_ns(record.in.cycle), record.out.fault));
+  file_ = std::make_unique<SessionWriter>(path_, header);
+  for (std::size_t i = 0; i < filled_; ++i) {
+    const cycle::CycleRecord& kept = before_[(oldest + i) % before_.size()];
+    if (kept.in.cycle + window_cycles_ >= record.in.cycle) file_->Write(kept);
+  }
+  last_cycle_ = record.in.cycle + window_cycles_;
+}
+
+void TripFreezer::Take(const cycle::CycleRecord& record, const std::vector<Event>& events) {
+  if (!first_known_) first_cycle_ = record.in.cycle;
+  first_known_ = true;
+  const auto tripped = [](const Event& event) { return event.severity == Event::Severity::kTrip; };
+  if (std::any_of(events.begin(), events.end(), tripped)) {
+    Finish();
+    Open(record);
+  }
+  if (file_) {
+    if (record.in.cycle <= last_cycle_) {
+      file_->Write(record);
+      for (const Event& event : events) file_->Write(event);
+    }
+    if (record.in.cycle >= last_cycle_) Finish();
+  }
+  before_[next_] = record;
+  next_ = (next_ + 1) % before_.size();
+  filled_ = std::min(filled_ + 1, before_.size());
+}
+
+void TripFreezer::Finish() {
+  if (!file_) return;
+  file_->Flush();
+  file_.reset();
+  newest_ = path_;
+}
+
+void TripFreezer::Flush() {
+  if (file_) file_->Flush();
+}
+
+}  // namespace levitas::session

@@ -1,0 +1,55 @@
+#pragma once
+// Keeps the newest records and, when a trip comes, writes those before and after it to a session
+// file of its own: trip-<utc>-<cause>.lcmlog.
+//
+// Window   `window_s` before the trip, and after it; a trip within the window of another one ends
+//          the first file early.
+// Safety   the file is readable from its first moment on; Finish (or kill -9) leaves what was
+// there. Thread   one thread (the recorder's). Memory for the window is made at construction.
+// Failure  BadInput or Problem when the file cannot be written.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controller/cycle/cycle_io.hpp"
+#include "session/session_header.hpp"
+#include "session/session_writer.hpp"
+
+namespace levitas::session {
+
+class TripFreezer {
+ public:
+  TripFreezer(std::string folder, SessionHeader header, double window_s);
+
+  /// The record, and the events that were derived from it.
+  void Take(const cycle::CycleRecord& record, const std::vector<Event>& events);
+  /// Closes an unfinished file.
+  void Finish();
+  void Flush();
+  /// Path of the newest closed file, empty if none.
+  [[nodiscard]] const std::string& newest() const noexcept { return newest_; }
+
+ private:
+  void Open(const cycle::CycleRecord& record);
+
+  std::string folder_;
+  SessionHeader header_;
+  std::uint64_t window_cycles_;
+  std::vector<cycle::CycleRecord> before_;  ///< ring
+  std::size_t next_{0};
+  std::size_t filled_{0};
+  bool first_known_{false};
+  std::uint64_t first_cycle_{0};
+  std::unique_ptr<SessionWriter> file_;
+  std::string path_;
+  std::string newest_;
+  std::uint64_t last_cycle_{0};  ///< of the open file
+};
+
+/// trip-20261121T054501.123Z-orbit_exceeded.lcmlog
+[[nodiscard]] std::string TripFileName(std::int64_t utc_ns, Fault fault);
+
+}  // namespace levitas::session

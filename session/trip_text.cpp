@@ -1,0 +1,72 @@
+// What a trip tells a person; one table row per fault.
+
+#include <fmt/core.h>
+
+#include <array>
+#include <numbers>
+
+#include "session/event_deriver.hpp"
+
+namespace levitas::session {
+namespace {
+
+/// How value and limit of a fault are shown: SI value x factor, in `unit`; none without a unit.
+struct Row {
+  const char* cause;
+  double factor;
+  const char* unit;
+};
+
+constexpr double kMicro = 1e6;
+constexpr double kRpm = 30.0 / std::numbers::pi;
+
+constexpr std::array<Row, kFaultCount> kRows{{
+    {"no fault", 1.0, nullptr},
+    {"the orbit is too large", kMicro, "um"},
+    {"the position sensor is out of its range", kMicro, "um"},
+    {"the position sensor is frozen", 1.0, "equal readings"},
+    {"the position sensor gives no number", 1.0, nullptr},
+    {"sensor frames are missing", 1.0, "cycles in a row"},
+    {"too many deadlines were missed", 1.0, "periods"},
+    {"the coil current is at its limit for too long", 1.0, "s"},
+    {"the rotor is too fast", kRpm, "rpm"},
+    {"emergency stop", 1.0, nullptr},
+    {"the rig restarted", 1.0, nullptr},
+    {"an amplifier reports a fault", 1.0, nullptr},
+    {"the self-test failed", kMicro, "um"},
+    {"the rotor did not lift in time", 1.0, "s"},
+}};
+
+std::string Where(const cycle::CycleOutputs& out, const std::vector<std::string>& channels) {
+  if (out.fault_axis < 0) return {};
+  const auto axis = static_cast<std::size_t>(out.fault_axis);
+  if (axis >= channels.size()) return fmt::format(" on axis {}", axis);
+  return fmt::format(" on {}", channels[axis]);
+}
+
+/// The safe state as the outputs of the tripping cycle command it (docs/safety.md).
+const char* SafeState(const CurrentFrame& current) {
+  if (!current.amplifiers_enabled) {
+    return "The coils are switched off and the rotor runs down in the touchdown bearings.";
+  }
+  return current.drive_enabled
+             ? "The rotor stays levitated while the drive brakes it to standstill, then it lands."
+             : "The rotor stays levitated while it coasts down, then it lands.";
+}
+
+}  // namespace
+
+std::string TripText(const cycle::CycleRecord& record, const std::vector<std::string>& channels) {
+  const auto index = static_cast<std::size_t>(record.out.fault);
+  const Row row = index < kRows.size() ? kRows[index] : Row{"unknown fault", 1.0, nullptr};
+  std::string numbers;
+  if (row.unit != nullptr) {
+    numbers = fmt::format(": {:.4g} {}, allowed {:.4g} {}", record.out.fault_value * row.factor,
+                          row.unit, record.out.fault_limit * row.factor, row.unit);
+  }
+  return fmt::format("TRIP in cycle {}: {}{}{}. {} Remove the cause, then give the command reset.",
+                     record.in.cycle, row.cause, Where(record.out, channels), numbers,
+                     SafeState(record.out.current));
+}
+
+}  // namespace levitas::session
