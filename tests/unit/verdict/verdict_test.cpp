@@ -1,0 +1,147 @@
+#include "verdict/verdict.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/verdict/synthetic_session.hpp"
+
+namespace levitas::verdict {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Inputs RunWith(double standing_m, double spinning_m) {
+  SyntheticSession session;
+  session.Append(Mode::kLevitating, 400, {.radius_m = standing_m});
+  session.Append(Mode::kSpinning, 400,
+                 {.radius_m = spinning_m, .speed_rad_per_s = 2870.0 * kRadPerSPerRpm});
+  Inputs inputs;
+  inputs.rig = TwoBearingRig();
+  inputs.session = session.Figures(inputs.rig);
+  return inputs;
+}
+
+analysis::SensitivityResult Loop(double peak, bool stable = true) {
+  analysis::SensitivityResult result;
+  result.stable = stable;
+  result.speed_rad_per_s = 100.0 * kRadPerSPerRpm;
+  result.axes.resize(4);
+  for (auto& axis : result.axes) {
+    axis.peak = 2.0;
+    if (stable) axis.zone = analysis::Zone::kA;
+  }
+  result.axes[3].peak = peak;
+  if (stable && peak >= 4.0) result.axes[3].zone = peak < 5.0 ? Zone::kC : Zone::kD;
+  return result;
+}
+
+TEST(Judge, AcceptsARunInsideEveryObjective) {
+  const Verdict verdict = Judge(RunWith(4e-6, 20e-6));
+  EXPECT_EQ(verdict.outcome, Outcome::kAccepted);
+  EXPECT_EQ(verdict.sentence,
+            "ACCEPTED: orbit standing 4.0 um of 7.0 um allowed (zone A), spinning 20.0 um of 36.0 "
+            "um allowed (zone A)");
+  EXPECT_EQ(verdict.orbits.size(), 4U);
+  EXPECT_TRUE(verdict.objections.empty());
+}
+
+TEST(Judge, NamesBearingOrbitLimitAndSpeedOfWhatItRefuses) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.session.spinning.bearings[1].orbit.max_m = 41e-6;
+  const Verdict verdict = Judge(inputs);
+  EXPECT_EQ(verdict.outcome, Outcome::kNotAccepted);
+  EXPECT_EQ(verdict.sentence,
+            "NOT ACCEPTED: nde orbit 41.0 um while spinning exceeds 36.0 um at 2870 rpm");
+}
+
+TEST(Judge, HoldsStandingAndSpinningAgainstTheirOwnObjective) {
+  const Verdict verdict = Judge(RunWith(8e-6, 20e-6));
+  ASSERT_EQ(verdict.objections.size(), 2U);  // both bearings
+  EXPECT_EQ(verdict.objections[0], "de orbit 8.0 um while standing exceeds 7.0 um");
+}
+
+TEST(Judge, AnOrbitOnTheObjectiveIsNotBelowIt) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.session.standing.bearings[0].orbit.max_m = inputs.rig.standing_orbit_objective_m;
+  EXPECT_EQ(Judge(inputs).outcome, Outcome::kNotAccepted);
+}
+
+// 90 um of a clearance of 200 um is 0.45: zone C; the objective is set high to see the zone alone.
+TEST(Judge, RefusesZoneCOfTheClearanceEvenInsideTheObjective) {
+  Inputs inputs = RunWith(4e-6, 90e-6);
+  inputs.rig.spinning_orbit_objective_m = 100e-6;
+  const Verdict verdict = Judge(inputs);
+  EXPECT_EQ(verdict.outcome, Outcome::kNotAccepted);
+  EXPECT_THAT(verdict.sentence, HasSubstr("de displacement of 0.45 clearances while spinning is "
+                                          "zone C at 2870 rpm"));
+}
+
+TEST(Judge, GradesSensitivityAndRefusesZoneC) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.sensitivity = {Loop(2.5)};
+  EXPECT_EQ(Judge(inputs).outcome, Outcome::kAccepted);
+  inputs.sensitivity = {Loop(4.2)};
+  EXPECT_EQ(Judge(inputs).sentence,
+            "NOT ACCEPTED: sensitivity peak of nde_y is 4.20 at 100 rpm, zone C");
+}
+
+TEST(Judge, GivesAnUnstableLoopNoGradeAndNoAcceptance) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.sensitivity = {Loop(2.5, false)};
+  const Verdict verdict = Judge(inputs);
+  EXPECT_EQ(verdict.sentence, "NOT ACCEPTED: the linear loop is unstable at 100 rpm");
+}
+
+TEST(Judge, DoesNotAcceptWhatNeverLevitated) {
+  SyntheticSession session;
+  session.Append(Mode::kOff, 100);
+  Inputs inputs;
+  inputs.rig = TwoBearingRig();
+  inputs.session = session.Figures(inputs.rig);
+  EXPECT_THAT(Judge(inputs).sentence,
+              StartsWith("NOT ACCEPTED: the rotor was not levitated for longer"));
+}
+
+TEST(Judge, SaysThatAPhaseWasNotRun) {
+  SyntheticSession session;
+  session.Append(Mode::kLevitating, 400, {.radius_m = 1e-6});
+  Inputs inputs;
+  inputs.rig = TwoBearingRig();
+  inputs.session = session.Figures(inputs.rig);
+  const Verdict verdict = Judge(inputs);
+  EXPECT_EQ(verdict.outcome, Outcome::kAccepted);
+  EXPECT_THAT(verdict.sentence, HasSubstr("spinning not run"));
+}
+
+TEST(Judge, ATripStandsBeforeEveryOtherVerdict) {
+  Inputs inputs = RunWith(8e-6, 20e-6);
+  inputs.incomplete_reason = "interrupted";
+  inputs.session.trip = TripFigures{Fault::kOrbitExceeded, 2, 99e-6, 95e-6, 1.25, Mode::kSpinning,
+                                    100.0 * kRadPerSPerRpm};
+  const Verdict silent = Judge(inputs);
+  EXPECT_EQ(silent.outcome, Outcome::kTripped);
+  EXPECT_EQ(silent.sentence,
+            "TRIPPED: orbit_exceeded on nde_x: 9.9e-05, allowed 9.5e-05 (in spinning at 100 rpm, "
+            "1.250 s after the start)");
+  inputs.trip_text = "orbit of nde 99 um exceeds 95 um";
+  EXPECT_THAT(Judge(inputs).sentence, StartsWith("TRIPPED: orbit of nde 99 um exceeds 95 um (in"));
+}
+
+TEST(Judge, ARunCutShortIsIncompleteNotAccepted) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.incomplete_reason = "step 3 of the scenario timed out";
+  const Verdict verdict = Judge(inputs);
+  EXPECT_EQ(verdict.outcome, Outcome::kIncomplete);
+  EXPECT_EQ(verdict.sentence, "INCOMPLETE: step 3 of the scenario timed out");
+}
+
+TEST(Outcome, HasStableNames) {
+  EXPECT_EQ(Name(Outcome::kAccepted), "accepted");
+  EXPECT_EQ(Name(Outcome::kNotAccepted), "not_accepted");
+  EXPECT_EQ(Name(Outcome::kTripped), "tripped");
+  EXPECT_EQ(Name(Outcome::kIncomplete), "incomplete");
+}
+
+}  // namespace
+}  // namespace levitas::verdict

@@ -1,0 +1,52 @@
+#include "verdict/commission.hpp"
+
+#include "config/rig_file.hpp"
+#include "session/session_reader.hpp"
+
+namespace levitas::verdict {
+namespace {
+
+std::string FirstTripText(const std::vector<session::Event>& events) {
+  for (const session::Event& event : events) {
+    if (event.severity == session::Event::Severity::kTrip) return event.text;
+  }
+  return {};
+}
+
+void Complete(Provenance& provenance, const session::SessionHeader& header) {
+  provenance.program_version = header.program_version;
+  provenance.pace = header.pace;
+  provenance.machine = header.machine;
+  provenance.seed = header.seed;
+  provenance.start_utc_ns = header.start_utc_ns;
+}
+
+}  // namespace
+
+Verdict Commission(const CommissionOptions& options) {
+  session::SessionReader reader(options.session_path);
+  const session::SessionHeader& header = reader.header();
+  const std::string within = options.session_path + " (header)";
+  const config::RigFile rig = config::ParseRig(header.rig_yaml, within);
+  const config::ControllerFile controller =
+      config::ParseController(header.controller_yaml, within, rig.numbers);
+  SessionStatistics statistics(rig.numbers, controller.supervisor.sequence.standstill_rad_per_s,
+                               kSettleAfterLift_s);
+  cycle::CycleRecord record;
+  while (reader.Next(record)) statistics.Add(record);
+
+  Inputs inputs;
+  inputs.rig = rig.numbers;
+  inputs.session = statistics.Figures();
+  inputs.timing = ReadControllerReport(options.controller_report);
+  inputs.provenance = options.provenance;
+  Complete(inputs.provenance, header);
+  inputs.provenance.rig = rig.numbers.name;
+  inputs.provenance.controller = controller.name;
+  inputs.trip_text = FirstTripText(reader.events());
+  inputs.incomplete_reason = options.incomplete_reason;
+  inputs.damage = reader.damage().Text();
+  return Judge(std::move(inputs));
+}
+
+}  // namespace levitas::verdict

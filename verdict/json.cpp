@@ -1,0 +1,189 @@
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include "verdict/report.hpp"
+
+namespace levitas::verdict {
+namespace {
+
+// Ordered: the file reads in the order of the table.
+using Object = nlohmann::ordered_json;
+
+double Rpm(double speed_rad_per_s) { return speed_rad_per_s / kRadPerSPerRpm; }
+
+/// JSON knows no infinity: a figure that is not finite is written as null.
+Object Number(double value) { return std::isfinite(value) ? Object(value) : Object(nullptr); }
+
+Object Orbits(const Verdict& verdict) {
+  Object all = Object::array();
+  for (const OrbitJudgement& at : verdict.orbits) {
+    all.push_back({{"bearing", at.bearing},
+                   {"phase", at.spinning ? "spinning" : "standing"},
+                   {"max_m", Number(at.orbit.max_m)},
+                   {"max_at_speed_rpm", Rpm(at.orbit.max_speed_rad_per_s)},
+                   {"max_at_time_s", at.orbit.max_time_s},
+                   {"rms_m", Number(at.orbit.rms_m)},
+                   {"offset_x_m", Number(at.orbit.offset_x_m)},
+                   {"offset_y_m", Number(at.orbit.offset_y_m)},
+                   {"objective_m", at.objective_m},
+                   {"objective_met", at.met},
+                   {"clearance_share", Number(at.clearance_share)},
+                   {"clearance_zone", std::string(1, Letter(at.zone))}});
+  }
+  return all;
+}
+
+void AddCurrents(const Inputs& in, const PhaseFigures& phase, const char* name, Object& all) {
+  if (phase.cycles == 0) return;
+  for (std::size_t axis = 0; axis < 2 * phase.bearings.size(); ++axis) {
+    const CurrentFigures& current = phase.bearings[axis / 2].current[axis % 2];
+    all.push_back({{"axis", in.rig.channels.at(axis)},
+                   {"phase", name},
+                   {"mean_a", Number(current.mean_a)},
+                   {"rms_about_mean_a", Number(current.dynamic_rms_a)},
+                   {"peak_a", Number(current.peak_a)},
+                   {"saturated_share", current.saturated_share}});
+  }
+}
+
+Object Length(const PhaseFigures& phase) {
+  return {{"cycles", phase.cycles},
+          {"duration_s", phase.duration_s},
+          {"saturated_share", phase.saturated_share}};
+}
+
+Object Profile(const Inputs& in) {
+  Object all = Object::array();
+  for (const ProfileBin& bin : in.session.profile) {
+    Object row{{"speed_rpm", Rpm(bin.speed_rad_per_s)}, {"cycles", bin.cycles}};
+    for (std::size_t b = 0; b < bin.max_m.size(); ++b) {
+      row["max_m"][in.rig.bearings.at(b)] = Number(bin.max_m[b]);
+    }
+    all.push_back(row);
+  }
+  return all;
+}
+
+Object Sensitivity(const Inputs& in) {
+  Object all = Object::array();
+  for (const auto& result : in.sensitivity) {
+    Object axes = Object::array();
+    for (std::size_t i = 0; i < result.axes.size(); ++i) {
+      const analysis::AxisSensitivity& axis = result.axes[i];
+      axes.push_back(
+          {{"axis", in.rig.channels.at(i)},
+           {"peak", Number(axis.peak)},
+           {"frequency_hz", axis.frequency_hz},
+           {"zone", axis.zone ? Object(std::string(1, Letter(*axis.zone))) : Object(nullptr)}});
+    }
+    all.push_back({{"speed_rpm", Rpm(result.speed_rad_per_s)},
+                   {"stable", result.stable},
+                   {"largest_pole_modulus", Number(result.largest_pole_modulus)},
+                   {"axes", axes}});
+  }
+  return all;
+}
+
+Object Modes(const Inputs& in) {
+  Object all = Object::array();
+  for (const ModeSpan& span : in.session.modes) {
+    all.push_back(
+        {{"mode", Name(span.mode)}, {"start_s", span.start_s}, {"duration_s", span.duration_s}});
+  }
+  return all;
+}
+
+Object Trip(const Inputs& in) {
+  if (!in.session.trip) return nullptr;
+  const TripFigures& trip = *in.session.trip;
+  const auto axis = static_cast<std::size_t>(trip.axis);
+  const bool named = trip.axis >= 0 && axis < in.rig.channels.size();
+  return {{"fault", Name(trip.fault)},
+          {"axis", named ? Object(in.rig.channels[axis]) : Object(nullptr)},
+          {"value_si", Number(trip.value)},
+          {"limit_si", Number(trip.limit)},
+          {"time_s", trip.time_s},
+          {"mode_before", Name(trip.mode_before)},
+          {"speed_rpm", Rpm(trip.speed_rad_per_s)},
+          {"text", in.trip_text},
+          {"file", in.provenance.trip_file},
+          {"count", in.session.trips}};
+}
+
+template <class T>
+Object Optional(const std::optional<T>& value) {
+  return value ? Object(*value) : Object(nullptr);
+}
+
+Object Timing(const Inputs& in) {
+  const SessionFigures& session = in.session;
+  Object timing{{"pace", in.provenance.pace},
+                {"cycles", session.cycles},
+                {"rig_time_s", session.duration_s},
+                {"skipped_periods", session.skipped_periods},
+                {"missing_frames", session.missing_frames},
+                {"held_currents", session.held_currents},
+                {"missing_records", session.missing_records}};
+  if (!in.timing) return timing;
+  const TimingFigures& told = *in.timing;
+  timing["wall_s"] = told.wall_s;
+  timing["cycles_per_s"] = told.cycles_per_s;
+  timing["times_real_time"] = told.times_real_time;
+  timing["blamed_stage"] = told.blamed_stage;
+  timing["lost_records"] = Optional(told.lost_records);
+  timing["rejected_frames"] = Optional(told.rejected_frames);
+  timing["degradations"] = told.degradations;
+  for (const DurationFigures& row : told.durations) {
+    timing["durations"][row.name] = {{"count", row.count},
+                                     {"p50_ns", row.p50_ns},
+                                     {"p99_ns", row.p99_ns},
+                                     {"p999_ns", row.p999_ns},
+                                     {"max_ns", row.max_ns}};
+  }
+  return timing;
+}
+
+Object From(const Provenance& from) {
+  return {{"program_version", from.program_version},
+          {"rig", from.rig},
+          {"controller", from.controller},
+          {"scenario", from.scenario},
+          {"rig_file", from.rig_file},
+          {"controller_file", from.controller_file},
+          {"scenario_file", from.scenario_file},
+          {"session_file", from.session_file},
+          {"pace", from.pace},
+          {"port", from.port},
+          {"seed", from.seed},
+          {"start_utc_ns", from.start_utc_ns},
+          {"machine", from.machine}};
+}
+
+}  // namespace
+
+std::string Json(const Verdict& verdict) {
+  const Inputs& in = verdict.inputs;
+  Object currents = Object::array();
+  AddCurrents(in, in.session.standing, "standing", currents);
+  AddCurrents(in, in.session.spinning, "spinning", currents);
+  const Object all{{"verdict", Name(verdict.outcome)},
+                   {"sentence", verdict.sentence},
+                   {"objections", verdict.objections},
+                   {"provenance", From(in.provenance)},
+                   {"clearance_m", in.rig.clearance_m},
+                   {"top_speed_rpm", Rpm(in.session.top_speed_rad_per_s)},
+                   {"standing", Length(in.session.standing)},
+                   {"spinning", Length(in.session.spinning)},
+                   {"orbits", Orbits(verdict)},
+                   {"currents", currents},
+                   {"sensitivity", Sensitivity(in)},
+                   {"orbit_over_speed", Profile(in)},
+                   {"modes", Modes(in)},
+                   {"trip", Trip(in)},
+                   {"timing", Timing(in)},
+                   {"damage", in.damage}};
+  return all.dump(2) + "\n";
+}
+
+}  // namespace levitas::verdict

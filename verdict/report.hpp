@@ -1,0 +1,18 @@
+#pragma once
+// The verdict written for people (a table, at most 100 columns, no colour) and for programs (JSON,
+// units in the keys, SI except rpm and percent-free shares).
+//
+// Thread   any. Failure: none.
+
+#include <string>
+
+#include "verdict/verdict.hpp"
+
+namespace levitas::verdict {
+
+/// Lines end with '\n'; the last line is the sentence.
+[[nodiscard]] std::string Table(const Verdict& verdict);
+/// One object, indented, ending with '\n'.
+[[nodiscard]] std::string Json(const Verdict& verdict);
+
+}  // namespace levitas::verdict

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "verdict/report.hpp"
+
+namespace levitas::verdict {
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+double Rpm(double speed_rad_per_s) { return speed_rad_per_s / kRadPerSPerRpm; }
+double Um(double length_m) { return length_m * 1e6; }
+
+std::string_view PhaseName(bool spinning) { return spinning ? "spinning" : "standing"; }
+
+/// A duration with the unit that leaves one to three digits before the point.
+std::string Duration(double duration_ns) {
+  if (duration_ns < 1e3) return fmt::format("{:.0f} ns", duration_ns);
+  if (duration_ns < 1e6) return fmt::format("{:.1f} us", duration_ns * 1e-3);
+  return fmt::format("{:.1f} ms", duration_ns * 1e-6);
+}
+
+void Heading(const Verdict& verdict, Out out) {
+  const Provenance& from = verdict.inputs.provenance;
+  fmt::format_to(out, "Verdict on rig {}, controller {}, scenario {} ({}, seed {})\n", from.rig,
+                 from.controller, from.scenario.empty() ? "none" : from.scenario, from.pace,
+                 from.seed);
+  if (!verdict.inputs.damage.empty()) fmt::format_to(out, "record: {}\n", verdict.inputs.damage);
+}
+
+void Orbits(const Verdict& verdict, Out out) {
+  if (verdict.orbits.empty()) return;
+  fmt::format_to(out, "\n{:<10}{:<10}{:>7}{:>8}{:>10}{:>10} {:<5}{:>13}{:>5}{:>21}\n", "orbit",
+                 "phase", "max um", "rms um", "offset um", "limit um", "", "of clearance", "zone",
+                 "worst at");
+  for (const OrbitJudgement& at : verdict.orbits) {
+    const std::string where =
+        at.spinning ? fmt::format("{:.0f} rpm, {:.2f} s", Rpm(at.orbit.max_speed_rad_per_s),
+                                  at.orbit.max_time_s)
+                    : fmt::format("{:.2f} s", at.orbit.max_time_s);
+    fmt::format_to(out,
+                   "{:<10}{:<10}{:>7.2f}{:>8.2f}{:>10.2f}{:>10.1f} {:<5}{:>13.3f}{:>5}{:>21}\n",
+                   at.bearing, PhaseName(at.spinning), Um(at.orbit.max_m), Um(at.orbit.rms_m),
+                   Um(std::hypot(at.orbit.offset_x_m, at.orbit.offset_y_m)), Um(at.objective_m),
+                   at.met ? "ok" : "FAIL", at.clearance_share, Letter(at.zone), where);
+  }
+}
+
+void CurrentsOf(const Inputs& in, const PhaseFigures& phase, bool spinning, Out out) {
+  if (phase.cycles == 0) return;
+  for (std::size_t b = 0; b < phase.bearings.size(); ++b) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const CurrentFigures& current = phase.bearings[b].current[k];
+      fmt::format_to(out, "{:<10}{:<10}{:>9.4f}{:>17.4f}{:>9.4f}{:>18.2f} %\n",
+                     in.rig.channels[2 * b + k], PhaseName(spinning), current.mean_a,
+                     current.dynamic_rms_a, current.peak_a, 100.0 * current.saturated_share);
+    }
+  }
+}
+
+void Currents(const Inputs& in, Out out) {
+  if (in.session.standing.cycles + in.session.spinning.cycles == 0) return;
+  fmt::format_to(out, "\n{:<10}{:<10}{:>9}{:>17}{:>9}{:>20}\n", "current", "phase", "static A",
+                 "rms about mean A", "peak A", "cycles saturated");
+  CurrentsOf(in, in.session.standing, false, out);
+  CurrentsOf(in, in.session.spinning, true, out);
+}
+
+void Sensitivity(const Inputs& in, Out out) {
+  if (in.sensitivity.empty()) return;
+  fmt::format_to(out, "\n{:<10}{:>10}{:>9}{:>9}   {}\n", "peak |S|", "speed rpm", "peak", "at Hz",
+                 "zone");
+  for (const auto& result : in.sensitivity) {
+    for (std::size_t i = 0; i < result.axes.size(); ++i) {
+      const analysis::AxisSensitivity& axis = result.axes[i];
+      const std::string zone = axis.zone ? std::string(1, Letter(*axis.zone)) : "none: unstable";
+      fmt::format_to(out, "{:<10}{:>10.0f}{:>9.3f}{:>9.1f}   {}\n", in.rig.channels.at(i),
+                     Rpm(result.speed_rad_per_s), axis.peak, axis.frequency_hz, zone);
+    }
+  }
+}
+
+void Durations(const TimingFigures& timing, Out out) {
+  if (timing.durations.empty()) return;
+  fmt::format_to(out, "{:<14}{:>12}{:>12}{:>12}{:>12}\n", "", "p50", "p99", "p99.9", "max");
+  for (const DurationFigures& row : timing.durations) {
+    if (row.count == 0) continue;
+    fmt::format_to(out, "{:<14}{:>12}{:>12}{:>12}{:>12}\n", row.name, Duration(row.p50_ns),
+                   Duration(row.p99_ns), Duration(row.p999_ns), Duration(row.max_ns));
+  }
+}
+
+void Timing(const Inputs& in, Out out) {
+  const SessionFigures& session = in.session;
+  fmt::format_to(out, "\ntiming    {} cycles, {:.2f} s of the rig's time", session.cycles,
+                 session.duration_s);
+  if (in.timing) {
+    fmt::format_to(out, " in {:.2f} s: {:.0f} cycles/s, {:.2f} x real time", in.timing->wall_s,
+                   in.timing->cycles_per_s, in.timing->times_real_time);
+  }
+  fmt::format_to(out,
+                 "\nlosses    {} periods skipped, {} frames missing, {} currents late, {} "
+                 "records lost\n",
+                 session.skipped_periods, session.missing_frames, session.held_currents,
+                 session.missing_records);
+  if (!in.timing) return;
+  if (session.skipped_periods > 0 && !in.timing->blamed_stage.empty()) {
+    fmt::format_to(out, "          last overrun by the stage: {}\n", in.timing->blamed_stage);
+  }
+  for (const std::string& text : in.timing->degradations) {
+    fmt::format_to(out, "machine   {}\n", text);
+  }
+  Durations(*in.timing, out);
+}
+
+}  // namespace
+
+std::string Table(const Verdict& verdict) {
+  std::string text;
+  const Out out = std::back_inserter(text);
+  Heading(verdict, out);
+  Orbits(verdict, out);
+  Currents(verdict.inputs, out);
+  Sensitivity(verdict.inputs, out);
+  Timing(verdict.inputs, out);
+  fmt::format_to(out, "\n{}\n", verdict.sentence);
+  return text;
+}
+
+}  // namespace levitas::verdict

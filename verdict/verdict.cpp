@@ -1,0 +1,127 @@
+#include "verdict/verdict.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace levitas::verdict {
+namespace {
+
+constexpr std::array<std::string_view, 4> kOutcomes{"accepted", "not_accepted", "tripped",
+                                                    "incomplete"};
+
+double Rpm(double speed_rad_per_s) { return speed_rad_per_s / kRadPerSPerRpm; }
+double Um(double length_m) { return length_m * 1e6; }
+
+void JudgePhase(const RigNumbers& rig, const PhaseFigures& phase, bool spinning,
+                std::vector<OrbitJudgement>& orbits) {
+  if (phase.cycles == 0) return;
+  const double objective_m =
+      spinning ? rig.spinning_orbit_objective_m : rig.standing_orbit_objective_m;
+  for (const BearingFigures& bearing : phase.bearings) {
+    const double share = bearing.orbit.max_m / rig.clearance_m;
+    orbits.push_back({bearing.name, spinning, bearing.orbit, objective_m, share,
+                      ClearanceZone(share), bearing.orbit.max_m < objective_m});
+  }
+}
+
+std::string While(bool spinning) { return spinning ? "while spinning" : "while standing"; }
+
+void ObjectToOrbit(const OrbitJudgement& at, std::vector<std::string>& objections) {
+  const std::string where =
+      at.spinning ? fmt::format(" at {:.0f} rpm", Rpm(at.orbit.max_speed_rad_per_s)) : "";
+  if (!at.met) {
+    objections.push_back(fmt::format("{} orbit {:.1f} um {} exceeds {:.1f} um{}", at.bearing,
+                                     Um(at.orbit.max_m), While(at.spinning), Um(at.objective_m),
+                                     where));
+  }
+  if (!Acceptable(at.zone)) {
+    objections.push_back(fmt::format("{} displacement of {:.2f} clearances {} is zone {}{}",
+                                     at.bearing, at.clearance_share, While(at.spinning),
+                                     Letter(at.zone), where));
+  }
+}
+
+void ObjectToSensitivity(const analysis::SensitivityResult& result, const RigNumbers& rig,
+                         std::vector<std::string>& objections) {
+  const double speed_rpm = Rpm(result.speed_rad_per_s);
+  if (!result.stable) {
+    objections.push_back(fmt::format("the linear loop is unstable at {:.0f} rpm", speed_rpm));
+    return;
+  }
+  for (std::size_t i = 0; i < result.axes.size(); ++i) {
+    const analysis::AxisSensitivity& axis = result.axes[i];
+    if (axis.zone && Acceptable(*axis.zone)) continue;
+    objections.push_back(fmt::format(
+        "sensitivity peak of {} is {:.2f} at {:.0f} rpm{}", rig.channels.at(i), axis.peak,
+        speed_rpm, axis.zone ? fmt::format(", zone {}", Letter(*axis.zone)) : ""));
+  }
+}
+
+std::string TripSentence(const Inputs& in) {
+  const TripFigures& trip = *in.session.trip;
+  std::string what = in.trip_text;
+  if (what.empty()) {
+    const auto axis = static_cast<std::size_t>(std::max(trip.axis, 0));
+    const bool named = trip.axis >= 0 && axis < in.rig.channels.size();
+    what = fmt::format("{}{}: {:.4g}, allowed {:.4g}", Name(trip.fault),
+                       named ? " on " + in.rig.channels[axis] : "", trip.value, trip.limit);
+  }
+  return fmt::format("TRIPPED: {} (in {} at {:.0f} rpm, {:.3f} s after the start)", what,
+                     Name(trip.mode_before), Rpm(trip.speed_rad_per_s), trip.time_s);
+}
+
+/// "standing 4.1 um (objective 7.0 um)" for the worst bearing of a phase, or that it was not run.
+std::string WorstOf(const std::vector<OrbitJudgement>& orbits, bool spinning) {
+  const OrbitJudgement* worst = nullptr;
+  for (const OrbitJudgement& at : orbits) {
+    if (at.spinning != spinning) continue;
+    if (worst == nullptr || at.orbit.max_m > worst->orbit.max_m) worst = &at;
+  }
+  const std::string_view phase = spinning ? "spinning" : "standing";
+  if (worst == nullptr) return fmt::format("{} not run", phase);
+  return fmt::format("{} {:.1f} um of {:.1f} um allowed (zone {})", phase, Um(worst->orbit.max_m),
+                     Um(worst->objective_m), Letter(worst->zone));
+}
+
+}  // namespace
+
+std::string_view Name(Outcome outcome) noexcept {
+  const auto index = static_cast<std::size_t>(outcome);
+  return index < kOutcomes.size() ? kOutcomes[index] : "invalid";
+}
+
+Verdict Judge(Inputs inputs) {
+  Verdict verdict;
+  JudgePhase(inputs.rig, inputs.session.standing, false, verdict.orbits);
+  JudgePhase(inputs.rig, inputs.session.spinning, true, verdict.orbits);
+  if (verdict.orbits.empty()) {
+    verdict.objections.emplace_back(
+        "the rotor was not levitated for longer than the settling time");
+  }
+  for (const OrbitJudgement& at : verdict.orbits) ObjectToOrbit(at, verdict.objections);
+  for (const auto& result : inputs.sensitivity) {
+    ObjectToSensitivity(result, inputs.rig, verdict.objections);
+  }
+  if (inputs.session.trip) {
+    verdict.outcome = Outcome::kTripped;
+    verdict.sentence = TripSentence(inputs);
+  } else if (!inputs.incomplete_reason.empty()) {
+    verdict.outcome = Outcome::kIncomplete;
+    verdict.sentence = "INCOMPLETE: " + inputs.incomplete_reason;
+  } else if (!verdict.objections.empty()) {
+    verdict.outcome = Outcome::kNotAccepted;
+    verdict.sentence = fmt::format("NOT ACCEPTED: {}", fmt::join(verdict.objections, "; "));
+  } else {
+    verdict.outcome = Outcome::kAccepted;
+    verdict.sentence = fmt::format("ACCEPTED: orbit {}, {}", WorstOf(verdict.orbits, false),
+                                   WorstOf(verdict.orbits, true));
+  }
+  verdict.inputs = std::move(inputs);
+  return verdict;
+}
+
+}  // namespace levitas::verdict

@@ -1,0 +1,73 @@
+#pragma once
+// The commissioning verdict: figures of a run held against the rig's objectives.
+//
+// Accepted     the scenario was completed, the rotor was levitated, and every requirement is met:
+//              largest orbit standing and spinning below the rig's objectives, the same orbit in
+//              zone A or B of the clearance, every graded sensitivity peak in zone A or B.
+// Requirement  a limit itself is not met: orbit must be below its objective.
+// Not judged   timing and saturation are reported; what they spoil shows in the orbit or as a trip.
+// Units        SI; names say which. Thread: any, offline.
+// Failure      none: what was not run is "not run", not a pass (the sentence says so).
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/sensitivity.hpp"
+#include "common/rig_numbers.hpp"
+#include "verdict/session_statistics.hpp"
+#include "verdict/timing.hpp"
+#include "verdict/zones.hpp"
+
+namespace levitas::verdict {
+
+enum class Outcome : std::uint8_t { kAccepted, kNotAccepted, kTripped, kIncomplete };
+[[nodiscard]] std::string_view Name(Outcome outcome) noexcept;  ///< "accepted", "not_accepted" ...
+
+/// Where the figures come from; all of it is written to the JSON.
+struct Provenance {
+  std::string program_version;
+  std::string rig, controller, scenario;                 ///< names
+  std::string rig_file, controller_file, scenario_file;  ///< paths, empty when unknown
+  std::string session_file;                              ///< empty when it was not kept
+  std::string trip_file;                                 ///< empty when nothing tripped
+  std::string pace;
+  std::string port;
+  std::string machine;
+  std::int64_t seed{};
+  std::int64_t start_utc_ns{};
+};
+
+/// One orbit held against one objective.
+struct OrbitJudgement {
+  std::string bearing;
+  bool spinning{};
+  OrbitFigures orbit;
+  double objective_m{};
+  double clearance_share{};  ///< [1] largest radius over clearance
+  Zone zone{};
+  bool met{};
+};
+
+struct Inputs {
+  RigNumbers rig;
+  SessionFigures session;
+  std::vector<analysis::SensitivityResult> sensitivity;  ///< at 0 and at the top speed of the run
+  std::optional<TimingFigures> timing;
+  Provenance provenance;
+  std::string trip_text;          ///< the recorded sentence of the first trip, may be empty
+  std::string incomplete_reason;  ///< why the scenario did not end by itself; empty: it did
+  std::string damage;             ///< of the session file, empty when undamaged
+};
+
+struct Verdict {
+  Inputs inputs;
+  Outcome outcome{};
+  std::string sentence;                 ///< "ACCEPTED: ...", one line
+  std::vector<std::string> objections;  ///< one per requirement not met
+  std::vector<OrbitJudgement> orbits;   ///< bearing by bearing, phases that were run
+};
+
+[[nodiscard]] Verdict Judge(Inputs inputs);
+
+}  // namespace levitas::verdict
