@@ -16,6 +16,10 @@
 #include "controller/law/law_config.hpp"
 #include "controller/supervisor/supervisor_config.hpp"
 
+namespace levitas::supervisor {
+struct Decision;
+}  // namespace levitas::supervisor
+
 namespace levitas::cycle {
 
 struct CycleConfig {
@@ -53,6 +57,9 @@ class ControlCycle {
   ControlCycle& operator=(ControlCycle&&) noexcept;
 
   CycleOutputs Step(const CycleInputs& in, StageObserver* observer = nullptr) noexcept;
+
+  /// What the supervisor decided in the latest Step: finer state than Mode, cycle of the trip.
+  [[nodiscard]] const supervisor::Decision& decision() const noexcept;
 
  private:
   struct Impl;

@@ -1,0 +1,169 @@
+#include "controller/cycle/control_cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "controller/cycle/probe_map.hpp"
+#include "controller/law/axis_law.hpp"
+#include "controller/supervisor/supervisor.hpp"
+
+namespace levitas::cycle {
+namespace {
+
+const CycleConfig& Checked(const CycleConfig& config) {
+  const std::size_t axes = config.rig.axes();
+  if (axes == 0 || axes > kMaxAxes || axes % 2 != 0) {
+    throw std::invalid_argument("rig: " + std::to_string(axes) +
+                                " axes, allowed an even number from 2 to " +
+                                std::to_string(kMaxAxes));
+  }
+  if (config.law.axes.size() != axes) {
+    throw std::invalid_argument("law for " + std::to_string(config.law.axes.size()) +
+                                " axes, the rig has " + std::to_string(axes));
+  }
+  if (config.law.period_s > 0.0 &&
+      std::abs(config.law.period_s - config.rig.period_s()) > 1e-9 * config.rig.period_s()) {
+    throw std::invalid_argument("law discretised for a period of " +
+                                std::to_string(config.law.period_s) + " s, the rig samples every " +
+                                std::to_string(config.rig.period_s()) + " s");
+  }
+  return config;
+}
+
+law::LawConfig AtRigPeriod(const CycleConfig& config) {
+  law::LawConfig law = config.law;
+  law.period_s = config.rig.period_s();
+  return law;
+}
+
+// Both coils stay within 0 .. maximum: i0 - |ic| >= 0 and i0 + |ic| <= maximum.
+double CurrentLimit(const CycleConfig& config) {
+  const double bias_a = config.rig.bias_current_a;
+  double limit_a = std::min(bias_a, config.rig.max_coil_current_a - bias_a);
+  if (config.law.current_limit_a > 0.0) limit_a = std::min(limit_a, config.law.current_limit_a);
+  if (!(limit_a > 0.0)) {
+    throw std::invalid_argument("rig: bias_current_a = " + std::to_string(bias_a) +
+                                " leaves no control current below max_coil_current_a = " +
+                                std::to_string(config.rig.max_coil_current_a));
+  }
+  return limit_a;
+}
+
+}  // namespace
+
+struct ControlCycle::Impl {
+  explicit Impl(const CycleConfig& config)
+      : rig(Checked(config).rig),
+        limit_a(CurrentLimit(config)),
+        probes(config.rig),
+        coefficients(AtRigPeriod(config)),
+        law_state(coefficients),
+        supervisor(config.rig, config.supervisor) {}
+
+  void Read(const CycleInputs& in) noexcept;
+  void RunLaw(const AxisArray& excitation_a, const supervisor::Decision& decision) noexcept;
+  [[nodiscard]] CycleOutputs Answer(const supervisor::Decision& decision) const noexcept;
+
+  RigNumbers rig;
+  double limit_a;
+  ProbeMap probes;
+  law::LawCoefficients coefficients;
+  law::LawState law_state;
+  supervisor::Supervisor supervisor;
+  supervisor::Observation seen;
+  std::uint64_t frame_cycle{};
+  bool any_frame{};
+  law::LawOutput given;  // bearing frame
+};
+
+// A frame that repeats the last one's number, or has other axes than the rig, is not a new frame.
+void ControlCycle::Impl::Read(const CycleInputs& in) noexcept {
+  const SensorFrame& frame = in.frame;
+  const bool repeated =
+      any_frame && frame.cycle == frame_cycle && frame.rig_session == seen.rig_session;
+  seen.cycle = in.cycle;
+  seen.missed_deadlines = in.missed_deadlines;
+  seen.saturated_axes = given.saturated_axes;
+  seen.fresh = in.frame_present && frame.axes == rig.axes() && !repeated;
+  if (!seen.fresh) return;
+  any_frame = true;
+  frame_cycle = frame.cycle;
+  seen.position_m = probes.Positions({frame.position_m}).at;
+  seen.speed_rad_per_s = frame.speed_rad_per_s;
+  seen.rig_session = frame.rig_session;
+  seen.rig_status = frame.rig_status;
+}
+
+// Without a fresh frame the last currents are held and the filters wait. Positions are taken at
+// most as far as the converter reaches: beyond it a number means nothing.
+void ControlCycle::Impl::RunLaw(const AxisArray& excitation_a,
+                                const supervisor::Decision& decision) noexcept {
+  const supervisor::StateRow& row = supervisor::Row(decision.state);
+  if (!row.energised) {
+    given = {};
+    return;
+  }
+  if (decision.start_law) law_state.Reset();
+  if (!seen.fresh) return;
+  AxisArray error_m{};
+  AxisArray injected_a{};
+  for (std::size_t i = 0; i < rig.axes(); ++i) {
+    const double position_m =
+        std::clamp(seen.position_m[i], -rig.sensor_range_m, rig.sensor_range_m);
+    error_m[i] = decision.reference_m[i] - position_m;
+    if (row.excitation && std::isfinite(excitation_a[i])) injected_a[i] = excitation_a[i];
+  }
+  given = law::Step(coefficients, law_state, error_m, injected_a, limit_a);
+}
+
+CycleOutputs ControlCycle::Impl::Answer(const supervisor::Decision& decision) const noexcept {
+  const supervisor::StateRow& row = supervisor::Row(decision.state);
+  CycleOutputs out;
+  out.current.cycle = frame_cycle;
+  out.current.axes = static_cast<std::uint32_t>(rig.axes());
+  out.current.control_current_a = probes.Currents({given.control_current_a}).at;
+  out.current.bias_current_a = row.energised ? rig.bias_current_a : 0.0;
+  out.current.speed_set_point_rad_per_s = decision.speed_set_point_rad_per_s;
+  out.current.acceleration_limit_rad_per_s2 = decision.acceleration_rad_per_s2;
+  out.current.amplifiers_enabled = row.energised;
+  out.current.drive_enabled = decision.drive_enabled;
+  out.reference_m = decision.reference_m;
+  out.saturated_axes = given.saturated_axes;
+  out.mode = row.mode;
+  out.fault = decision.latch.finding.fault;
+  out.fault_axis = decision.latch.finding.axis;
+  out.fault_value = decision.latch.finding.value;
+  out.fault_limit = decision.latch.finding.limit;
+  out.command_refused = decision.command_refused;
+  return out;
+}
+
+ControlCycle::ControlCycle(const CycleConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+ControlCycle::~ControlCycle() = default;
+ControlCycle::ControlCycle(ControlCycle&&) noexcept = default;
+ControlCycle& ControlCycle::operator=(ControlCycle&&) noexcept = default;
+
+const supervisor::Decision& ControlCycle::decision() const noexcept {
+  return impl_->supervisor.decision();
+}
+
+CycleOutputs ControlCycle::Step(const CycleInputs& in, StageObserver* observer) noexcept {
+  const auto ended = [observer](Stage stage) {
+    if (observer != nullptr) observer->Ended(stage);
+  };
+  const supervisor::Request request{in.op.command, in.op.speed_rad_per_s,
+                                    in.op.acceleration_rad_per_s2};
+  impl_->Read(in);
+  const supervisor::Finding finding = impl_->supervisor.Check(impl_->seen, request);
+  ended(Stage::kCheck);
+  const supervisor::Decision& decision = impl_->supervisor.Decide(impl_->seen, request, finding);
+  ended(Stage::kSupervise);
+  impl_->RunLaw(in.op.excitation_a, decision);
+  const CycleOutputs out = impl_->Answer(decision);
+  ended(Stage::kLaw);
+  return out;
+}
+
+}  // namespace levitas::cycle

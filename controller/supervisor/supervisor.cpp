@@ -1,0 +1,258 @@
+#include "controller/supervisor/supervisor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace levitas::supervisor {
+namespace {
+
+std::uint64_t Cycles(double time_s, double period_s, const char* name) {
+  const double cycles = time_s / period_s;
+  if (!(cycles >= 0.0 && cycles < 1e15)) {
+    throw std::invalid_argument(std::string("supervisor: ") + name + " = " +
+                                std::to_string(time_s) + " s, must be 0 or more");
+  }
+  return static_cast<std::uint64_t>(std::llround(cycles));
+}
+
+std::optional<Event> CommandEvent(OperatorCommand command) noexcept {
+  switch (command) {
+    case OperatorCommand::kLift:
+      return Event::kCommandLift;
+    case OperatorCommand::kSpin:
+      return Event::kCommandSpin;
+    case OperatorCommand::kCoastDown:
+      return Event::kCommandCoastDown;
+    case OperatorCommand::kLand:
+      return Event::kCommandLand;
+    case OperatorCommand::kReset:
+      return Event::kCommandReset;
+    case OperatorCommand::kNone:
+    case OperatorCommand::kEmergencyStop:  // a fault, see Protections
+      break;
+  }
+  return std::nullopt;
+}
+
+// A number outside the enumeration is a command the table does not know.
+bool Known(OperatorCommand command) noexcept {
+  return static_cast<std::uint8_t>(command) < kOperatorCommandCount;
+}
+
+}  // namespace
+
+Supervisor::Supervisor(const RigNumbers& rig, const SupervisorConfig& config)
+    : axes_(rig.axes()),
+      clearance_m_(rig.clearance_m),
+      max_speed_rad_per_s_(rig.max_speed_rad_per_s),
+      sequence_(config.sequence),
+      implausible_limit_cycles_(config.protection.sensor_range_cycles),
+      protections_(rig, config.protection) {
+  const SequenceConfig& s = config.sequence;
+  const double period_s = rig.period_s();
+  times_ = {Cycles(s.self_test_s, period_s, "self_test_s"),
+            Cycles(s.lift_ramp_s, period_s, "lift_ramp_s"),
+            Cycles(s.lift_settle_s, period_s, "lift_settle_s"),
+            Cycles(s.lift_timeout_s, period_s, "lift_timeout_s"),
+            Cycles(s.landing_ramp_s, period_s, "landing_ramp_s")};
+  if (!(s.settle_radius_m > 0.0) || !(s.standstill_rad_per_s > 0.0) ||
+      !(s.trip_acceleration_rad_per_s2 > 0.0)) {
+    throw std::invalid_argument(
+        "supervisor: settle_radius_m, standstill_rad_per_s and trip_acceleration_rad_per_s2 must "
+        "be greater than 0");
+  }
+}
+
+Finding Supervisor::Check(const Observation& seen, const Request& request) noexcept {
+  const StateRow& row = Row(decision_.state);
+  // Without current nothing depends on the rig's past, so its present session is the known one.
+  if (seen.fresh && !row.energised && decision_.state != State::kSelfTest) {
+    protections_.AcceptSession(seen.rig_session);
+  }
+  const Finding finding = protections_.Check(seen, row.armed, row.energised,
+                                             request.command == OperatorCommand::kEmergencyStop);
+  if (finding.fault != Fault::kNone) return finding;
+  if (decision_.state == State::kSelfTest) return SelfTest(seen);
+  if (decision_.state == State::kLift) return Lift(seen);
+  return finding;
+}
+
+const Decision& Supervisor::Decide(const Observation& seen, const Request& request,
+                                   const Finding& finding) noexcept {
+  decision_.start_law = false;
+  decision_.command_refused = false;
+  ++cycles_in_state_;
+  const std::optional<Event> command = CommandEvent(request.command);
+  if (finding.fault != Fault::kNone) {
+    const bool drop = (kDropFaults & Bit(finding.fault)) != 0;
+    Take(drop ? Event::kDropFault : Event::kStopFault, seen, request, finding);
+    decision_.command_refused = command.has_value() || !Known(request.command);
+  } else {
+    const bool moved = command && Take(*command, seen, request, finding);
+    decision_.command_refused = (command && !moved) || !Known(request.command);
+    for (const Event event :
+         {Event::kSelfTestPassed, Event::kLifted, Event::kStands, Event::kLanded}) {
+      if (!moved && Happened(event, seen) && Take(event, seen, request, finding)) break;
+    }
+  }
+  MoveReference();
+  CommandDrive(seen);
+  return decision_;
+}
+
+// Plausible: the rotor lies within the touchdown bearings and stands. (Finite, in range, live and
+// fault-free is what the protections armed in this state look for.)
+Finding Supervisor::SelfTest(const Observation& seen) noexcept {
+  if (!seen.fresh) return {};
+  Finding found = FarthestBearing(seen, kRestingPlaceFactor * clearance_m_);
+  if (found.value <= found.limit) {
+    found = {Fault::kNone, -1, std::abs(seen.speed_rad_per_s), sequence_.standstill_rad_per_s};
+  }
+  const bool implausible = !(found.value <= found.limit);
+  implausible_cycles_ = implausible ? implausible_cycles_ + 1 : 0;
+  if (implausible_cycles_ < implausible_limit_cycles_) return {};
+  found.fault = Fault::kSelfTestFailed;
+  return found;
+}
+
+Finding Supervisor::Lift(const Observation& seen) noexcept {
+  Finding found = FarthestBearing(seen, sequence_.settle_radius_m);
+  const bool near_centre =
+      cycles_in_state_ >= times_.lift_ramp && seen.fresh && found.value <= found.limit;
+  near_centre_cycles_ = near_centre ? near_centre_cycles_ + 1 : 0;
+  if (cycles_in_state_ < times_.lift_timeout || near_centre_cycles_ >= times_.lift_settle) {
+    return {};
+  }
+  found.fault = Fault::kLiftFailed;
+  return found;
+}
+
+bool Supervisor::Happened(Event event, const Observation& seen) const noexcept {
+  switch (event) {
+    case Event::kSelfTestPassed:
+      return seen.fresh && implausible_cycles_ == 0 && cycles_in_state_ > times_.self_test;
+    case Event::kLifted:
+      return near_centre_cycles_ > 0 && near_centre_cycles_ >= times_.lift_settle;
+    case Event::kStands:
+      return Standing(seen) &&
+             (Row(decision_.state).drive != Drive::kSetPoint || set_point_rad_per_s_ == 0.0);
+    case Event::kLanded:
+      return cycles_in_state_ > times_.landing_ramp;
+    default:
+      return false;
+  }
+}
+
+bool Supervisor::Holds(Guard guard, const Observation& seen,
+                       const Request& request) const noexcept {
+  switch (guard) {
+    case Guard::kAlways:
+      return true;
+    case Guard::kStanding:
+      return Standing(seen);
+    case Guard::kSpeedValid:  // written so that NaN does not pass
+      return std::abs(request.speed_rad_per_s) <= max_speed_rad_per_s_ &&
+             request.acceleration_rad_per_s2 > 0.0 &&
+             std::isfinite(request.acceleration_rad_per_s2);
+    case Guard::kCauseGone:
+      return protections_.SignalsGood(seen) && Standing(seen);
+  }
+  return false;
+}
+
+bool Supervisor::Take(Event event, const Observation& seen, const Request& request,
+                      const Finding& finding) noexcept {
+  const Edge* const edge = FindEdge(decision_.state, event);
+  if (edge == nullptr || !Holds(edge->guard, seen, request)) return false;
+  Enter(edge->to);
+  Act(edge->action, seen, request, finding);
+  return true;
+}
+
+void Supervisor::Act(Action action, const Observation& seen, const Request& request,
+                     const Finding& finding) noexcept {
+  switch (action) {
+    case Action::kNone:
+      break;
+    case Action::kStartLaw:
+      decision_.start_law = true;
+      rest_m_ = seen.position_m;
+      ramp_from_m_ = rest_m_;
+      break;
+    case Action::kTakeSpeed:
+      set_point_rad_per_s_ = request.speed_rad_per_s;
+      acceleration_rad_per_s2_ = request.acceleration_rad_per_s2;
+      break;
+    case Action::kLatch:
+      decision_.latch = {finding, seen.cycle};
+      break;
+    case Action::kClearLatch:
+      decision_.latch = {};
+      break;
+  }
+}
+
+void Supervisor::Enter(State state) noexcept {
+  decision_.state = state;
+  cycles_in_state_ = 0;
+  implausible_cycles_ = 0;
+  near_centre_cycles_ = 0;
+  ramp_from_m_ = decision_.reference_m;
+}
+
+void Supervisor::MoveReference() noexcept {
+  const Reference reference = Row(decision_.state).reference;
+  if (reference == Reference::kNone || reference == Reference::kCentre) {
+    decision_.reference_m = {};
+    return;
+  }
+  const bool lifting = reference == Reference::kRampToCentre;
+  const std::uint64_t ramp_cycles = lifting ? times_.lift_ramp : times_.landing_ramp;
+  const double p = cycles_in_state_ >= ramp_cycles
+                       ? 1.0
+                       : static_cast<double>(cycles_in_state_) / static_cast<double>(ramp_cycles);
+  const double share = p * p * (3.0 - 2.0 * p);
+  for (std::size_t i = 0; i < axes_; ++i) {
+    const double to_m = lifting ? 0.0 : rest_m_[i];
+    decision_.reference_m[i] = ramp_from_m_[i] + share * (to_m - ramp_from_m_[i]);
+  }
+}
+
+void Supervisor::CommandDrive(const Observation& seen) noexcept {
+  const Drive drive = Row(decision_.state).drive;
+  decision_.drive_enabled = false;
+  decision_.speed_set_point_rad_per_s = 0.0;
+  decision_.acceleration_rad_per_s2 = 0.0;
+  if (drive == Drive::kSetPoint) {
+    decision_.drive_enabled = true;
+    decision_.speed_set_point_rad_per_s = set_point_rad_per_s_;
+    decision_.acceleration_rad_per_s2 = acceleration_rad_per_s2_;
+  } else if (drive == Drive::kBrake) {
+    // While the speed is not known the brake stays on: it does nothing to a rotor that stands.
+    decision_.drive_enabled = !(seen.fresh && Standing(seen));
+    decision_.acceleration_rad_per_s2 = sequence_.trip_acceleration_rad_per_s2;
+  }
+}
+
+bool Supervisor::Standing(const Observation& seen) const noexcept {
+  return std::abs(seen.speed_rad_per_s) < sequence_.standstill_rad_per_s;
+}
+
+Finding Supervisor::FarthestBearing(const Observation& seen, double limit_m) const noexcept {
+  Finding farthest{Fault::kNone, -1, 0.0, limit_m};
+  for (std::size_t b = 0; 2 * b + 1 < axes_; ++b) {
+    const double x_m = seen.position_m[2 * b];
+    const double y_m = seen.position_m[2 * b + 1];
+    const double radius_m = std::sqrt(x_m * x_m + y_m * y_m);
+    if (radius_m <= farthest.value) continue;
+    farthest.value = radius_m;
+    farthest.axis = static_cast<std::int8_t>(2 * b + (std::abs(x_m) >= std::abs(y_m) ? 0 : 1));
+  }
+  return farthest;
+}
+
+}  // namespace levitas::supervisor

@@ -1,0 +1,95 @@
+#pragma once
+// The supervisor: runs the mode table on what is seen in each cycle.
+//
+// Order      in one cycle: a fault first; without one the operator's command; then what happened
+//            by itself (self-test passed, lifted, stands, landed). Each takes at most one edge.
+// Reference  moves along 3 p^2 - 2 p^3 (p = share of the ramp's time), so that it starts and ends
+//            without a step in velocity.
+// Frame      bearing frame. Units: SI.
+// Thread     loop thread only; Check and Decide allocate nothing and throw nothing.
+// Failure    faults are latched in the decision; the constructor throws std::invalid_argument for
+//            numbers that cannot work.
+// Not done   no currents: the cycle runs the law with the decision's reference.
+
+#include <cstdint>
+
+#include "common/rig_numbers.hpp"
+#include "controller/supervisor/mode_table.hpp"
+#include "controller/supervisor/observation.hpp"
+#include "controller/supervisor/protections.hpp"
+#include "controller/supervisor/supervisor_config.hpp"
+
+namespace levitas::supervisor {
+
+/// During the self-test the rotor may read this many clearances from the centre: the sensor planes
+/// lie outside the touchdown bearings, so a tilted rotor reads more than the clearance there.
+inline constexpr double kRestingPlaceFactor = 1.25;
+
+struct Request {
+  OperatorCommand command{OperatorCommand::kNone};
+  double speed_rad_per_s{};
+  double acceleration_rad_per_s2{};
+};
+
+struct Decision {
+  State state{State::kOff};
+  bool start_law{};  ///< clear the law's memory before this cycle's step
+  AxisArray reference_m{};
+  bool drive_enabled{};
+  double speed_set_point_rad_per_s{};
+  double acceleration_rad_per_s2{};
+  bool command_refused{};
+  Latch latch;
+};
+
+class Supervisor {
+ public:
+  Supervisor(const RigNumbers& rig, const SupervisorConfig& config);
+
+  /// The first armed fault of this cycle, if any. Call once per cycle, before Decide.
+  [[nodiscard]] Finding Check(const Observation& seen, const Request& request) noexcept;
+  /// Takes the edges of this cycle and says what the rig shall do.
+  const Decision& Decide(const Observation& seen, const Request& request,
+                         const Finding& finding) noexcept;
+
+  [[nodiscard]] const Decision& decision() const noexcept { return decision_; }
+
+ private:
+  struct Times {
+    std::uint64_t self_test, lift_ramp, lift_settle, lift_timeout, landing_ramp;  // [cycles]
+  };
+
+  [[nodiscard]] Finding SelfTest(const Observation& seen) noexcept;
+  [[nodiscard]] Finding Lift(const Observation& seen) noexcept;
+  [[nodiscard]] bool Happened(Event event, const Observation& seen) const noexcept;
+  [[nodiscard]] bool Holds(Guard guard, const Observation& seen,
+                           const Request& request) const noexcept;
+  bool Take(Event event, const Observation& seen, const Request& request,
+            const Finding& finding) noexcept;
+  void Act(Action action, const Observation& seen, const Request& request,
+           const Finding& finding) noexcept;
+  void Enter(State state) noexcept;
+  void MoveReference() noexcept;
+  void CommandDrive(const Observation& seen) noexcept;
+  [[nodiscard]] bool Standing(const Observation& seen) const noexcept;
+  [[nodiscard]] Finding FarthestBearing(const Observation& seen, double limit_m) const noexcept;
+
+  std::size_t axes_{};
+  double clearance_m_{};
+  double max_speed_rad_per_s_{};
+  SequenceConfig sequence_;
+  std::uint32_t implausible_limit_cycles_{};
+  Times times_{};
+  Protections protections_;
+
+  Decision decision_;
+  std::uint64_t cycles_in_state_{};
+  std::uint32_t implausible_cycles_{};
+  std::uint64_t near_centre_cycles_{};
+  AxisArray rest_m_{};       // where the rotor lay before the lift
+  AxisArray ramp_from_m_{};  // reference when the present ramp began
+  double set_point_rad_per_s_{};
+  double acceleration_rad_per_s2_{};
+};
+
+}  // namespace levitas::supervisor

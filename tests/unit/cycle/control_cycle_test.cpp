@@ -1,0 +1,106 @@
+#include "controller/cycle/control_cycle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/unit/cycle/cycle_rig.hpp"
+
+namespace levitas::cycle {
+namespace {
+
+TEST(ControlCycle, LiftsSpinsCoastsAndLandsAsTheTableSays) {
+  ControlCycle control(FlexibleRotorCycle());
+  StillRig rig;
+  EXPECT_EQ(control.Step(rig.Next()).mode, Mode::kOff);
+  EXPECT_EQ(control.Step(rig.Next(OperatorCommand::kLift)).mode, Mode::kSelfTest);
+  CycleOutputs out = Levitate(control, rig);
+  ASSERT_EQ(out.mode, Mode::kLevitating) << Name(out.fault);
+  CycleInputs spin = rig.Next(OperatorCommand::kSpin);
+  spin.op.speed_rad_per_s = 300.0;
+  spin.op.acceleration_rad_per_s2 = 50.0;
+  out = control.Step(spin);
+  EXPECT_EQ(out.mode, Mode::kSpinning);
+  EXPECT_TRUE(out.current.drive_enabled);
+  EXPECT_EQ(out.current.speed_set_point_rad_per_s, 300.0);
+  EXPECT_EQ(out.current.acceleration_limit_rad_per_s2, 50.0);
+  rig.speed_rad_per_s = 300.0;
+  EXPECT_EQ(control.Step(rig.Next(OperatorCommand::kCoastDown)).mode, Mode::kCoastDown);
+  EXPECT_FALSE(control.Step(rig.Next()).current.drive_enabled);
+  rig.speed_rad_per_s = 0.0;
+  EXPECT_EQ(control.Step(rig.Next()).mode, Mode::kLevitating);
+  EXPECT_EQ(control.Step(rig.Next(OperatorCommand::kLand)).mode, Mode::kLanding);
+  rig.position_m = {-134e-6, -134e-6, -134e-6, -134e-6};
+  out = StepUntil(control, rig, Mode::kOff, 6000);
+  EXPECT_EQ(out.mode, Mode::kOff) << Name(out.fault);
+  EXPECT_FALSE(out.current.amplifiers_enabled);
+  EXPECT_EQ(out.current.bias_current_a, 0.0);
+}
+
+TEST(ControlCycle, HoldsTheLastCurrentWhileFramesAreMissingThenDrops) {
+  const CycleConfig config = FlexibleRotorCycle();
+  ControlCycle control(config);
+  StillRig rig;
+  ASSERT_EQ(Levitate(control, rig).mode, Mode::kLevitating);
+  const CycleOutputs before = control.Step(rig.Next());
+  const std::uint32_t allowed = config.supervisor.protection.frame_missing_cycles;
+  for (std::uint32_t i = 1; i < allowed; ++i) {
+    CycleInputs in = rig.Next();
+    in.frame_present = false;
+    const CycleOutputs held = control.Step(in);
+    ASSERT_EQ(held.mode, Mode::kLevitating);
+    ASSERT_EQ(held.current.control_current_a, before.current.control_current_a);
+  }
+  CycleInputs in = rig.Next();
+  in.frame_present = false;
+  const CycleOutputs dropped = control.Step(in);
+  EXPECT_EQ(dropped.fault, Fault::kFrameMissing);
+  EXPECT_EQ(dropped.current.bias_current_a, 0.0);
+  EXPECT_EQ(dropped.current.control_current_a, AxisArray{});
+}
+
+TEST(ControlCycle, UndoesPolarityOnceOnEachSide) {
+  const CycleConfig straight = FlexibleRotorCycle();
+  CycleConfig wired = straight;
+  wired.rig.sensor_polarity = {-1, 1, -1, 1};
+  wired.rig.actuator_polarity = {1, -1, -1, 1};
+  ControlCycle one(straight);
+  ControlCycle other(wired);
+  StillRig rig;
+  bool energised = false;
+  for (int i = 0; i < 3000; ++i) {
+    CycleInputs in = rig.Next(i == 1 ? OperatorCommand::kLift : OperatorCommand::kNone);
+    const CycleOutputs expected = one.Step(in);
+    for (std::size_t a = 0; a < 4; ++a) in.frame.position_m[a] *= wired.rig.sensor_polarity[a];
+    const CycleOutputs found = other.Step(in);
+    for (std::size_t a = 0; a < 4; ++a) {
+      ASSERT_EQ(found.current.control_current_a[a],
+                wired.rig.actuator_polarity[a] * expected.current.control_current_a[a]);
+    }
+    energised = energised || expected.current.control_current_a[0] != 0.0;
+  }
+  EXPECT_TRUE(energised);
+}
+
+TEST(ControlCycle, RefusesConfigurationsThatDoNotFit) {
+  CycleConfig config = FlexibleRotorCycle();
+  config.law.axes.pop_back();
+  EXPECT_THROW(ControlCycle{config}, std::invalid_argument);
+  config = FlexibleRotorCycle();
+  config.rig.sensor_polarity[2] = 0.0;
+  EXPECT_THROW(ControlCycle{config}, std::invalid_argument);
+  config = FlexibleRotorCycle();
+  config.law.period_s = 5e-5;
+  EXPECT_THROW(ControlCycle{config}, std::invalid_argument);
+  config = FlexibleRotorCycle();
+  config.rig.max_coil_current_a = 1.0;
+  EXPECT_THROW(ControlCycle{config}, std::invalid_argument);
+  config = FlexibleRotorCycle();
+  config.supervisor.protection.orbit_fraction = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(ControlCycle{config}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace levitas::cycle
