@@ -9,7 +9,8 @@
 
 int main(int argc, char** argv) {
   using namespace levitas;
-  CLI::App app{"Levitas: active magnetic bearing controller and its hardware-in-the-loop bench", "amb"};
+  CLI::App app{"Levitas: active magnetic bearing controller and its hardware-in-the-loop bench",
+               "amb"};
   app.require_subcommand(1);
   cli::Action action;
   try {

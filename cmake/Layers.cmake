@@ -5,6 +5,7 @@
 #   levitas_library(law LAYER 10 FOLDER controller/law SOURCES pid.cpp USES common)
 #   levitas_program(amb-plant SOURCES main.cpp USES plant)
 #
+# Programs stand above all libraries (layer 50) and not on each other.
 # USES names libraries of ours, LINKS third-party targets visible in our headers, PRIVATE_LINKS
 # third-party targets that stay inside the sources.
 
@@ -41,7 +42,11 @@ function(levitas_program name)
   add_executable(${name} ${A_SOURCES})
   target_link_libraries(${name} PRIVATE levitas_options ${A_USES} ${A_PRIVATE_LINKS})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
-  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin
+                                           LEVITAS_LAYER 50 LEVITAS_FOLDER "${folder}"
+                                           LEVITAS_USES "${A_USES}")
+  set_property(GLOBAL APPEND PROPERTY LEVITAS_LIBRARIES ${name})
   add_dependencies(programs ${name})
 endfunction()
 
@@ -70,7 +75,21 @@ function(_levitas_refuse_unless_below library used where)
   endif()
 endfunction()
 
-# Checks declared uses and, since a header can be included without being linked, every #include.
+# Every #include of a file, by folder: whoever owns the folder must live below `library`.
+function(_levitas_check_includes library file)
+  file(RELATIVE_PATH relative ${PROJECT_SOURCE_DIR} ${file})
+  file(STRINGS ${file} includes REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"][^>\"]+/[^>\"]+[>\"]")
+  foreach(line IN LISTS includes)
+    string(REGEX REPLACE ".*[<\"](.+)/[^/]+[>\"].*" "\\1" target_folder "${line}")
+    _levitas_owner(${target_folder} owner)
+    if(owner AND NOT owner STREQUAL library)
+      _levitas_refuse_unless_below(${library} ${owner} ": ${relative} has ${line}")
+    endif()
+  endforeach()
+endfunction()
+
+# Checks declared uses and, since a header can be included without being linked, every #include of
+# the files in a library's folder and below (as far as no other library owns the subfolder).
 function(levitas_check_layers)
   get_property(all GLOBAL PROPERTY LEVITAS_LIBRARIES)
   foreach(library IN LISTS all)
@@ -86,17 +105,14 @@ function(levitas_check_layers)
       _levitas_refuse_unless_below(${library} ${used} "")
     endforeach()
     get_target_property(folder ${library} LEVITAS_FOLDER)
-    file(GLOB files ${PROJECT_SOURCE_DIR}/${folder}/*.hpp ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+    file(GLOB_RECURSE files ${PROJECT_SOURCE_DIR}/${folder}/*.hpp ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
     foreach(file IN LISTS files)
-      file(STRINGS ${file} includes REGEX "^#include \"[^\"]+/[^\"]+\"")
-      foreach(line IN LISTS includes)
-        string(REGEX REPLACE "^#include \"(.+)/[^/]+\".*" "\\1" target_folder "${line}")
-        _levitas_owner(${target_folder} owner)
-        if(owner AND NOT owner STREQUAL library)
-          file(RELATIVE_PATH relative ${PROJECT_SOURCE_DIR} ${file})
-          _levitas_refuse_unless_below(${library} ${owner} ": ${relative} has ${line}")
-        endif()
-      endforeach()
+      get_filename_component(file_folder ${file} DIRECTORY)
+      file(RELATIVE_PATH file_folder ${PROJECT_SOURCE_DIR} ${file_folder})
+      _levitas_owner(${file_folder} owner)
+      if(owner STREQUAL library)
+        _levitas_check_includes(${library} ${file})
+      endif()
     endforeach()
   endforeach()
 endfunction()
