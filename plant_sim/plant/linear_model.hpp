@@ -5,6 +5,8 @@
 //              amplifier and sensor filters included, no contact, gravity, unbalance or noise.
 // Discrete     zero-order hold over one period with the rig's delay as extra states (the commands
 //              not yet acting); exact for whole and fractional delays.
+// Frame        bearing frame, polarities undone: what a law sees. docs/derivations.md (41)-(44).
+// Thread       any; allocates.
 
 #include <Eigen/Core>
 
@@ -18,8 +20,12 @@ struct LinearModel {
   Eigen::MatrixXd c;
 };
 
-/// Continuous model at a constant speed. `bias_current_a` defaults to each magnet's design value.
+class PlantModel;
+
+/// Continuous model at a constant speed. Each magnet carries its design bias.
 [[nodiscard]] LinearModel Linearise(const PlantConfig& config, double speed_rad_per_s);
+/// The same of a model that exists already, parameters set by name included.
+[[nodiscard]] LinearModel Linearise(const PlantModel& model, double speed_rad_per_s);
 
 /// Sampled model: x[n+1] = A x[n] + B u[n], y[n] = C x[n], with u[n] the command from sample n.
 [[nodiscard]] LinearModel Discretise(const LinearModel& continuous, double period_s,

@@ -5,7 +5,11 @@
 // docs/derivations.md),
 //            true nonlinear magnet force, amplifier, touchdown contact, gravity, unbalance.
 // Time       Sample() reads the sensors at t_n; Advance(command) integrates t_n -> t_n+1. The
-//            command computed from sample n acts `delay_samples` periods after t_n.
+//            command computed from sample n acts `delay_samples` periods after t_n; its drive part
+//            acts at once.
+// Start      bias current at its design value, as if levitated; RestInTouchdown() de-energises.
+// Frame      bearing frame; sensor_polarity is applied to what Sample and SensorOutput return,
+//            actuator_polarity to the commanded current, nothing else knows of them.
 // Use        cheap to copy, no globals, no allocation in Sample and Advance, deterministic for a
 //            seed. One instance per thread; many instances may run in parallel.
 // Driving    open loop: give any command. Closed loop: feed Sample() to a controller. Observer
@@ -48,6 +52,8 @@ class Plant {
  public:
   /// Builds the model (finite elements, modal reduction) and puts the rotor at rest in the centre.
   Plant(const PlantConfig& config, std::uint64_t seed);
+  /// The same on a model that exists already: for many runs, or with parameters of one's own.
+  Plant(std::shared_ptr<const PlantModel> model, std::uint64_t seed);
   Plant(const Plant&);
   Plant& operator=(const Plant&);
   Plant(Plant&&) noexcept;
@@ -82,6 +88,7 @@ class Plant {
   [[nodiscard]] double ContactForce() const noexcept;
 
   [[nodiscard]] const PlantModel& model() const noexcept;
+  [[nodiscard]] const std::shared_ptr<const PlantModel>& shared_model() const noexcept;
 
  private:
   struct Impl;

@@ -29,6 +29,7 @@ struct SensorConfig {
   double noise_rms_m{};   ///< white, per sample
   int adc_bits{};         ///< 0 = no quantisation
   double range_m{};       ///< converter covers +- range, clips beyond
+  double gain{1.0};       ///< reading per displacement; 1 = as calibrated
 };
 
 /// Touchdown (retainer) bearing at the actuator plane.

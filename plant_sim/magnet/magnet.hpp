@@ -1,0 +1,46 @@
+#pragma once
+// Radial magnet in differential driving: two opposed coils, true force and its linear form.
+//
+// Equation   F = k [ (i+/(s0-x))^2 - (i-/(s0+x))^2 ],  i+- = i0 +- ic       docs/derivations.md
+// (14)
+//            ki = 4 k i0/s0^2,  ks = 4 k i0^2/s0^3 (positive: destabilising)                  (15)
+// Source     Schweitzer & Maslen (2009), Magnetic Bearings, ch. 3-4.
+// Frame      bearing frame: x towards the coil that carries i+.
+// Thread     any; pure functions. Not done: eddy currents, hysteresis, saturation of the iron.
+
+#include <algorithm>
+
+namespace levitas::magnet {
+
+struct Magnet {
+  double force_constant_n_m2_per_a2{};  ///< k
+  double gap_m{};                       ///< s0
+  double max_coil_current_a{};
+};
+
+/// Force [N]. A coil cannot carry less than nothing or more than its maximum: both are clamped.
+[[nodiscard]] inline double Force(const Magnet& m, double bias_a, double control_a,
+                                  double x_m) noexcept {
+  const double towards = std::clamp(bias_a + control_a, 0.0, m.max_coil_current_a);
+  const double away = std::clamp(bias_a - control_a, 0.0, m.max_coil_current_a);
+  // On one fraction, so that the two quotients cost one division.
+  const double near = m.gap_m - x_m;
+  const double far = m.gap_m + x_m;
+  const double a = towards * far;
+  const double b = away * near;
+  const double gaps = near * far;
+  return m.force_constant_n_m2_per_a2 * (a + b) * (a - b) / (gaps * gaps);
+}
+
+[[nodiscard]] inline double ForcePerCurrent(const Magnet& m, double bias_a) noexcept {
+  return 4.0 * m.force_constant_n_m2_per_a2 * bias_a / (m.gap_m * m.gap_m);
+}
+
+[[nodiscard]] inline double NegativeStiffness(const Magnet& m, double bias_a) noexcept {
+  return 4.0 * m.force_constant_n_m2_per_a2 * bias_a * bias_a / (m.gap_m * m.gap_m * m.gap_m);
+}
+
+/// k of a horseshoe magnet from its geometry: mu0 N^2 A cos(half pole angle) / 4.        (16)
+[[nodiscard]] double ForceConstant(double turns, double pole_area_m2, double half_pole_angle_rad);
+
+}  // namespace levitas::magnet

@@ -1,0 +1,77 @@
+#include "plant_sim/plant/check_config.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace levitas::plant {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// low <= value <= high; a comparison with NaN fails, so it is refused too.
+void Within(const std::string& name, double value, double low, double high) {
+  if (value >= low && value <= high && std::isfinite(value)) return;
+  throw std::invalid_argument(fmt::format("{} = {}, allowed {} to {}; correct the rig description",
+                                          name, value, low, high));
+}
+
+void Positive(const std::string& name, double value) {
+  Within(name, value, std::numeric_limits<double>::min(), kInfinity);
+}
+
+void NotNegative(const std::string& name, double value) { Within(name, value, 0.0, kInfinity); }
+
+void CheckBearing(const BearingConfig& b, const std::string& at) {
+  Positive(at + "magnet.force_constant_n_m2_per_a2", b.magnet.force_constant_n_m2_per_a2);
+  Positive(at + "magnet.gap_m", b.magnet.gap_m);
+  Positive(at + "magnet.max_coil_current_a", b.magnet.max_coil_current_a);
+  Within(at + "magnet.bias_current_a", b.magnet.bias_current_a, 0.0, b.magnet.max_coil_current_a);
+  Positive(at + "amplifier.bandwidth_hz", b.amplifier.bandwidth_hz);
+  NotNegative(at + "amplifier.slew_a_per_s", b.amplifier.slew_a_per_s);
+  Within(at + "amplifier.dac_bits", b.amplifier.dac_bits, 0, 32);
+  Positive(at + "sensor.bandwidth_hz", b.sensor.bandwidth_hz);
+  NotNegative(at + "sensor.noise_rms_m", b.sensor.noise_rms_m);
+  Within(at + "sensor.adc_bits", b.sensor.adc_bits, 0, 32);
+  NotNegative(at + "sensor.range_m", b.sensor.range_m);
+  if (b.sensor.adc_bits > 0) Positive(at + "sensor.range_m (with adc_bits)", b.sensor.range_m);
+  Within(at + "sensor.gain", b.sensor.gain, -kInfinity, kInfinity);
+  Within(at + "touchdown.clearance_m", b.touchdown.clearance_m, 0.0, b.magnet.gap_m);
+  NotNegative(at + "touchdown.stiffness_n_per_m", b.touchdown.stiffness_n_per_m);
+  NotNegative(at + "touchdown.damping_n_s_per_m", b.touchdown.damping_n_s_per_m);
+  NotNegative(at + "touchdown.friction", b.touchdown.friction);
+  NotNegative(at + "touchdown.journal_radius_m", b.touchdown.journal_radius_m);
+}
+
+}  // namespace
+
+void CheckConfig(const PlantConfig& config) {
+  Positive("period_ns", static_cast<double>(config.period_ns));
+  Within("delay_samples", config.delay_samples, 0.0, 64.0);
+  Within("substeps", config.substeps, 1, 10'000);
+  Within("number of bearings", static_cast<double>(config.bearings.size()), 1, kMaxAxes / 2.0);
+  for (std::size_t i = 0; i < config.bearings.size(); ++i) {
+    CheckBearing(config.bearings[i], fmt::format("bearings[{}].", i));
+  }
+  for (std::size_t i = 0; i < 2 * config.bearings.size(); ++i) {
+    for (const auto* polarity : {&config.sensor_polarity, &config.actuator_polarity}) {
+      if (std::abs((*polarity)[i]) == 1.0) continue;
+      throw std::invalid_argument(fmt::format(
+          "{}_polarity[{}] = {}, allowed +1 or -1",
+          polarity == &config.sensor_polarity ? "sensor" : "actuator", i, (*polarity)[i]));
+    }
+  }
+  for (const auto& mass : config.unbalance) {
+    Within("unbalance moment_kg_m", mass.moment_kg_m, 0.0, kInfinity);
+    Within("unbalance phase_rad", mass.phase_rad, -kInfinity, kInfinity);
+  }
+  Within("gravity_m_per_s2", config.gravity_m_per_s2, 0.0, kInfinity);
+  Within("gravity_direction_rad", config.gravity_direction_rad, -kInfinity, kInfinity);
+  NotNegative("drive.max_acceleration_rad_per_s2", config.drive.max_acceleration_rad_per_s2);
+  NotNegative("drive.coast_down_1_per_s", config.drive.coast_down_1_per_s);
+  NotNegative("drive.coast_down_rad_per_s2", config.drive.coast_down_rad_per_s2);
+}
+
+}  // namespace levitas::plant

@@ -1,0 +1,119 @@
+#include "plant_sim/plant/linear_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "plant_sim/plant/plant_model.hpp"
+
+namespace levitas::plant {
+namespace {
+
+using Index = Eigen::Index;
+
+Index At(std::size_t i) { return static_cast<Index>(i); }
+
+struct Discrete {
+  Eigen::MatrixXd a;
+  Eigen::MatrixXd b;
+};
+
+// exp([A B; 0 0] h) = [exp(Ah), integral of exp(At) B; 0, I], (43).
+Discrete Hold(const LinearModel& model, double duration_s) {
+  const Index n = model.a.rows();
+  const Index m = model.b.cols();
+  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(n + m, n + m);
+  block.topLeftCorner(n, n) = model.a * duration_s;
+  block.topRightCorner(n, m) = model.b * duration_s;
+  const Eigen::MatrixXd exponential = block.exp();
+  return {exponential.topLeftCorner(n, n), exponential.topRightCorner(n, m)};
+}
+
+}  // namespace
+
+LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
+  const StateLayout& at = model.layout();
+  const auto& modes = model.parameters().modes;
+  const Index n = At(at.modes);
+  LinearModel linear;
+  linear.a = Eigen::MatrixXd::Zero(At(at.size), At(at.size));
+  linear.b = Eigen::MatrixXd::Zero(At(at.size), At(model.axes()));
+  linear.c = Eigen::MatrixXd::Zero(At(model.axes()), At(at.size));
+  for (std::size_t plane = 0; plane < 2; ++plane) {
+    const Index q = At(plane == 0 ? at.q_x : at.q_y);
+    const Index v = At(plane == 0 ? at.v_x : at.v_y);
+    const auto w = modes.frequency_rad_per_s.array();
+    linear.a.block(q, v, n, n).setIdentity();
+    linear.a.block(v, q, n, n) = (-w.square()).matrix().asDiagonal();
+    linear.a.block(v, v, n, n) = (-2.0 * modes.damping_ratio.array() * w).matrix().asDiagonal();
+  }
+  linear.a.block(At(at.v_x), At(at.v_y), n, n) = -speed_rad_per_s * modes.gyroscopic;
+  linear.a.block(At(at.v_y), At(at.v_x), n, n) = speed_rad_per_s * modes.gyroscopic;
+
+  for (std::size_t axis = 0; axis < model.axes(); ++axis) {
+    const BearingModel& bearing = model.bearings()[axis / 2];
+    const BearingConfig& config = model.config().bearings[axis / 2];
+    const Index q = At(axis % 2 == 0 ? at.q_x : at.q_y);
+    const Index v = At(axis % 2 == 0 ? at.v_x : at.v_y);
+    const Eigen::Map<const Eigen::VectorXd> actuator(bearing.actuator_shape.data(), n);
+    const Eigen::Map<const Eigen::VectorXd> sensor(bearing.sensor_shape.data(), n);
+    const double bias_a = config.magnet.bias_current_a;
+    const Index coil = At(at.coil_current + axis);
+    const Index filter = At(at.sensor + axis);
+    linear.a.block(v, q, n, n) +=
+        magnet::NegativeStiffness(bearing.magnet, bias_a) * actuator * actuator.transpose();
+    linear.a.block(v, coil, n, 1) = magnet::ForcePerCurrent(bearing.magnet, bias_a) * actuator;
+    const double amplifier_rate = 2.0 * std::numbers::pi * config.amplifier.bandwidth_hz;
+    linear.a(coil, coil) = -amplifier_rate;
+    linear.b(coil, At(axis)) = amplifier_rate;
+    const double sensor_rate = 2.0 * std::numbers::pi * config.sensor.bandwidth_hz;
+    linear.a(filter, filter) = -sensor_rate;
+    linear.a.block(filter, q, 1, n) = sensor_rate * config.sensor.gain * sensor.transpose();
+    linear.c(At(axis), filter) = 1.0;
+  }
+  return linear;
+}
+
+LinearModel Linearise(const PlantConfig& config, double speed_rad_per_s) {
+  return Linearise(PlantModel(config), speed_rad_per_s);
+}
+
+LinearModel Discretise(const LinearModel& continuous, double period_s, double delay_samples) {
+  if (!(period_s > 0.0) || !(delay_samples >= 0.0)) {
+    throw std::invalid_argument("Discretise: the period must be > 0, the delay >= 0");
+  }
+  const double whole = std::floor(delay_samples);
+  const double fraction = delay_samples - whole;
+  const Discrete early = Hold(continuous, fraction * period_s);
+  const Discrete late = Hold(continuous, (1.0 - fraction) * period_s);
+  const Index n = continuous.a.rows();
+  const Index m = continuous.b.cols();
+  // Old commands that still act, the oldest first: u[n-k], ..., u[n-1], (44).
+  const Index kept = static_cast<Index>(whole) + (fraction > 0.0 ? 1 : 0);
+  LinearModel sampled;
+  sampled.a = Eigen::MatrixXd::Zero(n + kept * m, n + kept * m);
+  sampled.b = Eigen::MatrixXd::Zero(n + kept * m, m);
+  sampled.c = Eigen::MatrixXd::Zero(continuous.c.rows(), n + kept * m);
+  sampled.c.leftCols(n) = continuous.c;
+  sampled.a.topLeftCorner(n, n) = late.a * early.a;
+  const Eigen::MatrixXd early_input = late.a * early.b;
+  // Slot s of the line, or beyond its end the new command itself.
+  const auto act = [&](Index slot, const Eigen::MatrixXd& input) {
+    if (slot < kept) {
+      sampled.a.block(0, n + slot * m, n, m) += input;
+    } else {
+      sampled.b.topRows(n) += input;
+    }
+  };
+  if (fraction > 0.0) act(0, early_input);
+  act(fraction > 0.0 ? 1 : 0, late.b);
+  for (Index slot = 0; slot + 1 < kept; ++slot) {
+    sampled.a.block(n + slot * m, n + (slot + 1) * m, m, m).setIdentity();
+  }
+  if (kept > 0) sampled.b.bottomRows(m).setIdentity();
+  return sampled;
+}
+
+}  // namespace levitas::plant

@@ -1,0 +1,58 @@
+#pragma once
+// One substep of the rotor under all its forces: the inner loop of every simulation.
+//
+// Scheme     exponential trapezoid (ETD2RK): modal oscillators exact, all other forces taken as
+//            linear in time over the substep, from the start to a predicted end.
+//            docs/derivations.md (34)-(37), with the measurements that chose it.
+// Thread     one Motion per thread. No allocation, no throw.
+
+#include <vector>
+
+#include "common/axes.hpp"
+#include "plant_sim/plant/drive.hpp"
+#include "plant_sim/plant/plant_model.hpp"
+
+namespace levitas::plant {
+
+/// Coil currents of every axis at one instant.
+struct Currents {
+  AxisArray control_a{};
+  AxisArray bias_a{};
+};
+
+/// Rotation as the forces need it at one instant.
+struct Spin {
+  double speed_rad_per_s{};
+  double unbalance_real{};  ///< real and imaginary part of (W^2 - j W') e^{j angle}, (13)
+  double unbalance_imaginary{};
+};
+
+[[nodiscard]] Spin MakeSpin(const Rotation& rotation) noexcept;
+
+/// Forces found on the way, for those who ask.
+struct ForceReport {
+  AxisArray magnet_n{};
+  double contact_n{};  ///< largest normal force since it was last set to zero
+};
+
+/// Modal accelerations besides those of the free oscillators: `acceleration` has two planes.
+void ModalForces(const PlantModel& model, const Currents& currents, const Spin& spin,
+                 const double* position, const double* velocity, double* acceleration,
+                 ForceReport& report) noexcept;
+
+/// Storage of the step, made once.
+struct Workspace {
+  explicit Workspace(std::size_t modes)
+      : start(2 * modes), end(2 * modes), position(2 * modes), velocity(2 * modes) {}
+  std::vector<double> start, end, position, velocity;
+};
+
+/// Sum over the modes of shape times modal coordinate.
+[[nodiscard]] double AtPlane(const std::vector<double>& shape, const double* modal) noexcept;
+
+/// Advances modal displacement and velocity (two planes each, contiguous) by one substep.
+void StepRotor(const PlantModel& model, const StepTable& table, const Currents& start_currents,
+               const Currents& end_currents, const Spin& start_spin, const Spin& end_spin,
+               double* position, double* velocity, Workspace& work, ForceReport& report) noexcept;
+
+}  // namespace levitas::plant

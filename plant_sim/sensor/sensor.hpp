@@ -1,0 +1,36 @@
+#pragma once
+// Position sensor of one axis: first-order filter, then noise, converter and polarity.
+//
+// Equation   s' = (g p - s)/tau; over a step the position p runs linearly from start to end, for
+//            which the step is exact. docs/derivations.md (20)-(22).
+// Thread     any; pure functions. Not done: run-out, non-linear characteristic.
+
+#include <algorithm>
+#include <cmath>
+
+namespace levitas::sensor {
+
+/// s(h) = decay s(0) + start p(0) + end p(h)
+struct FilterStep {
+  double decay{};
+  double start{};
+  double end{};
+};
+
+[[nodiscard]] FilterStep MakeFilterStep(double bandwidth_hz, double gain, double duration_s);
+
+struct Converter {
+  double noise_rms_m{};
+  double step_m{};   ///< 0 = not quantised
+  double range_m{};  ///< clips at +- range; 0 = never clips
+};
+
+/// What the converter makes of the filtered position; `normal` has unit variance.
+[[nodiscard]] inline double Convert(const Converter& c, double filtered_m, double normal) noexcept {
+  double value_m = filtered_m + c.noise_rms_m * normal;
+  if (c.step_m > 0.0) value_m = std::nearbyint(value_m / c.step_m) * c.step_m;
+  if (c.range_m > 0.0) value_m = std::clamp(value_m, -c.range_m, c.range_m);
+  return value_m;
+}
+
+}  // namespace levitas::sensor
