@@ -1,0 +1,42 @@
+#include "analysis/free_modes.hpp"
+
+#include "plant_sim/rotor/finite_element.hpp"
+
+namespace levitas::analysis {
+namespace {
+
+/// Nodes fall where the plant puts them, so that both work on the same mesh.
+std::vector<double> Planes(const plant::PlantConfig& plant) {
+  std::vector<double> planes_m;
+  for (const auto& bearing : plant.bearings) {
+    planes_m.push_back(bearing.actuator_z_m);
+    planes_m.push_back(bearing.sensor_z_m);
+  }
+  for (const auto& mass : plant.unbalance) planes_m.push_back(mass.z_m);
+  return planes_m;
+}
+
+BearingConstants Constants(const plant::BearingConfig& bearing) {
+  const auto& magnet = bearing.magnet;
+  const double k4 = 4.0 * magnet.force_constant_n_m2_per_a2;
+  const double i0 = magnet.bias_current_a;
+  const double s0 = magnet.gap_m;
+  return {bearing.name, k4 * i0 / (s0 * s0), k4 * i0 * i0 / (s0 * s0 * s0)};
+}
+
+}  // namespace
+
+FreeModes ComputeFreeModes(const plant::PlantConfig& plant,
+                           const std::vector<double>& speeds_rad_per_s, std::size_t modes) {
+  const rotor::FiniteElementModel model = rotor::Assemble(plant.rotor, Planes(plant));
+  FreeModes result;
+  result.rotor_mass_kg = model.total_mass_kg;
+  for (const auto& bearing : plant.bearings) result.bearings.push_back(Constants(bearing));
+  for (const double speed : speeds_rad_per_s) {
+    rotor::WhirlFrequencies whirl = rotor::FreeWhirl(model, speed, modes);
+    result.whirl.push_back({speed, std::move(whirl.backward_hz), std::move(whirl.forward_hz)});
+  }
+  return result;
+}
+
+}  // namespace levitas::analysis

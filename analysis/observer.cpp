@@ -1,0 +1,184 @@
+#include "analysis/observer.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/riccati.hpp"
+#include "plant_sim/plant/linear_model.hpp"
+
+namespace levitas::analysis {
+namespace {
+
+/// The recorded speed drives the rotor; the plant's own drive must not.
+plant::PlantConfig WithoutDrive(plant::PlantConfig config) {
+  config.drive = {};
+  return config;
+}
+
+double ForcePerCurrent(const plant::MagnetConfig& magnet) {
+  return 4.0 * magnet.force_constant_n_m2_per_a2 * magnet.bias_current_a /
+         (magnet.gap_m * magnet.gap_m);
+}
+
+/// How one newton at each actuator plane enters the state: the way the coil current's force does.
+Eigen::MatrixXd ForceInput(const plant::PlantConfig& config, const plant::StateLayout& layout,
+                           const Eigen::MatrixXd& a) {
+  const auto axes = static_cast<Eigen::Index>(2 * config.bearings.size());
+  const auto modes = static_cast<Eigen::Index>(layout.modes);
+  Eigen::MatrixXd input = Eigen::MatrixXd::Zero(a.rows(), axes);
+  for (Eigen::Index axis = 0; axis < axes; ++axis) {
+    const double ki = ForcePerCurrent(config.bearings[static_cast<std::size_t>(axis / 2)].magnet);
+    const Eigen::Index coil = static_cast<Eigen::Index>(layout.coil_current) + axis;
+    for (const std::size_t first : {layout.v_x, layout.v_y}) {
+      const auto at = static_cast<Eigen::Index>(first);
+      input.block(at, axis, modes, 1) = a.block(at, coil, modes, 1) / ki;
+    }
+  }
+  return input;
+}
+
+/// Sizes of the states' errors, so that the Riccati equation works on numbers of order one.
+Eigen::VectorXd Scales(const plant::StateLayout& layout, Eigen::Index axes, double reading_m) {
+  constexpr double kTypicalRate = 500.0;   // [1/s] levitated rotor and its first modes
+  constexpr double kTypicalCurrent = 0.1;  // [A]
+  constexpr double kTypicalForce = 1.0;    // [N]
+  const auto modes = static_cast<Eigen::Index>(layout.modes);
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(layout.size) + axes);
+  scale.segment(static_cast<Eigen::Index>(layout.q_x), modes).setConstant(reading_m);
+  scale.segment(static_cast<Eigen::Index>(layout.q_y), modes).setConstant(reading_m);
+  scale.segment(static_cast<Eigen::Index>(layout.v_x), modes).setConstant(reading_m * kTypicalRate);
+  scale.segment(static_cast<Eigen::Index>(layout.v_y), modes).setConstant(reading_m * kTypicalRate);
+  scale.segment(static_cast<Eigen::Index>(layout.coil_current), axes).setConstant(kTypicalCurrent);
+  scale.segment(static_cast<Eigen::Index>(layout.sensor), axes).setConstant(reading_m);
+  scale.tail(axes).setConstant(kTypicalForce);
+  return scale;
+}
+
+/// Time in which the slowest estimation error falls to 1 %, from the growth of the powers of the
+/// error's transition matrix (repeated squaring: no eigenvalues needed).
+double SettlingTime(Eigen::MatrixXd transition, double period_s) {
+  constexpr double kSettled = 0.01;
+  double samples = 1.0;
+  for (int squaring = 0; squaring < 30 && transition.norm() > kSettled; ++squaring) {
+    transition = (transition * transition).eval();
+    samples *= 2.0;
+  }
+  return samples * period_s;
+}
+
+/// The linear model with the unknown forces as extra states, and its noises.
+struct Augmented {
+  Eigen::MatrixXd a, c, q, r;
+};
+
+Augmented Augment(const plant::LinearModel& model, const Eigen::MatrixXd& force_step,
+                  const Eigen::VectorXd& reading_m, const ObserverTuning& tuning) {
+  const Eigen::Index states = model.a.rows();
+  const Eigen::Index axes = force_step.cols();
+  Augmented out;
+  out.a = Eigen::MatrixXd::Identity(states + axes, states + axes);
+  out.a.topLeftCorner(states, states) = model.a;
+  out.a.topRightCorner(states, axes) = force_step;
+  out.c = Eigen::MatrixXd::Zero(axes, states + axes);
+  out.c.leftCols(states) = model.c;
+  out.q = Eigen::MatrixXd::Zero(states + axes, states + axes);
+  out.q.topLeftCorner(states, states) =
+      tuning.force_noise_n * tuning.force_noise_n * force_step * force_step.transpose();
+  out.q.diagonal().tail(axes).setConstant(tuning.force_drift_n * tuning.force_drift_n);
+  out.r = reading_m.cwiseAbs2().asDiagonal();
+  return out;
+}
+
+}  // namespace
+
+double ReadingNoise(const plant::SensorConfig& sensor) {
+  const double step_m =
+      sensor.adc_bits > 0 ? 2.0 * sensor.range_m / std::ldexp(1.0, sensor.adc_bits) : 0.0;
+  return std::sqrt(sensor.noise_rms_m * sensor.noise_rms_m + step_m * step_m / 12.0);
+}
+
+ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTuning& tuning) {
+  const plant::StateLayout layout = plant::Plant(nominal, 0).layout();
+  const double period_s = static_cast<double>(nominal.period_ns) * 1e-9;
+  const auto axes = static_cast<Eigen::Index>(2 * nominal.bearings.size());
+  plant::LinearModel continuous = plant::Linearise(nominal, tuning.speed_rad_per_s);
+  continuous.b = ForceInput(nominal, layout, continuous.a);
+  const plant::LinearModel sampled = plant::Discretise(continuous, period_s, 0.0);
+
+  ObserverGain gain;
+  gain.force_step = sampled.b;
+  Eigen::VectorXd reading_m(axes);
+  for (Eigen::Index axis = 0; axis < axes; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    reading_m[axis] = gain.sensor_noise_m[i] = ReadingNoise(nominal.bearings[i / 2].sensor);
+  }
+  const Augmented model = Augment(sampled, gain.force_step, reading_m, tuning);
+  const Eigen::VectorXd scale = Scales(layout, axes, reading_m.maxCoeff());
+  const Eigen::VectorXd unscale = scale.cwiseInverse();
+  const Eigen::VectorXd unread = reading_m.cwiseInverse();
+  const Eigen::MatrixXd a = unscale.asDiagonal() * model.a * scale.asDiagonal();
+  const Eigen::MatrixXd c = unread.asDiagonal() * model.c * scale.asDiagonal();
+  const Eigen::MatrixXd q = unscale.asDiagonal() * model.q * unscale.asDiagonal();
+  const Eigen::MatrixXd r = unread.asDiagonal() * model.r * unread.asDiagonal();
+  const Eigen::MatrixXd p = StationaryCovariance(a, c, q, r);
+
+  const Eigen::MatrixXd innovation = c * p * c.transpose() + r;
+  const Eigen::MatrixXd k = innovation.llt().solve(c * p).transpose();
+  gain.settling_s = SettlingTime(a - a * k * c, period_s);
+  const Eigen::MatrixXd unscaled = scale.asDiagonal() * k * unread.asDiagonal();
+  gain.state = unscaled.topRows(unscaled.rows() - axes);
+  gain.force_n_per_m = unscaled.bottomRows(axes);
+  for (Eigen::Index axis = 0; axis < axes; ++axis) {
+    gain.expected_innovation_m[static_cast<std::size_t>(axis)] =
+        reading_m[axis] * std::sqrt(innovation(axis, axis));
+  }
+  return gain;
+}
+
+Observer::Observer(const plant::PlantConfig& plant, std::shared_ptr<const ObserverGain> gain)
+    : plant_(WithoutDrive(plant), 0),
+      gain_(std::move(gain)),
+      bearings_(plant.bearings),
+      polarity_(plant.sensor_polarity),
+      force_n_(Eigen::VectorXd::Zero(gain_->force_n_per_m.rows())),
+      innovation_m_(force_n_) {}
+
+void Observer::Restart(const AxisArray& position_m) {
+  AxisArray place_m{};
+  const std::size_t axes = 2 * bearings_.size();
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    place_m[axis] = polarity_[axis] * position_m[axis];
+  }
+  if (bearings_.size() == 2) {
+    // A rigid rotor through both sensor planes, read off at the actuator planes.
+    const AxisArray sensor_m = place_m;
+    const double first_z_m = bearings_[0].sensor_z_m;
+    const double span_m = bearings_[1].sensor_z_m - first_z_m;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      const double share = (bearings_[axis / 2].actuator_z_m - first_z_m) / span_m;
+      const std::size_t plane = axis % 2;
+      place_m[axis] = sensor_m[plane] + share * (sensor_m[plane + 2] - sensor_m[plane]);
+    }
+  }
+  plant_.PlaceAtRest(place_m);
+}
+
+AxisArray Observer::Step(const RecordedSample& sample) noexcept {
+  const AxisArray predicted_m = plant_.SensorOutput();
+  AxisArray innovation_m{};
+  for (Eigen::Index axis = 0; axis < innovation_m_.size(); ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    innovation_m[i] = innovation_m_[axis] = sample.position_m[i] - predicted_m[i];
+  }
+  const std::span<double> state = plant_.mutable_state();
+  Eigen::Map<Eigen::VectorXd> x(state.data(), gain_->state.rows());
+  x.noalias() += gain_->state * innovation_m_;
+  force_n_.noalias() += gain_->force_n_per_m * innovation_m_;
+  plant_.SetSpeed(sample.speed_rad_per_s, sample.angle_rad);
+  plant_.Advance(sample.command);
+  x.noalias() += gain_->force_step * force_n_;
+  return innovation_m;
+}
+
+}  // namespace levitas::analysis

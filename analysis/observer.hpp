@@ -1,0 +1,81 @@
+#pragma once
+// One-step-ahead observer: the nonlinear plant, driven by the recorded currents and corrected at
+// every sample with a fixed gain.
+//
+// Model      x[n+1] = f(x[n], ic[n]) + E d[n],  d[n+1] = d[n] + drift,  y[n] = h(x[n]) + noise
+//            f, h: plant::Plant, true magnet force included. d [N]: unknown force per axis at its
+//            actuator plane, slowly varying, so that gravity or an offset that the rig file does
+//            not have right does not bias every sample.
+// Gain       stationary Kalman gain of the linear model at one speed and bias, computed once: it
+//            does not depend on the parameters of the plant being tried, so the innovations are a
+//            smooth function of them. Commands on their way (delay) are known and need no estimate.
+// Noise      measurement: the sensor's noise_rms and the converter's step/sqrt(12). Process: white
+//            force per axis (unmodelled force; larger = trusts the sensors more) and the drift.
+// Innovation measured minus predicted position [m]; white and little above the sensor noise when
+//            the plant is right.
+// Cost       one plant period and one small matrix-vector product per sample. No allocation in
+//            Step.
+// Thread     one instance per thread; a gain may be shared.
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "common/axes.hpp"
+#include "plant_sim/plant/plant.hpp"
+#include "plant_sim/plant/plant_config.hpp"
+
+namespace levitas::analysis {
+
+struct ObserverTuning {
+  double speed_rad_per_s{};     ///< speed of the linear model
+  double force_noise_n{0.3};    ///< [N] rms per axis and sample, white
+  double force_drift_n{0.003};  ///< [N] rms step of d per axis and sample
+};
+
+struct ObserverGain {
+  Eigen::MatrixXd state;              ///< correction of the plant's state per metre of innovation
+  Eigen::MatrixXd force_n_per_m;      ///< correction of d
+  Eigen::MatrixXd force_step;         ///< E: change of state in one period per newton
+  AxisArray sensor_noise_m{};         ///< [m] rms, noise and quantisation
+  AxisArray expected_innovation_m{};  ///< [m] rms when the plant is right
+  double settling_s{};                ///< time in which a start error falls to 1 %
+};
+
+/// rms of what one reading adds to the true position: noise and quantisation.
+[[nodiscard]] double ReadingNoise(const plant::SensorConfig& sensor);
+
+/// Throws Problem when no stationary gain exists (a sensor without any noise, for instance).
+[[nodiscard]] ObserverGain DesignObserver(const plant::PlantConfig& nominal,
+                                          const ObserverTuning& tuning);
+
+/// One recorded sample: what was read and what was commanded from it.
+struct RecordedSample {
+  AxisArray position_m{};  ///< as read by the sensors, probe polarity included
+  plant::PlantCommand command;
+  double speed_rad_per_s{};  ///< [rad/s] mean speed until the next sample
+  double angle_rad{};        ///< [rad] rotor angle at this sample
+};
+
+class Observer {
+ public:
+  Observer(const plant::PlantConfig& plant, std::shared_ptr<const ObserverGain> gain);
+
+  /// Starts from rest at the measured place. The unknown force keeps its estimate: a gap in the
+  /// record does not change gravity.
+  void Restart(const AxisArray& position_m);
+  /// Compares with the sample, corrects, and advances one period. Returns the innovation [m].
+  AxisArray Step(const RecordedSample& sample) noexcept;
+
+  [[nodiscard]] const Eigen::VectorXd& unknown_force_n() const noexcept { return force_n_; }
+  [[nodiscard]] const plant::Plant& plant() const noexcept { return plant_; }
+
+ private:
+  plant::Plant plant_;
+  std::shared_ptr<const ObserverGain> gain_;
+  std::vector<plant::BearingConfig> bearings_;
+  AxisArray polarity_{};
+  Eigen::VectorXd force_n_;
+  Eigen::VectorXd innovation_m_;
+};
+
+}  // namespace levitas::analysis

@@ -1,0 +1,108 @@
+#include "analysis/sampled_loop.hpp"
+
+#include <fmt/core.h>
+
+#include "common/problem.hpp"
+
+namespace levitas::analysis {
+namespace {
+
+void RefuseMismatch(const plant::PlantConfig& plant, const law::LawConfig& law) {
+  const std::size_t plant_axes = 2 * plant.bearings.size();
+  if (law.axes.size() == plant_axes) return;
+  throw BadInput(fmt::format(
+      "the controller has {} axes, the rig has {} (x and y of {} bearings): use a controller file "
+      "written for this rig",
+      law.axes.size(), plant_axes, plant.bearings.size()));
+}
+
+/// States a section needs: a first-order one must not bring a spurious pole at z = 0 along.
+Eigen::Index OrderOf(const law::Section& section) {
+  if (section.b2 != 0.0 || section.a2 != 0.0) return 2;
+  return section.b1 != 0.0 || section.a1 != 0.0 ? 1 : 0;
+}
+
+/// Puts `section` behind `model`. Observer form: H = b0 + (n1 z + n2)/(z^2 + a1 z + a2) with
+/// n1 = b1 - a1 b0, n2 = b2 - a2 b0.
+void Append(const law::Section& section, AxisModel& model) {
+  const Eigen::Index old = model.a.rows();
+  const Eigen::Index added = OrderOf(section);
+  const Eigen::Vector2d poles{section.a1, section.a2};
+  const Eigen::Vector2d zeros{section.b1 - section.a1 * section.b0,
+                              section.b2 - section.a2 * section.b0};
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(old + added, old + added);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(old + added);
+  Eigen::RowVectorXd c = Eigen::RowVectorXd::Zero(old + added);
+  a.topLeftCorner(old, old) = model.a;
+  b.head(old) = model.b;
+  c.head(old) = section.b0 * model.c;
+  if (added > 0) {
+    a.bottomLeftCorner(added, old) = zeros.head(added) * model.c;
+    a.block(old, old, added, 1) = -poles.head(added);
+    if (added == 2) a(old, old + 1) = 1.0;
+    b.tail(added) = zeros.head(added) * model.d;
+    c[old] = 1.0;
+  }
+  model.a = std::move(a);
+  model.b = std::move(b);
+  model.c = std::move(c);
+  model.d *= section.b0;
+}
+
+}  // namespace
+
+std::complex<double> AxisModel::At(std::complex<double> z) const {
+  const std::complex<double> q = 1.0 / z;
+  std::complex<double> value = 1.0;
+  for (const auto& section : sections) {
+    value *= (section.b0 + q * (section.b1 + q * section.b2)) /
+             (1.0 + q * (section.a1 + q * section.a2));
+  }
+  return value;
+}
+
+AxisModel ModelOf(std::vector<law::Section> sections) {
+  AxisModel model;
+  for (const auto& section : sections) Append(section, model);
+  model.sections = std::move(sections);
+  return model;
+}
+
+SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
+                      double speed_rad_per_s) {
+  RefuseMismatch(plant, law);
+  const plant::LinearModel continuous = plant::Linearise(plant, speed_rad_per_s);
+  SampledLoop loop;
+  loop.period_s = static_cast<double>(plant.period_ns) * 1e-9;
+  loop.plant = plant::Discretise(continuous, loop.period_s, plant.delay_samples);
+  // Modal displacement and velocity of two planes, one amplifier and one sensor state per axis.
+  const auto axes = static_cast<Eigen::Index>(law.axes.size());
+  loop.modes = (continuous.a.rows() - 2 * axes) / 4;
+  for (const auto& axis : law.axes) {
+    loop.law.push_back(ModelOf(law::DiscreteSections(axis, loop.period_s)));
+  }
+  return loop;
+}
+
+Eigen::MatrixXd ClosedLoopMatrix(const SampledLoop& loop) {
+  const auto& [a, b, c] = loop.plant;
+  const Eigen::Index plant_states = a.rows();
+  Eigen::Index states = plant_states;
+  for (const auto& axis : loop.law) states += axis.a.rows();
+  Eigen::MatrixXd closed = Eigen::MatrixXd::Zero(states, states);
+  closed.topLeftCorner(plant_states, plant_states) = a;
+  Eigen::Index at = plant_states;
+  for (std::size_t i = 0; i < loop.law.size(); ++i) {
+    const AxisModel& axis = loop.law[i];
+    const auto channel = static_cast<Eigen::Index>(i);
+    const Eigen::Index order = axis.a.rows();
+    closed.topLeftCorner(plant_states, plant_states) -= b.col(channel) * axis.d * c.row(channel);
+    closed.block(0, at, plant_states, order) = -b.col(channel) * axis.c;
+    closed.block(at, 0, order, plant_states) = axis.b * c.row(channel);
+    closed.block(at, at, order, order) = axis.a;
+    at += order;
+  }
+  return closed;
+}
+
+}  // namespace levitas::analysis

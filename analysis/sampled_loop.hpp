@@ -1,0 +1,48 @@
+#pragma once
+// The sampled linear loop of a rig and its law, as matrices: common ground of poles and margins.
+//
+// Plant     x[n+1] = A x[n] + B u[n], y[n] = C x[n]; delay included as states.
+// Law       decentralised, per axis  w[n+1] = Aw w[n] + Bw y[n],  u[n] = -(Cw w[n] + Dw y[n]);
+//           the sections of the discrete law itself, not a second discretisation of it.
+// Frame     bearing frame: probe and amplifier polarity cancel against the controller's.
+// Units     SI: y [m], u [A].
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "controller/law/discrete_law.hpp"
+#include "controller/law/law_config.hpp"
+#include "plant_sim/plant/linear_model.hpp"
+#include "plant_sim/plant/plant_config.hpp"
+
+namespace levitas::analysis {
+
+/// One axis of the law without its minus sign, as the cascade it is and as a state-space model.
+struct AxisModel {
+  std::vector<law::Section> sections;
+  Eigen::MatrixXd a;
+  Eigen::VectorXd b;
+  Eigen::RowVectorXd c;
+  double d{1.0};
+  /// C(z) [A/m]; z must not be a pole.
+  [[nodiscard]] std::complex<double> At(std::complex<double> z) const;
+};
+
+[[nodiscard]] AxisModel ModelOf(std::vector<law::Section> sections);
+
+struct SampledLoop {
+  plant::LinearModel plant;
+  std::vector<AxisModel> law;  ///< one per axis
+  double period_s{};
+  Eigen::Index modes{};  ///< per plane; the plant's state starts with x plane, then y plane
+};
+
+/// Throws BadInput when the law's axes do not fit the plant's.
+[[nodiscard]] SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
+                                    double speed_rad_per_s);
+
+/// System matrix of the closed loop; the plant's states come first.
+[[nodiscard]] Eigen::MatrixXd ClosedLoopMatrix(const SampledLoop& loop);
+
+}  // namespace levitas::analysis

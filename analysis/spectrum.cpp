@@ -1,0 +1,84 @@
+#include "analysis/spectrum.hpp"
+
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <stdexcept>
+
+namespace levitas::analysis {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Iterative radix-2 transform in place; the size is a power of two.
+void Transform(std::vector<Complex>& values) {
+  const std::size_t size = values.size();
+  for (std::size_t i = 1, reversed = 0; i < size; ++i) {
+    std::size_t bit = size >> 1;
+    for (; (reversed & bit) != 0; bit >>= 1) reversed ^= bit;
+    reversed ^= bit;
+    if (i < reversed) std::swap(values[i], values[reversed]);
+  }
+  for (std::size_t length = 2; length <= size; length <<= 1) {
+    const std::size_t half = length / 2;
+    const double angle = -2.0 * std::numbers::pi / static_cast<double>(length);
+    for (std::size_t k = 0; k < half; ++k) {
+      const Complex twiddle = std::polar(1.0, angle * static_cast<double>(k));
+      for (std::size_t start = 0; start < size; start += length) {
+        const Complex even = values[start + k];
+        const Complex odd = values[start + k + half] * twiddle;
+        values[start + k] = even + odd;
+        values[start + k + half] = even - odd;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Welch::Welch(std::size_t segment, double sample_rate_hz)
+    : sample_rate_hz_(sample_rate_hz), window_(segment), sum_(segment / 2 + 1, 0.0) {
+  if (segment < 8 || !std::has_single_bit(segment)) {
+    throw std::invalid_argument("a spectrum's segment must be a power of two of at least 8");
+  }
+  for (std::size_t i = 0; i < segment; ++i) {
+    const double phase = 2.0 * std::numbers::pi * static_cast<double>(i);
+    window_[i] = 0.5 - 0.5 * std::cos(phase / static_cast<double>(segment));
+  }
+}
+
+double Welch::line_spacing_hz() const noexcept {
+  return sample_rate_hz_ / static_cast<double>(window_.size());
+}
+
+void Welch::Add(std::span<const double> piece) {
+  const std::size_t segment = window_.size();
+  for (std::size_t start = 0; start + segment <= piece.size(); start += segment / 2) {
+    AddSegment(piece.subspan(start, segment));
+  }
+}
+
+void Welch::AddSegment(std::span<const double> samples) {
+  std::vector<Complex> values(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) values[i] = samples[i] * window_[i];
+  Transform(values);
+  for (std::size_t line = 0; line < sum_.size(); ++line) sum_[line] += std::norm(values[line]);
+  ++averages_;
+}
+
+std::vector<double> Welch::Density() const {
+  std::vector<double> density(sum_.size(), 0.0);
+  if (averages_ == 0) return density;
+  double window_power = 0.0;
+  for (const double w : window_) window_power += w * w;
+  const double scale = 1.0 / (static_cast<double>(averages_) * sample_rate_hz_ * window_power);
+  for (std::size_t line = 0; line < sum_.size(); ++line) {
+    // Both signs of the frequency count, except at the two ends, which have only one.
+    const bool end = line == 0 || line + 1 == sum_.size();
+    density[line] = sum_[line] * scale * (end ? 1.0 : 2.0);
+  }
+  return density;
+}
+
+}  // namespace levitas::analysis

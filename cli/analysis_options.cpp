@@ -1,0 +1,59 @@
+#include "cli/analysis_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace levitas::cli {
+namespace {
+
+/// Refuses what strtod accepts and no rotor does.
+std::string CheckSpeed(const std::string& text) {
+  double rpm = 0.0;
+  if (!CLI::detail::lexical_cast(text, rpm) || !std::isfinite(rpm)) {
+    return "found '" + text + "', allowed: a finite number of revolutions per minute";
+  }
+  return {};
+}
+
+}  // namespace
+
+void AddRigOption(CLI::App& command, AnalysisOptions& options) {
+  command.add_option("--rig", options.rig_name, "Rig file, or the name of a shipped rig")
+      ->capture_default_str();
+}
+
+void AddControllerOption(CLI::App& command, AnalysisOptions& options) {
+  command
+      .add_option("--controller", options.controller_name,
+                  "Controller file, or the name of a shipped controller")
+      ->capture_default_str();
+}
+
+void AddSpeedOption(CLI::App& command, AnalysisOptions& options, std::vector<double> default_rpm) {
+  options.speeds_rpm = std::move(default_rpm);
+  command
+      .add_option("--speed-rpm,--speeds", options.speeds_rpm,
+                  "Rotor speed in rpm, or several separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Validator(CheckSpeed, "RPM"))
+      ->capture_default_str();
+}
+
+void AddJsonOption(CLI::App& command, AnalysisOptions& options) {
+  command.add_option("--json", options.json_path, "Also write the result to this file");
+}
+
+config::RigFile LoadRig(const AnalysisOptions& options) {
+  return config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+}
+
+config::ControllerFile LoadController(const AnalysisOptions& options, const config::RigFile& rig) {
+  return config::LoadController(config::FindConfig(options.controller_name, "controllers"),
+                                rig.numbers);
+}
+
+double RadPerSecond(double rpm) noexcept { return rpm * std::numbers::pi / 30.0; }
+double Rpm(double rad_per_s) noexcept { return rad_per_s * 30.0 / std::numbers::pi; }
+
+}  // namespace levitas::cli

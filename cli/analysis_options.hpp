@@ -1,0 +1,32 @@
+#pragma once
+// What the analysis commands share: files by path or shipped name, speeds in rpm.
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+#include "config/rig_file.hpp"
+
+namespace levitas::cli {
+
+struct AnalysisOptions {
+  std::string rig_name{"flexible_rotor"};
+  std::string controller_name{"flexible_rotor"};
+  std::vector<double> speeds_rpm;
+  std::string json_path;
+};
+
+void AddRigOption(CLI::App& command, AnalysisOptions& options);
+void AddControllerOption(CLI::App& command, AnalysisOptions& options);
+/// `default_rpm` are the speeds when none is given.
+void AddSpeedOption(CLI::App& command, AnalysisOptions& options, std::vector<double> default_rpm);
+void AddJsonOption(CLI::App& command, AnalysisOptions& options);
+
+[[nodiscard]] config::RigFile LoadRig(const AnalysisOptions& options);
+[[nodiscard]] config::ControllerFile LoadController(const AnalysisOptions& options,
+                                                    const config::RigFile& rig);
+
+[[nodiscard]] double RadPerSecond(double rpm) noexcept;
+[[nodiscard]] double Rpm(double rad_per_s) noexcept;
+
+}  // namespace levitas::cli

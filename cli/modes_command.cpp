@@ -1,0 +1,99 @@
+// amb modes: mass, magnet constants and free whirl frequencies of a rig.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "analysis/free_modes.hpp"
+#include "cli/analysis_options.hpp"
+#include "cli/command.hpp"
+#include "cli/json_file.hpp"
+
+namespace levitas::cli {
+namespace {
+
+constexpr int kCampbellSteps = 12;
+
+struct ModesOptions : AnalysisOptions {
+  bool campbell{};
+  std::size_t modes{4};
+};
+
+std::vector<double> SpeedsOf(const ModesOptions& options, const config::RigFile& rig) {
+  std::vector<double> speeds;
+  if (options.campbell) {
+    for (int i = 0; i <= kCampbellSteps; ++i) {
+      speeds.push_back(rig.numbers.max_speed_rad_per_s * i / kCampbellSteps);
+    }
+    return speeds;
+  }
+  for (const double rpm : options.speeds_rpm) speeds.push_back(RadPerSecond(rpm));
+  return speeds;
+}
+
+void Print(const config::RigFile& rig, const analysis::FreeModes& modes) {
+  fmt::print("Rig {}: rotor mass {:.3f} kg\n", rig.numbers.name, modes.rotor_mass_kg);
+  for (const auto& bearing : modes.bearings) {
+    fmt::print("  bearing {:<6} ki {:8.3f} N/A   ks {:.4e} N/m (destabilising)\n", bearing.name,
+               bearing.ki_n_per_a, bearing.ks_n_per_m);
+  }
+  fmt::print("Free-free bending, Hz (b backward whirl, f forward whirl)\n{:>10}", "rpm");
+  const std::size_t count = modes.whirl.empty() ? 0 : modes.whirl.front().forward_hz.size();
+  for (std::size_t i = 1; i <= count; ++i) {
+    fmt::print("{:>11}{:>11}", fmt::format("mode {} b", i), "f");
+  }
+  fmt::print("\n");
+  for (const auto& at : modes.whirl) {
+    fmt::print("{:>10.0f}", Rpm(at.speed_rad_per_s));
+    for (std::size_t i = 0; i < at.forward_hz.size(); ++i) {
+      fmt::print("{:>11.3f}{:>11.3f}", at.backward_hz[i], at.forward_hz[i]);
+    }
+    fmt::print("\n");
+  }
+}
+
+nlohmann::ordered_json Json(const config::RigFile& rig, const analysis::FreeModes& modes) {
+  nlohmann::ordered_json json;
+  json["rig"] = rig.numbers.name;
+  json["rotor_mass_kg"] = modes.rotor_mass_kg;
+  for (const auto& bearing : modes.bearings) {
+    json["bearings"].push_back({{"name", bearing.name},
+                                {"ki_n_per_a", bearing.ki_n_per_a},
+                                {"ks_n_per_m", bearing.ks_n_per_m}});
+  }
+  for (const auto& at : modes.whirl) {
+    json["speeds"].push_back({{"speed_rpm", Rpm(at.speed_rad_per_s)},
+                              {"backward_hz", at.backward_hz},
+                              {"forward_hz", at.forward_hz}});
+  }
+  return json;
+}
+
+}  // namespace
+
+void AddModesCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ModesOptions>();
+  CLI::App* command = app.add_subcommand(
+      "modes", "Free modes of a rig over speed, rotor mass, ki and ks of every magnet");
+  AddRigOption(*command, *options);
+  AddSpeedOption(*command, *options, {0.0});
+  command->add_flag("--campbell", options->campbell, "From standstill to the rated speed");
+  command->add_option("--modes", options->modes, "How many flexible modes")
+      ->check(CLI::Range(1, 20))
+      ->capture_default_str();
+  AddJsonOption(*command, *options);
+  command->callback([options, &action] {
+    action = [options] {
+      const config::RigFile rig = LoadRig(*options);
+      const auto modes =
+          analysis::ComputeFreeModes(rig.plant, SpeedsOf(*options, rig), options->modes);
+      Print(rig, modes);
+      WriteJsonFile(options->json_path, Json(rig, modes));
+      return ExitStatus::kDone;
+    };
+  });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,84 @@
+// amb poles: closed-loop poles of the sampled loop.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "analysis/poles.hpp"
+#include "cli/analysis_options.hpp"
+#include "cli/command.hpp"
+#include "cli/json_file.hpp"
+
+namespace levitas::cli {
+namespace {
+
+struct PolesOptions : AnalysisOptions {
+  double up_to_hz{1000.0};
+};
+
+const char* Direction(const analysis::Pole& pole) {
+  if (pole.frequency_hz == 0.0) return "no oscillation";
+  if (std::abs(pole.forward_share - 0.5) < 0.05) return "plane";
+  return pole.forward_share > 0.5 ? "forward" : "backward";
+}
+
+void Print(const analysis::LoopPoles& at, double up_to_hz) {
+  fmt::print("{:.0f} rpm: {} (largest |z| {:.6f})\n", Rpm(at.speed_rad_per_s),
+             at.stable ? "STABLE" : "UNSTABLE", at.largest_pole_modulus);
+  fmt::print("{:>14}{:>14}{:>14}  {}\n", "frequency Hz", "damping", "Re s 1/s", "whirl");
+  for (const auto& pole : at.poles) {
+    if (std::abs(pole.frequency_hz) > up_to_hz) continue;
+    fmt::print("{:>14.3f}{:>14.5f}{:>14.3f}  {}{}\n", pole.frequency_hz, pole.damping_ratio,
+               pole.s_rad_per_s.real(), Direction(pole),
+               std::abs(pole.z) >= 1.0 ? "  <- unstable" : "");
+  }
+}
+
+nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
+  nlohmann::ordered_json json;
+  json["speed_rpm"] = Rpm(at.speed_rad_per_s);
+  json["stable"] = at.stable;
+  json["largest_pole_modulus"] = at.largest_pole_modulus;
+  for (const auto& pole : at.poles) {
+    json["poles"].push_back({{"frequency_hz", pole.frequency_hz},
+                             {"damping_ratio", pole.damping_ratio},
+                             {"real_part_1_per_s", pole.s_rad_per_s.real()},
+                             {"imaginary_part_rad_per_s", pole.s_rad_per_s.imag()},
+                             {"forward_share", pole.forward_share}});
+  }
+  return json;
+}
+
+ExitStatus Run(const PolesOptions& options) {
+  const config::RigFile rig = LoadRig(options);
+  const config::ControllerFile controller = LoadController(options, rig);
+  nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
+  for (const double rpm : options.speeds_rpm) {
+    const auto poles = analysis::ClosedLoopPoles(rig.plant, controller.law, RadPerSecond(rpm));
+    Print(poles, options.up_to_hz);
+    json["speeds"].push_back(Json(poles));
+  }
+  WriteJsonFile(options.json_path, json);
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddPolesCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<PolesOptions>();
+  CLI::App* command = app.add_subcommand(
+      "poles", "Closed-loop poles of the sampled loop, delay included; stability first");
+  AddRigOption(*command, *options);
+  AddControllerOption(*command, *options);
+  AddSpeedOption(*command, *options, {0.0});
+  command->add_option("--up-to-hz", options->up_to_hz, "Print poles up to this frequency")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  AddJsonOption(*command, *options);
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,30 @@
+#pragma once
+// Rigs the analysis is tested on, as numbers, independent of the shipped files.
+
+#include "controller/law/law_config.hpp"
+#include "plant_sim/plant/plant_config.hpp"
+
+namespace levitas::test {
+
+inline constexpr double kRpm = 3.14159265358979323846 / 30.0;  ///< [rad/s] of one rpm
+
+/// Two-bearing flexible rotor of Sahinkaya & Sawicki; eight modes per plane as in the references.
+[[nodiscard]] plant::PlantConfig FlexibleRotor();
+[[nodiscard]] law::LawConfig FlexibleRotorLaw();
+
+/// Rotor and magnets of the UFU rig (doi 10.14393/ufu.di.2015.186).
+[[nodiscard]] plant::PlantConfig UfuRig();
+
+/// Rigid cylinder between two equal bearings at +-kCylinderArm of its centre, nearly ideal
+/// amplifiers and sensors, 1 us period: its poles are those of two quadratics.
+[[nodiscard]] plant::PlantConfig RigidCylinder();
+inline constexpr double kCylinderLength = 0.3;      // [m]
+inline constexpr double kCylinderDiameter = 0.04;   // [m]
+inline constexpr double kCylinderArm = 0.1;         // [m]
+inline constexpr double kCylinderDensity = 7800.0;  // [kg/m3]
+
+/// The same PD law, without integrator and filters, for all axes of a rig.
+[[nodiscard]] law::LawConfig PdLaw(const plant::PlantConfig& plant, double kp_a_per_m,
+                                   double kd_a_s_per_m, double derivative_hz);
+
+}  // namespace levitas::test
