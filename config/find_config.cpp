@@ -1,0 +1,54 @@
+// Where the shipped files are.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "common/problem.hpp"
+#include "config/rig_file.hpp"
+#include "config/text/nearest.hpp"
+
+namespace levitas::config {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder that holds rigs/, controllers/ and scenarios/: as told, else above the program (a
+/// build tree inside the checkout, or an installation with share/levitas), else the sources it was
+/// built from.
+fs::path ShippedFolder() {
+  if (const char* told = std::getenv("LEVITAS_CONFIG"); told != nullptr && *told != '\0') {
+    return told;
+  }
+  std::error_code none;
+  fs::path folder = fs::read_symlink("/proc/self/exe", none).parent_path();
+  while (folder.has_relative_path()) {
+    for (const fs::path inside : {"config", "share/levitas"}) {
+      if (fs::is_directory(folder / inside / "rigs", none)) return folder / inside;
+    }
+    folder = folder.parent_path();
+  }
+  return LEVITAS_CONFIG_FOLDER;
+}
+
+}  // namespace
+
+std::string FindConfig(const std::string& name, const std::string& kind) {
+  std::error_code none;
+  if (fs::is_regular_file(name, none)) return name;
+  const fs::path folder = ShippedFolder() / kind;
+  if (const fs::path shipped = folder / (name + ".yaml"); fs::is_regular_file(shipped, none)) {
+    return shipped.string();
+  }
+  std::vector<std::string> known;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".yaml") known.push_back(entry.path().stem().string());
+  }
+  std::sort(known.begin(), known.end());
+  std::string text =
+      name + ": no such file, and none of that name among the " + kind + " in " + folder.string();
+  if (!known.empty()) text += " (" + Listed(known) + "); nearest " + Nearest(name, known);
+  throw BadInput(text);
+}
+
+}  // namespace levitas::config

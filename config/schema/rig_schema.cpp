@@ -1,0 +1,240 @@
+// Table of a rig file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "config/schema/schema.hpp"
+
+namespace levitas::config {
+namespace {
+
+using namespace unit;
+
+constexpr double kVacuumPermeability = 4e-7 * static_cast<double>(kPi);  // [H/m]
+constexpr std::size_t kMaxBearings = kMaxAxes / 2;
+
+// The force constant k of F = k [((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2] is given in one of three
+// ways: directly; by ki = 4 k i0 / s0^2; or by the coil, k = mu0 N^2 A cos(half pole angle) / 4
+// (Schweitzer & Maslen 2009, Magnetic Bearings, chapter 4). Written directly, hence exactly.
+void DescribeStrength(Visitor& v, plant::MagnetConfig& magnet) {
+  double constant = magnet.force_constant_n_m2_per_a2;
+  double ki_n_per_a{};
+  double turns{};
+  double pole_area_m2{};
+  double half_angle_rad{};
+  const std::array<Form, 3> forms{
+      Form{"force_constant_n_m2_per_a2",
+           [&] {
+             v.Number({"force_constant", kForceConstant, 1e-9, 1e-2, kRequired,
+                       "k of F = k [((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2]"},
+                      constant);
+           }},
+      Form{"ki_n_per_a",
+           [&] {
+             v.Number({"ki", kForcePerAmpere, 0.01, 1e5, kRequired,
+                       "force per control current with the rotor centred, at the bias current"},
+                      ki_n_per_a);
+           }},
+      Form{"turns, pole_area_mm2 and half_pole_angle_deg", [&] {
+             v.Number({"turns", kOne, 1, 10000, kRequired,
+                       "turns of one coil (both poles of the horseshoe together)"},
+                      turns);
+             v.Number({"pole_area", kSquareMillimetre, 0.1, 1e6, kRequired, "face of one pole"},
+                      pole_area_m2);
+             v.Number({"half_pole_angle", kDegree, 0, 80, kRequired,
+                       "between a pole and the axis of its magnet"},
+                      half_angle_rad);
+           }}};
+  std::size_t chosen = 0;
+  v.OneOf("the strength of the magnet", forms, chosen);
+  if (chosen == 1) {
+    constant = ki_n_per_a * magnet.gap_m * magnet.gap_m / (4.0 * magnet.bias_current_a);
+  } else if (chosen == 2) {
+    constant = kVacuumPermeability * turns * turns * pole_area_m2 * std::cos(half_angle_rad) / 4.0;
+  }
+  v.RefuseIf(
+      constant < 1e-9 || constant > 1e-2, "",
+      fmt::format("gives a force constant of {:.4g} N m^2/A^2, allowed 1e-09 to 0.01", constant));
+  magnet.force_constant_n_m2_per_a2 = constant;
+}
+
+void Describe(Visitor& v, plant::MagnetConfig& magnet) {
+  v.Number({"gap", kMillimetre, 0.02, 10, kRequired, "radial air gap s0 with the rotor centred"},
+           magnet.gap_m);
+  DescribeStrength(v, magnet);
+}
+
+void Describe(Visitor& v, plant::AmplifierConfig& amplifier) {
+  v.Number({"bandwidth", kHertz, 10, 100000, kRequired, "-3 dB of the first-order current loop"},
+           amplifier.bandwidth_hz);
+  v.Number({"slew", kAmperePerSecond, 0, 1e8, 0, "limit of d ic/dt by the supply, 0 for none"},
+           amplifier.slew_a_per_s);
+  v.Integer({"dac_bits", 0, 24, 0,
+             "steps of the control current over plus or minus the coil limit; 0 for none"},
+            amplifier.dac_bits);
+}
+
+void DescribePolarity(Visitor& v, std::string_view key, std::string_view meaning, double& value) {
+  int sign = value < 0.0 ? -1 : 1;
+  v.Integer({key, -1, 1, 1, meaning}, sign);
+  v.RefuseIf(sign == 0, key, "found 0, allowed -1 or 1");
+  value = sign;
+}
+
+void Describe(Visitor& v, plant::SensorConfig& sensor) {
+  v.Number({"bandwidth", kHertz, 10, 1e6, kRequired, "-3 dB of the first-order sensor"},
+           sensor.bandwidth_hz);
+  v.Number({"noise_rms", kMicrometre, 0, 1000, kRequired, "white noise of one sample"},
+           sensor.noise_rms_m);
+  v.Integer({"adc_bits", 0, 24, 0, "resolution of the converter over its range; 0 for none"},
+            sensor.adc_bits);
+  v.Number({"range", kMicrometre, 1, 20000, kRequired, "the converter covers plus or minus this"},
+           sensor.range_m);
+}
+
+void Describe(Visitor& v, plant::TouchdownConfig& touchdown) {
+  v.Number({"clearance", kMicrometre, 1, 5000, kRequired, "radial clearance"},
+           touchdown.clearance_m);
+  v.Number({"stiffness", kStiffness, 1e4, 1e10, kRequired, "of the contact, radial"},
+           touchdown.stiffness_n_per_m);
+  v.Number({"damping", kDamping, 0, 1e6, kRequired, "of the contact, radial"},
+           touchdown.damping_n_s_per_m);
+  v.Number({"friction", kOne, 0, 1, kRequired, "Coulomb coefficient of the sliding contact"},
+           touchdown.friction);
+  v.Number({"journal_radius", kMillimetre, 0.1, 2000, kRequired, "where the shaft slides"},
+           touchdown.journal_radius_m);
+}
+
+void Describe(Visitor& v, RigFile& rig, plant::BearingConfig& bearing, std::size_t index) {
+  const std::size_t x = 2 * index;
+  v.Name({"name", "of the bearing; its axes are <name>_x and <name>_y"}, bearing.name);
+  const auto before = rig.plant.bearings.begin();
+  v.RefuseIf(std::any_of(before, before + static_cast<std::ptrdiff_t>(index),
+                         [&](const auto& other) { return other.name == bearing.name; }),
+             "name", fmt::format("found \"{}\", which an earlier bearing has", bearing.name));
+  double shaft_m = 0.0;
+  for (const auto& section : rig.plant.rotor.sections) shaft_m += section.length_m;
+  const std::string beyond = fmt::format("beyond the end of the shaft ({:.6g} mm)", shaft_m * 1e3);
+  v.Number({"actuator_z", kMillimetre, 0, 100000, kRequired, "plane of the magnet and its contact"},
+           bearing.actuator_z_m);
+  v.RefuseIf(bearing.actuator_z_m > shaft_m + 1e-9, "actuator_z_mm", beyond);
+  v.Number({"sensor_z", kMillimetre, 0, 100000, kRequired, "plane of the position sensors"},
+           bearing.sensor_z_m);
+  v.RefuseIf(bearing.sensor_z_m > shaft_m + 1e-9, "sensor_z_mm", beyond);
+  bearing.magnet.bias_current_a = rig.numbers.bias_current_a;
+  bearing.magnet.max_coil_current_a = rig.numbers.max_coil_current_a;
+  v.Group("magnet", "two opposed coils an axis", [&] { Describe(v, bearing.magnet); });
+  v.Group("amplifier", "current loop of each axis", [&] {
+    Describe(v, bearing.amplifier);
+    DescribePolarity(v, "polarity_x", "-1: the x coils are wired the other way round",
+                     rig.plant.actuator_polarity[x]);
+    DescribePolarity(v, "polarity_y", "-1: the y coils are wired the other way round",
+                     rig.plant.actuator_polarity[x + 1]);
+  });
+  v.Group("sensor", "position sensor of each axis", [&] {
+    Describe(v, bearing.sensor);
+    DescribePolarity(v, "polarity_x", "-1: the x probe reads the other way round",
+                     rig.plant.sensor_polarity[x]);
+    DescribePolarity(v, "polarity_y", "-1: the y probe reads the other way round",
+                     rig.plant.sensor_polarity[x + 1]);
+  });
+  v.Group("touchdown", "retainer bearing in the plane of the magnet",
+          [&] { Describe(v, bearing.touchdown); });
+  v.RefuseIf(bearing.touchdown.clearance_m > bearing.sensor.range_m, "sensor",
+             fmt::format("sensor range {:.6g} um is smaller than the touchdown clearance {:.6g} um",
+                         bearing.sensor.range_m * 1e6, bearing.touchdown.clearance_m * 1e6));
+  v.RefuseIf(bearing.touchdown.clearance_m >= bearing.magnet.gap_m, "touchdown",
+             fmt::format("clearance {:.6g} um must be smaller than the air gap {:.6g} um",
+                         bearing.touchdown.clearance_m * 1e6, bearing.magnet.gap_m * 1e6));
+}
+
+void DescribeSampling(Visitor& v, RigFile& rig) {
+  double period_s = static_cast<double>(rig.plant.period_ns) / 1e9;
+  v.Number({"period", kMicrosecond, 10, 10000, kRequired, "sampling period"}, period_s);
+  const double period_ns = period_s * 1e9;
+  v.RefuseIf(std::abs(period_ns - std::round(period_ns)) > 1e-6, "period_us",
+             "must be a whole number of nanoseconds");
+  rig.plant.period_ns = std::isfinite(period_ns) ? std::llround(period_ns) : 100'000;
+  v.Number({"delay", Unit{"samples", "samples", ""}, 0, 10, 1,
+            "from the sampling instant until the current commanded from it acts"},
+           rig.plant.delay_samples);
+  v.Integer({"substeps", 1, 1000, 4, "fixed integration steps of the simulation per period"},
+            rig.plant.substeps);
+}
+
+void DescribeDrive(Visitor& v, RigFile& rig) {
+  plant::DriveConfig& drive = rig.plant.drive;
+  v.Number(
+      {"max_speed", kRpm, 0, 300000, kRequired, "rated speed; the over-speed trip refers to it"},
+      rig.numbers.max_speed_rad_per_s);
+  v.Number({"max_acceleration", kRpmPerSecond, 0, 1e6, kRequired, "what the drive can do"},
+           drive.max_acceleration_rad_per_s2);
+  v.Number({"coast_down", kPerSecond, 0, 100, kRequired,
+            "c of d(speed)/dt = -c speed - friction without torque"},
+           drive.coast_down_1_per_s);
+  v.Number({"friction", kRpmPerSecond, 0, 1e6, kRequired, "friction of the same equation"},
+           drive.coast_down_rad_per_s2);
+}
+
+/// What RigNumbers repeats of the plant.
+void Derive(RigFile& rig) {
+  RigNumbers& numbers = rig.numbers;
+  numbers.period_ns = rig.plant.period_ns;
+  numbers.channels.clear();
+  numbers.bearings.clear();
+  for (const plant::BearingConfig& bearing : rig.plant.bearings) {
+    numbers.bearings.push_back(bearing.name);
+    numbers.channels.push_back(bearing.name + "_x");
+    numbers.channels.push_back(bearing.name + "_y");
+    const bool first = numbers.bearings.size() == 1;
+    const auto smallest = [&](double so_far, double here) {
+      return first ? here : std::min(so_far, here);
+    };
+    numbers.clearance_m = smallest(numbers.clearance_m, bearing.touchdown.clearance_m);
+    numbers.sensor_range_m = smallest(numbers.sensor_range_m, bearing.sensor.range_m);
+  }
+  numbers.sensor_polarity = rig.plant.sensor_polarity;
+  numbers.actuator_polarity = rig.plant.actuator_polarity;
+}
+
+}  // namespace
+
+void Describe(Visitor& v, RigFile& rig) {
+  v.Name({"name", "of the rig"}, rig.numbers.name);
+  v.Group("sampling", "of the control loop", [&] { DescribeSampling(v, rig); });
+  v.Group("coils", "of every bearing", [&] {
+    v.Number({"bias_current", kAmpere, 0.01, 100, kRequired, "i0: the coils carry i0+ic, i0-ic"},
+             rig.numbers.bias_current_a);
+    v.Number(
+        {"max_current", kAmpere, 0.01, 200, kRequired, "a coil current stays within 0 and this"},
+        rig.numbers.max_coil_current_a);
+    v.RefuseIf(rig.numbers.max_coil_current_a <= rig.numbers.bias_current_a, "max_current_a",
+               fmt::format("found {:.6g} A, but it must exceed the bias current {:.6g} A",
+                           rig.numbers.max_coil_current_a, rig.numbers.bias_current_a));
+  });
+  v.Group("rotor", "finite-element description",
+          [&] { Describe(v, rig.plant.rotor, rig.plant.unbalance); });
+  v.List(
+      {"bearings", 1, kMaxBearings, "from the drive end"}, rig.plant.bearings,
+      [&](plant::BearingConfig& bearing, std::size_t index) { Describe(v, rig, bearing, index); });
+  v.Group("gravity", "", [&] {
+    v.Number({"acceleration", kGravity, 0, 100, 9.81, "0 for a vertical rotor"},
+             rig.plant.gravity_m_per_s2);
+    v.Number({"direction", kDegree, -360, 360, 225,
+              "where it pulls in the x-y plane, from +x towards +y"},
+             rig.plant.gravity_direction_rad);
+  });
+  v.Group("drive", "motor of the rotor", [&] { DescribeDrive(v, rig); });
+  v.Group("objectives", "what the verdict of a run is held against", [&] {
+    v.Number({"standing_orbit", kMicrometre, 0.01, 5000, kRequired, "largest radius at standstill"},
+             rig.numbers.standing_orbit_objective_m);
+    v.Number(
+        {"spinning_orbit", kMicrometre, 0.01, 5000, kRequired, "largest radius while rotating"},
+        rig.numbers.spinning_orbit_objective_m);
+  });
+  Derive(rig);
+}
+
+}  // namespace levitas::config

@@ -1,0 +1,103 @@
+// Table of a rotor: shaft, discs, rings, unbalance.
+#include <fmt/format.h>
+
+#include "config/schema/schema.hpp"
+
+namespace levitas::config {
+namespace {
+
+using namespace unit;
+
+void Describe(Visitor& v, rotor::Material& material) {
+  v.Number({"young", kGigapascal, 0.1, 2000, kRequired, "Young's modulus of the shaft"},
+           material.young_pa);
+  v.Number({"poisson", kOne, 0, 0.49, kRequired, "Poisson's ratio of the shaft"}, material.poisson);
+  v.Number({"density", kDensity, 100, 30000, kRequired, "density of the shaft"},
+           material.density_kg_per_m3);
+}
+
+void Describe(Visitor& v, rotor::Section& section) {
+  v.Number({"length", kMillimetre, 0.01, 20000, kRequired, "length of this piece of shaft"},
+           section.length_m);
+  v.Number({"outer_diameter", kMillimetre, 0.1, 5000, kRequired, "outer diameter"},
+           section.outer_diameter_m);
+  v.Number({"inner_diameter", kMillimetre, 0, 5000, 0, "diameter of the bore, 0 for a solid shaft"},
+           section.inner_diameter_m);
+  v.RefuseIf(section.inner_diameter_m >= section.outer_diameter_m, "inner_diameter_mm",
+             "the bore must be smaller than the outer diameter");
+}
+
+void Describe(Visitor& v, rotor::Disc& disc) {
+  v.Number({"z", kMillimetre, 0, 100000, kRequired, "place, from the drive end of the shaft"},
+           disc.z_m);
+  v.Number({"mass", kKilogram, 0, 100000, kRequired, "mass"}, disc.mass_kg);
+  v.Number({"diametral_inertia", kInertia, 0, 1e6, kRequired, "inertia about a diameter, Id"},
+           disc.diametral_inertia_kg_m2);
+  v.Number({"polar_inertia", kInertia, 0, 1e6, kRequired, "inertia about the shaft axis, Ip"},
+           disc.polar_inertia_kg_m2);
+  // Ip = sum m r^2 of a body of revolution is at most 2 Id (equal for a disc without thickness).
+  v.RefuseIf(disc.polar_inertia_kg_m2 > 2.0 * disc.diametral_inertia_kg_m2 * (1 + 1e-9),
+             "polar_inertia_kg_m2", "no body has Ip greater than 2 Id");
+}
+
+void Describe(Visitor& v, rotor::Ring& ring) {
+  v.Number({"z", kMillimetre, 0, 100000, kRequired, "place of the middle, from the drive end"},
+           ring.z_m);
+  v.Number({"width", kMillimetre, 0.01, 20000, kRequired, "axial width"}, ring.width_m);
+  v.Number({"bore", kMillimetre, 0, 5000, kRequired, "inner diameter (the shaft's)"}, ring.bore_m);
+  v.Number({"outer_diameter", kMillimetre, 0.1, 10000, kRequired, "outer diameter"},
+           ring.outer_diameter_m);
+  v.Number({"density", kDensity, 100, 30000, kRequired, "density"}, ring.density_kg_per_m3);
+  v.RefuseIf(ring.bore_m >= ring.outer_diameter_m, "bore_mm",
+             "the bore must be smaller than the outer diameter");
+}
+
+void Describe(Visitor& v, plant::UnbalanceMass& mass) {
+  v.Number({"z", kMillimetre, 0, 100000, kRequired, "place, from the drive end"}, mass.z_m);
+  v.Number({"moment", kGramMillimetre, 0, 1e9, kRequired, "mass times eccentricity"},
+           mass.moment_kg_m);
+  v.Number({"phase", kDegree, -360, 360, 0, "direction in the rotor, from x towards y at angle 0"},
+           mass.phase_rad);
+}
+
+}  // namespace
+
+void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::UnbalanceMass>& unbalance) {
+  v.Group("material", "of the shaft", [&] { Describe(v, rotor.material); });
+  v.List({"sections", 1, 500, "pieces of shaft, one after the other from the drive end (z = 0)"},
+         rotor.sections, [&](rotor::Section& section, std::size_t) { Describe(v, section); });
+  double shaft_m = 0.0;
+  for (const rotor::Section& section : rotor.sections) shaft_m += section.length_m;
+  // A sum of lengths may fall short of a typed place by rounding; a nanometre is nothing here.
+  const double end_m = shaft_m + 1e-9;
+  const std::string beyond =
+      fmt::format("beyond the end of the shaft ({} mm)", fmt::format("{:.6g}", shaft_m * 1e3));
+  v.List({"discs", 0, 200, "rigid discs given by mass and inertia"}, rotor.discs,
+         [&](rotor::Disc& disc, std::size_t) {
+           Describe(v, disc);
+           v.RefuseIf(disc.z_m > end_m, "z_mm", beyond);
+         });
+  v.List({"rings", 0, 200, "solid rings on the shaft, mass and inertia from their geometry"},
+         rotor.rings, [&](rotor::Ring& ring, std::size_t) {
+           Describe(v, ring);
+           v.RefuseIf(ring.z_m > end_m, "z_mm", beyond);
+         });
+  v.List({"unbalance", 0, 100, "unbalance masses"}, unbalance,
+         [&](plant::UnbalanceMass& mass, std::size_t) {
+           Describe(v, mass);
+           v.RefuseIf(mass.z_m > end_m, "z_mm", beyond);
+         });
+  v.Number({"max_element_length", kMillimetre, 0.1, 1000, 10.0,
+            "finite elements of the shaft are not longer than this"},
+           rotor.max_element_length_m);
+  v.Integer({"modes_per_plane", 0, 100, 8,
+             "modes kept in the simulation, the two rigid ones included; 0 keeps all"},
+            rotor.modes_per_plane);
+  v.RefuseIf(rotor.modes_per_plane == 1, "modes_per_plane",
+             "found 1, but a rotor has two rigid modes per plane: allowed 0 or 2 to 100");
+  v.Number({"modal_damping_ratio", kOne, 0, 0.5, 0.003,
+            "damping ratio of every flexible mode; rigid modes are undamped"},
+           rotor.modal_damping_ratio);
+}
+
+}  // namespace levitas::config

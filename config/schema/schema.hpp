@@ -1,0 +1,20 @@
+#pragma once
+// The tables of the three kinds of file. Each Describe shows every field of a struct once; see
+// visitor.hpp. What a table derives (channel names, ki -> force constant) is set by it too.
+
+#include "config/rig_file.hpp"
+#include "config/schema/visitor.hpp"
+
+namespace levitas::config {
+
+void Describe(Visitor& v, RigFile& rig);
+/// `rig` gives the bearing and channel names, the period and the current limits.
+void Describe(Visitor& v, ControllerFile& controller, const RigNumbers& rig);
+/// `channels` may be empty when writing: the names then come from the scenario.
+void Describe(Visitor& v, scenario::ScenarioConfig& scenario, const RigNumbers& rig);
+
+// Parts, for the files that hold them.
+void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::UnbalanceMass>& unbalance);
+void Describe(Visitor& v, supervisor::SupervisorConfig& supervisor);
+
+}  // namespace levitas::config
