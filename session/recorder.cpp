@@ -123,9 +123,10 @@ struct Recorder::Impl {
       function();
     } catch (const std::exception& error) {
       failed = true;
-      if (options.on_event) {
-        options.on_event({.severity = Event::Severity::kWarning, .text = error.what()});
-      }
+      Event told;
+      told.severity = Event::Severity::kWarning;
+      told.text = error.what();
+      if (options.on_event) options.on_event(told);
     }
   }
 

@@ -1,0 +1,174 @@
+#include "session/csv_columns.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "common/problem.hpp"
+
+namespace levitas::session {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  double divisor;
+};
+constexpr std::array<Unit, 3> kLengths{{{"m", 1.0}, {"mm", 1e3}, {"um", 1e6}}};
+constexpr std::array<Unit, 2> kCurrents{{{"a", 1.0}, {"ma", 1e3}}};
+
+struct PerAxis {
+  CsvQuantity quantity;
+  std::string_view prefix;
+  bool needed;
+  bool is_length;
+};
+constexpr std::array<PerAxis, 3> kPerAxis{
+    {{CsvQuantity::kPosition, "position_", true, true},
+     {CsvQuantity::kControlCurrent, "control_current_", true, false},
+     {CsvQuantity::kExcitation, "excitation_", false, false}}};
+
+/// Every name that is understood, and what it means.
+std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {
+  std::vector<CsvColumn> known{{CsvQuantity::kTime, 0, 1.0, "time_s"},
+                               {CsvQuantity::kAngle, 0, 1.0, "rotor_angle_rad"},
+                               {CsvQuantity::kSpeed, 0, 1.0, "speed_rpm"}};
+  const auto add = [&](const PerAxis& kind, std::size_t axis, const Unit& unit) {
+    known.push_back({kind.quantity, axis, unit.divisor,
+                     fmt::format("{}{}_{}", kind.prefix, channels[axis], unit.name)});
+  };
+  for (const PerAxis& kind : kPerAxis) {
+    for (std::size_t axis = 0; axis < channels.size(); ++axis) {
+      if (kind.is_length) {
+        for (const Unit& unit : kLengths) add(kind, axis, unit);
+      } else {
+        for (const Unit& unit : kCurrents) add(kind, axis, unit);
+      }
+    }
+  }
+  return known;
+}
+
+/// Levenshtein's distance: insertions, deletions and replacements from one word to the other.
+std::size_t Distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row[b.size()];
+}
+
+const CsvColumn& Nearest(std::string_view name, const std::vector<CsvColumn>& known) {
+  return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return Distance(name, a.name) < Distance(name, b.name);
+  });
+}
+
+/// An unknown name that was probably meant to be one of ours.
+bool LooksMeant(std::string_view name, std::string_view nearest) {
+  constexpr std::size_t kTypingErrors = 2;
+  const auto has_prefix = [&](const PerAxis& kind) { return name.starts_with(kind.prefix); };
+  return std::any_of(kPerAxis.begin(), kPerAxis.end(), has_prefix) ||
+         Distance(name, nearest) <= kTypingErrors;
+}
+
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::vector<std::string> Missing(const CsvLayout& layout,
+                                 const std::vector<std::string>& channels) {
+  std::vector<std::string> missing;
+  if (!layout.Has(CsvQuantity::kTime)) missing.emplace_back("time_s");
+  for (const PerAxis& kind : kPerAxis) {
+    for (std::size_t axis = 0; kind.needed && axis < channels.size(); ++axis) {
+      const auto holds = [&](const CsvColumn& column) {
+        return column.quantity == kind.quantity && column.axis == axis;
+      };
+      if (std::none_of(layout.columns.begin(), layout.columns.end(), holds)) {
+        missing.push_back(fmt::format("{}{}_{}", kind.prefix, channels[axis],
+                                      kind.is_length ? "m (or mm, um)" : "a (or ma)"));
+      }
+    }
+  }
+  return missing;
+}
+
+}  // namespace
+
+bool CsvLayout::Has(CsvQuantity quantity) const noexcept {
+  return std::any_of(columns.begin(), columns.end(),
+                     [&](const CsvColumn& column) { return column.quantity == quantity; });
+}
+
+void SplitCsv(std::string_view line, char separator, std::vector<std::string_view>& cells) {
+  cells.clear();
+  for (std::size_t start = 0; start <= line.size();) {
+    const std::size_t end = std::min(line.find(separator, start), line.size());
+    std::string_view cell = line.substr(start, end - start);
+    const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+    while (!cell.empty() && blank(cell.front())) cell.remove_prefix(1);
+    while (!cell.empty() && blank(cell.back())) cell.remove_suffix(1);
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
+      cell = cell.substr(1, cell.size() - 2);
+    }
+    cells.push_back(cell);
+    start = end + 1;
+  }
+}
+
+CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
+                         const std::vector<std::string>& channels) {
+  CsvLayout layout;
+  const auto semicolons = std::count(first_line.begin(), first_line.end(), ';');
+  const auto commas = std::count(first_line.begin(), first_line.end(), ',');
+  layout.separator = semicolons > commas ? ';' : ',';
+  const std::vector<CsvColumn> known = KnownColumns(channels);
+  std::vector<std::string> problems;
+  std::set<std::pair<CsvQuantity, std::size_t>> seen;
+  std::vector<std::string_view> cells;
+  SplitCsv(first_line, layout.separator, cells);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string name(cells[i]);
+    const auto is_it = [&](const CsvColumn& column) { return column.name == name; };
+    const auto found = std::find_if(known.begin(), known.end(), is_it);
+    if (found == known.end()) {
+      const std::string& nearest = Nearest(name, known).name;
+      if (LooksMeant(name, nearest)) {
+        problems.push_back(
+            fmt::format("column {} \"{}\" is not known (channels of the rig: {}); "
+                        "did you mean \"{}\"?",
+                        i + 1, name, Joined(channels), nearest));
+      }
+      layout.ignored.push_back(name);
+      layout.columns.push_back({CsvQuantity::kIgnored, 0, 1.0, name});
+      continue;
+    }
+    if (!seen.insert({found->quantity, found->axis}).second) {
+      problems.push_back(fmt::format("column {} \"{}\" is given twice", i + 1, name));
+    }
+    layout.columns.push_back(*found);
+  }
+  const auto missing = Missing(layout, channels);
+  if (!missing.empty()) problems.push_back("columns missing: " + Joined(missing));
+  if (!problems.empty()) {
+    std::string text;
+    for (const auto& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+    throw BadInput(fmt::format("{}: line 1: {}", path, text));
+  }
+  return layout;
+}
+
+}  // namespace levitas::session

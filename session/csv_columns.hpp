@@ -1,0 +1,47 @@
+#pragma once
+// The columns of a measured CSV file: which column holds what, by the names of its first line.
+//
+// Names     time_s, rotor_angle_rad, speed_rpm, position_<channel>_<m|mm|um>,
+//           control_current_<channel>_<a|ma>, excitation_<channel>_<a|ma>; channels from the rig.
+// Needed    time_s; position and control current of every channel of the rig.
+// Others    are ignored and listed, unless they look like a misspelt or misplaced name of the
+// above. Failure   BadInput listing every problem of the first line at once.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace levitas::session {
+
+enum class CsvQuantity : std::uint8_t {
+  kIgnored,
+  kTime,
+  kAngle,
+  kSpeed,
+  kPosition,
+  kControlCurrent,
+  kExcitation,
+};
+
+struct CsvColumn {
+  CsvQuantity quantity{CsvQuantity::kIgnored};
+  std::size_t axis{};
+  double divisor{1.0};  ///< a value of the file divided by this is in SI (or rpm)
+  std::string name;
+};
+
+struct CsvLayout {
+  char separator{','};
+  std::vector<CsvColumn> columns;
+  std::vector<std::string> ignored;
+  [[nodiscard]] bool Has(CsvQuantity quantity) const noexcept;
+};
+
+[[nodiscard]] CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
+                                       const std::vector<std::string>& channels);
+
+/// Cells of a line, without surrounding blanks and quotes.
+void SplitCsv(std::string_view line, char separator, std::vector<std::string_view>& cells);
+
+}  // namespace levitas::session

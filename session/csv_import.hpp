@@ -1,0 +1,41 @@
+#pragma once
+// Measured data of others: a CSV file of the contract in docs/formats.md becomes a session.
+//
+// Time      each row is one sample; steps in time_s are whole periods of the rig (within a
+// quarter);
+//           a longer step is a recorded drop-out and leaves its cycles out of the session.
+// Speed     from speed_rpm, else from the slope of rotor_angle_rad over 20 rows, else 0.
+// Angle     from rotor_angle_rad (any number of turns), else integrated from speed_rpm.
+// Mode      the file does not know it: levitating, or spinning when the rotor turns.
+// Failure   BadInput with line and column; then no output file is left behind.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/rig_numbers.hpp"
+
+namespace levitas::session {
+
+struct ImportOptions {
+  std::string data_path;  ///< .csv, or compressed .csv.xz
+  std::string out_path;
+  RigNumbers rig;
+  std::string rig_yaml;  ///< complete text, goes into the header
+  std::string program_version;
+  std::int64_t start_utc_ns{};
+};
+
+struct ImportReport {
+  std::uint64_t rows{};
+  std::uint64_t drop_outs{};       ///< gaps in time
+  std::uint64_t missing_cycles{};  ///< periods in them
+  double duration_s{};
+  bool has_rotation{};
+  bool has_excitation{};
+  std::vector<std::string> ignored_columns;
+};
+
+ImportReport ImportCsv(const ImportOptions& options);
+
+}  // namespace levitas::session
