@@ -1,0 +1,58 @@
+#pragma once
+// A program started beside this one, ended with it, never waited for without a bound.
+//
+// Life      the child dies with this process (PR_SET_PDEATHSIG, so start it from the main thread)
+//           and in the destructor. It has a process group of its own: Ctrl-C at the terminal
+//           reaches only us, and we decide what the child is told.
+// Output    standard output and error go to one log file each child has.
+// Failure   Problem (exit status 1) when the program cannot be started, naming it and why.
+// Thread    the thread that started it.
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace levitas::cli {
+
+struct ChildExit {
+  bool signalled{};  ///< ended by a signal
+  int code{};        ///< exit status, or the signal's number
+  /// "ended with exit status 3" / "was ended by signal 9 (Killed)".
+  [[nodiscard]] std::string Text() const;
+};
+
+class ChildProcess {
+ public:
+  /// `arguments` without the program's name.
+  ChildProcess(std::string program, const std::vector<std::string>& arguments,
+               std::string log_file);
+  /// Kills and reaps a child that still runs.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// How it ended, nothing while it runs. Never blocks.
+  [[nodiscard]] std::optional<ChildExit> Poll();
+  /// As Poll, but waits for at most `limit`.
+  [[nodiscard]] std::optional<ChildExit> WaitFor(std::chrono::milliseconds limit);
+  /// Nothing happens when it has ended already.
+  void Signal(int signal);
+  /// Asks with SIGTERM, waits, then kills: returns when the child is gone.
+  ChildExit End(std::chrono::milliseconds patience);
+
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] pid_t pid() const noexcept { return pid_; }
+  /// The end of what it wrote, at most `lines` lines.
+  [[nodiscard]] std::string LastWords(std::size_t lines) const;
+
+ private:
+  std::string name_;
+  std::string log_file_;
+  pid_t pid_{-1};
+  std::optional<ChildExit> exit_;
+};
+
+}  // namespace levitas::cli

@@ -1,0 +1,54 @@
+#pragma once
+// The progress of a run for people: one line redrawn on a terminal, one line per change of mode
+// everywhere else (a log file stays readable).
+//
+// Figures   mode, speed, largest orbit radius per bearing since the previous line (at the sensors,
+//           from decimated telemetry: the verdict, not this line, is exact), the rig's time, and
+//           how fast it passes.
+// Thread    one. Failure: none.
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "common/enums.hpp"
+
+namespace levitas::cli {
+
+struct ProgressSample {
+  std::uint64_t cycle{};
+  Mode mode{};
+  double speed_rad_per_s{};
+  std::vector<double> position_m;  ///< bearing frame, two axes per bearing
+};
+
+class Progress {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  Progress(std::vector<std::string> bearings, double period_s, std::FILE* out, bool terminal);
+  void Show(const ProgressSample& sample, Clock::time_point now = Clock::now());
+  /// Ends a redrawn line, so that what follows starts on a line of its own.
+  void Close();
+
+ private:
+  [[nodiscard]] std::string Line(const ProgressSample& sample) const;
+  void Measure(const ProgressSample& sample, Clock::time_point now);
+
+  std::vector<std::string> bearings_;
+  double period_s_;
+  std::FILE* out_;
+  bool terminal_;
+  bool drawn_{false};
+  bool started_{false};
+  Mode mode_{Mode::kOff};
+  std::vector<double> largest_m_;
+  std::uint64_t rate_cycle_{0};
+  Clock::time_point rate_time_;
+  Clock::time_point drawn_time_;
+  double times_real_time_{0.0};
+};
+
+}  // namespace levitas::cli

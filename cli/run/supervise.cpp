@@ -1,0 +1,133 @@
+#include "cli/run/supervise.hpp"
+
+#include <fmt/core.h>
+
+#include <csignal>
+#include <fstream>
+
+namespace levitas::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kPoll{50};
+constexpr std::size_t kLastWords = 12;
+
+/// "running", "sleeping", "stopped" ...: what the kernel says a process is doing.
+std::string StateOf(pid_t pid) {
+  std::ifstream status(fmt::format("/proc/{}/status", pid));
+  std::string line;
+  while (std::getline(status, line)) {
+    const auto open = line.find('(');
+    if (!line.starts_with("State:") || open == std::string::npos) continue;
+    return line.substr(open + 1, line.find(')') - open - 1);
+  }
+  return "gone";
+}
+
+std::string Said(const ChildProcess& child) {
+  const std::string words = child.LastWords(kLastWords);
+  return words.empty() ? "" : fmt::format("\n{} said:\n{}", child.name(), words);
+}
+
+class Run {
+ public:
+  Run(const RunPlan& plan, const RunHooks& hooks)
+      : plan_(plan),
+        hooks_(hooks),
+        plant_(plan.plant.program, plan.plant.arguments, plan.plant.log_file),
+        controller_(plan.controller.program, plan.controller.arguments, plan.controller.log_file),
+        last_progress_(Clock::now()) {}
+
+  RunResult UntilTheEnd() {
+    while (!controller_.Poll() && result_.trouble.empty()) {
+      FollowTelemetry();
+      HeedInterrupts();
+      WatchPlant();
+      WatchProgress();
+    }
+    Finish();
+    return result_;
+  }
+
+ private:
+  void FollowTelemetry() {
+    const auto sample = hooks_.telemetry(kPoll);
+    if (!sample) return;
+    if (sample->cycle != last_cycle_) last_progress_ = Clock::now();
+    last_cycle_ = sample->cycle;
+    hooks_.progress(*sample);
+  }
+
+  void HeedInterrupts() {
+    const int count = hooks_.interrupts();
+    if (count == 0) return;
+    if (!result_.interrupted) {
+      result_.interrupted = true;
+      hooks_.say("landing the rotor (Ctrl-C again ends at once)");
+      controller_.Signal(SIGINT);
+    } else if (count > 1) {
+      result_.trouble = "ended at once on request: the rotor was not landed";
+      controller_.Signal(SIGKILL);
+      plant_.Signal(SIGKILL);
+    }
+  }
+
+  /// A rig that ended orderly follows a controller that is about to end; both get the same grace.
+  void WatchPlant() {
+    const auto ended = plant_.Poll();
+    if (!ended) return;
+    if (controller_.WaitFor(plan_.grace)) return;
+    result_.trouble =
+        fmt::format("{} {} while {} went on", plant_.name(), ended->Text(), controller_.name());
+  }
+
+  void WatchProgress() {
+    if (Clock::now() - last_progress_ < plan_.silence_limit) return;
+    result_.trouble = fmt::format("no control cycle for {} s: {} is {}, {} is {}; both were ended",
+                                  plan_.silence_limit.count() / 1000, controller_.name(),
+                                  StateOf(controller_.pid()), plant_.name(), StateOf(plant_.pid()));
+    // A stopped process does not see SIGTERM before it goes on.
+    controller_.Signal(SIGCONT);
+    plant_.Signal(SIGCONT);
+  }
+
+  void Finish() {
+    const bool by_itself = controller_.Poll().has_value();
+    result_.controller = by_itself ? *controller_.Poll() : controller_.End(plan_.grace);
+    result_.plant = plant_.WaitFor(plan_.grace);
+    if (!result_.plant) plant_.End(plan_.grace);
+    if (!result_.trouble.empty()) {
+      result_.trouble += Said(plant_) + Said(controller_);
+      return;
+    }
+    const bool plant_failed =
+        result_.plant && (result_.plant->signalled || result_.plant->code != 0);
+    const bool orderly = !result_.controller.signalled &&
+                         (result_.controller.code == 0 || result_.controller.code == 4);
+    if (plant_failed) {
+      result_.trouble = fmt::format("{} {}{}", plant_.name(), result_.plant->Text(), Said(plant_));
+    }
+    if (!orderly) {
+      result_.trouble += fmt::format("{}{} {}{}", plant_failed ? "\n" : "", controller_.name(),
+                                     result_.controller.Text(), Said(controller_));
+    }
+  }
+
+  const RunPlan& plan_;
+  const RunHooks& hooks_;
+  ChildProcess plant_;
+  ChildProcess controller_;
+  RunResult result_;
+  std::uint64_t last_cycle_{0};
+  Clock::time_point last_progress_;
+};
+
+}  // namespace
+
+RunResult Supervise(const RunPlan& plan, const RunHooks& hooks) {
+  return Run(plan, hooks).UntilTheEnd();
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,54 @@
+#pragma once
+// Runs controller and rig side by side until the controller ends, and says what went wrong if one
+// of them dies or hangs. Every wait has a bound.
+//
+// End        the controller ends by itself when its scenario is done or has tripped; the rig then
+//            follows it, or is asked to.
+// Ctrl-C     the first is passed to the controller, which lands the rotor; the second kills both.
+// Death      of the rig: the controller gets `grace` to notice, freeze and close its record.
+// Hang       no new cycle in telemetry for `silence_limit`: both are ended.
+// Failure    Problem (exit status 1) only when a program cannot be started; all else is a result.
+// Thread     the main thread (see ChildProcess).
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/child_process.hpp"
+#include "cli/run/progress.hpp"
+
+namespace levitas::cli {
+
+struct ProgramCall {
+  std::string program;  ///< path
+  std::vector<std::string> arguments;
+  std::string log_file;  ///< takes what it writes
+};
+
+struct RunPlan {
+  ProgramCall plant;
+  ProgramCall controller;
+  std::chrono::milliseconds grace{5'000};
+  std::chrono::milliseconds silence_limit{15'000};
+};
+
+struct RunResult {
+  ChildExit controller;
+  std::optional<ChildExit> plant;  ///< empty: still running when the controller ended; ended by us
+  bool interrupted{};              ///< Ctrl-C was pressed
+  std::string trouble;  ///< one message; empty when the controller ended with status 0 or 4
+};
+
+struct RunHooks {
+  /// Waits for at most the given time for telemetry; nothing when there is none.
+  std::function<std::optional<ProgressSample>(std::chrono::milliseconds)> telemetry;
+  std::function<void(const ProgressSample&)> progress;
+  std::function<void(const std::string&)> say;  ///< a line for people, in between
+  std::function<int()> interrupts;              ///< Ctrl-C so far
+};
+
+[[nodiscard]] RunResult Supervise(const RunPlan& plan, const RunHooks& hooks);
+
+}  // namespace levitas::cli

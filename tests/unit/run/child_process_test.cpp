@@ -1,0 +1,134 @@
+#include "cli/run/child_process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "common/problem.hpp"
+#include "tests/unit/run/scratch_folder.hpp"
+
+namespace levitas::cli {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+// Long enough for any loaded machine; a passing test never waits for it.
+constexpr milliseconds kLong{30'000};
+
+TEST(ChildProcess, TellsTheExitStatusAndTheLastWords) {
+  const ScratchFolder scratch;
+  ChildProcess child("/bin/sh", {"-c", "echo one; echo two >&2; echo three; exit 3"},
+                     scratch / "log");
+  const auto ended = child.WaitFor(kLong);
+  ASSERT_TRUE(ended);
+  EXPECT_FALSE(ended->signalled);
+  EXPECT_EQ(ended->code, 3);
+  EXPECT_EQ(ended->Text(), "ended with exit status 3");
+  EXPECT_EQ(child.LastWords(2), "two\nthree");
+  EXPECT_EQ(child.name(), "sh");
+}
+
+TEST(ChildProcess, TellsWhichSignalEndedIt) {
+  const ScratchFolder scratch;
+  ChildProcess child("/bin/sh", {"-c", "kill -9 $$"}, scratch / "log");
+  const auto ended = child.WaitFor(kLong);
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(ended->Text(), "was ended by signal 9 (Killed)");
+}
+
+TEST(ChildProcess, HandsArgumentsOverUnchanged) {
+  const ScratchFolder scratch;
+  ChildProcess child("/bin/echo", {"a b", "$HOME", "*"}, scratch / "log");
+  ASSERT_TRUE(child.WaitFor(kLong));
+  EXPECT_EQ(child.LastWords(5), "a b $HOME *");
+}
+
+TEST(ChildProcess, SaysWhichProgramIsMissing) {
+  const ScratchFolder scratch;
+  try {
+    ChildProcess child("/nowhere/amb-plant", {}, scratch / "log");
+    FAIL() << "a program that does not exist was started";
+  } catch (const Problem& problem) {
+    EXPECT_STREQ(problem.what(),
+                 "/nowhere/amb-plant could not be started: No such file or directory");
+    EXPECT_EQ(problem.status(), ExitStatus::kOther);
+  }
+}
+
+TEST(ChildProcess, DoesNotWaitForAChildThatRuns) {
+  const ScratchFolder scratch;
+  ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");
+  EXPECT_FALSE(child.Poll());
+  EXPECT_FALSE(child.WaitFor(milliseconds(20)));
+  const ChildExit ended = child.End(kLong);
+  EXPECT_TRUE(ended.signalled);
+  EXPECT_EQ(ended.code, SIGTERM);
+}
+
+TEST(ChildProcess, KillsAChildThatIgnoresTheRequestToEnd) {
+  const ScratchFolder scratch;
+  ChildProcess child("/bin/sh", {"-c", "trap '' TERM; echo deaf; while :; do sleep 0.05; done"},
+                     scratch / "log");
+  while (child.LastWords(1) != "deaf") std::this_thread::sleep_for(milliseconds(5));
+  const ChildExit ended = child.End(milliseconds(100));
+  EXPECT_TRUE(ended.signalled);
+  EXPECT_EQ(ended.code, SIGKILL);
+}
+
+TEST(ChildProcess, HasAProcessGroupOfItsOwn) {
+  const ScratchFolder scratch;
+  ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");
+  EXPECT_EQ(getpgid(child.pid()), child.pid());
+  EXPECT_NE(getpgid(child.pid()), getpgrp());
+}
+
+TEST(ChildProcess, EndsWithTheObject) {
+  const ScratchFolder scratch;
+  pid_t pid = 0;
+  {
+    ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");
+    pid = child.pid();
+  }
+  EXPECT_EQ(kill(pid, 0), -1);  // reaped: no such process
+}
+
+// The parent here is a fork of the test that starts a child and is then killed: nobody tidies up
+// but the kernel.
+TEST(ChildProcess, DiesWithAParentThatIsKilled) {
+  const ScratchFolder scratch;
+  const pid_t parent = fork();
+  if (parent == 0) {
+    ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");
+    std::ofstream(scratch / "pid.new") << child.pid() << std::endl;
+    std::filesystem::rename(scratch / "pid.new", scratch / "pid");
+    pause();
+    _exit(0);
+  }
+  while (!std::filesystem::exists(scratch / "pid")) std::this_thread::sleep_for(milliseconds(5));
+  pid_t child = 0;
+  std::ifstream(scratch / "pid") >> child;
+  ASSERT_EQ(kill(child, 0), 0);
+  kill(parent, SIGKILL);
+  waitpid(parent, nullptr, 0);
+  // Whoever inherits the child reaps it in its own time: dead is "gone or a zombie".
+  const auto deadline = std::chrono::steady_clock::now() + kLong;
+  bool dead = false;
+  while (!dead && std::chrono::steady_clock::now() < deadline) {
+    std::ifstream status("/proc/" + std::to_string(child) + "/stat");
+    std::string pid;
+    std::string name;
+    std::string state;
+    dead = !(status >> pid >> name >> state) || state == "Z";
+    std::this_thread::sleep_for(milliseconds(5));
+  }
+  EXPECT_TRUE(dead);
+}
+
+}  // namespace
+}  // namespace levitas::cli
