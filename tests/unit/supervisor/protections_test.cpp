@@ -1,0 +1,205 @@
+// Each protection as a pair on observations: just below its limit nothing, at its limit the trip.
+// The physical harm it prevents is shown in tests/loop/levitation.
+
+#include "controller/supervisor/protections.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/unit/supervisor/supervisor_rig.hpp"
+
+namespace levitas::supervisor {
+namespace {
+
+// A supervisor that has reached `state`, then shows `change` on each further cycle.
+template <class Change>
+Finding TripAfter(State state, int cycles, Change change) {
+  Driver driver;
+  driver.GoTo(state);
+  for (int i = 0; i < cycles; ++i) {
+    change(driver.seen, i);
+    (void)driver.Step();
+  }
+  return driver.supervisor.decision().latch.finding;
+}
+
+TEST(OrbitProtection, TripsAfterItsCyclesBeyondTheFractionOfTheClearance) {
+  const auto beyond = [](Seen& seen, int) { seen.position_m = {0, 0, 71e-6, -72e-6}; };
+  EXPECT_EQ(TripAfter(State::kSpinning, 2, beyond).fault, Fault::kNone);
+  const Finding found = TripAfter(State::kSpinning, 3, beyond);
+  EXPECT_EQ(found.fault, Fault::kOrbitExceeded);
+  EXPECT_EQ(found.axis, 3);                                    // the larger of the two axes
+  EXPECT_NEAR(found.value, std::hypot(71e-6, 72e-6), 0.1e-6);  // wiggle of the observations
+  EXPECT_DOUBLE_EQ(found.limit, 100e-6);
+}
+
+TEST(OrbitProtection, CountsOnlyCyclesInARow) {
+  const auto now_and_then = [](Seen& seen, int i) {
+    seen.position_m = {i % 3 == 2 ? 0.0 : 150e-6, 0, 0, 0};
+  };
+  EXPECT_EQ(TripAfter(State::kSpinning, 300, now_and_then).fault, Fault::kNone);
+}
+
+TEST(OrbitProtection, LooksAtTheRadiusNotAtTheAxes) {
+  const auto diagonal = [](Seen& seen, int) { seen.position_m = {80e-6, 80e-6, 0, 0}; };
+  EXPECT_EQ(TripAfter(State::kLevitating, 3, diagonal).fault, Fault::kOrbitExceeded);
+  const auto straight = [](Seen& seen, int) { seen.position_m = {80e-6, 0, 0, 80e-6}; };
+  EXPECT_EQ(TripAfter(State::kLevitating, 3, straight).fault, Fault::kNone);
+}
+
+TEST(SensorRangeProtection, TripsAfterItsCyclesNearTheEndOfTheConverter) {
+  const auto clipped = [](Seen& seen, int) { seen.position_m[1] = 399e-6; };
+  // A spike trips nothing by itself: 2 cycles stay below every count.
+  EXPECT_EQ(TripAfter(State::kLanding, 3, clipped).fault, Fault::kNone);
+  const Finding found = TripAfter(State::kLanding, 4, clipped);
+  EXPECT_EQ(found.fault, Fault::kSensorOutOfRange);
+  EXPECT_EQ(found.axis, 1);
+  EXPECT_DOUBLE_EQ(found.limit, 360e-6);
+}
+
+TEST(FrozenProtection, TripsWhenOneAxisRepeatsItself) {
+  const auto frozen = [](Seen& seen, int) { seen.frozen[2] = true; };
+  // Six identical readings: the one before the sensor died is the first of them.
+  EXPECT_EQ(TripAfter(State::kLevitating, 4, frozen).fault, Fault::kNone);
+  const Finding found = TripAfter(State::kLevitating, 5, frozen);
+  EXPECT_EQ(found.fault, Fault::kSensorFrozen);
+  EXPECT_EQ(found.axis, 2);
+  EXPECT_EQ(found.limit, 6.0);
+}
+
+TEST(NotFiniteProtection, TripsAtOnceForAPositionOrTheSpeed) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), HUGE_VAL, -HUGE_VAL}) {
+    const Finding position =
+        TripAfter(State::kSpinning, 1, [bad](Seen& seen, int) { seen.position_m[2] = bad; });
+    EXPECT_EQ(position.fault, Fault::kSensorNotFinite);
+    EXPECT_EQ(position.axis, 2);
+    EXPECT_EQ(position.value, 0.0);  // comparable in a replay
+    const Finding speed =
+        TripAfter(State::kSpinning, 1, [bad](Seen& seen, int) { seen.speed_rad_per_s = bad; });
+    EXPECT_EQ(speed.fault, Fault::kSensorNotFinite);
+    EXPECT_EQ(speed.axis, -1);
+  }
+}
+
+TEST(FrameMissingProtection, TripsAfterItsCyclesInARow) {
+  const auto missing = [](Seen& seen, int) { seen.fresh = false; };
+  EXPECT_EQ(TripAfter(State::kSpinning, 4, missing).fault, Fault::kNone);
+  EXPECT_EQ(TripAfter(State::kSpinning, 5, missing).fault, Fault::kFrameMissing);
+  const auto every_other = [](Seen& seen, int i) { seen.fresh = i % 2 == 0; };
+  EXPECT_EQ(TripAfter(State::kSpinning, 100, every_other).fault, Fault::kNone);
+}
+
+TEST(DeadlineProtection, CountsMissesWithinItsWindow) {
+  // Three within 100 cycles trip: misses 49 cycles apart do, misses 50 apart do not.
+  const auto every = [](int apart) {
+    return [apart](Seen& seen, int i) { seen.missed_deadlines = i % apart == 0 ? 1 : 0; };
+  };
+  EXPECT_EQ(TripAfter(State::kSpinning, 99, every(49)).fault, Fault::kDeadlineMissed);
+  EXPECT_EQ(TripAfter(State::kSpinning, 1000, every(50)).fault, Fault::kNone);
+}
+
+TEST(DeadlineProtection, CountsEveryPeriodOfALongInterruption) {
+  const auto once = [](std::uint32_t missed) {
+    return [missed](Seen& seen, int i) { seen.missed_deadlines = i == 0 ? missed : 0; };
+  };
+  EXPECT_EQ(TripAfter(State::kSpinning, 10, once(2)).fault, Fault::kNone);
+  EXPECT_EQ(TripAfter(State::kSpinning, 1, once(3)).fault, Fault::kDeadlineMissed);
+  EXPECT_EQ(TripAfter(State::kSpinning, 1, once(4'000'000'000U)).fault, Fault::kDeadlineMissed);
+}
+
+TEST(SaturationProtection, TripsWhenAnAxisStaysLimited) {
+  const auto limited = [](Seen& seen, int) { seen.saturated_axes = 0b0100; };
+  EXPECT_EQ(TripAfter(State::kLevitating, 7, limited).fault, Fault::kNone);
+  const Finding found = TripAfter(State::kLevitating, 8, limited);
+  EXPECT_EQ(found.fault, Fault::kCoilSaturated);
+  EXPECT_EQ(found.axis, 2);
+  EXPECT_NEAR(found.value, 8e-4, 1e-12);  // eight periods of 1e-4 s
+  const auto in_turn = [](Seen& seen, int i) {
+    seen.saturated_axes = static_cast<std::uint16_t>(1U << (i / 4 % 4));
+  };
+  EXPECT_EQ(TripAfter(State::kLevitating, 100, in_turn).fault, Fault::kNone);
+}
+
+TEST(OverSpeedProtection, TripsInEitherDirection) {
+  const auto at = [](double speed) {
+    return [speed](Seen& seen, int) { seen.speed_rad_per_s = speed; };
+  };
+  EXPECT_EQ(TripAfter(State::kSpinning, 5, at(659.9)).fault, Fault::kNone);
+  EXPECT_EQ(TripAfter(State::kSpinning, 1, at(660.1)).fault, Fault::kOverSpeed);
+  EXPECT_EQ(TripAfter(State::kCoastDown, 1, at(-660.1)).fault, Fault::kOverSpeed);
+}
+
+TEST(EmergencyStopProtection, TakesTheRigsOwnChainInEveryStateBeforeATrip) {
+  const auto open = [](Seen& seen, int) { seen.rig_status = kRigEmergencyStop; };
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(State::kLanding); ++i) {
+    EXPECT_EQ(TripAfter(static_cast<State>(i), 1, open).fault, Fault::kEmergencyStop);
+  }
+}
+
+TEST(RigRestartProtection, TripsWhenTheSessionChangesWhileInUse) {
+  const auto restarted = [](Seen& seen, int) { seen.rig_session = 2; };
+  EXPECT_EQ(TripAfter(State::kOff, 5, restarted).fault, Fault::kNone);
+  const Finding found = TripAfter(State::kLevitating, 1, restarted);
+  EXPECT_EQ(found.fault, Fault::kRigRestarted);
+  EXPECT_EQ(found.value, 2.0);
+  EXPECT_EQ(found.limit, 1.0);
+}
+
+TEST(AmplifierProtection, TripsForTheFaultBitAndForSilence) {
+  const auto fault = [](Seen& seen, int) { seen.rig_status = kRigAmplifierFault; };
+  EXPECT_EQ(TripAfter(State::kLevitating, 1, fault).fault, Fault::kAmplifierFault);
+  const auto off = [](Seen& seen, int) { seen.rig_status = kRigAmplifiersOff; };
+  const int answer = static_cast<int>(kAmplifierAnswerCycles);
+  EXPECT_EQ(TripAfter(State::kLevitating, answer - 1, off).fault, Fault::kNone);
+  EXPECT_EQ(TripAfter(State::kLevitating, answer, off).fault, Fault::kAmplifierFault);
+  EXPECT_EQ(TripAfter(State::kOff, 10 * answer, off).fault, Fault::kNone);
+}
+
+TEST(Protections, PutSignalFaultsBeforeMotionFaults) {
+  const auto both = [](Seen& seen, int) {
+    seen.position_m[0] = std::numeric_limits<double>::quiet_NaN();
+    seen.speed_rad_per_s = 1000.0;
+  };
+  EXPECT_EQ(TripAfter(State::kSpinning, 1, both).fault, Fault::kSensorNotFinite);
+}
+
+TEST(Protections, LatchTheCycleInWhichTheyTripped) {
+  Driver driver;
+  driver.GoTo(State::kSpinning);
+  driver.seen.speed_rad_per_s = 1000.0;
+  (void)driver.Step();
+  const std::uint64_t cycle = driver.seen.cycle;
+  (void)driver.Steps(10);
+  EXPECT_EQ(driver.supervisor.decision().latch.cycle, cycle);
+}
+
+TEST(Protections, CannotBeSwitchedOffByAZero) {
+  const auto throws = [](auto change) {
+    ProtectionConfig config = TestConfig().protection;
+    change(config);
+    try {
+      Protections protections(TestRig(), config);
+    } catch (const std::invalid_argument&) {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(throws([](ProtectionConfig&) {}));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.orbit_fraction = 0.0; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.orbit_cycles = 0; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.sensor_range_fraction = HUGE_VAL; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.sensor_range_cycles = 0; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.sensor_frozen_cycles = 0; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.frame_missing_cycles = 0; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.deadline_missed_cycles = 0; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.deadline_missed_cycles = 4'000'000'000U; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.deadline_window_cycles = 0; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.coil_saturated_s = -1.0; }));
+  EXPECT_TRUE(throws([](ProtectionConfig& c) { c.over_speed_fraction = std::nan(""); }));
+}
+
+}  // namespace
+}  // namespace levitas::supervisor
