@@ -27,21 +27,26 @@ ctest_preset() {
   return "$status"
 }
 
+# prepare_preset PRESET [TARGET...]
 prepare_preset() {
   take_lock
-  install_packages "$root/packages.txt" "${@:2}"
+  install_packages "$root/packages.txt" ${ci_packages:+"$ci_packages"}
   configure "$1"
-  build_preset "$1"
+  build_preset "$@"
   release_lock
 }
 
 # Every stage runs even when an earlier one failed, so that one run names everything.
 run_all() {
-  local failed=()
-  prepare_preset release "$root/packages-ci.txt"
+  local failed=() ci_packages=$root/packages-ci.txt
+  prepare_preset release
   ctest_preset release || failed+=("release tests")
   prepare_preset asan-ubsan
   ctest_preset asan-ubsan -L '^(unit|loop|replay|process)$' || failed+=("asan-ubsan tests")
+  prepare_preset tidy lcmtypes_generate
+  say "clang-tidy"
+  python3 "$root/scripts/tidy.py" --jobs "$(job_count)" || failed+=("clang-tidy")
+  # The thread sanitizer of GCC 12 does not know the wider address randomisation of newer kernels.
   prepare_preset tsan
   ctest_preset tsan -L '^(unit|process)$' || failed+=("tsan tests")
   if [ ${#failed[@]} -ne 0 ]; then
