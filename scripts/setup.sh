@@ -6,6 +6,7 @@
 #           one lock serialises, and each step leaves its stamp only when it has finished.
 
 build_root=$root/build
+under=()  # what ninja runs under; the thread sanitizer needs a wrapper
 
 say() { printf 'amb: %s\n' "$*" >&2; }
 die() { say "$*"; exit 1; }
@@ -103,7 +104,7 @@ build_preset() {
   shift
   local log=$build_root/amb-build-$preset.log announced="" line status=0
   local pattern='^\[([0-9]+)/([0-9]+)\]'
-  ninja -C "$dir" -j "$(job_count)" "$@" 2>&1 9>&- | tee "$log" | while IFS= read -r line; do
+  "${under[@]}" ninja -C "$dir" -j "$(job_count)" "$@" 2>&1 9>&- | tee "$log" | while IFS= read -r line; do
     [[ $line =~ $pattern ]] || continue
     if [ -z "$announced" ] && [[ $line != *"Re-checking globbed"* ]]; then
       announced=yes

@@ -13,7 +13,7 @@ ctest_preset() {
   shift
   local pattern='^ *([0-9]+/[0-9]+) Test +#[0-9]+: ([^ ]+)'
   say "testing preset $preset"
-  ctest --test-dir "$build_root/$preset" -j "${LEVITAS_JOBS:-2}" --output-on-failure \
+  "${under[@]}" ctest --test-dir "$build_root/$preset" -j "${LEVITAS_JOBS:-2}" --output-on-failure \
         --no-tests=error "$@" 2>&1 | tee "$log" | while IFS= read -r line; do
     if [[ $line =~ $pattern ]]; then progress "testing ${BASH_REMATCH[1]} ${BASH_REMATCH[2]}"; fi
   done || status=$?
@@ -47,7 +47,8 @@ run_all() {
   say "clang-tidy"
   python3 "$root/scripts/tidy.py" --jobs "$(job_count)" || failed+=("clang-tidy")
   # The thread sanitizer of GCC 12 does not know the wider address randomisation of newer kernels.
-  prepare_preset tsan
+  if setarch --addr-no-randomize true 2>/dev/null; then under=(setarch --addr-no-randomize); fi
+  prepare_preset tsan tests_unit tests_process
   ctest_preset tsan -L '^(unit|process)$' || failed+=("tsan tests")
   if [ ${#failed[@]} -ne 0 ]; then
     say "failed: $(IFS=,; echo "${failed[*]}")"
@@ -70,6 +71,6 @@ run_tests() {
   done
   local selection=()
   [ ${#labels[@]} -eq 0 ] || selection=(-L "^($(IFS='|'; echo "${labels[*]}"))\$")
-  prepare_preset release
+  prepare_preset release "${labels[@]/#/tests_}"
   ctest_preset release "${selection[@]}" "$@"
 }
