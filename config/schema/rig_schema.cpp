@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "config/schema/schema.hpp"
+#include "plant_sim/magnet/magnet.hpp"
 
 namespace levitas::config {
 namespace {
 
 using namespace unit;
 
-constexpr double kVacuumPermeability = 4e-7 * static_cast<double>(kPi);  // [H/m]
 constexpr std::size_t kMaxBearings = kMaxAxes / 2;
 
 // The force constant k of F = k [((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2] is given in one of three
@@ -52,7 +52,7 @@ void DescribeStrength(Visitor& v, plant::MagnetConfig& magnet) {
   if (chosen == 1) {
     constant = ki_n_per_a * magnet.gap_m * magnet.gap_m / (4.0 * magnet.bias_current_a);
   } else if (chosen == 2) {
-    constant = kVacuumPermeability * turns * turns * pole_area_m2 * std::cos(half_angle_rad) / 4.0;
+    constant = magnet::ForceConstant(turns, pole_area_m2, half_angle_rad);
   }
   v.RefuseIf(
       constant < 1e-9 || constant > 1e-2, "",
