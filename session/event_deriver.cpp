@@ -71,7 +71,7 @@ void EventDeriver::ModeAndFault(const cycle::CycleRecord& record,
                                 std::vector<Event>& events) const {
   const Mode mode_before = have_previous_ ? previous_.out.mode : Mode::kOff;
   const Fault fault_before = have_previous_ ? previous_.out.fault : Fault::kNone;
-  if (record.out.fault != Fault::kNone && fault_before == Fault::kNone) {
+  if (record.out.fault != Fault::kNone && record.out.fault != fault_before) {
     events.push_back(Make(record, Event::Severity::kTrip, TripText(record, channels_)));
   } else if (record.out.mode != mode_before) {
     events.push_back(Make(record, Event::Severity::kInformation,

@@ -34,7 +34,7 @@ constexpr std::array<Row, kFaultCount> kRows{{
     {"the rig restarted", 1.0, nullptr},
     {"an amplifier reports a fault", 1.0, nullptr},
     {"the self-test failed", kMicro, "um"},
-    {"the rotor did not lift in time", 1.0, "s"},
+    {"the rotor did not reach the centre in time", kMicro, "um"},
 }};
 
 std::string Where(const cycle::CycleOutputs& out, const std::vector<std::string>& channels) {
@@ -50,23 +50,30 @@ const char* SafeState(const CurrentFrame& current) {
     return "The coils are switched off and the rotor runs down in the touchdown bearings.";
   }
   return current.drive_enabled
-             ? "The rotor stays levitated while the drive brakes it to standstill, then it lands."
-             : "The rotor stays levitated while it coasts down, then it lands.";
+             ? "The rotor stays levitated while the drive brakes it; at standstill it is lowered "
+               "into the touchdown bearings."
+             : "The rotor stays levitated and is lowered into the touchdown bearings.";
 }
 
 }  // namespace
 
 std::string TripText(const cycle::CycleRecord& record, const std::vector<std::string>& channels) {
   const auto index = static_cast<std::size_t>(record.out.fault);
-  const Row row = index < kRows.size() ? kRows[index] : Row{"unknown fault", 1.0, nullptr};
+  Row row = index < kRows.size() ? kRows[index] : Row{"unknown fault", 1.0, nullptr};
+  // Without an axis the self-test failed because the rotor turns.
+  if (record.out.fault == Fault::kSelfTestFailed && record.out.fault_axis < 0) {
+    row = {"the self-test failed: the rotor turns", kRpm, "rpm"};
+  }
   std::string numbers;
   if (row.unit != nullptr) {
     numbers = fmt::format(": {:.4g} {}, allowed {:.4g} {}", record.out.fault_value * row.factor,
                           row.unit, record.out.fault_limit * row.factor, row.unit);
   }
-  return fmt::format("TRIP in cycle {}: {}{}{}. {} Remove the cause, then give the command reset.",
-                     record.in.cycle, row.cause, Where(record.out, channels), numbers,
-                     SafeState(record.out.current));
+  return fmt::format(
+      "TRIP in cycle {}: {}{}{}. {} When it stands and the cause is "
+      "gone, give the command reset.",
+      record.in.cycle, row.cause, Where(record.out, channels), numbers,
+      SafeState(record.out.current));
 }
 
 }  // namespace levitas::session
