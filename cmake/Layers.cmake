@@ -5,7 +5,7 @@
 #   levitas_library(law LAYER 10 FOLDER controller/law SOURCES pid.cpp USES common)
 #   levitas_program(amb-plant SOURCES main.cpp USES plant)
 #
-# Programs stand above all libraries (layer 50) and not on each other.
+# Programs stand above all libraries (layer 59, above their own parts) and not on each other.
 # USES names libraries of ours, LINKS third-party targets visible in our headers, PRIVATE_LINKS
 # third-party targets that stay inside the sources.
 
@@ -44,7 +44,7 @@ function(levitas_program name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin
-                                           LEVITAS_LAYER 50 LEVITAS_FOLDER "${folder}"
+                                           LEVITAS_LAYER 59 LEVITAS_FOLDER "${folder}"
                                            LEVITAS_USES "${A_USES}")
   set_property(GLOBAL APPEND PROPERTY LEVITAS_LIBRARIES ${name})
   add_dependencies(programs ${name})
