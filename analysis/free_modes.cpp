@@ -1,5 +1,6 @@
 #include "analysis/free_modes.hpp"
 
+#include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/rotor/finite_element.hpp"
 
 namespace levitas::analysis {
@@ -17,11 +18,11 @@ std::vector<double> Planes(const plant::PlantConfig& plant) {
 }
 
 BearingConstants Constants(const plant::BearingConfig& bearing) {
-  const auto& magnet = bearing.magnet;
-  const double k4 = 4.0 * magnet.force_constant_n_m2_per_a2;
-  const double i0 = magnet.bias_current_a;
-  const double s0 = magnet.gap_m;
-  return {bearing.name, k4 * i0 / (s0 * s0), k4 * i0 * i0 / (s0 * s0 * s0)};
+  const plant::MagnetConfig& config = bearing.magnet;
+  const magnet::Magnet magnet{config.force_constant_n_m2_per_a2, config.gap_m,
+                              config.max_coil_current_a};
+  return {bearing.name, magnet::ForcePerCurrent(magnet, config.bias_current_a),
+          magnet::NegativeStiffness(magnet, config.bias_current_a)};
 }
 
 }  // namespace

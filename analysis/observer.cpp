@@ -5,30 +5,23 @@
 #include <cmath>
 
 #include "analysis/riccati.hpp"
+#include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/linear_model.hpp"
+#include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::analysis {
 namespace {
 
-/// The recorded speed drives the rotor; the plant's own drive must not.
-plant::PlantConfig WithoutDrive(plant::PlantConfig config) {
-  config.drive = {};
-  return config;
-}
-
-double ForcePerCurrent(const plant::MagnetConfig& magnet) {
-  return 4.0 * magnet.force_constant_n_m2_per_a2 * magnet.bias_current_a /
-         (magnet.gap_m * magnet.gap_m);
-}
-
 /// How one newton at each actuator plane enters the state: the way the coil current's force does.
-Eigen::MatrixXd ForceInput(const plant::PlantConfig& config, const plant::StateLayout& layout,
-                           const Eigen::MatrixXd& a) {
-  const auto axes = static_cast<Eigen::Index>(2 * config.bearings.size());
+Eigen::MatrixXd ForceInput(const plant::PlantModel& model, const Eigen::MatrixXd& a) {
+  const plant::StateLayout& layout = model.layout();
+  const auto axes = static_cast<Eigen::Index>(model.axes());
   const auto modes = static_cast<Eigen::Index>(layout.modes);
   Eigen::MatrixXd input = Eigen::MatrixXd::Zero(a.rows(), axes);
   for (Eigen::Index axis = 0; axis < axes; ++axis) {
-    const double ki = ForcePerCurrent(config.bearings[static_cast<std::size_t>(axis / 2)].magnet);
+    const auto bearing = static_cast<std::size_t>(axis / 2);
+    const double ki = magnet::ForcePerCurrent(
+        model.bearings()[bearing].magnet, model.config().bearings[bearing].magnet.bias_current_a);
     const Eigen::Index coil = static_cast<Eigen::Index>(layout.coil_current) + axis;
     for (const std::size_t first : {layout.v_x, layout.v_y}) {
       const auto at = static_cast<Eigen::Index>(first);
@@ -99,11 +92,11 @@ double ReadingNoise(const plant::SensorConfig& sensor) {
 }
 
 ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTuning& tuning) {
-  const plant::StateLayout layout = plant::Plant(nominal, 0).layout();
+  const plant::PlantModel reduced(nominal);
   const double period_s = static_cast<double>(nominal.period_ns) * 1e-9;
   const auto axes = static_cast<Eigen::Index>(2 * nominal.bearings.size());
-  plant::LinearModel continuous = plant::Linearise(nominal, tuning.speed_rad_per_s);
-  continuous.b = ForceInput(nominal, layout, continuous.a);
+  plant::LinearModel continuous = plant::Linearise(reduced, tuning.speed_rad_per_s);
+  continuous.b = ForceInput(reduced, continuous.a);
   const plant::LinearModel sampled = plant::Discretise(continuous, period_s, 0.0);
 
   ObserverGain gain;
@@ -114,7 +107,7 @@ ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTun
     reading_m[axis] = gain.sensor_noise_m[i] = ReadingNoise(nominal.bearings[i / 2].sensor);
   }
   const Augmented model = Augment(sampled, gain.force_step, reading_m, tuning);
-  const Eigen::VectorXd scale = Scales(layout, axes, reading_m.maxCoeff());
+  const Eigen::VectorXd scale = Scales(reduced.layout(), axes, reading_m.maxCoeff());
   const Eigen::VectorXd unscale = scale.cwiseInverse();
   const Eigen::VectorXd unread = reading_m.cwiseInverse();
   const Eigen::MatrixXd a = unscale.asDiagonal() * model.a * scale.asDiagonal();
@@ -136,27 +129,31 @@ ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTun
   return gain;
 }
 
-Observer::Observer(const plant::PlantConfig& plant, std::shared_ptr<const ObserverGain> gain)
-    : plant_(WithoutDrive(plant), 0),
+Observer::Observer(std::shared_ptr<const plant::PlantModel> model,
+                   std::shared_ptr<const ObserverGain> gain)
+    : plant_(std::move(model), 0),
       gain_(std::move(gain)),
-      bearings_(plant.bearings),
-      polarity_(plant.sensor_polarity),
       force_n_(Eigen::VectorXd::Zero(gain_->force_n_per_m.rows())),
       innovation_m_(force_n_) {}
 
+Observer::Observer(const plant::PlantConfig& plant, std::shared_ptr<const ObserverGain> gain)
+    : Observer(std::make_shared<const plant::PlantModel>(plant), std::move(gain)) {}
+
 void Observer::Restart(const AxisArray& position_m) {
   AxisArray place_m{};
-  const std::size_t axes = 2 * bearings_.size();
+  const plant::PlantConfig& config = plant_.model().config();
+  const auto& bearings = config.bearings;
+  const std::size_t axes = 2 * bearings.size();
   for (std::size_t axis = 0; axis < axes; ++axis) {
-    place_m[axis] = polarity_[axis] * position_m[axis];
+    place_m[axis] = config.sensor_polarity[axis] * position_m[axis];
   }
-  if (bearings_.size() == 2) {
+  if (bearings.size() == 2) {
     // A rigid rotor through both sensor planes, read off at the actuator planes.
     const AxisArray sensor_m = place_m;
-    const double first_z_m = bearings_[0].sensor_z_m;
-    const double span_m = bearings_[1].sensor_z_m - first_z_m;
+    const double first_z_m = bearings[0].sensor_z_m;
+    const double span_m = bearings[1].sensor_z_m - first_z_m;
     for (std::size_t axis = 0; axis < axes; ++axis) {
-      const double share = (bearings_[axis / 2].actuator_z_m - first_z_m) / span_m;
+      const double share = (bearings[axis / 2].actuator_z_m - first_z_m) / span_m;
       const std::size_t plane = axis % 2;
       place_m[axis] = sensor_m[plane] + share * (sensor_m[plane + 2] - sensor_m[plane]);
     }
@@ -166,17 +163,23 @@ void Observer::Restart(const AxisArray& position_m) {
 
 AxisArray Observer::Step(const RecordedSample& sample) noexcept {
   const AxisArray predicted_m = plant_.SensorOutput();
+  const AxisArray& polarity = plant_.model().config().sensor_polarity;
   AxisArray innovation_m{};
   for (Eigen::Index axis = 0; axis < innovation_m_.size(); ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    innovation_m[i] = innovation_m_[axis] = sample.position_m[i] - predicted_m[i];
+    innovation_m[i] = sample.position_m[i] - predicted_m[i];
+    innovation_m_[axis] = polarity[i] * innovation_m[i];
   }
   const std::span<double> state = plant_.mutable_state();
   Eigen::Map<Eigen::VectorXd> x(state.data(), gain_->state.rows());
   x.noalias() += gain_->state * innovation_m_;
   force_n_.noalias() += gain_->force_n_per_m * innovation_m_;
+  // The recorded rotation is imposed sample by sample: a drive that asks for the speed it has.
   plant_.SetSpeed(sample.speed_rad_per_s, sample.angle_rad);
-  plant_.Advance(sample.command);
+  plant::PlantCommand command = sample.command;
+  command.drive_enabled = true;
+  command.speed_set_point_rad_per_s = sample.speed_rad_per_s;
+  plant_.Advance(command);
   x.noalias() += gain_->force_step * force_n_;
   return innovation_m;
 }

@@ -58,6 +58,9 @@ struct RecordedSample {
 
 class Observer {
  public:
+  /// `model` need not be the one the gain was designed for.
+  Observer(std::shared_ptr<const plant::PlantModel> model,
+           std::shared_ptr<const ObserverGain> gain);
   Observer(const plant::PlantConfig& plant, std::shared_ptr<const ObserverGain> gain);
 
   /// Starts from rest at the measured place. The unknown force keeps its estimate: a gap in the
@@ -72,8 +75,6 @@ class Observer {
  private:
   plant::Plant plant_;
   std::shared_ptr<const ObserverGain> gain_;
-  std::vector<plant::BearingConfig> bearings_;
-  AxisArray polarity_{};
   Eigen::VectorXd force_n_;
   Eigen::VectorXd innovation_m_;
 };

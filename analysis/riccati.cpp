@@ -24,7 +24,8 @@ Eigen::MatrixXd StationaryCovariance(const Eigen::MatrixXd& a, const Eigen::Matr
     covariance += 0.5 * (added + added.transpose());
     information = (0.5 * (information + information.transpose())).eval();
     if (!covariance.allFinite()) break;
-    if (added.norm() <= kSettled * covariance.norm()) return covariance;
+    if (added.lpNorm<Eigen::Infinity>() <= kSettled * covariance.lpNorm<Eigen::Infinity>())
+      return covariance;
   }
   throw Problem(ExitStatus::kOther,
                 "the observer's Riccati equation does not settle: the linear model has states "

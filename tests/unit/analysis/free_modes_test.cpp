@@ -3,18 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/analysis/csv.hpp"
-#include "tests/unit/analysis/rigs.hpp"
+#include "tests/support/reference_csv.hpp"
+#include "tests/support/test_rigs.hpp"
+#include "tests/unit/analysis/laws.hpp"
 
 namespace levitas::analysis {
 namespace {
 
 TEST(FreeModes, AgreeWithAnIndependentProgramAtEverySpeedOfTheCampbellDiagram) {
-  const auto table = test::ReferenceTable("flexible_rotor_campbell.csv");
+  const auto table = test::ReadReference("flexible_rotor_campbell.csv");
   ASSERT_EQ(table.size(), 13U);
   std::vector<double> speeds;
   for (const auto& row : table) speeds.push_back(row[0] * test::kRpm);
-  const FreeModes modes = ComputeFreeModes(test::FlexibleRotor(), speeds, 4);
+  const FreeModes modes = ComputeFreeModes(test::QuietFlexibleRotor(), speeds, 4);
   ASSERT_EQ(modes.whirl.size(), table.size());
   for (std::size_t i = 0; i < table.size(); ++i) {
     for (std::size_t mode = 0; mode < 4; ++mode) {
@@ -30,7 +31,7 @@ TEST(FreeModes, AgreeWithAnIndependentProgramAtEverySpeedOfTheCampbellDiagram) {
 }
 
 TEST(FreeModes, GiveMassAndMagnetConstantsOfTheFlexibleRotor) {
-  const FreeModes modes = ComputeFreeModes(test::FlexibleRotor(), {0.0}, 1);
+  const FreeModes modes = ComputeFreeModes(test::QuietFlexibleRotor(), {0.0}, 1);
   // Shaft and three discs: pi/4 d^2 L rho + 0.6363 + 0.8021 + 0.6363 kg.
   const double shaft_kg = 0.25 * 3.14159265358979 * 9.525e-3 * 9.525e-3 * 0.4572 * 7930.0;
   EXPECT_NEAR(modes.rotor_mass_kg, shaft_kg + 2.0747, 1e-9);
@@ -57,8 +58,8 @@ TEST(FreeModes, AgreeWithTheProgramPublishedForTheUfuRig) {
 }
 
 TEST(FreeModes, SplitFurtherApartTheFasterTheRotorTurns) {
-  const FreeModes modes =
-      ComputeFreeModes(test::FlexibleRotor(), {0.0, 3000.0 * test::kRpm, 6000.0 * test::kRpm}, 1);
+  const FreeModes modes = ComputeFreeModes(test::QuietFlexibleRotor(),
+                                           {0.0, 3000.0 * test::kRpm, 6000.0 * test::kRpm}, 1);
   std::vector<double> split_hz;
   for (const auto& at : modes.whirl) split_hz.push_back(at.forward_hz[0] - at.backward_hz[0]);
   EXPECT_LT(split_hz[0], 1e-3);  // no rotation, no split: rounding only

@@ -8,8 +8,9 @@
 #include <numbers>
 
 #include "common/problem.hpp"
-#include "tests/unit/analysis/csv.hpp"
-#include "tests/unit/analysis/rigs.hpp"
+#include "tests/support/reference_csv.hpp"
+#include "tests/support/test_rigs.hpp"
+#include "tests/unit/analysis/laws.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -23,7 +24,7 @@ struct ReferencePole {
 
 std::vector<ReferencePole> ReferencePoles(double speed_rpm) {
   std::vector<ReferencePole> poles;
-  for (const auto& row : test::ReferenceTable("flexible_rotor_closed_loop.csv")) {
+  for (const auto& row : test::ReadReference("flexible_rotor_closed_loop.csv")) {
     if (row[0] == speed_rpm) poles.push_back({row[1], row[2]});
   }
   return poles;
@@ -40,8 +41,8 @@ bool Agree(const Pole& ours, const ReferencePole& theirs) {
 class ReferenceSpeeds : public testing::TestWithParam<double> {};
 
 TEST_P(ReferenceSpeeds, HaveEveryPoleOfTheReferenceOnceAndNoOther) {
-  const LoopPoles poles =
-      ClosedLoopPoles(test::FlexibleRotor(), test::FlexibleRotorLaw(), GetParam() * test::kRpm);
+  const LoopPoles poles = ClosedLoopPoles(test::QuietFlexibleRotor(), test::FlexibleRotorLaw(),
+                                          GetParam() * test::kRpm);
   EXPECT_TRUE(poles.stable);
   std::vector<Pole> left;
   std::copy_if(poles.poles.begin(), poles.poles.end(), std::back_inserter(left),
@@ -164,7 +165,7 @@ TEST(ClosedLoopPoles, RefuseALawWithAnotherNumberOfAxes) {
   law::LawConfig law = test::FlexibleRotorLaw();
   law.axes.pop_back();
   try {
-    static_cast<void>(ClosedLoopPoles(test::FlexibleRotor(), law, 0.0));
+    static_cast<void>(ClosedLoopPoles(test::QuietFlexibleRotor(), law, 0.0));
     FAIL() << "accepted three axes for two bearings";
   } catch (const BadInput& problem) {
     EXPECT_THAT(problem.what(), testing::HasSubstr("the controller has 3 axes, the rig has 4"));
@@ -172,7 +173,7 @@ TEST(ClosedLoopPoles, RefuseALawWithAnotherNumberOfAxes) {
 }
 
 TEST(ClosedLoopPoles, AreConjugateUnderReversalOfTheRotation) {
-  const auto plant = test::FlexibleRotor();
+  const auto plant = test::QuietFlexibleRotor();
   const auto law = test::FlexibleRotorLaw();
   const LoopPoles ahead = ClosedLoopPoles(plant, law, 3000.0 * test::kRpm);
   const LoopPoles astern = ClosedLoopPoles(plant, law, -3000.0 * test::kRpm);

@@ -1,5 +1,5 @@
 #pragma once
-// Rigs the analysis is tested on, as numbers, independent of the shipped files.
+// Laws the analysis is tested with, and a rotor whose poles are closed forms.
 
 #include "controller/law/law_config.hpp"
 #include "plant_sim/plant/plant_config.hpp"
@@ -8,12 +8,8 @@ namespace levitas::test {
 
 inline constexpr double kRpm = 3.14159265358979323846 / 30.0;  ///< [rad/s] of one rpm
 
-/// Two-bearing flexible rotor of Sahinkaya & Sawicki; eight modes per plane as in the references.
-[[nodiscard]] plant::PlantConfig FlexibleRotor();
+/// Law of the flexible rotor (Sahinkaya & Sawicki), as the reference poles have it.
 [[nodiscard]] law::LawConfig FlexibleRotorLaw();
-
-/// Rotor and magnets of the UFU rig (doi 10.14393/ufu.di.2015.186).
-[[nodiscard]] plant::PlantConfig UfuRig();
 
 /// Rigid cylinder between two equal bearings at +-kCylinderArm of its centre, nearly ideal
 /// amplifiers and sensors, 1 us period: its poles are those of two quadratics.

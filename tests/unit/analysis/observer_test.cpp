@@ -1,0 +1,116 @@
+#include "analysis/observer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/problem.hpp"
+#include "tests/support/test_rigs.hpp"
+#include "tests/unit/analysis/laws.hpp"
+
+namespace levitas::analysis {
+namespace {
+
+std::shared_ptr<const ObserverGain> GainFor(const plant::PlantConfig& plant) {
+  return std::make_shared<const ObserverGain>(DesignObserver(plant, {}));
+}
+
+TEST(ReadingNoise, AddsTheConvertersStepToTheNoise) {
+  plant::SensorConfig sensor;
+  sensor.noise_rms_m = 3e-6;
+  EXPECT_DOUBLE_EQ(ReadingNoise(sensor), 3e-6);
+  sensor.adc_bits = 3;
+  sensor.range_m = 4e-6 * 4.0 * std::sqrt(12.0);  // step 4 um sqrt(12): 4 um rms
+  EXPECT_NEAR(ReadingNoise(sensor), 5e-6, 1e-18);
+}
+
+TEST(DesignObserver, SettlesWithinATenthOfASecondAndExpectsLittleMoreThanTheNoise) {
+  const auto gain = GainFor(test::FlexibleRotor());
+  EXPECT_GT(gain->settling_s, 0.0);
+  EXPECT_LT(gain->settling_s, 1.0);
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    const double ratio = gain->expected_innovation_m[axis] / gain->sensor_noise_m[axis];
+    EXPECT_GT(ratio, 1.0);  // a prediction never adds information about the next reading's noise
+    EXPECT_LT(ratio, 1.5);
+  }
+}
+
+TEST(DesignObserver, TrustsTheSensorsMoreWhenMoreForceIsUnknown) {
+  const auto plant = test::FlexibleRotor();
+  ObserverTuning little;
+  little.force_noise_n = 0.05;
+  ObserverTuning much;
+  much.force_noise_n = 5.0;
+  EXPECT_GT(DesignObserver(plant, much).state.norm(), DesignObserver(plant, little).state.norm());
+}
+
+TEST(DesignObserver, RefusesSensorsWithoutAnyNoise) {
+  EXPECT_THROW(static_cast<void>(DesignObserver(test::QuietFlexibleRotor(), {})), Problem);
+}
+
+// A rotor held by currents that carry exactly its weight, at the centre where the magnet pulls
+// ki ic in good measure: the observer must find the force it was not told of.
+TEST(Observer, FindsAConstantForceTheRigFileDoesNotHave) {
+  plant::PlantConfig truth = test::FlexibleRotor();
+  truth.gravity_m_per_s2 = 0.0;
+  const auto gain = GainFor(truth);
+  Observer observer(truth, gain);
+  observer.Restart({});
+  RecordedSample sample;
+  sample.command.bias_current_a = 1.0;
+  sample.command.control_current_a = {0.1, 0.1, -0.05, -0.05};  // the sensors see no motion
+  for (int n = 0; n < 20'000; ++n) observer.Step(sample);
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    const double magnet_n = 40.0 * sample.command.control_current_a[axis];
+    // The sensors say: no motion. So some force holds the magnets' in balance; 2 % for the rotor
+    // bending under forces that are not where the sensors are.
+    EXPECT_NEAR(observer.unknown_force_n()[static_cast<Eigen::Index>(axis)], -magnet_n,
+                0.05 * std::abs(magnet_n));
+  }
+}
+
+TEST(Observer, HasNoInnovationAgainstItself) {
+  plant::PlantConfig config = test::FlexibleRotor();
+  config.gravity_m_per_s2 = 0.0;
+  config.unbalance.clear();
+  Observer observer(config, GainFor(config));
+  observer.Restart({});
+  RecordedSample sample;
+  sample.command.bias_current_a = 1.0;
+  for (int n = 0; n < 100; ++n) {
+    const AxisArray innovation_m = observer.Step(sample);
+    for (const double value : innovation_m) EXPECT_EQ(value, 0.0);
+  }
+}
+
+TEST(Observer, RestartsAtTheMeasuredPlace) {
+  const plant::PlantConfig config = test::FlexibleRotor();
+  Observer observer(config, GainFor(config));
+  const AxisArray place_m{20e-6, -10e-6, 5e-6, 30e-6};
+  observer.Restart(place_m);
+  const AxisArray seen_m = observer.plant().SensorOutput();
+  for (std::size_t axis = 0; axis < 4; ++axis) EXPECT_NEAR(seen_m[axis], place_m[axis], 1e-12);
+}
+
+TEST(Observer, WorksThroughInvertedProbesAndCoils) {
+  plant::PlantConfig config = test::FlexibleRotor();
+  config.sensor_polarity[1] = -1.0;
+  Observer straight(test::FlexibleRotor(), GainFor(test::FlexibleRotor()));
+  Observer inverted(config, GainFor(config));
+  RecordedSample sample;
+  sample.command.bias_current_a = 1.0;
+  sample.position_m = {1e-6, 2e-6, -3e-6, 4e-6};
+  RecordedSample mirrored = sample;
+  mirrored.position_m[1] = -2e-6;
+  straight.Restart(sample.position_m);
+  inverted.Restart(mirrored.position_m);
+  for (int n = 0; n < 50; ++n) {
+    const AxisArray a = straight.Step(sample);
+    const AxisArray b = inverted.Step(mirrored);
+    EXPECT_NEAR(a[0], b[0], 1e-15);
+    EXPECT_NEAR(a[1], -b[1], 1e-15);
+  }
+}
+
+}  // namespace
+}  // namespace levitas::analysis
