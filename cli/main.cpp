@@ -13,6 +13,9 @@ int main(int argc, char** argv) {
                "amb"};
   app.require_subcommand(1);
   cli::Action action;
+  cli::AddModesCommand(app, action);
+  cli::AddPolesCommand(app, action);
+  cli::AddMarginsCommand(app, action);
   try {
     app.parse(argc, argv);
     return static_cast<int>(action ? action() : ExitStatus::kUsage);
