@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <tuple>
 
 #include "analysis/poles.hpp"
 #include "controller/law/discrete_law.hpp"
@@ -118,29 +119,37 @@ TEST(SensitivityPeaks, GiveNoGradeToAnUnstableLoopHoweverSmallItsPeak) {
   }
 }
 
-class GainMargins : public testing::TestWithParam<std::size_t> {};
+class GainMargins : public testing::TestWithParam<std::tuple<std::size_t, double>> {};
 
 TEST_P(GainMargins, AreTheFactorsAtWhichTheLoopLosesItsStability) {
   const auto plant = test::QuietFlexibleRotor();
   const law::LawConfig law = test::FlexibleRotorLaw();
-  const std::size_t axis = GetParam();
-  const SensitivityResult result = SensitivityPeaks(plant, law, 0.0);
+  const auto [axis, speed_rpm] = GetParam();
+  const double speed = speed_rpm * test::kRpm;
+  const SensitivityResult result = SensitivityPeaks(plant, law, speed);
   ASSERT_TRUE(result.stable);
   const AxisMargins margins = result.axes[axis].margins;
   ASSERT_TRUE(margins.gain_up && margins.gain_down);
-  const auto stable_at = [&](double factor) {
+  const auto stable_at = [&, scaled = axis](double factor) {
     law::LawConfig changed = law;
-    Scale(changed.axes[axis], factor);
-    return ClosedLoopPoles(plant, changed, 0.0).stable;
+    Scale(changed.axes[scaled], factor);
+    return ClosedLoopPoles(plant, changed, speed).stable;
   };
   // 0.1 % either side of the edge: far more than the bisection's error.
   EXPECT_TRUE(stable_at(*margins.gain_up * 0.999));
   EXPECT_FALSE(stable_at(*margins.gain_up * 1.001));
   EXPECT_TRUE(stable_at(*margins.gain_down * 1.001));
   EXPECT_FALSE(stable_at(*margins.gain_down * 0.999));
+  // And no edge lies nearer.
+  for (double share = 0.1; share < 1.0; share += 0.1) {
+    EXPECT_TRUE(stable_at(1.0 + share * (*margins.gain_up - 1.0)));
+    EXPECT_TRUE(stable_at(1.0 + share * (*margins.gain_down - 1.0)));
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(FlexibleRotor, GainMargins, testing::Values(0U, 1U, 2U, 3U));
+INSTANTIATE_TEST_SUITE_P(FlexibleRotor, GainMargins,
+                         testing::Combine(testing::Values(0U, 1U, 2U, 3U),
+                                          testing::Values(0.0, 6000.0)));
 
 TEST(PhaseMargin, BoundsTheSensitivityFromBelow) {
   // At |L| = 1 the distance to -1 is 2 sin(margin/2), so that the peak is at least its inverse.
