@@ -1,0 +1,46 @@
+#pragma once
+// Which multicast group and ports the processes meet on, from --port.
+//
+//   lcm                                        the default below
+//   lcm:udpm://239.255.76.67:7667?ttl=0        explicit; base of four consecutive UDP ports
+//
+// One port per direction, because a process wakes for everything on a port it listens to, its own
+// messages included.
+//
+// Failure  Problem (exit status 2) with the form that is allowed.
+
+#include <cstdint>
+#include <string>
+
+namespace levitas::transport {
+
+/// Offset from the base port, by direction.
+enum class Direction : std::uint16_t { kSensor = 0, kCurrent = 1, kTelemetry = 2, kCommand = 3 };
+
+namespace channel {
+inline constexpr const char* kSensor = "LEVITAS_SENSOR";    ///< rig -> controller, each period
+inline constexpr const char* kCurrent = "LEVITAS_CURRENT";  ///< controller -> rig, each period
+/// controller -> rig: the last current frame (amplifiers off) of a controller that ends orderly.
+inline constexpr const char* kGoodbye = "LEVITAS_GOODBYE";
+inline constexpr const char* kState = "LEVITAS_STATE";
+inline constexpr const char* kTiming = "LEVITAS_TIMING";
+inline constexpr const char* kEvent = "LEVITAS_EVENT";
+inline constexpr const char* kCommand = "LEVITAS_COMMAND";  ///< operator -> controller
+}  // namespace channel
+
+struct LcmNetwork {
+  std::string group{"239.255.76.67"};
+  std::uint16_t base_port{7667};
+  int ttl{0};  ///< 0 keeps the messages on this machine
+
+  [[nodiscard]] std::uint16_t Port(Direction direction) const noexcept {
+    return static_cast<std::uint16_t>(base_port + static_cast<std::uint16_t>(direction));
+  }
+  /// The URL that LCM's own tools take for this direction.
+  [[nodiscard]] std::string Url(Direction direction) const;
+};
+
+/// Reads "lcm" or "lcm:URL".
+[[nodiscard]] LcmNetwork ParseLcmNetwork(const std::string& text);
+
+}  // namespace levitas::transport

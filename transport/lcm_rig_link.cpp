@@ -1,0 +1,55 @@
+#include "transport/lcm_rig_link.hpp"
+
+#include "transport/lcm_packet.hpp"
+
+namespace levitas::transport {
+
+LcmRigLink::LcmRigLink(const LcmNetwork& network, std::size_t axes, std::int64_t spin_ns)
+    : receiver_(network, Direction::kCurrent, spin_ns),
+      sender_(network, Direction::kSensor),
+      sensor_codec_(axes),
+      current_codec_(axes) {}
+
+bool LcmRigLink::Send(const SensorFrame& frame) noexcept {
+  const bool sent = sender_.Send(sensor_codec_.Encode(frame));
+  ++(sent ? counters_.frames_sent : counters_.send_failures);
+  return sent;
+}
+
+LcmRigLink::Answer LcmRigLink::Accept(const Received& received, CurrentFrame& frame) noexcept {
+  const Packet packet = ParsePacket(received.datagram);
+  if (packet.kind == PacketKind::kFragment) return Answer::kNothing;
+  const bool current = packet.channel == channel::kCurrent;
+  const bool goodbye = packet.channel == channel::kGoodbye;
+  if (packet.kind == PacketKind::kShort && !current && !goodbye) return Answer::kNothing;
+  if (packet.kind != PacketKind::kShort || !current_codec_.Decode(packet.payload, frame)) {
+    ++counters_.currents_rejected;
+    return Answer::kNothing;
+  }
+  watch_.Saw(received.sender, packet.sequence);
+  return goodbye ? Answer::kGoodbye : Answer::kCurrent;
+}
+
+LcmRigLink::Answer LcmRigLink::Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept {
+  bool found = false;
+  for (;;) {
+    const Received received = found ? receiver_.Poll() : receiver_.Receive(deadline_ns);
+    if (received.datagram.empty()) break;
+    const Answer answer = Accept(received, frame);
+    if (answer == Answer::kNothing) continue;
+    if (found) ++counters_.currents_skipped;
+    found = true;
+    if (answer == Answer::kGoodbye) return answer;
+  }
+  if (!found) return Answer::kNothing;
+  ++counters_.currents_read;
+  return Answer::kCurrent;
+}
+
+LcmRigLink::Counters LcmRigLink::counters() const noexcept {
+  Counters counters = counters_;
+  counters.currents_lost = watch_.lost();
+  return counters;
+}
+
+}  // namespace levitas::transport

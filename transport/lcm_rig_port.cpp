@@ -1,0 +1,60 @@
+#include "transport/lcm_rig_port.hpp"
+
+#include "transport/lcm_packet.hpp"
+
+namespace levitas::transport {
+
+LcmRigPort::LcmRigPort(const LcmNetwork& network, std::size_t axes, std::int64_t spin_ns)
+    : receiver_(network, Direction::kSensor, spin_ns),
+      sender_(network, Direction::kCurrent),
+      sensor_codec_(axes),
+      current_codec_(axes) {}
+
+bool LcmRigPort::Accept(const Received& received, SensorFrame& frame) noexcept {
+  const Packet packet = ParsePacket(received.datagram);
+  if (packet.kind == PacketKind::kFragment) return false;
+  const bool ours = packet.kind == PacketKind::kShort && packet.channel == channel::kSensor;
+  if (packet.kind == PacketKind::kShort && !ours) return false;  // somebody else's channel
+  if (!ours || !sensor_codec_.Decode(packet.payload, frame)) {
+    ++counters_.frames_rejected;
+    return false;
+  }
+  watch_.Saw(received.sender, packet.sequence);
+  if (wire_session_ != frame.rig_session) {
+    wire_session_ = frame.rig_session;
+    ++session_;
+  }
+  frame.rig_session = session_;
+  return true;
+}
+
+port::ReadResult LcmRigPort::Read(SensorFrame& frame, std::int64_t deadline_ns) noexcept {
+  bool found = false;
+  for (;;) {
+    // Once there is a frame only what is already queued may replace it.
+    const Received received = found ? receiver_.Poll() : receiver_.Receive(deadline_ns);
+    if (received.datagram.empty()) break;
+    if (!Accept(received, frame)) continue;
+    if (found) ++counters_.frames_skipped;
+    found = true;
+  }
+  if (!found) return port::ReadResult::kNothing;
+  ++counters_.frames_read;
+  return port::ReadResult::kFrame;
+}
+
+bool LcmRigPort::Write(const CurrentFrame& frame) noexcept {
+  if (!sender_.Send(current_codec_.Encode(frame))) {
+    ++counters_.write_failures;
+    return false;
+  }
+  ++counters_.currents_written;
+  return true;
+}
+
+void LcmRigPort::SayGoodbye(const CurrentFrame& last) noexcept {
+  // Said three times: nobody repeats it when it is lost.
+  for (int time = 0; time < 3; ++time) (void)sender_.Send(current_codec_.EncodeGoodbye(last));
+}
+
+}  // namespace levitas::transport

@@ -1,0 +1,45 @@
+#pragma once
+// The controller's port to a rig on the LCM network: sensor frames in, current frames out.
+//
+// Session  the rig draws a random session number at each start. The controller sees 1 for the
+//          first rig it meets, 2 after the next restart and so on: a change is what matters, and
+//          two runs from the same seed then give the same records.
+// The rest (thread, blocking, staleness, failure) is the contract of controller/port.
+
+#include <optional>
+
+#include "controller/port/rig_port.hpp"
+#include "transport/frame_codec.hpp"
+#include "transport/multicast_socket.hpp"
+#include "transport/sequence_watch.hpp"
+
+namespace levitas::transport {
+
+class LcmRigPort final : public port::RigPort {
+ public:
+  /// Throws Problem when the network cannot be joined.
+  LcmRigPort(const LcmNetwork& network, std::size_t axes, std::int64_t spin_ns);
+
+  port::ReadResult Read(SensorFrame& frame, std::int64_t deadline_ns) noexcept override;
+  bool Write(const CurrentFrame& frame) noexcept override;
+  [[nodiscard]] port::PortCounters counters() const noexcept override { return counters_; }
+
+  /// Tells the rig that this controller ends; `last` should have the amplifiers off.
+  void SayGoodbye(const CurrentFrame& last) noexcept;
+  /// Sensor frames the rig sent and this port never saw.
+  [[nodiscard]] std::uint64_t lost() const noexcept { return watch_.lost(); }
+
+ private:
+  [[nodiscard]] bool Accept(const Received& received, SensorFrame& frame) noexcept;
+
+  MulticastReceiver receiver_;
+  MulticastSender sender_;
+  SensorFrameCodec sensor_codec_;
+  CurrentFrameCodec current_codec_;
+  SequenceWatch watch_;
+  port::PortCounters counters_;
+  std::optional<std::uint32_t> wire_session_;
+  std::uint32_t session_{0};
+};
+
+}  // namespace levitas::transport

@@ -1,0 +1,62 @@
+#pragma once
+// One direction of a multicast network: a socket that sends to the group, or one that listens.
+//
+// Why own sockets  liblcm hands a message through a thread, a pipe and a queue; these do not
+//                  (measured: docs/timing.md). What is on the wire is the same.
+// Thread           one thread per object. After construction no allocation, no exception.
+// Blocking         Send never waits. Receive waits at most until its deadline: first a bounded
+//                  spin (while spinning has been paying off), then ppoll.
+// Failure          construction throws Problem (exit status 1) with the remedy, in particular when
+//                  multicast has no route; later failures are return values.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "transport/lcm_network.hpp"
+
+namespace levitas::transport {
+
+class MulticastSender {
+ public:
+  MulticastSender(const LcmNetwork& network, Direction direction);
+  ~MulticastSender();
+  MulticastSender(const MulticastSender&) = delete;
+  MulticastSender& operator=(const MulticastSender&) = delete;
+
+  /// False when the kernel did not take the datagram.
+  bool Send(std::span<const std::uint8_t> datagram) noexcept;
+
+ private:
+  int socket_{-1};
+};
+
+struct Received {
+  std::span<const std::uint8_t> datagram;  ///< empty: nothing; valid until the next receive
+  std::uint64_t sender{};                  ///< address and port of the sender, as one number
+};
+
+class MulticastReceiver {
+ public:
+  /// `spin_ns` bounds the spin before each sleep; 0 never spins.
+  MulticastReceiver(const LcmNetwork& network, Direction direction, std::int64_t spin_ns = 0);
+  ~MulticastReceiver();
+  MulticastReceiver(const MulticastReceiver&) = delete;
+  MulticastReceiver& operator=(const MulticastReceiver&) = delete;
+
+  /// Next datagram that is already there.
+  [[nodiscard]] Received Poll() noexcept;
+  /// Next datagram, waiting until CLOCK_MONOTONIC reaches `deadline_ns` at the latest.
+  [[nodiscard]] Received Receive(std::int64_t deadline_ns) noexcept;
+
+ private:
+  [[nodiscard]] Received Spin(std::int64_t until_ns) noexcept;
+
+  int socket_{-1};
+  std::int64_t spin_ns_;
+  std::uint32_t waits_{0};
+  std::uint32_t fruitless_spins_{0};
+  std::vector<std::uint8_t> buffer_;
+};
+
+}  // namespace levitas::transport

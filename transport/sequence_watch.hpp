@@ -1,0 +1,30 @@
+#pragma once
+// Counts the messages that were sent but never arrived, from the sequence number of each.
+//
+// A sender counts every message it sends on a port, so a jump is a loss. Another sender, or a
+// sender that started again, begins a new count and loses nothing by it.
+
+#include <cstdint>
+
+namespace levitas::transport {
+
+class SequenceWatch {
+ public:
+  void Saw(std::uint64_t sender, std::uint32_t sequence) noexcept {
+    if (sender == sender_) {
+      const std::uint32_t step = sequence - previous_;  // modulo 2^32, as the sender counts
+      // More than half the range is a repetition or a reordering, not a loss of 2^31 messages.
+      if (step > 1 && step < (1U << 31)) lost_ += step - 1;
+    }
+    sender_ = sender;
+    previous_ = sequence;
+  }
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
+
+ private:
+  std::uint64_t sender_{0};
+  std::uint32_t previous_{0};
+  std::uint64_t lost_{0};
+};
+
+}  // namespace levitas::transport
