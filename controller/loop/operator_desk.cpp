@@ -1,0 +1,71 @@
+#include "controller/loop/operator_desk.hpp"
+
+#include <cmath>
+
+namespace levitas::loop {
+
+OperatorDesk::OperatorDesk(const DeskOptions& options, ScenarioPlayer* player,
+                           SpscRing<RemoteCommand>* remote)
+    : options_(options), player_(player), remote_(remote) {}
+
+std::uint64_t OperatorDesk::Cycles(double seconds) const noexcept {
+  return static_cast<std::uint64_t>(std::llround(seconds / options_.period_s));
+}
+
+bool OperatorDesk::Ending(const OperatorView& view) noexcept {
+  if (ending_) return true;
+  const bool over =
+      options_.duration_s > 0.0 && view.cycle - first_cycle_ >= Cycles(options_.duration_s);
+  const bool played = player_ != nullptr && player_->outcome() != ScenarioPlayer::Outcome::kPlaying;
+  ending_ = over || played || stop_requested_.load(std::memory_order_relaxed);
+  end_start_ = view.cycle;
+  last_request_ = view.cycle - Cycles(kRepeat_s);  // the first request is made at once
+  return ending_;
+}
+
+cycle::OperatorInput OperatorDesk::Stop(const OperatorView& view) noexcept {
+  cycle::OperatorInput input;
+  const bool at_rest = view.mode == Mode::kOff || view.mode == Mode::kTripped;
+  if (at_rest && !view.amplifiers_enabled) {
+    if (!safe_) safe_since_ = view.cycle;
+    safe_ = true;
+    done_ = view.mode == Mode::kOff || view.cycle - safe_since_ >= Cycles(options_.trip_window_s);
+    return input;
+  }
+  safe_ = false;
+  if (view.mode == Mode::kTripped) return input;  // the safe state is on its way
+  if (view.cycle - last_request_ < Cycles(kRepeat_s)) return input;
+  last_request_ = view.cycle;
+  if (view.cycle - end_start_ > Cycles(kStopLimit_s)) {
+    input.command = OperatorCommand::kEmergencyStop;
+  } else if (std::abs(view.speed_rad_per_s) > options_.standstill_rad_per_s) {
+    input.command = OperatorCommand::kSpin;
+    input.acceleration_rad_per_s2 = options_.stop_acceleration_rad_per_s2;
+  } else {
+    input.command = view.mode == Mode::kSpinning ? OperatorCommand::kCoastDown  // drive off
+                                                 : OperatorCommand::kLand;
+  }
+  return input;
+}
+
+cycle::OperatorInput OperatorDesk::Next(const OperatorView& view) noexcept {
+  if (!started_) {
+    started_ = true;
+    first_cycle_ = view.cycle;
+  }
+  RemoteCommand remote;
+  const bool commanded = remote_ != nullptr && remote_->Take(remote);
+  const bool emergency = commanded && remote.command == OperatorCommand::kEmergencyStop;
+  cycle::OperatorInput input;
+  if (emergency || (commanded && !ending_)) {
+    input.command = remote.command;
+    input.speed_rad_per_s = remote.speed_rad_per_s;
+    input.acceleration_rad_per_s2 = remote.acceleration_rad_per_s2;
+    return input;
+  }
+  if (Ending(view)) return Stop(view);
+  if (player_ != nullptr) return player_->Next(view);
+  return input;
+}
+
+}  // namespace levitas::loop

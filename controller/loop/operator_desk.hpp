@@ -1,0 +1,69 @@
+#pragma once
+// The operator's desk: decides in each cycle who gives the command.
+//
+// Order    the end of the program before a remote command before the scenario. A remote emergency
+//          stop always passes.
+// The end  a finished or failed scenario, RequestStop and the duration all end in the same way:
+//          run down under the drive, land, amplifiers off. A trip under a scenario ends when the
+//          safe state is reached; without a scenario the desk waits for a reset.
+// Thread   loop thread, except RequestStop (any thread, also a signal's) and the writer's side of
+//          the ring. No allocation in Next.
+// Failure  an end that is not reached within kStopLimit_s becomes an emergency stop.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "common/spsc_ring.hpp"
+#include "controller/loop/operator_source.hpp"
+#include "controller/loop/scenario_player.hpp"
+
+namespace levitas::loop {
+
+/// A command as it came over the network.
+struct RemoteCommand {
+  OperatorCommand command{OperatorCommand::kNone};
+  double speed_rad_per_s{};
+  double acceleration_rad_per_s2{};
+};
+
+struct DeskOptions {
+  double period_s{};
+  double stop_acceleration_rad_per_s2{};  ///< of the drive when running down to end
+  double standstill_rad_per_s{};          ///< below this the rotor counts as standing
+  double duration_s{0.0};                 ///< after this long the end begins; 0 = no limit
+  double trip_window_s{0.5};              ///< a trip's recording needs this much after it
+};
+
+class OperatorDesk final : public OperatorSource {
+ public:
+  static constexpr double kStopLimit_s = 120.0;
+  static constexpr double kRepeat_s = 0.1;  ///< a refused request of the end is made again
+
+  /// `player` and `remote` may be null.
+  OperatorDesk(const DeskOptions& options, ScenarioPlayer* player, SpscRing<RemoteCommand>* remote);
+
+  [[nodiscard]] cycle::OperatorInput Next(const OperatorView& view) noexcept override;
+  [[nodiscard]] bool Done() const noexcept override { return done_; }
+  void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
+
+ private:
+  [[nodiscard]] cycle::OperatorInput Stop(const OperatorView& view) noexcept;
+  [[nodiscard]] bool Ending(const OperatorView& view) noexcept;
+  [[nodiscard]] std::uint64_t Cycles(double seconds) const noexcept;
+
+  DeskOptions options_;
+  ScenarioPlayer* player_;
+  SpscRing<RemoteCommand>* remote_;
+  std::atomic<bool> stop_requested_{false};
+  bool ending_{false};
+  bool done_{false};
+  std::uint64_t first_cycle_{0};
+  std::uint64_t end_start_{0};
+  std::uint64_t safe_since_{0};
+  std::uint64_t last_request_{0};
+  bool started_{false};
+  bool safe_{false};
+};
+
+}  // namespace levitas::loop
