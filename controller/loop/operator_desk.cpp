@@ -33,17 +33,21 @@ cycle::OperatorInput OperatorDesk::Stop(const OperatorView& view) noexcept {
     return input;
   }
   safe_ = false;
-  if (view.mode == Mode::kTripped) return input;  // the safe state is on its way
+  const bool under_way = view.mode == Mode::kTripped || view.mode == Mode::kLanding ||
+                         (braking_ && view.mode == Mode::kSpinning &&
+                          std::abs(view.speed_rad_per_s) > options_.standstill_rad_per_s);
+  const bool overdue = view.cycle - end_start_ > Cycles(kStopLimit_s);
+  if (under_way && !overdue) return input;
   if (view.cycle - last_request_ < Cycles(kRepeat_s)) return input;
   last_request_ = view.cycle;
-  if (view.cycle - end_start_ > Cycles(kStopLimit_s)) {
+  if (overdue) {
     input.command = OperatorCommand::kEmergencyStop;
   } else if (std::abs(view.speed_rad_per_s) > options_.standstill_rad_per_s) {
+    braking_ = true;
     input.command = OperatorCommand::kSpin;
     input.acceleration_rad_per_s2 = options_.stop_acceleration_rad_per_s2;
   } else {
-    input.command = view.mode == Mode::kSpinning ? OperatorCommand::kCoastDown  // drive off
-                                                 : OperatorCommand::kLand;
+    input.command = OperatorCommand::kLand;
   }
   return input;
 }

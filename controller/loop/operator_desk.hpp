@@ -64,6 +64,7 @@ class OperatorDesk final : public OperatorSource {
   std::uint64_t last_request_{0};
   bool started_{false};
   bool safe_{false};
+  bool braking_{false};
 };
 
 }  // namespace levitas::loop

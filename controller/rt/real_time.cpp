@@ -17,6 +17,7 @@
 #include <cstring>
 #include <fstream>
 #include <thread>
+#include <utility>
 
 namespace levitas::rt {
 
@@ -79,7 +80,16 @@ RealTimeFact PinTo(int processor) {
 
 }  // namespace
 
-RealTimeGuard::RealTimeGuard() {
+std::vector<RealTimeFact> EnterThread(const RealTimeOptions& options) {
+  PrefaultStack();
+  std::vector<RealTimeFact> facts;
+  if (options.processor >= 0) facts.push_back(PinTo(options.processor));
+  facts.push_back(SetTimerSlack());
+  facts.push_back(SetFifo(options.priority));
+  return facts;
+}
+
+RealTimeGuard::RealTimeGuard(const RealTimeOptions& options) {
   facts_.push_back(LockMemory());
   latency_file_ = open("/dev/cpu_dma_latency", O_RDWR | O_CLOEXEC);
   const std::int32_t wanted_us = 0;
@@ -91,17 +101,13 @@ RealTimeGuard::RealTimeGuard() {
                                   "awake with the kernel option idle=poll",
                                   Why(errno))});
   }
+  std::thread([&] {
+    for (auto& fact : EnterThread(options)) facts_.push_back(std::move(fact));
+  }).join();
 }
 
 RealTimeGuard::~RealTimeGuard() {
   if (latency_file_ >= 0) close(latency_file_);
-}
-
-void RealTimeGuard::EnterThread(const RealTimeOptions& options) {
-  PrefaultStack();
-  if (options.processor >= 0) facts_.push_back(PinTo(options.processor));
-  facts_.push_back(SetTimerSlack());
-  facts_.push_back(SetFifo(options.priority));
 }
 
 bool RealTimeGuard::complete() const noexcept {

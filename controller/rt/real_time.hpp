@@ -3,7 +3,8 @@
 //
 // Asked     per process: memory locked and prefaulted, /dev/cpu_dma_latency held at 0 us so that
 //           the processor leaves idle quickly. Per thread: SCHED_FIFO, timer slack 1 ns, stack
-//           prefaulted, processor (only when asked for).
+//           prefaulted, processor (only when asked for: beside a partner that spins, the
+//           scheduler's own choice measured no worse).
 // Failure   never throws. Each refusal is a fact with its remedy; the caller decides whether to go
 //           on degraded (the default) or to stop (--require-realtime).
 // Lifetime  the guard holds /dev/cpu_dma_latency open; the demand ends with it.
@@ -24,16 +25,17 @@ struct RealTimeOptions {
   int processor{-1};  ///< pin the thread to it; -1 leaves the choice to the scheduler
 };
 
+/// Per-thread part, for the calling thread; returns what was granted.
+std::vector<RealTimeFact> EnterThread(const RealTimeOptions& options);
+
 class RealTimeGuard {
  public:
-  /// Process-wide part.
-  RealTimeGuard();
+  /// Process-wide part; then tries the per-thread part in a thread of its own, so that the facts
+  /// are known before the loop starts.
+  explicit RealTimeGuard(const RealTimeOptions& options);
   ~RealTimeGuard();
   RealTimeGuard(const RealTimeGuard&) = delete;
   RealTimeGuard& operator=(const RealTimeGuard&) = delete;
-
-  /// Per-thread part, for the calling thread. Threads made afterwards do not inherit it.
-  void EnterThread(const RealTimeOptions& options);
 
   [[nodiscard]] const std::vector<RealTimeFact>& facts() const noexcept { return facts_; }
   [[nodiscard]] bool complete() const noexcept;

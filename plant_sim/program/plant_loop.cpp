@@ -1,0 +1,129 @@
+#include "plant_sim/program/plant_loop.hpp"
+
+#include "controller/rt/next_wake.hpp"
+
+namespace levitas::plant_program {
+
+namespace {
+using Answer = transport::LcmRigLink::Answer;
+constexpr std::int64_t kRepeatNs = 100'000'000;    // lockstep: ask again
+constexpr std::int64_t kGuardNs = 30'000;          // real time: integration and the last spin
+constexpr std::int64_t kWatchdogNs = 100'000'000;  // real time: no controller, no current
+}  // namespace
+
+void PlantLoop::Run() noexcept {
+  if (options_.realtime) {
+    RunRealtime();
+  } else {
+    RunLockstep();
+  }
+}
+
+SensorFrame PlantLoop::Sample(std::int64_t sample_time_ns) noexcept {
+  SensorFrame frame = plant_.Sample();
+  frame.cycle = statistics_.cycles;
+  frame.sample_time_ns = sample_time_ns;
+  frame.rig_session = options_.rig_session;
+  frame.rig_status |= status_;
+  frame.held_currents = static_cast<std::uint32_t>(statistics_.held_currents);
+  return frame;
+}
+
+void PlantLoop::Take(const CurrentFrame& current) noexcept {
+  command_ = {.control_current_a = current.control_current_a,
+              .bias_current_a = current.bias_current_a,
+              .amplifiers_enabled = current.amplifiers_enabled,
+              .drive_enabled = current.drive_enabled,
+              .speed_set_point_rad_per_s = current.speed_set_point_rad_per_s,
+              .acceleration_limit_rad_per_s2 = current.acceleration_limit_rad_per_s2};
+  status_ = 0;
+}
+
+void PlantLoop::Advance() noexcept {
+  const std::int64_t start_ns = clock_.NowNs();
+  plant_.Advance(command_);
+  statistics_.advance.Add(clock_.NowNs() - start_ns);
+  ++statistics_.cycles;
+}
+
+bool PlantLoop::AwaitCurrent(std::uint64_t cycle, std::int64_t deadline_ns,
+                             bool& goodbye) noexcept {
+  CurrentFrame current;
+  for (;;) {
+    const Answer answer = link_.Receive(current, deadline_ns);
+    if (answer == Answer::kNothing) return false;
+    heard_.fetch_add(1, std::memory_order_relaxed);
+    if (answer == Answer::kGoodbye) {
+      Take({});
+      goodbye = true;
+      return false;
+    }
+    if (current.cycle == cycle) {
+      Take(current);
+      return true;
+    }
+    ++statistics_.stale_currents;
+    if (options_.realtime) Take(current);  // late, but newer than what is held
+  }
+}
+
+void PlantLoop::RunLockstep() noexcept {
+  while (!stopped_.load(std::memory_order_relaxed)) {
+    const SensorFrame frame =
+        Sample(static_cast<std::int64_t>(statistics_.cycles) * options_.period_ns);
+    link_.Send(frame);
+    bool goodbye = false;
+    while (!AwaitCurrent(frame.cycle, clock_.NowNs() + kRepeatNs, goodbye)) {
+      if ((goodbye && !options_.stay) || stopped_.load(std::memory_order_relaxed)) return;
+      goodbye = false;
+      link_.Send(frame);
+      ++statistics_.repeated_frames;
+    }
+    Advance();
+  }
+}
+
+void PlantLoop::Hold() noexcept {
+  if (!answered_once_) return;  // nobody is there yet: nothing is held
+  ++statistics_.held_currents;
+  status_ |= kRigCurrentHeld;
+  const auto limit = static_cast<std::uint64_t>(kWatchdogNs / options_.period_ns);
+  if (++held_in_a_row_ == limit) {
+    ++statistics_.watchdog_trips;
+    Take({});
+    answered_once_ = false;
+  }
+}
+
+void PlantLoop::RunRealtime() noexcept {
+  Take({});
+  std::int64_t due_ns = rt::FirstWake(0, options_.period_ns, clock_.NowNs());
+  clock_.SleepUntil(due_ns);
+  while (!stopped_.load(std::memory_order_relaxed)) {
+    const SensorFrame frame = Sample(due_ns);
+    link_.Send(frame);
+    bool goodbye = false;
+    if (AwaitCurrent(frame.cycle, due_ns + options_.period_ns - kGuardNs, goodbye)) {
+      answered_once_ = true;
+      held_in_a_row_ = 0;
+    } else if (goodbye) {
+      if (!options_.stay) return;
+      answered_once_ = false;
+    } else {
+      Hold();
+    }
+    Advance();
+    const rt::Wake wake = rt::NextWake(due_ns, options_.period_ns, clock_.NowNs());
+    statistics_.skipped_periods += static_cast<std::uint64_t>(wake.skipped);
+    // The rotor goes on moving while the simulation does not keep up.
+    for (std::int64_t period = 0; period < wake.skipped; ++period) {
+      Hold();
+      Advance();
+    }
+    due_ns = wake.due_ns;
+    clock_.SleepUntil(due_ns);
+    statistics_.wakeup.Add(clock_.NowNs() - due_ns);
+  }
+}
+
+}  // namespace levitas::plant_program

@@ -1,0 +1,36 @@
+#include "plant_sim/program/plant_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+namespace levitas::plant_program {
+
+bool ReadCommandLine(int argc, char** argv, PlantOptions& options, ExitStatus& status) {
+  CLI::App app{"Simulated magnetic bearing rig: sends sensor frames, takes current frames",
+               "amb-plant"};
+  const std::map<std::string, bool> paces{{"lockstep", false}, {"realtime", true}};
+  app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
+  app.add_option("--port", options.port, "lcm, or lcm:udpm://<group>:<port>?ttl=<n>")
+      ->capture_default_str();
+  app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
+      ->transform(CLI::Transformer(paces))
+      ->type_name("PACE");
+  app.add_option("--seed", options.seed, "Seed of the sensor noise")->capture_default_str();
+  app.add_option("--json", options.json, "Write statistics to this file");
+  app.add_option("--partner-timeout", options.partner_timeout_s,
+                 "Give up after this long without a controller [s]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--require-realtime", options.require_realtime,
+               "Refuse to run when the machine does not grant real-time conditions");
+  app.add_flag("--stay", options.stay, "When the controller ends, wait for the next one");
+  try {
+    app.parse(argc, argv);
+    return true;
+  } catch (const CLI::ParseError& error) {
+    status = app.exit(error) == 0 ? ExitStatus::kDone : ExitStatus::kUsage;
+    return false;
+  }
+}
+
+}  // namespace levitas::plant_program

@@ -1,0 +1,162 @@
+#include "transport/telemetry.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <levitas_msg/controller_state_t.hpp>
+#include <levitas_msg/event_t.hpp>
+#include <levitas_msg/loop_timing_t.hpp>
+#include <limits>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "common/spsc_ring.hpp"
+#include "transport/lcm_packet.hpp"
+#include "transport/multicast_socket.hpp"
+
+namespace levitas::transport {
+
+namespace {
+
+constexpr std::size_t kStateRing = 64;   // 0.6 s of samples
+constexpr std::size_t kTimingRing = 4;   // seconds
+constexpr std::size_t kEventQueue = 64;  // more at once than a person can read
+constexpr auto kSendEvery = std::chrono::milliseconds(5);
+
+std::int32_t Clamp32(double value_ns) {
+  return static_cast<std::int32_t>(
+      std::min(value_ns, static_cast<double>(std::numeric_limits<std::int32_t>::max())));
+}
+
+levitas_msg::controller_state_t Message(const StateSample& sample) {
+  levitas_msg::controller_state_t message;
+  message.cycle = static_cast<std::int64_t>(sample.cycle);
+  message.time_ns = sample.time_ns;
+  message.mode = static_cast<std::int8_t>(sample.mode);
+  message.fault = static_cast<std::int8_t>(sample.fault);
+  message.fault_axis = sample.fault_axis;
+  message.axes = static_cast<std::int32_t>(sample.axes);
+  const auto take = [&sample](const AxisArray& all) {
+    return std::vector<double>(all.begin(), all.begin() + sample.axes);
+  };
+  message.position_m = take(sample.position_m);
+  message.reference_m = take(sample.reference_m);
+  message.control_current_a = take(sample.control_current_a);
+  message.bias_current_a = sample.bias_current_a;
+  message.speed_rad_per_s = sample.speed_rad_per_s;
+  message.records_lost = static_cast<std::int64_t>(sample.records_lost);
+  return message;
+}
+
+levitas_msg::loop_timing_t Message(const TimingSample& sample) {
+  levitas_msg::loop_timing_t message;
+  message.cycle = static_cast<std::int64_t>(sample.cycle);
+  message.skipped_periods = static_cast<std::int64_t>(sample.skipped_periods);
+  message.missing_frames = static_cast<std::int64_t>(sample.missing_frames);
+  message.wakeup_p50_ns = Clamp32(sample.wakeup_p50_ns);
+  message.wakeup_p99_ns = Clamp32(sample.wakeup_p99_ns);
+  message.wakeup_p999_ns = Clamp32(sample.wakeup_p999_ns);
+  message.wakeup_max_ns = Clamp32(sample.wakeup_max_ns);
+  message.compute_p50_ns = Clamp32(sample.compute_p50_ns);
+  message.compute_p99_ns = Clamp32(sample.compute_p99_ns);
+  message.compute_max_ns = Clamp32(sample.compute_max_ns);
+  message.latency_p50_ns = Clamp32(sample.latency_p50_ns);
+  message.latency_p99_ns = Clamp32(sample.latency_p99_ns);
+  message.slowest_stage = sample.slowest_stage;
+  return message;
+}
+
+levitas_msg::event_t Message(const EventText& event) {
+  levitas_msg::event_t message;
+  message.cycle = static_cast<std::int64_t>(event.cycle);
+  message.time_ns = event.time_ns;
+  message.severity = static_cast<std::int8_t>(event.severity);
+  message.mode = static_cast<std::int8_t>(event.mode);
+  message.fault = static_cast<std::int8_t>(event.fault);
+  message.axis = event.axis;
+  message.value = event.value;
+  message.limit = event.limit;
+  message.text = event.text;
+  return message;
+}
+
+}  // namespace
+
+struct Telemetry::Impl {
+  explicit Impl(const LcmNetwork& network) : sender(network, Direction::kTelemetry) {}
+
+  template <class Sample>
+  void Send(const char* channel, const Sample& sample) {
+    const auto message = Message(sample);
+    const std::size_t header = HeaderSize(channel);
+    const int size = message.getEncodedSize();
+    datagram.resize(header + static_cast<std::size_t>(size));
+    WriteHeader(datagram, sequence++, channel);
+    message.encode(datagram.data() + header, 0, size);
+    if (!sender.Send(datagram)) dropped.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  void SendAll() {
+    StateSample state;
+    while (states.Take(state)) Send(channel::kState, state);
+    TimingSample timing;
+    while (timings.Take(timing)) Send(channel::kTiming, timing);
+    std::deque<EventText> taken;
+    {
+      const std::lock_guard lock(mutex);
+      taken.swap(events);
+    }
+    for (const EventText& event : taken) Send(channel::kEvent, event);
+  }
+
+  void Run() {
+    while (!stopping.load()) {
+      SendAll();
+      std::this_thread::sleep_for(kSendEvery);
+    }
+    SendAll();
+  }
+
+  MulticastSender sender;
+  std::vector<std::uint8_t> datagram;
+  std::uint32_t sequence{0};
+  SpscRing<StateSample> states{kStateRing};
+  SpscRing<TimingSample> timings{kTimingRing};
+  std::mutex mutex;
+  std::deque<EventText> events;
+  std::atomic<std::uint64_t> dropped{0};
+  std::atomic<bool> stopping{false};
+  std::thread thread;
+};
+
+Telemetry::Telemetry(const LcmNetwork& network) : impl_(std::make_unique<Impl>(network)) {
+  impl_->thread = std::thread([this] { impl_->Run(); });
+}
+
+Telemetry::~Telemetry() {
+  impl_->stopping.store(true);
+  impl_->thread.join();
+}
+
+void Telemetry::PostState(const StateSample& sample) noexcept { impl_->states.Post(sample); }
+
+void Telemetry::PostTiming(const TimingSample& sample) noexcept { impl_->timings.Post(sample); }
+
+void Telemetry::PostEvent(EventText event) {
+  const std::lock_guard lock(impl_->mutex);
+  if (impl_->events.size() == kEventQueue) {
+    impl_->dropped.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  impl_->events.push_back(std::move(event));
+}
+
+std::uint64_t Telemetry::dropped() const noexcept {
+  return impl_->dropped.load(std::memory_order_relaxed) + impl_->states.lost() +
+         impl_->timings.lost();
+}
+
+}  // namespace levitas::transport

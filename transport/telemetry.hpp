@@ -1,0 +1,77 @@
+#pragma once
+// Publishes the controller's state, timing and events for people and tools, away from the loop.
+//
+// Channels  LEVITAS_STATE about 100 times a second, LEVITAS_TIMING about once, LEVITAS_EVENT as
+//           they happen. Best effort: what does not fit into a ring is dropped and counted.
+// Thread    own thread for sending. PostState and PostTiming: loop thread, wait-free. PostEvent:
+//           one other thread (it locks).
+// Failure   construction throws Problem when the network cannot be joined; later never.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "common/axes.hpp"
+#include "common/enums.hpp"
+#include "transport/lcm_network.hpp"
+
+namespace levitas::transport {
+
+struct StateSample {
+  std::uint64_t cycle{};
+  std::int64_t time_ns{};
+  Mode mode{};
+  Fault fault{};
+  std::int8_t fault_axis{-1};
+  std::uint32_t axes{};
+  AxisArray position_m{};
+  AxisArray reference_m{};
+  AxisArray control_current_a{};
+  double bias_current_a{};
+  double speed_rad_per_s{};
+  std::uint64_t records_lost{};
+};
+
+/// As loop_timing_t; durations in nanoseconds.
+struct TimingSample {
+  std::uint64_t cycle{};
+  std::uint64_t skipped_periods{};
+  std::uint64_t missing_frames{};
+  double wakeup_p50_ns{}, wakeup_p99_ns{}, wakeup_p999_ns{}, wakeup_max_ns{};
+  double compute_p50_ns{}, compute_p99_ns{}, compute_max_ns{};
+  double latency_p50_ns{}, latency_p99_ns{};
+  std::int8_t slowest_stage{};
+};
+
+struct EventText {
+  std::uint64_t cycle{};
+  std::int64_t time_ns{};
+  std::uint8_t severity{};  ///< 0 information, 1 warning, 2 trip
+  Mode mode{};
+  Fault fault{};
+  std::int8_t axis{-1};
+  double value{};
+  double limit{};
+  std::string text;
+};
+
+class Telemetry {
+ public:
+  explicit Telemetry(const LcmNetwork& network);
+  /// Sends what is queued and joins.
+  ~Telemetry();
+  Telemetry(const Telemetry&) = delete;
+  Telemetry& operator=(const Telemetry&) = delete;
+
+  void PostState(const StateSample& sample) noexcept;
+  void PostTiming(const TimingSample& sample) noexcept;
+  void PostEvent(EventText event);
+  /// Samples that found a ring full, events beyond the queue's length, refused by the kernel.
+  [[nodiscard]] std::uint64_t dropped() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace levitas::transport
