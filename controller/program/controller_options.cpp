@@ -1,0 +1,47 @@
+#include "controller/program/controller_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+namespace levitas::controller_program {
+
+bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStatus& status) {
+  CLI::App app{"Magnetic bearing controller: levitates the rig it finds on its port",
+               "amb-controller"};
+  const std::map<std::string, bool> paces{{"lockstep", false}, {"realtime", true}};
+  app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
+  app.add_option("--controller", options.controller, "Controller file, or a shipped name")
+      ->required();
+  app.add_option("--scenario", options.scenario,
+                 "Scenario to play; without it commands come over the network");
+  app.add_option("--port", options.port, "lcm, or lcm:udpm://<group>:<port>?ttl=<n>")
+      ->capture_default_str();
+  app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
+      ->transform(CLI::Transformer(paces))
+      ->type_name("PACE");
+  app.add_option("--duration", options.duration_s, "Land and end after this long [s]")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--record", options.record, "Session file to write");
+  app.add_option("--trip-folder", options.trip_folder, "Where a trip's recording goes")
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of the rig, noted in the session")
+      ->capture_default_str();
+  app.add_option("--json", options.json, "Write statistics to this file");
+  app.add_option("--partner-timeout", options.partner_timeout_s,
+                 "Give up after this long without sensor frames [s]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--require-realtime", options.require_realtime,
+               "Refuse to run when the machine does not grant real-time conditions");
+  app.add_option("--processor", options.processor, "Run the loop on this processor only")
+      ->check(CLI::NonNegativeNumber);
+  try {
+    app.parse(argc, argv);
+    return true;
+  } catch (const CLI::ParseError& error) {
+    status = app.exit(error) == 0 ? ExitStatus::kDone : ExitStatus::kUsage;
+    return false;
+  }
+}
+
+}  // namespace levitas::controller_program

@@ -1,0 +1,31 @@
+#pragma once
+// Command line of amb-controller.
+
+#include <cstdint>
+#include <string>
+
+#include "common/problem.hpp"
+
+namespace levitas::controller_program {
+
+struct ControllerOptions {
+  std::string rig;         ///< path or shipped name
+  std::string controller;  ///< path or shipped name
+  std::string scenario;    ///< path or shipped name; empty: commands come over the network
+  std::string port{"lcm"};
+  bool realtime{false};
+  double duration_s{0.0};  ///< 0: no limit
+  std::string record;      ///< session file; empty: none
+  std::string trip_folder{"."};
+  std::int64_t seed{1};  ///< of the rig's noise, for the session's header
+  std::string json;
+  double partner_timeout_s{30.0};
+  bool require_realtime{false};
+  int processor{-1};
+};
+
+/// Reads the command line; prints help or a usage message itself. False: end with `status`.
+[[nodiscard]] bool ReadCommandLine(int argc, char** argv, ControllerOptions& options,
+                                   ExitStatus& status);
+
+}  // namespace levitas::controller_program

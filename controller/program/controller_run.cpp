@@ -1,0 +1,232 @@
+#include "controller/program/controller_run.hpp"
+
+#include <fmt/core.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "config/rig_file.hpp"
+#include "controller/loop/control_loop.hpp"
+#include "controller/loop/operator_desk.hpp"
+#include "controller/program/loop_outlet.hpp"
+#include "controller/program/report.hpp"
+#include "controller/rt/real_time.hpp"
+#include "controller/rt/stop_signal.hpp"
+#include "levitas/version.hpp"
+#include "session/recorder.hpp"
+#include "transport/lcm_rig_port.hpp"
+#include "transport/operator_receiver.hpp"
+#include "transport/partner_watch.hpp"
+#include "transport/statistics_json.hpp"
+#include "transport/telemetry.hpp"
+
+namespace levitas::controller_program {
+
+namespace {
+
+constexpr auto kLookEvery = std::chrono::milliseconds(20);
+constexpr std::int64_t kSpinNs = 20'000;     // see docs/timing.md
+constexpr std::size_t kRemoteCommands = 16;  // a person gives them one by one
+
+struct Files {
+  config::RigFile rig;
+  config::ControllerFile controller;
+  std::optional<scenario::ScenarioConfig> scenario;
+};
+
+Files Load(const ControllerOptions& options) {
+  Files files;
+  files.rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
+  files.controller = config::LoadController(config::FindConfig(options.controller, "controllers"),
+                                            files.rig.numbers);
+  if (!options.scenario.empty()) {
+    files.scenario =
+        config::LoadScenario(config::FindConfig(options.scenario, "scenarios"), files.rig.numbers);
+  }
+  return files;
+}
+
+session::SessionHeader Header(const ControllerOptions& options, const Files& files,
+                              const std::vector<rt::RealTimeFact>& facts) {
+  session::SessionHeader header;
+  header.program_version = LEVITAS_VERSION;
+  header.rig_yaml = config::WriteRig(files.rig);
+  header.controller_yaml = config::WriteController(files.controller, files.rig.numbers);
+  if (files.scenario) header.scenario_yaml = config::WriteScenario(*files.scenario);
+  header.pace = options.realtime ? "realtime" : "lockstep";
+  header.seed = options.seed;
+  header.period_ns = files.rig.numbers.period_ns;
+  header.start_utc_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+                            std::chrono::system_clock::now().time_since_epoch())
+                            .count();
+  header.machine = rt::MachineText() + '\n' + rt::Text(facts);
+  header.source = options.port;
+  header.channels = files.rig.numbers.channels;
+  return header;
+}
+
+// Tells people and the network what the recorder found worth saying.
+void Announce(const session::Event& event, transport::Telemetry& telemetry) {
+  fmt::print(stderr, "amb-controller: cycle {}: {}\n", event.cycle, event.text);
+  telemetry.PostEvent({.cycle = event.cycle,
+                       .time_ns = event.time_ns,
+                       .severity = static_cast<std::uint8_t>(event.severity),
+                       .mode = event.mode,
+                       .fault = event.fault,
+                       .axis = event.axis,
+                       .value = event.value,
+                       .limit = event.limit,
+                       .text = event.text});
+}
+
+// Nothing below needs the loop's speed: signals and the partner are looked after from here.
+// Returns false when the rig stayed away.
+bool Watch(loop::ControlLoop& loop, loop::OperatorDesk& desk, const std::atomic<bool>& running,
+           const ControllerOptions& options, const std::string& url) {
+  using Say = transport::PartnerWatch::Say;
+  transport::PartnerWatch watch(rt::MonotonicNowNs(),
+                                static_cast<std::int64_t>(options.partner_timeout_s * 1e9));
+  while (running.load()) {
+    std::this_thread::sleep_for(kLookEvery);
+    const Say say = watch.Check(rt::MonotonicNowNs(), loop.frames_heard());
+    if (say == Say::kFound) fmt::print(stderr, "amb-controller: rig found\n");
+    if (say == Say::kMissing) {
+      fmt::print(stderr,
+                 "amb-controller: no sensor frames at {}; start amb-plant with the same --rig, "
+                 "--port and --pace (giving up {} s after its last message)\n",
+                 url, options.partner_timeout_s);
+    }
+    if (say == Say::kGiveUp && running.load()) {
+      fmt::print(stderr, "amb-controller: no rig for {} s, ending\n", options.partner_timeout_s);
+      loop.Abort();
+      return false;
+    }
+    // Without a rig there is nothing to land; a second signal does not wait for it.
+    if (rt::StopSignals() > 0) desk.RequestStop();
+    if (rt::StopSignals() > 1 || (rt::StopSignals() > 0 && !watch.present())) loop.Abort();
+  }
+  return true;
+}
+
+ExitStatus Status(const RunFacts& facts, bool partner_stayed) {
+  if (facts.trips > 0) return ExitStatus::kTripped;
+  return partner_stayed && facts.scenario_problem.empty() ? ExitStatus::kDone : ExitStatus::kOther;
+}
+
+std::unique_ptr<rt::RealTimeGuard> PrepareRealTime(const ControllerOptions& options,
+                                                   const rt::RealTimeOptions& wanted) {
+  if (!options.realtime) return nullptr;
+  auto guard = std::make_unique<rt::RealTimeGuard>(wanted);
+  if (guard->complete()) return guard;
+  if (options.require_realtime) {
+    throw Problem(ExitStatus::kOther,
+                  "real time is refused by this machine:\n" + rt::Text(guard->facts()));
+  }
+  fmt::print(stderr, "amb-controller: real time is degraded:\n{}", rt::Text(guard->facts()));
+  return guard;
+}
+
+// Everything a run consists of, made in the order it is needed and taken down in reverse.
+class Session {
+ public:
+  Session(const ControllerOptions& options, const Files& files)
+      : options_(options),
+        numbers_(files.rig.numbers),
+        wanted_{.processor = options.processor},
+        guard_(PrepareRealTime(options, wanted_)),
+        network_(transport::ParseLcmNetwork(options.port)),
+        port_(network_, numbers_.axes(), kSpinNs),
+        telemetry_(network_),
+        recorder_({.session_path = options.record,
+                   .trip_folder = options.trip_folder,
+                   .header = Header(options, files, Facts()),
+                   .on_event = [this](const auto& event) { Announce(event, telemetry_); },
+                   .on_record = {}}),
+        outlet_(recorder_, telemetry_, numbers_.period_ns),
+        cycle_({numbers_, files.controller.law, files.controller.supervisor}),
+        sequence_(files.controller.supervisor.sequence) {
+    if (files.scenario) {
+      player_.emplace(*files.scenario, numbers_.period_s(), sequence_.standstill_rad_per_s);
+    }
+  }
+
+  ExitStatus Run() {
+    loop::OperatorDesk desk({.period_s = numbers_.period_s(),
+                             .stop_acceleration_rad_per_s2 = sequence_.trip_acceleration_rad_per_s2,
+                             .standstill_rad_per_s = sequence_.standstill_rad_per_s,
+                             .duration_s = options_.duration_s},
+                            player_ ? &*player_ : nullptr, &commands_);
+    transport::OperatorReceiver receiver(network_, [this](const auto& command) {
+      commands_.Post({command.command, command.speed_rad_per_s, command.acceleration_rad_per_s2});
+    });
+    loop::ControlLoop loop(
+        {.pace = options_.realtime ? loop::Pace::kRealtime : loop::Pace::kLockstep,
+         .period_ns = numbers_.period_ns},
+        port_, cycle_, desk, outlet_, clock_);
+    rt::CatchStopSignals();
+    std::atomic<bool> running{true};
+    std::thread thread([&] {
+      if (guard_) rt::EnterThread(wanted_);
+      loop.Run();
+      running.store(false);
+    });
+    const bool stayed =
+        Watch(loop, desk, running, options_, network_.Url(transport::Direction::kSensor));
+    thread.join();
+    port_.SayGoodbye({.cycle = loop.last().in.frame.cycle});
+    return Tell(loop.statistics(), receiver.rejected(), stayed);
+  }
+
+ private:
+  [[nodiscard]] const std::vector<rt::RealTimeFact>& Facts() const {
+    static const std::vector<rt::RealTimeFact> kNone;
+    return guard_ ? guard_->facts() : kNone;
+  }
+
+  ExitStatus Tell(const loop::LoopStatistics& statistics, std::uint64_t rejected, bool stayed) {
+    const RunFacts facts{.options = options_,
+                         .statistics = statistics,
+                         .port = port_.counters(),
+                         .frames_lost = port_.lost(),
+                         .records_lost = recorder_.lost(),
+                         .telemetry_dropped = telemetry_.dropped(),
+                         .commands_rejected = rejected,
+                         .trips = outlet_.trips(),
+                         .first_fault = outlet_.first_fault(),
+                         .trip_file = recorder_.trip_file(),
+                         .scenario_problem = player_ ? player_->Text() : "",
+                         .real_time = Facts()};
+    fmt::print(stderr, "{}", ReportText(facts));
+    if (!options_.json.empty()) transport::WriteJson(ReportJson(facts), options_.json);
+    return Status(facts, stayed);
+  }
+
+  const ControllerOptions& options_;
+  RigNumbers numbers_;
+  rt::RealTimeOptions wanted_;
+  std::unique_ptr<rt::RealTimeGuard> guard_;
+  transport::LcmNetwork network_;
+  transport::LcmRigPort port_;
+  transport::Telemetry telemetry_;
+  session::Recorder recorder_;
+  LoopOutlet outlet_;
+  cycle::ControlCycle cycle_;
+  supervisor::SequenceConfig sequence_;
+  std::optional<loop::ScenarioPlayer> player_;
+  SpscRing<loop::RemoteCommand> commands_{kRemoteCommands};
+  rt::MonotonicClock clock_;
+};
+
+}  // namespace
+
+ExitStatus Run(const ControllerOptions& options) {
+  const Files files = Load(options);
+  Session session(options, files);
+  return session.Run();
+}
+
+}  // namespace levitas::controller_program

@@ -1,0 +1,83 @@
+#include "controller/program/report.hpp"
+
+#include <fmt/core.h>
+
+#include "transport/statistics_json.hpp"
+
+namespace levitas::controller_program {
+
+namespace {
+using transport::HistogramJson;
+
+nlohmann::ordered_json TimingJson(const loop::LoopStatistics& statistics) {
+  nlohmann::ordered_json json{{"wakeup", HistogramJson(statistics.wakeup)},
+                              {"compute", HistogramJson(statistics.compute)},
+                              {"latency", HistogramJson(statistics.latency)}};
+  for (std::size_t at = 1; at < cycle::kStageCount; ++at) {
+    const char* name = loop::StageName(static_cast<cycle::Stage>(at));
+    json["stage"][name] = HistogramJson(statistics.stage[at]);
+    json["blamed"][name] = statistics.blamed[at];
+  }
+  return json;
+}
+
+std::string Triple(const Histogram& histogram) {
+  return fmt::format("{:.2f} / {:.2f} / {:.2f} us", histogram.Percentile(0.5) * 1e-3,
+                     histogram.Percentile(0.99) * 1e-3, histogram.Percentile(0.999) * 1e-3);
+}
+}  // namespace
+
+nlohmann::ordered_json ReportJson(const RunFacts& facts) {
+  nlohmann::ordered_json json{{"pace", facts.options.realtime ? "realtime" : "lockstep"},
+                              {"cycles", facts.statistics.cycles},
+                              {"skipped_periods", facts.statistics.skipped_periods},
+                              {"overruns", facts.statistics.overruns},
+                              {"missing_frames", facts.statistics.missing_frames},
+                              {"repeated_frames", facts.statistics.repeated_frames},
+                              {"frames_read", facts.port.frames_read},
+                              {"frames_skipped", facts.port.frames_skipped},
+                              {"frames_rejected", facts.port.frames_rejected},
+                              {"currents_written", facts.port.currents_written},
+                              {"write_failures", facts.port.write_failures},
+                              {"messages_lost", facts.frames_lost},
+                              {"records_lost", facts.records_lost},
+                              {"telemetry_dropped", facts.telemetry_dropped},
+                              {"commands_rejected", facts.commands_rejected},
+                              {"trips", facts.trips},
+                              {"first_fault", Name(facts.first_fault)},
+                              {"trip_file", facts.trip_file},
+                              {"scenario_problem", facts.scenario_problem},
+                              {"realtime", rt::Text(facts.real_time)}};
+  json["timing"] = TimingJson(facts.statistics);
+  return json;
+}
+
+std::string ReportText(const RunFacts& facts) {
+  const loop::LoopStatistics& statistics = facts.statistics;
+  std::string text =
+      fmt::format("{} cycles, {} skipped, {} without a frame, {} messages lost, {} records lost\n",
+                  statistics.cycles, statistics.skipped_periods, statistics.missing_frames,
+                  facts.frames_lost, facts.records_lost);
+  text += fmt::format("computation (p50 / p99 / p99.9)  {}\n", Triple(statistics.compute));
+  if (facts.options.realtime) {
+    text += fmt::format("wake-up error                    {}\n", Triple(statistics.wakeup));
+    text += fmt::format("sample to current                {}\n", Triple(statistics.latency));
+  }
+  if (statistics.overruns > 0) {
+    text += fmt::format("overruns                         {}, blamed:", statistics.overruns);
+    for (std::size_t at = 1; at < cycle::kStageCount; ++at) {
+      if (statistics.blamed[at] == 0) continue;
+      text += fmt::format(" {} {}", loop::StageName(static_cast<cycle::Stage>(at)),
+                          statistics.blamed[at]);
+    }
+    text += '\n';
+  }
+  if (facts.trips > 0) {
+    text += fmt::format("tripped: {}{}{}\n", Name(facts.first_fault),
+                        facts.trip_file.empty() ? "" : ", recorded in ", facts.trip_file);
+  }
+  if (!facts.scenario_problem.empty()) text += facts.scenario_problem + '\n';
+  return text;
+}
+
+}  // namespace levitas::controller_program

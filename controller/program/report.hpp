@@ -1,0 +1,34 @@
+#pragma once
+// What amb-controller says of a run: for people at its end, and as JSON.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "controller/loop/loop_statistics.hpp"
+#include "controller/port/rig_port.hpp"
+#include "controller/program/controller_options.hpp"
+#include "controller/rt/real_time.hpp"
+
+namespace levitas::controller_program {
+
+/// Everything that is known when the loop has ended.
+struct RunFacts {
+  const ControllerOptions& options;
+  const loop::LoopStatistics& statistics;
+  port::PortCounters port;
+  std::uint64_t frames_lost{};
+  std::uint64_t records_lost{};
+  std::uint64_t telemetry_dropped{};
+  std::uint64_t commands_rejected{};
+  std::uint64_t trips{};
+  Fault first_fault{Fault::kNone};
+  std::string trip_file;
+  std::string scenario_problem;
+  const std::vector<rt::RealTimeFact>& real_time;
+};
+
+[[nodiscard]] nlohmann::ordered_json ReportJson(const RunFacts& facts);
+[[nodiscard]] std::string ReportText(const RunFacts& facts);
+
+}  // namespace levitas::controller_program
