@@ -4,7 +4,7 @@
 
 namespace levitas::loop {
 
-OperatorDesk::OperatorDesk(const DeskOptions& options, ScenarioPlayer* player,
+OperatorDesk::OperatorDesk(const DeskOptions& options, scenario::ScenarioPlayer* player,
                            SpscRing<RemoteCommand>* remote)
     : options_(options), player_(player), remote_(remote) {}
 
@@ -16,7 +16,7 @@ bool OperatorDesk::Ending(const OperatorView& view) noexcept {
   if (ending_) return true;
   const bool over =
       options_.duration_s > 0.0 && view.cycle - first_cycle_ >= Cycles(options_.duration_s);
-  const bool played = player_ != nullptr && player_->outcome() != ScenarioPlayer::Outcome::kPlaying;
+  const bool played = player_ != nullptr && player_->outcome() != scenario::Outcome::kPlaying;
   ending_ = over || played || stop_requested_.load(std::memory_order_relaxed);
   end_start_ = view.cycle;
   last_request_ = view.cycle - Cycles(kRepeat_s);  // the first request is made at once
@@ -68,7 +68,14 @@ cycle::OperatorInput OperatorDesk::Next(const OperatorView& view) noexcept {
     return input;
   }
   if (Ending(view)) return Stop(view);
-  if (player_ != nullptr) return player_->Next(view);
+  if (player_ != nullptr) {
+    const auto played =
+        player_->Next(view.mode, view.speed_rad_per_s, view.fault, view.command_refused);
+    input.command = played.command;
+    input.speed_rad_per_s = played.speed_rad_per_s;
+    input.acceleration_rad_per_s2 = played.acceleration_rad_per_s2;
+    input.excitation_a = played.excitation_a;
+  }
   return input;
 }
 

@@ -16,7 +16,7 @@
 
 #include "common/spsc_ring.hpp"
 #include "controller/loop/operator_source.hpp"
-#include "controller/loop/scenario_player.hpp"
+#include "controller/scenario/scenario_player.hpp"
 
 namespace levitas::loop {
 
@@ -41,7 +41,8 @@ class OperatorDesk final : public OperatorSource {
   static constexpr double kRepeat_s = 0.1;  ///< a refused request of the end is made again
 
   /// `player` and `remote` may be null.
-  OperatorDesk(const DeskOptions& options, ScenarioPlayer* player, SpscRing<RemoteCommand>* remote);
+  OperatorDesk(const DeskOptions& options, scenario::ScenarioPlayer* player,
+               SpscRing<RemoteCommand>* remote);
 
   [[nodiscard]] cycle::OperatorInput Next(const OperatorView& view) noexcept override;
   [[nodiscard]] bool Done() const noexcept override { return done_; }
@@ -53,7 +54,7 @@ class OperatorDesk final : public OperatorSource {
   [[nodiscard]] std::uint64_t Cycles(double seconds) const noexcept;
 
   DeskOptions options_;
-  ScenarioPlayer* player_;
+  scenario::ScenarioPlayer* player_;
   SpscRing<RemoteCommand>* remote_;
   std::atomic<bool> stop_requested_{false};
   bool ending_{false};

@@ -216,7 +216,7 @@ class Session {
   LoopOutlet outlet_;
   cycle::ControlCycle cycle_;
   supervisor::SequenceConfig sequence_;
-  std::optional<loop::ScenarioPlayer> player_;
+  std::optional<scenario::ScenarioPlayer> player_;
   SpscRing<loop::RemoteCommand> commands_{kRemoteCommands};
   rt::MonotonicClock clock_;
 };
