@@ -141,7 +141,8 @@ TEST_P(GainMargins, AreTheFactorsAtWhichTheLoopLosesItsStability) {
   EXPECT_TRUE(stable_at(*margins.gain_down * 1.001));
   EXPECT_FALSE(stable_at(*margins.gain_down * 0.999));
   // And no edge lies nearer.
-  for (double share = 0.1; share < 1.0; share += 0.1) {
+  for (int tenth = 1; tenth < 10; ++tenth) {
+    const double share = 0.1 * tenth;
     EXPECT_TRUE(stable_at(1.0 + share * (*margins.gain_up - 1.0)));
     EXPECT_TRUE(stable_at(1.0 + share * (*margins.gain_down - 1.0)));
   }
