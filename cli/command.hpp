@@ -16,6 +16,7 @@ using Action = std::function<ExitStatus()>;
 
 // The commands, in the order of the help. Each is defined in <name>_command.cpp.
 // (Add: declaration here, entry in main.cpp, source in CMakeLists.txt.)
+void AddRunCommand(CLI::App& app, Action& action);
 void AddModesCommand(CLI::App& app, Action& action);
 void AddPolesCommand(CLI::App& app, Action& action);
 void AddMarginsCommand(CLI::App& app, Action& action);

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
                "amb"};
   app.require_subcommand(1);
   cli::Action action;
+  cli::AddRunCommand(app, action);
   cli::AddModesCommand(app, action);
   cli::AddPolesCommand(app, action);
   cli::AddMarginsCommand(app, action);

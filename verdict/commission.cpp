@@ -21,6 +21,18 @@ void Complete(Provenance& provenance, const session::SessionHeader& header) {
   provenance.start_utc_ns = header.start_utc_ns;
 }
 
+/// At rest, and at the highest speed of the run if it was spun.
+std::vector<analysis::SensitivityResult> Sensitivities(const config::RigFile& rig,
+                                                       const config::ControllerFile& controller,
+                                                       double top_speed_rad_per_s) {
+  std::vector<analysis::SensitivityResult> results;
+  results.push_back(analysis::SensitivityPeaks(rig.plant, controller.law, 0.0));
+  if (top_speed_rad_per_s > controller.supervisor.sequence.standstill_rad_per_s) {
+    results.push_back(analysis::SensitivityPeaks(rig.plant, controller.law, top_speed_rad_per_s));
+  }
+  return results;
+}
+
 }  // namespace
 
 Verdict Commission(const CommissionOptions& options) {
@@ -38,6 +50,7 @@ Verdict Commission(const CommissionOptions& options) {
   Inputs inputs;
   inputs.rig = rig.numbers;
   inputs.session = statistics.Figures();
+  inputs.sensitivity = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
   inputs.timing = ReadControllerReport(options.controller_report);
   inputs.provenance = options.provenance;
   Complete(inputs.provenance, header);

@@ -16,6 +16,7 @@ inline constexpr double kSettleAfterLift_s = 0.5;
 struct CommissionOptions {
   std::string session_path;
   std::string controller_report;  ///< path of the controller's --json; may be missing
+  std::string plant_report;       ///< path of the rig's --json; may be missing
   Provenance provenance;          ///< paths and port; the rest is taken from the session's header
   std::string incomplete_reason;  ///< see Inputs
 };

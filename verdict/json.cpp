@@ -162,28 +162,27 @@ Object From(const Provenance& from) {
 
 }  // namespace
 
-std::string Json(const Verdict& verdict) {
+nlohmann::ordered_json Json(const Verdict& verdict) {
   const Inputs& in = verdict.inputs;
   Object currents = Object::array();
   AddCurrents(in, in.session.standing, "standing", currents);
   AddCurrents(in, in.session.spinning, "spinning", currents);
-  const Object all{{"verdict", Name(verdict.outcome)},
-                   {"sentence", verdict.sentence},
-                   {"objections", verdict.objections},
-                   {"provenance", From(in.provenance)},
-                   {"clearance_m", in.rig.clearance_m},
-                   {"top_speed_rpm", Rpm(in.session.top_speed_rad_per_s)},
-                   {"standing", Length(in.session.standing)},
-                   {"spinning", Length(in.session.spinning)},
-                   {"orbits", Orbits(verdict)},
-                   {"currents", currents},
-                   {"sensitivity", Sensitivity(in)},
-                   {"orbit_over_speed", Profile(in)},
-                   {"modes", Modes(in)},
-                   {"trip", Trip(in)},
-                   {"timing", Timing(in)},
-                   {"damage", in.damage}};
-  return all.dump(2) + "\n";
+  return {{"verdict", Name(verdict.outcome)},
+          {"sentence", verdict.sentence},
+          {"objections", verdict.objections},
+          {"provenance", From(in.provenance)},
+          {"clearance_m", in.rig.clearance_m},
+          {"top_speed_rpm", Rpm(in.session.top_speed_rad_per_s)},
+          {"standing", Length(in.session.standing)},
+          {"spinning", Length(in.session.spinning)},
+          {"orbits", Orbits(verdict)},
+          {"currents", currents},
+          {"sensitivity", Sensitivity(in)},
+          {"orbit_over_speed", Profile(in)},
+          {"modes", Modes(in)},
+          {"trip", Trip(in)},
+          {"timing", Timing(in)},
+          {"damage", in.damage}};
 }
 
 }  // namespace levitas::verdict

@@ -4,6 +4,7 @@
 //
 // Thread   any. Failure: none.
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "verdict/verdict.hpp"
@@ -12,7 +13,7 @@ namespace levitas::verdict {
 
 /// Lines end with '\n'; the last line is the sentence.
 [[nodiscard]] std::string Table(const Verdict& verdict);
-/// One object, indented, ending with '\n'.
-[[nodiscard]] std::string Json(const Verdict& verdict);
+/// One object, in the order of the table.
+[[nodiscard]] nlohmann::ordered_json Json(const Verdict& verdict);
 
 }  // namespace levitas::verdict

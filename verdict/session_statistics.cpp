@@ -71,10 +71,10 @@ void SessionStatistics::AddLosses(const cycle::CycleRecord& record) {
 void SessionStatistics::AddMode(const cycle::CycleRecord& record) {
   const double now_s = TimeOf(record);
   const Mode mode = record.out.mode;
-  const bool changed = figures_.modes.empty() || figures_.modes.back().mode != mode;
-  if (changed && mode == Mode::kTripped) {
+  const Mode before = figures_.modes.empty() ? Mode::kOff : figures_.modes.back().mode;
+  const bool changed = figures_.modes.empty() || before != mode;
+  if (record.out.fault != Fault::kNone && previous_fault_ == Fault::kNone) {
     ++figures_.trips;
-    const Mode before = figures_.modes.empty() ? Mode::kOff : figures_.modes.back().mode;
     if (!figures_.trip) {
       figures_.trip = TripFigures{record.out.fault,
                                   record.out.fault_axis,
@@ -85,6 +85,7 @@ void SessionStatistics::AddMode(const cycle::CycleRecord& record) {
                                   record.in.frame.speed_rad_per_s};
     }
   }
+  previous_fault_ = record.out.fault;
   if (changed) figures_.modes.push_back({mode, now_s, 0.0});
   figures_.modes.back().duration_s = now_s + rig_.period_s() - figures_.modes.back().start_s;
   figures_.duration_s = now_s + rig_.period_s();

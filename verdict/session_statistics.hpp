@@ -84,7 +84,7 @@ struct SessionFigures {
       profile;  ///< spinning only, by rising speed, bins without cycles left out
   std::vector<ModeSpan> modes;
   std::optional<TripFigures> trip;  ///< the first one
-  std::uint64_t trips{};
+  std::uint64_t trips{};            ///< faults latched
   std::uint64_t missing_frames{};   ///< cycles that had no new sensor frame
   std::uint64_t skipped_periods{};  ///< periods in which no cycle was started
   std::uint64_t held_currents{};    ///< periods in which the rig reused an old current
@@ -132,6 +132,7 @@ class SessionStatistics {
   SessionFigures figures_;
   std::uint64_t first_cycle_{}, previous_cycle_{};
   std::uint32_t previous_held_{}, rig_session_{};
+  Fault previous_fault_{Fault::kNone};
   bool first_frame_{true};
 };
 

@@ -67,10 +67,13 @@ std::string TripSentence(const Inputs& in) {
   if (what.empty()) {
     const auto axis = static_cast<std::size_t>(std::max(trip.axis, 0));
     const bool named = trip.axis >= 0 && axis < in.rig.channels.size();
-    what = fmt::format("{}{}: {:.4g}, allowed {:.4g}", Name(trip.fault),
+    what = fmt::format("{}{}: {:.4g}, allowed {:.4g}.", Name(trip.fault),
                        named ? " on " + in.rig.channels[axis] : "", trip.value, trip.limit);
   }
-  return fmt::format("TRIPPED: {} (in {} at {:.0f} rpm, {:.3f} s after the start)", what,
+  // The recorded sentence begins "TRIP in cycle N: ...".
+  const std::string beginning =
+      what.starts_with("TRIP ") ? "TRIPPED " + what.substr(5) : "TRIPPED: " + what;
+  return fmt::format("{} (It was in mode {} at {:.0f} rpm, {:.3f} s after the start.)", beginning,
                      Name(trip.mode_before), Rpm(trip.speed_rad_per_s), trip.time_s);
 }
 

@@ -78,7 +78,7 @@ TEST(Table, GivesAnUnstableLoopNoZone) {
 }
 
 TEST(Json, CarriesTheFiguresInSi) {
-  const nlohmann::json json = nlohmann::json::parse(Json(Judge(FullRun())));
+  const nlohmann::json json = nlohmann::json::parse(Json(Judge(FullRun())).dump());
   EXPECT_EQ(json["verdict"], "not_accepted");  // one loop is unstable
   EXPECT_EQ(json["orbits"].size(), 4U);
   EXPECT_EQ(json["orbits"][0]["bearing"], "de");
@@ -96,7 +96,7 @@ TEST(Json, CarriesTheFiguresInSi) {
 TEST(Json, WritesNoZoneForAnUnstableLoopAndNullForInfinity) {
   Inputs inputs = FullRun();
   inputs.session.standing.bearings[0].orbit.max_m = std::numeric_limits<double>::infinity();
-  const nlohmann::json json = nlohmann::json::parse(Json(Judge(inputs)));
+  const nlohmann::json json = nlohmann::json::parse(Json(Judge(inputs)).dump());
   EXPECT_EQ(json["sensitivity"][0]["axes"][0]["zone"], "A");
   EXPECT_TRUE(json["sensitivity"][1]["axes"][0]["zone"].is_null());
   EXPECT_FALSE(json["sensitivity"][1]["stable"].get<bool>());
@@ -108,7 +108,7 @@ TEST(Json, NamesTheTripWithItsFigures) {
   inputs.session.trip = TripFigures{Fault::kCoilSaturated, 3, 0.2, 0.1, 1.5, Mode::kLift, 0.0};
   inputs.session.trips = 1;
   inputs.provenance.trip_file = "trip_0001.lcmlog";
-  const nlohmann::json json = nlohmann::json::parse(Json(Judge(inputs)));
+  const nlohmann::json json = nlohmann::json::parse(Json(Judge(inputs)).dump());
   EXPECT_EQ(json["verdict"], "tripped");
   EXPECT_EQ(json["trip"]["fault"], "coil_saturated");
   EXPECT_EQ(json["trip"]["axis"], "nde_y");

@@ -152,7 +152,7 @@ TEST(SessionStatistics, KeepsTheFirstTripAndCountsThemAll) {
   };
   session.Append(Mode::kTripped, 10, {.speed_rad_per_s = 49.0}, trip);
   session.Append(Mode::kOff, 10);
-  session.Append(Mode::kTripped, 10);
+  session.Append(Mode::kTripped, 10, {}, trip);
   const SessionFigures figures = session.Figures(TwoBearingRig());
   ASSERT_TRUE(figures.trip.has_value());
   EXPECT_EQ(figures.trip->fault, Fault::kOrbitExceeded);

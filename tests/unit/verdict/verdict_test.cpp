@@ -122,10 +122,12 @@ TEST(Judge, ATripStandsBeforeEveryOtherVerdict) {
   const Verdict silent = Judge(inputs);
   EXPECT_EQ(silent.outcome, Outcome::kTripped);
   EXPECT_EQ(silent.sentence,
-            "TRIPPED: orbit_exceeded on nde_x: 9.9e-05, allowed 9.5e-05 (in spinning at 100 rpm, "
-            "1.250 s after the start)");
-  inputs.trip_text = "orbit of nde 99 um exceeds 95 um";
-  EXPECT_THAT(Judge(inputs).sentence, StartsWith("TRIPPED: orbit of nde 99 um exceeds 95 um (in"));
+            "TRIPPED: orbit_exceeded on nde_x: 9.9e-05, allowed 9.5e-05. (It was in mode spinning "
+            "at 100 rpm, "
+            "1.250 s after the start.)");
+  inputs.trip_text = "TRIP in cycle 12: the orbit is too large.";
+  EXPECT_THAT(Judge(inputs).sentence,
+              StartsWith("TRIPPED in cycle 12: the orbit is too large. (It was in mode"));
 }
 
 TEST(Judge, ARunCutShortIsIncompleteNotAccepted) {

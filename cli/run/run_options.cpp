@@ -1,0 +1,100 @@
+#include "cli/run/run_options.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "common/problem.hpp"
+#include "config/rig_file.hpp"
+
+namespace levitas::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kReferenceRig = "flexible_rotor";
+
+/// Runs `read`, which may find a file unusable, and adds what it says to `problems`.
+template <class Read>
+bool Collect(std::string& problems, Read read) {
+  try {
+    read();
+    return true;
+  } catch (const BadInput& problem) {
+    if (!problems.empty()) problems += "\n";
+    problems += problem.what();
+    return false;
+  }
+}
+
+}  // namespace
+
+RunFiles CheckFiles(const RunOptions& options) {
+  RunFiles files;
+  std::string problems;
+  const bool rig_good = Collect(problems, [&] {
+    files.rig_path = config::FindConfig(options.rig, "rigs");
+    files.rig = config::LoadRig(files.rig_path).numbers;
+  });
+  // The other two are read for a rig. Without one, the shipped rig shows at least what is wrong in
+  // them whatever the rig.
+  RigNumbers reference = files.rig;
+  if (!rig_good) {
+    reference = config::LoadRig(config::FindConfig(kReferenceRig, "rigs")).numbers;
+    problems +=
+        fmt::format("\n(the other files are checked against the shipped rig {})", kReferenceRig);
+  }
+  Collect(problems, [&] {
+    files.controller_path = config::FindConfig(options.controller, "controllers");
+    static_cast<void>(config::LoadController(files.controller_path, reference));
+  });
+  Collect(problems, [&] {
+    files.scenario_path = config::FindConfig(options.scenario, "scenarios");
+    files.scenario_name = config::LoadScenario(files.scenario_path, reference).name;
+  });
+  if (!problems.empty()) throw BadInput(problems);
+  return files;
+}
+
+std::optional<transport::LcmNetwork> CheckPort(const std::string& port) {
+  if (port.empty()) return std::nullopt;
+  if (port == "can" || port.starts_with("can:")) {
+    throw Problem(ExitStatus::kUsage,
+                  fmt::format("--port {}: this build has no CAN port yet; allowed: lcm, or "
+                              "lcm:udpm://239.255.76.67:7667?ttl=0",
+                              port));
+  }
+  return transport::ParseLcmNetwork(port);
+}
+
+std::string ProgramBeside(const std::string& name) {
+  std::error_code none;
+  const fs::path own = fs::read_symlink("/proc/self/exe", none);
+  const fs::path program = own.parent_path() / name;
+  if (fs::exists(program, none)) return program.string();
+  throw Problem(ExitStatus::kOther,
+                fmt::format("{} is not beside {}: build or install all programs into one folder",
+                            name, own.string()));
+}
+
+RunPlan PlanRun(const RunOptions& options, const RunFiles& files, const RunPaths& paths,
+                const transport::LcmNetwork& network) {
+  const std::vector<std::string> both{
+      "--rig",  files.rig_path, "--port", "lcm:" + network.Url(transport::Direction::kSensor),
+      "--pace", options.pace,   "--seed", std::to_string(options.seed)};
+  RunPlan plan;
+  plan.plant = {ProgramBeside("amb-plant"), both, paths.plant_log};
+  plan.plant.arguments.insert(plan.plant.arguments.end(), {"--json", paths.plant_json});
+  plan.controller = {ProgramBeside("amb-controller"), both, paths.controller_log};
+  plan.controller.arguments.insert(
+      plan.controller.arguments.end(),
+      {"--controller", files.controller_path, "--scenario", files.scenario_path, "--record",
+       paths.session, "--trip-folder", paths.trip_folder, "--json", paths.controller_json});
+  if (options.duration_s > 0.0) {
+    plan.controller.arguments.insert(plan.controller.arguments.end(),
+                                     {"--duration", fmt::format("{}", options.duration_s)});
+  }
+  return plan;
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,55 @@
+#pragma once
+// What `amb run` was asked for, checked, and the programs called to do it.
+//
+// Failure  Problem with the exit status of the contract: 2 for a port or pace that does not exist,
+//          3 with every problem of all three files at once.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/supervise.hpp"
+#include "common/rig_numbers.hpp"
+#include "transport/lcm_network.hpp"
+
+namespace levitas::cli {
+
+struct RunOptions {
+  std::string rig{"flexible_rotor"};
+  std::string controller{"flexible_rotor_commissioned"};
+  std::string scenario{"default"};
+  double duration_s{0.0};  ///< 0: as long as the scenario takes
+  std::string pace{"lockstep"};
+  std::string port;         ///< empty: lcm on ports nobody else uses
+  std::string record_path;  ///< empty: a temporary file
+  std::int64_t seed{1};
+  std::string json_path;
+};
+
+/// The three files, found and read without a problem.
+struct RunFiles {
+  std::string rig_path, controller_path, scenario_path;
+  std::string scenario_name;
+  RigNumbers rig;
+};
+
+/// Reads all three; throws one BadInput with the problems of all of them.
+[[nodiscard]] RunFiles CheckFiles(const RunOptions& options);
+
+/// The network --port names; empty when free ports are to be looked for. Refuses what is no LCM
+/// port with the list of what is.
+[[nodiscard]] std::optional<transport::LcmNetwork> CheckPort(const std::string& port);
+
+/// Path of a program that is installed beside this one.
+[[nodiscard]] std::string ProgramBeside(const std::string& name);
+
+/// Where one run keeps what it writes.
+struct RunPaths {
+  std::string session, controller_json, plant_json, controller_log, plant_log, trip_folder;
+};
+
+[[nodiscard]] RunPlan PlanRun(const RunOptions& options, const RunFiles& files,
+                              const RunPaths& paths, const transport::LcmNetwork& network);
+
+}  // namespace levitas::cli

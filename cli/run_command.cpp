@@ -1,0 +1,158 @@
+// amb run: controller and simulated rig as two processes, progress, and the commissioning verdict.
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/json_file.hpp"
+#include "cli/run/interrupt.hpp"
+#include "cli/run/port_lease.hpp"
+#include "cli/run/progress.hpp"
+#include "cli/run/run_folder.hpp"
+#include "cli/run/run_options.hpp"
+#include "cli/run/supervise.hpp"
+#include "cli/run/telemetry.hpp"
+#include "verdict/commission.hpp"
+#include "verdict/report.hpp"
+
+namespace levitas::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Ports of our own unless the user named some.
+PortLease Lease(std::optional<transport::LcmNetwork>& network) {
+  if (network) return PortLease::Claim(network->base_port);
+  PortLease lease = PortLease::FirstFree();
+  network = transport::LcmNetwork{};
+  network->base_port = lease.base_port();
+  return lease;
+}
+
+RunPaths PathsOf(const RunOptions& options, const RunFolder& folder) {
+  RunPaths paths;
+  paths.session = options.record_path.empty() ? folder / "session.lcmlog" : options.record_path;
+  paths.controller_json = folder / "controller.json";
+  paths.plant_json = folder / "plant.json";
+  paths.controller_log = folder / "controller.log";
+  paths.plant_log = folder / "plant.log";
+  // Beside a record the user keeps; else with the record, which a trip keeps.
+  const fs::path beside = fs::path(paths.session).parent_path();
+  paths.trip_folder = beside.empty() ? "." : beside.string();
+  return paths;
+}
+
+RunResult RunBoth(const RunPlan& plan, const RunFiles& files, const std::string& telemetry_url) {
+  const InterruptGuard interrupts;
+  Telemetry telemetry(telemetry_url);
+  Progress progress(files.rig.bearings, files.rig.period_s(), stderr, isatty(STDERR_FILENO) == 1);
+  RunHooks hooks;
+  hooks.telemetry = [&](std::chrono::milliseconds limit) { return telemetry.Wait(limit); };
+  hooks.progress = [&](const ProgressSample& sample) { progress.Show(sample); };
+  hooks.say = [&](const std::string& text) {
+    progress.Close();
+    fmt::print(stderr, "{}\n", text);
+  };
+  hooks.interrupts = [&] { return interrupts.count(); };
+  RunResult result = Supervise(plan, hooks);
+  progress.Close();
+  return result;
+}
+
+verdict::CommissionOptions WhatToJudge(const RunFiles& files, const RunPaths& paths,
+                                       const RunResult& result, const std::string& port) {
+  verdict::CommissionOptions judge;
+  judge.session_path = paths.session;
+  judge.controller_report = paths.controller_json;
+  judge.plant_report = paths.plant_json;
+  judge.provenance.rig_file = files.rig_path;
+  judge.provenance.controller_file = files.controller_path;
+  judge.provenance.scenario_file = files.scenario_path;
+  judge.provenance.scenario = files.scenario_name;
+  judge.provenance.session_file = paths.session;
+  judge.provenance.port = port;
+  if (!result.trouble.empty()) {
+    judge.incomplete_reason = result.trouble.substr(0, result.trouble.find('\n'));
+  } else if (result.interrupted) {
+    judge.incomplete_reason = "stopped by the operator before the end; the rotor was landed";
+  }
+  return judge;
+}
+
+ExitStatus StatusOf(const RunResult& result) {
+  const bool refused = !result.controller.signalled &&
+                       (result.controller.code == static_cast<int>(ExitStatus::kUsage) ||
+                        result.controller.code == static_cast<int>(ExitStatus::kBadInput));
+  if (refused) return static_cast<ExitStatus>(result.controller.code);
+  if (!result.trouble.empty()) return ExitStatus::kOther;
+  if (result.controller.code == static_cast<int>(ExitStatus::kTripped)) return ExitStatus::kTripped;
+  return result.interrupted ? ExitStatus::kOther : ExitStatus::kDone;
+}
+
+void SayWhereTheRecordIs(const RunPaths& paths, const std::string& trip_file) {
+  fmt::print("record: {}   (amb replay {})\n", paths.session, paths.session);
+  if (!trip_file.empty()) {
+    fmt::print("trip:   {}   (amb replay {})\n", trip_file, trip_file);
+  }
+}
+
+ExitStatus Execute(const RunOptions& options) {
+  std::optional<transport::LcmNetwork> network = CheckPort(options.port);
+  const RunFiles files = CheckFiles(options);
+  const PortLease lease = Lease(network);
+  RunFolder folder;
+  const RunPaths paths = PathsOf(options, folder);
+  const RunPlan plan = PlanRun(options, files, paths, *network);
+  const std::string port = network->Url(transport::Direction::kSensor);
+  fmt::print(stderr, "rig {}, controller {}, scenario {}, {}, LCM {}\n", files.rig.name,
+             files.controller_path, files.scenario_name, options.pace, port);
+  const RunResult result = RunBoth(plan, files, network->Url(transport::Direction::kTelemetry));
+  const ExitStatus status = StatusOf(result);
+  const bool keep = !options.record_path.empty() || status == ExitStatus::kTripped;
+  if (fs::exists(paths.session) && fs::file_size(paths.session) > 0) {
+    verdict::CommissionOptions judge = WhatToJudge(files, paths, result, port);
+    if (!keep) judge.provenance.session_file.clear();
+    const verdict::Verdict verdict = verdict::Commission(judge);
+    fmt::print("{}", verdict::Table(verdict));
+    WriteJsonFile(options.json_path, verdict::Json(verdict));
+    if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
+  }
+  if (status == ExitStatus::kTripped && options.record_path.empty()) folder.Keep();
+  std::fflush(stdout);
+  if (!result.trouble.empty()) throw Problem(status, result.trouble);
+  return status;
+}
+
+}  // namespace
+
+void AddRunCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand(
+      "run", "Levitate the simulated rig with the controller process and judge the run");
+  command->add_option("--rig", options->rig, "Rig file, or the name of a shipped one")
+      ->capture_default_str();
+  command->add_option("--controller", options->controller, "Controller file or shipped name")
+      ->capture_default_str();
+  command->add_option("--scenario", options->scenario, "Scenario file or shipped name")
+      ->capture_default_str();
+  command
+      ->add_option("--duration", options->duration_s,
+                   "Land after this long [s of the rig's time], wherever the scenario is")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--pace", options->pace, "lockstep or realtime")
+      ->check(CLI::IsMember({"lockstep", "realtime"}))
+      ->capture_default_str();
+  command->add_option("--port", options->port,
+                      "lcm, or lcm:udpm://<group>:<port>?ttl=<n>; default: lcm on free ports");
+  command->add_option("--record", options->record_path, "Keep the record in this file");
+  command->add_option("--seed", options->seed, "Seed of the sensor noise")->capture_default_str();
+  command->add_option("--json", options->json_path, "Write the verdict to this file");
+  command->callback([options, &action] { action = [options] { return Execute(*options); }; });
+}
+
+}  // namespace levitas::cli
