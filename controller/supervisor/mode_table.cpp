@@ -78,15 +78,18 @@ std::string ModeTableDocument() {
       "operator asks for it or the rig's own chain opens.\n\n## Diagram\n\n";
   text += StateDiagram();
   text += "\n## States\n\n";
-  text += Line(
-      {"state", "mode shown", "magnets", "reference", "drive", "excitation", "faults looked for"});
-  text += "|---|---|---|---|---|---|---|\n";
+  text += Line({"state", "mode shown", "magnets", "reference", "drive", "excitation", "stop faults",
+                "drop faults"});
+  text += "|---|---|---|---|---|---|---|---|\n";
   for (const StateRow& row : kStates) {
     text += Line({Name(row.state), levitas::Name(row.mode),
                   row.energised ? "bias and law" : "no current", Name(row.reference),
-                  Name(row.drive), row.excitation ? "passed on" : "none", FaultNames(row.armed)});
+                  Name(row.drive), row.excitation ? "passed on" : "none",
+                  FaultNames(row.armed & ~row.drop), FaultNames(row.armed & row.drop)});
   }
-  text += "\nDrop faults: " + FaultNames(kDropFaults) + ". All others are stop faults.\n";
+  text +=
+      "\nA fault that is not listed in a state is not looked for in it. orbit_exceeded as a drop "
+      "fault means that the rotor stays beyond the whole clearance.\n";
   text += "\n## Edges\n\n";
   text += Line({"from", "event", "only if", "to", "action"});
   text += "|---|---|---|---|---|\n";

@@ -90,6 +90,7 @@ struct StateRow {
   Drive drive{};
   bool excitation{};  ///< injected currents are let through
   FaultSet armed{};   ///< faults that are looked for
+  FaultSet drop{};    ///< those that come as kDropFault; the others come as kStopFault
 };
 
 /// Faults after which the position signals or the magnets cannot be trusted.
@@ -107,24 +108,24 @@ inline constexpr FaultSet kLevitatedFaults = kSignalFaults | Bit(Fault::kDeadlin
 
 inline constexpr std::array<StateRow, kStateCount> kStates{{
     {State::kOff, Mode::kOff, false, Reference::kNone, Drive::kFree, false,
-     Bit(Fault::kEmergencyStop)},
+     Bit(Fault::kEmergencyStop), kDropFaults},
     {State::kSelfTest, Mode::kSelfTest, false, Reference::kNone, Drive::kFree, false,
-     kSignalFaults | Bit(Fault::kEmergencyStop) | Bit(Fault::kSelfTestFailed)},
+     kSignalFaults | Bit(Fault::kEmergencyStop) | Bit(Fault::kSelfTestFailed), kDropFaults},
     {State::kLift, Mode::kLift, true, Reference::kRampToCentre, Drive::kFree, false,
-     kLevitatedFaults | Bit(Fault::kLiftFailed)},
+     kLevitatedFaults | Bit(Fault::kLiftFailed), kDropFaults},
     {State::kLevitating, Mode::kLevitating, true, Reference::kCentre, Drive::kFree, true,
-     kLevitatedFaults | Bit(Fault::kOrbitExceeded)},
+     kLevitatedFaults | Bit(Fault::kOrbitExceeded), kDropFaults},
     {State::kSpinning, Mode::kSpinning, true, Reference::kCentre, Drive::kSetPoint, true,
-     kLevitatedFaults | Bit(Fault::kOrbitExceeded)},
+     kLevitatedFaults | Bit(Fault::kOrbitExceeded), kDropFaults},
     {State::kCoastDown, Mode::kCoastDown, true, Reference::kCentre, Drive::kFree, true,
-     kLevitatedFaults | Bit(Fault::kOrbitExceeded)},
+     kLevitatedFaults | Bit(Fault::kOrbitExceeded), kDropFaults},
     {State::kLanding, Mode::kLanding, true, Reference::kRampToRest, Drive::kFree, false,
-     kLevitatedFaults},
+     kLevitatedFaults, kDropFaults},
     {State::kTrippedStopping, Mode::kTripped, true, Reference::kCentre, Drive::kBrake, false,
-     kSignalFaults},
+     kSignalFaults | Bit(Fault::kOrbitExceeded), kDropFaults | Bit(Fault::kOrbitExceeded)},
     {State::kTrippedLanding, Mode::kTripped, true, Reference::kRampToRest, Drive::kBrake, false,
-     kSignalFaults},
-    {State::kTrippedReleased, Mode::kTripped, false, Reference::kNone, Drive::kBrake, false, 0},
+     kSignalFaults, kDropFaults},
+    {State::kTrippedReleased, Mode::kTripped, false, Reference::kNone, Drive::kBrake, false, 0, 0},
 }};
 
 inline constexpr std::array kEdges{

@@ -26,6 +26,12 @@ void CountWhile(bool condition, std::uint32_t& counter) noexcept {
   counter = condition ? counter + (counter < kForever ? 1U : 0U) : 0U;
 }
 
+// Whole periods that last at least `time_s`; the millionth forgives rounding of the quotient.
+std::uint32_t Cycles(double time_s, double period_s) noexcept {
+  const double cycles = std::ceil(time_s / period_s - 1e-6);
+  return static_cast<std::uint32_t>(std::clamp(cycles, 1.0, static_cast<double>(kForever - 1)));
+}
+
 std::int8_t AxisNumber(std::size_t axis) noexcept { return static_cast<std::int8_t>(axis); }
 
 }  // namespace
@@ -36,6 +42,7 @@ Protections::Protections(const RigNumbers& rig, const ProtectionConfig& config)
       orbit_limit_m_(config.orbit_fraction * rig.clearance_m),
       range_limit_m_(config.sensor_range_fraction * rig.sensor_range_m),
       speed_limit_rad_per_s_(config.over_speed_fraction * rig.max_speed_rad_per_s),
+      clearance_m_(rig.clearance_m),
       period_s_(rig.period_s()) {
   NeedPositive(orbit_limit_m_, "orbit_fraction x clearance_m");
   NeedPositive(range_limit_m_, "sensor_range_fraction x sensor_range_m");
@@ -48,9 +55,8 @@ Protections::Protections(const RigNumbers& rig, const ProtectionConfig& config)
   NeedPositive(config.deadline_missed_cycles, "deadline_missed_cycles");
   NeedPositive(config.deadline_window_cycles, "deadline_window_cycles");
   NeedPositive(config.coil_saturated_s, "coil_saturated_s");
-  const double cycles = std::ceil(config.coil_saturated_s / period_s_ - 1e-6);
-  saturated_limit_cycles_ =
-      static_cast<std::uint32_t>(std::clamp(cycles, 1.0, static_cast<double>(kForever - 1)));
+  saturated_limit_cycles_ = Cycles(config.coil_saturated_s, period_s_);
+  contact_limit_cycles_ = Cycles(kContactS, period_s_);
   if (config.deadline_missed_cycles > kMostMisses) {
     throw std::invalid_argument(
         "supervisor: deadline_missed_cycles = " + std::to_string(config.deadline_missed_cycles) +
@@ -99,7 +105,14 @@ void Protections::Count(const Observation& seen, bool energised) noexcept {
   }
   has_position_ = true;
   for (std::size_t b = 0; 2 * b + 1 < axes_; ++b) {
-    CountWhile(Radius(seen, b) > orbit_limit_m_, beyond_orbit_[b]);
+    const double radius_m = Radius(seen, b);
+    CountWhile(radius_m > orbit_limit_m_, beyond_orbit_[b]);
+    std::uint32_t& contact = in_contact_[b];
+    if (radius_m >= clearance_m_) {
+      contact = std::min(contact + 1, contact_limit_cycles_);
+    } else if (contact > 0) {
+      --contact;
+    }
   }
 }
 
@@ -187,13 +200,24 @@ Finding Protections::AmplifierFault(const Observation& seen) const noexcept {
 
 Finding Protections::Orbit(const Observation& seen) const noexcept {
   for (std::size_t b = 0; 2 * b + 1 < axes_; ++b) {
-    if (beyond_orbit_[b] < config_.orbit_cycles) continue;
-    const bool x_is_larger =
-        std::abs(seen.position_m[2 * b]) >= std::abs(seen.position_m[2 * b + 1]);
-    return {Fault::kOrbitExceeded, AxisNumber(2 * b + (x_is_larger ? 0 : 1)), Radius(seen, b),
-            orbit_limit_m_};
+    if (beyond_orbit_[b] >= config_.orbit_cycles) return OrbitFinding(seen, b, orbit_limit_m_);
   }
   return {};
+}
+
+Finding Protections::Contact(const Observation& seen) const noexcept {
+  for (std::size_t b = 0; 2 * b + 1 < axes_; ++b) {
+    if (in_contact_[b] >= contact_limit_cycles_) return OrbitFinding(seen, b, clearance_m_);
+  }
+  return {};
+}
+
+Finding Protections::OrbitFinding(const Observation& seen, std::size_t bearing,
+                                  double limit_m) const noexcept {
+  const std::size_t x = 2 * bearing;
+  const bool x_is_larger = std::abs(seen.position_m[x]) >= std::abs(seen.position_m[x + 1]);
+  return {Fault::kOrbitExceeded, AxisNumber(x_is_larger ? x : x + 1), Radius(seen, bearing),
+          limit_m};
 }
 
 Finding Protections::DeadlineMissed(const Observation& seen) const noexcept {

@@ -24,6 +24,10 @@ namespace levitas::supervisor {
 /// A rig that was told to energise must report it within this many cycles.
 inline constexpr std::uint32_t kAmplifierAnswerCycles = 50;
 
+/// A rotor beyond the clearance for this long (time inside it counted back) runs on its touchdown
+/// bearings: the magnets do not hold it any more.
+inline constexpr double kContactS = 0.02;
+
 class Protections {
  public:
   Protections(const RigNumbers& rig, const ProtectionConfig& config);
@@ -34,6 +38,8 @@ class Protections {
   [[nodiscard]] Finding Check(const Observation& seen, FaultSet armed, bool energised,
                               bool stop_requested) noexcept;
 
+  /// During a levitated stop: the rotor runs on its touchdown bearings although the law is on.
+  [[nodiscard]] Finding Contact(const Observation& seen) const noexcept;
   /// A new rig session is accepted from here on.
   void AcceptSession(std::uint32_t rig_session) noexcept;
   /// The signals of this cycle are good: fresh, finite, in range, moving, no fault bit.
@@ -49,6 +55,8 @@ class Protections {
   [[nodiscard]] Finding Frozen() const noexcept;
   [[nodiscard]] Finding AmplifierFault(const Observation& seen) const noexcept;
   [[nodiscard]] Finding Orbit(const Observation& seen) const noexcept;
+  [[nodiscard]] Finding OrbitFinding(const Observation& seen, std::size_t bearing,
+                                     double limit_m) const noexcept;
   [[nodiscard]] Finding DeadlineMissed(const Observation& seen) const noexcept;
   [[nodiscard]] Finding Saturated() const noexcept;
   [[nodiscard]] double Radius(const Observation& seen, std::size_t bearing) const noexcept;
@@ -58,13 +66,16 @@ class Protections {
   double orbit_limit_m_{};
   double range_limit_m_{};
   double speed_limit_rad_per_s_{};
+  double clearance_m_{};
   double period_s_{};
+  std::uint32_t contact_limit_cycles_{};
   std::uint32_t saturated_limit_cycles_{};
 
   std::array<std::uint32_t, kMaxAxes> out_of_range_{};
   std::array<std::uint32_t, kMaxAxes> unchanged_{};
   std::array<std::uint32_t, kMaxAxes> saturated_{};
   std::array<std::uint32_t, kMaxAxes> beyond_orbit_{};  // per bearing
+  std::array<std::uint32_t, kMaxAxes> in_contact_{};    // per bearing
   AxisArray last_position_m_{};
   bool has_position_{};
   std::uint32_t frames_missing_{};

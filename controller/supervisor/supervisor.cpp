@@ -73,11 +73,15 @@ Finding Supervisor::Check(const Observation& seen, const Request& request) noexc
   if (seen.fresh && !row.energised && decision_.state != State::kSelfTest) {
     protections_.AcceptSession(seen.rig_session);
   }
-  const Finding finding = protections_.Check(seen, row.armed, row.energised,
+  // During a levitated stop the orbit that tripped may go on; only lasting contact counts then.
+  const bool stopping = decision_.state == State::kTrippedStopping;
+  const FaultSet armed = stopping ? row.armed & ~Bit(Fault::kOrbitExceeded) : row.armed;
+  const Finding finding = protections_.Check(seen, armed, row.energised,
                                              request.command == OperatorCommand::kEmergencyStop);
   if (finding.fault != Fault::kNone) return finding;
   if (decision_.state == State::kSelfTest) return SelfTest(seen);
   if (decision_.state == State::kLift) return Lift(seen);
+  if (stopping) return protections_.Contact(seen);
   return finding;
 }
 
@@ -88,7 +92,7 @@ const Decision& Supervisor::Decide(const Observation& seen, const Request& reque
   ++cycles_in_state_;
   const std::optional<Event> command = CommandEvent(request.command);
   if (finding.fault != Fault::kNone) {
-    const bool drop = (kDropFaults & Bit(finding.fault)) != 0;
+    const bool drop = (Row(decision_.state).drop & Bit(finding.fault)) != 0;
     Take(drop ? Event::kDropFault : Event::kStopFault, seen, request, finding);
     decision_.command_refused = command.has_value() || !Known(request.command);
   } else {

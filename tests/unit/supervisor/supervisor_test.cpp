@@ -173,6 +173,17 @@ TEST(LevitatedStop, EscalatesToReleaseAndKeepsTheFirstCause) {
   }
 }
 
+TEST(LevitatedStop, GoesOnWithALargeOrbitButReleasesARotorThatRunsOnItsTouchdownBearings) {
+  Driver driver;
+  driver.GoTo(State::kTrippedStopping);
+  driver.seen.position_m = {199e-6, 0.0, 0.0, 0.0};  // clearance 200 um
+  EXPECT_EQ(driver.Steps(1000).state, State::kTrippedStopping);
+  driver.seen.position_m = {201e-6, 0.0, 0.0, 0.0};
+  EXPECT_EQ(driver.Steps(199).state, State::kTrippedStopping);  // 20 ms are 200 cycles
+  EXPECT_EQ(driver.Step().state, State::kTrippedReleased);
+  EXPECT_EQ(driver.supervisor.decision().latch.finding.fault, Fault::kEmergencyStop);
+}
+
 TEST(Release, KeepsBrakingARotorThatTurnsOrCannotBeSeen) {
   Driver driver;
   driver.GoTo(State::kSpinning);
