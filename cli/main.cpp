@@ -17,6 +17,9 @@ int main(int argc, char** argv) {
   cli::AddModesCommand(app, action);
   cli::AddPolesCommand(app, action);
   cli::AddMarginsCommand(app, action);
+  cli::AddReplayCommand(app, action);
+  cli::AddImportCommand(app, action);
+  cli::AddExportCommand(app, action);
   try {
     app.parse(argc, argv);
     return static_cast<int>(action ? action() : ExitStatus::kUsage);

@@ -5,8 +5,8 @@
 // Meaning    the rotor does not answer: it moves as recorded, whatever this controller says. Large
 //            or growing differences say that the two disagree, not what the rotor would have done.
 // Compared   cycles in which both have their coils energised.
-// Imported   data have no operator commands: lift is given in the first cycle, and the comparison
-//            starts when the controller says that it levitates.
+// Imported   data have neither modes nor commands: the law runs alone (law_alone.hpp), and the first
+//            0.1 s, in which its filters fill, are left out.
 // Failure    BadInput when the file starts in the middle of a run.
 
 #include <cstdint>
@@ -22,7 +22,8 @@ namespace levitas::session {
 struct ChannelDifference {
   std::string channel;
   double recorded_rms_a{};
-  double rms_a{};       ///< of other minus recorded
+  double mean_a{};      ///< of other minus recorded; the integrators' share
+  double rms_a{};       ///< of other minus recorded, mean included
   double max_a{};       ///< largest magnitude of it
   double max_time_s{};  ///< when, counted from the first record
 };

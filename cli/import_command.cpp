@@ -1,0 +1,78 @@
+// amb import: measured data of others becomes a session.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/json_file.hpp"
+#include "config/rig_file.hpp"
+#include "levitas_version.hpp"
+#include "session/csv_import.hpp"
+
+namespace levitas::cli {
+namespace {
+
+struct ImportCommandOptions {
+  std::string data_path;
+  std::string rig_name;
+  std::string out_path;
+  std::string json_path;
+};
+
+std::int64_t UtcNowNs() {
+  using std::chrono::duration_cast;
+  using std::chrono::nanoseconds;
+  return duration_cast<nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+void Print(const std::string& out_path, const session::ImportReport& report) {
+  fmt::print("{}: {} samples over {:.4f} s", out_path, report.rows, report.duration_s);
+  fmt::print(", rotation {}", report.has_rotation ? "known" : "not given: taken as standing");
+  fmt::print(", excitation {}\n", report.has_excitation ? "known" : "not given: taken as none");
+  if (report.drop_outs > 0) {
+    fmt::print("{} drop-outs in time, {} samples missing in them\n", report.drop_outs,
+               report.missing_cycles);
+  }
+  for (const auto& name : report.ignored_columns) fmt::print("column \"{}\" ignored\n", name);
+}
+
+ExitStatus Import(const ImportCommandOptions& options) {
+  const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+  session::ImportOptions import{.data_path = options.data_path,
+                                .out_path = options.out_path,
+                                .rig = rig.numbers,
+                                .rig_yaml = config::WriteRig(rig),
+                                .program_version = LEVITAS_VERSION,
+                                .start_utc_ns = UtcNowNs()};
+  const session::ImportReport report = session::ImportCsv(import);
+  Print(options.out_path, report);
+  WriteJsonFile(options.json_path, {{"data", options.data_path},
+                                    {"rig", rig.numbers.name},
+                                    {"session", options.out_path},
+                                    {"samples", report.rows},
+                                    {"duration_s", report.duration_s},
+                                    {"drop_outs", report.drop_outs},
+                                    {"missing_samples", report.missing_cycles},
+                                    {"has_rotation", report.has_rotation},
+                                    {"has_excitation", report.has_excitation},
+                                    {"ignored_columns", report.ignored_columns}});
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddImportCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ImportCommandOptions>();
+  CLI::App* command = app.add_subcommand("import", "Measured CSV data becomes a session");
+  command->add_option("DATA", options->data_path, "CSV file, or CSV compressed by xz")->required();
+  command->add_option("--rig", options->rig_name, "Rig file, or name of a shipped one")->required();
+  command->add_option("--out", options->out_path, "Session to write")->required();
+  command->add_option("--json", options->json_path, "Write what was done as JSON");
+  command->callback([options, &action] { action = [options] { return Import(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,31 @@
+#pragma once
+// Publishes a session again over LCM, on the channels and ports of the live processes, at the
+// recorded pace: what lcm-spy, lcm-logger and a dashboard saw, they see again.
+//
+// Channels  LEVITAS_SENSOR on the base port, LEVITAS_CURRENT on base + 1, LEVITAS_STATE (every 10
+// ms
+//           of the run) and LEVITAS_EVENT on base + 2.
+// Caution   a controller or a rig that runs on the same ports would take the frames for live ones.
+// Failure   Problem when LCM cannot be opened.
+
+#include <cstdint>
+#include <string>
+
+#include "session/session_reader.hpp"
+
+namespace levitas::cli {
+
+struct PublishOptions {
+  std::string port{"lcm"};  ///< as --port of the live programs
+  double speed{1.0};        ///< of the recorded pace; 2 is twice as fast
+};
+
+struct PublishReport {
+  std::uint64_t cycles{};
+  std::uint64_t events{};
+  std::uint64_t failed{};  ///< messages LCM could not take
+};
+
+[[nodiscard]] PublishReport Publish(session::SessionReader& reader, const PublishOptions& options);
+
+}  // namespace levitas::cli

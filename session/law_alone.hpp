@@ -1,0 +1,31 @@
+#pragma once
+// The law of a controller without its supervisor, on data that know no modes and no commands.
+//
+// Start    the filters are empty at the first sample; the caller leaves the first cycles out.
+// Reference  the centre. NaN readings and cycles without a frame hold the last current.
+// Thread   any; pure as the law itself.
+// Failure  std::invalid_argument for configurations that a control cycle would refuse as well.
+
+#include "controller/cycle/control_cycle.hpp"
+#include "controller/cycle/probe_map.hpp"
+#include "controller/law/axis_law.hpp"
+
+namespace levitas::session {
+
+class LawAlone {
+ public:
+  explicit LawAlone(const cycle::CycleConfig& config);
+
+  /// Outputs with the currents and energised coils; the mode is left off.
+  [[nodiscard]] cycle::CycleOutputs Step(const cycle::CycleInputs& in) noexcept;
+
+ private:
+  std::size_t axes_;
+  double limit_a_;
+  cycle::ProbeMap probes_;
+  law::LawCoefficients coefficients_;
+  law::LawState state_;
+  law::LawOutput given_;
+};
+
+}  // namespace levitas::session
