@@ -64,6 +64,7 @@ bool Same(const law::AxisLawConfig& a, const law::AxisLawConfig& b) {
 void DescribeLaws(Visitor& v, std::vector<law::AxisLawConfig>& axes, const RigNumbers& rig) {
   const double nyquist_hz = 0.5 / rig.period_s();
   axes.resize(rig.axes());
+  std::string without;
   for (std::size_t bearing = 0; bearing < rig.bearings.size(); ++bearing) {
     const std::size_t x = 2 * bearing;
     const bool alike = Same(axes[x], axes[x + 1]);
@@ -78,11 +79,12 @@ void DescribeLaws(Visitor& v, std::vector<law::AxisLawConfig>& axes, const RigNu
       v.OptionalGroup(rig.channels[axis], "law of this axis alone, instead of its bearing's",
                       present, [&] { Describe(v, own, nyquist_hz); });
       if (present) axes[axis] = own;
-      v.RefuseIf(!present && !for_both, "laws",
-                 fmt::format("no law for axis {}: give {}, or {}", rig.channels[axis],
-                             rig.bearings[bearing], rig.channels[axis]));
+      if (!present && !for_both)
+        without.append(without.empty() ? "" : ", ").append(rig.channels[axis]);
     }
   }
+  v.RefuseIf(!without.empty(), "",
+             fmt::format("no law for {}; give one for each bearing or axis of the rig", without));
 }
 
 }  // namespace

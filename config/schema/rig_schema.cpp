@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "config/schema/schema.hpp"
 #include "plant_sim/magnet/magnet.hpp"
@@ -53,6 +54,8 @@ void DescribeStrength(Visitor& v, plant::MagnetConfig& magnet) {
     constant = ki_n_per_a * magnet.gap_m * magnet.gap_m / (4.0 * magnet.bias_current_a);
   } else if (chosen == 2) {
     constant = magnet::ForceConstant(turns, pole_area_m2, half_angle_rad);
+  } else if (chosen >= forms.size()) {
+    constant = std::numeric_limits<double>::quiet_NaN();  // none or several: said by the reader
   }
   v.RefuseIf(
       constant < 1e-9 || constant > 1e-2, "",
@@ -92,6 +95,8 @@ void Describe(Visitor& v, plant::SensorConfig& sensor) {
             sensor.adc_bits);
   v.Number({"range", kMicrometre, 1, 20000, kRequired, "the converter covers plus or minus this"},
            sensor.range_m);
+  v.Number({"gain", kOne, 0.1, 10, 1, "reading per displacement; 1 for a sensor as calibrated"},
+           sensor.gain);
 }
 
 void Describe(Visitor& v, plant::TouchdownConfig& touchdown) {
@@ -109,7 +114,7 @@ void Describe(Visitor& v, plant::TouchdownConfig& touchdown) {
 
 void Describe(Visitor& v, RigFile& rig, plant::BearingConfig& bearing, std::size_t index) {
   const std::size_t x = 2 * index;
-  v.Name({"name", "of the bearing; its axes are <name>_x and <name>_y"}, bearing.name);
+  v.Name({"name", "of the bearing; its axes are called NAME_x and NAME_y"}, bearing.name);
   const auto before = rig.plant.bearings.begin();
   v.RefuseIf(std::any_of(before, before + static_cast<std::ptrdiff_t>(index),
                          [&](const auto& other) { return other.name == bearing.name; }),
@@ -167,9 +172,9 @@ void DescribeSampling(Visitor& v, RigFile& rig) {
 void DescribeDrive(Visitor& v, RigFile& rig) {
   plant::DriveConfig& drive = rig.plant.drive;
   v.Number(
-      {"max_speed", kRpm, 0, 300000, kRequired, "rated speed; the over-speed trip refers to it"},
+      {"max_speed", kRpm, 1, 300000, kRequired, "rated speed; the over-speed trip refers to it"},
       rig.numbers.max_speed_rad_per_s);
-  v.Number({"max_acceleration", kRpmPerSecond, 0, 1e6, kRequired, "what the drive can do"},
+  v.Number({"max_acceleration", kRpmPerSecond, 0.1, 1e6, kRequired, "what the drive can do"},
            drive.max_acceleration_rad_per_s2);
   v.Number({"coast_down", kPerSecond, 0, 100, kRequired,
             "c of d(speed)/dt = -c speed - friction without torque"},
@@ -219,7 +224,7 @@ void Describe(Visitor& v, RigFile& rig) {
   v.List(
       {"bearings", 1, kMaxBearings, "from the drive end"}, rig.plant.bearings,
       [&](plant::BearingConfig& bearing, std::size_t index) { Describe(v, rig, bearing, index); });
-  v.Group("gravity", "", [&] {
+  v.Group("gravity", "where the weight of the rotor pulls", [&] {
     v.Number({"acceleration", kGravity, 0, 100, 9.81, "0 for a vertical rotor"},
              rig.plant.gravity_m_per_s2);
     v.Number({"direction", kDegree, -360, 360, 225,

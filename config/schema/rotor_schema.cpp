@@ -1,12 +1,26 @@
 // Table of a rotor: shaft, discs, rings, unbalance.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "config/schema/schema.hpp"
 
 namespace levitas::config {
 namespace {
 
 using namespace unit;
+
+constexpr double kMaxElements = 1000;  // dense matrices: 1000 take a minute, 10 000 all memory
+
+/// Elements of the sections alone; planes and discs inside a section may add a few.
+double CountElements(const rotor::RotorConfig& rotor) {
+  double count = 0.0;
+  for (const rotor::Section& section : rotor.sections) {
+    const double pieces = std::ceil(section.length_m / rotor.max_element_length_m - 1e-9);
+    count += pieces < 1.0 ? 1.0 : pieces;  // NaN, of a field that was refused, stays NaN
+  }
+  return count;
+}
 
 void Describe(Visitor& v, rotor::Material& material) {
   v.Number({"young", kGigapascal, 0.1, 2000, kRequired, "Young's modulus of the shaft"},
@@ -90,11 +104,19 @@ void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::Unbalanc
   v.Number({"max_element_length", kMillimetre, 0.1, 1000, 10.0,
             "finite elements of the shaft are not longer than this"},
            rotor.max_element_length_m);
+  const double elements = CountElements(rotor);
+  v.RefuseIf(elements > kMaxElements, "max_element_length_mm",
+             fmt::format("divides the shaft into {:.0f} finite elements, allowed 1 to {:.0f}",
+                         elements, kMaxElements));
   v.Integer({"modes_per_plane", 0, 100, 8,
              "modes kept in the simulation, the two rigid ones included; 0 keeps all"},
             rotor.modes_per_plane);
   v.RefuseIf(rotor.modes_per_plane == 1, "modes_per_plane",
              "found 1, but a rotor has two rigid modes per plane: allowed 0 or 2 to 100");
+  // Deflection and slope of every node are the degrees of freedom there are to keep.
+  v.RefuseIf(static_cast<double>(rotor.modes_per_plane) > 2.0 * (elements + 1.0), "modes_per_plane",
+             fmt::format("more than the {:.0f} that {:.0f} finite elements have",
+                         2.0 * (elements + 1.0), elements));
   v.Number({"modal_damping_ratio", kOne, 0, 0.5, 0.003,
             "damping ratio of every flexible mode; rigid modes are undamped"},
            rotor.modal_damping_ratio);

@@ -11,27 +11,28 @@ namespace levitas::config {
 namespace {
 
 using namespace unit;
-constexpr std::array kUnits{kOne,           kMetre,
-                            kMillimetre,    kMicrometre,
-                            kSecond,        kMillisecond,
-                            kMicrosecond,   kHertz,
-                            kKilohertz,     kRpm,
-                            kRadPerSecond,  kTurnsPerSecond,
-                            kRpmPerSecond,  kRadPerSecond2,
-                            kDegree,        kRadian,
-                            kAmpere,        kMilliampere,
-                            kKilogram,      kGram,
-                            kInertia,       kGramMillimetre,
-                            kKilogramMetre, kGigapascal,
-                            kPascal,        kDensity,
-                            kStiffness,     kSquareMillimetre,
-                            kSquareMetre,   kStiffnessMicro,
-                            kDamping,       kForcePerAmpere,
-                            kForceConstant, kAmperePerSecond,
-                            kGravity,       kPerSecond,
-                            kGainP,         kGainPMilli,
-                            kGainI,         kGainD,
-                            kPercent};
+constexpr std::array kUnits{
+    kOne,           kMetre,
+    kMillimetre,    kMicrometre,
+    kSecond,        kMillisecond,
+    kMicrosecond,   kHertz,
+    kKilohertz,     kRpm,
+    kRadPerSecond,  kTurnsPerSecond,
+    kRpmPerSecond,  kRadPerSecond2,
+    kDegree,        kRadian,
+    kAmpere,        kMilliampere,
+    kKilogram,      kGram,
+    kInertia,       kGramMillimetre,
+    kKilogramMetre, kGigapascal,
+    kPascal,        kDensity,
+    kStiffness,     kSquareMillimetre,
+    kSquareMetre,   kStiffnessMicro,
+    kDamping,       kForcePerAmpere,
+    kForceConstant, kAmperePerSecond,
+    kGravity,       kPerSecond,
+    kGainP,         kGainPMilli,
+    kGainI,         kGainD,
+};
 
 /// A decimal text taken apart: value = digits x 10^exponent ("457.2" -> "457.2", 0).
 struct Parts {
@@ -67,7 +68,7 @@ std::optional<Real> Read(std::string_view mantissa, int exponent) {
 std::string Layout(std::string digits, int point, bool negative) {
   const int count = static_cast<int>(digits.size());
   std::string text;
-  if (point > 0 && point <= 9) {
+  if (point > 0 && point <= 9 && point - count < 6) {
     if (count <= point) {
       text = digits + std::string(static_cast<std::size_t>(point - count), '0');
     } else {
@@ -142,7 +143,7 @@ std::optional<double> ToSi(std::string_view text, const Unit& unit) noexcept {
   const auto value = Read<long double>(parts->mantissa, exponent);
   if (!value) return std::nullopt;
   const auto si = static_cast<double>(*value * unit.factor);
-  if (!std::isfinite(si)) return std::nullopt;
+  if (!std::isfinite(si) || (si == 0.0 && *value != 0.0L)) return std::nullopt;
   return si;
 }
 

@@ -65,7 +65,6 @@ inline constexpr Unit kGainP{"a_per_m", "A/m", "proportional gain"};
 inline constexpr Unit kGainPMilli{"a_per_mm", "A/mm", "proportional gain", 3};
 inline constexpr Unit kGainI{"a_per_m_s", "A/(m s)", "integral gain"};
 inline constexpr Unit kGainD{"a_s_per_m", "A s/m", "derivative gain"};
-inline constexpr Unit kPercent{"percent", "%", "ratio", -2};
 }  // namespace unit
 
 /// Every unit, for the families and the generated documentation.

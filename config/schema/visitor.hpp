@@ -71,11 +71,13 @@ class Visitor {
   virtual void Name(const NameField& field, std::string& value) = 0;
   /// `index` into the field's words.
   virtual void Choice(const ChoiceField& field, std::size_t& index) = 0;
-  /// Exactly one form is read; `chosen` says which, and which one is written.
+  /// Exactly one form is read; `chosen` says which, and which one is written. After a problem it is
+  /// the number of forms.
   virtual void OneOf(std::string_view what, std::span<const Form> forms, std::size_t& chosen) = 0;
   /// Fields that exist only when `condition` holds; `when` says so to people.
   virtual void When(bool condition, std::string_view when, const std::function<void()>& body) = 0;
-  /// A relation between fields that is violated; reported at `key` of the group being described.
+  /// A relation between fields that is violated; reported at `key` of the group being described,
+  /// or at the group itself when `key` is empty.
   virtual void RefuseIf(bool violated, std::string_view key, const std::string& text) = 0;
 
   template <class Whole>

@@ -195,16 +195,17 @@ void Reader::OneOf(std::string_view what, std::span<const Form> forms, std::size
       given.push_back(i);
     }
   }
-  chosen = given.empty() ? 0 : given.front();
+  chosen = given.size() == 1 ? given.front() : forms.size();
   for (std::size_t i = 0; i < forms.size(); ++i) {
-    if (i == chosen && given.size() == 1) continue;
+    if (i == chosen) continue;
     for (const std::string& key : keys[i]) Take({key}, "");
   }
   if (given.size() == 1) {
     forms[chosen].describe();
+  } else if (given.empty() && top().node != nullptr) {
+    Report(top().place, top().name, fmt::format("{} is missing; give {}", what, names));
   } else if (given.empty()) {
-    Expected none{std::string(what), {}, false, fmt::format("give {}", names)};
-    top().expected.push_back(std::move(none));
+    top().expected.push_back({std::string(what), {}, false, "one way of giving it"});
   } else {
     const auto second = std::ranges::find_if(
         keys[given[1]], [&](const auto& key) { return Find(key).value != nullptr; });
@@ -232,10 +233,12 @@ void Reader::RefuseIf(bool violated, std::string_view key, const std::string& te
   for (const Expected& field : top().expected) {
     if (field.key != key) continue;
     for (const std::string& spelling : field.keys) {
-      if (const Entry entry = Find(spelling); entry.value != nullptr) place = entry.value->place;
+      const Entry entry = Find(spelling);
+      if (entry.value == nullptr) continue;
+      place = entry.value->kind == Node::Kind::kScalar ? entry.value->place : entry.key_place;
     }
   }
-  Report(place, std::string(key), text);
+  Report(place, key.empty() ? top().name : std::string(key), text);
 }
 
 const std::string* Reader::Scalar(const Entry& entry, const std::string& allowed, bool number) {

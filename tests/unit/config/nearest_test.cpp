@@ -1,0 +1,47 @@
+#include "config/text/nearest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace levitas::config {
+namespace {
+
+TEST(EditDistance, CountsSingleCharacterChanges) {
+  EXPECT_EQ(EditDistance("", ""), 0U);
+  EXPECT_EQ(EditDistance("gap_mm", "gap_mm"), 0U);
+  EXPECT_EQ(EditDistance("gap", ""), 3U);
+  EXPECT_EQ(EditDistance("kitten", "sitting"), 3U);  // Levenshtein's classic
+  EXPECT_EQ(EditDistance("gap_mn", "gap_mm"), 1U);
+  EXPECT_EQ(EditDistance("bearing", "bearings"), 1U);
+}
+
+TEST(EditDistance, IsSymmetric) {
+  EXPECT_EQ(EditDistance("clearance", "clear"), EditDistance("clear", "clearance"));
+}
+
+TEST(Nearest, FindsTheWordWithTheFewestChanges) {
+  const std::vector<std::string> words{"gap_mm", "gap_um", "ki_n_per_a"};
+  EXPECT_EQ(Nearest("gap_mmm", words), "gap_mm");
+  EXPECT_EQ(Nearest("ki_n_per", words), "ki_n_per_a");
+}
+
+TEST(Nearest, TakesTheFirstOfEquals) {
+  const std::vector<std::string> words{"ab", "ac"};
+  EXPECT_EQ(Nearest("ad", words), "ab");
+}
+
+TEST(Nearest, IsEmptyWithoutWordsAndForAParagraph) {
+  EXPECT_EQ(Nearest("gap", {}), "");
+  const std::vector<std::string> words{"gap_mm"};
+  EXPECT_EQ(Nearest(std::string(100000, 'x'), words), "");
+}
+
+TEST(Listed, PutsCommasBetween) {
+  EXPECT_EQ(Listed({}), "");
+  const std::vector<std::string> words{"a", "b", "c"};
+  EXPECT_EQ(Listed(words), "a, b, c");
+}
+
+}  // namespace
+}  // namespace levitas::config

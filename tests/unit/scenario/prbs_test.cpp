@@ -1,0 +1,80 @@
+#include "controller/scenario/prbs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace levitas::scenario {
+namespace {
+
+std::vector<int> OnePeriod(int order) {
+  Prbs sequence(order);
+  std::vector<int> bits(sequence.period());
+  for (int& bit : bits) bit = sequence.Next() ? 1 : -1;
+  return bits;
+}
+
+class PrbsOrder : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(All, PrbsOrder, testing::Range(7, 24));
+
+TEST_P(PrbsOrder, HoldsOneMoreOneThanZeros) {
+  const std::vector<int> bits = OnePeriod(GetParam());
+  EXPECT_EQ(bits.size(), (std::size_t{1} << GetParam()) - 1);
+  EXPECT_EQ(std::accumulate(bits.begin(), bits.end(), 0), 1);  // closed form of a full-length cycle
+}
+
+TEST_P(PrbsOrder, RepeatsAfterItsPeriodAndNotBefore) {
+  // A register of n bits is back in its state when n consecutive outputs repeat those at the start.
+  const int order = GetParam();
+  Prbs sequence(order);
+  const std::uint32_t period = sequence.period();
+  const std::uint32_t mask = period;
+  std::uint32_t window = 0;
+  for (int i = 0; i < order; ++i) window = (window << 1U | (sequence.Next() ? 1U : 0U)) & mask;
+  const std::uint32_t first = window;
+  std::uint32_t steps = 0;
+  do {
+    window = (window << 1U | (sequence.Next() ? 1U : 0U)) & mask;
+    ++steps;
+  } while (window != first && steps <= period);
+  EXPECT_EQ(steps, period);
+}
+
+TEST(Prbs, IsUncorrelatedWithEveryShiftOfItself) {
+  for (const int order : {7, 8, 9, 10}) {
+    const std::vector<int> bits = OnePeriod(order);
+    for (std::size_t lag = 1; lag < bits.size(); ++lag) {
+      int sum = 0;
+      for (std::size_t i = 0; i < bits.size(); ++i) sum += bits[i] * bits[(i + lag) % bits.size()];
+      ASSERT_EQ(sum, -1) << "order " << order << " lag " << lag;  // closed form
+    }
+  }
+}
+
+TEST(Prbs, LongestRunIsTheOrder) {
+  const std::vector<int> bits = OnePeriod(11);
+  int longest = 0;
+  int run = 0;
+  for (std::size_t i = 0; i < 2 * bits.size(); ++i) {
+    run = bits[i % bits.size()] == 1 ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  EXPECT_EQ(longest, 11);  // Golomb: one run of n ones
+}
+
+TEST(Prbs, StartsTheGivenFractionIntoThePeriod) {
+  Prbs whole(10);
+  for (int i = 0; i < 255; ++i) (void)whole.Next();  // floor(0.25 x 1023)
+  Prbs quarter(10, 0.25);
+  for (int i = 0; i < 1023; ++i) ASSERT_EQ(quarter.Next(), whole.Next()) << i;
+}
+
+TEST(Prbs, TakesTheNearestOrderForOneThatIsNotOffered) {
+  EXPECT_EQ(Prbs(3).period(), 127U);
+  EXPECT_EQ(Prbs(40).period(), (1U << 23U) - 1U);
+}
+
+}  // namespace
+}  // namespace levitas::scenario
