@@ -35,7 +35,8 @@ port::ReadResult LcmRigPort::Read(SensorFrame& frame, std::int64_t deadline_ns) 
     const Received received = found ? receiver_.Poll() : receiver_.Receive(deadline_ns);
     if (received.datagram.empty()) break;
     if (!Accept(received, frame)) continue;
-    if (found) ++counters_.frames_skipped;
+    // What queued up before the first read was nobody's to read.
+    if (found && counters_.frames_read > 0) ++counters_.frames_skipped;
     found = true;
   }
   if (!found) return port::ReadResult::kNothing;

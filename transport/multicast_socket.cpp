@@ -20,7 +20,8 @@ namespace levitas::transport {
 
 namespace {
 
-constexpr int kReceiveBuffer = 4 << 20;     // [byte] 0.4 s of frames of 10 kHz and 1 kB each
+constexpr int kReceiveBuffer = 4 << 20;  // [byte] 0.4 s of frames of 10 kHz and 1 kB each
+constexpr std::int64_t kShortWaitNs = 25'000;
 constexpr std::uint32_t kGiveUpSpins = 8;   // in a row without a message
 constexpr std::uint32_t kRetryEvery = 256;  // waits; then a spin is tried again
 
@@ -121,6 +122,9 @@ Received MulticastReceiver::Spin(std::int64_t until_ns) noexcept {
 Received MulticastReceiver::Receive(std::int64_t deadline_ns) noexcept {
   if (const Received received = Poll(); !received.datagram.empty()) return received;
   std::int64_t now_ns = rt::MonotonicNowNs();
+  if (now_ns >= deadline_ns) return {};
+  // A sleep costs more than this; and a sleeping receiver costs its sender the wake-up.
+  if (deadline_ns - now_ns <= kShortWaitNs) return Spin(deadline_ns);
   // Spinning helps while the partner runs on another core and answers at once. On a shared core it
   // keeps the partner from answering, so it is dropped while it brings nothing.
   if (spin_ns_ > 0 && (fruitless_spins_ < kGiveUpSpins || ++waits_ % kRetryEvery == 0)) {

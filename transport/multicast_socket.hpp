@@ -4,8 +4,9 @@
 // Why own sockets  liblcm hands a message through a thread, a pipe and a queue; these do not
 //                  (measured: docs/timing.md). What is on the wire is the same.
 // Thread           one thread per object. After construction no allocation, no exception.
-// Blocking         Send never waits. Receive waits at most until its deadline: first a bounded
-//                  spin (while spinning has been paying off), then ppoll.
+// Blocking         Send never waits. Receive waits at most until its deadline: a short wait spins,
+//                  a long one spins for a bounded time (while that has been paying off), then
+//                  sleeps in ppoll.
 // Failure          construction throws Problem (exit status 1) with the remedy, in particular when
 //                  multicast has no route; later failures are return values.
 

@@ -17,16 +17,21 @@ std::int64_t MonotonicNowNs() noexcept {
 
 std::int64_t MonotonicClock::NowNs() noexcept { return MonotonicNowNs(); }
 
-void MonotonicClock::SleepUntil(std::int64_t due_ns) noexcept {
-  const std::int64_t sleep_ns = due_ns - spin_ns_;
-  if (MonotonicNowNs() < sleep_ns) {
-    const timespec until{static_cast<time_t>(sleep_ns / kNsPerSecond),
-                         static_cast<long>(sleep_ns % kNsPerSecond)};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-    }
-  }
+void SpinUntil(std::int64_t due_ns) noexcept {
   while (MonotonicNowNs() < due_ns) {
   }
+}
+
+void MonotonicClock::SleepUntil(std::int64_t due_ns) noexcept {
+  const std::int64_t wake_ns = due_ns - margin_.margin_ns();
+  if (MonotonicNowNs() < wake_ns) {
+    const timespec until{static_cast<time_t>(wake_ns / kNsPerSecond),
+                         static_cast<long>(wake_ns % kNsPerSecond)};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+    }
+    margin_.Slept(MonotonicNowNs() - wake_ns);
+  }
+  SpinUntil(due_ns);
 }
 
 }  // namespace levitas::rt

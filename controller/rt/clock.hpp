@@ -2,12 +2,15 @@
 // Time as the loops see it: CLOCK_MONOTONIC, or a test's own.
 //
 // Units    nanoseconds.
-// Waiting  MonotonicClock sleeps until 25 us before the instant and spins for the rest. The sleep's
-//          wake-up error (13 us median, docs/timing.md) disappears in the spin; a spin over the
-//          whole period would be stopped by the kernel's real-time throttling.
-// Thread   any; no allocation, no failure.
+// Waiting  MonotonicClock sleeps until 25 to 60 us before the instant (spin_margin.hpp) and spins
+//          for the rest. The sleep's wake-up error (13 us median on a quiet machine,
+//          docs/timing.md) disappears in the spin; a spin over the whole period would be stopped
+//          by the kernel's real-time throttling.
+// Thread   one per object; no allocation, no failure.
 
 #include <cstdint>
+
+#include "controller/rt/spin_margin.hpp"
 
 namespace levitas::rt {
 
@@ -21,18 +24,16 @@ class Clock {
 
 class MonotonicClock final : public Clock {
  public:
-  static constexpr std::int64_t kSpinNs = 25'000;
-
-  /// `spin_ns` 0 gives a plain sleep.
-  explicit MonotonicClock(std::int64_t spin_ns = kSpinNs) noexcept : spin_ns_(spin_ns) {}
   [[nodiscard]] std::int64_t NowNs() noexcept override;
   void SleepUntil(std::int64_t due_ns) noexcept override;
 
  private:
-  std::int64_t spin_ns_;
+  SpinMargin margin_;
 };
 
 /// CLOCK_MONOTONIC now [ns].
 [[nodiscard]] std::int64_t MonotonicNowNs() noexcept;
+/// Returns at `due_ns` without giving the processor away.
+void SpinUntil(std::int64_t due_ns) noexcept;
 
 }  // namespace levitas::rt

@@ -7,7 +7,7 @@ namespace levitas::plant_program {
 namespace {
 using Answer = transport::LcmRigLink::Answer;
 constexpr std::int64_t kRepeatNs = 100'000'000;    // lockstep: ask again
-constexpr std::int64_t kGuardNs = 30'000;          // real time: integration and the last spin
+constexpr std::int64_t kLookNs = 25'000;           // real time: before the next instant
 constexpr std::int64_t kWatchdogNs = 100'000'000;  // real time: no controller, no current
 }  // namespace
 
@@ -103,7 +103,8 @@ void PlantLoop::RunRealtime() noexcept {
     const SensorFrame frame = Sample(due_ns);
     link_.Send(frame);
     bool goodbye = false;
-    if (AwaitCurrent(frame.cycle, due_ns + options_.period_ns - kGuardNs, goodbye)) {
+    clock_.SleepUntil(due_ns + options_.period_ns - kLookNs);
+    if (AwaitCurrent(frame.cycle, 0, goodbye)) {
       answered_once_ = true;
       held_in_a_row_ = 0;
     } else if (goodbye) {
@@ -121,7 +122,7 @@ void PlantLoop::RunRealtime() noexcept {
       Advance();
     }
     due_ns = wake.due_ns;
-    clock_.SleepUntil(due_ns);
+    rt::SpinUntil(due_ns);
     statistics_.wakeup.Add(clock_.NowNs() - due_ns);
   }
 }
