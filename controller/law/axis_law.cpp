@@ -19,66 +19,69 @@ Section At(const std::vector<Section>& chain, std::size_t i) {
   return i < chain.size() ? chain[i] : Section{};
 }
 
+// The arguments never overlap; __restrict tells the compiler, which then needs no check of it.
 template <std::size_t kWidth>
-void LeadLags(const LawCoefficients& coefficients, LawState& state, Lanes& signal) noexcept {
-  for (std::size_t k = 0; k < coefficients.lead_lags().size(); ++k) {
-    const FirstOrderLanes& c = coefficients.lead_lags()[k];
-    Lanes& memory = state.lead_lags[k];
-    for (std::size_t i = 0; i < kWidth; ++i) {
-      const double in = signal.at[i];
-      const double out = c.b0.at[i] * in + memory.at[i];
-      memory.at[i] = c.b1.at[i] * in - c.a1.at[i] * out;
-      signal.at[i] = out;
-    }
+void Filter(const FirstOrderLanes& __restrict c, Lanes& __restrict memory,
+            Lanes& __restrict signal) noexcept {
+  for (std::size_t i = 0; i < kWidth; ++i) {
+    const double in = signal.at[i];
+    const double out = c.b0.at[i] * in + memory.at[i];
+    memory.at[i] = c.b1.at[i] * in - c.a1.at[i] * out;
+    signal.at[i] = out;
   }
 }
 
 template <std::size_t kWidth>
-void Notches(const LawCoefficients& coefficients, LawState& state, Lanes& signal) noexcept {
-  for (std::size_t k = 0; k < coefficients.notches().size(); ++k) {
-    const SecondOrderLanes& c = coefficients.notches()[k];
-    LawState::TwoDelays& memory = state.notches[k];
-    for (std::size_t i = 0; i < kWidth; ++i) {
-      const double in = signal.at[i];
-      const double out = c.b0.at[i] * in + memory.first.at[i];
-      memory.first.at[i] = c.b1.at[i] * in - c.a1.at[i] * out + memory.second.at[i];
-      memory.second.at[i] = c.b2.at[i] * in - c.a2.at[i] * out;
-      signal.at[i] = out;
-    }
+void Filter(const SecondOrderLanes& __restrict c, LawState::TwoDelays& __restrict memory,
+            Lanes& __restrict signal) noexcept {
+  for (std::size_t i = 0; i < kWidth; ++i) {
+    const double in = signal.at[i];
+    const double out = c.b0.at[i] * in + memory.first.at[i];
+    memory.first.at[i] = c.b1.at[i] * in - c.a1.at[i] * out + memory.second.at[i];
+    memory.second.at[i] = c.b2.at[i] * in - c.a2.at[i] * out;
+    signal.at[i] = out;
   }
 }
 
+// Every line works on all axes alike and without branches, so that it becomes vector code.
 template <std::size_t kWidth>
-LawOutput PidAndLimit(const PidLanes& c, LawState& state, const Lanes& error_m,
-                      const AxisArray& excitation_a, double limit_a) noexcept {
-  Lanes wanted_a;
+void PidAndLimit(const PidLanes& __restrict c, LawState& __restrict state,
+                 const Lanes& __restrict error_m, const AxisArray& __restrict excitation_a,
+                 double limit_a, LawOutput& __restrict out) noexcept {
+  std::array<double, kWidth> excess_a;
   for (std::size_t i = 0; i < kWidth; ++i) {
     const double e = error_m.at[i];
+    const double integral = state.integral_a.at[i];
     const double memory = state.derivative_a.at[i];
-    wanted_a.at[i] = c.direct.at[i] * e + state.integral_a.at[i] + memory + excitation_a[i];
-    state.derivative_a.at[i] = c.derivative.at[i] * e + c.pole.at[i] * memory;
-  }
-  LawOutput out;
-  for (std::size_t i = 0; i < kWidth; ++i) {
-    const double wanted = wanted_a.at[i];
+    const double wanted = c.direct.at[i] * e + integral + memory + excitation_a[i];
     const double given = std::min(std::max(wanted, -limit_a), limit_a);
-    const double increment = c.integral.at[i] * error_m.at[i];
-    const bool limited = wanted != given;
-    const bool winding_up = limited && increment * wanted > 0.0;
-    state.integral_a.at[i] += winding_up ? 0.0 : increment;
+    const double increment = c.integral.at[i] * e;
+    const double excess = wanted - given;  // zero, or of the sign of what is cut off
+    state.derivative_a.at[i] = c.derivative.at[i] * e + c.pole.at[i] * memory;
+    state.integral_a.at[i] = integral + (excess * increment > 0.0 ? 0.0 : increment);
     out.control_current_a[i] = given;
-    out.saturated_axes = static_cast<std::uint16_t>(out.saturated_axes | (limited ? 1U << i : 0U));
+    excess_a[i] = excess;
   }
-  return out;
+  for (std::size_t i = 0; i < kWidth; ++i) {
+    out.saturated_axes =
+        static_cast<std::uint16_t>(out.saturated_axes | (excess_a[i] != 0.0 ? 1U << i : 0U));
+  }
 }
 
 template <std::size_t kWidth>
 LawOutput StepWidth(const LawCoefficients& coefficients, LawState& state, const AxisArray& error_m,
                     const AxisArray& excitation_a, double limit_a) noexcept {
-  Lanes signal{error_m};
-  LeadLags<kWidth>(coefficients, state, signal);
-  Notches<kWidth>(coefficients, state, signal);
-  return PidAndLimit<kWidth>(coefficients.pid(), state, signal, excitation_a, limit_a);
+  LawOutput out;
+  Lanes signal;
+  for (std::size_t i = 0; i < kWidth; ++i) signal.at[i] = error_m[i];
+  for (std::size_t k = 0; k < state.lead_lags.size(); ++k) {
+    Filter<kWidth>(coefficients.lead_lags()[k], state.lead_lags[k], signal);
+  }
+  for (std::size_t k = 0; k < state.notches.size(); ++k) {
+    Filter<kWidth>(coefficients.notches()[k], state.notches[k], signal);
+  }
+  PidAndLimit<kWidth>(coefficients.pid(), state, signal, excitation_a, limit_a, out);
+  return out;
 }
 
 }  // namespace
