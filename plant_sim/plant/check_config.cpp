@@ -74,4 +74,10 @@ void CheckConfig(const PlantConfig& config) {
   NotNegative("drive.coast_down_rad_per_s2", config.drive.coast_down_rad_per_s2);
 }
 
+void CheckMode(std::size_t mode, double frequency_rad_per_s, double damping_ratio) {
+  const std::string at = fmt::format("rotor.modes[{}].", mode);
+  NotNegative(at + "frequency (rad/s)", frequency_rad_per_s);
+  Within(at + "damping_ratio", damping_ratio, 0.0, 0.999);
+}
+
 }  // namespace levitas::plant

@@ -36,6 +36,10 @@ PlantParameters Reduce(const PlantConfig& config) {
 PlantModel::PlantModel(PlantParameters parameters) : parameters_(std::move(parameters)) {
   CheckConfig(parameters_.config);
   const auto modes = static_cast<std::size_t>(parameters_.modes.frequency_rad_per_s.size());
+  for (std::size_t i = 0; i < modes; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    CheckMode(i, parameters_.modes.frequency_rad_per_s[at], parameters_.modes.damping_ratio[at]);
+  }
   const std::size_t axes = 2 * config().bearings.size();
   layout_ = {
       modes, 0, modes, 2 * modes, 3 * modes, 4 * modes, 4 * modes + axes, 4 * modes + 2 * axes};
