@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   cli::AddReplayCommand(app, action);
   cli::AddImportCommand(app, action);
   cli::AddExportCommand(app, action);
+  cli::AddDoctorCommand(app, action);
   try {
     app.parse(argc, argv);
     return static_cast<int>(action ? action() : ExitStatus::kUsage);
