@@ -16,7 +16,7 @@
 #include "controller/program/report.hpp"
 #include "controller/rt/real_time.hpp"
 #include "controller/rt/stop_signal.hpp"
-#include "levitas/version.hpp"
+#include "levitas_version.hpp"
 #include "session/recorder.hpp"
 #include "transport/lcm_rig_port.hpp"
 #include "transport/operator_receiver.hpp"

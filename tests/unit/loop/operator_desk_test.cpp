@@ -1,0 +1,134 @@
+#include "controller/loop/operator_desk.hpp"
+
+#include <gtest/gtest.h>
+
+namespace levitas::loop {
+namespace {
+
+constexpr DeskOptions kOptions{
+    .period_s = 1e-4, .stop_acceleration_rad_per_s2 = 50.0, .standstill_rad_per_s = 1.0};
+
+OperatorView View(std::uint64_t cycle, Mode mode, double speed_rad_per_s = 0.0) {
+  return {.cycle = cycle,
+          .mode = mode,
+          .amplifiers_enabled = mode != Mode::kOff,
+          .speed_rad_per_s = speed_rad_per_s};
+}
+
+TEST(OperatorDesk, WithoutScenarioOrCommandAsksForNothingAndDoesNotEnd) {
+  OperatorDesk desk(kOptions, nullptr, nullptr);
+  for (std::uint64_t cycle = 0; cycle < 1000; ++cycle) {
+    EXPECT_EQ(desk.Next(View(cycle, Mode::kOff)).command, OperatorCommand::kNone);
+  }
+  EXPECT_FALSE(desk.Done());
+}
+
+TEST(OperatorDesk, PassesARemoteCommandOnOnce) {
+  SpscRing<RemoteCommand> ring(4);
+  OperatorDesk desk(kOptions, nullptr, &ring);
+  ring.Post({OperatorCommand::kSpin, 100.0, 10.0});
+  const auto input = desk.Next(View(0, Mode::kLevitating));
+  EXPECT_EQ(input.command, OperatorCommand::kSpin);
+  EXPECT_EQ(input.speed_rad_per_s, 100.0);
+  EXPECT_EQ(input.acceleration_rad_per_s2, 10.0);
+  EXPECT_EQ(desk.Next(View(1, Mode::kLevitating)).command, OperatorCommand::kNone);
+}
+
+TEST(OperatorDesk, EndsAtOnceWhenStoppedWithTheRotorDown) {
+  OperatorDesk desk(kOptions, nullptr, nullptr);
+  desk.RequestStop();
+  EXPECT_EQ(desk.Next(View(0, Mode::kOff)).command, OperatorCommand::kNone);
+  EXPECT_TRUE(desk.Done());
+}
+
+TEST(OperatorDesk, StopsASpinningRotorBrakesItThenLandsItThenEnds) {
+  OperatorDesk desk(kOptions, nullptr, nullptr);
+  desk.RequestStop();
+  const auto brake = desk.Next(View(0, Mode::kSpinning, 300.0));
+  EXPECT_EQ(brake.command, OperatorCommand::kSpin);
+  EXPECT_EQ(brake.speed_rad_per_s, 0.0);
+  EXPECT_EQ(brake.acceleration_rad_per_s2, 50.0);
+  for (std::uint64_t cycle = 1; cycle < 50'000; ++cycle) {  // braking: no further request
+    EXPECT_EQ(desk.Next(View(cycle, Mode::kSpinning, 200.0)).command, OperatorCommand::kNone);
+  }
+  EXPECT_EQ(desk.Next(View(50'000, Mode::kLevitating)).command, OperatorCommand::kLand);
+  EXPECT_EQ(desk.Next(View(50'001, Mode::kLanding)).command, OperatorCommand::kNone);
+  EXPECT_FALSE(desk.Done());
+  (void)desk.Next(View(60'000, Mode::kOff));
+  EXPECT_TRUE(desk.Done());
+}
+
+TEST(OperatorDesk, AsksAgainWhenTheRequestOfTheEndWasRefused) {
+  OperatorDesk desk(kOptions, nullptr, nullptr);
+  desk.RequestStop();
+  int asked = 0;
+  for (std::uint64_t cycle = 0; cycle <= 3'000; ++cycle) {
+    if (desk.Next(View(cycle, Mode::kLevitating)).command == OperatorCommand::kLand) ++asked;
+  }
+  EXPECT_EQ(asked, 4);  // cycles 0, 1000, 2000 and 3000: each 0.1 s
+}
+
+TEST(OperatorDesk, MakesAnEndThatIsNotReachedAnEmergencyStop) {
+  OperatorDesk desk(kOptions, nullptr, nullptr);
+  desk.RequestStop();
+  (void)desk.Next(View(0, Mode::kLevitating));
+  EXPECT_EQ(desk.Next(View(1'200'001, Mode::kLevitating)).command,  // beyond 120 s
+            OperatorCommand::kEmergencyStop);
+}
+
+TEST(OperatorDesk, BeginsTheEndWhenTheDurationIsOver) {
+  DeskOptions options = kOptions;
+  options.duration_s = 1.0;
+  OperatorDesk desk(options, nullptr, nullptr);
+  EXPECT_EQ(desk.Next(View(0, Mode::kLevitating)).command, OperatorCommand::kNone);
+  EXPECT_EQ(desk.Next(View(9'999, Mode::kLevitating)).command, OperatorCommand::kNone);
+  EXPECT_EQ(desk.Next(View(10'000, Mode::kLevitating)).command, OperatorCommand::kLand);
+}
+
+TEST(OperatorDesk, WhileEndingTakesNoRemoteCommandButTheEmergencyStop) {
+  SpscRing<RemoteCommand> ring(4);
+  OperatorDesk desk(kOptions, nullptr, &ring);
+  desk.RequestStop();
+  (void)desk.Next(View(0, Mode::kSpinning, 300.0));
+  ring.Post({OperatorCommand::kSpin, 500.0, 10.0});
+  EXPECT_EQ(desk.Next(View(1, Mode::kSpinning, 300.0)).command, OperatorCommand::kNone);
+  ring.Post({OperatorCommand::kEmergencyStop, 0.0, 0.0});
+  EXPECT_EQ(desk.Next(View(2, Mode::kSpinning, 300.0)).command, OperatorCommand::kEmergencyStop);
+}
+
+TEST(OperatorDesk, AfterATripUnderAScenarioEndsOnceTheTripsRecordingIsWhole) {
+  scenario::ScenarioConfig config;
+  config.name = "lift";
+  scenario::Step lift;
+  lift.command = OperatorCommand::kLift;
+  lift.wait = scenario::Wait::kMode;
+  lift.wait_mode = Mode::kLevitating;
+  lift.timeout_s = 5.0;
+  config.steps.push_back(lift);
+  scenario::ScenarioPlayer player(config, 1e-4, 1.0);
+  OperatorDesk desk(kOptions, &player, nullptr);
+  EXPECT_EQ(desk.Next(View(0, Mode::kOff)).command, OperatorCommand::kLift);
+  OperatorView tripped = View(1, Mode::kTripped);
+  tripped.fault = Fault::kOrbitExceeded;
+  for (; tripped.cycle < 1'000; ++tripped.cycle) (void)desk.Next(tripped);  // safe state A runs
+  EXPECT_FALSE(desk.Done());
+  tripped.amplifiers_enabled = false;
+  for (; tripped.cycle < 1'000 + 5'000; ++tripped.cycle) {  // 0.5 s
+    (void)desk.Next(tripped);
+    EXPECT_FALSE(desk.Done());
+  }
+  (void)desk.Next(tripped);
+  EXPECT_TRUE(desk.Done());
+}
+
+TEST(OperatorDesk, WithoutAScenarioWaitsForTheResetOfATrip) {
+  OperatorDesk desk(kOptions, nullptr, nullptr);
+  OperatorView tripped = View(0, Mode::kTripped);
+  tripped.fault = Fault::kRigRestarted;
+  tripped.amplifiers_enabled = false;
+  for (; tripped.cycle < 20'000; ++tripped.cycle) (void)desk.Next(tripped);
+  EXPECT_FALSE(desk.Done());
+}
+
+}  // namespace
+}  // namespace levitas::loop
