@@ -188,7 +188,7 @@ double Measure(const std::string& transport, double seconds, std::int64_t spin_n
   const std::int64_t start_ns = rt::MonotonicNowNs();
   const auto end_ns = start_ns + static_cast<std::int64_t>(seconds * 1e9);
   std::uint64_t exchanges = 0;
-  while (rt::MonotonicNowNs() < end_ns) exchanges += exchange() ? 1 : 0;
+  while (rt::MonotonicNowNs() < end_ns) exchanges += exchange() ? 1U : 0U;
   return static_cast<double>(exchanges) /
          (static_cast<double>(rt::MonotonicNowNs() - start_ns) * 1e-9);
 }
