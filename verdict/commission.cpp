@@ -51,11 +51,13 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.rig = rig.numbers;
   inputs.session = statistics.Figures();
   inputs.sensitivity = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
-  inputs.timing = ReadControllerReport(options.controller_report);
+  inputs.timing = ReadControllerReport(options.controller_report, rig.numbers.period_s());
+  inputs.rig_process = ReadRigReport(options.plant_report);
   inputs.provenance = options.provenance;
   Complete(inputs.provenance, header);
   inputs.provenance.rig = rig.numbers.name;
   inputs.provenance.controller = controller.name;
+  if (inputs.timing) inputs.provenance.trip_file = inputs.timing->trip_file;
   inputs.trip_text = FirstTripText(reader.events());
   inputs.incomplete_reason = options.incomplete_reason;
   inputs.damage = reader.damage().Text();

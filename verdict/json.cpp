@@ -111,9 +111,12 @@ Object Trip(const Inputs& in) {
           {"count", in.session.trips}};
 }
 
-template <class T>
-Object Optional(const std::optional<T>& value) {
-  return value ? Object(*value) : Object(nullptr);
+Object Duration(const DurationFigures& row) {
+  return {{"count", row.count},
+          {"p50_ns", row.p50_ns},
+          {"p99_ns", row.p99_ns},
+          {"p999_ns", row.p999_ns},
+          {"max_ns", row.max_ns}};
 }
 
 Object Timing(const Inputs& in) {
@@ -125,22 +128,24 @@ Object Timing(const Inputs& in) {
                 {"missing_frames", session.missing_frames},
                 {"held_currents", session.held_currents},
                 {"missing_records", session.missing_records}};
+  if (in.rig_process) {
+    timing["rig_process"] = {{"cycles", in.rig_process->cycles},
+                             {"held_currents", in.rig_process->held_currents},
+                             {"lost_messages", in.rig_process->lost_messages},
+                             {"watchdog_trips", in.rig_process->watchdog_trips},
+                             {"advance", Duration(in.rig_process->advance)}};
+  }
   if (!in.timing) return timing;
   const TimingFigures& told = *in.timing;
   timing["wall_s"] = told.wall_s;
   timing["cycles_per_s"] = told.cycles_per_s;
   timing["times_real_time"] = told.times_real_time;
   timing["blamed_stage"] = told.blamed_stage;
-  timing["lost_records"] = Optional(told.lost_records);
-  timing["rejected_frames"] = Optional(told.rejected_frames);
-  timing["degradations"] = told.degradations;
-  for (const DurationFigures& row : told.durations) {
-    timing["durations"][row.name] = {{"count", row.count},
-                                     {"p50_ns", row.p50_ns},
-                                     {"p99_ns", row.p99_ns},
-                                     {"p999_ns", row.p999_ns},
-                                     {"max_ns", row.max_ns}};
-  }
+  timing["lost_records"] = told.lost_records;
+  timing["lost_messages"] = told.lost_messages;
+  timing["rejected_frames"] = told.rejected_frames;
+  timing["real_time"] = told.real_time;
+  for (const DurationFigures& row : told.durations) timing["durations"][row.name] = Duration(row);
   return timing;
 }
 

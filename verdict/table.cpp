@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -82,13 +83,41 @@ void Sensitivity(const Inputs& in, Out out) {
   }
 }
 
-void Durations(const TimingFigures& timing, Out out) {
+void DurationRow(const DurationFigures& row, Out out) {
+  if (row.count == 0) return;
+  fmt::format_to(out, "{:<14}{:>12}{:>12}{:>12}{:>12}\n", row.name, Duration(row.p50_ns),
+                 Duration(row.p99_ns), Duration(row.p999_ns), Duration(row.max_ns));
+}
+
+void Durations(const TimingFigures& timing, const std::optional<RigFigures>& rig, Out out) {
   if (timing.durations.empty()) return;
-  fmt::format_to(out, "{:<14}{:>12}{:>12}{:>12}{:>12}\n", "", "p50", "p99", "p99.9", "max");
-  for (const DurationFigures& row : timing.durations) {
-    if (row.count == 0) continue;
-    fmt::format_to(out, "{:<14}{:>12}{:>12}{:>12}{:>12}\n", row.name, Duration(row.p50_ns),
-                   Duration(row.p99_ns), Duration(row.p999_ns), Duration(row.max_ns));
+  fmt::format_to(out, "{:<14}{:>12}{:>12}{:>12}{:>12}\n", "duration", "p50", "p99", "p99.9", "max");
+  for (const DurationFigures& row : timing.durations) DurationRow(row, out);
+  if (rig) DurationRow(rig->advance, out);
+}
+
+/// A text of several lines, each behind the heading's column.
+void Indented(const std::string& text, Out out) {
+  std::size_t from = 0;
+  while (from < text.size()) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    fmt::format_to(out, "{:<10}{}\n", from == 0 ? "machine" : "", text.substr(from, end - from));
+    from = end + 1;
+  }
+}
+
+void Losses(const Inputs& in, Out out) {
+  const SessionFigures& session = in.session;
+  const std::uint64_t messages = (in.timing ? in.timing->lost_messages : 0) +
+                                 (in.rig_process ? in.rig_process->lost_messages : 0);
+  fmt::format_to(out,
+                 "losses    {} periods skipped, {} frames missing, {} currents late, {} messages "
+                 "lost, {} records lost\n",
+                 session.skipped_periods, session.missing_frames, session.held_currents, messages,
+                 session.missing_records);
+  if (session.skipped_periods > 0 && in.timing && !in.timing->blamed_stage.empty()) {
+    fmt::format_to(out, "          most overruns are due to the stage: {}\n",
+                   in.timing->blamed_stage);
   }
 }
 
@@ -96,23 +125,16 @@ void Timing(const Inputs& in, Out out) {
   const SessionFigures& session = in.session;
   fmt::format_to(out, "\ntiming    {} cycles, {:.2f} s of the rig's time", session.cycles,
                  session.duration_s);
-  if (in.timing) {
+  if (in.timing && in.timing->wall_s > 0.0) {
     fmt::format_to(out, " in {:.2f} s: {:.0f} cycles/s, {:.2f} x real time", in.timing->wall_s,
                    in.timing->cycles_per_s, in.timing->times_real_time);
   }
-  fmt::format_to(out,
-                 "\nlosses    {} periods skipped, {} frames missing, {} currents late, {} "
-                 "records lost\n",
-                 session.skipped_periods, session.missing_frames, session.held_currents,
-                 session.missing_records);
-  if (!in.timing) return;
-  if (session.skipped_periods > 0 && !in.timing->blamed_stage.empty()) {
-    fmt::format_to(out, "          last overrun by the stage: {}\n", in.timing->blamed_stage);
+  fmt::format_to(out, "\n");
+  Losses(in, out);
+  if (in.timing) {
+    Indented(in.timing->real_time, out);
+    Durations(*in.timing, in.rig_process, out);
   }
-  for (const std::string& text : in.timing->degradations) {
-    fmt::format_to(out, "machine   {}\n", text);
-  }
-  Durations(*in.timing, out);
 }
 
 }  // namespace

@@ -19,21 +19,33 @@ struct DurationFigures {
   double p50_ns{}, p99_ns{}, p999_ns{}, max_ns{};
 };
 
+/// What the controller's process says of itself.
 struct TimingFigures {
-  std::string pace;
   std::uint64_t cycles{};
   double wall_s{};           ///< from the first to the last cycle
   double cycles_per_s{};     ///< of wall-clock time
   double times_real_time{};  ///< simulated time over wall-clock time
   std::vector<DurationFigures> durations;
-  std::optional<std::uint64_t> skipped_periods;
-  std::string blamed_stage;  ///< of the last overrun; empty or "none" when there was none
-  std::optional<std::uint64_t> lost_records;     ///< the recording thread could not take
-  std::optional<std::uint64_t> rejected_frames;  ///< undecodable, at either end
-  std::vector<std::string> degradations;  ///< what the machine refused (real-time priority ...)
+  std::string blamed_stage;         ///< of most overruns; empty when there was none
+  std::uint64_t lost_records{};     ///< the recording thread could not take
+  std::uint64_t lost_messages{};    ///< gaps in the sequence of sensor frames
+  std::uint64_t rejected_frames{};  ///< undecodable
+  std::string real_time;            ///< what the machine granted and refused, one line per fact
+  std::string trip_file;            ///< frozen by the first trip, empty if none
+};
+
+/// What the rig's process says of itself.
+struct RigFigures {
+  std::uint64_t cycles{};
+  std::uint64_t held_currents{};   ///< periods that reused an old current
+  std::uint64_t lost_messages{};   ///< gaps in the sequence of current frames
+  std::uint64_t watchdog_trips{};  ///< amplifiers switched off for want of a controller
+  DurationFigures advance;         ///< integration of one period
 };
 
 /// Empty when there is no such file: the program was killed before it could write it.
-[[nodiscard]] std::optional<TimingFigures> ReadControllerReport(const std::string& path);
+[[nodiscard]] std::optional<TimingFigures> ReadControllerReport(const std::string& path,
+                                                                double period_s);
+[[nodiscard]] std::optional<RigFigures> ReadRigReport(const std::string& path);
 
 }  // namespace levitas::verdict

@@ -54,6 +54,7 @@ struct Inputs {
   SessionFigures session;
   std::vector<analysis::SensitivityResult> sensitivity;  ///< at 0 and at the top speed of the run
   std::optional<TimingFigures> timing;
+  std::optional<RigFigures> rig_process;
   Provenance provenance;
   std::string trip_text;          ///< the recorded sentence of the first trip, may be empty
   std::string incomplete_reason;  ///< why the scenario did not end by itself; empty: it did

@@ -64,6 +64,8 @@ void ControlLoop::Cycle(bool frame_present, const SensorFrame& frame,
   timer_.Ended(cycle::Stage::kWrite);
   written_ns_ = timer_.last_ns();
   statistics_.compute.Add(written_ns_ - start_ns);
+  if (statistics_.cycles == 0) statistics_.first_ns = start_ns;
+  statistics_.last_ns = written_ns_;
   ++statistics_.cycles;
   if (!frame_present) ++statistics_.missing_frames;
   answered_ = true;

@@ -16,6 +16,8 @@ namespace levitas::loop {
 
 struct LoopStatistics {
   std::uint64_t cycles{};
+  std::int64_t first_ns{};          ///< CLOCK_MONOTONIC at the first cycle ...
+  std::int64_t last_ns{};           ///< ... and at the last
   std::uint64_t skipped_periods{};  ///< of the grid, in which no cycle was started
   std::uint64_t overruns{};         ///< cycles that caused them
   std::uint64_t missing_frames{};   ///< cycles without a new sensor frame

@@ -28,26 +28,28 @@ std::string Triple(const Histogram& histogram) {
 }  // namespace
 
 nlohmann::ordered_json ReportJson(const RunFacts& facts) {
-  nlohmann::ordered_json json{{"pace", facts.options.realtime ? "realtime" : "lockstep"},
-                              {"cycles", facts.statistics.cycles},
-                              {"skipped_periods", facts.statistics.skipped_periods},
-                              {"overruns", facts.statistics.overruns},
-                              {"missing_frames", facts.statistics.missing_frames},
-                              {"repeated_frames", facts.statistics.repeated_frames},
-                              {"frames_read", facts.port.frames_read},
-                              {"frames_skipped", facts.port.frames_skipped},
-                              {"frames_rejected", facts.port.frames_rejected},
-                              {"currents_written", facts.port.currents_written},
-                              {"write_failures", facts.port.write_failures},
-                              {"messages_lost", facts.frames_lost},
-                              {"records_lost", facts.records_lost},
-                              {"telemetry_dropped", facts.telemetry_dropped},
-                              {"commands_rejected", facts.commands_rejected},
-                              {"trips", facts.trips},
-                              {"first_fault", Name(facts.first_fault)},
-                              {"trip_file", facts.trip_file},
-                              {"scenario_problem", facts.scenario_problem},
-                              {"realtime", rt::Text(facts.real_time)}};
+  nlohmann::ordered_json json{
+      {"pace", facts.options.realtime ? "realtime" : "lockstep"},
+      {"cycles", facts.statistics.cycles},
+      {"wall_s", static_cast<double>(facts.statistics.last_ns - facts.statistics.first_ns) * 1e-9},
+      {"skipped_periods", facts.statistics.skipped_periods},
+      {"overruns", facts.statistics.overruns},
+      {"missing_frames", facts.statistics.missing_frames},
+      {"repeated_frames", facts.statistics.repeated_frames},
+      {"frames_read", facts.port.frames_read},
+      {"frames_skipped", facts.port.frames_skipped},
+      {"frames_rejected", facts.port.frames_rejected},
+      {"currents_written", facts.port.currents_written},
+      {"write_failures", facts.port.write_failures},
+      {"messages_lost", facts.frames_lost},
+      {"records_lost", facts.records_lost},
+      {"telemetry_dropped", facts.telemetry_dropped},
+      {"commands_rejected", facts.commands_rejected},
+      {"trips", facts.trips},
+      {"first_fault", Name(facts.first_fault)},
+      {"trip_file", facts.trip_file},
+      {"scenario_problem", facts.scenario_problem},
+      {"realtime", rt::Text(facts.real_time)}};
   json["timing"] = TimingJson(facts.statistics);
   return json;
 }
