@@ -76,9 +76,13 @@ struct Plant::Impl {
     }
   }
 
-  [[nodiscard]] double SensorPosition(std::size_t axis) const noexcept {
-    return AtPlane(model->bearings()[axis / 2].sensor_shape,
-                   state.data() + (axis % 2) * model->layout().modes);
+  [[nodiscard]] AxisArray SensorPositions() const noexcept {
+    AxisArray seen_m{};
+    for (std::size_t b = 0; b < model->bearings().size(); ++b) {
+      AtPlanes(*model, model->bearings()[b].sensor_shape, state.data(), seen_m[2 * b],
+               seen_m[2 * b + 1]);
+    }
+    return seen_m;
   }
 
   void FollowCurrents(const StepTable& table, const CoilCommand& command) noexcept {
@@ -98,29 +102,32 @@ struct Plant::Impl {
   void Integrate(const StepTable& table, const CoilCommand& coils,
                  const PlantCommand& command) noexcept {
     const StateLayout& at = model->layout();
+    AxisArray seen_m = SensorPositions();
     for (int substep = 0; substep < table.substeps; ++substep) {
       const Currents start = CurrentsNow();
-      AxisArray seen_m{};
-      for (std::size_t a = 0; a < model->axes(); ++a) seen_m[a] = SensorPosition(a);
       FollowCurrents(table, coils);
-      Rotation turning = rotation;
+      Rotation before = rotation;
       Rotate(command, table.duration_s);
-      turning.acceleration_rad_per_s2 = rotation.acceleration_rad_per_s2;
-      StepRotor(*model, table, start, CurrentsNow(), MakeSpin(turning), MakeSpin(rotation),
+      before.acceleration_rad_per_s2 = rotation.acceleration_rad_per_s2;
+      const Spin start_spin = MakeSpin(before, heading);
+      if (rotation.angle_rad != before.angle_rad) heading = MakeHeading(rotation);
+      StepRotor(*model, table, start, CurrentsNow(), start_spin, MakeSpin(rotation, heading),
                 state.data() + at.q_x, state.data() + at.v_x, work, report);
+      const AxisArray now_m = SensorPositions();
       for (std::size_t a = 0; a < model->axes(); ++a) {
         const sensor::FilterStep& filter = table.sensor[a / 2];
         double& filtered = state[at.sensor + a];
-        filtered =
-            filter.decay * filtered + filter.start * seen_m[a] + filter.end * SensorPosition(a);
+        filtered = filter.decay * filtered + filter.start * seen_m[a] + filter.end * now_m[a];
       }
+      seen_m = now_m;
     }
   }
 
   void SettleSensors() noexcept {
+    const AxisArray seen_m = SensorPositions();
     for (std::size_t axis = 0; axis < model->axes(); ++axis) {
       state[model->layout().sensor + axis] =
-          model->config().bearings[axis / 2].sensor.gain * SensorPosition(axis);
+          model->config().bearings[axis / 2].sensor.gain * seen_m[axis];
     }
   }
 
@@ -128,6 +135,7 @@ struct Plant::Impl {
   std::vector<double> state;
   AxisArray bias_a{};
   Rotation rotation;
+  Heading heading;
   Workspace work;
   Random random;
   std::vector<CoilCommand> queue;
@@ -205,6 +213,7 @@ void Plant::RestInTouchdown() noexcept {
 
 void Plant::SetSpeed(double speed_rad_per_s, double angle_rad) noexcept {
   impl_->rotation = {speed_rad_per_s, Wrapped(angle_rad), 0.0};
+  impl_->heading = MakeHeading(impl_->rotation);
 }
 
 const StateLayout& Plant::layout() const noexcept { return impl_->model->layout(); }
@@ -226,9 +235,9 @@ bool Plant::finite() const noexcept {
 
 AxisArray Plant::ActuatorPosition() const noexcept {
   AxisArray position_m{};
-  for (std::size_t axis = 0; axis < impl_->model->axes(); ++axis) {
-    position_m[axis] = AtPlane(impl_->model->bearings()[axis / 2].actuator_shape,
-                               impl_->state.data() + (axis % 2) * layout().modes);
+  for (std::size_t b = 0; b < impl_->model->bearings().size(); ++b) {
+    AtPlanes(*impl_->model, impl_->model->bearings()[b].actuator_shape, impl_->state.data(),
+             position_m[2 * b], position_m[2 * b + 1]);
   }
   return position_m;
 }

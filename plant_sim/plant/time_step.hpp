@@ -27,11 +27,17 @@ struct Spin {
   double unbalance_imaginary{};
 };
 
-[[nodiscard]] Spin MakeSpin(const Rotation& rotation) noexcept;
+/// The rotor angle as a unit vector; the end of one substep is the start of the next.
+struct Heading {
+  double cosine{1.0};
+  double sine{};
+};
+
+[[nodiscard]] Heading MakeHeading(const Rotation& rotation) noexcept;
+[[nodiscard]] Spin MakeSpin(const Rotation& rotation, const Heading& heading) noexcept;
 
 /// Forces found on the way, for those who ask.
 struct ForceReport {
-  AxisArray magnet_n{};
   double contact_n{};  ///< largest normal force since it was last set to zero
 };
 
@@ -49,6 +55,9 @@ struct Workspace {
 
 /// Sum over the modes of shape times modal coordinate.
 [[nodiscard]] double AtPlane(const std::vector<double>& shape, const double* modal) noexcept;
+/// The same in both planes.
+void AtPlanes(const PlantModel& model, const std::vector<double>& shape, const double* position,
+              double& x_m, double& y_m) noexcept;
 
 /// Advances modal displacement and velocity (two planes each, contiguous) by one substep.
 void StepRotor(const PlantModel& model, const StepTable& table, const Currents& start_currents,

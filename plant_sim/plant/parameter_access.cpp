@@ -1,0 +1,117 @@
+#include "plant_sim/plant/parameter_access.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+#include "common/problem.hpp"
+
+namespace levitas::plant {
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+/// A number of the rig under its name; `scale` converts what is stored into the unit of the name.
+struct Entry {
+  std::string name;
+  double* stored;
+  double scale{1.0};
+};
+
+void AddBearing(std::vector<Entry>& entries, const std::string& at, BearingConfig& b) {
+  entries.push_back(
+      {at + "magnet.force_constant_n_m2_per_a2", &b.magnet.force_constant_n_m2_per_a2});
+  entries.push_back({at + "magnet.bias_current_a", &b.magnet.bias_current_a});
+  entries.push_back({at + "magnet.gap_m", &b.magnet.gap_m});
+  entries.push_back({at + "magnet.max_coil_current_a", &b.magnet.max_coil_current_a});
+  entries.push_back({at + "amplifier.bandwidth_hz", &b.amplifier.bandwidth_hz});
+  entries.push_back({at + "amplifier.slew_a_per_s", &b.amplifier.slew_a_per_s});
+  entries.push_back({at + "sensor.bandwidth_hz", &b.sensor.bandwidth_hz});
+  entries.push_back({at + "sensor.noise_rms_m", &b.sensor.noise_rms_m});
+  entries.push_back({at + "sensor.range_m", &b.sensor.range_m});
+  entries.push_back({at + "sensor.gain", &b.sensor.gain});
+  entries.push_back({at + "touchdown.clearance_m", &b.touchdown.clearance_m});
+  entries.push_back({at + "touchdown.stiffness_n_per_m", &b.touchdown.stiffness_n_per_m});
+  entries.push_back({at + "touchdown.damping_n_s_per_m", &b.touchdown.damping_n_s_per_m});
+  entries.push_back({at + "touchdown.friction", &b.touchdown.friction});
+  entries.push_back({at + "touchdown.journal_radius_m", &b.touchdown.journal_radius_m});
+}
+
+// The one table of names: reading, setting and listing all walk through it.
+std::vector<Entry> Entries(PlantParameters& p) {
+  std::vector<Entry> entries{{"delay_samples", &p.config.delay_samples},
+                             {"gravity_m_per_s2", &p.config.gravity_m_per_s2},
+                             {"gravity_direction_rad", &p.config.gravity_direction_rad}};
+  entries.push_back(
+      {"drive.max_acceleration_rad_per_s2", &p.config.drive.max_acceleration_rad_per_s2});
+  entries.push_back({"drive.coast_down_1_per_s", &p.config.drive.coast_down_1_per_s});
+  entries.push_back({"drive.coast_down_rad_per_s2", &p.config.drive.coast_down_rad_per_s2});
+  // The two rigid modes have neither frequency nor damping: a free rotor's cannot be set.
+  for (Eigen::Index i = 2; i < p.modes.frequency_rad_per_s.size(); ++i) {
+    const std::string at = fmt::format("rotor.modes[{}].", i);
+    entries.push_back({at + "frequency_hz", &p.modes.frequency_rad_per_s[i], 1.0 / kTwoPi});
+    entries.push_back({at + "damping_ratio", &p.modes.damping_ratio[i]});
+  }
+  for (std::size_t i = 0; i < p.config.bearings.size(); ++i) {
+    AddBearing(entries, fmt::format("bearings[{}].", i), p.config.bearings[i]);
+  }
+  for (std::size_t i = 0; i < p.config.unbalance.size(); ++i) {
+    const std::string at = fmt::format("unbalance[{}].", i);
+    entries.push_back({at + "moment_kg_m", &p.config.unbalance[i].moment_kg_m});
+    entries.push_back({at + "phase_rad", &p.config.unbalance[i].phase_rad});
+  }
+  return entries;
+}
+
+// Edit distance (Levenshtein 1966).
+std::size_t Distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+Entry Find(PlantParameters& parameters, std::string_view name) {
+  const auto entries = Entries(parameters);
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [name](const Entry& entry) { return entry.name == name; });
+  if (found != entries.end()) return *found;
+  const auto closer = [name](const Entry& a, const Entry& b) {
+    return Distance(name, a.name) < Distance(name, b.name);
+  };
+  const auto nearest = std::min_element(entries.begin(), entries.end(), closer);
+  throw BadInput(fmt::format("the rig has no parameter '{}'; the nearest of its {} is '{}'", name,
+                             entries.size(), nearest->name));
+}
+
+}  // namespace
+
+std::vector<std::string> ParameterNames(const PlantParameters& parameters) {
+  PlantParameters copy = parameters;
+  std::vector<std::string> names;
+  for (auto& entry : Entries(copy)) names.push_back(std::move(entry.name));
+  return names;
+}
+
+double GetParameter(const PlantParameters& parameters, std::string_view name) {
+  PlantParameters copy = parameters;
+  const Entry entry = Find(copy, name);
+  return *entry.stored * entry.scale;
+}
+
+void SetParameter(PlantParameters& parameters, std::string_view name, double value) {
+  const Entry entry = Find(parameters, name);
+  *entry.stored = value / entry.scale;
+}
+
+}  // namespace levitas::plant
