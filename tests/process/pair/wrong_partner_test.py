@@ -1,0 +1,75 @@
+"""A partner that is missing, elsewhere or different, and command lines that cannot work."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+from lcm_network import BINARIES, Process, controller, plant, run  # noqa: E402
+
+
+class WrongPartner(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_missing_partner_is_one_message_and_status_1(self):
+        with controller(self.folder, "--partner-timeout", 4) as control:
+            self.assertEqual(control.status(20), 1)
+            self.assertEqual(control.text.count("no sensor frames at udpm://239.255.76.67:7667"), 1)
+            self.assertIn("start amb-plant with the same --rig, --port and --pace", control.text)
+        with plant(self.folder, "--partner-timeout", 4) as rig:
+            self.assertEqual(rig.status(20), 1)
+            self.assertEqual(rig.text.count("no controller answers at udpm://239.255.76.67:7668"), 1)
+            self.assertIn("start amb-controller", rig.text)
+
+    def test_another_port_is_another_network(self):
+        elsewhere = "lcm:udpm://239.255.76.67:8667?ttl=0"
+        with plant(self.folder, "--partner-timeout", 3) as rig, \
+                controller(self.folder, "--port", elsewhere, "--partner-timeout", 3) as control:
+            self.assertEqual(control.status(20), 1)
+            self.assertEqual(rig.status(20), 1)
+            self.assertIn("udpm://239.255.76.67:8667", control.text)
+
+    def test_another_group_on_the_same_port_is_another_network(self):
+        elsewhere = "lcm:udpm://239.255.76.68:7667?ttl=0"
+        with plant(self.folder, "--partner-timeout", 3) as rig, \
+                controller(self.folder, "--port", elsewhere, "--partner-timeout", 3) as control:
+            self.assertEqual(control.status(20), 1)
+            self.assertEqual(rig.status(20), 1)
+
+    def test_machine_without_a_multicast_route_is_told_the_remedy(self):
+        for program in (["amb-plant", "--rig", "flexible_rotor"],
+                        ["amb-controller", "--rig", "flexible_rotor", "--controller",
+                         "flexible_rotor", "--trip-folder", str(self.folder)]):
+            done = subprocess.run(["unshare", "-n", str(BINARIES / program[0]), *program[1:]],
+                                  capture_output=True, text=True, timeout=20, check=False)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("ip route add 224.0.0.0/4 dev lo", done.stderr)
+
+    def test_signal_ends_a_program_that_has_no_partner(self):
+        for start in (controller, plant):
+            with start(self.folder) as lonely:
+                lonely.says("udpm://")
+                lonely.terminate()
+                self.assertEqual(lonely.status(10), 0, lonely.text)
+
+    def test_command_line_and_files_have_their_statuses(self):
+        def status(name, *arguments):
+            with Process(self.folder, name, *arguments) as process:
+                return process.status(20), process.text
+        self.assertEqual(status("amb-plant")[0], 2)
+        self.assertEqual(status("amb-controller", "--rig", "flexible_rotor")[0], 2)
+        self.assertEqual(status("amb-plant", "--rig", "flexible_rotor", "--pace", "slow")[0], 2)
+        code, text = status("amb-plant", "--rig", "flexible_rotor", "--port", "lcm:udpm://10.0.0.1:1")
+        self.assertEqual(code, 2)
+        self.assertIn("not a multicast address", text)
+        self.assertEqual(status("amb-plant", "--rig", "/no/such/rig.yaml")[0], 3)
+        self.assertEqual(status("amb-plant", "--help")[0], 0)
+
+
+if __name__ == "__main__":
+    run()
