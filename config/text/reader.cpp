@@ -79,10 +79,10 @@ std::string WhyNotANumber(const std::string& text) {
 }  // namespace
 
 void Reader::Number(const NumberField& field, double& si) {
-  const std::string allowed = Allowed(field, field.unit);
-  const std::string missing =
-      field.fallback ? "" : fmt::format("{}; allowed {}", field.meaning, allowed);
-  const Entry entry = Take(NumberKeys(field), missing);
+  const auto missing = [&] {
+    return fmt::format("{}; allowed {}", field.meaning, Allowed(field, field.unit));
+  };
+  const Entry entry = Take(NumberKeys(field), field.fallback ? Text() : missing);
   if (probing_) return;
   si = std::numeric_limits<double>::quiet_NaN();
   if (entry.value == nullptr) {
@@ -90,29 +90,28 @@ void Reader::Number(const NumberField& field, double& si) {
     return;
   }
   const Unit& unit = UnitOf(field, entry.key);
-  const std::string allowed_here = Allowed(field, unit);
-  const std::string* text = Scalar(entry, allowed_here, true);
+  const auto allowed = [&] { return Allowed(field, unit); };
+  const std::string* text = Scalar(entry, allowed, true);
   if (text == nullptr) return;
   const auto value = ToSi(*text, unit);
   if (!value) {
     Report(entry.value->place, entry.key,
            fmt::format("found {}, {}; allowed {}", Describe(*entry.value),
                        IsDecimal(*text) ? "beyond what a double can hold" : WhyNotANumber(*text),
-                       allowed_here));
+                       allowed()));
   } else if (!(*value >= *ToSi(BoundText(field.low), field.unit) &&
                *value <= *ToSi(BoundText(field.high), field.unit))) {
     Report(entry.value->place, entry.key,
-           fmt::format("found {}, allowed {}", WithSymbol(*text, unit), allowed_here));
+           fmt::format("found {}, allowed {}", WithSymbol(*text, unit), allowed()));
   } else {
     si = *value;
   }
 }
 
 void Reader::WideInteger(const IntegerField& field, std::int64_t& value) {
-  const std::string allowed = fmt::format("{} to {} (whole)", field.low, field.high);
-  const Entry entry =
-      Take({std::string(field.key)},
-           field.fallback ? "" : fmt::format("{}; allowed {}", field.meaning, allowed));
+  const auto allowed = [&] { return fmt::format("{} to {} (whole)", field.low, field.high); };
+  const auto missing = [&] { return fmt::format("{}; allowed {}", field.meaning, allowed()); };
+  const Entry entry = Take({std::string(field.key)}, field.fallback ? Text() : missing);
   if (probing_) return;
   value = field.fallback.value_or(field.low);
   if (entry.value == nullptr) return;
@@ -126,20 +125,20 @@ void Reader::WideInteger(const IntegerField& field, std::int64_t& value) {
   if (stop != end || error == std::errc::invalid_argument) {
     const std::string why = IsDecimal(*text) ? "not a whole number" : WhyNotANumber(*text);
     Report(entry.value->place, entry.key,
-           fmt::format("found {}, {}; allowed {}", Describe(*entry.value), why, allowed));
+           fmt::format("found {}, {}; allowed {}", Describe(*entry.value), why, allowed()));
   } else if (error != std::errc{} || found < field.low || found > field.high) {
-    Report(entry.value->place, entry.key, fmt::format("found {}, allowed {}", *text, allowed));
+    Report(entry.value->place, entry.key, fmt::format("found {}, allowed {}", *text, allowed()));
   } else {
     value = found;
   }
 }
 
 void Reader::Name(const NameField& field, std::string& value) {
-  constexpr std::string_view kAllowed = "a name of 1 to 32 characters: a-z, 0-9, _";
-  const Entry entry =
-      Take({std::string(field.key)}, fmt::format("{}; allowed {}", field.meaning, kAllowed));
+  const auto allowed = [] { return std::string("a name of 1 to 32 characters: a-z, 0-9, _"); };
+  const auto missing = [&] { return fmt::format("{}; allowed {}", field.meaning, allowed()); };
+  const Entry entry = Take({std::string(field.key)}, missing);
   if (probing_ || entry.value == nullptr) return;
-  const std::string* text = Scalar(entry, std::string(kAllowed), false);
+  const std::string* text = Scalar(entry, allowed, false);
   if (text == nullptr) return;
   const bool good = !text->empty() && text->size() <= 32 && std::ranges::all_of(*text, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
@@ -148,16 +147,15 @@ void Reader::Name(const NameField& field, std::string& value) {
     value = *text;
   } else {
     Report(entry.value->place, entry.key,
-           fmt::format("found {}, allowed {}", Describe(*entry.value), kAllowed));
+           fmt::format("found {}, allowed {}", Describe(*entry.value), allowed()));
   }
 }
 
 void Reader::Choice(const ChoiceField& field, std::size_t& index) {
   const std::vector<std::string> words(field.words.begin(), field.words.end());
-  const std::string allowed = Listed(words);
-  const Entry entry =
-      Take({std::string(field.key)},
-           field.fallback ? "" : fmt::format("{}; allowed {}", field.meaning, allowed));
+  const auto allowed = [&] { return Listed(words); };
+  const auto missing = [&] { return fmt::format("{}; allowed {}", field.meaning, allowed()); };
+  const Entry entry = Take({std::string(field.key)}, field.fallback ? Text() : missing);
   if (probing_) return;
   const auto position = [&](std::string_view word) {
     return static_cast<std::size_t>(std::ranges::find(words, word) - words.begin());
@@ -171,7 +169,7 @@ void Reader::Choice(const ChoiceField& field, std::size_t& index) {
     index = found;
   } else {
     Report(entry.value->place, entry.key,
-           fmt::format("found {}, allowed {}; nearest {}", Describe(*entry.value), allowed,
+           fmt::format("found {}, allowed {}; nearest {}", Describe(*entry.value), allowed(),
                        Nearest(*text, words)));
   }
 }
@@ -198,7 +196,7 @@ void Reader::OneOf(std::string_view what, std::span<const Form> forms, std::size
   chosen = given.size() == 1 ? given.front() : forms.size();
   for (std::size_t i = 0; i < forms.size(); ++i) {
     if (i == chosen) continue;
-    for (const std::string& key : keys[i]) Take({key}, "");
+    for (const std::string& key : keys[i]) Take({key});
   }
   if (given.size() == 1) {
     forms[chosen].describe();
@@ -220,7 +218,7 @@ void Reader::When(bool condition, std::string_view when, const std::function<voi
     return;
   }
   for (const std::string& key : KeysOf(body)) {
-    const Entry entry = Take({key}, "");
+    const Entry entry = Take({key});
     if (entry.value != nullptr) {
       Report(entry.key_place, key, fmt::format("only allowed {}", when));
     }
@@ -241,11 +239,11 @@ void Reader::RefuseIf(bool violated, std::string_view key, const std::string& te
   Report(place, key.empty() ? top().name : std::string(key), text);
 }
 
-const std::string* Reader::Scalar(const Entry& entry, const std::string& allowed, bool number) {
+const std::string* Reader::Scalar(const Entry& entry, const Text& allowed, bool number) {
   const Node& node = *entry.value;
   if (node.kind == Node::Kind::kScalar && !(number && node.quoted)) return &node.text;
   Report(node.kind == Node::Kind::kEmpty ? entry.key_place : node.place, entry.key,
-         fmt::format("found {}, allowed {}", Describe(node), allowed));
+         fmt::format("found {}, allowed {}", Describe(node), allowed()));
   return nullptr;
 }
 

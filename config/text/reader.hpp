@@ -74,11 +74,15 @@ class Reader : public Visitor {
   };
 
   [[nodiscard]] Frame& top() { return frames_.back(); }
-  /// Looks one of `keys` up and notes that it is a key of this group.
-  Entry Take(std::vector<std::string> keys, const std::string& missing);
+  /// Texts of problems are made only when there is one: they cost more than the reading.
+  using Text = std::function<std::string()>;
+
+  /// Looks one of `keys` up and notes that it is a key of this group; `missing` is null for a key
+  /// that may be left out.
+  Entry Take(std::vector<std::string> keys, const Text& missing = nullptr);
   [[nodiscard]] Entry Find(const std::string& key) const;
   /// Scalar text of an entry; reports and returns null when it is something else.
-  const std::string* Scalar(const Entry& entry, const std::string& allowed, bool number);
+  const std::string* Scalar(const Entry& entry, const Text& allowed, bool number);
   void Report(Place place, const std::string& key, const std::string& text);
   void OpenFrame(const Node* node, std::string path, std::string name, Place place);
   void CloseFrame();

@@ -24,7 +24,7 @@ Reader::Reader(const Document& document, std::string file_name) : file_name_(std
 
 bool Reader::WrongKind(std::string_view kind) {
   if (!problems_.empty()) return true;
-  const Entry entry = Take({"kind"}, "");
+  const Entry entry = Take({"kind"});
   if (entry.value == nullptr) {
     Report({1, 1}, "kind", fmt::format("missing; a {} file begins with `kind: {}`", kind, kind));
   } else if (entry.value->kind != Node::Kind::kScalar || entry.value->text != kind) {
@@ -74,7 +74,7 @@ Reader::Entry Reader::Find(const std::string& key) const {
   return {nullptr, key, {}};
 }
 
-Reader::Entry Reader::Take(std::vector<std::string> keys, const std::string& missing) {
+Reader::Entry Reader::Take(std::vector<std::string> keys, const Text& missing) {
   if (probing_) {
     probed_.insert(probed_.end(), keys.begin(), keys.end());
     return {};
@@ -89,8 +89,9 @@ Reader::Entry Reader::Take(std::vector<std::string> keys, const std::string& mis
       taken = entry;
     }
   }
+  const bool found = taken.value != nullptr;
   const std::string primary = keys.front();
-  top().expected.push_back({primary, std::move(keys), taken.value != nullptr, missing});
+  top().expected.push_back({primary, std::move(keys), found, found || !missing ? "" : missing()});
   return taken;
 }
 
@@ -170,7 +171,7 @@ void Reader::ReportMissing(const Frame& frame) {
 }
 
 bool Reader::BeginGroup(std::string_view key, std::string_view, bool* optional, bool) {
-  const Entry entry = Take({std::string(key)}, "");
+  const Entry entry = Take({std::string(key)});
   if (probing_) return false;
   if (optional != nullptr) {
     *optional = entry.value != nullptr;
@@ -192,9 +193,8 @@ void Reader::EndGroup() { CloseFrame(); }
 
 std::size_t Reader::BeginList(const ListField& field, std::size_t) {
   const std::string allowed = fmt::format("{} to {} items", field.least, field.most);
-  const Entry entry =
-      Take({std::string(field.key)},
-           field.least == 0 ? "" : fmt::format("{}; allowed {}", field.meaning, allowed));
+  const auto missing = [&] { return fmt::format("{}; allowed {}", field.meaning, allowed); };
+  const Entry entry = Take({std::string(field.key)}, field.least == 0 ? Text() : missing);
   lists_.push_back({nullptr, top().path + entry.key});
   if (probing_ || entry.value == nullptr) return 0;
   if (entry.value->kind != Node::Kind::kSequence) {

@@ -1,0 +1,24 @@
+#pragma once
+// Files in which every key of the tables appears.
+
+#include "config/rig_file.hpp"
+
+namespace levitas::config::test {
+
+inline RigFile FullRig() {
+  RigFile rig = LoadRig(FindConfig("flexible_rotor", "rigs"));
+  rig.plant.rotor.rings.push_back({0.2, 0.01, 9.525e-3, 0.05, 7850.0});
+  return rig;
+}
+
+inline ControllerFile FullController(const RigNumbers& rig) {
+  return LoadController(FindConfig("flexible_rotor", "controllers"), rig);
+}
+
+inline scenario::ScenarioConfig FullScenario(const RigNumbers& rig) {
+  scenario::ScenarioConfig scenario = LoadScenario(FindConfig("default", "scenarios"), rig);
+  scenario.steps[1].excitation = {{"de_x", 0, 0.05, 12, 2, 0.0}, {"nde_y", 3, 0.1, 15, 1, 0.25}};
+  return scenario;
+}
+
+}  // namespace levitas::config::test
