@@ -70,9 +70,9 @@ std::string TripText(const cycle::CycleRecord& record, const std::vector<std::st
                           row.unit, record.out.fault_limit * row.factor, row.unit);
   }
   return fmt::format(
-      "TRIP in cycle {}: {}{}{}. {} When it stands and the cause is "
+      "TRIP {} in cycle {}: {}{}{}. {} When it stands and the cause is "
       "gone, give the command reset.",
-      record.in.cycle, row.cause, Where(record.out, channels), numbers,
+      Name(record.out.fault), record.in.cycle, row.cause, Where(record.out, channels), numbers,
       SafeState(record.out.current));
 }
 

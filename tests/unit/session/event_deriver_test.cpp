@@ -58,7 +58,7 @@ TEST_F(Deriver, TellsATripOnceWithCauseChannelValueLimitCycleSafeStateAndReset) 
   EXPECT_EQ(events[0].fault, Fault::kOrbitExceeded);
   EXPECT_EQ(events[0].value, 152.5e-6);
   EXPECT_THAT(events[0].text,
-              AllOf(HasSubstr("orbit"), HasSubstr("nde_x"), HasSubstr("152.5 um"),
+              AllOf(HasSubstr("TRIP orbit_exceeded"), HasSubstr("nde_x"), HasSubstr("152.5 um"),
                     HasSubstr("allowed 142.5 um"), HasSubstr("cycle 1"),
                     HasSubstr("stays levitated while the drive brakes"), HasSubstr("reset")));
   record.in.cycle = 2;
