@@ -114,7 +114,8 @@ void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::Unbalanc
   v.RefuseIf(rotor.modes_per_plane == 1, "modes_per_plane",
              "found 1, but a rotor has two rigid modes per plane: allowed 0 or 2 to 100");
   // Deflection and slope of every node are the degrees of freedom there are to keep.
-  v.RefuseIf(static_cast<double>(rotor.modes_per_plane) > 2.0 * (elements + 1.0), "modes_per_plane",
+  v.RefuseIf(elements > 0.0 && static_cast<double>(rotor.modes_per_plane) > 2.0 * (elements + 1.0),
+             "modes_per_plane",
              fmt::format("more than the {:.0f} that {:.0f} finite elements have",
                          2.0 * (elements + 1.0), elements));
   v.Number({"modal_damping_ratio", kOne, 0, 0.5, 0.003,

@@ -1,10 +1,12 @@
 #include "config/text/document.hpp"
 
+#include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace levitas::config {
@@ -104,6 +106,27 @@ class FirstPlace : public Builder {
   Place place;
 };
 
+/// Line `number` (from 1) of a text, without the blanks around it; cut to a readable length.
+std::string LineOf(const std::string& text, int number) {
+  std::istringstream stream(text);
+  std::string line;
+  for (int i = 0; i < number && std::getline(stream, line); ++i) {
+  }
+  const std::size_t from = std::min(line.find_first_not_of(" \t\r"), line.size());
+  const std::size_t to = line.find_last_not_of(" \t\r") + 1;
+  line = line.substr(from, to > from ? to - from : 0);
+  return line.size() > 60 ? line.substr(0, 57) + "..." : line;
+}
+
+/// The library says what confused it; what people got wrong is one of four things.
+std::string Explained(const YAML::Exception& error, const std::string& text) {
+  const std::string line = LineOf(text, error.mark.line + 1);
+  return fmt::format(
+      "not valid YAML: {}{}; look here and at the line before: indent with spaces, not tabs, all "
+      "keys of a group alike; a space after each colon; quotes and brackets closed",
+      error.msg, line.empty() ? "" : fmt::format(" near \"{}\"", line));
+}
+
 }  // namespace
 
 Document ReadDocument(const std::string& text) {
@@ -124,7 +147,7 @@ Document ReadDocument(const std::string& text) {
   } catch (const Refused& refused) {
     document.problem = refused.problem;
   } catch (const YAML::Exception& error) {
-    document.problem = {At(error.mark), "not valid YAML: " + error.msg};
+    document.problem = {At(error.mark), Explained(error, text)};
   }
   return document;
 }

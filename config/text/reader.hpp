@@ -6,8 +6,10 @@
 // Thread   any; not for the control cycle.
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "config/schema/visitor.hpp"
@@ -87,6 +89,8 @@ class Reader : public Visitor {
   void OpenFrame(const Node* node, std::string path, std::string name, Place place);
   void CloseFrame();
   void ReportUnknown(Frame& frame);
+  [[nodiscard]] static std::string Meant(const Frame& frame, std::string key);
+  void ExplainStrays();
   void ReportMissing(const Frame& frame);
   void ReportAbsentGroup();
   void ReportDuplicates(const Frame& frame);
@@ -96,6 +100,8 @@ class Reader : public Visitor {
   std::vector<Frame> frames_;
   std::vector<OpenList> lists_;
   std::vector<Problem> problems_;
+  std::map<std::string, std::string> homes_;  ///< every key met, and the first group it is of
+  std::vector<std::pair<std::size_t, std::string>> strays_;  ///< problem and its unknown key
   bool probing_{};  ///< only the keys of a form are being collected
   std::vector<std::string> probed_;
 };

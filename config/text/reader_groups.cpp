@@ -42,6 +42,7 @@ void Reader::Finish() {
 
 void Reader::FinishEarly() {
   if (problems_.empty()) return;
+  ExplainStrays();
   std::ranges::stable_sort(problems_, {}, &Problem::place);
   std::string text;
   if (problems_.size() > 1)
@@ -101,6 +102,11 @@ void Reader::OpenFrame(const Node* node, std::string path, std::string name, Pla
 
 void Reader::CloseFrame() {
   Frame& frame = top();
+  for (const Expected& field : frame.expected) {
+    for (const std::string& key : field.keys) {
+      if (!frame.name.empty()) homes_.emplace(key, frame.path.substr(0, frame.path.size() - 1));
+    }
+  }
   if (frame.node != nullptr) {
     ReportDuplicates(frame);
     ReportUnknown(frame);
@@ -138,28 +144,53 @@ void Reader::ReportDuplicates(const Frame& frame) {
   }
 }
 
+// The key a person most likely meant: one that only lacks its unit, else the nearest by edit
+// distance; empty when nothing is near.
+std::string Reader::Meant(const Frame& frame, std::string key) {
+  for (const char* micro : {"\xC2\xB5", "\xCE\xBC"}) {  // the micro sign and the Greek letter
+    const std::size_t at = key.find(micro);
+    if (at == std::string::npos) continue;
+    key = fmt::format("{}u{}", key.substr(0, at), key.substr(at + 2));
+  }
+  std::vector<std::string> all;
+  for (const Expected& field : frame.expected) {
+    for (const std::string& spelling : field.keys) {
+      if (field.keys.size() > 1 && spelling.starts_with(key + "_")) return field.key;
+      all.push_back(spelling);
+    }
+  }
+  const std::string nearest = Nearest(key, all);
+  return EditDistance(key, nearest) > 2 + key.size() / 4 ? "" : nearest;
+}
+
 void Reader::ReportUnknown(Frame& frame) {
   for (const auto& [key, place] : frame.node->keys) {
     const auto known = [&](const Expected& field) {
       return std::ranges::find(field.keys, key) != field.keys.end();
     };
     if (std::ranges::any_of(frame.expected, known)) continue;
-    std::vector<std::string> all;
-    for (const Expected& field : frame.expected) {
-      all.insert(all.end(), field.keys.begin(), field.keys.end());
-    }
-    const std::string nearest = Nearest(key, all);
-    if (nearest.empty() || EditDistance(key, nearest) > 2 + key.size() / 4) {
+    const std::string meant = Meant(frame, key);
+    if (meant.empty()) {
       std::vector<std::string> documented;
       for (const Expected& field : frame.expected) documented.push_back(field.key);
+      strays_.push_back({problems_.size(), key});
       Report(place, key, fmt::format("unknown key; known here: {}", Listed(documented)));
       continue;
     }
     // The misspelt key explains why the right one is missing: one problem, not two.
     for (Expected& field : frame.expected) {
-      if (std::ranges::find(field.keys, nearest) != field.keys.end()) field.found = true;
+      if (std::ranges::find(field.keys, meant) != field.keys.end()) field.found = true;
     }
-    Report(place, key, fmt::format("unknown key, nearest key {}", nearest));
+    Report(place, key, fmt::format("unknown key, nearest key {}", meant));
+  }
+}
+
+// A key that is unknown where it stands but known in another group has usually slipped out of it.
+void Reader::ExplainStrays() {
+  for (const auto& [problem, key] : strays_) {
+    const auto home = homes_.find(key);
+    if (home != homes_.end())
+      problems_[problem].text.append("; it belongs under ").append(home->second);
   }
 }
 

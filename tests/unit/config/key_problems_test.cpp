@@ -31,6 +31,23 @@ TEST(UnknownKey, IsFoundAtEveryLevel) {
             "rig.yaml:14:7: rotor.sections[0].lenght_mm: unknown key, nearest key length_mm");
 }
 
+TEST(UnknownKey, ThatOnlyLacksItsUnitIsToldTheDocumentedOne) {
+  EXPECT_EQ(RigProblems(With(kRig, "gap_mm: 0.4", "gap: 0.4")),
+            "rig.yaml:21:7: bearings[0].magnet.gap: unknown key, nearest key gap_mm");
+}
+
+TEST(UnknownKey, WithAMicroSignIsToldTheUnitInLetters) {
+  EXPECT_EQ(RigProblems(With(kRig, "range_um", "range_\xC2\xB5m")),
+            "rig.yaml:28:7: bearings[0].sensor.range_\xC2\xB5m: unknown key, nearest key range_um");
+}
+
+TEST(UnknownKey, ThatSlippedOutOfItsGroupIsToldWhereItBelongs) {
+  EXPECT_EQ(
+      RigProblems(With(kRig, "    magnet:\n", "    gap_mm: 0.3\n    magnet:\n")),
+      "rig.yaml:20:5: bearings[0].gap_mm: unknown key; known here: name, actuator_z_mm, "
+      "sensor_z_mm, magnet, amplifier, sensor, touchdown; it belongs under bearings[0].magnet");
+}
+
 TEST(MissingKey, IsReportedAtItsGroupWithMeaningAndRange) {
   EXPECT_EQ(RigProblems(With(kRig, "      gap_mm: 0.4\n", "")),
             "rig.yaml:20:5: bearings[0].magnet.gap_mm: missing; radial air gap s0 with the rotor "
@@ -113,6 +130,14 @@ TEST(Text, ThatIsNoYamlIsOneProblemWithItsPlace) {
   EXPECT_EQ(problems.rfind("rig.yaml:12:", 0), 0U) << problems;
   EXPECT_NE(problems.find("not valid YAML"), std::string::npos);
   EXPECT_EQ(problems.find('\n'), std::string::npos);
+}
+
+TEST(Text, WithABrokenLineShowsItAndSaysWhatToLookFor) {
+  const std::string problems = RigProblems(With(kRig, "gap_mm: 0.4", "gap_mm:0.4"));
+  EXPECT_EQ(problems,
+            "rig.yaml:22:17: not valid YAML: illegal map value near \"ki_n_per_a: 40\"; look here "
+            "and at the line before: indent with spaces, not tabs, all keys of a group alike; a "
+            "space after each colon; quotes and brackets closed");
 }
 
 TEST(Text, OfASecondDocumentIsRefused) {
