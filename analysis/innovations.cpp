@@ -8,6 +8,7 @@
 #include <complex>
 #include <numbers>
 
+#include "analysis/departures.hpp"
 #include "analysis/spectrum.hpp"
 #include "common/problem.hpp"
 
@@ -144,7 +145,7 @@ void Windows(const InnovationRun& run, std::size_t channel, double expected_m2,
              ChannelReport& report) {
   const std::uint64_t rows = run.rows();
   const std::uint64_t length = (rows + kWindows - 1) / kWindows;
-  const std::uint64_t first = run.pieces.front().front().cycle;
+  const std::uint64_t first = run.first_cycle;
   double power = 0.0;
   double speed = 0.0;
   std::uint64_t count = 0;
@@ -168,35 +169,6 @@ void Windows(const InnovationRun& run, std::size_t channel, double expected_m2,
   if (count > 0) finish(run.pieces.back().back().cycle + 1);
 }
 
-/// A window stands out when it is worse than the channel as a whole, not when all are alike.
-void CollectWindows(std::size_t channel, const ChannelReport& report, double excess_ratio,
-                    std::vector<Departure>& departures) {
-  double total = 0.0;
-  for (const auto& window : report.windows) total += std::max(0.0, window.ratio * window.ratio - 1);
-  for (const auto& window : report.windows) {
-    if (window.ratio < kDepartureRatio * excess_ratio) continue;
-    departures.push_back({channel,
-                          fmt::format("{:.2f}-{:.2f} s ({:.0f} rpm)", window.start_s, window.end_s,
-                                      window.speed_rad_per_s * 30.0 / std::numbers::pi),
-                          window.ratio, (window.ratio * window.ratio - 1) / total});
-  }
-}
-
-void Collect(std::size_t channel, const ChannelReport& report, std::vector<Departure>& departures) {
-  for (const auto& order : report.orders) {
-    if (order.ratio < kDepartureRatio) continue;
-    departures.push_back(
-        {channel, fmt::format("{}x of rotation", order.order), order.ratio, order.share});
-  }
-  for (const auto& band : report.bands) {
-    if (band.ratio < kDepartureRatio) continue;
-    departures.push_back({channel, fmt::format("{:.0f}-{:.0f} Hz", band.low_hz, band.high_hz),
-                          band.ratio, band.share});
-  }
-  CollectWindows(channel, report, std::max(1.0, report.multiple / report.expected_multiple),
-                 departures);
-}
-
 }  // namespace
 
 InnovationReport Examine(const InnovationRun& run, const ObserverGain& gain, std::size_t axes) {
@@ -216,11 +188,9 @@ InnovationReport Examine(const InnovationRun& run, const ObserverGain& gain, std
     Spectrum(pieces, segment, sample_rate_hz, expected_m2, entry);
     Orders(run, channel, expected_m2, entry);
     Windows(run, channel, expected_m2, entry);
-    Collect(channel, entry, report.departures);
     report.channels.push_back(std::move(entry));
   }
-  std::stable_sort(report.departures.begin(), report.departures.end(),
-                   [](const Departure& a, const Departure& b) { return a.share > b.share; });
+  report.departures = Departures(report.channels);
   return report;
 }
 

@@ -27,6 +27,7 @@ struct RecordedRow {
   std::uint64_t cycle{};
   bool levitated{};  ///< only such rows are compared
   RecordedSample sample;
+  AxisArray excitation_a{};  ///< the part of the command that is a test signal
 };
 
 struct InnovationRow {
@@ -34,10 +35,12 @@ struct InnovationRow {
   double speed_rad_per_s{};
   double angle_rad{};
   AxisArray innovation_m{};
+  AxisArray excitation_a{};
 };
 
 struct InnovationRun {
   double period_s{};
+  std::uint64_t first_cycle{};                     ///< of the record: times are counted from here
   std::vector<std::vector<InnovationRow>> pieces;  ///< uninterrupted, transients left out
   std::uint64_t settling_rows{};                   ///< left out: the observer was settling
   std::uint64_t idle_rows{};                       ///< left out: not levitated
@@ -65,7 +68,7 @@ struct OrderReport {
 };
 
 struct WindowReport {
-  double start_s{}, end_s{};  ///< from the first compared row
+  double start_s{}, end_s{};  ///< from the start of the record
   double speed_rad_per_s{};   ///< mean
   double ratio{};
 };
@@ -83,7 +86,8 @@ struct ChannelReport {
   std::vector<double> density_m2_per_hz;
 };
 
-/// One place where more is left than noise explains, for ranking.
+/// One place where more is left than noise explains, for ranking. A band through which a departing
+/// order of rotation runs is not named a second time.
 struct Departure {
   std::size_t channel{};
   std::string place;  ///< "1x of rotation", "200-400 Hz", "0.80-1.00 s"

@@ -12,6 +12,12 @@
 namespace levitas::analysis {
 namespace {
 
+double ForcePerCurrent(const plant::PlantModel& model, Eigen::Index axis) {
+  const auto bearing = static_cast<std::size_t>(axis / 2);
+  return magnet::ForcePerCurrent(model.bearings()[bearing].magnet,
+                                 model.config().bearings[bearing].magnet.bias_current_a);
+}
+
 /// How one newton at each actuator plane enters the state: the way the coil current's force does.
 Eigen::MatrixXd ForceInput(const plant::PlantModel& model, const Eigen::MatrixXd& a) {
   const plant::StateLayout& layout = model.layout();
@@ -19,13 +25,10 @@ Eigen::MatrixXd ForceInput(const plant::PlantModel& model, const Eigen::MatrixXd
   const auto modes = static_cast<Eigen::Index>(layout.modes);
   Eigen::MatrixXd input = Eigen::MatrixXd::Zero(a.rows(), axes);
   for (Eigen::Index axis = 0; axis < axes; ++axis) {
-    const auto bearing = static_cast<std::size_t>(axis / 2);
-    const double ki = magnet::ForcePerCurrent(
-        model.bearings()[bearing].magnet, model.config().bearings[bearing].magnet.bias_current_a);
     const Eigen::Index coil = static_cast<Eigen::Index>(layout.coil_current) + axis;
     for (const std::size_t first : {layout.v_x, layout.v_y}) {
       const auto at = static_cast<Eigen::Index>(first);
-      input.block(at, axis, modes, 1) = a.block(at, coil, modes, 1) / ki;
+      input.block(at, axis, modes, 1) = a.block(at, coil, modes, 1) / ForcePerCurrent(model, axis);
     }
   }
   return input;
@@ -48,16 +51,24 @@ Eigen::VectorXd Scales(const plant::StateLayout& layout, Eigen::Index axes, doub
   return scale;
 }
 
-/// Time in which the slowest estimation error falls to 1 %, from the growth of the powers of the
-/// error's transition matrix (repeated squaring: no eigenvalues needed).
-double SettlingTime(Eigen::MatrixXd transition, double period_s) {
+/// Time after which the powers of the error's transition matrix stay below 1 %: bracketed by
+/// repeated squaring, then bisected with the squares at hand. Needs no eigenvalues.
+double SettlingTime(const Eigen::MatrixXd& transition, double period_s) {
   constexpr double kSettled = 0.01;
-  double samples = 1.0;
-  for (int squaring = 0; squaring < 30 && transition.norm() > kSettled; ++squaring) {
-    transition = (transition * transition).eval();
-    samples *= 2.0;
+  constexpr std::size_t kMostSquarings = 30;
+  std::vector<Eigen::MatrixXd> squares{transition};
+  while (squares.back().norm() > kSettled && squares.size() < kMostSquarings) {
+    squares.push_back(squares.back() * squares.back());
   }
-  return samples * period_s;
+  Eigen::MatrixXd power = Eigen::MatrixXd::Identity(transition.rows(), transition.cols());
+  double samples = 0.0;
+  for (std::size_t k = squares.size(); k-- > 0;) {
+    const Eigen::MatrixXd further = power * squares[k];
+    if (further.norm() <= kSettled) continue;
+    power = further;
+    samples += std::ldexp(1.0, static_cast<int>(k));
+  }
+  return (samples + 1.0) * period_s;
 }
 
 /// The linear model with the unknown forces as extra states, and its noises.
@@ -66,7 +77,8 @@ struct Augmented {
 };
 
 Augmented Augment(const plant::LinearModel& model, const Eigen::MatrixXd& force_step,
-                  const Eigen::VectorXd& reading_m, const ObserverTuning& tuning) {
+                  const Eigen::VectorXd& reading_m, const Eigen::VectorXd& full_force_n,
+                  const ObserverTuning& tuning) {
   const Eigen::Index states = model.a.rows();
   const Eigen::Index axes = force_step.cols();
   Augmented out;
@@ -76,9 +88,9 @@ Augmented Augment(const plant::LinearModel& model, const Eigen::MatrixXd& force_
   out.c = Eigen::MatrixXd::Zero(axes, states + axes);
   out.c.leftCols(states) = model.c;
   out.q = Eigen::MatrixXd::Zero(states + axes, states + axes);
-  out.q.topLeftCorner(states, states) =
-      tuning.force_noise_n * tuning.force_noise_n * force_step * force_step.transpose();
-  out.q.diagonal().tail(axes).setConstant(tuning.force_drift_n * tuning.force_drift_n);
+  const Eigen::MatrixXd noise = force_step * (tuning.force_noise_share * full_force_n).asDiagonal();
+  out.q.topLeftCorner(states, states) = noise * noise.transpose();
+  out.q.diagonal().tail(axes) = (tuning.force_drift_share * full_force_n).cwiseAbs2();
   out.r = reading_m.cwiseAbs2().asDiagonal();
   return out;
 }
@@ -102,11 +114,14 @@ ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTun
   ObserverGain gain;
   gain.force_step = sampled.b;
   Eigen::VectorXd reading_m(axes);
+  Eigen::VectorXd full_force_n(axes);  // ki i0
   for (Eigen::Index axis = 0; axis < axes; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     reading_m[axis] = gain.sensor_noise_m[i] = ReadingNoise(nominal.bearings[i / 2].sensor);
+    full_force_n[axis] =
+        ForcePerCurrent(reduced, axis) * nominal.bearings[i / 2].magnet.bias_current_a;
   }
-  const Augmented model = Augment(sampled, gain.force_step, reading_m, tuning);
+  const Augmented model = Augment(sampled, gain.force_step, reading_m, full_force_n, tuning);
   const Eigen::VectorXd scale = Scales(reduced.layout(), axes, reading_m.maxCoeff());
   const Eigen::VectorXd unscale = scale.cwiseInverse();
   const Eigen::VectorXd unread = reading_m.cwiseInverse();

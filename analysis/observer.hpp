@@ -27,9 +27,12 @@
 namespace levitas::analysis {
 
 struct ObserverTuning {
-  double speed_rad_per_s{};     ///< speed of the linear model
-  double force_noise_n{0.3};    ///< [N] rms per axis and sample, white
-  double force_drift_n{0.003};  ///< [N] rms step of d per axis and sample
+  double speed_rad_per_s{};  ///< speed of the linear model
+  /// Unknown force per axis and sample, white, rms, as a share of the magnet's ki i0. One percent
+  /// is what ki, ks and the unbalance of a rig are known to at best; larger follows the sensors
+  /// more closely and hides slow departures.
+  double force_noise_share{0.01};
+  double force_drift_share{1e-4};  ///< rms step of d per sample, same measure
 };
 
 struct ObserverGain {

@@ -12,6 +12,7 @@ InnovationRun RunObserver(const plant::PlantConfig& plant, std::shared_ptr<const
                           const std::vector<RecordedRow>& rows, double settling_s) {
   InnovationRun run;
   run.period_s = static_cast<double>(plant.period_ns) * 1e-9;
+  if (!rows.empty()) run.first_cycle = rows.front().cycle;
   const auto settling_rows = static_cast<std::uint64_t>(settling_s / run.period_s + 0.5);
   Observer observer(plant, std::move(gain));
   const auto axes = static_cast<std::size_t>(observer.unknown_force_n().size());
@@ -37,8 +38,8 @@ InnovationRun RunObserver(const plant::PlantConfig& plant, std::shared_ptr<const
       continue;
     }
     if (since_start == settling_rows + 1) run.pieces.emplace_back();
-    run.pieces.back().push_back(
-        {row.cycle, row.sample.speed_rad_per_s, row.sample.angle_rad, innovation_m});
+    run.pieces.back().push_back({row.cycle, row.sample.speed_rad_per_s, row.sample.angle_rad,
+                                 innovation_m, row.excitation_a});
     for (std::size_t i = 0; i < axes; ++i) {
       force_sum_n[i] += observer.unknown_force_n()[static_cast<Eigen::Index>(i)];
     }

@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   cli::AddImportCommand(app, action);
   cli::AddExportCommand(app, action);
   cli::AddDoctorCommand(app, action);
+  cli::AddSimulateCommand(app, action);
   try {
     app.parse(argc, argv);
     return static_cast<int>(action ? action() : ExitStatus::kUsage);

@@ -38,9 +38,9 @@ TEST(DesignObserver, SettlesWithinATenthOfASecondAndExpectsLittleMoreThanTheNois
 TEST(DesignObserver, TrustsTheSensorsMoreWhenMoreForceIsUnknown) {
   const auto plant = test::FlexibleRotor();
   ObserverTuning little;
-  little.force_noise_n = 0.05;
+  little.force_noise_share = 0.001;
   ObserverTuning much;
-  much.force_noise_n = 5.0;
+  much.force_noise_share = 0.1;
   EXPECT_GT(DesignObserver(plant, much).state.norm(), DesignObserver(plant, little).state.norm());
 }
 

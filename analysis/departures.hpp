@@ -1,0 +1,13 @@
+#pragma once
+// Ranks the places where a model departs from a record.
+
+#include <vector>
+
+#include "analysis/innovations.hpp"
+
+namespace levitas::analysis {
+
+/// Orders, bands and windows of all channels beyond kDepartureRatio, largest share first.
+[[nodiscard]] std::vector<Departure> Departures(const std::vector<ChannelReport>& channels);
+
+}  // namespace levitas::analysis

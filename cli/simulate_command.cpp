@@ -1,0 +1,191 @@
+// amb simulate: drives the model with a session's currents, one step ahead, and shows where it
+// departs from the recorded positions.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "analysis/innovations.hpp"
+#include "analysis/recorded_rows.hpp"
+#include "cli/analysis_options.hpp"
+#include "cli/command.hpp"
+#include "cli/innovation_files.hpp"
+#include "cli/json_file.hpp"
+
+namespace levitas::cli {
+namespace {
+
+constexpr const char* kHelp =
+    "Drives the rig's nonlinear model with the recorded currents, corrected at every sample by a "
+    "fixed Kalman gain, and reports the innovations (measured minus predicted one sample ahead) "
+    "in time, spectrum and orders of rotation, as multiples of the sensors' noise.\n"
+    "A free simulation is not offered: without its controller the rotor is unstable, so that any "
+    "difference, however small, grows e-fold within milliseconds and says nothing about the model.";
+
+struct SimulateOptions : AnalysisOptions {
+  std::string session_path;
+  std::string svg_path;
+  std::string csv_path;
+  std::size_t departures{8};
+  double force_noise_percent{100.0 * analysis::ObserverTuning{}.force_noise_share};
+};
+
+struct Simulation {
+  config::RigFile rig;
+  analysis::ObserverGain gain;
+  analysis::InnovationRun run;
+  analysis::InnovationReport report;
+  std::string damage;
+  double mean_speed_rad_per_s{};
+};
+
+void PrintChannels(const Simulation& s) {
+  fmt::print("{:<8}{:>10}{:>9}{:>10}{:>9}{:>8}{:>20}\n", "channel", "rms um", "x noise", "expected",
+             "peak x", "lag 1", "strongest line Hz");
+  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
+    const auto& c = s.report.channels[i];
+    fmt::print("{:<8}{:>10.3f}{:>9.2f}{:>10.2f}{:>9.1f}{:>8.3f}{:>12.1f} ({:.0f} x)\n",
+               s.rig.numbers.channels[i], c.rms_m * 1e6, c.multiple, c.expected_multiple,
+               c.peak_m / s.gain.sensor_noise_m[i], c.lag_one, c.dominant_hz, c.dominant_ratio);
+  }
+}
+
+void PrintBands(const Simulation& s) {
+  fmt::print("\nBands: rms / expected (share of the unexplained power)\n{:<8}", "Hz");
+  for (const auto& band : s.report.channels.front().bands) {
+    fmt::print("{:>13}", fmt::format("{:.0f}-{:.0f}", band.low_hz, band.high_hz));
+  }
+  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
+    fmt::print("\n{:<8}", s.rig.numbers.channels[i]);
+    for (const auto& band : s.report.channels[i].bands) {
+      fmt::print("{:>13}", fmt::format("{:.2f} ({:.0f} %)", band.ratio, 100.0 * band.share));
+    }
+  }
+  fmt::print("\n");
+}
+
+void PrintOrders(const Simulation& s) {
+  if (s.report.channels.front().orders.empty()) {
+    fmt::print("\nOrders of rotation: none, the rotor stands (or the record has no rotation)\n");
+    return;
+  }
+  fmt::print("\nOrders of rotation: amplitude um, x what noise leaves (share)\n");
+  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
+    fmt::print("{:<8}", s.rig.numbers.channels[i]);
+    for (const auto& order : s.report.channels[i].orders) {
+      fmt::print("   {}x: {:.3f} um, {:.1f} x ({:.0f} %)", order.order, order.amplitude_m * 1e6,
+                 order.ratio, 100.0 * order.share);
+    }
+    fmt::print("\n");
+  }
+}
+
+void PrintWindows(const Simulation& s) {
+  fmt::print("\nTime: rms / expected\n{:<8}", "from s");
+  for (const auto& window : s.report.channels.front().windows) {
+    fmt::print("{:>8.2f}", window.start_s);
+  }
+  fmt::print("\n{:<8}", "rpm");
+  for (const auto& window : s.report.channels.front().windows) {
+    fmt::print("{:>8.0f}", Rpm(window.speed_rad_per_s));
+  }
+  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
+    fmt::print("\n{:<8}", s.rig.numbers.channels[i]);
+    for (const auto& window : s.report.channels[i].windows) fmt::print("{:>8.2f}", window.ratio);
+  }
+  fmt::print("\n");
+}
+
+void PrintDepartures(const Simulation& s, std::size_t count) {
+  if (s.report.departures.empty()) {
+    fmt::print("\nThe model departs nowhere by more than {} times what noise explains.\n",
+               analysis::kDepartureRatio);
+    return;
+  }
+  fmt::print("\nWhere the model departs most (share of the channel's unexplained power):\n");
+  for (std::size_t i = 0; i < std::min(count, s.report.departures.size()); ++i) {
+    const auto& d = s.report.departures[i];
+    fmt::print("  {:<8} {:<26} {:>5.0f} %   {:.1f} x expected\n", s.rig.numbers.channels[d.channel],
+               d.place, 100.0 * d.share, d.ratio);
+  }
+}
+
+void Print(const Simulation& s, const SimulateOptions& options) {
+  fmt::print("{} against rig {}: {:.3f} s compared", options.session_path, s.rig.numbers.name,
+             s.report.duration_s);
+  fmt::print(
+      " in {} piece(s), mean speed {:.0f} rpm; left out: {} samples while the observer "
+      "settles, {} not levitated; {} gap(s)\n",
+      s.run.pieces.size(), Rpm(s.mean_speed_rad_per_s), s.run.settling_rows, s.run.idle_rows,
+      s.run.gaps);
+  if (!s.damage.empty()) fmt::print("{}\n", s.damage);
+  fmt::print(
+      "\nInnovations (x noise: multiples of one reading's noise; expected: with a right "
+      "model)\n");
+  PrintChannels(s);
+  PrintBands(s);
+  PrintOrders(s);
+  PrintWindows(s);
+  fmt::print("\nConstant force the rig file does not have, N:");
+  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
+    fmt::print("  {} {:+.3f}", s.rig.numbers.channels[i], s.run.unknown_force_n[i]);
+  }
+  fmt::print("\n");
+  PrintDepartures(s, options.departures);
+}
+
+Simulation Simulate(const SimulateOptions& options) {
+  Simulation s;
+  s.rig = LoadRig(options);
+  session::SessionReader session(options.session_path);
+  const auto rows = analysis::ReadRows(session, s.rig.numbers);
+  s.damage = session.damage().Text();
+  s.mean_speed_rad_per_s = analysis::MeanSpeed(rows);
+  analysis::ObserverTuning tuning;
+  tuning.force_noise_share = 0.01 * options.force_noise_percent;
+  tuning.speed_rad_per_s = s.mean_speed_rad_per_s;
+  s.gain = analysis::DesignObserver(s.rig.plant, tuning);
+  s.run = analysis::RunObserver(s.rig.plant, std::make_shared<const analysis::ObserverGain>(s.gain),
+                                rows, s.gain.settling_s);
+  s.report = analysis::Examine(s.run, s.gain, s.rig.numbers.axes());
+  return s;
+}
+
+ExitStatus Run(const SimulateOptions& options) {
+  const Simulation s = Simulate(options);
+  Print(s, options);
+  const InnovationContext context{s.rig.numbers, s.gain, s.run, s.report};
+  WriteJsonFile(options.json_path, InnovationJson(context));
+  WriteSpectrumCsv(options.csv_path, context);
+  WriteSpectrumSvg(options.svg_path, context);
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddSimulateCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command =
+      app.add_subcommand("simulate", "Where the model departs from a recorded session");
+  command->footer(kHelp);
+  command->add_option("session", options->session_path, "Session file (see amb import)")
+      ->required();
+  AddRigOption(*command, *options);
+  command
+      ->add_option("--force-noise-percent", options->force_noise_percent,
+                   "Observer: unknown force per axis and sample, rms, in percent of ki i0; larger "
+                   "follows the sensors more closely and hides slow departures")
+      ->check(CLI::Range(1e-3, 100.0))
+      ->capture_default_str();
+  command->add_option("--departures", options->departures, "How many places to list")
+      ->capture_default_str();
+  command->add_option("--csv", options->csv_path, "Write the spectra to this file");
+  command->add_option("--svg", options->svg_path, "Draw the spectra into this file");
+  AddJsonOption(*command, *options);
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+}
+
+}  // namespace levitas::cli
