@@ -51,7 +51,8 @@ std::string Mutated(std::string text, Random& random) {
 }
 
 template <class Parse>
-void Try(const std::string& whole, std::uint64_t seed, int rounds, Parse parse_and_write) {
+void ExpectParsedOrRefused(const std::string& whole, std::uint64_t seed, int rounds,
+                           Parse parse_and_write) {
   Random random(seed);
   int parsed = 0;
   for (int i = 0; i < rounds; ++i) {
@@ -72,21 +73,22 @@ void Try(const std::string& whole, std::uint64_t seed, int rounds, Parse parse_a
 
 TEST(Mutations, OfRigsParseOrAreRefused) {
   const auto rig = [](const std::string& text) { return WriteRig(ParseRig(text, "f")); };
-  Try(Text(FindConfig("flexible_rotor", "rigs")), 20261121, 500, rig);
-  Try(Text(FindConfig("ufu_rig", "rigs")), 20261122, 500, rig);
+  ExpectParsedOrRefused(Text(FindConfig("flexible_rotor", "rigs")), 20261121, 500, rig);
+  ExpectParsedOrRefused(Text(FindConfig("ufu_rig", "rigs")), 20261122, 500, rig);
 }
 
 TEST(Mutations, OfAControllerParseOrAreRefused) {
   const RigNumbers rig = LoadRig(FindConfig("flexible_rotor", "rigs")).numbers;
-  Try(Text(FindConfig("flexible_rotor", "controllers")), 20261123, 500,
-      [&](const std::string& text) {
-        return WriteController(ParseController(text, "f", rig), rig);
-      });
+  ExpectParsedOrRefused(Text(FindConfig("flexible_rotor", "controllers")), 20261123, 500,
+                        [&](const std::string& text) {
+                          return WriteController(ParseController(text, "f", rig), rig);
+                        });
 }
 
 TEST(Mutations, OfAScenarioParseOrAreRefused) {
   const RigNumbers rig = LoadRig(FindConfig("flexible_rotor", "rigs")).numbers;
-  Try(Text(FindConfig("default", "scenarios")), 20261124, 500,
+  ExpectParsedOrRefused(
+      Text(FindConfig("default", "scenarios")), 20261124, 500,
       [&](const std::string& text) { return WriteScenario(ParseScenario(text, "f", rig)); });
 }
 
@@ -95,7 +97,8 @@ TEST(Mutations, OfEveryLengthOfTruncationAreRefusedOrParse) {
   for (std::size_t length = 0; length < whole.size(); length += 7) {
     try {
       (void)ParseRig(whole.substr(0, length), "f");
-    } catch (const BadInput&) {
+    } catch (const BadInput& problem) {
+      EXPECT_NE(std::string(problem.what()).find("f:"), std::string::npos) << problem.what();
     }
   }
 }
