@@ -24,11 +24,16 @@ inline const config::RigFile& ShippedRig() {
   return rig;
 }
 
-inline cycle::CycleConfig ShippedCycle() {
+/// A shipped controller: the published law by default.
+inline cycle::CycleConfig ShippedCycle(const std::string& name = "flexible_rotor") {
   const config::RigFile& rig = ShippedRig();
   const config::ControllerFile controller = config::LoadController(
-      std::string(LEVITAS_SOURCE) + "/config/controllers/flexible_rotor.yaml", rig.numbers);
+      std::string(LEVITAS_SOURCE) + "/config/controllers/" + name + ".yaml", rig.numbers);
   return {rig.numbers, controller.law, controller.supervisor};
+}
+/// The law commissioned against the rig's objectives.
+inline cycle::CycleConfig CommissionedCycle() {
+  return ShippedCycle("flexible_rotor_commissioned");
 }
 
 /// The shipped rig on touchdown bearings whose race turns with the shaft. The model's race stands,

@@ -36,6 +36,17 @@ TEST(LevitationPair, RotorSettlesWithTheLaw) {
 }
 
 TEST(Levitation, StandsQuieterThanTheObjective) {
+  ClosedLoop loop(CommissionedCycle());
+  ASSERT_TRUE(loop.Levitate());
+  loop.Run(0.5);
+  loop.Reset();
+  loop.Run(2.0);
+  EXPECT_LT(loop.most.orbit_m, 7e-6);  // the rig's objective, for every one of 20 000 samples
+}
+
+// The published gains let 1 um of noise reach the current limit; every such cycle lacks damping, so
+// their largest orbit is a matter of luck. What does not depend on it is the rms radius.
+TEST(Levitation, PublishedLawMeetsTheStandingObjectiveInTheMean) {
   ClosedLoop loop;
   ASSERT_TRUE(loop.Levitate());
   loop.Run(0.5);
@@ -48,8 +59,6 @@ TEST(Levitation, StandsQuieterThanTheObjective) {
       square[b] += (y[2 * b] * y[2 * b] + y[2 * b + 1] * y[2 * b + 1]) / kCycles;
     }
   }
-  // 7 um is what the makers of the rig ask for; the rms radius is compared with it. (The largest
-  // of 20 000 samples of a noise-driven orbit lies four to five times its rms higher.)
   for (const double mean_square : square) EXPECT_LT(std::sqrt(mean_square), 7e-6);
 }
 
@@ -124,7 +133,7 @@ TEST(Levitation, LiftsFromTheTouchdownBearingAndLands) {
 
 TEST(Levitation, RunsUpTo6000RpmBelowTheObjectiveWithNoise) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    ClosedLoop loop(ShippedCycle(), ShippedRig().plant, seed);
+    ClosedLoop loop(CommissionedCycle(), ShippedRig().plant, seed);
     ASSERT_TRUE(loop.Levitate());
     loop.Run(0.5);
     loop.Reset();

@@ -8,7 +8,6 @@
 #include <set>
 #include <vector>
 
-#include "controller/law/axis_law.hpp"
 #include "controller/supervisor/supervisor.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/unit/cycle/cycle_rig.hpp"
@@ -172,32 +171,6 @@ TEST(ControlCycle, GivesTheSameBitsForTheSameInputs) {
     ASSERT_EQ(a.reference_m, b.reference_m);
     ASSERT_EQ(a.command_refused, b.command_refused);
   }
-}
-
-// The harm: one NaN let through to the law stays in its filters for ever.
-TEST(NotFinitePair, OneNanPoisonsAnUnguardedLaw) {
-  const law::LawCoefficients coefficients(law::FlexibleRotorLaw());
-  law::LawState state(coefficients);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  (void)law::Step(coefficients, state, {nan}, {}, 1.0);
-  for (int n = 0; n < 1000; ++n) (void)law::Step(coefficients, state, {}, {}, 1.0);
-  EXPECT_TRUE(std::isnan(state.integral_a.at[0]));
-}
-
-TEST(NotFinitePair, TheCycleReleasesInTheSameCycleAndLevitatesAgainAfterReset) {
-  ControlCycle control(FlexibleRotorCycle());
-  StillRig rig;
-  ASSERT_EQ(Levitate(control, rig).mode, Mode::kLevitating);
-  CycleInputs bad = rig.Next();
-  bad.frame.position_m[2] = std::numeric_limits<double>::quiet_NaN();
-  const CycleOutputs out = control.Step(bad);
-  EXPECT_EQ(out.fault, Fault::kSensorNotFinite);
-  EXPECT_EQ(out.fault_axis, 2);
-  EXPECT_EQ(out.current.control_current_a, AxisArray{});
-  EXPECT_EQ(out.current.bias_current_a, 0.0);
-  EXPECT_FALSE(out.current.amplifiers_enabled);
-  EXPECT_FALSE(control.Step(rig.Next(OperatorCommand::kReset)).command_refused);
-  EXPECT_EQ(Levitate(control, rig).mode, Mode::kLevitating);
 }
 
 TEST(ControlCycle, StartsEveryLiftWithAnEmptyMemory) {
