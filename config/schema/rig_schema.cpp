@@ -119,15 +119,12 @@ void Describe(Visitor& v, RigFile& rig, plant::BearingConfig& bearing, std::size
   v.RefuseIf(std::any_of(before, before + static_cast<std::ptrdiff_t>(index),
                          [&](const auto& other) { return other.name == bearing.name; }),
              "name", fmt::format("found \"{}\", which an earlier bearing has", bearing.name));
-  double shaft_m = 0.0;
-  for (const auto& section : rig.plant.rotor.sections) shaft_m += section.length_m;
-  const std::string beyond = fmt::format("beyond the end of the shaft ({:.6g} mm)", shaft_m * 1e3);
   v.Number({"actuator_z", kMillimetre, 0, 100000, kRequired, "plane of the magnet and its contact"},
            bearing.actuator_z_m);
-  v.RefuseIf(bearing.actuator_z_m > shaft_m + 1e-9, "actuator_z_mm", beyond);
+  RefuseBeyondShaft(v, rig.plant.rotor, bearing.actuator_z_m, "actuator_z_mm");
   v.Number({"sensor_z", kMillimetre, 0, 100000, kRequired, "plane of the position sensors"},
            bearing.sensor_z_m);
-  v.RefuseIf(bearing.sensor_z_m > shaft_m + 1e-9, "sensor_z_mm", beyond);
+  RefuseBeyondShaft(v, rig.plant.rotor, bearing.sensor_z_m, "sensor_z_mm");
   bearing.magnet.bias_current_a = rig.numbers.bias_current_a;
   bearing.magnet.max_coil_current_a = rig.numbers.max_coil_current_a;
   v.Group("magnet", "two opposed coils an axis", [&] { Describe(v, bearing.magnet); });

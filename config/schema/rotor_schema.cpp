@@ -74,33 +74,7 @@ void Describe(Visitor& v, plant::UnbalanceMass& mass) {
            mass.phase_rad);
 }
 
-}  // namespace
-
-void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::UnbalanceMass>& unbalance) {
-  v.Group("material", "of the shaft", [&] { Describe(v, rotor.material); });
-  v.List({"sections", 1, 500, "pieces of shaft, one after the other from the drive end (z = 0)"},
-         rotor.sections, [&](rotor::Section& section, std::size_t) { Describe(v, section); });
-  double shaft_m = 0.0;
-  for (const rotor::Section& section : rotor.sections) shaft_m += section.length_m;
-  // A sum of lengths may fall short of a typed place by rounding; a nanometre is nothing here.
-  const double end_m = shaft_m + 1e-9;
-  const std::string beyond =
-      fmt::format("beyond the end of the shaft ({} mm)", fmt::format("{:.6g}", shaft_m * 1e3));
-  v.List({"discs", 0, 200, "rigid discs given by mass and inertia"}, rotor.discs,
-         [&](rotor::Disc& disc, std::size_t) {
-           Describe(v, disc);
-           v.RefuseIf(disc.z_m > end_m, "z_mm", beyond);
-         });
-  v.List({"rings", 0, 200, "solid rings on the shaft, mass and inertia from their geometry"},
-         rotor.rings, [&](rotor::Ring& ring, std::size_t) {
-           Describe(v, ring);
-           v.RefuseIf(ring.z_m > end_m, "z_mm", beyond);
-         });
-  v.List({"unbalance", 0, 100, "unbalance masses"}, unbalance,
-         [&](plant::UnbalanceMass& mass, std::size_t) {
-           Describe(v, mass);
-           v.RefuseIf(mass.z_m > end_m, "z_mm", beyond);
-         });
+void DescribeReduction(Visitor& v, rotor::RotorConfig& rotor) {
   v.Number({"max_element_length", kMillimetre, 0.1, 1000, 10.0,
             "finite elements of the shaft are not longer than this"},
            rotor.max_element_length_m);
@@ -121,6 +95,32 @@ void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::Unbalanc
   v.Number({"modal_damping_ratio", kOne, 0, 0.5, 0.003,
             "damping ratio of every flexible mode; rigid modes are undamped"},
            rotor.modal_damping_ratio);
+}
+
+}  // namespace
+
+void RefuseBeyondShaft(Visitor& v, const rotor::RotorConfig& rotor, double z_m,
+                       std::string_view key) {
+  double shaft_m = 0.0;
+  for (const rotor::Section& section : rotor.sections) shaft_m += section.length_m;
+  // A sum of lengths may fall short of a typed place by rounding; a nanometre is nothing here.
+  v.RefuseIf(shaft_m > 0.0 && z_m > shaft_m + 1e-9, key,
+             fmt::format("beyond the end of the shaft ({:.6g} mm)", shaft_m * 1e3));
+}
+
+void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::UnbalanceMass>& unbalance) {
+  v.Group("material", "of the shaft", [&] { Describe(v, rotor.material); });
+  v.List({"sections", 1, 500, "pieces of shaft, one after the other from the drive end (z = 0)"},
+         rotor.sections, [&](rotor::Section& section, std::size_t) { Describe(v, section); });
+  const auto on_shaft = [&](auto& part, std::size_t) {
+    Describe(v, part);
+    RefuseBeyondShaft(v, rotor, part.z_m, "z_mm");
+  };
+  v.List({"discs", 0, 200, "rigid discs given by mass and inertia"}, rotor.discs, on_shaft);
+  v.List({"rings", 0, 200, "solid rings on the shaft, mass and inertia from their geometry"},
+         rotor.rings, on_shaft);
+  v.List({"unbalance", 0, 100, "unbalance masses"}, unbalance, on_shaft);
+  DescribeReduction(v, rotor);
 }
 
 }  // namespace levitas::config

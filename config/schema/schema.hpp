@@ -16,5 +16,8 @@ void Describe(Visitor& v, scenario::ScenarioConfig& scenario, const RigNumbers& 
 // Parts, for the files that hold them.
 void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::UnbalanceMass>& unbalance);
 void Describe(Visitor& v, supervisor::SupervisorConfig& supervisor);
+/// Refuses a plane beyond the end of the shaft; silent while the shaft itself is not known.
+void RefuseBeyondShaft(Visitor& v, const rotor::RotorConfig& rotor, double z_m,
+                       std::string_view key);
 
 }  // namespace levitas::config

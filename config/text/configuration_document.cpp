@@ -48,6 +48,38 @@ std::string UnitTable() {
   return text;
 }
 
+constexpr std::string_view kRigExample =
+    R"(What differs from a shipped rig is often a few keys. A magnet, given by its coil and in other units
+than the documented ones, and a probe that reads the other way round:
+
+```yaml
+    magnet:
+      gap_um: 381
+      turns: 138
+      pole_area_mm2: 470.3
+      half_pole_angle_deg: 22.5
+    sensor:
+      bandwidth_khz: 5
+      noise_rms_um: 1
+      range_um: 400
+      polarity_y: -1
+```
+
+)";
+
+constexpr std::string_view kScenarioExample =
+    R"(A step that excites two axes for 10 s, uncorrelated, for an identification:
+
+```yaml
+  - do: nothing
+    hold_s: 10
+    excitation:
+      - {channel: de_x, amplitude_a: 0.05, order: 15, divisor: 5, start: 0}
+      - {channel: de_y, amplitude_a: 0.05, order: 15, divisor: 5, start: 0.25}
+```
+
+)";
+
 /// Stands for any rig: the names in the tables of controller and scenario are the rig's.
 RigNumbers AnyRig() {
   RigNumbers rig;
@@ -68,6 +100,7 @@ std::string ConfigurationDocument() {
         "## Rig\n\nz runs along the shaft from the drive end; x and y are the control axes of "
         "each bearing; rotation\nis positive from x to y.\n\n" +
         documenter.Markdown();
+    text += kRigExample;
   }
   {
     Documenter documenter;
@@ -88,6 +121,7 @@ std::string ConfigurationDocument() {
         "holds. A refused command,\na wait beyond its time-out or a trip ends the scenario as "
         "failed.\n\n" +
         documenter.Markdown();
+    text += kScenarioExample;
   }
   return text + UnitTable();
 }

@@ -21,6 +21,11 @@ TEST(Planes, MustLieOnTheShaft) {
   EXPECT_EQ(RigProblems(With(kRig, "sensor_z_mm: 110", "sensor_z_mm: 200")), "");
 }
 
+TEST(Planes, AreNotJudgedByAShaftThatIsItselfRefused) {
+  EXPECT_EQ(RigProblems(With(kRig, "length_mm: 200", "length_mm: 0")),
+            "rig.yaml:14:18: rotor.sections[0].length_mm: found 0 mm, allowed 0.01 to 20000 mm");
+}
+
 TEST(Discs, MustLieOnTheShaftAndBePossibleBodies) {
   const auto with_disc = [](const std::string& disc) {
     return RigProblems(With(kRig, "bearings:", "  discs:\n    - {" + disc + "}\nbearings:"));
