@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -102,6 +103,9 @@ void SayWhereTheRecordIs(const RunPaths& paths, const std::string& trip_file) {
 }
 
 ExitStatus Execute(const RunOptions& options) {
+  if (!std::isfinite(options.duration_s)) {  // which the option's own check lets pass
+    throw Problem(ExitStatus::kUsage, "--duration: not a number of seconds; allowed: above 0");
+  }
   std::optional<transport::LcmNetwork> network = CheckPort(options.port);
   const RunFiles files = CheckFiles(options);
   const PortLease lease = Lease(network);

@@ -1,9 +1,9 @@
 #include "cli/run/run_folder.hpp"
 
 #include <fmt/core.h>
-#include <stdlib.h>  // mkdtemp
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -13,13 +13,14 @@
 namespace levitas::cli {
 
 RunFolder::RunFolder() {
-  std::error_code none;
-  std::string pattern = (std::filesystem::temp_directory_path(none) / "amb-run-XXXXXX").string();
+  const char* const told = std::getenv("TMPDIR");
+  const std::filesystem::path parent = told != nullptr && *told != '\0' ? told : "/tmp";
+  std::string pattern = (parent / "amb-run-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) {
     throw Problem(ExitStatus::kOther,
-                  fmt::format("no temporary folder {}: {}; set TMPDIR to a folder that can be "
+                  fmt::format("no temporary folder in {}: {}; set TMPDIR to a folder that can be "
                               "written",
-                              pattern, std::strerror(errno)));
+                              parent.string(), std::strerror(errno)));
   }
   path_ = pattern;
 }

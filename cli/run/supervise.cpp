@@ -42,18 +42,19 @@ class Run {
 
   RunResult UntilTheEnd() {
     while (!controller_.Poll() && result_.trouble.empty()) {
-      FollowTelemetry();
+      FollowTelemetry(kPoll);
       HeedInterrupts();
       WatchPlant();
       WatchProgress();
     }
+    FollowTelemetry(milliseconds(0));  // the last mode
     Finish();
     return result_;
   }
 
  private:
-  void FollowTelemetry() {
-    const auto sample = hooks_.telemetry(kPoll);
+  void FollowTelemetry(milliseconds limit) {
+    const auto sample = hooks_.telemetry(limit);
     if (!sample) return;
     if (sample->cycle != last_cycle_) last_progress_ = Clock::now();
     last_cycle_ = sample->cycle;
@@ -74,11 +75,11 @@ class Run {
     }
   }
 
-  /// A rig that ended orderly follows a controller that is about to end; both get the same grace.
+  /// A rig that ended orderly does so at the goodbye of a controller that is about to end, too.
   void WatchPlant() {
     const auto ended = plant_.Poll();
     if (!ended) return;
-    if (controller_.WaitFor(plan_.grace)) return;
+    if (controller_.WaitFor(plan_.notice)) return;
     result_.trouble =
         fmt::format("{} {} while {} went on", plant_.name(), ended->Text(), controller_.name());
   }
@@ -96,7 +97,7 @@ class Run {
   void Finish() {
     const bool by_itself = controller_.Poll().has_value();
     result_.controller = by_itself ? *controller_.Poll() : controller_.End(plan_.grace);
-    result_.plant = plant_.WaitFor(plan_.grace);
+    result_.plant = plant_.WaitFor(plan_.notice);
     if (!result_.plant) plant_.End(plan_.grace);
     if (!result_.trouble.empty()) {
       result_.trouble += Said(plant_) + Said(controller_);

@@ -5,7 +5,9 @@
 // End        the controller ends by itself when its scenario is done or has tripped; the rig then
 //            follows it, or is asked to.
 // Ctrl-C     the first is passed to the controller, which lands the rotor; the second kills both.
-// Death      of the rig: the controller gets `grace` to notice, freeze and close its record.
+// Death      of one: the other gets `notice` to see it (the controller trips, freezes what came
+// before
+//            and closes its record), then it is asked to end, and after `grace` made to.
 // Hang       no new cycle in telemetry for `silence_limit`: both are ended.
 // Failure    Problem (exit status 1) only when a program cannot be started; all else is a result.
 // Thread     the main thread (see ChildProcess).
@@ -30,6 +32,7 @@ struct ProgramCall {
 struct RunPlan {
   ProgramCall plant;
   ProgramCall controller;
+  std::chrono::milliseconds notice{1'000};
   std::chrono::milliseconds grace{5'000};
   std::chrono::milliseconds silence_limit{15'000};
 };

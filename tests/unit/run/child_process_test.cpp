@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "common/problem.hpp"
-#include "tests/unit/run/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "common/problem.hpp"
-#include "tests/unit/run/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -23,6 +23,7 @@ class SuperviseTest : public testing::Test {
     RunPlan plan;
     plan.controller = {"/bin/sh", {"-c", controller}, scratch_ / "controller.log"};
     plan.plant = {"/bin/sh", {"-c", plant}, scratch_ / "plant.log"};
+    plan.notice = milliseconds(300);
     plan.grace = milliseconds(300);
     plan.silence_limit = silence_limit_;
     RunHooks hooks;
