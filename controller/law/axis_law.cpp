@@ -48,7 +48,7 @@ template <std::size_t kWidth>
 void PidAndLimit(const PidLanes& __restrict c, LawState& __restrict state,
                  const Lanes& __restrict error_m, const AxisArray& __restrict excitation_a,
                  double limit_a, LawOutput& __restrict out) noexcept {
-  std::array<double, kWidth> excess_a;
+  std::array<double, kWidth> excess_a{};
   for (std::size_t i = 0; i < kWidth; ++i) {
     const double e = error_m.at[i];
     const double integral = state.integral_a.at[i];

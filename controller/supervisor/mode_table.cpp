@@ -3,10 +3,10 @@
 namespace levitas::supervisor {
 namespace {
 
-template <class Enum, std::size_t N>
-std::string_view Lookup(const std::array<std::string_view, N>& names, Enum value) noexcept {
+template <class Enum, std::size_t kCount>
+std::string_view Lookup(const std::array<std::string_view, kCount>& names, Enum value) noexcept {
   const auto index = static_cast<std::size_t>(value);
-  return index < N ? names[index] : "invalid";
+  return index < kCount ? names[index] : "invalid";
 }
 
 constexpr std::array<std::string_view, kStateCount> kStateNames{"off",
