@@ -42,14 +42,12 @@ void SetWait(scenario::Step& step, std::size_t index) {
 
 void Describe(Visitor& v, scenario::Excitation& excitation, const RigNumbers& rig) {
   std::vector<std::string_view> names(rig.channels.begin(), rig.channels.end());
-  if (std::ranges::find(names, excitation.channel) == names.end()) {
-    if (!excitation.channel.empty() && names.empty()) names.push_back(excitation.channel);
-  }
+  if (names.empty()) names.push_back(excitation.channel);  // written without its rig
   const auto at = std::ranges::find(names, excitation.channel);
   auto index = at == names.end() ? 0 : static_cast<std::size_t>(at - names.begin());
   v.Choice({"channel", names, kRequired, "axis of the rig"}, index);
   if (rig.channels.empty()) {
-    if (!names.empty()) excitation.channel = names[index];
+    excitation.channel = names[index];
   } else {
     excitation.channel = rig.channels[index];
     excitation.axis = index;

@@ -83,6 +83,14 @@ TEST(RoundTrip, WritesADifferentLawUnderItsAxis) {
   EXPECT_EQ(back.law.axes[3].notches.size(), 2U);
 }
 
+TEST(RoundTrip, OfAnExcitationWithoutAChannelIsRefusedWhenRead) {
+  scenario::ScenarioConfig scenario = FullScenario(FullRig().numbers);
+  scenario.steps[1].excitation[0].channel.clear();
+  const std::string text = WriteScenario(scenario);
+  EXPECT_THROW((void)ParseScenario(text, "", FullRig().numbers), BadInput);
+  EXPECT_THROW((void)ParseScenario(text, "", RigNumbers{}), BadInput);
+}
+
 TEST(RoundTrip, WritesEveryDefault) {
   const std::string text = WriteRig(ParseRig(kRig, ""));
   for (const char* line : {"delay_samples: 1\n", "substeps: 4\n", "inner_diameter_mm: 0\n",
