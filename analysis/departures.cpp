@@ -52,6 +52,12 @@ void Collect(std::size_t channel, const ChannelReport& report, std::vector<Depar
     departures.push_back({channel, fmt::format("{:.0f}-{:.0f} Hz", band.low_hz, band.high_hz),
                           band.ratio, std::min(1.0, band.share)});
   }
+  for (const auto& band : report.excitation) {
+    if (band.sigmas < kDepartureSigmas || band.ratio < kDepartureRatio) continue;
+    departures.push_back(
+        {channel, fmt::format("follows excitation, {:.0f}-{:.0f} Hz", band.low_hz, band.high_hz),
+         band.ratio, band.share});
+  }
   CollectWindows(channel, report, departures);
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "analysis/departures.hpp"
+#include "analysis/excitation_coherence.hpp"
 #include "analysis/spectrum.hpp"
 #include "common/problem.hpp"
 
@@ -186,6 +187,7 @@ InnovationReport Examine(const InnovationRun& run, const ObserverGain& gain, std
     entry.multiple = entry.rms_m / gain.sensor_noise_m[channel];
     entry.expected_multiple = expected_m / gain.sensor_noise_m[channel];
     Spectrum(pieces, segment, sample_rate_hz, expected_m2, entry);
+    entry.excitation = FollowExcitation(run, channel, axes, kBandEdgesHz);
     Orders(run, channel, expected_m2, entry);
     Windows(run, channel, expected_m2, entry);
     report.channels.push_back(std::move(entry));

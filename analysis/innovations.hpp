@@ -8,6 +8,9 @@
 // Order      k x rotation: e^{-j k angle} averaged over windows of the record (Hann), so that a
 //            line is followed through a run-up; amplitude / what white noise leaves in such a
 //            window.
+// Excitation coherence with the recorded test signals / what chance gives. A right model has used
+//            all that the excitation does, so whatever follows it is the model's own error, far
+//            below the noise too.
 // Window     rms over a piece of time / expected rms.
 // Share      part of the channel's unexplained power (measured minus expected) found there.
 // Gaps       the observer restarts after each; its transient is left out. Samples while the rotor
@@ -60,6 +63,13 @@ struct BandReport {
   double share{};
 };
 
+struct ExcitationReport {
+  double low_hz{}, high_hz{};
+  double ratio{};   ///< mean squared coherence over all test signals / chance
+  double sigmas{};  ///< how far beyond chance, in standard deviations of chance
+  double share{};   ///< of the channel's whole power, that follows the excitation
+};
+
 struct OrderReport {
   int order{};
   double amplitude_m{};  ///< rms over the windows of the line's amplitude
@@ -81,7 +91,8 @@ struct ChannelReport {
   double dominant_hz{};        ///< strongest line of the spectrum
   double dominant_ratio{};     ///< its density / expected density
   std::vector<BandReport> bands;
-  std::vector<OrderReport> orders;  ///< empty without rotation
+  std::vector<ExcitationReport> excitation;  ///< empty when nothing was excited
+  std::vector<OrderReport> orders;           ///< empty without rotation
   std::vector<WindowReport> windows;
   std::vector<double> density_m2_per_hz;
 };
@@ -104,6 +115,8 @@ struct InnovationReport {
 
 /// A place counts as a departure from this multiple of what is expected there.
 inline constexpr double kDepartureRatio = 1.5;
+/// Coherence with the excitation counts from this many standard deviations of chance.
+inline constexpr double kDepartureSigmas = 6.0;
 
 /// Throws BadInput when the run holds too few rows for a spectrum.
 [[nodiscard]] InnovationReport Examine(const InnovationRun& run, const ObserverGain& gain,

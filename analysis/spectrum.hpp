@@ -5,6 +5,7 @@
 // Gaps      segments never span two pieces: add each uninterrupted piece by itself.
 // Thread    any; not for the control cycle.
 
+#include <complex>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -30,6 +31,27 @@ class Welch {
   double sample_rate_hz_;
   std::vector<double> window_;
   std::vector<double> sum_;
+  std::size_t averages_{0};
+};
+
+/// Magnitude-squared coherence of two signals, line by line: how much of one follows the other.
+class Coherence {
+ public:
+  /// As Welch.
+  explicit Coherence(std::size_t segment);
+
+  /// Both pieces have the same length (std::invalid_argument else).
+  void Add(std::span<const double> first, std::span<const double> second);
+
+  /// What two unrelated signals show on average; 1 before anything was added.
+  [[nodiscard]] double Chance() const noexcept;
+  /// segment/2 + 1 values from 0 to 1.
+  [[nodiscard]] std::vector<double> Squared() const;
+
+ private:
+  std::vector<double> window_;
+  std::vector<double> first_, second_;
+  std::vector<std::complex<double>> cross_;
   std::size_t averages_{0};
 };
 

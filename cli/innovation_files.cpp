@@ -43,6 +43,14 @@ Json ChannelJson(const InnovationContext& context, std::size_t i) {
                              {"ratio", band.ratio},
                              {"share", band.share}});
   }
+  json["excitation"] = Json::array();
+  for (const auto& band : channel.excitation) {
+    json["excitation"].push_back({{"low_hz", band.low_hz},
+                                  {"high_hz", band.high_hz},
+                                  {"ratio", band.ratio},
+                                  {"sigmas", band.sigmas},
+                                  {"share", band.share}});
+  }
   json["orders"] = Json::array();
   for (const auto& order : channel.orders) {
     json["orders"].push_back({{"order", order.order},

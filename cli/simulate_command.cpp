@@ -67,6 +67,19 @@ void PrintBands(const Simulation& s) {
   fmt::print("\n");
 }
 
+void PrintExcitation(const Simulation& s) {
+  if (s.report.channels.front().excitation.empty()) return;
+  fmt::print("\nFollows the excitation: coherence / chance (a right model: 1.0)\n{:<8}", "Hz");
+  for (const auto& band : s.report.channels.front().excitation) {
+    fmt::print("{:>13}", fmt::format("{:.0f}-{:.0f}", band.low_hz, band.high_hz));
+  }
+  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
+    fmt::print("\n{:<8}", s.rig.numbers.channels[i]);
+    for (const auto& band : s.report.channels[i].excitation) fmt::print("{:>13.2f}", band.ratio);
+  }
+  fmt::print("\n");
+}
+
 void PrintOrders(const Simulation& s) {
   if (s.report.channels.front().orders.empty()) {
     fmt::print("\nOrders of rotation: none, the rotor stands (or the record has no rotation)\n");
@@ -108,7 +121,7 @@ void PrintDepartures(const Simulation& s, std::size_t count) {
   fmt::print("\nWhere the model departs most (share of the channel's unexplained power):\n");
   for (std::size_t i = 0; i < std::min(count, s.report.departures.size()); ++i) {
     const auto& d = s.report.departures[i];
-    fmt::print("  {:<8} {:<26} {:>5.0f} %   {:.1f} x expected\n", s.rig.numbers.channels[d.channel],
+    fmt::print("  {:<8} {:<38} {:>5.0f} %   {:.1f} x expected\n", s.rig.numbers.channels[d.channel],
                d.place, 100.0 * d.share, d.ratio);
   }
 }
@@ -127,6 +140,7 @@ void Print(const Simulation& s, const SimulateOptions& options) {
       "model)\n");
   PrintChannels(s);
   PrintBands(s);
+  PrintExcitation(s);
   PrintOrders(s);
   PrintWindows(s);
   fmt::print("\nConstant force the rig file does not have, N:");

@@ -91,6 +91,10 @@ TEST(Innovations, AreWhiteAndAtTheNoiseWhenTheRecordComesFromTheSamePlant) {
     for (const auto& window : channel.windows) EXPECT_NEAR(window.ratio, 1.0, 0.1);
   }
   EXPECT_TRUE(outcome.report.departures.empty());
+  for (const auto& channel : outcome.report.channels) {
+    ASSERT_FALSE(channel.excitation.empty());
+    for (const auto& band : channel.excitation) EXPECT_LT(std::abs(band.sigmas), 5.0);
+  }
 }
 
 TEST(Innovations, ShowATripledUnbalanceAtOnceTheRotationAndNowhereElse) {
@@ -120,6 +124,11 @@ TEST(Innovations, ShowAWeakMagnetInTheChannelsOfItsBearingMostOfAll) {
   EXPECT_GT(std::min(excess(2), excess(3)),
             2.0 * std::max(std::abs(excess(0)), std::abs(excess(1))));
   EXPECT_TRUE(weak.report.channels[0].orders.empty()) << "the rotor stands";
+  // The wrong gain leaves what the test current did: seen far beyond chance, far below the noise.
+  const auto& bands = weak.report.channels[2].excitation;
+  EXPECT_TRUE(std::any_of(bands.begin(), bands.end(), [](const ExcitationReport& band) {
+    return band.sigmas > kDepartureSigmas;
+  }));
 }
 
 TEST(Innovations, FindASensorFaultInTheWindowInWhichItActs) {

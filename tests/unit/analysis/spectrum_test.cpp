@@ -69,6 +69,29 @@ TEST(Welch, IgnoresPiecesShorterThanASegment) {
   EXPECT_EQ(welch.averages(), 2U);
 }
 
+TEST(Coherence, IsOneForAFilteredCopyAndChanceForUnrelatedSignals) {
+  const auto one = Noise(100'000, 1.0, 1);
+  const auto other = Noise(100'000, 1.0, 2);
+  std::vector<double> copy(one.size(), 0.0);
+  for (std::size_t i = 1; i < one.size(); ++i) copy[i] = 3.0 * one[i] - 1.0 * one[i - 1];
+  Coherence same(256);
+  same.Add(one, copy);
+  // A two-tap filter is shorter than a segment by a factor of 128: 1 % escapes at its edges.
+  for (const double value : same.Squared()) EXPECT_GT(value, 0.99);
+  Coherence unrelated(256);
+  unrelated.Add(one, other);
+  double mean = 0.0;
+  for (const double value : unrelated.Squared()) mean += value / 129.0;
+  // 129 lines, each scattered by its own mean: 0.12 of it; four times that.
+  EXPECT_NEAR(mean, unrelated.Chance(), 0.5 * unrelated.Chance());
+}
+
+TEST(Coherence, RefusesSignalsOfDifferentLengths) {
+  Coherence coherence(64);
+  EXPECT_THROW(coherence.Add(Noise(100, 1.0, 1), Noise(99, 1.0, 2)), std::invalid_argument);
+  EXPECT_EQ(coherence.Chance(), 1.0);
+}
+
 TEST(Welch, RefusesSegmentsItCannotTransform) {
   EXPECT_THROW(Welch(100, kRateHz), std::invalid_argument);
   EXPECT_THROW(Welch(4, kRateHz), std::invalid_argument);
