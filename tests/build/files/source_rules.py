@@ -1,0 +1,71 @@
+"""Rules about the text of source files: each takes text and returns what is wrong with it."""
+
+import os
+import re
+from pathlib import Path
+
+MAX_LINES = 400
+CODE = (".cpp", ".hpp", ".py", ".sh", ".cmake", ".lcm", ".js", ".css", ".html")
+NOT_OURS = {"build", ".git", "sessions", "__pycache__", "node_modules", ".ccache"}
+
+# Spelled in halves, so that this file obeys its own rule.
+NOTE_TO_SELF = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
+TEST_HEAD = re.compile(r"^(?:TEST|TEST_F|TEST_P|TYPED_TEST)\(\s*(\w+),\s*(\w+)\)\s*\{", re.M)
+ASSERTION = re.compile(
+    r"\b(EXPECT_\w+|ASSERT_\w+|FAIL\(|ADD_FAILURE\w*\(|(?:Expect|Assert)[A-Z]\w*(?:<[^;]*?>)?\()")
+
+
+def source_files(root, suffixes=CODE):
+    """Files of ours below `root`, without what is built or recorded."""
+    for folder, folders, files in os.walk(root):
+        folders[:] = sorted(f for f in folders if f not in NOT_OURS)
+        for name in sorted(files):
+            path = Path(folder) / name
+            if path.suffix in suffixes or (name == "CMakeLists.txt" and ".cmake" in suffixes):
+                yield path
+
+
+def too_long(text):
+    count = text.count("\n")
+    return [f"{count} lines, allowed {MAX_LINES}: split it by concern"] if count > MAX_LINES else []
+
+
+def notes_to_self(text):
+    return [f"line {number}: '{match.group()}': finish it, or describe the limit in words"
+            for number, line in enumerate(text.splitlines(), 1)
+            if (match := NOTE_TO_SELF.search(line))]
+
+
+def _body(text, start):
+    """From the brace at `start` to its partner; literals are short here, so braces are counted."""
+    depth = 0
+    for position in range(start, len(text)):
+        depth += {"{": 1, "}": -1}.get(text[position], 0)
+        if depth == 0:
+            return text[start:position + 1]
+    return text[start:]
+
+
+def tests_without_assertion(text):
+    """A helper that asserts is recognised by its name: Expect... or Assert..."""
+    return [f"{match.group(1)}.{match.group(2)} asserts nothing"
+            for match in TEST_HEAD.finditer(text)
+            if not ASSERTION.search(_body(text, match.end() - 1))]
+
+
+def header_without_description(text):
+    """A header says what it is before its first include or declaration."""
+    lines = text.splitlines()
+    if not lines or lines[0] != "#pragma once":
+        return ["the first line is not '#pragma once'"]
+    following = next((line for line in lines[1:] if line.strip()), "")
+    return [] if following.startswith("//") else ["does not start with a comment that says what it is"]
+
+
+def lines_of(root, inside_tests):
+    """Lines of C++ in tests, or outside them."""
+    total = 0
+    for path in source_files(root, (".cpp", ".hpp")):
+        if ("tests" in path.relative_to(root).parts) == inside_tests:
+            total += path.read_text(encoding="utf-8").count("\n")
+    return total

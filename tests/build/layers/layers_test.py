@@ -1,0 +1,94 @@
+"""An upward or sideways use stops the configuration, whether declared or only included.
+
+Each case writes a project of a few empty libraries, includes the real cmake/Layers.cmake, and
+configures it. The environment names CMAKE and LEVITAS_SOURCE.
+"""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ["LEVITAS_SOURCE"])
+CMAKE = os.environ.get("CMAKE", "cmake")
+
+# name -> (folder, layer, uses)
+BASE = {
+    "law": ("controller/law", 1, ""),
+    "magnet": ("plant_sim/magnet", 1, ""),
+    "port_lcm": ("transport", 4, ""),
+    "words": ("common", 0, ""),
+}
+
+
+def configure(libraries, files):
+    """Status and output of configuring a project with these libraries and files (path -> text)."""
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        lines = ["cmake_minimum_required(VERSION 3.25)", "project(seeded LANGUAGES NONE)",
+                 f"include({SOURCE}/cmake/Layers.cmake)"]
+        for name, (where, layer, uses) in libraries.items():
+            lines.append(f"levitas_library({name} LAYER {layer} FOLDER {where} {uses})")
+        lines.append("levitas_check_layers()")
+        (root / "CMakeLists.txt").write_text("\n".join(lines) + "\n")
+        for path, text in files.items():
+            (root / path).parent.mkdir(parents=True, exist_ok=True)
+            (root / path).write_text(text)
+        done = subprocess.run([CMAKE, "-S", root, "-B", root / "build"], capture_output=True,
+                              text=True, check=False)
+        return done.returncode, " ".join((done.stdout + done.stderr).split())
+
+
+class Layers(unittest.TestCase):
+    def assert_refused(self, libraries, files, sentence):
+        status, said = configure(libraries, files)
+        self.assertNotEqual(status, 0, said)
+        self.assertIn(sentence, said)
+
+    def test_accept_downward_uses(self):
+        status, said = configure(
+            {**BASE, "port_lcm": ("transport", 4, "USES law words")},
+            {"transport/port.hpp": '#include "controller/law/pid.hpp"\n',
+             "controller/law/pid.hpp": '#include "common/axes.hpp"\n#include <vector>\n'})
+        self.assertEqual(status, 0, said)
+
+    def test_refuse_a_declared_upward_use(self):
+        self.assert_refused({**BASE, "law": ("controller/law", 1, "USES port_lcm")}, {},
+                            "law (layer 1) may not use port_lcm (layer 4)")
+
+    def test_refuse_a_declared_sideways_use(self):
+        self.assert_refused({**BASE, "law": ("controller/law", 1, "USES magnet")}, {},
+                            "law (layer 1) may not use magnet (layer 1)")
+
+    def test_refuse_an_upward_include_and_name_the_file(self):
+        self.assert_refused(
+            BASE, {"controller/law/pid.cpp": '#include "transport/lcm_port.hpp"\n'},
+            "law (layer 1) may not use port_lcm (layer 4): controller/law/pid.cpp has")
+
+    def test_refuse_a_sideways_include(self):
+        self.assert_refused(
+            BASE, {"plant_sim/magnet/force.hpp": '#include "controller/law/pid.hpp"\n'},
+            "magnet (layer 1) may not use law (layer 1)")
+
+    def test_refuse_an_include_in_angle_brackets_and_with_spaces(self):
+        self.assert_refused(
+            BASE, {"controller/law/pid.hpp": "  #  include <transport/lcm_port.hpp>  // why\n"},
+            "law (layer 1) may not use port_lcm (layer 4)")
+
+    def test_refuse_an_include_from_a_subfolder_nobody_owns(self):
+        self.assert_refused(
+            BASE, {"controller/law/detail/deep.hpp": '#include "transport/lcm_port.hpp"\n'},
+            "law (layer 1) may not use port_lcm (layer 4)")
+
+    def test_refuse_a_use_of_something_that_is_not_ours(self):
+        self.assert_refused({**BASE, "law": ("controller/law", 1, "USES nothing_known")}, {},
+                            "law uses nothing_known, which is not a library of this project")
+
+    def test_refuse_a_misspelt_keyword(self):
+        self.assert_refused({"law": ("controller/law", 1, "NEEDS words")}, {},
+                            "levitas_library(law): unknown words NEEDS;words")
+
+
+if __name__ == "__main__":
+    unittest.main()
