@@ -33,7 +33,7 @@ LcmRigLink::Answer LcmRigLink::Accept(const Received& received, CurrentFrame& fr
 LcmRigLink::Answer LcmRigLink::Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept {
   bool found = false;
   for (;;) {
-    const Received received = found ? receiver_.Poll() : receiver_.Receive(deadline_ns);
+    const Received received = found ? receiver_.Next() : receiver_.Receive(deadline_ns);
     if (received.datagram.empty()) break;
     const Answer answer = Accept(received, frame);
     if (answer == Answer::kNothing) continue;

@@ -32,7 +32,7 @@ port::ReadResult LcmRigPort::Read(SensorFrame& frame, std::int64_t deadline_ns) 
   bool found = false;
   for (;;) {
     // Once there is a frame only what is already queued may replace it.
-    const Received received = found ? receiver_.Poll() : receiver_.Receive(deadline_ns);
+    const Received received = found ? receiver_.Next() : receiver_.Receive(deadline_ns);
     if (received.datagram.empty()) break;
     if (!Accept(received, frame)) continue;
     // What queued up before the first read was nobody's to read.

@@ -8,9 +8,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <vector>
 
 #include "common/problem.hpp"
 #include "controller/rt/clock.hpp"
@@ -20,6 +22,7 @@ namespace levitas::transport {
 
 namespace {
 
+constexpr std::size_t kBatch = 8;
 constexpr int kReceiveBuffer = 4 << 20;  // [byte] 0.4 s of frames of 10 kHz and 1 kB each
 constexpr std::int64_t kShortWaitNs = 25'000;
 constexpr std::uint32_t kGiveUpSpins = 8;   // in a row without a message
@@ -79,9 +82,39 @@ bool MulticastSender::Send(std::span<const std::uint8_t> datagram) noexcept {
   return sent == static_cast<ssize_t>(datagram.size());
 }
 
+// Storage for one recvmmsg: the newest frame is wanted, so all that is queued is fetched at once
+// instead of one call each and a last one that finds nothing.
+struct MulticastReceiver::Batch {
+  Batch() : bytes(kBatch * kMaxDatagram) {
+    for (std::size_t at = 0; at < kBatch; ++at) {
+      pieces[at] = {bytes.data() + at * kMaxDatagram, kMaxDatagram};
+      messages[at].msg_hdr.msg_iov = &pieces[at];
+      messages[at].msg_hdr.msg_iovlen = 1;
+      messages[at].msg_hdr.msg_name = &from[at];
+    }
+  }
+  /// The next one that holds anything; an empty datagram says nothing.
+  [[nodiscard]] Received Take() noexcept {
+    while (taken < filled) {
+      const std::size_t at = taken++;
+      if (messages[at].msg_len == 0) continue;
+      return {{bytes.data() + at * kMaxDatagram, messages[at].msg_len},
+              (std::uint64_t{from[at].sin_addr.s_addr} << 16) | from[at].sin_port};
+    }
+    return {};
+  }
+
+  std::vector<std::uint8_t> bytes;
+  std::array<iovec, kBatch> pieces{};
+  std::array<sockaddr_in, kBatch> from{};
+  std::array<mmsghdr, kBatch> messages{};
+  std::size_t filled{0};
+  std::size_t taken{0};
+};
+
 MulticastReceiver::MulticastReceiver(const LcmNetwork& network, Direction direction,
                                      std::int64_t spin_ns)
-    : spin_ns_(spin_ns), buffer_(kMaxDatagram) {
+    : spin_ns_(spin_ns), batch_(std::make_unique<Batch>()) {
   socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket_ < 0) Fail(socket_, network, direction, "socket");
   // Several listeners share the port: lcm-logger may listen beside the controller. Bound to the
@@ -103,13 +136,18 @@ MulticastReceiver::MulticastReceiver(const LcmNetwork& network, Direction direct
 MulticastReceiver::~MulticastReceiver() { close(socket_); }
 
 Received MulticastReceiver::Poll() noexcept {
-  sockaddr_in from{};
-  socklen_t from_size = sizeof(from);
-  const auto size = recvfrom(socket_, buffer_.data(), buffer_.size(), MSG_DONTWAIT,
-                             reinterpret_cast<sockaddr*>(&from), &from_size);
-  if (size <= 0) return {};
-  return {{buffer_.data(), static_cast<std::size_t>(size)},
-          (std::uint64_t{from.sin_addr.s_addr} << 16) | from.sin_port};
+  Batch& batch = *batch_;
+  for (auto& message : batch.messages) message.msg_hdr.msg_namelen = sizeof(sockaddr_in);
+  const int count = recvmmsg(socket_, batch.messages.data(), kBatch, MSG_DONTWAIT, nullptr);
+  batch.taken = 0;
+  batch.filled = count > 0 ? static_cast<std::size_t>(count) : 0;
+  return batch.Take();
+}
+
+Received MulticastReceiver::Next() noexcept {
+  const Received received = batch_->Take();
+  if (!received.datagram.empty() || batch_->filled < kBatch) return received;
+  return Poll();
 }
 
 Received MulticastReceiver::Spin(std::int64_t until_ns) noexcept {
@@ -120,6 +158,7 @@ Received MulticastReceiver::Spin(std::int64_t until_ns) noexcept {
 }
 
 Received MulticastReceiver::Receive(std::int64_t deadline_ns) noexcept {
+  if (const Received queued = batch_->Take(); !queued.datagram.empty()) return queued;
   if (const Received received = Poll(); !received.datagram.empty()) return received;
   std::int64_t now_ns = rt::MonotonicNowNs();
   if (now_ns >= deadline_ns) return {};

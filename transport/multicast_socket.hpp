@@ -11,8 +11,8 @@
 //                  multicast has no route; later failures are return values.
 
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "transport/lcm_network.hpp"
 
@@ -45,19 +45,22 @@ class MulticastReceiver {
   MulticastReceiver(const MulticastReceiver&) = delete;
   MulticastReceiver& operator=(const MulticastReceiver&) = delete;
 
-  /// Next datagram that is already there.
-  [[nodiscard]] Received Poll() noexcept;
+  /// Next datagram that is already there, as far as the latest system call knows: after a Receive
+  /// that emptied the socket this costs nothing.
+  [[nodiscard]] Received Next() noexcept;
   /// Next datagram, waiting until CLOCK_MONOTONIC reaches `deadline_ns` at the latest.
   [[nodiscard]] Received Receive(std::int64_t deadline_ns) noexcept;
 
  private:
+  [[nodiscard]] Received Poll() noexcept;
   [[nodiscard]] Received Spin(std::int64_t until_ns) noexcept;
 
   int socket_{-1};
   std::int64_t spin_ns_;
   std::uint32_t waits_{0};
   std::uint32_t fruitless_spins_{0};
-  std::vector<std::uint8_t> buffer_;
+  struct Batch;
+  std::unique_ptr<Batch> batch_;  ///< datagrams of one system call
 };
 
 }  // namespace levitas::transport

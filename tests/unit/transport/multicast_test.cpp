@@ -1,0 +1,127 @@
+// Needs multicast on this machine; where there is no route the tests are skipped, and say so (the
+// process tests bring a network of their own).
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <memory>
+
+#include "common/problem.hpp"
+#include "controller/rt/clock.hpp"
+#include "tests/support/allocation_guard.hpp"
+#include "transport/lcm_packet.hpp"
+#include "transport/lcm_rig_link.hpp"
+#include "transport/lcm_rig_port.hpp"
+
+namespace levitas::transport {
+namespace {
+
+constexpr std::int64_t kLong = 5'000'000'000;  // [ns] more than a loaded machine needs
+
+// A port range of its own per process, so that parallel tests do not hear each other.
+LcmNetwork Network() {
+  LcmNetwork network;
+  network.base_port = static_cast<std::uint16_t>(20'000 + 4 * (getpid() % 10'000));
+  return network;
+}
+
+class Multicast : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      link_ = std::make_unique<LcmRigLink>(Network(), 4, 0);
+      port_ = std::make_unique<LcmRigPort>(Network(), 4, 0);
+    } catch (const Problem& problem) {
+      GTEST_SKIP() << problem.what();
+    }
+  }
+  static std::int64_t Deadline() { return rt::MonotonicNowNs() + kLong; }
+
+  std::unique_ptr<LcmRigLink> link_;
+  std::unique_ptr<LcmRigPort> port_;
+};
+
+SensorFrame Frame(std::uint64_t cycle, std::uint32_t session = 7) {
+  SensorFrame frame;
+  frame.cycle = cycle;
+  frame.rig_session = session;
+  return frame;
+}
+
+TEST_F(Multicast, CarriesAFrameThereAndItsAnswerBack) {
+  ASSERT_TRUE(link_->Send(Frame(3)));
+  SensorFrame frame;
+  ASSERT_EQ(port_->Read(frame, Deadline()), port::ReadResult::kFrame);
+  EXPECT_EQ(frame.cycle, 3U);
+  ASSERT_TRUE(port_->Write({.cycle = 3}));
+  CurrentFrame current;
+  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::Answer::kCurrent);
+  EXPECT_EQ(current.cycle, 3U);
+}
+
+TEST_F(Multicast, ReadsTheNewestFrameAndCountsTheOvertakenOnes) {
+  SensorFrame frame;
+  ASSERT_TRUE(link_->Send(Frame(0)));
+  ASSERT_EQ(port_->Read(frame, Deadline()), port::ReadResult::kFrame);
+  for (std::uint64_t cycle = 1; cycle <= 20; ++cycle) ASSERT_TRUE(link_->Send(Frame(cycle)));
+  ASSERT_EQ(port_->Read(frame, Deadline()), port::ReadResult::kFrame);
+  EXPECT_EQ(frame.cycle, 20U);
+  EXPECT_EQ(port_->counters().frames_skipped, 19U);
+  EXPECT_EQ(port_->lost(), 0U);
+}
+
+TEST_F(Multicast, NumbersTheRigsSessionsFromOneWhateverTheRigDraws) {
+  SensorFrame frame;
+  std::array<std::uint32_t, 4> seen{};
+  const std::array<std::uint32_t, 4> drawn{0xDEADBEEF, 0xDEADBEEF, 5, 0xDEADBEEF};
+  for (std::size_t at = 0; at < drawn.size(); ++at) {
+    ASSERT_TRUE(link_->Send(Frame(at, drawn[at])));
+    ASSERT_EQ(port_->Read(frame, Deadline()), port::ReadResult::kFrame);
+    seen[at] = frame.rig_session;
+  }
+  EXPECT_EQ(seen, (std::array<std::uint32_t, 4>{1, 1, 2, 3}));
+}
+
+TEST_F(Multicast, ReadsNothingAtADeadlineInThePast) {
+  SensorFrame frame;
+  EXPECT_EQ(port_->Read(frame, 0), port::ReadResult::kNothing);
+}
+
+TEST_F(Multicast, SkipsRubbishAndEmptyDatagramsOnTheWayToAFrame) {
+  MulticastSender rubbish(Network(), Direction::kSensor);
+  SensorFrameCodec two(2);
+  const std::array<std::uint8_t, 5> noise{1, 2, 3, 4, 5};
+  ASSERT_TRUE(rubbish.Send(noise));
+  ASSERT_TRUE(rubbish.Send({}));
+  ASSERT_TRUE(rubbish.Send(two.Encode({})));
+  ASSERT_TRUE(link_->Send(Frame(9)));
+  SensorFrame frame;
+  ASSERT_EQ(port_->Read(frame, Deadline()), port::ReadResult::kFrame);
+  EXPECT_EQ(frame.cycle, 9U);
+  EXPECT_EQ(port_->counters().frames_rejected, 2U);  // the noise and the other rig's frame
+}
+
+TEST_F(Multicast, HearsTheGoodbyeAfterTheLastCurrent) {
+  ASSERT_TRUE(port_->Write({.cycle = 1}));
+  port_->SayGoodbye({.cycle = 1});
+  CurrentFrame current;
+  EXPECT_EQ(link_->Receive(current, Deadline()), LcmRigLink::Answer::kGoodbye);
+}
+
+TEST_F(Multicast, AllocatesNothingIn10000Exchanges) {
+  SensorFrame frame = Frame(0);
+  CurrentFrame current;
+  const test::AllocationGuard guard;
+  for (int count = 0; count < 10'000; ++count) {
+    (void)link_->Send(frame);
+    (void)port_->Read(frame, rt::MonotonicNowNs() + kLong);
+    (void)port_->Write(current);
+    (void)link_->Receive(current, rt::MonotonicNowNs() + kLong);
+  }
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_EQ(port_->counters().frames_read, 10'000U);
+}
+
+}  // namespace
+}  // namespace levitas::transport
