@@ -5,7 +5,8 @@
 
 In each repeat cyclictest (-i 100 -p 80) runs alone, then amb-controller with amb-plant at 10 kHz.
 Printed are medians over the repeats, the ratio of each percentile to cyclictest's of the same
-repeat, skipped periods (cyclictest: wake-ups more than a period late) and lost messages. Runs in a
+repeat, skipped periods (cyclictest: those it did not run; its late wake-ups are more than a period
+late) and lost messages. Runs in a
 network namespace of its own; needs root or rtprio.
 """
 
@@ -47,7 +48,7 @@ def cyclictest(seconds):
             counts[int(fields[0])] = int(fields[1])
     total = sum(counts.values()) + overflow
     result = {"late": overflow + sum(n for late, n in counts.items() if late >= PERIOD_US),
-              "cycles": total}
+              "skipped": max(0, seconds * 1_000_000 // PERIOD_US - total), "cycles": total}
     for name, part in PERCENTILES:
         seen = 0
         for late in sorted(counts):
@@ -74,7 +75,7 @@ def pair(seconds):
         plant = json.loads(Path(f"{folder}/p.json").read_text())
     wakeup = control["timing"]["wakeup"]
     return {**{name: wakeup[f"{name}_ns"] / 1000 for name, _ in PERCENTILES},
-            "late": control["skipped_periods"], "cycles": control["cycles"],
+            "skipped": control["skipped_periods"], "cycles": control["cycles"],
             "missing": control["missing_frames"], "rig_skipped": plant["skipped_periods"],
             "lost": control["messages_lost"] + plant["messages_lost"],
             "latency_p50": control["timing"]["latency"]["p50_ns"] / 1000,
@@ -100,8 +101,8 @@ def main():
         ratio = statistics.median(p[name] / max(c[name], 1.0) for c, p in runs)
         results[name] = {"cyclictest_us": theirs, "controller_us": ours, "ratio": ratio}
         print(f"  {name:<6}{theirs:9.2f} us{ours:9.2f} us{ratio:8.3f}{AIMS[name]:6.1f}")
-    for who, at, keys in (("cyclictest", 0, ("late", "cycles")),
-                          ("controller", 1, ("late", "missing", "rig_skipped", "lost", "cycles"))):
+    for who, at, keys in (("cyclictest", 0, ("late", "skipped", "cycles")),
+                          ("controller", 1, ("skipped", "missing", "rig_skipped", "lost", "cycles"))):
         sums = {key: sum(run[at][key] for run in runs) for key in keys}
         print(f"  {who}: " + ", ".join(f"{key} {value}" for key, value in sums.items()))
     print("  sample to current, p50 / p99: "

@@ -29,7 +29,7 @@ struct PlantStatistics {
   std::uint64_t repeated_frames{};  ///< lockstep: sent again for want of an answer
   std::uint64_t stale_currents{};   ///< answers to another frame than the latest
   Histogram wakeup;                 ///< grid instant -> frame leaves
-  Histogram advance;                ///< integration of one period
+  Histogram advance;                ///< integration of one period, of every 16th
 };
 
 struct PlantLoopOptions {
