@@ -42,6 +42,7 @@ struct Recorder::Impl {
         deriver(options.header.channels, options.header.period_ns) {
     if (!options.session_path.empty()) {
       session = std::make_unique<SessionWriter>(options.session_path, options.header);
+      recording = true;
     }
     SessionHeader excerpt = options.header;
     excerpt.excerpt_of = options.session_path;
@@ -68,7 +69,7 @@ struct Recorder::Impl {
         break;
       }
       if (Clock::now() - flushed >= kFlushEvery) {
-        Guarded([this] { Flush(); });
+        Flush();
         flushed = Clock::now();
       }
       if (taken < kBurst) std::this_thread::sleep_for(kIdle);
@@ -76,18 +77,16 @@ struct Recorder::Impl {
     events.clear();
     deriver.Finish(events);
     Tell();
-    Guarded([this] { freezer->Finish(); });
+    Guarded(freezing, [this] { freezer->Finish(); });
     Publish();
-    Guarded([this] { Flush(); });
+    Flush();
   }
 
   void Take(const cycle::CycleRecord& record) {
     events.clear();
     deriver.Step(record, events);
-    Guarded([&] {
-      if (session) session->Write(record);
-    });
-    Guarded([&] { freezer->Take(record, events); });
+    Guarded(recording, [&] { session->Write(record); });
+    Guarded(freezing, [&] { freezer->Take(record, events); });
     Publish();
     Tell();
     if (options.on_record) options.on_record(record);
@@ -96,16 +95,14 @@ struct Recorder::Impl {
   /// Writes and reports the derived events.
   void Tell() {
     for (const Event& event : events) {
-      Guarded([&] {
-        if (session) session->Write(event);
-      });
+      Guarded(recording, [&] { session->Write(event); });
       if (options.on_event) options.on_event(event);
     }
   }
 
   void Flush() {
-    if (session) session->Flush();
-    freezer->Flush();
+    Guarded(recording, [this] { session->Flush(); });
+    Guarded(freezing, [this] { freezer->Flush(); });
   }
 
   void Publish() {
@@ -115,14 +112,15 @@ struct Recorder::Impl {
     trip_path = published;
   }
 
-  /// A full disk ends the recording with one message; the controller goes on.
+  /// A full disk ends what `works` stands for with one message; the controller, and the other of
+  /// the two files, go on.
   template <class Function>
-  void Guarded(Function function) {
-    if (failed) return;
+  void Guarded(bool& works, Function function) {
+    if (!works) return;
     try {
       function();
     } catch (const std::exception& error) {
-      failed = true;
+      works = false;
       Event told;
       told.severity = Event::Severity::kWarning;
       told.text = error.what();
@@ -136,7 +134,8 @@ struct Recorder::Impl {
   std::unique_ptr<SessionWriter> session;
   std::unique_ptr<TripFreezer> freezer;  ///< never null
   std::vector<Event> events;
-  bool failed{false};
+  bool recording{false};
+  bool freezing{true};
   std::string published;  ///< recorder's thread
   mutable std::mutex trip_mutex;
   std::string trip_path;

@@ -161,6 +161,25 @@ TEST_F(Recording, IsRefusedAtOnceWhenTheDiskIsFull) {
   EXPECT_THROW(Recorder(std::move(options)), Problem);
 }
 
+TEST_F(Recording, GoesOnWhenTheTripFolderCannotBeWritten) {
+  auto records = DrawRecords(300);
+  for (std::size_t i = 100; i < records.size(); ++i) Trip(records[i]);
+  std::vector<std::string> told;
+  {
+    RecorderOptions options = Options();
+    options.trip_folder = "/dev/null/trips";
+    options.on_event = [&](const Event& event) { told.push_back(event.text); };
+    Recorder recorder(std::move(options));
+    for (const auto& record : records) recorder.Post(record);
+  }
+  SessionReader reader(folder_ / "s.lcmlog");
+  EXPECT_EQ(ReadAll(reader).size(), records.size());
+  const auto names_folder = [](const std::string& text) {
+    return text.find("/dev/null/trips") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(told.begin(), told.end(), names_folder), 1);
+}
+
 TEST(TripFileName, NamesUtcAndCause) {
   // 1 763 700 301 s after 1970 is 2025-11-21 04:45:01 UTC (date -u -d @1763700301).
   EXPECT_EQ(TripFileName(1'763'700'301'123'000'000, Fault::kOverSpeed),
