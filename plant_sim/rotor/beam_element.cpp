@@ -27,7 +27,7 @@ Eigen::Matrix4d Fill(const Pattern& p) {
 
 }  // namespace
 
-double CrossSection_m2(const Section& piece) {
+double CrossSectionM2(const Section& piece) {
   const double outer = piece.outer_diameter_m;
   const double inner = piece.inner_diameter_m;
   return std::numbers::pi / 4.0 * (outer * outer - inner * inner);
@@ -35,7 +35,7 @@ double CrossSection_m2(const Section& piece) {
 
 BeamElement MakeBeamElement(const Material& material, const Section& piece) {
   const double l = piece.length_m;
-  const double area = CrossSection_m2(piece);
+  const double area = CrossSectionM2(piece);
   const double second_moment =
       std::numbers::pi / 64.0 *
       (std::pow(piece.outer_diameter_m, 4) - std::pow(piece.inner_diameter_m, 4));

@@ -21,6 +21,6 @@ struct BeamElement {
 /// `piece.length_m` is the length of the element.
 [[nodiscard]] BeamElement MakeBeamElement(const Material& material, const Section& piece);
 
-[[nodiscard]] double CrossSection_m2(const Section& piece);
+[[nodiscard]] double CrossSectionM2(const Section& piece);
 
 }  // namespace levitas::rotor

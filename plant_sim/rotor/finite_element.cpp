@@ -12,7 +12,7 @@
 namespace levitas::rotor {
 namespace {
 
-constexpr double kSamePlace_m = 1e-9;
+constexpr double kSamePlaceM = 1e-9;
 
 void Require(bool condition, const std::string& text) {
   if (!condition) throw std::invalid_argument(text);
@@ -46,7 +46,7 @@ std::vector<double> FixedPlaces(const RotorConfig& config, const std::vector<dou
   for (const auto& section : config.sections) places.push_back(places.back() + section.length_m);
   const auto add = [&](double z, const char* what) {
     Require(
-        z >= -kSamePlace_m && z <= length + kSamePlace_m,
+        z >= -kSamePlaceM && z <= length + kSamePlaceM,
         fmt::format("rotor: {} at z = {} m lies outside the shaft, 0 to {} m", what, z, length));
     places.push_back(z);
   };
@@ -54,7 +54,7 @@ std::vector<double> FixedPlaces(const RotorConfig& config, const std::vector<dou
   for (const auto& ring : config.rings) add(ring.z_m, "ring");
   for (const double z : planes_m) add(z, "plane");
   std::sort(places.begin(), places.end());
-  const auto same = [](double a, double b) { return b - a < kSamePlace_m; };
+  const auto same = [](double a, double b) { return b - a < kSamePlaceM; };
   places.erase(std::unique(places.begin(), places.end(), same), places.end());
   return places;
 }
@@ -118,7 +118,7 @@ FiniteElementModel Assemble(const RotorConfig& config, const std::vector<double>
   model.stiffness = model.mass;
   for (std::size_t i = 0; i + 1 < model.node_z_m.size(); ++i) {
     const double start = model.node_z_m[i];
-    Section piece = SectionAt(config, start + kSamePlace_m);
+    Section piece = SectionAt(config, start + kSamePlaceM);
     piece.length_m = model.node_z_m[i + 1] - start;
     const auto element = MakeBeamElement(config.material, piece);
     const auto row = static_cast<Eigen::Index>(2 * i);
@@ -126,7 +126,7 @@ FiniteElementModel Assemble(const RotorConfig& config, const std::vector<double>
     model.gyroscopic.block<4, 4>(row, row) += element.gyroscopic;
     model.stiffness.block<4, 4>(row, row) += element.stiffness;
     model.total_mass_kg +=
-        config.material.density_kg_per_m3 * CrossSection_m2(piece) * piece.length_m;
+        config.material.density_kg_per_m3 * CrossSectionM2(piece) * piece.length_m;
   }
   for (const auto& disc : config.discs) AddDisc(model, disc);
   for (const auto& ring : config.rings) AddDisc(model, ToDisc(ring));

@@ -22,7 +22,7 @@ struct Touchdown {
 };
 
 /// Sliding speed [m/s] below which Coulomb friction is smoothed to a viscous one.
-inline constexpr double kSmoothing_m_per_s = 0.01;
+inline constexpr double kSmoothingMPerS = 0.01;
 
 struct Contact {
   double x_n{};
@@ -48,7 +48,7 @@ struct Contact {
       nx * vy_m_per_s - ny * vx_m_per_s + speed_rad_per_s * t.journal_radius_m;
   const double tangential_n =
       -t.friction * normal_n * sliding_m_per_s /
-      std::sqrt(sliding_m_per_s * sliding_m_per_s + kSmoothing_m_per_s * kSmoothing_m_per_s);
+      std::sqrt(sliding_m_per_s * sliding_m_per_s + kSmoothingMPerS * kSmoothingMPerS);
   return {-normal_n * nx - tangential_n * ny, -normal_n * ny + tangential_n * nx, normal_n};
 }
 
