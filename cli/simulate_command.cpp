@@ -121,8 +121,9 @@ void PrintDepartures(const Simulation& s, std::size_t count) {
   fmt::print("\nWhere the model departs most (share of the channel's unexplained power):\n");
   for (std::size_t i = 0; i < std::min(count, s.report.departures.size()); ++i) {
     const auto& d = s.report.departures[i];
-    fmt::print("  {:<8} {:<38} {:>5.0f} %   {:.1f} x expected\n", s.rig.numbers.channels[d.channel],
-               d.place, 100.0 * d.share, d.ratio);
+    const std::string share = d.share < 0.005 ? "< 1 %" : fmt::format("{:.0f} %", 100.0 * d.share);
+    fmt::print("  {:<8} {:<38} {:>7}   {:.1f} x expected\n", s.rig.numbers.channels[d.channel],
+               d.place, share, d.ratio);
   }
 }
 
