@@ -102,9 +102,10 @@ configure() {
 build_preset() {
   local preset=$1 dir=$build_root/$1
   shift
-  local log=$build_root/amb-build-$preset.log announced="" line status=0
+  local log=$build_root/amb-build-$preset.log announced="" line status=0 jobs
+  jobs=$(job_count) || exit 1
   local pattern='^\[([0-9]+)/([0-9]+)\]'
-  "${under[@]}" ninja -C "$dir" -j "$(job_count)" "$@" 2>&1 9>&- | tee "$log" | while IFS= read -r line; do
+  "${under[@]}" ninja -C "$dir" -j "$jobs" "$@" 2>&1 9>&- | tee "$log" | while IFS= read -r line; do
     [[ $line =~ $pattern ]] || continue
     if [ -z "$announced" ] && [[ $line != *"Re-checking globbed"* ]]; then
       announced=yes
