@@ -73,7 +73,10 @@ Finding Protections::Check(const Observation& seen, FaultSet armed, bool energis
   return FindMotionFault(seen, armed, stop_requested);
 }
 
-void Protections::AcceptSession(std::uint32_t rig_session) noexcept { session_ = rig_session; }
+void Protections::AcceptSession(std::uint32_t rig_session) noexcept {
+  session_ = rig_session;
+  session_known_ = true;
+}
 
 bool Protections::SignalsGood(const Observation& seen) const noexcept {
   if (!seen.fresh || (seen.rig_status & (kRigEmergencyStop | kRigAmplifierFault)) != 0)

@@ -42,6 +42,8 @@ class Protections {
   [[nodiscard]] Finding Contact(const Observation& seen) const noexcept;
   /// A new rig session is accepted from here on.
   void AcceptSession(std::uint32_t rig_session) noexcept;
+  /// False until the first session was accepted: the rig has not been heard yet.
+  [[nodiscard]] bool session_known() const noexcept { return session_known_; }
   /// The signals of this cycle are good: fresh, finite, in range, moving, no fault bit.
   [[nodiscard]] bool SignalsGood(const Observation& seen) const noexcept;
 
@@ -81,6 +83,7 @@ class Protections {
   std::uint32_t frames_missing_{};
   std::uint32_t amplifiers_silent_{};
   std::uint32_t session_{};
+  bool session_known_{false};
   // The cycles of the latest misses, as many as trip, oldest at next_miss_.
   std::vector<std::uint64_t> misses_;
   std::size_t next_miss_{};

@@ -69,8 +69,10 @@ Supervisor::Supervisor(const RigNumbers& rig, const SupervisorConfig& config)
 
 Finding Supervisor::Check(const Observation& seen, const Request& request) noexcept {
   const StateRow& row = Row(decision_.state);
-  // Without current nothing depends on the rig's past, so its present session is the known one.
-  if (seen.fresh && !row.energised && decision_.state != State::kSelfTest) {
+  // Without current nothing depends on the rig's past, so its present session is the known one. The
+  // same holds for the first frame of all, which may come after the command to lift.
+  const bool idle = !row.energised && decision_.state != State::kSelfTest;
+  if (seen.fresh && (idle || !protections_.session_known())) {
     protections_.AcceptSession(seen.rig_session);
   }
   // During a levitated stop the orbit that tripped may go on; only lasting contact counts then.

@@ -234,6 +234,18 @@ TEST(Reset, AfterARigRestartLeadsToANewLift) {
   EXPECT_EQ(driver.state(), State::kLevitating);
 }
 
+// In real time the command to lift can fall into a cycle whose frame is missing.
+TEST(Supervisor, TakesTheFirstFrameOfAllForNoRestartAlthoughLiftWasAskedBefore) {
+  Driver driver;
+  driver.seen.fresh = false;
+  (void)driver.Step(OperatorCommand::kLift);
+  driver.seen.fresh = true;
+  driver.seen.rig_session = 77;
+  EXPECT_EQ(driver.Step().latch.finding.fault, Fault::kNone);
+  driver.seen.rig_session = 78;  // a restart during the self-test is still one
+  EXPECT_EQ(driver.Step().latch.finding.fault, Fault::kRigRestarted);
+}
+
 TEST(Supervisor, RefusesACommandNumberItDoesNotKnow) {
   Driver driver;
   EXPECT_TRUE(driver.Step(static_cast<OperatorCommand>(99)).command_refused);
