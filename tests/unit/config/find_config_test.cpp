@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -16,10 +17,9 @@ namespace fs = std::filesystem;
 class FindConfigIn : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("levitas_find_config_" +
-               std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
+    // The process number keeps test runs that share a machine apart.
+    const char* name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::temp_directory_path() / ("levitas_" + std::to_string(getpid()) + name);
     fs::create_directories(folder_ / "rigs");
     unsetenv("LEVITAS_CONFIG");
   }
