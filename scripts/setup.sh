@@ -6,6 +6,8 @@
 #           one lock serialises, and each step leaves its stamp only when it has finished.
 
 build_root=$root/build
+# The compiler's cache serves every clone on a machine, wherever it lies.
+export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root} CCACHE_NOHASHDIR=1
 under=()  # what ninja runs under; the thread sanitizer needs a wrapper
 
 say() { printf 'amb: %s\n' "$*" >&2; }
