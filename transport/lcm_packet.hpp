@@ -23,8 +23,8 @@ enum class PacketKind : std::uint8_t { kShort, kFragment, kMalformed };
 struct Packet {
   PacketKind kind{PacketKind::kMalformed};
   std::uint32_t sequence{};
-  std::string_view channel;               ///< views into the datagram
-  std::span<const std::uint8_t> payload;  ///< views into the datagram
+  std::string_view channel{};               ///< views into the datagram
+  std::span<const std::uint8_t> payload{};  ///< views into the datagram
 };
 
 /// Takes a datagram apart; the result views `datagram` and lives no longer.

@@ -33,8 +33,8 @@ class MulticastSender {
 };
 
 struct Received {
-  std::span<const std::uint8_t> datagram;  ///< empty: nothing; valid until the next receive
-  std::uint64_t sender{};                  ///< address and port of the sender, as one number
+  std::span<const std::uint8_t> datagram{};  ///< empty: nothing; valid until the next receive
+  std::uint64_t sender{};                    ///< address and port of the sender, as one number
 };
 
 class MulticastReceiver {

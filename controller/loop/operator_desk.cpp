@@ -19,7 +19,7 @@ bool OperatorDesk::Ending(const OperatorView& view) noexcept {
   const bool played = player_ != nullptr && player_->outcome() != scenario::Outcome::kPlaying;
   ending_ = over || played || stop_requested_.load(std::memory_order_relaxed);
   end_start_ = view.cycle;
-  last_request_ = view.cycle - Cycles(kRepeat_s);  // the first request is made at once
+  last_request_ = view.cycle - Cycles(kRepeatSeconds);  // the first request is made at once
   return ending_;
 }
 
@@ -36,9 +36,9 @@ cycle::OperatorInput OperatorDesk::Stop(const OperatorView& view) noexcept {
   const bool under_way = view.mode == Mode::kTripped || view.mode == Mode::kLanding ||
                          (braking_ && view.mode == Mode::kSpinning &&
                           std::abs(view.speed_rad_per_s) > options_.standstill_rad_per_s);
-  const bool overdue = view.cycle - end_start_ > Cycles(kStopLimit_s);
+  const bool overdue = view.cycle - end_start_ > Cycles(kStopLimitSeconds);
   if (under_way && !overdue) return input;
-  if (view.cycle - last_request_ < Cycles(kRepeat_s)) return input;
+  if (view.cycle - last_request_ < Cycles(kRepeatSeconds)) return input;
   last_request_ = view.cycle;
   if (overdue) {
     input.command = OperatorCommand::kEmergencyStop;

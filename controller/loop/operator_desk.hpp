@@ -8,7 +8,7 @@
 //          safe state is reached; without a scenario the desk waits for a reset.
 // Thread   loop thread, except RequestStop (any thread, also a signal's) and the writer's side of
 //          the ring. No allocation in Next.
-// Failure  an end that is not reached within kStopLimit_s becomes an emergency stop.
+// Failure  an end that is not reached within kStopLimitSeconds becomes an emergency stop.
 
 #include <atomic>
 #include <cstdint>
@@ -37,8 +37,8 @@ struct DeskOptions {
 
 class OperatorDesk final : public OperatorSource {
  public:
-  static constexpr double kStopLimit_s = 120.0;
-  static constexpr double kRepeat_s = 0.1;  ///< a refused request of the end is made again
+  static constexpr double kStopLimitSeconds = 120.0;
+  static constexpr double kRepeatSeconds = 0.1;  ///< a refused request of the end is made again
 
   /// `player` and `remote` may be null.
   OperatorDesk(const DeskOptions& options, scenario::ScenarioPlayer* player,

@@ -30,7 +30,7 @@ std::string Why(int error) { return std::strerror(error); }
 
 // Touches the stack below the present frame once, so that no later call faults it in.
 [[gnu::noinline]] void PrefaultStack() noexcept {
-  std::array<volatile std::uint8_t, kStackPrefault> stack;
+  std::array<volatile std::uint8_t, kStackPrefault> stack{};
   for (std::size_t at = 0; at < stack.size(); at += kPage) stack[at] = 1;
 }
 
