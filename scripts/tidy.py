@@ -81,7 +81,7 @@ def main():
                 findings += 1
                 # One header's finding comes once, not once per file that includes it.
                 if text not in seen:
-                    print(text)
+                    print(text, flush=True)
                 seen.add(text)
     if sys.stderr.isatty():
         print("\r\033[K", end="", file=sys.stderr)
