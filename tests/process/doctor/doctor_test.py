@@ -2,6 +2,7 @@
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -17,7 +18,7 @@ def doctor(before=""):
     """Status, printed text and JSON of `amb doctor` in a fresh network namespace, after `before`."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "doctor.json"
-        script = f"{before} exec {AMB} doctor --json {out}"
+        script = f"{before} exec {shlex.quote(str(AMB))} doctor --json {shlex.quote(str(out))}"
         done = subprocess.run([*OWN_NETWORK, "sh", "-c", script], capture_output=True, text=True,
                               check=False, cwd=folder)
         return done.returncode, done.stdout, json.loads(out.read_text())
