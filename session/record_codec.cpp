@@ -32,6 +32,9 @@ void EncodeMessage(const Message& message, Bytes& out) {
   message.encode(out.data(), 0, static_cast<int>(out.size()));
 }
 
+/// Strings of the format end at a zero byte; one inside a text would make the whole unreadable.
+std::string UntilZero(const std::string& text) { return text.c_str(); }
+
 void FillCrc(Bytes& out) noexcept {
   PutBigEndian(out.data() + out.size() - kCrcBytes, CrcWithFieldZero(out));
 }
@@ -181,7 +184,7 @@ void EncodeEvent(const Event& event, Bytes& out) {
   message.axis = event.axis;
   message.value = event.value;
   message.limit = event.limit;
-  message.text = event.text;
+  message.text = UntilZero(event.text);
   EncodeMessage(message, out);
 }
 
@@ -214,19 +217,19 @@ bool DecodeEvent(Input bytes, Event& event) {
 void EncodeHeader(const SessionHeader& header, Bytes& out) {
   levitas_msg::session_header_t message;
   message.format_version = kFormatVersion;
-  message.program_version = header.program_version;
-  message.rig_yaml = header.rig_yaml;
-  message.controller_yaml = header.controller_yaml;
-  message.scenario_yaml = header.scenario_yaml;
-  message.pace = header.pace;
+  message.program_version = UntilZero(header.program_version);
+  message.rig_yaml = UntilZero(header.rig_yaml);
+  message.controller_yaml = UntilZero(header.controller_yaml);
+  message.scenario_yaml = UntilZero(header.scenario_yaml);
+  message.pace = UntilZero(header.pace);
   message.seed = header.seed;
   message.period_ns = header.period_ns;
   message.start_utc_ns = header.start_utc_ns;
-  message.machine = header.machine;
-  message.source = header.source;
+  message.machine = UntilZero(header.machine);
+  message.source = UntilZero(header.source);
   message.channels = static_cast<std::int32_t>(header.channels.size());
-  message.channel = header.channels;
-  message.excerpt_of = header.excerpt_of;
+  for (const std::string& channel : header.channels) message.channel.push_back(UntilZero(channel));
+  message.excerpt_of = UntilZero(header.excerpt_of);
   message.crc = 0;
   EncodeMessage(message, out);
   FillCrc(out);

@@ -64,6 +64,10 @@ std::string TripText(const cycle::CycleRecord& record, const std::vector<std::st
   if (record.out.fault == Fault::kSelfTestFailed && record.out.fault_axis < 0) {
     row = {"the self-test failed: the rotor turns", kRpm, "rpm"};
   }
+  // With a limit it is not a report of the rig but the lack of one.
+  if (record.out.fault == Fault::kAmplifierFault && record.out.fault_limit > 0.0) {
+    row = {"the amplifiers do not report that they are on", 1.0, "cycles in a row"};
+  }
   std::string numbers;
   if (row.unit != nullptr) {
     numbers = fmt::format(": {:.4g} {}, allowed {:.4g} {}", record.out.fault_value * row.factor,
