@@ -10,6 +10,7 @@
 #include "cli/json_file.hpp"
 #include "cli/session_text.hpp"
 #include "session/csv_export.hpp"
+#include "session/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -21,6 +22,7 @@ struct ExportOptions {
 };
 
 ExitStatus Export(const ExportOptions& options) {
+  session::CheckOutputPath(options.csv_path, options.session_path);
   session::SessionReader reader(options.session_path);
   const session::ExportReport report = session::ExportCsv(reader, options.csv_path);
   const session::Damage& damage = reader.damage();

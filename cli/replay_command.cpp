@@ -15,6 +15,7 @@
 #include "cli/session_text.hpp"
 #include "cli/what_if_csv.hpp"
 #include "config/rig_file.hpp"
+#include "session/output_path.hpp"
 #include "session/replay.hpp"
 #include "session/what_if.hpp"
 
@@ -127,6 +128,7 @@ Json WhatIfJson(const ReplayOptions& options, const session::WhatIfReport& repor
 }
 
 ExitStatus Compare(const ReplayOptions& options) {
+  session::CheckOutputPath(options.csv_path, options.session_path);
   session::SessionReader reader(options.session_path);
   fmt::print("{}\n", Describe(options.session_path, reader.header()));
   const std::string controller = config::FindConfig(options.controller_name, "controllers");

@@ -14,6 +14,7 @@
 #include "cli/command.hpp"
 #include "cli/innovation_files.hpp"
 #include "cli/json_file.hpp"
+#include "session/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -170,6 +171,9 @@ Simulation Simulate(const SimulateOptions& options) {
 }
 
 ExitStatus Run(const SimulateOptions& options) {
+  for (const std::string& path : {options.csv_path, options.svg_path, options.json_path}) {
+    session::CheckOutputPath(path, options.session_path);
+  }
   const Simulation s = Simulate(options);
   Print(s, options);
   const InnovationContext context{s.rig.numbers, s.gain, s.run, s.report};

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -95,7 +97,11 @@ ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
   namespace fs = std::filesystem;
   const std::string part_path = csv_path + ".part";
   std::unique_ptr<std::FILE, Closer> file(std::fopen(part_path.c_str(), "we"));
-  if (!file) throw BadInput(fmt::format("{}: cannot be written", csv_path));
+  if (!file) {
+    throw BadInput(
+        fmt::format("{}: cannot be written: {}. Name a file in a folder you may write to.",
+                    csv_path, std::strerror(errno)));
+  }
   const auto& channels = reader.header().channels;
   TimeAxis time(reader.header());
   fmt::memory_buffer out;

@@ -10,6 +10,7 @@
 
 #include "common/problem.hpp"
 #include "session/csv_rows.hpp"
+#include "session/output_path.hpp"
 #include "session/session_writer.hpp"
 
 namespace levitas::session {
@@ -182,10 +183,7 @@ void Convert(const ImportOptions& options, const std::string& part_path, ImportR
 ImportReport ImportCsv(const ImportOptions& options) {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  if (fs::equivalent(options.data_path, options.out_path, ignored)) {
-    throw Problem(ExitStatus::kUsage,
-                  fmt::format("{}: data and session would be the same file", options.out_path));
-  }
+  CheckOutputPath(options.out_path, options.data_path);
   const std::string part_path = options.out_path + ".part";
   ImportReport report;
   try {
