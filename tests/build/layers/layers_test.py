@@ -27,7 +27,7 @@ def configure(libraries, files):
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         lines = ["cmake_minimum_required(VERSION 3.25)", "project(seeded LANGUAGES NONE)",
-                 f"include({SOURCE}/cmake/Layers.cmake)"]
+                 f'include("{SOURCE}/cmake/Layers.cmake")']
         for name, (where, layer, uses) in libraries.items():
             lines.append(f"levitas_library({name} LAYER {layer} FOLDER {where} {uses})")
         lines.append("levitas_check_layers()")
@@ -35,8 +35,8 @@ def configure(libraries, files):
         for path, text in files.items():
             (root / path).parent.mkdir(parents=True, exist_ok=True)
             (root / path).write_text(text)
-        done = subprocess.run([CMAKE, "-S", root, "-B", root / "build"], capture_output=True,
-                              text=True, check=False)
+        done = subprocess.run([CMAKE, "-G", "Ninja", "-S", root, "-B", root / "build"],
+                              capture_output=True, text=True, check=False)
         return done.returncode, " ".join((done.stdout + done.stderr).split())
 
 
