@@ -72,6 +72,8 @@ def print_medians(result):
     for row in result["benchmarks"]:
         if row["run_type"] == "aggregate":
             by_name.setdefault(row["run_name"], {})[row["aggregate_name"]] = row
+    if not by_name:  # one repetition has no aggregates: it is its own median
+        by_name = {row["run_name"]: {"median": row} for row in result["benchmarks"]}
     for name, aggregates in by_name.items():
         median, spread = aggregates["median"], aggregates.get("cv")
         time_ns = median["cpu_time"] * TO_NANOSECONDS[median["time_unit"]]
@@ -112,11 +114,23 @@ def run_script(script):
     return status == 0
 
 
+def repeats(text):
+    if int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} repeats: expected 1 or more")
+    return int(text)
+
+
+def seconds(text):
+    if not 0 < float(text) < 3600:
+        raise argparse.ArgumentTypeError(f"{text} s: expected more than 0 and less than 3600")
+    return float(text)
+
+
 def main():
     parser = argparse.ArgumentParser(prog="amb bench", description="Runs the benchmarks.")
     parser.add_argument("filter", nargs="?", default="", help="only those whose name contains this")
-    parser.add_argument("--repeats", type=int, default=5, help="repetitions behind each median")
-    parser.add_argument("--min-time", type=float, default=0.2, help="seconds per repetition")
+    parser.add_argument("--repeats", type=repeats, default=5, help="repetitions behind each median")
+    parser.add_argument("--min-time", type=seconds, default=0.2, help="seconds per repetition")
     options = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     facts = environment()

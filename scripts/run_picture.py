@@ -36,6 +36,7 @@ def read(path):
                 data[end].append(tuple(1e6 * float(row[f"position_{end}_{axis}_m"]) for axis in "xy"))
     if angles:
         data["rpm"] = speeds(data["time"], angles)
+    data["rpm"] = [abs(rpm) for rpm in data["rpm"]]  # either direction of rotation
     return data
 
 
@@ -127,7 +128,7 @@ def speed_axes(data):
 def orbit_axes(data):
     """Five revolutions at the highest speed, or 40 ms when the rotor never turned."""
     top_rpm = max(data["rpm"])
-    middle = max(i for i, rpm in enumerate(data["rpm"]) if rpm > 0.98 * top_rpm)
+    middle = max(i for i, rpm in enumerate(data["rpm"]) if rpm >= 0.98 * top_rpm)
     period_s = data["time"][1] - data["time"][0]
     length = int((5 * 60 / top_rpm if top_rpm > 100 else 0.04) / period_s)
     begin = max(0, middle - 2 * length)

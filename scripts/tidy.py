@@ -68,6 +68,10 @@ def main():
     sources = commands(build)
     if options.files:
         chosen = {path.resolve() for path in options.files}
+        if strangers := chosen - set(sources):
+            names = ", ".join(os.path.relpath(path, ROOT) for path in sorted(strangers))
+            print(f"tidy.py: no source that {build} builds: {names}", file=sys.stderr)
+            return 2
         sources = {path: command for path, command in sources.items() if path in chosen}
     settings = (ROOT / ".clang-tidy").read_bytes()
     findings, seen = 0, set()

@@ -21,7 +21,10 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 double WrapAngle(double angle_rad) {
   if (angle_rad >= 0.0 && angle_rad < kTurn) return angle_rad;
   const double wrapped = std::fmod(angle_rad, kTurn);
-  return wrapped < 0.0 ? wrapped + kTurn : wrapped;
+  if (wrapped >= 0.0) return wrapped;
+  // A tiny negative angle plus a turn rounds to the whole turn, which is zero again.
+  const double lifted = wrapped + kTurn;
+  return lifted < kTurn ? lifted : 0.0;
 }
 
 /// Speed from the slope of the angle, whether the file counts turns or wraps them.

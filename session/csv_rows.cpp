@@ -51,7 +51,8 @@ double CsvRows::Number(std::size_t index) {
     scratch_[scratch_.find(',')] = '.';
     cell = scratch_;
   }
-  if (cell.starts_with('+')) cell.remove_prefix(1);
+  // from_chars knows no leading plus; behind it a minus would be a second sign.
+  if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   const bool whole = end == cell.data() + cell.size() && !cell.empty();

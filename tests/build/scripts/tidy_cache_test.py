@@ -1,0 +1,105 @@
+"""scripts/tidy.py with an invented clang-tidy: what is looked at, what is not looked at again."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ["LEVITAS_SOURCE"])
+COMPILER = shutil.which("c++")
+SKIP_STATUS = 77
+
+
+class TidyCache(unittest.TestCase):
+    def setUp(self):
+        self.root = Path(tempfile.mkdtemp()).resolve()
+        self.addCleanup(shutil.rmtree, self.root)
+        (self.root / "scripts").mkdir()
+        shutil.copy(SOURCE / "scripts/tidy.py", self.root / "scripts")
+        self.write(".clang-tidy", "Checks: '-*'\n")
+        self.write("law/header.hpp", "int Gain();\n")
+        self.write("law/law.cpp", '#include "header.hpp"\nint Gain() { return 1; }\n')
+        self.write("rotor/rotor.cpp", "int Modes() { return 8; }\n")
+        self.write("tests/law_test.cpp", "int main() {}\n")
+        self.write("build/tidy/generated.cpp", "int Generated() { return 0; }\n")
+        names = ("law/law.cpp", "rotor/rotor.cpp", "tests/law_test.cpp", "build/tidy/generated.cpp")
+        self.write("build/tidy/compile_commands.json", json.dumps(
+            [{"file": str(self.root / name), "directory": str(self.root),
+              "command": f"{COMPILER} -o x.o -c {self.root / name}"} for name in names]))
+        self.says()
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def says(self, finding=""):
+        """clang-tidy finds `finding` in every file, or nothing."""
+        path = self.root / "tools/clang-tidy-14"
+        self.write("tools/clang-tidy-14", "#!/bin/sh\n"
+                   f'for last; do :; done\necho "$last" >> {self.root}/looked_at\n'
+                   + (f'echo "{finding}"; exit 1\n' if finding else "exit 0\n"))
+        path.chmod(0o755)
+
+    def tidy(self, *words):
+        """Exit status, output, and the files that were looked at."""
+        (self.root / "looked_at").write_text("")
+        environment = dict(os.environ, PATH=f"{self.root}/tools:{os.environ['PATH']}")
+        done = subprocess.run([sys.executable, "-B", self.root / "scripts/tidy.py", "--jobs", "2",
+                               *map(str, words)], capture_output=True, text=True, check=False,
+                              env=environment, cwd=self.root)
+        looked = {str(Path(line).relative_to(self.root))
+                  for line in (self.root / "looked_at").read_text().splitlines()}
+        return done, looked
+
+    def test_looks_at_our_sources_not_at_tests_or_generated_code(self):
+        done, looked = self.tidy()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(looked, {"law/law.cpp", "rotor/rotor.cpp"})
+        self.assertIn("clang-tidy: 2 files, 0 with findings", done.stdout)
+
+    def test_does_not_look_again_until_text_header_or_settings_change(self):
+        self.tidy()
+        self.assertEqual(self.tidy()[1], set())
+        self.write("rotor/rotor.cpp", "int Modes() { return 9; }\n")
+        self.assertEqual(self.tidy()[1], {"rotor/rotor.cpp"})
+        self.write("law/header.hpp", "int Gain();\nint More();\n")
+        self.assertEqual(self.tidy()[1], {"law/law.cpp"})
+        self.write(".clang-tidy", "Checks: 'bugprone-*'\n")
+        self.assertEqual(self.tidy()[1], {"law/law.cpp", "rotor/rotor.cpp"})
+
+    def test_a_finding_fails_is_told_once_and_is_looked_at_again(self):
+        self.says("header.hpp:1: something is wrong")
+        for _ in range(2):
+            done, looked = self.tidy()
+            self.assertEqual(done.returncode, 1)
+            self.assertEqual(done.stdout.count("something is wrong"), 1)
+            self.assertIn("2 files, 2 with findings", done.stdout)
+            self.assertEqual(len(looked), 2)
+
+    def test_looks_only_at_the_files_that_are_named(self):
+        self.assertEqual(self.tidy("law/law.cpp")[1], {"law/law.cpp"})
+
+    def test_a_named_file_that_is_not_built_is_a_usage_error_not_a_pass(self):
+        self.write("law/new.cpp", "int New();\n")
+        for name in ("law/new.cpp", "law/misspelt.cpp", "tests/law_test.cpp"):
+            with self.subTest(name):
+                done, looked = self.tidy(name)
+                self.assertEqual((done.returncode, looked), (2, set()))
+                self.assertIn(name, done.stderr)
+
+    def test_a_file_that_cannot_be_preprocessed_is_looked_at_every_time(self):
+        self.write("law/law.cpp", '#include "nothing.hpp"\n')
+        self.tidy()
+        self.assertEqual(self.tidy()[1], {"law/law.cpp"})
+
+
+if __name__ == "__main__":
+    if COMPILER is None:
+        print("there is no compiler to preprocess with; nothing was checked")
+        sys.exit(SKIP_STATUS)
+    unittest.main()
