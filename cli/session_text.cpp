@@ -28,7 +28,7 @@ nlohmann::ordered_json DamageJson(const session::Damage& damage) {
           {"corrupt_records", damage.corrupt_records},
           {"missing_cycles", damage.missing_cycles},
           {"truncated", damage.truncated},
-          {"first_bad_offset", damage.first_bad_offset}};
+          {"first_bad_byte", damage.first_bad_offset}};
 }
 
 }  // namespace levitas::cli

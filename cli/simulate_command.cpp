@@ -200,6 +200,7 @@ void AddSimulateCommand(CLI::App& app, Action& action) {
       ->check(CLI::Range(1e-3, 100.0))
       ->capture_default_str();
   command->add_option("--departures", options->departures, "How many places to list")
+      ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_option("--csv", options->csv_path, "Write the spectra to this file");
   command->add_option("--svg", options->svg_path, "Draw the spectra into this file");

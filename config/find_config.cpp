@@ -45,8 +45,8 @@ std::string FindConfig(const std::string& name, const std::string& kind) {
     if (entry.path().extension() == ".yaml") known.push_back(entry.path().stem().string());
   }
   std::sort(known.begin(), known.end());
-  std::string text =
-      name + ": no such file, and none of that name among the " + kind + " in " + folder.string();
+  std::string text = name + (fs::is_directory(name, none) ? ": it is a folder" : ": no such file") +
+                     ", and none of that name among the " + kind + " in " + folder.string();
   if (!known.empty()) text += " (" + Listed(known) + "); nearest " + Nearest(name, known);
   throw BadInput(text);
 }

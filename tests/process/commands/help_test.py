@@ -1,0 +1,82 @@
+"""The help of every command names each of its options, and each option it names is accepted."""
+
+import re
+import unittest
+
+from command import DONE, SOURCE, USAGE, CommandTest, amb
+
+OPTIONS = {
+    "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--json"},
+    "poles": {"--rig", "--controller", "--speed-rpm", "--speeds", "--up-to-hz", "--json"},
+    "margins": {"--rig", "--controller", "--speed-rpm", "--speeds", "--json"},
+    "simulate": {"--rig", "--force-noise-percent", "--departures", "--csv", "--svg", "--json"},
+    "import": {"--rig", "--out", "--json"},
+    "export": {"--csv", "--json"},
+    "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--json"},
+    "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--port", "--record",
+            "--seed", "--json"},
+    "doctor": {"--json"},
+}
+POSITIONAL = {"simulate": "session", "import": "DATA", "export": "SESSION", "replay": "SESSION"}
+
+
+class Help(CommandTest):
+    def help_of(self, *command):
+        done = amb(self.folder, *command, "--help")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def test_every_option_of_the_contract_is_explained(self):
+        for command, options in OPTIONS.items():
+            text = self.help_of(command)
+            listed = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", text))
+            self.assertLessEqual(options, listed, command)
+            for option in options - {"--speeds"}:  # another name of --speed-rpm
+                # Something is said behind the option's name and type.
+                said = re.search(rf"{option}\b[^\n]*\n?\s+(\w+\W+\w+[^\n]*)", text)
+                self.assertIsNotNone(said, (command, option))
+
+    def test_nothing_is_offered_that_this_table_does_not_know(self):
+        """An option added without a line here has no test of its help."""
+        for command, options in OPTIONS.items():
+            if command in ("run", "doctor"):  # have more options, tested where they belong
+                continue
+            usage = self.help_of(command).split("Options:")[1]
+            listed = {name for line in usage.splitlines() if re.match(r"  -", line)
+                      for name in re.findall(r"--[a-z][a-z-]*", line.split(" ... ")[0])}
+            self.assertLessEqual(options, listed, command)
+            own_lines = {name for name in listed if re.search(rf"^  (?:-h,)?(?:--[a-z-]+,)?{name}\b",
+                                                              usage, re.M)}
+            self.assertEqual(own_lines - {"--help"}, options, command)
+
+    def test_files_a_command_needs_are_named(self):
+        for command, name in POSITIONAL.items():
+            self.assertIn(name, self.help_of(command), command)
+            self.assertEqual(amb(self.folder, command).returncode, USAGE, command)
+
+    def test_general_help_lists_every_command_with_a_word_about_it(self):
+        text = self.help_of()
+        for command in OPTIONS:
+            self.assertRegex(text, rf"\n  {command} +\w+", command)
+
+    def test_defaults_are_told(self):
+        for command, default in (("modes", "flexible_rotor"), ("poles", "flexible_rotor"),
+                                 ("modes", "=4"), ("poles", "=1000"), ("simulate", "=8")):
+            self.assertIn(default, self.help_of(command), command)
+
+    def test_every_command_of_the_documentation_exists(self):
+        told = set()
+        for page in (SOURCE / "docs/analysis.md", SOURCE / "docs/formats.md"):
+            told |= set(re.findall(r"`amb ([a-z]+)", page.read_text()))
+        self.assertGreaterEqual(told, {"modes", "poles", "margins", "simulate", "import", "export",
+                                       "replay"})
+        self.assertLessEqual(told, set(OPTIONS), "documented, but there is no such command")
+
+    def test_help_needs_no_files(self):
+        """Also where nothing of the project can be found."""
+        self.assertIn("--json", self.help_of("modes", "--rig", "absent.yaml"))
+
+
+if __name__ == "__main__":
+    unittest.main()
