@@ -1,6 +1,7 @@
 #include "session/record_codec.hpp"
 
 #include <algorithm>
+#include <array>
 #include <levitas_msg/event_t.hpp>
 #include <levitas_msg/session_header_t.hpp>
 
@@ -16,8 +17,8 @@ constexpr std::size_t kCrcBytes = 4;
 
 /// CRC over everything, the last four bytes (the CRC field) taken as zero.
 std::uint32_t CrcWithFieldZero(Input bytes) noexcept {
-  constexpr std::uint8_t kZero[kCrcBytes] = {};
-  return Crc32(kZero, kCrcBytes, Crc32(bytes.data(), bytes.size() - kCrcBytes));
+  constexpr std::array<std::uint8_t, kCrcBytes> kZero{};
+  return Crc32(kZero.data(), kCrcBytes, Crc32(bytes.data(), bytes.size() - kCrcBytes));
 }
 
 bool CrcFits(Input bytes) noexcept {

@@ -164,8 +164,10 @@ std::string Reader::Meant(const Frame& frame, std::string key) {
 }
 
 void Reader::ReportUnknown(Frame& frame) {
-  for (const auto& [key, place] : frame.node->keys) {
-    const auto known = [&](const Expected& field) {
+  for (const auto& entry : frame.node->keys) {
+    const auto& key = entry.first;
+    const auto& place = entry.second;
+    const auto known = [&key](const Expected& field) {
       return std::ranges::find(field.keys, key) != field.keys.end();
     };
     if (std::ranges::any_of(frame.expected, known)) continue;
