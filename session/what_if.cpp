@@ -13,7 +13,7 @@ namespace levitas::session {
 namespace {
 
 // The slowest filter of a usable law settles well within this; its integrator need not.
-constexpr double kFillTime_s = 0.1;
+constexpr double kFillTimeS = 0.1;
 
 /// The other controller: whole, or its law alone for imported data.
 class Other {
@@ -80,7 +80,7 @@ WhatIfReport WhatIf(SessionReader& reader, const cycle::CycleConfig& config,
   const bool imported = reader.header().controller_yaml.empty();
   Other controller(config, imported);
   const auto fill_cycles = static_cast<std::uint64_t>(
-      kFillTime_s * 1e9 / static_cast<double>(reader.header().period_ns));
+      kFillTimeS * 1e9 / static_cast<double>(reader.header().period_ns));
   WhatIfReport report;
   std::vector<Sums> sums(reader.header().channels.size());
   cycle::CycleRecord record;
