@@ -138,16 +138,16 @@ ExitStatus Compare(const ReplayOptions& options) {
   const session::WhatIfReport report =
       session::WhatIf(reader, config, options.session_path,
                       [&csv](const auto& record, const auto& other) { csv.Add(record, other); });
-  csv.Finish();
   Print(report);
   PrintDamage(reader.damage());
-  WriteJsonFile(options.json_path, WhatIfJson(options, report));
   if (report.compared == 0) {
     throw BadInput(
         fmt::format("{}: in no cycle were both controllers levitating, nothing to "
                     "compare",
                     options.session_path));
   }
+  csv.Finish();
+  WriteJsonFile(options.json_path, WhatIfJson(options, report));
   return ExitStatus::kDone;
 }
 

@@ -2,7 +2,9 @@
 // Recorded and other currents side by side, one line per compared cycle:
 // time_s, recorded_<channel>_a ..., other_<channel>_a ...
 //
-// Failure  BadInput when the file cannot be written. Without a path nothing is done.
+// Failure  BadInput when the file cannot be written. Without a path nothing is done. The file
+// appears
+//          under its name when Finish is called; what was not finished is removed.
 
 #include <cstdint>
 #include <fstream>
@@ -16,11 +18,16 @@ namespace levitas::cli {
 class WhatIfCsv {
  public:
   WhatIfCsv(const std::string& path, const session::SessionHeader& header);
+  ~WhatIfCsv();
+  WhatIfCsv(const WhatIfCsv&) = delete;
+  WhatIfCsv& operator=(const WhatIfCsv&) = delete;
+
   void Add(const cycle::CycleRecord& record, const cycle::CycleOutputs& other);
   void Finish();
 
  private:
   std::string path_;
+  std::string part_path_;  ///< empty when there is nothing to remove
   std::ofstream file_;
   std::size_t axes_;
   std::int64_t period_ns_;

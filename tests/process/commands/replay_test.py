@@ -93,6 +93,15 @@ class Replay(CommandTest):
         self.refuse(BAD_INPUT, "upper", "replay", "s.lcmlog", "--controller", "other.yaml", "--csv",
                     "x.csv", "--json", "x.json")
 
+    def test_record_in_which_nothing_can_be_compared_leaves_no_result(self):
+        """The first 0.1 s fill the filters, so 50 ms leave nothing."""
+        make_record(self.folder / "short.csv", rows=500)
+        done = amb(self.folder, "import", "short.csv", "--rig", "flexible_rotor", "--out",
+                   "short.lcmlog")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.refuse(BAD_INPUT, "nothing to compare", "replay", "short.lcmlog", "--controller",
+                    "flexible_rotor", "--csv", "x.csv", "--json", "x.json")
+
     def test_damage_is_told_and_what_is_left_is_compared(self):
         data = bytearray((self.folder / "s.lcmlog").read_bytes())
         middle = len(data) // 2
