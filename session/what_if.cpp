@@ -79,8 +79,8 @@ WhatIfReport WhatIf(SessionReader& reader, const cycle::CycleConfig& config,
                     const std::string& session_path, const WhatIfSink& sink) {
   const bool imported = reader.header().controller_yaml.empty();
   Other controller(config, imported);
-  const auto fill_cycles = static_cast<std::uint64_t>(
-      kFillTimeS * 1e9 / static_cast<double>(reader.header().period_ns));
+  const auto fill_cycles =
+      static_cast<std::uint64_t>(kFillTimeS * 1e9 / static_cast<double>(reader.header().period_ns));
   WhatIfReport report;
   std::vector<Sums> sums(reader.header().channels.size());
   cycle::CycleRecord record;
