@@ -1,7 +1,8 @@
 #pragma once
-// The verdict written for people (a table, at most 100 columns, no colour) and for programs (JSON,
-// units in the keys, SI except rpm and percent-free shares).
+// The verdict written for people (a table, no colour) and for programs (JSON, units in the keys, SI
+// except rpm and percent-free shares).
 //
+// Width    at most 100 columns while bearing names have at most 9 letters; longer names widen it.
 // Thread   any. Failure: none.
 
 #include <nlohmann/json_fwd.hpp>

@@ -11,6 +11,9 @@ std::uint64_t Cycles(double time_s, const RigNumbers& rig) {
   return static_cast<std::uint64_t>(std::llround(std::max(time_s, 0.0) / rig.period_s()));
 }
 
+/// Faster than any rotor: a reading beyond it, or none at all, belongs to no bin.
+constexpr double kFastest = 1e6 * kRadPerSPerRpm;
+
 /// A reading that is not finite must look large, not vanish in a comparison with NaN.
 double Radius(double x_m, double y_m) {
   const double radius_m = std::hypot(x_m, y_m);
@@ -95,7 +98,7 @@ void SessionStatistics::AddOrbit(const cycle::CycleRecord& record, PhaseSums& su
   ++sums.orbit_cycles;
   const SensorFrame& frame = record.in.frame;
   ProfileBin* bin = nullptr;
-  if (spinning) {
+  if (spinning && std::abs(frame.speed_rad_per_s) <= kFastest) {
     const auto index =
         static_cast<std::size_t>(std::abs(frame.speed_rad_per_s) / kProfileBinRadPerS);
     while (profile_.size() <= index) {

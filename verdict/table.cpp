@@ -23,6 +23,13 @@ std::string Duration(double duration_ns) {
   return fmt::format("{:.1f} ms", duration_ns * 1e-6);
 }
 
+/// Of the first column: the usual ten, or what the longest name needs with a blank behind it.
+std::size_t NameWidth(const std::vector<std::string>& names) {
+  std::size_t width = 10;
+  for (const std::string& name : names) width = std::max(width, name.size() + 1);
+  return width;
+}
+
 void Heading(const Verdict& verdict, Out out) {
   const Provenance& from = verdict.inputs.provenance;
   fmt::format_to(out, "Verdict on rig {}, controller {}, scenario {} ({}, seed {})\n", from.rig,
@@ -33,19 +40,20 @@ void Heading(const Verdict& verdict, Out out) {
 
 void Orbits(const Verdict& verdict, Out out) {
   if (verdict.orbits.empty()) return;
-  fmt::format_to(out, "\n{:<10}{:<10}{:>7}{:>8}{:>10}{:>10} {:<5}{:>13}{:>5}{:>21}\n", "orbit",
-                 "phase", "max um", "rms um", "offset um", "limit um", "", "of clearance", "zone",
-                 "worst at");
+  const std::size_t width = NameWidth(verdict.inputs.rig.bearings);
+  fmt::format_to(out, "\n{:<{}}{:<10}{:>7}{:>8}{:>10}{:>10} {:<5}{:>13}{:>5}{:>21}\n", "orbit",
+                 width, "phase", "max um", "rms um", "offset um", "limit um", "", "of clearance",
+                 "zone", "worst at");
   for (const OrbitJudgement& at : verdict.orbits) {
     const std::string where =
         at.spinning ? fmt::format("{:.0f} rpm, {:.2f} s", Rpm(at.orbit.max_speed_rad_per_s),
                                   at.orbit.max_time_s)
                     : fmt::format("{:.2f} s", at.orbit.max_time_s);
-    fmt::format_to(out,
-                   "{:<10}{:<10}{:>7.2f}{:>8.2f}{:>10.2f}{:>10.1f} {:<5}{:>13.3f}{:>5}{:>21}\n",
-                   at.bearing, PhaseName(at.spinning), Um(at.orbit.max_m), Um(at.orbit.rms_m),
-                   Um(std::hypot(at.orbit.offset_x_m, at.orbit.offset_y_m)), Um(at.objective_m),
-                   at.met ? "ok" : "FAIL", at.clearance_share, Letter(at.zone), where);
+    fmt::format_to(
+        out, "{:<{}}{:<10}{:>7.2f}{:>8.2f}{:>10.2f}{:>10.1f} {:<5}{:>13.3f}{:>5}{:>21}\n",
+        at.bearing, width, PhaseName(at.spinning), Um(at.orbit.max_m), Um(at.orbit.rms_m),
+        Um(std::hypot(at.orbit.offset_x_m, at.orbit.offset_y_m)), Um(at.objective_m),
+        at.met ? "ok" : "FAIL", at.clearance_share, Letter(at.zone), where);
   }
 }
 
@@ -54,31 +62,34 @@ void CurrentsOf(const Inputs& in, const PhaseFigures& phase, bool spinning, Out 
   for (std::size_t b = 0; b < phase.bearings.size(); ++b) {
     for (std::size_t k = 0; k < 2; ++k) {
       const CurrentFigures& current = phase.bearings[b].current[k];
-      fmt::format_to(out, "{:<10}{:<10}{:>9.4f}{:>17.4f}{:>9.4f}{:>18.2f} %\n",
-                     in.rig.channels[2 * b + k], PhaseName(spinning), current.mean_a,
-                     current.dynamic_rms_a, current.peak_a, 100.0 * current.saturated_share);
+      fmt::format_to(out, "{:<{}}{:<10}{:>9.4f}{:>17.4f}{:>9.4f}{:>18.2f} %\n",
+                     in.rig.channels[2 * b + k], NameWidth(in.rig.channels), PhaseName(spinning),
+                     current.mean_a, current.dynamic_rms_a, current.peak_a,
+                     100.0 * current.saturated_share);
     }
   }
 }
 
 void Currents(const Inputs& in, Out out) {
   if (in.session.standing.cycles + in.session.spinning.cycles == 0) return;
-  fmt::format_to(out, "\n{:<10}{:<10}{:>9}{:>17}{:>9}{:>20}\n", "current", "phase", "static A",
-                 "rms about mean A", "peak A", "cycles saturated");
+  fmt::format_to(out, "\n{:<{}}{:<10}{:>9}{:>17}{:>9}{:>20}\n", "current",
+                 NameWidth(in.rig.channels), "phase", "static A", "rms about mean A", "peak A",
+                 "cycles saturated");
   CurrentsOf(in, in.session.standing, false, out);
   CurrentsOf(in, in.session.spinning, true, out);
 }
 
 void Sensitivity(const Inputs& in, Out out) {
   if (in.sensitivity.empty()) return;
-  fmt::format_to(out, "\n{:<10}{:>10}{:>9}{:>9}   {}\n", "peak |S|", "speed rpm", "peak", "at Hz",
-                 "zone");
+  fmt::format_to(out, "\n{:<{}}{:>10}{:>9}{:>9}   {}\n", "peak |S|", NameWidth(in.rig.channels),
+                 "speed rpm", "peak", "at Hz", "zone");
   for (const auto& result : in.sensitivity) {
     for (std::size_t i = 0; i < result.axes.size(); ++i) {
       const analysis::AxisSensitivity& axis = result.axes[i];
       const std::string zone = axis.zone ? std::string(1, Letter(*axis.zone)) : "none: unstable";
-      fmt::format_to(out, "{:<10}{:>10.0f}{:>9.3f}{:>9.1f}   {}\n", in.rig.channels.at(i),
-                     Rpm(result.speed_rad_per_s), axis.peak, axis.frequency_hz, zone);
+      fmt::format_to(out, "{:<{}}{:>10.0f}{:>9.3f}{:>9.1f}   {}\n", in.rig.channels.at(i),
+                     NameWidth(in.rig.channels), Rpm(result.speed_rad_per_s), axis.peak,
+                     axis.frequency_hz, zone);
     }
   }
 }
@@ -110,11 +121,14 @@ void Losses(const Inputs& in, Out out) {
   const SessionFigures& session = in.session;
   const std::uint64_t messages = (in.timing ? in.timing->lost_messages : 0) +
                                  (in.rig_process ? in.rig_process->lost_messages : 0);
-  fmt::format_to(out,
-                 "losses    {} periods skipped, {} frames missing, {} currents late, {} messages "
-                 "lost, {} records lost\n",
-                 session.skipped_periods, session.missing_frames, session.held_currents, messages,
-                 session.missing_records);
+  const std::string before =
+      fmt::format("losses    {} periods skipped, {} frames missing, {} currents late,",
+                  session.skipped_periods, session.missing_frames, session.held_currents);
+  const std::string after =
+      fmt::format("{} messages lost, {} records lost", messages, session.missing_records);
+  constexpr std::size_t kColumns = 100;
+  const bool fits = before.size() + 1 + after.size() <= kColumns;
+  fmt::format_to(out, "{}{}{}\n", before, fits ? " " : "\n          ", after);
   if (session.skipped_periods > 0 && in.timing && !in.timing->blamed_stage.empty()) {
     fmt::format_to(out, "          most overruns are due to the stage: {}\n",
                    in.timing->blamed_stage);
