@@ -31,6 +31,18 @@ void OperatorReceiver::Run() {
   }
 }
 
+bool OperatorReceiver::Repeated(std::uint64_t sender, std::int64_t sequence) noexcept {
+  for (Seen& seen : seen_) {
+    if (seen.sender != sender) continue;
+    const bool repeated = seen.sequence == sequence;
+    seen.sequence = sequence;
+    return repeated;
+  }
+  seen_[next_seen_] = {sender, sequence};
+  next_seen_ = (next_seen_ + 1) % kRemembered;
+  return false;
+}
+
 void OperatorReceiver::Handle(const Received& received) {
   const Packet packet = ParsePacket(received.datagram);
   if (packet.kind == PacketKind::kFragment) return;
@@ -47,9 +59,7 @@ void OperatorReceiver::Handle(const Received& received) {
     rejected_.fetch_add(1, std::memory_order_relaxed);
     return;
   }
-  if (received.sender == last_sender_ && message.sequence == last_sequence_) return;
-  last_sender_ = received.sender;
-  last_sequence_ = message.sequence;
+  if (Repeated(received.sender, message.sequence)) return;
   take_({.command = static_cast<OperatorCommand>(message.command),
          .speed_rad_per_s = message.speed_rad_per_s,
          .acceleration_rad_per_s2 = message.acceleration_rad_per_s2});

@@ -3,11 +3,14 @@
 // through a wait-free ring.
 //
 // Repetition  a command whose sequence number is the last one of the same sender is the same
-//             command sent again, and is passed on once.
+//             command sent again, and is passed on once, whoever else has spoken in between. The
+//             latest kRemembered senders are known: each start of an operator's program is one.
 // Failure     construction throws Problem; unknown commands, numbers that are not finite and
 //             malformed messages are counted and dropped.
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <thread>
@@ -25,6 +28,8 @@ struct NetworkCommand {
 
 class OperatorReceiver {
  public:
+  static constexpr std::size_t kRemembered = 64;
+
   /// `take` is called in the receiver's thread; it must not block for long.
   OperatorReceiver(const LcmNetwork& network, std::function<void(const NetworkCommand&)> take);
   ~OperatorReceiver();
@@ -38,11 +43,16 @@ class OperatorReceiver {
  private:
   void Run();
   void Handle(const Received& received);
+  [[nodiscard]] bool Repeated(std::uint64_t sender, std::int64_t sequence) noexcept;
 
   MulticastReceiver receiver_;
   std::function<void(const NetworkCommand&)> take_;
-  std::uint64_t last_sender_{0};
-  std::int64_t last_sequence_{0};
+  struct Seen {
+    std::uint64_t sender{0};
+    std::int64_t sequence{0};
+  };
+  std::array<Seen, kRemembered> seen_{};
+  std::size_t next_seen_{0};  ///< the longest known sender, replaced by the next new one
   std::atomic<std::uint64_t> rejected_{0};
   std::atomic<bool> stopping_{false};
   std::thread thread_;

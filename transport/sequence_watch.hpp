@@ -1,8 +1,10 @@
 #pragma once
-// Counts the messages that were sent but never arrived, from the sequence number of each.
+// Counts the messages that were sent but did not arrive in time, from the sequence number of each.
 //
-// A sender counts every message it sends on a port, so a jump is a loss. Another sender, or a
-// sender that started again, begins a new count and loses nothing by it.
+// A sender counts every message it sends on a port, so a jump is a loss; a message that arrives
+// after a later one stays lost to a reader of the newest. A number up to kReorder behind is such a
+// message, or a repetition, and moves nothing. Another sender, or a sender that started again,
+// begins a new count and loses nothing by it.
 
 #include <cstdint>
 
@@ -10,11 +12,15 @@ namespace levitas::transport {
 
 class SequenceWatch {
  public:
+  static constexpr std::uint32_t kReorder = 64;  ///< more than a network holds back
+
   void Saw(std::uint64_t sender, std::uint32_t sequence) noexcept {
     if (sender == sender_) {
-      const std::uint32_t step = sequence - previous_;  // modulo 2^32, as the sender counts
-      // More than half the range is a repetition or a reordering, not a loss of 2^31 messages.
-      if (step > 1 && step < (1U << 31)) lost_ += step - 1;
+      const std::uint32_t behind = previous_ - sequence;  // modulo 2^32, as the sender counts
+      if (behind <= kReorder) return;
+      const std::uint32_t step = sequence - previous_;
+      // Half the range or more is a count begun anew, not a loss of 2^31 messages.
+      if (step < (1U << 31)) lost_ += step - 1;
     }
     sender_ = sender;
     previous_ = sequence;

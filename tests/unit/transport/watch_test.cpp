@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "common/random.hpp"
 #include "transport/partner_watch.hpp"
 #include "transport/sequence_watch.hpp"
 
@@ -65,6 +66,45 @@ TEST(SequenceWatch, LosesNothingByANewSenderOrARepetition) {
   watch.Saw(2, 1);
   watch.Saw(2, 1);
   EXPECT_EQ(watch.lost(), 0U);
+}
+
+TEST(SequenceWatch, CountsAnOvertakenMessageOnceAndAnOldRepetitionNotAtAll) {
+  SequenceWatch watch;
+  watch.Saw(1, 10);
+  watch.Saw(1, 12);  // 11 was overtaken: lost to a reader of the newest
+  watch.Saw(1, 11);
+  watch.Saw(1, 13);
+  EXPECT_EQ(watch.lost(), 1U);
+  watch.Saw(1, 10);  // repeated by the network
+  watch.Saw(1, 14);
+  EXPECT_EQ(watch.lost(), 1U);
+}
+
+TEST(SequenceWatch, FollowsASenderThatCountsAnewFromTheSameAddress) {
+  SequenceWatch watch;
+  watch.Saw(1, 5000);
+  watch.Saw(1, 0);
+  watch.Saw(1, 1);
+  EXPECT_EQ(watch.lost(), 0U);
+  watch.Saw(1, 4);
+  EXPECT_EQ(watch.lost(), 2U);
+}
+
+TEST(SequenceWatch, CountsExactlyTheGapsOfARandomLossAcrossTheWrap) {
+  Random random(20261121);
+  SequenceWatch watch;
+  std::uint64_t lost = 0;
+  std::uint32_t sequence = 0xFFFFFFFF - 5000;
+  watch.Saw(1, sequence);
+  for (int message = 0; message < 10'000; ++message) {
+    ++sequence;
+    if (message < 9'999 && random.Uniform() < 0.2) {
+      ++lost;
+    } else {
+      watch.Saw(1, sequence);
+    }
+  }
+  EXPECT_EQ(watch.lost(), lost);
 }
 
 }  // namespace
