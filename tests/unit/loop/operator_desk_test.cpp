@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/random.hpp"
+
 namespace levitas::loop {
 namespace {
 
@@ -128,6 +130,66 @@ TEST(OperatorDesk, WithoutAScenarioWaitsForTheResetOfATrip) {
   tripped.amplifiers_enabled = false;
   for (; tripped.cycle < 20'000; ++tripped.cycle) (void)desk.Next(tripped);
   EXPECT_FALSE(desk.Done());
+}
+
+TEST(OperatorDesk, TakesOneRemoteCommandPerCycleInTheOrderTheyCame) {
+  SpscRing<RemoteCommand> ring(4);
+  OperatorDesk desk(kOptions, nullptr, &ring);
+  const OperatorCommand sent[] = {OperatorCommand::kSpin, OperatorCommand::kCoastDown,
+                                  OperatorCommand::kLand, OperatorCommand::kLift};
+  for (const auto command : sent) ASSERT_TRUE(ring.Post({command, 1.0, 1.0}));
+  for (std::uint64_t cycle = 0; cycle < 4; ++cycle) {
+    EXPECT_EQ(desk.Next(View(cycle, Mode::kLevitating)).command, sent[cycle]);
+  }
+  EXPECT_EQ(desk.Next(View(4, Mode::kLevitating)).command, OperatorCommand::kNone);
+}
+
+TEST(OperatorDesk, ServesWhatAFullRingHoldsAndTheRingCountsWhatItRefused) {
+  SpscRing<RemoteCommand> ring(2);
+  OperatorDesk desk(kOptions, nullptr, &ring);
+  for (int i = 0; i < 5; ++i) ring.Post({OperatorCommand::kSpin, 10.0 * i, 1.0});
+  EXPECT_EQ(ring.lost(), 3U);
+  EXPECT_EQ(desk.Next(View(0, Mode::kSpinning)).speed_rad_per_s, 0.0);
+  EXPECT_EQ(desk.Next(View(1, Mode::kSpinning)).speed_rad_per_s, 10.0);
+  ASSERT_TRUE(ring.Post({OperatorCommand::kEmergencyStop, 0.0, 0.0}));  // room again
+  EXPECT_EQ(desk.Next(View(2, Mode::kSpinning)).command, OperatorCommand::kEmergencyStop);
+}
+
+TEST(OperatorDesk, PassesAnEmergencyStopInEveryModeWhetherEndingOrNot) {
+  for (std::uint8_t mode = 0; mode < kModeCount; ++mode) {
+    for (const bool ending : {false, true}) {
+      SpscRing<RemoteCommand> ring(2);
+      OperatorDesk desk(kOptions, nullptr, &ring);
+      if (ending) desk.RequestStop();
+      (void)desk.Next(View(0, static_cast<Mode>(mode), 100.0));
+      ring.Post({OperatorCommand::kEmergencyStop, 0.0, 0.0});
+      EXPECT_EQ(desk.Next(View(1, static_cast<Mode>(mode), 100.0)).command,
+                OperatorCommand::kEmergencyStop)
+          << Name(static_cast<Mode>(mode)) << (ending ? " ending" : "");
+    }
+  }
+}
+
+// Two desks that see the same give the same: no clock, no history but the view.
+TEST(OperatorDesk, GivesTheSameInputsForTheSameViews) {
+  DeskOptions options = kOptions;
+  options.duration_s = 0.2;
+  OperatorDesk one(options, nullptr, nullptr);
+  OperatorDesk other(options, nullptr, nullptr);
+  Random random(20261121);
+  for (std::uint64_t cycle = 0; cycle < 10'000; ++cycle) {
+    const auto mode = static_cast<Mode>(random.Bits() % kModeCount);
+    const OperatorView view = View(cycle, mode, 300.0 * random.Uniform());
+    const auto input = one.Next(view);
+    const auto again = other.Next(view);
+    ASSERT_EQ(input.command, again.command) << cycle;
+    ASSERT_EQ(input.acceleration_rad_per_s2, again.acceleration_rad_per_s2) << cycle;
+    ASSERT_EQ(one.Done(), other.Done()) << cycle;
+    // Before the duration is over a desk without a scenario has no wishes of its own.
+    if (cycle < 2'000) {
+      ASSERT_EQ(input.command, OperatorCommand::kNone) << cycle;
+    }
+  }
 }
 
 }  // namespace
