@@ -84,6 +84,7 @@ ExitStatus Run(const AnalysisOptions& options) {
   const config::ControllerFile controller = LoadController(options, rig);
   nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
   fmt::print("Sensitivity of the sampled loop, delay included; zones of ISO 14839-3\n");
+  fmt::print("rig {}, controller {}\n", rig.numbers.name, controller.name);
   for (const double rpm : options.speeds_rpm) {
     const auto result = analysis::SensitivityPeaks(rig.plant, controller.law, RadPerSecond(rpm));
     Print(result, rig.numbers.channels);

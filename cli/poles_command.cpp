@@ -59,6 +59,8 @@ ExitStatus Run(const PolesOptions& options) {
   const config::RigFile rig = LoadRig(options);
   const config::ControllerFile controller = LoadController(options, rig);
   nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
+  fmt::print("Poles of the sampled loop, delay included; rig {}, controller {}\n", rig.numbers.name,
+             controller.name);
   for (const double rpm : options.speeds_rpm) {
     const auto poles = analysis::ClosedLoopPoles(rig.plant, controller.law, RadPerSecond(rpm));
     Print(poles, options.up_to_hz);

@@ -18,6 +18,7 @@
 #include "cli/run/run_options.hpp"
 #include "cli/run/supervise.hpp"
 #include "cli/run/telemetry.hpp"
+#include "session/output_path.hpp"
 #include "verdict/commission.hpp"
 #include "verdict/report.hpp"
 
@@ -98,7 +99,7 @@ ExitStatus StatusOf(const RunResult& result) {
 void SayWhereTheRecordIs(const RunPaths& paths, const std::string& trip_file) {
   fmt::print("record: {}   (amb replay {})\n", paths.session, paths.session);
   if (!trip_file.empty()) {
-    fmt::print("trip:   {}   (amb replay {})\n", trip_file, trip_file);
+    fmt::print("trip:   {}   (amb export {} --csv trip.csv)\n", trip_file, trip_file);
   }
 }
 
@@ -106,6 +107,7 @@ ExitStatus Execute(const RunOptions& options) {
   if (!std::isfinite(options.duration_s)) {  // which the option's own check lets pass
     throw Problem(ExitStatus::kUsage, "--duration: not a number of seconds; allowed: above 0");
   }
+  session::CheckOutputPath(options.record_path, {});
   std::optional<transport::LcmNetwork> network = CheckPort(options.port);
   const RunFiles files = CheckFiles(options);
   const PortLease lease = Lease(network);

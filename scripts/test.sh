@@ -4,6 +4,7 @@
 #   run_tests unit loop       these labels
 #   run_tests -R Pid          whatever ctest understands
 #   run_tests --all           what CI runs: besides, format, clang-tidy, ASan+UBSan and TSan
+#   run_tests --help          says the above
 
 test_labels="unit loop replay process build"
 
@@ -58,6 +59,15 @@ run_all() {
 }
 
 run_tests() {
+  if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
+    cat <<'USAGE'
+./amb test               every test of preset release
+./amb test LABEL...      unit, loop, replay, process, build
+./amb test -R Pid        whatever ctest understands
+./amb test --all         what CI runs: besides, clang-tidy, ASan+UBSan and TSan
+USAGE
+    return
+  fi
   if [ "${1:-}" = --all ]; then
     [ $# -eq 1 ] || { say "./amb test --all takes nothing else"; return 2; }
     run_all

@@ -9,6 +9,7 @@
 
 namespace levitas::session {
 
+/// `input_path` is empty when no file is read.
 void CheckOutputPath(const std::string& output_path, const std::string& input_path);
 
 }  // namespace levitas::session

@@ -1,9 +1,9 @@
 #pragma once
 // Radial magnet in differential driving: two opposed coils, true force and its linear form.
 //
-// Equation   F = k [ (i+/(s0-x))^2 - (i-/(s0+x))^2 ],  i+- = i0 +- ic       docs/derivations.md
-// (14)
-//            ki = 4 k i0/s0^2,  ks = 4 k i0^2/s0^3 (positive: destabilising)                  (15)
+// Equation   F = k [ (i+/(s0-x))^2 - (i-/(s0+x))^2 ],  i+- = i0 +- ic    (14)
+//            ki = 4 k i0/s0^2,  ks = 4 k i0^2/s0^3 (positive: destabilising)    (15)
+//            numbered as in docs/derivations.md
 // Source     Schweitzer & Maslen (2009), Magnetic Bearings, ch. 3-4.
 // Frame      bearing frame: x towards the coil that carries i+.
 // Thread     any; pure functions. Not done: eddy currents, hysteresis, saturation of the iron.

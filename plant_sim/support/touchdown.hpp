@@ -6,8 +6,7 @@
 //            docs/derivations.md (23)-(25). One-sided: it pushes, it never pulls.
 // Frame      bearing frame, rotation positive from x to y.
 // Thread     any; pure functions. Not done: the bearing's own rotation and mass, wear, heat, and
-// the
-//            braking torque of the friction on the shaft's rotation.
+//            the braking torque of the friction on the shaft's rotation.
 
 #include <cmath>
 

@@ -164,6 +164,12 @@ class Launcher(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("labels: unit loop replay process build", done.stderr)
 
+    def test_help_of_test_runs_no_test(self):
+        done = self.amb("test", "--help")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("./amb test LABEL...", done.stdout)
+        self.assertFalse((self.root / "build").exists())
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -57,7 +57,8 @@ class Poles(CommandTest):
     def test_what_is_printed_is_what_the_json_holds(self):
         printed, loop = self.compute("poles", "--speed-rpm", "1600", "--up-to-hz", "300")
         at = loop["speeds"][0]
-        head, names, *rows = printed.splitlines()
+        title, head, names, *rows = printed.splitlines()
+        self.assertIn("rig flexible_rotor, controller flexible_rotor", title)
         self.assertIn("1600 rpm: STABLE", head)
         self.assertIn(f"{at['largest_pole_modulus']:.6f}", head)
         self.assertIn("frequency Hz", names)

@@ -80,7 +80,14 @@ TEST_F(RunFailureTest, ATripIsStatusFourAndItsRecordIsKeptAndNamed) {
   EXPECT_EQ(json["verdict"], "tripped");
   EXPECT_TRUE(std::filesystem::exists(json["provenance"]["session_file"].get<std::string>()));
   EXPECT_TRUE(std::filesystem::exists(json["trip"]["file"].get<std::string>()));
-  EXPECT_THAT(run.Said(), HasSubstr(json["trip"]["file"].get<std::string>()));
+  // A trip file starts in the middle of a run: it is exported, not replayed.
+  EXPECT_THAT(run.Said(), HasSubstr("amb export " + json["trip"]["file"].get<std::string>()));
+}
+
+TEST_F(RunFailureTest, ARecordThatNamesAFolderIsRefusedBeforeAnythingStarts) {
+  AmbRun run(scratch_, "run", {"--record", scratch_ / ""});
+  EXPECT_EQ(run.Status(), 3) << run.Said();
+  EXPECT_THAT(run.Said(), HasSubstr("it is a folder. Name a file in it."));
 }
 
 TEST_F(RunFailureTest, AKilledRigIsOneClearMessage) {
