@@ -4,8 +4,8 @@
 // Estimate  the 99 % quantile of the lateness by stochastic approximation (Robbins and Monro 1951):
 //             q <- q + 0.99 d  after a later wake-up than q,   q <- q - 0.01 d  otherwise.
 //           It rests where 1 % of the wake-ups are later than q, whatever their distribution.
-// Bounds    25 us .. 60 us: below, the usual lateness of a busy machine (docs/timing.md); above, the
-//           spin would come near the kernel's limit for real-time threads (95 % of a second).
+// Bounds    25 us .. 60 us: below, the usual lateness of a busy machine (docs/timing.md); above,
+//           the spin would come near the kernel's limit for real-time threads (95 % of a second).
 // Pure      no clock; one instance per sleeping thread.
 
 #include <algorithm>
