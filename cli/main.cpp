@@ -3,9 +3,30 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "cli/command.hpp"
+#include "config/text/nearest.hpp"
+
+namespace {
+
+/// A first word that is no command gets its own answer: CLI11 would only ask for a subcommand.
+void RefuseUnknownCommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string found = argv[1];
+  std::vector<std::string> known{"test", "bench"};  // of the launcher, ./amb
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::find(known.begin() + 2, known.end(), found) != known.end()) return;
+  throw levitas::Problem(
+      levitas::ExitStatus::kUsage,
+      fmt::format("no command '{}'; nearest: {}. All: {}", found,
+                  levitas::config::Nearest(found, known), levitas::config::Listed(known)));
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace levitas;
@@ -23,6 +44,7 @@ int main(int argc, char** argv) {
   cli::AddDoctorCommand(app, action);
   cli::AddSimulateCommand(app, action);
   try {
+    RefuseUnknownCommand(app, argc, argv);
     app.parse(argc, argv);
     return static_cast<int>(action ? action() : ExitStatus::kUsage);
   } catch (const CLI::ParseError& error) {

@@ -50,6 +50,13 @@ class Help(CommandTest):
                                                               usage, re.M)}
             self.assertEqual(own_lines - {"--help"}, options, command)
 
+    def test_a_word_that_is_no_command_gets_the_nearest_one(self):
+        for typed, meant in (("rnu", "run"), ("mode", "modes"), ("replya", "replay")):
+            done = amb(self.folder, typed)
+            self.assertEqual(done.returncode, USAGE)
+            self.assertIn(f"no command '{typed}'; nearest: {meant}.", done.stderr)
+        self.assertEqual(amb(self.folder).returncode, USAGE)
+
     def test_files_a_command_needs_are_named(self):
         for command, name in POSITIONAL.items():
             self.assertIn(name, self.help_of(command), command)
