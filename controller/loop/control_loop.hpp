@@ -36,7 +36,7 @@ struct LoopOptions {
   Pace pace{Pace::kLockstep};
   std::int64_t period_ns{100'000};
   std::int64_t phase_ns{30'000};  ///< rig's sampling instant -> wake-up: the frame's way here
-  std::int64_t grace_ns{20'000};  ///< wake-up -> a frame not there is missing
+  std::int64_t grace_ns{45'000};  ///< wake-up -> a frame not there is missing
 };
 
 class ControlLoop {

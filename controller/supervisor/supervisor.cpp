@@ -127,9 +127,12 @@ Finding Supervisor::SelfTest(const Observation& seen) noexcept {
 
 Finding Supervisor::Lift(const Observation& seen) noexcept {
   Finding found = FarthestBearing(seen, sequence_.settle_radius_m);
-  const bool near_centre =
-      cycles_in_state_ >= times_.lift_ramp && seen.fresh && found.value <= found.limit;
-  near_centre_cycles_ = near_centre ? near_centre_cycles_ + 1 : 0;
+  // A cycle without a frame says nothing about the rotor: it neither counts nor starts anew.
+  // (Frames that stay away are a fault of their own.)
+  if (seen.fresh) {
+    const bool near_centre = cycles_in_state_ >= times_.lift_ramp && found.value <= found.limit;
+    near_centre_cycles_ = near_centre ? near_centre_cycles_ + 1 : 0;
+  }
   if (cycles_in_state_ < times_.lift_timeout || near_centre_cycles_ >= times_.lift_settle) {
     return {};
   }

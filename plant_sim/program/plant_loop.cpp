@@ -8,7 +8,7 @@ namespace {
 using Answer = transport::LcmRigLink::Answer;
 constexpr std::uint64_t kTimeEvery = 16;
 constexpr std::int64_t kRepeatNs = 100'000'000;    // lockstep: ask again
-constexpr std::int64_t kLookNs = 25'000;           // real time: before the next instant
+constexpr std::int64_t kLookNs = 12'000;           // real time: before the next instant
 constexpr std::int64_t kWatchdogNs = 100'000'000;  // real time: no controller, no current
 }  // namespace
 

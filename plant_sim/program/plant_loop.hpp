@@ -4,7 +4,7 @@
 // Lockstep   frame n is sent, and again every 100 ms, until current n answers it; then the plant
 //            advances one period. A restarted controller picks up where the last one stopped.
 // Real time  its own grid at the whole multiples of the period. Frame n leaves at t_n. The rig
-//            sleeps once per period and looks for current n after that sleep, 25 us before
+//            sleeps once per period and looks for current n after that sleep, 12 us before
 //            t_n+1 (a receiver that sleeps on its socket would cost the controller the wake-up:
 //            16 us of a send instead of 3). A current that is not there then is not waited for: the
 //            last one acts on and the period is counted as held. When none came for 0.1 s the

@@ -82,6 +82,21 @@ TEST(Lift, WaitsUntilTheRotorHasSettled) {
   EXPECT_EQ(driver.Step().state, State::kLevitating);
 }
 
+// In real time a frame may come late; the rotor has settled all the same (five fresh frames).
+TEST(Lift, NeitherCountsNorForgetsWhenAFrameIsMissing) {
+  Driver driver;
+  driver.GoTo(State::kLift);
+  driver.seen.position_m = {50e-6, 0.0, 0.0, 0.0};
+  EXPECT_EQ(driver.Steps(60).state, State::kLift);
+  driver.seen.position_m = {};
+  for (int frame = 1; frame <= 5; ++frame) {
+    driver.seen.fresh = false;
+    EXPECT_EQ(driver.Step().state, State::kLift) << "before frame " << frame;
+    driver.seen.fresh = true;
+    EXPECT_EQ(driver.Step().state == State::kLevitating, frame == 5) << "with frame " << frame;
+  }
+}
+
 TEST(Lift, FailsAfterItsTimeAndReleases) {
   Driver driver;
   driver.GoTo(State::kLift);
