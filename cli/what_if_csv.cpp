@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 #include <fmt/ostream.h>
 
-#include <filesystem>
-
 #include "common/problem.hpp"
 #include "session/csv_export.hpp"
 
@@ -13,21 +11,16 @@ namespace levitas::cli {
 WhatIfCsv::WhatIfCsv(const std::string& path, const session::SessionHeader& header)
     : path_(path), axes_(header.channels.size()), period_ns_(header.period_ns) {
   if (path_.empty()) return;
-  file_.open(path_ + ".part");
+  part_.emplace(path_);
+  file_.open(part_->part_path());
   if (!file_) {
     throw BadInput(
         fmt::format("{}: cannot be written; check that the folder exists and is yours", path_));
   }
-  part_path_ = path_ + ".part";
   file_ << "time_s";
   for (const auto& channel : header.channels) fmt::print(file_, ",recorded_{}_a", channel);
   for (const auto& channel : header.channels) fmt::print(file_, ",other_{}_a", channel);
   file_ << '\n';
-}
-
-WhatIfCsv::~WhatIfCsv() {
-  std::error_code ignored;
-  if (!part_path_.empty()) std::filesystem::remove(part_path_, ignored);
 }
 
 void WhatIfCsv::Add(const cycle::CycleRecord& record, const cycle::CycleOutputs& other) {
@@ -44,8 +37,7 @@ void WhatIfCsv::Finish() {
   if (path_.empty()) return;
   file_.close();
   if (!file_) throw Problem(ExitStatus::kOther, fmt::format("{}: writing failed", path_));
-  std::filesystem::rename(part_path_, path_);
-  part_path_.clear();
+  part_->Commit();
 }
 
 }  // namespace levitas::cli

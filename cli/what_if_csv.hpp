@@ -3,14 +3,15 @@
 // time_s, recorded_<channel>_a ..., other_<channel>_a ...
 //
 // Failure  BadInput when the file cannot be written. Without a path nothing is done. The file
-// appears
-//          under its name when Finish is called; what was not finished is removed.
+//          appears under its name when Finish is called; what was not finished is removed.
 
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "controller/cycle/cycle_io.hpp"
+#include "session/output_path.hpp"
 #include "session/session_header.hpp"
 
 namespace levitas::cli {
@@ -18,16 +19,13 @@ namespace levitas::cli {
 class WhatIfCsv {
  public:
   WhatIfCsv(const std::string& path, const session::SessionHeader& header);
-  ~WhatIfCsv();
-  WhatIfCsv(const WhatIfCsv&) = delete;
-  WhatIfCsv& operator=(const WhatIfCsv&) = delete;
 
   void Add(const cycle::CycleRecord& record, const cycle::CycleOutputs& other);
   void Finish();
 
  private:
   std::string path_;
-  std::string part_path_;  ///< empty when there is nothing to remove
+  std::optional<session::PartFile> part_;  ///< none without a path
   std::ofstream file_;
   std::size_t axes_;
   std::int64_t period_ns_;

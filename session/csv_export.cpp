@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "session/output_path.hpp"
 
 namespace levitas::session {
 namespace {
@@ -94,9 +94,8 @@ std::string SecondsText(std::int64_t time_ns) {
 }
 
 ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
-  namespace fs = std::filesystem;
-  const std::string part_path = csv_path + ".part";
-  std::unique_ptr<std::FILE, Closer> file(std::fopen(part_path.c_str(), "we"));
+  PartFile part(csv_path);
+  std::unique_ptr<std::FILE, Closer> file(std::fopen(part.part_path().c_str(), "we"));
   if (!file) {
     throw BadInput(
         fmt::format("{}: cannot be written: {}. Name a file in a folder you may write to.",
@@ -127,10 +126,9 @@ ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
   sound = sound && std::fflush(file.get()) == 0;
   file.reset();
   if (!sound) {
-    fs::remove(part_path);
     throw Problem(ExitStatus::kOther, fmt::format("{}: writing failed: disk full?", csv_path));
   }
-  fs::rename(part_path, csv_path);
+  part.Commit();
   return report;
 }
 

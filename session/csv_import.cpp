@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <deque>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 
@@ -184,18 +183,11 @@ void Convert(const ImportOptions& options, const std::string& part_path, ImportR
 }  // namespace
 
 ImportReport ImportCsv(const ImportOptions& options) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
   CheckOutputPath(options.out_path, options.data_path);
-  const std::string part_path = options.out_path + ".part";
+  PartFile part(options.out_path);
   ImportReport report;
-  try {
-    Convert(options, part_path, report);
-    fs::rename(part_path, options.out_path);
-  } catch (...) {
-    fs::remove(part_path, ignored);
-    throw;
-  }
+  Convert(options, part.part_path(), report);
+  part.Commit();
   return report;
 }
 

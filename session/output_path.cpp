@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "common/problem.hpp"
 
@@ -20,6 +21,31 @@ void CheckOutputPath(const std::string& output_path, const std::string& input_pa
         ExitStatus::kUsage,
         fmt::format("{}: what is read and what is written would be the same file", output_path));
   }
+}
+
+namespace {
+
+std::string PartPath(const std::string& path) {
+  std::error_code ignored;
+  const auto kind = std::filesystem::status(path, ignored).type();
+  using Type = std::filesystem::file_type;
+  return kind == Type::not_found || kind == Type::regular || kind == Type::directory
+             ? path + ".part"
+             : path;
+}
+
+}  // namespace
+
+PartFile::PartFile(std::string path) : path_(std::move(path)), part_path_(PartPath(path_)) {}
+
+PartFile::~PartFile() {
+  std::error_code ignored;
+  if (!committed_ && part_path_ != path_) std::filesystem::remove(part_path_, ignored);
+}
+
+void PartFile::Commit() {
+  if (part_path_ != path_) std::filesystem::rename(part_path_, path_);
+  committed_ = true;
 }
 
 }  // namespace levitas::session

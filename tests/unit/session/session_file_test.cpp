@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
 
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "common/problem.hpp"
 #include "levitas_msg/cycle_record_t.hpp"
 #include "levitas_msg/session_header_t.hpp"
+#include "session/output_path.hpp"
 #include "tests/unit/session/synthetic.hpp"
 
 namespace levitas::session {
@@ -154,6 +157,35 @@ TEST(SessionFile, TellsAFullDisk) {
     EXPECT_EQ(problem.status(), ExitStatus::kOther);
     EXPECT_THAT(problem.what(), HasSubstr("No space left"));
   }
+}
+
+// As root a rename over a device would put a file in its place, for every program of the machine.
+TEST(PartFile, NeverTakesTheNameOfADevice) {
+  const std::filesystem::file_status before = std::filesystem::status("/dev/full");
+  {
+    PartFile part("/dev/full");
+    EXPECT_EQ(part.part_path(), "/dev/full");
+    part.Commit();
+  }
+  { const PartFile abandoned("/dev/full"); }
+  EXPECT_EQ(std::filesystem::status("/dev/full").type(), before.type());
+  EXPECT_EQ(before.type(), std::filesystem::file_type::character);
+}
+
+TEST(PartFile, AppearsUnderItsNameOnlyWhenCommitted) {
+  const Folder folder;
+  const std::string path = folder / "out.csv";
+  {
+    const PartFile abandoned(path);
+    std::ofstream(abandoned.part_path()) << "half";
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  PartFile part(path);
+  std::ofstream(part.part_path()) << "whole";
+  part.Commit();
+  EXPECT_TRUE(std::filesystem::exists(path));
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 
 TEST(SessionFile, IsReadableWhileItIsStillWritten) {
