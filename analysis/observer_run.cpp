@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "analysis/innovations.hpp"
 
 namespace levitas::analysis {
@@ -13,7 +15,7 @@ InnovationRun RunObserver(const plant::PlantConfig& plant, std::shared_ptr<const
   InnovationRun run;
   run.period_s = static_cast<double>(plant.period_ns) * 1e-9;
   if (!rows.empty()) run.first_cycle = rows.front().cycle;
-  const auto settling_rows = static_cast<std::uint64_t>(settling_s / run.period_s + 0.5);
+  const auto settling_rows = static_cast<std::uint64_t>(std::llround(settling_s / run.period_s));
   Observer observer(plant, std::move(gain));
   const auto axes = static_cast<std::size_t>(observer.unknown_force_n().size());
   AxisArray force_sum_n{};

@@ -17,6 +17,7 @@ namespace levitas::session {
 namespace {
 
 struct Closer {
+  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): this is the owner's deleter
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
 

@@ -29,6 +29,7 @@ LineSource::LineSource(const std::string& path) : path_(path) {
   if (path.ends_with(".xz")) {
     OpenCompressed();
   } else {
+    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): this class owns it, as getline wants it
     file_ = std::fopen(path.c_str(), "re");
   }
   if (file_ == nullptr) {
@@ -37,8 +38,10 @@ LineSource::LineSource(const std::string& path) : path_(path) {
 }
 
 LineSource::~LineSource() {
+  // NOLINTBEGIN(cppcoreguidelines-owning-memory,cppcoreguidelines-no-malloc): getline's own storage
   if (file_ != nullptr) std::fclose(file_);
   std::free(buffer_);
+  // NOLINTEND(cppcoreguidelines-owning-memory,cppcoreguidelines-no-malloc)
   if (child_ > 0) ::waitpid(child_, nullptr, 0);
 }
 
