@@ -119,7 +119,7 @@ LoopPoles ClosedLoopPoles(const plant::PlantConfig& plant, const law::LawConfig&
   Eigen::MatrixXd closed = ClosedLoopMatrix(loop);
   const Eigen::VectorXd scale = Balance(closed);
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(closed, true);
-  const Eigen::VectorXcd values = solver.eigenvalues();
+  const Eigen::VectorXcd& values = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = scale.asDiagonal() * solver.eigenvectors();
 
   LoopPoles result;

@@ -3,7 +3,8 @@
 #   run_tests                 every label of preset release
 #   run_tests unit loop       these labels
 #   run_tests -R Pid          whatever ctest understands
-#   run_tests --all           what CI runs: besides, format, clang-tidy, ASan+UBSan and TSan
+#   run_tests --all           what CI runs: besides, format, clang-tidy and ASan+UBSan
+#   run_tests --tsan          parts with threads, and the processes, under the thread sanitizer
 #   run_tests --help          says the above
 
 test_labels="unit loop replay process build"
@@ -39,6 +40,16 @@ prepare_preset() {
   release_lock
 }
 
+run_tsan() {
+  local ci_packages=""
+  # The thread sanitizer of GCC 12 does not know the wider address randomisation of newer kernels.
+  if setarch --addr-no-randomize true 2>/dev/null; then under=(setarch --addr-no-randomize); fi
+  # Only what has threads: elsewhere the thread sanitizer has nothing to see.
+  # shellcheck disable=SC2086 -- one word per target is meant
+  prepare_preset tsan $threaded_tests tests_process
+  ctest_preset tsan -L '^(unit|process)$' -E '_NOT_BUILT$'
+}
+
 # Every stage runs even when an earlier one failed, so that one run names everything.
 run_all() {
   local failed=() ci_packages=$root/packages-ci.txt
@@ -49,12 +60,6 @@ run_all() {
   prepare_preset tidy lcmtypes_generate
   say "clang-tidy"
   python3 "$root/scripts/tidy.py" --jobs "$(job_count)" || failed+=("clang-tidy")
-  # The thread sanitizer of GCC 12 does not know the wider address randomisation of newer kernels.
-  if setarch --addr-no-randomize true 2>/dev/null; then under=(setarch --addr-no-randomize); fi
-  # Only what has threads: elsewhere the thread sanitizer has nothing to see.
-  # shellcheck disable=SC2086 -- one word per target is meant
-  prepare_preset tsan $threaded_tests tests_process
-  ctest_preset tsan -L '^(unit|process)$' -E '_NOT_BUILT$' || failed+=("tsan tests")
   if [ ${#failed[@]} -ne 0 ]; then
     say "failed: $(IFS=,; echo "${failed[*]}")"
     return 1
@@ -63,11 +68,17 @@ run_all() {
 }
 
 run_tests() {
+  if [ "${1:-}" = --tsan ]; then
+    [ $# -eq 1 ] || { say "./amb test --tsan takes nothing else"; return 2; }
+    run_tsan
+    return
+  fi
   if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
     cat <<'USAGE'
 ./amb test               every test of preset release
 ./amb test LABEL...      unit, loop, replay, process, build
 ./amb test -R Pid        whatever ctest understands
+./amb test --tsan        what has threads, under the thread sanitizer
 ./amb test --all         what CI runs: besides, clang-tidy, ASan+UBSan and TSan
 USAGE
     return
