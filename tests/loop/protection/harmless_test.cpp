@@ -70,9 +70,9 @@ TEST(Limit, IsTheOnlyDifferenceBetweenANuisanceAndAFault) {
     Fault fault;
     void (*disturb)(cycle::CycleInputs& in);
   };
-  // From the shipped controller: five cycles without a frame, three at the end of the range.
+  // From the shipped controller: ten cycles without a frame, three at the end of the range.
   const Step steps[] = {
-      {"frames", 4, 5, Fault::kFrameMissing,
+      {"frames", 9, 10, Fault::kFrameMissing,
        [](cycle::CycleInputs& in) { in.frame_present = false; }},
       {"range", 2, 3, Fault::kSensorOutOfRange,
        [](cycle::CycleInputs& in) { in.frame.position_m[0] = -390e-6; }},
