@@ -88,7 +88,7 @@ Trial SystemProbe::TakeFifo(int priority) const {
 Trial SystemProbe::LockMemory(std::size_t bytes) const {
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) return FromStatus(false);
-  const Trial trial = FromStatus(mlock(memory, bytes) == 0);
+  Trial trial = FromStatus(mlock(memory, bytes) == 0);
   munmap(memory, bytes);
   return trial;
 }
@@ -104,7 +104,7 @@ Trial SystemProbe::SetTimerSlack() const {
 
 Trial SystemProbe::OpenCanSocket() const {
   const int handle = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
-  const Trial trial = FromStatus(handle >= 0);
+  Trial trial = FromStatus(handle >= 0);
   if (handle >= 0) close(handle);
   return trial;
 }
