@@ -47,7 +47,7 @@ void OperatorReceiver::Handle(const Received& received) {
   const Packet packet = ParsePacket(received.datagram);
   if (packet.kind == PacketKind::kFragment) return;
   if (packet.kind == PacketKind::kShort && packet.channel != channel::kCommand) return;
-  levitas_msg::operator_command_t message;
+  levitas_msg::operator_command_t message{};
   const int size = message.getEncodedSize();
   const bool sound = packet.kind == PacketKind::kShort &&
                      packet.payload.size() == static_cast<std::size_t>(size) &&

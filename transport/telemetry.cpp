@@ -52,7 +52,7 @@ levitas_msg::controller_state_t Message(const StateSample& sample) {
 }
 
 levitas_msg::loop_timing_t Message(const TimingSample& sample) {
-  levitas_msg::loop_timing_t message;
+  levitas_msg::loop_timing_t message{};
   message.cycle = static_cast<std::int64_t>(sample.cycle);
   message.skipped_periods = static_cast<std::int64_t>(sample.skipped_periods);
   message.missing_frames = static_cast<std::int64_t>(sample.missing_frames);

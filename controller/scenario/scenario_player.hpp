@@ -60,9 +60,9 @@ class ScenarioPlayer {
   enum class Phase : std::uint8_t { kCommand, kWait, kHold };
   struct Source {
     Prbs sequence;
-    std::size_t axis;
-    double amplitude_a;
-    std::uint32_t divisor;
+    std::size_t axis{};
+    double amplitude_a{};
+    std::uint32_t divisor{};
     double present_a{};
   };
   struct Timing {

@@ -28,7 +28,7 @@ bool CoversGroup(const std::vector<std::string>& routes, std::string& interface_
   constexpr unsigned long kGroup = 0x434CFFEFUL;
   constexpr unsigned long kRouteUp = 1UL;
   for (std::size_t i = 1; i < routes.size(); ++i) {
-    char name[64] = {};
+    char name[64] = {};  // NOLINT(modernize-avoid-c-arrays): for sscanf
     unsigned long destination = 0;
     unsigned long flags = 0;
     unsigned long mask = 0;

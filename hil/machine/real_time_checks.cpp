@@ -71,7 +71,8 @@ Finding Governor(const Probe& probe) {
   int visible = 0;
   std::string slow;
   for (const std::string& cpu : probe.List(folder, "cpu")) {
-    const auto governor = probe.ReadLine(folder + "/" + cpu + "/cpufreq/scaling_governor");
+    const auto governor =
+        probe.ReadLine(fmt::format("{}/{}/cpufreq/scaling_governor", folder, cpu));
     if (!governor) continue;
     ++visible;
     if (*governor != "performance") slow = *governor;
