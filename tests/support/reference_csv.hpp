@@ -6,11 +6,12 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+#include "tests/support/paths.hpp"
 
 namespace levitas::test {
 
 [[nodiscard]] inline std::vector<std::vector<double>> ReadReference(const std::string& name) {
-  std::ifstream file(std::string(LEVITAS_TEST_DATA) + "/reference/" + name);
+  std::ifstream file(levitas::test::DataFolder() + "/reference/" + name);
   std::string line;
   if (!std::getline(file, line)) throw std::runtime_error("no reference file " + name);
   std::vector<std::vector<double>> rows;

@@ -6,12 +6,13 @@
 
 #include "config/rig_file.hpp"
 #include "config/text/documenter.hpp"
+#include "tests/support/paths.hpp"
 
 namespace levitas::config {
 namespace {
 
 std::string Committed() {
-  std::ifstream file(LEVITAS_SOURCE "/docs/configuration.md", std::ios::binary);
+  std::ifstream file(levitas::test::SourceFolder() + "/docs/configuration.md", std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

@@ -13,6 +13,7 @@
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/supervisor/supervisor.hpp"
 #include "plant_sim/plant/plant.hpp"
+#include "tests/support/paths.hpp"
 
 namespace levitas::test {
 
@@ -20,7 +21,7 @@ inline constexpr double kRpm = 3.14159265358979323846 / 30.0;
 
 inline const config::RigFile& ShippedRig() {
   static const config::RigFile rig =
-      config::LoadRig(std::string(LEVITAS_SOURCE) + "/config/rigs/flexible_rotor.yaml");
+      config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
   return rig;
 }
 
@@ -28,7 +29,7 @@ inline const config::RigFile& ShippedRig() {
 inline cycle::CycleConfig ShippedCycle(const std::string& name = "flexible_rotor") {
   const config::RigFile& rig = ShippedRig();
   const config::ControllerFile controller = config::LoadController(
-      std::string(LEVITAS_SOURCE) + "/config/controllers/" + name + ".yaml", rig.numbers);
+      levitas::test::SourceFolder() + "/config/controllers/" + name + ".yaml", rig.numbers);
   return {rig.numbers, controller.law, controller.supervisor};
 }
 /// The law commissioned against the rig's objectives.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/run/child_process.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace levitas::cli {
@@ -47,7 +48,7 @@ class AmbRun {
     const std::string kept = before == nullptr ? "" : before;
     setenv("TMPDIR", (scratch / "").c_str(), 1);
     arguments.insert(arguments.begin(), "run");
-    child_.emplace(LEVITAS_BINARIES "/amb", arguments, log_);
+    child_.emplace(levitas::test::ProgramFolder() + "/amb", arguments, log_);
     if (before == nullptr) {
       unsetenv("TMPDIR");
     } else {

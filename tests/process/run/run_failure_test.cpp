@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "tests/process/run/amb_run.hpp"
+#include "tests/support/paths.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -19,7 +20,7 @@ class RunFailureTest : public testing::Test {
   /// A copy of a shipped file with `from` replaced by `to`.
   std::string Changed(const std::string& shipped, const std::regex& from, const std::string& to) {
     const std::string path = scratch_ / std::regex_replace(shipped, std::regex("/"), "_");
-    const std::string text = ReadAll(LEVITAS_SOURCE "/config/" + shipped);
+    const std::string text = ReadAll(levitas::test::SourceFolder() + "/config/" + shipped);
     const std::string changed = std::regex_replace(text, from, to);
     EXPECT_NE(text, changed);
     std::ofstream(path) << changed;

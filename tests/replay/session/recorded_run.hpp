@@ -8,13 +8,14 @@
 #include "config/rig_file.hpp"
 #include "session/session_writer.hpp"
 #include "tests/loop/levitation/closed_loop.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/unit/session/synthetic.hpp"
 
 namespace levitas::session::testing {
 
 inline config::ControllerFile ShippedController() {
   return config::LoadController(
-      std::string(LEVITAS_SOURCE) + "/config/controllers/flexible_rotor.yaml",
+      levitas::test::SourceFolder() + "/config/controllers/flexible_rotor.yaml",
       test::ShippedRig().numbers);
 }
 

@@ -9,6 +9,7 @@
 #include "session/csv_import.hpp"
 #include "session/replay.hpp"
 #include "tests/replay/session/recorded_run.hpp"
+#include "tests/support/paths.hpp"
 
 namespace levitas::session {
 namespace {
@@ -71,7 +72,7 @@ TEST_F(WhatIfs, RefusesATripFile) {
 // A record made by another program with the same law: the only check of the law's discretisation
 // here that no code of ours takes part in on both sides.
 TEST_F(WhatIfs, LawAloneCommandsWhatAForeignProgramCommanded) {
-  ImportOptions import{.data_path = std::string(LEVITAS_TEST_DATA) + "/records/standing_2s.csv.xz",
+  ImportOptions import{.data_path = levitas::test::DataFolder() + "/records/standing_2s.csv.xz",
                        .out_path = path_,
                        .rig = test::ShippedRig().numbers,
                        .rig_yaml = config::WriteRig(test::ShippedRig()),

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include "tests/support/paths.hpp"
 
 namespace levitas {
 namespace {
@@ -28,7 +29,7 @@ TEST(Enums, EveryValueHasItsOwnNameAndOnlyThose) {
 // "1 lift 2 spin ..." of a field's comment in a message file: what other programs go by.
 template <class Enum>
 void ExpectDocumentedNumbers(const std::string& file, const std::string& field, int count) {
-  std::ifstream in(std::string(LEVITAS_SOURCE) + "/lcmtypes/" + file);
+  std::ifstream in(levitas::test::SourceFolder() + "/lcmtypes/" + file);
   std::string line;
   int found = 0;
   while (std::getline(in, line)) {

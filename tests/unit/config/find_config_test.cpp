@@ -7,6 +7,7 @@
 
 #include "common/problem.hpp"
 #include "config/rig_file.hpp"
+#include "tests/support/paths.hpp"
 
 namespace levitas::config {
 namespace {
@@ -51,7 +52,7 @@ TEST_F(FindConfigIn, TakesAPathAsItIs) {
 
 TEST_F(FindConfigIn, FindsShippedFilesByName) {
   EXPECT_EQ(fs::canonical(FindConfig("flexible_rotor", "rigs")),
-            fs::canonical(LEVITAS_SOURCE "/config/rigs/flexible_rotor.yaml"));
+            fs::canonical(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml"));
 }
 
 TEST_F(FindConfigIn, PrefersTheFolderOfTheEnvironment) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "config/rig_file.hpp"
+#include "tests/support/paths.hpp"
 
 namespace levitas::config {
 namespace {
@@ -110,7 +111,7 @@ TEST(ShippedFiles, AllParse) {
   const RigNumbers rig = LoadRig(FindConfig("flexible_rotor", "rigs")).numbers;
   int files = 0;
   for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(LEVITAS_SOURCE "/config")) {
+       std::filesystem::recursive_directory_iterator(levitas::test::SourceFolder() + "/config")) {
     if (entry.path().extension() != ".yaml") continue;
     const std::string folder = entry.path().parent_path().filename();
     const std::string path = entry.path();

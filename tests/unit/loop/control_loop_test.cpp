@@ -6,6 +6,7 @@
 
 #include "config/rig_file.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/unit/loop/fakes.hpp"
 
 namespace levitas::loop {
@@ -18,9 +19,10 @@ using test::FakeSource;
 constexpr std::int64_t kPeriod = 100'000;
 
 cycle::CycleConfig ShippedConfig() {
-  const auto rig = config::LoadRig(LEVITAS_SOURCE "/config/rigs/flexible_rotor.yaml");
-  const auto controller =
-      config::LoadController(LEVITAS_SOURCE "/config/controllers/flexible_rotor.yaml", rig.numbers);
+  const auto rig =
+      config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+  const auto controller = config::LoadController(
+      levitas::test::SourceFolder() + "/config/controllers/flexible_rotor.yaml", rig.numbers);
   return {rig.numbers, controller.law, controller.supervisor};
 }
 

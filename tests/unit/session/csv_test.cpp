@@ -10,6 +10,7 @@
 #include "common/problem.hpp"
 #include "session/csv_export.hpp"
 #include "session/csv_import.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/unit/session/synthetic.hpp"
 
 namespace levitas::session {
@@ -231,7 +232,7 @@ TEST_F(Csv, FilesThatCannotBeReadAreRefusedWithTheReason) {
 TEST_F(Csv, ForeignRecordImportsFromItsCompressedFile) {
   ImportOptions options = Options();
   options.rig.channels = Header().channels;
-  options.data_path = std::string(LEVITAS_TEST_DATA) + "/records/standing_2s.csv.xz";
+  options.data_path = levitas::test::DataFolder() + "/records/standing_2s.csv.xz";
   const auto report = ImportCsv(options);
   EXPECT_EQ(report.rows, 20'000U);
   EXPECT_EQ(report.drop_outs, 0U);

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/paths.hpp"
 #include "tests/unit/supervisor/supervisor_rig.hpp"
 
 namespace levitas::supervisor {
@@ -159,7 +160,7 @@ TEST(ModeTable, HasItsOwnNameForEverything) {
 }
 
 TEST(ModesDocument, IsWhatTheTableSays) {
-  const std::string path = std::string(LEVITAS_SOURCE) + "/docs/modes.md";
+  const std::string path = levitas::test::SourceFolder() + "/docs/modes.md";
   if (std::getenv("LEVITAS_WRITE_DOCS") != nullptr) std::ofstream(path) << ModeTableDocument();
   std::ifstream file(path);
   ASSERT_TRUE(file) << path << " is missing; LEVITAS_WRITE_DOCS=1 makes this test write it";
