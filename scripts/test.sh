@@ -7,7 +7,7 @@
 #   run_tests --tsan          parts with threads, and the processes, under the thread sanitizer
 #   run_tests --help          says the above
 
-test_labels="unit loop replay process build"
+test_labels="unit loop replay process hardware build"
 # Unit tests of the parts that start threads or are shared between them.
 threaded_tests="common_test session_test transport_test loop_test rt_test machine_test"
 
@@ -40,6 +40,16 @@ prepare_preset() {
   release_lock
 }
 
+# Hardware tests need vcan and gpio-sim: of this kernel, or of a machine whose kernel is built once
+# (docs/test_machine.md). Where neither is possible they are named as not run; nothing else stops.
+prepare_machine() {
+  local machine=$root/scripts/test_machine.sh
+  if "$machine" kernel >/dev/null 2>&1; then return; fi
+  if ! (install_packages "$root/packages.txt" "$root/packages-machine.txt") || ! "$machine" build >/dev/null; then
+    say "hardware tests will not run: no vcan and gpio-sim here, and no kernel that has them"
+  fi
+}
+
 run_tsan() {
   local ci_packages=""
   # The thread sanitizer of GCC 12 does not know the wider address randomisation of newer kernels.
@@ -54,6 +64,7 @@ run_tsan() {
 run_all() {
   local failed=() ci_packages=$root/packages-ci.txt
   prepare_preset release
+  prepare_machine
   ctest_preset release || failed+=("release tests")
   prepare_preset asan-ubsan
   ctest_preset asan-ubsan -L '^(unit|loop|replay|process)$' || failed+=("asan-ubsan tests")
@@ -76,7 +87,7 @@ run_tests() {
   if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
     cat <<'USAGE'
 ./amb test               every test of preset release
-./amb test LABEL...      unit, loop, replay, process, build
+./amb test LABEL...      unit, loop, replay, process, hardware, build
 ./amb test -R Pid        whatever ctest understands
 ./amb test --tsan        what has threads, under the thread sanitizer
 ./amb test --all         what CI runs: besides, clang-tidy, ASan+UBSan and TSan
@@ -88,7 +99,8 @@ USAGE
     run_all
     return
   fi
-  local labels=()
+  local labels=() whole=""
+  [ $# -gt 0 ] || whole=yes
   while [ $# -gt 0 ] && [[ $1 != -* ]]; do
     [[ " $test_labels " == *" $1 "* ]] || { say "no test label '$1'; labels: $test_labels"; return 2; }
     labels+=("$1")
@@ -97,5 +109,6 @@ USAGE
   local selection=()
   [ ${#labels[@]} -eq 0 ] || selection=(-L "^($(IFS='|'; echo "${labels[*]}"))\$")
   prepare_preset release "${labels[@]/#/tests_}"
+  if [ -n "$whole" ] || [[ " ${labels[*]} " == *" hardware "* ]]; then prepare_machine; fi
   ctest_preset release "${selection[@]}" "$@"
 }

@@ -162,7 +162,7 @@ class Launcher(unittest.TestCase):
     def test_an_unknown_test_label_is_a_usage_error(self):
         done = self.amb("test", "units")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("labels: unit loop replay process build", done.stderr)
+        self.assertIn("labels: unit loop replay process hardware build", done.stderr)
 
     def test_help_of_test_runs_no_test(self):
         done = self.amb("test", "--help")
