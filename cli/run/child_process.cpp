@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -51,16 +52,17 @@ std::string ChildExit::Text() const {
   return fmt::format("ended with exit status {}", code);
 }
 
-ChildProcess::ChildProcess(std::string program, const std::vector<std::string>& arguments,
+ChildProcess::ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
                            std::string log_file)
     : name_(std::filesystem::path(program).filename()), log_file_(std::move(log_file)) {
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  int told[2];
-  if (pipe2(told, O_CLOEXEC) != 0) Refuse(program, std::strerror(errno));
+  std::array<int, 2> told{};
+  if (pipe2(told.data(), O_CLOEXEC) != 0) Refuse(program, std::strerror(errno));
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ < 0) Refuse(program, std::strerror(errno));

@@ -27,7 +27,7 @@ struct ChildExit {
 class ChildProcess {
  public:
   /// `arguments` without the program's name.
-  ChildProcess(std::string program, const std::vector<std::string>& arguments,
+  ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
                std::string log_file);
   /// Kills and reaps a child that still runs.
   ~ChildProcess();
