@@ -25,5 +25,6 @@ void AddImportCommand(CLI::App& app, Action& action);
 void AddExportCommand(CLI::App& app, Action& action);
 void AddDoctorCommand(CLI::App& app, Action& action);
 void AddSimulateCommand(CLI::App& app, Action& action);
+void AddIdentifyCommand(CLI::App& app, Action& action);
 
 }  // namespace levitas::cli

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   cli::AddExportCommand(app, action);
   cli::AddDoctorCommand(app, action);
   cli::AddSimulateCommand(app, action);
+  cli::AddIdentifyCommand(app, action);
   try {
     RefuseUnknownCommand(app, argc, argv);
     app.parse(argc, argv);

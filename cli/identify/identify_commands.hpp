@@ -1,0 +1,10 @@
+#pragma once
+// The subcommands of `amb identify`: each adds its options and action, as cli/command.hpp says.
+
+#include "cli/command.hpp"
+
+namespace levitas::cli {
+
+void AddIdentifyFrf(CLI::App& identify, Action& action);
+
+}  // namespace levitas::cli

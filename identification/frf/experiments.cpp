@@ -1,0 +1,190 @@
+#include "identification/frf/experiments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/problem.hpp"
+#include "identification/frf/excitation_period.hpp"
+
+namespace levitas::identification {
+namespace {
+
+constexpr double kPauseS = 0.2;
+/// Speeds closer than this, relative or in rad/s, are the same: a drive holds its speed.
+constexpr double kSameSpeed = 0.01;
+constexpr double kStands_rad_per_s = 1.0;
+
+struct Piece {
+  std::size_t axis{};
+  std::size_t begin{};
+  std::size_t end{};
+  std::size_t available{};  ///< row at which something else begins
+};
+
+double Rpm(double rad_per_s) { return rad_per_s * 30.0 / std::numbers::pi; }
+
+std::string Where(const Record& record, std::size_t axis, std::size_t row) {
+  return fmt::format("{}: excitation of {} from {:.4f} s", record.name, record.channels[axis],
+                     static_cast<double>(record.cycle[row] - record.cycle[0]) * record.period_s);
+}
+
+/// The axis excited in a row; `axes` when none is.
+std::size_t ExcitedAxis(const Record& record, std::size_t row) {
+  std::size_t found = record.axes();
+  for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+    if (record.excitation_a[axis][row] == 0.0) continue;
+    if (found != record.axes()) {
+      throw BadInput(fmt::format(
+          "{}: excites {} and {} together: their responses cannot be told apart; excite one axis "
+          "after the other",
+          Where(record, axis, row), record.channels[found], record.channels[axis]));
+    }
+    found = axis;
+  }
+  return found;
+}
+
+std::vector<Piece> FindPieces(const Record& record) {
+  const auto pause = static_cast<std::size_t>(std::lround(kPauseS / record.period_s));
+  std::vector<Piece> pieces;
+  for (std::size_t row = 0; row < record.rows(); ++row) {
+    const std::size_t axis = ExcitedAxis(record, row);
+    if (axis == record.axes()) continue;
+    const bool goes_on =
+        !pieces.empty() && pieces.back().axis == axis && row - pieces.back().end <= pause;
+    if (goes_on) {
+      pieces.back().end = row + 1;
+    } else {
+      if (!pieces.empty()) pieces.back().available = row;
+      pieces.push_back({axis, row, row + 1, record.rows()});
+    }
+  }
+  return pieces;
+}
+
+void CheckRows(const Record& record, const Piece& piece, std::size_t end) {
+  for (std::size_t row = piece.begin; row < end; ++row) {
+    if (row > piece.begin && record.cycle[row] != record.cycle[row - 1] + 1) {
+      throw BadInput(fmt::format(
+          "{}: {} samples are missing at {:.4f} s; record it again",
+          Where(record, piece.axis, piece.begin), record.cycle[row] - record.cycle[row - 1] - 1,
+          static_cast<double>(record.cycle[row] - record.cycle[0]) * record.period_s));
+    }
+    if (record.levitated[row] == 0) {
+      throw BadInput(Where(record, piece.axis, piece.begin) +
+                     ": the rotor is not levitated throughout");
+    }
+  }
+}
+
+double SteadySpeed(const Record& record, const Experiment& experiment) {
+  const auto begin = record.speed_rad_per_s.begin() + static_cast<std::ptrdiff_t>(experiment.begin);
+  const auto end = record.speed_rad_per_s.begin() + static_cast<std::ptrdiff_t>(experiment.end());
+  const auto [low, high] = std::minmax_element(begin, end);
+  const double mean = 0.5 * (*low + *high);
+  if (*high - *low > std::max(kStands_rad_per_s, kSameSpeed * std::abs(mean))) {
+    throw BadInput(fmt::format("{}: the speed changes from {:.0f} to {:.0f} rpm meanwhile",
+                               Where(record, experiment.axis, experiment.begin), Rpm(*low),
+                               Rpm(*high)));
+  }
+  return mean;
+}
+
+Experiment MakeExperiment(const Record& record, const Piece& piece,
+                          const ExperimentOptions& options) {
+  const std::span<const double> all(record.excitation_a[piece.axis]);
+  const auto signal = all.subspan(piece.begin, piece.end - piece.begin);
+  const auto period = RepeatsAfter(signal);
+  if (!period) {
+    throw BadInput(fmt::format(
+        "{} ({:.4f} s long): the signal does not repeat itself; at least {} whole periods are "
+        "needed, the first of which is the transient",
+        Where(record, piece.axis, piece.begin),
+        static_cast<double>(signal.size()) * record.period_s,
+        options.dropped_periods + options.needed_periods));
+  }
+  // An impulse train ends with its last stroke: its last period goes on as long as nothing else
+  // begins.
+  const std::size_t started = (signal.size() + *period - 1) / *period;
+  const bool complete = piece.begin + started * *period <= piece.available;
+  const std::size_t periods = complete ? started : signal.size() / *period;
+  if (periods < options.dropped_periods + options.needed_periods) {
+    throw BadInput(fmt::format(
+        "{}: {} whole periods of {} samples, needed are {}: {} for the transient and {} to average",
+        Where(record, piece.axis, piece.begin), periods, *period,
+        options.dropped_periods + options.needed_periods, options.dropped_periods,
+        options.needed_periods));
+  }
+  Experiment experiment{piece.axis, piece.begin + options.dropped_periods * *period, *period,
+                        periods - options.dropped_periods, 0.0};
+  CheckRows(record, piece, experiment.end());
+  experiment.speed_rad_per_s = SteadySpeed(record, experiment);
+  return experiment;
+}
+
+bool SameSpeed(double a, double b) {
+  return std::abs(a - b) <= std::max(kStands_rad_per_s, kSameSpeed * std::abs(a));
+}
+
+void RefuseIncomplete(const Record& record, const Campaign& campaign) {
+  std::string missing;
+  for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+    const bool there = std::ranges::any_of(campaign.experiments,
+                                           [axis](const Experiment& e) { return e.axis == axis; });
+    if (!there) missing += (missing.empty() ? "" : ", ") + record.channels[axis];
+  }
+  if (!missing.empty()) {
+    throw BadInput(fmt::format(
+        "{}: {} not excited at {:.0f} rpm; a rig with {} axes needs an experiment on each",
+        record.name, missing, Rpm(campaign.speed_rad_per_s), record.axes()));
+  }
+  const Experiment& first = campaign.experiments.front();
+  for (const Experiment& e : campaign.experiments) {
+    if (e.period_samples == first.period_samples) continue;
+    throw BadInput(fmt::format(
+        "{}: the excitation of {} repeats after {} samples, that of {} after {}; use one signal "
+        "for all axes",
+        record.name, record.channels[first.axis], first.period_samples, record.channels[e.axis],
+        e.period_samples));
+  }
+}
+
+}  // namespace
+
+std::vector<Experiment> FindExperiments(const Record& record, const ExperimentOptions& options) {
+  const std::vector<Piece> pieces = FindPieces(record);
+  if (pieces.empty()) {
+    throw BadInput(record.name +
+                   ": no excitation in the record; run a scenario with one (amb run --scenario "
+                   "identify), or name its columns excitation_<channel>_a");
+  }
+  std::vector<Experiment> experiments;
+  experiments.reserve(pieces.size());
+  for (const Piece& piece : pieces) {
+    experiments.push_back(MakeExperiment(record, piece, options));
+  }
+  return experiments;
+}
+
+std::vector<Campaign> GroupBySpeed(const Record& record,
+                                   const std::vector<Experiment>& experiments) {
+  std::vector<Campaign> campaigns;
+  for (const Experiment& experiment : experiments) {
+    auto at = std::ranges::find_if(campaigns, [&](const Campaign& c) {
+      return SameSpeed(c.speed_rad_per_s, experiment.speed_rad_per_s);
+    });
+    if (at == campaigns.end()) {
+      campaigns.push_back({experiment.speed_rad_per_s, {}});
+      at = campaigns.end() - 1;
+    }
+    at->experiments.push_back(experiment);
+  }
+  std::ranges::sort(campaigns, {}, &Campaign::speed_rad_per_s);
+  for (const Campaign& campaign : campaigns) RefuseIncomplete(record, campaign);
+  return campaigns;
+}
+
+}  // namespace levitas::identification

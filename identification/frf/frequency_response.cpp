@@ -1,0 +1,256 @@
+#include "identification/frf/frequency_response.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+
+#include "common/problem.hpp"
+#include "identification/frf/checks.hpp"
+#include "identification/frf/synchronous.hpp"
+
+namespace levitas::identification {
+namespace {
+
+using Complex = std::complex<double>;
+using Spectrum = std::vector<Complex>;
+using Index = Eigen::Index;
+
+/// Lines to either side over which noise is taken as equally strong.
+constexpr std::ptrdiff_t kNeighbours = 10;
+/// A line is excited when its power is at least this share of the mean power of all lines.
+constexpr double kExcitedShare = 1e-4;
+/// Lines this close to an order of rotation, in line spacings, are left out.
+constexpr double kOrderWidth = 0.75;
+
+Index At(std::size_t i) { return static_cast<Index>(i); }
+
+/// Spectra of one experiment: [channel][period][line].
+struct Spectra {
+  std::size_t axis{};
+  std::size_t periods{};
+  std::vector<std::vector<Spectrum>> position, current;
+  Spectrum excitation;
+};
+
+std::vector<Spectrum> PeriodSpectra(const Column& column, const Record& record, const Experiment& e,
+                                    int orders, Eigen::FFT<double>& fft) {
+  const auto piece = std::span(column).subspan(e.begin, e.end() - e.begin);
+  const auto angle = std::span(record.angle_rad).subspan(e.begin, piece.size());
+  const std::vector<double> rest = WithoutSynchronous(piece, angle, orders);
+  std::vector<Spectrum> spectra(e.periods);
+  std::vector<double> samples(e.period_samples);
+  for (std::size_t m = 0; m < e.periods; ++m) {
+    const auto from = rest.begin() + static_cast<std::ptrdiff_t>(m * e.period_samples);
+    std::copy_n(from, e.period_samples, samples.begin());
+    fft.fwd(spectra[m], samples);
+  }
+  return spectra;
+}
+
+Spectra Transform(const Record& record, const Experiment& e, int orders) {
+  Eigen::FFT<double> fft;
+  Spectra s{e.axis, e.periods, {}, {}, {}};
+  for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+    s.position.push_back(PeriodSpectra(record.position_m[axis], record, e, orders, fft));
+    s.current.push_back(PeriodSpectra(record.current_a[axis], record, e, orders, fft));
+  }
+  const auto from = record.excitation_a[e.axis].begin() + static_cast<std::ptrdiff_t>(e.begin);
+  std::vector<double> samples(from, from + static_cast<std::ptrdiff_t>(e.period_samples));
+  fft.fwd(s.excitation, samples);
+  return s;
+}
+
+Complex MeanOf(const std::vector<Spectrum>& periods, std::size_t line) {
+  Complex sum = 0.0;
+  for (const Spectrum& period : periods) sum += period[line];
+  return sum / static_cast<double>(periods.size());
+}
+
+std::vector<std::size_t> ExcitedLines(const std::vector<Spectra>& all, double spacing_hz,
+                                      double highest_hz) {
+  const std::size_t count = all.front().excitation.size() / 2;
+  std::vector<double> mean(all.size(), 0.0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = 1; k < count; ++k) mean[i] += std::norm(all[i].excitation[k]);
+    mean[i] /= static_cast<double>(count);
+  }
+  std::vector<std::size_t> lines;
+  for (std::size_t k = 1; k < count && static_cast<double>(k) * spacing_hz <= highest_hz; ++k) {
+    bool excited = true;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      excited = excited && std::norm(all[i].excitation[k]) > kExcitedShare * mean[i];
+    }
+    if (excited) lines.push_back(k);
+  }
+  return lines;
+}
+
+/// Mean responses of one line: columns by excited axis; several experiments on one axis average.
+struct LineMeans {
+  Eigen::MatrixXcd g, s;
+};
+
+LineMeans Means(const std::vector<Spectra>& all, std::size_t line, Index axes) {
+  LineMeans means{Eigen::MatrixXcd::Zero(axes, axes), Eigen::MatrixXcd::Zero(axes, axes)};
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(axes);
+  for (const Spectra& spectra : all) {
+    const Index j = At(spectra.axis);
+    count[j] += 1.0;
+    for (Index i = 0; i < axes; ++i) {
+      const auto channel = static_cast<std::size_t>(i);
+      means.g(i, j) += MeanOf(spectra.position[channel], line) / spectra.excitation[line];
+      means.s(i, j) += MeanOf(spectra.current[channel], line) / spectra.excitation[line];
+    }
+  }
+  means.g *= count.cwiseInverse().asDiagonal();
+  means.s *= count.cwiseInverse().asDiagonal();
+  return means;
+}
+
+/// Power of what does not repeat, per output and experiment: |r|^2 / (M (M - 1) |E|^2), the
+/// variance of the mean over the periods.
+Eigen::MatrixXd NoisePower(const std::vector<Spectra>& all, std::size_t line,
+                           const Eigen::MatrixXcd& plant) {
+  const Index axes = plant.rows();
+  Eigen::MatrixXd power = Eigen::MatrixXd::Zero(axes, axes);
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(axes);
+  for (const Spectra& spectra : all) {
+    const Index j = At(spectra.axis);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(axes);
+    for (std::size_t m = 0; m < spectra.periods; ++m) {
+      Eigen::VectorXcd dy(axes), du(axes);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) {
+        dy[At(i)] = spectra.position[i][m][line] - MeanOf(spectra.position[i], line);
+        du[At(i)] = spectra.current[i][m][line] - MeanOf(spectra.current[i], line);
+      }
+      sum += (dy - plant * du).cwiseAbs2();
+    }
+    const auto periods = static_cast<double>(spectra.periods);
+    power.col(j) += sum / (periods * (periods - 1.0) * std::norm(spectra.excitation[line]));
+    count[j] += 1.0;
+  }
+  for (Index j = 0; j < axes; ++j) power.col(j) /= count[j] * count[j];
+  return power;
+}
+
+Eigen::MatrixXd CoherenceOf(const std::vector<Spectra>& all, std::size_t line, Index axes) {
+  Eigen::MatrixXd coherence = Eigen::MatrixXd::Zero(axes, axes);
+  for (const Spectra& spectra : all) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) {
+      double power = 0.0;
+      for (const Spectrum& period : spectra.position[i]) power += std::norm(period[line]);
+      const double mean = std::norm(MeanOf(spectra.position[i], line));
+      coherence(At(i), At(spectra.axis)) =
+          power > 0.0 ? mean * static_cast<double>(spectra.periods) / power : 0.0;
+    }
+  }
+  return coherence;
+}
+
+bool NearOrder(double f_hz, double rotation_hz, int orders, double width_hz) {
+  for (int k = 1; k <= orders && rotation_hz > 0.0; ++k) {
+    if (std::abs(f_hz - k * rotation_hz) < width_hz) return true;
+  }
+  return false;
+}
+
+/// Replaces each line's noise power by the mean over its neighbours.
+std::vector<Eigen::MatrixXd> Smoothed(const std::vector<Eigen::MatrixXd>& power) {
+  std::vector<Eigen::MatrixXd> smooth;
+  smooth.reserve(power.size());
+  const auto count = static_cast<std::ptrdiff_t>(power.size());
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    const std::ptrdiff_t low = std::max<std::ptrdiff_t>(0, k - kNeighbours);
+    const std::ptrdiff_t high = std::min(count - 1, k + kNeighbours);
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(power.front().rows(), power.front().cols());
+    for (std::ptrdiff_t n = low; n <= high; ++n) sum += power[static_cast<std::size_t>(n)];
+    smooth.push_back(sum / static_cast<double>(high - low + 1));
+  }
+  return smooth;
+}
+
+void FindExtremes(const Record& record, const Campaign& campaign, FrequencyResponse& response) {
+  for (const Experiment& e : campaign.experiments) {
+    std::vector<double> mean(record.axes(), 0.0);
+    for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+      for (std::size_t row = e.begin; row < e.end(); ++row) {
+        mean[axis] += record.position_m[axis][row] / static_cast<double>(e.end() - e.begin);
+        response.largest_current_a =
+            std::max(response.largest_current_a, std::abs(record.current_a[axis][row]));
+      }
+    }
+    for (std::size_t x = 0; x + 1 < record.axes(); x += 2) {
+      for (std::size_t row = e.begin; row < e.end(); ++row) {
+        response.largest_orbit_m = std::max(
+            response.largest_orbit_m, std::hypot(record.position_m[x][row] - mean[x],
+                                                 record.position_m[x + 1][row] - mean[x + 1]));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaign,
+                                   const ResponseOptions& options) {
+  FrequencyResponse response;
+  response.speed_rad_per_s = campaign.speed_rad_per_s;
+  response.period_s = record.period_s;
+  response.channels = record.channels;
+  const double rotation_hz = std::abs(campaign.speed_rad_per_s) / (2.0 * std::numbers::pi);
+  const bool turns = rotation_hz > 0.5;
+  std::vector<Spectra> all;
+  all.reserve(campaign.experiments.size());
+  response.periods = campaign.experiments.front().periods;
+  for (const Experiment& e : campaign.experiments) {
+    all.push_back(Transform(record, e, turns ? options.orders : 0));
+    response.periods = std::min(response.periods, e.periods);
+  }
+  const auto samples = static_cast<double>(campaign.experiments.front().period_samples);
+  const double spacing_hz = 1.0 / (samples * record.period_s);
+  std::vector<Eigen::MatrixXd> power;
+  std::vector<Eigen::MatrixXcd> inverse;
+  const Index axes = response.axes();
+  for (const std::size_t line : ExcitedLines(all, spacing_hz, options.highest_hz)) {
+    const double f = static_cast<double>(line) * spacing_hz;
+    if (turns && NearOrder(f, rotation_hz, options.orders, kOrderWidth * spacing_hz)) {
+      response.left_out_hz.push_back(f);
+      continue;
+    }
+    const LineMeans means = Means(all, line, axes);
+    inverse.push_back(means.s.inverse());
+    response.frequency_hz.push_back(f);
+    response.plant.push_back(means.g * inverse.back());
+    response.sensitivity.push_back(means.s);
+    response.coherence.push_back(CoherenceOf(all, line, axes));
+    power.push_back(NoisePower(all, line, response.plant.back()));
+  }
+  if (power.empty()) throw BadInput(record.name + ": no line of the spectrum is excited");
+  const auto smooth = Smoothed(power);
+  response.variance.reserve(smooth.size());
+  for (std::size_t k = 0; k < smooth.size(); ++k) {
+    response.variance.push_back(smooth[k] * inverse[k].cwiseAbs2());
+  }
+  FindExtremes(record, campaign, response);
+  return response;
+}
+
+std::vector<FrequencyResponse> EstimateResponses(const Record& record, double delay_s,
+                                                 const ExperimentOptions& experiment_options,
+                                                 const ResponseOptions& options) {
+  const auto experiments = FindExperiments(record, experiment_options);
+  RefuseBadSignals(record, experiments);
+  std::vector<FrequencyResponse> responses;
+  for (const Campaign& campaign : GroupBySpeed(record, experiments)) {
+    responses.push_back(EstimateResponse(record, campaign, options));
+    RefuseWrongSigns(responses.back(), delay_s);
+  }
+  return responses;
+}
+
+}  // namespace levitas::identification

@@ -1,0 +1,59 @@
+#pragma once
+// Frequency response of a rig that only lives in closed loop: P = G S^-1.
+//
+// Equation   with axis j excited by e_j (periodic), Y = G E and U = S E line by line; every column
+//            of G and S from its own experiment; P = G S^-1 (Sahinkaya & Sawicki; any stabilising
+//            controller, linear or not known, drops out).
+// Leakage    none: spectra over whole periods of the signal, after the transient; what turns with
+//            the rotor is removed first (synchronous.hpp) and lines next to its orders are left
+//            out.
+// Noise      r = dY - P dU per period, the part that does not repeat: its covariance over the
+//            periods and over 21 neighbouring lines (it is smooth there) gives
+//            var P_ik = sum_j C_j,ii |S^-1_jk|^2 / (M |E_j|^2), E|P - P_true|^2 of a complex entry.
+//            What repeats (nonlinearity) is no noise and is not in it.
+// Coherence  |sum Y_m|^2 / (M sum |Y_m|^2) of position i with the excitation of axis j.
+// Units      P [m/A], from the command of a sample to the position read at the sample: delay, hold,
+//            amplifier and sensor are part of P.
+// Thread     any. Failure: BadInput, see experiments.hpp and checks.hpp.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "identification/frf/experiments.hpp"
+
+namespace levitas::identification {
+
+struct FrequencyResponse {
+  double speed_rad_per_s{};
+  double period_s{};  ///< of sampling
+  std::vector<std::string> channels;
+  std::vector<double> frequency_hz;
+  std::vector<Eigen::MatrixXcd> plant;        ///< per line, outputs x inputs [m/A]
+  std::vector<Eigen::MatrixXcd> sensitivity;  ///< per line [1]
+  std::vector<Eigen::MatrixXd> variance;      ///< of `plant` [m^2/A^2]
+  std::vector<Eigen::MatrixXd> coherence;     ///< [1]
+  std::vector<double> left_out_hz;            ///< lines next to an order of rotation
+  std::size_t periods{};                      ///< averaged, least of all experiments
+  double largest_orbit_m{};    ///< radius about the mean at any bearing, in any experiment
+  double largest_current_a{};  ///< |control current| of any axis
+
+  [[nodiscard]] Eigen::Index axes() const noexcept {
+    return static_cast<Eigen::Index>(channels.size());
+  }
+};
+
+struct ResponseOptions {
+  double highest_hz{5000.0};  ///< lines beyond it are left out
+  int orders{5};              ///< of rotation that are removed
+};
+
+[[nodiscard]] FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaign,
+                                                 const ResponseOptions& options = {});
+
+/// Everything from a record: cuts it, checks it, estimates one response per speed.
+[[nodiscard]] std::vector<FrequencyResponse> EstimateResponses(
+    const Record& record, double delay_s, const ExperimentOptions& experiment_options = {},
+    const ResponseOptions& options = {});
+
+}  // namespace levitas::identification
