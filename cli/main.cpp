@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
-#include "config/text/nearest.hpp"
+#include "common/nearest.hpp"
 
 namespace {
 
@@ -20,10 +20,9 @@ void RefuseUnknownCommand(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> known{"test", "bench"};  // of the launcher, ./amb
   for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
   if (std::find(known.begin() + 2, known.end(), found) != known.end()) return;
-  throw levitas::Problem(
-      levitas::ExitStatus::kUsage,
-      fmt::format("no command '{}'; nearest: {}. All: {}", found,
-                  levitas::config::Nearest(found, known), levitas::config::Listed(known)));
+  throw levitas::Problem(levitas::ExitStatus::kUsage,
+                         fmt::format("no command '{}'; nearest: {}. All: {}", found,
+                                     levitas::Nearest(found, known), levitas::Listed(known)));
 }
 
 }  // namespace

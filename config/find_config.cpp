@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "common/nearest.hpp"
 #include "common/problem.hpp"
 #include "config/rig_file.hpp"
-#include "config/text/nearest.hpp"
 
 namespace levitas::config {
 namespace {

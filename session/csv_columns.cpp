@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <optional>
 #include <set>
 
+#include "common/nearest.hpp"
 #include "common/problem.hpp"
 
 namespace levitas::session {
@@ -52,25 +52,9 @@ std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {
   return known;
 }
 
-/// Levenshtein's distance: insertions, deletions and replacements from one word to the other.
-std::size_t Distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row[b.size()];
-}
-
 const CsvColumn& Nearest(std::string_view name, const std::vector<CsvColumn>& known) {
   return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-    return Distance(name, a.name) < Distance(name, b.name);
+    return EditDistance(name, a.name) < EditDistance(name, b.name);
   });
 }
 
@@ -79,13 +63,7 @@ bool LooksMeant(std::string_view name, std::string_view nearest) {
   constexpr std::size_t kTypingErrors = 2;
   const auto has_prefix = [&](const PerAxis& kind) { return name.starts_with(kind.prefix); };
   return std::any_of(kPerAxis.begin(), kPerAxis.end(), has_prefix) ||
-         Distance(name, nearest) <= kTypingErrors;
-}
-
-std::string Joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+         EditDistance(name, nearest) <= kTypingErrors;
 }
 
 std::vector<std::string> Missing(const CsvLayout& layout,
@@ -150,7 +128,7 @@ CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
         problems.push_back(
             fmt::format("column {} \"{}\" is not known (channels of the rig: {}); "
                         "did you mean \"{}\"?",
-                        i + 1, name, Joined(channels), nearest));
+                        i + 1, name, Listed(channels), nearest));
       }
       layout.ignored.push_back(name);
       layout.columns.push_back({CsvQuantity::kIgnored, 0, 1.0, name});
@@ -162,7 +140,7 @@ CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
     layout.columns.push_back(*found);
   }
   const auto missing = Missing(layout, channels);
-  if (!missing.empty()) problems.push_back("columns missing: " + Joined(missing));
+  if (!missing.empty()) problems.push_back("columns missing: " + Listed(missing));
   if (!problems.empty()) {
     std::string text;
     for (const auto& problem : problems) text += (text.empty() ? "" : "\n") + problem;

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <deque>
 #include <levitas_msg/controller_state_t.hpp>
-#include <levitas_msg/event_t.hpp>
 #include <levitas_msg/loop_timing_t.hpp>
 #include <limits>
 #include <mutex>
@@ -69,20 +68,6 @@ levitas_msg::loop_timing_t Message(const TimingSample& sample) {
   return message;
 }
 
-levitas_msg::event_t Message(const EventText& event) {
-  levitas_msg::event_t message;
-  message.cycle = static_cast<std::int64_t>(event.cycle);
-  message.time_ns = event.time_ns;
-  message.severity = static_cast<std::int8_t>(event.severity);
-  message.mode = static_cast<std::int8_t>(event.mode);
-  message.fault = static_cast<std::int8_t>(event.fault);
-  message.axis = event.axis;
-  message.value = event.value;
-  message.limit = event.limit;
-  message.text = event.text;
-  return message;
-}
-
 }  // namespace
 
 struct Telemetry::Impl {
@@ -99,17 +84,26 @@ struct Telemetry::Impl {
     if (!sender.Send(datagram)) dropped.fetch_add(1, std::memory_order_relaxed);
   }
 
+  void SendEncoded(const char* channel, const std::vector<std::uint8_t>& message) {
+    const std::size_t header = HeaderSize(channel);
+    datagram.resize(header + message.size());
+    WriteHeader(datagram, sequence++, channel);
+    std::copy(message.begin(), message.end(),
+              datagram.begin() + static_cast<std::ptrdiff_t>(header));
+    if (!sender.Send(datagram)) dropped.fetch_add(1, std::memory_order_relaxed);
+  }
+
   void SendAll() {
     StateSample state;
     while (states.Take(state)) Send(channel::kState, state);
     TimingSample timing;
     while (timings.Take(timing)) Send(channel::kTiming, timing);
-    std::deque<EventText> taken;
+    std::deque<std::vector<std::uint8_t>> taken;
     {
       const std::lock_guard lock(mutex);
       taken.swap(events);
     }
-    for (const EventText& event : taken) Send(channel::kEvent, event);
+    for (const auto& event : taken) SendEncoded(channel::kEvent, event);
   }
 
   void Run() {
@@ -126,7 +120,7 @@ struct Telemetry::Impl {
   SpscRing<StateSample> states{kStateRing};
   SpscRing<TimingSample> timings{kTimingRing};
   std::mutex mutex;
-  std::deque<EventText> events;
+  std::deque<std::vector<std::uint8_t>> events;
   std::atomic<std::uint64_t> dropped{0};
   std::atomic<bool> stopping{false};
   std::thread thread;
@@ -145,13 +139,13 @@ void Telemetry::PostState(const StateSample& sample) noexcept { impl_->states.Po
 
 void Telemetry::PostTiming(const TimingSample& sample) noexcept { impl_->timings.Post(sample); }
 
-void Telemetry::PostEvent(EventText event) {
+void Telemetry::PostEvent(std::vector<std::uint8_t> encoded) {
   const std::lock_guard lock(impl_->mutex);
   if (impl_->events.size() == kEventQueue) {
     impl_->dropped.fetch_add(1, std::memory_order_relaxed);
     return;
   }
-  impl_->events.push_back(std::move(event));
+  impl_->events.push_back(std::move(encoded));
 }
 
 std::uint64_t Telemetry::dropped() const noexcept {

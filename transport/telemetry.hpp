@@ -9,7 +9,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "common/axes.hpp"
 #include "common/enums.hpp"
@@ -43,18 +43,6 @@ struct TimingSample {
   std::int8_t slowest_stage{};
 };
 
-struct EventText {
-  std::uint64_t cycle{};
-  std::int64_t time_ns{};
-  std::uint8_t severity{};  ///< 0 information, 1 warning, 2 trip
-  Mode mode{};
-  Fault fault{};
-  std::int8_t axis{-1};
-  double value{};
-  double limit{};
-  std::string text;
-};
-
 class Telemetry {
  public:
   explicit Telemetry(const LcmNetwork& network);
@@ -65,7 +53,8 @@ class Telemetry {
 
   void PostState(const StateSample& sample) noexcept;
   void PostTiming(const TimingSample& sample) noexcept;
-  void PostEvent(EventText event);
+  /// `encoded`: an event_t as the recorder encodes it.
+  void PostEvent(std::vector<std::uint8_t> encoded);
   /// Samples that found a ring full, events beyond the queue's length, refused by the kernel.
   [[nodiscard]] std::uint64_t dropped() const noexcept;
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "common/problem.hpp"
-#include "config/text/nearest.hpp"
+#include "common/nearest.hpp"
 
 namespace levitas::config {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "common/problem.hpp"
-#include "config/text/nearest.hpp"
+#include "common/nearest.hpp"
 #include "config/text/reader.hpp"
 
 namespace levitas::config {

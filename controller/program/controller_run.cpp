@@ -17,6 +17,7 @@
 #include "controller/rt/real_time.hpp"
 #include "controller/rt/stop_signal.hpp"
 #include "levitas_version.hpp"
+#include "session/record_codec.hpp"
 #include "session/recorder.hpp"
 #include "transport/lcm_rig_port.hpp"
 #include "transport/operator_receiver.hpp"
@@ -72,15 +73,9 @@ session::SessionHeader Header(const ControllerOptions& options, const Files& fil
 // Tells people and the network what the recorder found worth saying.
 void Announce(const session::Event& event, transport::Telemetry& telemetry) {
   fmt::print(stderr, "amb-controller: cycle {}: {}\n", event.cycle, event.text);
-  telemetry.PostEvent({.cycle = event.cycle,
-                       .time_ns = event.time_ns,
-                       .severity = static_cast<std::uint8_t>(event.severity),
-                       .mode = event.mode,
-                       .fault = event.fault,
-                       .axis = event.axis,
-                       .value = event.value,
-                       .limit = event.limit,
-                       .text = event.text});
+  session::Bytes encoded;
+  session::EncodeEvent(event, encoded);
+  telemetry.PostEvent(std::move(encoded));
 }
 
 // Nothing below needs the loop's speed: signals and the partner are looked after from here.

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 
+#include "common/nearest.hpp"
 #include "common/problem.hpp"
 
 namespace levitas::plant {
@@ -65,29 +65,13 @@ std::vector<Entry> Entries(PlantParameters& p) {
   return entries;
 }
 
-// Edit distance (Levenshtein 1966).
-std::size_t Distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 Entry Find(PlantParameters& parameters, std::string_view name) {
   const auto entries = Entries(parameters);
   const auto found = std::find_if(entries.begin(), entries.end(),
                                   [name](const Entry& entry) { return entry.name == name; });
   if (found != entries.end()) return *found;
   const auto closer = [name](const Entry& a, const Entry& b) {
-    return Distance(name, a.name) < Distance(name, b.name);
+    return EditDistance(name, a.name) < EditDistance(name, b.name);
   };
   const auto nearest = std::min_element(entries.begin(), entries.end(), closer);
   throw BadInput(fmt::format("the rig has no parameter '{}'; the nearest of its {} is '{}'", name,

@@ -1,10 +1,10 @@
-#include "config/text/nearest.hpp"
+#include "common/nearest.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
-namespace levitas::config {
+namespace levitas {
 
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -42,4 +42,4 @@ std::string Listed(std::span<const std::string> words) {
   return text;
 }
 
-}  // namespace levitas::config
+}  // namespace levitas

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace levitas::config {
+namespace levitas {
 
 /// Levenshtein distance: insertions, deletions, substitutions of one character.
 [[nodiscard]] std::size_t EditDistance(std::string_view a, std::string_view b);
@@ -16,4 +16,4 @@ namespace levitas::config {
 /// "a, b, c".
 [[nodiscard]] std::string Listed(std::span<const std::string> words);
 
-}  // namespace levitas::config
+}  // namespace levitas

@@ -1,10 +1,10 @@
-#include "config/text/nearest.hpp"
+#include "common/nearest.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-namespace levitas::config {
+namespace levitas {
 namespace {
 
 TEST(EditDistance, CountsSingleCharacterChanges) {
@@ -44,4 +44,4 @@ TEST(Listed, PutsCommasBetween) {
 }
 
 }  // namespace
-}  // namespace levitas::config
+}  // namespace levitas
