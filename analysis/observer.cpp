@@ -162,7 +162,7 @@ void Observer::Restart(const AxisArray& position_m) {
   for (std::size_t axis = 0; axis < axes; ++axis) {
     place_m[axis] = config.sensor_polarity[axis] * position_m[axis];
   }
-  if (bearings.size() == 2) {
+  if (bearings.size() == 2 && config.shafts.empty()) {
     // A rigid rotor through both sensor planes, read off at the actuator planes.
     const AxisArray sensor_m = place_m;
     const double first_z_m = bearings[0].sensor_z_m;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "common/problem.hpp"
+#include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -71,13 +72,12 @@ AxisModel ModelOf(std::vector<law::Section> sections) {
 SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
                       double speed_rad_per_s) {
   RefuseMismatch(plant, law);
-  const plant::LinearModel continuous = plant::Linearise(plant, speed_rad_per_s);
+  const plant::PlantModel model(plant);
+  const plant::LinearModel continuous = plant::Linearise(model, speed_rad_per_s);
   SampledLoop loop;
   loop.period_s = static_cast<double>(plant.period_ns) * 1e-9;
   loop.plant = plant::Discretise(continuous, loop.period_s, plant.delay_samples);
-  // Modal displacement and velocity of two planes, one amplifier and one sensor state per axis.
-  const auto axes = static_cast<Eigen::Index>(law.axes.size());
-  loop.modes = (continuous.a.rows() - 2 * axes) / 4;
+  loop.modes = static_cast<Eigen::Index>(model.layout().modes);
   for (const auto& axis : law.axes) {
     loop.law.push_back(ModelOf(law::DiscreteSections(axis, loop.period_s)));
   }

@@ -7,6 +7,8 @@
 namespace levitas::cli {
 namespace {
 
+constexpr const char* kReferenceController = "flexible_rotor";
+
 /// Refuses what strtod accepts and no rotor does.
 std::string CheckSpeed(const std::string& text) {
   double rpm = 0.0;
@@ -26,8 +28,8 @@ void AddRigOption(CLI::App& command, AnalysisOptions& options) {
 void AddControllerOption(CLI::App& command, AnalysisOptions& options) {
   command
       .add_option("--controller", options.controller_name,
-                  "Controller file, or the name of a shipped controller")
-      ->capture_default_str();
+                  "Controller file or shipped name; default: the one the rig file names")
+      ->default_str(kReferenceController);
 }
 
 void AddSpeedOption(CLI::App& command, AnalysisOptions& options, std::vector<double> default_rpm) {
@@ -49,8 +51,9 @@ config::RigFile LoadRig(const AnalysisOptions& options) {
 }
 
 config::ControllerFile LoadController(const AnalysisOptions& options, const config::RigFile& rig) {
-  return config::LoadController(config::FindConfig(options.controller_name, "controllers"),
-                                rig.numbers);
+  std::string name = options.controller_name.empty() ? rig.run.controller : options.controller_name;
+  if (name.empty()) name = kReferenceController;
+  return config::LoadController(config::FindConfig(name, "controllers"), rig.numbers);
 }
 
 double RadPerSecond(double rpm) noexcept { return rpm * std::numbers::pi / 30.0; }

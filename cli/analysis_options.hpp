@@ -11,7 +11,7 @@ namespace levitas::cli {
 
 struct AnalysisOptions {
   std::string rig_name{"flexible_rotor"};
-  std::string controller_name{"flexible_rotor"};
+  std::string controller_name;  ///< empty: the one that the rig names, else flexible_rotor
   std::vector<double> speeds_rpm;
   std::string json_path;
 };

@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/damped_modes.hpp"
 #include "analysis/free_modes.hpp"
 #include "cli/analysis_options.hpp"
 #include "cli/command.hpp"
@@ -71,6 +74,46 @@ nlohmann::ordered_json Json(const config::RigFile& rig, const analysis::FreeMode
   return json;
 }
 
+void PrintDamped(const analysis::DampedModesAtSpeed& at, std::size_t count) {
+  fmt::print("{:.0f} rpm of the first shaft\n{:>14}{:>14}{:>14}  {}\n", Rpm(at.speed_rad_per_s),
+             "frequency Hz", "rad/s", "damping", "motion");
+  const bool turning = at.speed_rad_per_s != 0.0;
+  for (std::size_t i = 0; i < std::min(count, at.modes.size()); ++i) {
+    const analysis::DampedMode& mode = at.modes[i];
+    const char* whirl = mode.forward_share > 0.5 ? "forward" : "backward";
+    if (!turning || std::abs(mode.forward_share - 0.5) < 0.05) whirl = "bending";
+    fmt::print("{:>14.3f}{:>14.3f}{:>14.5f}  {}\n", mode.frequency_hz,
+               RadPerSecond(60.0 * mode.frequency_hz), mode.damping_ratio,
+               mode.torsion_share > 0.5 ? "torsion" : whirl);
+  }
+}
+
+nlohmann::ordered_json DampedJson(const analysis::DampedModesAtSpeed& at) {
+  nlohmann::ordered_json json{{"speed_rpm", Rpm(at.speed_rad_per_s)}};
+  for (const auto& mode : at.modes) {
+    json["modes"].push_back({{"frequency_hz", mode.frequency_hz},
+                             {"damping_ratio", mode.damping_ratio},
+                             {"torsion_share", mode.torsion_share},
+                             {"forward_share", mode.forward_share}});
+  }
+  return json;
+}
+
+/// Shafts on supports of their own are not free: their damped modes, magnets without current.
+ExitStatus ShowDamped(const ModesOptions& options, const config::RigFile& rig) {
+  fmt::print("Rig {}: {} shafts, {} gears; damped modes, magnets without current\n",
+             rig.numbers.name, rig.plant.shafts.size(), rig.plant.gears.size());
+  nlohmann::ordered_json json{{"rig", rig.numbers.name}};
+  for (const double speed : SpeedsOf(options, rig)) {
+    const auto at = analysis::DampedModes(rig.plant, speed);
+    // Both planes have their modes, and torsion its own.
+    PrintDamped(at, 3 * options.modes);
+    json["speeds"].push_back(DampedJson(at));
+  }
+  WriteJsonFile(options.json_path, json);
+  return ExitStatus::kDone;
+}
+
 }  // namespace
 
 void AddModesCommand(CLI::App& app, Action& action) {
@@ -87,6 +130,7 @@ void AddModesCommand(CLI::App& app, Action& action) {
   command->callback([options, &action] {
     action = [options] {
       const config::RigFile rig = LoadRig(*options);
+      if (!rig.plant.shafts.empty()) return ShowDamped(*options, rig);
       const auto modes =
           analysis::ComputeFreeModes(rig.plant, SpeedsOf(*options, rig), options->modes);
       Print(rig, modes);

@@ -142,10 +142,14 @@ void AddRunCommand(CLI::App& app, Action& action) {
       "run", "Levitate the simulated rig with the controller process and judge the run");
   command->add_option("--rig", options->rig, "Rig file, or the name of a shipped one")
       ->capture_default_str();
-  command->add_option("--controller", options->controller, "Controller file or shipped name")
-      ->capture_default_str();
-  command->add_option("--scenario", options->scenario, "Scenario file or shipped name")
-      ->capture_default_str();
+  command
+      ->add_option("--controller", options->controller,
+                   "Controller file or shipped name; default: the one the rig file names")
+      ->default_str(kGeneralController);
+  command
+      ->add_option("--scenario", options->scenario,
+                   "Scenario file or shipped name; default: the one the rig file names")
+      ->default_str(kGeneralScenario);
   command
       ->add_option("--duration", options->duration_s,
                    "Land after this long [s of the rig's time], wherever the scenario is")

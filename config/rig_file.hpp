@@ -15,9 +15,16 @@
 
 namespace levitas::config {
 
+/// What the commands use with this rig unless they are told otherwise; empty: the general choice.
+struct RunDefaults {
+  std::string controller;
+  std::string scenario;
+};
+
 struct RigFile {
   RigNumbers numbers;
   plant::PlantConfig plant;
+  RunDefaults run;
 };
 
 struct ControllerFile {

@@ -27,14 +27,23 @@ bool Collect(std::string& problems, Read read) {
   }
 }
 
+/// What was asked for, else what the rig names, else what suits most.
+std::string Choose(const std::string& asked, const std::string& of_rig, const char* general) {
+  if (!asked.empty()) return asked;
+  return of_rig.empty() ? general : of_rig;
+}
+
 }  // namespace
 
 RunFiles CheckFiles(const RunOptions& options) {
   RunFiles files;
   std::string problems;
+  config::RunDefaults of_rig;
   const bool rig_good = Collect(problems, [&] {
     files.rig_path = config::FindConfig(options.rig, "rigs");
-    files.rig = config::LoadRig(files.rig_path).numbers;
+    const config::RigFile rig = config::LoadRig(files.rig_path);
+    files.rig = rig.numbers;
+    of_rig = rig.run;
   });
   // The other two are read for a rig. Without one, the shipped rig shows at least what is wrong in
   // them whatever the rig.
@@ -45,11 +54,13 @@ RunFiles CheckFiles(const RunOptions& options) {
         fmt::format("\n(the other files are checked against the shipped rig {})", kReferenceRig);
   }
   Collect(problems, [&] {
-    files.controller_path = config::FindConfig(options.controller, "controllers");
+    files.controller_path = config::FindConfig(
+        Choose(options.controller, of_rig.controller, kGeneralController), "controllers");
     static_cast<void>(config::LoadController(files.controller_path, reference));
   });
   Collect(problems, [&] {
-    files.scenario_path = config::FindConfig(options.scenario, "scenarios");
+    files.scenario_path = config::FindConfig(
+        Choose(options.scenario, of_rig.scenario, kGeneralScenario), "scenarios");
     files.scenario_name = config::LoadScenario(files.scenario_path, reference).name;
   });
   if (!problems.empty()) throw BadInput(problems);

@@ -15,10 +15,13 @@
 
 namespace levitas::cli {
 
+inline constexpr const char* kGeneralController = "flexible_rotor_commissioned";
+inline constexpr const char* kGeneralScenario = "default";
+
 struct RunOptions {
   std::string rig{"flexible_rotor"};
-  std::string controller{"flexible_rotor_commissioned"};
-  std::string scenario{"default"};
+  std::string controller;  ///< empty: the one that the rig names, else kGeneralController
+  std::string scenario;    ///< empty: the one that the rig names, else kGeneralScenario
   double duration_s{0.0};  ///< 0: as long as the scenario takes
   std::string pace{"lockstep"};
   std::string port;         ///< empty: lcm on ports nobody else uses

@@ -119,12 +119,16 @@ void Describe(Visitor& v, RigFile& rig, plant::BearingConfig& bearing, std::size
   v.RefuseIf(std::any_of(before, before + static_cast<std::ptrdiff_t>(index),
                          [&](const auto& other) { return other.name == bearing.name; }),
              "name", fmt::format("found \"{}\", which an earlier bearing has", bearing.name));
+  v.When(!rig.plant.shafts.empty(), "with shafts",
+         [&] { DescribeShaftNumber(v, rig.plant, bearing.shaft); });
   v.Number({"actuator_z", kMillimetre, 0, 100000, kRequired, "plane of the magnet and its contact"},
            bearing.actuator_z_m);
   RefuseBeyondShaft(v, rig.plant.rotor, bearing.actuator_z_m, "actuator_z_mm");
+  RefuseBesideShaft(v, rig.plant, bearing.shaft, bearing.actuator_z_m, "actuator_z_mm");
   v.Number({"sensor_z", kMillimetre, 0, 100000, kRequired, "plane of the position sensors"},
            bearing.sensor_z_m);
   RefuseBeyondShaft(v, rig.plant.rotor, bearing.sensor_z_m, "sensor_z_mm");
+  RefuseBesideShaft(v, rig.plant, bearing.shaft, bearing.sensor_z_m, "sensor_z_mm");
   bearing.magnet.bias_current_a = rig.numbers.bias_current_a;
   bearing.magnet.max_coil_current_a = rig.numbers.max_coil_current_a;
   v.Group("magnet", "two opposed coils an axis", [&] { Describe(v, bearing.magnet); });
@@ -216,14 +220,20 @@ void Describe(Visitor& v, RigFile& rig) {
                fmt::format("found {:.6g} A, but it must exceed the bias current {:.6g} A",
                            rig.numbers.max_coil_current_a, rig.numbers.bias_current_a));
   });
-  v.Group("rotor", "finite-element description",
-          [&] { Describe(v, rig.plant.rotor, rig.plant.unbalance); });
+  bool has_rotor = rig.plant.shafts.empty();
+  v.OptionalGroup("rotor", "the one rotor of the rig, free between its magnets", has_rotor,
+                  [&] { Describe(v, rig.plant.rotor, rig.plant.unbalance); });
+  DescribeTrain(v, rig.plant);
+  const bool geared = !rig.plant.shafts.empty();
+  v.RefuseIf(has_rotor == geared, "", "give either rotor or shafts");
   v.List(
-      {"bearings", 1, kMaxBearings, "from the drive end"}, rig.plant.bearings,
+      {"bearings", geared ? 0U : 1U, kMaxBearings, "from the drive end"}, rig.plant.bearings,
       [&](plant::BearingConfig& bearing, std::size_t index) { Describe(v, rig, bearing, index); });
   v.Group("gravity", "where the weight of the rotor pulls", [&] {
     v.Number({"acceleration", kGravity, 0, 100, 9.81, "0 for a vertical rotor"},
              rig.plant.gravity_m_per_s2);
+    v.RefuseIf(geared && rig.plant.gravity_m_per_s2 > 0.0, "acceleration_m_per_s2",
+               "must be 0 with shafts: their positions count from the rest under all static loads");
     v.Number({"direction", kDegree, -360, 360, 225,
               "where it pulls in the x-y plane, from +x towards +y"},
              rig.plant.gravity_direction_rad);
@@ -235,6 +245,11 @@ void Describe(Visitor& v, RigFile& rig) {
     v.Number(
         {"spinning_orbit", kMicrometre, 0.01, 5000, kRequired, "largest radius while rotating"},
         rig.numbers.spinning_orbit_objective_m);
+  });
+  bool has_run = !rig.run.controller.empty();
+  v.OptionalGroup("run", "what the commands use with this rig unless told otherwise", has_run, [&] {
+    v.Name({"controller", "shipped name"}, rig.run.controller);
+    v.Name({"scenario", "shipped name"}, rig.run.scenario);
   });
   Derive(rig);
 }

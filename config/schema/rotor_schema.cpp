@@ -75,7 +75,7 @@ void Describe(Visitor& v, plant::UnbalanceMass& mass) {
 }
 
 void DescribeReduction(Visitor& v, rotor::RotorConfig& rotor) {
-  v.Number({"max_element_length", kMillimetre, 0.1, 1000, 10.0,
+  v.Number({"max_element_length", kMillimetre, 0.1, 20000, 10.0,
             "finite elements of the shaft are not longer than this"},
            rotor.max_element_length_m);
   const double elements = CountElements(rotor);

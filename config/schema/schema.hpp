@@ -16,6 +16,13 @@ void Describe(Visitor& v, scenario::ScenarioConfig& scenario, const RigNumbers& 
 // Parts, for the files that hold them.
 void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::UnbalanceMass>& unbalance);
 void Describe(Visitor& v, supervisor::SupervisorConfig& supervisor);
+/// Geared shafts and their gears, which stand instead of a rotor.
+void DescribeTrain(Visitor& v, plant::PlantConfig& plant);
+/// "shaft", counted from 1 in files and from 0 in the program.
+void DescribeShaftNumber(Visitor& v, const plant::PlantConfig& plant, std::size_t& shaft);
+/// Refuses a plane that the shaft does not have; silent without shafts.
+void RefuseBesideShaft(Visitor& v, const plant::PlantConfig& plant, std::size_t shaft, double z_m,
+                       std::string_view key);
 /// Refuses a plane beyond the end of the shaft; silent while the shaft itself is not known.
 void RefuseBeyondShaft(Visitor& v, const rotor::RotorConfig& rotor, double z_m,
                        std::string_view key);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "plant_sim/plant/train_model.hpp"
+
 namespace levitas::plant {
 namespace {
 
@@ -45,13 +47,55 @@ void CheckBearing(const BearingConfig& b, const std::string& at) {
   NotNegative(at + "touchdown.journal_radius_m", b.touchdown.journal_radius_m);
 }
 
+void CheckWheel(const gear::Wheel& wheel, std::size_t shafts, const std::string& at) {
+  Within(at + "shaft", static_cast<double>(wheel.shaft), 0.0, static_cast<double>(shafts) - 1.0);
+  Within(at + "teeth", wheel.teeth, 1, 100'000);
+  NotNegative(at + "base_radius_m", wheel.base_radius_m);
+  NotNegative(at + "runout_m", wheel.runout_m);
+  Within(at + "runout_phase_rad", wheel.runout_phase_rad, -kInfinity, kInfinity);
+  NotNegative(at + "eccentric_mass_kg", wheel.eccentric_mass_kg);
+}
+
+void CheckGear(const gear::GearPair& pair, std::size_t shafts, const std::string& at) {
+  CheckWheel(pair.driving, shafts, at + "driving.");
+  CheckWheel(pair.driven, shafts, at + "driven.");
+  Positive(at + "stiffness_n_per_m", pair.stiffness_n_per_m);
+  NotNegative(at + "damping_n_s_per_m", pair.damping_n_s_per_m);
+  NotNegative(at + "driving_torque_n_m", pair.driving_torque_n_m);
+  NotNegative(at + "backlash_m", pair.imperfection.backlash_m);
+  NotNegative(at + "friction", pair.imperfection.friction);
+  for (const auto& crack : pair.imperfection.cracks) Within(at + "crack.depth", crack.depth, 0, 1);
+}
+
+// Geared shafts: what refers to what, and no weight, which the alignment under load contains.
+void CheckTrain(const PlantConfig& config) {
+  const std::size_t shafts = config.shafts.size();
+  Within("number of shafts", static_cast<double>(shafts), 1, kMaxShafts);
+  Within("number of gears", static_cast<double>(config.gears.size()), 0, kMaxGears);
+  Within("gravity_m_per_s2 (with shafts, which count from their loaded rest)",
+         config.gravity_m_per_s2, 0.0, 0.0);
+  for (std::size_t i = 0; i < config.gears.size(); ++i) {
+    CheckGear(config.gears[i], shafts, fmt::format("gears[{}].", i));
+  }
+  const double last = static_cast<double>(shafts) - 1.0;
+  for (const auto& b : config.bearings) {
+    Within("shaft of a bearing", static_cast<double>(b.shaft), 0.0, last);
+  }
+  for (const auto& mass : config.unbalance) {
+    Within("shaft of an unbalance", static_cast<double>(mass.shaft), 0.0, last);
+  }
+}
+
 }  // namespace
 
 void CheckConfig(const PlantConfig& config) {
   Positive("period_ns", static_cast<double>(config.period_ns));
   Within("delay_samples", config.delay_samples, 0.0, 64.0);
   Within("substeps", config.substeps, 1, 10'000);
-  Within("number of bearings", static_cast<double>(config.bearings.size()), 1, kMaxAxes / 2.0);
+  // Shafts that stand on supports of their own need no magnet.
+  Within("number of bearings", static_cast<double>(config.bearings.size()),
+         config.shafts.empty() ? 1.0 : 0.0, kMaxAxes / 2.0);
+  if (!config.shafts.empty()) CheckTrain(config);
   for (std::size_t i = 0; i < config.bearings.size(); ++i) {
     CheckBearing(config.bearings[i], fmt::format("bearings[{}].", i));
   }

@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "plant_sim/plant/plant_model.hpp"
+#include "plant_sim/plant/train_linear.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -52,6 +53,7 @@ LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
   linear.a.block(At(at.v_x), At(at.v_y), n, n) = -speed_rad_per_s * modes.gyroscopic;
   linear.a.block(At(at.v_y), At(at.v_x), n, n) = speed_rad_per_s * modes.gyroscopic;
 
+  AddTrain(model, linear.a);
   for (std::size_t axis = 0; axis < model.axes(); ++axis) {
     const BearingModel& bearing = model.bearings()[axis / 2];
     const BearingConfig& config = model.config().bearings[axis / 2];

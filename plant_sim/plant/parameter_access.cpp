@@ -39,6 +39,24 @@ void AddBearing(std::vector<Entry>& entries, const std::string& at, BearingConfi
   entries.push_back({at + "touchdown.journal_radius_m", &b.touchdown.journal_radius_m});
 }
 
+void AddGear(std::vector<Entry>& entries, const std::string& at, gear::GearPair& pair) {
+  entries.push_back({at + "stiffness_n_per_m", &pair.stiffness_n_per_m});
+  entries.push_back({at + "damping_n_s_per_m", &pair.damping_n_s_per_m});
+  entries.push_back({at + "driving_torque_n_m", &pair.driving_torque_n_m});
+  entries.push_back({at + "backlash_m", &pair.imperfection.backlash_m});
+  entries.push_back({at + "friction", &pair.imperfection.friction});
+  for (auto* wheel : {&pair.driving, &pair.driven}) {
+    const std::string name = at + (wheel == &pair.driving ? "driving." : "driven.");
+    entries.push_back({name + "runout_m", &wheel->runout_m});
+    entries.push_back({name + "runout_phase_rad", &wheel->runout_phase_rad});
+  }
+  for (std::size_t i = 0; i < pair.transmission_error.size(); ++i) {
+    const std::string name = at + fmt::format("transmission_error[{}].", i);
+    entries.push_back({name + "amplitude_m", &pair.transmission_error[i].amplitude_m});
+    entries.push_back({name + "phase_rad", &pair.transmission_error[i].phase_rad});
+  }
+}
+
 // The one table of names: reading, setting and listing all walk through it.
 std::vector<Entry> Entries(PlantParameters& p) {
   std::vector<Entry> entries{{"delay_samples", &p.config.delay_samples},
@@ -48,14 +66,20 @@ std::vector<Entry> Entries(PlantParameters& p) {
       {"drive.max_acceleration_rad_per_s2", &p.config.drive.max_acceleration_rad_per_s2});
   entries.push_back({"drive.coast_down_1_per_s", &p.config.drive.coast_down_1_per_s});
   entries.push_back({"drive.coast_down_rad_per_s2", &p.config.drive.coast_down_rad_per_s2});
-  // The two rigid modes have neither frequency nor damping: a free rotor's cannot be set.
-  for (Eigen::Index i = 2; i < p.modes.frequency_rad_per_s.size(); ++i) {
+  // The two rigid modes have neither frequency nor damping: a free rotor's cannot be set. Geared
+  // shafts that stand on springs have none.
+  const bool one_rotor = p.config.shafts.empty();
+  for (Eigen::Index i = one_rotor ? 2 : 0; i < p.modes.frequency_rad_per_s.size(); ++i) {
+    if (!one_rotor && p.modes.frequency_rad_per_s[i] == 0.0) continue;
     const std::string at = fmt::format("rotor.modes[{}].", i);
     entries.push_back({at + "frequency_hz", &p.modes.frequency_rad_per_s[i], 1.0 / kTwoPi});
     entries.push_back({at + "damping_ratio", &p.modes.damping_ratio[i]});
   }
   for (std::size_t i = 0; i < p.config.bearings.size(); ++i) {
     AddBearing(entries, fmt::format("bearings[{}].", i), p.config.bearings[i]);
+  }
+  for (std::size_t i = 0; i < p.config.gears.size(); ++i) {
+    AddGear(entries, fmt::format("gears[{}].", i), p.config.gears[i]);
   }
   for (std::size_t i = 0; i < p.config.unbalance.size(); ++i) {
     const std::string at = fmt::format("unbalance[{}].", i);

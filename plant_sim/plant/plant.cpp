@@ -23,10 +23,11 @@ struct Plant::Impl {
   Impl(std::shared_ptr<const PlantModel> shared, std::uint64_t seed)
       : model(std::move(shared)),
         state(model->layout().size, 0.0),
-        work(model->layout().modes),
+        work(*model),
         random(seed),
         queue(model->whole_delay() + 2) {
     Energise(true);
+    Follow(model->train(), rotation, pose);
   }
 
   // Coils settled at their design bias, or without current; the delay line holds the same.
@@ -109,10 +110,19 @@ struct Plant::Impl {
       Rotation before = rotation;
       Rotate(command, table.duration_s);
       before.acceleration_rad_per_s2 = rotation.acceleration_rad_per_s2;
-      const Spin start_spin = MakeSpin(before, heading);
+      Spin start_spin = MakeSpin(before, heading);
       if (rotation.angle_rad != before.angle_rad) heading = MakeHeading(rotation);
-      StepRotor(*model, table, start, CurrentsNow(), start_spin, MakeSpin(rotation, heading),
-                state.data() + at.q_x, state.data() + at.v_x, work, report);
+      Spin end_spin = MakeSpin(rotation, heading);
+      TrainPose start_pose;
+      if (model->train().shafts > 0) {
+        start_pose = pose;
+        start_pose.acceleration_rad_per_s2 = rotation.acceleration_rad_per_s2;
+        Follow(model->train(), rotation, pose);
+        start_spin.train = &start_pose;
+        end_spin.train = &pose;
+      }
+      StepRotor(*model, table, start, CurrentsNow(), start_spin, end_spin, state.data() + at.q_x,
+                state.data() + at.v_x, work, report);
       const AxisArray now_m = SensorPositions();
       for (std::size_t a = 0; a < model->axes(); ++a) {
         const sensor::FilterStep& filter = table.sensor[a / 2];
@@ -136,6 +146,7 @@ struct Plant::Impl {
   AxisArray bias_a{};
   Rotation rotation;
   Heading heading;
+  TrainPose pose;  ///< of geared shafts
   Workspace work;
   Random random;
   std::vector<CoilCommand> queue;
@@ -214,6 +225,7 @@ void Plant::RestInTouchdown() noexcept {
 void Plant::SetSpeed(double speed_rad_per_s, double angle_rad) noexcept {
   impl_->rotation = {speed_rad_per_s, Wrapped(angle_rad), 0.0};
   impl_->heading = MakeHeading(impl_->rotation);
+  Follow(impl_->model->train(), impl_->rotation, impl_->pose);
 }
 
 const StateLayout& Plant::layout() const noexcept { return impl_->model->layout(); }

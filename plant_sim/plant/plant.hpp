@@ -44,6 +44,8 @@ struct StateLayout {
   std::size_t coil_current{};  ///< control current in the coils, one per axis
   std::size_t sensor{};        ///< filtered position, one per axis
   std::size_t size{};
+  std::size_t twists{};  ///< torsional modes of geared shafts
+  std::size_t q_t{};     ///< their displacement, right behind q_y; their velocity right behind v_y
 };
 
 class PlantModel;  // reduced rotor and derived constants, shared by copies
@@ -72,6 +74,7 @@ class Plant {
   void PlaceAtRest(const AxisArray& actuator_position_m) noexcept;
   /// Puts the rotor into the touchdown bearings where gravity holds it.
   void RestInTouchdown() noexcept;
+  /// With gears, an angle more than half a turn from the present one has passed a whole turn.
   void SetSpeed(double speed_rad_per_s, double angle_rad) noexcept;
 
   [[nodiscard]] const StateLayout& layout() const noexcept;

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "common/axes.hpp"
+#include "plant_sim/gear/gear_config.hpp"
 #include "plant_sim/rotor/rotor_config.hpp"
+#include "plant_sim/rotor/shaft_config.hpp"
 
 namespace levitas::plant {
 
@@ -42,7 +44,8 @@ struct TouchdownConfig {
 };
 
 struct BearingConfig {
-  std::string name;  ///< "de": its axes are de_x, de_y
+  std::string name;     ///< "de": its axes are de_x, de_y
+  std::size_t shaft{};  ///< which of PlantConfig::shafts it carries; 0 for a rig with one rotor
   double actuator_z_m{};
   double sensor_z_m{};
   MagnetConfig magnet;
@@ -55,6 +58,7 @@ struct UnbalanceMass {
   double z_m{};
   double moment_kg_m{};  ///< mass times eccentricity
   double phase_rad{};
+  std::size_t shaft{};  ///< which of PlantConfig::shafts it sits on
 };
 
 struct DriveConfig {
@@ -65,8 +69,10 @@ struct DriveConfig {
 
 struct PlantConfig {
   std::int64_t period_ns{};
-  double delay_samples{};  ///< sampling instant -> current command acts; fractions allowed
-  rotor::RotorConfig rotor;
+  double delay_samples{};    ///< sampling instant -> current command acts; fractions allowed
+  rotor::RotorConfig rotor;  ///< the one rotor; unused when there are shafts
+  std::vector<rotor::Shaft> shafts;  ///< geared rig: the first is driven, gears turn the others
+  std::vector<gear::GearPair> gears;
   std::vector<BearingConfig> bearings;
   std::vector<UnbalanceMass> unbalance;
   double gravity_m_per_s2{};

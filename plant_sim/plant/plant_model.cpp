@@ -22,6 +22,11 @@ constexpr double kWholeSample = 1e-9;
 
 PlantParameters Reduce(const PlantConfig& config) {
   CheckConfig(config);
+  if (!config.shafts.empty()) {
+    TrainModes train = ReduceTrain(config);
+    return {config, std::move(train.bending), std::move(train.torsion),
+            std::move(train.first_torsion_row)};
+  }
   std::vector<double> planes;
   for (const auto& bearing : config.bearings) {
     planes.push_back(bearing.actuator_z_m);
@@ -41,8 +46,18 @@ PlantModel::PlantModel(PlantParameters parameters) : parameters_(std::move(param
     CheckMode(i, parameters_.modes.frequency_rad_per_s[at], parameters_.modes.damping_ratio[at]);
   }
   const std::size_t axes = 2 * config().bearings.size();
-  layout_ = {
-      modes, 0, modes, 2 * modes, 3 * modes, 4 * modes, 4 * modes + axes, 4 * modes + 2 * axes};
+  const auto twists = static_cast<std::size_t>(parameters_.torsion.frequency_rad_per_s.size());
+  layout_.modes = modes;
+  layout_.twists = twists;
+  layout_.q_y = modes;
+  layout_.q_t = 2 * modes;
+  layout_.v_x = coordinates();
+  layout_.v_y = layout_.v_x + modes;
+  layout_.coil_current = 2 * coordinates();
+  layout_.sensor = layout_.coil_current + axes;
+  layout_.size = layout_.sensor + axes;
+  train_ =
+      BuildTrain(config(), {parameters_.modes, parameters_.torsion, parameters_.first_torsion_row});
   BuildRotor();
   BuildBearings();
   BuildSteps();
@@ -53,18 +68,20 @@ void PlantModel::BuildRotor() {
   const std::size_t modes = layout_.modes;
   gyroscopic_.assign(rotor.gyroscopic.data(), rotor.gyroscopic.data() + rotor.gyroscopic.size());
 
+  gravity_.assign(2 * modes, 0.0);
+  unbalance_.assign(2 * modes, 0.0);
+  rigid_ = Eigen::MatrixX2d::Zero(static_cast<Eigen::Index>(modes), 2);
+  if (train_.shafts > 0) return;  // see train_model.hpp; the shafts count from their loaded rest
+
   // The rigid modes span translation and slope; invert that relation at both shaft ends.
   const Eigen::Index last = rotor.shapes.rows() - 1;
   Eigen::Matrix2d ends;
   ends << rotor.shapes(0, 0), rotor.shapes(0, 1), rotor.shapes(last, 0), rotor.shapes(last, 1);
   Eigen::Matrix2d wanted;
   wanted << 1.0, rotor.node_z_m.front(), 1.0, rotor.node_z_m.back();
-  rigid_ = Eigen::MatrixX2d::Zero(static_cast<Eigen::Index>(modes), 2);
   rigid_.topRows(2) = ends.inverse() * wanted;
 
   // Phi^T M e: flexible modes are orthogonal to a translation, gravity does not excite them, (12).
-  gravity_.assign(2 * modes, 0.0);
-  unbalance_.assign(2 * modes, 0.0);
   for (std::size_t i = 0; i < 2; ++i) {
     const double weight = config().gravity_m_per_s2 * rigid_(static_cast<Eigen::Index>(i), 0);
     gravity_[i] = weight * std::cos(config().gravity_direction_rad);
@@ -93,8 +110,8 @@ void PlantModel::BuildBearings() {
                        b.touchdown.damping_n_s_per_m, b.touchdown.friction,
                        b.touchdown.journal_radius_m};
     model.has_touchdown = b.touchdown.stiffness_n_per_m > 0.0;
-    model.actuator_shape = ToVector(parameters_.modes.ShapeAt(b.actuator_z_m));
-    model.sensor_shape = ToVector(parameters_.modes.ShapeAt(b.sensor_z_m));
+    model.actuator_shape = ToVector(parameters_.modes.ShapeAt(b.actuator_z_m, b.shaft));
+    model.sensor_shape = ToVector(parameters_.modes.ShapeAt(b.sensor_z_m, b.shaft));
     bearings_.push_back(std::move(model));
   }
 }
@@ -115,10 +132,15 @@ void PlantModel::BuildSteps() {
     table.substeps = std::max(1, static_cast<int>(std::lround(substeps * share[part])));
     table.duration_s = share[part] * period_s / table.substeps;
     // Both planes carry the same numbers, so that one loop runs over all modes.
-    for (std::size_t i = 0; i < 2 * layout_.modes; ++i) {
-      const auto mode = static_cast<Eigen::Index>(i % layout_.modes);
-      const ModeStep step = MakeModeStep(parameters_.modes.frequency_rad_per_s[mode],
-                                         parameters_.modes.damping_ratio[mode], table.duration_s);
+    for (std::size_t i = 0; i < coordinates(); ++i) {
+      const bool twists = i >= 2 * layout_.modes;
+      const auto mode =
+          static_cast<Eigen::Index>(twists ? i - 2 * layout_.modes : i % layout_.modes);
+      const ModeStep step =
+          twists ? MakeModeStep(parameters_.torsion.frequency_rad_per_s[mode],
+                                parameters_.torsion.damping_ratio[mode], table.duration_s)
+                 : MakeModeStep(parameters_.modes.frequency_rad_per_s[mode],
+                                parameters_.modes.damping_ratio[mode], table.duration_s);
       table.xx.push_back(step.xx);
       table.xv.push_back(step.xv);
       table.vx.push_back(step.vx);

@@ -13,6 +13,7 @@
 #include "plant_sim/amplifier/amplifier.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/plant.hpp"
+#include "plant_sim/plant/train_model.hpp"
 #include "plant_sim/rotor/finite_element.hpp"
 #include "plant_sim/sensor/sensor.hpp"
 #include "plant_sim/support/touchdown.hpp"
@@ -24,12 +25,15 @@ namespace levitas::plant {
 struct PlantParameters {
   PlantConfig config;
   rotor::ModalRotor modes;
+  rotor::ModalTorsion torsion{};                  ///< of geared shafts; empty for one rotor
+  std::vector<Eigen::Index> first_torsion_row{};  ///< of each shaft, in torsion.shapes
 };
 
 /// Finite elements and modal reduction. Throws std::invalid_argument.
 [[nodiscard]] PlantParameters Reduce(const PlantConfig& config);
 
-/// Constants of one step length. Arrays run over the modes of both planes: x plane, then y plane.
+/// Constants of one step length. Arrays run over the modes of both planes: x plane, then y plane;
+/// behind them the torsional modes.
 struct StepTable {
   int substeps{};
   double duration_s{};  ///< of one substep
@@ -62,6 +66,12 @@ class PlantModel {
   /// Before and after the instant, within a period, at which the delayed command changes; the first
   /// has no substeps when the delay is a whole number of samples.
   [[nodiscard]] const std::array<StepTable, 2>& steps() const noexcept { return steps_; }
+  /// Modal coordinates in all: both planes and torsion.
+  [[nodiscard]] std::size_t coordinates() const noexcept {
+    return 2 * layout_.modes + layout_.twists;
+  }
+  /// Geared shafts; `shafts` is 0 for a rig with one rotor.
+  [[nodiscard]] const TrainModel& train() const noexcept { return train_; }
   [[nodiscard]] std::size_t whole_delay() const noexcept { return whole_delay_; }
   /// Phi^T G Phi by columns, per unit speed.
   [[nodiscard]] const std::vector<double>& gyroscopic() const noexcept { return gyroscopic_; }
@@ -84,6 +94,7 @@ class PlantModel {
   std::size_t whole_delay_{};
   std::vector<double> gyroscopic_, gravity_, unbalance_;
   Eigen::MatrixX2d rigid_;
+  TrainModel train_;
 };
 
 }  // namespace levitas::plant

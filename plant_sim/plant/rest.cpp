@@ -76,6 +76,17 @@ void PlaceRigidly(const PlantModel& model, const AxisArray& actuator_position_m,
       value[b] = actuator_position_m[2 * b + plane];
     }
     double* modal = state.data() + (plane == 0 ? at.q_x : at.q_y);
+    if (model.train().shafts > 0) {
+      const Eigen::MatrixXd& placement = model.train().placement;
+      for (std::size_t i = 0; i < at.modes; ++i) {
+        modal[i] = 0.0;
+        for (std::size_t b = 0; b < model.bearings().size(); ++b) {
+          modal[i] +=
+              placement(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(b)) * value[b];
+        }
+      }
+      continue;
+    }
     for (std::size_t i = 0; i < at.modes; ++i) modal[i] = 0.0;
     AddLine(model, Fit(model, value), modal);
   }

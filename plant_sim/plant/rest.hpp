@@ -9,7 +9,9 @@
 
 namespace levitas::plant {
 
-/// Two bearings: displacement and tilt. One: no tilt. More: the straight line of least squares.
+/// Geared shafts bend on their supports, with the least strain that brings the bearings there.
+/// Otherwise: two bearings: displacement and tilt. One: no tilt. More: the straight line of least
+/// squares.
 void PlaceRigidly(const PlantModel& model, const AxisArray& actuator_position_m,
                   std::span<double> state) noexcept;
 

@@ -105,6 +105,9 @@ void Forces(Count modes, const PlantModel& model, const Currents& currents, cons
   if (spin.speed_rad_per_s != 0.0) {
     AddGyroscopic(modes, model.gyroscopic().data(), spin.speed_rad_per_s, velocity, acceleration);
   }
+  if (spin.train != nullptr) {
+    AddTrain(model.train(), *spin.train, modes, position, velocity, acceleration);
+  }
   std::size_t axis = 0;
   for (const BearingModel& b : model.bearings()) {
     AddBearing(modes, b, currents, axis, spin.speed_rad_per_s, position, velocity, acceleration,
@@ -143,13 +146,14 @@ void Correct(Count count, const StepTable& table, const double* __restrict start
   for (std::size_t i = 0; i < count; ++i) velocity[i] = v[i] + v1[i] * (end[i] - start[i]);
 }
 
-// Calls `function` with the number of modes as a constant where one is kept for it.
+// Calls `function` with the number of modes, and of all coordinates, as constants where they are
+// kept for it.
 template <class Function>
-void WithModes(std::size_t modes, const Function& function) noexcept {
-  if (modes == EightModes::value) {
+void WithModes(const PlantModel& model, const Function& function) noexcept {
+  if (model.layout().modes == EightModes::value && model.layout().twists == 0) {
     function(EightModes{}, std::integral_constant<std::size_t, 16>{});
   } else {
-    function(AnyModes{modes}, AnyModes{2 * modes});
+    function(AnyModes{model.layout().modes}, AnyModes{model.coordinates()});
   }
 }
 
@@ -163,7 +167,7 @@ Spin MakeSpin(const Rotation& rotation, const Heading& heading) noexcept {
   const double square = rotation.speed_rad_per_s * rotation.speed_rad_per_s;
   const double change = rotation.acceleration_rad_per_s2;
   return {rotation.speed_rad_per_s, square * heading.cosine + change * heading.sine,
-          square * heading.sine - change * heading.cosine};
+          square * heading.sine - change * heading.cosine, nullptr};
 }
 
 double AtPlane(const std::vector<double>& shape, const double* modal) noexcept {
@@ -174,7 +178,7 @@ double AtPlane(const std::vector<double>& shape, const double* modal) noexcept {
 
 void AtPlanes(const PlantModel& model, const std::vector<double>& shape, const double* position,
               double& x_m, double& y_m) noexcept {
-  WithModes(model.layout().modes, [&](auto modes, auto) {
+  WithModes(model, [&](auto modes, auto) {
     const auto both = BothPlanes(modes, shape.data(), position);
     x_m = both[0];
     y_m = both[1];
@@ -184,7 +188,7 @@ void AtPlanes(const PlantModel& model, const std::vector<double>& shape, const d
 void ModalForces(const PlantModel& model, const Currents& currents, const Spin& spin,
                  const double* position, const double* velocity, double* acceleration,
                  ForceReport& report) noexcept {
-  WithModes(model.layout().modes, [&](auto modes, auto) {
+  WithModes(model, [&](auto modes, auto) {
     Forces(modes, model, currents, spin, position, velocity, acceleration, report);
   });
 }
@@ -196,7 +200,7 @@ void StepRotor(const PlantModel& model, const StepTable& table, const Currents& 
   double* end = work.end.data();
   double* x = work.position.data();
   double* v = work.velocity.data();
-  WithModes(model.layout().modes, [&](auto modes, auto count) {
+  WithModes(model, [&](auto modes, auto count) {
     Forces(modes, model, start_currents, start_spin, position, velocity, start, report);
     Predict(count, table, position, velocity, start, x, v);
     Forces(modes, model, end_currents, end_spin, x, v, end, report);

@@ -11,6 +11,7 @@
 #include "common/axes.hpp"
 #include "plant_sim/plant/drive.hpp"
 #include "plant_sim/plant/plant_model.hpp"
+#include "plant_sim/plant/train_step.hpp"
 
 namespace levitas::plant {
 
@@ -25,6 +26,7 @@ struct Spin {
   double speed_rad_per_s{};
   double unbalance_real{};  ///< real and imaginary part of (W^2 - j W') e^{j angle}, (13)
   double unbalance_imaginary{};
+  const TrainPose* train{nullptr};  ///< of geared shafts, which have more than one speed
 };
 
 /// The rotor angle as a unit vector; the end of one substep is the start of the next.
@@ -41,15 +43,18 @@ struct ForceReport {
   double contact_n{};  ///< largest normal force since it was last set to zero
 };
 
-/// Modal accelerations besides those of the free oscillators: `acceleration` has two planes.
+/// Modal accelerations besides those of the free oscillators, over PlantModel::coordinates().
 void ModalForces(const PlantModel& model, const Currents& currents, const Spin& spin,
                  const double* position, const double* velocity, double* acceleration,
                  ForceReport& report) noexcept;
 
 /// Storage of the step, made once.
 struct Workspace {
-  explicit Workspace(std::size_t modes)
-      : start(2 * modes), end(2 * modes), position(2 * modes), velocity(2 * modes) {}
+  explicit Workspace(const PlantModel& model)
+      : start(model.coordinates()),
+        end(model.coordinates()),
+        position(model.coordinates()),
+        velocity(model.coordinates()) {}
   std::vector<double> start, end, position, velocity;
 };
 
@@ -59,7 +64,7 @@ struct Workspace {
 void AtPlanes(const PlantModel& model, const std::vector<double>& shape, const double* position,
               double& x_m, double& y_m) noexcept;
 
-/// Advances modal displacement and velocity (two planes each, contiguous) by one substep.
+/// Advances modal displacement and velocity (coordinates() of each, contiguous) by one substep.
 void StepRotor(const PlantModel& model, const StepTable& table, const Currents& start_currents,
                const Currents& end_currents, const Spin& start_spin, const Spin& end_spin,
                double* position, double* velocity, Workspace& work, ForceReport& report) noexcept;

@@ -74,6 +74,19 @@ std::size_t NearestNode(const std::vector<double>& nodes, double z_m) {
                                   nodes.begin());
 }
 
+void AddDisc(FiniteElementModel& model, const Disc& disc) {
+  Require(
+      disc.mass_kg >= 0.0 && disc.diametral_inertia_kg_m2 >= 0.0 && disc.polar_inertia_kg_m2 >= 0.0,
+      fmt::format("rotor: disc at z = {} m has a negative mass or inertia", disc.z_m));
+  const auto row = static_cast<Eigen::Index>(2 * NearestNode(model.node_z_m, disc.z_m));
+  model.mass(row, row) += disc.mass_kg;
+  model.mass(row + 1, row + 1) += disc.diametral_inertia_kg_m2;
+  model.gyroscopic(row + 1, row + 1) += disc.polar_inertia_kg_m2;
+  model.total_mass_kg += disc.mass_kg;
+}
+
+}  // namespace
+
 // Cylinder ring about a diameter and about its axis, (8).
 Disc ToDisc(const Ring& ring) {
   const double ro = ring.outer_diameter_m / 2.0;
@@ -87,19 +100,6 @@ Disc ToDisc(const Ring& ring) {
   return {ring.z_m, mass, mass / 12.0 * (3.0 * squares + ring.width_m * ring.width_m),
           mass / 2.0 * squares};
 }
-
-void AddDisc(FiniteElementModel& model, const Disc& disc) {
-  Require(
-      disc.mass_kg >= 0.0 && disc.diametral_inertia_kg_m2 >= 0.0 && disc.polar_inertia_kg_m2 >= 0.0,
-      fmt::format("rotor: disc at z = {} m has a negative mass or inertia", disc.z_m));
-  const auto row = static_cast<Eigen::Index>(2 * NearestNode(model.node_z_m, disc.z_m));
-  model.mass(row, row) += disc.mass_kg;
-  model.mass(row + 1, row + 1) += disc.diametral_inertia_kg_m2;
-  model.gyroscopic(row + 1, row + 1) += disc.polar_inertia_kg_m2;
-  model.total_mass_kg += disc.mass_kg;
-}
-
-}  // namespace
 
 FiniteElementModel Assemble(const RotorConfig& config, const std::vector<double>& planes_m) {
   CheckShaft(config);

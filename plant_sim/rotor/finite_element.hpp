@@ -21,6 +21,9 @@ struct FiniteElementModel {
   double total_mass_kg{};
 };
 
+/// A ring as the disc it is.
+[[nodiscard]] Disc ToDisc(const Ring& ring);
+
 /// Nodes fall on every section end, disc, ring and each z of `planes_m`.
 [[nodiscard]] FiniteElementModel Assemble(const RotorConfig& config,
                                           const std::vector<double>& planes_m);
@@ -43,9 +46,10 @@ struct ModalRotor {
   Eigen::MatrixXd slopes;      ///< slope at each node, nodes x modes
   std::vector<double> node_z_m;
   double total_mass_kg{};
+  std::vector<std::size_t> node_shaft;  ///< shaft that each node is on; empty: all on shaft 0
 
   /// Row of `shapes` at a plane that is a node (within 1e-9 m); throws std::invalid_argument else.
-  [[nodiscard]] Eigen::RowVectorXd ShapeAt(double z_m) const;
+  [[nodiscard]] Eigen::RowVectorXd ShapeAt(double z_m, std::size_t shaft = 0) const;
 };
 
 [[nodiscard]] ModalRotor Reduce(const FiniteElementModel& model, std::size_t modes_per_plane,

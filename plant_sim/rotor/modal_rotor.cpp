@@ -79,8 +79,9 @@ WhirlFrequencies FreeWhirl(const FiniteElementModel& model, double speed_rad_per
   return whirl;
 }
 
-Eigen::RowVectorXd ModalRotor::ShapeAt(double z_m) const {
+Eigen::RowVectorXd ModalRotor::ShapeAt(double z_m, std::size_t shaft) const {
   for (std::size_t i = 0; i < node_z_m.size(); ++i) {
+    if ((node_shaft.empty() ? 0 : node_shaft[i]) != shaft) continue;
     if (std::abs(node_z_m[i] - z_m) <= 1e-9) return shapes.row(static_cast<Eigen::Index>(i));
   }
   throw std::invalid_argument(fmt::format("rotor: no node at z = {} m; name it as a plane", z_m));

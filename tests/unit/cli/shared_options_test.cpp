@@ -36,9 +36,18 @@ AnalysisOptions Parsed(const std::string& line, std::vector<double> default_rpm 
 TEST(AnalysisOptions, AreTheShippedRigAndTheCommandsOwnSpeedsWithoutAnyWord) {
   const AnalysisOptions options = Parsed("", {0.0, 6000.0});
   EXPECT_EQ(options.rig_name, "flexible_rotor");
-  EXPECT_EQ(options.controller_name, "flexible_rotor");
+  EXPECT_EQ(options.controller_name, "");
   EXPECT_THAT(options.speeds_rpm, ElementsAre(0.0, 6000.0));
   EXPECT_EQ(options.json_path, "");
+}
+
+TEST(AnalysisOptions, TakeTheControllerThatTheRigNamesUnlessOneIsAskedFor) {
+  AnalysisOptions options = Parsed("");
+  EXPECT_EQ(LoadController(options, LoadRig(options)).name, "flexible_rotor");
+  options = Parsed("--rig geared_rotor_4dof");
+  EXPECT_EQ(LoadController(options, LoadRig(options)).name, "geared_rotor");
+  options = Parsed("--rig geared_rotor_4dof --controller geared_rotor_passive");
+  EXPECT_EQ(LoadController(options, LoadRig(options)).name, "geared_rotor_passive");
 }
 
 TEST(AnalysisOptions, TakeSeveralSpeedsInEveryWayAndDropTheDefault) {

@@ -37,6 +37,19 @@ TEST(CheckFiles, FindsTheShippedDefaults) {
   EXPECT_THAT(files.controller_path, testing::EndsWith("flexible_rotor_commissioned.yaml"));
 }
 
+TEST(CheckFiles, FindsWhatTheRigNamesUnlessOtherFilesAreAskedFor) {
+  RunOptions options;
+  options.rig = "geared_rotor_12dof";
+  const RunFiles own = CheckFiles(options);
+  EXPECT_THAT(own.controller_path, testing::EndsWith("/geared_rotor.yaml"));
+  EXPECT_EQ(own.scenario_name, "geared_rotor");
+  options.controller = "geared_rotor_passive";
+  options.scenario = "levitate";
+  const RunFiles asked = CheckFiles(options);
+  EXPECT_THAT(asked.controller_path, testing::EndsWith("geared_rotor_passive.yaml"));
+  EXPECT_EQ(asked.scenario_name, "levitate");
+}
+
 TEST(CheckFiles, CollectsTheProblemsOfAllFiles) {
   RunOptions options;
   options.rig = "no_rig";

@@ -1,0 +1,80 @@
+#pragma once
+// Geared shafts as the time step needs them: shafts turning at fixed ratios, their supports, their
+// gears. Empty for a rig with one rotor.
+//
+// Coordinates  the modes of all shafts side by side, the same in both planes, then the torsional
+//              modes. A shape is a row over the modes of one plane, a twist one over the torsional
+//              modes. docs/derivations_gears.md (G13)-(G15).
+// Rotation     shaft s turns at ratio_s times the speed of the first; -z1/z2 through a gear pair.
+// Failure      std::invalid_argument naming the shaft or gear. Thread: any; constant afterwards.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "plant_sim/gear/mesh.hpp"
+#include "plant_sim/gear/transmission_error.hpp"
+#include "plant_sim/plant/plant_config.hpp"
+#include "plant_sim/rotor/finite_element.hpp"
+#include "plant_sim/rotor/torsion_line.hpp"
+
+namespace levitas::plant {
+
+inline constexpr std::size_t kMaxShafts = 4;
+inline constexpr std::size_t kMaxGears = 3;
+
+/// Modal coordinates of all shafts; gyroscopic matrices carry the ratio of their shaft.
+struct TrainModes {
+  rotor::ModalRotor bending;
+  rotor::ModalTorsion torsion;
+  std::vector<Eigen::Index> first_torsion_row;  ///< of each shaft, in torsion.shapes
+};
+
+/// Speed of each shaft over that of the first.
+[[nodiscard]] std::vector<double> SpeedRatios(const PlantConfig& config);
+[[nodiscard]] TrainModes ReduceTrain(const PlantConfig& config);
+
+struct ShaftUnbalance {
+  double ratio{};
+  std::vector<double> real, imaginary;  ///< modal, over all modes [sqrt(kg) m]
+};
+
+struct SupportModel {
+  std::vector<double> shape;
+  double stiffness_x_n_per_m{}, stiffness_y_n_per_m{};
+  double damping_x_n_s_per_m{}, damping_y_n_s_per_m{};
+};
+
+struct TwistDamper {
+  std::vector<double> twist;
+  double damping_n_m_s_per_rad{};
+};
+
+struct WheelModel {
+  std::size_t shaft{};
+  double ratio{};
+  gear::Vector runout_m;  ///< at angle 0
+};
+
+struct MeshModel {
+  gear::MeshLaw law;
+  gear::TransmissionError error;
+  WheelModel driving, driven;
+  std::vector<double> shape;  ///< displacement of the driving wheel minus that of the driven one
+  std::vector<double> twist;  ///< base radius times rotation, both wheels
+};
+
+struct TrainModel {
+  std::size_t shafts{};  ///< 0: the rig has one rotor and none of this
+  std::vector<double> ratio;
+  double turns_per_repeat{1.0};  ///< turns of the first shaft after which all stand alike
+  std::vector<ShaftUnbalance> unbalance;
+  std::vector<SupportModel> supports;
+  std::vector<TwistDamper> dampers;
+  std::vector<MeshModel> meshes;
+  /// Modal coordinates of one plane that bring the bearings to given places with least strain.
+  Eigen::MatrixXd placement;
+};
+
+[[nodiscard]] TrainModel BuildTrain(const PlantConfig& config, const TrainModes& modes);
+
+}  // namespace levitas::plant

@@ -1,0 +1,114 @@
+#include "plant_sim/plant/train_step.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace levitas::plant {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+double Sum(const std::vector<double>& shape, const double* modal) noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * modal[i];
+  return sum;
+}
+
+void Project(const std::vector<double>& shape, double force, double* acceleration) noexcept {
+  for (std::size_t i = 0; i < shape.size(); ++i) acceleration[i] += shape[i] * force;
+}
+
+// Force u (W^2 - j W') exp(j angle) of each shaft with its own W, (13).
+void AddUnbalance(const TrainModel& train, const TrainPose& pose, std::size_t modes,
+                  double* acceleration) noexcept {
+  if (pose.speed_rad_per_s == 0.0 && pose.acceleration_rad_per_s2 == 0.0) return;
+  for (std::size_t s = 0; s < train.shafts; ++s) {
+    const ShaftUnbalance& u = train.unbalance[s];
+    const double speed = u.ratio * pose.speed_rad_per_s;
+    const gear::Vector factor =
+        gear::Turned({speed * speed, -u.ratio * pose.acceleration_rad_per_s2}, pose.heading[s]);
+    for (std::size_t i = 0; i < modes; ++i) {
+      acceleration[i] += factor.x * u.real[i] - factor.y * u.imaginary[i];
+      acceleration[modes + i] += factor.x * u.imaginary[i] + factor.y * u.real[i];
+    }
+  }
+}
+
+// Run-out of a wheel as a prescribed displacement.
+gear::Prescribed Runout(const WheelModel& wheel, const TrainPose& pose) noexcept {
+  const gear::Vector at_m = gear::Turned(wheel.runout_m, pose.heading[wheel.shaft]);
+  const double speed = wheel.ratio * pose.speed_rad_per_s;
+  return {at_m, {-speed * at_m.y, speed * at_m.x}};
+}
+
+void AddMesh(const MeshModel& mesh, const TrainPose& pose, const gear::Vector& tooth,
+             std::size_t modes, const double* position, const double* velocity,
+             double* acceleration) noexcept {
+  const gear::Vector& n = mesh.law.normal;
+  const double twist_m = Sum(mesh.twist, position + 2 * modes);
+  const double twist_m_per_s = Sum(mesh.twist, velocity + 2 * modes);
+  const double teeth_per_s =
+      mesh.law.driving_teeth * std::abs(mesh.driving.ratio) * pose.speed_rad_per_s;
+  const gear::Prescribed error = mesh.error.At(tooth, teeth_per_s);
+  const gear::Prescribed driving = Runout(mesh.driving, pose);
+  const gear::Prescribed driven = Runout(mesh.driven, pose);
+  const gear::Vector delta_m =
+      gear::Vector{Sum(mesh.shape, position), Sum(mesh.shape, position + modes)} + twist_m * n +
+      driving.displacement_m - driven.displacement_m - error.displacement_m;
+  const gear::Vector rate =
+      gear::Vector{Sum(mesh.shape, velocity), Sum(mesh.shape, velocity + modes)} +
+      twist_m_per_s * n + driving.rate_m_per_s - driven.rate_m_per_s - error.rate_m_per_s;
+  const double sense = mesh.driven.ratio < 0.0 ? -1.0 : 1.0;
+  const gear::Vector force = gear::MeshForce(mesh.law,
+                                             {tooth, -sense * pose.shaft_rad[mesh.driving.shaft],
+                                              sense * pose.shaft_rad[mesh.driven.shaft]},
+                                             delta_m, rate);
+  Project(mesh.shape, -force.x, acceleration);
+  Project(mesh.shape, -force.y, acceleration + modes);
+  Project(mesh.twist, -gear::Dot(force, n), acceleration + 2 * modes);
+}
+
+}  // namespace
+
+void Follow(const TrainModel& train, const Rotation& rotation, TrainPose& pose) noexcept {
+  const double passed = std::round((pose.angle_rad - rotation.angle_rad) / kTurn);
+  pose.turns += passed;
+  pose.turns -= train.turns_per_repeat * std::floor(pose.turns / train.turns_per_repeat);
+  pose.angle_rad = rotation.angle_rad;
+  pose.speed_rad_per_s = rotation.speed_rad_per_s;
+  pose.acceleration_rad_per_s2 = rotation.acceleration_rad_per_s2;
+  const double total_rad = pose.angle_rad + kTurn * pose.turns;
+  for (std::size_t s = 0; s < train.shafts; ++s) {
+    pose.shaft_rad[s] = train.ratio[s] * total_rad;
+    pose.heading[s] = {std::cos(pose.shaft_rad[s]), std::sin(pose.shaft_rad[s])};
+  }
+  for (std::size_t m = 0; m < train.meshes.size(); ++m) {
+    const MeshModel& mesh = train.meshes[m];
+    const double tooth_rad = mesh.law.driving_teeth * std::abs(mesh.driving.ratio) * total_rad;
+    pose.mesh[m] = {std::cos(tooth_rad), std::sin(tooth_rad)};
+  }
+}
+
+void AddTrain(const TrainModel& train, const TrainPose& pose, std::size_t modes,
+              const double* position, const double* velocity, double* acceleration) noexcept {
+  const std::size_t twists = train.meshes.empty() ? 0 : train.meshes.front().twist.size();
+  for (std::size_t i = 0; i < twists; ++i) acceleration[2 * modes + i] = 0.0;
+  AddUnbalance(train, pose, modes, acceleration);
+  for (const SupportModel& support : train.supports) {
+    const double x_n = -support.stiffness_x_n_per_m * Sum(support.shape, position) -
+                       support.damping_x_n_s_per_m * Sum(support.shape, velocity);
+    const double y_n = -support.stiffness_y_n_per_m * Sum(support.shape, position + modes) -
+                       support.damping_y_n_s_per_m * Sum(support.shape, velocity + modes);
+    Project(support.shape, x_n, acceleration);
+    Project(support.shape, y_n, acceleration + modes);
+  }
+  for (const TwistDamper& damper : train.dampers) {
+    Project(damper.twist, -damper.damping_n_m_s_per_rad * Sum(damper.twist, velocity + 2 * modes),
+            acceleration + 2 * modes);
+  }
+  for (std::size_t m = 0; m < train.meshes.size(); ++m) {
+    AddMesh(train.meshes[m], pose, pose.mesh[m], modes, position, velocity, acceleration);
+  }
+}
+
+}  // namespace levitas::plant
