@@ -8,12 +8,13 @@ namespace levitas::cli {
 namespace {
 
 constexpr const char* kReferenceController = "flexible_rotor";
+constexpr double kFastestRpm = 1e6;  // beyond any rotor: turbine-driven spindles reach 5e5
 
 /// Refuses what strtod accepts and no rotor does.
 std::string CheckSpeed(const std::string& text) {
   double rpm = 0.0;
-  if (!CLI::detail::lexical_cast(text, rpm) || !std::isfinite(rpm)) {
-    return "found '" + text + "', allowed: a finite number of revolutions per minute";
+  if (!CLI::detail::lexical_cast(text, rpm) || !(std::abs(rpm) <= kFastestRpm)) {
+    return "found '" + text + "', allowed: -1e6 to 1e6 revolutions per minute";
   }
   return {};
 }

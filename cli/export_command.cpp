@@ -22,7 +22,9 @@ struct ExportOptions {
 };
 
 ExitStatus Export(const ExportOptions& options) {
-  session::CheckOutputPath(options.csv_path, options.session_path);
+  for (const std::string& path : {options.csv_path, options.json_path}) {
+    session::CheckOutputPath(path, options.session_path);
+  }
   session::SessionReader reader(options.session_path);
   const session::ExportReport report = session::ExportCsv(reader, options.csv_path);
   const session::Damage& damage = reader.damage();

@@ -12,6 +12,7 @@
 #include "config/rig_file.hpp"
 #include "levitas_version.hpp"
 #include "session/csv_import.hpp"
+#include "session/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -41,6 +42,9 @@ void Print(const std::string& out_path, const session::ImportReport& report) {
 }
 
 ExitStatus Import(const ImportCommandOptions& options) {
+  for (const std::string& path : {options.out_path, options.json_path}) {
+    session::CheckOutputPath(path, options.data_path);
+  }
   const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
   session::ImportOptions import{.data_path = options.data_path,
                                 .out_path = options.out_path,

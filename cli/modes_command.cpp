@@ -13,6 +13,7 @@
 #include "cli/analysis_options.hpp"
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
+#include "session/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -129,6 +130,7 @@ void AddModesCommand(CLI::App& app, Action& action) {
   AddJsonOption(*command, *options);
   command->callback([options, &action] {
     action = [options] {
+      session::CheckOutputPath(options->json_path, {});
       const config::RigFile rig = LoadRig(*options);
       if (!rig.plant.shafts.empty()) return ShowDamped(*options, rig);
       const auto modes =

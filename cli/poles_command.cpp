@@ -11,6 +11,7 @@
 #include "cli/analysis_options.hpp"
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
+#include "session/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -56,6 +57,7 @@ nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
 }
 
 ExitStatus Run(const PolesOptions& options) {
+  session::CheckOutputPath(options.json_path, {});
   const config::RigFile rig = LoadRig(options);
   const config::ControllerFile controller = LoadController(options, rig);
   nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};

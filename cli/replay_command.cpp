@@ -128,7 +128,6 @@ Json WhatIfJson(const ReplayOptions& options, const session::WhatIfReport& repor
 }
 
 ExitStatus Compare(const ReplayOptions& options) {
-  session::CheckOutputPath(options.csv_path, options.session_path);
   session::SessionReader reader(options.session_path);
   fmt::print("{}\n", Describe(options.session_path, reader.header()));
   const std::string controller = config::FindConfig(options.controller_name, "controllers");
@@ -172,6 +171,9 @@ ExitStatus Republish(const ReplayOptions& options) {
 }
 
 ExitStatus Run(const ReplayOptions& options) {
+  for (const std::string& path : {options.csv_path, options.json_path}) {
+    session::CheckOutputPath(path, options.session_path);
+  }
   if (options.publish) return Republish(options);
   return options.controller_name.empty() ? Reproduce(options) : Compare(options);
 }

@@ -49,9 +49,10 @@ RunPaths PathsOf(const RunOptions& options, const RunFolder& folder) {
   return paths;
 }
 
-RunResult RunBoth(const RunPlan& plan, const RunFiles& files, const std::string& telemetry_url) {
+RunResult RunBoth(const RunPlan& plan, const RunFiles& files,
+                  const transport::LcmNetwork& network) {
   const InterruptGuard interrupts;
-  Telemetry telemetry(telemetry_url);
+  Telemetry telemetry(network);
   Progress progress(files.rig.bearings, files.rig.period_s(), stderr, isatty(STDERR_FILENO) == 1);
   RunHooks hooks;
   hooks.telemetry = [&](std::chrono::milliseconds limit) { return telemetry.Wait(limit); };
@@ -107,7 +108,9 @@ ExitStatus Execute(const RunOptions& options) {
   if (!std::isfinite(options.duration_s)) {  // which the option's own check lets pass
     throw Problem(ExitStatus::kUsage, "--duration: not a number of seconds; allowed: above 0");
   }
-  session::CheckOutputPath(options.record_path, {});
+  for (const std::string& path : {options.record_path, options.json_path}) {
+    session::CheckOutputPath(path, {});
+  }
   std::optional<transport::LcmNetwork> network = CheckPort(options.port);
   const RunFiles files = CheckFiles(options);
   const PortLease lease = Lease(network);
@@ -117,7 +120,7 @@ ExitStatus Execute(const RunOptions& options) {
   const std::string port = network->Url(transport::Direction::kSensor);
   fmt::print(stderr, "rig {}, controller {}, scenario {}, {}, LCM {}\n", files.rig.name,
              files.controller_path, files.scenario_name, options.pace, port);
-  const RunResult result = RunBoth(plan, files, network->Url(transport::Direction::kTelemetry));
+  const RunResult result = RunBoth(plan, files, *network);
   const ExitStatus status = StatusOf(result);
   const bool keep = !options.record_path.empty() || status == ExitStatus::kTripped;
   if (fs::exists(paths.session) && fs::file_size(paths.session) > 0) {

@@ -36,6 +36,13 @@ std::string Nearest(std::string_view found, std::span<const std::string> allowed
   return best;
 }
 
+std::string LikelyMeant(std::string_view found, std::span<const std::string> allowed) {
+  std::string nearest = Nearest(found, allowed);
+  // Two typing errors, and one more for every four characters.
+  if (nearest.empty() || EditDistance(found, nearest) > 2 + found.size() / 4) return {};
+  return nearest;
+}
+
 std::string Listed(std::span<const std::string> words) {
   std::string text;
   for (const std::string& word : words) text.append(text.empty() ? "" : ", ").append(word);

@@ -13,6 +13,9 @@ namespace levitas {
 /// The allowed word nearest to `found` (the first of equals); empty when there is none.
 [[nodiscard]] std::string Nearest(std::string_view found, std::span<const std::string> allowed);
 
+/// The same, but empty when even the nearest is too far away to have been meant.
+[[nodiscard]] std::string LikelyMeant(std::string_view found, std::span<const std::string> allowed);
+
 /// "a, b, c".
 [[nodiscard]] std::string Listed(std::span<const std::string> words);
 

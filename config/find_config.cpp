@@ -47,7 +47,9 @@ std::string FindConfig(const std::string& name, const std::string& kind) {
   std::sort(known.begin(), known.end());
   std::string text = name + (fs::is_directory(name, none) ? ": it is a folder" : ": no such file") +
                      ", and none of that name among the " + kind + " in " + folder.string();
-  if (!known.empty()) text += " (" + Listed(known) + "); nearest " + Nearest(name, known);
+  if (!known.empty()) text += " (" + Listed(known) + ")";
+  const std::string meant = LikelyMeant(name, known);
+  if (!meant.empty()) text += "; nearest " + meant;
   throw BadInput(text);
 }
 

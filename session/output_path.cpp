@@ -1,7 +1,10 @@
 #include "session/output_path.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -15,6 +18,11 @@ void CheckOutputPath(const std::string& output_path, const std::string& input_pa
   if (fs::is_directory(output_path, ignored)) {
     throw BadInput(
         fmt::format("{}: cannot be written: it is a folder. Name a file in it.", output_path));
+  }
+  const std::string folder = fs::path(output_path).parent_path().string();
+  if (!output_path.empty() && access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) {
+    throw BadInput(fmt::format("{}: cannot be written: folder {}: {}", output_path,
+                               folder.empty() ? "." : folder, std::strerror(errno)));
   }
   if (fs::equivalent(output_path, input_path, ignored)) {
     throw Problem(

@@ -1,7 +1,8 @@
 #pragma once
 // Looks at the name of a file about to be written before any work is done for it.
 //
-// Failure   BadInput when it names a folder; a usage Problem when it is the file that is read,
+// Failure   BadInput when it names a folder, or its folder is missing or not writable; a usage
+// Problem when it is the file that is read,
 //           which would be lost.
 // Not done  no guarantee that writing will succeed: the writer reports that.
 
@@ -9,7 +10,7 @@
 
 namespace levitas::session {
 
-/// `input_path` is empty when no file is read.
+/// `input_path` is empty when no file is read; an empty `output_path` is never wrong.
 void CheckOutputPath(const std::string& output_path, const std::string& input_path);
 
 /// A file that appears under its name only when it is complete: written beside it (".part") and

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "session/event_deriver.hpp"
@@ -17,6 +18,7 @@ struct Row {
   const char* unit;
 };
 
+constexpr double kStanding = 1.0;  // [rad/s] below, nobody says that it runs down
 constexpr double kMicro = 1e6;
 constexpr double kRpm = 30.0 / std::numbers::pi;
 
@@ -45,9 +47,11 @@ std::string Where(const cycle::CycleOutputs& out, const std::vector<std::string>
 }
 
 /// The safe state as the outputs of the tripping cycle command it (docs/safety.md).
-const char* SafeState(const CurrentFrame& current) {
+const char* SafeState(const CurrentFrame& current, double speed_rad_per_s) {
   if (!current.amplifiers_enabled) {
-    return "The coils are switched off and the rotor runs down in the touchdown bearings.";
+    return std::abs(speed_rad_per_s) < kStanding
+               ? "The coils are switched off and the rotor lies in the touchdown bearings."
+               : "The coils are switched off and the rotor runs down in the touchdown bearings.";
   }
   return current.drive_enabled
              ? "The rotor stays levitated while the drive brakes it; at standstill it is lowered "
@@ -77,7 +81,7 @@ std::string TripText(const cycle::CycleRecord& record, const std::vector<std::st
       "TRIP {} in cycle {}: {}{}{}. {} When it stands and the cause is "
       "gone, give the command reset.",
       Name(record.out.fault), record.in.cycle, row.cause, Where(record.out, channels), numbers,
-      SafeState(record.out.current));
+      SafeState(record.out.current, record.in.frame.speed_rad_per_s));
 }
 
 }  // namespace levitas::session

@@ -1,48 +1,40 @@
 #include "cli/run/telemetry.hpp"
 
-#include <fmt/core.h>
-
-#include <lcm/lcm-cpp.hpp>
 #include <levitas_msg/controller_state_t.hpp>
 
-#include "common/problem.hpp"
-#include "transport/lcm_network.hpp"
+#include "controller/rt/clock.hpp"
+#include "transport/lcm_packet.hpp"
 
 namespace levitas::cli {
+namespace {
 
-struct Telemetry::Impl {
-  explicit Impl(const std::string& url) : lcm(url) {}
-
-  void Take(const lcm::ReceiveBuffer* /*buffer*/, const std::string& /*channel*/,
-            const levitas_msg::controller_state_t* state) {
-    newest =
-        ProgressSample{static_cast<std::uint64_t>(state->cycle), static_cast<Mode>(state->mode),
-                       state->speed_rad_per_s, state->position_m};
+std::optional<ProgressSample> Sample(std::span<const std::uint8_t> datagram) {
+  const transport::Packet packet = transport::ParsePacket(datagram);
+  if (packet.kind != transport::PacketKind::kShort ||
+      packet.channel != transport::channel::kState) {
+    return std::nullopt;
   }
-
-  lcm::LCM lcm;
-  std::optional<ProgressSample> newest;
-};
-
-Telemetry::Telemetry(const std::string& url) : impl_(std::make_unique<Impl>(url)) {
-  if (impl_->lcm.good()) {
-    impl_->lcm.subscribe(transport::channel::kState, &Impl::Take, impl_.get());
-    return;
-  }
-  throw Problem(ExitStatus::kOther,
-                fmt::format("LCM multicast cannot be received on {}: it needs a multicast route, "
-                            "for example: ip link set lo up; ip route add 224.0.0.0/4 dev lo",
-                            url));
+  levitas_msg::controller_state_t state{};
+  const auto size = static_cast<int>(packet.payload.size());
+  if (state.decode(packet.payload.data(), 0, size) < 0) return std::nullopt;
+  return ProgressSample{static_cast<std::uint64_t>(state.cycle), static_cast<Mode>(state.mode),
+                        state.speed_rad_per_s, state.position_m};
 }
 
-Telemetry::~Telemetry() = default;
+}  // namespace
+
+Telemetry::Telemetry(const transport::LcmNetwork& network)
+    : receiver_(network, transport::Direction::kTelemetry) {}
 
 std::optional<ProgressSample> Telemetry::Wait(std::chrono::milliseconds limit) {
-  impl_->newest.reset();
-  impl_->lcm.handleTimeout(static_cast<int>(limit.count()));
-  while (impl_->lcm.handleTimeout(0) > 0) {
+  const std::int64_t deadline_ns = rt::MonotonicNowNs() + std::chrono::nanoseconds(limit).count();
+  std::optional<ProgressSample> newest;
+  // Waits for the first state, then takes what is there already.
+  for (;;) {
+    const auto received = receiver_.Receive(newest ? 0 : deadline_ns);
+    if (received.datagram.empty()) return newest;
+    if (auto sample = Sample(received.datagram)) newest = std::move(sample);
   }
-  return impl_->newest;
 }
 
 }  // namespace levitas::cli

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "common/problem.hpp"
 #include "common/nearest.hpp"
+#include "common/problem.hpp"
 #include "config/text/reader.hpp"
 
 namespace levitas::config {
@@ -159,8 +159,7 @@ std::string Reader::Meant(const Frame& frame, std::string key) {
       all.push_back(spelling);
     }
   }
-  const std::string nearest = Nearest(key, all);
-  return EditDistance(key, nearest) > 2 + key.size() / 4 ? "" : nearest;
+  return LikelyMeant(key, all);
 }
 
 void Reader::ReportUnknown(Frame& frame) {

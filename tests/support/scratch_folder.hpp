@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace levitas::cli {
+namespace levitas::test {
 
 class ScratchFolder {
  public:
@@ -25,4 +25,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace levitas::cli
+}  // namespace levitas::test

@@ -42,7 +42,8 @@ inline std::string ReadAll(const std::string& path) {
 class AmbRun {
  public:
   /// Temporary files of the run go to `scratch`, too.
-  AmbRun(const ScratchFolder& scratch, const std::string& name, std::vector<std::string> arguments)
+  AmbRun(const test::ScratchFolder& scratch, const std::string& name,
+         std::vector<std::string> arguments)
       : log_(scratch / (name + ".log")) {
     const char* const before = getenv("TMPDIR");
     const std::string kept = before == nullptr ? "" : before;

@@ -27,7 +27,7 @@ class RunFailureTest : public testing::Test {
     return path;
   }
 
-  ScratchFolder scratch_;
+  test::ScratchFolder scratch_;
 };
 
 TEST_F(RunFailureTest, ListsTheProblemsOfAllThreeFilesAtOnce) {

@@ -22,7 +22,7 @@ class RunTest : public testing::Test {
     return more;
   }
 
-  ScratchFolder scratch_;
+  test::ScratchFolder scratch_;
 };
 
 /// All records of a session; the number the rig draws at each start is not part of the physics.

@@ -43,5 +43,12 @@ TEST(Listed, PutsCommasBetween) {
   EXPECT_EQ(Listed(words), "a, b, c");
 }
 
+TEST(LikelyMeant, NamesATypingErrorAndNothingForAnotherWord) {
+  const std::vector<std::string> known{"flexible_rotor", "ufu_rig"};
+  EXPECT_EQ(LikelyMeant("flexible_rotr", known), "flexible_rotor");
+  EXPECT_EQ(LikelyMeant("nowhere_at_all", known), "");
+  EXPECT_EQ(LikelyMeant("x", {}), "");
+}
+
 }  // namespace
 }  // namespace levitas

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 constexpr milliseconds kLong{30'000};
 
 TEST(ChildProcess, TellsTheExitStatusAndTheLastWords) {
-  const ScratchFolder scratch;
+  const test::ScratchFolder scratch;
   ChildProcess child("/bin/sh", {"-c", "echo one; echo two >&2; echo three; exit 3"},
                      scratch / "log");
   const auto ended = child.WaitFor(kLong);
@@ -35,7 +35,7 @@ TEST(ChildProcess, TellsTheExitStatusAndTheLastWords) {
 }
 
 TEST(ChildProcess, TellsWhichSignalEndedIt) {
-  const ScratchFolder scratch;
+  const test::ScratchFolder scratch;
   ChildProcess child("/bin/sh", {"-c", "kill -9 $$"}, scratch / "log");
   const auto ended = child.WaitFor(kLong);
   ASSERT_TRUE(ended);
@@ -43,14 +43,14 @@ TEST(ChildProcess, TellsWhichSignalEndedIt) {
 }
 
 TEST(ChildProcess, HandsArgumentsOverUnchanged) {
-  const ScratchFolder scratch;
+  const test::ScratchFolder scratch;
   ChildProcess child("/bin/echo", {"a b", "$HOME", "*"}, scratch / "log");
   ASSERT_TRUE(child.WaitFor(kLong));
   EXPECT_EQ(child.LastWords(5), "a b $HOME *");
 }
 
 TEST(ChildProcess, SaysWhichProgramIsMissing) {
-  const ScratchFolder scratch;
+  const test::ScratchFolder scratch;
   try {
     ChildProcess child("/nowhere/amb-plant", {}, scratch / "log");
     FAIL() << "a program that does not exist was started";
@@ -62,7 +62,7 @@ TEST(ChildProcess, SaysWhichProgramIsMissing) {
 }
 
 TEST(ChildProcess, DoesNotWaitForAChildThatRuns) {
-  const ScratchFolder scratch;
+  const test::ScratchFolder scratch;
   ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");
   EXPECT_FALSE(child.Poll());
   EXPECT_FALSE(child.WaitFor(milliseconds(20)));
@@ -72,7 +72,7 @@ TEST(ChildProcess, DoesNotWaitForAChildThatRuns) {
 }
 
 TEST(ChildProcess, KillsAChildThatIgnoresTheRequestToEnd) {
-  const ScratchFolder scratch;
+  const test::ScratchFolder scratch;
   ChildProcess child("/bin/sh", {"-c", "trap '' TERM; echo deaf; while :; do sleep 0.05; done"},
                      scratch / "log");
   while (child.LastWords(1) != "deaf") std::this_thread::sleep_for(milliseconds(5));
@@ -82,14 +82,14 @@ TEST(ChildProcess, KillsAChildThatIgnoresTheRequestToEnd) {
 }
 
 TEST(ChildProcess, HasAProcessGroupOfItsOwn) {
-  const ScratchFolder scratch;
+  const test::ScratchFolder scratch;
   ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");
   EXPECT_EQ(getpgid(child.pid()), child.pid());
   EXPECT_NE(getpgid(child.pid()), getpgrp());
 }
 
 TEST(ChildProcess, EndsWithTheObject) {
-  const ScratchFolder scratch;
+  const test::ScratchFolder scratch;
   pid_t pid = 0;
   {
     ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");
@@ -101,7 +101,7 @@ TEST(ChildProcess, EndsWithTheObject) {
 // The parent here is a fork of the test that starts a child and is then killed: nobody tidies up
 // but the kernel.
 TEST(ChildProcess, DiesWithAParentThatIsKilled) {
-  const ScratchFolder scratch;
+  const test::ScratchFolder scratch;
   const pid_t parent = fork();
   if (parent == 0) {
     ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");

@@ -38,7 +38,7 @@ class SuperviseTest : public testing::Test {
     return Supervise(plan, hooks);
   }
 
-  ScratchFolder scratch_;
+  test::ScratchFolder scratch_;
   milliseconds silence_limit_{60'000};
   bool telemetry_flows_{true};
   std::uint64_t cycle_{0};
