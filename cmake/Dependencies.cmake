@@ -17,3 +17,9 @@ find_program(LCM_GEN lcm-gen REQUIRED)
 if(NOT TARGET yaml-cpp::yaml-cpp)
   add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)
 endif()
+# libgpiod of Debian 12 (1.6) has a .pc file only.
+find_path(GPIOD_INCLUDE gpiod.h REQUIRED)
+find_library(GPIOD_LIBRARY gpiod REQUIRED)
+add_library(gpiod SHARED IMPORTED)
+set_target_properties(gpiod PROPERTIES IMPORTED_LOCATION ${GPIOD_LIBRARY}
+                                       INTERFACE_INCLUDE_DIRECTORIES ${GPIOD_INCLUDE})

@@ -34,8 +34,9 @@ enum class Fault : std::uint8_t {
   kAmplifierFault = 11,
   kSelfTestFailed = 12,
   kLiftFailed = 13,
+  kSpeedUnknown = 14,
 };
-inline constexpr std::uint8_t kFaultCount = 14;
+inline constexpr std::uint8_t kFaultCount = 15;
 
 /// What an operator (or a scenario) asks for. Requests that the mode table does not allow are
 /// refused and reported, never queued.

@@ -20,6 +20,7 @@ enum RigStatus : std::uint32_t {
   kRigAmplifierFault = 1U << 1,  ///< an amplifier reports a fault
   kRigCurrentHeld = 1U << 2,     ///< no new current arrived in time: the rig held the last one
   kRigAmplifiersOff = 1U << 3,   ///< amplifiers are de-energised (not enabled, or rig watchdog)
+  kRigSpeedUnknown = 1U << 4,    ///< the key phasor's pulses contradict what a rotor can do
 };
 
 struct SensorFrame {

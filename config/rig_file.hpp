@@ -11,6 +11,7 @@
 #include "controller/law/law_config.hpp"
 #include "controller/scenario/scenario_config.hpp"
 #include "controller/supervisor/supervisor_config.hpp"
+#include "hil/gpio/line_config.hpp"
 #include "plant_sim/plant/plant_config.hpp"
 
 namespace levitas::config {
@@ -25,6 +26,7 @@ struct RigFile {
   RigNumbers numbers;
   plant::PlantConfig plant;
   RunDefaults run;
+  gpio::LinesConfig lines;  ///< empty when the file names none
 };
 
 struct ControllerFile {

@@ -37,6 +37,7 @@ constexpr std::array<Row, kFaultCount> kRows{{
     {"an amplifier reports a fault", 1.0, nullptr},
     {"the self-test failed", kMicro, "um"},
     {"the rotor did not reach the centre in time", kMicro, "um"},
+    {"the speed is not known", 1.0, nullptr},
 }};
 
 std::string Where(const cycle::CycleOutputs& out, const std::vector<std::string>& channels) {

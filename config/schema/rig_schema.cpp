@@ -239,6 +239,7 @@ void Describe(Visitor& v, RigFile& rig) {
              rig.plant.gravity_direction_rad);
   });
   v.Group("drive", "motor of the rotor", [&] { DescribeDrive(v, rig); });
+  Describe(v, rig.lines, static_cast<double>(rig.plant.period_ns) * 1e-9);
   v.Group("objectives", "what the verdict of a run is held against", [&] {
     v.Number({"standing_orbit", kMicrometre, 0.01, 5000, kRequired, "largest radius at standstill"},
              rig.numbers.standing_orbit_objective_m);

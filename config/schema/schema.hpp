@@ -23,6 +23,7 @@ void DescribeShaftNumber(Visitor& v, const plant::PlantConfig& plant, std::size_
 /// Refuses a plane that the shaft does not have; silent without shafts.
 void RefuseBesideShaft(Visitor& v, const plant::PlantConfig& plant, std::size_t shaft, double z_m,
                        std::string_view key);
+void Describe(Visitor& v, gpio::LinesConfig& lines, double period_s);
 /// Refuses a plane beyond the end of the shaft; silent while the shaft itself is not known.
 void RefuseBeyondShaft(Visitor& v, const rotor::RotorConfig& rotor, double z_m,
                        std::string_view key);

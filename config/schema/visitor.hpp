@@ -41,6 +41,7 @@ struct IntegerField {
 struct NameField {
   std::string_view key;
   std::string_view meaning;
+  std::string_view also{};  ///< characters allowed beside a-z, 0-9 and _, and then capitals too
 };
 
 struct ChoiceField {

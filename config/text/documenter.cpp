@@ -34,7 +34,9 @@ void Documenter::WideInteger(const IntegerField& field, std::int64_t&) {
 }
 
 void Documenter::Name(const NameField& field, std::string&) {
-  Row(field.key, "", "name: a-z, 0-9, _", "required", field.meaning);
+  std::string allowed = field.also.empty() ? "name: a-z, 0-9, _" : "name: A-Z, a-z, 0-9, _";
+  for (const char c : field.also) allowed += std::string(", ") + c;
+  Row(field.key, "", allowed, "required", field.meaning);
 }
 
 void Documenter::Choice(const ChoiceField& field, std::size_t&) {

@@ -133,15 +133,28 @@ void Reader::WideInteger(const IntegerField& field, std::int64_t& value) {
   }
 }
 
+namespace {
+// "-." as ", -, ."
+std::string JoinedCharacters(std::string_view characters) {
+  std::string text;
+  for (const char c : characters) text += fmt::format(", {}", c);
+  return text;
+}
+}  // namespace
+
 void Reader::Name(const NameField& field, std::string& value) {
-  const auto allowed = [] { return std::string("a name of 1 to 32 characters: a-z, 0-9, _"); };
+  const auto allowed = [&] {
+    return fmt::format("a name of 1 to 32 characters: {}a-z, 0-9, _{}",
+                       field.also.empty() ? "" : "A-Z, ", JoinedCharacters(field.also));
+  };
   const auto missing = [&] { return fmt::format("{}; allowed {}", field.meaning, allowed()); };
   const Entry entry = Take({std::string(field.key)}, missing);
   if (probing_ || entry.value == nullptr) return;
   const std::string* text = Scalar(entry, allowed, false);
   if (text == nullptr) return;
-  const bool good = !text->empty() && text->size() <= 32 && std::ranges::all_of(*text, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  const bool good = !text->empty() && text->size() <= 32 && std::ranges::all_of(*text, [&](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' ||
+           (!field.also.empty() && c >= 'A' && c <= 'Z') || field.also.find(c) != field.also.npos;
   });
   if (good) {
     value = *text;

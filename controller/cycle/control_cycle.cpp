@@ -87,7 +87,11 @@ void ControlCycle::Impl::Read(const CycleInputs& in) noexcept {
   seen.missed_deadlines = in.missed_deadlines;
   seen.saturated_axes = given.saturated_axes;
   seen.fresh = in.frame_present && frame.axes == rig.axes() && !repeated;
-  if (!seen.fresh) return;
+  if (!seen.fresh) {
+    // The stop chain may be a line of its own, read without a frame (hil/guarded_port).
+    seen.rig_status |= frame.rig_status & kRigEmergencyStop;
+    return;
+  }
   any_frame = true;
   frame_cycle = frame.cycle;
   seen.position_m = probes.Positions({frame.position_m}).at;

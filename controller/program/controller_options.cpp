@@ -35,6 +35,8 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
                "Refuse to run when the machine does not grant real-time conditions");
   app.add_option("--processor", options.processor, "Run the loop on this processor only")
       ->check(CLI::NonNegativeNumber);
+  app.add_flag("--no-lines", options.no_lines,
+               "Leave the rig file's lines (emergency stop, enable ...) alone");
   try {
     app.parse(argc, argv);
     return true;

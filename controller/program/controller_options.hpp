@@ -22,6 +22,7 @@ struct ControllerOptions {
   double partner_timeout_s{30.0};
   bool require_realtime{false};
   int processor{-1};
+  bool no_lines{false};  ///< leave the rig file's lines alone
 };
 
 /// Reads the command line; prints help or a usage message itself. False: end with `status`.

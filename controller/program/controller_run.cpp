@@ -16,6 +16,8 @@
 #include "controller/program/report.hpp"
 #include "controller/rt/real_time.hpp"
 #include "controller/rt/stop_signal.hpp"
+#include "hil/guarded_port/guarded_port.hpp"
+#include "hil/libgpiod/gpiod_lines.hpp"
 #include "levitas_version.hpp"
 #include "session/record_codec.hpp"
 #include "session/recorder.hpp"
@@ -81,12 +83,19 @@ void Announce(const session::Event& event, transport::Telemetry& telemetry) {
 // Nothing below needs the loop's speed: signals and the partner are looked after from here.
 // Returns false when the rig stayed away.
 bool Watch(loop::ControlLoop& loop, loop::OperatorDesk& desk, const std::atomic<bool>& running,
-           const ControllerOptions& options, const std::string& url) {
+           const ControllerOptions& options, const std::string& url,
+           const gpio::GpiodLines* lines) {
   using Say = transport::PartnerWatch::Say;
   transport::PartnerWatch watch(rt::MonotonicNowNs(),
                                 static_cast<std::int64_t>(options.partner_timeout_s * 1e9));
+  bool guarded = true;
   while (running.load()) {
     std::this_thread::sleep_for(kLookEvery);
+    if (guarded && lines != nullptr && !lines->guard_alive()) {
+      guarded = false;
+      fmt::print(stderr, "amb-controller: the guard of the enable line has ended: landing\n");
+      desk.RequestStop();
+    }
     const Say say = watch.Check(rt::MonotonicNowNs(), loop.frames_heard());
     if (say == Say::kFound) fmt::print(stderr, "amb-controller: rig found\n");
     if (say == Say::kMissing) {
@@ -125,16 +134,29 @@ std::unique_ptr<rt::RealTimeGuard> PrepareRealTime(const ControllerOptions& opti
   return guard;
 }
 
+// The rig file's lines; none in lockstep, where time is not the machine's.
+std::unique_ptr<gpio::GpiodLines> OpenLines(const ControllerOptions& options,
+                                            const gpio::LinesConfig& config) {
+  if (config.empty()) return nullptr;
+  if (options.no_lines || !options.realtime) {
+    fmt::print(stderr, "amb-controller: the rig's lines are not used ({})\n",
+               options.no_lines ? "--no-lines" : "lockstep");
+    return nullptr;
+  }
+  return std::make_unique<gpio::GpiodLines>(config);
+}
+
 // Everything a run consists of, made in the order it is needed and taken down in reverse.
 class Session {
  public:
-  Session(const ControllerOptions& options, const Files& files)
+  Session(const ControllerOptions& options, const Files& files, gpio::GpiodLines* lines)
       : options_(options),
+        lines_(lines),
         numbers_(files.rig.numbers),
         wanted_{.processor = options.processor},
         guard_(PrepareRealTime(options, wanted_)),
         network_(transport::ParseLcmNetwork(options.port)),
-        port_(network_, numbers_.axes(), kSpinNs),
+        port_(network_, numbers_.axes(), rt::AllowedSpinNs(kSpinNs)),
         telemetry_(network_),
         recorder_({.session_path = options.record,
                    .trip_folder = options.trip_folder,
@@ -147,6 +169,7 @@ class Session {
     if (files.scenario) {
       player_.emplace(*files.scenario, numbers_.period_s(), sequence_.standstill_rad_per_s);
     }
+    if (lines_ != nullptr) guarded_.emplace(port_, *lines_, files.rig.lines);
   }
 
   ExitStatus Run() {
@@ -161,7 +184,7 @@ class Session {
     loop::ControlLoop loop(
         {.pace = options_.realtime ? loop::Pace::kRealtime : loop::Pace::kLockstep,
          .period_ns = numbers_.period_ns},
-        port_, cycle_, desk, outlet_, clock_);
+        guarded_ ? static_cast<port::RigPort&>(*guarded_) : port_, cycle_, desk, outlet_, clock_);
     rt::CatchStopSignals();
     std::atomic<bool> running{true};
     std::thread thread([&] {
@@ -170,8 +193,9 @@ class Session {
       running.store(false);
     });
     const bool stayed =
-        Watch(loop, desk, running, options_, network_.Url(transport::Direction::kSensor));
+        Watch(loop, desk, running, options_, network_.Url(transport::Direction::kSensor), lines_);
     thread.join();
+    if (lines_ != nullptr) lines_->WriteEnable(false);  // also after an end without a landing
     port_.SayGoodbye({.cycle = loop.last().in.frame.cycle});
     return Tell(loop.statistics(), receiver.rejected(), stayed);
   }
@@ -194,6 +218,7 @@ class Session {
                          .first_fault = outlet_.first_fault(),
                          .trip_file = recorder_.trip_file(),
                          .scenario_problem = player_ ? player_->Text() : "",
+                         .lines = guarded_ ? &guarded_->line_counters() : nullptr,
                          .real_time = Facts()};
     fmt::print(stderr, "{}", ReportText(facts));
     if (!options_.json.empty()) transport::WriteJson(ReportJson(facts), options_.json);
@@ -201,11 +226,13 @@ class Session {
   }
 
   const ControllerOptions& options_;
+  gpio::GpiodLines* lines_;
   RigNumbers numbers_;
   rt::RealTimeOptions wanted_;
   std::unique_ptr<rt::RealTimeGuard> guard_;
   transport::LcmNetwork network_;
   transport::LcmRigPort port_;
+  std::optional<gpio::GuardedPort> guarded_;
   transport::Telemetry telemetry_;
   session::Recorder recorder_;
   LoopOutlet outlet_;
@@ -220,7 +247,9 @@ class Session {
 
 ExitStatus Run(const ControllerOptions& options) {
   const Files files = Load(options);
-  Session session(options, files);
+  // Before any thread is started: the lines' guard is a fork.
+  const std::unique_ptr<gpio::GpiodLines> lines = OpenLines(options, files.rig.lines);
+  Session session(options, files, lines.get());
   return session.Run();
 }
 

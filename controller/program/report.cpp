@@ -50,6 +50,15 @@ nlohmann::ordered_json ReportJson(const RunFacts& facts) {
       {"trip_file", facts.trip_file},
       {"scenario_problem", facts.scenario_problem},
       {"realtime", rt::Text(facts.real_time)}};
+  if (facts.lines != nullptr) {
+    json["lines"] = {{"stops", facts.lines->stops},
+                     {"enables", facts.lines->enables},
+                     {"write_failures", facts.lines->write_failures},
+                     {"pulses_good", facts.lines->pulses.good},
+                     {"pulses_extra", facts.lines->pulses.extra},
+                     {"pulses_missing", facts.lines->pulses.missing},
+                     {"pulse_jumps", facts.lines->pulses.jumps}};
+  }
   json["timing"] = TimingJson(facts.statistics);
   return json;
 }
@@ -73,6 +82,10 @@ std::string ReportText(const RunFacts& facts) {
                           statistics.blamed[at]);
     }
     text += '\n';
+  }
+  if (facts.lines != nullptr && facts.lines->write_failures > 0) {
+    text += fmt::format("lines: an output could not be written in {} cycles\n",
+                        facts.lines->write_failures);
   }
   if (facts.trips > 0) {
     text += fmt::format("tripped: {}{}{}\n", Name(facts.first_fault),

@@ -9,6 +9,7 @@
 #include "controller/port/rig_port.hpp"
 #include "controller/program/controller_options.hpp"
 #include "controller/rt/real_time.hpp"
+#include "hil/guarded_port/guarded_port.hpp"
 
 namespace levitas::controller_program {
 
@@ -25,6 +26,7 @@ struct RunFacts {
   Fault first_fault{Fault::kNone};
   std::string trip_file;
   std::string scenario_problem;
+  const gpio::LineCounters* lines{};  ///< null: no lines in use
   const std::vector<rt::RealTimeFact>& real_time;
 };
 

@@ -6,6 +6,8 @@
 //          for the rest. The sleep's wake-up error (13 us median on a quiet machine,
 //          docs/timing.md) disappears in the spin; a spin over the whole period would be stopped
 //          by the kernel's real-time throttling.
+// Alone    on a machine with one processor nothing spins: it would keep everybody else, the rig's
+//          simulation among them, from what is being waited for.
 // Thread   one per object; no allocation, no failure.
 
 #include <cstdint>
@@ -33,7 +35,9 @@ class MonotonicClock final : public Clock {
 
 /// CLOCK_MONOTONIC now [ns].
 [[nodiscard]] std::int64_t MonotonicNowNs() noexcept;
-/// Returns at `due_ns` without giving the processor away.
+/// Returns at `due_ns` without giving the processor away, unless it is the only one.
 void SpinUntil(std::int64_t due_ns) noexcept;
+/// `spin_ns`, or 0 on a machine with one processor.
+[[nodiscard]] std::int64_t AllowedSpinNs(std::int64_t spin_ns) noexcept;
 
 }  // namespace levitas::rt

@@ -104,7 +104,7 @@ inline constexpr FaultSet kSignalFaults =
     Bit(Fault::kFrameMissing) | Bit(Fault::kRigRestarted) | Bit(Fault::kAmplifierFault);
 inline constexpr FaultSet kLevitatedFaults = kSignalFaults | Bit(Fault::kDeadlineMissed) |
                                              Bit(Fault::kCoilSaturated) | Bit(Fault::kOverSpeed) |
-                                             Bit(Fault::kEmergencyStop);
+                                             Bit(Fault::kEmergencyStop) | Bit(Fault::kSpeedUnknown);
 
 inline constexpr std::array<StateRow, kStateCount> kStates{{
     {State::kOff, Mode::kOff, false, Reference::kNone, Drive::kFree, false,

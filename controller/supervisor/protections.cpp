@@ -79,8 +79,10 @@ void Protections::AcceptSession(std::uint32_t rig_session) noexcept {
 }
 
 bool Protections::SignalsGood(const Observation& seen) const noexcept {
-  if (!seen.fresh || (seen.rig_status & (kRigEmergencyStop | kRigAmplifierFault)) != 0)
+  if (!seen.fresh ||
+      (seen.rig_status & (kRigEmergencyStop | kRigAmplifierFault | kRigSpeedUnknown)) != 0) {
     return false;
+  }
   if (NotFinite(seen).fault != Fault::kNone || Frozen().fault != Fault::kNone) return false;
   for (std::size_t i = 0; i < axes_; ++i) {
     if (std::abs(seen.position_m[i]) >= range_limit_m_) return false;
@@ -147,8 +149,12 @@ Finding Protections::FindMotionFault(const Observation& seen, FaultSet armed,
   const auto look = [&](Finding candidate) {
     if (found.fault == Fault::kNone && (armed & Bit(candidate.fault)) != 0) found = candidate;
   };
-  if (stop_requested || (seen.fresh && (seen.rig_status & kRigEmergencyStop) != 0)) {
+  // Also in an old frame: lines are read without one, and a stop does not wait for the next.
+  if (stop_requested || (seen.rig_status & kRigEmergencyStop) != 0) {
     look({Fault::kEmergencyStop, -1, 1.0, 0.0});
+  }
+  if (seen.fresh && (seen.rig_status & kRigSpeedUnknown) != 0) {
+    look({Fault::kSpeedUnknown, -1, 1.0, 0.0});
   }
   if (seen.fresh && std::abs(seen.speed_rad_per_s) > speed_limit_rad_per_s_) {
     look({Fault::kOverSpeed, -1, std::abs(seen.speed_rad_per_s), speed_limit_rad_per_s_});

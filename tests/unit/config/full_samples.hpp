@@ -8,6 +8,11 @@ namespace levitas::config::test {
 inline RigFile FullRig() {
   RigFile rig = LoadRig(FindConfig("flexible_rotor", "rigs"));
   rig.plant.rotor.rings.push_back({0.2, 0.01, 9.525e-3, 0.05, 7850.0});
+  rig.lines.emergency_stop = gpio::LinePlace{"gpiochip0", 0, true, gpio::Bias::kInternal};
+  rig.lines.amplifier_enable = gpio::LinePlace{"pinctrl-bcm2711", 17, true, gpio::Bias::kExternal};
+  rig.lines.amplifier_fault = gpio::LinePlace{"/dev/gpiochip1", 2, false, gpio::Bias::kExternal};
+  rig.lines.heartbeat = gpio::HeartbeatConfig{{"gpio-sim.0-node0", 3}, 7, 0.0125};
+  rig.lines.key_phasor = gpio::KeyPhasorConfig{{"gpiochip0", 4}, 2, 0.0, 500.0, 1e-5};
   return rig;
 }
 

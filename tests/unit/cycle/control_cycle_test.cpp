@@ -62,6 +62,18 @@ TEST(ControlCycle, HoldsTheLastCurrentWhileFramesAreMissingThenDrops) {
   EXPECT_EQ(dropped.current.control_current_a, AxisArray{});
 }
 
+TEST(ControlCycle, TakesAStopOfTheChainWithoutAFrame) {
+  ControlCycle control(FlexibleRotorCycle());
+  StillRig rig;
+  ASSERT_EQ(Levitate(control, rig).mode, Mode::kLevitating);
+  CycleInputs in = rig.Next();
+  in.frame_present = false;
+  in.frame.rig_status = kRigEmergencyStop | kRigAmplifierFault;  // only the chain has its own line
+  const CycleOutputs stopped = control.Step(in);
+  EXPECT_EQ(stopped.fault, Fault::kEmergencyStop);
+  EXPECT_TRUE(stopped.current.amplifiers_enabled) << "a levitated stop";
+}
+
 TEST(ControlCycle, UndoesPolarityOnceOnEachSide) {
   const CycleConfig straight = FlexibleRotorCycle();
   CycleConfig wired = straight;

@@ -65,6 +65,7 @@ const Told kTold[] = {
     {Fault::kSelfTestFailed, -1, 30.0 * kRpm, 10.0 * kRpm, "rotor turns",
      ": 30 rpm, allowed 10 rpm."},
     {Fault::kLiftFailed, 0, 50e-6, 20e-6, "did not reach the centre", ": 50 um, allowed 20 um."},
+    {Fault::kSpeedUnknown, -1, 1.0, 0.0, "speed is not known", ""},
 };
 
 TEST(TripText, TellsEveryFaultWithCauseChannelFiguresUnitAndRemedy) {

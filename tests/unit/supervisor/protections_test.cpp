@@ -132,6 +132,40 @@ TEST(OverSpeedProtection, TripsInEitherDirection) {
   EXPECT_EQ(TripAfter(State::kCoastDown, 1, at(-660.1)).fault, Fault::kOverSpeed);
 }
 
+TEST(EmergencyStopProtection, DoesNotWaitForAFrame) {
+  const auto open = [](Seen& seen, int) {
+    seen.fresh = false;
+    seen.rig_status = kRigEmergencyStop;
+  };
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(State::kLanding); ++i) {
+    EXPECT_EQ(TripAfter(static_cast<State>(i), 1, open).fault, Fault::kEmergencyStop);
+  }
+}
+
+TEST(SpeedUnknownProtection, StopsALevitatedRotorAndLooksForNothingWhileItLies) {
+  const auto lost = [](Seen& seen, int) { seen.rig_status = kRigSpeedUnknown; };
+  for (const State state :
+       {State::kLift, State::kLevitating, State::kSpinning, State::kCoastDown, State::kLanding}) {
+    EXPECT_EQ(TripAfter(state, 1, lost).fault, Fault::kSpeedUnknown);
+  }
+  for (const State state : {State::kOff, State::kSelfTest}) {
+    Driver driver;
+    driver.GoTo(state);
+    driver.seen.rig_status = kRigSpeedUnknown;
+    EXPECT_EQ(driver.Step().latch.finding.fault, Fault::kNone);
+  }
+}
+
+TEST(SpeedUnknownProtection, LeavesTheRotorLevitatedUnderTheBrake) {
+  Driver driver;
+  driver.GoTo(State::kSpinning);
+  driver.seen.rig_status = kRigSpeedUnknown;
+  const Decision& decision = driver.Step();
+  EXPECT_EQ(decision.state, State::kTrippedStopping);
+  EXPECT_TRUE(decision.drive_enabled);
+  EXPECT_EQ(decision.speed_set_point_rad_per_s, 0.0);
+}
+
 TEST(EmergencyStopProtection, TakesTheRigsOwnChainInEveryStateBeforeATrip) {
   const auto open = [](Seen& seen, int) { seen.rig_status = kRigEmergencyStop; };
   for (std::size_t i = 0; i <= static_cast<std::size_t>(State::kLanding); ++i) {
