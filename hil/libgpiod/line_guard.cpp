@@ -23,7 +23,8 @@ namespace levitas::gpio {
 
 namespace {
 
-constexpr int kPriority = 90;  // above the loop's 80: it acts when the loop has failed
+constexpr int kPriority = 90;         // above the loop's 80: it acts when the loop has failed
+constexpr int kStartAttempts = 2000;  // of a millisecond
 // The line is held inactive this long, so that a rig without a pull-down has shut off meanwhile.
 constexpr int kHoldMs = 500;
 
@@ -70,6 +71,10 @@ LineGuard::LineGuard(const std::function<bool()>& make_safe, std::int64_t watchd
   }
   ::close(ends[0]);
   pipe_end_ = ends[1];
+  for (int attempt = 0; !shared_->watching.load(); ++attempt) {
+    if (attempt == kStartAttempts) refuse("it does not start");
+    ::poll(nullptr, 0, 1);
+  }
 }
 
 LineGuard::~LineGuard() {
@@ -96,6 +101,7 @@ bool LineGuard::alive() const noexcept {
 void LineGuard::Guard(const std::function<bool()>& make_safe, int pipe_end,
                       std::int64_t watchdog_ns) noexcept {
   Isolate();
+  shared_->watching.store(true);
   const int look_ms = static_cast<int>(std::clamp<std::int64_t>(watchdog_ns / 4'000'000, 1, 1000));
   const std::int64_t looks = std::max<std::int64_t>(1, watchdog_ns / 1'000'000 / look_ms);
   std::uint64_t beats = 0;

@@ -27,7 +27,8 @@ namespace levitas::gpio {
 
 class LineGuard {
  public:
-  /// `make_safe` runs in the guard; it must allocate nothing. True: the line is safe.
+  /// Returns when the guard watches. `make_safe` runs in the guard; it must allocate nothing. True:
+  /// the line is safe.
   LineGuard(const std::function<bool()>& make_safe, std::int64_t watchdog_ns);
   /// Dismisses the guard; the line must be safe already.
   ~LineGuard();
@@ -45,6 +46,7 @@ class LineGuard {
  private:
   struct Shared {
     std::atomic<std::uint64_t> beats;
+    std::atomic<bool> watching;
     std::atomic<bool> armed;
     std::atomic<bool> acted;
     std::atomic<bool> dismissed;

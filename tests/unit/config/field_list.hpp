@@ -38,7 +38,8 @@ class FieldList : public Writer {
   }
   void Name(const NameField& field, std::string& value) override {
     Add(std::string(field.key), true, false,
-        {"", "UPPER", "two words", "[a]", std::string(33, 'a')});
+        {"", field.also.empty() ? "UPPER" : "semi;colon", "two words", "[a]",
+         std::string(33, 'a')});
     Writer::Name(field, value);
   }
   void Choice(const ChoiceField& field, std::size_t& index) override {

@@ -65,6 +65,12 @@ class FakeLines final : public Lines {
   int cycles{0};
 };
 
+LinesConfig WithHeartbeat() {
+  LinesConfig config;
+  config.heartbeat = HeartbeatConfig{{}, 5, 0.005};
+  return config;
+}
+
 struct GuardedPortTest : testing::Test {
   SensorFrame Read() {
     (void)guarded.Read(frame, 0);
@@ -72,7 +78,7 @@ struct GuardedPortTest : testing::Test {
   }
   FakePort port;
   FakeLines lines;
-  LinesConfig config{.heartbeat = HeartbeatConfig{{}, 5, 0.005}};
+  LinesConfig config = WithHeartbeat();
   GuardedPort guarded{port, lines, config};
   SensorFrame frame;
 };
@@ -164,13 +170,15 @@ TEST_F(GuardedPortTest, CountersAreThoseOfThePortBelow) {
 TEST(GuardedPortSpeed, ComesFromTheKeyPhasorAtTheSamplingInstant) {
   FakePort port;
   FakeLines lines;
-  const LinesConfig config{.key_phasor = test::Config()};
+  LinesConfig config;
+  config.key_phasor = test::Config();
   GuardedPort guarded(port, lines, config);
   SensorFrame frame;
-  for (int k = 0; k < 40; ++k) lines.pulses.push_back(k * test::kTurnNs);
-  port.next.sample_time_ns = 39 * test::kTurnNs + test::kTurnNs / 4;
-  // More pulses than one call takes: the rest comes with the next frames.
-  for (int i = 0; i < 3; ++i) (void)guarded.Read(frame, 0);
+  for (int k = 0; k < 40; ++k) {
+    lines.pulses.push_back(k * test::kTurnNs);
+    port.next.sample_time_ns = k * test::kTurnNs + test::kTurnNs / 4;
+    (void)guarded.Read(frame, 0);
+  }
   EXPECT_NEAR(frame.speed_rad_per_s, test::kSpeed, 1e-9 * test::kSpeed);
   EXPECT_NEAR(frame.angle_rad, test::kTurnRad / 4, 1e-6);
   EXPECT_EQ(frame.rig_status, 0U);
@@ -180,7 +188,8 @@ TEST(GuardedPortSpeed, ComesFromTheKeyPhasorAtTheSamplingInstant) {
 TEST(GuardedPortSpeed, AnUnknownSpeedIsABitOfTheStatus) {
   FakePort port;
   FakeLines lines;
-  const LinesConfig config{.key_phasor = test::Config()};
+  LinesConfig config;
+  config.key_phasor = test::Config();
   GuardedPort guarded(port, lines, config);
   SensorFrame frame;
   for (int k = 0; k < 10; ++k) lines.pulses.push_back(k * test::kTurnNs);
@@ -193,7 +202,7 @@ TEST(GuardedPortSpeed, AnUnknownSpeedIsABitOfTheStatus) {
 }
 
 TEST_F(GuardedPortTest, ACycleAllocatesNothing) {
-  const test::AllocationGuard guard;
+  const levitas::test::AllocationGuard guard;
   for (int i = 0; i < 10'000; ++i) {
     (void)guarded.Read(frame, 0);
     guarded.Write({.amplifiers_enabled = i % 7 == 0});

@@ -139,7 +139,7 @@ TEST(KeyPhasor, ASlowerRotorIsNotTakenForTurningBack) {
 
 TEST(KeyPhasor, ACycleAllocatesNothing) {
   KeyPhasor key_phasor = Running();
-  const test::AllocationGuard guard;
+  const levitas::test::AllocationGuard guard;
   double sum = 0.0;
   for (int k = 10; k < 1000; ++k) {
     key_phasor.Pulse(k * kTurnNs);

@@ -61,7 +61,7 @@ class Chaos {
   }
 
   void Spoil(Seen& seen) {
-    switch (draw_.Bits() % 12) {
+    switch (draw_.Bits() % 13) {
       case 0:
         seen.fresh = false;
         break;
@@ -97,6 +97,9 @@ class Chaos {
       case 10:
         speed_override_ = 700.0;
         break;
+      case 11:
+        seen.rig_status = kRigSpeedUnknown;
+        break;
       default:
         ++seen.rig_session;
         break;
@@ -117,7 +120,8 @@ bool CauseGone(const Seen& seen) {
   for (std::size_t i = 0; i < rig.axes(); ++i) {
     if (!(std::abs(seen.position_m[i]) < 0.9 * rig.sensor_range_m)) return false;
   }
-  return seen.fresh && (seen.rig_status & (kRigEmergencyStop | kRigAmplifierFault)) == 0 &&
+  return seen.fresh &&
+         (seen.rig_status & (kRigEmergencyStop | kRigAmplifierFault | kRigSpeedUnknown)) == 0 &&
          std::abs(seen.speed_rad_per_s) < 1.0;
 }
 

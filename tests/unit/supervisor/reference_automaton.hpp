@@ -73,7 +73,7 @@ class ReferenceAutomaton {
   [[nodiscard]] State AfterFault(Fault fault) const {
     static const std::set<Fault> kStops{Fault::kOrbitExceeded, Fault::kDeadlineMissed,
                                         Fault::kCoilSaturated, Fault::kOverSpeed,
-                                        Fault::kEmergencyStop};
+                                        Fault::kEmergencyStop, Fault::kSpeedUnknown};
     const bool centred =
         state_ == State::kLevitating || state_ == State::kSpinning || state_ == State::kCoastDown;
     return centred && kStops.contains(fault) ? State::kTrippedStopping : State::kTrippedReleased;
