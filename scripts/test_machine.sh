@@ -35,8 +35,6 @@ unpack() {
     --exclude='*/drivers/gpu/*.[ch]' --exclude='*/drivers/media/*.[ch]' \
     --exclude='*/drivers/net/ethernet/*.[ch]' --exclude='*/drivers/net/wireless/*.[ch]' \
     --exclude='*/drivers/staging/*.[ch]' --exclude='*/sound/*.[ch]' --exclude='*/Documentation/*.rst'
-  # The one change to the source, a number that cannot be set otherwise: see kernel.config.
-  sed -i '/^config HZ/,/default/s/default 100$/default 10000/' "$1/arch/um/Kconfig"
 }
 
 compile() {
