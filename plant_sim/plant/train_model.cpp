@@ -153,6 +153,7 @@ TrainModel BuildTrain(const PlantConfig& config, const TrainModes& modes) {
   TrainModel train;
   train.shafts = config.shafts.size();
   if (train.shafts == 0) return train;
+  train.twists = static_cast<std::size_t>(modes.torsion.frequency_rad_per_s.size());
   train.ratio = SpeedRatios(config);
   for (const auto& pair : config.gears) {
     train.turns_per_repeat *= pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);

@@ -65,6 +65,7 @@ struct MeshModel {
 
 struct TrainModel {
   std::size_t shafts{};  ///< 0: the rig has one rotor and none of this
+  std::size_t twists{};  ///< torsional modes of all shafts
   std::vector<double> ratio;
   double turns_per_repeat{1.0};  ///< turns of the first shaft after which all stand alike
   std::vector<ShaftUnbalance> unbalance;

@@ -21,6 +21,9 @@ struct TrainPose {
   std::array<double, kMaxShafts> shaft_rad{};
   std::array<gear::Vector, kMaxShafts> heading{};  ///< exp(j angle) of each shaft
   std::array<gear::Vector, kMaxGears> mesh{};      ///< exp(j tooth angle) of each gear pair
+  /// Run-outs and transmission error of each gear pair: the end of a substep is the next one's
+  /// start, so they are worth keeping.
+  std::array<gear::Prescribed, kMaxGears> prescribed{};
 };
 
 /// Follows the rotation; an angle that jumps by more than half a turn has passed a whole one.
