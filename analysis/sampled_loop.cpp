@@ -76,7 +76,7 @@ SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law
   const plant::LinearModel continuous = plant::Linearise(model, speed_rad_per_s);
   SampledLoop loop;
   loop.period_s = static_cast<double>(plant.period_ns) * 1e-9;
-  loop.plant = plant::Discretise(continuous, loop.period_s, plant.delay_samples);
+  loop.plant = plant::Discretise(continuous, loop.period_s, model.delay_samples());
   loop.modes = static_cast<Eigen::Index>(model.layout().modes);
   for (const auto& axis : law.axes) {
     loop.law.push_back(ModelOf(law::DiscreteSections(axis, loop.period_s)));

@@ -253,6 +253,7 @@ void Describe(Visitor& v, RigFile& rig) {
     v.Name({"scenario", "shipped name"}, rig.run.scenario);
   });
   Derive(rig);
+  DescribeEffects(v, rig);
 }
 
 }  // namespace levitas::config

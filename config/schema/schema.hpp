@@ -24,6 +24,8 @@ void DescribeShaftNumber(Visitor& v, const plant::PlantConfig& plant, std::size_
 void RefuseBesideShaft(Visitor& v, const plant::PlantConfig& plant, std::size_t shaft, double z_m,
                        std::string_view key);
 void Describe(Visitor& v, gpio::LinesConfig& lines, double period_s);
+/// The list of effects; needs the names in rig.numbers.
+void DescribeEffects(Visitor& v, RigFile& rig);
 /// Refuses a plane beyond the end of the shaft; silent while the shaft itself is not known.
 void RefuseBeyondShaft(Visitor& v, const rotor::RotorConfig& rotor, double z_m,
                        std::string_view key);

@@ -57,6 +57,8 @@ constexpr std::array kUnits{
     kBending,
     kTorsion,
     kTorsionDamping,
+    kPerMetre,
+    kPerSquareMetre,
 };
 
 /// A decimal text taken apart: value = digits x 10^exponent ("457.2" -> "457.2", 0).

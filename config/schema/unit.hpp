@@ -66,6 +66,8 @@ inline constexpr Unit kForceConstant{"n_m2_per_a2", "N m^2/A^2", "magnet constan
 inline constexpr Unit kAmperePerSecond{"a_per_s", "A/s", "slew"};
 inline constexpr Unit kGravity{"m_per_s2", "m/s^2", "linear acceleration"};
 inline constexpr Unit kPerSecond{"1_per_s", "1/s", "rate"};
+inline constexpr Unit kPerMetre{"1_per_m", "1/m", "curvature"};
+inline constexpr Unit kPerSquareMetre{"1_per_m2", "1/m^2", "cubic coefficient"};
 inline constexpr Unit kGainP{"a_per_m", "A/m", "proportional gain"};
 inline constexpr Unit kGainPMilli{"a_per_mm", "A/mm", "proportional gain", 3};
 inline constexpr Unit kGainI{"a_per_m_s", "A/(m s)", "integral gain"};

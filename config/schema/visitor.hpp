@@ -58,6 +58,15 @@ struct ListField {
   std::string_view meaning;
 };
 
+/// A list of words; left out, it means all of them.
+struct WordsField {
+  std::string_view key;
+  std::span<const std::string_view> words;
+  std::string_view documented;  ///< what the words are, for the documentation
+  std::string_view meaning;
+};
+inline constexpr std::uint32_t kAllWords = 0xFFFFFFFFU;
+
 /// One of several ways to give the same quantity.
 struct Form {
   std::string_view name;
@@ -72,6 +81,14 @@ class Visitor {
   virtual void Name(const NameField& field, std::string& value) = 0;
   /// `index` into the field's words.
   virtual void Choice(const ChoiceField& field, std::size_t& index) = 0;
+  /// Bit i of `mask` stands for word i; all words together are kAllWords.
+  virtual void Words(const WordsField& field, std::uint32_t& mask) = 0;
+  /// A choice on which the keys shown by `body` depend.
+  virtual void Variant(const ChoiceField& field, std::size_t& index,
+                       const std::function<void(std::size_t)>& body) {
+    Choice(field, index);
+    body(index);
+  }
   /// Exactly one form is read; `chosen` says which, and which one is written. After a problem it is
   /// the number of forms.
   virtual void OneOf(std::string_view what, std::span<const Form> forms, std::size_t& chosen) = 0;

@@ -47,6 +47,21 @@ void Documenter::Choice(const ChoiceField& field, std::size_t&) {
   Row(field.key, "", words, field.fallback ? Code(*field.fallback) : "required", field.meaning);
 }
 
+void Documenter::Words(const WordsField& field, std::uint32_t&) {
+  Row(field.key, "", field.documented, "all", field.meaning);
+}
+
+void Documenter::Variant(const ChoiceField& field, std::size_t& index,
+                         const std::function<void(std::size_t)>& body) {
+  Choice(field, index);
+  const std::string outside = condition_;
+  for (std::size_t i = 0; i < field.words.size(); ++i) {
+    condition_ = fmt::format("{} (`{}: {}`)", outside, field.key, field.words[i]);
+    body(i);
+  }
+  condition_ = outside;
+}
+
 void Documenter::OneOf(std::string_view what, std::span<const Form> forms, std::size_t&) {
   const std::string outside = condition_;
   for (std::size_t i = 0; i < forms.size(); ++i) {

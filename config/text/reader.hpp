@@ -24,6 +24,9 @@ class Reader : public Visitor {
   void Number(const NumberField& field, double& si) override;
   void Name(const NameField& field, std::string& value) override;
   void Choice(const ChoiceField& field, std::size_t& index) override;
+  void Words(const WordsField& field, std::uint32_t& mask) override;
+  void Variant(const ChoiceField& field, std::size_t& index,
+               const std::function<void(std::size_t)>& body) override;
   void OneOf(std::string_view what, std::span<const Form> forms, std::size_t& chosen) override;
   void When(bool condition, std::string_view when, const std::function<void()>& body) override;
   void RefuseIf(bool violated, std::string_view key, const std::string& text) override;

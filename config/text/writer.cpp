@@ -24,6 +24,15 @@ void Writer::Choice(const ChoiceField& field, std::size_t& index) {
   Line(field.key, field.words[index]);
 }
 
+void Writer::Words(const WordsField& field, std::uint32_t& mask) {
+  std::string list;
+  for (std::size_t i = 0; i < field.words.size(); ++i) {
+    if (((mask >> i) & 1U) == 0U) continue;
+    list.append(list.empty() ? "" : ", ").append(field.words[i]);
+  }
+  Line(field.key, "[" + list + "]");
+}
+
 void Writer::OneOf(std::string_view, std::span<const Form> forms, std::size_t& chosen) {
   forms[chosen].describe();
 }

@@ -15,6 +15,7 @@ class Writer : public Visitor {
   void Number(const NumberField& field, double& si) override;
   void Name(const NameField& field, std::string& value) override;
   void Choice(const ChoiceField& field, std::size_t& index) override;
+  void Words(const WordsField& field, std::uint32_t& mask) override;
   void OneOf(std::string_view what, std::span<const Form> forms, std::size_t& chosen) override;
   void When(bool condition, std::string_view when, const std::function<void()>& body) override;
   void RefuseIf(bool, std::string_view, const std::string&) override {}

@@ -18,18 +18,24 @@ struct Magnet {
   double max_coil_current_a{};
 };
 
+/// Force [N] of two coil currents.
+[[nodiscard]] inline double ForceOfCoils(const Magnet& m, double towards_a, double away_a,
+                                         double x_m) noexcept {
+  // On one fraction, so that the two quotients cost one division.
+  const double near = m.gap_m - x_m;
+  const double far = m.gap_m + x_m;
+  const double a = towards_a * far;
+  const double b = away_a * near;
+  const double gaps = near * far;
+  return m.force_constant_n_m2_per_a2 * (a + b) * (a - b) / (gaps * gaps);
+}
+
 /// Force [N]. A coil cannot carry less than nothing or more than its maximum: both are clamped.
 [[nodiscard]] inline double Force(const Magnet& m, double bias_a, double control_a,
                                   double x_m) noexcept {
   const double towards = std::clamp(bias_a + control_a, 0.0, m.max_coil_current_a);
   const double away = std::clamp(bias_a - control_a, 0.0, m.max_coil_current_a);
-  // On one fraction, so that the two quotients cost one division.
-  const double near = m.gap_m - x_m;
-  const double far = m.gap_m + x_m;
-  const double a = towards * far;
-  const double b = away * near;
-  const double gaps = near * far;
-  return m.force_constant_n_m2_per_a2 * (a + b) * (a - b) / (gaps * gaps);
+  return ForceOfCoils(m, towards, away, x_m);
 }
 
 [[nodiscard]] inline double ForcePerCurrent(const Magnet& m, double bias_a) noexcept {

@@ -9,6 +9,8 @@
 namespace levitas::plant {
 
 void CheckConfig(const PlantConfig& config);
+/// Entries of effects: their values, what they refer to, and that no two fight for one place.
+void CheckEffects(const PlantConfig& config);
 void CheckMode(std::size_t mode, double frequency_rad_per_s, double damping_ratio);
 
 }  // namespace levitas::plant

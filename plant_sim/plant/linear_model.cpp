@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "plant_sim/plant/plant_model.hpp"
+#include "plant_sim/plant/linear_parts.hpp"
 #include "plant_sim/plant/train_linear.hpp"
 
 namespace levitas::plant {
@@ -36,44 +36,23 @@ Discrete Hold(const LinearModel& model, double duration_s) {
 
 LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
   const StateLayout& at = model.layout();
-  const auto& modes = model.parameters().modes;
-  const Index n = At(at.modes);
   LinearModel linear;
   linear.a = Eigen::MatrixXd::Zero(At(at.size), At(at.size));
   linear.b = Eigen::MatrixXd::Zero(At(at.size), At(model.axes()));
   linear.c = Eigen::MatrixXd::Zero(At(model.axes()), At(at.size));
-  for (std::size_t plane = 0; plane < 2; ++plane) {
-    const Index q = At(plane == 0 ? at.q_x : at.q_y);
-    const Index v = At(plane == 0 ? at.v_x : at.v_y);
-    const auto w = modes.frequency_rad_per_s.array();
-    linear.a.block(q, v, n, n).setIdentity();
-    linear.a.block(v, q, n, n) = (-w.square()).matrix().asDiagonal();
-    linear.a.block(v, v, n, n) = (-2.0 * modes.damping_ratio.array() * w).matrix().asDiagonal();
-  }
-  linear.a.block(At(at.v_x), At(at.v_y), n, n) = -speed_rad_per_s * modes.gyroscopic;
-  linear.a.block(At(at.v_y), At(at.v_x), n, n) = speed_rad_per_s * modes.gyroscopic;
-
+  AddRotor(model, speed_rad_per_s, linear.a);
+  AddShaftEffects(model, speed_rad_per_s, linear.a);
   AddTrain(model, linear.a);
+  for (std::size_t bearing = 0; bearing < model.bearings().size(); ++bearing) {
+    AddMagnets(model, bearing, linear.a);
+    AddSensors(model, bearing, linear.a);
+  }
   for (std::size_t axis = 0; axis < model.axes(); ++axis) {
-    const BearingModel& bearing = model.bearings()[axis / 2];
-    const BearingConfig& config = model.config().bearings[axis / 2];
-    const Index q = At(axis % 2 == 0 ? at.q_x : at.q_y);
-    const Index v = At(axis % 2 == 0 ? at.v_x : at.v_y);
-    const Eigen::Map<const Eigen::VectorXd> actuator(bearing.actuator_shape.data(), n);
-    const Eigen::Map<const Eigen::VectorXd> sensor(bearing.sensor_shape.data(), n);
-    const double bias_a = config.magnet.bias_current_a;
     const Index coil = At(at.coil_current + axis);
-    const Index filter = At(at.sensor + axis);
-    linear.a.block(v, q, n, n) +=
-        magnet::NegativeStiffness(bearing.magnet, bias_a) * actuator * actuator.transpose();
-    linear.a.block(v, coil, n, 1) = magnet::ForcePerCurrent(bearing.magnet, bias_a) * actuator;
-    const double amplifier_rate = 2.0 * std::numbers::pi * config.amplifier.bandwidth_hz;
+    const double amplifier_rate = 2.0 * std::numbers::pi * model.amplifier_bandwidth_hz(axis);
     linear.a(coil, coil) = -amplifier_rate;
     linear.b(coil, At(axis)) = amplifier_rate;
-    const double sensor_rate = 2.0 * std::numbers::pi * config.sensor.bandwidth_hz;
-    linear.a(filter, filter) = -sensor_rate;
-    linear.a.block(filter, q, 1, n) = sensor_rate * config.sensor.gain * sensor.transpose();
-    linear.c(At(axis), filter) = 1.0;
+    linear.c(At(axis), At(at.sensor + axis)) = 1.0;
   }
   return linear;
 }

@@ -3,6 +3,10 @@
 //
 // Continuous   x' = A x + B ic,  y = C x : states ordered as StateLayout, magnet F = ki ic + ks x,
 //              amplifier and sensor filters included, no contact, gravity, unbalance or noise.
+// Effects      those that are linear and do not depend on the rotor's angle, at the strengths the
+//              model has; extra_delay is PlantModel::delay_samples(). Left out: hysteresis (its
+//              state is there, decays and acts on nothing), slew, rub, anisotropy, crack, all
+//              signals.
 // Discrete     zero-order hold over one period with the rig's delay as extra states (the commands
 //              not yet acting); exact for whole and fractional delays.
 // Frame        bearing frame, polarities undone: what a law sees. docs/derivations.md (41)-(44).

@@ -7,6 +7,7 @@
 
 #include "common/nearest.hpp"
 #include "common/problem.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -57,6 +58,19 @@ void AddGear(std::vector<Entry>& entries, const std::string& at, gear::GearPair&
   }
 }
 
+void AddEffect(std::vector<Entry>& entries, const std::string& at, effect::EffectConfig& e) {
+  const auto parameters = effect::At(e.id).parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const effect::Parameter& p = parameters[k];
+    entries.push_back(
+        {fmt::format("{}{}{}{}", at, p.stem, p.si_suffix.empty() ? "" : "_", p.si_suffix),
+         &e.values[k]});
+  }
+  entries.push_back({at + "strength", &e.strength});
+  entries.push_back({at + "at_s", &e.at_s});
+  entries.push_back({at + "ramp_s", &e.ramp_s});
+}
+
 // The one table of names: reading, setting and listing all walk through it.
 std::vector<Entry> Entries(PlantParameters& p) {
   std::vector<Entry> entries{{"delay_samples", &p.config.delay_samples},
@@ -85,6 +99,9 @@ std::vector<Entry> Entries(PlantParameters& p) {
     const std::string at = fmt::format("unbalance[{}].", i);
     entries.push_back({at + "moment_kg_m", &p.config.unbalance[i].moment_kg_m});
     entries.push_back({at + "phase_rad", &p.config.unbalance[i].phase_rad});
+  }
+  for (std::size_t i = 0; i < p.config.effects.size(); ++i) {
+    AddEffect(entries, fmt::format("effects[{}].", i), p.config.effects[i]);
   }
   return entries;
 }

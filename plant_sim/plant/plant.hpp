@@ -43,6 +43,7 @@ struct StateLayout {
   std::size_t v_x{}, v_y{};    ///< modal velocity
   std::size_t coil_current{};  ///< control current in the coils, one per axis
   std::size_t sensor{};        ///< filtered position, one per axis
+  std::size_t effects{};       ///< states of effects, if any: see effect_model.hpp
   std::size_t size{};
   std::size_t twists{};  ///< torsional modes of geared shafts
   std::size_t q_t{};     ///< their displacement, right behind q_y; their velocity right behind v_y
@@ -76,6 +77,14 @@ class Plant {
   void RestInTouchdown() noexcept;
   /// With gears, an angle more than half a turn from the present one has passed a whole turn.
   void SetSpeed(double speed_rad_per_s, double angle_rad) noexcept;
+
+  /// Changes of effects while it runs. The first gives this plant a model of its own (allocates, so
+  /// call it before the loop); effects with a time of their own have it from the start. The second
+  /// sets the strength (0 to 1) of entry `index` of config().effects from the next Advance on, ends
+  /// the entry's own schedule, and does nothing but return false without the first, or for an
+  /// index or a strength that is not there. Microseconds, no allocation.
+  void AllowEffectChanges();
+  bool SetEffectStrength(std::size_t index, double strength) noexcept;
 
   [[nodiscard]] const StateLayout& layout() const noexcept;
   [[nodiscard]] std::span<const double> state() const noexcept;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/axes.hpp"
+#include "plant_sim/effect/effect_config.hpp"
 #include "plant_sim/gear/gear_config.hpp"
 #include "plant_sim/rotor/rotor_config.hpp"
 #include "plant_sim/rotor/shaft_config.hpp"
@@ -78,9 +79,10 @@ struct PlantConfig {
   double gravity_m_per_s2{};
   double gravity_direction_rad{};  ///< in the x-y plane, from +x towards +y
   DriveConfig drive;
-  AxisArray sensor_polarity{};    ///< +1 or -1 per axis: how the probe is wired
-  AxisArray actuator_polarity{};  ///< +1 or -1 per axis: how the coils are wired
-  int substeps{};                 ///< fixed integration steps per period
+  AxisArray sensor_polarity{};                ///< +1 or -1 per axis: how the probe is wired
+  AxisArray actuator_polarity{};              ///< +1 or -1 per axis: how the coils are wired
+  int substeps{};                             ///< fixed integration steps per period
+  std::vector<effect::EffectConfig> effects;  ///< what the rig does beyond all this
 };
 
 }  // namespace levitas::plant

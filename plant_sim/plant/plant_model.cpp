@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant_sim/effect/strength.hpp"
 #include "plant_sim/plant/check_config.hpp"
-#include "plant_sim/plant/mode_step.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -13,10 +13,6 @@ namespace {
 std::vector<double> ToVector(const Eigen::RowVectorXd& row) {
   return {row.data(), row.data() + row.size()};
 }
-
-// Delays closer than this to a whole sample count as whole: a rounding error, not a step of its
-// own.
-constexpr double kWholeSample = 1e-9;
 
 }  // namespace
 
@@ -55,44 +51,88 @@ PlantModel::PlantModel(PlantParameters parameters) : parameters_(std::move(param
   layout_.v_y = layout_.v_x + modes;
   layout_.coil_current = 2 * coordinates();
   layout_.sensor = layout_.coil_current + axes;
-  layout_.size = layout_.sensor + axes;
+  layout_.effects = layout_.size = layout_.sensor + axes;
   train_ =
       BuildTrain(config(), {parameters_.modes, parameters_.torsion, parameters_.first_torsion_row});
+  entry_shapes_ = MakeEntryShapes(parameters_);
+  effects_ = PrepareEffects(parameters_, layout_);
+  now_ = PrepareRig(parameters_);
   BuildRotor();
   BuildBearings();
-  BuildSteps();
+  ReserveSteps();
+  std::vector<double> strengths;
+  strengths.reserve(config().effects.size());
+  most_delay_samples_ = config().delay_samples;
+  for (const auto& entry : config().effects) {
+    strengths.push_back(effect::StrengthAt(entry, 0.0));
+    if (entry.id == effect::Id::kExtraDelay) {
+      most_delay_samples_ += entry.values[0] * 1e9 / static_cast<double>(config().period_ns);
+    }
+  }
+  SetStrengths(strengths);
+}
+
+void PlantModel::SetStrengths(std::span<const double> strengths) noexcept {
+  ApplyEffects(parameters_, entry_shapes_, strengths, now_, effects_);
+  RefreshShapes();
+  RefreshRotor();
+  RefreshDelay();
+  RefreshSteps();
 }
 
 void PlantModel::BuildRotor() {
   const auto& rotor = parameters_.modes;
   const std::size_t modes = layout_.modes;
-  gyroscopic_.assign(rotor.gyroscopic.data(), rotor.gyroscopic.data() + rotor.gyroscopic.size());
-
-  gravity_.assign(2 * modes, 0.0);
-  unbalance_.assign(2 * modes, 0.0);
-  rigid_ = Eigen::MatrixX2d::Zero(static_cast<Eigen::Index>(modes), 2);
+  gyroscopic_.resize(modes * modes);
+  gravity_.resize(2 * modes);
+  unbalance_.resize(2 * modes);
+  nominal_rigid_ = Eigen::MatrixX2d::Zero(static_cast<Eigen::Index>(modes), 2);
+  rigid_ = nominal_rigid_;
   if (train_.shafts > 0) return;  // see train_model.hpp; the shafts count from their loaded rest
 
+  for (const auto& mass : config().unbalance) {
+    unbalance_shapes_.push_back(ToVector(rotor.ShapeAt(mass.z_m)));
+  }
   // The rigid modes span translation and slope; invert that relation at both shaft ends.
   const Eigen::Index last = rotor.shapes.rows() - 1;
   Eigen::Matrix2d ends;
   ends << rotor.shapes(0, 0), rotor.shapes(0, 1), rotor.shapes(last, 0), rotor.shapes(last, 1);
   Eigen::Matrix2d wanted;
   wanted << 1.0, rotor.node_z_m.front(), 1.0, rotor.node_z_m.back();
-  rigid_.topRows(2) = ends.inverse() * wanted;
+  nominal_rigid_.topRows(2) = ends.inverse() * wanted;
+  rigid_ = nominal_rigid_;
+}
 
-  // Phi^T M e: flexible modes are orthogonal to a translation, gravity does not excite them, (12).
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double weight = config().gravity_m_per_s2 * rigid_(static_cast<Eigen::Index>(i), 0);
-    gravity_[i] = weight * std::cos(config().gravity_direction_rad);
-    gravity_[modes + i] = weight * std::sin(config().gravity_direction_rad);
+void PlantModel::RefreshRotor() noexcept {
+  const auto& rotor = parameters_.modes;
+  const std::size_t modes = layout_.modes;
+  for (std::size_t i = 0; i < gyroscopic_.size(); ++i) {
+    gyroscopic_[i] = now_.gyroscopic_ratio * rotor.gyroscopic.data()[i];
   }
-  for (const auto& mass : config().unbalance) {
-    const auto shape = ToVector(rotor.ShapeAt(mass.z_m));
+  rigid_ = std::sqrt(now_.mass_ratio) * nominal_rigid_;
+  gravity_direction_ = {std::cos(config().gravity_direction_rad),
+                        std::sin(config().gravity_direction_rad)};
+  // Phi^T M e: flexible modes are orthogonal to a translation, gravity does not excite them, (12).
+  std::fill(gravity_.begin(), gravity_.end(), 0.0);
+  std::fill(unbalance_.begin(), unbalance_.end(), 0.0);
+  for (std::size_t i = 0; i < 2 && train_.shafts == 0; ++i) {
+    const double weight = config().gravity_m_per_s2 * rigid_(static_cast<Eigen::Index>(i), 0);
+    gravity_[i] = weight * gravity_direction_[0];
+    gravity_[modes + i] = weight * gravity_direction_[1];
+  }
+  for (std::size_t m = 0; m < unbalance_shapes_.size(); ++m) {
+    const UnbalanceMass& mass = config().unbalance[m];
     for (std::size_t i = 0; i < modes; ++i) {
-      unbalance_[i] += shape[i] * mass.moment_kg_m * std::cos(mass.phase_rad);
-      unbalance_[modes + i] += shape[i] * mass.moment_kg_m * std::sin(mass.phase_rad);
+      unbalance_[i] += unbalance_shapes_[m][i] * mass.moment_kg_m * std::cos(mass.phase_rad);
+      unbalance_[modes + i] +=
+          unbalance_shapes_[m][i] * mass.moment_kg_m * std::sin(mass.phase_rad);
     }
+  }
+  const double rigid = RigidScale();
+  for (std::size_t i = 0; i < 2 * modes; ++i) {
+    const double scale = i % modes < 2 ? rigid : 1.0;
+    unbalance_[i] = scale * (unbalance_[i] + now_.unbalance[i]);
+    gravity_[i] += scale * now_.static_load[i];
   }
 }
 
@@ -112,49 +152,39 @@ void PlantModel::BuildBearings() {
     model.has_touchdown = b.touchdown.stiffness_n_per_m > 0.0;
     model.actuator_shape = ToVector(parameters_.modes.ShapeAt(b.actuator_z_m, b.shaft));
     model.sensor_shape = ToVector(parameters_.modes.ShapeAt(b.sensor_z_m, b.shaft));
+    nominal_shapes_.push_back(model.actuator_shape);
+    nominal_shapes_.push_back(model.sensor_shape);
     bearings_.push_back(std::move(model));
   }
 }
 
-void PlantModel::BuildSteps() {
-  const double period_s = static_cast<double>(config().period_ns) * 1e-9;
-  double whole = std::floor(config().delay_samples);
-  double fraction = config().delay_samples - whole;
-  if (fraction > 1.0 - kWholeSample) whole += 1.0;
-  if (fraction < kWholeSample || fraction > 1.0 - kWholeSample) fraction = 0.0;
-  whole_delay_ = static_cast<std::size_t>(whole);
+double PlantModel::RigidScale() const noexcept {
+  return now_.mass_ratio == 1.0 ? 1.0 : 1.0 / std::sqrt(now_.mass_ratio);
+}
 
-  const int substeps = config().substeps;
-  const std::array<double, 2> share{fraction, 1.0 - fraction};
-  for (std::size_t part = 0; part < 2; ++part) {
-    StepTable& table = steps_[part];
-    if (share[part] == 0.0) continue;
-    table.substeps = std::max(1, static_cast<int>(std::lround(substeps * share[part])));
-    table.duration_s = share[part] * period_s / table.substeps;
-    // Both planes carry the same numbers, so that one loop runs over all modes.
-    for (std::size_t i = 0; i < coordinates(); ++i) {
-      const bool twists = i >= 2 * layout_.modes;
-      const auto mode =
-          static_cast<Eigen::Index>(twists ? i - 2 * layout_.modes : i % layout_.modes);
-      const ModeStep step =
-          twists ? MakeModeStep(parameters_.torsion.frequency_rad_per_s[mode],
-                                parameters_.torsion.damping_ratio[mode], table.duration_s)
-                 : MakeModeStep(parameters_.modes.frequency_rad_per_s[mode],
-                                parameters_.modes.damping_ratio[mode], table.duration_s);
-      table.xx.push_back(step.xx);
-      table.xv.push_back(step.xv);
-      table.vx.push_back(step.vx);
-      table.vv.push_back(step.vv);
-      table.x0.push_back(step.x0);
-      table.v0.push_back(step.v0);
-      table.x1.push_back(step.x1);
-      table.v1.push_back(step.v1);
+void PlantModel::RefreshShapes() noexcept {
+  for (std::size_t b = 0; b < bearings_.size(); ++b) {
+    const auto& actuator = nominal_shapes_[2 * b];
+    const auto& sensor = nominal_shapes_[2 * b + 1];
+    std::copy(actuator.begin(), actuator.end(), bearings_[b].actuator_shape.begin());
+    std::copy(sensor.begin(), sensor.end(), bearings_[b].sensor_shape.begin());
+  }
+  const auto& entries = config().effects;
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    if (entries[e].id != effect::Id::kSensorPosition) continue;
+    const double share = now_.sensor_shift_share[entries[e].bearing];
+    auto& shape = bearings_[entries[e].bearing].sensor_shape;
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+      shape[i] =
+          share == 1.0 ? entry_shapes_[e][i] : shape[i] + share * (entry_shapes_[e][i] - shape[i]);
     }
-    for (const auto& b : config().bearings) {
-      table.amplifier.push_back(amplifier::MakeStep(b.amplifier.bandwidth_hz,
-                                                    b.amplifier.slew_a_per_s, table.duration_s));
-      table.sensor.push_back(
-          sensor::MakeFilterStep(b.sensor.bandwidth_hz, b.sensor.gain, table.duration_s));
+  }
+  const double rigid = RigidScale();
+  if (rigid == 1.0) return;
+  for (BearingModel& bearing : bearings_) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      bearing.actuator_shape[i] *= rigid;
+      bearing.sensor_shape[i] *= rigid;
     }
   }
 }

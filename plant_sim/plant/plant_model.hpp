@@ -4,14 +4,20 @@
 // Use        immutable and shared by all copies of a Plant. To change a parameter, copy
 //            parameters(), change it (parameter_access.hpp names them all), build a new model:
 //            microseconds, since the finite elements are not touched.
+// Effects    act through effects() and through the numbers below, which are those of the rig with
+//            its effects at their present strength; parameters() stays as it was given.
 // Failure    construction throws std::invalid_argument for an impossible description.
 // Thread     any number of readers.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "plant_sim/amplifier/amplifier.hpp"
 #include "plant_sim/magnet/magnet.hpp"
+#include "plant_sim/plant/apply_effects.hpp"
+#include "plant_sim/plant/effect_model.hpp"
+#include "plant_sim/plant/mode_step.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/plant/train_model.hpp"
 #include "plant_sim/rotor/finite_element.hpp"
@@ -19,15 +25,6 @@
 #include "plant_sim/support/touchdown.hpp"
 
 namespace levitas::plant {
-
-/// The rig after modal reduction: the numbers that can be set by name. `config.rotor` only says
-/// where `modes` came from.
-struct PlantParameters {
-  PlantConfig config;
-  rotor::ModalRotor modes;
-  rotor::ModalTorsion torsion{};                  ///< of geared shafts; empty for one rotor
-  std::vector<Eigen::Index> first_torsion_row{};  ///< of each shaft, in torsion.shapes
-};
 
 /// Finite elements and modal reduction. Throws std::invalid_argument.
 [[nodiscard]] PlantParameters Reduce(const PlantConfig& config);
@@ -38,8 +35,10 @@ struct StepTable {
   int substeps{};
   double duration_s{};  ///< of one substep
   std::vector<double> xx, xv, vx, vv, x0, v0, x1, v1;
-  std::vector<amplifier::Step> amplifier;  ///< per bearing
-  std::vector<sensor::FilterStep> sensor;  ///< per bearing
+  std::vector<amplifier::Step> amplifier;  ///< per axis
+  std::vector<sensor::FilterStep> sensor;  ///< per axis
+  std::vector<sensor::FilterStep> eddy;    ///< per axis and lag; empty without eddy currents
+  std::vector<ModeStep> housing;           ///< per bearing; empty when none moves
 };
 
 /// One bearing as the time step needs it.
@@ -73,10 +72,28 @@ class PlantModel {
   /// Geared shafts; `shafts` is 0 for a rig with one rotor.
   [[nodiscard]] const TrainModel& train() const noexcept { return train_; }
   [[nodiscard]] std::size_t whole_delay() const noexcept { return whole_delay_; }
+  /// Of the rig and of extra_delay together; the most that any strength can make of it.
+  [[nodiscard]] double delay_samples() const noexcept { return now_.delay_samples; }
+  [[nodiscard]] double most_delay_samples() const noexcept { return most_delay_samples_; }
+  /// Frequencies [rad/s] and damping ratios of the modes.
+  [[nodiscard]] const std::vector<double>& frequency() const noexcept {
+    return now_.frequency_rad_per_s;
+  }
+  [[nodiscard]] const std::vector<double>& damping_ratio() const noexcept {
+    return now_.damping_ratio;
+  }
+  [[nodiscard]] double amplifier_bandwidth_hz(std::size_t axis) const noexcept {
+    return now_.amplifier_bandwidth_hz[axis];
+  }
+  [[nodiscard]] const EffectModel& effects() const noexcept { return effects_; }
+  /// Strengths of the entries of config().effects, and all numbers with them. No allocation.
+  void SetStrengths(std::span<const double> strengths) noexcept;
   /// Phi^T G Phi by columns, per unit speed.
   [[nodiscard]] const std::vector<double>& gyroscopic() const noexcept { return gyroscopic_; }
-  /// Constant modal force of gravity, x plane then y plane.
+  /// Constant modal force of gravity and static loads, x plane then y plane.
   [[nodiscard]] const std::vector<double>& gravity() const noexcept { return gravity_; }
+  [[nodiscard]] double gravity_direction_x() const noexcept { return gravity_direction_[0]; }
+  [[nodiscard]] double gravity_direction_y() const noexcept { return gravity_direction_[1]; }
   /// Modal unbalance, complex: real parts, then imaginary parts [sqrt(kg) m].
   [[nodiscard]] const std::vector<double>& unbalance() const noexcept { return unbalance_; }
   /// Modal coordinates of a rigid displacement: unit translation, and unit slope about z = 0.
@@ -85,15 +102,30 @@ class PlantModel {
  private:
   void BuildRotor();
   void BuildBearings();
-  void BuildSteps();
+  void ReserveSteps();
+  void RefreshRotor() noexcept;
+  void RefreshShapes() noexcept;
+  void RefreshDelay() noexcept;
+  void RefreshSteps() noexcept;
+  void RefreshStep(StepTable& table, double share) noexcept;
+  /// Of the rigid modes' shapes: a heavier rotor moves less.
+  [[nodiscard]] double RigidScale() const noexcept;
 
   PlantParameters parameters_;
   StateLayout layout_;
   std::vector<BearingModel> bearings_;
   std::array<StepTable, 2> steps_;
   std::size_t whole_delay_{};
+  double most_delay_samples_{};
   std::vector<double> gyroscopic_, gravity_, unbalance_;
-  Eigen::MatrixX2d rigid_;
+  Eigen::MatrixX2d rigid_, nominal_rigid_;
+  std::array<double, 2> gravity_direction_{};
+  double fraction_{};                                ///< of a sample, of the delay
+  std::vector<std::vector<double>> nominal_shapes_;  ///< actuator, sensor of each bearing
+  std::vector<std::vector<double>> unbalance_shapes_;
+  EntryShapes entry_shapes_;
+  RigNow now_;
+  EffectModel effects_;
   TrainModel train_;
 };
 

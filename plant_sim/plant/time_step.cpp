@@ -5,6 +5,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "plant_sim/plant/effect_forces.hpp"
+
 namespace levitas::plant {
 namespace {
 
@@ -97,10 +99,41 @@ void AddBearing(Count modes, const BearingModel& b, const Currents& currents, st
   Project(modes, shape, fx_n, fy_n, acceleration);
 }
 
+// The same with effects: turned or uneven magnets, rubbing rings, a housing that moves.
+template <class Count>
+void AddBearingWithEffects(Count modes, const BearingModel& b, const BearingEffects& effects,
+                           const Currents& currents, std::size_t axis, double speed_rad_per_s,
+                           const double* position, const double* velocity, double* acceleration,
+                           ForceReport& report, const Housings* housings) noexcept {
+  const double* shape = b.actuator_shape.data();
+  auto [x_m, y_m] = BothPlanes(modes, shape, position);
+  auto [vx_m_per_s, vy_m_per_s] = BothPlanes(modes, shape, velocity);
+  if (housings != nullptr) {
+    x_m -= housings->position_m[axis];
+    y_m -= housings->position_m[axis + 1];
+    vx_m_per_s -= housings->velocity_m_per_s[axis];
+    vy_m_per_s -= housings->velocity_m_per_s[axis + 1];
+  }
+  PlaneForce force = MagnetWithEffects(b, effects, currents, axis, x_m, y_m);
+  const PlaneForce rub = Rub(effects, x_m, y_m, vx_m_per_s, vy_m_per_s, speed_rad_per_s, report);
+  force.x_n += rub.x_n;
+  force.y_n += rub.y_n;
+  if (b.has_touchdown && support::Touches(b.touchdown, x_m, y_m)) {
+    const auto contact =
+        support::Push(b.touchdown, x_m, y_m, vx_m_per_s, vy_m_per_s, speed_rad_per_s);
+    force.x_n += contact.x_n;
+    force.y_n += contact.y_n;
+    report.contact_n = std::max(report.contact_n, contact.normal_n);
+  }
+  report.bearing_n[axis] = force.x_n;
+  report.bearing_n[axis + 1] = force.y_n;
+  Project(modes, shape, force.x_n, force.y_n, acceleration);
+}
+
 template <class Count>
 void Forces(Count modes, const PlantModel& model, const Currents& currents, const Spin& spin,
             const double* position, const double* velocity, double* acceleration,
-            ForceReport& report) noexcept {
+            ForceReport& report, const Housings* housings) noexcept {
   AddSteadyForces(modes, model, spin, acceleration);
   if (spin.speed_rad_per_s != 0.0) {
     AddGyroscopic(modes, model.gyroscopic().data(), spin.speed_rad_per_s, velocity, acceleration);
@@ -109,10 +142,49 @@ void Forces(Count modes, const PlantModel& model, const Currents& currents, cons
     AddTrain(model.train(), *spin.train, modes, position, velocity, acceleration);
   }
   std::size_t axis = 0;
-  for (const BearingModel& b : model.bearings()) {
-    AddBearing(modes, b, currents, axis, spin.speed_rad_per_s, position, velocity, acceleration,
-               report);
-    axis += 2;
+  const EffectModel& effects = model.effects();
+  if (effects.magnets) {
+    for (const BearingModel& b : model.bearings()) {
+      AddBearingWithEffects(modes, b, effects.bearings[axis / 2], currents, axis,
+                            spin.speed_rad_per_s, position, velocity, acceleration, report,
+                            housings);
+      axis += 2;
+    }
+  } else {
+    for (const BearingModel& b : model.bearings()) {
+      AddBearing(modes, b, currents, axis, spin.speed_rad_per_s, position, velocity, acceleration,
+                 report);
+      axis += 2;
+    }
+  }
+  if (effects.motions) AddEffectForces(model, spin, position, velocity, acceleration);
+}
+
+// A housing under the reaction of its bearing, n = -F/m: predicted from the force at the start.
+void PredictHousings(const PlantModel& model, const StepTable& table, const AxisArray& force_n,
+                     const Housings& now, Housings& end) noexcept {
+  for (std::size_t axis = 0; axis < model.axes(); ++axis) {
+    const BearingEffects& bearing = model.effects().bearings[axis / 2];
+    if (bearing.housing_state == kNoState) continue;
+    const ModeStep& step = table.housing[axis / 2];
+    const double n = -force_n[axis] / bearing.housing_mass_kg;
+    const double u = now.position_m[axis];
+    const double v = now.velocity_m_per_s[axis];
+    end.position_m[axis] = step.xx * u + step.xv * v + step.x0 * n;
+    end.velocity_m_per_s[axis] = step.vx * u + step.vv * v + step.v0 * n;
+  }
+}
+
+// ... and corrected by what the force became.
+void CorrectHousings(const PlantModel& model, const StepTable& table, const AxisArray& start_n,
+                     const AxisArray& end_n, const Housings& predicted, Housings& now) noexcept {
+  for (std::size_t axis = 0; axis < model.axes(); ++axis) {
+    const BearingEffects& bearing = model.effects().bearings[axis / 2];
+    if (bearing.housing_state == kNoState) continue;
+    const ModeStep& step = table.housing[axis / 2];
+    const double change = -(end_n[axis] - start_n[axis]) / bearing.housing_mass_kg;
+    now.position_m[axis] = predicted.position_m[axis] + step.x1 * change;
+    now.velocity_m_per_s[axis] = predicted.velocity_m_per_s[axis] + step.v1 * change;
   }
 }
 
@@ -166,8 +238,12 @@ Heading MakeHeading(const Rotation& rotation) noexcept {
 Spin MakeSpin(const Rotation& rotation, const Heading& heading) noexcept {
   const double square = rotation.speed_rad_per_s * rotation.speed_rad_per_s;
   const double change = rotation.acceleration_rad_per_s2;
-  return {rotation.speed_rad_per_s, square * heading.cosine + change * heading.sine,
-          square * heading.sine - change * heading.cosine, nullptr};
+  return {rotation.speed_rad_per_s,
+          square * heading.cosine + change * heading.sine,
+          square * heading.sine - change * heading.cosine,
+          nullptr,
+          heading.cosine,
+          heading.sine};
 }
 
 double AtPlane(const std::vector<double>& shape, const double* modal) noexcept {
@@ -187,23 +263,32 @@ void AtPlanes(const PlantModel& model, const std::vector<double>& shape, const d
 
 void ModalForces(const PlantModel& model, const Currents& currents, const Spin& spin,
                  const double* position, const double* velocity, double* acceleration,
-                 ForceReport& report) noexcept {
+                 ForceReport& report, const Housings* housings) noexcept {
   WithModes(model, [&](auto modes, auto) {
-    Forces(modes, model, currents, spin, position, velocity, acceleration, report);
+    Forces(modes, model, currents, spin, position, velocity, acceleration, report, housings);
   });
 }
 
 void StepRotor(const PlantModel& model, const StepTable& table, const Currents& start_currents,
                const Currents& end_currents, const Spin& start_spin, const Spin& end_spin,
-               double* position, double* velocity, Workspace& work, ForceReport& report) noexcept {
+               double* position, double* velocity, Workspace& work, ForceReport& report,
+               Housings* housings) noexcept {
   double* start = work.start.data();
   double* end = work.end.data();
   double* x = work.position.data();
   double* v = work.velocity.data();
   WithModes(model, [&](auto modes, auto count) {
-    Forces(modes, model, start_currents, start_spin, position, velocity, start, report);
+    Forces(modes, model, start_currents, start_spin, position, velocity, start, report, housings);
     Predict(count, table, position, velocity, start, x, v);
-    Forces(modes, model, end_currents, end_spin, x, v, end, report);
+    if (housings == nullptr) {
+      Forces(modes, model, end_currents, end_spin, x, v, end, report, nullptr);
+    } else {
+      const AxisArray start_n = report.bearing_n;
+      Housings predicted;
+      PredictHousings(model, table, start_n, *housings, predicted);
+      Forces(modes, model, end_currents, end_spin, x, v, end, report, &predicted);
+      CorrectHousings(model, table, start_n, report.bearing_n, predicted, *housings);
+    }
     Correct(count, table, start, end, x, v, position, velocity);
   });
 }

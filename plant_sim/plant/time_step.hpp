@@ -21,12 +21,20 @@ struct Currents {
   AxisArray bias_a{};
 };
 
+/// Where the bearing housings stand and how fast they move, per axis; only if any moves.
+struct Housings {
+  AxisArray position_m{};
+  AxisArray velocity_m_per_s{};
+};
+
 /// Rotation as the forces need it at one instant.
 struct Spin {
   double speed_rad_per_s{};
   double unbalance_real{};  ///< real and imaginary part of (W^2 - j W') e^{j angle}, (13)
   double unbalance_imaginary{};
   const TrainPose* train{nullptr};  ///< of geared shafts, which have more than one speed
+  double cosine{1.0};               ///< of the angle
+  double sine{};
 };
 
 /// The rotor angle as a unit vector; the end of one substep is the start of the next.
@@ -41,12 +49,15 @@ struct Heading {
 /// Forces found on the way, for those who ask.
 struct ForceReport {
   double contact_n{};  ///< largest normal force since it was last set to zero
+  AxisArray
+      bearing_n{};  ///< on the rotor by each bearing, of the latest instant; with effects only
 };
 
 /// Modal accelerations besides those of the free oscillators, over PlantModel::coordinates().
+/// `housings` is null when none moves.
 void ModalForces(const PlantModel& model, const Currents& currents, const Spin& spin,
                  const double* position, const double* velocity, double* acceleration,
-                 ForceReport& report) noexcept;
+                 ForceReport& report, const Housings* housings = nullptr) noexcept;
 
 /// Storage of the step, made once.
 struct Workspace {
@@ -64,9 +75,11 @@ struct Workspace {
 void AtPlanes(const PlantModel& model, const std::vector<double>& shape, const double* position,
               double& x_m, double& y_m) noexcept;
 
-/// Advances modal displacement and velocity (coordinates() of each, contiguous) by one substep.
+/// Advances modal displacement and velocity (coordinates() of each, contiguous) by one substep, and
+/// the housings with them.
 void StepRotor(const PlantModel& model, const StepTable& table, const Currents& start_currents,
                const Currents& end_currents, const Spin& start_spin, const Spin& end_spin,
-               double* position, double* velocity, Workspace& work, ForceReport& report) noexcept;
+               double* position, double* velocity, Workspace& work, ForceReport& report,
+               Housings* housings = nullptr) noexcept;
 
 }  // namespace levitas::plant

@@ -2,6 +2,7 @@
 // Files in which every key of the tables appears.
 
 #include "config/rig_file.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::config::test {
 
@@ -13,6 +14,27 @@ inline RigFile FullRig() {
   rig.lines.amplifier_fault = gpio::LinePlace{"/dev/gpiochip1", 2, false, gpio::Bias::kExternal};
   rig.lines.heartbeat = gpio::HeartbeatConfig{{"gpio-sim.0-node0", 3}, 7, 0.0125};
   rig.lines.key_phasor = gpio::KeyPhasorConfig{{"gpiochip0", 4}, 2, 0.0, 500.0, 1e-5};
+  // One of each kind of place; AllEffects has them all, and costs the loops over tables more time.
+  for (const effect::Id id :
+       {effect::Id::kExtraDelay, effect::Id::kMagneticSaturation, effect::Id::kAxisRotation,
+        effect::Id::kSensorRunout, effect::Id::kShaftBow, effect::Id::kMisalignment}) {
+    rig.plant.effects.push_back(effect::ClearEntry(id));
+  }
+  return rig;
+}
+
+/// The shipped rig with every effect of the catalogue.
+inline RigFile AllEffects() {
+  RigFile rig = FullRig();
+  rig.plant.effects.clear();
+  for (const effect::Row& row : effect::Catalogue()) {
+    rig.plant.effects.push_back(effect::ClearEntry(row.id, 100.0));
+    // A damping ratio or a noise has another own value than a frequency.
+    for (std::size_t k = 0; k < row.parameters.size(); ++k) {
+      double& value = rig.plant.effects.back().values[k];
+      if (value > row.parameters[k].high) value = row.parameters[k].high / 3.0;
+    }
+  }
   return rig;
 }
 

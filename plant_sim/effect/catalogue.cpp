@@ -1,0 +1,55 @@
+#include "plant_sim/effect/catalogue.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace levitas::effect {
+namespace {
+
+std::vector<Row> Collect() {
+  std::vector<Row> all;
+  for (const auto rows : {LoopRows(), MagnetRows(), SensorRows(), RotorRows(), ExternalRows()}) {
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::span<const Row> Catalogue() {
+  static const std::vector<Row> rows = Collect();
+  return rows;
+}
+
+const Row& At(Id id) { return Catalogue()[static_cast<std::size_t>(id)]; }
+
+const Row* Find(std::string_view name) {
+  const auto rows = Catalogue();
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+std::string_view Name(Place place) noexcept {
+  constexpr std::array<std::string_view, 8> kNames{"timing",  "amplifier", "magnet", "rotor",
+                                                   "support", "external",  "gear",   "sensor"};
+  return kNames.at(static_cast<std::size_t>(place));
+}
+
+std::string_view Name(Scope scope) noexcept {
+  constexpr std::array<std::string_view, 4> kNames{"rig", "channels", "bearing", "mode"};
+  return kNames.at(static_cast<std::size_t>(scope));
+}
+
+EffectConfig ClearEntry(Id id, double own) {
+  EffectConfig entry;
+  entry.id = id;
+  const auto parameters = At(id).parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const bool relative = parameters[i].neutral != parameters[i].neutral;  // kOwn
+    entry.values[i] = relative ? own * parameters[i].clear : parameters[i].clear;
+  }
+  return entry;
+}
+
+}  // namespace levitas::effect

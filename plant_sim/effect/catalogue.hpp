@@ -1,0 +1,79 @@
+#pragma once
+// The catalogue of effects: one row per id. Configuration, parameter access, documentation and
+// diagnosis all read this table, so that they cannot disagree.
+//
+// Units      every number is SI; `file_suffix` is the unit a file writes it in.
+// Neutral    the value at which the plant equals the nominal one, bit for bit, or as the limit.
+//            Infinity = in the limit of ever larger values; kOwn = the value that the rig has.
+// Clear      a size that shows clearly on a laboratory rig; for neutral kOwn a factor on it.
+// Thread     any; constant data. Failure: At() of an id outside the table is a programming error.
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "plant_sim/effect/effect_config.hpp"
+
+namespace levitas::effect {
+
+/// What one entry refers to.
+enum class Scope : std::uint8_t { kRig, kChannels, kBearing, kMode };
+
+/// How a value goes from neutral to full with the strength s. Fixed values (phases, orders) do not.
+enum class Scaling : std::uint8_t {
+  kLinear,     ///< neutral + s (value - neutral)
+  kInverse,    ///< value / s: neutral at infinity
+  kGeometric,  ///< own^(1-s) value^s
+  kFixed
+};
+
+inline constexpr double kOwn = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
+
+struct Parameter {
+  std::string_view stem;         ///< "amplitude": amplitude_m in the program, amplitude_um in files
+  std::string_view si_suffix;    ///< empty: a pure number
+  std::string_view file_suffix;  ///< of the same dimension
+  double low{};
+  double high{};
+  double clear{};
+  double neutral{};
+  Scaling scaling{Scaling::kLinear};
+  std::optional<double> fallback;  ///< when a file leaves it out; none = required
+  std::string_view meaning;
+  bool whole{};  ///< an order or a count
+};
+
+struct Row {
+  Id id;
+  std::string_view name;
+  Place place;
+  Scope scope;
+  std::span<const Parameter> parameters;
+  std::string_view meaning;
+  std::string_view equation;
+  std::string_view signature;  ///< what it changes: order, place, sign
+  std::string_view source;
+  bool repeats{};  ///< several entries on one place add up; else one each
+};
+
+/// All rows, in the order of Id.
+[[nodiscard]] std::span<const Row> Catalogue();
+[[nodiscard]] const Row& At(Id id);
+/// Null when no effect has this name.
+[[nodiscard]] const Row* Find(std::string_view name);
+[[nodiscard]] std::string_view Name(Place place) noexcept;
+[[nodiscard]] std::string_view Name(Scope scope) noexcept;
+
+/// An entry with every value at its clear size (`own` supplies what the rig has, see kOwn).
+[[nodiscard]] EffectConfig ClearEntry(Id id, double own = 1.0);
+
+// The rows by place, in the order of Id; one file each.
+[[nodiscard]] std::span<const Row> LoopRows();
+[[nodiscard]] std::span<const Row> MagnetRows();
+[[nodiscard]] std::span<const Row> SensorRows();
+[[nodiscard]] std::span<const Row> RotorRows();
+[[nodiscard]] std::span<const Row> ExternalRows();
+
+}  // namespace levitas::effect

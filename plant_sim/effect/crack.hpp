@@ -1,0 +1,32 @@
+#pragma once
+// Transverse crack: how compliant it makes the shaft, and how it opens and closes.
+//
+// Equation   extra rotation per bending moment  c = 6 pi (1 - nu^2) d P(depth)/(E I), with the
+//            polynomial P of Chondros, Dimarogonas & Yao (1998), J. Sound Vib. 215(1) 17,
+//            (one-sided edge crack; the height of the section taken as the diameter); breathing
+//            under its weight  g = (1 + cos(angle + phase - gravity))/2, after Gasch (1993), J.
+//            Sound Vib. 160(2) 313: open (g = 1) when the crack points along gravity.
+// Thread     any; pure.
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace levitas::effect {
+
+/// c E I/d, dimensionless; `depth` is the share of the diameter, 0 to 0.5.
+[[nodiscard]] inline double CrackCompliance(double depth, double poisson) noexcept {
+  constexpr std::array<double, 9> kCoefficients{0.6272,   -1.04533, 4.5948,   -9.9736, 20.2948,
+                                                -33.0351, 47.1063,  -40.7556, 19.6};
+  double sum = 0.0;
+  for (std::size_t k = kCoefficients.size(); k-- > 0;) sum = sum * depth + kCoefficients[k];
+  return 6.0 * std::numbers::pi * (1.0 - poisson * poisson) * sum * depth * depth;
+}
+
+/// Share of the crack that is open; (cosine, sine) is its direction now.
+[[nodiscard]] inline double Opening(double cosine, double sine, double gravity_direction_x,
+                                    double gravity_direction_y) noexcept {
+  return 0.5 * (1.0 + cosine * gravity_direction_x + sine * gravity_direction_y);
+}
+
+}  // namespace levitas::effect

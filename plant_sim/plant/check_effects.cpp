@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/plant/check_config.hpp"
+
+namespace levitas::plant {
+namespace {
+
+using effect::EffectConfig;
+using effect::Scope;
+
+[[noreturn]] void Refuse(std::size_t index, const EffectConfig& entry, const std::string& what) {
+  throw std::invalid_argument(fmt::format("effects[{}] ({}): {}; correct the rig description",
+                                          index, effect::At(entry.id).name, what));
+}
+
+void CheckValues(std::size_t index, const EffectConfig& entry) {
+  const auto parameters = effect::At(entry.id).parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const effect::Parameter& p = parameters[i];
+    const double value = entry.values[i];
+    if (value >= p.low && value <= p.high && (!p.whole || value == std::round(value))) continue;
+    // Also the neutral limit of an effect that is neutral at infinity.
+    if (value == p.neutral) continue;
+    Refuse(index, entry,
+           fmt::format("{} = {}, allowed {} to {}{}", p.stem, value, p.low, p.high,
+                       p.whole ? " (whole)" : ""));
+  }
+  if (!(entry.strength >= 0.0 && entry.strength <= 1.0)) {
+    Refuse(index, entry, fmt::format("strength = {}, allowed 0 to 1", entry.strength));
+  }
+  for (const double time_s : {entry.at_s, entry.ramp_s}) {
+    if (time_s >= 0.0 && std::isfinite(time_s)) continue;
+    Refuse(index, entry, fmt::format("at_s or ramp_s = {}, allowed 0 and above", time_s));
+  }
+}
+
+void CheckReference(std::size_t index, const EffectConfig& entry, std::size_t bearings) {
+  const Scope scope = effect::At(entry.id).scope;
+  if (scope == Scope::kChannels) {
+    for (std::size_t axis = 0; axis < 2 * bearings; ++axis) {
+      if (entry.Acts(axis)) return;
+    }
+    Refuse(index, entry, "names no channel of the rig");
+  }
+  if (scope == Scope::kBearing && entry.bearing >= bearings) {
+    Refuse(index, entry, fmt::format("bearing {} of a rig that has {}", entry.bearing, bearings));
+  }
+}
+
+// Geared shafts have modes and planes of their own: what refers to those of one rotor is refused.
+bool NeedsOneRotor(const EffectConfig& entry) {
+  const effect::Row& row = effect::At(entry.id);
+  if (entry.id == effect::Id::kGyroscopicInertia) return false;
+  return row.place == effect::Place::kRotor || row.place == effect::Place::kExternal ||
+         entry.id == effect::Id::kSensorPosition;
+}
+
+bool SamePlace(const EffectConfig& a, const EffectConfig& b, std::size_t bearings) {
+  if (a.id != b.id) return false;
+  switch (effect::At(a.id).scope) {
+    case Scope::kChannels:
+      return (a.axes & b.axes & ((1U << (2 * bearings)) - 1U)) != 0U;
+    case Scope::kBearing:
+      return a.bearing == b.bearing && a.on_sensor == b.on_sensor;
+    case Scope::kMode:
+      return a.mode == b.mode;
+    case Scope::kRig:
+      break;
+  }
+  return true;
+}
+
+}  // namespace
+
+void CheckEffects(const PlantConfig& config) {
+  const auto& entries = config.effects;
+  const std::size_t bearings = config.bearings.size();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    CheckValues(i, entries[i]);
+    CheckReference(i, entries[i], bearings);
+    if (!config.shafts.empty() && NeedsOneRotor(entries[i])) {
+      Refuse(i, entries[i], "needs a rig with one rotor, this one has geared shafts");
+    }
+    if (effect::At(entries[i].id).repeats) continue;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (SamePlace(entries[i], entries[k], bearings)) {
+        Refuse(i, entries[i], fmt::format("effects[{}] acts at the same place", k));
+      }
+    }
+  }
+}
+
+}  // namespace levitas::plant

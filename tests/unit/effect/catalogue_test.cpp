@@ -1,0 +1,138 @@
+// The table itself: complete, in order, and without a number that contradicts another.
+#include "plant_sim/effect/catalogue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+namespace levitas::effect {
+namespace {
+
+// The vocabulary of effects that files and diagnosis share, with the place of each.
+const std::map<std::string, std::string>& Vocabulary() {
+  static const std::map<std::string, std::string> words{
+      {"extra_delay", "timing"},
+      {"dropped_samples", "timing"},
+      {"sample_jitter", "timing"},
+      {"amplifier_bandwidth", "amplifier"},
+      {"amplifier_slew", "amplifier"},
+      {"current_gain", "magnet"},
+      {"displacement_stiffness", "magnet"},
+      {"coil_asymmetry", "magnet"},
+      {"magnetic_saturation", "magnet"},
+      {"hysteresis", "magnet"},
+      {"eddy_current", "magnet"},
+      {"axis_rotation", "magnet"},
+      {"sensor_gain", "sensor"},
+      {"sensor_offset", "sensor"},
+      {"sensor_nonlinearity", "sensor"},
+      {"sensor_bandwidth", "sensor"},
+      {"sensor_position", "sensor"},
+      {"sensor_runout", "sensor"},
+      {"mains_pickup", "sensor"},
+      {"sensor_noise", "sensor"},
+      {"unbalance", "rotor"},
+      {"shaft_bow", "rotor"},
+      {"shaft_anisotropy", "rotor"},
+      {"modal_frequency", "rotor"},
+      {"modal_damping", "rotor"},
+      {"gyroscopic_inertia", "rotor"},
+      {"internal_damping", "rotor"},
+      {"rotor_mass", "rotor"},
+      {"breathing_crack", "rotor"},
+      {"misalignment", "external"},
+      {"coupling_stiffness", "external"},
+      {"cross_coupled_stiffness", "external"},
+      {"static_load", "external"},
+      {"support_mode", "support"},
+      {"touchdown_rub", "support"},
+  };
+  return words;
+}
+
+TEST(Catalogue, HoldsEveryWordOfTheVocabularyAtItsPlace) {
+  for (const auto& [name, place] : Vocabulary()) {
+    const Row* row = Find(name);
+    ASSERT_NE(row, nullptr) << name;
+    EXPECT_EQ(Name(row->place), place) << name;
+  }
+  EXPECT_EQ(Find("no_such_effect"), nullptr);
+}
+
+TEST(Catalogue, StandsInTheOrderOfTheIdsAndNamesEachOnce) {
+  std::set<std::string_view> names;
+  for (std::size_t i = 0; i < Catalogue().size(); ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(Catalogue()[i].id), i);
+    EXPECT_TRUE(names.insert(Catalogue()[i].name).second) << Catalogue()[i].name;
+    EXPECT_EQ(&At(static_cast<Id>(i)), &Catalogue()[i]);
+  }
+}
+
+TEST(Catalogue, SaysOfEveryEffectWhatItIsHowItShowsAndWhoSaysSo) {
+  for (const Row& row : Catalogue()) {
+    EXPECT_FALSE(row.meaning.empty()) << row.name;
+    EXPECT_FALSE(row.equation.empty()) << row.name;
+    EXPECT_FALSE(row.signature.empty()) << row.name;
+    EXPECT_NE(row.source.find_first_of("0123456789"), std::string_view::npos) << row.name;
+    EXPECT_LE(row.parameters.size(), kMaxParameters) << row.name;
+    EXPECT_GE(row.parameters.size(), 1U) << row.name;
+  }
+}
+
+TEST(Catalogue, KeepsClearNeutralAndDefaultInsideTheRange) {
+  for (const Row& row : Catalogue()) {
+    for (const Parameter& p : row.parameters) {
+      const std::string at = std::string(row.name) + "." + std::string(p.stem);
+      EXPECT_LT(p.low, p.high) << at;
+      const auto inside = [&](double value) { return value >= p.low && value <= p.high; };
+      if (std::isnan(p.neutral)) {
+        EXPECT_GT(p.clear, 0.0) << at << ": a factor on the rig's own value";
+        EXPECT_NE(p.clear, 1.0) << at;
+      } else {
+        EXPECT_TRUE(inside(p.clear)) << at;
+        EXPECT_TRUE(inside(p.neutral) || p.neutral == kNever) << at;
+      }
+      if (p.fallback) {
+        EXPECT_TRUE(inside(*p.fallback)) << at;
+      }
+      if (p.whole) {
+        EXPECT_EQ(p.clear, std::round(p.clear)) << at;
+      }
+      // Only what is infinite without the effect can be divided by its strength.
+      EXPECT_EQ(p.scaling == Scaling::kInverse, p.neutral == kNever) << at;
+    }
+  }
+}
+
+TEST(Catalogue, HasAtLeastOneParameterPerEffectThatTheStrengthMoves) {
+  for (const Row& row : Catalogue()) {
+    bool moves = false;
+    for (const Parameter& p : row.parameters) moves = moves || p.scaling != Scaling::kFixed;
+    EXPECT_TRUE(moves) << row.name;
+  }
+}
+
+TEST(Catalogue, EndsFileAndProgramNamesOfOneQuantityInUnitsOfOneKind) {
+  const std::map<std::string_view, std::string_view> kinds{
+      {"m", "length"},  {"mm", "length"}, {"um", "length"},   {"s", "time"},     {"us", "time"},
+      {"rad", "angle"}, {"deg", "angle"}, {"kg_m", "moment"}, {"g_mm", "moment"}};
+  for (const Row& row : Catalogue()) {
+    for (const Parameter& p : row.parameters) {
+      if (p.si_suffix == p.file_suffix) continue;
+      ASSERT_TRUE(kinds.contains(p.si_suffix)) << row.name << "." << p.stem;
+      ASSERT_TRUE(kinds.contains(p.file_suffix)) << row.name << "." << p.stem;
+      EXPECT_EQ(kinds.at(p.si_suffix), kinds.at(p.file_suffix)) << row.name << "." << p.stem;
+    }
+  }
+}
+
+TEST(ClearEntry, TakesAbsoluteSizesAsTheyAreAndRelativeOnesTimesTheRigsOwn) {
+  EXPECT_EQ(ClearEntry(Id::kEddyCurrent).values[0], 50e-6);
+  EXPECT_EQ(ClearEntry(Id::kAmplifierBandwidth, 720.0).values[0], 0.7 * 720.0);
+}
+
+}  // namespace
+}  // namespace levitas::effect
