@@ -44,7 +44,7 @@ TEST(UnknownKey, WithAMicroSignIsToldTheUnitInLetters) {
 TEST(UnknownKey, ThatSlippedOutOfItsGroupIsToldWhereItBelongs) {
   EXPECT_EQ(
       RigProblems(With(kRig, "    magnet:\n", "    gap_mm: 0.3\n    magnet:\n")),
-      "rig.yaml:20:5: bearings[0].gap_mm: unknown key; known here: name, actuator_z_mm, "
+      "rig.yaml:20:5: bearings[0].gap_mm: unknown key; known here: name, shaft, actuator_z_mm, "
       "sensor_z_mm, magnet, amplifier, sensor, touchdown; it belongs under bearings[0].magnet");
 }
 

@@ -177,6 +177,15 @@ TEST(Tables, AreDocumentedKeyByKey) {
   RigFile rig = AllEffects();
   Describe(effects, rig);
   for (const ListedField& field : effects.fields()) written.insert(field.key);
+  // Geared rigs stand instead of a rotor: in every way to give the stiffness of their shafts.
+  for (const char* name : {"geared_rotor_12dof", "rao_geared_pair"}) {
+    for (std::size_t form = 0; form < 3; ++form) {
+      FieldList fields("rig", form);
+      RigFile geared = LoadRig(FindConfig(name, "rigs"));
+      Describe(fields, geared);
+      for (const ListedField& field : fields.fields()) written.insert(field.key);
+    }
+  }
   std::set<std::string> documented;
   for (const std::string& line : Lines(ConfigurationDocument())) {
     const bool scalar = line.starts_with("| `") && line.find("| group of") == std::string::npos &&
@@ -216,6 +225,11 @@ TEST(Tables, KnowEveryFieldOfTheStructs) {
   EXPECT_EQ(FieldCount<rotor::Section>(), 3U);
   EXPECT_EQ(FieldCount<rotor::Disc>(), 4U);
   EXPECT_EQ(FieldCount<rotor::Ring>(), 5U);
+  EXPECT_EQ(FieldCount<rotor::LumpedShaft>(), 9U);
+  EXPECT_EQ(FieldCount<rotor::Support>(), 5U);
+  EXPECT_EQ(FieldCount<rotor::TorsionInertia>(), 5U);
+  EXPECT_EQ(FieldCount<gear::Wheel>(), 7U);
+  EXPECT_EQ(FieldCount<gear::Harmonic>(), 3U);
   EXPECT_EQ(FieldCount<law::LawConfig>(), 3U);
   EXPECT_EQ(FieldCount<law::AxisLawConfig>(), 6U);
   EXPECT_EQ(FieldCount<law::LeadLag>(), 2U);
