@@ -83,6 +83,16 @@ on_host() {
   exec unshare -n sh -c 'ip link set lo up; ip route add 224.0.0.0/4 dev lo; exec "$@"' sh "$@"
 }
 
+# The processes of a killed machine are traced ones, which go on without their tracer: by the name of
+# this machine's own folder in their command line.
+kill_left() {
+  local file process
+  for file in $(grep -lsF "init=$1/init" /proc/[0-9]*/cmdline); do
+    process=${file#/proc/}
+    kill -KILL "${process%/cmdline}" 2>/dev/null || true
+  done
+}
+
 # The machine's first process. What is written to the console comes out of run; the last line of
 # it is the status.
 write_init() {
@@ -111,7 +121,7 @@ run() {
   [ "$time" = real ] || option=time-travel=inf-cpu
   scratch=$(mktemp -d /tmp/levitas-machine.XXXXXX)
   # shellcheck disable=SC2064
-  trap "rm -rf '$scratch'" EXIT
+  trap "kill_left '$scratch'; rm -rf '$scratch'" EXIT
   write_init "$scratch/init" "$@"
   # shellcheck disable=SC2086 -- no option is no word
   TMPDIR=$scratch timeout -k 2 "${LEVITAS_MACHINE_SECONDS:-240}" \

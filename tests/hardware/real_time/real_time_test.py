@@ -3,7 +3,6 @@
 Everything is asserted in periods of 100 us: no machine is too slow for it.
 """
 
-import hashlib
 import os
 import signal
 import sys
@@ -63,25 +62,14 @@ class RealTime(unittest.TestCase):
         records[:] = self.records()
         return next(record for record in records if record.fault != 0)
 
-    def test_two_runs_of_the_same_seed_are_identical_and_miss_no_deadline(self):
-        digests = []
-        for name in ("first", "second"):
-            plant, control = self.start(0.05, name)
-            self.assertEqual(control.status(), 0, control.text)
-            plant.status()
-            digest = hashlib.sha256()
-            records = self.records(name)
-            start_ns = records[0].sample_time_ns
-            for record in records:
-                self.assertEqual(record.missed_deadlines, 0)
-                record.sample_time_ns -= start_ns
-                record.frame_cycle -= records[0].frame_cycle if record is not records[0] else 0
-                digest.update(record.encode())
-            # Lift of 0.9 s and landing of 0.5 s at the least.
-            self.assertGreater(len(records), 14_000)
-            digests.append(digest.hexdigest())
-        print("sha256 of the records:", *digests)
-        self.assertEqual(*digests)
+    def test_a_whole_run_misses_no_deadline(self):
+        plant, control = self.start(0.05)
+        self.assertEqual(control.status(), 0, control.text)
+        self.assertEqual(plant.status(), 0, plant.text)
+        records = self.records()
+        # Lift of 0.9 s and landing of 0.5 s at the least.
+        self.assertGreater(len(records), 14_000)
+        self.assertEqual(sum(record.missed_deadlines for record in records), 0)
 
     def test_a_pressed_emergency_stop_stops_within_two_cycles(self):
         _, control = self.start(3)
