@@ -10,6 +10,8 @@
 
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
+#include "config/rig_file.hpp"
+#include "hil/can/budget.hpp"
 #include "hil/machine/checks.hpp"
 #include "hil/machine/system_probe.hpp"
 
@@ -22,6 +24,7 @@ using machine::State;
 
 struct DoctorOptions {
   std::string json_path;
+  std::string bus_rig;  ///< rig file or shipped name: judge its buses instead of this machine
 };
 
 constexpr std::array kAreas{Area::kRealTime, Area::kLcm, Area::kCan, Area::kGpio, Area::kStorage};
@@ -86,15 +89,56 @@ nlohmann::ordered_json Json(const std::vector<Finding>& findings) {
   return json;
 }
 
+nlohmann::ordered_json Json(const can::Budget& budget) {
+  nlohmann::ordered_json json{{"fits", budget.fits()},
+                              {"rate_hz", budget.rate_hz},
+                              {"highest_rate_hz", budget.highest_rate_hz},
+                              {"from_rig_us", budget.from_rig_s * 1e6},
+                              {"to_rig_us", budget.to_rig_s * 1e6},
+                              {"blocking_us", budget.blocking_s * 1e6}};
+  for (const can::BusLoad& bus : budget.buses) {
+    nlohmann::ordered_json entry{{"name", bus.bus.name},
+                                 {"interface", bus.bus.interface},
+                                 {"load", bus.load},
+                                 {"load_limit", bus.bus.load_limit},
+                                 {"highest_rate_hz", bus.highest_rate_hz}};
+    for (const can::MessageLoad& message : bus.messages) {
+      entry["messages"].push_back({{"name", message.name},
+                                   {"bytes", message.bytes},
+                                   {"every_periods", message.every},
+                                   {"worst_frame_us", message.frame_time_s * 1e6},
+                                   {"load", message.load}});
+    }
+    json["buses"].push_back(entry);
+  }
+  return json;
+}
+
+ExitStatus JudgeBuses(const DoctorOptions& options) {
+  const std::string path = config::FindConfig(options.bus_rig, "rigs");
+  const config::RigFile rig = config::LoadRig(path);
+  if (rig.buses.empty()) throw BadInput(path + ": names no CAN buses (section buses, docs/can.md)");
+  const can::Layout layout = can::MakeLayout(rig.numbers, can::FormatOf(rig.buses));
+  const can::Budget budget = can::MakeBudget(layout, rig.buses);
+  fmt::print("{}{}", can::BudgetText(budget), can::RefusalText(budget));
+  WriteJsonFile(options.json_path, Json(budget));
+  return budget.fits() ? ExitStatus::kDone : ExitStatus::kOther;
+}
+
 }  // namespace
 
 void AddDoctorCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = app.add_subcommand(
       "doctor", "Is this machine fit for real time, LCM, CAN and GPIO, and what to do where not");
+  command->add_option(
+      "--bus", options->bus_rig,
+      "Judge the CAN buses of this rig file (or shipped rig) instead: worst frame "
+      "times, load, the highest rate that fits; exit status 1 when they do not fit");
   command->add_option("--json", options->json_path, "Write the findings to this file");
   command->callback([options, &action] {
     action = [options] {
+      if (!options->bus_rig.empty()) return JudgeBuses(*options);
       const auto findings =
           machine::CheckMachine(machine::SystemProbe{}, std::filesystem::current_path().string());
       PrintFindings(findings);

@@ -11,6 +11,7 @@
 #include "cli/json_file.hpp"
 #include "config/rig_file.hpp"
 #include "levitas_version.hpp"
+#include "session/candump_import.hpp"
 #include "session/csv_import.hpp"
 #include "session/output_path.hpp"
 
@@ -41,6 +42,38 @@ void Print(const std::string& out_path, const session::ImportReport& report) {
   for (const auto& name : report.ignored_columns) fmt::print("column \"{}\" ignored\n", name);
 }
 
+ExitStatus ImportBusLog(const ImportCommandOptions& options, const config::RigFile& rig,
+                        const session::ImportOptions& import) {
+  if (rig.buses.empty()) {
+    throw BadInput(options.rig_name + ": names no CAN buses (section buses, docs/can.md)");
+  }
+  const can::Layout layout = can::MakeLayout(rig.numbers, can::FormatOf(rig.buses));
+  const session::CandumpReport report = session::ImportCandump(import, layout);
+  fmt::print("{}: {} samples over {:.4f} s of the rig's count, from {} lines\n", options.out_path,
+             report.records, report.duration_s, report.lines);
+  fmt::print(
+      "{} samples missing, {} without currents of their own, {} frames damaged, {} copies or "
+      "out of order, {} restarts of the rig, {} other lines\n",
+      report.missing_cycles, report.without_answer, report.damaged, report.out_of_order,
+      report.rig_restarts, report.other_lines);
+  WriteJsonFile(options.json_path, {{"data", options.data_path},
+                                    {"rig", rig.numbers.name},
+                                    {"session", options.out_path},
+                                    {"samples", report.records},
+                                    {"duration_s", report.duration_s},
+                                    {"missing_samples", report.missing_cycles},
+                                    {"without_answer", report.without_answer},
+                                    {"damaged", report.damaged},
+                                    {"out_of_order", report.out_of_order},
+                                    {"rig_restarts", report.rig_restarts},
+                                    {"other_lines", report.other_lines}});
+  return ExitStatus::kDone;
+}
+
+bool IsBusLog(const std::string& path) {
+  return path.ends_with(".log") || path.ends_with(".log.xz");
+}
+
 ExitStatus Import(const ImportCommandOptions& options) {
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
@@ -52,6 +85,7 @@ ExitStatus Import(const ImportCommandOptions& options) {
                                 .rig_yaml = config::WriteRig(rig),
                                 .program_version = LEVITAS_VERSION,
                                 .start_utc_ns = UtcNowNs()};
+  if (IsBusLog(options.data_path)) return ImportBusLog(options, rig, import);
   const session::ImportReport report = session::ImportCsv(import);
   Print(options.out_path, report);
   WriteJsonFile(options.json_path, {{"data", options.data_path},
@@ -71,8 +105,12 @@ ExitStatus Import(const ImportCommandOptions& options) {
 
 void AddImportCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<ImportCommandOptions>();
-  CLI::App* command = app.add_subcommand("import", "Measured CSV data becomes a session");
-  command->add_option("DATA", options->data_path, "CSV file, or CSV compressed by xz")->required();
+  CLI::App* command = app.add_subcommand(
+      "import", "Measured CSV data, or a candump log of a rig's CAN buses, becomes a session");
+  command
+      ->add_option("DATA", options->data_path,
+                   "CSV file, or log of candump (.log); either compressed by xz (.xz)")
+      ->required();
   command->add_option("--rig", options->rig_name, "Rig file, or name of a shipped one")->required();
   command->add_option("--out", options->out_path, "Session to write")->required();
   command->add_option("--json", options->json_path, "Write what was done as JSON");

@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   cli::AddReplayCommand(app, action);
   cli::AddImportCommand(app, action);
   cli::AddExportCommand(app, action);
+  cli::AddCanDbcCommand(app, action);
   cli::AddDoctorCommand(app, action);
   cli::AddSimulateCommand(app, action);
   cli::AddIdentifyCommand(app, action);

@@ -18,6 +18,7 @@
 #include "cli/run/run_options.hpp"
 #include "cli/run/supervise.hpp"
 #include "cli/run/telemetry.hpp"
+#include "hil/socketcan/can_connection.hpp"
 #include "session/output_path.hpp"
 #include "verdict/commission.hpp"
 #include "verdict/report.hpp"
@@ -113,12 +114,15 @@ ExitStatus Execute(const RunOptions& options) {
   }
   std::optional<transport::LcmNetwork> network = CheckPort(options.port);
   const RunFiles files = CheckFiles(options);
+  CheckBuses(options, files);
   const PortLease lease = Lease(network);
   RunFolder folder;
   const RunPaths paths = PathsOf(options, folder);
   const RunPlan plan = PlanRun(options, files, paths, *network);
-  const std::string port = network->Url(transport::Direction::kSensor);
-  fmt::print(stderr, "rig {}, controller {}, scenario {}, {}, LCM {}\n", files.rig.name,
+  const std::string port = socketcan::IsCanPort(options.port)
+                               ? options.port
+                               : network->Url(transport::Direction::kSensor);
+  fmt::print(stderr, "rig {}, controller {}, scenario {}, {}, port {}\n", files.rig.name,
              files.controller_path, files.scenario_name, options.pace, port);
   const RunResult result = RunBoth(plan, files, *network);
   const ExitStatus status = StatusOf(result);
@@ -160,8 +164,10 @@ void AddRunCommand(CLI::App& app, Action& action) {
   command->add_option("--pace", options->pace, "lockstep or realtime")
       ->check(CLI::IsMember({"lockstep", "realtime"}))
       ->capture_default_str();
-  command->add_option("--port", options->port,
-                      "lcm, or lcm:udpm://<group>:<port>?ttl=<n>; default: lcm on free ports");
+  command->add_option(
+      "--port", options->port,
+      "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can, or can:IF[,IF...] (the rig then "
+      "stands behind CAN buses, see docs/can.md); default: lcm on free ports");
   command->add_option("--record", options->record_path, "Keep the record in this file");
   command->add_option("--seed", options->seed, "Seed of the sensor noise")->capture_default_str();
   command->add_option("--json", options->json_path, "Write the verdict to this file");

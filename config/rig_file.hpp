@@ -6,11 +6,13 @@
 // Thread   any; not for the control cycle.
 
 #include <string>
+#include <vector>
 
 #include "common/rig_numbers.hpp"
 #include "controller/law/law_config.hpp"
 #include "controller/scenario/scenario_config.hpp"
 #include "controller/supervisor/supervisor_config.hpp"
+#include "hil/can/bus_config.hpp"
 #include "hil/gpio/line_config.hpp"
 #include "plant_sim/plant/plant_config.hpp"
 
@@ -26,7 +28,8 @@ struct RigFile {
   RigNumbers numbers;
   plant::PlantConfig plant;
   RunDefaults run;
-  gpio::LinesConfig lines;  ///< empty when the file names none
+  gpio::LinesConfig lines;            ///< empty when the file names none
+  std::vector<can::BusConfig> buses;  ///< CAN; empty when the file names none
 };
 
 struct ControllerFile {

@@ -16,7 +16,7 @@ bool LcmRigLink::Send(const SensorFrame& frame) noexcept {
   return sent;
 }
 
-LcmRigLink::Answer LcmRigLink::Accept(const Received& received, CurrentFrame& frame) noexcept {
+port::RigLink::Answer LcmRigLink::Accept(const Received& received, CurrentFrame& frame) noexcept {
   const Packet packet = ParsePacket(received.datagram);
   if (packet.kind == PacketKind::kFragment) return Answer::kNothing;
   const bool current = packet.channel == channel::kCurrent;
@@ -30,7 +30,7 @@ LcmRigLink::Answer LcmRigLink::Accept(const Received& received, CurrentFrame& fr
   return goodbye ? Answer::kGoodbye : Answer::kCurrent;
 }
 
-LcmRigLink::Answer LcmRigLink::Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept {
+port::RigLink::Answer LcmRigLink::Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept {
   bool found = false;
   for (;;) {
     const Received received = found ? receiver_.Next() : receiver_.Receive(deadline_ns);
@@ -46,7 +46,7 @@ LcmRigLink::Answer LcmRigLink::Receive(CurrentFrame& frame, std::int64_t deadlin
   return Answer::kCurrent;
 }
 
-LcmRigLink::Counters LcmRigLink::counters() const noexcept {
+port::RigLink::Counters LcmRigLink::counters() const noexcept {
   Counters counters = counters_;
   counters.currents_lost = watch_.lost();
   return counters;

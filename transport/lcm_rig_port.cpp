@@ -53,6 +53,12 @@ bool LcmRigPort::Write(const CurrentFrame& frame) noexcept {
   return true;
 }
 
+port::PortCounters LcmRigPort::counters() const noexcept {
+  port::PortCounters counters = counters_;
+  counters.frames_lost = watch_.lost();
+  return counters;
+}
+
 void LcmRigPort::SayGoodbye(const CurrentFrame& last) noexcept {
   // Said three times: nobody repeats it when it is lost.
   for (int time = 0; time < 3; ++time) (void)sender_.Send(current_codec_.EncodeGoodbye(last));

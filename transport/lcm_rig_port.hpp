@@ -22,12 +22,8 @@ class LcmRigPort final : public port::RigPort {
 
   port::ReadResult Read(SensorFrame& frame, std::int64_t deadline_ns) noexcept override;
   bool Write(const CurrentFrame& frame) noexcept override;
-  [[nodiscard]] port::PortCounters counters() const noexcept override { return counters_; }
-
-  /// Tells the rig that this controller ends; `last` should have the amplifiers off.
-  void SayGoodbye(const CurrentFrame& last) noexcept;
-  /// Sensor frames the rig sent and this port never saw.
-  [[nodiscard]] std::uint64_t lost() const noexcept { return watch_.lost(); }
+  [[nodiscard]] port::PortCounters counters() const noexcept override;
+  void SayGoodbye(const CurrentFrame& last) noexcept override;
 
  private:
   [[nodiscard]] bool Accept(const Received& received, SensorFrame& frame) noexcept;

@@ -6,6 +6,7 @@
 
 #include "common/problem.hpp"
 #include "config/rig_file.hpp"
+#include "hil/socketcan/can_connection.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -68,14 +69,14 @@ RunFiles CheckFiles(const RunOptions& options) {
 }
 
 std::optional<transport::LcmNetwork> CheckPort(const std::string& port) {
-  if (port.empty()) return std::nullopt;
-  if (port == "can" || port.starts_with("can:")) {
-    throw Problem(ExitStatus::kUsage,
-                  fmt::format("--port {}: this build has no CAN port yet; allowed: lcm, or "
-                              "lcm:udpm://239.255.76.67:7667?ttl=0",
-                              port));
-  }
+  if (port.empty() || socketcan::IsCanPort(port)) return std::nullopt;
   return transport::ParseLcmNetwork(port);
+}
+
+void CheckBuses(const RunOptions& options, const RunFiles& files) {
+  if (!socketcan::IsCanPort(options.port)) return;
+  static_cast<void>(
+      socketcan::PlanConnection(config::LoadRig(files.rig_path), files.rig_path, options.port));
 }
 
 std::string ProgramBeside(const std::string& name) {
@@ -90,17 +91,20 @@ std::string ProgramBeside(const std::string& name) {
 
 RunPlan PlanRun(const RunOptions& options, const RunFiles& files, const RunPaths& paths,
                 const transport::LcmNetwork& network) {
+  const std::string lcm = "lcm:" + network.Url(transport::Direction::kSensor);
+  const bool can = socketcan::IsCanPort(options.port);
   const std::vector<std::string> both{
-      "--rig",  files.rig_path, "--port", "lcm:" + network.Url(transport::Direction::kSensor),
+      "--rig",  files.rig_path, "--port", can ? options.port : lcm,
       "--pace", options.pace,   "--seed", std::to_string(options.seed)};
   RunPlan plan;
-  plan.plant = {ProgramBeside("amb-plant"), both, paths.plant_log};
+  plan.plant = {ProgramBeside(can ? "amb-rig" : "amb-plant"), both, paths.plant_log};
   plan.plant.arguments.insert(plan.plant.arguments.end(), {"--json", paths.plant_json});
   plan.controller = {ProgramBeside("amb-controller"), both, paths.controller_log};
   plan.controller.arguments.insert(
       plan.controller.arguments.end(),
       {"--controller", files.controller_path, "--scenario", files.scenario_path, "--record",
        paths.session, "--trip-folder", paths.trip_folder, "--json", paths.controller_json});
+  if (can) plan.controller.arguments.insert(plan.controller.arguments.end(), {"--telemetry", lcm});
   if (options.duration_s > 0.0) {
     plan.controller.arguments.insert(plan.controller.arguments.end(),
                                      {"--duration", fmt::format("{}", options.duration_s)});

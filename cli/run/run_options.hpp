@@ -40,9 +40,12 @@ struct RunFiles {
 /// Reads all three; throws one BadInput with the problems of all of them.
 [[nodiscard]] RunFiles CheckFiles(const RunOptions& options);
 
-/// The network --port names; empty when free ports are to be looked for. Refuses what is no LCM
-/// port with the list of what is.
+/// The network --port names; empty when free ports are to be looked for (with a CAN port for
+/// telemetry). Refuses what is neither an LCM nor a CAN port with the list of what is.
 [[nodiscard]] std::optional<transport::LcmNetwork> CheckPort(const std::string& port);
+
+/// Refuses a CAN port whose buses do not carry the loop of the rig; nothing happens for LCM.
+void CheckBuses(const RunOptions& options, const RunFiles& files);
 
 /// Path of a program that is installed beside this one.
 [[nodiscard]] std::string ProgramBeside(const std::string& name);

@@ -184,6 +184,43 @@ void DescribeDrive(Visitor& v, RigFile& rig) {
            drive.coast_down_rad_per_s2);
 }
 
+constexpr std::array<std::string_view, 3> kCarriesWords{"everything", "from_rig", "to_rig"};
+
+void Describe(Visitor& v, can::BusConfig& bus) {
+  v.Name({"name", "of the bus, for messages to people"}, bus.name);
+  v.Name({"interface", "of the kernel, such as can0; --port can:IF may name another"},
+         bus.interface);
+  v.Number({"bit_rate", kMegabitPerSecond, 0.01, 1, kRequired, "of the arbitration phase"},
+           bus.rates.arbitration_bit_per_s);
+  v.Number({"data_bit_rate", kMegabitPerSecond, 0, 8, kRequired,
+            "of the data phase of CAN FD; 0 for classical CAN"},
+           bus.rates.data_bit_per_s);
+  auto carries = static_cast<std::size_t>(bus.carries);
+  v.Choice({"carries", kCarriesWords, "everything", "the messages of which sender"}, carries);
+  bus.carries = static_cast<can::Carries>(carries);
+  v.Number({"load_limit", kOne, 0.05, 1, 0.8,
+            "share of the time that the loop may occupy; beyond it the port refuses"},
+           bus.load_limit);
+}
+
+void DescribeBuses(Visitor& v, RigFile& rig) {
+  v.List({"buses", 0, 4, "CAN buses between controller and rig; see docs/can.md"}, rig.buses,
+         [&](can::BusConfig& bus, std::size_t /*index*/) { Describe(v, bus); });
+  if (rig.buses.empty()) return;
+  const auto carries = [&](can::Carries wanted) {
+    return std::count_if(rig.buses.begin(), rig.buses.end(), [&](const can::BusConfig& bus) {
+      return bus.carries == wanted || bus.carries == can::Carries::kEverything;
+    });
+  };
+  v.RefuseIf(carries(can::Carries::kFromRig) != 1 || carries(can::Carries::kToRig) != 1, "buses",
+             "each direction must be carried by exactly one bus: one that carries everything, or "
+             "one from_rig and one to_rig");
+  const auto fast = std::count_if(rig.buses.begin(), rig.buses.end(),
+                                  [](const auto& bus) { return bus.rates.data_bit_per_s > 0.0; });
+  v.RefuseIf(fast != 0 && fast != static_cast<std::ptrdiff_t>(rig.buses.size()), "buses",
+             "all buses are CAN FD, or all are classical (data_bit_rate 0)");
+}
+
 /// What RigNumbers repeats of the plant.
 void Derive(RigFile& rig) {
   RigNumbers& numbers = rig.numbers;
@@ -240,6 +277,7 @@ void Describe(Visitor& v, RigFile& rig) {
   });
   v.Group("drive", "motor of the rotor", [&] { DescribeDrive(v, rig); });
   Describe(v, rig.lines, static_cast<double>(rig.plant.period_ns) * 1e-9);
+  DescribeBuses(v, rig);
   v.Group("objectives", "what the verdict of a run is held against", [&] {
     v.Number({"standing_orbit", kMicrometre, 0.01, 5000, kRequired, "largest radius at standstill"},
              rig.numbers.standing_orbit_objective_m);

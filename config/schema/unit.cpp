@@ -21,6 +21,8 @@ constexpr std::array kUnits{
     kMicrosecond,
     kHertz,
     kKilohertz,
+    kKilobitPerSecond,
+    kMegabitPerSecond,
     kRpm,
     kRadPerSecond,
     kTurnsPerSecond,

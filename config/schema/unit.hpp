@@ -34,6 +34,8 @@ inline constexpr Unit kMillisecond{"ms", "ms", "time", -3};
 inline constexpr Unit kMicrosecond{"us", "us", "time", -6};
 inline constexpr Unit kHertz{"hz", "Hz", "frequency"};
 inline constexpr Unit kKilohertz{"khz", "kHz", "frequency", 3};
+inline constexpr Unit kKilobitPerSecond{"kbit_per_s", "kbit/s", "bit rate", 3};
+inline constexpr Unit kMegabitPerSecond{"mbit_per_s", "Mbit/s", "bit rate", 6};
 inline constexpr Unit kRpm{"rpm", "rpm", "speed", 0, kPi / 30.0L};
 inline constexpr Unit kRadPerSecond{"rad_per_s", "rad/s", "speed"};
 inline constexpr Unit kTurnsPerSecond{"rev_per_s", "rev/s", "speed", 0, 2.0L * kPi};

@@ -8,6 +8,7 @@
 // Failure    never throws; results are values. A closed or broken port reads as kNothing.
 
 #include <cstdint>
+#include <string>
 
 #include "common/frames.hpp"
 
@@ -22,6 +23,7 @@ struct PortCounters {
   std::uint64_t frames_read{};
   std::uint64_t frames_skipped{};   ///< overtaken by a newer frame before they were read
   std::uint64_t frames_rejected{};  ///< undecodable, wrong axis count
+  std::uint64_t frames_lost{};      ///< sent by the rig and never seen here
   std::uint64_t currents_written{};
   std::uint64_t write_failures{};  ///< the transport could not take it
 };
@@ -34,6 +36,10 @@ class RigPort {
   /// False when the frame could not be handed to the transport (counted).
   virtual bool Write(const CurrentFrame& frame) noexcept = 0;
   [[nodiscard]] virtual PortCounters counters() const noexcept = 0;
+  /// Tells the rig that this controller ends; `last` should have the amplifiers off.
+  virtual void SayGoodbye(const CurrentFrame& /*last*/) noexcept {}
+  /// What went wrong on the transport, for people; empty when nothing did. After the loop.
+  [[nodiscard]] virtual std::string Trouble() const { return {}; }
 };
 
 }  // namespace levitas::port

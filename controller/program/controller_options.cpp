@@ -14,8 +14,12 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
       ->required();
   app.add_option("--scenario", options.scenario,
                  "Scenario to play; without it commands come over the network");
-  app.add_option("--port", options.port, "lcm, or lcm:udpm://<group>:<port>?ttl=<n>")
+  app.add_option("--port", options.port,
+                 "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can (buses of the rig's file), or "
+                 "can:IF[,IF...]")
       ->capture_default_str();
+  app.add_option("--telemetry", options.telemetry,
+                 "With --port can: LCM network for state, events and commands (default lcm)");
   app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
       ->transform(CLI::Transformer(paces))
       ->type_name("PACE");

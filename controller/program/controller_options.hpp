@@ -13,6 +13,7 @@ struct ControllerOptions {
   std::string controller;  ///< path or shipped name
   std::string scenario;    ///< path or shipped name; empty: commands come over the network
   std::string port{"lcm"};
+  std::string telemetry;  ///< LCM network of state, timing, events, commands; empty: that of port
   bool realtime{false};
   double duration_s{0.0};  ///< 0: no limit
   std::string record;      ///< session file; empty: none

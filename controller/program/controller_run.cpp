@@ -14,6 +14,7 @@
 #include "controller/loop/operator_desk.hpp"
 #include "controller/program/loop_outlet.hpp"
 #include "controller/program/report.hpp"
+#include "controller/program/rig_connection.hpp"
 #include "controller/rt/real_time.hpp"
 #include "controller/rt/stop_signal.hpp"
 #include "hil/guarded_port/guarded_port.hpp"
@@ -21,7 +22,6 @@
 #include "levitas_version.hpp"
 #include "session/record_codec.hpp"
 #include "session/recorder.hpp"
-#include "transport/lcm_rig_port.hpp"
 #include "transport/operator_receiver.hpp"
 #include "transport/partner_watch.hpp"
 #include "transport/statistics_json.hpp"
@@ -32,7 +32,6 @@ namespace levitas::controller_program {
 namespace {
 
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
-constexpr std::int64_t kSpinNs = 20'000;     // see docs/timing.md
 constexpr std::size_t kRemoteCommands = 16;  // a person gives them one by one
 
 struct Files {
@@ -44,6 +43,7 @@ struct Files {
 Files Load(const ControllerOptions& options) {
   Files files;
   files.rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
+  ApplyPort(options, files.rig);
   files.controller = config::LoadController(config::FindConfig(options.controller, "controllers"),
                                             files.rig.numbers);
   if (!options.scenario.empty()) {
@@ -83,7 +83,7 @@ void Announce(const session::Event& event, transport::Telemetry& telemetry) {
 // Nothing below needs the loop's speed: signals and the partner are looked after from here.
 // Returns false when the rig stayed away.
 bool Watch(loop::ControlLoop& loop, loop::OperatorDesk& desk, const std::atomic<bool>& running,
-           const ControllerOptions& options, const std::string& url,
+           const ControllerOptions& options, const RigConnection& rig,
            const gpio::GpiodLines* lines) {
   using Say = transport::PartnerWatch::Say;
   transport::PartnerWatch watch(rt::MonotonicNowNs(),
@@ -100,9 +100,9 @@ bool Watch(loop::ControlLoop& loop, loop::OperatorDesk& desk, const std::atomic<
     if (say == Say::kFound) fmt::print(stderr, "amb-controller: rig found\n");
     if (say == Say::kMissing) {
       fmt::print(stderr,
-                 "amb-controller: no sensor frames at {}; start amb-plant with the same --rig, "
+                 "amb-controller: no sensor frames at {}; start {} with the same --rig, "
                  "--port and --pace (giving up {} s after its last message)\n",
-                 url, options.partner_timeout_s);
+                 rig.Where(), rig.SimulatedRig(), options.partner_timeout_s);
     }
     if (say == Say::kGiveUp && running.load()) {
       fmt::print(stderr, "amb-controller: no rig for {} s, ending\n", options.partner_timeout_s);
@@ -155,8 +155,8 @@ class Session {
         numbers_(files.rig.numbers),
         wanted_{.processor = options.processor},
         guard_(PrepareRealTime(options, wanted_)),
-        network_(transport::ParseLcmNetwork(options.port)),
-        port_(network_, numbers_.axes(), rt::AllowedSpinNs(kSpinNs)),
+        network_(TelemetryNetwork(options)),
+        rig_(Connect(options, files.rig)),
         telemetry_(network_),
         recorder_({.session_path = options.record,
                    .trip_folder = options.trip_folder,
@@ -169,7 +169,7 @@ class Session {
     if (files.scenario) {
       player_.emplace(*files.scenario, numbers_.period_s(), sequence_.standstill_rad_per_s);
     }
-    if (lines_ != nullptr) guarded_.emplace(port_, *lines_, files.rig.lines);
+    if (lines_ != nullptr) guarded_.emplace(rig_->port(), *lines_, files.rig.lines);
   }
 
   ExitStatus Run() {
@@ -183,8 +183,10 @@ class Session {
     });
     loop::ControlLoop loop(
         {.pace = options_.realtime ? loop::Pace::kRealtime : loop::Pace::kLockstep,
-         .period_ns = numbers_.period_ns},
-        guarded_ ? static_cast<port::RigPort&>(*guarded_) : port_, cycle_, desk, outlet_, clock_);
+         .period_ns = numbers_.period_ns,
+         .phase_ns = rig_->phase_ns()},
+        guarded_ ? static_cast<port::RigPort&>(*guarded_) : rig_->port(), cycle_, desk, outlet_,
+        clock_);
     rt::CatchStopSignals();
     std::atomic<bool> running{true};
     std::thread thread([&] {
@@ -192,11 +194,10 @@ class Session {
       loop.Run();
       running.store(false);
     });
-    const bool stayed =
-        Watch(loop, desk, running, options_, network_.Url(transport::Direction::kSensor), lines_);
+    const bool stayed = Watch(loop, desk, running, options_, *rig_, lines_);
     thread.join();
     if (lines_ != nullptr) lines_->WriteEnable(false);  // also after an end without a landing
-    port_.SayGoodbye({.cycle = loop.last().in.frame.cycle});
+    rig_->port().SayGoodbye({.cycle = loop.last().in.frame.cycle});
     return Tell(loop.statistics(), receiver.rejected(), stayed);
   }
 
@@ -209,8 +210,8 @@ class Session {
   ExitStatus Tell(const loop::LoopStatistics& statistics, std::uint64_t rejected, bool stayed) {
     const RunFacts facts{.options = options_,
                          .statistics = statistics,
-                         .port = port_.counters(),
-                         .frames_lost = port_.lost(),
+                         .port = rig_->port().counters(),
+                         .transport = rig_->port().Trouble(),
                          .records_lost = recorder_.lost(),
                          .telemetry_dropped = telemetry_.dropped(),
                          .commands_rejected = rejected,
@@ -231,7 +232,7 @@ class Session {
   rt::RealTimeOptions wanted_;
   std::unique_ptr<rt::RealTimeGuard> guard_;
   transport::LcmNetwork network_;
-  transport::LcmRigPort port_;
+  std::unique_ptr<RigConnection> rig_;
   std::optional<gpio::GuardedPort> guarded_;
   transport::Telemetry telemetry_;
   session::Recorder recorder_;

@@ -41,7 +41,8 @@ nlohmann::ordered_json ReportJson(const RunFacts& facts) {
       {"frames_rejected", facts.port.frames_rejected},
       {"currents_written", facts.port.currents_written},
       {"write_failures", facts.port.write_failures},
-      {"messages_lost", facts.frames_lost},
+      {"messages_lost", facts.port.frames_lost},
+      {"transport", facts.transport},
       {"records_lost", facts.records_lost},
       {"telemetry_dropped", facts.telemetry_dropped},
       {"commands_rejected", facts.commands_rejected},
@@ -68,7 +69,7 @@ std::string ReportText(const RunFacts& facts) {
   std::string text =
       fmt::format("{} cycles, {} skipped, {} without a frame, {} messages lost, {} records lost\n",
                   statistics.cycles, statistics.skipped_periods, statistics.missing_frames,
-                  facts.frames_lost, facts.records_lost);
+                  facts.port.frames_lost, facts.records_lost);
   text += fmt::format("computation (p50 / p99 / p99.9)  {}\n", Triple(statistics.compute));
   if (facts.options.realtime) {
     text += fmt::format("wake-up error                    {}\n", Triple(statistics.wakeup));
@@ -87,6 +88,7 @@ std::string ReportText(const RunFacts& facts) {
     text += fmt::format("lines: an output could not be written in {} cycles\n",
                         facts.lines->write_failures);
   }
+  if (!facts.transport.empty()) text += "transport: " + facts.transport + '\n';
   if (facts.trips > 0) {
     text += fmt::format("tripped: {}{}{}\n", Name(facts.first_fault),
                         facts.trip_file.empty() ? "" : ", recorded in ", facts.trip_file);

@@ -18,7 +18,7 @@ struct RunFacts {
   const ControllerOptions& options;
   const loop::LoopStatistics& statistics;
   port::PortCounters port;
-  std::uint64_t frames_lost{};
+  std::string transport;  ///< what went wrong on it
   std::uint64_t records_lost{};
   std::uint64_t telemetry_dropped{};
   std::uint64_t commands_rejected{};

@@ -68,7 +68,7 @@ TEST_F(Multicast, ReadsTheNewestFrameAndCountsTheOvertakenOnes) {
   ASSERT_EQ(port_->Read(frame, Deadline()), port::ReadResult::kFrame);
   EXPECT_EQ(frame.cycle, 20U);
   EXPECT_EQ(port_->counters().frames_skipped, 19U);
-  EXPECT_EQ(port_->lost(), 0U);
+  EXPECT_EQ(port_->counters().frames_lost, 0U);
 }
 
 TEST_F(Multicast, NumbersTheRigsSessionsFromOneWhateverTheRigDraws) {

@@ -1,12 +1,12 @@
 #pragma once
-// Command line of amb-plant.
+// Command line of the programs that simulate a rig: amb-plant over LCM, amb-rig over CAN.
 
 #include <cstdint>
 #include <string>
 
 #include "common/problem.hpp"
 
-namespace levitas::plant_program {
+namespace levitas::plant_run {
 
 struct PlantOptions {
   std::string rig;          ///< path or shipped name
@@ -17,10 +17,20 @@ struct PlantOptions {
   double partner_timeout_s{30.0};
   bool require_realtime{false};
   bool stay{false};  ///< wait for the next controller instead of ending with the present one
+  std::uint32_t watchdog_periods{1000};
+};
+
+/// What differs between the programs.
+struct PlantProgram {
+  const char* name;
+  const char* description;
+  const char* port_help;
+  const char* default_port;
+  std::uint32_t watchdog_periods;
 };
 
 /// Reads the command line; prints help or a usage message itself. False: end with `status`.
-[[nodiscard]] bool ReadCommandLine(int argc, char** argv, PlantOptions& options,
-                                   ExitStatus& status);
+[[nodiscard]] bool ReadCommandLine(int argc, char** argv, const PlantProgram& program,
+                                   PlantOptions& options, ExitStatus& status);
 
-}  // namespace levitas::plant_program
+}  // namespace levitas::plant_run

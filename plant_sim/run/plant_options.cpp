@@ -1,17 +1,16 @@
-#include "plant_sim/program/plant_options.hpp"
+#include "plant_sim/run/plant_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <map>
 
-namespace levitas::plant_program {
+namespace levitas::plant_run {
 
-bool ReadCommandLine(int argc, char** argv, PlantOptions& options, ExitStatus& status) {
-  CLI::App app{"Simulated magnetic bearing rig: sends sensor frames, takes current frames",
-               "amb-plant"};
+bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOptions& options,
+                     ExitStatus& status) {
+  CLI::App app{program.description, program.name};
   const std::map<std::string, bool> paces{{"lockstep", false}, {"realtime", true}};
   app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
-  app.add_option("--port", options.port, "lcm, or lcm:udpm://<group>:<port>?ttl=<n>")
-      ->capture_default_str();
+  app.add_option("--port", options.port, program.port_help)->capture_default_str();
   app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
       ->transform(CLI::Transformer(paces))
       ->type_name("PACE");
@@ -23,6 +22,10 @@ bool ReadCommandLine(int argc, char** argv, PlantOptions& options, ExitStatus& s
       ->capture_default_str();
   app.add_flag("--require-realtime", options.require_realtime,
                "Refuse to run when the machine does not grant real-time conditions");
+  app.add_option("--watchdog", options.watchdog_periods,
+                 "Switch the amplifiers off after this many periods without a valid current")
+      ->check(CLI::Range(1U, 1'000'000U))
+      ->capture_default_str();
   app.add_flag("--stay", options.stay, "When the controller ends, wait for the next one");
   try {
     app.parse(argc, argv);
@@ -33,4 +36,4 @@ bool ReadCommandLine(int argc, char** argv, PlantOptions& options, ExitStatus& s
   }
 }
 
-}  // namespace levitas::plant_program
+}  // namespace levitas::plant_run

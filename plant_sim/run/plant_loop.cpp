@@ -1,15 +1,15 @@
-#include "plant_sim/program/plant_loop.hpp"
+#include "plant_sim/run/plant_loop.hpp"
 
 #include "controller/rt/next_wake.hpp"
 
-namespace levitas::plant_program {
+namespace levitas::plant_run {
 
 namespace {
-using Answer = transport::LcmRigLink::Answer;
+using Answer = port::RigLink::Answer;
 constexpr std::uint64_t kTimeEvery = 16;
-constexpr std::int64_t kRepeatNs = 100'000'000;    // lockstep: ask again
-constexpr std::int64_t kLookNs = 12'000;           // real time: before the next instant
-constexpr std::int64_t kWatchdogNs = 100'000'000;  // real time: no controller, no current
+constexpr std::int64_t kRepeatNs = 100'000'000;  // lockstep: ask again
+constexpr std::int64_t kLookNs = 12'000;         // real time: before the next instant
+constexpr double kFallS = 0.5;                   // a rotor lies still after less
 }  // namespace
 
 void PlantLoop::Run() noexcept {
@@ -25,7 +25,7 @@ SensorFrame PlantLoop::Sample(std::int64_t sample_time_ns) noexcept {
   frame.cycle = statistics_.cycles;
   frame.sample_time_ns = sample_time_ns;
   frame.rig_session = options_.rig_session;
-  frame.rig_status |= status_;
+  frame.rig_status |= status_ | gate_status_;
   frame.held_currents = static_cast<std::uint32_t>(statistics_.held_currents);
   return frame;
 }
@@ -38,15 +38,56 @@ void PlantLoop::Take(const CurrentFrame& current) noexcept {
               .speed_set_point_rad_per_s = current.speed_set_point_rad_per_s,
               .acceleration_limit_rad_per_s2 = current.acceleration_limit_rad_per_s2};
   status_ = 0;
+  if (latched_ && !current.amplifiers_enabled) {
+    latched_ = false;
+    events_.Post({RigEventKind::kRearmed, statistics_.cycles, 0.0});
+  }
+}
+
+plant::PlantCommand PlantLoop::Allowed() noexcept {
+  AmplifierGate::State gate;
+  if (gate_ != nullptr) gate = gate_->Sample(clock_.NowNs());
+  gate_status_ = gate.rig_status;
+  const bool wanted = command_.amplifiers_enabled && !latched_;
+  const RigEventKind why = latched_               ? RigEventKind::kWatchdog
+                           : wanted && !gate.open ? RigEventKind::kGateShut
+                                                  : RigEventKind::kSwitchedOff;
+  NoteEnergised(wanted && gate.open, why);
+  if (energised_) return command_;
+  plant::PlantCommand off = command_;
+  off.control_current_a.fill(0.0);
+  off.bias_current_a = 0.0;
+  off.amplifiers_enabled = false;
+  return off;
+}
+
+void PlantLoop::NoteEnergised(bool energised, RigEventKind why) noexcept {
+  if (energised == energised_) return;
+  energised_ = energised;
+  falling_ = !energised;
+  const RigEventKind kind = energised ? RigEventKind::kEnergised : why;
+  events_.Post({kind, statistics_.cycles,
+                kind == RigEventKind::kWatchdog ? static_cast<double>(held_in_a_row_) : 0.0});
+}
+
+void PlantLoop::NoteContact() noexcept {
+  if (!falling_) return;
+  const double force_n = plant_.ContactForce();
+  if (force_n <= 0.0) return;
+  falling_ = false;
+  ++statistics_.landings;
+  events_.Post({RigEventKind::kLanded, statistics_.cycles, force_n});
 }
 
 void PlantLoop::Advance() noexcept {
   // Timed now and then only: two readings of the clock cost a tenth of what they measure.
   const bool timed = statistics_.cycles % kTimeEvery == 0;
+  const plant::PlantCommand command = Allowed();
   const std::int64_t start_ns = timed ? clock_.NowNs() : 0;
-  plant_.Advance(command_);
+  plant_.Advance(command);
   if (timed) statistics_.advance.Add(clock_.NowNs() - start_ns);
   ++statistics_.cycles;
+  NoteContact();
 }
 
 bool PlantLoop::AwaitCurrent(std::uint64_t cycle, std::int64_t deadline_ns,
@@ -75,27 +116,49 @@ void PlantLoop::RunLockstep() noexcept {
     const SensorFrame frame =
         Sample(static_cast<std::int64_t>(statistics_.cycles) * options_.period_ns);
     link_.Send(frame);
+    const std::int64_t asked_ns = options_.silence_ns > 0 ? clock_.NowNs() : 0;
     bool goodbye = false;
-    while (!AwaitCurrent(frame.cycle, clock_.NowNs() + kRepeatNs, goodbye)) {
+    bool alone = false;
+    while (!alone && !AwaitCurrent(frame.cycle, clock_.NowNs() + kRepeatNs, goodbye)) {
       if ((goodbye && !options_.stay) || stopped_.load(std::memory_order_relaxed)) return;
+      if (goodbye) answered_once_ = false;
       goodbye = false;
+      alone = options_.silence_ns > 0 && answered_once_ &&
+              clock_.NowNs() - asked_ns >= options_.silence_ns;
+      if (alone) break;
       link_.Send(frame);
       ++statistics_.repeated_frames;
     }
+    if (alone) {
+      GoOnAlone();
+    } else {
+      answered_once_ = true;
+      held_in_a_row_ = 0;
+      Advance();
+    }
+  }
+}
+
+void PlantLoop::GoOnAlone() noexcept {
+  while (answered_once_) {
+    Hold();
     Advance();
   }
+  const auto periods =
+      static_cast<std::uint64_t>(kFallS * 1e9) / static_cast<std::uint64_t>(options_.period_ns);
+  for (std::uint64_t period = 0; period < periods; ++period) Advance();
 }
 
 void PlantLoop::Hold() noexcept {
   if (!answered_once_) return;  // nobody is there yet: nothing is held
   ++statistics_.held_currents;
   status_ |= kRigCurrentHeld;
-  const auto limit = static_cast<std::uint64_t>(kWatchdogNs / options_.period_ns);
-  if (++held_in_a_row_ == limit) {
-    ++statistics_.watchdog_trips;
-    Take({});
-    answered_once_ = false;
-  }
+  if (++held_in_a_row_ < options_.watchdog_periods) return;
+  ++statistics_.watchdog_trips;
+  command_ = {.amplifiers_enabled = false};
+  latched_ = true;
+  answered_once_ = false;
+  status_ = 0;
 }
 
 void PlantLoop::RunRealtime() noexcept {
@@ -130,4 +193,4 @@ void PlantLoop::RunRealtime() noexcept {
   }
 }
 
-}  // namespace levitas::plant_program
+}  // namespace levitas::plant_run

@@ -1,0 +1,53 @@
+// amb can-dbc: the messages on a rig's CAN buses, for other CAN tools or for people.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "config/rig_file.hpp"
+#include "hil/can/dbc.hpp"
+#include "session/output_path.hpp"
+
+namespace levitas::cli {
+namespace {
+
+struct DbcOptions {
+  std::string rig;
+  std::string out_path;
+  bool table{};
+};
+
+ExitStatus Write(const DbcOptions& options) {
+  const std::string path = config::FindConfig(options.rig, "rigs");
+  const config::RigFile rig = config::LoadRig(path);
+  if (rig.buses.empty()) throw BadInput(path + ": names no CAN buses (section buses, docs/can.md)");
+  const can::Layout layout = can::MakeLayout(rig.numbers, can::FormatOf(rig.buses));
+  const std::string text = options.table ? can::LayoutMarkdown(layout) : can::DbcText(layout);
+  if (options.out_path.empty()) {
+    fmt::print("{}", text);
+    return ExitStatus::kDone;
+  }
+  session::CheckOutputPath(options.out_path, path);
+  std::ofstream file(options.out_path);
+  file << text << std::flush;
+  if (!file) throw Problem(ExitStatus::kOther, options.out_path + ": cannot be written");
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddCanDbcCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<DbcOptions>();
+  CLI::App* command = app.add_subcommand(
+      "can-dbc",
+      "The messages on a rig's CAN buses as a DBC file, for cantools, SavvyCAN and others");
+  command->add_option("--rig", options->rig, "Rig file, or name of a shipped one")->required();
+  command->add_option("--out", options->out_path, "File to write; default: standard output");
+  command->add_flag("--table", options->table, "A Markdown table for people instead");
+  command->callback([options, &action] { action = [options] { return Write(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,74 @@
+#include "controller/program/rig_connection.hpp"
+
+#include <cmath>
+
+#include "controller/rt/clock.hpp"
+#include "hil/can_port/can_rig_port.hpp"
+#include "hil/socketcan/can_connection.hpp"
+#include "hil/socketcan/socket_can.hpp"
+#include "transport/lcm_rig_port.hpp"
+
+namespace levitas::controller_program {
+namespace {
+
+constexpr std::int64_t kSpinNs = 20'000;     // see docs/timing.md
+constexpr std::int64_t kArrivalNs = 30'000;  // the frame's way through two kernels' queues
+
+class LcmConnection final : public RigConnection {
+ public:
+  LcmConnection(const transport::LcmNetwork& network, std::size_t axes)
+      : network_(network), port_(network, axes, rt::AllowedSpinNs(kSpinNs)) {}
+  port::RigPort& port() noexcept override { return port_; }
+  [[nodiscard]] std::string Where() const override {
+    return network_.Url(transport::Direction::kSensor);
+  }
+  [[nodiscard]] const char* SimulatedRig() const noexcept override { return "amb-plant"; }
+  [[nodiscard]] std::int64_t phase_ns() const noexcept override { return kArrivalNs; }
+
+ private:
+  transport::LcmNetwork network_;
+  transport::LcmRigPort port_;
+};
+
+class CanPortConnection final : public RigConnection {
+ public:
+  CanPortConnection(const socketcan::CanConnection& plan, bool realtime)
+      : text_(plan.text),
+        wire_ns_(plan.virtual_bus ? 0 : std::llround(plan.budget.from_rig_s * 1e9)),
+        access_(plan.layout, plan.buses, can::Sender::kController),
+        port_(plan.layout, plan.buses, {.realtime = realtime, .wire_ns = wire_ns_}, access_) {}
+  port::RigPort& port() noexcept override { return port_; }
+  [[nodiscard]] std::string Where() const override { return text_; }
+  [[nodiscard]] const char* SimulatedRig() const noexcept override { return "amb-rig"; }
+  [[nodiscard]] std::int64_t phase_ns() const noexcept override { return kArrivalNs + wire_ns_; }
+
+ private:
+  std::string text_;
+  std::int64_t wire_ns_;
+  socketcan::SocketCan access_;
+  can_port::CanRigPort port_;
+};
+
+}  // namespace
+
+transport::LcmNetwork TelemetryNetwork(const ControllerOptions& options) {
+  if (!socketcan::IsCanPort(options.port)) return transport::ParseLcmNetwork(options.port);
+  return transport::ParseLcmNetwork(options.telemetry.empty() ? "lcm" : options.telemetry);
+}
+
+void ApplyPort(const ControllerOptions& options, config::RigFile& rig) {
+  if (!socketcan::IsCanPort(options.port)) return;
+  socketcan::ApplyWireDelay(rig, socketcan::PlanConnection(rig, options.rig, options.port).budget);
+}
+
+std::unique_ptr<RigConnection> Connect(const ControllerOptions& options,
+                                       const config::RigFile& rig) {
+  if (!socketcan::IsCanPort(options.port)) {
+    return std::make_unique<LcmConnection>(transport::ParseLcmNetwork(options.port),
+                                           rig.numbers.axes());
+  }
+  return std::make_unique<CanPortConnection>(
+      socketcan::PlanConnection(rig, options.rig, options.port), options.realtime);
+}
+
+}  // namespace levitas::controller_program

@@ -1,0 +1,38 @@
+#pragma once
+// The port that --port names, with everything it stands on.
+//
+// Failure  Problem: 2 for a port that cannot be read, 3 for a rig whose buses do not carry the
+// loop,
+//          1 when sockets cannot be made.
+
+#include <memory>
+#include <string>
+
+#include "config/rig_file.hpp"
+#include "controller/port/rig_port.hpp"
+#include "controller/program/controller_options.hpp"
+#include "transport/lcm_network.hpp"
+
+namespace levitas::controller_program {
+
+class RigConnection {
+ public:
+  virtual ~RigConnection() = default;
+  [[nodiscard]] virtual port::RigPort& port() noexcept = 0;
+  /// For people: where the rig should be, and the program that simulates one there.
+  [[nodiscard]] virtual std::string Where() const = 0;
+  [[nodiscard]] virtual const char* SimulatedRig() const noexcept = 0;
+  /// [ns] from the rig's sampling instant until its frame is here, for the grid in real time.
+  [[nodiscard]] virtual std::int64_t phase_ns() const noexcept = 0;
+};
+
+/// Of the port with LCM, else of --telemetry.
+[[nodiscard]] transport::LcmNetwork TelemetryNetwork(const ControllerOptions& options);
+
+/// What the port changes of the rig's description: the time on the wire of its buses is delay.
+void ApplyPort(const ControllerOptions& options, config::RigFile& rig);
+
+[[nodiscard]] std::unique_ptr<RigConnection> Connect(const ControllerOptions& options,
+                                                     const config::RigFile& rig);
+
+}  // namespace levitas::controller_program

@@ -1,0 +1,48 @@
+// amb-rig: the simulated rig behind CAN buses, as a real one stands there, with its own watchdog.
+// The rotor starts at rest in the touchdown bearings.
+
+#include <fmt/core.h>
+
+#include "hil/can_port/can_rig_link.hpp"
+#include "hil/socketcan/can_connection.hpp"
+#include "hil/socketcan/socket_can.hpp"
+#include "plant_sim/run/plant_run.hpp"
+
+namespace {
+
+using namespace levitas;
+
+// A controller in lockstep answers within milliseconds, or it is dead or stopped.
+constexpr std::int64_t kSilenceNs = 1'000'000'000;
+
+constexpr plant_run::PlantProgram kProgram{
+    "amb-rig", "Simulated magnetic bearing rig behind CAN buses, with the watchdog of a real one",
+    "can (interfaces of the rig's file), or can:IF[,IF...]", "can", 20};
+
+ExitStatus Run(const plant_run::PlantOptions& options) {
+  config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
+  if (!socketcan::IsCanPort(options.port)) {
+    throw Problem(
+        ExitStatus::kUsage,
+        fmt::format("--port \"{}\": allowed: can, or can:IF[,IF...]; over LCM the simulated "
+                    "rig is amb-plant",
+                    options.port));
+  }
+  const auto connection = socketcan::PlanConnection(rig, options.rig, options.port);
+  socketcan::ApplyWireDelay(rig, connection.budget);
+  socketcan::SocketCan access(connection.layout, connection.buses, can::Sender::kRig);
+  can_port::CanRigLink link(connection.layout, connection.buses, access);
+  fmt::print(stderr,
+             "amb-rig: from sample to current {:.2f} periods, on the wire {:.1f} us of it\n",
+             rig.plant.delay_samples, connection.budget.transport_s() * 1e6);
+  return plant_run::RunPlant({.program = kProgram,
+                              .options = options,
+                              .rig = rig,
+                              .link = link,
+                              .where = connection.text,
+                              .silence_ns = kSilenceNs});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return plant_run::MainOf(kProgram, argc, argv, Run); }

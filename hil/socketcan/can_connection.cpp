@@ -1,0 +1,109 @@
+#include "hil/socketcan/can_connection.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "common/problem.hpp"
+
+namespace levitas::socketcan {
+namespace {
+
+constexpr std::size_t kMaxName = 15;  // of an interface, IFNAMSIZ less its end
+
+[[noreturn]] void Refuse(const std::string& port, const std::string& why) {
+  throw Problem(ExitStatus::kUsage,
+                fmt::format("--port \"{}\": {}; allowed: can (interfaces of the rig's file), or "
+                            "can:IF[,IF...], for example can:vcan0",
+                            port, why));
+}
+
+std::vector<std::string> InterfacesOf(const std::string& port) {
+  std::vector<std::string> names;
+  if (port == "can") return names;
+  std::istringstream list(port.substr(std::string("can:").size()));
+  std::string name;
+  while (std::getline(list, name, ',')) {
+    if (name.empty() || name.size() > kMaxName || name.find_first_of(" /:") != std::string::npos) {
+      Refuse(port, fmt::format("\"{}\" is no name of an interface", name));
+    }
+    names.push_back(name);
+  }
+  if (names.empty() || port.back() == ',') Refuse(port, "no interface named");
+  return names;
+}
+
+/// Buses that share one real wire are one bus.
+std::vector<can::BusConfig> MergeShared(std::vector<can::BusConfig> buses,
+                                        bool (*is_virtual)(const std::string&)) {
+  std::vector<can::BusConfig> merged;
+  for (const can::BusConfig& bus : buses) {
+    const auto same = std::find_if(merged.begin(), merged.end(), [&](const auto& other) {
+      return other.interface == bus.interface;
+    });
+    if (same == merged.end() || is_virtual(bus.interface)) {
+      merged.push_back(bus);
+      continue;
+    }
+    same->name += " and " + bus.name;
+    same->carries = can::Carries::kEverything;
+    same->load_limit = std::min(same->load_limit, bus.load_limit);
+    same->rates.arbitration_bit_per_s =
+        std::min(same->rates.arbitration_bit_per_s, bus.rates.arbitration_bit_per_s);
+    same->rates.data_bit_per_s = std::min(same->rates.data_bit_per_s, bus.rates.data_bit_per_s);
+  }
+  return merged;
+}
+
+}  // namespace
+
+bool IsCanPort(const std::string& port) { return port == "can" || port.starts_with("can:"); }
+
+bool IsVirtual(const std::string& interface) {
+  std::error_code none;
+  const auto device = std::filesystem::read_symlink("/sys/class/net/" + interface, none);
+  return device.string().find("/virtual/") != std::string::npos;
+}
+
+CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_name,
+                             const std::string& port, bool (*is_virtual)(const std::string&)) {
+  const std::vector<std::string> interfaces = InterfacesOf(port);
+  if (rig.buses.empty()) {
+    throw BadInput(
+        fmt::format("{}: names no CAN buses; --port {} needs a section buses, see docs/can.md",
+                    rig_name, port));
+  }
+  if (interfaces.size() > rig.buses.size()) {
+    Refuse(port, fmt::format("{} interfaces for the {} buses of {}", interfaces.size(),
+                             rig.buses.size(), rig_name));
+  }
+  CanConnection connection;
+  connection.buses = rig.buses;
+  for (std::size_t at = 0; at < connection.buses.size() && !interfaces.empty(); ++at) {
+    connection.buses[at].interface = interfaces[std::min(at, interfaces.size() - 1)];
+  }
+  connection.buses = MergeShared(connection.buses, is_virtual);
+  connection.layout = can::MakeLayout(rig.numbers, can::FormatOf(connection.buses));
+  connection.budget = can::MakeBudget(connection.layout, connection.buses);
+  if (!connection.budget.fits()) {
+    std::string text = can::RefusalText(connection.budget);
+    text.pop_back();
+    throw BadInput(fmt::format("{}: {}", rig_name, text));
+  }
+  connection.virtual_bus = true;
+  for (const can::BusConfig& bus : connection.buses) {
+    connection.virtual_bus = connection.virtual_bus && is_virtual(bus.interface);
+    connection.text +=
+        fmt::format("{}{} ({})", connection.text.empty() ? "can:" : ",", bus.interface, bus.name);
+  }
+  return connection;
+}
+
+void ApplyWireDelay(config::RigFile& rig, const can::Budget& budget) {
+  rig.plant.delay_samples =
+      std::max(rig.plant.delay_samples, budget.transport_s() * budget.rate_hz);
+}
+
+}  // namespace levitas::socketcan

@@ -1,0 +1,120 @@
+#pragma once
+// The shipped rig and its commissioned controller in one thread, with a bus of the kernel between:
+// period by period, so that a fault lies in a known cycle.
+
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "config/rig_file.hpp"
+#include "controller/cycle/control_cycle.hpp"
+#include "controller/rt/clock.hpp"
+#include "hil/can_port/can_rig_link.hpp"
+#include "hil/can_port/can_rig_port.hpp"
+#include "hil/socketcan/can_connection.hpp"
+#include "hil/socketcan/socket_can.hpp"
+#include "plant_sim/plant/plant.hpp"
+
+namespace levitas::test {
+
+class BusLoop {
+ public:
+  static constexpr std::uint32_t kWatchdogPeriods = 20;
+
+  explicit BusLoop(const std::string& port)
+      : rig_file_(config::LoadRig(config::FindConfig("flexible_rotor", "rigs"))),
+        plan_(socketcan::PlanConnection(rig_file_, "flexible_rotor", port)),
+        rig_bus_(plan_.layout, plan_.buses, can::Sender::kRig),
+        controller_bus_(plan_.layout, plan_.buses, can::Sender::kController),
+        link_(plan_.layout, plan_.buses, rig_bus_),
+        port_(plan_.layout, plan_.buses, {}, controller_bus_),
+        control_(CycleOf(rig_file_)),
+        plant_(Delayed(rig_file_, plan_), 1) {
+    plant_.RestInTouchdown();
+  }
+
+  /// One period. The rig is silent when `rig_sends` is false.
+  const cycle::CycleOutputs& Step(OperatorCommand command = OperatorCommand::kNone,
+                                  bool rig_sends = true) {
+    SensorFrame frame = plant_.Sample();
+    frame.cycle = cycles;
+    frame.rig_session = 1;
+    if (held_ > 0) frame.rig_status |= kRigCurrentHeld;
+    if (rig_sends) link_.Send(frame);
+    if (between) between();
+    in_.cycle = cycles;
+    in_.frame_present = port_.Read(in_.frame, 0) == port::ReadResult::kFrame;
+    in_.op.command = command;
+    out = control_.Step(in_);
+    port_.Write(out.current);
+    Answer();
+    plant_.Advance(command_);
+    ++cycles;
+    return out;
+  }
+
+  /// Lifts and settles; false when the rotor does not levitate.
+  bool Levitate() {
+    Step(OperatorCommand::kLift);
+    while (cycles < 40'000 && out.mode != Mode::kLevitating) Step();
+    for (int settle = 0; settle < 500; ++settle) Step();
+    return out.mode == Mode::kLevitating && out.fault == Fault::kNone;
+  }
+  /// Cycles until the amplifiers are off, counted from now; -1 when it does not happen in `limit`.
+  int StepsUntilOff(int limit, bool rig_sends = true) {
+    for (int step = 1; step <= limit; ++step) {
+      Step(OperatorCommand::kNone, rig_sends);
+      if (!out.current.amplifiers_enabled) return step;
+    }
+    return -1;
+  }
+
+  [[nodiscard]] const can_port::CanRigPort& port() const { return port_; }
+  [[nodiscard]] can_port::CanRigLink& link() { return link_; }
+  [[nodiscard]] const can::Layout& layout() const { return plan_.layout; }
+  [[nodiscard]] bool rig_energised() const { return command_.amplifiers_enabled; }
+
+  std::function<void()> between;  ///< after the rig has sent, before the controller reads
+  cycle::CycleOutputs out;
+  std::uint64_t cycles{0};
+
+ private:
+  static cycle::CycleConfig CycleOf(const config::RigFile& rig) {
+    const auto controller = config::LoadController(
+        config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+    return {rig.numbers, controller.law, controller.supervisor};
+  }
+  static plant::PlantConfig Delayed(config::RigFile rig, const socketcan::CanConnection& plan) {
+    socketcan::ApplyWireDelay(rig, plan.budget);
+    return rig.plant;
+  }
+  /// The rig's side of the answer: hold, and the watchdog.
+  void Answer() {
+    CurrentFrame current;
+    if (link_.Receive(current, 0) == port::RigLink::Answer::kNothing) {
+      if (++held_ >= kWatchdogPeriods) command_ = {.amplifiers_enabled = false};
+      return;
+    }
+    held_ = 0;
+    command_ = {.control_current_a = current.control_current_a,
+                .bias_current_a = current.bias_current_a,
+                .amplifiers_enabled = current.amplifiers_enabled,
+                .drive_enabled = current.drive_enabled,
+                .speed_set_point_rad_per_s = current.speed_set_point_rad_per_s,
+                .acceleration_limit_rad_per_s2 = current.acceleration_limit_rad_per_s2};
+  }
+
+  config::RigFile rig_file_;
+  socketcan::CanConnection plan_;
+  socketcan::SocketCan rig_bus_;
+  socketcan::SocketCan controller_bus_;
+  can_port::CanRigLink link_;
+  can_port::CanRigPort port_;
+  cycle::ControlCycle control_;
+  plant::Plant plant_;
+  cycle::CycleInputs in_;
+  plant::PlantCommand command_{.amplifiers_enabled = false};
+  std::uint32_t held_{0};
+};
+
+}  // namespace levitas::test
