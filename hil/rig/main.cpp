@@ -3,7 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <optional>
+
 #include "hil/can_port/can_rig_link.hpp"
+#include "hil/rig_lines/rig_lines.hpp"
 #include "hil/socketcan/can_connection.hpp"
 #include "hil/socketcan/socket_can.hpp"
 #include "plant_sim/run/plant_run.hpp"
@@ -18,6 +21,17 @@ constexpr std::int64_t kSilenceNs = 1'000'000'000;
 constexpr plant_run::PlantProgram kProgram{
     "amb-rig", "Simulated magnetic bearing rig behind CAN buses, with the watchdog of a real one",
     "can (interfaces of the rig's file), or can:IF[,IF...]", "can", 20};
+
+/// The lines of the rig's file, on chips of gpio-sim.
+class LineGate final : public plant_run::AmplifierGate {
+ public:
+  explicit LineGate(const gpio::LinesConfig& config) : lines_(config) {}
+  State Sample(std::int64_t now_ns) noexcept override { return {.open = lines_.Poll(now_ns)}; }
+  void Turn(double angle_rad) noexcept override { lines_.Turn(angle_rad); }
+
+ private:
+  gpio::RigLines lines_;
+};
 
 ExitStatus Run(const plant_run::PlantOptions& options) {
   config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
@@ -35,11 +49,16 @@ ExitStatus Run(const plant_run::PlantOptions& options) {
   fmt::print(stderr,
              "amb-rig: from sample to current {:.2f} periods, on the wire {:.1f} us of it\n",
              rig.plant.delay_samples, connection.budget.transport_s() * 1e6);
+  std::optional<LineGate> gate;
+  // As the controller: in lockstep time is not the machine's, and the lines' time-outs mean
+  // nothing.
+  if (!rig.lines.empty() && options.realtime && !options.no_lines) gate.emplace(rig.lines);
   return plant_run::RunPlant({.program = kProgram,
                               .options = options,
                               .rig = rig,
                               .link = link,
                               .where = connection.text,
+                              .gate = gate ? &*gate : nullptr,
                               .silence_ns = kSilenceNs});
 }
 

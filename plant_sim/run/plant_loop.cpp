@@ -85,6 +85,7 @@ void PlantLoop::Advance() noexcept {
   const plant::PlantCommand command = Allowed();
   const std::int64_t start_ns = timed ? clock_.NowNs() : 0;
   plant_.Advance(command);
+  if (gate_ != nullptr) gate_->Turn(plant_.angle_rad());
   if (timed) statistics_.advance.Add(clock_.NowNs() - start_ns);
   ++statistics_.cycles;
   NoteContact();

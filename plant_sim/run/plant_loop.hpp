@@ -73,6 +73,8 @@ class AmplifierGate {
   virtual ~AmplifierGate() = default;
   /// Loop thread, once each period; never waits.
   [[nodiscard]] virtual State Sample(std::int64_t now_ns) noexcept = 0;
+  /// Loop thread, once each period: where the shaft stands.
+  virtual void Turn(double /*angle_rad*/) noexcept {}
 };
 
 class PlantLoop {

@@ -26,6 +26,8 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
                  "Switch the amplifiers off after this many periods without a valid current")
       ->check(CLI::Range(1U, 1'000'000U))
       ->capture_default_str();
+  app.add_flag("--no-lines", options.no_lines,
+               "amb-rig: leave the rig file's lines (enable, heartbeat ...) alone");
   app.add_flag("--stay", options.stay, "When the controller ends, wait for the next one");
   try {
     app.parse(argc, argv);

@@ -18,6 +18,7 @@ struct PlantOptions {
   bool require_realtime{false};
   bool stay{false};  ///< wait for the next controller instead of ending with the present one
   std::uint32_t watchdog_periods{1000};
+  bool no_lines{false};  ///< amb-rig: leave the rig file's lines alone
 };
 
 /// What differs between the programs.
