@@ -9,6 +9,7 @@
 #include "plant_sim/plant/plant_model.hpp"
 #include "tests/loop/gears/gear_motion.hpp"
 #include "tests/support/geared_rigs.hpp"
+#include "tests/support/paths.hpp"
 
 namespace levitas::test {
 namespace {
@@ -24,7 +25,7 @@ struct ReferenceLine {
 };
 
 std::vector<ReferenceLine> ReadLines() {
-  std::ifstream file(std::string(LEVITAS_TEST_DATA) + "/reference/geared_rotor_4dof_lines.csv");
+  std::ifstream file(test::DataFolder() + "/reference/geared_rotor_4dof_lines.csv");
   std::string line;
   std::getline(file, line);
   std::vector<ReferenceLine> lines;

@@ -8,6 +8,7 @@
 
 #include "tests/loop/gears/gear_motion.hpp"
 #include "tests/loop/levitation/closed_loop.hpp"
+#include "tests/support/paths.hpp"
 
 namespace levitas::test {
 namespace {
@@ -16,13 +17,12 @@ const config::RigFile& Rig(const std::string& name) {
   static std::map<std::string, config::RigFile> loaded;
   const auto found = loaded.find(name);
   if (found != loaded.end()) return found->second;
-  return loaded[name] =
-             config::LoadRig(std::string(LEVITAS_SOURCE) + "/config/rigs/" + name + ".yaml");
+  return loaded[name] = config::LoadRig(test::SourceFolder() + "/config/rigs/" + name + ".yaml");
 }
 
 cycle::CycleConfig Cycle(const std::string& rig = "geared_rotor_4dof") {
   const config::ControllerFile controller = config::LoadController(
-      std::string(LEVITAS_SOURCE) + "/config/controllers/geared_rotor.yaml", Rig(rig).numbers);
+      test::SourceFolder() + "/config/controllers/geared_rotor.yaml", Rig(rig).numbers);
   return {Rig(rig).numbers, controller.law, controller.supervisor};
 }
 
