@@ -70,10 +70,15 @@ class Observer {
   /// record does not change gravity.
   void Restart(const AxisArray& position_m);
   /// Compares with the sample, corrects, and advances one period. Returns the innovation [m].
-  AxisArray Step(const RecordedSample& sample) noexcept;
+  AxisArray Step(const RecordedSample& sample) noexcept { return Step(sample, {}); }
+  /// The same for a model whose sensors read `added_m` more than the plant's [m].
+  AxisArray Step(const RecordedSample& sample, const AxisArray& added_m) noexcept;
 
   [[nodiscard]] const Eigen::VectorXd& unknown_force_n() const noexcept { return force_n_; }
   [[nodiscard]] const plant::Plant& plant() const noexcept { return plant_; }
+  [[nodiscard]] const ObserverGain& gain() const noexcept { return *gain_; }
+  /// For models that add to what the plant does between two samples.
+  [[nodiscard]] plant::Plant& mutable_plant() noexcept { return plant_; }
 
  private:
   plant::Plant plant_;

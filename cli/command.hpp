@@ -27,5 +27,6 @@ void AddCanDbcCommand(CLI::App& app, Action& action);
 void AddDoctorCommand(CLI::App& app, Action& action);
 void AddSimulateCommand(CLI::App& app, Action& action);
 void AddIdentifyCommand(CLI::App& app, Action& action);
+void AddDiagnoseCommand(CLI::App& app, Action& action);
 
 }  // namespace levitas::cli

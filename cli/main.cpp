@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   cli::AddDoctorCommand(app, action);
   cli::AddSimulateCommand(app, action);
   cli::AddIdentifyCommand(app, action);
+  cli::AddDiagnoseCommand(app, action);
   try {
     RefuseUnknownCommand(app, argc, argv);
     app.parse(argc, argv);

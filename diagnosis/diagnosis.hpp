@@ -1,0 +1,72 @@
+#pragma once
+// What a rig does that its model does not: the search for the cause, and its answer.
+//
+// Method     1 calibrate: the nuisances within their tolerances, with a fast observer first
+// (smooth,
+//              coarse) and a slow one after it (sees slow effects), Gauss-Newton on innovations;
+//            2 screen: one pass with the sensitivities of every term gives the evidence of every
+//              hypothesis (evidence.hpp), alone and on top of others;
+//            3 refit: the best few by Gauss-Newton together with the nuisances on the nonlinear
+//            model; 4 select: forward by evidence, each cause dropped again when the others explain
+//            its
+//              share (backward check), until none gains kDecisive;
+//            5 judge: whiteness and power of what remains.
+// Answer     `effect` when a cause gains more than kDecisive nats; ties are all that come within
+//            kDecisive of it; `unknown` when power is left that no cause explains; else `none`.
+// Units      evidence in nats. Thread: blocks the caller, two threads inside.
+// Failure    BadInput for records that are too short.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/evidence.hpp"
+#include "diagnosis/remainder.hpp"
+#include "diagnosis/terms/terms.hpp"
+
+namespace levitas::diagnosis {
+
+inline constexpr double kDecisive = 5.0;  ///< [nat] odds of 150 : 1
+
+struct Settings {
+  Tolerances tolerances;
+  bool quick{};
+  std::size_t most_causes{3};
+  /// Share done and what is being done; may be empty.
+  std::function<void(double, const std::string&)> progress;
+};
+
+struct Candidate {
+  std::string effect;
+  std::string place;
+  double score{};  ///< [nat] evidence beyond nuisances and the other causes
+  std::size_t hypothesis{};
+  bool refitted{};  ///< on the nonlinear model; else from the screen
+};
+
+struct Estimate {
+  std::string effect, place, parameter, unit;
+  double value{};
+  double deviation{};
+};
+
+enum class Verdict { kNone, kEffect, kUnknown };
+
+struct Answer {
+  Verdict verdict{Verdict::kNone};
+  std::vector<Hypothesis> causes;          ///< in the order of selection
+  std::vector<std::string> also_possible;  ///< effects that the data cannot separate from the first
+  std::vector<Estimate> parameters;        ///< of the causes
+  std::vector<Estimate> calibration;       ///< of the nuisances
+  std::vector<Candidate> candidates;       ///< best place of every effect, best first
+  Remainder remainder;
+  std::vector<double> theta_calibrated;  ///< nuisances alone
+  std::vector<double> theta_extended;    ///< with the causes
+  std::vector<Trajectory> runs;          ///< of the extended model
+  double evidence{};                     ///< [nat] of all causes together
+};
+
+[[nodiscard]] Answer Diagnose(const RigView& rig, const std::vector<Record>& records,
+                              const std::vector<Term>& terms, const Settings& settings);
+
+}  // namespace levitas::diagnosis

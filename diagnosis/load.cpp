@@ -1,0 +1,85 @@
+#include "diagnosis/load.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "analysis/recorded_rows.hpp"
+#include "common/problem.hpp"
+#include "session/csv_import.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+bool IsCsv(const std::string& path) { return path.ends_with(".csv") || path.ends_with(".csv.xz"); }
+
+std::vector<analysis::RecordedRow> Rows(const std::string& session_path,
+                                        const config::RigFile& rig) {
+  session::SessionReader session(session_path);
+  return analysis::ReadRows(session, rig.numbers);
+}
+
+}  // namespace
+
+Record LoadRecord(const std::string& path, const config::RigFile& rig,
+                  const std::string& scratch_folder) {
+  Record record;
+  record.name = std::filesystem::path(path).filename().string();
+  if (IsCsv(path)) {
+    const std::string scratch =
+        (std::filesystem::path(scratch_folder) / (record.name + ".import.lcm")).string();
+    session::ImportOptions import{.data_path = path,
+                                  .out_path = scratch,
+                                  .rig = rig.numbers,
+                                  .rig_yaml = config::WriteRig(rig),
+                                  .program_version = "diagnose",
+                                  .start_utc_ns = 0};
+    session::ImportCsv(import);
+    record.rows = Rows(scratch, rig);
+    std::filesystem::remove(scratch);
+  } else {
+    record.rows = Rows(path, rig);
+  }
+  const auto levitated = static_cast<double>(
+      std::count_if(record.rows.begin(), record.rows.end(),
+                    [](const analysis::RecordedRow& row) { return row.levitated; }));
+  if (levitated * rig.numbers.period_s() < kShortest) {
+    throw BadInput(fmt::format("{}: {:.2f} s levitated, a diagnosis needs at least {} s", path,
+                               levitated * rig.numbers.period_s(), kShortest));
+  }
+  record.mean_speed_rad_per_s = analysis::MeanSpeed(record.rows);
+  return record;
+}
+
+double LargestOrbit(const std::vector<Record>& records, std::size_t axes) {
+  double largest_m = 0.0;
+  for (const Record& record : records) {
+    for (const auto& row : record.rows) {
+      for (std::size_t a = 0; a + 1 < axes && row.levitated; a += 2) {
+        largest_m =
+            std::max(largest_m, std::hypot(row.sample.position_m[a], row.sample.position_m[a + 1]));
+      }
+    }
+  }
+  return largest_m;
+}
+
+Split KeepBack(const std::vector<Record>& records, double share) {
+  Split split;
+  for (const Record& record : records) {
+    const auto count = static_cast<std::ptrdiff_t>(share * static_cast<double>(record.rows.size()));
+    Record first = record;
+    Record rest = record;
+    first.rows.resize(static_cast<std::size_t>(count));
+    rest.rows.erase(rest.rows.begin(), rest.rows.begin() + count);
+    first.mean_speed_rad_per_s = analysis::MeanSpeed(first.rows);
+    rest.mean_speed_rad_per_s = analysis::MeanSpeed(rest.rows);
+    split.kept_back.push_back(std::move(first));
+    split.fitted.push_back(std::move(rest));
+  }
+  return split;
+}
+
+}  // namespace levitas::diagnosis

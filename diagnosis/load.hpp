@@ -1,0 +1,31 @@
+#pragma once
+// Measured data for a diagnosis: sessions, or CSV (also .xz) of docs/formats.md.
+//
+// CSV        goes through session::ImportCsv into a scratch file in `scratch_folder`, so that both
+//            ways see the same rows. Currents are the commanded ones.
+// Failure    BadInput with file and line; for records of another rig or shorter than kShortest.
+
+#include <string>
+#include <vector>
+
+#include "config/rig_file.hpp"
+#include "diagnosis/model_run.hpp"
+
+namespace levitas::diagnosis {
+
+inline constexpr double kShortest = 1.0;  ///< [s]
+
+[[nodiscard]] Record LoadRecord(const std::string& path, const config::RigFile& rig,
+                                const std::string& scratch_folder);
+
+/// Largest distance of the rotor from the centre in any record [m], at the sensors.
+[[nodiscard]] double LargestOrbit(const std::vector<Record>& records, std::size_t axes);
+
+struct Split {
+  std::vector<Record> fitted, kept_back;
+};
+
+/// Keeps back the first `share` of every record.
+[[nodiscard]] Split KeepBack(const std::vector<Record>& records, double share);
+
+}  // namespace levitas::diagnosis

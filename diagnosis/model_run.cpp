@@ -1,0 +1,208 @@
+#include "diagnosis/model_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plant_sim/plant/mode_step.hpp"
+#include "plant_sim/plant/time_step.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+using plant::StateLayout;
+
+/// A term in force with its value.
+struct Active {
+  Term term;
+  double theta;
+};
+
+double Sum(const std::vector<double>& shape, const float* modal) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * static_cast<double>(modal[i]);
+  return sum;
+}
+
+class Runner {
+ public:
+  Runner(const RigView& rig, std::shared_ptr<const analysis::ObserverGain> gain,
+         const std::vector<Term>& terms, const std::vector<double>& theta)
+      : rig_(rig), observer_(rig.model, std::move(gain)), at_(rig.model->layout()) {
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      if (theta[i] != 0.0) active_.push_back({terms[i], theta[i]});
+    }
+    for (std::size_t m = 0; m < rig.modes; ++m) {
+      steps_.push_back(
+          plant::MakeModeStep(rig.omega_rad_per_s[m], rig.damping_ratio[m], rig.period_s));
+    }
+    for (const auto& bearing : rig.model->config().bearings) {
+      filters_.push_back(
+          sensor::MakeFilterStep(bearing.sensor.bandwidth_hz, bearing.sensor.gain, rig.period_s));
+    }
+  }
+
+  void Restart(const AxisArray& position_m) {
+    observer_.Restart(position_m);
+    before_a_ = now_a_ = {};
+    next_reading_m_ = {};
+  }
+
+  void Step(const analysis::RecordedRow& row, Moment& moment) {
+    BeforeSample(row, moment);
+    Addition read;
+    read.reading_m = next_reading_m_;
+    for (Active& a : active_) {
+      if (a.term.read) a.term.read(moment, a.theta, read);
+    }
+    const auto& polarity = rig_.model->config().sensor_polarity;
+    AxisArray added_m{};
+    for (std::size_t i = 0; i < rig_.axes; ++i) added_m[i] = polarity[i] * read.reading_m[i];
+    const AxisArray innovation_m = observer_.Step(row.sample, added_m);
+    for (std::size_t i = 0; i < rig_.axes; ++i) {
+      moment.innovation_m[i] = static_cast<float>(polarity[i] * innovation_m[i]);
+    }
+    AfterPeriod(row, moment);
+    Addition drive;
+    for (Active& a : active_) {
+      if (a.term.drive) a.term.drive(moment, a.theta, drive);
+    }
+    next_reading_m_ = drive.reading_m;
+    if (!active_.empty()) Apply(moment, drive);
+  }
+
+ private:
+  void BeforeSample(const analysis::RecordedRow& row, Moment& moment) {
+    const auto& polarity = rig_.model->config().sensor_polarity;
+    const auto state = observer_.plant().state();
+    for (std::size_t i = 0; i < rig_.axes; ++i) {
+      moment.reading_m[i] = static_cast<float>(state[at_.sensor + i]);
+      moment.measured_m[i] = static_cast<float>(polarity[i] * row.sample.position_m[i]);
+    }
+    for (std::size_t i = 0; i < 2 * rig_.modes; ++i) {
+      moment.read_q[i] = static_cast<float>(state[at_.q_x + i]);
+      moment.read_v[i] = static_cast<float>(state[at_.v_x + i]);
+    }
+    moment.angle_rad = row.sample.angle_rad;
+    moment.speed_rad_per_s = static_cast<float>(row.sample.speed_rad_per_s);
+    const auto& wiring = rig_.model->config().actuator_polarity;
+    for (std::size_t i = 0; i < rig_.axes; ++i) {
+      const double commanded_a = wiring[i] * row.sample.command.control_current_a[i];
+      const double limit_a = rig_.bias_a(i);
+      moment.command_before_a[i] = before_a_[i];
+      moment.command_now_a[i] = now_a_[i];
+      moment.command_next_a[i] = static_cast<float>(std::clamp(commanded_a, -limit_a, limit_a));
+    }
+    before_a_ = now_a_;
+    now_a_ = moment.command_next_a;
+    start_ = {state.begin(), state.end()};
+    const auto& gain = observer_.gain();
+    gain_state_ = &gain.state;
+  }
+
+  void AfterPeriod(const analysis::RecordedRow& row, Moment& m) {
+    const auto end = observer_.plant().state();
+    // The start after the correction, which the observer does not keep.
+    Eigen::VectorXd innovation(static_cast<Eigen::Index>(rig_.axes));
+    for (std::size_t i = 0; i < rig_.axes; ++i) {
+      innovation[static_cast<Eigen::Index>(i)] = static_cast<double>(m.innovation_m[i]);
+    }
+    const Eigen::VectorXd correction = *gain_state_ * innovation;
+    const auto start = [&](std::size_t i) {
+      return start_[i] + correction[static_cast<Eigen::Index>(i)];
+    };
+    for (std::size_t i = 0; i < 2 * rig_.modes; ++i) {
+      m.q[i] = static_cast<float>(0.5 * (start(at_.q_x + i) + end[at_.q_x + i]));
+      m.v[i] = static_cast<float>(0.5 * (start(at_.v_x + i) + end[at_.v_x + i]));
+    }
+    for (std::size_t a = 0; a < rig_.axes; ++a) {
+      m.coil_start_a[a] = static_cast<float>(start(at_.coil_current + a));
+      m.coil_end_a[a] = static_cast<float>(end[at_.coil_current + a]);
+      const double mid_a = 0.5 * (m.coil_start_a[a] + m.coil_end_a[a]);
+      const auto& magnet = rig_.magnet(a);
+      const double x_m = Sum(magnet.actuator_shape, m.q.data() + (a % 2) * rig_.modes);
+      const double bias_a = row.sample.command.bias_current_a;
+      m.actuator_m[a] = static_cast<float>(x_m);
+      const double force_n = magnet::Force(magnet.magnet, bias_a, mid_a, x_m);
+      constexpr double kStepA = 1e-4;
+      constexpr double kStepM = 1e-8;
+      m.force_n[a] = static_cast<float>(force_n);
+      m.force_per_a[a] = static_cast<float>(
+          (magnet::Force(magnet.magnet, bias_a, mid_a + kStepA, x_m) - force_n) / kStepA);
+      m.force_per_m[a] = static_cast<float>(
+          (magnet::Force(magnet.magnet, bias_a, mid_a, x_m + kStepM) - force_n) / kStepM);
+    }
+  }
+
+  void Apply(const Moment& m, const Addition& add) {
+    const auto state = observer_.mutable_plant().mutable_state();
+    std::vector<double>& acceleration = acceleration_;
+    acceleration.assign(add.modal.begin(),
+                        add.modal.begin() + static_cast<std::ptrdiff_t>(2 * rig_.modes));
+    for (std::size_t a = 0; a < rig_.axes; ++a) {
+      state[at_.coil_current + a] += add.coil_end_a[a];
+      const double force_n =
+          add.force_n[a] + static_cast<double>(m.force_per_a[a]) * add.coil_mean_a[a];
+      const auto& shape = rig_.magnet(a).actuator_shape;
+      for (std::size_t i = 0; i < rig_.modes; ++i) {
+        acceleration[(a % 2) * rig_.modes + i] += shape[i] * force_n;
+      }
+    }
+    moved_.assign(2 * rig_.modes, 0.0F);
+    for (std::size_t i = 0; i < 2 * rig_.modes; ++i) {
+      const plant::ModeStep& step = steps_[i % rig_.modes];
+      moved_[i] = static_cast<float>(step.x0 * acceleration[i]);
+      state[at_.q_x + i] += step.x0 * acceleration[i];
+      state[at_.v_x + i] += step.v0 * acceleration[i];
+    }
+    for (std::size_t a = 0; a < rig_.axes; ++a) {
+      state[at_.sensor + a] += filters_[a / 2].end * Sum(rig_.magnet(a).sensor_shape,
+                                                         moved_.data() + (a % 2) * rig_.modes);
+    }
+  }
+
+  const RigView& rig_;
+  analysis::Observer observer_;
+  StateLayout at_;
+  std::vector<Active> active_;
+  std::vector<plant::ModeStep> steps_;
+  std::vector<sensor::FilterStep> filters_;
+  AxisFloats before_a_{}, now_a_{};
+  std::array<double, kMaxAxes> next_reading_m_{};
+  std::vector<double> start_, acceleration_;
+  std::vector<float> moved_;
+  const Eigen::MatrixXd* gain_state_{nullptr};
+};
+
+}  // namespace
+
+Trajectory RunModel(const RigView& rig, const Record& record,
+                    std::shared_ptr<const analysis::ObserverGain> gain,
+                    const std::vector<Term>& terms, const std::vector<double>& theta,
+                    double settling_s) {
+  Trajectory run;
+  run.gain = gain;
+  run.moments.reserve(record.rows.size());
+  Runner runner(rig, std::move(gain), terms, theta);
+  const auto settling_rows = static_cast<std::uint64_t>(std::llround(settling_s / rig.period_s));
+  std::uint64_t since_start = 0;
+  const analysis::RecordedRow* previous = nullptr;
+  for (const auto& row : record.rows) {
+    const bool continues =
+        previous != nullptr && row.cycle == previous->cycle + 1 && previous->levitated;
+    previous = &row;
+    if (!row.levitated) continue;
+    Moment& moment = run.moments.emplace_back();
+    moment.record = record.number;
+    moment.time_s = static_cast<double>(row.cycle) * rig.period_s;
+    if (!continues) {
+      runner.Restart(row.sample.position_m);
+      moment.restarted = true;
+      since_start = 0;
+    }
+    runner.Step(row, moment);
+    moment.counts = since_start++ >= settling_rows;
+  }
+  return run;
+}
+
+}  // namespace levitas::diagnosis

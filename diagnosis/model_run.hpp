@@ -1,0 +1,36 @@
+#pragma once
+// The nonlinear model driven through a record: plant, observer and the terms in force.
+//
+// Equation   analysis/observer.hpp, with what the terms add (term.hpp).
+// Settling   the first `settling_s` after every (re)start are run and do not count.
+// Cost       2 to 3 us per sample. Thread: any; one call per thread.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/innovations.hpp"
+#include "diagnosis/rig_view.hpp"
+#include "diagnosis/term.hpp"
+
+namespace levitas::diagnosis {
+
+struct Record {
+  std::string name;
+  std::vector<analysis::RecordedRow> rows;
+  double mean_speed_rad_per_s{};
+  std::uint32_t number{};  ///< within its diagnosis
+};
+
+struct Trajectory {
+  std::vector<Moment> moments;
+  std::shared_ptr<const analysis::ObserverGain> gain;
+};
+
+/// `theta` has one value per term. Terms at 0 cost nothing.
+[[nodiscard]] Trajectory RunModel(const RigView& rig, const Record& record,
+                                  std::shared_ptr<const analysis::ObserverGain> gain,
+                                  const std::vector<Term>& terms, const std::vector<double>& theta,
+                                  double settling_s);
+
+}  // namespace levitas::diagnosis

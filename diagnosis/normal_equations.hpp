@@ -1,0 +1,44 @@
+#pragma once
+// Sums over all records from which every hypothesis is judged: J^T J, J^T e and e^T e of the
+// whitened innovations.
+//
+// Whitening  an autoregressive filter per channel, from the innovations of the calibrated model
+//            (Yule-Walker), scaled to unit variance; the same filter for every hypothesis.
+// Weights    the filters' variance; one number per channel.
+// Cost       one pass over the records with all terms; two threads share the blocks of terms.
+// Memory     a chunk of the derivatives at a time, never all of them.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/sensitivity.hpp"
+
+namespace levitas::diagnosis {
+
+struct Whitener {
+  std::size_t order{};
+  std::vector<std::vector<double>> filter;  ///< per axis: 1, -a1, -a2 ... over its noise's rms
+};
+
+/// From the innovations that count. `order` 0 only scales.
+[[nodiscard]] Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes,
+                                    std::size_t order);
+
+struct NormalEquations {
+  Eigen::MatrixXd jtj;  ///< terms x terms
+  Eigen::VectorXd jte;
+  double ete{};
+  std::size_t values{};  ///< whitened innovations summed
+};
+
+/// `runs` are the model's runs at `theta`.
+[[nodiscard]] NormalEquations Accumulate(const RigView& rig, const std::vector<Trajectory>& runs,
+                                         const std::vector<Term>& terms,
+                                         const std::vector<double>& theta, const Whitener& whitener,
+                                         const std::vector<std::size_t>& chosen);
+
+/// e^T e alone.
+[[nodiscard]] double SquaredSum(const std::vector<Trajectory>& runs, std::size_t axes,
+                                const Whitener& whitener, std::size_t* values = nullptr);
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,61 @@
+#include "diagnosis/rig_view.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "common/problem.hpp"
+#include "diagnosis/moment.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+std::size_t NearestNode(const std::vector<double>& nodes_m, double z_m) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < nodes_m.size(); ++i) {
+    if (std::abs(nodes_m[i] - z_m) < std::abs(nodes_m[best] - z_m)) best = i;
+  }
+  return best;
+}
+
+std::vector<double> Row(const Eigen::MatrixXd& matrix, std::size_t row) {
+  std::vector<double> values(static_cast<std::size_t>(matrix.cols()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i));
+  }
+  return values;
+}
+
+}  // namespace
+
+RigView::RigView(const RigNumbers& rig_numbers, const plant::PlantConfig& plant)
+    : numbers(rig_numbers),
+      model(std::make_shared<const plant::PlantModel>(plant)),
+      axes(model->axes()),
+      modes(model->layout().modes),
+      period_s(static_cast<double>(plant.period_ns) * 1e-9) {
+  if (modes > kMaxModes) {
+    throw BadInput(
+        fmt::format("rig {} has {} modes per plane, a diagnosis takes at most {}: lower "
+                    "rotor.modes_per_plane",
+                    numbers.name, modes, kMaxModes));
+  }
+  const auto& rotor = model->parameters().modes;
+  for (std::size_t i = 0; i < modes; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    omega_rad_per_s.push_back(rotor.frequency_rad_per_s[at]);
+    damping_ratio.push_back(rotor.damping_ratio[at]);
+  }
+}
+
+std::vector<double> RigView::Shape(double z_m) const {
+  const auto& rotor = model->parameters().modes;
+  return Row(rotor.shapes, NearestNode(rotor.node_z_m, z_m));
+}
+
+std::vector<double> RigView::Slope(double z_m) const {
+  const auto& rotor = model->parameters().modes;
+  return Row(rotor.slopes, NearestNode(rotor.node_z_m, z_m));
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,158 @@
+#include "diagnosis/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <thread>
+
+#include "analysis/recorded_rows.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+/// What every (re)start leaves behind and no parameter explains; the slow rest of it is small
+/// beside what static loads do.
+constexpr double kSettling = 0.3;  // [s]
+
+}  // namespace
+
+Search::Search(const RigView& rig, const std::vector<Term>& terms, const Settings& settings)
+    : rig_(rig), terms_(terms), settings_(settings), hypotheses_(MakeHypotheses(rig, terms)) {}
+
+Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpeed& speed) const {
+  Gains gains;
+  gains.reserve(records.size());
+  for (const Record& record : records) {
+    analysis::ObserverTuning tuning;
+    tuning.speed_rad_per_s = record.mean_speed_rad_per_s;
+    tuning.force_noise_share = speed.force_noise_share;
+    tuning.force_drift_share = speed.force_drift_share;
+    gains.push_back(std::make_shared<const analysis::ObserverGain>(
+        analysis::DesignObserver(rig_.model->config(), tuning)));
+  }
+  return gains;
+}
+
+std::vector<Trajectory> Search::Run(const std::vector<Record>& records, const Gains& gains,
+                                    const std::vector<double>& theta) const {
+  std::vector<Trajectory> runs(records.size());
+  const auto work = [&](std::size_t first) {
+    for (std::size_t i = first; i < records.size(); i += 2) {
+      runs[i] = RunModel(rig_, records[i], gains[i], terms_, theta, kSettling);
+    }
+  };
+  std::thread other(work, 1);
+  work(0);
+  other.join();
+  return runs;
+}
+
+View Search::Linearise(const std::vector<Record>& records, const Gains& gains,
+                       const std::vector<double>& theta, std::size_t whitening_order,
+                       const std::vector<std::size_t>& chosen) const {
+  View view;
+  view.runs = Run(records, gains, theta);
+  view.whitener = MakeWhitener(view.runs, rig_.axes, whitening_order);
+  view.problem = Linearise(view.runs, theta, view.whitener, chosen);
+  return view;
+}
+
+LinearProblem Search::Linearise(const std::vector<Trajectory>& runs,
+                                const std::vector<double>& theta, const Whitener& whitener,
+                                const std::vector<std::size_t>& chosen) const {
+  const NormalEquations part = Accumulate(rig_, runs, terms_, theta, whitener, chosen);
+  NormalEquations all;
+  const auto size = static_cast<Eigen::Index>(terms_.size());
+  all.jtj = Eigen::MatrixXd::Zero(size, size);
+  all.jte = Eigen::VectorXd::Zero(size);
+  all.ete = part.ete;
+  all.values = part.values;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(chosen[i]);
+    all.jte[row] = part.jte[static_cast<Eigen::Index>(i)];
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      all.jtj(row, static_cast<Eigen::Index>(chosen[k])) =
+          part.jtj(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+    }
+  }
+  Eigen::VectorXd scaled(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    scaled[i] = theta[static_cast<std::size_t>(i)] / terms_[static_cast<std::size_t>(i)].scale();
+  }
+  return AtOrigin(all, scaled);
+}
+
+std::vector<Hypothesis> Search::Select(const LinearProblem& problem) const {
+  std::vector<Hypothesis> causes;
+  while (causes.size() < settings_.most_causes) {
+    const Evidence base(problem, terms_, causes);
+    const Hypothesis* best = nullptr;
+    double best_gain = kDecisive;
+    for (const Hypothesis& h : hypotheses_) {
+      const double gain = base.Gain(h);
+      if (gain > best_gain) {
+        best = &h;
+        best_gain = gain;
+      }
+    }
+    if (best == nullptr) break;
+    causes.push_back(*best);
+    // Backward: a cause that the later ones have made superfluous goes.
+    for (std::size_t i = 0; i + 1 < causes.size();) {
+      std::vector<Hypothesis> rest = causes;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      if (Evidence(problem, terms_, rest).Gain(causes[i]) < kDecisive) {
+        causes = rest;
+      } else {
+        ++i;
+      }
+    }
+  }
+  return causes;
+}
+
+std::vector<double> Search::Solve(const LinearProblem& problem,
+                                  const std::vector<Hypothesis>& causes) const {
+  const Fit fit = Evidence(problem, terms_, causes).Solve();
+  std::vector<double> theta(terms_.size());
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    theta[i] = fit.theta[static_cast<Eigen::Index>(i)] * terms_[i].scale();
+    if (terms_[i].positive) theta[i] = std::max(theta[i], 0.0);
+  }
+  return theta;
+}
+
+std::vector<std::size_t> Search::Nuisances() const { return NuisancesAnd({}); }
+
+std::vector<std::size_t> Search::Everything() const {
+  std::vector<std::size_t> all(terms_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+std::vector<std::size_t> Search::NuisancesAnd(const std::vector<Hypothesis>& causes) const {
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const bool moved = std::any_of(causes.begin(), causes.end(), [i](const Hypothesis& h) {
+      return std::find(h.terms.begin(), h.terms.end(), i) != h.terms.end();
+    });
+    if (terms_[i].nuisance() || moved) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+std::vector<Record> Tails(const std::vector<Record>& records, std::size_t rows) {
+  std::vector<Record> tails;
+  tails.reserve(records.size());
+  for (const Record& record : records) {
+    Record tail = record;
+    if (tail.rows.size() > rows) {
+      tail.rows.erase(tail.rows.begin(), tail.rows.end() - static_cast<std::ptrdiff_t>(rows));
+    }
+    tail.mean_speed_rad_per_s = analysis::MeanSpeed(tail.rows);
+    tails.push_back(std::move(tail));
+  }
+  return tails;
+}
+
+}  // namespace levitas::diagnosis

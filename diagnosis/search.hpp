@@ -1,0 +1,69 @@
+#pragma once
+// The search for the causes: calibration, screen, forward selection, refit (diagnosis.hpp).
+//
+// Thread  blocks the caller, two threads inside.
+
+#include <memory>
+#include <vector>
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace levitas::diagnosis {
+
+/// Observers of all records for one tuning.
+using Gains = std::vector<std::shared_ptr<const analysis::ObserverGain>>;
+
+/// One linearisation of everything, on the records it was made with.
+struct View {
+  std::vector<Trajectory> runs;
+  Whitener whitener;
+  LinearProblem problem;
+};
+
+/// Fast: coarse and smooth. Slow: what it does not explain by force noise, the model must.
+struct ObserverSpeed {
+  double force_noise_share;
+  double force_drift_share;
+};
+inline constexpr ObserverSpeed kFast{0.01, 1e-4};
+inline constexpr ObserverSpeed kSlow{0.001, 1e-6};
+
+class Search {
+ public:
+  Search(const RigView& rig, const std::vector<Term>& terms, const Settings& settings);
+
+  [[nodiscard]] Gains DesignGains(const std::vector<Record>& records,
+                                  const ObserverSpeed& speed) const;
+  [[nodiscard]] std::vector<Trajectory> Run(const std::vector<Record>& records, const Gains& gains,
+                                            const std::vector<double>& theta) const;
+  /// Runs and linearises. Terms outside `chosen` get sensitivities of zero.
+  [[nodiscard]] View Linearise(const std::vector<Record>& records, const Gains& gains,
+                               const std::vector<double>& theta, std::size_t whitening_order,
+                               const std::vector<std::size_t>& chosen) const;
+  /// Linearises runs that exist, with a given whitening.
+  [[nodiscard]] LinearProblem Linearise(const std::vector<Trajectory>& runs,
+                                        const std::vector<double>& theta, const Whitener& whitener,
+                                        const std::vector<std::size_t>& chosen) const;
+
+  /// Forward selection with backward check on one linearisation.
+  [[nodiscard]] std::vector<Hypothesis> Select(const LinearProblem& problem) const;
+  /// Solution of nuisances and causes, in the terms' own units.
+  [[nodiscard]] std::vector<double> Solve(const LinearProblem& problem,
+                                          const std::vector<Hypothesis>& causes) const;
+
+  [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
+  [[nodiscard]] std::vector<std::size_t> Nuisances() const;
+  [[nodiscard]] std::vector<std::size_t> Everything() const;
+  [[nodiscard]] std::vector<std::size_t> NuisancesAnd(const std::vector<Hypothesis>& causes) const;
+
+ private:
+  const RigView& rig_;
+  const std::vector<Term>& terms_;
+  const Settings& settings_;
+  std::vector<Hypothesis> hypotheses_;
+};
+
+/// The last `rows` of every record (a run-up ends at its highest speed).
+[[nodiscard]] std::vector<Record> Tails(const std::vector<Record>& records, std::size_t rows);
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,70 @@
+#pragma once
+// One number by which a rig may differ from its nominal model, as what it adds to the model.
+//
+// Model      x[n+1] = f(x[n], u[n]) + B a(theta),  y[n] = h(x[n]) + r(theta): a term adds forces at
+// the
+//            magnets, modal accelerations and coil currents over a period, and readings at a
+//            sample, all evaluated along the run of the model (Moment). theta = 0 is the nominal
+//            rig.
+// Why        a whole set of causes then costs one run of the nonlinear model, and their
+//            sensitivities follow from one linear propagation (sensitivity.hpp). It is written
+//            independently of plant_sim/effect, so that neither can hide an error of the other.
+// Stateful   terms with memory (eddy currents, hysteresis, supports) keep it in the closure; a copy
+// of
+//            the term copies the memory. Reset() starts anew.
+// Thread     one copy per thread.
+
+#include <array>
+#include <functional>
+#include <string>
+
+#include "diagnosis/moment.hpp"
+
+namespace levitas::diagnosis {
+
+/// What a term adds over one period, and to the reading at a sample.
+struct Addition {
+  std::array<double, kMaxAxes> force_n{};      ///< at the magnets, held over the period
+  std::array<double, kMaxAxes> coil_end_a{};   ///< change of the coil current at the end
+  std::array<double, kMaxAxes> coil_mean_a{};  ///< mean change over the period
+  std::array<double, kMaxAxes> reading_m{};
+  std::array<double, 2 * kMaxModes> modal{};  ///< modal accelerations, held over the period
+  bool has_modal{};
+
+  void Modal(std::size_t at, double value) noexcept {
+    modal[at] += value;
+    has_modal = true;
+  }
+};
+
+struct TermName {
+  std::string effect, place, parameter, unit;
+};
+
+using Adds = std::function<void(const Moment&, double theta, Addition&)>;
+
+struct Term {
+  std::string effect;  ///< id of the vocabulary it belongs to
+  std::string place;   ///< "de_x", "mode 3", "order 2, nde_y"
+  std::string parameter;
+  std::string unit;
+  double tolerance{};    ///< standard deviation of theta on a healthy rig; 0: not a nuisance
+  double wide{1.0};      ///< standard deviation of theta when the effect is present
+  double step{1.0};      ///< theta at which a non-linear term is linearised from 0
+  bool positive{false};  ///< cannot be negative
+  bool linear{true};     ///< adds theta times what it adds at theta = 1
+  /// Over the period that begins at the moment; `reading_m` then belongs to the sample at its end.
+  Adds drive;
+  /// At the sample of the moment.
+  Adds read;
+
+  /// theta in units in which every term is of order one.
+  [[nodiscard]] double scale() const noexcept { return wide > 0.0 ? wide : tolerance; }
+  [[nodiscard]] bool nuisance() const noexcept { return tolerance > 0.0; }
+};
+
+[[nodiscard]] Term MakeTerm(TermName name, double tolerance, double wide, Adds drive);
+/// One that adds to readings only.
+[[nodiscard]] Term MakeReading(TermName name, double tolerance, double wide, Adds read);
+
+}  // namespace levitas::diagnosis

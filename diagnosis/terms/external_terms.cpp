@@ -1,0 +1,124 @@
+// Forces from outside, the support, contact.
+#include <fmt/core.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/terms/terms.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+enum class Kind { kDirect, kSymmetric, kAntisymmetric };
+
+/// A spring between shaft and ground at z: f = -(x, y), -(y, x) or (y, -x), times theta.
+Term Spring(const RigView& rig, std::string effect, double z_m, Kind kind, double wide) {
+  const auto shape = rig.Shape(z_m);
+  const std::string parameter = kind == Kind::kDirect ? "direct" : "cross";
+  return MakeTerm(
+      {std::move(effect), fmt::format("z {:.1f} mm", z_m * 1e3), parameter, "N/m"}, 0.0, wide,
+      [shape, kind, modes = rig.modes](const Moment& m, double theta, Addition& add) {
+        double x = 0.0;
+        double y = 0.0;
+        for (std::size_t i = 0; i < modes; ++i) {
+          x += shape[i] * static_cast<double>(m.q[i]);
+          y += shape[i] * static_cast<double>(m.q[modes + i]);
+        }
+        const double fx = theta * (kind == Kind::kDirect ? -x : kind == Kind::kSymmetric ? -y : y);
+        const double fy = theta * (kind == Kind::kDirect ? -y : -x);
+        for (std::size_t i = 0; i < modes; ++i) {
+          add.Modal(i, shape[i] * fx);
+          add.Modal(modes + i, shape[i] * fy);
+        }
+      });
+}
+
+/// Housing of a bearing on its own spring: u'' + 2 z w u' + w^2 u = -F theta, theta = 1/mass; the
+/// magnet's gap and the sensor see x - u.
+Term Support(const RigView& rig, std::size_t b, double frequency_hz) {
+  struct Housing {
+    std::array<double, 2> u{}, v{};
+  };
+  Term term =
+      MakeTerm({"support_mode", fmt::format("{}, {:.0f} Hz", rig.numbers.bearings[b], frequency_hz),
+                "1/mass_kg", "1/kg"},
+               0.0, 0.2, nullptr);
+  term.positive = true;
+  const double w = 2.0 * std::numbers::pi * frequency_hz;
+  term.drive = [b, w, period_s = rig.period_s, h = Housing{}](const Moment& m, double theta,
+                                                              Addition& add) mutable {
+    if (m.restarted) h = Housing{};
+    constexpr double kDamping = 0.02;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t axis = 2 * b + i;
+      const double before = h.u[i];
+      const double a =
+          -static_cast<double>(m.force_n[axis]) - w * w * h.u[i] - 2.0 * kDamping * w * h.v[i];
+      h.v[i] += period_s * a;
+      h.u[i] += period_s * h.v[i];
+      add.force_n[axis] -=
+          theta * static_cast<double>(m.force_per_m[axis]) * 0.5 * (before + h.u[i]);
+      add.reading_m[axis] -= theta * h.u[i];
+    }
+  };
+  return term;
+}
+
+/// Contact beyond a clearance, radial and with friction.
+Term Rub(const RigView& rig, std::size_t b, double clearance_m) {
+  return MakeTerm(
+      {"touchdown_rub",
+       fmt::format("{}, clearance {:.1f} um", rig.numbers.bearings[b], clearance_m * 1e6),
+       "stiffness_n_per_m", "N/m"},
+      0.0, 1e6, [b, clearance_m](const Moment& m, double theta, Addition& add) {
+        const double x = static_cast<double>(m.actuator_m[2 * b]);
+        const double y = static_cast<double>(m.actuator_m[2 * b + 1]);
+        const double r = std::hypot(x, y);
+        if (r <= clearance_m) return;
+        constexpr double kFriction = 0.1;
+        const double normal = theta * (r - clearance_m);
+        const double drag = m.speed_rad_per_s > 0.0F ? kFriction * normal : 0.0;
+        add.force_n[2 * b] += (-normal * x + drag * y) / r;
+        add.force_n[2 * b + 1] += (-normal * y - drag * x) / r;
+      });
+}
+
+}  // namespace
+
+std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& t, double largest_orbit_m) {
+  std::vector<Term> terms;
+  for (std::size_t a = 0; a < rig.axes; ++a) {
+    terms.push_back(
+        MakeTerm({"static_load", rig.numbers.channels[a], "force_n", "N"}, t.static_load_n, 5.0,
+                 [a](const Moment&, double theta, Addition& add) { add.force_n[a] += theta; }));
+  }
+  terms.push_back(Spring(rig, "coupling_stiffness", 0.0, Kind::kDirect, 5e3));
+  terms.push_back(Spring(rig, "coupling_stiffness", 0.0, Kind::kSymmetric, 5e3));
+  for (const auto& disc : rig.model->config().rotor.discs) {
+    terms.push_back(Spring(rig, "cross_coupled_stiffness", disc.z_m, Kind::kAntisymmetric, 5e3));
+  }
+  for (std::size_t b = 0; b < rig.axes / 2; ++b) {
+    for (const double hz : {30.0, 45.0, 65.0, 90.0, 120.0, 160.0, 210.0, 280.0}) {
+      terms.push_back(Support(rig, b, hz));
+    }
+    for (const double share : {0.4, 0.6, 0.8}) {
+      terms.push_back(Rub(rig, b, share * largest_orbit_m));
+    }
+  }
+  return terms;
+}
+
+std::vector<Term> AllTerms(const RigView& rig, const Tolerances& tolerances,
+                           double largest_orbit_m) {
+  std::vector<Term> all;
+  for (auto& group :
+       {MagnetTerms(rig, tolerances), MagnetMemoryTerms(rig), TimingTerms(rig, tolerances),
+        SensorTerms(rig, tolerances), RotorTerms(rig, tolerances), RotatingTerms(rig, tolerances),
+        ExternalTerms(rig, tolerances, largest_orbit_m)}) {
+    all.insert(all.end(), group.begin(), group.end());
+  }
+  return all;
+}
+
+}  // namespace levitas::diagnosis

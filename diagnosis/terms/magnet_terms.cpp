@@ -1,0 +1,92 @@
+// Magnets: gains, asymmetry, saturation, rotation of the axes. docs/diagnosis.md lists what each
+// adds.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/terms/terms.hpp"
+#include "plant_sim/magnet/magnet.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+double MidCoil(const Moment& m, std::size_t a) {
+  return 0.5 * static_cast<double>(m.coil_start_a[a] + m.coil_end_a[a]);
+}
+
+double ForceWithoutControl(const magnet::Magnet& magnet, double bias_a, const Moment& m,
+                           std::size_t a) {
+  return magnet::Force(magnet, bias_a, 0.0, static_cast<double>(m.actuator_m[a]));
+}
+
+/// Coil current that makes the same flux without saturation, i/(1 + (i/knee)^4)^(1/4).
+double Saturated(double coil_a, double knee_a) {
+  const double ratio = std::max(0.0, coil_a) / knee_a;
+  return coil_a / std::sqrt(std::sqrt(1.0 + ratio * ratio * ratio * ratio));
+}
+
+/// One member of a family of knees; theta = 1 is the whole law.
+Term Saturation(const RigView& rig, double knee_share) {
+  Term term =
+      MakeTerm({"magnetic_saturation", fmt::format("knee {:.2f} i0", knee_share), "share", "1"},
+               0.0, 0.7, [&rig, knee_share](const Moment& m, double theta, Addition& add) {
+                 for (std::size_t a = 0; a < rig.axes; ++a) {
+                   const auto& magnet = rig.magnet(a).magnet;
+                   const double bias = rig.bias_a(a);
+                   const double x = static_cast<double>(m.actuator_m[a]);
+                   const double i = MidCoil(m, a);
+                   const double knee = knee_share * bias;
+                   const double towards = Saturated(bias + i, knee) / (magnet.gap_m - x);
+                   const double away = Saturated(bias - i, knee) / (magnet.gap_m + x);
+                   const double force =
+                       magnet.force_constant_n_m2_per_a2 * (towards * towards - away * away);
+                   add.force_n[a] += theta * (force - static_cast<double>(m.force_n[a]));
+                 }
+               });
+  term.positive = true;
+  return term;
+}
+
+}  // namespace
+
+std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) {
+  std::vector<Term> terms;
+  for (std::size_t a = 0; a < rig.axes; ++a) {
+    const std::string& channel = rig.numbers.channels[a];
+    const auto magnet = rig.magnet(a).magnet;
+    const double bias_a = rig.bias_a(a);
+    terms.push_back(MakeTerm({"current_gain", channel, "ratio", "1"}, tolerances.current_gain, 0.15,
+                             [=](const Moment& m, double theta, Addition& add) {
+                               add.force_n[a] +=
+                                   theta * (static_cast<double>(m.force_n[a]) -
+                                            ForceWithoutControl(magnet, bias_a, m, a));
+                             }));
+    terms.push_back(MakeTerm({"displacement_stiffness", channel, "ratio", "1"},
+                             tolerances.displacement_stiffness, 0.15,
+                             [=](const Moment& m, double theta, Addition& add) {
+                               add.force_n[a] += theta * ForceWithoutControl(magnet, bias_a, m, a);
+                             }));
+    terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, 0.0, 0.1,
+                             [=](const Moment& m, double theta, Addition& add) {
+                               const double x = static_cast<double>(m.actuator_m[a]);
+                               const double k = magnet.force_constant_n_m2_per_a2;
+                               const double towards = (bias_a + MidCoil(m, a)) / (magnet.gap_m - x);
+                               const double away = (bias_a - MidCoil(m, a)) / (magnet.gap_m + x);
+                               add.force_n[a] +=
+                                   0.5 * theta * k * (towards * towards + away * away);
+                             }));
+  }
+  for (std::size_t b = 0; b < rig.axes / 2; ++b) {
+    terms.push_back(
+        MakeTerm({"axis_rotation", "magnet " + rig.numbers.bearings[b], "angle_rad", "rad"}, 0.0,
+                 0.05, [b](const Moment& m, double theta, Addition& add) {
+                   add.force_n[2 * b] -= theta * static_cast<double>(m.force_n[2 * b + 1]);
+                   add.force_n[2 * b + 1] += theta * static_cast<double>(m.force_n[2 * b]);
+                 }));
+  }
+  for (const double knee : {1.0, 1.3, 1.7, 2.2}) terms.push_back(Saturation(rig, knee));
+  return terms;
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,177 @@
+// What turns with the shaft: unbalance, bow, run-out, misalignment, anisotropy, crack.
+// Every harmonic is given by its cosine and sine parts, which enter linearly.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/terms/terms.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+/// Angle in the middle of the period, where forces are evaluated.
+double MidAngle(const Moment& m, double period_s) {
+  return m.angle_rad + 0.5 * period_s * static_cast<double>(m.speed_rad_per_s);
+}
+
+constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
+constexpr const char* kParts[] = {"cosine", "sine"};  // NOLINT: two words
+
+void AddUnbalance(const RigView& rig, const Tolerances& t, std::vector<Term>& terms) {
+  for (const auto& mass : rig.model->config().unbalance) {
+    const auto shape = rig.Shape(mass.z_m);
+    for (int part = 0; part < 2; ++part) {
+      terms.push_back(
+          MakeTerm({"unbalance", fmt::format("z {:.1f} mm", mass.z_m * 1e3), kParts[part], "kg m"},
+                   t.unbalance_kg_m, 20e-6,
+                   [=, modes = rig.modes, period_s = rig.period_s](const Moment& m, double theta,
+                                                                   Addition& add) {
+                     const double speed = static_cast<double>(m.speed_rad_per_s);
+                     if (speed == 0.0) return;
+                     const double angle = MidAngle(m, period_s) + part * kQuarterTurn;
+                     const double cosine = theta * speed * speed * std::cos(angle);
+                     const double sine = theta * speed * speed * std::sin(angle);
+                     for (std::size_t i = 0; i < modes; ++i) {
+                       add.Modal(i, shape[i] * cosine);
+                       add.Modal(modes + i, shape[i] * sine);
+                     }
+                   }));
+    }
+  }
+}
+
+void AddRunout(const RigView& rig, const Tolerances& t, std::vector<Term>& terms) {
+  for (int order = 1; order <= 3; ++order) {
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      for (int part = 0; part < 2; ++part) {
+        Term term =
+            MakeTerm({"sensor_runout", fmt::format("order {}, {}", order, rig.numbers.channels[a]),
+                      kParts[part], "m"},
+                     order == 1 ? t.sensor_runout_m : 0.0, 3e-6, nullptr);
+        term.read = [=](const Moment& m, double theta, Addition& add) {
+          if (m.speed_rad_per_s == 0.0F) return;
+          const double angle = order * m.angle_rad;
+          add.reading_m[a] += theta * (part == 0 ? std::cos(angle) : std::sin(angle));
+        };
+        terms.push_back(std::move(term));
+      }
+    }
+  }
+}
+
+void AddBow(const RigView& rig, std::vector<Term>& terms) {
+  for (std::size_t mode = 2; mode < std::min<std::size_t>(rig.modes, 3); ++mode) {
+    const double largest = rig.model->parameters()
+                               .modes.shapes.col(static_cast<Eigen::Index>(mode))
+                               .cwiseAbs()
+                               .maxCoeff();
+    const double size = std::pow(rig.omega_rad_per_s[mode], 2) / largest;
+    for (int part = 0; part < 2; ++part) {
+      terms.push_back(MakeTerm({"shaft_bow", fmt::format("mode {}", mode - 1), kParts[part], "m"},
+                               0.0, 20e-6,
+                               [=, modes = rig.modes, period_s = rig.period_s](
+                                   const Moment& m, double theta, Addition& add) {
+                                 if (m.speed_rad_per_s == 0.0F) return;
+                                 const double angle = MidAngle(m, period_s) + part * kQuarterTurn;
+                                 add.Modal(mode, theta * size * std::cos(angle));
+                                 add.Modal(modes + mode, theta * size * std::sin(angle));
+                               }));
+    }
+  }
+}
+
+/// A force at the drive end that turns forward (positive order) or backward.
+void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
+  const auto shape = rig.Shape(0.0);
+  for (const int order : {2, -2, 3, -3}) {
+    for (int part = 0; part < 2; ++part) {
+      terms.push_back(
+          MakeTerm({"misalignment", fmt::format("order {}", order), kParts[part], "N"}, 0.0, 0.5,
+                   [=, modes = rig.modes, period_s = rig.period_s](const Moment& m, double theta,
+                                                                   Addition& add) {
+                     if (m.speed_rad_per_s == 0.0F) return;
+                     const double angle = order * MidAngle(m, period_s) + part * kQuarterTurn;
+                     const double x = theta * std::cos(angle);
+                     const double y = theta * std::sin(angle);
+                     for (std::size_t i = 0; i < modes; ++i) {
+                       add.Modal(i, shape[i] * x);
+                       add.Modal(modes + i, shape[i] * y);
+                     }
+                   }));
+    }
+  }
+}
+
+/// A crack across the shaft at z: softening of the curvature there, (1 + cos)/2 of the angle
+/// between crack and weight. theta: (compliance) (E I)^2 over a reference that softens the first
+/// mode by all of its stiffness.
+void AddCrack(const RigView& rig, double z_m, std::vector<Term>& terms) {
+  constexpr double kSpan = 5e-3;  // [m] over which the slope's change is taken
+  const auto before = rig.Slope(z_m - kSpan);
+  const auto after = rig.Slope(z_m + kSpan);
+  std::vector<double> curvature(rig.modes);
+  for (std::size_t i = 0; i < rig.modes; ++i) curvature[i] = after[i] - before[i];
+  const double first = rig.omega_rad_per_s[2] / curvature[2];
+  const double size = first * first;
+  const double steady[] = {1.0, 0.0, 0.0};           // NOLINT: three rows of a table
+  const char* names[] = {"mean", "cosine", "sine"};  // NOLINT
+  for (int part = 0; part < 3; ++part) {
+    terms.push_back(MakeTerm(
+        {"breathing_crack", fmt::format("z {:.0f} mm", z_m * 1e3), names[part], "1"}, 0.0, 0.1,
+        [=, mean = steady[part], modes = rig.modes, period_s = rig.period_s](
+            const Moment& m, double theta, Addition& add) {
+          if (m.speed_rad_per_s == 0.0F && part > 0) return;
+          const double angle = MidAngle(m, period_s);
+          const double open =
+              mean + (part == 1 ? std::cos(angle) : 0.0) + (part == 2 ? std::sin(angle) : 0.0);
+          double kx = 0.0;
+          double ky = 0.0;
+          for (std::size_t i = 2; i < modes; ++i) {
+            kx += curvature[i] * static_cast<double>(m.q[i]);
+            ky += curvature[i] * static_cast<double>(m.q[modes + i]);
+          }
+          const double scale = theta * size * open;
+          for (std::size_t i = 2; i < modes; ++i) {
+            add.Modal(i, scale * curvature[i] * kx);
+            add.Modal(modes + i, scale * curvature[i] * ky);
+          }
+        }));
+  }
+}
+
+/// Stiffness that turns with the shaft, as a share of every bending mode's.
+void AddStiffness(const RigView& rig, std::vector<Term>& terms) {
+  for (int part = 0; part < 2; ++part) {
+    terms.push_back(
+        MakeTerm({"shaft_anisotropy", "rotor", kParts[part], "1"}, 0.0, 0.1,
+                 [=, &rig, modes = rig.modes](const Moment& m, double theta, Addition& add) {
+                   if (m.speed_rad_per_s == 0.0F) return;
+                   const double angle = 2.0 * MidAngle(m, rig.period_s) + part * kQuarterTurn;
+                   const double c = theta * std::cos(angle);
+                   const double s = theta * std::sin(angle);
+                   for (std::size_t i = 2; i < modes; ++i) {
+                     const double w2 = rig.omega_rad_per_s[i] * rig.omega_rad_per_s[i];
+                     const double qx = static_cast<double>(m.q[i]);
+                     const double qy = static_cast<double>(m.q[modes + i]);
+                     add.Modal(i, -w2 * (c * qx + s * qy));
+                     add.Modal(modes + i, -w2 * (s * qx - c * qy));
+                   }
+                 }));
+  }
+}
+
+}  // namespace
+
+std::vector<Term> RotatingTerms(const RigView& rig, const Tolerances& t) {
+  std::vector<Term> terms;
+  AddUnbalance(rig, t, terms);
+  AddRunout(rig, t, terms);
+  AddBow(rig, terms);
+  AddMisalignment(rig, terms);
+  AddStiffness(rig, terms);
+  for (const double z_m : {0.22, 0.26, 0.34}) AddCrack(rig, z_m, terms);
+  return terms;
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,123 @@
+// Rotor at any speed: frequencies, damping, shapes, mass, gyroscopic inertia, internal damping.
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "diagnosis/terms/terms.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+double Rms(const RigView& rig, std::size_t mode) {
+  double sum = 0.0;
+  for (const auto& b : rig.model->bearings()) {
+    sum += b.actuator_shape[mode] * b.actuator_shape[mode] +
+           b.sensor_shape[mode] * b.sensor_shape[mode];
+  }
+  return std::sqrt(sum / static_cast<double>(rig.axes));
+}
+
+void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vector<Term>& terms) {
+  const double w = rig.omega_rad_per_s[mode];
+  const double z = rig.damping_ratio[mode];
+  const std::size_t other = rig.modes + mode;
+  const std::string place = fmt::format("mode {}", mode - 1);
+  terms.push_back(MakeTerm({"modal_frequency", place, "ratio", "1"}, t.modal_frequency, 0.05,
+                           [=](const Moment& m, double theta, Addition& add) {
+                             const double gone = -w * w * ((1.0 + theta) * (1.0 + theta) - 1.0);
+                             add.Modal(mode, gone * static_cast<double>(m.q[mode]));
+                             add.Modal(other, gone * static_cast<double>(m.q[other]));
+                           }));
+  terms.back().linear = false;
+  terms.back().step = 1e-3;
+  terms.push_back(MakeTerm({"modal_damping", place, "ratio", "1"}, t.modal_damping, 3.0,
+                           [=](const Moment& m, double theta, Addition& add) {
+                             const double gone = -2.0 * z * w * theta;
+                             add.Modal(mode, gone * static_cast<double>(m.v[mode]));
+                             add.Modal(other, gone * static_cast<double>(m.v[other]));
+                           }));
+  const double size = Rms(rig, mode);
+  for (std::size_t b = 0; b < rig.axes / 2; ++b) {
+    terms.push_back(
+        MakeTerm({"", fmt::format("magnet {}, {}", rig.numbers.bearings[b], place), "shape", "1"},
+                 t.modal_shape, 0.0, [=](const Moment& m, double theta, Addition& add) {
+                   const double shape = theta * size;
+                   add.Modal(mode, shape * static_cast<double>(m.force_n[2 * b]));
+                   add.Modal(other, shape * static_cast<double>(m.force_n[2 * b + 1]));
+                 }));
+    Term sensor =
+        MakeTerm({"", fmt::format("sensor {}, {}", rig.numbers.bearings[b], place), "shape", "1"},
+                 t.modal_shape, 0.0, nullptr);
+    sensor.read = [=](const Moment& m, double theta, Addition& add) {
+      add.reading_m[2 * b] += theta * size * static_cast<double>(m.read_q[mode]);
+      add.reading_m[2 * b + 1] += theta * size * static_cast<double>(m.read_q[other]);
+    };
+    terms.push_back(std::move(sensor));
+  }
+}
+
+/// f(z) = -damping (r' - j W r) of the bending alone.
+Term InternalDamping(const RigView& rig, double z_m) {
+  Term term = MakeTerm(
+      {"internal_damping", fmt::format("z {:.1f} mm", z_m * 1e3), "damping", "N s/m"}, 0.0, 20.0,
+      [shape = rig.Shape(z_m), modes = rig.modes](const Moment& m, double theta, Addition& add) {
+        const double speed = static_cast<double>(m.speed_rad_per_s);
+        double x = 0.0;
+        double y = 0.0;
+        double vx = 0.0;
+        double vy = 0.0;
+        for (std::size_t i = 2; i < modes; ++i) {
+          x += shape[i] * static_cast<double>(m.q[i]);
+          y += shape[i] * static_cast<double>(m.q[modes + i]);
+          vx += shape[i] * static_cast<double>(m.v[i]);
+          vy += shape[i] * static_cast<double>(m.v[modes + i]);
+        }
+        for (std::size_t i = 2; i < modes; ++i) {
+          add.Modal(i, -theta * shape[i] * (vx + speed * y));
+          add.Modal(modes + i, -theta * shape[i] * (vy - speed * x));
+        }
+      });
+  term.positive = true;
+  return term;
+}
+
+}  // namespace
+
+std::vector<Term> RotorTerms(const RigView& rig, const Tolerances& t) {
+  std::vector<Term> terms;
+  const std::size_t modes = rig.modes;
+  for (std::size_t mode = 2; mode < modes; ++mode) AddMode(rig, t, mode, terms);
+  terms.push_back(MakeTerm({"rotor_mass", "rotor", "ratio", "1"}, t.rotor_mass, 0.1,
+                           [&rig, modes](const Moment& m, double theta, Addition& add) {
+                             const double share = -theta / (1.0 + theta);
+                             for (std::size_t a = 0; a < rig.axes; ++a) {
+                               const auto& shape = rig.magnet(a).actuator_shape;
+                               for (std::size_t i = 0; i < 2; ++i) {
+                                 add.Modal((a % 2) * modes + i,
+                                           share * shape[i] * static_cast<double>(m.force_n[a]));
+                               }
+                             }
+                           }));
+  terms.back().linear = false;
+  terms.back().step = 1e-3;
+  terms.push_back(MakeTerm({"gyroscopic_inertia", "rotor", "ratio", "1"}, t.gyroscopic_inertia, 0.3,
+                           [&rig, modes](const Moment& m, double theta, Addition& add) {
+                             const double* g = rig.model->gyroscopic().data();
+                             const double speed = theta * static_cast<double>(m.speed_rad_per_s);
+                             if (speed == 0.0) return;
+                             for (std::size_t c = 0; c < modes; ++c) {
+                               const double vx = speed * static_cast<double>(m.v[c]);
+                               const double vy = speed * static_cast<double>(m.v[modes + c]);
+                               for (std::size_t i = 0; i < modes; ++i) {
+                                 add.Modal(i, -g[c * modes + i] * vy);
+                                 add.Modal(modes + i, g[c * modes + i] * vx);
+                               }
+                             }
+                           }));
+  for (const auto& disc : rig.model->config().rotor.discs) {
+    terms.push_back(InternalDamping(rig, disc.z_m));
+  }
+  return terms;
+}
+
+}  // namespace levitas::diagnosis

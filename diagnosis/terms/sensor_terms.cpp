@@ -1,0 +1,101 @@
+// Sensors: scale, offset, characteristic, bandwidth, place, rotation of the axes, mains.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/terms/terms.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+double Dot(const std::vector<double>& shape, const float* modal) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * static_cast<double>(modal[i]);
+  return sum;
+}
+
+void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vector<Term>& terms) {
+  const std::string& channel = rig.numbers.channels[a];
+  constexpr double kReference = 100e-6;  // [m] a2, a3 are shares of it at this reading
+  terms.push_back(MakeReading({"sensor_gain", channel, "ratio", "1"}, t.sensor_gain, 0.1,
+                              [a](const Moment& m, double theta, Addition& add) {
+                                add.reading_m[a] += theta * static_cast<double>(m.reading_m[a]);
+                              }));
+  terms.push_back(
+      MakeReading({"sensor_offset", channel, "offset_m", "m"}, t.sensor_offset_m, 50e-6,
+                  [a](const Moment&, double theta, Addition& add) { add.reading_m[a] += theta; }));
+  terms.push_back(MakeReading({"sensor_nonlinearity", channel, "a2", "1/m"}, 0.0, 3e3,
+                              [a](const Moment& m, double theta, Addition& add) {
+                                const double y = static_cast<double>(m.reading_m[a]);
+                                add.reading_m[a] += theta * y * y;
+                              }));
+  terms.push_back(MakeReading({"sensor_nonlinearity", channel, "a3", "1/m^2"}, 0.0,
+                              1.0 / (kReference * kReference),
+                              [a](const Moment& m, double theta, Addition& add) {
+                                const double y = static_cast<double>(m.reading_m[a]);
+                                add.reading_m[a] += theta * y * y * y;
+                              }));
+  const double lag_s = 1.0 / (2.0 * std::numbers::pi * rig.bearing(a).sensor.bandwidth_hz);
+  const auto shape = rig.magnet(a).sensor_shape;
+  const std::size_t at = (a % 2) * rig.modes;
+  terms.push_back(MakeReading({"sensor_bandwidth", channel, "ratio", "1"}, t.sensor_bandwidth, 0.5,
+                              [a, lag_s, shape, at](const Moment& m, double theta, Addition& add) {
+                                const double ratio = std::max(0.05, 1.0 + theta);
+                                add.reading_m[a] +=
+                                    lag_s * (1.0 - 1.0 / ratio) * Dot(shape, m.read_v.data() + at);
+                              }));
+  terms.back().linear = false;
+  terms.back().step = 0.05;
+}
+
+}  // namespace
+
+std::vector<Term> SensorTerms(const RigView& rig, const Tolerances& t) {
+  std::vector<Term> terms;
+  for (std::size_t a = 0; a < rig.axes; ++a) AddOneAxis(rig, t, a, terms);
+  for (std::size_t b = 0; b < rig.axes / 2; ++b) {
+    const std::string& bearing = rig.numbers.bearings[b];
+    const auto slope = rig.Slope(rig.model->config().bearings[b].sensor_z_m);
+    const std::size_t modes = rig.modes;
+    terms.push_back(
+        MakeReading({"sensor_position", bearing, "shift_m", "m"}, t.sensor_position_m, 3e-3,
+                    [b, slope, modes](const Moment& m, double theta, Addition& add) {
+                      add.reading_m[2 * b] += theta * Dot(slope, m.read_q.data());
+                      add.reading_m[2 * b + 1] += theta * Dot(slope, m.read_q.data() + modes);
+                    }));
+    terms.push_back(MakeReading({"axis_rotation", "sensor " + bearing, "angle_rad", "rad"}, 0.0,
+                                0.05, [b](const Moment& m, double theta, Addition& add) {
+                                  const double x = static_cast<double>(m.reading_m[2 * b]);
+                                  const double y = static_cast<double>(m.reading_m[2 * b + 1]);
+                                  add.reading_m[2 * b] += theta * y;
+                                  add.reading_m[2 * b + 1] -= theta * x;
+                                }));
+  }
+  return terms;
+}
+
+std::vector<Term> MainsTerms(const RigView& rig, const std::vector<double>& frequencies_hz,
+                             std::size_t records) {
+  std::vector<Term> terms;
+  for (const double hz : frequencies_hz) {
+    const double w = 2.0 * std::numbers::pi * hz;
+    for (std::uint32_t record = 0; record < records; ++record) {
+      for (std::size_t a = 0; a < rig.axes; ++a) {
+        for (int part = 0; part < 2; ++part) {
+          terms.push_back(MakeReading(
+              {"mains_pickup", fmt::format("{:.0f} Hz, {}", hz, rig.numbers.channels[a]),
+               part == 0 ? "cosine" : "sine", "m"},
+              0.0, 2e-6, [=](const Moment& m, double theta, Addition& add) {
+                if (m.record != record) return;
+                add.reading_m[a] +=
+                    theta * (part == 0 ? std::cos(w * m.time_s) : std::sin(w * m.time_s));
+              }));
+        }
+      }
+    }
+  }
+  return terms;
+}
+
+}  // namespace levitas::diagnosis

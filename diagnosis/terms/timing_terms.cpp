@@ -1,0 +1,111 @@
+// Timing and amplifiers: when and how the coil current follows its command.
+//
+// Delay      the command that would act from the sample on acts `theta` periods later (or the next
+//            one earlier): closed form of the first-order current loop.
+// Bandwidth  decay exp(-W T (1 + theta)) instead of exp(-W T).
+// Slew       a second current loop that cannot move faster; its difference acts as a current.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/terms/terms.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+struct Loop {
+  double rate_per_s;  ///< 2 pi bandwidth
+  double period_s;
+
+  [[nodiscard]] double Decay(double share = 1.0) const {
+    return std::exp(-rate_per_s * period_s * share);
+  }
+  /// Mean over the period of exp(-rate t).
+  [[nodiscard]] double Mean() const { return (1.0 - Decay()) / (rate_per_s * period_s); }
+};
+
+Loop LoopOf(const RigView& rig, std::size_t axis) {
+  return {2.0 * std::numbers::pi * rig.bearing(axis).amplifier.bandwidth_hz, rig.period_s};
+}
+
+Term Delay(const RigView& rig, double tolerance) {
+  Term term = MakeTerm({"extra_delay", "all axes", "samples", "1"}, tolerance, 0.5, nullptr);
+  term.drive = [&rig](const Moment& m, double theta, Addition& add) {
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      const Loop loop = LoopOf(rig, a);
+      const double late = std::clamp(theta, 0.0, 1.0);
+      const double early = std::clamp(-theta, 0.0, 1.0);
+      // Late: for `late` periods the old command still acts. Early: the next one begins before.
+      const double late_step = static_cast<double>(m.command_before_a[a] - m.command_now_a[a]);
+      const double early_step = static_cast<double>(m.command_next_a[a] - m.command_now_a[a]);
+      const double wt = loop.rate_per_s * loop.period_s;
+      const double rise = 1.0 - std::exp(-wt * late);
+      add.coil_end_a[a] += late_step * rise * std::exp(-wt * (1.0 - late));
+      add.coil_mean_a[a] +=
+          late_step * (late - rise / wt + rise * (1.0 - std::exp(-wt * (1.0 - late))) / wt);
+      const double rise_early = 1.0 - std::exp(-wt * early);
+      add.coil_end_a[a] += early_step * rise_early;
+      add.coil_mean_a[a] += early_step * (early - rise_early / wt);
+    }
+  };
+  term.linear = false;
+  term.step = 0.05;
+  return term;
+}
+
+Term Bandwidth(const RigView& rig, std::size_t a, double tolerance) {
+  Term term = MakeTerm({"amplifier_bandwidth", rig.numbers.channels[a], "ratio", "1"}, tolerance,
+                       0.3, nullptr);
+  term.linear = false;
+  term.step = 0.02;
+  term.drive = [loop = LoopOf(rig, a), a](const Moment& m, double theta, Addition& add) {
+    const double ratio = std::max(0.05, 1.0 + theta);
+    const double away = static_cast<double>(m.coil_start_a[a] - m.command_now_a[a]);
+    const Loop other{loop.rate_per_s * ratio, loop.period_s};
+    add.coil_end_a[a] += away * (other.Decay() - loop.Decay());
+    add.coil_mean_a[a] += away * (other.Mean() - loop.Mean());
+  };
+  return term;
+}
+
+Term Slew(const RigView& rig, double slew_a_per_s) {
+  Term term = MakeTerm({"amplifier_slew", fmt::format("{:.0f} A/s", slew_a_per_s), "share", "1"},
+                       0.0, 0.7, nullptr);
+  term.positive = true;
+  term.drive = [&rig, slew_a_per_s, current = std::array<double, kMaxAxes>{}](
+                   const Moment& m, double theta, Addition& add) mutable {
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      constexpr int kSteps = 4;
+      const Loop loop = LoopOf(rig, a);
+      double sum = 0.0;
+      for (int k = 0; k < kSteps; ++k) {
+        const double rate =
+            std::clamp(loop.rate_per_s * (static_cast<double>(m.command_now_a[a]) - current[a]),
+                       -slew_a_per_s, slew_a_per_s);
+        current[a] += rate * loop.period_s / kSteps;
+        sum += current[a] - 0.5 * rate * loop.period_s / kSteps;
+      }
+      const double mean_a =
+          static_cast<double>(m.command_now_a[a]) +
+          static_cast<double>(m.coil_start_a[a] - m.command_now_a[a]) * loop.Mean();
+      add.force_n[a] += theta * static_cast<double>(m.force_per_a[a]) * (sum / kSteps - mean_a);
+    }
+  };
+  return term;
+}
+
+}  // namespace
+
+std::vector<Term> TimingTerms(const RigView& rig, const Tolerances& tolerances) {
+  std::vector<Term> terms{Delay(rig, tolerances.delay_samples)};
+  for (std::size_t a = 0; a < rig.axes; ++a) {
+    terms.push_back(Bandwidth(rig, a, tolerances.amplifier_bandwidth));
+  }
+  for (const double slew : {500.0, 1500.0, 4000.0}) terms.push_back(Slew(rig, slew));
+  return terms;
+}
+
+}  // namespace levitas::diagnosis
