@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/analysis_options.hpp"
 #include "cli/command.hpp"
@@ -29,10 +30,8 @@ constexpr const char* kHelp =
 struct DiagnoseOptions : AnalysisOptions {
   std::vector<std::string> data;
   std::vector<std::string> holdout;
-  std::vector<std::string> healthy;
   std::string out;
   bool quick{};
-  bool plan{};
 };
 
 void ShowProgress(double share, const std::string& what) {
@@ -49,13 +48,12 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.rig = LoadRig(options);
   inputs.data = options.data;
   inputs.holdout = options.holdout;
-  inputs.healthy = options.healthy;
   inputs.scratch_folder = options.out;
   inputs.settings.quick = options.quick;
   inputs.settings.progress = ShowProgress;
   const diagnosis::SessionAnswer answer = diagnosis::DiagnoseFiles(inputs);
   PrintDiagnosis(answer);
-  WriteDiagnosis(answer, inputs.rig, options.out, options.plan);
+  WriteDiagnosis(answer, inputs.rig, options.out);
   WriteJsonFile(options.json_path, DiagnosisJson(answer));
   return ExitStatus::kDone;
 }
@@ -71,11 +69,8 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   command->add_option("--holdout", options->holdout,
                       "Data on which the gain is measured; without it the first 15 % of every "
                       "record are kept back");
-  command->add_option("--healthy", options->healthy,
-                      "Earlier records of the healthy rig: narrow what may be a tolerance");
   command->add_option("--out", options->out, "Folder for the answer")->required();
   command->add_flag("--quick", options->quick, "First answer from 1.3 s of every record");
-  command->add_flag("--plan", options->plan, "Also write the scenario that separates what is left");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

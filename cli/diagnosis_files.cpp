@@ -4,16 +4,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "cli/diagnosis_report.hpp"
 #include "cli/json_file.hpp"
+#include "common/problem.hpp"
+#include "diagnosis/extended_rig.hpp"
 #include "diagnosis/words.hpp"
 
 namespace levitas::cli {
 
 using diagnosis::SessionAnswer;
 using diagnosis::Verdict;
+
+namespace {
+
+void WriteText(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw BadInput(path + ": cannot be written");
+}
+
+}  // namespace
 
 void PrintDiagnosis(const SessionAnswer& s) {
   fmt::print("{}\n\n", diagnosis::VerdictSentence(s));
@@ -91,9 +104,10 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
 }
 
 void WriteDiagnosis(const SessionAnswer& answer, const config::RigFile& rig,
-                    const std::string& folder, bool /*plan*/) {
+                    const std::string& folder) {
   WriteJsonFile(folder + "/diagnosis.json", DiagnosisJson(answer));
-  static_cast<void>(rig);
+  WriteText(folder + "/extended_rig.yaml", diagnosis::ExtendedRig(answer, rig));
+  WriteText(folder + "/report.html", DiagnosisPage(answer));
 }
 
 }  // namespace levitas::cli

@@ -14,6 +14,6 @@ namespace levitas::cli {
 void PrintDiagnosis(const diagnosis::SessionAnswer& answer);
 [[nodiscard]] nlohmann::ordered_json DiagnosisJson(const diagnosis::SessionAnswer& answer);
 void WriteDiagnosis(const diagnosis::SessionAnswer& answer, const config::RigFile& rig,
-                    const std::string& folder, bool plan);
+                    const std::string& folder);
 
 }  // namespace levitas::cli

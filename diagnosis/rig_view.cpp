@@ -40,6 +40,9 @@ RigView::RigView(const RigNumbers& rig_numbers, const plant::PlantConfig& plant)
                     "rotor.modes_per_plane",
                     numbers.name, modes, kMaxModes));
   }
+  if (!plant.shafts.empty()) {
+    throw BadInput(fmt::format("rig {}: geared rigs cannot be diagnosed", numbers.name));
+  }
   const auto& rotor = model->parameters().modes;
   for (std::size_t i = 0; i < modes; ++i) {
     const auto at = static_cast<Eigen::Index>(i);

@@ -15,7 +15,7 @@ namespace levitas::diagnosis {
 
 struct SessionInputs {
   config::RigFile rig;
-  std::vector<std::string> data, holdout, healthy;
+  std::vector<std::string> data, holdout;
   std::string scratch_folder;
   Settings settings;
 };

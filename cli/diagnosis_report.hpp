@@ -1,0 +1,16 @@
+#pragma once
+// report.html of a diagnosis: one self-contained page for a person in a hurry.
+//
+// Order  the sentence; before and after as pictures; the ranking; what was ruled out and why; what
+// to
+//        record next. No script, no network.
+
+#include <string>
+
+#include "diagnosis/session.hpp"
+
+namespace levitas::cli {
+
+[[nodiscard]] std::string DiagnosisPage(const diagnosis::SessionAnswer& answer);
+
+}  // namespace levitas::cli
