@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kWhiteningOrder = 4;
 constexpr std::size_t kFastRows = 6'000;   ///< per record
-constexpr std::size_t kSlowRows = 13'000;  ///< per record; 0.3 s of them settle
+constexpr std::size_t kSlowRows = 16'000;  ///< per record; 0.3 s of them settle
 constexpr double kUnexplained = 7.0;       ///< [sigma] of the remainder
 constexpr double kConverged = 1.0;         ///< [nat]
 
@@ -26,9 +26,13 @@ class Diagnoser {
         theta_(terms.size(), 0.0) {}
 
   Answer Run() {
-    Coarse();
-    Fine(Tails(records_, kSlowRows), settings_.quick ? 1 : 2, 0.15, 0.2);
-    if (!settings_.quick) Fine(records_, 3, 0.35, 0.25);
+    Calibrate(Tails(records_, kFastRows), kFast, 2, 0.02);
+    Calibrate(Tails(records_, kSlowRows), kSlow, 3, 0.1);
+    if (settings_.quick) {
+      Fine(Tails(records_, kSlowRows), 1, 0.3, 0.3);
+    } else {
+      Fine(records_, 3, 0.3, 0.3);
+    }
     Rank();
     if (!settings_.quick) RefitRivals();
     return Conclude();
@@ -39,15 +43,15 @@ class Diagnoser {
     if (settings_.progress) settings_.progress(share, what);
   }
 
-  /// Nuisances only, with the fast observer: brings everything near enough for the slow one.
-  void Coarse() {
-    Tell(0.02, "calibrating");
-    const auto records = Tails(records_, kFastRows);
-    const Gains gains = search_.DesignGains(records, kFast);
-    for (int pass = 0; pass < 2; ++pass) {
+  /// Nuisances only. A cause is looked for after that: far from the calibrated model the
+  /// linearisation sees one in everything.
+  void Calibrate(const std::vector<Record>& records, const ObserverSpeed& speed, int passes,
+                 double from) {
+    const Gains gains = search_.DesignGains(records, speed);
+    for (int pass = 0; pass < passes; ++pass) {
+      Tell(from + 0.05 * pass, "calibrating");
       const View view = search_.Linearise(records, gains, theta_, 0, search_.Nuisances());
       theta_ = search_.Solve(view.problem, {});
-      Tell(0.06 + 0.04 * pass, "calibrating");
     }
   }
 

@@ -41,7 +41,7 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& kept_
     }
     return MeasureGain(*out.view, nominal, calibrated, extended, noise_rms_m);
   };
-  out.fitted = measure(settings.quick ? Tails(fitted, 13'000) : fitted, true);
+  out.fitted = measure(settings.quick ? Tails(fitted, 16'000) : fitted, true);
   out.held_out = measure(kept_back, false);
 }
 
