@@ -64,7 +64,7 @@ constexpr std::array kPairs{
     Pair{"sensor_runout", "misalignment",
          "a run-up through a bending mode: only a force excites it"},
     Pair{"current_gain", "sensor_gain",
-         "a record of the healthy rig (--healthy), or a known weight "
+         "a record of the healthy rig or a known weight "
          "hung on the shaft"},
     Pair{"current_gain", "displacement_stiffness",
          "standing with a test signal at two bias currents"},
