@@ -96,10 +96,11 @@ TEST(GearedRotorUnderControl, VibratesFortyToFiftyPercentLessAtFifteenToTwentyNi
     }
     RecordProperty("cut_at_" + std::to_string(static_cast<int>(speed_hz)) + "_hz",
                    std::to_string(cut));
-    // The honest limit: harmonics of the mesh (300 Hz and above) are not improved. The delay turns
-    // damping into negative mass there: they even grow, most at 300 Hz, by no more than half.
+    // The honest limit: harmonics of the mesh (300 Hz and above) are not improved. The loop's delay
+    // of 0.26 ms turns damping into stiffness there: of the pinion's -5.9e6 N/m at 300 Hz (inertia
+    // against shaft and mesh) some -3e6 remain, so that they grow, to at most twice.
     EXPECT_GT(on.high_m, 0.98 * off.high_m) << speed_hz;
-    EXPECT_LT(on.high_m, 1.5 * off.high_m) << speed_hz;
+    EXPECT_LT(on.high_m, 2.0 * off.high_m) << speed_hz;
   }
 }
 
