@@ -17,16 +17,19 @@ TEST(CheckPort, LeavesTheChoiceOfPortsOpenWhenNoneIsNamed) {
   EXPECT_EQ(CheckPort("lcm:udpm://239.255.76.67:9000?ttl=0")->base_port, 9000);
 }
 
-TEST(CheckPort, RefusesCanAsUsageWithWhatIsAllowed) {
-  for (const char* port : {"can", "can:can0", "can:vcan0"}) {
-    try {
-      static_cast<void>(CheckPort(port));
-      ADD_FAILURE() << port << " was accepted";
-    } catch (const Problem& problem) {
-      EXPECT_EQ(problem.status(), ExitStatus::kUsage);
-      EXPECT_THAT(problem.what(), HasSubstr("no CAN port"));
-      EXPECT_THAT(problem.what(), HasSubstr("lcm:udpm://"));
-    }
+TEST(CheckPort, LeavesTheNetworkOfTelemetryOpenWhenTheRigIsOnCan) {
+  for (const char* port : {"can", "can:can0", "can:vcan0,vcan1"}) {
+    EXPECT_FALSE(CheckPort(port).has_value()) << port;
+  }
+}
+
+TEST(CheckPort, RefusesAnotherTransportAsUsageWithWhatIsAllowed) {
+  try {
+    static_cast<void>(CheckPort("canal:can0"));
+    ADD_FAILURE() << "canal:can0 was accepted";
+  } catch (const Problem& problem) {
+    EXPECT_EQ(problem.status(), ExitStatus::kUsage);
+    EXPECT_THAT(problem.what(), HasSubstr("lcm:udpm://"));
   }
 }
 

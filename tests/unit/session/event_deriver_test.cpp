@@ -82,7 +82,7 @@ TEST(TripText, HasASentenceForEveryFault) {
     record.out.fault = static_cast<Fault>(fault);
     const std::string text = TripText(record, Header().channels);
     EXPECT_THAT(text, Not(HasSubstr("no fault"))) << fault;
-    EXPECT_THAT(text, Not(HasSubstr("unknown"))) << fault;
+    EXPECT_THAT(text, Not(HasSubstr("unknown fault"))) << fault;
   }
   record.out.fault = static_cast<Fault>(kFaultCount);
   record.out.fault_axis = 7;
