@@ -2,8 +2,7 @@
 
 namespace levitas::bench {
 
-CandidateStep::CandidateStep(const plant::PlantModel& model)
-    : model_(model), work_(model) {
+CandidateStep::CandidateStep(const plant::PlantModel& model) : model_(model), work_(model) {
   const std::size_t count = 2 * model.layout().modes;
   for (std::size_t i = 0; i < count; ++i) {
     const auto mode = static_cast<Eigen::Index>(i % model.layout().modes);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "common/problem.hpp"
 #include "common/nearest.hpp"
+#include "common/problem.hpp"
 
 namespace levitas::config {
 namespace {
