@@ -15,6 +15,7 @@ void AddIdentifyCommand(CLI::App& app, Action& action) {
       "  amb identify frf campaign.lcm --svg frf.svg\n"
       "Measured CSV files are read as sessions are (columns: docs/formats.md).");
   AddIdentifyFrf(*identify, action);
+  AddIdentifyModal(*identify, action);
 }
 
 }  // namespace levitas::cli

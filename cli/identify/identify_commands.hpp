@@ -6,5 +6,6 @@
 namespace levitas::cli {
 
 void AddIdentifyFrf(CLI::App& identify, Action& action);
+void AddIdentifyModal(CLI::App& identify, Action& action);
 
 }  // namespace levitas::cli

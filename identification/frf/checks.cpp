@@ -14,6 +14,8 @@ namespace {
 
 /// Share of samples at a limit from which on a response is no longer that of the rig.
 constexpr double kClippedShare = 1e-3;
+/// A limited command is recorded as it was given, so that it only wastes excitation.
+constexpr double kLimitedShare = 0.02;
 /// Below this frequency the shipped rigs, and any rotor worth calling one, move as a rigid body.
 constexpr double kRigidLowHz = 15.0;
 constexpr double kRigidHighHz = 45.0;
@@ -48,7 +50,7 @@ void CheckChannel(const Record& record, const Experiment& e, std::size_t channel
         "excited: use a smaller amplitude",
         name, 100.0 * static_cast<double>(clipped) / rows, excited));
   }
-  if (static_cast<double>(saturated) > kClippedShare * rows) {
+  if (static_cast<double>(saturated) > kLimitedShare * rows) {
     problems.push_back(fmt::format(
         "control current {} is at its limit in {:.1f} % of the samples while {} is excited: use a "
         "smaller amplitude",

@@ -1,0 +1,147 @@
+// amb identify modal: modal model of a rig from its frequency responses.
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "cli/analysis_options.hpp"
+#include "cli/identify/identify_commands.hpp"
+#include "cli/identify/modal_files.hpp"
+#include "cli/identify/response_files.hpp"
+#include "cli/json_file.hpp"
+#include "session/output_path.hpp"
+
+namespace levitas::cli {
+namespace {
+
+using namespace identification;
+
+constexpr const char* kHelp =
+    "Frequencies, damping, deflections, current and position stiffness, rigid body and gyroscopic "
+    "matrix, by nonlinear least squares. The rig file is the start and a wide prior. The standing "
+    "response and the fastest one are fitted; the others are kept to validate.\n"
+    "  amb run --scenario identify --record campaign.lcm\n"
+    "  amb identify modal campaign.lcm --out identified.yaml --svg modal\n"
+    "--svg P writes P_bode.svg (data, model, residual), P_validation.svg, P_campbell.svg and "
+    "P_stabilisation.svg.";
+
+struct ModalOptions : AnalysisOptions {
+  std::string data_path;
+  std::string out_path;
+  std::string svg_prefix;
+  ModalFitOptions fit;
+};
+
+void PrintModes(const ModalResult& r) {
+  const ModalLayout& at = r.start.frame.layout;
+  fmt::print("\nbending modes of the free rotor, +- two standard deviations\n{:>4}{:>24}{:>26}\n",
+             "", "Hz", "damping ratio");
+  for (Eigen::Index i = 0; i < at.bending; ++i) {
+    const double f = r.rig.frequency_rad_per_s[2 + i] / (2.0 * std::numbers::pi);
+    const double z = r.rig.damping_ratio[2 + i];
+    fmt::print("{:>4}{:>14.3f} +- {:<7.3f}{:>14.5f} +- {:<8.5f}\n", i + 1, f,
+               2.0 * f * r.uncertainty.deviation[at.frequency + i], z,
+               2.0 * z * r.uncertainty.deviation[at.damping + i]);
+  }
+}
+
+void PrintAxes(const ModalResult& r) {
+  const ModalLayout& at = r.start.frame.layout;
+  fmt::print("\n{:<8}{:>20}{:>24}{:>18}\n", "axis", "ki N/A", "ks N/m", "sensor gain");
+  for (Eigen::Index a = 0; a < at.axes(); ++a) {
+    fmt::print("{:<8}{:>10.3f} +- {:<7.3f}{:>13.0f} +- {:<8.0f}{:>9.4f} +- {:<7.4f}\n",
+               r.channels[static_cast<std::size_t>(a)], r.rig.ki_n_per_a[a],
+               2.0 * r.rig.ki_n_per_a[a] * r.uncertainty.deviation[at.ki + a], r.rig.ks_n_per_m[a],
+               2.0 * r.rig.ks_n_per_m[a] * r.uncertainty.deviation[at.ks + a], r.rig.gain[a],
+               2.0 * r.rig.gain[a] * r.uncertainty.deviation[at.gain + a]);
+  }
+  fmt::print(
+      "mass {:.4f} kg, transverse inertia {:.5f} kg m2, centre at {:.2f} mm, delay {:.3f} "
+      "samples\n",
+      r.rig.mass_kg, r.rig.inertia_kg_m2, 1e3 * r.rig.centre_z_m, r.rig.delay_samples);
+}
+
+void PrintLimits(const ModalResult& r) {
+  if (!r.uncertainty.directions.empty()) {
+    fmt::print("\nnot told apart by these data (values along them are the rig file's):\n");
+  }
+  for (const Unidentifiable& direction : r.uncertainty.directions) {
+    fmt::print("  {}\n    to tell: {}\n", fmt::join(direction.unknowns, ", "),
+               direction.experiment);
+  }
+  for (const ProposedMode& mode : r.unmatched) {
+    fmt::print("\nthe data show a mode at {:.1f} Hz that the rig file does not have\n",
+               mode.frequency_hz);
+  }
+}
+
+void PrintFit(const ModalResult& r) {
+  const auto fitted = std::ranges::count(r.fit.fitted, true);
+  fmt::print("{} unknowns from {} numbers, {:.2f} s ({})\n", fitted, r.fit.residuals, r.time_s,
+             r.fit.converged ? "converged" : "stopped at its iteration limit");
+  for (const FitStage& stage : r.fit.stages) {
+    fmt::print("  {:<26} cost {:>12.1f} in {:>3} iterations, {:.2f} s\n", stage.name, stage.cost,
+               stage.iterations, stage.time_s);
+  }
+  fmt::print("modes shown by the data up to {:.0f} Hz:", r.options.highest_hz);
+  for (const ProposedMode& mode : r.stabilisation.modes) fmt::print(" {:.1f}", mode.frequency_hz);
+  fmt::print(" Hz\n\nmisfit (1: only noise is left)\n");
+  for (const SpeedQuality& q : r.quality) {
+    fmt::print("  {:>6.0f} rpm {:>8.3f}  {}\n", Rpm(q.speed_rad_per_s), q.misfit,
+               q.fitted ? "fitted" : "validation, not used in the fit");
+  }
+}
+
+ExitStatus Run(const ModalOptions& options) {
+  for (const std::string& path : {options.out_path, options.json_path}) {
+    session::CheckOutputPath(path, options.data_path);
+  }
+  const config::RigFile rig = LoadRig(options);
+  const auto record = ReadRecord(options.data_path, rig);
+  const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
+  const auto responses = EstimateResponses(record, delay_s);
+  const auto began = std::chrono::steady_clock::now();
+  ModalResult result = IdentifyModal(rig, responses, options.fit);
+  result.time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  fmt::print("{}: modal model of {}\n", options.data_path, rig.numbers.name);
+  PrintFit(result);
+  PrintModes(result);
+  PrintAxes(result);
+  PrintLimits(result);
+  WriteJsonFile(options.json_path, ModalJson(result));
+  WriteModalPictures(options.svg_prefix, result, responses);
+  WriteIdentifiedRig(options.out_path, rig, result);
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddIdentifyModal(CLI::App& identify, Action& action) {
+  auto options = std::make_shared<ModalOptions>();
+  CLI::App* command =
+      identify.add_subcommand("modal", "Modes, stiffnesses and gyroscopic matrix, with intervals");
+  command->footer(kHelp);
+  command->add_option("DATA", options->data_path, "Session, or CSV file (.csv, .csv.xz)")
+      ->required();
+  AddRigOption(*command, *options);
+  command->add_option("--highest-hz", options->fit.highest_hz, "Lines beyond it are not fitted")
+      ->check(CLI::Range(50.0, 1e5))
+      ->capture_default_str();
+  command->add_flag("--fit-amplifiers", options->fit.fit_amplifiers,
+                    "Bandwidths of the amplifiers are unknown too");
+  command->add_flag("--fit-sensors", options->fit.fit_sensors,
+                    "Bandwidths of the sensors are unknown too");
+  command->add_option("--out", options->out_path, "Write the identified rig file");
+  command->add_option("--svg", options->svg_prefix, "Draw pictures, their names begin with this");
+  AddJsonOption(*command, *options);
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,27 @@
+#pragma once
+// Frequency response of a modal rig from command to reading, and its derivatives by every unknown.
+//
+// Equation  D(s) q = Phi_a diag(ki ha) u,  y = diag(g hs) Phi_s^T q, both planes x, y:
+//           D = [Dx, s W G; -s W G, Dy],  Dp = s^2 + 2 z w s + w^2 - sum_b ks_bp a_b a_b^T;
+//           ha: amplifier 1/(1 + jf/fa), delay and zero-order hold; hs: sensor 1/(1 + jf/fs).
+//           dP = Z^T (dPhi_a - dD X) + dPhi_s^T X with X = D^-1 Phi_a, Z = D^-T Phi_s.
+// Units     m/A; derivatives by the entries of the vector (modal_parameters.hpp).
+// Sampling  the hold's images around 10 kHz are left out: below 1e-3 of the mass line in the band
+//           of a position loop.
+// Thread    any; no shared state.
+
+#include <Eigen/Core>
+
+#include "identification/modal/modal_parameters.hpp"
+
+namespace levitas::identification {
+
+/// Row (output + axes * input), column = unknown.
+using ResponseDerivative = Eigen::MatrixXcd;
+
+/// P at one frequency. With `derivative` it is filled too, for all unknowns of the layout.
+[[nodiscard]] Eigen::MatrixXcd ModalResponse(const ModalFrame& frame, const Physical& rig,
+                                             double frequency_hz, double speed_rad_per_s,
+                                             ResponseDerivative* derivative = nullptr);
+
+}  // namespace levitas::identification

@@ -1,0 +1,75 @@
+#include "identification/modal/uncertainty.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace levitas::identification {
+namespace {
+
+using Index = Eigen::Index;
+
+/// Components of a unit vector below this do not count as part of the direction.
+constexpr double kPart = 0.2;
+
+std::string ExperimentFor(const std::vector<std::string>& unknowns) {
+  constexpr std::array<std::pair<const char*, const char*>, 8> kExperiments{{
+      {"mass", "weigh the rotor, or hang a known weight on it while it levitates"},
+      {"sensor_gain",
+       "push the rotor from stop to stop of the touchdown bearings, whose clearance "
+       "is known, or compare with a dial gauge"},
+      {"ki_", "levitate with a known static load and read the change of current"},
+      {"ks_", "levitate at two reference positions and read the change of current"},
+      {"delay", "record the coil current beside the command"},
+      {"amplifier", "record the coil current beside the command"},
+      {"gyroscopic", "excite at a higher speed of rotation"},
+      {"", "excite more strongly, or for more periods, near the mode concerned"},
+  }};
+  for (const auto& [prefix, experiment] : kExperiments) {
+    for (const std::string& name : unknowns) {
+      if (name.starts_with(prefix)) return experiment;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Uncertainty Assess(const ModalStart& start, const ModalFit& fit) {
+  std::vector<Index> free;
+  for (std::size_t k = 0; k < fit.fitted.size(); ++k) {
+    if (fit.fitted[k]) free.push_back(static_cast<Index>(k));
+  }
+  const Eigen::VectorXd prior = start.prior(free);
+  // In units of the priors: information of the prior is the identity.
+  const Eigen::MatrixXd data =
+      prior.asDiagonal() * fit.information(free, free) * prior.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(data);
+  const Eigen::VectorXd spread = (solver.eigenvalues().array().max(0.0) + 1.0).inverse();
+  const double scale = std::max(1.0, fit.reduced_chi_square);
+  Uncertainty result{Eigen::VectorXd::Zero(start.vector.size()), {}};
+  for (Index k = 0; k < static_cast<Index>(free.size()); ++k) {
+    const double variance = solver.eigenvectors().row(k).cwiseAbs2().dot(spread);
+    result.deviation[free[static_cast<std::size_t>(k)]] = prior[k] * std::sqrt(scale * variance);
+  }
+  for (Index n = 0; n < solver.eigenvalues().size() && solver.eigenvalues()[n] < 1.0; ++n) {
+    std::vector<std::pair<double, Index>> parts;
+    for (Index k = 0; k < static_cast<Index>(free.size()); ++k) {
+      const double part = std::abs(solver.eigenvectors()(k, n));
+      if (part > kPart) parts.emplace_back(-part, free[static_cast<std::size_t>(k)]);
+    }
+    std::ranges::sort(parts);
+    Unidentifiable direction;
+    for (const auto& [part, at] : parts) {
+      direction.unknowns.push_back(start.names[static_cast<std::size_t>(at)]);
+    }
+    direction.experiment = ExperimentFor(direction.unknowns);
+    result.directions.push_back(std::move(direction));
+  }
+  return result;
+}
+
+}  // namespace levitas::identification

@@ -1,0 +1,30 @@
+#pragma once
+// How well each unknown is known, and what the data cannot tell at all.
+//
+// Equation  covariance = max(1, chi^2) (J^T J + diag(1/prior^2))^-1 over the fitted unknowns.
+// Direction an eigenvector of the data's information in units of the priors whose eigenvalue is
+//           below 1: along it the data say less than the prior. Mass, ki and ks together, and
+//           sensor gain against ki, are such by nature: only products show in a response from
+//           current to reading.
+// Thread    any.
+
+#include <string>
+#include <vector>
+
+#include "identification/modal/modal_fit.hpp"
+
+namespace levitas::identification {
+
+struct Unidentifiable {
+  std::vector<std::string> unknowns;  ///< that move together, the largest share first
+  std::string experiment;             ///< that would tell them apart
+};
+
+struct Uncertainty {
+  Eigen::VectorXd deviation;  ///< one standard deviation per unknown; 0 when it was not fitted
+  std::vector<Unidentifiable> directions;
+};
+
+[[nodiscard]] Uncertainty Assess(const ModalStart& start, const ModalFit& fit);
+
+}  // namespace levitas::identification

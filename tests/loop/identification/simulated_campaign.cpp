@@ -1,0 +1,116 @@
+#include "tests/loop/identification/simulated_campaign.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "controller/cycle/control_cycle.hpp"
+#include "controller/scenario/prbs.hpp"
+#include "plant_sim/plant/plant.hpp"
+#include "tests/support/paths.hpp"
+
+namespace levitas::test {
+namespace {
+
+constexpr double kRpm = std::numbers::pi / 30.0;
+
+class Rig {
+ public:
+  Rig(const config::RigFile& rig, std::uint64_t seed)
+      : rig_(rig), plant_(rig.plant, seed), cycle_(Cycle(rig)) {
+    plant_.RestInTouchdown();
+    record.name = "simulated campaign";
+    record.period_s = rig.numbers.period_s();
+    record.channels = rig.numbers.channels;
+    record.sensor_range_m = rig.numbers.sensor_range_m;
+    record.current_limit_a = rig.numbers.bias_current_a;
+    for (auto* columns : {&record.position_m, &record.current_a, &record.excitation_a}) {
+      columns->resize(rig.numbers.axes());
+    }
+  }
+
+  Mode Step(const cycle::OperatorInput& op, bool keep = false) {
+    cycle::CycleInputs in;
+    in.cycle = count_++;
+    in.frame_present = true;
+    in.frame = plant_.Sample();
+    in.op = op;
+    const cycle::CycleOutputs out = cycle_.Step(in);
+    plant_.Advance({out.current.control_current_a, out.current.bias_current_a,
+                    out.current.amplifiers_enabled, out.current.drive_enabled,
+                    out.current.speed_set_point_rad_per_s,
+                    out.current.acceleration_limit_rad_per_s2});
+    if (keep) Keep(in, out);
+    return out.mode;
+  }
+  void Run(double time_s) {
+    for (long n = std::lround(time_s / record.period_s); n > 0; --n) (void)Step({});
+  }
+  void Levitate() {
+    Mode mode = Step({OperatorCommand::kLift, 0.0, 0.0, {}});
+    for (int n = 0; n < 50'000 && mode != Mode::kLevitating; ++n) mode = Step({});
+    if (mode != Mode::kLevitating) throw std::runtime_error("the rig does not levitate");
+    Run(0.5);
+  }
+  /// At speed without the time of a run-up: the drive holds it.
+  void SpinAt(double rpm) {
+    plant_.SetSpeed(rpm * kRpm, 0.0);
+    (void)Step({OperatorCommand::kSpin, rpm * kRpm, 800.0 * kRpm, {}});
+    Run(0.5);
+  }
+
+  identification::Record record;
+
+ private:
+  static cycle::CycleConfig Cycle(const config::RigFile& rig) {
+    const auto controller = config::LoadController(
+        SourceFolder() + "/config/controllers/flexible_rotor_commissioned.yaml", rig.numbers);
+    return {rig.numbers, controller.law, controller.supervisor};
+  }
+  void Keep(const cycle::CycleInputs& in, const cycle::CycleOutputs& out) {
+    record.cycle.push_back(in.cycle);
+    record.levitated.push_back(1);
+    record.speed_rad_per_s.push_back(in.frame.speed_rad_per_s);
+    record.angle_rad.push_back(in.frame.angle_rad);
+    for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+      record.position_m[axis].push_back(in.frame.position_m[axis]);
+      record.current_a[axis].push_back(out.current.control_current_a[axis]);
+      record.excitation_a[axis].push_back(in.op.excitation_a[axis]);
+    }
+  }
+
+  config::RigFile rig_;
+  plant::Plant plant_;
+  cycle::ControlCycle cycle_;
+  std::uint64_t count_{};
+};
+
+}  // namespace
+
+const config::RigFile& FlexibleRotor() {
+  static const config::RigFile rig =
+      config::LoadRig(SourceFolder() + "/config/rigs/flexible_rotor.yaml");
+  return rig;
+}
+
+identification::Record SimulateCampaign(const config::RigFile& rig, const CampaignPlan& plan) {
+  Rig bench(rig, plan.seed);
+  bench.Levitate();
+  for (const double rpm : plan.speeds_rpm) {
+    if (rpm > 0.0) bench.SpinAt(rpm);
+    for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis) {
+      scenario::Prbs prbs(plan.order);
+      cycle::OperatorInput op;
+      const std::uint32_t bits = static_cast<std::uint32_t>(plan.periods) * prbs.period();
+      for (std::uint32_t bit = 0; bit < bits; ++bit) {
+        op.excitation_a[axis] = prbs.Next() ? plan.amplitude_a : -plan.amplitude_a;
+        for (std::uint32_t n = 0; n < plan.divisor; ++n) (void)bench.Step(op, true);
+      }
+      bench.Run(0.3);
+    }
+  }
+  return bench.record;
+}
+
+}  // namespace levitas::test
