@@ -227,7 +227,7 @@ std::string ExtendedRig(const SessionAnswer& answer, const config::RigFile& rig)
   std::string missing;
   for (const std::string& entry : EffectEntries(answer)) {
     const std::string line = "  - " + entry + "\n";
-    if (Reads(nominal + "effects:\n" + list + line)) {
+    if (Reads(fmt::format("{}effects:\n{}{}", nominal, list, line))) {
       list += line;
     } else {
       missing += "#" + line;

@@ -129,7 +129,7 @@ struct SensitivityBlock::Impl {
       term.read(m, theta, add);
       return true;
     });
-    std::array<Lane, kMaxAxes> e;
+    std::array<Lane, kMaxAxes> e{};
     for (std::size_t a = 0; a < rig.axes; ++a) {
       for (std::size_t l = 0; l < kLanes; ++l) {
         e[a][l] = -(sensor[a][l] + add_reading[a][l]);

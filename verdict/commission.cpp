@@ -43,7 +43,7 @@ Verdict Commission(const CommissionOptions& options) {
   const config::ControllerFile controller =
       config::ParseController(header.controller_yaml, within, rig.numbers);
   SessionStatistics statistics(rig.numbers, controller.supervisor.sequence.standstill_rad_per_s,
-                               kSettleAfterLift_s);
+                               kSettleAfterLiftS);
   cycle::CycleRecord record;
   while (reader.Next(record)) statistics.Add(record);
 

@@ -11,7 +11,7 @@
 namespace levitas::verdict {
 
 /// [s] left out after each lift: the touchdown bearing is left, the integrator still settles.
-inline constexpr double kSettleAfterLift_s = 0.5;
+inline constexpr double kSettleAfterLiftS = 0.5;
 
 struct CommissionOptions {
   std::string session_path;

@@ -35,7 +35,7 @@ Budget MakeBudget(const Layout& layout, const std::vector<BusConfig>& buses) {
   for (const BusConfig& bus : buses) budget.buses.push_back({.bus = bus});
   for (const Message& message : layout.messages) {
     BusLoad& bus = budget.buses[BusOf(message, buses)];
-    const double time_s = WorstFrameTime_s(message.bytes, bus.bus.rates);
+    const double time_s = WorstFrameSeconds(message.bytes, bus.bus.rates);
     const double load = time_s / (message.every * period_s);
     bus.messages.push_back({message.name, message.bytes, message.every, time_s, load});
     bus.load += load;

@@ -21,8 +21,8 @@ struct BitRates {
 };
 
 /// [s] `payload_bytes` is a length that the format knows (PayloadLength).
-[[nodiscard]] constexpr double WorstFrameTime_s(std::size_t payload_bytes,
-                                                const BitRates& rates) noexcept {
+[[nodiscard]] constexpr double WorstFrameSeconds(std::size_t payload_bytes,
+                                                 const BitRates& rates) noexcept {
   const auto data_bits = static_cast<int>(8 * payload_bytes);
   if (rates.data_bit_per_s <= 0.0) {
     const int bits = 47 + data_bits + (34 + data_bits - 1) / 4;

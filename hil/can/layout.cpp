@@ -14,15 +14,15 @@ namespace {
 constexpr unsigned kNumberBits = 16;
 constexpr unsigned kSpeedBits = 18;
 constexpr unsigned kBiasBits = 12;
-constexpr double kFinestPosition_m = 1e-8;
-constexpr double kFinestCurrent_a = 1e-4;
-constexpr double kFinestBias_a = 1e-3;
-constexpr double kFinestSpeed_rad_per_s = 0.1;
-constexpr double kFinestAcceleration_rad_per_s2 = 0.1;
+constexpr double kFinestPositionM = 1e-8;
+constexpr double kFinestCurrentA = 1e-4;
+constexpr double kFinestBiasA = 1e-3;
+constexpr double kFinestSpeedRadPerS = 0.1;
+constexpr double kFinestAccelerationRadPerS2 = 0.1;
 // A speed is to be readable beyond its trip.
 constexpr double kSpeedReserve = 1.5;
 // Rigs with a faster drive are not known; a set-point beyond it would be cut.
-constexpr double kFastestDrive_rad_per_s2 = 26'000.0;
+constexpr double kFastestDriveRadPerS2 = 26'000.0;
 
 /// The first of finest x 1, 2, 5, 10 ... that covers `range` with `steps` steps.
 double Factor(double finest, double range, double steps) {
@@ -112,9 +112,9 @@ class Table {
   Table(const RigNumbers& rig, Format format)
       : rig_(rig),
         classical_(format == Format::kClassical),
-        position_factor_(Factor(kFinestPosition_m, rig.sensor_range_m, SignedSteps(kNumberBits))),
-        current_factor_(Factor(kFinestCurrent_a, rig.max_coil_current_a, SignedSteps(kNumberBits))),
-        speed_factor_(Factor(kFinestSpeed_rad_per_s, kSpeedReserve * rig.max_speed_rad_per_s,
+        position_factor_(Factor(kFinestPositionM, rig.sensor_range_m, SignedSteps(kNumberBits))),
+        current_factor_(Factor(kFinestCurrentA, rig.max_coil_current_a, SignedSteps(kNumberBits))),
+        speed_factor_(Factor(kFinestSpeedRadPerS, kSpeedReserve * rig.max_speed_rad_per_s,
                              SignedSteps(kSpeedBits))) {
     layout_.format = format;
     layout_.axes = rig.axes();
@@ -194,14 +194,14 @@ class Table {
     builder.Add({.name = "bias_current",
                  .field = Field::kBias,
                  .bits = kBiasBits,
-                 .factor = Factor(kFinestBias_a, rig_.max_coil_current_a, UnsignedSteps(kBiasBits)),
+                 .factor = Factor(kFinestBiasA, rig_.max_coil_current_a, UnsignedSteps(kBiasBits)),
                  .unit = "A",
                  .meaning = "i0; coils carry i0 + ic and i0 - ic"});
     builder.Add(SpeedSignal("speed_set_point", Field::kSpeedSetPoint, speed_factor_));
     builder.Add({.name = "acceleration_limit",
                  .field = Field::kAccelerationLimit,
                  .bits = kSpeedBits,
-                 .factor = Factor(kFinestAcceleration_rad_per_s2, kFastestDrive_rad_per_s2,
+                 .factor = Factor(kFinestAccelerationRadPerS2, kFastestDriveRadPerS2,
                                   UnsignedSteps(kSpeedBits)),
                  .unit = "rad/s^2",
                  .meaning = "of the drive"});

@@ -44,9 +44,10 @@ void Isolate() noexcept {
   parameter.sched_priority = kPriority;
   ::sched_setscheduler(0, SCHED_FIFO, &parameter);
   ::mlockall(MCL_CURRENT);
-  if (std::FILE* file = std::fopen("/proc/self/oom_score_adj", "we")) {
-    std::fputs("-1000", file);
-    std::fclose(file);
+  const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  if (file >= 0) {
+    [[maybe_unused]] const ssize_t written = ::write(file, "-1000", 5);
+    ::close(file);
   }
 }
 
@@ -60,7 +61,7 @@ LineGuard::LineGuard(const std::function<bool()>& make_safe, std::int64_t watchd
   void* page =
       ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (page == MAP_FAILED) refuse("shared memory");
-  shared_ = new (page) Shared{};
+  shared_ = new (page) Shared{};  // NOLINT(cppcoreguidelines-owning-memory): placement
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) refuse("pipe");
   guard_ = ::fork();

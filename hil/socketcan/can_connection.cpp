@@ -36,7 +36,7 @@ std::vector<std::string> InterfacesOf(const std::string& port) {
 }
 
 /// Buses that share one real wire are one bus.
-std::vector<can::BusConfig> MergeShared(std::vector<can::BusConfig> buses,
+std::vector<can::BusConfig> MergeShared(const std::vector<can::BusConfig>& buses,
                                         bool (*is_virtual)(const std::string&)) {
   std::vector<can::BusConfig> merged;
   for (const can::BusConfig& bus : buses) {

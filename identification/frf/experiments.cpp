@@ -15,7 +15,7 @@ namespace {
 constexpr double kPauseS = 0.2;
 /// Speeds closer than this, relative or in rad/s, are the same: a drive holds its speed.
 constexpr double kSameSpeed = 0.01;
-constexpr double kStands_rad_per_s = 1.0;
+constexpr double kStandsRadPerS = 1.0;
 
 struct Piece {
   std::size_t axis{};
@@ -85,7 +85,7 @@ double SteadySpeed(const Record& record, const Experiment& experiment) {
   const auto end = record.speed_rad_per_s.begin() + static_cast<std::ptrdiff_t>(experiment.end());
   const auto [low, high] = std::minmax_element(begin, end);
   const double mean = 0.5 * (*low + *high);
-  if (*high - *low > std::max(kStands_rad_per_s, kSameSpeed * std::abs(mean))) {
+  if (*high - *low > std::max(kStandsRadPerS, kSameSpeed * std::abs(mean))) {
     throw BadInput(fmt::format("{}: the speed changes from {:.0f} to {:.0f} rpm meanwhile",
                                Where(record, experiment.axis, experiment.begin), Rpm(*low),
                                Rpm(*high)));
@@ -126,7 +126,7 @@ Experiment MakeExperiment(const Record& record, const Piece& piece,
 }
 
 bool SameSpeed(double a, double b) {
-  return std::abs(a - b) <= std::max(kStands_rad_per_s, kSameSpeed * std::abs(a));
+  return std::abs(a - b) <= std::max(kStandsRadPerS, kSameSpeed * std::abs(a));
 }
 
 void RefuseIncomplete(const Record& record, const Campaign& campaign) {

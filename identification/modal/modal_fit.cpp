@@ -165,6 +165,7 @@ class Search {
     }
     if (!constant.empty()) {
       problem.SetManifold(fit_.vector.data(),
+                          // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): the problem owns it
                           new ceres::SubsetManifold(static_cast<int>(at.size), constant));
     }
     ceres::Solver::Options solver;

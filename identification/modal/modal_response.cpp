@@ -227,7 +227,7 @@ MatrixXcd ModalResponse(const ModalFrame& frame, const Physical& rig, double fre
   FillChain(line, frequency_hz);
   Solve(line);
   const MatrixXcd sensor = BothPlanes(rig.sensor);
-  const MatrixXcd plant =
+  MatrixXcd plant =
       line.left.asDiagonal() * (sensor.transpose() * line.X) * line.right.asDiagonal();
   if (derivative != nullptr) {
     derivative->setZero(line.axes() * line.axes(), frame.layout.size);

@@ -17,8 +17,8 @@ std::vector<Row> Collect() {
 }  // namespace
 
 std::span<const Row> Catalogue() {
-  static const std::vector<Row> rows = Collect();
-  return rows;
+  static const std::vector<Row> kRows = Collect();
+  return kRows;
 }
 
 const Row& At(Id id) { return Catalogue()[static_cast<std::size_t>(id)]; }

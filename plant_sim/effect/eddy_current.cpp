@@ -31,8 +31,8 @@ EddyLags Make() noexcept {
 }  // namespace
 
 const EddyLags& Eddy() noexcept {
-  static const EddyLags eddy = Make();
-  return eddy;
+  static const EddyLags kEddy = Make();
+  return kEddy;
 }
 
 }  // namespace levitas::effect

@@ -13,7 +13,7 @@ namespace {
 using Index = Eigen::Index;
 
 // A lag faster than this is no lag to a loop sampled at kilohertz, and would cost digits.
-constexpr double kFastestLag_1_per_s = 1e9;
+constexpr double kFastestLagPerSecond = 1e9;
 
 Index At(std::size_t i) { return static_cast<Index>(i); }
 
@@ -87,7 +87,7 @@ Eigen::RowVectorXd Flux(const PlantModel& model, std::size_t axis, Eigen::Matrix
   if (lags) row[coil] = eddy.direct;
   for (std::size_t k = 0; k < effect::kEddyLags; ++k) {
     const Index state = At(magnet.eddy_state + k);
-    const double rate = std::min(eddy.rate[k] / magnet.eddy_tau_s, kFastestLag_1_per_s);
+    const double rate = std::min(eddy.rate[k] / magnet.eddy_tau_s, kFastestLagPerSecond);
     a(state, state) = -rate;
     a(state, coil) = rate;
     if (lags) row[state] = eddy.gain[k];

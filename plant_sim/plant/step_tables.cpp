@@ -15,7 +15,7 @@ namespace {
 constexpr double kWholeSample = 1e-9;
 
 // A lag this much faster than the substep is immediate; keeps tau = 0 away from the division.
-constexpr double kFastestLag_hz = 1e12;
+constexpr double kFastestLagHz = 1e12;
 
 }  // namespace
 
@@ -91,7 +91,7 @@ void PlantModel::RefreshStep(StepTable& table, double share) noexcept {
     const std::size_t axis = i / effect::kEddyLags;
     const double tau_s = effects_.bearings[axis / 2].axis[axis % 2].eddy_tau_s;
     const double corner_rad_per_s = effect::Eddy().rate[i % effect::kEddyLags] / tau_s;
-    const double corner_hz = std::min(corner_rad_per_s / (2.0 * std::numbers::pi), kFastestLag_hz);
+    const double corner_hz = std::min(corner_rad_per_s / (2.0 * std::numbers::pi), kFastestLagHz);
     table.eddy[i] = sensor::MakeFilterStep(corner_hz, 1.0, table.duration_s);
   }
   for (std::size_t b = 0; b < table.housing.size(); ++b) {

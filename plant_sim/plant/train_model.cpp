@@ -156,7 +156,8 @@ TrainModel BuildTrain(const PlantConfig& config, const TrainModes& modes) {
   train.twists = static_cast<std::size_t>(modes.torsion.frequency_rad_per_s.size());
   train.ratio = SpeedRatios(config);
   for (const auto& pair : config.gears) {
-    train.turns_per_repeat *= pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);
+    const int turns = pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);
+    train.turns_per_repeat *= turns;
     train.meshes.push_back(MeshOf(config, modes, train.ratio, pair));
   }
   BuildUnbalance(train, config, modes);

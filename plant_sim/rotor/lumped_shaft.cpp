@@ -62,7 +62,7 @@ ModalRotor Reduce(const LumpedShaft& shaft) {
   if (!(solver.eigenvalues()[0] > 0.0)) {
     throw std::invalid_argument("shaft: the stiffness of deflection and tilt holds no disc");
   }
-  const Eigen::MatrixXd phi = solver.eigenvectors();
+  const Eigen::MatrixXd& phi = solver.eigenvectors();
   ModalRotor modal;
   modal.frequency_rad_per_s = solver.eigenvalues().cwiseSqrt();
   modal.damping_ratio = Eigen::VectorXd::Zero(size);

@@ -38,7 +38,7 @@ std::string Escaped(const std::string& text) {
 }
 
 struct Frame {
-  double left, right, top, bottom;
+  double left{}, right{}, top{}, bottom{};
   Axis x, y;
 };
 
@@ -182,8 +182,9 @@ std::string Draw(const Figure& figure) {
     svg += fmt::format("<text x='12' y='19' font-size='15'>{}</text>\n", Escaped(figure.title));
   }
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const std::size_t row = i / columns;
     const double x = static_cast<double>(i % columns) * figure.panel_width;
-    const double y = top + static_cast<double>(i / columns) * figure.panel_height;
+    const double y = top + static_cast<double>(row) * figure.panel_height;
     svg += DrawPanel(figure.panels[i], FrameOf(figure.panels[i], x, y, figure), i);
   }
   return svg + "</svg>\n";

@@ -26,22 +26,22 @@ constexpr std::array<Row, 5> kRows{{{8, 90.5, 56.6, 48.1},
                                     {64, 373.0, 169.6, 118.8}}};
 
 TEST(FrameTime, OfClassicalEightBytesIs135Microseconds) {
-  EXPECT_NEAR(WorstFrameTime_s(8, {1e6, 0.0}), 135e-6, 1e-12);
-  EXPECT_NEAR(WorstFrameTime_s(0, {1e6, 0.0}), 55e-6, 1e-12);  // Davis et al. 2007: 55 + 10 n
+  EXPECT_NEAR(WorstFrameSeconds(8, {1e6, 0.0}), 135e-6, 1e-12);
+  EXPECT_NEAR(WorstFrameSeconds(0, {1e6, 0.0}), 55e-6, 1e-12);  // Davis et al. 2007: 55 + 10 n
 }
 
 TEST(FrameTime, OfClassicalFramesIs55Plus10BitsPerByte) {
   for (std::size_t bytes = 0; bytes <= 8; ++bytes) {
-    EXPECT_NEAR(WorstFrameTime_s(bytes, {1e6, 0.0}),
+    EXPECT_NEAR(WorstFrameSeconds(bytes, {1e6, 0.0}),
                 (55.0 + 10.0 * static_cast<double>(bytes)) * 1e-6, 1e-12);
   }
 }
 
 TEST(FrameTime, OfFdFramesIsThatOfTheTable) {
   for (const Row& row : kRows) {
-    EXPECT_NEAR(WorstFrameTime_s(row.bytes, {1e6, 2e6}), row.at_2 * 1e-6, kTenthOfMicrosecond);
-    EXPECT_NEAR(WorstFrameTime_s(row.bytes, {1e6, 5e6}), row.at_5 * 1e-6, kTenthOfMicrosecond);
-    EXPECT_NEAR(WorstFrameTime_s(row.bytes, {1e6, 8e6}), row.at_8 * 1e-6,
+    EXPECT_NEAR(WorstFrameSeconds(row.bytes, {1e6, 2e6}), row.at_2 * 1e-6, kTenthOfMicrosecond);
+    EXPECT_NEAR(WorstFrameSeconds(row.bytes, {1e6, 5e6}), row.at_5 * 1e-6, kTenthOfMicrosecond);
+    EXPECT_NEAR(WorstFrameSeconds(row.bytes, {1e6, 8e6}), row.at_8 * 1e-6,
                 kTenthOfMicrosecond + 1e-9);
   }
 }
@@ -50,9 +50,9 @@ TEST(FrameTime, GrowsWithThePayloadAndShrinksWithTheRate) {
   double before = 0.0;
   for (std::size_t bytes = 0; bytes <= kMaxPayload; ++bytes) {
     const std::size_t length = PayloadLength(bytes);
-    const double time_s = WorstFrameTime_s(length, {1e6, 5e6});
+    const double time_s = WorstFrameSeconds(length, {1e6, 5e6});
     EXPECT_GE(time_s, before);
-    EXPECT_LT(WorstFrameTime_s(length, {1e6, 8e6}), time_s);
+    EXPECT_LT(WorstFrameSeconds(length, {1e6, 8e6}), time_s);
     before = time_s;
   }
 }
@@ -76,13 +76,13 @@ TEST(FrameTime, HoldsAsManyStuffBitsAsTheWorstPatternNeeds) {
   // Classical: from the start of frame to the checksum, 34 + 8n bits.
   for (int bytes = 0; bytes <= 8; ++bytes) {
     const int bits = 47 + 8 * bytes + StuffBitsOfWorstPattern(34 + 8 * bytes, 0);
-    EXPECT_NEAR(WorstFrameTime_s(static_cast<std::size_t>(bytes), {1.0, 0.0}), bits, 1e-9);
+    EXPECT_NEAR(WorstFrameSeconds(static_cast<std::size_t>(bytes), {1.0, 0.0}), bits, 1e-9);
   }
   // FD with equal rates: 22 + 8n bits are stuffed as one stretch; counting the two phases apart
   // may add one bit at their border, never miss one.
   for (const int bytes : {8, 12, 16}) {
     const int counted = 17 + 13 + 5 + 8 * bytes + 27 + StuffBitsOfWorstPattern(22 + 8 * bytes, 0);
-    const double time_s = WorstFrameTime_s(static_cast<std::size_t>(bytes), {1.0, 1.0});
+    const double time_s = WorstFrameSeconds(static_cast<std::size_t>(bytes), {1.0, 1.0});
     EXPECT_GE(time_s, counted);
     EXPECT_LE(time_s, counted + 1);
   }
