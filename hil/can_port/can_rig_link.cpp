@@ -54,7 +54,7 @@ port::RigLink::Answer CanRigLink::Receive(CurrentFrame& frame, std::int64_t dead
   for (int taken = 0;; ++taken) {
     if (taken == kMostPerRead) {
       ++watch_.counters().read_limit;
-      break;
+      return Answer::kNothing;  // as in can_rig_port.cpp
     }
     const can::Reception reception = access_.Next();
     if (reception.event == can::BusEvent::kNothing) {

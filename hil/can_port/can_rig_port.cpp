@@ -46,11 +46,13 @@ bool CanRigPort::Accept(const can::Reception& reception, std::int64_t newest_ns,
 
 port::ReadResult CanRigPort::Read(SensorFrame& frame, std::int64_t deadline_ns) noexcept {
   const std::int64_t now_ns = options_.realtime ? rt::MonotonicNowNs() : 0;
+  SensorFrame newest;
   bool found = false;
   for (int taken = 0;; ++taken) {
     if (taken == kMostPerRead) {
+      // What was found may be old: a newer one may lie behind what is left.
       ++watch_.counters().read_limit;
-      break;
+      return port::ReadResult::kNothing;
     }
     const can::Reception reception = access_.Next();
     if (reception.event == can::BusEvent::kNothing) {
@@ -58,12 +60,13 @@ port::ReadResult CanRigPort::Read(SensorFrame& frame, std::int64_t deadline_ns) 
       if (found || !access_.Wait(deadline_ns)) break;
       continue;
     }
-    if (!Accept(reception, now_ns, frame)) continue;
+    if (!Accept(reception, now_ns, newest)) continue;
     if (found) ++counters_.frames_skipped;
     found = true;
   }
   if (!found) return port::ReadResult::kNothing;
   ++counters_.frames_read;
+  frame = newest;
   return port::ReadResult::kFrame;
 }
 

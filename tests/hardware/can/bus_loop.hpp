@@ -21,13 +21,16 @@ class BusLoop {
  public:
   static constexpr std::uint32_t kWatchdogPeriods = 20;
 
-  explicit BusLoop(const std::string& port)
+  /// `controller_port`: where that differs, as at the two ends of a wire.
+  explicit BusLoop(const std::string& port, const std::string& controller_port = "")
       : rig_file_(config::LoadRig(config::FindConfig("flexible_rotor", "rigs"))),
         plan_(socketcan::PlanConnection(rig_file_, "flexible_rotor", port)),
+        controller_plan_(socketcan::PlanConnection(
+            rig_file_, "flexible_rotor", controller_port.empty() ? port : controller_port)),
         rig_bus_(plan_.layout, plan_.buses, can::Sender::kRig),
-        controller_bus_(plan_.layout, plan_.buses, can::Sender::kController),
+        controller_bus_(controller_plan_.layout, controller_plan_.buses, can::Sender::kController),
         link_(plan_.layout, plan_.buses, rig_bus_),
-        port_(plan_.layout, plan_.buses, {}, controller_bus_),
+        port_(controller_plan_.layout, controller_plan_.buses, {}, controller_bus_),
         control_(CycleOf(rig_file_)),
         plant_(Delayed(rig_file_, plan_), 1) {
     plant_.RestInTouchdown();
@@ -106,6 +109,7 @@ class BusLoop {
 
   config::RigFile rig_file_;
   socketcan::CanConnection plan_;
+  socketcan::CanConnection controller_plan_;
   socketcan::SocketCan rig_bus_;
   socketcan::SocketCan controller_bus_;
   can_port::CanRigLink link_;

@@ -40,6 +40,26 @@ class VirtualBus {
   bool made_{false};
 };
 
+/// Two interfaces that are the ends of one wire.
+class VirtualWire {
+ public:
+  VirtualWire(const std::string& one, const std::string& other) : one_(one) {
+    made_ = Shell("ip link add dev " + one + " type vxcan peer name " + other);
+    for (const std::string& end : {one, other}) {
+      made_ = made_ && Shell("ip link set " + end + " mtu 72 up");
+    }
+  }
+  ~VirtualWire() { Shell("ip link del " + one_ + " 2>/dev/null"); }
+  VirtualWire(const VirtualWire&) = delete;
+  VirtualWire& operator=(const VirtualWire&) = delete;
+
+  [[nodiscard]] bool made() const { return made_; }
+
+ private:
+  std::string one_;
+  bool made_{false};
+};
+
 /// Writes whatever a test wants, error frames of the chip included.
 class Intruder {
  public:

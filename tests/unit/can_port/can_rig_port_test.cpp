@@ -164,6 +164,15 @@ TEST_F(CanRigPortTest, ReadsNoMoreThanItsShareOfABabblingNode) {
   EXPECT_EQ(port_.bus_counters().read_limit, 1U);
 }
 
+TEST_F(CanRigPortTest, BelievesNoFrameBehindWhichANewerOneMayWait) {
+  Period(0);
+  for (std::uint64_t cycle = 1; cycle <= kMostPerRead + 1; ++cycle) link_.Send(Frame(cycle));
+  EXPECT_EQ(port_.Read(frame_, 0), ReadResult::kNothing);
+  EXPECT_EQ(frame_.cycle, 0U);
+  ASSERT_EQ(port_.Read(frame_, 0), ReadResult::kFrame);
+  EXPECT_EQ(frame_.cycle, kMostPerRead + 1U);
+}
+
 TEST_F(CanRigPortTest, SaysTheLinkIsDownOnceAndReadsSilence) {
   controller_bus_.Event(BusEvent::kLinkDown);
   EXPECT_EQ(port_.Read(frame_, 0), ReadResult::kNothing);
