@@ -119,11 +119,13 @@ class RecordedWithCandump(unittest.TestCase):
     @unittest.skipUnless(shutil.which("canplayer"), "can-utils is not installed")
     def test_canplayer_feeds_a_listening_controller_that_answers_as_before(self):
         again = self.folder / "again.lcm"
-        # What the rig said, without the answers: those the controller gives anew.
+        # What the rig said, without the answers: those the controller gives anew. canplayer looks at
+        # its clock once a millisecond and sends in bursts what is due, so frames are put 2 ms apart.
         spoken = self.folder / "rig_only.log"
-        spoken.write_text("".join(line + "\n" for line in
-                                  self.log.read_text(encoding="utf-8").splitlines()
-                                  if line.split()[2].startswith("110#")), encoding="utf-8")
+        said = [line.split() for line in self.log.read_text(encoding="utf-8").splitlines()]
+        said = [words for words in said if words[2].startswith("110#")]
+        spoken.write_text("".join(f"({1.0 + 0.002 * i:.6f}) {words[1]} {words[2]}\n"
+                                  for i, words in enumerate(said)), encoding="utf-8")
         listener = self.controller("--record", again, "--partner-timeout", "3")
         time.sleep(0.5)
         subprocess.run(["canplayer", "-I", spoken, "-g", "1"], check=True, timeout=150)
