@@ -26,6 +26,7 @@ void AddExportCommand(CLI::App& app, Action& action);
 void AddCanDbcCommand(CLI::App& app, Action& action);
 void AddDoctorCommand(CLI::App& app, Action& action);
 void AddSimulateCommand(CLI::App& app, Action& action);
+void AddEffectsCommand(CLI::App& app, Action& action);
 void AddIdentifyCommand(CLI::App& app, Action& action);
 void AddDiagnoseCommand(CLI::App& app, Action& action);
 

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   cli::AddCanDbcCommand(app, action);
   cli::AddDoctorCommand(app, action);
   cli::AddSimulateCommand(app, action);
+  cli::AddEffectsCommand(app, action);
   cli::AddIdentifyCommand(app, action);
   cli::AddDiagnoseCommand(app, action);
   try {

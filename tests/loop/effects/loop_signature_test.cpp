@@ -75,6 +75,30 @@ TEST(DroppedSamples, HoldTheLastCurrentForTheExpectedShareOfTime) {
   EXPECT_NEAR(static_cast<double>(held) / kPeriods, shown, 0.1 * shown);
 }
 
+TEST(SampleJitter, ReadsAMotionWithAnErrorOfRateTimesDeviation) {
+  constexpr double kDeviation_s = 5e-6;
+  constexpr double kRate_m_per_s = 5e-4;  // 0.2 mm in all: half the range of the converter
+  Plant plant(QuietWith(Entry(Id::kSampleJitter, {kDeviation_s})), 4);
+  PlantCommand off;
+  off.amplifiers_enabled = false;
+  plant.RestInTouchdown();  // no current, no force
+  const auto& rigid = plant.model().rigid();
+  for (std::size_t i = 0; i < 2; ++i) {
+    plant.mutable_state()[plant.layout().v_x + i] =
+        kRate_m_per_s * rigid(static_cast<Eigen::Index>(i), 0);
+  }
+  for (int i = 0; i < 10; ++i) plant.Advance(off);  // the filter settles: 3 periods of 32 us
+  constexpr int kSamples = 4000;
+  double square = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double error_m = plant.Sample().position_m[0] - plant.SensorOutput()[0];
+    square += error_m * error_m;
+    plant.Advance(off);
+  }
+  // Standard deviation of an estimate from N samples: 1/sqrt(2 N) = 1.1 %, times 4.
+  EXPECT_NEAR(std::sqrt(square / kSamples) / (kDeviation_s * kRate_m_per_s), 1.0, 0.045);
+}
+
 TEST(AmplifierBandwidth, ChangesTheTimeConstantAndNotTheFinalCurrent) {
   const auto current_a = StepResponse(Entry(Id::kAmplifierBandwidth, {300.0}), 0.1, 200);
   for (std::size_t i = 0; i < current_a.size(); ++i) {

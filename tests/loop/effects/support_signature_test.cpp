@@ -116,6 +116,32 @@ TEST(SupportMode, MovesMagnetAndSensorTogetherSoThatTheReadingIsRelative) {
   }
 }
 
+TEST(SupportMode, FeelsTheOppositeOfTheForceOnTheRotor) {
+  constexpr double kMass_kg = 5.0;
+  PlantParameters parameters = Quiet()->parameters();
+  parameters.config.effects = {Entry(Id::kSupportMode, {kMass_kg, 0.1, 0.0}),
+                               Entry(Id::kSupportMode, {kMass_kg, 0.1, 0.0})};
+  parameters.config.effects[1].bearing = 1;
+  Plant plant(std::make_shared<const PlantModel>(parameters), 1);
+  PlantCommand command;
+  command.bias_current_a = 1.0;
+  command.control_current_a = {0.2, 0.0, 0.0, 0.0};
+  for (int i = 0; i < 20; ++i) plant.Advance(command);
+  // Momentum of rotor and both housings stays zero but for their soft springs: (w t)^2/6 of it.
+  const auto& at = plant.layout();
+  const auto& rigid = plant.model().rigid();
+  double rotor = 0.0;  // translation's momentum: sum of velocity times unit translation
+  for (std::size_t i = 0; i < 2; ++i) {
+    rotor += plant.state()[at.v_x + i] * rigid(static_cast<Eigen::Index>(i), 0);
+  }
+  double frame = 0.0;
+  for (const BearingEffects& bearing : plant.model().effects().bearings) {
+    frame += kMass_kg * plant.state()[bearing.housing_state + 2];
+  }
+  EXPECT_GT(rotor, 1e-3);  // 8 N for some 2 ms
+  EXPECT_NEAR((rotor + frame) / rotor, 0.0, 1e-5);
+}
+
 TEST(TouchdownRub, PushesBackBeyondItsClearanceAgainstRotationAndNotBelowIt) {
   constexpr double kClearance_m = 20e-6;
   constexpr double kStiffness = 2e5;

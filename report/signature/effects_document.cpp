@@ -1,0 +1,91 @@
+// docs/effects.md from the catalogue.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/signature/signature.hpp"
+
+namespace levitas::signature {
+namespace {
+
+constexpr std::string_view kIntroduction =
+    R"(# Effects: what a rig does beyond its nominal model
+
+Generated from the catalogue in `plant_sim/effect/` (`amb effects --document docs/effects.md --pictures docs/pictures/effects`); do not edit.
+A test compares.
+
+Every effect is an entry of the list `effects` of a rig file ([configuration.md](configuration.md)); several may act at once, and
+those of channels on any axis:
+
+```yaml
+effects:
+  - {id: eddy_current, channels: [de_x, de_y], tau_us: 50}
+  - {id: breathing_crack, z_mm: 250, depth: 0.3, at_s: 10}       # sudden, after 10 s
+  - {id: sensor_gain, channels: [nde_x], ratio: 1.1, ramp_s: 60}  # a drift over a minute
+```
+
+`strength` scales an entry from 0, where the plant is the nominal one bit for bit, to 1. Between them a value runs linearly from
+its neutral value, or inversely where neutral is infinite, or geometrically from the rig's own (bandwidths, frequencies); phases,
+orders and exponents stay. The program reaches every number by name, `effects[0].tau_s`, and can change a strength while it runs.
+
+Symbols: *ic* control current, *i0* bias, *x* displacement at the actuator, *r* = x + jy, *q* modal coordinate, *w* its
+frequency, *phi* its shape, *W* speed and *angle* of the rotor, *s* Laplace variable. "Clear" is a size that shows on a
+laboratory rig; "x own" means times what the rig has. Pictures: rig `flexible_rotor`, clear size, nominal (first colour) beside
+effect; responses are those of the free rotor in its magnets without a controller.
+
+Not covered by the linear model that `amb poles` and `amb margins` use: hysteresis, slew, rub, anisotropy, crack, and everything
+that is a signal. On rigs with geared shafts the effects of rotor and surroundings, which refer to one rotor, are refused.
+
+The lag of `eddy_current` is a sum of first-order lags: 1/(1 + sqrt p) = (1/pi) integral over x > 0 of sqrt(x)/((1 + x)(x + p)) dx,
+by the trapezoid rule in ln x with ten points from 1e-4 to 1e2. It follows the half-order law within 0.6 % up to 2 pi f tau = 10.
+
+)";
+
+std::string Number(double value) {
+  if (std::isnan(value)) return "own";
+  if (std::isinf(value)) return "infinite";
+  return fmt::format("{:.4g}", value);
+}
+
+std::string Parameters(const effect::Row& row) {
+  std::string text =
+      "| parameter | unit | allowed | neutral | clear | meaning |\n|---|---|---|---|---|---|\n";
+  for (const effect::Parameter& p : row.parameters) {
+    text += fmt::format("| `{}` | {} | {} to {} | {} | {}{} | {} |\n", p.stem, p.si_suffix,
+                        Number(p.low), Number(p.high), Number(p.neutral), Number(p.clear),
+                        std::isnan(p.neutral) ? " x own" : "", p.meaning);
+  }
+  return text;
+}
+
+std::string_view Where(effect::Scope scope) {
+  switch (scope) {
+    case effect::Scope::kChannels:
+      return "per channel";
+    case effect::Scope::kBearing:
+      return "per bearing";
+    case effect::Scope::kMode:
+      return "per flexible mode";
+    case effect::Scope::kRig:
+      break;
+  }
+  return "whole rig";
+}
+
+}  // namespace
+
+std::string EffectsDocument() {
+  std::string text(kIntroduction);
+  for (const effect::Row& row : effect::Catalogue()) {
+    text += fmt::format("## `{}`\n\n{}, {}: {}.\n\n    {}\n\nSignature: {}.\n\n{}\nSource: {}.\n\n",
+                        row.name, effect::Name(row.place), Where(row.scope), row.meaning,
+                        row.equation, row.signature, Parameters(row), row.source);
+    if (row.place != effect::Place::kGear) {
+      text += fmt::format("![{0}](pictures/effects/{0}.svg)\n\n", row.name);
+    }
+  }
+  text.pop_back();
+  return text;
+}
+
+}  // namespace levitas::signature

@@ -1,0 +1,44 @@
+#pragma once
+// Pictures of what each effect does to a rig: nominal beside effect.
+//
+// Response   linear effects: gain and phase from the control current of the first axis to the
+//            readings of both axes of its bearing, delay included.
+// Spectrum   effects that turn with the rotor, or of the sensor: full spectrum of the orbit over
+//            orders of rotation (positive = forward), and the orbit, levitated by a plain
+//            proportional-derivative law.
+// Force      magnets: force over commanded current, the rotor held in the centre.
+// Units      hertz, newtons, amperes, micrometres.
+// Thread     any; a picture takes some tens of milliseconds.
+// Failure    std::invalid_argument when the rig cannot have the effect.
+
+#include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/plant/plant_parameters.hpp"
+#include "report/svg/figure.hpp"
+
+namespace levitas::signature {
+
+enum class Kind { kResponse, kSpectrum, kForce };
+
+/// The picture that shows this effect best.
+[[nodiscard]] Kind KindOf(effect::Id id);
+
+/// An entry of clear size on a rig: planes inside its shaft, factors on its own values.
+[[nodiscard]] effect::EffectConfig ClearOn(const plant::PlantParameters& rig, effect::Id id);
+
+/// `rig` without effects beside `rig` with this entry.
+[[nodiscard]] svg::Figure Picture(const plant::PlantParameters& rig,
+                                  const effect::EffectConfig& entry);
+
+// The three kinds; a pair of models: without and with the effect.
+struct Pair {
+  plant::PlantParameters without;
+  plant::PlantParameters with;
+};
+[[nodiscard]] std::vector<svg::Panel> ResponsePanels(const Pair& rigs);
+[[nodiscard]] std::vector<svg::Panel> SpectrumPanels(const Pair& rigs);
+[[nodiscard]] std::vector<svg::Panel> ForcePanels(const Pair& rigs);
+
+/// docs/effects.md as it must read for the present catalogue.
+[[nodiscard]] std::string EffectsDocument();
+
+}  // namespace levitas::signature

@@ -1,0 +1,95 @@
+// Full spectrum and orbit of the levitated, turning rotor, with and without an effect.
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "plant_sim/plant/plant.hpp"
+#include "plant_sim/plant/plant_model.hpp"
+#include "report/signature/signature.hpp"
+
+namespace levitas::signature {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kSpeed_hz = 40.0;  // so that 50 Hz of the mains is not a multiple of it
+constexpr int kTurns = 16;
+constexpr double kMostOrders = 4.0;
+constexpr double kSettle_s = 0.6;
+
+/// Readings of the first bearing as x + jy [m], over whole turns.
+std::vector<Complex> Orbit(const plant::PlantParameters& rig) {
+  plant::Plant plant(std::make_shared<const plant::PlantModel>(rig), 1);
+  plant.SetSpeed(kTurn * kSpeed_hz, 0.0);
+  const double period_s = static_cast<double>(rig.config.period_ns) * 1e-9;
+  const auto settle = static_cast<int>(kSettle_s / period_s);
+  const auto count = static_cast<int>(std::lround(kTurns / kSpeed_hz / period_s));
+  plant::PlantCommand command;
+  command.bias_current_a = rig.config.bearings.front().magnet.bias_current_a;
+  command.drive_enabled = true;
+  command.speed_set_point_rad_per_s = kTurn * kSpeed_hz;
+  command.acceleration_limit_rad_per_s2 = 1.0;
+  AxisArray last_m{};
+  std::vector<Complex> orbit;
+  for (int i = 0; i < settle + count; ++i) {
+    const SensorFrame frame = plant.Sample();
+    // A stiff spring and a damper of 3 A s/m: holds the shipped rotor at every speed.
+    for (std::size_t axis = 0; axis < frame.axes; ++axis) {
+      const double y_m = frame.position_m[axis];
+      command.control_current_a[axis] = rig.config.sensor_polarity[axis] *
+                                        (-4000.0 * y_m - 3.0 * (y_m - last_m[axis]) / period_s);
+      last_m[axis] = y_m;
+    }
+    if (i >= settle) orbit.emplace_back(frame.position_m[0], frame.position_m[1]);
+    plant.Advance(command);
+  }
+  return orbit;
+}
+
+svg::Series Spectrum(const std::vector<Complex>& orbit, const std::string& name,
+                     std::size_t colour) {
+  svg::Series series;
+  series.name = name;
+  series.colour = svg::Colour(colour);
+  const auto count = static_cast<double>(orbit.size());
+  const int most = static_cast<int>(kMostOrders * kTurns);
+  for (int bin = -most; bin <= most; ++bin) {
+    const Complex back = std::polar(1.0, -kTurn * bin / count);
+    Complex turning = 1.0;
+    Complex sum = 0.0;
+    for (const Complex r : orbit) {
+      sum += r * turning;
+      turning *= back;
+    }
+    series.x.push_back(static_cast<double>(bin) / kTurns);
+    series.y.push_back(std::abs(sum) / count * 1e6);
+  }
+  return series;
+}
+
+svg::Series Path(const std::vector<Complex>& orbit, std::size_t colour) {
+  svg::Series series;
+  series.colour = svg::Colour(colour);
+  const std::size_t two_turns = 2 * orbit.size() / kTurns;
+  for (std::size_t i = 0; i < two_turns; i += 2) {
+    series.x.push_back(orbit[i].real() * 1e6);
+    series.y.push_back(orbit[i].imag() * 1e6);
+  }
+  return series;
+}
+
+}  // namespace
+
+std::vector<svg::Panel> SpectrumPanels(const Pair& rigs) {
+  const auto without = Orbit(rigs.without);
+  const auto with = Orbit(rigs.with);
+  svg::Panel spectrum{"full spectrum at 2400 rpm", "order of rotation (negative: backward)", "um"};
+  spectrum.y_scale = svg::Scale::kLogarithmic;
+  spectrum.series = {Spectrum(with, "effect", 1), Spectrum(without, "nominal", 0)};
+  svg::Panel path{"orbit, two turns", "x, um", "y, um"};
+  path.series = {Path(with, 1), Path(without, 0)};
+  return {spectrum, path};
+}
+
+}  // namespace levitas::signature
