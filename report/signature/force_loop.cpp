@@ -10,7 +10,7 @@ namespace levitas::signature {
 namespace {
 
 constexpr double kAmplitude_of_bias = 0.9;
-constexpr double kFrequency_hz = 25.0;
+constexpr double kFrequency_hz = 50.0;
 
 /// One settled turn of a sine of current.
 svg::Series Loop(const plant::PlantParameters& rig, const std::string& name, std::size_t colour) {
@@ -38,7 +38,7 @@ svg::Series Loop(const plant::PlantParameters& rig, const std::string& name, std
 }  // namespace
 
 std::vector<svg::Panel> ForcePanels(const Pair& rigs) {
-  svg::Panel panel{"force of one axis, 25 Hz", "commanded current, A", "N"};
+  svg::Panel panel{"force of one axis, 50 Hz", "commanded current, A", "N"};
   panel.series = {Loop(rigs.without, "nominal", 0), Loop(rigs.with, "effect", 1)};
   svg::Panel difference{"effect minus nominal", "commanded current, A", "N"};
   svg::Series line = panel.series[1];

@@ -47,8 +47,17 @@ svg::Series Line(const std::string& name, const Response& response, bool cross, 
   svg::Series line;
   line.name = name;
   line.x = response.frequency_hz;
+  double unwrapped = 0.0;
   for (const Complex value : cross ? response.cross : response.direct) {
-    line.y.push_back(phase ? std::arg(value) * 180.0 / std::numbers::pi : std::abs(value) * 1e6);
+    if (!phase) {
+      line.y.push_back(std::abs(value) * 1e6);
+      continue;
+    }
+    // Continuous from point to point: an angle beyond half a turn is not a jump.
+    double degrees = std::arg(value) * 180.0 / std::numbers::pi;
+    if (!line.y.empty()) degrees += 360.0 * std::round((unwrapped - degrees) / 360.0);
+    unwrapped = degrees;
+    line.y.push_back(degrees);
   }
   line.colour = svg::Colour(effect ? 1 : 0);
   if (cross) line.dashes = "4 3";

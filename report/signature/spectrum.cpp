@@ -16,7 +16,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSpeed_hz = 40.0;  // so that 50 Hz of the mains is not a multiple of it
 constexpr int kTurns = 16;
 constexpr double kMostOrders = 4.0;
-constexpr double kSettle_s = 0.6;
+constexpr double kSettle_s = 1.0;
 
 /// Readings of the first bearing as x + jy [m], over whole turns.
 std::vector<Complex> Orbit(const plant::PlantParameters& rig) {
@@ -31,14 +31,17 @@ std::vector<Complex> Orbit(const plant::PlantParameters& rig) {
   command.speed_set_point_rad_per_s = kTurn * kSpeed_hz;
   command.acceleration_limit_rad_per_s2 = 1.0;
   AxisArray last_m{};
+  AxisArray carried_a{};
   std::vector<Complex> orbit;
   for (int i = 0; i < settle + count; ++i) {
     const SensorFrame frame = plant.Sample();
-    // A stiff spring and a damper of 3 A s/m: holds the shipped rotor at every speed.
+    // A stiff spring, a damper of 3 A s/m, and an integrator that carries the weight: holds the
+    // shipped rotor in the centre at every speed.
     for (std::size_t axis = 0; axis < frame.axes; ++axis) {
-      const double y_m = frame.position_m[axis];
-      command.control_current_a[axis] = rig.config.sensor_polarity[axis] *
-                                        (-4000.0 * y_m - 3.0 * (y_m - last_m[axis]) / period_s);
+      const double y_m = frame.position_m[axis];  // the shipped rig has no inverted probe or coil
+      carried_a[axis] -= 2e4 * y_m * period_s;
+      command.control_current_a[axis] =
+          carried_a[axis] - 4000.0 * y_m - 3.0 * (y_m - last_m[axis]) / period_s;
       last_m[axis] = y_m;
     }
     if (i >= settle) orbit.emplace_back(frame.position_m[0], frame.position_m[1]);
