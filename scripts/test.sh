@@ -3,13 +3,13 @@
 #   run_tests                 every label of preset release
 #   run_tests unit loop       these labels
 #   run_tests -R Pid          whatever ctest understands
-#   run_tests --all           what CI runs: besides, format, clang-tidy and ASan+UBSan
+#   run_tests --all           what CI runs: besides, clang-tidy and ASan+UBSan
 #   run_tests --tsan          parts with threads, and the processes, under the thread sanitizer
 #   run_tests --help          says the above
 
 test_labels="unit loop replay process hardware build"
 # Unit tests of the parts that start threads or are shared between them.
-threaded_tests="common_test session_test transport_test loop_test rt_test machine_test"
+threaded_tests="common_test session_test transport_test loop_test rt_test machine_test gpio_test diagnosis_unit_test"
 
 # ctest_preset PRESET ARGUMENT...: one line of progress, then ctest's own closing lines.
 ctest_preset() {
@@ -90,7 +90,7 @@ run_tests() {
 ./amb test LABEL...      unit, loop, replay, process, hardware, build
 ./amb test -R Pid        whatever ctest understands
 ./amb test --tsan        what has threads, under the thread sanitizer
-./amb test --all         what CI runs: besides, clang-tidy, ASan+UBSan and TSan
+./amb test --all         what CI runs: besides, clang-tidy and ASan+UBSan
 USAGE
     return
   fi
