@@ -1,0 +1,84 @@
+"""The real-time pace over a CAN bus, in virtual time: every frame in its period, and a silent rig.
+
+The programs are the unmodified ones; the bus is the kernel's.
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ["LEVITAS_SOURCE"])
+sys.path.insert(0, str(SOURCE / "tests/support"))
+from lcm_network import BINARIES, Process, log_events  # noqa: E402
+from levitas_msg import cycle_record_t  # noqa: E402
+
+FRAME_MISSING = 5
+LEVITATING = 3
+MISSING_LIMIT = 10  # of flexible_rotor_commissioned.yaml
+SCENARIO = """kind: scenario
+name: short
+steps:
+  - {do: lift, until: levitating, timeout_s: 5, hold_s: %s}
+  - {do: land, until: off, timeout_s: 5}
+"""
+
+
+class RealTimeOverCan(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        subprocess.run("ip link add dev vcan0 type vcan; ip link set vcan0 mtu 72 up", shell=True,
+                       check=True)
+
+    def start(self, hold_s):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        scenario = self.folder / "scenario.yaml"
+        scenario.write_text(SCENARIO % hold_s)
+        common = ["--rig", "flexible_rotor", "--port", "can:vcan0", "--pace", "realtime"]
+        rig = Process(self.folder, "amb-rig", *common, "--seed", 3)
+        self.addCleanup(rig.kill)
+        control = Process(self.folder, "amb-controller", *common, "--controller",
+                          "flexible_rotor_commissioned", "--scenario", scenario, "--record",
+                          self.folder / "run.lcm", "--trip-folder", self.folder)
+        self.addCleanup(control.kill)
+        return rig, control
+
+    def records(self):
+        return [cycle_record_t.decode(data)
+                for channel, data in log_events(self.folder / "run.lcm")
+                if channel == "LEVITAS_CYCLE"]
+
+    def test_every_frame_of_a_levitation_is_there_in_its_period_and_the_record_replays(self):
+        _, control = self.start(0.1)
+        self.assertEqual(control.status(), 0, control.text)
+        aloft = [record for record in self.records() if record.mode == LEVITATING]
+        self.assertGreaterEqual(len(aloft), 1_000)  # 0.1 s
+        self.assertEqual([r.cycle for r in aloft if not r.frame_present], [])
+        self.assertEqual([r.cycle for r in aloft if r.missed_deadlines], [])
+        replay = subprocess.run([BINARIES / "amb", "replay", self.folder / "run.lcm"],
+                                capture_output=True, text=True, check=False)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+
+    def test_a_silent_rig_trips_in_the_cycle_that_the_limit_names(self):
+        rig, control = self.start(3)
+        control.says("-> levitating")
+        rig.child.send_signal(signal.SIGSTOP)
+        try:
+            self.assertEqual(control.status(), 4, control.text)
+        finally:
+            rig.child.send_signal(signal.SIGCONT)
+        records = self.records()
+        trip = next(record for record in records if record.fault != 0)
+        self.assertEqual(trip.fault, FRAME_MISSING)
+        at = records.index(trip)
+        missing = [not record.frame_present for record in records[at - MISSING_LIMIT:at + 1]]
+        self.assertEqual(missing, [False] + [True] * MISSING_LIMIT)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
