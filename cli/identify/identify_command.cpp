@@ -16,6 +16,9 @@ void AddIdentifyCommand(CLI::App& app, Action& action) {
       "Measured CSV files are read as sessions are (columns: docs/formats.md).");
   AddIdentifyFrf(*identify, action);
   AddIdentifyModal(*identify, action);
+  AddIdentifyHammersteinWiener(*identify, action);
+  AddIdentifyNarx(*identify, action);
+  AddIdentifyGreyBox(*identify, action);
 }
 
 }  // namespace levitas::cli

@@ -1,0 +1,215 @@
+#include "identification/nonlinear/hammerstein_wiener.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "identification/nonlinear/laguerre.hpp"
+
+namespace levitas::identification {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr double kDivergedScales = 1000.0;
+constexpr int kNewtonSteps = 20;
+
+Eigen::VectorXd Scale(const Eigen::MatrixXd& m) {
+  return (m.colwise().norm() / std::sqrt(static_cast<double>(std::max<Index>(1, m.rows()))))
+      .cwiseMax(1e-300)
+      .transpose();
+}
+
+/// Row of the numerators of power `degree` (from 1) of input `i`.
+Index NumeratorAt(const HammersteinWienerModel& m, Index i, int degree) {
+  return (m.outputs + i * m.options.degree + degree - 1) * m.options.order;
+}
+
+Index NoiseAt(const HammersteinWienerModel& m) {
+  return (m.outputs + m.inputs * m.options.degree) * m.options.order;
+}
+
+/// Scaled, straightened outputs.
+Eigen::VectorXd Straighten(const HammersteinWienerModel& m, const Eigen::VectorXd& y) {
+  Eigen::VectorXd v(m.outputs);
+  for (Index o = 0; o < m.outputs; ++o) v[o] = m.sensor(o).Invert(y[o]) / m.output_scale[o];
+  return v;
+}
+
+Eigen::VectorXd Bend(const HammersteinWienerModel& m, const Eigen::VectorXd& v) {
+  Eigen::VectorXd y(m.outputs);
+  for (Index o = 0; o < m.outputs; ++o) y[o] = m.sensor(o).Read(v[o] * m.output_scale[o]);
+  return y;
+}
+
+/// Rows whose measured outputs fill the banks before a free run.
+Index Warm(const HammersteinWienerModel& m) { return 2 * m.options.order; }
+
+}  // namespace
+
+double SensorCharacteristic::Invert(double y) const noexcept {
+  double x = y;
+  for (int n = 0; n < kNewtonSteps; ++n) {
+    const double slope = 1.0 + x * (2.0 * a2 + 3.0 * a3 * x);
+    if (!(slope > 0.0)) break;
+    const double step = (y - Read(x)) / slope;
+    x += step;
+    if (std::abs(step) <= 1e-16 * std::abs(x)) break;
+  }
+  return x;
+}
+
+Index HammersteinWienerModel::regressors() const noexcept {
+  return (outputs + inputs * options.degree) * options.order + outputs * options.noise_order + 1;
+}
+
+SensorCharacteristic HammersteinWienerModel::sensor(Index output) const {
+  return options.sensors.empty() ? SensorCharacteristic{}
+                                 : options.sensors[static_cast<std::size_t>(output)];
+}
+
+std::vector<InputCurve> Curves(const HammersteinWienerModel& m) {
+  std::vector<InputCurve> curves;
+  curves.reserve(static_cast<std::size_t>(m.inputs));
+  const Index n = m.options.order;
+  for (Index i = 0; i < m.inputs; ++i) {
+    Eigen::MatrixXd stack(n * m.outputs, m.options.degree);
+    for (int d = 1; d <= m.options.degree; ++d) {
+      const Eigen::MatrixXd block = m.theta.middleRows(NumeratorAt(m, i, d), n);
+      stack.col(d - 1) = Eigen::Map<const Eigen::VectorXd>(block.data(), block.size());
+    }
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(stack, Eigen::ComputeThinV);
+    const Eigen::VectorXd first = svd.matrixV().col(0);
+    const double squares = svd.singularValues().squaredNorm();
+    curves.push_back(
+        {first / first[0], squares > 0.0 ? std::pow(svd.singularValues()[0], 2) / squares : 0.0});
+  }
+  return curves;
+}
+
+HammersteinWienerState::HammersteinWienerState(const HammersteinWienerModel& model)
+    : phi_(Eigen::VectorXd::Zero(model.regressors())) {
+  phi_[phi_.size() - 1] = 1.0;
+}
+
+void HammersteinWienerState::Push(const HammersteinWienerModel& m, const Eigen::VectorXd& v,
+                                  const Eigen::VectorXd& u, const Eigen::VectorXd& eps) noexcept {
+  const Index n = m.options.order;
+  for (Index o = 0; o < m.outputs; ++o) PushLaguerre(m.pole, v[o], phi_.segment(o * n, n));
+  for (Index i = 0; i < m.inputs; ++i) {
+    const double scaled = u[i] / m.input_scale[i];
+    double power = 1.0;
+    for (int d = 1; d <= m.options.degree; ++d) {
+      power *= scaled;
+      PushLaguerre(m.pole, power, phi_.segment(NumeratorAt(m, i, d), n));
+    }
+  }
+  const Index noise = m.options.noise_order;
+  for (Index o = 0; o < m.outputs; ++o) {
+    PushLaguerre(m.pole, eps[o], phi_.segment(NoiseAt(m) + o * noise, noise));
+  }
+}
+
+RecursiveHammersteinWiener::RecursiveHammersteinWiener(HammersteinWienerModel start,
+                                                       double start_variance)
+    : model_(std::move(start)),
+      state_(model_),
+      p_(Eigen::MatrixXd::Identity(model_.regressors(), model_.regressors()) * start_variance),
+      gain_(Eigen::VectorXd::Zero(model_.regressors())),
+      v_(Eigen::VectorXd::Zero(model_.outputs)),
+      error_(Eigen::VectorXd::Zero(model_.outputs)),
+      posterior_(Eigen::VectorXd::Zero(model_.outputs)) {}
+
+const Eigen::VectorXd& RecursiveHammersteinWiener::Step(const Eigen::VectorXd& u,
+                                                        const Eigen::VectorXd& y) noexcept {
+  if (!u.allFinite() || !y.allFinite()) {
+    ++skipped_;
+    return error_;
+  }
+  for (Index o = 0; o < model_.outputs; ++o) {
+    v_[o] = model_.sensor(o).Invert(y[o]) / model_.output_scale[o];
+  }
+  const Eigen::VectorXd& phi = state_.phi();
+  error_.noalias() = v_ - model_.theta.transpose() * phi;
+  gain_.noalias() = p_.selfadjointView<Eigen::Lower>() * phi;
+  const double weight = model_.options.forgetting + phi.dot(gain_);
+  model_.theta.noalias() += (gain_ / weight) * error_.transpose();
+  p_.selfadjointView<Eigen::Lower>().rankUpdate(gain_, -1.0 / weight);
+  if (model_.options.forgetting < 1.0) p_ /= model_.options.forgetting;
+  posterior_.noalias() = v_ - model_.theta.transpose() * phi;
+  state_.Push(model_, v_, u, posterior_);
+  return error_;
+}
+
+HammersteinWienerModel EmptyHammersteinWiener(const Series& series,
+                                              const HammersteinWienerOptions& options) {
+  HammersteinWienerModel model{series.inputs(),
+                               series.outputs(),
+                               options,
+                               LaguerrePole(options.bandwidth_hz, series.period_s),
+                               Scale(series.input),
+                               Scale(series.output),
+                               {}};
+  model.theta = Eigen::MatrixXd::Zero(model.regressors(), model.outputs);
+  return model;
+}
+
+HammersteinWienerFit FitHammersteinWiener(const Series& series,
+                                          const HammersteinWienerOptions& options) {
+  HammersteinWienerFit fit{EmptyHammersteinWiener(series, options), 0, 0.0};
+  RefuseUnfit(series, static_cast<std::size_t>(fit.model.regressors()));
+  do {
+    RecursiveHammersteinWiener recursion(fit.model, options.start_variance);
+    for (Index k = 0; k < series.rows(); ++k) {
+      (void)recursion.Step(series.input.row(k), series.output.row(k));
+    }
+    fit.change = 0.0;
+    const Eigen::MatrixXd& now = recursion.model().theta;
+    for (Index o = 0; o < fit.model.outputs; ++o) {
+      const double largest = now.col(o).cwiseAbs().maxCoeff();
+      const double change = (now.col(o) - fit.model.theta.col(o)).cwiseAbs().maxCoeff();
+      fit.change = std::max(fit.change, change / std::max(largest, 1e-300));
+    }
+    fit.model.theta = now;
+    ++fit.passes;
+  } while (fit.change > options.tolerance && fit.passes < options.most_passes);
+  return fit;
+}
+
+Prediction PredictOneStep(const HammersteinWienerModel& model, const Series& series) {
+  HammersteinWienerState state(model);
+  Prediction result{Eigen::MatrixXd(series.rows(), model.outputs)};
+  for (Index k = 0; k < series.rows(); ++k) {
+    const Eigen::VectorXd v = Straighten(model, series.output.row(k).transpose());
+    const Eigen::VectorXd predicted = model.theta.transpose() * state.phi();
+    result.output.row(k) = Bend(model, predicted).transpose();
+    state.Push(model, v, series.input.row(k).transpose(), v - predicted);
+  }
+  return result;
+}
+
+Prediction SimulateFreeRun(const HammersteinWienerModel& model, const Series& series,
+                           const Feedback& feedback) {
+  HammersteinWienerState state(model);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.outputs);
+  Prediction result{series.output};
+  Eigen::VectorXd u(model.inputs);
+  const Index warm = feedback ? 0 : std::min(Warm(model), series.rows());
+  for (Index k = 0; k < series.rows(); ++k) {
+    Eigen::VectorXd v = model.theta.transpose() * state.phi();
+    if (k < warm) v = Straighten(model, series.output.row(k).transpose());
+    if (!(v.cwiseAbs().maxCoeff() < kDivergedScales)) {
+      result.diverged_at = k;
+      result.output.bottomRows(series.rows() - k).setZero();
+      break;
+    }
+    const Eigen::VectorXd y = Bend(model, v);
+    result.output.row(k) = y.transpose();
+    u = series.input.row(k).transpose();
+    if (feedback) feedback(k, y, u);
+    state.Push(model, v, u, none);
+  }
+  return result;
+}
+
+}  // namespace levitas::identification
