@@ -183,6 +183,7 @@ Series SeriesOf(const Record& record, const SeriesColumns& wanted) {
       const auto at = known.find(name);
       if (at == known.end()) {
         std::vector<std::string> all;
+        all.reserve(known.size());
         for (const auto& [other, column] : known) all.push_back(other);
         throw BadInput(fmt::format("{}: no signal '{}'; there are: {}", record.name, name,
                                    fmt::join(all, ", ")));
