@@ -9,6 +9,8 @@ lines:
   amplifier_fault: {{chip: {chip}, offset: 2, active: low}}
   heartbeat: {{chip: {chip}, offset: 3}}
 """
+KEY_PHASOR = """  key_phasor: {{chip: {chip}, offset: 4, max_acceleration_rpm_per_s: 20000}}
+"""
 STOP, ENABLE, FAULT, HEARTBEAT = range(4)
 
 

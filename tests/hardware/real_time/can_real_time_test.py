@@ -3,6 +3,7 @@
 The programs are the unmodified ones; the bus is the kernel's.
 """
 
+import math
 import os
 import signal
 import subprocess
@@ -13,9 +14,11 @@ from pathlib import Path
 
 SOURCE = Path(os.environ["LEVITAS_SOURCE"])
 sys.path.insert(0, str(SOURCE / "tests/support"))
+from gpio_sim import KEY_PHASOR, Chip  # noqa: E402
 from lcm_network import BINARIES, Process, log_events  # noqa: E402
 from levitas_msg import cycle_record_t  # noqa: E402
 
+PERIOD_NS = 100_000
 FRAME_MISSING = 5
 LEVITATING = 3
 MISSING_LIMIT = 10  # of flexible_rotor_commissioned.yaml
@@ -25,6 +28,15 @@ steps:
   - {do: lift, until: levitating, timeout_s: 5, hold_s: %s}
   - {do: land, until: off, timeout_s: 5}
 """
+SPEED_RPM = 1200
+SPIN = f"""kind: scenario
+name: spin
+steps:
+  - {{do: lift, until: levitating, timeout_s: 5, hold_s: 0.05}}
+  - {{do: spin, speed_rpm: {SPEED_RPM}, acceleration_rpm_per_s: 3000, until: speed_reached, timeout_s: 5, hold_s: 0.3}}
+  - {{do: spin, speed_rpm: 0, acceleration_rpm_per_s: 3000, until: standstill, timeout_s: 5}}
+  - {{do: land, until: off, timeout_s: 5}}
+"""
 
 
 class RealTimeOverCan(unittest.TestCase):
@@ -33,13 +45,15 @@ class RealTimeOverCan(unittest.TestCase):
         subprocess.run("ip link add dev vcan0 type vcan; ip link set vcan0 mtu 72 up", shell=True,
                        check=True)
 
-    def start(self, hold_s):
+    def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
+
+    def start(self, steps, rig_file="flexible_rotor"):
         scenario = self.folder / "scenario.yaml"
-        scenario.write_text(SCENARIO % hold_s)
-        common = ["--rig", "flexible_rotor", "--port", "can:vcan0", "--pace", "realtime"]
+        scenario.write_text(steps)
+        common = ["--rig", rig_file, "--port", "can:vcan0", "--pace", "realtime"]
         rig = Process(self.folder, "amb-rig", *common, "--seed", 3)
         self.addCleanup(rig.kill)
         control = Process(self.folder, "amb-controller", *common, "--controller",
@@ -54,7 +68,7 @@ class RealTimeOverCan(unittest.TestCase):
                 if channel == "LEVITAS_CYCLE"]
 
     def test_every_frame_of_a_levitation_is_there_in_its_period_and_the_record_replays(self):
-        _, control = self.start(0.1)
+        _, control = self.start(SCENARIO % 0.1)
         self.assertEqual(control.status(), 0, control.text)
         aloft = [record for record in self.records() if record.mode == LEVITATING]
         self.assertGreaterEqual(len(aloft), 1_000)  # 0.1 s
@@ -65,7 +79,7 @@ class RealTimeOverCan(unittest.TestCase):
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
     def test_a_silent_rig_trips_in_the_cycle_that_the_limit_names(self):
-        rig, control = self.start(3)
+        rig, control = self.start(SCENARIO % 3)
         control.says("-> levitating")
         rig.child.send_signal(signal.SIGSTOP)
         try:
@@ -78,6 +92,30 @@ class RealTimeOverCan(unittest.TestCase):
         at = records.index(trip)
         missing = [not record.frame_present for record in records[at - MISSING_LIMIT:at + 1]]
         self.assertEqual(missing, [False] + [True] * MISSING_LIMIT)
+
+    def test_speed_and_angle_of_a_turning_rotor_come_from_its_key_phasor(self):
+        chip = Chip()
+        self.addCleanup(chip.close)
+        rig = chip.rig(SOURCE, self.folder)
+        with rig.open("a", encoding="utf-8") as text:
+            text.write(KEY_PHASOR.format(chip=chip.name))
+        _, control = self.start(SPIN, rig)
+        self.assertEqual(control.status(), 0, control.text)
+        speed = SPEED_RPM * math.pi / 30
+        records = self.records()
+        reached = next(i for i, r in enumerate(records) if r.speed_rad_per_s > 0.99 * speed)
+        # Of the 0.3 s that are held; the first turns after the ramp still carry its acceleration.
+        held = records[reached + 1_000:reached + 2_500]
+        # An edge comes at the period after its mark: a period more or less in a turn, and the
+        # acceleration between two turns, which doubles it.
+        worst = max(abs(record.speed_rad_per_s - speed) for record in held)
+        print(f"speed from the key phasor: largest error {100 * worst / speed:.3f} %")
+        per_period = speed * PERIOD_NS * 1e-9
+        self.assertLess(worst / speed, 2 * per_period / (2 * math.pi))
+        turned = sum((b.angle_rad - a.angle_rad) % (2 * math.pi) for a, b in zip(held, held[1:]))
+        # Both ends of the angle are a period uncertain.
+        self.assertLess(abs(turned - per_period * (len(held) - 1)), 2 * per_period)
+        self.assertEqual({record.fault for record in records}, {0})
 
 
 if __name__ == "__main__":
