@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/bench_command.hpp"
 #include "cli/command.hpp"
 #include "common/nearest.hpp"
 
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
   cli::AddEffectsCommand(app, action);
   cli::AddIdentifyCommand(app, action);
   cli::AddDiagnoseCommand(app, action);
+  cli::AddBenchCommand(app, action);
   try {
     RefuseUnknownCommand(app, argc, argv);
     app.parse(argc, argv);

@@ -17,6 +17,9 @@ struct Active {
   double theta;
 };
 
+/// Frames lost in a row that the model bridges; after more it starts anew.
+constexpr std::uint64_t kMostBridged = 20;
+
 double Sum(const std::vector<double>& shape, const float* modal) {
   double sum = 0.0;
   for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * static_cast<double>(modal[i]);
@@ -47,7 +50,8 @@ class Runner {
     next_reading_m_ = {};
   }
 
-  void Step(const analysis::RecordedRow& row, Moment& moment) {
+  /// `arrived` false: the frame was lost, so the model goes on without correction.
+  void Step(const analysis::RecordedRow& row, bool arrived, Moment& moment) {
     BeforeSample(row, moment);
     Addition read;
     read.reading_m = next_reading_m_;
@@ -57,7 +61,14 @@ class Runner {
     const auto& polarity = rig_.model->config().sensor_polarity;
     AxisArray added_m{};
     for (std::size_t i = 0; i < rig_.axes; ++i) added_m[i] = polarity[i] * read.reading_m[i];
-    const AxisArray innovation_m = observer_.Step(row.sample, added_m);
+    analysis::RecordedSample sample = row.sample;
+    if (!arrived) {
+      const AxisArray predicted_m = observer_.plant().SensorOutput();
+      for (std::size_t i = 0; i < rig_.axes; ++i) {
+        sample.position_m[i] = predicted_m[i] + added_m[i];
+      }
+    }
+    const AxisArray innovation_m = observer_.Step(sample, added_m);
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       moment.innovation_m[i] = static_cast<float>(polarity[i] * innovation_m[i]);
     }
@@ -173,6 +184,14 @@ class Runner {
   const Eigen::MatrixXd* gain_state_{nullptr};
 };
 
+/// A frame whose readings all repeat bit for bit did not arrive: noisy sensors do not do that.
+bool Repeats(const analysis::RecordedRow& before, const analysis::RecordedRow& now,
+             std::size_t axes) {
+  return std::equal(before.sample.position_m.begin(),
+                    before.sample.position_m.begin() + static_cast<std::ptrdiff_t>(axes),
+                    now.sample.position_m.begin());
+}
+
 }  // namespace
 
 Trajectory RunModel(const RigView& rig, const Record& record,
@@ -186,21 +205,36 @@ Trajectory RunModel(const RigView& rig, const Record& record,
   const auto settling_rows = static_cast<std::uint64_t>(std::llround(settling_s / rig.period_s));
   std::uint64_t since_start = 0;
   const analysis::RecordedRow* previous = nullptr;
-  for (const auto& row : record.rows) {
-    const bool continues =
-        previous != nullptr && row.cycle == previous->cycle + 1 && previous->levitated;
-    previous = &row;
-    if (!row.levitated) continue;
+  const auto step = [&](const analysis::RecordedRow& row, bool arrived, bool restart) {
     Moment& moment = run.moments.emplace_back();
     moment.record = record.number;
     moment.time_s = static_cast<double>(row.cycle) * rig.period_s;
-    if (!continues) {
+    if (restart) {
       runner.Restart(row.sample.position_m);
       moment.restarted = true;
       since_start = 0;
     }
-    runner.Step(row, moment);
-    moment.counts = since_start++ >= settling_rows;
+    runner.Step(row, arrived, moment);
+    moment.counts = since_start++ >= settling_rows && arrived;
+  };
+  for (const auto& row : record.rows) {
+    const auto lost = previous != nullptr && row.cycle > previous->cycle
+                          ? row.cycle - previous->cycle - 1
+                          : kMostBridged + 1;
+    const bool continues = lost <= kMostBridged && previous->levitated;
+    if (row.levitated && continues) {
+      // In lost frames the rig holds its current; the shaft turns on.
+      analysis::RecordedRow held = *previous;
+      for (std::uint64_t k = 0; k < lost; ++k) {
+        ++held.cycle;
+        held.sample.angle_rad += held.sample.speed_rad_per_s * rig.period_s;
+        step(held, false, false);
+      }
+    }
+    if (row.levitated) {
+      step(row, !continues || !Repeats(*previous, row, rig.axes), !continues);
+    }
+    previous = &row;
   }
   return run;
 }

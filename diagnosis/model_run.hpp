@@ -2,6 +2,8 @@
 // The nonlinear model driven through a record: plant, observer and the terms in force.
 //
 // Equation   analysis/observer.hpp, with what the terms add (term.hpp).
+// Lost       up to 20 frames in a row are bridged with the current held and no correction; so are
+//            frames that repeat. They do not count.
 // Settling   the first `settling_s` after every (re)start are run and do not count.
 // Cost       2 to 3 us per sample. Thread: any; one call per thread.
 

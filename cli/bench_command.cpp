@@ -1,0 +1,186 @@
+// amb bench diagnosis: hides effects in simulated rigs and asks the diagnosis for them.
+
+#include "cli/bench_command.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/json_file.hpp"
+#include "plant_sim/effect/catalogue.hpp"
+#include "trials/scores.hpp"
+
+namespace levitas::cli {
+namespace {
+
+constexpr const char* kHelp =
+    "Draws a rig that is a few per cent off its file, hides an effect in it, records it standing, "
+    "spinning and running up (5.3 s), and diagnoses the records. Every seed is one trial; effects "
+    "take turns. Prints accuracy by effect and by size, "
+    "false alarms, what is outside the vocabulary, several at once, and the confusion matrix.\n"
+    "Example: amb bench diagnosis --seeds 34 --clean 10 --outside 10 --pairs 10";
+
+struct BenchOptions {
+  std::string rig{"flexible_rotor"};
+  std::vector<std::string> controllers{"flexible_rotor", "flexible_rotor_commissioned"};
+  std::vector<std::string> effects;
+  std::vector<double> sizes{1.0, 0.5, 0.25};
+  std::uint64_t first{1000};
+  int seeds{0}, clean{0}, outside{0}, pairs{0}, weak{0};
+  bool thorough{};
+  std::string json_path, markdown_path, write_folder;
+};
+
+std::vector<effect::Id> Chosen(const BenchOptions& options) {
+  std::vector<effect::Id> ids;
+  for (const effect::Id id : trials::HiddenIds()) {
+    const std::string name(effect::At(id).name);
+    if (options.effects.empty() ||
+        std::find(options.effects.begin(), options.effects.end(), name) != options.effects.end()) {
+      ids.push_back(id);
+    }
+  }
+  if (ids.empty()) throw BadInput("--effect: no effect of that name can be hidden");
+  return ids;
+}
+
+std::vector<trials::TrialPlan> Plans(const BenchOptions& options) {
+  const auto ids = Chosen(options);
+  std::vector<trials::TrialPlan> plans;
+  const auto add = [&](std::vector<effect::Id> hidden, double size) -> trials::TrialPlan& {
+    trials::TrialPlan plan;
+    plan.seed = options.first + plans.size();
+    plan.hidden = std::move(hidden);
+    plan.size = size;
+    return plans.emplace_back(plan);
+  };
+  for (int i = 0; i < options.seeds; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    add({ids[at % ids.size()]}, options.sizes[at / ids.size() % options.sizes.size()]);
+  }
+  for (int i = 0; i < options.clean; ++i) add({}, 0.0);
+  for (int i = 0; i < options.outside; ++i) {
+    add({}, 1.0).outside = static_cast<trials::Outside>(1 + i % 5);
+  }
+  for (int i = 0; i < options.pairs; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    add({ids[at % ids.size()], ids[(at * 7 + 3) % ids.size()]}, 1.0);
+  }
+  for (int i = 0; i < options.weak; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    add({ids[at % ids.size()], ids[(at + 5) % ids.size()], ids[(at + 13) % ids.size()],
+         ids[(at + 22) % ids.size()]},
+        1.0)
+        .side_size = 0.15;
+  }
+  return plans;
+}
+
+void WriteTrial(const trials::Trial& trial, const trials::Bench& bench, const std::string& root,
+                std::uint64_t seed) {
+  const std::string folder = fmt::format("{}/{}", root, seed);
+  std::filesystem::create_directories(folder + "/secret");
+  trials::WriteCsv(trial.campaign, bench.rig.numbers, folder);
+  std::ofstream(folder + "/rig.yaml") << config::WriteRig(bench.rig);
+  nlohmann::ordered_json truth{{"effects", trial.secret.effects},
+                               {"outside", Name(trial.secret.outside)}};
+  WriteJsonFile(folder + "/secret/truth.json", truth);
+}
+
+trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
+                    const BenchOptions& options) {
+  const trials::Trial trial = trials::MakeTrial(bench, plan);
+  if (!options.write_folder.empty()) WriteTrial(trial, bench, options.write_folder, plan.seed);
+  diagnosis::Settings settings;
+  settings.quick = !options.thorough;
+  const auto start = std::chrono::steady_clock::now();
+  const diagnosis::SessionAnswer answer =
+      diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings);
+  trials::Outcome outcome = trials::Judge(plan, trial.secret, answer, bench.rig.numbers);
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
+void PrintOne(const trials::Outcome& o) {
+  fmt::print("{:>6} {:<26}{:<9}-> {:<8}{:<60}{:>7.1f} nat {:.1f} s{}\n", o.seed,
+             o.truth.empty() ? (o.outside.empty() ? "(nothing)" : o.outside)
+                             : fmt::format("{}", fmt::join(o.truth, "+")),
+             trials::Name(o.size), o.verdict,
+             fmt::format("{}{}{}", fmt::join(o.named, ", "), o.ties.empty() ? "" : " | ",
+                         fmt::join(o.ties, ", ")),
+             o.score_nat, o.seconds, o.Right() ? "" : (o.Partly() ? "   (partly)" : "   WRONG"));
+  static_cast<void>(std::fflush(stdout));
+}
+
+nlohmann::ordered_json Json(const trials::Outcome& o) {
+  return {{"seed", o.seed},
+          {"truth", o.truth},
+          {"outside", o.outside},
+          {"size", trials::Name(o.size)},
+          {"verdict", o.verdict},
+          {"named", o.named},
+          {"ties", o.ties},
+          {"score_nat", o.score_nat},
+          {"right", o.Right()},
+          {"partly", o.Partly()},
+          {"achieved", o.achieved},
+          {"parameter_error", o.parameter_error},
+          {"parameter_sigmas", o.parameter_sigmas},
+          {"seconds", o.seconds}};
+}
+
+ExitStatus Run(const BenchOptions& options) {
+  const trials::Bench bench = trials::LoadBench(options.rig, options.controllers);
+  std::vector<trials::Outcome> outcomes;
+  nlohmann::ordered_json json;
+  json["trials"] = nlohmann::ordered_json::array();
+  for (const trials::TrialPlan& plan : Plans(options)) {
+    outcomes.push_back(Try(plan, bench, options));
+    PrintOne(outcomes.back());
+    json["trials"].push_back(Json(outcomes.back()));
+  }
+  fmt::print("\n{}\n{}", trials::Tables(outcomes), trials::ConfusionTable(outcomes));
+  if (!options.markdown_path.empty()) {
+    std::ofstream file(options.markdown_path);
+    file << "```\n" << trials::Tables(outcomes) << "```\n\n" << trials::ConfusionTable(outcomes);
+    if (!file.flush()) throw BadInput(options.markdown_path + ": cannot be written");
+  }
+  WriteJsonFile(options.json_path, json);
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddBenchCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* bench = app.add_subcommand("bench", "How good the answers of `amb diagnose` are");
+  CLI::App* command =
+      bench->add_subcommand("diagnosis", "Effects hidden in simulated rigs, to be named");
+  bench->require_subcommand(1);
+  command->footer(kHelp);
+  command->add_option("--rig", options->rig, "Nominal rig");
+  command->add_option("--controller", options->controllers, "Controllers, drawn by seed");
+  command->add_option("--seeds", options->seeds, "Trials with one hidden effect");
+  command->add_option("--clean", options->clean, "Trials with nothing hidden");
+  command->add_option("--outside", options->outside, "Trials outside the vocabulary");
+  command->add_option("--pairs", options->pairs, "Trials with two clear effects");
+  command->add_option("--weak", options->weak,
+                      "Trials with three small effects beside a clear one");
+  command->add_option("--first", options->first, "Seed of the first trial");
+  command->add_option("--effect", options->effects, "Only these effects");
+  command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");
+  command->add_flag("--thorough", options->thorough, "The complete ranking instead of --quick");
+  command->add_option("--write", options->write_folder, "Also write the records as CSV here");
+  command->add_option("--markdown", options->markdown_path, "Tables for docs/diagnosis.md");
+  command->add_option("--json", options->json_path, "Every trial");
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,59 @@
+#pragma once
+// Measured data of a hidden rig: what a technician would record, and nothing else.
+//
+// Records    standing with a test signal in one axis after the other, spinning with it, running up.
+//            A row holds what the CSV contract holds: time, angle, readings, commanded currents,
+//            test signal.
+// Loop       plant and axis law alone, one period at a time, from a levitated start that is not
+//            recorded.
+// Failure    `stable` false when the rotor came near its touchdown bearings or was lost.
+// Thread     any; no shared state.
+
+#include <string>
+#include <vector>
+
+#include "controller/law/law_config.hpp"
+#include "diagnosis/model_run.hpp"
+#include "plant_sim/plant/plant.hpp"
+#include "trials/outside.hpp"
+
+namespace levitas::trials {
+
+struct MeasuredRow {
+  double time_s{};
+  double angle_rad{};
+  double speed_rad_per_s{};
+  AxisArray position_m{}, control_current_a{}, excitation_a{};
+};
+
+struct Measured {
+  std::string name;  ///< "standing", "spinning", "runup"
+  std::vector<MeasuredRow> rows;
+};
+
+struct CampaignPlan {
+  double spinning_rpm{3000.0};
+  double runup_from_rpm{480.0}, runup_to_rpm{5880.0};
+  double runup_s{2.0};
+  double excitation_a{0.08};
+  int bits_per_axis{2047};  ///< of two periods each
+  double limit_m{120e-6};   ///< a reading beyond is not a healthy run
+  std::uint64_t seed{1};    ///< of noise and test signal
+};
+
+struct Campaign {
+  std::vector<Measured> records;
+  bool stable{true};
+};
+
+[[nodiscard]] Campaign Record(const plant::PlantParameters& truth, const law::LawConfig& law,
+                              const CampaignPlan& plan, Outside outside, double outside_size,
+                              std::uint64_t outside_seed);
+
+/// Rows as the importer would give them.
+[[nodiscard]] std::vector<diagnosis::Record> AsRecords(const Campaign& campaign,
+                                                       const RigNumbers& rig);
+/// `folder`/<name>.csv of the contract in docs/formats.md.
+void WriteCsv(const Campaign& campaign, const RigNumbers& rig, const std::string& folder);
+
+}  // namespace levitas::trials

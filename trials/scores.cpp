@@ -1,0 +1,186 @@
+#include "trials/scores.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "diagnosis/words.hpp"
+#include "plant_sim/effect/catalogue.hpp"
+
+namespace levitas::trials {
+namespace {
+
+bool Holds(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+std::string First(const Outcome& o) {
+  if (o.verdict != "effect" || o.named.empty()) return o.verdict;
+  return o.named.front();
+}
+
+/// The true value behind a parameter of the answer, if the two can be compared.
+bool TrueValue(const diagnosis::NamedParameter& p, const Secret& secret, const RigNumbers& rig,
+               double& truth) {
+  const std::string stem = p.name.substr(0, p.name.find('['));
+  const std::string place = p.name.substr(p.name.find('[') + 1);
+  double product = 1.0;
+  bool found = false;
+  for (const effect::EffectConfig& entry : secret.truth.config.effects) {
+    const effect::Row& row = effect::At(entry.id);
+    if (row.name != p.effect) continue;
+    if (row.scope == effect::Scope::kChannels) {
+      bool here = false;
+      for (std::size_t a = 0; a < rig.axes(); ++a) {
+        here = here || (entry.Acts(a) && place.find(rig.channels[a]) != std::string::npos);
+      }
+      if (!here) continue;
+    }
+    for (std::size_t i = 0; i < row.parameters.size(); ++i) {
+      const auto& known = row.parameters[i];
+      const bool same =
+          stem == known.stem || stem == fmt::format("{}_{}", known.stem, known.si_suffix);
+      if (!same) continue;
+      product *= entry.values[i];
+      found = true;
+    }
+  }
+  truth = product;
+  return found;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+struct Count {
+  int right{}, partly{}, of{};
+  void Add(const Outcome& o) {
+    ++of;
+    right += o.Right() ? 1 : 0;
+    partly += !o.Right() && o.Partly() ? 1 : 0;
+  }
+  [[nodiscard]] std::string Text() const { return of == 0 ? "-" : fmt::format("{}/{}", right, of); }
+};
+
+}  // namespace
+
+bool Outcome::Right() const {
+  if (truth.empty() && outside.empty()) return verdict == "none";
+  if (truth.empty()) return verdict == "unknown";
+  return verdict == "effect" && !named.empty() &&
+         (named.front() == truth.front() || Holds(ties, truth.front()));
+}
+
+bool Outcome::Partly() const {
+  return std::any_of(truth.begin(), truth.end(), [this](const std::string& effect) {
+    return Holds(named, effect) || Holds(ties, effect);
+  });
+}
+
+bool Outcome::NamesAll() const {
+  return std::all_of(truth.begin(), truth.end(), [this](const std::string& effect) {
+    return Holds(named, effect) || Holds(ties, effect);
+  });
+}
+
+Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::SessionAnswer& answer,
+              const RigNumbers& rig) {
+  Outcome o;
+  o.seed = plan.seed;
+  o.truth = secret.effects;
+  if (secret.outside != Outside::kNothing) o.outside = Name(secret.outside);
+  o.size = SizeOf(secret.size);
+  const auto& a = answer.answer;
+  o.verdict = a.verdict == diagnosis::Verdict::kEffect    ? "effect"
+              : a.verdict == diagnosis::Verdict::kUnknown ? "unknown"
+                                                          : "none";
+  for (const auto& cause : a.causes) o.named.push_back(cause.effect);
+  o.ties = a.also_possible;
+  o.score_nat = a.candidates.empty() ? 0.0 : a.candidates.front().score;
+  o.achieved = answer.held_out.achieved;
+  for (const auto& p : diagnosis::Parameters(answer)) {
+    double truth = 0.0;
+    if (o.truth.empty() || p.effect != o.truth.front()) continue;
+    if (!TrueValue(p, secret, rig, truth) || truth == 0.0) continue;
+    const double deviation = 0.5 * (p.high - p.low) / 1.645;
+    o.parameter_error = std::abs(p.value - truth) / std::abs(truth);
+    o.parameter_sigmas = deviation > 0.0 ? std::abs(p.value - truth) / deviation : 99.0;
+    break;
+  }
+  return o;
+}
+
+std::string Tables(const std::vector<Outcome>& outcomes) {
+  std::map<std::string, std::map<Size, Count>> by_effect;
+  std::map<Size, Count> by_size;
+  Count clean, outside, several;
+  int several_all = 0;
+  std::vector<double> achieved, seconds;
+  int compared = 0;
+  int good = 0;
+  for (const Outcome& o : outcomes) {
+    seconds.push_back(o.seconds);
+    if (o.truth.empty()) {
+      (o.outside.empty() ? clean : outside).Add(o);
+      continue;
+    }
+    if (o.truth.size() > 1) {
+      several.Add(o);
+      several_all += o.NamesAll() ? 1 : 0;
+      continue;
+    }
+    by_effect[o.truth.front()][o.size].Add(o);
+    by_size[o.size].Add(o);
+    if (o.size != Size::kClear || !o.Right()) continue;
+    achieved.push_back(o.achieved);
+    if (o.parameter_error < 0.0) continue;
+    ++compared;
+    good += o.parameter_error < 0.1 || o.parameter_sigmas < 2.0 ? 1 : 0;
+  }
+  std::string out = fmt::format("{:<26}{:>9}{:>10}{:>8}\n", "effect", "clear", "moderate", "faint");
+  const auto line = [&out](const std::string& name, std::map<Size, Count>& counts) {
+    out += fmt::format("{:<26}{:>9}{:>10}{:>8}\n", name, counts[Size::kClear].Text(),
+                       counts[Size::kModerate].Text(), counts[Size::kFaint].Text());
+  };
+  for (auto& [effect, counts] : by_effect) line(effect, counts);
+  line("all", by_size);
+  out += fmt::format(
+      "\nnothing hidden, called none: {}\noutside the vocabulary, called unknown: {}\n"
+      "several hidden, main one named: {}; all named: {}/{}\n",
+      clean.Text(), outside.Text(), several.Text(), several_all, several.of);
+  out += fmt::format(
+      "clear and right: parameter within 10 % or two deviations {}/{}, median share of "
+      "the achievable gain {:.3f}\nmedian wall time {:.1f} s\n",
+      good, compared, Median(achieved), Median(seconds));
+  return out;
+}
+
+std::string ConfusionTable(const std::vector<Outcome>& outcomes) {
+  std::map<std::string, std::map<std::string, int>> cells;
+  for (const Outcome& o : outcomes) {
+    if (o.truth.size() > 1) continue;
+    const std::string truth = !o.truth.empty()    ? o.truth.front()
+                              : o.outside.empty() ? "(nothing)"
+                                                  : "(" + o.outside + ")";
+    ++cells[truth][First(o)];
+  }
+  std::string out = "| hidden | named first (times) |\n|---|---|\n";
+  for (const auto& [truth, row] : cells) {
+    std::vector<std::pair<std::string, int>> sorted(row.begin(), row.end());
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto& a, const auto& b) { return a.second > b.second; });
+    out += fmt::format("| {} |", truth);
+    for (const auto& [named, times] : sorted)
+      out += fmt::format(" {} {}", named, times) + (named == sorted.back().first ? "" : ",");
+    out += " |\n";
+  }
+  return out;
+}
+
+}  // namespace levitas::trials

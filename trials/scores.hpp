@@ -1,0 +1,45 @@
+#pragma once
+// How a diagnosis did on trials: right, partly right, false alarms, confusion, parameters, gain.
+//
+// Right      the first cause is the main effect, or the main effect is among those declared
+//            inseparable from it.
+// Partly     any effect really present is named, but not as first.
+// Thread     any; pure.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/session.hpp"
+#include "trials/trial.hpp"
+
+namespace levitas::trials {
+
+/// One trial's outcome, as one row of the bench.
+struct Outcome {
+  std::uint64_t seed{};
+  std::vector<std::string> truth;  ///< empty: nothing hidden
+  std::string outside;             ///< empty: nothing outside the vocabulary
+  Size size{};
+  std::string verdict;             ///< "none", "effect", "unknown"
+  std::vector<std::string> named;  ///< all causes, in order
+  std::vector<std::string> ties;
+  double score_nat{};
+  double achieved{};             ///< fraction of the achievable gain, held out
+  double parameter_error{-1.0};  ///< of the main parameter: share of it; -1 = not comparable
+  double parameter_sigmas{-1.0};
+  double seconds{};
+
+  [[nodiscard]] bool Right() const;
+  [[nodiscard]] bool Partly() const;
+  [[nodiscard]] bool NamesAll() const;
+};
+
+[[nodiscard]] Outcome Judge(const TrialPlan& plan, const Secret& secret,
+                            const diagnosis::SessionAnswer& answer, const RigNumbers& rig);
+
+/// Tables for people, of all outcomes.
+[[nodiscard]] std::string Tables(const std::vector<Outcome>& outcomes);
+/// The confusion matrix as a Markdown table: truth by row, first cause by column.
+[[nodiscard]] std::string ConfusionTable(const std::vector<Outcome>& outcomes);
+
+}  // namespace levitas::trials

@@ -1,0 +1,131 @@
+#include "trials/trial.hpp"
+
+#include <algorithm>
+
+#include "common/problem.hpp"
+#include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/plant/plant_model.hpp"
+#include "trials/true_rig.hpp"
+
+namespace levitas::trials {
+namespace {
+
+using effect::Id;
+
+/// Frames that never arrive: their rows are missing, or repeat the row before.
+void LoseFrames(const effect::EffectConfig& entry, Campaign& campaign, Random& random) {
+  const bool missing = random.Uniform() < 0.5;
+  const auto burst = static_cast<std::size_t>(entry.values[1]);
+  for (Measured& measured : campaign.records) {
+    std::vector<MeasuredRow> kept;
+    kept.reserve(measured.rows.size());
+    for (std::size_t n = 0; n < measured.rows.size(); ++n) {
+      if (n > 0 && n + burst < measured.rows.size() && random.Uniform() < entry.values[0]) {
+        for (std::size_t k = 0; k < burst && !missing; ++k) {
+          MeasuredRow held = measured.rows[n + k];
+          held.position_m = measured.rows[n - 1].position_m;
+          held.control_current_a = measured.rows[n - 1].control_current_a;
+          kept.push_back(held);
+        }
+        n += burst - 1;
+        continue;
+      }
+      kept.push_back(measured.rows[n]);
+    }
+    measured.rows = std::move(kept);
+  }
+}
+
+class Maker {
+ public:
+  Maker(const Bench& bench, const TrialPlan& plan)
+      : bench_(bench), plan_(plan), nominal_(plant::Reduce(bench.rig.plant)), random_(plan.seed) {
+    campaign_.seed = random_.Bits();
+    campaign_.bits_per_axis = plan.bits_per_axis;
+    campaign_.runup_s = plan.runup_s;
+    campaign_.spinning_rpm = 2400.0 + 1200.0 * random_.Uniform();
+    rig_seed_ = random_.Bits();
+    effect_seed_ = random_.Bits();
+    law_ = random_.Bits() % bench.laws.size();
+  }
+
+  Trial Make() {
+    Trial trial;
+    double size = plan_.size;
+    for (int attempt = 0; attempt < 8; ++attempt, size *= 0.6) {
+      trial.secret.size = size;
+      if (Run(size, trial.campaign, &trial.secret)) break;
+    }
+    if (!trial.campaign.stable) throw BadInput("the rig under trial does not levitate");
+    trial.records = AsRecords(trial.campaign, bench_.rig.numbers);
+    trial.secret.outside = plan_.outside;
+    for (const Id id : plan_.hidden) {
+      trial.secret.effects.emplace_back(effect::At(id).name);
+    }
+    return trial;
+  }
+
+ private:
+  [[nodiscard]] std::vector<effect::EffectConfig> Draw(double size, bool main) {
+    Random random(effect_seed_);
+    std::vector<effect::EffectConfig> entries;
+    for (std::size_t i = 0; i < plan_.hidden.size(); ++i) {
+      const auto drawn =
+          DrawEffect(plan_.hidden[i], i == 0 ? size : plan_.side_size, nominal_, random);
+      if (i > 0 || main) entries.insert(entries.end(), drawn.begin(), drawn.end());
+    }
+    return entries;
+  }
+
+  bool Run(double size, Campaign& out, Secret* secret, bool main = true) {
+    auto hidden = Draw(size, main);
+    const auto lost = std::find_if(hidden.begin(), hidden.end(), [](const auto& entry) {
+      return entry.id == Id::kDroppedSamples;
+    });
+    std::vector<effect::EffectConfig> frames;
+    if (lost != hidden.end()) {
+      // The plant's way leaves nothing in the record to see; a recorder notices lost frames.
+      frames.push_back(*lost);
+    }
+    Random rig_random(rig_seed_);
+    const auto truth = TrueRig(bench_.rig.plant, Mismatch{}, hidden, rig_random);
+    out = Record(truth, bench_.laws[law_], campaign_, plan_.outside, size, effect_seed_);
+    Random loss_random(effect_seed_ + 1);
+    for (const auto& entry : frames) LoseFrames(entry, out, loss_random);
+    if (secret != nullptr) secret->truth = truth;
+    return out.stable;
+  }
+
+  const Bench& bench_;
+  const TrialPlan& plan_;
+  plant::PlantParameters nominal_;
+  Random random_;
+  CampaignPlan campaign_;
+  std::uint64_t rig_seed_{}, effect_seed_{};
+  std::size_t law_{};
+};
+
+}  // namespace
+
+Size SizeOf(double share) noexcept {
+  if (share >= 0.8) return Size::kClear;
+  return share >= 0.4 ? Size::kModerate : Size::kFaint;
+}
+
+const char* Name(Size size) noexcept {
+  if (size == Size::kClear) return "clear";
+  return size == Size::kModerate ? "moderate" : "faint";
+}
+
+Trial MakeTrial(const Bench& bench, const TrialPlan& plan) { return Maker(bench, plan).Make(); }
+
+Bench LoadBench(const std::string& rig, const std::vector<std::string>& controllers) {
+  Bench bench{config::LoadRig(config::FindConfig(rig, "rigs")), {}};
+  for (const std::string& name : controllers) {
+    bench.laws.push_back(
+        config::LoadController(config::FindConfig(name, "controllers"), bench.rig.numbers).law);
+  }
+  return bench;
+}
+
+}  // namespace levitas::trials

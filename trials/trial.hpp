@@ -1,0 +1,60 @@
+#pragma once
+// One trial of the diagnosis: a rig with something hidden in it, its measured data, and the answer
+// kept apart from them.
+//
+// Seed       decides everything: what the rig is off by, effects, sizes, places, speed, controller,
+//            noise. An effect under which the rig does not stay levitated is drawn smaller.
+// Lost       frames of `dropped_samples` are missing from the record, or stand in it twice.
+// Thread     any; two inside.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "config/rig_file.hpp"
+#include "trials/campaign.hpp"
+#include "trials/hidden_effect.hpp"
+
+namespace levitas::trials {
+
+/// The rig under trial: nominal description and the laws it may be levitated with.
+struct Bench {
+  config::RigFile rig;
+  std::vector<law::LawConfig> laws;
+};
+
+struct TrialPlan {
+  std::uint64_t seed{};
+  std::vector<effect::Id> hidden;  ///< the first is the main one
+  double size{1.0};                ///< of the main effect; 1 = clear
+  double side_size{1.0};           ///< of the others
+  Outside outside{Outside::kNothing};
+  int bits_per_axis{2047};  ///< length of the test signal
+  double runup_s{2.0};
+};
+
+/// Shares of what `DrawEffect` calls clear: from 0.8, from 0.4, below.
+enum class Size : std::uint8_t { kFaint, kModerate, kClear };
+[[nodiscard]] Size SizeOf(double share) noexcept;
+[[nodiscard]] const char* Name(Size size) noexcept;
+
+/// What is hidden. Never handed to the diagnosis.
+struct Secret {
+  std::vector<std::string> effects;
+  Outside outside{Outside::kNothing};
+  plant::PlantParameters truth;
+  double size{};  ///< after making it smaller for stability
+};
+
+struct Trial {
+  std::vector<diagnosis::Record> records;
+  Campaign campaign;
+  Secret secret;
+};
+
+[[nodiscard]] Trial MakeTrial(const Bench& bench, const TrialPlan& plan);
+
+/// Loads rig `name` and the controllers shipped for it.
+[[nodiscard]] Bench LoadBench(const std::string& rig, const std::vector<std::string>& controllers);
+
+}  // namespace levitas::trials
