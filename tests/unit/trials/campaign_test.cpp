@@ -77,8 +77,9 @@ TEST(Campaign, WrittenAsCsvIsReadBackAsTheSameRows) {
   ASSERT_EQ(read.rows.size(), rows.size());
   for (const std::size_t n : {std::size_t{100}, rows.size() / 2, rows.size() - 1}) {
     for (std::size_t a = 0; a < 4; ++a) {
-      // Eight digits of 1 um; the speed comes from the slope of angles with eight digits.
-      EXPECT_NEAR(read.rows[n].sample.position_m[a], rows[n].sample.position_m[a], 1e-13);
+      // Half a unit of the eighth digit: 5e-13 m up to 100 um, 5e-9 A below 1 A. The speed comes
+      // from the slope of angles with eight digits.
+      EXPECT_NEAR(read.rows[n].sample.position_m[a], rows[n].sample.position_m[a], 1e-12);
       EXPECT_NEAR(read.rows[n].sample.command.control_current_a[a],
                   rows[n].sample.command.control_current_a[a], 1e-8);
     }
