@@ -128,13 +128,15 @@ class RecordSums {
     for (std::size_t n = 0; n < count; ++n) {
       if (!run_.moments[from + n].counts) whitened.row(static_cast<Eigen::Index>(n)).setZero();
     }
-    Eigen::MatrixXf product = Eigen::MatrixXf::Zero(whitened.cols(), whitened.cols());
-    product.selfadjointView<Eigen::Lower>().rankUpdate(whitened.transpose());
-    partial_[a] = product;
+    // In double: sums of single precision lose more than a unit of evidence where terms explain
+    // 1e8 of them, and are then no longer positive definite.
+    const Eigen::MatrixXd exact = whitened.cast<double>();
+    partial_[a] = Eigen::MatrixXd::Zero(exact.cols(), exact.cols());
+    partial_[a].selfadjointView<Eigen::Lower>().rankUpdate(exact.transpose());
   }
 
   void Collect(std::size_t from, std::size_t count) {
-    for (std::size_t a = 0; a < axes_; ++a) sum_ += partial_[a].cast<double>();
+    for (std::size_t a = 0; a < axes_; ++a) sum_ += partial_[a];
     for (std::size_t n = 0; n < count; ++n) values_ += run_.moments[from + n].counts ? axes_ : 0;
   }
 
@@ -145,7 +147,7 @@ class RecordSums {
   std::vector<SensitivityBlock> blocks_;
   std::vector<ColumnFilter> filters_;
   Eigen::MatrixXf derivative_;
-  std::array<Eigen::MatrixXf, kMaxAxes> partial_;
+  std::array<Eigen::MatrixXd, kMaxAxes> partial_;
   Eigen::MatrixXd sum_;
   std::size_t values_{0};
 };

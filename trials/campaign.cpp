@@ -49,7 +49,7 @@ class Loop {
         limit_a_(law.current_limit_a),
         period_s_(law.period_s),
         plan_(plan),
-        disturbance_(std::move(disturbance)) {}
+        disturbance_(disturbance) {}
 
   bool Run(const Motion& motion, std::uint64_t seed, Measured& out) {
     plant::Plant plant(model_, seed);

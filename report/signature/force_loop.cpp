@@ -9,14 +9,14 @@
 namespace levitas::signature {
 namespace {
 
-constexpr double kAmplitude_of_bias = 0.9;
-constexpr double kFrequency_hz = 50.0;
+constexpr double kAmplitudeOfBias = 0.9;
+constexpr double kFrequencyHz = 50.0;
 
 /// One settled turn of a sine of current.
 svg::Series Loop(const plant::PlantParameters& rig, const std::string& name, std::size_t colour) {
   plant::Plant plant(std::make_shared<const plant::PlantModel>(rig), 1);
   const double bias_a = rig.config.bearings.front().magnet.bias_current_a;
-  const auto turn = static_cast<int>(std::lround(1e9 / kFrequency_hz) / rig.config.period_ns);
+  const auto turn = static_cast<int>(std::lround(1e9 / kFrequencyHz) / rig.config.period_ns);
   svg::Series series;
   series.name = name;
   series.colour = svg::Colour(colour);
@@ -24,7 +24,7 @@ svg::Series Loop(const plant::PlantParameters& rig, const std::string& name, std
     plant::PlantCommand command;
     command.bias_current_a = bias_a;
     const double current_a =
-        kAmplitude_of_bias * bias_a * std::sin(2.0 * std::numbers::pi * i / turn);
+        kAmplitudeOfBias * bias_a * std::sin(2.0 * std::numbers::pi * i / turn);
     command.control_current_a[0] = current_a;
     plant.Advance(command);
     for (std::size_t s = 0; s < plant.layout().coil_current; ++s) plant.mutable_state()[s] = 0.0;

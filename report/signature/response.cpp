@@ -13,10 +13,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kFirst_hz = 10.0;
-constexpr double kLast_hz = 2000.0;
+constexpr double kFirstHz = 10.0;
+constexpr double kLastHz = 2000.0;
 constexpr int kPoints = 160;
-constexpr double kSpeed_rad_per_s = 2.0 * std::numbers::pi * 50.0;
+constexpr double kSpeedRadPerS = 2.0 * std::numbers::pi * 50.0;
 
 struct Response {
   std::vector<double> frequency_hz;
@@ -25,11 +25,11 @@ struct Response {
 
 Response Compute(const plant::PlantParameters& rig) {
   const plant::PlantModel model(rig);
-  const plant::LinearModel linear = plant::Linearise(model, kSpeed_rad_per_s);
+  const plant::LinearModel linear = plant::Linearise(model, kSpeedRadPerS);
   const double delay_s = model.delay_samples() * static_cast<double>(rig.config.period_ns) * 1e-9;
   Response response;
   for (int i = 0; i < kPoints; ++i) {
-    const double f = kFirst_hz * std::pow(kLast_hz / kFirst_hz, i / (kPoints - 1.0));
+    const double f = kFirstHz * std::pow(kLastHz / kFirstHz, i / (kPoints - 1.0));
     const Complex s(0.0, 2.0 * std::numbers::pi * f);
     Eigen::MatrixXcd pencil = -linear.a.cast<Complex>();
     pencil.diagonal().array() += s;

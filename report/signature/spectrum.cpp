@@ -13,22 +13,22 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kSpeed_hz = 40.0;  // so that 50 Hz of the mains is not a multiple of it
+constexpr double kSpeedHz = 40.0;  // so that 50 Hz of the mains is not a multiple of it
 constexpr int kTurns = 16;
 constexpr double kMostOrders = 4.0;
-constexpr double kSettle_s = 1.0;
+constexpr double kSettleS = 1.0;
 
 /// Readings of the first bearing as x + jy [m], over whole turns.
 std::vector<Complex> Orbit(const plant::PlantParameters& rig) {
   plant::Plant plant(std::make_shared<const plant::PlantModel>(rig), 1);
-  plant.SetSpeed(kTurn * kSpeed_hz, 0.0);
+  plant.SetSpeed(kTurn * kSpeedHz, 0.0);
   const double period_s = static_cast<double>(rig.config.period_ns) * 1e-9;
-  const auto settle = static_cast<int>(kSettle_s / period_s);
-  const auto count = static_cast<int>(std::lround(kTurns / kSpeed_hz / period_s));
+  const auto settle = static_cast<int>(kSettleS / period_s);
+  const auto count = static_cast<int>(std::lround(kTurns / kSpeedHz / period_s));
   plant::PlantCommand command;
   command.bias_current_a = rig.config.bearings.front().magnet.bias_current_a;
   command.drive_enabled = true;
-  command.speed_set_point_rad_per_s = kTurn * kSpeed_hz;
+  command.speed_set_point_rad_per_s = kTurn * kSpeedHz;
   command.acceleration_limit_rad_per_s2 = 1.0;
   AxisArray last_m{};
   AxisArray carried_a{};
