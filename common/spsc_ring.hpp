@@ -25,13 +25,19 @@ class SpscRing {
   /// Writer thread only. Returns false, and counts, when the reader is a full ring behind.
   bool Post(const T& record) noexcept {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
-    if (head - tail_.load(std::memory_order_acquire) == slots_.size()) {
+    if (Full()) {
       lost_.fetch_add(1, std::memory_order_relaxed);
       return false;
     }
     slots_[head & mask_] = record;
     head_.store(head + 1, std::memory_order_release);
     return true;
+  }
+
+  /// Writer thread only: the next Post would be lost.
+  [[nodiscard]] bool Full() const noexcept {
+    return head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire) ==
+           slots_.size();
   }
 
   /// Reader thread only. Returns false when the ring is empty.

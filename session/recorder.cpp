@@ -23,6 +23,7 @@ using Clock = std::chrono::steady_clock;
 // 3 s at 10 kHz: more than a disk that syncs its journal makes a writer wait.
 constexpr std::size_t kRingRecords = 32'768;
 constexpr auto kIdle = std::chrono::milliseconds(5);
+constexpr auto kFullPause = std::chrono::microseconds(200);
 // With kIdle well below the promised 50 ms.
 constexpr auto kFlushEvery = std::chrono::milliseconds(25);
 
@@ -145,12 +146,20 @@ struct Recorder::Impl {
 
 Recorder::Recorder(RecorderOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
 
-Recorder::~Recorder() {
+Recorder::~Recorder() { Finish(); }
+
+void Recorder::Finish() noexcept {
+  if (!impl_->thread.joinable()) return;
   impl_->stop.store(true, std::memory_order_release);
   impl_->thread.join();
 }
 
-void Recorder::Post(const cycle::CycleRecord& record) noexcept { impl_->ring.Post(record); }
+void Recorder::Post(const cycle::CycleRecord& record) noexcept {
+  while (impl_->options.waits_for_room && impl_->ring.Full()) {
+    std::this_thread::sleep_for(kFullPause);
+  }
+  impl_->ring.Post(record);
+}
 std::uint64_t Recorder::lost() const noexcept { return impl_->ring.lost(); }
 
 std::string Recorder::trip_file() const {

@@ -3,7 +3,8 @@
 // the session, derives events (mode changes, trips, refusals, lost frames), and freezes the 0.5 s
 // before and after a trip to a session file of its own.
 //
-// Loop side   Post: wait-free, never allocates; full means lost and counted.
+// Loop side   Post: wait-free, never allocates; full means lost and counted. With `waits_for_room`
+//             (lockstep: no instant is missed by waiting) a full ring is waited for instead.
 // Safety      written data reaches the kernel at least every 50 ms.
 // Events      are also handed to `on_event` (recorder's thread), for telemetry and the console.
 
@@ -23,6 +24,7 @@ struct RecorderOptions {
   std::string trip_folder;   ///< where trip files go
   SessionHeader header;
   double trip_window_s{0.5};  ///< before and after
+  bool waits_for_room{false};  ///< Post waits instead of losing; never in real time
   std::function<void(const Event&)> on_event;
   std::function<void(const cycle::CycleRecord&)> on_record;  ///< every record, recorder's thread
 };
@@ -30,13 +32,16 @@ struct RecorderOptions {
 class Recorder {
  public:
   explicit Recorder(RecorderOptions options);
-  /// Drains the ring, finishes an unfinished trip file, joins.
+  /// Finish.
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   /// Loop thread only.
   void Post(const cycle::CycleRecord& record) noexcept;
+  /// Drains the ring, completes an unfinished trip file, tells the last events and joins. Nothing
+  /// may be posted any more; called again it does nothing.
+  void Finish() noexcept;
   [[nodiscard]] std::uint64_t lost() const noexcept;
   /// Path of the newest complete trip file, empty if none. Any thread.
   [[nodiscard]] std::string trip_file() const;

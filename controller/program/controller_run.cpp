@@ -161,6 +161,7 @@ class Session {
         recorder_({.session_path = options.record,
                    .trip_folder = options.trip_folder,
                    .header = Header(options, files, Facts()),
+                   .waits_for_room = !options.realtime,
                    .on_event = [this](const auto& event) { Announce(event, telemetry_); },
                    .on_record = {}}),
         outlet_(recorder_, telemetry_, numbers_.period_ns),
@@ -198,6 +199,7 @@ class Session {
     thread.join();
     if (lines_ != nullptr) lines_->WriteEnable(false);  // also after an end without a landing
     rig_->port().SayGoodbye({.cycle = loop.last().in.frame.cycle});
+    recorder_.Finish();  // the report names the trip's file and comes after the last event
     return Tell(loop.statistics(), receiver.rejected(), stayed);
   }
 

@@ -96,6 +96,47 @@ TEST_F(Recording, CountsLostRecordsAndRecordsHowMany) {
   EXPECT_THAT(reader.events().back().text, HasSubstr(std::to_string(lost) + " record(s) lost"));
 }
 
+// The other half of the pair: what waits loses nothing on the same disk.
+TEST_F(Recording, LosesNothingWhenTheLoopMayWait) {
+  const auto records = DrawRecords(40'000);  // more than the ring holds
+  std::atomic<bool> go{false};
+  std::atomic<std::uint64_t> posted{0};
+  std::uint64_t lost = 0;
+  {
+    RecorderOptions options = Options();
+    options.waits_for_room = true;
+    options.on_record = [&](const cycle::CycleRecord&) {
+      while (!go.load()) std::this_thread::yield();
+    };
+    Recorder recorder(std::move(options));
+    std::thread loop([&] {
+      for (const auto& record : records) {
+        recorder.Post(record);
+        ++posted;
+      }
+    });
+    while (posted.load() < 32'768) std::this_thread::yield();  // the ring is full
+    EXPECT_LT(posted.load(), records.size());
+    go.store(true);
+    loop.join();
+    lost = recorder.lost();
+  }
+  EXPECT_EQ(lost, 0U);
+  SessionReader reader(folder_ / "s.lcmlog");
+  EXPECT_EQ(ReadAll(reader).size(), records.size());
+}
+
+TEST_F(Recording, HasTheTripFileOfARunThatEndedInItsWindowOnceFinished) {
+  auto records = DrawRecords(520);
+  for (std::size_t i = 500; i < records.size(); ++i) Trip(records[i]);
+  Recorder recorder(Options(0.05));
+  for (const auto& record : records) recorder.Post(record);
+  recorder.Finish();
+  ASSERT_FALSE(recorder.trip_file().empty());
+  SessionReader reader(recorder.trip_file());
+  EXPECT_EQ(ReadAll(reader).size(), 520U);
+}
+
 TEST_F(Recording, FreezesTheWindowBeforeAndAfterATripToASessionOfItsOwn) {
   auto records = DrawRecords(1000);
   for (std::size_t i = 500; i < records.size(); ++i) Trip(records[i]);
