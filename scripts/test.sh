@@ -25,10 +25,19 @@ ctest_preset() {
   # From the closing line on: the share that passed, what did not run, what failed, times.
   sed -n '/% tests passed/,$p' "$log"
   if [ "$status" -ne 0 ]; then
+    said_by_failed "$log"
     grep -q '% tests passed' "$log" || tail -n 5 "$log"
     say "tests failed in preset $preset; what they printed is in $log"
   fi
   return "$status"
+}
+
+# The first lines that each failed test printed, for a machine whose logs nobody can open.
+said_by_failed() {
+  awk '/^ *[0-9]+\/[0-9]+ Test +#/ { left = /\*\*\*/ ? 60 : 0 }
+       /^ +Start +[0-9]+:/ { next }
+       /% tests passed/ { exit }
+       left > 0 { print substr($0, 1, 300); left-- }' "$1"
 }
 
 # prepare_preset PRESET [TARGET...]
@@ -63,11 +72,16 @@ run_tsan() {
 # Every stage runs even when an earlier one failed, so that one run names everything.
 run_all() {
   local failed=() ci_packages=$root/packages-ci.txt
+  SECONDS=0
   prepare_preset release
   prepare_machine
+  say "built after $SECONDS s"
   ctest_preset release || failed+=("release tests")
+  say "release tested after $SECONDS s"
   prepare_preset asan-ubsan
+  say "asan-ubsan built after $SECONDS s"
   ctest_preset asan-ubsan -L '^(unit|loop|replay|process)$' || failed+=("asan-ubsan tests")
+  say "asan-ubsan tested after $SECONDS s"
   prepare_preset tidy lcmtypes_generate
   say "clang-tidy"
   python3 "$root/scripts/tidy.py" --jobs "$(job_count)" || failed+=("clang-tidy")
@@ -75,7 +89,7 @@ run_all() {
     say "failed: $(IFS=,; echo "${failed[*]}")"
     return 1
   fi
-  say "everything passed"
+  say "everything passed after $SECONDS s"
 }
 
 run_tests() {
