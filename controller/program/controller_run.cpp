@@ -186,8 +186,7 @@ class Session {
         {.pace = options_.realtime ? loop::Pace::kRealtime : loop::Pace::kLockstep,
          .period_ns = numbers_.period_ns,
          .phase_ns = rig_->phase_ns()},
-        guarded_ ? static_cast<port::RigPort&>(*guarded_) : rig_->port(), cycle_, desk, outlet_,
-        clock_);
+        Port(), cycle_, desk, outlet_, clock_);
     rt::CatchStopSignals();
     std::atomic<bool> running{true};
     std::thread thread([&] {
@@ -198,12 +197,18 @@ class Session {
     const bool stayed = Watch(loop, desk, running, options_, *rig_, lines_);
     thread.join();
     if (lines_ != nullptr) lines_->WriteEnable(false);  // also after an end without a landing
-    rig_->port().SayGoodbye({.cycle = loop.last().in.frame.cycle});
+    Port().SayGoodbye({.cycle = loop.last().in.frame.cycle});
     recorder_.Finish();  // the report names the trip's file and comes after the last event
     return Tell(loop.statistics(), receiver.rejected(), stayed);
   }
 
  private:
+  /// What the loop faces: the connection, with the rig's lines beside it where it has any.
+  [[nodiscard]] port::RigPort& Port() noexcept {
+    if (guarded_) return *guarded_;
+    return rig_->port();
+  }
+
   [[nodiscard]] const std::vector<rt::RealTimeFact>& Facts() const {
     static const std::vector<rt::RealTimeFact> kNone;
     return guard_ ? guard_->facts() : kNone;
@@ -212,8 +217,8 @@ class Session {
   ExitStatus Tell(const loop::LoopStatistics& statistics, std::uint64_t rejected, bool stayed) {
     const RunFacts facts{.options = options_,
                          .statistics = statistics,
-                         .port = rig_->port().counters(),
-                         .transport = rig_->port().Trouble(),
+                         .port = Port().counters(),
+                         .transport = Port().Trouble(),
                          .records_lost = recorder_.lost(),
                          .telemetry_dropped = telemetry_.dropped(),
                          .commands_rejected = rejected,

@@ -52,4 +52,10 @@ bool GuardedPort::Write(const CurrentFrame& frame) noexcept {
   return sent;
 }
 
+void GuardedPort::SayGoodbye(const CurrentFrame& last) noexcept {
+  lines_.WriteEnable(false);
+  enabled_ = false;
+  port_.SayGoodbye(last);
+}
+
 }  // namespace levitas::gpio

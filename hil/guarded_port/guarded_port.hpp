@@ -17,6 +17,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "controller/port/rig_port.hpp"
 #include "hil/gpio/heartbeat.hpp"
@@ -41,6 +42,9 @@ class GuardedPort final : public port::RigPort {
   port::ReadResult Read(SensorFrame& frame, std::int64_t deadline_ns) noexcept override;
   bool Write(const CurrentFrame& frame) noexcept override;
   [[nodiscard]] port::PortCounters counters() const noexcept override { return port_.counters(); }
+  /// Drops the enable line, whatever `last` says, and lets the port below say it.
+  void SayGoodbye(const CurrentFrame& last) noexcept override;
+  [[nodiscard]] std::string Trouble() const override { return port_.Trouble(); }
   [[nodiscard]] const LineCounters& line_counters() const noexcept { return counters_; }
 
  private:

@@ -25,6 +25,9 @@ class FakePort final : public port::RigPort {
   [[nodiscard]] port::PortCounters counters() const noexcept override {
     return {.frames_read = 17};
   }
+  void SayGoodbye(const CurrentFrame& last) noexcept override { goodbye_cycle = last.cycle; }
+  [[nodiscard]] std::string Trouble() const override { return "1 x bus off"; }
+  std::uint64_t goodbye_cycle{0};
   bool has_frame{true};
   bool takes{true};
   int written{0};
@@ -161,6 +164,18 @@ TEST_F(GuardedPortTest, AFrameThatCouldNotBeSentStillSwitchesTheLines) {
   port.takes = false;
   EXPECT_FALSE(guarded.Write({.amplifiers_enabled = false}));
   EXPECT_FALSE(lines.enable);
+}
+
+TEST_F(GuardedPortTest, AGoodbyeDropsTheEnableLineAndReachesThePortBelow) {
+  guarded.Write({.cycle = 1, .axes = 4, .amplifiers_enabled = true});
+  ASSERT_TRUE(lines.enable);
+  guarded.SayGoodbye({.cycle = 2, .axes = 4, .amplifiers_enabled = true});
+  EXPECT_FALSE(lines.enable);
+  EXPECT_EQ(port.goodbye_cycle, 2U);
+}
+
+TEST_F(GuardedPortTest, TroubleIsThatOfThePortBelow) {
+  EXPECT_EQ(guarded.Trouble(), "1 x bus off");
 }
 
 TEST_F(GuardedPortTest, CountersAreThoseOfThePortBelow) {
