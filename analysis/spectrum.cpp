@@ -12,8 +12,21 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Iterative radix-2 transform in place; the size is a power of two.
-void Transform(std::vector<Complex>& values) {
+std::vector<double> HannWindow(std::size_t segment) {
+  if (segment < 8 || !std::has_single_bit(segment)) {
+    throw std::invalid_argument("a spectrum's segment must be a power of two of at least 8");
+  }
+  std::vector<double> window(segment);
+  for (std::size_t i = 0; i < segment; ++i) {
+    const double phase = 2.0 * std::numbers::pi * static_cast<double>(i);
+    window[i] = 0.5 - 0.5 * std::cos(phase / static_cast<double>(segment));
+  }
+  return window;
+}
+
+}  // namespace
+
+void FourierTransform(std::vector<Complex>& values) {
   const std::size_t size = values.size();
   for (std::size_t i = 1, reversed = 0; i < size; ++i) {
     std::size_t bit = size >> 1;
@@ -36,20 +49,6 @@ void Transform(std::vector<Complex>& values) {
   }
 }
 
-std::vector<double> HannWindow(std::size_t segment) {
-  if (segment < 8 || !std::has_single_bit(segment)) {
-    throw std::invalid_argument("a spectrum's segment must be a power of two of at least 8");
-  }
-  std::vector<double> window(segment);
-  for (std::size_t i = 0; i < segment; ++i) {
-    const double phase = 2.0 * std::numbers::pi * static_cast<double>(i);
-    window[i] = 0.5 - 0.5 * std::cos(phase / static_cast<double>(segment));
-  }
-  return window;
-}
-
-}  // namespace
-
 Welch::Welch(std::size_t segment, double sample_rate_hz)
     : sample_rate_hz_(sample_rate_hz), window_(HannWindow(segment)), sum_(segment / 2 + 1, 0.0) {}
 
@@ -67,7 +66,7 @@ void Welch::Add(std::span<const double> piece) {
 void Welch::AddSegment(std::span<const double> samples) {
   std::vector<Complex> values(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) values[i] = samples[i] * window_[i];
-  Transform(values);
+  FourierTransform(values);
   for (std::size_t line = 0; line < sum_.size(); ++line) sum_[line] += std::norm(values[line]);
   ++averages_;
 }
@@ -103,7 +102,7 @@ void Coherence::Add(std::span<const double> first, std::span<const double> secon
     for (std::size_t i = 0; i < segment; ++i) {
       both[i] = window_[i] * Complex(first[start + i], second[start + i]);
     }
-    Transform(both);
+    FourierTransform(both);
     for (std::size_t line = 0; line < cross_.size(); ++line) {
       const Complex mirrored = std::conj(both[(segment - line) % segment]);
       const Complex one = 0.5 * (both[line] + mirrored);

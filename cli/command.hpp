@@ -24,6 +24,7 @@ void AddReplayCommand(CLI::App& app, Action& action);
 void AddImportCommand(CLI::App& app, Action& action);
 void AddExportCommand(CLI::App& app, Action& action);
 void AddCanDbcCommand(CLI::App& app, Action& action);
+void AddDashCommand(CLI::App& app, Action& action);
 void AddDoctorCommand(CLI::App& app, Action& action);
 void AddSimulateCommand(CLI::App& app, Action& action);
 void AddEffectsCommand(CLI::App& app, Action& action);

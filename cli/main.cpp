@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   cli::AddImportCommand(app, action);
   cli::AddExportCommand(app, action);
   cli::AddCanDbcCommand(app, action);
+  cli::AddDashCommand(app, action);
   cli::AddDoctorCommand(app, action);
   cli::AddSimulateCommand(app, action);
   cli::AddEffectsCommand(app, action);

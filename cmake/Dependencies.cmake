@@ -24,3 +24,11 @@ find_library(GPIOD_LIBRARY gpiod REQUIRED)
 add_library(gpiod SHARED IMPORTED)
 set_target_properties(gpiod PROPERTIES IMPORTED_LOCATION ${GPIOD_LIBRARY}
                                        INTERFACE_INCLUDE_DIRECTORIES ${GPIOD_INCLUDE})
+# cpp-httplib of Debian is compiled with these switches, and its classes differ without them.
+find_path(HTTPLIB_INCLUDE httplib.h REQUIRED)
+find_library(HTTPLIB_LIBRARY cpp-httplib REQUIRED)
+add_library(httplib SHARED IMPORTED)
+set_target_properties(httplib PROPERTIES
+  IMPORTED_LOCATION ${HTTPLIB_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${HTTPLIB_INCLUDE}
+  INTERFACE_COMPILE_DEFINITIONS
+    "CPPHTTPLIB_OPENSSL_SUPPORT;CPPHTTPLIB_ZLIB_SUPPORT;CPPHTTPLIB_BROTLI_SUPPORT")

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/spsc_ring.hpp"
+#include "transport/histogram_message.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/multicast_socket.hpp"
 
@@ -23,7 +24,11 @@ namespace {
 constexpr std::size_t kStateRing = 64;   // 0.6 s of samples
 constexpr std::size_t kTimingRing = 4;   // seconds
 constexpr std::size_t kEventQueue = 64;  // more at once than a person can read
+constexpr std::size_t kBatchQueue = 64;  // one second at the rate the batches are made
 constexpr auto kSendEvery = std::chrono::milliseconds(5);
+constexpr int kRoundsPerAnnouncement = 200;  // a second
+
+using Encoded = std::vector<std::uint8_t>;
 
 std::int32_t Clamp32(double value_ns) {
   return static_cast<std::int32_t>(
@@ -73,9 +78,8 @@ levitas_msg::loop_timing_t Message(const TimingSample& sample) {
 struct Telemetry::Impl {
   explicit Impl(const LcmNetwork& network) : sender(network, Direction::kTelemetry) {}
 
-  template <class Sample>
-  void Send(const char* channel, const Sample& sample) {
-    const auto message = Message(sample);
+  template <class LcmMessage>
+  void Send(const char* channel, const LcmMessage& message) {
     const std::size_t header = HeaderSize(channel);
     const int size = message.getEncodedSize();
     datagram.resize(header + static_cast<std::size_t>(size));
@@ -84,7 +88,7 @@ struct Telemetry::Impl {
     if (!sender.Send(datagram)) dropped.fetch_add(1, std::memory_order_relaxed);
   }
 
-  void SendEncoded(const char* channel, const std::vector<std::uint8_t>& message) {
+  void SendEncoded(const char* channel, const Encoded& message) {
     const std::size_t header = HeaderSize(channel);
     datagram.resize(header + message.size());
     WriteHeader(datagram, sequence++, channel);
@@ -95,15 +99,34 @@ struct Telemetry::Impl {
 
   void SendAll() {
     StateSample state;
-    while (states.Take(state)) Send(channel::kState, state);
+    while (states.Take(state)) Send(channel::kState, Message(state));
     TimingSample timing;
-    while (timings.Take(timing)) Send(channel::kTiming, timing);
-    std::deque<std::vector<std::uint8_t>> taken;
+    while (timings.Take(timing)) {
+      Send(channel::kTiming, Message(timing));
+      Send(channel::kHistogram,
+           HistogramMessage(timing.cycle, timing.wakeup, timing.compute, timing.latency));
+    }
+    std::deque<Encoded> told;
+    std::deque<Encoded> sampled;
+    Encoded announced;
     {
       const std::lock_guard lock(mutex);
-      taken.swap(events);
+      told.swap(events);
+      sampled.swap(batches);
+      if (round++ % kRoundsPerAnnouncement == 0) announced = announcement;
     }
-    for (const auto& event : taken) SendEncoded(channel::kEvent, event);
+    for (const Encoded& event : told) SendEncoded(channel::kEvent, event);
+    for (const Encoded& batch : sampled) SendEncoded(channel::kSamples, batch);
+    if (!announced.empty()) SendEncoded(channel::kHeader, announced);
+  }
+
+  void Queue(std::deque<Encoded>& queue, std::size_t capacity, Encoded encoded) {
+    const std::lock_guard lock(mutex);
+    if (queue.size() == capacity) {
+      dropped.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    queue.push_back(std::move(encoded));
   }
 
   void Run() {
@@ -115,12 +138,15 @@ struct Telemetry::Impl {
   }
 
   MulticastSender sender;
-  std::vector<std::uint8_t> datagram;
+  Encoded datagram;
   std::uint32_t sequence{0};
   SpscRing<StateSample> states{kStateRing};
   SpscRing<TimingSample> timings{kTimingRing};
   std::mutex mutex;
-  std::deque<std::vector<std::uint8_t>> events;
+  std::deque<Encoded> events;
+  std::deque<Encoded> batches;
+  Encoded announcement;
+  int round{0};
   std::atomic<std::uint64_t> dropped{0};
   std::atomic<bool> stopping{false};
   std::thread thread;
@@ -140,12 +166,17 @@ void Telemetry::PostState(const StateSample& sample) noexcept { impl_->states.Po
 void Telemetry::PostTiming(const TimingSample& sample) noexcept { impl_->timings.Post(sample); }
 
 void Telemetry::PostEvent(std::vector<std::uint8_t> encoded) {
+  impl_->Queue(impl_->events, kEventQueue, std::move(encoded));
+}
+
+void Telemetry::PostSamples(std::vector<std::uint8_t> encoded) {
+  impl_->Queue(impl_->batches, kBatchQueue, std::move(encoded));
+}
+
+void Telemetry::Announce(std::vector<std::uint8_t> encoded) {
   const std::lock_guard lock(impl_->mutex);
-  if (impl_->events.size() == kEventQueue) {
-    impl_->dropped.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
-  impl_->events.push_back(std::move(encoded));
+  impl_->announcement = std::move(encoded);
+  impl_->round = 0;
 }
 
 std::uint64_t Telemetry::dropped() const noexcept {

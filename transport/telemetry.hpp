@@ -1,10 +1,12 @@
 #pragma once
 // Publishes the controller's state, timing and events for people and tools, away from the loop.
 //
-// Channels  LEVITAS_STATE about 100 times a second, LEVITAS_TIMING about once, LEVITAS_EVENT as
-//           they happen. Best effort: what does not fit into a ring is dropped and counted.
-// Thread    own thread for sending. PostState and PostTiming: loop thread, wait-free. PostEvent:
-//           one other thread (it locks).
+// Channels  LEVITAS_STATE about 100 times a second, LEVITAS_TIMING, _HISTOGRAM and _HEADER about
+// once,
+//           LEVITAS_EVENT and LEVITAS_SAMPLES as they come. Best effort: what does not fit into a
+//           ring or queue is dropped and counted.
+// Thread    own thread for sending. PostState and PostTiming: loop thread, wait-free. PostEvent,
+//           PostSamples and Announce: any other thread (they lock).
 // Failure   construction throws Problem when the network cannot be joined; later never.
 
 #include <cstdint>
@@ -13,6 +15,7 @@
 
 #include "common/axes.hpp"
 #include "common/enums.hpp"
+#include "common/histogram.hpp"
 #include "transport/lcm_network.hpp"
 
 namespace levitas::transport {
@@ -41,6 +44,7 @@ struct TimingSample {
   double compute_p50_ns{}, compute_p99_ns{}, compute_max_ns{};
   double latency_p50_ns{}, latency_p99_ns{};
   std::int8_t slowest_stage{};
+  Histogram wakeup, compute, latency;  ///< copied whole
 };
 
 class Telemetry {
@@ -55,7 +59,12 @@ class Telemetry {
   void PostTiming(const TimingSample& sample) noexcept;
   /// `encoded`: an event_t as the recorder encodes it.
   void PostEvent(std::vector<std::uint8_t> encoded);
-  /// Samples that found a ring full, events beyond the queue's length, refused by the kernel.
+  /// `encoded`: a sample_batch_t.
+  void PostSamples(std::vector<std::uint8_t> encoded);
+  /// `encoded`: the session_header_t of this run, sent again and again for those who come later.
+  void Announce(std::vector<std::uint8_t> encoded);
+  /// Samples that found a ring full, events and batches beyond their queue's
+  /// length, refused by the kernel.
   [[nodiscard]] std::uint64_t dropped() const noexcept;
 
  private:

@@ -24,6 +24,7 @@
 #include "session/recorder.hpp"
 #include "transport/operator_receiver.hpp"
 #include "transport/partner_watch.hpp"
+#include "transport/sample_batcher.hpp"
 #include "transport/statistics_json.hpp"
 #include "transport/telemetry.hpp"
 
@@ -158,12 +159,15 @@ class Session {
         network_(TelemetryNetwork(options)),
         rig_(Connect(options, files.rig)),
         telemetry_(network_),
+        header_(Header(options, files, Facts())),
+        batcher_(numbers_.axes(), [this](auto batch) { telemetry_.PostSamples(std::move(batch)); }),
         recorder_({.session_path = options.record,
                    .trip_folder = options.trip_folder,
-                   .header = Header(options, files, Facts()),
-                   .waits_for_room = !options.realtime,
+                   .header = header_,
+                    .waits_for_room = !options.realtime,
                    .on_event = [this](const auto& event) { Announce(event, telemetry_); },
-                   .on_record = {}}),
+                   .on_record =
+                       [this](const auto& record) { batcher_.Add(record, rt::MonotonicNowNs()); }}),
         outlet_(recorder_, telemetry_, numbers_.period_ns),
         cycle_({numbers_, files.controller.law, files.controller.supervisor}),
         sequence_(files.controller.supervisor.sequence) {
@@ -171,6 +175,9 @@ class Session {
       player_.emplace(*files.scenario, numbers_.period_s(), sequence_.standstill_rad_per_s);
     }
     if (lines_ != nullptr) guarded_.emplace(rig_->port(), *lines_, files.rig.lines);
+    session::Bytes announcement;
+    session::EncodeHeader(header_, announcement);
+    telemetry_.Announce(std::move(announcement));
   }
 
   ExitStatus Run() {
@@ -242,6 +249,8 @@ class Session {
   std::unique_ptr<RigConnection> rig_;
   std::optional<gpio::GuardedPort> guarded_;
   transport::Telemetry telemetry_;
+  session::SessionHeader header_;
+  transport::SampleBatcher batcher_;
   session::Recorder recorder_;
   LoopOutlet outlet_;
   cycle::ControlCycle cycle_;

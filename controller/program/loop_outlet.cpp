@@ -52,7 +52,10 @@ void LoopOutlet::Post(const loop::LoopStatistics& statistics) noexcept {
                          .compute_max_ns = static_cast<double>(statistics.compute.max_ns()),
                          .latency_p50_ns = statistics.latency.Percentile(0.5),
                          .latency_p99_ns = statistics.latency.Percentile(0.99),
-                         .slowest_stage = static_cast<std::int8_t>(statistics.last_blamed)});
+                         .slowest_stage = static_cast<std::int8_t>(statistics.last_blamed),
+                         .wakeup = statistics.wakeup,
+                         .compute = statistics.compute,
+                         .latency = statistics.latency});
 }
 
 }  // namespace levitas::controller_program

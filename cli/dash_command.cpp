@@ -1,0 +1,76 @@
+// amb dash: the live page of a run that is under way, or of the next one.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "cli/command.hpp"
+#include "cli/run/interrupt.hpp"
+#include "dashboard/access.hpp"
+#include "dashboard/dashboard.hpp"
+
+namespace levitas::cli {
+namespace {
+
+struct DashOptions {
+  std::string port{"lcm"};
+  dashboard::WebOptions web;
+  bool allow_network{false};
+};
+
+ExitStatus Serve(DashOptions options) {
+  if (!dashboard::IsLoopback(options.web.address)) {
+    if (!options.allow_network) {
+      throw Problem(ExitStatus::kUsage,
+                    fmt::format("--listen {}: whoever reaches this address could command the rig; "
+                                "say --allow-network if that is meant (a token is then needed, "
+                                "and printed)",
+                                options.web.address));
+    }
+    if (options.web.token.empty()) options.web.token = dashboard::NewToken();
+  }
+  const InterruptGuard interrupts;
+  const dashboard::Dashboard page(transport::ParseLcmNetwork(options.port), options.web);
+  fmt::print("page: {}   (Ctrl-C ends)\n", page.Url());
+  std::fflush(stdout);
+  constexpr auto kLook = std::chrono::milliseconds(50);
+  while (interrupts.count() == 0) std::this_thread::sleep_for(kLook);
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddDashCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<DashOptions>();
+  CLI::App* command = app.add_subcommand(
+      "dash", "Live page of a run in the browser: orbits, spectra, currents, timing, commands");
+  command
+      ->add_option("--port", options->port,
+                   "Where the run is: lcm, or lcm:udpm://<group>:<port>?ttl=<n> as amb run "
+                   "prints it")
+      ->capture_default_str();
+  auto* http = command
+                   ->add_option("--http-port", options->web.port,
+                                "TCP port of the page; default: 8970, or the next free one")
+                   ->check(CLI::Range(0, 65535));
+  command
+      ->add_option("--listen", options->web.address,
+                   "Address to serve; others than loopback need --allow-network")
+      ->capture_default_str();
+  command->add_flag("--allow-network", options->allow_network,
+                    "Let other machines in, with a token that is part of the printed address");
+  command->add_option("--token", options->web.token, "Token to ask for; default: a random one");
+  command->callback([options, http, &action] {
+    options->web.any_port = http->count() == 0;
+    action = [options] { return Serve(*options); };
+  });
+  command->footer(
+      "The page talks to whatever controller is on that port; commands are confirmed by it.\n"
+      "  amb run --manual --pace realtime    a rig that waits for the page's commands\n"
+      "  Esc                                 emergency stop, wherever the cursor is");
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,93 @@
+#include "dashboard/dashboard.hpp"
+
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include "controller/rt/clock.hpp"
+#include "dashboard/full_spectrum.hpp"
+#include "dashboard/live_run.hpp"
+#include "dashboard/snapshot.hpp"
+#include "transport/lcm_packet.hpp"
+
+namespace levitas::dashboard {
+namespace {
+
+constexpr std::int64_t Ns(std::chrono::nanoseconds duration) { return duration.count(); }
+
+}  // namespace
+
+struct Dashboard::Impl {
+  Impl(const transport::LcmNetwork& network, const WebOptions& web)
+      : receiver(network, transport::Direction::kTelemetry),
+        commander(network),
+        server(web, hub, [this](const CommandRequest& request) { return commander.Send(request); }),
+        thread([this] { Run(); }) {}
+
+  ~Impl() {
+    stopping.store(true);
+    thread.join();
+  }
+
+  void Run() {
+    hub.Put(Topic::kRig, RigJson(run, started_ns));
+    std::int64_t next_tick_ns = rt::MonotonicNowNs();
+    while (!stopping.load()) {
+      const auto received = receiver.Receive(next_tick_ns);
+      const std::int64_t now_ns = rt::MonotonicNowNs();
+      if (!received.datagram.empty()) Hear(received, now_ns);
+      if (now_ns < next_tick_ns) continue;
+      next_tick_ns = now_ns + Ns(kTick);
+      Publish(now_ns);
+    }
+  }
+
+  void Hear(const transport::Received& received, std::int64_t now_ns) {
+    const transport::Packet packet = transport::ParsePacket(received.datagram);
+    if (packet.kind != transport::PacketKind::kShort) return;
+    const std::uint64_t event_before = run.newest_event();
+    run.Take(packet.channel, packet.payload, now_ns);
+    if (run.newest_event() != event_before) {
+      commander.Saw(run.events().back().event.text);
+      hub.PutEvent(run.newest_event(), EventJson(run.events().back()));
+    }
+    if (packet.channel == transport::channel::kHistogram) hub.Put(Topic::kTiming, TimingJson(run));
+    if (run.run_number() != told_run) {
+      told_run = run.run_number();
+      hub.Put(Topic::kRig, RigJson(run, started_ns));
+    }
+  }
+
+  void Publish(std::int64_t now_ns) {
+    if (server.viewers() == 0) return;
+    hub.Put(Topic::kTick, TickJson(run, now_ns));
+    if (now_ns < next_spectrum_ns || !run.samples()) return;
+    next_spectrum_ns = now_ns + Ns(kSpectrumEvery);
+    if (run.samples()->count() == spectrum_count) return;
+    spectrum_count = run.samples()->count();
+    if (const auto spectrum = SpectrumOf(*run.samples(), kHighestSpectrumHz)) {
+      hub.Put(Topic::kSpectrum, SpectrumJson(*spectrum));
+    }
+  }
+
+  const std::int64_t started_ns{rt::MonotonicNowNs()};
+  Hub hub;
+  transport::MulticastReceiver receiver;
+  Commander commander;
+  LiveRun run;  ///< our own thread's
+  std::uint64_t told_run{0};
+  std::int64_t next_spectrum_ns{0};
+  std::uint64_t spectrum_count{0};
+  std::atomic<bool> stopping{false};
+  WebServer server;
+  std::thread thread;
+};
+
+Dashboard::Dashboard(const transport::LcmNetwork& network, const WebOptions& web)
+    : impl_(std::make_unique<Impl>(network, web)) {}
+
+Dashboard::~Dashboard() = default;
+
+std::string Dashboard::Url() const { return impl_->server.Url(); }
+
+}  // namespace levitas::dashboard

@@ -1,0 +1,77 @@
+#pragma once
+// All that is known of the run that is being looked at, from its telemetry: what runs, the newest
+// state, timing, events and samples.
+//
+// Thread   one at a time: the owner holds a lock around every call.
+// Failure  a message that cannot be decoded, or does not fit the rig, is counted and dropped.
+// Restart  a header of another run starts everything anew; events are kept, with a line between.
+
+#include <cstdint>
+#include <deque>
+#include <levitas_msg/controller_state_t.hpp>
+#include <levitas_msg/loop_histogram_t.hpp>
+#include <levitas_msg/loop_timing_t.hpp>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "common/rig_numbers.hpp"
+#include "dashboard/sample_store.hpp"
+#include "session/session_header.hpp"
+
+namespace levitas::dashboard {
+
+struct NumberedEvent {
+  std::uint64_t number{};  ///< counts from 1
+  session::Event event;
+  double time_s{};  ///< of the run
+};
+
+class LiveRun {
+ public:
+  static constexpr std::size_t kMaxEvents = 200;
+
+  /// A message of LEVITAS_HEADER, _STATE, _TIMING, _HISTOGRAM, _EVENT or _SAMPLES; others are
+  /// none of its business.
+  void Take(std::string_view channel, std::span<const std::uint8_t> payload, std::int64_t now_ns);
+
+  /// Of the run whose header came last; empty before the first.
+  [[nodiscard]] const std::optional<RigNumbers>& rig() const noexcept { return rig_; }
+  [[nodiscard]] const session::SessionHeader& header() const noexcept { return header_; }
+  /// Counts the runs seen, 0 before the first.
+  [[nodiscard]] std::uint64_t run_number() const noexcept { return run_number_; }
+  [[nodiscard]] const std::optional<levitas_msg::controller_state_t>& state() const noexcept {
+    return state_;
+  }
+  [[nodiscard]] std::int64_t state_arrived_ns() const noexcept { return state_arrived_ns_; }
+  [[nodiscard]] const std::optional<levitas_msg::loop_timing_t>& timing() const noexcept {
+    return timing_;
+  }
+  [[nodiscard]] const std::optional<levitas_msg::loop_histogram_t>& histogram() const noexcept {
+    return histogram_;
+  }
+  [[nodiscard]] const std::deque<NumberedEvent>& events() const noexcept { return events_; }
+  [[nodiscard]] std::uint64_t newest_event() const noexcept { return event_count_; }
+  [[nodiscard]] std::optional<SampleStore>& samples() noexcept { return samples_; }
+  [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
+
+ private:
+  bool TakeHeader(std::span<const std::uint8_t> payload);
+  bool TakeState(std::span<const std::uint8_t> payload, std::int64_t now_ns);
+  bool TakeEvent(std::span<const std::uint8_t> payload);
+  bool TakeSamples(std::span<const std::uint8_t> payload);
+
+  session::SessionHeader header_;
+  std::optional<RigNumbers> rig_;
+  std::uint64_t run_number_{0};
+  std::optional<levitas_msg::controller_state_t> state_;
+  std::int64_t state_arrived_ns_{0};
+  std::optional<levitas_msg::loop_timing_t> timing_;
+  std::optional<levitas_msg::loop_histogram_t> histogram_;
+  std::deque<NumberedEvent> events_;
+  std::uint64_t event_count_{0};
+  std::optional<SampleStore> samples_;
+  std::uint64_t refused_{0};
+};
+
+}  // namespace levitas::dashboard

@@ -1,0 +1,129 @@
+// Orbits: where the shaft moves in each bearing, inside its clearance and zones (ISO 14839-2).
+//
+// x and y are the bearing's control axes, x to the right and y up, as docs/conventions.md sees them.
+
+import { prepare } from "./canvas.js";
+import { lineColour } from "./colours.js";
+
+const ZONES = [[0.5, "#fdf0e6", "C"], [0.4, "#fbf7e3", "B"], [0.3, "#eaf4ef", "A"]];
+const KEEP = 10;  // older orbits, fading
+
+let views = [];
+let clearance = 0;
+
+export function setUpOrbits(rig) {
+  const place = document.getElementById("orbits");
+  place.replaceChildren();
+  clearance = rig.clearance_m * 1e9;
+  views = rig.bearings.map((name) => {
+    const canvas = document.createElement("canvas");
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", "orbit of bearing " + name);
+    place.append(canvas);
+    return { name, canvas, history: [], largest: 0 };
+  });
+}
+
+function path(context, points, scale) {
+  context.beginPath();
+  for (let i = 0; i + 1 < points.length; i += 2) context.lineTo(points[i] * scale, -points[i + 1] * scale);
+  context.stroke();
+}
+
+function drawRings(context, radius) {
+  context.fillStyle = "#fff";
+  context.strokeStyle = "#1b2733";
+  context.lineWidth = 1.5;
+  context.beginPath();
+  context.arc(0, 0, radius, 0, 7);
+  context.fill();
+  context.stroke();
+  context.lineWidth = 0.7;
+  for (const [share, colour, letter] of ZONES) {
+    context.fillStyle = colour;
+    context.strokeStyle = "#8a97a4";
+    context.beginPath();
+    context.arc(0, 0, share * radius, 0, 7);
+    context.fill();
+    context.stroke();
+    context.fillStyle = "#5a6775";
+    context.fillText(letter, share * radius * 0.707 - 9, -share * radius * 0.707 + 11);
+  }
+  context.strokeStyle = "#d5dbe1";
+  context.beginPath();
+  context.moveTo(-radius, 0);
+  context.lineTo(radius, 0);
+  context.moveTo(0, -radius);
+  context.lineTo(0, radius);
+  context.stroke();
+}
+
+/** An orbit that is small beside the clearance is drawn again, enlarged, in the corner. */
+function drawEnlarged(context, view, width, height) {
+  const newest = view.history.at(-1);
+  let middle = [0, 0];
+  for (let i = 0; i < newest.length; i += 2) middle = [middle[0] + newest[i], middle[1] + newest[i + 1]];
+  middle = middle.map((sum) => (2 * sum) / newest.length);
+  let reach = 1;
+  for (let i = 0; i < newest.length; i += 2) reach = Math.max(reach, Math.hypot(newest[i] - middle[0], newest[i + 1] - middle[1]));
+  const nice = [1, 2, 5, 10, 20, 50, 100, 200, 500].find((step) => step * 1000 >= reach) ?? 1000;
+  const half = Math.min(width, height) * 0.2;
+  context.save();
+  context.translate(width - half - 4, height - half - 4);
+  context.fillStyle = "#fff";
+  context.strokeStyle = "#8a97a4";
+  context.fillRect(-half, -half, 2 * half, 2 * half);
+  context.strokeRect(-half, -half, 2 * half, 2 * half);
+  context.beginPath();
+  context.rect(-half, -half, 2 * half, 2 * half);
+  context.clip();
+  context.strokeStyle = lineColour(1);
+  context.lineWidth = 1.2;
+  const scale = half / (nice * 1000);
+  context.translate(-middle[0] * scale, middle[1] * scale);
+  path(context, newest, scale);
+  context.restore();
+  context.fillStyle = "#5a6775";
+  context.textAlign = "right";
+  context.fillText(`±${nice} µm`, width - 6, height - 2 * half - 8);
+  context.textAlign = "left";
+}
+
+export function showOrbits(orbits) {
+  views.forEach((view, i) => {
+    const points = orbits[i];
+    if (!points || points.length < 4 || points.includes(null)) return;
+    view.history.push(points);
+    if (view.history.length > KEEP) view.history.shift();
+    view.largest = 0;
+    for (let k = 0; k < points.length; k += 2) view.largest = Math.max(view.largest, Math.hypot(points[k], points[k + 1]));
+  });
+}
+
+export function drawOrbits() {
+  for (const view of views) {
+    const [context, width, height] = prepare(view.canvas);
+    const radius = Math.min(width, height - 34) / 2 - 3;
+    if (radius < 20) continue;
+    context.save();
+    context.translate(width / 2, radius + 18);
+    drawRings(context, radius);
+    view.history.forEach((points, age) => {
+      context.strokeStyle = lineColour(0);
+      context.globalAlpha = 0.12 + (0.88 * (age + 1)) / view.history.length;
+      context.lineWidth = age === view.history.length - 1 ? 1.8 : 1;
+      path(context, points, radius / clearance);
+    });
+    context.restore();
+    const share = view.largest / clearance;
+    const zone = share < 0.3 ? "A" : share < 0.4 ? "B" : share < 0.5 ? "C" : "D";
+    context.fillStyle = "#1b2733";
+    context.font = "600 12px system-ui, 'DejaVu Sans', sans-serif";
+    context.fillText(view.name.toUpperCase(), 4, 12);
+    context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+    if (view.history.length > 0) {
+      context.fillText(`${(view.largest / 1000).toFixed(1)} µm, zone ${zone}`, 4, height - 4);
+      drawEnlarged(context, view, width, height);
+    }
+  }
+}

@@ -1,0 +1,53 @@
+// Loop timing: how often each duration occurred since the start, on logarithmic axes.
+
+import { prepare } from "./canvas.js";
+import { lineColour } from "./colours.js";
+
+const ROWS = [["compute", 0], ["latency", 1], ["wakeup", 2]];
+
+let newest = null;
+
+export function showTiming(timing) {
+  newest = timing;
+  const us = (ns) => (ns / 1000).toFixed(ns < 10000 ? 1 : 0) + " µs";
+  const parts = [`99 %: ${us(timing.compute_p99_ns ?? 0)}`];
+  if (timing.latency_p99_ns > 0) parts.push(`latency ${us(timing.latency_p99_ns)}`);
+  parts.push(`skipped ${timing.skipped ?? 0}`);
+  document.getElementById("timing-note").textContent = parts.join(", ");
+}
+
+const text = (ns) => (ns < 1e3 ? ns + " ns" : ns < 1e6 ? ns / 1e3 + " µs" : ns / 1e6 + " ms");
+
+export function drawTiming() {
+  if (!newest?.edge_ns?.length) return;
+  const [context, width, height] = prepare(document.getElementById("timing"));
+  const used = ROWS.filter(([name]) => newest[name].some((n) => n > 0));
+  const bottom = height - 16;
+  const low = Math.log10(Math.max(newest.edge_ns[0] / 1.2, 1));
+  const high = Math.max(Math.log10(newest.edge_ns.at(-1)), low + 0.5);
+  const x = (ns) => ((Math.log10(Math.max(ns, 1)) - low) / (high - low)) * width;
+  const most = Math.log10(1 + Math.max(...used.flatMap(([name]) => newest[name])));
+  context.strokeStyle = "#d5dbe1";
+  context.fillStyle = "#5a6775";
+  for (let decade = Math.ceil(low); decade <= high; ++decade) {
+    const place = x(10 ** decade);
+    context.fillRect(place, 0, 0.6, bottom);
+    context.fillText(text(10 ** decade), Math.min(place + 2, width - 36), height - 4);
+  }
+  used.forEach(([name, colour], i) => {
+    context.strokeStyle = lineColour(colour);
+    context.fillStyle = lineColour(colour);
+    context.lineWidth = 1.6;
+    context.beginPath();
+    context.moveTo(x(newest.edge_ns[0] / 1.2), bottom);
+    newest.edge_ns.forEach((edge, bin) => {
+      const y = bottom - (Math.log10(1 + newest[name][bin]) / most) * (bottom - 8);
+      context.lineTo(x(bin === 0 ? edge / 1.2 : newest.edge_ns[bin - 1]), y);
+      context.lineTo(x(edge), y);
+    });
+    context.stroke();
+    context.textAlign = "right";
+    context.fillText(name, width - 4, 11 + 13 * i);
+    context.textAlign = "left";
+  });
+}

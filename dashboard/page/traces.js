@@ -1,0 +1,72 @@
+// Positions and currents over the last seconds, as envelopes: each 25 ms show their least and most.
+
+import { lineColour } from "./colours.js";
+import { fit, makePlot } from "./plot.js";
+
+const WINDOW_S = 20;
+const MOST = 2 * WINDOW_S * 40;  // two points per bucket
+
+let time = [];
+let rows = { position: [], current: [] };
+let plots = null;
+
+/** Dashed lines at the given values of the y axis. */
+function limitLines(values) {
+  return (plot) => {
+    const context = plot.ctx;
+    context.save();
+    context.strokeStyle = "#5a6775";
+    context.setLineDash([6, 4]);
+    for (const value of values) {
+      const y = plot.valToPos(value, "y", true);
+      if (y < plot.bbox.top || y > plot.bbox.top + plot.bbox.height) continue;
+      context.beginPath();
+      context.moveTo(plot.bbox.left, y);
+      context.lineTo(plot.bbox.left + plot.bbox.width, y);
+      context.stroke();
+    }
+    context.restore();
+  };
+}
+
+export function setUpTraces(rig) {
+  plots?.position.destroy();
+  plots?.current.destroy();
+  time = [];
+  rows = { position: rig.channels.map(() => []), current: rig.channels.map(() => []) };
+  const series = rig.channels.map((name, i) => ({ label: name, stroke: lineColour(i), width: 1, points: { show: false } }));
+  const clearance = rig.clearance_m * 1e6;
+  // What the coils can carry about the bias, either way.
+  const most = Math.min(rig.bias_a, rig.max_coil_current_a - rig.bias_a);
+  plots = {
+    position: makePlot(document.getElementById("positions"), { series, y: { floor: [-5, 5] }, draw: limitLines([clearance, -clearance]) }),
+    current: makePlot(document.getElementById("currents"), { series, y: { floor: [-1.1 * most, 1.1 * most] }, draw: limitLines([most, -most]) }),
+  };
+}
+
+export function addTraces(tick) {
+  if (!plots || !tick.t_ms || tick.t_ms.length === 0) return;
+  const newest = tick.t_ms[0] / 1000;
+  if (time.length > 0 && newest < time.at(-1)) {
+    time.length = 0;
+    for (const row of [...rows.position, ...rows.current]) row.length = 0;
+  }
+  for (const t of tick.t_ms) time.push(t / 1000 - 0.0125, t / 1000);
+  rows.position.forEach((row, i) => row.push(...tick.position_nm[i].map((v) => (v === null ? null : v / 1000))));
+  rows.current.forEach((row, i) => row.push(...tick.current_ma[i].map((v) => (v === null ? null : v / 1000))));
+  const surplus = time.length - MOST;
+  if (surplus > 0) for (const row of [time, ...rows.position, ...rows.current]) row.splice(0, surplus);
+}
+
+export function drawTraces() {
+  if (!plots || time.length < 2) return;
+  const end = time.at(-1);
+  for (const kind of ["position", "current"]) {
+    fit(plots[kind]);
+    plots[kind].setData([time, ...rows[kind]], false);
+    plots[kind].batch(() => {
+      plots[kind].setScale("x", { min: Math.max(end - WINDOW_S, time[0]), max: end });
+      plots[kind].setScale("y", { min: null, max: null });
+    });
+  }
+}

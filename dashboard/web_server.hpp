@@ -1,0 +1,53 @@
+#pragma once
+// The page, its event stream and its commands over HTTP.
+//
+//   GET  /            the page and its parts, from inside the program
+//   GET  /events      server-sent events: what the hub has, one stream per viewer
+//   POST /api/command see command_api.hpp
+//
+// Bounds    kMaxViewers streams at once, the next is told 503. A viewer that takes nothing for
+//           a second is dropped (its browser comes back by itself); what the kernel holds for it is
+//           kSendBufferBytes.
+// Access    access.hpp.
+// Thread    a pool of its own; the hub and the command hook are called from there.
+// Failure   Problem (exit status 1) when the address cannot be bound, naming it.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "dashboard/command_api.hpp"
+#include "dashboard/hub.hpp"
+
+namespace levitas::dashboard {
+
+struct WebOptions {
+  std::string address{"127.0.0.1"};
+  int port{8970};
+  bool any_port{true};  ///< the next free one when `port` is taken
+  std::string token;    ///< needed beyond loopback
+};
+
+class WebServer {
+ public:
+  static constexpr int kMaxViewers = 16;
+  static constexpr int kPortsTried = 64;
+  static constexpr int kSendBufferBytes = 256 * 1024;
+
+  WebServer(const WebOptions& options, Hub& hub, SendCommand send_command);
+  /// Closes the hub, so that the streams end, and joins.
+  ~WebServer();
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
+
+  /// With the token, when there is one.
+  [[nodiscard]] std::string Url() const;
+  [[nodiscard]] int viewers() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace levitas::dashboard
