@@ -18,7 +18,7 @@ namespace levitas::dashboard {
 
 inline constexpr std::chrono::milliseconds kTick{50};
 inline constexpr std::chrono::milliseconds kSpectrumEvery{250};
-inline constexpr double kHighestSpectrumHz = 800.0;
+inline constexpr double kHighestSpectrumHz = 500.0;
 
 class Dashboard {
  public:

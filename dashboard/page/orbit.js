@@ -19,7 +19,9 @@ export function setUpOrbits(rig) {
     const canvas = document.createElement("canvas");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", "orbit of bearing " + name);
-    place.append(canvas);
+    const cell = document.createElement("div");
+    cell.append(canvas);
+    place.append(cell);
     return { name, canvas, history: [], largest: 0 };
   });
 }
@@ -47,7 +49,8 @@ function drawRings(context, radius) {
     context.fill();
     context.stroke();
     context.fillStyle = "#5a6775";
-    context.fillText(letter, share * radius * 0.707 - 9, -share * radius * 0.707 + 11);
+    context.font = "9px system-ui, 'DejaVu Sans', sans-serif";
+    context.fillText(letter, (share - 0.05) * radius * 0.707 - 3, -(share - 0.05) * radius * 0.707 + 3);
   }
   context.strokeStyle = "#d5dbe1";
   context.beginPath();

@@ -5,7 +5,8 @@ import { prepare } from "./canvas.js";
 import { heat } from "./colours.js";
 
 const ROWS = 240;  // one minute
-const LEFT = 46;
+const FEWEST = 40;  // rows that fill the picture at first
+const LEFT = 62;
 const BOTTOM = 18;
 
 let bearings = [];
@@ -46,8 +47,9 @@ function drawScale(context, width, height, highest) {
   }
   context.textAlign = "right";
   const lines = height - BOTTOM;
+  const rows = Math.max(history.length, FEWEST);
   for (let mark = 0; mark < 4; ++mark) {
-    const entry = history[history.length - 1 - Math.round((mark / 4) * ROWS)];
+    const entry = history[history.length - 1 - Math.round((mark / 4) * rows)];
     if (entry) context.fillText(`${Math.round(entry.rpm)} rpm`, LEFT - 4, lines - (mark / 4) * lines - 3);
   }
   context.textAlign = "left";
@@ -58,12 +60,13 @@ export function drawWaterfall() {
   const [context, width, height] = prepare(document.getElementById("waterfall"));
   if (!newest || !newest.rows[shown]) return;
   const lines = newest.rows[shown].length / 4;
-  const picture = new ImageData(lines, ROWS);
+  const rows = Math.max(history.length, FEWEST);
+  const picture = new ImageData(lines, rows);
   history.forEach((entry, i) => {
     const row = entry.rows[shown];
-    if (row.length === 4 * lines) picture.data.set(row, 4 * lines * (ROWS - history.length + i));
+    if (row.length === 4 * lines) picture.data.set(row, 4 * lines * (rows - history.length + i));
   });
-  const raw = new OffscreenCanvas(lines, ROWS);
+  const raw = new OffscreenCanvas(lines, rows);
   raw.getContext("2d").putImageData(picture, 0, 0);
   context.imageSmoothingEnabled = false;
   context.fillStyle = "#440154";

@@ -1,0 +1,115 @@
+"""The page in a real headless Chromium before a real controller; not run where there is none."""
+
+import os
+import sys
+import time
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+from chromium import Browser, find  # noqa: E402
+from dashboard_rig import Rig  # noqa: E402
+from lcm_network import SKIPPED, run  # noqa: E402
+
+MODE = "document.getElementById('mode').textContent"
+# Pixels of a canvas that are not transparent: something was drawn.
+DRAWN = """(() => { const c = document.querySelector(%r); return c && c.width > 0 && c.getContext('2d')
+    .getImageData(0, 0, c.width, c.height).data.some((v) => v > 0); })()"""
+CANVASES = ("#orbits canvas", "#positions canvas", "#currents canvas", "#spectrum canvas",
+            "#waterfall", "#timing")
+
+
+class ThePage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.__exit__)
+
+    def setUp(self):
+        self.browser.problems.clear()
+
+    def rig_and_page(self, **how):
+        rig = Rig(self)
+        page = self.browser.open(rig.url, **how)
+        page.until(f"{MODE} == 'off'")
+        return rig, page
+
+    def press(self, page, what):
+        page.value(f"document.querySelector({what!r}).click()")
+
+    def answer(self, page, words):
+        page.until(f"document.getElementById('answer').textContent.includes({words!r})")
+
+    def test_draws_every_picture_without_an_error(self):
+        _, page = self.rig_and_page()
+        for canvas in CANVASES:
+            with self.subTest(canvas):
+                page.until(DRAWN % canvas)
+        before = page.value("document.getElementById('time').textContent")
+        page.until(f"document.getElementById('time').textContent != {before!r}")
+        self.assertEqual(self.browser.problems, [])
+
+    def test_lifts_and_trips_the_controller_by_its_buttons(self):
+        rig, page = self.rig_and_page()
+        self.press(page, "[data-command=lift]")
+        self.answer(page, "accepted: command lift")
+        page.until(f"{MODE} == 'levitating'")
+        self.press(page, "#stop")
+        page.until(f"{MODE} == 'tripped'")
+        rig.controller.says("emergency_stop")
+        page.until("!document.getElementById('trip').hidden")
+        self.assertEqual(self.browser.problems, [])
+
+    def test_trips_the_controller_by_a_key_wherever_the_cursor_is(self):
+        rig, page = self.rig_and_page()
+        page.value("document.getElementById('rpm').focus()")
+        page.press("Escape")
+        page.until(f"{MODE} == 'tripped'")
+        rig.controller.says("emergency_stop")
+
+    def test_says_that_a_command_was_refused(self):
+        _, page = self.rig_and_page()
+        self.press(page, "[data-command=land]")
+        self.answer(page, "refused")
+
+    def test_comes_back_when_the_program_was_started_again(self):
+        rig, page = self.rig_and_page()
+        port = rig.url.rsplit(":", 1)[1].strip("/")
+        rig.dash.kill()
+        page.until("document.getElementById('connection').textContent.includes('lost')")
+        rig.start_dash("--http-port", port)
+        page.until("document.getElementById('connection').textContent == 'live'")
+        before = page.value("document.getElementById('time').textContent")
+        page.until(f"document.getElementById('time').textContent != {before!r}")
+
+    def test_serves_two_viewers_the_same_run(self):
+        rig, page = self.rig_and_page()
+        other = self.browser.open(rig.url)
+        self.press(page, "[data-command=lift]")
+        for one in (page, other):
+            one.until(f"{MODE} == 'levitating'")
+
+    def test_fits_a_small_screen_and_a_phone_with_the_stop_button_in_view(self):
+        for width, height, phone in ((1280, 720, False), (390, 844, True)):
+            with self.subTest(width=width):
+                _, page = self.rig_and_page(width=width, height=height, phone=phone)
+                self.assertLessEqual(page.value("document.documentElement.scrollWidth"), width)
+                if not phone:
+                    self.assertLessEqual(page.value("document.documentElement.scrollHeight"), height)
+                page.value("window.scrollTo(0, document.body.scrollHeight)")
+                time.sleep(0.2)
+                box = page.value("(() => { const b = document.getElementById('stop')"
+                                 ".getBoundingClientRect(); return [b.top, b.bottom, b.width]; })()")
+                self.assertGreaterEqual(box[0], 0)
+                self.assertLessEqual(box[1], height)
+                self.assertGreater(box[2], 100)
+                self.doCleanups()
+
+
+if __name__ == "__main__":
+    if find() is None:
+        print("not run: no Chromium here (Debian package chromium)")
+        sys.exit(SKIPPED)
+    # Of its own, so that a test as another user finds a place it may write to.
+    os.environ.setdefault("XDG_CONFIG_HOME", "/tmp")
+    run()

@@ -1,0 +1,162 @@
+"""amb dash between a client and a real controller: figures, commands, access, restart."""
+
+import http.client
+import signal
+import socket
+import subprocess
+import sys
+import time
+import unittest
+import urllib.parse
+import urllib.request
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+from dashboard_rig import Rig, answer_of, in_mode, messages, until  # noqa: E402
+from lcm_network import BINARIES, run  # noqa: E402
+
+
+class Figures(unittest.TestCase):
+    def test_move_with_the_run(self):
+        rig = Rig(self)
+        cycles = []
+        seen = set()
+        with urllib.request.urlopen(rig.url + "events", timeout=30) as stream:
+            for name, data in messages(stream):
+                seen.add(name)
+                if name == "rig" and data["run"] > 0:
+                    self.assertEqual(data["channels"], ["de_x", "de_y", "nde_x", "nde_y"])
+                if name == "tick" and "cycle" in data:
+                    cycles.append(data["cycle"])
+                if len(cycles) > 20 and {"rig", "tick", "spectrum", "timing"} <= seen:
+                    break
+        self.assertEqual(cycles, sorted(cycles))
+        self.assertGreater(cycles[-1], cycles[0])
+
+    def test_say_when_the_controller_is_gone(self):
+        rig = Rig(self)
+        until(rig.url, in_mode("off"))
+        rig.controller.kill()
+        until(rig.url, lambda name, data: name == "tick" and data["silent"])
+
+
+class Commands(unittest.TestCase):
+    def test_are_confirmed_by_the_controller_and_trip_it(self):
+        rig = Rig(self)
+        self.assertEqual(rig.command("land"), (409, "refused"))  # nothing to land
+        self.assertEqual(rig.command("lift"), (200, "accepted"))
+        until(rig.url, in_mode("levitating"))
+        self.assertEqual(rig.command("spin", speed_rpm=300, acceleration_rpm_per_s=600),
+                         (200, "accepted"))
+        self.assertEqual(rig.command("spin", speed_rpm=1e6, acceleration_rpm_per_s=600),
+                         (409, "refused"))  # beyond the rated speed
+        self.assertEqual(rig.command("emergency_stop"), (200, "accepted"))
+        tick = until(rig.url, in_mode("tripped"))
+        self.assertEqual(tick["fault"], "emergency_stop")
+        rig.controller.says("emergency_stop")
+
+    def test_are_not_taken_for_done_when_nobody_answers(self):
+        rig = Rig(self)
+        rig.controller.kill()
+        self.assertEqual(rig.command("emergency_stop"), (504, "unanswered"))
+
+
+class Access(unittest.TestCase):
+    def test_is_refused_to_other_pages_and_other_names(self):
+        rig = Rig(self)
+        lift = {"command": "lift"}
+        self.assertEqual(rig.post(lift, headers={})[0], 403)  # what a foreign form can send
+        self.assertEqual(rig.post(lift, headers={"X-Levitas": "1", "Host": "evil.example"})[0], 403)
+        # Permission for foreign scripts is asked with OPTIONS; the answer must not give it.
+        host = urllib.parse.urlsplit(rig.url).netloc
+        ask = http.client.HTTPConnection(host, timeout=10)
+        ask.request("OPTIONS", "/api/command", headers={"Origin": "http://evil.example"})
+        self.assertIsNone(ask.getresponse().getheader("Access-Control-Allow-Origin"))
+        ask.close()
+        self.assertEqual(until(rig.url, lambda name, data: name == "tick")["mode"], "off")
+
+    def test_needs_the_token_where_a_token_is_asked_for(self):
+        rig = Rig(self, "--token", "secret")
+        base, _, token = rig.url.partition("?")
+        self.assertEqual(token, "token=secret")
+        lift = {"command": "lift"}
+        self.assertEqual(rig.post(lift, url=base)[0], 403)
+        self.assertEqual(rig.post(lift, {"X-Levitas": "1", "X-Levitas-Token": "Secret"}, base)[0], 403)
+        with self.assertRaises(urllib.error.HTTPError):
+            urllib.request.urlopen(base + "events", timeout=10)
+        self.assertEqual(rig.post(lift, {"X-Levitas": "1", "X-Levitas-Token": "secret"}, base)[0], 200)
+
+    def test_is_not_given_to_the_network_by_accident(self):
+        done = subprocess.run([BINARIES / "amb", "dash", "--listen", "0.0.0.0"], text=True,
+                              capture_output=True, timeout=20, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--allow-network", done.stderr)
+
+    def test_of_nonsense_harms_nothing(self):
+        rig = Rig(self)
+        for body in (b"", b"\xff\x00", b"{" * 5000, b"[" * 5000):
+            status, _ = rig.post(body)
+            self.assertEqual(status, 400, body[:10])
+        request = urllib.request.Request(rig.url + "no/such/file")
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            urllib.request.urlopen(request, timeout=10)
+        self.assertEqual(refused.exception.code, 404)
+        self.assertEqual(rig.command("lift"), (200, "accepted"))
+
+
+class Viewers(unittest.TestCase):
+    def test_that_take_nothing_hinder_no_other(self):
+        rig = Rig(self)
+        where = urllib.parse.urlsplit(rig.url)
+        slow = []
+        for _ in range(3):
+            sock = socket.create_connection((where.hostname, where.port))
+            self.addCleanup(sock.close)
+            sock.sendall(f"GET /events HTTP/1.1\r\nHost: {where.netloc}\r\n\r\n".encode())
+            slow.append(sock)
+        time.sleep(1)  # they fill up meanwhile, or not: the others must not notice either way
+        self.assertEqual(rig.command("lift"), (200, "accepted"))
+        until(rig.url, in_mode("levitating"))
+
+    def test_beyond_the_limit_are_told_so(self):
+        rig = Rig(self)
+        streams = [urllib.request.urlopen(rig.url + "events", timeout=30) for _ in range(16)]
+        for stream in streams:
+            self.addCleanup(stream.close)
+        status, answer = answer_of(urllib.request.Request(rig.url + "events"))
+        self.assertEqual(status, 503)
+        self.assertIn("too many viewers", answer["text"])
+        self.assertEqual(rig.command("emergency_stop"), (200, "accepted"))  # always a place for this
+
+
+class TheServer(unittest.TestCase):
+    def test_takes_the_next_port_unless_one_was_asked_for(self):
+        rig = Rig(self)
+        first = urllib.parse.urlsplit(rig.url).port
+        rig.start_dash()
+        self.assertNotEqual(urllib.parse.urlsplit(rig.url).port, first)
+        done = subprocess.run([BINARIES / "amb", "dash", "--http-port", str(first)], text=True,
+                              capture_output=True, timeout=20, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(str(first), done.stderr)
+
+    def test_ends_at_once_with_viewers_connected(self):
+        rig = Rig(self)
+        stream = urllib.request.urlopen(rig.url + "events", timeout=30)
+        self.addCleanup(stream.close)
+        next(messages(stream))
+        rig.dash.child.send_signal(signal.SIGINT)
+        self.assertEqual(rig.dash.status(20), 0)
+
+    def test_serves_the_page_without_letting_others_frame_it(self):
+        rig = Rig(self)
+        with urllib.request.urlopen(rig.url, timeout=10) as page:
+            self.assertIn("EMERGENCY STOP", page.read().decode())
+            self.assertIn("frame-ancestors 'none'", page.headers["Content-Security-Policy"])
+        with urllib.request.urlopen(rig.url + "third_party/uPlot.iife.min.js", timeout=10) as script:
+            self.assertIn("javascript", script.headers["Content-Type"])
+            self.assertIn("Leon Sorokin", script.read().decode())
+
+
+if __name__ == "__main__":
+    run()

@@ -1,0 +1,135 @@
+"""A headless Chromium driven through its debugging pipe, with the standard library alone.
+
+Messages are JSON, each ended by a zero byte, on descriptors 3 (to the browser) and 4 (from it), as
+the DevTools protocol defines them. find() is None where no Chromium is installed.
+"""
+
+import base64
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+
+
+def find():
+    return shutil.which("chromium") or shutil.which("chromium-browser")
+
+
+class Browser:
+    def __init__(self, width=1280, height=720):
+        self.profile = tempfile.TemporaryDirectory()
+        to_read, self.to_write = os.pipe()
+        self.from_read, from_write = os.pipe()
+
+        def descriptors():
+            # Out of the way first: either pipe may already lie on 3 or 4.
+            read, write = os.dup(to_read), os.dup(from_write)
+            os.dup2(read, 3)
+            os.dup2(write, 4)
+
+        self.child = subprocess.Popen(
+            [find(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+             "--hide-scrollbars", "--no-first-run", "--disable-background-networking",
+             f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}",
+             "--remote-debugging-pipe", "about:blank"],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=descriptors,
+            close_fds=False)
+        os.close(to_read)
+        os.close(from_write)
+        self.number = 0
+        self.buffer = b""
+        self.problems = []  # console errors and uncaught exceptions
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.child.terminate()
+        try:
+            self.child.wait(10)
+        except subprocess.TimeoutExpired:
+            self.child.kill()
+            self.child.wait()
+        os.close(self.to_write)
+        os.close(self.from_read)
+        shutil.rmtree(self.profile.name, ignore_errors=True)
+
+    def _message(self):
+        while b"\0" not in self.buffer:
+            part = os.read(self.from_read, 1 << 20)
+            if not part:
+                raise AssertionError("Chromium ended")
+            self.buffer += part
+        text, _, self.buffer = self.buffer.partition(b"\0")
+        return json.loads(text)
+
+    def call(self, method, session=None, **parameters):
+        self.number += 1
+        request = {"id": self.number, "method": method, "params": parameters}
+        if session:
+            request["sessionId"] = session
+        os.write(self.to_write, json.dumps(request).encode() + b"\0")
+        while True:
+            message = self._message()
+            if message.get("id") == self.number:
+                if "error" in message:
+                    raise AssertionError(f"{method}: {message['error']}")
+                return message["result"]
+            self._note(message)
+
+    def _note(self, message):
+        what = message.get("params", {})
+        if message.get("method") == "Runtime.exceptionThrown":
+            self.problems.append(json.dumps(what["exceptionDetails"])[:500])
+        elif message.get("method") == "Runtime.consoleAPICalled" and what["type"] == "error":
+            self.problems.append(json.dumps(what["args"])[:500])
+        elif message.get("method") == "Log.entryAdded" and what["entry"]["level"] == "error":
+            self.problems.append(what["entry"]["text"] + " " + what["entry"].get("url", ""))
+
+    def open(self, url, width=1280, height=720, phone=False):
+        """A new page; its handle."""
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        page = Page(self, session)
+        for domain in ("Page", "Runtime", "Log"):
+            page.call(f"{domain}.enable")
+        page.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                  deviceScaleFactor=1, mobile=phone)
+        page.call("Page.navigate", url=url)
+        page.until("location.href != 'about:blank' && document.readyState == 'complete'")
+        return page
+
+
+class Page:
+    def __init__(self, browser, session):
+        self.browser = browser
+        self.session = session
+
+    def call(self, method, **parameters):
+        return self.browser.call(method, self.session, **parameters)
+
+    def value(self, expression):
+        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
+                           awaitPromise=True)
+        if "exceptionDetails" in result:
+            raise AssertionError(f"{expression}: {result['exceptionDetails']}")
+        return result["result"].get("value")
+
+    def until(self, expression, timeout=30):
+        """Waits until the expression is true; a time-out is a failure."""
+        end = time.monotonic() + timeout
+        while not self.value(expression):
+            if time.monotonic() > end:
+                raise AssertionError(f"never true: {expression}\n{self.value('document.body.innerText')}")
+            time.sleep(0.1)
+
+    def press(self, key):
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=key)
+
+    def picture(self, path):
+        data = self.call("Page.captureScreenshot", format="png")["data"]
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(data))

@@ -1,0 +1,77 @@
+"""A controller that waits for commands, its rig, and amb dash before them; a client of the page."""
+
+import json
+import re
+import tempfile
+import urllib.error
+import urllib.request
+
+from lcm_network import Process, controller, plant
+
+
+class Rig:
+    """Starts the three programs in a folder of their own; ends them with the test."""
+
+    def __init__(self, test, *dash_arguments):
+        self.test = test
+        folder = tempfile.TemporaryDirectory()
+        test.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.plant = self.started(plant(self.folder))
+        self.controller = self.started(controller(self.folder))
+        self.controller.says("rig found")
+        self.dash = self.start_dash(*dash_arguments)
+
+    def started(self, process):
+        self.test.addCleanup(process.kill)
+        return process
+
+    def start_dash(self, *arguments):
+        dash = self.started(Process(self.folder, "amb", "dash", *arguments))
+        dash.says("page: ")
+        self.url = re.search(r"page: (\S+)", dash.text)[1]
+        return dash
+
+    def post(self, body, headers=None, url=None):
+        """(HTTP status, answer) of a command."""
+        data = body if isinstance(body, bytes) else json.dumps(body).encode()
+        request = urllib.request.Request((url or self.url) + "api/command", data=data,
+                                         headers={"X-Levitas": "1"} if headers is None else headers)
+        return answer_of(request)
+
+    def command(self, name, **more):
+        status, answer = self.post({"command": name, **more})
+        return status, answer["outcome"]
+
+
+def answer_of(request):
+    try:
+        with urllib.request.urlopen(request, timeout=20) as answer:
+            return answer.status, json.loads(answer.read())
+    except urllib.error.HTTPError as refused:
+        return refused.code, json.loads(refused.read() or b"null")
+
+
+def messages(stream):
+    """(event, data) of a stream of server-sent events, as they come."""
+    name = None
+    for line in stream:
+        if line.startswith(b"event: "):
+            name = line[7:].strip().decode()
+        elif line.startswith(b"data: "):
+            yield name, json.loads(line[6:])
+
+
+def until(url, wanted, most=2000):
+    """The first message for which wanted(event, data) holds."""
+    with urllib.request.urlopen(url + "events", timeout=30) as stream:
+        for count, (name, data) in enumerate(messages(stream)):
+            if wanted(name, data):
+                return data
+            if count > most:
+                break
+    raise AssertionError("the message never came")
+
+
+def in_mode(mode):
+    return lambda name, data: name == "tick" and data.get("mode") == mode

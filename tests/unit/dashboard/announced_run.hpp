@@ -1,0 +1,42 @@
+#pragma once
+// Telemetry of the shipped rig as a dashboard hears it.
+
+#include <vector>
+
+#include "config/rig_file.hpp"
+#include "dashboard/live_run.hpp"
+#include "session/record_codec.hpp"
+#include "transport/lcm_network.hpp"
+
+namespace levitas::dashboard {
+
+inline session::Bytes EncodedHeader(std::int64_t start_utc_ns) {
+  session::SessionHeader header;
+  header.rig_yaml = config::WriteRig(config::LoadRig(config::FindConfig("flexible_rotor", "rigs")));
+  header.pace = "lockstep";
+  header.source = "lcm";
+  header.start_utc_ns = start_utc_ns;
+  session::Bytes bytes;
+  session::EncodeHeader(header, bytes);
+  return bytes;
+}
+
+template <class Message>
+std::vector<std::uint8_t> Encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+/// A rotor at 3000 rpm that has just tripped, 4 axes.
+inline levitas_msg::controller_state_t TrippedState() {
+  levitas_msg::controller_state_t state{};
+  state.cycle = 5000;
+  state.mode = static_cast<std::int8_t>(Mode::kTripped);
+  state.fault = static_cast<std::int8_t>(Fault::kOverSpeed);
+  state.fault_axis = -1;
+  state.speed_rad_per_s = 100.0 * 3.14159265358979323846;
+  return state;
+}
+
+}  // namespace levitas::dashboard

@@ -1,0 +1,105 @@
+#include "dashboard/snapshot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "announced_run.hpp"
+
+namespace levitas::dashboard {
+namespace {
+
+namespace channel = transport::channel;
+using nlohmann::json;
+
+levitas_msg::sample_batch_t FourAxes(std::int64_t first_cycle, std::int32_t samples,
+                                     float value_m) {
+  levitas_msg::sample_batch_t batch{};
+  batch.first_cycle = first_cycle;
+  batch.axes = 4;
+  batch.samples = samples;
+  batch.values = 4 * samples;
+  batch.position_m.assign(static_cast<std::size_t>(batch.values), value_m);
+  batch.control_current_a.assign(static_cast<std::size_t>(batch.values), 0.25F);
+  batch.speed_rad_per_s.assign(static_cast<std::size_t>(samples), 10.0F);
+  batch.angle_rad.assign(static_cast<std::size_t>(samples), 0.0F);
+  return batch;
+}
+
+class Snapshot : public testing::Test {
+ protected:
+  void SetUp() override { run_.Take(channel::kHeader, EncodedHeader(1), 0); }
+  LiveRun run_;
+};
+
+TEST_F(Snapshot, TellsThePageWhatItNeedsToDraw) {
+  const json rig = json::parse(RigJson(run_, 42));
+  EXPECT_EQ(rig["server"], 42);
+  EXPECT_EQ(rig["channels"].size(), 4U);
+  EXPECT_EQ(rig["bearings"].size(), 2U);
+  EXPECT_EQ(rig["clearance_m"].get<double>(), run_.rig()->clearance_m);
+  EXPECT_EQ(rig["period_s"].get<double>(), 1e-4);
+}
+
+TEST_F(Snapshot, IsValidBeforeAnythingIsKnown) {
+  LiveRun nothing;
+  EXPECT_EQ(json::parse(RigJson(nothing, 1))["run"], 0);
+  EXPECT_EQ(json::parse(TickJson(nothing, 0))["silent"], true);
+  EXPECT_NO_THROW(static_cast<void>(json::parse(TimingJson(nothing))));
+}
+
+TEST_F(Snapshot, ShowsTheStateInWordsAndTheSpeedInRevolutions) {
+  run_.Take(channel::kState, Encoded(TrippedState()), 0);
+  const json tick = json::parse(TickJson(run_, 0));
+  EXPECT_EQ(tick["silent"], false);
+  EXPECT_EQ(tick["mode"], "tripped");
+  EXPECT_EQ(tick["fault"], "over_speed");
+  EXPECT_EQ(tick["speed_rpm"], 3000);  // 100 pi rad/s
+}
+
+TEST_F(Snapshot, SaysThatAControllerIsSilentAfterASecond) {
+  run_.Take(channel::kState, Encoded(TrippedState()), 0);
+  EXPECT_EQ(json::parse(TickJson(run_, 1'000'000'000))["silent"], false);
+  EXPECT_EQ(json::parse(TickJson(run_, 1'000'000'001))["silent"], true);
+}
+
+TEST_F(Snapshot, IsBoundedHoweverFastTheLoopRuns) {
+  for (int i = 0; i < 200; ++i) {
+    run_.Take(channel::kSamples, Encoded(FourAxes(i * 512, 512, 1e-6F)), 0);
+  }
+  const json tick = json::parse(TickJson(run_, 0));
+  EXPECT_EQ(tick["t_ms"].size(), kTickEnvelopes);
+  EXPECT_EQ(tick["position_nm"].at(3).size(), 2 * kTickEnvelopes);
+  EXPECT_LE(tick["orbit_nm"].at(1).size(), 2 * kOrbitPoints);
+  EXPECT_EQ(tick["position_nm"].at(0).at(0), 1000);
+  EXPECT_EQ(tick["current_ma"].at(0).at(0), 250);
+}
+
+TEST_F(Snapshot, ShowsAReadingThatIsNoNumberAsNull) {
+  run_.Take(channel::kSamples, Encoded(FourAxes(0, 256, std::nanf(""))), 0);
+  run_.Take(channel::kState, Encoded(TrippedState()), 0);
+  const json tick = json::parse(TickJson(run_, 0));
+  EXPECT_TRUE(tick["orbit_nm"].at(0).at(0).is_null());
+  EXPECT_TRUE(tick["position_nm"].at(0).at(0).is_null());
+}
+
+TEST_F(Snapshot, WritesAmplitudesInTenthsOfANanometre) {
+  const FullSpectrum spectrum{2.5, 2.5, 1.5, 10.0, {{1e-9, 2e-6, 0.0}}};
+  const json written = json::parse(SpectrumJson(spectrum));
+  EXPECT_EQ(written["amplitude_dnm"], json::parse("[[10,20000,0]]"));
+  EXPECT_EQ(written["t_ms"], 1500);
+}
+
+TEST_F(Snapshot, KeepsAnEventsTextWhateverBytesItHolds) {
+  NumberedEvent event{3, {}, 0.5};
+  event.event.text = "a \"quoted\" \n line and \xff";
+  const json written = json::parse(EventJson(event));
+  EXPECT_EQ(written["number"], 3);
+  EXPECT_TRUE(written["text"].get<std::string>().starts_with("a \"quoted\" \n line and "));
+  EXPECT_EQ(EventJson(event).find('\n'), std::string::npos) << "a line end would end the message";
+}
+
+}  // namespace
+}  // namespace levitas::dashboard
