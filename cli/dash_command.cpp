@@ -69,8 +69,9 @@ void AddDashCommand(CLI::App& app, Action& action) {
   });
   command->footer(
       "The page talks to whatever controller is on that port; commands are confirmed by it.\n"
-      "  amb run --manual --pace realtime    a rig that waits for the page's commands\n"
-      "  Esc                                 emergency stop, wherever the cursor is");
+      "  amb-controller without --scenario   a run that waits for the page's commands\n"
+      "  Esc                                 emergency stop, wherever the cursor is\n"
+      "More: docs/dashboard.md");
 }
 
 }  // namespace levitas::cli

@@ -30,9 +30,14 @@ class ThePage(unittest.TestCase):
 
     def rig_and_page(self, **how):
         rig = Rig(self)
-        page = self.browser.open(rig.url, **how)
+        page = self.open(rig, **how)
         page.until(f"{MODE} == 'off'")
         return rig, page
+
+    def open(self, rig, **how):
+        page = self.browser.open(rig.url, **how)
+        self.addCleanup(page.close)  # before the programs end, which it would report
+        return page
 
     def press(self, page, what):
         page.value(f"document.querySelector({what!r}).click()")
@@ -84,7 +89,7 @@ class ThePage(unittest.TestCase):
 
     def test_serves_two_viewers_the_same_run(self):
         rig, page = self.rig_and_page()
-        other = self.browser.open(rig.url)
+        other = self.open(rig)
         self.press(page, "[data-command=lift]")
         for one in (page, other):
             one.until(f"{MODE} == 'levitating'")

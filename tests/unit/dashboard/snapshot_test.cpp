@@ -47,7 +47,7 @@ TEST_F(Snapshot, IsValidBeforeAnythingIsKnown) {
   LiveRun nothing;
   EXPECT_EQ(json::parse(RigJson(nothing, 1))["run"], 0);
   EXPECT_EQ(json::parse(TickJson(nothing, 0))["silent"], true);
-  EXPECT_NO_THROW(static_cast<void>(json::parse(TimingJson(nothing))));
+  EXPECT_TRUE(json::accept(TimingJson(nothing)));
 }
 
 TEST_F(Snapshot, ShowsTheStateInWordsAndTheSpeedInRevolutions) {
