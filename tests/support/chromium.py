@@ -40,7 +40,7 @@ class Browser:
         os.close(from_write)
         self.number = 0
         self.buffer = b""
-        self.problems = []  # console errors and uncaught exceptions
+        self.problems = []  # (session, text): console errors and uncaught exceptions
 
     def __enter__(self):
         return self
@@ -81,12 +81,13 @@ class Browser:
 
     def _note(self, message):
         what = message.get("params", {})
+        session = message.get("sessionId")
         if message.get("method") == "Runtime.exceptionThrown":
-            self.problems.append(json.dumps(what["exceptionDetails"])[:500])
+            self.problems.append((session, json.dumps(what["exceptionDetails"])[:500]))
         elif message.get("method") == "Runtime.consoleAPICalled" and what["type"] == "error":
-            self.problems.append(json.dumps(what["args"])[:500])
+            self.problems.append((session, json.dumps(what["args"])[:500]))
         elif message.get("method") == "Log.entryAdded" and what["entry"]["level"] == "error":
-            self.problems.append(what["entry"]["text"] + " " + what["entry"].get("url", ""))
+            self.problems.append((session, what["entry"]["text"] + " " + what["entry"].get("url", "")))
 
     def open(self, url, width=1280, height=720, phone=False):
         """A new page; its handle."""
@@ -107,6 +108,10 @@ class Page:
         self.browser = browser
         self.session = session
         self.target = target
+
+    def problems(self):
+        """Errors of this page so far."""
+        return [text for session, text in self.browser.problems if session == self.session]
 
     def close(self):
         self.browser.call("Target.closeTarget", targetId=self.target)

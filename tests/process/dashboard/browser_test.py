@@ -25,9 +25,6 @@ class ThePage(unittest.TestCase):
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.__exit__)
 
-    def setUp(self):
-        self.browser.problems.clear()
-
     def rig_and_page(self, **how):
         rig = Rig(self)
         page = self.open(rig, **how)
@@ -52,7 +49,7 @@ class ThePage(unittest.TestCase):
                 page.until(DRAWN % canvas)
         before = page.value("document.getElementById('time').textContent")
         page.until(f"document.getElementById('time').textContent != {before!r}")
-        self.assertEqual(self.browser.problems, [])
+        self.assertEqual(page.problems(), [])
 
     def test_lifts_and_trips_the_controller_by_its_buttons(self):
         rig, page = self.rig_and_page()
@@ -63,7 +60,7 @@ class ThePage(unittest.TestCase):
         page.until(f"{MODE} == 'tripped'")
         rig.controller.says("emergency_stop")
         page.until("!document.getElementById('trip').hidden")
-        self.assertEqual(self.browser.problems, [])
+        self.assertEqual(page.problems(), [])
 
     def test_trips_the_controller_by_a_key_wherever_the_cursor_is(self):
         rig, page = self.rig_and_page()

@@ -107,8 +107,12 @@ TEST(HistogramMessage, KeepsEveryCountInItsBin) {
   std::int64_t below = 0;
   std::int64_t total = 0;
   for (std::size_t i = 0; i < message.edge_ns.size(); ++i) {
-    if (1000 > below && 1000 <= message.edge_ns[i]) EXPECT_EQ(message.compute[i], 5);
-    if (3'000'000 > below && 3'000'000 <= message.edge_ns[i]) EXPECT_EQ(message.compute[i], 1);
+    if (1000 > below && 1000 <= message.edge_ns[i]) {
+      EXPECT_EQ(message.compute[i], 5);
+    }
+    if (3'000'000 > below && 3'000'000 <= message.edge_ns[i]) {
+      EXPECT_EQ(message.compute[i], 1);
+    }
     below = message.edge_ns[i];
     total += message.wakeup[i] + message.compute[i] + message.latency[i];
   }
