@@ -106,7 +106,7 @@ export function showOrbits(orbits) {
 export function drawOrbits() {
   for (const view of views) {
     const [context, width, height] = prepare(view.canvas);
-    const radius = Math.min(width, height - 34) / 2 - 3;
+    const radius = Math.min(width, height - 18) / 2 - 3;
     if (radius < 20) continue;
     context.save();
     context.translate(width / 2, radius + 18);
@@ -125,7 +125,9 @@ export function drawOrbits() {
     context.fillText(view.name.toUpperCase(), 4, 12);
     context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
     if (view.history.length > 0) {
-      context.fillText(`${(view.largest / 1000).toFixed(1)} µm, zone ${zone}`, 4, height - 4);
+      context.textAlign = "right";
+      context.fillText(`${(view.largest / 1000).toFixed(1)} µm, zone ${zone}`, width - 4, 12);
+      context.textAlign = "left";
       drawEnlarged(context, view, width, height);
     }
   }
