@@ -19,6 +19,7 @@ struct DashOptions {
   std::string port{"lcm"};
   dashboard::WebOptions web;
   bool allow_network{false};
+  double answer_within_s{1.5};
 };
 
 ExitStatus Serve(DashOptions options) {
@@ -33,7 +34,9 @@ ExitStatus Serve(DashOptions options) {
     if (options.web.token.empty()) options.web.token = dashboard::NewToken();
   }
   const InterruptGuard interrupts;
-  const dashboard::Dashboard page(transport::ParseLcmNetwork(options.port), options.web);
+  const std::chrono::milliseconds patience(
+      static_cast<std::int64_t>(options.answer_within_s * 1e3));
+  const dashboard::Dashboard page(transport::ParseLcmNetwork(options.port), options.web, patience);
   fmt::print("page: {}   (Ctrl-C ends)\n", page.Url());
   std::fflush(stdout);
   constexpr auto kLook = std::chrono::milliseconds(50);
@@ -63,6 +66,12 @@ void AddDashCommand(CLI::App& app, Action& action) {
   command->add_flag("--allow-network", options->allow_network,
                     "Let other machines in, with a token that is part of the printed address");
   command->add_option("--token", options->web.token, "Token to ask for; default: a random one");
+  command
+      ->add_option("--answer-within", options->answer_within_s,
+                   "How long a command waits for the controller's word before it counts as "
+                   "unanswered [s]")
+      ->check(CLI::Range(0.1, 60.0))
+      ->capture_default_str();
   command->callback([options, http, &action] {
     options->web.any_port = http->count() == 0;
     action = [options] { return Serve(*options); };

@@ -27,8 +27,9 @@ std::optional<CommandAnswer> AnswerIn(const std::string& event_text) {
   return std::nullopt;
 }
 
-Commander::Commander(const transport::LcmNetwork& network)
-    : sender_(network, transport::Direction::kCommand),
+Commander::Commander(const transport::LcmNetwork& network, std::chrono::milliseconds patience)
+    : patience_(patience),
+      sender_(network, transport::Direction::kCommand),
       // A later start never repeats the numbers of an earlier one.
       sequence_(std::chrono::duration_cast<std::chrono::microseconds>(
                     std::chrono::system_clock::now().time_since_epoch())
@@ -48,7 +49,7 @@ CommandReply Commander::Send(const CommandRequest& request) {
   message.encode(datagram.data() + header, 0, message.getEncodedSize());
   Answers& answers = answers_.at(static_cast<std::size_t>(request.command));
   const std::uint64_t before = answers.count;
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + patience_;
   while (std::chrono::steady_clock::now() < end) {
     transport::WriteHeader(datagram, datagrams_++, channel);
     sender_.Send(datagram);
@@ -59,7 +60,7 @@ CommandReply Commander::Send(const CommandRequest& request) {
   return {CommandOutcome::kUnanswered,
           fmt::format("the controller did not answer {} within {:.1f} s: is it running, and on "
                       "this port?",
-                      Name(request.command), std::chrono::duration<double>(kPatience).count())};
+                      Name(request.command), std::chrono::duration<double>(patience_).count())};
 }
 
 void Commander::Saw(const std::string& event_text) {

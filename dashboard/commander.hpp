@@ -3,10 +3,10 @@
 //
 // Confirmed  by the event that the controller publishes for each command it takes ("command lift
 //            ..." or "... refused in mode ..."). Nothing is assumed: without that event within
-//            kPatience the reply is "unanswered", and the page says so.
+//            `patience` the reply is "unanswered", and the page says so.
 // Repetition the same message goes out every kRepeat until it is answered; the controller takes a
 //            sequence number once (transport/operator_receiver.hpp).
-// Thread     Send: any, several at once; it blocks for at most kPatience. Saw: the receiver's.
+// Thread     Send: any, several at once; it blocks for at most `patience`. Saw: the receiver's.
 // Failure    construction throws Problem when the network cannot be reached.
 
 #include <array>
@@ -47,7 +47,8 @@ class Commander {
   static constexpr std::chrono::milliseconds kPatience{1500};
   static constexpr std::chrono::milliseconds kRepeat{100};
 
-  explicit Commander(const transport::LcmNetwork& network);
+  explicit Commander(const transport::LcmNetwork& network,
+                     std::chrono::milliseconds patience = kPatience);
 
   [[nodiscard]] CommandReply Send(const CommandRequest& request);
   /// Text of every event of the controller.
@@ -59,6 +60,7 @@ class Commander {
     CommandReply newest;
   };
 
+  std::chrono::milliseconds patience_;
   std::mutex mutex_;
   std::condition_variable answered_;
   transport::MulticastSender sender_;

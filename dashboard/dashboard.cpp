@@ -18,9 +18,10 @@ constexpr std::int64_t Ns(std::chrono::nanoseconds duration) { return duration.c
 }  // namespace
 
 struct Dashboard::Impl {
-  Impl(const transport::LcmNetwork& network, const WebOptions& web)
+  Impl(const transport::LcmNetwork& network, const WebOptions& web,
+       std::chrono::milliseconds patience)
       : receiver(network, transport::Direction::kTelemetry),
-        commander(network),
+        commander(network, patience),
         server(web, hub, [this](const CommandRequest& request) { return commander.Send(request); }),
         thread([this] { Run(); }) {}
 
@@ -83,8 +84,9 @@ struct Dashboard::Impl {
   std::thread thread;
 };
 
-Dashboard::Dashboard(const transport::LcmNetwork& network, const WebOptions& web)
-    : impl_(std::make_unique<Impl>(network, web)) {}
+Dashboard::Dashboard(const transport::LcmNetwork& network, const WebOptions& web,
+                     std::chrono::milliseconds patience)
+    : impl_(std::make_unique<Impl>(network, web, patience)) {}
 
 Dashboard::~Dashboard() = default;
 

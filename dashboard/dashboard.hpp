@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "dashboard/commander.hpp"
 #include "dashboard/web_server.hpp"
 #include "transport/lcm_network.hpp"
 
@@ -22,7 +23,9 @@ inline constexpr double kHighestSpectrumHz = 500.0;
 
 class Dashboard {
  public:
-  Dashboard(const transport::LcmNetwork& network, const WebOptions& web);
+  /// `patience`: how long a command waits for the controller's word.
+  Dashboard(const transport::LcmNetwork& network, const WebOptions& web,
+            std::chrono::milliseconds patience = Commander::kPatience);
   ~Dashboard();
   Dashboard(const Dashboard&) = delete;
   Dashboard& operator=(const Dashboard&) = delete;

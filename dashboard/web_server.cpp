@@ -49,8 +49,8 @@ struct WebServer::Impl {
     server.set_socket_options(SetSocketOptions);
     server.set_tcp_nodelay(true);
     server.set_keep_alive_timeout(1);
-    server.set_read_timeout(2);
-    server.set_write_timeout(1);
+    server.set_read_timeout(5);
+    server.set_write_timeout(3);
     server.set_payload_max_length(kMaxRequestBytes);
     server.set_pre_routing_handler([this](const Request& request, Response& response) {
       if (Allowed(request)) return Server::HandlerResponse::Unhandled;

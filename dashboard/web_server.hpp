@@ -6,8 +6,8 @@
 //   POST /api/command see command_api.hpp
 //
 // Bounds    kMaxViewers streams at once, the next is told 503. A viewer that takes nothing for
-//           a second is dropped (its browser comes back by itself); what the kernel holds for it is
-//           kSendBufferBytes.
+//           three seconds is dropped (its browser comes back by itself); what the kernel holds for
+//           it is kSendBufferBytes.
 // Access    access.hpp.
 // Thread    a pool of its own; the hub and the command hook are called from there.
 // Failure   Problem (exit status 1) when the address cannot be bound, naming it.

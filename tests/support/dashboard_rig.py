@@ -8,6 +8,9 @@ import urllib.request
 
 from lcm_network import Process, controller, plant
 
+# Far above any delay of a busy machine [s]: what waits this long has failed.
+LONG = 90
+
 
 class Rig:
     """Starts the three programs in a folder of their own; ends them with the test."""
@@ -19,7 +22,7 @@ class Rig:
         self.folder = folder.name
         self.plant = self.started(plant(self.folder))
         self.controller = self.started(controller(self.folder))
-        self.controller.says("rig found")
+        self.controller.says("rig found", LONG)
         self.dash = self.start_dash(*dash_arguments)
 
     def started(self, process):
@@ -27,8 +30,9 @@ class Rig:
         return process
 
     def start_dash(self, *arguments):
-        dash = self.started(Process(self.folder, "amb", "dash", *arguments))
-        dash.says("page: ")
+        patience = [] if "--answer-within" in arguments else ["--answer-within", "50"]
+        dash = self.started(Process(self.folder, "amb", "dash", *patience, *arguments))
+        dash.says("page: ", LONG)
         self.url = re.search(r"page: (\S+)", dash.text)[1]
         return dash
 
@@ -46,7 +50,7 @@ class Rig:
 
 def answer_of(request):
     try:
-        with urllib.request.urlopen(request, timeout=20) as answer:
+        with urllib.request.urlopen(request, timeout=LONG) as answer:
             return answer.status, json.loads(answer.read())
     except urllib.error.HTTPError as refused:
         return refused.code, json.loads(refused.read() or b"null")
@@ -64,7 +68,7 @@ def messages(stream):
 
 def until(url, wanted, most=2000):
     """The first message for which wanted(event, data) holds."""
-    with urllib.request.urlopen(url + "events", timeout=30) as stream:
+    with urllib.request.urlopen(url + "events", timeout=LONG) as stream:
         for count, (name, data) in enumerate(messages(stream)):
             if wanted(name, data):
                 return data
