@@ -164,7 +164,7 @@ class Session {
         recorder_({.session_path = options.record,
                    .trip_folder = options.trip_folder,
                    .header = header_,
-                    .waits_for_room = !options.realtime,
+                   .waits_for_room = !options.realtime,
                    .on_event = [this](const auto& event) { Announce(event, telemetry_); },
                    .on_record =
                        [this](const auto& record) { batcher_.Add(record, rt::MonotonicNowNs()); }}),
