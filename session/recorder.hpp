@@ -23,7 +23,7 @@ struct RecorderOptions {
   std::string session_path;  ///< empty: nothing is recorded (trips still freeze)
   std::string trip_folder;   ///< where trip files go
   SessionHeader header;
-  double trip_window_s{0.5};  ///< before and after
+  double trip_window_s{0.5};   ///< before and after
   bool waits_for_room{false};  ///< Post waits instead of losing; never in real time
   std::function<void(const Event&)> on_event;
   std::function<void(const cycle::CycleRecord&)> on_record;  ///< every record, recorder's thread
