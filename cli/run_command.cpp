@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/run/interrupt.hpp"
+#include "cli/run/live_page.hpp"
 #include "cli/run/port_lease.hpp"
 #include "cli/run/progress.hpp"
 #include "cli/run/run_folder.hpp"
@@ -50,8 +51,8 @@ RunPaths PathsOf(const RunOptions& options, const RunFolder& folder) {
   return paths;
 }
 
-RunResult RunBoth(const RunPlan& plan, const RunFiles& files,
-                  const transport::LcmNetwork& network) {
+RunResult RunBoth(const RunPlan& plan, const RunFiles& files, const transport::LcmNetwork& network,
+                  const PagePlan& page_plan) {
   const InterruptGuard interrupts;
   Telemetry telemetry(network);
   Progress progress(files.rig.bearings, files.rig.period_s(), stderr, isatty(STDERR_FILENO) == 1);
@@ -63,6 +64,7 @@ RunResult RunBoth(const RunPlan& plan, const RunFiles& files,
     fmt::print(stderr, "{}\n", text);
   };
   hooks.interrupts = [&] { return interrupts.count(); };
+  const LivePage page(page_plan, network, hooks.say);
   RunResult result = Supervise(plan, hooks);
   progress.Close();
   return result;
@@ -124,7 +126,8 @@ ExitStatus Execute(const RunOptions& options) {
                                : network->Url(transport::Direction::kSensor);
   fmt::print(stderr, "rig {}, controller {}, scenario {}, {}, port {}\n", files.rig.name,
              files.controller_path, files.scenario_name, options.pace, port);
-  const RunResult result = RunBoth(plan, files, *network);
+  const PagePlan page = PlanPage(options.page, LookAround(options.pace == "realtime"));
+  const RunResult result = RunBoth(plan, files, *network, page);
   const ExitStatus status = StatusOf(result);
   const bool keep = !options.record_path.empty() || status == ExitStatus::kTripped;
   if (fs::exists(paths.session) && fs::file_size(paths.session) > 0) {
@@ -171,6 +174,15 @@ void AddRunCommand(CLI::App& app, Action& action) {
   command->add_option("--record", options->record_path, "Keep the record in this file");
   command->add_option("--seed", options->seed, "Seed of the sensor noise")->capture_default_str();
   command->add_option("--json", options->json_path, "Write the verdict to this file");
+  auto* dash = command->add_flag_callback(
+      "--dash", [options] { options->page = PageWish::kAlways; },
+      "Serve the live page during the run and print its address");
+  command
+      ->add_flag_callback(
+          "--no-dash", [options] { options->page = PageWish::kNever; },
+          "No live page; default: on a terminal, when the pace is real time, it is served and "
+          "opened in the desktop's browser")
+      ->excludes(dash);
   command->callback([options, &action] { action = [options] { return Execute(*options); }; });
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/run/live_page.hpp"
 #include "cli/run/supervise.hpp"
 #include "common/rig_numbers.hpp"
 #include "transport/lcm_network.hpp"
@@ -28,6 +29,7 @@ struct RunOptions {
   std::string record_path;  ///< empty: a temporary file
   std::int64_t seed{1};
   std::string json_path;
+  PageWish page{PageWish::kIfUseful};
 };
 
 /// The three files, found and read without a problem.

@@ -1,0 +1,55 @@
+#pragma once
+// The live page beside `amb run`: whether it is served, and whether a browser is sent to it.
+//
+// Served    on a terminal when the run keeps the clock's pace (one in lockstep is over before a
+//           browser has started); whenever it is asked for; never when it is refused.
+// Opened    only where somebody sits before a desktop, never under automation (variable CI set).
+// Failure   the page is beside the point of a run: what goes wrong with it is said, not thrown.
+// Thread    construct and destroy from the thread that runs; the page has threads of its own.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "transport/lcm_network.hpp"
+
+namespace levitas::dashboard {
+class Dashboard;
+}
+
+namespace levitas::cli {
+
+enum class PageWish { kIfUseful, kAlways, kNever };
+
+/// What decides, apart from the wish.
+struct PageSurroundings {
+  bool terminal{};    ///< somebody reads what is printed
+  bool desktop{};     ///< a browser could be shown
+  bool automation{};  ///< CI is set
+  bool realtime{};    ///< the run keeps the clock's pace
+};
+
+struct PagePlan {
+  bool serve{};
+  bool open{};  ///< send the desktop's browser there
+};
+
+[[nodiscard]] PagePlan PlanPage(PageWish wish, const PageSurroundings& around) noexcept;
+
+/// Of this process: terminal on stdout and stderr, DISPLAY or WAYLAND_DISPLAY, CI.
+[[nodiscard]] PageSurroundings LookAround(bool realtime);
+
+class LivePage {
+ public:
+  /// `say` takes a line for people; `plan.serve` false: nothing happens.
+  LivePage(const PagePlan& plan, const transport::LcmNetwork& network,
+           const std::function<void(const std::string&)>& say);
+  ~LivePage();
+  LivePage(const LivePage&) = delete;
+  LivePage& operator=(const LivePage&) = delete;
+
+ private:
+  std::unique_ptr<dashboard::Dashboard> page_;
+};
+
+}  // namespace levitas::cli

@@ -1,0 +1,79 @@
+// When a run brings its page, and when it sends a browser there.
+
+#include "cli/run/live_page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+namespace levitas::cli {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr PageSurroundings kBench{
+    .terminal = true, .desktop = true, .automation = false, .realtime = true};
+
+TEST(PlanPage, OpensABrowserWhereSomebodyWatchesARunInRealTime) {
+  const PagePlan plan = PlanPage(PageWish::kIfUseful, kBench);
+  EXPECT_TRUE(plan.serve);
+  EXPECT_TRUE(plan.open);
+}
+
+TEST(PlanPage, OnlyNamesTheAddressWithoutADesktop) {
+  PageSurroundings shell = kBench;
+  shell.desktop = false;
+  const PagePlan plan = PlanPage(PageWish::kIfUseful, shell);
+  EXPECT_TRUE(plan.serve);
+  EXPECT_FALSE(plan.open);
+}
+
+TEST(PlanPage, BringsNothingUnaskedWhereNobodyLooksOrTheRunIsOverAtOnce) {
+  PageSurroundings script = kBench;
+  script.terminal = false;
+  EXPECT_FALSE(PlanPage(PageWish::kIfUseful, script).serve);
+  PageSurroundings automation = kBench;
+  automation.automation = true;
+  EXPECT_FALSE(PlanPage(PageWish::kIfUseful, automation).serve);
+  PageSurroundings lockstep = kBench;
+  lockstep.realtime = false;
+  EXPECT_FALSE(PlanPage(PageWish::kIfUseful, lockstep).serve);
+}
+
+TEST(PlanPage, ServesWhenAskedToButNeverSendsAScriptsBrowserThere) {
+  PageSurroundings script = kBench;
+  script.terminal = false;
+  EXPECT_TRUE(PlanPage(PageWish::kAlways, script).serve);
+  EXPECT_FALSE(PlanPage(PageWish::kAlways, script).open);
+  PageSurroundings automation = kBench;
+  automation.automation = true;
+  EXPECT_FALSE(PlanPage(PageWish::kAlways, automation).open);
+}
+
+TEST(PlanPage, RespectsARefusal) { EXPECT_FALSE(PlanPage(PageWish::kNever, kBench).serve); }
+
+transport::LcmNetwork OwnNetwork() {
+  transport::LcmNetwork network;
+  network.group = "239.255.76.70";
+  network.base_port = static_cast<std::uint16_t>(20'000 + 4 * (getpid() % 10'000));
+  return network;
+}
+
+TEST(LivePage, SaysWhereItIsOrWhyItIsNot) {
+  std::vector<std::string> said;
+  const LivePage page({true, false}, OwnNetwork(), [&](const auto& line) { said.push_back(line); });
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_THAT(said.front(), HasSubstr("live page: "));  // where no network is: "no live page: ..."
+}
+
+TEST(LivePage, IsSilentWhenItIsNotServed) {
+  std::vector<std::string> said;
+  const LivePage page({}, OwnNetwork(), [&](const auto& line) { said.push_back(line); });
+  EXPECT_TRUE(said.empty());
+}
+
+}  // namespace
+}  // namespace levitas::cli
