@@ -29,13 +29,19 @@ BearingConstants Constants(const plant::BearingConfig& bearing) {
 
 FreeModes ComputeFreeModes(const plant::PlantConfig& plant,
                            const std::vector<double>& speeds_rad_per_s, std::size_t modes) {
-  const rotor::FiniteElementModel model = rotor::Assemble(plant.rotor, Planes(plant));
   FreeModes result;
-  result.rotor_mass_kg = model.total_mass_kg;
   for (const auto& bearing : plant.bearings) result.bearings.push_back(Constants(bearing));
-  for (const double speed : speeds_rad_per_s) {
-    rotor::WhirlFrequencies whirl = rotor::FreeWhirl(model, speed, modes);
-    result.whirl.push_back({speed, std::move(whirl.backward_hz), std::move(whirl.forward_hz)});
+  const auto add = [&](const auto& model) {
+    result.rotor_mass_kg = model.total_mass_kg;
+    for (const double speed : speeds_rad_per_s) {
+      rotor::WhirlFrequencies whirl = rotor::FreeWhirl(model, speed, modes);
+      result.whirl.push_back({speed, std::move(whirl.backward_hz), std::move(whirl.forward_hz)});
+    }
+  };
+  if (plant.rotor.given) {
+    add(rotor::FromGivenModes(*plant.rotor.given, Planes(plant)));
+  } else {
+    add(rotor::Assemble(plant.rotor, Planes(plant)));
   }
   return result;
 }

@@ -51,6 +51,7 @@ Eigen::MatrixXcd LoopResponse::Plant(double frequency_hz) const {
 Eigen::MatrixXcd LoopResponse::Sensitivity(double frequency_hz) const {
   Eigen::MatrixXcd open = Plant(frequency_hz);
   const std::complex<double> z = Point(frequency_hz);
+  if (loop_.coupled) open = open * loop_.coupled->At(z);
   for (std::size_t i = 0; i < loop_.law.size(); ++i) {
     open.col(static_cast<Eigen::Index>(i)) *= loop_.law[i].At(z);
   }

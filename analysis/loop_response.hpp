@@ -20,7 +20,9 @@ class LoopResponse {
   [[nodiscard]] Eigen::MatrixXcd Plant(double frequency_hz) const;
   [[nodiscard]] Eigen::MatrixXcd Sensitivity(double frequency_hz) const;
   [[nodiscard]] double nyquist_hz() const noexcept { return 0.5 / loop_.period_s; }
-  [[nodiscard]] std::size_t axes() const noexcept { return loop_.law.size(); }
+  [[nodiscard]] std::size_t axes() const noexcept {
+    return static_cast<std::size_t>(loop_.plant.c.rows());
+  }
 
  private:
   [[nodiscard]] std::complex<double> Point(double frequency_hz) const;

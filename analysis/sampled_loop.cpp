@@ -9,12 +9,13 @@ namespace levitas::analysis {
 namespace {
 
 void RefuseMismatch(const plant::PlantConfig& plant, const law::LawConfig& law) {
-  const std::size_t plant_axes = 2 * plant.bearings.size();
-  if (law.axes.size() == plant_axes) return;
+  const std::size_t plant_axes =
+      plant.bearings.size() == 1 && plant.bearings.front().x_only ? 1 : 2 * plant.bearings.size();
+  if (law.axis_count() == plant_axes) return;
   throw BadInput(fmt::format(
       "the controller has {} axes, the rig has {} (x and y of {} bearings): use a controller file "
       "written for this rig",
-      law.axes.size(), plant_axes, plant.bearings.size()));
+      law.axis_count(), plant_axes, plant.bearings.size()));
 }
 
 /// States a section needs: a first-order one must not bring a spurious pole at z = 0 along.
@@ -73,18 +74,41 @@ SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law
                       double speed_rad_per_s) {
   RefuseMismatch(plant, law);
   const plant::PlantModel model(plant);
-  const plant::LinearModel continuous = plant::Linearise(model, speed_rad_per_s);
+  plant::LinearModel continuous = plant::Linearise(model, speed_rad_per_s);
   SampledLoop loop;
+  const auto channels = static_cast<Eigen::Index>(model.channels());
+  continuous.b.conservativeResize(Eigen::NoChange, channels);
+  continuous.c.conservativeResize(channels, Eigen::NoChange);
   loop.period_s = static_cast<double>(plant.period_ns) * 1e-9;
   loop.plant = plant::Discretise(continuous, loop.period_s, model.delay_samples());
   loop.modes = static_cast<Eigen::Index>(model.layout().modes);
+  if (law.state_space) {
+    loop.coupled = ModelOf(*law.state_space, loop.period_s);
+    return loop;
+  }
   for (const auto& axis : law.axes) {
     loop.law.push_back(ModelOf(law::DiscreteSections(axis, loop.period_s)));
   }
   return loop;
 }
 
+namespace {
+
+Eigen::MatrixXd CloseCoupled(const plant::LinearModel& plant, const CoupledModel& law) {
+  const Eigen::Index states = plant.a.rows();
+  const Eigen::Index order = law.a.rows();
+  Eigen::MatrixXd closed = Eigen::MatrixXd::Zero(states + order, states + order);
+  closed.topLeftCorner(states, states) = plant.a - plant.b * law.d * plant.c;
+  closed.topRightCorner(states, order) = -plant.b * law.c;
+  closed.bottomLeftCorner(order, states) = law.b * plant.c;
+  closed.bottomRightCorner(order, order) = law.a;
+  return closed;
+}
+
+}  // namespace
+
 Eigen::MatrixXd ClosedLoopMatrix(const SampledLoop& loop) {
+  if (loop.coupled) return CloseCoupled(loop.plant, *loop.coupled);
   const auto& [a, b, c] = loop.plant;
   const Eigen::Index plant_states = a.rows();
   Eigen::Index states = plant_states;

@@ -2,13 +2,15 @@
 // The sampled linear loop of a rig and its law, as matrices: common ground of poles and margins.
 //
 // Plant     x[n+1] = A x[n] + B u[n], y[n] = C x[n]; delay included as states.
-// Law       decentralised, per axis  w[n+1] = Aw w[n] + Bw y[n],  u[n] = -(Cw w[n] + Dw y[n]);
+// Law       decentralised (or, with a state-space law, one model of all axes), per axis  w[n+1] =
+// Aw w[n] + Bw y[n],  u[n] = -(Cw w[n] + Dw y[n]);
 //           the sections of the discrete law itself, not a second discretisation of it.
 // Frame     bearing frame: probe and amplifier polarity cancel against the controller's.
 // Units     SI: y [m], u [A].
 
 #include <Eigen/Core>
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "controller/law/discrete_law.hpp"
@@ -31,9 +33,20 @@ struct AxisModel {
 
 [[nodiscard]] AxisModel ModelOf(std::vector<law::Section> sections);
 
+/// A state-space law between all axes, signal scales included, as u = -(C w + D y).
+struct CoupledModel {
+  law::StateSpaceConfig blocks;  ///< in discrete time
+  Eigen::MatrixXd a, b, c, d;
+  /// C(z) [A/m]; z must not be a pole.
+  [[nodiscard]] Eigen::MatrixXcd At(std::complex<double> z) const;
+};
+
+[[nodiscard]] CoupledModel ModelOf(const law::StateSpaceConfig& law, double period_s);
+
 struct SampledLoop {
   plant::LinearModel plant;
-  std::vector<AxisModel> law;  ///< one per axis
+  std::vector<AxisModel> law;           ///< one per axis; empty when the law is coupled
+  std::optional<CoupledModel> coupled;  ///< instead of `law`
   double period_s{};
   Eigen::Index modes{};  ///< per plane; the plant's state starts with x plane, then y plane
 };

@@ -26,10 +26,11 @@ struct PerAxis {
   bool needed;
   bool is_length;
 };
-constexpr std::array<PerAxis, 3> kPerAxis{
+constexpr std::array<PerAxis, 4> kPerAxis{
     {{CsvQuantity::kPosition, "position_", true, true},
      {CsvQuantity::kControlCurrent, "control_current_", true, false},
-     {CsvQuantity::kExcitation, "excitation_", false, false}}};
+     {CsvQuantity::kExcitation, "excitation_", false, false},
+     {CsvQuantity::kPositionExcitation, "excitation_", false, true}}};
 
 /// Every name that is understood, and what it means.
 std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {

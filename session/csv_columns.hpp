@@ -2,7 +2,8 @@
 // The columns of a measured CSV file: which column holds what, by the names of its first line.
 //
 // Names     time_s, rotor_angle_rad, speed_rpm, position_<channel>_<m|mm|um>,
-//           control_current_<channel>_<a|ma>, excitation_<channel>_<a|ma>; channels from the rig.
+//           control_current_<channel>_<a|ma>, excitation_<channel>_<a|ma> into the current and
+//           excitation_<channel>_<m|mm|um> into the measured position; channels from the rig.
 // Needed    time_s; position and control current of every channel of the rig.
 // Others    are ignored and listed, unless they look like a misspelt or misplaced name of the
 // above. Failure   BadInput listing every problem of the first line at once.
@@ -22,6 +23,7 @@ enum class CsvQuantity : std::uint8_t {
   kPosition,
   kControlCurrent,
   kExcitation,
+  kPositionExcitation,
 };
 
 struct CsvColumn {

@@ -29,11 +29,19 @@ void Number(fmt::memory_buffer& out, double value) {
   }
 }
 
-std::string ColumnNames(const std::vector<std::string>& channels) {
+/// Columns of an injection into the measured position are written when the scenario asks for one.
+bool InjectsPosition(const SessionHeader& header) {
+  return header.scenario_yaml.find("point: measured_position") != std::string::npos;
+}
+
+std::string ColumnNames(const std::vector<std::string>& channels, bool position_excitation) {
   std::string line = "time_s,rotor_angle_rad,speed_rpm";
   for (const auto& channel : channels) line += fmt::format(",position_{}_m", channel);
   for (const auto& channel : channels) line += fmt::format(",control_current_{}_a", channel);
   for (const auto& channel : channels) line += fmt::format(",excitation_{}_a", channel);
+  for (std::size_t i = 0; position_excitation && i < channels.size(); ++i) {
+    line += fmt::format(",excitation_{}_m", channels[i]);
+  }
   return line + "\n";
 }
 
@@ -69,7 +77,7 @@ class TimeAxis {
 };
 
 void Row(fmt::memory_buffer& out, const cycle::CycleRecord& record, std::int64_t time_ns,
-         std::size_t axes) {
+         std::size_t axes, bool position_excitation) {
   constexpr double kRpmPerRadPerS = 30.0 / std::numbers::pi;
   const SensorFrame& frame = record.in.frame;
   fmt::format_to(std::back_inserter(out), "{}", SecondsText(time_ns));
@@ -78,6 +86,9 @@ void Row(fmt::memory_buffer& out, const cycle::CycleRecord& record, std::int64_t
   for (const AxisArray* values :
        {&frame.position_m, &record.out.current.control_current_a, &record.in.op.excitation_a}) {
     for (std::size_t axis = 0; axis < axes; ++axis) Number(out, (*values)[axis]);
+  }
+  for (std::size_t axis = 0; position_excitation && axis < axes; ++axis) {
+    Number(out, record.in.op.excitation_m[axis]);
   }
   out.push_back('\n');
 }
@@ -103,9 +114,10 @@ ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
                     csv_path, std::strerror(errno)));
   }
   const auto& channels = reader.header().channels;
+  const bool position_excitation = InjectsPosition(reader.header());
   TimeAxis time(reader.header());
   fmt::memory_buffer out;
-  fmt::format_to(std::back_inserter(out), "{}", ColumnNames(channels));
+  fmt::format_to(std::back_inserter(out), "{}", ColumnNames(channels, position_excitation));
   bool sound = true;
   const auto write = [&] {
     sound = sound && std::fwrite(out.data(), 1, out.size(), file.get()) == out.size();
@@ -118,7 +130,7 @@ ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
       ++report.cycles_without_frame;
       continue;
     }
-    Row(out, record, time.Of(record.in), channels.size());
+    Row(out, record, time.Of(record.in), channels.size(), position_excitation);
     ++report.rows;
     constexpr std::size_t kBlockBytes = std::size_t{1} << 18;
     if (out.size() > kBlockBytes) write();

@@ -84,6 +84,7 @@ class RecordMaker {
                        .speed_rad_per_s = row.speed_rad_per_s,
                        .angle_rad = WrapAngle(row.angle_rad)};
     record.in.op.excitation_a = row.excitation_a;
+    record.in.op.excitation_m = row.excitation_m;
     record.out.mode = row.speed_rad_per_s != 0.0 ? Mode::kSpinning : Mode::kLevitating;
     record.out.current = {.cycle = cycle_,
                           .axes = static_cast<std::uint32_t>(rig_.axes()),
@@ -148,7 +149,8 @@ void Convert(const ImportOptions& options, const std::string& part_path, ImportR
   report.ignored_columns = reader.layout().ignored;
   report.has_rotation =
       reader.layout().Has(CsvQuantity::kAngle) || reader.layout().Has(CsvQuantity::kSpeed);
-  report.has_excitation = reader.layout().Has(CsvQuantity::kExcitation);
+  report.has_excitation = reader.layout().Has(CsvQuantity::kExcitation) ||
+                          reader.layout().Has(CsvQuantity::kPositionExcitation);
   SessionWriter writer(part_path, MakeHeader(options));
   RecordMaker maker(options, reader.layout());
   // The first row waits for the second: only then is there a slope of the angle.

@@ -87,6 +87,9 @@ void CsvRows::Put(std::size_t index, CsvRow& row) {
     case CsvQuantity::kExcitation:
       row.excitation_a[column.axis] = value;
       return;
+    case CsvQuantity::kPositionExcitation:
+      row.excitation_m[column.axis] = value;
+      return;
     case CsvQuantity::kIgnored:
       return;
   }

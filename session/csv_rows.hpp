@@ -23,6 +23,7 @@ struct CsvRow {
   AxisArray position_m{};
   AxisArray control_current_a{};
   AxisArray excitation_a{};
+  AxisArray excitation_m{};
 };
 
 class CsvRows {

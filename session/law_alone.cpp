@@ -35,6 +35,7 @@ cycle::CycleOutputs LawAlone::Step(const cycle::CycleInputs& in) noexcept {
   for (std::size_t axis = 0; axis < axes_; ++axis) {
     usable = usable && std::isfinite(position_m[axis]);
     error_m[axis] = -position_m[axis];
+    error_m[axis] -= in.op.excitation_m[axis];
   }
   if (usable) given_ = law::Step(coefficients_, state_, error_m, in.op.excitation_a, limit_a_);
   cycle::CycleOutputs out;

@@ -79,6 +79,7 @@ void PutInputs(const cycle::CycleInputs& in, levitas_msg::cycle_record_t& m) noe
   m.command_speed_rad_per_s = in.op.speed_rad_per_s;
   m.command_acceleration_rad_per_s2 = in.op.acceleration_rad_per_s2;
   ToVector(in.op.excitation_a, m.excitation_a);
+  ToVector(in.op.excitation_m, m.excitation_m);
 }
 
 void PutOutputs(const cycle::CycleOutputs& out, levitas_msg::cycle_record_t& m) noexcept {
@@ -119,6 +120,7 @@ cycle::CycleInputs GetInputs(const levitas_msg::cycle_record_t& m) noexcept {
   in.op.speed_rad_per_s = m.command_speed_rad_per_s;
   in.op.acceleration_rad_per_s2 = m.command_acceleration_rad_per_s2;
   in.op.excitation_a = ToArray(m.excitation_a, axes);
+  in.op.excitation_m = ToArray(m.excitation_m, axes);
   return in;
 }
 
@@ -149,8 +151,8 @@ cycle::CycleOutputs GetOutputs(const levitas_msg::cycle_record_t& m) noexcept {
 RecordCodec::RecordCodec(std::size_t axes) : message_{} {
   const std::size_t count = std::min(axes, kMaxAxes);
   message_.axes = static_cast<std::int32_t>(count);
-  for (auto* values : {&message_.position_m, &message_.excitation_a, &message_.reference_m,
-                       &message_.control_current_a}) {
+  for (auto* values : {&message_.position_m, &message_.excitation_a, &message_.excitation_m,
+                       &message_.reference_m, &message_.control_current_a}) {
     values->resize(count);
   }
 }

@@ -51,6 +51,8 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.rig = rig.numbers;
   inputs.session = statistics.Figures();
   inputs.sensitivity = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
+  inputs.step_error =
+      analysis::MeasureStepError(rig.plant, controller.law, inputs.session.top_speed_rad_per_s);
   inputs.timing = ReadControllerReport(options.controller_report, rig.numbers.period_s());
   inputs.rig_process = ReadRigReport(options.plant_report);
   inputs.provenance = options.provenance;

@@ -36,7 +36,7 @@ Object Orbits(const Verdict& verdict) {
 
 void AddCurrents(const Inputs& in, const PhaseFigures& phase, const char* name, Object& all) {
   if (phase.cycles == 0) return;
-  for (std::size_t axis = 0; axis < 2 * phase.bearings.size(); ++axis) {
+  for (std::size_t axis = 0; axis < in.rig.axes(); ++axis) {
     const CurrentFigures& current = phase.bearings[axis / 2].current[axis % 2];
     all.push_back({{"axis", in.rig.channels.at(axis)},
                    {"phase", name},
@@ -149,6 +149,19 @@ Object Timing(const Inputs& in) {
   return timing;
 }
 
+Object TimeStep(const Inputs& in) {
+  if (!in.step_error) return nullptr;
+  const analysis::StepError& error = *in.step_error;
+  return {{"substeps", error.substeps},
+          {"step_s", in.rig.period_s() / error.substeps},
+          {"compared_with_substeps", error.compared_with},
+          {"simulated_s", error.duration_s},
+          {"speed_rpm", Rpm(error.speed_rad_per_s)},
+          {"largest_difference_m", Number(error.largest_m)},
+          {"peak_m", Number(error.peak_m)},
+          {"share_of_peak", Number(error.Share())}};
+}
+
 Object From(const Provenance& from) {
   return {{"program_version", from.program_version},
           {"rig", from.rig},
@@ -183,6 +196,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
           {"orbits", Orbits(verdict)},
           {"currents", currents},
           {"sensitivity", Sensitivity(in)},
+          {"time_step", TimeStep(in)},
           {"orbit_over_speed", Profile(in)},
           {"modes", Modes(in)},
           {"trip", Trip(in)},

@@ -60,7 +60,7 @@ void Orbits(const Verdict& verdict, Out out) {
 void CurrentsOf(const Inputs& in, const PhaseFigures& phase, bool spinning, Out out) {
   if (phase.cycles == 0) return;
   for (std::size_t b = 0; b < phase.bearings.size(); ++b) {
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < 2 && 2 * b + k < in.rig.axes(); ++k) {
       const CurrentFigures& current = phase.bearings[b].current[k];
       fmt::format_to(out, "{:<{}}{:<10}{:>9.4f}{:>17.4f}{:>9.4f}{:>18.2f} %\n",
                      in.rig.channels[2 * b + k], NameWidth(in.rig.channels), PhaseName(spinning),
@@ -92,6 +92,16 @@ void Sensitivity(const Inputs& in, Out out) {
                      axis.frequency_hz, zone);
     }
   }
+}
+
+void TimeStep(const Inputs& in, Out out) {
+  if (!in.step_error) return;
+  const analysis::StepError& error = *in.step_error;
+  fmt::format_to(out,
+                 "\ntime step {} of {:.3g} us a period; against {} of them {:.2g} % of the peak of "
+                 "{:.1f} um\n",
+                 error.substeps, in.rig.period_s() * 1e6 / error.substeps, error.compared_with,
+                 100.0 * error.Share(), Um(error.peak_m));
 }
 
 void DurationRow(const DurationFigures& row, Out out) {
@@ -160,6 +170,7 @@ std::string Table(const Verdict& verdict) {
   Orbits(verdict, out);
   Currents(verdict.inputs, out);
   Sensitivity(verdict.inputs, out);
+  TimeStep(verdict.inputs, out);
   Timing(verdict.inputs, out);
   fmt::format_to(out, "\n{}\n", verdict.sentence);
   return text;

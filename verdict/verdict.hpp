@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "analysis/sensitivity.hpp"
+#include "analysis/step_error.hpp"
 #include "common/rig_numbers.hpp"
 #include "verdict/session_statistics.hpp"
 #include "verdict/timing.hpp"
@@ -53,6 +54,7 @@ struct Inputs {
   RigNumbers rig;
   SessionFigures session;
   std::vector<analysis::SensitivityResult> sensitivity;  ///< at 0 and at the top speed of the run
+  std::optional<analysis::StepError> step_error;         ///< of the simulation's time step
   std::optional<TimingFigures> timing;
   std::optional<RigFigures> rig_process;
   Provenance provenance;

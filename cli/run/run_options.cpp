@@ -98,7 +98,8 @@ RunPlan PlanRun(const RunOptions& options, const RunFiles& files, const RunPaths
       "--pace", options.pace,   "--seed", std::to_string(options.seed)};
   RunPlan plan;
   plan.plant = {ProgramBeside(can ? "amb-rig" : "amb-plant"), both, paths.plant_log};
-  plan.plant.arguments.insert(plan.plant.arguments.end(), {"--json", paths.plant_json});
+  plan.plant.arguments.insert(plan.plant.arguments.end(),
+                              {"--scenario", files.scenario_path, "--json", paths.plant_json});
   plan.controller = {ProgramBeside("amb-controller"), both, paths.controller_log};
   plan.controller.arguments.insert(
       plan.controller.arguments.end(),

@@ -67,13 +67,14 @@ void DescribeLaws(Visitor& v, std::vector<law::AxisLawConfig>& axes, const RigNu
   std::string without;
   for (std::size_t bearing = 0; bearing < rig.bearings.size(); ++bearing) {
     const std::size_t x = 2 * bearing;
-    const bool alike = Same(axes[x], axes[x + 1]);
+    const std::size_t end = std::min(x + 2, rig.axes());
+    const bool alike = Same(axes[x], axes[end - 1]);
     law::AxisLawConfig both = axes[x];
     bool for_both = alike;
     v.OptionalGroup(rig.bearings[bearing], "law of both axes of this bearing", for_both,
                     [&] { Describe(v, both, nyquist_hz); });
-    if (for_both) axes[x] = axes[x + 1] = both;
-    for (std::size_t axis = x; axis < x + 2; ++axis) {
+    for (std::size_t axis = x; axis < end; ++axis) {
+      if (for_both) axes[axis] = both;
       law::AxisLawConfig own = axes[axis];
       bool present = !alike;
       v.OptionalGroup(rig.channels[axis], "law of this axis alone, instead of its bearing's",
@@ -91,8 +92,15 @@ void DescribeLaws(Visitor& v, std::vector<law::AxisLawConfig>& axes, const RigNu
 
 void Describe(Visitor& v, ControllerFile& controller, const RigNumbers& rig) {
   v.Name({"name", "of the controller"}, controller.name);
-  v.Group("laws", "one for each bearing or axis of the rig",
-          [&] { DescribeLaws(v, controller.law.axes, rig); });
+  bool given = controller.law.state_space.has_value();
+  law::StateSpaceConfig state_space = controller.law.state_space.value_or(law::StateSpaceConfig{});
+  v.OptionalGroup("state_space", "one law of any order between all axes, instead of laws", given,
+                  [&] { Describe(v, state_space, rig); });
+  if (given) controller.law.state_space = state_space;
+  v.When(!given, "without state_space", [&] {
+    v.Group("laws", "one for each bearing or axis of the rig",
+            [&] { DescribeLaws(v, controller.law.axes, rig); });
+  });
   Describe(v, controller.supervisor);
   controller.law.period_s = rig.period_s();
   controller.law.current_limit_a =

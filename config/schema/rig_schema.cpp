@@ -112,9 +112,28 @@ void Describe(Visitor& v, plant::TouchdownConfig& touchdown) {
            touchdown.journal_radius_m);
 }
 
+// The axes of a bearing, and what they are called.
+void DescribeAxes(Visitor& v, RigNumbers& numbers, plant::BearingConfig& bearing,
+                  std::size_t index) {
+  constexpr std::array<std::string_view, 2> kNames{"name_x", "namex"};
+  constexpr std::array<std::string_view, 2> kAxes{"xy", "x"};
+  const std::size_t x = 2 * index;
+  std::size_t joined = numbers.channels.size() > x && numbers.channels[x] == bearing.name + "x";
+  v.Choice({"axis_names", kNames, "name_x", "what its axes are called: de_x or dex"}, joined);
+  std::size_t x_only = bearing.x_only ? 1 : 0;
+  v.Choice({"axes", kAxes, "xy", "x: no coils and no probe in y, where a guide holds the rotor"},
+           x_only);
+  bearing.x_only = x_only == 1;
+  const std::string stem = bearing.name + (joined == 1 ? "" : "_");
+  numbers.channels.resize(std::max(numbers.channels.size(), x + 2));
+  numbers.channels[x] = stem + "x";
+  numbers.channels[x + 1] = stem + "y";
+}
+
 void Describe(Visitor& v, RigFile& rig, plant::BearingConfig& bearing, std::size_t index) {
   const std::size_t x = 2 * index;
-  v.Name({"name", "of the bearing; its axes are called NAME_x and NAME_y"}, bearing.name);
+  v.Name({"name", "of the bearing; its axes are called after it"}, bearing.name);
+  DescribeAxes(v, rig.numbers, bearing, index);
   const auto before = rig.plant.bearings.begin();
   v.RefuseIf(std::any_of(before, before + static_cast<std::ptrdiff_t>(index),
                          [&](const auto& other) { return other.name == bearing.name; }),
@@ -225,12 +244,11 @@ void DescribeBuses(Visitor& v, RigFile& rig) {
 void Derive(RigFile& rig) {
   RigNumbers& numbers = rig.numbers;
   numbers.period_ns = rig.plant.period_ns;
-  numbers.channels.clear();
+  const bool guided = rig.plant.bearings.size() == 1 && rig.plant.bearings.front().x_only;
+  numbers.channels.resize(guided ? 1 : 2 * rig.plant.bearings.size());
   numbers.bearings.clear();
   for (const plant::BearingConfig& bearing : rig.plant.bearings) {
     numbers.bearings.push_back(bearing.name);
-    numbers.channels.push_back(bearing.name + "_x");
-    numbers.channels.push_back(bearing.name + "_y");
     const bool first = numbers.bearings.size() == 1;
     const auto smallest = [&](double so_far, double here) {
       return first ? here : std::min(so_far, here);
@@ -266,6 +284,9 @@ void Describe(Visitor& v, RigFile& rig) {
   v.List(
       {"bearings", geared ? 0U : 1U, kMaxBearings, "from the drive end"}, rig.plant.bearings,
       [&](plant::BearingConfig& bearing, std::size_t index) { Describe(v, rig, bearing, index); });
+  const auto x_only = [](const plant::BearingConfig& bearing) { return bearing.x_only; };
+  v.RefuseIf(rig.plant.bearings.size() > 1 && std::ranges::any_of(rig.plant.bearings, x_only),
+             "bearings", "axes: x is for a rig with one bearing only");
   v.Group("gravity", "where the weight of the rotor pulls", [&] {
     v.Number({"acceleration", kGravity, 0, 100, 9.81, "0 for a vertical rotor"},
              rig.plant.gravity_m_per_s2);

@@ -74,6 +74,39 @@ void Describe(Visitor& v, plant::UnbalanceMass& mass) {
            mass.phase_rad);
 }
 
+void Describe(Visitor& v, rotor::GivenMode& mode) {
+  v.Number({"frequency", kHertz, 0.01, 1e6, kRequired, "of the free rotor at rest"},
+           mode.frequency_hz);
+  v.Number({"damping_ratio", kOne, 0, 0.5, kRequired, "damping ratio"}, mode.damping_ratio);
+  v.Number({"modal_mass", kKilogram, 1e-9, 1e9, kRequired, "with the shape as given here"},
+           mode.modal_mass_kg);
+  double last_m = -1.0;
+  v.List(
+      {"shape", 1, 100, "straight between these points, ascending along the shaft"}, mode.shape,
+      [&](rotor::ShapePoint& point, std::size_t) {
+        v.Number({"z", kMillimetre, 0, 100000, kRequired, "place on the shaft"}, point.z_m);
+        v.RefuseIf(point.z_m <= last_m, "z_mm", "must be greater than that of the point before");
+        last_m = point.z_m;
+        v.Number({"deflection", kOne, -1e6, 1e6, kRequired, "of the mode here"}, point.deflection);
+      });
+}
+
+void Describe(Visitor& v, rotor::GivenRotor& rotor) {
+  v.Number({"mass", kKilogram, 1e-6, 100000, kRequired, "of the rotor"}, rotor.mass_kg);
+  v.Number({"transverse_inertia", kInertia, 0, 1e6, kRequired,
+            "about a diameter through the centre of mass; 0: it cannot tilt"},
+           rotor.transverse_inertia_kg_m2);
+  v.Number({"polar_inertia", kInertia, 0, 1e6, kRequired, "about the shaft axis"},
+           rotor.polar_inertia_kg_m2);
+  v.RefuseIf(rotor.polar_inertia_kg_m2 > 2.0 * rotor.transverse_inertia_kg_m2 * (1 + 1e-9) &&
+                 rotor.transverse_inertia_kg_m2 > 0.0,
+             "polar_inertia_kg_m2", "no body has Ip greater than 2 It");
+  v.Number({"centre_z", kMillimetre, 0, 100000, kRequired, "place of the centre of mass"},
+           rotor.centre_z_m);
+  v.List({"modes", 0, 98, "bending modes, the rigid body's excluded"}, rotor.modes,
+         [&](rotor::GivenMode& mode, std::size_t) { Describe(v, mode); });
+}
+
 void DescribeReduction(Visitor& v, rotor::RotorConfig& rotor) {
   v.Number({"max_element_length", kMillimetre, 0.1, 20000, 10.0,
             "finite elements of the shaft are not longer than this"},
@@ -97,6 +130,20 @@ void DescribeReduction(Visitor& v, rotor::RotorConfig& rotor) {
            rotor.modal_damping_ratio);
 }
 
+void DescribeShaft(Visitor& v, rotor::RotorConfig& rotor) {
+  v.Group("material", "of the shaft", [&] { Describe(v, rotor.material); });
+  v.List({"sections", 1, 500, "pieces of shaft, one after the other from the drive end (z = 0)"},
+         rotor.sections, [&](rotor::Section& section, std::size_t) { Describe(v, section); });
+  const auto on_shaft = [&](auto& part, std::size_t) {
+    Describe(v, part);
+    RefuseBeyondShaft(v, rotor, part.z_m, "z_mm");
+  };
+  v.List({"discs", 0, 200, "rigid discs given by mass and inertia"}, rotor.discs, on_shaft);
+  v.List({"rings", 0, 200, "solid rings on the shaft, mass and inertia from their geometry"},
+         rotor.rings, on_shaft);
+  DescribeReduction(v, rotor);
+}
+
 }  // namespace
 
 void RefuseBeyondShaft(Visitor& v, const rotor::RotorConfig& rotor, double z_m,
@@ -109,18 +156,17 @@ void RefuseBeyondShaft(Visitor& v, const rotor::RotorConfig& rotor, double z_m,
 }
 
 void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::UnbalanceMass>& unbalance) {
-  v.Group("material", "of the shaft", [&] { Describe(v, rotor.material); });
-  v.List({"sections", 1, 500, "pieces of shaft, one after the other from the drive end (z = 0)"},
-         rotor.sections, [&](rotor::Section& section, std::size_t) { Describe(v, section); });
-  const auto on_shaft = [&](auto& part, std::size_t) {
-    Describe(v, part);
-    RefuseBeyondShaft(v, rotor, part.z_m, "z_mm");
-  };
-  v.List({"discs", 0, 200, "rigid discs given by mass and inertia"}, rotor.discs, on_shaft);
-  v.List({"rings", 0, 200, "solid rings on the shaft, mass and inertia from their geometry"},
-         rotor.rings, on_shaft);
-  v.List({"unbalance", 0, 100, "unbalance masses"}, unbalance, on_shaft);
-  DescribeReduction(v, rotor);
+  bool given = rotor.given.has_value();
+  rotor::GivenRotor modal = rotor.given.value_or(rotor::GivenRotor{});
+  v.OptionalGroup("modal", "a rigid body with given modes, instead of a shaft and its parts", given,
+                  [&] { Describe(v, modal); });
+  if (given) rotor.given = modal;
+  v.When(!given, "without modal", [&] { DescribeShaft(v, rotor); });
+  v.List({"unbalance", 0, 100, "unbalance masses"}, unbalance,
+         [&](plant::UnbalanceMass& mass, std::size_t) {
+           Describe(v, mass);
+           RefuseBeyondShaft(v, rotor, mass.z_m, "z_mm");
+         });
 }
 
 }  // namespace levitas::config

@@ -40,29 +40,18 @@ void SetWait(scenario::Step& step, std::size_t index) {
   if (index >= kOwn.size()) step.wait_mode = static_cast<Mode>(index - kOwn.size());
 }
 
-void Describe(Visitor& v, scenario::Excitation& excitation, const RigNumbers& rig) {
-  std::vector<std::string_view> names(rig.channels.begin(), rig.channels.end());
-  if (names.empty()) names.push_back(excitation.channel);  // written without its rig
-  const auto at = std::ranges::find(names, excitation.channel);
-  auto index = at == names.end() ? 0 : static_cast<std::size_t>(at - names.begin());
-  v.Choice({"channel", names, kRequired, "axis of the rig"}, index);
-  if (rig.channels.empty()) {
-    excitation.channel = names[index];
-  } else {
-    excitation.channel = rig.channels[index];
-    excitation.axis = index;
+// Beyond it the excitation is cut back; see orbit_limiter.hpp.
+void DescribeOrbitLimit(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
+  constexpr double kZoneA = 0.3;  // of the clearance, after ISO 14839-2
+  v.Number(
+      {"orbit_limit", kMicrometre, 0, 5000, 0,
+       "the excitation is cut back while a bearing's orbit is larger; 0: 30 % of the clearance"},
+      step.orbit_limit_m);
+  if (!step.excitation.empty() && step.orbit_limit_m == 0.0) {
+    step.orbit_limit_m = kZoneA * rig.clearance_m;
   }
-  v.Number({"amplitude", kAmpere, 1e-6, 100, kRequired, "the current is plus or minus this"},
-           excitation.amplitude_a);
-  const double limit_a = std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);
-  v.RefuseIf(!rig.channels.empty() && excitation.amplitude_a > limit_a, "amplitude_a",
-             fmt::format("found {:.6g} A, but the coils leave {:.6g} A in all",
-                         excitation.amplitude_a, limit_a));
-  v.Integer({"order", 7, 23, 12, "the sequence repeats after 2^order - 1 bits"}, excitation.order);
-  v.Integer({"divisor", 1, 100000, 1, "control cycles per bit"}, excitation.divisor);
-  v.Number({"start", kOne, 0, 0.999999, 0,
-            "where in the sequence it begins; spread channels (0, 0.25, ...) to decorrelate them"},
-           excitation.start);
+  v.RefuseIf(rig.clearance_m > 0.0 && step.orbit_limit_m >= rig.clearance_m, "orbit_limit_um",
+             fmt::format("must be smaller than the clearance, {:.6g} um", rig.clearance_m * 1e6));
 }
 
 void Describe(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
@@ -76,7 +65,8 @@ void Describe(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
                fmt::format("found {:.6g} rpm, but the rig is rated for {:.6g} rpm",
                            step.speed_rad_per_s * 30.0 / static_cast<double>(kPi),
                            rig.max_speed_rad_per_s * 30.0 / static_cast<double>(kPi)));
-    v.Number({"acceleration", kRpmPerSecond, 0.1, 1e6, kRequired, "rate, up or down"},
+    v.Number({"acceleration", kRpmPerSecond, 0.1, 1e6, 1e6,
+              "rate, up or down; left out: a step, as fast as the drive can"},
              step.acceleration_rad_per_s2);
   });
   std::size_t wait = WaitIndex(step);
@@ -90,11 +80,11 @@ void Describe(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
              step.timeout_s);
   });
   v.Number({"hold", kSecond, 0, 1e6, 0, "then stay this long"}, step.hold_s);
-  v.List({"excitation", 0, kMaxAxes, "pseudo-random binary current while the step holds"},
-         step.excitation,
+  v.List({"excitation", 0, 4 * kMaxAxes, "test signals while the step holds"}, step.excitation,
          [&](scenario::Excitation& excitation, std::size_t) { Describe(v, excitation, rig); });
   v.RefuseIf(!step.excitation.empty() && step.hold_s == 0.0, "hold_s",
              "an excitation acts during the hold time, which is 0");
+  DescribeOrbitLimit(v, step, rig);
 }
 
 }  // namespace
@@ -103,6 +93,8 @@ void Describe(Visitor& v, scenario::ScenarioConfig& scenario, const RigNumbers& 
   v.Name({"name", "of the scenario"}, scenario.name);
   v.List({"steps", 1, 1000, "one after the other"}, scenario.steps,
          [&](scenario::Step& step, std::size_t) { Describe(v, step, rig); });
+  v.List({"rig_events", 0, 100, "what happens to the simulated rig, at times of its own"},
+         scenario.rig_events, [&](RigEvent& event, std::size_t) { Describe(v, event, rig); });
 }
 
 }  // namespace levitas::config

@@ -26,6 +26,11 @@ void RefuseBesideShaft(Visitor& v, const plant::PlantConfig& plant, std::size_t 
 void Describe(Visitor& v, gpio::LinesConfig& lines, double period_s);
 /// The list of effects; needs the names in rig.numbers.
 void DescribeEffects(Visitor& v, RigFile& rig);
+void Describe(Visitor& v, law::StateSpaceConfig& law, const RigNumbers& rig);
+void Describe(Visitor& v, scenario::Excitation& excitation, const RigNumbers& rig);
+void Describe(Visitor& v, RigEvent& event, const RigNumbers& rig);
+/// Reads and writes the channel of something that a scenario does to one axis.
+void DescribeChannel(Visitor& v, const RigNumbers& rig, std::string& channel, std::size_t& axis);
 /// Refuses a plane beyond the end of the shaft; silent while the shaft itself is not known.
 void RefuseBeyondShaft(Visitor& v, const rotor::RotorConfig& rotor, double z_m,
                        std::string_view key);

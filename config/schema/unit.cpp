@@ -61,6 +61,9 @@ constexpr std::array kUnits{
     kTorsionDamping,
     kPerMetre,
     kPerSquareMetre,
+    kVoltPerMetre,
+    kVoltPerMillimetre,
+    kAmperePerVolt,
 };
 
 /// A decimal text taken apart: value = digits x 10^exponent ("457.2" -> "457.2", 0).

@@ -14,13 +14,13 @@ namespace {
 
 const CycleConfig& Checked(const CycleConfig& config) {
   const std::size_t axes = config.rig.axes();
-  if (axes == 0 || axes > kMaxAxes || axes % 2 != 0) {
+  if (axes == 0 || axes > kMaxAxes || (axes % 2 != 0 && axes != 1)) {
     throw std::invalid_argument("rig: " + std::to_string(axes) +
-                                " axes, allowed an even number from 2 to " +
+                                " axes, allowed 1 or an even number to " +
                                 std::to_string(kMaxAxes));
   }
-  if (config.law.axes.size() != axes) {
-    throw std::invalid_argument("law for " + std::to_string(config.law.axes.size()) +
+  if (config.law.axis_count() != axes) {
+    throw std::invalid_argument("law for " + std::to_string(config.law.axis_count()) +
                                 " axes, the rig has " + std::to_string(axes));
   }
   if (config.law.period_s > 0.0 &&
@@ -63,7 +63,7 @@ struct ControlCycle::Impl {
         supervisor(config.rig, config.supervisor) {}
 
   void Read(const CycleInputs& in) noexcept;
-  void RunLaw(const AxisArray& excitation_a, const supervisor::Decision& decision) noexcept;
+  void RunLaw(const OperatorInput& op, const supervisor::Decision& decision) noexcept;
   [[nodiscard]] CycleOutputs Answer(const supervisor::Decision& decision) const noexcept;
 
   RigNumbers rig;
@@ -102,7 +102,7 @@ void ControlCycle::Impl::Read(const CycleInputs& in) noexcept {
 
 // Without a fresh frame the last currents are held and the filters wait. Positions are taken at
 // most as far as the converter reaches: beyond it a number means nothing.
-void ControlCycle::Impl::RunLaw(const AxisArray& excitation_a,
+void ControlCycle::Impl::RunLaw(const OperatorInput& op,
                                 const supervisor::Decision& decision) noexcept {
   const supervisor::StateRow& row = supervisor::Row(decision.state);
   if (!row.energised) {
@@ -117,7 +117,9 @@ void ControlCycle::Impl::RunLaw(const AxisArray& excitation_a,
     const double position_m =
         std::clamp(seen.position_m[i], -rig.sensor_range_m, rig.sensor_range_m);
     error_m[i] = decision.reference_m[i] - position_m;
-    if (row.excitation && std::isfinite(excitation_a[i])) injected_a[i] = excitation_a[i];
+    if (!row.excitation) continue;
+    if (std::isfinite(op.excitation_a[i])) injected_a[i] = op.excitation_a[i];
+    if (std::isfinite(op.excitation_m[i])) error_m[i] -= op.excitation_m[i];
   }
   given = law::Step(coefficients, law_state, error_m, injected_a, limit_a);
 }
@@ -164,7 +166,7 @@ CycleOutputs ControlCycle::Step(const CycleInputs& in, StageObserver* observer) 
   ended(Stage::kCheck);
   const supervisor::Decision& decision = impl_->supervisor.Decide(impl_->seen, request, finding);
   ended(Stage::kSupervise);
-  impl_->RunLaw(in.op.excitation_a, decision);
+  impl_->RunLaw(in.op, decision);
   const CycleOutputs out = impl_->Answer(decision);
   ended(Stage::kLaw);
   return out;

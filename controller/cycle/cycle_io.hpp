@@ -15,6 +15,7 @@ struct OperatorInput {
   double speed_rad_per_s{};          ///< with kSpin: set point
   double acceleration_rad_per_s2{};  ///< with kSpin: rate
   AxisArray excitation_a{};          ///< [A] added to the law's current before the limit
+  AxisArray excitation_m{};          ///< [m] added to what the law reads, nothing else sees it
 };
 
 struct CycleInputs {

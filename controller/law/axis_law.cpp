@@ -86,11 +86,19 @@ LawOutput StepWidth(const LawCoefficients& coefficients, LawState& state, const 
 
 }  // namespace
 
-LawCoefficients::LawCoefficients(const LawConfig& config) : axes_(config.axes.size()) {
+LawCoefficients::LawCoefficients(const LawConfig& config) : axes_(config.axis_count()) {
   if (axes_ == 0 || axes_ > kMaxAxes) {
     throw std::invalid_argument("law: " + std::to_string(axes_) + " axes, allowed 1 to " +
                                 std::to_string(kMaxAxes));
   }
+  if (config.state_space) {
+    state_space_.emplace(*config.state_space, config.period_s);
+  } else {
+    BuildAxes(config);
+  }
+}
+
+void LawCoefficients::BuildAxes(const LawConfig& config) {
   std::vector<DiscreteLaw> laws;
   for (const AxisLawConfig& axis : config.axes) laws.push_back(Discretise(axis, config.period_s));
   lead_lags_.resize(LongestChain(laws, &DiscreteLaw::lead_lags));
@@ -119,17 +127,25 @@ LawCoefficients::LawCoefficients(const LawConfig& config) : axes_(config.axes.si
 }
 
 LawState::LawState(const LawCoefficients& coefficients)
-    : lead_lags(coefficients.lead_lags().size()), notches(coefficients.notches().size()) {}
+    : lead_lags(coefficients.lead_lags().size()), notches(coefficients.notches().size()) {
+  if (coefficients.state_space()) {
+    state_space = StateSpaceState(coefficients.state_space()->blocks());
+  }
+}
 
 void LawState::Reset() noexcept {
   std::fill(lead_lags.begin(), lead_lags.end(), Lanes{});
   std::fill(notches.begin(), notches.end(), TwoDelays{});
   integral_a = Lanes{};
   derivative_a = Lanes{};
+  state_space.Reset();
 }
 
 LawOutput Step(const LawCoefficients& coefficients, LawState& state, const AxisArray& error_m,
                const AxisArray& excitation_a, double limit_a) noexcept {
+  if (coefficients.state_space()) {
+    return Step(*coefficients.state_space(), state.state_space, error_m, excitation_a, limit_a);
+  }
   return coefficients.axes() <= 4
              ? StepWidth<4>(coefficients, state, error_m, excitation_a, limit_a)
              : StepWidth<8>(coefficients, state, error_m, excitation_a, limit_a);

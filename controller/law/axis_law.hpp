@@ -1,5 +1,6 @@
 #pragma once
-// The decentralised law of all axes, one period at a time.
+// The law of all axes, one period at a time: the decentralised one below, or the state-space law of
+// state_space_law.hpp when the configuration holds one.
 //
 // Equation   u = C(z) e + excitation, e = reference - y;  ic = u limited to +-limit
 //            (docs/derivations_law.md eq. (L1)-(L10)). Order: lead-lags, notches, PID. For a linear
@@ -21,6 +22,7 @@
 #include "common/axes.hpp"
 #include "controller/law/discrete_law.hpp"
 #include "controller/law/law_config.hpp"
+#include "controller/law/state_space_law.hpp"
 
 namespace levitas::law {
 
@@ -53,8 +55,14 @@ class LawCoefficients {
     return lead_lags_;
   }
   [[nodiscard]] const std::vector<SecondOrderLanes>& notches() const noexcept { return notches_; }
+  [[nodiscard]] const std::optional<StateSpaceCoefficients>& state_space() const noexcept {
+    return state_space_;
+  }
 
  private:
+  void BuildAxes(const LawConfig& config);
+
+  std::optional<StateSpaceCoefficients> state_space_;
   std::size_t axes_{};
   PidLanes pid_;
   std::vector<FirstOrderLanes> lead_lags_;
@@ -74,6 +82,7 @@ class LawState {
   std::vector<TwoDelays> notches;
   Lanes integral_a;    ///< [A] what the integrator contributes, before the newest error
   Lanes derivative_a;  ///< [A] memory of the derivative filter
+  StateSpaceState state_space;
 };
 
 struct LawOutput {

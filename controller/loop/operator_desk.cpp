@@ -69,12 +69,13 @@ cycle::OperatorInput OperatorDesk::Next(const OperatorView& view) noexcept {
   }
   if (Ending(view)) return Stop(view);
   if (player_ != nullptr) {
-    const auto played =
-        player_->Next(view.mode, view.speed_rad_per_s, view.fault, view.command_refused);
+    const auto played = player_->Next(view.mode, view.speed_rad_per_s, view.fault,
+                                      view.command_refused, view.radius_m);
     input.command = played.command;
     input.speed_rad_per_s = played.speed_rad_per_s;
     input.acceleration_rad_per_s2 = played.acceleration_rad_per_s2;
     input.excitation_a = played.excitation_a;
+    input.excitation_m = played.excitation_m;
   }
   return input;
 }

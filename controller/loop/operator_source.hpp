@@ -18,6 +18,7 @@ struct OperatorView {
   bool amplifiers_enabled{};
   bool command_refused{};    ///< the previous cycle's command was not allowed
   double speed_rad_per_s{};  ///< as the newest frame says
+  double radius_m{};         ///< largest of any bearing in the newest frame
 };
 
 class OperatorSource {

@@ -30,6 +30,7 @@ std::string_view Name(Outcome outcome) noexcept {
 ScenarioPlayer::ScenarioPlayer(ScenarioConfig config, double period_s, double standstill_rad_per_s)
     : config_(std::move(config)),
       standstill_rad_per_s_(standstill_rad_per_s),
+      limiter_(period_s),
       outcome_(config_.steps.empty() ? Outcome::kFinished : Outcome::kPlaying) {
   if (!(period_s > 0.0))
     throw std::invalid_argument("scenario player: the period must be positive");
@@ -38,8 +39,9 @@ ScenarioPlayer::ScenarioPlayer(ScenarioConfig config, double period_s, double st
     std::vector<Source>& sources = sources_.emplace_back();
     for (const Excitation& e : step.excitation) {
       if (e.axis >= kMaxAxes) throw std::invalid_argument("scenario player: no such axis");
+      const bool current = e.point == Injection::kControlCurrent;
       sources.push_back(
-          {Prbs(e.order, e.start), e.axis, e.amplitude_a, std::max<std::uint32_t>(e.divisor, 1)});
+          {Signal(e, period_s), e.axis, e.point, current ? e.amplitude_a : e.amplitude_m});
     }
   }
 }
@@ -69,8 +71,8 @@ bool ScenarioPlayer::Ended(Fault fault, bool refused) noexcept {
   return outcome_ != Outcome::kPlaying;
 }
 
-PlayerOutput ScenarioPlayer::Next(Mode mode, double speed_rad_per_s, Fault fault,
-                                  bool refused) noexcept {
+PlayerOutput ScenarioPlayer::Next(Mode mode, double speed_rad_per_s, Fault fault, bool refused,
+                                  double radius_m) noexcept {
   PlayerOutput output;
   last_mode_ = mode;
   last_speed_rad_per_s_ = speed_rad_per_s;
@@ -91,7 +93,7 @@ PlayerOutput ScenarioPlayer::Next(Mode mode, double speed_rad_per_s, Fault fault
   }
   if (phase_ == Phase::kHold) {
     if (cycles_in_phase_ < timing_[step_].hold_cycles) {
-      Excite(output);
+      Excite(output, radius_m);
       ++cycles_in_phase_;
       return output;
     }
@@ -118,12 +120,14 @@ void ScenarioPlayer::Give(PlayerOutput& output) noexcept {
   cycles_in_phase_ = 0;
 }
 
-void ScenarioPlayer::Excite(PlayerOutput& output) noexcept {
+void ScenarioPlayer::Excite(PlayerOutput& output, double radius_m) noexcept {
+  if (sources_[step_].empty()) return;
+  if (cycles_in_phase_ == 0) limiter_.Reset();
+  const double gain = limiter_.Next(radius_m, config_.steps[step_].orbit_limit_m);
   for (Source& source : sources_[step_]) {
-    if (cycles_in_phase_ % source.divisor == 0) {
-      source.present_a = source.sequence.Next() ? source.amplitude_a : -source.amplitude_a;
-    }
-    output.excitation_a[source.axis] += source.present_a;
+    const double value = gain * (source.amplitude * source.signal.Next());
+    (source.point == Injection::kControlCurrent ? output.excitation_a
+                                                : output.excitation_m)[source.axis] += value;
   }
 }
 

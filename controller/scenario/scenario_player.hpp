@@ -18,8 +18,9 @@
 
 #include "common/axes.hpp"
 #include "common/enums.hpp"
-#include "controller/scenario/prbs.hpp"
+#include "controller/scenario/orbit_limiter.hpp"
 #include "controller/scenario/scenario_config.hpp"
+#include "controller/scenario/signal.hpp"
 
 namespace levitas::scenario {
 
@@ -28,6 +29,7 @@ struct PlayerOutput {
   double speed_rad_per_s{};          ///< with kSpin
   double acceleration_rad_per_s2{};  ///< with kSpin
   AxisArray excitation_a{};          ///< [A] per axis, to be added to the control current
+  AxisArray excitation_m{};          ///< [m] per axis, to be added to the measured position
 };
 
 enum class Outcome : std::uint8_t { kPlaying, kFinished, kRefused, kTimedOut, kTripped };
@@ -44,9 +46,10 @@ class ScenarioPlayer {
   /// std::invalid_argument for a period that is not positive or an axis beyond kMaxAxes.
   ScenarioPlayer(ScenarioConfig config, double period_s, double standstill_rad_per_s);
 
-  /// `mode`, `fault` and `refused` are the controller's outputs of the previous cycle.
+  /// `mode`, `fault` and `refused` are the controller's outputs of the previous cycle; `radius_m`
+  /// is the largest of any bearing in the newest frame.
   [[nodiscard]] PlayerOutput Next(Mode mode, double speed_rad_per_s, Fault fault,
-                                  bool refused = false) noexcept;
+                                  bool refused = false, double radius_m = 0.0) noexcept;
 
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
   [[nodiscard]] bool finished() const noexcept { return outcome_ == Outcome::kFinished; }
@@ -59,11 +62,10 @@ class ScenarioPlayer {
  private:
   enum class Phase : std::uint8_t { kCommand, kWait, kHold };
   struct Source {
-    Prbs sequence;
+    Signal signal;
     std::size_t axis{};
-    double amplitude_a{};
-    std::uint32_t divisor{};
-    double present_a{};
+    Injection point{};
+    double amplitude{};  ///< [A] or [m]
   };
   struct Timing {
     std::uint64_t timeout_cycles{};
@@ -72,7 +74,7 @@ class ScenarioPlayer {
 
   [[nodiscard]] bool Reached(const Step& step, Mode mode, double speed_rad_per_s) const noexcept;
   [[nodiscard]] bool Ended(Fault fault, bool refused) noexcept;
-  void Excite(PlayerOutput& output) noexcept;
+  void Excite(PlayerOutput& output, double radius_m) noexcept;
   void Give(PlayerOutput& output) noexcept;
   [[nodiscard]] std::string Why() const;
 
@@ -80,6 +82,7 @@ class ScenarioPlayer {
   double standstill_rad_per_s_;
   std::vector<Timing> timing_;                // one per step
   std::vector<std::vector<Source>> sources_;  // one list per step
+  OrbitLimiter limiter_;
   std::size_t step_{0};
   Phase phase_{Phase::kCommand};
   std::uint64_t cycles_in_phase_{0};

@@ -109,7 +109,7 @@ void Protections::Count(const Observation& seen, bool energised) noexcept {
     last_position_m_[i] = position_m;
   }
   has_position_ = true;
-  for (std::size_t b = 0; 2 * b + 1 < axes_; ++b) {
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
     const double radius_m = Radius(seen, b);
     CountWhile(radius_m > orbit_limit_m_, beyond_orbit_[b]);
     std::uint32_t& contact = in_contact_[b];
@@ -208,14 +208,14 @@ Finding Protections::AmplifierFault(const Observation& seen) const noexcept {
 }
 
 Finding Protections::Orbit(const Observation& seen) const noexcept {
-  for (std::size_t b = 0; 2 * b + 1 < axes_; ++b) {
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
     if (beyond_orbit_[b] >= config_.orbit_cycles) return OrbitFinding(seen, b, orbit_limit_m_);
   }
   return {};
 }
 
 Finding Protections::Contact(const Observation& seen) const noexcept {
-  for (std::size_t b = 0; 2 * b + 1 < axes_; ++b) {
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
     if (in_contact_[b] >= contact_limit_cycles_) return OrbitFinding(seen, b, clearance_m_);
   }
   return {};

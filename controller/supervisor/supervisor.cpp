@@ -253,7 +253,7 @@ bool Supervisor::Standing(const Observation& seen) const noexcept {
 
 Finding Supervisor::FarthestBearing(const Observation& seen, double limit_m) const noexcept {
   Finding farthest{Fault::kNone, -1, 0.0, limit_m};
-  for (std::size_t b = 0; 2 * b + 1 < axes_; ++b) {
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
     const double x_m = seen.position_m[2 * b];
     const double y_m = seen.position_m[2 * b + 1];
     const double radius_m = std::sqrt(x_m * x_m + y_m * y_m);

@@ -99,6 +99,11 @@ void CheckConfig(const PlantConfig& config) {
   for (std::size_t i = 0; i < config.bearings.size(); ++i) {
     CheckBearing(config.bearings[i], fmt::format("bearings[{}].", i));
   }
+  for (const auto& bearing : config.bearings) {
+    if (!bearing.x_only || config.bearings.size() == 1) continue;
+    throw std::invalid_argument(
+        "x_only is for a rig with one bearing; give the others' y axes too");
+  }
   for (std::size_t i = 0; i < 2 * config.bearings.size(); ++i) {
     for (const auto* polarity : {&config.sensor_polarity, &config.actuator_polarity}) {
       if (std::abs((*polarity)[i]) == 1.0) continue;

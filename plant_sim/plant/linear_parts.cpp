@@ -122,6 +122,11 @@ void AddRotor(const PlantModel& model, double speed_rad_per_s, Eigen::MatrixXd& 
     a.block(v, q, n, n) = (-w.square()).matrix().asDiagonal();
     a.block(v, v, n, n) = (-2.0 * damping * w).matrix().asDiagonal();
   }
+  if (model.guided()) {
+    const double guide = 2.0 * std::numbers::pi * kGuideFrequency_hz;
+    a.block(At(at.v_y), At(at.q_y), n, n).diagonal().setConstant(-guide * guide);
+    a.block(At(at.v_y), At(at.v_y), n, n).diagonal().setConstant(-2.0 * kGuideDamping * guide);
+  }
   a.block(At(at.v_x), At(at.v_y), n, n) = -speed_rad_per_s * gyroscopic;
   a.block(At(at.v_y), At(at.v_x), n, n) = speed_rad_per_s * gyroscopic;
 }

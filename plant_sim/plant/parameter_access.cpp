@@ -80,10 +80,11 @@ std::vector<Entry> Entries(PlantParameters& p) {
       {"drive.max_acceleration_rad_per_s2", &p.config.drive.max_acceleration_rad_per_s2});
   entries.push_back({"drive.coast_down_1_per_s", &p.config.drive.coast_down_1_per_s});
   entries.push_back({"drive.coast_down_rad_per_s2", &p.config.drive.coast_down_rad_per_s2});
-  // The two rigid modes have neither frequency nor damping: a free rotor's cannot be set. Geared
+  // The rigid modes have neither frequency nor damping: a free rotor's cannot be set. Geared
   // shafts that stand on springs have none.
   const bool one_rotor = p.config.shafts.empty();
-  for (Eigen::Index i = one_rotor ? 2 : 0; i < p.modes.frequency_rad_per_s.size(); ++i) {
+  for (Eigen::Index i = one_rotor ? p.modes.rigid_modes : 0; i < p.modes.frequency_rad_per_s.size();
+       ++i) {
     if (!one_rotor && p.modes.frequency_rad_per_s[i] == 0.0) continue;
     const std::string at = fmt::format("rotor.modes[{}].", i);
     entries.push_back({at + "frequency_hz", &p.modes.frequency_rad_per_s[i], 1.0 / kTwoPi});

@@ -33,11 +33,11 @@ SensorFrame Plant::Sample() noexcept {
   SensorFrame frame;
   frame.cycle = self.cycle;
   frame.sample_time_ns = static_cast<std::int64_t>(self.cycle) * model.config().period_ns;
-  frame.axes = static_cast<std::uint32_t>(model.axes());
+  frame.axes = static_cast<std::uint32_t>(model.channels());
   if (!self.LatestActing().enabled) frame.rig_status |= kRigAmplifiersOff;
   AxisArray output_m = self.Outputs();
   if (model.effects().jitter_s > 0.0) self.Jitter(output_m);
-  for (std::size_t axis = 0; axis < model.axes(); ++axis) {
+  for (std::size_t axis = 0; axis < model.channels(); ++axis) {
     frame.position_m[axis] = model.config().sensor_polarity[axis] * self.Read(axis, output_m[axis]);
   }
   frame.speed_rad_per_s = self.rotation.speed_rad_per_s;

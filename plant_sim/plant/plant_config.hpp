@@ -53,6 +53,7 @@ struct BearingConfig {
   AmplifierConfig amplifier;
   SensorConfig sensor;
   TouchdownConfig touchdown;
+  bool x_only{};  ///< no coils and no probe in y, where a guide holds the rotor; a lone bearing's
 };
 
 struct UnbalanceMass {

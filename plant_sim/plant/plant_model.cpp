@@ -1,6 +1,5 @@
 #include "plant_sim/plant/plant_model.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +28,7 @@ PlantParameters Reduce(const PlantConfig& config) {
     planes.push_back(bearing.sensor_z_m);
   }
   for (const auto& mass : config.unbalance) planes.push_back(mass.z_m);
+  if (config.rotor.given) return {config, rotor::FromGivenModes(*config.rotor.given, planes)};
   const auto model = rotor::Assemble(config.rotor, planes);
   return {config,
           rotor::Reduce(model, config.rotor.modes_per_plane, config.rotor.modal_damping_ratio)};
@@ -93,13 +93,7 @@ void PlantModel::BuildRotor() {
   for (const auto& mass : config().unbalance) {
     unbalance_shapes_.push_back(ToVector(rotor.ShapeAt(mass.z_m)));
   }
-  // The rigid modes span translation and slope; invert that relation at both shaft ends.
-  const Eigen::Index last = rotor.shapes.rows() - 1;
-  Eigen::Matrix2d ends;
-  ends << rotor.shapes(0, 0), rotor.shapes(0, 1), rotor.shapes(last, 0), rotor.shapes(last, 1);
-  Eigen::Matrix2d wanted;
-  wanted << 1.0, rotor.node_z_m.front(), 1.0, rotor.node_z_m.back();
-  nominal_rigid_.topRows(2) = ends.inverse() * wanted;
+  nominal_rigid_ = rotor.rigid;
   rigid_ = nominal_rigid_;
 }
 
@@ -115,7 +109,8 @@ void PlantModel::RefreshRotor() noexcept {
   // Phi^T M e: flexible modes are orthogonal to a translation, gravity does not excite them, (12).
   std::fill(gravity_.begin(), gravity_.end(), 0.0);
   std::fill(unbalance_.begin(), unbalance_.end(), 0.0);
-  for (std::size_t i = 0; i < 2 && train_.shafts == 0; ++i) {
+  const auto rigid_modes = static_cast<std::size_t>(rotor.rigid_modes);
+  for (std::size_t i = 0; i < rigid_modes && train_.shafts == 0; ++i) {
     const double weight = config().gravity_m_per_s2 * rigid_(static_cast<Eigen::Index>(i), 0);
     gravity_[i] = weight * gravity_direction_[0];
     gravity_[modes + i] = weight * gravity_direction_[1];
@@ -130,7 +125,7 @@ void PlantModel::RefreshRotor() noexcept {
   }
   const double rigid = RigidScale();
   for (std::size_t i = 0; i < 2 * modes; ++i) {
-    const double scale = i % modes < 2 ? rigid : 1.0;
+    const double scale = i % modes < rigid_modes ? rigid : 1.0;
     unbalance_[i] = scale * (unbalance_[i] + now_.unbalance[i]);
     gravity_[i] += scale * now_.static_load[i];
   }
@@ -182,7 +177,7 @@ void PlantModel::RefreshShapes() noexcept {
   const double rigid = RigidScale();
   if (rigid == 1.0) return;
   for (BearingModel& bearing : bearings_) {
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(parameters_.modes.rigid_modes); ++i) {
       bearing.actuator_shape[i] *= rigid;
       bearing.sensor_shape[i] *= rigid;
     }

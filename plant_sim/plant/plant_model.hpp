@@ -29,6 +29,11 @@ namespace levitas::plant {
 /// Finite elements and modal reduction. Throws std::invalid_argument.
 [[nodiscard]] PlantParameters Reduce(const PlantConfig& config);
 
+/// What holds the y direction of a rotor whose only bearing acts in x: stiff, and damped enough to
+/// come to rest within a few of its periods.
+inline constexpr double kGuideFrequency_hz = 1000.0;
+inline constexpr double kGuideDamping = 0.5;
+
 /// Constants of one step length. Arrays run over the modes of both planes: x plane, then y plane;
 /// behind them the torsional modes.
 struct StepTable {
@@ -61,6 +66,13 @@ class PlantModel {
   [[nodiscard]] const PlantConfig& config() const noexcept { return parameters_.config; }
   [[nodiscard]] const StateLayout& layout() const noexcept { return layout_; }
   [[nodiscard]] std::size_t axes() const noexcept { return 2 * bearings_.size(); }
+  /// A lone bearing that acts in x only: its y coils carry their bias and are never commanded, its
+  /// y probe is never read, a guide holds the rotor.
+  [[nodiscard]] bool guided() const noexcept {
+    return !config().bearings.empty() && config().bearings.front().x_only;
+  }
+  /// What a frame holds.
+  [[nodiscard]] std::size_t channels() const noexcept { return guided() ? 1 : axes(); }
   [[nodiscard]] const std::vector<BearingModel>& bearings() const noexcept { return bearings_; }
   /// Before and after the instant, within a period, at which the delayed command changes; the first
   /// has no substeps when the delay is a whole number of samples.

@@ -37,9 +37,8 @@ Line Fit(const PlantModel& model, const PerBearing& value) noexcept {
 }
 
 void AddLine(const PlantModel& model, const Line& line, double* modal) noexcept {
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    modal[i] += line.offset * model.rigid()(row, 0) + line.slope * model.rigid()(row, 1);
+  for (Eigen::Index row = 0; row < model.parameters().modes.rigid_modes; ++row) {
+    modal[row] += line.offset * model.rigid()(row, 0) + line.slope * model.rigid()(row, 1);
   }
 }
 
@@ -103,7 +102,8 @@ void PlaceInTouchdown(const PlantModel& model, std::span<double> state) noexcept
   // body, onto the two bearings. The y plane gets the same shape, scaled by the direction.
   const PerBearing reaction_n = Reactions(model);
   double* modal = state.data() + at.q_x;
-  for (std::size_t i = 2; i < at.modes; ++i) {
+  const auto rigid_modes = static_cast<std::size_t>(model.parameters().modes.rigid_modes);
+  for (std::size_t i = rigid_modes; i < at.modes; ++i) {
     const double w = model.parameters().modes.frequency_rad_per_s[static_cast<Eigen::Index>(i)];
     for (std::size_t b = 0; b < model.bearings().size(); ++b) {
       modal[i] -= model.bearings()[b].actuator_shape[i] * reaction_n[b] / (w * w);

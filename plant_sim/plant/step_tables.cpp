@@ -73,7 +73,9 @@ void PlantModel::RefreshStep(StepTable& table, double share) noexcept {
     const ModeStep step =
         MakeModeStep(now_.frequency_rad_per_s[i], now_.damping_ratio[i], table.duration_s);
     store(i, step);
-    store(modes + i, step);
+    store(modes + i, guided() ? MakeModeStep(2.0 * std::numbers::pi * kGuideFrequency_hz,
+                                             kGuideDamping, table.duration_s)
+                              : step);
   }
   for (std::size_t i = 0; i < layout_.twists; ++i) {
     const auto mode = static_cast<Eigen::Index>(i);

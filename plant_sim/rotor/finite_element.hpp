@@ -37,6 +37,11 @@ struct WhirlFrequencies {
 [[nodiscard]] WhirlFrequencies FreeWhirl(const FiniteElementModel& model, double speed_rad_per_s,
                                          std::size_t count);
 
+struct ModalRotor;
+/// The same of a rotor in modal coordinates.
+[[nodiscard]] WhirlFrequencies FreeWhirl(const ModalRotor& modal, double speed_rad_per_s,
+                                         std::size_t count);
+
 /// Modal coordinates of one plane, mass-normalised: q'' + 2 z w q' + w^2 q - j W G q' = Phi^T f.
 struct ModalRotor {
   Eigen::VectorXd frequency_rad_per_s;  ///< 0 for the rigid modes, which come first
@@ -47,6 +52,8 @@ struct ModalRotor {
   std::vector<double> node_z_m;
   double total_mass_kg{};
   std::vector<std::size_t> node_shaft;  ///< shaft that each node is on; empty: all on shaft 0
+  Eigen::Index rigid_modes{2};  ///< 1 for a rotor that cannot tilt
+  Eigen::MatrixX2d rigid;  ///< modal coordinates of a unit shift and of a unit slope about z = 0
 
   /// Row of `shapes` at a plane that is a node (within 1e-9 m); throws std::invalid_argument else.
   [[nodiscard]] Eigen::RowVectorXd ShapeAt(double z_m, std::size_t shaft = 0) const;
@@ -54,5 +61,11 @@ struct ModalRotor {
 
 [[nodiscard]] ModalRotor Reduce(const FiniteElementModel& model, std::size_t modes_per_plane,
                                 double modal_damping_ratio);
+
+/// The same from given modes, with a node at each of `planes_m`. A rigid body of mass m, transverse
+/// inertia It and polar inertia Ip about zc: shapes 1/sqrt(m) and (z - zc)/sqrt(It), gyroscopic
+/// Ip/It; a mode of modal mass M: shape/sqrt(M). Throws std::invalid_argument for impossible
+/// numbers.
+[[nodiscard]] ModalRotor FromGivenModes(const GivenRotor& rotor, std::vector<double> planes_m);
 
 }  // namespace levitas::rotor

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -47,18 +48,27 @@ Modes StandstillModes(const FiniteElementModel& model) {
   return modes;
 }
 
-}  // namespace
+// The rigid modes span translation and slope; that relation, inverted at both shaft ends.
+Eigen::MatrixX2d RigidCoordinates(const ModalRotor& modal) {
+  const Eigen::Index last = modal.shapes.rows() - 1;
+  Eigen::Matrix2d ends;
+  ends << modal.shapes(0, 0), modal.shapes(0, 1), modal.shapes(last, 0), modal.shapes(last, 1);
+  Eigen::Matrix2d wanted;
+  wanted << 1.0, modal.node_z_m.front(), 1.0, modal.node_z_m.back();
+  Eigen::MatrixX2d rigid = Eigen::MatrixX2d::Zero(modal.shapes.cols(), 2);
+  rigid.topRows(2) = ends.inverse() * wanted;
+  return rigid;
+}
 
-WhirlFrequencies FreeWhirl(const FiniteElementModel& model, double speed_rad_per_s,
-                           std::size_t count) {
-  const Modes modes = StandstillModes(model);
-  const Eigen::Index n = modes.frequency_rad_per_s.size();
-  const Eigen::MatrixXd gyroscopic = modes.vectors.transpose() * model.gyroscopic * modes.vectors;
+WhirlFrequencies Whirl(const Eigen::VectorXd& frequency_rad_per_s,
+                       const Eigen::MatrixXd& gyroscopic, double speed_rad_per_s,
+                       std::size_t count) {
+  const Eigen::Index n = frequency_rad_per_s.size();
   // u e^{j l t}: l^2 u = w^2 u + l W G u. With (w u, l u) as unknowns the companion form is
   // symmetric, (9): real eigenvalues, and no loss of digits from w^2 of the highest modes.
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  companion.topRightCorner(n, n) = modes.frequency_rad_per_s.asDiagonal();
-  companion.bottomLeftCorner(n, n) = modes.frequency_rad_per_s.asDiagonal();
+  companion.topRightCorner(n, n) = frequency_rad_per_s.asDiagonal();
+  companion.bottomLeftCorner(n, n) = frequency_rad_per_s.asDiagonal();
   companion.bottomRightCorner(n, n) = speed_rad_per_s * gyroscopic;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(companion);
 
@@ -77,6 +87,20 @@ WhirlFrequencies FreeWhirl(const FiniteElementModel& model, double speed_rad_per
     side->resize(std::min(side->size(), count));
   }
   return whirl;
+}
+
+}  // namespace
+
+WhirlFrequencies FreeWhirl(const FiniteElementModel& model, double speed_rad_per_s,
+                           std::size_t count) {
+  const Modes modes = StandstillModes(model);
+  return Whirl(modes.frequency_rad_per_s,
+               modes.vectors.transpose() * model.gyroscopic * modes.vectors, speed_rad_per_s,
+               count);
+}
+
+WhirlFrequencies FreeWhirl(const ModalRotor& modal, double speed_rad_per_s, std::size_t count) {
+  return Whirl(modal.frequency_rad_per_s, modal.gyroscopic, speed_rad_per_s, count);
 }
 
 Eigen::RowVectorXd ModalRotor::ShapeAt(double z_m, std::size_t shaft) const {
@@ -115,6 +139,7 @@ ModalRotor Reduce(const FiniteElementModel& model, std::size_t modes_per_plane,
   modal.slopes = phi(odd, Eigen::all);
   modal.node_z_m = model.node_z_m;
   modal.total_mass_kg = model.total_mass_kg;
+  modal.rigid = RigidCoordinates(modal);
   return modal;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
-// Description of a rotor for the finite-element model. z runs along the shaft from the drive end.
+// Description of a rotor, for the finite-element model or as a rigid body with given modes. z runs
+// along the shaft from the drive end.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace levitas::rotor {
@@ -36,14 +38,38 @@ struct Ring {
   double density_kg_per_m3{};
 };
 
+/// Deflection of a mode at a place of the shaft.
+struct ShapePoint {
+  double z_m{};
+  double deflection{};  ///< [1] in the scale that the modal mass belongs to
+};
+
+/// A bending mode as a measurement or a publication gives it.
+struct GivenMode {
+  double frequency_hz{};  ///< of the free rotor at rest
+  double damping_ratio{};
+  double modal_mass_kg{};
+  std::vector<ShapePoint> shape;  ///< straight between its points, ascending in z
+};
+
+/// A rotor known by its rigid body and its modes instead of its drawing.
+struct GivenRotor {
+  double mass_kg{};
+  double transverse_inertia_kg_m2{};  ///< about the centre of mass; 0: it cannot tilt
+  double polar_inertia_kg_m2{};       ///< of the tilting rigid body; the modes have none of it
+  double centre_z_m{};                ///< centre of mass
+  std::vector<GivenMode> modes;
+};
+
 struct RotorConfig {
   Material material;
   std::vector<Section> sections;
   std::vector<Disc> discs;
   std::vector<Ring> rings;
-  double max_element_length_m{};  ///< sections are divided into equal elements not longer
-  std::size_t modes_per_plane{};  ///< rigid ones included; 0 keeps all
-  double modal_damping_ratio{};   ///< of every flexible mode; rigid modes are undamped
+  double max_element_length_m{};    ///< sections are divided into equal elements not longer
+  std::size_t modes_per_plane{};    ///< rigid ones included; 0 keeps all
+  double modal_damping_ratio{};     ///< of every flexible mode; rigid modes are undamped
+  std::optional<GivenRotor> given;  ///< when there, it is the rotor and nothing above counts
 };
 
 }  // namespace levitas::rotor

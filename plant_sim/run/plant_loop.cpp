@@ -27,6 +27,7 @@ SensorFrame PlantLoop::Sample(std::int64_t sample_time_ns) noexcept {
   frame.rig_session = options_.rig_session;
   frame.rig_status |= status_ | gate_status_;
   frame.held_currents = static_cast<std::uint32_t>(statistics_.held_currents);
+  if (timed_events_ != nullptr) timed_events_->Disturb(frame.cycle, frame);
   return frame;
 }
 
@@ -84,6 +85,7 @@ void PlantLoop::Advance() noexcept {
   const bool timed = statistics_.cycles % kTimeEvery == 0;
   const plant::PlantCommand command = Allowed();
   const std::int64_t start_ns = timed ? clock_.NowNs() : 0;
+  if (timed_events_ != nullptr) timed_events_->Change(statistics_.cycles, plant_);
   plant_.Advance(command);
   if (gate_ != nullptr) gate_->Turn(plant_.angle_rad());
   if (timed) statistics_.advance.Add(clock_.NowNs() - start_ns);
@@ -104,6 +106,7 @@ bool PlantLoop::AwaitCurrent(std::uint64_t cycle, std::int64_t deadline_ns,
       return false;
     }
     if (current.cycle == cycle) {
+      if (timed_events_ != nullptr) timed_events_->Answered(cycle);
       Take(current);
       return true;
     }

@@ -23,6 +23,7 @@
 #include "controller/port/rig_link.hpp"
 #include "controller/rt/clock.hpp"
 #include "plant_sim/plant/plant.hpp"
+#include "plant_sim/run/timed_events.hpp"
 
 namespace levitas::plant_run {
 
@@ -81,8 +82,13 @@ class PlantLoop {
  public:
   /// Keeps references to all of them.
   PlantLoop(const PlantLoopOptions& options, plant::Plant& plant, port::RigLink& link,
-            rt::Clock& clock, AmplifierGate* gate = nullptr)
-      : options_(options), plant_(plant), link_(link), clock_(clock), gate_(gate) {}
+            rt::Clock& clock, AmplifierGate* gate = nullptr, TimedEvents* timed = nullptr)
+      : options_(options),
+        plant_(plant),
+        link_(link),
+        clock_(clock),
+        gate_(gate),
+        timed_events_(timed) {}
 
   /// Returns after the controller's goodbye (unless it stays), or after Stop.
   void Run() noexcept;
@@ -118,6 +124,7 @@ class PlantLoop {
   port::RigLink& link_;
   rt::Clock& clock_;
   AmplifierGate* gate_;
+  TimedEvents* timed_events_;
   SpscRing<RigEvent> events_{256};
   PlantStatistics statistics_;
   plant::PlantCommand command_{.amplifiers_enabled = false};

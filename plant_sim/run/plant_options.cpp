@@ -10,6 +10,9 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
   CLI::App app{program.description, program.name};
   const std::map<std::string, bool> paces{{"lockstep", false}, {"realtime", true}};
   app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
+  app.add_option(
+      "--scenario", options.scenario,
+      "Scenario whose rig_events happen to the rig; a file, or the name of a shipped one");
   app.add_option("--port", options.port, program.port_help)->capture_default_str();
   app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
       ->transform(CLI::Transformer(paces))

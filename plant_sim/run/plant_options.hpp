@@ -10,6 +10,7 @@ namespace levitas::plant_run {
 
 struct PlantOptions {
   std::string rig;          ///< path or shipped name
+  std::string scenario;     ///< path or shipped name; empty: nothing happens to the rig
   std::string port{"lcm"};  ///< lcm or lcm:URL
   bool realtime{false};
   std::uint64_t seed{1};

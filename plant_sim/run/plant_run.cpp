@@ -124,6 +124,12 @@ ExitStatus RunPlant(const PlantSetup& setup) {
   const PlantOptions& options = setup.options;
   const RigNumbers& numbers = setup.rig.numbers;
   plant::Plant plant(setup.rig.plant, options.seed);
+  scenario::ScenarioConfig scenario;
+  if (!options.scenario.empty()) {
+    scenario = config::LoadScenario(config::FindConfig(options.scenario, "scenarios"), numbers);
+  }
+  TimedEvents events(scenario, setup.rig);
+  events.Prepare(plant);
   plant.RestInTouchdown();
   rt::MonotonicClock clock;
   PlantLoop loop({.realtime = options.realtime,
@@ -132,7 +138,7 @@ ExitStatus RunPlant(const PlantSetup& setup) {
                   .stay = options.stay,
                   .watchdog_periods = options.watchdog_periods,
                   .silence_ns = setup.silence_ns},
-                 plant, setup.link, clock, setup.gate);
+                 plant, setup.link, clock, setup.gate, &events);
   rt::CatchStopSignals();
   const std::unique_ptr<rt::RealTimeGuard> guard = PrepareRealTime(setup);
   fmt::print(stderr, "{}: rig {}, {} axes, {} pace, {}\n", setup.program.name, numbers.name,

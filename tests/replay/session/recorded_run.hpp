@@ -54,7 +54,7 @@ class RecordedRun {
   }
   void Command(OperatorCommand command, double speed_rpm = 0.0, double rpm_per_s = 0.0) {
     Step([&](cycle::CycleInputs& in) {
-      in.op = {command, speed_rpm * test::kRpm, rpm_per_s * test::kRpm, {}};
+      in.op = {command, speed_rpm * test::kRpm, rpm_per_s * test::kRpm, {}, {}};
     });
   }
   bool RunUntil(Mode mode, int most_cycles) {
@@ -81,7 +81,10 @@ inline std::vector<cycle::CycleRecord> EventfulRun() {
   run.Command(OperatorCommand::kLift);
   EXPECT_TRUE(run.RunUntil(Mode::kLevitating, 30'000));
   for (int i = 0; i < 2000; ++i) {
-    run.Step([&](cycle::CycleInputs& in) { in.op.excitation_a = DrawAxes(draw, 0.05); });
+    run.Step([&](cycle::CycleInputs& in) {
+      in.op.excitation_a = DrawAxes(draw, 0.05);
+      in.op.excitation_m = DrawAxes(draw, 2e-6);
+    });
   }
   run.Command(OperatorCommand::kSpin, 600.0, 1000.0);
   for (int i = 0; i < 5000; ++i) {

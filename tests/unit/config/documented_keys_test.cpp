@@ -109,7 +109,8 @@ TEST(WrittenFiles, HoldNoKeyThatIsNotDocumented) {
   for (const std::string& channel : rig.numbers.channels) documented.insert(channel);
   for (const std::string& text :
        {WriteRig(rig), WriteController(FullController(rig.numbers), rig.numbers),
-        WriteScenario(FullScenario(rig.numbers))}) {
+        WriteScenario(FullScenario(rig.numbers)), WriteScenario(EventfulScenario(rig.numbers)),
+        WriteRig(ModalRig())}) {
     for (const auto& [key, line] : WrittenKeys(text)) {
       EXPECT_TRUE(documented.contains(key)) << line;
     }

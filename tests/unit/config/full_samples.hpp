@@ -48,4 +48,35 @@ inline scenario::ScenarioConfig FullScenario(const RigNumbers& rig) {
   return scenario;
 }
 
+/// A rotor of given modes, and the state-space law that goes with it.
+inline RigFile ModalRig() { return LoadRig(FindConfig("turbomolecular_pump", "rigs")); }
+
+inline ControllerFile StateSpaceController(const RigNumbers& rig) {
+  return LoadController(FindConfig("turbomolecular_pump", "controllers"), rig);
+}
+
+/// Every kind of signal at both points, and every kind of event.
+inline scenario::ScenarioConfig EventfulScenario(const RigNumbers& rig) {
+  const std::string channel = rig.channels[1];
+  std::string text = "kind: scenario\nname: eventful\nsteps:\n  - do: nothing\n    hold_s: 1\n";
+  text += "    excitation:\n";
+  const auto add = [&](const std::string& rest) {
+    text += "      - {channel: " + channel + ", " + rest + "}\n";
+  };
+  add("amplitude_a: 0.1, order: 20");
+  add("signal: paprbs, point: measured_position, amplitude_um: 3, low_share: 0.2, seed: 7");
+  add("signal: stepped_sine, amplitude_ma: 50, from_hz: 3, to_hz: 400, dwell_s: 0.1");
+  add("signal: chirp, amplitude_a: 0.1, from_hz: 3, to_hz: 400, repeat_s: 2, spacing: linear");
+  add("signal: multisine, amplitude_a: 0.1, from_hz: 3, to_hz: 400, repeat_s: 0.5");
+  add("signal: impulse, amplitude_a: 0.1, width_ms: 0.5, every_s: 0.1");
+  text += "rig_events:\n";
+  for (const char* what : {"sensor_frozen", "sensor_stuck, value_um: 30", "sensor_invalid",
+                           "sensor_jump, value_um: -5"}) {
+    text += "  - {at_s: 1.5, duration_s: 0.25, channel: " + channel + ", what: " + what + "}\n";
+  }
+  text += "  - {at_s: 2, what: amplifier_fault}\n  - {at_s: 3, what: emergency_stop}\n";
+  text += "  - {at_s: 4, what: effect, effect: unbalance, strength: 0.5, ramp_s: 2}\n";
+  return ParseScenario(text, "eventful.yaml", rig);
+}
+
 }  // namespace levitas::config::test

@@ -54,6 +54,42 @@ TEST(RoundTrip, OfAScenarioKeepsEveryBit) {
   }
 }
 
+TEST(RoundTrip, OfARotorOfGivenModesKeepsEveryBit) {
+  for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
+    RigFile rig = ModalRig();
+    Jitter jitter(seed);
+    Describe(jitter, rig);
+    const RigFile back = ParseRig(WriteRig(rig), "written.yaml");
+    ASSERT_EQ(BitsOf(back), BitsOf(rig)) << "seed " << seed;
+    ASSERT_EQ(back.numbers.channels, rig.numbers.channels);
+  }
+}
+
+TEST(RoundTrip, OfAStateSpaceLawKeepsEveryBit) {
+  const RigNumbers rig = ModalRig().numbers;
+  for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
+    ControllerFile controller = StateSpaceController(rig);
+    Jitter jitter(seed);
+    Describe(jitter, controller, rig);
+    const std::string text = WriteController(controller, rig);
+    const ControllerFile back = ParseController(text, "written.yaml", rig);
+    ASSERT_EQ(BitsOf(back, rig), BitsOf(controller, rig)) << "seed " << seed;
+    ASSERT_EQ(WriteController(back, rig), text);
+  }
+}
+
+TEST(RoundTrip, OfEverySignalAndEventKeepsEveryBit) {
+  const RigNumbers rig = FullRig().numbers;
+  for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
+    scenario::ScenarioConfig scenario = EventfulScenario(rig);
+    Jitter jitter(seed);
+    Describe(jitter, scenario, rig);
+    const std::string text = WriteScenario(scenario);
+    ASSERT_EQ(BitsOf(ParseScenario(text, "written.yaml", rig), rig), BitsOf(scenario, rig))
+        << "seed " << seed;
+  }
+}
+
 TEST(RoundTrip, KeepsNamesPolarityAndChannels) {
   RigFile rig = FullRig();
   rig.plant.sensor_polarity[3] = -1.0;

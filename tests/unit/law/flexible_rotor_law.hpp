@@ -22,7 +22,8 @@ inline LawConfig FlexibleRotorLaw() {
   return {{FlexibleRotorAxis(), FlexibleRotorAxis(), FlexibleRotorAxis(2.1294),
            FlexibleRotorAxis(2.1294)},
           kPeriodS,
-          1.0};
+          1.0,
+          {}};
 }
 
 }  // namespace levitas::law

@@ -17,7 +17,7 @@ std::vector<int> OnePeriod(int order) {
 }
 
 class PrbsOrder : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(All, PrbsOrder, testing::Range(7, 24));
+INSTANTIATE_TEST_SUITE_P(All, PrbsOrder, testing::Range(2, 24));
 
 TEST_P(PrbsOrder, HoldsOneMoreOneThanZeros) {
   const std::vector<int> bits = OnePeriod(GetParam());
@@ -72,8 +72,34 @@ TEST(Prbs, StartsTheGivenFractionIntoThePeriod) {
 }
 
 TEST(Prbs, TakesTheNearestOrderForOneThatIsNotOffered) {
-  EXPECT_EQ(Prbs(3).period(), 127U);
-  EXPECT_EQ(Prbs(40).period(), (1U << 23U) - 1U);
+  EXPECT_EQ(Prbs(1).period(), 3U);
+  EXPECT_EQ(Prbs(40).period(), (1U << 31U) - 1U);
+}
+
+// Orders whose period is too long to be walked through: a register is back after 2^n - 1 steps and,
+// for no prime factor p of that, after (2^n - 1)/p already. That makes 2^n - 1 its period.
+TEST(Prbs, LongOrdersHaveTheirFullPeriodToo) {
+  const auto same = [](Prbs a, Prbs b) {
+    for (int i = 0; i < 64; ++i) {
+      if (a.Next() != b.Next()) return false;
+    }
+    return true;
+  };
+  for (int order = 2; order <= Prbs::kHighestOrder; ++order) {
+    const Prbs start(order);
+    Prbs after = start;
+    after.Skip(start.period());
+    EXPECT_TRUE(same(start, after)) << order;
+    std::uint32_t rest = start.period();
+    for (std::uint32_t p = 2; rest > 1; ++p) {
+      if (std::uint64_t{p} * p > rest) p = rest;  // what is left is prime
+      if (rest % p != 0) continue;
+      while (rest % p == 0) rest /= p;
+      Prbs early = start;
+      early.Skip(start.period() / p);
+      EXPECT_FALSE(same(start, early)) << order << ", factor " << p;
+    }
+  }
 }
 
 }  // namespace

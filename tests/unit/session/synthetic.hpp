@@ -55,6 +55,7 @@ inline cycle::CycleRecord DrawRecord(Random& draw, std::uint64_t cycle) {
               .speed_rad_per_s = 100.0 + draw.Uniform(),
               .angle_rad = 6.28 * draw.Uniform()};
   in.op.excitation_a = DrawAxes(draw, 0.01);
+  in.op.excitation_m = DrawAxes(draw, 1e-6);
   auto& out = record.out;
   out.mode = Mode::kLevitating;
   out.reference_m = DrawAxes(draw, 1e-7);
@@ -99,7 +100,8 @@ inline bool SameBits(const cycle::CycleRecord& a, const cycle::CycleRecord& b) n
          a.in.missed_deadlines == b.in.missed_deadlines && a.in.op.command == b.in.op.command &&
          SameBits(a.in.op.speed_rad_per_s, b.in.op.speed_rad_per_s) &&
          SameBits(a.in.op.acceleration_rad_per_s2, b.in.op.acceleration_rad_per_s2) &&
-         SameBits(a.in.op.excitation_a, b.in.op.excitation_a) && a.out.mode == b.out.mode &&
+         SameBits(a.in.op.excitation_a, b.in.op.excitation_a) &&
+         SameBits(a.in.op.excitation_m, b.in.op.excitation_m) && a.out.mode == b.out.mode &&
          a.out.fault == b.out.fault && a.out.fault_axis == b.out.fault_axis &&
          a.out.saturated_axes == b.out.saturated_axes &&
          SameBits(a.out.fault_value, b.out.fault_value) &&

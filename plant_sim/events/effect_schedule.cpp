@@ -1,0 +1,35 @@
+#include "plant_sim/events/effect_schedule.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace levitas::events {
+
+EffectSchedule::EffectSchedule(const std::vector<RigEvent>& events,
+                               const std::vector<std::string>& ids, std::vector<double> strengths,
+                               double period_s)
+    : strengths_(std::move(strengths)) {
+  if (!(period_s > 0.0)) throw std::invalid_argument("effects: the period must be positive");
+  strengths_.resize(ids.size(), 1.0);
+  const auto cycles = [period_s](double time_s) {
+    return static_cast<std::uint64_t>(std::ceil(std::max(time_s, 0.0) / period_s - 1e-6));
+  };
+  for (const RigEvent& event : events) {
+    if (event.kind != RigEventKind::kEffect) continue;
+    bool found = false;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (ids[i] != event.effect) continue;
+      found = true;
+      changes_.push_back(
+          {i, cycles(event.at_s), cycles(event.ramp_s), 0.0, event.strength, false, false});
+    }
+    if (!found) {
+      throw std::invalid_argument("the scenario changes the effect " + event.effect +
+                                  ", which the rig file does not list under effects");
+    }
+  }
+  std::stable_sort(changes_.begin(), changes_.end(),
+                   [](const Change& a, const Change& b) { return a.first < b.first; });
+}
+
+}  // namespace levitas::events

@@ -1,0 +1,68 @@
+#include "plant_sim/run/timed_events.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "common/problem.hpp"
+#include "plant_sim/effect/catalogue.hpp"
+
+namespace levitas::plant_run {
+namespace {
+
+std::vector<std::string> EffectIds(const plant::PlantConfig& rig) {
+  std::vector<std::string> ids;
+  ids.reserve(rig.effects.size());
+  for (const auto& entry : rig.effects) ids.emplace_back(effect::At(entry.id).name);
+  return ids;
+}
+
+std::vector<double> Strengths(const plant::PlantConfig& rig) {
+  std::vector<double> strengths;
+  strengths.reserve(rig.effects.size());
+  for (const auto& entry : rig.effects) strengths.push_back(entry.strength);
+  return strengths;
+}
+
+// A mistake of the files, not of the program, so it is said as such.
+const scenario::ScenarioConfig& Checked(const scenario::ScenarioConfig& scenario,
+                                        const config::RigFile& rig) {
+  const std::vector<std::string> ids = EffectIds(rig.plant);
+  for (const levitas::RigEvent& event : scenario.rig_events) {
+    if (event.kind != levitas::RigEventKind::kEffect) continue;
+    if (std::find(ids.begin(), ids.end(), event.effect) != ids.end()) continue;
+    throw BadInput(
+        fmt::format("scenario {} changes the effect {}, which rig {} does not list under effects",
+                    scenario.name, event.effect, rig.numbers.name));
+  }
+  return scenario;
+}
+
+}  // namespace
+
+TimedEvents::TimedEvents(const scenario::ScenarioConfig& scenario, const config::RigFile& rig)
+    : faults_(Checked(scenario, rig).rig_events, rig.numbers.period_s()),
+      changes_(scenario.rig_events, EffectIds(rig.plant), Strengths(rig.plant),
+               rig.numbers.period_s()) {}
+
+void TimedEvents::Prepare(plant::Plant& plant) const {
+  if (!changes_.empty()) plant.AllowEffectChanges();
+}
+
+void TimedEvents::Answered(std::uint64_t cycle) noexcept {
+  if (!started_) start_cycle_ = cycle;
+  started_ = true;
+}
+
+void TimedEvents::Disturb(std::uint64_t cycle, SensorFrame& frame) noexcept {
+  faults_.Disturb(started_ ? cycle - start_cycle_ : 0, frame);
+}
+
+void TimedEvents::Change(std::uint64_t cycle, plant::Plant& plant) noexcept {
+  if (!started_ || changes_.empty()) return;
+  changes_.Apply(cycle - start_cycle_, [&plant](std::size_t index, double strength) {
+    (void)plant.SetEffectStrength(index, strength);  // index and strength were checked
+  });
+}
+
+}  // namespace levitas::plant_run
