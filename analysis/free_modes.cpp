@@ -1,6 +1,6 @@
 #include "analysis/free_modes.hpp"
 
-#include "plant_sim/magnet/magnet.hpp"
+#include "plant_sim/plant/magnet_of.hpp"
 #include "plant_sim/rotor/finite_element.hpp"
 
 namespace levitas::analysis {
@@ -19,8 +19,7 @@ std::vector<double> Planes(const plant::PlantConfig& plant) {
 
 BearingConstants Constants(const plant::BearingConfig& bearing) {
   const plant::MagnetConfig& config = bearing.magnet;
-  const magnet::Magnet magnet{config.force_constant_n_m2_per_a2, config.gap_m,
-                              config.max_coil_current_a};
+  const magnet::Magnet magnet = plant::MagnetOf(config);
   return {bearing.name, magnet::ForcePerCurrent(magnet, config.bias_current_a),
           magnet::NegativeStiffness(magnet, config.bias_current_a)};
 }

@@ -17,6 +17,7 @@
 //            is not levitated (amplifiers off, in the touchdown bearings) are left out too.
 // Thread     any.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -31,6 +32,9 @@ struct RecordedRow {
   bool levitated{};  ///< only such rows are compared
   RecordedSample sample;
   AxisArray excitation_a{};  ///< the part of the command that is a test signal
+  /// As measured, towards + and away, axis by axis; `coils` of them, none where there is no probe.
+  std::array<double, 2 * kMaxAxes> coil_current_a{};
+  std::uint32_t coils{};
 };
 
 struct InnovationRow {

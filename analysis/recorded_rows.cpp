@@ -43,6 +43,8 @@ RecordedRow RowOf(const cycle::CycleRecord& record, std::size_t axes) {
   row.cycle = frame.cycle;
   row.levitated = Levitated(record, axes);
   row.excitation_a = record.in.op.excitation_a;
+  row.coil_current_a = record.in.coil_current_a;
+  row.coils = record.in.coils;
   row.sample.position_m = frame.position_m;
   row.sample.command.control_current_a = current.control_current_a;
   row.sample.command.bias_current_a = current.bias_current_a;

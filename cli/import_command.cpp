@@ -74,6 +74,16 @@ bool IsBusLog(const std::string& path) {
   return path.ends_with(".log") || path.ends_with(".log.xz");
 }
 
+std::vector<session::CoilScale> CoilScales(const config::RigFile& rig) {
+  std::vector<session::CoilScale> scales;
+  scales.reserve(rig.numbers.axes());
+  for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis) {
+    const plant::MagnetConfig& magnet = rig.plant.bearings[axis / 2].magnet;
+    scales.push_back({magnet.gap_m, magnet.max_coil_current_a});
+  }
+  return scales;
+}
+
 ExitStatus Import(const ImportCommandOptions& options) {
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
@@ -84,9 +94,13 @@ ExitStatus Import(const ImportCommandOptions& options) {
                                 .rig = rig.numbers,
                                 .rig_yaml = config::WriteRig(rig),
                                 .program_version = LEVITAS_VERSION,
-                                .start_utc_ns = UtcNowNs()};
+                                .start_utc_ns = UtcNowNs(),
+                                .coils = CoilScales(rig),
+                                .matrix = rig.log.matrix,
+                                .matrix_rows = rig.log.rows};
   if (IsBusLog(options.data_path)) return ImportBusLog(options, rig, import);
-  const session::ImportReport report = session::ImportCsv(import);
+  const session::ImportReport report =
+      options.data_path.ends_with(".mat") ? session::ImportMat(import) : session::ImportCsv(import);
   Print(options.out_path, report);
   WriteJsonFile(options.json_path, {{"data", options.data_path},
                                     {"rig", rig.numbers.name},
@@ -97,6 +111,7 @@ ExitStatus Import(const ImportCommandOptions& options) {
                                     {"missing_samples", report.missing_cycles},
                                     {"has_rotation", report.has_rotation},
                                     {"has_excitation", report.has_excitation},
+                                    {"has_coil_currents", report.has_coil_currents},
                                     {"ignored_columns", report.ignored_columns}});
   return ExitStatus::kDone;
 }
@@ -106,10 +121,12 @@ ExitStatus Import(const ImportCommandOptions& options) {
 void AddImportCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<ImportCommandOptions>();
   CLI::App* command = app.add_subcommand(
-      "import", "Measured CSV data, or a candump log of a rig's CAN buses, becomes a session");
+      "import",
+      "Measured data (CSV, MAT), or a candump log of a rig's CAN buses, becomes a session");
   command
-      ->add_option("DATA", options->data_path,
-                   "CSV file, or log of candump (.log); either compressed by xz (.xz)")
+      ->add_option(
+          "DATA", options->data_path,
+          "CSV file or log of candump (.log), either compressed by xz (.xz), or MAT file (.mat)")
       ->required();
   command->add_option("--rig", options->rig_name, "Rig file, or name of a shipped one")->required();
   command->add_option("--out", options->out_path, "Session to write")->required();

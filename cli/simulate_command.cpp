@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/coil_prediction.hpp"
 #include "analysis/innovations.hpp"
 #include "analysis/recorded_rows.hpp"
 #include "cli/analysis_options.hpp"
@@ -24,13 +25,17 @@ constexpr const char* kHelp =
     "fixed Kalman gain, and reports the innovations (measured minus predicted one sample ahead) "
     "in time, spectrum and orders of rotation, as multiples of the sensors' noise.\n"
     "A free simulation is not offered: without its controller the rotor is unstable, so that any "
-    "difference, however small, grows e-fold within milliseconds and says nothing about the model.";
+    "difference, however small, grows e-fold within milliseconds and says nothing about the "
+    "model.\n"
+    "Where coil currents were measured on coils without a current loop, they are predicted too, "
+    "free running at the recorded commands and positions.";
 
 struct SimulateOptions : AnalysisOptions {
   std::string session_path;
   std::string svg_path;
   std::string csv_path;
   std::size_t departures{8};
+  double from_s{};
   double force_noise_percent{100.0 * analysis::ObserverTuning{}.force_noise_share};
 };
 
@@ -41,7 +46,39 @@ struct Simulation {
   analysis::InnovationReport report;
   std::string damage;
   double mean_speed_rad_per_s{};
+  std::vector<analysis::CoilFit> coils;
 };
+
+void PrintCoils(const Simulation& s) {
+  if (s.coils.empty()) return;
+  fmt::print("\nCoil currents of the model at the recorded commands and positions\n");
+  fmt::print("{:<24}{:>9}{:>17}{:>13}{:>17}\n", "coil", "fit %", "mean measured A", "predicted A",
+             "rms difference A");
+  for (const auto& coil : s.coils) {
+    fmt::print("{:<24}{:>9.2f}{:>17.4f}{:>13.4f}{:>17.4f}\n", coil.coil, coil.fit_percent,
+               coil.measured_mean_a, coil.predicted_mean_a, coil.error_rms_a);
+  }
+}
+
+nlohmann::ordered_json CoilsJson(const Simulation& s) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& coil : s.coils) {
+    json.push_back({{"coil", coil.coil},
+                    {"fit_percent", coil.fit_percent},
+                    {"measured_mean_a", coil.measured_mean_a},
+                    {"predicted_mean_a", coil.predicted_mean_a},
+                    {"difference_rms_a", coil.error_rms_a}});
+  }
+  return json;
+}
+
+/// Leaves out what lies before `from_s`, such as the lift of a rig whose log begins with it.
+void CutBeginning(std::vector<analysis::RecordedRow>& rows, double from_s, double period_s) {
+  if (rows.empty() || from_s <= 0.0) return;
+  const auto first = rows.front().cycle + static_cast<std::uint64_t>(from_s / period_s + 0.5);
+  std::erase_if(rows, [first](const auto& row) { return row.cycle < first; });
+  if (rows.empty()) throw BadInput("--from leaves nothing of the session");
+}
 
 void PrintChannels(const Simulation& s) {
   fmt::print("{:<8}{:>10}{:>9}{:>10}{:>9}{:>8}{:>20}\n", "channel", "rms um", "x noise", "expected",
@@ -151,14 +188,20 @@ void Print(const Simulation& s, const SimulateOptions& options) {
   }
   fmt::print("\n");
   PrintDepartures(s, options.departures);
+  PrintCoils(s);
 }
 
 Simulation Simulate(const SimulateOptions& options) {
   Simulation s;
   s.rig = LoadRig(options);
   session::SessionReader session(options.session_path);
-  const auto rows = analysis::ReadRows(session, s.rig.numbers);
+  auto rows = analysis::ReadRows(session, s.rig.numbers);
   s.damage = session.damage().Text();
+  if (!rows.empty() && rows.front().coils > 0) {
+    s.coils = analysis::FitCoils(rows, analysis::PredictCoilCurrents(s.rig.plant, rows),
+                                 s.rig.numbers.period_s(), options.from_s, s.rig.numbers.channels);
+  }
+  CutBeginning(rows, options.from_s, s.rig.numbers.period_s());
   s.mean_speed_rad_per_s = analysis::MeanSpeed(rows);
   analysis::ObserverTuning tuning;
   tuning.force_noise_share = 0.01 * options.force_noise_percent;
@@ -177,7 +220,9 @@ ExitStatus Run(const SimulateOptions& options) {
   const Simulation s = Simulate(options);
   Print(s, options);
   const InnovationContext context{s.rig.numbers, s.gain, s.run, s.report};
-  WriteJsonFile(options.json_path, InnovationJson(context));
+  auto json = InnovationJson(context);
+  if (!s.coils.empty()) json["coil_currents"] = CoilsJson(s);
+  WriteJsonFile(options.json_path, json);
   WriteSpectrumCsv(options.csv_path, context);
   WriteSpectrumSvg(options.svg_path, context);
   return ExitStatus::kDone;
@@ -201,6 +246,11 @@ void AddSimulateCommand(CLI::App& app, Action& action) {
       ->capture_default_str();
   command->add_option("--departures", options->departures, "How many places to list")
       ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--from", options->from_s,
+                   "Compare from this many seconds after the first sample on")
+      ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command->add_option("--csv", options->csv_path, "Write the spectra to this file");
   command->add_option("--svg", options->svg_path, "Draw the spectra into this file");

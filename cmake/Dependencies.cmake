@@ -18,6 +18,12 @@ find_program(LCM_GEN lcm-gen REQUIRED)
 if(NOT TARGET yaml-cpp::yaml-cpp)
   add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)
 endif()
+# matio of Debian has a .pc file only, which asks for HDF5's development files; we need none.
+find_path(MATIO_INCLUDE matio.h REQUIRED)
+find_library(MATIO_LIBRARY matio REQUIRED)
+add_library(matio SHARED IMPORTED)
+set_target_properties(matio PROPERTIES IMPORTED_LOCATION ${MATIO_LIBRARY}
+                                       INTERFACE_INCLUDE_DIRECTORIES ${MATIO_INCLUDE})
 # libgpiod of Debian 12 (1.6) has a .pc file only.
 find_path(GPIOD_INCLUDE gpiod.h REQUIRED)
 find_library(GPIOD_LIBRARY gpiod REQUIRED)

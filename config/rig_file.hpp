@@ -24,12 +24,19 @@ struct RunDefaults {
   std::string scenario;
 };
 
+/// How the rig's own software logs: one matrix of a MAT file, a quantity a row.
+struct LogLayout {
+  std::string matrix;
+  std::vector<std::string> rows;  ///< names as of the columns of a CSV file; empty: not known
+};
+
 struct RigFile {
   RigNumbers numbers;
   plant::PlantConfig plant;
   RunDefaults run;
   gpio::LinesConfig lines;            ///< empty when the file names none
   std::vector<can::BusConfig> buses;  ///< CAN; empty when the file names none
+  LogLayout log;
 };
 
 struct ControllerFile {

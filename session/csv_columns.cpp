@@ -20,17 +20,24 @@ struct Unit {
 constexpr std::array<Unit, 3> kLengths{{{"m", 1.0}, {"mm", 1e3}, {"um", 1e6}}};
 constexpr std::array<Unit, 2> kCurrents{{{"a", 1.0}, {"ma", 1e3}}};
 
+enum class Kind : std::uint8_t { kLength, kCurrent, kShare };
+
 struct PerAxis {
   CsvQuantity quantity;
   std::string_view prefix;
-  bool needed;
-  bool is_length;
+  Kind kind;
+  CsvQuantity instead{CsvQuantity::kIgnored};  ///< needed, unless this one is there
 };
-constexpr std::array<PerAxis, 4> kPerAxis{
-    {{CsvQuantity::kPosition, "position_", true, true},
-     {CsvQuantity::kControlCurrent, "control_current_", true, false},
-     {CsvQuantity::kExcitation, "excitation_", false, false},
-     {CsvQuantity::kPositionExcitation, "excitation_", false, true}}};
+constexpr std::array<PerAxis, 9> kPerAxis{
+    {{CsvQuantity::kPosition, "position_", Kind::kLength, CsvQuantity::kGap},
+     {CsvQuantity::kControlCurrent, "control_current_", Kind::kCurrent, CsvQuantity::kDutyTowards},
+     {CsvQuantity::kExcitation, "excitation_", Kind::kCurrent},
+     {CsvQuantity::kPositionExcitation, "excitation_", Kind::kLength},
+     {CsvQuantity::kGap, "gap_", Kind::kLength},
+     {CsvQuantity::kDutyTowards, "duty_towards_", Kind::kShare},
+     {CsvQuantity::kDutyAway, "duty_away_", Kind::kShare},
+     {CsvQuantity::kCoilTowards, "coil_current_towards_", Kind::kCurrent},
+     {CsvQuantity::kCoilAway, "coil_current_away_", Kind::kCurrent}}};
 
 /// Every name that is understood, and what it means.
 std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {
@@ -39,14 +46,21 @@ std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {
                                {CsvQuantity::kSpeed, 0, 1.0, "speed_rpm"}};
   const auto add = [&](const PerAxis& kind, std::size_t axis, const Unit& unit) {
     known.push_back({kind.quantity, axis, unit.divisor,
-                     fmt::format("{}{}_{}", kind.prefix, channels[axis], unit.name)});
+                     fmt::format("{}{}{}{}", kind.prefix, channels[axis],
+                                 unit.name.empty() ? "" : "_", unit.name)});
   };
   for (const PerAxis& kind : kPerAxis) {
     for (std::size_t axis = 0; axis < channels.size(); ++axis) {
-      if (kind.is_length) {
-        for (const Unit& unit : kLengths) add(kind, axis, unit);
-      } else {
-        for (const Unit& unit : kCurrents) add(kind, axis, unit);
+      switch (kind.kind) {
+        case Kind::kLength:
+          for (const Unit& unit : kLengths) add(kind, axis, unit);
+          break;
+        case Kind::kCurrent:
+          for (const Unit& unit : kCurrents) add(kind, axis, unit);
+          break;
+        case Kind::kShare:
+          add(kind, axis, {"", 1.0});
+          break;
       }
     }
   }
@@ -72,13 +86,15 @@ std::vector<std::string> Missing(const CsvLayout& layout,
   std::vector<std::string> missing;
   if (!layout.Has(CsvQuantity::kTime)) missing.emplace_back("time_s");
   for (const PerAxis& kind : kPerAxis) {
-    for (std::size_t axis = 0; kind.needed && axis < channels.size(); ++axis) {
+    const bool needed = kind.instead != CsvQuantity::kIgnored;
+    for (std::size_t axis = 0; needed && axis < channels.size(); ++axis) {
       const auto holds = [&](const CsvColumn& column) {
-        return column.quantity == kind.quantity && column.axis == axis;
+        return column.axis == axis &&
+               (column.quantity == kind.quantity || column.quantity == kind.instead);
       };
       if (std::none_of(layout.columns.begin(), layout.columns.end(), holds)) {
         missing.push_back(fmt::format("{}{}_{}", kind.prefix, channels[axis],
-                                      kind.is_length ? "m (or mm, um)" : "a (or ma)"));
+                                      kind.kind == Kind::kLength ? "m (or mm, um)" : "a (or ma)"));
       }
     }
   }
@@ -110,17 +126,24 @@ void SplitCsv(std::string_view line, char separator, std::vector<std::string_vie
 
 CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
                          const std::vector<std::string>& channels) {
-  CsvLayout layout;
   const auto semicolons = std::count(first_line.begin(), first_line.end(), ';');
   const auto commas = std::count(first_line.begin(), first_line.end(), ',');
-  layout.separator = semicolons > commas ? ';' : ',';
+  const char separator = semicolons > commas ? ';' : ',';
+  std::vector<std::string_view> cells;
+  SplitCsv(first_line, separator, cells);
+  CsvLayout layout = ParseColumns({cells.begin(), cells.end()}, path + ": line 1", channels);
+  layout.separator = separator;
+  return layout;
+}
+
+CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string& where,
+                       const std::vector<std::string>& channels) {
+  CsvLayout layout;
   const std::vector<CsvColumn> known = KnownColumns(channels);
   std::vector<std::string> problems;
   std::set<std::pair<CsvQuantity, std::size_t>> seen;
-  std::vector<std::string_view> cells;
-  SplitCsv(first_line, layout.separator, cells);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::string name(cells[i]);
+    const std::string& name = cells[i];
     const auto is_it = [&](const CsvColumn& column) { return column.name == name; };
     const auto found = std::find_if(known.begin(), known.end(), is_it);
     if (found == known.end()) {
@@ -145,7 +168,7 @@ CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
   if (!problems.empty()) {
     std::string text;
     for (const auto& problem : problems) text += (text.empty() ? "" : "\n") + problem;
-    throw BadInput(fmt::format("{}: line 1: {}", path, text));
+    throw BadInput(fmt::format("{}: {}", where, text));
   }
   return layout;
 }

@@ -1,10 +1,13 @@
 #pragma once
 // The columns of a measured CSV file: which column holds what, by the names of its first line.
 //
-// Names     time_s, rotor_angle_rad, speed_rpm, position_<channel>_<m|mm|um>,
+// Names     gap_<channel>_<m|mm|um> (distance from the coil towards +, instead of a position),
+//           duty_towards_<channel>, duty_away_<channel> (0 to 1, instead of a control current),
+//           coil_current_towards_<channel>_<a|ma>, coil_current_away_<channel>_<a|ma> (measured),
+//           time_s, rotor_angle_rad, speed_rpm, position_<channel>_<m|mm|um>,
 //           control_current_<channel>_<a|ma>, excitation_<channel>_<a|ma> into the current and
 //           excitation_<channel>_<m|mm|um> into the measured position; channels from the rig.
-// Needed    time_s; position and control current of every channel of the rig.
+// Needed    time_s; position (or gap) and control current (or duty) of every channel of the rig.
 // Others    are ignored and listed, unless they look like a misspelt or misplaced name of the
 // above. Failure   BadInput listing every problem of the first line at once.
 
@@ -24,6 +27,11 @@ enum class CsvQuantity : std::uint8_t {
   kControlCurrent,
   kExcitation,
   kPositionExcitation,
+  kGap,
+  kDutyTowards,
+  kDutyAway,
+  kCoilTowards,
+  kCoilAway,
 };
 
 struct CsvColumn {
@@ -42,6 +50,11 @@ struct CsvLayout {
 
 [[nodiscard]] CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
                                        const std::vector<std::string>& channels);
+
+/// The same for names that come from elsewhere than a line of text; `where` begins a message.
+[[nodiscard]] CsvLayout ParseColumns(const std::vector<std::string>& names,
+                                     const std::string& where,
+                                     const std::vector<std::string>& channels);
 
 /// Cells of a line, without surrounding blanks and quotes.
 void SplitCsv(std::string_view line, char separator, std::vector<std::string_view>& cells);

@@ -9,6 +9,7 @@
 
 #include "common/problem.hpp"
 #include "session/csv_rows.hpp"
+#include "session/mat_rows.hpp"
 #include "session/output_path.hpp"
 #include "session/session_writer.hpp"
 
@@ -66,12 +67,23 @@ class RecordMaker {
  public:
   RecordMaker(const ImportOptions& options, const CsvLayout& layout)
       : rig_(options.rig),
+        coils_(options.coils),
         has_angle_(layout.Has(CsvQuantity::kAngle)),
-        has_speed_(layout.Has(CsvQuantity::kSpeed)) {}
+        has_speed_(layout.Has(CsvQuantity::kSpeed)),
+        has_gap_(layout.Has(CsvQuantity::kGap)),
+        has_duty_(layout.Has(CsvQuantity::kDutyTowards)),
+        has_coils_(layout.Has(CsvQuantity::kCoilTowards) || layout.Has(CsvQuantity::kCoilAway)) {
+    if ((has_gap_ || has_duty_) && (coils_.size() < rig_.axes() || rig_.axes() != 1)) {
+      throw BadInput(
+          "columns of gap or duty are for a rig of one axis; give positions and currents");
+    }
+  }
 
-  cycle::CycleRecord Make(CsvRow row, const CsvRows& reader, ImportReport& report) {
+  cycle::CycleRecord Make(CsvRow row, const RowSource& reader, ImportReport& report) {
     Advance(row, reader, report);
     Rotate(row);
+    double bias_a = rig_.bias_current_a;
+    Convert(row, bias_a);
     last_ = row;
     ++report.rows;
     cycle::CycleRecord record;
@@ -85,11 +97,15 @@ class RecordMaker {
                        .angle_rad = WrapAngle(row.angle_rad)};
     record.in.op.excitation_a = row.excitation_a;
     record.in.op.excitation_m = row.excitation_m;
+    if (has_coils_) {
+      record.in.coils = static_cast<std::uint32_t>(2 * rig_.axes());
+      record.in.coil_current_a = row.coil_current_a;
+    }
     record.out.mode = row.speed_rad_per_s != 0.0 ? Mode::kSpinning : Mode::kLevitating;
     record.out.current = {.cycle = cycle_,
                           .axes = static_cast<std::uint32_t>(rig_.axes()),
                           .control_current_a = row.control_current_a,
-                          .bias_current_a = rig_.bias_current_a,
+                          .bias_current_a = bias_a,
                           .speed_set_point_rad_per_s = row.speed_rad_per_s,
                           .amplifiers_enabled = true,
                           .drive_enabled = row.speed_rad_per_s != 0.0};
@@ -97,7 +113,16 @@ class RecordMaker {
   }
 
  private:
-  void Advance(const CsvRow& row, const CsvRows& reader, ImportReport& report) {
+  // The one axis of the rig: where it is by its gap, what was commanded by its duties.
+  void Convert(CsvRow& row, double& bias_a) const {
+    if (has_gap_) row.position_m[0] = coils_[0].gap_m - row.gap_m[0];
+    if (!has_duty_) return;
+    const double half_a = 0.5 * coils_[0].full_current_a;
+    row.control_current_a[0] = half_a * (row.duty_towards[0] - row.duty_away[0]);
+    bias_a = half_a * (row.duty_towards[0] + row.duty_away[0]);
+  }
+
+  void Advance(const CsvRow& row, const RowSource& reader, ImportReport& report) {
     if (!last_) return;
     const double periods = (row.time_s - last_->time_s) / rig_.period_s();
     const double whole = std::round(periods);
@@ -125,8 +150,12 @@ class RecordMaker {
   }
 
   const RigNumbers& rig_;
+  const std::vector<CoilScale>& coils_;
   bool has_angle_;
   bool has_speed_;
+  bool has_gap_;
+  bool has_duty_;
+  bool has_coils_;
   SlopeOfAngle slope_;
   std::optional<CsvRow> last_;
   std::uint64_t cycle_{0};
@@ -144,13 +173,15 @@ SessionHeader MakeHeader(const ImportOptions& options) {
   return header;
 }
 
-void Convert(const ImportOptions& options, const std::string& part_path, ImportReport& report) {
-  CsvRows reader(options.data_path, options.rig.channels);
+void Convert(const ImportOptions& options, RowSource& reader, const std::string& part_path,
+             ImportReport& report) {
   report.ignored_columns = reader.layout().ignored;
   report.has_rotation =
       reader.layout().Has(CsvQuantity::kAngle) || reader.layout().Has(CsvQuantity::kSpeed);
   report.has_excitation = reader.layout().Has(CsvQuantity::kExcitation) ||
                           reader.layout().Has(CsvQuantity::kPositionExcitation);
+  report.has_coil_currents =
+      reader.layout().Has(CsvQuantity::kCoilTowards) || reader.layout().Has(CsvQuantity::kCoilAway);
   SessionWriter writer(part_path, MakeHeader(options));
   RecordMaker maker(options, reader.layout());
   // The first row waits for the second: only then is there a slope of the angle.
@@ -182,15 +213,26 @@ void Convert(const ImportOptions& options, const std::string& part_path, ImportR
   writer.Flush();
 }
 
+ImportReport Import(const ImportOptions& options, RowSource& source) {
+  PartFile part(options.out_path);
+  ImportReport report;
+  Convert(options, source, part.part_path(), report);
+  part.Commit();
+  return report;
+}
+
 }  // namespace
 
 ImportReport ImportCsv(const ImportOptions& options) {
   CheckOutputPath(options.out_path, options.data_path);
-  PartFile part(options.out_path);
-  ImportReport report;
-  Convert(options, part.part_path(), report);
-  part.Commit();
-  return report;
+  CsvRows rows(options.data_path, options.rig.channels);
+  return Import(options, rows);
+}
+
+ImportReport ImportMat(const ImportOptions& options) {
+  CheckOutputPath(options.out_path, options.data_path);
+  MatRows rows(options.data_path, options.rig.channels, options.matrix, options.matrix_rows);
+  return Import(options, rows);
 }
 
 }  // namespace levitas::session

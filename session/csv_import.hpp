@@ -1,6 +1,9 @@
 #pragma once
-// Measured data of others: a CSV file of the contract in docs/formats.md becomes a session.
+// Measured data of others: a CSV or MAT file of the contract in docs/formats.md becomes a session.
 //
+// Duty      of two opposed coils on a voltage becomes what was commanded: control current half the
+//           difference, bias half the sum, in amperes that full duty would drive at last. The gap
+//           of the coil towards + becomes the position, gap at the centre minus gap.
 // Time      each row is one sample; steps in time_s are whole periods of the rig (within a
 // quarter);
 //           a longer step is a recorded drop-out and leaves its cycles out of the session.
@@ -17,13 +20,22 @@
 
 namespace levitas::session {
 
+/// What turns a gap and a duty into a position and a command.
+struct CoilScale {
+  double gap_m{};           ///< of the coil towards +, the rotor centred
+  double full_current_a{};  ///< that full duty drives at last
+};
+
 struct ImportOptions {
-  std::string data_path;  ///< .csv, or compressed .csv.xz
+  std::string data_path;  ///< .csv, compressed .csv.xz, or .mat
   std::string out_path;
   RigNumbers rig;
   std::string rig_yaml;  ///< complete text, goes into the header
   std::string program_version;
   std::int64_t start_utc_ns{};
+  std::vector<CoilScale> coils{};          ///< per axis; needed for columns of gap and duty
+  std::string matrix{};                    ///< of a MAT file without vectors of our names
+  std::vector<std::string> matrix_rows{};  ///< names of its rows
 };
 
 struct ImportReport {
@@ -33,9 +45,12 @@ struct ImportReport {
   double duration_s{};
   bool has_rotation{};
   bool has_excitation{};
+  bool has_coil_currents{};
   std::vector<std::string> ignored_columns;
 };
 
 ImportReport ImportCsv(const ImportOptions& options);
+/// The same from a MAT file; see mat_rows.hpp.
+ImportReport ImportMat(const ImportOptions& options);
 
 }  // namespace levitas::session

@@ -33,7 +33,9 @@ bool CsvRows::Next(CsvRow& row) {
                           layout_.columns.size()));
   }
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (layout_.columns[i].quantity != CsvQuantity::kIgnored) Put(i, row);
+    if (layout_.columns[i].quantity != CsvQuantity::kIgnored) {
+      Put(layout_.columns[i], Number(i), row);
+    }
   }
   return true;
 }
@@ -57,17 +59,17 @@ double CsvRows::Number(std::size_t index) {
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   const bool whole = end == cell.data() + cell.size() && !cell.empty();
   // A sensor that gave no number is data; a time or a current that is none is a broken file.
-  const bool allowed = std::isfinite(value) || column.quantity == CsvQuantity::kPosition;
+  const bool allowed = std::isfinite(value) || column.quantity == CsvQuantity::kPosition ||
+                       column.quantity == CsvQuantity::kGap;
   if (error != std::errc{} || !whole || !allowed) {
     throw Bad(fmt::format("column {} ({}): found \"{}\", expected a {}number", index + 1,
                           column.name, cells_[index], whole ? "finite " : ""));
   }
-  return value / column.divisor;
+  return value;
 }
 
-void CsvRows::Put(std::size_t index, CsvRow& row) {
-  const CsvColumn& column = layout_.columns[index];
-  const double value = Number(index);
+void Put(const CsvColumn& column, double in_unit, CsvRow& row) noexcept {
+  const double value = in_unit / column.divisor;
   switch (column.quantity) {
     case CsvQuantity::kTime:
       row.time_s = value;
@@ -89,6 +91,21 @@ void CsvRows::Put(std::size_t index, CsvRow& row) {
       return;
     case CsvQuantity::kPositionExcitation:
       row.excitation_m[column.axis] = value;
+      return;
+    case CsvQuantity::kGap:
+      row.gap_m[column.axis] = value;
+      return;
+    case CsvQuantity::kDutyTowards:
+      row.duty_towards[column.axis] = value;
+      return;
+    case CsvQuantity::kDutyAway:
+      row.duty_away[column.axis] = value;
+      return;
+    case CsvQuantity::kCoilTowards:
+      row.coil_current_a[2 * column.axis] = value;
+      return;
+    case CsvQuantity::kCoilAway:
+      row.coil_current_a[2 * column.axis + 1] = value;
       return;
     case CsvQuantity::kIgnored:
       return;

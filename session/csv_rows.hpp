@@ -5,6 +5,7 @@
 //          "nan" (a sensor that gave no number is data); a time or a current may not.
 // Failure  BadInput with line and column.
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,20 +25,36 @@ struct CsvRow {
   AxisArray control_current_a{};
   AxisArray excitation_a{};
   AxisArray excitation_m{};
+  AxisArray gap_m{};
+  AxisArray duty_towards{};
+  AxisArray duty_away{};
+  std::array<double, 2 * kMaxAxes> coil_current_a{};  ///< towards + and away, axis by axis
 };
 
-class CsvRows {
+/// Rows of measured data, from whatever kind of file.
+class RowSource {
+ public:
+  virtual ~RowSource() = default;
+  [[nodiscard]] virtual const CsvLayout& layout() const noexcept = 0;
+  /// False at the end.
+  virtual bool Next(CsvRow& row) = 0;
+  /// A problem of the row last read.
+  [[nodiscard]] virtual BadInput Bad(const std::string& what) const = 0;
+};
+
+/// A value in the unit of its column, into the field of the row that it belongs to.
+void Put(const CsvColumn& column, double value, CsvRow& row) noexcept;
+
+class CsvRows : public RowSource {
  public:
   CsvRows(const std::string& path, const std::vector<std::string>& channels);
-  [[nodiscard]] const CsvLayout& layout() const noexcept { return layout_; }
-  /// False at the end. Empty lines are skipped.
-  bool Next(CsvRow& row);
-  /// A problem of the line last read.
-  [[nodiscard]] BadInput Bad(const std::string& what) const;
+  [[nodiscard]] const CsvLayout& layout() const noexcept override { return layout_; }
+  /// Empty lines are skipped.
+  bool Next(CsvRow& row) override;
+  [[nodiscard]] BadInput Bad(const std::string& what) const override;
 
  private:
   double Number(std::size_t index);
-  void Put(std::size_t index, CsvRow& row);
 
   std::string path_;
   LineSource lines_;

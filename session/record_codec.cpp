@@ -80,6 +80,10 @@ void PutInputs(const cycle::CycleInputs& in, levitas_msg::cycle_record_t& m) noe
   m.command_acceleration_rad_per_s2 = in.op.acceleration_rad_per_s2;
   ToVector(in.op.excitation_a, m.excitation_a);
   ToVector(in.op.excitation_m, m.excitation_m);
+  const auto coils = std::min<std::size_t>(in.coils, in.coil_current_a.size());
+  m.coils = static_cast<std::int32_t>(coils);
+  m.coil_current_a.assign(in.coil_current_a.begin(),
+                          in.coil_current_a.begin() + static_cast<std::ptrdiff_t>(coils));
 }
 
 void PutOutputs(const cycle::CycleOutputs& out, levitas_msg::cycle_record_t& m) noexcept {
@@ -121,6 +125,9 @@ cycle::CycleInputs GetInputs(const levitas_msg::cycle_record_t& m) noexcept {
   in.op.acceleration_rad_per_s2 = m.command_acceleration_rad_per_s2;
   in.op.excitation_a = ToArray(m.excitation_a, axes);
   in.op.excitation_m = ToArray(m.excitation_m, axes);
+  const std::size_t coils = std::min(m.coil_current_a.size(), in.coil_current_a.size());
+  in.coils = static_cast<std::uint32_t>(coils);
+  std::copy_n(m.coil_current_a.begin(), coils, in.coil_current_a.begin());
   return in;
 }
 
@@ -155,6 +162,7 @@ RecordCodec::RecordCodec(std::size_t axes) : message_{} {
                        &message_.reference_m, &message_.control_current_a}) {
     values->resize(count);
   }
+  message_.coil_current_a.reserve(2 * kMaxAxes);
 }
 
 void RecordCodec::Encode(const cycle::CycleRecord& record, Bytes& out) {

@@ -18,6 +18,7 @@ using effect::Scope;
 
 constexpr std::size_t kMostEffects = 100;
 constexpr std::array<std::string_view, 2> kSides{"magnet", "sensor"};
+constexpr std::array<std::string_view, 2> kWheels{"driving", "driven"};
 
 const Unit& UnitWith(std::string_view suffix) {
   const auto units = AllUnits();
@@ -60,10 +61,26 @@ void DescribeChannels(Visitor& v, const RigFile& rig, EffectConfig& entry) {
 
 void DescribeMode(Visitor& v, const RigFile& rig, EffectConfig& entry) {
   v.Integer({"mode", 1, 98, kRequired, "flexible mode, 1 = first bending"}, entry.mode);
-  const std::size_t kept = rig.plant.rotor.modes_per_plane;
+  const rotor::RotorConfig& rotor = rig.plant.rotor;
+  const std::size_t kept =
+      rotor.given ? rotor.given->modes.size() + 2 : rotor.modes_per_plane;  // two rigid ones
   v.RefuseIf(kept >= 2 && entry.mode + 2 > kept, "mode",
              fmt::format("found {}, but the rotor keeps {} flexible modes", entry.mode,
                          kept < 2 ? 0 : kept - 2));
+}
+
+// On a rig without gears the entry as a whole is refused, by CheckEffects.
+void DescribeGear(Visitor& v, const RigFile& rig, EffectConfig& entry) {
+  std::vector<std::string_view> names;
+  for (const auto& pair : rig.plant.gears) {
+    names.emplace_back(pair.name.empty() ? "<gear>" : std::string_view(pair.name));
+  }
+  if (names.empty()) names.emplace_back("<gear>");
+  v.Choice({"gear", names, kRequired, "which gear pair"}, entry.gear);
+  if (entry.id != effect::Id::kGearRunout && entry.id != effect::Id::kToothCrack) return;
+  std::size_t wheel = entry.on_driven ? 1 : 0;
+  v.Choice({"wheel", kWheels, kRequired, "which of its wheels"}, wheel);
+  entry.on_driven = wheel == 1;
 }
 
 void RefusePlane(Visitor& v, const RigFile& rig, const EffectConfig& entry) {
@@ -84,6 +101,7 @@ void DescribeValues(Visitor& v, const RigFile& rig, EffectConfig& entry) {
   if (row.scope == Scope::kChannels) DescribeChannels(v, rig, entry);
   if (row.scope == Scope::kBearing) DescribeBearing(v, rig, entry);
   if (row.scope == Scope::kMode) DescribeMode(v, rig, entry);
+  if (row.scope == Scope::kGear) DescribeGear(v, rig, entry);
   if (entry.id == effect::Id::kAxisRotation) {
     std::size_t side = entry.on_sensor ? 1 : 0;
     v.Choice({"of", kSides, kRequired, "what is turned"}, side);

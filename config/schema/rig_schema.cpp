@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "config/schema/schema.hpp"
-#include "plant_sim/magnet/magnet.hpp"
 
 namespace levitas::config {
 namespace {
@@ -15,69 +14,6 @@ namespace {
 using namespace unit;
 
 constexpr std::size_t kMaxBearings = kMaxAxes / 2;
-
-// The force constant k of F = k [((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2] is given in one of three
-// ways: directly; by ki = 4 k i0 / s0^2; or by the coil, k = mu0 N^2 A cos(half pole angle) / 4
-// (Schweitzer & Maslen 2009, Magnetic Bearings, chapter 4). Written directly, hence exactly.
-void DescribeStrength(Visitor& v, plant::MagnetConfig& magnet) {
-  double constant = magnet.force_constant_n_m2_per_a2;
-  double ki_n_per_a{};
-  double turns{};
-  double pole_area_m2{};
-  double half_angle_rad{};
-  const std::array<Form, 3> forms{
-      Form{"force_constant_n_m2_per_a2",
-           [&] {
-             v.Number({"force_constant", kForceConstant, 1e-9, 1e-2, kRequired,
-                       "k of F = k [((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2]"},
-                      constant);
-           }},
-      Form{"ki_n_per_a",
-           [&] {
-             v.Number({"ki", kForcePerAmpere, 0.01, 1e5, kRequired,
-                       "force per control current with the rotor centred, at the bias current"},
-                      ki_n_per_a);
-           }},
-      Form{"turns, pole_area_mm2 and half_pole_angle_deg", [&] {
-             v.Number({"turns", kOne, 1, 10000, kRequired,
-                       "turns of one coil (both poles of the horseshoe together)"},
-                      turns);
-             v.Number({"pole_area", kSquareMillimetre, 0.1, 1e6, kRequired, "face of one pole"},
-                      pole_area_m2);
-             v.Number({"half_pole_angle", kDegree, 0, 80, kRequired,
-                       "between a pole and the axis of its magnet"},
-                      half_angle_rad);
-           }}};
-  std::size_t chosen = 0;
-  v.OneOf("the strength of the magnet", forms, chosen);
-  if (chosen == 1) {
-    constant = ki_n_per_a * magnet.gap_m * magnet.gap_m / (4.0 * magnet.bias_current_a);
-  } else if (chosen == 2) {
-    constant = magnet::ForceConstant(turns, pole_area_m2, half_angle_rad);
-  } else if (chosen >= forms.size()) {
-    constant = std::numeric_limits<double>::quiet_NaN();  // none or several: said by the reader
-  }
-  v.RefuseIf(
-      constant < 1e-9 || constant > 1e-2, "",
-      fmt::format("gives a force constant of {:.4g} N m^2/A^2, allowed 1e-09 to 0.01", constant));
-  magnet.force_constant_n_m2_per_a2 = constant;
-}
-
-void Describe(Visitor& v, plant::MagnetConfig& magnet) {
-  v.Number({"gap", kMillimetre, 0.02, 10, kRequired, "radial air gap s0 with the rotor centred"},
-           magnet.gap_m);
-  DescribeStrength(v, magnet);
-}
-
-void Describe(Visitor& v, plant::AmplifierConfig& amplifier) {
-  v.Number({"bandwidth", kHertz, 10, 100000, kRequired, "-3 dB of the first-order current loop"},
-           amplifier.bandwidth_hz);
-  v.Number({"slew", kAmperePerSecond, 0, 1e8, 0, "limit of d ic/dt by the supply, 0 for none"},
-           amplifier.slew_a_per_s);
-  v.Integer({"dac_bits", 0, 24, 0,
-             "steps of the control current over plus or minus the coil limit; 0 for none"},
-            amplifier.dac_bits);
-}
 
 void DescribePolarity(Visitor& v, std::string_view key, std::string_view meaning, double& value) {
   int sign = value < 0.0 ? -1 : 1;
@@ -100,7 +36,7 @@ void Describe(Visitor& v, plant::SensorConfig& sensor) {
 }
 
 void Describe(Visitor& v, plant::TouchdownConfig& touchdown) {
-  v.Number({"clearance", kMicrometre, 1, 5000, kRequired, "radial clearance"},
+  v.Number({"clearance", kMicrometre, 1, 20000, kRequired, "radial clearance"},
            touchdown.clearance_m);
   v.Number({"stiffness", kStiffness, 1e4, 1e10, kRequired, "of the contact, radial"},
            touchdown.stiffness_n_per_m);
@@ -240,6 +176,18 @@ void DescribeBuses(Visitor& v, RigFile& rig) {
              "all buses are CAN FD, or all are classical (data_bit_rate 0)");
 }
 
+// How the logs of this rig's own instruments name what is in them.
+void DescribeLog(Visitor& v, LogLayout& log) {
+  bool present = !log.rows.empty();
+  v.OptionalGroup("log", "matrix of a MAT file in which the rig's own software logs", present, [&] {
+    v.Name({"matrix", "name of the matrix"}, log.matrix);
+    v.List({"rows", 1, 200, "what each row of the matrix holds, from the first"}, log.rows,
+           [&](std::string& row, std::size_t) {
+             v.Name({"column", "as a column of a CSV file is called; see docs/formats.md"}, row);
+           });
+  });
+}
+
 /// What RigNumbers repeats of the plant.
 void Derive(RigFile& rig) {
   RigNumbers& numbers = rig.numbers;
@@ -311,6 +259,7 @@ void Describe(Visitor& v, RigFile& rig) {
     v.Name({"controller", "shipped name"}, rig.run.controller);
     v.Name({"scenario", "shipped name"}, rig.run.scenario);
   });
+  DescribeLog(v, rig.log);
   Derive(rig);
   DescribeEffects(v, rig);
 }

@@ -16,6 +16,8 @@ void Describe(Visitor& v, scenario::ScenarioConfig& scenario, const RigNumbers& 
 // Parts, for the files that hold them.
 void Describe(Visitor& v, rotor::RotorConfig& rotor, std::vector<plant::UnbalanceMass>& unbalance);
 void Describe(Visitor& v, supervisor::SupervisorConfig& supervisor);
+void Describe(Visitor& v, plant::MagnetConfig& magnet);
+void Describe(Visitor& v, plant::AmplifierConfig& amplifier);
 /// Geared shafts and their gears, which stand instead of a rotor.
 void DescribeTrain(Visitor& v, plant::PlantConfig& plant);
 /// "shaft", counted from 1 in files and from 0 in the program.

@@ -47,6 +47,7 @@ constexpr std::array kUnits{
     kDamping,
     kForcePerAmpere,
     kForceConstant,
+    kForcePerSquareAmpere,
     kAmperePerSecond,
     kGravity,
     kPerSecond,

@@ -64,6 +64,7 @@ inline constexpr Unit kBending{"n_m2", "N m^2", "bending stiffness"};
 inline constexpr Unit kTorsion{"n_m_per_rad", "N m/rad", "torsional stiffness"};
 inline constexpr Unit kTorsionDamping{"n_m_s_per_rad", "N m s/rad", "torsional damping"};
 inline constexpr Unit kForcePerAmpere{"n_per_a", "N/A", "force per current"};
+inline constexpr Unit kForcePerSquareAmpere{"n_per_a2", "N/A^2", "force per current squared"};
 inline constexpr Unit kForceConstant{"n_m2_per_a2", "N m^2/A^2", "magnet constant"};
 inline constexpr Unit kAmperePerSecond{"a_per_s", "A/s", "slew"};
 inline constexpr Unit kGravity{"m_per_s2", "m/s^2", "linear acceleration"};

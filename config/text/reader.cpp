@@ -196,6 +196,10 @@ std::vector<std::string> Reader::KeysOf(const std::function<void()>& body) {
 }
 
 void Reader::OneOf(std::string_view what, std::span<const Form> forms, std::size_t& chosen) {
+  if (probing_) {
+    for (const Form& form : forms) form.describe();
+    return;
+  }
   std::vector<std::size_t> given;
   std::string names;
   std::vector<std::vector<std::string>> keys;

@@ -1,6 +1,7 @@
 #pragma once
 // Inputs and outputs of one control cycle: all that a replay needs, as plain data.
 
+#include <array>
 #include <cstdint>
 
 #include "common/axes.hpp"
@@ -24,6 +25,10 @@ struct CycleInputs {
   SensorFrame frame;
   std::uint32_t missed_deadlines{};  ///< periods skipped since the previous cycle
   OperatorInput op;
+  /// [A] as measured, of the coil towards + and the coil away of each axis; the law never reads
+  /// them. `coils` entries are valid: none on a rig that does not measure them.
+  std::array<double, 2 * kMaxAxes> coil_current_a{};
+  std::uint32_t coils{};
 };
 
 struct CycleOutputs {

@@ -8,7 +8,8 @@ namespace {
 
 std::vector<Row> Collect() {
   std::vector<Row> all;
-  for (const auto rows : {LoopRows(), MagnetRows(), SensorRows(), RotorRows(), ExternalRows()}) {
+  for (const auto rows :
+       {LoopRows(), MagnetRows(), SensorRows(), RotorRows(), ExternalRows(), GearRows()}) {
     all.insert(all.end(), rows.begin(), rows.end());
   }
   return all;
@@ -37,7 +38,7 @@ std::string_view Name(Place place) noexcept {
 }
 
 std::string_view Name(Scope scope) noexcept {
-  constexpr std::array<std::string_view, 4> kNames{"rig", "channels", "bearing", "mode"};
+  constexpr std::array<std::string_view, 5> kNames{"rig", "channels", "bearing", "mode", "gear"};
   return kNames.at(static_cast<std::size_t>(scope));
 }
 

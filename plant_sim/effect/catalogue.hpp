@@ -18,7 +18,7 @@
 namespace levitas::effect {
 
 /// What one entry refers to.
-enum class Scope : std::uint8_t { kRig, kChannels, kBearing, kMode };
+enum class Scope : std::uint8_t { kRig, kChannels, kBearing, kMode, kGear };
 
 /// How a value goes from neutral to full with the strength s. Fixed values (phases, orders) do not.
 enum class Scaling : std::uint8_t {
@@ -75,5 +75,6 @@ struct Row {
 [[nodiscard]] std::span<const Row> SensorRows();
 [[nodiscard]] std::span<const Row> RotorRows();
 [[nodiscard]] std::span<const Row> ExternalRows();
+[[nodiscard]] std::span<const Row> GearRows();
 
 }  // namespace levitas::effect

@@ -50,6 +50,13 @@ enum class Id : std::uint8_t {
   kStaticLoad,
   kSupportMode,
   kTouchdownRub,
+  kMeshStiffness,
+  kMeshStiffnessVariation,
+  kBacklash,
+  kMeshFriction,
+  kTransmissionError,
+  kGearRunout,
+  kToothCrack,
 };
 
 /// Where in the loop it sits.
@@ -73,6 +80,8 @@ struct EffectConfig {
   std::size_t bearing{};         ///< index; for effects of a bearing
   std::size_t mode{1};           ///< flexible mode, 1 = first bending; for effects of a mode
   bool on_sensor{};              ///< axis_rotation: of the sensors, else of the magnets
+  std::size_t gear{};            ///< index of the gear pair; for effects of gears
+  bool on_driven{};  ///< gear_runout, tooth_crack: of the driven wheel, else the driving
   std::array<double, kMaxParameters> values{};
   double strength{1.0};
   double at_s{};    ///< plant time at which it sets in

@@ -32,10 +32,12 @@ class EffectSchedule {
       if (!change.begun) change.from = present;
       change.begun = true;
       change.done = cycle >= change.first + change.ramp_cycles;
-      const double share = change.done ? 1.0
-                                       : static_cast<double>(cycle - change.first) /
-                                             static_cast<double>(change.ramp_cycles);
-      present = change.from + share * (change.to - change.from);
+      present = change.to;
+      if (!change.done) {
+        const double share =
+            static_cast<double>(cycle - change.first) / static_cast<double>(change.ramp_cycles);
+        present = change.from + share * (change.to - change.from);
+      }
       set(change.index, present);
     }
   }

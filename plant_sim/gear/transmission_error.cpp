@@ -10,7 +10,14 @@ TransmissionError::TransmissionError(const std::vector<Harmonic>& harmonics) {
   int highest = 0;
   for (const Harmonic& h : harmonics) highest = std::max(highest, std::abs(h.order));
   pairs_.resize(static_cast<std::size_t>(highest));
+  Set(harmonics);
+}
+
+void TransmissionError::Set(const std::vector<Harmonic>& harmonics) noexcept {
+  mean_ = {};
+  std::fill(pairs_.begin(), pairs_.end(), Pair{});
   for (const Harmonic& h : harmonics) {
+    if (static_cast<std::size_t>(std::abs(h.order)) > pairs_.size()) continue;
     const Vector part{h.amplitude_m * std::cos(h.phase_rad), h.amplitude_m * std::sin(h.phase_rad)};
     if (h.order == 0) {
       mean_ = mean_ + part;

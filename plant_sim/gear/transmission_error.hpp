@@ -6,7 +6,7 @@
 //            Forward (i > 0) and backward (i < 0) harmonics are independent: the path of e is no
 //            line, and its spectrum is not symmetric. docs/derivations_gears.md (G2).
 // Frame      r = x + j y of the bearings. Units: m, rad.
-// Thread     any; At allocates nothing.
+// Thread     any; At and Set allocate nothing.
 
 #include <cstddef>
 #include <vector>
@@ -53,6 +53,9 @@ class TransmissionError {
   TransmissionError() = default;
   /// Harmonics of one order add up.
   explicit TransmissionError(const std::vector<Harmonic>& harmonics);
+
+  /// Other amplitudes and phases; an order above the highest it was made with is left out.
+  void Set(const std::vector<Harmonic>& harmonics) noexcept;
 
   /// `mesh` is exp(j w_e t); `mesh_rad_per_s` is w_e.
   [[nodiscard]] Prescribed At(const Vector& mesh, double mesh_rad_per_s) const noexcept;

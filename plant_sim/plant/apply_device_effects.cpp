@@ -7,16 +7,13 @@
 #include "plant_sim/effect/reading.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/apply_effects.hpp"
+#include "plant_sim/plant/magnet_of.hpp"
 
 namespace levitas::plant {
 namespace {
 
 using effect::EffectConfig;
 using effect::Id;
-
-magnet::Magnet MagnetOf(const BearingConfig& b) noexcept {
-  return {b.magnet.force_constant_n_m2_per_a2, b.magnet.gap_m, b.magnet.max_coil_current_a};
-}
 
 void ApplyToAxis(const BearingConfig& bearing, Id id, const Values& values,
                  MagnetEffects& magnet) noexcept {
@@ -27,7 +24,7 @@ void ApplyToAxis(const BearingConfig& bearing, Id id, const Values& values,
     case Id::kDisplacementStiffness:
       magnet.stiffness_n_per_m +=
           (values[0] - 1.0) *
-          magnet::NegativeStiffness(MagnetOf(bearing), bearing.magnet.bias_current_a);
+          magnet::NegativeStiffness(MagnetOf(bearing.magnet), bearing.magnet.bias_current_a);
       break;
     case Id::kCoilAsymmetry: {
       const auto factors = effect::Asymmetry(values[0]);

@@ -12,6 +12,13 @@ namespace {
 using effect::EffectConfig;
 using effect::Id;
 
+// Of the current loop; of a coil on a voltage that of the coil towards +x, the rotor centred.
+double CoilBandwidth(const BearingConfig& b) noexcept {
+  if (!b.amplifier.voltage) return b.amplifier.bandwidth_hz;
+  const auto& coil = *b.amplifier.voltage;
+  return std::exp(b.magnet.gap_m / coil.decay_m) / (effect::kTurn * coil.time_constant_s);
+}
+
 // Every number that entries change, back to the rig's own.
 void Reset(const PlantParameters& parameters, RigNow& now, EffectModel& model) noexcept {
   const PlantConfig& config = parameters.config;
@@ -27,7 +34,7 @@ void Reset(const PlantParameters& parameters, RigNow& now, EffectModel& model) n
   std::fill(now.static_load.begin(), now.static_load.end(), 0.0);
   for (std::size_t axis = 0; axis < 2 * config.bearings.size(); ++axis) {
     const BearingConfig& b = config.bearings[axis / 2];
-    now.amplifier_bandwidth_hz[axis] = b.amplifier.bandwidth_hz;
+    now.amplifier_bandwidth_hz[axis] = CoilBandwidth(b);
     now.slew_a_per_s[axis] = b.amplifier.slew_a_per_s;
     ReadingEffects& reading = model.readings[axis];
     reading = {};
@@ -78,9 +85,16 @@ Values OwnValues(const PlantParameters& parameters, const EffectConfig& entry,
                  std::size_t axis) noexcept {
   Values own;
   own.fill(effect::kOwn);
+  if (effect::At(entry.id).scope == effect::Scope::kGear) {
+    if (entry.id != Id::kMeshStiffness) return own;
+    own[0] = parameters.config.gears[entry.gear].stiffness_n_per_m;
+    own[1] = parameters.config.gears[entry.gear].damping_n_s_per_m;
+    return own;
+  }
+  if (parameters.config.bearings.empty()) return own;
   const std::size_t bearing = std::min(axis / 2, parameters.config.bearings.size() - 1);
   const BearingConfig& b = parameters.config.bearings[bearing];
-  const auto mode = static_cast<Eigen::Index>(entry.mode + 1);  // two rigid modes come first
+  const auto mode = static_cast<Eigen::Index>(FlexibleMode(parameters, entry));
   const bool has_mode = mode < parameters.modes.frequency_rad_per_s.size();
   switch (entry.id) {
     case Id::kAmplifierBandwidth:
@@ -107,6 +121,7 @@ Values OwnValues(const PlantParameters& parameters, const EffectConfig& entry,
 RigNow PrepareRig(const PlantParameters& parameters) {
   RigNow now;
   const auto modes = static_cast<std::size_t>(parameters.modes.frequency_rad_per_s.size());
+  now.rigid_modes = static_cast<std::size_t>(parameters.modes.rigid_modes);
   now.frequency_rad_per_s.resize(modes);
   now.damping_ratio.resize(modes);
   now.unbalance.resize(2 * modes);

@@ -23,6 +23,7 @@ struct RigNow {
   AxisArray slew_a_per_s{};
   double gyroscopic_ratio{1.0};
   double mass_ratio{1.0};                                 ///< of the rigid rotor
+  std::size_t rigid_modes{2};                             ///< they come first
   std::array<double, kMaxAxes / 2> sensor_shift_share{};  ///< of the shift, per bearing
   std::vector<double> unbalance;    ///< added modal unbalance, real then imaginary parts
   std::vector<double> static_load;  ///< added modal force, x plane then y plane
@@ -36,6 +37,12 @@ using EntryShapes = std::vector<std::vector<double>>;
 /// Storage for every entry, and its states at the end of the layout.
 [[nodiscard]] EffectModel PrepareEffects(const PlantParameters& parameters, StateLayout& layout);
 [[nodiscard]] RigNow PrepareRig(const PlantParameters& parameters);
+
+/// Index of the mode of an entry; the rigid ones come first.
+[[nodiscard]] inline std::size_t FlexibleMode(const PlantParameters& parameters,
+                                              const effect::EffectConfig& entry) noexcept {
+  return entry.mode - 1 + static_cast<std::size_t>(parameters.modes.rigid_modes);
+}
 
 /// SI values of one entry, in the order of its parameters in the catalogue.
 using Values = std::array<double, effect::kMaxParameters>;

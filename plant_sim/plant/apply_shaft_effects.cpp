@@ -1,4 +1,5 @@
 // Effects of the rotor, of what pushes it from outside, and of the supports.
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -14,9 +15,11 @@ using effect::EffectConfig;
 using effect::Id;
 
 // Rigid modes of a rotor `mass_ratio` times as heavy, mass-normalised.
-void Store(const std::vector<double>& shape, double mass_ratio, std::vector<double>& to) noexcept {
-  const double rigid = mass_ratio == 1.0 ? 1.0 : 1.0 / std::sqrt(mass_ratio);
-  for (std::size_t i = 0; i < shape.size(); ++i) to[i] = i < 2 ? rigid * shape[i] : shape[i];
+void Store(const std::vector<double>& shape, const RigNow& now, std::vector<double>& to) noexcept {
+  const double rigid = now.mass_ratio == 1.0 ? 1.0 : 1.0 / std::sqrt(now.mass_ratio);
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    to[i] = i < now.rigid_modes ? rigid * shape[i] : shape[i];
+  }
 }
 
 /// Outer diameter and bending stiffness E I [N m^2] of the shaft at a plane.
@@ -57,7 +60,7 @@ void ApplyCrack(const PlantParameters& parameters, const Values& values,
                          shaft.diameter_m * shaft.stiffness_n_m2;
   crack.cosine = std::cos(values[2]);
   crack.sine = std::sin(values[2]);
-  Store(curvature, 1.0, crack.curvature);
+  std::copy(curvature.begin(), curvature.end(), crack.curvature.begin());
 }
 
 void ApplyRub(const Values& values, support::Touchdown& rub) noexcept {
@@ -72,7 +75,7 @@ void ApplyRub(const Values& values, support::Touchdown& rub) noexcept {
 void ApplyToRotor(const PlantParameters& parameters, const EffectConfig& entry,
                   const Values& values, const std::vector<double>& shape, RigNow& now,
                   EffectModel& model, Slots& slots) noexcept {
-  const std::size_t mode = entry.mode + 1;  // two rigid modes come first
+  const std::size_t mode = FlexibleMode(parameters, entry);
   switch (entry.id) {
     case Id::kUnbalance:
       ApplyUnbalance(values, shape, now);
@@ -101,7 +104,7 @@ void ApplyToRotor(const PlantParameters& parameters, const EffectConfig& entry,
     case Id::kInternalDamping: {
       RotatingDamper& damper = model.dampers[slots.damper++];
       damper.damping_n_s_per_m = values[1];
-      Store(shape, 1.0, damper.shape);
+      std::copy(shape.begin(), shape.end(), damper.shape.begin());
       break;
     }
     case Id::kBreathingCrack:
@@ -118,7 +121,7 @@ void ApplyFromOutside(const EffectConfig& entry, const Values& values,
   const std::size_t modes = shape.size();
   const auto spring = [&](double xx, double xy, double yx) {
     PlaneSpring& to = model.springs[slots.spring++];
-    Store(shape, now.mass_ratio, to.shape);
+    Store(shape, now, to.shape);
     to.xx = to.yy = xx;
     to.xy = xy;
     to.yx = yx;
@@ -126,7 +129,7 @@ void ApplyFromOutside(const EffectConfig& entry, const Values& values,
   switch (entry.id) {
     case Id::kMisalignment: {
       OrderForce& to = model.order_forces[slots.order_force++];
-      Store(shape, now.mass_ratio, to.shape);
+      Store(shape, now, to.shape);
       to.order = static_cast<int>(values[1]);
       to.force_n = std::polar(values[2], values[3]);
       break;

@@ -27,11 +27,25 @@ void Positive(const std::string& name, double value) {
 void NotNegative(const std::string& name, double value) { Within(name, value, 0.0, kInfinity); }
 
 void CheckBearing(const BearingConfig& b, const std::string& at) {
-  Positive(at + "magnet.force_constant_n_m2_per_a2", b.magnet.force_constant_n_m2_per_a2);
+  if (const auto& law = b.magnet.exponential) {
+    Positive(at + "magnet.force_n_per_a2", law->force_n_per_a2);
+    Positive(at + "magnet.decay_m", law->decay_m);
+    NotNegative(at + "magnet.far_gap_m", law->far_gap_m);
+  } else {
+    Positive(at + "magnet.force_constant_n_m2_per_a2", b.magnet.force_constant_n_m2_per_a2);
+  }
   Positive(at + "magnet.gap_m", b.magnet.gap_m);
   Positive(at + "magnet.max_coil_current_a", b.magnet.max_coil_current_a);
   Within(at + "magnet.bias_current_a", b.magnet.bias_current_a, 0.0, b.magnet.max_coil_current_a);
-  Positive(at + "amplifier.bandwidth_hz", b.amplifier.bandwidth_hz);
+  if (const auto& coil = b.amplifier.voltage) {
+    Positive(at + "amplifier.steady", coil->steady);
+    Within(at + "amplifier.offset_a", coil->offset_a, -kInfinity, kInfinity);
+    Positive(at + "amplifier.time_constant_s", coil->time_constant_s);
+    Positive(at + "amplifier.decay_m", coil->decay_m);
+    NotNegative(at + "amplifier.motion_emf", coil->motion_emf);
+  } else {
+    Positive(at + "amplifier.bandwidth_hz", b.amplifier.bandwidth_hz);
+  }
   NotNegative(at + "amplifier.slew_a_per_s", b.amplifier.slew_a_per_s);
   Within(at + "amplifier.dac_bits", b.amplifier.dac_bits, 0, 32);
   Positive(at + "sensor.bandwidth_hz", b.sensor.bandwidth_hz);

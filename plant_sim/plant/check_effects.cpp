@@ -38,8 +38,15 @@ void CheckValues(std::size_t index, const EffectConfig& entry) {
   }
 }
 
-void CheckReference(std::size_t index, const EffectConfig& entry, std::size_t bearings) {
+void CheckReference(std::size_t index, const EffectConfig& entry, const PlantConfig& config) {
   const Scope scope = effect::At(entry.id).scope;
+  const std::size_t bearings = config.bearings.size();
+  if (scope == Scope::kGear && entry.gear >= config.gears.size()) {
+    Refuse(index, entry,
+           config.gears.empty()
+               ? "needs a rig with gears"
+               : fmt::format("gear pair {} of a rig that has {}", entry.gear, config.gears.size()));
+  }
   if (scope == Scope::kChannels) {
     for (std::size_t axis = 0; axis < 2 * bearings; ++axis) {
       if (entry.Acts(axis)) return;
@@ -68,6 +75,8 @@ bool SamePlace(const EffectConfig& a, const EffectConfig& b, std::size_t bearing
       return a.bearing == b.bearing && a.on_sensor == b.on_sensor;
     case Scope::kMode:
       return a.mode == b.mode;
+    case Scope::kGear:
+      return a.gear == b.gear;
     case Scope::kRig:
       break;
   }
@@ -81,7 +90,10 @@ void CheckEffects(const PlantConfig& config) {
   const std::size_t bearings = config.bearings.size();
   for (std::size_t i = 0; i < entries.size(); ++i) {
     CheckValues(i, entries[i]);
-    CheckReference(i, entries[i], bearings);
+    CheckReference(i, entries[i], config);
+    if (config.rotor.given && entries[i].id == effect::Id::kBreathingCrack) {
+      Refuse(i, entries[i], "needs the sections of the shaft, this rotor is given by its modes");
+    }
     if (!config.shafts.empty() && NeedsOneRotor(entries[i])) {
       Refuse(i, entries[i], "needs a rig with one rotor, this one has geared shafts");
     }

@@ -51,7 +51,9 @@ LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
     const Index coil = At(at.coil_current + axis);
     const double amplifier_rate = 2.0 * std::numbers::pi * model.amplifier_bandwidth_hz(axis);
     linear.a(coil, coil) = -amplifier_rate;
-    linear.b(coil, At(axis)) = amplifier_rate;
+    const BearingModel& bearing = model.bearings()[axis / 2];
+    linear.b(coil, At(axis)) =
+        bearing.on_voltage() ? amplifier_rate * bearing.coil.steady : amplifier_rate;
     linear.c(At(axis), At(at.sensor + axis)) = 1.0;
   }
   return linear;

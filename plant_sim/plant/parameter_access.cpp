@@ -29,6 +29,18 @@ void AddBearing(std::vector<Entry>& entries, const std::string& at, BearingConfi
   entries.push_back({at + "magnet.max_coil_current_a", &b.magnet.max_coil_current_a});
   entries.push_back({at + "amplifier.bandwidth_hz", &b.amplifier.bandwidth_hz});
   entries.push_back({at + "amplifier.slew_a_per_s", &b.amplifier.slew_a_per_s});
+  if (auto& law = b.magnet.exponential) {
+    entries.push_back({at + "magnet.force_n_per_a2", &law->force_n_per_a2});
+    entries.push_back({at + "magnet.decay_m", &law->decay_m});
+    entries.push_back({at + "magnet.far_gap_m", &law->far_gap_m});
+  }
+  if (auto& coil = b.amplifier.voltage) {
+    entries.push_back({at + "amplifier.steady", &coil->steady});
+    entries.push_back({at + "amplifier.offset_a", &coil->offset_a});
+    entries.push_back({at + "amplifier.time_constant_s", &coil->time_constant_s});
+    entries.push_back({at + "amplifier.decay_m", &coil->decay_m});
+    entries.push_back({at + "amplifier.motion_emf", &coil->motion_emf});
+  }
   entries.push_back({at + "sensor.bandwidth_hz", &b.sensor.bandwidth_hz});
   entries.push_back({at + "sensor.noise_rms_m", &b.sensor.noise_rms_m});
   entries.push_back({at + "sensor.range_m", &b.sensor.range_m});

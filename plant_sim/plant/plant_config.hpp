@@ -2,6 +2,7 @@
 // Complete description of a simulated rig: parts and how they are arranged. SI units.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,18 +14,39 @@
 
 namespace levitas::plant {
 
+/// Force of a magnet over a long stroke, as measured instead of derived from a gap squared:
+/// F = f0 [ (i0+ic)^2 e^(-(s0-x)/d) - (i0-ic)^2 e^(-(far+x)/d) ]
+struct ExponentialForce {
+  double force_n_per_a2{};  ///< f0, extrapolated to a gap of 0
+  double decay_m{};         ///< d
+  double far_gap_m{};       ///< of the coil away from +x, the rotor centred; s0 is the other's
+};
+
 /// F(ic, x) = k [ ((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2 ],  ki = 4 k i0/s0^2, ks = 4 k i0^2/s0^3
 struct MagnetConfig {
   double force_constant_n_m2_per_a2{};  ///< k
   double bias_current_a{};      ///< i0, design value (the commanded bias may differ in time)
   double gap_m{};               ///< s0
   double max_coil_current_a{};  ///< each coil within 0 .. this
+  std::optional<ExponentialForce> exponential{};  ///< when there, it is the force, and k is unused
+};
+
+/// A coil on a voltage, without a current loop: what is commanded is the current that the voltage
+/// would drive at last, u = gain x duty, and the coil's current follows by its inductance,
+/// i' = (steady u + offset - i)/tau + emf i gap'/d,  tau = tau0 e^(-gap/d)
+struct VoltageDrive {
+  double steady{1.0};        ///< current at last per current commanded; 1 = as calibrated
+  double offset_a{};         ///< current at last without any command
+  double time_constant_s{};  ///< tau0, extrapolated to a gap of 0
+  double decay_m{};          ///< d
+  double motion_emf{};       ///< share of the voltage that the moving rotor induces; 0 = none
 };
 
 struct AmplifierConfig {
-  double bandwidth_hz{};  ///< first-order current loop
-  double slew_a_per_s{};  ///< limit of |d ic/dt|; 0 = none
-  int dac_bits{};         ///< quantisation of ic over +- max_coil_current; 0 = none
+  double bandwidth_hz{};                  ///< first-order current loop
+  double slew_a_per_s{};                  ///< limit of |d ic/dt|; 0 = none
+  int dac_bits{};                         ///< quantisation of ic over +- max_coil_current; 0 = none
+  std::optional<VoltageDrive> voltage{};  ///< when there, it takes the place of the current loop
 };
 
 struct SensorConfig {

@@ -95,8 +95,33 @@ AxisArray Plant::Impl::SensorPositions() const noexcept {
 void Plant::Impl::FollowCurrents(const StepTable& table, const CoilCommand& command) noexcept {
   double* control = state.data() + model->layout().coil_current;
   for (std::size_t axis = 0; axis < model->axes(); ++axis) {
+    if (model->bearings()[axis / 2].on_voltage()) {
+      FollowVoltage(axis, table.duration_s, command, control[axis]);
+      continue;
+    }
     amplifier::Follow(table.amplifier[axis], command.coils[axis], control[axis], bias_a[axis]);
   }
+}
+
+void Plant::Impl::FollowVoltage(std::size_t axis, double duration_s, const CoilCommand& command,
+                                double& control_a) noexcept {
+  const BearingModel& bearing = model->bearings()[axis / 2];
+  const StateLayout& at = model->layout();
+  AxisArray place_m{};
+  AxisArray rate_m_per_s{};
+  AtPlanes(*model, bearing.actuator_shape, state.data() + at.q_x, place_m[0], place_m[1]);
+  AtPlanes(*model, bearing.actuator_shape, state.data() + at.v_x, rate_m_per_s[0], rate_m_per_s[1]);
+  const double rate = rate_m_per_s[axis % 2];
+  const double middle_m = place_m[axis % 2] + 0.5 * duration_s * rate;
+  const amplifier::CoilPair& asked = command.coils[axis];
+  const double towards_a =
+      amplifier::Follow(bearing.coil, bias_a[axis] + control_a, asked.bias_a + asked.control_a,
+                        command.enabled, bearing.magnet.gap_m - middle_m, -rate, duration_s);
+  const double away_a =
+      amplifier::Follow(bearing.coil, bias_a[axis] - control_a, asked.bias_a - asked.control_a,
+                        command.enabled, bearing.far_gap_m + middle_m, rate, duration_s);
+  control_a = 0.5 * (towards_a - away_a);
+  bias_a[axis] = 0.5 * (towards_a + away_a);
 }
 
 Currents Plant::Impl::CurrentsNow() const noexcept {

@@ -93,6 +93,10 @@ struct Plant::Impl {
 
   void FollowCurrents(const StepTable& table, const CoilCommand& command) noexcept;
 
+  // A coil on a voltage: each by its own inductance, which the gap decides.
+  void FollowVoltage(std::size_t axis, double duration_s, const CoilCommand& command,
+                     double& control_a) noexcept;
+
   [[nodiscard]] Currents CurrentsNow() const noexcept;
 
   void Integrate(const StepTable& table, const CoilCommand& coils,

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "plant_sim/effect/strength.hpp"
 #include "plant_sim/plant/check_config.hpp"
+#include "plant_sim/plant/magnet_of.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -54,6 +56,7 @@ PlantModel::PlantModel(PlantParameters parameters) : parameters_(std::move(param
   layout_.effects = layout_.size = layout_.sensor + axes;
   train_ =
       BuildTrain(config(), {parameters_.modes, parameters_.torsion, parameters_.first_torsion_row});
+  gears_ = PrepareGears(parameters_, train_);
   entry_shapes_ = MakeEntryShapes(parameters_);
   effects_ = PrepareEffects(parameters_, layout_);
   now_ = PrepareRig(parameters_);
@@ -74,6 +77,7 @@ PlantModel::PlantModel(PlantParameters parameters) : parameters_(std::move(param
 
 void PlantModel::SetStrengths(std::span<const double> strengths) noexcept {
   ApplyEffects(parameters_, entry_shapes_, strengths, now_, effects_);
+  ApplyToGears(parameters_, strengths, gears_, train_);
   RefreshShapes();
   RefreshRotor();
   RefreshDelay();
@@ -134,8 +138,15 @@ void PlantModel::RefreshRotor() noexcept {
 void PlantModel::BuildBearings() {
   for (const auto& b : config().bearings) {
     BearingModel model;
-    model.magnet = {b.magnet.force_constant_n_m2_per_a2, b.magnet.gap_m,
-                    b.magnet.max_coil_current_a};
+    model.magnet = MagnetOf(b.magnet);
+    model.x_only = b.x_only;
+    model.far_gap_m = b.magnet.exponential ? b.magnet.exponential->far_gap_m : b.magnet.gap_m;
+    if (const auto& voltage = b.amplifier.voltage) {
+      model.coil = {voltage->steady, voltage->offset_a, voltage->time_constant_s, voltage->decay_m,
+                    voltage->motion_emf};
+      // What limits the current is the voltage.
+      model.magnet.max_coil_current_a = std::numeric_limits<double>::max();
+    }
     model.amplifier = {b.magnet.max_coil_current_a,
                        amplifier::ConverterStep(b.magnet.max_coil_current_a, b.amplifier.dac_bits)};
     model.converter = {b.sensor.noise_rms_m,

@@ -14,9 +14,11 @@
 #include <vector>
 
 #include "plant_sim/amplifier/amplifier.hpp"
+#include "plant_sim/amplifier/voltage_coil.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/apply_effects.hpp"
 #include "plant_sim/plant/effect_model.hpp"
+#include "plant_sim/plant/gear_effects.hpp"
 #include "plant_sim/plant/mode_step.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/plant/train_model.hpp"
@@ -50,11 +52,16 @@ struct StepTable {
 struct BearingModel {
   magnet::Magnet magnet;
   amplifier::Limits amplifier;
+  amplifier::VoltageCoil coil;  ///< of a rig without current loops
+  bool x_only{};                ///< no force in y, where a guide holds the rotor
+  double far_gap_m{};           ///< of the coil away from +x, the rotor centred
   sensor::Converter converter;
   support::Touchdown touchdown;
   bool has_touchdown{};
   std::vector<double> actuator_shape;  ///< per mode
   std::vector<double> sensor_shape;    ///< per mode
+
+  [[nodiscard]] bool on_voltage() const noexcept { return coil.time_constant_s > 0.0; }
 };
 
 class PlantModel {
@@ -139,6 +146,7 @@ class PlantModel {
   RigNow now_;
   EffectModel effects_;
   TrainModel train_;
+  NominalGears gears_;
 };
 
 }  // namespace levitas::plant

@@ -21,7 +21,9 @@ std::vector<double> ShapeOf(const PlantParameters& parameters, const EffectConfi
   switch (entry.id) {
     case Id::kShaftBow:
       // The largest deflection that a unit of this mode makes anywhere on the shaft.
-      return {modes.shapes.col(static_cast<Eigen::Index>(entry.mode + 1)).cwiseAbs().maxCoeff()};
+      return {modes.shapes.col(static_cast<Eigen::Index>(FlexibleMode(parameters, entry)))
+                  .cwiseAbs()
+                  .maxCoeff()};
     case Id::kSensorPosition:
       return rotor::DeflectionAt(
           modes, parameters.config.bearings[entry.bearing].sensor_z_m + entry.values[0]);
@@ -29,7 +31,7 @@ std::vector<double> ShapeOf(const PlantParameters& parameters, const EffectConfi
       return rotor::CurvatureAt(modes, entry.values[0]);
     case Id::kInternalDamping: {
       auto bending = rotor::DeflectionAt(modes, entry.values[0]);
-      std::fill_n(bending.begin(), 2, 0.0);
+      std::fill_n(bending.begin(), modes.rigid_modes, 0.0);
       return bending;
     }
     case Id::kUnbalance:
@@ -130,7 +132,8 @@ void Mark(const EffectConfig& entry, EffectModel& model) {
 }  // namespace
 
 EntryShapes MakeEntryShapes(const PlantParameters& parameters) {
-  const auto flexible = static_cast<std::size_t>(parameters.modes.frequency_rad_per_s.size()) - 2;
+  const auto flexible = static_cast<std::size_t>(parameters.modes.frequency_rad_per_s.size() -
+                                                 parameters.modes.rigid_modes);
   EntryShapes shapes;
   shapes.reserve(parameters.config.effects.size());
   for (const EffectConfig& entry : parameters.config.effects) {

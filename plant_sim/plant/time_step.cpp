@@ -86,8 +86,9 @@ void AddBearing(Count modes, const BearingModel& b, const Currents& currents, st
   const double* shape = b.actuator_shape.data();
   const auto [x_m, y_m] = BothPlanes(modes, shape, position);
   double fx_n = magnet::Force(b.magnet, currents.bias_a[axis], currents.control_a[axis], x_m);
-  double fy_n =
-      magnet::Force(b.magnet, currents.bias_a[axis + 1], currents.control_a[axis + 1], y_m);
+  double fy_n = b.x_only ? 0.0
+                         : magnet::Force(b.magnet, currents.bias_a[axis + 1],
+                                         currents.control_a[axis + 1], y_m);
   if (b.has_touchdown && support::Touches(b.touchdown, x_m, y_m)) {
     const auto [vx_m_per_s, vy_m_per_s] = BothPlanes(modes, shape, velocity);
     const auto contact =
@@ -115,6 +116,7 @@ void AddBearingWithEffects(Count modes, const BearingModel& b, const BearingEffe
     vy_m_per_s -= housings->velocity_m_per_s[axis + 1];
   }
   PlaneForce force = MagnetWithEffects(b, effects, currents, axis, x_m, y_m);
+  if (b.x_only) force.y_n = 0.0;
   const PlaneForce rub = Rub(effects, x_m, y_m, vx_m_per_s, vy_m_per_s, speed_rad_per_s, report);
   force.x_n += rub.x_n;
   force.y_n += rub.y_n;

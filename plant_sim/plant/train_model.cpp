@@ -76,8 +76,11 @@ MeshModel MeshOf(const PlantConfig& config, const TrainModes& modes,
   };
   mesh.driving = wheel(pair.driving);
   mesh.driven = wheel(pair.driven);
-  mesh.shape = ToVector(modes.bending.ShapeAt(pair.driving.z_m, pair.driving.shaft) -
-                        modes.bending.ShapeAt(pair.driven.z_m, pair.driven.shaft));
+  const Eigen::RowVectorXd driving = modes.bending.ShapeAt(pair.driving.z_m, pair.driving.shaft);
+  const Eigen::RowVectorXd driven = modes.bending.ShapeAt(pair.driven.z_m, pair.driven.shaft);
+  mesh.driving_shape = ToVector(driving);
+  mesh.driven_shape = ToVector(driven);
+  mesh.shape = ToVector(driving - driven);
   mesh.twist = ToVector(pair.driving.base_radius_m * TwistAt(config, modes, pair.driving) +
                         pair.driven.base_radius_m * TwistAt(config, modes, pair.driven));
   return mesh;

@@ -61,6 +61,7 @@ struct MeshModel {
   WheelModel driving, driven;
   std::vector<double> shape;  ///< displacement of the driving wheel minus that of the driven one
   std::vector<double> twist;  ///< base radius times rotation, both wheels
+  std::vector<double> driving_shape, driven_shape;  ///< displacement of each wheel
 };
 
 struct TrainModel {

@@ -52,7 +52,7 @@ struct ModalRotor {
   std::vector<double> node_z_m;
   double total_mass_kg{};
   std::vector<std::size_t> node_shaft;  ///< shaft that each node is on; empty: all on shaft 0
-  Eigen::Index rigid_modes{2};  ///< 1 for a rotor that cannot tilt
+  Eigen::Index rigid_modes{2};          ///< 1 for a rotor that cannot tilt
   Eigen::MatrixX2d rigid;  ///< modal coordinates of a unit shift and of a unit slope about z = 0
 
   /// Row of `shapes` at a plane that is a node (within 1e-9 m); throws std::invalid_argument else.

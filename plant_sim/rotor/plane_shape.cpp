@@ -24,6 +24,9 @@ Piece Find(const ModalRotor& rotor, double z_m) {
     throw std::invalid_argument(fmt::format("rotor: z = {} m is not on the shaft, allowed {} to {}",
                                             z_m, nodes.front(), nodes.back()));
   }
+  if (nodes.size() < 2) {
+    throw std::invalid_argument("rotor: one plane only, so no shape between planes");
+  }
   auto next = std::lower_bound(nodes.begin() + 1, nodes.end() - 1, z_m - kSamePlace);
   const double start_m = *(next - 1);
   const double length_m = *next - start_m;
@@ -42,12 +45,12 @@ std::vector<double> Combine(const ModalRotor& rotor, const Piece& at,
 }  // namespace
 
 std::vector<double> DeflectionAt(const ModalRotor& rotor, double z_m) {
-  const Piece at = Find(rotor, z_m);
-  for (const Eigen::Index node : {at.first, at.first + 1}) {
-    if (std::abs(rotor.node_z_m[static_cast<std::size_t>(node)] - z_m) > kSamePlace) continue;
-    const Eigen::RowVectorXd row = rotor.shapes.row(node);
+  for (std::size_t node = 0; node < rotor.node_z_m.size(); ++node) {
+    if (std::abs(rotor.node_z_m[node] - z_m) > kSamePlace) continue;
+    const Eigen::RowVectorXd row = rotor.shapes.row(static_cast<Eigen::Index>(node));
     return {row.data(), row.data() + row.size()};
   }
+  const Piece at = Find(rotor, z_m);
   const double t = at.share;
   const double h = at.length_m;
   return Combine(rotor, at,

@@ -34,7 +34,8 @@ laboratory rig; "x own" means times what the rig has. Pictures: rig `flexible_ro
 effect; responses are those of the free rotor in its magnets without a controller.
 
 Not covered by the linear model that `amb poles` and `amb margins` use: hysteresis, slew, rub, anisotropy, crack, and everything
-that is a signal. On rigs with geared shafts the effects of rotor and surroundings, which refer to one rotor, are refused.
+that is a signal. On rigs with geared shafts the effects of rotor and surroundings, which refer to one rotor, are refused; those of
+gears need such a rig: `{id: tooth_crack, gear: pair, wheel: driven, tooth: 7, depth: 0.5}`.
 
 The lag of `eddy_current` is a sum of first-order lags: 1/(1 + sqrt p) = (1/pi) integral over x > 0 of sqrt(x)/((1 + x)(x + p)) dx,
 by the trapezoid rule in ln x with ten points from 1e-4 to 1e2. It follows the half-order law within 0.6 % up to 2 pi f tau = 10.
@@ -66,6 +67,8 @@ std::string_view Where(effect::Scope scope) {
       return "per bearing";
     case effect::Scope::kMode:
       return "per flexible mode";
+    case effect::Scope::kGear:
+      return "per gear pair";
     case effect::Scope::kRig:
       break;
   }

@@ -190,7 +190,7 @@ TEST(Excitation, NeedsAHoldTimeAndRoomInTheCoils) {
 TEST(ARefusedField, DoesNotCauseFurtherProblemsWithItsRelatives) {
   EXPECT_EQ(RigProblems(With(kRig, "clearance_um: 200", "clearance_um: .nan")),
             "rig.yaml:30:21: bearings[0].touchdown.clearance_um: found \".nan\", not a finite "
-            "number; allowed 1 to 5000 um");
+            "number; allowed 1 to 20000 um");
   EXPECT_EQ(RigProblems(With(kRig, "bias_current_a: 1", "bias_current_a: 1000")),
             "rig.yaml:6:19: coils.bias_current_a: found 1000 A, allowed 0.01 to 100 A");
 }

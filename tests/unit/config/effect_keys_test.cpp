@@ -48,18 +48,22 @@ TEST(Effects, MayBeLeftOut) {
 }
 
 TEST(Effects, OfEveryIdAreWrittenAndReadBackTheSame) {
-  const RigFile rig = AllEffects();
-  ASSERT_EQ(rig.plant.effects.size(), effect::Catalogue().size());
-  const auto back = ParseRig(WriteRig(rig), "written.yaml").plant.effects;
-  ASSERT_EQ(back.size(), rig.plant.effects.size());
-  for (std::size_t i = 0; i < back.size(); ++i) {
-    const effect::Row& row = effect::At(back[i].id);
-    EXPECT_EQ(back[i].id, rig.plant.effects[i].id);
-    EXPECT_EQ(back[i].axes, rig.plant.effects[i].axes) << row.name;
-    EXPECT_EQ(back[i].mode, rig.plant.effects[i].mode) << row.name;
-    for (std::size_t k = 0; k < row.parameters.size(); ++k) {
-      EXPECT_EQ(back[i].values[k], rig.plant.effects[i].values[k])
-          << row.name << "." << row.parameters[k].stem;
+  const RigFile gears = AllEffects(true);
+  const RigFile one_rotor = AllEffects();
+  ASSERT_EQ(one_rotor.plant.effects.size() + gears.plant.effects.size(),
+            effect::Catalogue().size());
+  for (const RigFile& rig : {one_rotor, gears}) {
+    const auto back = ParseRig(WriteRig(rig), "written.yaml").plant.effects;
+    ASSERT_EQ(back.size(), rig.plant.effects.size());
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      const effect::Row& row = effect::At(back[i].id);
+      EXPECT_EQ(back[i].id, rig.plant.effects[i].id);
+      EXPECT_EQ(back[i].axes, rig.plant.effects[i].axes) << row.name;
+      EXPECT_EQ(back[i].mode, rig.plant.effects[i].mode) << row.name;
+      for (std::size_t k = 0; k < row.parameters.size(); ++k) {
+        EXPECT_EQ(back[i].values[k], rig.plant.effects[i].values[k])
+            << row.name << "." << row.parameters[k].stem;
+      }
     }
   }
 }
@@ -84,6 +88,8 @@ TEST(Effects, ThatCannotBeAreRefusedWithWhatIsAllowed) {
            Refused{"  - {id: sensor_position, bearing: de, shift_mm: 95}\n", "end of the shaft"},
            Refused{"  - {id: unbalance, z_mm: 300, moment_g_mm: 5}\n", "end of the shaft"},
            Refused{"  - {id: modal_damping, mode: 7, damping_ratio: 0.1}\n", "6 flexible modes"},
+           Refused{"  - {id: tooth_crack, gear: <gear>, wheel: driven, depth: 0.5}\n",
+                   "needs a rig with gears"},
            Refused{"  - {id: misalignment, order: 1.5, force_n: 1}\n", "not a whole number"},
            Refused{"  - {id: axis_rotation, bearing: de, angle_deg: 5}\n", "what is turned"},
            Refused{"  - {id: eddy_current, tau_us: 8}\n  - {id: eddy_current, tau_us: 9}\n",

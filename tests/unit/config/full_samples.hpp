@@ -23,11 +23,13 @@ inline RigFile FullRig() {
   return rig;
 }
 
-/// The shipped rig with every effect of the catalogue.
-inline RigFile AllEffects() {
-  RigFile rig = FullRig();
+/// A shipped rig with every effect of the catalogue that it can have: one rotor's, or those of
+/// gears.
+inline RigFile AllEffects(bool of_gears = false) {
+  RigFile rig = of_gears ? LoadRig(FindConfig("geared_rotor_4dof", "rigs")) : FullRig();
   rig.plant.effects.clear();
   for (const effect::Row& row : effect::Catalogue()) {
+    if ((row.scope == effect::Scope::kGear) != of_gears) continue;
     rig.plant.effects.push_back(effect::ClearEntry(row.id, 100.0));
     // A damping ratio or a noise has another own value than a frequency.
     for (std::size_t k = 0; k < row.parameters.size(); ++k) {

@@ -15,7 +15,8 @@ TEST(UnknownKey, NamesTheNearestAndDoesNotReportTheRightOneAsMissing) {
 TEST(UnknownKey, FarFromAllListsTheKeysOfItsGroup) {
   EXPECT_EQ(RigProblems(With(kRig, "      bandwidth_hz: 1000\n",
                              "      bandwidth_hz: 1000\n      colour: red\n")),
-            "rig.yaml:25:7: bearings[0].amplifier.colour: unknown key; known here: bandwidth_hz, "
+            "rig.yaml:25:7: bearings[0].amplifier.colour: unknown key; known here: voltage, "
+            "bandwidth_hz, "
             "slew_a_per_s, dac_bits, polarity_x, polarity_y");
 }
 
@@ -44,7 +45,8 @@ TEST(UnknownKey, WithAMicroSignIsToldTheUnitInLetters) {
 TEST(UnknownKey, ThatSlippedOutOfItsGroupIsToldWhereItBelongs) {
   EXPECT_EQ(
       RigProblems(With(kRig, "    magnet:\n", "    gap_mm: 0.3\n    magnet:\n")),
-      "rig.yaml:20:5: bearings[0].gap_mm: unknown key; known here: name, shaft, actuator_z_mm, "
+      "rig.yaml:20:5: bearings[0].gap_mm: unknown key; known here: name, axis_names, axes, shaft, "
+      "actuator_z_mm, "
       "sensor_z_mm, magnet, amplifier, sensor, touchdown; it belongs under bearings[0].magnet");
 }
 

@@ -83,7 +83,8 @@ TEST(StateSpaceLaw, RefusesWhatCannotBe) {
               HasSubstr("a block with a real pole has one state only"));
   EXPECT_THAT(LawProblem("output: uy\n      input: uy", "output: ux\n      input: ux"),
               HasSubstr("this path has been given already"));
-  EXPECT_THAT(LawProblem("input_v_per_mm: 25", "input_v_per_mm: 0"), HasSubstr("allowed 1e-06"));
+  EXPECT_THAT(LawProblem("input_v_per_mm: 25", "input_v_per_mm: 0"),
+              HasSubstr("allowed 1e-6 to 1e6"));
 }
 
 TEST(Excitation, RefusesKeysOfAnotherSignalOrPoint) {

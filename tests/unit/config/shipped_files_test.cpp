@@ -109,7 +109,7 @@ TEST(Scenarios, TakeTheTimeTheySay) {
 
 /// The rig whose name a file's name begins with; files for any rig are tried with the first one.
 RigNumbers RigOf(const std::string& stem) {
-  for (const char* name : {"turbomolecular_pump", "one_axis"}) {
+  for (const char* name : {"turbomolecular_pump", "one_axis", "two_magnet_levitator"}) {
     if (stem.starts_with(name)) return LoadRig(FindConfig(name, "rigs")).numbers;
   }
   if (stem.starts_with("geared_rotor")) {

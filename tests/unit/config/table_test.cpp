@@ -177,6 +177,22 @@ TEST(Tables, AreDocumentedKeyByKey) {
   RigFile rig = AllEffects();
   Describe(effects, rig);
   for (const ListedField& field : effects.fields()) written.insert(field.key);
+  // What other rigs have: effects of gears, a rotor of given modes, coils on a voltage.
+  for (RigFile other :
+       {AllEffects(true), ModalRig(), LoadRig(FindConfig("two_magnet_levitator", "rigs"))}) {
+    FieldList fields("rig", 0);
+    Describe(fields, other);
+    for (const ListedField& field : fields.fields()) written.insert(field.key);
+  }
+  const RigFile pump = ModalRig();
+  FieldList blocks("controller", 0);
+  ControllerFile law = StateSpaceController(pump.numbers);
+  Describe(blocks, law, pump.numbers);
+  for (const ListedField& field : blocks.fields()) written.insert(field.key);
+  FieldList events("scenario", 0);
+  scenario::ScenarioConfig eventful = EventfulScenario(FullRig().numbers);
+  Describe(events, eventful, FullRig().numbers);
+  for (const ListedField& field : events.fields()) written.insert(field.key);
   // Geared rigs stand instead of a rotor: in every way to give the stiffness of their shafts.
   for (const char* name : {"geared_rotor_12dof", "rao_geared_pair"}) {
     for (std::size_t form = 0; form < 3; ++form) {
@@ -213,14 +229,16 @@ constexpr std::size_t FieldCount() {
 TEST(Tables, KnowEveryFieldOfTheStructs) {
   EXPECT_EQ(FieldCount<RigNumbers>(), 13U);
   EXPECT_EQ(FieldCount<plant::PlantConfig>(), 14U);
-  EXPECT_EQ(FieldCount<plant::BearingConfig>(), 8U);
-  EXPECT_EQ(FieldCount<plant::MagnetConfig>(), 4U);
-  EXPECT_EQ(FieldCount<plant::AmplifierConfig>(), 3U);
+  EXPECT_EQ(FieldCount<plant::BearingConfig>(), 9U);
+  EXPECT_EQ(FieldCount<plant::MagnetConfig>(), 5U);
+  EXPECT_EQ(FieldCount<plant::AmplifierConfig>(), 4U);
+  EXPECT_EQ(FieldCount<plant::ExponentialForce>(), 3U);
+  EXPECT_EQ(FieldCount<plant::VoltageDrive>(), 5U);
   EXPECT_EQ(FieldCount<plant::SensorConfig>(), 5U);
   EXPECT_EQ(FieldCount<plant::TouchdownConfig>(), 5U);
   EXPECT_EQ(FieldCount<plant::UnbalanceMass>(), 4U);
   EXPECT_EQ(FieldCount<plant::DriveConfig>(), 3U);
-  EXPECT_EQ(FieldCount<rotor::RotorConfig>(), 7U);
+  EXPECT_EQ(FieldCount<rotor::RotorConfig>(), 8U);
   EXPECT_EQ(FieldCount<rotor::Material>(), 3U);
   EXPECT_EQ(FieldCount<rotor::Section>(), 3U);
   EXPECT_EQ(FieldCount<rotor::Disc>(), 4U);
@@ -230,14 +248,14 @@ TEST(Tables, KnowEveryFieldOfTheStructs) {
   EXPECT_EQ(FieldCount<rotor::TorsionInertia>(), 5U);
   EXPECT_EQ(FieldCount<gear::Wheel>(), 7U);
   EXPECT_EQ(FieldCount<gear::Harmonic>(), 3U);
-  EXPECT_EQ(FieldCount<law::LawConfig>(), 3U);
+  EXPECT_EQ(FieldCount<law::LawConfig>(), 4U);
   EXPECT_EQ(FieldCount<law::AxisLawConfig>(), 6U);
   EXPECT_EQ(FieldCount<law::LeadLag>(), 2U);
   EXPECT_EQ(FieldCount<law::Notch>(), 3U);
   EXPECT_EQ(FieldCount<supervisor::SequenceConfig>(), 8U);
   EXPECT_EQ(FieldCount<supervisor::ProtectionConfig>(), 10U);
-  EXPECT_EQ(FieldCount<scenario::Step>(), 8U);
-  EXPECT_EQ(FieldCount<scenario::Excitation>(), 6U);
+  EXPECT_EQ(FieldCount<scenario::Step>(), 9U);
+  EXPECT_EQ(FieldCount<scenario::Excitation>(), 18U);
 }
 
 }  // namespace
