@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -71,7 +72,19 @@ std::string MeasuredFolder() {
          "/two_magnet_levitator";
 }
 
-class Measured : public testing::TestWithParam<const char*> {};
+struct KnownRun {
+  const char* file;
+  double upper_fit_percent;
+  double carried_share;  ///< of the ball's weight, by the force of the measured upper current
+};
+
+// Made of the records by a program of its own (numpy): the manufacturer's lag in closed form over
+// quarters of each sample, duty held, the gap in a straight line between samples; t > 3 s.
+constexpr std::array kKnown{
+    KnownRun{"sine_slow_lqr.mat", 41.381, 0.8260}, KnownRun{"stairs_lqi.mat", 32.207, 0.8376},
+    KnownRun{"stairs_lqr.mat", 39.145, 0.8202}, KnownRun{"updown_lqi.mat", 31.601, 0.8267}};
+
+class Measured : public testing::TestWithParam<KnownRun> {};
 
 std::vector<analysis::RecordedRow> Rows(const config::RigFile& rig, const std::string& path) {
   const ScratchFolder folder;
@@ -90,11 +103,12 @@ std::vector<analysis::RecordedRow> Rows(const config::RigFile& rig, const std::s
   return analysis::ReadRows(reader, rig.numbers);
 }
 
-// What is known of the runs: the model predicts the upper coil's current with a fit between -54 %
-// and +63 % after the lift-off of 3 s, and the force it makes of the measured currents carries only
-// 0.77 to 0.87 of the ball's weight.
+// What is known of all runs of the rig, these and others: the model predicts the upper coil's
+// current with a fit between -54 % and +63 % after the lift-off of 3 s, and the force it makes of
+// the measured currents carries only 0.77 to 0.87 of the ball's weight.
 TEST_P(Measured, RecordIsPredictedAsBadlyAsTheManufacturersModelIsKnownTo) {
-  const std::string path = MeasuredFolder() + "/" + GetParam();
+  const KnownRun& known = GetParam();
+  const std::string path = MeasuredFolder() + "/" + known.file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "not run: no " << path;
   const config::RigFile rig = config::LoadRig(config::FindConfig("two_magnet_levitator", "rigs"));
   const auto rows = Rows(rig, path);
@@ -102,6 +116,8 @@ TEST_P(Measured, RecordIsPredictedAsBadlyAsTheManufacturersModelIsKnownTo) {
   const auto predicted = analysis::PredictCoilCurrents(rig.plant, rows);
   const auto fits = analysis::FitCoils(rows, predicted, 1e-3, 3.0, rig.numbers.channels);
   ASSERT_EQ(fits.size(), 2U);
+  // The gap in the middle of a sample against quarters of it: some 1e-3 of the time constant.
+  EXPECT_NEAR(fits[0].fit_percent, known.upper_fit_percent, 0.05);
   EXPECT_GT(fits[0].fit_percent, -54.0);
   EXPECT_LT(fits[0].fit_percent, 63.0);
   double carried = 0.0;
@@ -110,13 +126,15 @@ TEST_P(Measured, RecordIsPredictedAsBadlyAsTheManufacturersModelIsKnownTo) {
     carried += 3.008878 * std::pow(rows[n].coil_current_a[0], 2) * std::exp(-gap_m / 5.8231e-3) /
                kWeight_n / static_cast<double>(rows.size() - 3000);
   }
+  EXPECT_NEAR(carried, known.carried_share, 1e-4);  // the digits given
   EXPECT_GT(carried, 0.77);
   EXPECT_LT(carried, 0.87);
 }
 
-INSTANTIATE_TEST_SUITE_P(Runs, Measured,
-                         testing::Values("sine_slow_lqr.mat", "stairs_lqi.mat", "stairs_lqr.mat",
-                                         "updown_lqi.mat"));
+INSTANTIATE_TEST_SUITE_P(Runs, Measured, testing::ValuesIn(kKnown), [](const auto& test_info) {
+  const std::string file = test_info.param.file;
+  return file.substr(0, file.find('.'));
+});
 
 TEST(CoilPrediction, IsRefusedWhereNothingWasMeasuredOrTheCoilsHaveCurrentLoops) {
   const ShippedLoop loop = Levitator();
