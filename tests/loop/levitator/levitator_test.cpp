@@ -11,6 +11,7 @@
 #include "analysis/coil_prediction.hpp"
 #include "analysis/poles.hpp"
 #include "analysis/recorded_rows.hpp"
+#include "common/problem.hpp"
 #include "session/csv_import.hpp"
 #include "session/session_reader.hpp"
 #include "tests/loop/pump/shipped_loop.hpp"

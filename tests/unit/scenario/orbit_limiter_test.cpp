@@ -58,7 +58,7 @@ TEST(ScenarioPlayer, CutsAnExcitationBackBeyondTheOrbitLimitOfItsStep) {
   position.point = Injection::kMeasuredPosition;
   position.amplitude_m = 10e-6;
   step.excitation = {current, position};
-  ScenarioPlayer player({"test", {step}}, kPeriod_s, 0.5);
+  ScenarioPlayer player({"test", {step}, {}}, kPeriod_s, 0.5);
   (void)player.Next(Mode::kLevitating, 0.0, Fault::kNone);
   const PlayerOutput quiet = player.Next(Mode::kLevitating, 0.0, Fault::kNone, false, 0.0);
   EXPECT_EQ(std::abs(quiet.excitation_a[0]), 0.5);

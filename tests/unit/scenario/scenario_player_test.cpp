@@ -40,7 +40,7 @@ Step Nothing(double hold_s) {
 }
 
 ScenarioPlayer Player(std::vector<Step> steps) {
-  return ScenarioPlayer({"test", std::move(steps)}, kPeriod_s, kStandstill_rad_per_s);
+  return ScenarioPlayer({"test", std::move(steps), {}}, kPeriod_s, kStandstill_rad_per_s);
 }
 
 TEST(ScenarioPlayer, GivesACommandInExactlyOneCycle) {
@@ -225,9 +225,10 @@ TEST(ScenarioPlayer, AddsTwoExcitationsOfOneAxis) {
 }
 
 TEST(ScenarioPlayer, RefusesAPeriodThatIsNotPositiveAndAnAxisThatIsNotThere) {
-  EXPECT_THROW(ScenarioPlayer({"test", {Lift()}}, 0.0, 0.5), std::invalid_argument);
-  EXPECT_THROW(ScenarioPlayer({"test", {Lift()}}, std::numeric_limits<double>::quiet_NaN(), 0.5),
-               std::invalid_argument);
+  EXPECT_THROW(ScenarioPlayer({"test", {Lift()}, {}}, 0.0, 0.5), std::invalid_argument);
+  EXPECT_THROW(
+      ScenarioPlayer({"test", {Lift()}, {}}, std::numeric_limits<double>::quiet_NaN(), 0.5),
+      std::invalid_argument);
   Step step = Nothing(1.0);
   step.excitation = {{"none", kMaxAxes, 0.1, 7, 1, 0.0}};
   EXPECT_THROW(Player({step}), std::invalid_argument);

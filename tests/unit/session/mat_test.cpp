@@ -14,7 +14,10 @@
 namespace levitas::session {
 namespace {
 
+using testing::Folder;
 using ::testing::HasSubstr;
+using testing::ReadAll;
+using testing::WriteFile;
 
 std::string Matrix(const std::string& name, std::int32_t rows, const std::vector<double>& numbers) {
   const std::array<std::int32_t, 5> header{0, rows,
