@@ -191,7 +191,7 @@ TEST(GearEffects, OfVaryingStiffnessShowAMeanLoadAtTheirOrder) {
   // without the variation there is none.
   const auto added = Added(Straight(), Entry(Id::kMeshStiffnessVariation, {2.0, 0.05, 0.0}));
   const double wanted = LineSize(added, 2.0 * kMesh_hz) + LineSize(added, -2.0 * kMesh_hz);
-  EXPECT_GT(wanted, 1e-8);
+  EXPECT_GT(wanted, 1e-10);  // 10 N on shafts and wheels that yield 0.1 nm/N at 800 Hz
   for (const double other_hz : {kMesh_hz, 3.0 * kMesh_hz, kPinion_hz, 0.5 * kPinion_hz}) {
     EXPECT_LT(LineSize(added, other_hz), 1e-6 * wanted) << other_hz;
     EXPECT_LT(LineSize(added, -other_hz), 1e-6 * wanted) << -other_hz;

@@ -64,8 +64,9 @@ TEST_F(Codec, AxisCountBeyondTheCapacityIsRefusedEvenWithAGoodCrc) {
 TEST_F(Codec, EveryAxisCountUpToTheCapacitySurvives) {
   for (std::uint32_t axes = 0; axes <= kMaxAxes; ++axes) {
     cycle::CycleRecord record = DrawRecord(draw_, axes);
-    for (AxisArray* values : {&record.in.frame.position_m, &record.in.op.excitation_a,
-                              &record.out.reference_m, &record.out.current.control_current_a}) {
+    for (AxisArray* values :
+         {&record.in.frame.position_m, &record.in.op.excitation_a, &record.in.op.excitation_m,
+          &record.out.reference_m, &record.out.current.control_current_a}) {
       *values = DrawAxes(draw_, 1.0, axes);
     }
     RecordCodec writer(axes);

@@ -92,8 +92,12 @@ TEST_F(Recording, CountsLostRecordsAndRecordsHowMany) {
   SessionReader reader(folder_ / "s.lcmlog");
   EXPECT_EQ(ReadAll(reader).size(), records.size() - lost);
   EXPECT_EQ(reader.damage().missing_cycles, lost);
-  ASSERT_FALSE(reader.events().empty());
-  EXPECT_THAT(reader.events().back().text, HasSubstr(std::to_string(lost) + " record(s) lost"));
+  // Two gaps where the recorder's thread came late and made room for one record before it stuck.
+  std::uint64_t told = 0;
+  for (const Event& event : reader.events()) {
+    if (event.text.find(" record(s) lost") != std::string::npos) told += std::stoull(event.text);
+  }
+  EXPECT_EQ(told, lost);
 }
 
 // The other half of the pair: what waits loses nothing on the same disk.
