@@ -11,7 +11,7 @@ namespace levitas::analysis {
 namespace {
 
 constexpr int kFiner = 8;
-constexpr double kDuration_s = 1.0;
+constexpr double kDurationS = 1.0;
 constexpr double kManyModes = 16.0;
 constexpr double kRelease = 0.1;  // of the clearance
 
@@ -92,7 +92,7 @@ StepError MeasureStepError(const plant::PlantConfig& rig, const law::LawConfig& 
                                                          : rig.rotor.modes_per_plane);
   const double share = modes > 0.0 ? std::min(1.0, kManyModes / modes) : 0.1;
   const double period_s = static_cast<double>(rig.period_ns) * 1e-9;
-  const auto periods = static_cast<std::uint64_t>(share * kDuration_s / period_s);
+  const auto periods = static_cast<std::uint64_t>(share * kDurationS / period_s);
   StepError error{coarse.substeps, fine.substeps, static_cast<double>(periods) * period_s,
                   speed_rad_per_s, 0.0,           0.0};
   for (std::uint64_t n = 0; n < periods; ++n) {

@@ -18,13 +18,13 @@ namespace levitas::scenario {
 
 class OrbitLimiter {
  public:
-  static constexpr double kCut_s = 1e-3;
-  static constexpr double kRecovery_s = 1.0;
+  static constexpr double kCutS = 1e-3;
+  static constexpr double kRecoveryS = 1.0;
   static constexpr double kOff = 1.5;
   static constexpr double kQuiet = 0.8;
 
   explicit OrbitLimiter(double period_s)
-      : keep_(std::exp(-period_s / kCut_s)), recover_(-std::expm1(-period_s / kRecovery_s)) {}
+      : keep_(std::exp(-period_s / kCutS)), recover_(-std::expm1(-period_s / kRecoveryS)) {}
 
   void Reset() noexcept { gain_ = 1.0; }
 

@@ -70,8 +70,8 @@ double Signal::NextBit() noexcept {
 
 double Signal::StepHz() const noexcept {
   if (steps_ < 2) return from_hz_;
-  const double share =
-      static_cast<double>(cycle_ / dwell_cycles_) / static_cast<double>(steps_ - 1);
+  const std::uint64_t step = cycle_ / dwell_cycles_;
+  const double share = static_cast<double>(step) / static_cast<double>(steps_ - 1);
   return linear_ ? from_hz_ + share * (to_hz_ - from_hz_)
                  : from_hz_ * std::pow(to_hz_ / from_hz_, share);
 }

@@ -123,7 +123,7 @@ void AddRotor(const PlantModel& model, double speed_rad_per_s, Eigen::MatrixXd& 
     a.block(v, v, n, n) = (-2.0 * damping * w).matrix().asDiagonal();
   }
   if (model.guided()) {
-    const double guide = 2.0 * std::numbers::pi * kGuideFrequency_hz;
+    const double guide = 2.0 * std::numbers::pi * kGuideFrequencyHz;
     a.block(At(at.v_y), At(at.q_y), n, n).diagonal().setConstant(-guide * guide);
     a.block(At(at.v_y), At(at.v_y), n, n).diagonal().setConstant(-2.0 * kGuideDamping * guide);
   }

@@ -33,7 +33,7 @@ namespace levitas::plant {
 
 /// What holds the y direction of a rotor whose only bearing acts in x: stiff, and damped enough to
 /// come to rest within a few of its periods.
-inline constexpr double kGuideFrequency_hz = 1000.0;
+inline constexpr double kGuideFrequencyHz = 1000.0;
 inline constexpr double kGuideDamping = 0.5;
 
 /// Constants of one step length. Arrays run over the modes of both planes: x plane, then y plane;

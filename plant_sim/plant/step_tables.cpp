@@ -73,7 +73,7 @@ void PlantModel::RefreshStep(StepTable& table, double share) noexcept {
     const ModeStep step =
         MakeModeStep(now_.frequency_rad_per_s[i], now_.damping_ratio[i], table.duration_s);
     store(i, step);
-    store(modes + i, guided() ? MakeModeStep(2.0 * std::numbers::pi * kGuideFrequency_hz,
+    store(modes + i, guided() ? MakeModeStep(2.0 * std::numbers::pi * kGuideFrequencyHz,
                                              kGuideDamping, table.duration_s)
                               : step);
   }

@@ -13,7 +13,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kSamePlane_m = 1e-9;
+constexpr double kSamePlaneM = 1e-9;
 
 // `low` <= value, finite; a comparison with NaN fails, so it is refused too.
 void AtLeast(double low, double value, const char* name) {
@@ -57,7 +57,7 @@ DeflectionAndSlope ShapeOf(const GivenMode& mode, double z_m) {
 
 std::vector<double> Distinct(std::vector<double> planes_m) {
   std::sort(planes_m.begin(), planes_m.end());
-  const auto same = [](double a, double b) { return std::abs(a - b) <= kSamePlane_m; };
+  const auto same = [](double a, double b) { return std::abs(a - b) <= kSamePlaneM; };
   planes_m.erase(std::unique(planes_m.begin(), planes_m.end(), same), planes_m.end());
   return planes_m;
 }

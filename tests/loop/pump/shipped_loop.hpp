@@ -9,6 +9,7 @@
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
 #include "plant_sim/plant/plant.hpp"
+#include "plant_sim/run/timed_events.hpp"
 
 namespace levitas::test {
 
@@ -38,6 +39,8 @@ struct ShippedLoop {
                    const std::function<void(const cycle::CycleRecord&)>& watch = nullptr) {
     plant::Plant plant(rig.plant, seed);
     plant.RestInTouchdown();
+    plant_run::TimedEvents events(scenario, rig);
+    events.Prepare(plant);
     cycle::ControlCycle cycle({rig.numbers, controller.law, controller.supervisor});
     scenario::ScenarioPlayer player(scenario, rig.numbers.period_s(),
                                     controller.supervisor.sequence.standstill_rad_per_s);
@@ -46,6 +49,7 @@ struct ShippedLoop {
     while (!player.finished() && !player.failed() && record.in.cycle < limit) {
       ++record.in.cycle;
       record.in.frame = plant.Sample();
+      events.Disturb(record.in.cycle, record.in.frame);
       record.in.frame_present = true;
       const auto asked =
           player.Next(record.out.mode, record.in.frame.speed_rad_per_s, record.out.fault,
@@ -53,8 +57,10 @@ struct ShippedLoop {
       record.in.op = {asked.command, asked.speed_rad_per_s, asked.acceleration_rad_per_s2,
                       asked.excitation_a, asked.excitation_m};
       record.out = cycle.Step(record.in);
+      events.Answered(record.in.cycle);
       Note(record, plant);
       if (watch && Free(record.out.mode)) watch(record);
+      events.Change(record.in.cycle, plant);
       plant.Advance(CommandOf(record.out.current));
     }
     return player.failed() ? player.Text() : player.finished() ? "" : "not finished";
