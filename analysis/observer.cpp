@@ -21,7 +21,7 @@ double ForcePerCurrent(const plant::PlantModel& model, Eigen::Index axis) {
 /// How one newton at each actuator plane enters the state: the way the coil current's force does.
 Eigen::MatrixXd ForceInput(const plant::PlantModel& model, const Eigen::MatrixXd& a) {
   const plant::StateLayout& layout = model.layout();
-  const auto axes = static_cast<Eigen::Index>(model.axes());
+  const auto axes = static_cast<Eigen::Index>(model.channels());
   const auto modes = static_cast<Eigen::Index>(layout.modes);
   Eigen::MatrixXd input = Eigen::MatrixXd::Zero(a.rows(), axes);
   for (Eigen::Index axis = 0; axis < axes; ++axis) {
@@ -35,19 +35,22 @@ Eigen::MatrixXd ForceInput(const plant::PlantModel& model, const Eigen::MatrixXd
 }
 
 /// Sizes of the states' errors, so that the Riccati equation works on numbers of order one.
-Eigen::VectorXd Scales(const plant::StateLayout& layout, Eigen::Index axes, double reading_m) {
+Eigen::VectorXd Scales(const plant::PlantModel& model, double reading_m) {
   constexpr double kTypicalRate = 500.0;   // [1/s] levitated rotor and its first modes
   constexpr double kTypicalCurrent = 0.1;  // [A]
   constexpr double kTypicalForce = 1.0;    // [N]
+  const plant::StateLayout& layout = model.layout();
+  const auto axes = static_cast<Eigen::Index>(model.axes());
+  const auto channels = static_cast<Eigen::Index>(model.channels());
   const auto modes = static_cast<Eigen::Index>(layout.modes);
-  Eigen::VectorXd scale = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(layout.size) + axes);
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(layout.size) + channels);
   scale.segment(static_cast<Eigen::Index>(layout.q_x), modes).setConstant(reading_m);
   scale.segment(static_cast<Eigen::Index>(layout.q_y), modes).setConstant(reading_m);
   scale.segment(static_cast<Eigen::Index>(layout.v_x), modes).setConstant(reading_m * kTypicalRate);
   scale.segment(static_cast<Eigen::Index>(layout.v_y), modes).setConstant(reading_m * kTypicalRate);
   scale.segment(static_cast<Eigen::Index>(layout.coil_current), axes).setConstant(kTypicalCurrent);
   scale.segment(static_cast<Eigen::Index>(layout.sensor), axes).setConstant(reading_m);
-  scale.tail(axes).setConstant(kTypicalForce);
+  scale.tail(channels).setConstant(kTypicalForce);
   return scale;
 }
 
@@ -86,7 +89,7 @@ Augmented Augment(const plant::LinearModel& model, const Eigen::MatrixXd& force_
   out.a.topLeftCorner(states, states) = model.a;
   out.a.topRightCorner(states, axes) = force_step;
   out.c = Eigen::MatrixXd::Zero(axes, states + axes);
-  out.c.leftCols(states) = model.c;
+  out.c.leftCols(states) = model.c.topRows(axes);  // a guided rotor is read in x alone
   out.q = Eigen::MatrixXd::Zero(states + axes, states + axes);
   const Eigen::MatrixXd noise = force_step * (tuning.force_noise_share * full_force_n).asDiagonal();
   out.q.topLeftCorner(states, states) = noise * noise.transpose();
@@ -106,7 +109,7 @@ double ReadingNoise(const plant::SensorConfig& sensor) {
 ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTuning& tuning) {
   const plant::PlantModel reduced(nominal);
   const double period_s = static_cast<double>(nominal.period_ns) * 1e-9;
-  const auto axes = static_cast<Eigen::Index>(2 * nominal.bearings.size());
+  const auto axes = static_cast<Eigen::Index>(reduced.channels());
   plant::LinearModel continuous = plant::Linearise(reduced, tuning.speed_rad_per_s);
   continuous.b = ForceInput(reduced, continuous.a);
   const plant::LinearModel sampled = plant::Discretise(continuous, period_s, 0.0);
@@ -122,7 +125,7 @@ ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTun
         ForcePerCurrent(reduced, axis) * nominal.bearings[i / 2].magnet.bias_current_a;
   }
   const Augmented model = Augment(sampled, gain.force_step, reading_m, full_force_n, tuning);
-  const Eigen::VectorXd scale = Scales(reduced.layout(), axes, reading_m.maxCoeff());
+  const Eigen::VectorXd scale = Scales(reduced, reading_m.maxCoeff());
   const Eigen::VectorXd unscale = scale.cwiseInverse();
   const Eigen::VectorXd unread = reading_m.cwiseInverse();
   const Eigen::MatrixXd a = unscale.asDiagonal() * model.a * scale.asDiagonal();

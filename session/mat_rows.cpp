@@ -91,7 +91,9 @@ Table Read(const std::string& path, const std::string& matrix,
   for (Variable variable(Mat_VarReadNext(file.get())); variable;
        variable.reset(Mat_VarReadNext(file.get()))) {
     const std::string name = variable->name == nullptr ? "" : variable->name;
-    if (!matrix.empty() && name == matrix) return Split(*variable, path + ": " + name, matrix_rows);
+    if (!matrix.empty() && name == matrix) {
+      return Split(*variable, fmt::format("{}: {}", path, name), matrix_rows);
+    }
     std::vector<double> numbers = Numbers(*variable);
     if (numbers.empty()) continue;
     vectors.names.push_back(name);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/observer.hpp"
 #include "analysis/poles.hpp"
 #include "analysis/sensitivity.hpp"
 #include "plant_sim/plant/linear_model.hpp"
@@ -32,6 +33,17 @@ TEST(OneAxis, LevitatesThroughItsScenario) {
   EXPECT_EQ(loop.most.contact_n, 0.0);
   EXPECT_EQ(loop.most.excitation_a, 0.1);
   EXPECT_NEAR(loop.most.excitation_m, 3e-6, 1e-9);  // the peak of a sampled sine
+}
+
+// An unknown force across the guide would never be seen, and the observer never settled.
+TEST(OneAxis, IsObservedInItsOneChannelAndSettles) {
+  for (const char* name : {"one_axis", "two_magnet_levitator"}) {
+    const ShippedLoop loop(name, name);
+    const auto gain = analysis::DesignObserver(loop.rig.plant, {});
+    EXPECT_EQ(gain.force_n_per_m.cols(), 1) << name;
+    EXPECT_GT(gain.settling_s, 0.0) << name;
+    EXPECT_LT(gain.settling_s, 5.0) << name;
+  }
 }
 
 TEST(OneAxis, FallsWithKpBelowTheNegativeStiffness) {
