@@ -99,7 +99,7 @@ std::vector<Row> Table() {
   const double w_p = kTwoPi * kPinion_hz;
   const double w_g = kTwoPi * kGear_hz;
   const Complex runout_p = std::polar(30e-6, 1.0);
-  const Complex runout_g = std::polar(30e-6, -1.0);  // turns backwards: exp(-j (w t + 1))
+  const Complex runout_g = std::polar(30e-6, 1.0);  // turns backwards: exp(j (-w t + 1))
   const Complex at_rest = Answer(0.0, Teeth(1e6 * kMeanError_m));
   const Complex n = std::polar(1.0, std::numbers::pi / 2.0 - 20.0 * std::numbers::pi / 180.0);
   const double normal_n = std::abs((load_n * std::conj(n)).real());
@@ -186,9 +186,9 @@ std::vector<Row> Table() {
       {Id::kToothCrack,
        true,
        {0.01, 0.0},
-       "beside the mesh",
-       kMesh_hz + kGear_hz,
-       Answer(kMesh_hz + kGear_hz, Teeth(0.01 * CrackLine(41) * load_n)),
+       "side bands of the mesh",
+       kMesh_hz - 10.0 * kGear_hz,
+       Answer(kMesh_hz - 10.0 * kGear_hz, Teeth(0.01 * CrackLine(30) * load_n)),
        0.02,
        kMesh_hz + kGear_hz / 2.0},
   };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <ostream>
 
 #include "analysis/coil_prediction.hpp"
 #include "analysis/poles.hpp"
@@ -84,6 +85,8 @@ struct KnownRun {
 constexpr std::array kKnown{
     KnownRun{"sine_slow_lqr.mat", 41.381, 0.8260}, KnownRun{"stairs_lqi.mat", 32.207, 0.8376},
     KnownRun{"stairs_lqr.mat", 39.145, 0.8202}, KnownRun{"updown_lqi.mat", 31.601, 0.8267}};
+
+std::ostream& operator<<(std::ostream& out, const KnownRun& run) { return out << run.file; }
 
 class Measured : public testing::TestWithParam<KnownRun> {};
 

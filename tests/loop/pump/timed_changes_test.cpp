@@ -27,7 +27,7 @@ struct Seen {
 
 /// The flexible rotor at 1500 rpm from about 2.5 s to 7 s, with one effect in its file that has no
 /// strength, and the change, if any.
-std::vector<Seen> Run(const effect::EffectConfig& entry, const std::vector<RigEvent>& events) {
+std::vector<Seen> Played(const effect::EffectConfig& entry, const std::vector<RigEvent>& events) {
   ShippedLoop loop("flexible_rotor", "levitate");
   loop.rig.plant.effects = {entry};
   loop.rig.plant.effects[0].strength = 0.0;
@@ -35,6 +35,7 @@ std::vector<Seen> Run(const effect::EffectConfig& entry, const std::vector<RigEv
   scenario::Step spin;
   spin.command = OperatorCommand::kSpin;
   spin.speed_rad_per_s = kSpeed_rad_per_s;
+  spin.acceleration_rad_per_s2 = loop.rig.plant.drive.max_acceleration_rad_per_s2;
   spin.wait = scenario::Wait::kSpeedReached;
   spin.timeout_s = 5.0;
   spin.hold_s = 10.0;
@@ -90,7 +91,7 @@ effect::EffectConfig Crack() {
 }
 
 TEST(TimedChange, OfASlowDriftIsHalfWayInTheMiddleOfItsRampAndStaysAtItsEnd) {
-  const auto drifting = Run(Unbalance(), {Change("unbalance", 2.0)});
+  const auto drifting = Played(Unbalance(), {Change("unbalance", 2.0)});
   const Complex before = Line(drifting, 1, kEventAt_s - 0.5);
   const Complex middle = Line(drifting, 1, kEventAt_s + 0.8);  // 0.4 s about the middle
   const Complex after = Line(drifting, 1, kEventAt_s + 2.1);
@@ -101,14 +102,14 @@ TEST(TimedChange, OfASlowDriftIsHalfWayInTheMiddleOfItsRampAndStaysAtItsEnd) {
   EXPECT_LT(std::abs(middle - 0.5 * (before + after)), 0.04 * change_m);
   EXPECT_LT(std::abs(later - after), 0.04 * change_m);
   // The other half of the pair: an effect without strength that nothing changes.
-  const auto without = Run(Unbalance(), {});
+  const auto without = Played(Unbalance(), {});
   EXPECT_LT(std::abs(Line(without, 1, kEventAt_s + 2.1) - Line(without, 1, kEventAt_s - 0.5)),
             0.04 * change_m);
 }
 
 TEST(TimedChange, OfASuddenCrackChangesNoBitBeforeItAndMultiplesOfRotationFromThereOn) {
-  const auto cracked = Run(Crack(), {Change("breathing_crack", 0.0)});
-  const auto sound = Run(Crack(), {});
+  const auto cracked = Played(Crack(), {Change("breathing_crack", 0.0)});
+  const auto sound = Played(Crack(), {});
   ASSERT_EQ(cracked.size(), sound.size());
   std::vector<Seen> added = cracked;
   double first_s = 1e9;
