@@ -9,7 +9,7 @@ OPTIONS = {
     "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--json"},
     "poles": {"--rig", "--controller", "--speed-rpm", "--speeds", "--up-to-hz", "--json"},
     "margins": {"--rig", "--controller", "--speed-rpm", "--speeds", "--json"},
-    "simulate": {"--rig", "--force-noise-percent", "--departures", "--csv", "--svg", "--json"},
+    "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--csv", "--svg", "--json"},
     "import": {"--rig", "--out", "--json"},
     "export": {"--csv", "--json"},
     "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--json"},
