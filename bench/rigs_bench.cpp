@@ -37,7 +37,8 @@ void RunPeriods(benchmark::State& state, const Subject& subject) {
     plant.Advance(command);
   }
   if (!plant.finite() || plant.ContactForce() > 0.0) state.SkipWithError("it did not stay put");
-  state.counters["degrees_of_freedom"] = static_cast<double>(2 * plant.layout().modes);
+  state.counters["degrees_of_freedom"] =
+      static_cast<double>(2 * plant.layout().modes + plant.layout().twists);
   state.counters["x_real_time"] =
       benchmark::Counter(static_cast<double>(state.iterations()) *
                              static_cast<double>(subject.config.period_ns) * 1e-9,
@@ -48,6 +49,9 @@ Subject Balanced(const std::string& rig_name) {
   config::RigFile rig = config::LoadRig(config::FindConfig(rig_name, "rigs"));
   rig.plant.gravity_m_per_s2 = 0.0;
   for (auto& mass : rig.plant.unbalance) mass.moment_kg_m = 0.0;
+  for (auto& bearing : rig.plant.bearings) {  // a ball half way between its magnets
+    if (bearing.magnet.exponential) bearing.magnet.exponential->far_gap_m = bearing.magnet.gap_m;
+  }
   return {rig_name, rig.plant, rig.numbers.max_speed_rad_per_s};
 }
 

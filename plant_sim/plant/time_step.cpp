@@ -10,10 +10,12 @@
 namespace levitas::plant {
 namespace {
 
-// The number of modes: a run-time number, or for the usual eight per plane one that the compiler
-// knows, which makes the loops below straight vector code (1.5 times as fast).
+// The number of modes: a run-time number, or for the usual ones (eight per plane; two or four of
+// geared shafts) one that the compiler knows, which makes the loops below straight vector code (1.5
+// times as fast).
 using AnyModes = std::size_t;
-using EightModes = std::integral_constant<std::size_t, 8>;
+template <std::size_t modes>
+using Fixed = std::integral_constant<std::size_t, modes>;
 
 // Sums of shape times modal coordinate in both planes. Two partial sums each let the processor use
 // both lanes; the order is fixed, so the bits are too.
@@ -224,10 +226,15 @@ void Correct(Count count, const StepTable& table, const double* __restrict start
 // kept for it.
 template <class Function>
 void WithModes(const PlantModel& model, const Function& function) noexcept {
-  if (model.layout().modes == EightModes::value && model.layout().twists == 0) {
-    function(EightModes{}, std::integral_constant<std::size_t, 16>{});
+  const std::size_t modes = model.layout().modes;
+  if (modes == 8 && model.layout().twists == 0) {
+    function(Fixed<8>{}, Fixed<16>{});
+  } else if (modes == 4) {
+    function(Fixed<4>{}, AnyModes{model.coordinates()});
+  } else if (modes == 2) {
+    function(Fixed<2>{}, AnyModes{model.coordinates()});
   } else {
-    function(AnyModes{model.layout().modes}, AnyModes{model.coordinates()});
+    function(AnyModes{modes}, AnyModes{model.coordinates()});
   }
 }
 

@@ -14,8 +14,11 @@ double Sum(const std::vector<double>& shape, const double* modal) noexcept {
   return sum;
 }
 
-void Project(const std::vector<double>& shape, double force, double* acceleration) noexcept {
-  for (std::size_t i = 0; i < shape.size(); ++i) acceleration[i] += shape[i] * force;
+void Project(const std::vector<double>& shape, double force,
+             double* __restrict acceleration) noexcept {
+  const double* __restrict at = shape.data();
+  const std::size_t size = shape.size();
+  for (std::size_t i = 0; i < size; ++i) acceleration[i] += at[i] * force;
 }
 
 // Force u (W^2 - j W') exp(j angle) of each shaft with its own W, (13).
@@ -27,10 +30,12 @@ void AddUnbalance(const TrainModel& train, const TrainPose& pose, std::size_t mo
     const double speed = u.ratio * pose.speed_rad_per_s;
     const gear::Vector factor =
         gear::Turned({speed * speed, -u.ratio * pose.acceleration_rad_per_s2}, pose.heading[s]);
-    for (std::size_t i = 0; i < modes; ++i) {
-      acceleration[i] += factor.x * u.real[i] - factor.y * u.imaginary[i];
-      acceleration[modes + i] += factor.x * u.imaginary[i] + factor.y * u.real[i];
-    }
+    const double* __restrict real = u.real.data();
+    const double* __restrict imaginary = u.imaginary.data();
+    double* __restrict in_x = acceleration;
+    double* __restrict in_y = acceleration + modes;
+    for (std::size_t i = 0; i < modes; ++i) in_x[i] += factor.x * real[i] - factor.y * imaginary[i];
+    for (std::size_t i = 0; i < modes; ++i) in_y[i] += factor.x * imaginary[i] + factor.y * real[i];
   }
 }
 
