@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   cli::AddExportCommand(app, action);
   cli::AddCanDbcCommand(app, action);
   cli::AddDashCommand(app, action);
+  cli::AddReportCommand(app, action);
   cli::AddDoctorCommand(app, action);
   cli::AddSimulateCommand(app, action);
   cli::AddEffectsCommand(app, action);

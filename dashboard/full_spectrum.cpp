@@ -2,33 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <complex>
 
-#include "analysis/spectrum.hpp"
+#include "analysis/full_spectrum.hpp"
 
 namespace levitas::dashboard {
-
-std::vector<double> FullAmplitudes(std::vector<std::complex<double>> signal,
-                                   std::size_t lines_each_side) {
-  const std::size_t size = signal.size();
-  std::complex<double> mean{};
-  for (const auto& value : signal) mean += value;
-  mean /= static_cast<double>(size);
-  for (std::size_t n = 0; n < size; ++n) {
-    const double phase = 2.0 * std::numbers::pi * static_cast<double>(n);
-    signal[n] = (signal[n] - mean) * (0.5 - 0.5 * std::cos(phase / static_cast<double>(size)));
-  }
-  analysis::FourierTransform(signal);
-  // The Hann window's mean is one half: a line keeps its height.
-  const double scale = 2.0 / static_cast<double>(size);
-  const std::size_t lines = std::min(lines_each_side, size / 2 - 1);
-  std::vector<double> amplitude;
-  amplitude.reserve(2 * lines + 1);
-  for (std::size_t k = size - lines; k < size; ++k)
-    amplitude.push_back(scale * std::abs(signal[k]));
-  for (std::size_t k = 0; k <= lines; ++k) amplitude.push_back(scale * std::abs(signal[k]));
-  return amplitude;
-}
 
 std::optional<FullSpectrum> SpectrumOf(const SampleStore& store, double highest_hz) {
   if (store.contiguous() < kSpectrumLength) return std::nullopt;
@@ -50,7 +28,7 @@ std::optional<FullSpectrum> SpectrumOf(const SampleStore& store, double highest_
       if (!std::isfinite(r.real()) || !std::isfinite(r.imag())) return std::nullopt;
       orbit.push_back(r);
     }
-    spectrum.amplitude_m.push_back(FullAmplitudes(std::move(orbit), lines));
+    spectrum.amplitude_m.push_back(analysis::FullAmplitudes(std::move(orbit), lines));
   }
   return spectrum;
 }

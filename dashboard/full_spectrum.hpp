@@ -1,16 +1,9 @@
 #pragma once
-// Full spectrum of each bearing: the orbit x + jy seen forward and backward.
-//
-//   R(f) = 1/(N g) sum_n w_n (x_n + j y_n - mean) exp(-j 2 pi f n / N)      Hann window w, g = mean
-//   w
-//
-// so that a circular orbit of radius a shows a line of height a at its signed frequency: positive
-// is forward whirl (x to y, as docs/conventions.md), negative backward. After Southwick (1994).
+// Full spectrum of each bearing (analysis/full_spectrum.hpp) of the newest samples.
 //
 // Units    metres (amplitude, not density) over hertz. Thread any; allocates.
 // Failure  nothing while fewer than kLength uninterrupted samples are there, or one is no number.
 
-#include <complex>
 #include <optional>
 #include <vector>
 
@@ -30,9 +23,5 @@ inline constexpr std::size_t kSpectrumLength = 4096;
 
 /// Of the newest samples, up to `highest_hz` (bounded by half the sampling rate).
 [[nodiscard]] std::optional<FullSpectrum> SpectrumOf(const SampleStore& store, double highest_hz);
-
-/// Amplitudes of one complex signal of a power of two of samples; index 0 is the lowest frequency.
-[[nodiscard]] std::vector<double> FullAmplitudes(std::vector<std::complex<double>> signal,
-                                                 std::size_t lines_each_side);
 
 }  // namespace levitas::dashboard

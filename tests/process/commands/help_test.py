@@ -14,8 +14,10 @@ OPTIONS = {
     "import": {"--rig", "--out", "--json"},
     "export": {"--csv", "--json"},
     "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--json"},
+    "report": {"--out", "--pictures", "--speeds", "--run-json", "--json"},
+    "dash": {"--port", "--http-port", "--listen", "--allow-network", "--token", "--answer-within"},
     "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--port", "--record",
-            "--seed", "--json"},
+            "--seed", "--json", "--dash", "--no-dash"},
     "identify": set(),  # its subcommands follow
     "identify frf": {"--rig", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",
                      "--speed-rpm", "--json"},
@@ -23,7 +25,7 @@ OPTIONS = {
                        "--svg", "--json"},
     "doctor": {"--json"},
 }
-POSITIONAL = {"simulate": "session", "import": "DATA", "export": "SESSION", "replay": "SESSION",
+POSITIONAL = {"simulate": "session", "import": "DATA", "export": "SESSION", "report": "SESSION", "replay": "SESSION",
               "identify frf": "DATA", "identify modal": "DATA"}
 
 

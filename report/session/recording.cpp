@@ -1,0 +1,79 @@
+#include "report/session/recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/problem.hpp"
+#include "config/rig_file.hpp"
+#include "controller/cycle/probe_map.hpp"
+#include "session/session_reader.hpp"
+#include "verdict/phase.hpp"
+
+namespace levitas::report {
+namespace {
+
+/// Slower than any bearing is judged at; for records that name no controller.
+constexpr double kSlow = 1.0;
+
+void Add(Recording& recording, const cycle::CycleRecord& record, const cycle::ProbeMap& probes) {
+  ++recording.records;
+  recording.missed_deadlines += record.in.missed_deadlines;
+  if (!record.in.frame_present) {
+    ++recording.without_frame;
+    return;
+  }
+  const SensorFrame& frame = record.in.frame;
+  const AxisArray position_m = probes.Positions({frame.position_m}).at;
+  // Signs are their own inverse: the way out is the way back.
+  const AxisArray current_a = probes.Currents({record.out.current.control_current_a}).at;
+  recording.cycle.push_back(record.in.cycle);
+  for (std::size_t axis = 0; axis < recording.position_m.size(); ++axis) {
+    recording.position_m[axis].push_back(static_cast<float>(position_m[axis]));
+    recording.current_a[axis].push_back(static_cast<float>(current_a[axis]));
+  }
+  recording.speed_rad_per_s.push_back(static_cast<float>(frame.speed_rad_per_s));
+  recording.angle_rad.push_back(static_cast<float>(frame.angle_rad));
+  recording.sample_time_ns.push_back(frame.sample_time_ns);
+  const bool imported = recording.header.controller_yaml.empty();
+  recording.levitated.push_back(imported || verdict::IsLevitated(record.out.mode));
+  if (recording.levitated.back() && std::isfinite(frame.speed_rad_per_s)) {
+    recording.top_speed_rad_per_s =
+        std::max(recording.top_speed_rad_per_s, std::abs(frame.speed_rad_per_s));
+  }
+}
+
+}  // namespace
+
+double Recording::Radius(std::size_t bearing, std::size_t i) const {
+  return std::hypot(static_cast<double>(position_m[2 * bearing][i]),
+                    static_cast<double>(position_m[2 * bearing + 1][i]));
+}
+
+Recording Load(const std::string& path) {
+  session::SessionReader reader(path);
+  Recording recording;
+  recording.header = reader.header();
+  const std::string within = path + " (header)";
+  recording.rig = config::ParseRig(recording.header.rig_yaml, within).numbers;
+  recording.standstill_rad_per_s = kSlow;
+  if (!recording.header.controller_yaml.empty()) {
+    recording.standstill_rad_per_s =
+        config::ParseController(recording.header.controller_yaml, within, recording.rig)
+            .supervisor.sequence.standstill_rad_per_s;
+  }
+  recording.position_m.resize(recording.rig.axes());
+  recording.current_a.resize(recording.rig.axes());
+  const cycle::ProbeMap probes(recording.rig);
+  cycle::CycleRecord record;
+  while (reader.Next(record)) {
+    // Numbers that go back (files put together) would make times without meaning.
+    const bool forward = recording.cycle.empty() || record.in.cycle > recording.cycle.back();
+    if (forward) Add(recording, record, probes);
+  }
+  recording.events = reader.events();
+  recording.damage = reader.damage().Text();
+  if (recording.size() == 0) throw BadInput(path + ": holds no cycle with a sensor frame");
+  return recording;
+}
+
+}  // namespace levitas::report

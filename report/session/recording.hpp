@@ -1,0 +1,51 @@
+#pragma once
+// A recorded session in memory, as its pictures need it.
+//
+// Frame    bearing frame: polarity of probes and coils is undone here with the rig's numbers.
+// Units    SI; single precision (7 digits: 0.1 nm of 1 mm). About 50 bytes a cycle with four axes.
+// Left out cycles without a new sensor frame; a gap in `cycle` remains.
+// Thread   any; offline. Failure: BadInput when the session or its header cannot be read.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/enums.hpp"
+#include "common/rig_numbers.hpp"
+#include "session/session_header.hpp"
+
+namespace levitas::report {
+
+struct Recording {
+  session::SessionHeader header;
+  RigNumbers rig;
+  double standstill_rad_per_s{};  ///< of the controller; slower counts as standing
+  std::vector<std::uint64_t> cycle;
+  std::vector<std::vector<float>> position_m;  ///< per axis
+  std::vector<std::vector<float>> current_a;   ///< per axis: commanded, excitation included
+  std::vector<float> speed_rad_per_s;
+  std::vector<float> angle_rad;
+  std::vector<std::int64_t> sample_time_ns;
+  std::vector<bool> levitated;  ///< imported records throughout
+  std::vector<session::Event> events;
+  std::string damage;  ///< empty when nothing was lost
+  std::uint64_t records{};
+  std::uint64_t without_frame{};
+  std::uint64_t missed_deadlines{};
+  double top_speed_rad_per_s{};
+
+  [[nodiscard]] std::size_t size() const noexcept { return cycle.size(); }
+  [[nodiscard]] double TimeOf(std::size_t i) const {
+    return static_cast<double>(cycle[i] - cycle.front()) * rig.period_s();
+  }
+  /// Whether no cycle is missing from `first` to `last`, both included.
+  [[nodiscard]] bool Uninterrupted(std::size_t first, std::size_t last) const {
+    return cycle[last] - cycle[first] == last - first;
+  }
+  /// Distance from the centre of the clearance at a bearing.
+  [[nodiscard]] double Radius(std::size_t bearing, std::size_t i) const;
+};
+
+[[nodiscard]] Recording Load(const std::string& path);
+
+}  // namespace levitas::report

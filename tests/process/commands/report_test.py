@@ -1,0 +1,68 @@
+"""amb report: a session becomes one page; pictures by themselves; what is refused."""
+
+import re
+import unittest
+import urllib.parse
+import xml.etree.ElementTree as xml
+
+from command import BAD_INPUT, DONE, USAGE, CommandTest, amb, make_record
+
+ROWS = 6_000
+SPEED_RPM = 3000
+
+
+class Report(CommandTest):
+    def setUp(self):
+        super().setUp()
+        make_record(self.folder / "r.csv", "unbalance", SPEED_RPM, ROWS)
+        done = amb(self.folder, "import", "r.csv", "--rig", "flexible_rotor", "--out", "s.lcmlog")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+
+    def test_is_one_page_whose_pictures_are_inside_it_and_are_drawings(self):
+        _, told = self.compute("report", "s.lcmlog", "--out", "r.html")
+        page = (self.folder / "r.html").read_text(encoding="utf-8")
+        pictures = re.findall(r'src="data:image/svg\+xml,([^"]*)"', page)
+        self.assertEqual(len(pictures), len(told["pictures"]))
+        for picture in pictures:
+            self.assertTrue(xml.fromstring(urllib.parse.unquote(picture)).tag.endswith("svg"))
+        outside = [address for address in re.findall(r'(?:src|href)="([^"]*)"', page)
+                   if not address.startswith("data:")]
+        self.assertEqual(outside, [])
+        self.assertIn(f"{SPEED_RPM} rpm", page)
+
+    def test_writes_each_picture_by_itself_too(self):
+        _, told = self.compute("report", "s.lcmlog", "--out", "r.html", "--pictures", "p")
+        self.assertEqual(sorted(path.name for path in (self.folder / "p").iterdir()),
+                         sorted(f"{name}.svg" for name in told["pictures"]))
+        for path in (self.folder / "p").iterdir():
+            xml.parse(path)
+
+    def test_shows_the_orbits_that_were_asked_for(self):
+        amb(self.folder, "report", "s.lcmlog", "--out", "r.html", "--pictures", "p", "--speeds", "3000")
+        orbit = (self.folder / "p/orbit_de.svg").read_text(encoding="utf-8")
+        self.assertEqual(re.findall(r">(\d+ rpm)<", orbit), ["3000 rpm"])
+
+    def test_says_that_an_imported_record_is_not_judged(self):
+        _, told = self.compute("report", "s.lcmlog", "--out", "r.html")
+        self.assertIsNone(told["verdict"])
+        self.assertIn("Not judged", (self.folder / "r.html").read_text(encoding="utf-8"))
+
+    def test_refuses_what_is_no_session_and_writes_nothing(self):
+        self.write("x", "no session")
+        self.refuse(BAD_INPUT, "x", "report", "x", "--out", "r.html")
+        self.refuse(BAD_INPUT, "gone", "report", "gone.lcmlog", "--out", "r.html")
+        self.refuse(USAGE, "--out", "report", "s.lcmlog")
+
+    def test_refuses_to_write_over_what_it_reads(self):
+        before = (self.folder / "s.lcmlog").read_bytes()
+        amb(self.folder, "report", "s.lcmlog", "--out", "s.lcmlog")
+        self.assertEqual((self.folder / "s.lcmlog").read_bytes(), before)
+
+    def test_refuses_a_file_that_a_run_did_not_write(self):
+        self.write("other.json", '{"timing": 3}')
+        self.refuse(BAD_INPUT, "other.json", "report", "s.lcmlog", "--out", "r.html", "--run-json",
+                    "other.json")
+
+
+if __name__ == "__main__":
+    unittest.main()
