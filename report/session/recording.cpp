@@ -61,8 +61,8 @@ Recording Load(const std::string& path) {
         config::ParseController(recording.header.controller_yaml, within, recording.rig)
             .supervisor.sequence.standstill_rad_per_s;
   }
-  recording.position_m.resize(recording.rig.axes());
-  recording.current_a.resize(recording.rig.axes());
+  recording.position_m.resize(2 * recording.rig.bearings.size());
+  recording.current_a.resize(2 * recording.rig.bearings.size());
   const cycle::ProbeMap probes(recording.rig);
   cycle::CycleRecord record;
   while (reader.Next(record)) {

@@ -21,8 +21,8 @@ struct Recording {
   RigNumbers rig;
   double standstill_rad_per_s{};  ///< of the controller; slower counts as standing
   std::vector<std::uint64_t> cycle;
-  std::vector<std::vector<float>> position_m;  ///< per axis
-  std::vector<std::vector<float>> current_a;   ///< per axis: commanded, excitation included
+  std::vector<std::vector<float>> position_m;  ///< x, y per bearing; a guided y is 0
+  std::vector<std::vector<float>> current_a;   ///< as that: commanded, excitation included
   std::vector<float> speed_rad_per_s;
   std::vector<float> angle_rad;
   std::vector<std::int64_t> sample_time_ns;

@@ -115,6 +115,7 @@ NamedPicture CurrentPicture(const Recording& r, std::size_t bearing) {
       std::min(r.rig.bias_current_a, r.rig.max_coil_current_a - r.rig.bias_current_a);
   const double end_s = r.TimeOf(r.size() - 1);
   for (const std::size_t axis : {2 * bearing, 2 * bearing + 1}) {
+    if (axis >= r.rig.axes()) continue;  // guided
     for (svg::Series& edge : CurrentEdges(r, axis)) panel.series.push_back(std::move(edge));
   }
   panel.series.push_back(Level("limit", 0.0, end_s, limit_a));

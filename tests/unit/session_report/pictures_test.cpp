@@ -98,6 +98,16 @@ TEST(TimePictures, KeepTheLargestValueOfEveryStretch) {
   EXPECT_GE(*std::max_element(y.begin(), y.end()), 149.99);  // single precision
 }
 
+TEST(Pictures, OfARigWithOneAxisAreDrawnWithTheOtherAtRest) {
+  Recording r = WhirlingRotor();
+  r.rig.channels = {"x"};
+  std::fill(r.position_m[1].begin(), r.position_m[1].end(), 0.0F);
+  const auto pictures = Pictures(r, {});
+  // One axis has two edges, and the limits are two lines.
+  EXPECT_EQ(PanelOf(pictures, "currents_de").series.size(), 4U);
+  for (const double y : PanelOf(pictures, "orbit_de").series.back().y) EXPECT_EQ(y, 0.0);
+}
+
 TEST(ChosenSpeeds, AreStandingTheWorstAndTheTop) {
   Recording r = WhirlingRotor();
   // Three times the whirl about 200 rad/s, which is passed at half of the ramp.
