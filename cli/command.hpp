@@ -25,7 +25,6 @@ void AddImportCommand(CLI::App& app, Action& action);
 void AddExportCommand(CLI::App& app, Action& action);
 void AddCanDbcCommand(CLI::App& app, Action& action);
 void AddDashCommand(CLI::App& app, Action& action);
-void AddReportCommand(CLI::App& app, Action& action);
 void AddDoctorCommand(CLI::App& app, Action& action);
 void AddSimulateCommand(CLI::App& app, Action& action);
 void AddEffectsCommand(CLI::App& app, Action& action);

@@ -10,6 +10,7 @@
 
 #include "cli/bench_command.hpp"
 #include "cli/command.hpp"
+#include "cli/report_command.hpp"
 #include "common/nearest.hpp"
 
 namespace {

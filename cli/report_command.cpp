@@ -8,8 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.hpp"
 #include "cli/json_file.hpp"
+#include "cli/report_command.hpp"
 #include "config/rig_file.hpp"
 #include "report/session/page.hpp"
 #include "session/output_path.hpp"
