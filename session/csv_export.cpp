@@ -8,9 +8,10 @@
 #include <cstring>
 #include <iterator>
 #include <memory>
-#include <numbers>
+#include <vector>
 
 #include "common/problem.hpp"
+#include "session/export_rows.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::session {
@@ -29,67 +30,17 @@ void Number(fmt::memory_buffer& out, double value) {
   }
 }
 
-/// Columns of an injection into the measured position are written when the scenario asks for one.
-bool InjectsPosition(const SessionHeader& header) {
-  return header.scenario_yaml.find("point: measured_position") != std::string::npos;
-}
-
-std::string ColumnNames(const std::vector<std::string>& channels, bool position_excitation) {
-  std::string line = "time_s,rotor_angle_rad,speed_rpm";
-  for (const auto& channel : channels) line += fmt::format(",position_{}_m", channel);
-  for (const auto& channel : channels) line += fmt::format(",control_current_{}_a", channel);
-  for (const auto& channel : channels) line += fmt::format(",excitation_{}_a", channel);
-  for (std::size_t i = 0; position_excitation && i < channels.size(); ++i) {
-    line += fmt::format(",excitation_{}_m", channels[i]);
-  }
+std::string Joined(const std::vector<std::string>& names) {
+  std::string line;
+  for (const std::string& name : names) line += (line.empty() ? "" : ",") + name;
   return line + "\n";
 }
 
-/// Time of the samples on one axis that never goes back.
-class TimeAxis {
- public:
-  explicit TimeAxis(const SessionHeader& header)
-      : period_ns_(header.period_ns), from_zero_(header.pace == "realtime") {}
-
-  std::int64_t Of(const cycle::CycleInputs& in) {
-    if (!started_) {
-      offset_ns_ = from_zero_ ? -in.frame.sample_time_ns : 0;
-    } else if (in.frame.rig_session != rig_session_) {
-      // A new rig counts anew: the controller's own count bridges the restart.
-      const auto cycles = static_cast<std::int64_t>(in.cycle - cycle_);
-      offset_ns_ = time_ns_ + cycles * period_ns_ - in.frame.sample_time_ns;
-    }
-    started_ = true;
-    rig_session_ = in.frame.rig_session;
-    cycle_ = in.cycle;
-    time_ns_ = in.frame.sample_time_ns + offset_ns_;
-    return time_ns_;
-  }
-
- private:
-  std::int64_t period_ns_;
-  bool from_zero_;
-  bool started_{false};
-  std::uint32_t rig_session_{};
-  std::uint64_t cycle_{};
-  std::int64_t time_ns_{};
-  std::int64_t offset_ns_{};
-};
-
-void Row(fmt::memory_buffer& out, const cycle::CycleRecord& record, std::int64_t time_ns,
-         std::size_t axes, bool position_excitation) {
-  constexpr double kRpmPerRadPerS = 30.0 / std::numbers::pi;
-  const SensorFrame& frame = record.in.frame;
+void Row(fmt::memory_buffer& out, std::int64_t time_ns, const std::vector<double>& values) {
   fmt::format_to(std::back_inserter(out), "{}", SecondsText(time_ns));
-  Number(out, frame.angle_rad);
-  fmt::format_to(std::back_inserter(out), ",{:.12g}", frame.speed_rad_per_s * kRpmPerRadPerS);
-  for (const AxisArray* values :
-       {&frame.position_m, &record.out.current.control_current_a, &record.in.op.excitation_a}) {
-    for (std::size_t axis = 0; axis < axes; ++axis) Number(out, (*values)[axis]);
-  }
-  for (std::size_t axis = 0; position_excitation && axis < axes; ++axis) {
-    Number(out, record.in.op.excitation_m[axis]);
-  }
+  Number(out, values[ExportRows::kAngle]);
+  fmt::format_to(std::back_inserter(out), ",{:.12g}", values[ExportRows::kSpeed]);
+  for (std::size_t i = ExportRows::kSpeed + 1; i < values.size(); ++i) Number(out, values[i]);
   out.push_back('\n');
 }
 
@@ -113,11 +64,10 @@ ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
         fmt::format("{}: cannot be written: {}. Name a file in a folder you may write to.",
                     csv_path, std::strerror(errno)));
   }
-  const auto& channels = reader.header().channels;
-  const bool position_excitation = InjectsPosition(reader.header());
-  TimeAxis time(reader.header());
+  ExportRows rows(reader.header());
+  std::vector<double> values;
   fmt::memory_buffer out;
-  fmt::format_to(std::back_inserter(out), "{}", ColumnNames(channels, position_excitation));
+  fmt::format_to(std::back_inserter(out), "{}", Joined(rows.names()));
   bool sound = true;
   const auto write = [&] {
     sound = sound && std::fwrite(out.data(), 1, out.size(), file.get()) == out.size();
@@ -130,7 +80,7 @@ ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
       ++report.cycles_without_frame;
       continue;
     }
-    Row(out, record, time.Of(record.in), channels.size(), position_excitation);
+    Row(out, rows.Next(record, values), values);
     ++report.rows;
     constexpr std::size_t kBlockBytes = std::size_t{1} << 18;
     if (out.size() > kBlockBytes) write();

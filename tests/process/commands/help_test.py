@@ -12,7 +12,7 @@ OPTIONS = {
     "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--csv", "--svg",
                  "--json"},
     "import": {"--rig", "--out", "--json"},
-    "export": {"--csv", "--json"},
+    "export": {"--csv", "--mat", "--json"},
     "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--json"},
     "report": {"--out", "--pictures", "--speeds", "--run-json", "--json"},
     "dash": {"--port", "--http-port", "--listen", "--allow-network", "--token", "--answer-within"},

@@ -1,0 +1,53 @@
+#include "session/export_rows.hpp"
+
+#include <numbers>
+
+namespace levitas::session {
+
+ExportRows::ExportRows(const SessionHeader& header)
+    : names_{"time_s", "rotor_angle_rad", "speed_rpm"},
+      axes_(header.channels.size()),
+      injects_position_(header.scenario_yaml.find("point: measured_position") != std::string::npos),
+      period_ns_(header.period_ns),
+      from_zero_(header.pace == "realtime") {
+  const auto name_all = [&](const char* quantity, const char* unit) {
+    for (const auto& channel : header.channels) names_.push_back(quantity + channel + unit);
+  };
+  name_all("position_", "_m");
+  name_all("control_current_", "_a");
+  name_all("excitation_", "_a");
+  if (injects_position_) name_all("excitation_", "_m");
+}
+
+std::int64_t ExportRows::TimeOf(const cycle::CycleInputs& in) {
+  if (!started_) {
+    offset_ns_ = from_zero_ ? -in.frame.sample_time_ns : 0;
+  } else if (in.frame.rig_session != rig_session_) {
+    // A new rig counts anew: the controller's own count bridges the restart.
+    const auto cycles = static_cast<std::int64_t>(in.cycle - cycle_);
+    offset_ns_ = time_ns_ + cycles * period_ns_ - in.frame.sample_time_ns;
+  }
+  started_ = true;
+  rig_session_ = in.frame.rig_session;
+  cycle_ = in.cycle;
+  time_ns_ = in.frame.sample_time_ns + offset_ns_;
+  return time_ns_;
+}
+
+std::int64_t ExportRows::Next(const cycle::CycleRecord& record, std::vector<double>& values) {
+  constexpr double kRpmPerRadPerS = 30.0 / std::numbers::pi;
+  const SensorFrame& frame = record.in.frame;
+  values.clear();
+  values.push_back(frame.angle_rad);
+  values.push_back(frame.speed_rad_per_s * kRpmPerRadPerS);
+  const auto add = [&](const AxisArray& numbers) {
+    for (std::size_t axis = 0; axis < axes_; ++axis) values.push_back(numbers[axis]);
+  };
+  add(frame.position_m);
+  add(record.out.current.control_current_a);
+  add(record.in.op.excitation_a);
+  if (injects_position_) add(record.in.op.excitation_m);
+  return TimeOf(record.in);
+}
+
+}  // namespace levitas::session

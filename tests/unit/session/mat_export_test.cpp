@@ -1,0 +1,64 @@
+// A session written as a MAT file is read back as it was, by the reader of measured MAT files.
+
+#include "session/mat_export.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/problem.hpp"
+#include "session/mat_rows.hpp"
+#include "tests/unit/session/synthetic.hpp"
+
+namespace levitas::session {
+namespace {
+
+using testing::DrawRecords;
+using testing::Folder;
+using testing::Header;
+using testing::WriteSession;
+
+TEST(MatExport, IsReadBackWithEveryNumberAsItWas) {
+  const Folder folder;
+  const auto records = DrawRecords(500);
+  WriteSession(folder / "s", records);
+  SessionReader session(folder / "s");
+  EXPECT_EQ(ExportMat(session, folder / "s.mat").rows, records.size());
+  MatRows rows(folder / "s.mat", Header().channels, "", {});
+  CsvRow row;
+  for (const auto& record : records) {
+    ASSERT_TRUE(rows.Next(row));
+    EXPECT_DOUBLE_EQ(row.time_s, 1e-9 * static_cast<double>(record.in.frame.sample_time_ns));
+    EXPECT_EQ(row.angle_rad, record.in.frame.angle_rad);
+    // To rpm and back: two roundings.
+    EXPECT_DOUBLE_EQ(row.speed_rad_per_s, record.in.frame.speed_rad_per_s);
+    EXPECT_TRUE(testing::SameBits(row.position_m, record.in.frame.position_m));
+    EXPECT_TRUE(testing::SameBits(row.control_current_a, record.out.current.control_current_a));
+    EXPECT_TRUE(testing::SameBits(row.excitation_a, record.in.op.excitation_a));
+  }
+  EXPECT_FALSE(rows.Next(row));
+}
+
+TEST(MatExport, LeavesOutCyclesWithoutASensorFrameAndCountsThem) {
+  const Folder folder;
+  auto records = DrawRecords(20);
+  records[7].in.frame_present = false;
+  WriteSession(folder / "s", records);
+  SessionReader session(folder / "s");
+  const ExportReport report = ExportMat(session, folder / "s.mat");
+  EXPECT_EQ(report.rows, 19U);
+  EXPECT_EQ(report.cycles_without_frame, 1U);
+}
+
+TEST(MatExport, OfAFolderThatIsNotThereIsRefusedWithItsName) {
+  const Folder folder;
+  WriteSession(folder / "s", DrawRecords(3));
+  SessionReader session(folder / "s");
+  try {
+    static_cast<void>(ExportMat(session, folder / "no/s.mat"));
+    FAIL() << "written into a folder that is not there";
+  } catch (const BadInput& problem) {
+    EXPECT_NE(std::string(problem.what()).find("no/s.mat"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace levitas::session
