@@ -14,8 +14,8 @@ namespace {
 // geared shafts) one that the compiler knows, which makes the loops below straight vector code (1.5
 // times as fast).
 using AnyModes = std::size_t;
-template <std::size_t modes>
-using Fixed = std::integral_constant<std::size_t, modes>;
+template <std::size_t kModes>
+using Fixed = std::integral_constant<std::size_t, kModes>;
 
 // Sums of shape times modal coordinate in both planes. Two partial sums each let the processor use
 // both lanes; the order is fixed, so the bits are too.
