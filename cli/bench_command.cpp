@@ -34,7 +34,7 @@ struct BenchOptions {
   std::vector<double> sizes{1.0, 0.5, 0.25};
   std::uint64_t first{1000};
   int seeds{0}, clean{0}, outside{0}, pairs{0}, weak{0};
-  bool thorough{};
+  bool thorough{}, explain{};
   std::string json_path, markdown_path, write_folder;
 };
 
@@ -119,6 +119,12 @@ void PrintOne(const trials::Outcome& o) {
   static_cast<void>(std::fflush(stdout));
 }
 
+void Explain(const trials::Outcome& o) {
+  fmt::print("       {:.2f} of the excess explained, {:.1f} sigma left, gain held out {:.3f}; {}\n",
+             o.explained, o.remainder_sigma, o.achieved, fmt::join(o.nearest, ", "));
+  static_cast<void>(std::fflush(stdout));
+}
+
 nlohmann::ordered_json Json(const trials::Outcome& o) {
   return {{"seed", o.seed},
           {"truth", o.truth},
@@ -128,6 +134,10 @@ nlohmann::ordered_json Json(const trials::Outcome& o) {
           {"named", o.named},
           {"ties", o.ties},
           {"score_nat", o.score_nat},
+          {"available_nat", o.available_nat},
+          {"explained", o.explained},
+          {"remainder_sigma", o.remainder_sigma},
+          {"nearest", o.nearest},
           {"right", o.Right()},
           {"partly", o.Partly()},
           {"achieved", o.achieved},
@@ -144,6 +154,7 @@ ExitStatus Run(const BenchOptions& options) {
   for (const trials::TrialPlan& plan : Plans(options)) {
     outcomes.push_back(Try(plan, bench, options));
     PrintOne(outcomes.back());
+    if (options.explain) Explain(outcomes.back());
     json["trials"].push_back(Json(outcomes.back()));
   }
   fmt::print("\n{}\n{}", trials::Tables(outcomes), trials::ConfusionTable(outcomes));
@@ -177,6 +188,7 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--effect", options->effects, "Only these effects");
   command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");
   command->add_flag("--thorough", options->thorough, "The complete ranking instead of --quick");
+  command->add_flag("--explain", options->explain, "The nearest candidates of every trial");
   command->add_option("--write", options->write_folder, "Also write the records as CSV here");
   command->add_option("--markdown", options->markdown_path, "Tables for docs/diagnosis.md");
   command->add_option("--json", options->json_path, "Every trial");

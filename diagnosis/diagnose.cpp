@@ -1,40 +1,50 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "diagnosis/events.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/refine.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
 constexpr std::size_t kWhiteningOrder = 4;
-constexpr std::size_t kFastRows = 6'000;   ///< per record
-constexpr std::size_t kSlowRows = 16'000;  ///< per record; 0.3 s of them settle
+constexpr std::size_t kFastRows = 18'000;  ///< of all records
 constexpr double kUnexplained = 7.0;       ///< [sigma] of the remainder
-constexpr double kConverged = 1.0;         ///< [nat]
+constexpr double kExplained = 0.7;         ///< of the excess: less, and the cause is not the cause
+constexpr double kNear = 15.0;             ///< [nat] rivals that are refitted
+
+/// How thorough a search is.
+struct Effort {
+  int calibrations;      ///< passes with the slow observer
+  std::size_t shortlist; ///< candidates refitted for every cause
+  int passes;            ///< of each
+  std::size_t rivals;    ///< refitted in the end
+};
+constexpr Effort kQuick{3, 3, 1, 2};
+constexpr Effort kThorough{4, 6, 3, 5};
 
 class Diagnoser {
  public:
   Diagnoser(const RigView& rig, const std::vector<Record>& records, const std::vector<Term>& terms,
             const Settings& settings)
       : rig_(rig),
-        records_(records),
+        all_records_(records),
         terms_(terms),
         settings_(settings),
-        search_(rig, terms, settings),
-        theta_(terms.size(), 0.0) {}
+        effort_(settings.quick ? kQuick : kThorough),
+        search_(rig, terms),
+        theta_(terms.size(), 0.0),
+        records_(settings.quick ? Spans(records, kQuickRows) : records),
+        gains_(search_.DesignGains(records_, kSlow)),
+        refiner_(search_, terms, records_, gains_) {}
 
   Answer Run() {
-    Calibrate(Tails(records_, kFastRows), kFast, 2, 0.02);
-    Calibrate(Tails(records_, kSlowRows), kSlow, 3, 0.1);
-    if (settings_.quick) {
-      Fine(Tails(records_, kSlowRows), 1, 0.3, 0.3);
-    } else {
-      Fine(records_, 3, 0.3, 0.3);
-    }
+    Calibrate();
+    FindCauses();
     Rank();
-    if (!settings_.quick) RefitRivals();
+    RefitRivals();
     return Conclude();
   }
 
@@ -45,139 +55,213 @@ class Diagnoser {
 
   /// Nuisances only. A cause is looked for after that: far from the calibrated model the
   /// linearisation sees one in everything.
-  void Calibrate(const std::vector<Record>& records, const ObserverSpeed& speed, int passes,
-                 double from) {
-    const Gains gains = search_.DesignGains(records, speed);
-    for (int pass = 0; pass < passes; ++pass) {
-      Tell(from + 0.05 * pass, "calibrating");
-      const View view = search_.Linearise(records, gains, theta_, 0, search_.Nuisances());
-      theta_ = search_.Solve(view.problem, {});
+  void Calibrate() {
+    Tell(0.02, "calibrating");
+    const std::vector<Record> few = Spans(all_records_, kFastRows);
+    const Gains fast = search_.DesignGains(few, kFast);
+    const Refiner coarse(search_, terms_, few, fast);
+    Settle(coarse, few, fast, 2);
+    Tell(0.06, "calibrating");
+    Settle(refiner_, records_, gains_, effort_.calibrations);
+    calibrated_ = theta_;
+  }
+
+  void Settle(const Refiner& refiner, const std::vector<Record>& records, const Gains& gains,
+              int passes) {
+    const Whitener whitener =
+        MakeWhitener(search_.Run(records, gains, theta_), rig_.axes, kWhiteningOrder);
+    const Refined fit = refiner.Fit({}, theta_, whitener, passes);
+    if (fit.ok) theta_ = fit.theta;
+  }
+
+  void FindCauses() {
+    for (std::size_t stage = 0;; ++stage) {
+      const double share = 0.2 + 0.2 * static_cast<double>(stage);
+      Tell(share, "screening all causes");
+      view_ = search_.Linearise(records_, gains_, theta_, kWhiteningOrder, search_.Everything());
+      if (stage == 0) calibrated_runs_ = view_.runs;
+      if (causes_.size() >= settings_.most_causes || !AddCause(share)) return;
     }
   }
 
-  /// Everything, causes included as they show themselves.
-  void Fine(const std::vector<Record>& records, int most, double from, double span) {
-    const Gains gains = search_.DesignGains(records, kSlow);
-    for (int pass = 0; pass < most; ++pass) {
-      Tell(from + span * pass / most, "screening all causes");
-      view_ = search_.Linearise(records, gains, theta_, kWhiteningOrder, search_.Everything());
-      causes_ = search_.Select(view_.problem);
-      const std::vector<double> next = search_.Solve(view_.problem, causes_);
-      const Fit fit = Evidence(view_.problem, terms_, causes_).Solve();
-      const double now = Cost(theta_);
-      const bool converged = pass > 0 && now - 0.5 * (fit.squared_sum + fit.penalty) < kConverged;
-      theta_ = next;
-      if (converged) break;
+  /// The best few of the screen on the nonlinear model; the best of those becomes a cause.
+  bool AddCause(double share) {
+    const Evidence base(view_.problem, terms_, causes_);
+    const double null = Refiner::SetEvidence(view_.problem, terms_, causes_);
+    const double origin = Refiner::SetEvidence(view_.problem, terms_, {});
+    const double enough = kDecisive + kForm * std::max(0.0, null - origin);
+    std::vector<Candidate> screened = Screen(base);
+    if (screened.empty() || !(screened.front().score > enough)) return false;
+    const double from = std::min(screened.front().score - kNear, 0.3 * screened.front().score);
+    Refined best;
+    std::vector<Hypothesis> best_causes;
+    for (std::size_t i = 0; i < std::min(screened.size(), effort_.shortlist); ++i) {
+      if (i > 0 && screened[i].score < std::max(from, enough)) break;
+      Tell(share + 0.02 * static_cast<double>(i), "refitting " + screened[i].effect);
+      std::vector<Hypothesis> causes = causes_;
+      causes.push_back(search_.hypotheses()[screened[i].hypothesis]);
+      Refined fit = refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_.whitener,
+                                 effort_.passes);
+      if (!fit.ok || (best.ok && fit.evidence <= best.evidence)) continue;
+      best = std::move(fit);
+      best_causes = std::move(causes);
     }
-    gains_ = gains;
+    // What the linear screen promised, the nonlinear model must keep.
+    if (!best.ok || !(best.evidence - null > enough)) return false;
+    theta_ = best.theta;
+    causes_ = std::move(best_causes);
+    DropSuperfluous(best.problem);
+    return true;
   }
 
-  /// 1/2 (squared sum + penalty) at theta, by the latest linearisation, which is exact where it was
-  /// made.
-  [[nodiscard]] double Cost(const std::vector<double>& theta) const {
-    Eigen::VectorXd scaled(static_cast<Eigen::Index>(theta.size()));
-    double penalty = 0.0;
-    for (std::size_t i = 0; i < theta.size(); ++i) {
-      const Term& term = terms_[i];
-      scaled[static_cast<Eigen::Index>(i)] = theta[i] / term.scale();
-      const bool cause = std::any_of(causes_.begin(), causes_.end(), [i](const Hypothesis& h) {
-        return std::find(h.terms.begin(), h.terms.end(), i) != h.terms.end();
-      });
-      if (!term.nuisance() && !cause) continue;
-      const double spread = cause ? term.scale() : term.tolerance;
-      penalty += theta[i] * theta[i] / (spread * spread);
+  void DropSuperfluous(const LinearProblem& problem) {
+    for (std::size_t i = 0; i + 1 < causes_.size();) {
+      std::vector<Hypothesis> rest = causes_;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      if (Evidence(problem, terms_, rest).Gain(causes_[i]) < kDecisive) {
+        causes_ = rest;
+        theta_ = search_.Solve(problem, causes_);
+      } else {
+        ++i;
+      }
     }
-    const LinearProblem& p = view_.problem;
-    return 0.5 * (p.ete + 2.0 * scaled.dot(p.jte) + scaled.dot(p.jtj * scaled) + penalty);
   }
 
-  /// Every effect at its best place, in place of the first cause.
-  void Rank() {
-    Tell(0.62, "ranking");
-    std::vector<Hypothesis> others = causes_;
-    if (!others.empty()) others.erase(others.begin());
-    const Evidence base(view_.problem, terms_, others);
+  /// Every effect at its best place, best first.
+  [[nodiscard]] std::vector<Candidate> Screen(const Evidence& base) const {
     std::map<std::string, Candidate> best;
     for (std::size_t i = 0; i < search_.hypotheses().size(); ++i) {
       const Hypothesis& h = search_.hypotheses()[i];
       const double gain = base.Gain(h);
+      if (!std::isfinite(gain)) continue;
       auto [at, added] = best.try_emplace(h.effect, Candidate{h.effect, h.place, gain, i, false});
       if (!added && gain > at->second.score) at->second = {h.effect, h.place, gain, i, false};
     }
-    candidates_.clear();
-    for (const auto& [effect, candidate] : best) candidates_.push_back(candidate);
-    Sort();
+    std::vector<Candidate> sorted;
+    sorted.reserve(best.size());
+    for (const auto& [effect, candidate] : best) sorted.push_back(candidate);
+    SortByScore(sorted);
+    return sorted;
   }
 
-  void Sort() {
-    std::sort(candidates_.begin(), candidates_.end(),
-              [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  static void SortByScore(std::vector<Candidate>& candidates) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   }
 
-  /// Absolute log evidence of a set of causes, by Gauss-Newton of its own.
-  double OwnEvidence(const std::vector<Hypothesis>& causes, std::vector<double>& theta) const {
-    theta = search_.Solve(view_.problem, causes);
-    double evidence = 0.0;
-    for (int pass = 0; pass < 2; ++pass) {
-      View own;
-      own.runs = search_.Run(*own_records_, gains_, theta);
-      own.whitener = view_.whitener;
-      own.problem =
-          search_.Linearise(own.runs, theta, view_.whitener, search_.NuisancesAnd(causes));
-      theta = search_.Solve(own.problem, causes);
-      evidence = Evidence(own.problem, terms_, causes).Solve().log_evidence;
+  /// The strongest cause leads; every effect is then tried in its place.
+  void Rank() {
+    Tell(0.75, "ranking");
+    double strongest = -1.0;
+    for (std::size_t i = 0; i < causes_.size(); ++i) {
+      const double gain = Evidence(view_.problem, terms_, Others(i)).Gain(causes_[i]);
+      if (gain <= strongest) continue;
+      strongest = gain;
+      std::swap(causes_[0], causes_[i]);
     }
-    return evidence;
-  }
-
-  /// The best few again on the nonlinear model: the screen extrapolates for everybody but the
-  /// winner.
-  void RefitRivals() {
-    if (causes_.empty() || candidates_.empty()) return;
-    own_records_ = &records_;
-    const double lead = candidates_.front().score;
-    std::vector<Hypothesis> others = causes_;
-    others.erase(others.begin());
-    constexpr double kNear = 15.0;
-    constexpr std::size_t kMost = 3;
-    std::vector<double> best_theta;
-    double best_evidence = -1e300;
-    double first_evidence = 0.0;
-    for (std::size_t i = 0; i < candidates_.size() && i < kMost; ++i) {
-      Candidate& candidate = candidates_[i];
-      if (candidate.score < lead - kNear || (i > 0 && candidate.score < kDecisive)) break;
-      if (i == 0 && (candidates_.size() < 2 || candidates_[1].score < lead - kNear)) break;
-      Tell(0.65 + 0.1 * static_cast<double>(i), "refitting " + candidate.effect);
-      const Hypothesis& h = search_.hypotheses()[candidate.hypothesis];
-      std::vector<Hypothesis> causes{h};
-      causes.insert(causes.end(), others.begin(), others.end());
-      std::vector<double> theta;
-      const double evidence = OwnEvidence(causes, theta) + h.log_prior;
-      if (i == 0) first_evidence = evidence;
-      candidate.score = lead + evidence - first_evidence;
-      candidate.refitted = true;
-      if (evidence > best_evidence) {
-        best_evidence = evidence;
-        best_theta = theta;
-        causes_.front() = h;
+    candidates_ = Screen(Evidence(view_.problem, terms_, Others(0)));
+    if (causes_.empty()) return;
+    // The leader is the hypothesis that was chosen, at the place that was chosen.
+    for (Candidate& c : candidates_) {
+      if (c.effect != causes_[0].effect) continue;
+      for (std::size_t i = 0; i < search_.hypotheses().size(); ++i) {
+        const Hypothesis& h = search_.hypotheses()[i];
+        if (h.effect == c.effect && h.place == causes_[0].place) c.hypothesis = i;
       }
+      c.place = causes_[0].place;
+      c.score = Evidence(view_.problem, terms_, Others(0)).Gain(causes_[0]);
     }
-    if (!best_theta.empty()) theta_ = best_theta;
-    Sort();
+    SortByScore(candidates_);
+  }
+
+  [[nodiscard]] std::vector<Hypothesis> Others(std::size_t without) const {
+    std::vector<Hypothesis> others = causes_;
+    if (without < others.size()) {
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(without));
+    }
+    return others;
+  }
+
+  /// Who comes near the first cause by extrapolation, on the nonlinear model.
+  void RefitRivals() {
+    if (causes_.empty()) return;
+    const std::vector<Hypothesis> others = Others(0);
+    const Refined leader = refiner_.Fit(causes_, theta_, view_.whitener, 1);
+    if (!leader.ok) return;
+    theta_ = leader.theta;
+    const auto own = std::find_if(candidates_.begin(), candidates_.end(), [this](const auto& c) {
+      return c.effect == causes_[0].effect;
+    });
+    if (own == candidates_.end()) return;
+    const double lead = own->score;
+    own->refitted = true;
+    double best_evidence = leader.evidence;
+    std::size_t tried = 0;
+    for (Candidate& candidate : candidates_) {
+      if (tried == effort_.rivals || candidate.score < std::max(kDecisive, lead - 2.0 * kNear)) break;
+      if (candidate.refitted) continue;
+      ++tried;
+      Tell(0.78 + 0.03 * static_cast<double>(tried), "refitting " + candidate.effect);
+      std::vector<Hypothesis> causes{search_.hypotheses()[candidate.hypothesis]};
+      causes.insert(causes.end(), others.begin(), others.end());
+      const Refined fit = refiner_.Fit(causes, search_.Solve(view_.problem, causes),
+                                       view_.whitener, effort_.passes);
+      if (!fit.ok) continue;
+      candidate.score = lead + fit.evidence - leader.evidence;
+      candidate.refitted = true;
+      if (fit.evidence <= best_evidence) continue;
+      best_evidence = fit.evidence;
+      causes_[0] = causes[0];
+      theta_ = fit.theta;
+    }
+    SortByScore(candidates_);
   }
 
   Answer Conclude() {
     Tell(0.9, "examining what is left");
     Answer answer;
     answer.theta_extended = theta_;
-    const auto& records = settings_.quick ? Tails(records_, kSlowRows) : records_;
-    answer.runs = search_.Run(records, gains_, theta_);
+    answer.theta_calibrated = calibrated_;
+    answer.runs = search_.Run(records_, gains_, theta_);
     answer.remainder = Examine(rig_, answer.runs);
-    AddEvents(records, answer.remainder);
-    answer.theta_calibrated = search_.Solve(view_.problem, {});
+    answer.explained = Explained(Examine(rig_, calibrated_runs_), answer.remainder);
+    const bool unexplained =
+        answer.remainder.sigma > kUnexplained && (causes_.empty() || answer.explained < kExplained);
+    if (unexplained) causes_.clear();
+    AddEvents(answer.remainder);
     const Fit fit = Evidence(view_.problem, terms_, causes_).Solve();
     const Fit null = Evidence(view_.problem, terms_, {}).Solve();
     answer.evidence = fit.log_evidence - null.log_evidence;
+    Describe(fit, answer);
+    for (std::size_t i = 1; i < candidates_.size() && !causes_.empty(); ++i) {
+      if (candidates_[i].score > candidates_.front().score - kDecisive &&
+          candidates_[i].effect != causes_.front().effect) {
+        answer.also_possible.push_back(candidates_[i].effect);
+      }
+    }
+    answer.causes = causes_;
+    answer.candidates = candidates_;
+    answer.verdict = !causes_.empty() ? Verdict::kEffect
+                     : unexplained    ? Verdict::kUnknown
+                                      : Verdict::kNone;
+    Tell(1.0, "done");
+    return answer;
+  }
+
+  /// Share of the excess over the noise, all lines and channels, that the causes take away.
+  static double Explained(const Remainder& before, const Remainder& after) {
+    double excess_before = 0.0;
+    double excess_after = 0.0;
+    for (std::size_t a = 0; a < before.channels.size(); ++a) {
+      for (std::size_t i = 1; i < before.channels[a].ratio.size() * 2 / 3; ++i) {
+        excess_before += before.channels[a].ratio[i] - 1.0;
+        excess_after += after.channels[a].ratio[i] - 1.0;
+      }
+    }
+    return excess_before > 0.0 ? 1.0 - excess_after / excess_before : 1.0;
+  }
+
+  void Describe(const Fit& fit, Answer& answer) const {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       const Term& t = terms_[i];
       const Estimate estimate{t.effect,    t.place,
@@ -192,24 +276,13 @@ class Diagnoser {
         answer.calibration.push_back(estimate);
       }
     }
-    for (std::size_t i = 1; i < candidates_.size() && !causes_.empty(); ++i) {
-      if (candidates_[i].score > candidates_.front().score - kDecisive &&
-          candidates_[i].effect != causes_.front().effect) {
-        answer.also_possible.push_back(candidates_[i].effect);
-      }
-    }
-    answer.causes = causes_;
-    answer.candidates = candidates_;
-    answer.verdict = !causes_.empty()                        ? Verdict::kEffect
-                     : answer.remainder.sigma > kUnexplained ? Verdict::kUnknown
-                                                             : Verdict::kNone;
-    Tell(1.0, "done");
-    return answer;
   }
 
-  /// Causes that no term describes.
-  void AddEvents(const std::vector<Record>& records, const Remainder& remainder) {
-    for (const Candidate& event : FindEvents(rig_, records, remainder)) {
+  /// Causes that no term describes. They explain none of what the other causes do; the stronger
+  /// one leads.
+  void AddEvents(const Remainder& remainder) {
+    for (const Candidate& event : FindEvents(rig_, all_records_, remainder)) {
+      if (event.effect == "sensor_noise" && remainder.sigma > kUnexplained) continue;
       candidates_.push_back(event);
       if (event.score < kDecisive) continue;
       Hypothesis cause;
@@ -217,24 +290,26 @@ class Diagnoser {
       cause.place = event.place;
       cause.directions =
           Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(terms_.size()), Eigen::Index{0});
-      // Lost frames and noise explain none of what the other causes do; the stronger one leads.
       const bool leads = causes_.empty() || event.score > candidates_.front().score;
       causes_.insert(leads ? causes_.begin() : causes_.end(), cause);
     }
-    Sort();
+    SortByScore(candidates_);
   }
 
   const RigView& rig_;
-  const std::vector<Record>& records_;
+  const std::vector<Record>& all_records_;
   const std::vector<Term>& terms_;
   const Settings& settings_;
+  Effort effort_;
   Search search_;
-  std::vector<double> theta_;
+  std::vector<double> theta_, calibrated_;
+  std::vector<Record> records_;
   Gains gains_;
+  Refiner refiner_;
   View view_;
+  std::vector<Trajectory> calibrated_runs_;
   std::vector<Hypothesis> causes_;
   std::vector<Candidate> candidates_;
-  const std::vector<Record>* own_records_{nullptr};
 };
 
 }  // namespace

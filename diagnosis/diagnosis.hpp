@@ -1,18 +1,21 @@
 #pragma once
 // What a rig does that its model does not: the search for the cause, and its answer.
 //
-// Method     1 calibrate: the nuisances within their tolerances, with a fast observer first
-// (smooth,
+// Method     1 calibrate: the nuisances within their tolerances, with a fast observer first (smooth,
 //              coarse) and a slow one after it (sees slow effects), Gauss-Newton on innovations;
 //            2 screen: one pass with the sensitivities of every term gives the evidence of every
-//              hypothesis (evidence.hpp), alone and on top of others;
+//              hypothesis (evidence.hpp) on top of the causes found so far;
 //            3 refit: the best few by Gauss-Newton together with the nuisances on the nonlinear
-//            model; 4 select: forward by evidence, each cause dropped again when the others explain
-//            its
-//              share (backward check), until none gains kDecisive;
-//            5 judge: whiteness and power of what remains.
-// Answer     `effect` when a cause gains more than kDecisive nats; ties are all that come within
-//            kDecisive of it; `unknown` when power is left that no cause explains; else `none`.
+//              model (refine.hpp); the best of them is a cause, and each earlier one is dropped again
+//              when the others explain its share (backward check); again from 2 until none gains enough;
+//            4 rank: every effect in place of the first cause, the nearest refitted;
+//            5 judge what remains (remainder.hpp).
+// Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of
+//            magnets and contacts are known to a tenth or so of their amplitude, so a hundredth of
+//            what the right one gains is left to be explained by wrong ones.
+// Answer     `effect` when a cause gains enough; ties are all that come within kDecisive of it;
+//            `unknown` when power is left that stands out of the noise, and is more than a small part
+//            of what the calibrated model left; else `none`.
 // Units      evidence in nats. Thread: blocks the caller, two threads inside.
 // Failure    BadInput for records that are too short.
 
@@ -27,6 +30,7 @@
 namespace levitas::diagnosis {
 
 inline constexpr double kDecisive = 5.0;  ///< [nat] odds of 150 : 1
+inline constexpr double kForm = 0.02;     ///< share of the evidence that a law's form may leave
 
 struct Settings {
   Tolerances tolerances;
@@ -64,6 +68,7 @@ struct Answer {
   std::vector<double> theta_extended;    ///< with the causes
   std::vector<Trajectory> runs;          ///< of the extended model
   double evidence{};                     ///< [nat] of all causes together
+  double explained{};                    ///< share of the calibrated model's excess over the noise
 };
 
 [[nodiscard]] Answer Diagnose(const RigView& rig, const std::vector<Record>& records,

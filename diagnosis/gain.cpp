@@ -15,25 +15,25 @@ struct Block {
 
 double Square(float value) { return static_cast<double>(value) * static_cast<double>(value); }
 
-std::vector<Block> Blocks(const RigView& rig, const std::vector<Trajectory>& nominal,
-                          const std::vector<Trajectory>& calibrated,
-                          const std::vector<Trajectory>& extended,
-                          const std::vector<double>& noise_rms_m) {
-  const auto length = static_cast<std::size_t>(0.1 / rig.period_s);
+bool Belongs(const Moment& m, Part part) { return part == Part::kFitted ? m.counts : m.held; }
+
+std::vector<Block> Blocks(const RigView& rig, const ModelRuns& runs,
+                          const std::vector<double>& noise_rms_m, Part part) {
+  const auto length = static_cast<std::size_t>(0.05 / rig.period_s);
   std::vector<Block> blocks;
-  for (std::size_t r = 0; r < nominal.size(); ++r) {
+  for (std::size_t r = 0; r < runs.nominal.size(); ++r) {
     std::size_t filled = length;
-    for (std::size_t n = 0; n < nominal[r].moments.size(); ++n) {
-      if (!nominal[r].moments[n].counts) continue;
+    for (std::size_t n = 0; n < runs.nominal[r].moments.size(); ++n) {
+      if (!Belongs(runs.nominal[r].moments[n], part)) continue;
       if (filled++ >= length) {
         blocks.emplace_back();
         filled = 1;
       }
       for (std::size_t a = 0; a < rig.axes; ++a) {
         const double weight = 1.0 / (noise_rms_m[a] * noise_rms_m[a]);
-        blocks.back().nominal += weight * Square(nominal[r].moments[n].innovation_m[a]);
-        blocks.back().calibrated += weight * Square(calibrated[r].moments[n].innovation_m[a]);
-        blocks.back().extended += weight * Square(extended[r].moments[n].innovation_m[a]);
+        blocks.back().nominal += weight * Square(runs.nominal[r].moments[n].innovation_m[a]);
+        blocks.back().calibrated += weight * Square(runs.calibrated[r].moments[n].innovation_m[a]);
+        blocks.back().extended += weight * Square(runs.extended[r].moments[n].innovation_m[a]);
         blocks.back().noise += 1.0;
       }
     }
@@ -54,14 +54,14 @@ Shares Of(const Block& sum) {
           Share(sum.calibrated, sum.extended, sum.noise)};
 }
 
-double Percent(const std::vector<Trajectory>& runs, std::size_t axis, double rms_m) {
+double Percent(const std::vector<Trajectory>& runs, std::size_t axis, double rms_m, Part part) {
   double sum = 0.0;
   double square = 0.0;
   double innovation = 0.0;
   double count = 0.0;
   for (const Trajectory& run : runs) {
     for (const Moment& m : run.moments) {
-      if (!m.counts) continue;
+      if (!Belongs(m, part)) continue;
       sum += static_cast<double>(m.measured_m[axis]);
       square += Square(m.measured_m[axis]);
       innovation += Square(m.innovation_m[axis]);
@@ -75,20 +75,19 @@ double Percent(const std::vector<Trajectory>& runs, std::size_t axis, double rms
 
 }  // namespace
 
-Gain MeasureGain(const RigView& rig, const std::vector<Trajectory>& nominal,
-                 const std::vector<Trajectory>& calibrated, const std::vector<Trajectory>& extended,
-                 const std::vector<double>& noise_rms_m) {
+Gain MeasureGain(const RigView& rig, const ModelRuns& runs, const std::vector<double>& noise_rms_m,
+                 Part part) {
   Gain gain;
   const double share = 1.0 / static_cast<double>(rig.axes);
   for (std::size_t a = 0; a < rig.axes; ++a) {
-    gain.channel_nominal_percent.push_back(Percent(nominal, a, 0.0));
-    gain.channel_extended_percent.push_back(Percent(extended, a, 0.0));
+    gain.channel_nominal_percent.push_back(Percent(runs.nominal, a, 0.0, part));
+    gain.channel_extended_percent.push_back(Percent(runs.extended, a, 0.0, part));
     gain.nominal_percent += share * gain.channel_nominal_percent.back();
     gain.extended_percent += share * gain.channel_extended_percent.back();
-    gain.calibrated_percent += share * Percent(calibrated, a, 0.0);
-    gain.ceiling_percent += share * Percent(extended, a, noise_rms_m[a]);
+    gain.calibrated_percent += share * Percent(runs.calibrated, a, 0.0, part);
+    gain.ceiling_percent += share * Percent(runs.extended, a, noise_rms_m[a], part);
   }
-  const auto blocks = Blocks(rig, nominal, calibrated, extended, noise_rms_m);
+  const auto blocks = Blocks(rig, runs, noise_rms_m, part);
   if (blocks.empty()) return gain;
   const auto add = [](Block& to, const Block& from) {
     to.nominal += from.nominal;

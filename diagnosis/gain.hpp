@@ -9,9 +9,10 @@
 // innovations:
 //            (nominal - extended)/(nominal - ceiling). A fit percentage hides a well-proven small
 //            effect; this does not.
-// Interval   5 to 95 % of a block bootstrap over blocks of 0.1 s (Kuensch 1989), written seed.
+// Interval   5 to 95 % of a block bootstrap over blocks of 0.05 s (Kuensch 1989), written seed.
 // Thread     any.
 
+#include <cstdint>
 #include <vector>
 
 #include "diagnosis/model_run.hpp"
@@ -27,10 +28,16 @@ struct Gain {
   std::vector<double> channel_nominal_percent, channel_extended_percent;
 };
 
-/// Runs of three models on the same records; `noise_rms_m` per axis.
-[[nodiscard]] Gain MeasureGain(const RigView& rig, const std::vector<Trajectory>& nominal,
-                               const std::vector<Trajectory>& calibrated,
-                               const std::vector<Trajectory>& extended,
-                               const std::vector<double>& noise_rms_m);
+/// Three models on the same records.
+struct ModelRuns {
+  std::vector<Trajectory> nominal, calibrated, extended;
+};
+
+/// Which samples are measured on.
+enum class Part : std::uint8_t { kFitted, kKeptBack };
+
+/// `noise_rms_m` per axis.
+[[nodiscard]] Gain MeasureGain(const RigView& rig, const ModelRuns& runs,
+                               const std::vector<double>& noise_rms_m, Part part);
 
 }  // namespace levitas::diagnosis

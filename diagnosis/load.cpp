@@ -66,20 +66,4 @@ double LargestOrbit(const std::vector<Record>& records, std::size_t axes) {
   return largest_m;
 }
 
-Split KeepBack(const std::vector<Record>& records, double share) {
-  Split split;
-  for (const Record& record : records) {
-    const auto count = static_cast<std::ptrdiff_t>(share * static_cast<double>(record.rows.size()));
-    Record first = record;
-    Record rest = record;
-    first.rows.resize(static_cast<std::size_t>(count));
-    rest.rows.erase(rest.rows.begin(), rest.rows.begin() + count);
-    first.mean_speed_rad_per_s = analysis::MeanSpeed(first.rows);
-    rest.mean_speed_rad_per_s = analysis::MeanSpeed(rest.rows);
-    split.kept_back.push_back(std::move(first));
-    split.fitted.push_back(std::move(rest));
-  }
-  return split;
-}
-
 }  // namespace levitas::diagnosis

@@ -21,11 +21,4 @@ inline constexpr double kShortest = 1.0;  ///< [s]
 /// Largest distance of the rotor from the centre in any record [m], at the sensors.
 [[nodiscard]] double LargestOrbit(const std::vector<Record>& records, std::size_t axes);
 
-struct Split {
-  std::vector<Record> fitted, kept_back;
-};
-
-/// Keeps back the first `share` of every record.
-[[nodiscard]] Split KeepBack(const std::vector<Record>& records, double share);
-
 }  // namespace levitas::diagnosis

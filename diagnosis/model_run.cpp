@@ -192,6 +192,14 @@ bool Repeats(const analysis::RecordedRow& before, const analysis::RecordedRow& n
                     now.sample.position_m.begin());
 }
 
+/// Every sixth stretch; another one in every record.
+bool KeptBack(std::uint64_t cycle, std::uint32_t record, double period_s) {
+  constexpr double kStretch = 0.05;  // [s]
+  constexpr std::uint64_t kEvery = 6;
+  const auto rows = static_cast<std::uint64_t>(std::llround(kStretch / period_s));
+  return (cycle / rows + 2 * record) % kEvery == kEvery - 1;
+}
+
 }  // namespace
 
 Trajectory RunModel(const RigView& rig, const Record& record,
@@ -215,7 +223,9 @@ Trajectory RunModel(const RigView& rig, const Record& record,
       since_start = 0;
     }
     runner.Step(row, arrived, moment);
-    moment.counts = since_start++ >= settling_rows && arrived;
+    const bool settled = since_start++ >= settling_rows && arrived;
+    moment.held = settled && record.keep_back && KeptBack(row.cycle, record.number, rig.period_s);
+    moment.counts = settled && !moment.held;
   };
   for (const auto& row : record.rows) {
     const auto lost = previous != nullptr && row.cycle > previous->cycle

@@ -4,6 +4,9 @@
 // Equation   analysis/observer.hpp, with what the terms add (term.hpp).
 // Lost       up to 20 frames in a row are bridged with the current held and no correction; so are
 //            frames that repeat. They do not count.
+// Kept back  every sixth stretch of 50 ms when the record asks for it: run and corrected like all
+//            others, but `held` instead of `counts`, so that what is measured there was not fitted
+//            and every excitation and speed is in both parts.
 // Settling   the first `settling_s` after every (re)start are run and do not count.
 // Cost       2 to 3 us per sample. Thread: any; one call per thread.
 
@@ -22,6 +25,7 @@ struct Record {
   std::vector<analysis::RecordedRow> rows;
   double mean_speed_rad_per_s{};
   std::uint32_t number{};  ///< within its diagnosis
+  bool keep_back{};        ///< part of it is not to be fitted
 };
 
 struct Trajectory {

@@ -22,7 +22,8 @@ struct Moment {
   double time_s{};     ///< of the sample, from the start of the record
   double angle_rad{};  ///< at the sample
   float speed_rad_per_s{};
-  bool counts{};              ///< levitated, and the observer has settled
+  bool counts{};              ///< levitated, the observer has settled, not kept back
+  bool held{};                ///< would count but is kept back
   bool restarted{};           ///< the first sample after a gap
   AxisFloats innovation_m{};  ///< measured minus predicted, bearing frame
   AxisFloats measured_m{};    ///< bearing frame

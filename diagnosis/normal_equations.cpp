@@ -75,19 +75,35 @@ std::vector<double> WhiteningFilter(const std::vector<Trajectory>& runs, std::si
   return a;
 }
 
+/// Places in `chosen` of the terms that can act in a record: what turns adds nothing at rest.
+std::vector<std::size_t> Acting(const Trajectory& run, const std::vector<Term>& terms,
+                                const std::vector<std::size_t>& chosen) {
+  const bool turns = std::any_of(run.moments.begin(), run.moments.end(),
+                                 [](const Moment& m) { return m.speed_rad_per_s != 0.0F; });
+  const int record = run.moments.empty() ? -1 : static_cast<int>(run.moments.front().record);
+  std::vector<std::size_t> acting;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const Term& term = terms[chosen[i]];
+    const bool here = term.record < 0 || term.record == record;
+    if (here && (turns || !term.rotating)) acting.push_back(i);
+  }
+  return acting;
+}
+
 /// Sums of one record.
 class RecordSums {
  public:
   RecordSums(const RigView& rig, const Trajectory& run, const std::vector<Term>& terms,
              const std::vector<double>& theta, const Whitener& whitener,
              const std::vector<std::size_t>& chosen)
-      : axes_(rig.axes), run_(run), columns_(chosen.size()) {
-    for (std::size_t i = 0; i < chosen.size(); i += kLanes) {
-      const auto end = std::min(chosen.size(), i + kLanes);
-      blocks_.emplace_back(
-          rig, run.gain, terms, theta,
-          std::vector<std::size_t>(chosen.begin() + static_cast<std::ptrdiff_t>(i),
-                                   chosen.begin() + static_cast<std::ptrdiff_t>(end)));
+      : axes_(rig.axes), run_(run), acting_(Acting(run, terms, chosen)), columns_(acting_.size()) {
+    const auto model = std::make_shared<const LaneModel>(rig, *run.gain);
+    for (std::size_t i = 0; i < acting_.size(); i += kLanes) {
+      std::vector<std::size_t> block;
+      for (std::size_t k = i; k < std::min(acting_.size(), i + kLanes); ++k) {
+        block.push_back(chosen[acting_[k]]);
+      }
+      blocks_.emplace_back(model, terms, theta, std::move(block));
     }
     const auto width = static_cast<Eigen::Index>(columns_ + 1);
     for (std::size_t a = 0; a < axes_; ++a) filters_.emplace_back(whitener.filter[a], columns_ + 1);
@@ -95,7 +111,18 @@ class RecordSums {
     sum_ = Eigen::MatrixXd::Zero(width, width);
   }
 
-  [[nodiscard]] const Eigen::MatrixXd& sum() const { return sum_; }
+  /// Adds to sums over all of `chosen`, innovations last; lower triangle.
+  void AddTo(Eigen::MatrixXd& sum) const {
+    std::vector<Eigen::Index> to;
+    to.reserve(acting_.size() + 1);
+    for (const std::size_t i : acting_) to.push_back(static_cast<Eigen::Index>(i));
+    to.push_back(sum.rows() - 1);
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      for (std::size_t k = 0; k <= i; ++k) {
+        sum(to[i], to[k]) += sum_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+      }
+    }
+  }
   [[nodiscard]] std::size_t values() const { return values_; }
 
   /// Propagates blocks thread, thread + kThreads, ... over one chunk.
@@ -143,6 +170,7 @@ class RecordSums {
  private:
   std::size_t axes_;
   const Trajectory& run_;
+  std::vector<std::size_t> acting_;  ///< places in `chosen`
   std::size_t columns_;
   std::vector<SensitivityBlock> blocks_;
   std::vector<ColumnFilter> filters_;
@@ -187,7 +215,7 @@ NormalEquations Accumulate(const RigView& rig, const std::vector<Trajectory>& ru
   for (const Trajectory& run : runs) {
     RecordSums sums(rig, run, terms, theta, whitener, chosen);
     SumRecord(sums, run.moments.size(), rig.axes);
-    sum += sums.sum();
+    sums.AddTo(sum);
     out.values += sums.values();
   }
   sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();

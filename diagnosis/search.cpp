@@ -16,8 +16,8 @@ constexpr double kSettling = 0.3;  // [s]
 
 }  // namespace
 
-Search::Search(const RigView& rig, const std::vector<Term>& terms, const Settings& settings)
-    : rig_(rig), terms_(terms), settings_(settings), hypotheses_(MakeHypotheses(rig, terms)) {}
+Search::Search(const RigView& rig, const std::vector<Term>& terms)
+    : rig_(rig), terms_(terms), hypotheses_(MakeHypotheses(rig, terms)) {}
 
 Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpeed& speed) const {
   Gains gains;
@@ -82,35 +82,6 @@ LinearProblem Search::Linearise(const std::vector<Trajectory>& runs,
   return AtOrigin(all, scaled);
 }
 
-std::vector<Hypothesis> Search::Select(const LinearProblem& problem) const {
-  std::vector<Hypothesis> causes;
-  while (causes.size() < settings_.most_causes) {
-    const Evidence base(problem, terms_, causes);
-    const Hypothesis* best = nullptr;
-    double best_gain = kDecisive;
-    for (const Hypothesis& h : hypotheses_) {
-      const double gain = base.Gain(h);
-      if (gain > best_gain) {
-        best = &h;
-        best_gain = gain;
-      }
-    }
-    if (best == nullptr) break;
-    causes.push_back(*best);
-    // Backward: a cause that the later ones have made superfluous goes.
-    for (std::size_t i = 0; i + 1 < causes.size();) {
-      std::vector<Hypothesis> rest = causes;
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-      if (Evidence(problem, terms_, rest).Gain(causes[i]) < kDecisive) {
-        causes = rest;
-      } else {
-        ++i;
-      }
-    }
-  }
-  return causes;
-}
-
 std::vector<double> Search::Solve(const LinearProblem& problem,
                                   const std::vector<Hypothesis>& causes) const {
   const Fit fit = Evidence(problem, terms_, causes).Solve();
@@ -141,18 +112,32 @@ std::vector<std::size_t> Search::NuisancesAnd(const std::vector<Hypothesis>& cau
   return chosen;
 }
 
-std::vector<Record> Tails(const std::vector<Record>& records, std::size_t rows) {
-  std::vector<Record> tails;
-  tails.reserve(records.size());
+std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows) {
+  constexpr std::size_t kSpan = 10'000;  // rows; a third of it settles
+  std::size_t total = 0;
+  for (const Record& record : records) total += record.rows.size();
+  if (total <= rows) return records;
+  std::vector<Record> out;
+  out.reserve(records.size());
   for (const Record& record : records) {
-    Record tail = record;
-    if (tail.rows.size() > rows) {
-      tail.rows.erase(tail.rows.begin(), tail.rows.end() - static_cast<std::ptrdiff_t>(rows));
+    const std::size_t all = record.rows.size();
+    const auto share = static_cast<std::size_t>(static_cast<double>(rows) *
+                                                static_cast<double>(all) /
+                                                static_cast<double>(total));
+    const std::size_t spans = std::max<std::size_t>(1, share / kSpan);
+    const std::size_t length = std::min(all, share / spans);
+    Record part = record;
+    part.rows.clear();
+    for (std::size_t i = 0; i < spans; ++i) {
+      // The first span begins and the last one ends with the record.
+      const std::size_t from = spans == 1 ? (all - length) / 2 : i * (all - length) / (spans - 1);
+      const auto first = record.rows.begin() + static_cast<std::ptrdiff_t>(from);
+      part.rows.insert(part.rows.end(), first, first + static_cast<std::ptrdiff_t>(length));
     }
-    tail.mean_speed_rad_per_s = analysis::MeanSpeed(tail.rows);
-    tails.push_back(std::move(tail));
+    part.mean_speed_rad_per_s = analysis::MeanSpeed(part.rows);
+    out.push_back(std::move(part));
   }
-  return tails;
+  return out;
 }
 
 }  // namespace levitas::diagnosis

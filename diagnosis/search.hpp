@@ -30,7 +30,7 @@ inline constexpr ObserverSpeed kSlow{0.001, 1e-6};
 
 class Search {
  public:
-  Search(const RigView& rig, const std::vector<Term>& terms, const Settings& settings);
+  Search(const RigView& rig, const std::vector<Term>& terms);
 
   [[nodiscard]] Gains DesignGains(const std::vector<Record>& records,
                                   const ObserverSpeed& speed) const;
@@ -45,8 +45,6 @@ class Search {
                                         const std::vector<double>& theta, const Whitener& whitener,
                                         const std::vector<std::size_t>& chosen) const;
 
-  /// Forward selection with backward check on one linearisation.
-  [[nodiscard]] std::vector<Hypothesis> Select(const LinearProblem& problem) const;
   /// Solution of nuisances and causes, in the terms' own units.
   [[nodiscard]] std::vector<double> Solve(const LinearProblem& problem,
                                           const std::vector<Hypothesis>& causes) const;
@@ -59,11 +57,13 @@ class Search {
  private:
   const RigView& rig_;
   const std::vector<Term>& terms_;
-  const Settings& settings_;
   std::vector<Hypothesis> hypotheses_;
 };
 
-/// The last `rows` of every record (a run-up ends at its highest speed).
-[[nodiscard]] std::vector<Record> Tails(const std::vector<Record>& records, std::size_t rows);
+inline constexpr std::size_t kQuickRows = 60'000;  ///< of all records, for a first answer
+
+/// At most about `rows` of all records together, each in proportion, as spans spread evenly over it:
+/// every excitation and every speed stays represented.
+[[nodiscard]] std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows);
 
 }  // namespace levitas::diagnosis

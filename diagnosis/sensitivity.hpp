@@ -6,37 +6,48 @@
 //            gyroscopic coupling at the speed of the sample, exact modal steps. What a term adds
 //            (da, dr) is its addition at theta + h minus that at theta, over h; for linear terms
 //            that at 1.
-// Cost       about 0.2 us per sample and term: kLanes terms side by side in single precision, which
-// is
-//            enough for derivatives (1e-5) and lets the compiler use vectors.
+// Cost       lanes.hpp, and what the terms themselves cost.
 // Thread     one instance per thread.
 
-#include <array>
 #include <memory>
 #include <vector>
 
+#include "diagnosis/lanes.hpp"
 #include "diagnosis/model_run.hpp"
 
 namespace levitas::diagnosis {
 
-inline constexpr std::size_t kLanes = 8;
-
 /// A block of up to kLanes terms propagated together.
 class SensitivityBlock {
  public:
-  SensitivityBlock(const RigView& rig, std::shared_ptr<const analysis::ObserverGain> gain,
-                   const std::vector<Term>& terms, const std::vector<double>& theta,
-                   std::vector<std::size_t> chosen);
-  ~SensitivityBlock();
-  SensitivityBlock(SensitivityBlock&&) noexcept;
+  SensitivityBlock(std::shared_ptr<const LaneModel> model, const std::vector<Term>& terms,
+                   const std::vector<double>& theta, std::vector<std::size_t> chosen);
 
   /// Advances one sample; writes de/dtheta [axis][lane] in metres per Term::scale().
   void Step(const Moment& moment, float* derivative_m) noexcept;
-  [[nodiscard]] const std::vector<std::size_t>& chosen() const noexcept;
+  [[nodiscard]] const std::vector<std::size_t>& chosen() const noexcept { return chosen_; }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  /// One term: what it adds with and without the step.
+  struct Probe {
+    Term now, stepped;
+    double theta{}, step{}, scale{};
+    bool linear{};
+  };
+
+  void Read(const Moment& m, float* derivative_m) noexcept;
+  void Drive(const Moment& m) noexcept;
+  /// The probe's difference in `difference_`; the scale to apply, 0 when nothing was added.
+  template <class Call>
+  float Difference(Probe& probe, Call call) noexcept;
+  void Clear() noexcept;
+
+  std::shared_ptr<const LaneModel> model_;
+  std::vector<std::size_t> chosen_;
+  std::vector<Probe> probes_;
+  LaneState state_;
+  std::array<Lane, kMaxAxes> reading_{};  ///< of the sample that comes
+  Addition difference_, base_;
 };
 
 }  // namespace levitas::diagnosis

@@ -32,7 +32,8 @@ struct SessionAnswer {
 };
 
 [[nodiscard]] SessionAnswer DiagnoseFiles(const SessionInputs& inputs);
-/// The same on records that are in memory; empty `holdout` keeps back a part of `records`.
+/// The same on records that are in memory; empty `holdout` keeps back stretches of `records`
+/// (model_run.hpp).
 [[nodiscard]] SessionAnswer DiagnoseRecords(const config::RigFile& rig,
                                             const std::vector<Record>& records,
                                             const std::vector<Record>& holdout,

@@ -53,6 +53,8 @@ struct Term {
   double step{1.0};      ///< theta at which a non-linear term is linearised from 0
   bool positive{false};  ///< cannot be negative
   bool linear{true};     ///< adds theta times what it adds at theta = 1
+  bool rotating{false};  ///< adds nothing at rest
+  int record{-1};        ///< acts in this record alone; -1: in all
   /// Over the period that begins at the moment; `reading_m` then belongs to the sample at its end.
   Adds drive;
   /// At the sample of the moment.

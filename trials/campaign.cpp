@@ -49,7 +49,8 @@ class Loop {
         limit_a_(law.current_limit_a),
         period_s_(law.period_s),
         plan_(plan),
-        disturbance_(disturbance) {}
+        disturbance_(disturbance),
+        loss_(plan.loss.seed) {}
 
   bool Run(const Motion& motion, std::uint64_t seed, Measured& out) {
     plant::Plant plant(model_, seed);
@@ -61,6 +62,7 @@ class Loop {
         (motion.to_rpm - motion.from_rpm) * kRadPerSPerRpm / static_cast<double>(motion.rows);
     BitSequence bits(seed);
     bool bit = false;
+    MeasuredRow held;
     plant.SetSpeed(from, 0.0);
     out.name = motion.name;
     out.rows.reserve(motion.rows);
@@ -89,9 +91,17 @@ class Loop {
         const double limit_m = recorded ? plan_.limit_m : kSagging;
         if (!(std::abs(row.position_m[a]) < limit_m)) return false;
       }
-      row.control_current_a =
-          law::Step(coefficients_, state, error_m, row.excitation_a, limit_a_).control_current_a;
-      if (recorded) out.rows.push_back(row);
+      const bool lost = recorded && Lost();
+      if (lost) {
+        row.position_m = held.position_m;
+        row.control_current_a = held.control_current_a;
+        row.excitation_a = held.excitation_a;
+      } else {
+        row.control_current_a =
+            law::Step(coefficients_, state, error_m, row.excitation_a, limit_a_).control_current_a;
+      }
+      held = row;
+      if (recorded && !(lost && plan_.loss.missing)) out.rows.push_back(row);
       plant::PlantCommand command;
       command.bias_current_a = bias_a;
       command.drive_enabled = true;
@@ -108,12 +118,22 @@ class Loop {
   }
 
  private:
+  bool Lost() {
+    if (plan_.loss.probability <= 0.0) return false;
+    if (to_lose_ == 0 && loss_.Uniform() < plan_.loss.probability) to_lose_ = plan_.loss.burst;
+    if (to_lose_ == 0) return false;
+    --to_lose_;
+    return true;
+  }
+
   std::shared_ptr<const plant::PlantModel> model_;
   law::LawCoefficients coefficients_;
   double limit_a_;
   double period_s_;
   const CampaignPlan& plan_;
   Disturbance disturbance_;
+  Random loss_;
+  std::size_t to_lose_{0};
 };
 
 }  // namespace
@@ -149,7 +169,7 @@ std::vector<diagnosis::Record> AsRecords(const Campaign& campaign, const RigNumb
     for (std::size_t n = 0; n < measured.rows.size(); ++n) {
       const MeasuredRow& from = measured.rows[n];
       analysis::RecordedRow row;
-      row.cycle = n;
+      row.cycle = static_cast<std::uint64_t>(std::llround(from.time_s / rig.period_s()));
       row.levitated = true;
       row.sample.position_m = from.position_m;
       row.sample.command.bias_current_a = rig.bias_current_a;

@@ -31,6 +31,15 @@ struct Measured {
   std::vector<MeasuredRow> rows;
 };
 
+/// Frames that never arrive: the controller does nothing, the rig holds its currents, and the row is
+/// missing from the record or repeats the one before.
+struct FrameLoss {
+  double probability{};  ///< that a burst begins
+  std::size_t burst{1};
+  bool missing{true};
+  std::uint64_t seed{};
+};
+
 struct CampaignPlan {
   double spinning_rpm{3000.0};
   double runup_from_rpm{480.0}, runup_to_rpm{5880.0};
@@ -39,6 +48,7 @@ struct CampaignPlan {
   int bits_per_axis{2047};  ///< of two periods each
   double limit_m{120e-6};   ///< a reading beyond is not a healthy run
   std::uint64_t seed{1};    ///< of noise and test signal
+  FrameLoss loss;
 };
 
 struct Campaign {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -58,6 +59,9 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// Limits of evidence in the tables [nat]: decisive five times over, twice, and decisive.
+constexpr std::array kHeld{25.0, 10.0, 5.0};
+
 struct Count {
   int right{}, partly{}, of{};
   void Add(const Outcome& o) {
@@ -103,6 +107,17 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
   for (const auto& cause : a.causes) o.named.push_back(cause.effect);
   o.ties = a.also_possible;
   o.score_nat = a.candidates.empty() ? 0.0 : a.candidates.front().score;
+  for (const auto& c : a.candidates) {
+    if (!o.truth.empty() && c.effect == o.truth.front()) {
+      o.available_nat = std::max(o.available_nat, c.score);
+    }
+    if (o.nearest.size() < 7) {
+      o.nearest.push_back(fmt::format("{} [{}] {:.1f}{}", c.effect, c.place, c.score,
+                                      c.refitted ? "" : "?"));
+    }
+  }
+  o.explained = a.explained;
+  o.remainder_sigma = a.remainder.sigma;
   o.achieved = answer.held_out.achieved;
   for (const auto& p : diagnosis::Parameters(answer)) {
     double truth = 0.0;
@@ -119,6 +134,7 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
 std::string Tables(const std::vector<Outcome>& outcomes) {
   std::map<std::string, std::map<Size, Count>> by_effect;
   std::map<Size, Count> by_size;
+  std::array<Count, kHeld.size() + 1> by_evidence;
   Count clean, outside, several;
   int several_all = 0;
   std::vector<double> achieved, seconds;
@@ -137,6 +153,9 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
     }
     by_effect[o.truth.front()][o.size].Add(o);
     by_size[o.size].Add(o);
+    const auto above = std::find_if(kHeld.begin(), kHeld.end(),
+                                    [&o](double nat) { return o.available_nat >= nat; });
+    by_evidence[static_cast<std::size_t>(above - kHeld.begin())].Add(o);
     if (o.size != Size::kClear || !o.Right()) continue;
     achieved.push_back(o.achieved);
     if (o.parameter_error < 0.0) continue;
@@ -150,6 +169,12 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
   };
   for (auto& [effect, counts] : by_effect) line(effect, counts);
   line("all", by_size);
+  out += "\nby the evidence that the records hold for it, nat\n";
+  for (std::size_t i = 0; i < by_evidence.size(); ++i) {
+    out += fmt::format("{:<26}{:>9}\n",
+                       i < kHeld.size() ? fmt::format("from {:.0f}", kHeld[i]) : "below",
+                       by_evidence[i].Text());
+  }
   out += fmt::format(
       "\nnothing hidden, called none: {}\noutside the vocabulary, called unknown: {}\n"
       "several hidden, main one named: {}; all named: {}/{}\n",

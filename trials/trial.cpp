@@ -12,30 +12,6 @@ namespace {
 
 using effect::Id;
 
-/// Frames that never arrive: their rows are missing, or repeat the row before.
-void LoseFrames(const effect::EffectConfig& entry, Campaign& campaign, Random& random) {
-  const bool missing = random.Uniform() < 0.5;
-  const auto burst = static_cast<std::size_t>(entry.values[1]);
-  for (Measured& measured : campaign.records) {
-    std::vector<MeasuredRow> kept;
-    kept.reserve(measured.rows.size());
-    for (std::size_t n = 0; n < measured.rows.size(); ++n) {
-      if (n > 0 && n + burst < measured.rows.size() && random.Uniform() < entry.values[0]) {
-        for (std::size_t k = 0; k < burst && !missing; ++k) {
-          MeasuredRow held = measured.rows[n + k];
-          held.position_m = measured.rows[n - 1].position_m;
-          held.control_current_a = measured.rows[n - 1].control_current_a;
-          kept.push_back(held);
-        }
-        n += burst - 1;
-        continue;
-      }
-      kept.push_back(measured.rows[n]);
-    }
-    measured.rows = std::move(kept);
-  }
-}
-
 class Maker {
  public:
   Maker(const Bench& bench, const TrialPlan& plan)
@@ -79,19 +55,15 @@ class Maker {
 
   bool Run(double size, Campaign& out, Secret* secret, bool main = true) {
     auto hidden = Draw(size, main);
-    const auto lost = std::find_if(hidden.begin(), hidden.end(), [](const auto& entry) {
-      return entry.id == Id::kDroppedSamples;
-    });
-    std::vector<effect::EffectConfig> frames;
-    if (lost != hidden.end()) {
-      // The plant's way leaves nothing in the record to see; a recorder notices lost frames.
-      frames.push_back(*lost);
+    CampaignPlan plan = campaign_;
+    for (const auto& entry : hidden) {
+      if (entry.id != Id::kDroppedSamples) continue;
+      plan.loss = {entry.values[0], static_cast<std::size_t>(entry.values[1]),
+                   effect_seed_ % 2 == 0, effect_seed_ + 1};
     }
     Random rig_random(rig_seed_);
     const auto truth = TrueRig(bench_.rig.plant, Mismatch{}, hidden, rig_random);
-    out = Record(truth, bench_.laws[law_], campaign_, plan_.outside, size, effect_seed_);
-    Random loss_random(effect_seed_ + 1);
-    for (const auto& entry : frames) LoseFrames(entry, out, loss_random);
+    out = Record(truth, bench_.laws[law_], plan, plan_.outside, size, effect_seed_);
     if (secret != nullptr) secret->truth = truth;
     return out.stable;
   }

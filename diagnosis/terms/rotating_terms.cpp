@@ -170,6 +170,7 @@ std::vector<Term> RotatingTerms(const RigView& rig, const Tolerances& t) {
   AddBow(rig, terms);
   AddMisalignment(rig, terms);
   AddStiffness(rig, terms);
+  for (Term& term : terms) term.rotating = true;
   for (const double z_m : {0.22, 0.26, 0.34}) AddCrack(rig, z_m, terms);
   return terms;
 }

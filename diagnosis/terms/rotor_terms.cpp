@@ -114,6 +114,7 @@ std::vector<Term> RotorTerms(const RigView& rig, const Tolerances& t) {
                                }
                              }
                            }));
+  terms.back().rotating = true;
   for (const auto& disc : rig.model->config().rotor.discs) {
     terms.push_back(InternalDamping(rig, disc.z_m));
   }

@@ -91,6 +91,7 @@ std::vector<Term> MainsTerms(const RigView& rig, const std::vector<double>& freq
                 add.reading_m[a] +=
                     theta * (part == 0 ? std::cos(w * m.time_s) : std::sin(w * m.time_s));
               }));
+          terms.back().record = static_cast<int>(record);
         }
       }
     }

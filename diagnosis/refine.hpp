@@ -1,0 +1,47 @@
+#pragma once
+// Nuisances and a given set of causes fitted together on the nonlinear model.
+//
+// Method     Gauss-Newton from a start; a step after which the model is further from the data, or
+//            not finite, is halved. The whitening stays the same, so that sets can be compared.
+// Evidence   of the whole set, -1/2 (squared sum + penalty + log det), priors of places included;
+//            differences between sets of causes on the same records and whitening mean something, one
+//            number alone does not.
+// Thread     blocks the caller, two threads inside. Failure: `ok` false when no finite run was found.
+
+#include <vector>
+
+#include "diagnosis/search.hpp"
+
+namespace levitas::diagnosis {
+
+struct Refined {
+  std::vector<double> theta;
+  double evidence{};
+  bool ok{};
+  LinearProblem problem;  ///< about theta; sensitivities of nuisances and causes alone
+};
+
+class Refiner {
+ public:
+  Refiner(const Search& search, const std::vector<Term>& terms, const std::vector<Record>& records,
+          const Gains& gains)
+      : search_(search), terms_(terms), records_(records), gains_(gains) {}
+
+  [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
+                            const Whitener& whitener, int passes) const;
+  /// Evidence of a set on a linearisation of everything.
+  [[nodiscard]] static double SetEvidence(const LinearProblem& problem,
+                                          const std::vector<Term>& terms,
+                                          const std::vector<Hypothesis>& causes);
+
+ private:
+  [[nodiscard]] double Penalty(const std::vector<double>& theta,
+                               const std::vector<Hypothesis>& causes) const;
+
+  const Search& search_;
+  const std::vector<Term>& terms_;
+  const std::vector<Record>& records_;
+  const Gains& gains_;
+};
+
+}  // namespace levitas::diagnosis
