@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/diagnosis_files.hpp"
 #include "cli/json_file.hpp"
+#include "diagnosis/plan.hpp"
 #include "diagnosis/session.hpp"
 
 namespace levitas::cli {
@@ -30,7 +31,8 @@ constexpr const char* kHelp =
 struct DiagnoseOptions : AnalysisOptions {
   std::vector<std::string> data;
   std::vector<std::string> holdout;
-  std::string out;
+  std::vector<std::string> healthy;
+  std::string out, plan;
   bool quick{};
 };
 
@@ -48,6 +50,7 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.rig = LoadRig(options);
   inputs.data = options.data;
   inputs.holdout = options.holdout;
+  inputs.healthy = options.healthy;
   inputs.scratch_folder = options.out;
   inputs.settings.quick = options.quick;
   inputs.settings.progress = ShowProgress;
@@ -55,6 +58,7 @@ ExitStatus Run(const DiagnoseOptions& options) {
   PrintDiagnosis(answer);
   WriteDiagnosis(answer, inputs.rig, options.out);
   WriteJsonFile(options.json_path, DiagnosisJson(answer));
+  if (!options.plan.empty()) WriteText(options.plan, diagnosis::PlanScenario(answer));
   return ExitStatus::kDone;
 }
 
@@ -67,10 +71,15 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   command->add_option("DATA", options->data, "Sessions or CSV files of one rig")->required();
   AddRigOption(*command, *options);
   command->add_option("--holdout", options->holdout,
-                      "Data on which the gain is measured; without it the first 15 % of every "
-                      "record are kept back");
+                      "Data on which the gain is measured; without it every sixth stretch of "
+                      "50 ms is kept back");
+  command->add_option("--healthy", options->healthy,
+                      "Earlier records of the same rig, known to be well: they narrow what it may "
+                      "differ by from its file");
+  command->add_option("--plan", options->plan,
+                      "Write the scenario that would separate what these data cannot");
   command->add_option("--out", options->out, "Folder for the answer")->required();
-  command->add_flag("--quick", options->quick, "First answer from 1.3 s of every record");
+  command->add_flag("--quick", options->quick, "First answer, from at most 60 000 samples of all records");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

@@ -18,15 +18,11 @@ namespace levitas::cli {
 using diagnosis::SessionAnswer;
 using diagnosis::Verdict;
 
-namespace {
-
 void WriteText(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text;
   if (!file.flush()) throw BadInput(path + ": cannot be written");
 }
-
-}  // namespace
 
 void PrintDiagnosis(const SessionAnswer& s) {
   fmt::print("{}\n\n", diagnosis::VerdictSentence(s));
@@ -45,7 +41,7 @@ void PrintDiagnosis(const SessionAnswer& s) {
       held.nominal_percent, held.calibrated_percent, held.extended_percent, held.ceiling_percent);
   fmt::print(
       "Of what could be gained there: {:.3f} ({:.3f} to {:.3f}); beyond calibration {:.3f}\n",
-      held.achieved, held.achieved_low, held.achieved_high, held.beyond_calibration);
+      held.achieved.value, held.achieved.low, held.achieved.high, held.beyond_calibration.value);
   fmt::print("\n{:<26}{:<36}{:>10}\n", "effect", "where", "nat");
   for (std::size_t i = 0; i < std::min<std::size_t>(8, s.answer.candidates.size()); ++i) {
     const auto& c = s.answer.candidates[i];
@@ -84,14 +80,21 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
                          {"holdout_calibrated", s.held_out.calibrated_percent},
                          {"holdout_after", s.held_out.extended_percent},
                          {"ceiling", s.held_out.ceiling_percent}};
-  json["achievable_gain"] = {{"fraction", s.held_out.achieved},
-                             {"low", s.held_out.achieved_low},
-                             {"high", s.held_out.achieved_high},
-                             {"beyond_calibration", s.held_out.beyond_calibration}};
+  const auto share = [](const diagnosis::Share& g) {
+    return nlohmann::ordered_json{{"fraction", g.value}, {"low", g.low}, {"high", g.high}};
+  };
+  json["achievable_gain"] = share(s.held_out.achieved);
+  json["achievable_gain"]["beyond_calibration"] = s.held_out.beyond_calibration.value;
+  for (std::size_t i = 0; i < s.held_out.channel.size(); ++i) {
+    json["achievable_gain"]["channels"][s.view->numbers.channels[i]] =
+        share(s.held_out.channel[i]);
+  }
   json["residual"] = {{"frequency_hz", a.remainder.frequency_hz},
                       {"order", a.remainder.order},
                       {"coherent_with", a.remainder.coherent_with},
-                      {"sigma", a.remainder.sigma}};
+                      {"channel", s.view->numbers.channels[a.remainder.worst_channel]},
+                      {"sigma", a.remainder.sigma},
+                      {"explained", a.explained}};
   json["next_experiment"] = diagnosis::NextExperiment(s);
   json["candidates"] = nlohmann::ordered_json::array();
   for (const auto& c : a.candidates) {

@@ -96,7 +96,7 @@ std::string FitTable(const SessionAnswer& s) {
         "<tr><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td>"
         "<td class=n>{:.2f}</td><td class=n>{:.3f} ({:.3f} to {:.3f})</td></tr>\n",
         name, g.nominal_percent, g.calibrated_percent, g.extended_percent, g.ceiling_percent,
-        g.achieved, g.achieved_low, g.achieved_high);
+        g.achieved.value, g.achieved.low, g.achieved.high);
   };
   return "<table><tr><th>fit, percent</th><th>nominal</th><th>calibrated</th><th>extended</th>"
          "<th>ceiling</th><th>share of the achievable gain</th></tr>\n" +
@@ -129,8 +129,8 @@ std::string DiagnosisPage(const SessionAnswer& s) {
       "{4:.0f} % ({5:.0f} to {6:.0f} %).</p>\n{7}\n{8}{9}<h2>Ranking, and why not the others</h2>\n"
       "{10}<h2>What to record next</h2>\n<p>{11}</p>\n</body></html>\n",
       Escaped(s.view->numbers.name), kStyle, Escaped(diagnosis::VerdictSentence(s)),
-      s.seconds_of_data, 100.0 * s.held_out.achieved, 100.0 * s.held_out.achieved_low,
-      100.0 * s.held_out.achieved_high, Spectra(s), ParameterTable(s),
+      s.seconds_of_data, 100.0 * s.held_out.achieved.value, 100.0 * s.held_out.achieved.low,
+      100.0 * s.held_out.achieved.high, Spectra(s), ParameterTable(s),
       "<h2>Fit</h2>\n" + FitTable(s), Ranking(s), Escaped(diagnosis::NextExperiment(s)));
 }
 

@@ -3,14 +3,13 @@
 #include <map>
 #include <utility>
 
+#include "diagnosis/calibrate.hpp"
 #include "diagnosis/events.hpp"
 #include "diagnosis/refine.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
-constexpr std::size_t kWhiteningOrder = 4;
-constexpr std::size_t kFastRows = 18'000;  ///< of all records
 constexpr double kUnexplained = 7.0;       ///< [sigma] of the remainder
 constexpr double kExplained = 0.7;         ///< of the excess: less, and the cause is not the cause
 constexpr double kNear = 15.0;             ///< [nat] rivals that are refitted
@@ -35,7 +34,7 @@ class Diagnoser {
         settings_(settings),
         effort_(settings.quick ? kQuick : kThorough),
         search_(rig, terms),
-        theta_(terms.size(), 0.0),
+        theta_(search_.Usual()),
         records_(settings.quick ? Spans(records, kQuickRows) : records),
         gains_(search_.DesignGains(records_, kSlow)),
         refiner_(search_, terms, records_, gains_) {}
@@ -57,21 +56,10 @@ class Diagnoser {
   /// linearisation sees one in everything.
   void Calibrate() {
     Tell(0.02, "calibrating");
-    const std::vector<Record> few = Spans(all_records_, kFastRows);
-    const Gains fast = search_.DesignGains(few, kFast);
-    const Refiner coarse(search_, terms_, few, fast);
-    Settle(coarse, few, fast, 2);
-    Tell(0.06, "calibrating");
-    Settle(refiner_, records_, gains_, effort_.calibrations);
+    theta_ = CalibrateNuisances(rig_, search_, terms_, all_records_, records_, gains_,
+                                effort_.calibrations)
+                 .theta;
     calibrated_ = theta_;
-  }
-
-  void Settle(const Refiner& refiner, const std::vector<Record>& records, const Gains& gains,
-              int passes) {
-    const Whitener whitener =
-        MakeWhitener(search_.Run(records, gains, theta_), rig_.axes, kWhiteningOrder);
-    const Refined fit = refiner.Fit({}, theta_, whitener, passes);
-    if (fit.ok) theta_ = fit.theta;
   }
 
   void FindCauses() {

@@ -1,6 +1,7 @@
 #include "diagnosis/gain.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/random.hpp"
@@ -8,10 +9,18 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// Sums over one block of samples.
-struct Block {
-  double nominal{}, calibrated{}, extended{}, noise{};  ///< in units of the noise's variance
+/// Squared innovations of one axis over one block, in units of its noise's variance.
+struct Sums {
+  double nominal{}, calibrated{}, extended{}, noise{};
+
+  void Add(const Sums& other) {
+    nominal += other.nominal;
+    calibrated += other.calibrated;
+    extended += other.extended;
+    noise += other.noise;
+  }
 };
+using Block = std::array<Sums, kMaxAxes>;
 
 double Square(float value) { return static_cast<double>(value) * static_cast<double>(value); }
 
@@ -31,27 +40,58 @@ std::vector<Block> Blocks(const RigView& rig, const ModelRuns& runs,
       }
       for (std::size_t a = 0; a < rig.axes; ++a) {
         const double weight = 1.0 / (noise_rms_m[a] * noise_rms_m[a]);
-        blocks.back().nominal += weight * Square(runs.nominal[r].moments[n].innovation_m[a]);
-        blocks.back().calibrated += weight * Square(runs.calibrated[r].moments[n].innovation_m[a]);
-        blocks.back().extended += weight * Square(runs.extended[r].moments[n].innovation_m[a]);
-        blocks.back().noise += 1.0;
+        blocks.back()[a].Add({weight * Square(runs.nominal[r].moments[n].innovation_m[a]),
+                              weight * Square(runs.calibrated[r].moments[n].innovation_m[a]),
+                              weight * Square(runs.extended[r].moments[n].innovation_m[a]), 1.0});
       }
     }
   }
   return blocks;
 }
 
-struct Shares {
-  double achieved, beyond;
-};
-
-double Share(double before, double after, double floor) {
+double GainedShare(double before, double after, double floor) {
   return before > floor ? std::clamp((before - after) / (before - floor), -1.0, 1.0) : 0.0;
 }
 
-Shares Of(const Block& sum) {
-  return {Share(sum.nominal, sum.extended, sum.noise),
-          Share(sum.calibrated, sum.extended, sum.noise)};
+/// All shares of one draw: whole, beyond calibration, then every axis.
+std::vector<double> SharesOf(const Block& block, std::size_t axes) {
+  Sums all;
+  for (std::size_t a = 0; a < axes; ++a) all.Add(block[a]);
+  std::vector<double> shares{GainedShare(all.nominal, all.extended, all.noise),
+                             GainedShare(all.calibrated, all.extended, all.noise)};
+  for (std::size_t a = 0; a < axes; ++a) {
+    shares.push_back(GainedShare(block[a].nominal, block[a].extended, block[a].noise));
+  }
+  return shares;
+}
+
+void AddTo(Block& to, const Block& from, std::size_t axes) {
+  for (std::size_t a = 0; a < axes; ++a) to[a].Add(from[a]);
+}
+
+/// Value and 5 to 95 % of every share.
+std::vector<Share> Bootstrap(const std::vector<Block>& blocks, std::size_t axes) {
+  constexpr std::size_t kDraws = 400;
+  Random random(20261121);
+  Block total{};
+  for (const Block& block : blocks) AddTo(total, block, axes);
+  const std::vector<double> values = SharesOf(total, axes);
+  std::vector<std::vector<double>> drawn(values.size());
+  for (std::size_t draw = 0; draw < kDraws; ++draw) {
+    Block sum{};
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      AddTo(sum, blocks[random.Bits() % blocks.size()], axes);
+    }
+    const std::vector<double> shares = SharesOf(sum, axes);
+    for (std::size_t i = 0; i < shares.size(); ++i) drawn[i].push_back(shares[i]);
+  }
+  std::vector<Share> out;
+  out.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::sort(drawn[i].begin(), drawn[i].end());
+    out.push_back({values[i], drawn[i][kDraws / 20], drawn[i][kDraws - kDraws / 20]});
+  }
+  return out;
 }
 
 double Percent(const std::vector<Trajectory>& runs, std::size_t axis, double rms_m, Part part) {
@@ -89,36 +129,10 @@ Gain MeasureGain(const RigView& rig, const ModelRuns& runs, const std::vector<do
   }
   const auto blocks = Blocks(rig, runs, noise_rms_m, part);
   if (blocks.empty()) return gain;
-  const auto add = [](Block& to, const Block& from) {
-    to.nominal += from.nominal;
-    to.calibrated += from.calibrated;
-    to.extended += from.extended;
-    to.noise += from.noise;
-  };
-  Block total;
-  for (const Block& block : blocks) add(total, block);
-  gain.achieved = Of(total).achieved;
-  gain.beyond_calibration = Of(total).beyond;
-  constexpr std::size_t kDraws = 400;
-  Random random(20261121);
-  std::vector<double> achieved, beyond;
-  for (std::size_t draw = 0; draw < kDraws; ++draw) {
-    Block sum;
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-      add(sum, blocks[random.Bits() % blocks.size()]);
-    }
-    achieved.push_back(Of(sum).achieved);
-    beyond.push_back(Of(sum).beyond);
-  }
-  std::sort(achieved.begin(), achieved.end());
-  std::sort(beyond.begin(), beyond.end());
-  const auto at = [](const std::vector<double>& sorted, double p) {
-    return sorted[static_cast<std::size_t>(p * static_cast<double>(sorted.size()))];
-  };
-  gain.achieved_low = at(achieved, 0.05);
-  gain.achieved_high = at(achieved, 0.95);
-  gain.beyond_low = at(beyond, 0.05);
-  gain.beyond_high = at(beyond, 0.95);
+  const std::vector<Share> shares = Bootstrap(blocks, rig.axes);
+  gain.achieved = shares[0];
+  gain.beyond_calibration = shares[1];
+  gain.channel.assign(shares.begin() + 2, shares.end());
   return gain;
 }
 

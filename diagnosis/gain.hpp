@@ -19,13 +19,17 @@
 
 namespace levitas::diagnosis {
 
+/// A share with its interval.
+struct Share {
+  double value{}, low{}, high{};
+};
+
 struct Gain {
   double nominal_percent{}, calibrated_percent{}, extended_percent{}, ceiling_percent{};
-  double achieved{};  ///< share of the achievable, nominal to extended
-  double achieved_low{}, achieved_high{};
-  double beyond_calibration{};  ///< share of what the calibrated model leaves, gained by the causes
-  double beyond_low{}, beyond_high{};
+  Share achieved;            ///< of the achievable, nominal to extended
+  Share beyond_calibration;  ///< of what the calibrated model leaves, gained by the causes
   std::vector<double> channel_nominal_percent, channel_extended_percent;
+  std::vector<Share> channel;  ///< of the achievable, nominal to extended
 };
 
 /// Three models on the same records.

@@ -19,7 +19,7 @@ namespace levitas::diagnosis {
 inline constexpr std::size_t kLanes = 8;
 
 /// One number of every term of a block.
-struct Lane {
+struct alignas(kLanes * sizeof(float)) Lane {
   using Vector [[gnu::vector_size(kLanes * sizeof(float))]] = float;
   Vector value;
 };

@@ -17,7 +17,8 @@ double Refiner::Penalty(const std::vector<double>& theta,
     });
     double variance = term.nuisance() ? term.tolerance * term.tolerance : 0.0;
     if (moved) variance += term.scale() * term.scale();
-    if (variance > 0.0) penalty += theta[i] * theta[i] / variance;
+    const double away = theta[i] - term.usual;
+    if (variance > 0.0) penalty += away * away / variance;
   }
   return penalty;
 }
@@ -46,9 +47,9 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
         0.5 * (SquaredSum(runs, whitener.filter.size(), whitener) + Penalty(theta, causes));
     if (!std::isfinite(cost) || cost > best_cost + kWorse) {
       if (++halvings > kMostHalvings) break;
-      // Without a run to go back to, towards the nominal rig.
+      // Without a run to go back to, towards the usual rig.
       for (std::size_t i = 0; i < theta.size(); ++i) {
-        theta[i] = 0.5 * (theta[i] + (best.ok ? best.theta[i] : 0.0));
+        theta[i] = 0.5 * (theta[i] + (best.ok ? best.theta[i] : terms_[i].usual));
       }
       continue;
     }

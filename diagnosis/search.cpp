@@ -77,7 +77,8 @@ LinearProblem Search::Linearise(const std::vector<Trajectory>& runs,
   }
   Eigen::VectorXd scaled(size);
   for (Eigen::Index i = 0; i < size; ++i) {
-    scaled[i] = theta[static_cast<std::size_t>(i)] / terms_[static_cast<std::size_t>(i)].scale();
+    const Term& term = terms_[static_cast<std::size_t>(i)];
+    scaled[i] = (theta[static_cast<std::size_t>(i)] - term.usual) / term.scale();
   }
   return AtOrigin(all, scaled);
 }
@@ -87,9 +88,16 @@ std::vector<double> Search::Solve(const LinearProblem& problem,
   const Fit fit = Evidence(problem, terms_, causes).Solve();
   std::vector<double> theta(terms_.size());
   for (std::size_t i = 0; i < theta.size(); ++i) {
-    theta[i] = fit.theta[static_cast<Eigen::Index>(i)] * terms_[i].scale();
+    theta[i] = terms_[i].usual + fit.theta[static_cast<Eigen::Index>(i)] * terms_[i].scale();
     if (terms_[i].positive) theta[i] = std::max(theta[i], 0.0);
   }
+  return theta;
+}
+
+std::vector<double> Search::Usual() const {
+  std::vector<double> theta;
+  theta.reserve(terms_.size());
+  for (const Term& term : terms_) theta.push_back(term.usual);
   return theta;
 }
 

@@ -50,6 +50,8 @@ class Search {
                                           const std::vector<Hypothesis>& causes) const;
 
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
+  /// What the healthy rig is: where every search begins.
+  [[nodiscard]] std::vector<double> Usual() const;
   [[nodiscard]] std::vector<std::size_t> Nuisances() const;
   [[nodiscard]] std::vector<std::size_t> Everything() const;
   [[nodiscard]] std::vector<std::size_t> NuisancesAnd(const std::vector<Hypothesis>& causes) const;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/calibrate.hpp"
 #include "diagnosis/events.hpp"
-#include "diagnosis/search.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -46,10 +46,12 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdo
 }  // namespace
 
 SessionAnswer DiagnoseRecords(const config::RigFile& rig, const std::vector<Record>& records,
-                              const std::vector<Record>& holdout, const Settings& settings) {
+                              const std::vector<Record>& holdout, const Settings& settings,
+                              const std::vector<Record>& healthy) {
   SessionAnswer out;
   out.view = std::make_shared<const RigView>(rig.numbers, rig.plant);
   out.terms = AllTerms(*out.view, settings.tolerances, LargestOrbit(records, out.view->axes));
+  if (!healthy.empty()) LearnFromHealthy(*out.view, healthy, out.terms);
   std::vector<Record> fitted = records;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     fitted[i].number = static_cast<std::uint32_t>(i);
@@ -65,7 +67,7 @@ SessionAnswer DiagnoseRecords(const config::RigFile& rig, const std::vector<Reco
 
 SessionAnswer DiagnoseFiles(const SessionInputs& inputs) {
   return DiagnoseRecords(inputs.rig, Load(inputs.data, inputs), Load(inputs.holdout, inputs),
-                         inputs.settings);
+                         inputs.settings, Load(inputs.healthy, inputs));
 }
 
 }  // namespace levitas::diagnosis

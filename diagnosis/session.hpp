@@ -16,6 +16,7 @@ namespace levitas::diagnosis {
 struct SessionInputs {
   config::RigFile rig;
   std::vector<std::string> data, holdout;
+  std::vector<std::string> healthy;  ///< earlier records of the same rig, known to be well
   std::string scratch_folder;
   Settings settings;
 };
@@ -37,6 +38,7 @@ struct SessionAnswer {
 [[nodiscard]] SessionAnswer DiagnoseRecords(const config::RigFile& rig,
                                             const std::vector<Record>& records,
                                             const std::vector<Record>& holdout,
-                                            const Settings& settings);
+                                            const Settings& settings,
+                                            const std::vector<Record>& healthy = {});
 
 }  // namespace levitas::diagnosis

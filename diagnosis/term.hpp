@@ -48,6 +48,7 @@ struct Term {
   std::string place;   ///< "de_x", "mode 3", "order 2, nde_y"
   std::string parameter;
   std::string unit;
+  double usual{};        ///< what a healthy rig's records have shown it to be; 0 without them
   double tolerance{};    ///< standard deviation of theta on a healthy rig; 0: not a nuisance
   double wide{1.0};      ///< standard deviation of theta when the effect is present
   double step{1.0};      ///< theta at which a non-linear term is linearised from 0

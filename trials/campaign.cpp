@@ -57,6 +57,7 @@ class Loop {
     law::LawState state(coefficients_);
     const double bias_a = model_->config().bearings.front().magnet.bias_current_a;
     const auto warm_up = static_cast<std::size_t>(kWarmUp / period_s_);
+    const auto quiet = static_cast<std::size_t>(plan_.quiet_s / period_s_);
     const double from = motion.from_rpm * kRadPerSPerRpm;
     const double slope =
         (motion.to_rpm - motion.from_rpm) * kRadPerSPerRpm / static_cast<double>(motion.rows);
@@ -78,10 +79,11 @@ class Loop {
       row.position_m = frame.position_m;
       const double clock_s = period_s_ * static_cast<double>(n);
       disturbance_.Read(clock_s, row.position_m);
-      if (recorded && motion.excited) {
-        if ((n - warm_up) % 2 == 0) bit = bits.Next();
-        const std::size_t per_axis = motion.rows / model_->axes();
-        const std::size_t axis = std::min((n - warm_up) / per_axis, model_->axes() - 1);
+      if (n >= warm_up + quiet && motion.excited) {
+        const std::size_t since = n - warm_up - quiet;
+        if (since % 2 == 0) bit = bits.Next();
+        const std::size_t per_axis = (motion.rows - quiet) / model_->axes();
+        const std::size_t axis = std::min(since / per_axis, model_->axes() - 1);
         row.excitation_a[axis] = bit ? plan_.excitation_a : -plan_.excitation_a;
       }
       AxisArray error_m{};
@@ -142,7 +144,8 @@ Campaign Record(const plant::PlantParameters& truth, const law::LawConfig& law,
                 const CampaignPlan& plan, Outside outside, double outside_size,
                 std::uint64_t outside_seed) {
   const auto model = std::make_shared<const plant::PlantModel>(truth);
-  const auto excited_rows = static_cast<std::size_t>(2 * plan.bits_per_axis) * model->axes();
+  const auto excited_rows = static_cast<std::size_t>(2 * plan.bits_per_axis) * model->axes() +
+                            static_cast<std::size_t>(plan.quiet_s / law.period_s);
   const std::vector<Motion> motions{
       {"standing", 0.0, 0.0, excited_rows, true},
       {"spinning", plan.spinning_rpm, plan.spinning_rpm, excited_rows, true},

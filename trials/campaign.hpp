@@ -44,6 +44,7 @@ struct CampaignPlan {
   double spinning_rpm{3000.0};
   double runup_from_rpm{480.0}, runup_to_rpm{5880.0};
   double runup_s{2.0};
+  double quiet_s{0.3};  ///< before the test signals begin
   double excitation_a{0.08};
   int bits_per_axis{2047};  ///< of two periods each
   double limit_m{120e-6};   ///< a reading beyond is not a healthy run

@@ -118,7 +118,7 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
   }
   o.explained = a.explained;
   o.remainder_sigma = a.remainder.sigma;
-  o.achieved = answer.held_out.achieved;
+  o.achieved = answer.held_out.achieved.value;
   for (const auto& p : diagnosis::Parameters(answer)) {
     double truth = 0.0;
     if (o.truth.empty() || p.effect != o.truth.front()) continue;

@@ -48,9 +48,12 @@ TEST(Campaign, RepeatsWithItsSeedAndDiffersWithAnother) {
 TEST(Campaign, ExcitesOneAxisAfterTheOtherAndNoneInTheRunUp) {
   const auto trial = MakeTrial(TheBench(), Short(3, {}));
   const auto& standing = trial.campaign.records[0].rows;
-  const std::size_t per_axis = standing.size() / 4;
+  constexpr std::size_t kQuiet = 3000;  // 0.3 s
+  ASSERT_GT(standing.size(), kQuiet);
+  EXPECT_EQ(standing[kQuiet - 1].excitation_a[0], 0.0);
+  const std::size_t per_axis = (standing.size() - kQuiet) / 4;
   for (std::size_t a = 0; a < 4; ++a) {
-    const auto& row = standing[a * per_axis + per_axis / 2];
+    const auto& row = standing[kQuiet + a * per_axis + per_axis / 2];
     for (std::size_t other = 0; other < 4; ++other) {
       EXPECT_EQ(std::abs(row.excitation_a[other]), other == a ? 0.08 : 0.0);
     }
