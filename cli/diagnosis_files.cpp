@@ -86,8 +86,7 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
   json["achievable_gain"] = share(s.held_out.achieved);
   json["achievable_gain"]["beyond_calibration"] = s.held_out.beyond_calibration.value;
   for (std::size_t i = 0; i < s.held_out.channel.size(); ++i) {
-    json["achievable_gain"]["channels"][s.view->numbers.channels[i]] =
-        share(s.held_out.channel[i]);
+    json["achievable_gain"]["channels"][s.view->numbers.channels[i]] = share(s.held_out.channel[i]);
   }
   json["residual"] = {{"frequency_hz", a.remainder.frequency_hz},
                       {"order", a.remainder.order},

@@ -19,7 +19,8 @@ constexpr const char* kStyle =
     "h1{font-size:1.5em}.verdict{font-size:1.25em;padding:.8em "
     "1em;background:#eef4fb;border-left:6px "
     "solid #1f77b4}table{border-collapse:collapse}td,th{padding:.2em .8em;text-align:left;"
-    "border-bottom:1px solid #ddd}td.n{text-align:right}";
+    "border-bottom:1px solid #ddd}td.n{text-align:right}.bar{background:#eee;width:24em}"
+    ".bar div{height:1em}summary{cursor:pointer;padding:.4em 0}";
 
 std::string Escaped(const std::string& text) {
   std::string out;
@@ -80,14 +81,55 @@ std::string Why(const SessionAnswer& s, const Candidate& candidate) {
 }
 
 std::string Ranking(const SessionAnswer& s) {
+  constexpr std::size_t kShown = 8;
   std::string rows;
-  for (const Candidate& c : s.answer.candidates) {
+  std::string rest;
+  for (std::size_t i = 0; i < s.answer.candidates.size(); ++i) {
+    const Candidate& c = s.answer.candidates[i];
     const std::string score = std::isfinite(c.score) ? fmt::format("{:.1f}", c.score) : "-";
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{}</td><td>{}</td></tr>\n", c.effect,
-                        Escaped(c.place), score, Why(s, c));
+    (i < kShown ? rows : rest) +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{}</td><td>{}</td></tr>\n", c.effect,
+                    Escaped(c.place), score, Why(s, c));
   }
-  return "<table><tr><th>effect</th><th>where</th><th>evidence, nat</th><th></th></tr>\n" + rows +
-         "</table>\n";
+  const std::string head =
+      "<table><tr><th>effect</th><th>where</th><th>evidence, nat</th><th></th></tr>\n";
+  return head + rows + "</table>\n<details><summary>All others that were ruled out</summary>" +
+         head + rest + "</table></details>\n";
+}
+
+/// One line of the picture of what is left beyond the noise.
+std::string Bar(const char* name, double left, const char* colour) {
+  const double percent = 100.0 * std::clamp(left, 0.0, 1.0);
+  return fmt::format(
+      "<tr><td>{}</td><td><div class=bar><div style=\"width:{:.1f}%;background:{}\"></div></div>"
+      "</td><td class=n>{:.1f} %</td></tr>\n",
+      name, percent, colour, percent);
+}
+
+/// What the models leave of the nominal model's excess over the noise, on data kept back.
+std::string Left(const SessionAnswer& s) {
+  const double extended = 1.0 - s.held_out.achieved.value;
+  const double beyond = s.held_out.beyond_calibration.value;
+  const double calibrated = beyond < 1.0 ? std::min(1.0, extended / (1.0 - beyond)) : 1.0;
+  return "<h2>What the model still gets wrong</h2><table>\n" + Bar("rig file", 1.0, "#888") +
+         Bar("with its tolerances calibrated", calibrated, "#1f77b4") +
+         Bar("with the cause", extended, "#d62728") +
+         "</table><p>Squared error beyond the sensors' noise, on data that were not fitted.</p>\n";
+}
+
+std::string ChannelTable(const SessionAnswer& s) {
+  std::string rows;
+  for (std::size_t i = 0; i < s.held_out.channel.size(); ++i) {
+    const auto& g = s.held_out.channel[i];
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td>"
+        "<td class=n>{:.3f} ({:.3f} to {:.3f})</td></tr>\n",
+        Escaped(s.view->numbers.channels[i]), s.held_out.channel_nominal_percent[i],
+        s.held_out.channel_extended_percent[i], g.value, g.low, g.high);
+  }
+  return "<details><summary>Channel by channel</summary><table><tr><th>channel</th>"
+         "<th>fit before, %</th><th>after, %</th><th>share of the achievable gain</th></tr>\n" +
+         rows + "</table></details>\n";
 }
 
 std::string FitTable(const SessionAnswer& s) {
@@ -125,13 +167,13 @@ std::string DiagnosisPage(const SessionAnswer& s) {
       "{0}</title>"
       "<style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n<p class=\"verdict\">{2}</p>\n"
       "<p>From {3:.1f} s of data. Of what a better model could gain on data kept back, this one "
-      "gains "
-      "{4:.0f} % ({5:.0f} to {6:.0f} %).</p>\n{7}\n{8}{9}<h2>Ranking, and why not the others</h2>\n"
-      "{10}<h2>What to record next</h2>\n<p>{11}</p>\n</body></html>\n",
+      "gains {4:.0f} % ({5:.0f} to {6:.0f} %). <b>Next:</b> {11}.</p>\n{12}{8}{7}\n"
+      "<h2>Ranking, and why not the others</h2>\n{10}{9}{13}</body></html>\n",
       Escaped(s.view->numbers.name), kStyle, Escaped(diagnosis::VerdictSentence(s)),
       s.seconds_of_data, 100.0 * s.held_out.achieved.value, 100.0 * s.held_out.achieved.low,
       100.0 * s.held_out.achieved.high, Spectra(s), ParameterTable(s),
-      "<h2>Fit</h2>\n" + FitTable(s), Ranking(s), Escaped(diagnosis::NextExperiment(s)));
+      "<h2>Fit</h2>\n" + FitTable(s), Ranking(s), Escaped(diagnosis::NextExperiment(s)), Left(s),
+      ChannelTable(s));
 }
 
 }  // namespace levitas::cli

@@ -18,13 +18,12 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
   Refined fit;
   fit.theta = search.Usual();
   const auto settle = [&](const std::vector<Record>& data, const Gains& with, int most) {
-    const Whitener whitener =
-        MakeWhitener(search.Run(data, with, fit.theta), rig.axes, kWhiteningOrder);
-    Refined better = Refiner(search, terms, data, with).Fit({}, fit.theta, whitener, most);
+    Refined better =
+        Refiner(search, terms, data, with, rig.axes).Approach(fit.theta, kWhiteningOrder, most);
     if (better.ok) fit = std::move(better);
   };
   const std::vector<Record> few = Spans(all, kFastRows);
-  settle(few, search.DesignGains(few, kFast), 2);
+  settle(few, search.DesignGains(few, kFast), 3);
   settle(records, gains, passes);
   return fit;
 }
@@ -33,7 +32,7 @@ void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
                       std::vector<Term>& terms) {
   const Search search(rig, terms);
   const std::vector<Record> records = Spans(healthy, kQuickRows);
-  constexpr int kPasses = 4;
+  constexpr int kPasses = 8;
   const Refined fit = CalibrateNuisances(rig, search, terms, healthy, records,
                                          search.DesignGains(records, kSlow), kPasses);
   if (!fit.ok) throw BadInput("the healthy records cannot be calibrated: is it the same rig?");

@@ -1,8 +1,9 @@
 #pragma once
-// The nominal rig with its tolerances fitted, and nothing else; and what a healthy rig's records tell
-// about them.
+// The nominal rig with its tolerances fitted, and nothing else; and what a healthy rig's records
+// tell about them.
 //
-// Method     a fast observer on a part of the records (smooth, coarse), then the slow one on all that
+// Method     a fast observer on a part of the records (smooth, coarse), then the slow one on all
+// that
 //            is used.
 // Healthy    tolerances shrink to what the healthy records leave open, but not below kDaily of
 //            themselves: a rig is not the same from one day to the next. This separates what one

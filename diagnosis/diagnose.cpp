@@ -10,19 +10,19 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr double kUnexplained = 7.0;       ///< [sigma] of the remainder
-constexpr double kExplained = 0.7;         ///< of the excess: less, and the cause is not the cause
-constexpr double kNear = 15.0;             ///< [nat] rivals that are refitted
+constexpr double kUnexplained = 7.0;  ///< [sigma] of the remainder
+constexpr double kExplained = 0.7;    ///< of the excess: less, and the cause is not the cause
+constexpr double kNear = 15.0;        ///< [nat] rivals that are refitted
 
 /// How thorough a search is.
 struct Effort {
-  int calibrations;      ///< passes with the slow observer
-  std::size_t shortlist; ///< candidates refitted for every cause
-  int passes;            ///< of each
-  std::size_t rivals;    ///< refitted in the end
+  int calibrations;       ///< passes with the slow observer
+  std::size_t shortlist;  ///< candidates refitted for every cause
+  int passes;             ///< of each
+  std::size_t rivals;     ///< refitted in the end
 };
-constexpr Effort kQuick{3, 3, 1, 2};
-constexpr Effort kThorough{4, 6, 3, 5};
+constexpr Effort kQuick{6, 3, 2, 2};
+constexpr Effort kThorough{10, 6, 3, 5};
 
 class Diagnoser {
  public:
@@ -37,7 +37,7 @@ class Diagnoser {
         theta_(search_.Usual()),
         records_(settings.quick ? Spans(records, kQuickRows) : records),
         gains_(search_.DesignGains(records_, kSlow)),
-        refiner_(search_, terms, records_, gains_) {}
+        refiner_(search_, terms, records_, gains_, rig.axes) {}
 
   Answer Run() {
     Calibrate();
@@ -177,23 +177,23 @@ class Diagnoser {
     const Refined leader = refiner_.Fit(causes_, theta_, view_.whitener, 1);
     if (!leader.ok) return;
     theta_ = leader.theta;
-    const auto own = std::find_if(candidates_.begin(), candidates_.end(), [this](const auto& c) {
-      return c.effect == causes_[0].effect;
-    });
+    const auto own = std::find_if(candidates_.begin(), candidates_.end(),
+                                  [this](const auto& c) { return c.effect == causes_[0].effect; });
     if (own == candidates_.end()) return;
     const double lead = own->score;
     own->refitted = true;
     double best_evidence = leader.evidence;
     std::size_t tried = 0;
     for (Candidate& candidate : candidates_) {
-      if (tried == effort_.rivals || candidate.score < std::max(kDecisive, lead - 2.0 * kNear)) break;
+      if (tried == effort_.rivals || candidate.score < std::max(kDecisive, lead - 2.0 * kNear))
+        break;
       if (candidate.refitted) continue;
       ++tried;
       Tell(0.78 + 0.03 * static_cast<double>(tried), "refitting " + candidate.effect);
       std::vector<Hypothesis> causes{search_.hypotheses()[candidate.hypothesis]};
       causes.insert(causes.end(), others.begin(), others.end());
-      const Refined fit = refiner_.Fit(causes, search_.Solve(view_.problem, causes),
-                                       view_.whitener, effort_.passes);
+      const Refined fit = refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_.whitener,
+                                       effort_.passes);
       if (!fit.ok) continue;
       candidate.score = lead + fit.evidence - leader.evidence;
       candidate.refitted = true;

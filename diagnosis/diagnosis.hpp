@@ -1,21 +1,23 @@
 #pragma once
 // What a rig does that its model does not: the search for the cause, and its answer.
 //
-// Method     1 calibrate: the nuisances within their tolerances, with a fast observer first (smooth,
+// Method     1 calibrate: the nuisances within their tolerances, with a fast observer first
+// (smooth,
 //              coarse) and a slow one after it (sees slow effects), Gauss-Newton on innovations;
 //            2 screen: one pass with the sensitivities of every term gives the evidence of every
 //              hypothesis (evidence.hpp) on top of the causes found so far;
 //            3 refit: the best few by Gauss-Newton together with the nuisances on the nonlinear
-//              model (refine.hpp); the best of them is a cause, and each earlier one is dropped again
-//              when the others explain its share (backward check); again from 2 until none gains enough;
+//              model (refine.hpp); the best of them is a cause, and each earlier one is dropped
+//              again when the others explain its share (backward check); again from 2 until none
+//              gains enough;
 //            4 rank: every effect in place of the first cause, the nearest refitted;
 //            5 judge what remains (remainder.hpp).
 // Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of
 //            magnets and contacts are known to a tenth or so of their amplitude, so a hundredth of
 //            what the right one gains is left to be explained by wrong ones.
 // Answer     `effect` when a cause gains enough; ties are all that come within kDecisive of it;
-//            `unknown` when power is left that stands out of the noise, and is more than a small part
-//            of what the calibrated model left; else `none`.
+//            `unknown` when power is left that stands out of the noise, and is more than a small
+//            part of what the calibrated model left; else `none`.
 // Units      evidence in nats. Thread: blocks the caller, two threads inside.
 // Failure    BadInput for records that are too short.
 

@@ -64,6 +64,7 @@ std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>&
   std::string where;
   for (std::size_t a = 0; a < rig.axes && a < remainder.channels.size(); ++a) {
     const auto& sensor = rig.bearing(a).sensor;
+    if (!(remainder.channels[a].noise_rms_m > 0.0)) continue;
     const double off =
         std::log(remainder.channels[a].noise_rms_m / analysis::ReadingNoise(sensor)) /
         kNoiseTolerance;

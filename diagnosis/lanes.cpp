@@ -121,7 +121,8 @@ std::vector<float> RowMajor(const Eigen::MatrixXd& matrix) {
   std::vector<float> out;
   out.reserve(static_cast<std::size_t>(matrix.size()));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    for (Eigen::Index k = 0; k < matrix.cols(); ++k) out.push_back(static_cast<float>(matrix(i, k)));
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k)
+      out.push_back(static_cast<float>(matrix(i, k)));
   }
   return out;
 }
@@ -144,7 +145,8 @@ LaneModel::Bearing BearingOf(const RigView& rig, std::size_t b) {
   }
   const auto amplifier = amplifier::MakeStep(config.amplifier.bandwidth_hz, 0.0, rig.period_s);
   n.coil_decay = static_cast<float>(amplifier.decay);
-  n.coil_mean = static_cast<float>((1.0 - amplifier.decay) * amplifier.tau_s / amplifier.duration_s);
+  n.coil_mean =
+      static_cast<float>((1.0 - amplifier.decay) * amplifier.tau_s / amplifier.duration_s);
   const auto filter =
       sensor::MakeFilterStep(config.sensor.bandwidth_hz, config.sensor.gain, rig.period_s);
   n.sensor_decay = static_cast<float>(filter.decay);

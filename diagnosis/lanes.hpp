@@ -3,7 +3,8 @@
 //
 // Equation   sensitivity.hpp. Lane l of every number belongs to term l of the block.
 // Precision  single: enough for derivatives (1e-5), and a vector register holds all lanes.
-// Cost       about 40 ns per sample and term with AVX2, twice that without; chosen at start-up. Both
+// Cost       about 40 ns per sample and term with AVX2, twice that without; chosen at start-up.
+// Both
 //            ways round alike: no contraction (cmake/Compiler.cmake).
 // Thread     one state per thread; the model may be shared.
 
@@ -38,7 +39,7 @@ struct LaneModel {
     float sensor_decay{}, sensor_start{}, sensor_end{};
   };
   std::size_t axes{}, modes{};
-  std::vector<float> correct_q, correct_v;                     ///< [state][axis]
+  std::vector<float> correct_q, correct_v;                         ///< [state][axis]
   std::vector<float> correct_coil, correct_sensor, correct_force;  ///< [axis][axis]
   std::vector<Mode> mode;
   std::vector<Bearing> bearing;
@@ -54,7 +55,8 @@ struct LaneState {
 };
 
 /// x += K e for the derivatives `e` of the innovations.
-void Correct(const LaneModel& model, const std::array<Lane, kMaxAxes>& e, LaneState& state) noexcept;
+void Correct(const LaneModel& model, const std::array<Lane, kMaxAxes>& e,
+             LaneState& state) noexcept;
 /// One period about the model's own motion; clears what was added.
 void Advance(const LaneModel& model, const Moment& moment, LaneState& state) noexcept;
 

@@ -17,6 +17,8 @@ struct Active {
   double theta;
 };
 
+constexpr std::uint64_t kStartRows = 1500;  ///< with the gain for starts
+
 /// Frames lost in a row that the model bridges; after more it starts anew.
 constexpr std::uint64_t kMostBridged = 20;
 
@@ -28,9 +30,13 @@ double Sum(const std::vector<double>& shape, const float* modal) {
 
 class Runner {
  public:
-  Runner(const RigView& rig, std::shared_ptr<const analysis::ObserverGain> gain,
-         const std::vector<Term>& terms, const std::vector<double>& theta)
-      : rig_(rig), observer_(rig.model, std::move(gain)), at_(rig.model->layout()) {
+  Runner(const RigView& rig, const ObserverPair& gains, const std::vector<Term>& terms,
+         const std::vector<double>& theta)
+      : rig_(rig),
+        steady_(rig.model, gains.steady),
+        starter_(rig.model, gains.start),
+        observer_(&steady_),
+        at_(rig.model->layout()) {
     for (std::size_t i = 0; i < terms.size(); ++i) {
       if (theta[i] != 0.0) active_.push_back({terms[i], theta[i]});
     }
@@ -45,13 +51,20 @@ class Runner {
   }
 
   void Restart(const AxisArray& position_m) {
-    observer_.Restart(position_m);
+    starter_.Restart(position_m);
+    observer_ = &starter_;
+    since_start_ = 0;
     before_a_ = now_a_ = {};
     next_reading_m_ = {};
   }
 
   /// `arrived` false: the frame was lost, so the model goes on without correction.
   void Step(const analysis::RecordedRow& row, bool arrived, Moment& moment) {
+    if (since_start_++ == kStartRows) {
+      steady_.mutable_plant() = starter_.plant();
+      observer_ = &steady_;
+    }
+    moment.starting = observer_ == &starter_;
     BeforeSample(row, moment);
     Addition read;
     read.reading_m = next_reading_m_;
@@ -63,12 +76,12 @@ class Runner {
     for (std::size_t i = 0; i < rig_.axes; ++i) added_m[i] = polarity[i] * read.reading_m[i];
     analysis::RecordedSample sample = row.sample;
     if (!arrived) {
-      const AxisArray predicted_m = observer_.plant().SensorOutput();
+      const AxisArray predicted_m = observer_->plant().SensorOutput();
       for (std::size_t i = 0; i < rig_.axes; ++i) {
         sample.position_m[i] = predicted_m[i] + added_m[i];
       }
     }
-    const AxisArray innovation_m = observer_.Step(sample, added_m);
+    const AxisArray innovation_m = observer_->Step(sample, added_m);
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       moment.innovation_m[i] = static_cast<float>(polarity[i] * innovation_m[i]);
     }
@@ -84,7 +97,7 @@ class Runner {
  private:
   void BeforeSample(const analysis::RecordedRow& row, Moment& moment) {
     const auto& polarity = rig_.model->config().sensor_polarity;
-    const auto state = observer_.plant().state();
+    const auto state = observer_->plant().state();
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       moment.reading_m[i] = static_cast<float>(state[at_.sensor + i]);
       moment.measured_m[i] = static_cast<float>(polarity[i] * row.sample.position_m[i]);
@@ -106,12 +119,12 @@ class Runner {
     before_a_ = now_a_;
     now_a_ = moment.command_next_a;
     start_ = {state.begin(), state.end()};
-    const auto& gain = observer_.gain();
+    const auto& gain = observer_->gain();
     gain_state_ = &gain.state;
   }
 
   void AfterPeriod(const analysis::RecordedRow& row, Moment& m) {
-    const auto end = observer_.plant().state();
+    const auto end = observer_->plant().state();
     // The start after the correction, which the observer does not keep.
     Eigen::VectorXd innovation(static_cast<Eigen::Index>(rig_.axes));
     for (std::size_t i = 0; i < rig_.axes; ++i) {
@@ -145,7 +158,7 @@ class Runner {
   }
 
   void Apply(const Moment& m, const Addition& add) {
-    const auto state = observer_.mutable_plant().mutable_state();
+    const auto state = observer_->mutable_plant().mutable_state();
     std::vector<double>& acceleration = acceleration_;
     acceleration.assign(add.modal.begin(),
                         add.modal.begin() + static_cast<std::ptrdiff_t>(2 * rig_.modes));
@@ -172,7 +185,9 @@ class Runner {
   }
 
   const RigView& rig_;
-  analysis::Observer observer_;
+  analysis::Observer steady_, starter_;
+  analysis::Observer* observer_;
+  std::uint64_t since_start_{0};
   StateLayout at_;
   std::vector<Active> active_;
   std::vector<plant::ModeStep> steps_;
@@ -202,14 +217,13 @@ bool KeptBack(std::uint64_t cycle, std::uint32_t record, double period_s) {
 
 }  // namespace
 
-Trajectory RunModel(const RigView& rig, const Record& record,
-                    std::shared_ptr<const analysis::ObserverGain> gain,
+Trajectory RunModel(const RigView& rig, const Record& record, const ObserverPair& gains,
                     const std::vector<Term>& terms, const std::vector<double>& theta,
                     double settling_s) {
   Trajectory run;
-  run.gain = gain;
+  run.gains = gains;
   run.moments.reserve(record.rows.size());
-  Runner runner(rig, std::move(gain), terms, theta);
+  Runner runner(rig, gains, terms, theta);
   const auto settling_rows = static_cast<std::uint64_t>(std::llround(settling_s / rig.period_s));
   std::uint64_t since_start = 0;
   const analysis::RecordedRow* previous = nullptr;
@@ -223,9 +237,11 @@ Trajectory RunModel(const RigView& rig, const Record& record,
       since_start = 0;
     }
     runner.Step(row, arrived, moment);
-    const bool settled = since_start++ >= settling_rows && arrived;
-    moment.held = settled && record.keep_back && KeptBack(row.cycle, record.number, rig.period_s);
-    moment.counts = settled && !moment.held;
+    moment.arrived = arrived;
+    moment.settled = since_start++ >= settling_rows;
+    const bool held = record.keep_back && KeptBack(row.cycle, record.number, rig.period_s);
+    moment.held = moment.settled && arrived && held;
+    moment.counts = moment.settled && arrived && !held;
   };
   for (const auto& row : record.rows) {
     const auto lost = previous != nullptr && row.cycle > previous->cycle

@@ -7,6 +7,9 @@
 // Kept back  every sixth stretch of 50 ms when the record asks for it: run and corrected like all
 //            others, but `held` instead of `counts`, so that what is measured there was not fitted
 //            and every excitation and speed is in both parts.
+// Start      after a (re)start the modes swing as nobody knows, and a slow observer takes half a
+//            second to learn it: a fast one does so first, its forces left at zero, since static
+//            forces are for the parameters to explain.
 // Settling   the first `settling_s` after every (re)start are run and do not count.
 // Cost       2 to 3 us per sample. Thread: any; one call per thread.
 
@@ -28,15 +31,19 @@ struct Record {
   bool keep_back{};        ///< part of it is not to be fitted
 };
 
+/// Gains for one record.
+struct ObserverPair {
+  std::shared_ptr<const analysis::ObserverGain> steady, start;
+};
+
 struct Trajectory {
   std::vector<Moment> moments;
-  std::shared_ptr<const analysis::ObserverGain> gain;
+  ObserverPair gains;
 };
 
 /// `theta` has one value per term. Terms at 0 cost nothing.
 [[nodiscard]] Trajectory RunModel(const RigView& rig, const Record& record,
-                                  std::shared_ptr<const analysis::ObserverGain> gain,
-                                  const std::vector<Term>& terms, const std::vector<double>& theta,
-                                  double settling_s);
+                                  const ObserverPair& gains, const std::vector<Term>& terms,
+                                  const std::vector<double>& theta, double settling_s);
 
 }  // namespace levitas::diagnosis

@@ -22,7 +22,7 @@ struct Moment {
   double time_s{};     ///< of the sample, from the start of the record
   double angle_rad{};  ///< at the sample
   float speed_rad_per_s{};
-  bool counts{};              ///< levitated, the observer has settled, not kept back
+  bool counts{};              ///< settled, arrived, not kept back
   bool held{};                ///< would count but is kept back
   bool restarted{};           ///< the first sample after a gap
   AxisFloats innovation_m{};  ///< measured minus predicted, bearing frame
@@ -41,6 +41,9 @@ struct Moment {
   AxisFloats command_now_a{};     ///< acts from the sample on (whole-sample delay)
   AxisFloats command_next_a{};    ///< acts from the next sample on
   std::uint32_t record{};
+  bool arrived{};   ///< the frame is there; else the model went on without correction
+  bool settled{};   ///< levitated, and the observer has settled
+  bool starting{};  ///< corrected by the gain for starts
 };
 
 }  // namespace levitas::diagnosis

@@ -97,13 +97,13 @@ class RecordSums {
              const std::vector<double>& theta, const Whitener& whitener,
              const std::vector<std::size_t>& chosen)
       : axes_(rig.axes), run_(run), acting_(Acting(run, terms, chosen)), columns_(acting_.size()) {
-    const auto model = std::make_shared<const LaneModel>(rig, *run.gain);
+    const LanePair models(rig, run.gains);
     for (std::size_t i = 0; i < acting_.size(); i += kLanes) {
       std::vector<std::size_t> block;
       for (std::size_t k = i; k < std::min(acting_.size(), i + kLanes); ++k) {
         block.push_back(chosen[acting_[k]]);
       }
-      blocks_.emplace_back(model, terms, theta, std::move(block));
+      blocks_.emplace_back(models, terms, theta, std::move(block));
     }
     const auto width = static_cast<Eigen::Index>(columns_ + 1);
     for (std::size_t a = 0; a < axes_; ++a) filters_.emplace_back(whitener.filter[a], columns_ + 1);

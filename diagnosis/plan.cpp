@@ -18,8 +18,8 @@ constexpr std::array<std::string_view, 8> kRotating{
     "unbalance",        "shaft_bow",          "sensor_runout",   "misalignment",
     "shaft_anisotropy", "gyroscopic_inertia", "breathing_crack", "internal_damping"};
 /// They differ where an amplifier has long let go.
-constexpr std::array<std::string_view, 5> kFast{"extra_delay", "eddy_current", "amplifier_bandwidth",
-                                                "sensor_bandwidth", "amplifier_slew"};
+constexpr std::array<std::string_view, 5> kFast{
+    "extra_delay", "eddy_current", "amplifier_bandwidth", "sensor_bandwidth", "amplifier_slew"};
 
 template <std::size_t kCount>
 bool AnyOf(const std::vector<std::string>& effects,

@@ -70,4 +70,35 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   return best;
 }
 
+Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order,
+                          int passes) const {
+  constexpr double kSettled = 2.0;  // [nat]
+  constexpr int kMostHalvings = 3;
+  Refined best;
+  std::vector<double> theta = std::move(start);
+  Whitener whitener;
+  double before = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < passes; ++pass) {
+    auto runs = search_.Run(records_, gains_, theta);
+    double gained = before;
+    for (int halving = 0; pass > 0; ++halving) {
+      gained = before - 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
+      if (std::isfinite(gained) && gained > -kSettled) break;
+      if (halving == kMostHalvings) return best;
+      for (std::size_t i = 0; i < theta.size(); ++i) theta[i] = 0.5 * (theta[i] + best.theta[i]);
+      runs = search_.Run(records_, gains_, theta);
+    }
+    whitener = MakeWhitener(runs, axes_, whitening_order);
+    before = 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
+    if (!std::isfinite(before)) break;
+    best.theta = theta;
+    best.ok = true;
+    if (pass > 0 && gained < kSettled) break;
+    best.problem = search_.Linearise(runs, theta, whitener, search_.Nuisances());
+    best.evidence = SetEvidence(best.problem, terms_, {});
+    theta = search_.Solve(best.problem, {});
+  }
+  return best;
+}
+
 }  // namespace levitas::diagnosis

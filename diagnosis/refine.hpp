@@ -4,9 +4,10 @@
 // Method     Gauss-Newton from a start; a step after which the model is further from the data, or
 //            not finite, is halved. The whitening stays the same, so that sets can be compared.
 // Evidence   of the whole set, -1/2 (squared sum + penalty + log det), priors of places included;
-//            differences between sets of causes on the same records and whitening mean something, one
-//            number alone does not.
-// Thread     blocks the caller, two threads inside. Failure: `ok` false when no finite run was found.
+//            differences between sets of causes on the same records and whitening mean something,
+//            one number alone does not.
+// Thread     blocks the caller, two threads inside. Failure: `ok` false when no finite run was
+// found.
 
 #include <vector>
 
@@ -24,11 +25,15 @@ struct Refined {
 class Refiner {
  public:
   Refiner(const Search& search, const std::vector<Term>& terms, const std::vector<Record>& records,
-          const Gains& gains)
-      : search_(search), terms_(terms), records_(records), gains_(gains) {}
+          const Gains& gains, std::size_t axes)
+      : search_(search), terms_(terms), records_(records), gains_(gains), axes_(axes) {}
 
   [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
                             const Whitener& whitener, int passes) const;
+  /// Nuisances alone, from far away: whitened anew at every pass, since what is not calibrated yet
+  /// is no noise and must not be weighted down as if it were.
+  [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order,
+                                 int passes) const;
   /// Evidence of a set on a linearisation of everything.
   [[nodiscard]] static double SetEvidence(const LinearProblem& problem,
                                           const std::vector<Term>& terms,
@@ -42,6 +47,7 @@ class Refiner {
   const std::vector<Term>& terms_;
   const std::vector<Record>& records_;
   const Gains& gains_;
+  std::size_t axes_;
 };
 
 }  // namespace levitas::diagnosis

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kSegment = 2048;
 
-/// One uninterrupted, counting stretch of a run.
+/// One uninterrupted, settled stretch of a run; single lost frames in it have innovations of zero.
 struct Piece {
   const Trajectory* run;
   std::size_t first, count;
@@ -24,7 +24,7 @@ std::vector<Piece> PiecesOf(const std::vector<Trajectory>& runs) {
     std::size_t first = 0;
     const auto& m = run.moments;
     for (std::size_t n = 0; n <= m.size(); ++n) {
-      const bool goes_on = n < m.size() && (m[n].counts || m[n].held) && !m[n].restarted;
+      const bool goes_on = n < m.size() && m[n].settled && !m[n].restarted;
       if (goes_on) continue;
       if (n - first >= kSegment) pieces.push_back({&run, first, n - first});
       first = n + 1;

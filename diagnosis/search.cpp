@@ -20,15 +20,20 @@ Search::Search(const RigView& rig, const std::vector<Term>& terms)
     : rig_(rig), terms_(terms), hypotheses_(MakeHypotheses(rig, terms)) {}
 
 Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpeed& speed) const {
+  const auto design = [this](const Record& record, const ObserverSpeed& at) {
+    analysis::ObserverTuning tuning;
+    tuning.speed_rad_per_s = record.mean_speed_rad_per_s;
+    tuning.force_noise_share = at.force_noise_share;
+    tuning.force_drift_share = at.force_drift_share;
+    return analysis::DesignObserver(rig_.model->config(), tuning);
+  };
   Gains gains;
   gains.reserve(records.size());
   for (const Record& record : records) {
-    analysis::ObserverTuning tuning;
-    tuning.speed_rad_per_s = record.mean_speed_rad_per_s;
-    tuning.force_noise_share = speed.force_noise_share;
-    tuning.force_drift_share = speed.force_drift_share;
-    gains.push_back(std::make_shared<const analysis::ObserverGain>(
-        analysis::DesignObserver(rig_.model->config(), tuning)));
+    analysis::ObserverGain start = design(record, kFast);
+    start.force_n_per_m.setZero();
+    gains.push_back({std::make_shared<const analysis::ObserverGain>(design(record, speed)),
+                     std::make_shared<const analysis::ObserverGain>(std::move(start))});
   }
   return gains;
 }
@@ -129,9 +134,8 @@ std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows) 
   out.reserve(records.size());
   for (const Record& record : records) {
     const std::size_t all = record.rows.size();
-    const auto share = static_cast<std::size_t>(static_cast<double>(rows) *
-                                                static_cast<double>(all) /
-                                                static_cast<double>(total));
+    const auto share = static_cast<std::size_t>(
+        static_cast<double>(rows) * static_cast<double>(all) / static_cast<double>(total));
     const std::size_t spans = std::max<std::size_t>(1, share / kSpan);
     const std::size_t length = std::min(all, share / spans);
     Record part = record;

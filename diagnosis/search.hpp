@@ -11,7 +11,7 @@
 namespace levitas::diagnosis {
 
 /// Observers of all records for one tuning.
-using Gains = std::vector<std::shared_ptr<const analysis::ObserverGain>>;
+using Gains = std::vector<ObserverPair>;
 
 /// One linearisation of everything, on the records it was made with.
 struct View {
@@ -64,8 +64,8 @@ class Search {
 
 inline constexpr std::size_t kQuickRows = 60'000;  ///< of all records, for a first answer
 
-/// At most about `rows` of all records together, each in proportion, as spans spread evenly over it:
-/// every excitation and every speed stays represented.
+/// At most about `rows` of all records together, each in proportion, as spans spread evenly over
+/// it: every excitation and every speed stays represented.
 [[nodiscard]] std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows);
 
 }  // namespace levitas::diagnosis

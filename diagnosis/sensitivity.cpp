@@ -28,10 +28,12 @@ void Subtract(Addition& from, const Addition& what, std::size_t axes, std::size_
 
 }  // namespace
 
-SensitivityBlock::SensitivityBlock(std::shared_ptr<const LaneModel> model,
-                                   const std::vector<Term>& terms, const std::vector<double>& theta,
+SensitivityBlock::SensitivityBlock(LanePair models, const std::vector<Term>& terms,
+                                   const std::vector<double>& theta,
                                    std::vector<std::size_t> chosen)
-    : model_(std::move(model)), chosen_(std::move(chosen)) {
+    : model_(std::move(models.steady)),
+      start_(std::move(models.start)),
+      chosen_(std::move(chosen)) {
   probes_.reserve(chosen_.size());
   for (const std::size_t i : chosen_) {
     probes_.push_back(
@@ -61,9 +63,8 @@ float SensitivityBlock::Difference(Probe& p, Call call) noexcept {
 void SensitivityBlock::Read(const Moment& m, float* derivative_m) noexcept {
   for (std::size_t l = 0; l < probes_.size(); ++l) {
     if (!probes_[l].now.read) continue;
-    const float scale = Difference(probes_[l], [&m](Term& term, double theta, Addition& add) {
-      term.read(m, theta, add);
-    });
+    const float scale = Difference(
+        probes_[l], [&m](Term& term, double theta, Addition& add) { term.read(m, theta, add); });
     for (std::size_t a = 0; a < model_->axes; ++a) {
       reading_[a].value[l] += scale * static_cast<float>(difference_.reading_m[a]);
     }
@@ -71,18 +72,18 @@ void SensitivityBlock::Read(const Moment& m, float* derivative_m) noexcept {
   std::array<Lane, kMaxAxes> e;
   for (std::size_t a = 0; a < model_->axes; ++a) {
     e[a].value = -(state_.sensor[a].value + reading_[a].value);
+    if (!m.arrived) e[a] = Lane{};
     for (std::size_t l = 0; l < kLanes; ++l) derivative_m[a * kLanes + l] = e[a].value[l];
     reading_[a] = Lane{};
   }
-  Correct(*model_, e, state_);
+  if (m.arrived) Correct(m.starting ? *start_ : *model_, e, state_);
 }
 
 void SensitivityBlock::Drive(const Moment& m) noexcept {
   for (std::size_t l = 0; l < probes_.size(); ++l) {
     if (!probes_[l].now.drive) continue;
-    const float scale = Difference(probes_[l], [&m](Term& term, double theta, Addition& add) {
-      term.drive(m, theta, add);
-    });
+    const float scale = Difference(
+        probes_[l], [&m](Term& term, double theta, Addition& add) { term.drive(m, theta, add); });
     const Addition& d = difference_;
     for (std::size_t a = 0; a < model_->axes; ++a) {
       state_.add_force[a].value[l] = scale * static_cast<float>(d.force_n[a]);

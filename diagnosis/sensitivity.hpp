@@ -17,10 +17,18 @@
 
 namespace levitas::diagnosis {
 
+/// The rig with the observer's steady gain, and with that for starts.
+struct LanePair {
+  LanePair(const RigView& rig, const ObserverPair& gains)
+      : steady(std::make_shared<const LaneModel>(rig, *gains.steady)),
+        start(std::make_shared<const LaneModel>(rig, *gains.start)) {}
+  std::shared_ptr<const LaneModel> steady, start;
+};
+
 /// A block of up to kLanes terms propagated together.
 class SensitivityBlock {
  public:
-  SensitivityBlock(std::shared_ptr<const LaneModel> model, const std::vector<Term>& terms,
+  SensitivityBlock(LanePair models, const std::vector<Term>& terms,
                    const std::vector<double>& theta, std::vector<std::size_t> chosen);
 
   /// Advances one sample; writes de/dtheta [axis][lane] in metres per Term::scale().
@@ -42,7 +50,7 @@ class SensitivityBlock {
   float Difference(Probe& probe, Call call) noexcept;
   void Clear() noexcept;
 
-  std::shared_ptr<const LaneModel> model_;
+  std::shared_ptr<const LaneModel> model_, start_;
   std::vector<std::size_t> chosen_;
   std::vector<Probe> probes_;
   LaneState state_;

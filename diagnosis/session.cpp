@@ -38,9 +38,8 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdo
   out.ratio_after = out.answer.remainder.channels[out.shown_channel].ratio;
   out.line_spacing_hz = before.line_spacing_hz;
   out.fitted = MeasureGain(*out.view, runs, noise_rms_m, Part::kFitted);
-  out.held_out = holdout.empty()
-                     ? MeasureGain(*out.view, runs, noise_rms_m, Part::kKeptBack)
-                     : MeasureGain(*out.view, run(holdout), noise_rms_m, Part::kFitted);
+  out.held_out = holdout.empty() ? MeasureGain(*out.view, runs, noise_rms_m, Part::kKeptBack)
+                                 : MeasureGain(*out.view, run(holdout), noise_rms_m, Part::kFitted);
 }
 
 }  // namespace

@@ -31,8 +31,8 @@ struct Measured {
   std::vector<MeasuredRow> rows;
 };
 
-/// Frames that never arrive: the controller does nothing, the rig holds its currents, and the row is
-/// missing from the record or repeats the one before.
+/// Frames that never arrive: the controller does nothing, the rig holds its currents, and the row
+/// is missing from the record or repeats the one before.
 struct FrameLoss {
   double probability{};  ///< that a burst begins
   std::size_t burst{1};

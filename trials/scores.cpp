@@ -112,8 +112,8 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
       o.available_nat = std::max(o.available_nat, c.score);
     }
     if (o.nearest.size() < 7) {
-      o.nearest.push_back(fmt::format("{} [{}] {:.1f}{}", c.effect, c.place, c.score,
-                                      c.refitted ? "" : "?"));
+      o.nearest.push_back(
+          fmt::format("{} [{}] {:.1f}{}", c.effect, c.place, c.score, c.refitted ? "" : "?"));
     }
   }
   o.explained = a.explained;

@@ -3,7 +3,8 @@
 //
 // Right      the first cause is the main effect, or the main effect is among those declared
 //            inseparable from it.
-// Available  the evidence that the records hold for what is hidden, as the final ranking has it: what
+// Available  the evidence that the records hold for what is hidden, as the final ranking has it:
+// what
 //            could be known at all. A hand-drawn size says little about it: some effects drown in
 //            tolerances.
 // Partly     any effect really present is named, but not as first.
@@ -27,12 +28,12 @@ struct Outcome {
   std::vector<std::string> named;  ///< all causes, in order
   std::vector<std::string> ties;
   double score_nat{};
-  double available_nat{};        ///< of the main effect
-  double explained{};            ///< share of the calibrated model's excess
+  double available_nat{};  ///< of the main effect
+  double explained{};      ///< share of the calibrated model's excess
   double remainder_sigma{};
   std::vector<std::string> nearest;  ///< candidates in words, best first
-  double achieved{};             ///< fraction of the achievable gain, held out
-  double parameter_error{-1.0};  ///< of the main parameter: share of it; -1 = not comparable
+  double achieved{};                 ///< fraction of the achievable gain, held out
+  double parameter_error{-1.0};      ///< of the main parameter: share of it; -1 = not comparable
   double parameter_sigmas{-1.0};
   double seconds{};
 

@@ -39,8 +39,7 @@ class Sensitivity : public ::testing::Test {
     const std::size_t at = Find(effect);
     std::vector<double> theta(terms_.size(), 0.0);
     const Trajectory base = Run(theta);
-    SensitivityBlock block(std::make_shared<const LaneModel>(view_, *base.gain), terms_, theta,
-                           {at});
+    SensitivityBlock block(LanePair(view_, base.gains), terms_, theta, {at});
     theta[at] = step;
     const Trajectory moved = Run(theta);
     std::array<float, kMaxAxes * kLanes> d{};
@@ -92,7 +91,7 @@ TEST_F(Sensitivity, OfADelayIsTheDifferenceOfTheModel) {
 TEST_F(Sensitivity, OfWhatDoesNotDependOnOtherTermsInTheBlockIsTheSameAlone) {
   const std::vector<double> theta(terms_.size(), 0.0);
   const Trajectory run = Run(theta);
-  const auto model = std::make_shared<const LaneModel>(view_, *run.gain);
+  const LanePair model(view_, run.gains);
   const std::size_t gain = Find("current_gain");
   const std::size_t mass = Find("unbalance");
   SensitivityBlock alone(model, terms_, theta, {mass});

@@ -1,0 +1,47 @@
+// A small fixed set of trials: hidden effects are named, nothing is named where nothing is hidden.
+// `amb bench diagnosis` asks the same of hundreds; these have wide margins.
+
+#include <gtest/gtest.h>
+
+#include "trials/scores.hpp"
+
+namespace levitas::trials {
+namespace {
+
+/// Records of 0.9 to 1 s each: what a first answer needs, and no more.
+Outcome Ask(std::uint64_t seed, std::vector<effect::Id> hidden) {
+  const Bench bench = LoadBench("flexible_rotor", {"flexible_rotor"});
+  TrialPlan plan;
+  plan.seed = seed;
+  plan.hidden = std::move(hidden);
+  plan.bits_per_axis = 750;
+  plan.runup_s = 1.0;
+  const Trial trial = MakeTrial(bench, plan);
+  diagnosis::Settings settings;
+  settings.quick = true;
+  settings.most_causes = 1;
+  return Judge(plan, trial.secret,
+               diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings),
+               bench.rig.numbers);
+}
+
+TEST(HiddenEffect, OfAMagnetsStiffnessIsNamed) {
+  const Outcome outcome = Ask(40, {effect::Id::kDisplacementStiffness});
+  EXPECT_TRUE(outcome.Right()) << outcome.verdict << ", first "
+                               << (outcome.named.empty() ? "nothing" : outcome.named.front());
+  EXPECT_GT(outcome.score_nat, diagnosis::kDecisive);
+}
+
+TEST(HiddenEffect, ThatLosesFramesIsNamed) {
+  const Outcome outcome = Ask(41, {effect::Id::kDroppedSamples});
+  EXPECT_TRUE(outcome.Right()) << outcome.verdict << ", first "
+                               << (outcome.named.empty() ? "nothing" : outcome.named.front());
+}
+
+TEST(HiddenEffect, IsNotFoundWhereNothingIsHidden) {
+  const Outcome outcome = Ask(42, {});
+  EXPECT_EQ(outcome.verdict, "none") << (outcome.named.empty() ? "" : outcome.named.front());
+}
+
+}  // namespace
+}  // namespace levitas::trials
