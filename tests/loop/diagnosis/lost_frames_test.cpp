@@ -25,14 +25,14 @@ class LostFrames : public ::testing::Test {
   }
 
   [[nodiscard]] Trajectory Run(const Record& record) const {
-    const Search search(view_, {}, settings_);
+    const Search search(view_, no_terms_);
     const auto gains = search.DesignGains({record}, kSlow);
     return RunModel(view_, record, gains.front(), {}, {}, 0.3);
   }
 
   trials::Bench bench_ = trials::LoadBench("flexible_rotor", {"flexible_rotor"});
   RigView view_{bench_.rig.numbers, bench_.rig.plant};
-  Settings settings_;
+  std::vector<Term> no_terms_;
   Record whole_;
 };
 
