@@ -17,6 +17,8 @@ constexpr double kUnexplained = 15.0;
 constexpr double kExplained = 0.7;  ///< of the excess: less, and the cause is not the cause
 constexpr double kNear = 15.0;      ///< [nat] rivals that are refitted
 
+constexpr double kFarBeyond = 3.0;
+
 /// How thorough a search is.
 struct Effort {
   int calibrations;       ///< passes with the slow observer
@@ -24,7 +26,7 @@ struct Effort {
   int passes;             ///< of each
   std::size_t rivals;     ///< refitted in the end
 };
-constexpr Effort kQuick{6, 3, 2, 2};
+constexpr Effort kQuick{6, 3, 4, 1};
 constexpr Effort kThorough{10, 6, 3, 5};
 
 class Diagnoser {
@@ -102,8 +104,14 @@ class Diagnoser {
       best = std::move(fit);
       best_causes = std::move(causes);
     }
-    // What the linear screen promised, the nonlinear model must keep.
-    if (!best.ok || !(best.evidence - null > enough)) return false;
+    // What the linear screen promised, the nonlinear model must keep. A large step may need more
+    // passes than were spent on it: what is far beyond doubt is taken and linearised anew.
+    if (!best.ok || !(best.evidence - null > enough)) {
+      if (!(screened.front().score > kFarBeyond * enough)) return false;
+      causes_.push_back(search_.hypotheses()[screened.front().hypothesis]);
+      theta_ = search_.Solve(view_.problem, causes_);
+      return true;
+    }
     theta_ = best.theta;
     causes_ = std::move(best_causes);
     DropSuperfluous(best.problem);

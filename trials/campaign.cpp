@@ -57,7 +57,7 @@ class Loop {
     law::LawState state(coefficients_);
     const double bias_a = model_->config().bearings.front().magnet.bias_current_a;
     const auto warm_up = static_cast<std::size_t>(kWarmUp / period_s_);
-    const auto quiet = static_cast<std::size_t>(plan_.quiet_s / period_s_);
+    const auto quiet = static_cast<std::size_t>(std::llround(plan_.quiet_s / period_s_));
     const double from = motion.from_rpm * kRadPerSPerRpm;
     const double slope =
         (motion.to_rpm - motion.from_rpm) * kRadPerSPerRpm / static_cast<double>(motion.rows);
@@ -145,7 +145,7 @@ Campaign Record(const plant::PlantParameters& truth, const law::LawConfig& law,
                 std::uint64_t outside_seed) {
   const auto model = std::make_shared<const plant::PlantModel>(truth);
   const auto excited_rows = static_cast<std::size_t>(2 * plan.bits_per_axis) * model->axes() +
-                            static_cast<std::size_t>(plan.quiet_s / law.period_s);
+                            static_cast<std::size_t>(std::llround(plan.quiet_s / law.period_s));
   const std::vector<Motion> motions{
       {"standing", 0.0, 0.0, excited_rows, true},
       {"spinning", plan.spinning_rpm, plan.spinning_rpm, excited_rows, true},
