@@ -200,12 +200,18 @@ std::string Entry(const RigView& rig, const Group& g) {
   return values.empty() ? values : fmt::format("{{id: {}, {}}}", g.effect, values);
 }
 
-bool Reads(const std::string& text) {
+/// The entry as the strict reader takes it on this rig; empty when it refuses.
+std::vector<effect::EffectConfig> Read(config::RigFile rig, const std::string& entry) {
+  const std::string none = "effects: []\n";
+  rig.plant.effects.clear();
+  std::string text = config::WriteRig(rig);
+  const auto at = text.rfind(none);
+  if (at == std::string::npos) return {};
+  text.replace(at, none.size(), "effects:\n  - " + entry + "\n");
   try {
-    static_cast<void>(config::ParseRig(text, "extended_rig.yaml"));
-    return true;
+    return config::ParseRig(text, "extended_rig.yaml").plant.effects;
   } catch (const BadInput&) {
-    return false;
+    return {};
   }
 }
 
@@ -221,24 +227,20 @@ std::vector<std::string> EffectEntries(const SessionAnswer& answer) {
 }
 
 std::string ExtendedRig(const SessionAnswer& answer, const config::RigFile& rig) {
-  std::string nominal = config::WriteRig(rig);
-  std::string list;
+  config::RigFile extended = rig;
   std::string comments;
   std::string missing;
   for (const std::string& entry : EffectEntries(answer)) {
-    const std::string line = "  - " + entry + "\n";
-    if (Reads(fmt::format("{}effects:\n{}{}", nominal, list, line))) {
-      list += line;
-    } else {
-      missing += "#" + line;
-    }
+    const auto effects = Read(rig, entry);
+    extended.plant.effects.insert(extended.plant.effects.end(), effects.begin(), effects.end());
+    if (effects.empty()) missing += "#  - " + entry + "\n";
   }
   for (const NamedParameter& p : Parameters(answer)) {
     comments += fmt::format("# {} {} = {:.5g} {} ({:.5g} to {:.5g})\n", p.effect, p.name, p.value,
                             p.unit, p.low, p.high);
   }
   if (!missing.empty()) missing.insert(0, "# not known to this build's reader:\n");
-  return comments + missing + nominal + (list.empty() ? "" : "effects:\n" + list);
+  return comments + missing + config::WriteRig(extended);
 }
 
 }  // namespace levitas::diagnosis

@@ -80,6 +80,7 @@ Bands JudgeBands(const std::vector<double>& ratio, double spacing_hz, std::size_
   return bands;
 }
 
+/// Largest squared coherence near the frequency with any axis; 0 when chance may have made it.
 double LargestCoherence(const std::vector<Piece>& pieces, std::size_t channel, std::size_t axes,
                         double frequency_hz, double spacing_hz, bool current) {
   double largest = 0.0;
@@ -94,7 +95,9 @@ double LargestCoherence(const std::vector<Piece>& pieces, std::size_t channel, s
     const auto squared = coherence.Squared();
     const auto line = static_cast<std::size_t>(std::lround(frequency_hz / spacing_hz));
     for (std::size_t i = line > 0 ? line - 1 : 0; i <= line + 1 && i < squared.size(); ++i) {
-      largest = std::max(largest, squared[i] - coherence.Chance());
+      // Chance exceeds x times its mean with e^-x: once in a thousand looks at three lines of four.
+      constexpr double kManyTimes = 9.4;
+      if (squared[i] > kManyTimes * coherence.Chance()) largest = std::max(largest, squared[i]);
     }
   }
   return largest;
@@ -122,6 +125,17 @@ double OrderRatio(const std::vector<Piece>& pieces, std::size_t channel, int ord
     }
   }
   return chance > 0.0 ? power / chance : 0.0;
+}
+
+/// A line, and not the flank of something broad: four times what is a few lines beside it.
+bool StandsAlone(const std::vector<double>& ratio, double frequency_hz, double spacing_hz) {
+  const auto line = static_cast<std::size_t>(std::lround(frequency_hz / spacing_hz));
+  if (line < 6 || line + 6 >= ratio.size()) return false;
+  double beside = 0.0;
+  for (const std::size_t away : {4U, 5U, 6U}) {
+    beside += (ratio[line - away] + ratio[line + away]) / 6.0;
+  }
+  return std::max({ratio[line - 1], ratio[line], ratio[line + 1]}) > 4.0 * beside;
 }
 
 }  // namespace
@@ -178,7 +192,8 @@ Remainder Examine(const RigView& rig, const std::vector<Trajectory>& runs) {
   }
   if (out.order > 0.0) return out;
   for (const double mains : {50.0, 60.0, 100.0, 120.0, 150.0, 180.0}) {
-    if (std::abs(out.frequency_hz - mains) < out.line_spacing_hz && worst.band_ratio > 2.0) {
+    if (std::abs(out.frequency_hz - mains) < out.line_spacing_hz && worst.band_ratio > 2.0 &&
+        StandsAlone(worst.ratio, mains, out.line_spacing_hz)) {
       out.coherent_with = "mains";
       return out;
     }

@@ -1,0 +1,43 @@
+#pragma once
+// Answers made by hand, as if a diagnosis had found them.
+
+#include <memory>
+#include <vector>
+
+#include "diagnosis/session.hpp"
+#include "tests/unit/diagnosis/moments.hpp"
+
+namespace levitas::diagnosis {
+
+/// An answer without a cause: the model explains the data.
+inline SessionAnswer NothingFound() {
+  SessionAnswer s;
+  s.view = std::make_shared<const RigView>(FlexibleRotor().numbers, FlexibleRotor().plant);
+  s.terms = AllTerms(*s.view, Tolerances{}, 50e-6);
+  s.answer.theta_calibrated.assign(s.terms.size(), 0.0);
+  s.answer.theta_extended = s.answer.theta_calibrated;
+  s.answer.remainder.channels.resize(s.view->axes);
+  return s;
+}
+
+/// The effect at that place, every term of it with `share` of its usual size.
+inline SessionAnswer Found(const std::string& effect, const std::string& place,
+                           double share = 0.5) {
+  SessionAnswer s = NothingFound();
+  s.answer.verdict = Verdict::kEffect;
+  for (const Hypothesis& h : MakeHypotheses(*s.view, s.terms)) {
+    if (h.effect != effect || h.place != place) continue;
+    s.answer.causes = {h};
+    for (const std::size_t t : h.terms) {
+      const Term& term = s.terms[t];
+      s.answer.theta_extended[t] = share * term.scale();
+      s.answer.parameters.push_back({term.effect, term.place, term.parameter, term.unit,
+                                     share * term.scale(), 0.05 * term.scale()});
+    }
+    s.answer.candidates.push_back({.effect = effect, .place = place, .score = 20.0});
+    return s;
+  }
+  throw std::runtime_error("no hypothesis " + effect + " at " + place);
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,100 @@
+// Lost frames, the level of the noise and mains, found in records made by hand.
+
+#include "diagnosis/events.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/diagnosis/trajectories.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+Record NoisyRecord(std::uint64_t seed, std::size_t rows) {
+  Random random(seed);
+  Record record;
+  record.rows.resize(rows);
+  for (std::size_t n = 0; n < rows; ++n) {
+    auto& row = record.rows[n];
+    row.cycle = n;
+    row.levitated = true;
+    for (std::size_t a = 0; a < View().axes; ++a) {
+      row.sample.position_m[a] = kNoise * Normal(random);
+      row.sample.command.control_current_a[a] = 0.1 * Normal(random);
+    }
+  }
+  return record;
+}
+
+/// A remainder whose noise is `factor` times the rig file's on the given axis.
+Remainder WithNoise(double factor, std::size_t axis = 0) {
+  Remainder remainder;
+  for (std::size_t a = 0; a < View().axes; ++a) {
+    ChannelRemainder channel;
+    channel.noise_rms_m =
+        (a == axis ? factor : 1.0) * analysis::ReadingNoise(View().bearing(a).sensor);
+    remainder.channels.push_back(channel);
+  }
+  return remainder;
+}
+
+double Score(const std::vector<Candidate>& found, const std::string& effect) {
+  for (const Candidate& candidate : found) {
+    if (candidate.effect == effect) return candidate.score;
+  }
+  return 0.0;
+}
+
+TEST(EventsTest, AHealthyRecordHasNone) {
+  EXPECT_TRUE(FindEvents(View(), {NoisyRecord(1, 5000)}, WithNoise(1.0)).empty());
+}
+
+TEST(EventsTest, MissingCyclesAreLostFrames) {
+  Record record = NoisyRecord(2, 5000);
+  for (const int at : {400, 1400, 2400}) record.rows.erase(record.rows.begin() + at);
+  const auto found = FindEvents(View(), {record}, WithNoise(1.0));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].effect, "dropped_samples");
+  EXPECT_EQ(found[0].place, "3 frames");
+  EXPECT_GT(found[0].score, kDecisive);
+}
+
+TEST(EventsTest, AReadingThatRepeatsOnAllAxesIsALostFrameAndOnOneIsChance) {
+  Record record = NoisyRecord(3, 5000);
+  record.rows[700].sample.position_m = record.rows[699].sample.position_m;
+  record.rows[900].sample.position_m = record.rows[899].sample.position_m;
+  EXPECT_GT(Score(FindEvents(View(), {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
+  Record one = NoisyRecord(3, 5000);
+  one.rows[700].sample.position_m[2] = one.rows[699].sample.position_m[2];
+  EXPECT_TRUE(FindEvents(View(), {one}, WithNoise(1.0)).empty());
+}
+
+TEST(EventsTest, FramesLostWhileTheRotorLiesDoNotCount) {
+  Record record = NoisyRecord(4, 5000);
+  for (auto& row : record.rows) row.levitated = row.cycle > 1000;
+  record.rows.erase(record.rows.begin() + 300, record.rows.begin() + 310);
+  EXPECT_TRUE(FindEvents(View(), {record}, WithNoise(1.0)).empty());
+}
+
+TEST(EventsTest, ANoiseBeyondItsToleranceIsNamedWithItsChannel) {
+  const auto found = FindEvents(View(), {NoisyRecord(5, 5000)}, WithNoise(1.5, 2));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].effect, "sensor_noise");
+  EXPECT_EQ(found[0].place, "nde_x");
+  // A sixteenth more is within what a healthy rig shows.
+  EXPECT_TRUE(FindEvents(View(), {NoisyRecord(5, 5000)}, WithNoise(1.06, 2)).empty());
+}
+
+TEST(MainsLinesTest, AreThoseThatStandOutOfTheirNeighbourhood) {
+  Record record = NoisyRecord(6, 20'000);
+  EXPECT_TRUE(MainsLines(View(), {record}).empty());
+  for (auto& row : record.rows) {
+    row.sample.position_m[1] +=
+        Sine(0.3e-6, 100.0, static_cast<double>(row.cycle) * View().period_s);
+  }
+  EXPECT_EQ(MainsLines(View(), {record}), std::vector<double>{100.0});
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis

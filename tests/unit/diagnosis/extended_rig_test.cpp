@@ -1,0 +1,86 @@
+// The rig file with a cause switched on: read back strictly, it has the effect that was found.
+
+#include "diagnosis/extended_rig.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+
+#include "config/rig_file.hpp"
+#include "tests/unit/diagnosis/answers.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+config::RigFile ReadBack(const SessionAnswer& answer) {
+  return config::ParseRig(ExtendedRig(answer, FlexibleRotor()), "extended_rig.yaml");
+}
+
+TEST(ExtendedRigTest, WithoutACauseIsTheNominalRig) {
+  const SessionAnswer answer = NothingFound();
+  EXPECT_THAT(EffectEntries(answer), IsEmpty());
+  EXPECT_EQ(config::WriteRig(ReadBack(answer)), config::WriteRig(FlexibleRotor()));
+}
+
+/// Effects whose form a rig file has: the crack's depth needs the shaft's bending stiffness.
+bool HasAnEntry(const std::string& effect) { return effect != "breathing_crack"; }
+
+TEST(ExtendedRigTest, IsReadBackForEveryEffectAtEveryPlace) {
+  const SessionAnswer nothing = NothingFound();
+  std::set<std::string> effects;
+  for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
+    if (!HasAnEntry(h.effect)) continue;
+    effects.insert(h.effect);
+    const SessionAnswer answer = Found(h.effect, h.place);
+    const std::string text = ExtendedRig(answer, FlexibleRotor());
+    EXPECT_THAT(text, Not(HasSubstr("not known to this build"))) << h.effect << " at " << h.place;
+    const config::RigFile rig = config::ParseRig(text, "extended_rig.yaml");
+    EXPECT_EQ(rig.plant.effects.size(), EffectEntries(answer).size()) << h.effect;
+    EXPECT_FALSE(rig.plant.effects.empty()) << h.effect << " at " << h.place;
+  }
+  EXPECT_GT(effects.size(), 25U);
+}
+
+TEST(ExtendedRigTest, SaysThePresentEffectInTheUnitsOfTheFile) {
+  const auto only = [](const SessionAnswer& answer) {
+    const auto entries = EffectEntries(answer);
+    return entries.size() == 1 ? entries.front() : "not one entry";
+  };
+  // wide 0.15, half of it
+  EXPECT_EQ(only(Found("current_gain", "nde_x")),
+            "{id: current_gain, channels: [nde_x], ratio: 1.075}");
+  // sqrt(tau) of 5e-3 s^0.5, half of it: 6.25 us
+  EXPECT_EQ(only(Found("eddy_current", "de_x")),
+            "{id: eddy_current, channels: [de_x], tau_us: 6.25}");
+  // 5 N
+  EXPECT_THAT(only(Found("static_load", "de_y")), HasSubstr("force_y_n: 2.5"));
+  // 0.05 rad
+  EXPECT_THAT(only(Found("axis_rotation", "sensor nde")),
+              AllOf(HasSubstr("bearing: nde, of: sensor"), HasSubstr("angle_deg: 1.43239")));
+  // cosine and sine of 10e-6 kg m each: an eighth of a turn, sqrt(2) times one of them
+  EXPECT_EQ(only(Found("unbalance", "z 299.2 mm")),
+            "{id: unbalance, z_mm: 299.2, moment_g_mm: 14.1421, phase_rad: 0.785398}");
+}
+
+TEST(ExtendedRigTest, ChangesNothingButTheEffects) {
+  config::RigFile rig = ReadBack(Found("modal_frequency", "mode 2"));
+  ASSERT_EQ(rig.plant.effects.size(), 1U);
+  rig.plant.effects.clear();
+  EXPECT_EQ(config::WriteRig(rig), config::WriteRig(FlexibleRotor()));
+}
+
+TEST(ExtendedRigTest, NamesTheParametersWithTheirIntervals) {
+  const std::string text = ExtendedRig(Found("current_gain", "de_x"), FlexibleRotor());
+  // 1.075 and 1.645 standard deviations of 0.0075 either side
+  EXPECT_THAT(text, HasSubstr("# current_gain"));
+  EXPECT_THAT(text, HasSubstr("= 1.075 1 (1.0627 to 1.0873)"));
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis

@@ -1,0 +1,105 @@
+// The causes that a diagnosis considers, made from the terms of a rig.
+
+#include "diagnosis/hypothesis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "tests/unit/diagnosis/moments.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+class HypothesesTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] const Hypothesis& Of(const std::string& effect, const std::string& place) const {
+    for (const Hypothesis& h : all_) {
+      if (h.effect == effect && h.place == place) return h;
+    }
+    throw std::runtime_error("no hypothesis " + effect + " at " + place);
+  }
+  std::vector<Term> terms_ = EveryTerm();
+  std::vector<Hypothesis> all_ = MakeHypotheses(View(), terms_);
+};
+
+TEST_F(HypothesesTest, EveryEffectWithATermIsConsideredAndNoOther) {
+  std::set<std::string> of_terms;
+  for (const Term& term : terms_) {
+    if (!term.effect.empty()) of_terms.insert(term.effect);
+  }
+  std::set<std::string> considered;
+  for (const Hypothesis& h : all_) considered.insert(h.effect);
+  EXPECT_EQ(considered, of_terms);
+}
+
+TEST_F(HypothesesTest, EveryEffectCountsTheSameWhateverTheNumberOfItsPlaces) {
+  std::map<std::string, double> weight;
+  for (const Hypothesis& h : all_) weight[h.effect] += std::exp(h.log_prior);
+  for (const auto& [effect, sum] : weight) EXPECT_NEAR(sum, 1.0, 1e-9) << effect;
+}
+
+TEST_F(HypothesesTest, DirectionsMoveTheNamedTermsAndNoOther) {
+  for (const Hypothesis& h : all_) {
+    const std::set<std::size_t> named(h.terms.begin(), h.terms.end());
+    ASSERT_EQ(h.directions.rows(), static_cast<Eigen::Index>(terms_.size()));
+    ASSERT_GT(h.directions.cols(), 0);
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      const double size = h.directions.row(static_cast<Eigen::Index>(i)).norm();
+      EXPECT_EQ(size > 0.0, named.contains(i)) << h.effect << " at " << h.place;
+    }
+    for (const std::size_t i : h.terms) EXPECT_EQ(terms_[i].effect, h.effect);
+  }
+}
+
+TEST_F(HypothesesTest, ABearingMovesBothAxesByTheSameAmount) {
+  const Hypothesis& h = Of("current_gain", "nde");
+  ASSERT_EQ(h.directions.cols(), 1);
+  ASSERT_EQ(h.terms.size(), 2U);
+  EXPECT_EQ(terms_[h.terms[0]].place, "nde_x");
+  EXPECT_EQ(terms_[h.terms[1]].place, "nde_y");
+  EXPECT_EQ(h.directions(static_cast<Eigen::Index>(h.terms[0]), 0),
+            h.directions(static_cast<Eigen::Index>(h.terms[1]), 0));
+}
+
+TEST_F(HypothesesTest, TheNameOfABearingIsNotFoundWithinAnothers) {
+  // "de" ends "nde".
+  for (const std::size_t i : Of("current_gain", "de").terms) {
+    EXPECT_TRUE(terms_[i].place.starts_with("de_")) << terms_[i].place;
+  }
+}
+
+TEST_F(HypothesesTest, AHarmonicMovesItsCosineAndItsSine) {
+  const Hypothesis& h = Of("unbalance", "z 299.2 mm");
+  ASSERT_EQ(h.terms.size(), 2U);
+  EXPECT_EQ(terms_[h.terms[0]].parameter, "cosine");
+  EXPECT_EQ(terms_[h.terms[1]].parameter, "sine");
+  EXPECT_EQ(h.directions.cols(), 2);
+}
+
+TEST_F(HypothesesTest, ASignIsAskedOfSingleAmountsOnly) {
+  EXPECT_TRUE(Of("eddy_current", "de_x").positive);
+  EXPECT_FALSE(Of("eddy_current", "every axis by itself").positive);
+  EXPECT_FALSE(Of("current_gain", "de_x").positive);
+}
+
+TEST_F(HypothesesTest, GridsOfAShapeAreAlternativesAndNeverSummed) {
+  for (const Hypothesis& h : all_) {
+    if (h.effect == "magnetic_saturation" || h.effect == "support_mode" ||
+        h.effect == "touchdown_rub" || h.effect == "hysteresis") {
+      EXPECT_EQ(h.terms.size(), 1U) << h.effect << " at " << h.place;
+    }
+  }
+}
+
+TEST_F(HypothesesTest, RunoutIsConsideredByAxisByBearingAndByOrder) {
+  EXPECT_EQ(Of("sensor_runout", "order 2, de_x").terms.size(), 2U);
+  EXPECT_EQ(Of("sensor_runout", "order 2, de").terms.size(), 4U);
+  EXPECT_EQ(Of("sensor_runout", "order 2, all axes").terms.size(), 8U);
+  EXPECT_EQ(Of("sensor_runout", "all orders, all axes").terms.size(), 24U);
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis

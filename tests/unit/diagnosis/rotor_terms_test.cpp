@@ -1,0 +1,247 @@
+// Terms of the rotor, of what turns with it and of what acts on it from outside, against their
+// laws.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "tests/unit/diagnosis/moments.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr double kSpeed = 200.0;  // [rad/s]
+
+/// Modal acceleration of a mode as one complex number, x + j y.
+std::complex<double> Modal(const Addition& add, std::size_t mode) {
+  return {add.modal[mode], add.modal[View().modes + mode]};
+}
+
+Moment Turning(double angle_rad) {
+  Moment m;
+  m.speed_rad_per_s = static_cast<float>(kSpeed);
+  m.angle_rad = angle_rad;
+  return m;
+}
+
+double MidAngle(const Moment& m) { return m.angle_rad + 0.5 * View().period_s * kSpeed; }
+
+class RotorTermsTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] Addition Of(const std::string& effect, const std::string& place,
+                            const std::string& parameter, const Moment& moment,
+                            double theta) const {
+    Term term = Named(terms_, effect, place, parameter);
+    return Added(term, moment, theta);
+  }
+  std::vector<Term> terms_ = EveryTerm();
+  std::size_t modes_ = View().modes;
+};
+
+TEST_F(RotorTermsTest, UnbalanceTurnsWithTheShaftAndGrowsWithTheSquareOfSpeed) {
+  const auto shape = View().Shape(0.2992);
+  for (const double angle : {0.0, 1.0, 4.0}) {
+    const Moment m = Turning(angle);
+    const Addition add = Of("unbalance", "z 299.2 mm", "cosine", m, 3e-5);
+    for (std::size_t i = 0; i < modes_; ++i) {
+      const auto expected = std::polar(3e-5 * kSpeed * kSpeed * shape[i], MidAngle(m));
+      EXPECT_LT(std::abs(Modal(add, i) - expected), 1e-6) << i;
+    }
+  }
+}
+
+TEST_F(RotorTermsTest, TheSinePartIsAQuarterTurnAhead) {
+  for (const char* effect : {"unbalance", "shaft_bow"}) {
+    const std::string place = effect == std::string("unbalance") ? "z 299.2 mm" : "mode 1";
+    const auto cosine = Modal(Of(effect, place, "cosine", Turning(0.7), 1e-5), 2);
+    const auto sine = Modal(Of(effect, place, "sine", Turning(0.7), 1e-5), 2);
+    EXPECT_LT(std::abs(sine - std::complex<double>(0.0, 1.0) * cosine), 1e-9 * std::abs(cosine))
+        << effect;
+  }
+}
+
+TEST_F(RotorTermsTest, ABowPullsWithTheStiffnessOfItsModeAtAnySpeed) {
+  const double w2 = std::pow(View().omega_rad_per_s[2], 2);
+  const auto& shapes = View().model->parameters().modes.shapes;
+  const double largest = shapes.col(2).cwiseAbs().maxCoeff();
+  Moment slow = Turning(0.3);
+  const auto fast_pull = Modal(Of("shaft_bow", "mode 1", "cosine", slow, 10e-6), 2);
+  // The mode's own deflection has its largest value 10 um.
+  EXPECT_NEAR(std::abs(fast_pull), w2 * 10e-6 / largest, 1e-6 * std::abs(fast_pull));
+  slow.speed_rad_per_s = 1.0F;
+  const auto slow_pull = Modal(Of("shaft_bow", "mode 1", "cosine", slow, 10e-6), 2);
+  EXPECT_NEAR(std::abs(slow_pull), std::abs(fast_pull), 1e-9);
+}
+
+TEST_F(RotorTermsTest, MisalignmentOfANegativeOrderTurnsBackward) {
+  for (const int order : {2, -2, 3, -3}) {
+    const std::string place = "order " + std::to_string(order);
+    const Moment m = Turning(0.4);
+    const auto shape = View().Shape(0.0);
+    const auto pull = Modal(Of("misalignment", place, "cosine", m, 0.8), 0);
+    EXPECT_LT(std::abs(pull - std::polar(0.8 * shape[0], order * MidAngle(m))), 1e-9) << place;
+  }
+}
+
+TEST_F(RotorTermsTest, RunoutIsReadAtItsOrderOnItsAxisAlone) {
+  const Moment m = Turning(0.9);
+  const Addition cosine = Of("sensor_runout", "order 2, de_y", "cosine", m, 4e-6);
+  const Addition sine = Of("sensor_runout", "order 2, de_y", "sine", m, 4e-6);
+  EXPECT_NEAR(cosine.reading_m[1], 4e-6 * std::cos(1.8), 1e-12);
+  EXPECT_NEAR(sine.reading_m[1], 4e-6 * std::sin(1.8), 1e-12);
+  for (const std::size_t a : {0U, 2U, 3U}) EXPECT_EQ(cosine.reading_m[a], 0.0);
+  EXPECT_FALSE(cosine.has_modal);
+}
+
+TEST_F(RotorTermsTest, AModeOfAnotherFrequencyHasAnotherStiffness) {
+  Moment m = Rest();
+  m.q[3] = 2e-5F;
+  m.q[modes_ + 3] = -1e-5F;
+  const double w = View().omega_rad_per_s[3];
+  const auto pull = Modal(Of("modal_frequency", "mode 2", "ratio", m, 0.01), 3);
+  const double missing = std::pow(1.01 * w, 2) - w * w;
+  EXPECT_NEAR(pull.real(), -missing * static_cast<double>(m.q[3]), 1e-9 * missing);
+  EXPECT_NEAR(pull.imag(), -missing * static_cast<double>(m.q[modes_ + 3]), 1e-9 * missing);
+}
+
+TEST_F(RotorTermsTest, AModeOfMoreDampingLosesMoreEnergy) {
+  Moment m = Rest();
+  m.v[2] = 3e-3F;
+  const double w = View().omega_rad_per_s[2];
+  const double z = View().damping_ratio[2];
+  const auto pull = Modal(Of("modal_damping", "mode 1", "ratio", m, 0.5), 2);
+  EXPECT_NEAR(pull.real(), -2.0 * (0.5 * z) * w * 3e-3, 1e-6 * w * 3e-3);
+  EXPECT_LT(pull.real() * static_cast<double>(m.v[2]), 0.0);
+}
+
+TEST_F(RotorTermsTest, AHeavierRotorYieldsLessToTheSameForceAsARigidBody) {
+  Moment m = Rest();
+  for (std::size_t a = 0; a < View().axes; ++a) m.force_n[a] = 10.0F;
+  const Addition add = Of("rotor_mass", "rotor", "ratio", m, 0.1);
+  double rigid = 0.0;
+  for (std::size_t b = 0; b < 2; ++b) rigid += View().magnet(2 * b).actuator_shape[0] * 10.0;
+  // a = F/m, so m -> 1.1 m takes 1 - 1/1.1 of it.
+  EXPECT_NEAR(Modal(add, 0).real(), -(1.0 - 1.0 / 1.1) * rigid, 1e-6 * std::abs(rigid));
+  for (std::size_t i = 2; i < modes_; ++i) EXPECT_EQ(Modal(add, i), std::complex<double>(0.0));
+}
+
+TEST_F(RotorTermsTest, GyroscopicForcesDoNoWork) {
+  Random random(3);
+  const Moment m = Drawn(random, kSpeed);
+  const Addition add = Of("gyroscopic_inertia", "rotor", "ratio", m, 0.2);
+  double work = 0.0;
+  double size = 0.0;
+  for (std::size_t i = 0; i < 2 * modes_; ++i) {
+    work += add.modal[i] * static_cast<double>(m.v[i]);
+    size += std::abs(add.modal[i] * static_cast<double>(m.v[i]));
+  }
+  EXPECT_GT(size, 0.0);
+  EXPECT_NEAR(work, 0.0, 1e-6 * size);
+}
+
+/// Power that a term gives to a forward whirl of the bending modes at `whirl_rad_per_s`.
+double PowerInForwardWhirl(Term term, double whirl_rad_per_s) {
+  double power = 0.0;
+  for (int n = 0; n < 24; ++n) {
+    Moment m = Turning(0.0);
+    const double phase = 2.0 * std::numbers::pi * n / 24.0;
+    const std::size_t modes = View().modes;
+    m.q[2] = static_cast<float>(1e-5 * std::cos(phase));
+    m.q[modes + 2] = static_cast<float>(1e-5 * std::sin(phase));
+    m.v[2] = static_cast<float>(-1e-5 * whirl_rad_per_s * std::sin(phase));
+    m.v[modes + 2] = static_cast<float>(1e-5 * whirl_rad_per_s * std::cos(phase));
+    const Addition add = Added(term, m, term.scale());
+    power += add.modal[2] * static_cast<double>(m.v[2]) +
+             add.modal[modes + 2] * static_cast<double>(m.v[modes + 2]);
+  }
+  return power;
+}
+
+// Damping that turns with the shaft brakes a whirl faster than the shaft and drives a slower one
+// (Kimball 1924).
+TEST_F(RotorTermsTest, InternalDampingDrivesAForwardWhirlBelowTheSpeedOfTheShaft) {
+  const Term term = Named(terms_, "internal_damping", "z 299.2 mm");
+  EXPECT_GT(PowerInForwardWhirl(term, 0.5 * kSpeed), 0.0);
+  EXPECT_LT(PowerInForwardWhirl(term, 2.0 * kSpeed), 0.0);
+  EXPECT_NEAR(PowerInForwardWhirl(term, kSpeed), 0.0,
+              1e-3 * PowerInForwardWhirl(term, 0.5 * kSpeed));
+}
+
+// f = kq [y, -x]: against the forward whirl, so that it is a negative kq that drives it.
+TEST_F(RotorTermsTest, CrossCouplingWorksOnTheWhirlAndDirectStiffnessDoesNot) {
+  const double coupled =
+      PowerInForwardWhirl(Named(terms_, "cross_coupled_stiffness", "z 299.2 mm"), 300.0);
+  EXPECT_LT(coupled, 0.0);
+  const Term direct = Named(terms_, "coupling_stiffness", "z 0.0 mm", "direct");
+  EXPECT_NEAR(PowerInForwardWhirl(direct, 300.0), 0.0, 1e-4 * std::abs(coupled));
+}
+
+TEST_F(RotorTermsTest, AnisotropyIsSoftInTheDirectionThatTurnsWithTheShaft) {
+  // Deflected along the cosine direction the stiffness is larger by the ratio, across it smaller.
+  for (const double angle : {0.0, 0.6}) {
+    Moment m = Turning(angle);
+    const auto along = std::polar(1e-5, MidAngle(m));
+    m.q[2] = static_cast<float>(along.real());
+    m.q[modes_ + 2] = static_cast<float>(along.imag());
+    const double w2 = std::pow(View().omega_rad_per_s[2], 2);
+    const auto pull = Modal(Of("shaft_anisotropy", "rotor", "cosine", m, 0.1), 2);
+    EXPECT_LT(std::abs(pull + 0.1 * w2 * along), 1e-5 * w2 * std::abs(along));
+  }
+}
+
+TEST_F(RotorTermsTest, ACrackSoftensOnceOverATurnAndNeverStiffens) {
+  Moment m = Turning(0.0);
+  m.q[2] = 1e-5F;
+  const auto mean = Modal(Of("breathing_crack", "z 260 mm", "mean", m, 0.05), 2).real();
+  EXPECT_GT(mean, 0.0);  // along the deflection: the shaft's own restoring force is -w^2 q
+  m.angle_rad = -0.5 * View().period_s * kSpeed;
+  EXPECT_NEAR(Modal(Of("breathing_crack", "z 260 mm", "cosine", m, 0.05), 2).real(), mean,
+              1e-6 * mean);
+  m.angle_rad += std::numbers::pi;
+  EXPECT_NEAR(Modal(Of("breathing_crack", "z 260 mm", "cosine", m, 0.05), 2).real(), -mean,
+              1e-6 * mean);
+}
+
+TEST_F(RotorTermsTest, AStaticLoadIsAForceOnItsAxis) {
+  const Addition add = Of("static_load", "nde_y", "force_n", Rest(), 2.5);
+  EXPECT_EQ(add.force_n[3], 2.5);
+  EXPECT_EQ(add.force_n[0], 0.0);
+}
+
+TEST_F(RotorTermsTest, ARubPushesInwardsBeyondItsClearanceAndBrakesTheShaftsSurface) {
+  // 50 um is the largest orbit the terms were made for: clearances of 20, 30 and 40 um.
+  Moment m = Turning(0.0);
+  m.actuator_m[0] = 27e-6F;
+  m.actuator_m[1] = 36e-6F;  // 45 um out
+  const Addition add = Of("touchdown_rub", "de, clearance 40.0 um", "stiffness_n_per_m", m, 1e6);
+  const std::complex<double> force(add.force_n[0], add.force_n[1]);
+  const std::complex<double> outwards(0.6, 0.8);
+  const auto parts = force * std::conj(outwards);
+  EXPECT_NEAR(parts.real(), -5.0, 1e-3);  // 5 um into 1e6 N/m
+  EXPECT_NEAR(parts.imag(), -0.5, 1e-3);  // friction 0.1 against a counter-clockwise surface
+  m.actuator_m[0] = 18e-6F;
+  m.actuator_m[1] = 24e-6F;
+  const Addition inside = Of("touchdown_rub", "de, clearance 40.0 um", "stiffness_n_per_m", m, 1e6);
+  EXPECT_EQ(inside.force_n[0], 0.0);
+  EXPECT_EQ(inside.force_n[1], 0.0);
+}
+
+TEST_F(RotorTermsTest, ASupportResonatesAtItsFrequency) {
+  // Amplitude of the housing under a force at its resonance: F/(2 z m w^2), z = 0.02.
+  Term term = Named(terms_, "support_mode", "nde, 90 Hz");
+  const double w = 2.0 * std::numbers::pi * 90.0;
+  double largest = 0.0;
+  for (int n = 0; n < 40'000; ++n) {
+    Moment m = Rest();
+    m.force_n[2] = static_cast<float>(std::cos(w * n * View().period_s));
+    const double moved = -Added(term, m, 1.0).reading_m[2];
+    if (n > 30'000) largest = std::max(largest, std::abs(moved));
+  }
+  const double expected = 1.0 / (2.0 * 0.02 * w * w);
+  EXPECT_NEAR(largest, expected, 0.03 * expected);
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis
