@@ -3,9 +3,8 @@
 //
 // Equation   P = A P A' - A P C' (C P C' + R)^-1 C P A' + Q
 // Method     structure-preserving doubling (Chu, Fan, Lin & Wang, Int. J. Control 77, 2004):
-// squares
-//            the closed-loop transition each step, so a dozen steps reach the stationary state of
-//            thousands of samples; needs no eigenvalues.
+//            squares the closed-loop transition each step, so a dozen steps reach the stationary
+//            state of thousands of samples; needs no eigenvalues.
 // Needs      (A, C) detectable, (A, Q) stabilisable, R positive definite. Scale the states so that
 //            their variances are of like size: units of metres and newtons mixed lose digits.
 // Failure    Problem when the doubling does not settle.

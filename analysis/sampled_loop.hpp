@@ -3,8 +3,8 @@
 //
 // Plant     x[n+1] = A x[n] + B u[n], y[n] = C x[n]; delay included as states.
 // Law       decentralised (or, with a state-space law, one model of all axes), per axis  w[n+1] =
-// Aw w[n] + Bw y[n],  u[n] = -(Cw w[n] + Dw y[n]);
-//           the sections of the discrete law itself, not a second discretisation of it.
+//           Aw w[n] + Bw y[n],  u[n] = -(Cw w[n] + Dw y[n]); the sections of the discrete law
+//           itself, not a second discretisation of it.
 // Frame     bearing frame: probe and amplifier polarity cancel against the controller's.
 // Units     SI: y [m], u [A].
 

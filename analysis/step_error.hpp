@@ -6,8 +6,7 @@
 //          times as many; compared are the positions that the sensors show, every period. Noise and
 //          converters are left out: a last bit that falls the other way is no error of the step.
 // Reading  the scheme's error falls with the square of the step (docs/derivations.md), so a step
-// eight
-//          times finer has 1/64 of it, and the difference is the error but for 2 %.
+//          eight times finer has 1/64 of it, and the difference is the error but for 2 %.
 // Cost     nine times the simulated second: about 0.1 s of one core for eight modes per plane; with
 //          more than 16 modes a shorter time is simulated.
 // Failure  a loop that does not hold the rotor gives numbers that are large or not finite.

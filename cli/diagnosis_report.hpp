@@ -2,8 +2,7 @@
 // report.html of a diagnosis: one self-contained page for a person in a hurry.
 //
 // Order  the sentence; before and after as pictures; the ranking; what was ruled out and why; what
-// to
-//        record next. No script, no network.
+//        to record next. No script, no network.
 
 #include <string>
 

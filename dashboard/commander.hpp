@@ -3,9 +3,9 @@
 //
 // Confirmed  by the event that the controller publishes for each command it takes ("command lift
 //            ..." or "... refused in mode ..."). Nothing is assumed: without that event within
-//            `patience` the reply is "unanswered", and the page says so.
-// Repetition the same message goes out every kRepeat until it is answered; the controller takes a
-//            sequence number once (transport/operator_receiver.hpp).
+//            `patience` the reply is "unanswered", and the page says so. Repetition the same
+//            message goes out every kRepeat until it is answered; the controller takes a sequence
+//            number once (transport/operator_receiver.hpp).
 // Thread     Send: any, several at once; it blocks for at most `patience`. Saw: the receiver's.
 // Failure    construction throws Problem when the network cannot be reached.
 

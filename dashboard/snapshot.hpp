@@ -4,8 +4,7 @@
 //
 // Numbers   whole nanometres, milliamperes and milliseconds: short texts, finer than a screen.
 // Size      bounded whatever the loop does: the newest orbit has at most kOrbitPoints points, a
-// tick
-//           at most kTickEnvelopes buckets.
+//           tick at most kTickEnvelopes buckets.
 // Thread    as the LiveRun given. Failure none: what is not known is null.
 
 #include <cstdint>

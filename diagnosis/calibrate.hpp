@@ -3,8 +3,7 @@
 // tell about them.
 //
 // Method     a fast observer on a part of the records (smooth, coarse), then the slow one on all
-// that
-//            is used.
+//            that is used.
 // Healthy    tolerances shrink to what the healthy records leave open, but not below kDaily of
 //            themselves: a rig is not the same from one day to the next. This separates what one
 //            record cannot: current gain from sensor gain, gap from bias.

@@ -2,13 +2,12 @@
 // What shows in single samples and in the noise, not in the mean motion: lost frames, noise level.
 //
 // Lost       a cycle missing from the record, a frame whose readings or a command whose currents
-// all
-//            repeat bit for bit: with a noisy sensor that does not happen by itself.
+//            all repeat bit for bit: with a noisy sensor that does not happen by itself.
 // Noise      the level in the upper third of the spectrum against the rig file's, which a healthy
-// rig
-//            keeps within kNoiseTolerance (standard deviation of its logarithm).
+//            rig keeps within kNoiseTolerance (standard deviation of its logarithm).
 // Mains      lines at 50, 60 Hz and harmonics in the readings that stand out of their
-// neighbourhood. Thread     any; pure.
+//            neighbourhood.
+// Thread     any; pure.
 
 #include <vector>
 

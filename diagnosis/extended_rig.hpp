@@ -2,12 +2,10 @@
 // The rig file with the causes switched on.
 //
 // Form       the nominal rig's complete text and the list `effects:` of docs/effects.md, one entry
-// per
-//            place, parameters at their estimates. What a cause has beyond the vocabulary's
+//            per place, parameters at their estimates. What a cause has beyond the vocabulary's
 //            parameters (lost frames' times, a line's phase of every record) is left out.
 // Check      read back by the strict reader, so that `amb run` accepts it; where this build's
-// reader
-//            refuses an entry, it stays in the file as a comment that says so.
+//            reader refuses an entry, it stays in the file as a comment that says so.
 // Thread     any.
 
 #include <string>

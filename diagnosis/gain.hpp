@@ -2,13 +2,11 @@
 // How well a model predicts records it may not have seen, and what an extension gains.
 //
 // Fit        100 (1 - |y - prediction|/|y - mean|) of the one-step prediction with the slow
-// observer,
-//            mean over channels.
+//            observer, mean over channels.
 // Ceiling    the fit whose innovations are the sensors' noise alone.
 // Gain       share of what the nominal model leaves and the ceiling would not, in squared
-// innovations:
-//            (nominal - extended)/(nominal - ceiling). A fit percentage hides a well-proven small
-//            effect; this does not.
+//            innovations: (nominal - extended)/(nominal - ceiling). A fit percentage hides a
+//            well-proven small effect; this does not.
 // Interval   5 to 95 % of a block bootstrap over blocks of 0.05 s (Kuensch 1989), written seed.
 // Thread     any.
 

@@ -2,12 +2,10 @@
 // The causes a diagnosis considers: which terms move together, and where.
 //
 // Made from  the list of terms: every place of an effect by itself, the axes of a bearing together,
-// all
-//            axes by the same amount, all of them freely. Terms of an effect at one place (cosine
-//            and sine, both powers) always move together.
+//            all axes by the same amount, all of them freely. Terms of an effect at one place
+//            (cosine and sine, both powers) always move together.
 // Prior      each effect counts the same, whatever the number of its places: the evidence of a
-// place is
-//            reduced by the logarithm of their number.
+//            place is reduced by the logarithm of their number.
 
 #include <Eigen/Core>
 #include <string>

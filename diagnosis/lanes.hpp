@@ -4,8 +4,7 @@
 // Equation   sensitivity.hpp. Lane l of every number belongs to term l of the block.
 // Precision  single: enough for derivatives (1e-5), and a vector register holds all lanes.
 // Cost       about 40 ns per sample and term with AVX2, twice that without; chosen at start-up.
-// Both
-//            ways round alike: no contraction (cmake/Compiler.cmake).
+//            Both ways round alike: no contraction (cmake/Compiler.cmake).
 // Thread     one state per thread; the model may be shared.
 
 #include <array>

@@ -7,7 +7,7 @@
 //            differences between sets of causes on the same records and whitening mean something,
 //            one number alone does not.
 // Thread     blocks the caller, two threads inside. Failure: `ok` false when no finite run was
-// found.
+//            found.
 
 #include <vector>
 

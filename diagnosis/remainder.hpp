@@ -3,12 +3,10 @@
 // what.
 //
 // Power      of the innovations relative to the sensors' own noise, in third-octave bands and
-// single
-//            lines. The noise is taken from the highest third of the spectrum, where neither rotor
-//            nor magnet moves anything; a right model leaves no band above it.
+//            single lines. The noise is taken from the highest third of the spectrum, where neither
+//            rotor nor magnet moves anything; a right model leaves no band above it.
 // Coherence  of the remainder with the control currents, the positions, the rotation (orders) and
-// the
-//            mains (50, 60 Hz), as the share of its excess that follows each.
+//            the mains (50, 60 Hz), as the share of its excess that follows each.
 // Thread     any.
 
 #include <string>

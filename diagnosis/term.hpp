@@ -2,16 +2,14 @@
 // One number by which a rig may differ from its nominal model, as what it adds to the model.
 //
 // Model      x[n+1] = f(x[n], u[n]) + B a(theta),  y[n] = h(x[n]) + r(theta): a term adds forces at
-// the
-//            magnets, modal accelerations and coil currents over a period, and readings at a
+//            the magnets, modal accelerations and coil currents over a period, and readings at a
 //            sample, all evaluated along the run of the model (Moment). theta = 0 is the nominal
 //            rig.
 // Why        a whole set of causes then costs one run of the nonlinear model, and their
 //            sensitivities follow from one linear propagation (sensitivity.hpp). It is written
 //            independently of plant_sim/effect, so that neither can hide an error of the other.
 // Stateful   terms with memory (eddy currents, hysteresis, supports) keep it in the closure; a copy
-// of
-//            the term copies the memory. Reset() starts anew.
+//            of the term copies the memory. Reset() starts anew.
 // Thread     one copy per thread.
 
 #include <array>

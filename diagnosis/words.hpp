@@ -2,8 +2,7 @@
 // An answer in words and in the parameters of a rig file.
 //
 // Parameters  cosine and sine become amplitude and phase, sqrt(tau) becomes tau, ratios are told as
-// the
-//             factor on the nominal value; intervals are 5 to 95 %.
+//             the factor on the nominal value; intervals are 5 to 95 %.
 // Thread      any; pure.
 
 #include <string>

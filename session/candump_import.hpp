@@ -2,14 +2,14 @@
 // A log of candump (-l, -L) of the buses of a rig becomes a session.
 //
 // Lines     (seconds) interface identifier#data, with CAN FD identifier##flags data. Messages of
-// the
-//           rig's layout are taken from whatever interface; other lines are counted and left out.
+//           the rig's layout are taken from whatever interface; other lines are counted and left
+//           out.
 // Records   one for each position frame, with the current frame that answers it; without an answer
 //           the last current is held, as the amplifiers did.
 // Time      the rig's count of periods, as a bus shows it; the log's own times only order the
-// lines. Mode      the bus does not carry it: off while the amplifiers are off, else levitating, or
-// spinning
-//           when the rotor turns.
+//           lines.
+// Mode      the bus does not carry it: off while the amplifiers are off, else levitating, or
+//           spinning when the rotor turns.
 // Failure   BadInput with the line; then no output file is left behind.
 
 #include <cstdint>

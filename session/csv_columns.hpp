@@ -9,7 +9,8 @@
 //           excitation_<channel>_<m|mm|um> into the measured position; channels from the rig.
 // Needed    time_s; position (or gap) and control current (or duty) of every channel of the rig.
 // Others    are ignored and listed, unless they look like a misspelt or misplaced name of the
-// above. Failure   BadInput listing every problem of the first line at once.
+//           above.
+// Failure   BadInput listing every problem of the first line at once.
 
 #include <cstdint>
 #include <string>

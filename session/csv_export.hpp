@@ -4,8 +4,8 @@
 // Columns   time_s, rotor_angle_rad, speed_rpm, then per channel position [m], control current [A]
 //           and excitation [A]. Numbers are the shortest that read back to the same bits; speed_rpm
 //           has 12 digits, so that the conversion to rad/s and back ends at the same text.
-// Rows      one per sensor frame; a cycle without a new frame has no row (a gap in time).
-// time_s    of the sample. In real time it starts at 0; when the rig restarts it runs on.
+// Rows      one per sensor frame; a cycle without a new frame has no row (a gap in time). time_s
+//           of the sample. In real time it starts at 0; when the rig restarts it runs on.
 // Failure   BadInput when the file cannot be written.
 
 #include <cstdint>

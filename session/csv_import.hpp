@@ -5,8 +5,8 @@
 //           difference, bias half the sum, in amperes that full duty would drive at last. The gap
 //           of the coil towards + becomes the position, gap at the centre minus gap.
 // Time      each row is one sample; steps in time_s are whole periods of the rig (within a
-// quarter);
-//           a longer step is a recorded drop-out and leaves its cycles out of the session.
+//           quarter); a longer step is a recorded drop-out and leaves its cycles out of the
+//           session.
 // Speed     from speed_rpm, else from the slope of rotor_angle_rad over 20 rows, else 0.
 // Angle     from rotor_angle_rad (any number of turns), else integrated from speed_rpm.
 // Mode      the file does not know it: levitating, or spinning when the rotor turns.

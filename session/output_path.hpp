@@ -2,8 +2,7 @@
 // Looks at the name of a file about to be written before any work is done for it.
 //
 // Failure   BadInput when it names a folder, or its folder is missing or not writable; a usage
-// Problem when it is the file that is read,
-//           which would be lost.
+//           Problem when it is the file that is read, which would be lost.
 // Not done  no guarantee that writing will succeed: the writer reports that.
 
 #include <string>

@@ -2,8 +2,7 @@
 // Cycle records, events and headers to and from the bytes of their LCM types.
 //
 // Integrity  records and headers end in a CRC-32 over their own bytes with the CRC field zero. It
-// is
-//            checked before anything is decoded: a damaged length never reaches the decoder.
+//            is checked before anything is decoded: a damaged length never reaches the decoder.
 // Bits       every double survives with its bits, NaN included.
 // Thread     one codec per thread; after the first record nothing is allocated for records.
 

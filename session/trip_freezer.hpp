@@ -5,7 +5,8 @@
 // Window   `window_s` before the trip, and after it; a trip within the window of another one ends
 //          the first file early.
 // Safety   the file is readable from its first moment on; Finish (or kill -9) leaves what was
-// there. Thread   one thread (the recorder's). Memory for the window is made at construction.
+//          there.
+// Thread   one thread (the recorder's). Memory for the window is made at construction.
 // Failure  BadInput or Problem when the file cannot be written.
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 #pragma once
 // The controller's port to a rig on the LCM network: sensor frames in, current frames out.
 //
-// Session  the rig draws a random session number at each start. The controller sees 1 for the
-//          first rig it meets, 2 after the next restart and so on: a change is what matters, and
-//          two runs from the same seed then give the same records.
-// The rest (thread, blocking, staleness, failure) is the contract of controller/port.
+// Session  the rig draws a random session number at each start. The controller sees 1 for the first
+//          rig it meets, 2 after the next restart and so on: a change is what matters, and two runs
+//          from the same seed then give the same records. The rest (thread, blocking, staleness,
+//          failure) is the contract of controller/port.
 
 #include <optional>
 

@@ -2,9 +2,8 @@
 // Publishes the controller's state, timing and events for people and tools, away from the loop.
 //
 // Channels  LEVITAS_STATE about 100 times a second, LEVITAS_TIMING, _HISTOGRAM and _HEADER about
-// once,
-//           LEVITAS_EVENT and LEVITAS_SAMPLES as they come. Best effort: what does not fit into a
-//           ring or queue is dropped and counted.
+//           once, LEVITAS_EVENT and LEVITAS_SAMPLES as they come. Best effort: what does not fit
+//           into a ring or queue is dropped and counted.
 // Thread    own thread for sending. PostState and PostTiming: loop thread, wait-free. PostEvent,
 //           PostSamples and Announce: any other thread (they lock).
 // Failure   construction throws Problem when the network cannot be joined; later never.

@@ -4,9 +4,8 @@
 // Right      the first cause is the main effect, or the main effect is among those declared
 //            inseparable from it.
 // Available  the evidence that the records hold for what is hidden, as the final ranking has it:
-// what
-//            could be known at all. A hand-drawn size says little about it: some effects drown in
-//            tolerances.
+//            what could be known at all. A hand-drawn size says little about it: some effects drown
+//            in tolerances.
 // Partly     any effect really present is named, but not as first.
 // Thread     any; pure.
 

@@ -3,8 +3,7 @@
 // fit and the rows to judge by, and the table of both kinds of prediction.
 //
 // Judging  `one step` predicts each sample from measured ones before it; `free run` starts the
-// model
-//          and never looks again. Only the second says whether a model can replace the rig.
+//          model and never looks again. Only the second says whether a model can replace the rig.
 // Failure  BadInput: data, columns or ranges that do not fit.
 
 #include <functional>

@@ -6,8 +6,7 @@
 //            follows it, or is asked to.
 // Ctrl-C     the first is passed to the controller, which lands the rotor; the second kills both.
 // Death      of one: the other gets `notice` to see it (the controller trips, freezes what came
-// before
-//            and closes its record), then it is asked to end, and after `grace` made to.
+//            before and closes its record), then it is asked to end, and after `grace` made to.
 // Hang       no new cycle in telemetry for `silence_limit`: both are ended.
 // Failure    Problem (exit status 1) only when a program cannot be started; all else is a result.
 // Thread     the main thread (see ChildProcess).

@@ -2,8 +2,7 @@
 // The port that --port names, with everything it stands on.
 //
 // Failure  Problem: 2 for a port that cannot be read, 3 for a rig whose buses do not carry the
-// loop,
-//          1 when sockets cannot be made.
+//          loop, 1 when sockets cannot be made.
 
 #include <memory>
 #include <string>

@@ -3,12 +3,10 @@
 // holds (with the step's excitation), goes on to the next step.
 //
 // Time     counted in cycles: call Next exactly once per cycle. The answer to a command is looked
-// for
-//          one cycle after it; a hold of n cycles excites exactly n cycles.
+//          for one cycle after it; a hold of n cycles excites exactly n cycles.
 // Thread   one; Next allocates nothing, locks nothing, throws nothing. Text allocates.
 // Failure  a refused command, a wait beyond its time-out or a trip ends the scenario: the command
-// is
-//          kNone from then on, `outcome` and Text say why. A trip that the scenario itself asked
+//          is kNone from then on, `outcome` and Text say why. A trip that the scenario itself asked
 //          for (do: emergency_stop, or until: tripped) is no failure until it has been reset.
 // Not done what becomes of the rotor after the end: that is the caller's decision.
 

@@ -4,8 +4,9 @@
 // by itself.
 //
 // Definitions  as in docs/effects.md: parameters have the meaning and the unit they have in a rig
-// file. Tolerances   what a rig that counts as healthy may differ by (Tolerances); 0 = not a
-// nuisance. Thread       any.
+//              file.
+// Tolerances   what a rig that counts as healthy may differ by (Tolerances); 0 = not a nuisance.
+// Thread       any.
 
 #include <vector>
 

@@ -3,10 +3,9 @@
 // counter. AUTOSAR E2E Protocol Specification (R20-11), profiles 11 and 5.
 //
 // Profile 11  up to 16 bytes. Byte 0: CRC-8 with the polynomial of SAE J1850 (0x1D), in this
-// profile
-//             from 0 and without final inversion, over Data ID low byte, Data ID high byte, byte 1
-//             to the end. Byte 1, low nibble: counter 0 to 14; high nibble: free for data (Data ID
-//             mode "both").
+//             profile from 0 and without final inversion, over Data ID low byte, Data ID high byte,
+//             byte 1 to the end. Byte 1, low nibble: counter 0 to 14; high nibble: free for data
+//             (Data ID mode "both").
 // Profile 5   beyond. Bytes 0 and 1: CRC-16 CCITT-FALSE (polynomial 0x1021, start 0xFFFF), low byte
 //             first, over byte 2 to the end, Data ID low byte, Data ID high byte. Byte 2: counter
 //             0 to 255.

@@ -2,15 +2,13 @@
 // The controller's port to a rig on CAN buses: position messages in, current messages out.
 //
 // Sampling    lockstep: cycle x period. Real time: the kernel's time stamp of the reception less
-// the
-//             time the messages were on the wire.
+//             the time the messages were on the wire.
 // Bounded     one Read takes at most kMostPerRead frames. When more are waiting it returns none:
-// what
-//             it found may not be the newest. In real time a frame that has waited for two periods
-//             is no news either.
-// Results of faults   docs/can.md, tested in tests/unit/can_port and, on a kernel's bus, in
-//             tests/hardware/can.
-// The rest (thread, blocking, staleness, failure) is the contract of controller/port.
+//             what it found may not be the newest. In real time a frame that has waited for two
+//             periods is no news either.
+// Results of faults docs/can.md, tested in tests/unit/can_port and, on a kernel's bus, in
+//             tests/hardware/can. The rest (thread, blocking, staleness, failure) is the contract
+//             of controller/port.
 
 #include <string>
 #include <vector>

@@ -10,9 +10,9 @@
 //            widened by the jitter of the time stamps. Earlier than k = 1: an extra pulse, not
 //            believed. In the window of k > 1: k - 1 pulses are missing. Between: a jump.
 // Unknown    each pulse not believed, each missing one adds 2 to a score, each good one takes 1
-// away; at
-//            kScoreLimit, or after kMaxMissing overdue marks, the speed is unknown and the last
-//            good one is held. Four intervals in a row that agree among themselves lock it anew.
+//            away; at kScoreLimit, or after kMaxMissing overdue marks, the speed is unknown and the
+//            last good one is held. Four intervals in a row that agree among themselves lock it
+//            anew.
 // Units      rad, rad/s; time stamps in ns of CLOCK_MONOTONIC.
 // Thread     one owner. No allocation, no failure.
 // Not done   one mark tells no direction: rotation counts as positive. With n > 1 the angle counts

@@ -9,8 +9,7 @@
 // Hang       this process counts its cycles in shared memory. No count for `watchdog_ns` while
 //            armed: the guard acts, and the line stays inactive until this process ends.
 // Escape     its own session, deaf to the signals of a terminal, so that ^C or a kill of the
-// process
-//            group reaches the controller alone; a name of its own, "amb-line-guard".
+//            process group reaches the controller alone; a name of its own, "amb-line-guard".
 // Limits     whoever kills both, or stops the kernel, is left to the pull-down and to the rig's
 //            heartbeat watchdog (docs/gpio.md).
 // Thread     construct before any thread is started: the guard is a fork. Arm, Disarm, Beat: one

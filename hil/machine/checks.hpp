@@ -2,8 +2,7 @@
 // The checks behind `amb doctor`: is this machine fit for real time, LCM, CAN, GPIO, recording?
 //
 // Limits   for the 10 kHz loop: period 100 us. The figures beside each limit in checks.cpp say
-// where
-//          it comes from.
+//          where it comes from.
 // Not done nothing is changed on the machine; every remedy is a text for the user to run.
 
 #include <string>

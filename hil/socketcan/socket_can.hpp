@@ -3,11 +3,12 @@
 //
 // Filters     only the identifiers of the other end reach us, and error frames of the chip.
 // Time        each frame carries the kernel's time stamp of its reception, turned to
-// CLOCK_MONOTONIC. Bounded     Next never waits; Wait sleeps in ppoll, a short wait spins. Lost the
-// kernel's own count of frames that did not fit our buffer (SO_RXQ_OVFL). Thread      one; after
-// construction no allocation, no exception. Failure     construction throws Problem (exit status 1)
-// with the remedy: no interface, it is down,
-//             no CAN FD, no CAN in the kernel. Later failures are events.
+//             CLOCK_MONOTONIC.
+// Bounded     Next never waits; Wait sleeps in ppoll, a short wait spins.
+// Lost        the kernel's own count of frames that did not fit our buffer (SO_RXQ_OVFL).
+// Thread      one; after construction no allocation, no exception.
+// Failure     construction throws Problem (exit status 1) with the remedy: no interface, it is
+//             down, no CAN FD, no CAN in the kernel. Later failures are events.
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 #pragma once
 // Parameters of a geared rotor with magnetic bearings from the lines of its full spectrum.
 //
-// Model     4 DOF, complex r = x + jy per shaft, mesh k_m, c_m, run-out eps, transmission error
-// e_i:
+// Model     4 DOF, complex r = x + jy per shaft, mesh k_m, c_m, run-out eps, and the
+//           transmission error's harmonics e_i:
 //             Zp Rp + (k_m + jW c_m) D = m_p eps_p w_p^2 [1x of the pinion] + ks_p Rp - ki_p Ip
 //             Zg Rg - (k_m + jW c_m) D = m_g eps_g w_g^2 [1x of the gear]   + ks_g Rg - ki_g Ig
 //           Z = k + jW c - m W^2 known; D = Rp - Rg (+ eps_p, - eps_g, - e_i on their lines).
@@ -10,8 +10,8 @@
 //           of both shafts. Then the mesh force is known on every line: k_m and c_m from the lines
 //           of rotation, every e_i from its own lines, all speeds stacked.
 // Lines     pinion_1x at +w_p, gear_1x at -w_g, mesh_+1, mesh_-1 ... at i z_p w_p (negative:
-// backward), mean at 0. Errors    standard deviations from the residual of each step (noise alike
-// on all lines);
+//           backward), mean at 0.
+// Errors    standard deviations from the residual of each step (noise alike on all lines);
 //           condition number of the first step's design with columns of unit length.
 // Units     SI, complex amplitudes. Thread any.
 // Failure   BadInput: fewer than two speeds, lines missing, or a design of too small rank.

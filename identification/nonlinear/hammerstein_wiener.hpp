@@ -9,8 +9,7 @@
 //           of v. K = P phi/(lambda + phi' P phi), Theta += K (v - Theta' phi)', P = (P - K phi'
 //           P)/lambda.
 // Curves    powers of an input have numerators of their own; Curves() gives the nearest common
-// curve
-//           by the leading singular pair, and the share it explains.
+//           curve by the leading singular pair, and the share it explains.
 // Scales    inputs and v are divided by constants, so that all of phi is of like size.
 // Time      Step: fixed cost, (outputs + 2) n^2 for n regressors; no allocation.
 // Thread    that of its owner. Failure: none; values that are not finite are counted and left out.

@@ -3,8 +3,7 @@
 // prediction errors: the family of NARX and NARMAX (Billings 2013, ch. 2; Chen & Billings 1989).
 //
 // Window   w_k holds y_o,k-1 .. y_o,k-ny of every output, u_i,k-d .. u_i,k-d-nu+1 of every input
-// and
-//          e_o,k-1 .. e_o,k-ne, each divided by its channel's scale.
+//          and e_o,k-1 .. e_o,k-ne, each divided by its channel's scale.
 // Feature  a product of entries of w (none: the constant 1), or tanh(bias + weights . w).
 // One step the window holds measured outputs; errors are those of the predictions before.
 // Free run the window holds the model's own outputs and no errors: what the model knows by itself.

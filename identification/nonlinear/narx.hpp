@@ -9,8 +9,7 @@
 //          coefficients are estimated again with the errors of the pass before, up to `passes`
 //          times (extended least squares: Billings 2013, ch. 3.6).
 // Fitting  is one step ahead, so a model may predict well and run free badly, or diverge: judge it
-// by
-//          SimulateFreeRun.
+//          by SimulateFreeRun.
 // Thread   any. Failure: BadInput by RefuseUnfit.
 
 #include <cstdint>

@@ -1,9 +1,8 @@
 #pragma once
 // Hysteresis of the iron as a rate-independent operator on the control current.
 //
-// Equation   effective = ic - w z,  dz = (u/2)^n |d ic|/w sign(d ic),  u = 1 - z sign(d ic) in 0 ..
-// 2;
-//            n = 0 is the play operator of half width w, n = 1 the exponential approach.
+// Equation   effective = ic - w z,  dz = (u/2)^n |d ic|/w sign(d ic),  u = 1 - z sign(d ic)
+//            in 0 .. 2; n = 0 is the play operator of half width w, n = 1 the exponential approach.
 //            Closed form along a monotone piece of current, so the result depends on the turning
 //            points alone and not on the steps in between.
 // Source     Dahl (1968), TOR-158, for the family; Coleman & Hodgdon (1986), Int. J. Eng. Sci.

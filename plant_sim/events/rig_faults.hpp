@@ -3,12 +3,10 @@
 //
 // Frame    readings as the probes are wired, like those of the frame itself.
 // Time     cycles of the rig since the controller's first answer; a fault acts in every cycle n
-// with
-//          at <= n T < at + duration.
+//          with at <= n T < at + duration.
 // Thread   one; Disturb allocates nothing, locks nothing, throws nothing.
 // Failure  the constructor throws std::invalid_argument for a period that is not positive or an
-// axis
-//          beyond kMaxAxes.
+//          axis beyond kMaxAxes.
 // Not done effects of the plant (RigEventKind::kEffect): those are the plant's own.
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 // A simulated rig as a library: steps one sampling period at a time.
 //
 // Equation   modal rotor  q'' + D q' + L q + W G J q' = Phi^T f  (both planes;
-// docs/derivations.md),
-//            true nonlinear magnet force, amplifier, touchdown contact, gravity, unbalance.
+//            docs/derivations.md), true nonlinear magnet force, amplifier, touchdown contact,
+//            gravity, unbalance.
 // Time       Sample() reads the sensors at t_n; Advance(command) integrates t_n -> t_n+1. The
 //            command computed from sample n acts `delay_samples` periods after t_n; its drive part
 //            acts at once.

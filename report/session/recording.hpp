@@ -3,7 +3,7 @@
 //
 // Frame    bearing frame: polarity of probes and coils is undone here with the rig's numbers.
 // Units    SI; single precision (7 digits: 0.1 nm of 1 mm). About 50 bytes a cycle with four axes.
-// Left out cycles without a new sensor frame; a gap in `cycle` remains.
+//          Left out cycles without a new sensor frame; a gap in `cycle` remains.
 // Thread   any; offline. Failure: BadInput when the session or its header cannot be read.
 
 #include <cstdint>
