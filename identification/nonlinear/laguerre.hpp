@@ -3,8 +3,8 @@
 // of one another however fast one samples.
 //
 // Equation  L_1 = g/(z - a), L_{i+1} = L_i (1 - a z)/(z - a), g = sqrt(1 - a^2): orthonormal,
-//           strictly proper (Wahlberg 1991, IEEE Trans. Automatic Control 36(5) 551). a = 0 gives the plain
-//           lags z^-1, z^-2, ... of the polynomial forms.
+//           strictly proper (Wahlberg 1991, IEEE Trans. Automatic Control 36(5) 551). a = 0 gives
+//           the plain lags z^-1, z^-2, ... of the polynomial forms.
 // Choice    a = exp(-2 pi f T) with f about the bandwidth of what is identified.
 // Thread    that of its owner; Push allocates nothing.
 
