@@ -95,18 +95,25 @@ void WriteDocument(const std::string& path) {
   if (!file.flush()) throw BadInput(path + ": cannot be written");
 }
 
+/// The rig asked for; for effects of teeth one that has them.
+plant::PlantParameters RigFor(const effect::Row& row, const EffectsOptions& options) {
+  const auto asked = LoadRig(options).plant;
+  if (row.place != effect::Place::kGear || !asked.gears.empty()) return plant::Reduce(asked);
+  EffectsOptions geared = options;
+  geared.rig_name = "geared_rotor_4dof";
+  return plant::Reduce(LoadRig(geared).plant);
+}
+
+void DrawOne(const effect::Row& row, const EffectsOptions& options, const std::string& path) {
+  const plant::PlantParameters rig = RigFor(row, options);
+  svg::Write(path, signature::Picture(rig, signature::ClearOn(rig, row.id)));
+}
+
 void Draw(const EffectsOptions& options) {
-  if (options.picture_path.empty() && options.pictures_folder.empty()) return;
-  const plant::PlantParameters rig = plant::Reduce(LoadRig(options).plant);
-  if (!options.picture_path.empty()) {
-    const effect::Id id = RowOf(options.id).id;
-    svg::Write(options.picture_path, signature::Picture(rig, signature::ClearOn(rig, id)));
-  }
+  if (!options.picture_path.empty()) DrawOne(RowOf(options.id), options, options.picture_path);
   if (options.pictures_folder.empty()) return;
   for (const effect::Row& row : effect::Catalogue()) {
-    if (row.place == effect::Place::kGear) continue;  // needs a rig with gears
-    svg::Write(fmt::format("{}/{}.svg", options.pictures_folder, row.name),
-               signature::Picture(rig, signature::ClearOn(rig, row.id)));
+    DrawOne(row, options, fmt::format("{}/{}.svg", options.pictures_folder, row.name));
   }
 }
 

@@ -31,7 +31,8 @@ orders and exponents stay. The program reaches every number by name, `effects[0]
 Symbols: *ic* control current, *i0* bias, *x* displacement at the actuator, *r* = x + jy, *q* modal coordinate, *w* its
 frequency, *phi* its shape, *W* speed and *angle* of the rotor, *s* Laplace variable. "Clear" is a size that shows on a
 laboratory rig; "x own" means times what the rig has. Pictures: rig `flexible_rotor`, clear size, nominal (first colour) beside
-effect; responses are those of the free rotor in its magnets without a controller.
+effect; responses are those of the free rotor in its magnets without a controller; effects of teeth are drawn on
+`geared_rotor_4dof`.
 
 Not covered by the linear model that `amb poles` and `amb margins` use: hysteresis, slew, rub, anisotropy, crack, and everything
 that is a signal. On rigs with geared shafts the effects of rotor and surroundings, which refer to one rotor, are refused; those of
@@ -83,9 +84,7 @@ std::string EffectsDocument() {
     text += fmt::format("## `{}`\n\n{}, {}: {}.\n\n    {}\n\nSignature: {}.\n\n{}\nSource: {}.\n\n",
                         row.name, effect::Name(row.place), Where(row.scope), row.meaning,
                         row.equation, row.signature, Parameters(row), row.source);
-    if (row.place != effect::Place::kGear) {
-      text += fmt::format("![{0}](pictures/effects/{0}.svg)\n\n", row.name);
-    }
+    text += fmt::format("![{0}](pictures/effects/{0}.svg)\n\n", row.name);
   }
   text.pop_back();
   return text;

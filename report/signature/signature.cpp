@@ -12,6 +12,7 @@ namespace levitas::signature {
 using effect::Id;
 
 Kind KindOf(Id id) {
+  if (effect::At(id).place == effect::Place::kGear) return Kind::kGear;
   switch (id) {
     case Id::kCoilAsymmetry:
     case Id::kMagneticSaturation:
@@ -71,6 +72,9 @@ svg::Figure Picture(const plant::PlantParameters& rig, const effect::EffectConfi
       break;
     case Kind::kForce:
       figure.panels = ForcePanels(rigs);
+      break;
+    case Kind::kGear:
+      figure.panels = GearPanels(rigs);
       break;
   }
   return figure;

@@ -6,6 +6,8 @@
 // Spectrum   effects that turn with the rotor, or of the sensor: full spectrum of the orbit over
 //            orders of rotation (positive = forward), and the orbit, levitated by a plain
 //            proportional-derivative law.
+// Gear       effects of teeth: full spectrum of the driving wheel's shaft over its orders, without
+//            a control law.
 // Force      magnets: force over commanded current, the rotor held in the centre.
 // Units      hertz, newtons, amperes, micrometres.
 // Thread     any; a picture takes some tens of milliseconds.
@@ -17,7 +19,7 @@
 
 namespace levitas::signature {
 
-enum class Kind { kResponse, kSpectrum, kForce };
+enum class Kind { kResponse, kSpectrum, kForce, kGear };
 
 /// The picture that shows this effect best.
 [[nodiscard]] Kind KindOf(effect::Id id);
@@ -29,7 +31,7 @@ enum class Kind { kResponse, kSpectrum, kForce };
 [[nodiscard]] svg::Figure Picture(const plant::PlantParameters& rig,
                                   const effect::EffectConfig& entry);
 
-// The three kinds; a pair of models: without and with the effect.
+// The kinds; a pair of models: without and with the effect.
 struct Pair {
   plant::PlantParameters without;
   plant::PlantParameters with;
@@ -37,6 +39,7 @@ struct Pair {
 [[nodiscard]] std::vector<svg::Panel> ResponsePanels(const Pair& rigs);
 [[nodiscard]] std::vector<svg::Panel> SpectrumPanels(const Pair& rigs);
 [[nodiscard]] std::vector<svg::Panel> ForcePanels(const Pair& rigs);
+[[nodiscard]] std::vector<svg::Panel> GearPanels(const Pair& rigs);
 
 /// docs/effects.md as it must read for the present catalogue.
 [[nodiscard]] std::string EffectsDocument();

@@ -5,6 +5,7 @@
 
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/plant/plant_model.hpp"
+#include "report/signature/orders.hpp"
 #include "report/signature/signature.hpp"
 
 namespace levitas::signature {
@@ -15,7 +16,7 @@ using Complex = std::complex<double>;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSpeedHz = 40.0;  // so that 50 Hz of the mains is not a multiple of it
 constexpr int kTurns = 16;
-constexpr double kMostOrders = 4.0;
+constexpr int kMostOrders = 4;
 constexpr double kSettleS = 1.0;
 
 /// Readings of the first bearing as x + jy [m], over whole turns.
@@ -50,27 +51,6 @@ std::vector<Complex> Orbit(const plant::PlantParameters& rig) {
   return orbit;
 }
 
-svg::Series Spectrum(const std::vector<Complex>& orbit, const std::string& name,
-                     std::size_t colour) {
-  svg::Series series;
-  series.name = name;
-  series.colour = svg::Colour(colour);
-  const auto count = static_cast<double>(orbit.size());
-  const int most = static_cast<int>(kMostOrders * kTurns);
-  for (int bin = -most; bin <= most; ++bin) {
-    const Complex back = std::polar(1.0, -kTurn * bin / count);
-    Complex turning = 1.0;
-    Complex sum = 0.0;
-    for (const Complex r : orbit) {
-      sum += r * turning;
-      turning *= back;
-    }
-    series.x.push_back(static_cast<double>(bin) / kTurns);
-    series.y.push_back(std::abs(sum) / count * 1e6);
-  }
-  return series;
-}
-
 svg::Series Path(const std::vector<Complex>& orbit, std::size_t colour) {
   svg::Series series;
   series.colour = svg::Colour(colour);
@@ -89,7 +69,9 @@ std::vector<svg::Panel> SpectrumPanels(const Pair& rigs) {
   const auto with = Orbit(rigs.with);
   svg::Panel spectrum{"full spectrum at 2400 rpm", "order of rotation (negative: backward)", "um"};
   spectrum.y_scale = svg::Scale::kLogarithmic;
-  spectrum.series = {Spectrum(with, "effect", 1), Spectrum(without, "nominal", 0)};
+  const Orders orders{kTurns, kMostOrders};
+  spectrum.series = {OrderSpectrum(with, orders, "effect", 1),
+                     OrderSpectrum(without, orders, "nominal", 0)};
   svg::Panel path{"orbit, two turns", "x, um", "y, um"};
   path.series = {Path(with, 1), Path(without, 0)};
   return {spectrum, path};

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <fstream>
 #include <sstream>
 
 #include "plant_sim/plant/plant_model.hpp"
+#include "report/signature/orders.hpp"
+#include "tests/support/geared_rigs.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/test_rigs.hpp"
 
@@ -23,6 +26,12 @@ const plant::PlantParameters& Rig() {
   return rig;
 }
 
+/// One with gears for effects of teeth.
+const plant::PlantParameters& RigFor(const effect::Row& row) {
+  static const plant::PlantParameters geared = plant::Reduce(test::GearedRotor4());
+  return row.place == effect::Place::kGear ? geared : Rig();
+}
+
 TEST(EffectsDocument, IsTheOneInDocs) {
   std::ifstream file(test::SourceFolder() + "/docs/effects.md");
   std::ostringstream text;
@@ -35,7 +44,6 @@ TEST(EffectsDocument, NamesEveryEffectWithItsPicture) {
   const std::string text = EffectsDocument();
   for (const effect::Row& row : effect::Catalogue()) {
     EXPECT_NE(text.find("## `" + std::string(row.name) + "`"), std::string::npos) << row.name;
-    if (row.place == effect::Place::kGear) continue;
     const std::string picture = "pictures/effects/" + std::string(row.name) + ".svg";
     EXPECT_NE(text.find(picture), std::string::npos);
     EXPECT_TRUE(std::ifstream(test::SourceFolder() + "/docs/" + picture).good()) << picture;
@@ -44,8 +52,8 @@ TEST(EffectsDocument, NamesEveryEffectWithItsPicture) {
 
 TEST(Pictures, ShowEveryEffectBesideTheNominalRig) {
   for (const effect::Row& row : effect::Catalogue()) {
-    if (row.place == effect::Place::kGear) continue;
-    const svg::Figure figure = Picture(Rig(), ClearOn(Rig(), row.id));
+    const plant::PlantParameters& rig = RigFor(row);
+    const svg::Figure figure = Picture(rig, ClearOn(rig, row.id));
     ASSERT_EQ(figure.panels.size(), 2U) << row.name;
     const auto& series = figure.panels[0].series;
     ASSERT_GE(series.size(), 2U) << row.name;
@@ -69,6 +77,23 @@ TEST(Pictures, ShowEveryEffectBesideTheNominalRig) {
     } else {
       EXPECT_GT(difference, 0.03 * largest) << row.name << " does not show";
     }
+  }
+}
+
+TEST(Pictures, OfTeethAreRefusedForARigWithoutGears) {
+  EXPECT_THROW(static_cast<void>(GearPanels({Rig(), Rig()})), std::invalid_argument);
+}
+
+// A line of amplitude 3 um turning backward at order 2, over four turns.
+TEST(OrderSpectrum, ShowsALineAtItsOrderWithItsAmplitude) {
+  std::vector<std::complex<double>> orbit;
+  for (int n = 0; n < 400; ++n) {
+    orbit.push_back(std::polar(3e-6, -2.0 * 2.0 * 3.141592653589793 * n / 100.0));
+  }
+  const svg::Series series = OrderSpectrum(orbit, {4, 3}, "line", 0);
+  ASSERT_EQ(series.x.size(), 25U);
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    EXPECT_NEAR(series.y[i], series.x[i] == -2.0 ? 3.0 : 0.0, 1e-6) << series.x[i];
   }
 }
 
