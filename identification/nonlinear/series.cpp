@@ -197,11 +197,16 @@ Series SeriesOf(const Record& record, const SeriesColumns& wanted) {
 }
 
 void RefuseUnfit(const Series& series, std::size_t unknowns) {
+  // Columns without names are told by their numbers.
+  const auto name = [](const std::vector<std::string>& names, Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    return at < names.size() ? names[at] : std::to_string(at + 1);
+  };
   for (Index i = 0; i < series.inputs(); ++i) {
-    RefuseColumn(series.input.col(i), series.input_names[static_cast<std::size_t>(i)], true);
+    RefuseColumn(series.input.col(i), name(series.input_names, i), true);
   }
   for (Index i = 0; i < series.outputs(); ++i) {
-    RefuseColumn(series.output.col(i), series.output_names[static_cast<std::size_t>(i)], false);
+    RefuseColumn(series.output.col(i), name(series.output_names, i), false);
   }
   if (static_cast<std::size_t>(series.rows()) < kRowsPerUnknown * unknowns) {
     throw BadInput(fmt::format("{} rows for {} unknowns: needed are {} at least", series.rows(),

@@ -98,6 +98,15 @@ TEST(UnfitSeries, ADeadOutputIsNamed) {
               HasSubstr("output 'y1' is dead"));
 }
 
+TEST(UnfitSeries, ColumnsWithoutNamesAreToldByTheirNumbers) {
+  EXPECT_THAT(Spoilt([](Series& s) {
+                s.input_names.clear();
+                s.output_names.clear();
+                s.output.setConstant(0.3);
+              }),
+              HasSubstr("output '1' is dead"));
+}
+
 TEST(UnfitSeries, AClippedOutputIsNamed) {
   EXPECT_THAT(Spoilt([](Series& s) { s.output = s.output.cwiseMin(0.1); }),
               HasSubstr("output 'y1' is clipped"));
