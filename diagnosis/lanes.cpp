@@ -73,8 +73,9 @@ LEVITAS_INLINE void Gyroscopic(const LaneModel& k, float speed,
 LEVITAS_INLINE void AdvanceBody(const LaneModel& k, const Moment& m, LaneState& s) noexcept {
   // Forces that follow the motion are taken in the middle of the period: at its start they would
   // feed the fast modes.
-  std::array<Lane, 2 * kMaxModes> q_mid;
-  std::array<Lane, 2 * kMaxModes> v_mid;
+  // Written below as far as they are read; zeroing the rest costs more than the loop.
+  std::array<Lane, 2 * kMaxModes> q_mid;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::array<Lane, 2 * kMaxModes> v_mid;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   for (std::size_t i = 0; i < 2 * k.modes; ++i) {
     const LaneModel::Mode& n = k.mode[i % k.modes];
     q_mid[i].value = n.half_xx * s.q[i].value + n.half_xv * s.v[i].value;
@@ -104,8 +105,8 @@ LEVITAS_INLINE void AdvanceBody(const LaneModel& k, const Moment& m, LaneState& 
 
 #if defined(__x86_64__)
 bool HasAvx2() noexcept {
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
+  static const bool kHas = __builtin_cpu_supports("avx2") != 0;
+  return kHas;
 }
 [[gnu::target("avx2")]] void CorrectAvx2(const LaneModel& k, const std::array<Lane, kMaxAxes>& e,
                                          LaneState& s) noexcept {

@@ -69,7 +69,7 @@ void SensitivityBlock::Read(const Moment& m, float* derivative_m) noexcept {
       reading_[a].value[l] += scale * static_cast<float>(difference_.reading_m[a]);
     }
   }
-  std::array<Lane, kMaxAxes> e;
+  std::array<Lane, kMaxAxes> e{};
   for (std::size_t a = 0; a < model_->axes; ++a) {
     e[a].value = -(state_.sensor[a].value + reading_[a].value);
     if (!m.arrived) e[a] = Lane{};
