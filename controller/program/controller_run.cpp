@@ -203,7 +203,7 @@ class Session {
     });
     const bool stayed = Watch(loop, desk, running, options_, *rig_, lines_);
     thread.join();
-    if (lines_ != nullptr) lines_->WriteEnable(false);  // also after an end without a landing
+    // Also after an end without a landing: with lines, the enable line falls here.
     Port().SayGoodbye({.cycle = loop.last().in.frame.cycle});
     recorder_.Finish();  // the report names the trip's file and comes after the last event
     return Tell(loop.statistics(), receiver.rejected(), stayed);

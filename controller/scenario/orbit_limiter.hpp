@@ -2,8 +2,7 @@
 // Keeps an excitation from driving the rotor into its touchdown bearings.
 //
 // Equation   gain g, 0 <= g <= 1, multiplies every excitation of a step. With r the largest radius
-// of
-//            any bearing and R the limit:
+//            of any bearing and R the limit:
 //              r >= 1.5 R       g = 0
 //              r > R            g' = -g/tau_cut,           tau_cut = 1 ms
 //              r < 0.8 R        g' = (1 - g)/tau_recovery, tau_recovery = 1 s

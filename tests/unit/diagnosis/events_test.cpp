@@ -20,8 +20,8 @@ Record NoisyRecord(std::uint64_t seed, std::size_t rows) {
     row.cycle = n;
     row.levitated = true;
     for (std::size_t a = 0; a < View().axes; ++a) {
-      row.sample.position_m[a] = kNoise * Normal(random);
-      row.sample.command.control_current_a[a] = 0.1 * Normal(random);
+      row.sample.position_m[a] = kNoise * random.Normal();
+      row.sample.command.control_current_a[a] = 0.1 * random.Normal();
     }
   }
   return record;

@@ -65,7 +65,7 @@ TEST(RemainderTest, WhatFollowsTheCurrentIsToldFromWhatFollowsThePosition) {
     Random random(9);
     double slow = 0.0;
     const Remainder r = Examine(View(), {NoiseRun(8, kSamples, [&](std::size_t, Moment& m) {
-                                  slow += 0.05 * (Normal(random) - slow);  // below 80 Hz
+                                  slow += 0.05 * (random.Normal() - slow);  // below 80 Hz
                                   if (current) m.command_now_a[3] += static_cast<float>(slow);
                                   if (!current) m.reading_m[3] += static_cast<float>(5e-5 * slow);
                                   AddTo(m, 3, 4e-6 * slow);

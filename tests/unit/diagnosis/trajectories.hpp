@@ -13,13 +13,6 @@ namespace levitas::diagnosis {
 
 inline constexpr double kNoise = 1e-6;  // [m] rms
 
-/// Nearly normal: the sum of twelve uniform numbers.
-inline double Normal(Random& random) {
-  double sum = -6.0;
-  for (int i = 0; i < 12; ++i) sum += random.Uniform();
-  return sum;
-}
-
 /// Currents and positions are noise of their own. `shape` may change each moment after its noise
 /// was drawn: sample number and moment.
 inline Trajectory NoiseRun(std::uint64_t seed, std::size_t samples,
@@ -32,9 +25,9 @@ inline Trajectory NoiseRun(std::uint64_t seed, std::size_t samples,
     m.settled = m.counts = true;
     m.time_s = static_cast<double>(n) * View().period_s;
     for (std::size_t a = 0; a < View().axes; ++a) {
-      m.innovation_m[a] = static_cast<float>(kNoise * Normal(random));
-      m.command_now_a[a] = static_cast<float>(0.1 * Normal(random));
-      m.reading_m[a] = static_cast<float>(5e-6 * Normal(random));
+      m.innovation_m[a] = static_cast<float>(kNoise * random.Normal());
+      m.command_now_a[a] = static_cast<float>(0.1 * random.Normal());
+      m.reading_m[a] = static_cast<float>(5e-6 * random.Normal());
       m.measured_m[a] = static_cast<float>(20e-6 * std::sin(0.01 * static_cast<double>(n)));
     }
     if (shape) shape(n, m);
