@@ -3,8 +3,11 @@
 
     scripts/tidy.py [--build build/tidy] [--jobs N] [FILE...]
 
-A file whose preprocessed text and settings passed before is not looked at again: its digest is
-kept in BUILD/tidy-passed. Headers are checked through the sources that include them.
+A file whose preprocessed text, flags and settings passed before is not looked at again: its digest
+is kept in ~/.cache/levitas/tidy-passed (XDG_CACHE_HOME is heard; --no-cache looks at everything).
+Comments are part of the digest, because NOLINT is one; places in the file system are not, so that
+another clone of the same text is quick too. Headers are checked through the sources that include
+them.
 """
 
 import argparse
@@ -31,28 +34,40 @@ def commands(build):
     return found
 
 
-def digest(arguments, directory, settings):
-    """Of what clang-tidy will see: the preprocessed text and the settings."""
+def digest(path, arguments, directory, settings):
+    """Of what clang-tidy will see: the name, the flags, the preprocessed text, the settings."""
     words = list(arguments)
     if "ccache" in words[0]:
         words.pop(0)
-    words[words.index("-c")] = "-E"
+    words[words.index("-c") : words.index("-c") + 1] = ["-E", "-P", "-CC"]
     words[words.index("-o") + 1] = "-"
     done = subprocess.run(words, cwd=directory, capture_output=True, check=False)
-    return hashlib.sha256(settings + done.stdout).hexdigest() if done.returncode == 0 else None
+    if done.returncode != 0:
+        return None
+    flags = [word for word in words if word.startswith(("-W", "-f", "-std", "-m", "-O"))]
+    head = " ".join([str(path.relative_to(ROOT)), *flags]).encode()
+    return hashlib.sha256(b"\0".join([settings, head, done.stdout])).hexdigest()
 
 
-def check(path, build, command, settings):
-    """Empty when clean, otherwise what clang-tidy says."""
-    key = digest(*command, settings)
-    passed = build / "tidy-passed" / (key or "none")
-    if key and passed.exists():
+def cache_folder():
+    """Where the digests of clean files are kept, made if need be."""
+    home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    folder = Path(home) / "levitas" / "tidy-passed"
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def check(path, build, command, settings, cache):
+    """Empty when clean, otherwise what clang-tidy says; without `cache` every file is looked at."""
+    key = digest(path, *command, settings) if cache else None
+    passed = cache / key if key else None
+    if passed and passed.exists():
         return ""
     done = subprocess.run([CLANG_TIDY, "--quiet", "-p", build, path], capture_output=True,
                           text=True, check=False)
     if done.returncode != 0:
         return done.stdout or done.stderr
-    if key:
+    if passed:
         passed.touch()
     return ""
 
@@ -61,10 +76,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=Path, default=ROOT / "build/tidy")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--no-cache", action="store_true", help="look at every file again")
     parser.add_argument("files", nargs="*", type=Path)
     options = parser.parse_args()
     build = options.build.resolve()
-    (build / "tidy-passed").mkdir(exist_ok=True)
+    cache = None if options.no_cache else cache_folder()
     sources = commands(build)
     if options.files:
         chosen = {path.resolve() for path in options.files}
@@ -73,10 +89,11 @@ def main():
             print(f"tidy.py: no source that {build} builds: {names}", file=sys.stderr)
             return 2
         sources = {path: command for path, command in sources.items() if path in chosen}
-    settings = (ROOT / ".clang-tidy").read_bytes()
+    version = subprocess.run([CLANG_TIDY, "--version"], capture_output=True, check=True).stdout
+    settings = version + (ROOT / ".clang-tidy").read_bytes()
     findings, seen = 0, set()
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        jobs = [pool.submit(check, path, build, command, settings)
+        jobs = [pool.submit(check, path, build, command, settings, cache)
                 for path, command in sources.items()]
         for number, job in enumerate(concurrent.futures.as_completed(jobs), 1):
             if sys.stderr.isatty():
