@@ -30,6 +30,7 @@ class TidyCache(unittest.TestCase):
         self.write("build/tidy/compile_commands.json", json.dumps(
             [{"file": str(self.root / name), "directory": str(self.root),
               "command": f"{COMPILER} -o x.o -c {self.root / name}"} for name in names]))
+        self.version = "14.0.6"
         self.says()
 
     def write(self, name, text):
@@ -41,14 +42,16 @@ class TidyCache(unittest.TestCase):
         """clang-tidy finds `finding` in every file, or nothing."""
         path = self.root / "tools/clang-tidy-14"
         self.write("tools/clang-tidy-14", "#!/bin/sh\n"
+                   f'[ "$1" != --version ] || {{ echo "{self.version}"; exit 0; }}\n'
                    f'for last; do :; done\necho "$last" >> {self.root}/looked_at\n'
                    + (f'echo "{finding}"; exit 1\n' if finding else "exit 0\n"))
         path.chmod(0o755)
 
-    def tidy(self, *words):
+    def tidy(self, *words, cache=None):
         """Exit status, output, and the files that were looked at."""
         (self.root / "looked_at").write_text("")
-        environment = dict(os.environ, PATH=f"{self.root}/tools:{os.environ['PATH']}")
+        environment = dict(os.environ, PATH=f"{self.root}/tools:{os.environ['PATH']}",
+                           XDG_CACHE_HOME=str(cache or self.root / "cache"))
         done = subprocess.run([sys.executable, "-B", self.root / "scripts/tidy.py", "--jobs", "2",
                                *map(str, words)], capture_output=True, text=True, check=False,
                               env=environment, cwd=self.root)
@@ -71,6 +74,33 @@ class TidyCache(unittest.TestCase):
         self.assertEqual(self.tidy()[1], {"law/law.cpp"})
         self.write(".clang-tidy", "Checks: 'bugprone-*'\n")
         self.assertEqual(self.tidy()[1], {"law/law.cpp", "rotor/rotor.cpp"})
+
+    def test_looks_again_when_asked_to_or_when_clang_tidy_or_the_flags_are_others(self):
+        both = {"law/law.cpp", "rotor/rotor.cpp"}
+        self.tidy()
+        self.assertEqual(self.tidy("--no-cache")[1], both)
+        self.version = "14.0.7"
+        self.says()
+        self.assertEqual(self.tidy()[1], both)
+        database = self.root / "build/tidy/compile_commands.json"
+        database.write_text(database.read_text().replace(" -o ", " -Wall -o "))
+        self.assertEqual(self.tidy()[1], both)
+
+    def test_a_comment_counts_because_it_may_silence_a_finding(self):
+        self.write("rotor/rotor.cpp", "int Modes() { return 8; }  // NOLINT: as it should be\n")
+        self.tidy()
+        self.write("rotor/rotor.cpp", "int Modes() { return 8; }\n")
+        self.assertEqual(self.tidy()[1], {"rotor/rotor.cpp"})
+
+    def test_what_passed_in_one_clone_is_known_in_another(self):
+        shared = self.root / "shared"
+        self.tidy(cache=shared)
+        first = self.root
+        self.setUp()
+        self.assertNotEqual(self.root, first)
+        self.assertEqual(self.tidy(cache=shared)[1], set())
+        self.assertEqual(self.tidy(cache=self.root / "own")[1],
+                         {"law/law.cpp", "rotor/rotor.cpp"})
 
     def test_a_finding_fails_is_told_once_and_is_looked_at_again(self):
         self.says("header.hpp:1: something is wrong")
