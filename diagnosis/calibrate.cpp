@@ -18,12 +18,19 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
   Refined fit;
   fit.theta = search.Usual();
   const auto settle = [&](const std::vector<Record>& data, const Gains& with, int most) {
-    Refined better =
-        Refiner(search, terms, data, with, rig.axes).Approach(fit.theta, kWhiteningOrder, most);
+    const Refiner refiner(search, terms, data, with, rig.axes);
+    // What a fast observer likes on a part of the records may be worse than the usual rig.
+    const double here = refiner.Misfit(fit.theta, kWhiteningOrder);
+    const double usual = refiner.Misfit(search.Usual(), kWhiteningOrder);
+    if (!std::isfinite(here) || usual < here) fit.theta = search.Usual();
+    Refined better = refiner.Approach(fit.theta, kWhiteningOrder, most);
     if (better.ok) fit = std::move(better);
   };
   const std::vector<Record> few = Spans(all, kFastRows);
-  settle(few, search.DesignGains(few, kFast), 3);
+  const Gains fast = search.DesignGains(few, kFast);
+  Refined first =
+      Refiner(search, terms, few, fast, rig.axes).Approach(fit.theta, kWhiteningOrder, 3);
+  if (first.ok) fit = std::move(first);
   settle(records, gains, passes);
   return fit;
 }

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <utility>
 
 #include "common/problem.hpp"
 #include "diagnosis/calibrate.hpp"
 #include "diagnosis/events.hpp"
+#include "diagnosis/ranking.hpp"
 #include "diagnosis/refine.hpp"
 
 namespace levitas::diagnosis {
@@ -26,8 +27,8 @@ struct Effort {
   int passes;             ///< of each
   std::size_t rivals;     ///< refitted in the end
 };
-constexpr Effort kQuick{6, 3, 4, 1};
-constexpr Effort kThorough{10, 6, 3, 5};
+constexpr Effort kQuick{6, 4, 5, 3};
+constexpr Effort kThorough{10, 6, 8, 5};
 
 class Diagnoser {
  public:
@@ -47,8 +48,12 @@ class Diagnoser {
   Answer Run() {
     Calibrate();
     FindCauses();
-    Rank();
-    RefitRivals();
+    Merge();
+    do {
+      DropUnproven();
+      Rank();
+      RefitRivals();
+    } while (LeaderFails());
     return Conclude();
   }
 
@@ -85,21 +90,29 @@ class Diagnoser {
   /// The best few of the screen on the nonlinear model; the best of those becomes a cause.
   bool AddCause(double share) {
     const Evidence base(view_.problem, terms_, causes_);
-    const double null = Refiner::SetEvidence(view_.problem, terms_, causes_);
+    const std::vector<Candidate> screened = Screen(base, search_.hypotheses());
+    if (screened.empty() || !(screened.front().score > kDecisive)) return false;
+    const Refined before = refiner_.Fit(causes_, theta_, view_, 2);
+    const double null =
+        before.ok ? before.evidence : Refiner::SetEvidence(view_.problem, terms_, causes_);
     const double origin = Refiner::SetEvidence(view_.problem, terms_, {});
     const double enough = kDecisive + kForm * std::max(0.0, null - origin);
-    std::vector<Candidate> screened = Screen(base);
-    if (screened.empty() || !(screened.front().score > enough)) return false;
+    if (!(screened.front().score > enough)) return false;
     const double from = std::min(screened.front().score - kNear, 0.3 * screened.front().score);
     Refined best;
     std::vector<Hypothesis> best_causes;
+    refitted_.clear();
     for (std::size_t i = 0; i < std::min(screened.size(), effort_.shortlist); ++i) {
       if (i > 0 && screened[i].score < std::max(from, enough)) break;
       Tell(share + 0.02 * static_cast<double>(i), "refitting " + screened[i].effect);
       std::vector<Hypothesis> causes = causes_;
       causes.push_back(search_.hypotheses()[screened[i].hypothesis]);
-      Refined fit = refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_.whitener,
-                                 effort_.passes);
+      Refined fit =
+          refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_, effort_.passes);
+      refitted_.push_back(screened[i]);
+      refitted_.back().refitted = true;
+      refitted_.back().score =
+          std::min(screened[i].score, fit.ok ? fit.evidence - null : screened[i].score);
       if (!fit.ok || (best.ok && fit.evidence <= best.evidence)) continue;
       best = std::move(fit);
       best_causes = std::move(causes);
@@ -120,8 +133,7 @@ class Diagnoser {
 
   void DropSuperfluous(const LinearProblem& problem) {
     for (std::size_t i = 0; i + 1 < causes_.size();) {
-      std::vector<Hypothesis> rest = causes_;
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+      const std::vector<Hypothesis> rest = Without(causes_, i);
       if (Evidence(problem, terms_, rest).Gain(causes_[i]) < kDecisive) {
         causes_ = rest;
         theta_ = search_.Solve(problem, causes_);
@@ -131,26 +143,78 @@ class Diagnoser {
     }
   }
 
-  /// Every effect at its best place, best first.
-  [[nodiscard]] std::vector<Candidate> Screen(const Evidence& base) const {
-    std::map<std::string, Candidate> best;
-    for (std::size_t i = 0; i < search_.hypotheses().size(); ++i) {
-      const Hypothesis& h = search_.hypotheses()[i];
-      const double gain = base.Gain(h);
-      if (!std::isfinite(gain)) continue;
-      auto [at, added] = best.try_emplace(h.effect, Candidate{h.effect, h.place, gain, i, false});
-      if (!added && gain > at->second.score) at->second = {h.effect, h.place, gain, i, false};
+  /// Of two causes that only together imitate one which the first choice passed by, that one is
+  /// kept: any effect in place of two, as long as one does what two did.
+  void Merge() {
+    for (std::size_t tried = 0; causes_.size() > 1 && tried < settings_.most_causes; ++tried) {
+      if (!MergeTwo(0.7)) return;
     }
-    std::vector<Candidate> sorted;
-    sorted.reserve(best.size());
-    for (const auto& [effect, candidate] : best) sorted.push_back(candidate);
-    SortByScore(sorted);
-    return sorted;
   }
 
-  static void SortByScore(std::vector<Candidate>& candidates) {
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  bool MergeTwo(double share) {
+    const Refined whole = refiner_.Fit(causes_, theta_, view_, 2);
+    if (!whole.ok) return false;
+    const double explained = whole.evidence - Refiner::SetEvidence(view_.problem, terms_, {});
+    const double allowance = kDecisive + kForm * std::max(0.0, explained);
+    Refined best;
+    std::vector<Hypothesis> best_causes;
+    for (std::size_t i = 0; i < causes_.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const std::vector<Hypothesis> others = Without(Without(causes_, i), k);
+        const auto screened = Screen(Evidence(view_.problem, terms_, others), search_.hypotheses());
+        for (std::size_t n = 0; n < std::min(screened.size(), effort_.shortlist); ++n) {
+          Tell(share, "refitting " + screened[n].effect);
+          std::vector<Hypothesis> causes{search_.hypotheses()[screened[n].hypothesis]};
+          causes.insert(causes.end(), others.begin(), others.end());
+          Refined fit =
+              refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_, effort_.passes);
+          if (!fit.ok || (best.ok && fit.evidence <= best.evidence)) continue;
+          best = std::move(fit);
+          best_causes = std::move(causes);
+        }
+      }
+    }
+    if (!best.ok || best.evidence < whole.evidence - allowance) return false;
+    theta_ = best.theta;
+    causes_ = std::move(best_causes);
+    view_ = search_.Linearise(records_, gains_, theta_, kWhiteningOrder, search_.Everything());
+    return true;
+  }
+
+  /// Nothing is named that is not decisive beside the others; the weakest goes first.
+  void DropUnproven() {
+    while (!causes_.empty()) {
+      std::size_t weakest = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < causes_.size(); ++i) {
+        const double gain = Evidence(view_.problem, terms_, Without(causes_, i)).Gain(causes_[i]);
+        if (gain >= least) continue;
+        least = gain;
+        weakest = i;
+      }
+      if (least >= kDecisive) return;
+      Drop(weakest);
+    }
+  }
+
+  void Drop(std::size_t cause) {
+    causes_ = Without(causes_, cause);
+    theta_ = causes_.empty() ? calibrated_ : search_.Solve(view_.problem, causes_);
+  }
+
+  /// What leads after all refits must still be decisive against the rest of the causes, refitted
+  /// without it; else it goes, and the rest is ranked anew.
+  bool LeaderFails() {
+    if (causes_.empty()) return false;
+    const std::vector<Hypothesis> rest = Without(causes_, 0);
+    const Refined fit =
+        refiner_.Fit(rest, rest.empty() ? calibrated_ : search_.Solve(view_.problem, rest), view_,
+                     effort_.passes);
+    if (!fit.ok || leader_evidence_ - fit.evidence >= kDecisive) return false;
+    causes_ = rest;
+    theta_ = fit.theta;
+    view_ = search_.Linearise(records_, gains_, theta_, kWhiteningOrder, search_.Everything());
+    return true;
   }
 
   /// The strongest cause leads; every effect is then tried in its place.
@@ -158,13 +222,23 @@ class Diagnoser {
     Tell(0.75, "ranking");
     double strongest = -1.0;
     for (std::size_t i = 0; i < causes_.size(); ++i) {
-      const double gain = Evidence(view_.problem, terms_, Others(i)).Gain(causes_[i]);
+      const double gain = Evidence(view_.problem, terms_, Without(causes_, i)).Gain(causes_[i]);
       if (gain <= strongest) continue;
       strongest = gain;
       std::swap(causes_[0], causes_[i]);
     }
-    candidates_ = Screen(Evidence(view_.problem, terms_, Others(0)));
-    if (causes_.empty()) return;
+    candidates_ =
+        Screen(Evidence(view_.problem, terms_, Without(causes_, 0)), search_.hypotheses());
+    if (causes_.empty()) {
+      // What the nonlinear model did not keep of the screen's promises.
+      for (Candidate& c : candidates_) {
+        for (const Candidate& known : refitted_) {
+          if (known.effect == c.effect) c = known;
+        }
+      }
+      SortByScore(candidates_);
+      return;
+    }
     // The leader is the hypothesis that was chosen, at the place that was chosen.
     for (Candidate& c : candidates_) {
       if (c.effect != causes_[0].effect) continue;
@@ -173,24 +247,17 @@ class Diagnoser {
         if (h.effect == c.effect && h.place == causes_[0].place) c.hypothesis = i;
       }
       c.place = causes_[0].place;
-      c.score = Evidence(view_.problem, terms_, Others(0)).Gain(causes_[0]);
+      c.score = Evidence(view_.problem, terms_, Without(causes_, 0)).Gain(causes_[0]);
     }
     SortByScore(candidates_);
-  }
-
-  [[nodiscard]] std::vector<Hypothesis> Others(std::size_t without) const {
-    std::vector<Hypothesis> others = causes_;
-    if (without < others.size()) {
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(without));
-    }
-    return others;
   }
 
   /// Who comes near the first cause by extrapolation, on the nonlinear model.
   void RefitRivals() {
     if (causes_.empty()) return;
-    const std::vector<Hypothesis> others = Others(0);
-    const Refined leader = refiner_.Fit(causes_, theta_, view_.whitener, 1);
+    const std::vector<Hypothesis> others = Without(causes_, 0);
+    const Refined leader = refiner_.Fit(causes_, theta_, view_, 1);
+    leader_evidence_ = leader.ok ? leader.evidence : std::numeric_limits<double>::infinity();
     if (!leader.ok) return;
     theta_ = leader.theta;
     const auto own = std::find_if(candidates_.begin(), candidates_.end(),
@@ -208,13 +275,13 @@ class Diagnoser {
       Tell(0.78 + 0.03 * static_cast<double>(tried), "refitting " + candidate.effect);
       std::vector<Hypothesis> causes{search_.hypotheses()[candidate.hypothesis]};
       causes.insert(causes.end(), others.begin(), others.end());
-      const Refined fit = refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_.whitener,
-                                       effort_.passes);
+      const Refined fit =
+          refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_, effort_.passes);
       if (!fit.ok) continue;
       candidate.score = lead + fit.evidence - leader.evidence;
       candidate.refitted = true;
       if (fit.evidence <= best_evidence) continue;
-      best_evidence = fit.evidence;
+      best_evidence = leader_evidence_ = fit.evidence;
       causes_[0] = causes[0];
       theta_ = fit.theta;
     }
@@ -224,9 +291,15 @@ class Diagnoser {
   Answer Conclude() {
     Tell(0.9, "examining what is left");
     Answer answer;
+    answer.runs = search_.Run(records_, gains_, theta_);
+    if (!causes_.empty() && HeldGain(calibrated_runs_, answer.runs, view_.whitener) < -kDecisive) {
+      // What does harm where it was not fitted is no cause.
+      causes_.clear();
+      theta_ = calibrated_;
+      answer.runs = calibrated_runs_;
+    }
     answer.theta_extended = theta_;
     answer.theta_calibrated = calibrated_;
-    answer.runs = search_.Run(records_, gains_, theta_);
     answer.remainder = Examine(rig_, answer.runs);
     if (answer.remainder.channels.empty() ||
         !(answer.remainder.channels.front().noise_rms_m > 0.0)) {
@@ -241,7 +314,7 @@ class Diagnoser {
     const Fit null = Evidence(view_.problem, terms_, {}).Solve();
     answer.evidence = fit.log_evidence - null.log_evidence;
     Describe(fit, answer);
-    answer.also_possible = Ties();
+    answer.also_possible = Ties(candidates_, causes_);
     answer.causes = causes_;
     answer.candidates = candidates_;
     answer.verdict = !causes_.empty() ? Verdict::kEffect
@@ -249,35 +322,6 @@ class Diagnoser {
                                       : Verdict::kNone;
     Tell(1.0, "done");
     return answer;
-  }
-
-  /// What comes within kDecisive of the first cause, or before it.
-  [[nodiscard]] std::vector<std::string> Ties() const {
-    std::vector<std::string> ties;
-    if (causes_.empty()) return ties;
-    const auto own = std::find_if(candidates_.begin(), candidates_.end(), [this](const auto& c) {
-      return c.effect == causes_.front().effect;
-    });
-    if (own == candidates_.end()) return ties;
-    for (const Candidate& c : candidates_) {
-      const bool also = std::any_of(causes_.begin(), causes_.end(),
-                                    [&c](const Hypothesis& h) { return h.effect == c.effect; });
-      if (!also && c.score > own->score - kDecisive) ties.push_back(c.effect);
-    }
-    return ties;
-  }
-
-  /// Share of the excess over the noise, all lines and channels, that the causes take away.
-  static double Explained(const Remainder& before, const Remainder& after) {
-    double excess_before = 0.0;
-    double excess_after = 0.0;
-    for (std::size_t a = 0; a < before.channels.size(); ++a) {
-      for (std::size_t i = 1; i < before.channels[a].ratio.size() * 2 / 3; ++i) {
-        excess_before += before.channels[a].ratio[i] - 1.0;
-        excess_after += after.channels[a].ratio[i] - 1.0;
-      }
-    }
-    return excess_before > 0.0 ? 1.0 - excess_after / excess_before : 1.0;
   }
 
   void Describe(const Fit& fit, Answer& answer) const {
@@ -328,7 +372,8 @@ class Diagnoser {
   View view_;
   std::vector<Trajectory> calibrated_runs_;
   std::vector<Hypothesis> causes_;
-  std::vector<Candidate> candidates_;
+  std::vector<Candidate> candidates_, refitted_;  ///< all; those last refitted to be added
+  double leader_evidence_{};                      ///< of all causes with the first one
 };
 
 }  // namespace

@@ -15,6 +15,9 @@ bool SameOnAllAxes(const AxisArray& a, const AxisArray& b, std::size_t axes) {
   return std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(axes), b.begin());
 }
 
+/// More in a row are no loss but a pause: another flight, or rows that were left out.
+constexpr std::uint64_t kMostLost = 20;
+
 std::size_t LostFrames(const RigView& rig, const std::vector<Record>& records) {
   std::size_t lost = 0;
   for (const Record& record : records) {
@@ -22,6 +25,7 @@ std::size_t LostFrames(const RigView& rig, const std::vector<Record>& records) {
       const auto& before = record.rows[n - 1];
       const auto& now = record.rows[n];
       if (!before.levitated || !now.levitated) continue;
+      if (now.cycle > before.cycle + 1 + kMostLost) continue;
       const bool missing = now.cycle != before.cycle + 1;
       const bool repeated =
           SameOnAllAxes(before.sample.position_m, now.sample.position_m, rig.axes) ||

@@ -1,12 +1,10 @@
 #pragma once
-// Sums over all records from which every hypothesis is judged: J^T J, J^T e and e^T e of the
-// whitened innovations.
+// Whitened innovations and their sums over all records: J^T J, J^T e and e^T e (made by slopes.hpp).
 //
 // Whitening  an autoregressive filter per channel, from the innovations of the calibrated model
 //            (Yule-Walker), scaled to unit variance; the same filter for every hypothesis.
 // Weights    the filters' variance; one number per channel.
-// Cost       one pass over the records with all terms; two threads share the blocks of terms.
-// Memory     a chunk of the derivatives at a time, never all of them.
+// Thread     any; pure.
 
 #include <Eigen/Core>
 #include <vector>
@@ -30,12 +28,6 @@ struct NormalEquations {
   double ete{};
   std::size_t values{};  ///< whitened innovations summed
 };
-
-/// `runs` are the model's runs at `theta`.
-[[nodiscard]] NormalEquations Accumulate(const RigView& rig, const std::vector<Trajectory>& runs,
-                                         const std::vector<Term>& terms,
-                                         const std::vector<double>& theta, const Whitener& whitener,
-                                         const std::vector<std::size_t>& chosen);
 
 /// e^T e alone.
 [[nodiscard]] double SquaredSum(const std::vector<Trajectory>& runs, std::size_t axes,

@@ -1,26 +1,28 @@
 #include "diagnosis/refine.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace levitas::diagnosis {
 
 double Refiner::Penalty(const std::vector<double>& theta,
                         const std::vector<Hypothesis>& causes) const {
-  double penalty = 0.0;
-  for (std::size_t i = 0; i < theta.size(); ++i) {
-    const Term& term = terms_[i];
-    const bool moved = std::any_of(causes.begin(), causes.end(), [i](const Hypothesis& h) {
-      return std::find(h.terms.begin(), h.terms.end(), i) != h.terms.end();
-    });
-    double variance = term.nuisance() ? term.tolerance * term.tolerance : 0.0;
-    if (moved) variance += term.scale() * term.scale();
-    const double away = theta[i] - term.usual;
-    if (variance > 0.0) penalty += away * away / variance;
+  // Parameters are nuisances plus directions of causes: their prior has the covariance of both.
+  constexpr double kJitter = 1e-6;
+  const auto size = static_cast<Eigen::Index>(terms_.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+  for (const Hypothesis& h : causes) covariance += h.directions * h.directions.transpose();
+  Eigen::VectorXd away(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Term& term = terms_[static_cast<std::size_t>(i)];
+    covariance(i, i) += kJitter + std::pow(term.tolerance / term.scale(), 2);
+    away[i] = (theta[static_cast<std::size_t>(i)] - term.usual) / term.scale();
   }
-  return penalty;
+  return away.dot(covariance.llt().solve(away));
 }
 
 double Refiner::SetEvidence(const LinearProblem& problem, const std::vector<Term>& terms,
@@ -33,50 +35,79 @@ double Refiner::SetEvidence(const LinearProblem& problem, const std::vector<Term
   return evidence;
 }
 
-Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
-                     const Whitener& whitener, int passes) const {
-  constexpr double kWorse = 0.5;  // [nat]
+void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
+                      std::vector<double> theta, int passes, Refined& best) const {
+  constexpr double kSettled = 0.3;  // [nat]
   constexpr int kMostHalvings = 3;
-  Refined best;
-  double best_cost = std::numeric_limits<double>::infinity();
-  std::vector<double> theta = std::move(start);
+  NormalEquations sum = view.sum;
   int halvings = 0;
   for (int pass = 0; pass < passes;) {
-    const auto runs = search_.Run(records_, gains_, theta);
-    const double cost =
-        0.5 * (SquaredSum(runs, whitener.filter.size(), whitener) + Penalty(theta, causes));
-    if (!std::isfinite(cost) || cost > best_cost + kWorse) {
-      if (++halvings > kMostHalvings) break;
+    auto runs = search_.Run(records_, gains_, theta);
+    view.slopes->Renew(runs, view.whitener, sum);
+    const double cost = 0.5 * (sum.ete + Penalty(theta, causes));
+    const double gained = best.cost - cost;
+    if (!std::isfinite(cost) || gained < -kSettled) {
+      if (++halvings > kMostHalvings) return;
       // Without a run to go back to, towards the usual rig.
       for (std::size_t i = 0; i < theta.size(); ++i) {
         theta[i] = 0.5 * (theta[i] + (best.ok ? best.theta[i] : terms_[i].usual));
       }
       continue;
     }
-    const double gained = best_cost - cost;
+    best.cost = cost;
     best.theta = theta;
-    best_cost = cost;
+    best.runs = std::move(runs);
+    best.problem = search_.About(sum, theta);
     best.ok = true;
-    best.problem = search_.Linearise(runs, theta, whitener, search_.NuisancesAnd(causes));
+    if (gained < kSettled) return;
     theta = search_.Solve(best.problem, causes);
     ++pass;
-    if (gained < kWorse) break;
   }
+}
+
+Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
+                     const View& view, int passes) const {
+  Refined best;
+  Descend(view, causes, std::move(start), passes, best);
+  const bool bends = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
+    return std::any_of(h.terms.begin(), h.terms.end(),
+                       [this](std::size_t i) { return !terms_[i].linear; });
+  });
+  if (best.ok && bends) {
+    const View here = search_.Linearise(std::move(best.runs), best.theta, view.whitener,
+                                        search_.NuisancesAnd(causes));
+    best.problem = here.problem;
+    Descend(here, causes, search_.Solve(here.problem, causes), passes, best);
+  }
+  best.runs.clear();
   if (!best.ok) return best;
-  best.evidence = SetEvidence(best.problem, terms_, causes);
+  // What the model does, not what a straight line from it promises: that may lead where no rig is.
+  const auto line = Evidence(best.problem, terms_, causes).Solve();
+  const double promised = 0.5 * (line.squared_sum + line.penalty);
+  best.evidence = SetEvidence(best.problem, terms_, causes) + promised - best.cost;
   if (!std::isfinite(best.evidence)) best.ok = false;
-  // The last step is taken on trust when it was not found too long.
-  if (halvings == 0) best.theta = theta;
   return best;
+}
+
+double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_order) const {
+  const auto runs = search_.Run(records_, gains_, theta);
+  const Whitener whitener = MakeWhitener(runs, axes_, whitening_order);
+  std::size_t values = 0;
+  static_cast<void>(SquaredSum(runs, axes_, whitener, &values));
+  double log_power = 0.0;
+  for (const auto& filter : whitener.filter) log_power -= 2.0 * std::log(filter.front());
+  return 0.5 * (log_power * static_cast<double>(values / axes_) + Penalty(theta, {}));
 }
 
 Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order,
                           int passes) const {
-  constexpr double kSettled = 2.0;  // [nat]
+  constexpr double kSettled = 1.0;  // [nat]
+  constexpr double kFar = 2000.0;   // [nat] a step that gains more has left its linearisation
   constexpr int kMostHalvings = 3;
   Refined best;
   std::vector<double> theta = std::move(start);
   Whitener whitener;
+  std::shared_ptr<const Slopes> slopes;
   double before = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < passes; ++pass) {
     auto runs = search_.Run(records_, gains_, theta);
@@ -94,7 +125,11 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
     best.theta = theta;
     best.ok = true;
     if (pass > 0 && gained < kSettled) break;
-    best.problem = search_.Linearise(runs, theta, whitener, search_.Nuisances());
+    if (!slopes || gained > kFar) {
+      slopes =
+          std::make_shared<const Slopes>(search_.rig(), runs, terms_, theta, search_.Nuisances());
+    }
+    best.problem = search_.About(slopes->Sum(runs, whitener), theta);
     best.evidence = SetEvidence(best.problem, terms_, {});
     theta = search_.Solve(best.problem, {});
   }

@@ -2,13 +2,16 @@
 // Nuisances and a given set of causes fitted together on the nonlinear model.
 //
 // Method     Gauss-Newton from a start; a step after which the model is further from the data, or
-//            not finite, is halved. The whitening stays the same, so that sets can be compared.
+//            not finite, is halved. Slopes are those of a linearisation that exists; where a cause
+//            bends (Term::linear) they are taken anew where it arrived. The whitening stays the
+//            same, so that sets can be compared.
 // Evidence   of the whole set, -1/2 (squared sum + penalty + log det), priors of places included;
 //            differences between sets of causes on the same records and whitening mean something,
 //            one number alone does not.
 // Thread     blocks the caller, two threads inside. Failure: `ok` false when no finite run was
 //            found.
 
+#include <limits>
 #include <vector>
 
 #include "diagnosis/search.hpp"
@@ -19,7 +22,9 @@ struct Refined {
   std::vector<double> theta;
   double evidence{};
   bool ok{};
-  LinearProblem problem;  ///< about theta; sensitivities of nuisances and causes alone
+  LinearProblem problem;                                 ///< about theta
+  double cost{std::numeric_limits<double>::infinity()};  ///< [nat] of data and priors at theta
+  std::vector<Trajectory> runs;                          ///< at theta, while it is being fitted
 };
 
 class Refiner {
@@ -28,18 +33,25 @@ class Refiner {
           const Gains& gains, std::size_t axes)
       : search_(search), terms_(terms), records_(records), gains_(gains), axes_(axes) {}
 
+  /// `view` has everything linearised on the records of this refiner.
   [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
-                            const Whitener& whitener, int passes) const;
+                            const View& view, int passes) const;
   /// Nuisances alone, from far away: whitened anew at every pass, since what is not calibrated yet
   /// is no noise and must not be weighted down as if it were.
   [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order,
                                  int passes) const;
+  /// [nat] how badly nuisances at theta do, each whitened by its own innovations; to compare
+  /// starts.
+  [[nodiscard]] double Misfit(const std::vector<double>& theta, std::size_t whitening_order) const;
   /// Evidence of a set on a linearisation of everything.
   [[nodiscard]] static double SetEvidence(const LinearProblem& problem,
                                           const std::vector<Term>& terms,
                                           const std::vector<Hypothesis>& causes);
 
  private:
+  /// Improves on `best` from theta on, as long as it goes.
+  void Descend(const View& view, const std::vector<Hypothesis>& causes, std::vector<double> theta,
+               int passes, Refined& best) const;
   [[nodiscard]] double Penalty(const std::vector<double>& theta,
                                const std::vector<Hypothesis>& causes) const;
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
-#include <thread>
+#include <utility>
 
 #include "analysis/recorded_rows.hpp"
+#include "diagnosis/two_threads.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -13,6 +15,13 @@ namespace {
 /// What every (re)start leaves behind and no parameter explains; the slow rest of it is small
 /// beside what static loads do.
 constexpr double kSettling = 0.3;  // [s]
+
+/// Below this no rig is, whatever a straight line says.
+double Least(const Term& term) {
+  constexpr double kAlmostUndamped = -0.95;  // of the damping that the rig file says
+  if (term.effect == "modal_damping") return kAlmostUndamped;
+  return term.positive ? 0.0 : -std::numeric_limits<double>::infinity();
+}
 
 }  // namespace
 
@@ -41,51 +50,37 @@ Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpee
 std::vector<Trajectory> Search::Run(const std::vector<Record>& records, const Gains& gains,
                                     const std::vector<double>& theta) const {
   std::vector<Trajectory> runs(records.size());
-  const auto work = [&](std::size_t first) {
-    for (std::size_t i = first; i < records.size(); i += 2) {
-      runs[i] = RunModel(rig_, records[i], gains[i], terms_, theta, kSettling);
-    }
-  };
-  std::thread other(work, 1);
-  work(0);
-  other.join();
+  InTwoThreads(records.size(), [&](std::size_t i, std::size_t /*thread*/) {
+    runs[i] = RunModel(rig_, records[i], gains[i], terms_, theta, kSettling);
+  });
   return runs;
 }
 
 View Search::Linearise(const std::vector<Record>& records, const Gains& gains,
                        const std::vector<double>& theta, std::size_t whitening_order,
                        const std::vector<std::size_t>& chosen) const {
+  auto runs = Run(records, gains, theta);
+  const Whitener whitener = MakeWhitener(runs, rig_.axes, whitening_order);
+  return Linearise(std::move(runs), theta, whitener, chosen);
+}
+
+View Search::Linearise(std::vector<Trajectory> runs, const std::vector<double>& theta,
+                       const Whitener& whitener, const std::vector<std::size_t>& chosen) const {
   View view;
-  view.runs = Run(records, gains, theta);
-  view.whitener = MakeWhitener(view.runs, rig_.axes, whitening_order);
-  view.problem = Linearise(view.runs, theta, view.whitener, chosen);
+  view.runs = std::move(runs);
+  view.whitener = whitener;
+  view.slopes = std::make_shared<const Slopes>(rig_, view.runs, terms_, theta, chosen);
+  view.sum = view.slopes->Sum(view.runs, whitener);
+  view.problem = About(view.sum, theta);
   return view;
 }
 
-LinearProblem Search::Linearise(const std::vector<Trajectory>& runs,
-                                const std::vector<double>& theta, const Whitener& whitener,
-                                const std::vector<std::size_t>& chosen) const {
-  const NormalEquations part = Accumulate(rig_, runs, terms_, theta, whitener, chosen);
-  NormalEquations all;
-  const auto size = static_cast<Eigen::Index>(terms_.size());
-  all.jtj = Eigen::MatrixXd::Zero(size, size);
-  all.jte = Eigen::VectorXd::Zero(size);
-  all.ete = part.ete;
-  all.values = part.values;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(chosen[i]);
-    all.jte[row] = part.jte[static_cast<Eigen::Index>(i)];
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-      all.jtj(row, static_cast<Eigen::Index>(chosen[k])) =
-          part.jtj(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-    }
+LinearProblem Search::About(const NormalEquations& sum, const std::vector<double>& theta) const {
+  Eigen::VectorXd scaled(static_cast<Eigen::Index>(terms_.size()));
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    scaled[static_cast<Eigen::Index>(i)] = (theta[i] - terms_[i].usual) / terms_[i].scale();
   }
-  Eigen::VectorXd scaled(size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const Term& term = terms_[static_cast<std::size_t>(i)];
-    scaled[i] = (theta[static_cast<std::size_t>(i)] - term.usual) / term.scale();
-  }
-  return AtOrigin(all, scaled);
+  return AtOrigin(sum, scaled);
 }
 
 std::vector<double> Search::Solve(const LinearProblem& problem,
@@ -94,7 +89,7 @@ std::vector<double> Search::Solve(const LinearProblem& problem,
   std::vector<double> theta(terms_.size());
   for (std::size_t i = 0; i < theta.size(); ++i) {
     theta[i] = terms_[i].usual + fit.theta[static_cast<Eigen::Index>(i)] * terms_[i].scale();
-    if (terms_[i].positive) theta[i] = std::max(theta[i], 0.0);
+    theta[i] = std::max(theta[i], Least(terms_[i]));
   }
   return theta;
 }

@@ -7,16 +7,19 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/slopes.hpp"
 
 namespace levitas::diagnosis {
 
 /// Observers of all records for one tuning.
 using Gains = std::vector<ObserverPair>;
 
-/// One linearisation of everything, on the records it was made with.
+/// One linearisation, on the records it was made with.
 struct View {
   std::vector<Trajectory> runs;
   Whitener whitener;
+  std::shared_ptr<const Slopes> slopes;
+  NormalEquations sum;
   LinearProblem problem;
 };
 
@@ -40,15 +43,19 @@ class Search {
   [[nodiscard]] View Linearise(const std::vector<Record>& records, const Gains& gains,
                                const std::vector<double>& theta, std::size_t whitening_order,
                                const std::vector<std::size_t>& chosen) const;
-  /// Linearises runs that exist, with a given whitening.
-  [[nodiscard]] LinearProblem Linearise(const std::vector<Trajectory>& runs,
-                                        const std::vector<double>& theta, const Whitener& whitener,
-                                        const std::vector<std::size_t>& chosen) const;
+  /// The same of runs that exist, with a whitening of before.
+  [[nodiscard]] View Linearise(std::vector<Trajectory> runs, const std::vector<double>& theta,
+                               const Whitener& whitener,
+                               const std::vector<std::size_t>& chosen) const;
+  /// Sums of runs at theta as a problem about the usual rig.
+  [[nodiscard]] LinearProblem About(const NormalEquations& sum,
+                                    const std::vector<double>& theta) const;
 
   /// Solution of nuisances and causes, in the terms' own units.
   [[nodiscard]] std::vector<double> Solve(const LinearProblem& problem,
                                           const std::vector<Hypothesis>& causes) const;
 
+  [[nodiscard]] const RigView& rig() const { return rig_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   /// What the healthy rig is: where every search begins.
   [[nodiscard]] std::vector<double> Usual() const;

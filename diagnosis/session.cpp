@@ -1,9 +1,13 @@
 #include "diagnosis/session.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
+#include "common/problem.hpp"
 #include "diagnosis/calibrate.hpp"
 #include "diagnosis/events.hpp"
+#include "diagnosis/flight.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -13,6 +17,23 @@ std::vector<Record> Load(const std::vector<std::string>& paths, const SessionInp
   records.reserve(paths.size());
   for (const std::string& path : paths) {
     records.push_back(LoadRecord(path, inputs.rig, inputs.scratch_folder));
+  }
+  return records;
+}
+
+double Seconds(const Record& record, const RigView& rig) {
+  return static_cast<double>(record.rows.size()) * rig.period_s;
+}
+
+std::vector<Record> InFlight(const RigView& rig, std::vector<Record> records) {
+  constexpr double kLeast = 0.5;  // [s] a model settles for 0.3
+  for (Record& record : records) {
+    LeaveOutContact(rig, record);
+    if (Seconds(record, rig) >= kLeast) continue;
+    throw BadInput(fmt::format(
+        "{}: {:.2f} s of free flight (readings within {:.0f} % of the touchdown clearance, "
+        "amplifiers on), a diagnosis needs at least {} s",
+        record.name, Seconds(record, rig), 100.0 * kFree, kLeast));
   }
   return records;
 }
@@ -49,18 +70,20 @@ SessionAnswer DiagnoseRecords(const config::RigFile& rig, const std::vector<Reco
                               const std::vector<Record>& healthy) {
   SessionAnswer out;
   out.view = std::make_shared<const RigView>(rig.numbers, rig.plant);
-  out.terms = AllTerms(*out.view, settings.tolerances, LargestOrbit(records, out.view->axes));
-  if (!healthy.empty()) LearnFromHealthy(*out.view, healthy, out.terms);
-  std::vector<Record> fitted = records;
+  const std::vector<Record> flown = InFlight(*out.view, healthy);
+  const std::vector<Record> aside = InFlight(*out.view, holdout);
+  std::vector<Record> fitted = InFlight(*out.view, records);
+  out.terms = AllTerms(*out.view, settings.tolerances, LargestOrbit(fitted, out.view->axes));
+  if (!flown.empty()) LearnFromHealthy(*out.view, flown, out.terms);
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     fitted[i].number = static_cast<std::uint32_t>(i);
     fitted[i].keep_back = holdout.empty();
-    out.seconds_of_data += static_cast<double>(fitted[i].rows.size()) * out.view->period_s;
+    out.seconds_of_data += Seconds(fitted[i], *out.view);
   }
   const auto mains = MainsTerms(*out.view, MainsLines(*out.view, fitted), fitted.size());
   out.terms.insert(out.terms.end(), mains.begin(), mains.end());
   out.answer = Diagnose(*out.view, fitted, out.terms, settings);
-  Measure(settings.quick ? Spans(fitted, kQuickRows) : fitted, holdout, out);
+  Measure(settings.quick ? Spans(fitted, kQuickRows) : fitted, aside, out);
   return out;
 }
 

@@ -61,6 +61,9 @@ class Maker {
       plan.loss = {entry.values[0], static_cast<std::size_t>(entry.values[1]),
                    effect_seed_ % 2 == 0, effect_seed_ + 1};
     }
+    // Frames are lost on the way to the recorder and the controller; the plant loses none besides,
+    // of which no record would know.
+    std::erase_if(hidden, [](const auto& entry) { return entry.id == Id::kDroppedSamples; });
     Random rig_random(rig_seed_);
     const auto truth = TrueRig(bench_.rig.plant, Mismatch{}, hidden, rig_random);
     out = Record(truth, bench_.laws[law_], plan, plan_.outside, size, effect_seed_);

@@ -50,6 +50,12 @@ TEST(EventsTest, AHealthyRecordHasNone) {
   EXPECT_TRUE(FindEvents(View(), {NoisyRecord(1, 5000)}, WithNoise(1.0)).empty());
 }
 
+TEST(EventsTest, APauseBetweenTwoFlightsIsNoLostFrame) {
+  Record record = NoisyRecord(2, 5000);
+  record.rows.erase(record.rows.begin() + 2000, record.rows.begin() + 3000);
+  EXPECT_TRUE(FindEvents(View(), {record}, WithNoise(1.0)).empty());
+}
+
 TEST(EventsTest, MissingCyclesAreLostFrames) {
   Record record = NoisyRecord(2, 5000);
   for (const int at : {400, 1400, 2400}) record.rows.erase(record.rows.begin() + at);

@@ -102,5 +102,13 @@ TEST(Campaign, WithLostFramesHasMissingOrRepeatedRows) {
   EXPECT_GT(lost, 15U);
 }
 
+// What the plant itself held back would stand in no record, and a diagnosis could not know of it.
+TEST(Campaign, WithLostFramesLosesNoneBesideTheRecord) {
+  const auto trial = MakeTrial(TheBench(), Short(5, {effect::Id::kDroppedSamples}));
+  for (const auto& entry : trial.secret.truth.config.effects) {
+    EXPECT_NE(entry.id, effect::Id::kDroppedSamples);
+  }
+}
+
 }  // namespace
 }  // namespace levitas::trials

@@ -1,0 +1,113 @@
+// Kept derivatives: their sums are those of the propagated derivatives, and a fit along them claims
+// no more than the model keeps.
+
+#include "diagnosis/slopes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/refine.hpp"
+#include "diagnosis/terms/terms.hpp"
+#include "trials/trial.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+class SlopesTest : public ::testing::Test {
+ protected:
+  void Prepare(std::vector<effect::Id> hidden) {
+    trials::TrialPlan plan;
+    plan.seed = 22;
+    plan.hidden = std::move(hidden);
+    plan.bits_per_axis = 500;
+    plan.runup_s = 1.0;
+    trial_ = trials::MakeTrial(bench_, plan);
+    records_ = {trial_.records[0], trial_.records[1]};
+    records_[1].number = 1;
+    gains_ = search_.DesignGains(records_, kFast);
+  }
+
+  [[nodiscard]] std::size_t Find(const std::string& effect) const {
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (terms_[i].effect == effect) return i;
+    }
+    ADD_FAILURE() << effect;
+    return 0;
+  }
+
+  trials::Bench bench_ = trials::LoadBench("flexible_rotor", {"flexible_rotor"});
+  RigView view_{bench_.rig.numbers, bench_.rig.plant};
+  std::vector<Term> terms_ = AllTerms(view_, Tolerances{}, 50e-6);
+  Search search_{view_, terms_};
+  trials::Trial trial_;
+  std::vector<Record> records_;
+  Gains gains_;
+};
+
+TEST_F(SlopesTest, SumUpToWhatThePropagatedDerivativesGive) {
+  Prepare({});
+  const std::size_t at = Find("sensor_gain");
+  const std::vector<double> theta = search_.Usual();
+  const View view = search_.Linearise(records_, gains_, theta, 2, {at});
+  double jtj = 0.0;
+  double jte = 0.0;
+  double ete = 0.0;
+  for (const Trajectory& run : view.runs) {
+    SensitivityBlock block(LanePair(view_, run.gains), terms_, theta, {at});
+    const std::size_t samples = run.moments.size();
+    std::vector<std::array<float, kMaxAxes * kLanes>> d(samples);
+    for (std::size_t n = 0; n < samples; ++n) block.Step(run.moments[n], d[n].data());
+    for (std::size_t n = 2; n < samples; ++n) {
+      if (!run.moments[n].counts) continue;
+      for (std::size_t a = 0; a < view_.axes; ++a) {
+        double slope = 0.0;
+        double e = 0.0;
+        for (std::size_t k = 0; k <= 2; ++k) {
+          slope += view.whitener.filter[a][k] * static_cast<double>(d[n - k][a * kLanes]);
+          e += view.whitener.filter[a][k] * static_cast<double>(run.moments[n - k].innovation_m[a]);
+        }
+        jtj += slope * slope;
+        jte += slope * e;
+        ete += e * e;
+      }
+    }
+  }
+  const auto row = static_cast<Eigen::Index>(at);
+  // Both in double from the same single-precision derivatives.
+  EXPECT_NEAR(view.sum.jtj(row, row), jtj, 1e-9 * jtj);
+  EXPECT_NEAR(view.sum.jte[row], jte, 1e-9 * std::sqrt(jtj * ete));
+  EXPECT_NEAR(view.sum.ete, ete, 1e-9 * ete);
+}
+
+TEST_F(SlopesTest, RenewedWithTheSameRunStayWhatTheyWere) {
+  Prepare({});
+  const View view = search_.Linearise(records_, gains_, search_.Usual(), 4, search_.Everything());
+  NormalEquations sum = view.sum;
+  view.slopes->Renew(view.runs, view.whitener, sum);
+  EXPECT_NEAR(sum.ete, view.sum.ete, 1e-9 * sum.ete);
+  for (Eigen::Index i = 0; i < sum.jte.size(); ++i) {
+    // Products in single precision: a millionth of the two vectors' lengths.
+    EXPECT_NEAR(sum.jte[i], view.sum.jte[i], 1e-6 * std::sqrt(sum.jtj(i, i) * sum.ete))
+        << terms_[static_cast<std::size_t>(i)].effect;
+  }
+}
+
+// A step far beyond the straight line: what the line promises there is not what the model does.
+TEST_F(SlopesTest, AFitIsWorthWhatTheModelDoesAndNoMore) {
+  Prepare({});
+  const Refiner refiner(search_, terms_, records_, gains_, view_.axes);
+  const View view = search_.Linearise(records_, gains_, search_.Usual(), 4, search_.Everything());
+  std::vector<double> far = search_.Usual();
+  far[Find("current_gain")] = 0.3;
+  const Refined fit = refiner.Fit({}, far, view, 1);
+  ASSERT_TRUE(fit.ok);
+  const auto line = Evidence(fit.problem, terms_, {}).Solve();
+  const double promised = 0.5 * (line.squared_sum + line.penalty);
+  ASSERT_GT(fit.cost, promised + kDecisive);
+  EXPECT_NEAR(fit.evidence, Refiner::SetEvidence(fit.problem, terms_, {}) - (fit.cost - promised),
+              1e-6 * fit.cost);
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis

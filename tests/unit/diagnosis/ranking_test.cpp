@@ -1,0 +1,56 @@
+// What a ranking says of its candidates, on runs and candidates made by hand.
+
+#include "diagnosis/ranking.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/diagnosis/trajectories.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+Hypothesis Named(const std::string& effect) {
+  Hypothesis h;
+  h.effect = effect;
+  return h;
+}
+
+/// Noise of which every sixth sample is kept back; `factor` is on those alone.
+std::vector<Trajectory> KeptBack(double factor) {
+  return {NoiseRun(7, 12'000, [factor](std::size_t n, Moment& m) {
+    m.held = n % 6 == 0;
+    m.counts = !m.held;
+    if (!m.held) return;
+    for (float& value : m.innovation_m) value *= static_cast<float>(factor);
+  })};
+}
+
+TEST(RankingTest, TiesAreAllWithinTheDecisiveMargin) {
+  const std::vector<Candidate> candidates{{"unbalance", "", 20.0, 0, true},
+                                          {"shaft_bow", "", 16.0, 1, true},
+                                          {"rotor_mass", "", 14.0, 2, true}};
+  EXPECT_EQ(Ties(candidates, {Named("unbalance")}), std::vector<std::string>{"shaft_bow"});
+}
+
+TEST(RankingTest, ACauseOfItsOwnIsNoTie) {
+  const std::vector<Candidate> candidates{{"unbalance", "", 20.0, 0, true},
+                                          {"shaft_bow", "", 16.0, 1, true}};
+  EXPECT_TRUE(Ties(candidates, {Named("unbalance"), Named("shaft_bow")}).empty());
+}
+
+TEST(RankingTest, AModelThatIsWorseOnWhatWasKeptBackLoses) {
+  const auto before = KeptBack(1.0);
+  const Whitener whitener = MakeWhitener(before, View().axes, 0);
+  // 2000 samples of four axes: half of 21 % more power of each.
+  EXPECT_NEAR(HeldGain(before, KeptBack(1.1), whitener), -0.5 * 0.21 * 8000.0, 40.0);
+  EXPECT_NEAR(HeldGain(KeptBack(1.1), before, whitener), 0.5 * 0.21 * 8000.0, 40.0);
+}
+
+TEST(RankingTest, WithoutSamplesKeptBackNothingIsGainedOrLost) {
+  const std::vector<Trajectory> runs{NoiseRun(8, 2000)};
+  const Whitener whitener = MakeWhitener(runs, View().axes, 0);
+  EXPECT_EQ(HeldGain(runs, {NoiseRun(9, 2000)}, whitener), 0.0);
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis
