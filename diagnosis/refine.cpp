@@ -96,7 +96,8 @@ double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_o
   static_cast<void>(SquaredSum(runs, axes_, whitener, &values));
   double log_power = 0.0;
   for (const auto& filter : whitener.filter) log_power -= 2.0 * std::log(filter.front());
-  return 0.5 * (log_power * static_cast<double>(values / axes_) + Penalty(theta, {}));
+  const double samples = static_cast<double>(values) / static_cast<double>(axes_);
+  return 0.5 * (log_power * samples + Penalty(theta, {}));
 }
 
 Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order,
