@@ -19,9 +19,10 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
   fit.theta = search.Usual();
   const auto settle = [&](const std::vector<Record>& data, const Gains& with, int most) {
     const Refiner refiner(search, terms, data, with, rig.axes);
-    // What a fast observer likes on a part of the records may be worse than the usual rig.
-    const double here = refiner.Misfit(fit.theta, kWhiteningOrder);
-    const double usual = refiner.Misfit(search.Usual(), kWhiteningOrder);
+    // What a fast observer likes on a part of the records may be worse than the usual rig. Judged by
+    // plain power: a whitening of its own would take a large orbit for colour and forgive it.
+    const double here = refiner.Misfit(fit.theta, 0);
+    const double usual = refiner.Misfit(search.Usual(), 0);
     if (!std::isfinite(here) || usual < here) fit.theta = search.Usual();
     Refined better = refiner.Approach(fit.theta, kWhiteningOrder, most);
     if (better.ok) fit = std::move(better);

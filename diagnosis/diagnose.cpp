@@ -27,7 +27,7 @@ struct Effort {
   int passes;             ///< of each
   std::size_t rivals;     ///< refitted in the end
 };
-constexpr Effort kQuick{6, 4, 5, 3};
+constexpr Effort kQuick{8, 4, 5, 3};
 constexpr Effort kThorough{10, 6, 8, 5};
 
 class Diagnoser {

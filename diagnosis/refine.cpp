@@ -103,36 +103,46 @@ double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_o
 Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order,
                           int passes) const {
   constexpr double kSettled = 1.0;  // [nat]
-  constexpr double kFar = 2000.0;   // [nat] a step that gains more has left its linearisation
+  constexpr double kFar = 100.0;    // [nat] a step that gains more has left its linearisation
   constexpr int kMostHalvings = 3;
   Refined best;
   std::vector<double> theta = std::move(start);
   Whitener whitener;
   std::shared_ptr<const Slopes> slopes;
-  double before = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < passes; ++pass) {
+  bool fresh = false;  // slopes were taken at best.theta
+  int halvings = 0;
+  for (int pass = 0; pass < passes;) {
     auto runs = search_.Run(records_, gains_, theta);
-    double gained = before;
-    for (int halving = 0; pass > 0; ++halving) {
-      gained = before - 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
-      if (std::isfinite(gained) && gained > -kSettled) break;
-      if (halving == kMostHalvings) return best;
-      for (std::size_t i = 0; i < theta.size(); ++i) theta[i] = 0.5 * (theta[i] + best.theta[i]);
-      runs = search_.Run(records_, gains_, theta);
+    const double gained =
+        pass == 0 ? std::numeric_limits<double>::infinity()
+                  : best.cost - 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
+    if (pass > 0 && !(std::isfinite(gained) && gained > -kSettled)) {
+      if (++halvings <= kMostHalvings) {
+        for (std::size_t i = 0; i < theta.size(); ++i) theta[i] = 0.5 * (theta[i] + best.theta[i]);
+        continue;
+      }
+      if (fresh) break;
+      // Slopes from further back led nowhere: those from here may.
+      halvings = 0;
+      runs = search_.Run(records_, gains_, best.theta);
+      theta = best.theta;
+      slopes.reset();
     }
     whitener = MakeWhitener(runs, axes_, whitening_order);
-    before = 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
-    if (!std::isfinite(before)) break;
+    best.cost = 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
+    if (!std::isfinite(best.cost)) break;
     best.theta = theta;
     best.ok = true;
-    if (pass > 0 && gained < kSettled) break;
-    if (!slopes || gained > kFar) {
+    if (gained < kSettled && fresh) break;
+    fresh = !slopes || gained > kFar || gained < kSettled;
+    if (fresh) {
       slopes =
           std::make_shared<const Slopes>(search_.rig(), runs, terms_, theta, search_.Nuisances());
     }
     best.problem = search_.About(slopes->Sum(runs, whitener), theta);
     best.evidence = SetEvidence(best.problem, terms_, {});
     theta = search_.Solve(best.problem, {});
+    ++pass;
   }
   return best;
 }

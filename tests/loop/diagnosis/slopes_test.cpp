@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "diagnosis/refine.hpp"
+#include "diagnosis/calibrate.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "trials/trial.hpp"
 
@@ -107,6 +107,37 @@ TEST_F(SlopesTest, AFitIsWorthWhatTheModelDoesAndNoMore) {
   ASSERT_GT(fit.cost, promised + kDecisive);
   EXPECT_NEAR(fit.evidence, Refiner::SetEvidence(fit.problem, terms_, {}) - (fit.cost - promised),
               1e-6 * fit.cost);
+}
+
+// Far from its file, slopes taken there lead nowhere after a step or two; they must be renewed, and
+// a whitening of its own must not make the file's orbit look like colour.
+TEST_F(SlopesTest, OfACalibrationAreRenewedUntilALargeUnbalanceIsFollowedToTheNoise) {
+  Prepare({effect::Id::kUnbalance});
+  const Gains slow = search_.DesignGains(records_, kSlow);
+  const Refined fit = CalibrateNuisances(view_, search_, terms_, records_, records_, slow, 8);
+  ASSERT_TRUE(fit.ok);
+  const auto runs = search_.Run(records_, slow, fit.theta);
+  const auto nominal = search_.Run(records_, slow, search_.Usual());
+  const auto rms = [this](const Trajectory& run, std::size_t axis) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const Moment& m : run.moments) {
+      if (!m.counts) continue;
+      sum += std::pow(static_cast<double>(m.innovation_m[axis]), 2);
+      count += 1.0;
+    }
+    return std::sqrt(sum / count);
+  };
+  double before = 0.0;
+  double after = 0.0;
+  for (std::size_t a = 0; a < view_.axes; ++a) {
+    const double noise_m = analysis::ReadingNoise(view_.bearing(a).sensor);
+    before = std::max(before, rms(nominal[1], a) / noise_m);
+    after = std::max(after, rms(runs[1], a) / noise_m);
+  }
+  // What shapes of modes leave is a few per cent of the noise.
+  EXPECT_GT(before, 1.3) << "the trial is no challenge";
+  EXPECT_LT(after, 1.1);
 }
 
 }  // namespace
