@@ -25,10 +25,12 @@ void AddImportCommand(CLI::App& app, Action& action);
 void AddExportCommand(CLI::App& app, Action& action);
 void AddCanDbcCommand(CLI::App& app, Action& action);
 void AddDashCommand(CLI::App& app, Action& action);
+void AddSessionsCommand(CLI::App& app, Action& action);
 void AddDoctorCommand(CLI::App& app, Action& action);
 void AddSimulateCommand(CLI::App& app, Action& action);
 void AddEffectsCommand(CLI::App& app, Action& action);
 void AddIdentifyCommand(CLI::App& app, Action& action);
 void AddDiagnoseCommand(CLI::App& app, Action& action);
+void AddManualCommand(CLI::App& app, Action& action);
 
 }  // namespace levitas::cli

@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/diagnosis_files.hpp"
 #include "cli/json_file.hpp"
+#include "cli/text_file.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/session.hpp"
 
@@ -45,7 +46,12 @@ void ShowProgress(double share, const std::string& what) {
 }
 
 ExitStatus Run(const DiagnoseOptions& options) {
-  std::filesystem::create_directories(options.out);
+  std::error_code failed;
+  std::filesystem::create_directories(options.out, failed);
+  if (failed) {
+    throw BadInput(fmt::format("--out {}: cannot be made a folder ({}); name another", options.out,
+                               failed.message()));
+  }
   diagnosis::SessionInputs inputs;
   inputs.rig = LoadRig(options);
   inputs.data = options.data;
@@ -58,7 +64,7 @@ ExitStatus Run(const DiagnoseOptions& options) {
   PrintDiagnosis(answer);
   WriteDiagnosis(answer, inputs.rig, options.out);
   WriteJsonFile(options.json_path, DiagnosisJson(answer));
-  if (!options.plan.empty()) WriteText(options.plan, diagnosis::PlanScenario(answer));
+  if (!options.plan.empty()) WriteTextFile(options.plan, diagnosis::PlanScenario(answer));
   return ExitStatus::kDone;
 }
 

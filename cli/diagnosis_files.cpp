@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/diagnosis_report.hpp"
 #include "cli/json_file.hpp"
+#include "cli/text_file.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/extended_rig.hpp"
 #include "diagnosis/words.hpp"
@@ -17,12 +17,6 @@ namespace levitas::cli {
 
 using diagnosis::SessionAnswer;
 using diagnosis::Verdict;
-
-void WriteText(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw BadInput(path + ": cannot be written");
-}
 
 void PrintDiagnosis(const SessionAnswer& s) {
   fmt::print("{}\n\n", diagnosis::VerdictSentence(s));
@@ -108,8 +102,8 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
 void WriteDiagnosis(const SessionAnswer& answer, const config::RigFile& rig,
                     const std::string& folder) {
   WriteJsonFile(folder + "/diagnosis.json", DiagnosisJson(answer));
-  WriteText(folder + "/extended_rig.yaml", diagnosis::ExtendedRig(answer, rig));
-  WriteText(folder + "/report.html", DiagnosisPage(answer));
+  WriteTextFile(folder + "/extended_rig.yaml", diagnosis::ExtendedRig(answer, rig));
+  WriteTextFile(folder + "/report.html", DiagnosisPage(answer));
 }
 
 }  // namespace levitas::cli

@@ -15,6 +15,5 @@ void PrintDiagnosis(const diagnosis::SessionAnswer& answer);
 [[nodiscard]] nlohmann::ordered_json DiagnosisJson(const diagnosis::SessionAnswer& answer);
 void WriteDiagnosis(const diagnosis::SessionAnswer& answer, const config::RigFile& rig,
                     const std::string& folder);
-void WriteText(const std::string& path, const std::string& text);
 
 }  // namespace levitas::cli

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/enter_session.hpp"
 #include "cli/json_file.hpp"
 #include "config/rig_file.hpp"
 #include "levitas_version.hpp"
@@ -23,6 +24,7 @@ struct ImportCommandOptions {
   std::string rig_name;
   std::string out_path;
   std::string json_path;
+  std::vector<std::string> tags;
 };
 
 std::int64_t UtcNowNs() {
@@ -56,6 +58,7 @@ ExitStatus ImportBusLog(const ImportCommandOptions& options, const config::RigFi
       "out of order, {} restarts of the rig, {} other lines\n",
       report.missing_cycles, report.without_answer, report.damaged, report.out_of_order,
       report.rig_restarts, report.other_lines);
+  EnterSession(options.out_path, options.tags);
   WriteJsonFile(options.json_path, {{"data", options.data_path},
                                     {"rig", rig.numbers.name},
                                     {"session", options.out_path},
@@ -102,6 +105,7 @@ ExitStatus Import(const ImportCommandOptions& options) {
   const session::ImportReport report =
       options.data_path.ends_with(".mat") ? session::ImportMat(import) : session::ImportCsv(import);
   Print(options.out_path, report);
+  EnterSession(options.out_path, options.tags);
   WriteJsonFile(options.json_path, {{"data", options.data_path},
                                     {"rig", rig.numbers.name},
                                     {"session", options.out_path},
@@ -130,6 +134,8 @@ void AddImportCommand(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--rig", options->rig_name, "Rig file, or name of a shipped one")->required();
   command->add_option("--out", options->out_path, "Session to write")->required();
+  command->add_option("--tag", options->tags,
+                      "Tag in the catalogue (amb sessions); may be repeated");
   command->add_option("--json", options->json_path, "Write what was done as JSON");
   command->callback([options, &action] { action = [options] { return Import(*options); }; });
 }

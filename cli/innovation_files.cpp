@@ -5,25 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/analysis_options.hpp"
+#include "cli/text_file.hpp"
 #include "common/problem.hpp"
 
 namespace levitas::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void WriteText(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.flush();
-  if (!file) {
-    throw BadInput(path + ": cannot be written; check that the folder exists and is yours");
-  }
-}
 
 Json ChannelJson(const InnovationContext& context, std::size_t i) {
   const auto& channel = context.report.channels[i];
@@ -155,7 +146,7 @@ void WriteSpectrumCsv(const std::string& path, const InnovationContext& context)
       text += fmt::format(",{:.6g}", channel.density_m2_per_hz[line]);
     }
   }
-  WriteText(path, text + '\n');
+  WriteTextFile(path, text + '\n');
 }
 
 void WriteSpectrumSvg(const std::string& path, const InnovationContext& context) {
@@ -185,7 +176,7 @@ void WriteSpectrumSvg(const std::string& path, const InnovationContext& context)
         chart.left, chart.Y(expected), chart.right, kColours[i], 90 + 70 * i, 460, kColours[i],
         context.rig.channels[i]);
   }
-  WriteText(path, svg + "</svg>\n");
+  WriteTextFile(path, svg + "</svg>\n");
 }
 
 }  // namespace levitas::cli

@@ -1,25 +1,14 @@
 #include "cli/json_file.hpp"
 
-#include <fmt/core.h>
-
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "common/problem.hpp"
+#include "cli/text_file.hpp"
 
 namespace levitas::cli {
 
 void WriteJsonFile(const std::string& path, const nlohmann::ordered_json& content) {
   if (path.empty()) return;
-  std::ofstream file(path);
-  file << content.dump(2) << '\n';
-  file.flush();
-  if (!file) {
-    throw BadInput(
-        fmt::format("--json {}: cannot be written; check that the folder exists and is yours "
-                    "to write to",
-                    path));
-  }
+  WriteTextFile(path, content.dump(2) + '\n');
 }
 
 }  // namespace levitas::cli

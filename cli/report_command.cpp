@@ -10,6 +10,7 @@
 
 #include "cli/json_file.hpp"
 #include "cli/report_command.hpp"
+#include "cli/text_file.hpp"
 #include "config/rig_file.hpp"
 #include "report/session/page.hpp"
 #include "session/output_path.hpp"
@@ -53,15 +54,6 @@ std::vector<verdict::DurationFigures> DurationsOf(const std::string& path) {
   return durations;
 }
 
-void WriteText(const std::string& path, const std::string& text) {
-  session::PartFile part(path);
-  std::ofstream file(part.part_path());
-  file << text;
-  file.close();
-  if (!file) throw BadInput(path + ": cannot be written; is the disk full?");
-  part.Commit();
-}
-
 void WritePictures(const std::string& folder, const std::vector<report::NamedPicture>& pictures) {
   std::error_code failed;
   fs::create_directories(folder, failed);
@@ -95,7 +87,7 @@ ExitStatus Report(const ReportOptions& options) {
     pictures.speeds_rad_per_s.push_back(speed_rpm * verdict::kRadPerSPerRpm);
   }
   input.pictures = report::Pictures(recording, pictures);
-  WriteText(options.html_path, report::Page(recording, input));
+  WriteTextFile(options.html_path, report::Page(recording, input));
   fmt::print("{}: {} pictures, {:.0f} kB\n", options.html_path, input.pictures.size(),
              static_cast<double>(fs::file_size(options.html_path)) * 1e-3);
   nlohmann::ordered_json names = nlohmann::ordered_json::array();
@@ -103,6 +95,9 @@ ExitStatus Report(const ReportOptions& options) {
   if (!options.picture_folder.empty()) {
     WritePictures(options.picture_folder, input.pictures);
     fmt::print("{}: {} SVG files\n", options.picture_folder, input.pictures.size());
+  }
+  if (!recording.damage.empty()) {
+    fmt::print("Not everything could be read: {}.\n", recording.damage);
   }
   if (input.verdict) fmt::print("{}\n", input.verdict->sentence);
   WriteJsonFile(

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/enter_session.hpp"
 #include "cli/json_file.hpp"
 #include "cli/run/interrupt.hpp"
 #include "cli/run/live_page.hpp"
@@ -19,6 +20,7 @@
 #include "cli/run/run_options.hpp"
 #include "cli/run/supervise.hpp"
 #include "cli/run/telemetry.hpp"
+#include "common/whole_number.hpp"
 #include "hil/socketcan/can_connection.hpp"
 #include "session/output_path.hpp"
 #include "verdict/commission.hpp"
@@ -136,6 +138,7 @@ ExitStatus Execute(const RunOptions& options) {
     const verdict::Verdict verdict = verdict::Commission(judge);
     fmt::print("{}", verdict::Table(verdict));
     WriteJsonFile(options.json_path, verdict::Json(verdict));
+    if (!options.record_path.empty()) EnterRun(paths.session, verdict, options.tags);
     if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
   }
   if (status == ExitStatus::kTripped && options.record_path.empty()) folder.Keep();
@@ -171,8 +174,14 @@ void AddRunCommand(CLI::App& app, Action& action) {
       "--port", options->port,
       "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can, or can:IF[,IF...] (the rig then "
       "stands behind CAN buses, see docs/can.md); default: lcm on free ports");
-  command->add_option("--record", options->record_path, "Keep the record in this file");
-  command->add_option("--seed", options->seed, "Seed of the sensor noise")->capture_default_str();
+  auto* record =
+      command->add_option("--record", options->record_path, "Keep the record in this file");
+  command
+      ->add_option("--tag", options->tags, "Tag of the record, see amb sessions; may be repeated")
+      ->needs(record);
+  command->add_option("--seed", options->seed, "Seed of the sensor noise")
+      ->check(WhyNoWholeNumber)
+      ->capture_default_str();
   command->add_option("--json", options->json_path, "Write the verdict to this file");
   auto* dash = command->add_flag_callback(
       "--dash", [options] { options->page = PageWish::kAlways; },

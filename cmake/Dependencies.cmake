@@ -7,6 +7,7 @@ find_package(Ceres 2.1 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(SQLite3 REQUIRED)
 # lcm.pc of Debian asks for glib's development files, which neither our code nor lcm's headers need.
 find_path(LCM_INCLUDE lcm/lcm.h REQUIRED)
 find_library(LCM_LIBRARY lcm REQUIRED)

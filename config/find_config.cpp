@@ -7,6 +7,7 @@
 #include "common/nearest.hpp"
 #include "common/problem.hpp"
 #include "config/rig_file.hpp"
+#include "config/shipped_names.hpp"
 
 namespace levitas::config {
 namespace {
@@ -33,6 +34,16 @@ fs::path ShippedFolder() {
 
 }  // namespace
 
+std::vector<std::string> ShippedNames(const std::string& kind) {
+  std::error_code none;
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(ShippedFolder() / kind, none)) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 std::string FindConfig(const std::string& name, const std::string& kind) {
   std::error_code none;
   if (fs::is_regular_file(name, none)) return name;
@@ -40,11 +51,7 @@ std::string FindConfig(const std::string& name, const std::string& kind) {
   if (const fs::path shipped = folder / (name + ".yaml"); fs::is_regular_file(shipped, none)) {
     return shipped.string();
   }
-  std::vector<std::string> known;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    if (entry.path().extension() == ".yaml") known.push_back(entry.path().stem().string());
-  }
-  std::sort(known.begin(), known.end());
+  const std::vector<std::string> known = ShippedNames(kind);
   std::string text = name + (fs::is_directory(name, none) ? ": it is a folder" : ": no such file") +
                      ", and none of that name among the " + kind + " in " + folder.string();
   if (!known.empty()) text += " (" + Listed(known) + ")";

@@ -100,6 +100,16 @@ configure() {
   touch "$stamp"
 }
 
+# The Debian package of a preset whose programs are built; prints its path.
+make_package() {
+  local log=$build_root/amb-package.log
+  (cd "$build_root/$1" && cpack -G DEB -B "$build_root/package") >"$log" 2>&1 || {
+    tail -n 5 "$log" >&2
+    die "packing failed; the log is $log"
+  }
+  sed -n 's/^CPack: - package: \(.*\) generated\.$/\1/p' "$log"
+}
+
 # build_preset PRESET TARGET... : ninja behind one line of progress.
 build_preset() {
   local preset=$1 dir=$build_root/$1

@@ -43,7 +43,7 @@ said_by_failed() {
 # prepare_preset PRESET [TARGET...]
 prepare_preset() {
   take_lock
-  install_packages "$root/packages.txt" ${ci_packages:+"$ci_packages"}
+  install_packages "$root/packages.txt" "${ci_packages[@]}"
   configure "$1"
   build_preset "$@"
   release_lock
@@ -60,7 +60,7 @@ prepare_machine() {
 }
 
 run_tsan() {
-  local ci_packages=""
+  local ci_packages=()
   # The thread sanitizer of GCC 12 does not know the wider address randomisation of newer kernels.
   if setarch --addr-no-randomize true 2>/dev/null; then under=(setarch --addr-no-randomize); fi
   # Only what has threads: elsewhere the thread sanitizer has nothing to see.
@@ -71,7 +71,7 @@ run_tsan() {
 
 # Every stage runs even when an earlier one failed, so that one run names everything.
 run_all() {
-  local failed=() ci_packages=$root/packages-ci.txt
+  local failed=() ci_packages=("$root/packages-ci.txt" "$root/packages-deb.txt")
   SECONDS=0
   prepare_preset release
   prepare_machine
@@ -113,7 +113,7 @@ USAGE
     run_all
     return
   fi
-  local labels=() whole=""
+  local labels=() whole="" ci_packages=()
   [ $# -gt 0 ] || whole=yes
   while [ $# -gt 0 ] && [[ $1 != -* ]]; do
     [[ " $test_labels " == *" $1 "* ]] || { say "no test label '$1'; labels: $test_labels"; return 2; }

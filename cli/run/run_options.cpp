@@ -70,7 +70,7 @@ RunFiles CheckFiles(const RunOptions& options) {
 
 std::optional<transport::LcmNetwork> CheckPort(const std::string& port) {
   if (port.empty() || socketcan::IsCanPort(port)) return std::nullopt;
-  return transport::ParseLcmNetwork(port);
+  return transport::ParseLcmNetwork(port, "can, can:IF[,IF...], ");
 }
 
 void CheckBuses(const RunOptions& options, const RunFiles& files) {

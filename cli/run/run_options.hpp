@@ -25,8 +25,9 @@ struct RunOptions {
   std::string scenario;    ///< empty: the one that the rig names, else kGeneralScenario
   double duration_s{0.0};  ///< 0: as long as the scenario takes
   std::string pace{"lockstep"};
-  std::string port;         ///< empty: lcm on ports nobody else uses
-  std::string record_path;  ///< empty: a temporary file
+  std::string port;               ///< empty: lcm on ports nobody else uses
+  std::string record_path;        ///< empty: a temporary file
+  std::vector<std::string> tags;  ///< of the record in the catalogue of sessions
   std::int64_t seed{1};
   std::string json_path;
   PageWish page{PageWish::kIfUseful};

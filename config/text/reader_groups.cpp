@@ -175,7 +175,9 @@ void Reader::ReportUnknown(Frame& frame) {
       std::vector<std::string> documented;
       for (const Expected& field : frame.expected) documented.push_back(field.key);
       strays_.push_back({problems_.size(), key});
-      Report(place, key, fmt::format("unknown key; known here: {}", Listed(documented)));
+      Report(place, key,
+             documented.empty() ? std::string("unknown key; none is allowed here")
+                                : fmt::format("unknown key; known here: {}", Listed(documented)));
       continue;
     }
     // The misspelt key explains why the right one is missing: one problem, not two.

@@ -11,13 +11,15 @@ OPTIONS = {
     "margins": {"--rig", "--controller", "--speed-rpm", "--speeds", "--json"},
     "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--csv", "--svg",
                  "--json"},
-    "import": {"--rig", "--out", "--json"},
+    "import": {"--rig", "--out", "--tag", "--json"},
+    "sessions": {"--rig", "--outcome", "--tag", "--text", "--from", "--to", "--catalogue", "--json"},
+    "manual": {"--markdown", "--man", "--bash"},
     "export": {"--csv", "--mat", "--json"},
     "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--json"},
     "report": {"--out", "--pictures", "--speeds", "--run-json", "--json"},
     "dash": {"--port", "--http-port", "--listen", "--allow-network", "--token", "--answer-within"},
     "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--port", "--record",
-            "--seed", "--json", "--dash", "--no-dash"},
+            "--tag", "--seed", "--json", "--dash", "--no-dash"},
     "identify": set(),  # its subcommands follow
     "identify frf": {"--rig", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",
                      "--speed-rpm", "--json"},
@@ -66,6 +68,15 @@ class Help(CommandTest):
             self.assertEqual(done.returncode, USAGE)
             self.assertIn(f"no command '{typed}'; nearest: {meant}.", done.stderr)
         self.assertEqual(amb(self.folder).returncode, USAGE)
+
+    def test_a_word_that_is_no_option_gets_the_nearest_one_of_its_command(self):
+        for words, part in ((("run", "--rigg", "x"), "nearest to --rigg: --rig; see amb run --help"),
+                            (("identify", "frf", "a.lcm", "--orbitum", "9"),
+                             "nearest to --orbitum: --orbit-um; see amb identify frf --help")):
+            done = amb(self.folder, *words)
+            self.assertEqual(done.returncode, USAGE)
+            self.assertIn(part, done.stderr)
+            self.assertTrue(done.stderr.startswith("amb: "), done.stderr)
 
     def test_files_a_command_needs_are_named(self):
         for command, name in POSITIONAL.items():

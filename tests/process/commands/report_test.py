@@ -47,6 +47,18 @@ class Report(CommandTest):
         self.assertIsNone(told["verdict"])
         self.assertIn("Not judged", (self.folder / "r.html").read_text(encoding="utf-8"))
 
+    def test_a_run_whose_record_breaks_off_is_not_accepted(self):
+        done = amb(self.folder, "run", "--duration", "1", "--record", "run.lcm")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        whole = (self.folder / "run.lcm").read_bytes()
+        for name, share in (("inside", 0.5), ("whole", 1.0)):
+            (self.folder / name).write_bytes(whole[:int(len(whole) * share) - (share < 1.0)])
+            _, told = self.compute("report", name, "--out", "r.html")
+            self.assertEqual(told["verdict"] == "incomplete", name == "inside", told)
+        printed = amb(self.folder, "report", "inside", "--out", "r.html").stdout
+        self.assertIn("INCOMPLETE: the record", printed)
+        self.assertIn("Not everything could be read", printed)
+
     def test_refuses_what_is_no_session_and_writes_nothing(self):
         self.write("x", "no session")
         self.refuse(BAD_INPUT, "x", "report", "x", "--out", "r.html")

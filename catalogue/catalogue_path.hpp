@@ -1,0 +1,14 @@
+#pragma once
+// Where the catalogue is.
+//
+// Order    $LEVITAS_CATALOGUE (empty: no catalogue), else $XDG_DATA_HOME/levitas/sessions.db, else
+//          ~/.local/share/levitas/sessions.db; without a home there is none.
+
+#include <optional>
+#include <string>
+
+namespace levitas::catalogue {
+
+[[nodiscard]] std::optional<std::string> CataloguePath();
+
+}  // namespace levitas::catalogue

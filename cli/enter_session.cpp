@@ -1,0 +1,42 @@
+#include "cli/enter_session.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <exception>
+#include <functional>
+
+#include "catalogue/catalogue.hpp"
+#include "catalogue/catalogue_path.hpp"
+#include "catalogue/describe_session.hpp"
+
+namespace levitas::cli {
+namespace {
+
+void Enter(const std::vector<std::string>& tags,
+           const std::function<catalogue::Entry()>& describe) noexcept {
+  try {
+    const auto path = catalogue::CataloguePath();
+    if (!path) return;
+    catalogue::Entry entry = describe();
+    entry.tags = tags;
+    catalogue::Catalogue(*path).Put(entry);
+  } catch (const std::exception& error) {
+    std::fputs("amb: not entered in the catalogue of sessions: ", stderr);
+    std::fputs(error.what(), stderr);
+    std::fputs("\n", stderr);
+  }
+}
+
+}  // namespace
+
+void EnterRun(const std::string& path, const verdict::Verdict& verdict,
+              const std::vector<std::string>& tags) noexcept {
+  Enter(tags, [&] { return catalogue::DescribeRun(path, verdict); });
+}
+
+void EnterSession(const std::string& path, const std::vector<std::string>& tags) noexcept {
+  Enter(tags, [&] { return catalogue::DescribeSession(path); });
+}
+
+}  // namespace levitas::cli

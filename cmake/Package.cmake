@@ -1,0 +1,46 @@
+# What an installation holds, and the Debian package made of it by `./amb package`.
+#
+# Places  programs in bin, shipped rigs, controllers, scenarios in share/levitas (looked for above
+#         the program, config/find_config.cpp), messages and an example reader in share/levitas too.
+include(GNUInstallDirs)
+
+function(levitas_install_programs)
+  install(TARGETS amb amb-controller amb-plant amb-rig RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  foreach(kind rigs controllers scenarios)
+    install(DIRECTORY config/${kind} DESTINATION share/levitas FILES_MATCHING PATTERN "*.yaml")
+  endforeach()
+  install(DIRECTORY lcmtypes/ DESTINATION share/levitas/lcmtypes FILES_MATCHING PATTERN "*.lcm")
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/lcmtypes/python/ DESTINATION share/levitas/python
+          FILES_MATCHING PATTERN "*.py")
+  install(PROGRAMS scripts/read_session.py DESTINATION share/levitas/examples)
+  install(FILES LICENSE DESTINATION share/doc/levitas RENAME copyright)
+  install(DIRECTORY docs/ DESTINATION share/doc/levitas FILES_MATCHING PATTERN "*.md" PATTERN "*.svg")
+  # Written by the program itself, so at installation, when it is there.
+  install(CODE "
+    function(levitas_write option file)
+      execute_process(COMMAND \"${PROJECT_BINARY_DIR}/bin/amb\" manual \${option}
+                      OUTPUT_FILE \"${PROJECT_BINARY_DIR}/\${file}\" COMMAND_ERROR_IS_FATAL ANY)
+    endfunction()
+    levitas_write(--man amb.1)
+    levitas_write(--bash amb.bash)")
+  install(FILES ${PROJECT_BINARY_DIR}/amb.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${PROJECT_BINARY_DIR}/amb.bash DESTINATION share/bash-completion/completions RENAME amb)
+endfunction()
+
+levitas_install_programs()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME levitas)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_PACKAGE_DESCRIPTION
+    "Controller process, simulated rigs over LCM and CAN, recording and replay, identification and diagnosis.")
+set(CPACK_PACKAGE_CONTACT "The Levitas developers <levitas@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # exact libraries, found by dpkg-shlibdeps
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "xz-utils")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "iproute2")
+include(CPack)

@@ -1,0 +1,82 @@
+"""The Debian package: what lies in it, and that it runs from where it was unpacked."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ["LEVITAS_SOURCE"])
+BUILD = Path(os.environ["LEVITAS_BUILD"])
+SKIP_STATUS = 77
+
+
+def run(*words, **more):
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False,
+                          timeout=240, **more)
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        made = run("cpack", "-G", "DEB", "-B", cls.folder / "made", cwd=BUILD)
+        if made.returncode != 0:
+            raise AssertionError(made.stdout + made.stderr)
+        (cls.file,) = (cls.folder / "made").glob("*.deb")
+        cls.root = cls.folder / "unpacked"
+        subprocess.run(["dpkg-deb", "-x", cls.file, cls.root], check=True)
+
+    def amb(self, *words):
+        environment = {key: value for key, value in os.environ.items() if key != "LEVITAS_CONFIG"}
+        done = run(self.root / "usr/bin/amb", *words, cwd=self.folder, env=environment)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done.stdout
+
+    def field(self, name):
+        return run("dpkg-deb", "-f", self.file, name).stdout.strip()
+
+    def test_names_the_libraries_it_is_linked_to(self):
+        self.assertEqual(self.field("Package"), "levitas")
+        for library in ("liblcm1", "libfmt9", "libyaml-cpp0.7", "libgpiod2", "libsqlite3-0"):
+            self.assertIn(library, self.field("Depends"))
+
+    def test_holds_programs_shipped_files_page_and_completion(self):
+        usr = self.root / "usr"
+        for name in ("amb", "amb-controller", "amb-plant", "amb-rig"):
+            self.assertTrue(os.access(usr / "bin" / name, os.X_OK), name)
+        for kind in ("rigs", "controllers", "scenarios"):
+            self.assertEqual({path.name for path in (usr / "share/levitas" / kind).iterdir()},
+                             {path.name for path in (SOURCE / "config" / kind).glob("*.yaml")})
+        for name in ("share/doc/levitas/copyright", "share/doc/levitas/effects.md",
+                     "share/levitas/lcmtypes/sensor_frame_t.lcm",
+                     "share/levitas/python/levitas_msg/sensor_frame_t.py",
+                     "share/bash-completion/completions/amb"):
+            self.assertGreater((usr / name).stat().st_size, 0, name)
+        self.assertTrue(any((usr / "share/man/man1").glob("amb.1*")))
+
+    def test_nothing_else_lies_in_it(self):
+        beyond = [path for path in (self.root / "usr").iterdir() if path.name not in ("bin", "share")]
+        self.assertEqual(beyond, [])
+        for name in ("amb", "amb-controller"):
+            self.assertNotIn("debug_info", run("file", self.root / "usr/bin" / name).stdout)
+
+    def test_finds_the_shipped_files_that_were_unpacked_with_it(self):
+        rigs = self.root / "usr/share/levitas/rigs"
+        shutil.copy(rigs / "ufu_rig.yaml", rigs / "only_here.yaml")
+        self.addCleanup((rigs / "only_here.yaml").unlink)
+        self.assertIn("Hz", self.amb("modes", "--rig", "only_here"))
+
+    def test_levitates(self):
+        self.amb("run", "--duration", "0.5", "--record", "run.lcm")
+        self.assertIn("reproduced", self.amb("replay", "run.lcm"))
+
+
+if __name__ == "__main__":
+    if shutil.which("dpkg-shlibdeps") is None or shutil.which("file") is None:
+        print("no dpkg-dev or file here (packages-deb.txt): no package was made")
+        sys.exit(SKIP_STATUS)
+    unittest.main()
