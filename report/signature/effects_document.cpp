@@ -30,9 +30,9 @@ orders and exponents stay. The program reaches every number by name, `effects[0]
 
 Symbols: *ic* control current, *i0* bias, *x* displacement at the actuator, *r* = x + jy, *q* modal coordinate, *w* its
 frequency, *phi* its shape, *W* speed and *angle* of the rotor, *s* Laplace variable. "Clear" is a size that shows on a
-laboratory rig; "x own" means times what the rig has. Pictures: rig `flexible_rotor`, clear size, nominal (first colour) beside
-effect; responses are those of the free rotor in its magnets without a controller; effects of teeth are drawn on
-`geared_rotor_4dof`.
+laboratory rig; "x own" means times what the rig has. Pictures: rig `flexible_rotor`, clear size, nominal beside effect;
+responses are those of the free rotor in its magnets without a controller; "what the effect adds" is the spectrum of the difference
+of two runs with the same noise; effects of teeth are drawn on `geared_rotor_4dof`.
 
 Not covered by the linear model that `amb poles` and `amb margins` use: hysteresis, slew, rub, anisotropy, crack, and everything
 that is a signal. On rigs with geared shafts the effects of rotor and surroundings, which refer to one rotor, are refused; those of

@@ -1,5 +1,5 @@
 // Full spectrum of the driving wheel's shaft, with and without an effect of the teeth.
-#include <complex>
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -10,20 +10,33 @@
 namespace levitas::signature {
 namespace {
 
-using Complex = std::complex<double>;
-
 // Turns of the driving wheel that are whole ones of a wheel half as fast, too.
 constexpr Motion kMotion{.speed_hz = 20.0, .turns = 16, .settle_s = 1.5};
-constexpr int kNear = 3;         // orders about rotation
-constexpr int kMeshOrders = 50;  // two harmonics of a mesh of 20 teeth and their neighbours
+constexpr int kNear = 3;           // orders about rotation
+constexpr double kLeastUm = 1e-4;  // less is rounding
+constexpr int kMeshOrders = 50;    // two harmonics of a mesh of 20 teeth and their neighbours
 
-svg::Panel Panel(const std::vector<Complex>& with, const std::vector<Complex>& without, int most,
-                 const char* title) {
+svg::Panel Empty(const char* title) {
   svg::Panel panel{title, "order of the driving wheel (negative: backward)", "um"};
   panel.y_scale = svg::Scale::kLogarithmic;
+  return panel;
+}
+
+svg::Panel Both(const Turning& with, const Turning& without, int most, const char* title) {
+  svg::Panel panel = Empty(title);
   const Orders orders{kMotion.turns, most};
-  panel.series = {OrderSpectrum(with, orders, "effect", 1),
-                  OrderSpectrum(without, orders, "nominal", 0)};
+  panel.series = {OrderSpectrum(without.reading_m, orders, "nominal", 0),
+                  OrderSpectrum(with.reading_m, orders, "effect", 1)};
+  return panel;
+}
+
+/// The same noise with and without, so that what differs is the effect's alone.
+svg::Panel Added(const Turning& with, const Turning& without) {
+  svg::Panel panel = Empty("what the effect adds");
+  panel.series = {OrderSpectrum(Difference(with.reading_m, without.reading_m),
+                                {kMotion.turns, kMeshOrders}, "reading", 1)};
+  const svg::Range range = svg::Enclose({panel.series[0].y}, svg::Scale::kLogarithmic);
+  panel.y_range = svg::Range{kLeastUm, std::max(range.high, 10.0 * kLeastUm)};
   return panel;
 }
 
@@ -34,10 +47,10 @@ std::vector<svg::Panel> GearPanels(const Pair& rigs) {
     throw std::invalid_argument("an effect of teeth needs a rig with gears");
   }
   // Geared shafts stand on springs of their own: no law.
-  const auto without = Orbit(rigs.without, kMotion, {});
-  const auto with = Orbit(rigs.with, kMotion, {});
-  return {Panel(with, without, kMeshOrders, "full spectrum at 1200 rpm, meshing"),
-          Panel(with, without, kNear, "the same about rotation")};
+  const Turning without = Turn(rigs.without, kMotion, {});
+  const Turning with = Turn(rigs.with, kMotion, {});
+  return {Both(with, without, kMeshOrders, "full spectrum at 1200 rpm, meshing"),
+          Both(with, without, kNear, "the same about rotation"), Added(with, without)};
 }
 
 }  // namespace levitas::signature

@@ -1,7 +1,8 @@
 #pragma once
 // Readings of a turning rig over whole turns, for the pictures of its spectrum.
 //
-// Orbit    of the first bearing as x + jy [m], one number per sample, after settling.
+// Turning  of the first bearing: readings [m] and commanded control currents [A] as x + jy, one
+//          number per sample, after settling.
 // Control  called after each sample to set the control currents of the command; empty: none.
 // Thread   any; a simulation of some seconds of the rig's time.
 
@@ -22,7 +23,12 @@ struct Motion {
 
 using Control = std::function<void(const SensorFrame&, plant::PlantCommand&)>;
 
-[[nodiscard]] std::vector<std::complex<double>> Orbit(const plant::PlantParameters& rig,
-                                                      const Motion& motion, const Control& control);
+struct Turning {
+  std::vector<std::complex<double>> reading_m;
+  std::vector<std::complex<double>> current_a;
+};
+
+[[nodiscard]] Turning Turn(const plant::PlantParameters& rig, const Motion& motion,
+                           const Control& control);
 
 }  // namespace levitas::signature

@@ -5,6 +5,13 @@
 
 namespace levitas::signature {
 
+std::vector<std::complex<double>> Difference(const std::vector<std::complex<double>>& a,
+                                             const std::vector<std::complex<double>>& b) {
+  std::vector<std::complex<double>> difference(a);
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= b.at(i);
+  return difference;
+}
+
 svg::Series OrderSpectrum(const std::vector<std::complex<double>>& orbit, const Orders& orders,
                           const std::string& name, std::size_t colour) {
   svg::Series series;
@@ -21,7 +28,7 @@ svg::Series OrderSpectrum(const std::vector<std::complex<double>>& orbit, const 
       turning *= back;
     }
     series.x.push_back(static_cast<double>(bin) / orders.turns);
-    series.y.push_back(std::abs(sum) / count * 1e6);
+    series.y.push_back(std::abs(sum) / count * orders.unit);
   }
   return series;
 }

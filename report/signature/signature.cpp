@@ -62,7 +62,7 @@ svg::Figure Picture(const plant::PlantParameters& rig, const effect::EffectConfi
   rigs.with.config.effects = {entry};
   svg::Figure figure;
   figure.title = std::string(effect::At(entry.id).name);
-  figure.columns = 2;
+  figure.columns = 3;
   switch (KindOf(entry.id)) {
     case Kind::kResponse:
       figure.panels = ResponsePanels(rigs);

@@ -1,13 +1,13 @@
 #pragma once
 // Pictures of what each effect does to a rig: nominal beside effect.
 //
-// Response   linear effects: gain and phase from the control current of the first axis to the
-//            readings of both axes of its bearing, delay included.
+// Response   linear effects: gain from the control current of the first axis to the readings of
+//            both axes of its bearing, delay included, and how gain and phase change.
 // Spectrum   effects that turn with the rotor, or of the sensor: full spectrum of the orbit over
-//            orders of rotation (positive = forward), and the orbit, levitated by a plain
-//            proportional-derivative law.
-// Gear       effects of teeth: full spectrum of the driving wheel's shaft over its orders, without
-//            a control law.
+//            orders of rotation (positive = forward), the spectrum of what the effect adds to
+//            readings and currents, and the orbit, levitated by a plain law with an integrator.
+// Gear       effects of teeth: full spectrum of the driving wheel's shaft over its orders, and of
+//            what the effect adds, without a control law.
 // Force      magnets: force over commanded current, the rotor held in the centre.
 // Units      hertz, newtons, amperes, micrometres.
 // Thread     any; a picture takes some tens of milliseconds.

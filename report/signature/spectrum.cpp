@@ -38,8 +38,8 @@ class Holding {
   AxisArray carried_a_{};
 };
 
-std::vector<Complex> HeldOrbit(const plant::PlantParameters& rig) {
-  return Orbit(rig, kMotion, Holding(static_cast<double>(rig.config.period_ns) * 1e-9));
+Turning Held(const plant::PlantParameters& rig) {
+  return Turn(rig, kMotion, Holding(static_cast<double>(rig.config.period_ns) * 1e-9));
 }
 
 svg::Series Path(const std::vector<Complex>& orbit, std::size_t colour) {
@@ -53,19 +53,34 @@ svg::Series Path(const std::vector<Complex>& orbit, std::size_t colour) {
   return series;
 }
 
+/// The same noise with and without, so that what differs is the effect's alone.
+svg::Panel Added(const Turning& with, const Turning& without) {
+  svg::Panel panel{"what the effect adds", "order of rotation", "um, mA"};
+  panel.y_scale = svg::Scale::kLogarithmic;
+  const Orders micrometres{kMotion.turns, kMostOrders, 1e6};
+  const Orders milliamperes{kMotion.turns, kMostOrders, 1e3};
+  panel.series = {
+      OrderSpectrum(Difference(with.reading_m, without.reading_m), micrometres, "reading, um", 1),
+      OrderSpectrum(Difference(with.current_a, without.current_a), milliamperes,
+                    "control current, mA", 2)};
+  panel.series[1].dashes = "4 3";
+  return panel;
+}
+
 }  // namespace
 
 std::vector<svg::Panel> SpectrumPanels(const Pair& rigs) {
-  const auto without = HeldOrbit(rigs.without);
-  const auto with = HeldOrbit(rigs.with);
+  const Turning without = Held(rigs.without);
+  const Turning with = Held(rigs.with);
   svg::Panel spectrum{"full spectrum at 2400 rpm", "order of rotation (negative: backward)", "um"};
   spectrum.y_scale = svg::Scale::kLogarithmic;
   const Orders orders{kMotion.turns, kMostOrders};
-  spectrum.series = {OrderSpectrum(with, orders, "effect", 1),
-                     OrderSpectrum(without, orders, "nominal", 0)};
+  spectrum.series = {OrderSpectrum(without.reading_m, orders, "nominal", 0),
+                     OrderSpectrum(with.reading_m, orders, "effect", 1)};
   svg::Panel path{"orbit, two turns", "x, um", "y, um"};
-  path.series = {Path(with, 1), Path(without, 0)};
-  return {spectrum, path};
+  path.same_scale = true;
+  path.series = {Path(without.reading_m, 0), Path(with.reading_m, 1)};
+  return {spectrum, Added(with, without), path};
 }
 
 }  // namespace levitas::signature

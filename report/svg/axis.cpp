@@ -87,6 +87,8 @@ std::vector<double> Axis::Marks() const {
   return marks;
 }
 
-std::string MarkText(double value) { return fmt::format("{:.6g}", value); }
+std::string MarkText(double value) {
+  return fmt::format("{:.6g}", value + 0.0);  // + 0: no "-0"
+}
 
 }  // namespace levitas::svg

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kLeft = 62, kRight = 12, kTop = 26, kBottom = 40;
 constexpr double kTitleHeight = 28;
+constexpr double kLegendHeight = 15;
+constexpr double kLetter = 6.0;  // width of one, about
 
 /// Text that may stand between tags.
 std::string Escaped(const std::string& text) {
@@ -39,8 +41,23 @@ std::string Escaped(const std::string& text) {
 
 struct Frame {
   double left{}, right{}, top{}, bottom{};
+  double title{};  ///< base line of the panel's title, the same for a row of panels
   Axis x, y;
 };
+
+bool HasLegend(const Figure& figure) {
+  return std::any_of(figure.panels.begin(), figure.panels.end(), [](const Panel& panel) {
+    return std::any_of(panel.series.begin(), panel.series.end(),
+                       [](const Series& s) { return !s.name.empty(); });
+  });
+}
+
+/// `range` about its middle, `times` as long.
+Range Stretched(Range range, double times) {
+  const double middle = 0.5 * (range.low + range.high);
+  const double half = 0.5 * times * (range.high - range.low);
+  return {middle - half, middle + half};
+}
 
 Range RangeOf(const Panel& panel, bool x) {
   const auto& given = x ? panel.x_range : panel.y_range;
@@ -54,14 +71,23 @@ Range RangeOf(const Panel& panel, bool x) {
 Frame FrameOf(const Panel& panel, double x, double y, const Figure& figure) {
   const double left = x + kLeft;
   const double right = x + figure.panel_width - kRight;
-  const double top = y + kTop;
+  const double top = y + kTop + (HasLegend(figure) ? kLegendHeight : 0.0);
   const double bottom = y + figure.panel_height - kBottom;
+  Range x_range = RangeOf(panel, true);
+  Range y_range = RangeOf(panel, false);
+  if (panel.same_scale) {
+    const double x_unit = (x_range.high - x_range.low) / (right - left);
+    const double y_unit = (y_range.high - y_range.low) / (bottom - top);
+    (x_unit < y_unit ? x_range : y_range) =
+        x_unit < y_unit ? Stretched(x_range, y_unit / x_unit) : Stretched(y_range, x_unit / y_unit);
+  }
   return {left,
           right,
           top,
           bottom,
-          Axis(RangeOf(panel, true), panel.x_scale, left, right),
-          Axis(RangeOf(panel, false), panel.y_scale, bottom, top)};
+          y + kTop - 8,
+          Axis(x_range, panel.x_scale, left, right),
+          Axis(y_range, panel.y_scale, bottom, top)};
 }
 
 std::string Grid(const Panel& panel, const Frame& f) {
@@ -82,7 +108,7 @@ std::string Grid(const Panel& panel, const Frame& f) {
       "<text x='{:.1f}' y='{:.1f}' font-weight='bold'>{}</text>\n"
       "<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>\n"
       "<text transform='translate({:.1f} {:.1f}) rotate(-90)' text-anchor='middle'>{}</text>\n",
-      f.left, f.top - 8, Escaped(panel.title), 0.5 * (f.left + f.right), f.bottom + 30,
+      f.left, f.title, Escaped(panel.title), 0.5 * (f.left + f.right), f.bottom + 30,
       Escaped(panel.x_label), f.left - 48, 0.5 * (f.top + f.bottom), Escaped(panel.y_label));
   return svg;
 }
@@ -124,16 +150,17 @@ std::string Points(const Series& s, const Frame& f) {
   return svg + "\n";
 }
 
+/// One line between title and axes, so that it covers no curve.
 std::string Legend(const Panel& panel, const Frame& f) {
   std::string svg;
-  double y = f.top + 14;
+  double x = f.left;
   for (const Series& s : panel.series) {
     if (s.name.empty()) continue;
     svg += fmt::format(
-        "<text x='{:.1f}' y='{:.1f}' text-anchor='end' fill='{}' stroke='white' stroke-width='3' "
-        "paint-order='stroke'>{}</text>\n",
-        f.right - 6, y, s.colour, Escaped(s.name));
-    y += 13;
+        "<path d='M{:.1f} {:.1f}h16' stroke='{c}' stroke-width='2' stroke-dasharray='{}'/>"
+        "<text x='{:.1f}' y='{:.1f}' fill='{c}'>{}</text>\n",
+        x, f.top - 9, s.dashes, x + 20, f.top - 5, Escaped(s.name), fmt::arg("c", s.colour));
+    x += 32 + kLetter * static_cast<double>(s.name.size());
   }
   return svg;
 }

@@ -37,6 +37,7 @@ struct Panel {
   Scale y_scale{Scale::kLinear};
   std::optional<Range> x_range{};  ///< else all data
   std::optional<Range> y_range{};
+  bool same_scale{};  ///< linear axes: one unit is as long along y as along x, so circles are round
   std::vector<Series> series{};
 };
 

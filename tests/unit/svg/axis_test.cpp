@@ -58,5 +58,10 @@ TEST(Enclose, GivesADrawableRangeForNoDataAtAll) {
   EXPECT_GT(Enclose({}, Scale::kLogarithmic).low, 0.0);
 }
 
+TEST(MarkText, HasNoNegativeZero) {
+  EXPECT_EQ(MarkText(-0.0), "0");
+  EXPECT_EQ(MarkText(-0.5), "-0.5");
+}
+
 }  // namespace
 }  // namespace levitas::svg

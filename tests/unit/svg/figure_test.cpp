@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "common/problem.hpp"
@@ -65,6 +67,31 @@ TEST(Figure, PutsPanelsIntoAGrid) {
   figure.panels.resize(3, figure.panels[0]);
   // Two columns of 420, two rows of 260.
   EXPECT_THAT(Draw(figure), HasSubstr("viewBox='0 0 840 520'"));
+}
+
+/// Width over height of the line of a circle, in pixels.
+double Roundness(const std::string& svg) {
+  const auto from = svg.find("<path d='M", svg.find("clip-path")) + 9;
+  std::istringstream path(svg.substr(from, svg.find('\'', from) - from));
+  double low_x = 1e9, high_x = -1e9, low_y = 1e9, high_y = -1e9;
+  char letter = 0;
+  for (double x = 0, y = 0; path >> letter >> x >> y;) {
+    low_x = std::min(low_x, x), high_x = std::max(high_x, x);
+    low_y = std::min(low_y, y), high_y = std::max(high_y, y);
+  }
+  return (high_x - low_x) / (high_y - low_y);
+}
+
+TEST(Figure, DrawsACircleRoundOnlyWhenBothAxesHaveTheSameScale) {
+  std::vector<double> x, y;
+  for (int i = 0; i <= 360; ++i) {
+    x.push_back(5.0 + std::cos(i * M_PI / 180.0));
+    y.push_back(std::sin(i * M_PI / 180.0));
+  }
+  Figure figure = OneLine(x, y);
+  EXPECT_GT(Roundness(Draw(figure)), 1.5);  // panels are wider than high
+  figure.panels[0].same_scale = true;
+  EXPECT_NEAR(Roundness(Draw(figure)), 1.0, 0.01);  // coordinates have a tenth of a pixel
 }
 
 TEST(Figure, RefusesASeriesOfUnequalLengths) {
