@@ -36,9 +36,9 @@ Eigen::MatrixXd ForceInput(const plant::PlantModel& model, const Eigen::MatrixXd
 
 /// Sizes of the states' errors, so that the Riccati equation works on numbers of order one.
 Eigen::VectorXd Scales(const plant::PlantModel& model, double reading_m) {
-  constexpr double kTypicalRate = 500.0;   // [1/s] levitated rotor and its first modes
-  constexpr double kTypicalCurrent = 0.1;  // [A]
-  constexpr double kTypicalForce = 1.0;    // [N]
+  constexpr double kTypicalRate = 500.0;    // [1/s] levitated rotor and its first modes
+  constexpr double kTypicalCurrentA = 0.1;  // [A]
+  constexpr double kTypicalForceN = 1.0;    // [N]
   const plant::StateLayout& layout = model.layout();
   const auto axes = static_cast<Eigen::Index>(model.axes());
   const auto channels = static_cast<Eigen::Index>(model.channels());
@@ -48,9 +48,9 @@ Eigen::VectorXd Scales(const plant::PlantModel& model, double reading_m) {
   scale.segment(static_cast<Eigen::Index>(layout.q_y), modes).setConstant(reading_m);
   scale.segment(static_cast<Eigen::Index>(layout.v_x), modes).setConstant(reading_m * kTypicalRate);
   scale.segment(static_cast<Eigen::Index>(layout.v_y), modes).setConstant(reading_m * kTypicalRate);
-  scale.segment(static_cast<Eigen::Index>(layout.coil_current), axes).setConstant(kTypicalCurrent);
+  scale.segment(static_cast<Eigen::Index>(layout.coil_current), axes).setConstant(kTypicalCurrentA);
   scale.segment(static_cast<Eigen::Index>(layout.sensor), axes).setConstant(reading_m);
-  scale.tail(channels).setConstant(kTypicalForce);
+  scale.tail(channels).setConstant(kTypicalForceN);
   return scale;
 }
 

@@ -99,18 +99,18 @@ std::string Ranking(const SessionAnswer& s) {
 
 /// One line of the picture of what is left beyond the noise.
 std::string Bar(const char* name, double left, const char* colour) {
-  const double percent = 100.0 * std::clamp(left, 0.0, 1.0);
+  const double percent = 100.0 * std::max(left, 0.0);
   return fmt::format(
       "<tr><td>{}</td><td><div class=bar><div style=\"width:{:.1f}%;background:{}\"></div></div>"
       "</td><td class=n>{:.1f} %</td></tr>\n",
-      name, percent, colour, percent);
+      name, std::min(percent, 100.0), colour, percent);
 }
 
 /// What the models leave of the nominal model's excess over the noise, on data kept back.
 std::string Left(const SessionAnswer& s) {
   const double extended = 1.0 - s.held_out.achieved.value;
   const double beyond = s.held_out.beyond_calibration.value;
-  const double calibrated = beyond < 1.0 ? std::min(1.0, extended / (1.0 - beyond)) : 1.0;
+  const double calibrated = beyond < 1.0 ? extended / (1.0 - beyond) : 1.0;
   return "<h2>What the model still gets wrong</h2><table>\n" + Bar("rig file", 1.0, "#888") +
          Bar("with its tolerances calibrated", calibrated, "#1f77b4") +
          Bar("with the cause", extended, "#d62728") +

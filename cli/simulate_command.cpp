@@ -77,7 +77,8 @@ nlohmann::ordered_json CoilsJson(const Simulation& s) {
 /// Leaves out what lies before `from_s`, such as the lift of a rig whose log begins with it.
 void CutBeginning(std::vector<analysis::RecordedRow>& rows, double from_s, double period_s) {
   if (rows.empty() || from_s <= 0.0) return;
-  const auto first = rows.front().cycle + static_cast<std::uint64_t>(std::llround(from_s / period_s));
+  const auto first =
+      rows.front().cycle + static_cast<std::uint64_t>(std::llround(from_s / period_s));
   std::erase_if(rows, [first](const auto& row) { return row.cycle < first; });
   if (rows.empty()) throw BadInput("--from leaves nothing of the session");
 }

@@ -18,13 +18,13 @@ std::optional<FullSpectrum> SpectrumOf(const SampleStore& store, double highest_
   spectrum.highest_hz = static_cast<double>(lines) * spectrum.line_spacing_hz;
   spectrum.time_s = static_cast<double>(store.newest_cycle()) * store.period_s();
   spectrum.speed_rad_per_s = static_cast<double>(store.Speed(kSpectrumLength / 2));
-  for (std::size_t bearing = 0; bearing < store.axes() / 2; ++bearing) {
+  for (std::size_t bearing = 0; bearing < store.bearings(); ++bearing) {
     std::vector<std::complex<double>> orbit;
     orbit.reserve(kSpectrumLength);
     for (std::size_t n = 0; n < kSpectrumLength; ++n) {
       const std::size_t back = kSpectrumLength - 1 - n;
-      const std::complex<double> r{static_cast<double>(store.Position(2 * bearing, back)),
-                                   static_cast<double>(store.Position(2 * bearing + 1, back))};
+      const std::complex<double> r{static_cast<double>(store.Displacement(bearing, 0, back)),
+                                   static_cast<double>(store.Displacement(bearing, 1, back))};
       if (!std::isfinite(r.real()) || !std::isfinite(r.imag())) return std::nullopt;
       orbit.push_back(r);
     }

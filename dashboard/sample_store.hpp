@@ -48,6 +48,14 @@ class SampleStore {
   [[nodiscard]] float Position(std::size_t axis, std::size_t back) const noexcept {
     return position_m_[axis][At(back)];
   }
+  /// Bearings of two axes each; the last one of an odd number is guided along y.
+  [[nodiscard]] std::size_t bearings() const noexcept { return (axes() + 1) / 2; }
+  /// x (direction 0) or y (1) of a bearing; a guided y is 0.
+  [[nodiscard]] float Displacement(std::size_t bearing, std::size_t direction,
+                                   std::size_t back) const noexcept {
+    const std::size_t axis = 2 * bearing + direction;
+    return axis < axes() ? Position(axis, back) : 0.0F;
+  }
   [[nodiscard]] float Current(std::size_t axis, std::size_t back) const noexcept {
     return current_a_[axis][At(back)];
   }

@@ -20,7 +20,7 @@ constexpr std::int64_t kSilentNs = 1'000'000'000;  // a hundred states late
 constexpr double kOrbitTurns = 2.0;
 constexpr double kShortestOrbitSeconds = 0.02;
 constexpr double kLongestOrbitSeconds = 0.1;
-constexpr double kSlowestSpeed = 1.0;  // [rad/s] below, the rotor counts as standing
+constexpr double kSlowestRadPerS = 1.0;  // [rad/s] below, the rotor counts as standing
 
 /// A whole number; what is none becomes null, which JSON has and NaN is not.
 void Put(std::string& text, double value) {
@@ -48,7 +48,7 @@ void PutList(std::string& text, std::size_t count, Value value) {
 std::size_t OrbitSpan(const SampleStore& store) {
   const double speed = std::abs(static_cast<double>(store.Speed(0)));
   const double turns_s =
-      speed > kSlowestSpeed ? kOrbitTurns * 2.0 * std::numbers::pi / speed : kLongestOrbitSeconds;
+      speed > kSlowestRadPerS ? kOrbitTurns * 2.0 * std::numbers::pi / speed : kLongestOrbitSeconds;
   const double span_s = std::clamp(turns_s, kShortestOrbitSeconds, kLongestOrbitSeconds);
   const auto wanted = static_cast<std::size_t>(span_s / store.period_s());
   return std::min(wanted, store.contiguous());
@@ -58,10 +58,10 @@ void PutOrbits(std::string& text, const SampleStore& store) {
   const std::size_t span = OrbitSpan(store);
   const std::size_t stride = std::max<std::size_t>(1, (span + kOrbitPoints - 1) / kOrbitPoints);
   const std::size_t points = span / stride;
-  PutList(text, store.axes() / 2, [&](std::size_t bearing) {
+  PutList(text, store.bearings(), [&](std::size_t bearing) {
     PutList(text, 2 * points, [&](std::size_t i) {
       const std::size_t back = (points - 1 - i / 2) * stride;
-      Put(text, kNano * static_cast<double>(store.Position(2 * bearing + i % 2, back)));
+      Put(text, kNano * static_cast<double>(store.Displacement(bearing, i % 2, back)));
     });
   });
 }

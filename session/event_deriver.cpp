@@ -11,6 +11,8 @@ namespace levitas::session {
 namespace {
 
 constexpr const char* kMissingFrame = "cycle(s) without a new sensor frame";
+constexpr const char* kLostRecord =
+    "record(s) lost: the recorder could not keep up; the control cycle was not affected";
 constexpr const char* kMissedDeadline = "period(s) skipped: the loop was too late";
 
 std::string Speed(double rad_per_s) {
@@ -39,14 +41,11 @@ Event EventDeriver::Make(const cycle::CycleRecord& record, Event::Severity sever
           .text = std::move(text)};
 }
 
-void EventDeriver::Lost(const cycle::CycleRecord& record, std::vector<Event>& events) const {
-  if (!have_previous_ || record.in.cycle <= previous_.in.cycle + 1) return;
-  const std::uint64_t lost = record.in.cycle - previous_.in.cycle - 1;
-  events.push_back(
-      Make(record, Event::Severity::kWarning,
-           fmt::format("{} record(s) lost before cycle {}: the recorder could not keep "
-                       "up; the control cycle was not affected",
-                       lost, record.in.cycle)));
+void EventDeriver::Lost(const cycle::CycleRecord& record, std::vector<Event>& events) {
+  const std::uint64_t expected = previous_.in.cycle + 1;
+  const bool gap = have_previous_ && record.in.cycle > expected;
+  Add(lost_records_, gap ? record.in.cycle - expected : 0, gap ? expected : 0, record, kLostRecord,
+      events);
 }
 
 void EventDeriver::Command(const cycle::CycleRecord& record, std::vector<Event>& events) const {
@@ -90,10 +89,11 @@ void EventDeriver::Tell(Tally& tally, const cycle::CycleRecord& record, const ch
   tally.ever_told = true;
 }
 
-void EventDeriver::Add(Tally& tally, std::uint64_t count, const cycle::CycleRecord& record,
-                       const char* what, std::vector<Event>& events) const {
+void EventDeriver::Add(Tally& tally, std::uint64_t count, std::uint64_t first_cycle,
+                       const cycle::CycleRecord& record, const char* what,
+                       std::vector<Event>& events) const {
   if (count > 0) {
-    if (tally.untold == 0) tally.first_cycle = record.in.cycle;
+    if (tally.untold == 0) tally.first_cycle = first_cycle;
     tally.untold += count;
   }
   const bool due = !tally.ever_told || record.in.cycle >= tally.last_told_cycle + second_cycles_;
@@ -109,15 +109,18 @@ void EventDeriver::Step(const cycle::CycleRecord& record, std::vector<Event>& ev
   }
   Command(record, events);
   ModeAndFault(record, events);
-  Add(missed_deadlines_, record.in.missed_deadlines, record, kMissedDeadline, events);
+  Add(missed_deadlines_, record.in.missed_deadlines, record.in.cycle, record, kMissedDeadline,
+      events);
   // Before the rig's first frame nothing is missing: it is being waited for.
   const bool rig_known = record.in.frame.axes > 0;
-  Add(missing_frames_, rig_known && !FrameUsable(record) ? 1 : 0, record, kMissingFrame, events);
+  Add(missing_frames_, rig_known && !FrameUsable(record) ? 1 : 0, record.in.cycle, record,
+      kMissingFrame, events);
   previous_ = record;
   have_previous_ = true;
 }
 
 void EventDeriver::Finish(std::vector<Event>& events) {
+  if (lost_records_.untold > 0) Tell(lost_records_, previous_, kLostRecord, events);
   if (missed_deadlines_.untold > 0) Tell(missed_deadlines_, previous_, kMissedDeadline, events);
   if (missing_frames_.untold > 0) Tell(missing_frames_, previous_, kMissingFrame, events);
 }

@@ -3,8 +3,8 @@
 // commands, missing frames, missed deadlines, restarts of the rig, records lost on the way here.
 //
 // Purity   same records, same events; no clock, no I/O.
-// Flood    missing frames and missed deadlines are summed up: one event at the first, then at most
-//          one per second of record time, with the count.
+// Flood    missing frames, missed deadlines and lost records are summed up: one event at the
+//          first, then at most one per second of record time, with the count.
 // Thread   the recorder's, or any reader's; allocates texts.
 
 #include <cstdint>
@@ -36,11 +36,11 @@ class EventDeriver {
 
   [[nodiscard]] Event Make(const cycle::CycleRecord& record, Event::Severity severity,
                            std::string text) const;
-  void Lost(const cycle::CycleRecord& record, std::vector<Event>& events) const;
+  void Lost(const cycle::CycleRecord& record, std::vector<Event>& events);
   void Command(const cycle::CycleRecord& record, std::vector<Event>& events) const;
   void ModeAndFault(const cycle::CycleRecord& record, std::vector<Event>& events) const;
-  void Add(Tally& tally, std::uint64_t count, const cycle::CycleRecord& record, const char* what,
-           std::vector<Event>& events) const;
+  void Add(Tally& tally, std::uint64_t count, std::uint64_t first_cycle,
+           const cycle::CycleRecord& record, const char* what, std::vector<Event>& events) const;
   void Tell(Tally& tally, const cycle::CycleRecord& record, const char* what,
             std::vector<Event>& events) const;
 
@@ -48,6 +48,7 @@ class EventDeriver {
   std::uint64_t second_cycles_;
   bool have_previous_{false};
   cycle::CycleRecord previous_;
+  Tally lost_records_;
   Tally missing_frames_;
   Tally missed_deadlines_;
 };

@@ -18,7 +18,7 @@ struct Row {
   const char* unit;
 };
 
-constexpr double kStanding = 1.0;  // [rad/s] below, nobody says that it runs down
+constexpr double kStandingRadPerS = 1.0;  // [rad/s] below, nobody says that it runs down
 constexpr double kMicro = 1e6;
 constexpr double kRpm = 30.0 / std::numbers::pi;
 
@@ -50,7 +50,7 @@ std::string Where(const cycle::CycleOutputs& out, const std::vector<std::string>
 /// The safe state as the outputs of the tripping cycle command it (docs/safety.md).
 const char* SafeState(const CurrentFrame& current, double speed_rad_per_s) {
   if (!current.amplifiers_enabled) {
-    return std::abs(speed_rad_per_s) < kStanding
+    return std::abs(speed_rad_per_s) < kStandingRadPerS
                ? "The coils are switched off and the rotor lies in the touchdown bearings."
                : "The coils are switched off and the rotor runs down in the touchdown bearings.";
   }

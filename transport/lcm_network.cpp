@@ -15,11 +15,12 @@ namespace {
 
 constexpr int kMaxBasePort = 65'535 - 3;  // four consecutive ports
 
-[[noreturn]] void Refuse(const std::string& text, const std::string& why) {
+[[noreturn]] void Refuse(const std::string& text, const std::string& why,
+                         const std::string& other_forms = {}) {
   throw Problem(ExitStatus::kUsage,
-                fmt::format("--port \"{}\": {}; allowed: lcm, or "
+                fmt::format("--port \"{}\": {}; allowed: lcm, {}or "
                             "lcm:udpm://<multicast address>:<port 1 to {}>?ttl=<0 to 255>",
-                            text, why, kMaxBasePort));
+                            text, why, other_forms, kMaxBasePort));
 }
 
 int ReadInt(const std::string& whole, std::string_view part, int low, int high, const char* what) {
@@ -37,11 +38,11 @@ std::string LcmNetwork::Url(Direction direction) const {
   return fmt::format("udpm://{}:{}?ttl={}", group, Port(direction), ttl);
 }
 
-LcmNetwork ParseLcmNetwork(const std::string& text) {
+LcmNetwork ParseLcmNetwork(const std::string& text, const std::string& other_forms) {
   LcmNetwork network;
   if (text == "lcm") return network;
   constexpr std::string_view kPrefix = "lcm:udpm://";
-  if (!text.starts_with(kPrefix)) Refuse(text, "unknown form");
+  if (!text.starts_with(kPrefix)) Refuse(text, "unknown form", other_forms);
   std::string_view rest = std::string_view(text).substr(kPrefix.size());
   constexpr std::string_view kTtl = "?ttl=";
   if (const auto query = rest.find('?'); query != std::string_view::npos) {

@@ -43,7 +43,9 @@ struct LcmNetwork {
   [[nodiscard]] std::string Url(Direction direction) const;
 };
 
-/// Reads "lcm" or "lcm:URL".
-[[nodiscard]] LcmNetwork ParseLcmNetwork(const std::string& text);
+/// Reads "lcm" or "lcm:URL". `other_forms` ("can, ") are ports that the caller would take besides,
+/// for the message on one that nobody takes.
+[[nodiscard]] LcmNetwork ParseLcmNetwork(const std::string& text,
+                                         const std::string& other_forms = {});
 
 }  // namespace levitas::transport

@@ -16,8 +16,8 @@ namespace levitas::trials {
 namespace {
 
 constexpr double kRadPerSPerRpm = std::numbers::pi / 30.0;
-constexpr double kSagging = 350e-6;  // [m] beyond it the rotor is lost
-constexpr double kWarmUp = 1.2;      // [s] in which the integrators find the weight
+constexpr double kSaggingM = 350e-6;  // [m] beyond it the rotor is lost
+constexpr double kWarmUpS = 1.2;      // [s] in which the integrators find the weight
 
 struct Motion {
   std::string name;
@@ -56,7 +56,7 @@ class Loop {
     plant::Plant plant(model_, seed);
     law::LawState state(coefficients_);
     const double bias_a = model_->config().bearings.front().magnet.bias_current_a;
-    const auto warm_up = static_cast<std::size_t>(kWarmUp / period_s_);
+    const auto warm_up = static_cast<std::size_t>(kWarmUpS / period_s_);
     const auto quiet = static_cast<std::size_t>(std::llround(plan_.quiet_s / period_s_));
     const double from = motion.from_rpm * kRadPerSPerRpm;
     const double slope =
@@ -90,7 +90,7 @@ class Loop {
       for (std::size_t a = 0; a < model_->axes(); ++a) {
         error_m[a] = -model_->config().sensor_polarity[a] * row.position_m[a];
         // Before the integrators hold the weight the rotor sags.
-        const double limit_m = recorded ? plan_.limit_m : kSagging;
+        const double limit_m = recorded ? plan_.limit_m : kSaggingM;
         if (!(std::abs(row.position_m[a]) < limit_m)) return false;
       }
       const bool lost = recorded && Lost();

@@ -1,5 +1,7 @@
 #include "verdict/commission.hpp"
 
+#include <fmt/core.h>
+
 #include "config/rig_file.hpp"
 #include "session/session_reader.hpp"
 
@@ -19,6 +21,15 @@ void Complete(Provenance& provenance, const session::SessionHeader& header) {
   provenance.machine = header.machine;
   provenance.seed = header.seed;
   provenance.start_utc_ns = header.start_utc_ns;
+}
+
+/// Why the record itself shows that the scenario did not end; empty when it does not.
+std::string BreaksOff(const session::Damage& damage, const std::vector<ModeSpan>& modes) {
+  if (damage.truncated) return "the record breaks off: " + damage.Text();
+  if (modes.empty()) return {};
+  const Mode last = modes.back().mode;
+  if (last == Mode::kOff || last == Mode::kTripped) return {};
+  return fmt::format("the record ends while {}", Name(last));
 }
 
 /// At rest, and at the highest speed of the run if it was spun.
@@ -61,7 +72,9 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.provenance.controller = controller.name;
   if (inputs.timing) inputs.provenance.trip_file = inputs.timing->trip_file;
   inputs.trip_text = FirstTripText(reader.events());
-  inputs.incomplete_reason = options.incomplete_reason;
+  inputs.incomplete_reason = options.incomplete_reason.empty()
+                                 ? BreaksOff(reader.damage(), inputs.session.modes)
+                                 : options.incomplete_reason;
   inputs.damage = reader.damage().Text();
   return Judge(std::move(inputs));
 }

@@ -12,6 +12,8 @@ constexpr double kRpmPerRadPerS = 30.0 / 3.14159265358979323846;
 constexpr std::chrono::milliseconds kRedraw{100};  // faster than this nobody reads
 constexpr std::chrono::milliseconds kRateWindow{500};
 
+double Rpm(double speed_rad_per_s) { return std::abs(speed_rad_per_s) * kRpmPerRadPerS; }
+
 }  // namespace
 
 Progress::Progress(std::vector<std::string> bearings, double period_s, std::FILE* out,
@@ -27,6 +29,7 @@ void Progress::Measure(const ProgressSample& sample, Clock::time_point now) {
     const double radius_m = std::hypot(sample.position_m[2 * b], sample.position_m[2 * b + 1]);
     largest_m_[b] = std::max(largest_m_[b], radius_m);
   }
+  top_rpm_ = std::max(top_rpm_, Rpm(sample.speed_rad_per_s));
   if (!started_ || sample.cycle < rate_cycle_) {  // first sample, or the controller restarted
     rate_cycle_ = sample.cycle;
     rate_time_ = now;
@@ -39,32 +42,58 @@ void Progress::Measure(const ProgressSample& sample, Clock::time_point now) {
   rate_time_ = now;
 }
 
-std::string Progress::Line(const ProgressSample& sample) const {
-  std::string line = fmt::format("{:<11}{:>6.0f} rpm ", Name(sample.mode),
-                                 std::abs(sample.speed_rad_per_s) * kRpmPerRadPerS);
+std::string Progress::Orbits() const {
+  std::string text;
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
-    line += fmt::format("  {} {:>5.1f} um", bearings_[b], largest_m_[b] * 1e6);
+    text += fmt::format("  {} {:>5.1f} um", bearings_[b], largest_m_[b] * 1e6);
   }
-  line += fmt::format("  {:>7.2f} s", static_cast<double>(sample.cycle) * period_s_);
-  if (times_real_time_ > 0.0) line += fmt::format("  {:.2f} x real time", times_real_time_);
-  return line;
+  return text;
+}
+
+std::string Progress::Time(const ProgressSample& sample) const {
+  std::string text = fmt::format("  {:>7.2f} s", static_cast<double>(sample.cycle) * period_s_);
+  if (times_real_time_ > 0.0) text += fmt::format("  {:.2f} x real time", times_real_time_);
+  return text;
+}
+
+void Progress::Redraw(const ProgressSample& sample) {
+  const std::string line =
+      fmt::format("{:<11}{:>6.0f} rpm ", Name(sample.mode), Rpm(sample.speed_rad_per_s)) +
+      Orbits() + Time(sample);
+  fmt::print(out_, "\r{:<98}", line);
+  drawn_ = true;
+}
+
+void Progress::Tell(const ProgressSample& sample) const {
+  std::string line = fmt::format("{:<11}", Name(sample.mode)) + Time(sample);
+  if (started_) {
+    line = fmt::format("{:<40}  {} before: up to {:.0f} rpm,{}", line, Name(mode_), top_rpm_,
+                       Orbits());
+  }
+  fmt::print(out_, "{}\n", line);
 }
 
 void Progress::Show(const ProgressSample& sample, Clock::time_point now) {
-  Measure(sample, now);
   const bool changed = !started_ || sample.mode != mode_;
+  // In a log the figures are those of the mode that has ended, so this sample is not yet one.
+  if (changed && !terminal_) {
+    Tell(sample);
+    Forget();
+  }
+  Measure(sample, now);
   started_ = true;
   mode_ = sample.mode;
-  if (!changed && (!terminal_ || now - drawn_time_ < kRedraw)) return;
-  drawn_time_ = now;
-  if (terminal_) {
-    fmt::print(out_, "\r{:<98}", Line(sample));
-    drawn_ = true;
-  } else {
-    fmt::print(out_, "{}\n", Line(sample));
+  if (terminal_ && (changed || now - drawn_time_ >= kRedraw)) {
+    drawn_time_ = now;
+    Redraw(sample);
+    Forget();
   }
   std::fflush(out_);
+}
+
+void Progress::Forget() {
   std::fill(largest_m_.begin(), largest_m_.end(), 0.0);
+  top_rpm_ = 0.0;
 }
 
 void Progress::Close() {

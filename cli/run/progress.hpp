@@ -1,6 +1,6 @@
 #pragma once
-// The progress of a run for people: one line redrawn on a terminal, one line per change of mode
-// everywhere else (a log file stays readable).
+// The progress of a run for people: one line redrawn on a terminal; everywhere else, where it ends
+// in a file, one line per change of mode with what the mode before it has seen.
 //
 // Figures   mode, speed, largest orbit radius per bearing since the previous line (at the sensors,
 //           from decimated telemetry: the verdict, not this line, is exact), the rig's time, and
@@ -34,7 +34,11 @@ class Progress {
   void Close();
 
  private:
-  [[nodiscard]] std::string Line(const ProgressSample& sample) const;
+  [[nodiscard]] std::string Orbits() const;
+  [[nodiscard]] std::string Time(const ProgressSample& sample) const;
+  void Redraw(const ProgressSample& sample);
+  void Tell(const ProgressSample& sample) const;
+  void Forget();
   void Measure(const ProgressSample& sample, Clock::time_point now);
 
   std::vector<std::string> bearings_;
@@ -45,6 +49,7 @@ class Progress {
   bool started_{false};
   Mode mode_{Mode::kOff};
   std::vector<double> largest_m_;
+  double top_rpm_{0.0};
   std::uint64_t rate_cycle_{0};
   Clock::time_point rate_time_;
   Clock::time_point drawn_time_;

@@ -1,6 +1,6 @@
 #pragma once
 // The control cycle: check -> supervise -> law, as one pure step. Reading before and writing and
-// recording after are done by whoever owns a port (controller_loop.hpp in the program; replay and
+// recording after are done by whoever owns a port (loop/control_loop.hpp in programs; replay and
 // tests call Step directly).
 //
 // Determinism  same config, same inputs, same bits; no clock, no I/O.

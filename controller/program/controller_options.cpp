@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "common/whole_number.hpp"
+
 namespace levitas::controller_program {
 
 bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStatus& status) {
@@ -29,6 +31,7 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
   app.add_option("--trip-folder", options.trip_folder, "Where a trip's recording goes")
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of the rig, noted in the session")
+      ->check(WhyNoWholeNumber)
       ->capture_default_str();
   app.add_option("--json", options.json, "Write statistics to this file");
   app.add_option("--partner-timeout", options.partner_timeout_s,

@@ -52,7 +52,9 @@ class CanPortConnection final : public RigConnection {
 }  // namespace
 
 transport::LcmNetwork TelemetryNetwork(const ControllerOptions& options) {
-  if (!socketcan::IsCanPort(options.port)) return transport::ParseLcmNetwork(options.port);
+  if (!socketcan::IsCanPort(options.port)) {
+    return transport::ParseLcmNetwork(options.port, "can, can:IF[,IF...], ");
+  }
   return transport::ParseLcmNetwork(options.telemetry.empty() ? "lcm" : options.telemetry);
 }
 

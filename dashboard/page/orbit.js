@@ -61,8 +61,11 @@ function drawRings(context, radius) {
   context.stroke();
 }
 
-/** An orbit that is small beside the clearance is drawn again, enlarged, in the corner. */
-function drawEnlarged(context, view, width, height) {
+/**
+ * An orbit that is small beside the clearance is drawn again, enlarged: below the clearance where
+ * `top` leaves room, else in the corner.
+ */
+function drawEnlarged(context, view, width, height, top) {
   const newest = view.history.at(-1);
   let middle = [0, 0];
   for (let i = 0; i < newest.length; i += 2) middle = [middle[0] + newest[i], middle[1] + newest[i + 1]];
@@ -70,9 +73,12 @@ function drawEnlarged(context, view, width, height) {
   let reach = 1;
   for (let i = 0; i < newest.length; i += 2) reach = Math.max(reach, Math.hypot(newest[i] - middle[0], newest[i + 1] - middle[1]));
   const nice = [1, 2, 5, 10, 20, 50, 100, 200, 500].find((step) => step * 1000 >= reach) ?? 1000;
-  const half = Math.min(width, height) * 0.2;
+  const below = Math.min(width, height - top - 20) / 2 - 4;
+  const roomy = below > 0.2 * Math.min(width, height);
+  const half = roomy ? below : Math.min(width, height) * 0.2;
+  const centre = roomy ? [width / 2, top + 20 + half] : [width - half - 4, height - half - 4];
   context.save();
-  context.translate(width - half - 4, height - half - 4);
+  context.translate(...centre);
   context.fillStyle = "#fff";
   context.strokeStyle = "#8a97a4";
   context.fillRect(-half, -half, 2 * half, 2 * half);
@@ -88,7 +94,7 @@ function drawEnlarged(context, view, width, height) {
   context.restore();
   context.fillStyle = "#5a6775";
   context.textAlign = "right";
-  context.fillText(`±${nice} µm`, width - 6, height - 2 * half - 8);
+  context.fillText(`±${nice} µm`, centre[0] + half - 2, centre[1] - half - 4);
   context.textAlign = "left";
 }
 
@@ -128,7 +134,7 @@ export function drawOrbits() {
       context.textAlign = "right";
       context.fillText(`${(view.largest / 1000).toFixed(1)} µm, zone ${zone}`, width - 4, 12);
       context.textAlign = "left";
-      drawEnlarged(context, view, width, height);
+      drawEnlarged(context, view, width, height, 2 * radius + 18);
     }
   }
 }

@@ -38,7 +38,7 @@ function label(box, series) {
   for (const one of series) {
     const name = document.createElement("span");
     name.textContent = one.label;
-    name.style.color = one.stroke;
+    name.style.color = one.colour ?? one.stroke;
     names.append(name);
   }
   box.append(names);

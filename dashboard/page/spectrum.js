@@ -26,7 +26,8 @@ function orderLines(chart) {
       context.moveTo(x, chart.bbox.top);
       context.lineTo(x, chart.bbox.top + chart.bbox.height);
       context.stroke();
-      context.fillText(`${sign < 0 ? "−" : ""}${order}×`, x + 2, chart.bbox.top + chart.bbox.height - 6 - 14 * (order - 1));
+      context.textAlign = sign < 0 ? "right" : "left";  // outwards, so that the two do not meet
+      context.fillText(`${sign < 0 ? "−" : ""}${order}×`, x + 2 * sign, chart.bbox.top + chart.bbox.height - 6 - 14 * (order - 1));
     }
   }
   context.restore();

@@ -5,6 +5,7 @@ import { fit, makePlot } from "./plot.js";
 
 const WINDOW_S = 20;
 const MOST = 2 * WINDOW_S * 40;  // two points per bucket
+const OVERLAP = "99";  // opacity: envelopes lie over each other
 
 let time = [];
 let rows = { position: [], current: [] };
@@ -34,7 +35,9 @@ export function setUpTraces(rig) {
   plots?.current.destroy();
   time = [];
   rows = { position: rig.channels.map(() => []), current: rig.channels.map(() => []) };
-  const series = rig.channels.map((name, i) => ({ label: name, stroke: lineColour(i), width: 1, points: { show: false } }));
+  const series = rig.channels.map((name, i) => ({
+    label: name, colour: lineColour(i), stroke: lineColour(i) + OVERLAP, width: 1, points: { show: false },
+  }));
   const clearance = rig.clearance_m * 1e6;
   // What the coils can carry about the bias, either way.
   const most = Math.min(rig.bias_a, rig.max_coil_current_a - rig.bias_a);

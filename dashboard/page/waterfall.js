@@ -1,11 +1,12 @@
 // Waterfall: one full spectrum after the other, the newest at the bottom; a run-up draws its orders
-// as slanted lines. Colour is the logarithm of the amplitude from 1 nm to 100 um.
+// as slanted lines. Colour is the logarithm of the amplitude, from 1 nm to 100 um.
 
 import { prepare } from "./canvas.js";
 import { heat } from "./colours.js";
 
 const ROWS = 240;  // one minute
 const FEWEST = 40;  // rows that fill the picture at first
+const DECADES = 5;  // from 1 nm to 100 um
 const LEFT = 62;
 const BOTTOM = 18;
 
@@ -25,7 +26,7 @@ export function setUpWaterfall(rig) {
 function rowPixels(row) {
   const pixels = new Uint8ClampedArray(row.length * 4);
   row.forEach((tenths, i) => {
-    const share = Math.log10(Math.max(tenths, 1) / 10) / 5;
+    const share = Math.log10(Math.max(tenths, 1) / 10) / DECADES;
     pixels.set([...heat(share), 255], 4 * i);
   });
   return pixels;
@@ -53,6 +54,23 @@ function drawScale(context, width, height, highest) {
     if (entry) context.fillText(`${Math.round(entry.rpm)} rpm`, LEFT - 4, lines - (mark / 4) * lines - 3);
   }
   context.textAlign = "left";
+  drawHeat(context, width, lines);
+}
+
+/** Which colour stands for which amplitude: a strip in the upper right corner. */
+function drawHeat(context, width, lines) {
+  const strip = Math.min(120, width / 4);
+  const left = width - strip - 48;
+  if (lines < 60) return;
+  context.fillStyle = "rgb(255 255 255 / 85%)";
+  context.fillRect(left - 36, 4, strip + 84, 18);
+  for (let x = 0; x < strip; ++x) {
+    context.fillStyle = `rgb(${heat(x / strip).map(Math.round).join(" ")})`;
+    context.fillRect(left + x, 7, 1.5, 12);
+  }
+  context.fillStyle = "#1b2733";
+  context.fillText("1 nm", left - 32, 17);
+  context.fillText("100 µm", left + strip + 3, 17);
 }
 
 export function drawWaterfall() {

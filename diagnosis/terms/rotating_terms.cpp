@@ -107,9 +107,9 @@ void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
 /// between crack and weight. theta: (compliance) (E I)^2 over a reference that softens the first
 /// mode by all of its stiffness.
 void AddCrack(const RigView& rig, double z_m, std::vector<Term>& terms) {
-  constexpr double kSpan = 5e-3;  // [m] over which the slope's change is taken
-  const auto before = rig.Slope(z_m - kSpan);
-  const auto after = rig.Slope(z_m + kSpan);
+  constexpr double kSpanM = 5e-3;  // [m] over which the slope's change is taken
+  const auto before = rig.Slope(z_m - kSpanM);
+  const auto after = rig.Slope(z_m + kSpanM);
   std::vector<double> curvature(rig.modes);
   for (std::size_t i = 0; i < rig.modes; ++i) curvature[i] = after[i] - before[i];
   const double first = rig.omega_rad_per_s[2] / curvature[2];

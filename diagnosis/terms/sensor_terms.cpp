@@ -17,7 +17,7 @@ double Dot(const std::vector<double>& shape, const float* modal) {
 
 void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vector<Term>& terms) {
   const std::string& channel = rig.numbers.channels[a];
-  constexpr double kReference = 100e-6;  // [m] a2, a3 are shares of it at this reading
+  constexpr double kReferenceM = 100e-6;  // [m] a2, a3 are shares of it at this reading
   terms.push_back(MakeReading({"sensor_gain", channel, "ratio", "1"}, t.sensor_gain, 0.1,
                               [a](const Moment& m, double theta, Addition& add) {
                                 add.reading_m[a] += theta * static_cast<double>(m.reading_m[a]);
@@ -31,7 +31,7 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
                                 add.reading_m[a] += theta * y * y;
                               }));
   terms.push_back(MakeReading({"sensor_nonlinearity", channel, "a3", "1/m^2"}, 0.0,
-                              1.0 / (kReference * kReference),
+                              1.0 / (kReferenceM * kReferenceM),
                               [a](const Moment& m, double theta, Addition& add) {
                                 const double y = static_cast<double>(m.reading_m[a]);
                                 add.reading_m[a] += theta * y * y * y;

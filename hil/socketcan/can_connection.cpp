@@ -57,6 +57,20 @@ std::vector<can::BusConfig> MergeShared(const std::vector<can::BusConfig>& buses
   return merged;
 }
 
+/// A sentence on the first interface that does not exist, which may have been meant as a vcan.
+std::string MissingText(const std::vector<can::BusConfig>& buses) {
+  for (const can::BusConfig& bus : buses) {
+    std::error_code none;
+    if (std::filesystem::exists("/sys/class/net/" + bus.interface, none)) continue;
+    return fmt::format(
+        ". Besides, there is no interface {0} here; a virtual one, which has no bit rate, would do "
+        "for a simulated rig: sudo ip link add dev {0} type vcan; sudo ip link set {0} mtu 72 up "
+        "(a kernel without vcan: scripts/test_machine.sh has one)",
+        bus.interface);
+  }
+  return {};
+}
+
 }  // namespace
 
 bool IsCanPort(const std::string& port) { return port == "can" || port.starts_with("can:"); }
@@ -90,7 +104,7 @@ CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_
   if (!connection.budget.fits()) {
     std::string text = can::RefusalText(connection.budget);
     text.pop_back();
-    throw BadInput(fmt::format("{}: {}", rig_name, text));
+    throw BadInput(fmt::format("{}: {}{}", rig_name, text, MissingText(connection.buses)));
   }
   connection.virtual_bus = true;
   for (const can::BusConfig& bus : connection.buses) {

@@ -101,7 +101,8 @@ Experiment MakeExperiment(const Record& record, const Piece& piece,
   if (!period) {
     throw BadInput(fmt::format(
         "{} ({:.4f} s long): the signal does not repeat itself; at least {} whole periods are "
-        "needed, the first of which is the transient",
+        "needed, the first of which is the transient. A signal that the scenario's orbit limit "
+        "cut back does not repeat either: raise orbit_limit_um or lower the amplitude",
         Where(record, piece.axis, piece.begin),
         static_cast<double>(signal.size()) * record.period_s,
         options.dropped_periods + options.needed_periods));

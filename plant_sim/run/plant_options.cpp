@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "common/whole_number.hpp"
+
 namespace levitas::plant_run {
 
 bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOptions& options,
@@ -17,7 +19,9 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
   app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
       ->transform(CLI::Transformer(paces))
       ->type_name("PACE");
-  app.add_option("--seed", options.seed, "Seed of the sensor noise")->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of the sensor noise")
+      ->check(WhyNoWholeNumber)
+      ->capture_default_str();
   app.add_option("--json", options.json, "Write statistics to this file");
   app.add_option("--partner-timeout", options.partner_timeout_s,
                  "Give up after this long without a controller [s]")

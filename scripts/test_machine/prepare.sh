@@ -3,6 +3,7 @@ mount -t proc proc /proc
 mount -t sysfs sysfs /sys
 mount -t devtmpfs devtmpfs /dev
 mkdir -p /dev/shm /dev/pts
+ln -sfT /proc/self/fd /dev/fd  # what bash's <(...) names
 mount -t tmpfs tmpfs /dev/shm
 mount -t devpts devpts /dev/pts
 mount -t configfs configfs /sys/kernel/config

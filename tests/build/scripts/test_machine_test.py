@@ -67,7 +67,8 @@ class Inside(unittest.TestCase):
 
     def test_files_of_the_host_are_there_and_temporary_ones_are_forgotten(self):
         name = f"/tmp/levitas-forgotten-{os.getpid()}"
-        done = machine("run", "sh", "-c", f"test -f {SCRIPT} && touch {name} && test -e {name}")
+        done = machine("run", "sh", "-c", 'test -f "$1" && touch "$2" && test -e "$2"', "sh",
+                       str(SCRIPT), name)
         self.assertEqual(done.returncode, 0)
         self.assertFalse(pathlib.Path(name).exists())
 

@@ -22,7 +22,9 @@ class BusLoop {
   static constexpr std::uint32_t kWatchdogPeriods = 20;
 
   /// `controller_port`: where that differs, as at the two ends of a wire.
-  explicit BusLoop(const std::string& port, const std::string& controller_port = "")
+  /// `orbit_fraction` of the clearance, beyond which it trips; 0: that of the shipped controller.
+  explicit BusLoop(const std::string& port, const std::string& controller_port = "",
+                   double orbit_fraction = 0.0)
       : rig_file_(config::LoadRig(config::FindConfig("flexible_rotor", "rigs"))),
         plan_(socketcan::PlanConnection(rig_file_, "flexible_rotor", port)),
         controller_plan_(socketcan::PlanConnection(
@@ -31,7 +33,7 @@ class BusLoop {
         controller_bus_(controller_plan_.layout, controller_plan_.buses, can::Sender::kController),
         link_(plan_.layout, plan_.buses, rig_bus_),
         port_(controller_plan_.layout, controller_plan_.buses, {}, controller_bus_),
-        control_(CycleOf(rig_file_)),
+        control_(CycleOf(rig_file_, orbit_fraction)),
         plant_(Delayed(rig_file_, plan_), 1) {
     plant_.RestInTouchdown();
   }
@@ -82,9 +84,10 @@ class BusLoop {
   std::uint64_t cycles{0};
 
  private:
-  static cycle::CycleConfig CycleOf(const config::RigFile& rig) {
-    const auto controller = config::LoadController(
+  static cycle::CycleConfig CycleOf(const config::RigFile& rig, double orbit_fraction) {
+    auto controller = config::LoadController(
         config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+    if (orbit_fraction > 0.0) controller.supervisor.protection.orbit_fraction = orbit_fraction;
     return {rig.numbers, controller.law, controller.supervisor};
   }
   static plant::PlantConfig Delayed(config::RigFile rig, const socketcan::CanConnection& plan) {

@@ -19,7 +19,7 @@ namespace levitas::analysis {
 namespace {
 
 constexpr std::size_t kRows = 20'000;
-constexpr double kExcitation = 0.05;  // [A] random binary, so that the magnets work
+constexpr double kExcitationA = 0.05;  // [A] random binary, so that the magnets work
 
 /// Two seconds of closed loop at a constant speed, after half a second to settle.
 std::vector<RecordedRow> Record(const plant::PlantConfig& truth, double speed_rad_per_s,
@@ -37,7 +37,7 @@ std::vector<RecordedRow> Record(const plant::PlantConfig& truth, double speed_ra
     RecordedRow row;
     for (std::size_t i = 0; i < 4; ++i) {
       error_m[i] = -frame.position_m[i];
-      row.excitation_a[i] = random.Uniform() < 0.5 ? kExcitation : -kExcitation;
+      row.excitation_a[i] = random.Uniform() < 0.5 ? kExcitationA : -kExcitationA;
     }
     plant::PlantCommand command;
     command.bias_current_a = 1.0;

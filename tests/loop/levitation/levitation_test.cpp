@@ -96,8 +96,8 @@ TEST(Levitation, IntegratorTakesTheStaticLoad) {
     moment_nm += 9.81 * disc.mass_kg * (disc.z_m - de_z);
   }
   const double nde_n = moment_nm / span_m;
-  constexpr double kKi = 40.0;                   // N/A
-  constexpr double kKs = 40.0 * 1.0 / 0.381e-3;  // N/m
+  constexpr double kKiNPerA = 40.0;                   // N/A
+  constexpr double kKsNPerM = 40.0 * 1.0 / 0.381e-3;  // N/m
   for (std::size_t i = 0; i < 4; ++i) {
     // Axes at 45 degrees to the vertical: each carries 1/sqrt(2) of its bearing's share, upwards.
     const double share_n = (i < 2 ? weight_n - nde_n : nde_n) / std::sqrt(2.0);
@@ -108,7 +108,7 @@ TEST(Levitation, IntegratorTakesTheStaticLoad) {
     EXPECT_NEAR(force_n[i], share_n, 0.01 * share_n) << i;  // sampled force against mean force
     // The shaft droops between its bearings, so at the magnets it hangs some um below the sensors'
     // zero and ks asks for more current. 3 %: the magnet is linear only to first order.
-    EXPECT_NEAR(kKi * current_a[i] + kKs * shaft_m[i], share_n, 0.03 * share_n) << i;
+    EXPECT_NEAR(kKiNPerA * current_a[i] + kKsNPerM * shaft_m[i], share_n, 0.03 * share_n) << i;
     EXPECT_LT(shaft_m[i], 0.0);
     EXPECT_GT(shaft_m[i], -10e-6);
   }

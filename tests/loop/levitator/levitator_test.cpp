@@ -15,9 +15,9 @@
 #include "common/problem.hpp"
 #include "session/csv_import.hpp"
 #include "session/session_reader.hpp"
-#include "tests/loop/pump/shipped_loop.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/shipped_loop.hpp"
 
 namespace levitas::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/loop/pump/shipped_loop.hpp"
+#include "tests/support/shipped_loop.hpp"
 
 namespace levitas::test {
 namespace {

@@ -11,7 +11,7 @@
 #include "analysis/sensitivity.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
-#include "tests/loop/pump/shipped_loop.hpp"
+#include "tests/support/shipped_loop.hpp"
 
 namespace levitas::test {
 namespace {

@@ -12,7 +12,7 @@
 #include "controller/law/axis_law.hpp"
 #include "identification/nonlinear/hammerstein_wiener.hpp"
 #include "identification/nonlinear/narx.hpp"
-#include "tests/loop/pump/shipped_loop.hpp"
+#include "tests/support/shipped_loop.hpp"
 
 namespace levitas::test {
 namespace {

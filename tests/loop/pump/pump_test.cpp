@@ -6,7 +6,7 @@
 
 #include "analysis/poles.hpp"
 #include "analysis/step_error.hpp"
-#include "tests/loop/pump/shipped_loop.hpp"
+#include "tests/support/shipped_loop.hpp"
 
 namespace levitas::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "plant_sim/effect/catalogue.hpp"
-#include "tests/loop/pump/shipped_loop.hpp"
+#include "tests/support/shipped_loop.hpp"
 
 namespace levitas::test {
 namespace {

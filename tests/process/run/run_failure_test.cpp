@@ -64,6 +64,7 @@ TEST_F(RunFailureTest, RefusesOptionsThatMakeNoSense) {
                                                     {"--duration", "nan"},
                                                     {"--port", "tcp:7"},
                                                     {"--seed", "x"},
+                                                    {"--seed", "9223372036854775808"},
                                                     {"--nonsense"}}) {
     AmbRun run(scratch_, "run", arguments);
     EXPECT_EQ(run.Status(), 2) << arguments.front() << "\n" << run.Said();

@@ -33,6 +33,20 @@ TEST(SampleStore, UndoesPolarityOfProbesAndCoils) {
   EXPECT_FLOAT_EQ(store.Current(1, 0), 10e-6F);
 }
 
+TEST(SampleStore, AGuidedAxisIsABearingThatDoesNotMoveAlongY) {
+  RigNumbers rig = SmallRig();
+  rig.channels.resize(1);
+  SampleStore store(rig);
+  levitas_msg::sample_batch_t batch = Batch(10, 1, Ramp);
+  batch.axes = 1;
+  batch.position_m.resize(1);
+  batch.control_current_a.resize(1);
+  ASSERT_TRUE(store.Add(batch));
+  ASSERT_EQ(store.bearings(), 1U);
+  EXPECT_FLOAT_EQ(store.Displacement(0, 0, 0), 10e-9F);
+  EXPECT_EQ(store.Displacement(0, 1, 0), 0.0F);
+}
+
 TEST(SampleStore, CountsAsContiguousOnlyWhatFollowsWithoutAGap) {
   SampleStore store(SmallRig());
   ASSERT_TRUE(store.Add(Batch(0, 100, Ramp)));

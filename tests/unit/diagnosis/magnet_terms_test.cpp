@@ -39,17 +39,17 @@ class MagnetTermsTest : public ::testing::Test {
 };
 
 // Single precision of what the model did leaves 1e-6 of the force of one coil.
-constexpr double kSingle = 1e-4;  // [N]
+constexpr double kSingleN = 1e-4;  // [N]
 
 TEST_F(MagnetTermsTest, CurrentGainIsTheShareThatComesFromTheControlCurrent) {
   const double expected =
       0.1 * (Law(bias_a_ + MidCoil(), bias_a_ - MidCoil(), X()) - Law(bias_a_, bias_a_, X()));
-  EXPECT_NEAR(Force("current_gain", kChannel, 0.1), expected, kSingle);
+  EXPECT_NEAR(Force("current_gain", kChannel, 0.1), expected, kSingleN);
 }
 
 TEST_F(MagnetTermsTest, DisplacementStiffnessIsTheShareThatIsThereWithoutCurrent) {
   EXPECT_NEAR(Force("displacement_stiffness", kChannel, -0.2), -0.2 * Law(bias_a_, bias_a_, X()),
-              kSingle);
+              kSingleN);
 }
 
 TEST_F(MagnetTermsTest, CoilAsymmetryMakesOneCoilStrongerAndTheOtherWeaker) {
@@ -60,7 +60,7 @@ TEST_F(MagnetTermsTest, CoilAsymmetryMakesOneCoilStrongerAndTheOtherWeaker) {
   const double expected =
       Law(plus * std::sqrt(1.0 + kRatio / 2.0), minus * std::sqrt(1.0 - kRatio / 2.0), X()) -
       Law(plus, minus, X());
-  EXPECT_NEAR(Force("coil_asymmetry", kChannel, kRatio), expected, kSingle);
+  EXPECT_NEAR(Force("coil_asymmetry", kChannel, kRatio), expected, kSingleN);
 }
 
 TEST_F(MagnetTermsTest, OfOneAxisLeaveTheOthersAlone) {
@@ -103,9 +103,9 @@ TEST_F(MagnetTermsTest, SaturationTakesNothingFarBelowTheKneeAndMuchAboveIt) {
   const double ratio = 2.0 / 1.7;
   const double left = 1.0 / std::sqrt(1.0 + std::pow(ratio, 4));  // squared current
   EXPECT_NEAR(Force("magnetic_saturation", "knee 1.70 i0", 1.0),
-              Law(2.0 * bias_a_, 0.0, 0.0) * (left - 1.0), 10.0 * kSingle);
+              Law(2.0 * bias_a_, 0.0, 0.0) * (left - 1.0), 10.0 * kSingleN);
   set(0.0);
-  EXPECT_NEAR(Force("magnetic_saturation", "knee 2.20 i0", 1.0), 0.0, kSingle);
+  EXPECT_NEAR(Force("magnetic_saturation", "knee 2.20 i0", 1.0), 0.0, kSingleN);
 }
 
 TEST_F(MagnetTermsTest, HysteresisOfAFullLoopTakesEnergy) {

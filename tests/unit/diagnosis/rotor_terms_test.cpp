@@ -12,7 +12,7 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr double kSpeed = 200.0;  // [rad/s]
+constexpr double kSpeedRadPerS = 200.0;  // [rad/s]
 
 /// Modal acceleration of a mode as one complex number, x + j y.
 std::complex<double> Modal(const Addition& add, std::size_t mode) {
@@ -21,12 +21,12 @@ std::complex<double> Modal(const Addition& add, std::size_t mode) {
 
 Moment Turning(double angle_rad) {
   Moment m;
-  m.speed_rad_per_s = static_cast<float>(kSpeed);
+  m.speed_rad_per_s = static_cast<float>(kSpeedRadPerS);
   m.angle_rad = angle_rad;
   return m;
 }
 
-double MidAngle(const Moment& m) { return m.angle_rad + 0.5 * View().period_s * kSpeed; }
+double MidAngle(const Moment& m) { return m.angle_rad + 0.5 * View().period_s * kSpeedRadPerS; }
 
 class RotorTermsTest : public ::testing::Test {
  protected:
@@ -46,7 +46,8 @@ TEST_F(RotorTermsTest, UnbalanceTurnsWithTheShaftAndGrowsWithTheSquareOfSpeed) {
     const Moment m = Turning(angle);
     const Addition add = Of("unbalance", "z 299.2 mm", "cosine", m, 3e-5);
     for (std::size_t i = 0; i < modes_; ++i) {
-      const auto expected = std::polar(3e-5 * kSpeed * kSpeed * shape[i], MidAngle(m));
+      const auto expected =
+          std::polar(3e-5 * kSpeedRadPerS * kSpeedRadPerS * shape[i], MidAngle(m));
       EXPECT_LT(std::abs(Modal(add, i) - expected), 1e-6) << i;
     }
   }
@@ -129,7 +130,7 @@ TEST_F(RotorTermsTest, AHeavierRotorYieldsLessToTheSameForceAsARigidBody) {
 
 TEST_F(RotorTermsTest, GyroscopicForcesDoNoWork) {
   Random random(3);
-  const Moment m = Drawn(random, kSpeed);
+  const Moment m = Drawn(random, kSpeedRadPerS);
   const Addition add = Of("gyroscopic_inertia", "rotor", "ratio", m, 0.2);
   double work = 0.0;
   double size = 0.0;
@@ -163,10 +164,10 @@ double PowerInForwardWhirl(Term term, double whirl_rad_per_s) {
 // (Kimball 1924).
 TEST_F(RotorTermsTest, InternalDampingDrivesAForwardWhirlBelowTheSpeedOfTheShaft) {
   const Term term = Named(terms_, "internal_damping", "z 299.2 mm");
-  EXPECT_GT(PowerInForwardWhirl(term, 0.5 * kSpeed), 0.0);
-  EXPECT_LT(PowerInForwardWhirl(term, 2.0 * kSpeed), 0.0);
-  EXPECT_NEAR(PowerInForwardWhirl(term, kSpeed), 0.0,
-              1e-3 * PowerInForwardWhirl(term, 0.5 * kSpeed));
+  EXPECT_GT(PowerInForwardWhirl(term, 0.5 * kSpeedRadPerS), 0.0);
+  EXPECT_LT(PowerInForwardWhirl(term, 2.0 * kSpeedRadPerS), 0.0);
+  EXPECT_NEAR(PowerInForwardWhirl(term, kSpeedRadPerS), 0.0,
+              1e-3 * PowerInForwardWhirl(term, 0.5 * kSpeedRadPerS));
 }
 
 // f = kq [y, -x]: against the forward whirl, so that it is a negative kq that drives it.
@@ -196,7 +197,7 @@ TEST_F(RotorTermsTest, ACrackSoftensOnceOverATurnAndNeverStiffens) {
   m.q[2] = 1e-5F;
   const auto mean = Modal(Of("breathing_crack", "z 260 mm", "mean", m, 0.05), 2).real();
   EXPECT_GT(mean, 0.0);  // along the deflection: the shaft's own restoring force is -w^2 q
-  m.angle_rad = -0.5 * View().period_s * kSpeed;
+  m.angle_rad = -0.5 * View().period_s * kSpeedRadPerS;
   EXPECT_NEAR(Modal(Of("breathing_crack", "z 260 mm", "cosine", m, 0.05), 2).real(), mean,
               1e-6 * mean);
   m.angle_rad += std::numbers::pi;

@@ -60,6 +60,23 @@ TEST(Progress, WritesOneLinePerModeChangeWhenItIsNoTerminal) {
   EXPECT_THAT(written.text(), Not(HasSubstr("\r")));
 }
 
+TEST(Progress, TellsInALogWhatTheModeBeforeHasSeen) {
+  const Written written;
+  Progress progress({"de", "nde"}, kPeriod_s, written.out(), false);
+  progress.Show(At(0, Mode::kLift, 90e-6), kStart);
+  progress.Show(At(1000, Mode::kLift, 80e-6), kStart + milliseconds(100));
+  progress.Show(At(2000, Mode::kSpinning, 7e-6), kStart + milliseconds(200));
+  progress.Show(At(3000, Mode::kLanding, 3e-6), kStart + milliseconds(300));
+  std::istringstream lines(written.text());
+  std::string lift, spinning, landing;
+  std::getline(lines, lift);
+  std::getline(lines, spinning);
+  std::getline(lines, landing);
+  EXPECT_THAT(lift, Not(HasSubstr("before")));
+  EXPECT_THAT(spinning, HasSubstr("lift before: up to 2865 rpm,  de  90.0 um  nde 180.0 um"));
+  EXPECT_THAT(landing, HasSubstr("spinning before: up to 2865 rpm,  de   7.0 um  nde  14.0 um"));
+}
+
 TEST(Progress, RedrawsOneLineOnATerminalAndEndsItOnce) {
   const Written written;
   Progress progress({"de", "nde"}, kPeriod_s, written.out(), true);

@@ -114,7 +114,20 @@ TEST_F(Deriver, TellsARestartOfTheRig) {
 TEST_F(Deriver, TellsRecordsLostBeforeThisOne) {
   const auto events = Step(Quiet(8));
   ASSERT_EQ(events.size(), 1U);
-  EXPECT_THAT(events[0].text, HasSubstr("7 record(s) lost before cycle 8"));
+  EXPECT_THAT(events[0].text, HasSubstr("7 record(s) lost"));
+  EXPECT_THAT(events[0].text, HasSubstr("the first in cycle 1"));
+}
+
+TEST_F(Deriver, SumsUpLostRecordsToOneEventASecond) {
+  std::vector<std::string> texts;
+  for (std::uint64_t cycle = 2; cycle <= 15'000; cycle += 2) {  // every other record is lost
+    for (const Event& event : Step(Quiet(cycle))) texts.push_back(event.text);
+  }
+  ASSERT_EQ(texts.size(), 2U);
+  EXPECT_THAT(texts[0], ::testing::AllOf(::testing::StartsWith("1 record(s) lost"),
+                                         ::testing::EndsWith("the first in cycle 1")));
+  EXPECT_THAT(texts[1], ::testing::AllOf(::testing::StartsWith("5000 record(s) lost"),
+                                         ::testing::EndsWith("the first in cycle 3")));
 }
 
 TEST_F(Deriver, SumsUpMissingFramesToOneEventASecond) {
