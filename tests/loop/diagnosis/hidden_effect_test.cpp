@@ -25,8 +25,9 @@ Outcome Ask(std::uint64_t seed, std::vector<effect::Id> hidden) {
                bench.rig.numbers);
 }
 
-TEST(HiddenEffect, OfAMagnetsStiffnessIsNamed) {
-  const Outcome outcome = Ask(40, {effect::Id::kDisplacementStiffness});
+// With another law of the gain the answer was saturation, and the gain on top of it.
+TEST(HiddenEffect, OfAMagnetsGainIsNamed) {
+  const Outcome outcome = Ask(5104, {effect::Id::kCurrentGain});
   EXPECT_TRUE(outcome.Right()) << outcome.verdict << ", first "
                                << (outcome.named.empty() ? "nothing" : outcome.named.front());
   EXPECT_GT(outcome.score_nat, diagnosis::kDecisive);

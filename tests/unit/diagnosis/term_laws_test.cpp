@@ -149,10 +149,11 @@ TEST_F(TermLaws, AHealthyRigIsKnownToItsTolerances) {
   EXPECT_EQ(tolerance("modal_frequency", "mode 1"), tolerances.modal_frequency);
   EXPECT_EQ(tolerance("unbalance", Named(terms_, "unbalance", "z 299.2 mm").place),
             tolerances.unbalance_kg_m);
+  // Opposed coils are never quite alike: without this tolerance two of fifteen healthy rigs had one
+  // axis named for it.
+  EXPECT_EQ(tolerance("coil_asymmetry", "de_x"), 0.02);
   // What a healthy rig does not have at all is no nuisance.
-  for (const char* effect : {"coil_asymmetry", "eddy_current"}) {
-    EXPECT_EQ(tolerance(effect, "de_x"), 0.0) << effect;
-  }
+  EXPECT_EQ(tolerance("eddy_current", "de_x"), 0.0);
 }
 
 }  // namespace
