@@ -54,6 +54,7 @@ void AddModes(const Eigen::MatrixXd& a, std::vector<double>& grid_hz) {
 /// The same for both systems, since their ratio is drawn.
 std::vector<double> Grid(const System& one, const System& other) {
   std::vector<double> grid_hz;
+  grid_hz.reserve(kPoints);
   for (int i = 0; i < kPoints; ++i) {
     grid_hz.push_back(kFirstHz * std::pow(kLastHz / kFirstHz, i / (kPoints - 1.0)));
   }
