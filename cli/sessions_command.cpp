@@ -146,7 +146,9 @@ ExitStatus Tag(const SessionsOptions& options) {
     const bool known =
         options.remove ? catalogue.RemoveTag(path, tag) : catalogue.AddTag(path, tag);
     if (known) continue;
-    if (options.remove) throw BadInput(path + ": has no tag '" + tag + "' in the catalogue");
+    if (options.remove) {
+      throw BadInput(fmt::format("{}: has no tag '{}' in the catalogue", path, tag));
+    }
     RefuseUnknown(path);
   }
   return ExitStatus::kDone;
