@@ -13,6 +13,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/identify/geared_commands.hpp"
 #include "cli/json_file.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "trials/scores.hpp"
@@ -171,10 +172,13 @@ ExitStatus Run(const BenchOptions& options) {
 
 void AddBenchCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<BenchOptions>();
-  CLI::App* bench = app.add_subcommand("bench", "How good the answers of `amb diagnose` are");
+  CLI::App* bench =
+      app.add_subcommand("bench", "How good the answers of diagnosis and identification are");
   CLI::App* command =
       bench->add_subcommand("diagnosis", "Effects hidden in simulated rigs, to be named");
   bench->require_subcommand(1);
+  AddBenchIdentification(*bench, action);
+  AddBenchFullSpectrum(*bench, action);
   command->footer(kHelp);
   command->add_option("--rig", options->rig, "Nominal rig");
   command->add_option("--controller", options->controllers, "Controllers, drawn by seed");

@@ -1,5 +1,6 @@
 #pragma once
-// amb bench diagnosis: how often the diagnosis names what was hidden (trials/). As in command.hpp.
+// amb bench: how often the diagnosis names what was hidden, how near an identification comes to the
+// truth (trials/). As in command.hpp.
 
 #include "cli/command.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/identify/geared_commands.hpp"
 #include "cli/identify/identify_commands.hpp"
 
 namespace levitas::cli {
@@ -16,6 +17,7 @@ void AddIdentifyCommand(CLI::App& app, Action& action) {
       "Measured CSV files are read as sessions are (columns: docs/formats.md).");
   AddIdentifyFrf(*identify, action);
   AddIdentifyModal(*identify, action);
+  AddIdentifyFullSpectrum(*identify, action);
   AddIdentifyHammersteinWiener(*identify, action);
   AddIdentifyNarx(*identify, action);
   AddIdentifyGreyBox(*identify, action);

@@ -16,6 +16,8 @@
 #include "cli/identify/modal_files.hpp"
 #include "cli/identify/response_files.hpp"
 #include "cli/json_file.hpp"
+#include "identification/identified_rig.hpp"
+#include "identification/modal/modal_starts.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -37,6 +39,8 @@ struct ModalOptions : AnalysisOptions {
   std::string out_path;
   std::string svg_prefix;
   ModalFitOptions fit;
+  int starts{0};
+  StartSpread spread;
 };
 
 void PrintModes(const ModalResult& r) {
@@ -46,9 +50,17 @@ void PrintModes(const ModalResult& r) {
   for (Eigen::Index i = 0; i < at.bending; ++i) {
     const double f = r.rig.frequency_rad_per_s[2 + i] / (2.0 * std::numbers::pi);
     const double z = r.rig.damping_ratio[2 + i];
-    fmt::print("{:>4}{:>14.3f} +- {:<7.3f}{:>14.5f} +- {:<8.5f}\n", i + 1, f,
-               2.0 * f * r.uncertainty.deviation[at.frequency + i], z,
-               2.0 * z * r.uncertainty.deviation[at.damping + i]);
+    const ModeSupport& support = r.support[static_cast<std::size_t>(i)];
+    if (support.support == Support::kNotShown) {
+      fmt::print("{:>4}{:>14.3f}  (the rig file's)   not shown by the data: no stable pole\n",
+                 i + 1, f);
+      continue;
+    }
+    fmt::print(
+        "{:>4}{:>14.3f} +- {:<7.3f}{:>14.5f} +- {:<8.5f}{}\n", i + 1, f,
+        2.0 * f * r.uncertainty.deviation[at.frequency + i], z,
+        2.0 * z * r.uncertainty.deviation[at.damping + i],
+        support.support == Support::kMoved ? "  NOT TRUSTED: its pole is not the diagram's" : "");
   }
 }
 
@@ -62,10 +74,44 @@ void PrintAxes(const ModalResult& r) {
                2.0 * r.rig.ks_n_per_m[a] * r.uncertainty.deviation[at.ks + a], r.rig.gain[a],
                2.0 * r.rig.gain[a] * r.uncertainty.deviation[at.gain + a]);
   }
+  fmt::print("{:<8}{:>20}{:>24}   (what responses tell by themselves)\n", "", "ki gain/mass",
+             "ks/mass");
+  for (Eigen::Index a = 0; a < at.axes(); ++a) {
+    const double ki = r.rig.ki_n_per_a[a] * r.rig.gain[a] / r.rig.mass_kg;
+    const double ks = r.rig.ks_n_per_m[a] / r.rig.mass_kg;
+    fmt::print("{:<8}{:>10.3f} +- {:<7.3f}{:>13.0f} +- {:<8.0f}\n",
+               r.channels[static_cast<std::size_t>(a)], ki, 2.0 * ki * r.uncertainty.products[a],
+               ks, 2.0 * ks * r.uncertainty.products[at.axes() + a]);
+  }
   fmt::print(
       "mass {:.4f} kg, transverse inertia {:.5f} kg m2, centre at {:.2f} mm, delay {:.3f} "
       "samples\n",
       r.rig.mass_kg, r.rig.inertia_kg_m2, 1e3 * r.rig.centre_z_m, r.rig.delay_samples);
+}
+
+void PrintSupport(const ModalResult& r) {
+  for (std::size_t i = 0; i < r.support.size(); ++i) {
+    const ModeSupport& s = r.support[i];
+    if (s.support == Support::kShown) continue;
+    if (s.support == Support::kMoved) {
+      fmt::print("\nmode {}: the fitted plant has it at {:.1f} Hz, the diagram at {:.1f} Hz\n",
+                 i + 1, s.plant_hz, s.shown_hz);
+    } else {
+      fmt::print("\nmode {}: nothing in the data tells its frequency and damping\n", i + 1);
+    }
+    fmt::print("    to tell: excite more strongly or for more periods around it\n");
+  }
+}
+
+void PrintStarts(const ModalResult& r, const std::vector<FrequencyResponse>& responses,
+                 const ModalOptions& options) {
+  if (options.starts == 0) return;
+  const StartsOutcome outcome = TryStarts(r, responses, options.starts, options.spread, 1);
+  fmt::print(
+      "\n{} of {} random starts (+-{:.0f} % on everything, +-{:.0f} % on gains) reach the same "
+      "optimum; {:.2f} s each\n",
+      outcome.same, outcome.starts, 100.0 * options.spread.everything, 100.0 * options.spread.gains,
+      outcome.median_time_s);
 }
 
 void PrintLimits(const ModalResult& r) {
@@ -92,9 +138,10 @@ void PrintFit(const ModalResult& r) {
   }
   fmt::print("modes shown by the data up to {:.0f} Hz:", r.options.highest_hz);
   for (const ProposedMode& mode : r.stabilisation.modes) fmt::print(" {:.1f}", mode.frequency_hz);
-  fmt::print(" Hz\n\nmisfit (1: only noise is left)\n");
+  fmt::print(" Hz\n\nmisfit (1: only noise is left) and fit (ceiling: the data's own noise)\n");
   for (const SpeedQuality& q : r.quality) {
-    fmt::print("  {:>6.0f} rpm {:>8.3f}  {}\n", Rpm(q.speed_rad_per_s), q.misfit,
+    fmt::print("  {:>6.0f} rpm {:>8.3f} {:>8.2f} % of {:.2f} %  {}\n", Rpm(q.speed_rad_per_s),
+               q.misfit, q.percent.fit, q.percent.ceiling,
                q.fitted ? "fitted" : "validation, not used in the fit");
   }
 }
@@ -114,10 +161,12 @@ ExitStatus Run(const ModalOptions& options) {
   PrintFit(result);
   PrintModes(result);
   PrintAxes(result);
+  PrintSupport(result);
   PrintLimits(result);
+  PrintStarts(result, responses, options);
   WriteJsonFile(options.json_path, ModalJson(result));
   WriteModalPictures(options.svg_prefix, result, responses);
-  WriteIdentifiedRig(options.out_path, rig, result);
+  if (!options.out_path.empty()) WriteRigFile(options.out_path, IdentifiedRig(rig, result));
   return ExitStatus::kDone;
 }
 
@@ -138,6 +187,15 @@ void AddIdentifyModal(CLI::App& identify, Action& action) {
                     "Bandwidths of the amplifiers are unknown too");
   command->add_flag("--fit-sensors", options->fit.fit_sensors,
                     "Bandwidths of the sensors are unknown too");
+  command->add_option("--starts", options->starts, "Repeat the fit from random starts")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  command->add_option("--spread", options->spread.everything, "Of the starts, on everything")
+      ->check(CLI::Range(0.0, 0.9))
+      ->capture_default_str();
+  command->add_option("--spread-gains", options->spread.gains, "On ki, ks and sensor gains")
+      ->check(CLI::Range(0.0, 0.9))
+      ->capture_default_str();
   command->add_option("--out", options->out_path, "Write the identified rig file");
   command->add_option("--svg", options->svg_prefix, "Draw pictures, their names begin with this");
   AddJsonOption(*command, *options);

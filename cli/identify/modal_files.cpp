@@ -91,6 +91,7 @@ Json ModalJson(const ModalResult& r) {
          {"frequency_sigma_hz", f * r.uncertainty.deviation[at.frequency + i]},
          {"damping_ratio", r.rig.damping_ratio[2 + i]},
          {"damping_sigma", r.rig.damping_ratio[2 + i] * r.uncertainty.deviation[at.damping + i]},
+         {"shown_by_the_data", r.support[static_cast<std::size_t>(i)].support == Support::kShown},
          {"actuator_deflection", Row(r.rig.actuator, 2 + i)},
          {"sensor_deflection", Row(r.rig.sensor, 2 + i)}});
   }
@@ -108,8 +109,11 @@ Json ModalJson(const ModalResult& r) {
     json["not_identifiable"].push_back({{"unknowns", d.unknowns}, {"experiment", d.experiment}});
   }
   for (const SpeedQuality& q : r.quality) {
-    json["speeds"].push_back(
-        {{"speed_rpm", Rpm(q.speed_rad_per_s)}, {"misfit", q.misfit}, {"fitted", q.fitted}});
+    json["speeds"].push_back({{"speed_rpm", Rpm(q.speed_rad_per_s)},
+                              {"misfit", q.misfit},
+                              {"fitted", q.fitted},
+                              {"fit_percent", q.percent.fit},
+                              {"ceiling_percent", q.percent.ceiling}});
   }
   return json;
 }
@@ -128,28 +132,9 @@ void WriteModalPictures(const std::string& prefix, const ModalResult& r,
   svg::Write(prefix + "_stabilisation.svg", StabilisationPicture(r));
 }
 
-void WriteIdentifiedRig(const std::string& path, const config::RigFile& rig, const ModalResult& r) {
-  if (path.empty()) return;
-  config::RigFile out = rig;
-  out.numbers.name = rig.numbers.name + "_identified";
-  out.plant.delay_samples = r.rig.delay_samples;
-  double damping = 0.0;
-  for (Eigen::Index i = 2; i < r.rig.damping_ratio.size(); ++i) damping += r.rig.damping_ratio[i];
-  const auto bending = static_cast<double>(r.start.frame.layout.bending);
-  if (bending > 0.0) out.plant.rotor.modal_damping_ratio = damping / bending;
-  for (std::size_t b = 0; b < out.plant.bearings.size(); ++b) {
-    const auto x = static_cast<Eigen::Index>(2 * b);
-    const double ki = 0.5 * (r.rig.ki_n_per_a[x] + r.rig.ki_n_per_a[x + 1]);
-    const double ks = 0.5 * (r.rig.ks_n_per_m[x] + r.rig.ks_n_per_m[x + 1]);
-    plant::MagnetConfig& magnet = out.plant.bearings[b].magnet;
-    // ki = 4 k i0/s0^2 and ks = 4 k i0^2/s0^3, hence s0 = ki i0/ks.
-    magnet.gap_m = ki * magnet.bias_current_a / ks;
-    magnet.force_constant_n_m2_per_a2 =
-        ki * magnet.gap_m * magnet.gap_m / (4.0 * magnet.bias_current_a);
-    out.plant.bearings[b].sensor.gain = 0.5 * (r.rig.gain[x] + r.rig.gain[x + 1]);
-  }
+void WriteRigFile(const std::string& path, const config::RigFile& rig) {
   std::ofstream file(path);
-  file << config::WriteRig(out);
+  file << config::WriteRig(rig);
   file.flush();
   if (!file) {
     throw BadInput(path + ": cannot be written; check that the folder exists and is yours");

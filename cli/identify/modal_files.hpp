@@ -1,9 +1,6 @@
 #pragma once
-// A modal identification from responses to files: JSON, pictures, the identified rig.
+// A modal identification from responses to files: JSON, pictures; any identified rig as its file.
 //
-// Rig file  what the file can hold of the model: ki and ks (as force constant and gap) and sensor
-//           gain per bearing (mean of its axes), delay, mean damping ratio of the bending modes.
-//           The shaft and with it frequencies, deflections and gyroscopic matrix stay the file's.
 // Failure   BadInput when a file cannot be written.
 
 #include <nlohmann/json_fwd.hpp>
@@ -21,7 +18,6 @@ namespace levitas::cli {
 void WriteModalPictures(const std::string& prefix, const identification::ModalResult& result,
                         const std::vector<identification::FrequencyResponse>& responses);
 
-void WriteIdentifiedRig(const std::string& path, const config::RigFile& rig,
-                        const identification::ModalResult& result);
+void WriteRigFile(const std::string& path, const config::RigFile& rig);
 
 }  // namespace levitas::cli

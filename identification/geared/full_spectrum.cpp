@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "common/problem.hpp"
+#include "identification/geared/geared_forces.hpp"
+#include "identification/geared/line_equations.hpp"
+#include "identification/geared/shaft_equations.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -19,62 +21,13 @@ using Index = Eigen::Index;
 using Kind = GearedLine::Kind;
 
 const Complex kJ(0.0, 1.0);
-
-Complex Impedance(const ShaftKnown& s, double w) {
-  return Complex(s.stiffness_n_per_m - s.mass_kg * w * w, w * s.damping_n_s_per_m);
-}
-
-struct Solution {
-  Eigen::VectorXd value, sigma;
-  double condition{};
-};
-
-/// Columns scaled to unit length, so that units do not decide what counts as small.
-Solution Solve(const Eigen::MatrixXd& design, const Eigen::VectorXd& right, const char* step) {
-  const Eigen::VectorXd length = design.colwise().norm().cwiseMax(1e-300);
-  const Eigen::MatrixXd scaled = design * length.cwiseInverse().asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& s = svd.singularValues();
-  if (design.rows() < design.cols() || s[s.size() - 1] < 1e-10 * s[0]) {
-    throw BadInput(fmt::format(
-        "full spectrum: the lines do not determine {} ({} equations, {} unknowns); record more "
-        "speeds or more lines",
-        step, design.rows(), design.cols()));
-  }
-  const Eigen::VectorXd value = svd.solve(right);
-  const double freedom = std::max<double>(1.0, static_cast<double>(design.rows() - design.cols()));
-  const double noise = std::sqrt((scaled * value - right).squaredNorm() / freedom);
-  const Eigen::VectorXd spread =
-      (svd.matrixV() * s.cwiseInverse().asDiagonal()).rowwise().norm() * noise;
-  return {value.cwiseQuotient(length), spread.cwiseQuotient(length), s[0] / s[s.size() - 1]};
-}
-
-/// Adds a complex equation sum_k a_k x_k = b as two real rows.
-class Equations {
- public:
-  Equations(std::size_t lines, Index unknowns)
-      : design(Eigen::MatrixXd::Zero(2 * static_cast<Index>(lines), unknowns)),
-        right(Eigen::VectorXd::Zero(2 * static_cast<Index>(lines))) {}
-  void Real(Index unknown, Complex a) {
-    design(row_, unknown) += a.real();
-    design(row_ + 1, unknown) += a.imag();
-  }
-  /// A complex unknown stands as real and imaginary part.
-  void ComplexAt(Index unknown, Complex a) {
-    Real(unknown, a);
-    Real(unknown + 1, kJ * a);
-  }
-  void Close(Complex b) {
-    right[row_] = b.real();
-    right[row_ + 1] = b.imag();
-    row_ += 2;
-  }
-  Eigen::MatrixXd design;
-  Eigen::VectorXd right;
-
- private:
-  Index row_{0};
-};
+/// Weights depend on what is sought: a few rounds settle them.
+constexpr int kRounds = 8;
+/// Noise and a poor rig file stay below; a wrong sign does not.
+constexpr double kMostUnexplained = 0.3;
+/// The same in standard deviations of what is known: with wrong numbers that nearly cancel in the
+/// sum of both equations, a large share unexplained is no more than was to be expected.
+constexpr double kMostSigmas = 3.0;
 
 void RefuseTooFew(const std::vector<GearedLine>& lines) {
   std::set<double> speeds;
@@ -96,91 +49,159 @@ void RefuseTooFew(const std::vector<GearedLine>& lines) {
   }
 }
 
-/// Sum of both shafts' equations: ks_p, ki_p, ks_g, ki_g, eps_p (2), eps_g (2).
-Solution SolveShafts(const std::vector<GearedLine>& lines, const ShaftKnown& pinion,
-                     const ShaftKnown& gear) {
-  Equations eq(lines.size(), 8);
-  for (const GearedLine& line : lines) {
-    const double w = line.frequency_rad_per_s;
-    eq.Real(0, line.pinion_m);
-    eq.Real(1, -line.pinion_a);
-    eq.Real(2, line.gear_m);
-    eq.Real(3, -line.gear_a);
-    if (line.kind == Kind::kPinion) eq.ComplexAt(4, pinion.mass_kg * w * w);
-    if (line.kind == Kind::kGear) eq.ComplexAt(6, gear.mass_kg * w * w);
-    eq.Close(Impedance(pinion, w) * line.pinion_m + Impedance(gear, w) * line.gear_m);
-  }
-  return Solve(eq.design, eq.right, "ks, ki and the run-outs");
+/// Standard deviation of a line's mesh force, and of k D on its other side.
+double MeshSigma(const GearedLine& line, const GearedKnown& known, const GearedParameters& p) {
+  if (line.sigma_m <= 0.0 && known.uncertainty <= 0.0) return 1.0;
+  const double k = std::abs(
+      Complex(p.mesh_stiffness_n_per_m, line.frequency_rad_per_s * p.mesh_damping_n_s_per_m));
+  return std::hypot(0.5 * std::sqrt(2.0) * SumSigma(line, known, p),
+                    std::sqrt(2.0) * k * line.sigma_m);
 }
 
-/// Mesh force on the pinion, from what both shafts need: the mean of the two accounts.
-Complex MeshForce(const GearedLine& line, const ShaftKnown& pinion, const ShaftKnown& gear,
-                  const GearedParameters& p) {
-  const double w = line.frequency_rad_per_s;
-  Complex from_pinion = p.pinion.ks_n_per_m * line.pinion_m - p.pinion.ki_n_per_a * line.pinion_a -
-                        Impedance(pinion, w) * line.pinion_m;
-  Complex from_gear = Impedance(gear, w) * line.gear_m - p.gear.ks_n_per_m * line.gear_m +
-                      p.gear.ki_n_per_a * line.gear_a;
-  if (line.kind == Kind::kPinion) from_pinion += pinion.mass_kg * w * w * p.pinion.run_out_m;
-  if (line.kind == Kind::kGear) from_gear -= gear.mass_kg * w * w * p.gear.run_out_m;
-  return 0.5 * (from_pinion + from_gear);
+struct Teeth {
+  std::vector<Complex> force, twist;
+};
+
+Teeth TeethOf(const std::vector<GearedLine>& lines, const GearedKnown& known,
+              const GearedParameters& p) {
+  Teeth teeth;
+  teeth.force.reserve(lines.size());
+  for (const GearedLine& line : lines) teeth.force.push_back(MeshForce(line, known, p));
+  teeth.twist = TwistOnLines(lines, teeth.force, known.torsion);
+  return teeth;
 }
 
-void SolveMesh(const std::vector<GearedLine>& lines, const ShaftKnown& pinion,
-               const ShaftKnown& gear, GearedParameters& p) {
-  std::size_t count = 0;
-  for (const GearedLine& line : lines) count += line.kind != Kind::kTransmissionError ? 1U : 0U;
-  Equations eq(count, 2);
-  for (const GearedLine& line : lines) {
-    if (line.kind == Kind::kTransmissionError) continue;
-    const Complex deflection =
-        line.pinion_m - line.gear_m +
-        (line.kind == Kind::kPinion ? p.pinion.run_out_m : -p.gear.run_out_m);
+void SolveMesh(const std::vector<GearedLine>& lines, const GearedKnown& known, const Teeth& teeth,
+               GearedParameters& p) {
+  const auto rotates = [](const GearedLine& line) { return line.kind != Kind::kTransmissionError; };
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(lines, rotates));
+  LineEquations eq(count, 2);
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    const GearedLine& line = lines[n];
+    if (!rotates(line)) continue;
+    Complex deflection = line.pinion_m - line.gear_m + teeth.twist[n];
+    if (line.kind == Kind::kPinion) deflection += p.pinion.run_out_m;
+    if (line.kind == Kind::kGear) deflection -= p.gear.run_out_m;
     eq.Real(0, deflection);
     eq.Real(1, kJ * line.frequency_rad_per_s * deflection);
-    eq.Close(MeshForce(line, pinion, gear, p));
+    eq.Close(teeth.force[n], MeshSigma(line, known, p));
   }
-  const Solution mesh = Solve(eq.design, eq.right, "mesh stiffness and damping");
+  const Solution mesh = eq.Solve("mesh stiffness and damping");
   p.mesh_stiffness_n_per_m = mesh.value[0];
-  p.mesh_stiffness_sigma = mesh.sigma[0];
+  // The mesh force is told by the currents: what ki is off by, it is off by on every line.
+  const double gain = std::hypot(p.pinion.ki_sigma, p.gear.ki_sigma) /
+                      std::min(p.pinion.ki_n_per_a, p.gear.ki_n_per_a);
+  p.mesh_stiffness_sigma = std::hypot(mesh.sigma[0], gain * mesh.value[0]);
   p.mesh_damping_n_s_per_m = mesh.value[1];
   p.mesh_damping_sigma = mesh.sigma[1];
 }
 
-void SolveErrors(const std::vector<GearedLine>& lines, const ShaftKnown& pinion,
-                 const ShaftKnown& gear, GearedParameters& p) {
-  std::map<int, std::vector<Complex>> found;
-  for (const GearedLine& line : lines) {
+void SolveErrors(const std::vector<GearedLine>& lines, const GearedKnown& known, const Teeth& teeth,
+                 GearedParameters& p) {
+  struct Sample {
+    Complex value;
+    double weight;
+  };
+  std::map<int, std::vector<Sample>> found;
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    const GearedLine& line = lines[n];
     if (line.kind != Kind::kTransmissionError) continue;
     const Complex mesh(p.mesh_stiffness_n_per_m,
                        line.frequency_rad_per_s * p.mesh_damping_n_s_per_m);
-    found[line.harmonic].push_back(line.pinion_m - line.gear_m -
-                                   MeshForce(line, pinion, gear, p) / mesh);
+    Complex e = line.pinion_m - line.gear_m + teeth.twist[n] - teeth.force[n] / mesh;
+    if (known.torsion && line.frequency_rad_per_s == 0.0) {
+      const Complex unit = known.torsion->normal;
+      e -= unit * (std::conj(unit) * e).real();
+      p.mean_along_line_unknown = true;
+    }
+    const double sigma = MeshSigma(line, known, p) / std::abs(mesh);
+    found[line.harmonic].push_back({e, 1.0 / (sigma * sigma)});
   }
-  for (const auto& [harmonic, values] : found) {
+  for (const auto& [harmonic, samples] : found) {
+    double weight = 0.0;
     Complex mean = 0.0;
-    for (const Complex value : values) mean += value / static_cast<double>(values.size());
+    for (const Sample& s : samples) {
+      weight += s.weight;
+      mean += s.weight * s.value;
+    }
+    mean /= weight;
     double scatter = 0.0;
-    for (const Complex value : values) scatter += std::norm(value - mean);
-    const double n = std::max<double>(2.0, static_cast<double>(values.size()));
-    p.error.push_back({harmonic, mean, std::sqrt(scatter / (n * (n - 1.0)))});
+    for (const Sample& s : samples) scatter += s.weight * std::norm(s.value - mean);
+    const double n = std::max<double>(2.0, static_cast<double>(samples.size()));
+    p.error.push_back({harmonic, mean, std::sqrt(scatter / (weight * (n - 1.0)))});
+  }
+}
+
+/// A magnet pushes the way its current goes, and the lines obey the model: else a sign is wrong.
+void RefuseWrongSigns(const GearedParameters& p, const Solution& shafts) {
+  if (shafts.unexplained > kMostUnexplained && shafts.sigmas > kMostSigmas) {
+    throw BadInput(fmt::format(
+        "full spectrum: {:.0f} % of the forces on the shafts remain unexplained: a channel is dead "
+        "or has the wrong sign, or the rig file is of another rig",
+        100.0 * shafts.unexplained));
+  }
+  for (const ShaftFound* shaft : {&p.pinion, &p.gear}) {
+    if (shaft->ki_n_per_a > 0.0) continue;
+    throw BadInput(fmt::format(
+        "full spectrum: ki of the {} comes out as {:.1f} N/A: the sign of its probes or of its "
+        "current is wrong in the record or in the rig file",
+        shaft == &p.pinion ? "pinion" : "gear", shaft->ki_n_per_a));
+  }
+}
+
+GearedParameters Fit(const std::vector<GearedLine>& lines, const GearedKnown& known, bool refuse) {
+  GearedParameters p;
+  const bool weighted = known.uncertainty > 0.0 ||
+                        std::ranges::all_of(lines, [](const auto& l) { return l.sigma_m > 0.0; });
+  for (int round = 0; round < (weighted ? kRounds : 1); ++round) {
+    const Solution shafts = SolveShafts(lines, known, p);
+    const GearedKnown corrected = Corrected(known, shafts);
+    TakeShafts(shafts, corrected, p);
+    if (refuse) RefuseWrongSigns(p, shafts);
+    const Teeth teeth = TeethOf(lines, corrected, p);
+    SolveMesh(lines, corrected, teeth, p);
+    p.error.clear();
+    SolveErrors(lines, corrected, teeth, p);
+  }
+  return p;
+}
+
+void AddVariance(double& sigma, double difference) { sigma = std::hypot(sigma, difference); }
+
+/// What one wrong known number changes joins every standard deviation.
+void AddDifference(const GearedParameters& other, GearedParameters& p) {
+  for (const auto& [own, changed] :
+       {std::pair{&p.pinion, &other.pinion}, std::pair{&p.gear, &other.gear}}) {
+    AddVariance(own->ks_sigma, changed->ks_n_per_m - own->ks_n_per_m);
+    AddVariance(own->ki_sigma, changed->ki_n_per_a - own->ki_n_per_a);
+    AddVariance(own->run_out_sigma, std::abs(changed->run_out_m - own->run_out_m));
+  }
+  AddVariance(p.mesh_stiffness_sigma, other.mesh_stiffness_n_per_m - p.mesh_stiffness_n_per_m);
+  AddVariance(p.mesh_damping_sigma, other.mesh_damping_n_s_per_m - p.mesh_damping_n_s_per_m);
+  for (std::size_t n = 0; n < p.error.size(); ++n) {
+    AddVariance(p.error[n].sigma, std::abs(other.error[n].amplitude_m - p.error[n].amplitude_m));
+  }
+}
+
+void AddErrorsOfTheKnown(const std::vector<GearedLine>& lines, const GearedKnown& known,
+                         GearedParameters& p) {
+  for (ShaftKnown GearedKnown::*shaft : {&GearedKnown::pinion, &GearedKnown::gear}) {
+    const auto change = [&](const Numbers& numbers) {
+      GearedKnown wrong = known;
+      Scale(wrong.*shaft, numbers, 1.0 + known.uncertainty);
+      AddDifference(Fit(lines, wrong, false), p);
+    };
+    for (const Numbers& numbers : Correctable()) change(numbers);
+    change({&ShaftKnown::ks_n_per_m});
   }
 }
 
 }  // namespace
 
-GearedParameters IdentifyGeared(const std::vector<GearedLine>& lines, const ShaftKnown& pinion,
-                                const ShaftKnown& gear) {
+GearedParameters IdentifyGeared(const std::vector<GearedLine>& lines, const GearedKnown& known) {
   RefuseTooFew(lines);
-  const Solution shafts = SolveShafts(lines, pinion, gear);
-  const Eigen::VectorXd& v = shafts.value;
-  const Eigen::VectorXd& s = shafts.sigma;
-  GearedParameters p;
-  p.condition = shafts.condition;
-  p.pinion = {v[0], s[0], v[1], s[1], {v[4], v[5]}, std::hypot(s[4], s[5])};
-  p.gear = {v[2], s[2], v[3], s[3], {v[6], v[7]}, std::hypot(s[6], s[7])};
-  SolveMesh(lines, pinion, gear, p);
-  SolveErrors(lines, pinion, gear, p);
+  GearedParameters p = Fit(lines, known, true);
+  if (known.uncertainty > 0.0) AddErrorsOfTheKnown(lines, known, p);
   return p;
 }
 

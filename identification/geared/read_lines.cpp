@@ -40,6 +40,8 @@ void SetKind(GearedLine& line, const std::string& name, const std::string& where
     line.kind = GearedLine::Kind::kPinion;
   } else if (name == "gear_1x") {
     line.kind = GearedLine::Kind::kGear;
+  } else if (name == "pinion_-1x" || name == "gear_+1x") {
+    line.kind = GearedLine::Kind::kMirror;
   } else if (name == "mean") {
     line.kind = GearedLine::Kind::kTransmissionError;
   } else if (name.starts_with("mesh_")) {
@@ -48,7 +50,9 @@ void SetKind(GearedLine& line, const std::string& name, const std::string& where
     line.harmonic = static_cast<int>(Number(digits, where));
   } else {
     throw BadInput(fmt::format(
-        "{}: line '{}', allowed: pinion_1x, gear_1x, mean, mesh_+1, mesh_-1 ...", where, name));
+        "{}: line '{}', allowed: pinion_1x, gear_1x, pinion_-1x, gear_+1x, mean, mesh_+1, mesh_-1 "
+        "...",
+        where, name));
   }
 }
 

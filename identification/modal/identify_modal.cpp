@@ -13,7 +13,6 @@ namespace levitas::identification {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kNearMode = 0.25;
 
 Eigen::Index ModesInBand(const config::RigFile& rig, double highest_hz) {
   const auto most = static_cast<Eigen::Index>(rig.plant.rotor.modes_per_plane) - 2;
@@ -26,13 +25,12 @@ Eigen::Index ModesInBand(const config::RigFile& rig, double highest_hz) {
   return count;
 }
 
-bool Matched(const ModalStart& start, const ProposedMode& mode) {
-  const auto& at = start.frame.layout;
+std::vector<double> BendingHz(const ModalLayout& at, const Eigen::VectorXd& vector) {
+  std::vector<double> frequencies;
   for (Eigen::Index i = 0; i < at.bending; ++i) {
-    const double known_hz = std::exp(start.vector[at.frequency + i]) / kTwoPi;
-    if (std::abs(std::log(mode.frequency_hz / known_hz)) < kNearMode) return true;
+    frequencies.push_back(std::exp(vector[at.frequency + i]) / kTwoPi);
   }
-  return false;
+  return frequencies;
 }
 
 }  // namespace
@@ -50,28 +48,35 @@ ModalResult IdentifyModal(const config::RigFile& rig,
   used.highest_hz = std::min(options.highest_hz, UsableBandHz(standing));
   StabilisationOptions stabilisation;
   stabilisation.highest_hz = used.highest_hz;
-  ModalResult result{standing.channels,
-                     used,
-                     StartFromRig(rig.plant, ModesInBand(rig, used.highest_hz)),
-                     Stabilise(standing, stabilisation),
-                     {},
-                     {},
-                     {},
-                     {},
-                     {},
-                     0.0};
-  std::ranges::copy_if(result.stabilisation.modes, std::back_inserter(result.unmatched),
-                       [&](const ProposedMode& m) { return !Matched(result.start, m); });
+  const ModalStart start = StartFromRig(rig.plant, ModesInBand(rig, used.highest_hz));
+  return IdentifyModal(start, start.vector, Stabilise(standing, stabilisation), responses, used);
+}
+
+ModalResult IdentifyModal(const ModalStart& start, const Eigen::VectorXd& begin,
+                          const Stabilisation& stabilisation,
+                          const std::vector<FrequencyResponse>& responses,
+                          const ModalFitOptions& options) {
+  const FrequencyResponse& standing = responses.front();
+  ModalResult result{standing.channels, options, start, stabilisation, {}, {}, {}, {}, {}, {}, 0.0};
   std::vector<FrequencyResponse> spinning;
   if (responses.size() > 1) spinning.push_back(responses.back());
-  result.fit = FitModal(result.start, result.start.vector, result.stabilisation.modes, standing,
-                        spinning, used);
-  result.rig = ToPhysical(result.start.frame, result.fit.vector);
-  result.uncertainty = Assess(result.start, result.fit);
+  const auto candidates = PairModes(BendingHz(start.frame.layout, begin), stabilisation.modes);
+  result.fit = FitModal(start, begin, candidates, standing, spinning, options);
+  const Assigned& assigned = result.fit.assigned;
+  for (const ProposedMode& mode : stabilisation.modes) {
+    const bool claimed = std::ranges::any_of(assigned, [&mode](const auto& own) {
+      return own && own->frequency_hz == mode.frequency_hz;
+    });
+    if (!claimed) result.unmatched.push_back(mode);
+  }
+  result.rig = ToPhysical(start.frame, result.fit.vector);
+  result.support = SupportOf(result.rig, assigned);
+  result.uncertainty = Assess(start, result.fit);
   for (std::size_t i = 0; i < responses.size(); ++i) {
-    const auto model = ModelOn(result.start, result.fit.vector, responses[i]);
-    result.quality.push_back({responses[i].speed_rad_per_s, Misfit(responses[i], model, used),
-                              i == 0 || i + 1 == responses.size()});
+    const auto model = ModelOn(start, result.fit.vector, responses[i]);
+    result.quality.push_back({responses[i].speed_rad_per_s, Misfit(responses[i], model, options),
+                              i == 0 || i + 1 == responses.size(),
+                              FitOf(responses[i], model, options)});
   }
   return result;
 }

@@ -3,8 +3,8 @@
 //
 // Speeds    the slowest response must be at standstill (BadInput else); with it the fastest is
 //           fitted, all others only judge.
-// Modes     those bending modes of the rig file that lie in the band; modes of the data without
-//           one within 25 % are listed as unmatched.
+// Modes     those bending modes of the rig file that lie in the band; which of them the data show,
+//           and which modes of the data no one claims: mode_support.hpp.
 // Thread    any.
 
 #include <string>
@@ -12,6 +12,7 @@
 
 #include "config/rig_file.hpp"
 #include "identification/modal/modal_fit.hpp"
+#include "identification/modal/modal_quality.hpp"
 #include "identification/modal/uncertainty.hpp"
 
 namespace levitas::identification {
@@ -20,6 +21,7 @@ struct SpeedQuality {
   double speed_rad_per_s{};
   double misfit{};  ///< modal_quality.hpp
   bool fitted{};
+  FitPercent percent;
 };
 
 struct ModalResult {
@@ -27,8 +29,9 @@ struct ModalResult {
   ModalFitOptions options;  ///< with the band that was used
   ModalStart start;
   Stabilisation stabilisation;
-  std::vector<ProposedMode> unmatched;
+  std::vector<ProposedMode> unmatched;  ///< of the data, without one of the rig's
   ModalFit fit;
+  std::vector<ModeSupport> support;  ///< per bending mode
   Physical rig;
   Uncertainty uncertainty;
   std::vector<SpeedQuality> quality;  ///< in the order of the responses
@@ -36,6 +39,11 @@ struct ModalResult {
 };
 
 [[nodiscard]] ModalResult IdentifyModal(const config::RigFile& rig,
+                                        const std::vector<FrequencyResponse>& responses,
+                                        const ModalFitOptions& options);
+/// The same with the search beginning elsewhere: see modal_starts.hpp.
+[[nodiscard]] ModalResult IdentifyModal(const ModalStart& start, const Eigen::VectorXd& begin,
+                                        const Stabilisation& stabilisation,
                                         const std::vector<FrequencyResponse>& responses,
                                         const ModalFitOptions& options);
 

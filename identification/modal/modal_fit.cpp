@@ -7,109 +7,21 @@
 #include <memory>
 #include <numbers>
 
-#include "identification/modal/modal_response.hpp"
+#include "identification/modal/line_cost.hpp"
 
 namespace levitas::identification {
 namespace {
 
 using Index = Eigen::Index;
 
-enum class Kind { kLogMagnitude, kComplex };
+using Kind = LineKind;
 
-/// Least relative noise of a log-magnitude: far from the optimum nothing is worth more.
-constexpr double kLogFloor = 0.1;
-
-/// One line of one response. Standing, only the entries within a plane are compared.
-class LineCost : public ceres::CostFunction {
- public:
-  LineCost(const ModalFrame& frame, const FrequencyResponse& data, std::size_t line, Kind kind,
-           double floor)
-      : frame_(frame), data_(data), line_(line), kind_(kind) {
-    const double speed = std::abs(data.speed_rad_per_s) < 1.0 ? 0.0 : data.speed_rad_per_s;
-    speed_rad_per_s_ = speed;
-    for (Index j = 0; j < data.axes(); ++j) {
-      for (Index i = 0; i < data.axes(); ++i) {
-        if (speed == 0.0 && (i + j) % 2 != 0) continue;
-        const auto value = data.plant[line](i, j);
-        const double variance = 0.5 * data.variance[line](i, j);  // of each part
-        const double sigma = kind == Kind::kComplex
-                                 ? std::sqrt(variance + floor * floor * std::norm(value))
-                                 : std::sqrt(variance / std::norm(value) + kLogFloor * kLogFloor);
-        entries_.push_back({i + data.axes() * j, value, 1.0 / sigma});
-      }
-    }
-    const auto per_entry = kind == Kind::kComplex ? 2U : 1U;
-    set_num_residuals(static_cast<int>(per_entry * entries_.size()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(frame.layout.size));
-  }
-
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const Eigen::Map<const Eigen::VectorXd> vector(parameters[0], frame_.layout.size);
-    const bool derive = jacobians != nullptr && jacobians[0] != nullptr;
-    ResponseDerivative derivative;
-    const Eigen::MatrixXcd model =
-        ModalResponse(frame_, ToPhysical(frame_, vector), data_.frequency_hz[line_],
-                      speed_rad_per_s_, derive ? &derivative : nullptr);
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
-        derive ? jacobians[0] : nullptr, derive ? num_residuals() : 0,
-        derive ? frame_.layout.size : 0);
-    Index row = 0;
-    for (const Entry& e : entries_) {
-      const auto value = model.data()[e.at];
-      if (kind_ == Kind::kComplex) {
-        residuals[row] = e.weight * (value - e.data).real();
-        residuals[row + 1] = e.weight * (value - e.data).imag();
-        if (derive) {
-          jacobian.row(row) = e.weight * derivative.row(e.at).real();
-          jacobian.row(row + 1) = e.weight * derivative.row(e.at).imag();
-        }
-        row += 2;
-      } else {
-        residuals[row] = e.weight * std::log(std::abs(value) / std::abs(e.data));
-        if (derive) jacobian.row(row) = e.weight * (derivative.row(e.at) / value).real();
-        row += 1;
-      }
-    }
-    return std::isfinite(model.cwiseAbs2().sum());
-  }
-
- private:
-  struct Entry {
-    Index at;
-    std::complex<double> data;
-    double weight;
-  };
-  const ModalFrame& frame_;
-  const FrequencyResponse& data_;
-  std::size_t line_;
-  Kind kind_;
-  double speed_rad_per_s_{};
-  std::vector<Entry> entries_;
-};
-
-class PriorCost : public ceres::CostFunction {
- public:
-  explicit PriorCost(const ModalStart& start) : start_(start) {
-    set_num_residuals(static_cast<int>(start.vector.size()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(start.vector.size()));
-  }
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const Index n = start_.vector.size();
-    const Eigen::Map<const Eigen::VectorXd> vector(parameters[0], n);
-    Eigen::Map<Eigen::VectorXd>(residuals, n) =
-        (vector - start_.vector).cwiseQuotient(start_.prior);
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::MatrixXd>(jacobians[0], n, n) =
-          start_.prior.cwiseInverse().asDiagonal().toDenseMatrix();
-    }
-    return true;
-  }
-
- private:
-  const ModalStart& start_;
-};
+/// Neighbouring lines whose misfit may have one cause, as the flank of a resonance.
+constexpr std::size_t kCluster = 8;
+constexpr int kPoleRounds = 8;
+constexpr int kApproaches = 3;
+/// ln of a damping that the diagram gives: it is taken from the same data, roughly.
+constexpr double kDampingPrior = 0.5;
 
 struct StageSetup {
   std::string name;
@@ -117,18 +29,25 @@ struct StageSetup {
   Kind kind{Kind::kComplex};
   bool robust{};
   bool rig_free{true};
+  bool poles_free{true};
   bool gyroscopic_free{};
   int iterations{60};
   std::size_t stride{1};  ///< every n-th line
 };
 
 std::vector<bool> FreeUnknowns(const ModalLayout& at, const ModalFitOptions& options,
-                               const StageSetup& setup) {
+                               const StageSetup& setup, const Assigned& assigned) {
   std::vector<bool> free(static_cast<std::size_t>(at.size), false);
   const auto set = [&free](Index from, Index count, bool value) {
     std::fill_n(free.begin() + from, count, value);
   };
   if (setup.rig_free) set(0, at.delay, true);
+  for (Index i = 0; i < at.bending; ++i) {
+    const bool shown =
+        setup.rig_free && setup.poles_free && assigned[static_cast<std::size_t>(i)].has_value();
+    set(at.frequency + i, 1, shown);
+    set(at.damping + i, 1, shown);
+  }
   set(at.delay, 1, setup.rig_free && options.fit_delay);
   set(at.amplifier, at.bearings, setup.rig_free && options.fit_amplifiers);
   set(at.sensor, at.bearings, setup.rig_free && options.fit_sensors);
@@ -136,29 +55,17 @@ std::vector<bool> FreeUnknowns(const ModalLayout& at, const ModalFitOptions& opt
   return free;
 }
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-
-/// A rotor's drawing is rarely wrong by more, and bending modes are rarely closer.
-constexpr double kNearMode = 0.25;
-
-const ProposedMode* NearestMode(const std::vector<ProposedMode>& modes, double frequency_hz) {
-  const auto distance = [&](const ProposedMode& m) {
-    return std::abs(std::log(m.frequency_hz / frequency_hz));
-  };
-  const auto nearest = std::ranges::min_element(modes, {}, distance);
-  return nearest != modes.end() && distance(*nearest) < kNearMode ? &*nearest : nullptr;
-}
-
 class Search {
  public:
-  Search(const ModalStart& start, const ModalFitOptions& options, ModalFit& fit)
-      : start_(start), options_(options), fit_(fit) {}
+  Search(const ModalStart& start, const Assigned& assigned, const ModalFitOptions& options,
+         ModalFit& fit)
+      : start_(start), assigned_(assigned), options_(options), fit_(fit) {}
 
   void Run(const StageSetup& setup) {
     ceres::Problem problem;
     AddBlocks(setup, problem);
     const ModalLayout& at = start_.frame.layout;
-    fit_.fitted = FreeUnknowns(at, options_, setup);
+    fit_.fitted = FreeUnknowns(at, options_, setup, assigned_);
     std::vector<int> constant;
     for (std::size_t k = 0; k < fit_.fitted.size(); ++k) {
       if (!fit_.fitted[k]) constant.push_back(static_cast<int>(k));
@@ -183,10 +90,18 @@ class Search {
     fit_.converged = summary.termination_type == ceres::CONVERGENCE;
   }
 
-  /// J^T J and the sum of squares of the data at the optimum.
+  /// J^T J, its likeness from the residuals and the sum of squares of the data at the optimum.
   void Inform(const StageSetup& setup) {
     const Index n = start_.frame.layout.size;
     fit_.information = Eigen::MatrixXd::Zero(n, n);
+    fit_.scatter = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd pull = Eigen::VectorXd::Zero(n);
+    std::size_t in_cluster = 0;
+    const auto close = [&] {
+      fit_.scatter.noalias() += pull * pull.transpose();
+      pull.setZero();
+      in_cluster = 0;
+    };
     double squares = 0.0;
     fit_.residuals = 0;
     for (const FrequencyResponse* data : setup.data) {
@@ -199,9 +114,12 @@ class Search {
         double* jacobians = jacobian.data();
         (void)cost.Evaluate(&parameters, residual.data(), &jacobians);
         fit_.information.noalias() += jacobian.transpose() * jacobian;
+        pull.noalias() += jacobian.transpose() * residual;
+        if (++in_cluster == kCluster) close();
         squares += residual.squaredNorm();
         fit_.residuals += static_cast<std::size_t>(rows);
       }
+      close();
     }
     const auto unknowns = static_cast<double>(std::ranges::count(fit_.fitted, true));
     fit_.reduced_chi_square = squares / (static_cast<double>(fit_.residuals) - unknowns);
@@ -235,51 +153,129 @@ class Search {
   }
 
   const ModalStart& start_;
+  const Assigned& assigned_;
   const ModalFitOptions& options_;
   ModalFit& fit_;
 };
 
-}  // namespace
+/// Moves the free rotor's frequencies until the poles in the magnets are those of the diagram: a
+/// resonance that starts beside its peak is flattened by damping before it finds it.
+void MeetPoles(const ModalFrame& frame, const Assigned& assigned, Eigen::VectorXd& vector) {
+  const ModalLayout& at = frame.layout;
+  for (int round = 0; round < kPoleRounds; ++round) {
+    const Physical rig = ToPhysical(frame, vector);
+    const auto support = SupportOf(rig, assigned);
+    for (Index i = 0; i < at.bending; ++i) {
+      const ModeSupport& mode = support[static_cast<std::size_t>(i)];
+      if (mode.shown_hz <= 0.0) continue;
+      if (mode.plant_hz <= 0.0) {  // the magnets pull the mode away altogether
+        vector[at.frequency + i] += 0.1;
+        continue;
+      }
+      const double off = mode.shown_hz * mode.shown_hz - mode.plant_hz * mode.plant_hz;
+      const double hz = rig.frequency_rad_per_s[2 + i] / (2.0 * std::numbers::pi);
+      const double lowest = 0.25 * mode.shown_hz * mode.shown_hz;
+      vector[at.frequency + i] =
+          std::log(2.0 * std::numbers::pi * std::sqrt(std::max(hz * hz + off, lowest)));
+    }
+  }
+}
 
-ModalFit FitModal(const ModalStart& start, const Eigen::VectorXd& begin,
-                  const std::vector<ProposedMode>& modes, const FrequencyResponse& standing,
-                  const std::vector<FrequencyResponse>& spinning, const ModalFitOptions& options) {
-  ModalFit fit;
-  fit.vector = begin;
+/// Alternately the poles and everything else, on few lines: leads a poor start into the valley.
+void Approach(Search& search, const ModalStart& start, const Assigned& assigned,
+              const FrequencyResponse& standing, ModalFit& fit) {
+  for (int round = 0; round < kApproaches; ++round) {
+    MeetPoles(start.frame, assigned, fit.vector);
+    search.Run({.name = "log magnitude, poles held",
+                .data = {&standing},
+                .kind = Kind::kLogMagnitude,
+                .robust = true,
+                .poles_free = false,
+                .iterations = 6,
+                .stride = 8});
+  }
+  MeetPoles(start.frame, assigned, fit.vector);
+}
+
+/// Where the search begins with one pairing of modes, and its prior.
+ModalStart Paired(const ModalStart& start, const Assigned& assigned, Eigen::VectorXd& vector) {
   const ModalLayout& at = start.frame.layout;
   ModalStart prior = start;
   for (Index i = 0; i < at.bending; ++i) {
-    const double known_hz = std::exp(start.vector[at.frequency + i]) / kTwoPi;
-    const ProposedMode* mode = NearestMode(modes, known_hz);
-    if (mode == nullptr) continue;
-    fit.vector[at.frequency + i] = std::log(kTwoPi * mode->frequency_hz);
-    fit.vector[at.damping + i] = std::log(std::clamp(mode->damping_ratio, 5e-4, 0.01));
-    prior.vector[at.frequency + i] = fit.vector[at.frequency + i];
+    if (const auto& mode = assigned[static_cast<std::size_t>(i)]; mode) {
+      vector[at.frequency + i] = std::log(2.0 * std::numbers::pi * mode->frequency_hz);
+      vector[at.damping + i] = std::log(std::clamp(mode->damping_ratio, 5e-4, 0.01));
+      prior.vector[at.frequency + i] = vector[at.frequency + i];
+      prior.vector[at.damping + i] = vector[at.damping + i];
+      prior.prior[at.damping + i] = kDampingPrior;
+    } else {
+      vector[at.frequency + i] = start.vector[at.frequency + i];
+      vector[at.damping + i] = start.vector[at.damping + i];
+    }
   }
-  Search search(prior, options, fit);
+  return prior;
+}
+
+/// The pairing whose approach ends lowest; its approach is kept in `fit`.
+Assigned BestPairing(const ModalStart& start, const Eigen::VectorXd& begin,
+                     const std::vector<Assigned>& candidates, const FrequencyResponse& standing,
+                     const ModalFitOptions& options, ModalFit& fit) {
+  std::optional<std::size_t> best;
+  for (std::size_t n = 0; n < candidates.size(); ++n) {
+    ModalFit one;
+    one.vector = begin;
+    const ModalStart prior = Paired(start, candidates[n], one.vector);
+    Search search(prior, candidates[n], options, one);
+    Approach(search, prior, candidates[n], standing, one);
+    if (best && one.cost >= fit.cost) continue;
+    best = n;
+    fit = std::move(one);
+  }
+  return candidates[best.value()];
+}
+
+void FitSpinning(Search& search, const FrequencyResponse& standing,
+                 const std::vector<FrequencyResponse>& spinning, StageSetup& last) {
+  StageSetup gyroscopic{.name = "gyroscopic matrix",
+                        .rig_free = false,
+                        .gyroscopic_free = true,
+                        .iterations = 15,
+                        .stride = 2};
+  for (const auto& response : spinning) gyroscopic.data.push_back(&response);
+  search.Run(gyroscopic);
+  last = {.name = "all speeds together",
+          .data = {&standing},
+          .gyroscopic_free = true,
+          .iterations = 30};
+  last.data.insert(last.data.end(), gyroscopic.data.begin(), gyroscopic.data.end());
+  search.Run(last);
+}
+
+}  // namespace
+
+ModalFit FitModal(const ModalStart& start, const Eigen::VectorXd& begin,
+                  const std::vector<Assigned>& candidates, const FrequencyResponse& standing,
+                  const std::vector<FrequencyResponse>& spinning, const ModalFitOptions& options) {
+  ModalFit fit;
+  fit.assigned = BestPairing(start, begin, candidates, standing, options, fit);
+  Eigen::VectorXd unused = begin;
+  const ModalStart prior = Paired(start, fit.assigned, unused);
+  const Assigned assigned = fit.assigned;
+  Search search(prior, assigned, options, fit);
   search.Run({.name = "log magnitude, soft L1",
               .data = {&standing},
               .kind = Kind::kLogMagnitude,
               .robust = true,
               .iterations = 30,
+              .stride = 4});
+  search.Run({.name = "complex, soft L1",
+              .data = {&standing},
+              .robust = true,
+              .iterations = 40,
               .stride = 2});
-  search.Run({.name = "complex, soft L1", .data = {&standing}, .robust = true, .iterations = 30});
   StageSetup last{.name = "complex", .data = {&standing}};
   search.Run(last);
-  if (!spinning.empty()) {
-    StageSetup gyroscopic{.name = "gyroscopic matrix",
-                          .rig_free = false,
-                          .gyroscopic_free = true,
-                          .iterations = 15,
-                          .stride = 2};
-    for (const auto& response : spinning) gyroscopic.data.push_back(&response);
-    search.Run(gyroscopic);
-    last.name = "all speeds together";
-    last.gyroscopic_free = true;
-    last.data.insert(last.data.end(), gyroscopic.data.begin(), gyroscopic.data.end());
-    last.iterations = 8;
-    search.Run(last);
-  }
+  if (!spinning.empty()) FitSpinning(search, standing, spinning, last);
   search.Inform(last);
   return fit;
 }

@@ -2,11 +2,14 @@
 // Fits the modal model to measured responses: nonlinear least squares in stages, each of which
 // leads the next into its valley.
 //
-// Stages    1 peak-picked frequencies and dampings replace the start's where one lies within 25 %
-//             (stabilisation.hpp)
-//           2 log-magnitude, soft-L1 loss, standing data: far from the optimum every resonance
-//           pulls 3 complex residual, soft-L1, then 4 plain: the maximum-likelihood fit 5
-//           gyroscopic matrix alone, from data at speed; 6 everything together
+// Stages    1 frequencies and dampings of the stabilisation diagram replace the start's
+//             (mode_support.hpp); a mode that the diagram does not show keeps the prior's, only its
+//             deflections are fitted. Where the pairing is open, every candidate goes through 2.
+//           2 approach: log-magnitude on few lines, soft-L1 loss, with poles held; between rounds
+//             the free rotor's frequencies move until the poles in the magnets are the diagram's
+//           3 log-magnitude with poles free, then 4 complex, both soft-L1, then 5 plain complex:
+//             the maximum-likelihood fit
+//           6 gyroscopic matrix alone, from data at speed; 7 everything together
 // Residual  (P - P_data)/sqrt(var + (floor |P_data|)^2) per entry and line: resonances and
 //           anti-resonances get the weight that the data's own scatter gives them, nothing is
 //           chosen by hand. `floor` stands for what repeats and is not linear.
@@ -18,8 +21,7 @@
 #include <vector>
 
 #include "identification/frf/frequency_response.hpp"
-#include "identification/modal/modal_parameters.hpp"
-#include "identification/modal/stabilisation.hpp"
+#include "identification/modal/mode_support.hpp"
 
 namespace levitas::identification {
 
@@ -41,6 +43,7 @@ struct FitStage {
 };
 
 struct ModalFit {
+  Assigned assigned;  ///< the pairing that led lowest
   Eigen::VectorXd vector;
   std::vector<bool> fitted;  ///< per unknown
   std::vector<FitStage> stages;
@@ -48,13 +51,14 @@ struct ModalFit {
   std::size_t residuals{};  ///< real ones, prior not counted
   double reduced_chi_square{};
   Eigen::MatrixXd information;  ///< J^T J of the data alone at the optimum, all unknowns
+  Eigen::MatrixXd scatter;      ///< of J^T r over neighbouring lines: `information`, were r noise
   bool converged{};
 };
 
 /// `standing` is needed; `spinning` may be empty, the gyroscopic matrix then stays the start's.
 /// `begin` is where the search starts; `start` holds frame and prior.
 [[nodiscard]] ModalFit FitModal(const ModalStart& start, const Eigen::VectorXd& begin,
-                                const std::vector<ProposedMode>& modes,
+                                const std::vector<Assigned>& candidates,
                                 const FrequencyResponse& standing,
                                 const std::vector<FrequencyResponse>& spinning,
                                 const ModalFitOptions& options);

@@ -51,9 +51,9 @@ void PutRotor(const plant::PlantConfig& rig, const plant::PlantModel& model, con
   const ModalLayout& at = to.start.frame.layout;
   const RigidBody body = RigidBodyOf(model);
   to.start.frame.nominal_mass_kg = body.mass_kg;
-  to.Put(at.mass, "mass", std::log(body.mass_kg), 0.3);
-  to.Put(at.centre, "centre_z", body.centre_z_m / 0.1, 0.3);
-  to.Put(at.inertia, "transverse_inertia", std::log(body.inertia_kg_m2), 0.5);
+  to.Put(at.mass, "mass", std::log(body.mass_kg), 0.02);
+  to.Put(at.centre, "centre_z", body.centre_z_m / 0.1, 0.02);
+  to.Put(at.inertia, "transverse_inertia", std::log(body.inertia_kg_m2), 0.04);
   const auto& modes = model.parameters().modes;
   const Index known = modes.frequency_rad_per_s.size() - 2;
   const double scale = std::sqrt(body.mass_kg);
@@ -73,7 +73,7 @@ void PutRotor(const plant::PlantConfig& rig, const plant::PlantModel& model, con
       to.Put(at.shape_at(i, plane),
              fmt::format("deflection_{}_{}_{}", i + 1, actuator ? "actuator" : "sensor",
                          Bearing(rig, b).name),
-             value, 1.0);
+             value, has ? 0.1 : 1.0);
     }
   }
   // Gyroscopic matrix in (tilt, bending modes): the tilt as a unit vector of the rigid modes.
@@ -90,6 +90,25 @@ void PutRotor(const plant::PlantConfig& rig, const plant::PlantModel& model, con
   }
 }
 
+void PutBeyond(const plant::PlantModel& model, const Writer& to) {
+  const ModalLayout& at = to.start.frame.layout;
+  const auto& frequency = model.parameters().modes.frequency_rad_per_s;
+  const Index first = std::min<Index>(at.modes(), frequency.size());
+  const Index count = frequency.size() - first;
+  ModesBeyond& beyond = to.start.frame.beyond;
+  beyond.frequency_rad_per_s = frequency.tail(count);
+  beyond.actuator.resize(count, at.bearings);
+  beyond.sensor.resize(count, at.bearings);
+  for (Index b = 0; b < at.bearings; ++b) {
+    const auto& shapes = model.bearings()[static_cast<std::size_t>(b)];
+    for (Index i = 0; i < count; ++i) {
+      const auto mode = static_cast<std::size_t>(first + i);
+      beyond.actuator(i, b) = shapes.actuator_shape[mode];
+      beyond.sensor(i, b) = shapes.sensor_shape[mode];
+    }
+  }
+}
+
 void PutChain(const plant::PlantConfig& rig, const Writer& to) {
   const ModalLayout& at = to.start.frame.layout;
   for (Index axis = 0; axis < at.axes(); ++axis) {
@@ -101,7 +120,7 @@ void PutChain(const plant::PlantConfig& rig, const Writer& to) {
     const double ks = magnet::NegativeStiffness(magnet, b.magnet.bias_current_a);
     to.Put(at.ki + axis, "ki_" + name, std::log(ki), 0.5);
     to.Put(at.ks + axis, "ks_" + name, std::log(ks), 0.5);
-    to.Put(at.gain + axis, "sensor_gain_" + name, std::log(b.sensor.gain), 0.1);
+    to.Put(at.gain + axis, "sensor_gain_" + name, std::log(b.sensor.gain), 0.05);
   }
   to.Put(at.delay, "delay_samples", rig.delay_samples, 0.3);
   for (Index b = 0; b < at.bearings; ++b) {
@@ -177,8 +196,12 @@ Physical ToPhysical(const ModalFrame& frame, const Eigen::VectorXd& v) {
 
 ModalStart StartFromRig(const plant::PlantConfig& rig, Index bending_modes) {
   const auto bearings = static_cast<Index>(rig.bearings.size());
-  ModalStart start{{ModalLayout(bearings, bending_modes), Eigen::VectorXd(bearings),
-                    Eigen::VectorXd(bearings), static_cast<double>(rig.period_ns) * 1e-9, 0.0},
+  ModalStart start{{ModalLayout(bearings, bending_modes),
+                    Eigen::VectorXd(bearings),
+                    Eigen::VectorXd(bearings),
+                    static_cast<double>(rig.period_ns) * 1e-9,
+                    0.0,
+                    {}},
                    {},
                    {},
                    {}};
@@ -188,6 +211,7 @@ ModalStart StartFromRig(const plant::PlantConfig& rig, Index bending_modes) {
   start.names.resize(static_cast<std::size_t>(size));
   const plant::PlantModel model(rig);
   PutRotor(rig, model, {start});
+  PutBeyond(model, {start});
   PutChain(rig, {start});
   return start;
 }

@@ -48,6 +48,12 @@ struct ModalLayout {
   }
 };
 
+/// Modes of the rig file above those that are fitted: their compliance is felt in the band.
+struct ModesBeyond {
+  Eigen::VectorXd frequency_rad_per_s;
+  Eigen::MatrixXd actuator, sensor;  ///< modes x bearings [1/sqrt(kg)]
+};
+
 /// What is known of the rig and stays as it is.
 struct ModalFrame {
   ModalLayout layout;
@@ -55,6 +61,7 @@ struct ModalFrame {
   Eigen::VectorXd sensor_z_m;
   double period_s{};
   double nominal_mass_kg{};
+  ModesBeyond beyond;
 };
 
 /// Vector in physical numbers.

@@ -36,6 +36,25 @@ double Misfit(const FrequencyResponse& response, const std::vector<Eigen::Matrix
   return count > 0.0 ? sum / count : 0.0;
 }
 
+FitPercent FitOf(const FrequencyResponse& response, const std::vector<Eigen::MatrixXcd>& model,
+                 const ModalFitOptions& options) {
+  double left = 0.0;
+  double noise = 0.0;
+  double all = 0.0;
+  for (std::size_t k = 0; k < response.frequency_hz.size(); ++k) {
+    const double f = response.frequency_hz[k];
+    if (f < options.lowest_hz || f > options.highest_hz) continue;
+    const Eigen::ArrayXXd size = response.plant[k].cwiseAbs2().array();
+    const Eigen::ArrayXXd allowed =
+        response.variance[k].array() + options.floor * options.floor * size;
+    left += ((response.plant[k] - model[k]).cwiseAbs2().array() / allowed).sum();
+    noise += (response.variance[k].array() / allowed).sum();
+    all += (size / allowed).sum();
+  }
+  if (all <= 0.0) return {};
+  return {100.0 * (1.0 - std::sqrt(left / all)), 100.0 * (1.0 - std::sqrt(noise / all))};
+}
+
 std::vector<double> WhirlFrequenciesHz(const Physical& rig, double speed_rad_per_s) {
   // u e^{jlt}: l^2 u = w^2 u + l W G u, as a symmetric problem, docs/derivations.md (9).
   const Eigen::Index n = rig.frequency_rad_per_s.size();

@@ -3,6 +3,9 @@
 //
 // Misfit    mean of |P_model - P_data|^2 / (var + (floor |P_data|)^2) over entries and lines: 1
 //           when only noise is left.
+// Fit       100 (1 - sqrt(sum |P_model - P_data|^2 / sum |P_data|^2)) over the same, every line and
+//           entry in units of what it is allowed; the ceiling has the variance of the data in place
+//           of the difference: no model can do better on these data.
 // Thread    any.
 
 #include <vector>
@@ -19,6 +22,13 @@ namespace levitas::identification {
 [[nodiscard]] double Misfit(const FrequencyResponse& response,
                             const std::vector<Eigen::MatrixXcd>& model,
                             const ModalFitOptions& options);
+
+struct FitPercent {
+  double fit{}, ceiling{};
+};
+[[nodiscard]] FitPercent FitOf(const FrequencyResponse& response,
+                               const std::vector<Eigen::MatrixXcd>& model,
+                               const ModalFitOptions& options);
 
 /// Frequencies of the free rotor with the fitted gyroscopic matrix, signed by whirl, ascending.
 [[nodiscard]] std::vector<double> WhirlFrequenciesHz(const Physical& rig, double speed_rad_per_s);

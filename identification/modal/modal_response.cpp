@@ -218,6 +218,15 @@ void DeriveChain(const Line& line, const MatrixXcd& plant, double f, Columns& co
   }
 }
 
+/// Reading per force of the modes beyond the fitted ones, undamped: no resonance of theirs is near.
+MatrixXcd BeyondTheBand(const Line& line) {
+  const ModesBeyond& beyond = line.frame.beyond;
+  const Eigen::VectorXcd compliance =
+      (beyond.frequency_rad_per_s.array().square().cast<Complex>() + line.s * line.s).inverse();
+  return BothPlanes(beyond.sensor).transpose() * compliance.replicate(2, 1).asDiagonal() *
+         BothPlanes(beyond.actuator);
+}
+
 }  // namespace
 
 MatrixXcd ModalResponse(const ModalFrame& frame, const Physical& rig, double frequency_hz,
@@ -227,8 +236,9 @@ MatrixXcd ModalResponse(const ModalFrame& frame, const Physical& rig, double fre
   FillChain(line, frequency_hz);
   Solve(line);
   const MatrixXcd sensor = BothPlanes(rig.sensor);
-  MatrixXcd plant =
-      line.left.asDiagonal() * (sensor.transpose() * line.X) * line.right.asDiagonal();
+  MatrixXcd force_to_reading = sensor.transpose() * line.X;
+  if (frame.beyond.frequency_rad_per_s.size() > 0) force_to_reading += BeyondTheBand(line);
+  MatrixXcd plant = line.left.asDiagonal() * force_to_reading * line.right.asDiagonal();
   if (derivative != nullptr) {
     derivative->setZero(line.axes() * line.axes(), frame.layout.size);
     Columns columns(line, *derivative);

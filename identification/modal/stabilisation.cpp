@@ -160,12 +160,16 @@ Stabilisation Stabilise(const FrequencyResponse& response, const StabilisationOp
     const Band band{low, low * kOverlap * kOverlap * kMiddle};
     const Normal normal = Assemble(response, band, options.highest_order);
     std::vector<OrderPole> all;
+    // Of the two orders before: near the noise a pole alternates between odd and even ones.
     std::vector<OrderPole> before;
+    std::size_t last = 0;
     for (std::size_t order = kLowestOrder; order <= options.highest_order; ++order) {
       std::vector<OrderPole> poles = PolesOf(normal, order, band);
       MarkStable(before, poles);
       all.insert(all.end(), poles.begin(), poles.end());
-      before = std::move(poles);
+      before.erase(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(last));
+      last = before.size();
+      before.insert(before.end(), poles.begin(), poles.end());
     }
     // The first order has none before it to be stable against.
     for (const ProposedMode& mode : Propose(all, options.highest_order - kLowestOrder)) {

@@ -9,7 +9,7 @@
 //           1/sqrt(var + (|H|/10)^2); lowest coefficient a_0 = 1,
 //           so that poles that only follow noise stay away from the unit circle.
 // Stable    a pole whose frequency is within 0.5 % and whose damping within 0.005 of one of the
-//           order before.
+//           two orders before.
 // Mode      stable at more than half of the orders that can hold it, damping below 0.02.
 // Thread    any; a second of work at most.
 
@@ -41,7 +41,7 @@ struct Stabilisation {
 struct StabilisationOptions {
   double lowest_hz{20.0};  ///< bending modes are looked for from here on
   double highest_hz{1200.0};
-  std::size_t highest_order{16};
+  std::size_t highest_order{20};
 };
 
 [[nodiscard]] Stabilisation Stabilise(const FrequencyResponse& response,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 namespace levitas::identification {
@@ -49,11 +50,39 @@ Uncertainty Assess(const ModalStart& start, const ModalFit& fit) {
       prior.asDiagonal() * fit.information(free, free) * prior.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(data);
   const Eigen::VectorXd spread = (solver.eigenvalues().array().max(0.0) + 1.0).inverse();
+  const Eigen::MatrixXd noise =
+      solver.eigenvectors() * spread.asDiagonal() * solver.eigenvectors().transpose();
+  // Misfit that neighbouring lines share counts as they show it (Huber 1967): the larger of both.
+  const Eigen::MatrixXd seen = noise *
+                               (prior.asDiagonal() * fit.scatter(free, free) * prior.asDiagonal() +
+                                Eigen::MatrixXd::Identity(prior.size(), prior.size())) *
+                               noise;
   const double scale = std::max(1.0, fit.reduced_chi_square);
-  Uncertainty result{Eigen::VectorXd::Zero(start.vector.size()), {}};
-  for (Index k = 0; k < static_cast<Index>(free.size()); ++k) {
-    const double variance = solver.eigenvectors().row(k).cwiseAbs2().dot(spread);
-    result.deviation[free[static_cast<std::size_t>(k)]] = prior[k] * std::sqrt(scale * variance);
+  Uncertainty result{Eigen::VectorXd::Zero(start.vector.size()), {}, {}};
+  const auto spread_of = [&](const Eigen::VectorXd& direction) {
+    return std::sqrt(
+        std::max(scale * direction.dot(noise * direction), direction.dot(seen * direction)));
+  };
+  const auto count = static_cast<Index>(free.size());
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(count);
+  for (Index k = 0; k < count; ++k) {
+    const Eigen::VectorXd unit = prior[k] * Eigen::VectorXd::Unit(count, k);
+    result.deviation[free[static_cast<std::size_t>(k)]] = spread_of(unit);
+  }
+  const auto sum_of = [&](std::initializer_list<std::pair<Index, double>> terms) {
+    product.setZero();
+    for (const auto& [unknown, factor] : terms) {
+      const auto found = std::ranges::find(free, unknown);
+      const Index k = found - free.begin();
+      if (found != free.end()) product[k] = factor * prior[k];
+    }
+    return spread_of(product);
+  };
+  const ModalLayout& at = start.frame.layout;
+  result.products.resize(2 * at.axes());
+  for (Index axis = 0; axis < at.axes(); ++axis) {
+    result.products[axis] = sum_of({{at.ki + axis, 1.0}, {at.gain + axis, 1.0}, {at.mass, -1.0}});
+    result.products[at.axes() + axis] = sum_of({{at.ks + axis, 1.0}, {at.mass, -1.0}});
   }
   for (Index n = 0; n < solver.eigenvalues().size() && solver.eigenvalues()[n] < 1.0; ++n) {
     std::vector<std::pair<double, Index>> parts;
@@ -63,8 +92,8 @@ Uncertainty Assess(const ModalStart& start, const ModalFit& fit) {
     }
     std::ranges::sort(parts);
     Unidentifiable direction;
-    for (const auto& [part, at] : parts) {
-      direction.unknowns.push_back(start.names[static_cast<std::size_t>(at)]);
+    for (const auto& [part, unknown] : parts) {
+      direction.unknowns.push_back(start.names[static_cast<std::size_t>(unknown)]);
     }
     direction.experiment = ExperimentFor(direction.unknowns);
     result.directions.push_back(std::move(direction));

@@ -5,20 +5,25 @@
 
 #include "common/problem.hpp"
 #include "identification/frf/frequency_response.hpp"
-#include "tests/loop/identification/simulated_campaign.hpp"
+#include "trials/identification/simulated_campaign.hpp"
 
 namespace levitas::identification {
 namespace {
+
+const config::RigFile& FlexibleRotor() {
+  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  return rig;
+}
 
 using testing::HasSubstr;
 
 /// A short campaign: 255 bits of two samples, three periods on each axis.
 const Record& Good() {
   static const Record record = [] {
-    test::CampaignPlan plan;
+    trials::ExcitationPlan plan;
     plan.order = 8;
     plan.periods = 3;
-    return test::SimulateCampaign(test::FlexibleRotor(), plan);
+    return trials::SimulateCampaign(FlexibleRotor(), plan);
   }();
   return record;
 }

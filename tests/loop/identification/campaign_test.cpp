@@ -10,20 +10,25 @@
 
 #include "identification/modal/identify_modal.hpp"
 #include "plant_sim/plant/linear_model.hpp"
-#include "tests/loop/identification/simulated_campaign.hpp"
+#include "trials/identification/simulated_campaign.hpp"
 
 namespace levitas::identification {
 namespace {
 
+const config::RigFile& FlexibleRotor() {
+  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  return rig;
+}
+
 const std::vector<FrequencyResponse>& Standing() {
   static const std::vector<FrequencyResponse> responses =
-      EstimateResponses(test::SimulateCampaign(test::FlexibleRotor(), {}), 1e-4);
+      EstimateResponses(trials::SimulateCampaign(FlexibleRotor(), {}), 1e-4);
   return responses;
 }
 
 Eigen::MatrixXcd Exact(double f_hz) {
   static const auto sampled =
-      plant::Discretise(plant::Linearise(test::FlexibleRotor().plant, 0.0), 1e-4, 1.0);
+      plant::Discretise(plant::Linearise(FlexibleRotor().plant, 0.0), 1e-4, 1.0);
   const auto z = std::polar(1.0, 2.0 * std::numbers::pi * f_hz * 1e-4);
   const Eigen::Index n = sampled.a.rows();
   const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(n, n) - sampled.a;
@@ -62,7 +67,7 @@ TEST(Campaign, CoherenceIsHighWhereTheResponseStandsOutOfItsNoise) {
 }
 
 config::RigFile WrongRig() {
-  config::RigFile rig = test::FlexibleRotor();
+  config::RigFile rig = FlexibleRotor();
   for (auto& bearing : rig.plant.bearings) {
     bearing.magnet.force_constant_n_m2_per_a2 *= 1.2;
     bearing.magnet.gap_m *= 1.05;
@@ -76,11 +81,14 @@ TEST(Campaign, ModalFitFindsFrequenciesAndDampingFromAWrongRigFile) {
   ModalFitOptions options;
   options.highest_hz = 1000.0;
   const ModalResult result = IdentifyModal(WrongRig(), Standing(), options);
-  const ModalStart truth = StartFromRig(test::FlexibleRotor().plant, 5);
+  const ModalStart truth = StartFromRig(FlexibleRotor().plant, 5);
   const Physical rig = ToPhysical(truth.frame, truth.vector);
   ASSERT_EQ(result.start.frame.layout.bending, 5);
   std::vector<double> frequency, damping;
+  long shown = 0;
   for (Eigen::Index i = 2; i < 7; ++i) {
+    if (result.support[static_cast<std::size_t>(i - 2)].support != Support::kShown) continue;
+    ++shown;
     frequency.push_back(
         std::abs(result.rig.frequency_rad_per_s[i] / rig.frequency_rad_per_s[i] - 1.0));
     damping.push_back(std::abs(result.rig.damping_ratio[i] / rig.damping_ratio[i] - 1.0));
@@ -88,8 +96,10 @@ TEST(Campaign, ModalFitFindsFrequenciesAndDampingFromAWrongRigFile) {
   // What commissioning asks of an identification: 0.1 % and 10 % in the median.
   EXPECT_LT(Median(frequency), 1e-3);
   EXPECT_LT(Median(damping), 0.1);
-  // 46 unknowns at the size of Sahinkaya & Sawicki.
-  EXPECT_EQ(std::ranges::count(result.fit.fitted, true), 46);
+  // 46 unknowns at the size of Sahinkaya & Sawicki; a mode that drowns in the noise keeps frequency
+  // and damping of the file. The fifth may, the first four stand out of it.
+  EXPECT_GE(shown, 4);
+  EXPECT_EQ(std::ranges::count(result.fit.fitted, true), 46 - 2 * (5 - shown));
   // Only noise is left: 1 within what 0.5 % of nonlinearity and the spread of a variance estimated
   // from three periods allow.
   EXPECT_NEAR(result.fit.reduced_chi_square, 1.0, 0.25);

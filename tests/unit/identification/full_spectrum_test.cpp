@@ -17,8 +17,7 @@ using Complex = std::complex<double>;
 using testing::HasSubstr;
 
 // Numbers of the rig behind the reference file, see tests/data/reference/README.md.
-constexpr ShaftKnown kPinion{2.0, 60.0, 2.0e5};
-constexpr ShaftKnown kGear{3.5, 80.0, 2.4e5};
+const GearedKnown kKnown{{2.0, 60.0, 2.0e5}, {3.5, 80.0, 2.4e5}, {}, 0.0};
 constexpr double kMeshStiffness = 1.0e6, kMeshDamping = 300.0, kKs = 1.0e5, kKi = 80.0;
 const Complex kPinionRunOut = std::polar(20e-6, 0.6);
 // The gear turns backwards, eps e^{-j(w t + phi)} with phi = -0.9 rad.
@@ -49,7 +48,7 @@ double WorstOfShafts(const GearedParameters& p) {
 }
 
 TEST(FullSpectrum, FindsEveryParameterOfTheExactLines) {
-  const GearedParameters p = IdentifyGeared(Reference(), kPinion, kGear);
+  const GearedParameters p = IdentifyGeared(Reference(), kKnown);
   // The file has ten digits and mesh lines of some nm; 1e-6 is what the reference promises.
   EXPECT_LT(WorstOfShafts(p), 1e-6);
   ASSERT_EQ(p.error.size(), Errors().size());
@@ -67,7 +66,7 @@ TEST(FullSpectrum, IntervalsHoldTheTruthUnderNoise) {
       *value *= 1.0 + 1e-3 * Complex(random.Normal(), random.Normal()) / std::numbers::sqrt2;
     }
   }
-  const GearedParameters p = IdentifyGeared(lines, kPinion, kGear);
+  const GearedParameters p = IdentifyGeared(lines, kKnown);
   // Five standard deviations: noise here is not alike on all lines, as the header assumes.
   EXPECT_LT(std::abs(p.mesh_stiffness_n_per_m - kMeshStiffness), 5.0 * p.mesh_stiffness_sigma);
   EXPECT_LT(std::abs(p.pinion.ki_n_per_a - kKi), 5.0 * p.pinion.ki_sigma);
@@ -79,7 +78,7 @@ TEST(FullSpectrum, RefusesOneSpeed) {
   std::vector<GearedLine> lines = Reference();
   lines.resize(13);
   try {
-    (void)IdentifyGeared(lines, kPinion, kGear);
+    (void)IdentifyGeared(lines, kKnown);
     FAIL() << "accepted";
   } catch (const BadInput& problem) {
     EXPECT_THAT(problem.what(), HasSubstr("one speed only"));
@@ -92,7 +91,7 @@ TEST(FullSpectrum, RefusesLinesWithoutTheGearsRotation) {
     if (line.kind != GearedLine::Kind::kGear) lines.push_back(line);
   }
   try {
-    (void)IdentifyGeared(lines, kPinion, kGear);
+    (void)IdentifyGeared(lines, kKnown);
     FAIL() << "accepted";
   } catch (const BadInput& problem) {
     EXPECT_THAT(problem.what(), HasSubstr("gear_1x"));

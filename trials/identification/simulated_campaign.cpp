@@ -1,24 +1,25 @@
-#include "tests/loop/identification/simulated_campaign.hpp"
+#include "trials/identification/simulated_campaign.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/prbs.hpp"
-#include "plant_sim/plant/plant.hpp"
-#include "tests/support/paths.hpp"
+#include "plant_sim/plant/plant_model.hpp"
 
-namespace levitas::test {
+namespace levitas::trials {
 namespace {
 
 constexpr double kRpm = std::numbers::pi / 30.0;
 
 class Rig {
  public:
-  Rig(const config::RigFile& rig, std::uint64_t seed)
-      : rig_(rig), plant_(rig.plant, seed), cycle_(Cycle(rig)) {
+  Rig(const config::RigFile& rig, const std::shared_ptr<const plant::PlantModel>& model,
+      std::uint64_t seed)
+      : plant_(model, seed), cycle_(Cycle(rig)) {
     plant_.RestInTouchdown();
     record.name = "simulated campaign";
     record.period_s = rig.numbers.period_s();
@@ -65,7 +66,7 @@ class Rig {
  private:
   static cycle::CycleConfig Cycle(const config::RigFile& rig) {
     const auto controller = config::LoadController(
-        SourceFolder() + "/config/controllers/flexible_rotor_commissioned.yaml", rig.numbers);
+        config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
     return {rig.numbers, controller.law, controller.supervisor};
   }
   void Keep(const cycle::CycleInputs& in, const cycle::CycleOutputs& out) {
@@ -80,7 +81,6 @@ class Rig {
     }
   }
 
-  config::RigFile rig_;
   plant::Plant plant_;
   cycle::ControlCycle cycle_;
   std::uint64_t count_{};
@@ -88,14 +88,14 @@ class Rig {
 
 }  // namespace
 
-const config::RigFile& FlexibleRotor() {
-  static const config::RigFile rig =
-      config::LoadRig(SourceFolder() + "/config/rigs/flexible_rotor.yaml");
-  return rig;
+identification::Record SimulateCampaign(const config::RigFile& rig, const ExcitationPlan& plan) {
+  return SimulateCampaign(rig, plant::Reduce(rig.plant), plan);
 }
 
-identification::Record SimulateCampaign(const config::RigFile& rig, const CampaignPlan& plan) {
-  Rig bench(rig, plan.seed);
+identification::Record SimulateCampaign(const config::RigFile& rig,
+                                        const plant::PlantParameters& truth,
+                                        const ExcitationPlan& plan) {
+  Rig bench(rig, std::make_shared<const plant::PlantModel>(truth), plan.seed);
   bench.Levitate();
   for (const double rpm : plan.speeds_rpm) {
     if (rpm > 0.0) bench.SpinAt(rpm);
@@ -113,4 +113,4 @@ identification::Record SimulateCampaign(const config::RigFile& rig, const Campai
   return bench.record;
 }
 
-}  // namespace levitas::test
+}  // namespace levitas::trials

@@ -1,0 +1,13 @@
+#pragma once
+// Commands for geared rotors and for trials of the identification; as cli/command.hpp says.
+
+#include "cli/command.hpp"
+
+namespace levitas::cli {
+
+void AddIdentifyFullSpectrum(CLI::App& identify, Action& action);
+/// Of `amb bench`: identification and full-spectrum.
+void AddBenchIdentification(CLI::App& bench, Action& action);
+void AddBenchFullSpectrum(CLI::App& bench, Action& action);
+
+}  // namespace levitas::cli

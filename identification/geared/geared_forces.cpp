@@ -1,0 +1,81 @@
+#include "identification/geared/geared_forces.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace levitas::identification {
+namespace {
+
+using Complex = std::complex<double>;
+using Kind = GearedLine::Kind;
+
+const Complex kJ(0.0, 1.0);
+/// Lines of one speed mirror each other when their frequencies add up to less than this share.
+constexpr double kMirror = 1e-6;
+
+Complex ForceAt(const std::vector<GearedLine>& lines, const std::vector<Complex>& force,
+                const GearedLine& like, double w) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (lines[k].speed_rad_per_s != like.speed_rad_per_s) continue;
+    if (std::abs(lines[k].frequency_rad_per_s - w) <= kMirror * std::abs(w)) return force[k];
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+Complex TiltSoftening(const ShaftKnown& s, const GearedLine& line) {
+  if (s.tilt_stiffness_n_m <= 0.0) return 0.0;
+  const double w = line.frequency_rad_per_s;
+  const double tilt = s.tilt_stiffness_n_m - s.diametral_kg_m2 * w * w +
+                      s.polar_kg_m2 * s.ratio * line.speed_rad_per_s * w;
+  return s.coupling_n * s.coupling_n / tilt;
+}
+
+Complex Impedance(const ShaftKnown& s, const GearedLine& line) {
+  const double w = line.frequency_rad_per_s;
+  return Complex(s.stiffness_n_per_m - s.mass_kg * w * w, w * s.damping_n_s_per_m) -
+         TiltSoftening(s, line);
+}
+
+Complex MeshForce(const GearedLine& line, const GearedKnown& known, const GearedParameters& p) {
+  const double w = line.frequency_rad_per_s;
+  Complex from_pinion = p.pinion.ks_n_per_m * line.pinion_m - p.pinion.ki_n_per_a * line.pinion_a -
+                        Impedance(known.pinion, line) * line.pinion_m;
+  Complex from_gear = Impedance(known.gear, line) * line.gear_m - p.gear.ks_n_per_m * line.gear_m +
+                      p.gear.ki_n_per_a * line.gear_a;
+  if (line.kind == Kind::kPinion) {
+    from_pinion += known.pinion.mass_kg * w * w * p.pinion.run_out_m;
+  }
+  if (line.kind == Kind::kGear) from_gear -= known.gear.mass_kg * w * w * p.gear.run_out_m;
+  return 0.5 * (from_pinion + from_gear);
+}
+
+Complex TwistPerForce(const TorsionKnown& t, double w) {
+  const Eigen::Index n = t.frequency_rad_per_s.size();
+  Eigen::MatrixXcd dynamic = kJ * w * t.damping_1_per_s.cast<Complex>();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double own = t.frequency_rad_per_s[i];
+    dynamic(i, i) += Complex(own * own - w * w, 2.0 * t.damping_ratio[i] * own * w);
+  }
+  const Eigen::VectorXcd twist = t.twist_m.cast<Complex>();
+  return (twist.transpose() * dynamic.partialPivLu().solve(twist))(0);
+}
+
+std::vector<Complex> TwistOnLines(const std::vector<GearedLine>& lines,
+                                  const std::vector<Complex>& force,
+                                  const std::optional<TorsionKnown>& torsion) {
+  std::vector<Complex> twist(lines.size(), 0.0);
+  if (!torsion) return twist;
+  const Complex n = torsion->normal;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const double w = lines[k].frequency_rad_per_s;
+    if (w == 0.0) continue;
+    const Complex mirror = ForceAt(lines, force, lines[k], -w);
+    const Complex along = 0.5 * (std::conj(n) * force[k] + n * std::conj(mirror));
+    twist[k] = -n * TwistPerForce(*torsion, w) * along;
+  }
+  return twist;
+}
+
+}  // namespace levitas::identification

@@ -1,0 +1,27 @@
+#pragma once
+// Forces on the lines of a geared rotor: what the shafts need, what the teeth give, how far the
+// wheels turn under it. Equations: full_spectrum.hpp. Thread any, pure.
+
+#include "identification/geared/full_spectrum.hpp"
+
+namespace levitas::identification {
+
+/// Z of one shaft at a line.
+[[nodiscard]] std::complex<double> Impedance(const ShaftKnown& shaft, const GearedLine& line);
+
+/// k_aa - I_d W^2 + I_p w W turned into what the tilt takes from Z; 0 without tilt.
+[[nodiscard]] std::complex<double> TiltSoftening(const ShaftKnown& shaft, const GearedLine& line);
+
+/// f from what both shafts need: the mean of the two accounts.
+[[nodiscard]] std::complex<double> MeshForce(const GearedLine& line, const GearedKnown& known,
+                                             const GearedParameters& found);
+
+/// w along n per force along n: -w/F_n. Not for W = 0: the train may turn freely.
+[[nodiscard]] std::complex<double> TwistPerForce(const TorsionKnown& torsion, double w_rad_per_s);
+
+/// n w on every line; zero without torsion, and on lines at rest.
+[[nodiscard]] std::vector<std::complex<double>> TwistOnLines(
+    const std::vector<GearedLine>& lines, const std::vector<std::complex<double>>& force,
+    const std::optional<TorsionKnown>& torsion);
+
+}  // namespace levitas::identification

@@ -1,0 +1,74 @@
+#include <cmath>
+
+#include "common/problem.hpp"
+#include "identification/geared/record_lines.hpp"
+#include "plant_sim/magnet/magnet.hpp"
+#include "plant_sim/plant/plant_model.hpp"
+
+namespace levitas::identification {
+namespace {
+
+ShaftKnown Shaft(const plant::PlantConfig& rig, std::size_t index, double ratio) {
+  const rotor::LumpedShaft& lumped = rig.shafts[index].lumped;
+  ShaftKnown known{lumped.mass_kg, lumped.damping_n_s_per_m, lumped.kll_n_per_m};
+  known.ratio = ratio;
+  if (lumped.tilts) {
+    known.coupling_n = lumped.kla_n;
+    known.tilt_stiffness_n_m = lumped.kaa_n_m;
+    known.diametral_kg_m2 = lumped.diametral_inertia_kg_m2;
+    known.polar_kg_m2 = lumped.polar_inertia_kg_m2;
+  }
+  return known;
+}
+
+void RefuseOtherRigs(const config::RigFile& rig) {
+  const plant::PlantConfig& plant = rig.plant;
+  const bool pair = plant.gears.size() == 1 && plant.shafts.size() == 2 &&
+                    plant.bearings.size() == 2 &&
+                    plant.bearings[0].shaft != plant.bearings[1].shaft;
+  bool lumped = pair;
+  for (const rotor::Shaft& shaft : plant.shafts) lumped = lumped && !shaft.is_beam;
+  if (!lumped) {
+    throw BadInput(rig.numbers.name +
+                   ": full spectrum needs one gear pair on two lumped shafts with a magnetic "
+                   "bearing each (as geared_rotor_4dof)");
+  }
+}
+
+}  // namespace
+
+GearedKnown KnownOfRig(const config::RigFile& rig) {
+  RefuseOtherRigs(rig);
+  const gear::GearPair& pair = rig.plant.gears.front();
+  GearedKnown known;
+  known.pinion = Shaft(rig.plant, pair.driving.shaft, 1.0);
+  known.gear = Shaft(rig.plant, pair.driven.shaft,
+                     -static_cast<double>(pair.driving.teeth) / pair.driven.teeth);
+  for (std::size_t b = 0; b < 2; ++b) {
+    const plant::BearingConfig& bearing = rig.plant.bearings[b];
+    const magnet::Magnet magnet{bearing.magnet.force_constant_n_m2_per_a2, bearing.magnet.gap_m,
+                                bearing.magnet.max_coil_current_a};
+    ShaftKnown& shaft = bearing.shaft == pair.driving.shaft ? known.pinion : known.gear;
+    shaft.ki_n_per_a = magnet::ForcePerCurrent(magnet, bearing.magnet.bias_current_a);
+    shaft.ks_n_per_m = magnet::NegativeStiffness(magnet, bearing.magnet.bias_current_a);
+  }
+  const plant::PlantModel model(rig.plant);
+  const auto& modes = model.parameters().torsion;
+  const Eigen::Index twists = modes.frequency_rad_per_s.size();
+  if (twists == 0) return known;
+  TorsionKnown torsion;
+  const plant::MeshModel& mesh = model.train().meshes.front();
+  torsion.normal = {mesh.law.normal.x, mesh.law.normal.y};
+  torsion.frequency_rad_per_s = modes.frequency_rad_per_s;
+  torsion.damping_ratio = modes.damping_ratio;
+  torsion.twist_m = Eigen::Map<const Eigen::VectorXd>(mesh.twist.data(), twists);
+  torsion.damping_1_per_s = Eigen::MatrixXd::Zero(twists, twists);
+  for (const plant::TwistDamper& damper : model.train().dampers) {
+    const Eigen::Map<const Eigen::VectorXd> shape(damper.twist.data(), twists);
+    torsion.damping_1_per_s += damper.damping_n_m_s_per_rad * shape * shape.transpose();
+  }
+  known.torsion = torsion;
+  return known;
+}
+
+}  // namespace levitas::identification

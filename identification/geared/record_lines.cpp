@@ -1,0 +1,230 @@
+#include "identification/geared/record_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include "common/problem.hpp"
+
+namespace levitas::identification {
+namespace {
+
+using Complex = std::complex<double>;
+using Kind = GearedLine::Kind;
+
+const Complex kJ(0.0, 1.0);
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kSameSpeed = 0.003;
+constexpr double kTransientS = 0.3;
+constexpr double kLeastS = 1.0;
+constexpr double kSlowestRadPerS = 10.0;
+constexpr double kBadShare = 0.001;
+
+struct Stretch {
+  std::size_t begin{}, end{};
+  double speed_rad_per_s{};
+};
+
+/// One line by kind and order of the pinion's angle.
+struct Order {
+  Kind kind{};
+  int harmonic{};
+  double order{};
+};
+
+/// A shaft's axes and what its readings and commands pass.
+struct Chain {
+  std::size_t x{};
+  double sensor_gain{}, sensor_hz{}, amplifier_hz{};
+};
+
+Chain ChainOf(const plant::PlantConfig& rig, std::size_t shaft) {
+  const std::size_t b = rig.bearings[0].shaft == shaft ? 0 : 1;
+  const plant::BearingConfig& bearing = rig.bearings[b];
+  return {2 * b, bearing.sensor.gain, bearing.sensor.bandwidth_hz, bearing.amplifier.bandwidth_hz};
+}
+
+std::vector<double> Unwrapped(const Record& record) {
+  std::vector<double> angle(record.rows());
+  for (std::size_t n = 0; n < record.rows(); ++n) {
+    angle[n] = record.angle_rad[n];
+    if (n == 0) continue;
+    const auto cycles = static_cast<double>(record.cycle[n] - record.cycle[n - 1]);
+    const double expected = angle[n - 1] + record.speed_rad_per_s[n] * cycles * record.period_s;
+    angle[n] += kTwoPi * std::round((expected - angle[n]) / kTwoPi);
+  }
+  return angle;
+}
+
+std::vector<Stretch> Steady(const Record& record, const std::vector<double>& angle,
+                            double turns_per_repeat) {
+  std::vector<Stretch> stretches;
+  const auto transient = static_cast<std::size_t>(kTransientS / record.period_s);
+  const auto least = static_cast<std::size_t>(kLeastS / record.period_s);
+  for (std::size_t begin = 0; begin < record.rows();) {
+    const double speed = record.speed_rad_per_s[begin];
+    std::size_t end = begin;
+    while (end < record.rows() && record.levitated[end] != 0 &&
+           std::abs(record.speed_rad_per_s[end] - speed) <= kSameSpeed * std::abs(speed)) {
+      ++end;
+    }
+    if (speed > kSlowestRadPerS && end - begin >= least + transient) {
+      Stretch stretch{begin + transient, end, 0.0};
+      const double repeat = kTwoPi * turns_per_repeat;
+      const double whole = std::floor((angle[end - 1] - angle[stretch.begin]) / repeat) * repeat;
+      while (angle[stretch.end - 1] - angle[stretch.begin] >= whole) --stretch.end;
+      stretch.speed_rad_per_s =
+          (angle[stretch.end - 1] - angle[stretch.begin]) /
+          (static_cast<double>(stretch.end - 1 - stretch.begin) * record.period_s);
+      stretches.push_back(stretch);
+    }
+    begin = std::max(end, begin + 1);
+  }
+  return stretches;
+}
+
+std::vector<Order> Orders(const gear::GearPair& pair, int harmonics) {
+  const double ratio = static_cast<double>(pair.driving.teeth) / pair.driven.teeth;
+  std::vector<Order> orders{{Kind::kTransmissionError, 0, 0.0},
+                            {Kind::kPinion, 0, 1.0},
+                            {Kind::kMirror, 0, -1.0},
+                            {Kind::kGear, 0, -ratio},
+                            {Kind::kMirror, 0, ratio}};
+  for (int i = 1; i <= harmonics; ++i) {
+    orders.push_back({Kind::kTransmissionError, i, static_cast<double>(i * pair.driving.teeth)});
+    orders.push_back({Kind::kTransmissionError, -i, static_cast<double>(-i * pair.driving.teeth)});
+  }
+  return orders;
+}
+
+void RefuseBadRows(const Record& record, const Stretch& stretch) {
+  const auto rows = static_cast<double>(stretch.end - stretch.begin);
+  const double at_s = static_cast<double>(stretch.begin) * record.period_s;
+  std::string problems;
+  if (record.cycle[stretch.end - 1] - record.cycle[stretch.begin] !=
+      stretch.end - 1 - stretch.begin) {
+    problems += "\n  samples are missing";
+  }
+  for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+    std::set<double> values;
+    double clipped = 0.0;
+    double limited = 0.0;
+    for (std::size_t n = stretch.begin; n < stretch.end; ++n) {
+      if (values.size() < 4) values.insert(record.position_m[axis][n]);
+      if (std::abs(record.position_m[axis][n]) >= 0.999 * record.sensor_range_m) clipped += 1.0;
+      if (std::abs(record.current_a[axis][n]) >= 0.9999 * record.current_limit_a) limited += 1.0;
+    }
+    const std::string& name = record.channels[axis];
+    if (values.size() < 4) problems += "\n  position " + name + " is dead: check probe and cable";
+    if (clipped > kBadShare * rows) problems += "\n  position " + name + " is clipped";
+    if (limited > kBadShare * rows) {
+      problems += "\n  control current " + name + " is at its limit: the lines are not the model's";
+    }
+  }
+  if (!problems.empty()) {
+    throw BadInput(
+        fmt::format("{}: the stretch from {:.2f} s is not usable{}", record.name, at_s, problems));
+  }
+}
+
+/// Complex amplitudes of both shafts' positions and currents, and the deviations of each.
+struct Amplitudes {
+  Eigen::MatrixXcd value;  ///< orders x (pinion_m, gear_m, pinion_a, gear_a)
+  Eigen::Vector4d sigma;
+};
+
+Amplitudes Fit(const Record& record, const std::vector<double>& angle, const Stretch& stretch,
+               const std::vector<Order>& orders, const Chain& pinion, const Chain& gear) {
+  const auto size = static_cast<Eigen::Index>(orders.size());
+  Eigen::MatrixXcd normal = Eigen::MatrixXcd::Zero(size, size);
+  Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(size, 4);
+  Eigen::Vector4d power = Eigen::Vector4d::Zero();
+  Eigen::VectorXcd basis(size);
+  for (std::size_t n = stretch.begin; n < stretch.end; ++n) {
+    for (Eigen::Index k = 0; k < size; ++k) {
+      basis[k] = std::polar(1.0, orders[static_cast<std::size_t>(k)].order * angle[n]);
+    }
+    Eigen::RowVector4cd row;
+    row << Complex(record.position_m[pinion.x][n], record.position_m[pinion.x + 1][n]),
+        Complex(record.position_m[gear.x][n], record.position_m[gear.x + 1][n]),
+        Complex(record.current_a[pinion.x][n], record.current_a[pinion.x + 1][n]),
+        Complex(record.current_a[gear.x][n], record.current_a[gear.x + 1][n]);
+    normal.noalias() += basis.conjugate() * basis.transpose();
+    right.noalias() += basis.conjugate() * row;
+    power += row.cwiseAbs2().transpose();
+  }
+  Amplitudes found;
+  found.value = normal.ldlt().solve(right);
+  const auto rows = static_cast<double>(stretch.end - stretch.begin);
+  for (Eigen::Index c = 0; c < 4; ++c) {
+    const double explained = right.col(c).dot(found.value.col(c)).real();
+    found.sigma[c] = std::sqrt(std::max(power[c] - explained, 0.0) / rows / rows);
+  }
+  return found;
+}
+
+Complex Lag(double f_hz, double corner_hz) { return 1.0 / (1.0 + kJ * f_hz / corner_hz); }
+
+/// From command to coil: delay, hold, amplifier.
+Complex Drive(double w, double corner_hz, double delay_s, double period_s) {
+  const double half = 0.5 * w * period_s;
+  const double hold = std::abs(half) > 1e-12 ? std::sin(half) / half : 1.0;
+  return hold * std::polar(1.0, -w * delay_s - half) * Lag(w / kTwoPi, corner_hz);
+}
+
+}  // namespace
+
+std::vector<GearedLine> LinesOfRecord(const Record& record, const config::RigFile& rig,
+                                      int harmonics) {
+  const bool torsion = KnownOfRig(rig).torsion.has_value();
+  const gear::GearPair& pair = rig.plant.gears.front();
+  const Chain pinion = ChainOf(rig.plant, pair.driving.shaft);
+  const Chain gear = ChainOf(rig.plant, pair.driven.shaft);
+  const std::vector<double> angle = Unwrapped(record);
+  const double repeat = pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);
+  const auto stretches = Steady(record, angle, repeat);
+  if (stretches.size() < 2) {
+    throw BadInput(fmt::format(
+        "{}: {} stretch(es) of {:.1f} s at one speed, levitated and turning; at least two of "
+        "different speed are needed (amb run --rig {})",
+        record.name, stretches.size(), kLeastS + kTransientS, rig.numbers.name));
+  }
+  const double delay_s = rig.plant.delay_samples * record.period_s;
+  std::vector<GearedLine> lines;
+  for (const Stretch& stretch : stretches) {
+    RefuseBadRows(record, stretch);
+    const std::vector<Order> orders = Orders(pair, harmonics);
+    const Amplitudes found = Fit(record, angle, stretch, orders, pinion, gear);
+    for (std::size_t k = 0; k < orders.size(); ++k) {
+      if (orders[k].kind == Kind::kMirror && !torsion) continue;
+      GearedLine line;
+      line.kind = orders[k].kind;
+      line.harmonic = orders[k].harmonic;
+      line.speed_rad_per_s = stretch.speed_rad_per_s;
+      line.frequency_rad_per_s = orders[k].order * stretch.speed_rad_per_s;
+      const auto row = found.value.row(static_cast<Eigen::Index>(k));
+      const double w = line.frequency_rad_per_s;
+      const auto read = [w](const Chain& c) {
+        return c.sensor_gain * Lag(w / kTwoPi, c.sensor_hz);
+      };
+      const auto drive = [&](const Chain& c) {
+        return Drive(w, c.amplifier_hz, delay_s, record.period_s);
+      };
+      line.pinion_m = row[0] / read(pinion);
+      line.gear_m = row[1] / read(gear);
+      line.pinion_a = row[2] * drive(pinion);
+      line.gear_a = row[3] * drive(gear);
+      line.sigma_m = std::max(found.sigma[0], found.sigma[1]) / std::abs(read(pinion));
+      line.sigma_a = std::max(found.sigma[2], found.sigma[3]);
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
+}  // namespace levitas::identification

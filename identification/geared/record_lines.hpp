@@ -1,0 +1,30 @@
+#pragma once
+// Lines of the full spectrum from a record of a geared rig, and what its rig file knows of it.
+//
+// Stretch   rows at one speed (within 0.3 %) for a second or more, the first 0.3 s left out as
+//           transient, cut to whole repeats of the engagement. At least two of different speed.
+// Lines     least squares of sum_k R_k exp(j k theta) over a stretch, theta the rotor's angle
+//           unwrapped over the whole record: the gear's order is no whole number. k = 0, +-1,
+//           -+ z_p/z_g, +- i z_p. Standard deviations from what remains.
+// Chain     readings are divided by sensor gain and lag; commands become coil currents by delay,
+//           hold and amplifier lag, all of the rig file.
+// Limit     the gear's phase counts from the record's first row: a record that begins in another
+//           turn of the pinion gives it with another half turn (20 to 40 teeth).
+// Failure   BadInput: a rig without one gear pair on two lumped shafts with a bearing each; a
+//           record without two steady speeds, missing rows, dead, clipped or saturated channels.
+// Thread    any.
+
+#include <vector>
+
+#include "config/rig_file.hpp"
+#include "identification/geared/full_spectrum.hpp"
+#include "identification/record/record.hpp"
+
+namespace levitas::identification {
+
+[[nodiscard]] GearedKnown KnownOfRig(const config::RigFile& rig);
+
+[[nodiscard]] std::vector<GearedLine> LinesOfRecord(const Record& record,
+                                                    const config::RigFile& rig, int harmonics = 5);
+
+}  // namespace levitas::identification

@@ -1,0 +1,24 @@
+#pragma once
+// Identified numbers as a rig file: what its keys can hold, the rest stays the file's.
+//
+// Modal     force constant and gap, sensor gain per bearing (means of its axes), delay; what an
+//           axis differs by, and frequency and damping of every mode that the data show, as entries
+//           of `effects` (current_gain, displacement_stiffness, modal_frequency, modal_damping).
+//           Deflections, gyroscopic matrix and rigid body stay the shaft's.
+// Geared    force constant and gap per bearing, run-outs, mesh, transmission error.
+// ks        is that of the working point: a simulation of the file adds the magnet's own hardening
+//           with current again, a few per cent.
+// Failure   BadInput when ki or ks of a bearing is not positive: no magnet is like that. Thread
+// any.
+
+#include "config/rig_file.hpp"
+#include "identification/geared/full_spectrum.hpp"
+#include "identification/modal/identify_modal.hpp"
+
+namespace levitas::identification {
+
+[[nodiscard]] config::RigFile IdentifiedRig(const config::RigFile& rig, const ModalResult& found);
+[[nodiscard]] config::RigFile IdentifiedRig(const config::RigFile& rig,
+                                            const GearedParameters& found);
+
+}  // namespace levitas::identification

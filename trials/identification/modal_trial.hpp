@@ -1,0 +1,39 @@
+#pragma once
+// A rig of unknown numbers for the modal identification: its campaign, and the truth apart from it.
+//
+// Rig       flexible_rotor with every number off (true_rig.hpp): ki, ks 8 % per axis, sensor gain
+//           3 %, modal frequencies 3 %, dampings by e^+-0.4, deflections 4 %, delay, loads,
+//           unbalance; what the method takes as known (amplifier, sensor bandwidth and place) is
+//           as in the file. Noise, converters, nonlinear magnets and gravity are on.
+// Truth     of the working point: ki and ks are the means of dF/di and dF/dx of the true magnet
+//           over the standing record (the best linear gain of a Gaussian signal, Bussgang 1952).
+// Products  what a response from current to reading can tell: ki g/m and ks/m.
+// Units     SI. Thread any.
+
+#include "identification/modal/modal_parameters.hpp"
+#include "trials/identification/simulated_campaign.hpp"
+
+namespace levitas::trials {
+
+struct ModalTruth {
+  Eigen::VectorXd frequency_hz, damping_ratio;  ///< bending modes of the free rotor
+  Eigen::VectorXd ki_product;                   ///< per axis: ki g/m [N/(A kg)]
+  Eigen::VectorXd ks_product;                   ///< per axis: ks/m [N/(m kg)]
+};
+
+struct ModalTrial {
+  identification::Record record;
+  ModalTruth truth;  ///< never handed to the fit
+};
+
+[[nodiscard]] ModalTrial MakeModalTrial(const config::RigFile& nominal, const ExcitationPlan& plan);
+
+/// Relative errors, entry by entry; only the modes that the fit has.
+struct ModalErrors {
+  Eigen::VectorXd frequency, damping, ki_product, ks_product;
+  Eigen::VectorXd deflection_per_ampere;  ///< of ki g/ks, what a slow current moves a reading by
+};
+
+[[nodiscard]] ModalErrors Compare(const ModalTruth& truth, const identification::Physical& found);
+
+}  // namespace levitas::trials

@@ -1,0 +1,33 @@
+#pragma once
+// An identification campaign on the simulated rig within one process: plant, cycle, PRBS on each
+// axis in turn, as a record in memory. Noise, quantisation, nonlinear magnets, gravity and
+// unbalance are on; flexible_rotor's commissioned controller levitates.
+//
+// Failure  std::runtime_error when the rig does not levitate. Thread any; no shared state.
+
+#include <vector>
+
+#include "config/rig_file.hpp"
+#include "identification/record/record.hpp"
+#include "plant_sim/plant/plant_parameters.hpp"
+
+namespace levitas::trials {
+
+struct ExcitationPlan {
+  std::vector<double> speeds_rpm{0.0};
+  double amplitude_a{0.15};
+  int order{12};
+  std::uint32_t divisor{2};
+  int periods{4};
+  std::uint64_t seed{1};
+};
+
+/// The record holds the excited rows only.
+[[nodiscard]] identification::Record SimulateCampaign(const config::RigFile& rig,
+                                                      const ExcitationPlan& plan);
+/// `truth` is what is simulated; `rig` only gives channels and limits.
+[[nodiscard]] identification::Record SimulateCampaign(const config::RigFile& rig,
+                                                      const plant::PlantParameters& truth,
+                                                      const ExcitationPlan& plan);
+
+}  // namespace levitas::trials
