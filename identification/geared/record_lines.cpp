@@ -186,7 +186,9 @@ std::vector<GearedLine> LinesOfRecord(const Record& record, const config::RigFil
   const Chain pinion = ChainOf(rig.plant, pair.driving.shaft);
   const Chain gear = ChainOf(rig.plant, pair.driven.shaft);
   const std::vector<double> angle = Unwrapped(record);
-  const double repeat = pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);
+  // Turns of the driving wheel until the same teeth meet again: a whole number.
+  const int turns = pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);
+  const auto repeat = static_cast<double>(turns);
   const auto stretches = Steady(record, angle, repeat);
   if (stretches.size() < 2) {
     throw BadInput(fmt::format(

@@ -111,13 +111,13 @@ ShaftFound Found(const Solution& s, const ShaftKnown& known, Index at, Index unb
 }  // namespace
 
 const std::vector<Numbers>& Correctable() {
-  static const std::vector<Numbers> numbers{
+  static const std::vector<Numbers> kCorrectable{
       {{&ShaftKnown::mass_kg},
        {&ShaftKnown::damping_n_s_per_m},
        {&ShaftKnown::stiffness_n_per_m, &ShaftKnown::coupling_n, &ShaftKnown::tilt_stiffness_n_m},
        {&ShaftKnown::diametral_kg_m2},
        {&ShaftKnown::polar_kg_m2}}};
-  return numbers;
+  return kCorrectable;
 }
 
 void Scale(ShaftKnown& shaft, const Numbers& numbers, double factor) {
