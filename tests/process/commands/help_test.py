@@ -24,7 +24,7 @@ OPTIONS = {
     "identify frf": {"--rig", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",
                      "--speed-rpm", "--json"},
     "identify modal": {"--rig", "--highest-hz", "--fit-amplifiers", "--fit-sensors", "--out",
-                       "--svg", "--json"},
+                       "--svg", "--starts", "--spread", "--spread-gains", "--json"},
     "doctor": {"--json"},
 }
 POSITIONAL = {"simulate": "session", "import": "DATA", "export": "SESSION", "report": "SESSION", "replay": "SESSION",
