@@ -113,7 +113,10 @@ svg::Panel Change(const char* title, const char* unit, const Response& with,
                   Line("x to y", with, Ratio(with.cross, without.cross), figure, 2, true)};
   const svg::Range range =
       svg::Enclose({panel.series[0].y, panel.series[1].y}, svg::Scale::kLinear);
-  panel.y_range = svg::Range{std::min(range.low, -least), std::max(range.high, least)};
+  const double low = std::min(range.low, -least);
+  const double high = std::max(range.high, least);
+  const double room = 0.06 * (high - low);  // a change that is the same everywhere is no edge
+  panel.y_range = svg::Range{low - room, high + room};
   return panel;
 }
 
