@@ -66,23 +66,20 @@ Entry DescribeRun(const std::string& path, const verdict::Verdict& verdict) {
 Entry DescribeSession(const std::string& path) {
   session::SessionReader reader(path);
   const session::SessionHeader& header = reader.header();
-  const std::string within = path + " (header)";
-  const RigNumbers rig = config::ParseRig(header.rig_yaml, within).numbers;
-  const std::string scenario = header.scenario_yaml.empty()
-                                   ? std::string()
-                                   : config::ParseScenario(header.scenario_yaml, within, rig).name;
   if (!header.controller_yaml.empty() && header.excerpt_of.empty()) {
     verdict::CommissionOptions judge;
     judge.session_path = path;
-    judge.provenance.port = header.source;
-    judge.provenance.scenario = scenario;
     return DescribeRun(path, verdict::Commission(judge));
   }
+  const std::string within = path + " (header)";
+  const RigNumbers rig = config::ParseRig(header.rig_yaml, within).numbers;
   Entry entry;
   PlaceOf(path, entry);
   FromHeader(header, entry);
   entry.rig = rig.name;
-  entry.scenario = scenario;
+  if (!header.scenario_yaml.empty()) {
+    entry.scenario = config::ParseScenario(header.scenario_yaml, within, rig).name;
+  }
   entry.outcome = kNotJudged;
   entry.sentence = header.excerpt_of.empty() ? "imported measurements, without a controller"
                                              : "excerpt around a trip of " + header.excerpt_of;

@@ -11,7 +11,6 @@
 #include "cli/json_file.hpp"
 #include "cli/report_command.hpp"
 #include "cli/text_file.hpp"
-#include "config/rig_file.hpp"
 #include "report/session/page.hpp"
 #include "session/output_path.hpp"
 #include "verdict/commission.hpp"
@@ -74,12 +73,6 @@ ExitStatus Report(const ReportOptions& options) {
     verdict::CommissionOptions judge;
     judge.session_path = options.session_path;
     judge.provenance.session_file = options.session_path;
-    judge.provenance.port = recording.header.source;
-    if (!recording.header.scenario_yaml.empty()) {
-      judge.provenance.scenario =
-          config::ParseScenario(recording.header.scenario_yaml, options.session_path, recording.rig)
-              .name;
-    }
     input.verdict = verdict::Commission(judge);
   }
   report::PictureOptions pictures;

@@ -15,7 +15,13 @@ std::string FirstTripText(const std::vector<session::Event>& events) {
   return {};
 }
 
-void Complete(Provenance& provenance, const session::SessionHeader& header) {
+/// What the caller knows better (a path of the user's) stays.
+void Complete(Provenance& provenance, const session::SessionHeader& header,
+              const std::string& within, const RigNumbers& rig) {
+  if (provenance.port.empty()) provenance.port = header.source;
+  if (provenance.scenario.empty() && !header.scenario_yaml.empty()) {
+    provenance.scenario = config::ParseScenario(header.scenario_yaml, within, rig).name;
+  }
   provenance.program_version = header.program_version;
   provenance.pace = header.pace;
   provenance.machine = header.machine;
@@ -67,7 +73,7 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.timing = ReadControllerReport(options.controller_report, rig.numbers.period_s());
   inputs.rig_process = ReadRigReport(options.plant_report);
   inputs.provenance = options.provenance;
-  Complete(inputs.provenance, header);
+  Complete(inputs.provenance, header, within, rig.numbers);
   inputs.provenance.rig = rig.numbers.name;
   inputs.provenance.controller = controller.name;
   if (inputs.timing) inputs.provenance.trip_file = inputs.timing->trip_file;

@@ -10,6 +10,7 @@
 
 #include "cli/analysis_options.hpp"
 #include "cli/identify/geared_commands.hpp"
+#include "cli/identify/start_options.hpp"
 #include "cli/json_file.hpp"
 #include "identification/modal/modal_starts.hpp"
 #include "trials/identification/modal_trial.hpp"
@@ -178,12 +179,7 @@ void AddBenchIdentification(CLI::App& bench, Action& action) {
   command->add_option("--starts", options->starts, "Random starts with the first rig")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
-  command->add_option("--spread", options->spread.everything, "Of the starts, on everything")
-      ->check(CLI::Range(0.0, 0.9))
-      ->capture_default_str();
-  command->add_option("--spread-gains", options->spread.gains, "On ki, ks and sensor gains")
-      ->check(CLI::Range(0.0, 0.9))
-      ->capture_default_str();
+  AddSpreadOptions(*command, options->spread);
   command->add_option("--amplitude-a", options->amplitude_a, "Of the excitation")
       ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();

@@ -15,6 +15,7 @@
 #include "cli/identify/identify_commands.hpp"
 #include "cli/identify/modal_files.hpp"
 #include "cli/identify/response_files.hpp"
+#include "cli/identify/start_options.hpp"
 #include "cli/json_file.hpp"
 #include "identification/identified_rig.hpp"
 #include "identification/modal/modal_starts.hpp"
@@ -190,12 +191,7 @@ void AddIdentifyModal(CLI::App& identify, Action& action) {
   command->add_option("--starts", options->starts, "Repeat the fit from random starts")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
-  command->add_option("--spread", options->spread.everything, "Of the starts, on everything")
-      ->check(CLI::Range(0.0, 0.9))
-      ->capture_default_str();
-  command->add_option("--spread-gains", options->spread.gains, "On ki, ks and sensor gains")
-      ->check(CLI::Range(0.0, 0.9))
-      ->capture_default_str();
+  AddSpreadOptions(*command, options->spread);
   command->add_option("--out", options->out_path, "Write the identified rig file");
   command->add_option("--svg", options->svg_prefix, "Draw pictures, their names begin with this");
   AddJsonOption(*command, *options);

@@ -12,19 +12,6 @@ std::string Joined(const std::vector<std::string>& words) {
   return line;
 }
 
-/// "--json,-j" names one option twice.
-std::vector<std::string> NamesOf(const OptionText& option) {
-  std::vector<std::string> names{""};
-  for (const char c : option.name) {
-    if (c == ',') {
-      names.emplace_back();
-    } else {
-      names.back() += c;
-    }
-  }
-  return names;
-}
-
 /// What may follow an option; "<files>" where anything may.
 std::string ValuesOf(const OptionText& option) {
   if (!option.allowed.empty()) return Joined(option.allowed);
@@ -44,7 +31,7 @@ void Fill(const CommandText& command, std::string& words, std::string& values) {
       all.insert(all.end(), option.allowed.begin(), option.allowed.end());
       continue;
     }
-    for (const std::string& name : NamesOf(option)) {
+    for (const std::string& name : option.names) {
       all.push_back(name);
       if (!option.takes_value) continue;
       values += fmt::format("  ['{} {}']='{}'\n", command.path, name, ValuesOf(option));

@@ -5,13 +5,9 @@
 namespace levitas::cli {
 namespace {
 
-/// The words of "{a,b}" within what CLI11 says of a value's type and checks.
-std::vector<std::string> AllowedIn(const std::string& type) {
-  const std::size_t open = type.find('{');
-  const std::size_t close = type.find('}', open);
-  if (open == std::string::npos || close == std::string::npos) return {};
+std::vector<std::string> AtCommas(const std::string& list) {
   std::vector<std::string> words{""};
-  for (const char c : type.substr(open + 1, close - open - 1)) {
+  for (const char c : list) {
     if (c == ',') {
       words.emplace_back();
     } else {
@@ -19,6 +15,14 @@ std::vector<std::string> AllowedIn(const std::string& type) {
     }
   }
   return words;
+}
+
+/// The words of "{a,b}" within what CLI11 says of a value's type and checks.
+std::vector<std::string> AllowedIn(const std::string& type) {
+  const std::size_t open = type.find('{');
+  const std::size_t close = type.find('}', open);
+  if (open == std::string::npos || close == std::string::npos) return {};
+  return AtCommas(type.substr(open + 1, close - open - 1));
 }
 
 /// " (1 to 20)" of "UINT:INT in [1 - 20]"; empty when no range is checked.
@@ -37,6 +41,7 @@ OptionText TextOf(const CLI::Option& option) {
   OptionText text;
   text.positional = option.get_positional();
   text.name = text.positional ? option.get_name(true) : option.get_name(false, true);
+  text.names = AtCommas(text.name);
   text.takes_value = option.get_items_expected_max() > 0;
   const std::string type = text.takes_value ? option.get_type_name() : "";
   text.allowed = AllowedIn(type);

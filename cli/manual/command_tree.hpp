@@ -14,8 +14,9 @@ class App;
 namespace levitas::cli {
 
 struct OptionText {
-  std::string name;   ///< "--json", or "SESSION" of a word by position
-  std::string value;  ///< what follows, "TEXT" or "{lockstep,realtime}"; may be empty
+  std::vector<std::string> names;  ///< each way to write an option, by itself
+  std::string name;                ///< "--json", or "SESSION" of a word by position
+  std::string value;               ///< what follows, "TEXT" or "{lockstep,realtime}"; may be empty
   std::string meaning;
   std::string preset;                ///< default value; may be empty
   std::vector<std::string> allowed;  ///< the only values, where they are few
