@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/diagnosis_files.hpp"
 #include "cli/json_file.hpp"
+#include "cli/levitator_files.hpp"
 #include "cli/text_file.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/session.hpp"
@@ -26,7 +27,7 @@ constexpr const char* kHelp =
     "with "
     "a test signal, spinning, running up. Writes diagnosis.json, extended_rig.yaml and report.html "
     "into --out.\n"
-    "Records are sessions, or CSV as in docs/formats.md. Example:\n"
+    "Records are sessions, or CSV or MAT as in docs/formats.md. Example:\n"
     "  amb diagnose --rig flexible_rotor standing.csv spinning.csv runup.csv --out answer";
 
 struct DiagnoseOptions : AnalysisOptions {
@@ -45,6 +46,18 @@ void ShowProgress(double share, const std::string& what) {
   if (share >= 1.0) fmt::print(stderr, "\r{:80}\r", "");
 }
 
+/// One axis whose coils are on a voltage: models, causes and fits of its own.
+ExitStatus RunLevitator(const diagnosis::SessionInputs& inputs, const DiagnoseOptions& options) {
+  if (!options.plan.empty() || !options.healthy.empty()) {
+    throw BadInput("--plan and --healthy are not offered for rigs whose coils are on a voltage");
+  }
+  const levitator::Answer answer = levitator::Diagnose(inputs);
+  PrintLevitator(answer);
+  WriteLevitator(answer, options.out);
+  WriteJsonFile(options.json_path, LevitatorJson(answer));
+  return ExitStatus::kDone;
+}
+
 ExitStatus Run(const DiagnoseOptions& options) {
   std::error_code failed;
   std::filesystem::create_directories(options.out, failed);
@@ -60,6 +73,7 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.scratch_folder = options.out;
   inputs.settings.quick = options.quick;
   inputs.settings.progress = ShowProgress;
+  if (levitator::IsLevitator(inputs.rig.plant)) return RunLevitator(inputs, options);
   const diagnosis::SessionAnswer answer = diagnosis::DiagnoseFiles(inputs);
   PrintDiagnosis(answer);
   WriteDiagnosis(answer, inputs.rig, options.out);
@@ -74,7 +88,7 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<DiagnoseOptions>();
   CLI::App* command = app.add_subcommand("diagnose", "What the model of a rig gets wrong, and why");
   command->footer(kHelp);
-  command->add_option("DATA", options->data, "Sessions or CSV files of one rig")->required();
+  command->add_option("DATA", options->data, "Sessions, CSV or MAT files of one rig")->required();
   AddRigOption(*command, *options);
   command->add_option("--holdout", options->holdout,
                       "Data on which the gain is measured; without it every sixth stretch of "

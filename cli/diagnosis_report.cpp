@@ -161,19 +161,19 @@ std::string ParameterTable(const SessionAnswer& s) {
 
 }  // namespace
 
-std::string DiagnosisPage(const SessionAnswer& s) {
+std::string DiagnosisPage(const SessionAnswer& s, const std::string& more) {
   return fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
       "{0}</title>"
       "<style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n<p class=\"verdict\">{2}</p>\n"
       "<p>From {3:.1f} s of data. Of what a better model could gain on data kept back, this one "
-      "gains {4:.0f} % ({5:.0f} to {6:.0f} %). <b>Next:</b> {11}.</p>\n{12}{8}{7}\n"
+      "gains {4:.0f} % ({5:.0f} to {6:.0f} %). <b>Next:</b> {11}.</p>\n{14}{12}{8}{7}\n"
       "<h2>Ranking, and why not the others</h2>\n{10}{9}{13}</body></html>\n",
       Escaped(s.view->numbers.name), kStyle, Escaped(diagnosis::VerdictSentence(s)),
       s.seconds_of_data, 100.0 * s.held_out.achieved.value, 100.0 * s.held_out.achieved.low,
       100.0 * s.held_out.achieved.high, Spectra(s), ParameterTable(s),
       "<h2>Fit</h2>\n" + FitTable(s), Ranking(s), Escaped(diagnosis::NextExperiment(s)), Left(s),
-      ChannelTable(s));
+      ChannelTable(s), more);
 }
 
 }  // namespace levitas::cli

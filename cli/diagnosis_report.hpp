@@ -10,6 +10,8 @@
 
 namespace levitas::cli {
 
-[[nodiscard]] std::string DiagnosisPage(const diagnosis::SessionAnswer& answer);
+/// `more` is put behind the verdict as it is.
+[[nodiscard]] std::string DiagnosisPage(const diagnosis::SessionAnswer& answer,
+                                        const std::string& more = {});
 
 }  // namespace levitas::cli

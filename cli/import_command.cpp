@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/coil_scales.hpp"
 #include "cli/command.hpp"
 #include "cli/enter_session.hpp"
 #include "cli/json_file.hpp"
@@ -77,16 +78,6 @@ bool IsBusLog(const std::string& path) {
   return path.ends_with(".log") || path.ends_with(".log.xz");
 }
 
-std::vector<session::CoilScale> CoilScales(const config::RigFile& rig) {
-  std::vector<session::CoilScale> scales;
-  scales.reserve(rig.numbers.axes());
-  for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis) {
-    const plant::MagnetConfig& magnet = rig.plant.bearings[axis / 2].magnet;
-    scales.push_back({magnet.gap_m, magnet.max_coil_current_a});
-  }
-  return scales;
-}
-
 ExitStatus Import(const ImportCommandOptions& options) {
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
@@ -98,7 +89,7 @@ ExitStatus Import(const ImportCommandOptions& options) {
                                 .rig_yaml = config::WriteRig(rig),
                                 .program_version = LEVITAS_VERSION,
                                 .start_utc_ns = UtcNowNs(),
-                                .coils = CoilScales(rig),
+                                .coils = analysis::CoilScales(rig.plant, rig.numbers.axes()),
                                 .matrix = rig.log.matrix,
                                 .matrix_rows = rig.log.rows};
   if (IsBusLog(options.data_path)) return ImportBusLog(options, rig, import);

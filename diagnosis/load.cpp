@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "analysis/coil_scales.hpp"
 #include "analysis/recorded_rows.hpp"
 #include "common/problem.hpp"
 #include "session/csv_import.hpp"
@@ -14,6 +15,7 @@ namespace levitas::diagnosis {
 namespace {
 
 bool IsCsv(const std::string& path) { return path.ends_with(".csv") || path.ends_with(".csv.xz"); }
+bool IsMat(const std::string& path) { return path.ends_with(".mat"); }
 
 std::vector<analysis::RecordedRow> Rows(const std::string& session_path,
                                         const config::RigFile& rig) {
@@ -27,7 +29,7 @@ Record LoadRecord(const std::string& path, const config::RigFile& rig,
                   const std::string& scratch_folder) {
   Record record;
   record.name = std::filesystem::path(path).filename().string();
-  if (IsCsv(path)) {
+  if (IsCsv(path) || IsMat(path)) {
     const std::string scratch =
         (std::filesystem::path(scratch_folder) / (record.name + ".import.lcm")).string();
     session::ImportOptions import{.data_path = path,
@@ -35,8 +37,11 @@ Record LoadRecord(const std::string& path, const config::RigFile& rig,
                                   .rig = rig.numbers,
                                   .rig_yaml = config::WriteRig(rig),
                                   .program_version = "diagnose",
-                                  .start_utc_ns = 0};
-    session::ImportCsv(import);
+                                  .start_utc_ns = 0,
+                                  .coils = analysis::CoilScales(rig.plant, rig.numbers.axes()),
+                                  .matrix = rig.log.matrix,
+                                  .matrix_rows = rig.log.rows};
+    IsMat(path) ? session::ImportMat(import) : session::ImportCsv(import);
     record.rows = Rows(scratch, rig);
     std::filesystem::remove(scratch);
   } else {

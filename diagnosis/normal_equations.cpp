@@ -1,14 +1,13 @@
 #include "diagnosis/normal_equations.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "diagnosis/levinson.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
-/// Autoregression of one axis (Levinson-Durbin) over uninterrupted counting samples.
-std::vector<double> WhiteningFilter(const std::vector<Trajectory>& runs, std::size_t axis,
-                                    std::size_t order) {
+/// Autoregression of one axis over uninterrupted counting samples.
+std::vector<double> FilterOf(const std::vector<Trajectory>& runs, std::size_t axis,
+                             std::size_t order) {
   std::vector<double> correlation(order + 1, 0.0);
   double count = 0.0;
   for (const Trajectory& run : runs) {
@@ -21,28 +20,14 @@ std::vector<double> WhiteningFilter(const std::vector<Trajectory>& runs, std::si
       count += 1.0;
     }
   }
-  std::vector<double> a{1.0};
-  double power = correlation[0];
-  for (std::size_t k = 1; k <= order; ++k) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < k; ++i) sum += a[i] * correlation[k - i];
-    const double reflection = -sum / power;
-    std::vector<double> next(a);
-    next.push_back(0.0);
-    for (std::size_t i = 1; i <= k; ++i) next[i] += reflection * (i == k ? 1.0 : a[k - i]);
-    a = next;
-    power *= 1.0 - reflection * reflection;
-  }
-  const double rms = std::sqrt(power / std::max(1.0, count));
-  for (double& c : a) c /= rms > 0.0 ? rms : 1.0;
-  return a;
+  return WhiteningFilter(correlation, count);
 }
 
 }  // namespace
 
 Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes, std::size_t order) {
   Whitener whitener{order, {}};
-  for (std::size_t a = 0; a < axes; ++a) whitener.filter.push_back(WhiteningFilter(runs, a, order));
+  for (std::size_t a = 0; a < axes; ++a) whitener.filter.push_back(FilterOf(runs, a, order));
   return whitener;
 }
 

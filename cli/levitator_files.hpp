@@ -1,0 +1,18 @@
+#pragma once
+// What amb diagnose prints and writes of a ball between two magnets: as of every rig
+// (diagnosis_files.hpp), and the fits run by run.
+//
+// Failure  BadInput when a file cannot be written.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "diagnosis/levitator/answer.hpp"
+
+namespace levitas::cli {
+
+void PrintLevitator(const levitator::Answer& answer);
+[[nodiscard]] nlohmann::ordered_json LevitatorJson(const levitator::Answer& answer);
+void WriteLevitator(const levitator::Answer& answer, const std::string& folder);
+
+}  // namespace levitas::cli

@@ -1,0 +1,137 @@
+#include "diagnosis/levitator/answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/levitator/shared_form.hpp"
+#include "diagnosis/load.hpp"
+
+namespace levitas::levitator {
+namespace {
+
+constexpr double kStretch_s = 4.0;
+constexpr int kSteps = 10;
+
+std::vector<Series> Load(const std::vector<std::string>& paths,
+                         const diagnosis::SessionInputs& inputs) {
+  std::vector<Series> out;
+  out.reserve(paths.size());
+  for (const std::string& path : paths) {
+    const diagnosis::Record record = diagnosis::LoadRecord(path, inputs.rig, inputs.scratch_folder);
+    out.push_back(MakeSeries(record.name, inputs.rig, record.rows));
+  }
+  return out;
+}
+
+/// Stretches of all records, each from another part of its own.
+std::vector<Series> Stretches(const std::vector<Series>& data) {
+  constexpr double kLongest_s = 24.0;
+  const double seconds =
+      std::clamp(kLongest_s / static_cast<double>(data.size()), 2.0, 2.0 * kStretch_s);
+  std::vector<Series> out;
+  out.reserve(data.size());
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const double phase =
+        data.size() < 2 ? 0.0 : static_cast<double>(i) / static_cast<double>(data.size() - 1);
+    out.push_back(Stretch(data[i], seconds, phase));
+  }
+  return out;
+}
+
+struct Models {
+  Theta calibrated, extended;
+};
+
+HeldOutRun Judge(const NominalRig& rig, const Series& series, const Models& models) {
+  const auto errors = [&](const Theta& theta) {
+    return ErrorsOf(rig, series, ForOthers(theta, 1), 0);
+  };
+  const Errors nominal = errors(Nominal(1));
+  const Errors calibrated = errors(models.calibrated);
+  const Errors extended = errors(models.extended);
+  HeldOutRun run;
+  run.name = series.name;
+  run.nominal = FitOf(nominal, rig.period_s);
+  run.calibrated = FitOf(calibrated, rig.period_s);
+  run.extended = FitOf(extended, rig.period_s);
+  const bool probes = series.has_currents();
+  const auto& channel = [probes](const Errors& e) -> const std::vector<double>& {
+    return probes ? e.current_a[0] : e.motion_m;
+  };
+  const double noise = WhiteNoise(channel(extended));
+  run.current_ceiling = probes ? Ceiling(extended.measured_a[0], noise) : 0.0;
+  run.motion_ceiling = Ceiling(extended.position_m, WhiteNoise(extended.motion_m));
+  run.achieved = SharePercent(channel(nominal), channel(extended), noise, rig.period_s);
+  run.beyond_calibration =
+      SharePercent(channel(calibrated), channel(extended), noise, rig.period_s);
+  return run;
+}
+
+/// Each record by what the others say of the same causes.
+std::vector<HeldOutRun> InTurn(const NominalRig& rig, const std::vector<Series>& data,
+                               const std::vector<Series>& stretches, const Found& found) {
+  std::vector<HeldOutRun> runs;
+  for (std::size_t out = 0; out < data.size(); ++out) {
+    std::vector<Series> others;
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      if (i != out) others.push_back(stretches[i]);
+    }
+    const Misfit misfit(rig, others);
+    const Fitter fitter(misfit);
+    const Theta start = ForOthers(found.extended.theta, others.size());
+    const Theta plain = ForOthers(found.calibrated.theta, others.size());
+    runs.push_back(Judge(rig, data[out],
+                         {fitter.Fit({}, plain, found.filters, kSteps).theta,
+                          fitter.Fit(found.causes, start, found.filters, kSteps).theta}));
+  }
+  return runs;
+}
+
+std::vector<HeldOutRun> JudgeAll(const NominalRig& rig, const std::vector<Series>& data,
+                                 const Found& found) {
+  std::vector<HeldOutRun> runs;
+  runs.reserve(data.size());
+  for (const Series& series : data) {
+    runs.push_back(Judge(rig, series, {found.calibrated.theta, found.extended.theta}));
+  }
+  return runs;
+}
+
+}  // namespace
+
+Answer Diagnose(const config::RigFile& rig, const std::vector<Series>& given,
+                const std::vector<Series>& given_held_out, const diagnosis::Settings& settings) {
+  const NominalRig nominal = NominalOf(rig);
+  std::vector<Series> data = given;
+  std::vector<Series> held_out = given_held_out;
+  if (data.size() == 1 && held_out.empty()) {
+    const Series whole = data.front();
+    const double seconds = whole.time_s.back() - whole.time_s.front();
+    data.front() = Stretch(whole, 0.6 * seconds, 0.0);
+    held_out.push_back(Stretch(whole, 0.3 * seconds, 1.0));
+  }
+  const std::vector<Series> stretches = Stretches(data);
+  const Misfit misfit(nominal, stretches);
+  SearchSettings search;
+  search.progress = settings.progress;
+  Answer answer;
+  if (held_out.empty()) {
+    answer.found = Search(misfit, nullptr, search);
+    answer.held_out = InTurn(nominal, data, stretches, answer.found);
+  } else {
+    const Misfit aside(nominal, held_out);
+    answer.found = Search(misfit, &aside, search);
+    answer.held_out = JudgeAll(nominal, held_out, answer.found);
+  }
+  answer.fitted = JudgeAll(nominal, data, answer.found);
+  FillSharedForm(rig, data, answer);
+  answer.extended_rig = ExtendedRig(rig, answer.found);
+  return answer;
+}
+
+Answer Diagnose(const diagnosis::SessionInputs& inputs) {
+  return Diagnose(inputs.rig, Load(inputs.data, inputs), Load(inputs.holdout, inputs),
+                  inputs.settings);
+}
+
+}  // namespace levitas::levitator

@@ -1,0 +1,127 @@
+// The rig file with what a fit has found: in its keys where the law has one, else as effects.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/problem.hpp"
+#include "diagnosis/levitator/answer.hpp"
+#include "diagnosis/words.hpp"
+
+namespace levitas::levitator {
+namespace {
+
+void ExtendCoil(const Theta& t, plant::VoltageDrive& coil) {
+  constexpr double kFlat_m = 1000.0;  // the largest decay that a rig file may have
+  const double resistance = 1.0 + t[kResistance];
+  const double decay_m = coil.decay_m;
+  coil.steady *= (1.0 + t[kSupply]) / resistance;
+  coil.offset_a /= resistance;
+  coil.time_constant_s *= (1.0 + t[kInductance]) / resistance;
+  const double per_gap = 1.0 - t[kProfile];
+  coil.decay_m = per_gap > decay_m / kFlat_m ? decay_m / per_gap : kFlat_m;
+  const double emf = (coil.motion_emf + t[kMotionEmf]) * coil.decay_m / decay_m;
+  coil.motion_emf = std::clamp(emf, 0.0, 10.0);
+}
+
+void ExtendForce(const Theta& t, double gap_m, plant::ExponentialForce& law) {
+  const double up = law.force_n_per_a2 * (1.0 + t[kForce]) * std::exp(-gap_m / law.decay_m);
+  const double down = law.force_n_per_a2 * (1.0 + t[kForce]) * (1.0 + t[kForceAway]) *
+                      std::exp(-law.far_gap_m / law.decay_m);
+  law.decay_m /= std::max(0.1, 1.0 + t[kForceDecay]);
+  law.force_n_per_a2 = up * std::exp(gap_m / law.decay_m);
+  law.far_gap_m = law.decay_m * std::log(law.force_n_per_a2 / down);
+}
+
+/// Entries of the list of effects, of what has no key.
+std::vector<std::string> Entries(const std::string& channel, const std::string& bearing,
+                                 const Theta& t, double bandwidth_hz) {
+  std::vector<std::string> out;
+  const auto add = [&](bool there, const std::string& id, const std::string& values) {
+    if (there) out.push_back(fmt::format("{{id: {}, {}}}", id, values));
+  };
+  const std::string at = fmt::format("channels: [{}]", channel);
+  add(t[kForceKnee] > 0.0, "magnetic_saturation",
+      fmt::format("{}, knee_a: {:.6g}, exponent: 2", at,
+                  1.0 / std::sqrt(std::max(1e-9, t[kForceKnee]))));
+  add(t[kForceLag] > 0.0, "eddy_current",
+      fmt::format("{}, tau_us: {:.6g}", at, 1e6 * t[kForceLag]));
+  add(t[kSensorGain] != 0.0, "sensor_gain",
+      fmt::format("{}, ratio: {:.6g}", at, 1.0 + t[kSensorGain]));
+  add(t[kSensorOffset] != 0.0, "sensor_offset",
+      fmt::format("{}, offset_um: {:.6g}", at, 1e6 * t[kSensorOffset]));
+  add(t[kSensorSquare] != 0.0 || t[kSensorCube] != 0.0, "sensor_nonlinearity",
+      fmt::format("{}, a2_1_per_m: {:.6g}, a3_1_per_m2: {:.6g}", at, t[kSensorSquare],
+                  t[kSensorCube]));
+  const double lag_s = 1.0 / (2.0 * 3.14159265358979 * bandwidth_hz) + t[kSensorLag];
+  add(t[kSensorLag] > 0.0, "sensor_bandwidth",
+      fmt::format("{}, bandwidth_hz: {:.6g}", at, 1.0 / (2.0 * 3.14159265358979 * lag_s)));
+  add(t[kMass] != 0.0, "rotor_mass", fmt::format("ratio: {:.6g}", 1.0 + t[kMass]));
+  add(t[kLoad] != 0.0, "static_load", fmt::format("{}, force_n: {:.6g}", at, t[kLoad]));
+  add(t[kSpring] > 0.0, "coupling_stiffness",
+      fmt::format("bearing: {}, direct_n_per_m: {:.6g}", bearing, t[kSpring]));
+  return out;
+}
+
+/// The entry as the strict reader takes it; nothing where it refuses.
+std::vector<effect::EffectConfig> Read(const config::RigFile& rig, const std::string& entry) {
+  std::string text = config::WriteRig(rig);
+  const std::string none = "effects: []\n";
+  const auto at = text.find(none);
+  if (at == std::string::npos) return {};
+  text.replace(at, none.size(), "effects:\n  - " + entry + "\n");
+  try {
+    return config::ParseRig(text, "extended_rig.yaml").plant.effects;
+  } catch (const BadInput&) {
+    return {};
+  }
+}
+
+bool InTheModel(std::size_t i) {
+  constexpr std::array kMissing{kIronInductance, kDriveCurve, kHeating,        kEddyShare,
+                                kMutual,         kAwaySupply, kAwayInductance, kProbeGain,
+                                kProbeOffset,    kProbeLag,   kForceExponent,  kDamping,
+                                kDryFriction,    kDeadBand};
+  return std::find(kMissing.begin(), kMissing.end(), i) == kMissing.end();
+}
+
+std::string Comments(const Found& found) {
+  std::string text;
+  constexpr double kInterval = 1.645;
+  for (const std::size_t c : found.causes) {
+    for (const std::size_t i : Causes()[c].moves) {
+      const Row& row = Table()[i];
+      const double spread = kInterval * found.extended.deviation[i];
+      text += fmt::format("# {} {} = {:.5g} {} ({:.5g} to {:.5g}){}\n", row.effect, row.name,
+                          found.extended.theta[i], row.unit, found.extended.theta[i] - spread,
+                          found.extended.theta[i] + spread,
+                          InTheModel(i) ? "" : ": the simulated rig has no key for it");
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string ExtendedRig(const config::RigFile& rig, const Found& found) {
+  const Theta& t = found.extended.theta;
+  config::RigFile extended = rig;
+  plant::BearingConfig& bearing = extended.plant.bearings.at(0);
+  extended.plant.delay_samples += t[kDelay];
+  if (bearing.amplifier.voltage) ExtendCoil(t, *bearing.amplifier.voltage);
+  if (bearing.magnet.exponential) {
+    ExtendForce(t, bearing.magnet.gap_m, *bearing.magnet.exponential);
+  }
+  std::string refused;
+  for (const std::string& entry :
+       Entries(rig.numbers.channels.front(), bearing.name, t, bearing.sensor.bandwidth_hz)) {
+    const auto effects = Read(rig, entry);
+    extended.plant.effects.insert(extended.plant.effects.end(), effects.begin(), effects.end());
+    if (effects.empty()) refused += "#  - " + entry + "\n";
+  }
+  if (!refused.empty()) refused.insert(0, "# not known to this build's reader:\n");
+  return Comments(found) + refused + config::WriteRig(extended);
+}
+
+}  // namespace levitas::levitator

@@ -1,0 +1,208 @@
+#include "diagnosis/levitator/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace levitas::levitator {
+namespace {
+
+constexpr int kSteps = 8;
+constexpr std::size_t kRefitted = 5;
+
+CauseSet Without(const CauseSet& set, std::size_t cause) {
+  CauseSet rest;
+  for (const std::size_t c : set) {
+    if (c != cause) rest.push_back(c);
+  }
+  return rest;
+}
+
+CauseSet With(CauseSet set, std::size_t cause) {
+  set.push_back(cause);
+  return set;
+}
+
+bool SameEffect(const CauseSet& set, std::size_t cause) {
+  return std::any_of(set.begin(), set.end(),
+                     [&](std::size_t c) { return Causes()[c].effect == Causes()[cause].effect; });
+}
+
+/// The best few by their screened gain, of effects that are not in the set.
+std::vector<std::size_t> Nearest(const std::vector<double>& gain, const CauseSet& set,
+                                 std::size_t count) {
+  std::vector<std::size_t> order;
+  for (std::size_t c = 0; c < gain.size(); ++c) {
+    if (std::isfinite(gain[c]) && !SameEffect(set, c)) order.push_back(c);
+  }
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return gain[a] > gain[b]; });
+  order.resize(std::min(order.size(), count));
+  return order;
+}
+
+class Hunt {
+ public:
+  Hunt(const Misfit& data, const SearchSettings& settings)
+      : fitter_(data), settings_(settings), now_() {
+    now_.theta = Nominal(data.series().size());
+  }
+
+  void Calibrate() {
+    filters_ = fitter_.Noise();
+    if (settings_.progress) settings_.progress(0.05, "calibrating");
+    now_ = fitter_.Fit({}, now_.theta, filters_, 2 * kSteps);
+  }
+
+  /// Adds the best cause; false when none is decisive.
+  bool Forward() {
+    const std::vector<double> gain = fitter_.Screen(set_, now_, filters_);
+    double best = -std::numeric_limits<double>::infinity();
+    Fitted found;
+    CauseSet chosen;
+    for (const std::size_t c : Nearest(gain, set_, kRefitted)) {
+      const CauseSet with = With(set_, c);
+      Fitted fitted = fitter_.Fit(with, now_.theta, filters_, kSteps);
+      if (fitted.evidence <= best) continue;
+      best = fitted.evidence;
+      found = std::move(fitted);
+      chosen = with;
+    }
+    const double gained = best - now_.evidence;
+    if (!(gained > std::max(diagnosis::kDecisive, kForm * explained_))) return false;
+    explained_ += gained;
+    now_ = std::move(found);
+    set_ = chosen;
+    Tell(chosen.back());
+    return true;
+  }
+
+  /// Drops causes that the others explain.
+  void Backward() {
+    for (bool dropped = true; dropped && set_.size() > 1;) {
+      dropped = false;
+      for (const std::size_t c : set_) {
+        const CauseSet rest = Without(set_, c);
+        const Fitted fitted = fitter_.Fit(rest, now_.theta, filters_, kSteps);
+        if (now_.evidence - fitted.evidence > diagnosis::kDecisive) continue;
+        set_ = rest;
+        now_ = fitted;
+        dropped = true;
+        break;
+      }
+    }
+  }
+
+  [[nodiscard]] const CauseSet& set() const { return set_; }
+  [[nodiscard]] const Fitted& now() const { return now_; }
+  [[nodiscard]] const Filters& filters() const { return filters_; }
+  [[nodiscard]] const Fitter& fitter() const { return fitter_; }
+
+ private:
+  void Tell(std::size_t cause) const {
+    if (!settings_.progress) return;
+    const double share = 0.1 + 0.06 * static_cast<double>(set_.size());
+    settings_.progress(std::min(0.7, share), "found " + Causes()[cause].effect);
+  }
+
+  Fitter fitter_;
+  const SearchSettings& settings_;
+  CauseSet set_;
+  Fitted now_;
+  Filters filters_;
+  double explained_{};
+};
+
+double HeldOut(const Misfit* held_out, const Filters& filters, const Theta& with,
+               const Theta& without) {
+  if (held_out == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  const std::size_t records = held_out->series().size();
+  return 0.5 * (held_out->SquaredSum(ForOthers(without, records), filters) -
+                held_out->SquaredSum(ForOthers(with, records), filters));
+}
+
+void KeepBest(std::vector<Score>& scores, const Score& score) {
+  const auto same = std::find_if(scores.begin(), scores.end(), [&](const Score& s) {
+    return Causes()[s.cause].effect == Causes()[score.cause].effect;
+  });
+  if (same == scores.end()) {
+    scores.push_back(score);
+  } else if (!same->named && score.nat > same->nat) {
+    *same = score;
+  }
+}
+
+/// What each named cause adds to the others, and what all others would add in its place.
+std::vector<Score> Rank(const Hunt& hunt, const Misfit* held_out, CauseSet& order) {
+  const Fitter& fitter = hunt.fitter();
+  const Filters& filters = hunt.filters();
+  const std::size_t none = Causes().size();
+  std::vector<Score> named;
+  std::vector<Score> others;
+  const auto rank_in_place = [&](const CauseSet& rest, const Fitted& base, std::size_t of) {
+    const std::vector<double> gain = fitter.Screen(rest, base, filters);
+    for (std::size_t c = 0; c < gain.size(); ++c) {
+      if (!SameEffect(hunt.set(), c)) {
+        KeepBest(others, {c, gain[c], std::nan(""), false, false, of});
+      }
+    }
+    for (const std::size_t c : Nearest(gain, hunt.set(), 3)) {
+      if (gain[c] < 0.0) continue;
+      const Fitted fitted = fitter.Fit(With(rest, c), base.theta, filters, kSteps);
+      const Score score{c,
+                        fitted.evidence - base.evidence,
+                        HeldOut(held_out, filters, fitted.theta, base.theta),
+                        false,
+                        true,
+                        of};
+      const auto same = std::find_if(others.begin(), others.end(), [&](const Score& s) {
+        return Causes()[s.cause].effect == Causes()[c].effect;
+      });
+      if (same != others.end() && (!same->refitted || score.nat > same->nat)) *same = score;
+    }
+  };
+  if (hunt.set().empty()) rank_in_place({}, hunt.now(), none);
+  for (const std::size_t c : hunt.set()) {
+    const CauseSet rest = Without(hunt.set(), c);
+    const Fitted base = fitter.Fit(rest, hunt.now().theta, filters, 2 * kSteps);
+    named.push_back({c, hunt.now().evidence - base.evidence,
+                     HeldOut(held_out, filters, hunt.now().theta, base.theta), true, true, none});
+    rank_in_place(rest, base, c);
+  }
+  const auto higher = [](const Score& a, const Score& b) { return a.nat > b.nat; };
+  std::sort(named.begin(), named.end(), higher);
+  std::sort(others.begin(), others.end(), higher);
+  order.clear();
+  for (const Score& score : named) order.push_back(score.cause);
+  named.insert(named.end(), others.begin(), others.end());
+  return named;
+}
+
+}  // namespace
+
+Theta ForOthers(const Theta& theta, std::size_t records) {
+  Theta out = Nominal(records);
+  std::copy(theta.begin(), theta.begin() + static_cast<std::ptrdiff_t>(kParameters), out.begin());
+  return out;
+}
+
+Found Search(const Misfit& data, const Misfit* held_out, const SearchSettings& settings) {
+  Hunt hunt(data, settings);
+  if (settings.progress) settings.progress(0.02, "calibrating");
+  hunt.Calibrate();
+  Found found;
+  found.calibrated = hunt.now();
+  while (hunt.set().size() < settings.most_causes && hunt.Forward()) hunt.Backward();
+  if (settings.progress) settings.progress(0.75, "ranking");
+  found.scores = Rank(hunt, held_out, found.causes);
+  found.extended = hunt.now();
+  found.filters = hunt.filters();
+  const Fitted bare = hunt.fitter().Fit({}, found.calibrated.theta, hunt.filters(), 2 * kSteps);
+  found.evidence = found.extended.evidence - bare.evidence;
+  if (settings.progress) settings.progress(1.0, "done");
+  return found;
+}
+
+}  // namespace levitas::levitator

@@ -1,0 +1,52 @@
+#pragma once
+// The search for what is wrong with the model of a levitator, and its answer.
+//
+// Method     calibrate; screen every cause; refit the best few on the nonlinear model; accept the
+//            best; drop earlier ones that the others explain (backward check); again until none
+//            gains kDecisive and kForm of what is explained already. Whitened anew after every
+//            acceptance, since what has been explained is no noise.
+// Score      nat that a cause adds to all others; of one that was not named, what it would add in
+//            place of the named one it does most for.
+// Held out   the same gain in likelihood on records that were not fitted, where there are any.
+// Thread     blocks the caller, two threads inside.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/levitator/fit.hpp"
+
+namespace levitas::levitator {
+
+inline constexpr double kForm = 0.001;  ///< share of the evidence that a law's form may leave
+
+struct Score {
+  std::size_t cause{};  ///< index into Causes()
+  double nat{};
+  double held_out_nat{};  ///< NaN where nothing was held out
+  bool named{};
+  bool refitted{};
+  std::size_t instead_of{};  ///< of one not named: the named one; Causes().size() if none
+};
+
+struct Found {
+  CauseSet causes;  ///< the weightiest first
+  Fitted calibrated;
+  Fitted extended;
+  Filters filters;            ///< of the extended model
+  std::vector<Score> scores;  ///< best variant of every effect, named ones first
+  double evidence{};          ///< [nat] of all causes together
+};
+
+struct SearchSettings {
+  std::size_t most_causes{10};
+  std::function<void(double, const std::string&)> progress;
+};
+
+[[nodiscard]] Found Search(const Misfit& data, const Misfit* held_out,
+                           const SearchSettings& settings);
+
+/// Common values of a fit for records that it has not seen.
+[[nodiscard]] Theta ForOthers(const Theta& theta, std::size_t records);
+
+}  // namespace levitas::levitator
