@@ -1,8 +1,8 @@
 #pragma once
 // Measured data for a diagnosis: sessions, or CSV (also .xz) or MAT files of docs/formats.md.
 //
-// CSV, MAT   go through session::ImportCsv or ImportMat into a scratch file in `scratch_folder`, so that both
-//            ways see the same rows. Currents are the commanded ones.
+// CSV, MAT   go through session::ImportCsv or ImportMat into a scratch file in `scratch_folder`,
+//            so that all ways see the same rows. Currents are the commanded ones.
 // Failure    BadInput with file and line; for records of another rig or shorter than kShortest.
 
 #include <string>

@@ -10,7 +10,7 @@ namespace levitas::levitator {
 namespace {
 
 constexpr double kStretch_s = 4.0;
-constexpr int kSteps = 10;
+constexpr int kSteps = 5;
 
 std::vector<Series> Load(const std::vector<std::string>& paths,
                          const diagnosis::SessionInputs& inputs) {
@@ -25,7 +25,7 @@ std::vector<Series> Load(const std::vector<std::string>& paths,
 
 /// Stretches of all records, each from another part of its own.
 std::vector<Series> Stretches(const std::vector<Series>& data) {
-  constexpr double kLongest_s = 24.0;
+  constexpr double kLongest_s = 16.0;
   const double seconds =
       std::clamp(kLongest_s / static_cast<double>(data.size()), 2.0, 2.0 * kStretch_s);
   std::vector<Series> out;

@@ -21,11 +21,13 @@ struct CoilLaw {
   [[nodiscard]] double Resistance(double time_s) const {
     return std::max(0.05, resistance * (1.0 + heating_1_per_s * time_s));
   }
-  [[nodiscard]] double Follow(double now_a, double drive_a, double r, double gap, double gap_rate,
-                              double duration_s) const {
-    const double iron = 1.0 + iron_1_per_a2 * now_a * now_a;
-    const double supply_1_per_s =
-        iron / (inductance_s * std::exp(-std::clamp(per_gap_1_per_m * gap, -20.0, 20.0)));
+  /// Inductance over the nominal resistance at a gap [s].
+  [[nodiscard]] double Slowness(double gap) const {
+    return inductance_s * std::exp(-std::clamp(per_gap_1_per_m * gap, -20.0, 20.0));
+  }
+  [[nodiscard]] double Follow(double now_a, double drive_a, double r, double slowness_s,
+                              double gap_rate, double duration_s) const {
+    const double supply_1_per_s = (1.0 + iron_1_per_a2 * now_a * now_a) / slowness_s;
     const double rate = r * supply_1_per_s - emf_1_per_m * gap_rate;
     const double turns = rate * duration_s;
     const double fallen = -std::expm1(-std::max(turns, -50.0));
@@ -105,6 +107,14 @@ void RunCoil(const NominalRig& rig, const Series& series, const std::vector<doub
   };
   out.current_a[coil].resize(series.size());
   out.reading_a[coil].resize(series.size());
+  if (series.idle[coil]) {
+    // Never asked for anything: what is there stays, whatever its inductance.
+    for (std::size_t n = 0; n < series.size(); ++n) {
+      const double rest_a = law.Drive(0.0) / law.Resistance(series.time_s[n]);
+      out.current_a[coil][n] = out.reading_a[coil][n] = std::max(0.0, rest_a);
+    }
+    return;
+  }
   double now = 0.0;
   std::size_t first = 0;
   for (std::size_t n = 0; n < series.size(); ++n) {
@@ -121,9 +131,10 @@ void RunCoil(const NominalRig& rig, const Series& series, const std::vector<doub
     if (n + 1 >= series.size() || series.restart[n + 1]) continue;
     const double gap = law.gap_m + law.gap_sign * 0.5 * (position_m[n] + position_m[n + 1]);
     const double gap_rate = law.gap_sign * (position_m[n + 1] - position_m[n]) / rig.period_s;
+    const double slowness = law.Slowness(gap);
     const double early_s = delay.fraction * rig.period_s;
-    if (early_s > 0.0) now = law.Follow(now, older, r, gap, gap_rate, early_s);
-    now = law.Follow(now, drive, r, gap, gap_rate, rig.period_s - early_s);
+    if (early_s > 0.0) now = law.Follow(now, older, r, slowness, gap_rate, early_s);
+    now = law.Follow(now, drive, r, slowness, gap_rate, rig.period_s - early_s);
   }
 }
 

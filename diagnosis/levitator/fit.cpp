@@ -148,15 +148,15 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
   double cost = misfit_.SquaredSum(out.theta, filters) + Penalty(freedom, out.theta);
   double caution = 1e-4;
   Sums sums;
-  for (int step = 0;; ++step) {
+  for (int step = 0; step < steps; ++step) {
     sums = misfit_.Linearise(out.theta, filters, freedom.active);
-    if (step == steps) break;
     const Normal normal = WithPriors(sums, freedom, Scaled(freedom, out.theta));
     const Step next = TryStep(misfit_, filters, freedom, normal, out.theta, cost, caution);
     const double gained = cost - next.cost;
     out.theta = next.theta;
     cost = next.cost;
-    if (gained < 0.2) break;  // a tenth of a nat
+    // The last linearisation serves for the spread; half a nat more is not worth another.
+    if (gained < std::max(1.0, 1e-6 * cost)) break;
   }
   const Normal normal = WithPriors(sums, freedom, Scaled(freedom, out.theta));
   const Eigen::LLT<Eigen::MatrixXd> llt(normal.matrix);
@@ -177,13 +177,11 @@ Filters Fitter::Noise() const {
   for (std::size_t c = 0; c < everything.size(); ++c) everything[c] = c;
   Theta theta = Nominal(misfit_.series().size());
   // Scaled alone at first: what is not explained yet is no noise.
-  Filters filters = misfit_.Whiten(theta, 0);
-  constexpr int kPasses = 3;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    theta = Fit(everything, theta, filters, 12).theta;
-    filters = misfit_.Whiten(theta, pass == 0 ? 0 : kMemory);
-  }
-  return filters;
+  const Filters filters = misfit_.Whiten(theta, 0);
+  constexpr int kSteps = 8;
+  theta = Fit(everything, theta, filters, kSteps).theta;
+  theta = Fit(everything, theta, misfit_.Whiten(theta, 0), kSteps).theta;
+  return misfit_.Whiten(theta, kMemory);
 }
 
 std::vector<double> Fitter::Screen(const CauseSet& causes, const Fitted& at,

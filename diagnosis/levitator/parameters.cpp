@@ -11,8 +11,8 @@ constexpr const char* kSensor = "sensor";
 // In the order of Parameter.
 constexpr std::array<Row, kParameters> kRows{{
     {"extra_delay", "timing", "delay_samples", "samples", Side::kCoils, 0.02, 1.0, 0.0},
-    {"supply_voltage", kAmplifier, "ratio", "", Side::kCoils, 0.02, 0.3, -0.9},
-    {"coil_resistance", kAmplifier, "ratio", "", Side::kCoils, 0.02, 0.3, -0.9},
+    {"supply_voltage", kAmplifier, "ratio", "", Side::kCoils, 0.01, 0.3, -0.9},
+    {"coil_resistance", kAmplifier, "ratio", "", Side::kCoils, 0.01, 0.3, -0.9},
     {"coil_inductance", kAmplifier, "ratio", "", Side::kCoils, 0.05, 0.5, -0.95},
     {"inductance_profile", kAmplifier, "gap_dependence", "", Side::kCoils, 0.02, 1.0, kAny},
     {"magnetic_saturation", kMagnet, "inductance_1_per_a2", "1/A2", Side::kCoils, 0.0, 0.3, 0.0},

@@ -72,7 +72,7 @@ struct Row {
 /// Numbers that every record has of its own: the coil's resistance when it began (it is warm or
 /// cold) and the place of the sensor's zero (it is clamped anew).
 enum OwnParameter : std::size_t { kOwnResistance, kOwnOffset, kOwnParameters };
-inline constexpr double kOwnResistanceTolerance = 0.01;
+inline constexpr double kOwnResistanceTolerance = 0.007;
 inline constexpr double kOwnOffsetTolerance_m = 50e-6;
 
 /// Values of all records: the common ones, then those of each record.

@@ -10,6 +10,7 @@ namespace levitas::levitator {
 namespace {
 
 constexpr int kSteps = 8;
+constexpr int kScreenSteps = 4;
 constexpr std::size_t kRefitted = 5;
 
 CauseSet Without(const CauseSet& set, std::size_t cause) {
@@ -64,13 +65,16 @@ class Hunt {
     CauseSet chosen;
     for (const std::size_t c : Nearest(gain, set_, kRefitted)) {
       const CauseSet with = With(set_, c);
-      Fitted fitted = fitter_.Fit(with, now_.theta, filters_, kSteps);
+      Fitted fitted = fitter_.Fit(with, now_.theta, filters_, kScreenSteps);
       if (fitted.evidence <= best) continue;
       best = fitted.evidence;
       found = std::move(fitted);
       chosen = with;
     }
-    const double gained = best - now_.evidence;
+    if (chosen.empty()) return false;
+    Fitted settled = fitter_.Fit(chosen, found.theta, filters_, kSteps);
+    if (settled.evidence > best) found = std::move(settled);
+    const double gained = found.evidence - now_.evidence;
     if (!(gained > std::max(diagnosis::kDecisive, kForm * explained_))) return false;
     explained_ += gained;
     now_ = std::move(found);
@@ -123,53 +127,52 @@ double HeldOut(const Misfit* held_out, const Filters& filters, const Theta& with
                 held_out->SquaredSum(ForOthers(with, records), filters));
 }
 
-void KeepBest(std::vector<Score>& scores, const Score& score) {
+/// Keeps of every effect what comes nearest to the cause in whose place it stands.
+void KeepNearest(std::vector<Score>& scores, const Score& score) {
   const auto same = std::find_if(scores.begin(), scores.end(), [&](const Score& s) {
     return Causes()[s.cause].effect == Causes()[score.cause].effect;
   });
   if (same == scores.end()) {
     scores.push_back(score);
-  } else if (!same->named && score.nat > same->nat) {
+  } else if (score.refitted && !same->refitted
+                 ? score.cause == same->cause || score.behind_nat < same->behind_nat
+                 : score.refitted == same->refitted && score.behind_nat < same->behind_nat) {
     *same = score;
+  }
+}
+
+/// What others would add in the place of a cause that adds `nat` to `rest`.
+void RankInPlace(const Hunt& hunt, const Misfit* held_out, const CauseSet& rest, const Fitted& base,
+                 std::size_t of, double nat, std::vector<Score>& others) {
+  constexpr std::size_t kNearest = 4;
+  const Fitter& fitter = hunt.fitter();
+  const std::vector<double> gain = fitter.Screen(rest, base, hunt.filters());
+  for (std::size_t c = 0; c < gain.size(); ++c) {
+    if (SameEffect(hunt.set(), c)) continue;
+    KeepNearest(others, {c, gain[c], std::nan(""), nat - gain[c], false, false, of});
+  }
+  for (const std::size_t c : Nearest(gain, hunt.set(), kNearest)) {
+    if (gain[c] < 0.0) continue;
+    const Fitted fitted = fitter.Fit(With(rest, c), base.theta, hunt.filters(), kScreenSteps);
+    const double gained = fitted.evidence - base.evidence;
+    KeepNearest(others, {c, gained, HeldOut(held_out, hunt.filters(), fitted.theta, base.theta),
+                         nat - gained, false, true, of});
   }
 }
 
 /// What each named cause adds to the others, and what all others would add in its place.
 std::vector<Score> Rank(const Hunt& hunt, const Misfit* held_out, CauseSet& order) {
-  const Fitter& fitter = hunt.fitter();
-  const Filters& filters = hunt.filters();
   const std::size_t none = Causes().size();
   std::vector<Score> named;
   std::vector<Score> others;
-  const auto rank_in_place = [&](const CauseSet& rest, const Fitted& base, std::size_t of) {
-    const std::vector<double> gain = fitter.Screen(rest, base, filters);
-    for (std::size_t c = 0; c < gain.size(); ++c) {
-      if (!SameEffect(hunt.set(), c)) {
-        KeepBest(others, {c, gain[c], std::nan(""), false, false, of});
-      }
-    }
-    for (const std::size_t c : Nearest(gain, hunt.set(), 3)) {
-      if (gain[c] < 0.0) continue;
-      const Fitted fitted = fitter.Fit(With(rest, c), base.theta, filters, kSteps);
-      const Score score{c,
-                        fitted.evidence - base.evidence,
-                        HeldOut(held_out, filters, fitted.theta, base.theta),
-                        false,
-                        true,
-                        of};
-      const auto same = std::find_if(others.begin(), others.end(), [&](const Score& s) {
-        return Causes()[s.cause].effect == Causes()[c].effect;
-      });
-      if (same != others.end() && (!same->refitted || score.nat > same->nat)) *same = score;
-    }
-  };
-  if (hunt.set().empty()) rank_in_place({}, hunt.now(), none);
+  if (hunt.set().empty()) RankInPlace(hunt, held_out, {}, hunt.now(), none, 0.0, others);
   for (const std::size_t c : hunt.set()) {
     const CauseSet rest = Without(hunt.set(), c);
-    const Fitted base = fitter.Fit(rest, hunt.now().theta, filters, 2 * kSteps);
-    named.push_back({c, hunt.now().evidence - base.evidence,
-                     HeldOut(held_out, filters, hunt.now().theta, base.theta), true, true, none});
-    rank_in_place(rest, base, c);
+    const Fitted base = hunt.fitter().Fit(rest, hunt.now().theta, hunt.filters(), kSteps);
+    const double nat = hunt.now().evidence - base.evidence;
+    named.push_back({c, nat, HeldOut(held_out, hunt.filters(), hunt.now().theta, base.theta), 0.0,
+                     true, true, none});
+    RankInPlace(hunt, held_out, rest, base, c, nat, others);
   }
   const auto higher = [](const Score& a, const Score& b) { return a.nat > b.nat; };
   std::sort(named.begin(), named.end(), higher);
@@ -184,6 +187,12 @@ std::vector<Score> Rank(const Hunt& hunt, const Misfit* held_out, CauseSet& orde
 
 Theta ForOthers(const Theta& theta, std::size_t records) {
   Theta out = Nominal(records);
+  const std::size_t from = (theta.size() - kParameters) / kOwnParameters;
+  for (const OwnParameter own : {kOwnResistance, kOwnOffset}) {
+    double mean = 0.0;
+    for (std::size_t i = 0; i < from; ++i) mean += theta[Own(i, own)] / static_cast<double>(from);
+    for (std::size_t i = 0; i < records; ++i) out[Own(i, own)] = mean;
+  }
   std::copy(theta.begin(), theta.begin() + static_cast<std::ptrdiff_t>(kParameters), out.begin());
   return out;
 }
@@ -199,7 +208,7 @@ Found Search(const Misfit& data, const Misfit* held_out, const SearchSettings& s
   found.scores = Rank(hunt, held_out, found.causes);
   found.extended = hunt.now();
   found.filters = hunt.filters();
-  const Fitted bare = hunt.fitter().Fit({}, found.calibrated.theta, hunt.filters(), 2 * kSteps);
+  const Fitted bare = hunt.fitter().Fit({}, found.calibrated.theta, hunt.filters(), kScreenSteps);
   found.evidence = found.extended.evidence - bare.evidence;
   if (settings.progress) settings.progress(1.0, "done");
   return found;

@@ -24,6 +24,7 @@ struct Score {
   std::size_t cause{};  ///< index into Causes()
   double nat{};
   double held_out_nat{};  ///< NaN where nothing was held out
+  double behind_nat{};    ///< of one not named: behind the cause in whose place it stands
   bool named{};
   bool refitted{};
   std::size_t instead_of{};  ///< of one not named: the named one; Causes().size() if none
@@ -46,7 +47,7 @@ struct SearchSettings {
 [[nodiscard]] Found Search(const Misfit& data, const Misfit* held_out,
                            const SearchSettings& settings);
 
-/// Common values of a fit for records that it has not seen.
+/// Values of a fit for records that it has not seen: of what each has of its own, the mean.
 [[nodiscard]] Theta ForOthers(const Theta& theta, std::size_t records);
 
 }  // namespace levitas::levitator

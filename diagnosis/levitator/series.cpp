@@ -53,6 +53,10 @@ void Cut(Series& series, double begin_s, double end_s) {
   }
   cut(series.time_s);
   series.restart.front() = true;
+  for (std::size_t coil = 0; coil < 2; ++coil) {
+    series.idle[coil] = std::all_of(series.asked_a[coil].begin(), series.asked_a[coil].end(),
+                                    [](double asked_a) { return asked_a <= 0.0; });
+  }
   series.counts.clear();
   for (const double time_s : series.time_s)
     series.counts.push_back(time_s >= begin_s + kSettling_s);

@@ -21,6 +21,7 @@ struct Series {
   std::vector<double> time_s;
   std::array<std::vector<double>, 2> asked_a;     ///< upper, lower
   std::array<std::vector<double>, 2> measured_a;  ///< as probed; empty without probes
+  std::array<bool, 2> idle{};                     ///< never asked for anything
   std::vector<double> position_m;                 ///< as measured
   std::vector<bool> restart;                      ///< the row before is missing
   std::vector<bool> counts;
