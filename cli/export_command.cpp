@@ -1,8 +1,10 @@
-// amb export: a session as CSV or MAT file for other tools.
+// amb export: a session as CSV, MAT or MCAP file for other tools.
 
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +13,7 @@
 #include "cli/session_text.hpp"
 #include "session/csv_export.hpp"
 #include "session/mat_export.hpp"
+#include "session/mcap_export.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -20,15 +23,17 @@ struct ExportOptions {
   std::string session_path;
   std::string csv_path;
   std::string mat_path;
+  std::string mcap_path;
   std::string json_path;
 };
 
+using Exporter = session::ExportReport (*)(session::SessionReader&, const std::string&);
+
 /// Reads the session once for one file.
-session::ExportReport Write(const ExportOptions& options, bool mat) {
-  session::SessionReader reader(options.session_path);
-  const std::string& path = mat ? options.mat_path : options.csv_path;
-  const session::ExportReport report =
-      mat ? session::ExportMat(reader, path) : session::ExportCsv(reader, path);
+session::ExportReport Write(const std::string& session_path, const std::string& path,
+                            Exporter exporter) {
+  session::SessionReader reader(session_path);
+  const session::ExportReport report = exporter(reader, path);
   fmt::print("{}: {} rows", path, report.rows);
   if (report.cycles_without_frame > 0) {
     fmt::print("; {} cycles had no sensor frame and have no row", report.cycles_without_frame);
@@ -38,17 +43,24 @@ session::ExportReport Write(const ExportOptions& options, bool mat) {
 }
 
 ExitStatus Export(const ExportOptions& options) {
-  if (options.csv_path.empty() && options.mat_path.empty()) {
-    throw Problem(ExitStatus::kUsage, "nothing to write: name --csv FILE, --mat FILE or both");
+  const std::array<std::pair<const std::string*, Exporter>, 3> files{
+      {{&options.csv_path, session::ExportCsv},
+       {&options.mat_path, session::ExportMat},
+       {&options.mcap_path, session::ExportMcap}}};
+  if (std::all_of(files.begin(), files.end(),
+                  [](const auto& file) { return file.first->empty(); })) {
+    throw Problem(ExitStatus::kUsage,
+                  "nothing to write: name --csv FILE, --mat FILE, --mcap FILE or several of them");
   }
-  for (const std::string& path : {options.csv_path, options.mat_path, options.json_path}) {
-    session::CheckOutputPath(path, options.session_path);
+  for (const auto& [path, exporter] : files) {
+    session::CheckOutputPath(*path, options.session_path);
   }
+  session::CheckOutputPath(options.json_path, options.session_path);
   session::SessionReader reader(options.session_path);
   fmt::print("{}\n", Describe(options.session_path, reader.header()));
   session::ExportReport report;
-  for (const bool mat : {false, true}) {
-    if (!(mat ? options.mat_path : options.csv_path).empty()) report = Write(options, mat);
+  for (const auto& [path, exporter] : files) {
+    if (!path->empty()) report = Write(options.session_path, *path, exporter);
   }
   cycle::CycleRecord record;
   while (reader.Next(record)) {
@@ -58,6 +70,7 @@ ExitStatus Export(const ExportOptions& options) {
   WriteJsonFile(options.json_path, {{"session", options.session_path},
                                     {"csv", options.csv_path},
                                     {"mat", options.mat_path},
+                                    {"mcap", options.mcap_path},
                                     {"rows", report.rows},
                                     {"cycles_without_frame", report.cycles_without_frame},
                                     {"damage", DamageJson(damage)}});
@@ -68,13 +81,17 @@ ExitStatus Export(const ExportOptions& options) {
 
 void AddExportCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = app.add_subcommand("export", "A session as CSV or MAT file for other tools");
+  CLI::App* command =
+      app.add_subcommand("export", "A session as CSV, MAT or MCAP file for other tools");
   command->add_option("SESSION", options->session_path, "Session or trip file")->required();
   command->add_option("--csv", options->csv_path, "CSV file to write");
   command->add_option("--mat", options->mat_path,
                       "MAT file to write (version 5: MATLAB, Octave, SciPy), a vector per column");
+  command->add_option("--mcap", options->mcap_path,
+                      "MCAP file to write (Foxglove, PlotJuggler, mcap libraries), with events");
   command->add_option("--json", options->json_path, "Write what was done as JSON");
   command->callback([options, &action] { action = [options] { return Export(*options); }; });
+  command->footer("  amb export run.lcm --csv run.csv --mcap run.mcap");
 }
 
 }  // namespace levitas::cli

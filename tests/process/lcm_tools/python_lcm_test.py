@@ -19,19 +19,19 @@ from lcm_network import (BUILD, COMMAND, SKIPPED, TELEMETRY, controller, log_eve
 VENV = BUILD / "python-lcm"
 
 
-def provide_package():
+def provide_package(venv=VENV, module="lcm", packages=("lcm==1.5.3",)):
     """Path of the virtual environment's Python; ends the test as not run when there is none."""
-    python = VENV / "bin/python3"
-    if subprocess.run([python, "-c", "import lcm"], capture_output=True,
+    python = venv / "bin/python3"
+    if subprocess.run([python, "-c", f"import {module}"], capture_output=True,
                       check=False).returncode == 0 if python.exists() else False:
         return python
-    for step in ([sys.executable, "-m", "venv", str(VENV)],
-                 [str(VENV / "bin/pip"), "install", "--quiet", "--disable-pip-version-check",
-                  "--retries", "1", "--timeout", "15", "lcm==1.5.3"]):
+    for step in ([sys.executable, "-m", "venv", str(venv)],
+                 [str(venv / "bin/pip"), "install", "--quiet", "--disable-pip-version-check",
+                  "--retries", "1", "--timeout", "15", *packages]):
         done = subprocess.run(step, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             reason = (done.stderr or done.stdout).strip().splitlines() or ["no reason given"]
-            print(f"not run: the Python package lcm is not here and not to be had: {reason[-1]}")
+            print(f"not run: the Python package {module} is not here and not to be had: {reason[-1]}")
             sys.exit(SKIPPED)
     return python
 
