@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/json_file.hpp"
+#include "cli/png_pictures.hpp"
 #include "cli/report_command.hpp"
 #include "cli/text_file.hpp"
 #include "report/session/page.hpp"
@@ -53,12 +54,23 @@ std::vector<verdict::DurationFigures> DurationsOf(const std::string& path) {
   return durations;
 }
 
-void WritePictures(const std::string& folder, const std::vector<report::NamedPicture>& pictures) {
+/// SVG and, where the converter is, PNG; whether it is.
+bool WritePictures(const std::string& folder, const std::vector<report::NamedPicture>& pictures) {
   std::error_code failed;
   fs::create_directories(folder, failed);
+  std::vector<std::string> names;
+  names.reserve(pictures.size());
   for (const report::NamedPicture& picture : pictures) {
     svg::Write((fs::path(folder) / (picture.name + ".svg")).string(), picture.figure);
+    names.push_back(picture.name);
   }
+  const std::string converter = FindSvgConverter();
+  if (!converter.empty()) WritePngs(converter, folder, names);
+  fmt::print("{}: {} pictures as SVG{}\n", folder, names.size(),
+             converter.empty()
+                 ? "; for PNG as well: apt-get install librsvg2-bin (rsvg-convert is not here)"
+                 : " and PNG");
+  return !converter.empty();
 }
 
 ExitStatus Report(const ReportOptions& options) {
@@ -85,10 +97,8 @@ ExitStatus Report(const ReportOptions& options) {
              static_cast<double>(fs::file_size(options.html_path)) * 1e-3);
   nlohmann::ordered_json names = nlohmann::ordered_json::array();
   for (const auto& picture : input.pictures) names.push_back(picture.name);
-  if (!options.picture_folder.empty()) {
-    WritePictures(options.picture_folder, input.pictures);
-    fmt::print("{}: {} SVG files\n", options.picture_folder, input.pictures.size());
-  }
+  const bool png =
+      !options.picture_folder.empty() && WritePictures(options.picture_folder, input.pictures);
   if (!recording.damage.empty()) {
     fmt::print("Not everything could be read: {}.\n", recording.damage);
   }
@@ -98,6 +108,7 @@ ExitStatus Report(const ReportOptions& options) {
       {{"session", options.session_path},
        {"report", options.html_path},
        {"pictures", names},
+       {"png", png},
        {"verdict", input.verdict ? nlohmann::ordered_json(verdict::Name(input.verdict->outcome))
                                  : nlohmann::ordered_json()},
        {"cycles", recording.records}});
@@ -112,8 +123,9 @@ void AddReportCommand(CLI::App& app, Action& action) {
       "report", "A recorded session as one HTML page: orbits, run-up, zones, currents, events");
   command->add_option("SESSION", options->session_path, "Session file")->required();
   command->add_option("--out", options->html_path, "The page; needs nothing beside it")->required();
-  command->add_option("--pictures", options->picture_folder,
-                      "Also write each picture as SVG into this folder");
+  command->add_option(
+      "--pictures", options->picture_folder,
+      "Also write each picture into this folder, as SVG and (with rsvg-convert) PNG");
   command
       ->add_option("--speeds", options->speeds_rpm,
                    "Speeds of the orbits [rpm]; default: standing, largest synchronous vibration, "

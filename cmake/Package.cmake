@@ -43,4 +43,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # exact libraries, found by dpkg-shlibdeps
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "xz-utils")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "iproute2")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "librsvg2-bin")  # amb report: PNG
 include(CPack)

@@ -1,6 +1,8 @@
 """amb report: a session becomes one page; pictures by themselves; what is refused."""
 
+import os
 import re
+import shutil
 import unittest
 import urllib.parse
 import xml.etree.ElementTree as xml
@@ -32,10 +34,23 @@ class Report(CommandTest):
 
     def test_writes_each_picture_by_itself_too(self):
         _, told = self.compute("report", "s.lcmlog", "--out", "r.html", "--pictures", "p")
+        kinds = ("svg", "png") if told["png"] else ("svg",)
+        self.assertEqual(told["png"], shutil.which("rsvg-convert") is not None)
         self.assertEqual(sorted(path.name for path in (self.folder / "p").iterdir()),
-                         sorted(f"{name}.svg" for name in told["pictures"]))
-        for path in (self.folder / "p").iterdir():
-            xml.parse(path)
+                         sorted(f"{name}.{kind}" for name in told["pictures"] for kind in kinds))
+        for path in (self.folder / "p").glob("*.svg"):
+            width = float(xml.parse(path).getroot().get("viewBox").split()[2])
+            if told["png"]:
+                head = path.with_suffix(".png").read_bytes()[:24]
+                self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+                self.assertEqual(int.from_bytes(head[16:20], "big"), 2 * width)
+
+    def test_says_how_to_get_png_where_the_converter_is_missing(self):
+        done = amb(self.folder, "report", "s.lcmlog", "--out", "r.html", "--pictures", "p",
+                   environment={**os.environ, "PATH": "/nowhere"})
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertIn("librsvg2-bin", done.stdout)
+        self.assertEqual(list((self.folder / "p").glob("*.png")), [])
 
     def test_shows_the_orbits_that_were_asked_for(self):
         amb(self.folder, "report", "s.lcmlog", "--out", "r.html", "--pictures", "p", "--speeds", "3000")
