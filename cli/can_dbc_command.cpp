@@ -5,8 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/json_file.hpp"
 #include "config/rig_file.hpp"
 #include "hil/can/dbc.hpp"
 #include "session/output_path.hpp"
@@ -17,23 +19,44 @@ namespace {
 struct DbcOptions {
   std::string rig;
   std::string out_path;
+  std::string json_path;
   bool table{};
 };
+
+nlohmann::ordered_json Json(const DbcOptions& options, const can::Layout& layout) {
+  auto messages = nlohmann::ordered_json::array();
+  for (const can::Message& message : layout.messages) {
+    auto signals = nlohmann::ordered_json::array();
+    for (const can::Signal& signal : message.signals) signals.push_back(signal.name);
+    messages.push_back({{"name", message.name},
+                        {"id", message.id},
+                        {"size_byte", message.bytes},
+                        {"every_periods", message.every},
+                        {"signals", signals}});
+  }
+  return {{"rig", options.rig},
+          {"out", options.out_path},
+          {"period_s", 1e-9 * static_cast<double>(layout.period_ns)},
+          {"messages", messages}};
+}
 
 ExitStatus Write(const DbcOptions& options) {
   const std::string path = config::FindConfig(options.rig, "rigs");
   const config::RigFile rig = config::LoadRig(path);
   if (rig.buses.empty()) throw BadInput(path + ": names no CAN buses (section buses, docs/can.md)");
   const can::Layout layout = can::MakeLayout(rig.numbers, can::FormatOf(rig.buses));
+  session::CheckOutputPath(options.json_path, path);
   const std::string text = options.table ? can::LayoutMarkdown(layout) : can::DbcText(layout);
   if (options.out_path.empty()) {
     fmt::print("{}", text);
+    WriteJsonFile(options.json_path, Json(options, layout));
     return ExitStatus::kDone;
   }
   session::CheckOutputPath(options.out_path, path);
   std::ofstream file(options.out_path);
   file << text << std::flush;
   if (!file) throw Problem(ExitStatus::kOther, options.out_path + ": cannot be written");
+  WriteJsonFile(options.json_path, Json(options, layout));
   return ExitStatus::kDone;
 }
 
@@ -47,6 +70,7 @@ void AddCanDbcCommand(CLI::App& app, Action& action) {
   command->add_option("--rig", options->rig, "Rig file, or name of a shipped one")->required();
   command->add_option("--out", options->out_path, "File to write; default: standard output");
   command->add_flag("--table", options->table, "A Markdown table for people instead");
+  command->add_option("--json", options->json_path, "Write the messages' names and sizes as JSON");
   command->callback([options, &action] { action = [options] { return Write(*options); }; });
 }
 

@@ -5,9 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/command.hpp"
+#include "cli/json_file.hpp"
 #include "cli/run/interrupt.hpp"
 #include "dashboard/access.hpp"
 #include "dashboard/dashboard.hpp"
@@ -20,6 +22,7 @@ struct DashOptions {
   dashboard::WebOptions web;
   bool allow_network{false};
   double answer_within_s{1.5};
+  std::string json_path;
 };
 
 ExitStatus Serve(DashOptions options) {
@@ -38,6 +41,7 @@ ExitStatus Serve(DashOptions options) {
       static_cast<std::int64_t>(options.answer_within_s * 1e3));
   const dashboard::Dashboard page(transport::ParseLcmNetwork(options.port), options.web, patience);
   fmt::print("page: {}   (Ctrl-C ends)\n", page.Url());
+  WriteJsonFile(options.json_path, {{"page", page.Url()}});
   std::fflush(stdout);
   constexpr auto kLook = std::chrono::milliseconds(50);
   while (interrupts.count() == 0) std::this_thread::sleep_for(kLook);
@@ -72,6 +76,7 @@ void AddDashCommand(CLI::App& app, Action& action) {
                    "unanswered [s]")
       ->check(CLI::Range(0.1, 60.0))
       ->capture_default_str();
+  command->add_option("--json", options->json_path, "Write the page's address to this file");
   command->callback([options, http, &action] {
     options->web.any_port = http->count() == 0;
     action = [options] { return Serve(*options); };

@@ -121,16 +121,19 @@ std::vector<std::string> Files(const std::vector<std::string>& paths) {
 ExitStatus Add(const SessionsOptions& options) {
   Catalogue catalogue(PathOfCatalogue(options));
   std::string refused;
+  auto entered = nlohmann::ordered_json::array();
   for (const std::string& file : Files(options.paths)) {
     try {
       Entry entry = catalogue::DescribeSession(file);
       entry.tags = options.tags;
       catalogue.Put(entry);
       Print(entry);
+      entered.push_back(Json(entry));
     } catch (const BadInput& problem) {  // the others are still entered
       refused += (refused.empty() ? "" : "\n") + std::string(problem.what());
     }
   }
+  WriteJsonFile(options.json_path, {{"sessions", entered}, {"refused", refused}});
   if (!refused.empty()) throw BadInput(refused);
   return ExitStatus::kDone;
 }
@@ -151,6 +154,8 @@ ExitStatus Tag(const SessionsOptions& options) {
     }
     RefuseUnknown(path);
   }
+  WriteJsonFile(options.json_path,
+                {{"session", path}, {options.remove ? "removed" : "added", options.tags}});
   return ExitStatus::kDone;
 }
 
@@ -159,20 +164,28 @@ ExitStatus Forget(const SessionsOptions& options) {
     throw Problem(ExitStatus::kUsage, "nothing to forget: name sessions, or --gone");
   }
   Catalogue catalogue(PathOfCatalogue(options));
+  auto forgotten = nlohmann::ordered_json::array();
   for (const std::string& path : options.paths) {
     if (!catalogue.Forget(Known(path))) RefuseUnknown(path);
+    forgotten.push_back(Known(path));
   }
   if (options.gone) {
     for (const Entry& entry : catalogue.Find({})) {
       if (IsThere(entry)) continue;
       catalogue.Forget(entry.path);
+      forgotten.push_back(entry.path);
       fmt::print("forgotten: {}\n", entry.path);
     }
   }
+  WriteJsonFile(options.json_path, {{"forgotten", forgotten}});
   return ExitStatus::kDone;
 }
 
 using Options = std::shared_ptr<SessionsOptions>;
+
+void AddJson(CLI::App& command, const Options& options) {
+  command.add_option("--json", options->json_path, "Write what was done to this file");
+}
 
 void AddSessionsAdd(CLI::App& sessions, const Options& options, Action& action) {
   CLI::App* add = sessions.add_subcommand("add", "Enter sessions, or renew what is known of them");
@@ -182,6 +195,7 @@ void AddSessionsAdd(CLI::App& sessions, const Options& options, Action& action) 
       ->required()
       ->check(CLI::ExistingPath);
   add->add_option("--tag", options->tags, "Tag them all; may be repeated");
+  AddJson(*add, options);
   add->callback([options, &action] { action = [options] { return Add(*options); }; });
 }
 
@@ -191,6 +205,7 @@ void AddSessionsTag(CLI::App& sessions, const Options& options, Action& action) 
   tag->add_option("SESSION", options->tagged_path, "The session")->required();
   tag->add_option("TAG", options->tags, "Tags to add, or to take away")->required();
   tag->add_flag("--remove", options->remove, "Take the tags away");
+  AddJson(*tag, options);
   tag->callback([options, &action] { action = [options] { return Tag(*options); }; });
 }
 
@@ -200,6 +215,7 @@ void AddSessionsForget(CLI::App& sessions, const Options& options, Action& actio
   forget->fallthrough();
   forget->add_option("SESSION", options->paths, "Sessions to forget");
   forget->add_flag("--gone", options->gone, "Forget every session whose file is no longer there");
+  AddJson(*forget, options);
   forget->callback([options, &action] { action = [options] { return Forget(*options); }; });
 }
 

@@ -14,10 +14,11 @@ OPTIONS = {
     "import": {"--rig", "--out", "--tag", "--json"},
     "sessions": {"--rig", "--outcome", "--tag", "--text", "--from", "--to", "--catalogue", "--json"},
     "manual": {"--markdown", "--man", "--bash"},
-    "export": {"--csv", "--mat", "--json"},
+    "export": {"--csv", "--mat", "--mcap", "--json"},
     "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--json"},
     "report": {"--out", "--pictures", "--speeds", "--run-json", "--json"},
-    "dash": {"--port", "--http-port", "--listen", "--allow-network", "--token", "--answer-within"},
+    "dash": {"--port", "--http-port", "--listen", "--allow-network", "--token", "--answer-within",
+             "--json"},
     "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--port", "--record",
             "--tag", "--seed", "--json", "--dash", "--no-dash"},
     "identify": set(),  # its subcommands follow

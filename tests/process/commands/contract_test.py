@@ -1,0 +1,116 @@
+"""What holds for every command: --json beside the text, and the same exit statuses everywhere.
+
+The list of commands is the program's own (amb manual): one that is added without a row here fails.
+"""
+
+import json
+import re
+import signal
+import subprocess
+import unittest
+
+from command import BAD_INPUT, BINARIES, DONE, USAGE, CommandTest, amb, make_record
+
+# Have nothing to report: groups of commands, and the manual, whose text is the result.
+WITHOUT_JSON = {"identify", "bench", "manual"}
+ABSENT = "absent.lcm"
+# Quick enough to be run here; the others report in tests of their own.
+QUICK = {
+    "run": ("--duration", "0.5"),
+    "modes": (),
+    "poles": (),
+    "margins": (),
+    "replay": ("s.lcm",),
+    "import": ("r.csv", "--rig", "flexible_rotor", "--out", "again.lcm"),
+    "export": ("s.lcm", "--csv", "s.csv"),
+    "can-dbc": ("--rig", "flexible_rotor"),
+    "report": ("s.lcm", "--out", "s.html"),
+    "sessions": (),
+    "sessions add": ("s.lcm",),
+    "sessions tag": ("s.lcm", "one"),
+    "sessions forget": ("s.lcm",),
+    "simulate": ("s.lcm",),
+    "effects": (),
+}
+# A file that is not there: words of each command that make it look for one.
+MISSING = {
+    "run": ("--rig", ABSENT), "modes": ("--rig", ABSENT), "poles": ("--rig", ABSENT),
+    "margins": ("--controller", ABSENT), "replay": (ABSENT,),
+    "import": (ABSENT, "--rig", "flexible_rotor", "--out", "x.lcm"),
+    "export": (ABSENT, "--csv", "x.csv"), "can-dbc": ("--rig", ABSENT),
+    "report": (ABSENT, "--out", "x.html"), "sessions tag": (ABSENT, "one"),
+    "sessions forget": (ABSENT,), "simulate": (ABSENT,),
+    "identify frf": (ABSENT,), "identify modal": (ABSENT,),
+    "identify full-spectrum": (ABSENT,), "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
+}
+# Look for no file that a user names; the nonlinear fits take theirs with more options.
+NO_FILE = {"dash", "doctor", "effects", "sessions", "sessions add", "manual", "identify", "bench",
+           "bench diagnosis", "bench identification", "bench full-spectrum",
+           "identify hammerstein-wiener", "identify narx", "identify narmax", "identify grey-box"}
+
+
+class Contract(CommandTest):
+    def commands(self):
+        pages = amb(self.folder, "manual", "--markdown").stdout
+        return dict(re.findall(r"\n## amb ([a-z -]+)\n(.*?)(?=\n## |\Z)", pages, re.S))
+
+    def here(self, *arguments):
+        return amb(self.folder, *arguments, environment=self.environment)
+
+    def setUp(self):
+        super().setUp()
+        self.environment = {"LEVITAS_CATALOGUE": str(self.folder / "own/sessions.db"),
+                            "PATH": "/usr/bin:/bin"}
+
+    def test_every_command_that_reports_something_does_so_as_json(self):
+        for command, page in self.commands().items():
+            self.assertEqual("| `--json TEXT`" in page, command not in WITHOUT_JSON, command)
+
+    def test_a_table_of_this_test_knows_every_command(self):
+        self.assertEqual(set(self.commands()), set(MISSING) | NO_FILE)
+
+    def test_a_wrong_option_is_status_2_and_leaves_nothing(self):
+        for command in self.commands():
+            done = self.here(*command.split(), "--no-such-option")
+            self.assertEqual(done.returncode, USAGE, (command, done.stderr))
+            self.assertEqual(done.stdout, "", command)
+            self.assertTrue(done.stderr.startswith("amb: "), (command, done.stderr))
+        self.assertEqual(self.files() - {str(self.folder / "own")}, set())
+
+    def test_a_missing_file_is_status_3_is_named_and_leaves_no_json(self):
+        for command, arguments in MISSING.items():
+            done = self.here(*command.split(), *arguments, "--json", "x.json")
+            self.assertEqual(done.returncode, BAD_INPUT, (command, done.stdout, done.stderr))
+            self.assertIn("absent", done.stderr, command)
+            self.assertFalse((self.folder / "x.json").exists(), command)
+
+    def test_what_succeeds_is_status_0_and_its_json_an_object(self):
+        make_record(self.folder / "r.csv", "healthy", 0, 6_000)
+        done = self.here("import", "r.csv", "--rig", "flexible_rotor", "--out", "s.lcm")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertEqual(self.here("run", "--duration", "0.5", "--record", "run.lcm").returncode, DONE)
+        for command, arguments in QUICK.items():
+            if command == "replay":  # an import has no law of its own to repeat
+                arguments = ("run.lcm",)
+            path = self.folder / f"{command.replace(' ', '_')}.json"
+            done = self.here(*command.split(), *arguments, "--json", path)
+            self.assertEqual(done.returncode, DONE, (command, done.stdout, done.stderr))
+            self.assertIsInstance(json.loads(path.read_text()), dict, command)
+
+    def test_a_page_that_is_interrupted_has_done_what_it_should(self):
+        child = subprocess.Popen([BINARIES / "amb", "dash", "--json", "page.json"], text=True,
+                                 cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(child.kill)
+        line = child.stdout.readline()
+        if not line:  # a machine without multicast says so
+            self.assertEqual(child.wait(60), 1)
+            self.skipTest(child.stderr.read())
+        child.send_signal(signal.SIGINT)
+        child.communicate(timeout=60)
+        self.assertEqual(child.returncode, DONE)
+        address = json.loads((self.folder / "page.json").read_text())["page"]
+        self.assertIn(address, line)
+
+
+if __name__ == "__main__":
+    unittest.main()
