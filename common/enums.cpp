@@ -18,7 +18,8 @@ constexpr std::array<std::string_view, kFaultCount> kFaults{
     "frame_missing", "deadline_missed", "coil_saturated",      "over_speed",    "emergency_stop",
     "rig_restarted", "amplifier_fault", "self_test_failed",    "lift_failed",   "speed_unknown"};
 constexpr std::array<std::string_view, kOperatorCommandCount> kCommands{
-    "none", "lift", "spin", "coast_down", "land", "emergency_stop", "reset"};
+    "none",           "lift",  "spin",   "coast_down",    "land",
+    "emergency_stop", "reset", "excite", "end_excitation"};
 
 }  // namespace
 

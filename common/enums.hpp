@@ -48,8 +48,10 @@ enum class OperatorCommand : std::uint8_t {
   kLand = 4,           ///< at standstill: lower into the touchdown bearings, amplifiers off
   kEmergencyStop = 5,  ///< latched trip
   kReset = 6,          ///< acknowledge a trip; tripped -> off
+  kExcite = 7,         ///< a test signal begins with the next cycle
+  kEndExcitation = 8,  ///< no test signal from this cycle on
 };
-inline constexpr std::uint8_t kOperatorCommandCount = 7;
+inline constexpr std::uint8_t kOperatorCommandCount = 9;
 
 // Stable lower_snake_case names ("levitating", "orbit_exceeded", "spin"); "invalid" beyond the end.
 [[nodiscard]] std::string_view Name(Mode mode) noexcept;

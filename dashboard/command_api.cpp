@@ -2,12 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
 
 #include "common/enums.hpp"
+#include "config/excitation_request.hpp"
+#include "dashboard/request_fields.hpp"
 
 namespace levitas::dashboard {
 namespace {
@@ -15,42 +16,59 @@ namespace {
 using nlohmann::json;
 
 constexpr double kRadPerSPerRpm = std::numbers::pi / 30.0;
-constexpr int kOk = 200;
-constexpr int kBadRequest = 400;
-constexpr int kConflict = 409;
-constexpr int kGatewayTimeout = 504;
+// Wider than any rig: what is too fast for this one is the controller's to refuse.
+constexpr double kMostRpm = 1e7;
+constexpr double kMostRpmPerS = 1e9;
 
-double FiniteNumber(const json& request, const char* key) {
-  if (!request.contains(key) || !request[key].is_number()) {
-    throw std::invalid_argument(fmt::format("{} is missing or no number", key));
-  }
-  const double value = request[key].get<double>();
-  if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("{} is not finite", key));
-  return value;
+bool IsGivenByName(OperatorCommand command) {
+  return command != OperatorCommand::kNone && command != OperatorCommand::kExcite;
 }
 
 CommandRequest Understand(const std::string& body) {
-  const json request = json::parse(body);
-  if (!request.is_object() || !request.contains("command") || !request["command"].is_string()) {
-    throw std::invalid_argument("no \"command\"");
-  }
-  const auto& name = request["command"].get_ref<const std::string&>();
+  const json request = ParseRequest(body);
+  RefuseUnknownKeys(request, {"command", "speed_rpm", "acceleration_rpm_per_s"});
+  const std::string name = TextIn(request, "command");
   CommandRequest understood;
+  std::string names;
   for (std::uint8_t i = 1; i < kOperatorCommandCount; ++i) {
-    if (Name(static_cast<OperatorCommand>(i)) == name) {
-      understood.command = static_cast<OperatorCommand>(i);
-    }
+    const auto command = static_cast<OperatorCommand>(i);
+    if (!IsGivenByName(command)) continue;
+    if (Name(command) == name) understood.command = command;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", Name(command));
   }
   if (understood.command == OperatorCommand::kNone) {
-    throw std::invalid_argument(fmt::format(
-        "no command '{}'; there are lift, spin, coast_down, land, emergency_stop, reset", name));
+    throw std::invalid_argument(fmt::format("no command '{}'; there are {}", name, names));
   }
   if (understood.command == OperatorCommand::kSpin) {
-    understood.speed_rad_per_s = FiniteNumber(request, "speed_rpm") * kRadPerSPerRpm;
+    understood.speed_rad_per_s =
+        NumberIn(request, "speed_rpm", -kMostRpm, kMostRpm) * kRadPerSPerRpm;
     understood.acceleration_rad_per_s2 =
-        FiniteNumber(request, "acceleration_rpm_per_s") * kRadPerSPerRpm;
+        NumberIn(request, "acceleration_rpm_per_s", -kMostRpmPerS, kMostRpmPerS) * kRadPerSPerRpm;
   }
   return understood;
+}
+
+HttpAnswer NotUnderstood(const std::exception& problem) {
+  return Answer(kHttpBadRequest, "not understood", problem.what());
+}
+
+HttpAnswer Told(const CommandReply& reply) {
+  switch (reply.outcome) {
+    case CommandOutcome::kAccepted:
+      return Answer(kHttpOk, "accepted", reply.text);
+    case CommandOutcome::kRefused:
+      return Answer(kHttpConflict, "refused", reply.text);
+    case CommandOutcome::kUnanswered:
+      break;
+  }
+  return Answer(kHttpGatewayTimeout, "unanswered", reply.text);
+}
+
+/// JSON is YAML: a key a line, so that a problem's line tells which one.
+std::string StepYaml(const json& request) {
+  std::string yaml = "kind: excitation\n";
+  for (const auto& [key, value] : request.items()) yaml += key + ": " + value.dump() + '\n';
+  return yaml;
 }
 
 }  // namespace
@@ -60,22 +78,24 @@ HttpAnswer AnswerCommand(const std::string& body, const SendCommand& send) {
   try {
     request = Understand(body);
   } catch (const std::exception& problem) {
-    return {kBadRequest, json{{"outcome", "not understood"}, {"text", problem.what()}}.dump(
-                             -1, ' ', false, json::error_handler_t::replace)};
+    return NotUnderstood(problem);
   }
-  const CommandReply reply = send(request);
-  const auto answer = [&reply](int status, const char* outcome) -> HttpAnswer {
-    return {status, json{{"outcome", outcome}, {"text", reply.text}}.dump()};
-  };
-  switch (reply.outcome) {
-    case CommandOutcome::kAccepted:
-      return answer(kOk, "accepted");
-    case CommandOutcome::kRefused:
-      return answer(kConflict, "refused");
-    case CommandOutcome::kUnanswered:
-      break;
+  return Told(send(request));
+}
+
+HttpAnswer AnswerExcitation(const std::string& body, const std::optional<RigNumbers>& rig,
+                            const SendExcitation& send) {
+  std::string yaml;
+  try {
+    const json request = ParseRequest(body);
+    RefuseUnknownKeys(request, {"hold_s", "orbit_limit_um", "excitation"});
+    if (!rig) return Answer(kHttpConflict, "refused", "no controller was heard yet");
+    yaml = StepYaml(request);
+    (void)config::ParseExcitation(yaml, "request", *rig);
+  } catch (const std::exception& problem) {
+    return NotUnderstood(problem);
   }
-  return answer(kGatewayTimeout, "unanswered");
+  return Told(send(yaml));
 }
 
 }  // namespace levitas::dashboard

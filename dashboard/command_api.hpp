@@ -1,26 +1,34 @@
 #pragma once
-// POST /api/command: what the page asks for, as JSON, checked before it becomes a command.
+// What the page asks of the controller, as JSON, checked before it becomes a message.
 //
-//   {"command": "spin", "speed_rpm": 3000, "acceleration_rpm_per_s": 300}
+//   POST /api/command     {"command": "spin", "speed_rpm": 3000, "acceleration_rpm_per_s": 300}
+//   POST /api/excitation  {"hold_s": 5, "orbit_limit_um": 75, "excitation": [{"channel": "de_x",
+//                          "signal": "chirp", "amplitude_a": 0.2, "from_hz": 10, "to_hz": 400,
+//                          "repeat_s": 2}]}: keys, units and ranges of a scenario's step
+//                          (config/excitation_request.hpp)
 //
 // Answer   200 the controller accepted it, 409 it refused, 504 it did not answer, 400 the request
 //          cannot be understood. {"outcome": "accepted", "text": "command lift (cycle 4711)"}
 // Thread   any.
 
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "common/rig_numbers.hpp"
 #include "dashboard/commander.hpp"
+#include "dashboard/http_answer.hpp"
 
 namespace levitas::dashboard {
 
-struct HttpAnswer {
-  int status{};
-  std::string json;
-};
-
 using SendCommand = std::function<CommandReply(const CommandRequest&)>;
+using SendExcitation = std::function<CommandReply(const std::string& step_yaml)>;
 
 [[nodiscard]] HttpAnswer AnswerCommand(const std::string& body, const SendCommand& send);
+
+/// `rig`: of the run; without one nothing can be checked, and nothing is sent.
+[[nodiscard]] HttpAnswer AnswerExcitation(const std::string& body,
+                                          const std::optional<RigNumbers>& rig,
+                                          const SendExcitation& send);
 
 }  // namespace levitas::dashboard

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <levitas_msg/excitation_request_t.hpp>
 #include <levitas_msg/operator_command_t.hpp>
 #include <vector>
 
@@ -11,6 +12,14 @@ namespace levitas::dashboard {
 namespace {
 
 constexpr std::string_view kPrefix = "command ";
+
+template <class Message>
+void Append(const Message& message, std::vector<std::uint8_t>& datagram) {
+  const std::size_t header = datagram.size();
+  const int size = message.getEncodedSize();
+  datagram.resize(header + static_cast<std::size_t>(size));
+  message.encode(datagram.data() + header, 0, size);
+}
 
 }  // namespace
 
@@ -35,19 +44,12 @@ Commander::Commander(const transport::LcmNetwork& network, std::chrono::millisec
                     std::chrono::system_clock::now().time_since_epoch())
                     .count()) {}
 
-CommandReply Commander::Send(const CommandRequest& request) {
-  const char* channel = transport::channel::kCommand;
-  levitas_msg::operator_command_t message{};
-  message.command = static_cast<std::int8_t>(request.command);
-  message.speed_rad_per_s = request.speed_rad_per_s;
-  message.acceleration_rad_per_s2 = request.acceleration_rad_per_s2;
-  const std::size_t header = transport::HeaderSize(channel);
-  std::vector<std::uint8_t> datagram(header + static_cast<std::size_t>(message.getEncodedSize()));
-
+template <class Encode>
+CommandReply Commander::Ask(OperatorCommand command, const char* channel, Encode encode) {
   std::unique_lock lock(mutex_);
-  message.sequence = ++sequence_;
-  message.encode(datagram.data() + header, 0, message.getEncodedSize());
-  Answers& answers = answers_.at(static_cast<std::size_t>(request.command));
+  std::vector<std::uint8_t> datagram(transport::HeaderSize(channel));
+  encode(datagram, ++sequence_);
+  Answers& answers = answers_.at(static_cast<std::size_t>(command));
   const std::uint64_t before = answers.count;
   const auto end = std::chrono::steady_clock::now() + patience_;
   while (std::chrono::steady_clock::now() < end) {
@@ -60,7 +62,29 @@ CommandReply Commander::Send(const CommandRequest& request) {
   return {CommandOutcome::kUnanswered,
           fmt::format("the controller did not answer {} within {:.1f} s: is it running, and on "
                       "this port?",
-                      Name(request.command), std::chrono::duration<double>(patience_).count())};
+                      Name(command), std::chrono::duration<double>(patience_).count())};
+}
+
+CommandReply Commander::Send(const CommandRequest& request) {
+  levitas_msg::operator_command_t message{};
+  message.command = static_cast<std::int8_t>(request.command);
+  message.speed_rad_per_s = request.speed_rad_per_s;
+  message.acceleration_rad_per_s2 = request.acceleration_rad_per_s2;
+  return Ask(request.command, transport::channel::kCommand,
+             [&](std::vector<std::uint8_t>& datagram, std::int64_t sequence) {
+               message.sequence = sequence;
+               Append(message, datagram);
+             });
+}
+
+CommandReply Commander::SendExcitation(const std::string& step_yaml) {
+  levitas_msg::excitation_request_t message{};
+  message.step_yaml = step_yaml;
+  return Ask(OperatorCommand::kExcite, transport::channel::kExcitation,
+             [&](std::vector<std::uint8_t>& datagram, std::int64_t sequence) {
+               message.sequence = sequence;
+               Append(message, datagram);
+             });
 }
 
 void Commander::Saw(const std::string& event_text) {

@@ -51,6 +51,8 @@ class Commander {
                      std::chrono::milliseconds patience = kPatience);
 
   [[nodiscard]] CommandReply Send(const CommandRequest& request);
+  /// `step_yaml`: see config/excitation_request.hpp.
+  [[nodiscard]] CommandReply SendExcitation(const std::string& step_yaml);
   /// Text of every event of the controller.
   void Saw(const std::string& event_text);
 
@@ -59,6 +61,10 @@ class Commander {
     std::uint64_t count{0};
     CommandReply newest;
   };
+
+  /// Sends what `encode(sequence)` gives until an answer to `command` is there.
+  template <class Encode>
+  [[nodiscard]] CommandReply Ask(OperatorCommand command, const char* channel, Encode encode);
 
   std::chrono::milliseconds patience_;
   std::mutex mutex_;

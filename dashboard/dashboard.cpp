@@ -5,8 +5,11 @@
 #include <thread>
 
 #include "controller/rt/clock.hpp"
+#include "dashboard/announced_rig.hpp"
+#include "dashboard/command_api.hpp"
 #include "dashboard/full_spectrum.hpp"
 #include "dashboard/live_run.hpp"
+#include "dashboard/scope_desk.hpp"
 #include "dashboard/snapshot.hpp"
 #include "transport/lcm_packet.hpp"
 
@@ -22,12 +25,30 @@ struct Dashboard::Impl {
        std::chrono::milliseconds patience)
       : receiver(network, transport::Direction::kTelemetry),
         commander(network, patience),
-        server(web, hub, [this](const CommandRequest& request) { return commander.Send(request); }),
+        server(web, hub, Routes()),
         thread([this] { Run(); }) {}
 
   ~Impl() {
     stopping.store(true);
     thread.join();
+  }
+
+  std::vector<Route> Routes() {
+    return {
+        {true, "/api/command",
+         [this](const std::string& body) {
+           return AnswerCommand(body, [this](const auto& asked) { return commander.Send(asked); });
+         }},
+        {true, "/api/excitation",
+         [this](const std::string& body) {
+           return AnswerExcitation(body, rig.Get(), [this](const std::string& step_yaml) {
+             return commander.SendExcitation(step_yaml);
+           });
+         }},
+        {true, "/api/scope", [this](const std::string& body) { return scope.Ask(body); }},
+        {false, "/api/scope.json", [this](const std::string&) { return scope.CaptureJson(); }},
+        {false, "/api/scope.csv", [this](const std::string&) { return scope.CaptureCsv(); }},
+    };
   }
 
   void Run() {
@@ -49,12 +70,19 @@ struct Dashboard::Impl {
     const std::uint64_t event_before = run.newest_event();
     run.Take(packet.channel, packet.payload, now_ns);
     if (run.newest_event() != event_before) {
-      commander.Saw(run.events().back().event.text);
+      const session::Event& event = run.events().back().event;
+      commander.Saw(event.text);
+      if (event.severity == session::Event::Severity::kTrip) scope.Tripped(event.cycle);
       hub.PutEvent(run.newest_event(), EventJson(run.events().back()));
     }
     if (packet.channel == transport::channel::kHistogram) hub.Put(Topic::kTiming, TimingJson(run));
+    if (packet.channel == transport::channel::kSamples && run.samples()) {
+      scope.Advance(*run.samples());
+    }
     if (run.run_number() != told_run) {
       told_run = run.run_number();
+      rig.Set(*run.rig());
+      scope.RunIs(*run.rig());
       hub.Put(Topic::kRig, RigJson(run, started_ns));
     }
   }
@@ -62,6 +90,7 @@ struct Dashboard::Impl {
   void Publish(std::int64_t now_ns) {
     if (server.viewers() == 0) return;
     hub.Put(Topic::kTick, TickJson(run, now_ns));
+    if (auto news = scope.News()) hub.Put(Topic::kScope, *std::move(news));
     if (now_ns < next_spectrum_ns || !run.samples()) return;
     next_spectrum_ns = now_ns + Ns(kSpectrumEvery);
     if (run.samples()->count() == spectrum_count) return;
@@ -76,6 +105,8 @@ struct Dashboard::Impl {
   transport::MulticastReceiver receiver;
   Commander commander;
   LiveRun run;  ///< our own thread's
+  AnnouncedRig rig;
+  ScopeDesk scope;
   std::uint64_t told_run{0};
   std::int64_t next_spectrum_ns{0};
   std::uint64_t spectrum_count{0};

@@ -1,5 +1,6 @@
 #include "dashboard/live_run.hpp"
 
+#include <array>
 #include <levitas_msg/sample_batch_t.hpp>
 #include <utility>
 
@@ -13,8 +14,29 @@ namespace {
 
 namespace channel = transport::channel;
 
+// Where a message's counts of elements lie, behind the eight bytes of its type. LCM's generated code
+// believes them, and would ask for gigabytes on a stranger's word: they are checked before.
+template <class Message>
+constexpr std::array<std::size_t, 0> kCountsAt{};
+template <>
+constexpr std::array<std::size_t, 1> kCountsAt<levitas_msg::controller_state_t>{8 + 19};
+template <>
+constexpr std::array<std::size_t, 1> kCountsAt<levitas_msg::loop_histogram_t>{8 + 8};
+template <>
+constexpr std::array<std::size_t, 3> kCountsAt<levitas_msg::sample_batch_t>{8 + 16, 8 + 20, 8 + 24};
+
+bool CountFits(std::span<const std::uint8_t> payload, std::size_t at) {
+  if (payload.size() < at + 4) return false;
+  std::size_t count = 0;
+  for (const std::uint8_t byte : payload.subspan(at, 4)) count = count << 8U | byte;
+  return count <= payload.size();
+}
+
 template <class Message>
 bool Decode(std::span<const std::uint8_t> payload, Message& message) {
+  for (const std::size_t at : kCountsAt<Message>) {
+    if (!CountFits(payload, at)) return false;
+  }
   const auto size = static_cast<int>(payload.size());
   return message.decode(payload.data(), 0, size) == size;
 }

@@ -41,8 +41,8 @@ void Refuse(Response& response, int status, const char* why) {
 }  // namespace
 
 struct WebServer::Impl {
-  Impl(const WebOptions& given, Hub& the_hub, SendCommand send)
-      : options(given), hub(the_hub), send_command(std::move(send)) {
+  Impl(const WebOptions& given, Hub& the_hub, std::vector<Route> the_routes)
+      : options(given), hub(the_hub), routes(std::move(the_routes)) {
     // Owned and deleted by the library, whose interface is this pointer.
     // NOLINTNEXTLINE(cppcoreguidelines-owning-memory)
     server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
@@ -58,15 +58,7 @@ struct WebServer::Impl {
       return Server::HandlerResponse::Handled;
     });
     server.Get("/events", [this](const Request&, Response& response) { Stream(response); });
-    server.Post("/api/command", [this](const Request& request, Response& response) {
-      if (!request.has_header("X-Levitas")) {
-        Refuse(response, kForbidden, "the header X-Levitas is missing");
-        return;
-      }
-      HttpAnswer answer = AnswerCommand(request.body, send_command);
-      response.status = answer.status;
-      response.set_content(answer.json, "application/json");
-    });
+    for (const Route& route : routes) Serve(route);
     ServePage();  // last: it takes every other path
     Bind();
     thread = std::thread([this] { server.listen_after_bind(); });
@@ -81,6 +73,24 @@ struct WebServer::Impl {
                                   : request.get_param_value("token");
     // The page's parts hold nothing worth hiding and are loaded without the token.
     return TokenMatches(given, options.token) || FindPageFile(request.path) != nullptr;
+  }
+
+  void Serve(const Route& route) {
+    const auto handler = [&route](const Request& request, Response& response) {
+      if (route.post && !request.has_header("X-Levitas")) {
+        Refuse(response, kForbidden, "the header X-Levitas is missing");
+        return;
+      }
+      const HttpAnswer answer = route.answer(request.body);
+      response.status = answer.status;
+      response.set_header("Cache-Control", "no-store");
+      response.set_content(answer.body, answer.type);
+    };
+    if (route.post) {
+      server.Post(route.path, handler);
+    } else {
+      server.Get(route.path, handler);
+    }
   }
 
   void ServePage() {
@@ -141,15 +151,15 @@ struct WebServer::Impl {
 
   WebOptions options;
   Hub& hub;
-  SendCommand send_command;
+  const std::vector<Route> routes;
   std::atomic<int> viewers{0};
   int port{0};
   Server server;
   std::thread thread;
 };
 
-WebServer::WebServer(const WebOptions& options, Hub& hub, SendCommand send_command)
-    : impl_(std::make_unique<Impl>(options, hub, std::move(send_command))) {}
+WebServer::WebServer(const WebOptions& options, Hub& hub, std::vector<Route> routes)
+    : impl_(std::make_unique<Impl>(options, hub, std::move(routes))) {}
 
 WebServer::~WebServer() {
   impl_->hub.Close();

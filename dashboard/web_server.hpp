@@ -1,23 +1,24 @@
 #pragma once
-// The page, its event stream and its commands over HTTP.
+// The page, its event stream and its requests over HTTP.
 //
 //   GET  /            the page and its parts, from inside the program
 //   GET  /events      server-sent events: what the hub has, one stream per viewer
-//   POST /api/command see command_api.hpp
+//   routes            as given: command_api.hpp, scope_desk.hpp; POST needs the page's header
 //
-// Bounds    kMaxViewers streams at once, the next is told 503. A viewer that takes nothing for
+// Bounds    a request of more than 64 KiB is refused (413). kMaxViewers streams at once, the next is told 503. A viewer that takes nothing for
 //           three seconds is dropped (its browser comes back by itself); what the kernel holds for
 //           it is kSendBufferBytes.
 // Access    access.hpp.
-// Thread    a pool of its own; the hub and the command hook are called from there.
+// Thread    a pool of its own; the hub and the routes are called from there.
 // Failure   Problem (exit status 1) when the address cannot be bound, naming it.
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "dashboard/command_api.hpp"
+#include "dashboard/http_answer.hpp"
 #include "dashboard/hub.hpp"
 
 namespace levitas::dashboard {
@@ -35,7 +36,7 @@ class WebServer {
   static constexpr int kPortsTried = 64;
   static constexpr int kSendBufferBytes = 256 * 1024;
 
-  WebServer(const WebOptions& options, Hub& hub, SendCommand send_command);
+  WebServer(const WebOptions& options, Hub& hub, std::vector<Route> routes);
   /// Closes the hub, so that the streams end, and joins.
   ~WebServer();
   WebServer(const WebServer&) = delete;

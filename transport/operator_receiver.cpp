@@ -1,6 +1,7 @@
 #include "transport/operator_receiver.hpp"
 
 #include <cmath>
+#include <levitas_msg/excitation_request_t.hpp>
 #include <levitas_msg/operator_command_t.hpp>
 #include <utility>
 
@@ -11,11 +12,22 @@ namespace levitas::transport {
 
 namespace {
 constexpr std::int64_t kSliceNs = 50'000'000;  // how long the destructor may have to wait
+
+/// LCM's generated code believes the length of a text: it is checked before.
+bool TextFits(std::span<const std::uint8_t> payload) noexcept {
+  constexpr std::size_t kLengthAt = 8 + 8;  // behind the type's hash and the sequence number
+  constexpr std::size_t kTextAt = kLengthAt + 4;
+  if (payload.size() <= kTextAt) return false;
+  std::size_t length = 0;
+  for (const std::uint8_t byte : payload.subspan(kLengthAt, 4)) length = length << 8U | byte;
+  return length == payload.size() - kTextAt;
+}
 }  // namespace
 
 OperatorReceiver::OperatorReceiver(const LcmNetwork& network,
-                                   std::function<void(const NetworkCommand&)> take)
-    : receiver_(network, Direction::kCommand), take_(std::move(take)) {
+                                   std::function<void(const NetworkCommand&)> take,
+                                   std::function<void(const std::string&)> excite)
+    : receiver_(network, Direction::kCommand), take_(std::move(take)), excite_(std::move(excite)) {
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -46,23 +58,38 @@ bool OperatorReceiver::Repeated(std::uint64_t sender, std::int64_t sequence) noe
 void OperatorReceiver::Handle(const Received& received) {
   const Packet packet = ParsePacket(received.datagram);
   if (packet.kind == PacketKind::kFragment) return;
-  if (packet.kind == PacketKind::kShort && packet.channel != channel::kCommand) return;
+  if (packet.kind != PacketKind::kShort) {
+    Reject();
+  } else if (packet.channel == channel::kCommand) {
+    HandleCommand(packet, received.sender);
+  } else if (packet.channel == channel::kExcitation && excite_) {
+    HandleExcitation(packet, received.sender);
+  }
+}
+
+void OperatorReceiver::HandleCommand(const Packet& packet, std::uint64_t sender) {
   levitas_msg::operator_command_t message{};
   const int size = message.getEncodedSize();
-  const bool sound = packet.kind == PacketKind::kShort &&
-                     packet.payload.size() == static_cast<std::size_t>(size) &&
+  const bool sound = packet.payload.size() == static_cast<std::size_t>(size) &&
                      message.decode(packet.payload.data(), 0, size) == size &&
                      message.command > 0 && message.command < kOperatorCommandCount &&
+                     static_cast<OperatorCommand>(message.command) != OperatorCommand::kExcite &&
                      std::isfinite(message.speed_rad_per_s) &&
                      std::isfinite(message.acceleration_rad_per_s2);
-  if (!sound) {
-    rejected_.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
-  if (Repeated(received.sender, message.sequence)) return;
+  if (!sound) return Reject();
+  if (Repeated(sender, message.sequence)) return;
   take_({.command = static_cast<OperatorCommand>(message.command),
          .speed_rad_per_s = message.speed_rad_per_s,
          .acceleration_rad_per_s2 = message.acceleration_rad_per_s2});
+}
+
+void OperatorReceiver::HandleExcitation(const Packet& packet, std::uint64_t sender) {
+  levitas_msg::excitation_request_t message{};
+  const auto size = static_cast<int>(packet.payload.size());
+  const bool sound = packet.payload.size() <= kLongestText && TextFits(packet.payload) &&
+                     message.decode(packet.payload.data(), 0, size) == size;
+  if (!sound) return Reject();
+  if (!Repeated(sender, message.sequence)) excite_(message.step_yaml);
 }
 
 }  // namespace levitas::transport

@@ -5,17 +5,21 @@
 // Repetition  a command whose sequence number is the last one of the same sender is the same
 //             command sent again, and is passed on once, whoever else has spoken in between. The
 //             latest kRemembered senders are known: each start of an operator's program is one.
-// Failure     construction throws Problem; unknown commands, numbers that are not finite and
-//             malformed messages are counted and dropped.
+// Excitation  is asked for with a message of its own, whose text is passed on as it came: the
+//             command `excite` without one is refused here.
+// Failure     construction throws Problem; unknown commands, numbers that are not finite, texts
+//             beyond kLongestText and malformed messages are counted and dropped.
 
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <thread>
 
 #include "common/enums.hpp"
+#include "transport/lcm_packet.hpp"
 #include "transport/multicast_socket.hpp"
 
 namespace levitas::transport {
@@ -29,9 +33,13 @@ struct NetworkCommand {
 class OperatorReceiver {
  public:
   static constexpr std::size_t kRemembered = 64;
+  static constexpr std::size_t kLongestText = 4096;
 
-  /// `take` is called in the receiver's thread; it must not block for long.
-  OperatorReceiver(const LcmNetwork& network, std::function<void(const NetworkCommand&)> take);
+  /// `take` and `excite` are called in the receiver's thread; while they work, further commands
+  /// wait. `excite` gets the text of an excitation_request_t; without it, such requests are left
+  /// alone.
+  OperatorReceiver(const LcmNetwork& network, std::function<void(const NetworkCommand&)> take,
+                   std::function<void(const std::string&)> excite = {});
   ~OperatorReceiver();
   OperatorReceiver(const OperatorReceiver&) = delete;
   OperatorReceiver& operator=(const OperatorReceiver&) = delete;
@@ -43,10 +51,14 @@ class OperatorReceiver {
  private:
   void Run();
   void Handle(const Received& received);
+  void HandleCommand(const Packet& packet, std::uint64_t sender);
+  void HandleExcitation(const Packet& packet, std::uint64_t sender);
+  void Reject() noexcept { rejected_.fetch_add(1, std::memory_order_relaxed); }
   [[nodiscard]] bool Repeated(std::uint64_t sender, std::int64_t sequence) noexcept;
 
   MulticastReceiver receiver_;
   std::function<void(const NetworkCommand&)> take_;
+  std::function<void(const std::string&)> excite_;
   struct Seen {
     std::uint64_t sender{0};
     std::int64_t sequence{0};

@@ -12,8 +12,8 @@ namespace {
 using namespace unit;
 using scenario::Wait;
 
-// In the order of OperatorCommand.
-constexpr std::array<std::string_view, kOperatorCommandCount> kCommands{
+// In the order of OperatorCommand, without those for test signals: a step has a list of its own.
+constexpr std::array<std::string_view, 7> kCommands{
     "nothing", "lift", "spin", "coast_down", "land", "emergency_stop", "reset"};
 // Three waits of their own, then the modes in the order of Mode.
 constexpr std::array<std::string_view, 3 + kModeCount> kWaits{
@@ -79,6 +79,12 @@ void Describe(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
               "the scenario fails when the wait takes longer"},
              step.timeout_s);
   });
+  DescribeExcitations(v, step, rig);
+}
+
+}  // namespace
+
+void DescribeExcitations(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
   v.Number({"hold", kSecond, 0, 1e6, 0, "then stay this long"}, step.hold_s);
   v.List({"excitation", 0, 4 * kMaxAxes, "test signals while the step holds"}, step.excitation,
          [&](scenario::Excitation& excitation, std::size_t) { Describe(v, excitation, rig); });
@@ -86,8 +92,6 @@ void Describe(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
              "an excitation acts during the hold time, which is 0");
   DescribeOrbitLimit(v, step, rig);
 }
-
-}  // namespace
 
 void Describe(Visitor& v, scenario::ScenarioConfig& scenario, const RigNumbers& rig) {
   v.Name({"name", "of the scenario"}, scenario.name);

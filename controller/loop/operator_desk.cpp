@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "controller/supervisor/mode_table.hpp"
+
 namespace levitas::loop {
 
 OperatorDesk::OperatorDesk(const DeskOptions& options, scenario::ScenarioPlayer* player,
@@ -52,7 +54,49 @@ cycle::OperatorInput OperatorDesk::Stop(const OperatorView& view) noexcept {
   return input;
 }
 
+void OperatorDesk::DropExcitation() noexcept {
+  if (playing_ != nullptr) ExcitationShelf::GiveBack(playing_);
+  playing_ = nullptr;
+  awaits_answer_ = false;
+}
+
+void OperatorDesk::Begin(const RemoteCommand& remote) noexcept {
+  if (remote.command == OperatorCommand::kExcite) {
+    DropExcitation();
+    playing_ = remote.excitation;
+    awaits_answer_ = true;
+    end_untold_ = false;
+  } else if (remote.command == OperatorCommand::kEndExcitation) {
+    DropExcitation();
+    end_untold_ = false;
+  }
+}
+
+void OperatorDesk::Excite(const OperatorView& view, cycle::OperatorInput& input) noexcept {
+  if (playing_ != nullptr && input.command != OperatorCommand::kExcite) {
+    const bool refused = awaits_answer_ && view.command_refused;
+    awaits_answer_ = false;
+    if (refused) {
+      DropExcitation();
+    } else if (ending_ || !supervisor::PassesExcitation(view.mode) ||
+               !playing_->AddTo(input, view)) {
+      DropExcitation();
+      end_untold_ = true;
+    }
+  }
+  if (end_untold_ && input.command == OperatorCommand::kNone) {
+    input.command = OperatorCommand::kEndExcitation;
+    end_untold_ = false;
+  }
+}
+
 cycle::OperatorInput OperatorDesk::Next(const OperatorView& view) noexcept {
+  cycle::OperatorInput input = Decide(view);
+  Excite(view, input);
+  return input;
+}
+
+cycle::OperatorInput OperatorDesk::Decide(const OperatorView& view) noexcept {
   if (!started_) {
     started_ = true;
     first_cycle_ = view.cycle;
@@ -62,11 +106,13 @@ cycle::OperatorInput OperatorDesk::Next(const OperatorView& view) noexcept {
   const bool emergency = commanded && remote.command == OperatorCommand::kEmergencyStop;
   cycle::OperatorInput input;
   if (emergency || (commanded && !ending_)) {
+    Begin(remote);
     input.command = remote.command;
     input.speed_rad_per_s = remote.speed_rad_per_s;
     input.acceleration_rad_per_s2 = remote.acceleration_rad_per_s2;
     return input;
   }
+  if (commanded && remote.excitation != nullptr) ExcitationShelf::GiveBack(remote.excitation);
   if (Ending(view)) return Stop(view);
   if (player_ != nullptr) {
     const auto played = player_->Next(view.mode, view.speed_rad_per_s, view.fault,

@@ -3,6 +3,9 @@
 //
 // Order    the end of the program before a remote command before the scenario. A remote emergency
 //          stop always passes.
+// Test signals  a remote one is added to the scenario's. It begins in the cycle after its command,
+//          unless that was refused, and ends by its own length, by command, by a new one, with a
+//          trip and where the mode does not pass it on; each end is a command of the record.
 // The end  a finished or failed scenario, RequestStop and the duration all end in the same way:
 //          run down under the drive, land, amplifiers off. A trip under a scenario ends when the
 //          safe state is reached; without a scenario the desk waits for a reset.
@@ -15,6 +18,7 @@
 #include <memory>
 
 #include "common/spsc_ring.hpp"
+#include "controller/loop/excitation_shelf.hpp"
 #include "controller/loop/operator_source.hpp"
 #include "controller/scenario/scenario_player.hpp"
 
@@ -25,6 +29,7 @@ struct RemoteCommand {
   OperatorCommand command{OperatorCommand::kNone};
   double speed_rad_per_s{};
   double acceleration_rad_per_s2{};
+  ExcitationShelf::Place* excitation{nullptr};  ///< with kExcite
 };
 
 struct DeskOptions {
@@ -49,6 +54,10 @@ class OperatorDesk final : public OperatorSource {
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
 
  private:
+  [[nodiscard]] cycle::OperatorInput Decide(const OperatorView& view) noexcept;
+  void Begin(const RemoteCommand& remote) noexcept;
+  void Excite(const OperatorView& view, cycle::OperatorInput& input) noexcept;
+  void DropExcitation() noexcept;
   [[nodiscard]] cycle::OperatorInput Stop(const OperatorView& view) noexcept;
   [[nodiscard]] bool Ending(const OperatorView& view) noexcept;
   [[nodiscard]] std::uint64_t Cycles(double seconds) const noexcept;
@@ -57,6 +66,9 @@ class OperatorDesk final : public OperatorSource {
   scenario::ScenarioPlayer* player_;
   SpscRing<RemoteCommand>* remote_;
   std::atomic<bool> stop_requested_{false};
+  ExcitationShelf::Place* playing_{nullptr};
+  bool awaits_answer_{false};  ///< the command to excite was given in the previous cycle
+  bool end_untold_{false};     ///< a test signal has ended and no record says so yet
   bool ending_{false};
   bool done_{false};
   std::uint64_t first_cycle_{0};

@@ -12,6 +12,7 @@
 #include "config/rig_file.hpp"
 #include "controller/loop/control_loop.hpp"
 #include "controller/loop/operator_desk.hpp"
+#include "controller/program/excitation_intake.hpp"
 #include "controller/program/loop_outlet.hpp"
 #include "controller/program/report.hpp"
 #include "controller/program/rig_connection.hpp"
@@ -186,9 +187,13 @@ class Session {
                              .standstill_rad_per_s = sequence_.standstill_rad_per_s,
                              .duration_s = options_.duration_s},
                             player_ ? &*player_ : nullptr, &commands_);
-    transport::OperatorReceiver receiver(network_, [this](const auto& command) {
-      commands_.Post({command.command, command.speed_rad_per_s, command.acceleration_rad_per_s2});
-    });
+    transport::OperatorReceiver receiver(
+        network_,
+        [this](const auto& command) {
+          commands_.Post(
+              {command.command, command.speed_rad_per_s, command.acceleration_rad_per_s2});
+        },
+        [this](const std::string& step_yaml) { excitations_.Take(step_yaml); });
     loop::ControlLoop loop(
         {.pace = options_.realtime ? loop::Pace::kRealtime : loop::Pace::kLockstep,
          .period_ns = numbers_.period_ns,
@@ -210,6 +215,14 @@ class Session {
   }
 
  private:
+  void Warn(const std::string& text) {
+    Announce({.cycle = outlet_.cycle(),
+              .time_ns = static_cast<std::int64_t>(outlet_.cycle()) * numbers_.period_ns,
+              .severity = session::Event::Severity::kWarning,
+              .text = text},
+             telemetry_);
+  }
+
   /// What the loop faces: the connection, with the rig's lines beside it where it has any.
   [[nodiscard]] port::RigPort& Port() noexcept {
     if (guarded_) return *guarded_;
@@ -257,6 +270,8 @@ class Session {
   supervisor::SequenceConfig sequence_;
   std::optional<scenario::ScenarioPlayer> player_;
   SpscRing<loop::RemoteCommand> commands_{kRemoteCommands};
+  ExcitationIntake excitations_{numbers_, commands_,
+                                [this](const std::string& text) { Warn(text); }};
   rt::MonotonicClock clock_;
 };
 

@@ -17,6 +17,7 @@ LoopOutlet::LoopOutlet(session::Recorder& recorder, transport::Telemetry& teleme
 
 void LoopOutlet::Post(const cycle::CycleRecord& record) noexcept {
   recorder_.Post(record);
+  cycle_.store(record.in.cycle, std::memory_order_relaxed);
   const bool tripped = record.out.fault != Fault::kNone && previous_fault_ == Fault::kNone;
   previous_fault_ = record.out.fault;
   if (tripped) {

@@ -1,7 +1,7 @@
 #pragma once
 // Where the loop's records go: the session's recorder and, thinned out, telemetry.
 //
-// Thread   Post: loop thread, wait-free. Tripped: any thread.
+// Thread   Post: loop thread, wait-free. The others: any thread.
 
 #include <atomic>
 
@@ -26,6 +26,10 @@ class LoopOutlet final : public loop::RecordSink {
   [[nodiscard]] std::uint64_t trips() const noexcept {
     return trips_.load(std::memory_order_relaxed);
   }
+  /// Number of the newest cycle.
+  [[nodiscard]] std::uint64_t cycle() const noexcept {
+    return cycle_.load(std::memory_order_relaxed);
+  }
 
  private:
   session::Recorder& recorder_;
@@ -34,6 +38,7 @@ class LoopOutlet final : public loop::RecordSink {
   Fault previous_fault_{Fault::kNone};
   std::atomic<Fault> first_fault_{Fault::kNone};
   std::atomic<std::uint64_t> trips_{0};
+  std::atomic<std::uint64_t> cycle_{0};
 };
 
 }  // namespace levitas::controller_program

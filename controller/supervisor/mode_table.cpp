@@ -74,7 +74,10 @@ std::string ModeTableDocument() {
       "Written from the mode table in `controller/supervisor/mode_table.hpp`; a test compares the "
       "two. `LEVITAS_WRITE_DOCS=1` makes that test write this file anew. Why the safe states are "
       "what they are: [safety.md](safety.md).\n\n"
-      "A command without an edge here is refused. An emergency stop is a stop fault, whether an "
+      "A command without an edge here is refused; `excite` changes no state and is refused where "
+      "the "
+      "excitation is not passed on, `end_excitation` never. An emergency stop is a stop fault, "
+      "whether an "
       "operator asks for it or the rig's own chain opens.\n\n## Diagram\n\n";
   text += StateDiagram();
   text += "\n## States\n\n";

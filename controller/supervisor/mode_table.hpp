@@ -196,6 +196,14 @@ inline constexpr std::array kEdges{
   return kStates[static_cast<std::size_t>(state)];
 }
 
+/// Whether injected currents are let through in a mode.
+[[nodiscard]] constexpr bool PassesExcitation(Mode mode) noexcept {
+  for (const StateRow& row : kStates) {
+    if (row.mode == mode && row.excitation) return true;
+  }
+  return false;
+}
+
 /// The edge of (state, event), or nullptr. The table holds each pair at most once.
 [[nodiscard]] constexpr const Edge* FindEdge(State state, Event event) noexcept {
   for (const Edge& edge : kEdges) {

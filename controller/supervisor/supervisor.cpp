@@ -33,14 +33,18 @@ std::optional<Event> CommandEvent(OperatorCommand command) noexcept {
       return Event::kCommandReset;
     case OperatorCommand::kNone:
     case OperatorCommand::kEmergencyStop:  // a fault, see Protections
+    case OperatorCommand::kExcite:         // no edge: the state stays, see Refuses
+    case OperatorCommand::kEndExcitation:
       break;
   }
   return std::nullopt;
 }
 
-// A number outside the enumeration is a command the table does not know.
-bool Known(OperatorCommand command) noexcept {
-  return static_cast<std::uint8_t>(command) < kOperatorCommandCount;
+// Of commands that move no edge: a number outside the enumeration is one the table does not know,
+// and a test signal may begin only where the table passes it on.
+bool Refuses(State state, OperatorCommand command) noexcept {
+  if (command == OperatorCommand::kExcite) return !Row(state).excitation;
+  return static_cast<std::uint8_t>(command) >= kOperatorCommandCount;
 }
 
 }  // namespace
@@ -96,10 +100,10 @@ const Decision& Supervisor::Decide(const Observation& seen, const Request& reque
   if (finding.fault != Fault::kNone) {
     const bool drop = (Row(decision_.state).drop & Bit(finding.fault)) != 0;
     Take(drop ? Event::kDropFault : Event::kStopFault, seen, request, finding);
-    decision_.command_refused = command.has_value() || !Known(request.command);
+    decision_.command_refused = command.has_value() || Refuses(decision_.state, request.command);
   } else {
     const bool moved = command && Take(*command, seen, request, finding);
-    decision_.command_refused = (command && !moved) || !Known(request.command);
+    decision_.command_refused = (command && !moved) || Refuses(decision_.state, request.command);
     for (const Event event :
          {Event::kSelfTestPassed, Event::kLifted, Event::kStands, Event::kLanded}) {
       if (!moved && Happened(event, seen) && Take(event, seen, request, finding)) break;

@@ -2,17 +2,19 @@
 
 import { send } from "./link.js";
 
-const answer = document.getElementById("answer");
-
-async function ask(request) {
-  answer.className = "answer wait";
-  answer.textContent = request.command.replace("_", " ") + " …";
-  const reply = await send(request);
-  answer.className = "answer " + (reply.outcome === "accepted" ? "good" : "bad");
-  answer.textContent = `${reply.outcome}: ${reply.text}`;
+/** Sends a request and shows on the line what came of it; its outcome. */
+export async function ask(line, path, request, doing) {
+  line.className = "answer wait";
+  line.textContent = doing + " …";
+  const reply = await send(path, request);
+  line.className = "answer " + (reply.outcome === "accepted" ? "good" : "bad");
+  line.textContent = `${reply.outcome}: ${reply.text}`;
+  return reply.outcome;
 }
 
-const stop = () => ask({ command: "emergency_stop" });
+const answer = document.getElementById("answer");
+const command = (request) => ask(answer, "api/command", request, request.command.replace("_", " "));
+const stop = () => command({ command: "emergency_stop" });
 
 export function wireControls() {
   document.getElementById("stop").addEventListener("click", stop);
@@ -23,11 +25,11 @@ export function wireControls() {
     stop();
   }, { capture: true });
   for (const button of document.querySelectorAll("button[data-command]")) {
-    button.addEventListener("click", () => ask({ command: button.dataset.command }));
+    button.addEventListener("click", () => command({ command: button.dataset.command }));
   }
   document.getElementById("spin").addEventListener("submit", (event) => {
     event.preventDefault();
-    ask({
+    command({
       command: "spin",
       speed_rpm: Number(document.getElementById("rpm").value),
       acceleration_rpm_per_s: Number(document.getElementById("ramp").value),

@@ -9,7 +9,7 @@ export function listen(handlers, onState) {
   const open = () => {
     source?.close();
     heard = performance.now();
-    source = new EventSource("events" + (token ? "?token=" + encodeURIComponent(token) : ""));
+    source = new EventSource(address("events"));
     source.onopen = () => { heard = performance.now(); onState("live"); };
     source.onerror = () => onState("lost");
     for (const [name, handler] of Object.entries(handlers)) {
@@ -30,12 +30,15 @@ export function listen(handlers, onState) {
   }, 1000);
 }
 
+/** An address of this program, with the token where there is one. */
+export const address = (path) => path + (token ? "?token=" + encodeURIComponent(token) : "");
+
 /** {outcome, text}: what the controller said, or that it could not be asked. */
-export async function send(request) {
+export async function send(path, request) {
   const headers = { "Content-Type": "application/json", "X-Levitas": "1" };
   if (token) headers["X-Levitas-Token"] = token;
   try {
-    const answer = await fetch("api/command", { method: "POST", headers, body: JSON.stringify(request) });
+    const answer = await fetch(path, { method: "POST", headers, body: JSON.stringify(request) });
     return await answer.json();
   } catch (problem) {
     return { outcome: "unanswered", text: "amb cannot be reached: " + problem.message };

@@ -1,11 +1,12 @@
-// uPlot with this page's manners: small type, no cursor, size of its box.
+// uPlot with this page's manners: small type, size of its box; a cursor only where one can zoom.
 
 const FONT = "11px system-ui, 'DejaVu Sans', sans-serif";
 
 /**
- * options: series, y {floor: [low, high] always shown, log}, x {label values}, draw(plot) on top.
+ * options: series, y {floor: [low, high] always shown, log}, x {label values}, draw(plot) on top,
+ * zoomed(plot, min, max) after the time shown has changed: the user may then drag to zoom.
  */
-export function makePlot(box, { series, y = {}, x = {}, draw = () => {} }) {
+export function makePlot(box, { series, y = {}, x = {}, draw = () => {}, zoomed = null }) {
   const range = (plot, low, high) => {
     if (y.range) return y.range;
     const [least, most] = y.floor ?? [0, 1];
@@ -16,13 +17,16 @@ export function makePlot(box, { series, y = {}, x = {}, draw = () => {} }) {
   const options = {
     width: Math.max(box.clientWidth, 120),
     height: Math.max(box.clientHeight, 80),
-    cursor: { show: false },
+    cursor: zoomed ? { points: { show: false }, y: false, drag: { x: true, y: false } } : { show: false },
     legend: { show: false },
     padding: [6, 8, 0, 0],
     scales: { x: { time: false, ...x.scale }, y: { range, distr: y.log ? 3 : 1 } },
     axes: [{ ...axis, size: 22, gap: 2 }, { ...axis, size: 44, gap: 2, ...y.axis }],
     series: [{}, ...series],
-    hooks: { draw: [draw] },
+    hooks: {
+      draw: [draw],
+      setScale: zoomed ? [(plot, key) => { if (key === "x" && plot.status === 1) zoomed(plot, plot.scales.x.min, plot.scales.x.max); }] : [],
+    },
   };
   const plot = new uPlot(options, [[0], ...series.map(() => [null])], box);
   plot.box = box;
@@ -48,4 +52,23 @@ export function fit(plot) {
   const width = plot.box.clientWidth;
   const height = plot.box.clientHeight;
   if (width > 0 && (Math.abs(plot.width - width) > 1 || Math.abs(plot.height - height) > 1)) plot.setSize({ width, height });
+}
+
+/** Dashed lines at values of an axis, "x" or "y". */
+export function dashedLines(plot, axis, values) {
+  const { left, top, width, height } = plot.bbox;
+  const context = plot.ctx;
+  context.save();
+  context.strokeStyle = "#5a6775";
+  context.setLineDash([6, 4]);
+  for (const value of values) {
+    const place = plot.valToPos(value, axis, true);
+    const [start, length] = axis === "y" ? [top, height] : [left, width];
+    if (!(place >= start && place <= start + length)) continue;
+    context.beginPath();
+    context.moveTo(axis === "y" ? left : place, axis === "y" ? place : top);
+    context.lineTo(axis === "y" ? left + width : place, axis === "y" ? place : top + height);
+    context.stroke();
+  }
+  context.restore();
 }

@@ -10,7 +10,7 @@ let newest = null;
 export function showTiming(timing) {
   newest = timing;
   const us = (ns) => (ns / 1000).toFixed(ns < 10000 ? 1 : 0) + " µs";
-  const parts = [`99 %: ${us(timing.compute_p99_ns ?? 0)}`];
+  const parts = [`p99 ${us(timing.compute_p99_ns ?? 0)}`];
   if (timing.latency_p99_ns > 0) parts.push(`latency ${us(timing.latency_p99_ns)}`);
   parts.push(`skipped ${timing.skipped ?? 0}`);
   document.getElementById("timing-note").textContent = parts.join(", ");
@@ -32,7 +32,7 @@ export function drawTiming() {
   for (let decade = Math.ceil(low); decade <= high; ++decade) {
     const place = x(10 ** decade);
     context.fillRect(place, 0, 0.6, bottom);
-    context.fillText(text(10 ** decade), Math.min(place + 2, width - 36), height - 4);
+    if (place + 38 < width) context.fillText(text(10 ** decade), place + 2, height - 4);
   }
   used.forEach(([name, colour], i) => {
     context.strokeStyle = lineColour(colour);

@@ -1,7 +1,7 @@
 // Positions and currents over the last seconds, as envelopes: each 25 ms show their least and most.
 
 import { lineColour } from "./colours.js";
-import { fit, makePlot } from "./plot.js";
+import { dashedLines, fit, makePlot } from "./plot.js";
 
 const WINDOW_S = 20;
 const MOST = 2 * WINDOW_S * 40;  // two points per bucket
@@ -11,24 +11,7 @@ let time = [];
 let rows = { position: [], current: [] };
 let plots = null;
 
-/** Dashed lines at the given values of the y axis. */
-function limitLines(values) {
-  return (plot) => {
-    const context = plot.ctx;
-    context.save();
-    context.strokeStyle = "#5a6775";
-    context.setLineDash([6, 4]);
-    for (const value of values) {
-      const y = plot.valToPos(value, "y", true);
-      if (y < plot.bbox.top || y > plot.bbox.top + plot.bbox.height) continue;
-      context.beginPath();
-      context.moveTo(plot.bbox.left, y);
-      context.lineTo(plot.bbox.left + plot.bbox.width, y);
-      context.stroke();
-    }
-    context.restore();
-  };
-}
+const limitLines = (values) => (plot) => dashedLines(plot, "y", values);
 
 export function setUpTraces(rig) {
   plots?.position.destroy();

@@ -6,7 +6,7 @@ import tempfile
 import urllib.error
 import urllib.request
 
-from lcm_network import Process, controller, plant
+from lcm_network import Process, plant
 
 # Far above any delay of a busy machine [s]: what waits this long has failed.
 LONG = 90
@@ -15,13 +15,15 @@ LONG = 90
 class Rig:
     """Starts the three programs in a folder of their own; ends them with the test."""
 
-    def __init__(self, test, *dash_arguments):
+    def __init__(self, test, *dash_arguments, controller="flexible_rotor"):
         self.test = test
         folder = tempfile.TemporaryDirectory()
         test.addCleanup(folder.cleanup)
         self.folder = folder.name
         self.plant = self.started(plant(self.folder))
-        self.controller = self.started(controller(self.folder))
+        self.controller = self.started(Process(
+            self.folder, "amb-controller", "--rig", "flexible_rotor", "--controller", controller,
+            "--trip-folder", self.folder))
         self.controller.says("rig found", LONG)
         self.dash = self.start_dash(*dash_arguments)
 
@@ -36,10 +38,10 @@ class Rig:
         self.url = re.search(r"page: (\S+)", dash.text)[1]
         return dash
 
-    def post(self, body, headers=None, url=None):
-        """(HTTP status, answer) of a command."""
+    def post(self, body, headers=None, url=None, path="api/command"):
+        """(HTTP status, answer) of a command, or of another path's request."""
         data = body if isinstance(body, bytes) else json.dumps(body).encode()
-        request = urllib.request.Request((url or self.url) + "api/command", data=data,
+        request = urllib.request.Request((url or self.url) + path, data=data,
                                          headers={"X-Levitas": "1"} if headers is None else headers)
         return answer_of(request)
 

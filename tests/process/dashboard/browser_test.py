@@ -62,6 +62,13 @@ class ThePage(unittest.TestCase):
         page.until("!document.getElementById('trip').hidden")
         self.assertEqual(page.problems(), [])
 
+    def test_spins_with_the_numbers_that_the_page_proposes(self):
+        _, page = self.rig_and_page()
+        self.press(page, "[data-command=lift]")
+        page.until(f"{MODE} == 'levitating'")
+        self.press(page, "#spin [type=submit]")
+        self.answer(page, "accepted: command spin to 1500 rpm")
+
     def test_trips_the_controller_by_a_key_wherever_the_cursor_is(self):
         rig, page = self.rig_and_page()
         page.value("document.getElementById('rpm').focus()")

@@ -96,9 +96,14 @@ class Access(unittest.TestCase):
 
     def test_of_nonsense_harms_nothing(self):
         rig = Rig(self)
-        for body in (b"", b"\xff\x00", b"{" * 5000, b"[" * 5000):
-            status, _ = rig.post(body)
-            self.assertEqual(status, 400, body[:10])
+        until(rig.url, lambda name, data: name == "rig" and data["run"] > 0)
+        for path in ("api/command", "api/excitation", "api/scope"):
+            for body in (b"", b"\xff\x00", b"{" * 5000, b"[" * 5000, b"{}", b"7", b'{"do": 1}'):
+                status, answer = rig.post(body, path=path)
+                self.assertEqual(status, 400, (path, body[:10]))
+                self.assertTrue(answer["text"])
+            self.assertEqual(rig.post(b"x" * 100_000, path=path)[0], 413)
+            self.assertEqual(rig.post(b"{}", headers={}, path=path)[0], 403)
         request = urllib.request.Request(rig.url + "no/such/file")
         with self.assertRaises(urllib.error.HTTPError) as refused:
             urllib.request.urlopen(request, timeout=LONG)

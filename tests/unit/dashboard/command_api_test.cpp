@@ -5,11 +5,19 @@
 
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <tuple>
+
+#include "config/excitation_request.hpp"
+#include "config/rig_file.hpp"
 
 namespace levitas::dashboard {
 namespace {
 
 using testing::HasSubstr;
+
+RigNumbers ShippedRig() {
+  return config::LoadRig(config::FindConfig("flexible_rotor", "rigs")).numbers;
+}
 
 /// Answers as told, and remembers what was asked.
 struct Controller {
@@ -30,7 +38,7 @@ TEST(CommandApi, PassesOnWhatTheControllerSaid) {
   const HttpAnswer answer = controller.Post(R"({"command":"lift"})");
   EXPECT_EQ(answer.status, 200);
   EXPECT_EQ(controller.request.command, OperatorCommand::kLift);
-  const auto json = nlohmann::json::parse(answer.json);
+  const auto json = nlohmann::json::parse(answer.body);
   EXPECT_EQ(json["outcome"], "accepted");
   EXPECT_EQ(json["text"], "command lift (cycle 7)");
 }
@@ -42,7 +50,7 @@ TEST(CommandApi, NeverCallsARefusedOrUnansweredCommandDone) {
   controller.reply = {CommandOutcome::kUnanswered, "no answer"};
   const HttpAnswer answer = controller.Post(R"({"command":"emergency_stop"})");
   EXPECT_EQ(answer.status, 504);
-  EXPECT_EQ(nlohmann::json::parse(answer.json)["outcome"], "unanswered");
+  EXPECT_EQ(nlohmann::json::parse(answer.body)["outcome"], "unanswered");
 }
 
 TEST(CommandApi, TurnsRevolutionsPerMinuteIntoRadiansPerSecond) {
@@ -66,7 +74,71 @@ TEST(CommandApi, SendsNothingThatItDoesNotUnderstand) {
     EXPECT_EQ(controller.Post(bad).status, 400) << bad;
   }
   EXPECT_EQ(controller.asked, 0);
-  EXPECT_THAT(controller.Post(R"({"command":"fly"})").json, HasSubstr("emergency_stop"));
+  EXPECT_THAT(controller.Post(R"({"command":"fly"})").body, HasSubstr("emergency_stop"));
+}
+
+constexpr const char* kChirp =
+    R"({"hold_s":5,"orbit_limit_um":75,"excitation":[{"channel":"de_x","signal":"chirp",)"
+    R"("amplitude_a":0.2,"from_hz":10,"to_hz":400,"repeat_s":2}]})";
+
+TEST(ExcitationApi, SendsATextThatTheControllerReadsAsWhatWasAskedFor) {
+  const RigNumbers rig = ShippedRig();
+  std::string sent;
+  const HttpAnswer answer = AnswerExcitation(kChirp, rig, [&](const std::string& step_yaml) {
+    sent = step_yaml;
+    return CommandReply{CommandOutcome::kAccepted, "command excite (cycle 9)"};
+  });
+  EXPECT_EQ(answer.status, 200);
+  const scenario::Step step = config::ParseExcitation(sent, "test", rig);
+  EXPECT_EQ(step.hold_s, 5.0);
+  EXPECT_DOUBLE_EQ(step.orbit_limit_m, 75e-6);
+  ASSERT_EQ(step.excitation.size(), 1U);
+  EXPECT_EQ(step.excitation[0].kind, scenario::SignalKind::kChirp);
+  EXPECT_EQ(step.excitation[0].axis, 0U);
+  EXPECT_EQ(step.excitation[0].amplitude_a, 0.2);
+  EXPECT_EQ(step.excitation[0].to_hz, 400.0);
+}
+
+TEST(ExcitationApi, SendsNothingThatTheRigCannotDo) {
+  int sent = 0;
+  const auto post = [&](const std::string& body) {
+    return AnswerExcitation(body, ShippedRig(), [&](const std::string&) {
+      ++sent;
+      return CommandReply{};
+    });
+  };
+  for (const auto& [find, instead, words] : {std::tuple{"\"de_x\"", "\"top\"", "channel"},
+                                             {"0.2", "50", "amplitude_a"},
+                                             {"0.2", "-1", "amplitude_a"},
+                                             {"0.2", "\"much\"", "amplitude_a"},
+                                             {"400", "1e5", "to_hz"},
+                                             {"\"chirp\"", "\"noise\"", "signal"},
+                                             {"\"hold_s\":5", "\"hold_s\":0", "hold_s"},
+                                             {"\"hold_s\":5", "\"hold_s\":1e5", "hold_s"},
+                                             {"75", "5000", "orbit_limit_um"},
+                                             {"\"hold_s\"", "\"do\"", "'do' is not known"},
+                                             {"repeat_s", "repeat_m", "repeat_m"}}) {
+    std::string body = kChirp;
+    body.replace(body.find(find), std::string(find).size(), instead);
+    const HttpAnswer answer = post(body);
+    EXPECT_EQ(answer.status, 400) << body;
+    EXPECT_THAT(answer.body, HasSubstr(words)) << body;
+  }
+  for (const char* bad : {"", "[]", "{}", R"({"hold_s":1,"excitation":[]})",
+                          R"({"hold_s":1,"excitation":"all"})", R"({"excitation":[[[[[[]]]]]]})"}) {
+    EXPECT_EQ(post(bad).status, 400) << bad;
+  }
+  EXPECT_EQ(sent, 0);
+}
+
+TEST(ExcitationApi, RefusesWhileNoRigIsKnown) {
+  EXPECT_EQ(AnswerExcitation(kChirp, std::nullopt, {}).status, 409);
+}
+
+TEST(ExcitationApi, CannotBeHadAsAPlainCommandWithoutASignal) {
+  Controller controller;
+  EXPECT_EQ(controller.Post(R"({"command":"excite"})").status, 400);
+  EXPECT_EQ(controller.Post(R"({"command":"end_excitation"})").status, 200);
 }
 
 }  // namespace

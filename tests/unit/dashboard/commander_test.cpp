@@ -84,6 +84,31 @@ TEST_F(CommanderOnTheNetwork, BelievesTheControllerOnly) {
   EXPECT_EQ(land.text, EventOf(OperatorCommand::kLand, true));
 }
 
+TEST_F(CommanderOnTheNetwork, CarriesATestSignalsTextToTheController) {
+  Make(kLong);
+  if (IsSkipped()) return;
+  std::string text;
+  transport::OperatorReceiver controller(
+      Network(), [](const transport::NetworkCommand&) {},
+      [&](const std::string& step_yaml) {
+        text = step_yaml;
+        commander_->Saw(EventOf(OperatorCommand::kExcite, false));
+      });
+  EXPECT_EQ(commander_->SendExcitation("hold_s: 1").outcome, CommandOutcome::kAccepted);
+  EXPECT_EQ(text, "hold_s: 1");
+}
+
+TEST_F(CommanderOnTheNetwork, TellsWhyATestSignalWasRefused) {
+  Make(kLong);
+  if (IsSkipped()) return;
+  transport::OperatorReceiver controller(
+      Network(), [](const transport::NetworkCommand&) {},
+      [&](const std::string&) { commander_->Saw("command excite refused: too many at once"); });
+  const CommandReply reply = commander_->SendExcitation("hold_s: 1");
+  EXPECT_EQ(reply.outcome, CommandOutcome::kRefused);
+  EXPECT_NE(reply.text.find("too many"), std::string::npos);
+}
+
 TEST_F(CommanderOnTheNetwork, SaysSoWhenNobodyAnswers) {
   Make(kShort);
   if (IsSkipped()) return;

@@ -131,6 +131,22 @@ TEST(ModeTable, AcceptsExactlyTheseCommands) {
   }
 }
 
+TEST(ModeTable, LetsATestSignalBeginOnlyWhereCurrentsAreInjectedAndAlwaysLetsItEnd) {
+  const std::set<State> passing{State::kLevitating, State::kSpinning, State::kCoastDown};
+  for (std::size_t i = 0; i < kStateCount; ++i) {
+    const State state = At<State>(i);
+    for (const auto command : {OperatorCommand::kExcite, OperatorCommand::kEndExcitation}) {
+      Driver driver;
+      driver.GoTo(state);
+      const Decision& decision = driver.Step(command);
+      EXPECT_EQ(decision.command_refused,
+                command == OperatorCommand::kExcite && !passing.contains(state))
+          << Name(state) << " " << levitas::Name(command);
+      EXPECT_EQ(decision.state, state) << levitas::Name(command);
+    }
+  }
+}
+
 TEST(ModeTable, TakesAnEmergencyStopInEveryStateAndNeverRefusesIt) {
   for (std::size_t i = 0; i < kStateCount; ++i) {
     Driver driver;

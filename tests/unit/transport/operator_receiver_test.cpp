@@ -7,9 +7,11 @@
 
 #include <chrono>
 #include <cmath>
+#include <levitas_msg/excitation_request_t.hpp>
 #include <levitas_msg/operator_command_t.hpp>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -62,6 +64,22 @@ class Receiver : public testing::Test {
     WriteHeader(datagram, 0, channel);
     message.encode(datagram.data() + HeaderSize(channel), 0, message.getEncodedSize());
     ASSERT_TRUE(sender_[from]->Send(datagram));
+  }
+
+  /// `length`: what the message says of the text's bytes, its zero included.
+  void SendText(std::int64_t sequence, const std::string& text,
+                std::optional<std::uint32_t> length = std::nullopt) {
+    levitas_msg::excitation_request_t message{};
+    message.sequence = sequence;
+    message.step_yaml = text;
+    const std::size_t header = HeaderSize(channel::kExcitation);
+    std::vector<std::uint8_t> datagram(header + static_cast<std::size_t>(message.getEncodedSize()));
+    WriteHeader(datagram, 0, channel::kExcitation);
+    message.encode(datagram.data() + header, 0, message.getEncodedSize());
+    for (std::size_t i = 0; length && i < 4; ++i) {  // behind hash and sequence
+      datagram[header + 16 + i] = static_cast<std::uint8_t>(*length >> (24 - 8 * i));
+    }
+    ASSERT_TRUE(sender_[0]->Send(datagram));
   }
 
   // Everything taken before a last, unmistakable command; datagrams of one machine keep their
@@ -130,6 +148,45 @@ TEST_F(Receiver, CountsAndDropsWhatIsNoCommand) {
   ASSERT_TRUE(sender_[0]->Send(rubbish));
   EXPECT_EQ(TakenBeforeTheEnd(), Commands{});
   EXPECT_EQ(receiver_->rejected(), 6U);
+}
+
+TEST_F(Receiver, RefusesToExciteWithoutASignal) {
+  Send(0, 1, OperatorCommand::kExcite);
+  EXPECT_EQ(TakenBeforeTheEnd(), Commands{});
+  EXPECT_EQ(receiver_->rejected(), 1U);
+}
+
+TEST_F(Receiver, PassesTheTextOfATestSignalOnOnce) {
+  std::vector<std::string> texts;
+  receiver_.reset();
+  receiver_ = std::make_unique<OperatorReceiver>(
+      Network(),
+      [this](const NetworkCommand& c) {
+        const std::lock_guard lock(mutex_);
+        taken_.push_back(c);
+      },
+      [&](const std::string& text) { texts.push_back(text); });
+  SendText(1, "hold_s: 1");
+  SendText(1, "hold_s: 1");  // said again
+  SendText(2, "");
+  EXPECT_EQ(TakenBeforeTheEnd(), Commands{});
+  receiver_.reset();  // its thread has ended: the texts are ours
+  EXPECT_EQ(texts, (std::vector<std::string>{"hold_s: 1", ""}));
+}
+
+TEST_F(Receiver, CountsTextsThatAreTooLongOrLieAboutTheirLength) {
+  receiver_.reset();
+  receiver_ = std::make_unique<OperatorReceiver>(
+      Network(),
+      [this](const NetworkCommand& c) {
+        const std::lock_guard lock(mutex_);
+        taken_.push_back(c);
+      },
+      [](const std::string&) { ADD_FAILURE() << "passed on"; });
+  SendText(1, std::string(OperatorReceiver::kLongestText, 'x'));
+  for (const std::uint32_t length : {0U, 1U, 0x7fffffffU, 0xffffffffU}) SendText(2, "abc", length);
+  EXPECT_EQ(TakenBeforeTheEnd(), Commands{});
+  EXPECT_EQ(receiver_->rejected(), 5U);
 }
 
 TEST_F(Receiver, LeavesOtherChannelsOfThePortAlone) {
