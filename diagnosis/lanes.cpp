@@ -12,6 +12,21 @@ namespace {
 
 using Vector = Lane::Vector;
 
+LEVITAS_INLINE void ReadingBody(const LaneModel& k, const Moment& m, const LaneState& s,
+                                std::array<Lane, kMaxAxes>& reading) noexcept {
+  for (std::size_t a = 0; a < k.axes; ++a) {
+    const LaneModel::Axis& axis = k.axis[a];
+    Vector y = (1.0F + m.added.reading_per_m[a]) * s.sensor[a].value;
+    if (axis.adds) {
+      const std::size_t plane = (a % 2) * k.modes;
+      for (std::size_t i = 0; i < k.modes; ++i) {
+        y += axis.added_q[i] * s.q[plane + i].value + axis.added_v[i] * s.v[plane + i].value;
+      }
+    }
+    reading[a].value = y;
+  }
+}
+
 LEVITAS_INLINE void CorrectBody(const LaneModel& k, const std::array<Lane, kMaxAxes>& e,
                                 LaneState& s) noexcept {
   for (std::size_t i = 0; i < 2 * k.modes; ++i) {
@@ -37,7 +52,7 @@ LEVITAS_INLINE void CorrectBody(const LaneModel& k, const std::array<Lane, kMaxA
 LEVITAS_INLINE void Magnets(const LaneModel& k, const Moment& m,
                             const std::array<Lane, 2 * kMaxModes>& q_mid, LaneState& s) noexcept {
   for (std::size_t a = 0; a < k.axes; ++a) {
-    const LaneModel::Bearing& b = k.bearing[a / 2];
+    const LaneModel::Axis& b = k.axis[a];
     const std::size_t plane = (a % 2) * k.modes;
     Vector x{};
     Vector p{};
@@ -46,11 +61,12 @@ LEVITAS_INLINE void Magnets(const LaneModel& k, const Moment& m,
       p += b.sensor[i] * s.q[plane + i].value;
     }
     const Vector mean = s.coil[a].value * b.coil_mean + s.add_coil_mean[a].value;
-    const Vector f =
-        m.force_per_a[a] * mean + m.force_per_m[a] * x + s.force[a].value + s.add_force[a].value;
+    const Vector f = (m.force_per_a[a] + m.added.force_per_a[a]) * mean +
+                     (m.force_per_m[a] + m.added.force_per_m[a]) * x + s.force[a].value +
+                     s.add_force[a].value;
     s.coil[a].value = s.coil[a].value * b.coil_decay + s.add_coil_end[a].value;
     s.sensor[a].value = s.sensor[a].value * b.sensor_decay + b.sensor_start * p;
-    for (std::size_t i = 0; i < k.modes; ++i) s.add_modal[plane + i].value += b.actuator[i] * f;
+    for (std::size_t i = 0; i < k.modes; ++i) s.add_modal[plane + i].value += b.drive[i] * f;
   }
 }
 
@@ -93,7 +109,7 @@ LEVITAS_INLINE void AdvanceBody(const LaneModel& k, const Moment& m, LaneState& 
     s.add_modal[i].value = Vector{};
   }
   for (std::size_t a = 0; a < k.axes; ++a) {
-    const LaneModel::Bearing& b = k.bearing[a / 2];
+    const LaneModel::Axis& b = k.axis[a];
     Vector p{};
     for (std::size_t i = 0; i < k.modes; ++i) {
       p += b.sensor[i] * s.q[(a % 2) * k.modes + i].value;
@@ -107,6 +123,10 @@ LEVITAS_INLINE void AdvanceBody(const LaneModel& k, const Moment& m, LaneState& 
 bool HasAvx2() noexcept {
   static const bool kHas = __builtin_cpu_supports("avx2") != 0;
   return kHas;
+}
+[[gnu::target("avx2")]] void ReadingAvx2(const LaneModel& k, const Moment& m, const LaneState& s,
+                                         std::array<Lane, kMaxAxes>& reading) noexcept {
+  ReadingBody(k, m, s, reading);
 }
 [[gnu::target("avx2")]] void CorrectAvx2(const LaneModel& k, const std::array<Lane, kMaxAxes>& e,
                                          LaneState& s) noexcept {
@@ -136,15 +156,22 @@ LaneModel::Mode ModeOf(double omega_rad_per_s, double damping_ratio, double peri
           f(whole.v0), f(half.xx),  f(half.xv),  f(half.vx),  f(half.vv)};
 }
 
-LaneModel::Bearing BearingOf(const RigView& rig, std::size_t b) {
-  const auto& config = rig.model->config().bearings[b];
-  const auto& model = rig.model->bearings()[b];
-  LaneModel::Bearing n;
+LaneModel::Axis AxisOf(const RigView& rig, std::size_t a, const LinearChange& change) {
+  const auto& config = rig.bearing(a);
+  const auto& model = rig.magnet(a);
+  const LinearChange::Axis& changed = change.axis[a];
+  LaneModel::Axis n;
   for (std::size_t i = 0; i < rig.modes; ++i) {
     n.actuator[i] = static_cast<float>(model.actuator_shape[i]);
+    n.drive[i] =
+        static_cast<float>((model.actuator_shape[i] + changed.drive[i]) * change.mode[i].drive);
     n.sensor[i] = static_cast<float>(model.sensor_shape[i]);
+    n.added_q[i] = static_cast<float>(changed.sensor_q[i]);
+    n.added_v[i] = static_cast<float>(changed.sensor_v[i]);
+    n.adds = n.adds || changed.sensor_q[i] != 0.0 || changed.sensor_v[i] != 0.0;
   }
-  const auto amplifier = amplifier::MakeStep(config.amplifier.bandwidth_hz, 0.0, rig.period_s);
+  const auto amplifier = amplifier::MakeStep(config.amplifier.bandwidth_hz * changed.coil_rate, 0.0,
+                                             rig.period_s);
   n.coil_decay = static_cast<float>(amplifier.decay);
   n.coil_mean =
       static_cast<float>((1.0 - amplifier.decay) * amplifier.tau_s / amplifier.duration_s);
@@ -158,7 +185,8 @@ LaneModel::Bearing BearingOf(const RigView& rig, std::size_t b) {
 
 }  // namespace
 
-LaneModel::LaneModel(const RigView& rig, const analysis::ObserverGain& gain)
+LaneModel::LaneModel(const RigView& rig, const analysis::ObserverGain& gain,
+                     const LinearChange& change)
     : axes(rig.axes), modes(rig.modes) {
   const plant::StateLayout& at = rig.model->layout();
   const auto count = static_cast<Eigen::Index>(axes);
@@ -169,10 +197,23 @@ LaneModel::LaneModel(const RigView& rig, const analysis::ObserverGain& gain)
   correct_sensor = RowMajor(gain.state.middleRows(static_cast<Eigen::Index>(at.sensor), count));
   correct_force = RowMajor(gain.force_n_per_m);
   for (std::size_t i = 0; i < modes; ++i) {
-    mode.push_back(ModeOf(rig.omega_rad_per_s[i], rig.damping_ratio[i], rig.period_s));
+    const LinearChange::Mode& changed = change.mode[i];
+    mode.push_back(ModeOf(rig.omega_rad_per_s[i] * changed.frequency,
+                          rig.damping_ratio[i] * changed.damping / changed.frequency,
+                          rig.period_s));
   }
-  for (std::size_t b = 0; b < axes / 2; ++b) bearing.push_back(BearingOf(rig, b));
-  for (const double g : rig.model->gyroscopic()) gyroscopic.push_back(static_cast<float>(g));
+  for (std::size_t a = 0; a < axes; ++a) axis.push_back(AxisOf(rig, a, change));
+  for (const double g : rig.model->gyroscopic()) {
+    gyroscopic.push_back(static_cast<float>(g * change.gyroscopic));
+  }
+}
+
+void Reading(const LaneModel& model, const Moment& moment, const LaneState& state,
+             std::array<Lane, kMaxAxes>& reading) noexcept {
+#if defined(__x86_64__)
+  if (HasAvx2()) return ReadingAvx2(model, moment, state, reading);
+#endif
+  ReadingBody(model, moment, state, reading);
 }
 
 void Correct(const LaneModel& model, const std::array<Lane, kMaxAxes>& e,

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "analysis/observer.hpp"
-#include "diagnosis/moment.hpp"
+#include "diagnosis/linear_change.hpp"
 #include "diagnosis/rig_view.hpp"
 
 namespace levitas::diagnosis {
@@ -26,14 +26,18 @@ struct alignas(kLanes * sizeof(float)) Lane {
 
 /// Numbers of the rig and its observer, in the order in which a period needs them.
 struct LaneModel {
-  LaneModel(const RigView& rig, const analysis::ObserverGain& gain);
+  LaneModel(const RigView& rig, const analysis::ObserverGain& gain, const LinearChange& change);
 
   struct Mode {
     float xx, xv, vx, vv, x0, v0;
     float half_xx, half_xv, half_vx, half_vv;
   };
-  struct Bearing {
-    std::array<float, kMaxModes> actuator{}, sensor{};
+  struct Axis {
+    std::array<float, kMaxModes> actuator{};  ///< displacement in the magnet
+    std::array<float, kMaxModes> drive{};     ///< what the magnet's force does to the modes
+    std::array<float, kMaxModes> sensor{};
+    std::array<float, kMaxModes> added_q{}, added_v{};  ///< to the reading, past the filter
+    bool adds{};                                        ///< any of them
     float coil_decay{}, coil_mean{};
     float sensor_decay{}, sensor_start{}, sensor_end{};
   };
@@ -41,7 +45,7 @@ struct LaneModel {
   std::vector<float> correct_q, correct_v;                         ///< [state][axis]
   std::vector<float> correct_coil, correct_sensor, correct_force;  ///< [axis][axis]
   std::vector<Mode> mode;
-  std::vector<Bearing> bearing;
+  std::vector<Axis> axis;
   std::vector<float> gyroscopic;  ///< [column][row]
 };
 
@@ -53,6 +57,9 @@ struct LaneState {
   std::array<Lane, kMaxAxes> add_force{}, add_coil_end{}, add_coil_mean{};
 };
 
+/// Derivatives of the readings.
+void Reading(const LaneModel& model, const Moment& moment, const LaneState& state,
+             std::array<Lane, kMaxAxes>& reading) noexcept;
 /// x += K e for the derivatives `e` of the innovations.
 void Correct(const LaneModel& model, const std::array<Lane, kMaxAxes>& e,
              LaneState& state) noexcept;

@@ -88,6 +88,7 @@ class Runner {
     AfterPeriod(row, moment);
     Addition drive;
     for (Active& a : active_) {
+      if (a.term.slope) a.term.slope(moment, a.theta, moment.added);
       if (a.term.drive) a.term.drive(moment, a.theta, drive);
     }
     next_reading_m_ = drive.reading_m;
@@ -106,8 +107,11 @@ class Runner {
       moment.read_q[i] = static_cast<float>(state[at_.q_x + i]);
       moment.read_v[i] = static_cast<float>(state[at_.v_x + i]);
     }
-    moment.angle_rad = row.sample.angle_rad;
-    moment.speed_rad_per_s = static_cast<float>(row.sample.speed_rad_per_s);
+    if (row.sample.speed_rad_per_s != 0.0) {
+      moment.Turn(row.sample.angle_rad, row.sample.speed_rad_per_s, rig_.period_s);
+    } else {
+      moment.angle_rad = row.sample.angle_rad;
+    }
     const auto& wiring = rig_.model->config().actuator_polarity;
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       const double commanded_a = wiring[i] * row.sample.command.control_current_a[i];
@@ -126,11 +130,14 @@ class Runner {
   void AfterPeriod(const analysis::RecordedRow& row, Moment& m) {
     const auto end = observer_->plant().state();
     // The start after the correction, which the observer does not keep.
-    Eigen::VectorXd innovation(static_cast<Eigen::Index>(rig_.axes));
+    constexpr int kMostStates = 4 * static_cast<int>(kMaxModes) + 4 * static_cast<int>(kMaxAxes);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(kMaxAxes), 1> innovation(
+        static_cast<Eigen::Index>(rig_.axes));
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       innovation[static_cast<Eigen::Index>(i)] = static_cast<double>(m.innovation_m[i]);
     }
-    const Eigen::VectorXd correction = *gain_state_ * innovation;
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostStates, 1> correction(gain_state_->rows());
+    correction.noalias() = *gain_state_ * innovation;
     const auto start = [&](std::size_t i) {
       return start_[i] + correction[static_cast<Eigen::Index>(i)];
     };

@@ -8,6 +8,7 @@
 // Thread     plain data.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "common/axes.hpp"
@@ -18,9 +19,18 @@ inline constexpr std::size_t kMaxModes = 16;  ///< per plane
 using AxisFloats = std::array<float, kMaxAxes>;
 using ModalFloats = std::array<float, 2 * kMaxModes>;
 
+/// What terms in force add to the model's slopes at one sample (Term::slope).
+struct AddedSlopes {
+  AxisFloats reading_per_m{};  ///< of a reading by its own displacement
+  AxisFloats force_per_a{};
+  AxisFloats force_per_m{};
+};
+
 struct Moment {
   double time_s{};     ///< of the sample, from the start of the record
   double angle_rad{};  ///< at the sample
+  double cos_angle{}, sin_angle{};          ///< at the sample
+  double cos_mid_angle{}, sin_mid_angle{};  ///< in the middle of the period
   float speed_rad_per_s{};
   bool counts{};              ///< settled, arrived, not kept back
   bool held{};                ///< would count but is kept back
@@ -40,10 +50,22 @@ struct Moment {
   AxisFloats command_before_a{};  ///< acted until the sample
   AxisFloats command_now_a{};     ///< acts from the sample on (whole-sample delay)
   AxisFloats command_next_a{};    ///< acts from the next sample on
+  AddedSlopes added{};
   std::uint32_t record{};
   bool arrived{};   ///< the frame is there; else the model went on without correction
   bool settled{};   ///< levitated, and the observer has settled
   bool starting{};  ///< corrected by the gain for starts
+
+  /// The shaft's angle, what follows from it, and its speed.
+  void Turn(double angle, double speed, double period_s) noexcept {
+    angle_rad = angle;
+    speed_rad_per_s = static_cast<float>(speed);
+    const double mid = angle + 0.5 * period_s * speed;
+    cos_angle = std::cos(angle);
+    sin_angle = std::sin(angle);
+    cos_mid_angle = std::cos(mid);
+    sin_mid_angle = std::sin(mid);
+  }
 };
 
 }  // namespace levitas::diagnosis

@@ -25,6 +25,12 @@ double Refiner::Penalty(const std::vector<double>& theta,
   return away.dot(covariance.llt().solve(away));
 }
 
+double Refiner::Promised(const LinearProblem& problem,
+                         const std::vector<Hypothesis>& causes) const {
+  const auto line = Evidence(problem, terms_, causes).Solve();
+  return 0.5 * (line.squared_sum + line.penalty);
+}
+
 double Refiner::SetEvidence(const LinearProblem& problem, const std::vector<Term>& terms,
                             const std::vector<Hypothesis>& causes) {
   const auto fit = Evidence(problem, terms, causes).Solve();
@@ -73,18 +79,24 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
     return std::any_of(h.terms.begin(), h.terms.end(),
                        [this](std::size_t i) { return !terms_[i].linear; });
   });
-  if (best.ok && bends) {
+  // Slopes from further back stop before the end of the way where the model bends: as long as they
+  // promise what its runs do not keep, new ones are taken.
+  constexpr double kKept = 1.0;  // [nat]
+  constexpr int kMostRenewals = 2;
+  for (int renewal = 0; best.ok && renewal < kMostRenewals; ++renewal) {
+    const bool first = renewal == 0 && bends;
+    if (!first && best.cost - Promised(best.problem, causes) < kKept) break;
     const View here = search_.Linearise(std::move(best.runs), best.theta, view.whitener,
                                         search_.NuisancesAnd(causes));
     best.problem = here.problem;
     Descend(here, causes, search_.Solve(here.problem, causes), passes, best);
+    if (best.runs.empty()) break;  // no step helped
   }
   best.runs.clear();
   if (!best.ok) return best;
   // What the model does, not what a straight line from it promises: that may lead where no rig is.
-  const auto line = Evidence(best.problem, terms_, causes).Solve();
-  const double promised = 0.5 * (line.squared_sum + line.penalty);
-  best.evidence = SetEvidence(best.problem, terms_, causes) + promised - best.cost;
+  best.evidence =
+      SetEvidence(best.problem, terms_, causes) + Promised(best.problem, causes) - best.cost;
   if (!std::isfinite(best.evidence)) best.ok = false;
   return best;
 }

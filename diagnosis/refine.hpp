@@ -52,6 +52,9 @@ class Refiner {
   /// Improves on `best` from theta on, as long as it goes.
   void Descend(const View& view, const std::vector<Hypothesis>& causes, std::vector<double> theta,
                int passes, Refined& best) const;
+  /// [nat] cost at the foot of the linearisation.
+  [[nodiscard]] double Promised(const LinearProblem& problem,
+                                const std::vector<Hypothesis>& causes) const;
   [[nodiscard]] double Penalty(const std::vector<double>& theta,
                                const std::vector<Hypothesis>& causes) const;
 

@@ -28,6 +28,14 @@ void Subtract(Addition& from, const Addition& what, std::size_t axes, std::size_
 
 }  // namespace
 
+LinearChange ChangeOf(const std::vector<Term>& terms, const std::vector<double>& theta) {
+  LinearChange change;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (terms[i].change && theta[i] != 0.0) terms[i].change(theta[i], change);
+  }
+  return change;
+}
+
 SensitivityBlock::SensitivityBlock(LanePair models, const std::vector<Term>& terms,
                                    const std::vector<double>& theta,
                                    std::vector<std::size_t> chosen)
@@ -70,8 +78,9 @@ void SensitivityBlock::Read(const Moment& m, float* derivative_m) noexcept {
     }
   }
   std::array<Lane, kMaxAxes> e{};
+  Reading(*model_, m, state_, e);
   for (std::size_t a = 0; a < model_->axes; ++a) {
-    e[a].value = -(state_.sensor[a].value + reading_[a].value);
+    e[a].value = -(e[a].value + reading_[a].value);
     if (!m.arrived) e[a] = Lane{};
     for (std::size_t l = 0; l < kLanes; ++l) derivative_m[a * kLanes + l] = e[a].value[l];
     reading_[a] = Lane{};

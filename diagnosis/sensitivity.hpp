@@ -3,7 +3,8 @@
 //
 // Equation   dx[n+1] = A(n) (dx[n] + K de[n]) + E dd[n] + B da,  de[n] = -(C dx[n] + dr): the model
 //            linearised about its own trajectory: true slopes of the magnet force at every sample,
-//            gyroscopic coupling at the speed of the sample, exact modal steps. What a term adds
+//            gyroscopic coupling at the speed of the sample, exact modal steps, and what the terms
+//            in force at theta change of these (linear_change.hpp). What a term adds
 //            (da, dr) is its addition at theta + h minus that at theta, over h; for linear terms
 //            that at 1.
 // Cost       lanes.hpp, and what the terms themselves cost.
@@ -19,11 +20,15 @@ namespace levitas::diagnosis {
 
 /// The rig with the observer's steady gain, and with that for starts.
 struct LanePair {
-  LanePair(const RigView& rig, const ObserverPair& gains)
-      : steady(std::make_shared<const LaneModel>(rig, *gains.steady)),
-        start(std::make_shared<const LaneModel>(rig, *gains.start)) {}
+  LanePair(const RigView& rig, const ObserverPair& gains, const LinearChange& change)
+      : steady(std::make_shared<const LaneModel>(rig, *gains.steady, change)),
+        start(std::make_shared<const LaneModel>(rig, *gains.start, change)) {}
   std::shared_ptr<const LaneModel> steady, start;
 };
+
+/// What all terms do to the linear model at theta.
+[[nodiscard]] LinearChange ChangeOf(const std::vector<Term>& terms,
+                                    const std::vector<double>& theta);
 
 /// A block of up to kLanes terms propagated together.
 class SensitivityBlock {

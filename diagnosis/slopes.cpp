@@ -139,11 +139,12 @@ Slopes::Slopes(const RigView& rig, const std::vector<Trajectory>& runs,
   };
   std::vector<Task> tasks;
   std::vector<LanePair> models;
+  const LinearChange change = ChangeOf(terms, theta);
   parts_.reserve(runs.size());
   models.reserve(runs.size());
   for (const Trajectory& run : runs) {
     Part& part = parts_.emplace_back();
-    models.emplace_back(rig, run.gains);
+    models.emplace_back(rig, run.gains, change);
     part.acting = Acting(run, terms, chosen);
     part.slope.resize(static_cast<Index>(rig.axes * run.moments.size()),
                       static_cast<Index>(part.acting.size()));

@@ -39,6 +39,8 @@ struct TermName {
   std::string effect, place, parameter, unit;
 };
 
+struct LinearChange;
+
 using Adds = std::function<void(const Moment&, double theta, Addition&)>;
 
 struct Term {
@@ -58,6 +60,11 @@ struct Term {
   Adds drive;
   /// At the sample of the moment.
   Adds read;
+
+  /// What it does to the linear model about which derivatives are taken: throughout, and at one
+  /// sample. Empty: too little to matter.
+  std::function<void(double theta, LinearChange&)> change;
+  std::function<void(const Moment&, double theta, AddedSlopes&)> slope;
 
   /// theta in units in which every term is of order one.
   [[nodiscard]] double scale() const noexcept { return wide > 0.0 ? wide : tolerance; }

@@ -30,25 +30,45 @@ double Saturated(double coil_a, double knee_a) {
   return coil_a / std::sqrt(std::sqrt(1.0 + ratio * ratio * ratio * ratio));
 }
 
+/// Force of an axis whose iron saturates.
+double SaturatedForce(const magnet::Magnet& magnet, double bias_a, double control_a, double x_m,
+                      double knee_a) {
+  const double towards = Saturated(bias_a + control_a, knee_a) / (magnet.gap_m - x_m);
+  const double away = Saturated(bias_a - control_a, knee_a) / (magnet.gap_m + x_m);
+  return magnet.force_constant_n_m2_per_a2 * (towards * towards - away * away);
+}
+
 /// One member of a family of knees; theta = 1 is the whole law.
 Term Saturation(const RigView& rig, double knee_share) {
   Term term =
       MakeTerm({"magnetic_saturation", fmt::format("knee {:.2f} i0", knee_share), "share", "1"},
                0.0, 0.7, [&rig, knee_share](const Moment& m, double theta, Addition& add) {
                  for (std::size_t a = 0; a < rig.axes; ++a) {
-                   const auto& magnet = rig.magnet(a).magnet;
                    const double bias = rig.bias_a(a);
-                   const double x = static_cast<double>(m.actuator_m[a]);
-                   const double i = MidCoil(m, a);
-                   const double knee = knee_share * bias;
-                   const double towards = Saturated(bias + i, knee) / (magnet.gap_m - x);
-                   const double away = Saturated(bias - i, knee) / (magnet.gap_m + x);
                    const double force =
-                       magnet.force_constant_n_m2_per_a2 * (towards * towards - away * away);
+                       SaturatedForce(rig.magnet(a).magnet, bias, MidCoil(m, a),
+                                      static_cast<double>(m.actuator_m[a]), knee_share * bias);
                    add.force_n[a] += theta * (force - static_cast<double>(m.force_n[a]));
                  }
                });
   term.positive = true;
+  term.slope = [&rig, knee_share](const Moment& m, double theta, AddedSlopes& added) {
+    constexpr double kStepA = 1e-4;
+    constexpr double kStepM = 1e-8;
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      const double bias = rig.bias_a(a);
+      const auto force = [&](double control_a, double x_m) {
+        return SaturatedForce(rig.magnet(a).magnet, bias, control_a, x_m, knee_share * bias);
+      };
+      const double i = MidCoil(m, a);
+      const double x = static_cast<double>(m.actuator_m[a]);
+      const double per_a = (force(i + kStepA, x) - force(i, x)) / kStepA;
+      const double per_m = (force(i, x + kStepM) - force(i, x)) / kStepM;
+      const auto share = static_cast<float>(theta);
+      added.force_per_a[a] += share * (static_cast<float>(per_a) - m.force_per_a[a]);
+      added.force_per_m[a] += share * (static_cast<float>(per_m) - m.force_per_m[a]);
+    }
+  };
   return term;
 }
 
@@ -70,12 +90,18 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
                          });
     gain.linear = false;
     gain.step = 0.02;
+    gain.slope = [a](const Moment& m, double theta, AddedSlopes& added) {
+      added.force_per_a[a] += static_cast<float>(theta) * m.force_per_a[a];
+    };
     terms.push_back(std::move(gain));
     terms.push_back(MakeTerm({"displacement_stiffness", channel, "ratio", "1"},
                              tolerances.displacement_stiffness, 0.15,
                              [=](const Moment& m, double theta, Addition& add) {
                                add.force_n[a] += theta * ForceWithoutControl(magnet, bias_a, m, a);
                              }));
+    terms.back().slope = [a](const Moment& m, double theta, AddedSlopes& added) {
+      added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
+    };
     terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, kAlike, 0.1,
                              [=](const Moment& m, double theta, Addition& add) {
                                const double x = static_cast<double>(m.actuator_m[a]);

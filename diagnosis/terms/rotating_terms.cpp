@@ -25,13 +25,13 @@ void AddUnbalance(const RigView& rig, const Tolerances& t, std::vector<Term>& te
       terms.push_back(
           MakeTerm({"unbalance", fmt::format("z {:.1f} mm", mass.z_m * 1e3), kParts[part], "kg m"},
                    t.unbalance_kg_m, 20e-6,
-                   [=, modes = rig.modes, period_s = rig.period_s](const Moment& m, double theta,
-                                                                   Addition& add) {
+                   [=, modes = rig.modes](const Moment& m, double theta, Addition& add) {
                      const double speed = static_cast<double>(m.speed_rad_per_s);
                      if (speed == 0.0) return;
-                     const double angle = MidAngle(m, period_s) + part * kQuarterTurn;
-                     const double cosine = theta * speed * speed * std::cos(angle);
-                     const double sine = theta * speed * speed * std::sin(angle);
+                     // The sine part is a quarter turn ahead.
+                     const double force = theta * speed * speed;
+                     const double cosine = force * (part == 0 ? m.cos_mid_angle : -m.sin_mid_angle);
+                     const double sine = force * (part == 0 ? m.sin_mid_angle : m.cos_mid_angle);
                      for (std::size_t i = 0; i < modes; ++i) {
                        add.Modal(i, shape[i] * cosine);
                        add.Modal(modes + i, shape[i] * sine);
@@ -51,6 +51,10 @@ void AddRunout(const RigView& rig, const Tolerances& t, std::vector<Term>& terms
                      order == 1 ? t.sensor_runout_m : 0.0, 3e-6, nullptr);
         term.read = [=](const Moment& m, double theta, Addition& add) {
           if (m.speed_rad_per_s == 0.0F) return;
+          if (order == 1) {
+            add.reading_m[a] += theta * (part == 0 ? m.cos_angle : m.sin_angle);
+            return;
+          }
           const double angle = order * m.angle_rad;
           add.reading_m[a] += theta * (part == 0 ? std::cos(angle) : std::sin(angle));
         };

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "diagnosis/linear_change.hpp"
 #include "diagnosis/terms/terms.hpp"
 
 namespace levitas::diagnosis {
@@ -30,12 +31,18 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
                            }));
   terms.back().linear = false;
   terms.back().step = 1e-3;
+  terms.back().change = [mode](double theta, LinearChange& change) {
+    change.mode[mode].frequency *= 1.0 + theta;
+  };
   terms.push_back(MakeTerm({"modal_damping", place, "ratio", "1"}, t.modal_damping, 3.0,
                            [=](const Moment& m, double theta, Addition& add) {
                              const double gone = -2.0 * z * w * theta;
                              add.Modal(mode, gone * static_cast<double>(m.v[mode]));
                              add.Modal(other, gone * static_cast<double>(m.v[other]));
                            }));
+  terms.back().change = [mode](double theta, LinearChange& change) {
+    change.mode[mode].damping += theta;
+  };
   const double size = Rms(rig, mode);
   for (std::size_t b = 0; b < rig.axes / 2; ++b) {
     terms.push_back(
@@ -45,12 +52,18 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
                    add.Modal(mode, shape * static_cast<double>(m.force_n[2 * b]));
                    add.Modal(other, shape * static_cast<double>(m.force_n[2 * b + 1]));
                  }));
+    terms.back().change = [=](double theta, LinearChange& change) {
+      for (const std::size_t a : {2 * b, 2 * b + 1}) change.axis[a].drive[mode] += theta * size;
+    };
     Term sensor =
         MakeTerm({"", fmt::format("sensor {}, {}", rig.numbers.bearings[b], place), "shape", "1"},
                  t.modal_shape, 0.0, nullptr);
     sensor.read = [=](const Moment& m, double theta, Addition& add) {
       add.reading_m[2 * b] += theta * size * static_cast<double>(m.read_q[mode]);
       add.reading_m[2 * b + 1] += theta * size * static_cast<double>(m.read_q[other]);
+    };
+    sensor.change = [=](double theta, LinearChange& change) {
+      for (const std::size_t a : {2 * b, 2 * b + 1}) change.axis[a].sensor_q[mode] += theta * size;
     };
     terms.push_back(std::move(sensor));
   }
@@ -100,6 +113,9 @@ std::vector<Term> RotorTerms(const RigView& rig, const Tolerances& t) {
                            }));
   terms.back().linear = false;
   terms.back().step = 1e-3;
+  terms.back().change = [](double theta, LinearChange& change) {
+    for (std::size_t i = 0; i < 2; ++i) change.mode[i].drive /= 1.0 + theta;
+  };
   terms.push_back(MakeTerm({"gyroscopic_inertia", "rotor", "ratio", "1"}, t.gyroscopic_inertia, 0.3,
                            [&rig, modes](const Moment& m, double theta, Addition& add) {
                              const double* g = rig.model->gyroscopic().data();
@@ -115,6 +131,9 @@ std::vector<Term> RotorTerms(const RigView& rig, const Tolerances& t) {
                              }
                            }));
   terms.back().rotating = true;
+  terms.back().change = [](double theta, LinearChange& change) {
+    change.gyroscopic *= 1.0 + theta;
+  };
   for (const auto& disc : rig.model->config().rotor.discs) {
     terms.push_back(InternalDamping(rig, disc.z_m));
   }

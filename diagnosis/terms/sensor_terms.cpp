@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/linear_change.hpp"
 #include "diagnosis/terms/terms.hpp"
 
 namespace levitas::diagnosis {
@@ -22,6 +23,9 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
                               [a](const Moment& m, double theta, Addition& add) {
                                 add.reading_m[a] += theta * static_cast<double>(m.reading_m[a]);
                               }));
+  terms.back().slope = [a](const Moment&, double theta, AddedSlopes& added) {
+    added.reading_per_m[a] += static_cast<float>(theta);
+  };
   terms.push_back(
       MakeReading({"sensor_offset", channel, "offset_m", "m"}, t.sensor_offset_m, 50e-6,
                   [a](const Moment&, double theta, Addition& add) { add.reading_m[a] += theta; }));
@@ -30,12 +34,18 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
                                 const double y = static_cast<double>(m.reading_m[a]);
                                 add.reading_m[a] += theta * y * y;
                               }));
+  terms.back().slope = [a](const Moment& m, double theta, AddedSlopes& added) {
+    added.reading_per_m[a] += static_cast<float>(2.0 * theta) * m.reading_m[a];
+  };
   terms.push_back(MakeReading({"sensor_nonlinearity", channel, "a3", "1/m^2"}, 0.0,
                               1.0 / (kReferenceM * kReferenceM),
                               [a](const Moment& m, double theta, Addition& add) {
                                 const double y = static_cast<double>(m.reading_m[a]);
                                 add.reading_m[a] += theta * y * y * y;
                               }));
+  terms.back().slope = [a](const Moment& m, double theta, AddedSlopes& added) {
+    added.reading_per_m[a] += static_cast<float>(3.0 * theta) * m.reading_m[a] * m.reading_m[a];
+  };
   const double lag_s = 1.0 / (2.0 * std::numbers::pi * rig.bearing(a).sensor.bandwidth_hz);
   const auto shape = rig.magnet(a).sensor_shape;
   const std::size_t at = (a % 2) * rig.modes;
@@ -47,6 +57,12 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
                               }));
   terms.back().linear = false;
   terms.back().step = 0.05;
+  terms.back().change = [a, lag_s, shape](double theta, LinearChange& change) {
+    const double later_s = lag_s * (1.0 - 1.0 / std::max(0.05, 1.0 + theta));
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+      change.axis[a].sensor_v[i] += later_s * shape[i];
+    }
+  };
 }
 
 }  // namespace
@@ -64,6 +80,13 @@ std::vector<Term> SensorTerms(const RigView& rig, const Tolerances& t) {
                       add.reading_m[2 * b] += theta * Dot(slope, m.read_q.data());
                       add.reading_m[2 * b + 1] += theta * Dot(slope, m.read_q.data() + modes);
                     }));
+    terms.back().change = [b, slope](double theta, LinearChange& change) {
+      for (std::size_t i = 0; i < slope.size(); ++i) {
+        for (const std::size_t a : {2 * b, 2 * b + 1}) {
+          change.axis[a].sensor_q[i] += theta * slope[i];
+        }
+      }
+    };
     terms.push_back(MakeReading({"axis_rotation", "sensor " + bearing, "angle_rad", "rad"}, 0.0,
                                 0.05, [b](const Moment& m, double theta, Addition& add) {
                                   const double x = static_cast<double>(m.reading_m[2 * b]);

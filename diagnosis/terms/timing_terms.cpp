@@ -10,7 +10,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "diagnosis/linear_change.hpp"
 #include "diagnosis/terms/terms.hpp"
 
 namespace levitas::diagnosis {
@@ -31,24 +33,42 @@ Loop LoopOf(const RigView& rig, std::size_t axis) {
   return {2.0 * std::numbers::pi * rig.bearing(axis).amplifier.bandwidth_hz, rig.period_s};
 }
 
+/// A command that acts `late` periods later or `early` ones before, as shares of its step.
+struct Shifted {
+  double late_end{}, late_mean{}, early_end{}, early_mean{};
+};
+
+Shifted Shift(const Loop& loop, double theta) {
+  const double late = std::clamp(theta, 0.0, 1.0);
+  const double early = std::clamp(-theta, 0.0, 1.0);
+  const double wt = loop.rate_per_s * loop.period_s;
+  const double rise = 1.0 - std::exp(-wt * late);
+  const double rise_early = 1.0 - std::exp(-wt * early);
+  Shifted s;
+  // Late: for `late` periods the old command still acts. Early: the next one begins before.
+  s.late_end = rise * std::exp(-wt * (1.0 - late));
+  s.late_mean = late - rise / wt + rise * (1.0 - std::exp(-wt * (1.0 - late))) / wt;
+  s.early_end = rise_early;
+  s.early_mean = early - rise_early / wt;
+  return s;
+}
+
 Term Delay(const RigView& rig, double tolerance) {
   Term term = MakeTerm({"extra_delay", "all axes", "samples", "1"}, tolerance, 0.5, nullptr);
-  term.drive = [&rig](const Moment& m, double theta, Addition& add) {
-    for (std::size_t a = 0; a < rig.axes; ++a) {
-      const Loop loop = LoopOf(rig, a);
-      const double late = std::clamp(theta, 0.0, 1.0);
-      const double early = std::clamp(-theta, 0.0, 1.0);
-      // Late: for `late` periods the old command still acts. Early: the next one begins before.
-      const double late_step = static_cast<double>(m.command_before_a[a] - m.command_now_a[a]);
-      const double early_step = static_cast<double>(m.command_next_a[a] - m.command_now_a[a]);
-      const double wt = loop.rate_per_s * loop.period_s;
-      const double rise = 1.0 - std::exp(-wt * late);
-      add.coil_end_a[a] += late_step * rise * std::exp(-wt * (1.0 - late));
-      add.coil_mean_a[a] +=
-          late_step * (late - rise / wt + rise * (1.0 - std::exp(-wt * (1.0 - late))) / wt);
-      const double rise_early = 1.0 - std::exp(-wt * early);
-      add.coil_end_a[a] += early_step * rise_early;
-      add.coil_mean_a[a] += early_step * (early - rise_early / wt);
+  std::vector<Loop> loops;
+  loops.reserve(rig.axes);
+  for (std::size_t a = 0; a < rig.axes; ++a) loops.push_back(LoopOf(rig, a));
+  term.drive = [loops, of = 0.0, shifted = std::vector<Shifted>(rig.axes)](
+                   const Moment& m, double theta, Addition& add) mutable {
+    if (theta != of) {
+      of = theta;
+      for (std::size_t a = 0; a < loops.size(); ++a) shifted[a] = Shift(loops[a], theta);
+    }
+    for (std::size_t a = 0; a < loops.size(); ++a) {
+      const double late_a = static_cast<double>(m.command_before_a[a] - m.command_now_a[a]);
+      const double early_a = static_cast<double>(m.command_next_a[a] - m.command_now_a[a]);
+      add.coil_end_a[a] += late_a * shifted[a].late_end + early_a * shifted[a].early_end;
+      add.coil_mean_a[a] += late_a * shifted[a].late_mean + early_a * shifted[a].early_mean;
     }
   };
   term.linear = false;
@@ -61,12 +81,20 @@ Term Bandwidth(const RigView& rig, std::size_t a, double tolerance) {
                        0.3, nullptr);
   term.linear = false;
   term.step = 0.02;
-  term.drive = [loop = LoopOf(rig, a), a](const Moment& m, double theta, Addition& add) {
-    const double ratio = std::max(0.05, 1.0 + theta);
+  term.drive = [loop = LoopOf(rig, a), a, of = 0.0, end = 0.0, mean = 0.0](
+                   const Moment& m, double theta, Addition& add) mutable {
+    if (theta != of) {
+      of = theta;
+      const Loop other{loop.rate_per_s * std::max(0.05, 1.0 + theta), loop.period_s};
+      end = other.Decay() - loop.Decay();
+      mean = other.Mean() - loop.Mean();
+    }
     const double away = static_cast<double>(m.coil_start_a[a] - m.command_now_a[a]);
-    const Loop other{loop.rate_per_s * ratio, loop.period_s};
-    add.coil_end_a[a] += away * (other.Decay() - loop.Decay());
-    add.coil_mean_a[a] += away * (other.Mean() - loop.Mean());
+    add.coil_end_a[a] += away * end;
+    add.coil_mean_a[a] += away * mean;
+  };
+  term.change = [a](double theta, LinearChange& change) {
+    change.axis[a].coil_rate *= std::max(0.05, 1.0 + theta);
   };
   return term;
 }

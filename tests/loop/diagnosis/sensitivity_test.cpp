@@ -36,11 +36,16 @@ class Sensitivity : public ::testing::Test {
 
   /// |propagated - difference| / |difference| over all axes and the samples that count.
   [[nodiscard]] double Disagreement(const std::string& effect, double step) const {
+    return Disagreement(effect, step, std::vector<double>(terms_.size(), 0.0));
+  }
+
+  /// The same about a rig that differs from its file by theta.
+  [[nodiscard]] double Disagreement(const std::string& effect, double step,
+                                    std::vector<double> theta) const {
     const std::size_t at = Find(effect);
-    std::vector<double> theta(terms_.size(), 0.0);
     const Trajectory base = Run(theta);
-    SensitivityBlock block(LanePair(view_, base.gains), terms_, theta, {at});
-    theta[at] = step;
+    SensitivityBlock block(LanePair(view_, base.gains, ChangeOf(terms_, theta)), terms_, theta, {at});
+    theta[at] += step;
     const Trajectory moved = Run(theta);
     std::array<float, kMaxAxes * kLanes> d{};
     double apart = 0.0;
@@ -83,6 +88,40 @@ TEST_F(Sensitivity, OfUnbalanceIsTheDifferenceOfTheModel) {
 TEST_F(Sensitivity, OfAModesFrequencyIsTheDifferenceOfTheModel) {
   EXPECT_LT(Disagreement("modal_frequency", 0.003), 0.05);
 }
+
+/// A rig off by its tolerances: one standard deviation of each, up and down in turn.
+class SensitivityAway : public Sensitivity {
+ protected:
+  [[nodiscard]] std::vector<double> Away(const std::string& without = "") const {
+    std::vector<double> theta(terms_.size(), 0.0);
+    double sign = 1.0;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (!terms_[i].nuisance()) continue;
+      sign = -sign;
+      if (terms_[i].effect != without) theta[i] = sign * terms_[i].tolerance;
+    }
+    return theta;
+  }
+};
+
+// A mode that is a per cent off rings at another frequency than the file's: about the file's mode
+// the derivative of its frequency is out of phase with what the model does, by more than itself.
+TEST_F(SensitivityAway, OfAModesFrequencyIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement("modal_frequency", 0.001, Away()), 0.1);
+}
+TEST_F(SensitivityAway, OfAMagnetsGainIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement("current_gain", 0.01, Away()), 0.1);
+}
+TEST_F(SensitivityAway, OfASensorsGainIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement("sensor_gain", 0.01, Away()), 0.1);
+}
+TEST_F(SensitivityAway, OfUnbalanceIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement("unbalance", 5e-6, Away()), 0.1);
+}
+TEST_F(SensitivityAway, OfAModesDampingIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement("modal_damping", 0.1, Away()), 0.1);
+}
+
 TEST_F(Sensitivity, OfADelayIsTheDifferenceOfTheModel) {
   // Acts through the steps of the currents, which the model takes in one piece: 4 % measured once.
   EXPECT_LT(Disagreement("extra_delay", 0.05), 0.1);
@@ -91,7 +130,7 @@ TEST_F(Sensitivity, OfADelayIsTheDifferenceOfTheModel) {
 TEST_F(Sensitivity, OfWhatDoesNotDependOnOtherTermsInTheBlockIsTheSameAlone) {
   const std::vector<double> theta(terms_.size(), 0.0);
   const Trajectory run = Run(theta);
-  const LanePair model(view_, run.gains);
+  const LanePair model(view_, run.gains, LinearChange{});
   const std::size_t gain = Find("current_gain");
   const std::size_t mass = Find("unbalance");
   SensitivityBlock alone(model, terms_, theta, {mass});

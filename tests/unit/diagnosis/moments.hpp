@@ -32,8 +32,7 @@ inline Moment Drawn(Random& random, double speed_rad_per_s) {
   };
   Moment m;
   m.time_s = 10.0 * random.Uniform();
-  m.angle_rad = 6.28 * random.Uniform();
-  m.speed_rad_per_s = static_cast<float>(speed_rad_per_s);
+  m.Turn(6.28 * random.Uniform(), speed_rad_per_s, View().period_s);
   for (std::size_t i = 0; i < 2 * kMaxModes; ++i) {
     m.q[i] = m.read_q[i] = draw(20e-6);
     m.v[i] = m.read_v[i] = draw(5e-3);

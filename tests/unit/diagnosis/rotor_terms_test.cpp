@@ -21,8 +21,7 @@ std::complex<double> Modal(const Addition& add, std::size_t mode) {
 
 Moment Turning(double angle_rad) {
   Moment m;
-  m.speed_rad_per_s = static_cast<float>(kSpeedRadPerS);
-  m.angle_rad = angle_rad;
+  m.Turn(angle_rad, kSpeedRadPerS, View().period_s);
   return m;
 }
 
@@ -197,10 +196,11 @@ TEST_F(RotorTermsTest, ACrackSoftensOnceOverATurnAndNeverStiffens) {
   m.q[2] = 1e-5F;
   const auto mean = Modal(Of("breathing_crack", "z 260 mm", "mean", m, 0.05), 2).real();
   EXPECT_GT(mean, 0.0);  // along the deflection: the shaft's own restoring force is -w^2 q
-  m.angle_rad = -0.5 * View().period_s * kSpeedRadPerS;
+  const double opposite_rad = -0.5 * View().period_s * kSpeedRadPerS;
+  m.Turn(opposite_rad, kSpeedRadPerS, View().period_s);
   EXPECT_NEAR(Modal(Of("breathing_crack", "z 260 mm", "cosine", m, 0.05), 2).real(), mean,
               1e-6 * mean);
-  m.angle_rad += std::numbers::pi;
+  m.Turn(opposite_rad + std::numbers::pi, kSpeedRadPerS, View().period_s);
   EXPECT_NEAR(Modal(Of("breathing_crack", "z 260 mm", "cosine", m, 0.05), 2).real(), -mean,
               1e-6 * mean);
 }
