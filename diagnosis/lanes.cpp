@@ -170,8 +170,8 @@ LaneModel::Axis AxisOf(const RigView& rig, std::size_t a, const LinearChange& ch
     n.added_v[i] = static_cast<float>(changed.sensor_v[i]);
     n.adds = n.adds || changed.sensor_q[i] != 0.0 || changed.sensor_v[i] != 0.0;
   }
-  const auto amplifier = amplifier::MakeStep(config.amplifier.bandwidth_hz * changed.coil_rate, 0.0,
-                                             rig.period_s);
+  const auto amplifier =
+      amplifier::MakeStep(config.amplifier.bandwidth_hz * changed.coil_rate, 0.0, rig.period_s);
   n.coil_decay = static_cast<float>(amplifier.decay);
   n.coil_mean =
       static_cast<float>((1.0 - amplifier.decay) * amplifier.tau_s / amplifier.duration_s);

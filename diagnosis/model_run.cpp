@@ -107,11 +107,7 @@ class Runner {
       moment.read_q[i] = static_cast<float>(state[at_.q_x + i]);
       moment.read_v[i] = static_cast<float>(state[at_.v_x + i]);
     }
-    if (row.sample.speed_rad_per_s != 0.0) {
-      moment.Turn(row.sample.angle_rad, row.sample.speed_rad_per_s, rig_.period_s);
-    } else {
-      moment.angle_rad = row.sample.angle_rad;
-    }
+    moment.Turn(row.sample.angle_rad, row.sample.speed_rad_per_s, rig_.period_s);
     const auto& wiring = rig_.model->config().actuator_polarity;
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       const double commanded_a = wiring[i] * row.sample.command.control_current_a[i];

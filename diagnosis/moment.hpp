@@ -27,8 +27,8 @@ struct AddedSlopes {
 };
 
 struct Moment {
-  double time_s{};     ///< of the sample, from the start of the record
-  double angle_rad{};  ///< at the sample
+  double time_s{};                          ///< of the sample, from the start of the record
+  double angle_rad{};                       ///< at the sample
   double cos_angle{}, sin_angle{};          ///< at the sample
   double cos_mid_angle{}, sin_mid_angle{};  ///< in the middle of the period
   float speed_rad_per_s{};

@@ -49,14 +49,15 @@ void AddRunout(const RigView& rig, const Tolerances& t, std::vector<Term>& terms
             MakeTerm({"sensor_runout", fmt::format("order {}, {}", order, rig.numbers.channels[a]),
                       kParts[part], "m"},
                      order == 1 ? t.sensor_runout_m : 0.0, 3e-6, nullptr);
+        // It is on the shaft: the sensor's filter sees it, H = 1/(1 + j order W lag), and at rest it
+        // stays as an offset.
+        const double lag_s = SensorLag(rig, a);
         term.read = [=](const Moment& m, double theta, Addition& add) {
-          if (m.speed_rad_per_s == 0.0F) return;
-          if (order == 1) {
-            add.reading_m[a] += theta * (part == 0 ? m.cos_angle : m.sin_angle);
-            return;
-          }
-          const double angle = order * m.angle_rad;
-          add.reading_m[a] += theta * (part == 0 ? std::cos(angle) : std::sin(angle));
+          const double late = order * lag_s * static_cast<double>(m.speed_rad_per_s);
+          const double cosine = order == 1 ? m.cos_angle : std::cos(order * m.angle_rad);
+          const double sine = order == 1 ? m.sin_angle : std::sin(order * m.angle_rad);
+          const double seen = part == 0 ? cosine + late * sine : sine - late * cosine;
+          add.reading_m[a] += theta * seen / (1.0 + late * late);
         };
         terms.push_back(std::move(term));
       }
@@ -76,7 +77,6 @@ void AddBow(const RigView& rig, std::vector<Term>& terms) {
                                0.0, 20e-6,
                                [=, modes = rig.modes, period_s = rig.period_s](
                                    const Moment& m, double theta, Addition& add) {
-                                 if (m.speed_rad_per_s == 0.0F) return;
                                  const double angle = MidAngle(m, period_s) + part * kQuarterTurn;
                                  add.Modal(mode, theta * size * std::cos(angle));
                                  add.Modal(modes + mode, theta * size * std::sin(angle));
@@ -150,7 +150,6 @@ void AddStiffness(const RigView& rig, std::vector<Term>& terms) {
     terms.push_back(
         MakeTerm({"shaft_anisotropy", "rotor", kParts[part], "1"}, 0.0, 0.1,
                  [=, &rig, modes = rig.modes](const Moment& m, double theta, Addition& add) {
-                   if (m.speed_rad_per_s == 0.0F) return;
                    const double angle = 2.0 * MidAngle(m, rig.period_s) + part * kQuarterTurn;
                    const double c = theta * std::cos(angle);
                    const double s = theta * std::sin(angle);
@@ -174,7 +173,10 @@ std::vector<Term> RotatingTerms(const RigView& rig, const Tolerances& t) {
   AddBow(rig, terms);
   AddMisalignment(rig, terms);
   AddStiffness(rig, terms);
-  for (Term& term : terms) term.rotating = true;
+  // Run-out, a bow and flats are there at rest as well.
+  for (Term& term : terms) {
+    term.rotating = term.effect == "unbalance" || term.effect == "misalignment";
+  }
   for (const double z_m : {0.22, 0.26, 0.34}) AddCrack(rig, z_m, terms);
   return terms;
 }

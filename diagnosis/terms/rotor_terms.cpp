@@ -58,12 +58,19 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
     Term sensor =
         MakeTerm({"", fmt::format("sensor {}, {}", rig.numbers.bearings[b], place), "shape", "1"},
                  t.modal_shape, 0.0, nullptr);
+    const double lag_s = SensorLag(rig, 2 * b);
     sensor.read = [=](const Moment& m, double theta, Addition& add) {
-      add.reading_m[2 * b] += theta * size * static_cast<double>(m.read_q[mode]);
-      add.reading_m[2 * b + 1] += theta * size * static_cast<double>(m.read_q[other]);
+      const auto seen = [&](std::size_t i) {
+        return static_cast<double>(m.read_q[i]) - lag_s * static_cast<double>(m.read_v[i]);
+      };
+      add.reading_m[2 * b] += theta * size * seen(mode);
+      add.reading_m[2 * b + 1] += theta * size * seen(other);
     };
     sensor.change = [=](double theta, LinearChange& change) {
-      for (const std::size_t a : {2 * b, 2 * b + 1}) change.axis[a].sensor_q[mode] += theta * size;
+      for (const std::size_t a : {2 * b, 2 * b + 1}) {
+        change.axis[a].sensor_q[mode] += theta * size;
+        change.axis[a].sensor_v[mode] -= theta * size * lag_s;
+      }
     };
     terms.push_back(std::move(sensor));
   }

@@ -10,6 +10,16 @@
 namespace levitas::diagnosis {
 namespace {
 
+/// What a shape makes of the motion, behind the sensor's filter: motion is slow beside its lag.
+double Seen(const std::vector<double>& shape, const Moment& m, std::size_t at, double lag_s) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    sum += shape[i] *
+           (static_cast<double>(m.read_q[at + i]) - lag_s * static_cast<double>(m.read_v[at + i]));
+  }
+  return sum;
+}
+
 double Dot(const std::vector<double>& shape, const float* modal) {
   double sum = 0.0;
   for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * static_cast<double>(modal[i]);
@@ -46,7 +56,7 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
   terms.back().slope = [a](const Moment& m, double theta, AddedSlopes& added) {
     added.reading_per_m[a] += static_cast<float>(3.0 * theta) * m.reading_m[a] * m.reading_m[a];
   };
-  const double lag_s = 1.0 / (2.0 * std::numbers::pi * rig.bearing(a).sensor.bandwidth_hz);
+  const double lag_s = SensorLag(rig, a);
   const auto shape = rig.magnet(a).sensor_shape;
   const std::size_t at = (a % 2) * rig.modes;
   terms.push_back(MakeReading({"sensor_bandwidth", channel, "ratio", "1"}, t.sensor_bandwidth, 0.5,
@@ -67,6 +77,10 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
 
 }  // namespace
 
+double SensorLag(const RigView& rig, std::size_t axis) {
+  return 1.0 / (2.0 * std::numbers::pi * rig.bearing(axis).sensor.bandwidth_hz);
+}
+
 std::vector<Term> SensorTerms(const RigView& rig, const Tolerances& t) {
   std::vector<Term> terms;
   for (std::size_t a = 0; a < rig.axes; ++a) AddOneAxis(rig, t, a, terms);
@@ -74,16 +88,18 @@ std::vector<Term> SensorTerms(const RigView& rig, const Tolerances& t) {
     const std::string& bearing = rig.numbers.bearings[b];
     const auto slope = rig.Slope(rig.model->config().bearings[b].sensor_z_m);
     const std::size_t modes = rig.modes;
+    const double lag_s = SensorLag(rig, 2 * b);
     terms.push_back(
         MakeReading({"sensor_position", bearing, "shift_m", "m"}, t.sensor_position_m, 3e-3,
-                    [b, slope, modes](const Moment& m, double theta, Addition& add) {
-                      add.reading_m[2 * b] += theta * Dot(slope, m.read_q.data());
-                      add.reading_m[2 * b + 1] += theta * Dot(slope, m.read_q.data() + modes);
+                    [b, slope, modes, lag_s](const Moment& m, double theta, Addition& add) {
+                      add.reading_m[2 * b] += theta * Seen(slope, m, 0, lag_s);
+                      add.reading_m[2 * b + 1] += theta * Seen(slope, m, modes, lag_s);
                     }));
-    terms.back().change = [b, slope](double theta, LinearChange& change) {
+    terms.back().change = [b, slope, lag_s](double theta, LinearChange& change) {
       for (std::size_t i = 0; i < slope.size(); ++i) {
         for (const std::size_t a : {2 * b, 2 * b + 1}) {
           change.axis[a].sensor_q[i] += theta * slope[i];
+          change.axis[a].sensor_v[i] -= theta * slope[i] * lag_s;
         }
       }
     };

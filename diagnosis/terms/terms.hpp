@@ -35,6 +35,9 @@ struct Tolerances {
   double static_load_n{1.0};    ///< per axis
 };
 
+/// [s] time constant of an axis' sensor.
+[[nodiscard]] double SensorLag(const RigView& rig, std::size_t axis);
+
 [[nodiscard]] std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances);
 [[nodiscard]] std::vector<Term> MagnetMemoryTerms(const RigView& rig);
 [[nodiscard]] std::vector<Term> TimingTerms(const RigView& rig, const Tolerances& tolerances);

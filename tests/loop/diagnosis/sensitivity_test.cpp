@@ -44,7 +44,8 @@ class Sensitivity : public ::testing::Test {
                                     std::vector<double> theta) const {
     const std::size_t at = Find(effect);
     const Trajectory base = Run(theta);
-    SensitivityBlock block(LanePair(view_, base.gains, ChangeOf(terms_, theta)), terms_, theta, {at});
+    SensitivityBlock block(LanePair(view_, base.gains, ChangeOf(terms_, theta)), terms_, theta,
+                           {at});
     theta[at] += step;
     const Trajectory moved = Run(theta);
     std::array<float, kMaxAxes * kLanes> d{};
