@@ -25,6 +25,7 @@ Moment Turning(double angle_rad) {
   return m;
 }
 
+double SensorHz() { return View().bearing(1).sensor.bandwidth_hz; }
 double MidAngle(const Moment& m) { return m.angle_rad + 0.5 * View().period_s * kSpeedRadPerS; }
 
 class RotorTermsTest : public ::testing::Test {
@@ -85,12 +86,23 @@ TEST_F(RotorTermsTest, MisalignmentOfANegativeOrderTurnsBackward) {
   }
 }
 
+TEST_F(RotorTermsTest, RunoutIsThereAtRestAsWell) {
+  Moment still;
+  still.Turn(0.9, 0.0, View().period_s);
+  EXPECT_NEAR(Of("sensor_runout", "order 1, nde_x", "cosine", still, 4e-6).reading_m[2],
+              4e-6 * std::cos(0.9), 1e-12);
+  EXPECT_EQ(Of("unbalance", "z 299.2 mm", "cosine", still, 4e-6).modal[0], 0.0);
+}
+
 TEST_F(RotorTermsTest, RunoutIsReadAtItsOrderOnItsAxisAlone) {
   const Moment m = Turning(0.9);
   const Addition cosine = Of("sensor_runout", "order 2, de_y", "cosine", m, 4e-6);
   const Addition sine = Of("sensor_runout", "order 2, de_y", "sine", m, 4e-6);
-  EXPECT_NEAR(cosine.reading_m[1], 4e-6 * std::cos(1.8), 1e-12);
-  EXPECT_NEAR(sine.reading_m[1], 4e-6 * std::sin(1.8), 1e-12);
+  // A first-order sensor: H = 1/(1 + j 2 W lag).
+  const double late = 2.0 * kSpeedRadPerS / (2.0 * std::numbers::pi * SensorHz());
+  const std::complex<double> seen = std::polar(4e-6, 1.8) / std::complex<double>(1.0, late);
+  EXPECT_NEAR(cosine.reading_m[1], seen.real(), 1e-12);
+  EXPECT_NEAR(sine.reading_m[1], seen.imag(), 1e-12);
   for (const std::size_t a : {0U, 2U, 3U}) EXPECT_EQ(cosine.reading_m[a], 0.0);
   EXPECT_FALSE(cosine.has_modal);
 }
