@@ -90,9 +90,12 @@ TEST_F(Sensitivity, OfAModesFrequencyIsTheDifferenceOfTheModel) {
   EXPECT_LT(Disagreement("modal_frequency", 0.003), 0.05);
 }
 
-/// A rig off by its tolerances: one standard deviation of each, up and down in turn.
+/// A rig off by its tolerances, one standard deviation of each, up and down in turn, under the slow
+/// observer, which leaves the modes to themselves.
 class SensitivityAway : public Sensitivity {
  protected:
+  SensitivityAway() { gains_ = search_.DesignGains({spinning_}, kSlow); }
+
   [[nodiscard]] std::vector<double> Away() const {
     std::vector<double> theta(terms_.size(), 0.0);
     double sign = 1.0;
@@ -106,9 +109,9 @@ class SensitivityAway : public Sensitivity {
 };
 
 // A mode that is a per cent off rings at another frequency than the file's: about the file's mode
-// the derivative of its frequency is out of phase with what the model does, by more than itself.
+// the derivative of its frequency drifts out of phase with what the model does.
 TEST_F(SensitivityAway, OfAModesFrequencyIsTheDifferenceOfTheModel) {
-  EXPECT_GT(Disagreement("modal_frequency", 0.001, Away(), true), 0.5);
+  EXPECT_GT(Disagreement("modal_frequency", 0.001, Away(), true), 0.2);
   EXPECT_LT(Disagreement("modal_frequency", 0.001, Away()), 0.1);
 }
 TEST_F(SensitivityAway, OfAMagnetsGainIsTheDifferenceOfTheModel) {
