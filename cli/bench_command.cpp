@@ -106,6 +106,14 @@ trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
       diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings);
   trials::Outcome outcome = trials::Judge(plan, trial.secret, answer, bench.rig.numbers);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!outcome.truth.empty() && !outcome.Right()) {
+    // What the records hold for an effect that was not named is found by being told of it.
+    settings.only = outcome.truth.front();
+    const auto told = diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings);
+    for (const auto& candidate : told.answer.candidates) {
+      outcome.available_nat = std::max(outcome.available_nat, candidate.score);
+    }
+  }
   return outcome;
 }
 
@@ -113,7 +121,7 @@ void PrintOne(const trials::Outcome& o) {
   fmt::print("{:>6} {:<26}{:<9}-> {:<8}{:<60}{:>7.1f} nat {:.1f} s{}\n", o.seed,
              o.truth.empty() ? (o.outside.empty() ? "(nothing)" : o.outside)
                              : fmt::format("{}", fmt::join(o.truth, "+")),
-             trials::Name(o.size), o.verdict,
+             o.truth.empty() ? "" : trials::Name(o.size()), o.verdict,
              fmt::format("{}{}{}", fmt::join(o.named, ", "), o.ties.empty() ? "" : " | ",
                          fmt::join(o.ties, ", ")),
              o.score_nat, o.seconds, o.Right() ? "" : (o.Partly() ? "   (partly)" : "   WRONG"));
@@ -130,7 +138,8 @@ nlohmann::ordered_json Json(const trials::Outcome& o) {
   return {{"seed", o.seed},
           {"truth", o.truth},
           {"outside", o.outside},
-          {"size", trials::Name(o.size)},
+          {"drawn", o.drawn},
+          {"size", o.truth.empty() ? "" : trials::Name(o.size())},
           {"verdict", o.verdict},
           {"named", o.named},
           {"ties", o.ties},

@@ -39,7 +39,7 @@ class Diagnoser {
         terms_(terms),
         settings_(settings),
         effort_(settings.quick ? kQuick : kThorough),
-        search_(rig, terms),
+        search_(rig, terms, settings.only),
         theta_(search_.Usual()),
         records_(settings.quick ? Spans(records, kQuickRows) : records),
         gains_(search_.DesignGains(records_, kSlow)),
@@ -107,8 +107,8 @@ class Diagnoser {
       Tell(share + 0.02 * static_cast<double>(i), "refitting " + screened[i].effect);
       std::vector<Hypothesis> causes = causes_;
       causes.push_back(search_.hypotheses()[screened[i].hypothesis]);
-      Refined fit =
-          refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_, effort_.passes);
+      Refined fit = refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_,
+                                 effort_.passes, best.ok ? best.evidence : null + enough);
       refitted_.push_back(screened[i]);
       refitted_.back().refitted = true;
       refitted_.back().score =
@@ -166,8 +166,8 @@ class Diagnoser {
           Tell(share, "refitting " + screened[n].effect);
           std::vector<Hypothesis> causes{search_.hypotheses()[screened[n].hypothesis]};
           causes.insert(causes.end(), others.begin(), others.end());
-          Refined fit =
-              refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_, effort_.passes);
+          Refined fit = refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_,
+                                     effort_.passes, whole.evidence - allowance);
           if (!fit.ok || (best.ok && fit.evidence <= best.evidence)) continue;
           best = std::move(fit);
           best_causes = std::move(causes);
@@ -209,7 +209,7 @@ class Diagnoser {
     const std::vector<Hypothesis> rest = Without(causes_, 0);
     const Refined fit =
         refiner_.Fit(rest, rest.empty() ? calibrated_ : search_.Solve(view_.problem, rest), view_,
-                     effort_.passes);
+                     effort_.passes, leader_evidence_ - kDecisive);
     if (!fit.ok || leader_evidence_ - fit.evidence >= kDecisive) return false;
     causes_ = rest;
     theta_ = fit.theta;
@@ -275,8 +275,8 @@ class Diagnoser {
       Tell(0.78 + 0.03 * static_cast<double>(tried), "refitting " + candidate.effect);
       std::vector<Hypothesis> causes{search_.hypotheses()[candidate.hypothesis]};
       causes.insert(causes.end(), others.begin(), others.end());
-      const Refined fit =
-          refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_, effort_.passes);
+      const Refined fit = refiner_.Fit(causes, search_.Solve(view_.problem, causes), view_,
+                                       effort_.passes, best_evidence - kDecisive);
       if (!fit.ok) continue;
       candidate.score = lead + fit.evidence - leader.evidence;
       candidate.refitted = true;

@@ -38,6 +38,7 @@ struct Settings {
   Tolerances tolerances;
   bool quick{};
   std::size_t most_causes{3};
+  std::string only;  ///< the one effect that is looked for; empty: all
   /// Share done and what is being done; may be empty.
   std::function<void(double, const std::string&)> progress;
 };

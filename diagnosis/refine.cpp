@@ -72,7 +72,7 @@ void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
 }
 
 Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
-                     const View& view, int passes) const {
+                     const View& view, int passes, double worth) const {
   Refined best;
   Descend(view, causes, std::move(start), passes, best);
   const bool bends = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
@@ -86,6 +86,7 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   for (int renewal = 0; best.ok && renewal < kMostRenewals; ++renewal) {
     const bool first = renewal == 0 && bends;
     if (!first && best.cost - Promised(best.problem, causes) < kKept) break;
+    if (SetEvidence(best.problem, terms_, causes) < worth) break;
     const View here = search_.Linearise(std::move(best.runs), best.theta, view.whitener,
                                         search_.NuisancesAnd(causes));
     best.problem = here.problem;

@@ -33,9 +33,11 @@ class Refiner {
           const Gains& gains, std::size_t axes)
       : search_(search), terms_(terms), records_(records), gains_(gains), axes_(axes) {}
 
-  /// `view` has everything linearised on the records of this refiner.
+  /// `view` has everything linearised on the records of this refiner. Slopes are not renewed for
+  /// what not even a straight line promises to be `worth`, an evidence.
   [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
-                            const View& view, int passes) const;
+                            const View& view, int passes,
+                            double worth = -std::numeric_limits<double>::infinity()) const;
   /// Nuisances alone, from far away: whitened anew at every pass, since what is not calibrated yet
   /// is no noise and must not be weighted down as if it were.
   [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order,

@@ -25,8 +25,11 @@ double Least(const Term& term) {
 
 }  // namespace
 
-Search::Search(const RigView& rig, const std::vector<Term>& terms)
-    : rig_(rig), terms_(terms), hypotheses_(MakeHypotheses(rig, terms)) {}
+Search::Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only)
+    : rig_(rig), terms_(terms), hypotheses_(MakeHypotheses(rig, terms)) {
+  if (only.empty()) return;
+  std::erase_if(hypotheses_, [&only](const Hypothesis& h) { return h.effect != only; });
+}
 
 Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpeed& speed) const {
   const auto design = [this](const Record& record, const ObserverSpeed& at) {

@@ -4,6 +4,7 @@
 // Thread  blocks the caller, two threads inside.
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
@@ -33,7 +34,8 @@ inline constexpr ObserverSpeed kSlow{0.001, 1e-6};
 
 class Search {
  public:
-  Search(const RigView& rig, const std::vector<Term>& terms);
+  /// `only`: the one effect that is looked for; empty: all.
+  Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only = "");
 
   [[nodiscard]] Gains DesignGains(const std::vector<Record>& records,
                                   const ObserverSpeed& speed) const;

@@ -113,18 +113,18 @@ class Drawer {
   void Bearing() { entry_.bearing = Pick(nominal_.config.bearings.size()); }
 
   void Loop() {
-    if (entry_.id == Id::kExtraDelay) Value(0) = 40e-6 * size_;
+    if (entry_.id == Id::kExtraDelay) Value(0) = 80e-6 * size_;
     if (entry_.id == Id::kDroppedSamples) {
       Value(0) = 0.004 * size_;
       Value(1) = static_cast<double>(1 + Pick(2));
     }
     if (entry_.id == Id::kAmplifierBandwidth) {
       Channels();
-      Value(0) = nominal_.config.bearings[0].amplifier.bandwidth_hz * Ratio(0.45);
+      Value(0) = nominal_.config.bearings[0].amplifier.bandwidth_hz * Ratio(0.8);
     }
     if (entry_.id == Id::kAmplifierSlew) {
       AllChannels();
-      Value(0) = 900.0 / std::sqrt(size_);
+      Value(0) = 3000.0 / std::sqrt(size_);
     }
   }
 
@@ -140,21 +140,21 @@ class Drawer {
         break;
       case Id::kCoilAsymmetry:
         Channels();
-        Value(0) = Ratio(0.2);
+        Value(0) = Ratio(0.45);
         break;
       case Id::kMagneticSaturation:
         AllChannels();
-        Value(0) = 1.5 / std::sqrt(std::sqrt(size_));
+        Value(0) = 2.3 / std::sqrt(std::sqrt(size_));
         Value(1) = Between(3.0, 6.0);
         break;
       case Id::kHysteresis:
         AllChannels();
-        Value(0) = 0.04 * size_;
+        Value(0) = 0.005 * size_;
         Value(1) = Between(0.5, 1.5);
         break;
       case Id::kEddyCurrent:
         Channels();
-        Value(0) = 15e-6 * size_ * size_;
+        Value(0) = 10e-6 * size_ * size_;
         break;
       default:
         Rotation();
@@ -165,23 +165,23 @@ class Drawer {
   void Rotation() {
     Bearing();
     entry_.on_sensor = Pick(2) == 0;
-    Value(0) = Sign() * 0.09 * size_;
+    Value(0) = Sign() * 0.02 * size_;
   }
 
   void Sensor() {
     switch (entry_.id) {
       case Id::kSensorGain:
         Channels();
-        Value(0) = Ratio(0.12);
+        Value(0) = Ratio(0.22);
         break;
       case Id::kSensorOffset:
         OneChannel();
-        Value(0) = Sign() * 60e-6 * size_;
+        Value(0) = Sign() * 85e-6 * size_;
         break;
       case Id::kSensorNonlinearity:
         Channels();
-        Value(0) = Sign() * 6e3 * size_;
-        Value(1) = Sign() * 1.5e8 * size_;
+        Value(0) = Sign() * 1.5e3 * size_;
+        Value(1) = Sign() * 4e7 * size_;
         break;
       case Id::kSensorBandwidth:
         Channels();

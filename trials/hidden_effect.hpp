@@ -1,8 +1,8 @@
 #pragma once
 // Effects drawn at random, to be hidden in a simulated rig and found by a diagnosis.
 //
-// Size       1 is clear, chosen by hand from the catalogue and the motion of the flexible rotor;
-//            the smaller sizes are shares of it. What they are worth in nats is not measured.
+// Size       1 is clear on the flexible rotor: of the order of 50 to 100 nats in records of 5 s;
+//            smaller sizes are shares of it. What a trial's records hold is measured with it.
 // Variants   channels (one axis, a bearing, all), planes, modes, orders, signs, phases, and the
 //            shapes that laws leave open: exponent of saturation, shape of hysteresis, damping of a
 //            support, friction of a rub.

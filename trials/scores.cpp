@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -59,9 +58,6 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Limits of evidence in the tables [nat]: decisive five times over, twice, and decisive.
-constexpr std::array kHeld{25.0, 10.0, 5.0};
-
 struct Count {
   int right{}, partly{}, of{};
   void Add(const Outcome& o) {
@@ -99,7 +95,7 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
   o.seed = plan.seed;
   o.truth = secret.effects;
   if (secret.outside != Outside::kNothing) o.outside = Name(secret.outside);
-  o.size = SizeOf(secret.size);
+  o.drawn = secret.size;
   const auto& a = answer.answer;
   o.verdict = a.verdict == diagnosis::Verdict::kEffect    ? "effect"
               : a.verdict == diagnosis::Verdict::kUnknown ? "unknown"
@@ -134,7 +130,6 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
 std::string Tables(const std::vector<Outcome>& outcomes) {
   std::map<std::string, std::map<Size, Count>> by_effect;
   std::map<Size, Count> by_size;
-  std::array<Count, kHeld.size() + 1> by_evidence;
   Count clean, outside, several;
   int several_all = 0;
   std::vector<double> achieved, seconds;
@@ -151,30 +146,24 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
       several_all += o.NamesAll() ? 1 : 0;
       continue;
     }
-    by_effect[o.truth.front()][o.size].Add(o);
-    by_size[o.size].Add(o);
-    const auto above = std::find_if(kHeld.begin(), kHeld.end(),
-                                    [&o](double nat) { return o.available_nat >= nat; });
-    by_evidence[static_cast<std::size_t>(above - kHeld.begin())].Add(o);
-    if (o.size != Size::kClear || !o.Right()) continue;
+    by_effect[o.truth.front()][o.size()].Add(o);
+    by_size[o.size()].Add(o);
+    if (o.size() != Size::kClear || !o.Right()) continue;
     achieved.push_back(o.achieved);
     if (o.parameter_error < 0.0) continue;
     ++compared;
     good += o.parameter_error < 0.1 || o.parameter_sigmas < 2.0 ? 1 : 0;
   }
-  std::string out = fmt::format("{:<26}{:>9}{:>10}{:>8}\n", "effect", "clear", "moderate", "faint");
+  std::string out =
+      fmt::format("{:<26}{:>9}{:>10}{:>8}{:>8}\n{:<26}{:>9}{:>10}{:>8}{:>8}\n", "effect", "clear",
+                  "moderate", "faint", "below", "evidence in the records", "25 nat", "10", "5", "");
   const auto line = [&out](const std::string& name, std::map<Size, Count>& counts) {
-    out += fmt::format("{:<26}{:>9}{:>10}{:>8}\n", name, counts[Size::kClear].Text(),
-                       counts[Size::kModerate].Text(), counts[Size::kFaint].Text());
+    out += fmt::format("{:<26}{:>9}{:>10}{:>8}{:>8}\n", name, counts[Size::kClear].Text(),
+                       counts[Size::kModerate].Text(), counts[Size::kFaint].Text(),
+                       counts[Size::kBelow].Text());
   };
   for (auto& [effect, counts] : by_effect) line(effect, counts);
   line("all", by_size);
-  out += "\nby the evidence that the records hold for it, nat\n";
-  for (std::size_t i = 0; i < by_evidence.size(); ++i) {
-    out += fmt::format("{:<26}{:>9}\n",
-                       i < kHeld.size() ? fmt::format("from {:.0f}", kHeld[i]) : "below",
-                       by_evidence[i].Text());
-  }
   out += fmt::format(
       "\nnothing hidden, called none: {}\noutside the vocabulary, called unknown: {}\n"
       "several hidden, main one named: {}; all named: {}/{}\n",

@@ -22,12 +22,12 @@ struct Outcome {
   std::uint64_t seed{};
   std::vector<std::string> truth;  ///< empty: nothing hidden
   std::string outside;             ///< empty: nothing outside the vocabulary
-  Size size{};
+  double drawn{};                  ///< size relative to what is drawn as clear
   std::string verdict;             ///< "none", "effect", "unknown"
   std::vector<std::string> named;  ///< all causes, in order
   std::vector<std::string> ties;
   double score_nat{};
-  double available_nat{};  ///< of the main effect
+  double available_nat{};  ///< what the records hold for the main effect
   double explained{};      ///< share of the calibrated model's excess
   double remainder_sigma{};
   std::vector<std::string> nearest;  ///< candidates in words, best first
@@ -36,6 +36,7 @@ struct Outcome {
   double parameter_sigmas{-1.0};
   double seconds{};
 
+  [[nodiscard]] Size size() const noexcept { return SizeOf(available_nat); }
   [[nodiscard]] bool Right() const;
   [[nodiscard]] bool Partly() const;
   [[nodiscard]] bool NamesAll() const;

@@ -82,14 +82,23 @@ class Maker {
 
 }  // namespace
 
-Size SizeOf(double share) noexcept {
-  if (share >= 0.8) return Size::kClear;
-  return share >= 0.4 ? Size::kModerate : Size::kFaint;
+Size SizeOf(double available_nat) noexcept {
+  if (available_nat >= 25.0) return Size::kClear;
+  if (available_nat >= 10.0) return Size::kModerate;
+  return available_nat >= 5.0 ? Size::kFaint : Size::kBelow;
 }
 
 const char* Name(Size size) noexcept {
-  if (size == Size::kClear) return "clear";
-  return size == Size::kModerate ? "moderate" : "faint";
+  switch (size) {
+    case Size::kClear:
+      return "clear";
+    case Size::kModerate:
+      return "moderate";
+    case Size::kFaint:
+      return "faint";
+    default:
+      return "below";
+  }
 }
 
 Trial MakeTrial(const Bench& bench, const TrialPlan& plan) { return Maker(bench, plan).Make(); }

@@ -26,16 +26,17 @@ struct Bench {
 struct TrialPlan {
   std::uint64_t seed{};
   std::vector<effect::Id> hidden;  ///< the first is the main one
-  double size{1.0};                ///< of the main effect; 1 = clear
+  double size{1.0};                ///< of the main effect; 1 = what DrawEffect calls clear
   double side_size{1.0};           ///< of the others
   Outside outside{Outside::kNothing};
   int bits_per_axis{2047};  ///< length of the test signal
   double runup_s{2.0};
 };
 
-/// Shares of what `DrawEffect` calls clear: from 0.8, from 0.4, below.
-enum class Size : std::uint8_t { kFaint, kModerate, kClear };
-[[nodiscard]] Size SizeOf(double share) noexcept;
+/// Sizes by the evidence that the records hold for the effect [nat]: from 25, from 10, from 5 (what
+/// decides), and what no records of this length can tell.
+enum class Size : std::uint8_t { kBelow, kFaint, kModerate, kClear };
+[[nodiscard]] Size SizeOf(double available_nat) noexcept;
 [[nodiscard]] const char* Name(Size size) noexcept;
 
 /// What is hidden. Never handed to the diagnosis.

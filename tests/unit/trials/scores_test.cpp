@@ -14,7 +14,7 @@ Outcome Hidden(std::vector<std::string> truth, std::vector<std::string> named,
   o.verdict = named.empty() ? "none" : "effect";
   o.named = std::move(named);
   o.ties = std::move(ties);
-  o.size = Size::kClear;
+  o.available_nat = 40.0;
   return o;
 }
 
@@ -61,17 +61,18 @@ TEST(ConfusionTable, HasARowForEveryTruthAndCountsTheFirstNamed) {
 
 TEST(Tables, KeepEffectsSizesAndCleanRecordsApart) {
   Outcome faint = Hidden({"unbalance"}, {});
-  faint.size = Size::kFaint;
+  faint.available_nat = 7.0;
   const std::string text = Tables({Hidden({"unbalance"}, {"unbalance"}), faint, Hidden({}, {})});
   EXPECT_NE(text.find("unbalance                       1/1         -     0/1"), std::string::npos)
       << text;
   EXPECT_NE(text.find("nothing hidden, called none: 1/1"), std::string::npos) << text;
 }
 
-TEST(Sizes, AreSharesOfAClearEffect) {
-  EXPECT_EQ(SizeOf(1.0), Size::kClear);
-  EXPECT_EQ(SizeOf(0.5), Size::kModerate);
-  EXPECT_EQ(SizeOf(0.25), Size::kFaint);
+TEST(Sizes, AreWhatTheRecordsHoldAndWhatDoesNotDecideIsBelowAll) {
+  EXPECT_EQ(SizeOf(25.0), Size::kClear);
+  EXPECT_EQ(SizeOf(24.9), Size::kModerate);
+  EXPECT_EQ(SizeOf(9.9), Size::kFaint);
+  EXPECT_EQ(SizeOf(0.99 * diagnosis::kDecisive), Size::kBelow);
 }
 
 }  // namespace
