@@ -124,7 +124,7 @@ class Drawer {
     }
     if (entry_.id == Id::kAmplifierSlew) {
       AllChannels();
-      Value(0) = 3000.0 / std::sqrt(size_);
+      Value(0) = 5000.0 / std::sqrt(size_);
     }
   }
 
@@ -194,13 +194,13 @@ class Drawer {
       case Id::kSensorRunout:
         Channels();
         Value(0) = static_cast<double>(1 + Pick(3));
-        Value(1) = (Value(0) == 1.0 ? 6e-6 : 2e-6) * size_;
+        Value(1) = (Value(0) == 1.0 ? 10e-6 : 0.5e-6) * size_;
         Value(2) = Phase();
         break;
       case Id::kMainsPickup:
         Channels();
         Value(0) = Pick(2) == 0 ? 50.0 : 60.0;
-        Value(1) = 1.2e-6 * size_;
+        Value(1) = 0.1e-6 * size_;
         Value(2) = Phase();
         break;
       default:  // noise
@@ -215,35 +215,35 @@ class Drawer {
     switch (entry_.id) {
       case Id::kUnbalance:
         Value(0) = Disc();
-        Value(1) = 25e-6 * size_;
+        Value(1) = 40e-6 * size_;
         Value(2) = Phase();
         break;
       case Id::kShaftBow:
         entry_.mode = 1;
-        Value(0) = 20e-6 * size_;
+        Value(0) = 35e-6 * size_;
         Value(1) = Phase();
         break;
       case Id::kShaftAnisotropy:
-        Value(0) = 0.05 * size_;
+        Value(0) = 0.006 * size_;
         Value(1) = Phase();
         break;
       case Id::kModalFrequency:
         Mode();
-        Value(0) = OwnFrequency() * Ratio(0.05);
+        Value(0) = OwnFrequency() * Ratio(0.1);
         break;
       case Id::kModalDamping:
         Mode();
-        Value(0) = 0.003 * (1.0 + 5.0 * size_);
+        Value(0) = 0.003 * (1.0 + 12.0 * size_);
         break;
       case Id::kGyroscopicInertia:
-        Value(0) = 1.0 + Sign() * 0.6 * size_;
+        Value(0) = 1.0 + Sign() * 0.3 * size_;
         break;
       case Id::kInternalDamping:
         Value(0) = nominal_.config.rotor.discs[1].z_m;
         Value(1) = 20.0 * size_;
         break;
       case Id::kRotorMass:
-        Value(0) = Ratio(0.08);
+        Value(0) = Ratio(0.14);
         break;
       default:  // crack
         Value(0) = Between(0.2, 0.36);
