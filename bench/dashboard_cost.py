@@ -1,19 +1,23 @@
 #!/usr/bin/env python3
 """What the live page costs: latency from cycle to page, processor time, the controller's timing.
 
-    bench/dashboard_cost.py [--runs N] [--seconds S] [--json FILE]
+    bench/dashboard_cost.py [--what timing drawing] [--runs N] [--seconds S] [--json FILE]
 
 Each run is amb-plant and amb-controller at 10 kHz in real time with amb dash beside them.
   timing   windows without and with three viewers in alternation within a run; the ratio of each
            percentile with viewers to the one of the window before, median over all pairs. Viewers
            read the page's stream as a browser does and draw nothing: theirs are other machines.
   share    of one processor, of all threads of amb dash, in the same windows.
-  latency  sampling instant of the newest cycle to the end of the drawing that shows it, in a
-           headless Chromium on this machine (not measured where there is none).
+  cycle to viewer   sampling instant of the newest cycle to its arrival at a viewer, in the same
+           windows.
+  viewer to screen  arrival to the end of the drawing that shows it, in a headless Chromium before a
+           run in lockstep: beside two real-time loops two processors have no time to draw. Not
+           measured where there is no Chromium.
 Runs in a network namespace of its own; needs root or rtprio.
 """
 
 import argparse
+import contextlib
 import json
 import os
 import statistics
@@ -29,6 +33,7 @@ os.environ.setdefault("LEVITAS_BINARIES", str(ROOT / "build/release/bin"))
 os.environ.setdefault("LEVITAS_BUILD", str(ROOT / "build/release"))
 sys.path.insert(0, str(ROOT / "tests/support"))
 from chromium import Browser, find  # noqa: E402
+from dashboard_rig import Rig, messages  # noqa: E402
 from lcm_network import SET_UP, TELEMETRY, Bus, Process  # noqa: E402
 
 VIEWERS = 3
@@ -49,19 +54,23 @@ def enter_namespace():
 
 
 class Trio:
-    """Rig, controller and page at 10 kHz in real time, for a with statement."""
+    """The page, then rig and controller at 10 kHz in real time; for a with statement."""
 
-    def __init__(self, folder, seconds):
-        common = ("--rig", "flexible_rotor", "--pace", "realtime")
-        self.parts = [Process(folder, "amb-plant", *common)]
-        self.parts.append(Process(folder, "amb-controller", *common, "--controller",
-                                  "flexible_rotor_commissioned", "--duration", seconds,
-                                  "--trip-folder", folder))
-        self.parts[1].says("rig found")
+    def __init__(self, folder):
+        # The page first: beside two real-time loops a busy machine starts nothing in good time.
+        self.folder = folder
         self.dash = Process(folder, "amb", "dash")
-        self.parts.append(self.dash)
         self.dash.says("page: ")
         self.url = self.dash.text.split("page: ")[1].split()[0]
+        self.parts = [self.dash]
+
+    def start(self, seconds):
+        common = ("--rig", "flexible_rotor", "--pace", "realtime")
+        self.parts.append(Process(self.folder, "amb-plant", *common))
+        self.parts.append(Process(self.folder, "amb-controller", *common, "--controller",
+                                  "flexible_rotor_commissioned", "--duration", seconds,
+                                  "--trip-folder", self.folder))
+        self.parts[2].says("rig found")
 
     def __enter__(self):
         return self
@@ -112,19 +121,21 @@ def percentile(first, last, row, part):
     return float(low)
 
 
-def read(stream):
+def read(stream, late_ms):
+    """Takes the stream as a browser does; notes how old each tick's newest cycle is on arrival."""
     try:
-        while stream.read1(65536):
-            pass
+        for name, data in messages(stream):
+            if name == "tick" and "sample_ns" in data:
+                late_ms.append((time.monotonic_ns() - data["sample_ns"]) / 1e6)
     except (OSError, ValueError, AttributeError):
         pass  # closed at the end of the window
 
 
-def window(trio, histograms, viewers):
+def window(trio, histograms, viewers, late_ms):
     """(percentiles, share of a processor) of one window."""
     streams = [urllib.request.urlopen(trio.url + "events", timeout=30) for _ in range(viewers)]
     for stream in streams:
-        threading.Thread(target=read, args=(stream,), daemon=True).start()
+        threading.Thread(target=read, args=(stream, late_ms), daemon=True).start()
     begin, used = time.monotonic(), trio.processor_s()
     time.sleep(WINDOW_S)
     end = time.monotonic()
@@ -135,19 +146,20 @@ def window(trio, histograms, viewers):
 
 
 def timing_run(seconds):
-    """[(without, with)] of the pairs of windows in one run, and the shares of both."""
-    pairs, shares = [], {0: [], VIEWERS: []}
-    with tempfile.TemporaryDirectory() as folder, Trio(folder, seconds) as trio:
-        histograms = Histograms()
+    """[(without, with)] of the pairs of windows in one run, the shares of both, and latencies."""
+    pairs, shares, late_ms = [], {0: [], VIEWERS: []}, []
+    histograms = Histograms()
+    with tempfile.TemporaryDirectory() as folder, Trio(folder) as trio:
+        trio.start(seconds)
         time.sleep(1)
         for _ in range(int((seconds - 2) / (2 * WINDOW_S))):
-            without, idle = window(trio, histograms, 0)
-            beside, busy = window(trio, histograms, VIEWERS)
+            without, idle = window(trio, histograms, 0, late_ms)
+            beside, busy = window(trio, histograms, VIEWERS, late_ms)
             shares[0].append(idle)
             shares[VIEWERS].append(busy)
             if without and beside:
                 pairs.append((without, beside))
-    return pairs, shares
+    return pairs, shares, late_ms
 
 
 def offset_ms(page):
@@ -162,17 +174,27 @@ def offset_ms(page):
     return best[1]
 
 
-def latency_run(browser, seconds):
-    """[ms] sampling instant to drawn, of every drawing."""
-    with tempfile.TemporaryDirectory() as folder, Trio(folder, seconds) as trio:
-        page = browser.open(trio.url)
+class Keeper:
+    """What dashboard_rig.Rig asks of a test: to clean up at the end."""
+
+    def __init__(self):
+        self.stack = contextlib.ExitStack()
+        self.addCleanup = self.stack.callback
+
+
+def drawing_run(browser, seconds):
+    """[ms] sent by amb dash to drawn, of every drawing."""
+    keeper = Keeper()
+    with keeper.stack:
+        rig = Rig(keeper)
+        page = browser.open(rig.url)
         page.until("document.documentElement.dataset.drawn")
         offset = offset_ms(page)
         page.value(WATCH)
-        time.sleep(max(1.0, seconds - 8.0))
+        time.sleep(seconds)
         drawn = page.value("window.drawn")
         page.close()
-    return [there - offset - sampled_ns / 1e6 for there, sampled_ns in drawn]
+    return [there - offset - sent_ns / 1e6 for there, sent_ns in drawn]
 
 
 def quantile(values, part):
@@ -184,16 +206,30 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("--runs", type=int, default=4)
     arguments.add_argument("--seconds", type=float, default=20.0, help="of one run")
+    arguments.add_argument("--what", nargs="+", choices=("timing", "drawing"),
+                           default=("timing", "drawing"))
     arguments.add_argument("--json", help="write the figures to this file")
     options = arguments.parse_args()
     enter_namespace()
     figures = {}
-    pairs, shares = [], {0: [], VIEWERS: []}
+    if "timing" in options.what:
+        measure_timing(options, figures)
+    if "drawing" in options.what:
+        measure_drawing(options, figures)
+    if options.json:
+        Path(options.json).write_text(json.dumps(figures, indent=2), encoding="utf-8")
+
+
+def measure_timing(options, figures):
+    pairs, shares, late_ms = [], {0: [], VIEWERS: []}, []
     for _ in range(options.runs):
-        more, used = timing_run(options.seconds)
+        more, used, late = timing_run(options.seconds)
         pairs += more
+        late_ms += late
         for viewers, values in used.items():
             shares[viewers] += values
+    if not pairs:
+        sys.exit("nothing measured: the machine left the controller's telemetry no time")
     for row in ROWS:
         for part in PERCENTILES:
             without = statistics.median(pair[0][row, part] for pair in pairs)
@@ -210,17 +246,25 @@ def main():
         figures[f"share_{viewers}_viewers"] = statistics.median(values)
         print(f"amb dash, {viewers} viewers: {100 * statistics.median(values):.1f} % of a processor "
               f"(median of {len(values)} windows, most {100 * max(values):.1f} %)")
+    tell_latency(figures, "cycle to viewer", late_ms)
+
+
+def tell_latency(figures, name, late_ms):
+    if not late_ms:
+        print(f"{name}: nothing came in that time")
+        return
+    figures[name.replace(" ", "_") + "_ms"] = {part: quantile(late_ms, share) for part, share in
+                                               (("p50", 0.5), ("p99", 0.99))}
+    print(f"{name}: median {quantile(late_ms, 0.5):.0f} ms, 99 % {quantile(late_ms, 0.99):.0f} ms "
+          f"({len(late_ms)})")
+
+
+def measure_drawing(options, figures):
     if find() is None:
-        print("latency: not measured, no Chromium here")
-    else:
-        with Browser() as browser:
-            late = [ms for _ in range(2) for ms in latency_run(browser, options.seconds)]
-        figures["latency_ms"] = {"p50": quantile(late, 0.5), "p99": quantile(late, 0.99),
-                                 "drawings": len(late)}
-        print(f"latency cycle to page: median {quantile(late, 0.5):.0f} ms, 99 % "
-              f"{quantile(late, 0.99):.0f} ms, {len(late)} drawings")
-    if options.json:
-        Path(options.json).write_text(json.dumps(figures, indent=2), encoding="utf-8")
+        print("viewer to screen: not measured, no Chromium here")
+        return
+    with Browser() as browser:
+        tell_latency(figures, "viewer to screen", drawing_run(browser, options.seconds))
 
 
 if __name__ == "__main__":

@@ -56,8 +56,10 @@ def draw_report(folder):
 
 def draw_identify(folder):
     amb(folder, "run", "--scenario", "identify", "--record", "id.lcm")
-    amb(folder, "identify", "frf", "id.lcm", "--orbit-um", "75", "--svg",
-        PICTURES / "identify_frf.svg")
+    amb(folder, "identify", "frf", "id.lcm", "--orbit-um", "75", "--svg", "frf.svg")
+    # As a picture of pixels: the drawing of every line of every response is ten times as large.
+    subprocess.run(["rsvg-convert", "--width", "1100", "--background-color", "white", "--output",
+                    PICTURES / "identify_frf.png", folder / "frf.svg"], check=True)
 
 
 def draw_effects(folder):

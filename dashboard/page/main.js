@@ -32,7 +32,7 @@ const handlers = {
     if (tick.t_ms?.length) showTime(tick.t_ms.at(-1) / 1000);
     if (tick.orbit_nm) showOrbits(tick.orbit_nm);
     addTraces(tick);
-    newest = tick.sample_ns ?? newest;
+    newest = tick.sent_ns ?? newest;
     due.add(drawOrbits).add(drawTraces);
   },
   spectrum(spectrum) {
@@ -59,7 +59,7 @@ const handlers = {
 
 // A page in the background draws nothing: the browser calls no frames then.
 let drawn = 0;
-let newest = null;  // sampling instant of the newest cycle heard of
+let newest = null;  // when the newest figures were sent
 function draw(now) {
   requestAnimationFrame(draw);
   if (now - drawn < DRAW_EVERY_MS) return;

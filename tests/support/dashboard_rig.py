@@ -15,7 +15,8 @@ LONG = 90
 class Rig:
     """Starts the three programs in a folder of their own; ends them with the test."""
 
-    def __init__(self, test, *dash_arguments, controller="flexible_rotor"):
+    def __init__(self, test, *dash_arguments, controller="flexible_rotor",
+                 controller_arguments=()):
         self.test = test
         folder = tempfile.TemporaryDirectory()
         test.addCleanup(folder.cleanup)
@@ -23,7 +24,7 @@ class Rig:
         self.plant = self.started(plant(self.folder))
         self.controller = self.started(Process(
             self.folder, "amb-controller", "--rig", "flexible_rotor", "--controller", controller,
-            "--trip-folder", self.folder))
+            "--trip-folder", self.folder, *controller_arguments))
         self.controller.says("rig found", LONG)
         self.dash = self.start_dash(*dash_arguments)
 

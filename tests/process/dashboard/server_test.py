@@ -63,6 +63,27 @@ class Commands(unittest.TestCase):
         self.assertEqual(rig.command("emergency_stop"), (504, "unanswered"))
 
 
+class TestSignals(unittest.TestCase):
+    CHIRP = {"hold_s": 0.5, "orbit_limit_um": 57, "excitation": [
+        {"channel": "de_x", "signal": "chirp", "amplitude_a": 0.3, "from_hz": 10, "to_hz": 400,
+         "repeat_s": 0.5}]}
+
+    def test_are_recorded_and_replay_bit_for_bit(self):
+        rig = Rig(self, controller_arguments=("--record", "run.lcm"))
+        self.assertEqual(rig.command("lift"), (200, "accepted"))
+        until(rig.url, in_mode("levitating"))
+        until(rig.url, lambda name, data: name == "rig" and data["run"] > 0)
+        status, answer = rig.post(self.CHIRP, path="api/excitation")
+        self.assertEqual((status, answer["outcome"]), (200, "accepted"), answer)
+        until(rig.url, lambda name, data: name == "log" and "end_excitation" in data["text"])
+        rig.controller.terminate()
+        self.assertEqual(rig.controller.status(LONG), 0, rig.controller.text)
+        done = subprocess.run([BINARIES / "amb", "replay", "run.lcm"], cwd=rig.folder, text=True,
+                              capture_output=True, timeout=LONG, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("every output bit", done.stdout)
+
+
 class Access(unittest.TestCase):
     def test_is_refused_to_other_pages_and_other_names(self):
         rig = Rig(self)
