@@ -39,7 +39,8 @@ CoilCurrents PredictCoilCurrents(const plant::PlantConfig& rig,
     throw BadInput("the session holds no measured coil currents");
   }
   const double period_s = static_cast<double>(rig.period_ns) * 1e-9;
-  const auto delay = static_cast<std::size_t>(std::lround(rig.delay_samples));
+  const auto whole = static_cast<std::size_t>(rig.delay_samples);
+  const double early_s = (rig.delay_samples - static_cast<double>(whole)) * period_s;
   CoilCurrents predicted(rows.size());
   for (std::size_t index = 0; index < rows.front().coils; ++index) {
     const CoilPlace place = PlaceOf(rig, index);
@@ -52,17 +53,24 @@ CoilCurrents PredictCoilCurrents(const plant::PlantConfig& rig,
     predicted.front()[index] = now_a;
     for (std::size_t n = 0; n + 1 < rows.size(); ++n) {
       const bool continues = rows[n + 1].cycle == rows[n].cycle + 1;
-      const plant::PlantCommand& command = rows[n >= delay ? n - delay : 0].sample.command;
-      const double asked_a =
-          std::clamp(command.bias_current_a + place.command_sign * rig.actuator_polarity[axis] *
-                                                  command.control_current_a[axis],
-                     0.0, limit_a);
-      const double rate = (position(n + 1) - position(n)) / period_s;
-      const double middle_m = 0.5 * (position(n + 1) + position(n));
-      now_a = continues ? amplifier::Follow(place.coil, now_a, asked_a, command.amplifiers_enabled,
-                                            place.gap_m + place.sign * middle_m, place.sign * rate,
-                                            period_s)
-                        : rows[n + 1].coil_current_a[index];
+      const double rate = place.sign * (position(n + 1) - position(n)) / period_s;
+      const double gap_m = place.gap_m + place.sign * 0.5 * (position(n + 1) + position(n));
+      // A fraction of a sample in the delay: the older command acts first.
+      const auto follow = [&](std::size_t age, double duration_s) {
+        const plant::PlantCommand& command = rows[n >= age ? n - age : 0].sample.command;
+        const double asked_a =
+            std::clamp(command.bias_current_a + place.command_sign * rig.actuator_polarity[axis] *
+                                                    command.control_current_a[axis],
+                       0.0, limit_a);
+        return amplifier::Follow(place.coil, now_a, asked_a, command.amplifiers_enabled, gap_m,
+                                 rate, duration_s);
+      };
+      if (!continues) {
+        now_a = rows[n + 1].coil_current_a[index];
+      } else {
+        if (early_s > 0.0) now_a = follow(whole + 1, early_s);
+        now_a = follow(whole, period_s - early_s);
+      }
       predicted[n + 1][index] = now_a;
     }
   }

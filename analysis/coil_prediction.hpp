@@ -5,7 +5,7 @@
 // Model      amplifier::VoltageCoil per coil (plant_sim/amplifier/voltage_coil.hpp), free running:
 //            it starts from the first measured current and never sees another. The gap is that of
 //            the recorded position, in the middle of each period the mean of its ends; the command
-//            acts after the delay of the rig file, whole samples of it.
+//            acts after the delay of the rig file, fractions of a sample included.
 // Fit        100 % (1 - |measured - predicted| / |measured - its mean|): 100 is perfect, 0 as good
 //            as the mean, below worse than that.
 // Units      A, m, s. After a gap in the record the model starts anew.

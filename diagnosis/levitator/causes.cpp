@@ -1,6 +1,7 @@
 #include "diagnosis/levitator/causes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace levitas::levitator {
@@ -55,7 +56,27 @@ std::vector<Cause> Make() {
   return causes;
 }
 
+using Group = std::array<std::string_view, 5>;
+constexpr std::array kGroups{
+    Group{"current_gain", "rotor_mass", "sensor_offset", "current_sensor_gain", "force_exponent"},
+    Group{"supply_voltage", "coil_resistance", "coil_inductance", "current_sensor_gain", ""},
+    Group{"displacement_stiffness", "coupling_stiffness", "sensor_gain", "static_load", ""},
+    Group{"extra_delay", "current_sensor_bandwidth", "eddy_current", "", ""},
+    Group{"inductance_profile", "coil_inductance", "magnetic_saturation", "", ""},
+    Group{"voltage_drop", "drive_nonlinearity", "supply_voltage", "", ""},
+    Group{"viscous_damping", "dry_friction", "sensor_bandwidth", "", ""}};
+
+bool Has(const Group& group, const std::string& effect) {
+  return std::find(group.begin(), group.end(), effect) != group.end();
+}
+
 }  // namespace
+
+bool Alike(const std::string& one, const std::string& other) {
+  return one != other && std::any_of(kGroups.begin(), kGroups.end(), [&](const Group& group) {
+           return Has(group, one) && Has(group, other);
+         });
+}
 
 const std::vector<Cause>& Causes() {
   static const std::vector<Cause> kCauses = Make();

@@ -21,4 +21,8 @@ struct Cause {
 
 [[nodiscard]] const std::vector<Cause>& Causes();
 
+/// Whether two effects do much the same to the data by their physics, so that one is always tried
+/// in the other's place: the weight is carried by force constant, mass, gap and current alike.
+[[nodiscard]] bool Alike(const std::string& one, const std::string& other);
+
 }  // namespace levitas::levitator

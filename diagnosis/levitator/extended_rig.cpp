@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/problem.hpp"
 #include "diagnosis/levitator/answer.hpp"
@@ -16,8 +17,9 @@ void ExtendCoil(const Theta& t, plant::VoltageDrive& coil) {
   constexpr double kFlat_m = 1000.0;  // the largest decay that a rig file may have
   const double resistance = 1.0 + t[kResistance];
   const double decay_m = coil.decay_m;
+  // A dead band takes the same from every voltage beyond it; an idle coil stays at nothing.
+  coil.offset_a = (coil.offset_a - coil.steady * (1.0 + t[kSupply]) * t[kDeadBand]) / resistance;
   coil.steady *= (1.0 + t[kSupply]) / resistance;
-  coil.offset_a /= resistance;
   coil.time_constant_s *= (1.0 + t[kInductance]) / resistance;
   const double per_gap = 1.0 - t[kProfile];
   coil.decay_m = per_gap > decay_m / kFlat_m ? decay_m / per_gap : kFlat_m;
@@ -35,8 +37,7 @@ void ExtendForce(const Theta& t, double gap_m, plant::ExponentialForce& law) {
 }
 
 /// Entries of the list of effects, of what has no key.
-std::vector<std::string> Entries(const std::string& channel, const std::string& bearing,
-                                 const Theta& t, double bandwidth_hz) {
+std::vector<std::string> Entries(const std::string& channel, const Theta& t, double bandwidth_hz) {
   std::vector<std::string> out;
   const auto add = [&](bool there, const std::string& id, const std::string& values) {
     if (there) out.push_back(fmt::format("{{id: {}, {}}}", id, values));
@@ -54,13 +55,13 @@ std::vector<std::string> Entries(const std::string& channel, const std::string& 
   add(t[kSensorSquare] != 0.0 || t[kSensorCube] != 0.0, "sensor_nonlinearity",
       fmt::format("{}, a2_1_per_m: {:.6g}, a3_1_per_m2: {:.6g}", at, t[kSensorSquare],
                   t[kSensorCube]));
-  const double lag_s = 1.0 / (2.0 * 3.14159265358979 * bandwidth_hz) + t[kSensorLag];
+  const double lag_s = 1.0 / (2.0 * std::numbers::pi * bandwidth_hz) + t[kSensorLag];
   add(t[kSensorLag] > 0.0, "sensor_bandwidth",
-      fmt::format("{}, bandwidth_hz: {:.6g}", at, 1.0 / (2.0 * 3.14159265358979 * lag_s)));
+      fmt::format("{}, bandwidth_hz: {:.6g}", at, 1.0 / (2.0 * std::numbers::pi * lag_s)));
   add(t[kMass] != 0.0, "rotor_mass", fmt::format("ratio: {:.6g}", 1.0 + t[kMass]));
-  add(t[kLoad] != 0.0, "static_load", fmt::format("{}, force_n: {:.6g}", at, t[kLoad]));
-  add(t[kSpring] > 0.0, "coupling_stiffness",
-      fmt::format("bearing: {}, direct_n_per_m: {:.6g}", bearing, t[kSpring]));
+  add(t[kLoad] != 0.0, "static_load", fmt::format("z_mm: 0, force_x_n: {:.6g}", t[kLoad]));
+  add(t[kSpring] != 0.0, "coupling_stiffness",
+      fmt::format("z_mm: 0, direct_n_per_m: {:.6g}", t[kSpring]));
   return out;
 }
 
@@ -82,7 +83,7 @@ bool InTheModel(std::size_t i) {
   constexpr std::array kMissing{kIronInductance, kDriveCurve, kHeating,        kEddyShare,
                                 kMutual,         kAwaySupply, kAwayInductance, kProbeGain,
                                 kProbeOffset,    kProbeLag,   kForceExponent,  kDamping,
-                                kDryFriction,    kDeadBand};
+                                kDryFriction};
   return std::find(kMissing.begin(), kMissing.end(), i) == kMissing.end();
 }
 
@@ -115,7 +116,7 @@ std::string ExtendedRig(const config::RigFile& rig, const Found& found) {
   }
   std::string refused;
   for (const std::string& entry :
-       Entries(rig.numbers.channels.front(), bearing.name, t, bearing.sensor.bandwidth_hz)) {
+       Entries(rig.numbers.channels.front(), t, bearing.sensor.bandwidth_hz)) {
     const auto effects = Read(rig, entry);
     extended.plant.effects.insert(extended.plant.effects.end(), effects.begin(), effects.end());
     if (effects.empty()) refused += "#  - " + entry + "\n";

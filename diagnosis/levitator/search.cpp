@@ -151,9 +151,17 @@ void RankInPlace(const Hunt& hunt, const Misfit* held_out, const CauseSet& rest,
     if (SameEffect(hunt.set(), c)) continue;
     KeepNearest(others, {c, gain[c], std::nan(""), nat - gain[c], false, false, of});
   }
-  for (const std::size_t c : Nearest(gain, hunt.set(), kNearest)) {
+  std::vector<std::size_t> near = Nearest(gain, hunt.set(), kNearest);
+  for (std::size_t c = 0; c < gain.size() && of < gain.size(); ++c) {
+    const bool tried = std::find(near.begin(), near.end(), c) != near.end();
+    if (!tried && !SameEffect(hunt.set(), c) && Alike(Causes()[of].effect, Causes()[c].effect)) {
+      near.push_back(c);
+    }
+  }
+  for (const std::size_t c : near) {
     if (gain[c] < 0.0) continue;
-    const Fitted fitted = fitter.Fit(With(rest, c), base.theta, hunt.filters(), kScreenSteps);
+    // From the tolerances of the whole answer: those of the rest alone stand at their bounds.
+    const Fitted fitted = fitter.Fit(With(rest, c), hunt.now().theta, hunt.filters(), kSteps);
     const double gained = fitted.evidence - base.evidence;
     KeepNearest(others, {c, gained, HeldOut(held_out, hunt.filters(), fitted.theta, base.theta),
                          nat - gained, false, true, of});
