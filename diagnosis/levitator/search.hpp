@@ -20,6 +20,9 @@ namespace levitas::levitator {
 
 inline constexpr double kForm = 0.001;  ///< share of the evidence that a law's form may leave
 
+/// What comes within so much of a cause's evidence cannot be told from it: the law's form decides.
+inline constexpr double kFormOfTie = 0.005;
+
 struct Score {
   std::size_t cause{};  ///< index into Causes()
   double nat{};

@@ -52,8 +52,8 @@ void FillCauses(const Found& found, Answer& answer) {
     out.candidates.push_back({cause.effect, cause.where, score.nat, score.cause, score.refitted});
     if (score.named || score.instead_of >= Causes().size()) continue;
     for (std::size_t k = 0; k < found.causes.size(); ++k) {
-      const bool close =
-          found.causes[k] == score.instead_of && score.behind_nat < diagnosis::kDecisive;
+      const double least = std::max(diagnosis::kDecisive, kFormOfTie * found.scores[k].nat);
+      const bool close = found.causes[k] == score.instead_of && score.behind_nat < least;
       if (close && score.refitted) answer.ties[k].others.push_back(cause.effect);
     }
   }

@@ -1,0 +1,130 @@
+// What a set of causes leaves free, and whether a fit finds what is there.
+
+#include "diagnosis/levitator/fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/unit/levitator/rig.hpp"
+
+namespace levitas::levitator {
+namespace {
+
+std::size_t CauseOf(const std::string& effect) {
+  const auto& causes = Causes();
+  const auto found = std::find_if(causes.begin(), causes.end(),
+                                  [&](const Cause& cause) { return cause.effect == effect; });
+  return static_cast<std::size_t>(found - causes.begin());
+}
+
+TEST(Causes, MoveParametersOfTheTableAndPayForTheirPlaces) {
+  for (const Cause& cause : Causes()) {
+    ASSERT_FALSE(cause.moves.empty());
+    EXPECT_EQ(cause.effect, Table()[cause.moves.front()].effect);
+    double prior = 0.0;
+    for (const Cause& other : Causes()) {
+      if (other.effect == cause.effect) prior += std::exp(other.log_prior);
+    }
+    EXPECT_NEAR(prior, 1.0, 1e-12) << cause.effect;
+  }
+}
+
+TEST(Causes, ReachEveryParameter) {
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    EXPECT_TRUE(std::any_of(Causes().begin(), Causes().end(), [&](const Cause& cause) {
+      return std::find(cause.moves.begin(), cause.moves.end(), i) != cause.moves.end();
+    })) << Table()[i].effect;
+  }
+}
+
+TEST(Alike, HoldsBothWaysAndNotForOneself) {
+  EXPECT_TRUE(Alike("current_gain", "rotor_mass"));
+  EXPECT_TRUE(Alike("rotor_mass", "current_gain"));
+  EXPECT_FALSE(Alike("rotor_mass", "rotor_mass"));
+  EXPECT_FALSE(Alike("rotor_mass", "extra_delay"));
+}
+
+TEST(Freedom, BoundsTolerancesAndSetsACauseFree) {
+  const Freedom healthy = FreedomOf({}, 1);
+  const Freedom hidden = FreedomOf({CauseOf("coil_inductance")}, 1);
+  ASSERT_EQ(healthy.active, hidden.active);  // the inductance has a tolerance, too
+  const auto at = static_cast<Eigen::Index>(
+      std::find(healthy.active.begin(), healthy.active.end(), kInductance) -
+      healthy.active.begin());
+  EXPECT_NEAR(healthy.most[at], kFarthest * At(kInductance).tolerance, 1e-15);
+  EXPECT_GT(hidden.most[at], 1e6);
+  EXPECT_GT(hidden.deviation[at], healthy.deviation[at]);
+}
+
+TEST(Freedom, AddsWhatNoHealthyRigHas) {
+  EXPECT_EQ(FreedomOf({CauseOf("dry_friction")}, 2).active.size(),
+            FreedomOf({}, 2).active.size() + 1);
+  EXPECT_EQ(FreedomOf({CauseOf("dry_friction")}, 2).one_sided, 1U);
+}
+
+class FitOfAKnownRig : public testing::Test {
+ protected:
+  FitOfAKnownRig() {
+    truth_[kProfile] = 0.6;
+    truth_[kDelay] = 1.3;
+    series_.push_back(test::LivelySeries(rig_, truth_, 3000, 5));
+  }
+  NominalRig rig_{NominalOf(test::LevitatorFile())};
+  Theta truth_{Nominal(1)};
+  std::vector<Series> series_;
+};
+
+TEST_F(FitOfAKnownRig, FindsItsParametersWithinThreeOfTheirDeviations) {
+  const Misfit misfit(rig_, series_);
+  const Fitter fitter(misfit);
+  const Filters noise = misfit.Whiten(truth_, 0);
+  const Fitted fitted =
+      fitter.Fit({CauseOf("inductance_profile"), CauseOf("extra_delay")}, Nominal(1), noise, 12);
+  for (const Parameter p : {kProfile, kDelay}) {
+    EXPECT_NEAR(fitted.theta[p], truth_[p], 3.0 * fitted.deviation[p]) << At(p).effect;
+    EXPECT_LT(fitted.deviation[p], 0.1 * At(p).wide) << At(p).effect;
+  }
+}
+
+TEST_F(FitOfAKnownRig, SaysMoreForTheRightSetThanForAPartOfIt) {
+  const Misfit misfit(rig_, series_);
+  const Fitter fitter(misfit);
+  const Filters noise = misfit.Whiten(truth_, 0);
+  const CauseSet both{CauseOf("inductance_profile"), CauseOf("extra_delay")};
+  const double whole = fitter.Fit(both, Nominal(1), noise, 12).evidence;
+  const double part = fitter.Fit({both.front()}, Nominal(1), noise, 12).evidence;
+  EXPECT_GT(whole, part + 50.0);
+}
+
+TEST_F(FitOfAKnownRig, ScreensTheMissingCauseAsTheBest) {
+  const Misfit misfit(rig_, series_);
+  const Fitter fitter(misfit);
+  const Filters noise = misfit.Whiten(truth_, 0);
+  const CauseSet rest{CauseOf("inductance_profile")};
+  const Fitted fitted = fitter.Fit(rest, Nominal(1), noise, 12);
+  const std::vector<double> gain = fitter.Screen(rest, fitted, noise);
+  const auto best =
+      static_cast<std::size_t>(std::max_element(gain.begin(), gain.end()) - gain.begin());
+  // A probe that is late reads as a delay of the command does.
+  EXPECT_TRUE(Causes()[best].effect == "extra_delay" || Alike(Causes()[best].effect, "extra_delay"))
+      << Causes()[best].effect;
+}
+
+TEST(Whitening, LeavesUnitVarianceOfWhatAModelLeaves) {
+  const NominalRig rig = NominalOf(test::LevitatorFile());
+  Series series = test::StillSeries(4000, 1.0, test::CarryingCurrent(rig, 0.0));
+  Random random(6);
+  for (std::size_t n = 0; n < series.size(); ++n) {
+    for (auto& measured : series.measured_a) measured[n] += 5e-3 * random.Normal();
+    series.position_m[n] += 16e-6 * random.Normal();
+  }
+  const Misfit misfit(rig, {series});
+  const Filters filters = misfit.Whiten(Nominal(1), kMemory);
+  const Sums sums = misfit.Linearise(Nominal(1), filters, {kSupply});
+  EXPECT_NEAR(sums.ete / sums.values, 1.0, 0.02);  // its own autoregression, but for the edges
+  EXPECT_NEAR(misfit.SquaredSum(Nominal(1), filters), sums.ete, 1e-6 * sums.ete);
+}
+
+}  // namespace
+}  // namespace levitas::levitator

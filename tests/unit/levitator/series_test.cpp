@@ -1,0 +1,111 @@
+// From rows to what the models are driven with, and the rig file that comes back.
+
+#include "diagnosis/levitator/series.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/problem.hpp"
+#include "diagnosis/levitator/answer.hpp"
+#include "tests/unit/levitator/rig.hpp"
+
+namespace levitas::levitator {
+namespace {
+
+using test::LevitatorFile;
+
+std::vector<analysis::RecordedRow> Rows(std::size_t count) {
+  std::vector<analysis::RecordedRow> rows(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    rows[n].cycle = n;
+    rows[n].levitated = true;
+    rows[n].coils = 2;
+    rows[n].coil_current_a = {1.0, 0.02};
+    rows[n].sample.position_m[0] = 1e-3;
+    rows[n].sample.command.bias_current_a = 0.6;
+    rows[n].sample.command.control_current_a[0] = 0.6;
+  }
+  return rows;
+}
+
+TEST(MakeSeries, BeginsHalfASecondBeforeTheLiftOffEnds) {
+  const Series series = MakeSeries("run", LevitatorFile(), Rows(10'000));
+  EXPECT_NEAR(series.time_s.front(), 1.5, 1e-9);  // a fifth of 10 s less half a second
+  EXPECT_FALSE(series.counts[499]);
+  EXPECT_TRUE(series.counts[501]);
+  EXPECT_TRUE(series.restart.front());
+  EXPECT_TRUE(series.idle[1]);
+  EXPECT_FALSE(series.idle[0]);
+  EXPECT_NEAR(series.asked_a[0].front(), 1.2, 1e-12);
+  EXPECT_NEAR(series.asked_a[1].front(), 0.0, 1e-12);
+}
+
+TEST(MakeSeries, StartsAnewBehindMissingRows) {
+  auto rows = Rows(10'000);
+  rows.erase(rows.begin() + 5000, rows.begin() + 5100);
+  const Series series = MakeSeries("run", LevitatorFile(), rows);
+  std::size_t restarts = 0;
+  for (const bool restart : series.restart) restarts += restart ? 1 : 0;
+  EXPECT_EQ(restarts, 2U);
+}
+
+TEST(MakeSeries, RefusesWhatIsTooShortOrMeasuredInPart) {
+  EXPECT_THROW((void)MakeSeries("run", LevitatorFile(), Rows(900)), BadInput);
+  auto rows = Rows(10'000);
+  rows[7000].coils = 0;
+  EXPECT_THROW((void)MakeSeries("run", LevitatorFile(), rows), BadInput);
+}
+
+TEST(Stretch, LiesWhereItsPhaseSays) {
+  const Series whole = MakeSeries("run", LevitatorFile(), Rows(10'000));
+  const Series last = Stretch(whole, 2.0, 1.0);
+  EXPECT_NEAR(last.time_s.back(), whole.time_s.back(), 2e-3);
+  EXPECT_NEAR(static_cast<double>(last.size()), 2500.0, 2.0);
+  EXPECT_EQ(Stretch(whole, 100.0, 0.5).size(), whole.size());
+}
+
+TEST(IsLevitator, IsTrueOfTheLevitatorAlone) {
+  EXPECT_TRUE(IsLevitator(LevitatorFile().plant));
+  EXPECT_FALSE(IsLevitator(config::LoadRig(config::FindConfig("flexible_rotor", "rigs")).plant));
+  EXPECT_FALSE(IsLevitator(config::LoadRig(config::FindConfig("one_axis", "rigs")).plant));
+}
+
+TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
+  const config::RigFile rig = LevitatorFile();
+  Found found;
+  found.extended.theta = Nominal(1);
+  found.extended.deviation = Nominal(1);
+  found.extended.theta[kDelay] = 1.4;
+  found.extended.theta[kForce] = 0.2;
+  found.extended.theta[kProfile] = 0.5;
+  found.extended.theta[kSensorOffset] = 3e-4;
+  found.extended.theta[kLoad] = 0.01;
+  found.extended.theta[kDeadBand] = 0.1;
+  const config::RigFile read = config::ParseRig(ExtendedRig(rig, found), "extended_rig.yaml");
+  EXPECT_NEAR(read.plant.delay_samples, 1.4, 1e-12);
+  const auto& bearing = read.plant.bearings[0];
+  EXPECT_NEAR(bearing.magnet.exponential->force_n_per_a2, 1.2 * 3.008878, 1e-9);
+  EXPECT_NEAR(bearing.amplifier.voltage->decay_m, 2.0 * 4.5626e-3, 1e-12);
+  EXPECT_NEAR(bearing.amplifier.voltage->offset_a, 0.0243 - 0.1, 1e-12);
+  ASSERT_EQ(read.plant.effects.size(), 2U);
+  EXPECT_EQ(read.plant.effects[0].id, effect::Id::kSensorOffset);
+  EXPECT_EQ(read.plant.effects[1].id, effect::Id::kStaticLoad);
+}
+
+TEST(ExtendedRigFile, KeepsTheForceAtTheCentreWhenTheStiffnessAloneIsOther) {
+  const config::RigFile rig = LevitatorFile();
+  Found found;
+  found.extended.theta = Nominal(1);
+  found.extended.deviation = Nominal(1);
+  found.extended.theta[kForceDecay] = 0.25;
+  const config::RigFile read = config::ParseRig(ExtendedRig(rig, found), "extended_rig.yaml");
+  const auto centre = [](const config::RigFile& file) {
+    const auto& magnet = file.plant.bearings[0].magnet;
+    return magnet.exponential->force_n_per_a2 *
+           std::exp(-magnet.gap_m / magnet.exponential->decay_m);
+  };
+  EXPECT_NEAR(centre(read), centre(rig), 1e-9 * centre(rig));
+  EXPECT_NEAR(read.plant.bearings[0].magnet.exponential->decay_m, 5.8231e-3 / 1.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace levitas::levitator
