@@ -103,6 +103,10 @@ void PrintLevitator(const Answer& answer) {
 
 nlohmann::ordered_json LevitatorJson(const Answer& answer) {
   nlohmann::ordered_json json = DiagnosisJson(answer.common);
+  if (!answer.found.causes.empty()) {
+    const levitator::Cause& first = levitator::Causes()[answer.found.causes.front()];
+    json["place"] = std::string(levitator::Table()[first.moves.front()].place);
+  }
   json["ties"] = nlohmann::ordered_json::object();
   for (const levitator::Tie& tie : answer.ties) json["ties"][tie.cause] = tie.others;
   json["runs_held_out"] = RunsJson(answer.held_out);

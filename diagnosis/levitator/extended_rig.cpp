@@ -15,7 +15,7 @@ namespace {
 
 void ExtendCoil(const Theta& t, plant::VoltageDrive& coil) {
   constexpr double kFlat_m = 1000.0;  // the largest decay that a rig file may have
-  const double resistance = 1.0 + t[kResistance];
+  const double resistance = (1.0 + t[kResistance]) * (1.0 + t[Own(0, kOwnResistance)]);
   const double decay_m = coil.decay_m;
   // A dead band takes the same from every voltage beyond it; an idle coil stays at nothing.
   coil.offset_a = (coil.offset_a - coil.steady * (1.0 + t[kSupply]) * t[kDeadBand]) / resistance;
@@ -106,7 +106,9 @@ std::string Comments(const Found& found) {
 }  // namespace
 
 std::string ExtendedRig(const config::RigFile& rig, const Found& found) {
-  const Theta& t = found.extended.theta;
+  // A record that was not seen has what the others have on average.
+  Theta t = ForOthers(found.extended.theta, 1);
+  t[kSensorOffset] += t[Own(0, kOwnOffset)];
   config::RigFile extended = rig;
   plant::BearingConfig& bearing = extended.plant.bearings.at(0);
   extended.plant.delay_samples += t[kDelay];
