@@ -105,8 +105,9 @@ std::string SensorEntry(const RigView& rig, const Group& g) {
   }
   for (std::size_t a = 0; a < rig.axes; ++a) {
     if (g.effect == "sensor_bandwidth" && g.place == rig.numbers.channels[a]) {
-      return fmt::format("channels: [{}], bandwidth_hz: {:.6g}", g.place,
-                         rig.bearing(a).sensor.bandwidth_hz * std::max(0.05, 1.0 + g.At("ratio")));
+      return fmt::format(
+          "channels: [{}], bandwidth_hz: {:.6g}", g.place,
+          rig.bearing(a).sensor.bandwidth_hz / std::max(0.05, 1.0 + g.At("lag_ratio")));
     }
     if (g.effect == "amplifier_bandwidth" && g.place == rig.numbers.channels[a]) {
       return fmt::format(

@@ -115,6 +115,13 @@ std::vector<NamedParameter> Parameters(const SessionAnswer& s) {
       p.value += 1.0;
       p.low += 1.0;
       p.high += 1.0;
+    } else if (e.parameter == "lag_ratio") {
+      // A longer lag is a lower bandwidth: the ends of the interval change places.
+      constexpr double kLeastLag = 0.05;
+      p.name = "ratio";
+      p.value = 1.0 / std::max(kLeastLag, 1.0 + e.value);
+      p.low = 1.0 / std::max(kLeastLag, 1.0 + e.value + spread);
+      p.high = 1.0 / std::max(kLeastLag, 1.0 + e.value - spread);
     } else if (e.effect == "extra_delay") {
       p.name = "delay_s";
       p.unit = kSecond;

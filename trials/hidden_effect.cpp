@@ -269,7 +269,7 @@ class Drawer {
         break;
       }
       case Id::kCouplingStiffness:
-        Value(1) = 1.5e4 * size_;
+        Value(1) = 3e3 * size_;
         Value(2) = Between(-0.5, 0.5) * Value(1);
         break;
       case Id::kCrossCoupledStiffness:

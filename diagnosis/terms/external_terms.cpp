@@ -99,8 +99,10 @@ std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& t, double 
     terms.push_back(Spring(rig, "cross_coupled_stiffness", disc.z_m, Kind::kAntisymmetric, 5e3));
   }
   for (std::size_t b = 0; b < rig.axes / 2; ++b) {
-    for (const double hz : {30.0, 45.0, 65.0, 90.0, 120.0, 160.0, 210.0, 280.0}) {
-      terms.push_back(Support(rig, b, hz));
+    // From 30 to 270 Hz, each a tenth above the one before: a support is that sharp.
+    constexpr int kSteps = 22;
+    for (int k = 0; k <= kSteps; ++k) {
+      terms.push_back(Support(rig, b, 30.0 * std::pow(9.0, static_cast<double>(k) / kSteps)));
     }
     for (const double share : {0.4, 0.6, 0.8}) {
       terms.push_back(Rub(rig, b, share * largest_orbit_m));

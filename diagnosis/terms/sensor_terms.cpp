@@ -59,18 +59,15 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
   const double lag_s = SensorLag(rig, a);
   const auto shape = rig.magnet(a).sensor_shape;
   const std::size_t at = (a % 2) * rig.modes;
-  terms.push_back(MakeReading({"sensor_bandwidth", channel, "ratio", "1"}, t.sensor_bandwidth, 0.5,
-                              [a, lag_s, shape, at](const Moment& m, double theta, Addition& add) {
-                                const double ratio = std::max(0.05, 1.0 + theta);
-                                add.reading_m[a] +=
-                                    lag_s * (1.0 - 1.0 / ratio) * Dot(shape, m.read_v.data() + at);
-                              }));
-  terms.back().linear = false;
-  terms.back().step = 0.05;
+  // Late by a lag: it, not the bandwidth, enters linearly. First order in the lag.
+  terms.push_back(
+      MakeReading({"sensor_bandwidth", channel, "lag_ratio", "1"}, t.sensor_bandwidth, 1.0,
+                  [a, lag_s, shape, at](const Moment& m, double theta, Addition& add) {
+                    add.reading_m[a] -= lag_s * theta * Dot(shape, m.read_v.data() + at);
+                  }));
   terms.back().change = [a, lag_s, shape](double theta, LinearChange& change) {
-    const double later_s = lag_s * (1.0 - 1.0 / std::max(0.05, 1.0 + theta));
     for (std::size_t i = 0; i < shape.size(); ++i) {
-      change.axis[a].sensor_v[i] += later_s * shape[i];
+      change.axis[a].sensor_v[i] -= lag_s * theta * shape[i];
     }
   };
 }

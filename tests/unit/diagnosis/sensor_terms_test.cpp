@@ -50,7 +50,7 @@ TEST_F(SensorTermsTest, ASlowerSensorLagsByTheDifferenceOfTheTimeConstants) {
   }
   // First order: the reading is v/w behind; with half the bandwidth twice that.
   const double lag_s = 1.0 / (2.0 * std::numbers::pi * hz);
-  EXPECT_NEAR(Of("sensor_bandwidth", "de_y", "ratio", -0.5).reading_m[1], -lag_s * velocity,
+  EXPECT_NEAR(Of("sensor_bandwidth", "de_y", "lag_ratio", 1.0).reading_m[1], -lag_s * velocity,
               1e-9 * std::abs(velocity));
 }
 
