@@ -41,6 +41,7 @@ struct BenchOptions {
 struct Row {
   std::uint64_t seed{};
   trials::ModalErrors errors;
+  trials::ModalScores scores;
   std::vector<SpeedQuality> quality;
   std::vector<ModeSupport> support;
   double time_s{};
@@ -132,6 +133,33 @@ void PrintMedians(const std::vector<Row>& rows, nlohmann::ordered_json& json) {
   print("ki g/ks", ratio);
 }
 
+/// How many truths lie within two of the standard deviations that the fit states.
+void PrintCoverage(const std::vector<Row>& rows, nlohmann::ordered_json& json) {
+  std::vector<double> frequency, damping, ki, ks;
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.support.size(); ++i) {
+      if (row.support[i].support != Support::kShown) continue;
+      frequency.push_back(row.scores.frequency[static_cast<Eigen::Index>(i)]);
+      damping.push_back(row.scores.damping[static_cast<Eigen::Index>(i)]);
+    }
+    Append(ki, row.scores.ki_product);
+    Append(ks, row.scores.ks_product);
+  }
+  fmt::print("truths within two standard deviations, as the fit states them (95 % are expected)\n");
+  const auto print = [&json](const char* name, const std::vector<double>& scores) {
+    const auto within =
+        std::ranges::count_if(scores, [](double score) { return std::abs(score) < 2.0; });
+    double worst = 0.0;
+    for (const double score : scores) worst = std::max(worst, std::abs(score));
+    fmt::print("  {:<12}{:>4} of {:<4} (worst at {:.1f})\n", name, within, scores.size(), worst);
+    json["within_two_sigma"][name] = {within, scores.size()};
+  };
+  print("frequency", frequency);
+  print("damping", damping);
+  print("ki g/m", ki);
+  print("ks/m", ks);
+}
+
 ExitStatus Run(const BenchOptions& options) {
   const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
@@ -143,12 +171,13 @@ ExitStatus Run(const BenchOptions& options) {
     plan.amplitude_a = options.amplitude_a;
     plan.seed = options.first + static_cast<std::uint64_t>(n);
     const trials::ModalTrial trial = trials::MakeModalTrial(rig, plan);
-    const auto responses = EstimateResponses(trial.record, delay_s);
+    const auto responses = EstimateResponses(trial.record, delay_s, {}, ModalResponseOptions(rig));
     const auto began = std::chrono::steady_clock::now();
     const ModalResult result = IdentifyModal(rig, responses, options.fit);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-    rows.push_back({plan.seed, trials::Compare(trial.truth, result.rig), result.quality,
-                    result.support, took.count()});
+    rows.push_back({plan.seed, trials::Compare(trial.truth, result.rig),
+                    trials::Score(trial.truth, result), result.quality, result.support,
+                    took.count()});
     PrintRow(rows.back());
     json["rigs"].push_back(Json(rows.back()));
     if (n > 0 || options.starts == 0) continue;
@@ -162,6 +191,7 @@ ExitStatus Run(const BenchOptions& options) {
     json["starts"] = {{"tried", starts.starts}, {"same", starts.same}, {"apart", starts.apart}};
   }
   PrintMedians(rows, json);
+  PrintCoverage(rows, json);
   WriteJsonFile(options.json_path, json);
   return ExitStatus::kDone;
 }

@@ -17,11 +17,13 @@ namespace levitas::cli {
 namespace {
 
 constexpr const char* kHelp =
-    "Closed loop, P = G S^-1: from the periodic excitation of each axis in turn to positions and "
-    "currents. The first period is dropped as transient, the others are averaged: whole periods "
-    "leak nothing, and their scatter is the variance.\n"
+    "Closed loop, P = G S^-1: from the excitation of each axis in turn to positions and currents. "
+    "Read are signals that repeat (PRBS, multisine, strokes), the first period of which is dropped "
+    "as transient, and sines held one after the other, of which the second half counts. Whole "
+    "periods leak nothing, and their scatter is the variance.\n"
     "  amb run --scenario identify --record campaign.lcm\n"
     "  amb identify frf campaign.lcm --csv frf.csv --svg frf.svg\n"
+    "Scenarios identify_multisine, identify_impulse and identify_stepped_sine do it otherwise.\n"
     "The picture is of the first speed; --speed-rpm chooses another.";
 
 struct FrfOptions : AnalysisOptions {
@@ -48,8 +50,7 @@ double ClearShare(const FrequencyResponse& r, Eigen::Index i, Eigen::Index j) {
 void Print(const FrequencyResponse& r, double orbit_bound_um) {
   fmt::print(
       "\n{:.0f} rpm: {} lines, {:.3f} to {:.0f} Hz, {} periods averaged, {} lines next to orders "
-      "of "
-      "rotation left out\n",
+      "of rotation left out\n",
       Rpm(r.speed_rad_per_s), r.frequency_hz.size(), r.frequency_hz.front(), r.frequency_hz.back(),
       r.periods, r.left_out_hz.size());
   fmt::print("largest orbit {:.1f} um{}, largest control current {:.3f} A\n",

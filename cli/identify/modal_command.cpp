@@ -147,6 +147,19 @@ void PrintFit(const ModalResult& r) {
   }
 }
 
+/// What the record departs by from the rig file, and from the identified model.
+void PrintResiduals(const ModalResult& r) {
+  fmt::print("\nresidual per channel, rms in units of what noise allows: rig file -> identified\n");
+  for (const SpeedQuality& q : r.quality) {
+    fmt::print("  {:>6.0f} rpm", Rpm(q.speed_rad_per_s));
+    for (Eigen::Index a = 0; a < q.after.size(); ++a) {
+      fmt::print("   {} {:.1f} -> {:.2f}", r.channels[static_cast<std::size_t>(a)],
+                 std::sqrt(q.before[a]), std::sqrt(q.after[a]));
+    }
+    fmt::print("\n");
+  }
+}
+
 ExitStatus Run(const ModalOptions& options) {
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
@@ -154,12 +167,13 @@ ExitStatus Run(const ModalOptions& options) {
   const config::RigFile rig = LoadRig(options);
   const auto record = ReadRecord(options.data_path, rig);
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
-  const auto responses = EstimateResponses(record, delay_s);
+  const auto responses = EstimateResponses(record, delay_s, {}, ModalResponseOptions(rig));
   const auto began = std::chrono::steady_clock::now();
   ModalResult result = IdentifyModal(rig, responses, options.fit);
   result.time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   fmt::print("{}: modal model of {}\n", options.data_path, rig.numbers.name);
   PrintFit(result);
+  PrintResiduals(result);
   PrintModes(result);
   PrintAxes(result);
   PrintSupport(result);

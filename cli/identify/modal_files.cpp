@@ -25,6 +25,10 @@ std::vector<double> Row(const Eigen::MatrixXd& matrix, Eigen::Index row) {
   return values;
 }
 
+std::vector<double> Values(const Eigen::VectorXd& vector) {
+  return {vector.data(), vector.data() + vector.size()};
+}
+
 svg::Figure StabilisationPicture(const ModalResult& r) {
   svg::Series all{.name = "pole", .colour = "#bbbbbb", .width = 0, .mark = svg::Mark::kCross};
   svg::Series stable{
@@ -113,7 +117,9 @@ Json ModalJson(const ModalResult& r) {
                               {"misfit", q.misfit},
                               {"fitted", q.fitted},
                               {"fit_percent", q.percent.fit},
-                              {"ceiling_percent", q.percent.ceiling}});
+                              {"ceiling_percent", q.percent.ceiling},
+                              {"channel_misfit_rig_file", Values(q.before)},
+                              {"channel_misfit_identified", Values(q.after)}});
   }
   return json;
 }

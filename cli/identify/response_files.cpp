@@ -114,14 +114,15 @@ void WriteResponseCsv(const std::string& path, const std::vector<FrequencyRespon
 }
 
 nlohmann::ordered_json ResponseJson(const FrequencyResponse& r) {
-  nlohmann::ordered_json json{{"speed_rpm", Rpm(r.speed_rad_per_s)},
-                              {"lines", r.frequency_hz.size()},
-                              {"periods", r.periods},
-                              {"line_spacing_hz", r.frequency_hz[1] - r.frequency_hz[0]},
-                              {"largest_orbit_m", r.largest_orbit_m},
-                              {"largest_current_a", r.largest_current_a},
-                              {"left_out_hz", r.left_out_hz},
-                              {"frequency_hz", r.frequency_hz}};
+  nlohmann::ordered_json json{
+      {"speed_rpm", Rpm(r.speed_rad_per_s)},
+      {"lines", r.frequency_hz.size()},
+      {"periods", r.periods},
+      {"line_spacing_hz", r.frequency_hz.size() > 1 ? r.frequency_hz[1] - r.frequency_hz[0] : 0.0},
+      {"largest_orbit_m", r.largest_orbit_m},
+      {"largest_current_a", r.largest_current_a},
+      {"left_out_hz", r.left_out_hz},
+      {"frequency_hz", r.frequency_hz}};
   for (Index j = 0; j < r.axes(); ++j) {
     for (Index i = 0; i < r.axes(); ++i) {
       auto& entry = json["plant"][Channel(r, i)][Channel(r, j)];

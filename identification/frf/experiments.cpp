@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "common/problem.hpp"
 #include "identification/frf/excitation_period.hpp"
+#include "identification/frf/sine_steps.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -16,6 +19,12 @@ constexpr double kPauseS = 0.2;
 /// Speeds closer than this, relative or in rad/s, are the same: a drive holds its speed.
 constexpr double kSameSpeed = 0.01;
 constexpr double kStandsRadPerS = 1.0;
+
+/// A frequency that comes again begins a sweep of its own; steps are farther apart.
+constexpr double kSameFrequency = 2e-3;
+constexpr std::size_t kMostBlocks = 8;
+/// Strokes are alike within this share of the largest.
+constexpr double kSameStroke = 1e-6;
 
 struct Piece {
   std::size_t axis{};
@@ -65,6 +74,37 @@ std::vector<Piece> FindPieces(const Record& record) {
   return pieces;
 }
 
+bool Alike(const Record& record, const Piece& a, const Piece& b) {
+  if (a.axis != b.axis || a.end - a.begin != b.end - b.begin) return false;
+  const Column& signal = record.excitation_a[a.axis];
+  double largest = 0.0;
+  double apart = 0.0;
+  for (std::size_t n = 0; n < a.end - a.begin; ++n) {
+    largest = std::max(largest, std::abs(signal[a.begin + n]));
+    apart = std::max(apart, std::abs(signal[a.begin + n] - signal[b.begin + n]));
+  }
+  return apart <= kSameStroke * largest;
+}
+
+/// Strokes that are alike, shorter than the pauses and evenly spaced are one train.
+std::vector<Piece> JoinTrains(const Record& record, const std::vector<Piece>& pieces) {
+  std::vector<Piece> joined;
+  for (std::size_t first = 0; first < pieces.size();) {
+    std::size_t last = first;
+    const std::size_t length = pieces[first].end - pieces[first].begin;
+    while (last + 1 < pieces.size() && Alike(record, pieces[first], pieces[last + 1])) {
+      const std::size_t distance = pieces[last + 1].begin - pieces[last].begin;
+      const std::size_t spacing = pieces[first + 1].begin - pieces[first].begin;
+      if (distance != spacing || 2 * length > spacing) break;
+      ++last;
+    }
+    joined.push_back(
+        {pieces[first].axis, pieces[first].begin, pieces[last].end, pieces[last].available});
+    first = last + 1;
+  }
+  return joined;
+}
+
 void CheckRows(const Record& record, const Piece& piece, std::size_t end) {
   for (std::size_t row = piece.begin; row < end; ++row) {
     if (row > piece.begin && record.cycle[row] != record.cycle[row - 1] + 1) {
@@ -93,16 +133,20 @@ double SteadySpeed(const Record& record, const Experiment& experiment) {
   return mean;
 }
 
-Experiment MakeExperiment(const Record& record, const Piece& piece,
-                          const ExperimentOptions& options) {
-  const std::span<const double> all(record.excitation_a[piece.axis]);
-  const auto signal = all.subspan(piece.begin, piece.end - piece.begin);
+std::span<const double> SignalOf(const Record& record, const Piece& piece) {
+  return std::span<const double>(record.excitation_a[piece.axis])
+      .subspan(piece.begin, piece.end - piece.begin);
+}
+
+Experiment Periodic(const Record& record, const Piece& piece, const ExperimentOptions& options) {
+  const auto signal = SignalOf(record, piece);
   const auto period = RepeatsAfter(signal);
   if (!period) {
     throw BadInput(fmt::format(
-        "{} ({:.4f} s long): the signal does not repeat itself; at least {} whole periods are "
-        "needed, the first of which is the transient. A signal that the scenario's orbit limit "
-        "cut back does not repeat either: raise orbit_limit_um or lower the amplitude",
+        "{} ({:.4f} s long): the signal does not repeat itself, nor is it made of sines held one "
+        "after the other; at least {} whole periods are needed, the first of which is the "
+        "transient. A signal that the scenario's orbit limit cut back does not repeat either: "
+        "raise orbit_limit_um or lower the amplitude",
         Where(record, piece.axis, piece.begin),
         static_cast<double>(signal.size()) * record.period_s,
         options.dropped_periods + options.needed_periods));
@@ -119,15 +163,106 @@ Experiment MakeExperiment(const Record& record, const Piece& piece,
         options.dropped_periods + options.needed_periods, options.dropped_periods,
         options.needed_periods));
   }
-  Experiment experiment{piece.axis, piece.begin + options.dropped_periods * *period, *period,
-                        periods - options.dropped_periods, 0.0};
-  CheckRows(record, piece, experiment.end());
-  experiment.speed_rad_per_s = SteadySpeed(record, experiment);
-  return experiment;
+  return {piece.axis, piece.begin + options.dropped_periods * *period,
+          *period,    periods - options.dropped_periods,
+          0.0,        {}};
+}
+
+/// Whole periods of the settled part, in rows of the record.
+HeldSine Settled(const SineStep& step, const Piece& piece, const ExperimentOptions& options) {
+  const auto length = static_cast<double>(step.end - step.begin);
+  const double usable = length * (1.0 - options.settle_share);
+  // The last sample of a step may already be the next one's.
+  const double periods = std::floor((usable - 1.0) * step.cycles_per_sample);
+  const auto rows = static_cast<std::size_t>(std::lround(periods / step.cycles_per_sample));
+  const std::size_t end = piece.begin + step.end - 1;
+  return {end - rows, end, step.cycles_per_sample};
+}
+
+std::size_t BlocksOf(const HeldSine& sine) {
+  const double periods = static_cast<double>(sine.end - sine.begin) * sine.cycles_per_sample;
+  return std::min(kMostBlocks, static_cast<std::size_t>(std::lround(periods)));
+}
+
+void RefuseShort(const Record& record, const Piece& piece, const HeldSine& sine,
+                 const ExperimentOptions& options) {
+  if (BlocksOf(sine) >= options.needed_periods) return;
+  throw BadInput(fmt::format(
+      "{}: {:.2f} Hz is held for {} whole periods after settling, needed are {}: hold it longer "
+      "(dwell_s), or begin higher",
+      Where(record, piece.axis, piece.begin), sine.cycles_per_sample / record.period_s,
+      BlocksOf(sine), options.needed_periods));
+}
+
+/// One experiment per whole sweep.
+std::vector<Experiment> Stepped(const Record& record, const Piece& piece,
+                                const std::vector<SineStep>& steps,
+                                const ExperimentOptions& options) {
+  std::vector<std::vector<HeldSine>> sweeps(1);
+  for (const SineStep& step : steps) {
+    const auto& first = sweeps.front();
+    const bool again =
+        !first.empty() &&
+        std::abs(step.cycles_per_sample / first.front().cycles_per_sample - 1.0) < kSameFrequency;
+    if (again) sweeps.emplace_back();
+    sweeps.back().push_back(Settled(step, piece, options));
+  }
+  const std::size_t lines = sweeps.front().size();
+  std::vector<Experiment> experiments;
+  for (std::vector<HeldSine>& sweep : sweeps) {
+    if (sweep.size() != lines) continue;
+    const bool last_breaks_off = experiments.size() > 0 && BlocksOf(sweep.back()) < 2;
+    if (last_breaks_off) continue;
+    std::size_t blocks = kMostBlocks;
+    for (const HeldSine& sine : sweep) {
+      RefuseShort(record, piece, sine, options);
+      blocks = std::min(blocks, BlocksOf(sine));
+    }
+    experiments.push_back({piece.axis, sweep.front().begin, 0, blocks, 0.0, std::move(sweep)});
+  }
+  return experiments;
+}
+
+std::vector<Experiment> ExperimentsOf(const Record& record, const Piece& piece,
+                                      const ExperimentOptions& options) {
+  const auto steps = FindSineSteps(SignalOf(record, piece));
+  auto experiments = steps.empty() ? std::vector<Experiment>{Periodic(record, piece, options)}
+                                   : Stepped(record, piece, steps, options);
+  for (Experiment& experiment : experiments) {
+    CheckRows(record, piece, experiment.end());
+    experiment.speed_rad_per_s = SteadySpeed(record, experiment);
+  }
+  return experiments;
 }
 
 bool SameSpeed(double a, double b) {
   return std::abs(a - b) <= std::max(kStandsRadPerS, kSameSpeed * std::abs(a));
+}
+
+bool SameSines(const Experiment& a, const Experiment& b) {
+  return std::ranges::equal(a.sines, b.sines, [](const HeldSine& one, const HeldSine& other) {
+    return std::abs(one.cycles_per_sample / other.cycles_per_sample - 1.0) < kSameFrequency;
+  });
+}
+
+void RefuseUnlike(const Record& record, const Campaign& campaign) {
+  const Experiment& first = campaign.experiments.front();
+  for (const Experiment& e : campaign.experiments) {
+    if (e.period_samples != first.period_samples) {
+      throw BadInput(fmt::format(
+          "{}: the excitation of {} repeats after {} samples, that of {} after {}; use one signal "
+          "for all axes (0: sines held one after the other)",
+          record.name, record.channels[first.axis], first.period_samples, record.channels[e.axis],
+          e.period_samples));
+    }
+    if (!SameSines(e, first)) {
+      throw BadInput(fmt::format(
+          "{}: the sines of {} ({} frequencies) are not those of {} ({}); use one signal for all "
+          "axes",
+          record.name, record.channels[first.axis], first.sines.size(), record.channels[e.axis],
+          e.sines.size()));
+    }
+  }
 }
 
 void RefuseIncomplete(const Record& record, const Campaign& campaign) {
@@ -142,21 +277,13 @@ void RefuseIncomplete(const Record& record, const Campaign& campaign) {
         "{}: {} not excited at {:.0f} rpm; a rig with {} axes needs an experiment on each",
         record.name, missing, Rpm(campaign.speed_rad_per_s), record.axes()));
   }
-  const Experiment& first = campaign.experiments.front();
-  for (const Experiment& e : campaign.experiments) {
-    if (e.period_samples == first.period_samples) continue;
-    throw BadInput(fmt::format(
-        "{}: the excitation of {} repeats after {} samples, that of {} after {}; use one signal "
-        "for all axes",
-        record.name, record.channels[first.axis], first.period_samples, record.channels[e.axis],
-        e.period_samples));
-  }
+  RefuseUnlike(record, campaign);
 }
 
 }  // namespace
 
 std::vector<Experiment> FindExperiments(const Record& record, const ExperimentOptions& options) {
-  const std::vector<Piece> pieces = FindPieces(record);
+  const std::vector<Piece> pieces = JoinTrains(record, FindPieces(record));
   if (pieces.empty()) {
     throw BadInput(record.name +
                    ": no excitation in the record; run a scenario with one (amb run --scenario "
@@ -165,7 +292,7 @@ std::vector<Experiment> FindExperiments(const Record& record, const ExperimentOp
   std::vector<Experiment> experiments;
   experiments.reserve(pieces.size());
   for (const Piece& piece : pieces) {
-    experiments.push_back(MakeExperiment(record, piece, options));
+    std::ranges::move(ExperimentsOf(record, piece, options), std::back_inserter(experiments));
   }
   return experiments;
 }

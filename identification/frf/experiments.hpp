@@ -1,12 +1,15 @@
 #pragma once
-// Cuts a record into experiments: one axis excited by a signal that repeats, at one speed.
+// Cuts a record into experiments: one axis excited by a signal that repeats (PRBS, multisine,
+// impulses), or by sines held one after the other, at one speed.
 //
-// Piece     rows in which one and the same axis is excited; pauses up to 0.2 s (between the strokes
-//           of an impulse train) belong to it.
+// Piece     rows in which one and the same axis is excited; pauses up to 0.2 s belong to it, and
+//           longer ones between strokes that are alike and evenly spaced.
 // Periods   whole periods of the signal; what follows the last whole one is left out.
+// Sines     of each the second half (`settle_share`), whole periods in two to eight blocks. A sweep
+//           that begins again is an experiment of its own; one that breaks off is left out.
 // Failure   BadInput, one sentence each: no excitation at all, several axes at once, a signal that
-//           does not repeat, fewer periods than needed, missing rows, rotor not levitated, a speed
-//           that changes.
+//           neither repeats nor is made of sines, fewer periods than needed, missing rows, rotor
+//           not levitated, a speed that changes.
 // Thread    any.
 
 #include <cstddef>
@@ -16,19 +19,29 @@
 
 namespace levitas::identification {
 
+/// What is used of a sine that was held: whole periods, the transient over.
+struct HeldSine {
+  std::size_t begin{}, end{};  ///< rows of the record
+  double cycles_per_sample{};
+};
+
 struct Experiment {
   std::size_t axis{};
   std::size_t begin{};           ///< first row of the first period that is used
-  std::size_t period_samples{};  ///< N
-  std::size_t periods{};         ///< used: dropped ones not counted
+  std::size_t period_samples{};  ///< N; 0 with held sines
+  std::size_t periods{};         ///< used: dropped ones not counted; of held sines the blocks
   double speed_rad_per_s{};
+  std::vector<HeldSine> sines;  ///< empty with a signal that repeats
 
-  [[nodiscard]] std::size_t end() const noexcept { return begin + periods * period_samples; }
+  [[nodiscard]] std::size_t end() const noexcept {
+    return sines.empty() ? begin + periods * period_samples : sines.back().end;
+  }
 };
 
 struct ExperimentOptions {
   std::size_t dropped_periods{1};  ///< the transient
   std::size_t needed_periods{2};   ///< after dropping: two make a variance
+  double settle_share{0.5};        ///< of a held sine: the transient
 };
 
 /// In the order of the record.

@@ -7,63 +7,22 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <unsupported/Eigen/FFT>
+#include <span>
 
 #include "common/problem.hpp"
 #include "identification/frf/checks.hpp"
-#include "identification/frf/synchronous.hpp"
+#include "identification/frf/spectra.hpp"
 
 namespace levitas::identification {
 namespace {
 
 using Complex = std::complex<double>;
-using Spectrum = std::vector<Complex>;
 using Index = Eigen::Index;
 
-/// Lines to either side over which noise is taken as equally strong.
-constexpr std::ptrdiff_t kNeighbours = 10;
 /// A line is excited when its power is at least this share of the mean power of all lines.
 constexpr double kExcitedShare = 1e-4;
-/// Lines this close to an order of rotation, in line spacings, are left out.
-constexpr double kOrderWidth = 0.75;
 
 Index At(std::size_t i) { return static_cast<Index>(i); }
-
-/// Spectra of one experiment: [channel][period][line].
-struct Spectra {
-  std::size_t axis{};
-  std::size_t periods{};
-  std::vector<std::vector<Spectrum>> position, current;
-  Spectrum excitation;
-};
-
-std::vector<Spectrum> PeriodSpectra(const Column& column, const Record& record, const Experiment& e,
-                                    int orders, Eigen::FFT<double>& fft) {
-  const auto piece = std::span(column).subspan(e.begin, e.end() - e.begin);
-  const auto angle = std::span(record.angle_rad).subspan(e.begin, piece.size());
-  const std::vector<double> rest = WithoutSynchronous(piece, angle, orders);
-  std::vector<Spectrum> spectra(e.periods);
-  std::vector<double> samples(e.period_samples);
-  for (std::size_t m = 0; m < e.periods; ++m) {
-    const auto from = rest.begin() + static_cast<std::ptrdiff_t>(m * e.period_samples);
-    std::copy_n(from, e.period_samples, samples.begin());
-    fft.fwd(spectra[m], samples);
-  }
-  return spectra;
-}
-
-Spectra Transform(const Record& record, const Experiment& e, int orders) {
-  Eigen::FFT<double> fft;
-  Spectra s{e.axis, e.periods, {}, {}, {}};
-  for (std::size_t axis = 0; axis < record.axes(); ++axis) {
-    s.position.push_back(PeriodSpectra(record.position_m[axis], record, e, orders, fft));
-    s.current.push_back(PeriodSpectra(record.current_a[axis], record, e, orders, fft));
-  }
-  const auto from = record.excitation_a[e.axis].begin() + static_cast<std::ptrdiff_t>(e.begin);
-  std::vector<double> samples(from, from + static_cast<std::ptrdiff_t>(e.period_samples));
-  fft.fwd(s.excitation, samples);
-  return s;
-}
 
 Complex MeanOf(const std::vector<Spectrum>& periods, std::size_t line) {
   Complex sum = 0.0;
@@ -71,16 +30,15 @@ Complex MeanOf(const std::vector<Spectrum>& periods, std::size_t line) {
   return sum / static_cast<double>(periods.size());
 }
 
-std::vector<std::size_t> ExcitedLines(const std::vector<Spectra>& all, double spacing_hz,
-                                      double highest_hz) {
-  const std::size_t count = all.front().excitation.size() / 2;
+std::vector<std::size_t> ExcitedLines(const std::vector<Spectra>& all, double highest_hz) {
+  const std::vector<double>& frequency_hz = all.front().frequency_hz;
   std::vector<double> mean(all.size(), 0.0);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t k = 1; k < count; ++k) mean[i] += std::norm(all[i].excitation[k]);
-    mean[i] /= static_cast<double>(count);
+    for (const Complex& line : all[i].excitation) mean[i] += std::norm(line);
+    mean[i] /= static_cast<double>(frequency_hz.size());
   }
   std::vector<std::size_t> lines;
-  for (std::size_t k = 1; k < count && static_cast<double>(k) * spacing_hz <= highest_hz; ++k) {
+  for (std::size_t k = 0; k < frequency_hz.size() && frequency_hz[k] <= highest_hz; ++k) {
     bool excited = true;
     for (std::size_t i = 0; i < all.size(); ++i) {
       excited = excited && std::norm(all[i].excitation[k]) > kExcitedShare * mean[i];
@@ -152,21 +110,15 @@ Eigen::MatrixXd CoherenceOf(const std::vector<Spectra>& all, std::size_t line, I
   return coherence;
 }
 
-bool NearOrder(double f_hz, double rotation_hz, int orders, double width_hz) {
-  for (int k = 1; k <= orders && rotation_hz > 0.0; ++k) {
-    if (std::abs(f_hz - k * rotation_hz) < width_hz) return true;
-  }
-  return false;
-}
-
 /// Replaces each line's noise power by the mean over its neighbours.
-std::vector<Eigen::MatrixXd> Smoothed(const std::vector<Eigen::MatrixXd>& power) {
+std::vector<Eigen::MatrixXd> Smoothed(const std::vector<Eigen::MatrixXd>& power,
+                                      std::ptrdiff_t neighbours) {
   std::vector<Eigen::MatrixXd> smooth;
   smooth.reserve(power.size());
   const auto count = static_cast<std::ptrdiff_t>(power.size());
   for (std::ptrdiff_t k = 0; k < count; ++k) {
-    const std::ptrdiff_t low = std::max<std::ptrdiff_t>(0, k - kNeighbours);
-    const std::ptrdiff_t high = std::min(count - 1, k + kNeighbours);
+    const std::ptrdiff_t low = std::max<std::ptrdiff_t>(0, k - neighbours);
+    const std::ptrdiff_t high = std::min(count - 1, k + neighbours);
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(power.front().rows(), power.front().cols());
     for (std::ptrdiff_t n = low; n <= high; ++n) sum += power[static_cast<std::size_t>(n)];
     smooth.push_back(sum / static_cast<double>(high - low + 1));
@@ -194,6 +146,47 @@ void FindExtremes(const Record& record, const Campaign& campaign, FrequencyRespo
   }
 }
 
+/// First-order, as an amplifier; 0 Hz: without limit.
+std::vector<double> Passed(std::span<const double> current_a, double amplifier_hz,
+                           double period_s) {
+  const double pass =
+      amplifier_hz > 0.0 ? 1.0 - std::exp(-2.0 * std::numbers::pi * amplifier_hz * period_s) : 1.0;
+  std::vector<double> coil_a(current_a.begin(), current_a.end());
+  for (std::size_t n = 1; n < coil_a.size(); ++n) {
+    coil_a[n] = coil_a[n - 1] + pass * (current_a[n] - coil_a[n - 1]);
+  }
+  return coil_a;
+}
+
+Moments MomentsOf(const Record& record, const Campaign& campaign, double amplifier_hz) {
+  const Index axes = At(record.axes());
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(axes, axes);
+  Moments moments{zero, zero, zero};
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(axes);
+  for (const Experiment& e : campaign.experiments) {
+    const std::size_t count = e.end() - e.begin;
+    const auto size = static_cast<Index>(count);
+    const Index j = At(e.axis);
+    rows[j] += static_cast<double>(count);
+    for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+      const auto coil_a = Passed(std::span(record.current_a[axis]).subspan(e.begin, count),
+                                 amplifier_hz, record.period_s);
+      const Eigen::Map<const Eigen::ArrayXd> i_a(coil_a.data(), size);
+      const Eigen::Map<const Eigen::ArrayXd> x_m(&record.position_m[axis][e.begin], size);
+      const Eigen::ArrayXd i = i_a - i_a.mean();
+      const Eigen::ArrayXd x = x_m - x_m.mean();
+      moments.current_square_a2(At(axis), j) += i.square().sum();
+      moments.position_square_m2(At(axis), j) += x.square().sum();
+      moments.product_a_m(At(axis), j) += (i * x).sum();
+    }
+  }
+  for (auto* sum :
+       {&moments.current_square_a2, &moments.position_square_m2, &moments.product_a_m}) {
+    *sum *= rows.cwiseInverse().asDiagonal();
+  }
+  return moments;
+}
+
 }  // namespace
 
 FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaign,
@@ -202,23 +195,20 @@ FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaig
   response.speed_rad_per_s = campaign.speed_rad_per_s;
   response.period_s = record.period_s;
   response.channels = record.channels;
-  const double rotation_hz = std::abs(campaign.speed_rad_per_s) / (2.0 * std::numbers::pi);
-  const bool turns = rotation_hz > 0.5;
+  const bool turns = std::abs(campaign.speed_rad_per_s) > std::numbers::pi;
   std::vector<Spectra> all;
   all.reserve(campaign.experiments.size());
   response.periods = campaign.experiments.front().periods;
   for (const Experiment& e : campaign.experiments) {
-    all.push_back(Transform(record, e, turns ? options.orders : 0));
+    all.push_back(SpectraOf(record, e, turns ? options.orders : 0));
     response.periods = std::min(response.periods, e.periods);
   }
-  const auto samples = static_cast<double>(campaign.experiments.front().period_samples);
-  const double spacing_hz = 1.0 / (samples * record.period_s);
   std::vector<Eigen::MatrixXd> power;
   std::vector<Eigen::MatrixXcd> inverse;
   const Index axes = response.axes();
-  for (const std::size_t line : ExcitedLines(all, spacing_hz, options.highest_hz)) {
-    const double f = static_cast<double>(line) * spacing_hz;
-    if (turns && NearOrder(f, rotation_hz, options.orders, kOrderWidth * spacing_hz)) {
+  for (const std::size_t line : ExcitedLines(all, options.highest_hz)) {
+    const double f = all.front().frequency_hz[line];
+    if (all.front().near_order[line]) {
       response.left_out_hz.push_back(f);
       continue;
     }
@@ -231,11 +221,13 @@ FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaig
     power.push_back(NoisePower(all, line, response.plant.back()));
   }
   if (power.empty()) throw BadInput(record.name + ": no line of the spectrum is excited");
-  const auto smooth = Smoothed(power);
+  const auto smooth = Smoothed(power, all.front().neighbours);
   response.variance.reserve(smooth.size());
   for (std::size_t k = 0; k < smooth.size(); ++k) {
     response.variance.push_back(smooth[k] * inverse[k].cwiseAbs2());
   }
+  response.noise = smooth;
+  response.moments = MomentsOf(record, campaign, options.amplifier_hz);
   FindExtremes(record, campaign, response);
   return response;
 }

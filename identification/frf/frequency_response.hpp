@@ -1,14 +1,15 @@
 #pragma once
 // Frequency response of a rig that only lives in closed loop: P = G S^-1.
 //
-// Equation   with axis j excited by e_j (periodic), Y = G E and U = S E line by line; every column
-//            of G and S from its own experiment; P = G S^-1 (Sahinkaya & Sawicki; any stabilising
-//            controller, linear or not known, drops out).
+// Equation   with axis j excited by e_j (periodic, or sines held one after the other), Y = G E and
+//            U = S E line by line; every column of G and S from its own experiment; P = G S^-1
+//            (Sahinkaya & Sawicki; any stabilising controller, linear or not known, drops out).
 // Leakage    none: spectra over whole periods of the signal, after the transient; what turns with
 //            the rotor is removed first (synchronous.hpp) and lines next to its orders are left
-//            out.
+//            out. Sines that are held have a settling time instead (experiments.hpp); a transient
+//            that is not over then scatters over the blocks, and is in the variance.
 // Noise      r = dY - P dU per period, the part that does not repeat: its covariance over the
-//            periods and over 21 neighbouring lines (it is smooth there) gives
+//            periods and over 21 neighbouring lines (it is smooth there; 5 held sines) gives
 //            var P_ik = sum_j C_j,ii |S^-1_jk|^2 / (M |E_j|^2), E|P - P_true|^2 of a complex entry.
 //            What repeats (nonlinearity) is no noise and is not in it.
 // Coherence  |sum Y_m|^2 / (M sum |Y_m|^2) of position i with the excitation of axis j.
@@ -24,6 +25,14 @@
 
 namespace levitas::identification {
 
+/// How far each axis moved about its mean in each experiment: rows by axis, columns by the axis that
+/// was excited; means of squares and of the product.
+struct Moments {
+  Eigen::MatrixXd current_square_a2;   ///< of what passes the amplifier
+  Eigen::MatrixXd position_square_m2;  ///< as read
+  Eigen::MatrixXd product_a_m;
+};
+
 struct FrequencyResponse {
   double speed_rad_per_s{};
   double period_s{};  ///< of sampling
@@ -33,10 +42,12 @@ struct FrequencyResponse {
   std::vector<Eigen::MatrixXcd> sensitivity;  ///< per line [1]
   std::vector<Eigen::MatrixXd> variance;      ///< of `plant` [m^2/A^2]
   std::vector<Eigen::MatrixXd> coherence;     ///< [1]
-  std::vector<double> left_out_hz;            ///< lines next to an order of rotation
-  std::size_t periods{};                      ///< averaged, least of all experiments
-  double largest_orbit_m{};    ///< radius about the mean at any bearing, in any experiment
-  double largest_current_a{};  ///< |control current| of any axis
+  std::vector<Eigen::MatrixXd> noise;  ///< variance of G - P S, G and S as measured [m^2/A^2]
+  Moments moments;
+  std::vector<double> left_out_hz;  ///< lines next to an order of rotation
+  std::size_t periods{};            ///< averaged, least of all experiments
+  double largest_orbit_m{};         ///< radius about the mean at any bearing, in any experiment
+  double largest_current_a{};       ///< |control current| of any axis
 
   [[nodiscard]] Eigen::Index axes() const noexcept {
     return static_cast<Eigen::Index>(channels.size());
@@ -46,6 +57,7 @@ struct FrequencyResponse {
 struct ResponseOptions {
   double highest_hz{5000.0};  ///< lines beyond it are left out
   int orders{5};              ///< of rotation that are removed
+  double amplifier_hz{0.0};   ///< bandwidth, for the moments only; 0: without limit
 };
 
 [[nodiscard]] FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaign,

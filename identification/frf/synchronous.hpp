@@ -11,8 +11,10 @@
 
 namespace levitas::identification {
 
-/// `angle_rad` and `signal` have the same length. With `orders` 0 only the mean is removed.
+/// `angle_rad` and `signal` have the same length. With `orders` 0 only the mean is removed. A test
+/// sine of `cycles_per_sample` (0: none) is fitted beside and stays.
 [[nodiscard]] std::vector<double> WithoutSynchronous(std::span<const double> signal,
-                                                     std::span<const double> angle_rad, int orders);
+                                                     std::span<const double> angle_rad, int orders,
+                                                     double cycles_per_sample = 0.0);
 
 }  // namespace levitas::identification

@@ -35,6 +35,12 @@ std::vector<double> BendingHz(const ModalLayout& at, const Eigen::VectorXd& vect
 
 }  // namespace
 
+ResponseOptions ModalResponseOptions(const config::RigFile& rig) {
+  ResponseOptions options;
+  options.amplifier_hz = rig.plant.bearings.front().amplifier.bandwidth_hz;
+  return options;
+}
+
 ModalResult IdentifyModal(const config::RigFile& rig,
                           const std::vector<FrequencyResponse>& responses,
                           const ModalFitOptions& options) {
@@ -74,9 +80,11 @@ ModalResult IdentifyModal(const ModalStart& start, const Eigen::VectorXd& begin,
   result.uncertainty = Assess(start, result.fit);
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const auto model = ModelOn(start, result.fit.vector, responses[i]);
-    result.quality.push_back({responses[i].speed_rad_per_s, Misfit(responses[i], model, options),
-                              i == 0 || i + 1 == responses.size(),
-                              FitOf(responses[i], model, options)});
+    result.quality.push_back(
+        {responses[i].speed_rad_per_s, Misfit(responses[i], model, options),
+         i == 0 || i + 1 == responses.size(), FitOf(responses[i], model, options),
+         MisfitByChannel(responses[i], ModelOn(start, start.vector, responses[i]), options),
+         MisfitByChannel(responses[i], model, options)});
   }
   return result;
 }

@@ -22,6 +22,7 @@ struct SpeedQuality {
   double misfit{};  ///< modal_quality.hpp
   bool fitted{};
   FitPercent percent;
+  Eigen::VectorXd before, after;  ///< misfit per channel: of the rig file, of what was identified
 };
 
 struct ModalResult {
@@ -37,6 +38,9 @@ struct ModalResult {
   std::vector<SpeedQuality> quality;  ///< in the order of the responses
   double time_s{};
 };
+
+/// What EstimateResponses has to know of the rig for a modal fit.
+[[nodiscard]] ResponseOptions ModalResponseOptions(const config::RigFile& rig);
 
 [[nodiscard]] ModalResult IdentifyModal(const config::RigFile& rig,
                                         const std::vector<FrequencyResponse>& responses,

@@ -3,16 +3,15 @@
 // leads the next into its valley.
 //
 // Stages    1 frequencies and dampings of the stabilisation diagram replace the start's
-//             (mode_support.hpp); a mode that the diagram does not show keeps the prior's, only its
-//             deflections are fitted. Where the pairing is open, every candidate goes through 2.
+//             (mode_support.hpp); where the pairing is open, candidates compete (modal_pairing.hpp)
 //           2 approach: log-magnitude on few lines, soft-L1 loss, with poles held; between rounds
 //             the free rotor's frequencies move until the poles in the magnets are the diagram's
-//           3 log-magnitude with poles free, then 4 complex, both soft-L1, then 5 plain complex:
-//             the maximum-likelihood fit
+//           3 log-magnitude with poles free, then 4 complex, both soft-L1; modes that no pole shows
+//             are looked for (PlaceOthers); then 5 plain complex: the maximum-likelihood fit
 //           6 gyroscopic matrix alone, from data at speed; 7 everything together
-// Residual  (P - P_data)/sqrt(var + (floor |P_data|)^2) per entry and line: resonances and
-//           anti-resonances get the weight that the data's own scatter gives them, nothing is
-//           chosen by hand. `floor` stands for what repeats and is not linear.
+// Residual  line_residuals.hpp: resonances and anti-resonances get the weight that the data's own
+//           scatter gives them, nothing is chosen by hand. `floor` stands for what repeats and is
+//           not linear beyond the magnets' law (working_gains.hpp).
 // Prior     (theta - theta_rig)/prior for every unknown, see modal_parameters.hpp.
 // Solver    Ceres, Levenberg-Marquardt, analytic derivatives.
 // Thread    any; uses `threads` of its own. Failure: none thrown; `converged` says.

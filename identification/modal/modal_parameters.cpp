@@ -51,9 +51,9 @@ void PutRotor(const plant::PlantConfig& rig, const plant::PlantModel& model, con
   const ModalLayout& at = to.start.frame.layout;
   const RigidBody body = RigidBodyOf(model);
   to.start.frame.nominal_mass_kg = body.mass_kg;
-  to.Put(at.mass, "mass", std::log(body.mass_kg), 0.02);
-  to.Put(at.centre, "centre_z", body.centre_z_m / 0.1, 0.02);
-  to.Put(at.inertia, "transverse_inertia", std::log(body.inertia_kg_m2), 0.04);
+  to.Put(at.mass, "mass", std::log(body.mass_kg), 0.005);
+  to.Put(at.centre, "centre_z", body.centre_z_m / 0.1, 0.005);
+  to.Put(at.inertia, "transverse_inertia", std::log(body.inertia_kg_m2), 0.01);
   const auto& modes = model.parameters().modes;
   const Index known = modes.frequency_rad_per_s.size() - 2;
   const double scale = std::sqrt(body.mass_kg);
@@ -131,6 +131,8 @@ void PutChain(const plant::PlantConfig& rig, const Writer& to) {
            0.3);
     to.start.frame.actuator_z_m[b] = bearing.actuator_z_m;
     to.start.frame.sensor_z_m[b] = bearing.sensor_z_m;
+    to.start.frame.bias_current_a[b] = bearing.magnet.bias_current_a;
+    to.start.frame.gap_m[b] = bearing.magnet.gap_m;
   }
 }
 
@@ -201,6 +203,8 @@ ModalStart StartFromRig(const plant::PlantConfig& rig, Index bending_modes) {
                     Eigen::VectorXd(bearings),
                     static_cast<double>(rig.period_ns) * 1e-9,
                     0.0,
+                    Eigen::VectorXd(bearings),
+                    Eigen::VectorXd(bearings),
                     {}},
                    {},
                    {},

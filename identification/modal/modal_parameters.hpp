@@ -61,6 +61,8 @@ struct ModalFrame {
   Eigen::VectorXd sensor_z_m;
   double period_s{};
   double nominal_mass_kg{};
+  Eigen::VectorXd bias_current_a,
+      gap_m;  ///< per bearing: what the magnets' nonlinearity scales with
   ModesBeyond beyond;
 };
 

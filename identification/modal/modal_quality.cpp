@@ -1,10 +1,11 @@
 #include "identification/modal/modal_quality.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
-#include "identification/modal/modal_response.hpp"
+#include "identification/modal/working_gains.hpp"
 
 namespace levitas::identification {
 
@@ -14,15 +15,20 @@ std::vector<Eigen::MatrixXcd> ModelOn(const ModalStart& start, const Eigen::Vect
   const double speed = std::abs(response.speed_rad_per_s) < 1.0 ? 0.0 : response.speed_rad_per_s;
   std::vector<Eigen::MatrixXcd> lines;
   lines.reserve(response.frequency_hz.size());
-  for (const double f : response.frequency_hz) {
-    lines.push_back(ModalResponse(start.frame, rig, f, speed));
+  const WorkingGains gains = WorkingGainsOf(start.frame, response);
+  for (std::size_t k = 0; k < response.frequency_hz.size(); ++k) {
+    const Eigen::MatrixXcd& currents = response.sensitivity[k];
+    lines.push_back(
+        ExperimentResponse(start.frame, rig, response.frequency_hz[k], speed, gains, currents) *
+        currents.inverse());
   }
   return lines;
 }
 
-double Misfit(const FrequencyResponse& response, const std::vector<Eigen::MatrixXcd>& model,
-              const ModalFitOptions& options) {
-  double sum = 0.0;
+Eigen::VectorXd MisfitByChannel(const FrequencyResponse& response,
+                                const std::vector<Eigen::MatrixXcd>& model,
+                                const ModalFitOptions& options) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(response.axes());
   double count = 0.0;
   for (std::size_t k = 0; k < response.frequency_hz.size(); ++k) {
     const double f = response.frequency_hz[k];
@@ -30,10 +36,16 @@ double Misfit(const FrequencyResponse& response, const std::vector<Eigen::Matrix
     const Eigen::ArrayXXd allowed =
         response.variance[k].array() +
         options.floor * options.floor * response.plant[k].cwiseAbs2().array();
-    sum += ((response.plant[k] - model[k]).cwiseAbs2().array() / allowed).sum();
-    count += static_cast<double>(model[k].size());
+    sum += ((response.plant[k] - model[k]).cwiseAbs2().array() / allowed).rowwise().sum().matrix();
+    count += static_cast<double>(model[k].cols());
   }
-  return count > 0.0 ? sum / count : 0.0;
+  if (count > 0.0) sum /= count;
+  return sum;
+}
+
+double Misfit(const FrequencyResponse& response, const std::vector<Eigen::MatrixXcd>& model,
+              const ModalFitOptions& options) {
+  return MisfitByChannel(response, model, options).mean();
 }
 
 FitPercent FitOf(const FrequencyResponse& response, const std::vector<Eigen::MatrixXcd>& model,

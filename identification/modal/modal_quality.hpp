@@ -14,7 +14,8 @@
 
 namespace levitas::identification {
 
-/// The model on the lines of a response.
+/// The model on the lines of a response: what its experiments would have given, P = G S^-1 with the
+/// working gains of each.
 [[nodiscard]] std::vector<Eigen::MatrixXcd> ModelOn(const ModalStart& start,
                                                     const Eigen::VectorXd& vector,
                                                     const FrequencyResponse& response);
@@ -22,6 +23,11 @@ namespace levitas::identification {
 [[nodiscard]] double Misfit(const FrequencyResponse& response,
                             const std::vector<Eigen::MatrixXcd>& model,
                             const ModalFitOptions& options);
+
+/// The same per output.
+[[nodiscard]] Eigen::VectorXd MisfitByChannel(const FrequencyResponse& response,
+                                              const std::vector<Eigen::MatrixXcd>& model,
+                                              const ModalFitOptions& options);
 
 struct FitPercent {
   double fit{}, ceiling{};

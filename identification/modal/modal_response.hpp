@@ -8,6 +8,9 @@
 //           ks makes of it is left out (1e-3 of a force).
 //           dP = Z^T (dPhi_a - dD X) + dPhi_s^T X with X = D^-1 Phi_a, Z = D^-T Phi_s.
 // Units     m/A; derivatives by the entries of the vector (modal_parameters.hpp).
+// Magnets   ki and ks are those of a small signal. In an experiment j of its own amplitude they are
+//           those times WorkingGains (working_gains.hpp): G has a column per experiment, G_j = P_j
+//           S_j, and the currents S that were recorded are its inputs.
 // Sampling  the hold's images around 10 kHz are left out: below 1e-3 of the mass line in the band
 //           of a position loop.
 // Thread    any; no shared state.
@@ -25,5 +28,17 @@ using ResponseDerivative = Eigen::MatrixXcd;
 [[nodiscard]] Eigen::MatrixXcd ModalResponse(const ModalFrame& frame, const Physical& rig,
                                              double frequency_hz, double speed_rad_per_s,
                                              ResponseDerivative* derivative = nullptr);
+
+/// Factors of ki and ks in each experiment: axes x experiments.
+struct WorkingGains {
+  Eigen::MatrixXd ki, ks;
+};
+
+/// G at one frequency; `derivative` as above, rows by output and experiment.
+[[nodiscard]] Eigen::MatrixXcd ExperimentResponse(const ModalFrame& frame, const Physical& rig,
+                                                  double frequency_hz, double speed_rad_per_s,
+                                                  const WorkingGains& gains,
+                                                  const Eigen::MatrixXcd& sensitivity,
+                                                  ResponseDerivative* derivative = nullptr);
 
 }  // namespace levitas::identification

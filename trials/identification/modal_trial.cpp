@@ -25,38 +25,13 @@ Mismatch Unknown() {
   return off;
 }
 
-/// Means of dF/di and dF/dx over the rows taken standing.
-struct WorkingPoint {
-  double ki_n_per_a{}, ks_n_per_m{};
-};
-
-WorkingPoint MeanSlopes(const identification::Record& record, std::size_t axis,
-                        const plant::BearingConfig& bearing, double ki_ratio) {
-  const double k = bearing.magnet.force_constant_n_m2_per_a2;
-  const double s0 = bearing.magnet.gap_m;
-  const double i0 = bearing.magnet.bias_current_a;
-  const double pass =
-      1.0 - std::exp(-2.0 * std::numbers::pi * bearing.amplifier.bandwidth_hz * record.period_s);
-  WorkingPoint sum;
-  double count = 0.0;
-  double coil_a = record.current_a[axis].front();
-  for (std::size_t n = 0; n < record.rows(); ++n) {
-    if (std::abs(record.speed_rad_per_s[n]) > 1.0) continue;
-    coil_a += pass * (record.current_a[axis][n] - coil_a);
-    const double i = ki_ratio * coil_a;
-    const double towards_m = s0 - record.position_m[axis][n];
-    const double away_m = s0 + record.position_m[axis][n];
-    sum.ki_n_per_a +=
-        2.0 * k * ki_ratio * ((i0 + i) / (towards_m * towards_m) + (i0 - i) / (away_m * away_m));
-    sum.ks_n_per_m += 2.0 * k *
-                      (std::pow((i0 + i), 2) / std::pow(towards_m, 3) +
-                       std::pow((i0 - i), 2) / std::pow(away_m, 3));
-    count += 1.0;
-  }
-  return {sum.ki_n_per_a / count, sum.ks_n_per_m / count};
-}
-
 double RigidMass(const plant::PlantModel& model) { return model.rigid().col(0).squaredNorm(); }
+
+double Mean(const identification::Column& column) {
+  double sum = 0.0;
+  for (const double value : column) sum += value;
+  return sum / static_cast<double>(column.size());
+}
 
 ModalTruth Truth(const plant::PlantModel& model, const identification::Record& record) {
   const auto& modes = model.parameters().modes;
@@ -69,10 +44,20 @@ ModalTruth Truth(const plant::PlantModel& model, const identification::Record& r
     const auto a = static_cast<std::size_t>(axis);
     const auto& bearing = bearings[a / 2];
     const auto& e = model.effects().bearings[a / 2].axis[a % 2];
-    const WorkingPoint at = MeanSlopes(record, a, bearing, e.gain);
-    const double gain = model.effects().readings[a].gain;
-    truth.ki_product[axis] = at.ki_n_per_a * gain / RigidMass(model);
-    truth.ks_product[axis] = (at.ks_n_per_m + e.stiffness_n_per_m) / RigidMass(model);
+    const double k = bearing.magnet.force_constant_n_m2_per_a2;
+    const double s0 = bearing.magnet.gap_m;
+    const double i0 = bearing.magnet.bias_current_a;
+    const auto& reading = model.effects().readings[a];
+    // Where the rotor rests: the probe's own offset is not the rotor's.
+    const double x = (Mean(record.position_m[a]) - reading.offset_m) / reading.gain;
+    const double i = e.gain * Mean(record.current_a[a]);
+    const double up = (i0 + i) / (s0 - x);
+    const double down = (i0 - i) / (s0 + x);
+    const double ki_n_per_a = e.gain * 2.0 * k * (up / (s0 - x) + down / (s0 + x));
+    const double ks_n_per_m =
+        2.0 * k * (up * up / (s0 - x) + down * down / (s0 + x)) + e.stiffness_n_per_m;
+    truth.ki_product[axis] = ki_n_per_a * reading.gain / RigidMass(model);
+    truth.ks_product[axis] = ks_n_per_m / RigidMass(model);
   }
   return truth;
 }
@@ -105,6 +90,25 @@ ModalErrors Compare(const ModalTruth& truth, const identification::Physical& fou
       Relative(found.ki_n_per_a.cwiseProduct(found.gain).cwiseQuotient(found.ks_n_per_m),
                truth.ki_product.cwiseQuotient(truth.ks_product));
   return errors;
+}
+
+ModalScores Score(const ModalTruth& truth, const identification::ModalResult& found) {
+  const identification::Physical& rig = found.rig;
+  const auto& at = found.start.frame.layout;
+  const Eigen::VectorXd& deviation = found.uncertainty.deviation;
+  const auto score = [](const Eigen::VectorXd& value, const Eigen::VectorXd& true_value,
+                        const Eigen::VectorXd& sigma) -> Eigen::VectorXd {
+    return (value.array() / true_value.array()).log() / sigma.array();
+  };
+  const Index n = at.bending;
+  return {score(rig.frequency_rad_per_s.tail(n) / (2.0 * std::numbers::pi),
+                truth.frequency_hz.head(n), deviation.segment(at.frequency, n)),
+          score(rig.damping_ratio.tail(n), truth.damping_ratio.head(n),
+                deviation.segment(at.damping, n)),
+          score(rig.ki_n_per_a.cwiseProduct(rig.gain) / rig.mass_kg, truth.ki_product,
+                found.uncertainty.products.head(at.axes())),
+          score(rig.ks_n_per_m / rig.mass_kg, truth.ks_product,
+                found.uncertainty.products.tail(at.axes()))};
 }
 
 }  // namespace levitas::trials

@@ -8,6 +8,7 @@
 
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/prbs.hpp"
+#include "controller/scenario/signal.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::trials {
@@ -86,6 +87,21 @@ class Rig {
   std::uint64_t count_{};
 };
 
+scenario::Excitation TestSignal(const ExcitationPlan& plan) {
+  if (plan.signal) return *plan.signal;
+  scenario::Excitation prbs;
+  prbs.amplitude_a = plan.amplitude_a;
+  prbs.order = plan.order;
+  prbs.divisor = plan.divisor;
+  return prbs;
+}
+
+long SamplesOf(const ExcitationPlan& plan, double period_s) {
+  if (plan.signal) return std::lround(plan.hold_s / period_s);
+  const auto bits = static_cast<long>(scenario::Prbs(plan.order).period());
+  return plan.periods * bits * static_cast<long>(plan.divisor);
+}
+
 }  // namespace
 
 identification::Record SimulateCampaign(const config::RigFile& rig, const ExcitationPlan& plan) {
@@ -100,12 +116,12 @@ identification::Record SimulateCampaign(const config::RigFile& rig,
   for (const double rpm : plan.speeds_rpm) {
     if (rpm > 0.0) bench.SpinAt(rpm);
     for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis) {
-      scenario::Prbs prbs(plan.order);
+      const scenario::Excitation test = TestSignal(plan);
+      scenario::Signal signal(test, bench.record.period_s);
       cycle::OperatorInput op;
-      const std::uint32_t bits = static_cast<std::uint32_t>(plan.periods) * prbs.period();
-      for (std::uint32_t bit = 0; bit < bits; ++bit) {
-        op.excitation_a[axis] = prbs.Next() ? plan.amplitude_a : -plan.amplitude_a;
-        for (std::uint32_t n = 0; n < plan.divisor; ++n) (void)bench.Step(op, true);
+      for (long n = SamplesOf(plan, bench.record.period_s); n > 0; --n) {
+        op.excitation_a[axis] = test.amplitude_a * signal.Next();
+        (void)bench.Step(op, true);
       }
       bench.Run(0.3);
     }

@@ -22,7 +22,8 @@ const config::RigFile& FlexibleRotor() {
 
 const std::vector<FrequencyResponse>& Standing() {
   static const std::vector<FrequencyResponse> responses =
-      EstimateResponses(trials::SimulateCampaign(FlexibleRotor(), {}), 1e-4);
+      EstimateResponses(trials::SimulateCampaign(FlexibleRotor(), {}), 1e-4, {},
+                        ModalResponseOptions(FlexibleRotor()));
   return responses;
 }
 

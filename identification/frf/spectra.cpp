@@ -1,0 +1,117 @@
+#include "identification/frf/spectra.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+
+#include "identification/frf/sine_steps.hpp"
+#include "identification/frf/synchronous.hpp"
+
+namespace levitas::identification {
+namespace {
+
+constexpr std::ptrdiff_t kPeriodicNeighbours = 10;
+/// Lines of a stepped sine are farther apart; blocks make up for fewer of them.
+constexpr std::ptrdiff_t kSteppedNeighbours = 2;
+/// Lines this close to an order of rotation, in resolutions 1/T, are left out.
+constexpr double kPeriodicOrderWidth = 0.75;
+constexpr double kSteppedOrderWidth = 1.5;
+
+bool NearOrder(double f_hz, double rotation_hz, int orders, double width_hz) {
+  for (int k = 1; k <= orders && rotation_hz > 0.0; ++k) {
+    if (std::abs(f_hz - k * rotation_hz) < width_hz) return true;
+  }
+  return false;
+}
+
+double RotationHz(const Experiment& e) {
+  return std::abs(e.speed_rad_per_s) / (2.0 * std::numbers::pi);
+}
+
+std::vector<Spectrum> PeriodSpectra(const Column& column, const Record& record, const Experiment& e,
+                                    int orders, Eigen::FFT<double>& fft) {
+  const auto piece = std::span(column).subspan(e.begin, e.end() - e.begin);
+  const auto angle = std::span(record.angle_rad).subspan(e.begin, piece.size());
+  const std::vector<double> rest = WithoutSynchronous(piece, angle, orders);
+  std::vector<Spectrum> spectra(e.periods);
+  std::vector<double> samples(e.period_samples);
+  for (std::size_t m = 0; m < e.periods; ++m) {
+    const auto from = rest.begin() + static_cast<std::ptrdiff_t>(m * e.period_samples);
+    std::copy_n(from, e.period_samples, samples.begin());
+    fft.fwd(spectra[m], samples);
+    spectra[m].resize(e.period_samples / 2);
+    spectra[m].erase(spectra[m].begin());  // the mean
+  }
+  return spectra;
+}
+
+Spectra Periodic(const Record& record, const Experiment& e, int orders) {
+  Eigen::FFT<double> fft;
+  Spectra s;
+  s.axis = e.axis;
+  s.periods = e.periods;
+  s.neighbours = kPeriodicNeighbours;
+  for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+    s.position.push_back(PeriodSpectra(record.position_m[axis], record, e, orders, fft));
+    s.current.push_back(PeriodSpectra(record.current_a[axis], record, e, orders, fft));
+  }
+  const auto from = record.excitation_a[e.axis].begin() + static_cast<std::ptrdiff_t>(e.begin);
+  std::vector<double> samples(from, from + static_cast<std::ptrdiff_t>(e.period_samples));
+  fft.fwd(s.excitation, samples);
+  s.excitation.resize(e.period_samples / 2);
+  s.excitation.erase(s.excitation.begin());
+  const double spacing_hz = 1.0 / (static_cast<double>(e.period_samples) * record.period_s);
+  for (std::size_t k = 1; k <= s.excitation.size(); ++k) {
+    s.frequency_hz.push_back(static_cast<double>(k) * spacing_hz);
+    s.near_order.push_back(
+        NearOrder(s.frequency_hz.back(), RotationHz(e), orders, kPeriodicOrderWidth * spacing_hz));
+  }
+  return s;
+}
+
+/// Amplitudes of one held sine in `column`, block by block.
+void AddBlocks(const Column& column, const Record& record, const HeldSine& line, std::size_t blocks,
+               int orders, std::vector<Spectrum>& to) {
+  const auto piece = std::span(column).subspan(line.begin, line.end - line.begin);
+  const auto angle = std::span(record.angle_rad).subspan(line.begin, piece.size());
+  const auto rest = WithoutSynchronous(piece, angle, orders, line.cycles_per_sample);
+  const std::span<const double> all(rest);
+  for (std::size_t m = 0; m < blocks; ++m) {
+    const std::size_t begin = m * piece.size() / blocks;
+    const std::size_t end = (m + 1) * piece.size() / blocks;
+    to[m].push_back(SineAmplitude(all.subspan(begin, end - begin), line.cycles_per_sample, begin));
+  }
+}
+
+Spectra Stepped(const Record& record, const Experiment& e, int orders) {
+  Spectra s;
+  s.axis = e.axis;
+  s.periods = e.periods;
+  s.neighbours = kSteppedNeighbours;
+  s.position.assign(record.axes(), std::vector<Spectrum>(e.periods));
+  s.current = s.position;
+  for (const HeldSine& line : e.sines) {
+    for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+      AddBlocks(record.position_m[axis], record, line, e.periods, orders, s.position[axis]);
+      AddBlocks(record.current_a[axis], record, line, e.periods, orders, s.current[axis]);
+    }
+    const std::span<const double> excitation(record.excitation_a[e.axis]);
+    s.excitation.push_back(SineAmplitude(excitation.subspan(line.begin, line.end - line.begin),
+                                         line.cycles_per_sample, 0));
+    const double length_s = static_cast<double>(line.end - line.begin) * record.period_s;
+    s.frequency_hz.push_back(line.cycles_per_sample / record.period_s);
+    s.near_order.push_back(
+        NearOrder(s.frequency_hz.back(), RotationHz(e), orders, kSteppedOrderWidth / length_s));
+  }
+  return s;
+}
+
+}  // namespace
+
+Spectra SpectraOf(const Record& record, const Experiment& experiment, int orders) {
+  return experiment.sines.empty() ? Periodic(record, experiment, orders)
+                                  : Stepped(record, experiment, orders);
+}
+
+}  // namespace levitas::identification
