@@ -9,7 +9,7 @@
 namespace levitas::levitator {
 namespace {
 
-constexpr double kStretch_s = 4.0;
+constexpr double kStretchS = 4.0;
 constexpr int kSteps = 5;
 
 std::vector<Series> Load(const std::vector<std::string>& paths,
@@ -25,9 +25,9 @@ std::vector<Series> Load(const std::vector<std::string>& paths,
 
 /// Stretches of all records, each from another part of its own.
 std::vector<Series> Stretches(const std::vector<Series>& data) {
-  constexpr double kLongest_s = 16.0;
+  constexpr double kLongestS = 16.0;
   const double seconds =
-      std::clamp(kLongest_s / static_cast<double>(data.size()), 2.0, 2.0 * kStretch_s);
+      std::clamp(kLongestS / static_cast<double>(data.size()), 2.0, 2.0 * kStretchS);
   std::vector<Series> out;
   out.reserve(data.size());
   for (std::size_t i = 0; i < data.size(); ++i) {

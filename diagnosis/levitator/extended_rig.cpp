@@ -14,7 +14,7 @@ namespace levitas::levitator {
 namespace {
 
 void ExtendCoil(const Theta& t, plant::VoltageDrive& coil) {
-  constexpr double kFlat_m = 1000.0;  // the largest decay that a rig file may have
+  constexpr double kFlatM = 1000.0;  // the largest decay that a rig file may have
   const double resistance = (1.0 + t[kResistance]) * (1.0 + t[Own(0, kOwnResistance)]);
   const double decay_m = coil.decay_m;
   // A dead band takes the same from every voltage beyond it; an idle coil stays at nothing.
@@ -22,7 +22,7 @@ void ExtendCoil(const Theta& t, plant::VoltageDrive& coil) {
   coil.steady *= (1.0 + t[kSupply]) / resistance;
   coil.time_constant_s *= (1.0 + t[kInductance]) / resistance;
   const double per_gap = 1.0 - t[kProfile];
-  coil.decay_m = per_gap > decay_m / kFlat_m ? decay_m / per_gap : kFlat_m;
+  coil.decay_m = per_gap > decay_m / kFlatM ? decay_m / per_gap : kFlatM;
   const double emf = (coil.motion_emf + t[kMotionEmf]) * coil.decay_m / decay_m;
   coil.motion_emf = std::clamp(emf, 0.0, 10.0);
 }

@@ -30,7 +30,7 @@ void ForCounted(const Series& series, Visit visit) {
 double ToleranceOf(std::size_t index) {
   if (!IsOwn(index)) return Table()[index].tolerance;
   return (index - kParameters) % kOwnParameters == kOwnResistance ? kOwnResistanceTolerance
-                                                                  : kOwnOffsetTolerance_m;
+                                                                  : kOwnOffsetToleranceM;
 }
 
 double WideOf(std::size_t index) { return IsOwn(index) ? ToleranceOf(index) : Table()[index].wide; }

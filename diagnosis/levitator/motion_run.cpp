@@ -22,10 +22,10 @@ struct ForceLaw {
   [[nodiscard]] double Acceleration(double x_m, double v_m_per_s, double up_a2,
                                     double down_a2) const {
     const double grow = std::exp(std::clamp(x_m * per_x_1_per_m, -20.0, 20.0));
-    constexpr double kSlow_m_per_s = 2e-3;  // below it friction is not told from damping
+    constexpr double kSlowMPerS = 2e-3;  // below it friction is not told from damping
     const double force = up_n_per_a2 * up_a2 * grow - down_n_per_a2 * down_a2 / grow + load_n -
                          damping_n_s_per_m * v_m_per_s - spring_n_per_m * x_m -
-                         friction_n * std::tanh(v_m_per_s / kSlow_m_per_s);
+                         friction_n * std::tanh(v_m_per_s / kSlowMPerS);
     return force / mass_kg - gravity_m_per_s2;
   }
 };
@@ -83,7 +83,7 @@ struct Gains {
 };
 
 Gains ObserverGains(const NominalRig& rig) {
-  const double pole = std::exp(-kObserver_rad_per_s * rig.period_s);
+  const double pole = std::exp(-kObserverRadPerS * rig.period_s);
   // The magnets' pull grows with x at g/d, which the correction has to overcome too.
   const double unstable_1_per_s2 = rig.gravity_m_per_s2 / rig.force_decay_m;
   return {1.0 - pole * pole,

@@ -6,7 +6,7 @@
 //              s(i) = i/sqrt(1 + knee i^2), late by the force's lag (first order)
 //            reading = (1 + g) x + offset + a2 x^2 + a3 x^3, late by the sensor's lag
 // Observer   position and velocity corrected at every sample by fixed gains (both poles at
-//            kObserver_rad_per_s), whatever the parameters, since the ball is unstable alone: what
+//            kObserverRadPerS), whatever the parameters, since the ball is unstable alone: what
 //            remains is a smooth function of them.
 // Currents   as measured, the probe's own errors undone; without probes those of coil_run.hpp.
 // Step       midpoint rule over a period: 4 % of the fastest time constant, an error of 1e-5.
@@ -16,7 +16,7 @@
 
 namespace levitas::levitator {
 
-inline constexpr double kObserver_rad_per_s = 60.0;
+inline constexpr double kObserverRadPerS = 60.0;
 
 /// Measured minus predicted, row by row [m]; zero where there is no prediction.
 [[nodiscard]] std::vector<double> Innovations(const NominalRig& rig, const Series& series,

@@ -73,7 +73,7 @@ struct Row {
 /// cold) and the place of the sensor's zero (it is clamped anew).
 enum OwnParameter : std::size_t { kOwnResistance, kOwnOffset, kOwnParameters };
 inline constexpr double kOwnResistanceTolerance = 0.007;
-inline constexpr double kOwnOffsetTolerance_m = 100e-6;
+inline constexpr double kOwnOffsetToleranceM = 100e-6;
 
 /// Values of all records: the common ones, then those of each record.
 using Theta = std::vector<double>;

@@ -10,9 +10,9 @@
 namespace levitas::levitator {
 namespace {
 
-constexpr double kLiftOff_s = 3.0;
+constexpr double kLiftOffS = 3.0;
 constexpr double kLiftOffShare = 0.2;
-constexpr double kLeast_s = 1.0;
+constexpr double kLeastS = 1.0;
 
 double Asked(const plant::PlantConfig& rig, const plant::PlantCommand& command, std::size_t coil) {
   const double sign = (coil == 0 ? 1.0 : -1.0) * rig.actuator_polarity[0];
@@ -30,7 +30,7 @@ void Append(const plant::PlantConfig& rig, const analysis::RecordedRow& row, dou
   }
 }
 
-constexpr double kSettling_s = 0.5;
+constexpr double kSettlingS = 0.5;
 
 /// Rows from `begin_s` to `end_s`; half a second later they begin to count.
 void Cut(Series& series, double begin_s, double end_s) {
@@ -58,8 +58,7 @@ void Cut(Series& series, double begin_s, double end_s) {
                                     [](double asked_a) { return asked_a <= 0.0; });
   }
   series.counts.clear();
-  for (const double time_s : series.time_s)
-    series.counts.push_back(time_s >= begin_s + kSettling_s);
+  for (const double time_s : series.time_s) series.counts.push_back(time_s >= begin_s + kSettlingS);
 }
 
 }  // namespace
@@ -87,23 +86,23 @@ Series MakeSeries(const std::string& name, const config::RigFile& rig,
     throw BadInput(name + ": coil currents were measured in a part of the rows only");
   }
   const double whole_s = static_cast<double>(series.size()) * period_s;
-  const double lift_off_s = std::min(kLiftOff_s, kLiftOffShare * whole_s);
-  if (whole_s - lift_off_s < kLeast_s) {
+  const double lift_off_s = std::min(kLiftOffS, kLiftOffShare * whole_s);
+  if (whole_s - lift_off_s < kLeastS) {
     throw BadInput(fmt::format("{}: {:.2f} s of flight after the lift-off, a diagnosis needs {} s",
-                               name, std::max(0.0, whole_s - lift_off_s), kLeast_s));
+                               name, std::max(0.0, whole_s - lift_off_s), kLeastS));
   }
   // What happens before is not looked at: contact, and currents that no observer follows.
-  Cut(series, series.time_s.front() + std::max(0.0, lift_off_s - kSettling_s),
+  Cut(series, series.time_s.front() + std::max(0.0, lift_off_s - kSettlingS),
       series.time_s.back() + period_s);
   return series;
 }
 
 Series Stretch(const Series& series, double seconds, double phase) {
   const double begin_s = series.time_s.front();
-  const double spare_s = series.time_s.back() - begin_s - seconds - kSettling_s;
+  const double spare_s = series.time_s.back() - begin_s - seconds - kSettlingS;
   if (spare_s <= 0.0) return series;
   Series out = series;
-  Cut(out, begin_s + phase * spare_s, begin_s + phase * spare_s + seconds + kSettling_s);
+  Cut(out, begin_s + phase * spare_s, begin_s + phase * spare_s + seconds + kSettlingS);
   return out;
 }
 

@@ -25,9 +25,9 @@ struct Truth {
 };
 
 struct Knob {
-  const char* id;
-  double size;  ///< clear
-  double Truth::*value;
+  const char* id{};
+  double size{};  ///< clear
+  double Truth::*value{};
   bool signed_size{true};  ///< may be the other way round
 };
 
@@ -93,8 +93,8 @@ class World {
   World(const levitator::NominalRig& rig, const Truth& truth) : rig_(rig), truth_(truth) {}
 
   void Advance(State& s, const std::array<double, 2>& asked_a, double duration_s) {
-    constexpr double kStep_s = 50e-6;
-    const int steps = std::max(1, static_cast<int>(std::lround(duration_s / kStep_s)));
+    constexpr double kStepS = 50e-6;
+    const int steps = std::max(1, static_cast<int>(std::lround(duration_s / kStepS)));
     const double h = duration_s / steps;
     for (int i = 0; i < steps; ++i) {
       const State a = Slope(s, asked_a);
@@ -159,10 +159,10 @@ class World {
     const double strength = rig_.force_n_per_a2 * truth_.force;
     const double up = strength * std::exp(-rig_.gap_m / rig_.force_decay_m) * grow;
     const double down = strength * std::exp(-rig_.far_gap_m / rig_.force_decay_m) / grow;
-    constexpr double kSlope_m_per_s = 1e-3;
+    constexpr double kSlopeMPerS = 1e-3;
     return up * std::pow(bent(lagging), 2) - down * std::pow(bent(s.current_a[1]), 2) +
            truth_.load_n - truth_.damping_n_s_per_m * s.v_m_per_s - truth_.spring_n_per_m * s.x_m -
-           truth_.friction_n * s.v_m_per_s / (std::abs(s.v_m_per_s) + kSlope_m_per_s);
+           truth_.friction_n * s.v_m_per_s / (std::abs(s.v_m_per_s) + kSlopeMPerS);
   }
 
   levitator::NominalRig rig_;
@@ -176,16 +176,16 @@ class Law {
   explicit Law(const levitator::NominalRig& rig) : rig_(rig) {}
 
   double Step(double reading_m, double reference_m) {
-    constexpr double kStiff_a_per_m = 260.0;
-    constexpr double kDamp_a_s_per_m = 5.5;
-    constexpr double kSum_a_per_m_s = 400.0;
+    constexpr double kStiffAPerM = 260.0;
+    constexpr double kDampASPerM = 5.5;
+    constexpr double kSumAPerMS = 400.0;
     constexpr double kFilter = 0.35;
     const double before_m = smooth_m_;
     smooth_m_ = first_ ? reading_m : smooth_m_ + kFilter * (reading_m - smooth_m_);
     const double rate = first_ ? 0.0 : (smooth_m_ - before_m) / rig_.period_s;
     sum_m_s_ += rig_.period_s * (reading_m - reference_m);
-    const double wanted_a = 1.05 - kStiff_a_per_m * (reading_m - reference_m) -
-                            kDamp_a_s_per_m * rate - kSum_a_per_m_s * sum_m_s_;
+    const double wanted_a =
+        1.05 - kStiffAPerM * (reading_m - reference_m) - kDampASPerM * rate - kSumAPerMS * sum_m_s_;
     // The coil's lag, 3.5 ms at this gap, is led by as much.
     const double slope = first_ ? 0.0 : (wanted_a - wanted_before_a_) / rig_.period_s;
     lead_ += 0.5 * (slope - lead_);
@@ -202,8 +202,8 @@ class Law {
 
 double Reference(std::size_t record, double time_s) {
   if (record % 2 == 0) {
-    constexpr std::array kStairs_m{0.0, 1e-3, 2e-3, 0.5e-3, -1e-3, -2e-3, -0.5e-3};
-    return kStairs_m[static_cast<std::size_t>(time_s / 0.9) % kStairs_m.size()];
+    constexpr std::array kStairsM{0.0, 1e-3, 2e-3, 0.5e-3, -1e-3, -2e-3, -0.5e-3};
+    return kStairsM[static_cast<std::size_t>(time_s / 0.9) % kStairsM.size()];
   }
   return 1.6e-3 * std::sin(2.0 * std::numbers::pi * 0.7 * time_s) +
          0.4e-3 * std::sin(2.0 * std::numbers::pi * 3.1 * time_s);
@@ -263,6 +263,7 @@ levitator::Series Record(const levitator::NominalRig& rig, const Truth& truth, s
 const std::vector<LevitatorEffect>& LevitatorEffects() {
   static const std::vector<LevitatorEffect> kEffects = [] {
     std::vector<LevitatorEffect> effects;
+    effects.reserve(kKnobs.size());
     for (const Knob& knob : kKnobs) effects.push_back({knob.id, knob.size});
     return effects;
   }();
