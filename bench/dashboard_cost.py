@@ -35,7 +35,7 @@ os.environ.setdefault("LEVITAS_BUILD", str(ROOT / "build/release"))
 sys.path.insert(0, str(ROOT / "tests/support"))
 from chromium import Browser, find  # noqa: E402
 from dashboard_rig import Rig  # noqa: E402
-from lcm_network import SET_UP, TELEMETRY, Bus, Process  # noqa: E402
+from lcm_network import TELEMETRY, Bus, Process, enter_namespace  # noqa: E402
 
 VIEWERS = 3
 WINDOW_S = 3.0
@@ -45,14 +45,6 @@ STAMPS = re.compile(rb'"sample_ns":(\d+),"sent_ns":(\d+)')
 WATCH = """(() => { window.drawn = []; new MutationObserver(() => window.drawn.push(
     [performance.timeOrigin + performance.now(), Number(document.documentElement.dataset.drawn)]))
     .observe(document.documentElement, {attributes: true, attributeFilter: ['data-drawn']}); })()"""
-
-
-def enter_namespace():
-    if os.environ.get("LEVITAS_BENCH_NAMESPACE"):
-        return
-    os.environ["LEVITAS_BENCH_NAMESPACE"] = "1"
-    unshare = ["unshare", "-n" if os.geteuid() == 0 else "-rn"]
-    os.execvp(unshare[0], [*unshare, "sh", "-c", SET_UP, "sh", sys.executable, *sys.argv])
 
 
 class Trio:
