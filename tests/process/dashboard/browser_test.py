@@ -60,6 +60,10 @@ class ThePage(unittest.TestCase):
         page.until(f"{MODE} == 'tripped'")
         rig.controller.says("emergency_stop", LONG)
         page.until("!document.getElementById('trip').hidden")
+        # The banner takes height: the controller's answer stays readable to its end.
+        self.answer(page, "accepted: command emergency_stop")
+        self.assertTrue(page.value("(() => { const p = document.getElementById('answer');"
+                                   " return p.scrollHeight <= p.clientHeight + 1; })()"))
         self.assertEqual(page.problems(), [])
 
     def test_spins_with_the_numbers_that_the_page_proposes(self):
