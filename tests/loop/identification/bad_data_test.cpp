@@ -5,15 +5,11 @@
 
 #include "common/problem.hpp"
 #include "identification/frf/frequency_response.hpp"
+#include "tests/loop/identification/flexible_rotor.hpp"
 #include "trials/identification/simulated_campaign.hpp"
 
 namespace levitas::identification {
 namespace {
-
-const config::RigFile& FlexibleRotor() {
-  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  return rig;
-}
 
 using testing::HasSubstr;
 

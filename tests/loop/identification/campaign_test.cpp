@@ -2,43 +2,23 @@
 // magnets and gravity on; the fit starts from a rig file that is wrong.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "identification/modal/identify_modal.hpp"
-#include "plant_sim/plant/linear_model.hpp"
+#include "tests/loop/identification/flexible_rotor.hpp"
 #include "trials/identification/simulated_campaign.hpp"
 
 namespace levitas::identification {
 namespace {
-
-const config::RigFile& FlexibleRotor() {
-  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  return rig;
-}
 
 const std::vector<FrequencyResponse>& Standing() {
   static const std::vector<FrequencyResponse> responses =
       EstimateResponses(trials::SimulateCampaign(FlexibleRotor(), {}), 1e-4, {},
                         ModalResponseOptions(FlexibleRotor()));
   return responses;
-}
-
-Eigen::MatrixXcd Exact(double f_hz) {
-  static const auto sampled =
-      plant::Discretise(plant::Linearise(FlexibleRotor().plant, 0.0), 1e-4, 1.0);
-  const auto z = std::polar(1.0, 2.0 * std::numbers::pi * f_hz * 1e-4);
-  const Eigen::Index n = sampled.a.rows();
-  const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(n, n) - sampled.a;
-  return sampled.c * resolvent.partialPivLu().solve(sampled.b.cast<std::complex<double>>());
-}
-
-double Median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
 }
 
 TEST(Campaign, ResponseIsThatOfTheRigWithinItsOwnNoise) {

@@ -2,7 +2,6 @@
 // variance that it states; what is too short for one is refused.
 #include <gmock/gmock.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -12,7 +11,7 @@
 
 #include "common/problem.hpp"
 #include "identification/frf/frequency_response.hpp"
-#include "plant_sim/plant/linear_model.hpp"
+#include "tests/loop/identification/flexible_rotor.hpp"
 #include "trials/identification/simulated_campaign.hpp"
 
 namespace levitas::identification {
@@ -21,11 +20,6 @@ namespace {
 using scenario::SignalKind;
 using testing::HasSubstr;
 constexpr double kDelayS = 1e-4;
-
-const config::RigFile& FlexibleRotor() {
-  static const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  return rig;
-}
 
 trials::ExcitationPlan PlanOf(SignalKind kind) {
   trials::ExcitationPlan plan;
@@ -60,21 +54,6 @@ const Record& RecordOf(SignalKind kind) {
   if (found != records.end()) return found->second;
   return records.emplace(kind, trials::SimulateCampaign(FlexibleRotor(), PlanOf(kind)))
       .first->second;
-}
-
-/// Closed form: the sampled linear model, delay and hold included.
-Eigen::MatrixXcd Exact(double f_hz) {
-  static const auto sampled =
-      plant::Discretise(plant::Linearise(FlexibleRotor().plant, 0.0), 1e-4, 1.0);
-  const auto z = std::polar(1.0, 2.0 * std::numbers::pi * f_hz * 1e-4);
-  const Eigen::Index n = sampled.a.rows();
-  const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(n, n) - sampled.a;
-  return sampled.c * resolvent.partialPivLu().solve(sampled.b.cast<std::complex<double>>());
-}
-
-double Median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
 }
 
 /// An entry in units of the closed form, which takes out that lines differ in frequency.
