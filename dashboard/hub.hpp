@@ -37,8 +37,6 @@ class Hub {
   static constexpr std::size_t kEvents = 200;
 
   void Put(Topic topic, std::string json);
-  /// What was told of `topic` is old: the next viewer waits for news of it.
-  void Forget(Topic topic);
   /// `number` counts up.
   void PutEvent(std::uint64_t number, std::string json);
   void Close();
@@ -53,8 +51,7 @@ class Hub {
 
   struct Latest {
     std::uint64_t version{0};
-    std::string json;  ///< empty: nothing to tell
-    [[nodiscard]] bool NewTo(std::uint64_t seen) const { return version > seen && !json.empty(); }
+    std::string json;
   };
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -66,7 +66,8 @@ ModalResult IdentifyModal(const ModalStart& start, const Eigen::VectorXd& begin,
   ModalResult result{standing.channels, options, start, stabilisation, {}, {}, {}, {}, {}, {}, 0.0};
   std::vector<FrequencyResponse> spinning;
   if (responses.size() > 1) spinning.push_back(responses.back());
-  const auto candidates = PairModes(BendingHz(start.frame.layout, begin), stabilisation.modes);
+  const auto candidates =
+      PairModes(BendingHz(start.frame.layout, start.vector), stabilisation.modes);
   result.fit = FitModal(start, begin, candidates, standing, spinning, options);
   const Assigned& assigned = result.fit.assigned;
   for (const ProposedMode& mode : stabilisation.modes) {

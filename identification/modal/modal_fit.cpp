@@ -1,6 +1,7 @@
 #include "identification/modal/modal_fit.hpp"
 
 #include "identification/modal/modal_pairing.hpp"
+#include "identification/modal/whirl_start.hpp"
 #include "identification/modal/working_gains.hpp"
 
 namespace levitas::identification {
@@ -8,12 +9,17 @@ namespace {
 
 void FitSpinning(Search& search, const FitData& standing, const std::vector<FitData>& spinning,
                  StageSetup& last) {
-  StageSetup gyroscopic{.name = "gyroscopic matrix",
+  StageSetup gyroscopic{.name = "gyroscopic matrix, soft L1",
+                        .robust = true,
                         .rig_free = false,
                         .gyroscopic_free = true,
-                        .iterations = 15,
+                        .iterations = 20,
                         .stride = 2};
   for (const FitData& data : spinning) gyroscopic.data.push_back(&data);
+  search.Run(gyroscopic);
+  gyroscopic.name = "gyroscopic matrix";
+  gyroscopic.robust = false;
+  gyroscopic.iterations = 15;
   search.Run(gyroscopic);
   last = {.name = "all speeds together",
           .data = {&standing},
@@ -41,6 +47,11 @@ ModalFit FitModal(const ModalStart& start, const Eigen::VectorXd& begin,
   Search search(start, assigned, options, fit);
   StageSetup last{.name = "complex", .data = {&still}};
   search.Run(last);
+  for (const FitData& data : turning) {
+    const StabilisationOptions band{.highest_hz = options.highest_hz};
+    MeetWhirls(start.frame, data.response.speed_rad_per_s, Stabilise(data.response, band).modes,
+               fit.vector);
+  }
   if (!turning.empty()) FitSpinning(search, still, turning, last);
   search.Inform(last);
   return fit;

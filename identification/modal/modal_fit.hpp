@@ -6,9 +6,11 @@
 //             (mode_support.hpp); where the pairing is open, candidates compete (modal_pairing.hpp)
 //           2 approach: log-magnitude on few lines, soft-L1 loss, with poles held; between rounds
 //             the free rotor's frequencies move until the poles in the magnets are the diagram's
-//           3 log-magnitude with poles free, then 4 complex, both soft-L1; modes that no pole shows
-//             are looked for (PlaceOthers); then 5 plain complex: the maximum-likelihood fit
-//           6 gyroscopic matrix alone, from data at speed; 7 everything together
+//           3 complex, soft-L1, poles still held, so that none leaves its peak while the
+//             deflections are wrong; 4 with poles free; modes that no pole shows are looked for
+//             (PlaceOthers); then 5 plain complex: the maximum-likelihood fit
+//           6 diagonal of the gyroscopic matrix from the whirl frequencies (whirl_start.hpp), then
+//             all of it from data at speed, soft-L1 and plain; 7 everything together
 // Residual  line_residuals.hpp: resonances and anti-resonances get the weight that the data's own
 //           scatter gives them, nothing is chosen by hand. `floor` stands for what repeats and is
 //           not linear beyond the magnets' law (working_gains.hpp).

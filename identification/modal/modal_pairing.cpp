@@ -68,13 +68,15 @@ void Approach(Search& search, const ModalStart& start, const Assigned& assigned,
 }
 
 /// Everything free, still forgiving: from here the pairings can be compared.
-void Settle(Search& search, const FitData& standing) {
-  search.Run({.name = "log magnitude, soft L1",
+void Settle(Search& search, const ModalStart& start, const Assigned& assigned,
+            const FitData& standing, ModalFit& fit) {
+  search.Run({.name = "complex, soft L1, poles held",
               .data = {&standing},
-              .kind = Kind::kLogMagnitude,
               .robust = true,
-              .iterations = 30,
+              .poles_free = false,
+              .iterations = 20,
               .stride = 4});
+  MeetPoles(start.frame, assigned, fit.vector);
   search.Run({.name = "complex, soft L1",
               .data = {&standing},
               .robust = true,
@@ -133,7 +135,8 @@ std::optional<double> FindMode(const Search& search, const ModalStart& start, In
 
 bool IsDoubtful(const ModalStart& start, Index mode, const ProposedMode& pole) {
   const double own = start.vector[start.frame.layout.frequency + mode];
-  return pole.share < kSureShare && std::abs(std::log(kTwoPi * pole.frequency_hz) - own) > kFar;
+  return pole.share < kSureShare && pole.evidence <= 0.0 &&
+         std::abs(std::log(kTwoPi * pole.frequency_hz) - own) > kFar;
 }
 
 }  // namespace
@@ -156,7 +159,7 @@ Assigned BestPairing(const ModalStart& start, const Eigen::VectorXd& begin,
   for (std::size_t k = 0; k < std::min(order.size(), kFinalists); ++k) {
     const std::size_t n = order[k].second;
     Search search(start, candidates[n], options, approached[n]);
-    Settle(search, standing);
+    Settle(search, start, candidates[n], standing, approached[n]);
     const double cost = approached[n].cost + Strangeness(start, candidates[n]);
     if (cost >= lowest) continue;
     lowest = cost;
@@ -182,7 +185,7 @@ Assigned PlaceOthers(const ModalStart& start, const Assigned& assigned, const Fi
         start.vector.segment(at.shape_at(i, 0), 2 * at.bearings);
     if (!moved) continue;
     mode = ProposedMode{std::exp(fit.vector[at.frequency + i]) / kTwoPi,
-                        std::exp(fit.vector[at.damping + i]), 0.0};
+                        std::exp(fit.vector[at.damping + i]), 0.0, 0.0};
   }
   return placed;
 }

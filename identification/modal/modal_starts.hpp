@@ -4,9 +4,9 @@
 // Start     every fitted unknown of the rig file times a factor drawn uniformly from
 //           1 +- `everything`; ki, ks and sensor gains from 1 +- `gains`. What is known and the
 //           prior stay where they are: one problem, many beginnings.
-// Same      the costs differ by less than 0.1 %, and the plants of two fits differ by less than a tenth of what the data allow: mean of
-//           |P_1 - P_2|^2 / (var + (floor |P_data|)^2) < 0.01 over all fitted responses. What no
-//           response can tell does not count.
+// Same      the costs differ by less than 0.1 %, and the plants of two fits differ by less than a
+//           tenth of what the data allow: mean of |P_1 - P_2|^2 / (var + (floor |P_data|)^2) < 0.01
+//           over all fitted responses. What no response can tell does not count.
 // Thread    any.
 
 #include "common/random.hpp"

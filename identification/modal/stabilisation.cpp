@@ -7,6 +7,8 @@
 #include <complex>
 #include <numbers>
 
+#include "identification/modal/mode_scan.hpp"
+
 namespace levitas::identification {
 namespace {
 
@@ -22,6 +24,8 @@ constexpr std::size_t kLowestOrder = 3;
 /// A band reaches beyond its middle by this factor on either side; middles span kMiddle.
 constexpr double kOverlap = 1.15;
 constexpr double kMiddle = 1.4;
+/// A scanned mode this near to a stable pole is the same.
+constexpr double kSameMode = 0.015;
 
 /// Part of the spectrum that is fitted by itself; modes are taken from its middle.
 struct Band {
@@ -144,11 +148,26 @@ std::vector<ProposedMode> Propose(const std::vector<OrderPole>& all, std::size_t
         f.push_back(stable[i].frequency_hz);
         damping.push_back(stable[i].damping_ratio);
       }
-      modes.push_back({Median(f), Median(damping), std::min(share, 1.0)});
+      modes.push_back({Median(f), Median(damping), std::min(share, 1.0), 0.0});
     }
     first = last;
   }
   return modes;
+}
+
+/// What the scan sees confirms a stable pole nearby, or is a mode by itself.
+void AddScanned(const std::vector<ScannedMode>& scanned, std::vector<ProposedMode>& modes) {
+  const std::size_t stable = modes.size();
+  for (const ScannedMode& mode : scanned) {
+    bool known = false;
+    for (std::size_t n = 0; n < stable; ++n) {
+      if (std::abs(mode.frequency_hz / modes[n].frequency_hz - 1.0) > kSameMode) continue;
+      modes[n].evidence = std::max(modes[n].evidence, mode.evidence);
+      known = true;
+    }
+    if (!known) modes.push_back({mode.frequency_hz, mode.damping_ratio, 0.0, mode.evidence});
+  }
+  std::ranges::sort(modes, {}, &ProposedMode::frequency_hz);
 }
 
 }  // namespace
@@ -182,6 +201,7 @@ Stabilisation Stabilise(const FrequencyResponse& response, const StabilisationOp
     result.poles.insert(result.poles.end(), all.begin(), all.end());
     low *= kMiddle;
   }
+  AddScanned(ScanModes(response, options.lowest_hz, options.highest_hz), result.modes);
   return result;
 }
 

@@ -10,7 +10,8 @@
 //           so that poles that only follow noise stay away from the unit circle.
 // Stable    a pole whose frequency is within 0.5 % and whose damping within 0.005 of one of the
 //           two orders before.
-// Mode      stable at more than half of the orders that can hold it, damping below 0.02.
+// Mode      stable at more than half of the orders that can hold it, damping below 0.02; or none of
+//           these, but clear by itself (mode_scan.hpp).
 // Thread    any; a second of work at most.
 
 #include <cstddef>
@@ -30,7 +31,8 @@ struct OrderPole {
 struct ProposedMode {
   double frequency_hz{};  ///< of the plant, magnets' negative stiffness included
   double damping_ratio{};
-  double share{};  ///< of the orders at which it was stable
+  double share{};     ///< of the orders at which it was stable
+  double evidence{};  ///< of the scan; 0 where it saw none
 };
 
 struct Stabilisation {

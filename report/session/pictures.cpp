@@ -61,8 +61,7 @@ std::vector<NamedPicture> Pictures(const Recording& recording, const PictureOpti
   std::vector<NamedPicture> pictures = TimePictures(recording);
   const auto speeds =
       options.speeds_rad_per_s.empty() ? ChosenSpeeds(recording, points) : options.speeds_rad_per_s;
-  for (auto group : {OrbitPictures(recording, speeds), RunUpPictures(recording, points),
-                     ClockPictures(recording)}) {
+  for (auto group : {OrbitPictures(recording, speeds), RunUpPictures(recording, points)}) {
     std::move(group.begin(), group.end(), std::back_inserter(pictures));
   }
   return pictures;
