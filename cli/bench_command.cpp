@@ -7,14 +7,19 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/identify/geared_commands.hpp"
 #include "cli/json_file.hpp"
+#include "cli/kept_memory.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "trials/scores.hpp"
 
@@ -35,7 +40,8 @@ struct BenchOptions {
   std::vector<double> sizes{1.0, 0.5, 0.25};
   std::uint64_t first{1000};
   int seeds{0}, clean{0}, outside{0}, pairs{0}, weak{0};
-  bool thorough{}, explain{};
+  bool quick{}, explain{};
+  std::size_t jobs{1};
   std::string json_path, markdown_path, write_folder;
 };
 
@@ -100,7 +106,7 @@ trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
   const trials::Trial trial = trials::MakeTrial(bench, plan);
   if (!options.write_folder.empty()) WriteTrial(trial, bench, options.write_folder, plan.seed);
   diagnosis::Settings settings;
-  settings.quick = !options.thorough;
+  settings.quick = options.quick;
   const auto start = std::chrono::steady_clock::now();
   const diagnosis::SessionAnswer answer =
       diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings);
@@ -156,17 +162,42 @@ nlohmann::ordered_json Json(const trials::Outcome& o) {
           {"seconds", o.seconds}};
 }
 
+/// Several at a time, printed as they end, returned in the order of the plans.
+std::vector<trials::Outcome> TryAll(const std::vector<trials::TrialPlan>& plans,
+                                    const trials::Bench& bench, const BenchOptions& options) {
+  std::vector<trials::Outcome> outcomes(plans.size());
+  std::atomic<std::size_t> next{0};
+  std::mutex printing;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    try {
+      for (std::size_t i = next++; i < plans.size(); i = next++) {
+        outcomes[i] = Try(plans[i], bench, options);
+        const std::lock_guard lock(printing);
+        PrintOne(outcomes[i]);
+        if (options.explain) Explain(outcomes[i]);
+      }
+    } catch (...) {
+      const std::lock_guard lock(printing);
+      failure = std::current_exception();
+      next = plans.size();
+    }
+  };
+  std::vector<std::thread> others;
+  for (std::size_t i = 1; i < options.jobs; ++i) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
+  if (failure) std::rethrow_exception(failure);
+  return outcomes;
+}
+
 ExitStatus Run(const BenchOptions& options) {
+  KeepFreedMemory();
   const trials::Bench bench = trials::LoadBench(options.rig, options.controllers);
-  std::vector<trials::Outcome> outcomes;
+  const std::vector<trials::Outcome> outcomes = TryAll(Plans(options), bench, options);
   nlohmann::ordered_json json;
   json["trials"] = nlohmann::ordered_json::array();
-  for (const trials::TrialPlan& plan : Plans(options)) {
-    outcomes.push_back(Try(plan, bench, options));
-    PrintOne(outcomes.back());
-    if (options.explain) Explain(outcomes.back());
-    json["trials"].push_back(Json(outcomes.back()));
-  }
+  for (const trials::Outcome& outcome : outcomes) json["trials"].push_back(Json(outcome));
   fmt::print("\n{}\n{}", trials::Tables(outcomes), trials::ConfusionTable(outcomes));
   if (!options.markdown_path.empty()) {
     std::ofstream file(options.markdown_path);
@@ -200,7 +231,8 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--first", options->first, "Seed of the first trial");
   command->add_option("--effect", options->effects, "Only these effects");
   command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");
-  command->add_flag("--thorough", options->thorough, "The complete ranking instead of --quick");
+  command->add_flag("--quick", options->quick, "A first answer instead of the complete ranking");
+  command->add_option("--jobs", options->jobs, "Trials at a time")->check(CLI::Range(1, 64));
   command->add_flag("--explain", options->explain, "The nearest candidates of every trial");
   command->add_option("--write", options->write_folder, "Also write the records as CSV here");
   command->add_option("--markdown", options->markdown_path, "Tables for docs/diagnosis.md");

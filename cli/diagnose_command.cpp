@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/diagnosis_files.hpp"
 #include "cli/json_file.hpp"
+#include "cli/kept_memory.hpp"
 #include "cli/levitator_files.hpp"
 #include "cli/text_file.hpp"
 #include "diagnosis/plan.hpp"
@@ -59,6 +60,7 @@ ExitStatus RunLevitator(const diagnosis::SessionInputs& inputs, const DiagnoseOp
 }
 
 ExitStatus Run(const DiagnoseOptions& options) {
+  KeepFreedMemory();
   std::error_code failed;
   std::filesystem::create_directories(options.out, failed);
   if (failed) {
@@ -100,7 +102,7 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
                       "Write the scenario that would separate what these data cannot");
   command->add_option("--out", options->out, "Folder for the answer")->required();
   command->add_flag("--quick", options->quick,
-                    "First answer, from at most 60 000 samples of all records");
+                    "First answer: the strongest cause, from at most 30 000 samples of all records");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

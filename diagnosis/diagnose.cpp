@@ -8,6 +8,7 @@
 #include "diagnosis/events.hpp"
 #include "diagnosis/ranking.hpp"
 #include "diagnosis/refine.hpp"
+#include "diagnosis/sharpen.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -26,14 +27,16 @@ struct Effort {
   std::size_t shortlist;  ///< candidates refitted for every cause
   int passes;             ///< of each
   std::size_t rivals;     ///< refitted in the end
+  std::size_t rows;       ///< of all records
+  bool first_cause_only;
 };
-constexpr Effort kQuick{8, 4, 5, 3};
-constexpr Effort kThorough{10, 6, 8, 5};
+constexpr Effort kQuick{5, 3, 3, 0, kQuickRows, true};
+constexpr Effort kThorough{10, 6, 8, 5, kMostRows, false};
 
 class Diagnoser {
  public:
-  Diagnoser(const RigView& rig, const std::vector<Record>& records, const std::vector<Term>& terms,
-            const Settings& settings)
+  Diagnoser(const RigView& rig, const std::vector<Record>& records, const Settings& settings,
+            std::vector<Term>& terms)
       : rig_(rig),
         all_records_(records),
         terms_(terms),
@@ -41,13 +44,18 @@ class Diagnoser {
         effort_(settings.quick ? kQuick : kThorough),
         search_(rig, terms, settings.only),
         theta_(search_.Usual()),
-        records_(settings.quick ? Spans(records, kQuickRows) : records),
+        records_(Spans(records, effort_.rows)),
         gains_(search_.DesignGains(records_, kSlow)),
         refiner_(search_, terms, records_, gains_, rig.axes) {}
 
   Answer Run() {
     Calibrate();
     FindCauses();
+    if (effort_.first_cause_only) {
+      DropUnproven();
+      Rank();
+      return Conclude();
+    }
     Merge();
     do {
       DropUnproven();
@@ -81,9 +89,10 @@ class Diagnoser {
     for (std::size_t stage = 0;; ++stage) {
       const double share = 0.2 + 0.2 * static_cast<double>(stage);
       Tell(share, "screening all causes");
-      view_ = search_.Linearise(records_, gains_, theta_, kWhiteningOrder, search_.Everything());
+      LineariseAll();
       if (stage == 0) calibrated_runs_ = view_.runs;
       if (causes_.size() >= settings_.most_causes || !AddCause(share)) return;
+      if (effort_.first_cause_only) return;
     }
   }
 
@@ -123,12 +132,32 @@ class Diagnoser {
       if (!(screened.front().score > kFarBeyond * enough)) return false;
       causes_.push_back(search_.hypotheses()[screened.front().hypothesis]);
       theta_ = search_.Solve(view_.problem, causes_);
+      if (effort_.first_cause_only || !HasFamily(causes_.back(), terms_)) return true;
+      Refined fit = refiner_.Fit(causes_, theta_, view_, effort_.passes);
+      if (fit.ok) SharpenLast(fit);
       return true;
     }
     theta_ = best.theta;
     causes_ = std::move(best_causes);
+    if (!effort_.first_cause_only) SharpenLast(best);
     DropSuperfluous(best.problem);
     return true;
+  }
+
+  /// `fit` of all causes becomes that with the best member of the last one's family.
+  void SharpenLast(Refined& fit) {
+    Hypothesis& last = causes_.back();
+    if (!HasFamily(last, terms_)) return;
+    Tell(0.5, "sharpening " + last.effect);
+    fit = Sharpen(refiner_, last, causes_, view_, effort_.passes, std::move(fit), terms_);
+    theta_ = fit.theta;
+    last.place = terms_[last.terms.front()].place;
+    search_.Rename(last.terms, last.place);
+  }
+
+  void LineariseAll() {
+    for (Term& term : terms_) term.family.linearised_as = term.family.shape;
+    view_ = search_.Linearise(records_, gains_, theta_, kWhiteningOrder, search_.Everything());
   }
 
   void DropSuperfluous(const LinearProblem& problem) {
@@ -177,7 +206,7 @@ class Diagnoser {
     if (!best.ok || best.evidence < whole.evidence - allowance) return false;
     theta_ = best.theta;
     causes_ = std::move(best_causes);
-    view_ = search_.Linearise(records_, gains_, theta_, kWhiteningOrder, search_.Everything());
+    LineariseAll();
     return true;
   }
 
@@ -213,7 +242,7 @@ class Diagnoser {
     if (!fit.ok || leader_evidence_ - fit.evidence >= kDecisive) return false;
     causes_ = rest;
     theta_ = fit.theta;
-    view_ = search_.Linearise(records_, gains_, theta_, kWhiteningOrder, search_.Everything());
+    LineariseAll();
     return true;
   }
 
@@ -229,7 +258,7 @@ class Diagnoser {
     }
     candidates_ =
         Screen(Evidence(view_.problem, terms_, Without(causes_, 0)), search_.hypotheses());
-    if (causes_.empty()) {
+    if (causes_.empty() || effort_.first_cause_only) {
       // What the nonlinear model did not keep of the screen's promises.
       for (Candidate& c : candidates_) {
         for (const Candidate& known : refitted_) {
@@ -361,7 +390,7 @@ class Diagnoser {
 
   const RigView& rig_;
   const std::vector<Record>& all_records_;
-  const std::vector<Term>& terms_;
+  std::vector<Term>& terms_;
   const Settings& settings_;
   Effort effort_;
   Search search_;
@@ -378,9 +407,9 @@ class Diagnoser {
 
 }  // namespace
 
-Answer Diagnose(const RigView& rig, const std::vector<Record>& records,
-                const std::vector<Term>& terms, const Settings& settings) {
-  return Diagnoser(rig, records, terms, settings).Run();
+Answer Diagnose(const RigView& rig, const std::vector<Record>& records, const Settings& settings,
+                std::vector<Term>& terms) {
+  return Diagnoser(rig, records, settings, terms).Run();
 }
 
 }  // namespace levitas::diagnosis

@@ -8,10 +8,11 @@
 //              hypothesis (evidence.hpp) on top of the causes found so far;
 //            3 refit: the best few by Gauss-Newton together with the nuisances on the nonlinear
 //              model (refine.hpp); the best of them is a cause, and each earlier one is dropped
-//              again when the others explain its share (backward check); again from 2 until none
-//              gains enough;
+//              again when the others explain its share (backward check); what only a few members
+//              of a family stand for is sharpened; again from 2 until none gains enough;
 //            4 rank: every effect in place of the first cause, the nearest refitted;
 //            5 judge what remains (remainder.hpp).
+// Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.
 // Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of
 //            magnets and contacts are known to a tenth or so of their amplitude, so a hundredth of
 //            what the right one gains is left to be explained by wrong ones.
@@ -36,7 +37,7 @@ inline constexpr double kForm = 0.02;     ///< share of the evidence that a law'
 
 struct Settings {
   Tolerances tolerances;
-  bool quick{};
+  bool quick{};  ///< a first answer: the strongest cause, from a part of the records
   std::size_t most_causes{3};
   std::string only;  ///< the one effect that is looked for; empty: all
   /// Share done and what is being done; may be empty.
@@ -74,7 +75,8 @@ struct Answer {
   double explained{};                    ///< share of the calibrated model's excess over the noise
 };
 
+/// Terms of a family that is named become its best member (sharpen.hpp).
 [[nodiscard]] Answer Diagnose(const RigView& rig, const std::vector<Record>& records,
-                              const std::vector<Term>& terms, const Settings& settings);
+                              const Settings& settings, std::vector<Term>& terms);
 
 }  // namespace levitas::diagnosis

@@ -76,8 +76,10 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   Refined best;
   Descend(view, causes, std::move(start), passes, best);
   const bool bends = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
-    return std::any_of(h.terms.begin(), h.terms.end(),
-                       [this](std::size_t i) { return !terms_[i].linear; });
+    return std::any_of(h.terms.begin(), h.terms.end(), [this](std::size_t i) {
+      const Family& family = terms_[i].family;
+      return !terms_[i].linear || family.shape != family.linearised_as;
+    });
   });
   // Slopes from further back stop before the end of the way where the model bends: as long as they
   // promise what its runs do not keep, new ones are taken.

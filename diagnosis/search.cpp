@@ -97,6 +97,12 @@ std::vector<double> Search::Solve(const LinearProblem& problem,
   return theta;
 }
 
+void Search::Rename(const std::vector<std::size_t>& terms, const std::string& place) {
+  for (Hypothesis& h : hypotheses_) {
+    if (h.terms == terms) h.place = place;
+  }
+}
+
 std::vector<double> Search::Usual() const {
   std::vector<double> theta;
   theta.reserve(terms_.size());

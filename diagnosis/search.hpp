@@ -59,6 +59,8 @@ class Search {
 
   [[nodiscard]] const RigView& rig() const { return rig_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
+  /// A member of a family stands for another place than before.
+  void Rename(const std::vector<std::size_t>& terms, const std::string& place);
   /// What the healthy rig is: where every search begins.
   [[nodiscard]] std::vector<double> Usual() const;
   [[nodiscard]] std::vector<std::size_t> Nuisances() const;
@@ -71,7 +73,9 @@ class Search {
   std::vector<Hypothesis> hypotheses_;
 };
 
-inline constexpr std::size_t kQuickRows = 60'000;  ///< of all records, for a first answer
+inline constexpr std::size_t kQuickRows = 30'000;    ///< of all records, for a first answer
+inline constexpr std::size_t kHealthyRows = 60'000;  ///< to learn what is usual
+inline constexpr std::size_t kMostRows = 200'000;    ///< more would take a minute and gigabytes
 
 /// At most about `rows` of all records together, each in proportion, as spans spread evenly over
 /// it: every excitation and every speed stays represented.

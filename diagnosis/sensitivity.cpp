@@ -1,16 +1,18 @@
 #include "diagnosis/sensitivity.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace levitas::diagnosis {
 namespace {
 
 /// Ready for the next term; what was not touched is zero already.
-void Empty(Addition& add, std::size_t axes) noexcept {
+void Empty(Addition& add, std::size_t axes, std::size_t modes) noexcept {
   for (std::size_t a = 0; a < axes; ++a) {
     add.force_n[a] = add.coil_end_a[a] = add.coil_mean_a[a] = add.reading_m[a] = 0.0;
   }
-  if (add.has_modal) add.modal.fill(0.0);
+  if (!add.has_modal) return;
+  std::fill_n(add.modal.begin(), 2 * modes, 0.0);
   add.has_modal = false;
 }
 
@@ -56,12 +58,12 @@ void SensitivityBlock::Clear() noexcept {
 
 template <class Call>
 float SensitivityBlock::Difference(Probe& p, Call call) noexcept {
-  Empty(difference_, model_->axes);
+  Empty(difference_, model_->axes, model_->modes);
   if (p.linear) {
     call(p.now, 1.0, difference_);
     return static_cast<float>(p.scale);
   }
-  Empty(base_, model_->axes);
+  Empty(base_, model_->axes, model_->modes);
   call(p.stepped, p.theta + p.step, difference_);
   call(p.now, p.theta, base_);
   Subtract(difference_, base_, model_->axes, model_->modes);

@@ -82,8 +82,8 @@ SessionAnswer DiagnoseRecords(const config::RigFile& rig, const std::vector<Reco
   }
   const auto mains = MainsTerms(*out.view, MainsLines(*out.view, fitted), fitted.size());
   out.terms.insert(out.terms.end(), mains.begin(), mains.end());
-  out.answer = Diagnose(*out.view, fitted, out.terms, settings);
-  Measure(settings.quick ? Spans(fitted, kQuickRows) : fitted, aside, out);
+  out.answer = Diagnose(*out.view, fitted, settings, out.terms);
+  Measure(Spans(fitted, settings.quick ? kQuickRows : kMostRows), aside, out);
   return out;
 }
 

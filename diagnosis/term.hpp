@@ -43,6 +43,16 @@ struct LinearChange;
 
 using Adds = std::function<void(const Moment&, double theta, Addition&)>;
 
+struct Term;
+
+/// Laws that differ by the shape parameter, of which one stands for its neighbours.
+struct Family {
+  double shape{};          ///< > 0; unit as in Term::place
+  double log_width{};      ///< half the distance to the next member, ln
+  double linearised_as{};  ///< shape at which slopes exist; another one needs its own
+  std::function<Term(double shape)> member;
+};
+
 struct Term {
   std::string effect;  ///< id of the vocabulary it belongs to
   std::string place;   ///< "de_x", "mode 3", "order 2, nde_y"
@@ -60,6 +70,8 @@ struct Term {
   Adds drive;
   /// At the sample of the moment.
   Adds read;
+
+  Family family;
 
   /// What it does to the linear model about which derivatives are taken: throughout, and at one
   /// sample. Empty: too little to matter.

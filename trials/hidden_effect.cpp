@@ -292,7 +292,7 @@ class Drawer {
       default:  // rub
         Bearing();
         Value(0) = Between(9e-6, 14e-6);
-        Value(1) = 1.5e5 * size_;
+        Value(1) = 3e4 * size_;
         Value(2) = Between(0.0, 50.0);
         Value(3) = Between(0.05, 0.2);
         break;

@@ -41,10 +41,12 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz) {
     std::array<double, 2> u{}, v{};
   };
   Term term =
-      MakeTerm({"support_mode", fmt::format("{}, {:.0f} Hz", rig.numbers.bearings[b], frequency_hz),
+      MakeTerm({"support_mode", fmt::format("{}, {:.1f} Hz", rig.numbers.bearings[b], frequency_hz),
                 "1/mass_kg", "1/kg"},
                0.0, 0.2, nullptr);
   term.positive = true;
+  term.family = {frequency_hz, 0.04, frequency_hz,
+                 [&rig, b](double other) { return Support(rig, b, other); }};
   const double w = 2.0 * std::numbers::pi * frequency_hz;
   term.drive = [b, w, period_s = rig.period_s, h = Housing{}](const Moment& m, double theta,
                                                               Addition& add) mutable {
@@ -67,21 +69,24 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz) {
 
 /// Contact beyond a clearance, radial and with friction.
 Term Rub(const RigView& rig, std::size_t b, double clearance_m) {
-  return MakeTerm(
-      {"touchdown_rub",
-       fmt::format("{}, clearance {:.1f} um", rig.numbers.bearings[b], clearance_m * 1e6),
-       "stiffness_n_per_m", "N/m"},
-      0.0, 1e6, [b, clearance_m](const Moment& m, double theta, Addition& add) {
-        const double x = static_cast<double>(m.actuator_m[2 * b]);
-        const double y = static_cast<double>(m.actuator_m[2 * b + 1]);
-        const double r = std::hypot(x, y);
-        if (r <= clearance_m) return;
-        constexpr double kFriction = 0.1;
-        const double normal = theta * (r - clearance_m);
-        const double drag = m.speed_rad_per_s > 0.0F ? kFriction * normal : 0.0;
-        add.force_n[2 * b] += (-normal * x + drag * y) / r;
-        add.force_n[2 * b + 1] += (-normal * y - drag * x) / r;
-      });
+  Term term =
+      MakeTerm({"touchdown_rub",
+                fmt::format("{}, clearance {:.2f} um", rig.numbers.bearings[b], clearance_m * 1e6),
+                "stiffness_n_per_m", "N/m"},
+               0.0, 1e6, [b, clearance_m](const Moment& m, double theta, Addition& add) {
+                 const double x = static_cast<double>(m.actuator_m[2 * b]);
+                 const double y = static_cast<double>(m.actuator_m[2 * b + 1]);
+                 const double r = std::hypot(x, y);
+                 if (r <= clearance_m) return;
+                 constexpr double kFriction = 0.1;
+                 const double normal = theta * (r - clearance_m);
+                 const double drag = m.speed_rad_per_s > 0.0F ? kFriction * normal : 0.0;
+                 add.force_n[2 * b] += (-normal * x + drag * y) / r;
+                 add.force_n[2 * b + 1] += (-normal * y - drag * x) / r;
+               });
+  term.family = {clearance_m, 0.15, clearance_m,
+                 [&rig, b](double other) { return Rub(rig, b, other); }};
+  return term;
 }
 
 }  // namespace
@@ -104,7 +109,7 @@ std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& t, double 
     for (int k = 0; k <= kSteps; ++k) {
       terms.push_back(Support(rig, b, 30.0 * std::pow(9.0, static_cast<double>(k) / kSteps)));
     }
-    for (const double share : {0.4, 0.6, 0.8}) {
+    for (const double share : {0.15, 0.25, 0.4, 0.6, 0.8}) {
       terms.push_back(Rub(rig, b, share * largest_orbit_m));
     }
   }

@@ -41,7 +41,7 @@ double SaturatedForce(const magnet::Magnet& magnet, double bias_a, double contro
 /// One member of a family of knees; theta = 1 is the whole law.
 Term Saturation(const RigView& rig, double knee_share) {
   Term term =
-      MakeTerm({"magnetic_saturation", fmt::format("knee {:.2f} i0", knee_share), "share", "1"},
+      MakeTerm({"magnetic_saturation", fmt::format("knee {:.3f} i0", knee_share), "share", "1"},
                0.0, 0.7, [&rig, knee_share](const Moment& m, double theta, Addition& add) {
                  for (std::size_t a = 0; a < rig.axes; ++a) {
                    const double bias = rig.bias_a(a);
@@ -52,6 +52,8 @@ Term Saturation(const RigView& rig, double knee_share) {
                  }
                });
   term.positive = true;
+  term.family = {knee_share, 0.12, knee_share,
+                 [&rig](double other) { return Saturation(rig, other); }};
   term.slope = [&rig, knee_share](const Moment& m, double theta, AddedSlopes& added) {
     constexpr double kStepA = 1e-4;
     constexpr double kStepM = 1e-8;

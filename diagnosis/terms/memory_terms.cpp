@@ -58,6 +58,30 @@ double MidCoil(const Moment& m, std::size_t a) {
   return 0.5 * static_cast<double>(m.coil_start_a[a] + m.coil_end_a[a]);
 }
 
+Term Hysteresis(const RigView& rig, double width_share) {
+  Term term = MakeTerm({"hysteresis", fmt::format("width {:.4g} i0", width_share), "share", "1"},
+                       0.0, 1.0, nullptr);
+  term.positive = true;
+  term.family = {width_share, 0.55, width_share,
+                 [&rig](double other) { return Hysteresis(rig, other); }};
+  term.drive = [&rig, width_share, stop = std::array<double, kMaxAxes>{},
+                last = std::array<double, kMaxAxes>{}](const Moment& m, double theta,
+                                                       Addition& add) mutable {
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      const double width_a = width_share * rig.bias_a(a);
+      const double now_a = static_cast<double>(m.coil_end_a[a]);
+      const double before = stop[a];
+      const double change = now_a - last[a];
+      const double side = change < 0.0 ? -1.0 : 1.0;
+      stop[a] = side + (before - side) * std::exp(-0.5 * std::abs(change) / width_a);
+      last[a] = now_a;
+      add.force_n[a] -=
+          theta * width_a * static_cast<double>(m.force_per_a[a]) * 0.5 * (before + stop[a]);
+    }
+  };
+  return term;
+}
+
 }  // namespace
 
 std::vector<Term> MagnetMemoryTerms(const RigView& rig) {
@@ -77,27 +101,7 @@ std::vector<Term> MagnetMemoryTerms(const RigView& rig) {
     };
     terms.push_back(std::move(eddy));
   }
-  for (const double width_share : {0.01, 0.03, 0.1}) {
-    Term term = MakeTerm({"hysteresis", fmt::format("width {} i0", width_share), "share", "1"}, 0.0,
-                         1.0, nullptr);
-    term.positive = true;
-    term.drive = [&rig, width_share, stop = std::array<double, kMaxAxes>{},
-                  last = std::array<double, kMaxAxes>{}](const Moment& m, double theta,
-                                                         Addition& add) mutable {
-      for (std::size_t a = 0; a < rig.axes; ++a) {
-        const double width_a = width_share * rig.bias_a(a);
-        const double now_a = static_cast<double>(m.coil_end_a[a]);
-        const double before = stop[a];
-        const double change = now_a - last[a];
-        const double side = change < 0.0 ? -1.0 : 1.0;
-        stop[a] = side + (before - side) * std::exp(-0.5 * std::abs(change) / width_a);
-        last[a] = now_a;
-        add.force_n[a] -=
-            theta * width_a * static_cast<double>(m.force_per_a[a]) * 0.5 * (before + stop[a]);
-      }
-    };
-    terms.push_back(std::move(term));
-  }
+  for (const double width_share : {0.01, 0.03, 0.1}) terms.push_back(Hysteresis(rig, width_share));
   return terms;
 }
 
