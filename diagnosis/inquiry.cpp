@@ -1,0 +1,38 @@
+#include "diagnosis/inquiry.hpp"
+
+#include "diagnosis/calibrate.hpp"
+#include "diagnosis/ranking.hpp"
+
+namespace levitas::diagnosis {
+
+Inquiry::Inquiry(const RigView& of, const std::vector<Record>& recorded, const Settings& asked,
+                 const Effort& spent, std::vector<Term>& all)
+    : rig(of),
+      all_records(recorded),
+      terms(all),
+      settings(asked),
+      effort(spent),
+      search(rig, terms, asked.only),
+      records(Spans(recorded, spent.rows)),
+      gains(search.DesignGains(records, kSlow)),
+      refiner(search, terms, records, gains, rig.axes),
+      theta(search.Usual()) {}
+
+void Inquiry::Tell(double share, const std::string& what) const {
+  if (settings.progress) settings.progress(share, what);
+}
+
+void Inquiry::LineariseAll() {
+  for (Term& term : terms) term.family.linearised_as = term.family.shape;
+  view = search.Linearise(records, gains, theta, kWhiteningOrder, search.Everything());
+}
+
+Refined Inquiry::Refit(const std::vector<Hypothesis>& set, double worth) const {
+  return refiner.Fit(set, search.Solve(view.problem, set), view, effort.passes, worth);
+}
+
+double Inquiry::GainOf(std::size_t cause) const {
+  return Evidence(view.problem, terms, Without(causes, cause)).Gain(causes[cause]);
+}
+
+}  // namespace levitas::diagnosis
