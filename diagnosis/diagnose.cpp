@@ -14,6 +14,15 @@ namespace {
 /// rigs.
 constexpr double kUnexplained = 15.0;
 constexpr double kExplained = 0.7;  ///< of the excess: less, and the cause is not the cause
+/// A line that stands so far out is not what the form of a law leaves, unless that law took away
+/// nearly all.
+constexpr double kStandsOut = 30.0;
+constexpr double kNearlyAll = 0.95;
+
+bool IsUnexplained(const Remainder& remainder, bool named, double explained) {
+  if (!(remainder.sigma > kUnexplained)) return false;
+  return !named || explained < (remainder.sigma > kStandsOut ? kNearlyAll : kExplained);
+}
 
 constexpr Effort kQuick{5, 3, 3, 0, kQuickRows, true};
 constexpr Effort kThorough{10, 6, 8, 5, kMostRows, false};
@@ -84,8 +93,7 @@ Answer Conclude(Inquiry& q) {
     throw BadInput("no stretch of 0.2 s is without gaps: nothing can be said of what remains");
   }
   answer.explained = Explained(Examine(q.rig, q.calibrated_runs), answer.remainder);
-  const bool unexplained =
-      answer.remainder.sigma > kUnexplained && (q.causes.empty() || answer.explained < kExplained);
+  const bool unexplained = IsUnexplained(answer.remainder, !q.causes.empty(), answer.explained);
   if (unexplained) q.causes.clear();
   AddEvents(q, answer.remainder);
   const Fit fit = Evidence(q.view.problem, q.terms, q.causes).Solve();

@@ -166,15 +166,19 @@ std::string ExternalEntry(const RigView& rig, const Group& g) {
     return fmt::format("z_mm: {:.6g}, stiffness_n_per_m: {:.6g}", g.Number(), g.At("cross"));
   }
   if (g.effect == "support_mode") {
-    return fmt::format(
-        "bearing: {}, mass_kg: {:.6g}, frequency_hz: {:.6g}", g.place.substr(0, g.place.find(',')),
-        1.0 / std::max(1e-3, g.At("1/mass_kg")), std::strtod(g.After(", ").c_str(), nullptr));
+    return fmt::format("bearing: {}, mass_kg: {:.6g}, frequency_hz: {:.6g}, damping_ratio: {:.6g}",
+                       g.place.substr(0, g.place.find(',')),
+                       1.0 / std::max(1e-3, g.At("1/mass_kg")),
+                       std::strtod(g.After(", ").c_str(), nullptr),
+                       std::strtod(g.After("damping ").c_str(), nullptr));
   }
   if (g.effect == "touchdown_rub") {
-    return fmt::format("bearing: {}, clearance_um: {:.6g}, stiffness_n_per_m: {:.6g}",
-                       g.place.substr(0, g.place.find(',')),
-                       std::strtod(g.After("clearance ").c_str(), nullptr),
-                       g.At("stiffness_n_per_m"));
+    return fmt::format(
+        "bearing: {}, clearance_um: {:.6g}, stiffness_n_per_m: {:.6g}, damping_n_s_per_m: {:.6g}, "
+        "friction: {:.6g}",
+        g.place.substr(0, g.place.find(',')), std::strtod(g.After("clearance ").c_str(), nullptr),
+        std::max(0.0, g.At("stiffness_n_per_m")), std::max(0.0, g.At("damping_n_s_per_m")),
+        std::strtod(g.After("friction ").c_str(), nullptr));
   }
   if (g.effect == "static_load") {
     for (std::size_t a = 0; a < rig.axes; ++a) {

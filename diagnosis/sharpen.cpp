@@ -11,11 +11,19 @@ constexpr int kRounds = 2;
 constexpr double kNarrower = 3.0;
 constexpr double kWorth = 1.0;  // [nat] a round that gains less is the last
 
-/// One shape that was tried.
+/// One member that was tried, by one of its parameters.
 struct Tried {
-  double log_shape{};
+  double log_value{};
   Refined fit;
 };
+
+/// Highest point of the parabola through three, at most 1.5 widths off the middle one.
+double Vertex(const Tried& below, const Tried& middle, const Tried& above, double width) {
+  const double rise = 0.5 * (above.fit.evidence - below.fit.evidence);
+  const double bend = below.fit.evidence + above.fit.evidence - 2.0 * middle.fit.evidence;
+  const double off = bend < 0.0 ? -rise / bend : (rise > 0.0 ? 1.5 : -1.5);
+  return middle.log_value + width * std::clamp(off, -1.5, 1.5);
+}
 
 class Members {
  public:
@@ -28,21 +36,43 @@ class Members {
         passes_(passes),
         terms_(terms) {}
 
-  void Become(double log_shape) {
+  [[nodiscard]] const Family& family() const { return terms_[cause_.terms.front()].family; }
+
+  void Become(std::size_t parameter, double log_value) {
     for (const std::size_t i : cause_.terms) {
       if (!terms_[i].family.member) continue;
-      Term other = terms_[i].family.member(std::exp(log_shape));
+      Family::Shape shape = terms_[i].family.shape;
+      shape[parameter] = std::exp(log_value);
+      Term other = terms_[i].family.member(shape);
       other.family.linearised_as = terms_[i].family.linearised_as;
       terms_[i] = std::move(other);
     }
   }
 
-  Tried Try(double log_shape, const std::vector<double>& start) {
-    Become(log_shape);
-    return {log_shape, refiner_.Fit(causes_, start, view_, passes_)};
+  /// The best value of one parameter around the present one.
+  Refined Improve(std::size_t parameter, double width, Refined start) {
+    const Tried middle{std::log(family().shape[parameter]), std::move(start)};
+    Tried best = middle;
+    const auto keep = [&best](const Tried& tried) {
+      if (tried.fit.ok && tried.fit.evidence > best.fit.evidence) best = tried;
+    };
+    const Tried below = Try(parameter, middle.log_value - width, middle.fit.theta);
+    const Tried above = Try(parameter, middle.log_value + width, middle.fit.theta);
+    keep(below);
+    keep(above);
+    if (below.fit.ok && above.fit.ok) {
+      keep(Try(parameter, Vertex(below, middle, above, width), best.fit.theta));
+    }
+    Become(parameter, best.log_value);
+    return std::move(best.fit);
   }
 
  private:
+  Tried Try(std::size_t parameter, double log_value, const std::vector<double>& start) {
+    Become(parameter, log_value);
+    return {log_value, refiner_.Fit(causes_, start, view_, passes_)};
+  }
+
   const Refiner& refiner_;
   const Hypothesis& cause_;
   const std::vector<Hypothesis>& causes_;
@@ -50,14 +80,6 @@ class Members {
   int passes_;
   std::vector<Term>& terms_;
 };
-
-/// Highest point of the parabola through three, at most 1.5 widths off the middle one.
-double Vertex(const Tried& below, const Tried& middle, const Tried& above, double width) {
-  const double rise = 0.5 * (above.fit.evidence - below.fit.evidence);
-  const double bend = below.fit.evidence + above.fit.evidence - 2.0 * middle.fit.evidence;
-  const double off = bend < 0.0 ? -rise / bend : (rise > 0.0 ? 1.5 : -1.5);
-  return middle.log_shape + width * std::clamp(off, -1.5, 1.5);
-}
 
 }  // namespace
 
@@ -70,26 +92,17 @@ Refined Sharpen(const Refiner& refiner, const Hypothesis& cause,
                 const std::vector<Hypothesis>& causes, const View& view, int passes, Refined start,
                 std::vector<Term>& terms) {
   Members members(refiner, cause, causes, view, passes, terms);
-  const Term& first = terms[cause.terms.front()];
-  double width = first.family.log_width;
-  Tried best{std::log(first.family.shape), std::move(start)};
-  for (int round = 0; round < kRounds; ++round, width /= kNarrower) {
-    const double before = best.fit.evidence;
-    const Tried middle = best;
-    const auto keep = [&best](const Tried& tried) {
-      if (tried.fit.ok && tried.fit.evidence > best.fit.evidence) best = tried;
-    };
-    const Tried below = members.Try(middle.log_shape - width, middle.fit.theta);
-    const Tried above = members.Try(middle.log_shape + width, middle.fit.theta);
-    keep(below);
-    keep(above);
-    if (below.fit.ok && above.fit.ok) {
-      keep(members.Try(Vertex(below, middle, above, width), best.fit.theta));
+  Refined best = std::move(start);
+  Family::Shape width = members.family().log_width;
+  for (int round = 0; round < kRounds; ++round) {
+    const double before = best.evidence;
+    for (std::size_t parameter = 0; parameter < width.size(); ++parameter) {
+      best = members.Improve(parameter, width[parameter], std::move(best));
+      width[parameter] /= kNarrower;
     }
-    if (best.fit.evidence - before < kWorth) break;
+    if (best.evidence - before < kWorth) break;
   }
-  members.Become(best.log_shape);
-  return std::move(best.fit);
+  return best;
 }
 
 }  // namespace levitas::diagnosis

@@ -1,11 +1,11 @@
 #pragma once
-// The shape parameter of a family, sought between its members.
+// The shape parameters of a family, sought between its members.
 //
 // What       slew rates, knees, widths, clearances and frequencies enter a model in no way that a
 //            derivative at "nothing" shows: a few members stand for all (Term::Family). Once one of
-//            them is a cause, the best is sought around it: a parabola through three fits in the
-//            logarithm of the parameter, twice, the second time over a third of the width.
-// Cost       six fits. Thread: blocks the caller, two threads inside.
+//            them is a cause, the best is sought around it: parameter by parameter, a parabola
+//            through three fits in its logarithm; twice, the second time over a third of the width.
+// Cost       six fits for each parameter. Thread: blocks the caller, two threads inside.
 // Failure    none: what does not fit better is not kept.
 
 #include <vector>

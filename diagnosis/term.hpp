@@ -15,6 +15,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "diagnosis/moment.hpp"
 
@@ -45,12 +46,13 @@ using Adds = std::function<void(const Moment&, double theta, Addition&)>;
 
 struct Term;
 
-/// Laws that differ by the shape parameter, of which one stands for its neighbours.
+/// Laws that differ by shape parameters, of which one stands for its neighbours.
 struct Family {
-  double shape{};          ///< > 0; unit as in Term::place
-  double log_width{};      ///< half the distance to the next member, ln
-  double linearised_as{};  ///< shape at which slopes exist; another one needs its own
-  std::function<Term(double shape)> member;
+  using Shape = std::vector<double>;
+  Shape shape;          ///< each > 0; SI units
+  Shape log_width;      ///< half the distance to the next member, or half of what is usual, ln
+  Shape linearised_as;  ///< shape at which slopes exist; another one needs its own
+  std::function<Term(const Shape& shape)> member;
 };
 
 struct Term {

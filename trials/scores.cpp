@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <initializer_list>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "diagnosis/words.hpp"
@@ -22,34 +25,74 @@ std::string First(const Outcome& o) {
   return o.named.front();
 }
 
-/// The true value behind a parameter of the answer, if the two can be compared.
+/// Index of the parameter with one of these stems; the number of parameters when there is none.
+std::size_t IndexOf(const effect::Row& row, std::initializer_list<std::string_view> stems) {
+  for (std::size_t i = 0; i < row.parameters.size(); ++i) {
+    if (std::find(stems.begin(), stems.end(), row.parameters[i].stem) != stems.end()) return i;
+  }
+  return row.parameters.size();
+}
+
+/// Entries of what a parameter of the answer speaks of: the hidden one, and what the rig is off by
+/// anyway at the same place. Empty: it speaks of another place.
+std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter& p,
+                                                 const Secret& secret, const RigNumbers& rig) {
+  const auto& all = secret.truth.config.effects;
+  const auto is = [&p](const auto& entry) { return effect::At(entry.id).name == p.effect; };
+  const auto hidden = std::find_if(all.rbegin(), all.rend(), is);
+  if (hidden == all.rend()) return {};
+  const effect::Row& row = effect::At(hidden->id);
+  const std::string place = p.name.substr(p.name.find('[') + 1);
+  const auto here = [&](const effect::EffectConfig& entry) {
+    for (std::size_t a = 0; a < rig.axes(); ++a) {
+      if (entry.Acts(a) && place.find(rig.channels[a]) != std::string::npos) return true;
+    }
+    return row.scope != effect::Scope::kChannels;
+  };
+  const std::size_t order = IndexOf(row, {"order"});
+  const bool ordered = order < row.parameters.size();
+  if (ordered &&
+      place.find(fmt::format("order {:.0f}", hidden->values[order])) == std::string::npos) {
+    return {};
+  }
+  std::vector<const effect::EffectConfig*> found;
+  for (const effect::EffectConfig& entry : all) {
+    if (!is(entry) || !here(entry)) continue;
+    if (ordered && entry.values[order] != hidden->values[order]) continue;
+    found.push_back(&entry);
+  }
+  return here(*hidden) ? found : std::vector<const effect::EffectConfig*>{};
+}
+
+/// The true value behind a parameter of the answer, if the two can be compared: ratios multiply,
+/// harmonics of one order add as vectors, all else adds.
 bool TrueValue(const diagnosis::NamedParameter& p, const Secret& secret, const RigNumbers& rig,
                double& truth) {
+  const auto entries = Entries(p, secret, rig);
+  if (entries.empty()) return false;
+  const effect::Row& row = effect::At(entries.front()->id);
   const std::string stem = p.name.substr(0, p.name.find('['));
-  const std::string place = p.name.substr(p.name.find('[') + 1);
-  double product = 1.0;
-  bool found = false;
-  for (const effect::EffectConfig& entry : secret.truth.config.effects) {
-    const effect::Row& row = effect::At(entry.id);
-    if (row.name != p.effect) continue;
-    if (row.scope == effect::Scope::kChannels) {
-      bool here = false;
-      for (std::size_t a = 0; a < rig.axes(); ++a) {
-        here = here || (entry.Acts(a) && place.find(rig.channels[a]) != std::string::npos);
-      }
-      if (!here) continue;
-    }
-    for (std::size_t i = 0; i < row.parameters.size(); ++i) {
-      const auto& known = row.parameters[i];
-      const bool same =
-          stem == known.stem || stem == fmt::format("{}_{}", known.stem, known.si_suffix);
-      if (!same) continue;
-      product *= entry.values[i];
-      found = true;
-    }
+  const std::size_t none = row.parameters.size();
+  const std::size_t phase = IndexOf(row, {"phase"});
+  if (phase < none) {
+    const std::size_t size = IndexOf(row, {"amplitude", "ratio", "moment", "force"});
+    if (stem != "amplitude" || size == none) return false;
+    std::complex<double> sum;
+    for (const auto* entry : entries) sum += std::polar(entry->values[size], entry->values[phase]);
+    truth = std::abs(sum);
+    return true;
   }
-  truth = product;
-  return found;
+  for (std::size_t i = 0; i < none; ++i) {
+    const auto& known = row.parameters[i];
+    if (stem != known.stem && stem != fmt::format("{}_{}", known.stem, known.si_suffix)) continue;
+    const bool ratio = known.neutral == 1.0;
+    truth = ratio ? 1.0 : 0.0;
+    for (const auto* entry : entries) {
+      truth = ratio ? truth * entry->values[i] : truth + entry->values[i];
+    }
+    return true;
+  }
+  return false;
 }
 
 double Median(std::vector<double> values) {

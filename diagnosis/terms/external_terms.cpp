@@ -36,27 +36,29 @@ Term Spring(const RigView& rig, std::string effect, double z_m, Kind kind, doubl
 
 /// Housing of a bearing on its own spring: u'' + 2 z w u' + w^2 u = -F theta, theta = 1/mass; the
 /// magnet's gap and the sensor see x - u.
-Term Support(const RigView& rig, std::size_t b, double frequency_hz) {
+Term Support(const RigView& rig, std::size_t b, double frequency_hz, double damping_ratio) {
   struct Housing {
     std::array<double, 2> u{}, v{};
   };
-  Term term =
-      MakeTerm({"support_mode", fmt::format("{}, {:.1f} Hz", rig.numbers.bearings[b], frequency_hz),
-                "1/mass_kg", "1/kg"},
-               0.0, 0.2, nullptr);
+  Term term = MakeTerm({"support_mode",
+                        fmt::format("{}, {:.1f} Hz, damping {:.4f}", rig.numbers.bearings[b],
+                                    frequency_hz, damping_ratio),
+                        "1/mass_kg", "1/kg"},
+                       0.0, 0.2, nullptr);
   term.positive = true;
-  term.family = {frequency_hz, 0.04, frequency_hz,
-                 [&rig, b](double other) { return Support(rig, b, other); }};
+  const Family::Shape shape{frequency_hz, damping_ratio};
+  term.family = {shape, {0.04, 0.5}, shape, [&rig, b](const Family::Shape& other) {
+                   return Support(rig, b, other[0], other[1]);
+                 }};
   const double w = 2.0 * std::numbers::pi * frequency_hz;
-  term.drive = [b, w, period_s = rig.period_s, h = Housing{}](const Moment& m, double theta,
-                                                              Addition& add) mutable {
+  term.drive = [b, w, damping_ratio, period_s = rig.period_s, h = Housing{}](
+                   const Moment& m, double theta, Addition& add) mutable {
     if (m.restarted) h = Housing{};
-    constexpr double kDamping = 0.02;
     for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t axis = 2 * b + i;
       const double before = h.u[i];
       const double a =
-          -static_cast<double>(m.force_n[axis]) - w * w * h.u[i] - 2.0 * kDamping * w * h.v[i];
+          -static_cast<double>(m.force_n[axis]) - w * w * h.u[i] - 2.0 * damping_ratio * w * h.v[i];
       h.v[i] += period_s * a;
       h.u[i] += period_s * h.v[i];
       add.force_n[axis] -=
@@ -67,31 +69,42 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz) {
   return term;
 }
 
-/// Contact beyond a clearance, radial and with friction.
-Term Rub(const RigView& rig, std::size_t b, double clearance_m) {
-  Term term =
-      MakeTerm({"touchdown_rub",
-                fmt::format("{}, clearance {:.2f} um", rig.numbers.bearings[b], clearance_m * 1e6),
-                "stiffness_n_per_m", "N/m"},
-               0.0, 1e6, [b, clearance_m](const Moment& m, double theta, Addition& add) {
-                 const double x = static_cast<double>(m.actuator_m[2 * b]);
-                 const double y = static_cast<double>(m.actuator_m[2 * b + 1]);
-                 const double r = std::hypot(x, y);
-                 if (r <= clearance_m) return;
-                 constexpr double kFriction = 0.1;
-                 const double normal = theta * (r - clearance_m);
-                 const double drag = m.speed_rad_per_s > 0.0F ? kFriction * normal : 0.0;
-                 add.force_n[2 * b] += (-normal * x + drag * y) / r;
-                 add.force_n[2 * b + 1] += (-normal * y - drag * x) / r;
-               });
-  term.family = {clearance_m, 0.15, clearance_m,
-                 [&rig, b](double other) { return Rub(rig, b, other); }};
+/// Contact beyond a clearance, radial and with friction: normal force by penetration, or by its rate.
+Term Rub(const RigView& rig, std::size_t b, double clearance_m, double friction, bool by_rate) {
+  const auto& shape_of_b = rig.magnet(2 * b).actuator_shape;
+  Term term = MakeTerm(
+      {"touchdown_rub",
+       fmt::format("{}, clearance {:.2f} um, friction {:.3f}", rig.numbers.bearings[b],
+                   clearance_m * 1e6, friction),
+       by_rate ? "damping_n_s_per_m" : "stiffness_n_per_m", by_rate ? "N s/m" : "N/m"},
+      0.0, by_rate ? 50.0 : 1e5,
+      [=, modes = rig.modes](const Moment& m, double theta, Addition& add) {
+        const double x = static_cast<double>(m.actuator_m[2 * b]);
+        const double y = static_cast<double>(m.actuator_m[2 * b + 1]);
+        const double r = std::hypot(x, y);
+        if (r <= clearance_m) return;
+        double rate = 0.0;
+        for (std::size_t i = 0; by_rate && i < modes; ++i) {
+          rate += shape_of_b[i] *
+                  (x * static_cast<double>(m.v[i]) + y * static_cast<double>(m.v[modes + i])) / r;
+        }
+        const double normal = theta * (by_rate ? rate : r - clearance_m);
+        const double drag = m.speed_rad_per_s > 0.0F ? friction * normal : 0.0;
+        add.force_n[2 * b] += (-normal * x + drag * y) / r;
+        add.force_n[2 * b + 1] += (-normal * y - drag * x) / r;
+      });
+  const Family::Shape shape{clearance_m, friction};
+  term.family = {shape, {0.15, 0.4}, shape, [&rig, b, by_rate](const Family::Shape& other) {
+                   return Rub(rig, b, other[0], other[1], by_rate);
+                 }};
   return term;
 }
 
 }  // namespace
 
 std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& t, double largest_orbit_m) {
+  constexpr double kUsualDamping = 0.02;  // of a support
+  constexpr double kUsualFriction = 0.1;  // of a touchdown ring
   std::vector<Term> terms;
   for (std::size_t a = 0; a < rig.axes; ++a) {
     terms.push_back(
@@ -107,10 +120,13 @@ std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& t, double 
     // From 30 to 270 Hz, each a tenth above the one before: a support is that sharp.
     constexpr int kSteps = 22;
     for (int k = 0; k <= kSteps; ++k) {
-      terms.push_back(Support(rig, b, 30.0 * std::pow(9.0, static_cast<double>(k) / kSteps)));
+      terms.push_back(
+          Support(rig, b, 30.0 * std::pow(9.0, static_cast<double>(k) / kSteps), kUsualDamping));
     }
     for (const double share : {0.15, 0.25, 0.4, 0.6, 0.8}) {
-      terms.push_back(Rub(rig, b, share * largest_orbit_m));
+      for (const bool by_rate : {false, true}) {
+        terms.push_back(Rub(rig, b, share * largest_orbit_m, kUsualFriction, by_rate));
+      }
     }
   }
   return terms;

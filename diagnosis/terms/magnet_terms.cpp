@@ -52,8 +52,9 @@ Term Saturation(const RigView& rig, double knee_share) {
                  }
                });
   term.positive = true;
-  term.family = {knee_share, 0.12, knee_share,
-                 [&rig](double other) { return Saturation(rig, other); }};
+  term.family = {{knee_share}, {0.12}, {knee_share}, [&rig](const Family::Shape& other) {
+                   return Saturation(rig, other[0]);
+                 }};
   term.slope = [&rig, knee_share](const Moment& m, double theta, AddedSlopes& added) {
     constexpr double kStepA = 1e-4;
     constexpr double kStepM = 1e-8;

@@ -62,8 +62,9 @@ Term Hysteresis(const RigView& rig, double width_share) {
   Term term = MakeTerm({"hysteresis", fmt::format("width {:.4g} i0", width_share), "share", "1"},
                        0.0, 1.0, nullptr);
   term.positive = true;
-  term.family = {width_share, 0.55, width_share,
-                 [&rig](double other) { return Hysteresis(rig, other); }};
+  term.family = {{width_share}, {0.55}, {width_share}, [&rig](const Family::Shape& other) {
+                   return Hysteresis(rig, other[0]);
+                 }};
   term.drive = [&rig, width_share, stop = std::array<double, kMaxAxes>{},
                 last = std::array<double, kMaxAxes>{}](const Moment& m, double theta,
                                                        Addition& add) mutable {

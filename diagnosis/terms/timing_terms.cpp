@@ -103,8 +103,9 @@ Term Slew(const RigView& rig, double slew_a_per_s) {
   Term term = MakeTerm({"amplifier_slew", fmt::format("{:.0f} A/s", slew_a_per_s), "share", "1"},
                        0.0, 0.7, nullptr);
   term.positive = true;
-  term.family = {slew_a_per_s, 0.4, slew_a_per_s,
-                 [&rig](double other) { return Slew(rig, other); }};
+  term.family = {{slew_a_per_s}, {0.4}, {slew_a_per_s}, [&rig](const Family::Shape& other) {
+                   return Slew(rig, other[0]);
+                 }};
   term.drive = [&rig, slew_a_per_s, current = std::array<double, kMaxAxes>{}](
                    const Moment& m, double theta, Addition& add) mutable {
     for (std::size_t a = 0; a < rig.axes; ++a) {
