@@ -53,7 +53,14 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz, double damp
   const double w = 2.0 * std::numbers::pi * frequency_hz;
   term.drive = [b, w, damping_ratio, period_s = rig.period_s, h = Housing{}](
                    const Moment& m, double theta, Addition& add) mutable {
-    if (m.restarted) h = Housing{};
+    if (m.restarted) {
+      // Levitated for long: at the place where its spring holds the weight. From elsewhere it would
+      // ring for longer than the model settles.
+      h = Housing{};
+      for (std::size_t i = 0; i < 2; ++i) {
+        h.u[i] = -static_cast<double>(m.force_n[2 * b + i]) / (w * w);
+      }
+    }
     for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t axis = 2 * b + i;
       const double before = h.u[i];

@@ -224,11 +224,12 @@ TEST_F(RotorTermsTest, AStaticLoadIsAForceOnItsAxis) {
 }
 
 TEST_F(RotorTermsTest, ARubPushesInwardsBeyondItsClearanceAndBrakesTheShaftsSurface) {
-  // 50 um is the largest orbit the terms were made for: clearances of 20, 30 and 40 um.
+  // 50 um is the largest orbit the terms were made for: clearances of up to 40 um.
   Moment m = Turning(0.0);
   m.actuator_m[0] = 27e-6F;
   m.actuator_m[1] = 36e-6F;  // 45 um out
-  const Addition add = Of("touchdown_rub", "de, clearance 40.0 um", "stiffness_n_per_m", m, 1e6);
+  const Addition add =
+      Of("touchdown_rub", "de, clearance 40.00 um, friction 0.100", "stiffness_n_per_m", m, 1e6);
   const std::complex<double> force(add.force_n[0], add.force_n[1]);
   const std::complex<double> outwards(0.6, 0.8);
   const auto parts = force * std::conj(outwards);
@@ -236,14 +237,15 @@ TEST_F(RotorTermsTest, ARubPushesInwardsBeyondItsClearanceAndBrakesTheShaftsSurf
   EXPECT_NEAR(parts.imag(), -0.5, 1e-3);  // friction 0.1 against a counter-clockwise surface
   m.actuator_m[0] = 18e-6F;
   m.actuator_m[1] = 24e-6F;
-  const Addition inside = Of("touchdown_rub", "de, clearance 40.0 um", "stiffness_n_per_m", m, 1e6);
+  const Addition inside =
+      Of("touchdown_rub", "de, clearance 40.00 um, friction 0.100", "stiffness_n_per_m", m, 1e6);
   EXPECT_EQ(inside.force_n[0], 0.0);
   EXPECT_EQ(inside.force_n[1], 0.0);
 }
 
 TEST_F(RotorTermsTest, ASupportResonatesAtItsFrequency) {
   // Amplitude of the housing under a force at its resonance: F/(2 z m w^2), z = 0.02.
-  Term term = Named(terms_, "support_mode", "nde, 90 Hz");
+  Term term = Named(terms_, "support_mode", "nde, 90.0 Hz, damping 0.0200");
   const double w = 2.0 * std::numbers::pi * 90.0;
   double largest = 0.0;
   for (int n = 0; n < 40'000; ++n) {
@@ -254,6 +256,31 @@ TEST_F(RotorTermsTest, ASupportResonatesAtItsFrequency) {
   }
   const double expected = 1.0 / (2.0 * 0.02 * w * w);
   EXPECT_NEAR(largest, expected, 0.03 * expected);
+}
+
+TEST_F(RotorTermsTest, ASupportUnderAConstantForceRestsWhereItsSpringHoldsIt) {
+  Term term = Named(terms_, "support_mode", "nde, 90.0 Hz, damping 0.0200");
+  const double w = 2.0 * std::numbers::pi * 90.0;
+  for (int n = 0; n < 3'000; ++n) {
+    Moment m = Rest();
+    m.restarted = n == 0;
+    m.force_n[2] = 8.0F;
+    // From zero it would swing between nothing and twice this.
+    EXPECT_NEAR(-Added(term, m, 0.5).reading_m[2], -0.5 * 8.0 / (w * w), 1e-12) << n;
+  }
+}
+
+TEST_F(RotorTermsTest, ARubsDampingOpposesTheRadialVelocityAlone) {
+  Moment m = Turning(0.0);
+  m.actuator_m[0] = 45e-6F;
+  m.actuator_m[1] = 0.0F;
+  const auto& shape = View().magnet(0).actuator_shape;
+  m.v[0] = static_cast<float>(2e-3 / shape[0]);             // outwards at 2 mm/s
+  m.v[View().modes] = static_cast<float>(5e-3 / shape[0]);  // and along the ring
+  const Addition add =
+      Of("touchdown_rub", "de, clearance 40.00 um, friction 0.100", "damping_n_s_per_m", m, 100.0);
+  EXPECT_NEAR(add.force_n[0], -0.2, 1e-6);
+  EXPECT_NEAR(add.force_n[1], -0.02, 1e-6);  // friction of the normal force
 }
 
 }  // namespace
