@@ -20,7 +20,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = Path(os.environ.get("LEVITAS_BUILD", ROOT / "build/release"))
-SET_UP = "ip link set lo up && ip route add 224.0.0.0/4 dev lo && exec \"$@\""
+sys.path.insert(0, str(ROOT / "tests/support"))
+from lcm_network import enter_namespace  # noqa: E402
+
 SPIN_US = 20  # what the programs use
 ONE_CORE = ["taskset", "-c", "0"]
 ROWS = {
@@ -35,14 +37,6 @@ ROWS = {
 }
 PAIR = "amb-controller + amb-plant"
 PAIR_ONE_CORE = "amb-controller + amb-plant, one core"
-
-
-def enter_namespace():
-    if os.environ.get("LEVITAS_BENCH_NAMESPACE"):
-        return
-    os.environ["LEVITAS_BENCH_NAMESPACE"] = "1"
-    unshare = ["unshare", "-n" if os.geteuid() == 0 else "-rn"]
-    os.execvp(unshare[0], [*unshare, "sh", "-c", SET_UP, "sh", sys.executable, *sys.argv])
 
 
 def fifo():

@@ -21,18 +21,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = Path(os.environ.get("LEVITAS_BUILD", ROOT / "build/release"))
-SET_UP = "ip link set lo up && ip route add 224.0.0.0/4 dev lo && exec \"$@\""
+sys.path.insert(0, str(ROOT / "tests/support"))
+from lcm_network import enter_namespace  # noqa: E402
+
 PERIOD_US = 100
 PERCENTILES = (("p50", 0.5), ("p99", 0.99), ("p999", 0.999))
 AIMS = {"p50": 0.1, "p99": 0.5, "p999": 1.0}
-
-
-def enter_namespace():
-    if os.environ.get("LEVITAS_BENCH_NAMESPACE"):
-        return
-    os.environ["LEVITAS_BENCH_NAMESPACE"] = "1"
-    unshare = ["unshare", "-n" if os.geteuid() == 0 else "-rn"]
-    os.execvp(unshare[0], [*unshare, "sh", "-c", SET_UP, "sh", sys.executable, *sys.argv])
 
 
 def cyclictest(seconds):

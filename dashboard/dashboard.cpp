@@ -88,7 +88,12 @@ struct Dashboard::Impl {
   }
 
   void Publish(std::int64_t now_ns) {
-    if (server.viewers() == 0) return;
+    if (server.viewers() == 0) {
+      // The next viewer would begin with figures from when somebody last looked.
+      hub.Forget(Topic::kTick);
+      hub.Forget(Topic::kSpectrum);
+      return;
+    }
     hub.Put(Topic::kTick, TickJson(run, now_ns));
     if (auto news = scope.News()) hub.Put(Topic::kScope, *std::move(news));
     if (now_ns < next_spectrum_ns || !run.samples()) return;

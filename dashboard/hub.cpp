@@ -25,6 +25,11 @@ void Hub::Put(Topic topic, std::string json) {
   changed_.notify_all();
 }
 
+void Hub::Forget(Topic topic) {
+  const std::lock_guard lock(mutex_);
+  latest_[static_cast<std::size_t>(topic)].json.clear();
+}
+
 void Hub::PutEvent(std::uint64_t number, std::string json) {
   {
     const std::lock_guard lock(mutex_);
@@ -49,7 +54,7 @@ bool Hub::closed() const {
 
 bool Hub::News(const Seen& seen) const {
   for (std::size_t i = 0; i < kTopics; ++i) {
-    if (latest_[i].version > seen.topic[i]) return true;
+    if (latest_[i].NewTo(seen.topic[i])) return true;
   }
   return !events_.empty() && events_.back().first > seen.event;
 }
@@ -60,7 +65,7 @@ std::string Hub::Wait(Seen& seen, std::chrono::milliseconds limit) {
   std::string stream;
   if (closed_) return stream;
   for (std::size_t i = 0; i < kTopics; ++i) {
-    if (latest_[i].version <= seen.topic[i]) continue;
+    if (!latest_[i].NewTo(seen.topic[i])) continue;
     seen.topic[i] = latest_[i].version;
     AddMessage(stream, kTopicNames[i], latest_[i].json);
   }

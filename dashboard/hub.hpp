@@ -37,6 +37,8 @@ class Hub {
   static constexpr std::size_t kEvents = 200;
 
   void Put(Topic topic, std::string json);
+  /// What was told of `topic` is old: the next viewer waits for news of it.
+  void Forget(Topic topic);
   /// `number` counts up.
   void PutEvent(std::uint64_t number, std::string json);
   void Close();
@@ -51,7 +53,8 @@ class Hub {
 
   struct Latest {
     std::uint64_t version{0};
-    std::string json;
+    std::string json;  ///< empty: nothing to tell
+    [[nodiscard]] bool NewTo(std::uint64_t seen) const { return version > seen && !json.empty(); }
   };
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -30,7 +30,7 @@ const handlers = {
   tick(tick) {
     showTick(tick);
     if (tick.t_ms?.length) showTime(tick.t_ms.at(-1) / 1000);
-    if (tick.orbit_nm) showOrbits(tick.orbit_nm);
+    if (tick.orbit_nm) showOrbits(tick.orbit_nm, tick.bias_ma);
     addTraces(tick);
     newest = tick.sent_ns ?? newest;
     due.add(drawOrbits).add(drawTraces);

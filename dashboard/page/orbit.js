@@ -10,6 +10,7 @@ const KEEP = 10;  // older orbits, fading
 
 let views = [];
 let clearance = 0;
+let energised = false;  // zones are of a levitated shaft, not of one that lies
 
 export function setUpOrbits(rig) {
   const place = document.getElementById("orbits");
@@ -98,7 +99,8 @@ function drawEnlarged(context, view, width, height, top) {
   context.textAlign = "left";
 }
 
-export function showOrbits(orbits) {
+export function showOrbits(orbits, bias) {
+  energised = bias > 0;
   views.forEach((view, i) => {
     const points = orbits[i];
     if (!points || points.length < 4 || points.includes(null)) return;
@@ -125,14 +127,14 @@ export function drawOrbits() {
     });
     context.restore();
     const share = view.largest / clearance;
-    const zone = share < 0.3 ? "A" : share < 0.4 ? "B" : share < 0.5 ? "C" : "D";
+    const zone = !energised ? "" : ", zone " + (share < 0.3 ? "A" : share < 0.4 ? "B" : share < 0.5 ? "C" : "D");
     context.fillStyle = "#1b2733";
     context.font = "600 12px system-ui, 'DejaVu Sans', sans-serif";
     context.fillText(view.name.toUpperCase(), 4, 12);
     context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
     if (view.history.length > 0) {
       context.textAlign = "right";
-      context.fillText(`${(view.largest / 1000).toFixed(1)} µm, zone ${zone}`, width - 4, 12);
+      context.fillText(`${(view.largest / 1000).toFixed(1)} µm${zone}`, width - 4, 12);
       context.textAlign = "left";
       drawEnlarged(context, view, width, height, 2 * radius + 18);
     }

@@ -3,10 +3,10 @@
 const FONT = "11px system-ui, 'DejaVu Sans', sans-serif";
 
 /**
- * options: series, y {floor: [low, high] always shown, log}, x {label values}, draw(plot) on top,
+ * options: series, bands (as uPlot takes them), y {floor: [low, high] always shown, log}, x {label values}, draw(plot) on top,
  * zoomed(plot, min, max) after the time shown has changed: the user may then drag to zoom.
  */
-export function makePlot(box, { series, y = {}, x = {}, draw = () => {}, zoomed = null }) {
+export function makePlot(box, { series, bands = [], y = {}, x = {}, draw = () => {}, zoomed = null }) {
   const range = (plot, low, high) => {
     if (y.range) return y.range;
     const [least, most] = y.floor ?? [0, 1];
@@ -23,6 +23,7 @@ export function makePlot(box, { series, y = {}, x = {}, draw = () => {}, zoomed 
     scales: { x: { time: false, ...x.scale }, y: { range, distr: y.log ? 3 : 1 } },
     axes: [{ ...axis, size: 22, gap: 2 }, { ...axis, size: 44, gap: 2, ...y.axis }],
     series: [{}, ...series],
+    bands,
     hooks: {
       draw: [draw],
       setScale: zoomed ? [(plot, key) => { if (key === "x" && plot.status === 1) zoomed(plot, plot.scales.x.min, plot.scales.x.max); }] : [],
@@ -30,14 +31,15 @@ export function makePlot(box, { series, y = {}, x = {}, draw = () => {}, zoomed 
   };
   const plot = new uPlot(options, [[0], ...series.map(() => [null])], box);
   plot.box = box;
-  label(box, series);
+  label(box, series.filter((one) => one.label));
   return plot;
 }
 
-/** Names of the lines in their colours, top right. */
+/** Names of the lines in their colours, in the heading before the box: there they hide nothing. */
 function label(box, series) {
-  box.querySelector(".names")?.remove();
-  const names = document.createElement("div");
+  const heading = box.previousElementSibling;
+  heading.querySelector(".names")?.remove();
+  const names = document.createElement("span");
   names.className = "names";
   for (const one of series) {
     const name = document.createElement("span");
@@ -45,7 +47,7 @@ function label(box, series) {
     name.style.color = one.colour ?? one.stroke;
     names.append(name);
   }
-  box.append(names);
+  heading.append(names);
 }
 
 export function fit(plot) {

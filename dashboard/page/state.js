@@ -10,7 +10,7 @@ export function showRig(rig) {
 export function showTick(tick) {
   const mode = at("mode");
   if (tick.silent) {
-    mode.textContent = tick.mode ? "no news" : "no controller";
+    mode.textContent = tick.mode ? "controller silent" : "no controller";
     mode.className = "mode";
     return;
   }

@@ -87,7 +87,7 @@ export function drawWaterfall() {
   const raw = new OffscreenCanvas(lines, rows);
   raw.getContext("2d").putImageData(picture, 0, 0);
   context.imageSmoothingEnabled = false;
-  context.fillStyle = "#440154";
+  context.fillStyle = "#eef1f4";  // not yet
   context.fillRect(LEFT, 0, width - LEFT, height - BOTTOM);
   context.drawImage(raw, LEFT, 0, width - LEFT, height - BOTTOM);
   drawScale(context, width, height, newest.highest);

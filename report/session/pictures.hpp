@@ -27,12 +27,13 @@ struct PictureOptions {
 [[nodiscard]] std::vector<NamedPicture> Pictures(const Recording& recording,
                                                  const PictureOptions& options);
 
-// The groups, in order.
+// The groups, in order; of two bearings, those that belong together stand side by side.
 [[nodiscard]] std::vector<NamedPicture> TimePictures(const Recording& recording);
 [[nodiscard]] std::vector<NamedPicture> RunUpPictures(const Recording& recording,
                                                       const std::vector<SynchronousPoint>& points);
 [[nodiscard]] std::vector<NamedPicture> OrbitPictures(const Recording& recording,
                                                       const std::vector<double>& speeds_rad_per_s);
+[[nodiscard]] std::vector<NamedPicture> ClockPictures(const Recording& recording);
 
 /// Standing, where the synchronous vibration was largest, and the top speed.
 [[nodiscard]] std::vector<double> ChosenSpeeds(const Recording& recording,

@@ -156,11 +156,16 @@ NamedPicture SamplingPicture(const Recording& r) {
 
 std::vector<NamedPicture> TimePictures(const Recording& recording) {
   std::vector<NamedPicture> pictures{DistancePicture(recording), ZonesPicture(recording)};
-  if (recording.top_speed_rad_per_s > recording.standstill_rad_per_s) {
-    pictures.push_back(SpeedPicture(recording));
-  }
   for (std::size_t b = 0; b < recording.rig.bearings.size(); ++b) {
     pictures.push_back(CurrentPicture(recording, b));
+  }
+  return pictures;
+}
+
+std::vector<NamedPicture> ClockPictures(const Recording& recording) {
+  std::vector<NamedPicture> pictures;
+  if (recording.top_speed_rad_per_s > recording.standstill_rad_per_s) {
+    pictures.push_back(SpeedPicture(recording));
   }
   if (recording.header.pace == "realtime") pictures.push_back(SamplingPicture(recording));
   return pictures;

@@ -80,5 +80,25 @@ def until(url, wanted, most=2000):
     raise AssertionError("the message never came")
 
 
+def fits_screens(test, page_of):
+    """The page fits a small screen without scrolling and a phone's width; stop is always in view.
+
+    page_of(width=, height=, phone=) opens it and has waited until everything is there.
+    """
+    for width, height, phone in ((1280, 720, False), (390, 844, True)):
+        with test.subTest(width=width):
+            page = page_of(width=width, height=height, phone=phone)
+            test.assertLessEqual(page.value("document.documentElement.scrollWidth"), width)
+            if not phone:
+                test.assertLessEqual(page.value("document.documentElement.scrollHeight"), height)
+            page.value("window.scrollTo(0, document.body.scrollHeight)")
+            top, bottom, wide = page.value("(() => { const b = document.getElementById('stop')"
+                                           ".getBoundingClientRect();"
+                                           " return [b.top, b.bottom, b.width]; })()")
+            test.assertGreaterEqual(top, 0)
+            test.assertLessEqual(bottom, height)
+            test.assertGreater(wide, 100)
+
+
 def in_mode(mode):
     return lambda name, data: name == "tick" and data.get("mode") == mode

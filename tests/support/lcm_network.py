@@ -20,6 +20,7 @@ BUILD = Path(os.environ.get("LEVITAS_BUILD", BINARIES.parent))
 GROUP = "239.255.76.67"
 SENSOR, CURRENT, TELEMETRY, COMMAND = 7667, 7668, 7669, 7670
 SKIPPED = 77
+UNSHARE = ["unshare", "-n" if os.geteuid() == 0 else "-rn"]
 SET_UP = "ip link set lo up && ip route add 224.0.0.0/4 dev lo && exec \"$@\""
 
 sys.path.insert(0, str(BUILD / "lcmtypes/python"))
@@ -29,14 +30,21 @@ def run():
     """Runs the unittest of the calling script inside a namespace."""
     if os.environ.get("LEVITAS_TEST_NAMESPACE"):
         unittest.main()
-    unshare = ["unshare", "-n" if os.geteuid() == 0 else "-rn"]
-    probe = subprocess.run([*unshare, "sh", "-c", SET_UP, "sh", "true"], capture_output=True,
+    probe = subprocess.run([*UNSHARE, "sh", "-c", SET_UP, "sh", "true"], capture_output=True,
                            text=True, check=False)
     if probe.returncode != 0:
         print(f"not run: no network namespace here: {probe.stderr.strip()}")
         sys.exit(SKIPPED)
     os.environ["LEVITAS_TEST_NAMESPACE"] = "1"
-    os.execvp(unshare[0], [*unshare, "sh", "-c", SET_UP, "sh", sys.executable, "-B", *sys.argv])
+    os.execvp("unshare", [*UNSHARE, "sh", "-c", SET_UP, "sh", sys.executable, "-B", *sys.argv])
+
+
+def enter_namespace():
+    """Starts the calling script, a bench, again inside a namespace; without one it fails."""
+    if os.environ.get("LEVITAS_BENCH_NAMESPACE"):
+        return
+    os.environ["LEVITAS_BENCH_NAMESPACE"] = "1"
+    os.execvp("unshare", [*UNSHARE, "sh", "-c", SET_UP, "sh", sys.executable, *sys.argv])
 
 
 def short_message(channel, payload, sequence=0):

@@ -34,6 +34,14 @@ class Figures(unittest.TestCase):
         self.assertEqual(cycles, sorted(cycles))
         self.assertGreater(cycles[-1], cycles[0])
 
+    def test_begin_with_the_present_however_long_nobody_looked(self):
+        rig = Rig(self)
+        tick = until(rig.url, lambda name, data: name == "tick" and "cycle" in data)
+        self.assertFalse(tick["silent"])
+        rig.controller.kill()
+        time.sleep(3)  # silence is a second; what was told before nobody looked knew of none
+        self.assertTrue(until(rig.url, lambda name, data: name == "tick")["silent"])
+
     def test_say_when_the_controller_is_gone(self):
         rig = Rig(self)
         until(rig.url, in_mode("off"))

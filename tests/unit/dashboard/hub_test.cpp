@@ -33,6 +33,21 @@ TEST(Hub, LetsASlowViewerMissTicksAndKeepsNoneForIt) {
   EXPECT_EQ(hub.Wait(slow, kAtOnce), "event: tick\ndata: 99999\n\n");
 }
 
+TEST(Hub, TellsNobodyWhatItForgotAndEverybodyWhatCameLater) {
+  Hub hub;
+  Seen early;
+  Seen late;
+  hub.Put(Topic::kTick, "old");
+  hub.Put(Topic::kTiming, "kept");
+  EXPECT_THAT(hub.Wait(early, kAtOnce), HasSubstr("old"));
+  hub.Forget(Topic::kTick);
+  EXPECT_EQ(hub.Wait(early, kAtOnce), "");
+  EXPECT_EQ(hub.Wait(late, kAtOnce), "event: timing\ndata: kept\n\n");
+  hub.Put(Topic::kTick, "new");
+  EXPECT_EQ(hub.Wait(early, kAtOnce), "event: tick\ndata: new\n\n");
+  EXPECT_EQ(hub.Wait(late, kAtOnce), "event: tick\ndata: new\n\n");
+}
+
 TEST(Hub, TellsEveryViewerEveryEventInOrder) {
   Hub hub;
   Seen early;
