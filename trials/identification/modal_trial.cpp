@@ -1,5 +1,6 @@
 #include "trials/identification/modal_trial.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
@@ -33,6 +34,30 @@ double Mean(const identification::Column& column) {
   return sum / static_cast<double>(column.size());
 }
 
+/// Where the rotor stands at the magnets of one plane, from where it stands at the sensors: between
+/// them it sags. The magnets' forces balance the static ones on the rigid modes, the bending modes
+/// give way to both.
+Eigen::VectorXd AtMagnets(const plant::PlantModel& model, const Eigen::VectorXd& at_sensors_m,
+                          Index plane) {
+  const auto& w = model.parameters().modes.frequency_rad_per_s;
+  const Index n = w.size();
+  const auto bearings = static_cast<Index>(model.bearings().size());
+  Eigen::MatrixXd actuator(n, bearings);
+  Eigen::MatrixXd sensor(n, bearings);
+  for (Index b = 0; b < bearings; ++b) {
+    const auto& shapes = model.bearings()[static_cast<std::size_t>(b)];
+    actuator.col(b) = Eigen::Map<const Eigen::VectorXd>(shapes.actuator_shape.data(), n);
+    sensor.col(b) = Eigen::Map<const Eigen::VectorXd>(shapes.sensor_shape.data(), n);
+  }
+  const Eigen::Map<const Eigen::VectorXd> load(model.gravity().data() + plane * n, n);
+  const Eigen::VectorXd force = actuator.topRows(2).partialPivLu().solve(-load.head(2));
+  const Eigen::VectorXd bent = (actuator.bottomRows(n - 2) * force + load.tail(n - 2))
+                                   .cwiseQuotient(w.tail(n - 2).cwiseAbs2());
+  const Eigen::VectorXd rigid = sensor.topRows(2).transpose().partialPivLu().solve(
+      at_sensors_m - sensor.bottomRows(n - 2).transpose() * bent);
+  return actuator.topRows(2).transpose() * rigid + actuator.bottomRows(n - 2).transpose() * bent;
+}
+
 ModalTruth Truth(const plant::PlantModel& model, const identification::Record& record) {
   const auto& modes = model.parameters().modes;
   const auto& bearings = model.config().bearings;
@@ -40,6 +65,18 @@ ModalTruth Truth(const plant::PlantModel& model, const identification::Record& r
   const Index bending = modes.frequency_rad_per_s.size() - 2;
   ModalTruth truth{modes.frequency_rad_per_s.tail(bending) / (2.0 * std::numbers::pi),
                    modes.damping_ratio.tail(bending), Eigen::VectorXd(axes), Eigen::VectorXd(axes)};
+  Eigen::VectorXd at_sensors_m(axes);
+  for (Index axis = 0; axis < axes; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const auto& reading = model.effects().readings[a];
+    // Where the rotor rests: the probe's own offset is not the rotor's.
+    at_sensors_m[axis] = (Mean(record.position_m[a]) - reading.offset_m) / reading.gain;
+  }
+  Eigen::VectorXd at_magnets_m(axes);
+  for (Index plane = 0; plane < 2; ++plane) {
+    const auto own = Eigen::seqN(plane, axes / 2, 2);
+    at_magnets_m(own) = AtMagnets(model, at_sensors_m(own), plane);
+  }
   for (Index axis = 0; axis < axes; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const auto& bearing = bearings[a / 2];
@@ -48,8 +85,7 @@ ModalTruth Truth(const plant::PlantModel& model, const identification::Record& r
     const double s0 = bearing.magnet.gap_m;
     const double i0 = bearing.magnet.bias_current_a;
     const auto& reading = model.effects().readings[a];
-    // Where the rotor rests: the probe's own offset is not the rotor's.
-    const double x = (Mean(record.position_m[a]) - reading.offset_m) / reading.gain;
+    const double x = at_magnets_m[axis];
     const double i = e.gain * Mean(record.current_a[a]);
     const double up = (i0 + i) / (s0 - x);
     const double down = (i0 - i) / (s0 + x);

@@ -6,7 +6,8 @@
 //           unbalance; what the method takes as known (amplifier, sensor bandwidth and place) is
 //           as in the file. Noise, converters, nonlinear magnets and gravity are on.
 // Truth     ki and ks of a small signal about the static working point: the magnet's slopes where
-//           load and a probe's offset put the rotor.
+//           load and a probe's offset put the rotor; at the magnets, between which and the probes
+//           the rotor sags.
 // Products  what a response from current to reading can tell: ki g/m and ks/m.
 // Units     SI. Thread any.
 
