@@ -101,8 +101,9 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   command->add_option("--plan", options->plan,
                       "Write the scenario that would separate what these data cannot");
   command->add_option("--out", options->out, "Folder for the answer")->required();
-  command->add_flag("--quick", options->quick,
-                    "First answer: the strongest cause, from at most 30 000 samples of all records");
+  command->add_flag(
+      "--quick", options->quick,
+      "First answer: the strongest cause, from at most 30 000 samples of all records");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }
