@@ -35,7 +35,7 @@ constexpr const char* kHelp =
 
 struct BenchOptions {
   std::string rig{"flexible_rotor"};
-  std::vector<std::string> controllers{"flexible_rotor", "flexible_rotor_commissioned"};
+  std::vector<std::string> controllers;
   std::vector<std::string> effects;
   std::vector<double> sizes{1.0, 0.5, 0.25};
   std::uint64_t first{1000};
@@ -45,21 +45,24 @@ struct BenchOptions {
   std::string json_path, markdown_path, write_folder;
 };
 
-std::vector<effect::Id> Chosen(const BenchOptions& options) {
+std::vector<effect::Id> Chosen(const BenchOptions& options, const trials::Bench& bench) {
   std::vector<effect::Id> ids;
-  for (const effect::Id id : trials::HiddenIds()) {
-    const std::string name(effect::At(id).name);
+  for (const trials::SizeOnRig& on : bench.trials.effects) {
+    const std::string name(effect::At(on.id).name);
     if (options.effects.empty() ||
         std::find(options.effects.begin(), options.effects.end(), name) != options.effects.end()) {
-      ids.push_back(id);
+      ids.push_back(on.id);
     }
   }
-  if (ids.empty()) throw BadInput("--effect: no effect of that name can be hidden");
+  if (ids.empty()) {
+    throw BadInput(fmt::format("--effect: no effect of that name is hidden in rig {}",
+                               bench.rig.numbers.name));
+  }
   return ids;
 }
 
-std::vector<trials::TrialPlan> Plans(const BenchOptions& options) {
-  const auto ids = Chosen(options);
+std::vector<trials::TrialPlan> Plans(const BenchOptions& options, const trials::Bench& bench) {
+  const auto ids = Chosen(options, bench);
   std::vector<trials::TrialPlan> plans;
   const auto add = [&](std::vector<effect::Id> hidden, double size) -> trials::TrialPlan& {
     trials::TrialPlan plan;
@@ -193,8 +196,12 @@ std::vector<trials::Outcome> TryAll(const std::vector<trials::TrialPlan>& plans,
 
 ExitStatus Run(const BenchOptions& options) {
   KeepFreedMemory();
-  const trials::Bench bench = trials::LoadBench(options.rig, options.controllers);
-  const std::vector<trials::Outcome> outcomes = TryAll(Plans(options), bench, options);
+  std::vector<std::string> controllers = options.controllers;
+  if (controllers.empty() && options.rig == "flexible_rotor") {
+    controllers = {"flexible_rotor", "flexible_rotor_commissioned"};
+  }
+  const trials::Bench bench = trials::LoadBench(options.rig, controllers);
+  const std::vector<trials::Outcome> outcomes = TryAll(Plans(options, bench), bench, options);
   nlohmann::ordered_json json;
   json["trials"] = nlohmann::ordered_json::array();
   for (const trials::Outcome& outcome : outcomes) json["trials"].push_back(Json(outcome));
@@ -221,7 +228,8 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   AddBenchFullSpectrum(*bench, action);
   command->footer(kHelp);
   command->add_option("--rig", options->rig, "Nominal rig");
-  command->add_option("--controller", options->controllers, "Controllers, drawn by seed");
+  command->add_option("--controller", options->controllers,
+                      "Controllers, drawn by seed; without it those shipped for the rig");
   command->add_option("--seeds", options->seeds, "Trials with one hidden effect");
   command->add_option("--clean", options->clean, "Trials with nothing hidden");
   command->add_option("--outside", options->outside, "Trials outside the vocabulary");

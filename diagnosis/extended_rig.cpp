@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "diagnosis/gear_entry.hpp"
 #include "diagnosis/words.hpp"
 
 namespace levitas::diagnosis {
@@ -195,6 +196,7 @@ std::string Entry(const RigView& rig, const Group& g) {
   std::string values;
   if (g.effect == "breathing_crack")
     return {};  // its softening has no depth without the shaft's E I
+  if (place == "gear") values = GearEntry(rig, g.effect, g.place, g.theta);
   if (place == "magnet") values = MagnetEntry(rig, g);
   if (place == "sensor" || place == "amplifier") values = SensorEntry(rig, g);
   if (place == "rotor") values = RotorEntry(rig, g);

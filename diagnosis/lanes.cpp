@@ -1,5 +1,6 @@
 #include "diagnosis/lanes.hpp"
 
+#include "diagnosis/train_coupling.hpp"
 #include "plant_sim/amplifier/amplifier.hpp"
 #include "plant_sim/plant/mode_step.hpp"
 #include "plant_sim/sensor/sensor.hpp"
@@ -86,6 +87,20 @@ LEVITAS_INLINE void Gyroscopic(const LaneModel& k, float speed,
   }
 }
 
+/// Supports and teeth of geared shafts.
+LEVITAS_INLINE void Coupling(const LaneModel& k, const std::array<Lane, 2 * kMaxModes>& q_mid,
+                             const std::array<Lane, 2 * kMaxModes>& v_mid, LaneState& s) noexcept {
+  const std::size_t count = 2 * k.modes;
+  for (std::size_t i = 0; i < count; ++i) {
+    Vector f{};
+    for (std::size_t c = 0; c < count; ++c) {
+      f +=
+          k.coupled_q[i * count + c] * q_mid[c].value + k.coupled_v[i * count + c] * v_mid[c].value;
+    }
+    s.add_modal[i].value -= f;
+  }
+}
+
 LEVITAS_INLINE void AdvanceBody(const LaneModel& k, const Moment& m, LaneState& s) noexcept {
   // Forces that follow the motion are taken in the middle of the period: at its start they would
   // feed the fast modes.
@@ -99,6 +114,7 @@ LEVITAS_INLINE void AdvanceBody(const LaneModel& k, const Moment& m, LaneState& 
   }
   Magnets(k, m, q_mid, s);
   if (m.speed_rad_per_s != 0.0F) Gyroscopic(k, m.speed_rad_per_s, v_mid, s);
+  if (!k.coupled_q.empty()) Coupling(k, q_mid, v_mid, s);
   for (std::size_t i = 0; i < 2 * k.modes; ++i) {
     const LaneModel::Mode& n = k.mode[i % k.modes];
     const Vector q = s.q[i].value;
@@ -206,6 +222,9 @@ LaneModel::LaneModel(const RigView& rig, const analysis::ObserverGain& gain,
   for (const double g : rig.model->gyroscopic()) {
     gyroscopic.push_back(static_cast<float>(g * change.gyroscopic));
   }
+  const TrainCoupling coupling = CouplingOf(rig, change);
+  coupled_q = RowMajor(coupling.stiffness);
+  coupled_v = RowMajor(coupling.damping);
 }
 
 void Reading(const LaneModel& model, const Moment& moment, const LaneState& state,

@@ -47,6 +47,9 @@ struct LaneModel {
   std::vector<Mode> mode;
   std::vector<Axis> axis;
   std::vector<float> gyroscopic;  ///< [column][row]
+  /// Geared shafts: modal accelerations per displacement and velocity, [row][column] over the modes
+  /// of both planes. Empty for one rotor.
+  std::vector<float> coupled_q, coupled_v;
 };
 
 struct LaneState {

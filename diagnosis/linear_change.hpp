@@ -10,6 +10,7 @@
 
 #include <array>
 
+#include "diagnosis/mesh_view.hpp"
 #include "diagnosis/moment.hpp"
 
 namespace levitas::diagnosis {
@@ -26,8 +27,12 @@ struct LinearChange {
     double damping{1.0};    ///< ratio of 2 z w
     double drive{1.0};      ///< ratio of what all forces do to it
   };
+  struct Mesh {
+    double stiffness{1.0}, damping{1.0};  ///< ratios
+  };
   std::array<Axis, kMaxAxes> axis{};
   std::array<Mode, kMaxModes> mode{};
+  std::array<Mesh, kMostMeshes> mesh{};
   double gyroscopic{1.0};  ///< ratio
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/turns.hpp"
 #include "plant_sim/plant/mode_step.hpp"
 #include "plant_sim/plant/time_step.hpp"
 
@@ -50,8 +51,12 @@ class Runner {
     }
   }
 
-  void Restart(const AxisArray& position_m) {
-    starter_.Restart(position_m);
+  void Restart(const analysis::RecordedSample& sample) {
+    starter_.Restart(sample.position_m);
+    if (rig_.geared()) {
+      TurnTo(starter_.mutable_plant(), starter_angle_rad_, sample.angle_rad);
+      starter_angle_rad_ = sample.angle_rad;
+    }
     observer_ = &starter_;
     since_start_ = 0;
     before_a_ = now_a_ = {};
@@ -65,6 +70,7 @@ class Runner {
       observer_ = &steady_;
     }
     moment.starting = observer_ == &starter_;
+    if (moment.starting) starter_angle_rad_ = row.sample.angle_rad;
     BeforeSample(row, moment);
     Addition read;
     read.reading_m = next_reading_m_;
@@ -141,6 +147,12 @@ class Runner {
       m.q[i] = static_cast<float>(0.5 * (start(at_.q_x + i) + end[at_.q_x + i]));
       m.v[i] = static_cast<float>(0.5 * (start(at_.v_x + i) + end[at_.v_x + i]));
     }
+    const double mid_rad =
+        m.angle_rad + 0.5 * rig_.period_s * static_cast<double>(m.speed_rad_per_s);
+    for (std::size_t i = 0; i < rig_.meshes.size(); ++i) {
+      m.teeth[i] = rig_.meshes[i].At(mid_rad, static_cast<double>(m.speed_rad_per_s), m.q.data(),
+                                     m.v.data());
+    }
     for (std::size_t a = 0; a < rig_.axes; ++a) {
       m.coil_start_a[a] = static_cast<float>(start(at_.coil_current + a));
       m.coil_end_a[a] = static_cast<float>(end[at_.coil_current + a]);
@@ -190,6 +202,7 @@ class Runner {
   const RigView& rig_;
   analysis::Observer steady_, starter_;
   analysis::Observer* observer_;
+  double starter_angle_rad_{0.0};  ///< total angle at which its plant stands, of geared shafts
   std::uint64_t since_start_{0};
   StateLayout at_;
   std::vector<Active> active_;
@@ -235,7 +248,7 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverPair
     moment.record = record.number;
     moment.time_s = static_cast<double>(row.cycle) * rig.period_s;
     if (restart) {
-      runner.Restart(row.sample.position_m);
+      runner.Restart(row.sample);
       moment.restarted = true;
       since_start = 0;
     }

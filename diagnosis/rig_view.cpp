@@ -40,9 +40,15 @@ RigView::RigView(const RigNumbers& rig_numbers, const plant::PlantConfig& plant)
                     "rotor.modes_per_plane",
                     numbers.name, modes, kMaxModes));
   }
-  if (!plant.shafts.empty()) {
-    throw BadInput(fmt::format("rig {}: geared rigs cannot be diagnosed", numbers.name));
+  if (model->layout().twists > 0) {
+    throw BadInput(fmt::format("rig {}: shafts that twist cannot be diagnosed; leave out `torsion`",
+                               numbers.name));
   }
+  if (plant.gears.size() > kMostMeshes) {
+    throw BadInput(fmt::format("rig {} has {} gear pairs, a diagnosis takes at most {}",
+                               numbers.name, plant.gears.size(), kMostMeshes));
+  }
+  meshes = MeshesOf(*model);
   const auto& rotor = model->parameters().modes;
   for (std::size_t i = 0; i < modes; ++i) {
     const auto at = static_cast<Eigen::Index>(i);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/rig_numbers.hpp"
+#include "diagnosis/mesh_view.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::diagnosis {
@@ -22,8 +23,10 @@ struct RigView {
   double period_s{};
   std::vector<double> omega_rad_per_s;  ///< per mode, 0 for the rigid ones
   std::vector<double> damping_ratio;
+  std::vector<MeshView> meshes;  ///< empty for a rig with one rotor
 
-  /// Shape of the modes at a plane of the model, and its slope.
+  [[nodiscard]] bool geared() const noexcept { return !model->config().shafts.empty(); }
+  /// Shape of the modes at a plane of the one rotor, and its slope.
   [[nodiscard]] std::vector<double> Shape(double z_m) const;
   [[nodiscard]] std::vector<double> Slope(double z_m) const;
   [[nodiscard]] const plant::BearingConfig& bearing(std::size_t axis) const {

@@ -8,6 +8,7 @@
 #include "diagnosis/calibrate.hpp"
 #include "diagnosis/events.hpp"
 #include "diagnosis/flight.hpp"
+#include "diagnosis/turns.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -25,6 +26,14 @@ double Seconds(const Record& record, const RigView& rig) {
   return static_cast<double>(record.rows.size()) * rig.period_s;
 }
 
+/// Of geared shafts: angles that say where every wheel stands.
+void FollowTurns(const RigView& rig, std::vector<Record>& records) {
+  if (!rig.geared() || records.empty()) return;
+  for (Record& record : records) Unwrap(record, rig.period_s);
+  const Gains gains = Search(rig, {}).DesignGains(records, kFast);
+  for (std::size_t i = 0; i < records.size(); ++i) ChooseTurn(rig, gains[i], records[i]);
+}
+
 std::vector<Record> InFlight(const RigView& rig, std::vector<Record> records) {
   constexpr double kLeast = 0.5;  // [s] a model settles for 0.3
   for (Record& record : records) {
@@ -35,6 +44,7 @@ std::vector<Record> InFlight(const RigView& rig, std::vector<Record> records) {
         "amplifiers on), a diagnosis needs at least {} s",
         record.name, Seconds(record, rig), 100.0 * kFree, kLeast));
   }
+  FollowTurns(rig, records);
   return records;
 }
 

@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "diagnosis/gear_entry.hpp"
+
 namespace levitas::diagnosis {
 namespace {
 
@@ -45,7 +47,14 @@ constexpr std::array kPlaces{EffectPlace{"extra_delay", "timing"},
                              EffectPlace{"gyroscopic_inertia", "rotor"},
                              EffectPlace{"internal_damping", "rotor"},
                              EffectPlace{"rotor_mass", "rotor"},
-                             EffectPlace{"breathing_crack", "rotor"}};
+                             EffectPlace{"breathing_crack", "rotor"},
+                             EffectPlace{"mesh_stiffness", "gear"},
+                             EffectPlace{"mesh_stiffness_variation", "gear"},
+                             EffectPlace{"backlash", "gear"},
+                             EffectPlace{"mesh_friction", "gear"},
+                             EffectPlace{"transmission_error", "gear"},
+                             EffectPlace{"gear_runout", "gear"},
+                             EffectPlace{"tooth_crack", "gear"}};
 
 /// Pairs that look alike, and what tells them apart.
 struct Pair {
@@ -111,6 +120,13 @@ std::vector<NamedParameter> Parameters(const SessionAnswer& s) {
       p.value = e.value * e.value;
       p.low = std::pow(std::max(0.0, e.value - spread), 2);
       p.high = std::pow(e.value + spread, 2);
+    } else if (const MeshView* mesh = MeshOf(*s.view, e.place); e.effect == "mesh_stiffness") {
+      const bool stiff = e.parameter == "stiffness";
+      const double own = stiff ? mesh->stiffness_n_per_m : mesh->damping_n_s_per_m;
+      p.unit = stiff ? "N/m" : "N s/m";
+      p.value = own * (1.0 + p.value);
+      p.low = own * (1.0 + p.low);
+      p.high = own * (1.0 + p.high);
     } else if (e.parameter == "ratio") {
       p.value += 1.0;
       p.low += 1.0;

@@ -201,7 +201,7 @@ void WriteCsv(const Campaign& campaign, const RigNumbers& rig, const std::string
     }
     file << '\n';
     for (const MeasuredRow& row : measured.rows) {
-      file << fmt::format("{:.4f},{:.8g}", row.time_s, row.angle_rad);
+      file << fmt::format("{:.6f},{:.8g}", row.time_s, row.angle_rad);
       for (const auto* values : {&row.position_m, &row.control_current_a, &row.excitation_a}) {
         for (std::size_t a = 0; a < rig.axes(); ++a) file << fmt::format(",{:.8g}", (*values)[a]);
       }

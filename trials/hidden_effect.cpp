@@ -90,7 +90,8 @@ class Drawer {
   [[nodiscard]] double Ratio(double clear) { return std::exp(Sign() * size_ * std::log1p(clear)); }
   [[nodiscard]] double Disc() {
     const auto& discs = nominal_.config.rotor.discs;
-    return discs[Pick(discs.size())].z_m;
+    const auto& planes = nominal_.config.unbalance;  // of a rotor that is given by its modes
+    return discs.empty() ? planes[Pick(planes.size())].z_m : discs[Pick(discs.size())].z_m;
   }
 
   /// One axis as often as a bearing and as all.
@@ -253,7 +254,10 @@ class Drawer {
     }
   }
 
-  void Mode() { entry_.mode = 1 + Pick(4); }
+  void Mode() {
+    const auto modes = static_cast<std::size_t>(nominal_.modes.frequency_rad_per_s.size());
+    entry_.mode = 1 + Pick(std::min<std::size_t>(4, modes - 2));
+  }
   [[nodiscard]] double OwnFrequency() const {
     return nominal_.modes.frequency_rad_per_s[static_cast<Eigen::Index>(entry_.mode + 1)] /
            (2.0 * std::numbers::pi);

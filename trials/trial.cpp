@@ -5,6 +5,7 @@
 #include "common/problem.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/plant/plant_model.hpp"
+#include "trials/hidden_gear_effect.hpp"
 #include "trials/true_rig.hpp"
 
 namespace levitas::trials {
@@ -16,10 +17,13 @@ class Maker {
  public:
   Maker(const Bench& bench, const TrialPlan& plan)
       : bench_(bench), plan_(plan), nominal_(plant::Reduce(bench.rig.plant)), random_(plan.seed) {
+    campaign_ = bench.trials.campaign;
     campaign_.seed = random_.Bits();
     campaign_.bits_per_axis = plan.bits_per_axis;
     campaign_.runup_s = plan.runup_s;
-    campaign_.spinning_rpm = 2400.0 + 1200.0 * random_.Uniform();
+    const RigTrials& on = bench.trials;
+    campaign_.spinning_rpm =
+        on.spinning_from_rpm + (on.spinning_to_rpm - on.spinning_from_rpm) * random_.Uniform();
     rig_seed_ = random_.Bits();
     effect_seed_ = random_.Bits();
     law_ = random_.Bits() % bench.laws.size();
@@ -46,8 +50,11 @@ class Maker {
     Random random(effect_seed_);
     std::vector<effect::EffectConfig> entries;
     for (std::size_t i = 0; i < plan_.hidden.size(); ++i) {
-      const auto drawn =
-          DrawEffect(plan_.hidden[i], i == 0 ? size : plan_.side_size, nominal_, random);
+      const double share = bench_.trials.Factor(plan_.hidden[i]);
+      const double drawn_size = share * (i == 0 ? size : plan_.side_size);
+      const bool of_teeth = effect::At(plan_.hidden[i]).place == effect::Place::kGear;
+      const auto drawn = of_teeth ? DrawGearEffect(plan_.hidden[i], drawn_size, nominal_, random)
+                                  : DrawEffect(plan_.hidden[i], drawn_size, nominal_, random);
       if (i > 0 || main) entries.insert(entries.end(), drawn.begin(), drawn.end());
     }
     return entries;
@@ -65,7 +72,7 @@ class Maker {
     // of which no record would know.
     std::erase_if(hidden, [](const auto& entry) { return entry.id == Id::kDroppedSamples; });
     Random rig_random(rig_seed_);
-    const auto truth = TrueRig(bench_.rig.plant, Mismatch{}, hidden, rig_random);
+    const auto truth = TrueRig(bench_.rig.plant, bench_.trials.mismatch, hidden, rig_random);
     out = Record(truth, bench_.laws[law_], plan, plan_.outside, size, effect_seed_);
     if (secret != nullptr) secret->truth = truth;
     return out.stable;
@@ -104,8 +111,11 @@ const char* Name(Size size) noexcept {
 Trial MakeTrial(const Bench& bench, const TrialPlan& plan) { return Maker(bench, plan).Make(); }
 
 Bench LoadBench(const std::string& rig, const std::vector<std::string>& controllers) {
-  Bench bench{config::LoadRig(config::FindConfig(rig, "rigs")), {}};
-  for (const std::string& name : controllers) {
+  Bench bench{config::LoadRig(config::FindConfig(rig, "rigs")), {}, {}};
+  bench.trials = TrialsOf(bench.rig);
+  std::vector<std::string> names = controllers;
+  if (names.empty()) names.push_back(bench.rig.run.controller);
+  for (const std::string& name : names) {
     bench.laws.push_back(
         config::LoadController(config::FindConfig(name, "controllers"), bench.rig.numbers).law);
   }

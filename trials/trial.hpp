@@ -14,6 +14,7 @@
 #include "config/rig_file.hpp"
 #include "trials/campaign.hpp"
 #include "trials/hidden_effect.hpp"
+#include "trials/rig_trials.hpp"
 
 namespace levitas::trials {
 
@@ -21,6 +22,7 @@ namespace levitas::trials {
 struct Bench {
   config::RigFile rig;
   std::vector<law::LawConfig> laws;
+  RigTrials trials;
 };
 
 struct TrialPlan {
@@ -55,7 +57,7 @@ struct Trial {
 
 [[nodiscard]] Trial MakeTrial(const Bench& bench, const TrialPlan& plan);
 
-/// Loads rig `name` and the controllers shipped for it.
+/// Loads a rig and these controllers; without any, the one that the rig file names.
 [[nodiscard]] Bench LoadBench(const std::string& rig, const std::vector<std::string>& controllers);
 
 }  // namespace levitas::trials

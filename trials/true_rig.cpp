@@ -15,7 +15,7 @@ using effect::Id;
 class Maker {
  public:
   Maker(const plant::PlantConfig& nominal, const Mismatch& off, Random& random)
-      : off_(off), random_(random), config_(nominal) {
+      : off_(off), random_(random), config_(nominal), nominal_gears_(nominal.gears) {
     config_.rotor.modes_per_plane += 2;
     config_.substeps = 7;
   }
@@ -24,6 +24,7 @@ class Maker {
     config_.delay_samples += Off(off_.delay_samples);
     for (auto& mass : config_.unbalance) Unbalance(mass);
     for (std::size_t b = 0; b < config_.bearings.size(); ++b) Bearing(b);
+    if (!config_.shafts.empty()) return MakeGeared(hidden);
     for (const auto& disc : config_.rotor.discs) {
       Add(Id::kStaticLoad, {disc.z_m, Off(off_.static_load_n), Off(off_.static_load_n)});
     }
@@ -37,6 +38,23 @@ class Maker {
   }
 
  private:
+  /// What refers to the modes and planes of one rotor has no place here.
+  plant::PlantParameters MakeGeared(const std::vector<EffectConfig>& hidden) {
+    Spoil(config_, off_.train, random_);
+    plant::PlantParameters parameters = plant::Reduce(config_);
+    for (const EffectConfig& entry : hidden) Join(entry, parameters.modes);
+    for (EffectConfig& entry : config_.effects) {
+      if (entry.id != Id::kMeshStiffness) continue;
+      // The drawn values refer to the nominal mesh; the healthy rig's is off already.
+      const gear::GearPair& own = config_.gears[entry.gear];
+      const gear::GearPair& file = nominal_gears_[entry.gear];
+      entry.values[0] *= own.stiffness_n_per_m / file.stiffness_n_per_m;
+      entry.values[1] *= own.damping_n_s_per_m / file.damping_n_s_per_m;
+    }
+    parameters.config.effects = config_.effects;
+    return parameters;
+  }
+
   [[nodiscard]] double Off(double deviation) {
     return deviation * std::clamp(random_.Normal(), -2.0, 2.0);
   }
@@ -72,6 +90,7 @@ class Maker {
       Add(Id::kSensorRunout, {1.0, std::abs(Off(1.4 * off_.sensor_runout_m)), phase}, one);
     }
     bearing.sensor.bandwidth_hz *= 1.0 + Off(off_.sensor_bandwidth);
+    if (!config_.shafts.empty()) return;
     Add(Id::kSensorPosition, {Off(off_.sensor_position_m)}, effect::kAllAxes, b);
   }
 
@@ -149,6 +168,7 @@ class Maker {
   const Mismatch& off_;
   Random& random_;
   plant::PlantConfig config_;
+  std::vector<gear::GearPair> nominal_gears_;
 };
 
 }  // namespace

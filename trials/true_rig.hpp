@@ -12,6 +12,7 @@
 
 #include "common/random.hpp"
 #include "plant_sim/plant/plant_parameters.hpp"
+#include "trials/true_train.hpp"
 
 namespace levitas::trials {
 
@@ -30,6 +31,7 @@ struct Mismatch {
   double gyroscopic_inertia{0.015};
   double unbalance_kg_m{2e-6};
   double static_load_n{0.7};
+  TrainMismatch train;  ///< of geared shafts
 };
 
 /// `hidden` joins the entries of the mismatch; on one place they combine.

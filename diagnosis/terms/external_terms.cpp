@@ -139,16 +139,4 @@ std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& t, double 
   return terms;
 }
 
-std::vector<Term> AllTerms(const RigView& rig, const Tolerances& tolerances,
-                           double largest_orbit_m) {
-  std::vector<Term> all;
-  for (auto& group :
-       {MagnetTerms(rig, tolerances), MagnetMemoryTerms(rig), TimingTerms(rig, tolerances),
-        SensorTerms(rig, tolerances), RotorTerms(rig, tolerances), RotatingTerms(rig, tolerances),
-        ExternalTerms(rig, tolerances, largest_orbit_m)}) {
-    all.insert(all.end(), group.begin(), group.end());
-  }
-  return all;
-}
-
 }  // namespace levitas::diagnosis

@@ -168,6 +168,10 @@ void AddStiffness(const RigView& rig, std::vector<Term>& terms) {
 
 std::vector<Term> RotatingTerms(const RigView& rig, const Tolerances& t) {
   std::vector<Term> terms;
+  if (rig.geared()) {
+    AddRunout(rig, t, terms);
+    return terms;
+  }
   AddUnbalance(rig, t, terms);
   AddRunout(rig, t, terms);
   AddBow(rig, terms);
@@ -177,6 +181,8 @@ std::vector<Term> RotatingTerms(const RigView& rig, const Tolerances& t) {
   for (Term& term : terms) {
     term.rotating = term.effect == "unbalance" || term.effect == "misalignment";
   }
+  // A rotor given by its modes has no curvature to lose.
+  if (rig.model->config().rotor.given) return terms;
   for (const double z_m : {0.22, 0.26, 0.34}) AddCrack(rig, z_m, terms);
   return terms;
 }

@@ -72,6 +72,27 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
   };
 }
 
+void AddPosition(const RigView& rig, const Tolerances& t, std::size_t b, std::vector<Term>& terms) {
+  const std::string& bearing = rig.numbers.bearings[b];
+  const auto slope = rig.Slope(rig.model->config().bearings[b].sensor_z_m);
+  const std::size_t modes = rig.modes;
+  const double lag_s = SensorLag(rig, 2 * b);
+  terms.push_back(
+      MakeReading({"sensor_position", bearing, "shift_m", "m"}, t.sensor_position_m, 3e-3,
+                  [b, slope, modes, lag_s](const Moment& m, double theta, Addition& add) {
+                    add.reading_m[2 * b] += theta * Seen(slope, m, 0, lag_s);
+                    add.reading_m[2 * b + 1] += theta * Seen(slope, m, modes, lag_s);
+                  }));
+  terms.back().change = [b, slope, lag_s](double theta, LinearChange& change) {
+    for (std::size_t i = 0; i < slope.size(); ++i) {
+      for (const std::size_t a : {2 * b, 2 * b + 1}) {
+        change.axis[a].sensor_q[i] += theta * slope[i];
+        change.axis[a].sensor_v[i] -= theta * slope[i] * lag_s;
+      }
+    }
+  };
+}
+
 }  // namespace
 
 double SensorLag(const RigView& rig, std::size_t axis) {
@@ -83,23 +104,7 @@ std::vector<Term> SensorTerms(const RigView& rig, const Tolerances& t) {
   for (std::size_t a = 0; a < rig.axes; ++a) AddOneAxis(rig, t, a, terms);
   for (std::size_t b = 0; b < rig.axes / 2; ++b) {
     const std::string& bearing = rig.numbers.bearings[b];
-    const auto slope = rig.Slope(rig.model->config().bearings[b].sensor_z_m);
-    const std::size_t modes = rig.modes;
-    const double lag_s = SensorLag(rig, 2 * b);
-    terms.push_back(
-        MakeReading({"sensor_position", bearing, "shift_m", "m"}, t.sensor_position_m, 3e-3,
-                    [b, slope, modes, lag_s](const Moment& m, double theta, Addition& add) {
-                      add.reading_m[2 * b] += theta * Seen(slope, m, 0, lag_s);
-                      add.reading_m[2 * b + 1] += theta * Seen(slope, m, modes, lag_s);
-                    }));
-    terms.back().change = [b, slope, lag_s](double theta, LinearChange& change) {
-      for (std::size_t i = 0; i < slope.size(); ++i) {
-        for (const std::size_t a : {2 * b, 2 * b + 1}) {
-          change.axis[a].sensor_q[i] += theta * slope[i];
-          change.axis[a].sensor_v[i] -= theta * slope[i] * lag_s;
-        }
-      }
-    };
+    if (!rig.geared()) AddPosition(rig, t, b, terms);
     terms.push_back(MakeReading({"axis_rotation", "sensor " + bearing, "angle_rad", "rad"}, 0.0,
                                 0.05, [b](const Moment& m, double theta, Addition& add) {
                                   const double x = static_cast<double>(m.reading_m[2 * b]);

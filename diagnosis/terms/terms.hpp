@@ -33,6 +33,11 @@ struct Tolerances {
   double gyroscopic_inertia{0.02};
   double unbalance_kg_m{3e-6};  ///< each of cosine and sine, per plane
   double static_load_n{1.0};    ///< per axis
+  // Geared shafts.
+  double shaft_stiffness{0.02}, shaft_damping{0.2};
+  double mesh_stiffness{0.03}, mesh_damping{0.2};
+  double transmission_error_m{0.3e-6};  ///< each of cosine and sine, per order
+  double gear_runout_m{1e-6};           ///< each of cosine and sine, per wheel
 };
 
 /// [s] time constant of an axis' sensor.
@@ -46,6 +51,8 @@ struct Tolerances {
 [[nodiscard]] std::vector<Term> RotatingTerms(const RigView& rig, const Tolerances& tolerances);
 [[nodiscard]] std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& tolerances,
                                               double largest_orbit_m);
+/// Teeth, wheels and shafts; empty for a rig with one rotor.
+[[nodiscard]] std::vector<Term> GearTerms(const RigView& rig, const Tolerances& tolerances);
 
 /// Pickup with a phase of its own in every record: only the lines that a record shows.
 [[nodiscard]] std::vector<Term> MainsTerms(const RigView& rig,

@@ -1,0 +1,269 @@
+// Geared shafts: teeth, wheels, and what shafts of a healthy rig may be off by.
+//
+// Every change of the force F on the driven wheel pushes both shafts by -shape F. d: displacement of
+// the teeth, the static load's included; phi: angle of engagement.
+//   stiffness   k theta d               damping      c theta delta'
+//   variation   k theta cos(n phi) d    crack        -k theta w(wheel) d
+//   error       -(k + c d/dt) theta e^(j n phi)      run-out   (k + c d/dt) theta e^(j wheel)
+//   backlash    the law with the gap minus that without; friction  theta |F n| sign(sliding) j n
+#include <fmt/core.h>
+
+#include <cmath>
+#include <complex>
+#include <cstdlib>
+#include <numbers>
+
+#include "diagnosis/linear_change.hpp"
+#include "diagnosis/terms/terms.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr const char* kParts[] = {"cosine", "sine"};  // NOLINT: two words
+
+double MidAngle(const Moment& m, double period_s) {
+  return m.angle_rad + 0.5 * period_s * static_cast<double>(m.speed_rad_per_s);
+}
+
+Complex Delta(const TeethMoment& t) {
+  return {static_cast<double>(t.delta_x_m), static_cast<double>(t.delta_y_m)};
+}
+Complex Rate(const TeethMoment& t) {
+  return {static_cast<double>(t.rate_x_m_per_s), static_cast<double>(t.rate_y_m_per_s)};
+}
+
+/// One pair of wheels, as its terms see it.
+struct Teeth {
+  const MeshView* mesh;
+  std::size_t at;  ///< among the meshes
+  double period_s;
+
+  [[nodiscard]] double Phi(const Moment& m) const {
+    return mesh->engagement() * MidAngle(m, period_s);
+  }
+  [[nodiscard]] Complex Unloaded(const Moment& m) const { return Delta(m.teeth[at]); }
+  [[nodiscard]] Complex Velocity(const Moment& m) const { return Rate(m.teeth[at]); }
+  /// With what the static load presses them together.
+  [[nodiscard]] Complex Loaded(const Moment& m, double half_gap_m) const {
+    const double rest_m =
+        mesh->preload_n > 0.0 ? mesh->preload_n / mesh->stiffness_n_per_m + half_gap_m : 0.0;
+    return Unloaded(m) + rest_m * mesh->normal;
+  }
+  /// Force of teeth with a gap.
+  [[nodiscard]] Complex Force(const Moment& m, double half_gap_m) const {
+    const Complex d = Loaded(m, half_gap_m);
+    const double reach_m = std::abs(d);
+    if (half_gap_m > 0.0 && reach_m <= half_gap_m) return {};
+    const double share = half_gap_m > 0.0 ? 1.0 - half_gap_m / reach_m : 1.0;
+    return mesh->stiffness_n_per_m * share * d + mesh->damping_n_s_per_m * Velocity(m);
+  }
+  void Push(Complex force, Addition& add) const {
+    const std::size_t modes = mesh->shape.size();
+    for (std::size_t i = 0; i < modes; ++i) {
+      add.Modal(i, -mesh->shape[i] * force.real());
+      add.Modal(modes + i, -mesh->shape[i] * force.imag());
+    }
+  }
+  /// Force of a prescribed displacement e^(j order angle) of the teeth, `by` its amplitude.
+  void Displace(const Moment& m, Complex by, double order, Addition& add) const {
+    const Complex line = by * std::polar(1.0, order * MidAngle(m, period_s));
+    const Complex rate = Complex(0.0, order * static_cast<double>(m.speed_rad_per_s)) * line;
+    Push(mesh->stiffness_n_per_m * mesh->Seen(line) + mesh->damping_n_s_per_m * mesh->Seen(rate),
+         add);
+  }
+};
+
+Complex Part(int part) { return part == 0 ? Complex(1.0, 0.0) : Complex(0.0, 1.0); }
+
+void AddStiffness(const Teeth& t, const Tolerances& tolerances, std::vector<Term>& terms) {
+  const std::string& name = t.mesh->name;
+  terms.push_back(MakeTerm({"mesh_stiffness", name, "stiffness", "ratio"},
+                           tolerances.mesh_stiffness, 0.2,
+                           [t](const Moment& m, double theta, Addition& add) {
+                             t.Push(theta * t.mesh->stiffness_n_per_m * t.Unloaded(m), add);
+                           }));
+  terms.back().change = [at = t.at](double theta, LinearChange& change) {
+    change.mesh[at].stiffness *= 1.0 + theta;
+  };
+  terms.push_back(MakeTerm({"mesh_stiffness", name, "damping", "ratio"}, tolerances.mesh_damping,
+                           0.3, [t](const Moment& m, double theta, Addition& add) {
+                             t.Push(theta * t.mesh->damping_n_s_per_m * t.Velocity(m), add);
+                           }));
+  terms.back().change = [at = t.at](double theta, LinearChange& change) {
+    change.mesh[at].damping *= 1.0 + theta;
+  };
+}
+
+void AddVariation(const Teeth& t, std::vector<Term>& terms) {
+  constexpr int kHighest = 3;
+  for (int order = 1; order <= kHighest; ++order) {
+    for (int part = 0; part < 2; ++part) {
+      terms.push_back(MakeTerm(
+          {"mesh_stiffness_variation", fmt::format("{}, order {}", t.mesh->name, order),
+           kParts[part], "1"},
+          0.0, 0.1, [=](const Moment& m, double theta, Addition& add) {
+            const double phi = order * t.Phi(m);
+            const double factor = part == 0 ? std::cos(phi) : -std::sin(phi);
+            t.Push(
+                theta * t.mesh->stiffness_n_per_m * factor * t.Loaded(m, t.mesh->half_backlash_m),
+                add);
+          }));
+    }
+  }
+}
+
+/// The orders of the rig file and one more to either side.
+void AddError(const Teeth& t, const Tolerances& tolerances, std::vector<Term>& terms) {
+  int highest = 0;
+  for (const gear::Harmonic& h : t.mesh->error) highest = std::max(highest, std::abs(h.order));
+  for (int order = -highest - 1; order <= highest + 1; ++order) {
+    for (int part = 0; part < 2; ++part) {
+      terms.push_back(MakeTerm(
+          {"transmission_error", fmt::format("{}, order {}", t.mesh->name, order), kParts[part],
+           "m"},
+          tolerances.transmission_error_m, 5e-6, [=](const Moment& m, double theta, Addition& add) {
+            t.Displace(m, -theta * Part(part), order * t.mesh->engagement(), add);
+          }));
+    }
+  }
+}
+
+void AddRunout(const Teeth& t, const Tolerances& tolerances, bool driven,
+               std::vector<Term>& terms) {
+  const WheelView& wheel = driven ? t.mesh->driven : t.mesh->driving;
+  for (int part = 0; part < 2; ++part) {
+    terms.push_back(MakeTerm(
+        {"gear_runout", fmt::format("{}, {} wheel", t.mesh->name, driven ? "driven" : "driving"),
+         kParts[part], "m"},
+        tolerances.gear_runout_m, 10e-6,
+        [=, w = &wheel](const Moment& m, double theta, Addition& add) {
+          const Complex by = theta * Part(part);
+          t.Displace(m, driven ? -by : by, w->ratio, add);
+          const double speed = w->ratio * static_cast<double>(m.speed_rad_per_s);
+          const Complex heading = std::polar(1.0, w->ratio * MidAngle(m, t.period_s));
+          const Complex force = w->eccentric_mass_kg * speed * speed * by * heading;
+          const std::size_t modes = w->shape.size();
+          for (std::size_t i = 0; i < modes; ++i) {
+            add.Modal(i, w->shape[i] * force.real());
+            add.Modal(modes + i, w->shape[i] * force.imag());
+          }
+        }));
+  }
+}
+
+/// How much of a tooth's stiffness counts: one pitch to either side of it, as neighbours share.
+double Carries(double wheel_rad, int tooth, int teeth) {
+  const double pitch = wheel_rad * teeth / (2.0 * std::numbers::pi) - tooth;
+  const double away = std::remainder(pitch, static_cast<double>(teeth));
+  return std::abs(away) < 1.0 ? std::pow(std::cos(0.5 * std::numbers::pi * away), 2) : 0.0;
+}
+
+void AddCracks(const Teeth& t, bool driven, std::vector<Term>& terms) {
+  const WheelView& wheel = driven ? t.mesh->driven : t.mesh->driving;
+  for (int tooth = 0; tooth < wheel.teeth; ++tooth) {
+    terms.push_back(MakeTerm(
+        {"tooth_crack",
+         fmt::format("{}, {} tooth {}", t.mesh->name, driven ? "driven" : "driving", tooth),
+         "depth", "1"},
+        0.0, 0.3,
+        [=, turn = std::abs(wheel.ratio), teeth = wheel.teeth](const Moment& m, double theta,
+                                                               Addition& add) {
+          const double carries = Carries(turn * MidAngle(m, t.period_s), tooth, teeth);
+          if (carries == 0.0) return;
+          t.Push(
+              -theta * carries * t.mesh->stiffness_n_per_m * t.Loaded(m, t.mesh->half_backlash_m),
+              add);
+        }));
+    terms.back().positive = true;
+    terms.back().rotating = true;
+  }
+}
+
+Term Friction(const Teeth& t) {
+  constexpr double kAtPitchPoint = 0.02;  // share of half an engagement over which it turns round
+  Term term = MakeTerm(
+      {"mesh_friction", t.mesh->name, "coefficient", "1"}, 0.0, 0.1,
+      [t](const Moment& m, double theta, Addition& add) {
+        const double place = std::remainder(t.Phi(m), 2.0 * std::numbers::pi) / std::numbers::pi;
+        const double sliding = place / std::hypot(place, kAtPitchPoint);
+        const Complex force = t.Force(m, t.mesh->half_backlash_m);
+        const double normal = std::abs(std::real(force * std::conj(t.mesh->normal)));
+        t.Push(theta * normal * sliding * Complex(0.0, 1.0) * t.mesh->normal, add);
+      });
+  term.positive = true;
+  return term;
+}
+
+Term Backlash(const Teeth& t) {
+  Term term =
+      MakeTerm({"backlash", t.mesh->name, "gap_m", "m"}, 0.0, 20e-6,
+               [t](const Moment& m, double theta, Addition& add) {
+                 const double own = t.mesh->half_backlash_m;
+                 t.Push(t.Force(m, own + 0.5 * std::max(0.0, theta)) - t.Force(m, own), add);
+               });
+  term.positive = true;
+  term.linear = false;
+  term.step = 1e-6;
+  return term;
+}
+
+/// Stiffness of the shafts as frequencies of their modes, damping of their supports.
+void AddShafts(const RigView& rig, const Tolerances& tolerances, std::vector<Term>& terms) {
+  const std::size_t modes = rig.modes;
+  for (std::size_t i = 0; i < modes; ++i) {
+    const double w2 = rig.omega_rad_per_s[i] * rig.omega_rad_per_s[i];
+    terms.push_back(MakeTerm(
+        {"", fmt::format("shaft mode {}", i + 1), "stiffness", "ratio"}, tolerances.shaft_stiffness,
+        0.0, [=](const Moment& m, double theta, Addition& add) {
+          add.Modal(i, -theta * w2 * static_cast<double>(m.q[i]));
+          add.Modal(modes + i, -theta * w2 * static_cast<double>(m.q[modes + i]));
+        }));
+    terms.back().change = [i](double theta, LinearChange& change) {
+      change.mode[i].frequency *= std::sqrt(1.0 + theta);
+    };
+  }
+  for (std::size_t s = 0; s < rig.model->train().supports.size(); ++s) {
+    const plant::SupportModel& support = rig.model->train().supports[s];
+    terms.push_back(MakeTerm({"", fmt::format("shaft support {}", s + 1), "damping", "ratio"},
+                             tolerances.shaft_damping, 0.0,
+                             [=](const Moment& m, double theta, Addition& add) {
+                               double x = 0.0;
+                               double y = 0.0;
+                               for (std::size_t i = 0; i < modes; ++i) {
+                                 x += support.shape[i] * static_cast<double>(m.v[i]);
+                                 y += support.shape[i] * static_cast<double>(m.v[modes + i]);
+                               }
+                               x *= theta * support.damping_x_n_s_per_m;
+                               y *= theta * support.damping_y_n_s_per_m;
+                               for (std::size_t i = 0; i < modes; ++i) {
+                                 add.Modal(i, -support.shape[i] * x);
+                                 add.Modal(modes + i, -support.shape[i] * y);
+                               }
+                             }));
+  }
+}
+
+}  // namespace
+
+std::vector<Term> GearTerms(const RigView& rig, const Tolerances& tolerances) {
+  std::vector<Term> terms;
+  if (!rig.geared()) return terms;
+  AddShafts(rig, tolerances, terms);
+  for (std::size_t i = 0; i < rig.meshes.size(); ++i) {
+    const Teeth teeth{&rig.meshes[i], i, rig.period_s};
+    AddStiffness(teeth, tolerances, terms);
+    AddVariation(teeth, terms);
+    AddError(teeth, tolerances, terms);
+    for (const bool driven : {false, true}) {
+      AddRunout(teeth, tolerances, driven, terms);
+      AddCracks(teeth, driven, terms);
+    }
+    terms.push_back(Friction(teeth));
+    terms.push_back(Backlash(teeth));
+  }
+  return terms;
+}
+
+}  // namespace levitas::diagnosis
