@@ -61,10 +61,12 @@ std::string MagnetEntry(const RigView& rig, const Group& g) {
     return fmt::format("channels: [{}], ratio: {:.6g}", g.place, (1.0 + a) / (1.0 - a));
   }
   if (g.effect == "magnetic_saturation") {
-    // The family's amplitude as a knee: far below it the loss goes with the fourth power.
+    // The family's amplitude as a knee: far below it the loss goes with the power of the exponent.
     const double share = std::max(1e-3, g.At("share"));
-    return fmt::format("channels: [{}], knee_a: {:.6g}", fmt::join(rig.numbers.channels, ", "),
-                       g.Number() * bias_a * std::pow(share, -0.25));
+    const double exponent = std::strtod(g.After("exponent ").c_str(), nullptr);
+    return fmt::format("channels: [{}], knee_a: {:.6g}, exponent: {:.6g}",
+                       fmt::join(rig.numbers.channels, ", "),
+                       g.Number() * bias_a * std::pow(share, -1.0 / exponent), exponent);
   }
   if (g.effect == "hysteresis") {
     return fmt::format("channels: [{}], width_a: {:.6g}", fmt::join(rig.numbers.channels, ", "),
@@ -94,7 +96,9 @@ std::string SensorEntry(const RigView& rig, const Group& g) {
     return fmt::format("bearing: {}, shift_mm: {:.6g}", g.place, 1e3 * g.At("shift_m"));
   }
   if (g.effect == "sensor_runout") {
-    const bool y_probe = g.place.ends_with("_y");
+    const auto& channels = rig.numbers.channels;
+    const auto at = std::find(channels.begin(), channels.end(), g.After(", ")) - channels.begin();
+    const bool y_probe = at % 2 == 1;
     const double phase = -g.Phase() + (y_probe ? g.Number() * 0.5 * std::numbers::pi : 0.0);
     return fmt::format("channels: [{}], order: {:.0f}, amplitude_um: {:.6g}, phase_rad: {:.6g}",
                        g.After(", "), g.Number(), 1e6 * g.Amplitude(),

@@ -36,8 +36,8 @@ class Maker {
       return std::find(channels.begin(), channels.end(), entry.first) != channels.end();
     });
     if (by_axis) {
-      for (const std::string& bearing : rig_.numbers.bearings) {
-        Common(effect, bearing, Within(indices, bearing + "_"));
+      for (std::size_t b = 0; b < rig_.numbers.bearings.size(); ++b) {
+        Common(effect, rig_.numbers.bearings[b], OfBearing(indices, b));
       }
       Common(effect, "all axes", indices);
       Free(effect, "every axis by itself", indices);
@@ -52,8 +52,9 @@ class Maker {
   void AddRunout(const Indices& indices) {
     for (const char* order : {"order 1", "order 2", "order 3"}) {
       const Indices of_order = Within(indices, order);
-      for (const std::string& bearing : rig_.numbers.bearings) {
-        Free("sensor_runout", std::string(order) + ", " + bearing, Within(of_order, bearing + "_"));
+      for (std::size_t b = 0; b < rig_.numbers.bearings.size(); ++b) {
+        Free("sensor_runout", std::string(order) + ", " + rig_.numbers.bearings[b],
+             OfBearing(of_order, b));
       }
       Free("sensor_runout", std::string(order) + ", all axes", of_order);
     }
@@ -72,6 +73,18 @@ class Maker {
     for (const std::size_t i : indices) {
       const std::string place = " " + terms_[i].place;
       if (place.find(" " + part) != std::string::npos) found.push_back(i);
+    }
+    return found;
+  }
+
+  /// Those whose place is an axis of the bearing, or ends with it.
+  [[nodiscard]] Indices OfBearing(const Indices& indices, std::size_t bearing) const {
+    Indices found;
+    for (const std::size_t i : indices) {
+      const std::string place = ", " + terms_[i].place;
+      for (const std::size_t a : {2 * bearing, 2 * bearing + 1}) {
+        if (place.ends_with(", " + rig_.numbers.channels[a])) found.push_back(i);
+      }
     }
     return found;
   }

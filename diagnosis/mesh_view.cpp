@@ -39,15 +39,10 @@ std::vector<MeshView> MeshesOf(const plant::PlantModel& model) {
   return meshes;
 }
 
-TeethMoment MeshView::At(double angle_rad, double speed_rad_per_s, const float* q,
-                         const float* v) const noexcept {
-  const std::size_t modes = shape.size();
+void MeshView::Impose(double angle_rad, double speed_rad_per_s, Complex& delta_m,
+                      Complex& rate_m_per_s) const noexcept {
   Complex delta;
   Complex rate;
-  for (std::size_t i = 0; i < modes; ++i) {
-    delta += shape[i] * Complex(static_cast<double>(q[i]), static_cast<double>(q[modes + i]));
-    rate += shape[i] * Complex(static_cast<double>(v[i]), static_cast<double>(v[modes + i]));
-  }
   // Every prescribed line: its amplitude, its order of the first shaft's rotation.
   const auto add = [&](Complex amplitude, double order) {
     const Complex line = amplitude * std::polar(1.0, order * angle_rad);
@@ -59,10 +54,26 @@ TeethMoment MeshView::At(double angle_rad, double speed_rad_per_s, const float* 
   for (const gear::Harmonic& h : error) {
     add(-std::polar(h.amplitude_m, h.phase_rad), h.order * engagement());
   }
-  const Complex seen = Seen(delta);
-  const Complex seen_rate = Seen(rate);
-  return {static_cast<float>(seen.real()), static_cast<float>(seen.imag()),
-          static_cast<float>(seen_rate.real()), static_cast<float>(seen_rate.imag())};
+  delta_m = Seen(delta);
+  rate_m_per_s = Seen(rate);
+}
+
+TeethMoment MeshView::At(double angle_rad, double speed_rad_per_s, const float* q,
+                         const float* v) const noexcept {
+  const std::size_t modes = shape.size();
+  Complex delta;
+  Complex rate;
+  for (std::size_t i = 0; i < modes; ++i) {
+    delta += shape[i] * Complex(static_cast<double>(q[i]), static_cast<double>(q[modes + i]));
+    rate += shape[i] * Complex(static_cast<double>(v[i]), static_cast<double>(v[modes + i]));
+  }
+  Complex imposed;
+  Complex imposed_rate;
+  Impose(angle_rad, speed_rad_per_s, imposed, imposed_rate);
+  delta = Seen(delta) + imposed;
+  rate = Seen(rate) + imposed_rate;
+  return {static_cast<float>(delta.real()), static_cast<float>(delta.imag()),
+          static_cast<float>(rate.real()), static_cast<float>(rate.imag())};
 }
 
 }  // namespace levitas::diagnosis

@@ -50,6 +50,9 @@ struct MeshView {
   [[nodiscard]] double engagement() const noexcept {
     return driving.teeth * std::abs(driving.ratio);
   }
+  /// Run-outs and transmission error alone.
+  void Impose(double angle_rad, double speed_rad_per_s, std::complex<double>& delta_m,
+              std::complex<double>& rate_m_per_s) const noexcept;
   /// Displacement and rate; `q` and `v` over the modes of both planes.
   [[nodiscard]] TeethMoment At(double angle_rad, double speed_rad_per_s, const float* q,
                                const float* v) const noexcept;

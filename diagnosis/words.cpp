@@ -230,8 +230,9 @@ std::vector<std::string> Channels(const SessionAnswer& s) {
     return {channels[s.answer.remainder.worst_channel]};
   }
   std::vector<std::string> found;
-  for (const std::string& channel : channels) {
-    const std::string bearing = channel.substr(0, channel.size() - 2);
+  for (std::size_t a = 0; a < channels.size(); ++a) {
+    const std::string& channel = channels[a];
+    const std::string& bearing = s.view->numbers.bearings[a / 2];
     for (const std::size_t t : s.answer.causes.front().terms) {
       const std::string place = " " + s.terms[t].place + ",";
       const bool named = place.find(" " + channel + ",") != std::string::npos ||

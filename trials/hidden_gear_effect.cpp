@@ -23,19 +23,19 @@ std::vector<effect::EffectConfig> DrawGearEffect(Id id, double size,
   const gear::GearPair& pair = nominal.config.gears[entry.gear];
   switch (id) {
     case Id::kMeshStiffness:
-      entry.values[0] = pair.stiffness_n_per_m * ratio(0.2);
+      entry.values[0] = pair.stiffness_n_per_m * ratio(0.35);
       entry.values[1] = pair.damping_n_s_per_m * ratio(0.2);
       break;
     case Id::kMeshStiffnessVariation:
       entry.values[0] = static_cast<double>(1 + pick(3));
-      entry.values[1] = std::min(0.9, 0.1 * size);
+      entry.values[1] = std::min(0.9, 0.03 * size);
       entry.values[2] = phase;
       break;
     case Id::kBacklash:
       entry.values[0] = 5e-6 * size;
       break;
     case Id::kMeshFriction:
-      entry.values[0] = std::min(1.0, 0.1 * size);
+      entry.values[0] = std::min(1.0, 0.05 * size);
       break;
     case Id::kTransmissionError: {
       constexpr int kHighest = 6;
@@ -46,13 +46,13 @@ std::vector<effect::EffectConfig> DrawGearEffect(Id id, double size,
     }
     case Id::kGearRunout:
       entry.on_driven = pick(2) == 1;
-      entry.values[0] = 8e-6 * size;
+      entry.values[0] = 10e-6 * size;
       entry.values[1] = phase;
       break;
     default: {  // cracked tooth
       entry.on_driven = pick(2) == 1;
       const auto& wheel = entry.on_driven ? pair.driven : pair.driving;
-      entry.values[0] = std::min(1.0, 0.4 * size);
+      entry.values[0] = std::min(1.0, 0.15 * size);
       entry.values[1] = static_cast<double>(pick(static_cast<std::size_t>(wheel.teeth)));
       break;
     }

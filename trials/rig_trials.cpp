@@ -35,6 +35,8 @@ RigTrials Pump() {
   trials.campaign.excitation_a = 0.1;
   trials.campaign.limit_m = 60e-6;  // half the clearance: a diagnosis leaves out what is beyond
   trials.mismatch.unbalance_kg_m = 0.2e-6;
+  trials.runup_share = 0.5;                 // twice the samples in a second
+  trials.mismatch.sensor_position_m = 0.0;  // its modes are known at the sensors alone
   trials.mismatch.sensor_offset_m = 3e-6;
   trials.mismatch.sensor_runout_m = 0.4e-6;
   return trials;

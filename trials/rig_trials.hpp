@@ -23,6 +23,7 @@ struct RigTrials {
   std::vector<SizeOnRig> effects;  ///< that are hidden, in turn
   CampaignPlan campaign;
   double spinning_from_rpm{2400.0}, spinning_to_rpm{3600.0};  ///< drawn between
+  double runup_share{1.0};                                    ///< of a trial's usual length
   Mismatch mismatch;
 
   /// Factor on DrawEffect's size; 1 for an effect that is not in the list.

@@ -20,8 +20,8 @@ class Maker {
     campaign_ = bench.trials.campaign;
     campaign_.seed = random_.Bits();
     campaign_.bits_per_axis = plan.bits_per_axis;
-    campaign_.runup_s = plan.runup_s;
     const RigTrials& on = bench.trials;
+    campaign_.runup_s = plan.runup_s * on.runup_share;
     campaign_.spinning_rpm =
         on.spinning_from_rpm + (on.spinning_to_rpm - on.spinning_from_rpm) * random_.Uniform();
     rig_seed_ = random_.Bits();

@@ -46,18 +46,43 @@ struct Teeth {
   [[nodiscard]] Complex Unloaded(const Moment& m) const { return Delta(m.teeth[at]); }
   [[nodiscard]] Complex Velocity(const Moment& m) const { return Rate(m.teeth[at]); }
   /// With what the static load presses them together.
-  [[nodiscard]] Complex Loaded(const Moment& m, double half_gap_m) const {
+  [[nodiscard]] Complex Pressed(Complex delta, double half_gap_m) const {
     const double rest_m =
         mesh->preload_n > 0.0 ? mesh->preload_n / mesh->stiffness_n_per_m + half_gap_m : 0.0;
-    return Unloaded(m) + rest_m * mesh->normal;
+    return delta + rest_m * mesh->normal;
+  }
+  [[nodiscard]] Complex Loaded(const Moment& m) const {
+    return Pressed(Unloaded(m), mesh->half_backlash_m);
   }
   /// Force of teeth with a gap.
-  [[nodiscard]] Complex Force(const Moment& m, double half_gap_m) const {
-    const Complex d = Loaded(m, half_gap_m);
+  [[nodiscard]] Complex Force(Complex delta, Complex rate, double half_gap_m) const {
+    const Complex d = Pressed(delta, half_gap_m);
     const double reach_m = std::abs(d);
     if (half_gap_m > 0.0 && reach_m <= half_gap_m) return {};
     const double share = half_gap_m > 0.0 ? 1.0 - half_gap_m / reach_m : 1.0;
-    return mesh->stiffness_n_per_m * share * d + mesh->damping_n_s_per_m * Velocity(m);
+    return mesh->stiffness_n_per_m * share * d + mesh->damping_n_s_per_m * rate;
+  }
+  /// Mean over the period of a law of displacement, rate and angle of engagement that is not smooth:
+  /// high harmonics of the error move the teeth by micrometres within a period.
+  template <class Law>
+  [[nodiscard]] Complex Mean(const Moment& m, Law law) const {
+    constexpr int kInstants = 8;
+    const double mid_rad = MidAngle(m, period_s);
+    const auto speed = static_cast<double>(m.speed_rad_per_s);
+    Complex imposed;
+    Complex imposed_rate;
+    mesh->Impose(mid_rad, speed, imposed, imposed_rate);
+    const Complex moved = Unloaded(m) - imposed;
+    const Complex moved_rate = Velocity(m) - imposed_rate;
+    Complex sum;
+    for (int k = 0; k < kInstants; ++k) {
+      const double late_s = ((k + 0.5) / kInstants - 0.5) * period_s;
+      const double angle = mid_rad + speed * late_s;
+      mesh->Impose(angle, speed, imposed, imposed_rate);
+      sum += law(moved + moved_rate * late_s + imposed, moved_rate + imposed_rate,
+                 mesh->engagement() * angle);
+    }
+    return sum / static_cast<double>(kInstants);
   }
   void Push(Complex force, Addition& add) const {
     const std::size_t modes = mesh->shape.size();
@@ -100,16 +125,14 @@ void AddVariation(const Teeth& t, std::vector<Term>& terms) {
   constexpr int kHighest = 3;
   for (int order = 1; order <= kHighest; ++order) {
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(MakeTerm(
-          {"mesh_stiffness_variation", fmt::format("{}, order {}", t.mesh->name, order),
-           kParts[part], "1"},
-          0.0, 0.1, [=](const Moment& m, double theta, Addition& add) {
-            const double phi = order * t.Phi(m);
-            const double factor = part == 0 ? std::cos(phi) : -std::sin(phi);
-            t.Push(
-                theta * t.mesh->stiffness_n_per_m * factor * t.Loaded(m, t.mesh->half_backlash_m),
-                add);
-          }));
+      terms.push_back(
+          MakeTerm({"mesh_stiffness_variation", fmt::format("{}, order {}", t.mesh->name, order),
+                    kParts[part], "1"},
+                   0.0, 0.1, [=](const Moment& m, double theta, Addition& add) {
+                     const double phi = order * t.Phi(m);
+                     const double factor = part == 0 ? std::cos(phi) : -std::sin(phi);
+                     t.Push(theta * t.mesh->stiffness_n_per_m * factor * t.Loaded(m), add);
+                   }));
     }
   }
 }
@@ -172,26 +195,35 @@ void AddCracks(const Teeth& t, bool driven, std::vector<Term>& terms) {
                                                                Addition& add) {
           const double carries = Carries(turn * MidAngle(m, t.period_s), tooth, teeth);
           if (carries == 0.0) return;
-          t.Push(
-              -theta * carries * t.mesh->stiffness_n_per_m * t.Loaded(m, t.mesh->half_backlash_m),
-              add);
+          t.Push(-theta * carries * t.mesh->stiffness_n_per_m * t.Loaded(m), add);
         }));
     terms.back().positive = true;
     terms.back().rotating = true;
   }
 }
 
+/// Of the sliding velocity: an odd function between two pitch points, which turns round at each within
+/// this share of half an engagement.
+double Sliding(double phi) {
+  constexpr double kAtPitchPoint = 0.02;
+  const double place = std::remainder(phi, 2.0 * std::numbers::pi) / std::numbers::pi;
+  return place / std::hypot(place, kAtPitchPoint);
+}
+
 Term Friction(const Teeth& t) {
-  constexpr double kAtPitchPoint = 0.02;  // share of half an engagement over which it turns round
-  Term term = MakeTerm(
-      {"mesh_friction", t.mesh->name, "coefficient", "1"}, 0.0, 0.1,
-      [t](const Moment& m, double theta, Addition& add) {
-        const double place = std::remainder(t.Phi(m), 2.0 * std::numbers::pi) / std::numbers::pi;
-        const double sliding = place / std::hypot(place, kAtPitchPoint);
-        const Complex force = t.Force(m, t.mesh->half_backlash_m);
-        const double normal = std::abs(std::real(force * std::conj(t.mesh->normal)));
-        t.Push(theta * normal * sliding * Complex(0.0, 1.0) * t.mesh->normal, add);
-      });
+  Term term =
+      MakeTerm({"mesh_friction", t.mesh->name, "coefficient", "1"}, 0.0, 0.1,
+               [t](const Moment& m, double theta, Addition& add) {
+                 const Complex n = t.mesh->normal;
+                 const double own = t.mesh->half_backlash_m;
+                 t.Push(t.Mean(m,
+                               [&](Complex delta, Complex rate, double phi) {
+                                 const Complex force = t.Force(delta, rate, own);
+                                 const double normal = std::abs(std::real(force * std::conj(n)));
+                                 return theta * normal * Sliding(phi) * Complex(0.0, 1.0) * n;
+                               }),
+                        add);
+               });
   term.positive = true;
   return term;
 }
@@ -201,7 +233,12 @@ Term Backlash(const Teeth& t) {
       MakeTerm({"backlash", t.mesh->name, "gap_m", "m"}, 0.0, 20e-6,
                [t](const Moment& m, double theta, Addition& add) {
                  const double own = t.mesh->half_backlash_m;
-                 t.Push(t.Force(m, own + 0.5 * std::max(0.0, theta)) - t.Force(m, own), add);
+                 const double wider = own + 0.5 * std::max(0.0, theta);
+                 t.Push(t.Mean(m,
+                               [&](Complex delta, Complex rate, double) {
+                                 return t.Force(delta, rate, wider) - t.Force(delta, rate, own);
+                               }),
+                        add);
                });
   term.positive = true;
   term.linear = false;

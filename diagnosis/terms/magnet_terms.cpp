@@ -24,44 +24,53 @@ double ForceWithoutControl(const magnet::Magnet& magnet, double bias_a, const Mo
   return magnet::Force(magnet, bias_a, 0.0, static_cast<double>(m.actuator_m[a]));
 }
 
-/// Coil current that makes the same flux without saturation, i/(1 + (i/knee)^4)^(1/4).
-double Saturated(double coil_a, double knee_a) {
-  const double ratio = std::max(0.0, coil_a) / knee_a;
-  return coil_a / std::sqrt(std::sqrt(1.0 + ratio * ratio * ratio * ratio));
-}
+/// How iron saturates: i/(1 + (i/knee)^exponent)^(1/exponent).
+struct Iron {
+  double knee_a{}, exponent{};
+
+  /// Coil current that makes the same flux without saturation.
+  [[nodiscard]] double Saturated(double coil_a) const {
+    const double ratio = std::max(0.0, coil_a) / knee_a;
+    return coil_a / std::pow(1.0 + std::pow(ratio, exponent), 1.0 / exponent);
+  }
+};
 
 /// Force of an axis whose iron saturates.
 double SaturatedForce(const magnet::Magnet& magnet, double bias_a, double control_a, double x_m,
-                      double knee_a) {
-  const double towards = Saturated(bias_a + control_a, knee_a) / (magnet.gap_m - x_m);
-  const double away = Saturated(bias_a - control_a, knee_a) / (magnet.gap_m + x_m);
+                      const Iron& iron) {
+  const double towards = iron.Saturated(bias_a + control_a) / (magnet.gap_m - x_m);
+  const double away = iron.Saturated(bias_a - control_a) / (magnet.gap_m + x_m);
   return magnet.force_constant_n_m2_per_a2 * (towards * towards - away * away);
 }
 
-/// One member of a family of knees; theta = 1 is the whole law.
-Term Saturation(const RigView& rig, double knee_share) {
-  Term term =
-      MakeTerm({"magnetic_saturation", fmt::format("knee {:.3f} i0", knee_share), "share", "1"},
-               0.0, 0.7, [&rig, knee_share](const Moment& m, double theta, Addition& add) {
-                 for (std::size_t a = 0; a < rig.axes; ++a) {
-                   const double bias = rig.bias_a(a);
-                   const double force =
-                       SaturatedForce(rig.magnet(a).magnet, bias, MidCoil(m, a),
-                                      static_cast<double>(m.actuator_m[a]), knee_share * bias);
-                   add.force_n[a] += theta * (force - static_cast<double>(m.force_n[a]));
-                 }
-               });
+/// One member of a family of knees and exponents; theta = 1 is the whole law. Where the control
+/// current is small beside the bias only its slopes show, and their ratio depends on the exponent.
+Term Saturation(const RigView& rig, double knee_share, double exponent) {
+  Term term = MakeTerm(
+      {"magnetic_saturation", fmt::format("knee {:.3f} i0, exponent {:.2f}", knee_share, exponent),
+       "share", "1"},
+      0.0, 0.7, [&rig, knee_share, exponent](const Moment& m, double theta, Addition& add) {
+        for (std::size_t a = 0; a < rig.axes; ++a) {
+          const double bias = rig.bias_a(a);
+          const double force =
+              SaturatedForce(rig.magnet(a).magnet, bias, MidCoil(m, a),
+                             static_cast<double>(m.actuator_m[a]), {knee_share * bias, exponent});
+          add.force_n[a] += theta * (force - static_cast<double>(m.force_n[a]));
+        }
+      });
   term.positive = true;
-  term.family = {{knee_share}, {0.12}, {knee_share}, [&rig](const Family::Shape& other) {
-                   return Saturation(rig, other[0]);
+  const Family::Shape shape{knee_share, exponent};
+  term.family = {shape, {0.12, 0.25}, shape, [&rig](const Family::Shape& other) {
+                   return Saturation(rig, other[0], other[1]);
                  }};
-  term.slope = [&rig, knee_share](const Moment& m, double theta, AddedSlopes& added) {
+  term.slope = [&rig, knee_share, exponent](const Moment& m, double theta, AddedSlopes& added) {
     constexpr double kStepA = 1e-4;
     constexpr double kStepM = 1e-8;
     for (std::size_t a = 0; a < rig.axes; ++a) {
       const double bias = rig.bias_a(a);
       const auto force = [&](double control_a, double x_m) {
-        return SaturatedForce(rig.magnet(a).magnet, bias, control_a, x_m, knee_share * bias);
+        return SaturatedForce(rig.magnet(a).magnet, bias, control_a, x_m,
+                              {knee_share * bias, exponent});
       };
       const double i = MidCoil(m, a);
       const double x = static_cast<double>(m.actuator_m[a]);
@@ -123,7 +132,9 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
                    add.force_n[2 * b + 1] += theta * static_cast<double>(m.force_n[2 * b]);
                  }));
   }
-  for (const double knee : {1.0, 1.3, 1.7, 2.2}) terms.push_back(Saturation(rig, knee));
+  for (const double knee : {1.0, 1.3, 1.7, 2.2}) {
+    for (const double exponent : {3.0, 4.0, 6.0}) terms.push_back(Saturation(rig, knee, exponent));
+  }
   return terms;
 }
 

@@ -105,10 +105,10 @@ TEST_F(MagnetTermsTest, SaturationTakesNothingFarBelowTheKneeAndMuchAboveIt) {
   set(bias_a_);  // all of it in one coil, 2 i0 against a knee of 1.7 i0
   const double ratio = 2.0 / 1.7;
   const double left = 1.0 / std::sqrt(1.0 + std::pow(ratio, 4));  // squared current
-  EXPECT_NEAR(Force("magnetic_saturation", "knee 1.700 i0", 1.0),
+  EXPECT_NEAR(Force("magnetic_saturation", "knee 1.700 i0, exponent 4.00", 1.0),
               Law(2.0 * bias_a_, 0.0, 0.0) * (left - 1.0), 10.0 * kSingleN);
   set(0.0);
-  EXPECT_NEAR(Force("magnetic_saturation", "knee 2.200 i0", 1.0), 0.0, kSingleN);
+  EXPECT_NEAR(Force("magnetic_saturation", "knee 2.200 i0, exponent 4.00", 1.0), 0.0, kSingleN);
 }
 
 TEST_F(MagnetTermsTest, HysteresisOfAFullLoopTakesEnergy) {
