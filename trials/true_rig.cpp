@@ -32,6 +32,9 @@ class Maker {
     Add(Id::kGyroscopicInertia, {1.0 + Off(off_.gyroscopic_inertia)});
     plant::PlantParameters parameters = plant::Reduce(config_);
     Modes(parameters.modes);
+    if (off_.transverse_inertia > 0.0) {
+      ScaleInertia(1.0 + Off(off_.transverse_inertia), parameters.modes);
+    }
     for (const EffectConfig& entry : hidden) Join(entry, parameters.modes);
     parameters.config.effects = config_.effects;
     return parameters;
@@ -110,6 +113,20 @@ class Maker {
             size * (bend * std::sin(std::numbers::pi * z) + tilt * (2.0 * z - 1.0));
       }
     }
+  }
+
+  /// The tilt is one direction among the rigid modes: along it every shape shrinks by sqrt(ratio).
+  static void ScaleInertia(double ratio, rotor::ModalRotor& modes) {
+    const Eigen::VectorXd shift = modes.rigid.col(0).normalized();
+    const Eigen::VectorXd slope = modes.rigid.col(1);
+    const Eigen::VectorXd tilt = (slope - slope.dot(shift) * shift).normalized();
+    const Eigen::MatrixXd along = tilt * tilt.transpose();
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(along.rows(), along.cols());
+    const Eigen::MatrixXd shrink = unit + (1.0 / std::sqrt(ratio) - 1.0) * along;
+    modes.shapes *= shrink;
+    modes.slopes *= shrink;
+    modes.gyroscopic = shrink * modes.gyroscopic * shrink;
+    modes.rigid = (unit + (std::sqrt(ratio) - 1.0) * along) * modes.rigid;
   }
 
   /// Ratios multiply, offsets add: an effect on top of what the healthy rig is off by.

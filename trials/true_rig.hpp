@@ -27,7 +27,8 @@ struct Mismatch {
   double sensor_runout_m{0.8e-6};
   double delay_samples{0.04};
   double modal_frequency{0.007}, modal_damping{0.25}, modal_shape{0.015};
-  double rotor_mass{0.004};
+  double rotor_mass{0.004};        ///< of all of the rigid body: its inertia is off with it
+  double transverse_inertia{0.0};  ///< beside that; 0 draws nothing
   double gyroscopic_inertia{0.015};
   double unbalance_kg_m{2e-6};
   double static_load_n{0.7};

@@ -33,6 +33,7 @@ struct BenchOptions {
   int starts{0};
   StartSpread spread;
   double amplitude_a{0.15};
+  trials::RigidBodyOff rigid;
   ModalFitOptions fit;
   std::string json_path;
 };
@@ -170,7 +171,7 @@ ExitStatus Run(const BenchOptions& options) {
     plan.speeds_rpm = {0.0, 1600.0, 3000.0};
     plan.amplitude_a = options.amplitude_a;
     plan.seed = options.first + static_cast<std::uint64_t>(n);
-    const trials::ModalTrial trial = trials::MakeModalTrial(rig, plan);
+    const trials::ModalTrial trial = trials::MakeModalTrial(rig, plan, options.rigid);
     const auto responses = EstimateResponses(trial.record, delay_s, {}, ModalResponseOptions(rig));
     const auto began = std::chrono::steady_clock::now();
     const ModalResult result = IdentifyModal(rig, responses, options.fit);
@@ -212,6 +213,16 @@ void AddBenchIdentification(CLI::App& bench, Action& action) {
   AddSpreadOptions(*command, options->spread);
   command->add_option("--amplitude-a", options->amplitude_a, "Of the excitation")
       ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--mass-off", options->rigid.mass,
+                   "Standard deviation of the rig file's mass; 0: weighed")
+      ->check(CLI::Range(0.0, 0.2))
+      ->capture_default_str();
+  command
+      ->add_option("--inertia-off", options->rigid.inertia,
+                   "The same of the inertia, beside what the mass takes along; 0: as drawn")
+      ->check(CLI::Range(0.0, 0.2))
       ->capture_default_str();
   command->add_option("--highest-hz", options->fit.highest_hz, "Lines beyond it are not fitted")
       ->check(CLI::Range(50.0, 1e5))

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <optional>
+#include <utility>
 
 namespace levitas::identification {
 namespace {
@@ -18,8 +18,6 @@ constexpr double kStep = 0.001;
 /// Half width of what is looked at around a frequency, and the least number of lines on either side.
 constexpr double kWidth = 0.04;
 constexpr double kLeastLines = 8.0;
-/// Nearer than this, two maxima are one mode.
-constexpr double kSurroundings = 0.015;
 constexpr std::array kDampings{0.0007, 0.0015, 0.003, 0.006, 0.012, 0.025};
 /// What suits this or more is no mode but a bend of the baseline.
 constexpr double kBend = 0.02;
@@ -38,38 +36,44 @@ Complex Resonance(double f_hz, double damping, double line_hz) {
 
 class Scan {
  public:
-  explicit Scan(const FrequencyResponse& response) : r_(response) {}
+  explicit Scan(const FrequencyResponse& response) : r_(response) {
+    const auto lines = static_cast<Index>(r_.frequency_hz.size());
+    for (Index i = 0; i < r_.axes(); ++i) {
+      for (Index j = i % 2; j < r_.axes(); j += 2) {
+        Entry entry{Eigen::VectorXd(lines), Eigen::VectorXcd(lines)};
+        for (Index n = 0; n < lines; ++n) {
+          const auto k = static_cast<std::size_t>(n);
+          entry.weight[n] = 1.0 / std::sqrt(r_.variance[k](i, j) +
+                                            kFloor * kFloor * std::norm(r_.plant[k](i, j)));
+          entry.data[n] = entry.weight[n] * r_.plant[k](i, j);
+        }
+        entries_.push_back(std::move(entry));
+      }
+    }
+  }
 
   /// Best damping at a frequency, the modes `known` in the baseline.
   [[nodiscard]] ScannedMode At(double f_hz, const std::vector<ScannedMode>& known) const {
     const Window window = Around(f_hz);
     std::array<double, kDampings.size()> taken{};
     double left = 0.0;
-    double entries = 0.0;
+    const auto entries = static_cast<double>(entries_.size());
     Index unknowns = 0;
     if (window.size() < static_cast<Index>(kLeastLines)) return {f_hz, 0.0, 0.0};
-    for (Index i = 0; i < r_.axes(); ++i) {
-      for (Index j = i % 2; j < r_.axes(); j += 2) {
-        Eigen::VectorXd weight(window.size());
-        Eigen::VectorXcd data(window.size());
-        for (Index n = 0; n < window.size(); ++n) {
-          const auto k = window.first + static_cast<std::size_t>(n);
-          weight[n] = 1.0 / std::sqrt(r_.variance[k](i, j) +
-                                      kFloor * kFloor * std::norm(r_.plant[k](i, j)));
-          data[n] = weight[n] * r_.plant[k](i, j);
-        }
-        const Eigen::MatrixXcd baseline = Baseline(window, weight, known);
-        unknowns = baseline.cols();
-        data -= baseline * (baseline.adjoint() * data);
-        left += data.squaredNorm();
-        entries += 1.0;
-        for (std::size_t d = 0; d < kDampings.size(); ++d) {
-          Eigen::VectorXcd mode = Column(window, weight, f_hz, kDampings[d]);
-          const double before = mode.squaredNorm();
-          mode -= baseline * (baseline.adjoint() * mode);
-          const double own = mode.squaredNorm();
-          if (own > 1e-6 * before) taken[d] += std::norm(mode.dot(data)) / own;
-        }
+    for (const Entry& entry : entries_) {
+      const auto begin = static_cast<Index>(window.first);
+      const Eigen::VectorXd weight = entry.weight.segment(begin, window.size());
+      Eigen::VectorXcd data = entry.data.segment(begin, window.size());
+      const Eigen::MatrixXcd baseline = Baseline(window, weight, known);
+      unknowns = baseline.cols();
+      data -= baseline * (baseline.adjoint() * data);
+      left += data.squaredNorm();
+      for (std::size_t d = 0; d < kDampings.size(); ++d) {
+        Eigen::VectorXcd mode = Column(window, weight, f_hz, kDampings[d]);
+        const double before = mode.squaredNorm();
+        mode -= baseline * (baseline.adjoint() * mode);
+        const double own = mode.squaredNorm();
+        if (own > 1e-6 * before) taken[d] += std::norm(mode.dot(data)) / own;
       }
     }
     const auto best = std::ranges::max_element(taken) - taken.begin();
@@ -80,6 +84,12 @@ class Scan {
   }
 
  private:
+  /// One response within a plane, over all lines, in units of its noise.
+  struct Entry {
+    Eigen::VectorXd weight;
+    Eigen::VectorXcd data;
+  };
+
   [[nodiscard]] Window Around(double f_hz) const {
     const auto& lines = r_.frequency_hz;
     const double spacing = (lines.back() - lines.front()) / static_cast<double>(lines.size() - 1);
@@ -135,10 +145,11 @@ class Scan {
   }
 
   const FrequencyResponse& r_;
+  std::vector<Entry> entries_;
 };
 
 bool Near(const ScannedMode& one, const ScannedMode& other) {
-  return std::abs(one.frequency_hz / other.frequency_hz - 1.0) < kSurroundings;
+  return std::abs(one.frequency_hz / other.frequency_hz - 1.0) < kSameMode;
 }
 
 }  // namespace

@@ -16,6 +16,9 @@
 
 namespace levitas::identification {
 
+/// Nearer than this share of its frequency, two findings are one mode.
+inline constexpr double kSameMode = 0.015;
+
 struct ScannedMode {
   double frequency_hz{};
   double damping_ratio{};

@@ -24,8 +24,6 @@ constexpr std::size_t kLowestOrder = 3;
 /// A band reaches beyond its middle by this factor on either side; middles span kMiddle.
 constexpr double kOverlap = 1.15;
 constexpr double kMiddle = 1.4;
-/// A scanned mode this near to a stable pole is the same.
-constexpr double kSameMode = 0.015;
 
 /// Part of the spectrum that is fitted by itself; modes are taken from its middle.
 struct Band {

@@ -1,30 +1,18 @@
 #pragma once
 // Lines of a linear geared rotor with ideal PD control, to try the full-spectrum method on.
 //
-// Truth     harmonic balance in real coordinates x, y of both discs, their tilts and four torsional
-//           inertias, written out as matrices: nothing of it is shared with the method.
+// Truth     geared_lines.hpp, of which nothing is shared with the method.
 // Noise     white on every sample of displacement and current, a share of each signal's rms; on a
 //           line of a record of N samples it is 1/sqrt(N) of that.
 // Errors    every mass, damping, stiffness and inertia that the method takes as known, and the
 //           magnets' ks/ki, is off by this share, up or down.
 // Units     SI. Thread any. Failure BadInput for a rig that the method refuses.
 
-#include <cstdint>
 #include <vector>
 
-#include "config/rig_file.hpp"
-#include "identification/geared/full_spectrum.hpp"
+#include "trials/identification/geared_lines.hpp"
 
 namespace levitas::trials {
-
-struct GearedPlan {
-  std::vector<double> speeds_hz{15.0, 18.0, 21.0, 24.0, 27.0, 29.0};  ///< of the pinion
-  double kp_a_per_m{2.4e4}, kd_a_s_per_m{20.0};
-  double noise{};        ///< share of the rms, per sample
-  double model_error{};  ///< relative
-  double seconds{20.0};  ///< of each speed, at the rig's sampling
-  std::uint64_t seed{1};
-};
 
 struct GearedTrial {
   std::vector<identification::GearedLine> lines;

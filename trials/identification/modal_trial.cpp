@@ -12,7 +12,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-Mismatch Unknown() {
+Mismatch Unknown(const RigidBodyOff& rigid) {
   Mismatch off;
   off.current_gain = 0.08;
   off.displacement_stiffness = 0.08;
@@ -22,7 +22,8 @@ Mismatch Unknown() {
   off.modal_shape = 0.04;
   // Known to the method, or of no effect on what it can tell.
   off.amplifier_bandwidth = off.sensor_bandwidth = off.sensor_position_m = 0.0;
-  off.rotor_mass = 0.0;
+  off.rotor_mass = rigid.mass;
+  off.transverse_inertia = rigid.inertia;
   return off;
 }
 
@@ -104,9 +105,10 @@ Eigen::VectorXd Relative(const Eigen::VectorXd& found, const Eigen::VectorXd& tr
 
 }  // namespace
 
-ModalTrial MakeModalTrial(const config::RigFile& nominal, const ExcitationPlan& plan) {
+ModalTrial MakeModalTrial(const config::RigFile& nominal, const ExcitationPlan& plan,
+                          const RigidBodyOff& rigid) {
   Random random(plan.seed);
-  const plant::PlantParameters truth = TrueRig(nominal.plant, Unknown(), {}, random);
+  const plant::PlantParameters truth = TrueRig(nominal.plant, Unknown(rigid), {}, random);
   const plant::PlantModel model(truth);
   ModalTrial trial{SimulateCampaign(nominal, truth, plan), {}};
   trial.truth = Truth(model, trial.record);

@@ -3,8 +3,8 @@
 //
 // Rig       flexible_rotor with every number off (true_rig.hpp): ki, ks 8 % per axis, sensor gain
 //           3 %, modal frequencies 3 %, dampings by e^+-0.4, deflections 4 %, delay, loads,
-//           unbalance; what the method takes as known (amplifier, sensor bandwidth and place) is
-//           as in the file. Noise, converters, nonlinear magnets and gravity are on.
+//           unbalance, and the rigid body's mass and inertia (RigidBodyOff); what the method takes
+//           as known (amplifier, sensor bandwidth and place, centre of mass) is as in the file. Noise, converters, nonlinear magnets and gravity are on.
 // Truth     ki and ks of a small signal about the static working point: the magnet's slopes where
 //           load and a probe's offset put the rotor; at the magnets, between which and the probes
 //           the rotor sags.
@@ -27,7 +27,14 @@ struct ModalTrial {
   ModalTruth truth;  ///< never handed to the fit
 };
 
-[[nodiscard]] ModalTrial MakeModalTrial(const config::RigFile& nominal, const ExcitationPlan& plan);
+/// Standard deviations of what a rig file is off by. A rotor that was weighed and drawn: 0.
+struct RigidBodyOff {
+  double mass{0.03};
+  double inertia{0.03};  ///< beside what the mass takes along
+};
+
+[[nodiscard]] ModalTrial MakeModalTrial(const config::RigFile& nominal, const ExcitationPlan& plan,
+                                        const RigidBodyOff& rigid = {});
 
 /// Relative errors, entry by entry; only the modes that the fit has.
 struct ModalErrors {
