@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -16,6 +19,7 @@ namespace {
 
 using Index = Eigen::Index;
 constexpr double kMicro = 1e6;
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 const std::string& Channel(const FrequencyResponse& r, Index i) {
   return r.channels[static_cast<std::size_t>(i)];
@@ -50,9 +54,18 @@ void AppendRows(const FrequencyResponse& r, std::string& text) {
   }
 }
 
-svg::Panel EmptyPanel(const FrequencyResponse& r, Index i, Index j, const std::string& unit) {
+/// The same pair of places in one plane and in the other: de_x from nde_x beside de_y from nde_y.
+struct Pair {
+  Index to, from;
+};
+
+svg::Panel EmptyPanel(const FrequencyResponse& r, const std::vector<Pair>& pairs,
+                      const std::string& unit) {
   svg::Panel panel;
-  panel.title = Channel(r, i) + " from " + Channel(r, j);
+  for (const Pair& p : pairs) {
+    panel.title +=
+        (panel.title.empty() ? "" : ", ") + Channel(r, p.to) + " from " + Channel(r, p.from);
+  }
   panel.x_label = "Hz";
   panel.y_label = unit;
   panel.x_scale = svg::Scale::kLogarithmic;
@@ -60,42 +73,88 @@ svg::Panel EmptyPanel(const FrequencyResponse& r, Index i, Index j, const std::s
   return panel;
 }
 
-svg::Panel Magnitude(const FrequencyResponse& r, const ModelLines& model, Index i, Index j) {
-  svg::Panel panel = EmptyPanel(r, i, j, "um/A");
+double Sigma(const FrequencyResponse& r, std::size_t line, const Pair& p) {
+  return std::sqrt(r.variance[line](p.to, p.from));
+}
+
+/// A line whose noise is larger than its value says nothing, and draws nothing.
+bool Says(const FrequencyResponse& r, std::size_t line, const Pair& p) {
+  return Sigma(r, line, p) < std::abs(r.plant[line](p.to, p.from));
+}
+
+svg::Panel Magnitude(const FrequencyResponse& r, const ModelLines& model,
+                     const std::vector<Pair>& pairs) {
+  svg::Panel panel = EmptyPanel(r, pairs, "um/A");
   panel.y_scale = svg::Scale::kLogarithmic;
-  svg::Series data{.name = "data", .colour = svg::Colour(0)};
-  svg::Series noise{.name = "noise", .colour = "#aaaaaa", .width = 0.8};
-  svg::Series fit{.name = "model", .colour = svg::Colour(1), .dashes = "6 3"};
-  for (std::size_t k = 0; k < r.frequency_hz.size(); ++k) {
-    data.y.push_back(kMicro * std::abs(r.plant[k](i, j)));
-    noise.y.push_back(kMicro * std::sqrt(r.variance[k](i, j)));
-    if (!model.empty()) fit.y.push_back(kMicro * std::abs(model[k](i, j)));
+  std::vector<svg::Series> noises, datas, fits;
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const Pair& p = pairs[n];
+    const std::string& name = Channel(r, p.to);
+    svg::Series data{.name = name, .x = r.frequency_hz, .colour = svg::Colour(n)};
+    svg::Series noise{
+        .name = n == 0 ? "noise" : "", .x = r.frequency_hz, .colour = "#bbbbbb", .width = 0.6};
+    svg::Series fit{.name = n == 0 ? "model" : "",
+                    .x = r.frequency_hz,
+                    .colour = "#111111",
+                    .width = 0.9,
+                    .dashes = "5 3"};
+    for (std::size_t k = 0; k < r.frequency_hz.size(); ++k) {
+      data.y.push_back(Says(r, k, p) ? kMicro * std::abs(r.plant[k](p.to, p.from)) : kGap);
+      noise.y.push_back(kMicro * Sigma(r, k, p));
+      if (!model.empty()) fit.y.push_back(kMicro * std::abs(model[k](p.to, p.from)));
+    }
+    noises.push_back(std::move(noise));
+    datas.push_back(std::move(data));
+    if (!model.empty()) fits.push_back(std::move(fit));
   }
-  for (svg::Series* s : {&noise, &data, &fit}) {
-    if (s->y.empty()) continue;
-    s->x = r.frequency_hz;
-    panel.series.push_back(std::move(*s));
+  for (auto* all : {&noises, &datas, &fits}) {
+    std::ranges::move(*all, std::back_inserter(panel.series));
   }
   return panel;
 }
 
-/// Phase of the data; with a model the residual instead, which says more.
-svg::Panel Second(const FrequencyResponse& r, const ModelLines& model, Index i, Index j) {
-  svg::Panel panel = EmptyPanel(r, i, j, model.empty() ? "degrees" : "|residual| / noise");
-  svg::Series line{.colour = svg::Colour(model.empty() ? 0 : 2), .width = 0.8};
-  line.x = r.frequency_hz;
-  line.y.reserve(line.x.size());
-  for (std::size_t k = 0; k < r.frequency_hz.size(); ++k) {
-    const auto data = r.plant[k](i, j);
-    line.y.push_back(model.empty()
-                         ? std::arg(data) * 180.0 / std::numbers::pi
-                         : std::abs(data - model[k](i, j)) / std::sqrt(r.variance[k](i, j)));
+svg::Panel Phase(const FrequencyResponse& r, const std::vector<Pair>& pairs) {
+  svg::Panel panel = EmptyPanel(r, pairs, "degrees");
+  panel.y_range = svg::Range{-190.0, 190.0};
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    svg::Series line{.name = Channel(r, pairs[n].to), .colour = svg::Colour(n)};
+    for (std::size_t k = 0; k < r.frequency_hz.size(); ++k) {
+      const bool says = Says(r, k, pairs[n]);
+      const double degrees =
+          says ? std::arg(r.plant[k](pairs[n].to, pairs[n].from)) * 180.0 / std::numbers::pi : kGap;
+      // Across +-180 degrees there is no line to draw.
+      if (!line.y.empty() && std::abs(degrees - line.y.back()) > 180.0) {
+        line.x.push_back(r.frequency_hz[k]);
+        line.y.push_back(kGap);
+      }
+      line.x.push_back(r.frequency_hz[k]);
+      line.y.push_back(degrees);
+    }
+    panel.series.push_back(std::move(line));
   }
-  if (!model.empty()) {
-    panel.y_scale = svg::Scale::kLogarithmic;
-    panel.y_range = svg::Range{0.1, 1000.0};
+  return panel;
+}
+
+/// With a model the residual says more than the phase.
+svg::Panel Residual(const FrequencyResponse& r, const ModelLines& model,
+                    const std::vector<Pair>& pairs) {
+  svg::Panel panel = EmptyPanel(r, pairs, "|residual| / noise");
+  panel.y_scale = svg::Scale::kLogarithmic;
+  panel.y_range = svg::Range{0.1, 100.0};
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const Pair& p = pairs[n];
+    svg::Series dots{.name = Channel(r, p.to),
+                     .x = r.frequency_hz,
+                     .colour = svg::Colour(n),
+                     .width = 0,
+                     .mark = svg::Mark::kDot,
+                     .mark_size = 1.2};
+    for (std::size_t k = 0; k < r.frequency_hz.size(); ++k) {
+      dots.y.push_back(std::abs(r.plant[k](p.to, p.from) - model[k](p.to, p.from)) /
+                       Sigma(r, k, p));
+    }
+    panel.series.push_back(std::move(dots));
   }
-  panel.series.push_back(std::move(line));
   return panel;
 }
 
@@ -143,16 +202,21 @@ void WriteBode(const std::string& path, const FrequencyResponse& r, const ModelL
   figure.title = fmt::format("Plant P = G S^-1 at {:.0f} rpm, {} periods averaged",
                              Rpm(r.speed_rad_per_s), r.periods);
   // The axes of one plane are every other channel: de_x, nde_x, then de_y, nde_y.
-  const auto per_plane = static_cast<std::size_t>((r.axes() + 1) / 2);
-  figure.columns = per_plane * per_plane;
-  figure.panel_width = 380;
-  figure.panel_height = 250;
-  for (Index plane = 0; plane < std::min<Index>(2, r.axes()); ++plane) {
+  const Index planes = std::min<Index>(2, r.axes());
+  const Index per_plane = r.axes() / planes;
+  figure.columns = static_cast<std::size_t>(per_plane);
+  figure.panel_width = 640;
+  figure.panel_height = 300;
+  for (Index from = 0; from < per_plane; ++from) {
     for (const bool magnitude : {true, false}) {
-      for (Index j = plane; j < r.axes(); j += 2) {
-        for (Index i = plane; i < r.axes(); i += 2) {
-          figure.panels.push_back(magnitude ? Magnitude(r, model, i, j) : Second(r, model, i, j));
+      for (Index to = 0; to < per_plane; ++to) {
+        std::vector<Pair> pairs;
+        for (Index plane = 0; plane < planes; ++plane) {
+          pairs.push_back({planes * to + plane, planes * from + plane});
         }
+        figure.panels.push_back(magnitude       ? Magnitude(r, model, pairs)
+                                : model.empty() ? Phase(r, pairs)
+                                                : Residual(r, model, pairs));
       }
     }
   }

@@ -22,8 +22,8 @@ void WriteResponseCsv(const std::string& path, const std::vector<FrequencyRespon
 /// A model's plant on the lines of a response; empty = data only.
 using ModelLines = std::vector<Eigen::MatrixXcd>;
 
-/// Magnitude and phase of every channel from the axes of one plane (x, then y), noise as grey
-/// points; with a model also the residual in multiples of the noise.
+/// Magnitude and phase of every pair of places, both planes in one panel, lines beyond their noise
+/// only; with a model in place of the phase the residual in multiples of the noise.
 void WriteBode(const std::string& path, const FrequencyResponse& response,
                const ModelLines& model = {});
 

@@ -6,14 +6,18 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "common/problem.hpp"
+#include "identification/record/flat_top.hpp"
 
 namespace levitas::identification {
 namespace {
 
 /// Share of samples at a limit from which on a response is no longer that of the rig.
 constexpr double kClippedShare = 1e-3;
+/// The same of samples at one value that is not the range's: a few may be chance.
+constexpr double kFlatShare = 5e-3;
 /// A limited command is recorded as it was given, so that it only wastes excitation.
 constexpr double kLimitedShare = 0.02;
 /// Below this frequency the shipped rigs, and any rotor worth calling one, move as a rigid body.
@@ -49,6 +53,14 @@ void CheckChannel(const Record& record, const Experiment& e, std::size_t channel
         "position {} is clipped at the sensor's range in {:.1f} % of the samples while {} is "
         "excited: use a smaller amplitude",
         name, 100.0 * static_cast<double>(clipped) / rows, excited));
+  } else if (values.size() >= 4) {
+    const double flat = FlatShare(std::span(position_m).subspan(e.begin, e.end() - e.begin));
+    if (flat > kFlatShare) {
+      problems.push_back(fmt::format(
+          "position {} is cut off below the sensor's range in {:.1f} % of the samples while {} is "
+          "excited: check amplifier and converter, or use a smaller amplitude",
+          name, 100.0 * flat, excited));
+    }
   }
   if (static_cast<double>(saturated) > kLimitedShare * rows) {
     problems.push_back(fmt::format(

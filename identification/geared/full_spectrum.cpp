@@ -10,6 +10,7 @@
 
 #include "common/problem.hpp"
 #include "identification/geared/geared_forces.hpp"
+#include "identification/geared/joint_fit.hpp"
 #include "identification/geared/line_equations.hpp"
 #include "identification/geared/shaft_equations.hpp"
 
@@ -149,15 +150,20 @@ void RefuseWrongSigns(const GearedParameters& p, const Solution& shafts) {
   }
 }
 
-GearedParameters Fit(const std::vector<GearedLine>& lines, const GearedKnown& known, bool refuse) {
+/// Noise or doubt, that can be weighed.
+bool IsWeighted(const std::vector<GearedLine>& lines, const GearedKnown& known) {
+  return known.uncertainty > 0.0 ||
+         std::ranges::all_of(lines, [](const auto& l) { return l.sigma_m > 0.0; });
+}
+
+GearedParameters Fit(const std::vector<GearedLine>& lines, const GearedKnown& known) {
   GearedParameters p;
-  const bool weighted = known.uncertainty > 0.0 ||
-                        std::ranges::all_of(lines, [](const auto& l) { return l.sigma_m > 0.0; });
+  const bool weighted = IsWeighted(lines, known);
   for (int round = 0; round < (weighted ? kRounds : 1); ++round) {
     const Solution shafts = SolveShafts(lines, known, p);
     const GearedKnown corrected = Corrected(known, shafts);
     TakeShafts(shafts, corrected, p);
-    if (refuse) RefuseWrongSigns(p, shafts);
+    RefuseWrongSigns(p, shafts);
     const Teeth teeth = TeethOf(lines, corrected, p);
     SolveMesh(lines, corrected, teeth, p);
     p.error.clear();
@@ -166,42 +172,12 @@ GearedParameters Fit(const std::vector<GearedLine>& lines, const GearedKnown& kn
   return p;
 }
 
-void AddVariance(double& sigma, double difference) { sigma = std::hypot(sigma, difference); }
-
-/// What one wrong known number changes joins every standard deviation.
-void AddDifference(const GearedParameters& other, GearedParameters& p) {
-  for (const auto& [own, changed] :
-       {std::pair{&p.pinion, &other.pinion}, std::pair{&p.gear, &other.gear}}) {
-    AddVariance(own->ks_sigma, changed->ks_n_per_m - own->ks_n_per_m);
-    AddVariance(own->ki_sigma, changed->ki_n_per_a - own->ki_n_per_a);
-    AddVariance(own->run_out_sigma, std::abs(changed->run_out_m - own->run_out_m));
-  }
-  AddVariance(p.mesh_stiffness_sigma, other.mesh_stiffness_n_per_m - p.mesh_stiffness_n_per_m);
-  AddVariance(p.mesh_damping_sigma, other.mesh_damping_n_s_per_m - p.mesh_damping_n_s_per_m);
-  for (std::size_t n = 0; n < p.error.size(); ++n) {
-    AddVariance(p.error[n].sigma, std::abs(other.error[n].amplitude_m - p.error[n].amplitude_m));
-  }
-}
-
-void AddErrorsOfTheKnown(const std::vector<GearedLine>& lines, const GearedKnown& known,
-                         GearedParameters& p) {
-  for (ShaftKnown GearedKnown::*shaft : {&GearedKnown::pinion, &GearedKnown::gear}) {
-    const auto change = [&](const Numbers& numbers) {
-      GearedKnown wrong = known;
-      Scale(wrong.*shaft, numbers, 1.0 + known.uncertainty);
-      AddDifference(Fit(lines, wrong, false), p);
-    };
-    for (const Numbers& numbers : Correctable()) change(numbers);
-    change({&ShaftKnown::ks_n_per_m});
-  }
-}
-
 }  // namespace
 
 GearedParameters IdentifyGeared(const std::vector<GearedLine>& lines, const GearedKnown& known) {
   RefuseTooFew(lines);
-  GearedParameters p = Fit(lines, known, true);
-  if (known.uncertainty > 0.0) AddErrorsOfTheKnown(lines, known, p);
+  GearedParameters p = Fit(lines, known);
+  if (IsWeighted(lines, known)) FitJointly(lines, known, p);
   return p;
 }
 

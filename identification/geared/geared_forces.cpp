@@ -38,7 +38,8 @@ Complex Impedance(const ShaftKnown& s, const GearedLine& line) {
          TiltSoftening(s, line);
 }
 
-Complex MeshForce(const GearedLine& line, const GearedKnown& known, const GearedParameters& p) {
+MeshForces MeshForcesOf(const GearedLine& line, const GearedKnown& known,
+                        const GearedParameters& p) {
   const double w = line.frequency_rad_per_s;
   Complex from_pinion = p.pinion.ks_n_per_m * line.pinion_m - p.pinion.ki_n_per_a * line.pinion_a -
                         Impedance(known.pinion, line) * line.pinion_m;
@@ -48,7 +49,12 @@ Complex MeshForce(const GearedLine& line, const GearedKnown& known, const Geared
     from_pinion += known.pinion.mass_kg * w * w * p.pinion.run_out_m;
   }
   if (line.kind == Kind::kGear) from_gear -= known.gear.mass_kg * w * w * p.gear.run_out_m;
-  return 0.5 * (from_pinion + from_gear);
+  return {from_pinion, from_gear};
+}
+
+Complex MeshForce(const GearedLine& line, const GearedKnown& known, const GearedParameters& p) {
+  const MeshForces both = MeshForcesOf(line, known, p);
+  return 0.5 * (both.from_pinion + both.from_gear);
 }
 
 Complex TwistPerForce(const TorsionKnown& t, double w) {

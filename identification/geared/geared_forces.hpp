@@ -12,7 +12,14 @@ namespace levitas::identification {
 /// k_aa - I_d W^2 + I_p w W turned into what the tilt takes from Z; 0 without tilt.
 [[nodiscard]] std::complex<double> TiltSoftening(const ShaftKnown& shaft, const GearedLine& line);
 
-/// f from what both shafts need: the mean of the two accounts.
+/// f from what either shaft needs.
+struct MeshForces {
+  std::complex<double> from_pinion, from_gear;
+};
+[[nodiscard]] MeshForces MeshForcesOf(const GearedLine& line, const GearedKnown& known,
+                                      const GearedParameters& found);
+
+/// The mean of the two accounts.
 [[nodiscard]] std::complex<double> MeshForce(const GearedLine& line, const GearedKnown& known,
                                              const GearedParameters& found);
 

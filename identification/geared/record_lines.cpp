@@ -121,7 +121,11 @@ void RefuseBadRows(const Record& record, const Stretch& stretch) {
     }
     const std::string& name = record.channels[axis];
     if (values.size() < 4) problems += "\n  position " + name + " is dead: check probe and cable";
-    if (clipped > kBadShare * rows) problems += "\n  position " + name + " is clipped";
+    const double flat = FlatShare(
+        std::span(record.position_m[axis]).subspan(stretch.begin, stretch.end - stretch.begin));
+    if (std::max(clipped, flat * rows) > kBadShare * rows) {
+      problems += "\n  position " + name + " is clipped";
+    }
     if (limited > kBadShare * rows) {
       problems += "\n  control current " + name + " is at its limit: the lines are not the model's";
     }

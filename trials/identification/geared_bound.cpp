@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <type_traits>
 
 #include "common/random.hpp"
 
@@ -62,6 +63,21 @@ void AddMagnet(std::size_t s, Unknowns& to) {
   to.Add([s](config::RigFile& rig, double share) {
     (s == 0 ? Pair(rig).driving : Pair(rig).driven).runout_phase_rad += share;
   });
+}
+
+void AddTorsion(const config::RigFile& rig, std::size_t s, double uncertainty, Unknowns& to) {
+  for (std::size_t i = 0; i < rig.plant.shafts[s].torsion.inertias.size(); ++i) {
+    const auto add = [&](auto member) {
+      to.Add(
+          [s, i, member](config::RigFile& moved, double share) {
+            moved.plant.shafts[s].torsion.inertias[i].*member *= 1.0 + share;
+          },
+          uncertainty);
+    };
+    using Inertia = std::decay_t<decltype(rig.plant.shafts[s].torsion.inertias[i])>;
+    add(&Inertia::inertia_kg_m2);
+    add(&Inertia::stiffness_n_m_per_rad);
+  }
 }
 
 void AddKnown(std::size_t s, double uncertainty, Unknowns& to) {
@@ -121,7 +137,9 @@ Unknowns UnknownsOf(const config::RigFile& rig, const GearedPlan& plan) {
       to.Add([](config::RigFile& r, double share) { Pair(r).damping_n_s_per_m *= 1.0 + share; });
   for (std::size_t s = 0; s < 2; ++s) {
     AddMagnet(s, to);
-    if (plan.model_error > 0.0) AddKnown(s, plan.model_error, to);
+    if (plan.model_error <= 0.0) continue;
+    AddKnown(s, plan.model_error, to);
+    AddTorsion(rig, s, plan.model_error, to);
   }
   const bool torsion = !rig.plant.shafts[0].torsion.inertias.empty();
   to.mean_parts = torsion ? 1 : 2;

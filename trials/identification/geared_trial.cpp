@@ -49,6 +49,21 @@ void Mislead(identification::ShaftKnown& s, double error, Random& random) {
   s.tilt_stiffness_n_m *= stiffer;
 }
 
+/// Inertias and springs of the drawing, each off by itself; base radii follow from the teeth.
+void MisleadTorsion(const config::RigFile& rig, double error, Random& random,
+                    identification::GearedKnown& known) {
+  if (!known.torsion) return;
+  config::RigFile drawn = rig;
+  for (rotor::Shaft& shaft : drawn.plant.shafts) {
+    for (auto& inertia : shaft.torsion.inertias) {
+      for (double* value : {&inertia.inertia_kg_m2, &inertia.stiffness_n_m_per_rad}) {
+        *value *= 1.0 + (random.Uniform() < 0.5 ? -error : error);
+      }
+    }
+  }
+  known.torsion = identification::KnownOfRig(drawn).torsion;
+}
+
 double Relative(double found, double truth) { return std::abs(found / truth - 1.0); }
 
 }  // namespace
@@ -66,6 +81,7 @@ GearedTrial MakeGearedTrial(const config::RigFile& rig, const GearedPlan& plan) 
   if (plan.model_error > 0.0) {
     Mislead(trial.known.pinion, plan.model_error, random);
     Mislead(trial.known.gear, plan.model_error, random);
+    MisleadTorsion(rig, plan.model_error, random, trial.known);
     trial.known.uncertainty = plan.model_error;
   }
   return trial;

@@ -1,6 +1,7 @@
 // Each defect of a record gets one sentence that names it, never a model.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "common/problem.hpp"
@@ -66,6 +67,13 @@ TEST(BadData, AClippedPositionIsNamed) {
     for (double& value : r.position_m[1]) value = value > 2e-6 ? r.sensor_range_m : value;
   });
   EXPECT_THAT(text, HasSubstr("position de_y is clipped"));
+}
+
+TEST(BadData, APositionThatIsCutOffBelowTheRangeIsNamed) {
+  const std::string text = Refusal([](Record& r) {
+    for (double& value : r.position_m[1]) value = std::min(value, 2e-6);
+  });
+  EXPECT_THAT(text, HasSubstr("position de_y is cut off below the sensor's range"));
 }
 
 TEST(BadData, ASaturatedCurrentIsNamed) {

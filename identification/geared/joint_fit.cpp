@@ -1,0 +1,243 @@
+#include "identification/geared/joint_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "identification/geared/geared_forces.hpp"
+#include "identification/geared/joint_unknowns.hpp"
+
+namespace levitas::identification {
+namespace {
+
+using Complex = std::complex<double>;
+using Index = Eigen::Index;
+using Kind = GearedLine::Kind;
+
+constexpr int kIterations = 60;
+constexpr double kDampingAtFirst = 1e-3, kMoreDamping = 5.0, kMostDamping = 1e8;
+constexpr double kLoud = 0.01;
+constexpr double kStandsStill = 1e-6;
+/// Cost per degree of freedom that noise alone hardly leaves: some hundred of them.
+constexpr double kExplained = 1.5;
+constexpr double kExact = 1e-4;
+constexpr double kStep = 1e-5;
+/// Readings of a line: two positions, two currents, each complex.
+constexpr Index kReadings = 8;
+constexpr Index kEquations = 4;
+
+using Readings = std::array<Complex GearedLine::*, 4>;
+constexpr Readings kRead{&GearedLine::pinion_m, &GearedLine::gear_m, &GearedLine::pinion_a,
+                         &GearedLine::gear_a};
+
+/// Lines that torsion couples: one frequency, forward and backward, of one speed.
+using Group = std::vector<GearedLine>;
+
+std::vector<Group> GroupsOf(const std::vector<GearedLine>& lines, bool torsion) {
+  double position = 0.0;
+  double current = 0.0;
+  for (const GearedLine& l : lines) {
+    position += std::norm(l.pinion_m) + std::norm(l.gear_m);
+    current += std::norm(l.pinion_a) + std::norm(l.gear_a);
+  }
+  const auto readings = 2.0 * static_cast<double>(lines.size());
+  const double least_m = kExact * std::sqrt(position / readings);
+  const double least_a = kExact * std::sqrt(current / readings);
+  std::vector<Group> groups;
+  for (GearedLine line : lines) {
+    line.sigma_m = std::max(line.sigma_m, least_m);
+    line.sigma_a = std::max(line.sigma_a, least_a);
+    const auto mirror = std::ranges::find_if(groups, [&](const Group& group) {
+      const GearedLine& one = group.front();
+      const double apart = std::abs(one.frequency_rad_per_s + line.frequency_rad_per_s);
+      return torsion && one.speed_rad_per_s == line.speed_rad_per_s &&
+             apart <= 1e-6 * std::abs(line.frequency_rad_per_s) && one.frequency_rad_per_s != 0.0;
+    });
+    if (mirror == groups.end()) {
+      groups.push_back({line});
+    } else {
+      mirror->push_back(line);
+    }
+  }
+  return groups;
+}
+
+/// What is left of both equations of every line of the group [N].
+Eigen::VectorXd Left(const Group& group, const GearedParameters& p) {
+  std::vector<Complex> force;
+  Eigen::VectorXd left(kEquations * static_cast<Index>(group.size()));
+  for (const GearedLine& line : group) force.push_back(MeshForce(line, p.corrected, p));
+  const auto twist = TwistOnLines(group, force, p.corrected.torsion);
+  for (std::size_t n = 0; n < group.size(); ++n) {
+    const GearedLine& line = group[n];
+    const MeshForces both = MeshForcesOf(line, p.corrected, p);
+    Complex deflection = line.pinion_m - line.gear_m + twist[n];
+    if (line.kind == Kind::kPinion) deflection += p.pinion.run_out_m;
+    if (line.kind == Kind::kGear) deflection -= p.gear.run_out_m;
+    if (line.kind == Kind::kTransmissionError) {
+      const auto own = std::ranges::find(p.error, line.harmonic, &TransmissionError::harmonic);
+      if (own != p.error.end()) deflection -= own->amplitude_m;
+    }
+    const Complex mesh(p.mesh_stiffness_n_per_m,
+                       line.frequency_rad_per_s * p.mesh_damping_n_s_per_m);
+    const Complex sum = both.from_pinion - both.from_gear;
+    const Complex teeth = force[n] - mesh * deflection;
+    left.segment<kEquations>(kEquations * static_cast<Index>(n)) =
+        Eigen::Vector4d(sum.real(), sum.imag(), teeth.real(), teeth.imag());
+  }
+  return left;
+}
+
+double SigmaOf(const GearedLine& line, std::size_t reading) {
+  return (reading < 2 ? line.sigma_m : line.sigma_a) / std::sqrt(2.0);
+}
+
+/// Adds `share` standard deviations to one real number of a group.
+void Move(Group& group, Index number, double share) {
+  GearedLine& line = group[static_cast<std::size_t>(number / kReadings)];
+  const auto reading = static_cast<std::size_t>(number % kReadings / 2);
+  const double by = share * SigmaOf(line, reading);
+  line.*kRead[reading] += number % 2 == 0 ? Complex(by, 0.0) : Complex(0.0, by);
+}
+
+/// A group's equations in units of their noise, with the lines as they are best explained.
+struct Whitened {
+  Eigen::VectorXd left;
+  Eigen::LLT<Eigen::MatrixXd> noise;
+  Group explained;
+};
+
+Whitened Whiten(const Group& group, const GearedParameters& p) {
+  const Eigen::VectorXd left = Left(group, p);
+  const auto numbers = kReadings * static_cast<Index>(group.size());
+  Eigen::MatrixXd by_noise(left.size(), numbers);
+  for (Index k = 0; k < numbers; ++k) {
+    Group moved = group;
+    Move(moved, k, 1.0);
+    by_noise.col(k) = Left(moved, p) - left;
+  }
+  Whitened w{{}, Eigen::LLT<Eigen::MatrixXd>(by_noise * by_noise.transpose()), group};
+  const Eigen::VectorXd shift = -by_noise.transpose() * w.noise.solve(left);
+  for (Index k = 0; k < numbers; ++k) Move(w.explained, k, shift[k]);
+  w.left = w.noise.matrixL().solve(left);
+  return w;
+}
+
+double CostAt(const std::vector<Group>& groups, const JointUnknowns& unknowns,
+              const Eigen::VectorXd& x) {
+  const GearedParameters p = unknowns.At(x);
+  double cost = unknowns.Held(x).squaredNorm();
+  for (const Group& group : groups) cost += Whiten(group, p).left.squaredNorm();
+  return cost;
+}
+
+struct Normal {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd pull;
+  double cost{};
+};
+
+Normal NormalAt(const std::vector<Group>& groups, const JointUnknowns& unknowns,
+                const Eigen::VectorXd& x) {
+  const GearedParameters p = unknowns.At(x);
+  std::vector<std::array<GearedParameters, 2>> sides;
+  for (Index k = 0; k < x.size(); ++k) {
+    const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(x.size(), k);
+    sides.push_back({unknowns.At(x + step), unknowns.At(x - step)});
+  }
+  const Eigen::MatrixXd hold = unknowns.HeldBy();
+  const Eigen::VectorXd held = unknowns.Held(x);
+  Normal normal{hold.transpose() * hold, hold.transpose() * held, held.squaredNorm()};
+  for (const Group& group : groups) {
+    const Whitened w = Whiten(group, p);
+    Eigen::MatrixXd by_unknowns(w.left.size(), x.size());
+    for (Index k = 0; k < x.size(); ++k) {
+      const auto& [more, less] = sides[static_cast<std::size_t>(k)];
+      by_unknowns.col(k) = (Left(w.explained, more) - Left(w.explained, less)) / (2.0 * kStep);
+    }
+    const Eigen::MatrixXd jacobian = w.noise.matrixL().solve(by_unknowns);
+    normal.information += jacobian.transpose() * jacobian;
+    normal.pull += jacobian.transpose() * w.left;
+    normal.cost += w.left.squaredNorm();
+  }
+  return normal;
+}
+
+/// Levenberg-Marquardt from `x`, in place; what the last point tells.
+Normal Descend(const std::vector<Group>& groups, const JointUnknowns& unknowns,
+               Eigen::VectorXd& x) {
+  Normal normal = NormalAt(groups, unknowns, x);
+  double damping = kDampingAtFirst;
+  for (int n = 0; n < kIterations && damping < kMostDamping; ++n) {
+    Eigen::MatrixXd damped = normal.information;
+    damped.diagonal() *= 1.0 + damping;
+    const Eigen::VectorXd next = x - damped.ldlt().solve(normal.pull);
+    const double cost = CostAt(groups, unknowns, next);
+    if (!(cost <= normal.cost)) {
+      damping *= kMoreDamping;
+      continue;
+    }
+    x = next;
+    damping /= kMoreDamping;
+    normal = NormalAt(groups, unknowns, x);
+    // What a full step still promises; a damped one always promises little.
+    if (normal.pull.dot(normal.information.ldlt().solve(normal.pull)) < kStandsStill) break;
+  }
+  return normal;
+}
+
+/// What makes the noise kLoud of the rms of all positions.
+double LoudestOf(const std::vector<Group>& groups) {
+  double power = 0.0;
+  double noise = 0.0;
+  for (const Group& group : groups) {
+    for (const GearedLine& line : group) {
+      power += std::norm(line.pinion_m) + std::norm(line.gear_m);
+      noise += 2.0 * line.sigma_m * line.sigma_m;
+    }
+  }
+  return kLoud * std::sqrt(power / noise);
+}
+
+std::vector<Group> Louder(std::vector<Group> groups, double factor) {
+  for (Group& group : groups) {
+    for (GearedLine& line : group) {
+      line.sigma_m *= factor;
+      line.sigma_a *= factor;
+    }
+  }
+  return groups;
+}
+
+}  // namespace
+
+void FitJointly(const std::vector<GearedLine>& lines, const GearedKnown& known,
+                GearedParameters& p) {
+  const std::vector<Group> groups = GroupsOf(lines, known.torsion.has_value());
+  const JointUnknowns unknowns(known, p);
+  Eigen::VectorXd x = unknowns.starts().front();
+  const auto rows = kEquations * static_cast<Index>(lines.size()) + unknowns.HeldBy().rows();
+  const double freedom = std::max<double>(1.0, static_cast<double>(rows - x.size()));
+  Normal normal;
+  for (const Eigen::VectorXd& start : unknowns.starts()) {
+    Eigen::VectorXd own = start;
+    // Precise lines make a narrow valley: it is entered from where their noise is taken for larger.
+    for (double factor = LoudestOf(groups); factor > 1.0; factor *= 0.1) {
+      static_cast<void>(Descend(Louder(groups, factor), unknowns, own));
+    }
+    Normal found = Descend(groups, unknowns, own);
+    if (normal.pull.size() == 0 || found.cost < normal.cost) {
+      x = own;
+      normal = found;
+    }
+    if (normal.cost < kExplained * freedom) break;
+  }
+  const double scale = std::sqrt(std::max(1.0, normal.cost / freedom));
+  const Eigen::MatrixXd covariance =
+      normal.information.ldlt().solve(Eigen::MatrixXd::Identity(x.size(), x.size()));
+  unknowns.Take(x, scale * covariance.diagonal().cwiseMax(0.0).cwiseSqrt(), p);
+}
+
+}  // namespace levitas::identification
