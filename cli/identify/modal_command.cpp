@@ -10,6 +10,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "cli/analysis_options.hpp"
 #include "cli/identify/identify_commands.hpp"
@@ -115,13 +117,40 @@ void PrintStarts(const ModalResult& r, const std::vector<FrequencyResponse>& res
       outcome.median_time_s);
 }
 
+/// "deflection_3_sensor_de" is one of many: what people need is the mode.
+std::string ShortName(const std::string& unknown) {
+  constexpr std::string_view kDeflection = "deflection_";
+  if (!unknown.starts_with(kDeflection)) return unknown;
+  const auto end = unknown.find('_', kDeflection.size());
+  return "deflections of mode " + unknown.substr(kDeflection.size(), end - kDeflection.size());
+}
+
+std::string Together(const Unidentifiable& direction) {
+  std::vector<std::string> names;
+  for (const std::string& unknown : direction.unknowns) {
+    const std::string name = ShortName(unknown);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return fmt::format("{}", fmt::join(names, " with "));
+}
+
+/// By the experiment that would tell, one line for all directions of an experiment.
 void PrintLimits(const ModalResult& r) {
-  if (!r.uncertainty.directions.empty()) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups;
+  for (const Unidentifiable& direction : r.uncertainty.directions) {
+    auto group =
+        std::ranges::find(groups, direction.experiment, [](const auto& g) { return g.first; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {direction.experiment, {}});
+    const std::string text = Together(direction);
+    if (std::ranges::find(group->second, text) == group->second.end()) {
+      group->second.push_back(text);
+    }
+  }
+  if (!groups.empty()) {
     fmt::print("\nnot told apart by these data (values along them are the rig file's):\n");
   }
-  for (const Unidentifiable& direction : r.uncertainty.directions) {
-    fmt::print("  {}\n    to tell: {}\n", fmt::join(direction.unknowns, ", "),
-               direction.experiment);
+  for (const auto& [experiment, directions] : groups) {
+    fmt::print("  {}\n    to tell: {}\n", fmt::join(directions, "; "), experiment);
   }
   for (const ProposedMode& mode : r.unmatched) {
     fmt::print("\nthe data show a mode at {:.1f} Hz that the rig file does not have\n",

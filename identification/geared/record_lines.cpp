@@ -8,8 +8,10 @@
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <span>
 
 #include "common/problem.hpp"
+#include "identification/record/flat_top.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -17,11 +17,13 @@ using Index = Eigen::Index;
 constexpr double kPart = 0.2;
 
 std::string ExperimentFor(const std::vector<std::string>& unknowns) {
-  constexpr std::array<std::pair<const char*, const char*>, 8> kExperiments{{
+  constexpr std::array<std::pair<const char*, const char*>, 10> kExperiments{{
       {"mass", "weigh the rotor, or hang a known weight on it while it levitates"},
       {"sensor_gain",
        "push the rotor from stop to stop of the touchdown bearings, whose clearance "
        "is known, or compare with a dial gauge"},
+      {"centre_z", "balance the rotor on a knife edge"},
+      {"transverse_inertia", "swing the rotor on two threads and count"},
       {"ki_", "levitate with a known static load and read the change of current"},
       {"ks_", "levitate at two reference positions and read the change of current"},
       {"delay", "record the coil current beside the command"},

@@ -2,6 +2,7 @@
 what was identified, and the record against both files.
 """
 
+import csv
 import json
 import unittest
 from pathlib import Path
@@ -72,6 +73,50 @@ class Identify(CommandTest):
         for channel, (old, new) in enumerate(zip(before, after)):
             self.assertLess(abs(new - 1.0), abs(old - 1.0) + 0.01, AXES[channel])
         self.assertLess(sum(after), sum(before))
+
+    def test_each_defect_of_a_measured_file_is_refused_with_one_sentence(self):
+        self.write("short.yaml", CAMPAIGN)
+        self.run_amb("run", "--scenario", "short.yaml", "--record", "c.lcm")
+        self.run_amb("export", "c.lcm", "--csv", "c.csv")
+        with open(self.folder / "c.csv", newline="", encoding="utf-8") as file:
+            head, *good = list(csv.reader(file))
+        column = {name: number for number, name in enumerate(head)}
+        last = column["excitation_nde_y_a"]
+        excited = [n for n, row in enumerate(good) if float(row[last] or 0.0) != 0.0]
+
+        def changed(name, function):
+            rows = [row[:] for row in good]
+            for n, row in enumerate(rows):
+                row[column[name]] = repr(function(n, float(row[column[name]] or 0.0)))
+            return rows
+
+        still = [[("0" if head[n].startswith("excitation") else cell) for n, cell in enumerate(row)]
+                 for row in good]
+        first = excited[0]
+        cases = {
+            "position nde_x is dead": changed("position_nde_x_m", lambda n, v: 1e-6),
+            "position de_y is clipped": changed("position_de_y_m",
+                                                lambda n, v: 400e-6 if v > 10e-6 else v),
+            "position de_y is cut off below": changed("position_de_y_m",
+                                                      lambda n, v: min(v, 10e-6)),
+            "no excitation in the record": still,
+            "does not repeat itself": good[:first + 3000],
+            "samples are missing": good[:first + 3000] + good[first + 5046:],
+            "that of nde_y after 100": changed(
+                "excitation_nde_y_a",
+                lambda n, v: v and (0.1 if (n - first) % 100 < 50 else -0.1)),
+            "de_x moves with the current": changed("position_de_x_m", lambda n, v: -v),
+            "de_x follows its excitation with the wrong sign": changed(
+                "control_current_de_x_a", lambda n, v: -v),
+        }
+        for words, rows in cases.items():
+            with self.subTest(words):
+                with open(self.folder / "bad.csv", "w", newline="", encoding="utf-8") as file:
+                    csv.writer(file).writerows([head, *rows])
+                done = self.run_amb("identify", "modal", "bad.csv", "--out", "no.yaml")
+                self.assertEqual(done.returncode, BAD_INPUT, done.stdout)
+                self.assertIn(words, done.stderr)
+                self.assertFalse(Path(self.folder / "no.yaml").exists())
 
     def test_a_run_without_excitation_is_refused_with_one_sentence(self):
         self.write("still.yaml", """kind: scenario
