@@ -18,8 +18,8 @@ RigTrials FlexibleRotor() {
 RigTrials Pump() {
   RigTrials trials;
   trials.effects = {{Id::kMagneticSaturation, 1.0},
-                    {Id::kSensorNonlinearity, 2.0},
-                    {Id::kExtraDelay, 0.25},
+                    {Id::kSensorNonlinearity, 1.0},
+                    {Id::kExtraDelay, 0.35},
                     {Id::kCurrentGain, 0.5},
                     {Id::kDisplacementStiffness, 0.5},
                     {Id::kAmplifierBandwidth, 0.5},
@@ -46,7 +46,7 @@ RigTrials Pump() {
 RigTrials Geared() {
   RigTrials trials;
   trials.effects = {{Id::kMeshStiffness, 1.0},     {Id::kMeshStiffnessVariation, 1.0},
-                    {Id::kBacklash, 1.0},          {Id::kMeshFriction, 1.0},
+                    {Id::kBacklash, 0.1},          {Id::kMeshFriction, 1.0},
                     {Id::kTransmissionError, 1.0}, {Id::kGearRunout, 1.0},
                     {Id::kToothCrack, 1.0},        {Id::kCurrentGain, 1.0},
                     {Id::kSensorGain, 1.0},        {Id::kSensorRunout, 1.0},
