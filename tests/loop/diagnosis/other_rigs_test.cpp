@@ -38,7 +38,7 @@ void ExpectReadable(const Asked& asked, effect::Id id) {
   EXPECT_EQ(extended.plant.effects.front().id, id);
 }
 
-TEST(GearedRig, WithACrackedToothIsSaidToHaveOneAndWhich) {
+TEST(GearedRig, WithACrackedToothIsSaidToHaveOne) {
   const Asked asked = Ask("geared_rotor_4dof", 21006, {effect::Id::kToothCrack});
   EXPECT_TRUE(asked.outcome.Right()) << asked.outcome.verdict;
   ExpectReadable(asked, effect::Id::kToothCrack);
