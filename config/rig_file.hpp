@@ -5,10 +5,12 @@
 // Failure  BadInput whose text is the whole list (exit status 3).
 // Thread   any; not for the control cycle.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/rig_numbers.hpp"
+#include "config/tolerances.hpp"
 #include "controller/law/law_config.hpp"
 #include "controller/scenario/scenario_config.hpp"
 #include "controller/supervisor/supervisor_config.hpp"
@@ -37,6 +39,7 @@ struct RigFile {
   gpio::LinesConfig lines;            ///< empty when the file names none
   std::vector<can::BusConfig> buses;  ///< CAN; empty when the file names none
   LogLayout log;
+  std::optional<Tolerances> tolerances;  ///< none: the file states none, Tolerances{} holds
 };
 
 struct ControllerFile {

@@ -36,7 +36,6 @@ inline constexpr double kDecisive = 5.0;  ///< [nat] odds of 150 : 1
 inline constexpr double kForm = 0.02;     ///< share of the evidence that a law's form may leave
 
 struct Settings {
-  Tolerances tolerances;
   bool quick{};  ///< a first answer: the strongest cause, from a part of the records
   std::size_t most_causes{3};
   std::string only;  ///< the one effect that is looked for; empty: all

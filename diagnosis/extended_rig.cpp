@@ -11,6 +11,7 @@
 
 #include "common/problem.hpp"
 #include "diagnosis/gear_entry.hpp"
+#include "diagnosis/terms/terms.hpp"
 #include "diagnosis/words.hpp"
 
 namespace levitas::diagnosis {
@@ -145,6 +146,13 @@ std::string RotorEntry(const RigView& rig, const Group& g) {
     return fmt::format("mode: {}, damping_ratio: {:.6g}", mode,
                        std::max(0.0, rig.damping_ratio[mode + 1] * (1.0 + g.At("ratio"))));
   }
+  if (g.effect == "breathing_crack") {
+    const double direction_deg = std::strtod(g.After("direction ").c_str(), nullptr);
+    return fmt::format(
+        "z_mm: {:.6g}, depth: {:.6g}, phase_rad: {:.6g}", g.Number(),
+        CrackDepth(rig, 1e-3 * g.Number(), g.At("softening")),
+        std::remainder(direction_deg * std::numbers::pi / 180.0, 2.0 * std::numbers::pi));
+  }
   if (g.effect == "internal_damping") {
     return fmt::format("z_mm: {:.6g}, damping_n_s_per_m: {:.6g}", g.Number(), g.At("damping"));
   }
@@ -198,8 +206,6 @@ std::string ExternalEntry(const RigView& rig, const Group& g) {
 std::string Entry(const RigView& rig, const Group& g) {
   const std::string place = PlaceOfEffect(g.effect);
   std::string values;
-  if (g.effect == "breathing_crack")
-    return {};  // its softening has no depth without the shaft's E I
   if (place == "gear") values = GearEntry(rig, g.effect, g.place, g.theta);
   if (place == "magnet") values = MagnetEntry(rig, g);
   if (place == "sensor" || place == "amplifier") values = SensorEntry(rig, g);

@@ -52,6 +52,7 @@ LEVITAS_INLINE void CorrectBody(const LaneModel& k, const std::array<Lane, kMaxA
 /// Magnets, amplifiers and the start of the sensors' filters.
 LEVITAS_INLINE void Magnets(const LaneModel& k, const Moment& m,
                             const std::array<Lane, 2 * kMaxModes>& q_mid, LaneState& s) noexcept {
+  std::array<Lane, kMaxAxes> lead;  // NOLINT(cppcoreguidelines-pro-type-member-init): as above
   for (std::size_t a = 0; a < k.axes; ++a) {
     const LaneModel::Axis& b = k.axis[a];
     const std::size_t plane = (a % 2) * k.modes;
@@ -62,12 +63,19 @@ LEVITAS_INLINE void Magnets(const LaneModel& k, const Moment& m,
       p += b.sensor[i] * s.q[plane + i].value;
     }
     const Vector mean = s.coil[a].value * b.coil_mean + s.add_coil_mean[a].value;
-    const Vector f = (m.force_per_a[a] + m.added.force_per_a[a]) * mean +
-                     (m.force_per_m[a] + m.added.force_per_m[a]) * x + s.force[a].value +
-                     s.add_force[a].value;
+    const float per_a = m.force_per_a[a] + m.added.force_per_a[a];
+    lead[a].value = per_a * b.coil_lead * s.coil[a].value;
+    const Vector f = per_a * mean + (m.force_per_m[a] + m.added.force_per_m[a]) * x +
+                     s.force[a].value + s.add_force[a].value;
     s.coil[a].value = s.coil[a].value * b.coil_decay + s.add_coil_end[a].value;
     s.sensor[a].value = s.sensor[a].value * b.sensor_decay + b.sensor_start * p;
     for (std::size_t i = 0; i < k.modes; ++i) s.add_modal[plane + i].value += b.drive[i] * f;
+  }
+  for (std::size_t a = 0; a < k.axes; ++a) {
+    const std::size_t plane = (a % 2) * k.modes;
+    for (std::size_t i = 0; i < k.modes; ++i) {
+      s.q[plane + i].value += k.axis[a].drive[i] * lead[a].value;
+    }
   }
 }
 
@@ -191,6 +199,11 @@ LaneModel::Axis AxisOf(const RigView& rig, std::size_t a, const LinearChange& ch
   n.coil_decay = static_cast<float>(amplifier.decay);
   n.coil_mean =
       static_cast<float>((1.0 - amplifier.decay) * amplifier.tau_s / amplifier.duration_s);
+  // Integral of (T/2 - t) exp(-t/tau) over the period.
+  const double tau_s = amplifier.tau_s;
+  n.coil_lead =
+      static_cast<float>(tau_s * ((0.5 * amplifier.duration_s - tau_s) * (1.0 - amplifier.decay) +
+                                  amplifier.decay * amplifier.duration_s));
   const auto filter =
       sensor::MakeFilterStep(config.sensor.bandwidth_hz, config.sensor.gain, rig.period_s);
   n.sensor_decay = static_cast<float>(filter.decay);

@@ -39,6 +39,7 @@ struct LaneModel {
     std::array<float, kMaxModes> added_q{}, added_v{};  ///< to the reading, past the filter
     bool adds{};                                        ///< any of them
     float coil_decay{}, coil_mean{};
+    float coil_lead{};  ///< [s^2] displacement by which a decaying current is ahead of its mean
     float sensor_decay{}, sensor_start{}, sensor_end{};
   };
   std::size_t axes{}, modes{};

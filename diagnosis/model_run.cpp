@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/turns.hpp"
+#include "plant_sim/amplifier/amplifier.hpp"
 #include "plant_sim/plant/mode_step.hpp"
 #include "plant_sim/plant/time_step.hpp"
 
@@ -44,6 +45,11 @@ class Runner {
     for (std::size_t m = 0; m < rig.modes; ++m) {
       steps_.push_back(
           plant::MakeModeStep(rig.omega_rad_per_s[m], rig.damping_ratio[m], rig.period_s));
+    }
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      const auto amplifier =
+          amplifier::MakeStep(rig.bearing(a).amplifier.bandwidth_hz, 0.0, rig.period_s);
+      coil_mean_[a] = (1.0 - amplifier.decay) * amplifier.tau_s / amplifier.duration_s;
     }
     for (const auto& bearing : rig.model->config().bearings) {
       filters_.push_back(
@@ -91,11 +97,16 @@ class Runner {
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       moment.innovation_m[i] = static_cast<float>(polarity[i] * innovation_m[i]);
     }
-    AfterPeriod(row, moment);
+    AfterPeriod(moment);
+    // First what moves the currents, since the forces that others look at follow from them.
     Addition drive;
     for (Active& a : active_) {
+      if (a.term.moves_coil) a.term.drive(moment, a.theta, drive);
+    }
+    Magnets(row.sample.command.bias_current_a, drive, moment);
+    for (Active& a : active_) {
       if (a.term.slope) a.term.slope(moment, a.theta, moment.added);
-      if (a.term.drive) a.term.drive(moment, a.theta, drive);
+      if (a.term.drive && !a.term.moves_coil) a.term.drive(moment, a.theta, drive);
     }
     next_reading_m_ = drive.reading_m;
     if (!active_.empty()) Apply(moment, drive);
@@ -129,7 +140,7 @@ class Runner {
     gain_state_ = &gain.state;
   }
 
-  void AfterPeriod(const analysis::RecordedRow& row, Moment& m) {
+  void AfterPeriod(Moment& m) {
     const auto end = observer_->plant().state();
     // The start after the correction, which the observer does not keep.
     constexpr int kMostStates = 4 * static_cast<int>(kMaxModes) + 4 * static_cast<int>(kMaxAxes);
@@ -156,19 +167,38 @@ class Runner {
     for (std::size_t a = 0; a < rig_.axes; ++a) {
       m.coil_start_a[a] = static_cast<float>(start(at_.coil_current + a));
       m.coil_end_a[a] = static_cast<float>(end[at_.coil_current + a]);
-      const double mid_a = 0.5 * (m.coil_start_a[a] + m.coil_end_a[a]);
+    }
+  }
+
+  /// Currents with what is added to them, and the forces they make: means over the period. A
+  /// current that follows noisy commands moves by tenths of the bias within it, and the force goes
+  /// with its square: the mean of the force is that of the two currents a deviation off the mean.
+  void Magnets(double bias_a, const Addition& add, Moment& m) {
+    for (std::size_t a = 0; a < rig_.axes; ++a) {
+      const double away_a = static_cast<double>(m.coil_start_a[a] - m.command_now_a[a]);
+      const double mean_a = static_cast<double>(m.command_now_a[a]) + away_a * coil_mean_[a];
       const auto& magnet = rig_.magnet(a);
       const double x_m = Sum(magnet.actuator_shape, m.q.data() + (a % 2) * rig_.modes);
-      const double bias_a = row.sample.command.bias_current_a;
       m.actuator_m[a] = static_cast<float>(x_m);
-      const double force_n = magnet::Force(magnet.magnet, bias_a, mid_a, x_m);
+      const auto force_n = [&](double coil_a, double by_m) {
+        // Of a straight way from start to end.
+        const double deviation_a =
+            static_cast<double>(m.coil_end_a[a] - m.coil_start_a[a]) / std::sqrt(12.0);
+        return 0.5 * (magnet::Force(magnet.magnet, bias_a, coil_a - deviation_a, x_m + by_m) +
+                      magnet::Force(magnet.magnet, bias_a, coil_a + deviation_a, x_m + by_m));
+      };
+      const bool moved = add.coil_mean_a[a] != 0.0;
+      const double unmoved_n = moved ? force_n(mean_a, 0.0) : 0.0;
+      m.coil_end_a[a] += static_cast<float>(add.coil_end_a[a]);
+      const double coil_a = mean_a + add.coil_mean_a[a];
       constexpr double kStepA = 1e-4;
       constexpr double kStepM = 1e-8;
-      m.force_n[a] = static_cast<float>(force_n);
-      m.force_per_a[a] = static_cast<float>(
-          (magnet::Force(magnet.magnet, bias_a, mid_a + kStepA, x_m) - force_n) / kStepA);
-      m.force_per_m[a] = static_cast<float>(
-          (magnet::Force(magnet.magnet, bias_a, mid_a, x_m + kStepM) - force_n) / kStepM);
+      const double here_n = force_n(coil_a, 0.0);
+      m.coil_mean_a[a] = static_cast<float>(coil_a);
+      m.force_n[a] = static_cast<float>(here_n);
+      m.force_per_a[a] = static_cast<float>((force_n(coil_a + kStepA, 0.0) - here_n) / kStepA);
+      m.force_per_m[a] = static_cast<float>((force_n(coil_a, kStepM) - here_n) / kStepM);
+      coil_force_n_[a] = moved ? here_n - unmoved_n : 0.0;
     }
   }
 
@@ -179,8 +209,8 @@ class Runner {
                         add.modal.begin() + static_cast<std::ptrdiff_t>(2 * rig_.modes));
     for (std::size_t a = 0; a < rig_.axes; ++a) {
       state[at_.coil_current + a] += add.coil_end_a[a];
-      const double force_n =
-          add.force_n[a] + static_cast<double>(m.force_per_a[a]) * add.coil_mean_a[a];
+      const double force_n = add.force_n[a] + coil_force_n_[a] +
+                             static_cast<double>(m.added.force_per_a[a]) * add.coil_mean_a[a];
       const auto& shape = rig_.magnet(a).actuator_shape;
       for (std::size_t i = 0; i < rig_.modes; ++i) {
         acceleration[(a % 2) * rig_.modes + i] += shape[i] * force_n;
@@ -213,6 +243,8 @@ class Runner {
   std::vector<double> start_, acceleration_;
   std::vector<float> moved_;
   const Eigen::MatrixXd* gain_state_{nullptr};
+  std::array<double, kMaxAxes> coil_mean_{};     ///< mean over a period of what decays from 1
+  std::array<double, kMaxAxes> coil_force_n_{};  ///< by what terms add to the currents
 };
 
 /// A frame whose readings all repeat bit for bit did not arrive: noisy sensors do not do that.

@@ -44,13 +44,14 @@ struct Moment {
   ModalFloats q{}, v{};       ///< mid
   AxisFloats coil_start_a{};  ///< control current
   AxisFloats coil_end_a{};
-  AxisFloats actuator_m{};                       ///< mid, displacement at the magnets
-  AxisFloats force_n{};                          ///< mid, magnet force
-  AxisFloats force_per_a{};                      ///< mid, dF/di
-  AxisFloats force_per_m{};                      ///< mid, dF/dx
-  AxisFloats command_before_a{};                 ///< acted until the sample
-  AxisFloats command_now_a{};                    ///< acts from the sample on (whole-sample delay)
-  AxisFloats command_next_a{};                   ///< acts from the next sample on
+  AxisFloats coil_mean_a{};       ///< over the period
+  AxisFloats actuator_m{};        ///< mid, displacement at the magnets
+  AxisFloats force_n{};           ///< magnet force, mean over the period at the mid displacement
+  AxisFloats force_per_a{};       ///< dF/di, mean
+  AxisFloats force_per_m{};       ///< dF/dx, mean
+  AxisFloats command_before_a{};  ///< acted until the sample
+  AxisFloats command_now_a{};     ///< acts from the sample on (whole-sample delay)
+  AxisFloats command_next_a{};    ///< acts from the next sample on
   std::array<TeethMoment, kMostMeshes> teeth{};  ///< mid, of the nominal meshes
   AddedSlopes added{};
   std::uint32_t record{};

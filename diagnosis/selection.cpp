@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "diagnosis/mode_probe.hpp"
 #include "diagnosis/ranking.hpp"
 #include "diagnosis/sharpen.hpp"
 
@@ -60,16 +61,37 @@ CauseSet BestOfScreen(Inquiry& q, const std::vector<Candidate>& screened, double
   return best;
 }
 
+/// Modes that may lie where the screen does not look.
+void TryProbes(Inquiry& q, const std::vector<ModeProbe>& probes, double null, CauseSet& best) {
+  for (const ModeProbe& probe : probes) {
+    q.Tell(0.3, "looking for a mode elsewhere");
+    const Hypothesis& mode = q.search.hypotheses()[probe.hypothesis];
+    std::vector<Hypothesis> causes = q.causes;
+    causes.push_back(mode);
+    std::vector<double> start = q.theta;
+    start[probe.term] = probe.theta;
+    Refined fit = q.refiner.Fit(causes, std::move(start), q.view, q.effort.passes);
+    if (!fit.ok) continue;
+    q.refitted.push_back({mode.effect, mode.place, fit.evidence - null, probe.hypothesis, true});
+    best.Take(causes, std::move(fit));
+  }
+}
+
 bool AddCause(Inquiry& q, double share) {
   const Evidence base(q.view.problem, q.terms, q.causes);
   const std::vector<Candidate> screened = Screen(base, q.search.hypotheses());
-  if (screened.empty() || !(screened.front().score > kDecisive)) return false;
+  if (screened.empty()) return false;
+  const std::vector<ModeProbe> probes =
+      q.effort.first_cause_only ? std::vector<ModeProbe>{}
+                                : ProbeModes(q.rig, q.terms, q.search.hypotheses(), q.view.runs);
+  if (!(screened.front().score > kDecisive) && probes.empty()) return false;
   const Refined before = q.refiner.Fit(q.causes, q.theta, q.view, 2);
   const double null =
       before.ok ? before.evidence : Refiner::SetEvidence(q.view.problem, q.terms, q.causes);
   const double enough = Enough(null - Refiner::SetEvidence(q.view.problem, q.terms, {}));
-  if (!(screened.front().score > enough)) return false;
+  if (!(screened.front().score > enough) && probes.empty()) return false;
   CauseSet best = BestOfScreen(q, screened, null, enough, share);
+  TryProbes(q, probes, null, best);
   // What the linear screen promised, the nonlinear model must keep. A large step may need more
   // passes than were spent on it: what is far beyond doubt is taken and linearised anew.
   if (!best.fit.ok || !(best.fit.evidence - null > enough)) {

@@ -83,7 +83,8 @@ SessionAnswer DiagnoseRecords(const config::RigFile& rig, const std::vector<Reco
   const std::vector<Record> flown = InFlight(*out.view, healthy);
   const std::vector<Record> aside = InFlight(*out.view, holdout);
   std::vector<Record> fitted = InFlight(*out.view, records);
-  out.terms = AllTerms(*out.view, settings.tolerances, LargestOrbit(fitted, out.view->axes));
+  out.terms = AllTerms(*out.view, rig.tolerances.value_or(config::Tolerances{}),
+                       LargestOrbit(fitted, out.view->axes));
   if (!flown.empty()) LearnFromHealthy(*out.view, flown, out.terms);
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     fitted[i].number = static_cast<std::uint32_t>(i);

@@ -60,14 +60,15 @@ struct Term {
   std::string place;   ///< "de_x", "mode 3", "order 2, nde_y"
   std::string parameter;
   std::string unit;
-  double usual{};        ///< what a healthy rig's records have shown it to be; 0 without them
-  double tolerance{};    ///< standard deviation of theta on a healthy rig; 0: not a nuisance
-  double wide{1.0};      ///< standard deviation of theta when the effect is present
-  double step{1.0};      ///< theta at which a non-linear term is linearised from 0
-  bool positive{false};  ///< cannot be negative
-  bool linear{true};     ///< adds theta times what it adds at theta = 1
-  bool rotating{false};  ///< adds nothing at rest
-  int record{-1};        ///< acts in this record alone; -1: in all
+  double usual{};          ///< what a healthy rig's records have shown it to be; 0 without them
+  double tolerance{};      ///< standard deviation of theta on a healthy rig; 0: not a nuisance
+  double wide{1.0};        ///< standard deviation of theta when the effect is present
+  double step{1.0};        ///< theta at which a non-linear term is linearised from 0
+  bool positive{false};    ///< cannot be negative
+  bool linear{true};       ///< adds theta times what it adds at theta = 1
+  bool rotating{false};    ///< adds nothing at rest
+  bool moves_coil{false};  ///< its drive adds to the coil current, and to nothing else
+  int record{-1};          ///< acts in this record alone; -1: in all
   /// Over the period that begins at the moment; `reading_m` then belongs to the sample at its end.
   Adds drive;
   /// At the sample of the moment.

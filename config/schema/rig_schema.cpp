@@ -260,6 +260,7 @@ void Describe(Visitor& v, RigFile& rig) {
     v.Name({"scenario", "shipped name"}, rig.run.scenario);
   });
   DescribeLog(v, rig.log);
+  DescribeTolerances(v, rig.tolerances);
   Derive(rig);
   DescribeEffects(v, rig);
 }

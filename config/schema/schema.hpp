@@ -26,6 +26,7 @@ void DescribeShaftNumber(Visitor& v, const plant::PlantConfig& plant, std::size_
 void RefuseBesideShaft(Visitor& v, const plant::PlantConfig& plant, std::size_t shaft, double z_m,
                        std::string_view key);
 void Describe(Visitor& v, gpio::LinesConfig& lines, double period_s);
+void DescribeTolerances(Visitor& v, std::optional<Tolerances>& tolerances);
 /// The list of effects; needs the names in rig.numbers.
 void DescribeEffects(Visitor& v, RigFile& rig);
 void Describe(Visitor& v, law::StateSpaceConfig& law, const RigNumbers& rig);

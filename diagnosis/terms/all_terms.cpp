@@ -22,6 +22,7 @@ std::vector<Term> AllTerms(const RigView& rig, const Tolerances& tolerances,
   }
   add(RotorTerms(rig, tolerances));
   add(RotatingTerms(rig, tolerances));
+  add(CrackTerms(rig));
   add(ExternalTerms(rig, tolerances, largest_orbit_m));
   return all;
 }

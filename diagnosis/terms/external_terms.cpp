@@ -36,6 +36,8 @@ Term Spring(const RigView& rig, std::string effect, double z_m, Kind kind, doubl
 
 /// Housing of a bearing on its own spring: u'' + 2 z w u' + w^2 u = -F theta, theta = 1/mass; the
 /// magnet's gap and the sensor see x - u.
+/// F is taken where the sensor says that the rotor is: were it taken where the model has it, the
+/// housing would swing with the observer, which does not know it, and a heavy one would not settle.
 Term Support(const RigView& rig, std::size_t b, double frequency_hz, double damping_ratio) {
   struct Housing {
     std::array<double, 2> u{}, v{};
@@ -46,27 +48,24 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz, double damp
                         "1/mass_kg", "1/kg"},
                        0.0, 0.2, nullptr);
   term.positive = true;
-  const Family::Shape shape{frequency_hz, damping_ratio};
-  term.family = {shape, {0.04, 0.5}, shape, [&rig, b](const Family::Shape& other) {
-                   return Support(rig, b, other[0], other[1]);
-                 }};
+  term.family = {
+      {frequency_hz, damping_ratio}, {0.04, 0.5}, {}, [&rig, b](const Family::Shape& other) {
+        return Support(rig, b, other[0], other[1]);
+      }};
   const double w = 2.0 * std::numbers::pi * frequency_hz;
   term.drive = [b, w, damping_ratio, period_s = rig.period_s, h = Housing{}](
                    const Moment& m, double theta, Addition& add) mutable {
-    if (m.restarted) {
-      // Levitated for long: at the place where its spring holds the weight. From elsewhere it would
-      // ring for longer than the model settles.
-      h = Housing{};
-      for (std::size_t i = 0; i < 2; ++i) {
-        h.u[i] = -static_cast<double>(m.force_n[2 * b + i]) / (w * w);
-      }
-    }
     for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t axis = 2 * b + i;
+      const double away_m = static_cast<double>(m.measured_m[axis] - m.reading_m[axis]);
+      const double force_n =
+          static_cast<double>(m.force_n[axis]) + static_cast<double>(m.force_per_m[axis]) * away_m;
+      // Levitated for long before the record: it goes to where its spring holds the weight without
+      // ringing, which would last longer than the model settles.
+      if (m.restarted) h.u[i] = -force_n / (w * w), h.v[i] = 0.0;
+      const double damping = m.starting ? 1.0 : damping_ratio;
       const double before = h.u[i];
-      const double a =
-          -static_cast<double>(m.force_n[axis]) - w * w * h.u[i] - 2.0 * damping_ratio * w * h.v[i];
-      h.v[i] += period_s * a;
+      h.v[i] += period_s * (-force_n - w * w * h.u[i] - 2.0 * damping * w * h.v[i]);
       h.u[i] += period_s * h.v[i];
       add.force_n[axis] -=
           theta * static_cast<double>(m.force_per_m[axis]) * 0.5 * (before + h.u[i]);
@@ -100,8 +99,21 @@ Term Rub(const RigView& rig, std::size_t b, double clearance_m, double friction,
         add.force_n[2 * b] += (-normal * x + drag * y) / r;
         add.force_n[2 * b + 1] += (-normal * y - drag * x) / r;
       });
+  if (!by_rate) {
+    // In contact the ring's spring stands beside the magnet's: derivatives must know it.
+    term.slope = [=](const Moment& m, double theta, AddedSlopes& added) {
+      const double x = static_cast<double>(m.actuator_m[2 * b]);
+      const double y = static_cast<double>(m.actuator_m[2 * b + 1]);
+      const double r = std::hypot(x, y);
+      if (r <= clearance_m) return;
+      const double along = 1.0 - clearance_m / r;
+      const double turned = clearance_m / (r * r * r);
+      added.force_per_m[2 * b] -= static_cast<float>(theta * (along + turned * x * x));
+      added.force_per_m[2 * b + 1] -= static_cast<float>(theta * (along + turned * y * y));
+    };
+  }
   const Family::Shape shape{clearance_m, friction};
-  term.family = {shape, {0.15, 0.4}, shape, [&rig, b, by_rate](const Family::Shape& other) {
+  term.family = {shape, {0.15, 0.4}, {}, [&rig, b, by_rate](const Family::Shape& other) {
                    return Rub(rig, b, other[0], other[1], by_rate);
                  }};
   return term;

@@ -15,10 +15,6 @@ namespace {
 /// Opposed coils of a healthy magnet: a few micrometres of gap, a turn more or less.
 constexpr double kAlike = 0.02;
 
-double MidCoil(const Moment& m, std::size_t a) {
-  return 0.5 * static_cast<double>(m.coil_start_a[a] + m.coil_end_a[a]);
-}
-
 double ForceWithoutControl(const magnet::Magnet& magnet, double bias_a, const Moment& m,
                            std::size_t a) {
   return magnet::Force(magnet, bias_a, 0.0, static_cast<double>(m.actuator_m[a]));
@@ -53,14 +49,14 @@ Term Saturation(const RigView& rig, double knee_share, double exponent) {
         for (std::size_t a = 0; a < rig.axes; ++a) {
           const double bias = rig.bias_a(a);
           const double force =
-              SaturatedForce(rig.magnet(a).magnet, bias, MidCoil(m, a),
+              SaturatedForce(rig.magnet(a).magnet, bias, static_cast<double>(m.coil_mean_a[a]),
                              static_cast<double>(m.actuator_m[a]), {knee_share * bias, exponent});
           add.force_n[a] += theta * (force - static_cast<double>(m.force_n[a]));
         }
       });
   term.positive = true;
   const Family::Shape shape{knee_share, exponent};
-  term.family = {shape, {0.12, 0.25}, shape, [&rig](const Family::Shape& other) {
+  term.family = {shape, {0.12, 0.25}, {}, [&rig](const Family::Shape& other) {
                    return Saturation(rig, other[0], other[1]);
                  }};
   term.slope = [&rig, knee_share, exponent](const Moment& m, double theta, AddedSlopes& added) {
@@ -72,7 +68,7 @@ Term Saturation(const RigView& rig, double knee_share, double exponent) {
         return SaturatedForce(rig.magnet(a).magnet, bias, control_a, x_m,
                               {knee_share * bias, exponent});
       };
-      const double i = MidCoil(m, a);
+      const double i = static_cast<double>(m.coil_mean_a[a]);
       const double x = static_cast<double>(m.actuator_m[a]);
       const double per_a = (force(i + kStepA, x) - force(i, x)) / kStepA;
       const double per_m = (force(i, x + kStepM) - force(i, x)) / kStepM;
@@ -86,6 +82,15 @@ Term Saturation(const RigView& rig, double knee_share, double exponent) {
 
 }  // namespace
 
+double ForceOfCurrent(const RigView& rig, const Moment& moment, std::size_t axis, double beside_a) {
+  const magnet::Magnet& magnet = rig.magnet(axis).magnet;
+  const double bias_a = rig.bias_a(axis);
+  const double coil_a = static_cast<double>(moment.coil_mean_a[axis]);
+  const double x_m = static_cast<double>(moment.actuator_m[axis]);
+  return magnet::Force(magnet, bias_a, coil_a + beside_a, x_m) -
+         magnet::Force(magnet, bias_a, coil_a, x_m);
+}
+
 std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) {
   std::vector<Term> terms;
   for (std::size_t a = 0; a < rig.axes; ++a) {
@@ -96,7 +101,7 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
     Term gain = MakeTerm({"current_gain", channel, "ratio", "1"}, tolerances.current_gain, 0.15,
                          [=](const Moment& m, double theta, Addition& add) {
                            const double x = static_cast<double>(m.actuator_m[a]);
-                           const double i = MidCoil(m, a);
+                           const double i = static_cast<double>(m.coil_mean_a[a]);
                            add.force_n[a] += magnet::Force(magnet, bias_a, (1.0 + theta) * i, x) -
                                              magnet::Force(magnet, bias_a, i, x);
                          });
@@ -117,9 +122,10 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
     terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, kAlike, 0.1,
                              [=](const Moment& m, double theta, Addition& add) {
                                const double x = static_cast<double>(m.actuator_m[a]);
+                               const double i = static_cast<double>(m.coil_mean_a[a]);
                                const double k = magnet.force_constant_n_m2_per_a2;
-                               const double towards = (bias_a + MidCoil(m, a)) / (magnet.gap_m - x);
-                               const double away = (bias_a - MidCoil(m, a)) / (magnet.gap_m + x);
+                               const double towards = (bias_a + i) / (magnet.gap_m - x);
+                               const double away = (bias_a - i) / (magnet.gap_m + x);
                                add.force_n[a] +=
                                    0.5 * theta * k * (towards * towards + away * away);
                              }));

@@ -54,15 +54,11 @@ class HalfOrderLag {
   std::array<double, kSections> weight_{}, decay_{}, mean_{}, state_{};
 };
 
-double MidCoil(const Moment& m, std::size_t a) {
-  return 0.5 * static_cast<double>(m.coil_start_a[a] + m.coil_end_a[a]);
-}
-
 Term Hysteresis(const RigView& rig, double width_share) {
   Term term = MakeTerm({"hysteresis", fmt::format("width {:.4g} i0", width_share), "share", "1"},
                        0.0, 1.0, nullptr);
   term.positive = true;
-  term.family = {{width_share}, {0.55}, {width_share}, [&rig](const Family::Shape& other) {
+  term.family = {{width_share}, {0.55}, {}, [&rig](const Family::Shape& other) {
                    return Hysteresis(rig, other[0]);
                  }};
   term.drive = [&rig, width_share, stop = std::array<double, kMaxAxes>{},
@@ -93,12 +89,13 @@ std::vector<Term> MagnetMemoryTerms(const RigView& rig) {
     eddy.step = 3e-3;
     eddy.linear = false;
     eddy.positive = true;
-    eddy.drive = [a, period_s = rig.period_s, lag = HalfOrderLag()](const Moment& m, double theta,
-                                                                    Addition& add) mutable {
+    eddy.drive = [&rig, a, period_s = rig.period_s, lag = HalfOrderLag()](
+                     const Moment& m, double theta, Addition& add) mutable {
       if (theta <= 0.0) return;
       lag.Tune(theta, period_s);
       if (m.restarted) lag = HalfOrderLag(), lag.Tune(theta, period_s);
-      add.force_n[a] += static_cast<double>(m.force_per_a[a]) * lag.Step(MidCoil(m, a));
+      const double behind_a = lag.Step(static_cast<double>(m.coil_mean_a[a]));
+      add.force_n[a] += ForceOfCurrent(rig, m, a, behind_a);
     };
     terms.push_back(std::move(eddy));
   }

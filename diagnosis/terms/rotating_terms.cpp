@@ -1,4 +1,4 @@
-// What turns with the shaft: unbalance, bow, run-out, misalignment, anisotropy, crack.
+// What turns with the shaft: unbalance, bow, run-out, misalignment, anisotropy.
 // Every harmonic is given by its cosine and sine parts, which enter linearly.
 #include <fmt/core.h>
 
@@ -107,43 +107,6 @@ void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
   }
 }
 
-/// A crack across the shaft at z: softening of the curvature there, (1 + cos)/2 of the angle
-/// between crack and weight. theta: (compliance) (E I)^2 over a reference that softens the first
-/// mode by all of its stiffness.
-void AddCrack(const RigView& rig, double z_m, std::vector<Term>& terms) {
-  constexpr double kSpanM = 5e-3;  // [m] over which the slope's change is taken
-  const auto before = rig.Slope(z_m - kSpanM);
-  const auto after = rig.Slope(z_m + kSpanM);
-  std::vector<double> curvature(rig.modes);
-  for (std::size_t i = 0; i < rig.modes; ++i) curvature[i] = after[i] - before[i];
-  const double first = rig.omega_rad_per_s[2] / curvature[2];
-  const double size = first * first;
-  const double steady[] = {1.0, 0.0, 0.0};           // NOLINT: three rows of a table
-  const char* names[] = {"mean", "cosine", "sine"};  // NOLINT
-  for (int part = 0; part < 3; ++part) {
-    terms.push_back(MakeTerm(
-        {"breathing_crack", fmt::format("z {:.0f} mm", z_m * 1e3), names[part], "1"}, 0.0, 0.1,
-        [=, mean = steady[part], modes = rig.modes, period_s = rig.period_s](
-            const Moment& m, double theta, Addition& add) {
-          if (m.speed_rad_per_s == 0.0F && part > 0) return;
-          const double angle = MidAngle(m, period_s);
-          const double open =
-              mean + (part == 1 ? std::cos(angle) : 0.0) + (part == 2 ? std::sin(angle) : 0.0);
-          double kx = 0.0;
-          double ky = 0.0;
-          for (std::size_t i = 2; i < modes; ++i) {
-            kx += curvature[i] * static_cast<double>(m.q[i]);
-            ky += curvature[i] * static_cast<double>(m.q[modes + i]);
-          }
-          const double scale = theta * size * open;
-          for (std::size_t i = 2; i < modes; ++i) {
-            add.Modal(i, scale * curvature[i] * kx);
-            add.Modal(modes + i, scale * curvature[i] * ky);
-          }
-        }));
-  }
-}
-
 /// Stiffness that turns with the shaft, as a share of every bending mode's.
 void AddStiffness(const RigView& rig, std::vector<Term>& terms) {
   for (int part = 0; part < 2; ++part) {
@@ -181,9 +144,6 @@ std::vector<Term> RotatingTerms(const RigView& rig, const Tolerances& t) {
   for (Term& term : terms) {
     term.rotating = term.effect == "unbalance" || term.effect == "misalignment";
   }
-  // A rotor given by its modes has no curvature to lose.
-  if (rig.model->config().rotor.given) return terms;
-  for (const double z_m : {0.22, 0.26, 0.34}) AddCrack(rig, z_m, terms);
   return terms;
 }
 

@@ -72,6 +72,7 @@ Term Delay(const RigView& rig, double tolerance) {
     }
   };
   term.linear = false;
+  term.moves_coil = true;
   term.step = 0.05;
   return term;
 }
@@ -80,6 +81,7 @@ Term Bandwidth(const RigView& rig, std::size_t a, double tolerance) {
   Term term = MakeTerm({"amplifier_bandwidth", rig.numbers.channels[a], "ratio", "1"}, tolerance,
                        0.3, nullptr);
   term.linear = false;
+  term.moves_coil = true;
   term.step = 0.02;
   term.drive = [loop = LoopOf(rig, a), a, of = 0.0, end = 0.0, mean = 0.0](
                    const Moment& m, double theta, Addition& add) mutable {
@@ -103,7 +105,7 @@ Term Slew(const RigView& rig, double slew_a_per_s) {
   Term term = MakeTerm({"amplifier_slew", fmt::format("{:.0f} A/s", slew_a_per_s), "share", "1"},
                        0.0, 0.7, nullptr);
   term.positive = true;
-  term.family = {{slew_a_per_s}, {0.4}, {slew_a_per_s}, [&rig](const Family::Shape& other) {
+  term.family = {{slew_a_per_s}, {0.4}, {}, [&rig](const Family::Shape& other) {
                    return Slew(rig, other[0]);
                  }};
   term.drive = [&rig, slew_a_per_s, current = std::array<double, kMaxAxes>{}](
@@ -122,7 +124,7 @@ Term Slew(const RigView& rig, double slew_a_per_s) {
       const double mean_a =
           static_cast<double>(m.command_now_a[a]) +
           static_cast<double>(m.coil_start_a[a] - m.command_now_a[a]) * loop.Mean();
-      add.force_n[a] += theta * static_cast<double>(m.force_per_a[a]) * (sum / kSteps - mean_a);
+      add.force_n[a] += theta * ForceOfCurrent(rig, m, a, sum / kSteps - mean_a);
     }
   };
   return term;

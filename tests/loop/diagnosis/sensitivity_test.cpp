@@ -128,8 +128,8 @@ TEST_F(SensitivityAway, OfAModesDampingIsTheDifferenceOfTheModel) {
 }
 
 TEST_F(Sensitivity, OfADelayIsTheDifferenceOfTheModel) {
-  // Acts through the steps of the currents, which the model takes in one piece: 4 % measured once.
-  EXPECT_LT(Disagreement("extra_delay", 0.05), 0.1);
+  // Acts through the steps of the currents, which derivatives take in one piece: 4 % measured once.
+  EXPECT_LT(Disagreement("extra_delay", 0.05), 0.06);
 }
 
 TEST_F(Sensitivity, OfWhatDoesNotDependOnOtherTermsInTheBlockIsTheSameAlone) {

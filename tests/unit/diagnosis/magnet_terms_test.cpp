@@ -23,9 +23,7 @@ double Law(double plus_a, double minus_a, double x) {
 
 class MagnetTermsTest : public ::testing::Test {
  protected:
-  [[nodiscard]] double MidCoil() const {
-    return 0.5 * static_cast<double>(moment_.coil_start_a[kAxis] + moment_.coil_end_a[kAxis]);
-  }
+  [[nodiscard]] double MidCoil() const { return static_cast<double>(moment_.coil_mean_a[kAxis]); }
   [[nodiscard]] double X() const { return static_cast<double>(moment_.actuator_m[kAxis]); }
   [[nodiscard]] double Force(const std::string& effect, const std::string& place, double theta) {
     Term term = Named(terms_, effect, place);
@@ -97,9 +95,10 @@ TEST_F(MagnetTermsTest, SaturationTakesNothingFarBelowTheKneeAndMuchAboveIt) {
   // i/(1 + (i/knee)^4)^(1/4): at the knee 2^(-1/4) of the current is left, a tenth below it all.
   Moment& m = moment_;
   m.actuator_m = {};
-  m.coil_start_a = m.coil_end_a = {};
+  m.coil_start_a = m.coil_end_a = m.coil_mean_a = {};
   const auto set = [&](double current_a) {
-    m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = static_cast<float>(current_a);
+    m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = m.coil_mean_a[kAxis] =
+        static_cast<float>(current_a);
     m.force_n[kAxis] = static_cast<float>(Law(bias_a_ + current_a, bias_a_ - current_a, 0.0));
   };
   set(bias_a_);  // all of it in one coil, 2 i0 against a knee of 1.7 i0
@@ -122,6 +121,7 @@ TEST_F(MagnetTermsTest, HysteresisOfAFullLoopTakesEnergy) {
     const double phase = 2.0 * std::numbers::pi / kSteps;
     m.coil_start_a[kAxis] = static_cast<float>(0.4 * std::sin(phase * n));
     m.coil_end_a[kAxis] = static_cast<float>(0.4 * std::sin(phase * (n + 1)));
+    m.coil_mean_a[kAxis] = 0.5F * (m.coil_start_a[kAxis] + m.coil_end_a[kAxis]);
     const double force = Added(term, m, 1.0).force_n[kAxis];
     if (n < kSteps) continue;  // the virgin curve
     loop += force * static_cast<double>(m.coil_end_a[kAxis] - m.coil_start_a[kAxis]) / 2.0;
@@ -138,16 +138,18 @@ std::complex<double> EddyResponse(double tau_s, double hz) {
   const double period = View().period_s;
   const double w = 2.0 * std::numbers::pi * hz;
   Moment m = Rest();
-  m.force_per_a[kAxis] = 1.0F;
+  const double bias = View().bias_a(kAxis);
+  const double per_a = (Law(bias + 0.1, bias - 0.1, 0.0) - Law(bias, bias, 0.0)) / 0.1;
   std::complex<double> in = 0.0;
   std::complex<double> out = 0.0;
   const int settle = static_cast<int>(std::lround(20.0 / (hz * period)));
   const int count = static_cast<int>(std::lround(40.0 / (hz * period)));
   for (int n = 0; n < settle + count; ++n) {
     const double mid = (n + 0.5) * period;
-    const double current = std::cos(w * mid);
-    m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = static_cast<float>(current);
-    const double lag = Added(term, m, std::sqrt(tau_s)).force_n[kAxis];
+    const double current = 0.1 * std::cos(w * mid);
+    m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = m.coil_mean_a[kAxis] =
+        static_cast<float>(current);
+    const double lag = Added(term, m, std::sqrt(tau_s)).force_n[kAxis] / per_a;
     if (n < settle) continue;
     const auto turn = std::polar(1.0, -w * mid);
     in += current * turn;
@@ -173,7 +175,7 @@ TEST(EddyCurrentTerm, LeavesASteadyCurrentAlone) {
   Term term = Named(EveryTerm(), "eddy_current", kChannel);
   Moment m = Rest();
   m.force_per_a[kAxis] = 1.0F;
-  m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = 1.0F;
+  m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = m.coil_mean_a[kAxis] = 1.0F;
   double lag = -1.0;
   for (int n = 0; n < 20'000; ++n) lag = Added(term, m, std::sqrt(100e-6)).force_n[kAxis];
   // A half-order lag has a tail of sqrt(tau/t): 0.7 % after 2 s.
@@ -185,7 +187,7 @@ TEST(EddyCurrentTerm, ForgetsAtAGapOfTheRecord) {
   Term fresh = used;
   Moment m = Rest();
   m.force_per_a[kAxis] = 1.0F;
-  m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = 1.0F;
+  m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = m.coil_mean_a[kAxis] = 1.0F;
   for (int n = 0; n < 10; ++n) static_cast<void>(Added(used, m, 0.01));
   m.restarted = true;
   EXPECT_EQ(Added(used, m, 0.01).force_n[kAxis], Added(fresh, m, 0.01).force_n[kAxis]);

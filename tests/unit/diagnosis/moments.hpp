@@ -40,13 +40,14 @@ inline Moment Drawn(Random& random, double speed_rad_per_s) {
   for (std::size_t a = 0; a < View().axes; ++a) {
     m.coil_start_a[a] = draw(0.5);
     m.coil_end_a[a] = m.coil_start_a[a] + draw(0.1);
+    m.coil_mean_a[a] = 0.5F * (m.coil_start_a[a] + m.coil_end_a[a]);
     m.command_before_a[a] = draw(0.5);
     m.command_now_a[a] = draw(0.5);
     m.command_next_a[a] = draw(0.5);
     m.actuator_m[a] = draw(40e-6);
     m.reading_m[a] = m.measured_m[a] = draw(40e-6);
     const magnet::Magnet& magnet = View().magnet(a).magnet;
-    const double mid_a = 0.5 * static_cast<double>(m.coil_start_a[a] + m.coil_end_a[a]);
+    const double mid_a = static_cast<double>(m.coil_mean_a[a]);
     const auto force = [&](double i, double x) {
       return magnet::Force(magnet, View().bias_a(a), i, x);
     };

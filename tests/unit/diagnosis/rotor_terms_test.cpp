@@ -203,18 +203,28 @@ TEST_F(RotorTermsTest, AnisotropyIsSoftInTheDirectionThatTurnsWithTheShaft) {
   }
 }
 
-TEST_F(RotorTermsTest, ACrackSoftensOnceOverATurnAndNeverStiffens) {
-  Moment m = Turning(0.0);
-  m.q[2] = 1e-5F;
-  const auto mean = Modal(Of("breathing_crack", "z 260 mm", "mean", m, 0.05), 2).real();
-  EXPECT_GT(mean, 0.0);  // along the deflection: the shaft's own restoring force is -w^2 q
-  const double opposite_rad = -0.5 * View().period_s * kSpeedRadPerS;
-  m.Turn(opposite_rad, kSpeedRadPerS, View().period_s);
-  EXPECT_NEAR(Modal(Of("breathing_crack", "z 260 mm", "cosine", m, 0.05), 2).real(), mean,
-              1e-6 * mean);
-  m.Turn(opposite_rad + std::numbers::pi, kSpeedRadPerS, View().period_s);
-  EXPECT_NEAR(Modal(Of("breathing_crack", "z 260 mm", "cosine", m, 0.05), 2).real(), -mean,
-              1e-6 * mean);
+TEST_F(RotorTermsTest, ACrackIsOpenBelowClosedAboveAndSoftensAcrossItselfAlone) {
+  constexpr double kDirection = 0.5 * std::numbers::pi;  // of the crack at angle zero
+  const std::complex<double> down{View().model->gravity_direction_x(),
+                                  View().model->gravity_direction_y()};
+  // The angle at the sample for which the crack points somewhere in the middle of the period.
+  const auto pointing = [&](double direction_rad, std::complex<double> sag) {
+    Moment m = Turning(direction_rad - kDirection - 0.5 * View().period_s * kSpeedRadPerS);
+    m.q[2] = static_cast<float>(sag.real());
+    m.q[modes_ + 2] = static_cast<float>(sag.imag());
+    return Modal(Of("breathing_crack", "z 228.6 mm, direction 90.0 deg", "softening", m, 0.05), 2);
+  };
+  const double below = std::arg(down);
+  const std::complex<double> sag = 1e-5 * down;
+  const double w2 = std::pow(View().omega_rad_per_s[2], 2);
+  // Open: a twentieth of the stiffness is gone along the sag, none across it.
+  EXPECT_LT(std::abs(pointing(below, sag) - 0.05 * w2 * sag), 1e-5 * w2 * std::abs(sag));
+  const std::complex<double> quarter{0.0, 1.0};
+  EXPECT_LT(std::abs(pointing(below, quarter * sag)), 1e-6 * w2 * std::abs(sag));
+  // Closed: nothing. To the side: half open, and nothing of a sag along the crack's edge.
+  EXPECT_LT(std::abs(pointing(below + std::numbers::pi, sag)), 1e-6 * w2 * std::abs(sag));
+  EXPECT_LT(std::abs(pointing(below + kDirection, quarter * sag) - 0.025 * w2 * quarter * sag),
+            1e-5 * w2 * std::abs(sag));
 }
 
 TEST_F(RotorTermsTest, AStaticLoadIsAForceOnItsAxis) {

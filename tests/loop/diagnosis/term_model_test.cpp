@@ -1,0 +1,114 @@
+// Terms against models and rigs that have the effect by themselves: on currents as noisy as a
+// controller makes them, and under an observer that does not know them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/search.hpp"
+#include "diagnosis/terms/terms.hpp"
+#include "plant_sim/effect/catalogue.hpp"
+#include "trials/campaign.hpp"
+#include "trials/trial.hpp"
+#include "trials/true_rig.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+/// A rig that is its file but for the effects given.
+trials::Mismatch Exact() {
+  return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+}
+
+std::vector<Record> Recorded(const trials::Bench& bench,
+                             const std::vector<effect::EffectConfig>& hidden) {
+  Random random(7);
+  const auto truth = trials::TrueRig(bench.rig.plant, Exact(), hidden, random);
+  trials::CampaignPlan plan;
+  plan.seed = 11;
+  plan.spinning_rpm = 3000.0;
+  plan.bits_per_axis = 1000;
+  plan.runup_s = 1.0;
+  return trials::AsRecords(
+      trials::Record(truth, bench.laws.front(), plan, trials::Outside::kNothing, 0.0, 1),
+      bench.rig.numbers);
+}
+
+class TermModel : public ::testing::Test {
+ protected:
+  [[nodiscard]] Trajectory Run(const RigView& view, const std::vector<Term>& terms,
+                               const Record& record, const std::vector<double>& theta) const {
+    const Search search(view, terms);
+    const std::vector<Record> records{record};
+    return search.Run(records, search.DesignGains(records, kSlow), theta).front();
+  }
+
+  trials::Bench bench_ = trials::LoadBench("flexible_rotor", {"flexible_rotor"});
+  RigView view_{bench_.rig.numbers, bench_.rig.plant};
+  std::vector<Term> terms_ = AllTerms(view_, Tolerances{}, 50e-6);
+};
+
+double Apart(const Trajectory& a, const Trajectory& b) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < a.moments.size(); ++n) {
+    if (!a.moments[n].counts) continue;
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      sum += std::pow(static_cast<double>(a.moments[n].innovation_m[axis]) -
+                          static_cast<double>(b.moments[n].innovation_m[axis]),
+                      2);
+    }
+  }
+  return std::sqrt(sum);
+}
+
+// With the force's slope at the undelayed current the term was a tenth of its effect off, since the
+// mean square of a noisy current is not that of its mean.
+TEST_F(TermModel, ADelayDoesWhatADelayInTheRigFileDoes) {
+  constexpr double kLate = 0.8;
+  const Record spinning = Recorded(bench_, {}).at(1);
+  plant::PlantConfig late = bench_.rig.plant;
+  late.delay_samples += kLate;
+  const RigView late_view(bench_.rig.numbers, late);
+  std::vector<double> theta(terms_.size(), 0.0);
+  const Trajectory none = Run(view_, terms_, spinning, theta);
+  const Trajectory file = Run(late_view, AllTerms(late_view, Tolerances{}, 50e-6), spinning, theta);
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (terms_[i].effect == "extra_delay") theta[i] = kLate;
+  }
+  EXPECT_LT(Apart(Run(view_, terms_, spinning, theta), file), 0.03 * Apart(none, file));
+}
+
+double Rms(const Trajectory& run, std::size_t axis) {
+  constexpr std::size_t kLast = 3000;
+  double sum = 0.0;
+  for (std::size_t n = run.moments.size() - kLast; n < run.moments.size(); ++n) {
+    sum += std::pow(static_cast<double>(run.moments[n].innovation_m[axis]), 2);
+  }
+  return std::sqrt(sum / kLast);
+}
+
+// A housing that followed the model's own position swung with the observer by 25 um.
+TEST_F(TermModel, AHeavyHousingExplainsTheRecordToItsNoise) {
+  effect::EffectConfig housing = effect::ClearEntry(effect::Id::kSupportMode);
+  constexpr double kHz = 57.5;
+  constexpr double kDamping = 0.03;
+  housing.bearing = 0;
+  housing.values[0] = 4.0;  // [kg]
+  housing.values[1] = kHz;
+  housing.values[2] = kDamping;
+  const Record spinning = Recorded(bench_, {housing}).at(1);
+  std::vector<double> theta(terms_.size(), 0.0);
+  const double noise_m = view_.bearing(0).sensor.noise_rms_m;
+  EXPECT_GT(Rms(Run(view_, terms_, spinning, theta), 0), 3.0 * noise_m);
+  const auto term = std::find_if(terms_.begin(), terms_.end(), [](const Term& t) {
+    return t.effect == "support_mode" && t.place.starts_with("de");
+  });
+  ASSERT_NE(term, terms_.end());
+  *term = term->family.member({kHz, kDamping});
+  theta[static_cast<std::size_t>(term - terms_.begin())] = 0.25;  // 1/kg
+  EXPECT_LT(Rms(Run(view_, terms_, spinning, theta), 0), 1.2 * noise_m);
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis
