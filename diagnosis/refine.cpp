@@ -8,6 +8,13 @@
 #include <utility>
 
 namespace levitas::diagnosis {
+namespace {
+
+/// Tolerances that a calibration may go from what is usual. Where an effect is large it would go to
+/// any length, up to rigs that are unstable, and a linearisation there shows nothing.
+constexpr double kReasonable = 6.0;
+
+}  // namespace
 
 double Refiner::Penalty(const std::vector<double>& theta,
                         const std::vector<Hypothesis>& causes) const {
@@ -156,10 +163,18 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
     }
     best.problem = search_.About(slopes->Sum(runs, whitener), theta);
     best.evidence = SetEvidence(best.problem, terms_, {});
-    theta = search_.Solve(best.problem, {});
+    theta = WithinReason(search_.Solve(best.problem, {}));
     ++pass;
   }
   return best;
+}
+
+std::vector<double> Refiner::WithinReason(std::vector<double> theta) const {
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    const double most = kReasonable * terms_[i].tolerance;
+    theta[i] = std::clamp(theta[i], terms_[i].usual - most, terms_[i].usual + most);
+  }
+  return theta;
 }
 
 }  // namespace levitas::diagnosis
