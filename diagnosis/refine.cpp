@@ -12,7 +12,7 @@ namespace {
 
 /// Tolerances that a calibration may go from what is usual. Where an effect is large it would go to
 /// any length, up to rigs that are unstable, and a linearisation there shows nothing.
-constexpr double kReasonable = 6.0;
+constexpr double kReasonable = 20.0;
 
 }  // namespace
 
@@ -80,8 +80,14 @@ void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
 
 Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
                      const View& view, int passes, double worth) const {
+  // What a straight line calls the foot may be worse than where the line begins.
   Refined best;
+  best.theta = view.theta;
+  best.cost = 0.5 * (view.sum.ete + Penalty(view.theta, causes));
+  best.problem = view.problem;
+  best.ok = std::isfinite(best.cost);
   Descend(view, causes, std::move(start), passes, best);
+  if (best.runs.empty()) return best.ok ? WithEvidence(std::move(best), causes) : best;
   const bool bends = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
     return std::any_of(h.terms.begin(), h.terms.end(), [this](std::size_t i) {
       const Family& family = terms_[i].family;
@@ -103,12 +109,15 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
     if (best.runs.empty()) break;  // no step helped
   }
   best.runs.clear();
-  if (!best.ok) return best;
+  return best.ok ? WithEvidence(std::move(best), causes) : best;
+}
+
+Refined Refiner::WithEvidence(Refined fit, const std::vector<Hypothesis>& causes) const {
   // What the model does, not what a straight line from it promises: that may lead where no rig is.
-  best.evidence =
-      SetEvidence(best.problem, terms_, causes) + Promised(best.problem, causes) - best.cost;
-  if (!std::isfinite(best.evidence)) best.ok = false;
-  return best;
+  fit.evidence =
+      SetEvidence(fit.problem, terms_, causes) + Promised(fit.problem, causes) - fit.cost;
+  fit.ok = std::isfinite(fit.evidence);
+  return fit;
 }
 
 double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_order) const {
