@@ -44,6 +44,9 @@ std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter
   const effect::Row& row = effect::At(hidden->id);
   const std::string place = p.name.substr(p.name.find('[') + 1);
   const auto here = [&](const effect::EffectConfig& entry) {
+    if (row.scope == effect::Scope::kBearing) {
+      return place.find(rig.bearings[entry.bearing]) != std::string::npos;
+    }
     for (std::size_t a = 0; a < rig.axes(); ++a) {
       if (entry.Acts(a) && place.find(rig.channels[a]) != std::string::npos) return true;
     }

@@ -147,7 +147,7 @@ Normal NormalAt(const std::vector<Group>& groups, const JointUnknowns& unknowns,
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(x.size(), k);
     sides.push_back({unknowns.At(x + step), unknowns.At(x - step)});
   }
-  const Eigen::MatrixXd hold = unknowns.HeldBy();
+  const Eigen::MatrixXd& hold = unknowns.HeldBy();
   const Eigen::VectorXd held = unknowns.Held(x);
   Normal normal{hold.transpose() * hold, hold.transpose() * held, held.squaredNorm()};
   for (const Group& group : groups) {

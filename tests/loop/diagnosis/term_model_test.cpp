@@ -18,7 +18,13 @@ namespace {
 
 /// A rig that is its file but for the effects given.
 trials::Mismatch Exact() {
-  return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  trials::Mismatch off;
+  off.current_gain = off.displacement_stiffness = off.amplifier_bandwidth = 0.0;
+  off.sensor_gain = off.sensor_bandwidth = off.sensor_offset_m = 0.0;
+  off.sensor_position_m = off.sensor_runout_m = off.delay_samples = 0.0;
+  off.modal_frequency = off.modal_damping = off.modal_shape = 0.0;
+  off.rotor_mass = off.gyroscopic_inertia = off.unbalance_kg_m = off.static_load_n = 0.0;
+  return off;
 }
 
 std::vector<Record> Recorded(const trials::Bench& bench,
