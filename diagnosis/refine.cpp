@@ -87,6 +87,7 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   best.problem = view.problem;
   best.ok = std::isfinite(best.cost);
   Descend(view, causes, std::move(start), passes, best);
+  if (best.runs.empty()) Descend(view, causes, search_.Solve(view.problem, causes), passes, best);
   if (best.runs.empty()) return best.ok ? WithEvidence(std::move(best), causes) : best;
   const bool bends = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
     return std::any_of(h.terms.begin(), h.terms.end(), [this](std::size_t i) {

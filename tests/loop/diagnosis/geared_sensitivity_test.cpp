@@ -179,7 +179,8 @@ TEST_F(GearedTerms, NeedTheTurnThatTheShaftsAreIn) {
   const auto power = [&](const Record& record) {
     double sum = 0.0;
     const std::vector<double> theta(terms_.size(), 0.0);
-    for (const Moment& m : search_.Run({record}, gains_, theta).front().moments) {
+    const std::vector<Trajectory> runs = search_.Run({record}, gains_, theta);
+    for (const Moment& m : runs.front().moments) {
       if (m.counts) sum += std::pow(static_cast<double>(m.innovation_m[0]), 2);
     }
     return sum;
