@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/magnet_means.hpp"
 #include "diagnosis/turns.hpp"
-#include "plant_sim/amplifier/amplifier.hpp"
 #include "plant_sim/plant/mode_step.hpp"
 #include "plant_sim/plant/time_step.hpp"
 
@@ -38,18 +38,14 @@ class Runner {
         steady_(rig.model, gains.steady),
         starter_(rig.model, gains.start),
         observer_(&steady_),
-        at_(rig.model->layout()) {
+        at_(rig.model->layout()),
+        magnets_(rig) {
     for (std::size_t i = 0; i < terms.size(); ++i) {
       if (theta[i] != 0.0) active_.push_back({terms[i], theta[i]});
     }
     for (std::size_t m = 0; m < rig.modes; ++m) {
       steps_.push_back(
           plant::MakeModeStep(rig.omega_rad_per_s[m], rig.damping_ratio[m], rig.period_s));
-    }
-    for (std::size_t a = 0; a < rig.axes; ++a) {
-      const auto amplifier =
-          amplifier::MakeStep(rig.bearing(a).amplifier.bandwidth_hz, 0.0, rig.period_s);
-      coil_mean_[a] = (1.0 - amplifier.decay) * amplifier.tau_s / amplifier.duration_s;
     }
     for (const auto& bearing : rig.model->config().bearings) {
       filters_.push_back(
@@ -103,13 +99,13 @@ class Runner {
     for (Active& a : active_) {
       if (a.term.moves_coil) a.term.drive(moment, a.theta, drive);
     }
-    Magnets(row.sample.command.bias_current_a, drive, moment);
+    magnets_.Fill(row.sample.command.bias_current_a, drive, moment);
     for (Active& a : active_) {
       if (a.term.slope) a.term.slope(moment, a.theta, moment.added);
       if (a.term.drive && !a.term.moves_coil) a.term.drive(moment, a.theta, drive);
     }
     next_reading_m_ = drive.reading_m;
-    if (!active_.empty()) Apply(moment, drive);
+    if (!active_.empty()) Apply(drive);
   }
 
  private:
@@ -170,47 +166,14 @@ class Runner {
     }
   }
 
-  /// Currents with what is added to them, and the forces they make: means over the period. A
-  /// current that follows noisy commands moves by tenths of the bias within it, and the force goes
-  /// with its square: the mean of the force is that of the two currents a deviation off the mean.
-  void Magnets(double bias_a, const Addition& add, Moment& m) {
-    for (std::size_t a = 0; a < rig_.axes; ++a) {
-      const double away_a = static_cast<double>(m.coil_start_a[a] - m.command_now_a[a]);
-      const double mean_a = static_cast<double>(m.command_now_a[a]) + away_a * coil_mean_[a];
-      const auto& magnet = rig_.magnet(a);
-      const double x_m = Sum(magnet.actuator_shape, m.q.data() + (a % 2) * rig_.modes);
-      m.actuator_m[a] = static_cast<float>(x_m);
-      const auto force_n = [&](double coil_a, double by_m) {
-        // Of a straight way from start to end.
-        const double deviation_a =
-            static_cast<double>(m.coil_end_a[a] - m.coil_start_a[a]) / std::sqrt(12.0);
-        return 0.5 * (magnet::Force(magnet.magnet, bias_a, coil_a - deviation_a, x_m + by_m) +
-                      magnet::Force(magnet.magnet, bias_a, coil_a + deviation_a, x_m + by_m));
-      };
-      const bool moved = add.coil_mean_a[a] != 0.0;
-      const double unmoved_n = moved ? force_n(mean_a, 0.0) : 0.0;
-      m.coil_end_a[a] += static_cast<float>(add.coil_end_a[a]);
-      const double coil_a = mean_a + add.coil_mean_a[a];
-      constexpr double kStepA = 1e-4;
-      constexpr double kStepM = 1e-8;
-      const double here_n = force_n(coil_a, 0.0);
-      m.coil_mean_a[a] = static_cast<float>(coil_a);
-      m.force_n[a] = static_cast<float>(here_n);
-      m.force_per_a[a] = static_cast<float>((force_n(coil_a + kStepA, 0.0) - here_n) / kStepA);
-      m.force_per_m[a] = static_cast<float>((force_n(coil_a, kStepM) - here_n) / kStepM);
-      coil_force_n_[a] = moved ? here_n - unmoved_n : 0.0;
-    }
-  }
-
-  void Apply(const Moment& m, const Addition& add) {
+  void Apply(const Addition& add) {
     const auto state = observer_->mutable_plant().mutable_state();
     std::vector<double>& acceleration = acceleration_;
     acceleration.assign(add.modal.begin(),
                         add.modal.begin() + static_cast<std::ptrdiff_t>(2 * rig_.modes));
     for (std::size_t a = 0; a < rig_.axes; ++a) {
       state[at_.coil_current + a] += add.coil_end_a[a];
-      const double force_n = add.force_n[a] + coil_force_n_[a] +
-                             static_cast<double>(m.added.force_per_a[a]) * add.coil_mean_a[a];
+      const double force_n = add.force_n[a] + magnets_.OfAddedCurrent(a);
       const auto& shape = rig_.magnet(a).actuator_shape;
       for (std::size_t i = 0; i < rig_.modes; ++i) {
         acceleration[(a % 2) * rig_.modes + i] += shape[i] * force_n;
@@ -235,6 +198,7 @@ class Runner {
   double starter_angle_rad_{0.0};  ///< total angle at which its plant stands, of geared shafts
   std::uint64_t since_start_{0};
   StateLayout at_;
+  MagnetMeans magnets_;
   std::vector<Active> active_;
   std::vector<plant::ModeStep> steps_;
   std::vector<sensor::FilterStep> filters_;
@@ -243,8 +207,6 @@ class Runner {
   std::vector<double> start_, acceleration_;
   std::vector<float> moved_;
   const Eigen::MatrixXd* gain_state_{nullptr};
-  std::array<double, kMaxAxes> coil_mean_{};     ///< mean over a period of what decays from 1
-  std::array<double, kMaxAxes> coil_force_n_{};  ///< by what terms add to the currents
 };
 
 /// A frame whose readings all repeat bit for bit did not arrive: noisy sensors do not do that.
