@@ -27,50 +27,18 @@ bool IsUnexplained(const Remainder& remainder, bool named, double explained) {
 constexpr Effort kQuick{5, 3, 3, 0, kQuickRows, true};
 constexpr Effort kThorough{10, 6, 8, 5, kMostRows, false};
 
-/// The model strays from the record by a good part of the clearance: its forces are then those of
-/// another place, and derivatives along its way grow without bound.
-bool Strays(const Inquiry& q) {
-  constexpr double kFar = 0.25;  // of the clearance
-  constexpr std::size_t kWindow = 1000;
-  const double limit_m = kFar * q.rig.bearing(0).touchdown.clearance_m;
-  if (!(limit_m > 0.0)) return false;
-  for (const Trajectory& run : q.search.Run(q.records, q.gains, q.theta)) {
-    for (std::size_t a = 0; a < q.rig.axes; ++a) {
-      for (std::size_t n = 0; n + kWindow <= run.moments.size(); n += kWindow) {
-        double sum = 0.0;
-        for (std::size_t k = n; k < n + kWindow; ++k) {
-          const double innovation_m = static_cast<double>(run.moments[k].innovation_m[a]);
-          sum += run.moments[k].settled ? innovation_m * innovation_m : 0.0;
-        }
-        if (!(sum < limit_m * limit_m * static_cast<double>(kWindow))) return true;
-      }
-    }
-  }
-  return false;
-}
-
 /// Nuisances only. A cause is looked for after that: far from the calibrated model the
 /// linearisation sees one in everything.
 void Calibrate(Inquiry& q) {
   q.Tell(0.02, "calibrating");
-  const auto calibrate = [&q] {
-    Refined fit = CalibrateNuisances(q.rig, q.search, q.terms, q.all_records, q.records, q.gains,
-                                     q.effort.calibrations);
-    q.theta = q.calibrated = fit.theta;
-    return fit;
-  };
-  Refined fit = calibrate();
-  if (!fit.ok || Strays(q)) {
-    // A faster observer holds the rotor at the record, and sees slow effects less.
-    q.speed = kFast;
-    q.gains = q.search.DesignGains(q.records, q.speed);
-    fit = calibrate();
-  }
+  const Refined fit = CalibrateNuisances(q.rig, q.search, q.terms, q.all_records, q.records,
+                                         q.gains, q.effort.calibrations);
   if (!fit.ok) {
     throw BadInput(
         "the model cannot be made to follow these records: is it this rig's file, and are the "
         "units and signs of currents and positions right?");
   }
+  q.theta = q.calibrated = fit.theta;
 }
 
 void Describe(const Inquiry& q, const Fit& fit, Answer& answer) {
@@ -118,7 +86,6 @@ Answer Conclude(Inquiry& q) {
     q.theta = q.calibrated;
     answer.runs = q.calibrated_runs;
   }
-  answer.fast_observer = q.speed.force_noise_share == kFast.force_noise_share;
   answer.theta_extended = q.theta;
   answer.theta_calibrated = q.calibrated;
   answer.remainder = Examine(q.rig, answer.runs);

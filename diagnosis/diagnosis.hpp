@@ -71,7 +71,6 @@ struct Answer {
   std::vector<double> theta_extended;    ///< with the causes
   std::vector<Trajectory> runs;          ///< of the extended model
   double evidence{};                     ///< [nat] of all causes together
-  bool fast_observer{};                  ///< the slow one could not hold the rotor at the records
   double explained{};                    ///< share of the calibrated model's excess over the noise
 };
 

@@ -14,7 +14,7 @@ Inquiry::Inquiry(const RigView& of, const std::vector<Record>& recorded, const S
       effort(spent),
       search(rig, terms, asked.only),
       records(Spans(recorded, spent.rows)),
-      gains(search.DesignGains(records, speed)),
+      gains(search.DesignGains(records, kSlow)),
       refiner(search, terms, records, gains, rig.axes),
       theta(search.Usual()) {}
 

@@ -61,7 +61,6 @@ struct Inquiry {
   Effort effort;
   Search search;
   std::vector<Record> records;  ///< that are fitted
-  ObserverSpeed speed{kSlow};
   Gains gains;
   Refiner refiner;
 

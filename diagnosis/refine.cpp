@@ -8,13 +8,6 @@
 #include <utility>
 
 namespace levitas::diagnosis {
-namespace {
-
-/// Tolerances that a calibration may go from what is usual. Where an effect is large it would go to
-/// any length, up to rigs that are unstable, and a linearisation there shows nothing.
-constexpr double kReasonable = 20.0;
-
-}  // namespace
 
 double Refiner::Penalty(const std::vector<double>& theta,
                         const std::vector<Hypothesis>& causes) const {
@@ -80,15 +73,8 @@ void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
 
 Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
                      const View& view, int passes, double worth) const {
-  // What a straight line calls the foot may be worse than where the line begins.
   Refined best;
-  best.theta = view.theta;
-  best.cost = 0.5 * (view.sum.ete + Penalty(view.theta, causes));
-  best.problem = view.problem;
-  best.ok = std::isfinite(best.cost);
   Descend(view, causes, std::move(start), passes, best);
-  if (best.runs.empty()) Descend(view, causes, search_.Solve(view.problem, causes), passes, best);
-  if (best.runs.empty()) return best.ok ? WithEvidence(std::move(best), causes) : best;
   const bool bends = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
     return std::any_of(h.terms.begin(), h.terms.end(), [this](std::size_t i) {
       const Family& family = terms_[i].family;
@@ -110,15 +96,12 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
     if (best.runs.empty()) break;  // no step helped
   }
   best.runs.clear();
-  return best.ok ? WithEvidence(std::move(best), causes) : best;
-}
-
-Refined Refiner::WithEvidence(Refined fit, const std::vector<Hypothesis>& causes) const {
+  if (!best.ok) return best;
   // What the model does, not what a straight line from it promises: that may lead where no rig is.
-  fit.evidence =
-      SetEvidence(fit.problem, terms_, causes) + Promised(fit.problem, causes) - fit.cost;
-  fit.ok = std::isfinite(fit.evidence);
-  return fit;
+  best.evidence =
+      SetEvidence(best.problem, terms_, causes) + Promised(best.problem, causes) - best.cost;
+  if (!std::isfinite(best.evidence)) best.ok = false;
+  return best;
 }
 
 double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_order) const {
@@ -173,18 +156,10 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
     }
     best.problem = search_.About(slopes->Sum(runs, whitener), theta);
     best.evidence = SetEvidence(best.problem, terms_, {});
-    theta = WithinReason(search_.Solve(best.problem, {}));
+    theta = search_.Solve(best.problem, {});
     ++pass;
   }
   return best;
-}
-
-std::vector<double> Refiner::WithinReason(std::vector<double> theta) const {
-  for (std::size_t i = 0; i < theta.size(); ++i) {
-    const double most = kReasonable * terms_[i].tolerance;
-    theta[i] = std::clamp(theta[i], terms_[i].usual - most, terms_[i].usual + most);
-  }
-  return theta;
 }
 
 }  // namespace levitas::diagnosis

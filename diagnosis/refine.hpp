@@ -54,8 +54,6 @@ class Refiner {
   /// Improves on `best` from theta on, as long as it goes.
   void Descend(const View& view, const std::vector<Hypothesis>& causes, std::vector<double> theta,
                int passes, Refined& best) const;
-  [[nodiscard]] Refined WithEvidence(Refined fit, const std::vector<Hypothesis>& causes) const;
-  [[nodiscard]] std::vector<double> WithinReason(std::vector<double> theta) const;
   /// [nat] cost at the foot of the linearisation.
   [[nodiscard]] double Promised(const LinearProblem& problem,
                                 const std::vector<Hypothesis>& causes) const;

@@ -70,7 +70,6 @@ View Search::Linearise(const std::vector<Record>& records, const Gains& gains,
 View Search::Linearise(std::vector<Trajectory> runs, const std::vector<double>& theta,
                        const Whitener& whitener, const std::vector<std::size_t>& chosen) const {
   View view;
-  view.theta = theta;
   view.runs = std::move(runs);
   view.whitener = whitener;
   view.slopes = std::make_shared<const Slopes>(rig_, view.runs, terms_, theta, chosen);

@@ -17,7 +17,6 @@ using Gains = std::vector<ObserverPair>;
 
 /// One linearisation, on the records it was made with.
 struct View {
-  std::vector<double> theta;  ///< about which
   std::vector<Trajectory> runs;
   Whitener whitener;
   std::shared_ptr<const Slopes> slopes;

@@ -48,9 +48,7 @@ CauseSet BestOfScreen(Inquiry& q, const std::vector<Candidate>& screened, double
   CauseSet best;
   q.refitted.clear();
   for (std::size_t i = 0; i < std::min(screened.size(), q.effort.shortlist); ++i) {
-    // As long as none keeps what the screen promised, the next one may.
-    const bool kept = best.fit.ok && best.fit.evidence - null > enough;
-    if (i > 0 && screened[i].score < (kept ? std::max(from, enough) : enough)) break;
+    if (i > 0 && screened[i].score < std::max(from, enough)) break;
     q.Tell(share + 0.02 * static_cast<double>(i), "refitting " + screened[i].effect);
     std::vector<Hypothesis> causes = q.causes;
     causes.push_back(q.search.hypotheses()[screened[i].hypothesis]);

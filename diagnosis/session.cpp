@@ -57,7 +57,7 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdo
     noise_rms_m.push_back(channel.noise_rms_m);
   }
   const auto run = [&](const std::vector<Record>& records) {
-    const Gains gains = search.DesignGains(records, out.answer.fast_observer ? kFast : kSlow);
+    const Gains gains = search.DesignGains(records, kSlow);
     return ModelRuns{search.Run(records, gains, nothing),
                      search.Run(records, gains, out.answer.theta_calibrated),
                      search.Run(records, gains, out.answer.theta_extended)};
