@@ -9,11 +9,13 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// Of the shape along the whole shaft: a mode with a node beside a bearing is no better known there.
 double Rms(const RigView& rig, std::size_t mode) {
-  const auto& shapes = rig.model->parameters().modes.shapes;
-  return shapes.col(static_cast<Eigen::Index>(mode)).norm() /
-         std::sqrt(static_cast<double>(shapes.rows()));
+  double sum = 0.0;
+  for (const auto& b : rig.model->bearings()) {
+    sum += b.actuator_shape[mode] * b.actuator_shape[mode] +
+           b.sensor_shape[mode] * b.sensor_shape[mode];
+  }
+  return std::sqrt(sum / static_cast<double>(rig.axes));
 }
 
 void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vector<Term>& terms) {
