@@ -226,6 +226,7 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   bench->require_subcommand(1);
   AddBenchIdentification(*bench, action);
   AddBenchFullSpectrum(*bench, action);
+  AddBenchPump(*bench, action);
   command->footer(kHelp);
   command->add_option("--rig", options->rig, "Nominal rig");
   command->add_option("--controller", options->controllers,

@@ -6,8 +6,9 @@
 namespace levitas::cli {
 
 void AddIdentifyFullSpectrum(CLI::App& identify, Action& action);
-/// Of `amb bench`: identification and full-spectrum.
+/// Of `amb bench`: identification, full-spectrum and pump.
 void AddBenchIdentification(CLI::App& bench, Action& action);
 void AddBenchFullSpectrum(CLI::App& bench, Action& action);
+void AddBenchPump(CLI::App& bench, Action& action);
 
 }  // namespace levitas::cli

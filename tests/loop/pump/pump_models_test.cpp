@@ -1,202 +1,96 @@
-// Models of the levitated pump from records of its closed loop, under the excitation of H.-L. Chiu
-// (2022), Appl. Sci. 12, 8556: how well they run free, nothing measured in them, the known
-// controllers closing their loop.
+// Models of the levitated pump from a record of its closed loop, magnets saturating and sensors
+// curved, under the excitation of H.-L. Chiu (2022), Appl. Sci. 12, 8556: how well they run free,
+// nothing measured in them, the known controllers closing their loop. No setting was chosen on the
+// seeds used here.
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
 
-#include "controller/law/axis_law.hpp"
-#include "identification/nonlinear/hammerstein_wiener.hpp"
-#include "identification/nonlinear/narx.hpp"
-#include "tests/support/shipped_loop.hpp"
+#include "trials/identification/pump_trial.hpp"
 
 namespace levitas::test {
 namespace {
 
-using identification::Series;
-
 constexpr Eigen::Index kAxes = 4;
-constexpr Eigen::Index kTrain = 40'000;     // 2 s
-constexpr Eigen::Index kWarm = 1000;        // free running already, not judged
-constexpr Eigen::Index kValidation = 4000;  // 0.2 s, as in the paper
-
-struct Campaign {
-  Series series;               ///< currents that were commanded in, readings out
-  Eigen::MatrixXd excitation;  ///< [m] added to what the law reads
-};
-
-Campaign Record(ShippedLoop& loop) {
-  Campaign campaign;
-  campaign.series.period_s = loop.rig.numbers.period_s();
-  campaign.series.input.resize(80'000, kAxes);
-  campaign.series.output.resize(80'000, kAxes);
-  campaign.excitation.resize(80'000, kAxes);
-  Eigen::Index row = 0;
-  EXPECT_EQ(loop.Play(20261121, 10.0,
-                      [&](const cycle::CycleRecord& record) {
-                        if (record.in.op.excitation_m[0] == 0.0 || row == 80'000) return;
-                        for (Eigen::Index i = 0; i < kAxes; ++i) {
-                          const auto at = static_cast<std::size_t>(i);
-                          campaign.series.input(row, i) = record.out.current.control_current_a[at];
-                          campaign.series.output(row, i) = record.in.frame.position_m[at];
-                          campaign.excitation(row, i) = record.in.op.excitation_m[at];
-                        }
-                        ++row;
-                      }),
-            "");
-  EXPECT_EQ(row, 80'000);
-  return campaign;
-}
-
-/// The known controllers, from readings to currents, as they were when the free run begins.
-class KnownControllers {
- public:
-  KnownControllers(const ShippedLoop& loop, const Campaign& campaign, Eigen::Index begin)
-      : campaign_(campaign), coefficients_(AtPeriod(loop)), state_(coefficients_), begin_(begin) {
-    Eigen::VectorXd current_a(kAxes);
-    for (Eigen::Index row = -2000; row < 0; ++row) {
-      (*this)(row, campaign.series.output.row(begin + row).transpose(), current_a);
-    }
-  }
-
-  void operator()(Eigen::Index row, const Eigen::VectorXd& y_m, Eigen::VectorXd& current_a) {
-    AxisArray error_m{};
-    for (Eigen::Index i = 0; i < kAxes; ++i) {
-      error_m[static_cast<std::size_t>(i)] = -(y_m[i] + campaign_.excitation(begin_ + row, i));
-    }
-    constexpr double kLimit_a = 1.5;  // the bias
-    const law::LawOutput out = law::Step(coefficients_, state_, error_m, {}, kLimit_a);
-    for (Eigen::Index i = 0; i < kAxes; ++i) {
-      current_a[i] = out.control_current_a[static_cast<std::size_t>(i)];
-    }
-  }
-
- private:
-  static law::LawConfig AtPeriod(const ShippedLoop& loop) {
-    law::LawConfig law = loop.controller.law;
-    law.period_s = loop.rig.numbers.period_s();
-    return law;
-  }
-
-  const Campaign& campaign_;
-  law::LawCoefficients coefficients_;
-  law::LawState state_;
-  Eigen::Index begin_;
-};
-
-/// Free run of a model of lags: outputs are its own, inputs those of the controllers.
-Eigen::MatrixXd RunFree(const identification::LaggedModel& model, const Series& series,
-                        KnownControllers& controllers) {
-  Eigen::MatrixXd input = series.input.array().rowwise() / model.input_scale.transpose().array();
-  Eigen::MatrixXd output = series.output.array().rowwise() / model.output_scale.transpose().array();
-  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(series.rows(), kAxes);
-  Eigen::VectorXd window(model.layout.size());
-  Eigen::VectorXd current_a(kAxes);
-  for (Eigen::Index k = 0; k < series.rows(); ++k) {
-    if (k >= model.layout.Memory()) {
-      FillWindow(model, input, output, none, k, window);
-      for (Eigen::Index i = 0; i < kAxes; ++i) {
-        const auto& features = model.features[static_cast<std::size_t>(i)];
-        double sum = 0.0;
-        for (std::size_t f = 0; f < features.size(); ++f) {
-          sum += model.theta[static_cast<std::size_t>(i)][static_cast<Eigen::Index>(f)] *
-                 features[f].Value(window);
-        }
-        output(k, i) = std::clamp(sum, -1000.0, 1000.0);
-      }
-    }
-    controllers(k, (output.row(k).transpose().array() * model.output_scale.array()).matrix(),
-                current_a);
-    input.row(k) = (current_a.array() / model.input_scale.array()).matrix().transpose();
-  }
-  return output.array().rowwise() * model.output_scale.transpose().array();
-}
 
 class PumpModels : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    loop_ = std::make_unique<ShippedLoop>("turbomolecular_pump", "turbomolecular_pump_identify");
-    campaign_ = std::make_unique<Campaign>(Record(*loop_));
+    trial_ = std::make_unique<trials::PumpTrial>(trials::PumpPlan{.knee_a = 3.0,
+                                                                  .a2_1_per_m = 1000.0,
+                                                                  .a3_1_per_m2 = 1e7,
+                                                                  .noise_seed = 20270401,
+                                                                  .excitation_seed = 401});
+    ceiling_ = trial_->Ceiling();
   }
-  static void TearDownTestSuite() {
-    campaign_.reset();
-    loop_.reset();
-  }
+  static void TearDownTestSuite() { trial_.reset(); }
 
-  static Series Train() { return identification::Slice(campaign_->series, {0, kTrain}); }
-  static Series Judge() {
-    return identification::Slice(campaign_->series, {kTrain, kTrain + kWarm + kValidation});
-  }
-  static KnownControllers Controllers() { return {*loop_, *campaign_, kTrain}; }
-
-  /// Fit of the rows that judge, per axis; written into the test's record.
-  static Eigen::VectorXd Fit(const std::string& name, const Eigen::MatrixXd& predicted) {
-    Eigen::VectorXd fit = identification::FitPercent(Judge().output, predicted, kWarm);
-    for (Eigen::Index i = 0; i < kAxes; ++i) {
+  /// The fits, per axis; written into the test's record.
+  static void Keep(const std::string& name, const Eigen::VectorXd& fit) {
+    for (Eigen::Index i = 0; i < fit.size(); ++i) {
       RecordProperty(name + "_" + std::to_string(i), std::to_string(fit[i]));
     }
-    return fit;
   }
 
-  /// What noise alone leaves of a fit: 0.2 um on every reading.
-  static Eigen::VectorXd Ceiling() {
-    const Eigen::MatrixXd judged = Judge().output.bottomRows(kValidation);
-    Eigen::VectorXd ceiling(kAxes);
-    for (Eigen::Index i = 0; i < kAxes; ++i) {
-      const double mean = judged.col(i).mean();
-      const double spread = std::sqrt((judged.col(i).array() - mean).square().mean());
-      ceiling[i] = 100.0 * (1.0 - 0.2e-6 / spread);
-      RecordProperty("ceiling_" + std::to_string(i), std::to_string(ceiling[i]));
-    }
-    return ceiling;
-  }
-
-  static std::unique_ptr<ShippedLoop> loop_;
-  static std::unique_ptr<Campaign> campaign_;
+  static std::unique_ptr<trials::PumpTrial> trial_;
+  static Eigen::VectorXd ceiling_;
 };
-std::unique_ptr<ShippedLoop> PumpModels::loop_;
-std::unique_ptr<Campaign> PumpModels::campaign_;
+std::unique_ptr<trials::PumpTrial> PumpModels::trial_;
+Eigen::VectorXd PumpModels::ceiling_;
 
-TEST_F(PumpModels, HammersteinWienerRunsFreeInTheLoopOfTheKnownControllersNearTheNoise) {
-  identification::HammersteinWienerOptions options;
-  options.bandwidth_hz = 600.0;  // of the memory: about the bending mode
-  const auto fit = identification::FitHammersteinWiener(Train(), options);
-  KnownControllers controllers = Controllers();
-  const auto free = SimulateFreeRun(
-      fit.model, Judge(), [&](Eigen::Index row, const Eigen::VectorXd& y, Eigen::VectorXd& u) {
-        controllers(row, y, u);
-      });
-  EXPECT_FALSE(free.diverged_at.has_value());
-  const Eigen::VectorXd freely = Fit("hammerstein_wiener_free", free.output);
-  const Eigen::VectorXd ceiling = Ceiling();
-  // The paper's own figure, on its own rig, is 93.25 %: a goal, not a bound of this one.
-  EXPECT_GT(freely.mean(), 93.25);
+// The noise of the readings moves the rotor too: by how much, a second record tells without any
+// model. What both records share is the simulator's answer, each has noise of its own: squares add.
+TEST_F(PumpModels, CeilingIsThatOfTwoRecordsWithNoiseOfTheirOwn) {
+  const Eigen::VectorXd repeated = trial_->Repeated(20270402);
+  const Eigen::VectorXd readings = trial_->CeilingOfReadings();
   for (Eigen::Index i = 0; i < kAxes; ++i) {
-    EXPECT_GT(freely[i], 90.0) << i;
-    EXPECT_LT(freely[i], ceiling[i]) << i;  // better than the noise would be looking ahead
+    const double noise = 100.0 - ceiling_[i];
+    // White noise of the readings, most of it, is known to 1 % from 4000 rows; the share that the
+    // loop shapes, a tenth, from its slowest mode's few periods to some ten times that.
+    EXPECT_NEAR((100.0 - repeated[i]) / std::sqrt(2.0), noise, 0.1 * noise) << i;
+    EXPECT_LT(ceiling_[i], readings[i]) << i;
   }
+  Keep("ceiling_readings", readings);
+  Keep("ceiling", ceiling_);
+}
+
+TEST_F(PumpModels, ASuspendedRotorRunsFreeWithinTwoTenthsOfAPointOfTheCeiling) {
+  const auto score = trial_->SuspendedRotor();
+  Keep("suspended_rotor_free", score.free_run);
+  for (Eigen::Index i = 0; i < kAxes; ++i) {
+    EXPECT_GT(score.free_run[i], ceiling_[i] - 0.2) << i;
+    // By chance a model may share a little of what the noise did in 0.2 s, no more.
+    EXPECT_LT(score.free_run[i], ceiling_[i] + 0.2) << i;
+  }
+}
+
+// What the curve of the iron is for: without it the same model stays further below.
+TEST_F(PumpModels, WithStraightIronItStaysFurtherBelow) {
+  const auto score = trial_->SuspendedRotor(0);
+  Keep("straight_iron_free", score.free_run);
+  EXPECT_LT(score.free_run.mean(), ceiling_.mean() - 0.2);
+}
+
+TEST_F(PumpModels, HammersteinWienerByRecursionRunsFreeInTheLoop) {
+  const auto score = trial_->HammersteinWiener();
+  Keep("hammerstein_wiener_one_step", score.one_step);
+  Keep("hammerstein_wiener_free", score.free_run);
+  // The paper's own figure, on its own rig, is 93.25 %: a goal, not a bound of this one.
+  EXPECT_GT(score.free_run.mean(), 93.25);
+  for (Eigen::Index i = 0; i < kAxes; ++i) EXPECT_LT(score.free_run[i], ceiling_[i] + 0.2) << i;
 }
 
 // Lags of 50 us of noisy readings: one step ahead they say nearly all, by themselves nearly
 // nothing.
 TEST_F(PumpModels, OfLagsPredictOneStepAndDoNotRunFree) {
-  for (const bool noise_model : {false, true}) {
-    identification::NarxOptions options;
-    options.layout = {kAxes, kAxes, 4, 4, 1, noise_model ? 3 : 0};
-    options.degree = 2;
-    options.most_terms = noise_model ? 14 : 200;
-    options.network_units = noise_model ? 0 : 10;
-    const auto fit = identification::FitNarx(Train(), options);
-    KnownControllers controllers = Controllers();
-    const std::string name = noise_model ? "narmax" : "narx";
-    const auto ahead = Fit(name + "_one_step", PredictOneStep(fit.model, Judge()).output);
-    const auto freely = Fit(name + "_free", RunFree(fit.model, Judge(), controllers));
-    EXPECT_GT(ahead.minCoeff(), 90.0) << name;
-    EXPECT_LT(freely.maxCoeff(), 50.0) << name;
+  for (const auto& score : {trial_->Narx(), trial_->Narmax()}) {
+    Keep(score.model + "_one_step", score.one_step);
+    Keep(score.model + "_free", score.free_run);
+    EXPECT_GT(score.one_step.minCoeff(), 90.0) << score.model;
+    EXPECT_TRUE(score.diverged || score.free_run.maxCoeff() < 50.0) << score.model;
   }
 }
 

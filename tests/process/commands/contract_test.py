@@ -45,7 +45,7 @@ MISSING = {
 }
 # Look for no file that a user names; the nonlinear fits take theirs with more options.
 NO_FILE = {"dash", "doctor", "effects", "sessions", "sessions add", "manual", "identify", "bench",
-           "bench diagnosis", "bench identification", "bench full-spectrum",
+           "bench diagnosis", "bench identification", "bench full-spectrum", "bench pump",
            "identify hammerstein-wiener", "identify narx", "identify narmax", "identify grey-box"}
 
 

@@ -1,0 +1,87 @@
+#pragma once
+// The levitated pump under the excitation of H.-L. Chiu (2022), Appl. Sci. 12, 8556, recorded in
+// the simulator, and how well the models of identification/nonlinear predict it.
+//
+// Judged    the `kJudged` rows that lie `kBetween` rows behind the fitted ones. Free runs begin at
+//           the first excited row, from rest, and see nothing but the excitation: by the rows that
+//           judge they have forgotten how they began.
+// Ceiling   what no model can exceed: fit of the simulator itself, same excitation, its noise off.
+//           The noise of the readings also passes the controllers and moves the rotor, so this is
+//           less than the noise of the readings alone would leave. Rounding of the readings stays.
+// Failure   std::runtime_error when the scenario does not play to its end. Thread any.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "config/rig_file.hpp"
+#include "controller/scenario/scenario_config.hpp"
+#include "identification/nonlinear/hammerstein_wiener.hpp"
+
+namespace levitas::trials {
+
+struct PumpPlan {
+  double knee_a{};          ///< of the magnets' iron; 0: straight
+  double knee_exponent{4};  ///< sharpness of the bend
+  double a2_1_per_m{};      ///< of the sensors' characteristic, alternating in sign by axis
+  double a3_1_per_m2{};
+  double amplitude{1.0};  ///< of the shipped excitation
+  Eigen::Index fitted{40'000};
+  std::uint64_t noise_seed{1};
+  std::uint64_t excitation_seed{0};  ///< added to those of the scenario
+};
+
+/// What one model makes of the rows that judge, fit in % per axis.
+struct PumpScore {
+  std::string model;
+  Eigen::VectorXd one_step;  ///< empty: it does not predict from readings
+  Eigen::VectorXd free_run;
+  double time_s{};  ///< of the fit
+  bool diverged{};  ///< the free run left all bounds: its fit says nothing
+};
+
+/// Known of the sensor of an axis.
+[[nodiscard]] identification::SensorCharacteristic CharacteristicOf(const PumpPlan& plan,
+                                                                    std::size_t axis);
+
+class PumpTrial {
+ public:
+  static constexpr Eigen::Index kBetween = 1000;
+  static constexpr Eigen::Index kJudged = 4000;  ///< 0.2 s, as in the paper
+
+  explicit PumpTrial(const PumpPlan& plan);
+
+  [[nodiscard]] const identification::Series& series() const noexcept { return record_.series; }
+  [[nodiscard]] Eigen::VectorXd deviation_m() const;  ///< of the judged readings
+
+  /// Fit in % per axis of what is given for all rows, on those that judge.
+  [[nodiscard]] Eigen::VectorXd Fit(const Eigen::MatrixXd& predicted) const;
+
+  [[nodiscard]] Eigen::VectorXd CeilingOfReadings() const;  ///< the sensors' noise alone
+  [[nodiscard]] Eigen::VectorXd Ceiling() const;            ///< and what it does in the loop
+  /// Another record with other noise, as a prediction of this one.
+  [[nodiscard]] Eigen::VectorXd Repeated(std::uint64_t noise_seed) const;
+
+  /// `iron`: coefficients of the magnets' curve.
+  [[nodiscard]] PumpScore SuspendedRotor(Eigen::Index iron = 3) const;
+  [[nodiscard]] PumpScore HammersteinWiener() const;
+  [[nodiscard]] PumpScore Narx() const;
+  [[nodiscard]] PumpScore Narmax() const;
+
+ private:
+  struct PumpRecord {
+    identification::Series series;  ///< commanded currents in, readings out
+    Eigen::MatrixXd excitation_m;
+  };
+  [[nodiscard]] PumpRecord Record(bool noise, std::uint64_t seed) const;
+  [[nodiscard]] identification::Series Fitted() const;
+
+  PumpPlan plan_;
+  config::RigFile nominal_, rig_;
+  config::ControllerFile controller_;
+  scenario::ScenarioConfig scenario_;
+  PumpRecord record_;
+};
+
+}  // namespace levitas::trials
