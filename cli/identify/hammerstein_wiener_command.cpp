@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/identify/identify_commands.hpp"
+#include "cli/identify/sensor_options.hpp"
 #include "cli/identify/series_options.hpp"
 #include "cli/json_file.hpp"
 #include "identification/nonlinear/hammerstein_wiener.hpp"
@@ -27,24 +28,8 @@ constexpr const char* kHelp =
 
 struct CommandOptions : SeriesOptions {
   HammersteinWienerOptions model;
-  std::vector<double> sensor_a2, sensor_a3;
+  SensorOptions sensors;
 };
-
-void SetSensors(const CommandOptions& given, Eigen::Index outputs, HammersteinWienerOptions& to) {
-  if (given.sensor_a2.empty() && given.sensor_a3.empty()) return;
-  to.sensors.resize(static_cast<std::size_t>(outputs));
-  for (const auto* values : {&given.sensor_a2, &given.sensor_a3}) {
-    if (values->empty()) continue;
-    if (values->size() != to.sensors.size()) {
-      throw Problem(ExitStatus::kUsage,
-                    fmt::format("sensor characteristic: {} numbers for {} outputs", values->size(),
-                                to.sensors.size()));
-    }
-    for (std::size_t i = 0; i < values->size(); ++i) {
-      (values == &given.sensor_a2 ? to.sensors[i].a2 : to.sensors[i].a3) = (*values)[i];
-    }
-  }
-}
 
 void PrintModel(const Series& all, const HammersteinWienerFit& fit) {
   fmt::print("{:<28}{:>12}   {}\n", "input", "scale", "curve h(u/scale), share it explains");
@@ -72,7 +57,7 @@ nlohmann::ordered_json CurvesJson(const HammersteinWienerModel& model) {
 ExitStatus Run(const CommandOptions& given) {
   const Series all = LoadSeries(given);
   HammersteinWienerOptions options = given.model;
-  SetSensors(given, all.outputs(), options);
+  options.sensors = SensorsOf(given.sensors, all.outputs());
   const Series train = Slice(all, ParseRange(given.train, static_cast<std::size_t>(all.rows())));
   const auto began = std::chrono::steady_clock::now();
   const HammersteinWienerFit fit = FitHammersteinWiener(train, options);
@@ -125,10 +110,7 @@ void AddIdentifyHammersteinWiener(CLI::App& identify, Action& action) {
   command->add_option("--passes", model.most_passes, "Over the data, at most")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command->add_option("--sensor-a2", options->sensor_a2, "Known characteristic, per output")
-      ->delimiter(',');
-  command->add_option("--sensor-a3", options->sensor_a3, "Known characteristic, per output")
-      ->delimiter(',');
+  AddSensorOptions(*command, options->sensors);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }
 

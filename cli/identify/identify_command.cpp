@@ -21,6 +21,7 @@ void AddIdentifyCommand(CLI::App& app, Action& action) {
   AddIdentifyHammersteinWiener(*identify, action);
   AddIdentifyNarx(*identify, action);
   AddIdentifyGreyBox(*identify, action);
+  AddIdentifyRotorInLoop(*identify, action);
 }
 
 }  // namespace levitas::cli

@@ -11,5 +11,6 @@ void AddIdentifyHammersteinWiener(CLI::App& identify, Action& action);
 /// Two of them: narx and narmax.
 void AddIdentifyNarx(CLI::App& identify, Action& action);
 void AddIdentifyGreyBox(CLI::App& identify, Action& action);
+void AddIdentifyRotorInLoop(CLI::App& identify, Action& action);
 
 }  // namespace levitas::cli

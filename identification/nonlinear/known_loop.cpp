@@ -19,19 +19,23 @@ double Limit(const law::LawConfig& law, const RigNumbers& rig) {
 
 }  // namespace
 
-KnownLoop::KnownLoop(const law::LawConfig& law, const RigNumbers& rig, Eigen::MatrixXd excitation_m)
+KnownLoop::KnownLoop(const law::LawConfig& law, const RigNumbers& rig, LoopExcitation excitation)
     : coefficients_(AtPeriod(law, rig.period_s())),
       limit_a_(Limit(law, rig)),
-      excitation_m_(std::move(excitation_m)) {}
+      excitation_(std::move(excitation)) {}
 
 Feedback KnownLoop::AtRest() const {
   return [this, state = std::make_shared<law::LawState>(coefficients_)](
              Eigen::Index row, const Eigen::VectorXd& y_m, Eigen::VectorXd& current_a) {
     AxisArray error_m{};
+    AxisArray added_a{};
     for (Eigen::Index i = 0; i < y_m.size(); ++i) {
-      error_m[static_cast<std::size_t>(i)] = -(y_m[i] + excitation_m_(row, i));
+      const auto at = static_cast<std::size_t>(i);
+      const bool displaced = excitation_.position_m.rows() > 0;
+      error_m[at] = -(displaced ? y_m[i] + excitation_.position_m(row, i) : y_m[i]);
+      if (excitation_.current_a.rows() > 0) added_a[at] = excitation_.current_a(row, i);
     }
-    const law::LawOutput out = law::Step(coefficients_, *state, error_m, {}, limit_a_);
+    const law::LawOutput out = law::Step(coefficients_, *state, error_m, added_a, limit_a_);
     for (Eigen::Index i = 0; i < y_m.size(); ++i) {
       current_a[i] = out.control_current_a[static_cast<std::size_t>(i)];
     }

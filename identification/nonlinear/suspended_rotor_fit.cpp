@@ -181,7 +181,9 @@ SuspendedRotorFit FitSuspendedRotor(const SuspendedRotor& start, const Series& s
   }
   const SuspendedRotor from = forces.model();
   FreeRunFit all(from, series, at_rest, options.skip, Free::kAll);
-  RefuseUnfit(series, static_cast<std::size_t>(all.unknowns()));
+  const RowRange judged{static_cast<std::size_t>(options.skip),
+                        static_cast<std::size_t>(series.rows())};
+  RefuseUnfit(Slice(series, judged), static_cast<std::size_t>(all.unknowns()));
   SuspendedRotorFit fit{start, all.rms_m(), 0.0, all.unknowns(), 0};
   if (!all.runs()) {
     throw BadInput("the model that fits the first rows does not run free through all of them");

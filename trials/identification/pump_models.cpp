@@ -66,7 +66,7 @@ identification::Series PumpTrial::Fitted() const {
 }
 
 PumpScore PumpTrial::SuspendedRotor(Index iron) const {
-  const KnownLoop loop(controller_.law, rig_.numbers, record_.excitation_m);
+  const KnownLoop loop(controller_.law, rig_.numbers, {record_.excitation_m, {}});
   const Clock clock;
   auto start = DesignOf(plant::Reduce(nominal_.plant), iron);
   for (std::size_t axis = 0; axis < start.sensor.size(); ++axis) {
@@ -80,7 +80,7 @@ PumpScore PumpTrial::SuspendedRotor(Index iron) const {
 
 PumpScore PumpTrial::HammersteinWiener() const {
   constexpr double kMemory_hz = 400.0;  // above the rigid modes, below the bending mode
-  const KnownLoop loop(controller_.law, rig_.numbers, record_.excitation_m);
+  const KnownLoop loop(controller_.law, rig_.numbers, {record_.excitation_m, {}});
   HammersteinWienerOptions options;
   options.bandwidth_hz = kMemory_hz;
   for (std::size_t axis = 0; axis < rig_.numbers.axes(); ++axis) {
@@ -94,7 +94,7 @@ PumpScore PumpTrial::HammersteinWiener() const {
 }
 
 PumpScore PumpTrial::Narx() const {
-  const KnownLoop loop(controller_.law, rig_.numbers, record_.excitation_m);
+  const KnownLoop loop(controller_.law, rig_.numbers, {record_.excitation_m, {}});
   const auto axes = static_cast<Index>(rig_.numbers.axes());
   NarxOptions options{.layout = {axes, axes, 4, 4, 1, 0}, .degree = 2, .most_terms = 200};
   options.network_units = 10;
@@ -104,7 +104,7 @@ PumpScore PumpTrial::Narx() const {
 }
 
 PumpScore PumpTrial::Narmax() const {
-  const KnownLoop loop(controller_.law, rig_.numbers, record_.excitation_m);
+  const KnownLoop loop(controller_.law, rig_.numbers, {record_.excitation_m, {}});
   const auto axes = static_cast<Index>(rig_.numbers.axes());
   const NarxOptions options{.layout = {axes, axes, 4, 4, 1, 3}, .degree = 2, .most_terms = 14};
   const Clock clock;

@@ -41,7 +41,9 @@ MISSING = {
     "report": (ABSENT, "--out", "x.html"), "sessions tag": (ABSENT, "one"),
     "sessions forget": (ABSENT,), "simulate": (ABSENT,),
     "identify frf": (ABSENT,), "identify modal": (ABSENT,),
-    "identify full-spectrum": (ABSENT,), "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
+    "identify full-spectrum": (ABSENT,),
+    "identify rotor-in-loop": (ABSENT, "--rig", "turbomolecular_pump"),
+    "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }
 # Look for no file that a user names; the nonlinear fits take theirs with more options.
 NO_FILE = {"dash", "doctor", "effects", "sessions", "sessions add", "manual", "identify", "bench",

@@ -10,6 +10,7 @@ from pathlib import Path
 from command import BAD_INPUT, DONE, SHIPPED_RIG, CommandTest, amb, edited
 
 KI_N_PER_A = 46.0  # where the file has 40
+PUMP_RIG = SHIPPED_RIG.with_name("turbomolecular_pump.yaml")
 AXES = ("de_x", "nde_x", "de_y", "nde_y")
 # Four periods of 2 x 1023 samples on each axis: a quarter of the shipped campaign, standing only.
 CAMPAIGN = """kind: scenario
@@ -131,6 +132,50 @@ steps:
             self.assertEqual(done.returncode, BAD_INPUT)
             self.assertIn("no excitation in the record", done.stderr)
             self.assertFalse(Path(self.folder / "no.json").exists())
+
+    def test_a_pump_of_other_magnets_and_sensors_runs_free_in_its_known_loop(self):
+        worn = edited(PUMP_RIG, ("ki_n_per_a: 104.4", "ki_n_per_a: 98"))
+        worn += """
+effects:
+  - {id: magnetic_saturation, knee_a: 3, exponent: 4}
+  - {id: sensor_nonlinearity, channels: [ux, uy, lx, ly], a2_1_per_m: 1000, a3_1_per_m2: 1e7}
+"""
+        self.write("worn.yaml", worn)
+        done = self.run_amb("run", "--rig", "worn.yaml", "--controller", "turbomolecular_pump",
+                            "--scenario", "turbomolecular_pump_identify", "--record", "p.lcm")
+        self.assertTrue((self.folder / "p.lcm").exists(), done.stderr)
+        arguments = ("identify", "rotor-in-loop", "p.lcm", "--rig", "turbomolecular_pump",
+                     "--sensor-a2", "1000,1000,1000,1000", "--sensor-a3", "1e7,1e7,1e7,1e7")
+        done = self.run_amb(*arguments, "--fitted", "30000", "--json", "rotor.json")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        found = json.loads((self.folder / "rotor.json").read_text())
+        for axis, rms_m in enumerate(found["test"]["rms_m"]):
+            # 0.2 um of noise on the readings, and up to half as much that it does in the loop.
+            self.assertGreater(rms_m, 0.2e-6, axis)
+            self.assertLess(rms_m, 0.3e-6, axis)
+        for mode in found["modes"]:
+            self.assertAlmostEqual(mode["frequency_hz"], 561, delta=1)
+        done = self.run_amb(*arguments, "--fitted", "5100")
+        self.assertEqual(done.returncode, BAD_INPUT)
+        self.assertIn("100 rows for 46 unknowns", done.stderr)
+
+    def test_a_rotor_that_turns_is_refused(self):
+        self.write("turning.yaml", """kind: scenario
+name: turning
+steps:
+  - {do: lift, until: levitating, timeout_s: 5}
+  - {do: spin, speed_rpm: 600, acceleration_rpm_per_s: 5000, until: speed_reached, timeout_s: 5}
+  - do: nothing
+    hold_s: 0.3
+    excitation:
+      - {channel: ux, signal: paprbs, point: measured_position, amplitude_um: 10, order: 15, divisor: 10}
+  - {do: land, until: 'off', timeout_s: 5}
+""")
+        self.run_amb("run", "--rig", "turbomolecular_pump", "--scenario", "turning.yaml",
+                     "--record", "t.lcm")
+        done = self.run_amb("identify", "rotor-in-loop", "t.lcm", "--rig", "turbomolecular_pump")
+        self.assertEqual(done.returncode, BAD_INPUT)
+        self.assertIn("needed is a record of its standstill", done.stderr)
 
 
 if __name__ == "__main__":
