@@ -10,6 +10,7 @@
 #include "cli/analysis_options.hpp"
 #include "cli/identify/geared_commands.hpp"
 #include "cli/json_file.hpp"
+#include "cli/text_file.hpp"
 #include "trials/identification/pump_trial.hpp"
 
 namespace levitas::cli {
@@ -36,8 +37,30 @@ constexpr std::array<Published, 3> kPublished{{{"Hammerstein-Wiener", {92.11, 93
 struct PumpOptions {
   trials::PumpPlan plan{.knee_a = 3.0, .a2_1_per_m = 1000.0, .a3_1_per_m2 = 1e7};
   Eigen::Index iron{3};
+  std::string csv_path;
   std::string json_path;
 };
+
+/// The record that all models see, for programs of others.
+void WriteCsv(const std::string& path, const trials::PumpTrial& trial) {
+  if (path.empty()) return;
+  const identification::Series& series = trial.series();
+  std::string text = "time_s";
+  for (const char* name : {"position_{}_m", "control_current_{}_a", "excitation_{}_m"}) {
+    for (const std::string& channel : series.output_names) {
+      text += "," + fmt::format(fmt::runtime(name), channel);
+    }
+  }
+  text += "\n";
+  for (Eigen::Index k = 0; k < series.rows(); ++k) {
+    text += fmt::format("{:.6f}", static_cast<double>(k) * series.period_s);
+    for (const auto* values : {&series.output, &series.input, &trial.excitation_m()}) {
+      for (Eigen::Index i = 0; i < values->cols(); ++i) text += fmt::format(",{}", (*values)(k, i));
+    }
+    text += "\n";
+  }
+  WriteTextFile(path, text);
+}
 
 void Print(nlohmann::ordered_json& json, const std::string& name, const Eigen::VectorXd& fit,
            double time_s = 0.0) {
@@ -63,6 +86,7 @@ void Print(nlohmann::ordered_json& json, const trials::PumpScore& score) {
 
 ExitStatus Run(const PumpOptions& options) {
   const trials::PumpTrial trial(options.plan);
+  WriteCsv(options.csv_path, trial);
   nlohmann::ordered_json json;
   fmt::print("{:<42}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}\n", "fit in %", "ux", "uy", "lx", "ly", "mean",
              "fit, s");
@@ -78,7 +102,10 @@ ExitStatus Run(const PumpOptions& options) {
     straight.model = "  with straight iron";
     Print(json, straight);
   }
-  for (const auto& score : {trial.HammersteinWiener(), trial.Narx(), trial.Narmax()}) {
+  const trials::PumpScore products = trial.HammersteinWiener(true);
+  Print(json, products);
+  Print(json, "  below the ceiling, products", ceiling - products.free_run);
+  for (const auto& score : {trial.HammersteinWiener(false), trial.Narx(), trial.Narmax()}) {
     Print(json, score);
   }
   fmt::print("published, Chiu (2022), on its own rig:\n");
@@ -123,6 +150,7 @@ void AddBenchPump(CLI::App& bench, Action& action) {
                    "Other amplitudes of its bits; 0 = those of the scenario")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
+  command->add_option("--csv", options->csv_path, "Write the record into this file");
   command->add_option("--json", options->json_path, "Write all figures into this file");
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

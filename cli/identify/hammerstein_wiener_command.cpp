@@ -107,6 +107,15 @@ void AddIdentifyHammersteinWiener(CLI::App& identify, Action& action) {
   command->add_option("--bandwidth-hz", model.bandwidth_hz, "Of the memory; 0 = plain lags")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command->add_flag("--products", model.products,
+                    "Terms of current and position together; inputs and outputs of the same axes");
+  command
+      ->add_option("--input-lag-hz", model.input_lag_hz, "Of amplifiers, for --products; 0 = none")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--input-delay", model.input_delay, "Samples of delay, for --products")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
   command->add_option("--passes", model.most_passes, "Over the data, at most")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();

@@ -1,13 +1,10 @@
 #pragma once
 // --sensor-a2, --sensor-a3: characteristic of each sensor, known beforehand.
 
+#include <CLI/App.hpp>
 #include <vector>
 
 #include "identification/nonlinear/hammerstein_wiener.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace levitas::cli {
 

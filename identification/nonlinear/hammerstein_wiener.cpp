@@ -1,9 +1,14 @@
 #include "identification/nonlinear/hammerstein_wiener.hpp"
 
+#include <fmt/core.h>
+
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
+#include "common/problem.hpp"
 #include "identification/nonlinear/laguerre.hpp"
 
 namespace levitas::identification {
@@ -25,8 +30,18 @@ Index NumeratorAt(const HammersteinWienerModel& m, Index i, int degree) {
   return (m.outputs + i * m.options.degree + degree - 1) * m.options.order;
 }
 
+/// Row of the numerators of product `n` of axis `i`.
+Index ProductAt(const HammersteinWienerModel& m, Index i, Index n) {
+  return (m.outputs + m.inputs * m.options.degree + i * kProducts + n) * m.options.order;
+}
+
 Index NoiseAt(const HammersteinWienerModel& m) {
-  return (m.outputs + m.inputs * m.options.degree) * m.options.order;
+  return ProductAt(m, m.options.products ? m.inputs : 0, 0);
+}
+
+double LagOf(const HammersteinWienerModel& m) {
+  const double hz = m.options.input_lag_hz;
+  return hz > 0.0 ? std::exp(-2.0 * std::numbers::pi * hz * m.period_s) : 0.0;
 }
 
 /// Scaled, straightened outputs.
@@ -60,7 +75,7 @@ double SensorCharacteristic::Invert(double y) const noexcept {
 }
 
 Index HammersteinWienerModel::regressors() const noexcept {
-  return (outputs + inputs * options.degree) * options.order + outputs * options.noise_order + 1;
+  return NoiseAt(*this) + outputs * options.noise_order + 1;
 }
 
 SensorCharacteristic HammersteinWienerModel::sensor(Index output) const {
@@ -88,7 +103,9 @@ std::vector<InputCurve> Curves(const HammersteinWienerModel& m) {
 }
 
 HammersteinWienerState::HammersteinWienerState(const HammersteinWienerModel& model)
-    : phi_(Eigen::VectorXd::Zero(model.regressors())) {
+    : phi_(Eigen::VectorXd::Zero(model.regressors())),
+      lagged_(Eigen::VectorXd::Zero(model.inputs)),
+      pending_(Eigen::MatrixXd::Zero(model.inputs, model.options.input_delay)) {
   phi_[phi_.size() - 1] = 1.0;
 }
 
@@ -104,9 +121,29 @@ void HammersteinWienerState::Push(const HammersteinWienerModel& m, const Eigen::
       PushLaguerre(m.pole, power, phi_.segment(NumeratorAt(m, i, d), n));
     }
   }
+  if (m.options.products) PushProducts(m, v, u);
   const Index noise = m.options.noise_order;
   for (Index o = 0; o < m.outputs; ++o) {
     PushLaguerre(m.pole, eps[o], phi_.segment(NoiseAt(m) + o * noise, noise));
+  }
+}
+
+void HammersteinWienerState::PushProducts(const HammersteinWienerModel& m, const Eigen::VectorXd& v,
+                                          const Eigen::VectorXd& u) noexcept {
+  const double lag = LagOf(m);
+  const Index delay = pending_.cols();
+  for (Index k = 0; k < m.inputs; ++k) {
+    const double i = lagged_[k];
+    const double x = v[k];
+    const std::array<double, kProducts> products{i * i * x, i * x * x, x * x * x, i * i * i};
+    for (Index n = 0; n < kProducts; ++n) {
+      PushLaguerre(m.pole, products[static_cast<std::size_t>(n)],
+                   phi_.segment(ProductAt(m, k, n), m.options.order));
+    }
+    const double now = u[k] / m.input_scale[k];
+    lagged_[k] = lag * i + (1.0 - lag) * (delay > 0 ? pending_(k, 0) : now);
+    for (Index d = 0; d + 1 < delay; ++d) pending_(k, d) = pending_(k, d + 1);
+    if (delay > 0) pending_(k, delay - 1) = now;
   }
 }
 
@@ -146,6 +183,7 @@ HammersteinWienerModel EmptyHammersteinWiener(const Series& series,
   HammersteinWienerModel model{series.inputs(),
                                series.outputs(),
                                options,
+                               series.period_s,
                                LaguerrePole(options.bandwidth_hz, series.period_s),
                                Scale(series.input),
                                Scale(series.output),
@@ -156,6 +194,11 @@ HammersteinWienerModel EmptyHammersteinWiener(const Series& series,
 
 HammersteinWienerFit FitHammersteinWiener(const Series& series,
                                           const HammersteinWienerOptions& options) {
+  if (options.products && series.inputs() != series.outputs()) {
+    throw BadInput(
+        fmt::format("{} inputs and {} outputs: products need current and position of the same axes",
+                    series.inputs(), series.outputs()));
+  }
   HammersteinWienerFit fit{EmptyHammersteinWiener(series, options), 0, 0.0};
   RefuseUnfit(series, static_cast<std::size_t>(fit.model.regressors()));
   do {

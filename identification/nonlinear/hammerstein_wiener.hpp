@@ -3,11 +3,14 @@
 // dynamics, known static characteristic of each output; coloured noise estimated beside them.
 //
 // Equation  v = w^-1(y) with w the known characteristic of the sensor;
-//           v_t = Theta^T [Phi v; Phi u; Phi u^2; ..; Phi eps; 1] + eps_t, Phi the Laguerre bank,
-//           eps the prediction errors themselves (extended least squares). Chiu (2022), eqs.
+//           v_t = Theta^T [Phi v; Phi u; Phi u^2; ..; Phi p; Phi eps; 1] + eps_t, Phi the Laguerre
+//           bank, eps the prediction errors themselves (extended least squares). Chiu (2022), eqs.
 //           (23)-(43), who uses lags (pole 0) and diagonal denominators; here all outputs share all
 //           of v. K = P phi/(lambda + phi' P phi), Theta += K (v - Theta' phi)', P = (P - K phi'
 //           P)/lambda.
+// Products  p: i^2 v, i v^2, v^3 and i^3 of every input and the output of the same number, with i'
+//           = (u - i)/tau the input behind its amplifier. A magnet's force has them: it depends on
+//           current and position together. Only with `products`.
 // Curves    powers of an input have numerators of their own; Curves() gives the nearest common
 //           curve by the leading singular pair, and the share it explains.
 // Scales    inputs and v are divided by constants, so that all of phi is of like size.
@@ -35,6 +38,9 @@ struct HammersteinWienerOptions {
   Eigen::Index noise_order{2};  ///< of the banks of prediction errors
   int degree{3};                ///< of the input's curve; 1: linear
   double bandwidth_hz{};        ///< of the banks; 0: plain lags
+  bool products{};              ///< inputs and outputs are current and position of the same axes
+  double input_lag_hz{};        ///< with products: 1/(2 pi tau); 0: no lag
+  Eigen::Index input_delay{};   ///< with products: samples until an input begins to act
   double forgetting{1.0};       ///< lambda
   double start_variance{1e4};   ///< P at the start, times the identity
   int most_passes{5};           ///< offline
@@ -46,6 +52,7 @@ struct HammersteinWienerOptions {
 struct HammersteinWienerModel {
   Eigen::Index inputs{}, outputs{};
   HammersteinWienerOptions options;
+  double period_s{};
   double pole{};
   Eigen::VectorXd input_scale, output_scale;
   Eigen::MatrixXd theta;  ///< regressors x outputs
@@ -62,6 +69,9 @@ struct InputCurve {
 };
 [[nodiscard]] std::vector<InputCurve> Curves(const HammersteinWienerModel& model);
 
+/// Products of an axis.
+inline constexpr Eigen::Index kProducts = 4;
+
 /// Banks of one model between samples.
 class HammersteinWienerState {
  public:
@@ -72,7 +82,12 @@ class HammersteinWienerState {
             const Eigen::VectorXd& eps) noexcept;
 
  private:
+  void PushProducts(const HammersteinWienerModel& model, const Eigen::VectorXd& v,
+                    const Eigen::VectorXd& u) noexcept;
+
   Eigen::VectorXd phi_;
+  Eigen::VectorXd lagged_;   ///< i, scaled
+  Eigen::MatrixXd pending_;  ///< inputs that do not act yet, scaled; oldest first
 };
 
 /// Online: one sample after the other while the rig runs.
@@ -102,7 +117,8 @@ struct HammersteinWienerFit {
   double change{};  ///< largest relative change of the last pass
 };
 
-/// Offline: passes over the same data until the coefficients stand still. BadInput by RefuseUnfit.
+/// Offline: passes over the same data until the coefficients stand still. BadInput by RefuseUnfit,
+/// and with products when there are not as many inputs as outputs.
 [[nodiscard]] HammersteinWienerFit FitHammersteinWiener(const Series& series,
                                                         const HammersteinWienerOptions& options);
 

@@ -14,7 +14,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kStanding_rad_per_s = 2.0 * std::numbers::pi;  ///< 60 rpm: gyroscopics are nothing
+constexpr double kStandingRadPerS = 2.0 * std::numbers::pi;  ///< 60 rpm: gyroscopics are nothing
 constexpr std::size_t kLeastRows = 100;
 
 bool Excited(const cycle::OperatorInput& op, std::size_t axes) {
@@ -37,7 +37,7 @@ std::vector<cycle::CycleRecord> ExcitedRows(const std::string& path, const RigNu
     }
     const bool follows = rows.empty() || record.in.cycle == rows.back().in.cycle + 1;
     if (!follows || !record.in.frame_present || !Levitated(record.out.mode)) break;
-    if (std::abs(record.in.frame.speed_rad_per_s) > kStanding_rad_per_s) {
+    if (std::abs(record.in.frame.speed_rad_per_s) > kStandingRadPerS) {
       throw BadInput(fmt::format(
           "{}: the rotor turns at {:.0f} rpm in cycle {}: needed is a record of its standstill",
           path, record.in.frame.speed_rad_per_s * 30.0 / std::numbers::pi, record.in.cycle));

@@ -1,5 +1,6 @@
 #include "identification/nonlinear/suspended_rotor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,24 +14,19 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// One mode over one sample under a constant force: eta and eta' from before, and from the force.
 struct ModeStep {
-  double xx, xv, x1, vx, vv, v1;
-
-  ModeStep(double frequency_hz, double damping_ratio, double h_s) {
-    const double w = kTurn * frequency_hz;
-    if (!(w > 0.0)) {
-      *this = {1.0, h_s, 0.5 * h_s * h_s, 0.0, 1.0, h_s};
-      return;
-    }
-    const double decay = damping_ratio * w;
-    const double turn = w * std::sqrt(std::max(1e-12, 1.0 - damping_ratio * damping_ratio));
-    const double e = std::exp(-decay * h_s);
-    const double c = e * std::cos(turn * h_s);
-    const double s = e * std::sin(turn * h_s) / turn;
-    *this = {c + decay * s, s, (1.0 - c - decay * s) / (w * w), -w * w * s, c - decay * s, s};
-  }
-  ModeStep(double a, double b, double c, double d, double e, double f)
-      : xx(a), xv(b), x1(c), vx(d), vv(e), v1(f) {}
+  double xx{}, xv{}, x1{}, vx{}, vv{}, v1{};
 };
+
+ModeStep StepOf(const RotorMode& mode, double h_s) {
+  const double w = kTurn * mode.frequency_hz;
+  if (!(w > 0.0)) return {1.0, h_s, 0.5 * h_s * h_s, 0.0, 1.0, h_s};
+  const double decay = mode.damping_ratio * w;
+  const double turn = w * std::sqrt(std::max(1e-12, 1.0 - mode.damping_ratio * mode.damping_ratio));
+  const double e = std::exp(-decay * h_s);
+  const double c = e * std::cos(turn * h_s);
+  const double s = e * std::sin(turn * h_s) / turn;
+  return {c + decay * s, s, (1.0 - c - decay * s) / (w * w), -w * w * s, c - decay * s, s};
+}
 
 struct Mode {
   ModeStep step;
@@ -64,8 +60,7 @@ class Run {
       coils_.emplace_back(force.amplifier_hz, model.period_s);
     for (std::size_t p = 0; p < 2; ++p) {
       for (const RotorMode& mode : model.plane[p]) {
-        modes_[p].push_back(
-            {ModeStep(mode.frequency_hz, mode.damping_ratio, model.period_s), &mode});
+        modes_[p].push_back({StepOf(mode, model.period_s), &mode});
       }
     }
     Place();

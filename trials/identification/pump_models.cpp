@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "identification/nonlinear/known_loop.hpp"
 #include "identification/nonlinear/narx.hpp"
@@ -78,18 +79,23 @@ PumpScore PumpTrial::SuspendedRotor(Index iron) const {
   return {"suspended rotor", {}, Fit(run.output), time_s};
 }
 
-PumpScore PumpTrial::HammersteinWiener() const {
-  constexpr double kMemory_hz = 400.0;  // above the rigid modes, below the bending mode
+PumpScore PumpTrial::HammersteinWiener(bool products) const {
+  constexpr double kMemoryHz = 400.0;  // above the rigid modes, below the bending mode
   const KnownLoop loop(controller_.law, rig_.numbers, {record_.excitation_m, {}});
   HammersteinWienerOptions options;
-  options.bandwidth_hz = kMemory_hz;
+  options.bandwidth_hz = kMemoryHz;
+  options.products = products;
+  options.degree = products ? 1 : 3;
+  options.input_lag_hz = nominal_.plant.bearings.front().amplifier.bandwidth_hz;
+  options.input_delay = std::lround(nominal_.plant.delay_samples);
   for (std::size_t axis = 0; axis < rig_.numbers.axes(); ++axis) {
     options.sensors.push_back(CharacteristicOf(plan_, axis));
   }
   const Clock clock;
   const auto fit = FitHammersteinWiener(Fitted(), options);
   const double time_s = clock.s();
-  return {"Hammerstein-Wiener", Fit(PredictOneStep(fit.model, record_.series).output),
+  return {products ? "Hammerstein-Wiener, products" : "Hammerstein-Wiener",
+          Fit(PredictOneStep(fit.model, record_.series).output),
           Fit(SimulateFreeRun(fit.model, record_.series, loop.AtRest()).output), time_s};
 }
 

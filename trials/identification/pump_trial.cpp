@@ -15,7 +15,7 @@ namespace {
 using identification::SensorCharacteristic;
 using Index = Eigen::Index;
 
-constexpr double kLongest_s = 10.0;  ///< lift and excitation last 6 s
+constexpr double kLongestS = 10.0;  ///< lift and excitation last 6 s
 
 effect::EffectConfig Saturation(const PumpPlan& plan) {
   effect::EffectConfig iron{.id = effect::Id::kMagneticSaturation};
@@ -71,12 +71,12 @@ PumpTrial::PumpTrial(const PumpPlan& plan)
       controller_(config::LoadController(config::FindConfig(rig_.run.controller, "controllers"),
                                          rig_.numbers)),
       scenario_(ScenarioOf(rig_, plan)),
-      record_(Record(true, plan.noise_seed)) {}
+      record_(Record(plan.noise_seed, {})) {}
 
-PumpTrial::PumpRecord PumpTrial::Record(bool noise, std::uint64_t seed) const {
+PumpTrial::PumpRecord PumpTrial::Record(std::uint64_t seed, const Twin& twin) const {
   plant::PlantConfig config = rig_.plant;
   auto supervisor = controller_.supervisor;
-  if (!noise) {
+  if (!twin.noise) {
     for (plant::BearingConfig& bearing : config.bearings) bearing.sensor.noise_rms_m = 0.0;
     supervisor.protection.sensor_frozen_cycles = 1'000'000;  // a reading without noise repeats
   }
@@ -92,17 +92,22 @@ PumpTrial::PumpRecord PumpTrial::Record(bool noise, std::uint64_t seed) const {
                                   supervisor.sequence.standstill_rad_per_s);
   cycle::CycleInputs in;
   cycle::CycleOutputs out;
-  const auto limit = static_cast<std::uint64_t>(kLongest_s / rig_.numbers.period_s());
+  const auto limit = static_cast<std::uint64_t>(kLongestS / rig_.numbers.period_s());
   Index row = -1;
   while (row < rows && !player.finished() && !player.failed() && in.cycle < limit) {
     ++in.cycle;
     in.frame = plant.Sample();
     in.frame_present = true;
-    const auto asked =
+    auto asked =
         player.Next(out.mode, 0.0, out.fault, out.command_refused, LargestRadius(in.frame));
+    if (row < 0 && asked.excitation_m[0] != 0.0) row = 0;
+    if (row >= 0 && row < rows && twin.excitation_m != nullptr) {
+      for (Index i = 0; i < axes; ++i) {
+        asked.excitation_m[static_cast<std::size_t>(i)] = (*twin.excitation_m)(row, i);
+      }
+    }
     in.op = {asked.command, 0.0, 0.0, asked.excitation_a, asked.excitation_m};
     out = cycle.Step(in);
-    if (row < 0 && asked.excitation_m[0] != 0.0) row = 0;
     if (row >= 0 && row < rows) {
       for (Index i = 0; i < axes; ++i) {
         const auto at = static_cast<std::size_t>(i);
@@ -141,11 +146,11 @@ Eigen::VectorXd PumpTrial::CeilingOfReadings() const {
 }
 
 Eigen::VectorXd PumpTrial::Ceiling() const {
-  return Fit(Record(false, plan_.noise_seed).series.output);
+  return Fit(Record(plan_.noise_seed, {false, &record_.excitation_m}).series.output);
 }
 
 Eigen::VectorXd PumpTrial::Repeated(std::uint64_t noise_seed) const {
-  return Fit(Record(true, noise_seed).series.output);
+  return Fit(Record(noise_seed, {true, &record_.excitation_m}).series.output);
 }
 
 }  // namespace levitas::trials

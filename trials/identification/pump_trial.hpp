@@ -53,6 +53,9 @@ class PumpTrial {
   explicit PumpTrial(const PumpPlan& plan);
 
   [[nodiscard]] const identification::Series& series() const noexcept { return record_.series; }
+  [[nodiscard]] const Eigen::MatrixXd& excitation_m() const noexcept {
+    return record_.excitation_m;
+  }
   [[nodiscard]] Eigen::VectorXd deviation_m() const;  ///< of the judged readings
 
   /// Fit in % per axis of what is given for all rows, on those that judge.
@@ -65,7 +68,8 @@ class PumpTrial {
 
   /// `iron`: coefficients of the magnets' curve.
   [[nodiscard]] PumpScore SuspendedRotor(Eigen::Index iron = 3) const;
-  [[nodiscard]] PumpScore HammersteinWiener() const;
+  /// `products`: with terms of current and position together.
+  [[nodiscard]] PumpScore HammersteinWiener(bool products) const;
   [[nodiscard]] PumpScore Narx() const;
   [[nodiscard]] PumpScore Narmax() const;
 
@@ -74,7 +78,13 @@ class PumpTrial {
     identification::Series series;  ///< commanded currents in, readings out
     Eigen::MatrixXd excitation_m;
   };
-  [[nodiscard]] PumpRecord Record(bool noise, std::uint64_t seed) const;
+  struct Twin {
+    bool noise{true};
+    /// Rows x axes that are injected whatever the scenario's orbit limit makes of its own; null:
+    /// the scenario's.
+    const Eigen::MatrixXd* excitation_m{};
+  };
+  [[nodiscard]] PumpRecord Record(std::uint64_t seed, const Twin& twin) const;
   [[nodiscard]] identification::Series Fitted() const;
 
   PumpPlan plan_;
