@@ -6,6 +6,7 @@
 #include "diagnosis/ranking.hpp"
 #include "diagnosis/rivals.hpp"
 #include "diagnosis/selection.hpp"
+#include "diagnosis/stray.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -31,14 +32,19 @@ constexpr Effort kThorough{10, 6, 8, 5, kMostRows, false};
 /// linearisation sees one in everything.
 void Calibrate(Inquiry& q) {
   q.Tell(0.02, "calibrating");
-  const Refined fit = CalibrateNuisances(q.rig, q.search, q.terms, q.all_records, q.records,
-                                         q.gains, q.effort.calibrations);
-  if (!fit.ok) {
-    throw BadInput(
-        "the model cannot be made to follow these records: is it this rig's file, and are the "
-        "units and signs of currents and positions right?");
+  for (;; q.Observe(q.speed + 1)) {
+    const Refined fit = CalibrateNuisances(q.rig, q.search, q.terms, q.all_records, q.records,
+                                           q.gains, q.effort.calibrations);
+    const bool fastest = q.speed + 1 == kSpeeds.size();
+    if (!fit.ok && fastest) {
+      throw BadInput(
+          "the model cannot be made to follow these records: is it this rig's file, and are the "
+          "units and signs of currents and positions right?");
+    }
+    q.theta = q.calibrated = fit.theta;
+    if (fastest || (fit.ok && !Strays(q.rig, q.search.Run(q.records, q.gains, q.theta)))) return;
+    q.Tell(0.02, "calibrating with a faster observer");
   }
-  q.theta = q.calibrated = fit.theta;
 }
 
 void Describe(const Inquiry& q, const Fit& fit, Answer& answer) {
@@ -78,6 +84,7 @@ void AddEvents(Inquiry& q, const Remainder& remainder) {
 Answer Conclude(Inquiry& q) {
   q.Tell(0.9, "examining what is left");
   Answer answer;
+  answer.speed = kSpeeds[q.speed];
   answer.runs = q.search.Run(q.records, q.gains, q.theta);
   const double held = HeldGain(q.calibrated_runs, answer.runs, q.view.whitener);
   if (!q.causes.empty() && held < -kDecisive) {

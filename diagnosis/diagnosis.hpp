@@ -12,6 +12,8 @@
 //              of a family stand for is sharpened; again from 2 until none gains enough;
 //            4 rank: every effect in place of the first cause, the nearest refitted;
 //            5 judge what remains (remainder.hpp).
+// Strays     a model that loses the rotor is held by a faster observer until the causes found let go
+//            of it (stray.hpp).
 // Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.
 // Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of
 //            magnets and contacts are known to a tenth or so of their amplitude, so a hundredth of
@@ -27,6 +29,7 @@
 #include <vector>
 
 #include "diagnosis/evidence.hpp"
+#include "diagnosis/observer_speed.hpp"
 #include "diagnosis/remainder.hpp"
 #include "diagnosis/terms/terms.hpp"
 
@@ -66,6 +69,7 @@ struct Answer {
   std::vector<Estimate> parameters;        ///< of the causes
   std::vector<Estimate> calibration;       ///< of the nuisances
   std::vector<Candidate> candidates;       ///< best place of every effect, best first
+  ObserverSpeed speed{kSlow};  ///< under which the model followed the records in the end
   Remainder remainder;
   std::vector<double> theta_calibrated;  ///< nuisances alone
   std::vector<double> theta_extended;    ///< with the causes

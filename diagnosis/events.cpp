@@ -3,10 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <complex>
-#include <numbers>
 
 namespace levitas::diagnosis {
 namespace {
@@ -37,22 +34,6 @@ std::size_t LostFrames(const RigView& rig, const std::vector<Record>& records) {
   return lost;
 }
 
-/// |sum of y e^{-jwt}|^2 with a Hann window.
-double LinePower(const Record& record, std::size_t axis, double hz, double period_s) {
-  const auto count = static_cast<double>(record.rows.size());
-  const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * hz * period_s);
-  const std::complex<double> window_turn = std::polar(1.0, 2.0 * std::numbers::pi / count);
-  std::complex<double> phase = 1.0;
-  std::complex<double> window = 1.0;
-  std::complex<double> sum = 0.0;
-  for (const auto& row : record.rows) {
-    sum += row.sample.position_m[axis] * (0.5 - 0.5 * window.real()) * phase;
-    phase *= turn;
-    window *= window_turn;
-  }
-  return std::norm(sum);
-}
-
 }  // namespace
 
 std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>& records,
@@ -81,27 +62,6 @@ std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>&
     found.push_back({.effect = "sensor_noise", .place = where, .score = evidence});
   }
   return found;
-}
-
-std::vector<double> MainsLines(const RigView& rig, const std::vector<Record>& records) {
-  std::vector<double> lines;
-  for (const double hz : {50.0, 60.0, 100.0, 120.0, 150.0}) {
-    bool stands_out = false;
-    for (const Record& record : records) {
-      const double spacing_hz = 1.0 / (static_cast<double>(record.rows.size()) * rig.period_s);
-      for (std::size_t a = 0; a < rig.axes; ++a) {
-        double around = 0.0;
-        constexpr std::array kBeside{-7.0, -5.0, -3.0, 3.0, 5.0, 7.0};
-        for (const double beside : kBeside) {
-          around += LinePower(record, a, hz + beside * spacing_hz, rig.period_s) / kBeside.size();
-        }
-        // Noise alone exceeds its mean twelvefold once in e^12 lines.
-        if (LinePower(record, a, hz, rig.period_s) > 12.0 * around) stands_out = true;
-      }
-    }
-    if (stands_out) lines.push_back(hz);
-  }
-  return lines;
 }
 
 }  // namespace levitas::diagnosis

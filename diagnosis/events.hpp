@@ -5,8 +5,6 @@
 //            all repeat bit for bit: with a noisy sensor that does not happen by itself.
 // Noise      the level in the upper third of the spectrum against the rig file's, which a healthy
 //            rig keeps within kNoiseTolerance (standard deviation of its logarithm).
-// Mains      lines at 50, 60 Hz and harmonics in the readings that stand out of their
-//            neighbourhood.
 // Thread     any; pure.
 
 #include <vector>
@@ -21,8 +19,5 @@ inline constexpr double kNoiseTolerance = 0.06;
 [[nodiscard]] std::vector<Candidate> FindEvents(const RigView& rig,
                                                 const std::vector<Record>& records,
                                                 const Remainder& remainder);
-
-[[nodiscard]] std::vector<double> MainsLines(const RigView& rig,
-                                             const std::vector<Record>& records);
 
 }  // namespace levitas::diagnosis

@@ -14,12 +14,17 @@ Inquiry::Inquiry(const RigView& of, const std::vector<Record>& recorded, const S
       effort(spent),
       search(rig, terms, asked.only),
       records(Spans(recorded, spent.rows)),
-      gains(search.DesignGains(records, kSlow)),
+      gains(search.DesignGains(records, kSpeeds[0])),
       refiner(search, terms, records, gains, rig.axes),
       theta(search.Usual()) {}
 
 void Inquiry::Tell(double share, const std::string& what) const {
   if (settings.progress) settings.progress(share, what);
+}
+
+void Inquiry::Observe(std::size_t with) {
+  speed = with;
+  gains = search.DesignGains(records, kSpeeds[with]);
 }
 
 void Inquiry::LineariseAll() {

@@ -46,6 +46,8 @@ struct Inquiry {
   Inquiry& operator=(const Inquiry&) = delete;
 
   void Tell(double share, const std::string& what) const;
+  /// Observers of one speed from here on; what was linearised is not valid any more.
+  void Observe(std::size_t with);
   /// Everything linearised about theta.
   void LineariseAll();
   /// Causes fitted from where the linearisation sees them (Refiner::Fit).
@@ -61,6 +63,7 @@ struct Inquiry {
   Effort effort;
   Search search;
   std::vector<Record> records;  ///< that are fitted
+  std::size_t speed{0};         ///< of the observers, in kSpeeds
   Gains gains;
   Refiner refiner;
 

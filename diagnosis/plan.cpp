@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 8> kRotating{
     "unbalance",        "shaft_bow",          "sensor_runout",   "misalignment",
     "shaft_anisotropy", "gyroscopic_inertia", "breathing_crack", "internal_damping"};
 /// They differ where an amplifier has long let go.
-constexpr std::array<std::string_view, 5> kFast{
+constexpr std::array<std::string_view, 5> kOfTheLoop{
     "extra_delay", "eddy_current", "amplifier_bandwidth", "sensor_bandwidth", "amplifier_slew"};
 
 template <std::size_t kCount>
@@ -56,7 +56,7 @@ std::string PlanScenario(const SessionAnswer& s) {
   std::vector<std::string> effects = a.also_possible;
   for (const Hypothesis& cause : a.causes) effects.push_back(cause.effect);
   const bool rotating = effects.empty() || AnyOf(effects, kRotating);
-  const bool fast = AnyOf(effects, kFast);
+  const bool fast = AnyOf(effects, kOfTheLoop);
   const auto& drive = s.view->model->config().drive;
   const double most_rpm = s.view->numbers.max_speed_rad_per_s * 30.0 / std::numbers::pi;
   const double rate = 0.5 * drive.max_acceleration_rad_per_s2 * 30.0 / std::numbers::pi;

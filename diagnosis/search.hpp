@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/observer_speed.hpp"
 #include "diagnosis/slopes.hpp"
 
 namespace levitas::diagnosis {
@@ -23,14 +24,6 @@ struct View {
   NormalEquations sum;
   LinearProblem problem;
 };
-
-/// Fast: coarse and smooth. Slow: what it does not explain by force noise, the model must.
-struct ObserverSpeed {
-  double force_noise_share;
-  double force_drift_share;
-};
-inline constexpr ObserverSpeed kFast{0.01, 1e-4};
-inline constexpr ObserverSpeed kSlow{0.001, 1e-6};
 
 class Search {
  public:

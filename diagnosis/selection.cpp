@@ -7,6 +7,7 @@
 #include "diagnosis/mode_probe.hpp"
 #include "diagnosis/ranking.hpp"
 #include "diagnosis/sharpen.hpp"
+#include "diagnosis/stray.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -142,11 +143,34 @@ bool MergeOnce(Inquiry& q) {
   return true;
 }
 
+/// Back to slower observers, which see more, as far as the model with the causes found so far does
+/// not lose the rotor under them.
+void SlowDown(Inquiry& q) {
+  while (q.speed > 0) {
+    const std::size_t fast = q.speed;
+    q.Observe(fast - 1);
+    if (Strays(q.rig, q.search.Run(q.records, q.gains, q.theta))) {
+      q.Observe(fast);
+      return;
+    }
+    q.LineariseAll();
+    Refined fit = q.refiner.Fit(q.causes, q.theta, q.view, q.effort.passes);
+    if (!fit.ok) {
+      q.Observe(fast);
+      return;
+    }
+    q.theta = fit.theta;
+    if (!q.effort.first_cause_only) SharpenLast(q, fit);
+    q.calibrated_runs = q.search.Run(q.records, q.gains, q.calibrated);
+  }
+}
+
 }  // namespace
 
 void FindCauses(Inquiry& q) {
   for (std::size_t stage = 0;; ++stage) {
     const double share = 0.2 + 0.2 * static_cast<double>(stage);
+    if (stage > 0) SlowDown(q);
     q.Tell(share, "screening all causes");
     q.LineariseAll();
     if (stage == 0) q.calibrated_runs = q.view.runs;

@@ -8,6 +8,7 @@
 #include "diagnosis/calibrate.hpp"
 #include "diagnosis/events.hpp"
 #include "diagnosis/flight.hpp"
+#include "diagnosis/mains_lines.hpp"
 #include "diagnosis/turns.hpp"
 
 namespace levitas::diagnosis {
@@ -57,7 +58,7 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdo
     noise_rms_m.push_back(channel.noise_rms_m);
   }
   const auto run = [&](const std::vector<Record>& records) {
-    const Gains gains = search.DesignGains(records, kSlow);
+    const Gains gains = search.DesignGains(records, out.answer.speed);
     return ModelRuns{search.Run(records, gains, nothing),
                      search.Run(records, gains, out.answer.theta_calibrated),
                      search.Run(records, gains, out.answer.theta_extended)};

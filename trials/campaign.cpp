@@ -17,7 +17,9 @@ namespace {
 
 constexpr double kRadPerSPerRpm = std::numbers::pi / 30.0;
 constexpr double kSaggingM = 350e-6;  // [m] beyond it the rotor is lost
-constexpr double kWarmUpS = 1.2;      // [s] in which the integrators find the weight
+/// Of the most current, on the average over a record: an axis that gives more holds nothing any more.
+constexpr double kHolding = 0.8;
+constexpr double kWarmUpS = 1.2;  // [s] in which the integrators find the weight
 
 struct Motion {
   std::string name;
@@ -64,6 +66,7 @@ class Loop {
     BitSequence bits(seed);
     bool bit = false;
     MeasuredRow held;
+    AxisArray given_a{};
     plant.SetSpeed(from, 0.0);
     out.name = motion.name;
     out.rows.reserve(motion.rows);
@@ -90,7 +93,9 @@ class Loop {
       for (std::size_t a = 0; a < model_->axes(); ++a) {
         error_m[a] = -model_->config().sensor_polarity[a] * row.position_m[a];
         // Before the integrators hold the weight the rotor sags.
-        const double limit_m = recorded ? plan_.limit_m : kSaggingM;
+        const double limit_m = !recorded              ? kSaggingM
+                               : motion.to_rpm == 0.0 ? plan_.resting_m
+                                                      : plan_.limit_m;
         if (!(std::abs(row.position_m[a]) < limit_m)) return false;
       }
       const bool lost = recorded && Lost();
@@ -103,6 +108,9 @@ class Loop {
             law::Step(coefficients_, state, error_m, row.excitation_a, limit_a_).control_current_a;
       }
       held = row;
+      for (std::size_t a = 0; recorded && a < model_->axes(); ++a) {
+        given_a[a] += std::abs(row.control_current_a[a]);
+      }
       if (recorded && !(lost && plan_.loss.missing)) out.rows.push_back(row);
       plant::PlantCommand command;
       command.bias_current_a = bias_a;
@@ -116,7 +124,8 @@ class Loop {
       }
       plant.Advance(command);
     }
-    return plant.finite();
+    const double most_a = kHolding * limit_a_ * static_cast<double>(motion.rows);
+    return plant.finite() && *std::max_element(given_a.begin(), given_a.end()) < most_a;
   }
 
  private:

@@ -6,7 +6,8 @@
 //            test signal.
 // Loop       plant and axis law alone, one period at a time, from a levitated start that is not
 //            recorded.
-// Failure    `stable` false when the rotor came near its touchdown bearings or was lost.
+// Failure    `stable` false when the rotor came near its touchdown bearings or was lost, swings at rest, or is held by
+//            nothing but the most current.
 // Thread     any; no shared state.
 
 #include <string>
@@ -48,6 +49,7 @@ struct CampaignPlan {
   double excitation_a{0.08};
   int bits_per_axis{2047};  ///< of two periods each
   double limit_m{120e-6};   ///< a reading beyond is not a healthy run
+  double resting_m{60e-6};  ///< nor beyond this with a shaft at rest: the loop swings by itself
   std::uint64_t seed{1};    ///< of noise and test signal
   FrameLoss loss;
 };

@@ -1,6 +1,7 @@
 // Lost frames, the level of the noise and mains, found in records made by hand.
 
 #include "diagnosis/events.hpp"
+#include "diagnosis/mains_lines.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,31 @@
+#include "diagnosis/stray.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr float kShare = 0.25F;
+constexpr float kTimes = 2.0F;
+
+}  // namespace
+
+bool Strays(const RigView& rig, const std::vector<Trajectory>& runs) {
+  const auto far_m = kShare * static_cast<float>(rig.numbers.clearance_m);
+  return std::any_of(runs.begin(), runs.end(), [&](const Trajectory& run) {
+    float measured_m = 0.0F;
+    float predicted_m = 0.0F;
+    bool finite = true;
+    for (const Moment& m : run.moments) {
+      for (std::size_t a = 0; m.settled && a < rig.axes; ++a) {
+        measured_m = std::max(measured_m, std::abs(m.measured_m[a]));
+        predicted_m = std::max(predicted_m, std::abs(m.reading_m[a]));
+        finite = finite && std::isfinite(m.reading_m[a]);
+      }
+    }
+    return !finite || predicted_m > std::max(far_m, kTimes * measured_m);
+  });
+}
+
+}  // namespace levitas::diagnosis

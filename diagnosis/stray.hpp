@@ -1,0 +1,22 @@
+#pragma once
+// Models that lose the rotor they are to follow, and the observers that hold them.
+//
+// Why        a magnet pulls the harder the nearer the rotor: a model that is driven far enough from
+//            the measured rotor, by an effect it does not know, falls into the magnet whatever a
+//            slow observer does. Nothing can be learnt from there: neither misfit nor slopes speak
+//            of the rig any more. A faster observer sees less and holds the model until the cause
+//            is known.
+// Strays     a predicted reading beyond kShare of the clearance that is also kTimes as far out as
+//            any measured one of its record, or no number at all.
+// Thread     any; pure.
+
+#include <vector>
+
+#include "diagnosis/model_run.hpp"
+#include "diagnosis/rig_view.hpp"
+
+namespace levitas::diagnosis {
+
+[[nodiscard]] bool Strays(const RigView& rig, const std::vector<Trajectory>& runs);
+
+}  // namespace levitas::diagnosis
