@@ -9,11 +9,14 @@
 // Thread  plain data.
 
 #include <array>
+#include <vector>
 
 #include "diagnosis/mesh_view.hpp"
 #include "diagnosis/moment.hpp"
 
 namespace levitas::diagnosis {
+
+struct Term;
 
 struct LinearChange {
   struct Axis {
@@ -34,6 +37,11 @@ struct LinearChange {
   std::array<Mode, kMaxModes> mode{};
   std::array<Mesh, kMostMeshes> mesh{};
   double gyroscopic{1.0};  ///< ratio
+  double late_periods{};   ///< by which commands act later; negative: earlier
 };
+
+/// What all terms do to the linear model at theta.
+[[nodiscard]] LinearChange ChangeOf(const std::vector<Term>& terms,
+                                    const std::vector<double>& theta);
 
 }  // namespace levitas::diagnosis

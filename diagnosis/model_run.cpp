@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/linear_change.hpp"
 #include "diagnosis/magnet_means.hpp"
 #include "diagnosis/turns.hpp"
 #include "plant_sim/plant/mode_step.hpp"
@@ -43,6 +44,11 @@ class Runner {
     for (std::size_t i = 0; i < terms.size(); ++i) {
       if (theta[i] != 0.0) active_.push_back({terms[i], theta[i]});
     }
+    const LinearChange change = ChangeOf(terms, theta);
+    late_periods_ = static_cast<float>(change.late_periods);
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      coil_rate_[a] = static_cast<float>(change.axis[a].coil_rate);
+    }
     for (std::size_t m = 0; m < rig.modes; ++m) {
       steps_.push_back(
           plant::MakeModeStep(rig.omega_rad_per_s[m], rig.damping_ratio[m], rig.period_s));
@@ -74,6 +80,8 @@ class Runner {
     moment.starting = observer_ == &starter_;
     if (moment.starting) starter_angle_rad_ = row.sample.angle_rad;
     BeforeSample(row, moment);
+    moment.late_periods = late_periods_;
+    moment.coil_rate = coil_rate_;
     Addition read;
     read.reading_m = next_reading_m_;
     for (Active& a : active_) {
@@ -203,6 +211,8 @@ class Runner {
   std::vector<plant::ModeStep> steps_;
   std::vector<sensor::FilterStep> filters_;
   AxisFloats before_a_{}, now_a_{};
+  float late_periods_{};
+  AxisFloats coil_rate_{};
   std::array<double, kMaxAxes> next_reading_m_{};
   std::vector<double> start_, acceleration_;
   std::vector<float> moved_;

@@ -30,14 +30,6 @@ void Subtract(Addition& from, const Addition& what, std::size_t axes, std::size_
 
 }  // namespace
 
-LinearChange ChangeOf(const std::vector<Term>& terms, const std::vector<double>& theta) {
-  LinearChange change;
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    if (terms[i].change && theta[i] != 0.0) terms[i].change(theta[i], change);
-  }
-  return change;
-}
-
 SensitivityBlock::SensitivityBlock(LanePair models, const std::vector<Term>& terms,
                                    const std::vector<double>& theta,
                                    std::vector<std::size_t> chosen)
@@ -48,6 +40,21 @@ SensitivityBlock::SensitivityBlock(LanePair models, const std::vector<Term>& ter
   for (const std::size_t i : chosen_) {
     probes_.push_back(
         {terms[i], terms[i], theta[i], terms[i].step, terms[i].scale(), terms[i].linear});
+    if (terms[i].moves_coil) AddRetimed(terms, theta, i, probes_.back());
+  }
+}
+
+void SensitivityBlock::AddRetimed(const std::vector<Term>& terms, const std::vector<double>& theta,
+                                  std::size_t chosen, Probe& probe) {
+  std::vector<double> stepped = theta;
+  stepped[chosen] += probe.step;
+  const LinearChange change = ChangeOf(terms, stepped);
+  probe.late_periods = static_cast<float>(change.late_periods);
+  for (std::size_t a = 0; a < kMaxAxes; ++a) {
+    probe.coil_rate[a] = static_cast<float>(change.axis[a].coil_rate);
+  }
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (terms[i].timed && theta[i] != 0.0) probe.retimed.push_back({terms[i], terms[i], theta[i]});
   }
 }
 
@@ -102,9 +109,27 @@ void SensitivityBlock::Drive(const Moment& m) noexcept {
       state_.add_coil_mean[a].value[l] = scale * static_cast<float>(d.coil_mean_a[a]);
       reading_[a].value[l] = scale * static_cast<float>(d.reading_m[a]);
     }
+    if (!probes_[l].retimed.empty()) DriveRetimed(probes_[l], l, m);
     if (!d.has_modal) continue;
     for (std::size_t i = 0; i < 2 * model_->modes; ++i) {
       state_.add_modal[i].value[l] = scale * static_cast<float>(d.modal[i]);
+    }
+  }
+}
+
+void SensitivityBlock::DriveRetimed(Probe& p, std::size_t lane, const Moment& m) noexcept {
+  Moment other = m;
+  other.late_periods = p.late_periods;
+  other.coil_rate = p.coil_rate;
+  const auto scale = static_cast<float>(p.scale / p.step);
+  for (Retimed& r : p.retimed) {
+    Empty(difference_, model_->axes, model_->modes);
+    Empty(base_, model_->axes, model_->modes);
+    r.stepped.drive(other, r.theta, difference_);
+    r.now.drive(m, r.theta, base_);
+    for (std::size_t a = 0; a < model_->axes; ++a) {
+      state_.add_force[a].value[lane] +=
+          scale * static_cast<float>(difference_.force_n[a] - base_.force_n[a]);
     }
   }
 }

@@ -26,10 +26,6 @@ struct LanePair {
   std::shared_ptr<const LaneModel> steady, start;
 };
 
-/// What all terms do to the linear model at theta.
-[[nodiscard]] LinearChange ChangeOf(const std::vector<Term>& terms,
-                                    const std::vector<double>& theta);
-
 /// A block of up to kLanes terms propagated together.
 class SensitivityBlock {
  public:
@@ -41,15 +37,27 @@ class SensitivityBlock {
   [[nodiscard]] const std::vector<std::size_t>& chosen() const noexcept { return chosen_; }
 
  private:
+  /// A term in force that does otherwise when another one changes when, or how fast, coils act.
+  struct Retimed {
+    Term now, stepped;
+    double theta{};
+  };
+
   /// One term: what it adds with and without the step.
   struct Probe {
     Term now, stepped;
     double theta{}, step{}, scale{};
     bool linear{};
+    std::vector<Retimed> retimed{};
+    float late_periods{};  ///< with the step
+    AxisFloats coil_rate{};
   };
 
+  static void AddRetimed(const std::vector<Term>& terms, const std::vector<double>& theta,
+                         std::size_t chosen, Probe& probe);
   void Read(const Moment& m, float* derivative_m) noexcept;
   void Drive(const Moment& m) noexcept;
+  void DriveRetimed(Probe& probe, std::size_t lane, const Moment& m) noexcept;
   /// The probe's difference in `difference_`; the scale to apply, 0 when nothing was added.
   template <class Call>
   float Difference(Probe& probe, Call call) noexcept;

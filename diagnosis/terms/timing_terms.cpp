@@ -3,7 +3,7 @@
 // Delay      the command that would act from the sample on acts `theta` periods later (or the next
 //            one earlier): closed form of the first-order current loop.
 // Bandwidth  decay exp(-W T (1 + theta)) instead of exp(-W T).
-// Slew       a second current loop that cannot move faster; its difference acts as a current.
+// Slew       a second coil that cannot move faster; its difference acts as a current.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 
 #include "diagnosis/linear_change.hpp"
 #include "diagnosis/terms/terms.hpp"
+#include "plant_sim/amplifier/amplifier.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -74,6 +75,7 @@ Term Delay(const RigView& rig, double tolerance) {
   term.linear = false;
   term.moves_coil = true;
   term.step = 0.05;
+  term.change = [](double theta, LinearChange& change) { change.late_periods += theta; };
   return term;
 }
 
@@ -101,6 +103,45 @@ Term Bandwidth(const RigView& rig, std::size_t a, double tolerance) {
   return term;
 }
 
+/// Current of an amplifier that cannot move faster, with the bandwidth and the delay that the
+/// calibration has found: a rectifier of noisy commands, whose mean they move.
+class SlewingCoil {
+ public:
+  SlewingCoil(double bandwidth_hz, double slew_a_per_s, double period_s)
+      : bandwidth_hz_(bandwidth_hz), slew_a_per_s_(slew_a_per_s), period_s_(period_s) {}
+
+  /// Mean over the period [A].
+  double Advance(const Moment& m, std::size_t a) {
+    const double late = std::clamp(static_cast<double>(m.late_periods), -1.0, 1.0);
+    const double hz = bandwidth_hz_ * static_cast<double>(m.coil_rate[a]);
+    if (late >= 0.0) {
+      return Follow(hz, late, static_cast<double>(m.command_before_a[a])) +
+             Follow(hz, 1.0 - late, static_cast<double>(m.command_now_a[a]));
+    }
+    return Follow(hz, 1.0 + late, static_cast<double>(m.command_now_a[a])) +
+           Follow(hz, -late, static_cast<double>(m.command_next_a[a]));
+  }
+
+ private:
+  /// Share of the mean that a share of the period makes.
+  double Follow(double bandwidth_hz, double share, double command_a) {
+    if (share <= 0.0) return 0.0;
+    constexpr int kHalves = 4;  // Simpson's rule over two pairs
+    constexpr std::array kWeights{1.0, 4.0, 2.0, 4.0, 1.0};
+    const auto step =
+        amplifier::MakeStep(bandwidth_hz, slew_a_per_s_, share * period_s_ / kHalves);
+    double sum = kWeights[0] * now_a_;
+    for (std::size_t k = 1; k <= kHalves; ++k) {
+      now_a_ = amplifier::FollowSlewing(step, now_a_, command_a);
+      sum += kWeights[k] * now_a_;
+    }
+    return share * sum / (3.0 * kHalves);
+  }
+
+  double bandwidth_hz_, slew_a_per_s_, period_s_;
+  double now_a_{0.0};
+};
+
 Term Slew(const RigView& rig, double slew_a_per_s) {
   Term term = MakeTerm({"amplifier_slew", fmt::format("{:.0f} A/s", slew_a_per_s), "share", "1"},
                        0.0, 0.7, nullptr);
@@ -108,23 +149,21 @@ Term Slew(const RigView& rig, double slew_a_per_s) {
   term.family = {{slew_a_per_s}, {0.4}, {}, [&rig](const Family::Shape& other) {
                    return Slew(rig, other[0]);
                  }};
-  term.drive = [&rig, slew_a_per_s, current = std::array<double, kMaxAxes>{}](
-                   const Moment& m, double theta, Addition& add) mutable {
+  std::vector<SlewingCoil> coils;
+  for (std::size_t a = 0; a < rig.axes; ++a) {
+    coils.emplace_back(rig.bearing(a).amplifier.bandwidth_hz, slew_a_per_s, rig.period_s);
+  }
+  term.drive = [&rig, coils](const Moment& m, double theta, Addition& add) mutable {
     for (std::size_t a = 0; a < rig.axes; ++a) {
-      constexpr int kSteps = 4;
-      const Loop loop = LoopOf(rig, a);
-      double sum = 0.0;
-      for (int k = 0; k < kSteps; ++k) {
-        const double rate =
-            std::clamp(loop.rate_per_s * (static_cast<double>(m.command_now_a[a]) - current[a]),
-                       -slew_a_per_s, slew_a_per_s);
-        current[a] += rate * loop.period_s / kSteps;
-        sum += current[a] - 0.5 * rate * loop.period_s / kSteps;
-      }
-      const double mean_a =
-          static_cast<double>(m.command_now_a[a]) +
-          static_cast<double>(m.coil_start_a[a] - m.command_now_a[a]) * loop.Mean();
-      add.force_n[a] += theta * ForceOfCurrent(rig, m, a, sum / kSteps - mean_a);
+      const double beside_a = coils[a].Advance(m, a) - static_cast<double>(m.coil_mean_a[a]);
+      add.force_n[a] += theta * ForceOfCurrent(rig, m, a, beside_a);
+    }
+  };
+  term.timed = true;
+  // As far as the second coil acts, what moves the first one does not.
+  term.slope = [&rig](const Moment& m, double theta, AddedSlopes& added) {
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      added.force_per_a[a] -= static_cast<float>(theta) * m.force_per_a[a];
     }
   };
   return term;
