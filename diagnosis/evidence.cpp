@@ -70,4 +70,17 @@ Fit Evidence::Solve() const {
   return fit;
 }
 
+Eigen::VectorXd Evidence::Step(const Eigen::VectorXd& theta, double damping) const {
+  // Parameters of the base behind theta: those of the smallest penalty.
+  constexpr double kJitter = 1e-9;
+  Eigen::MatrixXd covariance = base_ * base_.transpose();
+  covariance.diagonal().array() += kJitter;
+  const Eigen::VectorXd now = base_.transpose() * covariance.llt().solve(theta);
+  const Eigen::VectorXd uphill =
+      base_.transpose() * (problem_.jte + problem_.jtj * theta) + now;
+  Eigen::MatrixXd normal = base_.transpose() * jtj_base_;
+  normal.diagonal().array() += 1.0 + damping;
+  return theta - base_ * normal.llt().solve(uphill);
+}
+
 }  // namespace levitas::diagnosis

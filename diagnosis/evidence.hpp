@@ -47,6 +47,10 @@ class Evidence {
   [[nodiscard]] double Gain(const Hypothesis& hypothesis) const;
   /// The base with the accepted causes.
   [[nodiscard]] Fit Solve() const;
+  /// Towards the solution from `theta` (units of Term::scale()), no further than the linearisation
+  /// is good for: steps are held back as if by `damping` more priors about theta, which leaves those
+  /// that the data determine and shortens those that they do not (Levenberg 1944).
+  [[nodiscard]] Eigen::VectorXd Step(const Eigen::VectorXd& theta, double damping) const;
 
  private:
   const LinearProblem& problem_;

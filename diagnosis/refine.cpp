@@ -9,6 +9,24 @@
 
 namespace levitas::diagnosis {
 
+namespace {
+
+/// Of Levenberg's steps: none as long as all goes well.
+class Damping {
+ public:
+  void Refuse() noexcept { value_ = value_ > 0.0 ? kUp * value_ : kFirst; }
+  void Accept() noexcept { value_ = value_ > kFirst ? value_ / kDown : 0.0; }
+  [[nodiscard]] double value() const noexcept { return value_; }
+
+ private:
+  static constexpr double kFirst = 3.0;  // further priors
+  static constexpr double kUp = 10.0;
+  static constexpr double kDown = 10.0;
+  double value_{0.0};
+};
+
+}  // namespace
+
 double Refiner::Penalty(const std::vector<double>& theta,
                         const std::vector<Hypothesis>& causes) const {
   // Parameters are nuisances plus directions of causes: their prior has the covariance of both.
@@ -44,19 +62,25 @@ double Refiner::SetEvidence(const LinearProblem& problem, const std::vector<Term
 void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
                       std::vector<double> theta, int passes, Refined& best) const {
   constexpr double kSettled = 0.3;  // [nat]
-  constexpr int kMostHalvings = 3;
+  constexpr int kMostRefused = 4;
   NormalEquations sum = view.sum;
-  int halvings = 0;
+  Damping damping;
+  int refused = 0;
   for (int pass = 0; pass < passes;) {
     auto runs = search_.Run(records_, gains_, theta);
     view.slopes->Renew(runs, view.whitener, sum);
     const double cost = 0.5 * (sum.ete + Penalty(theta, causes));
     const double gained = best.cost - cost;
     if (!std::isfinite(cost) || gained < -kSettled) {
-      if (++halvings > kMostHalvings) return;
-      // Without a run to go back to, towards the usual rig.
-      for (std::size_t i = 0; i < theta.size(); ++i) {
-        theta[i] = 0.5 * (theta[i] + (best.ok ? best.theta[i] : terms_[i].usual));
+      if (++refused > kMostRefused) return;
+      damping.Refuse();
+      if (best.ok && best.problem.jtj.size() > 0) {
+        theta = search_.Step(best.problem, causes, best.theta, damping.value());
+      } else {
+        // Without a run to go back to, towards the usual rig.
+        for (std::size_t i = 0; i < theta.size(); ++i) {
+          theta[i] = 0.5 * (theta[i] + terms_[i].usual);
+        }
       }
       continue;
     }
@@ -66,7 +90,8 @@ void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
     best.problem = search_.About(sum, theta);
     best.ok = true;
     if (gained < kSettled) return;
-    theta = search_.Solve(best.problem, causes);
+    damping.Accept();
+    theta = search_.Step(best.problem, causes, best.theta, damping.value());
     ++pass;
   }
 }
@@ -119,26 +144,29 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
                           int passes) const {
   constexpr double kSettled = 1.0;  // [nat]
   constexpr double kFar = 100.0;    // [nat] a step that gains more has left its linearisation
-  constexpr int kMostHalvings = 3;
+  constexpr int kMostRefused = 4;
   Refined best;
   std::vector<double> theta = std::move(start);
+  Damping damping;
   Whitener whitener;
   std::shared_ptr<const Slopes> slopes;
   bool fresh = false;  // slopes were taken at best.theta
-  int halvings = 0;
+  int refused = 0;
   for (int pass = 0; pass < passes;) {
     auto runs = search_.Run(records_, gains_, theta);
     const double gained =
         pass == 0 ? std::numeric_limits<double>::infinity()
                   : best.cost - 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
     if (pass > 0 && !(std::isfinite(gained) && gained > -kSettled)) {
-      if (++halvings <= kMostHalvings) {
-        for (std::size_t i = 0; i < theta.size(); ++i) theta[i] = 0.5 * (theta[i] + best.theta[i]);
+      if (++refused <= kMostRefused) {
+        damping.Refuse();
+        theta = search_.Step(best.problem, {}, best.theta, damping.value());
         continue;
       }
       if (fresh) break;
       // Slopes from further back led nowhere: those from here may.
-      halvings = 0;
+      refused = 0;
+      damping = {};
       runs = search_.Run(records_, gains_, best.theta);
       theta = best.theta;
       slopes.reset();
@@ -156,7 +184,8 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
     }
     best.problem = search_.About(slopes->Sum(runs, whitener), theta);
     best.evidence = SetEvidence(best.problem, terms_, {});
-    theta = search_.Solve(best.problem, {});
+    damping.Accept();
+    theta = search_.Step(best.problem, {}, best.theta, damping.value());
     ++pass;
   }
   return best;

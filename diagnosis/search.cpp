@@ -78,23 +78,36 @@ View Search::Linearise(std::vector<Trajectory> runs, const std::vector<double>& 
   return view;
 }
 
-LinearProblem Search::About(const NormalEquations& sum, const std::vector<double>& theta) const {
+Eigen::VectorXd Search::Scaled(const std::vector<double>& theta) const {
   Eigen::VectorXd scaled(static_cast<Eigen::Index>(terms_.size()));
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     scaled[static_cast<Eigen::Index>(i)] = (theta[i] - terms_[i].usual) / terms_[i].scale();
   }
-  return AtOrigin(sum, scaled);
+  return scaled;
+}
+
+std::vector<double> Search::Unscaled(const Eigen::VectorXd& scaled) const {
+  std::vector<double> theta(terms_.size());
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    theta[i] = terms_[i].usual + scaled[static_cast<Eigen::Index>(i)] * terms_[i].scale();
+    theta[i] = std::max(theta[i], Least(terms_[i]));
+  }
+  return theta;
+}
+
+LinearProblem Search::About(const NormalEquations& sum, const std::vector<double>& theta) const {
+  return AtOrigin(sum, Scaled(theta));
 }
 
 std::vector<double> Search::Solve(const LinearProblem& problem,
                                   const std::vector<Hypothesis>& causes) const {
-  const Fit fit = Evidence(problem, terms_, causes).Solve();
-  std::vector<double> theta(terms_.size());
-  for (std::size_t i = 0; i < theta.size(); ++i) {
-    theta[i] = terms_[i].usual + fit.theta[static_cast<Eigen::Index>(i)] * terms_[i].scale();
-    theta[i] = std::max(theta[i], Least(terms_[i]));
-  }
-  return theta;
+  return Unscaled(Evidence(problem, terms_, causes).Solve().theta);
+}
+
+std::vector<double> Search::Step(const LinearProblem& problem,
+                                 const std::vector<Hypothesis>& causes,
+                                 const std::vector<double>& theta, double damping) const {
+  return Unscaled(Evidence(problem, terms_, causes).Step(Scaled(theta), damping));
 }
 
 void Search::Rename(const std::vector<std::size_t>& terms, const std::string& place) {

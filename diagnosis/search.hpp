@@ -50,6 +50,11 @@ class Search {
   [[nodiscard]] std::vector<double> Solve(const LinearProblem& problem,
                                           const std::vector<Hypothesis>& causes) const;
 
+  /// A damped step from theta towards the solution (Evidence::Step).
+  [[nodiscard]] std::vector<double> Step(const LinearProblem& problem,
+                                         const std::vector<Hypothesis>& causes,
+                                         const std::vector<double>& theta, double damping) const;
+
   [[nodiscard]] const RigView& rig() const { return rig_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   /// A member of a family stands for another place than before.
@@ -61,6 +66,10 @@ class Search {
   [[nodiscard]] std::vector<std::size_t> NuisancesAnd(const std::vector<Hypothesis>& causes) const;
 
  private:
+  /// In units of Term::scale() from the usual rig, and back.
+  [[nodiscard]] Eigen::VectorXd Scaled(const std::vector<double>& theta) const;
+  [[nodiscard]] std::vector<double> Unscaled(const Eigen::VectorXd& scaled) const;
+
   const RigView& rig_;
   const std::vector<Term>& terms_;
   std::vector<Hypothesis> hypotheses_;
