@@ -1,6 +1,7 @@
 #include "diagnosis/evidence.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -70,17 +71,36 @@ Fit Evidence::Solve() const {
   return fit;
 }
 
-Eigen::VectorXd Evidence::Step(const Eigen::VectorXd& theta, double damping) const {
+Eigen::VectorXd Evidence::Uphill(const Eigen::VectorXd& theta) const {
   // Parameters of the base behind theta: those of the smallest penalty.
   constexpr double kJitter = 1e-9;
   Eigen::MatrixXd covariance = base_ * base_.transpose();
   covariance.diagonal().array() += kJitter;
-  const Eigen::VectorXd now = base_.transpose() * covariance.llt().solve(theta);
-  const Eigen::VectorXd uphill =
-      base_.transpose() * (problem_.jte + problem_.jtj * theta) + now;
+  return base_.transpose() * (problem_.jte + problem_.jtj * theta + covariance.llt().solve(theta));
+}
+
+Eigen::VectorXd Evidence::Step(const Eigen::VectorXd& theta, double damping) const {
   Eigen::MatrixXd normal = base_.transpose() * jtj_base_;
   normal.diagonal().array() += 1.0 + damping;
-  return theta - base_ * normal.llt().solve(uphill);
+  return theta - base_ * normal.llt().solve(Uphill(theta));
+}
+
+Evidence::Beside Evidence::StepBeside(const Eigen::VectorXd& theta, const Eigen::VectorXd& cross,
+                                      double gradient, double curvature, double most) const {
+  const auto solve = [this](const Eigen::VectorXd& right) -> Eigen::VectorXd {
+    const auto lower = factor_.triangularView<Eigen::Lower>();
+    return lower.transpose().solve(lower.solve(right));
+  };
+  const Eigen::VectorXd uphill = Uphill(theta);
+  const Eigen::VectorXd along = base_.transpose() * cross;
+  const Eigen::VectorXd answer = solve(along);
+  // What of both the other parameters do not take up.
+  const double slope = gradient - answer.dot(uphill);
+  const double bend = curvature - answer.dot(along);
+  Beside beside;
+  beside.step = bend > 0.0 ? std::clamp(-slope / bend, -most, most) : (slope > 0.0 ? -most : most);
+  beside.theta = theta - base_ * (solve(uphill) + answer * beside.step);
+  return beside;
 }
 
 }  // namespace levitas::diagnosis

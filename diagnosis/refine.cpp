@@ -129,6 +129,25 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   return best;
 }
 
+Search::ShapeStep Refiner::Along(const std::vector<Hypothesis>& causes,
+                                 const std::vector<double>& theta, const View& view, double width,
+                                 const std::function<void(double)>& become) const {
+  constexpr double kApart = 0.05;  // of the width
+  constexpr double kMost = 1.5;
+  const View here = search_.Linearise(search_.Run(records_, gains_, theta), theta, view.whitener,
+                                      search_.NuisancesAnd(causes));
+  const auto sum = [&](double by) {
+    become(by);
+    NormalEquations shifted = here.sum;
+    here.slopes->Renew(search_.Run(records_, gains_, theta), view.whitener, shifted);
+    return shifted;
+  };
+  const NormalEquations below = sum(-kApart * width);
+  const NormalEquations above = sum(kApart * width);
+  become(0.0);
+  return search_.StepAlong(causes, theta, here.sum, below, above, kApart * width, kMost * width);
+}
+
 double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_order) const {
   const auto runs = search_.Run(records_, gains_, theta);
   const Whitener whitener = MakeWhitener(runs, axes_, whitening_order);

@@ -11,6 +11,7 @@
 // Thread     blocks the caller, two threads inside. Failure: `ok` false when no finite run was
 //            found.
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -38,6 +39,12 @@ class Refiner {
   [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
                             const View& view, int passes,
                             double worth = -std::numeric_limits<double>::infinity()) const;
+  /// Newton's step of all and of a shape parameter that has no slope of its own. `become` gives it
+  /// another value, relative to the present one in its logarithm.
+  [[nodiscard]] Search::ShapeStep Along(const std::vector<Hypothesis>& causes,
+                                        const std::vector<double>& theta, const View& view,
+                                        double width,
+                                        const std::function<void(double)>& become) const;
   /// Nuisances alone, from far away: whitened anew at every pass, since what is not calibrated yet
   /// is no noise and must not be weighted down as if it were.
   [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order,

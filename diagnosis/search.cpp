@@ -110,6 +110,19 @@ std::vector<double> Search::Step(const LinearProblem& problem,
   return Unscaled(Evidence(problem, terms_, causes).Step(Scaled(theta), damping));
 }
 
+Search::ShapeStep Search::StepAlong(const std::vector<Hypothesis>& causes,
+                                    const std::vector<double>& theta, const NormalEquations& sum,
+                                    const NormalEquations& below, const NormalEquations& above,
+                                    double apart, double most) const {
+  const Eigen::VectorXd cross = (above.jte - below.jte) / (2.0 * apart);
+  const double gradient = (above.ete - below.ete) / (4.0 * apart);
+  const double curvature = (above.ete + below.ete - 2.0 * sum.ete) / (2.0 * apart * apart);
+  const LinearProblem problem = About(sum, theta);
+  const auto beside =
+      Evidence(problem, terms_, causes).StepBeside(Scaled(theta), cross, gradient, curvature, most);
+  return {beside.step, Unscaled(beside.theta)};
+}
+
 void Search::Rename(const std::vector<std::size_t>& terms, const std::string& place) {
   for (Hypothesis& h : hypotheses_) {
     if (h.terms == terms) h.place = place;

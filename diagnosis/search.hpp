@@ -55,6 +55,16 @@ class Search {
                                          const std::vector<Hypothesis>& causes,
                                          const std::vector<double>& theta, double damping) const;
 
+  /// The same with a shape parameter; `above` and `below` are sums with it `apart` to either side.
+  struct ShapeStep {
+    double step;  ///< of the logarithm
+    std::vector<double> theta;
+  };
+  [[nodiscard]] ShapeStep StepAlong(const std::vector<Hypothesis>& causes,
+                                    const std::vector<double>& theta, const NormalEquations& sum,
+                                    const NormalEquations& below, const NormalEquations& above,
+                                    double apart, double most) const;
+
   [[nodiscard]] const RigView& rig() const { return rig_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   /// A member of a family stands for another place than before.

@@ -8,24 +8,10 @@ namespace levitas::diagnosis {
 namespace {
 
 constexpr int kRounds = 6;
-constexpr double kNarrower = 3.0;
+constexpr double kLeast = 0.05;  ///< of a step; shorter ones are not tried
 /// [nat] A round that gains less is the last: where much is at stake, a support's frequency is known
 /// to a thousandth, and what is left of the coarse one hides all else.
 constexpr double kWorth = 10.0;
-
-/// One member that was tried, by one of its parameters.
-struct Tried {
-  double log_value{};
-  Refined fit;
-};
-
-/// Highest point of the parabola through three, at most 1.5 widths off the middle one.
-double Vertex(const Tried& below, const Tried& middle, const Tried& above, double width) {
-  const double rise = 0.5 * (above.fit.evidence - below.fit.evidence);
-  const double bend = below.fit.evidence + above.fit.evidence - 2.0 * middle.fit.evidence;
-  const double off = bend < 0.0 ? -rise / bend : (rise > 0.0 ? 1.5 : -1.5);
-  return middle.log_value + width * std::clamp(off, -1.5, 1.5);
-}
 
 class Members {
  public:
@@ -51,30 +37,25 @@ class Members {
     }
   }
 
-  /// The best value of one parameter around the present one.
+  /// A better value of one parameter than the present one, if there is one.
   Refined Improve(std::size_t parameter, double width, Refined start) {
-    const Tried middle{std::log(family().shape[parameter]), std::move(start)};
-    Tried best = middle;
-    const auto keep = [&best](const Tried& tried) {
-      if (tried.fit.ok && tried.fit.evidence > best.fit.evidence) best = tried;
-    };
-    const Tried below = Try(parameter, middle.log_value - width, middle.fit.theta);
-    const Tried above = Try(parameter, middle.log_value + width, middle.fit.theta);
-    keep(below);
-    keep(above);
-    if (below.fit.ok && above.fit.ok) {
-      keep(Try(parameter, Vertex(below, middle, above, width), best.fit.theta));
+    const double here = std::log(family().shape[parameter]);
+    const Search::ShapeStep step = refiner_.Along(causes_, start.theta, view_, width,
+                                                  [&](double by) { Become(parameter, here + by); });
+    std::vector<double> theta = step.theta;
+    for (double share = 1.0; share > kLeast; share *= 0.3) {
+      for (std::size_t i = 0; i < theta.size(); ++i) {
+        theta[i] = start.theta[i] + share * (step.theta[i] - start.theta[i]);
+      }
+      Become(parameter, here + share * step.step);
+      Refined fit = refiner_.Fit(causes_, theta, view_, passes_);
+      if (fit.ok && fit.evidence > start.evidence) return fit;
     }
-    Become(parameter, best.log_value);
-    return std::move(best.fit);
+    Become(parameter, here);
+    return start;
   }
 
  private:
-  Tried Try(std::size_t parameter, double log_value, const std::vector<double>& start) {
-    Become(parameter, log_value);
-    return {log_value, refiner_.Fit(causes_, start, view_, passes_)};
-  }
-
   const Refiner& refiner_;
   const Hypothesis& cause_;
   const std::vector<Hypothesis>& causes_;
@@ -95,12 +76,11 @@ Refined Sharpen(const Refiner& refiner, const Hypothesis& cause,
                 std::vector<Term>& terms) {
   Members members(refiner, cause, causes, view, passes, terms);
   Refined best = std::move(start);
-  Family::Shape width = members.family().log_width;
+  const Family::Shape width = members.family().log_width;
   for (int round = 0; round < kRounds; ++round) {
     const double before = best.evidence;
     for (std::size_t parameter = 0; parameter < width.size(); ++parameter) {
       best = members.Improve(parameter, width[parameter], std::move(best));
-      width[parameter] /= kNarrower;
     }
     if (best.evidence - before < kWorth) break;
   }
