@@ -3,6 +3,7 @@
 #include "common/problem.hpp"
 #include "diagnosis/calibrate.hpp"
 #include "diagnosis/events.hpp"
+#include "diagnosis/exchange.hpp"
 #include "diagnosis/ranking.hpp"
 #include "diagnosis/rivals.hpp"
 #include "diagnosis/selection.hpp"
@@ -130,6 +131,7 @@ Answer Diagnose(const RigView& rig, const std::vector<Record>& records, const Se
     return Conclude(inquiry);
   }
   MergeCauses(inquiry);
+  ExchangeCauses(inquiry);
   do {
     DropUnproven(inquiry);
     RankCandidates(inquiry);
