@@ -10,6 +10,7 @@ namespace levitas::diagnosis {
 namespace {
 
 constexpr std::size_t kOthers = 2;  ///< tried in the place of one cause
+constexpr double kShare = 0.4;      ///< of its gain, by which the screen may be wrong
 constexpr int kRounds = 2;
 
 using Shapes = std::vector<Family::Shape>;
@@ -45,7 +46,7 @@ std::vector<Candidate> Near(const Inquiry& q, std::size_t at) {
   std::vector<Candidate> near =
       Screen(Evidence(q.view.problem, q.terms, Without(q.causes, at)), q.search.hypotheses());
   std::erase_if(near, [&](const Candidate& c) {
-    return c.score < own - kNear ||
+    return c.score < own - std::max(kNear, kShare * own) ||
            std::any_of(q.causes.begin(), q.causes.end(),
                        [&c](const Hypothesis& h) { return h.effect == c.effect; });
   });
