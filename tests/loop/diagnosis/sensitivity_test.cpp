@@ -30,6 +30,14 @@ class Sensitivity : public ::testing::Test {
     return 0;
   }
 
+  [[nodiscard]] std::size_t FindAt(const std::string& effect, const std::string& place) const {
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (terms_[i].effect == effect && terms_[i].place == place) return i;
+    }
+    ADD_FAILURE() << effect << " " << place;
+    return 0;
+  }
+
   [[nodiscard]] Trajectory Run(const std::vector<double>& theta) const {
     return search_.Run({spinning_}, gains_, theta).front();
   }
@@ -130,6 +138,16 @@ TEST_F(SensitivityAway, OfAModesDampingIsTheDifferenceOfTheModel) {
 TEST_F(Sensitivity, OfADelayIsTheDifferenceOfTheModel) {
   // Acts through the steps of the currents, which derivatives take in one piece: 4 % measured once.
   EXPECT_LT(Disagreement("extra_delay", 0.05), 0.06);
+}
+
+// A slewing amplifier rectifies noisy commands: what a bandwidth or a delay does to that moves the
+// rotor more than what they do to the current by themselves.
+TEST_F(SensitivityAway, OfTheTimingOfASlewingAmplifierIsTheDifferenceOfTheModel) {
+  std::vector<double> theta = Away();
+  theta[FindAt("amplifier_slew", "4000 A/s")] = 1.0;
+  // Of the currents alone: 0.4 and 0.6.
+  EXPECT_LT(Disagreement("extra_delay", 0.02, theta), 0.2);
+  EXPECT_LT(Disagreement("amplifier_bandwidth", 0.01, theta), 0.1);
 }
 
 TEST_F(Sensitivity, OfWhatDoesNotDependOnOtherTermsInTheBlockIsTheSameAlone) {

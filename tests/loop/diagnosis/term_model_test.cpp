@@ -85,6 +85,35 @@ TEST_F(TermModel, ADelayDoesWhatADelayInTheRigFileDoes) {
   EXPECT_LT(Apart(Run(view_, terms_, spinning, theta), file), 0.03 * Apart(none, file));
 }
 
+// Both the rig's amplifiers are slower than the file says, and commands act later, than the slewing
+// coil knew when it had only the file's numbers: what it rectified then was half of what it does.
+TEST_F(TermModel, ASlewingAmplifierDoesWhatOneInTheRigFileDoes) {
+  constexpr double kLate = 0.3;
+  constexpr double kRate = 0.9;
+  constexpr double kSlew = 4000.0;
+  const Record spinning = Recorded(bench_, {}).at(1);
+  plant::PlantConfig slewing = bench_.rig.plant;
+  slewing.delay_samples += kLate;
+  for (auto& bearing : slewing.bearings) {
+    bearing.amplifier.bandwidth_hz *= kRate;
+    bearing.amplifier.slew_a_per_s = kSlew;
+  }
+  const RigView view(bench_.rig.numbers, slewing);
+  std::vector<double> theta(terms_.size(), 0.0);
+  const Trajectory file = Run(view, AllTerms(view, Tolerances{}, 50e-6), spinning, theta);
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (terms_[i].effect == "extra_delay") theta[i] = kLate;
+    if (terms_[i].effect == "amplifier_bandwidth") theta[i] = kRate - 1.0;
+  }
+  const Trajectory fast = Run(view_, terms_, spinning, theta);
+  const auto term = std::find_if(terms_.begin(), terms_.end(), [](const Term& t) {
+    return t.effect == "amplifier_slew" && t.family.shape[0] == kSlew;
+  });
+  ASSERT_NE(term, terms_.end());
+  theta[static_cast<std::size_t>(term - terms_.begin())] = 1.0;
+  EXPECT_LT(Apart(Run(view_, terms_, spinning, theta), file), 0.1 * Apart(fast, file));
+}
+
 double Rms(const Trajectory& run, std::size_t axis) {
   constexpr std::size_t kLast = 3000;
   double sum = 0.0;

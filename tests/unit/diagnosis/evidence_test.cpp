@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
 #include <limits>
 
@@ -72,6 +74,53 @@ TEST(Evidence, RefusesACauseThatWouldHaveToBeNegative) {
   const double never = -std::numeric_limits<double>::infinity();
   EXPECT_EQ(Evidence(problem, TwoTerms(), {}).Gain(Cause(true)), never);
   EXPECT_GT(Evidence(problem, TwoTerms(), {}).Gain(Cause(false)), 5.0);
+}
+
+TEST(Evidence, StepsFromAnywhereToTheSolutionWhenNothingHoldsItBack) {
+  const LinearProblem problem = Problem(40.0, 0.5);
+  const auto terms = TwoTerms();
+  const Evidence evidence(problem, terms, {Cause()});
+  const Eigen::Vector2d from(-0.7, 1.2);
+  EXPECT_NEAR((evidence.Step(from, 0.0) - evidence.Solve().theta).norm(), 0.0, 1e-6);
+}
+
+// What the data say little about moves little; what they determine goes nearly all the way.
+TEST(Evidence, HoldsBackOnlyWhatTheDataDoNotDetermine) {
+  LinearProblem problem = Problem(0.0, 0.5);
+  constexpr double kWeak = 1e-2;  // of its prior
+  problem.jtj(0, 0) = kWeak;
+  problem.jte[0] = -1.0;
+  const auto terms = TwoTerms();
+  const Evidence evidence(problem, terms, {Cause()});
+  const Eigen::Vector2d origin(0.0, 0.0);
+  const Eigen::VectorXd whole = evidence.Step(origin, 0.0);
+  const Eigen::VectorXd held = evidence.Step(origin, 9.0);
+  // 1 / (kWeak + 1) against 1 / (kWeak + 10), and 50 / 101 against 50 / 110.
+  EXPECT_NEAR(held[0] / whole[0], (kWeak + 1.0) / (kWeak + 10.0), 1e-6);
+  EXPECT_NEAR(held[1] / whole[1], 101.0 / 110.0, 1e-6);
+}
+
+// A parameter beside the others, told by its products, goes where it would as one of them.
+TEST(Evidence, StepsBesideAsIfTheParameterWereOneOfItsOwn) {
+  const LinearProblem whole = Problem(40.0, 0.5);
+  const std::vector<Term> terms{MakeTerm({"", "anywhere", "nuisance", "1"}, 1.0, 1.0, nullptr)};
+  LinearProblem part;
+  part.jtj = whole.jtj.topLeftCorner(1, 1);
+  part.jte = whole.jte.head(1);
+  part.ete = whole.ete;
+  const Eigen::VectorXd origin = Eigen::VectorXd::Zero(1);
+  const Eigen::VectorXd cross = whole.jtj.block(0, 1, 1, 1);
+  const auto beside =
+      Evidence(part, terms, {}).StepBeside(origin, cross, whole.jte[1], whole.jtj(1, 1), 10.0);
+  // Without a prior of its own: (101 n + 40 s, 40 n + 100 s) = -jte.
+  Eigen::Matrix2d normal = whole.jtj;
+  normal(0, 0) += 1.0;
+  const Eigen::Vector2d expected = normal.llt().solve(-whole.jte);
+  EXPECT_NEAR(beside.theta[0], expected[0], 1e-6);
+  EXPECT_NEAR(beside.step, expected[1], 1e-6);
+  EXPECT_NEAR(
+      Evidence(part, terms, {}).StepBeside(origin, cross, whole.jte[1], whole.jtj(1, 1), 0.1).step,
+      0.1, 1e-12);
 }
 
 TEST(AtOrigin, GivesTheSameProblemWhereverTheModelWasLinearised) {

@@ -1,0 +1,49 @@
+"""amb diagnose, complete, on campaigns of a simulator that shares no code with this project.
+
+The other tests of the diagnosis hide effects with this project's own plant model. What its terms and
+the plant have wrong in common, only a foreign simulator can show.
+"""
+
+import json
+import os
+import subprocess
+import unittest
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+BINARIES = Path(os.environ["LEVITAS_BINARIES"])
+RECORDS = Path(os.environ["LEVITAS_SOURCE"]) / "tests/data/records"
+
+
+def diagnose(campaign):
+    with TemporaryDirectory() as folder:
+        out = Path(folder) / "answer"
+        data = sorted(map(str, (RECORDS / campaign).glob("*.csv.xz")))
+        assert len(data) == 3, data
+        done = subprocess.run([str(BINARIES / "amb"), "diagnose", "--rig", "flexible_rotor", *data,
+                               "--out", str(out)], cwd=folder, text=True, capture_output=True,
+                              timeout=500, check=False)
+        assert done.returncode == 0, done.stderr
+        return json.loads((out / "diagnosis.json").read_text())
+
+
+class ForeignCampaigns(unittest.TestCase):
+    def test_nothing_is_named_where_nothing_is_hidden(self):
+        answer = diagnose("none")
+        self.assertEqual(answer["verdict"], "none", answer["candidates"][:3])
+
+    def test_an_eddy_current_is_named_and_nothing_beside_it(self):
+        self.assert_named("eddy_current")
+
+    def test_an_unbalance_is_named_and_nothing_beside_it(self):
+        self.assert_named("unbalance")
+
+    def assert_named(self, effect):
+        answer = diagnose(effect)
+        self.assertEqual(answer["verdict"], "effect", answer["candidates"][:3])
+        self.assertEqual([cause["effect"] for cause in answer["all_causes"]], [effect])
+        self.assertEqual(answer["also_possible"], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

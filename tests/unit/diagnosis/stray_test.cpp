@@ -1,0 +1,44 @@
+// A model that loses the rotor, told from one that only errs.
+
+#include "diagnosis/stray.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/unit/diagnosis/trajectories.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+/// Measured readings reach 20 um.
+Trajectory Predicting(float reading_m, bool settled = true) {
+  return NoiseRun(1, 500, [=](std::size_t n, Moment& m) {
+    if (n != 400) return;
+    m.settled = settled;
+    m.reading_m[1] = reading_m;
+  });
+}
+
+TEST(StraysTest, AModelStraysFarFromEverythingThatWasMeasured) {
+  const auto clearance_m = static_cast<float>(View().numbers.clearance_m);
+  EXPECT_TRUE(Strays(View(), {Predicting(0.5F * clearance_m)}));
+  EXPECT_TRUE(Strays(View(), {Predicting(-0.5F * clearance_m)}));
+  EXPECT_TRUE(Strays(View(), {Predicting(std::numeric_limits<float>::quiet_NaN())}));
+}
+
+TEST(StraysTest, AnErrorOfTheModelIsNoStraying) {
+  EXPECT_FALSE(Strays(View(), {Predicting(0.0F)}));
+  // Twice what was measured, but small beside the clearance.
+  EXPECT_FALSE(Strays(View(), {Predicting(0.2F * static_cast<float>(View().numbers.clearance_m))}));
+  // Before the observer has settled.
+  EXPECT_FALSE(Strays(View(), {Predicting(static_cast<float>(View().numbers.clearance_m), false)}));
+}
+
+TEST(StraysTest, OneRecordOfSeveralIsEnough) {
+  const auto clearance_m = static_cast<float>(View().numbers.clearance_m);
+  EXPECT_TRUE(Strays(View(), {Predicting(0.0F), Predicting(0.5F * clearance_m)}));
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis
