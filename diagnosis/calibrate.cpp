@@ -1,39 +1,68 @@
 #include "diagnosis/calibrate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "common/problem.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
-constexpr std::size_t kFastRows = 18'000;  ///< of all records
+constexpr std::size_t kFastRows = 18'000;   ///< of all records
+constexpr std::size_t kStartRows = 60'000;  ///< on which starts are compared
+constexpr int kStartPasses = 5;
+constexpr double kHeld = 0.2;  ///< of its tolerance
+
+/// How a rig is built is held near its file; what state it is in is not.
+std::vector<Term> Held(std::vector<Term> terms) {
+  constexpr std::array<std::string_view, 4> kState{"unbalance", "static_load", "sensor_offset",
+                                                   "sensor_runout"};
+  for (Term& term : terms) {
+    if (std::find(kState.begin(), kState.end(), term.effect) == kState.end()) {
+      term.tolerance *= kHeld;
+    }
+  }
+  return terms;
+}
+
+/// From the usual rig: a fast observer on a few rows, then the one of `gains`.
+Refined FromFar(const RigView& rig, const Search& search, const std::vector<Term>& terms,
+                const std::vector<Record>& few, const std::vector<Record>& records,
+                const Gains& gains) {
+  const Gains fast = search.DesignGains(few, kFast);
+  Refined fit =
+      Refiner(search, terms, few, fast, rig.axes).Approach(search.Usual(), kWhiteningOrder, 3);
+  if (!fit.ok) fit.theta = search.Usual();
+  const Refiner refiner(search, terms, records, gains, rig.axes);
+  // What a fast observer likes on a part of the records may be worse than the usual rig. Judged by
+  // plain power: a whitening of its own would take a large orbit for colour and forgive it.
+  const double here = refiner.Misfit(fit.theta, 0);
+  const double usual = refiner.Misfit(search.Usual(), 0);
+  if (!std::isfinite(here) || usual < here) fit.theta = search.Usual();
+  Refined better = refiner.Approach(fit.theta, kWhiteningOrder, kStartPasses);
+  return better.ok ? better : fit;
+}
 
 }  // namespace
 
 Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::vector<Term>& terms,
                            const std::vector<Record>& all, const std::vector<Record>& records,
-                           const Gains& gains, int passes) {
-  Refined fit;
-  fit.theta = search.Usual();
-  const auto settle = [&](const std::vector<Record>& data, const Gains& with, int most) {
-    const Refiner refiner(search, terms, data, with, rig.axes);
-    // What a fast observer likes on a part of the records may be worse than the usual rig. Judged by
-    // plain power: a whitening of its own would take a large orbit for colour and forgive it.
-    const double here = refiner.Misfit(fit.theta, 0);
-    const double usual = refiner.Misfit(search.Usual(), 0);
-    if (!std::isfinite(here) || usual < here) fit.theta = search.Usual();
-    Refined better = refiner.Approach(fit.theta, kWhiteningOrder, most);
-    if (better.ok) fit = std::move(better);
-  };
+                           const Gains& gains, const ObserverSpeed& speed, int passes) {
   const std::vector<Record> few = Spans(all, kFastRows);
-  const Gains fast = search.DesignGains(few, kFast);
-  Refined first =
-      Refiner(search, terms, few, fast, rig.axes).Approach(fit.theta, kWhiteningOrder, 3);
-  if (first.ok) fit = std::move(first);
-  settle(records, gains, passes);
-  return fit;
+  const std::vector<Record> part = Spans(all, kStartRows);
+  const Gains with = search.DesignGains(part, speed);
+  const std::vector<Term> held = Held(terms);
+  const Search cautious(rig, held);
+  const Refiner refiner(search, terms, part, with, rig.axes);
+  const Refined bold = FromFar(rig, search, terms, few, part, with);
+  const Refined near = refiner.Approach(FromFar(rig, cautious, held, few, part, with).theta,
+                                        kWhiteningOrder, kStartPasses);
+  const double bold_misfit = refiner.Misfit(bold.theta, kWhiteningOrder);
+  const bool nearer = near.ok && !(bold_misfit < refiner.Misfit(near.theta, kWhiteningOrder));
+  return Refiner(search, terms, records, gains, rig.axes)
+      .Approach(nearer ? near.theta : bold.theta, kWhiteningOrder, passes);
 }
 
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
@@ -42,7 +71,7 @@ void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
   const std::vector<Record> records = Spans(healthy, kHealthyRows);
   constexpr int kPasses = 8;
   const Refined fit = CalibrateNuisances(rig, search, terms, healthy, records,
-                                         search.DesignGains(records, kSlow), kPasses);
+                                         search.DesignGains(records, kSlow), kSlow, kPasses);
   if (!fit.ok) throw BadInput("the healthy records cannot be calibrated: is it the same rig?");
   const Fit posterior = Evidence(fit.problem, terms, {}).Solve();
   for (std::size_t i = 0; i < terms.size(); ++i) {

@@ -3,7 +3,10 @@
 // tell about them.
 //
 // Method     a fast observer on a part of the records (smooth, coarse), then the slow one on all
-//            that is used.
+//            that is used. Twice: as free as the tolerances allow, and with all that is the rig's
+//            build held to a fifth of its tolerance first. What a hidden effect does can drive gains
+//            and delays, which make up for one another, tens of tolerances away, where a fit stays;
+//            the better start by likelihood goes on.
 // Healthy    tolerances shrink to what the healthy records leave open, but not below kDaily of
 //            themselves: a rig is not the same from one day to the next. This separates what one
 //            record cannot: current gain from sensor gain, gap from bias.
@@ -18,12 +21,12 @@ namespace levitas::diagnosis {
 inline constexpr std::size_t kWhiteningOrder = 4;
 inline constexpr double kDaily = 0.2;  ///< share of its tolerance
 
-/// `records` and `gains` are those of the slow observer; `all` may be longer.
+/// `gains` are those of observers of this speed for `records`; `all` may be longer.
 [[nodiscard]] Refined CalibrateNuisances(const RigView& rig, const Search& search,
                                          const std::vector<Term>& terms,
                                          const std::vector<Record>& all,
                                          const std::vector<Record>& records, const Gains& gains,
-                                         int passes);
+                                         const ObserverSpeed& speed, int passes);
 
 /// Sets `usual` and narrows `tolerance` of the nuisances.
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,

@@ -35,7 +35,7 @@ void Calibrate(Inquiry& q) {
   q.Tell(0.02, "calibrating");
   for (;; q.Observe(q.speed + 1)) {
     const Refined fit = CalibrateNuisances(q.rig, q.search, q.terms, q.all_records, q.records,
-                                           q.gains, q.effort.calibrations);
+                                           q.gains, kSpeeds[q.speed], q.effort.calibrations);
     const bool fastest = q.speed + 1 == kSpeeds.size();
     if (!fit.ok && fastest) {
       throw BadInput(

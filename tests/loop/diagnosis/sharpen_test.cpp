@@ -37,7 +37,8 @@ TEST(Sharpen, FindsTheShapeBetweenTwoMembers) {
   Search search(rig, terms);
   const Gains gains = search.DesignGains(records, kSlow);
   const Refiner refiner(search, terms, records, gains, rig.axes);
-  const Refined calibrated = CalibrateNuisances(rig, search, terms, records, records, gains, 4);
+  const Refined calibrated =
+      CalibrateNuisances(rig, search, terms, records, records, gains, kSlow, 4);
   ASSERT_TRUE(calibrated.ok);
   const View view =
       search.Linearise(records, gains, calibrated.theta, kWhiteningOrder, search.Everything());
