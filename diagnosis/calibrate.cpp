@@ -10,8 +10,8 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr std::size_t kFastRows = 18'000;   ///< of all records
-constexpr std::size_t kStartRows = 60'000;  ///< on which starts are compared
+constexpr std::size_t kFastRows = 18'000;  ///< of all records
+constexpr std::size_t kStartRows = 30'000;
 constexpr int kStartPasses = 5;
 constexpr double kHeld = 0.2;  ///< of its tolerance
 
@@ -28,21 +28,21 @@ std::vector<Term> Held(std::vector<Term> terms) {
 }
 
 /// From the usual rig: a fast observer on a few rows, then the one of `gains`.
-Refined FromFar(const RigView& rig, const Search& search, const std::vector<Term>& terms,
-                const std::vector<Record>& few, const std::vector<Record>& records,
-                const Gains& gains) {
+std::vector<double> FromFar(const RigView& rig, const Search& search,
+                            const std::vector<Term>& terms, const std::vector<Record>& few,
+                            const std::vector<Record>& records, const Gains& gains) {
   const Gains fast = search.DesignGains(few, kFast);
-  Refined fit =
-      Refiner(search, terms, few, fast, rig.axes).Approach(search.Usual(), kWhiteningOrder, 3);
-  if (!fit.ok) fit.theta = search.Usual();
+  std::vector<double> start = search.Usual();
+  const Refined coarse =
+      Refiner(search, terms, few, fast, rig.axes).Approach(start, kWhiteningOrder, 3);
   const Refiner refiner(search, terms, records, gains, rig.axes);
   // What a fast observer likes on a part of the records may be worse than the usual rig. Judged by
   // plain power: a whitening of its own would take a large orbit for colour and forgive it.
-  const double here = refiner.Misfit(fit.theta, 0);
-  const double usual = refiner.Misfit(search.Usual(), 0);
-  if (!std::isfinite(here) || usual < here) fit.theta = search.Usual();
-  Refined better = refiner.Approach(fit.theta, kWhiteningOrder, kStartPasses);
-  return better.ok ? better : fit;
+  if (coarse.ok && refiner.Misfit(coarse.theta, 0) <= refiner.Misfit(start, 0)) {
+    start = coarse.theta;
+  }
+  const Refined fine = refiner.Approach(start, kWhiteningOrder, kStartPasses);
+  return fine.ok ? fine.theta : start;
 }
 
 }  // namespace
@@ -50,19 +50,12 @@ Refined FromFar(const RigView& rig, const Search& search, const std::vector<Term
 Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::vector<Term>& terms,
                            const std::vector<Record>& all, const std::vector<Record>& records,
                            const Gains& gains, const ObserverSpeed& speed, int passes) {
-  const std::vector<Record> few = Spans(all, kFastRows);
-  const std::vector<Record> part = Spans(all, kStartRows);
-  const Gains with = search.DesignGains(part, speed);
   const std::vector<Term> held = Held(terms);
   const Search cautious(rig, held);
-  const Refiner refiner(search, terms, part, with, rig.axes);
-  const Refined bold = FromFar(rig, search, terms, few, part, with);
-  const Refined near = refiner.Approach(FromFar(rig, cautious, held, few, part, with).theta,
-                                        kWhiteningOrder, kStartPasses);
-  const double bold_misfit = refiner.Misfit(bold.theta, kWhiteningOrder);
-  const bool nearer = near.ok && !(bold_misfit < refiner.Misfit(near.theta, kWhiteningOrder));
-  return Refiner(search, terms, records, gains, rig.axes)
-      .Approach(nearer ? near.theta : bold.theta, kWhiteningOrder, passes);
+  const std::vector<Record> part = Spans(all, kStartRows);
+  const std::vector<double> start =
+      FromFar(rig, cautious, held, Spans(all, kFastRows), part, cautious.DesignGains(part, speed));
+  return Refiner(search, terms, records, gains, rig.axes).Approach(start, kWhiteningOrder, passes);
 }
 
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,

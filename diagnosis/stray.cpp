@@ -20,8 +20,9 @@ bool Strays(const RigView& rig, const std::vector<Trajectory>& runs) {
     for (const Moment& m : run.moments) {
       for (std::size_t a = 0; m.settled && a < rig.axes; ++a) {
         measured_m = std::max(measured_m, std::abs(m.measured_m[a]));
-        predicted_m = std::max(predicted_m, std::abs(m.reading_m[a]));
-        finite = finite && std::isfinite(m.reading_m[a]);
+        const float reading_m = m.measured_m[a] - m.innovation_m[a];
+        predicted_m = std::max(predicted_m, std::abs(reading_m));
+        finite = finite && std::isfinite(reading_m);
       }
     }
     return !finite || predicted_m > std::max(far_m, kTimes * measured_m);

@@ -16,7 +16,7 @@ Trajectory Predicting(float reading_m, bool settled = true) {
   return NoiseRun(1, 500, [=](std::size_t n, Moment& m) {
     if (n != 400) return;
     m.settled = settled;
-    m.reading_m[1] = reading_m;
+    m.innovation_m[1] = m.measured_m[1] - reading_m;
   });
 }
 
@@ -33,6 +33,14 @@ TEST(StraysTest, AnErrorOfTheModelIsNoStraying) {
   EXPECT_FALSE(Strays(View(), {Predicting(0.2F * static_cast<float>(View().numbers.clearance_m))}));
   // Before the observer has settled.
   EXPECT_FALSE(Strays(View(), {Predicting(static_cast<float>(View().numbers.clearance_m), false)}));
+}
+
+// A sensor's offset is part of what is predicted, and the rotor stands where the offset puts it.
+TEST(StraysTest, AnOffsetThatTheModelKnowsIsNoStraying) {
+  const auto run = NoiseRun(1, 500, [](std::size_t, Moment& m) {
+    m.reading_m[1] = 0.5F * static_cast<float>(View().numbers.clearance_m);
+  });
+  EXPECT_FALSE(Strays(View(), {run}));
 }
 
 TEST(StraysTest, OneRecordOfSeveralIsEnough) {
