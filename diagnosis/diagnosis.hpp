@@ -10,6 +10,7 @@
 //              model (refine.hpp); the best of them is a cause, and each earlier one is dropped
 //              again when the others explain its share (backward check); what only a few members
 //              of a family stand for is sharpened; again from 2 until none gains enough;
+//              Several causes are exchanged, one by one, for what comes nearest (exchange.hpp);
 //            4 rank: every effect in place of the first cause, the nearest refitted;
 //            5 judge what remains (remainder.hpp).
 // Strays     a model that loses the rotor is held by a faster observer until the causes found let go
