@@ -68,8 +68,8 @@ struct Term {
   bool linear{true};       ///< adds theta times what it adds at theta = 1
   bool rotating{false};    ///< adds nothing at rest
   bool moves_coil{false};  ///< its drive adds to the coil current, and to nothing else
-  bool timed{false};       ///< its drive looks at when and how fast coils act (Moment::late_periods)
-  int record{-1};          ///< acts in this record alone; -1: in all
+  bool timed{false};  ///< its drive looks at when and how fast coils act (Moment::late_periods)
+  int record{-1};     ///< acts in this record alone; -1: in all
   /// Over the period that begins at the moment; `reading_m` then belongs to the sample at its end.
   Adds drive;
   /// At the sample of the moment.

@@ -128,8 +128,7 @@ class SlewingCoil {
     if (share <= 0.0) return 0.0;
     constexpr int kHalves = 4;  // Simpson's rule over two pairs
     constexpr std::array kWeights{1.0, 4.0, 2.0, 4.0, 1.0};
-    const auto step =
-        amplifier::MakeStep(bandwidth_hz, slew_a_per_s_, share * period_s_ / kHalves);
+    const auto step = amplifier::MakeStep(bandwidth_hz, slew_a_per_s_, share * period_s_ / kHalves);
     double sum = kWeights[0] * now_a_;
     for (std::size_t k = 1; k <= kHalves; ++k) {
       now_a_ = amplifier::FollowSlewing(step, now_a_, command_a);

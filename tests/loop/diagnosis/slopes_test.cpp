@@ -129,7 +129,8 @@ TEST_F(SlopesTest, AFitIsWorthWhatTheModelDoesAndNoMore) {
 TEST_F(SlopesTest, OfACalibrationAreRenewedUntilALargeUnbalanceIsFollowedToTheNoise) {
   Prepare({effect::Id::kUnbalance});
   const Gains slow = search_.DesignGains(records_, kSlow);
-  const Refined fit = CalibrateNuisances(view_, search_, terms_, records_, records_, slow, kSlow, 8);
+  const Refined fit =
+      CalibrateNuisances(view_, search_, terms_, records_, records_, slow, kSlow, 8);
   ASSERT_TRUE(fit.ok);
   const auto runs = search_.Run(records_, slow, fit.theta);
   const auto nominal = search_.Run(records_, slow, search_.Usual());
