@@ -97,6 +97,9 @@ void ExchangeCauses(Inquiry& q) {
     if (!best.ok) return;
     Keep(q, q.causes, best);
     q.LineariseAll();
+    // Whitened anew: only what is fitted with the same whitening can be compared.
+    best = q.refiner.Fit(q.causes, q.theta, q.view, 1);
+    if (!best.ok) return;
     bool better = false;
     for (std::size_t at = 0; at < q.causes.size() && !better; ++at) {
       better = ExchangeOne(q, at, best);
