@@ -56,9 +56,7 @@ std::vector<Candidate> Near(const Inquiry& q, std::size_t at) {
 
 void Keep(Inquiry& q, std::vector<Hypothesis> causes, const Refined& fit) {
   for (Hypothesis& cause : causes) {
-    if (!HasFamily(cause, q.terms)) continue;
-    cause.place = q.terms[cause.terms.front()].place;
-    q.search.Rename(cause.terms, cause.place);
+    if (HasFamily(cause, q.terms)) q.TakePlace(cause);
   }
   q.causes = std::move(causes);
   q.theta = fit.theta;

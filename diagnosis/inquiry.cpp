@@ -36,6 +36,11 @@ Refined Inquiry::Refit(const std::vector<Hypothesis>& set, double worth) const {
   return refiner.Fit(set, search.Solve(view.problem, set), view, effort.passes, worth);
 }
 
+void Inquiry::TakePlace(Hypothesis& member) {
+  member.place = terms[member.terms.front()].place;
+  search.Rename(member.terms, member.place);
+}
+
 double Inquiry::GainOf(std::size_t cause) const {
   return Evidence(view.problem, terms, Without(causes, cause)).Gain(causes[cause]);
 }

@@ -53,6 +53,8 @@ struct Inquiry {
   /// Causes fitted from where the linearisation sees them (Refiner::Fit).
   [[nodiscard]] Refined Refit(const std::vector<Hypothesis>& set,
                               double worth = -std::numeric_limits<double>::infinity()) const;
+  /// A member of a family that was sharpened is told by its new place, here and in the search.
+  void TakePlace(Hypothesis& member);
   /// What a cause gains beside the others, on the linearisation.
   [[nodiscard]] double GainOf(std::size_t cause) const;
 

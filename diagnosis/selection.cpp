@@ -26,8 +26,7 @@ void SharpenLast(Inquiry& q, Refined& fit) {
   q.Tell(0.5, "sharpening " + last.effect);
   fit = Sharpen(q.refiner, last, q.causes, q.view, q.effort.passes, std::move(fit), q.terms);
   q.theta = fit.theta;
-  last.place = q.terms[last.terms.front()].place;
-  q.search.Rename(last.terms, last.place);
+  q.TakePlace(last);
 }
 
 void DropSuperfluous(Inquiry& q, const LinearProblem& problem) {
