@@ -18,18 +18,17 @@ double ForcePerCurrent(const plant::PlantModel& model, Eigen::Index axis) {
                                  model.config().bearings[bearing].magnet.bias_current_a);
 }
 
-/// How one newton at each actuator plane enters the state: the way the coil current's force does.
-Eigen::MatrixXd ForceInput(const plant::PlantModel& model, const Eigen::MatrixXd& a) {
+/// How one newton at each actuator plane enters the state. Not by way of the coil's current: behind
+/// eddy currents that is the small part of it which is immediate.
+Eigen::MatrixXd ForceInput(const plant::PlantModel& model) {
   const plant::StateLayout& layout = model.layout();
   const auto axes = static_cast<Eigen::Index>(model.channels());
-  const auto modes = static_cast<Eigen::Index>(layout.modes);
-  Eigen::MatrixXd input = Eigen::MatrixXd::Zero(a.rows(), axes);
+  Eigen::MatrixXd input = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layout.size), axes);
   for (Eigen::Index axis = 0; axis < axes; ++axis) {
-    const Eigen::Index coil = static_cast<Eigen::Index>(layout.coil_current) + axis;
-    for (const std::size_t first : {layout.v_x, layout.v_y}) {
-      const auto at = static_cast<Eigen::Index>(first);
-      input.block(at, axis, modes, 1) = a.block(at, coil, modes, 1) / ForcePerCurrent(model, axis);
-    }
+    const auto& shape = model.bearings()[static_cast<std::size_t>(axis / 2)].actuator_shape;
+    const auto first = static_cast<Eigen::Index>(axis % 2 == 0 ? layout.v_x : layout.v_y);
+    input.col(axis).segment(first, static_cast<Eigen::Index>(shape.size())) =
+        Eigen::Map<const Eigen::VectorXd>(shape.data(), static_cast<Eigen::Index>(shape.size()));
   }
   return input;
 }
@@ -111,7 +110,7 @@ ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTun
   const double period_s = static_cast<double>(nominal.period_ns) * 1e-9;
   const auto axes = static_cast<Eigen::Index>(reduced.channels());
   plant::LinearModel continuous = plant::Linearise(reduced, tuning.speed_rad_per_s);
-  continuous.b = ForceInput(reduced, continuous.a);
+  continuous.b = ForceInput(reduced);
   const plant::LinearModel sampled = plant::Discretise(continuous, period_s, 0.0);
 
   ObserverGain gain;

@@ -40,7 +40,7 @@ struct BenchOptions {
   std::vector<double> sizes{1.0, 0.5, 0.25};
   std::uint64_t first{1000};
   int seeds{0}, clean{0}, outside{0}, pairs{0}, weak{0};
-  bool quick{}, explain{};
+  bool quick{}, explain{}, in_file{};
   std::size_t jobs{1};
   std::string json_path, markdown_path, write_folder;
 };
@@ -69,6 +69,7 @@ std::vector<trials::TrialPlan> Plans(const BenchOptions& options, const trials::
     plan.seed = options.first + plans.size();
     plan.hidden = std::move(hidden);
     plan.size = size;
+    plan.in_file = options.in_file;
     return plans.emplace_back(plan);
   };
   for (int i = 0; i < options.seeds; ++i) {
@@ -93,12 +94,11 @@ std::vector<trials::TrialPlan> Plans(const BenchOptions& options, const trials::
   return plans;
 }
 
-void WriteTrial(const trials::Trial& trial, const trials::Bench& bench, const std::string& root,
-                std::uint64_t seed) {
+void WriteTrial(const trials::Trial& trial, const std::string& root, std::uint64_t seed) {
   const std::string folder = fmt::format("{}/{}", root, seed);
   std::filesystem::create_directories(folder + "/secret");
-  trials::WriteCsv(trial.campaign, bench.rig.numbers, folder);
-  std::ofstream(folder + "/rig.yaml") << config::WriteRig(bench.rig);
+  trials::WriteCsv(trial.campaign, trial.rig.numbers, folder);
+  std::ofstream(folder + "/rig.yaml") << config::WriteRig(trial.rig);
   nlohmann::ordered_json truth{{"effects", trial.secret.effects},
                                {"outside", Name(trial.secret.outside)}};
   WriteJsonFile(folder + "/secret/truth.json", truth);
@@ -107,18 +107,18 @@ void WriteTrial(const trials::Trial& trial, const trials::Bench& bench, const st
 trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
                     const BenchOptions& options) {
   const trials::Trial trial = trials::MakeTrial(bench, plan);
-  if (!options.write_folder.empty()) WriteTrial(trial, bench, options.write_folder, plan.seed);
+  if (!options.write_folder.empty()) WriteTrial(trial, options.write_folder, plan.seed);
   diagnosis::Settings settings;
   settings.quick = options.quick;
   const auto start = std::chrono::steady_clock::now();
   const diagnosis::SessionAnswer answer =
-      diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings);
+      diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
   trials::Outcome outcome = trials::Judge(plan, trial.secret, answer, bench.rig.numbers);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!outcome.truth.empty() && !outcome.Right()) {
     // What the records hold for an effect that was not named is found by being told of it.
     settings.only = outcome.truth.front();
-    const auto told = diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings);
+    const auto told = diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
     for (const auto& candidate : told.answer.candidates) {
       outcome.available_nat = std::max(outcome.available_nat, candidate.score);
     }
@@ -126,10 +126,14 @@ trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
   return outcome;
 }
 
+std::string Hidden(const trials::Outcome& o) {
+  if (!o.truth.empty()) return fmt::format("{}", fmt::join(o.truth, "+"));
+  if (!o.in_file.empty()) return fmt::format("({} in the file)", fmt::join(o.in_file, "+"));
+  return o.outside.empty() ? "(nothing)" : o.outside;
+}
+
 void PrintOne(const trials::Outcome& o) {
-  fmt::print("{:>6} {:<26}{:<9}-> {:<8}{:<60}{:>7.1f} nat {:.1f} s{}\n", o.seed,
-             o.truth.empty() ? (o.outside.empty() ? "(nothing)" : o.outside)
-                             : fmt::format("{}", fmt::join(o.truth, "+")),
+  fmt::print("{:>6} {:<26}{:<9}-> {:<8}{:<60}{:>7.1f} nat {:.1f} s{}\n", o.seed, Hidden(o),
              o.truth.empty() ? "" : trials::Name(o.size()), o.verdict,
              fmt::format("{}{}{}", fmt::join(o.named, ", "), o.ties.empty() ? "" : " | ",
                          fmt::join(o.ties, ", ")),
@@ -147,6 +151,7 @@ nlohmann::ordered_json Json(const trials::Outcome& o) {
   return {{"seed", o.seed},
           {"truth", o.truth},
           {"outside", o.outside},
+          {"in_file", o.in_file},
           {"drawn", o.drawn},
           {"size", o.truth.empty() ? "" : trials::Name(o.size())},
           {"verdict", o.verdict},
@@ -241,6 +246,8 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--effect", options->effects, "Only these effects");
   command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");
   command->add_flag("--quick", options->quick, "A first answer instead of the complete ranking");
+  command->add_flag("--in-file", options->in_file,
+                    "Give the diagnosis rig files that hold the effects: right is none");
   command->add_option("--jobs", options->jobs, "Trials at a time")->check(CLI::Range(1, 64));
   command->add_flag("--explain", options->explain, "The nearest candidates of every trial");
   command->add_option("--write", options->write_folder, "Also write the records as CSV here");

@@ -140,6 +140,7 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
   Outcome o;
   o.seed = plan.seed;
   o.truth = secret.effects;
+  o.in_file = secret.in_file;
   if (secret.outside != Outside::kNothing) o.outside = Name(secret.outside);
   o.drawn = secret.size;
   const auto& a = answer.answer;

@@ -20,11 +20,12 @@ namespace levitas::trials {
 /// One trial's outcome, as one row of the bench.
 struct Outcome {
   std::uint64_t seed{};
-  std::vector<std::string> truth;  ///< empty: nothing hidden
-  std::string outside;             ///< empty: nothing outside the vocabulary
-  double drawn{};                  ///< size relative to what is drawn as clear
-  std::string verdict;             ///< "none", "effect", "unknown"
-  std::vector<std::string> named;  ///< all causes, in order
+  std::vector<std::string> truth;    ///< empty: nothing hidden
+  std::vector<std::string> in_file;  ///< what the diagnosis's rig file holds
+  std::string outside;               ///< empty: nothing outside the vocabulary
+  double drawn{};                    ///< size relative to what is drawn as clear
+  std::string verdict;               ///< "none", "effect", "unknown"
+  std::vector<std::string> named;    ///< all causes, in order
   std::vector<std::string> ties;
   double score_nat{};
   double available_nat{};  ///< what the records hold for the main effect

@@ -43,6 +43,14 @@ class Maker {
     if (!trial.campaign.stable) throw BadInput("the rig under trial does not levitate");
     trial.records = AsRecords(trial.campaign, bench_.rig.numbers);
     trial.secret.outside = plan_.outside;
+    trial.rig = bench_.rig;
+    if (plan_.in_file) {
+      trial.rig.plant.effects = Draw(trial.secret.size, true);
+      for (const auto& entry : trial.rig.plant.effects) {
+        trial.secret.in_file.emplace_back(effect::At(entry.id).name);
+      }
+      return trial;
+    }
     for (const Id id : plan_.hidden) {
       trial.secret.effects.emplace_back(effect::At(id).name);
     }

@@ -31,6 +31,7 @@ struct TrialPlan {
   double size{1.0};                ///< of the main effect; 1 = what DrawEffect calls clear
   double side_size{1.0};           ///< of the others
   Outside outside{Outside::kNothing};
+  bool in_file{};           ///< the diagnosis is given a rig file that holds the effects
   int bits_per_axis{2047};  ///< length of the test signal
   double runup_s{2.0};
 };
@@ -43,13 +44,15 @@ enum class Size : std::uint8_t { kBelow, kFaint, kModerate, kClear };
 
 /// What is hidden. Never handed to the diagnosis.
 struct Secret {
-  std::vector<std::string> effects;
+  std::vector<std::string> effects;  ///< none when the rig file holds them
+  std::vector<std::string> in_file;
   Outside outside{Outside::kNothing};
   plant::PlantParameters truth;
   double size{};  ///< after making it smaller for stability
 };
 
 struct Trial {
+  config::RigFile rig;  ///< nominal, what the diagnosis is given
   std::vector<diagnosis::Record> records;
   Campaign campaign;
   Secret secret;

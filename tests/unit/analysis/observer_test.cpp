@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/problem.hpp"
+#include "plant_sim/effect/effect_config.hpp"
 #include "tests/support/test_rigs.hpp"
 #include "tests/unit/analysis/laws.hpp"
 
@@ -42,6 +43,24 @@ TEST(DesignObserver, TrustsTheSensorsMoreWhenMoreForceIsUnknown) {
   ObserverTuning much;
   much.force_noise_share = 0.1;
   EXPECT_GT(DesignObserver(plant, much).state.norm(), DesignObserver(plant, little).state.norm());
+}
+
+// A newton on the rotor is one newton, whatever the magnet's current has to pass first. Taken from
+// the coil's own column it was a twentieth of that behind eddy currents, and the observer,
+// which hardly believed in forces, took seconds to find the rotor.
+TEST(DesignObserver, KnowsForcesThatDoNotComeFromTheCoil) {
+  plant::PlantConfig lagging = test::FlexibleRotor();
+  effect::EffectConfig eddy;
+  eddy.id = effect::Id::kEddyCurrent;
+  eddy.values[0] = 50e-6;
+  lagging.effects.push_back(eddy);
+  const auto plain = GainFor(test::FlexibleRotor());
+  const auto behind = GainFor(lagging);
+  const Eigen::Index rotor = 4 * 8;  // q and v of eight modes in both planes
+  const Eigen::MatrixXd of_rotor = plain->force_step.topRows(rotor);
+  EXPECT_LT((behind->force_step.topRows(rotor) - of_rotor).norm(), 0.01 * of_rotor.norm());
+  const Eigen::MatrixXd corrected = plain->state.topRows(rotor);
+  EXPECT_LT((behind->state.topRows(rotor) - corrected).norm(), 0.05 * corrected.norm());
 }
 
 TEST(DesignObserver, RefusesSensorsWithoutAnyNoise) {
