@@ -68,11 +68,14 @@ std::vector<double> MainsLines(const RigView& rig, const std::vector<Record>& re
     AddInnovations(rig, run, signals);
   }
   std::vector<double> lines;
+  for (const effect::EffectConfig& entry : rig.by_chance) {
+    if (entry.id == effect::Id::kMainsPickup) lines.push_back(entry.values[0]);
+  }
   for (const double hz : {50.0, 60.0, 100.0, 120.0, 150.0}) {
     const bool out = std::any_of(signals.begin(), signals.end(), [&](const Signal& signal) {
       return !signal.empty() && StandsOut(signal, hz, rig.period_s);
     });
-    if (out) lines.push_back(hz);
+    if (out && std::find(lines.begin(), lines.end(), hz) == lines.end()) lines.push_back(hz);
   }
   return lines;
 }

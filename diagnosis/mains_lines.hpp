@@ -1,5 +1,6 @@
 #pragma once
-// Lines of the mains, 50 and 60 Hz and their harmonics, that stand out of their neighbourhood.
+// Lines of the mains, 50 and 60 Hz and their harmonics, that stand out of their neighbourhood, and
+// those that the rig file knows of.
 //
 // Where      in the readings, and in what a fast observer of the nominal model leaves of them: a
 //            test signal hides in the readings what is a tenth of it.

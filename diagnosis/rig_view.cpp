@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "analysis/observer.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/moment.hpp"
 
@@ -26,14 +28,26 @@ std::vector<double> Row(const Eigen::MatrixXd& matrix, std::size_t row) {
   return values;
 }
 
+bool ByChance(const effect::EffectConfig& entry) {
+  using effect::Id;
+  return entry.id == Id::kDroppedSamples || entry.id == Id::kSampleJitter ||
+         entry.id == Id::kMainsPickup;
+}
+
+plant::PlantConfig Foretold(plant::PlantConfig plant) {
+  std::erase_if(plant.effects, ByChance);
+  return plant;
+}
+
 }  // namespace
 
 RigView::RigView(const RigNumbers& rig_numbers, const plant::PlantConfig& plant)
     : numbers(rig_numbers),
-      model(std::make_shared<const plant::PlantModel>(plant)),
+      model(std::make_shared<const plant::PlantModel>(Foretold(plant))),
       axes(model->axes()),
       modes(model->layout().modes),
       period_s(static_cast<double>(plant.period_ns) * 1e-9) {
+  std::copy_if(plant.effects.begin(), plant.effects.end(), std::back_inserter(by_chance), ByChance);
   if (modes > kMaxModes) {
     throw BadInput(
         fmt::format("rig {} has {} modes per plane, a diagnosis takes at most {}: lower "
@@ -55,6 +69,12 @@ RigView::RigView(const RigNumbers& rig_numbers, const plant::PlantConfig& plant)
     omega_rad_per_s.push_back(rotor.frequency_rad_per_s[at]);
     damping_ratio.push_back(rotor.damping_ratio[at]);
   }
+}
+
+double RigView::ReadingNoise(std::size_t axis) const {
+  plant::SensorConfig sensor = bearing(axis).sensor;
+  sensor.noise_rms_m = model->effects().readings[axis].noise_rms_m;
+  return analysis::ReadingNoise(sensor);
 }
 
 std::vector<double> RigView::Shape(double z_m) const {

@@ -116,6 +116,20 @@ std::vector<Term> SensorTerms(const RigView& rig, const Tolerances& t) {
   return terms;
 }
 
+namespace {
+
+/// [m] amplitude of a line by the rig file, which knows nothing of its phase.
+double KnownAmplitude(const RigView& rig, double hz, std::size_t axis) {
+  double amplitude_m = 0.0;
+  for (const effect::EffectConfig& entry : rig.by_chance) {
+    const bool here = entry.id == effect::Id::kMainsPickup && entry.Acts(axis);
+    if (here && entry.values[0] == hz) amplitude_m += entry.values[1];
+  }
+  return amplitude_m;
+}
+
+}  // namespace
+
 std::vector<Term> MainsTerms(const RigView& rig, const std::vector<double>& frequencies_hz,
                              std::size_t records) {
   std::vector<Term> terms;
@@ -123,11 +137,12 @@ std::vector<Term> MainsTerms(const RigView& rig, const std::vector<double>& freq
     const double w = 2.0 * std::numbers::pi * hz;
     for (std::uint32_t record = 0; record < records; ++record) {
       for (std::size_t a = 0; a < rig.axes; ++a) {
+        const double known_m = KnownAmplitude(rig, hz, a);
         for (int part = 0; part < 2; ++part) {
           terms.push_back(MakeReading(
               {"mains_pickup", fmt::format("{:.0f} Hz, {}", hz, rig.numbers.channels[a]),
                part == 0 ? "cosine" : "sine", "m"},
-              0.0, 2e-6, [=](const Moment& m, double theta, Addition& add) {
+              known_m, 2e-6, [=](const Moment& m, double theta, Addition& add) {
                 if (m.record != record) return;
                 add.reading_m[a] +=
                     theta * (part == 0 ? std::cos(w * m.time_s) : std::sin(w * m.time_s));

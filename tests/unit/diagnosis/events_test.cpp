@@ -93,6 +93,38 @@ TEST(EventsTest, ANoiseBeyondItsToleranceIsNamedWithItsChannel) {
   EXPECT_TRUE(FindEvents(View(), {NoisyRecord(5, 5000)}, WithNoise(1.06, 2)).empty());
 }
 
+/// The rig of View() whose file holds an effect besides.
+RigView Holding(effect::Id id, std::array<double, 2> values) {
+  plant::PlantConfig plant = View().model->config();
+  effect::EffectConfig entry;
+  entry.id = id;
+  std::copy(values.begin(), values.end(), entry.values.begin());
+  plant.effects.push_back(entry);
+  return {View().numbers, plant};
+}
+
+TEST(EventsTest, WhatTheRigFileKnowsToBeLostOrNoisyIsNoCause) {
+  Record record = NoisyRecord(7, 5000);
+  for (int k = 0; k < 50; ++k) record.rows.erase(record.rows.begin() + 90 * (50 - k));
+  EXPECT_GT(Score(FindEvents(View(), {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
+  const RigView losing = Holding(effect::Id::kDroppedSamples, {0.01, 1.0});
+  EXPECT_TRUE(FindEvents(losing, {record}, WithNoise(1.0)).empty());
+  const RigView rarely = Holding(effect::Id::kDroppedSamples, {0.002, 1.0});
+  EXPECT_GT(Score(FindEvents(rarely, {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
+
+  const Record healthy = NoisyRecord(8, 5000);
+  const RigView noisy = Holding(effect::Id::kSensorNoise, {1.5 * kNoise, 0.0});
+  EXPECT_GT(Score(FindEvents(noisy, {healthy}, WithNoise(1.0)), "sensor_noise"), kDecisive);
+  Remainder remainder = WithNoise(1.0);
+  for (auto& channel : remainder.channels) channel.noise_rms_m = 1.5 * kNoise;
+  EXPECT_TRUE(FindEvents(noisy, {healthy}, remainder).empty());
+}
+
+TEST(MainsLinesTest, OfTheRigFileAreThereWithoutStandingOut) {
+  const RigView humming = Holding(effect::Id::kMainsPickup, {150.0, 1e-6});
+  EXPECT_EQ(MainsLines(humming, {NoisyRecord(6, 20'000)}), std::vector<double>{150.0});
+}
+
 TEST(MainsLinesTest, AreThoseThatStandOutOfTheirNeighbourhood) {
   Record record = NoisyRecord(6, 20'000);
   EXPECT_TRUE(MainsLines(View(), {record}).empty());
