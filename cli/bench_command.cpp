@@ -21,6 +21,7 @@
 #include "cli/json_file.hpp"
 #include "cli/kept_memory.hpp"
 #include "plant_sim/effect/catalogue.hpp"
+#include "trials/held_evidence.hpp"
 #include "trials/scores.hpp"
 
 namespace levitas::cli {
@@ -30,7 +31,10 @@ constexpr const char* kHelp =
     "Draws a rig that is a few per cent off its file, hides an effect in it, records it standing, "
     "spinning and running up (5.3 s), and diagnoses the records. Every seed is one trial; effects "
     "take turns. Prints accuracy by effect and by size, "
-    "false alarms, what is outside the vocabulary, several at once, and the confusion matrix.\n"
+    "false alarms, what is outside the vocabulary, several at once, and the confusion matrix. An "
+    "effect that is not named is looked for once more by an oracle, a diagnosis that is told of "
+    "it; "
+    "one that does not find what the records hold is listed, and its trial counts as not named.\n"
     "Example: amb bench diagnosis --seeds 34 --clean 10 --outside 10 --pairs 10";
 
 struct BenchOptions {
@@ -119,9 +123,11 @@ trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
     // What the records hold for an effect that was not named is found by being told of it.
     settings.only = outcome.truth.front();
     const auto told = diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
-    for (const auto& candidate : told.answer.candidates) {
-      outcome.available_nat = std::max(outcome.available_nat, candidate.score);
-    }
+    // Of several, an oracle that is told of one need not explain the others.
+    const auto held = outcome.truth.size() > 1
+                          ? std::optional<double>(0.0)
+                          : trials::HeldEvidence(trial.rig, trial.records, trial.secret.hidden);
+    trials::HearOracle(told.answer, held, outcome);
   }
   return outcome;
 }
@@ -138,6 +144,11 @@ void PrintOne(const trials::Outcome& o) {
              fmt::format("{}{}{}", fmt::join(o.named, ", "), o.ties.empty() ? "" : " | ",
                          fmt::join(o.ties, ", ")),
              o.score_nat, o.seconds, o.Right() ? "" : (o.Partly() ? "   (partly)" : "   WRONG"));
+  if (o.oracle_failed) {
+    fmt::print("       oracle failed: told of {}, it does not name it; the records hold {}\n",
+               o.truth.front(),
+               o.held_nat < 0.0 ? "an unknown amount" : fmt::format("{:.1f} nat", o.held_nat));
+  }
   static_cast<void>(std::fflush(stdout));
 }
 
@@ -159,6 +170,8 @@ nlohmann::ordered_json Json(const trials::Outcome& o) {
           {"ties", o.ties},
           {"score_nat", o.score_nat},
           {"available_nat", o.available_nat},
+          {"held_nat", o.held_nat},
+          {"oracle_failed", o.oracle_failed},
           {"explained", o.explained},
           {"remainder_sigma", o.remainder_sigma},
           {"nearest", o.nearest},

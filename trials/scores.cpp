@@ -104,6 +104,11 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+std::string HeldText(const Outcome& o) {
+  return o.held_nat < 0.0 ? "evidence unknown"
+                          : fmt::format("the records hold {:.0f} nat", o.held_nat);
+}
+
 struct Count {
   int right{}, partly{}, of{};
   void Add(const Outcome& o) {
@@ -174,12 +179,25 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
   return o;
 }
 
+void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outcome& outcome) {
+  const std::string& truth = outcome.truth.front();
+  for (const auto& candidate : told.candidates) {
+    if (candidate.effect != truth) continue;
+    outcome.available_nat = std::max(outcome.available_nat, candidate.score);
+  }
+  outcome.held_nat = held.value_or(-1.0);
+  const bool named = std::any_of(told.causes.begin(), told.causes.end(),
+                                 [&truth](const auto& cause) { return cause.effect == truth; });
+  outcome.oracle_failed = !named && held.value_or(kHeldFrom) >= kHeldFrom;
+}
+
 std::string Tables(const std::vector<Outcome>& outcomes) {
   std::map<std::string, std::map<Size, Count>> by_effect;
   std::map<Size, Count> by_size;
   Count clean, outside, several;
   int several_all = 0;
   std::vector<double> achieved, seconds;
+  std::string failed;
   int compared = 0;
   int good = 0;
   for (const Outcome& o : outcomes) {
@@ -195,6 +213,10 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
     }
     by_effect[o.truth.front()][o.size()].Add(o);
     by_size[o.size()].Add(o);
+    if (o.oracle_failed) {
+      failed +=
+          fmt::format("  {} {} ({}, {})\n", o.seed, o.truth.front(), Name(o.size()), HeldText(o));
+    }
     if (o.size() != Size::kClear || !o.Right()) continue;
     achieved.push_back(o.achieved);
     if (o.parameter_error < 0.0) continue;
@@ -211,6 +233,9 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
   };
   for (auto& [effect, counts] : by_effect) line(effect, counts);
   line("all", by_size);
+  if (!failed.empty()) {
+    out += "\noracle failed, counted as not named in the size drawn:\n" + failed;
+  }
   out += fmt::format(
       "\nnothing hidden, called none: {}\noutside the vocabulary, called unknown: {}\n"
       "several hidden, main one named: {}; all named: {}/{}\n",

@@ -6,9 +6,13 @@
 // Available  the evidence that the records hold for what is hidden, as the final ranking has it:
 //            what could be known at all. A hand-drawn size says little about it: some effects drown
 //            in tolerances.
+// Oracle     a second diagnosis that is told what is hidden. One that does not name it although the
+//            records hold it (held_evidence.hpp) has failed: what is available is not known, and the
+//            trial counts as not named in the size that was drawn.
 // Partly     any effect really present is named, but not as first.
 // Thread     any; pure.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +32,9 @@ struct Outcome {
   std::vector<std::string> named;    ///< all causes, in order
   std::vector<std::string> ties;
   double score_nat{};
-  double available_nat{};  ///< what the records hold for the main effect
+  double available_nat{};  ///< what the records hold for the main effect, as far as a fit found it
+  double held_nat{-1.0};   ///< HeldEvidence; -1 = not computed, or none
+  bool oracle_failed{};    ///< `available_nat` says nothing
   double explained{};      ///< share of the calibrated model's excess
   double remainder_sigma{};
   std::vector<std::string> nearest;  ///< candidates in words, best first
@@ -37,7 +43,9 @@ struct Outcome {
   double parameter_sigmas{-1.0};
   double seconds{};
 
-  [[nodiscard]] Size size() const noexcept { return SizeOf(available_nat); }
+  [[nodiscard]] Size size() const noexcept {
+    return oracle_failed ? SizeDrawn(drawn) : SizeOf(available_nat);
+  }
   [[nodiscard]] bool Right() const;
   [[nodiscard]] bool Partly() const;
   [[nodiscard]] bool NamesAll() const;
@@ -45,6 +53,14 @@ struct Outcome {
 
 [[nodiscard]] Outcome Judge(const TrialPlan& plan, const Secret& secret,
                             const diagnosis::SessionAnswer& answer, const RigNumbers& rig);
+
+/// From this on records that no diagnosis can read are no excuse: twice what decides, since a fit
+/// pays for its freedom.
+inline constexpr double kHeldFrom = 2.0 * diagnosis::kDecisive;
+
+/// Takes what the oracle says of an effect that was not named. `held` as HeldEvidence; where there is
+/// none an oracle that does not name the effect has failed.
+void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outcome& outcome);
 
 /// Tables for people, of all outcomes.
 [[nodiscard]] std::string Tables(const std::vector<Outcome>& outcomes);

@@ -38,14 +38,14 @@ class Maker {
       // A loop of little margin may not hold every rig that is off by its tolerances: another one.
       if (attempt >= kOtherRig) rig_seed_ = random_.Bits();
       trial.secret.size = size;
-      if (Run(size, trial.campaign, &trial.secret)) break;
+      if (Run(size, trial.campaign, trial.secret)) break;
     }
     if (!trial.campaign.stable) throw BadInput("the rig under trial does not levitate");
     trial.records = AsRecords(trial.campaign, bench_.rig.numbers);
     trial.secret.outside = plan_.outside;
     trial.rig = bench_.rig;
     if (plan_.in_file) {
-      trial.rig.plant.effects = Draw(trial.secret.size, true);
+      trial.rig.plant.effects = Draw(trial.secret.size);
       for (const auto& entry : trial.rig.plant.effects) {
         trial.secret.in_file.emplace_back(effect::At(entry.id).name);
       }
@@ -58,7 +58,7 @@ class Maker {
   }
 
  private:
-  [[nodiscard]] std::vector<effect::EffectConfig> Draw(double size, bool main) {
+  [[nodiscard]] std::vector<effect::EffectConfig> Draw(double size) {
     Random random(effect_seed_);
     std::vector<effect::EffectConfig> entries;
     for (std::size_t i = 0; i < plan_.hidden.size(); ++i) {
@@ -67,13 +67,14 @@ class Maker {
       const bool of_teeth = effect::At(plan_.hidden[i]).place == effect::Place::kGear;
       const auto drawn = of_teeth ? DrawGearEffect(plan_.hidden[i], drawn_size, nominal_, random)
                                   : DrawEffect(plan_.hidden[i], drawn_size, nominal_, random);
-      if (i > 0 || main) entries.insert(entries.end(), drawn.begin(), drawn.end());
+      entries.insert(entries.end(), drawn.begin(), drawn.end());
     }
     return entries;
   }
 
-  bool Run(double size, Campaign& out, Secret* secret, bool main = true) {
-    auto hidden = Draw(size, main);
+  bool Run(double size, Campaign& out, Secret& secret) {
+    auto hidden = Draw(size);
+    secret.hidden = hidden;
     CampaignPlan plan = campaign_;
     for (const auto& entry : hidden) {
       if (entry.id != Id::kDroppedSamples) continue;
@@ -86,7 +87,7 @@ class Maker {
     Random rig_random(rig_seed_);
     const auto truth = TrueRig(bench_.rig.plant, bench_.trials.mismatch, hidden, rig_random);
     out = Record(truth, bench_.laws[law_], plan, plan_.outside, size, effect_seed_);
-    if (secret != nullptr) secret->truth = truth;
+    secret.truth = truth;
     return out.stable;
   }
 
@@ -105,6 +106,14 @@ Size SizeOf(double available_nat) noexcept {
   if (available_nat >= 25.0) return Size::kClear;
   if (available_nat >= 10.0) return Size::kModerate;
   return available_nat >= 5.0 ? Size::kFaint : Size::kBelow;
+}
+
+Size SizeDrawn(double drawn) noexcept {
+  // Half way, in ratio, between the sizes that a bench draws.
+  constexpr double kToClear = 0.707;
+  constexpr double kToModerate = 0.354;
+  if (drawn >= kToClear) return Size::kClear;
+  return drawn >= kToModerate ? Size::kModerate : Size::kFaint;
 }
 
 const char* Name(Size size) noexcept {

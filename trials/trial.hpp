@@ -40,6 +40,9 @@ struct TrialPlan {
 /// decides), and what no records of this length can tell.
 enum class Size : std::uint8_t { kBelow, kFaint, kModerate, kClear };
 [[nodiscard]] Size SizeOf(double available_nat) noexcept;
+/// By what was drawn, where the evidence is not known: 1 is clear, 0.5 moderate, 0.25 faint. Nothing
+/// is drawn to be below all.
+[[nodiscard]] Size SizeDrawn(double drawn) noexcept;
 [[nodiscard]] const char* Name(Size size) noexcept;
 
 /// What is hidden. Never handed to the diagnosis.
@@ -48,7 +51,8 @@ struct Secret {
   std::vector<std::string> in_file;
   Outside outside{Outside::kNothing};
   plant::PlantParameters truth;
-  double size{};  ///< after making it smaller for stability
+  std::vector<effect::EffectConfig> hidden;  ///< as drawn; part of `truth`
+  double size{};                             ///< after making it smaller for stability
 };
 
 struct Trial {

@@ -68,6 +68,77 @@ TEST(Tables, KeepEffectsSizesAndCleanRecordsApart) {
   EXPECT_NE(text.find("nothing hidden, called none: 1/1"), std::string::npos) << text;
 }
 
+diagnosis::Answer Told(const std::string& effect, double score, bool named) {
+  diagnosis::Answer told;
+  diagnosis::Candidate candidate;
+  candidate.effect = effect;
+  candidate.score = score;
+  told.candidates.push_back(candidate);
+  if (!named) return told;
+  diagnosis::Hypothesis cause;
+  cause.effect = effect;
+  told.causes.push_back(cause);
+  return told;
+}
+
+Outcome Missed(double drawn) {
+  Outcome o = Hidden({"misalignment"}, {});
+  o.verdict = "unknown";
+  o.drawn = drawn;
+  o.available_nat = 0.0;
+  return o;
+}
+
+TEST(Oracle, ThatDoesNotNameWhatTheRecordsHoldHasFailedAndTheTrialKeepsItsDrawnSize) {
+  for (const auto& [drawn, size] :
+       {std::pair{1.0, Size::kClear}, {0.5, Size::kModerate}, {0.25, Size::kFaint}}) {
+    Outcome o = Missed(drawn);
+    HearOracle(Told("misalignment", 0.0, false), 2907.0, o);
+    EXPECT_TRUE(o.oracle_failed);
+    EXPECT_EQ(o.size(), size);
+    EXPECT_FALSE(o.Right());
+  }
+}
+
+TEST(Oracle, ThatFindsNothingInRecordsThatHoldNothingHasNotFailed) {
+  Outcome o = Missed(1.0);
+  HearOracle(Told("misalignment", -0.6, false), 0.2, o);
+  EXPECT_FALSE(o.oracle_failed);
+  EXPECT_EQ(o.size(), Size::kBelow);
+}
+
+TEST(Oracle, ThatNamesTheEffectSaysItsSize) {
+  Outcome o = Missed(1.0);
+  HearOracle(Told("misalignment", 12.0, true), 40.0, o);
+  EXPECT_FALSE(o.oracle_failed);
+  EXPECT_EQ(o.size(), Size::kModerate);
+}
+
+TEST(Oracle, IsNotBelievedWhereNothingElseSaysWhatTheRecordsHold) {
+  Outcome o = Missed(1.0);
+  HearOracle(Told("misalignment", 0.0, false), std::nullopt, o);
+  EXPECT_TRUE(o.oracle_failed);
+  EXPECT_EQ(o.size(), Size::kClear);
+}
+
+TEST(Oracle, CountsOnlyEvidenceForWhatIsHidden) {
+  Outcome o = Missed(1.0);
+  HearOracle(Told("sensor_noise", 300.0, true), 0.0, o);
+  EXPECT_EQ(o.size(), Size::kBelow);
+}
+
+TEST(Tables, ListATrialWhoseOracleFailedAndCountItAsNotNamed) {
+  Outcome o = Missed(1.0);
+  o.seed = 17328;
+  HearOracle(Told("misalignment", 0.0, false), 2907.0, o);
+  const std::string text = Tables({o});
+  EXPECT_NE(text.find("misalignment                    0/1         -       -       -"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("17328 misalignment (clear, the records hold 2907 nat)"), std::string::npos)
+      << text;
+}
+
 TEST(Sizes, AreWhatTheRecordsHoldAndWhatDoesNotDecideIsBelowAll) {
   EXPECT_EQ(SizeOf(25.0), Size::kClear);
   EXPECT_EQ(SizeOf(24.9), Size::kModerate);
