@@ -66,6 +66,7 @@ struct Inquiry {
   Search search;
   std::vector<Record> records;  ///< that are fitted
   std::size_t speed{0};         ///< of the observers, in kSpeeds
+  std::size_t slowest{0};       ///< that can be gone back to
   Gains gains;
   Refiner refiner;
 

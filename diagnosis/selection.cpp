@@ -145,15 +145,14 @@ bool MergeOnce(Inquiry& q) {
 /// Back to slower observers, which see more, as far as the model with the causes found so far does
 /// not lose the rotor under them.
 void SlowDown(Inquiry& q) {
-  while (q.speed > 0) {
+  while (q.speed > q.slowest) {
     const std::size_t fast = q.speed;
     q.Observe(fast - 1);
-    if (Strays(q.rig, q.search.Run(q.records, q.gains, q.theta))) {
-      q.Observe(fast);
-      return;
+    Refined fit;
+    if (!Strays(q.rig, q.search.Run(q.records, q.gains, q.theta))) {
+      q.LineariseAll();
+      if (!RunsAway(q.view.sum)) fit = q.refiner.Fit(q.causes, q.theta, q.view, q.effort.passes);
     }
-    q.LineariseAll();
-    Refined fit = q.refiner.Fit(q.causes, q.theta, q.view, q.effort.passes);
     if (!fit.ok) {
       q.Observe(fast);
       return;
@@ -164,6 +163,16 @@ void SlowDown(Inquiry& q) {
   }
 }
 
+/// Once more without any cause and with a faster observer, which holds the model where a wrong cause
+/// leads it astray.
+void StartAgain(Inquiry& q) {
+  q.causes.clear();
+  q.theta = q.calibrated;
+  q.slowest = q.speed + 1;
+  q.Observe(q.slowest);
+  q.LineariseAll();
+}
+
 }  // namespace
 
 void FindCauses(Inquiry& q) {
@@ -172,7 +181,8 @@ void FindCauses(Inquiry& q) {
     if (stage > 0) SlowDown(q);
     q.Tell(share, "screening all causes");
     q.LineariseAll();
-    if (stage == 0) q.calibrated_runs = q.view.runs;
+    while (RunsAway(q.view.sum) && q.speed + 1 < kSpeeds.size()) StartAgain(q);
+    if (q.causes.empty()) q.calibrated_runs = q.view.runs;
     if (q.causes.size() >= q.settings.most_causes || !AddCause(q, share)) return;
     if (q.effort.first_cause_only) return;
   }

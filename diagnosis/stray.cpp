@@ -8,6 +8,9 @@ namespace {
 
 constexpr float kShare = 0.25F;
 constexpr float kTimes = 2.0F;
+/// [noise rms] what a term of its usual size changes in a reading: a support on its own frequency
+/// changes 80, nothing that can still be learnt from a thousand.
+constexpr double kWild = 3000.0;
 
 }  // namespace
 
@@ -27,6 +30,11 @@ bool Strays(const RigView& rig, const std::vector<Trajectory>& runs) {
     }
     return !finite || predicted_m > std::max(far_m, kTimes * measured_m);
   });
+}
+
+bool RunsAway(const NormalEquations& sum) {
+  const double most = kWild * kWild * static_cast<double>(sum.values);
+  return !(sum.jtj.diagonal().array() < most).all();
 }
 
 }  // namespace levitas::diagnosis

@@ -8,15 +8,20 @@
 //            is known.
 // Strays     a predicted reading beyond kShare of the clearance that is also kTimes as far out as
 //            any measured one of its record, or no number at all.
+// Runs away  derivatives that grow along the run until they say nothing: a model that is led by a
+//            wrong cause nearly loses the rotor, and its neighbours do.
 // Thread     any; pure.
 
 #include <vector>
 
 #include "diagnosis/model_run.hpp"
+#include "diagnosis/normal_equations.hpp"
 #include "diagnosis/rig_view.hpp"
 
 namespace levitas::diagnosis {
 
 [[nodiscard]] bool Strays(const RigView& rig, const std::vector<Trajectory>& runs);
+/// Sums of all terms' derivatives, each per its scale.
+[[nodiscard]] bool RunsAway(const NormalEquations& sum);
 
 }  // namespace levitas::diagnosis

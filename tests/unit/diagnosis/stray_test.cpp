@@ -48,5 +48,20 @@ TEST(StraysTest, OneRecordOfSeveralIsEnough) {
   EXPECT_TRUE(Strays(View(), {Predicting(0.0F), Predicting(0.5F * clearance_m)}));
 }
 
+NormalEquations WithSlopes(double rms) {
+  NormalEquations sum;
+  sum.values = 1000;
+  sum.jtj = Eigen::MatrixXd::Identity(3, 3) * 1000.0;
+  sum.jtj(1, 1) = rms * rms * 1000.0;
+  return sum;
+}
+
+TEST(RunsAwayTest, DerivativesThatGrowWithoutBoundOrAreNoNumbers) {
+  EXPECT_FALSE(RunsAway(WithSlopes(100.0)));
+  EXPECT_TRUE(RunsAway(WithSlopes(1e6)));
+  EXPECT_TRUE(RunsAway(WithSlopes(std::numeric_limits<double>::infinity())));
+  EXPECT_TRUE(RunsAway(WithSlopes(std::numeric_limits<double>::quiet_NaN())));
+}
+
 }  // namespace
 }  // namespace levitas::diagnosis
