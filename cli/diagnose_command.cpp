@@ -4,19 +4,23 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/analysis_options.hpp"
+#include "cli/answer_folder.hpp"
 #include "cli/command.hpp"
 #include "cli/diagnosis_files.hpp"
+#include "cli/diagnosis_inputs.hpp"
+#include "cli/diagnosis_text.hpp"
 #include "cli/json_file.hpp"
 #include "cli/kept_memory.hpp"
 #include "cli/levitator_files.hpp"
+#include "cli/progress_line.hpp"
 #include "cli/text_file.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/session.hpp"
+#include "diagnosis/words.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -26,8 +30,8 @@ constexpr const char* kHelp =
     "vocabulary (docs/effects.md) whether it explains what the model gets wrong, together with "
     "everything a healthy rig may differ by. Give several records of one rig at once: standing "
     "with "
-    "a test signal, spinning, running up. Writes diagnosis.json, extended_rig.yaml and report.html "
-    "into --out.\n"
+    "a test signal, spinning, running up. Writes diagnosis.json, extended_rig.yaml, "
+    "calibrated_rig.yaml and report.html into --out; a terminal shows how far it is.\n"
     "Records are sessions, or CSV or MAT as in docs/formats.md. Example:\n"
     "  amb diagnose --rig flexible_rotor standing.csv spinning.csv runup.csv --out answer";
 
@@ -36,51 +40,58 @@ struct DiagnoseOptions : AnalysisOptions {
   std::vector<std::string> holdout;
   std::vector<std::string> healthy;
   std::string out, plan;
-  bool quick{};
+  bool quick{}, explain{};
 };
 
-void ShowProgress(double share, const std::string& what) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  constexpr int kWidth = 30;
-  const int done = static_cast<int>(share * kWidth);
-  fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:<40}", "", done, "", kWidth - done, what);
-  if (share >= 1.0) fmt::print(stderr, "\r{:80}\r", "");
-}
-
 /// One axis whose coils are on a voltage: models, causes and fits of its own.
-ExitStatus RunLevitator(const diagnosis::SessionInputs& inputs, const DiagnoseOptions& options) {
+std::vector<std::string> RunLevitator(const diagnosis::SessionInputs& inputs,
+                                      const DiagnoseOptions& options, ProgressLine& progress) {
   if (!options.plan.empty() || !options.healthy.empty()) {
     throw BadInput("--plan and --healthy are not offered for rigs whose coils are on a voltage");
   }
   const levitator::Answer answer = levitator::Diagnose(inputs);
-  PrintLevitator(answer);
-  WriteLevitator(answer, options.out);
+  progress.Close();
+  PrintLevitator(answer, options.explain);
   WriteJsonFile(options.json_path, LevitatorJson(answer));
-  return ExitStatus::kDone;
+  return WriteLevitator(answer, options.out);
+}
+
+std::vector<std::string> RunRotor(const diagnosis::SessionInputs& inputs,
+                                  const DiagnoseOptions& options, ProgressLine& progress) {
+  const diagnosis::SessionAnswer answer = diagnosis::DiagnoseFiles(inputs);
+  progress.Close();
+  PrintDiagnosis(answer, options.explain);
+  WriteJsonFile(options.json_path, DiagnosisJson(answer));
+  auto written = WriteDiagnosis(answer, inputs.rig, options.out);
+  if (options.plan.empty()) return written;
+  if (!diagnosis::NeedsExperiment(answer)) {
+    fmt::print("--plan: nothing is left to separate, {} is not written\n", options.plan);
+    return written;
+  }
+  WriteTextFile(options.plan, diagnosis::PlanScenario(answer));
+  written.push_back(options.plan);
+  return written;
 }
 
 ExitStatus Run(const DiagnoseOptions& options) {
   KeepFreedMemory();
-  std::error_code failed;
-  std::filesystem::create_directories(options.out, failed);
-  if (failed) {
-    throw BadInput(fmt::format("--out {}: cannot be made a folder ({}); name another", options.out,
-                               failed.message()));
-  }
   diagnosis::SessionInputs inputs;
   inputs.rig = LoadRig(options);
+  RefuseSameFiles(options.data, options.holdout, options.healthy);
+  const AnswerFolder folder(options.out);
+  ProgressLine progress(stderr, isatty(STDERR_FILENO) == 1);
   inputs.data = options.data;
   inputs.holdout = options.holdout;
   inputs.healthy = options.healthy;
   inputs.scratch_folder = options.out;
   inputs.settings.quick = options.quick;
-  inputs.settings.progress = ShowProgress;
-  if (levitator::IsLevitator(inputs.rig.plant)) return RunLevitator(inputs, options);
-  const diagnosis::SessionAnswer answer = diagnosis::DiagnoseFiles(inputs);
-  PrintDiagnosis(answer);
-  WriteDiagnosis(answer, inputs.rig, options.out);
-  WriteJsonFile(options.json_path, DiagnosisJson(answer));
-  if (!options.plan.empty()) WriteTextFile(options.plan, diagnosis::PlanScenario(answer));
+  inputs.settings.progress = [&progress](double share, const std::string& what) {
+    progress.Show(share, what);
+  };
+  auto written = levitator::IsLevitator(inputs.rig.plant) ? RunLevitator(inputs, options, progress)
+                                                          : RunRotor(inputs, options, progress);
+  if (!options.json_path.empty()) written.push_back(options.json_path);
+  PrintFiles(written);
   return ExitStatus::kDone;
 }
 
@@ -93,17 +104,20 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   command->add_option("DATA", options->data, "Sessions, CSV or MAT files of one rig")->required();
   AddRigOption(*command, *options);
   command->add_option("--holdout", options->holdout,
-                      "Data on which the gain is measured; without it every sixth stretch of "
-                      "50 ms is kept back");
+                      "Data on which the gain is measured, none of DATA; without it every sixth "
+                      "stretch of 50 ms is kept back");
   command->add_option("--healthy", options->healthy,
                       "Earlier records of the same rig, known to be well: they narrow what it may "
                       "differ by from its file");
   command->add_option("--plan", options->plan,
-                      "Write the scenario that would separate what these data cannot");
+                      "Write the scenario that would separate what these data cannot; not written "
+                      "when nothing is left to separate");
   command->add_option("--out", options->out, "Folder for the answer")->required();
   command->add_flag(
       "--quick", options->quick,
       "First answer: the strongest cause, from at most 30 000 samples of all records");
+  command->add_flag("--explain", options->explain,
+                    "Print every calibrated value and every candidate");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

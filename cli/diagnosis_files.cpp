@@ -1,8 +1,5 @@
 #include "cli/diagnosis_files.hpp"
 
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +7,8 @@
 #include "cli/json_file.hpp"
 #include "cli/text_file.hpp"
 #include "common/problem.hpp"
+#include "diagnosis/calibrated_rig.hpp"
+#include "diagnosis/coverage.hpp"
 #include "diagnosis/extended_rig.hpp"
 #include "diagnosis/words.hpp"
 
@@ -18,32 +17,41 @@ namespace levitas::cli {
 using diagnosis::SessionAnswer;
 using diagnosis::Verdict;
 
-void PrintDiagnosis(const SessionAnswer& s) {
-  fmt::print("{}\n\n", diagnosis::VerdictSentence(s));
+namespace {
+
+nlohmann::ordered_json ParametersJson(const SessionAnswer& s) {
+  auto json = nlohmann::ordered_json::object();
   for (const auto& p : diagnosis::Parameters(s)) {
-    fmt::print("  {} {}: {:.5g} {} ({:.5g} to {:.5g})\n", p.effect, p.name, p.value, p.unit, p.low,
-               p.high);
+    json[p.name] = {{"value", p.value},   {"low", p.low},
+                    {"high", p.high},     {"unit", p.unit},
+                    {"effect", p.effect}, {"where", p.place},
+                    {"key", p.key},       {"bracket", p.form ? "neighbouring forms" : "5 to 95 %"}};
   }
-  const auto& fit = s.fitted;
-  const auto& held = s.held_out;
-  fmt::print(
-      "\nFit of the one-step prediction, percent: nominal {:.2f}, calibrated {:.2f}, extended "
-      "{:.2f}, ceiling {:.2f}\nOn data not used: nominal {:.2f}, calibrated {:.2f}, extended "
-      "{:.2f}, "
-      "ceiling {:.2f}\n",
-      fit.nominal_percent, fit.calibrated_percent, fit.extended_percent, fit.ceiling_percent,
-      held.nominal_percent, held.calibrated_percent, held.extended_percent, held.ceiling_percent);
-  fmt::print(
-      "Of what could be gained there: {:.3f} ({:.3f} to {:.3f}); beyond calibration {:.3f}\n",
-      held.achieved.value, held.achieved.low, held.achieved.high, held.beyond_calibration.value);
-  fmt::print("\n{:<26}{:<36}{:>10}\n", "effect", "where", "nat");
-  for (std::size_t i = 0; i < std::min<std::size_t>(8, s.answer.candidates.size()); ++i) {
-    const auto& c = s.answer.candidates[i];
-    fmt::print("{:<26}{:<36}{:>10.1f}{}\n", c.effect, c.place, c.score,
-               c.refitted ? "" : "  (screen)");
-  }
-  fmt::print("\nNext: {}\n", diagnosis::NextExperiment(s));
+  return json;
 }
+
+nlohmann::ordered_json CalibratedJson(const SessionAnswer& s) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& v : diagnosis::CalibratedValues(s)) {
+    nlohmann::ordered_json entry{{"effect", v.effect},
+                                 {"where", v.place},
+                                 {"key", v.key},
+                                 {"unit", v.unit},
+                                 {"nominal", v.nominal},
+                                 {"calibrated", v.calibrated},
+                                 {"std", v.deviation},
+                                 {"tolerance", v.tolerance},
+                                 {"expected", v.expected},
+                                 {"moved_tolerances", v.moved},
+                                 {"moved_deviations", v.proven}};
+    if (v.nominal_phase_rad) entry["nominal_phase_rad"] = *v.nominal_phase_rad;
+    if (v.phase_rad) entry["phase_rad"] = *v.phase_rad;
+    json.push_back(entry);
+  }
+  return json;
+}
+
+}  // namespace
 
 nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
   nlohmann::ordered_json json;
@@ -59,14 +67,8 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
   json["confidence"] = diagnosis::Confidence(s);
   json["place"] = diagnosis::PlaceOf(s);
   json["channels"] = diagnosis::Channels(s);
-  json["parameters"] = nlohmann::ordered_json::object();
-  for (const auto& p : diagnosis::Parameters(s)) {
-    json["parameters"][p.name] = {{"value", p.value},
-                                  {"low", p.low},
-                                  {"high", p.high},
-                                  {"unit", p.unit},
-                                  {"effect", p.effect}};
-  }
+  json["parameters"] = ParametersJson(s);
+  json["calibrated"] = CalibratedJson(s);
   json["fit_percent"] = {{"before", s.fitted.nominal_percent},
                          {"calibrated", s.fitted.calibrated_percent},
                          {"after", s.fitted.extended_percent},
@@ -79,6 +81,7 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
   };
   json["achievable_gain"] = share(s.held_out.achieved);
   json["achievable_gain"]["beyond_calibration"] = s.held_out.beyond_calibration.value;
+  json["achievable_gain"]["meaningful"] = diagnosis::SomethingToGain(s.held_out);
   for (std::size_t i = 0; i < s.held_out.channel.size(); ++i) {
     json["achievable_gain"]["channels"][s.view->numbers.channels[i]] = share(s.held_out.channel[i]);
   }
@@ -88,6 +91,9 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
                       {"channel", s.view->numbers.channels[a.remainder.worst_channel]},
                       {"sigma", a.remainder.sigma},
                       {"explained", a.explained}};
+  json["cannot_tell"] = {{"sentence", diagnosis::CannotTellSentence(s)},
+                         {"effects", diagnosis::CannotTell(s)},
+                         {"record_next", diagnosis::MissingRecords(s)}};
   json["next_experiment"] = diagnosis::NextExperiment(s);
   json["candidates"] = nlohmann::ordered_json::array();
   for (const auto& c : a.candidates) {
@@ -99,11 +105,15 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
   return json;
 }
 
-void WriteDiagnosis(const SessionAnswer& answer, const config::RigFile& rig,
-                    const std::string& folder) {
-  WriteJsonFile(folder + "/diagnosis.json", DiagnosisJson(answer));
-  WriteTextFile(folder + "/extended_rig.yaml", diagnosis::ExtendedRig(answer, rig));
-  WriteTextFile(folder + "/report.html", DiagnosisPage(answer));
+std::vector<std::string> WriteDiagnosis(const SessionAnswer& answer, const config::RigFile& rig,
+                                        const std::string& folder) {
+  const std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
+                                       folder + "/calibrated_rig.yaml", folder + "/report.html"};
+  WriteJsonFile(paths[0], DiagnosisJson(answer));
+  WriteTextFile(paths[1], diagnosis::ExtendedRig(answer, rig));
+  WriteTextFile(paths[2], diagnosis::CalibratedRig(answer, rig));
+  WriteTextFile(paths[3], DiagnosisPage(answer));
+  return paths;
 }
 
 }  // namespace levitas::cli

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/diagnosis_text.hpp"
 #include "diagnosis/words.hpp"
 #include "report/svg/figure.hpp"
 
@@ -19,7 +20,9 @@ constexpr const char* kStyle =
     "h1{font-size:1.5em}.verdict{font-size:1.25em;padding:.8em "
     "1em;background:#eef4fb;border-left:6px "
     "solid #1f77b4}table{border-collapse:collapse}td,th{padding:.2em .8em;text-align:left;"
-    "border-bottom:1px solid #ddd}td.n{text-align:right}.bar{background:#eee;width:24em}"
+    "border-bottom:1px solid "
+    "#ddd}td.n{text-align:right;white-space:nowrap}td.k{white-space:nowrap}.bar{background:#eee;"
+    "width:24em}"
     ".bar div{height:1em}summary{cursor:pointer;padding:.4em 0}";
 
 std::string Escaped(const std::string& text) {
@@ -38,6 +41,17 @@ std::string Escaped(const std::string& text) {
   return out;
 }
 
+svg::Series Line(const char* name, const char* colour, const std::vector<double>& ratio,
+                 double spacing_hz) {
+  svg::Series line{.name = name};
+  line.colour = colour;
+  for (std::size_t i = 1; i < ratio.size(); ++i) {
+    line.x.push_back(static_cast<double>(i) * spacing_hz);
+    line.y.push_back(ratio[i]);
+  }
+  return line;
+}
+
 std::string Spectra(const SessionAnswer& s) {
   svg::Panel panel;
   panel.title = "What the model leaves in " + s.view->numbers.channels[s.shown_channel];
@@ -45,16 +59,12 @@ std::string Spectra(const SessionAnswer& s) {
   panel.y_label = "power / sensor noise";
   panel.x_scale = svg::Scale::kLogarithmic;
   panel.y_scale = svg::Scale::kLogarithmic;
-  svg::Series before{.name = "nominal model"};
-  svg::Series after{.name = "extended model"};
-  after.colour = "#d62728";
-  for (std::size_t i = 1; i < s.ratio_before.size() && i < s.ratio_after.size(); ++i) {
-    before.x.push_back(static_cast<double>(i) * s.line_spacing_hz);
-    before.y.push_back(s.ratio_before[i]);
-    after.x.push_back(before.x.back());
-    after.y.push_back(s.ratio_after[i]);
+  panel.series = {Line("rig file", "#888888", s.ratio_before, s.line_spacing_hz),
+                  Line("calibrated", "#1f77b4", s.ratio_calibrated, s.line_spacing_hz)};
+  if (!s.answer.causes.empty()) {
+    panel.series.back().width = 2.6;  // else the cause's line hides it
+    panel.series.push_back(Line("with the cause", "#d62728", s.ratio_after, s.line_spacing_hz));
   }
-  panel.series = {before, after};
   svg::Figure figure;
   figure.panel_width = 760;
   figure.panels = {panel};
@@ -97,34 +107,82 @@ std::string Ranking(const SessionAnswer& s) {
          head + rest + "</table></details>\n";
 }
 
-/// One line of the picture of what is left beyond the noise.
-std::string Bar(const char* name, double left, const char* colour) {
-  const double percent = 100.0 * std::max(left, 0.0);
+/// One line of the picture of what is left, the noise's power as 1; logarithmic, from a half on.
+std::string Bar(const char* name, double ratio, double largest, const char* colour) {
+  constexpr double kBegin = 0.5;
+  const double width =
+      std::log(std::max(ratio, kBegin) / kBegin) / std::log(std::max(largest, 2.0) / kBegin);
   return fmt::format(
       "<tr><td>{}</td><td><div class=bar><div style=\"width:{:.1f}%;background:{}\"></div></div>"
-      "</td><td class=n>{:.1f} %</td></tr>\n",
-      name, std::min(percent, 100.0), colour, percent);
+      "</td><td class=n>{:.2f}</td></tr>\n",
+      name, 100.0 * std::clamp(width, 0.0, 1.0), colour, ratio);
 }
 
-/// Squared error beyond the noise that a fit leaves, as a share of what the nominal model leaves.
-double Remaining(const diagnosis::Gain& gain, double fit_percent) {
-  const auto square = [](double percent) {
-    return (1.0 - 0.01 * percent) * (1.0 - 0.01 * percent);
-  };
-  const double noise = square(gain.ceiling_percent);
-  const double nominal = square(gain.nominal_percent) - noise;
-  return nominal > 0.0 ? std::clamp((square(fit_percent) - noise) / nominal, 0.0, 1.0) : 0.0;
-}
-
-/// What the models leave of the nominal model's excess over the noise, on data kept back.
+/// What the models leave, on data kept back.
 std::string Left(const SessionAnswer& s) {
-  return "<h2>What the model still gets wrong</h2><table>\n" + Bar("rig file", 1.0, "#888") +
-         Bar("with its tolerances calibrated", Remaining(s.held_out, s.held_out.calibrated_percent),
-             "#1f77b4") +
-         Bar("with the cause", Remaining(s.held_out, s.held_out.extended_percent), "#d62728") +
-         "</table><p>Squared error beyond the sensors' noise, on data that were not fitted. Where "
-         "calibration alone leaves little, a cause is told by the evidence (nat: logarithm of the "
-         "odds), not by this.</p>\n";
+  const diagnosis::Gain& held = s.held_out;
+  const double nominal = 1.0 + held.to_gain.value;
+  const double largest = std::max({nominal, held.calibrated_over_noise, held.extended_over_noise});
+  std::string text =
+      "<h2>What the model still gets wrong</h2><table>\n" +
+      Bar("sensors' noise alone", 1.0, largest, "#2ca02c") +
+      Bar("rig file", nominal, largest, "#888") +
+      Bar("with its tolerances calibrated", held.calibrated_over_noise, largest, "#1f77b4");
+  if (!s.answer.causes.empty()) {
+    text += Bar("with the cause", held.extended_over_noise, largest, "#d62728");
+  }
+  return text +
+         "</table><p>Squared error of the one-step prediction, as a multiple of the sensors' "
+         "noise, on data that were not fitted (bars logarithmic). Where calibration alone leaves "
+         "little, a cause is told by the evidence (nat: logarithm of the odds), not by this.</p>\n";
+}
+
+std::string CalibrationTable(const SessionAnswer& s) {
+  std::string told;
+  std::string rest;
+  for (const auto& v : diagnosis::CalibratedValues(s)) {
+    (diagnosis::WorthTelling(v) ? told : rest) += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{}</td><td class=n>{}</td>"
+        "<td class=n>{:.2g}</td><td class=n>{:.2g}</td><td>{}</td><td class=n>{:.1f}</td></tr>\n",
+        v.effect, Escaped(v.place), v.key, AtPhase(v.nominal, v.nominal_phase_rad),
+        AtPhase(v.calibrated, v.phase_rad), v.deviation, v.tolerance, Escaped(v.unit), v.moved);
+  }
+  if (told.empty() && rest.empty()) return {};
+  const std::string head =
+      "<table><tr><th>effect</th><th>where</th><th>key</th><th>rig file</th><th>calibrated</th>"
+      "<th>std</th><th>tolerance</th><th>unit</th><th>moved, tolerances</th></tr>\n";
+  const std::string first = told.empty()
+                                ? "<p>None is further than half its tolerance from the file.</p>\n"
+                                : head + told + "</table>\n";
+  return "<h2>What the calibration has moved</h2>\n<p>Numbers in which a healthy rig may differ "
+         "from its file; std is what these data leave open. All of them are in "
+         "<code>diagnosis.json</code>, and in force in <code>calibrated_rig.yaml</code>.</p>\n" +
+         first + "<details><summary>All others</summary>" + head + rest + "</table></details>\n";
+}
+
+/// How much of the gain is the cause's.
+std::string ByCalibration(const SessionAnswer& s) {
+  if (s.answer.causes.empty()) return ", all of it by calibration";
+  return fmt::format("; of what calibration leaves, the cause takes {:.0f} %",
+                     100.0 * std::max(0.0, s.held_out.beyond_calibration.value));
+}
+
+/// Seconds, gain and limits in a sentence each.
+std::string Summary(const SessionAnswer& s) {
+  const bool part = s.seconds_used < 0.99 * s.seconds_of_data;
+  std::string text =
+      part ? fmt::format("From {:.1f} s of {:.1f} s in flight, spans spread over all records.",
+                         s.seconds_used, s.seconds_of_data)
+           : fmt::format("From {:.1f} s in flight.", s.seconds_of_data);
+  const diagnosis::Gain& held = s.held_out;
+  text += diagnosis::SomethingToGain(held)
+              ? fmt::format(
+                    " Of what a better model could gain on data kept back, this one gains "
+                    "{:.0f} % ({:.0f} to {:.0f} %).",
+                    100.0 * held.achieved.value, 100.0 * held.achieved.low,
+                    100.0 * held.achieved.high, ByCalibration(s))
+              : fmt::format(" {}", GainSentence(s));
+  return text;
 }
 
 std::string ChannelTable(const SessionAnswer& s) {
@@ -157,33 +215,36 @@ std::string FitTable(const SessionAnswer& s) {
 
 std::string ParameterTable(const SessionAnswer& s) {
   std::string rows;
-  for (const auto& p : diagnosis::Parameters(s)) {
+  bool form = false;
+  for (const auto& [p, places] : SharedParameters(s)) {
+    form = form || p.form;
     rows += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td class=n>{:.5g}</td><td>{:.5g} to {:.5g}</td>"
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{:.5g}</td><td>{:.5g} to {:.5g}{}</td>"
         "<td>{}</td></tr>\n",
-        p.effect, Escaped(p.name), p.value, p.low, p.high, p.unit);
+        p.effect, Escaped(places), p.key, p.value, p.low, p.high, p.form ? " *" : "",
+        Escaped(p.unit));
   }
   if (rows.empty()) return {};
-  return "<h2>Parameters</h2><table><tr><th>effect</th><th>parameter</th><th>value</th>"
-         "<th>5 to 95 %</th><th>unit</th></tr>\n" +
-         rows + "</table>\n";
+  return "<h2>Parameters, as in a rig file</h2><table><tr><th>effect</th><th>where</th>"
+         "<th>key</th><th>value</th><th>90 % interval</th><th>unit</th></tr>\n" +
+         rows + "</table>\n" +
+         (form ? "<p>* as far as the neighbouring forms of the law that were tried</p>\n" : "");
 }
 
 }  // namespace
 
 std::string DiagnosisPage(const SessionAnswer& s, const std::string& more) {
+  const std::string ceiling = CeilingSentence(s);
   return fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
-      "{0}</title>"
-      "<style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n<p class=\"verdict\">{2}</p>\n"
-      "<p>From {3:.1f} s of data. Of what a better model could gain on data kept back, this one "
-      "gains {4:.0f} % ({5:.0f} to {6:.0f} %). <b>Next:</b> {11}.</p>\n{14}{12}{8}{7}\n"
-      "<h2>Ranking, and why not the others</h2>\n{10}{9}{13}</body></html>\n",
+      "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n"
+      "<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{6}{7}{8}"
+      "<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig file. "
+      "Calibrated: with what a healthy rig may differ by. Extended: with the causes. Ceiling: the "
+      "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",
       Escaped(s.view->numbers.name), kStyle, Escaped(diagnosis::VerdictSentence(s)),
-      s.seconds_of_data, 100.0 * s.held_out.achieved.value, 100.0 * s.held_out.achieved.low,
-      100.0 * s.held_out.achieved.high, Spectra(s), ParameterTable(s),
-      "<h2>Fit</h2>\n" + FitTable(s), Ranking(s), Escaped(diagnosis::NextExperiment(s)), Left(s),
-      ChannelTable(s), more);
+      Escaped(Summary(s)), Escaped(diagnosis::NextExperiment(s)), Left(s), ParameterTable(s),
+      Spectra(s), CalibrationTable(s), Ranking(s), FitTable(s), ceiling, ChannelTable(s), more);
 }
 
 }  // namespace levitas::cli

@@ -7,6 +7,7 @@
 
 #include "cli/diagnosis_files.hpp"
 #include "cli/diagnosis_report.hpp"
+#include "cli/diagnosis_text.hpp"
 #include "cli/json_file.hpp"
 #include "cli/text_file.hpp"
 
@@ -87,8 +88,8 @@ std::string RunsTable(const std::vector<HeldOutRun>& runs) {
 
 }  // namespace
 
-void PrintLevitator(const Answer& answer) {
-  PrintDiagnosis(answer.common);
+void PrintLevitator(const Answer& answer, bool complete) {
+  PrintDiagnosis(answer.common, complete);
   for (const levitator::Tie& tie : answer.ties) {
     if (tie.others.empty()) continue;
     fmt::print("{} cannot be told from", tie.cause);
@@ -118,10 +119,14 @@ nlohmann::ordered_json LevitatorJson(const Answer& answer) {
   return json;
 }
 
-void WriteLevitator(const Answer& answer, const std::string& folder) {
-  WriteJsonFile(folder + "/diagnosis.json", LevitatorJson(answer));
-  WriteTextFile(folder + "/extended_rig.yaml", answer.extended_rig);
-  WriteTextFile(folder + "/report.html", DiagnosisPage(answer.common, RunsTable(answer.held_out)));
+std::vector<std::string> WriteLevitator(const Answer& answer, const std::string& folder) {
+  const std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
+                                       folder + "/calibrated_rig.yaml", folder + "/report.html"};
+  WriteJsonFile(paths[0], LevitatorJson(answer));
+  WriteTextFile(paths[1], answer.extended_rig);
+  WriteTextFile(paths[2], answer.extended_rig);
+  WriteTextFile(paths[3], DiagnosisPage(answer.common, RunsTable(answer.held_out)));
+  return paths;
 }
 
 }  // namespace levitas::cli

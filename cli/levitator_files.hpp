@@ -6,13 +6,15 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "diagnosis/levitator/answer.hpp"
 
 namespace levitas::cli {
 
-void PrintLevitator(const levitator::Answer& answer);
+void PrintLevitator(const levitator::Answer& answer, bool complete);
 [[nodiscard]] nlohmann::ordered_json LevitatorJson(const levitator::Answer& answer);
-void WriteLevitator(const levitator::Answer& answer, const std::string& folder);
+/// The paths that were written.
+std::vector<std::string> WriteLevitator(const levitator::Answer& answer, const std::string& folder);
 
 }  // namespace levitas::cli

@@ -53,12 +53,17 @@ double GainedShare(double before, double after, double floor) {
   return before > floor ? std::clamp((before - after) / (before - floor), -1.0, 1.0) : 0.0;
 }
 
-/// All shares of one draw: whole, beyond calibration, then every axis.
+double OverNoise(double squared, const Sums& all) {
+  return all.noise > 0.0 ? squared / all.noise : 0.0;
+}
+
+/// All shares of one draw: whole, beyond calibration, what there is to gain, then every axis.
 std::vector<double> SharesOf(const Block& block, std::size_t axes) {
   Sums all;
   for (std::size_t a = 0; a < axes; ++a) all.Add(block[a]);
   std::vector<double> shares{GainedShare(all.nominal, all.extended, all.noise),
-                             GainedShare(all.calibrated, all.extended, all.noise)};
+                             GainedShare(all.calibrated, all.extended, all.noise),
+                             OverNoise(all.nominal, all) - 1.0};
   for (std::size_t a = 0; a < axes; ++a) {
     shares.push_back(GainedShare(block[a].nominal, block[a].extended, block[a].noise));
   }
@@ -132,7 +137,14 @@ Gain MeasureGain(const RigView& rig, const ModelRuns& runs, const std::vector<do
   const std::vector<Share> shares = Bootstrap(blocks, rig.axes);
   gain.achieved = shares[0];
   gain.beyond_calibration = shares[1];
-  gain.channel.assign(shares.begin() + 2, shares.end());
+  gain.to_gain = shares[2];
+  gain.channel.assign(shares.begin() + 3, shares.end());
+  Sums all;
+  for (const Block& block : blocks) {
+    for (std::size_t a = 0; a < rig.axes; ++a) all.Add(block[a]);
+  }
+  gain.calibrated_over_noise = OverNoise(all.calibrated, all);
+  gain.extended_over_noise = OverNoise(all.extended, all);
   return gain;
 }
 

@@ -1,10 +1,9 @@
 #include "diagnosis/gear_entry.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace levitas::diagnosis {
 namespace {
@@ -13,6 +12,13 @@ namespace {
 int Behind(const std::string& place, const std::string& word) {
   const auto at = place.rfind(word);
   return at == std::string::npos ? 0 : std::atoi(place.c_str() + at + word.size());
+}
+
+EntryValue Number(std::string key, double value, int digits = 6) {
+  return {std::move(key), value, {}, digits};
+}
+EntryValue Words(std::string key, std::string text) {
+  return {std::move(key), 0.0, std::move(text)};
 }
 
 }  // namespace
@@ -24,7 +30,7 @@ const MeshView* MeshOf(const RigView& rig, const std::string& place) {
   return nullptr;
 }
 
-std::string GearEntry(const RigView& rig, const std::string& effect, const std::string& place,
+EntryValues GearEntry(const RigView& rig, const std::string& effect, const std::string& place,
                       const std::map<std::string, double>& theta) {
   const MeshView* mesh = MeshOf(rig, place);
   if (mesh == nullptr) return {};
@@ -36,33 +42,35 @@ std::string GearEntry(const RigView& rig, const std::string& effect, const std::
   const double phase = std::atan2(value("sine"), value("cosine"));
   const int order = Behind(place, "order ");
   const char* wheel = place.find("driven") != std::string::npos ? "driven" : "driving";
-  const std::string on = fmt::format("gear: {}", mesh->name);
+  const EntryValue on = Words("gear", mesh->name);
   if (effect == "mesh_stiffness") {
-    return fmt::format("{}, stiffness_n_per_m: {:.8g}, damping_n_s_per_m: {:.8g}", on,
-                       mesh->stiffness_n_per_m * std::max(0.01, 1.0 + value("stiffness")),
-                       mesh->damping_n_s_per_m * std::max(0.0, 1.0 + value("damping")));
+    return {on,
+            Number("stiffness_n_per_m",
+                   mesh->stiffness_n_per_m * std::max(0.01, 1.0 + value("stiffness")), 8),
+            Number("damping_n_s_per_m",
+                   mesh->damping_n_s_per_m * std::max(0.0, 1.0 + value("damping")), 8)};
   }
   if (effect == "mesh_stiffness_variation") {
-    return fmt::format("{}, order: {}, amplitude: {:.6g}, phase_rad: {:.6g}", on, order,
-                       std::min(0.9, amplitude), phase);
+    return {on, Number("order", order), Number("amplitude", std::min(0.9, amplitude)),
+            Number("phase_rad", phase)};
   }
   if (effect == "transmission_error") {
-    return fmt::format("{}, order: {}, amplitude_um: {:.6g}, phase_rad: {:.6g}", on, order,
-                       1e6 * amplitude, phase);
+    return {on, Number("order", order), Number("amplitude_um", 1e6 * amplitude),
+            Number("phase_rad", phase)};
   }
   if (effect == "gear_runout") {
-    return fmt::format("{}, wheel: {}, amplitude_um: {:.6g}, phase_rad: {:.6g}", on, wheel,
-                       1e6 * amplitude, phase);
+    return {on, Words("wheel", wheel), Number("amplitude_um", 1e6 * amplitude),
+            Number("phase_rad", phase)};
   }
   if (effect == "tooth_crack") {
-    return fmt::format("{}, wheel: {}, depth: {:.6g}, tooth: {}", on, wheel,
-                       std::clamp(value("depth"), 0.0, 1.0), Behind(place, "tooth "));
+    return {on, Words("wheel", wheel), Number("depth", std::clamp(value("depth"), 0.0, 1.0)),
+            Number("tooth", Behind(place, "tooth "))};
   }
   if (effect == "mesh_friction") {
-    return fmt::format("{}, coefficient: {:.6g}", on, std::clamp(value("coefficient"), 0.0, 1.0));
+    return {on, Number("coefficient", std::clamp(value("coefficient"), 0.0, 1.0))};
   }
   if (effect == "backlash") {
-    return fmt::format("{}, gap_um: {:.6g}", on, 1e6 * std::max(0.0, value("gap_m")));
+    return {on, Number("gap_um", 1e6 * std::max(0.0, value("gap_m")))};
   }
   return {};
 }

@@ -6,12 +6,12 @@
 #include <map>
 #include <string>
 
-#include "diagnosis/rig_view.hpp"
+#include "diagnosis/effect_entry.hpp"
 
 namespace levitas::diagnosis {
 
-/// "gear: mesh, order: 2, ..." for the place and the numbers of GearTerms, parameter by name.
-[[nodiscard]] std::string GearEntry(const RigView& rig, const std::string& effect,
+/// gear: mesh, order: 2 and so on for the place and the numbers of GearTerms, parameter by name.
+[[nodiscard]] EntryValues GearEntry(const RigView& rig, const std::string& effect,
                                     const std::string& place,
                                     const std::map<std::string, double>& theta);
 

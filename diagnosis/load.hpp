@@ -3,7 +3,9 @@
 //
 // CSV, MAT   go through session::ImportCsv or ImportMat into a scratch file in `scratch_folder`,
 //            so that all ways see the same rows. Currents are the commanded ones.
-// Failure    BadInput with file and line; for records of another rig or shorter than kShortest.
+// Kind       by the name's ending; other files must be sessions, and are refused with the ways there
+//            are when they are not.
+// Failure    BadInput with file and line; for records of another rig or without flight.
 
 #include <string>
 #include <vector>
@@ -13,7 +15,7 @@
 
 namespace levitas::diagnosis {
 
-inline constexpr double kShortest = 1.0;  ///< [s]
+inline constexpr double kShortest = 0.5;  ///< [s] of free flight: a model settles for 0.3
 
 [[nodiscard]] Record LoadRecord(const std::string& path, const config::RigFile& rig,
                                 const std::string& scratch_folder);

@@ -3,12 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "common/problem.hpp"
 #include "diagnosis/calibrate.hpp"
 #include "diagnosis/events.hpp"
 #include "diagnosis/flight.hpp"
 #include "diagnosis/mains_lines.hpp"
+#include "diagnosis/same_rows.hpp"
 #include "diagnosis/turns.hpp"
 
 namespace levitas::diagnosis {
@@ -35,15 +38,49 @@ void FollowTurns(const RigView& rig, std::vector<Record>& records) {
   for (std::size_t i = 0; i < records.size(); ++i) ChooseTurn(rig, gains[i], records[i]);
 }
 
+/// What the records hold besides positions and currents.
+void Describe(const std::vector<Record>& records, SessionAnswer& out) {
+  for (const Record& record : records) {
+    out.seconds_of_data += Seconds(record, *out.view);
+    for (const analysis::RecordedRow& row : record.rows) {
+      const double speed = std::abs(row.sample.speed_rad_per_s);
+      out.fastest_rad_per_s = std::max(out.fastest_rad_per_s, speed);
+      out.excited = out.excited || std::any_of(row.excitation_a.begin(), row.excitation_a.end(),
+                                               [](double value) { return value != 0.0; });
+    }
+  }
+}
+
+/// What was found instead of flight.
+std::string NotFlown(const RigView& rig, const Record& record) {
+  double clearance_m = 0.0;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  double farthest_m = 0.0;
+  for (const analysis::RecordedRow& row : record.rows) {
+    if (!row.levitated) continue;
+    for (std::size_t a = 0; a + 1 < rig.axes; a += 2) {
+      const double away_m = std::hypot(row.sample.position_m[a], row.sample.position_m[a + 1]);
+      nearest_m = std::min(nearest_m, away_m);
+      farthest_m = std::max(farthest_m, away_m);
+      clearance_m = rig.bearing(a).touchdown.clearance_m;
+    }
+  }
+  return fmt::format(
+      "readings are {:.4g} to {:.4g} um off the centre, free is within {:.0f} % of the touchdown "
+      "clearance of {:.4g} um, with the amplifiers on: was the rotor lifted, are the units and the "
+      "rig file right?",
+      1e6 * nearest_m, 1e6 * farthest_m, 100.0 * kFree, 1e6 * clearance_m);
+}
+
 std::vector<Record> InFlight(const RigView& rig, std::vector<Record> records) {
-  constexpr double kLeast = 0.5;  // [s] a model settles for 0.3
   for (Record& record : records) {
+    const double whole_s = Seconds(record, rig);
+    const std::string found = NotFlown(rig, record);
     LeaveOutContact(rig, record);
-    if (Seconds(record, rig) >= kLeast) continue;
-    throw BadInput(fmt::format(
-        "{}: {:.2f} s of free flight (readings within {:.0f} % of the touchdown clearance, "
-        "amplifiers on), a diagnosis needs at least {} s",
-        record.name, Seconds(record, rig), 100.0 * kFree, kLeast));
+    if (Seconds(record, rig) >= kShortest) continue;
+    throw BadInput(
+        fmt::format("{}: {:.2f} s of free flight in {:.2f} s, a diagnosis needs {} s; {}",
+                    record.name, Seconds(record, rig), whole_s, kShortest, found));
   }
   FollowTurns(rig, records);
   return records;
@@ -67,6 +104,7 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdo
   const Remainder before = Examine(*out.view, runs.nominal);
   out.shown_channel = before.worst_channel;
   out.ratio_before = before.channels[out.shown_channel].ratio;
+  out.ratio_calibrated = Examine(*out.view, runs.calibrated).channels[out.shown_channel].ratio;
   out.ratio_after = out.answer.remainder.channels[out.shown_channel].ratio;
   out.line_spacing_hz = before.line_spacing_hz;
   out.fitted = MeasureGain(*out.view, runs, noise_rms_m, Part::kFitted);
@@ -90,18 +128,24 @@ SessionAnswer DiagnoseRecords(const config::RigFile& rig, const std::vector<Reco
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     fitted[i].number = static_cast<std::uint32_t>(i);
     fitted[i].keep_back = holdout.empty();
-    out.seconds_of_data += Seconds(fitted[i], *out.view);
   }
+  Describe(fitted, out);
   const auto mains = MainsTerms(*out.view, MainsLines(*out.view, fitted), fitted.size());
   out.terms.insert(out.terms.end(), mains.begin(), mains.end());
   out.answer = Diagnose(*out.view, fitted, settings, out.terms);
-  Measure(Spans(fitted, settings.quick ? kQuickRows : kMostRows), aside, out);
+  const std::vector<Record> used = Spans(fitted, settings.quick ? kQuickRows : kMostRows);
+  for (const Record& record : used) out.seconds_used += Seconds(record, *out.view);
+  Measure(used, aside, out);
   return out;
 }
 
 SessionAnswer DiagnoseFiles(const SessionInputs& inputs) {
-  return DiagnoseRecords(inputs.rig, Load(inputs.data, inputs), Load(inputs.holdout, inputs),
-                         inputs.settings, Load(inputs.healthy, inputs));
+  const std::vector<Record> data = Load(inputs.data, inputs);
+  const std::vector<Record> holdout = Load(inputs.holdout, inputs);
+  const std::vector<Record> healthy = Load(inputs.healthy, inputs);
+  RefuseSameRows(data, holdout, "--holdout", "what was fitted cannot judge the fit");
+  RefuseSameRows(data, healthy, "--healthy", "it would vouch for itself");
+  return DiagnoseRecords(inputs.rig, data, holdout, inputs.settings, healthy);
 }
 
 }  // namespace levitas::diagnosis

@@ -3,6 +3,7 @@
 //
 // Thread   blocks the caller, two threads inside. Failure: BadInput.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/load.hpp"
+#include "diagnosis/named_values.hpp"
 
 namespace levitas::diagnosis {
 
@@ -21,15 +23,26 @@ struct SessionInputs {
   Settings settings;
 };
 
+/// Numbers of a diagnosis whose parameters are not terms (diagnosis/levitator).
+struct OwnWords {
+  std::vector<NamedParameter> parameters;
+  std::vector<CalibratedValue> calibrated;
+};
+
 struct SessionAnswer {
   Answer answer;
   std::vector<Term> terms;  ///< refer to `view`
+  std::optional<OwnWords> own_words;
   std::shared_ptr<const RigView> view;
   Gain fitted, held_out;
-  std::vector<double> ratio_before, ratio_after;  ///< spectra of the worst channel, over noise
+  /// Spectra of the worst channel, over noise.
+  std::vector<double> ratio_before, ratio_calibrated, ratio_after;
   double line_spacing_hz{};
   std::size_t shown_channel{};
-  double seconds_of_data{};
+  double seconds_of_data{};    ///< in flight
+  double seconds_used{};       ///< of them, by a search that takes spans
+  double fastest_rad_per_s{};  ///< of the rotor, in flight
+  bool excited{};              ///< a recorded test signal is in the records
 };
 
 [[nodiscard]] SessionAnswer DiagnoseFiles(const SessionInputs& inputs);

@@ -5,16 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <utility>
 
-#include "diagnosis/gear_entry.hpp"
+#include "diagnosis/coverage.hpp"
 
 namespace levitas::diagnosis {
 namespace {
-
-const std::string kSecond{"s"};
-constexpr double kInterval = 1.645;  ///< standard deviations of 5 and 95 %
 
 struct EffectPlace {
   const char* effect;
@@ -87,6 +82,8 @@ constexpr std::array kPairs{
          "squared, a load stays"},
     Pair{"mains_pickup", "sensor_runout", "another speed: mains stay at their frequency"}};
 
+constexpr const char* kNoneNeeded = "none needed";
+
 }  // namespace
 
 std::string PlaceOfEffect(const std::string& effect) {
@@ -96,66 +93,15 @@ std::string PlaceOfEffect(const std::string& effect) {
   return "sensor";
 }
 
-std::vector<NamedParameter> Parameters(const SessionAnswer& s) {
-  std::vector<NamedParameter> out;
-  const auto& estimates = s.answer.parameters;
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    const Estimate& e = estimates[i];
-    const double spread = kInterval * e.deviation;
-    NamedParameter p{e.effect, e.parameter, e.unit, e.value, e.value - spread, e.value + spread};
-    if (e.parameter == "cosine" && i + 1 < estimates.size() &&
-        estimates[i + 1].parameter == "sine") {
-      const Estimate& sine = estimates[++i];
-      p.name = "amplitude";
-      p.value = std::hypot(e.value, sine.value);
-      p.low = std::max(0.0, p.value - spread);
-      p.high = p.value + spread;
-      const double phase = std::atan2(sine.value, e.value);
-      const double wide = p.value > spread ? spread / p.value : 3.14;
-      out.push_back(
-          {e.effect, fmt::format("phase[{}]", e.place), "rad", phase, phase - wide, phase + wide});
-    } else if (e.parameter == "sqrt(tau_s)") {
-      p.name = "tau_s";
-      p.unit = kSecond;
-      p.value = e.value * e.value;
-      p.low = std::pow(std::max(0.0, e.value - spread), 2);
-      p.high = std::pow(e.value + spread, 2);
-    } else if (const MeshView* mesh = MeshOf(*s.view, e.place); e.effect == "mesh_stiffness") {
-      const bool stiff = e.parameter == "stiffness";
-      const double own = stiff ? mesh->stiffness_n_per_m : mesh->damping_n_s_per_m;
-      p.unit = stiff ? "N/m" : "N s/m";
-      p.value = own * (1.0 + p.value);
-      p.low = own * (1.0 + p.low);
-      p.high = own * (1.0 + p.high);
-    } else if (e.parameter == "ratio") {
-      p.value += 1.0;
-      p.low += 1.0;
-      p.high += 1.0;
-    } else if (e.parameter == "lag_ratio") {
-      // A longer lag is a lower bandwidth: the ends of the interval change places.
-      constexpr double kLeastLag = 0.05;
-      p.name = "ratio";
-      p.value = 1.0 / std::max(kLeastLag, 1.0 + e.value);
-      p.low = 1.0 / std::max(kLeastLag, 1.0 + e.value + spread);
-      p.high = 1.0 / std::max(kLeastLag, 1.0 + e.value - spread);
-    } else if (e.effect == "extra_delay") {
-      p.name = "delay_s";
-      p.unit = kSecond;
-      p.value *= s.view->period_s;
-      p.low *= s.view->period_s;
-      p.high *= s.view->period_s;
-    }
-    p.name = fmt::format("{}[{}]", p.name, e.place);
-    out.push_back(p);
-  }
-  return out;
-}
-
 std::string VerdictSentence(const SessionAnswer& s) {
   const Answer& a = s.answer;
   if (a.verdict == Verdict::kNone) {
-    return "Nothing is hidden: with its tolerances calibrated, the nominal model explains the data "
-           "to their noise.";
+    const std::string limits = CannotTellSentence(s);
+    return fmt::format(
+        "Nothing is hidden{}: with its tolerances calibrated, the nominal model explains the data "
+        "to their noise.{}{}",
+        limits.empty() ? "" : " as far as these records can tell", limits.empty() ? "" : " ",
+        limits);
   }
   if (a.verdict == Verdict::kUnknown) {
     std::string where = fmt::format("{:.0f} Hz", a.remainder.frequency_hz);
@@ -180,12 +126,15 @@ std::string VerdictSentence(const SessionAnswer& s) {
 
 std::string NextExperiment(const SessionAnswer& s) {
   const Answer& a = s.answer;
-  if (a.verdict == Verdict::kNone) return "none needed";
+  if (a.verdict == Verdict::kNone) {
+    const std::string missing = MissingRecords(s);
+    return missing.empty() ? kNoneNeeded : missing;
+  }
   if (a.verdict == Verdict::kUnknown) {
     return "the same with another speed and another bias current: what the remainder does tells "
            "whether it belongs to the rotation, the magnets or neither";
   }
-  if (a.also_possible.empty()) return "none needed";
+  if (a.also_possible.empty()) return kNoneNeeded;
   const std::string& cause = a.causes.front().effect;
   for (const auto& pair : kPairs) {
     for (const auto& other : a.also_possible) {
@@ -197,6 +146,8 @@ std::string NextExperiment(const SessionAnswer& s) {
   }
   return "a longer record with a stronger test signal, standing and at two speeds";
 }
+
+bool NeedsExperiment(const SessionAnswer& s) { return NextExperiment(s) != kNoneNeeded; }
 
 double Confidence(const SessionAnswer& s) {
   const auto& candidates = s.answer.candidates;

@@ -1,25 +1,20 @@
 #pragma once
-// An answer in words and in the parameters of a rig file.
+// An answer in words; its numbers are in named_values.hpp.
 //
-// Parameters  cosine and sine become amplitude and phase, sqrt(tau) becomes tau, ratios are told as
-//             the factor on the nominal value; intervals are 5 to 95 %.
 // Thread      any; pure.
 
 #include <string>
 #include <vector>
 
+#include "diagnosis/named_values.hpp"
 #include "diagnosis/session.hpp"
 
 namespace levitas::diagnosis {
 
-struct NamedParameter {
-  std::string effect, name, unit;
-  double value{}, low{}, high{};
-};
-
-[[nodiscard]] std::vector<NamedParameter> Parameters(const SessionAnswer& answer);
 [[nodiscard]] std::string VerdictSentence(const SessionAnswer& answer);
 [[nodiscard]] std::string NextExperiment(const SessionAnswer& answer);
+/// Something is left open that a further record would decide.
+[[nodiscard]] bool NeedsExperiment(const SessionAnswer& answer);
 /// Probability of the first cause among all candidates and none of them.
 [[nodiscard]] double Confidence(const SessionAnswer& answer);
 /// "magnet", "sensor" ...; that of the worst channel's excess for an unknown.

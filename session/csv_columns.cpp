@@ -101,6 +101,33 @@ std::vector<std::string> Missing(const CsvLayout& layout,
   return missing;
 }
 
+/// Channels that columns are named for, "de_x" of "position_de_x_um".
+std::vector<std::string> ChannelsOf(const std::vector<std::string>& cells) {
+  std::vector<std::string> found;
+  for (const std::string& cell : cells) {
+    const auto unit = cell.rfind('_');
+    for (const std::string_view prefix : {"position_", "gap_"}) {
+      if (!cell.starts_with(prefix) || unit == std::string::npos || unit <= prefix.size()) continue;
+      found.push_back(cell.substr(prefix.size(), unit - prefix.size()));
+    }
+  }
+  return found;
+}
+
+/// None of the channels is the rig's: one sentence says more than a line for every column.
+void RefuseOtherRig(const std::vector<std::string>& cells, const std::string& where,
+                    const std::vector<std::string>& channels) {
+  const std::vector<std::string> found = ChannelsOf(cells);
+  const bool none = std::none_of(found.begin(), found.end(), [&](const std::string& channel) {
+    return std::find(channels.begin(), channels.end(), channel) != channels.end();
+  });
+  if (found.empty() || !none) return;
+  throw BadInput(fmt::format(
+      "{}: the columns are of the channels {}, the rig has {}: name the rig of these data with "
+      "--rig",
+      where, Listed(found), Listed(channels)));
+}
+
 }  // namespace
 
 bool CsvLayout::Has(CsvQuantity quantity) const noexcept {
@@ -138,6 +165,7 @@ CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
 
 CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string& where,
                        const std::vector<std::string>& channels) {
+  RefuseOtherRig(cells, where, channels);
   CsvLayout layout;
   const std::vector<CsvColumn> known = KnownColumns(channels);
   std::vector<std::string> problems;

@@ -65,8 +65,10 @@ struct SessionReader::Impl {
   [[nodiscard]] std::string MissingHeader(bool any_event, bool header_channel) const {
     if (scanner.size() == 0) return fmt::format("{}: the file is empty, not a session", path);
     if (!any_event) {
-      return fmt::format("{}: not a session: there is no LCM log event in its {} bytes", path,
-                         scanner.size());
+      return fmt::format(
+          "{}: not a session: there is no LCM log event in its {} bytes. CSV (.csv, .csv.xz) and "
+          "MAT (.mat) become a session by amb import; amb diagnose takes them as they are",
+          path, scanner.size());
     }
     if (header_channel) {
       return fmt::format("{}: the session's header is damaged and no sound copy of it follows",

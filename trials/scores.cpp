@@ -74,25 +74,29 @@ bool TrueValue(const diagnosis::NamedParameter& p, const Secret& secret, const R
   const auto entries = Entries(p, secret, rig);
   if (entries.empty()) return false;
   const effect::Row& row = effect::At(entries.front()->id);
-  const std::string stem = p.name.substr(0, p.name.find('['));
+  const auto is = [&p](const effect::Parameter& known) {
+    return p.key == known.stem || p.key == fmt::format("{}_{}", known.stem, known.file_suffix);
+  };
   const std::size_t none = row.parameters.size();
   const std::size_t phase = IndexOf(row, {"phase"});
   if (phase < none) {
     const std::size_t size = IndexOf(row, {"amplitude", "ratio", "moment", "force"});
-    if (stem != "amplitude" || size == none) return false;
+    if (size == none || !is(row.parameters[size])) return false;
     std::complex<double> sum;
     for (const auto* entry : entries) sum += std::polar(entry->values[size], entry->values[phase]);
-    truth = std::abs(sum);
+    truth = std::abs(sum) / p.si;
     return true;
   }
   for (std::size_t i = 0; i < none; ++i) {
     const auto& known = row.parameters[i];
-    if (stem != known.stem && stem != fmt::format("{}_{}", known.stem, known.si_suffix)) continue;
+    // What counts from the rig's own value neither adds nor multiplies.
+    if (!is(known) || (std::isnan(known.neutral) && row.scope != effect::Scope::kGear)) continue;
     const bool ratio = known.neutral == 1.0;
     truth = ratio ? 1.0 : 0.0;
     for (const auto* entry : entries) {
       truth = ratio ? truth * entry->values[i] : truth + entry->values[i];
     }
+    truth /= p.si;
     return true;
   }
   return false;

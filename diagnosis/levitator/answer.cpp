@@ -5,6 +5,7 @@
 
 #include "diagnosis/levitator/shared_form.hpp"
 #include "diagnosis/load.hpp"
+#include "diagnosis/same_rows.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -12,14 +13,21 @@ namespace {
 constexpr double kStretchS = 4.0;
 constexpr int kSteps = 5;
 
-std::vector<Series> Load(const std::vector<std::string>& paths,
-                         const diagnosis::SessionInputs& inputs) {
-  std::vector<Series> out;
+std::vector<diagnosis::Record> Load(const std::vector<std::string>& paths,
+                                    const diagnosis::SessionInputs& inputs) {
+  std::vector<diagnosis::Record> out;
   out.reserve(paths.size());
   for (const std::string& path : paths) {
-    const diagnosis::Record record = diagnosis::LoadRecord(path, inputs.rig, inputs.scratch_folder);
-    out.push_back(MakeSeries(record.name, inputs.rig, record.rows));
+    out.push_back(diagnosis::LoadRecord(path, inputs.rig, inputs.scratch_folder));
   }
+  return out;
+}
+
+std::vector<Series> SeriesOf(const std::vector<diagnosis::Record>& records,
+                             const config::RigFile& rig) {
+  std::vector<Series> out;
+  out.reserve(records.size());
+  for (const auto& record : records) out.push_back(MakeSeries(record.name, rig, record.rows));
   return out;
 }
 
@@ -130,7 +138,10 @@ Answer Diagnose(const config::RigFile& rig, const std::vector<Series>& given,
 }
 
 Answer Diagnose(const diagnosis::SessionInputs& inputs) {
-  return Diagnose(inputs.rig, Load(inputs.data, inputs), Load(inputs.holdout, inputs),
+  const auto data = Load(inputs.data, inputs);
+  const auto holdout = Load(inputs.holdout, inputs);
+  diagnosis::RefuseSameRows(data, holdout, "--holdout", "what was fitted cannot judge the fit");
+  return Diagnose(inputs.rig, SeriesOf(data, inputs.rig), SeriesOf(holdout, inputs.rig),
                   inputs.settings);
 }
 

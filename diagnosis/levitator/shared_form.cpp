@@ -5,6 +5,8 @@
 #include <complex>
 #include <numbers>
 
+#include "diagnosis/levitator/own_words.hpp"
+
 namespace levitas::levitator {
 namespace {
 
@@ -116,6 +118,7 @@ void FillRemainder(const NominalRig& rig, const Left& left, diagnosis::SessionAn
   const auto length = static_cast<std::size_t>(std::max(16.0, 1.0 / rig.period_s));
   const double noise = WhiteNoise(left.extended);
   common.ratio_before = Spectrum(left.nominal, noise, length);
+  common.ratio_calibrated = Spectrum(left.calibrated, noise, length);
   common.ratio_after = Spectrum(left.extended, noise, length);
   common.line_spacing_hz = 1.0 / (static_cast<double>(length) * rig.period_s);
   diagnosis::Remainder& out = common.answer.remainder;
@@ -158,6 +161,14 @@ diagnosis::Gain MeanOf(const std::vector<HeldOutRun>& runs, bool probes) {
     gain.achieved.high += 0.01 * share * run.achieved.high;
     gain.beyond_calibration.value += 0.01 * share * run.beyond_calibration.percent;
   }
+  const auto over_noise = [&gain](double percent) {
+    const double left = (100.0 - percent) / std::max(1e-6, 100.0 - gain.ceiling_percent);
+    return left * left;
+  };
+  const double to_gain = over_noise(gain.nominal_percent) - 1.0;
+  gain.to_gain = {to_gain, to_gain, to_gain};
+  gain.calibrated_over_noise = over_noise(gain.calibrated_percent);
+  gain.extended_over_noise = over_noise(gain.extended_percent);
   gain.channel_nominal_percent = {gain.nominal_percent};
   gain.channel_extended_percent = {gain.extended_percent};
   gain.channel = {gain.achieved};
@@ -171,6 +182,7 @@ void FillSharedForm(const config::RigFile& rig, const std::vector<Series>& data,
   const NominalRig nominal = NominalOf(rig);
   common.view = std::make_shared<const diagnosis::RigView>(rig.numbers, rig.plant);
   common.terms = TermsOf();
+  common.own_words = OwnWordsOf(rig, answer.found);
   FillCauses(answer.found, answer);
   FillParameters(answer.found, common.answer);
   common.answer.theta_calibrated = ForOthers(answer.found.calibrated.theta, 0);
@@ -178,6 +190,7 @@ void FillSharedForm(const config::RigFile& rig, const std::vector<Series>& data,
   for (const Series& series : data) {
     common.seconds_of_data += static_cast<double>(series.size()) * nominal.period_s;
   }
+  common.seconds_used = common.seconds_of_data;
   FillRemainder(nominal, LeftOf(nominal, data, answer.found), common);
   const bool probes = data.front().has_currents();
   common.fitted = MeanOf(answer.fitted, probes);

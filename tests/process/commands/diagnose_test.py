@@ -12,11 +12,17 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 BINARIES = Path(os.environ["LEVITAS_BINARIES"])
+RECORDS = Path(os.environ["LEVITAS_SOURCE"]) / "tests/data/records"
+BAD_INPUT = 3
+
+
+def finished(folder, *arguments):
+    return subprocess.run([str(BINARIES / "amb"), *map(str, arguments)], cwd=folder, text=True,
+                          capture_output=True, timeout=500, check=False)
 
 
 def amb(folder, *arguments):
-    done = subprocess.run([str(BINARIES / "amb"), *map(str, arguments)], cwd=folder, text=True,
-                          capture_output=True, timeout=500, check=False)
+    done = finished(folder, *arguments)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -46,6 +52,105 @@ class DiagnoseOwnModel(unittest.TestCase):
     def test_a_csv_of_the_same_run_lift_to_landing_has_no_cause(self):
         printed, answer = self.diagnose("run.csv")
         self.assertEqual(answer["verdict"], "none", printed)
+
+    def test_none_without_a_test_signal_says_what_would_not_have_shown(self):
+        printed, answer = self.diagnose("run.lcm")
+        limits = answer["cannot_tell"]
+        self.assertIn("extra_delay", limits["effects"])
+        self.assertNotIn("unbalance", limits["effects"], "the rotor turns")
+        self.assertIn(limits["sentence"], printed)
+        self.assertEqual(answer["next_experiment"], limits["record_next"])
+        page = (Path(self.shared.name) / "answer_run_lcm/report.html").read_text()
+        self.assertIn(limits["sentence"], page)
+        self.assertFalse(answer["achievable_gain"]["meaningful"], "the model itself was recorded")
+
+    def test_every_calibrated_value_is_told_beside_its_nominal_one_and_read_back(self):
+        printed, answer = self.diagnose("run.lcm")
+        values = {(v["effect"], v["where"]): v for v in answer["calibrated"]}
+        delay = values["extra_delay", "all axes"]
+        self.assertEqual((delay["key"], delay["unit"], delay["nominal"]),
+                         ("delay_samples", "samples", 1.0))
+        for effect, where, key in (("current_gain", "de_x", "ratio"),
+                                   ("modal_frequency", "mode 1", "frequency_hz"),
+                                   ("sensor_offset", "nde_y", "offset_um"),
+                                   ("sensor_runout", "order 1, de_x", "amplitude_um")):
+            self.assertEqual(values[effect, where]["key"], key)
+        for value in answer["calibrated"]:
+            # Data can only narrow what the tolerance says; a law that bends does so by its slope.
+            self.assertGreater(value["std"], 0.0, value)
+            self.assertLess(value["std"], 1.05 * value["tolerance"], value)
+        self.assertLess(abs(delay["calibrated"] - 1.0), 3 * delay["std"], "recorded with 1")
+        modes = amb(self.shared.name, "modes", "--rig", "answer_run_lcm/calibrated_rig.yaml")
+        self.assertIn("Hz", modes)
+        self.assertIn("calibrated_rig.yaml", printed, "files that were written are named")
+        whole = amb(self.shared.name, "diagnose", "--quick", "--explain", "--rig", "flexible_rotor",
+                    "run.lcm", "--out", "explained")
+        for effect, where in values:
+            self.assertTrue(any(effect in line and where in line for line in whole.splitlines()),
+                            (effect, where))
+
+    def refuse(self, words, *arguments):
+        done = finished(self.shared.name, "diagnose", "--quick", *arguments, "--out", "made/not")
+        self.assertEqual(done.returncode, BAD_INPUT, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+        self.assertFalse((Path(self.shared.name) / "made").exists(), "an empty folder is left")
+
+    def test_what_was_fitted_may_not_be_held_out(self):
+        folder = Path(self.shared.name)
+        (folder / "copy.csv").write_bytes((folder / "run.csv").read_bytes())
+        (folder / "below").mkdir(exist_ok=True)
+        for data, holdout in (("run.csv", "below/../run.csv"), ("run.csv", "copy.csv"),
+                              ("run.lcm", "run.csv")):
+            self.refuse(("--holdout", holdout.rsplit("/", 1)[-1], data), "--rig", "flexible_rotor",
+                        data, "--holdout", holdout)
+        self.refuse(("--healthy", "copy.csv"), "--rig", "flexible_rotor", "run.csv", "--healthy",
+                    "copy.csv")
+        self.refuse(("twice",), "--rig", "flexible_rotor", "run.csv", "copy.csv")
+
+    def test_data_of_another_kind_or_rig_are_refused_in_one_line_with_a_way_on(self):
+        (Path(self.shared.name) / "notes.txt").write_text("time position\n0 1\n")
+        self.refuse(("notes.txt", "not a session", ".csv", "amb import"), "--rig",
+                    "flexible_rotor", "notes.txt")
+        self.refuse(("run.csv", "de_x", "ball_x", "--rig"), "--rig", "two_magnet_levitator",
+                    "run.csv")
+
+    def test_a_record_without_flight_is_refused_with_what_was_found(self):
+        lines = (Path(self.shared.name) / "run.csv").read_text().splitlines(True)
+        # The self-test and the lift: touchdown bearings have 190 um.
+        (Path(self.shared.name) / "low.csv").write_text("".join(lines[:6000]))
+        self.refuse(("low.csv", "free flight", "0.5 s", "190 um"), "--rig", "flexible_rotor",
+                    "low.csv")
+
+
+class DiagnoseForeignCampaigns(unittest.TestCase):
+    def diagnose(self, campaign, folder, *more):
+        data = sorted((RECORDS / campaign).glob("*.csv.xz"))
+        printed = amb(folder, "diagnose", "--quick", "--rig", "flexible_rotor", *data, "--out",
+                      "answer", *more)
+        return printed, json.loads((Path(folder) / "answer/diagnosis.json").read_text())
+
+    def test_parameters_have_keys_and_units_of_the_rig_file(self):
+        with TemporaryDirectory() as folder:
+            printed, answer = self.diagnose("eddy_current", folder)
+            rig = (Path(folder) / "answer/extended_rig.yaml").read_text()
+            self.assertEqual(set(p["key"] for p in answer["parameters"].values()), {"tau_us"})
+            for parameter in answer["parameters"].values():
+                written = [float(line.split()[1]) for line in rig.splitlines()
+                           if line.strip().startswith("tau_us:")]
+                self.assertTrue(any(abs(value - parameter["value"]) < 1e-4 * value
+                                    for value in written), (written, parameter))
+                self.assertEqual(parameter["unit"], "us")
+            self.assertEqual(printed.count("tau_us"), 1, "one value at all axes is told once")
+
+    def test_no_plan_is_written_where_nothing_is_left_to_separate(self):
+        with TemporaryDirectory() as folder:
+            printed, answer = self.diagnose("none", folder, "--plan", "next.yaml")
+            self.assertEqual(answer["next_experiment"], "none needed", printed)
+            self.assertEqual(answer["cannot_tell"]["effects"], [])
+            self.assertFalse((Path(folder) / "next.yaml").exists())
+            self.assertIn("next.yaml is not written", printed)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@
 
 namespace levitas::diagnosis {
 
-/// An answer without a cause: the model explains the data.
+/// An answer without a cause: the model explains data that can tell all.
 inline SessionAnswer NothingFound() {
   SessionAnswer s;
   s.view = std::make_shared<const RigView>(FlexibleRotor().numbers, FlexibleRotor().plant);
@@ -17,6 +17,8 @@ inline SessionAnswer NothingFound() {
   s.answer.theta_calibrated.assign(s.terms.size(), 0.0);
   s.answer.theta_extended = s.answer.theta_calibrated;
   s.answer.remainder.channels.resize(s.view->axes);
+  s.fastest_rad_per_s = 300.0;
+  s.excited = true;
   return s;
 }
 

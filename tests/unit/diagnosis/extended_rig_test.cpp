@@ -11,6 +11,8 @@
 #include <tuple>
 
 #include "config/rig_file.hpp"
+#include "diagnosis/calibrated_rig.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/effect/crack.hpp"
 #include "plant_sim/rotor/plane_shape.hpp"
 #include "tests/unit/diagnosis/answers.hpp"
@@ -102,7 +104,27 @@ TEST(ExtendedRigTest, NamesTheParametersWithTheirIntervals) {
   const std::string text = ExtendedRig(Found("current_gain", "de_x"), FlexibleRotor());
   // 1.075 and 1.645 standard deviations of 0.0075 either side
   EXPECT_THAT(text, HasSubstr("# current_gain"));
-  EXPECT_THAT(text, HasSubstr("= 1.075 1 (1.0627 to 1.0873)"));
+  EXPECT_THAT(text, HasSubstr("ratio[de_x] = 1.075 (1.0627 to 1.0873)"));
+}
+
+TEST(CalibratedRigTest, IsReadBackWithWhatWasCalibratedAndTheCause) {
+  SessionAnswer answer = Found("eddy_current", "de_x");
+  for (const Term& term : answer.terms) {
+    if (!term.nuisance() || term.effect == "eddy_current") continue;
+    answer.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,
+                                         0.5 * term.tolerance, 0.1 * term.tolerance});
+  }
+  const std::string text = CalibratedRig(answer, FlexibleRotor());
+  EXPECT_THAT(text, Not(HasSubstr("not known to this build")));
+  EXPECT_THAT(text, HasSubstr("# no key for shape of magnet de, mode 1: +0.01000"));
+  const config::RigFile rig = config::ParseRig(text, "calibrated_rig.yaml");
+  // Half a tolerance of 0.05 of a period.
+  EXPECT_NEAR(rig.plant.delay_samples, FlexibleRotor().plant.delay_samples + 0.025, 1e-9);
+  EXPECT_EQ(rig.plant.unbalance.size(), FlexibleRotor().plant.unbalance.size());
+  EXPECT_NE(rig.plant.unbalance[0].moment_kg_m, FlexibleRotor().plant.unbalance[0].moment_kg_m);
+  ASSERT_EQ(rig.plant.effects.size(), 1U + CalibratedEntries(answer).size());
+  EXPECT_EQ(effect::At(rig.plant.effects[0].id).name, "eddy_current");
+  EXPECT_GT(rig.plant.effects.size(), 40U);
 }
 
 }  // namespace

@@ -5,10 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "config/rig_file.hpp"
+#include "diagnosis/coverage.hpp"
 #include "diagnosis/plan.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 #include "tests/unit/diagnosis/answers.hpp"
 
 namespace levitas::diagnosis {
@@ -26,17 +30,54 @@ TEST(ParametersTest, OfAHarmonicAreItsAmplitudeAndItsPhase) {
     EXPECT_LT(p.low, p.value);
     EXPECT_GT(p.high, p.value);
     const bool phase = p.unit == "rad";
-    EXPECT_NEAR(p.value, phase ? std::atan2(1.0, 1.0) : std::sqrt(2.0) * 10e-6,
-                phase ? 1e-9 : 1e-12);
+    EXPECT_EQ(p.key, phase ? "phase_rad" : "moment_g_mm");
+    EXPECT_NEAR(p.value, phase ? std::atan2(1.0, 1.0) : std::sqrt(2.0) * 10.0, 1e-9);
+    EXPECT_NEAR(p.value * p.si, phase ? std::atan2(1.0, 1.0) : std::sqrt(2.0) * 10e-6, 1e-9);
   }
 }
 
 TEST(ParametersTest, OfAnEddyCurrentAreItsTimeConstant) {
   const auto parameters = Parameters(Found("eddy_current", "de_x"));
   ASSERT_EQ(parameters.size(), 1U);
-  EXPECT_EQ(parameters[0].name, "tau_s[de_x]");
-  EXPECT_NEAR(parameters[0].value, std::pow(2.5e-3, 2), 1e-15);
-  EXPECT_GE(parameters[0].low, 0.0);
+  EXPECT_EQ(parameters[0].name, "tau_us[de_x]");
+  EXPECT_EQ(parameters[0].unit, "us");
+  EXPECT_NEAR(parameters[0].value, 1e6 * std::pow(2.5e-3, 2), 1e-9);
+  // The root is known to 0.25e-3: 1.645 of it to either side, squared.
+  EXPECT_NEAR(parameters[0].low, 1e6 * std::pow(2.5e-3 - 1.645 * 0.25e-3, 2), 1e-9);
+  EXPECT_NEAR(parameters[0].high, 1e6 * std::pow(2.5e-3 + 1.645 * 0.25e-3, 2), 1e-9);
+}
+
+TEST(ParametersTest, OfEveryEffectHaveTheKeysOfTheCatalogueInTheUnitsOfAFile) {
+  const SessionAnswer nothing = NothingFound();
+  for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
+    const effect::Row* row = effect::Find(h.effect);
+    ASSERT_NE(row, nullptr) << h.effect;
+    const auto parameters = Parameters(Found(h.effect, h.place));
+    EXPECT_FALSE(parameters.empty()) << h.effect << " at " << h.place;
+    for (const NamedParameter& p : parameters) {
+      // Angles may be given in any unit of angle.
+      const bool in_catalogue = std::any_of(
+          row->parameters.begin(), row->parameters.end(), [&p](const effect::Parameter& known) {
+            const std::string stem(known.stem);
+            return p.key == stem || p.key == stem + "_" + std::string(known.file_suffix) ||
+                   p.key == stem + "_rad";
+          });
+      EXPECT_TRUE(in_catalogue) << h.effect << " " << p.key;
+      EXPECT_LE(p.low, p.value) << h.effect << " " << p.key;
+      EXPECT_GE(p.high, p.value) << h.effect << " " << p.key;
+      EXPECT_LT(p.low, p.high) << h.effect << " " << p.key;
+    }
+  }
+}
+
+TEST(ParametersTest, SayOfALawsFormThatItsBracketIsNoInterval) {
+  for (const NamedParameter& p : Parameters(Found("amplifier_slew", "1500 A/s"))) {
+    EXPECT_EQ(p.key, "slew_a_per_s");
+    EXPECT_TRUE(p.form);
+    // The neighbouring members lie 0.4 to either side in the logarithm.
+    EXPECT_NEAR(p.low, 1500.0 * std::exp(-0.4), 1.0);
+    EXPECT_NEAR(p.high, 1500.0 * std::exp(0.4), 1.0);
+  }
 }
 
 TEST(ParametersTest, OfAGainAreTheFactorOnTheNominalValue) {
@@ -84,6 +125,72 @@ TEST(VerdictTest, NamesTheCauseTheUnknownOrNothing) {
   SessionAnswer s = NothingFound();
   s.answer.verdict = Verdict::kUnknown;
   EXPECT_NE(VerdictSentence(s), VerdictSentence(NothingFound()));
+}
+
+SessionAnswer NothingFoundIn(double speed_rad_per_s, bool excited) {
+  SessionAnswer s = NothingFound();
+  s.fastest_rad_per_s = speed_rad_per_s;
+  s.excited = excited;
+  return s;
+}
+
+TEST(VerdictTest, OfNothingSaysWhatTheRecordsCannotTell) {
+  const SessionAnswer complete = NothingFoundIn(300.0, true);
+  EXPECT_THAT(CannotTellSentence(complete), IsEmpty());
+  EXPECT_THAT(CannotTell(complete), IsEmpty());
+  EXPECT_FALSE(NeedsExperiment(complete));
+  EXPECT_THAT(VerdictSentence(complete), Not(HasSubstr("as far as these records")));
+
+  const SessionAnswer standing = NothingFoundIn(0.0, true);
+  EXPECT_THAT(VerdictSentence(standing),
+              AllOf(HasSubstr("as far as these records"), HasSubstr("does not turn"),
+                    HasSubstr("unbalance"), Not(HasSubstr("extra_delay"))));
+  EXPECT_THAT(CannotTell(standing), ::testing::Contains("misalignment"));
+  EXPECT_THAT(NextExperiment(standing), HasSubstr("spinning"));
+
+  const SessionAnswer quiet = NothingFoundIn(300.0, false);
+  EXPECT_THAT(VerdictSentence(quiet), AllOf(HasSubstr("no test signal"), HasSubstr("extra_delay"),
+                                            Not(HasSubstr("unbalance"))));
+  EXPECT_TRUE(NeedsExperiment(quiet));
+}
+
+TEST(CalibratedValues, AreTotalsUnderTheKeysOfTheFileWithWhatTheyMovedBy) {
+  SessionAnswer s = NothingFound();
+  for (const Term& term : s.terms) {
+    const bool unbalance = term.effect == "unbalance" && term.place == "z 299.2 mm";
+    if (term.effect == "extra_delay" || unbalance ||
+        (term.effect == "modal_frequency" && term.place == "mode 1")) {
+      s.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,
+                                      2.0 * term.tolerance, 0.5 * term.tolerance});
+    }
+  }
+  const auto values = CalibratedValues(s);
+  ASSERT_EQ(values.size(), 3U);
+  for (const CalibratedValue& v : values) {
+    EXPECT_TRUE(WorthTelling(v)) << v.effect;
+    if (v.effect == "extra_delay") {
+      // One period in the file, two tolerances of 0.05 more.
+      EXPECT_EQ(v.key, "delay_samples");
+      EXPECT_NEAR(v.nominal, 1.0, 1e-12);
+      EXPECT_NEAR(v.calibrated, 1.1, 1e-12);
+      EXPECT_NEAR(v.deviation, 0.025, 1e-12);
+      EXPECT_NEAR(v.tolerance, 0.05, 1e-12);
+    } else if (v.effect == "modal_frequency") {
+      EXPECT_EQ(v.key, "frequency_hz");
+      EXPECT_NEAR(v.calibrated, 1.02 * v.nominal, 1e-9 * v.nominal);
+      EXPECT_NEAR(v.tolerance, 0.01 * v.nominal, 1e-9 * v.nominal);
+    } else {
+      // 18 g mm in the file, at its phase, and two tolerances of 3 g mm in both parts.
+      const auto& mass = FlexibleRotor().plant.unbalance.at(1);
+      const auto sum = std::polar(1e6 * mass.moment_kg_m, mass.phase_rad) + std::complex(6.0, 6.0);
+      EXPECT_EQ(v.key, "moment_g_mm");
+      EXPECT_NEAR(v.nominal, 18.0, 1e-9);
+      EXPECT_NEAR(v.calibrated, std::abs(sum), 1e-9);
+      ASSERT_TRUE(v.phase_rad.has_value());
+      EXPECT_NEAR(*v.phase_rad, std::arg(sum), 1e-9);
+      EXPECT_NEAR(v.moved, 2.0 * std::sqrt(2.0), 1e-9);
+    }
+  }
 }
 
 TEST(ConfidenceTest, FallsWithARivalAndWithALowScore) {

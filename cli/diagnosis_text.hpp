@@ -1,0 +1,31 @@
+#pragma once
+// What amb diagnose prints: the verdict, the parameters as they stand in a rig file, what the
+// calibration has moved, fits, the ranking, what to record next.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/session.hpp"
+
+namespace levitas::cli {
+
+/// `complete`: every calibrated value and every candidate.
+void PrintDiagnosis(const diagnosis::SessionAnswer& answer, bool complete);
+/// Names of the files that were written.
+void PrintFiles(const std::vector<std::string>& paths);
+
+/// Parameters that are the same at several places, once.
+struct SharedParameter {
+  diagnosis::NamedParameter parameter;
+  std::string places;
+};
+[[nodiscard]] std::vector<SharedParameter> SharedParameters(const diagnosis::SessionAnswer& answer);
+/// "18.5 at 2.10 rad", or the value alone.
+[[nodiscard]] std::string AtPhase(double value, std::optional<double> phase_rad);
+/// "0.998 (0.996 to 1.000) of what could be gained", or that there was nothing to gain.
+[[nodiscard]] std::string GainSentence(const diagnosis::SessionAnswer& answer);
+/// Why a fit can lie above its ceiling; empty when none does.
+[[nodiscard]] std::string CeilingSentence(const diagnosis::SessionAnswer& answer);
+
+}  // namespace levitas::cli

@@ -1,0 +1,119 @@
+#include "diagnosis/levitator/own_words.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace levitas::levitator {
+namespace {
+
+constexpr double kInterval = 1.645;  ///< standard deviations of 5 and 95 %
+
+/// A key and what a value of the table is under it.
+struct Told {
+  std::string key;
+  std::function<double(double)> value;
+};
+
+Told Scaled(std::string key, double by) {
+  return {std::move(key), [by](double t) { return by * t; }};
+}
+
+Told TellAs(const config::RigFile& rig, std::size_t i) {
+  const Row& row = Table()[i];
+  switch (i) {
+    case kDelay:
+      return {"delay_samples", [file = rig.plant.delay_samples](double t) { return file + t; }};
+    case kForceKnee:
+      return {"knee_a", [](double t) { return 1.0 / std::sqrt(std::max(1e-9, t)); }};
+    case kForceLag:
+      return Scaled("tau_us", 1e6);
+    case kSensorOffset:
+      return Scaled("offset_um", 1e6);
+    case kSensorSquare:
+      return Scaled("a2_1_per_m", 1.0);
+    case kSensorCube:
+      return Scaled("a3_1_per_m2", 1.0);
+    case kSensorLag:
+      return {"bandwidth_hz", [hz = rig.plant.bearings.at(0).sensor.bandwidth_hz](double t) {
+                const double lag_s = 1.0 / (2.0 * std::numbers::pi * hz) + t;
+                return 1.0 / (2.0 * std::numbers::pi * std::max(1e-9, lag_s));
+              }};
+    case kLoad:
+      return Scaled("force_x_n", 1.0);
+    case kSpring:
+      return Scaled("direct_n_per_m", 1.0);
+    default:
+      break;
+  }
+  const double base = row.name.starts_with("ratio") ? 1.0 : 0.0;
+  return {std::string(row.name), [base](double t) { return base + t; }};
+}
+
+std::string UnitOf(const Told& told, const Row& row) {
+  const std::string symbol = diagnosis::UnitOfKey(told.key).symbol;
+  return symbol.empty() ? std::string(row.unit) : symbol;
+}
+
+diagnosis::NamedParameter Tell(const config::RigFile& rig, std::size_t i, const Fitted& fit) {
+  const Row& row = Table()[i];
+  const Told told = TellAs(rig, i);
+  const double spread = kInterval * fit.deviation[i];
+  diagnosis::NamedParameter p;
+  p.effect = row.effect;
+  p.key = told.key;
+  p.place = rig.numbers.channels.front();
+  p.name = fmt::format("{}[{}]", p.key, p.place);
+  p.unit = UnitOf(told, row);
+  p.si = diagnosis::UnitOfKey(p.key).si;
+  p.value = told.value(fit.theta[i]);
+  const double one = told.value(fit.theta[i] - spread);
+  const double other = told.value(fit.theta[i] + spread);
+  p.low = std::min(one, other);
+  p.high = std::max(one, other);
+  return p;
+}
+
+diagnosis::CalibratedValue Calibrated(const config::RigFile& rig, std::size_t i,
+                                      const Fitted& fit) {
+  const Row& row = Table()[i];
+  const Told told = TellAs(rig, i);
+  const double theta = fit.theta[i];
+  const double deviation = fit.deviation[i];
+  diagnosis::CalibratedValue v;
+  v.effect = row.effect;
+  v.place = rig.numbers.channels.front();
+  v.key = told.key;
+  v.unit = UnitOf(told, row);
+  v.nominal = v.expected = told.value(0.0);
+  v.calibrated = told.value(theta);
+  v.deviation = 0.5 * std::abs(told.value(theta + deviation) - told.value(theta - deviation));
+  v.tolerance = 0.5 * std::abs(told.value(row.tolerance) - told.value(-row.tolerance));
+  v.moved = std::abs(theta) / row.tolerance;
+  v.proven = deviation > 0.0 ? std::abs(theta) / deviation : 0.0;
+  return v;
+}
+
+}  // namespace
+
+diagnosis::OwnWords OwnWordsOf(const config::RigFile& rig, const Found& found) {
+  diagnosis::OwnWords words;
+  std::vector<bool> named(kParameters, false);
+  for (const std::size_t c : found.causes) {
+    for (const std::size_t i : Causes()[c].moves) {
+      words.parameters.push_back(Tell(rig, i, found.extended));
+      named[i] = true;
+    }
+  }
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    if (Table()[i].tolerance > 0.0 && !named[i]) {
+      words.calibrated.push_back(Calibrated(rig, i, found.extended));
+    }
+  }
+  return words;
+}
+
+}  // namespace levitas::levitator
