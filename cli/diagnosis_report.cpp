@@ -16,12 +16,13 @@ using diagnosis::Candidate;
 using diagnosis::SessionAnswer;
 
 constexpr const char* kStyle =
-    "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222}"
+    "body{font:16px/1.5 sans-serif;max-width:64em;margin:2em auto;padding:0 1em;color:#222}"
     "h1{font-size:1.5em}.verdict{font-size:1.25em;padding:.8em "
     "1em;background:#eef4fb;border-left:6px "
-    "solid #1f77b4}table{border-collapse:collapse}td,th{padding:.2em .8em;text-align:left;"
+    "solid #1f77b4}table{border-collapse:collapse}td,th{padding:.2em .6em;text-align:left;"
     "border-bottom:1px solid "
-    "#ddd}td.n{text-align:right;white-space:nowrap}td.k{white-space:nowrap}.bar{background:#eee;"
+    "#ddd}td.n{text-align:right;white-space:nowrap}td.k{white-space:nowrap}svg{margin:1em "
+    "0}.bar{background:#eee;"
     "width:24em}"
     ".bar div{height:1em}summary{cursor:pointer;padding:.4em 0}";
 
@@ -142,15 +143,15 @@ std::string CalibrationTable(const SessionAnswer& s) {
   std::string rest;
   for (const auto& v : diagnosis::CalibratedValues(s)) {
     (diagnosis::WorthTelling(v) ? told : rest) += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{}</td><td class=n>{}</td>"
-        "<td class=n>{:.2g}</td><td class=n>{:.2g}</td><td>{}</td><td class=n>{:.1f}</td></tr>\n",
+        "<tr><td>{}</td><td class=k>{}</td><td>{}</td><td class=n>{}</td><td class=n>{}</td>"
+        "<td class=n>{:.2g}</td><td class=n>{:.2g}</td></tr>\n",
         v.effect, Escaped(v.place), v.key, AtPhase(v.nominal, v.nominal_phase_rad),
-        AtPhase(v.calibrated, v.phase_rad), v.deviation, v.tolerance, Escaped(v.unit), v.moved);
+        AtPhase(v.calibrated, v.phase_rad), v.deviation, v.tolerance);
   }
   if (told.empty() && rest.empty()) return {};
   const std::string head =
       "<table><tr><th>effect</th><th>where</th><th>key</th><th>rig file</th><th>calibrated</th>"
-      "<th>std</th><th>tolerance</th><th>unit</th><th>moved, tolerances</th></tr>\n";
+      "<th>std</th><th>tolerance</th></tr>\n";
   const std::string first = told.empty()
                                 ? "<p>None is further than half its tolerance from the file.</p>\n"
                                 : head + told + "</table>\n";
@@ -160,29 +161,14 @@ std::string CalibrationTable(const SessionAnswer& s) {
          first + "<details><summary>All others</summary>" + head + rest + "</table></details>\n";
 }
 
-/// How much of the gain is the cause's.
-std::string ByCalibration(const SessionAnswer& s) {
-  if (s.answer.causes.empty()) return ", all of it by calibration";
-  return fmt::format("; of what calibration leaves, the cause takes {:.0f} %",
-                     100.0 * std::max(0.0, s.held_out.beyond_calibration.value));
-}
-
 /// Seconds, gain and limits in a sentence each.
 std::string Summary(const SessionAnswer& s) {
   const bool part = s.seconds_used < 0.99 * s.seconds_of_data;
-  std::string text =
+  const std::string text =
       part ? fmt::format("From {:.1f} s of {:.1f} s in flight, spans spread over all records.",
                          s.seconds_used, s.seconds_of_data)
            : fmt::format("From {:.1f} s in flight.", s.seconds_of_data);
-  const diagnosis::Gain& held = s.held_out;
-  text += diagnosis::SomethingToGain(held)
-              ? fmt::format(
-                    " Of what a better model could gain on data kept back, this one gains "
-                    "{:.0f} % ({:.0f} to {:.0f} %).",
-                    100.0 * held.achieved.value, 100.0 * held.achieved.low,
-                    100.0 * held.achieved.high, ByCalibration(s))
-              : fmt::format(" {}", GainSentence(s));
-  return text;
+  return fmt::format("{} {}", text, GainSentence(s));
 }
 
 std::string ChannelTable(const SessionAnswer& s) {
@@ -204,9 +190,11 @@ std::string FitTable(const SessionAnswer& s) {
   const auto row = [](const char* name, const diagnosis::Gain& g) {
     return fmt::format(
         "<tr><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td>"
-        "<td class=n>{:.2f}</td><td class=n>{:.3f} ({:.3f} to {:.3f})</td></tr>\n",
+        "<td class=n>{:.2f}</td><td class=n>{}</td></tr>\n",
         name, g.nominal_percent, g.calibrated_percent, g.extended_percent, g.ceiling_percent,
-        g.achieved.value, g.achieved.low, g.achieved.high);
+        diagnosis::SomethingToGain(g) ? fmt::format("{:.3f} ({:.3f} to {:.3f})", g.achieved.value,
+                                                    g.achieved.low, g.achieved.high)
+                                      : "nothing to gain");
   };
   return "<table><tr><th>fit, percent</th><th>nominal</th><th>calibrated</th><th>extended</th>"
          "<th>ceiling</th><th>share of the achievable gain</th></tr>\n" +
@@ -238,7 +226,7 @@ std::string DiagnosisPage(const SessionAnswer& s, const std::string& more) {
   return fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
       "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n"
-      "<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{6}{7}{8}"
+      "<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{7}{6}{8}"
       "<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig file. "
       "Calibrated: with what a healthy rig may differ by. Extended: with the causes. Ceiling: the "
       "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",

@@ -124,11 +124,17 @@ std::string GainSentence(const SessionAnswer& s) {
            "to "
            "their noise.";
   }
-  return fmt::format(
-      "Of what could be gained there: {:.3f} ({:.3f} to {:.3f}); of what calibration leaves, the "
-      "cause gains {:.3f}",
-      held.achieved.value, held.achieved.low, held.achieved.high,
-      std::max(0.0, held.beyond_calibration.value));
+  const std::string gained = fmt::format(
+      "Of what a better model could gain on data kept back, this one gains {:.1f} % "
+      "({:.1f} to {:.1f} %)",
+      100.0 * held.achieved.value, 100.0 * held.achieved.low, 100.0 * held.achieved.high);
+  if (s.answer.causes.empty()) return gained + ", by calibration.";
+  if (held.calibrated_over_noise < 1.0 + diagnosis::kLeastToGain) {
+    return gained +
+           "; calibration alone leaves hardly more than the noise, the cause is told by evidence.";
+  }
+  return fmt::format("{}; of what calibration leaves, the cause takes {:.0f} %.", gained,
+                     100.0 * std::max(0.0, held.beyond_calibration.value));
 }
 
 std::string CeilingSentence(const SessionAnswer& s) {

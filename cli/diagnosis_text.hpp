@@ -23,7 +23,7 @@ struct SharedParameter {
 [[nodiscard]] std::vector<SharedParameter> SharedParameters(const diagnosis::SessionAnswer& answer);
 /// "18.5 at 2.10 rad", or the value alone.
 [[nodiscard]] std::string AtPhase(double value, std::optional<double> phase_rad);
-/// "0.998 (0.996 to 1.000) of what could be gained", or that there was nothing to gain.
+/// What share of what could be gained is, and by what; or that there was nothing to gain.
 [[nodiscard]] std::string GainSentence(const diagnosis::SessionAnswer& answer);
 /// Why a fit can lie above its ceiling; empty when none does.
 [[nodiscard]] std::string CeilingSentence(const diagnosis::SessionAnswer& answer);

@@ -144,6 +144,19 @@ class DiagnoseForeignCampaigns(unittest.TestCase):
                 self.assertEqual(parameter["unit"], "us")
             self.assertEqual(printed.count("tau_us"), 1, "one value at all axes is told once")
 
+    def test_the_calibrated_rig_predicts_what_the_calibrated_model_did(self):
+        with TemporaryDirectory() as folder:
+            _, first = self.diagnose("eddy_current", folder)
+            data = sorted((RECORDS / "eddy_current").glob("*.csv.xz"))
+            amb(folder, "diagnose", "--quick", "--rig", "answer/calibrated_rig.yaml", *data,
+                "--out", "again")
+            again = json.loads((Path(folder) / "again/diagnosis.json").read_text())
+            gained = first["fit_percent"]["after"] - first["fit_percent"]["before"]
+            left = first["fit_percent"]["after"] - again["fit_percent"]["before"]
+            # All but the shapes of the modes, which have no key.
+            self.assertGreater(gained, 5.0, "else there is nothing to compare")
+            self.assertLess(abs(left), 0.05 * gained, (first["fit_percent"], again["fit_percent"]))
+
     def test_no_plan_is_written_where_nothing_is_left_to_separate(self):
         with TemporaryDirectory() as folder:
             printed, answer = self.diagnose("none", folder, "--plan", "next.yaml")
