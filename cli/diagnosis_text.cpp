@@ -44,10 +44,10 @@ void PrintCalibrated(const SessionAnswer& s, bool complete) {
     return;
   }
   fmt::print("{}:\n", complete ? "all of them" : "furthest out (--explain lists all)");
-  fmt::print("  {:<23}{:<19}{:<15}{:>18}{:>18}{:>9}{:>11}\n", "", "where", "key", "rig file",
+  fmt::print("  {:<23}{:<19}{:<15}{:>19}{:>20}{:>9}{:>11}\n", "", "where", "key", "rig file",
              "calibrated", "std", "tolerance");
   for (const CalibratedValue& v : told) {
-    fmt::print("  {:<23}{:<19}{:<15}{:>18}{:>18}{:>9.2g}{:>11.2g}\n", v.effect, v.place, v.key,
+    fmt::print("  {:<23}{:<19}{:<15}{:>19}{:>20}{:>9.2g}{:>11.2g}\n", v.effect, v.place, v.key,
                AtPhase(v.nominal, v.nominal_phase_rad), AtPhase(v.calibrated, v.phase_rad),
                v.deviation, v.tolerance);
   }
