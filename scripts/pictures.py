@@ -28,7 +28,7 @@ from dashboard_rig import Rig, in_mode, until  # noqa: E402
 from lcm_network import run as run_in_namespace  # noqa: E402
 
 # Of a report, those that the documents show.
-OF_A_REPORT = ("bode_de", "waterfall_de", "zones", "orbit_de")
+OF_A_REPORT = ("bode_de", "waterfall_de")
 
 
 def amb(folder, *arguments, status=0):
