@@ -1,8 +1,12 @@
 #include "cli/analysis_options.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "cli/run/general_files.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -51,10 +55,21 @@ config::RigFile LoadRig(const AnalysisOptions& options) {
   return config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
 }
 
-config::ControllerFile LoadController(const AnalysisOptions& options, const config::RigFile& rig) {
+FoundController LoadController(const AnalysisOptions& options, const config::RigFile& rig) {
   std::string name = options.controller_name.empty() ? rig.run.controller : options.controller_name;
   if (name.empty()) name = kReferenceController;
-  return config::LoadController(config::FindConfig(name, "controllers"), rig.numbers);
+  const std::string path = config::FindConfig(name, "controllers");
+  return {path, config::LoadController(path, rig.numbers)};
+}
+
+std::string ControllerText(const FoundController& controller) {
+  return fmt::format("{} ({})", controller.file.name, controller.path);
+}
+
+std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig) {
+  if (!options.controller_name.empty() || !rig.run.controller.empty()) return {};
+  return fmt::format("These are the published gains. amb run takes others: --controller {}\n",
+                     kGeneralController);
 }
 
 double RadPerSecond(double rpm) noexcept { return rpm * std::numbers::pi / 30.0; }

@@ -23,8 +23,17 @@ void AddSpeedOption(CLI::App& command, AnalysisOptions& options, std::vector<dou
 void AddJsonOption(CLI::App& command, AnalysisOptions& options);
 
 [[nodiscard]] config::RigFile LoadRig(const AnalysisOptions& options);
-[[nodiscard]] config::ControllerFile LoadController(const AnalysisOptions& options,
-                                                    const config::RigFile& rig);
+/// A controller and where it was read from.
+struct FoundController {
+  std::string path;
+  config::ControllerFile file;
+};
+[[nodiscard]] FoundController LoadController(const AnalysisOptions& options,
+                                             const config::RigFile& rig);
+/// "name (file)".
+[[nodiscard]] std::string ControllerText(const FoundController& controller);
+/// Says so when it is not the one that `amb run` would take; else empty.
+[[nodiscard]] std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig);
 
 [[nodiscard]] double RadPerSecond(double rpm) noexcept;
 [[nodiscard]] double Rpm(double rad_per_s) noexcept;

@@ -83,15 +83,19 @@ nlohmann::ordered_json Json(const analysis::SensitivityResult& at,
 ExitStatus Run(const AnalysisOptions& options) {
   session::CheckOutputPath(options.json_path, {});
   const config::RigFile rig = LoadRig(options);
-  const config::ControllerFile controller = LoadController(options, rig);
-  nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
+  const FoundController controller = LoadController(options, rig);
+  nlohmann::ordered_json json{{"rig", rig.numbers.name},
+                              {"controller", controller.file.name},
+                              {"controller_file", controller.path}};
   fmt::print("Sensitivity of the sampled loop, delay included; zones of ISO 14839-3\n");
-  fmt::print("rig {}, controller {}\n", rig.numbers.name, controller.name);
+  fmt::print("rig {}, controller {}\n", rig.numbers.name, ControllerText(controller));
   for (const double rpm : options.speeds_rpm) {
-    const auto result = analysis::SensitivityPeaks(rig.plant, controller.law, RadPerSecond(rpm));
+    const auto result =
+        analysis::SensitivityPeaks(rig.plant, controller.file.law, RadPerSecond(rpm));
     Print(result, rig.numbers.channels);
     json["speeds"].push_back(Json(result, rig.numbers.channels));
   }
+  fmt::print("{}", GainsNote(options, rig));
   WriteJsonFile(options.json_path, json);
   return ExitStatus::kDone;
 }

@@ -1,18 +1,22 @@
 // amb modes: mass, magnet constants and free whirl frequencies of a rig.
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "analysis/damped_modes.hpp"
 #include "analysis/free_modes.hpp"
+#include "analysis/modal_effects.hpp"
 #include "cli/analysis_options.hpp"
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -75,9 +79,9 @@ nlohmann::ordered_json Json(const config::RigFile& rig, const analysis::FreeMode
   return json;
 }
 
-void PrintDamped(const analysis::DampedModesAtSpeed& at, std::size_t count) {
-  fmt::print("{:.0f} rpm of the first shaft\n{:>14}{:>14}{:>14}  {}\n", Rpm(at.speed_rad_per_s),
-             "frequency Hz", "rad/s", "damping", "motion");
+void PrintDamped(const analysis::DampedModesAtSpeed& at, std::size_t count, const char* of) {
+  fmt::print("{:.0f} rpm{}\n{:>14}{:>14}{:>14}  {}\n", Rpm(at.speed_rad_per_s), of, "frequency Hz",
+             "rad/s", "damping", "motion");
   const bool turning = at.speed_rad_per_s != 0.0;
   for (std::size_t i = 0; i < std::min(count, at.modes.size()); ++i) {
     const analysis::DampedMode& mode = at.modes[i];
@@ -100,6 +104,44 @@ nlohmann::ordered_json DampedJson(const analysis::DampedModesAtSpeed& at) {
   return json;
 }
 
+/// Names of the file's effects of one influence, each once.
+std::string Names(const config::RigFile& rig, analysis::ModalInfluence influence) {
+  std::vector<std::string> names;
+  for (const effect::EffectConfig& entry : rig.plant.effects) {
+    const std::string name(effect::At(entry.id).name);
+    if (analysis::InfluenceOf(entry.id) != influence) continue;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// What the effects of the rig file do to the free rotor, and which are not in any number here.
+void ShowEffects(const ModesOptions& options, const config::RigFile& rig,
+                 nlohmann::ordered_json& json) {
+  using analysis::ModalInfluence;
+  if (rig.plant.effects.empty()) return;
+  fmt::print("\nThe numbers above are those of the rotor without the effects of the rig file.\n");
+  if (const auto names = Names(rig, ModalInfluence::kOnTheRotor); !names.empty()) {
+    fmt::print("With {} at full strength; damped modes, magnets without current:\n", names);
+    for (const double speed : SpeedsOf(options, rig)) {
+      const auto at = analysis::DampedModes(analysis::WithModalEffects(rig.plant), speed);
+      PrintDamped(at, 2 * options.modes, "");  // both planes have their modes
+      json["with_effects"].push_back(DampedJson(at));
+    }
+  }
+  constexpr std::array kOthers{
+      std::pair{ModalInfluence::kTurning,
+                "turn with the rotor: no frequency stays the same over a turn. amb run shows them"},
+      std::pair{
+          ModalInfluence::kOnTheLoop,
+          "change the levitated rotor, not the free one: amb poles has what is linear of them"},
+      std::pair{ModalInfluence::kNone, "change no mode"}};
+  for (const auto& [influence, why] : kOthers) {
+    const std::string names = Names(rig, influence);
+    if (!names.empty()) fmt::print("Not applied: {} ({})\n", names, why);
+  }
+}
+
 /// Shafts on supports of their own are not free: their damped modes, magnets without current.
 ExitStatus ShowDamped(const ModesOptions& options, const config::RigFile& rig) {
   fmt::print("Rig {}: {} shafts, {} gears; damped modes, magnets without current\n",
@@ -108,7 +150,7 @@ ExitStatus ShowDamped(const ModesOptions& options, const config::RigFile& rig) {
   for (const double speed : SpeedsOf(options, rig)) {
     const auto at = analysis::DampedModes(rig.plant, speed);
     // Both planes have their modes, and torsion its own.
-    PrintDamped(at, 3 * options.modes);
+    PrintDamped(at, 3 * options.modes, " of the first shaft");
     json["speeds"].push_back(DampedJson(at));
   }
   WriteJsonFile(options.json_path, json);
@@ -136,7 +178,9 @@ void AddModesCommand(CLI::App& app, Action& action) {
       const auto modes =
           analysis::ComputeFreeModes(rig.plant, SpeedsOf(*options, rig), options->modes);
       Print(rig, modes);
-      WriteJsonFile(options->json_path, Json(rig, modes));
+      nlohmann::ordered_json json = Json(rig, modes);
+      ShowEffects(*options, rig, json);
+      WriteJsonFile(options->json_path, json);
       return ExitStatus::kDone;
     };
   });

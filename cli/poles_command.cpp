@@ -59,12 +59,14 @@ nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
 ExitStatus Run(const PolesOptions& options) {
   session::CheckOutputPath(options.json_path, {});
   const config::RigFile rig = LoadRig(options);
-  const config::ControllerFile controller = LoadController(options, rig);
-  nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
+  const FoundController controller = LoadController(options, rig);
+  nlohmann::ordered_json json{{"rig", rig.numbers.name},
+                              {"controller", controller.file.name},
+                              {"controller_file", controller.path}};
   fmt::print("Poles of the sampled loop, delay included; rig {}, controller {}\n", rig.numbers.name,
-             controller.name);
+             ControllerText(controller));
   for (const double rpm : options.speeds_rpm) {
-    const auto poles = analysis::ClosedLoopPoles(rig.plant, controller.law, RadPerSecond(rpm));
+    const auto poles = analysis::ClosedLoopPoles(rig.plant, controller.file.law, RadPerSecond(rpm));
     Print(poles, options.up_to_hz);
     json["speeds"].push_back(Json(poles));
   }

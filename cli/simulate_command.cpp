@@ -17,6 +17,7 @@
 #include "cli/command.hpp"
 #include "cli/innovation_files.hpp"
 #include "cli/json_file.hpp"
+#include "cli/text_table.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -54,12 +55,15 @@ struct Simulation {
 void PrintCoils(const Simulation& s) {
   if (s.coils.empty()) return;
   fmt::print("\nCoil currents of the model at the recorded commands and positions\n");
-  fmt::print("{:<24}{:>9}{:>17}{:>13}{:>17}\n", "coil", "fit %", "mean measured A", "predicted A",
-             "rms difference A");
+  TextTable table;
+  table.Add({"coil", "fit %", "mean measured A", "predicted A", "rms difference A"});
   for (const auto& coil : s.coils) {
-    fmt::print("{:<24}{:>9.2f}{:>17.4f}{:>13.4f}{:>17.4f}\n", coil.coil, coil.fit_percent,
-               coil.measured_mean_a, coil.predicted_mean_a, coil.error_rms_a);
+    table.Add({coil.coil, fmt::format("{:.2f}", coil.fit_percent),
+               fmt::format("{:.4f}", coil.measured_mean_a),
+               fmt::format("{:.4f}", coil.predicted_mean_a),
+               fmt::format("{:.4f}", coil.error_rms_a)});
   }
+  fmt::print("{}", table.Text());
 }
 
 nlohmann::ordered_json CoilsJson(const Simulation& s) {
@@ -83,42 +87,61 @@ void CutBeginning(std::vector<analysis::RecordedRow>& rows, double from_s, doubl
   if (rows.empty()) throw BadInput("--from leaves nothing of the session");
 }
 
+/// Where other places have less than expected, one may hold more than all that is unexplained.
+double Percent(double share) { return 100.0 * std::min(1.0, share); }
+
 void PrintChannels(const Simulation& s) {
-  fmt::print("{:<8}{:>10}{:>9}{:>10}{:>9}{:>8}{:>20}\n", "channel", "rms um", "x noise", "expected",
-             "peak x", "lag 1", "strongest line Hz");
+  TextTable table;
+  table.Add({"channel", "rms um", "x noise", "expected", "peak x", "lag 1", "strongest line Hz"});
   for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
     const auto& c = s.report.channels[i];
-    fmt::print("{:<8}{:>10.3f}{:>9.2f}{:>10.2f}{:>9.1f}{:>8.3f}{:>12.1f} ({:.0f} x)\n",
-               s.rig.numbers.channels[i], c.rms_m * 1e6, c.multiple, c.expected_multiple,
-               c.peak_m / s.gain.sensor_noise_m[i], c.lag_one, c.dominant_hz, c.dominant_ratio);
+    table.Add({s.rig.numbers.channels[i], fmt::format("{:.3f}", c.rms_m * 1e6),
+               fmt::format("{:.2f}", c.multiple), fmt::format("{:.2f}", c.expected_multiple),
+               fmt::format("{:.1f}", c.peak_m / s.gain.sensor_noise_m[i]),
+               fmt::format("{:.3f}", c.lag_one),
+               fmt::format("{:.1f} ({:.0f} x)", c.dominant_hz, c.dominant_ratio)});
   }
+  fmt::print("{}", table.Text());
+}
+
+/// One column for each entry of a channel, one row for each channel.
+template <class Entries, class Head, class Cell>
+std::string ByChannel(const Simulation& s, const std::string& corner, Entries entries, Head head,
+                      Cell cell) {
+  TextTable table;
+  std::vector<std::string> row{corner};
+  for (const auto& entry : entries(s.report.channels.front())) row.push_back(head(entry));
+  table.Add(row);
+  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
+    row = {s.rig.numbers.channels[i]};
+    for (const auto& entry : entries(s.report.channels[i])) row.push_back(cell(entry));
+    table.Add(row);
+  }
+  return table.Text();
+}
+
+template <class Band>
+std::string BandText(const Band& band) {
+  return fmt::format("{:.0f}-{:.0f}", band.low_hz, band.high_hz);
 }
 
 void PrintBands(const Simulation& s) {
-  fmt::print("\nBands: rms / expected (share of the unexplained power)\n{:<8}", "Hz");
-  for (const auto& band : s.report.channels.front().bands) {
-    fmt::print("{:>13}", fmt::format("{:.0f}-{:.0f}", band.low_hz, band.high_hz));
-  }
-  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
-    fmt::print("\n{:<8}", s.rig.numbers.channels[i]);
-    for (const auto& band : s.report.channels[i].bands) {
-      fmt::print("{:>13}", fmt::format("{:.2f} ({:.0f} %)", band.ratio, 100.0 * band.share));
-    }
-  }
-  fmt::print("\n");
+  fmt::print("\nBands: rms / expected (share of the unexplained power)\n{}",
+             ByChannel(
+                 s, "Hz", [](const auto& c) -> const auto& { return c.bands; },
+                 [](const auto& band) { return BandText(band); },
+                 [](const auto& band) {
+                   return fmt::format("{:.2f} ({:.0f} %)", band.ratio, Percent(band.share));
+                 }));
 }
 
 void PrintExcitation(const Simulation& s) {
   if (s.report.channels.front().excitation.empty()) return;
-  fmt::print("\nFollows the excitation: coherence / chance (a right model: 1.0)\n{:<8}", "Hz");
-  for (const auto& band : s.report.channels.front().excitation) {
-    fmt::print("{:>13}", fmt::format("{:.0f}-{:.0f}", band.low_hz, band.high_hz));
-  }
-  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
-    fmt::print("\n{:<8}", s.rig.numbers.channels[i]);
-    for (const auto& band : s.report.channels[i].excitation) fmt::print("{:>13.2f}", band.ratio);
-  }
-  fmt::print("\n");
+  fmt::print("\nFollows the excitation: coherence / chance (a right model: 1.0)\n{}",
+             ByChannel(
+                 s, "Hz", [](const auto& c) -> const auto& { return c.excitation; },
+                 [](const auto& band) { return BandText(band); },
+                 [](const auto& band) { return fmt::format("{:.2f}", band.ratio); }));
 }
 
 void PrintOrders(const Simulation& s) {
@@ -126,31 +149,34 @@ void PrintOrders(const Simulation& s) {
     fmt::print("\nOrders of rotation: none, the rotor stands (or the record has no rotation)\n");
     return;
   }
-  fmt::print("\nOrders of rotation: amplitude um, x what noise leaves (share)\n");
-  for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
-    fmt::print("{:<8}", s.rig.numbers.channels[i]);
-    for (const auto& order : s.report.channels[i].orders) {
-      fmt::print("   {}x: {:.3f} um, {:.1f} x ({:.0f} %)", order.order, order.amplitude_m * 1e6,
-                 order.ratio, 100.0 * order.share);
-    }
-    fmt::print("\n");
-  }
+  fmt::print("\nOrders of rotation: amplitude um, x what noise leaves (share)\n{}",
+             ByChannel(
+                 s, "order", [](const auto& c) -> const auto& { return c.orders; },
+                 [](const auto& order) { return fmt::format("{}x", order.order); },
+                 [](const auto& order) {
+                   return fmt::format("{:.3f} um, {:.1f} x ({:.0f} %)", order.amplitude_m * 1e6,
+                                      order.ratio, Percent(order.share));
+                 }));
 }
 
 void PrintWindows(const Simulation& s) {
-  fmt::print("\nTime: rms / expected\n{:<8}", "from s");
+  TextTable table;
+  std::vector<std::string> from{"from s"};
+  std::vector<std::string> speed{"rpm"};
   for (const auto& window : s.report.channels.front().windows) {
-    fmt::print("{:>8.2f}", window.start_s);
+    from.push_back(fmt::format("{:.2f}", window.start_s));
+    speed.push_back(fmt::format("{:.0f}", Rpm(window.speed_rad_per_s)));
   }
-  fmt::print("\n{:<8}", "rpm");
-  for (const auto& window : s.report.channels.front().windows) {
-    fmt::print("{:>8.0f}", Rpm(window.speed_rad_per_s));
-  }
+  table.Add(from);
+  table.Add(speed);
   for (std::size_t i = 0; i < s.report.channels.size(); ++i) {
-    fmt::print("\n{:<8}", s.rig.numbers.channels[i]);
-    for (const auto& window : s.report.channels[i].windows) fmt::print("{:>8.2f}", window.ratio);
+    std::vector<std::string> row{s.rig.numbers.channels[i]};
+    for (const auto& window : s.report.channels[i].windows) {
+      row.push_back(fmt::format("{:.2f}", window.ratio));
+    }
+    table.Add(row);
   }
-  fmt::print("\n");
+  fmt::print("\nTime: rms / expected\n{}", table.Text());
 }
 
 void PrintDepartures(const Simulation& s, std::size_t count) {

@@ -97,11 +97,12 @@ void Sensitivity(const Inputs& in, Out out) {
 void TimeStep(const Inputs& in, Out out) {
   if (!in.step_error) return;
   const analysis::StepError& error = *in.step_error;
-  fmt::format_to(out,
-                 "\ntime step {} of {:.3g} us a period; against {} of them {:.2g} % of the peak of "
-                 "{:.1f} um\n",
-                 error.substeps, in.rig.period_s() * 1e6 / error.substeps, error.compared_with,
-                 100.0 * error.Share(), Um(error.peak_m));
+  fmt::format_to(
+      out,
+      "\ntime step {} of {:.3g} us a period; in a release from a tenth of the clearance, the "
+      "weight not carried yet (peak {:.1f} um), {} of them change {:.2g} % of the peak\n",
+      error.substeps, in.rig.period_s() * 1e6 / error.substeps, Um(error.peak_m),
+      error.compared_with, 100.0 * error.Share());
 }
 
 void DurationRow(const DurationFigures& row, Out out) {

@@ -11,6 +11,7 @@
 #include "cli/identify/identify_commands.hpp"
 #include "cli/identify/response_files.hpp"
 #include "cli/json_file.hpp"
+#include "cli/written_files.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -101,6 +102,7 @@ ExitStatus Run(const FrfOptions& options) {
   nlohmann::ordered_json json{{"data", options.data_path}, {"rig", rig.numbers.name}};
   for (const auto& r : responses) json["responses"].push_back(ResponseJson(r));
   WriteJsonFile(options.json_path, json);
+  TellWritten({options.csv_path, options.svg_path, options.json_path});
   RefuseWideOrbits(responses, options.orbit_bound_um);
   return ExitStatus::kDone;
 }

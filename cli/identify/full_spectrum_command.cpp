@@ -13,6 +13,7 @@
 #include "cli/identify/geared_files.hpp"
 #include "cli/identify/modal_files.hpp"
 #include "cli/json_file.hpp"
+#include "cli/written_files.hpp"
 #include "common/problem.hpp"
 #include "identification/geared/record_lines.hpp"
 #include "identification/identified_rig.hpp"
@@ -98,6 +99,7 @@ ExitStatus Run(const SpectrumOptions& options) {
   WriteJsonFile(options.json_path, GearedJson(found));
   WriteGearedPicture(options.svg_path, lines);
   if (!options.out_path.empty()) WriteRigFile(options.out_path, IdentifiedRig(rig, found));
+  TellWritten({options.out_path, options.json_path, options.svg_path});
   return ExitStatus::kDone;
 }
 

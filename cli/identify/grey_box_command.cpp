@@ -10,6 +10,7 @@
 #include "cli/identify/identify_commands.hpp"
 #include "cli/identify/series_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/written_files.hpp"
 #include "identification/nonlinear/grey_box.hpp"
 
 namespace levitas::cli {
@@ -71,6 +72,7 @@ ExitStatus Run(const GreyBoxOptions& options) {
   for (const double value : oscillator.spring) json["spring"].push_back(value);
   json["judged"] = JudgedJson(options, judged);
   WriteJsonFile(options.json_path, json);
+  TellWritten({options.svg_path, options.json_path});
   return ExitStatus::kDone;
 }
 

@@ -11,6 +11,7 @@
 #include "cli/identify/sensor_options.hpp"
 #include "cli/identify/series_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/written_files.hpp"
 #include "identification/nonlinear/hammerstein_wiener.hpp"
 
 namespace levitas::cli {
@@ -83,6 +84,7 @@ ExitStatus Run(const CommandOptions& given) {
                               {"curves", CurvesJson(fit.model)},
                               {"judged", JudgedJson(given, judged)}};
   WriteJsonFile(given.json_path, json);
+  TellWritten({given.svg_path, given.json_path});
   return ExitStatus::kDone;
 }
 

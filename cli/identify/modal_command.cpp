@@ -19,6 +19,7 @@
 #include "cli/identify/response_files.hpp"
 #include "cli/identify/start_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/written_files.hpp"
 #include "identification/identified_rig.hpp"
 #include "identification/modal/modal_starts.hpp"
 #include "session/output_path.hpp"
@@ -209,8 +210,10 @@ ExitStatus Run(const ModalOptions& options) {
   PrintLimits(result);
   PrintStarts(result, responses, options);
   WriteJsonFile(options.json_path, ModalJson(result));
-  WriteModalPictures(options.svg_prefix, result, responses);
+  std::vector<std::string> written = WriteModalPictures(options.svg_prefix, result, responses);
   if (!options.out_path.empty()) WriteRigFile(options.out_path, IdentifiedRig(rig, result));
+  written.insert(written.begin(), {options.out_path, options.json_path});
+  TellWritten(written);
   return ExitStatus::kDone;
 }
 

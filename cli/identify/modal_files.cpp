@@ -124,18 +124,23 @@ Json ModalJson(const ModalResult& r) {
   return json;
 }
 
-void WriteModalPictures(const std::string& prefix, const ModalResult& r,
-                        const std::vector<FrequencyResponse>& responses) {
-  if (prefix.empty()) return;
+std::vector<std::string> WriteModalPictures(const std::string& prefix, const ModalResult& r,
+                                            const std::vector<FrequencyResponse>& responses) {
+  if (prefix.empty()) return {};
   const auto lines = [&](const FrequencyResponse& response) {
     return ModelOn(r.start, r.fit.vector, response);
   };
-  WriteBode(prefix + "_bode.svg", responses.front(), lines(responses.front()));
+  std::vector<std::string> written{prefix + "_bode.svg"};
+  WriteBode(written.back(), responses.front(), lines(responses.front()));
   if (responses.size() > 2) {
-    WriteBode(prefix + "_validation.svg", responses[1], lines(responses[1]));
+    written.push_back(prefix + "_validation.svg");
+    WriteBode(written.back(), responses[1], lines(responses[1]));
   }
-  svg::Write(prefix + "_campbell.svg", Campbell(r));
-  svg::Write(prefix + "_stabilisation.svg", StabilisationPicture(r));
+  written.push_back(prefix + "_campbell.svg");
+  svg::Write(written.back(), Campbell(r));
+  written.push_back(prefix + "_stabilisation.svg");
+  svg::Write(written.back(), StabilisationPicture(r));
+  return written;
 }
 
 void WriteRigFile(const std::string& path, const config::RigFile& rig) {

@@ -15,8 +15,10 @@ namespace levitas::cli {
 [[nodiscard]] nlohmann::ordered_json ModalJson(const identification::ModalResult& result);
 
 /// <prefix>_bode.svg, _validation.svg, _campbell.svg, _stabilisation.svg; nothing without prefix.
-void WriteModalPictures(const std::string& prefix, const identification::ModalResult& result,
-                        const std::vector<identification::FrequencyResponse>& responses);
+/// The names of the files.
+std::vector<std::string> WriteModalPictures(
+    const std::string& prefix, const identification::ModalResult& result,
+    const std::vector<identification::FrequencyResponse>& responses);
 
 void WriteRigFile(const std::string& path, const config::RigFile& rig);
 

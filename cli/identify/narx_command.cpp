@@ -10,6 +10,7 @@
 #include "cli/identify/identify_commands.hpp"
 #include "cli/identify/series_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/written_files.hpp"
 #include "identification/nonlinear/narx.hpp"
 
 namespace levitas::cli {
@@ -74,6 +75,7 @@ ExitStatus Run(const NarxCommandOptions& given) {
   }
   json["judged"] = JudgedJson(given, judged);
   WriteJsonFile(given.json_path, json);
+  TellWritten({given.svg_path, given.json_path});
   return ExitStatus::kDone;
 }
 

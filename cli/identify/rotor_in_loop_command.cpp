@@ -13,6 +13,7 @@
 #include "cli/identify/identify_commands.hpp"
 #include "cli/identify/sensor_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/written_files.hpp"
 #include "common/problem.hpp"
 #include "identification/nonlinear/loop_record.hpp"
 #include "identification/nonlinear/suspended_rotor_fit.hpp"
@@ -89,7 +90,7 @@ void PrintModel(const SuspendedRotor& model, const Series& series, nlohmann::ord
 ExitStatus Run(const CommandOptions& given) {
   session::CheckOutputPath(given.json_path, given.data_path);
   const config::RigFile rig = LoadRig(given);
-  const config::ControllerFile controller = LoadController(given, rig);
+  const config::ControllerFile controller = LoadController(given, rig).file;
   SuspendedRotor start = DesignOf(plant::Reduce(rig.plant), given.iron);
   const auto sensors = SensorsOf(given.sensors, start.axes());
   if (!sensors.empty()) start.sensor = sensors;
@@ -115,6 +116,7 @@ ExitStatus Run(const CommandOptions& given) {
   if (rows > fitted) PrintFit("test", record.series, run.output, fitted, rows - fitted, json);
   PrintModel(fit.model, record.series, json);
   WriteJsonFile(given.json_path, json);
+  TellWritten({given.json_path});
   return ExitStatus::kDone;
 }
 

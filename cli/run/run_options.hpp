@@ -9,15 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "cli/run/general_files.hpp"
 #include "cli/run/live_page.hpp"
 #include "cli/run/supervise.hpp"
 #include "common/rig_numbers.hpp"
 #include "transport/lcm_network.hpp"
 
 namespace levitas::cli {
-
-inline constexpr const char* kGeneralController = "flexible_rotor_commissioned";
-inline constexpr const char* kGeneralScenario = "default";
 
 struct RunOptions {
   std::string rig{"flexible_rotor"};

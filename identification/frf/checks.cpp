@@ -50,23 +50,25 @@ void CheckChannel(const Record& record, const Experiment& e, std::size_t channel
   }
   if (static_cast<double>(clipped) > kClippedShare * rows) {
     problems.push_back(fmt::format(
-        "position {} is clipped at the sensor's range in {:.1f} % of the samples while {} is "
-        "excited: use a smaller amplitude",
-        name, 100.0 * static_cast<double>(clipped) / rows, excited));
+        "position {} is clipped at the sensor's range ({:.4g} um) in {:.1f} % of the samples while "
+        "{} is excited, allowed {:g} %: use a smaller amplitude",
+        name, 1e6 * record.sensor_range_m, 100.0 * static_cast<double>(clipped) / rows, excited,
+        100.0 * kClippedShare));
   } else if (values.size() >= 4) {
     const double flat = FlatShare(std::span(position_m).subspan(e.begin, e.end() - e.begin));
     if (flat > kFlatShare) {
       problems.push_back(fmt::format(
           "position {} is cut off below the sensor's range in {:.1f} % of the samples while {} is "
-          "excited: check amplifier and converter, or use a smaller amplitude",
-          name, 100.0 * flat, excited));
+          "excited, allowed {:g} %: check amplifier and converter, or use a smaller amplitude",
+          name, 100.0 * flat, excited, 100.0 * kFlatShare));
     }
   }
   if (static_cast<double>(saturated) > kLimitedShare * rows) {
     problems.push_back(fmt::format(
-        "control current {} is at its limit in {:.1f} % of the samples while {} is excited: use a "
-        "smaller amplitude",
-        name, 100.0 * static_cast<double>(saturated) / rows, excited));
+        "control current {} is at its limit ({:.4g} A) in {:.1f} % of the samples while {} is "
+        "excited, allowed {:g} %: use a smaller amplitude",
+        name, record.current_limit_a, 100.0 * static_cast<double>(saturated) / rows, excited,
+        100.0 * kLimitedShare));
   }
 }
 

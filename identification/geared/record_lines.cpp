@@ -129,7 +129,10 @@ void RefuseBadRows(const Record& record, const Stretch& stretch) {
       problems += "\n  position " + name + " is clipped";
     }
     if (limited > kBadShare * rows) {
-      problems += "\n  control current " + name + " is at its limit: the lines are not the model's";
+      problems += fmt::format(
+          "\n  control current {} is at its limit ({:.4g} A) in {:.1f} % of the samples, allowed "
+          "{:g} %: the lines are not the model's",
+          name, record.current_limit_a, 100.0 * limited / rows, 100.0 * kBadShare);
     }
   }
   if (!problems.empty()) {

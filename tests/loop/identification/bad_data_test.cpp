@@ -80,7 +80,8 @@ TEST(BadData, ASaturatedCurrentIsNamed) {
   const std::string text = Refusal([](Record& r) {
     for (double& value : r.current_a[3]) value = value > 0.1 ? r.current_limit_a : value;
   });
-  EXPECT_THAT(text, HasSubstr("control current nde_y is at its limit"));
+  EXPECT_THAT(text, HasSubstr("control current nde_y is at its limit (1 A)"));
+  EXPECT_THAT(text, HasSubstr("allowed 2 %"));
 }
 
 TEST(BadData, NoExcitationIsSaid) {

@@ -26,7 +26,7 @@ COUNTS = {"samples", "drop_outs", "missing_samples", "rows", "cycles_without_fra
           "first_compared_cycle", "mode_differs", "missing_cycles", "fault_cycle",
           "corrupt_bytes", "corrupt_records"}
 RATIOS = {"ratio", "share", "sigmas", "damping_ratio", "largest_pole_modulus", "forward_share",
-          "sensitivity_peak", "gain_margin_up", "gain_margin_down", "largest_singular_value",
+          "torsion_share", "sensitivity_peak", "gain_margin_up", "gain_margin_down", "largest_singular_value",
           "multiple_of_noise", "expected_multiple", "lag_one_correlation",
           "dominant_density_ratio"}
 

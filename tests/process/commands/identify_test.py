@@ -46,6 +46,12 @@ class Identify(CommandTest):
                             "modal", "--json", "m.json")
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.assertIn("rig file -> identified", done.stdout)
+        told = done.stdout.splitlines()[-1]
+        self.assertTrue(told.startswith("wrote "), told)
+        for name in told.removeprefix("wrote ").split(", "):
+            self.assertTrue((self.folder / name).is_file(), name)
+        here = {path.name for path in self.folder.glob("modal_*")} | {"identified.yaml", "m.json"}
+        self.assertEqual(set(told.removeprefix("wrote ").split(", ")), here)
         found = json.loads((self.folder / "m.json").read_text())
         for speed in found["speeds"]:
             for before, after in zip(speed["channel_misfit_rig_file"],

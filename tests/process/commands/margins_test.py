@@ -38,6 +38,17 @@ class Margins(CommandTest):
                     seen.add(axis["zone"])
         self.assertGreater(len(seen), 1)  # the table above was tried at more than one place
 
+    def test_the_controllers_file_is_told(self):
+        mine = self.write("mine.yaml", scaled_controller(1.0))
+        printed, margins = self.compute("margins", "--controller", mine)
+        self.assertIn("controller flexible_rotor (mine.yaml)", printed)
+        self.assertEqual(margins["controller_file"], "mine.yaml")
+        self.assertNotIn("amb run", printed)
+
+    def test_the_published_gains_are_not_taken_for_those_of_amb_run(self):
+        printed, _ = self.compute("margins")
+        self.assertIn("--controller flexible_rotor_commissioned", printed)
+
     def test_sensitivity_peak_bounds_the_margins_from_below(self):
         """|1 + L| >= 1/Ms everywhere: crossings of the real axis and the unit circle keep off -1."""
         _, margins = self.compute("margins", "--speeds", "0,3000,6000")

@@ -85,6 +85,35 @@ class Modes(CommandTest):
         for bearing in modes["bearings"]:
             self.assertAlmostEqual(bearing["ks_n_per_m"], 40.0 / 0.762e-3, delta=1e-3)
 
+    def worn(self, *entries):
+        return self.write("worn.yaml", SHIPPED_RIG.read_text() + "\neffects:\n" +
+                          "".join(f"  - {{{entry}}}\n" for entry in entries))
+
+    def test_effects_that_change_the_free_rotor_are_shown_beside_its_own_modes(self):
+        nominal = self.compute("modes")[1]["speeds"]
+        rig = self.worn("id: modal_frequency, mode: 1, frequency_hz: 80, at_s: 10",
+                        "id: modal_damping, mode: 1, damping_ratio: 0.01")
+        printed, modes = self.compute("modes", "--rig", rig)
+        self.assertEqual(modes["speeds"], nominal)
+        self.assertIn("With modal_frequency, modal_damping at full strength", printed)
+        first, second = modes["with_effects"][0]["modes"][:2]  # one of each plane
+        for mode in (first, second):
+            # s = -z w +- j w sqrt(1 - z^2); nothing else acts on this mode at rest.
+            self.assertAlmostEqual(mode["frequency_hz"], 80 * math.sqrt(1 - 0.01**2), 6)
+            self.assertAlmostEqual(mode["damping_ratio"], 0.01, 9)
+        # Modes that no effect touches stay: the reduced model keeps them within 0.1 %.
+        third = modes["with_effects"][0]["modes"][2]["frequency_hz"]
+        self.assertAlmostEqual(third, nominal[0]["forward_hz"][1], delta=1e-3 * third)
+
+    def test_effects_that_are_not_applied_are_named(self):
+        rig = self.worn("id: breathing_crack, z_mm: 250, depth: 0.3",
+                        "id: current_gain, channels: [de_x], ratio: 0.9",
+                        "id: sensor_noise, channels: [de_x], rms_um: 2")
+        printed, modes = self.compute("modes", "--rig", rig)
+        self.assertNotIn("with_effects", modes)
+        for name in ("breathing_crack", "current_gain", "sensor_noise"):
+            self.assertRegex(printed, rf"Not applied: {name} \(")
+
     def test_as_many_modes_as_asked_for_in_rising_order(self):
         for count in (1, 6):
             _, modes = self.compute("modes", "--modes", count)

@@ -43,11 +43,25 @@ TEST(AnalysisOptions, AreTheShippedRigAndTheCommandsOwnSpeedsWithoutAnyWord) {
 
 TEST(AnalysisOptions, TakeTheControllerThatTheRigNamesUnlessOneIsAskedFor) {
   AnalysisOptions options = Parsed("");
-  EXPECT_EQ(LoadController(options, LoadRig(options)).name, "flexible_rotor");
+  EXPECT_EQ(LoadController(options, LoadRig(options)).file.name, "flexible_rotor");
   options = Parsed("--rig geared_rotor_4dof");
-  EXPECT_EQ(LoadController(options, LoadRig(options)).name, "geared_rotor");
+  EXPECT_EQ(LoadController(options, LoadRig(options)).file.name, "geared_rotor");
   options = Parsed("--rig geared_rotor_4dof --controller geared_rotor_passive");
-  EXPECT_EQ(LoadController(options, LoadRig(options)).name, "geared_rotor_passive");
+  EXPECT_EQ(LoadController(options, LoadRig(options)).file.name, "geared_rotor_passive");
+}
+
+TEST(AnalysisOptions, TellTheControllersFileAndThatAmbRunTakesAnotherOnlyWhereItDoes) {
+  const auto note = [](const std::string& line) {
+    const AnalysisOptions options = Parsed(line);
+    return GainsNote(options, LoadRig(options));
+  };
+  const AnalysisOptions options = Parsed("");
+  EXPECT_THAT(ControllerText(LoadController(options, LoadRig(options))),
+              HasSubstr("controllers/flexible_rotor.yaml"));
+  EXPECT_THAT(note(""), HasSubstr("--controller flexible_rotor_commissioned"));
+  // Asked for, or named by the rig file and so taken by amb run as well.
+  EXPECT_EQ(note("--controller flexible_rotor"), "");
+  EXPECT_EQ(note("--rig geared_rotor_4dof"), "");
 }
 
 TEST(AnalysisOptions, TakeSeveralSpeedsInEveryWayAndDropTheDefault) {
@@ -73,7 +87,7 @@ TEST(AnalysisOptions, LoadTheShippedFilesByName) {
   const AnalysisOptions options = Parsed("");
   const config::RigFile rig = LoadRig(options);
   EXPECT_EQ(rig.numbers.name, "flexible_rotor");
-  EXPECT_EQ(LoadController(options, rig).law.axes.size(), rig.numbers.axes());
+  EXPECT_EQ(LoadController(options, rig).file.law.axes.size(), rig.numbers.axes());
   EXPECT_THROW((void)LoadRig(Parsed("--rig flexible_roter")), BadInput);
 }
 
