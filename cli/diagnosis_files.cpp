@@ -107,8 +107,8 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
 
 std::vector<std::string> WriteDiagnosis(const SessionAnswer& answer, const config::RigFile& rig,
                                         const std::string& folder) {
-  const std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
-                                       folder + "/calibrated_rig.yaml", folder + "/report.html"};
+  std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
+                                 folder + "/calibrated_rig.yaml", folder + "/report.html"};
   WriteJsonFile(paths[0], DiagnosisJson(answer));
   WriteTextFile(paths[1], diagnosis::ExtendedRig(answer, rig));
   WriteTextFile(paths[2], diagnosis::CalibratedRig(answer, rig));

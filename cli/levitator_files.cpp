@@ -120,8 +120,8 @@ nlohmann::ordered_json LevitatorJson(const Answer& answer) {
 }
 
 std::vector<std::string> WriteLevitator(const Answer& answer, const std::string& folder) {
-  const std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
-                                       folder + "/calibrated_rig.yaml", folder + "/report.html"};
+  std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
+                                 folder + "/calibrated_rig.yaml", folder + "/report.html"};
   WriteJsonFile(paths[0], LevitatorJson(answer));
   WriteTextFile(paths[1], answer.extended_rig);
   WriteTextFile(paths[2], answer.extended_rig);

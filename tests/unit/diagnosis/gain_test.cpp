@@ -47,6 +47,18 @@ TEST(GainTest, IsTheShareOfTheAchievablePower) {
   }
 }
 
+TEST(GainTest, TellsWhatThereWasToGainInPowersOfTheNoise) {
+  const Gain gain =
+      MeasureGain(View(), {{Error(2.0)}, {Error(1.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
+  EXPECT_NEAR(gain.to_gain.value, 2.0, 0.05);
+  EXPECT_NEAR(gain.calibrated_over_noise, 2.0, 0.04);
+  EXPECT_NEAR(gain.extended_over_noise, 1.0, 0.02);
+  EXPECT_TRUE(SomethingToGain(gain));
+  // A rig that its file describes: a share of nothing means nothing, whatever it comes to.
+  EXPECT_FALSE(SomethingToGain(
+      MeasureGain(View(), {{Error(0.0)}, {Error(0.0)}, {Error(0.1)}}, Noise(), Part::kFitted)));
+}
+
 TEST(GainTest, IsNegativeWhenTheExtensionIsWorse) {
   const Gain gain =
       MeasureGain(View(), {{Error(1.0)}, {Error(1.0)}, {Error(1.5)}}, Noise(), Part::kFitted);

@@ -6,6 +6,7 @@
 
 #include "common/problem.hpp"
 #include "diagnosis/levitator/answer.hpp"
+#include "diagnosis/levitator/own_words.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
 namespace levitas::levitator {
@@ -89,6 +90,38 @@ TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
   ASSERT_EQ(read.plant.effects.size(), 2U);
   EXPECT_EQ(read.plant.effects[0].id, effect::Id::kSensorOffset);
   EXPECT_EQ(read.plant.effects[1].id, effect::Id::kStaticLoad);
+}
+
+TEST(OwnWords, AreTheKeysAndUnitsOfTheRigFile) {
+  const config::RigFile rig = LevitatorFile();
+  Found found;
+  found.extended.theta = Nominal(1);
+  found.extended.deviation = Nominal(1);
+  found.extended.theta[kSensorOffset] = 60e-6;
+  found.extended.deviation[kSensorOffset] = 10e-6;
+  found.extended.theta[kDelay] = 1.4;
+  found.extended.deviation[kDelay] = 0.1;
+  for (std::size_t c = 0; c < Causes().size(); ++c) {
+    if (std::string_view(Causes()[c].effect) == "extra_delay") found.causes = {c};
+  }
+  ASSERT_EQ(found.causes.size(), 1U);
+  const diagnosis::OwnWords words = OwnWordsOf(rig, found);
+  ASSERT_EQ(words.parameters.size(), 1U);
+  EXPECT_EQ(words.parameters[0].name, "delay_samples[ball_x]");
+  EXPECT_NEAR(words.parameters[0].value, rig.plant.delay_samples + 1.4, 1e-12);
+  EXPECT_NEAR(words.parameters[0].high - words.parameters[0].value, 0.1645, 1e-12);
+  bool offset = false;
+  for (const diagnosis::CalibratedValue& v : words.calibrated) {
+    EXPECT_NE(v.effect, "extra_delay") << "a cause is not calibrated";
+    if (v.effect != "sensor_offset") continue;
+    offset = true;
+    EXPECT_EQ(v.key, "offset_um");
+    EXPECT_NEAR(v.calibrated, 60.0, 1e-9);
+    EXPECT_NEAR(v.deviation, 10.0, 1e-9);
+    EXPECT_NEAR(v.tolerance, 30.0, 1e-9);
+    EXPECT_NEAR(v.moved, 2.0, 1e-9);
+  }
+  EXPECT_TRUE(offset);
 }
 
 TEST(ExtendedRigFile, KeepsTheForceAtTheCentreWhenTheStiffnessAloneIsOther) {

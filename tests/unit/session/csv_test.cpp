@@ -181,6 +181,15 @@ TEST_F(Csv, EveryProblemOfTheColumnNamesIsListedAtOnce) {
                                     "control_current_de_x_a (or ma), control_current_de_y_a")));
 }
 
+TEST_F(Csv, ColumnsOfAnotherRigAreToldInOneSentence) {
+  const std::string text = Refusal(
+      "time_s,position_ball_x_m,position_ball_y_m,control_current_ball_x_a,"
+      "control_current_ball_y_a\n");
+  EXPECT_THAT(text, AllOf(HasSubstr("line 1"), HasSubstr("channels ball_x, ball_y"),
+                          HasSubstr("the rig has de_x, de_y"), HasSubstr("--rig")));
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+}
+
 TEST_F(Csv, EveryKindOfBadRowIsToldWithLineAndColumn) {
   const std::string names = kNames;
   const std::string good = "0,0,0,0,0\n";
