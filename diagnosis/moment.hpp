@@ -20,6 +20,12 @@ inline constexpr std::size_t kMaxModes = 16;  ///< per plane
 using AxisFloats = std::array<float, kMaxAxes>;
 using ModalFloats = std::array<float, 2 * kMaxModes>;
 
+[[nodiscard]] constexpr AxisFloats Ones() noexcept {
+  AxisFloats ones{};
+  for (float& one : ones) one = 1.0F;
+  return ones;
+}
+
 /// What terms in force add to the model's slopes at one sample (Term::slope).
 struct AddedSlopes {
   AxisFloats reading_per_m{};  ///< of a reading by its own displacement
@@ -53,7 +59,8 @@ struct Moment {
   AxisFloats command_now_a{};     ///< acts from the sample on (whole-sample delay)
   AxisFloats command_next_a{};    ///< acts from the next sample on
   float late_periods{};           ///< by which all of them act later; negative: earlier
-  AxisFloats coil_rate{};         ///< times the bandwidth of the rig file's amplifiers
+  AxisFloats reading_scale = Ones();  ///< of the model's sensors over the plant's
+  AxisFloats coil_rate{};             ///< times the bandwidth of the rig file's amplifiers
   std::array<TeethMoment, kMostMeshes> teeth{};  ///< mid, of the nominal meshes
   AddedSlopes added{};
   std::uint32_t record{};

@@ -93,6 +93,14 @@ void SensitivityBlock::Read(const Moment& m, float* derivative_m) noexcept {
     if (!m.arrived) e[a] = Lane{};
     for (std::size_t l = 0; l < kLanes; ++l) derivative_m[a * kLanes + l] = e[a].value[l];
     reading_[a] = Lane{};
+    e[a].value /= m.reading_scale[a];
+  }
+  for (std::size_t l = 0; l < probes_.size(); ++l) {
+    const Probe& p = probes_[l];
+    if (p.now.scales < 0) continue;
+    const auto a = static_cast<std::size_t>(p.now.scales);
+    e[a].value[l] -=
+        static_cast<float>(p.scale) * m.innovation_m[a] / (m.reading_scale[a] * m.reading_scale[a]);
   }
   if (m.arrived) Correct(m.starting ? *start_ : *model_, e, state_);
 }

@@ -69,6 +69,7 @@ struct Term {
   bool rotating{false};    ///< adds nothing at rest
   bool moves_coil{false};  ///< its drive adds to the coil current, and to nothing else
   bool timed{false};  ///< its drive looks at when and how fast coils act (Moment::late_periods)
+  int scales{-1};     ///< axis whose whole reading it makes 1 + theta as large; -1: none
   int record{-1};     ///< acts in this record alone; -1: in all
   /// Over the period that begins at the moment; `reading_m` then belongs to the sample at its end.
   Adds drive;

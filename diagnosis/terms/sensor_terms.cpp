@@ -33,6 +33,7 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
                               [a](const Moment& m, double theta, Addition& add) {
                                 add.reading_m[a] += theta * static_cast<double>(m.reading_m[a]);
                               }));
+  terms.back().scales = static_cast<int>(a);
   terms.back().slope = [a](const Moment&, double theta, AddedSlopes& added) {
     added.reading_per_m[a] += static_cast<float>(theta);
   };
