@@ -46,8 +46,8 @@ struct DiagnoseOptions : AnalysisOptions {
 /// One axis whose coils are on a voltage: models, causes and fits of its own.
 std::vector<std::string> RunLevitator(const diagnosis::SessionInputs& inputs,
                                       const DiagnoseOptions& options, ProgressLine& progress) {
-  if (!options.plan.empty() || !options.healthy.empty()) {
-    throw BadInput("--plan and --healthy are not offered for rigs whose coils are on a voltage");
+  if (!options.plan.empty()) {
+    throw BadInput("--plan is not offered for rigs whose coils are on a voltage");
   }
   const levitator::Answer answer = levitator::Diagnose(inputs);
   progress.Close();

@@ -105,11 +105,23 @@ std::vector<HeldOutRun> JudgeAll(const NominalRig& rig, const std::vector<Series
   return runs;
 }
 
+/// Whatever the file gets wrong of these records is how the rig is: searches begin there.
+void LearnFromHealthy(const std::vector<Series>& healthy, const SearchSettings& settings,
+                      NominalRig& rig) {
+  const std::vector<Series> stretches = Stretches(healthy);
+  const Found found = Search(Misfit(rig, stretches), nullptr, settings);
+  rig.origin = Beside(rig.origin, ForOthers(found.extended.theta, 0));
+}
+
 }  // namespace
 
 Answer Diagnose(const config::RigFile& rig, const std::vector<Series>& given,
-                const std::vector<Series>& given_held_out, const diagnosis::Settings& settings) {
-  const NominalRig nominal = NominalOf(rig);
+                const std::vector<Series>& given_held_out, const diagnosis::Settings& settings,
+                const std::vector<Series>& healthy) {
+  NominalRig nominal = NominalOf(rig);
+  SearchSettings search;
+  search.progress = settings.progress;
+  if (!healthy.empty()) LearnFromHealthy(healthy, search, nominal);
   std::vector<Series> data = given;
   std::vector<Series> held_out = given_held_out;
   if (data.size() == 1 && held_out.empty()) {
@@ -120,8 +132,6 @@ Answer Diagnose(const config::RigFile& rig, const std::vector<Series>& given,
   }
   const std::vector<Series> stretches = Stretches(data);
   const Misfit misfit(nominal, stretches);
-  SearchSettings search;
-  search.progress = settings.progress;
   Answer answer;
   if (held_out.empty()) {
     answer.found = Search(misfit, nullptr, search);
@@ -132,8 +142,8 @@ Answer Diagnose(const config::RigFile& rig, const std::vector<Series>& given,
     answer.held_out = JudgeAll(nominal, held_out, answer.found);
   }
   answer.fitted = JudgeAll(nominal, data, answer.found);
-  FillSharedForm(rig, data, answer);
-  answer.extended_rig = ExtendedRig(rig, answer.found);
+  FillSharedForm(rig, nominal, data, answer);
+  answer.extended_rig = ExtendedRig(rig, nominal.origin, answer.found);
   return answer;
 }
 
@@ -141,8 +151,10 @@ Answer Diagnose(const diagnosis::SessionInputs& inputs) {
   const auto data = Load(inputs.data, inputs);
   const auto holdout = Load(inputs.holdout, inputs);
   diagnosis::RefuseSameRows(data, holdout, "--holdout", "what was fitted cannot judge the fit");
+  const auto healthy = Load(inputs.healthy, inputs);
+  diagnosis::RefuseSameRows(data, healthy, "--healthy", "it would vouch for itself");
   return Diagnose(inputs.rig, SeriesOf(data, inputs.rig), SeriesOf(holdout, inputs.rig),
-                  inputs.settings);
+                  inputs.settings, SeriesOf(healthy, inputs.rig));
 }
 
 }  // namespace levitas::levitator

@@ -149,8 +149,9 @@ double TruePosition(double measured_m, const Theta& theta, std::size_t record) {
   return straight - curve / (1.0 + theta[kSensorGain]);
 }
 
-CoilRun RunCoils(const NominalRig& rig, const Series& series, const Theta& theta,
+CoilRun RunCoils(const NominalRig& rig, const Series& series, const Theta& beside,
                  std::size_t record) {
+  const Theta theta = Beside(rig.origin, beside);
   std::vector<double> position_m;
   position_m.reserve(series.size());
   for (const double measured : series.position_m) {

@@ -105,9 +105,11 @@ std::string Comments(const Found& found) {
 
 }  // namespace
 
-std::string ExtendedRig(const config::RigFile& rig, const Found& found) {
+std::string ExtendedRig(const config::RigFile& file, const Theta& origin, const Found& found) {
   // A record that was not seen has what the others have on average.
-  Theta t = ForOthers(found.extended.theta, 1);
+  Theta t = Beside(origin, ForOthers(found.extended.theta, 1));
+  config::RigFile rig = file;
+  rig.plant.effects.clear();  // they are part of the origin
   t[kSensorOffset] += t[Own(0, kOwnOffset)];
   config::RigFile extended = rig;
   plant::BearingConfig& bearing = extended.plant.bearings.at(0);

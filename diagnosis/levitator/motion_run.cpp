@@ -101,12 +101,12 @@ class Walk {
   Walk(const NominalRig& rig, const Series& series, const Theta& theta, std::size_t record,
        const CoilRun& modelled)
       : series_(series),
-        theta_(theta),
+        theta_(Beside(rig.origin, theta)),
         record_(record),
-        law_(LawOf(rig, theta)),
+        law_(LawOf(rig, theta_)),
         gains_(ObserverGains(rig)),
-        flux_(Fluxes(rig, series, theta, modelled)),
-        offset_m_(theta[kSensorOffset] + theta[Own(record, kOwnOffset)]),
+        flux_(Fluxes(rig, series, theta_, modelled)),
+        offset_m_(theta_[kSensorOffset] + theta_[Own(record, kOwnOffset)]),
         period_s_(rig.period_s) {}
 
   [[nodiscard]] Ball Start(std::size_t row) const {
@@ -134,7 +134,7 @@ class Walk {
 
  private:
   const Series& series_;
-  const Theta& theta_;
+  Theta theta_;
   std::size_t record_;
   ForceLaw law_;
   Gains gains_;

@@ -2,6 +2,7 @@
 // The numbers of the rig file that the models need. Thread: plain data.
 
 #include "config/rig_file.hpp"
+#include "diagnosis/levitator/origin.hpp"
 
 namespace levitas::levitator {
 
@@ -14,7 +15,8 @@ struct NominalRig {
   double far_gap_m{};  ///< of the lower coil there
   double force_n_per_a2{}, force_decay_m{};
   double mass_kg{}, gravity_m_per_s2{};
-  double noise_m{};  ///< of a reading, quantisation included
+  double noise_m{};           ///< of a reading, quantisation included
+  Theta origin = Nominal(0);  ///< what is known to differ from all of these
 };
 
 [[nodiscard]] inline NominalRig NominalOf(const config::RigFile& file) {
@@ -38,6 +40,7 @@ struct NominalRig {
   out.mass_kg = rig.rotor.given ? rig.rotor.given->mass_kg : 0.0;
   out.gravity_m_per_s2 = rig.gravity_m_per_s2;
   out.noise_m = bearing.sensor.noise_rms_m;
+  out.origin = EffectsOf(file);
   return out;
 }
 

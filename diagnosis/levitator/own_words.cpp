@@ -7,6 +7,8 @@
 #include <functional>
 #include <numbers>
 
+#include "diagnosis/levitator/origin.hpp"
+
 namespace levitas::levitator {
 namespace {
 
@@ -22,7 +24,7 @@ Told Scaled(std::string key, double by) {
   return {std::move(key), [by](double t) { return by * t; }};
 }
 
-Told TellAs(const config::RigFile& rig, std::size_t i) {
+Told TellWhole(const config::RigFile& rig, std::size_t i) {
   const Row& row = Table()[i];
   switch (i) {
     case kDelay:
@@ -53,14 +55,23 @@ Told TellAs(const config::RigFile& rig, std::size_t i) {
   return {std::string(row.name), [base](double t) { return base + t; }};
 }
 
+/// Of values beside an origin.
+Told TellAs(const config::RigFile& rig, const Theta& origin, std::size_t i) {
+  Told whole = TellWhole(rig, i);
+  return {whole.key, [value = whole.value, i, from = origin[i]](double t) {
+            return value(Beside(i, from, t));
+          }};
+}
+
 std::string UnitOf(const Told& told, const Row& row) {
   const std::string symbol = diagnosis::UnitOfKey(told.key).symbol;
   return symbol.empty() ? std::string(row.unit) : symbol;
 }
 
-diagnosis::NamedParameter Tell(const config::RigFile& rig, std::size_t i, const Fitted& fit) {
+diagnosis::NamedParameter Tell(const config::RigFile& rig, const Theta& origin, std::size_t i,
+                               const Fitted& fit) {
   const Row& row = Table()[i];
-  const Told told = TellAs(rig, i);
+  const Told told = TellAs(rig, origin, i);
   const double spread = kInterval * fit.deviation[i];
   diagnosis::NamedParameter p;
   p.effect = row.effect;
@@ -77,10 +88,10 @@ diagnosis::NamedParameter Tell(const config::RigFile& rig, std::size_t i, const 
   return p;
 }
 
-diagnosis::CalibratedValue Calibrated(const config::RigFile& rig, std::size_t i,
-                                      const Fitted& fit) {
+diagnosis::CalibratedValue Calibrated(const config::RigFile& rig, const Theta& origin,
+                                      std::size_t i, const Fitted& fit) {
   const Row& row = Table()[i];
-  const Told told = TellAs(rig, i);
+  const Told told = TellAs(rig, origin, i);
   const double theta = fit.theta[i];
   const double deviation = fit.deviation[i];
   diagnosis::CalibratedValue v;
@@ -99,18 +110,19 @@ diagnosis::CalibratedValue Calibrated(const config::RigFile& rig, std::size_t i,
 
 }  // namespace
 
-diagnosis::OwnWords OwnWordsOf(const config::RigFile& rig, const Found& found) {
+diagnosis::OwnWords OwnWordsOf(const config::RigFile& rig, const Theta& origin,
+                               const Found& found) {
   diagnosis::OwnWords words;
   std::vector<bool> named(kParameters, false);
   for (const std::size_t c : found.causes) {
     for (const std::size_t i : Causes()[c].moves) {
-      words.parameters.push_back(Tell(rig, i, found.extended));
+      words.parameters.push_back(Tell(rig, origin, i, found.extended));
       named[i] = true;
     }
   }
   for (std::size_t i = 0; i < kParameters; ++i) {
     if (Table()[i].tolerance > 0.0 && !named[i]) {
-      words.calibrated.push_back(Calibrated(rig, i, found.extended));
+      words.calibrated.push_back(Calibrated(rig, origin, i, found.extended));
     }
   }
   return words;

@@ -10,6 +10,8 @@
 
 namespace levitas::levitator {
 
-[[nodiscard]] diagnosis::OwnWords OwnWordsOf(const config::RigFile& rig, const Found& found);
+/// `found` was fitted beside `origin`; what is told is both together, as a rig file would have it.
+[[nodiscard]] diagnosis::OwnWords OwnWordsOf(const config::RigFile& rig, const Theta& origin,
+                                             const Found& found);
 
 }  // namespace levitas::levitator

@@ -177,12 +177,12 @@ diagnosis::Gain MeanOf(const std::vector<HeldOutRun>& runs, bool probes) {
 
 }  // namespace
 
-void FillSharedForm(const config::RigFile& rig, const std::vector<Series>& data, Answer& answer) {
+void FillSharedForm(const config::RigFile& rig, const NominalRig& nominal,
+                    const std::vector<Series>& data, Answer& answer) {
   diagnosis::SessionAnswer& common = answer.common;
-  const NominalRig nominal = NominalOf(rig);
   common.view = std::make_shared<const diagnosis::RigView>(rig.numbers, rig.plant);
   common.terms = TermsOf();
-  common.own_words = OwnWordsOf(rig, answer.found);
+  common.own_words = OwnWordsOf(rig, nominal.origin, answer.found);
   FillCauses(answer.found, answer);
   FillParameters(answer.found, common.answer);
   common.answer.theta_calibrated = ForOthers(answer.found.calibrated.theta, 0);

@@ -10,6 +10,7 @@
 namespace levitas::levitator {
 
 /// Fills `common` and `ties` from the rest.
-void FillSharedForm(const config::RigFile& rig, const std::vector<Series>& data, Answer& answer);
+void FillSharedForm(const config::RigFile& rig, const NominalRig& nominal,
+                    const std::vector<Series>& data, Answer& answer);
 
 }  // namespace levitas::levitator

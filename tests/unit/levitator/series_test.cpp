@@ -81,7 +81,8 @@ TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
   found.extended.theta[kSensorOffset] = 3e-4;
   found.extended.theta[kLoad] = 0.01;
   found.extended.theta[kDeadBand] = 0.1;
-  const config::RigFile read = config::ParseRig(ExtendedRig(rig, found), "extended_rig.yaml");
+  const config::RigFile read =
+      config::ParseRig(ExtendedRig(rig, Nominal(0), found), "extended_rig.yaml");
   EXPECT_NEAR(read.plant.delay_samples, 1.4, 1e-12);
   const auto& bearing = read.plant.bearings[0];
   EXPECT_NEAR(bearing.magnet.exponential->force_n_per_a2, 1.2 * 3.008878, 1e-9);
@@ -105,7 +106,7 @@ TEST(OwnWords, AreTheKeysAndUnitsOfTheRigFile) {
     if (std::string_view(Causes()[c].effect) == "extra_delay") found.causes = {c};
   }
   ASSERT_EQ(found.causes.size(), 1U);
-  const diagnosis::OwnWords words = OwnWordsOf(rig, found);
+  const diagnosis::OwnWords words = OwnWordsOf(rig, Nominal(0), found);
   ASSERT_EQ(words.parameters.size(), 1U);
   EXPECT_EQ(words.parameters[0].name, "delay_samples[ball_x]");
   EXPECT_NEAR(words.parameters[0].value, rig.plant.delay_samples + 1.4, 1e-12);
@@ -130,7 +131,8 @@ TEST(ExtendedRigFile, KeepsTheForceAtTheCentreWhenTheStiffnessAloneIsOther) {
   found.extended.theta = Nominal(1);
   found.extended.deviation = Nominal(1);
   found.extended.theta[kForceDecay] = 0.25;
-  const config::RigFile read = config::ParseRig(ExtendedRig(rig, found), "extended_rig.yaml");
+  const config::RigFile read =
+      config::ParseRig(ExtendedRig(rig, Nominal(0), found), "extended_rig.yaml");
   const auto centre = [](const config::RigFile& file) {
     const auto& magnet = file.plant.bearings[0].magnet;
     return magnet.exponential->force_n_per_a2 *
