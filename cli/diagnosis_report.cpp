@@ -78,6 +78,11 @@ std::string Why(const SessionAnswer& s, const Candidate& candidate) {
   for (const auto& cause : a.causes) {
     if (cause.effect == candidate.effect) return "named";
   }
+  if (s.own_words) {
+    for (const auto& [effect, why] : s.own_words->why_not) {
+      if (effect == candidate.effect) return why;
+    }
+  }
   const bool tied = std::find(a.also_possible.begin(), a.also_possible.end(), candidate.effect) !=
                     a.also_possible.end();
   if (tied) return "cannot be told from the cause with these data";

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "cli/text_table.hpp"
+#include "cli/written_files.hpp"
 #include "diagnosis/words.hpp"
 
 namespace levitas::cli {
@@ -44,13 +46,14 @@ void PrintCalibrated(const SessionAnswer& s, bool complete) {
     return;
   }
   fmt::print("{}:\n", complete ? "all of them" : "furthest out (--explain lists all)");
-  fmt::print("  {:<23}{:<19}{:<15}{:>19}{:>20}{:>9}{:>11}\n", "", "where", "key", "rig file",
-             "calibrated", "std", "tolerance");
+  TextTable table;
+  table.Add({"", "where", "key", "rig file", "calibrated", "std", "tolerance"});
   for (const CalibratedValue& v : told) {
-    fmt::print("  {:<23}{:<19}{:<15}{:>19}{:>20}{:>9.2g}{:>11.2g}\n", v.effect, v.place, v.key,
-               AtPhase(v.nominal, v.nominal_phase_rad), AtPhase(v.calibrated, v.phase_rad),
-               v.deviation, v.tolerance);
+    table.Add({"  " + v.effect, v.place, v.key, AtPhase(v.nominal, v.nominal_phase_rad),
+               AtPhase(v.calibrated, v.phase_rad), fmt::format("{:.2g}", v.deviation),
+               fmt::format("{:.2g}", v.tolerance)});
   }
+  fmt::print("{}", table.Text());
   fmt::print("\n");
 }
 
@@ -70,11 +73,11 @@ void PrintFits(const SessionAnswer& s) {
 void PrintRanking(const SessionAnswer& s, bool complete) {
   const auto& candidates = s.answer.candidates;
   const std::size_t shown = complete ? candidates.size() : std::min(kShown, candidates.size());
-  fmt::print("\n{:<26}{:<36}{:>10}\n", "effect", "where", "nat");
+  fmt::print("\n{:<26}{:<42}{:>10}\n", "effect", "where", "nat");
   bool screened = false;
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& c = candidates[i];
-    fmt::print("{:<26}{:<36}{:>10.1f}{}\n", c.effect, c.place, c.score,
+    fmt::print("{:<26}{:<42}{:>10.1f}{}\n", c.effect, c.place, c.score,
                c.refitted ? "" : "  (screen)");
     screened = screened || !c.refitted;
   }
@@ -152,10 +155,6 @@ void PrintDiagnosis(const SessionAnswer& s, bool complete) {
   fmt::print("\nNext: {}\n", diagnosis::NextExperiment(s));
 }
 
-void PrintFiles(const std::vector<std::string>& paths) {
-  fmt::print("\nWritten:");
-  for (const std::string& path : paths) fmt::print(" {}", path);
-  fmt::print("\n");
-}
+void PrintFiles(const std::vector<std::string>& paths) { TellWritten(paths); }
 
 }  // namespace levitas::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -86,6 +87,25 @@ std::string RunsTable(const std::vector<HeldOutRun>& runs) {
          rows + "</table>\n";
 }
 
+/// Each stands in the place of the named cause it does most for.
+std::vector<std::pair<std::string, std::string>> WhyNot(const Answer& answer) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const levitator::Score& score : answer.found.scores) {
+    if (score.named || score.instead_of >= levitator::Causes().size()) continue;
+    const std::string effect = levitator::Causes()[score.cause].effect;
+    const std::string named = levitator::Causes()[score.instead_of].effect;
+    const bool tied =
+        std::any_of(answer.ties.begin(), answer.ties.end(), [&](const levitator::Tie& tie) {
+          return tie.cause == named &&
+                 std::find(tie.others.begin(), tie.others.end(), effect) != tie.others.end();
+        });
+    out.emplace_back(effect, tied ? fmt::format("cannot be told from {}", named)
+                                  : fmt::format("explains {:.0f} nat less than {} in its place",
+                                                score.behind_nat, named));
+  }
+  return out;
+}
+
 }  // namespace
 
 void PrintLevitator(const Answer& answer, bool complete) {
@@ -125,7 +145,9 @@ std::vector<std::string> WriteLevitator(const Answer& answer, const std::string&
   WriteJsonFile(paths[0], LevitatorJson(answer));
   WriteTextFile(paths[1], answer.extended_rig);
   WriteTextFile(paths[2], answer.extended_rig);
-  WriteTextFile(paths[3], DiagnosisPage(answer.common, RunsTable(answer.held_out)));
+  diagnosis::SessionAnswer page = answer.common;
+  if (page.own_words) page.own_words->why_not = WhyNot(answer);
+  WriteTextFile(paths[3], DiagnosisPage(page, RunsTable(answer.held_out)));
   return paths;
 }
 

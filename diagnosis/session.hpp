@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/rig_file.hpp"
@@ -27,6 +28,8 @@ struct SessionInputs {
 struct OwnWords {
   std::vector<NamedParameter> parameters;
   std::vector<CalibratedValue> calibrated;
+  /// Why an effect is not named, by effect.
+  std::vector<std::pair<std::string, std::string>> why_not;
 };
 
 struct SessionAnswer {

@@ -144,7 +144,8 @@ std::string NextExperiment(const SessionAnswer& s) {
       }
     }
   }
-  return "a longer record with a stronger test signal, standing and at two speeds";
+  return s.own_words ? "a longer record with a stronger test signal, over the whole gap"
+                     : "a longer record with a stronger test signal, standing and at two speeds";
 }
 
 bool NeedsExperiment(const SessionAnswer& s) { return NextExperiment(s) != kNoneNeeded; }
