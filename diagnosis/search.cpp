@@ -19,7 +19,9 @@ constexpr double kSettling = 0.3;  // [s]
 /// Below this no rig is, whatever a straight line says.
 double Least(const Term& term) {
   constexpr double kAlmostUndamped = -0.95;  // of the damping that the rig file says
+  constexpr double kAlmostNoLag = -0.95;
   if (term.effect == "modal_damping") return kAlmostUndamped;
+  if (term.effect == "sensor_bandwidth") return kAlmostNoLag;
   return term.positive ? 0.0 : -std::numeric_limits<double>::infinity();
 }
 

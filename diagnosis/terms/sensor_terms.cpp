@@ -1,6 +1,7 @@
 // Sensors: scale, offset, characteristic, bandwidth, place, rotation of the axes, mains.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,8 @@
 
 namespace levitas::diagnosis {
 namespace {
+
+constexpr double kLeastLag = 0.05;  ///< of the file's; below it a sensor has none
 
 /// What a shape makes of the motion, behind the sensor's filter: motion is slow beside its lag.
 double Seen(const std::vector<double>& shape, const Moment& m, std::size_t at, double lag_s) {
@@ -24,6 +27,53 @@ double Dot(const std::vector<double>& shape, const float* modal) {
   double sum = 0.0;
   for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * static_cast<double>(modal[i]);
   return sum;
+}
+
+/// By how much a sensor is behind a position that moves steadily between samples: z' = -z/tau - v.
+/// Told by the velocity, so that the observer's corrections, which put the rotor elsewhere at once,
+/// are no motion that the sensor would have to follow.
+class Lag {
+ public:
+  void Rest() { behind_m_ = 0.0; }
+  double Step(double velocity_m_per_s, double tau_s, double period_s) {
+    const double decay = std::exp(-period_s / tau_s);
+    behind_m_ = decay * behind_m_ - velocity_m_per_s * tau_s * (1.0 - decay);
+    return behind_m_;
+  }
+
+ private:
+  double behind_m_{};
+};
+
+/// The lag, not the bandwidth, is the number: it enters nearly linearly. A whole filter, since one
+/// that is slow beside the test signal is no mere delay, for which it would be taken.
+Term Bandwidth(const RigView& rig, double tolerance, std::size_t a) {
+  const double lag_s = SensorLag(rig, a);
+  const auto shape = rig.magnet(a).sensor_shape;
+  const std::size_t at = (a % 2) * rig.modes;
+  struct Both {
+    Lag file, other;
+  };
+  Term term = MakeTerm(
+      {"sensor_bandwidth", rig.numbers.channels[a], "lag_ratio", "1"}, tolerance, 1.0,
+      [=, period_s = rig.period_s, gain = rig.bearing(a).sensor.gain, both = Both{}](
+          const Moment& m, double theta, Addition& add) mutable {
+        if (m.restarted) {
+          both.file.Rest();
+          both.other.Rest();
+        }
+        const double v = gain * Dot(shape, m.v.data() + at);
+        add.reading_m[a] += both.other.Step(v, std::max(kLeastLag, 1.0 + theta) * lag_s, period_s) -
+                            both.file.Step(v, lag_s, period_s);
+      });
+  term.linear = false;
+  term.step = 0.05;
+  term.change = [a, lag_s, shape](double theta, LinearChange& change) {
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+      change.axis[a].sensor_v[i] -= lag_s * theta * shape[i];
+    }
+  };
+  return term;
 }
 
 void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vector<Term>& terms) {
@@ -57,20 +107,7 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
   terms.back().slope = [a](const Moment& m, double theta, AddedSlopes& added) {
     added.reading_per_m[a] += static_cast<float>(3.0 * theta) * m.reading_m[a] * m.reading_m[a];
   };
-  const double lag_s = SensorLag(rig, a);
-  const auto shape = rig.magnet(a).sensor_shape;
-  const std::size_t at = (a % 2) * rig.modes;
-  // Late by a lag: it, not the bandwidth, enters linearly. First order in the lag.
-  terms.push_back(
-      MakeReading({"sensor_bandwidth", channel, "lag_ratio", "1"}, t.sensor_bandwidth, 1.0,
-                  [a, lag_s, shape, at](const Moment& m, double theta, Addition& add) {
-                    add.reading_m[a] -= lag_s * theta * Dot(shape, m.read_v.data() + at);
-                  }));
-  terms.back().change = [a, lag_s, shape](double theta, LinearChange& change) {
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-      change.axis[a].sensor_v[i] -= lag_s * theta * shape[i];
-    }
-  };
+  terms.push_back(Bandwidth(rig, t.sensor_bandwidth, a));
 }
 
 void AddPosition(const RigView& rig, const Tolerances& t, std::size_t b, std::vector<Term>& terms) {
