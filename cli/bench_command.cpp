@@ -34,7 +34,8 @@ constexpr const char* kHelp =
     "false alarms, what is outside the vocabulary, several at once, and the confusion matrix. An "
     "effect that is not named is looked for once more by an oracle, a diagnosis that is told of "
     "it; "
-    "one that does not find what the records hold is listed, and its trial counts as not named.\n"
+    "one that does not find what the records hold is listed, and its trial counts as not named in "
+    "the size of what they hold.\n"
     "Example: amb bench diagnosis --seeds 34 --clean 10 --outside 10 --pairs 10";
 
 struct BenchOptions {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/calibrate.hpp"
 #include "diagnosis/flight.hpp"
 #include "diagnosis/load.hpp"
 #include "diagnosis/search.hpp"
@@ -12,7 +13,6 @@ namespace levitas::trials {
 namespace {
 
 using diagnosis::Record;
-using diagnosis::Trajectory;
 using effect::Id;
 
 bool ChangesTheModel(const effect::EffectConfig& entry) {
@@ -20,25 +20,17 @@ bool ChangesTheModel(const effect::EffectConfig& entry) {
          entry.id != Id::kSampleJitter && entry.id != Id::kMainsPickup;
 }
 
-/// Innovations become what the nominal rig's are more than these.
-void Subtract(const std::vector<Trajectory>& nominal, std::size_t axes,
-              std::vector<Trajectory>& runs) {
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    for (std::size_t n = 0; n < runs[r].moments.size(); ++n) {
-      for (std::size_t a = 0; a < axes; ++a) {
-        float& own = runs[r].moments[n].innovation_m[a];
-        own = nominal[r].moments[n].innovation_m[a] - own;
-      }
-    }
-  }
-}
-
-diagnosis::Whitener OfTheNoise(const diagnosis::ObserverPair& gains, std::size_t axes) {
-  diagnosis::Whitener whitener;
-  for (std::size_t a = 0; a < axes; ++a) {
-    whitener.filter.push_back({1.0 / gains.steady->expected_innovation_m[a]});
-  }
-  return whitener;
+/// [nat] minus the logarithm of the likelihood, with all tolerances fitted.
+double Misfit(const diagnosis::RigView& rig, const std::vector<diagnosis::Term>& terms,
+              const std::vector<Record>& records) {
+  constexpr int kPasses = 10;
+  const diagnosis::Search search(rig, terms);
+  const diagnosis::Gains gains = search.DesignGains(records, diagnosis::kSlow);
+  const diagnosis::Refined fit = diagnosis::CalibrateNuisances(rig, search, terms, records, records,
+                                                               gains, diagnosis::kSlow, kPasses);
+  if (!fit.ok) return std::numeric_limits<double>::infinity();
+  return diagnosis::Refiner(search, terms, records, gains, rig.axes)
+      .Misfit(fit.theta, diagnosis::kWhiteningOrder);
 }
 
 }  // namespace
@@ -54,18 +46,12 @@ std::optional<double> HeldEvidence(const config::RigFile& rig, const std::vector
   std::vector<Record> flown = records;
   for (Record& record : flown) diagnosis::LeaveOutContact(nominal, record);
 
-  const auto terms = diagnosis::AllTerms(nominal, rig.tolerances.value_or(config::Tolerances{}),
-                                         diagnosis::LargestOrbit(flown, nominal.axes));
-  const diagnosis::Search search(nominal, terms);
-  const std::vector<double> nothing(terms.size(), 0.0);
-  const diagnosis::Gains gains = search.DesignGains(flown, diagnosis::kSlow);
-  std::vector<Trajectory> runs = diagnosis::Search(with, terms).Run(flown, gains, nothing);
-  const diagnosis::Slopes slopes(nominal, runs, terms, nothing, search.Nuisances());
-  Subtract(search.Run(flown, gains, nothing), nominal.axes, runs);
-  const diagnosis::LinearProblem problem =
-      search.About(slopes.Sum(runs, OfTheNoise(gains.front(), nominal.axes)), nothing);
-  const diagnosis::Fit fit = diagnosis::Evidence(problem, terms, {}).Solve();
-  const double held = 0.5 * (fit.squared_sum + fit.penalty);
+  const auto terms = [&](const diagnosis::RigView& view) {
+    return diagnosis::AllTerms(view, rig.tolerances.value_or(config::Tolerances{}),
+                               diagnosis::LargestOrbit(flown, view.axes));
+  };
+  const double without = Misfit(nominal, terms(nominal), flown);
+  const double held = without - Misfit(with, terms(with), flown);
   // A model that loses the rotor without the effect needs it.
   return std::isfinite(held) ? held : std::numeric_limits<double>::infinity();
 }

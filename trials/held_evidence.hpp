@@ -1,12 +1,11 @@
 #pragma once
-// What records hold for a hidden effect, from the effect itself: no search, no verdict of a
-// diagnosis takes part.
+// What records hold for a hidden effect, by its true values: no search, no verdict of a diagnosis
+// takes part.
 //
-// Equation   d = e(nominal rig) - e(nominal rig with the effect), innovations of the slow observer on
-//            the recorded currents; held = 1/2 min over t of |d + J t|^2 + |t|^2: what tolerances,
-//            in units of themselves, cannot imitate of it. Innovations over what the sensors' noise
-//            makes of them. An upper estimate: a real fit also pays for the freedom of the cause and
-//            for what the model leaves otherwise.
+// Equation   held = L(nominal rig with the effect) - L(nominal rig), L the logarithm of the likelihood
+//            with all tolerances fitted on the nonlinear model, their priors included, each whitened
+//            by its own innovations (Refiner::Misfit). An upper estimate: a diagnosis also pays for
+//            the freedom of the cause.
 // None       for what no model foretells (noise, jitter, lost frames, the phase of the mains), and for
 //            geared shafts, where it is open in which turn a record begins.
 // Units      nat. Thread: blocks the caller, two threads inside.

@@ -192,7 +192,8 @@ void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outco
   outcome.held_nat = held.value_or(-1.0);
   const bool named = std::any_of(told.causes.begin(), told.causes.end(),
                                  [&truth](const auto& cause) { return cause.effect == truth; });
-  outcome.oracle_failed = !named && held.value_or(kHeldFrom) >= kHeldFrom;
+  const bool there = held ? *held >= kHeldFrom : told.verdict == diagnosis::Verdict::kUnknown;
+  outcome.oracle_failed = !named && there;
 }
 
 std::string Tables(const std::vector<Outcome>& outcomes) {

@@ -44,7 +44,8 @@ struct Outcome {
   double seconds{};
 
   [[nodiscard]] Size size() const noexcept {
-    return oracle_failed ? SizeDrawn(drawn) : SizeOf(available_nat);
+    if (!oracle_failed) return SizeOf(available_nat);
+    return held_nat < 0.0 ? SizeDrawn(drawn) : SizeOf(held_nat);
   }
   [[nodiscard]] bool Right() const;
   [[nodiscard]] bool Partly() const;
@@ -59,7 +60,7 @@ struct Outcome {
 inline constexpr double kHeldFrom = 2.0 * diagnosis::kDecisive;
 
 /// Takes what the oracle says of an effect that was not named. `held` as HeldEvidence; where there is
-/// none an oracle that does not name the effect has failed.
+/// none an oracle fails that leaves something unexplained.
 void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outcome& outcome);
 
 /// Tables for people, of all outcomes.

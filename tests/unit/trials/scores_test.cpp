@@ -89,11 +89,10 @@ Outcome Missed(double drawn) {
   return o;
 }
 
-TEST(Oracle, ThatDoesNotNameWhatTheRecordsHoldHasFailedAndTheTrialKeepsItsDrawnSize) {
-  for (const auto& [drawn, size] :
-       {std::pair{1.0, Size::kClear}, {0.5, Size::kModerate}, {0.25, Size::kFaint}}) {
-    Outcome o = Missed(drawn);
-    HearOracle(Told("misalignment", 0.0, false), 2907.0, o);
+TEST(Oracle, ThatDoesNotNameWhatTheRecordsHoldHasFailedAndTheTrialHasTheSizeOfWhatTheyHold) {
+  for (const auto& [held, size] : {std::pair{2907.0, Size::kClear}, {18.0, Size::kModerate}}) {
+    Outcome o = Missed(0.5);
+    HearOracle(Told("misalignment", 0.0, false), held, o);
     EXPECT_TRUE(o.oracle_failed);
     EXPECT_EQ(o.size(), size);
     EXPECT_FALSE(o.Right());
@@ -114,11 +113,16 @@ TEST(Oracle, ThatNamesTheEffectSaysItsSize) {
   EXPECT_EQ(o.size(), Size::kModerate);
 }
 
-TEST(Oracle, IsNotBelievedWhereNothingElseSaysWhatTheRecordsHold) {
+TEST(Oracle, ThatLeavesSomethingIsNotBelievedWhereNothingElseSaysWhatTheRecordsHold) {
   Outcome o = Missed(1.0);
-  HearOracle(Told("misalignment", 0.0, false), std::nullopt, o);
+  diagnosis::Answer told = Told("misalignment", 0.0, false);
+  told.verdict = diagnosis::Verdict::kUnknown;
+  HearOracle(told, std::nullopt, o);
   EXPECT_TRUE(o.oracle_failed);
   EXPECT_EQ(o.size(), Size::kClear);
+  told.verdict = diagnosis::Verdict::kNone;
+  HearOracle(told, std::nullopt, o);
+  EXPECT_EQ(o.size(), Size::kBelow);
 }
 
 TEST(Oracle, CountsOnlyEvidenceForWhatIsHidden) {
