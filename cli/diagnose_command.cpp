@@ -18,6 +18,7 @@
 #include "cli/levitator_files.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/text_file.hpp"
+#include "cli/written_files.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/session.hpp"
 #include "diagnosis/words.hpp"
@@ -91,7 +92,7 @@ ExitStatus Run(const DiagnoseOptions& options) {
   auto written = levitator::IsLevitator(inputs.rig.plant) ? RunLevitator(inputs, options, progress)
                                                           : RunRotor(inputs, options, progress);
   if (!options.json_path.empty()) written.push_back(options.json_path);
-  PrintFiles(written);
+  TellWritten(written);
   return ExitStatus::kDone;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "cli/text_table.hpp"
-#include "cli/written_files.hpp"
 #include "diagnosis/words.hpp"
 
 namespace levitas::cli {
@@ -154,7 +153,5 @@ void PrintDiagnosis(const SessionAnswer& s, bool complete) {
   PrintRanking(s, complete);
   fmt::print("\nNext: {}\n", diagnosis::NextExperiment(s));
 }
-
-void PrintFiles(const std::vector<std::string>& paths) { TellWritten(paths); }
 
 }  // namespace levitas::cli

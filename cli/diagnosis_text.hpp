@@ -12,8 +12,6 @@ namespace levitas::cli {
 
 /// `complete`: every calibrated value and every candidate.
 void PrintDiagnosis(const diagnosis::SessionAnswer& answer, bool complete);
-/// Names of the files that were written.
-void PrintFiles(const std::vector<std::string>& paths);
 
 /// Parameters that are the same at several places, once.
 struct SharedParameter {
