@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "plant_sim/effect/catalogue.hpp"
+#include "tests/support/effect_entry.hpp"
 #include "trials/trial.hpp"
 
 namespace levitas::trials {
@@ -34,17 +34,8 @@ const Trial& Healthy() {
   return trial;
 }
 
-effect::EffectConfig Entry(effect::Id id, std::initializer_list<double> values,
-                           std::uint32_t axes) {
-  effect::EffectConfig entry;
-  entry.id = id;
-  entry.axes = axes;
-  std::copy(values.begin(), values.end(), entry.values.begin());
-  return entry;
-}
-
 std::optional<double> Held(effect::Id id, std::initializer_list<double> values) {
-  return HeldEvidence(TheBench().rig, Healthy().records, {Entry(id, values, 1U)});
+  return HeldEvidence(TheBench().rig, Healthy().records, {test::Entry(id, values, 1U)});
 }
 
 TEST(HeldEvidence, IsMuchWhereTheEffectIsAndNegativeWhereItIsNot) {

@@ -1,7 +1,5 @@
 #include "tests/loop/effects/effect_rig.hpp"
 
-#include <algorithm>
-
 #include "tests/support/test_rigs.hpp"
 
 namespace levitas::plant::test {
@@ -70,13 +68,6 @@ std::shared_ptr<const PlantModel> QuietWith(const effect::EffectConfig& entry) {
   PlantParameters parameters = Quiet()->parameters();
   parameters.config.effects.push_back(entry);
   return std::make_shared<const PlantModel>(std::move(parameters));
-}
-
-effect::EffectConfig Entry(effect::Id id, std::initializer_list<double> values) {
-  effect::EffectConfig entry;
-  entry.id = id;
-  std::copy(values.begin(), values.end(), entry.values.begin());
-  return entry;
 }
 
 std::vector<effect::Id> AllIds() {

@@ -1,13 +1,13 @@
 #pragma once
 // A levitated rotor for the tests of effects: every test asks what one effect changes in it.
 
-#include <initializer_list>
 #include <memory>
 #include <vector>
 
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/plant/plant_model.hpp"
+#include "tests/support/effect_entry.hpp"
 
 namespace levitas::plant::test {
 
@@ -37,8 +37,7 @@ SensorFrame StepOnce(Plant& plant, SimpleLaw& law) noexcept;
 [[nodiscard]] std::shared_ptr<const PlantModel> Quiet();
 [[nodiscard]] std::shared_ptr<const PlantModel> QuietWith(const effect::EffectConfig& entry);
 
-/// An entry with these values, in the order of the catalogue.
-[[nodiscard]] effect::EffectConfig Entry(effect::Id id, std::initializer_list<double> values);
+using levitas::test::Entry;
 
 /// The names of all effects, for parameterised tests.
 [[nodiscard]] std::vector<effect::Id> AllIds();

@@ -10,6 +10,7 @@
 #include "plant_sim/plant/plant_model.hpp"
 #include "tests/loop/gears/gear_motion.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/effect_entry.hpp"
 #include "tests/support/geared_rigs.hpp"
 
 namespace levitas::test {
@@ -24,13 +25,6 @@ constexpr double kPeriod_s = 1e-4;
 constexpr int kRecord = 2000;  // two turns of the gear (10 Hz): every line below is a whole one
 // Slowest decay 15 1/s: after 1.5 s a start is gone to 1e-10.
 constexpr int kSettle = 15'000;
-
-effect::EffectConfig Entry(Id id, std::initializer_list<double> values) {
-  effect::EffectConfig entry;
-  entry.id = id;
-  std::copy(values.begin(), values.end(), entry.values.begin());
-  return entry;
-}
 
 effect::EffectConfig OnDriven(effect::EffectConfig entry) {
   entry.on_driven = true;

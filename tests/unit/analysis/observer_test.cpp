@@ -6,7 +6,7 @@
 
 #include "common/problem.hpp"
 #include "common/random.hpp"
-#include "plant_sim/effect/effect_config.hpp"
+#include "tests/support/effect_entry.hpp"
 #include "tests/support/test_rigs.hpp"
 #include "tests/unit/analysis/laws.hpp"
 
@@ -51,10 +51,7 @@ TEST(DesignObserver, TrustsTheSensorsMoreWhenMoreForceIsUnknown) {
 // which hardly believed in forces, took seconds to find the rotor.
 TEST(DesignObserver, KnowsForcesThatDoNotComeFromTheCoil) {
   plant::PlantConfig lagging = test::FlexibleRotor();
-  effect::EffectConfig eddy;
-  eddy.id = effect::Id::kEddyCurrent;
-  eddy.values[0] = 50e-6;
-  lagging.effects.push_back(eddy);
+  lagging.effects.push_back(test::Entry(effect::Id::kEddyCurrent, {50e-6}));
   const auto plain = GainFor(test::FlexibleRotor());
   const auto behind = GainFor(lagging);
   const Eigen::Index rotor = 4 * 8;  // q and v of eight modes in both planes

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "tests/support/effect_entry.hpp"
 #include "tests/unit/diagnosis/trajectories.hpp"
 
 namespace levitas::diagnosis {
@@ -94,12 +95,9 @@ TEST(EventsTest, ANoiseBeyondItsToleranceIsNamedWithItsChannel) {
 }
 
 /// The rig of View() whose file holds an effect besides.
-RigView Holding(effect::Id id, std::array<double, 2> values) {
+RigView Holding(effect::Id id, std::initializer_list<double> values) {
   plant::PlantConfig plant = View().model->config();
-  effect::EffectConfig entry;
-  entry.id = id;
-  std::copy(values.begin(), values.end(), entry.values.begin());
-  plant.effects.push_back(entry);
+  plant.effects.push_back(test::Entry(id, values));
   return {View().numbers, plant};
 }
 

@@ -4,28 +4,22 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/problem.hpp"
 #include "diagnosis/levitator/answer.hpp"
 #include "diagnosis/levitator/coil_run.hpp"
 #include "diagnosis/levitator/motion_run.hpp"
+#include "tests/support/effect_entry.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
 namespace levitas::levitator {
 namespace {
 
 using test::CarryingCurrent;
+using test::Entry;
 using test::LevitatorFile;
 using test::StillSeries;
-
-effect::EffectConfig Entry(effect::Id id, std::initializer_list<double> values) {
-  effect::EffectConfig entry;
-  entry.id = id;
-  std::copy(values.begin(), values.end(), entry.values.begin());
-  return entry;
-}
 
 config::RigFile Holding(const std::vector<effect::EffectConfig>& effects) {
   config::RigFile file = LevitatorFile();
