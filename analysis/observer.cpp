@@ -178,14 +178,14 @@ void Observer::Restart(const AxisArray& position_m) {
   plant_.PlaceAtRest(place_m);
 }
 
-AxisArray Observer::Step(const RecordedSample& sample, const Beside& beside) noexcept {
+AxisArray Observer::Step(const RecordedSample& sample, const AxisArray& added_m) noexcept {
   const AxisArray predicted_m = plant_.SensorOutput();
   const AxisArray& polarity = plant_.model().config().sensor_polarity;
   AxisArray innovation_m{};
   for (Eigen::Index axis = 0; axis < innovation_m_.size(); ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    innovation_m[i] = sample.position_m[i] - (predicted_m[i] + beside.added_m[i]);
-    innovation_m_[axis] = polarity[i] * innovation_m[i] / beside.scale[i];
+    innovation_m[i] = sample.position_m[i] - (predicted_m[i] + added_m[i]);
+    innovation_m_[axis] = polarity[i] * innovation_m[i];
   }
   const std::span<double> state = plant_.mutable_state();
   Eigen::Map<Eigen::VectorXd> x(state.data(), gain_->state.rows());

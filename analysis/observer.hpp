@@ -71,16 +71,8 @@ class Observer {
   void Restart(const AxisArray& position_m);
   /// Compares with the sample, corrects, and advances one period. Returns the innovation [m].
   AxisArray Step(const RecordedSample& sample) noexcept { return Step(sample, {}); }
-  /// What a model has beside the plant.
-  struct Beside {
-    AxisArray added_m{};  ///< [m] its sensors read more than the plant's
-    /// The scale of its sensors over the plant's. The correction is divided by it, else a smaller
-    /// scale would make a slower observer, which lets less noise through than the gain was designed
-    /// for: data would prefer it.
-    AxisArray scale = Ones();
-  };
-  /// The same for a model that is not the plant alone.
-  AxisArray Step(const RecordedSample& sample, const Beside& beside) noexcept;
+  /// The same for a model whose sensors read `added_m` more than the plant's.
+  AxisArray Step(const RecordedSample& sample, const AxisArray& added_m) noexcept;
 
   [[nodiscard]] const Eigen::VectorXd& unknown_force_n() const noexcept { return force_n_; }
   [[nodiscard]] const plant::Plant& plant() const noexcept { return plant_; }
@@ -89,12 +81,6 @@ class Observer {
   [[nodiscard]] plant::Plant& mutable_plant() noexcept { return plant_; }
 
  private:
-  [[nodiscard]] static constexpr AxisArray Ones() noexcept {
-    AxisArray ones{};
-    for (double& one : ones) one = 1.0;
-    return ones;
-  }
-
   plant::Plant plant_;
   std::shared_ptr<const ObserverGain> gain_;
   Eigen::VectorXd force_n_;

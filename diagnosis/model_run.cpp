@@ -5,6 +5,7 @@
 
 #include "diagnosis/linear_change.hpp"
 #include "diagnosis/magnet_means.hpp"
+#include "diagnosis/observer_scale.hpp"
 #include "diagnosis/turns.hpp"
 #include "plant_sim/plant/mode_step.hpp"
 #include "plant_sim/plant/time_step.hpp"
@@ -44,9 +45,6 @@ class Runner {
     for (std::size_t i = 0; i < terms.size(); ++i) {
       if (theta[i] == 0.0) continue;
       active_.push_back({terms[i], theta[i]});
-      if (terms[i].scales >= 0) {
-        reading_scale_[static_cast<std::size_t>(terms[i].scales)] += static_cast<float>(theta[i]);
-      }
     }
     const LinearChange change = ChangeOf(terms, theta);
     late_periods_ = static_cast<float>(change.late_periods);
@@ -86,19 +84,14 @@ class Runner {
     BeforeSample(row, moment);
     moment.late_periods = late_periods_;
     moment.coil_rate = coil_rate_;
-    moment.reading_scale = reading_scale_;
     Addition read;
     read.reading_m = next_reading_m_;
     for (Active& a : active_) {
       if (a.term.read) a.term.read(moment, a.theta, read);
     }
     const auto& polarity = rig_.model->config().sensor_polarity;
-    analysis::Observer::Beside beside;
-    AxisArray& added_m = beside.added_m;
-    for (std::size_t i = 0; i < rig_.axes; ++i) {
-      added_m[i] = polarity[i] * read.reading_m[i];
-      beside.scale[i] = static_cast<double>(reading_scale_[i]);
-    }
+    AxisArray added_m{};
+    for (std::size_t i = 0; i < rig_.axes; ++i) added_m[i] = polarity[i] * read.reading_m[i];
     analysis::RecordedSample sample = row.sample;
     if (!arrived) {
       const AxisArray predicted_m = observer_->plant().SensorOutput();
@@ -106,7 +99,7 @@ class Runner {
         sample.position_m[i] = predicted_m[i] + added_m[i];
       }
     }
-    const AxisArray innovation_m = observer_->Step(sample, beside);
+    const AxisArray innovation_m = observer_->Step(sample, added_m);
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       moment.innovation_m[i] = static_cast<float>(polarity[i] * innovation_m[i]);
     }
@@ -160,8 +153,7 @@ class Runner {
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(kMaxAxes), 1> innovation(
         static_cast<Eigen::Index>(rig_.axes));
     for (std::size_t i = 0; i < rig_.axes; ++i) {
-      innovation[static_cast<Eigen::Index>(i)] =
-          static_cast<double>(m.innovation_m[i] / m.reading_scale[i]);
+      innovation[static_cast<Eigen::Index>(i)] = static_cast<double>(m.innovation_m[i]);
     }
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostStates, 1> correction(gain_state_->rows());
     correction.noalias() = *gain_state_ * innovation;
@@ -223,7 +215,6 @@ class Runner {
   AxisFloats before_a_{}, now_a_{};
   float late_periods_{};
   AxisFloats coil_rate_{};
-  AxisFloats reading_scale_ = Ones();
   std::array<double, kMaxAxes> next_reading_m_{};
   std::vector<double> start_, acceleration_;
   std::vector<float> moved_;
@@ -252,9 +243,9 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverPair
                     const std::vector<Term>& terms, const std::vector<double>& theta,
                     double settling_s) {
   Trajectory run;
-  run.gains = gains;
+  run.gains = Divided(gains, ObserverScale::Of(rig, terms, theta), rig);
   run.moments.reserve(record.rows.size());
-  Runner runner(rig, gains, terms, theta);
+  Runner runner(rig, run.gains, terms, theta);
   const auto settling_rows = static_cast<std::uint64_t>(std::llround(settling_s / rig.period_s));
   std::uint64_t since_start = 0;
   const analysis::RecordedRow* previous = nullptr;

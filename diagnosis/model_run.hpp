@@ -38,7 +38,7 @@ struct ObserverPair {
 
 struct Trajectory {
   std::vector<Moment> moments;
-  ObserverPair gains;
+  ObserverPair gains;  ///< as used: divided by the model's scales (observer_scale.hpp)
 };
 
 /// `theta` has one value per term. Terms at 0 cost nothing.

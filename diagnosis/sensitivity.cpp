@@ -30,8 +30,8 @@ void Subtract(Addition& from, const Addition& what, std::size_t axes, std::size_
 
 }  // namespace
 
-SensitivityBlock::SensitivityBlock(LanePair models, const std::vector<Term>& terms,
-                                   const std::vector<double>& theta,
+SensitivityBlock::SensitivityBlock(const RigView& rig, LanePair models,
+                                   const std::vector<Term>& terms, const std::vector<double>& theta,
                                    std::vector<std::size_t> chosen)
     : model_(std::move(models.steady)),
       start_(std::move(models.start)),
@@ -41,7 +41,29 @@ SensitivityBlock::SensitivityBlock(LanePair models, const std::vector<Term>& ter
     probes_.push_back(
         {terms[i], terms[i], theta[i], terms[i].step, terms[i].scale(), terms[i].linear});
     if (terms[i].moves_coil) AddRetimed(terms, theta, i, probes_.back());
+    if (terms[i].scales >= 0 || terms[i].change) AddRescaled(rig, terms, theta, i);
   }
+}
+
+void SensitivityBlock::AddRescaled(const RigView& rig, const std::vector<Term>& terms,
+                                   const std::vector<double>& theta, std::size_t chosen) {
+  std::vector<double> stepped = theta;
+  const double step = 1e-3 * terms[chosen].scale();
+  stepped[chosen] += step;
+  const ObserverScale now = ObserverScale::Of(rig, terms, theta);
+  const ObserverScale then = ObserverScale::Of(rig, terms, stepped);
+  Rescaled r;
+  r.lane = probes_.size() - 1;
+  bool any = false;
+  const auto relative = [&](float from, float to, float& out) {
+    out = static_cast<float>(terms[chosen].scale() / step) * (to - from) / from;
+    any = any || out != 0.0F;
+  };
+  for (std::size_t a = 0; a < rig.axes; ++a) {
+    relative(now.readings[a], then.readings[a], r.readings[a]);
+  }
+  for (std::size_t i = 0; i < 2 * rig.modes; ++i) relative(now.modes[i], then.modes[i], r.modes[i]);
+  if (any) rescaled_.push_back(r);
 }
 
 void SensitivityBlock::AddRetimed(const std::vector<Term>& terms, const std::vector<double>& theta,
@@ -93,16 +115,32 @@ void SensitivityBlock::Read(const Moment& m, float* derivative_m) noexcept {
     if (!m.arrived) e[a] = Lane{};
     for (std::size_t l = 0; l < kLanes; ++l) derivative_m[a * kLanes + l] = e[a].value[l];
     reading_[a] = Lane{};
-    e[a].value /= m.reading_scale[a];
   }
-  for (std::size_t l = 0; l < probes_.size(); ++l) {
-    const Probe& p = probes_[l];
-    if (p.now.scales < 0) continue;
-    const auto a = static_cast<std::size_t>(p.now.scales);
-    e[a].value[l] -=
-        static_cast<float>(p.scale) * m.innovation_m[a] / (m.reading_scale[a] * m.reading_scale[a]);
+  if (!m.arrived) return;
+  // The gain is divided by the scales, which some terms change.
+  const LaneModel& model = m.starting ? *start_ : *model_;
+  for (const Rescaled& r : rescaled_) {
+    for (std::size_t a = 0; a < model.axes; ++a) {
+      e[a].value[r.lane] -= r.readings[a] * m.innovation_m[a];
+    }
   }
-  if (m.arrived) Correct(m.starting ? *start_ : *model_, e, state_);
+  Correct(model, e, state_);
+  for (const Rescaled& r : rescaled_) CorrectModes(model, r, m);
+}
+
+void SensitivityBlock::CorrectModes(const LaneModel& model, const Rescaled& r,
+                                    const Moment& m) noexcept {
+  for (std::size_t i = 0; i < 2 * model.modes; ++i) {
+    if (r.modes[i] == 0.0F) continue;
+    float q = 0.0F;
+    float v = 0.0F;
+    for (std::size_t a = 0; a < model.axes; ++a) {
+      q += model.correct_q[i * model.axes + a] * m.innovation_m[a];
+      v += model.correct_v[i * model.axes + a] * m.innovation_m[a];
+    }
+    state_.q[i].value[r.lane] -= r.modes[i] * q;
+    state_.v[i].value[r.lane] -= r.modes[i] * v;
+  }
 }
 
 void SensitivityBlock::Drive(const Moment& m) noexcept {

@@ -1,12 +1,13 @@
 #pragma once
 // Derivatives of the innovations by every term, along the run of the model.
 //
-// Equation   dx[n+1] = A(n) (dx[n] + K d(e[n]/s)) + E dd[n] + B da,  de[n] = -(C dx[n] + dr): the model
+// Equation   dx[n+1] = A(n) (dx[n] + d(K e[n])) + E dd[n] + B da,  de[n] = -(C dx[n] + dr): the model
 //            linearised about its own trajectory: true slopes of the magnet force at every sample,
 //            gyroscopic coupling at the speed of the sample, exact modal steps, and what the terms
 //            in force at theta change of these (linear_change.hpp). What a term adds
 //            (da, dr) is its addition at theta + h minus that at theta, over h; for linear terms
-//            that at 1. s: the scale of the model's sensors over the plant's (Observer::Beside).
+//            that at 1. dK: what a term changes of the scales by which the gain is divided
+//            (observer_scale.hpp).
 // Cost       lanes.hpp, and what the terms themselves cost.
 // Thread     one instance per thread.
 
@@ -15,6 +16,7 @@
 
 #include "diagnosis/lanes.hpp"
 #include "diagnosis/model_run.hpp"
+#include "diagnosis/observer_scale.hpp"
 
 namespace levitas::diagnosis {
 
@@ -29,7 +31,7 @@ struct LanePair {
 /// A block of up to kLanes terms propagated together.
 class SensitivityBlock {
  public:
-  SensitivityBlock(LanePair models, const std::vector<Term>& terms,
+  SensitivityBlock(const RigView& rig, LanePair models, const std::vector<Term>& terms,
                    const std::vector<double>& theta, std::vector<std::size_t> chosen);
 
   /// Advances one sample; writes de/dtheta [axis][lane] in metres per Term::scale().
@@ -53,6 +55,16 @@ class SensitivityBlock {
     AxisFloats coil_rate{};
   };
 
+  /// A term that changes scales by which the gain is divided: relative change per Term::scale().
+  struct Rescaled {
+    std::size_t lane{};
+    AxisFloats readings{};
+    ModalFloats modes{};
+  };
+
+  void AddRescaled(const RigView& rig, const std::vector<Term>& terms,
+                   const std::vector<double>& theta, std::size_t chosen);
+  void CorrectModes(const LaneModel& model, const Rescaled& rescaled, const Moment& m) noexcept;
   static void AddRetimed(const std::vector<Term>& terms, const std::vector<double>& theta,
                          std::size_t chosen, Probe& probe);
   void Read(const Moment& m, float* derivative_m) noexcept;
@@ -66,6 +78,7 @@ class SensitivityBlock {
   std::shared_ptr<const LaneModel> model_, start_;
   std::vector<std::size_t> chosen_;
   std::vector<Probe> probes_;
+  std::vector<Rescaled> rescaled_;
   LaneState state_;
   std::array<Lane, kMaxAxes> reading_{};  ///< of the sample that comes
   Addition difference_, base_;

@@ -159,8 +159,8 @@ Slopes::Slopes(const RigView& rig, const std::vector<Trajectory>& runs,
     std::vector<std::size_t> block(part.acting.begin() + static_cast<std::ptrdiff_t>(task.first),
                                    part.acting.begin() + static_cast<std::ptrdiff_t>(end));
     const auto lanes = static_cast<Index>(block.size());
-    Propagate(SensitivityBlock(models[task.part], terms, theta, std::move(block)), runs[task.part],
-              axes_, part.slope.middleCols(static_cast<Index>(task.first), lanes));
+    Propagate(SensitivityBlock(rig, models[task.part], terms, theta, std::move(block)),
+              runs[task.part], axes_, part.slope.middleCols(static_cast<Index>(task.first), lanes));
   });
 }
 

@@ -87,7 +87,8 @@ class GearedTerms : public ::testing::Test {
     const std::vector<double> theta(terms_.size(), 0.0);
     const Trajectory base = Run(theta);
     Trajectory predicted = base;
-    SensitivityBlock block(LanePair(view_, base.gains, LinearChange{}), terms_, theta, {term});
+    SensitivityBlock block(view_, LanePair(view_, base.gains, LinearChange{}), terms_, theta,
+                           {term});
     std::array<float, kMaxAxes * kLanes> d{};
     for (Moment& m : predicted.moments) {
       block.Step(m, d.data());

@@ -44,16 +44,20 @@ class Sensitivity : public ::testing::Test {
 
   /// |propagated - difference| / |difference| over all axes and the samples that count.
   [[nodiscard]] double Disagreement(const std::string& effect, double step) const {
-    return Disagreement(effect, step, std::vector<double>(terms_.size(), 0.0));
+    return Disagreement(Find(effect), step, std::vector<double>(terms_.size(), 0.0));
   }
 
   /// The same about a rig that differs from its file by theta.
   [[nodiscard]] double Disagreement(const std::string& effect, double step,
-                                    std::vector<double> theta, bool about_the_file = false) const {
-    const std::size_t at = Find(effect);
+                                    const std::vector<double>& theta,
+                                    bool about_the_file = false) const {
+    return Disagreement(Find(effect), step, theta, about_the_file);
+  }
+  [[nodiscard]] double Disagreement(std::size_t at, double step, std::vector<double> theta,
+                                    bool about_the_file = false) const {
     const Trajectory base = Run(theta);
     const LinearChange change = about_the_file ? LinearChange{} : ChangeOf(terms_, theta);
-    SensitivityBlock block(LanePair(view_, base.gains, change), terms_, theta, {at});
+    SensitivityBlock block(view_, LanePair(view_, base.gains, change), terms_, theta, {at});
     theta[at] += step;
     const Trajectory moved = Run(theta);
     std::array<float, kMaxAxes * kLanes> d{};
@@ -128,6 +132,12 @@ TEST_F(SensitivityAway, OfAMagnetsGainIsTheDifferenceOfTheModel) {
 TEST_F(SensitivityAway, OfASensorsGainIsTheDifferenceOfTheModel) {
   EXPECT_LT(Disagreement("sensor_gain", 0.01, Away()), 0.1);
 }
+TEST_F(SensitivityAway, OfASensorsPlaceIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement("sensor_position", 2e-4, Away()), 0.1);
+}
+TEST_F(SensitivityAway, OfAModesShapeAtASensorIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement(FindAt("", "sensor de, mode 1"), 0.01, Away()), 0.1);
+}
 TEST_F(SensitivityAway, OfUnbalanceIsTheDifferenceOfTheModel) {
   EXPECT_LT(Disagreement("unbalance", 5e-6, Away()), 0.1);
 }
@@ -156,8 +166,8 @@ TEST_F(Sensitivity, OfWhatDoesNotDependOnOtherTermsInTheBlockIsTheSameAlone) {
   const LanePair model(view_, run.gains, LinearChange{});
   const std::size_t gain = Find("current_gain");
   const std::size_t mass = Find("unbalance");
-  SensitivityBlock alone(model, terms_, theta, {mass});
-  SensitivityBlock both(model, terms_, theta, {gain, mass});
+  SensitivityBlock alone(view_, model, terms_, theta, {mass});
+  SensitivityBlock both(view_, model, terms_, theta, {gain, mass});
   std::array<float, kMaxAxes * kLanes> one{};
   std::array<float, kMaxAxes * kLanes> two{};
   for (std::size_t n = 0; n < 3000; ++n) {

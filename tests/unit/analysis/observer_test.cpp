@@ -100,32 +100,6 @@ TEST(Observer, HasNoInnovationAgainstItself) {
   }
 }
 
-// Sensors of another scale that show the same rotor: the observer must believe the same of it, noise
-// included. Were the correction not divided by the scale, it would follow larger readings faster.
-TEST(Observer, BelievesTheSameOfARotorWhateverTheScaleOfItsSensors) {
-  constexpr double kScale = 0.8;
-  const plant::PlantConfig config = test::FlexibleRotor();
-  Observer one(config, GainFor(config));
-  Observer other(config, GainFor(config));
-  Random random(1);
-  RecordedSample sample;
-  sample.command.bias_current_a = 1.0;
-  for (int n = 0; n < 500; ++n) {
-    for (std::size_t a = 0; a < 4; ++a) sample.position_m[a] = 1e-6 * random.Normal();
-    RecordedSample scaled = sample;
-    Observer::Beside beside;
-    const AxisArray seen_m = other.plant().SensorOutput();
-    for (std::size_t a = 0; a < 4; ++a) {
-      scaled.position_m[a] *= kScale;
-      beside.added_m[a] = (kScale - 1.0) * seen_m[a];
-      beside.scale[a] = kScale;
-    }
-    const AxisArray plain_m = one.Step(sample);
-    const AxisArray scaled_m = other.Step(scaled, beside);
-    for (std::size_t a = 0; a < 4; ++a) EXPECT_NEAR(scaled_m[a], kScale * plain_m[a], 1e-15);
-  }
-}
-
 TEST(Observer, RestartsAtTheMeasuredPlace) {
   const plant::PlantConfig config = test::FlexibleRotor();
   Observer observer(config, GainFor(config));
