@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <initializer_list>
 #include <map>
-#include <string_view>
 #include <utility>
 
 #include "diagnosis/words.hpp"
-#include "plant_sim/effect/catalogue.hpp"
+#include "trials/true_value.hpp"
 
 namespace levitas::trials {
 namespace {
@@ -23,83 +20,6 @@ bool Holds(const std::vector<std::string>& list, const std::string& name) {
 std::string First(const Outcome& o) {
   if (o.verdict != "effect" || o.named.empty()) return o.verdict;
   return o.named.front();
-}
-
-/// Index of the parameter with one of these stems; the number of parameters when there is none.
-std::size_t IndexOf(const effect::Row& row, std::initializer_list<std::string_view> stems) {
-  for (std::size_t i = 0; i < row.parameters.size(); ++i) {
-    if (std::find(stems.begin(), stems.end(), row.parameters[i].stem) != stems.end()) return i;
-  }
-  return row.parameters.size();
-}
-
-/// Entries of what a parameter of the answer speaks of: the hidden one, and what the rig is off by
-/// anyway at the same place. Empty: it speaks of another place.
-std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter& p,
-                                                 const Secret& secret, const RigNumbers& rig) {
-  const auto& all = secret.truth.config.effects;
-  const auto is = [&p](const auto& entry) { return effect::At(entry.id).name == p.effect; };
-  const auto hidden = std::find_if(all.rbegin(), all.rend(), is);
-  if (hidden == all.rend()) return {};
-  const effect::Row& row = effect::At(hidden->id);
-  const std::string place = p.name.substr(p.name.find('[') + 1);
-  const auto here = [&](const effect::EffectConfig& entry) {
-    if (row.scope == effect::Scope::kBearing) {
-      return place.find(rig.bearings[entry.bearing]) != std::string::npos;
-    }
-    for (std::size_t a = 0; a < rig.axes(); ++a) {
-      if (entry.Acts(a) && place.find(rig.channels[a]) != std::string::npos) return true;
-    }
-    return row.scope != effect::Scope::kChannels;
-  };
-  const std::size_t order = IndexOf(row, {"order"});
-  const bool ordered = order < row.parameters.size();
-  if (ordered &&
-      place.find(fmt::format("order {:.0f}", hidden->values[order])) == std::string::npos) {
-    return {};
-  }
-  std::vector<const effect::EffectConfig*> found;
-  for (const effect::EffectConfig& entry : all) {
-    if (!is(entry) || !here(entry)) continue;
-    if (ordered && entry.values[order] != hidden->values[order]) continue;
-    found.push_back(&entry);
-  }
-  return here(*hidden) ? found : std::vector<const effect::EffectConfig*>{};
-}
-
-/// The true value behind a parameter of the answer, if the two can be compared: ratios multiply,
-/// harmonics of one order add as vectors, all else adds.
-bool TrueValue(const diagnosis::NamedParameter& p, const Secret& secret, const RigNumbers& rig,
-               double& truth) {
-  const auto entries = Entries(p, secret, rig);
-  if (entries.empty()) return false;
-  const effect::Row& row = effect::At(entries.front()->id);
-  const auto is = [&p](const effect::Parameter& known) {
-    return p.key == known.stem || p.key == fmt::format("{}_{}", known.stem, known.file_suffix);
-  };
-  const std::size_t none = row.parameters.size();
-  const std::size_t phase = IndexOf(row, {"phase"});
-  if (phase < none) {
-    const std::size_t size = IndexOf(row, {"amplitude", "ratio", "moment", "force"});
-    if (size == none || !is(row.parameters[size])) return false;
-    std::complex<double> sum;
-    for (const auto* entry : entries) sum += std::polar(entry->values[size], entry->values[phase]);
-    truth = std::abs(sum) / p.si;
-    return true;
-  }
-  for (std::size_t i = 0; i < none; ++i) {
-    const auto& known = row.parameters[i];
-    // What counts from the rig's own value neither adds nor multiplies.
-    if (!is(known) || (std::isnan(known.neutral) && row.scope != effect::Scope::kGear)) continue;
-    const bool ratio = known.neutral == 1.0;
-    truth = ratio ? 1.0 : 0.0;
-    for (const auto* entry : entries) {
-      truth = ratio ? truth * entry->values[i] : truth + entry->values[i];
-    }
-    truth /= p.si;
-    return true;
-  }
-  return false;
 }
 
 double Median(std::vector<double> values) {
@@ -172,9 +92,9 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
   o.remainder_sigma = a.remainder.sigma;
   o.achieved = answer.held_out.achieved.value;
   for (const auto& p : diagnosis::Parameters(answer)) {
-    double truth = 0.0;
     if (o.truth.empty() || p.effect != o.truth.front()) continue;
-    if (!TrueValue(p, secret, rig, truth) || truth == 0.0) continue;
+    const double truth = TrueValue(p, secret, rig).value_or(0.0);
+    if (truth == 0.0) continue;
     const double deviation = 0.5 * (p.high - p.low) / 1.645;
     o.parameter_error = std::abs(p.value - truth) / std::abs(truth);
     o.parameter_sigmas = deviation > 0.0 ? std::abs(p.value - truth) / deviation : 99.0;
