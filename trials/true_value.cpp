@@ -38,34 +38,34 @@ std::size_t IndexOf(const effect::Row& row, std::initializer_list<std::string_vi
 /// anyway at the same place. Empty: it speaks of another place.
 std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter& p,
                                                  const Secret& secret, const RigNumbers& rig) {
-  const auto& all = secret.truth.config.effects;
-  const auto is = [&p](const auto& entry) { return effect::At(entry.id).name == p.effect; };
-  const auto hidden = std::find_if(all.rbegin(), all.rend(), is);
-  if (hidden == all.rend()) return {};
-  const effect::Row& row = effect::At(hidden->id);
-  const std::string& place = p.place;
   const auto here = [&](const effect::EffectConfig& entry) {
-    if (row.scope == effect::Scope::kBearing) {
-      return Speaks(place, rig.bearings[entry.bearing]);
-    }
+    const effect::Row& row = effect::At(entry.id);
+    if (row.name != p.effect) return false;
+    if (row.scope == effect::Scope::kBearing) return Speaks(p.place, rig.bearings[entry.bearing]);
     for (std::size_t a = 0; a < rig.axes(); ++a) {
-      if (entry.Acts(a) && Speaks(place, rig.channels[a])) return true;
+      if (entry.Acts(a) && Speaks(p.place, rig.channels[a])) return true;
     }
     return row.scope != effect::Scope::kChannels;
   };
+  const auto hidden = std::find_if(secret.hidden.begin(), secret.hidden.end(), here);
+  if (hidden == secret.hidden.end()) return {};
+  // What acts at several planes or orders is meant at those of the hidden one.
+  const effect::Row& row = effect::At(hidden->id);
+  const std::size_t z = IndexOf(row, {"z"});
   const std::size_t order = IndexOf(row, {"order"});
-  const bool ordered = order < row.parameters.size();
-  if (ordered &&
-      place.find(fmt::format("order {:.0f}", hidden->values[order])) == std::string::npos) {
+  const std::size_t none = row.parameters.size();
+  if (order < none &&
+      p.place.find(fmt::format("order {:.0f}", hidden->values[order])) == std::string::npos) {
     return {};
   }
   std::vector<const effect::EffectConfig*> found;
-  for (const effect::EffectConfig& entry : all) {
-    if (!is(entry) || !here(entry)) continue;
-    if (ordered && entry.values[order] != hidden->values[order]) continue;
+  for (const effect::EffectConfig& entry : secret.truth.config.effects) {
+    if (!here(entry)) continue;
+    if (z < none && entry.values[z] != hidden->values[z]) continue;
+    if (order < none && entry.values[order] != hidden->values[order]) continue;
     found.push_back(&entry);
   }
-  return here(*hidden) ? found : std::vector<const effect::EffectConfig*>{};
+  return found;
 }
 
 }  // namespace
