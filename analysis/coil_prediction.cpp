@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "common/problem.hpp"
-#include "plant_sim/amplifier/voltage_coil.hpp"
+#include "plant_sim/plant/coils_of.hpp"
 
 namespace levitas::analysis {
 namespace {
 
 struct CoilPlace {
   amplifier::VoltageCoil coil;
+  double warming_1_per_s{};
   double gap_m{};         ///< the rotor centred
   double sign{};          ///< of the displacement in the gap
   double command_sign{};  ///< of the control current in what the coil is asked for
@@ -21,14 +22,11 @@ CoilPlace PlaceOf(const plant::PlantConfig& rig, std::size_t index) {
   if (!bearing.amplifier.voltage) {
     throw BadInput("bearing " + bearing.name + " has current loops, no coils on a voltage");
   }
-  const plant::VoltageDrive& v = *bearing.amplifier.voltage;
   const bool towards = index % 2 == 0;
   const double far_m =
       bearing.magnet.exponential ? bearing.magnet.exponential->far_gap_m : bearing.magnet.gap_m;
-  return {{v.steady, v.offset_a, v.time_constant_s, v.decay_m, v.motion_emf},
-          towards ? bearing.magnet.gap_m : far_m,
-          towards ? -1.0 : 1.0,
-          towards ? 1.0 : -1.0};
+  return {plant::CoilsOf(bearing)[towards ? 0 : 1], bearing.amplifier.voltage->warming_1_per_s,
+          towards ? bearing.magnet.gap_m : far_m, towards ? -1.0 : 1.0, towards ? 1.0 : -1.0};
 }
 
 }  // namespace
@@ -54,6 +52,9 @@ CoilCurrents PredictCoilCurrents(const plant::PlantConfig& rig,
     for (std::size_t n = 0; n + 1 < rows.size(); ++n) {
       const bool continues = rows[n + 1].cycle == rows[n].cycle + 1;
       const double rate = place.sign * (position(n + 1) - position(n)) / period_s;
+      const double warm =
+          amplifier::Warmed(place.warming_1_per_s,
+                            static_cast<double>(rows[n].cycle - rows.front().cycle) * period_s);
       const double gap_m = place.gap_m + place.sign * 0.5 * (position(n + 1) + position(n));
       // A fraction of a sample in the delay: the older command acts first.
       const auto follow = [&](std::size_t age, double duration_s) {
@@ -63,7 +64,7 @@ CoilCurrents PredictCoilCurrents(const plant::PlantConfig& rig,
                                                     command.control_current_a[axis],
                        0.0, limit_a);
         return amplifier::Follow(place.coil, now_a, asked_a, command.amplifiers_enabled, gap_m,
-                                 rate, duration_s);
+                                 rate, duration_s, warm);
       };
       if (!continues) {
         now_a = rows[n + 1].coil_current_a[index];

@@ -79,9 +79,29 @@ void DescribeVoltage(Visitor& v, plant::VoltageDrive& coil) {
            coil.time_constant_s);
   v.Number({"decay", kMillimetre, 0.01, 1e6, kRequired, "gap over which it falls to 1/e"},
            coil.decay_m);
-  v.Number({"motion_emf", kOne, 0, 10, 0,
-            "share of the voltage that a moving rotor induces by d(L i)/dt; 0: left out"},
-           coil.motion_emf);
+  v.Number(
+      {"motion_emf", kOne, -1e6, 1e6, 0,
+       "share of the voltage that a moving rotor induces by d(L i)/dt; 0: left out, 1: in full; "
+       "of a decay that is long it is a small voltage"},
+      coil.motion_emf);
+  v.Number({"dead_band", kMilliampere, 0, 1e5, 0,
+            "what the bridge takes from all that is commanded, down to nothing"},
+           coil.dead_band_a);
+  v.Number({"curvature", kOne, -1, 1, 0,
+            "q of the drive, u + q u (1 - command/max_current); u is what the dead band leaves"},
+           coil.curvature);
+  v.Number({"iron", kPerSquareAmpere, 0, 1000, 0,
+            "inductance lost as the iron fills, time_constant/(1 + iron i^2)"},
+           coil.iron_1_per_a2);
+  v.Number({"warming", kPerSecond, -1, 1, 0,
+            "resistance gained per second, from the start of a run and over the nominal one"},
+           coil.warming_1_per_s);
+  v.Number({"away_steady_ratio", kOne, 0.01, 100, 1,
+            "steady of the coil away from +x over that of the other"},
+           coil.away_steady_ratio);
+  v.Number({"away_time_constant_ratio", kOne, 0.01, 100, 1,
+            "time_constant of the coil away from +x over that of the other"},
+           coil.away_time_constant_ratio);
 }
 
 /// A part that is there or not.

@@ -103,6 +103,12 @@ void Describe(Visitor& v, RigFile& rig, plant::BearingConfig& bearing, std::size
   });
   v.Group("touchdown", "retainer bearing in the plane of the magnet",
           [&] { Describe(v, bearing.touchdown); });
+  const auto& drive = bearing.amplifier.voltage;
+  v.RefuseIf(
+      drive && drive->dead_band_a >= rig.numbers.max_coil_current_a, "amplifier",
+      fmt::format("dead band {:.6g} mA of the voltage must be smaller than max_current, "
+                  "{:.6g} mA, of which nothing would be left",
+                  drive ? drive->dead_band_a * 1e3 : 0.0, rig.numbers.max_coil_current_a * 1e3));
   v.RefuseIf(bearing.touchdown.clearance_m > bearing.sensor.range_m, "sensor",
              fmt::format("sensor range {:.6g} um is smaller than the touchdown clearance {:.6g} um",
                          bearing.sensor.range_m * 1e6, bearing.touchdown.clearance_m * 1e6));

@@ -48,6 +48,7 @@ constexpr std::array kUnits{
     kForcePerAmpere,
     kForceConstant,
     kForcePerSquareAmpere,
+    kPerSquareAmpere,
     kAmperePerSecond,
     kGravity,
     kPerSecond,

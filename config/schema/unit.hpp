@@ -66,6 +66,7 @@ inline constexpr Unit kTorsionDamping{"n_m_s_per_rad", "N m s/rad", "torsional d
 inline constexpr Unit kForcePerAmpere{"n_per_a", "N/A", "force per current"};
 inline constexpr Unit kForcePerSquareAmpere{"n_per_a2", "N/A^2", "force per current squared"};
 inline constexpr Unit kForceConstant{"n_m2_per_a2", "N m^2/A^2", "magnet constant"};
+inline constexpr Unit kPerSquareAmpere{"1_per_a2", "1/A^2", "inverse current squared"};
 inline constexpr Unit kAmperePerSecond{"a_per_s", "A/s", "slew"};
 inline constexpr Unit kGravity{"m_per_s2", "m/s^2", "linear acceleration"};
 inline constexpr Unit kPerSecond{"1_per_s", "1/s", "rate"};

@@ -17,14 +17,18 @@ void ExtendCoil(const Theta& t, plant::VoltageDrive& coil) {
   constexpr double kFlatM = 1000.0;  // the largest decay that a rig file may have
   const double resistance = (1.0 + t[kResistance]) * (1.0 + t[Own(0, kOwnResistance)]);
   const double decay_m = coil.decay_m;
-  // A dead band takes the same from every voltage beyond it; an idle coil stays at nothing.
-  coil.offset_a = (coil.offset_a - coil.steady * (1.0 + t[kSupply]) * t[kDeadBand]) / resistance;
+  coil.offset_a /= resistance;
   coil.steady *= (1.0 + t[kSupply]) / resistance;
   coil.time_constant_s *= (1.0 + t[kInductance]) / resistance;
   const double per_gap = 1.0 - t[kProfile];
   coil.decay_m = per_gap > decay_m / kFlatM ? decay_m / per_gap : kFlatM;
-  const double emf = (coil.motion_emf + t[kMotionEmf]) * coil.decay_m / decay_m;
-  coil.motion_emf = std::clamp(emf, 0.0, 10.0);
+  coil.motion_emf = (coil.motion_emf + t[kMotionEmf]) * coil.decay_m / decay_m;
+  coil.dead_band_a = t[kDeadBand];
+  coil.curvature = std::clamp(t[kDriveCurve], -1.0, 1.0);
+  coil.iron_1_per_a2 = t[kIronInductance];
+  coil.warming_1_per_s = t[kHeating];
+  coil.away_steady_ratio = 1.0 + t[kAwaySupply];
+  coil.away_time_constant_ratio = 1.0 + t[kAwayInductance];
 }
 
 void ExtendForce(const Theta& t, double gap_m, plant::ExponentialForce& law) {
@@ -80,10 +84,8 @@ std::vector<effect::EffectConfig> Read(const config::RigFile& rig, const std::st
 }
 
 bool InTheModel(std::size_t i) {
-  constexpr std::array kMissing{kIronInductance, kDriveCurve, kHeating,        kEddyShare,
-                                kMutual,         kAwaySupply, kAwayInductance, kProbeGain,
-                                kProbeOffset,    kProbeLag,   kForceExponent,  kDamping,
-                                kDryFriction};
+  constexpr std::array kMissing{kEddyShare, kMutual,        kProbeGain, kProbeOffset,
+                                kProbeLag,  kForceExponent, kDamping,   kDryFriction};
   return std::find(kMissing.begin(), kMissing.end(), i) == kMissing.end();
 }
 
@@ -116,7 +118,13 @@ std::string ExtendedRig(const config::RigFile& file, const Theta& origin, const 
   extended.plant.delay_samples += t[kDelay];
   if (bearing.amplifier.voltage) ExtendCoil(t, *bearing.amplifier.voltage);
   if (bearing.magnet.exponential) {
+    const double far_m = bearing.magnet.exponential->far_gap_m;
     ExtendForce(t, bearing.magnet.gap_m, *bearing.magnet.exponential);
+    // The far gap stands for the force alone: that coil's inductance stays what it was.
+    if (auto& coil = bearing.amplifier.voltage) {
+      coil->away_time_constant_ratio *=
+          std::exp((bearing.magnet.exponential->far_gap_m - far_m) / coil->decay_m);
+    }
   }
   std::string refused;
   for (const std::string& entry :

@@ -98,7 +98,7 @@ Step TryStep(const Misfit& misfit, const Filters& filters, const Freedom& freedo
 
 }  // namespace
 
-Freedom FreedomOf(const CauseSet& causes, std::size_t records) {
+Freedom FreedomOf(const CauseSet& causes, std::size_t records, const Theta& origin) {
   const std::size_t all = kParameters + records * kOwnParameters;
   std::vector<double> variance(all);
   std::vector<double> most(all);
@@ -106,7 +106,7 @@ Freedom FreedomOf(const CauseSet& causes, std::size_t records) {
   for (std::size_t i = 0; i < all; ++i) {
     variance[i] = ToleranceOf(i) * ToleranceOf(i);
     most[i] = kFarthest * ToleranceOf(i);
-    least[i] = std::max(LeastOf(i), -most[i]);
+    least[i] = std::max(LeastOf(i, origin), -most[i]);
   }
   Freedom freedom;
   for (const std::size_t c : causes) {
@@ -115,8 +115,8 @@ Freedom FreedomOf(const CauseSet& causes, std::size_t records) {
     for (const std::size_t i : cause.moves) {
       variance[i] += WideOf(i) * WideOf(i);
       most[i] = std::numeric_limits<double>::max();
-      least[i] = LeastOf(i);
-      if (ToleranceOf(i) == 0.0 && LeastOf(i) == 0.0) ++freedom.one_sided;
+      least[i] = LeastOf(i, origin);
+      if (ToleranceOf(i) == 0.0 && least[i] == 0.0) ++freedom.one_sided;
     }
   }
   for (std::size_t i = 0; i < all; ++i) {
@@ -137,7 +137,7 @@ Freedom FreedomOf(const CauseSet& causes, std::size_t records) {
 
 Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& filters,
                    int steps) const {
-  const Freedom freedom = FreedomOf(causes, misfit_.series().size());
+  const Freedom freedom = FreedomOf(causes, misfit_.series().size(), misfit_.rig().origin);
   Fitted out;
   out.theta = Nominal(misfit_.series().size());
   for (std::size_t i = 0; i < freedom.active.size(); ++i) {
@@ -191,7 +191,7 @@ std::vector<double> Fitter::Screen(const CauseSet& causes, const Fitted& at,
   for (std::size_t i = 0; i < everything.size(); ++i) everything[i] = i;
   const Sums sums = misfit_.Linearise(at.theta, filters, everything);
   const auto evidence = [&](const CauseSet& set, bool& possible) {
-    const Freedom freedom = FreedomOf(set, records);
+    const Freedom freedom = FreedomOf(set, records, misfit_.rig().origin);
     const std::vector<Index> pick(freedom.active.begin(), freedom.active.end());
     const Sums part{sums.jtj(pick, pick), sums.jte(pick), sums.ete, sums.values};
     const Eigen::VectorXd z = Scaled(freedom, at.theta);
@@ -204,7 +204,8 @@ std::vector<double> Fitter::Screen(const CauseSet& causes, const Fitted& at,
       const std::size_t index = freedom.active[i];
       const double value = (z[static_cast<Index>(i)] + step[static_cast<Index>(i)]) *
                            freedom.deviation[static_cast<Index>(i)];
-      if (WideOf(index) > 0.0 && ToleranceOf(index) == 0.0 && value < LeastOf(index)) {
+      if (WideOf(index) > 0.0 && ToleranceOf(index) == 0.0 &&
+          value < LeastOf(index, misfit_.rig().origin)) {
         possible = false;
       }
     }

@@ -38,7 +38,8 @@ struct Freedom {
   std::size_t one_sided{};
 };
 
-[[nodiscard]] Freedom FreedomOf(const CauseSet& causes, std::size_t records);
+[[nodiscard]] Freedom FreedomOf(const CauseSet& causes, std::size_t records,
+                                const Theta& origin = Nominal(0));
 
 class Fitter {
  public:

@@ -40,7 +40,7 @@ struct NominalRig {
   out.mass_kg = rig.rotor.given ? rig.rotor.given->mass_kg : 0.0;
   out.gravity_m_per_s2 = rig.gravity_m_per_s2;
   out.noise_m = bearing.sensor.noise_rms_m;
-  out.origin = EffectsOf(file);
+  out.origin = OriginOf(file);
   return out;
 }
 

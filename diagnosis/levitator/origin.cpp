@@ -86,8 +86,26 @@ Theta EffectsOf(const config::RigFile& file) {
   return all;
 }
 
+Theta OriginOf(const config::RigFile& file) {
+  Theta t = EffectsOf(file);
+  if (const auto& coil = file.plant.bearings.at(0).amplifier.voltage) {
+    t[kDeadBand] = coil->dead_band_a;
+    t[kDriveCurve] = coil->curvature;
+    t[kIronInductance] = coil->iron_1_per_a2;
+    t[kHeating] = coil->warming_1_per_s;
+    t[kAwaySupply] = coil->away_steady_ratio - 1.0;
+    t[kAwayInductance] = coil->away_time_constant_ratio - 1.0;
+  }
+  return t;
+}
+
 double Beside(std::size_t parameter, double origin, double theta) {
   return IsRatio(parameter) ? (1.0 + origin) * (1.0 + theta) - 1.0 : origin + theta;
+}
+
+double LeastBeside(std::size_t parameter, double origin) {
+  const double least = Table()[parameter].least;
+  return IsRatio(parameter) ? least : least - origin;
 }
 
 Theta Beside(const Theta& origin, Theta theta) {

@@ -14,8 +14,13 @@ namespace levitas::levitator {
 
 /// The effects of a rig file, in the table's numbers.
 [[nodiscard]] Theta EffectsOf(const config::RigFile& file);
+/// What a rig file says in the table's own numbers: its effects, and what of its coils' law is not
+/// there unless it says so.
+[[nodiscard]] Theta OriginOf(const config::RigFile& file);
 /// One number of the table.
 [[nodiscard]] double Beside(std::size_t parameter, double origin, double theta);
+/// The least that a number may be beside an origin: what is there may be less, down to nothing.
+[[nodiscard]] double LeastBeside(std::size_t parameter, double origin);
 /// What `theta` is beside an origin; numbers of single records stay as they are.
 [[nodiscard]] Theta Beside(const Theta& origin, Theta theta);
 

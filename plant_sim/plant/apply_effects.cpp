@@ -5,6 +5,7 @@
 
 #include "plant_sim/effect/parameter_kinds.hpp"
 #include "plant_sim/effect/strength.hpp"
+#include "plant_sim/plant/coils_of.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -12,11 +13,15 @@ namespace {
 using effect::EffectConfig;
 using effect::Id;
 
-// Of the current loop; of a coil on a voltage that of the coil towards +x, the rotor centred.
+// Of the current loop; of a coil on a voltage that of the coil towards +x, the rotor centred and
+// the coil settled at the bias.
 double CoilBandwidth(const BearingConfig& b) noexcept {
   if (!b.amplifier.voltage) return b.amplifier.bandwidth_hz;
-  const auto& coil = *b.amplifier.voltage;
-  return std::exp(b.magnet.gap_m / coil.decay_m) / (effect::kTurn * coil.time_constant_s);
+  const amplifier::VoltageCoil coil = CoilsOf(b)[0];
+  const double settled_a =
+      coil.steady * amplifier::Driven(coil, b.magnet.bias_current_a) + coil.offset_a;
+  const double iron = 1.0 + coil.iron_1_per_a2 * settled_a * settled_a;
+  return std::exp(b.magnet.gap_m / coil.decay_m) / (effect::kTurn * coil.time_constant_s) * iron;
 }
 
 // Every number that entries change, back to the rig's own.

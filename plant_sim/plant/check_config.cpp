@@ -42,7 +42,13 @@ void CheckBearing(const BearingConfig& b, const std::string& at) {
     Within(at + "amplifier.offset_a", coil->offset_a, -kInfinity, kInfinity);
     Positive(at + "amplifier.time_constant_s", coil->time_constant_s);
     Positive(at + "amplifier.decay_m", coil->decay_m);
-    NotNegative(at + "amplifier.motion_emf", coil->motion_emf);
+    Within(at + "amplifier.motion_emf", coil->motion_emf, -kInfinity, kInfinity);
+    Within(at + "amplifier.dead_band_a", coil->dead_band_a, 0.0, b.magnet.max_coil_current_a);
+    Within(at + "amplifier.curvature", coil->curvature, -1.0, 1.0);
+    NotNegative(at + "amplifier.iron_1_per_a2", coil->iron_1_per_a2);
+    Within(at + "amplifier.warming_1_per_s", coil->warming_1_per_s, -kInfinity, kInfinity);
+    Positive(at + "amplifier.away_steady_ratio", coil->away_steady_ratio);
+    Positive(at + "amplifier.away_time_constant_ratio", coil->away_time_constant_ratio);
   } else {
     Positive(at + "amplifier.bandwidth_hz", b.amplifier.bandwidth_hz);
   }

@@ -32,6 +32,19 @@ Discrete Hold(const LinearModel& model, double duration_s) {
   return {exponential.topLeftCorner(n, n), exponential.topRightCorner(n, m)};
 }
 
+// Control current at last per control current commanded: of coils on a voltage the mean of both
+// coils' slopes about the bias.
+double CurrentPerCommand(const PlantModel& model, std::size_t bearing) {
+  const BearingModel& at = model.bearings()[bearing];
+  if (!at.on_voltage()) return 1.0;
+  const double bias_a = model.config().bearings[bearing].magnet.bias_current_a;
+  double sum = 0.0;
+  for (const amplifier::VoltageCoil& coil : at.coils) {
+    sum += coil.steady * amplifier::DrivenSlope(coil, bias_a);
+  }
+  return 0.5 * sum;
+}
+
 }  // namespace
 
 LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
@@ -51,9 +64,7 @@ LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
     const Index coil = At(at.coil_current + axis);
     const double amplifier_rate = 2.0 * std::numbers::pi * model.amplifier_bandwidth_hz(axis);
     linear.a(coil, coil) = -amplifier_rate;
-    const BearingModel& bearing = model.bearings()[axis / 2];
-    linear.b(coil, At(axis)) =
-        bearing.on_voltage() ? amplifier_rate * bearing.coil.steady : amplifier_rate;
+    linear.b(coil, At(axis)) = amplifier_rate * CurrentPerCommand(model, axis / 2);
     linear.c(At(axis), At(at.sensor + axis)) = 1.0;
   }
   return linear;

@@ -40,6 +40,12 @@ void AddBearing(std::vector<Entry>& entries, const std::string& at, BearingConfi
     entries.push_back({at + "amplifier.time_constant_s", &coil->time_constant_s});
     entries.push_back({at + "amplifier.decay_m", &coil->decay_m});
     entries.push_back({at + "amplifier.motion_emf", &coil->motion_emf});
+    entries.push_back({at + "amplifier.dead_band_a", &coil->dead_band_a});
+    entries.push_back({at + "amplifier.curvature", &coil->curvature});
+    entries.push_back({at + "amplifier.iron_1_per_a2", &coil->iron_1_per_a2});
+    entries.push_back({at + "amplifier.warming_1_per_s", &coil->warming_1_per_s});
+    entries.push_back({at + "amplifier.away_steady_ratio", &coil->away_steady_ratio});
+    entries.push_back({at + "amplifier.away_time_constant_ratio", &coil->away_time_constant_ratio});
   }
   entries.push_back({at + "sensor.bandwidth_hz", &b.sensor.bandwidth_hz});
   entries.push_back({at + "sensor.noise_rms_m", &b.sensor.noise_rms_m});

@@ -33,13 +33,20 @@ struct MagnetConfig {
 
 /// A coil on a voltage, without a current loop: what is commanded is the current that the voltage
 /// would drive at last, u = gain x duty, and the coil's current follows by its inductance,
-/// i' = (steady u + offset - i)/tau + emf i gap'/d,  tau = tau0 e^(-gap/d)
+/// i' = (steady u(c) + offset - r i)/tau + emf i gap'/d,  tau = tau0 e^(-gap/d)/(1 + s i^2),
+/// u and r as in plant_sim/amplifier/voltage_coil.hpp
 struct VoltageDrive {
   double steady{1.0};        ///< current at last per current commanded; 1 = as calibrated
   double offset_a{};         ///< current at last without any command
   double time_constant_s{};  ///< tau0, extrapolated to a gap of 0
   double decay_m{};          ///< d
   double motion_emf{};       ///< share of the voltage that the moving rotor induces; 0 = none
+  double dead_band_a{};      ///< the bridge takes this much from all that is commanded; 0 = none
+  double curvature{};        ///< of u(c), which stays as it is at the dead band and at full duty
+  double iron_1_per_a2{};    ///< s: inductance lost with the square of the current; 0 = none
+  double warming_1_per_s{};  ///< resistance gained per second from the start of a run; 0 = none
+  double away_steady_ratio{1.0};         ///< steady of the coil away from +x over the other's
+  double away_time_constant_ratio{1.0};  ///< tau0 of that coil over the other's
 };
 
 struct AmplifierConfig {

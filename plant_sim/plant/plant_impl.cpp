@@ -114,12 +114,14 @@ void Plant::Impl::FollowVoltage(std::size_t axis, double duration_s, const CoilC
   const double rate = rate_m_per_s[axis % 2];
   const double middle_m = place_m[axis % 2] + 0.5 * duration_s * rate;
   const amplifier::CoilPair& asked = command.coils[axis];
+  const double warm =
+      amplifier::Warmed(bearing.warming_1_per_s, static_cast<double>(cycle) * PeriodSeconds());
   const double towards_a =
-      amplifier::Follow(bearing.coil, bias_a[axis] + control_a, asked.bias_a + asked.control_a,
-                        command.enabled, bearing.magnet.gap_m - middle_m, -rate, duration_s);
+      amplifier::Follow(bearing.coils[0], bias_a[axis] + control_a, asked.bias_a + asked.control_a,
+                        command.enabled, bearing.magnet.gap_m - middle_m, -rate, duration_s, warm);
   const double away_a =
-      amplifier::Follow(bearing.coil, bias_a[axis] - control_a, asked.bias_a - asked.control_a,
-                        command.enabled, bearing.far_gap_m + middle_m, rate, duration_s);
+      amplifier::Follow(bearing.coils[1], bias_a[axis] - control_a, asked.bias_a - asked.control_a,
+                        command.enabled, bearing.far_gap_m + middle_m, rate, duration_s, warm);
   control_a = 0.5 * (towards_a - away_a);
   bias_a[axis] = 0.5 * (towards_a + away_a);
 }

@@ -6,6 +6,7 @@
 
 #include "plant_sim/effect/strength.hpp"
 #include "plant_sim/plant/check_config.hpp"
+#include "plant_sim/plant/coils_of.hpp"
 #include "plant_sim/plant/magnet_of.hpp"
 
 namespace levitas::plant {
@@ -141,9 +142,9 @@ void PlantModel::BuildBearings() {
     model.magnet = MagnetOf(b.magnet);
     model.x_only = b.x_only;
     model.far_gap_m = b.magnet.exponential ? b.magnet.exponential->far_gap_m : b.magnet.gap_m;
+    model.coils = CoilsOf(b);
     if (const auto& voltage = b.amplifier.voltage) {
-      model.coil = {voltage->steady, voltage->offset_a, voltage->time_constant_s, voltage->decay_m,
-                    voltage->motion_emf};
+      model.warming_1_per_s = voltage->warming_1_per_s;
       // What limits the current is the voltage.
       model.magnet.max_coil_current_a = std::numeric_limits<double>::max();
     }

@@ -52,16 +52,18 @@ struct StepTable {
 struct BearingModel {
   magnet::Magnet magnet;
   amplifier::Limits amplifier;
-  amplifier::VoltageCoil coil;  ///< of a rig without current loops
-  bool x_only{};                ///< no force in y, where a guide holds the rotor
-  double far_gap_m{};           ///< of the coil away from +x, the rotor centred
+  /// Of a rig without current loops: towards +x, and away from it.
+  std::array<amplifier::VoltageCoil, 2> coils;
+  double warming_1_per_s{};  ///< of both
+  bool x_only{};             ///< no force in y, where a guide holds the rotor
+  double far_gap_m{};        ///< of the coil away from +x, the rotor centred
   sensor::Converter converter;
   support::Touchdown touchdown;
   bool has_touchdown{};
   std::vector<double> actuator_shape;  ///< per mode
   std::vector<double> sensor_shape;    ///< per mode
 
-  [[nodiscard]] bool on_voltage() const noexcept { return coil.time_constant_s > 0.0; }
+  [[nodiscard]] bool on_voltage() const noexcept { return coils[0].time_constant_s > 0.0; }
 };
 
 class PlantModel {

@@ -24,6 +24,38 @@ TEST(Number, OutOfRangeIsRefusedWithTheRange) {
             "rig.yaml:21:15: bearings[0].magnet.gap_mm: found -0.4 mm, allowed 0.02 to 10 mm");
 }
 
+// The coils of the rig on a voltage instead of a current loop.
+std::string WithVoltage(const std::string& more) {
+  return RigProblems(
+      With(kRig, "bandwidth_hz: 1000", "voltage: {time_constant_ms: 30, decay_mm: 5" + more + "}"));
+}
+
+TEST(Voltage, TakesWhatACoilCanDoAndRefusesTheRestKeyByKey) {
+  EXPECT_EQ(WithVoltage(""), "");
+  EXPECT_EQ(WithVoltage(", dead_band_ma: 90, curvature: -0.2, iron_1_per_a2: 0.2, "
+                        "warming_1_per_s: 1e-3, away_steady_ratio: 0.9, "
+                        "away_time_constant_ratio: 1.2"),
+            "");
+  const auto only = [](const std::string& key, const std::string& found) {
+    const std::string problem = WithVoltage(", " + key + ": " + found);
+    EXPECT_NE(problem.find("bearings[0].amplifier.voltage." + key + ": found " + found),
+              std::string::npos)
+        << problem;
+    EXPECT_NE(problem.find("allowed"), std::string::npos) << problem;
+    EXPECT_EQ(problem.find('\n'), std::string::npos) << "one error: " << problem;
+  };
+  only("dead_band_ma", "-1");
+  only("curvature", "1.5");
+  only("iron_1_per_a2", "-0.1");
+  only("warming_1_per_s", "2");
+  only("away_steady_ratio", "0");
+  only("away_time_constant_ratio", "-1");
+  EXPECT_EQ(
+      WithVoltage(", dead_band_ma: 2000"),
+      "rig.yaml:23:5: bearings[0].amplifier: dead band 2000 mA of the voltage must be smaller "
+      "than max_current, 2000 mA, of which nothing would be left");
+}
+
 TEST(Number, AtTheBoundIsAllowedAndBeyondItIsNot) {
   // The clearance must stay below the gap, so the lower bound is tried on another key.
   EXPECT_EQ(WithGap("10"), "");

@@ -247,7 +247,7 @@ TEST(Tables, KnowEveryFieldOfTheStructs) {
   EXPECT_EQ(FieldCount<plant::MagnetConfig>(), 5U);
   EXPECT_EQ(FieldCount<plant::AmplifierConfig>(), 4U);
   EXPECT_EQ(FieldCount<plant::ExponentialForce>(), 3U);
-  EXPECT_EQ(FieldCount<plant::VoltageDrive>(), 5U);
+  EXPECT_EQ(FieldCount<plant::VoltageDrive>(), 11U);
   EXPECT_EQ(FieldCount<plant::SensorConfig>(), 5U);
   EXPECT_EQ(FieldCount<plant::TouchdownConfig>(), 5U);
   EXPECT_EQ(FieldCount<plant::UnbalanceMass>(), 4U);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/problem.hpp"
@@ -72,10 +73,109 @@ TEST(Origin, AnExtendedFileSaysOnceWhatItsOwnEffectsAndTheCausesAre) {
   found.extended.deviation = Nominal(1);
   found.extended.theta[kLoad] = 0.03;
   const config::RigFile read =
-      config::ParseRig(ExtendedRig(file, EffectsOf(file), found), "extended_rig.yaml");
+      config::ParseRig(ExtendedRig(file, OriginOf(file), found), "extended_rig.yaml");
   ASSERT_EQ(read.plant.effects.size(), 1U);
   EXPECT_EQ(read.plant.effects[0].id, effect::Id::kStaticLoad);
   EXPECT_NEAR(read.plant.effects[0].values[1], 0.05, 1e-6);
+}
+
+/// A size of each number that a rig file can hold, all of them at once.
+Theta Everything() {
+  Theta theta = Nominal(1);
+  theta[kDelay] = 1.45;
+  theta[kSupply] = 0.02;
+  theta[kResistance] = -0.03;
+  theta[kInductance] = 0.2;
+  theta[kProfile] = 0.9;
+  theta[kIronInductance] = 0.2;
+  theta[kDeadBand] = 0.09;
+  theta[kDriveCurve] = -0.2;
+  theta[kHeating] = 4e-3;
+  theta[kMotionEmf] = -0.03;
+  theta[kAwaySupply] = 0.3;
+  theta[kAwayInductance] = -0.4;
+  theta[kForce] = 0.1;
+  theta[kForceDecay] = -0.04;
+  theta[kForceKnee] = 0.05;
+  theta[kForceLag] = 1e-3;
+  theta[kForceAway] = 0.15;
+  theta[kSensorGain] = -0.01;
+  theta[kSensorOffset] = 2e-4;
+  theta[kSensorSquare] = -20.0;
+  theta[kSensorCube] = -1500.0;
+  theta[kSensorLag] = 5e-4;
+  theta[kMass] = 0.05;
+  theta[kLoad] = 0.02;
+  theta[kSpring] = 3.0;
+  return theta;
+}
+
+config::RigFile Extended(const config::RigFile& file, const Theta& theta) {
+  Found found;
+  found.extended.theta = theta;
+  found.extended.deviation = Nominal(1);
+  return config::ParseRig(ExtendedRig(file, OriginOf(file), found), "extended_rig.yaml");
+}
+
+/// Both coils at work, neither probe's reading made by the model.
+Series BothAtWork(const NominalRig& rig) {
+  Series series = test::LivelySeries(rig, Nominal(1), 3000, 5);
+  for (std::size_t n = 0; n < series.size(); ++n) {
+    series.asked_a[1][n] = n % 70 < 30 ? 0.05 : 0.6;
+  }
+  series.idle = {false, false};
+  return series;
+}
+
+double Farthest(const std::vector<double>& one, const std::vector<double>& other) {
+  double most = 0.0;
+  for (std::size_t n = 0; n < one.size(); ++n) most = std::max(most, std::abs(one[n] - other[n]));
+  return most;
+}
+
+// Found, written, read back: the file alone then is the model that was found. One number at a time
+// and all together.
+TEST(Origin, AnExtendedFileIsTheModelThatWasFound) {
+  const config::RigFile file = LevitatorFile();
+  const NominalRig plain = NominalOf(file);
+  const Series series = BothAtWork(plain);
+  // Begun anew at every other row: a step of the ball without the observer, whose gains go by the
+  // file's own decay.
+  Series steps = series;
+  for (std::size_t n = 0; n < steps.size(); ++n) steps.restart[n] = n % 2 == 0;
+  std::vector<Theta> cases{Everything()};
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    cases.push_back(Nominal(1));
+    cases.back()[i] = Everything()[i];
+  }
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    const std::string name = c == 0 ? "all" : std::string(Table()[c - 1].effect);
+    const NominalRig read = NominalOf(Extended(file, cases[c]));
+    const CoilRun found = RunCoils(plain, series, cases[c], 0);
+    const CoilRun known = RunCoils(read, series, Nominal(1), 0);
+    // Six digits of the entries of effects, where the keys have them all.
+    EXPECT_LT(Farthest(found.reading_a[0], known.reading_a[0]), 1e-6) << name;
+    EXPECT_LT(Farthest(found.reading_a[1], known.reading_a[1]), 1e-6) << name;
+    // A hundred-thousandth of the weight moves the ball by 5e-11 m within a step.
+    EXPECT_LT(Farthest(Innovations(plain, steps, cases[c], 0, found),
+                       Innovations(read, steps, Nominal(1), 0, known)),
+              5e-11)
+        << name;
+  }
+}
+
+TEST(Origin, AnExtendedFileOfAnExtendedFileHoldsEachNumberOnce) {
+  const config::RigFile once = Extended(LevitatorFile(), Everything());
+  const config::RigFile twice = Extended(once, Nominal(1));
+  EXPECT_EQ(config::WriteRig(twice), config::WriteRig(once));
+}
+
+TEST(Origin, WhatIsInTheFileMayBeFoundToBeLess) {
+  const config::RigFile file = Extended(LevitatorFile(), Everything());
+  const Theta origin = OriginOf(file);
+  EXPECT_NEAR(LeastBeside(kDeadBand, origin[kDeadBand]), -0.09, 1e-12);
+  EXPECT_EQ(LeastBeside(kSupply, 0.3), Table()[kSupply].least);
+  EXPECT_EQ(LeastBeside(kDeadBand, 0.0), 0.0);
 }
 
 TEST(Origin, RefusesEffectsThatNoNumberStandsForAndThoseThatSetInLater) {

@@ -87,7 +87,8 @@ TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
   const auto& bearing = read.plant.bearings[0];
   EXPECT_NEAR(bearing.magnet.exponential->force_n_per_a2, 1.2 * 3.008878, 1e-9);
   EXPECT_NEAR(bearing.amplifier.voltage->decay_m, 2.0 * 4.5626e-3, 1e-12);
-  EXPECT_NEAR(bearing.amplifier.voltage->offset_a, 0.0243 - 0.1, 1e-12);
+  EXPECT_NEAR(bearing.amplifier.voltage->dead_band_a, 0.1, 1e-12);
+  EXPECT_NEAR(bearing.amplifier.voltage->offset_a, 0.0243, 1e-12) << "an idle coil keeps its own";
   ASSERT_EQ(read.plant.effects.size(), 2U);
   EXPECT_EQ(read.plant.effects[0].id, effect::Id::kSensorOffset);
   EXPECT_EQ(read.plant.effects[1].id, effect::Id::kStaticLoad);

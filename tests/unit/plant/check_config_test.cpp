@@ -55,6 +55,26 @@ TEST(CheckConfig, RefusesEveryImpossibleNumber) {
   EXPECT_NE(Refusal([](auto& c) { c.drive.coast_down_1_per_s = -1.0; }), "");
 }
 
+TEST(CheckConfig, RefusesEveryImpossibleCoilOnAVoltage) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refusal = [](const std::function<void(VoltageDrive&)>& spoil) {
+    return Refusal([&](PlantConfig& c) {
+      c.bearings[0].amplifier.voltage = VoltageDrive{1.0, 0.0, 30e-3, 5e-3, 0.0};
+      spoil(*c.bearings[0].amplifier.voltage);
+    });
+  };
+  EXPECT_EQ(refusal([](VoltageDrive&) {}), "");
+  EXPECT_EQ(
+      refusal([](auto& v) { v.dead_band_a = -0.1; }),
+      "bearings[0].amplifier.dead_band_a = -0.1, allowed 0 to 2; correct the rig description");
+  EXPECT_NE(refusal([](auto& v) { v.dead_band_a = 3.0; }), "") << "beyond the coil's maximum";
+  EXPECT_NE(refusal([](auto& v) { v.curvature = 1.5; }), "");
+  EXPECT_NE(refusal([](auto& v) { v.iron_1_per_a2 = -0.1; }), "");
+  EXPECT_NE(refusal([&](auto& v) { v.warming_1_per_s = nan; }), "");
+  EXPECT_NE(refusal([](auto& v) { v.away_steady_ratio = 0.0; }), "");
+  EXPECT_NE(refusal([](auto& v) { v.away_time_constant_ratio = -1.0; }), "");
+}
+
 TEST(CheckConfig, RefusesAPolarityThatWasForgotten) {
   EXPECT_EQ(Refusal([](auto& c) { c.actuator_polarity = {}; }),
             "actuator_polarity[0] = 0, allowed +1 or -1");
