@@ -109,6 +109,24 @@ void WriteTrial(const trials::Trial& trial, const std::string& root, std::uint64
   WriteJsonFile(folder + "/secret/truth.json", truth);
 }
 
+/// What the records hold for one of what is hidden, beside the rest of it.
+std::optional<double> HeldFor(const trials::Trial& trial, const std::string& effect) {
+  std::vector<effect::EffectConfig> one;
+  std::vector<effect::EffectConfig> rest;
+  for (const effect::EffectConfig& entry : trial.secret.hidden) {
+    (effect::At(entry.id).name == effect ? one : rest).push_back(entry);
+  }
+  return trials::HeldEvidence(trial.rig, trial.records, one, rest);
+}
+
+void ListMissed(const trials::Trial& trial, trials::Outcome& outcome) {
+  for (const std::string& effect : outcome.truth) {
+    trials::Outcome alone = outcome;
+    alone.truth = {effect};
+    if (!alone.Partly()) outcome.missed.emplace_back(effect, HeldFor(trial, effect));
+  }
+}
+
 trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
                     const BenchOptions& options) {
   const trials::Trial trial = trials::MakeTrial(bench, plan);
@@ -120,15 +138,12 @@ trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
       diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
   trials::Outcome outcome = trials::Judge(plan, trial.secret, answer, bench.rig.numbers);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (outcome.truth.size() > 1 && plan.side_size == 1.0) ListMissed(trial, outcome);
   if (!outcome.truth.empty() && !outcome.Right()) {
     // What the records hold for an effect that was not named is found by being told of it.
     settings.only = outcome.truth.front();
     const auto told = diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
-    // Of several, an oracle that is told of one need not explain the others.
-    const auto held = outcome.truth.size() > 1
-                          ? std::optional<double>(0.0)
-                          : trials::HeldEvidence(trial.rig, trial.records, trial.secret.hidden);
-    trials::HearOracle(told.answer, held, outcome);
+    trials::HearOracle(told.answer, HeldFor(trial, outcome.truth.front()), outcome);
   }
   return outcome;
 }
@@ -145,6 +160,10 @@ void PrintOne(const trials::Outcome& o) {
              fmt::format("{}{}{}", fmt::join(o.named, ", "), o.ties.empty() ? "" : " | ",
                          fmt::join(o.ties, ", ")),
              o.score_nat, o.seconds, o.Right() ? "" : (o.Partly() ? "   (partly)" : "   WRONG"));
+  for (const auto& [effect, held] : o.missed) {
+    fmt::print("       not named: {}, of which the records hold {} beside the others\n", effect,
+               held ? fmt::format("{:.1f} nat", *held) : "an unknown amount");
+  }
   if (o.oracle_failed) {
     fmt::print("       oracle failed: told of {}, it does not name it; the records hold {}\n",
                o.truth.front(),
@@ -160,6 +179,10 @@ void Explain(const trials::Outcome& o) {
 }
 
 nlohmann::ordered_json Json(const trials::Outcome& o) {
+  auto missed = nlohmann::ordered_json::array();
+  for (const auto& [effect, held] : o.missed) {
+    missed.push_back({{"effect", effect}, {"held_nat", held.value_or(-1.0)}});
+  }
   return {{"seed", o.seed},
           {"truth", o.truth},
           {"outside", o.outside},
@@ -173,6 +196,7 @@ nlohmann::ordered_json Json(const trials::Outcome& o) {
           {"available_nat", o.available_nat},
           {"held_nat", o.held_nat},
           {"oracle_failed", o.oracle_failed},
+          {"missed", missed},
           {"explained", o.explained},
           {"remainder_sigma", o.remainder_sigma},
           {"nearest", o.nearest},

@@ -36,11 +36,13 @@ double Misfit(const diagnosis::RigView& rig, const std::vector<diagnosis::Term>&
 }  // namespace
 
 std::optional<double> HeldEvidence(const config::RigFile& rig, const std::vector<Record>& records,
-                                   const std::vector<effect::EffectConfig>& hidden) {
+                                   const std::vector<effect::EffectConfig>& hidden,
+                                   const std::vector<effect::EffectConfig>& beside) {
   if (!rig.plant.shafts.empty() || hidden.empty()) return std::nullopt;
   if (!std::all_of(hidden.begin(), hidden.end(), ChangesTheModel)) return std::nullopt;
-  const diagnosis::RigView nominal(rig.numbers, rig.plant);
   plant::PlantConfig spoilt = rig.plant;
+  spoilt.effects.insert(spoilt.effects.end(), beside.begin(), beside.end());
+  const diagnosis::RigView nominal(rig.numbers, spoilt);
   spoilt.effects.insert(spoilt.effects.end(), hidden.begin(), hidden.end());
   const diagnosis::RigView with(rig.numbers, spoilt);
   std::vector<Record> flown = records;

@@ -2,7 +2,8 @@
 // What records hold for a hidden effect, by its true values: no search, no verdict of a diagnosis
 // takes part.
 //
-// Equation   held = L(nominal rig with the effect) - L(nominal rig), L the logarithm of the likelihood
+// Equation   held = L(nominal rig with the effect) - L(nominal rig), both with what else is hidden
+//            `beside` it, L the logarithm of the likelihood
 //            with all tolerances fitted on the nonlinear model, their priors included, each whitened
 //            by its own innovations (Refiner::Misfit). An upper estimate: a diagnosis also pays for
 //            the freedom of the cause.
@@ -19,8 +20,9 @@
 
 namespace levitas::trials {
 
-[[nodiscard]] std::optional<double> HeldEvidence(const config::RigFile& rig,
-                                                 const std::vector<diagnosis::Record>& records,
-                                                 const std::vector<effect::EffectConfig>& hidden);
+[[nodiscard]] std::optional<double> HeldEvidence(
+    const config::RigFile& rig, const std::vector<diagnosis::Record>& records,
+    const std::vector<effect::EffectConfig>& hidden,
+    const std::vector<effect::EffectConfig>& beside = {});
 
 }  // namespace levitas::trials

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -58,9 +59,19 @@ bool Outcome::Partly() const {
   });
 }
 
+bool Outcome::NamesMain() const {
+  return !truth.empty() && (Holds(named, truth.front()) || Holds(ties, truth.front()));
+}
+
 bool Outcome::NamesAll() const {
   return std::all_of(truth.begin(), truth.end(), [this](const std::string& effect) {
     return Holds(named, effect) || Holds(ties, effect);
+  });
+}
+
+bool Outcome::HoldsAllClearly() const {
+  return std::all_of(missed.begin(), missed.end(), [](const auto& effect) {
+    return SizeOf(effect.second.value_or(std::numeric_limits<double>::infinity())) == Size::kClear;
   });
 }
 
@@ -120,7 +131,9 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
   std::map<std::string, std::map<Size, Count>> by_effect;
   std::map<Size, Count> by_size;
   Count clean, outside, several;
+  int several_main = 0;
   int several_all = 0;
+  int several_clear = 0;
   std::vector<double> achieved, seconds;
   std::string failed;
   int compared = 0;
@@ -133,7 +146,9 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
     }
     if (o.truth.size() > 1) {
       several.Add(o);
+      several_main += o.NamesMain() ? 1 : 0;
       several_all += o.NamesAll() ? 1 : 0;
+      several_clear += o.HoldsAllClearly() ? 1 : 0;
       continue;
     }
     by_effect[o.truth.front()][o.size()].Add(o);
@@ -163,8 +178,11 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
   }
   out += fmt::format(
       "\nnothing hidden, called none: {}\noutside the vocabulary, called unknown: {}\n"
-      "several hidden, main one named: {}; all named: {}/{}\n",
-      clean.Text(), outside.Text(), several.Text(), several_all, several.of);
+      "several hidden, main one named: {}/{}, first: {}; all named: {}/{}; where the records hold "
+      "every one "
+      "clearly: {}/{}\n",
+      clean.Text(), outside.Text(), several_main, several.of, several.Text(), several_all,
+      several.of, several_all, several_clear);
   out += fmt::format(
       "clear and right: parameter within 10 % or two deviations {}/{}, median share of "
       "the achievable gain {:.3f}\nmedian wall time {:.1f} s\n",

@@ -14,6 +14,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/session.hpp"
@@ -42,6 +43,8 @@ struct Outcome {
   double parameter_error{-1.0};      ///< of the main parameter: share of it; -1 = not comparable
   double parameter_sigmas{-1.0};
   double seconds{};
+  /// Of several, what was not named, and what the records hold for it beside the others.
+  std::vector<std::pair<std::string, std::optional<double>>> missed;
 
   [[nodiscard]] Size size() const noexcept {
     if (!oracle_failed) return SizeOf(available_nat);
@@ -49,7 +52,10 @@ struct Outcome {
   }
   [[nodiscard]] bool Right() const;
   [[nodiscard]] bool Partly() const;
+  [[nodiscard]] bool NamesMain() const;  ///< at any rank
   [[nodiscard]] bool NamesAll() const;
+  /// Of several, whether records that can be read hold every one clearly. What was named is.
+  [[nodiscard]] bool HoldsAllClearly() const;
 };
 
 [[nodiscard]] Outcome Judge(const TrialPlan& plan, const Secret& secret,

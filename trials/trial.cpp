@@ -36,7 +36,11 @@ class Maker {
     double size = plan_.size;
     for (int attempt = 0; attempt < 8; ++attempt, size *= 0.6) {
       // A loop of little margin may not hold every rig that is off by its tolerances: another one.
-      if (attempt >= kOtherRig) rig_seed_ = random_.Bits();
+      // Nor do they hold everything that is hidden beside the main effect.
+      if (attempt >= kOtherRig) {
+        rig_seed_ = random_.Bits();
+        beside_ *= 0.6;
+      }
       trial.secret.size = size;
       if (Run(size, trial.campaign, trial.secret)) break;
     }
@@ -63,7 +67,7 @@ class Maker {
     std::vector<effect::EffectConfig> entries;
     for (std::size_t i = 0; i < plan_.hidden.size(); ++i) {
       const double share = bench_.trials.Factor(plan_.hidden[i]);
-      const double drawn_size = share * (i == 0 ? size : plan_.side_size);
+      const double drawn_size = share * (i == 0 ? size : beside_);
       const bool of_teeth = effect::At(plan_.hidden[i]).place == effect::Place::kGear;
       const auto drawn = of_teeth ? DrawGearEffect(plan_.hidden[i], drawn_size, nominal_, random)
                                   : DrawEffect(plan_.hidden[i], drawn_size, nominal_, random);
@@ -98,6 +102,7 @@ class Maker {
   CampaignPlan campaign_;
   std::uint64_t rig_seed_{}, effect_seed_{};
   std::size_t law_{};
+  double beside_{plan_.side_size};
 };
 
 }  // namespace

@@ -48,6 +48,21 @@ TEST(HeldEvidence, IsMuchWhereTheEffectIsAndNegativeWhereItIsNot) {
   EXPECT_LT(*absent, -25.0);
 }
 
+// Of an effect that another one does already, little is left to hold.
+TEST(HeldEvidence, BesideAnotherEffectIsWhatThatLeaves) {
+  const Trial hidden = With({effect::Id::kSensorRunout});
+  auto half = hidden.secret.hidden;
+  for (auto& entry : half) entry.values[1] *= 0.5;
+  const auto whole = HeldEvidence(TheBench().rig, hidden.records, hidden.secret.hidden);
+  const auto rest = HeldEvidence(TheBench().rig, hidden.records, half, half);
+  const auto again =
+      HeldEvidence(TheBench().rig, hidden.records, hidden.secret.hidden, hidden.secret.hidden);
+  ASSERT_TRUE(whole && rest && again);
+  EXPECT_GT(*rest, 0.0);
+  EXPECT_LT(*rest, *whole);
+  EXPECT_LT(*again, -25.0);
+}
+
 TEST(HeldEvidence, OfWhatATenthOfAToleranceImitatesIsNearlyNothing) {
   // A micrometre, which no slow observer takes away: some thousand nats were there no tolerance of it.
   const auto tolerances = TheBench().rig.tolerances.value_or(config::Tolerances{});

@@ -68,6 +68,25 @@ TEST(Tables, KeepEffectsSizesAndCleanRecordsApart) {
   EXPECT_NE(text.find("nothing hidden, called none: 1/1"), std::string::npos) << text;
 }
 
+TEST(Tables, CountPairsOfWhichTheRecordsHoldBothClearlyApart) {
+  Outcome both = Hidden({"unbalance", "hysteresis"}, {"unbalance", "hysteresis"});
+  Outcome missed = Hidden({"unbalance", "hysteresis"}, {"unbalance"});
+  missed.missed = {{"hysteresis", 90.0}};
+  Outcome below = missed;
+  below.missed = {{"hysteresis", 3.0}};
+  Outcome unknown = missed;
+  unknown.missed = {{"hysteresis", std::nullopt}};
+  Outcome second = missed;
+  second.named = {"shaft_bow", "unbalance"};
+  Outcome neither = missed;
+  neither.named = {"shaft_bow"};
+  const std::string text = Tables({both, missed, below, unknown, second, neither});
+  EXPECT_NE(text.find("main one named: 5/6, first: 4/6"), std::string::npos) << text;
+  EXPECT_NE(text.find("all named: 1/6; where the records hold every one clearly: 1/5"),
+            std::string::npos)
+      << text;
+}
+
 diagnosis::Answer Told(const std::string& effect, double score, bool named) {
   diagnosis::Answer told;
   diagnosis::Candidate candidate;
