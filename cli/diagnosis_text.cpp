@@ -132,11 +132,17 @@ std::string GainSentence(const SessionAnswer& s) {
       100.0 * held.achieved.value, 100.0 * held.achieved.low, 100.0 * held.achieved.high);
   if (s.answer.causes.empty()) return gained + ", by calibration.";
   if (held.calibrated_over_noise < 1.0 + diagnosis::kLeastToGain) {
-    return gained +
-           "; calibration alone leaves hardly more than the noise, the cause is told by evidence.";
+    return fmt::format(
+        "{}; so does calibration alone, hardly more than the noise is left: the cause is told by "
+        "its "
+        "evidence of {:.0f} nat.",
+        gained, s.answer.evidence);
   }
-  return fmt::format("{}; of what calibration leaves, the cause takes {:.0f} %.", gained,
-                     100.0 * std::max(0.0, held.beyond_calibration.value));
+  const double beyond = 100.0 * held.beyond_calibration.value;
+  return beyond < 0.0 ? fmt::format("{}; the cause adds {:.0f} % to what calibration leaves.",
+                                    gained, -beyond)
+                      : fmt::format("{}; of what calibration leaves, the cause takes {:.0f} %.",
+                                    gained, beyond);
 }
 
 std::string CeilingSentence(const SessionAnswer& s) {

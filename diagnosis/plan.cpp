@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "diagnosis/carry_over.hpp"
 #include "diagnosis/coverage.hpp"
 #include "diagnosis/words.hpp"
 
@@ -57,13 +58,15 @@ std::string PlanScenario(const SessionAnswer& s) {
   std::vector<std::string> effects = a.also_possible;
   for (const Hypothesis& cause : a.causes) effects.push_back(cause.effect);
   const bool sound = a.verdict == Verdict::kNone;
-  const bool rotating = effects.empty() || AnyOf(effects, kRotating);
+  const bool rotating = effects.empty() || AnyOf(effects, kRotating) || HeldOutIsFaster(s);
   const bool fast = AnyOf(effects, kOfTheLoop) || (sound && !CoverageOf(s).excited);
   const auto& drive = s.view->model->config().drive;
   const double most_rpm = s.view->numbers.max_speed_rad_per_s * 30.0 / std::numbers::pi;
   const double rate = 0.5 * drive.max_acceleration_rad_per_s2 * 30.0 / std::numbers::pi;
   std::string text = "kind: scenario\nname: diagnosis_next\n\n";
-  if (sound) {
+  if (!CarriesOver(s)) {
+    text += fmt::format("# For a model that carries over: {}.\n", NextExperiment(s));
+  } else if (sound) {
     text += fmt::format("# What the records lack: {}.\n", MissingRecords(s));
   } else if (effects.empty()) {
     text += "# To learn where the remainder belongs.\n";

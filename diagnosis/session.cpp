@@ -38,13 +38,25 @@ void FollowTurns(const RigView& rig, std::vector<Record>& records) {
   for (std::size_t i = 0; i < records.size(); ++i) ChooseTurn(rig, gains[i], records[i]);
 }
 
+double Fastest(const std::vector<Record>& records) {
+  double fastest = 0.0;
+  for (const Record& record : records) {
+    for (const analysis::RecordedRow& row : record.rows) {
+      fastest = std::max(fastest, std::abs(row.sample.speed_rad_per_s));
+    }
+  }
+  return fastest;
+}
+
 /// What the records hold besides positions and currents.
-void Describe(const std::vector<Record>& records, SessionAnswer& out) {
+void Describe(const std::vector<Record>& records, const std::vector<Record>& holdout,
+              SessionAnswer& out) {
+  out.fastest_rad_per_s = Fastest(records);
+  out.own_holdout = !holdout.empty();
+  out.holdout_fastest_rad_per_s = Fastest(holdout);
   for (const Record& record : records) {
     out.seconds_of_data += Seconds(record, *out.view);
     for (const analysis::RecordedRow& row : record.rows) {
-      const double speed = std::abs(row.sample.speed_rad_per_s);
-      out.fastest_rad_per_s = std::max(out.fastest_rad_per_s, speed);
       out.excited = out.excited || std::any_of(row.excitation_a.begin(), row.excitation_a.end(),
                                                [](double value) { return value != 0.0; });
     }
@@ -129,7 +141,7 @@ SessionAnswer DiagnoseRecords(const config::RigFile& rig, const std::vector<Reco
     fitted[i].number = static_cast<std::uint32_t>(i);
     fitted[i].keep_back = holdout.empty();
   }
-  Describe(fitted, out);
+  Describe(fitted, aside, out);
   const auto mains = MainsTerms(*out.view, MainsLines(*out.view, fitted), fitted.size());
   out.terms.insert(out.terms.end(), mains.begin(), mains.end());
   out.answer = Diagnose(*out.view, fitted, settings, out.terms);

@@ -42,10 +42,12 @@ struct SessionAnswer {
   std::vector<double> ratio_before, ratio_calibrated, ratio_after;
   double line_spacing_hz{};
   std::size_t shown_channel{};
-  double seconds_of_data{};    ///< in flight
-  double seconds_used{};       ///< of them, by a search that takes spans
-  double fastest_rad_per_s{};  ///< of the rotor, in flight
-  bool excited{};              ///< a recorded test signal is in the records
+  double seconds_of_data{};            ///< in flight
+  double seconds_used{};               ///< of them, by a search that takes spans
+  double fastest_rad_per_s{};          ///< of the rotor, in flight
+  bool excited{};                      ///< a recorded test signal is in the records
+  bool own_holdout{};                  ///< the held-out data are records of their own
+  double holdout_fastest_rad_per_s{};  ///< in those
 };
 
 [[nodiscard]] SessionAnswer DiagnoseFiles(const SessionInputs& inputs);

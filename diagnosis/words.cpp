@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "diagnosis/carry_over.hpp"
 #include "diagnosis/coverage.hpp"
 
 namespace levitas::diagnosis {
@@ -93,7 +94,9 @@ std::string PlaceOfEffect(const std::string& effect) {
   return "sensor";
 }
 
-std::string VerdictSentence(const SessionAnswer& s) {
+namespace {
+
+std::string Finding(const SessionAnswer& s) {
   const Answer& a = s.answer;
   if (a.verdict == Verdict::kNone) {
     const std::string limits = CannotTellSentence(s);
@@ -124,8 +127,16 @@ std::string VerdictSentence(const SessionAnswer& s) {
   return text + ".";
 }
 
+}  // namespace
+
+std::string VerdictSentence(const SessionAnswer& s) {
+  const std::string beyond = CarryOverSentence(s);
+  return beyond.empty() ? Finding(s) : Finding(s) + " " + beyond;
+}
+
 std::string NextExperiment(const SessionAnswer& s) {
   const Answer& a = s.answer;
+  if (!CarriesOver(s)) return CarryOverExperiment(s);
   if (a.verdict == Verdict::kNone) {
     const std::string missing = MissingRecords(s);
     return missing.empty() ? kNoneNeeded : missing;

@@ -10,6 +10,7 @@
 #include <complex>
 
 #include "config/rig_file.hpp"
+#include "diagnosis/carry_over.hpp"
 #include "diagnosis/coverage.hpp"
 #include "diagnosis/plan.hpp"
 #include "plant_sim/effect/catalogue.hpp"
@@ -125,6 +126,38 @@ TEST(VerdictTest, NamesTheCauseTheUnknownOrNothing) {
   SessionAnswer s = NothingFound();
   s.answer.verdict = Verdict::kUnknown;
   EXPECT_NE(VerdictSentence(s), VerdictSentence(NothingFound()));
+}
+
+/// What is left, as multiples of the noise, on data used and on a record held out.
+SessionAnswer HeldOut(double fitted, double held, double calibrated) {
+  SessionAnswer s = Found("eddy_current", "all axes");
+  s.own_holdout = true;
+  s.fitted.extended_over_noise = fitted * fitted;
+  s.held_out.extended_over_noise = held * held;
+  s.held_out.calibrated_over_noise = calibrated * calibrated;
+  return s;
+}
+
+TEST(CarryOver, IsDeniedWhereMuchMoreThanTheNoiseIsLeftOnDataHeldOut) {
+  const SessionAnswer fails = HeldOut(1.0, 77.0, 59.0);
+  EXPECT_THAT(VerdictSentence(fails), HasSubstr("does not carry over"));
+  EXPECT_THAT(VerdictSentence(fails), HasSubstr("77 times the noise"));
+  EXPECT_THAT(VerdictSentence(fails), HasSubstr("worse there than without (59 times)"));
+  EXPECT_TRUE(NeedsExperiment(fails));
+  const SessionAnswer holds = HeldOut(1.0, 1.1, 9.0);
+  EXPECT_THAT(VerdictSentence(holds), Not(HasSubstr("carry over")));
+  EXPECT_FALSE(NeedsExperiment(holds));
+  // What is not understood on the data used either is said by the verdict itself.
+  EXPECT_TRUE(CarriesOver(HeldOut(5.0, 6.0, 9.0)));
+  EXPECT_THAT(VerdictSentence(HeldOut(1.0, 20.0, 59.0)), Not(HasSubstr("worse there")));
+}
+
+TEST(CarryOver, AsksForASpeedThatWasNotFitted) {
+  SessionAnswer s = HeldOut(1.0, 77.0, 59.0);
+  EXPECT_THAT(NextExperiment(s), Not(HasSubstr("run-up")));
+  s.fastest_rad_per_s = 100.0;
+  s.holdout_fastest_rad_per_s = 300.0;
+  EXPECT_THAT(NextExperiment(s), HasSubstr("run-up"));
 }
 
 SessionAnswer NothingFoundIn(double speed_rad_per_s, bool excited) {
