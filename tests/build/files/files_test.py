@@ -1,6 +1,8 @@
 """Every file of ours obeys the rules of source_rules.py, and each rule refuses a seeded violation."""
 
 import os
+import re
+import subprocess
 import unittest
 from pathlib import Path
 
@@ -31,6 +33,26 @@ class Files(unittest.TestCase):
 
     def test_every_header_says_what_it_is(self):
         self.assert_none(violations(rules.header_without_description, (".hpp",)))
+
+
+class Tour(unittest.TestCase):
+    """The tour of README.md, done in a clone, leaves git nothing to report."""
+
+    @unittest.skipUnless((SOURCE / ".git").exists(), "not a clone")
+    def test_files_it_writes_at_top_level_are_ignored_and_only_there(self):
+        tour = (SOURCE / "README.md").read_text(encoding="utf-8")
+        written = set(re.findall(r"--(?:record|csv|out) ([\w.]+)", tour))
+        written |= set(re.findall(r"run_picture.py \S+ (\S+)", tour))
+        self.assertIn("run.svg", written)
+        for name in sorted(written):
+            self.assertTrue(self.ignored(name), name)
+            self.assertFalse(self.ignored("docs/" + name), "a file of the project could be lost")
+
+    def ignored(self, name):
+        # A folder is one by its slash.
+        asked = name if "." in name else name + "/"
+        return subprocess.run(["git", "-C", str(SOURCE), "check-ignore", "-q", asked],
+                              check=False).returncode == 0
 
 
 class SeededViolations(unittest.TestCase):
