@@ -1,6 +1,7 @@
 #include "common/nearest.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <vector>
 
@@ -37,6 +38,11 @@ std::string Nearest(std::string_view found, std::span<const std::string> allowed
 }
 
 std::string LikelyMeant(std::string_view found, std::span<const std::string> allowed) {
+  constexpr std::size_t kBeginning = 3;
+  std::vector<std::string> longer;
+  std::copy_if(allowed.begin(), allowed.end(), std::back_inserter(longer),
+               [found](const std::string& word) { return word.starts_with(found); });
+  if (found.size() >= kBeginning && !longer.empty()) return Nearest(found, longer);
   std::string nearest = Nearest(found, allowed);
   // Two typing errors, and one more for every four characters.
   if (nearest.empty() || EditDistance(found, nearest) > 2 + found.size() / 4) return {};

@@ -13,7 +13,8 @@ namespace levitas {
 /// The allowed word nearest to `found` (the first of equals); empty when there is none.
 [[nodiscard]] std::string Nearest(std::string_view found, std::span<const std::string> allowed);
 
-/// The same, but empty when even the nearest is too far away to have been meant.
+/// The same among the words that begin with `found`, if there are any; else of all of them, but
+/// empty when even the nearest is too far away to have been meant.
 [[nodiscard]] std::string LikelyMeant(std::string_view found, std::span<const std::string> allowed);
 
 /// "a, b, c".

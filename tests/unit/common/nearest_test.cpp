@@ -50,5 +50,13 @@ TEST(LikelyMeant, NamesATypingErrorAndNothingForAnotherWord) {
   EXPECT_EQ(LikelyMeant("x", {}), "");
 }
 
+TEST(LikelyMeant, PrefersAWordOfWhichTheBeginningWasTyped) {
+  // Three letters make --help of --hold, three more --holdout.
+  const std::vector<std::string> options{"--help", "--rig", "--holdout", "--healthy"};
+  EXPECT_EQ(LikelyMeant("--hold", options), "--holdout");
+  EXPECT_EQ(LikelyMeant("--hea", options), "--healthy");
+  EXPECT_EQ(LikelyMeant("--halp", options), "--help");
+}
+
 }  // namespace
 }  // namespace levitas
