@@ -57,15 +57,16 @@ std::vector<can::BusConfig> MergeShared(const std::vector<can::BusConfig>& buses
   return merged;
 }
 
-/// A sentence on the first interface that does not exist, which may have been meant as a vcan.
+/// On the first interface that does not exist, which may have been meant as a vcan; empty when all
+/// exist. It comes first: of a vcan that is there, no load would have been asked.
 std::string MissingText(const std::vector<can::BusConfig>& buses) {
   for (const can::BusConfig& bus : buses) {
     std::error_code none;
     if (std::filesystem::exists("/sys/class/net/" + bus.interface, none)) continue;
     return fmt::format(
-        ". Besides, there is no interface {0} here; a virtual one, which has no bit rate, would do "
-        "for a simulated rig: sudo ip link add dev {0} type vcan; sudo ip link set {0} mtu 72 up "
-        "(a kernel without vcan: scripts/test_machine.sh has one)",
+        "there is no interface {0} here. For a simulated rig a virtual one does: sudo ip link add "
+        "dev {0} type vcan; sudo ip link set {0} mtu 72 up (a kernel without vcan: "
+        "scripts/test_machine.sh has one). A real bus would not do: ",
         bus.interface);
   }
   return {};
@@ -104,7 +105,7 @@ CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_
   if (!connection.budget.fits()) {
     std::string text = can::RefusalText(connection.budget);
     text.pop_back();
-    throw BadInput(fmt::format("{}: {}{}", rig_name, text, MissingText(connection.buses)));
+    throw BadInput(fmt::format("{}: {}{}", rig_name, MissingText(connection.buses), text));
   }
   connection.virtual_bus = true;
   for (const can::BusConfig& bus : connection.buses) {

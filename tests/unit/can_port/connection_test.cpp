@@ -55,6 +55,14 @@ TEST(CanConnection, OneRealInterfaceIsOneBusAndRefusedWithTheRateThatFits) {
   EXPECT_THAT(text, HasSubstr("140.7 %, allowed 80 %; at most 5684 Hz fits"));
 }
 
+TEST(CanConnection, SaysThatAnInterfaceIsMissingBeforeItJudgesItsLoad) {
+  const std::string text = RefusalOf(Rig(), "can:absent0", ExitStatus::kBadInput);
+  const auto missing = text.find("there is no interface absent0");
+  ASSERT_NE(missing, std::string::npos) << text;
+  EXPECT_LT(missing, text.find("140.7 %")) << text;
+  EXPECT_THAT(text, HasSubstr("ip link add dev absent0 type vcan"));
+}
+
 TEST(CanConnection, RefusesALayoutThatDoesNotFitThoughTheInterfaceIsVirtual) {
   config::RigFile rig = Rig();
   rig.numbers.period_ns = 50'000;
