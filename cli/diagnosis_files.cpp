@@ -26,6 +26,9 @@ nlohmann::ordered_json ParametersJson(const SessionAnswer& s) {
                     {"high", p.high},     {"unit", p.unit},
                     {"effect", p.effect}, {"where", p.place},
                     {"key", p.key},       {"bracket", p.form ? "neighbouring forms" : "5 to 95 %"}};
+    if (!p.of_file) continue;
+    json[p.name]["of_file"] = p.of_file->nominal;
+    json[p.name]["with_file"] = p.of_file->total;
   }
   return json;
 }

@@ -1,6 +1,7 @@
 #include "cli/diagnosis_report.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,10 +161,15 @@ std::string CalibrationTable(const SessionAnswer& s) {
   const std::string first = told.empty()
                                 ? "<p>None is further than half its tolerance from the file.</p>\n"
                                 : head + told + "</table>\n";
+  const auto taken = diagnosis::TakenByCauses(s);
   return "<h2>What the calibration has moved</h2>\n<p>Numbers in which a healthy rig may differ "
          "from its file; std is what these data leave open. All of them are in "
-         "<code>diagnosis.json</code>, and in force in <code>calibrated_rig.yaml</code>.</p>\n" +
-         first + "<details><summary>All others</summary>" + head + rest + "</table></details>\n";
+         "<code>diagnosis.json</code>, and in force in <code>calibrated_rig.yaml</code>." +
+         (taken.empty() ? ""
+                        : fmt::format(" Not among them, being a cause: {}.",
+                                      Escaped(fmt::format("{}", fmt::join(taken, ", "))))) +
+         "</p>\n" + first + "<details><summary>All others</summary>" + head + rest +
+         "</table></details>\n";
 }
 
 /// Seconds, gain and limits in a sentence each.
@@ -218,9 +224,13 @@ std::string ParameterTable(const SessionAnswer& s) {
         Escaped(p.unit));
   }
   if (rows.empty()) return {};
+  std::string totals;
+  for (const std::string& total : diagnosis::TotalSentences(s)) {
+    totals += fmt::format("<p>{}.</p>\n", Escaped(total));
+  }
   return "<h2>Parameters, as in a rig file</h2><table><tr><th>effect</th><th>where</th>"
          "<th>key</th><th>value</th><th>90 % interval</th><th>unit</th></tr>\n" +
-         rows + "</table>\n" +
+         rows + "</table>\n" + totals +
          (form ? "<p>* as far as the neighbouring forms of the law that were tried</p>\n" : "");
 }
 

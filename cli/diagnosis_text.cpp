@@ -1,8 +1,10 @@
 #include "cli/diagnosis_text.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "cli/text_table.hpp"
 #include "diagnosis/words.hpp"
@@ -29,6 +31,7 @@ void PrintParameters(const SessionAnswer& s) {
     form = form || p.form;
   }
   if (form) fmt::print("  * as far as the neighbouring forms of the law that were tried\n");
+  for (const std::string& total : diagnosis::TotalSentences(s)) fmt::print("  {}\n", total);
   fmt::print("\n");
 }
 
@@ -40,6 +43,10 @@ void PrintCalibrated(const SessionAnswer& s, bool complete) {
   if (!complete && told.size() > kShown) told.resize(kShown);
   fmt::print("Calibration: {} numbers in which a healthy rig may differ from its file; ",
              values.size());
+  const auto taken = diagnosis::TakenByCauses(s);
+  if (!taken.empty()) {
+    fmt::print("{} not among them, being a cause; ", fmt::join(taken, ", "));
+  }
   if (told.empty()) {
     fmt::print("none further than half its tolerance from it (--explain lists them).\n\n");
     return;
@@ -115,8 +122,9 @@ std::vector<SharedParameter> SharedParameters(const SessionAnswer& s) {
 }
 
 std::string AtPhase(double value, std::optional<double> phase_rad) {
-  return phase_rad ? fmt::format("{:.4g} at {:.2f} rad", value, *phase_rad)
-                   : fmt::format("{:.5g}", value);
+  return phase_rad
+             ? fmt::format("{:.4g} at {:.1f} deg", value, 180.0 / std::numbers::pi * *phase_rad)
+             : fmt::format("{:.5g}", value);
 }
 
 std::string GainSentence(const SessionAnswer& s) {

@@ -19,7 +19,7 @@ struct SharedParameter {
   std::string places;
 };
 [[nodiscard]] std::vector<SharedParameter> SharedParameters(const diagnosis::SessionAnswer& answer);
-/// "18.5 at 2.10 rad", or the value alone.
+/// "18.5 at 120.3 deg", or the value alone.
 [[nodiscard]] std::string AtPhase(double value, std::optional<double> phase_rad);
 /// What share of what could be gained is, and by what; or that there was nothing to gain.
 [[nodiscard]] std::string GainSentence(const diagnosis::SessionAnswer& answer);

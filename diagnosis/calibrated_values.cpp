@@ -101,8 +101,8 @@ class Calibrated {
     v.place = at_.place;
     for (const EntryValue& value : values) {
       const bool size = value.is_number() && value.key != "order" && value.key != "z_mm";
-      if (value.key == "phase_rad") {
-        v.phase_rad = value.number;
+      if (value.key == kPhaseKey) {
+        v.phase_rad = value.number * UnitOfKey(kPhaseKey).si;
       } else if (size) {
         v.key = value.key;
       }
@@ -110,7 +110,8 @@ class Calibrated {
     const KeyUnit unit = UnitOfKey(v.key);
     v.unit = unit.symbol;
     const std::complex<double> found{at_.At("cosine"), at_.At("sine")};
-    const std::complex<double> file = OfFile();
+    const std::complex<double> file =
+        at_.effect == "unbalance" ? UnbalanceOfFile(*s_.view, at_.place) : 0.0;
     v.nominal = v.expected = std::abs(file) / unit.si;
     v.calibrated = std::abs(file + found) / unit.si;
     if (file != 0.0) {
@@ -125,18 +126,6 @@ class Calibrated {
     v.moved = std::abs(found - usual) / term->tolerance;
     v.proven = cosine->deviation > 0.0 ? std::abs(found - usual) / cosine->deviation : 0.0;
     out.push_back(v);
-  }
-
-  /// Unbalance of the rig file at the place.
-  [[nodiscard]] std::complex<double> OfFile() const {
-    std::complex<double> sum;
-    if (at_.effect != "unbalance") return sum;
-    for (const auto& mass : s_.view->model->config().unbalance) {
-      if (fmt::format("z {:.1f} mm", mass.z_m * 1e3) == at_.place) {
-        sum += std::polar(mass.moment_kg_m, mass.phase_rad);
-      }
-    }
-    return sum;
   }
 
   const SessionAnswer& s_;

@@ -75,11 +75,11 @@ EntryValues SensorEntry(const RigView& rig, const PlacedEffect& g) {
     const double phase = -g.Phase() + (y_probe ? g.Number() * 0.5 * std::numbers::pi : 0.0);
     return {Channel(g.After(", ")), Number("order", g.Number()),
             Number("amplitude_um", 1e6 * g.Amplitude()),
-            Number("phase_rad", std::remainder(phase, 2.0 * std::numbers::pi))};
+            PhaseValue(std::remainder(phase, 2.0 * std::numbers::pi))};
   }
   if (g.effect == "mains_pickup") {
     return {Channel(g.After(", ")), Number("frequency_hz", g.Number()),
-            Number("amplitude_um", 1e6 * g.Amplitude()), Number("phase_rad", 0)};
+            Number("amplitude_um", 1e6 * g.Amplitude()), PhaseValue(0.0)};
   }
   for (std::size_t a = 0; a < rig.axes; ++a) {
     if (g.effect == "sensor_bandwidth" && g.place == rig.numbers.channels[a]) {
@@ -99,14 +99,14 @@ EntryValues RotorEntry(const RigView& rig, const PlacedEffect& g) {
   const auto mode = static_cast<std::size_t>(g.Number());
   if (g.effect == "unbalance") {
     return {Number("z_mm", g.Number()), Number("moment_g_mm", 1e6 * g.Amplitude()),
-            Number("phase_rad", g.Phase())};
+            PhaseValue(g.Phase())};
   }
   if (g.effect == "shaft_bow") {
     return {Number("mode", static_cast<double>(mode)), Number("amplitude_um", 1e6 * g.Amplitude()),
-            Number("phase_rad", g.Phase())};
+            PhaseValue(g.Phase())};
   }
   if (g.effect == "shaft_anisotropy") {
-    return {Number("ratio", g.Amplitude()), Number("phase_rad", 0.5 * g.Phase())};
+    return {Number("ratio", g.Amplitude()), PhaseValue(0.5 * g.Phase())};
   }
   if (g.effect == "modal_frequency") {
     return {Number("mode", static_cast<double>(mode)),
@@ -123,8 +123,8 @@ EntryValues RotorEntry(const RigView& rig, const PlacedEffect& g) {
     const double direction_deg = std::strtod(g.After("direction ").c_str(), nullptr);
     return {Number("z_mm", g.Number()),
             Number("depth", CrackDepth(rig, 1e-3 * g.Number(), g.At("softening"))),
-            Number("phase_rad", std::remainder(direction_deg * std::numbers::pi / 180.0,
-                                               2.0 * std::numbers::pi))};
+            PhaseValue(
+                std::remainder(direction_deg * std::numbers::pi / 180.0, 2.0 * std::numbers::pi))};
   }
   if (g.effect == "internal_damping") {
     return {Number("z_mm", g.Number()), Number("damping_n_s_per_m", g.At("damping"))};
@@ -141,7 +141,7 @@ EntryValues ExternalEntry(const RigView& rig, const PlacedEffect& g) {
   }
   if (g.effect == "misalignment") {
     return {Number("z_mm", 0), Number("order", g.Number()), Number("force_n", g.Amplitude()),
-            Number("phase_rad", g.Phase())};
+            PhaseValue(g.Phase())};
   }
   if (g.effect == "coupling_stiffness") {
     return {Number("z_mm", g.Number()), Number("direct_n_per_m", g.At("direct")),
@@ -174,6 +174,10 @@ EntryValues ExternalEntry(const RigView& rig, const PlacedEffect& g) {
 }
 
 }  // namespace
+
+EntryValue PhaseValue(double phase_rad) {
+  return Number(kPhaseKey, phase_rad * 180.0 / std::numbers::pi);
+}
 
 double PlacedEffect::At(const std::string& parameter) const {
   const auto found = theta.find(parameter);

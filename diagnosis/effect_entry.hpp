@@ -27,6 +27,10 @@ struct EntryValue {
 };
 using EntryValues = std::vector<EntryValue>;
 
+/// Phases and directions are told and written in one unit, the one that rig files are written in.
+inline constexpr const char* kPhaseKey = "phase_deg";
+[[nodiscard]] EntryValue PhaseValue(double phase_rad);
+
 /// The terms of one cause at one place, by parameter.
 struct PlacedEffect {
   std::string effect, place;

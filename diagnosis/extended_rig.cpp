@@ -73,6 +73,7 @@ std::string ExtendedRig(const SessionAnswer& answer, const config::RigFile& rig)
     comments += fmt::format("# {} {} = {:.5g}{}{} ({:.5g} to {:.5g})\n", p.effect, p.name, p.value,
                             p.unit.empty() ? "" : " ", p.unit, p.low, p.high);
   }
+  for (const std::string& total : TotalSentences(answer)) comments += fmt::format("# {}\n", total);
   return comments + WithEffects(rig, EffectEntries(answer));
 }
 

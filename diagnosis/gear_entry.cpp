@@ -52,15 +52,13 @@ EntryValues GearEntry(const RigView& rig, const std::string& effect, const std::
   }
   if (effect == "mesh_stiffness_variation") {
     return {on, Number("order", order), Number("amplitude", std::min(0.9, amplitude)),
-            Number("phase_rad", phase)};
+            PhaseValue(phase)};
   }
   if (effect == "transmission_error") {
-    return {on, Number("order", order), Number("amplitude_um", 1e6 * amplitude),
-            Number("phase_rad", phase)};
+    return {on, Number("order", order), Number("amplitude_um", 1e6 * amplitude), PhaseValue(phase)};
   }
   if (effect == "gear_runout") {
-    return {on, Words("wheel", wheel), Number("amplitude_um", 1e6 * amplitude),
-            Number("phase_rad", phase)};
+    return {on, Words("wheel", wheel), Number("amplitude_um", 1e6 * amplitude), PhaseValue(phase)};
   }
   if (effect == "tooth_crack") {
     return {on, Words("wheel", wheel), Number("depth", std::clamp(value("depth"), 0.0, 1.0)),

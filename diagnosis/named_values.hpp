@@ -8,8 +8,11 @@
 // Calibrated total values beside the causes, with the standard deviation that the data leave.
 //            Harmonics are told as amplitude and phase; unbalance is the file's with what was
 //            found. A mode's shape has no key: its change is told as a share of its rms.
+// Additions  an unbalance or a delay that is a cause stands in the list `effects`, and acts beside
+//            what the file has in `unbalance` and `delay_samples`.
 // Thread     any; pure.
 
+#include <complex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,12 +25,18 @@ struct SessionAnswer;
 struct Estimate;
 struct Term;
 
+/// What the rig file has of the same in keys of its own, and that with what was found.
+struct OfFile {
+  double nominal{}, total{};  ///< unit of the parameter
+};
+
 struct NamedParameter {
   std::string effect, name, unit;  ///< name: "tau_us[de_x]"
   double value{}, low{}, high{};
-  std::string key, place;  ///< "tau_us", "de_x"
-  bool form{};             ///< the bracket is no interval but the distance to other forms
-  double si{1.0};          ///< of one unit
+  std::string key, place;         ///< "tau_us", "de_x"
+  bool form{};                    ///< the bracket is no interval but the distance to other forms
+  double si{1.0};                 ///< of one unit
+  std::optional<OfFile> of_file;  ///< where the parameter is an addition to the file's
 };
 
 struct CalibratedValue {
@@ -43,6 +52,12 @@ struct CalibratedValue {
 };
 
 [[nodiscard]] std::vector<NamedParameter> Parameters(const SessionAnswer& answer);
+/// Of every cause that is an addition to what the file has: that, and the two together.
+[[nodiscard]] std::vector<std::string> TotalSentences(const SessionAnswer& answer);
+/// Numbers of the calibration that a cause has made its own, and are therefore not calibrated.
+[[nodiscard]] std::vector<std::string> TakenByCauses(const SessionAnswer& answer);
+/// [kg m] Of the file at a plane: its masses, and entries of `effects` that act all the time.
+[[nodiscard]] std::complex<double> UnbalanceOfFile(const RigView& rig, const std::string& place);
 /// Those that lie furthest out of their tolerance first.
 [[nodiscard]] std::vector<CalibratedValue> CalibratedValues(const SessionAnswer& answer);
 /// Moved by more than half a tolerance and more than two standard deviations.

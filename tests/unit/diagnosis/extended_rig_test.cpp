@@ -67,7 +67,7 @@ TEST(ExtendedRigTest, SaysThePresentEffectInTheUnitsOfTheFile) {
               AllOf(HasSubstr("bearing: nde, of: sensor"), HasSubstr("angle_deg: 1.43239")));
   // cosine and sine of 10e-6 kg m each: an eighth of a turn, sqrt(2) times one of them
   EXPECT_EQ(only(Found("unbalance", "z 299.2 mm")),
-            "{id: unbalance, z_mm: 299.2, moment_g_mm: 14.1421, phase_rad: 0.785398}");
+            "{id: unbalance, z_mm: 299.2, moment_g_mm: 14.1421, phase_deg: 45}");
 }
 
 TEST(ExtendedRigTest, GivesACrackTheDepthThatSoftensTheShaftAsMuch) {
@@ -98,6 +98,17 @@ TEST(ExtendedRigTest, ChangesNothingButTheEffects) {
   ASSERT_EQ(rig.plant.effects.size(), 1U);
   rig.plant.effects.clear();
   EXPECT_EQ(config::WriteRig(rig), config::WriteRig(FlexibleRotor()));
+}
+
+TEST(ExtendedRigTest, HoldsThePhaseUnderTheKeyAndWithTheDigitsThatAreTold) {
+  SessionAnswer answer = Found("unbalance", "z 299.2 mm");
+  for (const std::size_t t : answer.answer.causes.front().terms) {
+    answer.answer.theta_extended[t] = answer.terms[t].parameter == "sine" ? 7.3e-6 : -25.1e-6;
+  }
+  // 180 deg less atan(7.3/25.1)
+  EXPECT_THAT(ExtendedRig(answer, FlexibleRotor()),
+              AllOf(HasSubstr("# unbalance phase_deg[z 299.2 mm] = 163.78 deg"),
+                    HasSubstr("phase_deg: 163.784\n"), HasSubstr("in all 10.")));
 }
 
 TEST(ExtendedRigTest, NamesTheParametersWithTheirIntervals) {

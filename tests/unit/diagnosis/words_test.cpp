@@ -30,11 +30,43 @@ TEST(ParametersTest, OfAHarmonicAreItsAmplitudeAndItsPhase) {
   for (const NamedParameter& p : parameters) {
     EXPECT_LT(p.low, p.value);
     EXPECT_GT(p.high, p.value);
-    const bool phase = p.unit == "rad";
-    EXPECT_EQ(p.key, phase ? "phase_rad" : "moment_g_mm");
-    EXPECT_NEAR(p.value, phase ? std::atan2(1.0, 1.0) : std::sqrt(2.0) * 10.0, 1e-9);
+    const bool phase = p.unit == "deg";
+    EXPECT_EQ(p.key, phase ? "phase_deg" : "moment_g_mm");
+    EXPECT_NEAR(p.value, phase ? 45.0 : std::sqrt(2.0) * 10.0, 1e-9);
     EXPECT_NEAR(p.value * p.si, phase ? std::atan2(1.0, 1.0) : std::sqrt(2.0) * 10e-6, 1e-9);
   }
+}
+
+TEST(ParametersTest, OfAnUnbalanceSayWhatItMakesWithTheOneOfTheFile) {
+  const SessionAnswer found = Found("unbalance", "z 299.2 mm");
+  // The file has 18 g mm at 0 there, the cause 10 along x and 10 along y: 28 and 10.
+  for (const NamedParameter& p : Parameters(found)) {
+    ASSERT_TRUE(p.of_file.has_value()) << p.key;
+    const bool phase = p.key == "phase_deg";
+    EXPECT_NEAR(p.of_file->nominal, phase ? 0.0 : 18.0, 1e-9);
+    EXPECT_NEAR(p.of_file->total, phase ? 19.6538 : 29.7321, 1e-3);
+  }
+  EXPECT_THAT(
+      TotalSentences(found),
+      ElementsAre(AllOf(HasSubstr("14.14 g mm at 45.0 deg is added to the 18 g mm at 0.0 deg"),
+                        HasSubstr("in all 29.73 g mm at 19.7 deg"))));
+  EXPECT_THAT(TotalSentences(Found("eddy_current", "de_x")), IsEmpty());
+}
+
+TEST(ParametersTest, OfADelaySayWhatItMakesWithTheOneOfTheFile) {
+  const SessionAnswer found = Found("extra_delay", "all axes");
+  for (const NamedParameter& p : Parameters(found)) {
+    ASSERT_TRUE(p.of_file.has_value()) << p.key;
+    EXPECT_NEAR(p.of_file->nominal, 100.0, 1e-9);  // one period of 10 kHz
+    EXPECT_NEAR(p.of_file->total, 100.0 + p.value, 1e-9);
+  }
+  EXPECT_EQ(TotalSentences(found).size(), 1U);
+}
+
+TEST(CalibratedValues, SayWhichOfThemACauseHasTaken) {
+  EXPECT_THAT(TakenByCauses(Found("unbalance", "z 299.2 mm")), ElementsAre("unbalance z 299.2 mm"));
+  EXPECT_THAT(TakenByCauses(Found("eddy_current", "de_x")), IsEmpty());
+  EXPECT_THAT(TakenByCauses(NothingFound()), IsEmpty());
 }
 
 TEST(ParametersTest, OfAnEddyCurrentAreItsTimeConstant) {
@@ -60,8 +92,7 @@ TEST(ParametersTest, OfEveryEffectHaveTheKeysOfTheCatalogueInTheUnitsOfAFile) {
       const bool in_catalogue = std::any_of(
           row->parameters.begin(), row->parameters.end(), [&p](const effect::Parameter& known) {
             const std::string stem(known.stem);
-            return p.key == stem || p.key == stem + "_" + std::string(known.file_suffix) ||
-                   p.key == stem + "_rad";
+            return p.key == stem || p.key == stem + "_" + std::string(known.file_suffix);
           });
       EXPECT_TRUE(in_catalogue) << h.effect << " " << p.key;
       EXPECT_LE(p.low, p.value) << h.effect << " " << p.key;
