@@ -1,5 +1,7 @@
 #include "diagnosis/inquiry.hpp"
 
+#include <algorithm>
+
 #include "diagnosis/calibrate.hpp"
 #include "diagnosis/ranking.hpp"
 
@@ -19,7 +21,10 @@ Inquiry::Inquiry(const RigView& of, const std::vector<Record>& recorded, const S
       theta(search.Usual()) {}
 
 void Inquiry::Tell(double share, const std::string& what) const {
-  if (settings.progress) settings.progress(share, what);
+  if (!settings.progress) return;
+  // Stages are as long as the data make them: never back, and the end is told once.
+  told_ = std::max(told_, std::min(share, share < 1.0 ? 0.98 : 1.0));
+  settings.progress(told_, what);
 }
 
 void Inquiry::Observe(std::size_t with) {

@@ -77,6 +77,9 @@ struct Inquiry {
   std::vector<Candidate> refitted;    ///< by the last search for a further cause
   std::vector<Candidate> candidates;  ///< every effect at its best place, best first
   double leader_evidence{};           ///< of all causes with the first one
+
+ private:
+  mutable double told_{0.0};  ///< share of the work, by the last progress
 };
 
 }  // namespace levitas::diagnosis

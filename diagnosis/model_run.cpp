@@ -141,7 +141,7 @@ class Runner {
     }
     before_a_ = now_a_;
     now_a_ = moment.command_next_a;
-    start_ = {state.begin(), state.end()};
+    start_.assign(state.begin(), state.end());
     const auto& gain = observer_->gain();
     gain_state_ = &gain.state;
   }

@@ -26,14 +26,14 @@ std::shared_ptr<const analysis::ObserverGain> Divided(const analysis::ObserverGa
   auto out = std::make_shared<analysis::ObserverGain>(gain);
   for (std::size_t a = 0; a < rig.axes; ++a) {
     const auto column = static_cast<Eigen::Index>(a);
-    out->state.col(column) /= static_cast<double>(by.readings[a]);
-    out->force_n_per_m.col(column) /= static_cast<double>(by.readings[a]);
+    out->state.col(column) /= by.readings[a];
+    out->force_n_per_m.col(column) /= by.readings[a];
   }
   const plant::StateLayout& at = rig.model->layout();
   for (std::size_t i = 0; i < 2 * rig.modes; ++i) {
     for (const std::size_t row : {at.q_x + i, at.v_x + i}) {
-      out->state.row(static_cast<Eigen::Index>(row)) /= static_cast<double>(by.modes[i]);
-      out->force_step.row(static_cast<Eigen::Index>(row)) /= static_cast<double>(by.modes[i]);
+      out->state.row(static_cast<Eigen::Index>(row)) /= by.modes[i];
+      out->force_step.row(static_cast<Eigen::Index>(row)) /= by.modes[i];
     }
   }
   return out;
@@ -46,12 +46,12 @@ ObserverScale ObserverScale::Of(const RigView& rig, const std::vector<Term>& ter
   ObserverScale scale;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     if (terms[i].scales < 0) continue;
-    scale.readings[static_cast<std::size_t>(terms[i].scales)] += static_cast<float>(theta[i]);
+    scale.readings[static_cast<std::size_t>(terms[i].scales)] += theta[i];
   }
   const LinearChange change = ChangeOf(terms, theta);
   for (std::size_t plane = 0; plane < 2; ++plane) {
     for (std::size_t i = 0; i < rig.modes; ++i) {
-      scale.modes[plane * rig.modes + i] = static_cast<float>(Modal(rig, change, plane, i));
+      scale.modes[plane * rig.modes + i] = Modal(rig, change, plane, i);
     }
   }
   return scale;

@@ -11,6 +11,7 @@
 //         K'[row][axis] = K[row][axis] / (modes[row] readings[axis]).
 // Thread  any; plain data.
 
+#include <array>
 #include <vector>
 
 #include "diagnosis/model_run.hpp"
@@ -18,8 +19,12 @@
 namespace levitas::diagnosis {
 
 struct ObserverScale {
-  AxisFloats readings = Ones();
-  ModalFloats modes{};  ///< x plane, then y plane
+  ObserverScale() {
+    readings.fill(1.0);
+    modes.fill(1.0);
+  }
+  std::array<double, kMaxAxes> readings;
+  std::array<double, 2 * kMaxModes> modes;  ///< x plane, then y plane
 
   [[nodiscard]] static ObserverScale Of(const RigView& rig, const std::vector<Term>& terms,
                                         const std::vector<double>& theta);

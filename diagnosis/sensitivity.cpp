@@ -55,8 +55,8 @@ void SensitivityBlock::AddRescaled(const RigView& rig, const std::vector<Term>& 
   Rescaled r;
   r.lane = probes_.size() - 1;
   bool any = false;
-  const auto relative = [&](float from, float to, float& out) {
-    out = static_cast<float>(terms[chosen].scale() / step) * (to - from) / from;
+  const auto relative = [&](double from, double to, float& out) {
+    out = static_cast<float>(terms[chosen].scale() / step * (to - from) / from);
     any = any || out != 0.0F;
   };
   for (std::size_t a = 0; a < rig.axes; ++a) {
