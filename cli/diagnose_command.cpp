@@ -19,6 +19,7 @@
 #include "cli/progress_line.hpp"
 #include "cli/text_file.hpp"
 #include "cli/written_files.hpp"
+#include "diagnosis/levitator/plan.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/session.hpp"
 #include "diagnosis/words.hpp"
@@ -47,14 +48,21 @@ struct DiagnoseOptions : AnalysisOptions {
 /// One axis whose coils are on a voltage: models, causes and fits of its own.
 std::vector<std::string> RunLevitator(const diagnosis::SessionInputs& inputs,
                                       const DiagnoseOptions& options, ProgressLine& progress) {
-  if (!options.plan.empty()) {
-    throw BadInput("--plan is not offered for rigs whose coils are on a voltage");
-  }
   const levitator::Answer answer = levitator::Diagnose(inputs);
   progress.Close();
   PrintLevitator(answer, options.explain);
   WriteJsonFile(options.json_path, LevitatorJson(answer));
-  return WriteLevitator(answer, options.out);
+  auto written = WriteLevitator(answer, options.out);
+  if (options.plan.empty()) return written;
+  const std::string scenario = levitator::PlanScenario(inputs.rig, answer);
+  if (scenario.empty()) {
+    fmt::print("--plan: nothing is left that a scenario could separate, {} is not written\n",
+               options.plan);
+    return written;
+  }
+  WriteTextFile(options.plan, scenario);
+  written.push_back(options.plan);
+  return written;
 }
 
 std::vector<std::string> RunRotor(const diagnosis::SessionInputs& inputs,

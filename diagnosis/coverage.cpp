@@ -39,7 +39,8 @@ void Append(const SessionAnswer& s, const std::array<std::string_view, kCount>& 
 Coverage CoverageOf(const SessionAnswer& s) {
   Coverage c;
   const double rated = s.view->numbers.max_speed_rad_per_s;
-  c.turns = rated <= 0.0 || s.fastest_rad_per_s > kSlowRoll * rated;
+  // Whose words are its own has nothing that turns (diagnosis/levitator).
+  c.turns = rated <= 0.0 || s.fastest_rad_per_s > kSlowRoll * rated || s.own_words;
   c.excited = s.excited || s.own_words;
   return c;
 }

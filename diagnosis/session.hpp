@@ -30,6 +30,7 @@ struct OwnWords {
   std::vector<CalibratedValue> calibrated;
   /// Why an effect is not named, by effect.
   std::vector<std::pair<std::string, std::string>> why_not;
+  std::string next;  ///< the experiment that would separate what is tied; empty when nothing is
 };
 
 struct SessionAnswer {

@@ -137,6 +137,7 @@ std::string VerdictSentence(const SessionAnswer& s) {
 std::string NextExperiment(const SessionAnswer& s) {
   const Answer& a = s.answer;
   if (!CarriesOver(s)) return CarryOverExperiment(s);
+  if (s.own_words) return s.own_words->next.empty() ? kNoneNeeded : s.own_words->next;
   if (a.verdict == Verdict::kNone) {
     const std::string missing = MissingRecords(s);
     return missing.empty() ? kNoneNeeded : missing;
@@ -155,8 +156,7 @@ std::string NextExperiment(const SessionAnswer& s) {
       }
     }
   }
-  return s.own_words ? "a longer record with a stronger test signal, over the whole gap"
-                     : "a longer record with a stronger test signal, standing and at two speeds";
+  return "a longer record with a stronger test signal, standing and at two speeds";
 }
 
 bool NeedsExperiment(const SessionAnswer& s) { return NextExperiment(s) != kNoneNeeded; }

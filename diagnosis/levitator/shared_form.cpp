@@ -1,11 +1,15 @@
 #include "diagnosis/levitator/shared_form.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "diagnosis/levitator/own_words.hpp"
+#include "diagnosis/levitator/plan.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -39,6 +43,13 @@ void FillParameters(const Found& found, diagnosis::Answer& out) {
   }
 }
 
+/// One that moves all that a named cause moves, and more, is that cause with a number to spare.
+bool Contains(const Cause& cause, const Cause& named) {
+  return std::all_of(named.moves.begin(), named.moves.end(), [&](std::size_t i) {
+    return std::find(cause.moves.begin(), cause.moves.end(), i) != cause.moves.end();
+  });
+}
+
 void FillCauses(const Found& found, Answer& answer) {
   diagnosis::Answer& out = answer.common.answer;
   for (const std::size_t c : found.causes) {
@@ -56,6 +67,7 @@ void FillCauses(const Found& found, Answer& answer) {
     for (std::size_t k = 0; k < found.causes.size(); ++k) {
       const double least = std::max(diagnosis::kDecisive, kFormOfTie * found.scores[k].nat);
       const bool close = found.causes[k] == score.instead_of && score.behind_nat < least;
+      if (Contains(cause, Causes()[found.causes[k]])) continue;
       if (close && score.refitted) answer.ties[k].others.push_back(cause.effect);
     }
   }
@@ -192,6 +204,7 @@ void FillSharedForm(const config::RigFile& rig, const NominalRig& nominal,
   }
   common.seconds_used = common.seconds_of_data;
   FillRemainder(nominal, LeftOf(nominal, data, answer.found), common);
+  common.own_words->next = fmt::format("{}", fmt::join(Separations(answer), "; "));
   const bool probes = data.front().has_currents();
   common.fitted = MeanOf(answer.fitted, probes);
   common.held_out = MeanOf(answer.held_out, probes);

@@ -1,0 +1,189 @@
+#include "diagnosis/levitator/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace levitas::levitator {
+namespace {
+
+/// What a scenario can do about a pair.
+struct Ways {
+  bool stroke{}, shake{}, clock{};
+};
+
+struct Pair {
+  std::string_view one, other;
+  Ways ways;
+  const char* words;
+};
+
+constexpr Ways kStroke{true, false, false};
+constexpr Ways kShake{false, true, false};
+constexpr Ways kClock{false, false, true};
+constexpr Ways kBoth{true, true, false};
+constexpr Ways kNoRecord{};
+
+constexpr const char* kProfileWords =
+    "the ball led over its stroke with a test signal on the current: a profile lets the coil's lag "
+    "change with the gap, an inductance is larger at every gap alike";
+constexpr const char* kIronWords =
+    "the ball led over its stroke and shaken: iron goes by the current, an inductance by the gap";
+constexpr const char* kLoadWords =
+    "the ball shaken: a load adds the same to every force, a mass or a force constant scales them "
+    "all";
+constexpr const char* kWeighWords =
+    "the ball weighed: mass and force constant make the same motion of the same current, whatever "
+    "is recorded";
+constexpr const char* kGapWords =
+    "the ball led over its stroke: what goes by the place shows by how it changes with it";
+constexpr const char* kPlaceWords =
+    "the ball laid against a stop of known place: under this law of force an offset of the sensor "
+    "is a force constant";
+constexpr const char* kAmmeterWords =
+    "an ammeter in the lead of the coil: a probe's gain is in no record that it made itself";
+constexpr const char* kDriveWords =
+    "the ball led over its stroke, so that the duty runs from little to much: a dead band takes "
+    "the same of each, a curved drive and a supply in proportion";
+constexpr const char* kLagWords =
+    "a test signal of a bit per period: a delay shifts it, a lag rounds it";
+constexpr const char* kDampingWords =
+    "the ball shaken slowly and fast: friction does not grow with the velocity, damping does, and "
+    "a slow sensor with the frequency";
+
+constexpr std::array kPairs{
+    Pair{"inductance_profile", "coil_inductance", kStroke, kProfileWords},
+    Pair{"inductance_profile", "magnetic_saturation", kBoth, kIronWords},
+    Pair{"coil_inductance", "magnetic_saturation", kBoth, kIronWords},
+    Pair{"static_load", "rotor_mass", kShake, kLoadWords},
+    Pair{"static_load", "current_gain", kShake, kLoadWords},
+    Pair{"static_load", "coil_asymmetry", kStroke, kGapWords},
+    Pair{"static_load", "drive_asymmetry", kStroke, kGapWords},
+    Pair{"static_load", "sensor_gain", kStroke, kGapWords},
+    Pair{"static_load", "displacement_stiffness", kStroke, kGapWords},
+    Pair{"static_load", "coupling_stiffness", kStroke, kGapWords},
+    Pair{"displacement_stiffness", "coupling_stiffness", kStroke, kGapWords},
+    Pair{"displacement_stiffness", "sensor_gain", kStroke, kGapWords},
+    Pair{"displacement_stiffness", "sensor_nonlinearity", kStroke, kGapWords},
+    Pair{"coupling_stiffness", "sensor_gain", kStroke, kGapWords},
+    Pair{"rotor_mass", "current_gain", kNoRecord, kWeighWords},
+    Pair{"sensor_offset", "current_gain", kNoRecord, kPlaceWords},
+    Pair{"sensor_offset", "rotor_mass", kNoRecord, kPlaceWords},
+    Pair{"current_sensor_gain", "current_gain", kNoRecord, kAmmeterWords},
+    Pair{"current_sensor_gain", "supply_voltage", kNoRecord, kAmmeterWords},
+    Pair{"current_sensor_gain", "coil_resistance", kNoRecord, kAmmeterWords},
+    Pair{"voltage_drop", "drive_nonlinearity", kStroke, kDriveWords},
+    Pair{"voltage_drop", "supply_voltage", kStroke, kDriveWords},
+    Pair{"drive_nonlinearity", "supply_voltage", kStroke, kDriveWords},
+    Pair{"extra_delay", "eddy_current", kClock, kLagWords},
+    Pair{"extra_delay", "current_sensor_bandwidth", kClock, kLagWords},
+    Pair{"extra_delay", "sensor_bandwidth", kClock, kLagWords},
+    Pair{"viscous_damping", "dry_friction", kShake, kDampingWords},
+    Pair{"viscous_damping", "sensor_bandwidth", kShake, kDampingWords},
+    Pair{"dry_friction", "sensor_bandwidth", kShake, kDampingWords}};
+
+constexpr const char* kAllWords =
+    "the ball led over its stroke and shaken, with a test signal on the current";
+
+bool AnyRecord(const Ways& ways) { return ways.stroke || ways.shake || ways.clock; }
+
+/// Of two effects; everything that a scenario can do when the table does not know them.
+Pair Between(const std::string& one, const std::string& other) {
+  for (const Pair& pair : kPairs) {
+    if ((pair.one == one && pair.other == other) || (pair.one == other && pair.other == one)) {
+      return pair;
+    }
+  }
+  return {one, other, {true, true, true}, kAllWords};
+}
+
+bool Nameless(const Answer& answer) {
+  return answer.common.answer.verdict == diagnosis::Verdict::kUnknown;
+}
+
+Ways WaysOf(const Answer& answer) {
+  if (Nameless(answer)) return {true, true, true};
+  Ways all;
+  for (const Tie& tie : answer.ties) {
+    for (const std::string& other : tie.others) {
+      const Ways ways = Between(tie.cause, other).ways;
+      all = {all.stroke || ways.stroke, all.shake || ways.shake, all.clock || ways.clock};
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> Separations(const Answer& answer) {
+  std::vector<std::string> out;
+  if (Nameless(answer)) {
+    out.emplace_back(std::string("to learn where the remainder belongs: ") + kAllWords);
+  }
+  for (const Tie& tie : answer.ties) {
+    // Told once of all that the same does for.
+    std::vector<std::pair<std::string, std::string>> told;
+    for (const std::string& other : tie.others) {
+      const std::string words = Between(tie.cause, other).words;
+      const auto same = std::find_if(told.begin(), told.end(),
+                                     [&](const auto& entry) { return entry.second == words; });
+      if (same != told.end()) {
+        same->first += ", " + other;
+      } else {
+        told.emplace_back(fmt::format("{} from {}", tie.cause, other), words);
+      }
+    }
+    for (const auto& [who, words] : told) out.push_back(fmt::format("{}: {}", who, words));
+    for (std::size_t i = 0; i < tie.others.size(); ++i) {
+      for (std::size_t k = i + 1; k < tie.others.size(); ++k) {
+        const Pair pair = Between(tie.others[i], tie.others[k]);
+        if (AnyRecord(pair.ways)) continue;
+        out.push_back(fmt::format("{} from {}: {}", tie.others[i], tie.others[k], pair.words));
+      }
+    }
+  }
+  return out;
+}
+
+std::string PlanScenario(const config::RigFile& rig, const Answer& answer) {
+  const Ways ways = WaysOf(answer);
+  if (!AnyRecord(ways)) return {};
+  const plant::BearingConfig& bearing = rig.plant.bearings.at(0);
+  const std::string& channel = rig.numbers.channels.front();
+  constexpr double kMost = 5000.0;  // the largest that a scenario may ask for
+  const double clearance_um = bearing.touchdown.clearance_m * 1e6;
+  const double lead_um = std::min(0.4 * clearance_um, kMost);
+  const double shake_um = std::min(0.15 * clearance_um, kMost);
+  const double limit_um = std::min(0.8 * clearance_um, kMost);
+  const double bias_a = bearing.magnet.bias_current_a;
+  const double test_a = 0.08 * std::min(bias_a, bearing.magnet.max_coil_current_a - bias_a);
+  const auto moved = [&](double hold_s, double size_um, double from_hz, double to_hz) {
+    return fmt::format(
+        "  - do: nothing\n    hold_s: {0:.0f}\n    orbit_limit_um: {1:.4g}\n    excitation:\n"
+        "      - {{channel: {2}, signal: chirp, point: measured_position, amplitude_um: {3:.4g}, "
+        "from_hz: {4:.4g}, to_hz: {5:.4g}, repeat_s: {0:.0f}}}\n",
+        hold_s, limit_um, channel, size_um, from_hz, to_hz);
+  };
+  std::string text = "kind: scenario\nname: diagnosis_next\n\n";
+  for (const std::string& words : Separations(answer)) text += fmt::format("# {}.\n", words);
+  text +=
+      "# The ball leaves its objective on purpose: a verdict of such a run is not one of the rig.\n"
+      "steps:\n  - {do: lift, until: levitating, timeout_s: 10, hold_s: 1}\n";
+  if (ways.stroke) {
+    text += moved(16.0, lead_um, 0.125, 0.5);
+    text += fmt::format("      - {{channel: {}, amplitude_a: {:.4g}, order: 10, divisor: 8}}\n",
+                        channel, test_a);
+  }
+  if (ways.shake) text += moved(12.0, shake_um, 2.0, 15.0);
+  if (ways.clock) {
+    text += fmt::format(
+        "  - do: nothing\n    hold_s: 8\n    excitation:\n"
+        "      - {{channel: {}, amplitude_a: {:.4g}, order: 12}}\n",
+        channel, test_a);
+  }
+  return text + "  - {do: land, until: off, timeout_s: 10, hold_s: 0.2}\n";
+}
+
+}  // namespace levitas::levitator

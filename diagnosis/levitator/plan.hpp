@@ -1,0 +1,28 @@
+#pragma once
+// What separates causes that records of a ball between two magnets cannot, in words and as a
+// scenario for `amb run --scenario`.
+//
+// Contents   the ball led slowly over its stroke, a test signal on the current meanwhile: what goes
+//            by the gap parts from what does not, and the duty runs from little to much; the ball
+//            shaken faster and faster: a load that only adds parts from what scales a force; a test
+//            signal of a bit per period: delays and lags part from each other. As much of it as the
+//            causes need, all of it when the remainder has no name.
+// Not in it  what no record of the rig can tell: a mass from a force constant (weigh the ball), the
+//            gain of a probe from what it measures (an ammeter). The words say so.
+// Size       leading takes two fifths of the touchdown clearance, shaking a seventh; the test
+//            signal is cut back where the ball goes further than four fifths.
+// Thread     any; pure.
+
+#include "config/rig_file.hpp"
+#include "diagnosis/levitator/answer.hpp"
+
+namespace levitas::levitator {
+
+/// What would separate the named causes from those that they cannot be told from; empty when
+/// nothing is left to separate.
+[[nodiscard]] std::vector<std::string> Separations(const Answer& answer);
+
+/// Empty when no scenario would help.
+[[nodiscard]] std::string PlanScenario(const config::RigFile& rig, const Answer& answer);
+
+}  // namespace levitas::levitator

@@ -1,0 +1,81 @@
+// What separates tied causes, in words and as a scenario.
+
+#include "diagnosis/levitator/plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/levitator/rig.hpp"
+
+namespace levitas::levitator {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Answer Tied(const std::string& cause, const std::vector<std::string>& others) {
+  Answer answer;
+  answer.common.answer.verdict = diagnosis::Verdict::kEffect;
+  answer.ties = {{cause, others}};
+  return answer;
+}
+
+scenario::ScenarioConfig Read(const std::string& text) {
+  return config::ParseScenario(text, "next.yaml", test::LevitatorFile().numbers);
+}
+
+TEST(LevitatorPlan, LeadsTheBallOverItsStrokeForWhatGoesByTheGap) {
+  const Answer answer = Tied("inductance_profile", {"coil_inductance"});
+  const auto file = test::LevitatorFile();
+  const auto plan = Read(PlanScenario(file, answer));
+  ASSERT_EQ(plan.steps.size(), 3U);  // lift, led, land
+  ASSERT_EQ(plan.steps[1].excitation.size(), 2U);
+  const scenario::Excitation& led = plan.steps[1].excitation[0];
+  EXPECT_EQ(led.point, scenario::Injection::kMeasuredPosition);
+  // Slower than the loop follows, further than the shipped scenario goes, within the clearance.
+  EXPECT_LT(led.to_hz, 2.0);
+  EXPECT_GT(led.amplitude_m, 1e-3);
+  EXPECT_LT(led.amplitude_m, 0.5 * file.plant.bearings[0].touchdown.clearance_m);
+  EXPECT_EQ(plan.steps[1].excitation[1].point, scenario::Injection::kControlCurrent);
+}
+
+TEST(LevitatorPlan, ShakesTheBallForALoadAndSaysWhy) {
+  const Answer answer = Tied("static_load", {"rotor_mass"});
+  const std::string text = PlanScenario(test::LevitatorFile(), answer);
+  EXPECT_EQ(Read(text).steps.size(), 3U);
+  EXPECT_THAT(Separations(answer), ElementsAre(StartsWith("static_load from rotor_mass: ")));
+  EXPECT_THAT(text, HasSubstr("# " + Separations(answer).front()));
+}
+
+TEST(LevitatorPlan, WritesNoScenarioForWhatNoRecordCanTell) {
+  const Answer answer = Tied("rotor_mass", {"current_gain"});
+  EXPECT_EQ(PlanScenario(test::LevitatorFile(), answer), "");
+  EXPECT_THAT(Separations(answer), ElementsAre(HasSubstr("weighed")));
+}
+
+TEST(LevitatorPlan, TellsOnceWhatSeparatesSeveralAndWhatOfThemNothingDoes) {
+  const auto words = Separations(Tied("static_load", {"rotor_mass", "current_gain"}));
+  EXPECT_THAT(words, ElementsAre(StartsWith("static_load from rotor_mass, current_gain: "),
+                                 StartsWith("rotor_mass from current_gain: ")));
+}
+
+TEST(LevitatorPlan, HasNothingToSeparateWithoutATie) {
+  EXPECT_TRUE(Separations(Tied("static_load", {})).empty());
+  EXPECT_EQ(PlanScenario(test::LevitatorFile(), Tied("static_load", {})), "");
+}
+
+TEST(LevitatorPlan, DoesAllItCanForARemainderWithoutAName) {
+  Answer answer;
+  answer.common.answer.verdict = diagnosis::Verdict::kUnknown;
+  EXPECT_EQ(Read(PlanScenario(test::LevitatorFile(), answer)).steps.size(), 5U);
+  EXPECT_EQ(Separations(answer).size(), 1U);
+}
+
+TEST(LevitatorPlan, AlsoHasAWayForCausesThatItDoesNotKnowTogether) {
+  const Answer answer = Tied("coil_heating", {"magnet_coupling"});
+  EXPECT_EQ(Read(PlanScenario(test::LevitatorFile(), answer)).steps.size(), 5U);
+}
+
+}  // namespace
+}  // namespace levitas::levitator
