@@ -59,7 +59,7 @@ struct Moment {
   AxisFloats command_now_a{};     ///< acts from the sample on (whole-sample delay)
   AxisFloats command_next_a{};    ///< acts from the next sample on
   float late_periods{};           ///< by which all of them act later; negative: earlier
-  AxisFloats coil_rate{};             ///< times the bandwidth of the rig file's amplifiers
+  AxisFloats coil_rate{};         ///< times the bandwidth of the rig file's amplifiers
   std::array<TeethMoment, kMostMeshes> teeth{};  ///< mid, of the nominal meshes
   AddedSlopes added{};
   std::uint32_t record{};
