@@ -49,6 +49,8 @@ constexpr const char* kDriveWords =
     "the same of each, a curved drive and a supply in proportion";
 constexpr const char* kLagWords =
     "a test signal of a bit per period: a delay shifts it, a lag rounds it";
+constexpr const char* kResistanceWords =
+    "a test signal of a bit per period: both set the current at last, a resistance its lag as well";
 constexpr const char* kDampingWords =
     "the ball shaken slowly and fast: friction does not grow with the velocity, damping does, and "
     "a slow sensor with the frequency";
@@ -77,6 +79,7 @@ constexpr std::array kPairs{
     Pair{"voltage_drop", "drive_nonlinearity", kStroke, kDriveWords},
     Pair{"voltage_drop", "supply_voltage", kStroke, kDriveWords},
     Pair{"drive_nonlinearity", "supply_voltage", kStroke, kDriveWords},
+    Pair{"supply_voltage", "coil_resistance", kClock, kResistanceWords},
     Pair{"extra_delay", "eddy_current", kClock, kLagWords},
     Pair{"extra_delay", "current_sensor_bandwidth", kClock, kLagWords},
     Pair{"extra_delay", "sensor_bandwidth", kClock, kLagWords},
