@@ -1,5 +1,6 @@
 #pragma once
 // Ranks the places where a model departs from a record.
+// Thread  any; pure.
 
 #include <vector>
 

@@ -1,5 +1,6 @@
 #pragma once
 // How much of one channel's innovations follows the recorded test signals, band by band.
+// Thread  any; pure.
 
 #include <span>
 #include <vector>

@@ -7,7 +7,7 @@
 //            state of thousands of samples; needs no eigenvalues.
 // Needs      (A, C) detectable, (A, Q) stabilisable, R positive definite. Scale the states so that
 //            their variances are of like size: units of metres and newtons mixed lose digits.
-// Failure    Problem when the doubling does not settle.
+// Failure    Problem when the doubling does not settle. Thread: any; pure.
 
 #include <Eigen/Core>
 

@@ -7,6 +7,7 @@
 //           itself, not a second discretisation of it.
 // Frame     bearing frame: probe and amplifier polarity cancel against the controller's.
 // Units     SI: y [m], u [A].
+// Thread    any; pure.
 
 #include <Eigen/Core>
 #include <complex>

@@ -6,6 +6,7 @@
 //            (cosine and sine, both powers) always move together.
 // Prior      each effect counts the same, whatever the number of its places: the evidence of a
 //            place is reduced by the logarithm of their number.
+// Thread     any; pure.
 
 #include <Eigen/Core>
 #include <string>

@@ -6,6 +6,7 @@
 // Kind       by the name's ending; other files must be sessions, and are refused with the ways there
 //            are when they are not.
 // Failure    BadInput with file and line; for records of another rig or without flight.
+// Thread     any, each with a scratch folder of its own.
 
 #include <string>
 #include <vector>

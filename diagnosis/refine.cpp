@@ -49,8 +49,8 @@ double Refiner::Promised(const LinearProblem& problem,
   return 0.5 * (line.squared_sum + line.penalty);
 }
 
-double Refiner::SetEvidence(const LinearProblem& problem, const std::vector<Term>& terms,
-                            const std::vector<Hypothesis>& causes) {
+double Refiner::EvidenceOfSet(const LinearProblem& problem, const std::vector<Term>& terms,
+                              const std::vector<Hypothesis>& causes) {
   const auto fit = Evidence(problem, terms, causes).Solve();
   double evidence = fit.log_evidence - 0.5 * problem.ete;
   for (const Hypothesis& h : causes) {
@@ -113,7 +113,7 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   for (int renewal = 0; best.ok && renewal < kMostRenewals; ++renewal) {
     const bool first = renewal == 0 && bends;
     if (!first && best.cost - Promised(best.problem, causes) < kKept) break;
-    if (SetEvidence(best.problem, terms_, causes) < worth) break;
+    if (EvidenceOfSet(best.problem, terms_, causes) < worth) break;
     const View here = search_.Linearise(std::move(best.runs), best.theta, view.whitener,
                                         search_.NuisancesAnd(causes));
     best.problem = here.problem;
@@ -124,7 +124,7 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   if (!best.ok) return best;
   // What the model does, not what a straight line from it promises: that may lead where no rig is.
   best.evidence =
-      SetEvidence(best.problem, terms_, causes) + Promised(best.problem, causes) - best.cost;
+      EvidenceOfSet(best.problem, terms_, causes) + Promised(best.problem, causes) - best.cost;
   if (!std::isfinite(best.evidence)) best.ok = false;
   return best;
 }
@@ -202,7 +202,7 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
           std::make_shared<const Slopes>(search_.rig(), runs, terms_, theta, search_.Nuisances());
     }
     best.problem = search_.About(slopes->Sum(runs, whitener), theta);
-    best.evidence = SetEvidence(best.problem, terms_, {});
+    best.evidence = EvidenceOfSet(best.problem, terms_, {});
     damping.Accept();
     theta = search_.Step(best.problem, {}, best.theta, damping.value());
     ++pass;

@@ -54,9 +54,9 @@ class Refiner {
   /// starts.
   [[nodiscard]] double Misfit(const std::vector<double>& theta, std::size_t whitening_order) const;
   /// Evidence of a set on a linearisation of everything.
-  [[nodiscard]] static double SetEvidence(const LinearProblem& problem,
-                                          const std::vector<Term>& terms,
-                                          const std::vector<Hypothesis>& causes);
+  [[nodiscard]] static double EvidenceOfSet(const LinearProblem& problem,
+                                            const std::vector<Term>& terms,
+                                            const std::vector<Hypothesis>& causes);
 
  private:
   /// Improves on `best` from theta on, as long as it goes.

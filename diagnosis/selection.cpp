@@ -87,8 +87,8 @@ bool AddCause(Inquiry& q, double share) {
   if (!(screened.front().score > kDecisive) && probes.empty()) return false;
   const Refined before = q.refiner.Fit(q.causes, q.theta, q.view, 2);
   const double null =
-      before.ok ? before.evidence : Refiner::SetEvidence(q.view.problem, q.terms, q.causes);
-  const double enough = Enough(null - Refiner::SetEvidence(q.view.problem, q.terms, {}));
+      before.ok ? before.evidence : Refiner::EvidenceOfSet(q.view.problem, q.terms, q.causes);
+  const double enough = Enough(null - Refiner::EvidenceOfSet(q.view.problem, q.terms, {}));
   if (!(screened.front().score > enough) && probes.empty()) return false;
   CauseSet best = BestOfScreen(q, screened, null, enough, share);
   TryProbes(q, probes, null, best);
@@ -124,7 +124,7 @@ void TryBeside(Inquiry& q, const std::vector<Hypothesis>& others, double worth, 
 bool MergeOnce(Inquiry& q) {
   const Refined whole = q.refiner.Fit(q.causes, q.theta, q.view, 2);
   if (!whole.ok) return false;
-  const double explained = whole.evidence - Refiner::SetEvidence(q.view.problem, q.terms, {});
+  const double explained = whole.evidence - Refiner::EvidenceOfSet(q.view.problem, q.terms, {});
   const double worth = whole.evidence - Enough(explained);
   CauseSet best;
   // One for all first, then one for any two.

@@ -120,7 +120,7 @@ TEST_F(SlopesTest, AFitIsWorthWhatTheModelDoesAndNoMore) {
   ASSERT_TRUE(fit.ok);
   const auto line = Evidence(fit.problem, terms_, {}).Solve();
   const double promised = 0.5 * (line.squared_sum + line.penalty);
-  EXPECT_NEAR(fit.evidence, Refiner::SetEvidence(fit.problem, terms_, {}) - (fit.cost - promised),
+  EXPECT_NEAR(fit.evidence, Refiner::EvidenceOfSet(fit.problem, terms_, {}) - (fit.cost - promised),
               1e-6 * fit.cost);
 }
 
