@@ -9,6 +9,7 @@
 #include "common/problem.hpp"
 #include "diagnosis/calibrated_rig.hpp"
 #include "diagnosis/coverage.hpp"
+#include "diagnosis/doubt.hpp"
 #include "diagnosis/extended_rig.hpp"
 #include "diagnosis/words.hpp"
 
@@ -46,6 +47,7 @@ nlohmann::ordered_json CalibratedJson(const SessionAnswer& s) {
                                  {"tolerance", v.tolerance},
                                  {"expected", v.expected},
                                  {"moved_tolerances", v.moved},
+                                 {"file_tolerances", v.from_file},
                                  {"moved_deviations", v.proven}};
     if (v.nominal_phase_rad) entry["nominal_phase_rad"] = *v.nominal_phase_rad;
     if (v.phase_rad) entry["phase_rad"] = *v.phase_rad;
@@ -97,6 +99,8 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
   json["cannot_tell"] = {{"sentence", diagnosis::CannotTellSentence(s)},
                          {"effects", diagnosis::CannotTell(s)},
                          {"record_next", diagnosis::MissingRecords(s)}};
+  json["doubt"] = diagnosis::DoubtSentence(s);
+  json["healthy_records"] = diagnosis::HealthySentence(s);
   json["next_experiment"] = diagnosis::NextExperiment(s);
   json["candidates"] = nlohmann::ordered_json::array();
   for (const auto& c : a.candidates) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cli/diagnosis_text.hpp"
+#include "diagnosis/doubt.hpp"
 #include "diagnosis/words.hpp"
 #include "report/svg/figure.hpp"
 
@@ -246,8 +247,9 @@ std::string DiagnosisPage(const SessionAnswer& s, const std::string& more) {
       "Calibrated: with what a healthy rig may differ by. Extended: with the causes. Ceiling: the "
       "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",
       Escaped(s.view->numbers.name), kStyle, Escaped(diagnosis::VerdictSentence(s)),
-      Escaped(Summary(s)), Escaped(diagnosis::NextExperiment(s)), Left(s), ParameterTable(s),
-      Spectra(s), CalibrationTable(s), Ranking(s), FitTable(s), ceiling, ChannelTable(s), more);
+      Escaped(fmt::format("{} {}", Summary(s), diagnosis::HealthySentence(s))),
+      Escaped(diagnosis::NextExperiment(s)), Left(s), ParameterTable(s), Spectra(s),
+      CalibrationTable(s), Ranking(s), FitTable(s), ceiling, ChannelTable(s), more);
 }
 
 }  // namespace levitas::cli

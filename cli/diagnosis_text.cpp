@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cli/text_table.hpp"
+#include "diagnosis/doubt.hpp"
 #include "diagnosis/words.hpp"
 
 namespace levitas::cli {
@@ -161,6 +162,8 @@ std::string CeilingSentence(const SessionAnswer& s) {
 
 void PrintDiagnosis(const SessionAnswer& s, bool complete) {
   fmt::print("{}\n\n", diagnosis::VerdictSentence(s));
+  const std::string healthy = diagnosis::HealthySentence(s);
+  if (!healthy.empty()) fmt::print("{}\n\n", healthy);
   PrintParameters(s);
   PrintCalibrated(s, complete);
   PrintFits(s);

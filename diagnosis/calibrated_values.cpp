@@ -40,6 +40,8 @@ class Calibrated {
       v.moved = std::abs(theta - term->usual) / term->tolerance;
       v.proven =
           estimate->deviation > 0.0 ? std::abs(theta - term->usual) / estimate->deviation : 0.0;
+      v.from_file = std::abs(theta) / FileTolerance(*term);
+      v.learned = std::abs(term->usual) / FileTolerance(*term);
       out.push_back(v);
     }
   }
@@ -54,6 +56,12 @@ class Calibrated {
       v.key = parameter == "shape" ? "share" : "ratio";
     }
     return v;
+  }
+
+  /// Before healthy records narrowed it.
+  [[nodiscard]] double FileTolerance(const Term& term) const {
+    const auto at = static_cast<std::size_t>(&term - s_.terms.data());
+    return at < s_.file_tolerance.size() ? s_.file_tolerance[at] : term.tolerance;
   }
 
   /// theta to the number under its key; names the key.
@@ -122,9 +130,14 @@ class Calibrated {
     v.tolerance = term->tolerance / unit.si;
     const Term* sine = TermOf(s_.terms, at_, "sine");
     const std::complex<double> usual{term->usual, sine != nullptr ? sine->usual : 0.0};
-    if (usual != 0.0) v.expected = std::abs(file + usual) / unit.si;
+    if (usual != 0.0) {
+      v.expected = std::abs(file + usual) / unit.si;
+      v.expected_phase_rad = std::arg(file + usual);
+    }
     v.moved = std::abs(found - usual) / term->tolerance;
     v.proven = cosine->deviation > 0.0 ? std::abs(found - usual) / cosine->deviation : 0.0;
+    v.from_file = std::abs(found) / FileTolerance(*term);
+    v.learned = std::abs(usual) / FileTolerance(*term);
     out.push_back(v);
   }
 

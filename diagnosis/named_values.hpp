@@ -47,8 +47,11 @@ struct CalibratedValue {
   double deviation{};                                  ///< standard deviation that the data leave
   double tolerance{};                                  ///< standard deviation on a healthy rig
   std::optional<double> nominal_phase_rad, phase_rad;  ///< of a harmonic
-  double moved{};                                      ///< from what was expected, in tolerances
-  double proven{};                                     ///< the same in standard deviations
+  std::optional<double> expected_phase_rad;
+  double moved{};      ///< from what was expected, in tolerances
+  double proven{};     ///< the same in standard deviations
+  double from_file{};  ///< from the nominal value, in tolerances of the rig file
+  double learned{};    ///< of that, what healthy records have shown
 };
 
 [[nodiscard]] std::vector<NamedParameter> Parameters(const SessionAnswer& answer);

@@ -11,6 +11,7 @@
 #include "diagnosis/events.hpp"
 #include "diagnosis/flight.hpp"
 #include "diagnosis/mains_lines.hpp"
+#include "diagnosis/plausible.hpp"
 #include "diagnosis/same_rows.hpp"
 #include "diagnosis/turns.hpp"
 
@@ -86,6 +87,7 @@ std::string NotFlown(const RigView& rig, const Record& record) {
 
 std::vector<Record> InFlight(const RigView& rig, std::vector<Record> records) {
   for (Record& record : records) {
+    RefuseWrongUnits(rig, record);
     const double whole_s = Seconds(record, rig);
     const std::string found = NotFlown(rig, record);
     LeaveOutContact(rig, record);
@@ -136,7 +138,10 @@ SessionAnswer DiagnoseRecords(const config::RigFile& rig, const std::vector<Reco
   std::vector<Record> fitted = InFlight(*out.view, records);
   out.terms = AllTerms(*out.view, rig.tolerances.value_or(config::Tolerances{}),
                        LargestOrbit(fitted, out.view->axes));
-  if (!flown.empty()) LearnFromHealthy(*out.view, flown, out.terms);
+  if (!flown.empty()) {
+    for (const Term& term : out.terms) out.file_tolerance.push_back(term.tolerance);
+    LearnFromHealthy(*out.view, flown, out.terms);
+  }
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     fitted[i].number = static_cast<std::uint32_t>(i);
     fitted[i].keep_back = holdout.empty();

@@ -35,7 +35,8 @@ struct OwnWords {
 
 struct SessionAnswer {
   Answer answer;
-  std::vector<Term> terms;  ///< refer to `view`
+  std::vector<Term> terms;             ///< refer to `view`
+  std::vector<double> file_tolerance;  ///< per term, before healthy records; empty without them
   std::optional<OwnWords> own_words;
   std::shared_ptr<const RigView> view;
   Gain fitted, held_out;

@@ -8,6 +8,7 @@
 
 #include "diagnosis/carry_over.hpp"
 #include "diagnosis/coverage.hpp"
+#include "diagnosis/doubt.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -96,15 +97,46 @@ std::string PlaceOfEffect(const std::string& effect) {
 
 namespace {
 
+/// ": tau_us 5.21 us (4.9 to 5.5)", the first number of a cause, with its place where it is not the
+/// same at all; empty where it has none.
+std::string Size(const SessionAnswer& s, const Hypothesis& cause) {
+  const auto parameters = Parameters(s);
+  const auto first = std::find_if(parameters.begin(), parameters.end(), [&](const auto& p) {
+    return p.effect == cause.effect && p.key != kPhaseKey;
+  });
+  if (first == parameters.end()) return {};
+  const bool everywhere = std::all_of(first, parameters.end(), [&first](const auto& p) {
+    return p.effect != first->effect || p.key != first->key || p.value == first->value;
+  });
+  return fmt::format(": {} {:.4g}{}{}{} ({:.4g} to {:.4g})", first->key, first->value,
+                     first->unit.empty() ? "" : " ", first->unit,
+                     everywhere ? "" : " at " + first->place, first->low, first->high);
+}
+
+/// Of a rig in which nothing is hidden: how far it is from its file, and what that is worth.
+std::string Explained(const SessionAnswer& s) {
+  const auto values = CalibratedValues(s);
+  double furthest = 0.0;
+  for (const CalibratedValue& v : values) furthest = std::max(furthest, v.from_file);
+  const std::string moved = fmt::format("with its {} numbers moved by at most {:.1f} tolerances",
+                                        values.size(), furthest);
+  if (!SomethingToGain(s.held_out)) {
+    return "the rig file explains the data to their noise as it stands" +
+           (values.empty() ? "" : ", and " + moved) + ".";
+  }
+  return fmt::format(
+      "the rig file {} explains the data to their noise; as it stands it does not "
+      "({:.1f} times the noise).",
+      moved, std::sqrt(1.0 + s.held_out.to_gain.value));
+}
+
 std::string Finding(const SessionAnswer& s) {
   const Answer& a = s.answer;
   if (a.verdict == Verdict::kNone) {
     const std::string limits = CannotTellSentence(s);
-    return fmt::format(
-        "Nothing is hidden{}: with its tolerances calibrated, the nominal model explains the data "
-        "to their noise.{}{}",
-        limits.empty() ? "" : " as far as these records can tell", limits.empty() ? "" : " ",
-        limits);
+    return fmt::format("Nothing is hidden{}: {}{}{}",
+                       limits.empty() ? "" : " as far as these records can tell", Explained(s),
+                       limits.empty() ? "" : " ", limits);
   }
   if (a.verdict == Verdict::kUnknown) {
     std::string where = fmt::format("{:.0f} Hz", a.remainder.frequency_hz);
@@ -115,10 +147,13 @@ std::string Finding(const SessionAnswer& s) {
         "about {}, following {}.",
         s.view->numbers.channels[a.remainder.worst_channel], where, a.remainder.coherent_with);
   }
-  std::string text = fmt::format("{} at {} ({:.0f} nat)", a.causes.front().effect,
-                                 a.causes.front().place, a.candidates.front().score);
+  const double nat = a.candidates.front().score;
+  std::string text = fmt::format("{} at {}{}; {:.0f} nat, which is odds of e^{:.0f} to 1 for it",
+                                 a.causes.front().effect, a.causes.front().place,
+                                 Size(s, a.causes.front()), nat, nat);
   for (std::size_t i = 1; i < a.causes.size(); ++i) {
-    text += fmt::format(", and {} at {}", a.causes[i].effect, a.causes[i].place);
+    text += fmt::format("; and {} at {}{}", a.causes[i].effect, a.causes[i].place,
+                        Size(s, a.causes[i]));
   }
   if (!a.also_possible.empty()) {
     text += "; these data cannot tell it from";
@@ -130,11 +165,16 @@ std::string Finding(const SessionAnswer& s) {
 }  // namespace
 
 std::string VerdictSentence(const SessionAnswer& s) {
-  const std::string beyond = CarryOverSentence(s);
-  return beyond.empty() ? Finding(s) : Finding(s) + " " + beyond;
+  std::string text = Finding(s);
+  for (const std::string& more : {CarryOverSentence(s), DoubtSentence(s)}) {
+    if (!more.empty()) text += " " + more;
+  }
+  return text;
 }
 
-std::string NextExperiment(const SessionAnswer& s) {
+namespace {
+
+std::string Experiment(const SessionAnswer& s) {
   const Answer& a = s.answer;
   if (!CarriesOver(s)) return CarryOverExperiment(s);
   if (s.own_words) return s.own_words->next.empty() ? kNoneNeeded : s.own_words->next;
@@ -159,18 +199,36 @@ std::string NextExperiment(const SessionAnswer& s) {
   return "a longer record with a stronger test signal, standing and at two speeds";
 }
 
-bool NeedsExperiment(const SessionAnswer& s) { return NextExperiment(s) != kNoneNeeded; }
+}  // namespace
+
+std::string NextExperiment(const SessionAnswer& s) {
+  std::string check;
+  if (!DoubtSentence(s).empty()) {
+    check = "check units and signs of the columns and the rig file, and diagnose again";
+  } else if (!ChangedSince(s).empty()) {
+    check = "check that the healthy records are of this rig, as it was before";
+  }
+  const std::string experiment = Experiment(s);
+  if (check.empty()) return experiment;
+  return experiment == kNoneNeeded ? check : fmt::format("{}; then {}", check, experiment);
+}
+
+bool NeedsExperiment(const SessionAnswer& s) { return Experiment(s) != kNoneNeeded; }
 
 double Confidence(const SessionAnswer& s) {
   const auto& candidates = s.answer.candidates;
+  if (s.answer.verdict == Verdict::kUnknown) return 0.0;
+  if (s.answer.verdict == Verdict::kNone) {
+    const double rival = candidates.empty() ? -INFINITY : candidates.front().score;
+    return 1.0 / (1.0 + std::exp(rival));
+  }
   if (candidates.empty()) return 0.0;
   const double best = std::max(0.0, candidates.front().score);
   double sum = std::exp(-best);
   for (const Candidate& c : candidates) {
     if (std::isfinite(c.score)) sum += std::exp(c.score - best);
   }
-  return (s.answer.causes.empty() ? std::exp(-best) : std::exp(candidates.front().score - best)) /
-         sum;
+  return std::exp(candidates.front().score - best) / sum;
 }
 
 std::string PlaceOf(const SessionAnswer& s) {

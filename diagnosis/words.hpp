@@ -15,7 +15,8 @@ namespace levitas::diagnosis {
 [[nodiscard]] std::string NextExperiment(const SessionAnswer& answer);
 /// Something is left open that a further record would decide.
 [[nodiscard]] bool NeedsExperiment(const SessionAnswer& answer);
-/// Probability of the first cause among all candidates and none of them.
+/// Probability that the verdict is right: of a cause, among all candidates and none of them; of
+/// `none`, against the strongest candidate; 0 for `unknown`, which no effect explains.
 [[nodiscard]] double Confidence(const SessionAnswer& answer);
 /// "magnet", "sensor" ...; that of the worst channel's excess for an unknown.
 [[nodiscard]] std::string PlaceOf(const SessionAnswer& answer);

@@ -103,7 +103,7 @@ diagnosis::CalibratedValue Calibrated(const config::RigFile& rig, const Theta& o
   v.calibrated = told.value(theta);
   v.deviation = 0.5 * std::abs(told.value(theta + deviation) - told.value(theta - deviation));
   v.tolerance = 0.5 * std::abs(told.value(row.tolerance) - told.value(-row.tolerance));
-  v.moved = std::abs(theta) / row.tolerance;
+  v.moved = v.from_file = std::abs(theta) / row.tolerance;
   v.proven = deviation > 0.0 ? std::abs(theta) / deviation : 0.0;
   return v;
 }

@@ -269,6 +269,42 @@ TEST(ConfidenceTest, FallsWithARivalAndWithALowScore) {
   EXPECT_NEAR(Confidence(s), 0.5, 1e-9);
 }
 
+TEST(ConfidenceTest, OfNoneIsAgainstTheStrongestCandidateAndOfUnknownZero) {
+  SessionAnswer s = NothingFound();
+  EXPECT_EQ(Confidence(s), 1.0);
+  s.answer.candidates.push_back({.effect = "extra_delay", .place = "all", .score = 0.0});
+  EXPECT_NEAR(Confidence(s), 0.5, 1e-12);  // even odds
+  s.answer.candidates.front().score = -std::log(3.0);
+  EXPECT_NEAR(Confidence(s), 0.75, 1e-12);  // three to one
+  s.answer.verdict = Verdict::kUnknown;
+  s.answer.candidates.front().score = 334.0;
+  EXPECT_EQ(Confidence(s), 0.0);
+}
+
+TEST(VerdictTest, OfACauseSaysItsSizeWithItsIntervalAndWhatItsEvidenceIs) {
+  // sqrt(tau) of 2.5e-3, known to 0.25e-3: 1.645 of it to either side, squared
+  EXPECT_THAT(VerdictSentence(Found("eddy_current", "de_x")),
+              AllOf(HasSubstr("tau_us 6.25 us (4.363 to 8.475)"),
+                    HasSubstr("20 nat, which is odds of e^20 to 1")));
+  EXPECT_THAT(VerdictSentence(Found("unbalance", "z 299.2 mm")),
+              HasSubstr("moment_g_mm 14.14 g mm"));
+}
+
+TEST(VerdictTest, OfNothingSaysWhetherTheFileAsItStandsExplainsTheData) {
+  SessionAnswer s = NothingFound();
+  EXPECT_THAT(VerdictSentence(s), HasSubstr("as it stands"));
+  EXPECT_THAT(VerdictSentence(s), Not(HasSubstr("does not")));
+  for (const Term& term : s.terms) {
+    if (term.effect != "current_gain") continue;
+    s.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,
+                                    1.5 * term.tolerance, 0.1 * term.tolerance});
+  }
+  s.held_out.to_gain = {99.0, 90.0, 110.0};  // squared, less the noise itself
+  EXPECT_THAT(VerdictSentence(s),
+              AllOf(HasSubstr("4 numbers moved by at most 1.5 tolerances"),
+                    HasSubstr("as it stands it does not (10.0 times the noise)")));
+}
+
 TEST(PlanTest, IsAScenarioThatTheReaderTakesForEveryCause) {
   const SessionAnswer nothing = NothingFound();
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
