@@ -79,8 +79,8 @@ TEST(HealthyTest, RecordsOfAnotherRigAreQuestioned) {
   // From 2 tolerances to 0.5: 7.5 times the fifth that was left.
   const SessionAnswer s = Learned(2.0, 0.5);
   EXPECT_THAT(ChangedSince(s), SizeIs(1));
-  EXPECT_THAT(HealthySentence(s),
-              AllOf(HasSubstr("is 1.015, 7.5 of the tolerances"), HasSubstr("another rig, or changed since?")));
+  EXPECT_THAT(HealthySentence(s), AllOf(HasSubstr("is 1.015, 7.5 of the tolerances"),
+                                        HasSubstr("another rig, or changed since?")));
   EXPECT_THAT(NextExperiment(s), HasSubstr("healthy records are of this rig"));
   EXPECT_THAT(ChangedSince(Learned(2.0, 1.5)), IsEmpty());
 }
