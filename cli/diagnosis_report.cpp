@@ -57,7 +57,8 @@ svg::Series Line(const char* name, const char* colour, const std::vector<double>
 
 std::string Spectra(const SessionAnswer& s) {
   svg::Panel panel;
-  panel.title = "What the model leaves in " + s.view->numbers.channels[s.shown_channel];
+  panel.title =
+      "What the model leaves of the data used, in " + s.view->numbers.channels[s.shown_channel];
   panel.x_label = "Hz";
   panel.y_label = "power / sensor noise";
   panel.x_scale = svg::Scale::kLogarithmic;

@@ -126,7 +126,7 @@ std::string Explained(const SessionAnswer& s) {
   }
   return fmt::format(
       "the rig file {} explains the data to their noise; as it stands it does not "
-      "({:.1f} times the noise).",
+      "({:.1f} times the noise, rms).",
       moved, std::sqrt(1.0 + s.held_out.to_gain.value));
 }
 
