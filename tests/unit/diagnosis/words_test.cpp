@@ -302,7 +302,7 @@ TEST(VerdictTest, OfNothingSaysWhetherTheFileAsItStandsExplainsTheData) {
   s.held_out.to_gain = {99.0, 90.0, 110.0};  // squared, less the noise itself
   EXPECT_THAT(VerdictSentence(s),
               AllOf(HasSubstr("4 numbers moved by at most 1.5 tolerances"),
-                    HasSubstr("as it stands it does not (10.0 times the noise)")));
+                    HasSubstr("as it stands it does not (10.0 times the noise, rms)")));
 }
 
 TEST(PlanTest, IsAScenarioThatTheReaderTakesForEveryCause) {
