@@ -208,7 +208,7 @@ std::string NextExperiment(const SessionAnswer& s) {
   } else if (!ChangedSince(s).empty()) {
     check = "check that the healthy records are of this rig, as it was before";
   }
-  const std::string experiment = Experiment(s);
+  std::string experiment = Experiment(s);
   if (check.empty()) return experiment;
   return experiment == kNoneNeeded ? check : fmt::format("{}; then {}", check, experiment);
 }
