@@ -121,9 +121,7 @@ std::optional<double> HeldFor(const trials::Trial& trial, const std::string& eff
 
 void ListMissed(const trials::Trial& trial, trials::Outcome& outcome) {
   for (const std::string& effect : outcome.truth) {
-    trials::Outcome alone = outcome;
-    alone.truth = {effect};
-    if (!alone.Partly()) outcome.missed.emplace_back(effect, HeldFor(trial, effect));
+    if (!outcome.Names(effect)) outcome.missed.emplace_back(effect, HeldFor(trial, effect));
   }
 }
 
@@ -143,7 +141,11 @@ trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
     // What the records hold for an effect that was not named is found by being told of it.
     settings.only = outcome.truth.front();
     const auto told = diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
-    trials::HearOracle(told.answer, HeldFor(trial, outcome.truth.front()), outcome);
+    const bool known =
+        !outcome.missed.empty() && outcome.missed.front().first == outcome.truth.front();
+    trials::HearOracle(
+        told.answer, known ? outcome.missed.front().second : HeldFor(trial, outcome.truth.front()),
+        outcome);
   }
   return outcome;
 }

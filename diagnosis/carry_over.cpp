@@ -21,8 +21,7 @@ std::string CarryOverSentence(const SessionAnswer& s) {
   const double calibrated = std::sqrt(s.held_out.calibrated_over_noise);
   std::string text = fmt::format(
       "It does not carry over to the data held out: {:.3g} times the noise (rms) is left there, "
-      "{:.3g} "
-      "times on the data used.",
+      "{:.3g} times on the data used.",
       held, std::sqrt(s.fitted.extended_over_noise));
   if (!s.answer.causes.empty() && held > calibrated) {
     text +=

@@ -53,20 +53,18 @@ bool Outcome::Right() const {
          (named.front() == truth.front() || Holds(ties, truth.front()));
 }
 
-bool Outcome::Partly() const {
-  return std::any_of(truth.begin(), truth.end(), [this](const std::string& effect) {
-    return Holds(named, effect) || Holds(ties, effect);
-  });
+bool Outcome::Names(const std::string& effect) const {
+  return Holds(named, effect) || Holds(ties, effect);
 }
 
-bool Outcome::NamesMain() const {
-  return !truth.empty() && (Holds(named, truth.front()) || Holds(ties, truth.front()));
+bool Outcome::Partly() const {
+  return std::any_of(truth.begin(), truth.end(), [this](const auto& e) { return Names(e); });
 }
+
+bool Outcome::NamesMain() const { return !truth.empty() && Names(truth.front()); }
 
 bool Outcome::NamesAll() const {
-  return std::all_of(truth.begin(), truth.end(), [this](const std::string& effect) {
-    return Holds(named, effect) || Holds(ties, effect);
-  });
+  return std::all_of(truth.begin(), truth.end(), [this](const auto& e) { return Names(e); });
 }
 
 bool Outcome::HoldsAllClearly() const {

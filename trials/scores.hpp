@@ -52,7 +52,8 @@ struct Outcome {
   }
   [[nodiscard]] bool Right() const;
   [[nodiscard]] bool Partly() const;
-  [[nodiscard]] bool NamesMain() const;  ///< at any rank
+  [[nodiscard]] bool Names(const std::string& effect) const;  ///< at any rank, or as a tie
+  [[nodiscard]] bool NamesMain() const;
   [[nodiscard]] bool NamesAll() const;
   /// Of several, whether records that can be read hold every one clearly. What was named is.
   [[nodiscard]] bool HoldsAllClearly() const;
