@@ -45,6 +45,17 @@ struct DiagnoseOptions : AnalysisOptions {
   bool quick{}, explain{};
 };
 
+/// `why_not` is told instead of a scenario that is empty.
+void WritePlan(const std::string& path, const std::string& scenario, const char* why_not,
+               std::vector<std::string>& written) {
+  if (scenario.empty()) {
+    fmt::print("--plan: {}, {} is not written\n", why_not, path);
+    return;
+  }
+  WriteTextFile(path, scenario);
+  written.push_back(path);
+}
+
 /// One axis whose coils are on a voltage: models, causes and fits of its own.
 std::vector<std::string> RunLevitator(const diagnosis::SessionInputs& inputs,
                                       const DiagnoseOptions& options, ProgressLine& progress) {
@@ -53,15 +64,10 @@ std::vector<std::string> RunLevitator(const diagnosis::SessionInputs& inputs,
   PrintLevitator(answer, options.explain);
   WriteJsonFile(options.json_path, LevitatorJson(answer));
   auto written = WriteLevitator(answer, options.out);
-  if (options.plan.empty()) return written;
-  const std::string scenario = levitator::PlanScenario(inputs.rig, answer);
-  if (scenario.empty()) {
-    fmt::print("--plan: nothing is left that a scenario could separate, {} is not written\n",
-               options.plan);
-    return written;
+  if (!options.plan.empty()) {
+    WritePlan(options.plan, levitator::PlanScenario(inputs.rig, answer),
+              "nothing is left that a scenario could separate", written);
   }
-  WriteTextFile(options.plan, scenario);
-  written.push_back(options.plan);
   return written;
 }
 
@@ -72,13 +78,11 @@ std::vector<std::string> RunRotor(const diagnosis::SessionInputs& inputs,
   PrintDiagnosis(answer, options.explain);
   WriteJsonFile(options.json_path, DiagnosisJson(answer));
   auto written = WriteDiagnosis(answer, inputs.rig, options.out);
-  if (options.plan.empty()) return written;
-  if (!diagnosis::NeedsExperiment(answer)) {
-    fmt::print("--plan: nothing is left to separate, {} is not written\n", options.plan);
-    return written;
+  if (!options.plan.empty()) {
+    const bool needed = diagnosis::NeedsExperiment(answer);
+    WritePlan(options.plan, needed ? diagnosis::PlanScenario(answer) : "",
+              "nothing is left to separate", written);
   }
-  WriteTextFile(options.plan, diagnosis::PlanScenario(answer));
-  written.push_back(options.plan);
   return written;
 }
 
