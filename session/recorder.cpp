@@ -12,6 +12,7 @@
 
 #include "common/problem.hpp"
 #include "common/spsc_ring.hpp"
+#include "controller/rt/thread_trouble.hpp"
 #include "session/event_deriver.hpp"
 #include "session/session_writer.hpp"
 #include "session/trip_freezer.hpp"
@@ -61,7 +62,8 @@ struct Recorder::Impl {
       constexpr int kBurst = 1000;
       int taken = 0;
       while (taken < kBurst && ring.Take(record)) {
-        Take(record);
+        // Whatever happens here, the ring is emptied: in lockstep the loop waits for room in it.
+        rt::Guarded("recorder", [&] { Take(record); });
         ++taken;
       }
       if (taken == kBurst) {
@@ -70,11 +72,15 @@ struct Recorder::Impl {
         break;
       }
       if (Clock::now() - flushed >= kFlushEvery) {
-        Flush();
+        rt::Guarded("recorder", [this] { Flush(); });
         flushed = Clock::now();
       }
       if (taken < kBurst) std::this_thread::sleep_for(kIdle);
     }
+    rt::Guarded("recorder", [this] { End(); });
+  }
+
+  void End() {
     events.clear();
     deriver.Finish(events);
     Tell();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "controller/rt/clock.hpp"
+#include "controller/rt/thread_trouble.hpp"
 #include "transport/lcm_packet.hpp"
 
 namespace levitas::transport {
@@ -38,8 +39,10 @@ OperatorReceiver::~OperatorReceiver() {
 
 void OperatorReceiver::Run() {
   while (!stopping_.load()) {
-    const Received received = receiver_.Receive(rt::MonotonicNowNs() + kSliceNs);
-    if (!received.datagram.empty()) Handle(received);
+    rt::Guarded("commands", [this] {
+      const Received received = receiver_.Receive(rt::MonotonicNowNs() + kSliceNs);
+      if (!received.datagram.empty()) Handle(received);
+    });
   }
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/spsc_ring.hpp"
+#include "controller/rt/thread_trouble.hpp"
 #include "transport/histogram_message.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/multicast_socket.hpp"
@@ -131,10 +132,10 @@ struct Telemetry::Impl {
 
   void Run() {
     while (!stopping.load()) {
-      SendAll();
+      rt::Guarded("telemetry", [this] { SendAll(); });
       std::this_thread::sleep_for(kSendEvery);
     }
-    SendAll();
+    rt::Guarded("telemetry", [this] { SendAll(); });
   }
 
   MulticastSender sender;

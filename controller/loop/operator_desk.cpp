@@ -101,6 +101,10 @@ cycle::OperatorInput OperatorDesk::Decide(const OperatorView& view) noexcept {
     started_ = true;
     first_cycle_ = view.cycle;
   }
+  if (emergency_requested_.load(std::memory_order_relaxed)) {
+    emergency_requested_.store(false, std::memory_order_relaxed);
+    return {.command = OperatorCommand::kEmergencyStop};
+  }
   RemoteCommand remote;
   const bool commanded = remote_ != nullptr && remote_->Take(remote);
   const bool emergency = commanded && remote.command == OperatorCommand::kEmergencyStop;

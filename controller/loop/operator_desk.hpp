@@ -9,7 +9,7 @@
 // The end  a finished or failed scenario, RequestStop and the duration all end in the same way:
 //          run down under the drive, land, amplifiers off. A trip under a scenario ends when the
 //          safe state is reached; without a scenario the desk waits for a reset.
-// Thread   loop thread, except RequestStop (any thread, also a signal's) and the writer's side of
+// Thread   loop thread, except the requests (any thread, also a signal's) and the writer's side of
 //          the ring. No allocation in Next.
 // Failure  an end that is not reached within kStopLimitSeconds becomes an emergency stop.
 
@@ -52,6 +52,10 @@ class OperatorDesk final : public OperatorSource {
   [[nodiscard]] cycle::OperatorInput Next(const OperatorView& view) noexcept override;
   [[nodiscard]] bool Done() const noexcept override { return done_; }
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
+  /// Given in the next cycle, once; any thread.
+  void RequestEmergencyStop() noexcept {
+    emergency_requested_.store(true, std::memory_order_relaxed);
+  }
 
  private:
   [[nodiscard]] cycle::OperatorInput Decide(const OperatorView& view) noexcept;
@@ -66,6 +70,7 @@ class OperatorDesk final : public OperatorSource {
   scenario::ScenarioPlayer* player_;
   SpscRing<RemoteCommand>* remote_;
   std::atomic<bool> stop_requested_{false};
+  std::atomic<bool> emergency_requested_{false};
   ExcitationShelf::Place* playing_{nullptr};
   bool awaits_answer_{false};  ///< the command to excite was given in the previous cycle
   bool end_untold_{false};     ///< a test signal has ended and no record says so yet

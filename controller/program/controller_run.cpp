@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -16,15 +15,16 @@
 #include "controller/program/loop_outlet.hpp"
 #include "controller/program/report.hpp"
 #include "controller/program/rig_connection.hpp"
+#include "controller/program/watchman.hpp"
 #include "controller/rt/real_time.hpp"
-#include "controller/rt/stop_signal.hpp"
+#include "controller/rt/say.hpp"
+#include "controller/rt/thread_trouble.hpp"
 #include "hil/guarded_port/guarded_port.hpp"
 #include "hil/libgpiod/gpiod_lines.hpp"
 #include "levitas_version.hpp"
 #include "session/record_codec.hpp"
 #include "session/recorder.hpp"
 #include "transport/operator_receiver.hpp"
-#include "transport/partner_watch.hpp"
 #include "transport/sample_batcher.hpp"
 #include "transport/statistics_json.hpp"
 #include "transport/telemetry.hpp"
@@ -33,7 +33,6 @@ namespace levitas::controller_program {
 
 namespace {
 
-constexpr auto kLookEvery = std::chrono::milliseconds(20);
 constexpr std::size_t kRemoteCommands = 16;  // a person gives them one by one
 
 struct Files {
@@ -76,46 +75,10 @@ session::SessionHeader Header(const ControllerOptions& options, const Files& fil
 
 // Tells people and the network what the recorder found worth saying.
 void Announce(const session::Event& event, transport::Telemetry& telemetry) {
-  fmt::print(stderr, "amb-controller: cycle {}: {}\n", event.cycle, event.text);
+  rt::Say(fmt::format("amb-controller: cycle {}: {}", event.cycle, rt::Quoted(event.text)));
   session::Bytes encoded;
   session::EncodeEvent(event, encoded);
   telemetry.PostEvent(std::move(encoded));
-}
-
-// Nothing below needs the loop's speed: signals and the partner are looked after from here.
-// Returns false when the rig stayed away.
-bool Watch(loop::ControlLoop& loop, loop::OperatorDesk& desk, const std::atomic<bool>& running,
-           const ControllerOptions& options, const RigConnection& rig,
-           const gpio::GpiodLines* lines) {
-  using Say = transport::PartnerWatch::Say;
-  transport::PartnerWatch watch(rt::MonotonicNowNs(),
-                                static_cast<std::int64_t>(options.partner_timeout_s * 1e9));
-  bool guarded = true;
-  while (running.load()) {
-    std::this_thread::sleep_for(kLookEvery);
-    if (guarded && lines != nullptr && !lines->guard_alive()) {
-      guarded = false;
-      fmt::print(stderr, "amb-controller: the guard of the enable line has ended: landing\n");
-      desk.RequestStop();
-    }
-    const Say say = watch.Check(rt::MonotonicNowNs(), loop.frames_heard());
-    if (say == Say::kFound) fmt::print(stderr, "amb-controller: rig found\n");
-    if (say == Say::kMissing) {
-      fmt::print(stderr,
-                 "amb-controller: no sensor frames at {}; start {} with the same --rig, "
-                 "--port and --pace (giving up {} s after its last message)\n",
-                 rig.Where(), rig.SimulatedRig(), options.partner_timeout_s);
-    }
-    if (say == Say::kGiveUp && running.load()) {
-      fmt::print(stderr, "amb-controller: no rig for {} s, ending\n", options.partner_timeout_s);
-      loop.Abort();
-      return false;
-    }
-    // Without a rig there is nothing to land; a second signal does not wait for it.
-    if (rt::StopSignals() > 0) desk.RequestStop();
-    if (rt::StopSignals() > 1 || (rt::StopSignals() > 0 && !watch.present())) loop.Abort();
-  }
-  return true;
 }
 
 ExitStatus Status(const RunFacts& facts, bool partner_stayed) {
@@ -132,7 +95,7 @@ std::unique_ptr<rt::RealTimeGuard> PrepareRealTime(const ControllerOptions& opti
     throw Problem(ExitStatus::kOther,
                   "real time is refused by this machine:\n" + rt::Text(guard->facts()));
   }
-  fmt::print(stderr, "amb-controller: real time is degraded:\n{}", rt::Text(guard->facts()));
+  rt::Say("amb-controller: real time is degraded:\n" + rt::Text(guard->facts()));
   return guard;
 }
 
@@ -141,8 +104,8 @@ std::unique_ptr<gpio::GpiodLines> OpenLines(const ControllerOptions& options,
                                             const gpio::LinesConfig& config) {
   if (config.empty()) return nullptr;
   if (options.no_lines || !options.realtime) {
-    fmt::print(stderr, "amb-controller: the rig's lines are not used ({})\n",
-               options.no_lines ? "--no-lines" : "lockstep");
+    rt::Say(fmt::format("amb-controller: the rig's lines are not used ({})",
+                        options.no_lines ? "--no-lines" : "lockstep"));
     return nullptr;
   }
   return std::make_unique<gpio::GpiodLines>(config);
@@ -199,14 +162,14 @@ class Session {
          .period_ns = numbers_.period_ns,
          .phase_ns = rig_->phase_ns()},
         Port(), cycle_, desk, outlet_, clock_);
-    rt::CatchStopSignals();
     std::atomic<bool> running{true};
+    Watchman watchman(loop, desk, options_, *rig_, lines_);
     std::thread thread([&] {
-      if (guard_) rt::EnterThread(wanted_);
+      if (guard_) rt::Guarded("loop", [this] { rt::EnterThread(wanted_); });
       loop.Run();
       running.store(false);
     });
-    const bool stayed = Watch(loop, desk, running, options_, *rig_, lines_);
+    const bool stayed = watchman.Watch(running);
     thread.join();
     // Also after an end without a landing: with lines, the enable line falls here.
     Port().SayGoodbye({.cycle = loop.last().in.frame.cycle});
@@ -248,7 +211,7 @@ class Session {
                          .scenario_problem = player_ ? player_->Text() : "",
                          .lines = guarded_ ? &guarded_->line_counters() : nullptr,
                          .real_time = Facts()};
-    fmt::print(stderr, "{}", ReportText(facts));
+    rt::Say(ReportText(facts), rt::Speaker::Kind::kReport);
     if (!options_.json.empty()) transport::WriteJson(ReportJson(facts), options_.json);
     return Status(facts, stayed);
   }

@@ -1,12 +1,14 @@
 // amb-controller: see controller_run.hpp.
 
-#include <fmt/core.h>
-
-#include <cstdio>
+#include <string>
 
 #include "controller/program/controller_run.hpp"
+#include "controller/rt/say.hpp"
+#include "controller/rt/stop_signal.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int Main(int argc, char** argv) {
   using namespace levitas;
   try {
     controller_program::ControllerOptions options;
@@ -16,10 +18,20 @@ int main(int argc, char** argv) {
     }
     return static_cast<int>(controller_program::Run(options));
   } catch (const Problem& problem) {
-    fmt::print(stderr, "amb-controller: {}\n", problem.what());
+    rt::Say(std::string("amb-controller: ") + problem.what());
     return static_cast<int>(problem.status());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "amb-controller: {}\n", error.what());
+    rt::Say(std::string("amb-controller: ") + error.what());
     return static_cast<int>(ExitStatus::kOther);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  levitas::rt::OpenStandardFiles();
+  levitas::rt::CatchStopSignals();
+  const int status = Main(argc, argv);
+  static_cast<void>(levitas::rt::FlushSaid());
+  return status;
 }

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "controller/rt/say.hpp"
 #include "hil/can_port/can_rig_link.hpp"
 #include "hil/rig_lines/rig_lines.hpp"
 #include "hil/socketcan/can_connection.hpp"
@@ -46,9 +47,8 @@ ExitStatus Run(const plant_run::PlantOptions& options) {
   socketcan::ApplyWireDelay(rig, connection.budget);
   socketcan::SocketCan access(connection.layout, connection.buses, can::Sender::kRig);
   can_port::CanRigLink link(connection.layout, connection.buses, access);
-  fmt::print(stderr,
-             "amb-rig: from sample to current {:.2f} periods, on the wire {:.1f} us of it\n",
-             rig.plant.delay_samples, connection.budget.transport_s() * 1e6);
+  rt::Say(fmt::format("amb-rig: from sample to current {:.2f} periods, on the wire {:.1f} us of it",
+                      rig.plant.delay_samples, connection.budget.transport_s() * 1e6));
   std::optional<LineGate> gate;
   // As the controller: in lockstep time is not the machine's, and the lines' time-outs mean
   // nothing.

@@ -54,7 +54,7 @@ plant::PlantCommand PlantLoop::Allowed() noexcept {
                            : wanted && !gate.open ? RigEventKind::kGateShut
                                                   : RigEventKind::kSwitchedOff;
   NoteEnergised(wanted && gate.open, why);
-  if (energised_) return command_;
+  if (energised()) return command_;
   plant::PlantCommand off = command_;
   off.control_current_a.fill(0.0);
   off.bias_current_a = 0.0;
@@ -63,8 +63,8 @@ plant::PlantCommand PlantLoop::Allowed() noexcept {
 }
 
 void PlantLoop::NoteEnergised(bool energised, RigEventKind why) noexcept {
-  if (energised == energised_) return;
-  energised_ = energised;
+  if (energised == this->energised()) return;
+  energised_.store(energised, std::memory_order_relaxed);
   falling_ = !energised;
   const RigEventKind kind = energised ? RigEventKind::kEnergised : why;
   events_.Post({kind, statistics_.cycles,

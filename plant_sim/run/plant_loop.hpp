@@ -13,7 +13,7 @@
 //            pass by themselves: a controller that stays silent for `silence_ns` of the machine's
 //            time is taken for dead, and the rotor moves on without it (0: never).
 // Gate       the rig's own lines, where it has some: they may keep the amplifiers off.
-// Thread     Run in one thread; Stop, heard and TakeEvent from any one other.
+// Thread     Run in one thread; Stop, heard, energised and TakeEvent from any one other.
 
 #include <atomic>
 #include <cstdint>
@@ -98,6 +98,10 @@ class PlantLoop {
   [[nodiscard]] std::uint64_t heard() const noexcept {
     return heard_.load(std::memory_order_relaxed);
   }
+  /// The amplifiers drive current.
+  [[nodiscard]] bool energised() const noexcept {
+    return energised_.load(std::memory_order_relaxed);
+  }
   /// The next event, oldest first; false when there is none.
   bool TakeEvent(RigEvent& event) noexcept { return events_.Take(event); }
   [[nodiscard]] const PlantStatistics& statistics() const noexcept { return statistics_; }
@@ -130,9 +134,9 @@ class PlantLoop {
   plant::PlantCommand command_{.amplifiers_enabled = false};
   std::uint64_t held_in_a_row_{0};
   bool answered_once_{false};
-  bool latched_{false};    ///< the watchdog keeps the amplifiers off
-  bool energised_{false};  ///< as the plant was driven in the latest period
-  bool falling_{false};    ///< switched off and not yet landed
+  bool latched_{false};                 ///< the watchdog keeps the amplifiers off
+  std::atomic<bool> energised_{false};  ///< as the plant was driven in the latest period
+  bool falling_{false};                 ///< switched off and not yet landed
   std::uint32_t status_{0};
   std::uint32_t gate_status_{0};
   std::atomic<std::uint64_t> heard_{0};

@@ -3,13 +3,14 @@
 #include <fmt/core.h>
 
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <random>
 #include <thread>
 
 #include "controller/rt/real_time.hpp"
+#include "controller/rt/say.hpp"
 #include "controller/rt/stop_signal.hpp"
+#include "controller/rt/thread_trouble.hpp"
 #include "transport/partner_watch.hpp"
 #include "transport/statistics_json.hpp"
 
@@ -18,6 +19,8 @@ namespace {
 
 // A blocked receive is overlooked for at most the period of the lockstep repetition.
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
+// Longer than the controller's own limit for a landing: a rig that nobody looks after ends, too.
+constexpr std::int64_t kLandingLimitNs = 660'000'000'000;
 
 nlohmann::ordered_json Json(const PlantSetup& setup, const PlantStatistics& statistics,
                             const std::vector<rt::RealTimeFact>& facts) {
@@ -66,43 +69,84 @@ std::string Text(const RigEvent& event) {
 void TellEvents(PlantLoop& loop, const char* program) {
   RigEvent event;
   while (loop.TakeEvent(event)) {
-    fmt::print(stderr, "{}: cycle {}: {}\n", program, event.cycle, Text(event));
+    rt::Say(fmt::format("{}: cycle {}: {}", program, event.cycle, Text(event)));
   }
 }
 
 // Looks after the loop from the main thread: signals, and whether the controller is there.
-ExitStatus Watch(PlantLoop& loop, const std::atomic<bool>& running, const PlantSetup& setup) {
-  const char* name = setup.program.name;
-  const double timeout_s = setup.options.partner_timeout_s;
-  transport::PartnerWatch watch(rt::MonotonicNowNs(), static_cast<std::int64_t>(timeout_s * 1e9));
-  using Say = transport::PartnerWatch::Say;
-  while (running.load()) {
-    std::this_thread::sleep_for(kLookEvery);
-    TellEvents(loop, name);
-    if (rt::StopSignals() > 0) loop.Stop();
-    const Say say = watch.Check(rt::MonotonicNowNs(), loop.heard());
-    if (say == Say::kFound) fmt::print(stderr, "{}: controller found\n", name);
-    if (say == Say::kMissing) {
-      fmt::print(stderr,
-                 "{}: no controller answers at {}; start amb-controller with the same --port and "
-                 "--pace (giving up {} s after its last message)\n",
-                 name, setup.where, timeout_s);
+class Watchman {
+ public:
+  Watchman(PlantLoop& loop, const PlantSetup& setup)
+      : loop_(loop),
+        setup_(setup),
+        timeout_s_(setup.options.partner_timeout_s),
+        controller_(rt::MonotonicNowNs(), static_cast<std::int64_t>(timeout_s_ * 1e9)) {}
+
+  ExitStatus Watch(const std::atomic<bool>& running) noexcept {
+    while (running.load()) {
+      std::this_thread::sleep_for(kLookEvery);
+      rt::Guarded("main", [&] {
+        TellEvents(loop_, setup_.program.name);
+        if (running.load()) Look();
+      });
     }
-    if (say == Say::kGiveUp && running.load()) {
-      fmt::print(stderr, "{}: no controller for {} s, ending\n", name, timeout_s);
-      loop.Stop();
-      return ExitStatus::kOther;
-    }
+    return status_;
   }
-  return ExitStatus::kDone;
-}
+
+ private:
+  void Look() {
+    HeedSignals();
+    if (status_ != ExitStatus::kDone) return;
+    const char* name = setup_.program.name;
+    using Word = transport::PartnerWatch::Say;
+    const Word word = controller_.Check(rt::MonotonicNowNs(), loop_.heard());
+    if (word == Word::kFound) rt::Say(fmt::format("{}: controller found", name));
+    if (word == Word::kMissing) {
+      rt::Say(
+          fmt::format("{}: no controller answers at {}; start amb-controller with the same --port "
+                      "and --pace (giving up {} s after its last message)",
+                      name, setup_.where, timeout_s_));
+    }
+    if (word != Word::kGiveUp) return;
+    rt::Say(fmt::format("{}: no controller for {} s, ending", name, timeout_s_));
+    loop_.Stop();
+    status_ = ExitStatus::kOther;
+  }
+
+  // A controller that is there has been asked too, or its rotor is in its hands: the rig stays
+  // until the amplifiers are off, else the first to end would be the one that the rotor needs.
+  void HeedSignals() {
+    const int asked = rt::StopSignals();
+    if (asked == 0 && !rt::QuitSignal() && rt::Troubles() == 0) return;
+    const bool holds = loop_.energised() && controller_.present();
+    if (asked_since_ns_ == 0) {
+      asked_since_ns_ = rt::MonotonicNowNs();
+      if (holds) {
+        rt::Say(
+            fmt::format("{}: asked to end: staying until the controller has switched the "
+                        "amplifiers off (the same signal again ends at once)",
+                        setup_.program.name));
+      }
+    }
+    const bool overdue = rt::MonotonicNowNs() - asked_since_ns_ > kLandingLimitNs;
+    if (asked > 1 || rt::QuitSignal() || overdue || !holds) loop_.Stop();
+  }
+
+  PlantLoop& loop_;
+  const PlantSetup& setup_;
+  double timeout_s_;
+  transport::PartnerWatch controller_;
+  std::int64_t asked_since_ns_{0};  ///< 0: not asked to end
+  ExitStatus status_{ExitStatus::kDone};
+};
 
 void TellEnd(const PlantSetup& setup, const PlantStatistics& statistics) {
-  fmt::print(stderr, "{}: {} cycles, {} skipped, {} currents held, {} lost\n", setup.program.name,
-             statistics.cycles, statistics.skipped_periods, statistics.held_currents,
-             setup.link.counters().currents_lost);
+  rt::Say(fmt::format("{}: {} cycles, {} skipped, {} currents held, {} lost", setup.program.name,
+                      statistics.cycles, statistics.skipped_periods, statistics.held_currents,
+                      setup.link.counters().currents_lost),
+          rt::Speaker::Kind::kReport);
   const std::string trouble = setup.link.Trouble();
-  if (!trouble.empty()) fmt::print(stderr, "{}: transport: {}\n", setup.program.name, trouble);
+  if (!trouble.empty()) rt::Say(fmt::format("{}: transport: {}", setup.program.name, trouble));
 }
 
 /// Empty when real time is neither wanted nor refused.
@@ -113,8 +157,8 @@ std::unique_ptr<rt::RealTimeGuard> PrepareRealTime(const PlantSetup& setup) {
   if (setup.options.require_realtime) {
     throw Problem(ExitStatus::kOther, "real time is refused:\n" + rt::Text(guard->facts()));
   }
-  fmt::print(stderr, "{}: real time is degraded:\n{}", setup.program.name,
-             rt::Text(guard->facts()));
+  rt::Say(
+      fmt::format("{}: real time is degraded:\n{}", setup.program.name, rt::Text(guard->facts())));
   return guard;
 }
 
@@ -139,17 +183,16 @@ ExitStatus RunPlant(const PlantSetup& setup) {
                   .watchdog_periods = options.watchdog_periods,
                   .silence_ns = setup.silence_ns},
                  plant, setup.link, clock, setup.gate, &events);
-  rt::CatchStopSignals();
   const std::unique_ptr<rt::RealTimeGuard> guard = PrepareRealTime(setup);
-  fmt::print(stderr, "{}: rig {}, {} axes, {} pace, {}\n", setup.program.name, numbers.name,
-             numbers.axes(), options.realtime ? "real-time" : "lockstep", setup.where);
+  rt::Say(fmt::format("{}: rig {}, {} axes, {} pace, {}", setup.program.name, numbers.name,
+                      numbers.axes(), options.realtime ? "real-time" : "lockstep", setup.where));
   std::atomic<bool> running{true};
   std::thread thread([&] {
-    if (guard) rt::EnterThread({});
+    if (guard) rt::Guarded("loop", [] { rt::EnterThread({}); });
     loop.Run();
     running.store(false);
   });
-  const ExitStatus status = Watch(loop, running, setup);
+  const ExitStatus status = Watchman(loop, setup).Watch(running);
   thread.join();
   TellEvents(loop, setup.program.name);
   TellEnd(setup, loop.statistics());
@@ -161,8 +204,10 @@ ExitStatus RunPlant(const PlantSetup& setup) {
   return status;
 }
 
-int MainOf(const PlantProgram& program, int argc, char** argv,
-           const std::function<ExitStatus(const PlantOptions&)>& run) {
+namespace {
+
+int Checked(const PlantProgram& program, int argc, char** argv,
+            const std::function<ExitStatus(const PlantOptions&)>& run) {
   try {
     PlantOptions options;
     options.watchdog_periods = program.watchdog_periods;
@@ -171,12 +216,23 @@ int MainOf(const PlantProgram& program, int argc, char** argv,
     if (ReadCommandLine(argc, argv, program, options, status)) status = run(options);
     return static_cast<int>(status);
   } catch (const Problem& problem) {
-    fmt::print(stderr, "{}: {}\n", program.name, problem.what());
+    rt::Say(fmt::format("{}: {}", program.name, problem.what()));
     return static_cast<int>(problem.status());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", program.name, error.what());
+    rt::Say(fmt::format("{}: {}", program.name, error.what()));
     return static_cast<int>(ExitStatus::kOther);
   }
+}
+
+}  // namespace
+
+int MainOf(const PlantProgram& program, int argc, char** argv,
+           const std::function<ExitStatus(const PlantOptions&)>& run) {
+  rt::OpenStandardFiles();
+  rt::CatchStopSignals();
+  const int status = Checked(program, argc, argv, run);
+  static_cast<void>(rt::FlushSaid());
+  return status;
 }
 
 }  // namespace levitas::plant_run

@@ -1,6 +1,7 @@
 #pragma once
 // One run of a simulated rig, from its options to the exit status, whatever link it is on.
 //
+// Signals       the first waits while a controller holds the rotor, see rt/stop_signal.hpp.
 // Exit status   0 the controller said goodbye, or a signal; 1 no controller came, or real time was
 //               required and is refused; 3 a bad file.
 // Threads       main (signals, partner, events), loop.
