@@ -4,9 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "catalogue/catalogue.hpp"
 #include "catalogue/catalogue_path.hpp"
@@ -118,20 +120,32 @@ std::vector<std::string> Files(const std::vector<std::string>& paths) {
   return files;
 }
 
+/// What the file is; nothing, and a line more in `refused`, whatever is wrong with it.
+std::optional<Entry> Described(const std::string& file, std::string& refused) {
+  const auto refuse = [&refused](const std::string& why) {
+    refused += (refused.empty() ? "" : "\n") + why;
+    return std::nullopt;
+  };
+  try {
+    return catalogue::DescribeSession(file);
+  } catch (const BadInput& problem) {
+    return refuse(problem.what());
+  } catch (const std::exception& problem) {
+    return refuse(file + ": " + problem.what());
+  }
+}
+
 ExitStatus Add(const SessionsOptions& options) {
   Catalogue catalogue(PathOfCatalogue(options));
   std::string refused;
   auto entered = nlohmann::ordered_json::array();
   for (const std::string& file : Files(options.paths)) {
-    try {
-      Entry entry = catalogue::DescribeSession(file);
-      entry.tags = options.tags;
-      catalogue.Put(entry);
-      Print(entry);
-      entered.push_back(Json(entry));
-    } catch (const BadInput& problem) {  // the others are still entered
-      refused += (refused.empty() ? "" : "\n") + std::string(problem.what());
-    }
+    std::optional<Entry> entry = Described(file, refused);
+    if (!entry) continue;  // the others are still entered
+    entry->tags = options.tags;
+    catalogue.Put(*entry);
+    Print(*entry);
+    entered.push_back(Json(*entry));
   }
   WriteJsonFile(options.json_path, {{"sessions", entered}, {"refused", refused}});
   if (!refused.empty()) throw BadInput(refused);

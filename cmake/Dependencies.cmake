@@ -15,6 +15,7 @@ add_library(lcm SHARED IMPORTED)
 set_target_properties(lcm PROPERTIES IMPORTED_LOCATION ${LCM_LIBRARY}
                                      INTERFACE_INCLUDE_DIRECTORIES ${LCM_INCLUDE})
 find_program(LCM_GEN lcm-gen REQUIRED)
+find_program(PYTHON3 python3 REQUIRED)
 # yaml-cpp 0.7 of Debian defines the target without its namespace.
 if(NOT TARGET yaml-cpp::yaml-cpp)
   add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)

@@ -1,5 +1,5 @@
 # Generates C++ headers (included as SYSTEM: the generator's code warns under -Wconversion) and
-# Python modules from lcmtypes/*.lcm.
+# Python modules from lcmtypes/*.lcm, and the layouts that are checked before anything is decoded.
 function(levitas_lcm_types target)
   set(cpp ${PROJECT_BINARY_DIR}/lcmtypes/cpp)
   set(python ${PROJECT_BINARY_DIR}/lcmtypes/python)
@@ -16,6 +16,12 @@ function(levitas_lcm_types target)
       VERBATIM)
     list(APPEND outputs ${header})
   endforeach()
+  set(layouts ${cpp}/levitas_msg/layouts.hpp)
+  set(generator ${PROJECT_SOURCE_DIR}/cmake/lcm_layouts.py)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
+  add_custom_command(OUTPUT ${layouts} COMMAND ${PYTHON3} -B ${generator} ${layouts} ${sources}
+                     DEPENDS ${generator} ${sources} ${outputs} COMMENT "layouts of the messages" VERBATIM)
+  list(APPEND outputs ${layouts})
   add_custom_target(${target}_generate DEPENDS ${outputs})
   levitas_library(${target} LAYER 0)
   add_dependencies(${target} ${target}_generate)

@@ -1,6 +1,7 @@
 #include "dashboard/dashboard.hpp"
 
 #include <atomic>
+#include <exception>
 #include <optional>
 #include <thread>
 
@@ -57,10 +58,19 @@ struct Dashboard::Impl {
     while (!stopping.load()) {
       const auto received = receiver.Receive(next_tick_ns);
       const std::int64_t now_ns = rt::MonotonicNowNs();
-      if (!received.datagram.empty()) Hear(received, now_ns);
+      if (!received.datagram.empty()) HearAnything(received, now_ns);
       if (now_ns < next_tick_ns) continue;
       next_tick_ns = now_ns + Ns(kTick);
       Publish(now_ns);
+    }
+  }
+
+  /// No datagram ends this thread, and with it the page and its emergency stop.
+  void HearAnything(const transport::Received& received, std::int64_t now_ns) {
+    try {
+      Hear(received, now_ns);
+    } catch (const std::exception&) {
+      run.Refuse();
     }
   }
 

@@ -1,11 +1,11 @@
 #include "dashboard/live_run.hpp"
 
-#include <array>
+#include <exception>
 #include <levitas_msg/sample_batch_t.hpp>
 #include <utility>
 
-#include "common/problem.hpp"
 #include "config/rig_file.hpp"
+#include "lcmtypes/checked_decode.hpp"
 #include "session/record_codec.hpp"
 #include "transport/lcm_network.hpp"
 
@@ -14,37 +14,10 @@ namespace {
 
 namespace channel = transport::channel;
 
-// Where a message's counts of elements lie, behind the eight bytes of its type. LCM's generated code
-// believes them, and would ask for gigabytes on a stranger's word: they are checked before.
-template <class Message>
-constexpr std::array<std::size_t, 0> kCountsAt{};
-template <>
-constexpr std::array<std::size_t, 1> kCountsAt<levitas_msg::controller_state_t>{8 + 19};
-template <>
-constexpr std::array<std::size_t, 1> kCountsAt<levitas_msg::loop_histogram_t>{8 + 8};
-template <>
-constexpr std::array<std::size_t, 3> kCountsAt<levitas_msg::sample_batch_t>{8 + 16, 8 + 20, 8 + 24};
-
-bool CountFits(std::span<const std::uint8_t> payload, std::size_t at) {
-  if (payload.size() < at + 4) return false;
-  std::size_t count = 0;
-  for (const std::uint8_t byte : payload.subspan(at, 4)) count = count << 8U | byte;
-  return count <= payload.size();
-}
-
-template <class Message>
-bool Decode(std::span<const std::uint8_t> payload, Message& message) {
-  for (const std::size_t at : kCountsAt<Message>) {
-    if (!CountFits(payload, at)) return false;
-  }
-  const auto size = static_cast<int>(payload.size());
-  return message.decode(payload.data(), 0, size) == size;
-}
-
 template <class Message>
 bool Keep(std::span<const std::uint8_t> payload, std::optional<Message>& newest) {
   Message message{};
-  if (!Decode(payload, message)) return false;
+  if (!message::DecodeChecked(payload, message)) return false;
   newest = std::move(message);
   return true;
 }
@@ -67,7 +40,7 @@ void LiveRun::Take(std::string_view channel, std::span<const std::uint8_t> paylo
   } else if (channel == channel::kSamples) {
     good = TakeSamples(payload);
   }
-  if (!good) ++refused_;
+  if (!good) Refuse();
 }
 
 bool LiveRun::TakeHeader(std::span<const std::uint8_t> payload) {
@@ -79,8 +52,8 @@ bool LiveRun::TakeHeader(std::span<const std::uint8_t> payload) {
   if (known) return true;
   try {
     rig_ = config::ParseRig(header.rig_yaml, "the announced rig").numbers;
-  } catch (const BadInput&) {
-    return false;  // of a program of another version
+  } catch (const std::exception&) {
+    return false;  // of a program of another version, or no rig at all
   }
   header_ = std::move(header);
   samples_.emplace(*rig_);
@@ -110,7 +83,7 @@ bool LiveRun::TakeEvent(std::span<const std::uint8_t> payload) {
 bool LiveRun::TakeSamples(std::span<const std::uint8_t> payload) {
   if (!samples_) return true;  // the header is not here yet: nothing is wrong with the batch
   levitas_msg::sample_batch_t batch{};
-  return Decode(payload, batch) && samples_->Add(batch);
+  return message::DecodeChecked(payload, batch) && samples_->Add(batch);
 }
 
 }  // namespace levitas::dashboard

@@ -53,6 +53,8 @@ class LiveRun {
   [[nodiscard]] const std::deque<NumberedEvent>& events() const noexcept { return events_; }
   [[nodiscard]] std::uint64_t newest_event() const noexcept { return event_count_; }
   [[nodiscard]] std::optional<SampleStore>& samples() noexcept { return samples_; }
+  /// Counts a message that could not be used.
+  void Refuse() noexcept { ++refused_; }
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
 
  private:

@@ -6,13 +6,14 @@
 #include <levitas_msg/session_header_t.hpp>
 
 #include "common/crc32.hpp"
+#include "lcmtypes/checked_decode.hpp"
 #include "session/log_format.hpp"
 
 namespace levitas::session {
 namespace {
 
 using Input = std::span<const std::uint8_t>;
-constexpr std::size_t kHashBytes = 8;
+using message::kHashBytes;
 constexpr std::size_t kCrcBytes = 4;
 
 /// CRC over everything, the last four bytes (the CRC field) taken as zero.
@@ -38,18 +39,6 @@ std::string UntilZero(const std::string& text) { return text.c_str(); }
 
 void FillCrc(Bytes& out) noexcept {
   PutBigEndian(out.data() + out.size() - kCrcBytes, CrcWithFieldZero(out));
-}
-
-template <class Message>
-bool IsMessage(Input bytes) noexcept {
-  return bytes.size() >= kHashBytes &&
-         GetBigEndian<std::int64_t>(bytes.data()) == Message::getHash();
-}
-
-template <class Message>
-bool DecodeMessage(Input bytes, Message& message) {
-  const int size = static_cast<int>(bytes.size());
-  return message.decode(bytes.data(), 0, size) == size;
 }
 
 void ToVector(const AxisArray& from, std::vector<double>& to) noexcept {
@@ -174,13 +163,7 @@ void RecordCodec::Encode(const cycle::CycleRecord& record, Bytes& out) {
 }
 
 bool RecordCodec::Decode(Input bytes, cycle::CycleRecord& record) {
-  constexpr std::size_t kAxesOffset = kHashBytes + 8;
-  if (!IsMessage<levitas_msg::cycle_record_t>(bytes) || !CrcFits(bytes)) return false;
-  if (bytes.size() < kAxesOffset + 4 ||
-      GetBigEndian<std::uint32_t>(bytes.data() + kAxesOffset) > kMaxAxes) {
-    return false;
-  }
-  if (!DecodeMessage(bytes, message_)) return false;
+  if (!CrcFits(bytes) || !message::DecodeChecked(bytes, message_)) return false;
   record = {GetInputs(message_), GetOutputs(message_)};
   return true;
 }
@@ -200,15 +183,9 @@ void EncodeEvent(const Event& event, Bytes& out) {
 }
 
 bool DecodeEvent(Input bytes, Event& event) {
-  // The type has no CRC, so its one length and its enumerations are checked by hand.
-  constexpr std::size_t kTextLengthOffset = kHashBytes + 8 + 8 + 4 + 8 + 8;
-  constexpr std::size_t kFixedBytes = kTextLengthOffset + 4;
-  if (!IsMessage<levitas_msg::event_t>(bytes) || bytes.size() <= kFixedBytes ||
-      GetBigEndian<std::uint32_t>(bytes.data() + kTextLengthOffset) != bytes.size() - kFixedBytes) {
-    return false;
-  }
   levitas_msg::event_t message;
-  if (!DecodeMessage(bytes, message)) return false;
+  if (!message::DecodeChecked(bytes, message)) return false;
+  // The type has no CRC, so its enumerations are checked.
   if (message.severity < 0 || message.severity > 2 || message.mode < 0 ||
       message.mode >= kModeCount || message.fault < 0 || message.fault >= kFaultCount) {
     return false;
@@ -255,9 +232,8 @@ HeaderResult DecodeHeader(Input bytes, SessionHeader& header, int& version) {
   const bool other = version != kFormatVersion && version > 0 && version < kHighestBelievable;
   if (!CrcFits(bytes)) return HeaderResult::kDamaged;
   if (other) return HeaderResult::kOtherVersion;
-  if (!IsMessage<levitas_msg::session_header_t>(bytes)) return HeaderResult::kDamaged;
   levitas_msg::session_header_t message;
-  if (!DecodeMessage(bytes, message)) return HeaderResult::kDamaged;
+  if (!message::DecodeChecked(bytes, message)) return HeaderResult::kDamaged;
   header = {.program_version = message.program_version,
             .rig_yaml = message.rig_yaml,
             .controller_yaml = message.controller_yaml,

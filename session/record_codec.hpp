@@ -1,8 +1,9 @@
 #pragma once
 // Cycle records, events and headers to and from the bytes of their LCM types.
 //
-// Integrity  records and headers end in a CRC-32 over their own bytes with the CRC field zero. It
-//            is checked before anything is decoded: a damaged length never reaches the decoder.
+// Integrity  records and headers end in a CRC-32 over their own bytes with the CRC field zero; it
+//            tells damage. What a sound CRC covers is still not believed: counts and lengths are
+//            checked against the bytes before anything is decoded (lcmtypes/checked_decode.hpp).
 // Bits       every double survives with its bits, NaN included.
 // Thread     one codec per thread; after the first record nothing is allocated for records.
 

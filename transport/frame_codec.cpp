@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "lcmtypes/checked_decode.hpp"
 #include "transport/lcm_network.hpp"
 #include "transport/lcm_packet.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 constexpr std::size_t kSensorAxesAt = 8 + 8 + 8 + 4 + 4 + 4;
 constexpr std::size_t kCurrentAxesAt = 8 + 8;
 
-// The generated decoder sizes its array by the count it finds, so the count is checked first.
+// Another rig's count would be decoded too, into an array of another length; so it is compared first.
 template <class Message>
 bool DecodeInto(Message& message, std::span<const std::uint8_t> payload, std::size_t axes_at,
                 std::size_t axes) noexcept {
@@ -24,7 +25,7 @@ bool DecodeInto(Message& message, std::span<const std::uint8_t> payload, std::si
   if (payload.size() != static_cast<std::size_t>(size)) return false;
   const std::array<std::uint8_t, 4> count{0, 0, 0, static_cast<std::uint8_t>(axes)};
   if (std::memcmp(payload.data() + axes_at, count.data(), count.size()) != 0) return false;
-  return message.decode(payload.data(), 0, size) == size;
+  return message::DecodeChecked(payload, message);
 }
 
 template <class Message>

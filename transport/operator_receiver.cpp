@@ -7,22 +7,13 @@
 
 #include "controller/rt/clock.hpp"
 #include "controller/rt/thread_trouble.hpp"
+#include "lcmtypes/checked_decode.hpp"
 #include "transport/lcm_packet.hpp"
 
 namespace levitas::transport {
 
 namespace {
 constexpr std::int64_t kSliceNs = 50'000'000;  // how long the destructor may have to wait
-
-/// LCM's generated code believes the length of a text: it is checked before.
-bool TextFits(std::span<const std::uint8_t> payload) noexcept {
-  constexpr std::size_t kLengthAt = 8 + 8;  // behind the type's hash and the sequence number
-  constexpr std::size_t kTextAt = kLengthAt + 4;
-  if (payload.size() <= kTextAt) return false;
-  std::size_t length = 0;
-  for (const std::uint8_t byte : payload.subspan(kLengthAt, 4)) length = length << 8U | byte;
-  return length == payload.size() - kTextAt;
-}
 }  // namespace
 
 OperatorReceiver::OperatorReceiver(const LcmNetwork& network,
@@ -72,10 +63,8 @@ void OperatorReceiver::Handle(const Received& received) {
 
 void OperatorReceiver::HandleCommand(const Packet& packet, std::uint64_t sender) {
   levitas_msg::operator_command_t message{};
-  const int size = message.getEncodedSize();
-  const bool sound = packet.payload.size() == static_cast<std::size_t>(size) &&
-                     message.decode(packet.payload.data(), 0, size) == size &&
-                     message.command > 0 && message.command < kOperatorCommandCount &&
+  const bool sound = message::DecodeChecked(packet.payload, message) && message.command > 0 &&
+                     message.command < kOperatorCommandCount &&
                      static_cast<OperatorCommand>(message.command) != OperatorCommand::kExcite &&
                      std::isfinite(message.speed_rad_per_s) &&
                      std::isfinite(message.acceleration_rad_per_s2);
@@ -88,9 +77,8 @@ void OperatorReceiver::HandleCommand(const Packet& packet, std::uint64_t sender)
 
 void OperatorReceiver::HandleExcitation(const Packet& packet, std::uint64_t sender) {
   levitas_msg::excitation_request_t message{};
-  const auto size = static_cast<int>(packet.payload.size());
-  const bool sound = packet.payload.size() <= kLongestText && TextFits(packet.payload) &&
-                     message.decode(packet.payload.data(), 0, size) == size;
+  const bool sound =
+      packet.payload.size() <= kLongestText && message::DecodeChecked(packet.payload, message);
   if (!sound) return Reject();
   if (!Repeated(sender, message.sequence)) excite_(message.step_yaml);
 }

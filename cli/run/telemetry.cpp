@@ -3,25 +3,22 @@
 #include <levitas_msg/controller_state_t.hpp>
 
 #include "controller/rt/clock.hpp"
+#include "lcmtypes/checked_decode.hpp"
 #include "transport/lcm_packet.hpp"
 
 namespace levitas::cli {
-namespace {
 
-std::optional<ProgressSample> Sample(std::span<const std::uint8_t> datagram) {
+std::optional<ProgressSample> StateIn(std::span<const std::uint8_t> datagram) {
   const transport::Packet packet = transport::ParsePacket(datagram);
   if (packet.kind != transport::PacketKind::kShort ||
       packet.channel != transport::channel::kState) {
     return std::nullopt;
   }
   levitas_msg::controller_state_t state{};
-  const auto size = static_cast<int>(packet.payload.size());
-  if (state.decode(packet.payload.data(), 0, size) < 0) return std::nullopt;
+  if (!message::DecodeChecked(packet.payload, state)) return std::nullopt;
   return ProgressSample{static_cast<std::uint64_t>(state.cycle), static_cast<Mode>(state.mode),
                         state.speed_rad_per_s, state.position_m};
 }
-
-}  // namespace
 
 Telemetry::Telemetry(const transport::LcmNetwork& network)
     : receiver_(network, transport::Direction::kTelemetry) {}
@@ -33,7 +30,7 @@ std::optional<ProgressSample> Telemetry::Wait(std::chrono::milliseconds limit) {
   for (;;) {
     const auto received = receiver_.Receive(newest ? 0 : deadline_ns);
     if (received.datagram.empty()) return newest;
-    if (auto sample = Sample(received.datagram)) newest = std::move(sample);
+    if (auto sample = StateIn(received.datagram)) newest = std::move(sample);
   }
 }
 

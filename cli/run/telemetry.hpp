@@ -6,12 +6,17 @@
 // Lost     telemetry may drop messages; nothing here depends on a single one.
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "cli/run/progress.hpp"
 #include "transport/multicast_socket.hpp"
 
 namespace levitas::cli {
+
+/// What a datagram says of the run; nothing when it is not a sound state of the controller.
+[[nodiscard]] std::optional<ProgressSample> StateIn(std::span<const std::uint8_t> datagram);
 
 class Telemetry {
  public:

@@ -35,6 +35,12 @@ class Files(unittest.TestCase):
     def test_every_header_says_what_it_is(self):
         self.assert_none(violations(rules.header_without_description, (".hpp",)))
 
+    def test_messages_are_decoded_in_one_place(self):
+        found = violations(rules.decodes_unchecked, (".cpp", ".hpp"))
+        # A test may read our own bytes as any other program of LCM does.
+        programs = [line.split(":")[0] for line in found if not line.startswith("tests/")]
+        self.assertEqual(programs, ["lcmtypes/checked_decode.hpp"])
+
 
 class Tour(unittest.TestCase):
     """The tour of README.md, done in a clone, leaves git nothing to report."""
@@ -71,6 +77,11 @@ class SeededViolations(unittest.TestCase):
 
     def test_an_asserting_helper_counts(self):
         self.assertFalse(rules.tests_without_assertion("TEST(A, B) { ExpectClose(1, 2); }\n"))
+
+    def test_a_decoder_that_believes_what_it_reads_is_refused(self):
+        for call in ("state.decode(data, 0, size)", "state->decode(data, 0, size)"):
+            self.assertIn("line 2", rules.decodes_unchecked(f"\nif ({call} < 0) return;\n")[0])
+        self.assertFalse(rules.decodes_unchecked("if (DecodeChecked(bytes, m)) return codec.Decode(b);\n"))
 
     def test_a_header_without_words_is_refused(self):
         self.assertTrue(rules.header_without_description("#pragma once\n\n#include <vector>\n"))

@@ -11,6 +11,7 @@ NOT_OURS = {".git", "sessions", "__pycache__"}
 # Spelled in halves, so that this file obeys its own rule.
 NOTE_TO_SELF = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
 TEST_HEAD = re.compile(r"^(?:TEST|TEST_F|TEST_P|TYPED_TEST)\(\s*(\w+),\s*(\w+)\)\s*\{", re.M)
+GENERATED_DECODER = re.compile(r"(\.|->)decode(NoHash|_array)?\(")
 ASSERTION = re.compile(
     r"\b(EXPECT_\w+|ASSERT_\w+|FAIL\(|ADD_FAILURE\w*\(|(?:Expect|Assert)[A-Z]\w*(?:<[^;]*?>)?\()")
 
@@ -36,6 +37,12 @@ def notes_to_self(text):
     return [f"line {number}: '{match.group()}': finish it, or describe the limit in words"
             for number, line in enumerate(text.splitlines(), 1)
             if (match := NOTE_TO_SELF.search(line))]
+
+
+def decodes_unchecked(text):
+    """LCM's generated decoders believe what they read: only DecodeChecked calls one."""
+    return [f"line {number}: a message is decoded by message::DecodeChecked and nothing else"
+            for number, line in enumerate(text.splitlines(), 1) if GENERATED_DECODER.search(line)]
 
 
 def _body(text, start):

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "announced_run.hpp"
+#include "common/crc32.hpp"
+#include "session/log_format.hpp"
 
 namespace levitas::dashboard {
 namespace {
@@ -44,6 +48,40 @@ TEST(LiveRun, CountsAndDropsWhatItCannotRead) {
   EXPECT_FALSE(run.state());
   run.Take("SOMETHING_ELSE", noise, 0);
   EXPECT_EQ(run.refused(), 10U) << "other channels are none of its business";
+}
+
+// Counts and lengths that LCM's own decoder believes: it would throw, or ask for gigabytes.
+TEST(LiveRun, RefusesAHeaderWhoseLengthsLieAlthoughItsChecksumIsRight) {
+  const session::Bytes good = EncodedHeader(1);
+  constexpr std::size_t kFirstTextAt = 8 + 4;               // behind hash and format_version
+  const std::size_t channels_at = good.size() - 4 - 5 - 4;  // before an empty text and the CRC
+  LiveRun run;
+  for (const std::size_t at : {kFirstTextAt, channels_at}) {
+    for (const std::uint32_t lie : {0U, 1000U, 0x7fffffffU, 0x80000000U, 0xfffffffbU}) {
+      session::Bytes bytes = good;
+      session::PutBigEndian(bytes.data() + at, lie);
+      if (bytes == good) continue;  // it has no channels: 0 is the truth
+      std::fill(bytes.end() - 4, bytes.end(), std::uint8_t{0});
+      session::PutBigEndian(bytes.data() + bytes.size() - 4, Crc32(bytes.data(), bytes.size()));
+      run.Take(channel::kHeader, bytes, 0);
+      EXPECT_FALSE(run.rig()) << "at " << at << ": " << lie;
+    }
+  }
+  EXPECT_EQ(run.refused(), 9U);
+  run.Take(channel::kHeader, good, 0);
+  EXPECT_TRUE(run.rig());
+}
+
+TEST(LiveRun, RefusesAStateOfMoreAxesThanItHolds) {
+  constexpr std::size_t kAxesAt = 8 + 8 + 8 + 3;
+  for (const std::uint32_t lie : {1U, 9U, 0x7fffffffU, 0xffffffffU}) {
+    auto bytes = Encoded(TrippedState());
+    session::PutBigEndian(bytes.data() + kAxesAt, lie);
+    LiveRun run;
+    run.Take(channel::kState, bytes, 0);
+    EXPECT_FALSE(run.state()) << lie;
+    EXPECT_EQ(run.refused(), 1U) << lie;
+  }
 }
 
 TEST(LiveRun, NumbersEventsAndKeepsTheLatest) {
