@@ -48,7 +48,8 @@ struct Recorder::Impl {
     }
     SessionHeader excerpt = options.header;
     excerpt.excerpt_of = options.session_path;
-    freezer = std::make_unique<TripFreezer>(options.trip_folder, excerpt, options.trip_window_s);
+    freezer = std::make_unique<TripFreezer>(options.trip_folder, excerpt, options.trip_window_s,
+                                            options.trip_budget);
     thread = std::thread([this] { Run(); });
   }
 
@@ -84,7 +85,7 @@ struct Recorder::Impl {
     events.clear();
     deriver.Finish(events);
     Tell();
-    Guarded(freezing, [this] { freezer->Finish(); });
+    Freeze([this] { freezer->Finish(); });
     Publish();
     Flush();
   }
@@ -92,8 +93,8 @@ struct Recorder::Impl {
   void Take(const cycle::CycleRecord& record) {
     events.clear();
     deriver.Step(record, events);
-    Guarded(recording, [&] { session->Write(record); });
-    Guarded(freezing, [&] { freezer->Take(record, events); });
+    Record([&] { session->Write(record); });
+    Freeze([&] { freezer->Take(record, events); });
     Publish();
     Tell();
     if (options.on_record) options.on_record(record);
@@ -102,14 +103,14 @@ struct Recorder::Impl {
   /// Writes and reports the derived events.
   void Tell() {
     for (const Event& event : events) {
-      Guarded(recording, [&] { session->Write(event); });
+      Record([&] { session->Write(event); });
       if (options.on_event) options.on_event(event);
     }
   }
 
   void Flush() {
-    Guarded(recording, [this] { session->Flush(); });
-    Guarded(freezing, [this] { freezer->Flush(); });
+    Record([this] { session->Flush(); });
+    Freeze([this] { freezer->Flush(); });
   }
 
   void Publish() {
@@ -119,20 +120,42 @@ struct Recorder::Impl {
     trip_path = published;
   }
 
-  /// A full disk ends what `works` stands for with one message; the controller, and the other of
-  /// the two files, go on.
+  /// A full disk ends the recording with one message; all else goes on.
   template <class Function>
-  void Guarded(bool& works, Function function) {
-    if (!works) return;
+  void Record(Function function) {
+    if (!recording) return;
     try {
       function();
     } catch (const std::exception& error) {
-      works = false;
-      Event told;
-      told.severity = Event::Severity::kWarning;
-      told.text = error.what();
-      if (options.on_event) options.on_event(told);
+      recording = false;
+      Warn(error.what());
     }
+  }
+
+  /// A full disk ends the trip file at hand; the next trip may find room again.
+  template <class Function>
+  void Freeze(Function function) {
+    try {
+      function();
+    } catch (const std::exception& error) {
+      freezer->Abandon();
+      Warn(error.what());
+    }
+    const std::vector<std::string> removed = freezer->TakeRemoved();
+    if (removed.empty()) return;
+    std::string names;
+    for (const std::string& name : removed) names += (names.empty() ? "" : ", ") + name;
+    Warn(
+        fmt::format("removed from the trip folder, which takes {} files and {} MB (--trip-budget): "
+                    "{}",
+                    options.trip_budget.files, options.trip_budget.bytes >> 20U, names));
+  }
+
+  void Warn(const std::string& text) {
+    Event told;
+    told.severity = Event::Severity::kWarning;
+    told.text = text;
+    if (options.on_event) options.on_event(told);
   }
 
   RecorderOptions options;
@@ -142,7 +165,6 @@ struct Recorder::Impl {
   std::unique_ptr<TripFreezer> freezer;  ///< never null
   std::vector<Event> events;
   bool recording{false};
-  bool freezing{true};
   std::string published;  ///< recorder's thread
   mutable std::mutex trip_mutex;
   std::string trip_path;

@@ -41,11 +41,13 @@ std::string TripFileName(std::int64_t utc_ns, Fault fault) {
                      Name(fault));
 }
 
-TripFreezer::TripFreezer(std::string folder, SessionHeader header, double window_s)
+TripFreezer::TripFreezer(std::string folder, SessionHeader header, double window_s,
+                         TripBudget budget)
     : folder_(std::move(folder)),
       header_(std::move(header)),
       window_cycles_(Cycles(window_s, header_.period_ns)),
-      before_(std::max<std::uint64_t>(window_cycles_, 1)) {}
+      before_(std::max<std::uint64_t>(window_cycles_, 1)),
+      budget_(budget) {}
 
 void TripFreezer::Open(const cycle::CycleRecord& record) {
   const auto utc_ns = [this](std::uint64_t cycle) {
@@ -69,21 +71,32 @@ void TripFreezer::Open(const cycle::CycleRecord& record) {
 void TripFreezer::Take(const cycle::CycleRecord& record, const std::vector<Event>& events) {
   if (!first_known_) first_cycle_ = record.in.cycle;
   first_known_ = true;
+  // Whatever becomes of the file: the next one needs the record.
+  struct Keep {
+    ~Keep() {
+      freezer.before_[freezer.next_] = record;
+      freezer.next_ = (freezer.next_ + 1) % freezer.before_.size();
+      freezer.filled_ = std::min(freezer.filled_ + 1, freezer.before_.size());
+    }
+    TripFreezer& freezer;
+    const cycle::CycleRecord& record;
+  };
+  const Keep keep{*this, record};
+  Write(record, events);
+}
+
+void TripFreezer::Write(const cycle::CycleRecord& record, const std::vector<Event>& events) {
   const auto tripped = [](const Event& event) { return event.severity == Event::Severity::kTrip; };
   if (std::any_of(events.begin(), events.end(), tripped)) {
     Finish();
     Open(record);
   }
-  if (file_) {
-    if (record.in.cycle <= last_cycle_) {
-      file_->Write(record);
-      for (const Event& event : events) file_->Write(event);
-    }
-    if (record.in.cycle >= last_cycle_) Finish();
+  if (!file_) return;
+  if (record.in.cycle <= last_cycle_) {
+    file_->Write(record);
+    for (const Event& event : events) file_->Write(event);
   }
-  before_[next_] = record;
-  next_ = (next_ + 1) % before_.size();
-  filled_ = std::min(filled_ + 1, before_.size());
+  if (record.in.cycle >= last_cycle_) Finish();
 }
 
 void TripFreezer::Finish() {
@@ -91,6 +104,18 @@ void TripFreezer::Finish() {
   file_->Flush();
   file_.reset();
   newest_ = path_;
+  MakeRoom();
+}
+
+void TripFreezer::Abandon() {
+  file_.reset();
+  MakeRoom();
+}
+
+void TripFreezer::MakeRoom() {
+  for (std::string& name : KeepWithin(budget_, folder_, path_)) {
+    removed_.push_back(std::move(name));
+  }
 }
 
 void TripFreezer::Flush() {

@@ -7,34 +7,44 @@
 // Safety   the file is readable from its first moment on; Finish (or kill -9) leaves what was
 //          there.
 // Thread   one thread (the recorder's). Memory for the window is made at construction.
-// Failure  BadInput or Problem when the file cannot be written.
+// Budget   older trip files of the folder make room for a new one, see trip_budget.hpp.
+// Failure  BadInput or Problem when the file cannot be written; Abandon then makes it ready for the
+//          next trip, of which no record is missing.
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "controller/cycle/cycle_io.hpp"
 #include "session/session_header.hpp"
 #include "session/session_writer.hpp"
+#include "session/trip_budget.hpp"
 
 namespace levitas::session {
 
 class TripFreezer {
  public:
-  TripFreezer(std::string folder, SessionHeader header, double window_s);
+  TripFreezer(std::string folder, SessionHeader header, double window_s, TripBudget budget = {});
 
   /// The record, and the events that were derived from it.
   void Take(const cycle::CycleRecord& record, const std::vector<Event>& events);
   /// Closes an unfinished file.
   void Finish();
   void Flush();
+  /// Gives an unfinished file up as it is.
+  void Abandon();
+  /// Names of the files that had to make room since the last call.
+  [[nodiscard]] std::vector<std::string> TakeRemoved() { return std::exchange(removed_, {}); }
   /// Path of the newest closed file, empty if none.
   [[nodiscard]] const std::string& newest() const noexcept { return newest_; }
 
  private:
+  void MakeRoom();
   void Open(const cycle::CycleRecord& record);
+  void Write(const cycle::CycleRecord& record, const std::vector<Event>& events);
 
   std::string folder_;
   SessionHeader header_;
@@ -47,6 +57,8 @@ class TripFreezer {
   std::unique_ptr<SessionWriter> file_;
   std::string path_;
   std::string newest_;
+  TripBudget budget_;
+  std::vector<std::string> removed_;
   std::uint64_t last_cycle_{0};  ///< of the open file
 };
 

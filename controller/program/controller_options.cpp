@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
+#include <vector>
 
 #include "common/whole_number.hpp"
 
@@ -30,6 +31,12 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
   app.add_option("--record", options.record, "Session file to write");
   app.add_option("--trip-folder", options.trip_folder, "Where a trip's recording goes")
       ->capture_default_str();
+  std::vector<std::size_t> budget{options.trip_files, options.trip_megabytes};
+  app.add_option("--trip-budget", budget,
+                 "FILES MB: so many trip files, and so much, stay in that folder; older ones go")
+      ->expected(2)
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of the rig, noted in the session")
       ->check(WhyNoWholeNumber)
       ->capture_default_str();
@@ -46,6 +53,8 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
                "Leave the rig file's lines (emergency stop, enable ...) alone");
   try {
     app.parse(argc, argv);
+    options.trip_files = budget[0];
+    options.trip_megabytes = budget[1];
     return true;
   } catch (const CLI::ParseError& error) {
     status = app.exit(error) == 0 ? ExitStatus::kDone : ExitStatus::kUsage;

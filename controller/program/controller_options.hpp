@@ -18,7 +18,9 @@ struct ControllerOptions {
   double duration_s{0.0};  ///< 0: no limit
   std::string record;      ///< session file; empty: none
   std::string trip_folder{"."};
-  std::int64_t seed{1};  ///< of the rig's noise, for the session's header
+  std::size_t trip_files{20};       ///< at most so many trip files stay in it
+  std::size_t trip_megabytes{100};  ///< and so much
+  std::int64_t seed{1};             ///< of the rig's noise, for the session's header
   std::string json;
   double partner_timeout_s{30.0};
   bool require_realtime{false};

@@ -125,13 +125,15 @@ class Session {
         telemetry_(network_),
         header_(Header(options, files, Facts())),
         batcher_(numbers_.axes(), [this](auto batch) { telemetry_.PostSamples(std::move(batch)); }),
-        recorder_({.session_path = options.record,
-                   .trip_folder = options.trip_folder,
-                   .header = header_,
-                   .waits_for_room = !options.realtime,
-                   .on_event = [this](const auto& event) { Announce(event, telemetry_); },
-                   .on_record =
-                       [this](const auto& record) { batcher_.Add(record, rt::MonotonicNowNs()); }}),
+        recorder_(
+            {.session_path = options.record,
+             .trip_folder = options.trip_folder,
+             .header = header_,
+             .trip_budget = {options.trip_files, std::uintmax_t{options.trip_megabytes} << 20U},
+             .waits_for_room = !options.realtime,
+             .on_event = [this](const auto& event) { Announce(event, telemetry_); },
+             .on_record =
+                 [this](const auto& record) { batcher_.Add(record, rt::MonotonicNowNs()); }}),
         outlet_(recorder_, telemetry_, numbers_.period_ns),
         cycle_({numbers_, files.controller.law, files.controller.supervisor}),
         sequence_(files.controller.supervisor.sequence) {

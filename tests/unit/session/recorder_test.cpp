@@ -5,6 +5,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <thread>
 
 #include "common/problem.hpp"
@@ -223,6 +226,45 @@ TEST_F(Recording, GoesOnWhenTheTripFolderCannotBeWritten) {
     return text.find("/dev/null/trips") != std::string::npos;
   };
   EXPECT_EQ(std::count_if(told.begin(), told.end(), names_folder), 1);
+}
+
+TEST_F(Recording, FreezesTheNextTripAfterOneThatCouldNotBeWritten) {
+  const std::string trips = folder_ / "trips";
+  std::ofstream(trips) << "a file where the folder should be";
+  auto records = DrawRecords(1000);
+  for (std::size_t i = 100; i < 200; ++i) Trip(records[i]);
+  for (std::size_t i = 600; i < 700; ++i) Trip(records[i]);
+  std::atomic<bool> failed{false};
+  {
+    RecorderOptions options = Options();
+    options.trip_folder = trips;
+    options.on_event = [&](const Event& event) {
+      if (event.text.find(trips) != std::string::npos) failed.store(true);
+    };
+    Recorder recorder(std::move(options));
+    for (std::size_t i = 0; i < 500; ++i) recorder.Post(records[i]);
+    while (!failed.load()) std::this_thread::yield();
+    std::filesystem::remove(trips);
+    for (std::size_t i = 500; i < records.size(); ++i) recorder.Post(records[i]);
+    recorder.Finish();
+    ASSERT_FALSE(recorder.trip_file().empty());
+    SessionReader reader(recorder.trip_file());
+    const auto read = ReadAll(reader);
+    ASSERT_EQ(read.size(), 201U);  // none is missing before the trip
+    EXPECT_EQ(read.front().in.cycle, records[500].in.cycle);
+  }
+}
+
+TEST_F(Recording, GoesOnWhenWhoeverHearsOfRecordsFails) {
+  const auto records = DrawRecords(300);
+  {
+    RecorderOptions options = Options();
+    options.on_record = [](const cycle::CycleRecord&) { throw std::runtime_error("meant"); };
+    Recorder recorder(std::move(options));
+    for (const auto& record : records) recorder.Post(record);
+  }
+  SessionReader reader(folder_ / "s.lcmlog");
+  EXPECT_EQ(ReadAll(reader).size(), records.size());
 }
 
 TEST(TripFileName, NamesUtcAndCause) {
