@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/report_command.hpp"
 #include "common/nearest.hpp"
+#include "controller/rt/say.hpp"
 
 namespace {
 
@@ -47,9 +47,7 @@ std::string UsageText(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}; see {} --help", text, path);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Main(int argc, char** argv) {
   using namespace levitas;
   CLI::App app{"Levitas: active magnetic bearing controller and its hardware-in-the-loop bench",
                "amb"};
@@ -79,13 +77,22 @@ int main(int argc, char** argv) {
     return static_cast<int>(action ? action() : ExitStatus::kUsage);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    fmt::print(stderr, "amb: {}\n", UsageText(app, error));
+    rt::Say(fmt::format("amb: {}", UsageText(app, error)));
     return static_cast<int>(ExitStatus::kUsage);
   } catch (const Problem& problem) {
-    fmt::print(stderr, "amb: {}\n", problem.what());
+    rt::Say(fmt::format("amb: {}", problem.what()));
     return static_cast<int>(problem.status());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "amb: {}\n", error.what());
+    rt::Say(fmt::format("amb: {}", error.what()));
     return static_cast<int>(ExitStatus::kOther);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  levitas::rt::OpenStandardFiles();
+  const int status = Main(argc, argv);
+  static_cast<void>(levitas::rt::FlushSaid());
+  return status;
 }

@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/enter_session.hpp"
 #include "cli/json_file.hpp"
+#include "cli/run/disk_room.hpp"
 #include "cli/run/interrupt.hpp"
 #include "cli/run/live_page.hpp"
 #include "cli/run/port_lease.hpp"
@@ -21,6 +22,7 @@
 #include "cli/run/supervise.hpp"
 #include "cli/run/telemetry.hpp"
 #include "common/whole_number.hpp"
+#include "controller/rt/say.hpp"
 #include "hil/socketcan/can_connection.hpp"
 #include "session/output_path.hpp"
 #include "verdict/commission.hpp"
@@ -57,18 +59,20 @@ RunResult RunBoth(const RunPlan& plan, const RunFiles& files, const transport::L
                   const PagePlan& page_plan) {
   const InterruptGuard interrupts;
   Telemetry telemetry(network);
-  Progress progress(files.rig.bearings, files.rig.period_s(), stderr, isatty(STDERR_FILENO) == 1);
+  const auto draw = [](const std::string& part) { rt::Say(part, rt::Speaker::Kind::kPart); };
+  Progress progress(files.rig.bearings, files.rig.period_s(), draw, isatty(STDERR_FILENO) == 1);
   RunHooks hooks;
   hooks.telemetry = [&](std::chrono::milliseconds limit) { return telemetry.Wait(limit); };
   hooks.progress = [&](const ProgressSample& sample) { progress.Show(sample); };
   hooks.say = [&](const std::string& text) {
     progress.Close();
-    fmt::print(stderr, "{}\n", text);
+    rt::Say(text);
   };
   hooks.interrupts = [&] { return interrupts.count(); };
   const LivePage page(page_plan, network, hooks.say);
   RunResult result = Supervise(plan, hooks);
   progress.Close();
+  static_cast<void>(rt::FlushSaid());  // what follows goes to standard output
   return result;
 }
 
@@ -84,8 +88,11 @@ verdict::CommissionOptions WhatToJudge(const RunFiles& files, const RunPaths& pa
   judge.provenance.scenario = files.scenario_name;
   judge.provenance.session_file = paths.session;
   judge.provenance.port = port;
+  const std::string stopped = RecordingStopped(paths.controller_log);
   if (!result.trouble.empty()) {
     judge.incomplete_reason = result.trouble.substr(0, result.trouble.find('\n'));
+  } else if (!stopped.empty()) {
+    judge.incomplete_reason = stopped;
   } else if (result.interrupted) {
     judge.incomplete_reason = "stopped by the operator before the end; the rotor was landed";
   }
@@ -102,10 +109,43 @@ ExitStatus StatusOf(const RunResult& result) {
   return result.interrupted ? ExitStatus::kOther : ExitStatus::kDone;
 }
 
+/// What the programs could not say themselves, since it is where they say it.
+std::string WithRoom(const std::string& trouble, const RunPaths& paths, const RunFolder& folder) {
+  const std::string full = NoRoom({folder.path(), paths.session, paths.trip_folder});
+  if (trouble.empty() || full.empty()) return trouble;
+  return fmt::format(
+      "{}\n{} (TMPDIR names the folder of a run's logs and reports, --record that "
+      "of its record)",
+      trouble, full);
+}
+
 void SayWhereTheRecordIs(const RunPaths& paths, const std::string& trip_file) {
   fmt::print("record: {}   (amb replay {})\n", paths.session, paths.session);
   if (!trip_file.empty()) {
     fmt::print("trip:   {}   (amb export {} --csv trip.csv)\n", trip_file, trip_file);
+  }
+}
+
+/// Prints the verdict of what was recorded, if anything was; the run's exit status.
+ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunPaths& paths,
+                    const RunResult& result, const std::string& port) {
+  const ExitStatus status = StatusOf(result);
+  const bool keep = !options.record_path.empty() || status == ExitStatus::kTripped;
+  if (!fs::exists(paths.session) || fs::file_size(paths.session) == 0) return status;
+  verdict::CommissionOptions judge = WhatToJudge(files, paths, result, port);
+  if (!keep) judge.provenance.session_file.clear();
+  try {
+    const verdict::Verdict verdict = verdict::Commission(judge);
+    fmt::print("{}", verdict::Table(verdict));
+    WriteJsonFile(options.json_path, verdict::Json(verdict));
+    if (!options.record_path.empty()) EnterRun(paths.session, verdict, options.tags);
+    if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
+    const bool incomplete = verdict.outcome == verdict::Outcome::kIncomplete;
+    return incomplete && status == ExitStatus::kDone ? ExitStatus::kOther : status;
+  } catch (const BadInput&) {
+    // Files that are not whole follow from what went wrong, and that is what is told.
+    if (result.trouble.empty()) throw;
+    return status;
   }
 }
 
@@ -121,26 +161,21 @@ ExitStatus Execute(const RunOptions& options) {
   CheckBuses(options, files);
   const PortLease lease = Lease(network);
   RunFolder folder;
+  if (!folder.removed().empty()) {
+    rt::Say(fmt::format("removed {} older folders of runs beside {}", folder.removed().size(),
+                        folder.path()));
+  }
   const RunPaths paths = PathsOf(options, folder);
   const RunPlan plan = PlanRun(options, files, paths, *network);
   const std::string port = socketcan::IsCanPort(options.port)
                                ? options.port
                                : network->Url(transport::Direction::kSensor);
-  fmt::print(stderr, "rig {}, controller {}, scenario {}, {}, port {}\n", files.rig.name,
-             files.controller_path, files.scenario_name, options.pace, port);
+  rt::Say(fmt::format("rig {}, controller {}, scenario {}, {}, port {}", files.rig.name,
+                      files.controller_path, files.scenario_name, options.pace, port));
   const PagePlan page = PlanPage(options.page, LookAround(options.pace == "realtime"));
-  const RunResult result = RunBoth(plan, files, *network, page);
-  const ExitStatus status = StatusOf(result);
-  const bool keep = !options.record_path.empty() || status == ExitStatus::kTripped;
-  if (fs::exists(paths.session) && fs::file_size(paths.session) > 0) {
-    verdict::CommissionOptions judge = WhatToJudge(files, paths, result, port);
-    if (!keep) judge.provenance.session_file.clear();
-    const verdict::Verdict verdict = verdict::Commission(judge);
-    fmt::print("{}", verdict::Table(verdict));
-    WriteJsonFile(options.json_path, verdict::Json(verdict));
-    if (!options.record_path.empty()) EnterRun(paths.session, verdict, options.tags);
-    if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
-  }
+  RunResult result = RunBoth(plan, files, *network, page);
+  result.trouble = WithRoom(result.trouble, paths, folder);
+  const ExitStatus status = JudgeRun(options, files, paths, result, port);
   if (status == ExitStatus::kTripped && options.record_path.empty()) folder.Keep();
   std::fflush(stdout);
   if (!result.trouble.empty()) throw Problem(status, result.trouble);

@@ -52,6 +52,10 @@ std::optional<Figures> Read(const std::string& path,
     std::ifstream file(path);
     take(Json::parse(file), figures);
     return figures;
+  } catch (const Json::parse_error& error) {
+    throw BadInput(
+        fmt::format("{}: is not a report: empty or cut off; was there room on its disk? ({})", path,
+                    error.what()));
   } catch (const Json::exception& error) {
     throw BadInput(
         fmt::format("{}: is not a report of this program's version ({})", path, error.what()));

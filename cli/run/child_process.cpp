@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 /// Runs in the child between fork and exec: async-signal-safe calls only. Reports errno to `told`.
 [[noreturn]] void BecomeProgram(char* const* argv, const char* log_file, pid_t parent, int told) {
   setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);  // the parent died before the line above
   sigset_t none;
   sigemptyset(&none);
@@ -78,11 +78,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
   }
 }
 
-ChildProcess::~ChildProcess() {
-  if (Poll()) return;
-  kill(pid_, SIGKILL);
-  waitpid(pid_, nullptr, 0);
-}
+ChildProcess::~ChildProcess() { static_cast<void>(End(kLandingLimit)); }
 
 std::optional<ChildExit> ChildProcess::Poll() {
   if (exit_) return exit_;

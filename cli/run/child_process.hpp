@@ -1,9 +1,11 @@
 #pragma once
 // A program started beside this one, ended with it, never waited for without a bound.
 //
-// Life      the child dies with this process (PR_SET_PDEATHSIG, so start it from the main thread)
-//           and in the destructor. It has a process group of its own: Ctrl-C at the terminal
-//           reaches only us, and we decide what the child is told.
+// Life      the child is asked to end (SIGTERM) when this process dies, however that happens
+//           (PR_SET_PDEATHSIG, so start it from the main thread), and by the destructor, which
+//           waits for kLandingLimit and only then kills: a controller first lands its rotor. It
+//           has a process group of its own: Ctrl-C at the terminal reaches only us, and we decide
+//           what the child is told.
 // Output    standard output and error go to one log file each child has.
 // Failure   Problem (exit status 1) when the program cannot be started, naming it and why.
 // Thread    the thread that started it.
@@ -26,10 +28,13 @@ struct ChildExit {
 
 class ChildProcess {
  public:
+  /// More than a controller takes to run its rotor down and land it.
+  static constexpr std::chrono::milliseconds kLandingLimit{180'000};
+
   /// `arguments` without the program's name.
   ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
                std::string log_file);
-  /// Kills and reaps a child that still runs.
+  /// Ends a child that still runs, see Life, and reaps it.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;

@@ -16,11 +16,10 @@ double Rpm(double speed_rad_per_s) { return std::abs(speed_rad_per_s) * kRpmPerR
 
 }  // namespace
 
-Progress::Progress(std::vector<std::string> bearings, double period_s, std::FILE* out,
-                   bool terminal)
+Progress::Progress(std::vector<std::string> bearings, double period_s, Out out, bool terminal)
     : bearings_(std::move(bearings)),
       period_s_(period_s),
-      out_(out),
+      out_(std::move(out)),
       terminal_(terminal),
       largest_m_(bearings_.size(), 0.0) {}
 
@@ -60,7 +59,7 @@ void Progress::Redraw(const ProgressSample& sample) {
   const std::string line =
       fmt::format("{:<11}{:>6.0f} rpm ", Name(sample.mode), Rpm(sample.speed_rad_per_s)) +
       Orbits() + Time(sample);
-  fmt::print(out_, "\r{:<98}", line);
+  out_(fmt::format("\r{:<98}", line));
   drawn_ = true;
 }
 
@@ -70,7 +69,7 @@ void Progress::Tell(const ProgressSample& sample) const {
     line = fmt::format("{:<40}  {} before: up to {:.0f} rpm,{}", line, Name(mode_), top_rpm_,
                        Orbits());
   }
-  fmt::print(out_, "{}\n", line);
+  out_(line + "\n");
 }
 
 void Progress::Show(const ProgressSample& sample, Clock::time_point now) {
@@ -88,7 +87,6 @@ void Progress::Show(const ProgressSample& sample, Clock::time_point now) {
     Redraw(sample);
     Forget();
   }
-  std::fflush(out_);
 }
 
 void Progress::Forget() {
@@ -97,9 +95,8 @@ void Progress::Forget() {
 }
 
 void Progress::Close() {
-  if (drawn_) fmt::print(out_, "\n");
+  if (drawn_) out_("\n");
   drawn_ = false;
-  std::fflush(out_);
 }
 
 }  // namespace levitas::cli

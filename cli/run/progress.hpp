@@ -9,7 +9,7 @@
 
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,7 +28,10 @@ class Progress {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Progress(std::vector<std::string> bearings, double period_s, std::FILE* out, bool terminal);
+  using Out = std::function<void(const std::string&)>;
+
+  /// `out` takes what is to be written, as it is.
+  Progress(std::vector<std::string> bearings, double period_s, Out out, bool terminal);
   void Show(const ProgressSample& sample, Clock::time_point now = Clock::now());
   /// Ends a redrawn line, so that what follows starts on a line of its own.
   void Close();
@@ -43,7 +46,7 @@ class Progress {
 
   std::vector<std::string> bearings_;
   double period_s_;
-  std::FILE* out_;
+  Out out_;
   bool terminal_;
   bool drawn_{false};
   bool started_{false};

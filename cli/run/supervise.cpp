@@ -3,7 +3,11 @@
 #include <fmt/core.h>
 
 #include <csignal>
+#include <exception>
 #include <fstream>
+#include <thread>
+
+#include "controller/rt/stop_signal.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -12,6 +16,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kPoll{50};
+constexpr milliseconds kSecondSignal{rt::kAgainNs / 1'000'000 + 100};
 constexpr std::size_t kLastWords = 12;
 
 /// "running", "sleeping", "stopped" ...: what the kernel says a process is doing.
@@ -42,17 +47,33 @@ class Run {
 
   RunResult UntilTheEnd() {
     while (!controller_.Poll() && result_.trouble.empty()) {
-      FollowTelemetry(kPoll);
+      if (blind_.empty()) {
+        Followed([this] { FollowTelemetry(kPoll); });
+      } else {
+        std::this_thread::sleep_for(kPoll);
+      }
       HeedInterrupts();
       WatchPlant();
       WatchProgress();
     }
-    FollowTelemetry(milliseconds(0));  // the last mode
+    if (blind_.empty()) Followed([this] { FollowTelemetry(milliseconds(0)); });  // the last mode
     Finish();
     return result_;
   }
 
  private:
+  /// What happens in `look` is no reason to leave a turning rotor alone.
+  template <class Look>
+  void Followed(const Look& look) {
+    try {
+      look();
+    } catch (const std::exception& error) {
+      blind_ = fmt::format("the run could not be followed any further: {}", error.what());
+      last_progress_ = Clock::now();
+      controller_.Signal(SIGINT);
+    }
+  }
+
   void FollowTelemetry(milliseconds limit) {
     const auto sample = hooks_.telemetry(limit);
     if (!sample) return;
@@ -70,9 +91,16 @@ class Run {
       controller_.Signal(SIGINT);
     } else if (count > 1) {
       result_.trouble = "ended at once on request: the rotor was not landed";
-      controller_.Signal(SIGKILL);
-      plant_.Signal(SIGKILL);
+      EndControllerAtOnce();
     }
+  }
+
+  /// Its second signal of the kind counts from half a second after the first.
+  void EndControllerAtOnce() {
+    controller_.Signal(SIGINT);
+    if (controller_.WaitFor(kSecondSignal)) return;
+    controller_.Signal(SIGINT);
+    if (!controller_.WaitFor(plan_.grace)) controller_.Signal(SIGKILL);
   }
 
   /// A rig that ended orderly does so at the goodbye of a controller that is about to end, too.
@@ -85,6 +113,10 @@ class Run {
   }
 
   void WatchProgress() {
+    if (!blind_.empty()) {
+      if (Clock::now() - last_progress_ >= plan_.landing) result_.trouble = "it did not land";
+      return;
+    }
     if (Clock::now() - last_progress_ < plan_.silence_limit) return;
     result_.trouble = fmt::format("no control cycle for {} s: {} is {}, {} is {}; both were ended",
                                   plan_.silence_limit.count() / 1000, controller_.name(),
@@ -99,6 +131,9 @@ class Run {
     result_.controller = by_itself ? *controller_.Poll() : controller_.End(plan_.grace);
     result_.plant = plant_.WaitFor(plan_.notice);
     if (!result_.plant) plant_.End(plan_.grace);
+    if (!blind_.empty()) {
+      result_.trouble = blind_ + (result_.trouble.empty() ? "" : "; " + result_.trouble);
+    }
     if (!result_.trouble.empty()) {
       result_.trouble += Said(plant_) + Said(controller_);
       return;
@@ -121,6 +156,7 @@ class Run {
   ChildProcess plant_;
   ChildProcess controller_;
   RunResult result_;
+  std::string blind_;  ///< why the run is not followed any more; empty: it is
   std::uint64_t last_cycle_{0};
   Clock::time_point last_progress_;
 };

@@ -4,7 +4,10 @@
 //
 // End        the controller ends by itself when its scenario is done or has tripped; the rig then
 //            follows it, or is asked to.
-// Ctrl-C     the first is passed to the controller, which lands the rotor; the second kills both.
+// Ctrl-C     the first is passed to the controller, which lands the rotor; the second ends both at
+//            once: the controller switches the amplifiers off, or is killed after `grace`.
+// Blind      what goes wrong in following the run (a hook that throws) lands the rotor, within
+//            `landing`.
 // Death      of one: the other gets `notice` to see it (the controller trips, freezes what came
 //            before and closes its record), then it is asked to end, and after `grace` made to.
 // Hang       no new cycle in telemetry for `silence_limit`: both are ended.
@@ -34,6 +37,7 @@ struct RunPlan {
   std::chrono::milliseconds notice{1'000};
   std::chrono::milliseconds grace{5'000};
   std::chrono::milliseconds silence_limit{15'000};
+  std::chrono::milliseconds landing{ChildProcess::kLandingLimit};
 };
 
 struct RunResult {

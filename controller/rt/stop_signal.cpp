@@ -30,11 +30,7 @@ void Repeat(std::atomic<std::int64_t>& first_ns) noexcept {
   if (now_ns - before_ns >= kAgainNs) asked.store(2, std::memory_order_relaxed);
 }
 
-void Land(int signal) {
-  AskToLand();
-  if (signal == SIGINT) Repeat(first_interrupt_ns);
-  if (signal == SIGTERM) Repeat(first_termination_ns);
-}
+void Land(int signal) { NoteStopSignal(signal); }
 
 void Quit(int /*signal*/) { quit.store(true, std::memory_order_relaxed); }
 
@@ -51,6 +47,18 @@ bool IsIgnored(int signal) noexcept {
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 }  // namespace
+
+void NoteStopSignal(int signal) noexcept {
+  AskToLand();
+  if (signal == SIGINT) Repeat(first_interrupt_ns);
+  if (signal == SIGTERM) Repeat(first_termination_ns);
+}
+
+void ForgetStopSignals() noexcept {
+  asked.store(0);
+  first_interrupt_ns.store(0);
+  first_termination_ns.store(0);
+}
 
 void CatchStopSignals() noexcept {
   constexpr std::array<int, 4> kLand{SIGINT, SIGTERM, SIGPWR, SIGXCPU};

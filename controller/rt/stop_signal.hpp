@@ -24,6 +24,10 @@ inline constexpr std::int64_t kAgainNs = 500'000'000;
 void CatchStopSignals() noexcept;
 /// 0: go on; 1: land; 2: end at once.
 [[nodiscard]] int StopSignals() noexcept;
+/// For handlers of other programs: counts SIGINT, SIGTERM and SIGHUP as above.
+void NoteStopSignal(int signal) noexcept;
+/// 0 again.
+void ForgetStopSignals() noexcept;
 /// SIGQUIT came.
 [[nodiscard]] bool QuitSignal() noexcept;
 

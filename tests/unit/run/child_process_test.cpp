@@ -98,13 +98,22 @@ TEST(ChildProcess, EndsWithTheObject) {
   EXPECT_EQ(kill(pid, 0), -1);  // reaped: no such process
 }
 
-// The parent here is a fork of the test that starts a child and is then killed: nobody tidies up
-// but the kernel.
-TEST(ChildProcess, DiesWithAParentThatIsKilled) {
-  const test::ScratchFolder scratch;
+/// True once the process is gone, or a zombie: whoever inherits it reaps it in its own time.
+bool IsDead(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/stat");
+  std::string pid;
+  std::string name;
+  std::string state;
+  return !(status >> pid >> name >> state) || state == "Z";
+}
+
+/// Starts `script` as the child of a process that is then killed: nobody tidies up but the kernel.
+/// Returns when the child is dead, false when it still lives after a long time.
+bool DiesAfterItsParent(const test::ScratchFolder& scratch, const std::string& script) {
   const pid_t parent = fork();
   if (parent == 0) {
-    ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");
+    ChildProcess child("/bin/sh", {"-c", script}, scratch / "log");
+    while (child.LastWords(1) != "ready") std::this_thread::sleep_for(milliseconds(5));
     std::ofstream(scratch / "pid.new") << child.pid() << std::endl;
     std::filesystem::rename(scratch / "pid.new", scratch / "pid");
     pause();
@@ -113,21 +122,39 @@ TEST(ChildProcess, DiesWithAParentThatIsKilled) {
   while (!std::filesystem::exists(scratch / "pid")) std::this_thread::sleep_for(milliseconds(5));
   pid_t child = 0;
   std::ifstream(scratch / "pid") >> child;
-  ASSERT_EQ(kill(child, 0), 0);
+  EXPECT_EQ(kill(child, 0), 0);
   kill(parent, SIGKILL);
   waitpid(parent, nullptr, 0);
-  // Whoever inherits the child reaps it in its own time: dead is "gone or a zombie".
   const auto deadline = std::chrono::steady_clock::now() + kLong;
-  bool dead = false;
-  while (!dead && std::chrono::steady_clock::now() < deadline) {
-    std::ifstream status("/proc/" + std::to_string(child) + "/stat");
-    std::string pid;
-    std::string name;
-    std::string state;
-    dead = !(status >> pid >> name >> state) || state == "Z";
+  while (!IsDead(child) && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::sleep_for(milliseconds(5));
   }
-  EXPECT_TRUE(dead);
+  return IsDead(child);
+}
+
+TEST(ChildProcess, EndsWhenItsParentIsKilled) {
+  const test::ScratchFolder scratch;
+  EXPECT_TRUE(DiesAfterItsParent(scratch, "echo ready; while :; do sleep 0.02; done"));
+}
+
+TEST(ChildProcess, HasTimeToLandAfterItsParentWasKilled) {
+  const test::ScratchFolder scratch;
+  const std::string script = "trap 'sleep 0.3; echo landed > " + (scratch / "landed") +
+                             "; exit 0' TERM; echo ready; while :; do sleep 0.02; done";
+  EXPECT_TRUE(DiesAfterItsParent(scratch, script));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "landed"));
+}
+
+TEST(ChildProcess, HasTimeToLandWhenTheObjectEnds) {
+  const test::ScratchFolder scratch;
+  {
+    ChildProcess child("/bin/sh",
+                       {"-c", "trap 'sleep 0.3; echo landed > " + (scratch / "landed") +
+                                  "; exit 0' TERM; echo ready; while :; do sleep 0.02; done"},
+                       scratch / "log");
+    while (child.LastWords(1) != "ready") std::this_thread::sleep_for(milliseconds(5));
+  }
+  EXPECT_TRUE(std::filesystem::exists(scratch / "landed"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <thread>
 
 #include "common/problem.hpp"
@@ -30,6 +31,7 @@ class SuperviseTest : public testing::Test {
     hooks.telemetry = [this](milliseconds limit) -> std::optional<ProgressSample> {
       std::this_thread::sleep_for(std::min(limit, milliseconds(5)));
       if (!telemetry_flows_) return std::nullopt;
+      if (cycle_ == telemetry_fails_) throw std::length_error("a message too long");
       return ProgressSample{++cycle_, Mode::kLevitating, 0.0, {}};
     };
     hooks.progress = [](const ProgressSample&) {};
@@ -41,6 +43,7 @@ class SuperviseTest : public testing::Test {
   test::ScratchFolder scratch_;
   milliseconds silence_limit_{60'000};
   bool telemetry_flows_{true};
+  std::uint64_t telemetry_fails_{UINT64_MAX};  ///< in this cycle
   std::uint64_t cycle_{0};
   std::function<int(std::uint64_t)> interrupts_;
   std::vector<std::string> said_;
@@ -113,6 +116,25 @@ TEST_F(SuperviseTest, KillsBothOnTheSecondInterrupt) {
   const RunResult result = With("trap '' INT; sleep 1000", "sleep 1000");
   EXPECT_TRUE(result.controller.signalled);
   EXPECT_THAT(result.trouble, StartsWith("ended at once on request"));
+}
+
+TEST_F(SuperviseTest, ASecondInterruptLetsTheControllerSwitchOffByItself) {
+  interrupts_ = [](std::uint64_t cycle) { return cycle > 40 ? 2 : cycle > 20 ? 1 : 0; };
+  const RunResult result =
+      With("trap 'n=x$n; test $n = x || exit 0' INT; while :; do sleep 0.01; done", "sleep 1000");
+  EXPECT_FALSE(result.controller.signalled);
+  EXPECT_THAT(result.trouble, StartsWith("ended at once on request"));
+}
+
+// A stranger's datagram may do that: the rotor is landed, not left to itself.
+TEST_F(SuperviseTest, LandsTheRotorWhenItCanFollowTheRunNoMore) {
+  telemetry_fails_ = 20;
+  const RunResult result =
+      With("trap 'sleep 0.5; echo landed; exit 0' INT; while :; do sleep 0.01; done", "sleep 2");
+  EXPECT_FALSE(result.controller.signalled);
+  EXPECT_EQ(result.controller.code, 0);
+  EXPECT_THAT(result.trouble, StartsWith("the run could not be followed any further: a message"));
+  EXPECT_THAT(result.trouble, HasSubstr("landed"));
 }
 
 TEST_F(SuperviseTest, NamesAProgramThatCannotBeStarted) {
