@@ -1,19 +1,16 @@
 #include "cli/replay_publisher.hpp"
 
-#include <fmt/core.h>
-#include <lcm/lcm.h>
-
+#include <algorithm>
 #include <chrono>
 #include <levitas_msg/controller_state_t.hpp>
 #include <levitas_msg/current_frame_t.hpp>
 #include <levitas_msg/sensor_frame_t.hpp>
-#include <memory>
 #include <thread>
 #include <vector>
 
-#include "common/problem.hpp"
 #include "session/record_codec.hpp"
-#include "transport/lcm_network.hpp"
+#include "transport/lcm_packet.hpp"
+#include "transport/multicast_socket.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -21,21 +18,10 @@ namespace {
 using transport::Direction;
 using Clock = std::chrono::steady_clock;
 
-struct Destroyer {
-  void operator()(lcm_t* lcm) const noexcept { lcm_destroy(lcm); }
-};
-
-/// One LCM network (one UDP port) to publish on.
+/// One LCM network (one UDP port) to publish on, the way the live programs do.
 class Outlet {
  public:
-  explicit Outlet(const std::string& url) : lcm_(lcm_create(url.c_str())) {
-    if (!lcm_) {
-      throw Problem(ExitStatus::kOther,
-                    fmt::format("LCM cannot be opened on {}. Without a network: ip link set lo up; "
-                                "ip route add 224.0.0.0/4 dev lo",
-                                url));
-    }
-  }
+  Outlet(const transport::LcmNetwork& network, Direction direction) : sender_(network, direction) {}
   template <class Message>
   bool Send(const char* channel, const Message& message) {
     bytes_.resize(static_cast<std::size_t>(message.getEncodedSize()));
@@ -43,12 +29,17 @@ class Outlet {
     return Send(channel, bytes_);
   }
   bool Send(const char* channel, const session::Bytes& bytes) {
-    return lcm_publish(lcm_.get(), channel, bytes.data(), static_cast<unsigned>(bytes.size())) == 0;
+    datagram_.resize(transport::HeaderSize(channel));
+    transport::WriteHeader(datagram_, sequence_++, channel);
+    datagram_.insert(datagram_.end(), bytes.begin(), bytes.end());
+    return sender_.Send(datagram_);
   }
 
  private:
-  std::unique_ptr<lcm_t, Destroyer> lcm_;
+  transport::MulticastSender sender_;
+  std::uint32_t sequence_{0};
   session::Bytes bytes_;
+  std::vector<std::uint8_t> datagram_;
 };
 
 std::vector<double> Values(const AxisArray& array, std::size_t axes) {
@@ -127,9 +118,9 @@ class Pace {
 PublishReport Publish(session::SessionReader& reader, const PublishOptions& options) {
   namespace channel = transport::channel;
   const transport::LcmNetwork network = transport::ParseLcmNetwork(options.port);
-  Outlet sensors(network.Url(Direction::kSensor));
-  Outlet currents(network.Url(Direction::kCurrent));
-  Outlet telemetry(network.Url(Direction::kTelemetry));
+  Outlet sensors(network, Direction::kSensor);
+  Outlet currents(network, Direction::kCurrent);
+  Outlet telemetry(network, Direction::kTelemetry);
   const std::size_t axes = reader.header().channels.size();
   constexpr std::int64_t kStatePeriodNs = 10'000'000;
   const auto state_cycles = static_cast<std::uint64_t>(std::max<std::int64_t>(

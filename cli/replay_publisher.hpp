@@ -5,7 +5,7 @@
 // Channels  LEVITAS_SENSOR on the base port, LEVITAS_CURRENT on base + 1, LEVITAS_STATE (every 10
 //           ms of the run) and LEVITAS_EVENT on base + 2.
 // Caution   a controller or a rig that runs on the same ports would take the frames for live ones.
-// Failure   Problem when LCM cannot be opened.
+// Failure   Problem when the network cannot be reached.
 
 #include <cstdint>
 #include <string>

@@ -101,7 +101,7 @@ ScopeSettings UnderstandScope(const std::string& body, const RigNumbers& rig) {
     settings.axis = AxisNamed(TextIn(request, "channel"), rig);
     settings.edge =
         static_cast<ScopeEdge>(ChoiceIn(request, "edge", {"rising", "falling", "either"}));
-    const double reach_um = rig.sensor_range_m / kMicro;
+    const double reach_um = rig.SensorRangeOf(settings.axis / 2) / kMicro;
     settings.level =
         settings.source == ScopeSource::kPosition
             ? NumberIn(request, "level_um", -reach_um, reach_um) * kMicro

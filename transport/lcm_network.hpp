@@ -35,7 +35,9 @@ inline constexpr const char* kExcitation = "LEVITAS_EXCITATION";  ///< operator 
 struct LcmNetwork {
   std::string group{"239.255.76.67"};
   std::uint16_t base_port{7667};
-  int ttl{0};  ///< 0 keeps the messages on this machine
+  int ttl{0};  ///< 0: loopback interface only, see multicast_socket.hpp
+
+  [[nodiscard]] bool this_machine_only() const noexcept { return ttl == 0; }
 
   [[nodiscard]] std::uint16_t Port(Direction direction) const noexcept {
     return static_cast<std::uint16_t>(base_port + static_cast<std::uint16_t>(direction));

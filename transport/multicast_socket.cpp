@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/core.h>
+#include <net/if.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -32,13 +33,13 @@ constexpr std::uint32_t kRetryEvery = 256;  // waits; then a spin is tried again
                        const char* what) {
   const int error = errno;
   if (socket >= 0) close(socket);
-  const bool no_route = error == ENETUNREACH || error == ENODEV || error == EADDRNOTAVAIL;
-  throw Problem(
-      ExitStatus::kOther,
-      fmt::format("multicast at {}: {}: {}{}", network.Url(direction), what, std::strerror(error),
-                  no_route ? "; no route for multicast, give it one: "
-                             "ip link set lo up; ip route add 224.0.0.0/4 dev lo"
-                           : ""));
+  const bool no_way = error == ENETUNREACH || error == ENODEV || error == EADDRNOTAVAIL;
+  const char* remedy = network.this_machine_only()
+                           ? "; the loopback interface is down: ip link set lo up"
+                           : "; no route for multicast, name the interface of the rig's network: "
+                             "ip route add 224.0.0.0/4 dev INTERFACE";
+  throw Problem(ExitStatus::kOther, fmt::format("multicast at {}: {}: {}{}", network.Url(direction),
+                                                what, std::strerror(error), no_way ? remedy : ""));
 }
 
 sockaddr_in Address(const LcmNetwork& network, Direction direction) {
@@ -58,6 +59,28 @@ bool Set(int socket, int level, int option, const T& value) {
   return setsockopt(socket, level, option, &value, sizeof(value)) == 0;
 }
 
+unsigned Loopback() { return if_nametoindex("lo"); }
+
+/// Which interface, as the socket options for multicast want it; without `loopback` the one of the
+/// route to the group.
+ip_mreqn Interface(bool loopback) {
+  ip_mreqn request{};
+  request.imr_address.s_addr = htonl(loopback ? INADDR_LOOPBACK : INADDR_ANY);
+  request.imr_ifindex = loopback ? static_cast<int>(Loopback()) : 0;
+  return request;
+}
+
+/// The interface a datagram came in through; 0 when the kernel did not say.
+unsigned InterfaceOf(msghdr& header) noexcept {
+  for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
+    if (part->cmsg_level != IPPROTO_IP || part->cmsg_type != IP_PKTINFO) continue;
+    in_pktinfo info{};
+    std::memcpy(&info, CMSG_DATA(part), sizeof(info));
+    return static_cast<unsigned>(info.ipi_ifindex);
+  }
+  return 0;
+}
+
 }  // namespace
 
 MulticastSender::MulticastSender(const LcmNetwork& network, Direction direction) {
@@ -67,6 +90,10 @@ MulticastSender::MulticastSender(const LcmNetwork& network, Direction direction)
   if (!Set(socket_, IPPROTO_IP, IP_MULTICAST_LOOP, std::uint8_t{1}) ||
       !Set(socket_, IPPROTO_IP, IP_MULTICAST_TTL, static_cast<std::uint8_t>(network.ttl))) {
     Fail(socket_, network, direction, "setsockopt");
+  }
+  // A time to live of 0 alone would leave the choice of the interface to the routes.
+  if (network.this_machine_only() && !Set(socket_, IPPROTO_IP, IP_MULTICAST_IF, Interface(true))) {
+    Fail(socket_, network, direction, "send on the loopback interface");
   }
   // A connected socket looks its route up once instead of with every datagram.
   const sockaddr_in group = Address(network, direction);
@@ -85,26 +112,47 @@ bool MulticastSender::Send(std::span<const std::uint8_t> datagram) noexcept {
 // Storage for one recvmmsg: the newest frame is wanted, so all that is queued is fetched at once
 // instead of one call each and a last one that finds nothing.
 struct MulticastReceiver::Batch {
-  Batch() : bytes(kBatch * kMaxDatagram) {
+  explicit Batch(unsigned interface) : only_interface(interface), bytes(kBatch * kMaxDatagram) {
     for (std::size_t at = 0; at < kBatch; ++at) {
       pieces[at] = {bytes.data() + at * kMaxDatagram, kMaxDatagram};
       messages[at].msg_hdr.msg_iov = &pieces[at];
       messages[at].msg_hdr.msg_iovlen = 1;
       messages[at].msg_hdr.msg_name = &from[at];
+      messages[at].msg_hdr.msg_control = about[at].bytes.data();
     }
+  }
+  void Fetch(int socket) noexcept {
+    for (auto& message : messages) {
+      message.msg_hdr.msg_namelen = sizeof(sockaddr_in);
+      message.msg_hdr.msg_controllen = sizeof(About);
+    }
+    const int count = recvmmsg(socket, messages.data(), kBatch, MSG_DONTWAIT, nullptr);
+    taken = 0;
+    filled = count > 0 ? static_cast<std::size_t>(count) : 0;
   }
   /// The next one that holds anything; an empty datagram says nothing.
   [[nodiscard]] Received Take() noexcept {
     while (taken < filled) {
       const std::size_t at = taken++;
       if (messages[at].msg_len == 0) continue;
+      if (only_interface != 0 && InterfaceOf(messages[at].msg_hdr) != only_interface) {
+        ++foreign;
+        continue;
+      }
       return {{bytes.data() + at * kMaxDatagram, messages[at].msg_len},
               (std::uint64_t{from[at].sin_addr.s_addr} << 16) | from[at].sin_port};
     }
     return {};
   }
 
+  struct About {  ///< the kernel's word on one datagram
+    alignas(cmsghdr) std::array<std::uint8_t, CMSG_SPACE(sizeof(in_pktinfo))> bytes{};
+  };
+
+  unsigned only_interface;  ///< 0: any
+  std::uint64_t foreign{0};
   std::vector<std::uint8_t> bytes;
+  std::array<About, kBatch> about{};
   std::array<iovec, kBatch> pieces{};
   std::array<sockaddr_in, kBatch> from{};
   std::array<mmsghdr, kBatch> messages{};
@@ -114,7 +162,8 @@ struct MulticastReceiver::Batch {
 
 MulticastReceiver::MulticastReceiver(const LcmNetwork& network, Direction direction,
                                      std::int64_t spin_ns)
-    : spin_ns_(spin_ns), batch_(std::make_unique<Batch>()) {
+    : spin_ns_(spin_ns),
+      batch_(std::make_unique<Batch>(network.this_machine_only() ? Loopback() : 0)) {
   socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket_ < 0) Fail(socket_, network, direction, "socket");
   // Several listeners share the port: lcm-logger may listen beside the controller. Bound to the
@@ -125,9 +174,14 @@ MulticastReceiver::MulticastReceiver(const LcmNetwork& network, Direction direct
     Fail(socket_, network, direction, "setsockopt");
   }
   if (bind(socket_, Generic(group), sizeof(group)) != 0) Fail(socket_, network, direction, "bind");
-  ip_mreq membership{};
+  // The kernel shall pass on only what came in through the interface joined below, not what any
+  // other program's membership lets in; and it shall say which interface that was.
+  if (!Set(socket_, IPPROTO_IP, IP_MULTICAST_ALL, int{0}) ||
+      !Set(socket_, IPPROTO_IP, IP_PKTINFO, int{1})) {
+    Fail(socket_, network, direction, "setsockopt");
+  }
+  ip_mreqn membership = Interface(network.this_machine_only());
   membership.imr_multiaddr = group.sin_addr;
-  membership.imr_interface.s_addr = htonl(INADDR_ANY);
   if (!Set(socket_, IPPROTO_IP, IP_ADD_MEMBERSHIP, membership)) {
     Fail(socket_, network, direction, "join the group");
   }
@@ -135,13 +189,11 @@ MulticastReceiver::MulticastReceiver(const LcmNetwork& network, Direction direct
 
 MulticastReceiver::~MulticastReceiver() { close(socket_); }
 
+std::uint64_t MulticastReceiver::foreign() const noexcept { return batch_->foreign; }
+
 Received MulticastReceiver::Poll() noexcept {
-  Batch& batch = *batch_;
-  for (auto& message : batch.messages) message.msg_hdr.msg_namelen = sizeof(sockaddr_in);
-  const int count = recvmmsg(socket_, batch.messages.data(), kBatch, MSG_DONTWAIT, nullptr);
-  batch.taken = 0;
-  batch.filled = count > 0 ? static_cast<std::size_t>(count) : 0;
-  return batch.Take();
+  batch_->Fetch(socket_);
+  return batch_->Take();
 }
 
 Received MulticastReceiver::Next() noexcept {

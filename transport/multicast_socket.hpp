@@ -3,12 +3,17 @@
 //
 // Why own sockets  liblcm hands a message through a thread, a pipe and a queue; these do not
 //                  (measured: docs/timing.md). What is on the wire is the same.
+// Who is heard     with ttl 0 the group is joined and sent to on the loopback interface only, so
+//                  that nothing of another machine arrives and no route is needed; what came in
+//                  through another interface all the same is counted and dropped. With ttl above
+//                  0 the interface is that of the route to the group.
 // Thread           one thread per object. After construction no allocation, no exception.
 // Blocking         Send never waits. Receive waits at most until its deadline: a short wait spins,
 //                  a long one spins for a bounded time (while that has been paying off), then
 //                  sleeps in ppoll.
 // Failure          construction throws Problem (exit status 1) with the remedy, in particular when
-//                  multicast has no route; later failures are return values.
+//                  the interface is down or multicast has no route; later failures are return
+//                  values.
 
 #include <cstdint>
 #include <memory>
@@ -50,6 +55,8 @@ class MulticastReceiver {
   [[nodiscard]] Received Next() noexcept;
   /// Next datagram, waiting until CLOCK_MONOTONIC reaches `deadline_ns` at the latest.
   [[nodiscard]] Received Receive(std::int64_t deadline_ns) noexcept;
+  /// Datagrams dropped because they came in through an interface that is not joined.
+  [[nodiscard]] std::uint64_t foreign() const noexcept;
 
  private:
   [[nodiscard]] Received Poll() noexcept;

@@ -21,8 +21,9 @@ void JudgePhase(const RigNumbers& rig, const PhaseFigures& phase, bool spinning,
   if (phase.cycles == 0) return;
   const double objective_m =
       spinning ? rig.spinning_orbit_objective_m : rig.standing_orbit_objective_m;
-  for (const BearingFigures& bearing : phase.bearings) {
-    const double share = bearing.orbit.max_m / rig.clearance_m;
+  for (std::size_t b = 0; b < phase.bearings.size(); ++b) {
+    const BearingFigures& bearing = phase.bearings[b];
+    const double share = bearing.orbit.max_m / rig.ClearanceOf(b);
     orbits.push_back({bearing.name, spinning, bearing.orbit, objective_m, share,
                       ClearanceZone(share), bearing.orbit.max_m < objective_m});
   }

@@ -201,6 +201,8 @@ void Derive(RigFile& rig) {
   const bool guided = rig.plant.bearings.size() == 1 && rig.plant.bearings.front().x_only;
   numbers.channels.resize(guided ? 1 : 2 * rig.plant.bearings.size());
   numbers.bearings.clear();
+  numbers.clearances_m.clear();
+  numbers.sensor_ranges_m.clear();
   for (const plant::BearingConfig& bearing : rig.plant.bearings) {
     numbers.bearings.push_back(bearing.name);
     const bool first = numbers.bearings.size() == 1;
@@ -209,6 +211,8 @@ void Derive(RigFile& rig) {
     };
     numbers.clearance_m = smallest(numbers.clearance_m, bearing.touchdown.clearance_m);
     numbers.sensor_range_m = smallest(numbers.sensor_range_m, bearing.sensor.range_m);
+    numbers.clearances_m.push_back(bearing.touchdown.clearance_m);
+    numbers.sensor_ranges_m.push_back(bearing.sensor.range_m);
   }
   numbers.sensor_polarity = rig.plant.sensor_polarity;
   numbers.actuator_polarity = rig.plant.actuator_polarity;

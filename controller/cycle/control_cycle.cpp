@@ -114,8 +114,8 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
   AxisArray error_m{};
   AxisArray injected_a{};
   for (std::size_t i = 0; i < rig.axes(); ++i) {
-    const double position_m =
-        std::clamp(seen.position_m[i], -rig.sensor_range_m, rig.sensor_range_m);
+    const double range_m = rig.SensorRangeOf(i / 2);
+    const double position_m = std::clamp(seen.position_m[i], -range_m, range_m);
     error_m[i] = decision.reference_m[i] - position_m;
     if (!row.excitation) continue;
     if (std::isfinite(op.excitation_a[i])) injected_a[i] = op.excitation_a[i];

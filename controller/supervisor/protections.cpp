@@ -39,13 +39,17 @@ std::int8_t AxisNumber(std::size_t axis) noexcept { return static_cast<std::int8
 Protections::Protections(const RigNumbers& rig, const ProtectionConfig& config)
     : axes_(rig.axes()),
       config_(config),
-      orbit_limit_m_(config.orbit_fraction * rig.clearance_m),
-      range_limit_m_(config.sensor_range_fraction * rig.sensor_range_m),
       speed_limit_rad_per_s_(config.over_speed_fraction * rig.max_speed_rad_per_s),
-      clearance_m_(rig.clearance_m),
       period_s_(rig.period_s()) {
-  NeedPositive(orbit_limit_m_, "orbit_fraction x clearance_m");
-  NeedPositive(range_limit_m_, "sensor_range_fraction x sensor_range_m");
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
+    clearance_m_[b] = rig.ClearanceOf(b);
+    orbit_limit_m_[b] = config.orbit_fraction * rig.ClearanceOf(b);
+    NeedPositive(orbit_limit_m_[b], "orbit_fraction x clearance_m");
+  }
+  for (std::size_t i = 0; i < axes_; ++i) {
+    range_limit_m_[i] = config.sensor_range_fraction * rig.SensorRangeOf(i / 2);
+    NeedPositive(range_limit_m_[i], "sensor_range_fraction x sensor_range_m");
+  }
   NeedPositive(speed_limit_rad_per_s_, "over_speed_fraction x max_speed_rad_per_s");
   NeedPositive(period_s_, "period_s");
   NeedPositive(config.orbit_cycles, "orbit_cycles");
@@ -85,7 +89,7 @@ bool Protections::SignalsGood(const Observation& seen) const noexcept {
   }
   if (NotFinite(seen).fault != Fault::kNone || Frozen().fault != Fault::kNone) return false;
   for (std::size_t i = 0; i < axes_; ++i) {
-    if (std::abs(seen.position_m[i]) >= range_limit_m_) return false;
+    if (std::abs(seen.position_m[i]) >= range_limit_m_[i]) return false;
   }
   return true;
 }
@@ -104,16 +108,16 @@ void Protections::Count(const Observation& seen, bool energised) noexcept {
   CountWhile(energised && (seen.rig_status & kRigAmplifiersOff) != 0, amplifiers_silent_);
   for (std::size_t i = 0; i < axes_; ++i) {
     const double position_m = seen.position_m[i];
-    CountWhile(std::abs(position_m) >= range_limit_m_, out_of_range_[i]);
+    CountWhile(std::abs(position_m) >= range_limit_m_[i], out_of_range_[i]);
     CountWhile(has_position_ && position_m == last_position_m_[i], unchanged_[i]);
     last_position_m_[i] = position_m;
   }
   has_position_ = true;
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     const double radius_m = Radius(seen, b);
-    CountWhile(radius_m > orbit_limit_m_, beyond_orbit_[b]);
+    CountWhile(radius_m > orbit_limit_m_[b], beyond_orbit_[b]);
     std::uint32_t& contact = in_contact_[b];
-    if (radius_m >= clearance_m_) {
+    if (radius_m >= clearance_m_[b]) {
       contact = std::min(contact + 1, contact_limit_cycles_);
     } else if (contact > 0) {
       --contact;
@@ -169,7 +173,7 @@ Finding Protections::FindMotionFault(const Observation& seen, FaultSet armed,
 Finding Protections::NotFinite(const Observation& seen) const noexcept {
   for (std::size_t i = 0; i < axes_; ++i) {
     if (!std::isfinite(seen.position_m[i])) {
-      return {Fault::kSensorNotFinite, AxisNumber(i), 0.0, range_limit_m_};
+      return {Fault::kSensorNotFinite, AxisNumber(i), 0.0, range_limit_m_[i]};
     }
   }
   if (!std::isfinite(seen.speed_rad_per_s)) {
@@ -181,7 +185,7 @@ Finding Protections::NotFinite(const Observation& seen) const noexcept {
 Finding Protections::OutOfRange(const Observation& seen) const noexcept {
   for (std::size_t i = 0; i < axes_; ++i) {
     if (out_of_range_[i] >= config_.sensor_range_cycles) {
-      return {Fault::kSensorOutOfRange, AxisNumber(i), seen.position_m[i], range_limit_m_};
+      return {Fault::kSensorOutOfRange, AxisNumber(i), seen.position_m[i], range_limit_m_[i]};
     }
   }
   return {};
@@ -209,14 +213,14 @@ Finding Protections::AmplifierFault(const Observation& seen) const noexcept {
 
 Finding Protections::Orbit(const Observation& seen) const noexcept {
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
-    if (beyond_orbit_[b] >= config_.orbit_cycles) return OrbitFinding(seen, b, orbit_limit_m_);
+    if (beyond_orbit_[b] >= config_.orbit_cycles) return OrbitFinding(seen, b, orbit_limit_m_[b]);
   }
   return {};
 }
 
 Finding Protections::Contact(const Observation& seen) const noexcept {
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
-    if (in_contact_[b] >= contact_limit_cycles_) return OrbitFinding(seen, b, clearance_m_);
+    if (in_contact_[b] >= contact_limit_cycles_) return OrbitFinding(seen, b, clearance_m_[b]);
   }
   return {};
 }

@@ -65,10 +65,10 @@ class Protections {
 
   std::size_t axes_{};
   ProtectionConfig config_;
-  double orbit_limit_m_{};
-  double range_limit_m_{};
+  AxisArray orbit_limit_m_{};  // per bearing
+  AxisArray range_limit_m_{};  // per axis
   double speed_limit_rad_per_s_{};
-  double clearance_m_{};
+  AxisArray clearance_m_{};  // per bearing
   double period_s_{};
   std::uint32_t contact_limit_cycles_{};
   std::uint32_t saturated_limit_cycles_{};

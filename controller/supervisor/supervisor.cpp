@@ -51,12 +51,15 @@ bool Refuses(State state, OperatorCommand command) noexcept {
 
 Supervisor::Supervisor(const RigNumbers& rig, const SupervisorConfig& config)
     : axes_(rig.axes()),
-      clearance_m_(rig.clearance_m),
       max_speed_rad_per_s_(rig.max_speed_rad_per_s),
       sequence_(config.sequence),
       implausible_limit_cycles_(config.protection.sensor_range_cycles),
       protections_(rig, config.protection) {
   const SequenceConfig& s = config.sequence;
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
+    resting_limit_m_[b] = kRestingPlaceFactor * rig.ClearanceOf(b);
+    settle_limit_m_[b] = s.settle_radius_m;
+  }
   const double period_s = rig.period_s();
   times_ = {Cycles(s.self_test_s, period_s, "self_test_s"),
             Cycles(s.lift_ramp_s, period_s, "lift_ramp_s"),
@@ -118,7 +121,7 @@ const Decision& Supervisor::Decide(const Observation& seen, const Request& reque
 // fault-free is what the protections armed in this state look for.)
 Finding Supervisor::SelfTest(const Observation& seen) noexcept {
   if (!seen.fresh) return {};
-  Finding found = FarthestBearing(seen, kRestingPlaceFactor * clearance_m_);
+  Finding found = FarthestBearing(seen, resting_limit_m_);
   if (found.value <= found.limit) {
     found = {Fault::kNone, -1, std::abs(seen.speed_rad_per_s), sequence_.standstill_rad_per_s};
   }
@@ -130,7 +133,7 @@ Finding Supervisor::SelfTest(const Observation& seen) noexcept {
 }
 
 Finding Supervisor::Lift(const Observation& seen) noexcept {
-  Finding found = FarthestBearing(seen, sequence_.settle_radius_m);
+  Finding found = FarthestBearing(seen, settle_limit_m_);
   // A cycle without a frame says nothing about the rotor: it neither counts nor starts anew.
   // (Frames that stay away are a fault of their own.)
   if (seen.fresh) {
@@ -255,14 +258,17 @@ bool Supervisor::Standing(const Observation& seen) const noexcept {
   return std::abs(seen.speed_rad_per_s) < sequence_.standstill_rad_per_s;
 }
 
-Finding Supervisor::FarthestBearing(const Observation& seen, double limit_m) const noexcept {
-  Finding farthest{Fault::kNone, -1, 0.0, limit_m};
+// Of its own limit, not in metres: bearings may have different clearances.
+Finding Supervisor::FarthestBearing(const Observation& seen,
+                                    const AxisArray& limit_m) const noexcept {
+  Finding farthest{Fault::kNone, -1, 0.0, limit_m[0]};
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     const double x_m = seen.position_m[2 * b];
     const double y_m = seen.position_m[2 * b + 1];
     const double radius_m = std::sqrt(x_m * x_m + y_m * y_m);
-    if (radius_m <= farthest.value) continue;
+    if (radius_m * farthest.limit <= farthest.value * limit_m[b]) continue;
     farthest.value = radius_m;
+    farthest.limit = limit_m[b];
     farthest.axis = static_cast<std::int8_t>(2 * b + (std::abs(x_m) >= std::abs(y_m) ? 0 : 1));
   }
   return farthest;

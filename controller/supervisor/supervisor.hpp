@@ -72,10 +72,12 @@ class Supervisor {
   void MoveReference() noexcept;
   void CommandDrive(const Observation& seen) noexcept;
   [[nodiscard]] bool Standing(const Observation& seen) const noexcept;
-  [[nodiscard]] Finding FarthestBearing(const Observation& seen, double limit_m) const noexcept;
+  [[nodiscard]] Finding FarthestBearing(const Observation& seen,
+                                        const AxisArray& limit_m) const noexcept;
 
   std::size_t axes_{};
-  double clearance_m_{};
+  AxisArray resting_limit_m_{};  // per bearing, during the self-test
+  AxisArray settle_limit_m_{};   // per bearing, during the lift: the same for all
   double max_speed_rad_per_s_{};
   SequenceConfig sequence_;
   std::uint32_t implausible_limit_cycles_{};

@@ -112,7 +112,8 @@ class Table {
   Table(const RigNumbers& rig, Format format)
       : rig_(rig),
         classical_(format == Format::kClassical),
-        position_factor_(Factor(kFinestPositionM, rig.sensor_range_m, SignedSteps(kNumberBits))),
+        position_factor_(
+            Factor(kFinestPositionM, rig.LargestSensorRange(), SignedSteps(kNumberBits))),
         current_factor_(Factor(kFinestCurrentA, rig.max_coil_current_a, SignedSteps(kNumberBits))),
         speed_factor_(Factor(kFinestSpeedRadPerS, kSpeedReserve * rig.max_speed_rad_per_s,
                              SignedSteps(kSpeedBits))) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <bit>
 #include <cstdlib>
 
 namespace levitas::machine {
@@ -21,12 +22,13 @@ constexpr std::uint64_t kSessionBytesPerSecond = 3'000'000;
 constexpr std::uint64_t kComfortableBytes = 600 * kSessionBytesPerSecond;
 constexpr std::uint64_t kLeastBytes = 30 * kSessionBytesPerSecond;
 
-/// True when some line of the route table covers 239.255.76.67. Columns: interface, destination,
+/// True when some line of the route table covers 239.255.76.67; the narrowest one counts. Columns: interface, destination,
 /// gateway, flags, three counters, mask; addresses are hexadecimal in network byte order.
 bool CoversGroup(const std::vector<std::string>& routes, std::string& interface_name) {
   // 239.255.76.67 as the table writes it on a little-endian machine.
   constexpr unsigned long kGroup = 0x434CFFEFUL;
   constexpr unsigned long kRouteUp = 1UL;
+  int narrowest = -1;
   for (std::size_t i = 1; i < routes.size(); ++i) {
     char name[64] = {};  // NOLINT(modernize-avoid-c-arrays): for sscanf
     unsigned long destination = 0;
@@ -36,12 +38,12 @@ bool CoversGroup(const std::vector<std::string>& routes, std::string& interface_
                     &flags, &mask) != 4) {
       continue;
     }
-    if ((flags & kRouteUp) != 0 && (kGroup & mask) == destination) {
-      interface_name = name;
-      return true;
-    }
+    const int bits = std::popcount(mask);
+    if ((flags & kRouteUp) == 0 || (kGroup & mask) != destination || bits <= narrowest) continue;
+    narrowest = bits;
+    interface_name = name;
   }
-  return false;
+  return narrowest >= 0;
 }
 
 /// Whether the running kernel has this module, loaded, built in, or to be loaded.
@@ -56,13 +58,21 @@ bool HasModule(const Probe& probe, const std::string& name) {
   return false;
 }
 
+/// Our own programs need no route as long as ttl is 0; LCM's tools send and listen where the route
+/// points.
 Finding MulticastRoute(const Probe& probe) {
+  constexpr const char* kLoopbackRoute = "sudo ip route replace 224.0.0.0/4 dev lo src 127.0.0.1";
   std::string name;
-  if (CoversGroup(probe.ReadLines("/proc/net/route"), name)) {
-    return {Area::kLcm, "route", State::kOk, "multicast leaves through " + name, ""};
+  const bool some = CoversGroup(probe.ReadLines("/proc/net/route"), name);
+  if (some && name == "lo") {
+    return {Area::kLcm, "route", State::kOk,
+            "lcm-spy and lcm-logger listen where the programs speak", ""};
   }
-  return {Area::kLcm, "route", State::kMissing, "no route for 239.255.76.67",
-          "sudo ip link set lo up && sudo ip route add 224.0.0.0/4 dev lo"};
+  return {Area::kLcm, "route", State::kDegraded,
+          some ? "multicast leaves through " + name +
+                     ": lcm-spy and lcm-logger listen there and hear nothing of a rig with ttl 0"
+               : "no route for 239.255.76.67: lcm-spy and lcm-logger cannot listen",
+          kLoopbackRoute};
 }
 
 Finding MulticastLoopback(const Probe& probe) {
@@ -74,12 +84,12 @@ Finding MulticastLoopback(const Probe& probe) {
             ""};
   }
   const bool some = trial.received > 0;
-  return {Area::kLcm, "loopback", some ? State::kDegraded : State::kMissing,
-          fmt::format("{} of {} messages came back{}{}", trial.received, trial.sent,
-                      trial.reason.empty() ? "" : ": ", trial.reason),
-          some ? "stop other load and try again"
-               : "sudo ip link set lo up && sudo ip route add 224.0.0.0/4 dev lo; a firewall must "
-                 "let UDP to 239.255.76.67 pass"};
+  return {
+      Area::kLcm, "loopback", some ? State::kDegraded : State::kMissing,
+      fmt::format("{} of {} messages came back{}{}", trial.received, trial.sent,
+                  trial.reason.empty() ? "" : ": ", trial.reason),
+      some ? "stop other load and try again"
+           : "sudo ip link set lo up  # and a firewall must let UDP to 239.255.76.67 pass on lo"};
 }
 
 Finding SocketBuffer(const Probe& probe) {

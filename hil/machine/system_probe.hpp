@@ -3,8 +3,8 @@
 //
 // WakeUps    on a thread of its own, under SCHED_FIFO when permitted, sleeping to absolute times
 //            of CLOCK_MONOTONIC; the grid is kept and periods missed are skipped.
-// RoundTrips to 239.255.76.67 with ttl 0, on a port the system chooses: never disturbs a running
-//            rig.
+// RoundTrips to 239.255.76.67 on the loopback interface, as the programs do with ttl 0, on a port
+//            the system chooses: never disturbs a running rig.
 
 #include "hil/machine/probe.hpp"
 

@@ -1,6 +1,7 @@
 // The two trials of SystemProbe that take time: wake-ups, and multicast round trips.
 
 #include <arpa/inet.h>
+#include <net/if.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sched.h>
@@ -78,12 +79,20 @@ class Socket {
   int handle_;
 };
 
+/// The interface that the programs use with ttl 0, as the socket options want it.
+ip_mreqn Loopback() {
+  ip_mreqn request{};
+  request.imr_address.s_addr = htonl(INADDR_LOOPBACK);
+  request.imr_ifindex = static_cast<int>(if_nametoindex("lo"));
+  return request;
+}
+
 /// Binds the receiver to a free port of the group; the port is written to `group`. False: see
 /// errno.
 bool JoinGroup(const Socket& receiver, sockaddr_in& group) {
   group.sin_family = AF_INET;
   inet_pton(AF_INET, kGroup, &group.sin_addr);
-  ip_mreq request{};
+  ip_mreqn request = Loopback();
   request.imr_multiaddr = group.sin_addr;
   socklen_t size = sizeof group;
   return bind(receiver.handle(), reinterpret_cast<sockaddr*>(&group), size) == 0 &&
@@ -111,6 +120,8 @@ MulticastTrial SystemProbe::RoundTrips(int count) const {
   }
   const unsigned char ttl = 0;
   setsockopt(sender.handle(), IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
+  const ip_mreqn loopback = Loopback();
+  setsockopt(sender.handle(), IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback);
   std::vector<double> times_us;
   for (int i = 0; i < count; ++i) {
     const std::int64_t sent_ns = NowNs();

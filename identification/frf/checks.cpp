@@ -37,7 +37,7 @@ void CheckChannel(const Record& record, const Experiment& e, std::size_t channel
   std::size_t saturated = 0;
   for (std::size_t row = e.begin; row < e.end(); ++row) {
     if (values.size() < 4) values.insert(position_m[row]);
-    if (std::abs(position_m[row]) >= 0.999 * record.sensor_range_m) ++clipped;
+    if (std::abs(position_m[row]) >= 0.999 * record.SensorRangeOf(channel)) ++clipped;
     if (std::abs(current_a[row]) >= 0.9999 * record.current_limit_a) ++saturated;
   }
   const auto rows = static_cast<double>(e.end() - e.begin);
@@ -52,8 +52,8 @@ void CheckChannel(const Record& record, const Experiment& e, std::size_t channel
     problems.push_back(fmt::format(
         "position {} is clipped at the sensor's range ({:.4g} um) in {:.1f} % of the samples while "
         "{} is excited, allowed {:g} %: use a smaller amplitude",
-        name, 1e6 * record.sensor_range_m, 100.0 * static_cast<double>(clipped) / rows, excited,
-        100.0 * kClippedShare));
+        name, 1e6 * record.SensorRangeOf(channel), 100.0 * static_cast<double>(clipped) / rows,
+        excited, 100.0 * kClippedShare));
   } else if (values.size() >= 4) {
     const double flat = FlatShare(std::span(position_m).subspan(e.begin, e.end() - e.begin));
     if (flat > kFlatShare) {

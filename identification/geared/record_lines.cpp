@@ -118,7 +118,8 @@ void RefuseBadRows(const Record& record, const Stretch& stretch) {
     double limited = 0.0;
     for (std::size_t n = stretch.begin; n < stretch.end; ++n) {
       if (values.size() < 4) values.insert(record.position_m[axis][n]);
-      if (std::abs(record.position_m[axis][n]) >= 0.999 * record.sensor_range_m) clipped += 1.0;
+      if (std::abs(record.position_m[axis][n]) >= 0.999 * record.SensorRangeOf(axis))
+        clipped += 1.0;
       if (std::abs(record.current_a[axis][n]) >= 0.9999 * record.current_limit_a) limited += 1.0;
     }
     const std::string& name = record.channels[axis];

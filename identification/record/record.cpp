@@ -35,6 +35,9 @@ Record Columns(const std::vector<analysis::RecordedRow>& rows, const RigNumbers&
   record.period_s = rig.period_s();
   record.channels = rig.channels;
   record.sensor_range_m = rig.sensor_range_m;
+  for (std::size_t i = 0; i < rig.axes(); ++i) {
+    record.sensor_ranges_m.push_back(rig.SensorRangeOf(i / 2));
+  }
   record.current_limit_a =
       std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);
   const std::size_t axes = rig.axes();

@@ -22,6 +22,7 @@ struct Record {
   double period_s{};
   std::vector<std::string> channels;
   double sensor_range_m{};   ///< positions at this are clipped
+  Column sensor_ranges_m;    ///< per axis; empty: sensor_range_m everywhere
   double current_limit_a{};  ///< |control current| that the coils leave
   std::vector<std::uint64_t> cycle;
   std::vector<std::uint8_t> levitated;
@@ -32,6 +33,9 @@ struct Record {
   std::vector<Column> excitation_a;
 
   [[nodiscard]] std::size_t rows() const noexcept { return cycle.size(); }
+  [[nodiscard]] double SensorRangeOf(std::size_t axis) const noexcept {
+    return axis < sensor_ranges_m.size() ? sensor_ranges_m[axis] : sensor_range_m;
+  }
   [[nodiscard]] std::size_t axes() const noexcept { return channels.size(); }
 };
 

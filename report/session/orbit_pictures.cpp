@@ -80,7 +80,7 @@ svg::Figure Square(svg::Panel panel) {
 
 NamedPicture InClearance(const Recording& r, std::size_t bearing,
                          const std::vector<svg::Series>& paths) {
-  const double clearance_um = r.rig.clearance_m * kUm;
+  const double clearance_um = r.rig.ClearanceOf(bearing) * kUm;
   const std::string& name = r.rig.bearings[bearing];
   svg::Panel panel{fmt::format("orbits in the clearance, {}", name), "x, um", "y, um"};
   panel.x_range = panel.y_range = svg::Range{-1.1 * clearance_um, 1.1 * clearance_um};

@@ -46,9 +46,13 @@ NamedPicture DistancePicture(const Recording& r) {
   for (std::size_t b = 0; b < r.rig.bearings.size(); ++b) {
     panel.series.push_back(LargestRadius(r, b, false, kUm));
   }
+  const double widest_m = r.rig.LargestClearance();
   panel.series.push_back(Level("clearance", 0.0, r.TimeOf(r.size() - 1), r.rig.clearance_m * kUm));
+  if (widest_m > r.rig.clearance_m) {
+    panel.series.push_back(Level("widest", 0.0, r.TimeOf(r.size() - 1), widest_m * kUm));
+  }
   panel.x_range = svg::Range{0.0, r.TimeOf(r.size() - 1)};
-  panel.y_range = {0.0, 1.15 * r.rig.clearance_m * kUm};
+  panel.y_range = {0.0, 1.15 * widest_m * kUm};
   return {"distance",
           "Largest distance of the shaft from the centre at the sensors, per stretch of time; "
           "dashed: the clearance of the touchdown bearings.",
@@ -60,7 +64,7 @@ NamedPicture ZonesPicture(const Recording& r) {
                    "share of the clearance"};
   double largest = 0.0;
   for (std::size_t b = 0; b < r.rig.bearings.size(); ++b) {
-    panel.series.push_back(LargestRadius(r, b, true, 1.0 / r.rig.clearance_m));
+    panel.series.push_back(LargestRadius(r, b, true, 1.0 / r.rig.ClearanceOf(b)));
     for (const double y : panel.series.back().y) largest = std::fmax(largest, y);
   }
   const double end_s = r.TimeOf(r.size() - 1);

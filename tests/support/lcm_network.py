@@ -19,6 +19,7 @@ BINARIES = Path(os.environ.get("LEVITAS_BINARIES", "build/release/bin"))
 BUILD = Path(os.environ.get("LEVITAS_BUILD", BINARIES.parent))
 GROUP = "239.255.76.67"
 SENSOR, CURRENT, TELEMETRY, COMMAND = 7667, 7668, 7669, 7670
+LOOPBACK = socket.inet_aton("127.0.0.1")  # where the programs meet with ttl 0
 SKIPPED = 77
 UNSHARE = ["unshare", "-n" if os.geteuid() == 0 else "-rn"]
 SET_UP = "ip link set lo up && ip route add 224.0.0.0/4 dev lo && exec \"$@\""
@@ -61,7 +62,8 @@ class Bus:
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4 << 20)
         self.socket.bind((GROUP, port))
         self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
-                               socket.inet_aton(GROUP) + socket.inet_aton("0.0.0.0"))
+                               socket.inet_aton(GROUP) + LOOPBACK)
+        self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, LOOPBACK)
         self.sequence = 0
 
     def close(self):

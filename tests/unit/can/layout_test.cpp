@@ -35,6 +35,14 @@ TEST(Layout, StepsGrowUntilTheRangeOfTheRigFits) {
   EXPECT_DOUBLE_EQ(MessageNamed(layout, "ControllerCurrents").signals[3].factor, 1e-3);
 }
 
+TEST(Layout, StepsFitTheWidestProbe) {
+  RigNumbers rig = TestRig(4);
+  rig.sensor_range_m = 300e-6;
+  rig.sensor_ranges_m = {300e-6, 400e-6};
+  const Layout layout = MakeLayout(rig, Format::kFd);
+  EXPECT_DOUBLE_EQ(MessageNamed(layout, "RigPositions").signals[4].factor, 2e-8);
+}
+
 TEST(Layout, OfMoreAxesIsProtectedByTheLongerChecksum) {
   const Layout layout = MakeLayout(TestRig(8), Format::kFd);
   EXPECT_EQ(MessageNamed(layout, "RigPositions").profile, Profile::k5);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "config/rig_file.hpp"
@@ -39,6 +41,20 @@ TEST(FlexibleRotor, IsThePublishedRig) {
     EXPECT_EQ(bearing.sensor.adc_bits, 14);
     EXPECT_EQ(bearing.sensor.range_m, 400e-6);
   }
+}
+
+TEST(FlexibleRotor, KeepsClearanceAndRangeOfEachBearing) {
+  std::ifstream file(FindConfig("flexible_rotor", "rigs"));
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  text.replace(text.rfind("clearance_um: 190"), 17, "clearance_um: 250");
+  text.replace(text.rfind("range_um: 400"), 13, "range_um: 500");
+  const RigFile rig = ParseRig(text, "rig.yaml");
+  EXPECT_EQ(rig.numbers.clearance_m, 190e-6);  // the smallest still stands for all together
+  EXPECT_EQ(rig.numbers.sensor_range_m, 400e-6);
+  EXPECT_EQ(rig.numbers.ClearanceOf(0), 190e-6);
+  EXPECT_EQ(rig.numbers.ClearanceOf(1), 250e-6);
+  EXPECT_EQ(rig.numbers.SensorRangeOf(1), 500e-6);
+  EXPECT_EQ(rig.numbers.LargestSensorRange(), 500e-6);
 }
 
 TEST(FlexibleRotor, HasItsWeightEquallyOnBothAxes) {

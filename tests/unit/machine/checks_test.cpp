@@ -109,26 +109,41 @@ TEST(DoctorRealTime, JudgesWakeUpsByLatenessAndBySkippedPeriods) {
   EXPECT_EQ(state({}), State::kMissing);                                     // never woke
 }
 
-TEST(DoctorLcm, WithoutARouteLockstepIsNotPossibleAndTheRemedyIsARoute) {
+TEST(DoctorLcm, WithoutARouteOnlyTheToolsOfOthersAreLimitedAndTheRemedyIsARoute) {
   FakeProbe probe;
   probe.files["/proc/net/route"].resize(1);
   const auto findings = CheckLcm(probe);
-  EXPECT_EQ(Get(findings, "route").state, State::kMissing);
-  EXPECT_THAT(Get(findings, "route").remedy, HasSubstr("ip route add 224.0.0.0/4 dev lo"));
-  EXPECT_FALSE(FitForLockstep(findings));
+  EXPECT_EQ(Get(findings, "route").state, State::kDegraded);
+  EXPECT_THAT(Get(findings, "route").remedy, HasSubstr("ip route replace 224.0.0.0/4 dev lo"));
+  EXPECT_TRUE(FitForLockstep(findings));
 }
 
-TEST(DoctorLcm, AcceptsARouteForMulticastOnlyAndIgnoresOthersAndThoseThatAreDown) {
+TEST(DoctorLcm, WithoutALoopbackInterfaceLockstepIsNotPossible) {
   FakeProbe probe;
-  const auto state = [&](const char* line) {
-    probe.files["/proc/net/route"] = {"header", line};
-    return Get(CheckLcm(probe), "route").state;
+  probe.multicast = {1, 0, 0.0, "Network is unreachable"};
+  EXPECT_FALSE(FitForLockstep(CheckLcm(probe)));
+  EXPECT_THAT(Get(CheckLcm(probe), "loopback").remedy, HasSubstr("ip link set lo up"));
+}
+
+TEST(DoctorLcm, TakesTheNarrowestRouteForMulticastAndIgnoresThoseThatAreDown) {
+  FakeProbe probe;
+  const auto finding = [&](std::vector<std::string> lines) {
+    lines.insert(lines.begin(), "header");
+    probe.files["/proc/net/route"] = std::move(lines);
+    return Get(CheckLcm(probe), "route");
   };
   // 224.0.0.0 with mask 240.0.0.0, as a little-endian kernel prints it.
-  EXPECT_EQ(state("lo 000000E0 00000000 0001 0 0 0 000000F0 0 0 0"), State::kOk);
-  EXPECT_EQ(state("lo 000000E0 00000000 0000 0 0 0 000000F0 0 0 0"), State::kMissing);    // down
-  EXPECT_EQ(state("eth0 000200C0 00000000 0001 0 0 0 00FFFFFF 0 0 0"), State::kMissing);  // other
-  EXPECT_EQ(state("nonsense"), State::kMissing);
+  const std::string on_loopback = "lo 000000E0 00000000 0001 0 0 0 000000F0 0 0 0";
+  const std::string by_default = "eth0 00000000 010200C0 0003 0 0 0 00000000 0 0 0";
+  EXPECT_EQ(finding({on_loopback}).state, State::kOk);
+  EXPECT_EQ(finding({by_default, on_loopback}).state, State::kOk);
+  EXPECT_EQ(finding({on_loopback, by_default}).state, State::kOk);
+  EXPECT_THAT(finding({by_default}).found, HasSubstr("eth0"));
+  EXPECT_THAT(finding({"lo 000000E0 00000000 0000 0 0 0 000000F0 0 0 0"}).found,
+              HasSubstr("no route"));  // down
+  EXPECT_THAT(finding({"eth0 000200C0 00000000 0001 0 0 0 00FFFFFF 0 0 0"}).found,
+              HasSubstr("no route"));  // of another network
+  EXPECT_THAT(finding({"nonsense"}).found, HasSubstr("no route"));
 }
 
 TEST(DoctorLcm, SaysHowManyMessagesCameBack) {

@@ -19,7 +19,8 @@ class FakeProbe : public Probe {
     // Columns of the kernel: interface, destination, gateway, flags, counters, mask.
     files["/proc/net/route"] = {
         "Iface Destination Gateway Flags RefCnt Use Metric Mask MTU Window IRTT",
-        "eth0 00000000 010200C0 0003 0 0 0 00000000 0 0 0"};
+        "eth0 00000000 010200C0 0003 0 0 0 00000000 0 0 0",
+        "lo 000000E0 00000000 0001 0 0 0 000000F0 0 0 0"};
     files["/proc/sys/net/core/rmem_max"] = {"4194304"};
     files["/sys/class/net/can0/type"] = {"280"};
     files["/sys/class/net/can0/mtu"] = {"72"};

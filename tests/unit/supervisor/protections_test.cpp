@@ -60,6 +60,63 @@ TEST(SensorRangeProtection, TripsAfterItsCyclesNearTheEndOfTheConverter) {
   EXPECT_DOUBLE_EQ(found.limit, 360e-6);
 }
 
+// de as every other rig here, nde twice as wide.
+Driver OfUnevenBearings() {
+  RigNumbers rig = TestRig();
+  rig.clearances_m = {200e-6, 400e-6};
+  rig.sensor_ranges_m = {400e-6, 800e-6};
+  return Driver(rig);
+}
+
+Finding AfterCycles(Driver& driver, int cycles, const AxisArray& position_m) {
+  for (int i = 0; i < cycles; ++i) {
+    driver.seen.position_m = position_m;
+    (void)driver.Step();
+  }
+  return driver.supervisor.decision().latch.finding;
+}
+
+TEST(UnevenBearings, EachOrbitIsHeldAgainstItsOwnClearance) {
+  Driver driver = OfUnevenBearings();
+  driver.GoTo(State::kSpinning);
+  EXPECT_EQ(AfterCycles(driver, 3, {90e-6, 0, 190e-6, 0}).fault, Fault::kNone);
+  const Finding wide = AfterCycles(driver, 3, {90e-6, 0, 210e-6, 0});
+  EXPECT_EQ(wide.fault, Fault::kOrbitExceeded);
+  EXPECT_EQ(wide.axis, 2);
+  EXPECT_DOUBLE_EQ(wide.limit, 200e-6);
+  Driver narrow = OfUnevenBearings();
+  narrow.GoTo(State::kSpinning);
+  const Finding found = AfterCycles(narrow, 3, {110e-6, 0, 190e-6, 0});
+  EXPECT_EQ(found.axis, 0);
+  EXPECT_DOUBLE_EQ(found.limit, 100e-6);
+}
+
+TEST(UnevenBearings, EachReadingIsHeldAgainstTheRangeOfItsOwnProbe) {
+  Driver driver = OfUnevenBearings();
+  driver.GoTo(State::kLanding);
+  EXPECT_EQ(AfterCycles(driver, 4, {0, 0, 0, 399e-6}).fault, Fault::kNone);
+  Driver narrow = OfUnevenBearings();
+  narrow.GoTo(State::kLanding);
+  EXPECT_EQ(AfterCycles(narrow, 4, {0, 399e-6, 0, 0}).fault, Fault::kSensorOutOfRange);
+  Driver wide = OfUnevenBearings();
+  wide.GoTo(State::kLanding);
+  const Finding found = AfterCycles(wide, 4, {0, 0, 0, 799e-6});
+  EXPECT_EQ(found.fault, Fault::kSensorOutOfRange);
+  EXPECT_DOUBLE_EQ(found.limit, 720e-6);
+}
+
+TEST(UnevenBearings, TheSelfTestLetsARotorLieInTheWiderBearing) {
+  Driver driver = OfUnevenBearings();
+  driver.GoTo(State::kSelfTest);
+  EXPECT_EQ(AfterCycles(driver, 4, {240e-6, 0, 480e-6, 0}).fault, Fault::kNone);
+  Driver beyond = OfUnevenBearings();
+  beyond.GoTo(State::kSelfTest);
+  const Finding found = AfterCycles(beyond, 4, {240e-6, 0, 510e-6, 0});
+  EXPECT_EQ(found.fault, Fault::kSelfTestFailed);
+  EXPECT_EQ(found.axis, 2);
+  EXPECT_DOUBLE_EQ(found.limit, 500e-6);
+}
+
 TEST(FrozenProtection, TripsWhenOneAxisRepeatsItself) {
   const auto frozen = [](Seen& seen, int) { seen.frozen[2] = true; };
   // Six identical readings: the one before the sensor died is the first of them.

@@ -63,6 +63,7 @@ class Driver {
  public:
   Driver() : supervisor(TestRig(), TestConfig()) {}
   explicit Driver(const SupervisorConfig& config) : supervisor(TestRig(), config) {}
+  explicit Driver(const RigNumbers& rig) : supervisor(rig, TestConfig()) {}
 
   const Decision& Step(Request request = {}) {
     const Observation& observation = seen.Next();

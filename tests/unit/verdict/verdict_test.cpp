@@ -55,6 +55,17 @@ TEST(Judge, NamesBearingOrbitLimitAndSpeedOfWhatItRefuses) {
             "NOT ACCEPTED: nde orbit 41.0 um while spinning exceeds 36.0 um at 2870 rpm");
 }
 
+TEST(Judge, GradesEachBearingByItsOwnClearance) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.rig.spinning_orbit_objective_m = 150e-6;
+  inputs.rig.clearances_m = {200e-6, 400e-6};
+  for (auto& bearing : inputs.session.spinning.bearings) bearing.orbit.max_m = 100e-6;
+  const Verdict verdict = Judge(inputs);
+  ASSERT_EQ(verdict.orbits.size(), 4U);
+  EXPECT_EQ(verdict.orbits[2].zone, Zone::kD);  // half of 200 um
+  EXPECT_EQ(verdict.orbits[3].zone, Zone::kA);  // a quarter of 400 um
+}
+
 TEST(Judge, HoldsStandingAndSpinningAgainstTheirOwnObjective) {
   const Verdict verdict = Judge(RunWith(8e-6, 20e-6));
   ASSERT_EQ(verdict.objections.size(), 2U);  // both bearings
