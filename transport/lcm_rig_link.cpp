@@ -1,6 +1,10 @@
 #include "transport/lcm_rig_link.hpp"
 
+#include <fmt/core.h>
+
+#include "controller/rt/clock.hpp"
 #include "transport/lcm_packet.hpp"
+#include "transport/read_bound.hpp"
 
 namespace levitas::transport {
 
@@ -22,21 +26,29 @@ port::RigLink::Answer LcmRigLink::Accept(const Received& received, CurrentFrame&
   const bool current = packet.channel == channel::kCurrent;
   const bool goodbye = packet.channel == channel::kGoodbye;
   if (packet.kind == PacketKind::kShort && !current && !goodbye) return Answer::kNothing;
-  if (packet.kind != PacketKind::kShort || !current_codec_.Decode(packet.payload, frame)) {
+  const std::int64_t now_ns = rt::MonotonicNowNs();
+  const bool sound = packet.kind == PacketKind::kShort;
+  if (sound && partner_.Refuses(received.sender, now_ns)) return Answer::kNothing;
+  if (!sound || !current_codec_.Decode(packet.payload, frame)) {
     ++counters_.currents_rejected;
     return Answer::kNothing;
   }
   watch_.Saw(received.sender, packet.sequence);
+  partner_.Heard(received.sender, now_ns);
+  if (goodbye) partner_.Release();  // the next one need not wait for the silence
   return goodbye ? Answer::kGoodbye : Answer::kCurrent;
 }
 
 port::RigLink::Answer LcmRigLink::Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept {
   bool found = false;
-  for (;;) {
+  for (ReadBound bound; bound.MayGoOn(deadline_ns);) {
     const Received received = found ? receiver_.Next() : receiver_.Receive(deadline_ns);
     if (received.datagram.empty()) break;
     const Answer answer = Accept(received, frame);
-    if (answer == Answer::kNothing) continue;
+    if (answer == Answer::kNothing) {
+      bound.Useless();
+      continue;
+    }
     if (found) ++counters_.currents_skipped;
     found = true;
     if (answer == Answer::kGoodbye) return answer;
@@ -49,7 +61,23 @@ port::RigLink::Answer LcmRigLink::Receive(CurrentFrame& frame, std::int64_t dead
 port::RigLink::Counters LcmRigLink::counters() const noexcept {
   Counters counters = counters_;
   counters.currents_lost = watch_.lost();
+  counters.currents_refused = partner_.refused() + receiver_.foreign();
   return counters;
+}
+
+std::string LcmRigLink::TakeNews() {
+  const auto stranger = partner_.TakeNews();
+  if (!stranger) return {};
+  return fmt::format(
+      "currents of a second controller at {} are refused: the controller at {} is heard; end one "
+      "of them, or give each pair a --port of its own",
+      AddressText(*stranger), AddressText(partner_.partner()));
+}
+
+std::string LcmRigLink::Trouble() const {
+  if (partner_.stranger() == 0) return {};
+  return fmt::format("{} currents of a second controller were refused, last of {}",
+                     partner_.refused(), AddressText(partner_.stranger()));
 }
 
 }  // namespace levitas::transport

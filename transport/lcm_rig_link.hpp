@@ -1,10 +1,14 @@
 #pragma once
 // The rig's end of the LCM network: sensor frames out, current frames in. The contract is that of
 // controller/port/rig_link.hpp; construction throws Problem.
+//
+// Sender   one controller at a time is obeyed (partner_lock.hpp), until its goodbye; what a second
+//          one sends is refused, counted and named.
 
 #include "controller/port/rig_link.hpp"
 #include "transport/frame_codec.hpp"
 #include "transport/multicast_socket.hpp"
+#include "transport/partner_lock.hpp"
 #include "transport/sequence_watch.hpp"
 
 namespace levitas::transport {
@@ -16,6 +20,8 @@ class LcmRigLink final : public port::RigLink {
   bool Send(const SensorFrame& frame) noexcept override;
   Answer Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept override;
   [[nodiscard]] Counters counters() const noexcept override;
+  [[nodiscard]] std::string TakeNews() override;
+  [[nodiscard]] std::string Trouble() const override;
 
  private:
   [[nodiscard]] Answer Accept(const Received& received, CurrentFrame& frame) noexcept;
@@ -25,6 +31,7 @@ class LcmRigLink final : public port::RigLink {
   SensorFrameCodec sensor_codec_;
   CurrentFrameCodec current_codec_;
   SequenceWatch watch_;
+  PartnerLock partner_;
   Counters counters_;
 };
 

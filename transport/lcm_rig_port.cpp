@@ -1,6 +1,10 @@
 #include "transport/lcm_rig_port.hpp"
 
+#include <fmt/core.h>
+
+#include "controller/rt/clock.hpp"
 #include "transport/lcm_packet.hpp"
+#include "transport/read_bound.hpp"
 
 namespace levitas::transport {
 
@@ -15,10 +19,13 @@ bool LcmRigPort::Accept(const Received& received, SensorFrame& frame) noexcept {
   if (packet.kind == PacketKind::kFragment) return false;
   const bool ours = packet.kind == PacketKind::kShort && packet.channel == channel::kSensor;
   if (packet.kind == PacketKind::kShort && !ours) return false;  // somebody else's channel
+  const std::int64_t now_ns = rt::MonotonicNowNs();
+  if (ours && partner_.Refuses(received.sender, now_ns)) return false;
   if (!ours || !sensor_codec_.Decode(packet.payload, frame)) {
     ++counters_.frames_rejected;
     return false;
   }
+  partner_.Heard(received.sender, now_ns);
   watch_.Saw(received.sender, packet.sequence);
   if (wire_session_ != frame.rig_session) {
     wire_session_ = frame.rig_session;
@@ -30,11 +37,14 @@ bool LcmRigPort::Accept(const Received& received, SensorFrame& frame) noexcept {
 
 port::ReadResult LcmRigPort::Read(SensorFrame& frame, std::int64_t deadline_ns) noexcept {
   bool found = false;
-  for (;;) {
+  for (ReadBound bound; bound.MayGoOn(deadline_ns);) {
     // Once there is a frame only what is already queued may replace it.
     const Received received = found ? receiver_.Next() : receiver_.Receive(deadline_ns);
     if (received.datagram.empty()) break;
-    if (!Accept(received, frame)) continue;
+    if (!Accept(received, frame)) {
+      bound.Useless();
+      continue;
+    }
     // What queued up before the first read was nobody's to read.
     if (found && counters_.frames_read > 0) ++counters_.frames_skipped;
     found = true;
@@ -56,7 +66,23 @@ bool LcmRigPort::Write(const CurrentFrame& frame) noexcept {
 port::PortCounters LcmRigPort::counters() const noexcept {
   port::PortCounters counters = counters_;
   counters.frames_lost = watch_.lost();
+  counters.frames_refused = partner_.refused() + receiver_.foreign();
   return counters;
+}
+
+std::string LcmRigPort::TakeNews() {
+  const auto stranger = partner_.TakeNews();
+  if (!stranger) return {};
+  return fmt::format(
+      "frames of a second rig at {} are refused: the rig at {} is heard; end one of them, or give "
+      "each pair a --port of its own",
+      AddressText(*stranger), AddressText(partner_.partner()));
+}
+
+std::string LcmRigPort::Trouble() const {
+  if (partner_.stranger() == 0) return {};
+  return fmt::format("{} frames of a second rig were refused, last of {}", partner_.refused(),
+                     AddressText(partner_.stranger()));
 }
 
 void LcmRigPort::SayGoodbye(const CurrentFrame& last) noexcept {

@@ -3,7 +3,9 @@
 //
 // Session  the rig draws a random session number at each start. The controller sees 1 for the first
 //          rig it meets, 2 after the next restart and so on: a change is what matters, and two runs
-//          from the same seed then give the same records. The rest (thread, blocking, staleness,
+//          from the same seed then give the same records.
+// Sender   frames of one rig at a time are taken (partner_lock.hpp); a second one is refused,
+//          counted and named. The rest (thread, blocking, staleness,
 //          failure) is the contract of controller/port.
 
 #include <optional>
@@ -11,6 +13,7 @@
 #include "controller/port/rig_port.hpp"
 #include "transport/frame_codec.hpp"
 #include "transport/multicast_socket.hpp"
+#include "transport/partner_lock.hpp"
 #include "transport/sequence_watch.hpp"
 
 namespace levitas::transport {
@@ -24,6 +27,8 @@ class LcmRigPort final : public port::RigPort {
   bool Write(const CurrentFrame& frame) noexcept override;
   [[nodiscard]] port::PortCounters counters() const noexcept override;
   void SayGoodbye(const CurrentFrame& last) noexcept override;
+  [[nodiscard]] std::string TakeNews() override;
+  [[nodiscard]] std::string Trouble() const override;
 
  private:
   [[nodiscard]] bool Accept(const Received& received, SensorFrame& frame) noexcept;
@@ -33,6 +38,7 @@ class LcmRigPort final : public port::RigPort {
   SensorFrameCodec sensor_codec_;
   CurrentFrameCodec current_codec_;
   SequenceWatch watch_;
+  PartnerLock partner_;
   port::PortCounters counters_;
   std::optional<std::uint32_t> wire_session_;
   std::uint32_t session_{0};

@@ -109,6 +109,14 @@ bool MulticastSender::Send(std::span<const std::uint8_t> datagram) noexcept {
   return sent == static_cast<ssize_t>(datagram.size());
 }
 
+std::string AddressText(std::uint64_t sender) {
+  constexpr std::uint64_t kPortBits = 16;
+  const in_addr address{static_cast<in_addr_t>(sender >> kPortBits)};
+  std::array<char, INET_ADDRSTRLEN> text{};
+  inet_ntop(AF_INET, &address, text.data(), text.size());
+  return fmt::format("{}:{}", text.data(), ntohs(static_cast<std::uint16_t>(sender)));
+}
+
 // Storage for one recvmmsg: the newest frame is wanted, so all that is queued is fetched at once
 // instead of one call each and a last one that finds nothing.
 struct MulticastReceiver::Batch {

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "transport/lcm_network.hpp"
 
@@ -41,6 +42,9 @@ struct Received {
   std::span<const std::uint8_t> datagram{};  ///< empty: nothing; valid until the next receive
   std::uint64_t sender{};                    ///< address and port of the sender, as one number
 };
+
+/// "127.0.0.1:4711", of Received::sender.
+[[nodiscard]] std::string AddressText(std::uint64_t sender);
 
 class MulticastReceiver {
  public:

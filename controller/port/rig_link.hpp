@@ -26,6 +26,7 @@ class RigLink {
     std::uint64_t currents_read{};
     std::uint64_t currents_skipped{};   ///< overtaken by a newer one before they were read
     std::uint64_t currents_rejected{};  ///< undecodable, wrong axis count
+    std::uint64_t currents_refused{};   ///< of a sender that may not speak, or not now
     std::uint64_t currents_lost{};      ///< sent by the controller, never seen here
   };
 
@@ -33,6 +34,9 @@ class RigLink {
   virtual bool Send(const SensorFrame& frame) noexcept = 0;
   virtual Answer Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept = 0;
   [[nodiscard]] virtual Counters counters() const noexcept = 0;
+  /// What people should hear at once, each thing once; empty when there is nothing new. Any one
+  /// thread beside the loop's.
+  [[nodiscard]] virtual std::string TakeNews() { return {}; }
   /// What went wrong on the transport, for people; empty when nothing did. After the loop.
   [[nodiscard]] virtual std::string Trouble() const { return {}; }
 };

@@ -23,6 +23,7 @@ struct PortCounters {
   std::uint64_t frames_read{};
   std::uint64_t frames_skipped{};   ///< overtaken by a newer frame before they were read
   std::uint64_t frames_rejected{};  ///< undecodable, wrong axis count
+  std::uint64_t frames_refused{};   ///< of a sender that may not speak, or not now
   std::uint64_t frames_lost{};      ///< sent by the rig and never seen here
   std::uint64_t currents_written{};
   std::uint64_t write_failures{};  ///< the transport could not take it
@@ -38,6 +39,9 @@ class RigPort {
   [[nodiscard]] virtual PortCounters counters() const noexcept = 0;
   /// Tells the rig that this controller ends; `last` should have the amplifiers off.
   virtual void SayGoodbye(const CurrentFrame& /*last*/) noexcept {}
+  /// What people should hear at once, each thing once; empty when there is nothing new. Any one
+  /// thread beside the loop's.
+  [[nodiscard]] virtual std::string TakeNews() { return {}; }
   /// What went wrong on the transport, for people; empty when nothing did. After the loop.
   [[nodiscard]] virtual std::string Trouble() const { return {}; }
 };

@@ -165,7 +165,8 @@ class Session {
          .phase_ns = rig_->phase_ns()},
         Port(), cycle_, desk, outlet_, clock_);
     std::atomic<bool> running{true};
-    Watchman watchman(loop, desk, options_, *rig_, lines_);
+    Watchman watchman(loop, desk, options_, *rig_, lines_,
+                      [this](const std::string& text) { Warn(text); });
     std::thread thread([&] {
       if (guard_) rt::Guarded("loop", [this] { rt::EnterThread(wanted_); });
       loop.Run();

@@ -39,6 +39,7 @@ nlohmann::ordered_json ReportJson(const RunFacts& facts) {
       {"frames_read", facts.port.frames_read},
       {"frames_skipped", facts.port.frames_skipped},
       {"frames_rejected", facts.port.frames_rejected},
+      {"frames_refused", facts.port.frames_refused},
       {"currents_written", facts.port.currents_written},
       {"write_failures", facts.port.write_failures},
       {"messages_lost", facts.port.frames_lost},

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "controller/rt/clock.hpp"
 #include "controller/rt/say.hpp"
@@ -17,13 +18,14 @@ constexpr auto kLookEvery = std::chrono::milliseconds(20);
 }  // namespace
 
 Watchman::Watchman(loop::ControlLoop& loop, loop::OperatorDesk& desk,
-                   const ControllerOptions& options, const RigConnection& rig,
-                   const gpio::GpiodLines* lines)
+                   const ControllerOptions& options, RigConnection& rig,
+                   const gpio::GpiodLines* lines, std::function<void(const std::string&)> warn)
     : loop_(loop),
       desk_(desk),
       options_(options),
       rig_(rig),
       lines_(lines),
+      warn_(std::move(warn)),
       partner_(rt::MonotonicNowNs(), static_cast<std::int64_t>(options.partner_timeout_s * 1e9)) {}
 
 bool Watchman::Watch(const std::atomic<bool>& running) noexcept {
@@ -37,6 +39,7 @@ bool Watchman::Watch(const std::atomic<bool>& running) noexcept {
 void Watchman::Look() {
   LookAtGuard();
   LookAtPartner();
+  if (const std::string news = rig_.port().TakeNews(); !news.empty()) warn_(news);
   if (rt::QuitSignal()) {
     if (landing_since_ns_ == 0) desk_.RequestEmergencyStop();
     Land("emergency stop by SIGQUIT");

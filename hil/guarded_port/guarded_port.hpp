@@ -44,6 +44,7 @@ class GuardedPort final : public port::RigPort {
   [[nodiscard]] port::PortCounters counters() const noexcept override { return port_.counters(); }
   /// Drops the enable line, whatever `last` says, and lets the port below say it.
   void SayGoodbye(const CurrentFrame& last) noexcept override;
+  [[nodiscard]] std::string TakeNews() override { return port_.TakeNews(); }
   [[nodiscard]] std::string Trouble() const override { return port_.Trouble(); }
   [[nodiscard]] const LineCounters& line_counters() const noexcept { return counters_; }
 

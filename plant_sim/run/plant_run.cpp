@@ -40,6 +40,7 @@ nlohmann::ordered_json Json(const PlantSetup& setup, const PlantStatistics& stat
           {"currents_read", link.currents_read},
           {"currents_skipped", link.currents_skipped},
           {"currents_rejected", link.currents_rejected},
+          {"currents_refused", link.currents_refused},
           {"messages_lost", link.currents_lost},
           {"transport", setup.link.Trouble()},
           {"wakeup", transport::HistogramJson(statistics.wakeup)},
@@ -73,6 +74,11 @@ void TellEvents(PlantLoop& loop, const char* program) {
   }
 }
 
+void TellNews(const PlantSetup& setup) {
+  const std::string news = setup.link.TakeNews();
+  if (!news.empty()) rt::Say(fmt::format("{}: {}", setup.program.name, news));
+}
+
 // Looks after the loop from the main thread: signals, and whether the controller is there.
 class Watchman {
  public:
@@ -87,6 +93,7 @@ class Watchman {
       std::this_thread::sleep_for(kLookEvery);
       rt::Guarded("main", [&] {
         TellEvents(loop_, setup_.program.name);
+        TellNews(setup_);
         if (running.load()) Look();
       });
     }

@@ -1,6 +1,7 @@
 // Needs multicast on this machine; where there is no route the tests are skipped, and say so (the
 // process tests bring a network of their own).
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -100,6 +101,60 @@ TEST_F(Multicast, SkipsRubbishAndEmptyDatagramsOnTheWayToAFrame) {
   ASSERT_EQ(port_->Read(frame, Deadline()), port::ReadResult::kFrame);
   EXPECT_EQ(frame.cycle, 9U);
   EXPECT_EQ(port_->counters().frames_rejected, 2U);  // the noise and the other rig's frame
+}
+
+TEST_F(Multicast, TakesTheFramesOfOneRigAndRefusesCountsAndNamesThoseOfASecond) {
+  LcmRigLink second(Network(), 4, 0);
+  SensorFrame frame;
+  ASSERT_TRUE(link_->Send(Frame(1)));
+  ASSERT_TRUE(second.Send(Frame(100, 8)));
+  ASSERT_TRUE(second.Send(Frame(101, 8)));
+  ASSERT_EQ(port_->Read(frame, Deadline()), port::ReadResult::kFrame);
+  EXPECT_EQ(frame.cycle, 1U);
+  EXPECT_EQ(port_->counters().frames_refused, 2U);
+  EXPECT_THAT(port_->TakeNews(), testing::IsEmpty());  // the first one may have ended
+  ASSERT_TRUE(link_->Send(Frame(2)));
+  ASSERT_EQ(port_->Read(frame, Deadline()), port::ReadResult::kFrame);
+  EXPECT_EQ(frame.rig_session, 1U);
+  EXPECT_THAT(port_->TakeNews(), testing::HasSubstr("frames of a second rig at 127.0.0.1:"));
+  EXPECT_THAT(port_->TakeNews(), testing::IsEmpty());  // said once
+  EXPECT_THAT(port_->Trouble(), testing::HasSubstr("2 frames of a second rig were refused"));
+}
+
+TEST_F(Multicast, ObeysOneControllerAndRefusesTheCurrentsAndTheGoodbyeOfASecond) {
+  LcmRigPort second(Network(), 4, 0);
+  CurrentFrame current;
+  ASSERT_TRUE(port_->Write({.cycle = 1}));
+  ASSERT_TRUE(second.Write({.cycle = 100}));
+  second.SayGoodbye({.cycle = 100});
+  ASSERT_TRUE(port_->Write({.cycle = 2}));
+  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::Answer::kCurrent);
+  EXPECT_EQ(current.cycle, 2U);
+  EXPECT_EQ(link_->counters().currents_refused, 4U);
+  EXPECT_THAT(link_->TakeNews(), testing::HasSubstr("second controller at 127.0.0.1:"));
+}
+
+TEST_F(Multicast, TakesTheNextControllerAtOnceAfterAGoodbye) {
+  CurrentFrame current;
+  ASSERT_TRUE(port_->Write({.cycle = 1}));
+  port_->SayGoodbye({.cycle = 1});
+  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::Answer::kGoodbye);
+  LcmRigPort next(Network(), 4, 0);
+  ASSERT_TRUE(next.Write({.cycle = 7}));
+  while (link_->Receive(current, Deadline()) == LcmRigLink::Answer::kGoodbye) {
+    // said three times
+  }
+  EXPECT_EQ(current.cycle, 7U);
+  EXPECT_EQ(link_->counters().currents_refused, 0U);
+}
+
+TEST_F(Multicast, AFloodOfRubbishDoesNotHoldAReadBeyondItsDeadline) {
+  MulticastSender flood(Network(), Direction::kSensor);
+  const std::array<std::uint8_t, 5> noise{1, 2, 3, 4, 5};
+  for (int count = 0; count < 300; ++count) ASSERT_TRUE(flood.Send(noise));
+  SensorFrame frame;
+  EXPECT_EQ(port_->Read(frame, 0), port::ReadResult::kNothing);
+  EXPECT_LE(port_->counters().frames_rejected, 64U);  // ReadBound::kUselessLate
 }
 
 TEST_F(Multicast, HearsTheGoodbyeAfterTheLastCurrent) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/random.hpp"
+#include "transport/partner_lock.hpp"
 #include "transport/partner_watch.hpp"
 #include "transport/sequence_watch.hpp"
 
@@ -105,6 +106,51 @@ TEST(SequenceWatch, CountsExactlyTheGapsOfARandomLossAcrossTheWrap) {
     }
   }
   EXPECT_EQ(watch.lost(), lost);
+}
+
+constexpr std::int64_t kMs = 1'000'000;
+
+TEST(PartnerLock, RefusesASecondSenderForAsLongAsTheFirstIsHeard) {
+  PartnerLock lock;
+  EXPECT_FALSE(lock.Refuses(1, 0));
+  lock.Heard(1, 0);
+  for (std::int64_t at_ns = 100 * kMs; at_ns <= 10'000 * kMs; at_ns += 100 * kMs) {
+    EXPECT_TRUE(lock.Refuses(2, at_ns));
+    EXPECT_FALSE(lock.Refuses(1, at_ns));
+    lock.Heard(1, at_ns);
+  }
+  EXPECT_EQ(lock.refused(), 100U);
+  EXPECT_EQ(lock.TakeNews(), 2U);
+}
+
+TEST(PartnerLock, TakesAnotherSenderAfterTheFirstFellSilentAndIsNoNewsThen) {
+  PartnerLock lock;
+  lock.Heard(1, 0);
+  EXPECT_TRUE(lock.Refuses(2, PartnerLock::kSilenceNs));
+  EXPECT_FALSE(lock.Refuses(2, PartnerLock::kSilenceNs + 1));
+  lock.Heard(2, PartnerLock::kSilenceNs + 1);
+  EXPECT_TRUE(lock.Refuses(1, PartnerLock::kSilenceNs + 2));
+  EXPECT_EQ(lock.TakeNews(), std::nullopt);
+}
+
+TEST(PartnerLock, TellsEachStrangerOnce) {
+  PartnerLock lock;
+  lock.Heard(1, 0);
+  for (const std::uint64_t stranger : {2U, 3U}) {
+    for (int time = 0; time < 3; ++time) {
+      EXPECT_TRUE(lock.Refuses(stranger, kMs));
+      lock.Heard(1, kMs);
+    }
+    EXPECT_EQ(lock.TakeNews(), stranger);
+    EXPECT_EQ(lock.TakeNews(), std::nullopt);
+  }
+}
+
+TEST(PartnerLock, IsOpenAgainAfterARelease) {
+  PartnerLock lock;
+  lock.Heard(1, 0);
+  lock.Release();
+  EXPECT_FALSE(lock.Refuses(2, 1));
 }
 
 }  // namespace

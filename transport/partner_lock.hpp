@@ -1,0 +1,70 @@
+#pragma once
+// Who is talked to: the sender heard first, as long as it is heard. Another one is refused.
+//
+// Policy   without a word of the partner for kSilenceNs, or after Release, the next sender takes
+//          its place: a rig that starts again has another port. What others sent meanwhile is
+//          counted; it is news for people once the partner is heard after it, since only then both
+//          live, once per stranger.
+// Thread   Refuses, Heard and Release: one thread; refused, stranger and TakeNews: any one other.
+// Failure  none.
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+namespace levitas::transport {
+
+class PartnerLock {
+ public:
+  static constexpr std::int64_t kSilenceNs = 500'000'000;  ///< far above a period or its repetition
+
+  /// True, and counted, when `sender` is not the one that is talked to.
+  [[nodiscard]] bool Refuses(std::uint64_t sender, std::int64_t now_ns) noexcept {
+    if (!partner_ || *partner_ == sender || now_ns - heard_ns_ > kSilenceNs) return false;
+    refused_.store(refused_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    waiting_ = sender;
+    return true;
+  }
+  /// A sound message of a sender that was not refused.
+  void Heard(std::uint64_t sender, std::int64_t now_ns) noexcept {
+    if (partner_ != sender) {
+      partner_ = sender;
+      waiting_.reset();
+    } else if (waiting_) {
+      stranger_.store(*waiting_, std::memory_order_relaxed);
+      waiting_.reset();
+    }
+    heard_ns_ = now_ns;
+    talks_to_.store(sender, std::memory_order_relaxed);
+  }
+  void Release() noexcept { partner_.reset(); }
+
+  [[nodiscard]] std::uint64_t refused() const noexcept {
+    return refused_.load(std::memory_order_relaxed);
+  }
+  /// The latest who spoke beside the partner; 0: nobody.
+  [[nodiscard]] std::uint64_t stranger() const noexcept {
+    return stranger_.load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] std::uint64_t partner() const noexcept {
+    return talks_to_.load(std::memory_order_relaxed);
+  }
+  /// A stranger that has not been told yet.
+  [[nodiscard]] std::optional<std::uint64_t> TakeNews() noexcept {
+    const std::uint64_t now = stranger();
+    if (now == 0 || now == told_) return std::nullopt;
+    told_ = now;
+    return now;
+  }
+
+ private:
+  std::optional<std::uint64_t> partner_;
+  std::optional<std::uint64_t> waiting_;  ///< refused since the partner was last heard
+  std::int64_t heard_ns_{0};
+  std::uint64_t told_{0};
+  std::atomic<std::uint64_t> refused_{0};
+  std::atomic<std::uint64_t> stranger_{0};
+  std::atomic<std::uint64_t> talks_to_{0};
+};
+
+}  // namespace levitas::transport
