@@ -13,8 +13,8 @@ namespace {
 using namespace unit;
 
 // The force constant k of F = k [((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2] is given in one of three
-// ways: directly; by ki = 4 k i0 / s0^2; or by the coil, k = mu0 N^2 A cos(half pole angle) / 4
-// (Schweitzer & Maslen 2009, Magnetic Bearings, chapter 4). Written directly, hence exactly.
+// ways: directly; by ki = 4 k i0 / s0^2; or by the coil and its poles (docs/derivations.md (16a)), whose
+// gap is that at the pole: along the axis it is longer. Written directly, hence exactly.
 void DescribeStrength(Visitor& v, plant::MagnetConfig& magnet) {
   double constant = magnet.force_constant_n_m2_per_a2;
   double ki_n_per_a{};
@@ -40,16 +40,20 @@ void DescribeStrength(Visitor& v, plant::MagnetConfig& magnet) {
                       turns);
              v.Number({"pole_area", kSquareMillimetre, 0.1, 1e6, kRequired, "face of one pole"},
                       pole_area_m2);
-             v.Number({"half_pole_angle", kDegree, 0, 80, kRequired,
-                       "between a pole and the axis of its magnet"},
-                      half_angle_rad);
+             v.Number(
+                 {"half_pole_angle", kDegree, 0, 80, kRequired,
+                  "between a pole and the axis of its magnet; the gap is then that at the pole"},
+                 half_angle_rad);
            }}};
   std::size_t chosen = 0;
   v.OneOf("the strength of the magnet", forms, chosen);
   if (chosen == 1) {
     constant = ki_n_per_a * magnet.gap_m * magnet.gap_m / (4.0 * magnet.bias_current_a);
   } else if (chosen == 2) {
-    constant = magnet::ForceConstant(turns, pole_area_m2, half_angle_rad);
+    const magnet::AxisLaw law =
+        magnet::LawOfPoles(turns, pole_area_m2, half_angle_rad, magnet.gap_m);
+    constant = law.force_constant_n_m2_per_a2;
+    magnet.gap_m = law.gap_m;
   } else if (chosen >= forms.size()) {
     constant = std::numeric_limits<double>::quiet_NaN();  // none or several: said by the reader
   }

@@ -65,6 +65,8 @@ Vector MeshForce(const MeshLaw& law, const Engagement& at, const Vector& delta_m
     seen_m = (1.0 - h / reach_m) * seen_m;
   }
   Vector force = k * seen_m + law.damping_n_s_per_m * rate;
+  // Teeth with room to part only push: oil and impact losses slow them, they hold nothing back.
+  if (h > 0.0 && Dot(force, seen_m) <= 0.0) return -law.preload_n * n;  // (G4)
   if (law.friction > 0.0) {
     const double normal_n = std::abs(Dot(force, n));
     force = force + (law.friction * normal_n * SlidingSign(at.mesh)) * Vector{-n.y, n.x};

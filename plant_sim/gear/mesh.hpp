@@ -4,7 +4,8 @@
 // Equation   d = delta + n (F0/k + h);   f = k(t) d max(0, 1 - h/|d|) + c delta' - F0 n
 //            delta   relative displacement of the teeth in the plane, run-out and transmission
 //                    error included; n unit vector along the line of action; F0 static load that
-//                    delta counts from; h half the backlash; c acts only while the teeth touch.
+//                    delta counts from; h half the backlash; c acts only while the teeth touch,
+//                    and where they have room to part (h > 0) never so far that they would pull.
 //            isotropic       all of delta counts: the complex model of the transverse vibration
 //            line_of_action  only its component along n does: spur gears without friction
 //            Friction adds mu N s(t) along j n; s changes sign at the pitch point.

@@ -5,9 +5,11 @@
 
 namespace levitas::magnet {
 
-double ForceConstant(double turns, double pole_area_m2, double half_pole_angle_rad) {
+AxisLaw LawOfPoles(double turns, double pole_area_m2, double half_pole_angle_rad,
+                   double pole_gap_m) {
   constexpr double kVacuumPermeability = 4.0e-7 * std::numbers::pi;  // [H/m]
-  return kVacuumPermeability * turns * turns * pole_area_m2 * std::cos(half_pole_angle_rad) / 4.0;
+  const double along = std::cos(half_pole_angle_rad);
+  return {kVacuumPermeability * turns * turns * pole_area_m2 / (4.0 * along), pole_gap_m / along};
 }
 
 }  // namespace levitas::magnet

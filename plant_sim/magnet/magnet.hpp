@@ -69,7 +69,13 @@ struct Magnet {
   return 4.0 * m.force_constant_n_m2_per_a2 * bias_a * bias_a / (m.gap_m * m.gap_m * m.gap_m);
 }
 
-/// k of a horseshoe magnet from its geometry: mu0 N^2 A cos(half pole angle) / 4.        (16)
-[[nodiscard]] double ForceConstant(double turns, double pole_area_m2, double half_pole_angle_rad);
+/// Of a horseshoe magnet whose poles stand at an angle to its axis: along the axis the gap closes by
+/// the cosine only, which is law (14) with a constant and a gap of their own.           (16), (16a)
+struct AxisLaw {
+  double force_constant_n_m2_per_a2{};  ///< mu0 N^2 A / (4 cos(half pole angle))
+  double gap_m{};                       ///< gap at the pole / cos(half pole angle)
+};
+[[nodiscard]] AxisLaw LawOfPoles(double turns, double pole_area_m2, double half_pole_angle_rad,
+                                 double pole_gap_m);
 
 }  // namespace levitas::magnet

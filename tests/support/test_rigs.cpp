@@ -97,7 +97,8 @@ plant::PlantConfig UfuRig() {
   c.unbalance.clear();
   c.bearings = {Bearing("de", kNodes[12], kNodes[12]), Bearing("nde", kNodes[43], kNodes[43])};
   for (auto& b : c.bearings) {
-    b.magnet = {magnet::ForceConstant(138.0, 470.3e-6, 0.392), 1.0, 0.432e-3, 2.0};
+    // The source's formula, mu0 N^2 A cos(a)/4, with the gap as it is (config/rigs/ufu_rig.yaml).
+    b.magnet = {2.600303281978716e-6, 1.0, 0.432e-3, 2.0};
   }
   return c;
 }

@@ -117,7 +117,7 @@ TEST(MagnetStrength, OfACoilNeedsAllItsKeys) {
   EXPECT_EQ(
       RigProblems(With(kRig, "ki_n_per_a: 40", "turns: 138\n      pole_area_mm2: 470.3")),
       "rig.yaml:20:5: bearings[0].magnet.half_pole_angle_deg: missing; between a pole and the "
-      "axis of its magnet; allowed 0 to 80 deg");
+      "axis of its magnet; the gap is then that at the pole; allowed 0 to 80 deg");
 }
 
 TEST(Kind, MustBeTheOneAskedForAndIsTheOnlyProblemThen) {

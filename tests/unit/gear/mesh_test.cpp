@@ -85,6 +85,22 @@ TEST(Backlash, TakesAwayOnlyTheLoadWhenTheTeethSeparate) {
   EXPECT_NEAR(Dot(MeshForce(law, At(0.1), -45e-6 * n, {}), n), -25.0, 1e-10);
 }
 
+TEST(Backlash, LetsTeethThatPartFastGoInsteadOfHoldingThemBack) {
+  MeshLaw law = Law(Direction::kLineOfAction);
+  law.half_backlash_m = 10e-6;
+  const Vector& n = law.normal;
+  // 1 um of deflection pushes with 1 N; parting at 10 mm/s the damper would pull with 3 N.
+  const double spring_and_damper_n = 1e6 * 1e-6 - 300.0 * 0.01;
+  ASSERT_LT(spring_and_damper_n, 0.0);
+  EXPECT_EQ(Dot(MeshForce(law, At(0.1), 11e-6 * n, -0.01 * n), n), 0.0);
+  EXPECT_EQ(Dot(MeshForce(law, At(0.1), -11e-6 * n, 0.01 * n), n), 0.0);
+  // Slowly they still push, less than the spring alone.
+  EXPECT_NEAR(Dot(MeshForce(law, At(0.1), 11e-6 * n, -0.001 * n), n), 0.7, 1e-9);
+  // Of teeth without room to part both flanks are in contact: the linear law pulls and pushes.
+  law.half_backlash_m = 0.0;
+  EXPECT_NEAR(Dot(MeshForce(law, At(0.1), 1e-6 * n, -0.01 * n), n), spring_and_damper_n, 1e-9);
+}
+
 TEST(Friction, ChangesItsSignAtThePitchPoint) {
   MeshLaw law = Law(Direction::kLineOfAction);
   law.friction = 0.1;

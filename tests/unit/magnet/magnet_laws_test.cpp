@@ -135,8 +135,9 @@ TEST(MagnetForce, ShowsWhatIsNotANumber) {
   EXPECT_EQ(Force(m, 1.0, INFINITY, 0.0), Force(m, 1.0, 1.0, 0.0));
 }
 
-TEST(ForceConstant, IsThePullOfTheFluxOnBothPoleFaces) {
-  // B = mu0 N i/(2 s) in two gaps; each face pulls B^2 A/(2 mu0), its share along the axis cos a.
+TEST(LawOfPoles, IsThePullOfTheFluxOnBothPoleFacesWhereverTheRotorStands) {
+  // B = mu0 N i/(2 s) in two gaps; each face pulls B^2 A/(2 mu0), its share along the axis cos a. A
+  // rotor displaced by x along the axis stands x cos a nearer to each face.
   Random random(17);
   constexpr double kMu0 = 1.25663706212e-6;  // CODATA 2018
   for (int i = 0; i < kDraws; ++i) {
@@ -145,11 +146,13 @@ TEST(ForceConstant, IsThePullOfTheFluxOnBothPoleFaces) {
     const double angle_rad = 0.7 * random.Uniform();
     const double current_a = 0.1 + 5.0 * random.Uniform();
     const double gap_m = 0.2e-3 + 1e-3 * random.Uniform();
-    const double flux_t = kMu0 * turns * current_a / (2.0 * gap_m);
+    const double x_m = (random.Uniform() - 0.5) * gap_m;
+    const double flux_t = kMu0 * turns * current_a / (2.0 * (gap_m - x_m * std::cos(angle_rad)));
     const double pull_n = 2.0 * flux_t * flux_t * area_m2 / (2.0 * kMu0) * std::cos(angle_rad);
-    const Magnet m{ForceConstant(turns, area_m2, angle_rad), gap_m, 10.0};
+    const AxisLaw law = LawOfPoles(turns, area_m2, angle_rad, gap_m);
+    const Magnet m{law.force_constant_n_m2_per_a2, law.gap_m, 10.0};
     // One coil alone: bias equal to control. The defined mu0 of before 2019 differs by 6e-10.
-    EXPECT_NEAR(Force(m, current_a / 2.0, current_a / 2.0, 0.0), pull_n, 1e-8 * pull_n) << i;
+    EXPECT_NEAR(Force(m, current_a / 2.0, current_a / 2.0, x_m), pull_n, 1e-8 * pull_n) << i;
   }
 }
 
