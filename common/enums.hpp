@@ -35,8 +35,9 @@ enum class Fault : std::uint8_t {
   kSelfTestFailed = 12,
   kLiftFailed = 13,
   kSpeedUnknown = 14,
+  kLawNotFinite = 15,
 };
-inline constexpr std::uint8_t kFaultCount = 15;
+inline constexpr std::uint8_t kFaultCount = 16;
 
 /// What an operator (or a scenario) asks for. Requests that the mode table does not allow are
 /// refused and reported, never queued.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct RigNumbers {
   std::vector<double> clearances_m;     ///< [m] bearing by bearing; empty: clearance_m everywhere
   std::vector<double> sensor_ranges_m;  ///< [m] the same of the ranges
   double max_speed_rad_per_s{};         ///< [rad/s] rated speed; the over-speed trip refers to it
+  /// [rad/s2] what the drive can do: a faster change of speed is refused.
+  double max_acceleration_rad_per_s2{std::numeric_limits<double>::infinity()};
   AxisArray sensor_polarity{};          ///< +1 or -1 per axis, see controller/cycle
   AxisArray actuator_polarity{};        ///< +1 or -1 per axis
   double standing_orbit_objective_m{};  ///< [m] orbit radius at standstill to stay below

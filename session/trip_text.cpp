@@ -38,6 +38,7 @@ constexpr std::array<Row, kFaultCount> kRows{{
     {"the self-test failed", kMicro, "um"},
     {"the rotor did not reach the centre in time", kMicro, "um"},
     {"the speed is not known", 1.0, nullptr},
+    {"the control law gives no number", 1.0, nullptr},
 }};
 
 std::string Where(const cycle::CycleOutputs& out, const std::vector<std::string>& channels) {

@@ -198,6 +198,7 @@ void DescribeLog(Visitor& v, LogLayout& log) {
 void Derive(RigFile& rig) {
   RigNumbers& numbers = rig.numbers;
   numbers.period_ns = rig.plant.period_ns;
+  numbers.max_acceleration_rad_per_s2 = rig.plant.drive.max_acceleration_rad_per_s2;
   const bool guided = rig.plant.bearings.size() == 1 && rig.plant.bearings.front().x_only;
   numbers.channels.resize(guided ? 1 : 2 * rig.plant.bearings.size());
   numbers.bearings.clear();

@@ -12,6 +12,10 @@ namespace {
 using namespace unit;
 using scenario::Wait;
 
+// [rpm/s] Of a step without an acceleration, and of the sessions that write it out.
+constexpr double kAsFastAsItCan = 1e6;
+constexpr double kRounding = 1.0 + 1e-9;  // of a number that went to SI and back
+
 // In the order of OperatorCommand, without those for test signals: a step has a list of its own.
 constexpr std::array<std::string_view, 7> kCommands{
     "nothing", "lift", "spin", "coast_down", "land", "emergency_stop", "reset"};
@@ -65,9 +69,19 @@ void Describe(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
                fmt::format("found {:.6g} rpm, but the rig is rated for {:.6g} rpm",
                            step.speed_rad_per_s * 30.0 / static_cast<double>(kPi),
                            rig.max_speed_rad_per_s * 30.0 / static_cast<double>(kPi)));
-    v.Number({"acceleration", kRpmPerSecond, 0.1, 1e6, 1e6,
-              "rate, up or down; left out: a step, as fast as the drive can"},
+    constexpr double kRpmPerRadPerS = 30.0 / static_cast<double>(kPi);
+    const double most_rpm_per_s =
+        std::min(kAsFastAsItCan, rig.max_acceleration_rad_per_s2 * kRpmPerRadPerS);
+    v.Number({"acceleration", kRpmPerSecond, 0.1, kAsFastAsItCan, kAsFastAsItCan,
+              "rate, up or down, within the drive's; left out: a step, as fast as the drive can"},
              step.acceleration_rad_per_s2);
+    if (step.acceleration_rad_per_s2 * kRpmPerRadPerS * kRounding >= kAsFastAsItCan) {
+      step.acceleration_rad_per_s2 = most_rpm_per_s / kRpmPerRadPerS;
+    }
+    v.RefuseIf(step.acceleration_rad_per_s2 * kRpmPerRadPerS > most_rpm_per_s * kRounding,
+               "acceleration_rpm_per_s",
+               fmt::format("found {:.6g} rpm/s, but the rig's drive does {:.6g} rpm/s",
+                           step.acceleration_rad_per_s2 * kRpmPerRadPerS, most_rpm_per_s));
   });
   std::size_t wait = WaitIndex(step);
   v.Choice({"until", kWaits, "nothing", "what to wait for: a mode, the speed, standstill"}, wait);

@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "config/schema/schema.hpp"
+#include "controller/law/hidden_states.hpp"
 
 namespace levitas::config {
 namespace {
@@ -68,6 +71,25 @@ void DescribeBlock(Visitor& v, law::ModalBlock& block, bool discrete, const RigN
                     pair, block.first_output, block.second_output);
 }
 
+// A growing state must be seen by the currents and reached by the sensors: no feedback holds it else.
+void RefuseHiddenGrowth(Visitor& v, const law::StateSpaceConfig& law) {
+  for (const law::GrowingBlock& growing : law::GrowingBlocks(law)) {
+    if (growing.seen && growing.reached) continue;
+    const law::ModalBlock& block = law.blocks[growing.block];
+    const double hz = block.pole_imaginary / (2.0 * static_cast<double>(kPi));
+    const std::string pole =
+        law.discrete ? fmt::format("a pole at {:.6g} in z",
+                                   std::hypot(block.pole_real, block.pole_imaginary))
+                     : fmt::format("a pole at {:+.6g} 1/s and {:.6g} Hz", block.pole_real, hz);
+    v.RefuseIf(
+        true, fmt::format("blocks[{}]", growing.block),
+        fmt::format("{} does not decay, and {}; without feedback it grows until the currents "
+                    "are no numbers. Give it {} of its own, or leave the block out",
+                    pole, growing.seen ? "no position drives it" : "no current shows it",
+                    growing.seen ? "inputs" : "outputs"));
+  }
+}
+
 struct Direct {
   std::size_t output{};
   std::size_t input{};
@@ -123,6 +145,7 @@ void Describe(Visitor& v, law::StateSpaceConfig& law, const RigNumbers& rig) {
              fmt::format("found {} states, allowed 0 to {}", law.states(),
                          law::StateSpaceConfig::kMaxStates));
   DescribeDirect(v, law, rig);
+  RefuseHiddenGrowth(v, law);
 }
 
 }  // namespace levitas::config

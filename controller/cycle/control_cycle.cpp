@@ -64,6 +64,7 @@ struct ControlCycle::Impl {
 
   void Read(const CycleInputs& in) noexcept;
   void RunLaw(const OperatorInput& op, const supervisor::Decision& decision) noexcept;
+  void CheckLaw() noexcept;
   [[nodiscard]] CycleOutputs Answer(const supervisor::Decision& decision) const noexcept;
 
   RigNumbers rig;
@@ -124,6 +125,17 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
   given = law::Step(coefficients, law_state, error_m, injected_a, limit_a);
 }
 
+// What leaves is a number within the limit, whatever the law's states have come to. Else nothing
+// leaves: the rig is released in this very cycle. (A lift starts the law from rest.)
+void ControlCycle::Impl::CheckLaw() noexcept {
+  for (std::size_t i = 0; i < rig.axes(); ++i) {
+    if (std::abs(given.control_current_a[i]) <= limit_a) continue;  // false for what is no number
+    given = {};
+    supervisor.Drop(seen, {Fault::kLawNotFinite, static_cast<std::int8_t>(i), 0.0, limit_a});
+    return;
+  }
+}
+
 CycleOutputs ControlCycle::Impl::Answer(const supervisor::Decision& decision) const noexcept {
   const supervisor::StateRow& row = supervisor::Row(decision.state);
   CycleOutputs out;
@@ -167,6 +179,7 @@ CycleOutputs ControlCycle::Step(const CycleInputs& in, StageObserver* observer) 
   const supervisor::Decision& decision = impl_->supervisor.Decide(impl_->seen, request, finding);
   ended(Stage::kSupervise);
   impl_->RunLaw(in.op, decision);
+  impl_->CheckLaw();
   const CycleOutputs out = impl_->Answer(decision);
   ended(Stage::kLaw);
   return out;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -147,11 +148,13 @@ class Session {
   }
 
   ExitStatus Run() {
-    loop::OperatorDesk desk({.period_s = numbers_.period_s(),
-                             .stop_acceleration_rad_per_s2 = sequence_.trip_acceleration_rad_per_s2,
-                             .standstill_rad_per_s = sequence_.standstill_rad_per_s,
-                             .duration_s = options_.duration_s},
-                            player_ ? &*player_ : nullptr, &commands_);
+    loop::OperatorDesk desk(
+        {.period_s = numbers_.period_s(),
+         .stop_acceleration_rad_per_s2 =
+             std::min(sequence_.trip_acceleration_rad_per_s2, numbers_.max_acceleration_rad_per_s2),
+         .standstill_rad_per_s = sequence_.standstill_rad_per_s,
+         .duration_s = options_.duration_s},
+        player_ ? &*player_ : nullptr, &commands_);
     transport::OperatorReceiver receiver(
         network_,
         [this](const auto& command) {

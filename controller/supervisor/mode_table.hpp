@@ -94,17 +94,18 @@ struct StateRow {
 };
 
 /// Faults after which the position signals or the magnets cannot be trusted.
-inline constexpr FaultSet kDropFaults = Bit(Fault::kSensorOutOfRange) | Bit(Fault::kSensorFrozen) |
-                                        Bit(Fault::kSensorNotFinite) | Bit(Fault::kFrameMissing) |
-                                        Bit(Fault::kRigRestarted) | Bit(Fault::kAmplifierFault) |
-                                        Bit(Fault::kSelfTestFailed) | Bit(Fault::kLiftFailed);
+inline constexpr FaultSet kDropFaults =
+    Bit(Fault::kSensorOutOfRange) | Bit(Fault::kSensorFrozen) | Bit(Fault::kSensorNotFinite) |
+    Bit(Fault::kFrameMissing) | Bit(Fault::kRigRestarted) | Bit(Fault::kAmplifierFault) |
+    Bit(Fault::kSelfTestFailed) | Bit(Fault::kLiftFailed) | Bit(Fault::kLawNotFinite);
 
 inline constexpr FaultSet kSignalFaults =
     Bit(Fault::kSensorOutOfRange) | Bit(Fault::kSensorFrozen) | Bit(Fault::kSensorNotFinite) |
     Bit(Fault::kFrameMissing) | Bit(Fault::kRigRestarted) | Bit(Fault::kAmplifierFault);
 inline constexpr FaultSet kLevitatedFaults = kSignalFaults | Bit(Fault::kDeadlineMissed) |
                                              Bit(Fault::kCoilSaturated) | Bit(Fault::kOverSpeed) |
-                                             Bit(Fault::kEmergencyStop) | Bit(Fault::kSpeedUnknown);
+                                             Bit(Fault::kEmergencyStop) |
+                                             Bit(Fault::kSpeedUnknown) | Bit(Fault::kLawNotFinite);
 
 inline constexpr std::array<StateRow, kStateCount> kStates{{
     {State::kOff, Mode::kOff, false, Reference::kNone, Drive::kFree, false,
@@ -122,9 +123,10 @@ inline constexpr std::array<StateRow, kStateCount> kStates{{
     {State::kLanding, Mode::kLanding, true, Reference::kRampToRest, Drive::kFree, false,
      kLevitatedFaults, kDropFaults},
     {State::kTrippedStopping, Mode::kTripped, true, Reference::kCentre, Drive::kBrake, false,
-     kSignalFaults | Bit(Fault::kOrbitExceeded), kDropFaults | Bit(Fault::kOrbitExceeded)},
+     kSignalFaults | Bit(Fault::kOrbitExceeded) | Bit(Fault::kLawNotFinite),
+     kDropFaults | Bit(Fault::kOrbitExceeded)},
     {State::kTrippedLanding, Mode::kTripped, true, Reference::kRampToRest, Drive::kBrake, false,
-     kSignalFaults, kDropFaults},
+     kSignalFaults | Bit(Fault::kLawNotFinite), kDropFaults},
     {State::kTrippedReleased, Mode::kTripped, false, Reference::kNone, Drive::kBrake, false, 0, 0},
 }};
 

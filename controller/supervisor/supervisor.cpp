@@ -10,6 +10,9 @@
 namespace levitas::supervisor {
 namespace {
 
+/// The same acceleration in rpm/s, read from two files, may differ by its last bits.
+constexpr double kRounding = 1.0 + 1e-9;
+
 std::uint64_t Cycles(double time_s, double period_s, const char* name) {
   const double cycles = time_s / period_s;
   if (!(cycles >= 0.0 && cycles < 1e15)) {
@@ -52,6 +55,7 @@ bool Refuses(State state, OperatorCommand command) noexcept {
 Supervisor::Supervisor(const RigNumbers& rig, const SupervisorConfig& config)
     : axes_(rig.axes()),
       max_speed_rad_per_s_(rig.max_speed_rad_per_s),
+      max_acceleration_rad_per_s2_(rig.max_acceleration_rad_per_s2),
       sequence_(config.sequence),
       implausible_limit_cycles_(config.protection.sensor_range_cycles),
       protections_(rig, config.protection) {
@@ -117,6 +121,15 @@ const Decision& Supervisor::Decide(const Observation& seen, const Request& reque
   return decision_;
 }
 
+const Decision& Supervisor::Drop(const Observation& seen, const Finding& finding) noexcept {
+  const StateRow& row = Row(decision_.state);
+  if ((row.armed & row.drop & Bit(finding.fault)) == 0) return decision_;
+  Take(Event::kDropFault, seen, {}, finding);
+  MoveReference();
+  CommandDrive(seen);
+  return decision_;
+}
+
 // Plausible: the rotor lies within the touchdown bearings and stands. (Finite, in range, live and
 // fault-free is what the protections armed in this state look for.)
 Finding Supervisor::SelfTest(const Observation& seen) noexcept {
@@ -173,7 +186,8 @@ bool Supervisor::Holds(Guard guard, const Observation& seen,
     case Guard::kSpeedValid:  // written so that NaN does not pass
       return std::abs(request.speed_rad_per_s) <= max_speed_rad_per_s_ &&
              request.acceleration_rad_per_s2 > 0.0 &&
-             std::isfinite(request.acceleration_rad_per_s2);
+             std::isfinite(request.acceleration_rad_per_s2) &&
+             request.acceleration_rad_per_s2 <= kRounding * max_acceleration_rad_per_s2_;
     case Guard::kCauseGone:
       return protections_.SignalsGood(seen) && Standing(seen);
   }

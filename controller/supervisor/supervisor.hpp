@@ -52,6 +52,10 @@ class Supervisor {
   const Decision& Decide(const Observation& seen, const Request& request,
                          const Finding& finding) noexcept;
 
+  /// A fault of this cycle that only the law's step brought to light, after Decide: the rig is
+  /// released in the same cycle. Nothing changes in a state that does not look for it.
+  const Decision& Drop(const Observation& seen, const Finding& finding) noexcept;
+
   [[nodiscard]] const Decision& decision() const noexcept { return decision_; }
 
  private:
@@ -79,6 +83,7 @@ class Supervisor {
   AxisArray resting_limit_m_{};  // per bearing, during the self-test
   AxisArray settle_limit_m_{};   // per bearing, during the lift: the same for all
   double max_speed_rad_per_s_{};
+  double max_acceleration_rad_per_s2_{};
   SequenceConfig sequence_;
   std::uint32_t implausible_limit_cycles_{};
   Times times_{};

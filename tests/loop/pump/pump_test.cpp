@@ -17,6 +17,7 @@ TEST(TurbomolecularPump, LevitatesFromStandstillTo30000RpmAndBackAtTwentyKiloher
   ShippedLoop loop("turbomolecular_pump", "turbomolecular_pump");
   // The shipped scenario with a faster drive, so that the test lasts a third as long.
   loop.rig.plant.drive.max_acceleration_rad_per_s2 *= 4.0;
+  loop.rig.numbers.max_acceleration_rad_per_s2 *= 4.0;
   for (auto& step : loop.scenario.steps) {
     step.acceleration_rad_per_s2 *= 4.0;
     step.hold_s = std::min(step.hold_s, 0.5);

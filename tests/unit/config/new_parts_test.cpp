@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <string>
+
 #include "common/problem.hpp"
 #include "config/rig_file.hpp"
 #include "tests/unit/config/full_samples.hpp"
@@ -74,6 +77,28 @@ TEST(StateSpaceLaw, StandsInsteadOfTheOtherLaw) {
               HasSubstr("laws: only allowed without state_space"));
 }
 
+TEST(StateSpaceLaw, RefusesAStateThatGrowsWhereNothingShowsIt) {
+  const RigNumbers rig = ModalRig().numbers;
+  ControllerFile file = StateSpaceController(rig);
+  file.law.state_space->discrete = false;
+  law::ModalBlock block;
+  block.pole_real = 500.0;
+  block.first_input = {1.0};
+  file.law.state_space->blocks.push_back(block);
+  const std::size_t last = file.law.state_space->blocks.size() - 1;
+  const auto problem = [&](const law::ModalBlock& hidden) {
+    file.law.state_space->blocks.back() = hidden;
+    return ProblemOf([&] { (void)ParseController(WriteController(file, rig), "c.yaml", rig); });
+  };
+  EXPECT_THAT(problem(block), HasSubstr("state_space.blocks[" + std::to_string(last) +
+                                        "]: a pole at +500 1/s and 0 Hz does not decay, and no "
+                                        "current shows it"));
+  block.first_output = {0.0, 1.0};
+  EXPECT_EQ(problem(block), "accepted");  // an unstable controller is a controller
+  block.first_input = {};
+  EXPECT_THAT(problem(block), HasSubstr("no position drives it"));
+}
+
 TEST(StateSpaceLaw, RefusesWhatCannotBe) {
   EXPECT_THAT(LawProblem("channel: ux", "channel: de_x"),
               HasSubstr("allowed ux, uy, lx, ly; nearest"));
@@ -125,7 +150,21 @@ TEST(Spin, WithoutAnAccelerationIsAStepAsFastAsTheDriveCan) {
   const auto scenario =
       ParseScenario("kind: scenario\nname: s\nsteps:\n  - {do: spin, speed_rpm: 100}\n", "s.yaml",
                     FullRig().numbers);
-  EXPECT_GT(scenario.steps[0].acceleration_rad_per_s2, 1e5);
+  const double most = FullRig().plant.drive.max_acceleration_rad_per_s2;
+  EXPECT_NEAR(scenario.steps[0].acceleration_rad_per_s2 / most, 1.0, 1e-12);  // rounding
+}
+
+TEST(Spin, FasterThanTheDriveCanIsRefusedNotShortened) {
+  const auto problem = [](double rpm_per_s) {
+    const std::string text =
+        "kind: scenario\nname: s\nsteps:\n  - {do: spin, speed_rpm: 100, acceleration_rpm_per_s: " +
+        std::to_string(rpm_per_s) + "}\n";
+    return ProblemOf([&] { (void)ParseScenario(text, "s.yaml", FullRig().numbers); });
+  };
+  const double most = FullRig().plant.drive.max_acceleration_rad_per_s2 * 30.0 / std::numbers::pi;
+  EXPECT_THAT(problem(1.001 * most), HasSubstr("steps[0].acceleration_rpm_per_s: found"));
+  EXPECT_THAT(problem(1.001 * most), HasSubstr("the rig's drive does"));
+  EXPECT_EQ(problem(0.999 * most), "accepted");
 }
 
 }  // namespace

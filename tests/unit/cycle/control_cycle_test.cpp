@@ -97,6 +97,52 @@ TEST(ControlCycle, UndoesPolarityOnceOnEachSide) {
   EXPECT_TRUE(energised);
 }
 
+// A state that grows where no current shows it: 0 x infinity is in the end in every current.
+law::StateSpaceConfig HiddenGrowth() {
+  law::StateSpaceConfig law;
+  law.axes = 4;
+  law.discrete = true;
+  law::ModalBlock block;
+  block.pole_real = 1.05;  // overflows after some 14 500 periods: ln(1.8e308)/ln(1.05)
+  block.first_input = {1.0, 0.0, 0.0, 0.0};
+  law.blocks = {block};
+  law.input_v_per_m = {1.0, 1.0, 1.0, 1.0};
+  law.output_a_per_v = {1.0, 1.0, 1.0, 1.0};
+  for (std::size_t i = 0; i < 4; ++i) law.direct[i][i] = -1e3;
+  return law;
+}
+
+TEST(LawNotFinitePair, AnUncheckedLawOfHiddenGrowthCommandsNoNumberOnEveryAxis) {
+  law::LawConfig config;
+  config.state_space = HiddenGrowth();
+  config.period_s = 1e-4;
+  const law::LawCoefficients coefficients(config);
+  law::LawState state(coefficients);
+  law::LawOutput out;
+  for (int n = 0; n < 16'000; ++n) out = law::Step(coefficients, state, {1e-5}, {}, 1.0);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(std::isnan(out.control_current_a[i])) << i;
+}
+
+TEST(LawNotFinitePair, TheCycleReleasesTheRotorAndNeverCommandsIt) {
+  CycleConfig config = FlexibleRotorCycle();
+  config.law = {};
+  config.law.state_space = HiddenGrowth();
+  ControlCycle control(config);
+  StillRig rig;
+  CycleOutputs out = Levitate(control, rig);
+  for (int n = 0; n < 16'000 && out.fault == Fault::kNone; ++n) {
+    out = control.Step(rig.Next());
+    for (const double current_a : out.current.control_current_a) {
+      ASSERT_TRUE(std::isfinite(current_a)) << n;
+    }
+  }
+  EXPECT_EQ(out.fault, Fault::kLawNotFinite);
+  EXPECT_EQ(out.mode, Mode::kTripped);
+  EXPECT_EQ(out.current.control_current_a, AxisArray{});
+  EXPECT_EQ(out.current.bias_current_a, 0.0);
+  EXPECT_FALSE(out.current.amplifiers_enabled);
+}
+
 // The harm: one NaN let through to the law stays in its filters for ever.
 TEST(NotFinitePair, OneNanPoisonsAnUnguardedLaw) {
   const law::LawCoefficients coefficients(law::FlexibleRotorLaw());

@@ -66,6 +66,7 @@ const Told kTold[] = {
      ": 30 rpm, allowed 10 rpm."},
     {Fault::kLiftFailed, 0, 50e-6, 20e-6, "did not reach the centre", ": 50 um, allowed 20 um."},
     {Fault::kSpeedUnknown, -1, 1.0, 0.0, "speed is not known", ""},
+    {Fault::kLawNotFinite, 1, 0.0, 1.0, "law gives no number", ""},
 };
 
 TEST(TripText, TellsEveryFaultWithCauseChannelFiguresUnitAndRemedy) {

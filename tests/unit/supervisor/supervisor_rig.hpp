@@ -14,6 +14,7 @@ inline RigNumbers TestRig() {
   rig.clearance_m = 200e-6;
   rig.sensor_range_m = 400e-6;
   rig.max_speed_rad_per_s = 600.0;
+  rig.max_acceleration_rad_per_s2 = 60.0;
   return rig;
 }
 
