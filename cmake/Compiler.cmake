@@ -9,7 +9,12 @@ if(LEVITAS_SANITIZE)
   add_compile_options(-fsanitize=${LEVITAS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${LEVITAS_SANITIZE})
   # GCC 12 sees uninitialised values in its own <regex> and <functional> once they are instrumented.
-  add_compile_options(-Wno-maybe-uninitialized)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-maybe-uninitialized)
+  endif()
+endif()
+if(LEVITAS_FUZZ)  # libFuzzer sees which branches an input takes
+  add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 # Bit-exact replay: the same source must give the same arithmetic in every program of one build,
 # so contraction to fused multiply-add is left off, and -march is fixed rather than "native".

@@ -3,7 +3,7 @@
 #   run_tests                 every label of preset release
 #   run_tests unit loop       these labels
 #   run_tests -R Pid          whatever ctest understands
-#   run_tests --all           what CI runs: besides, clang-tidy and ASan+UBSan
+#   run_tests --all           what CI runs: besides, clang-tidy, ASan+UBSan, and fuzzing for a minute each
 #   run_tests --tsan          parts with threads, and the processes, under the thread sanitizer
 #   run_tests --help          says the above
 
@@ -82,6 +82,10 @@ run_all() {
   say "asan-ubsan built after $SECONDS s"
   ctest_preset asan-ubsan -L '^(unit|loop|replay|process)$' || failed+=("asan-ubsan tests")
   say "asan-ubsan tested after $SECONDS s"
+  prepare_preset fuzz fuzzers
+  say "fuzzing"
+  python3 -B "$root/tests/fuzz/run.py" "$build_root/fuzz/fuzzers" --seconds 60 --jobs "$(job_count)" || failed+=("fuzzing")
+  say "fuzzed after $SECONDS s"
   prepare_preset tidy lcmtypes_generate
   say "clang-tidy"
   python3 "$root/scripts/tidy.py" --jobs "$(job_count)" || failed+=("clang-tidy")
@@ -104,7 +108,7 @@ run_tests() {
 ./amb test LABEL...      unit, loop, replay, process, hardware, build
 ./amb test -R Pid        whatever ctest understands
 ./amb test --tsan        what has threads, under the thread sanitizer
-./amb test --all         what CI runs: besides, clang-tidy and ASan+UBSan
+./amb test --all         what CI runs: besides, clang-tidy, ASan+UBSan, and fuzzing for a minute each
 USAGE
     return
   fi
