@@ -2,13 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <cstdio>
 #include <exception>
 #include <functional>
 
 #include "catalogue/catalogue.hpp"
 #include "catalogue/catalogue_path.hpp"
 #include "catalogue/describe_session.hpp"
+#include "controller/rt/say.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -22,9 +22,8 @@ void Enter(const std::vector<std::string>& tags,
     entry.tags = tags;
     catalogue::Catalogue(*path).Put(entry);
   } catch (const std::exception& error) {
-    std::fputs("amb: not entered in the catalogue of sessions: ", stderr);
-    std::fputs(error.what(), stderr);
-    std::fputs("\n", stderr);
+    rt::Say("amb: not entered in the catalogue of sessions:");
+    rt::Say(error.what());
   }
 }
 

@@ -41,6 +41,12 @@ class Files(unittest.TestCase):
         programs = [line.split(":")[0] for line in found if not line.startswith("tests/")]
         self.assertEqual(programs, ["lcmtypes/checked_decode.hpp"])
 
+    def test_what_runs_beside_a_rotor_speaks_through_one_path_that_never_waits(self):
+        beside = ("common/", "controller/", "dashboard/", "hil/", "plant_sim/", "session/",
+                  "transport/", "cli/run", "cli/main.cpp", "cli/enter_session.cpp")
+        found = violations(rules.speaks_past_say, (".cpp", ".hpp"))
+        self.assert_none([line for line in found if line.startswith(beside)])
+
 
 class Tour(unittest.TestCase):
     """The tour of README.md, done in a clone, leaves git nothing to report."""
@@ -82,6 +88,11 @@ class SeededViolations(unittest.TestCase):
         for call in ("state.decode(data, 0, size)", "state->decode(data, 0, size)"):
             self.assertIn("line 2", rules.decodes_unchecked(f"\nif ({call} < 0) return;\n")[0])
         self.assertFalse(rules.decodes_unchecked("if (DecodeChecked(bytes, m)) return codec.Decode(b);\n"))
+
+    def test_a_text_that_goes_past_the_one_path_is_refused(self):
+        for call in ('fmt::print(stderr, "x");', 'std::cerr << "x";', 'perror("x");'):
+            self.assertIn("line 2", rules.speaks_past_say(f"\n  {call}\n")[0])
+        self.assertFalse(rules.speaks_past_say("// not to stderr\nrt::Say(text);  // to stderr\n"))
 
     def test_a_header_without_words_is_refused(self):
         self.assertTrue(rules.header_without_description("#pragma once\n\n#include <vector>\n"))

@@ -12,6 +12,7 @@ NOT_OURS = {".git", "sessions", "__pycache__"}
 NOTE_TO_SELF = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
 TEST_HEAD = re.compile(r"^(?:TEST|TEST_F|TEST_P|TYPED_TEST)\(\s*(\w+),\s*(\w+)\)\s*\{", re.M)
 GENERATED_DECODER = re.compile(r"(\.|->)decode(NoHash|_array)?\(")
+STANDARD_ERROR = re.compile(r"\bstderr\b|\bcerr\b|\bclog\b|\bperror\(")
 ASSERTION = re.compile(
     r"\b(EXPECT_\w+|ASSERT_\w+|FAIL\(|ADD_FAILURE\w*\(|(?:Expect|Assert)[A-Z]\w*(?:<[^;]*?>)?\()")
 
@@ -43,6 +44,13 @@ def decodes_unchecked(text):
     """LCM's generated decoders believe what they read: only DecodeChecked calls one."""
     return [f"line {number}: a message is decoded by message::DecodeChecked and nothing else"
             for number, line in enumerate(text.splitlines(), 1) if GENERATED_DECODER.search(line)]
+
+
+def speaks_past_say(text):
+    """Standard error may be closed, full or stopped: rt::Say alone survives that without waiting."""
+    return [f"line {number}: texts for people go through rt::Say (controller/rt/say.hpp)"
+            for number, line in enumerate(text.splitlines(), 1)
+            if STANDARD_ERROR.search(line.partition("//")[0])]
 
 
 def _body(text, start):

@@ -20,6 +20,7 @@ from rotor_fate import SPEED_RPM, SPIN, Fate  # noqa: E402
 # A key with the escape that clears a terminal, as YAML writes it, and one as it is.
 NONSENSE = 'kind: excitation\n"nonsense \\e[2J \\x9b": 1\n'
 SPINNING = 4
+EMERGENCY_STOP = 5  # command
 LONG = 60  # s: only a failing test waits for it
 
 
@@ -196,6 +197,24 @@ class Outside(unittest.TestCase):
             self.warn()
         control.terminate()
         self.assert_landed(control)
+
+    def test_a_reader_that_has_stopped_keeps_no_emergency_stop_from_being_heeded(self):
+        from levitas_msg.operator_command_t import operator_command_t
+        here, there = os.pipe()
+        fcntl.fcntl(there, fcntl.F_SETPIPE_SZ, 4096)
+        os.write(there, b"x" * 4096)
+        control = self.start(stderr=there)
+        os.close(there)
+        self.addCleanup(os.close, here)
+        self.turning(control)
+        for _ in range(200):
+            self.warn()
+        stop = operator_command_t()
+        stop.sequence, stop.command = time.monotonic_ns(), EMERGENCY_STOP
+        bus = Bus(COMMAND)
+        bus.publish("LEVITAS_COMMAND", stop)
+        bus.close()
+        self.assert_landed(control, status=4)
 
     def test_a_stopped_terminal_holds_nothing_up(self):
         ours, terminal = pty.openpty()
