@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "config/schema/schema.hpp"
 #include "config/text/reader.hpp"
 
 namespace levitas::config {
 namespace {
 
-double MultisineTerms(const scenario::Excitation& excitation, const RigNumbers& rig) {
+// Steps of work that the table takes: each line adds to each sample, and each sample costs two cosines
+// of its own, even where there is one line only. The other signals are made while they are played.
+double TableTerms(const scenario::Excitation& excitation, const RigNumbers& rig) {
   if (excitation.kind != scenario::SignalKind::kMultisine) return 0.0;
   const double samples = excitation.repeat_s / rig.period_s();
-  return samples * (excitation.to_hz - excitation.from_hz) * excitation.repeat_s;
+  const double band_hz = std::max(0.0, excitation.to_hz - excitation.from_hz);
+  return samples * (band_hz * excitation.repeat_s + kTermsPerSample);
 }
 
 void RefuseCostly(Visitor& v, const scenario::Step& step, const RigNumbers& rig) {
@@ -22,12 +27,16 @@ void RefuseCostly(Visitor& v, const scenario::Step& step, const RigNumbers& rig)
   v.RefuseIf(step.excitation.size() > kMostSignals, "excitation",
              fmt::format("{} signals, a request may have {} at most", step.excitation.size(),
                          kMostSignals));
+  double terms = 0.0;
   for (const scenario::Excitation& excitation : step.excitation) {
-    v.RefuseIf(MultisineTerms(excitation, rig) > kMostMultisineTerms, "excitation",
-               fmt::format("a multisine of {:.6g} s from {:.6g} to {:.6g} Hz takes too long to "
-                           "make; choose a shorter repeat_s or fewer frequencies",
-                           excitation.repeat_s, excitation.from_hz, excitation.to_hz));
+    terms += TableTerms(excitation, rig);
   }
+  v.RefuseIf(
+      terms > kMostTableTerms, "excitation",
+      fmt::format("its multisines together take {:.3g} steps to make (lines times samples of "
+                  "a period), a request may take {:.3g}: choose a shorter repeat_s, fewer "
+                  "frequencies or fewer multisines",
+                  terms, kMostTableTerms));
 }
 
 }  // namespace

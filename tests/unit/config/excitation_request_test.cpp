@@ -65,7 +65,32 @@ TEST(ExcitationRequest, EndsWithinAnHourAndIsNotEmpty) {
 TEST(ExcitationRequest, IsNoMultisineThatWouldTakeTheControllerLongToMake) {
   // Lines times samples of a period of this rig at 10 kHz: 499 x 1e4 passes, 4.99e5 x 1e7 does not.
   EXPECT_EQ(Problems(Multisine("500", "1")), "");
-  EXPECT_THAT(Problems(Multisine("500", "1000")), HasSubstr("takes too long"));
+  EXPECT_THAT(Problems(Multisine("500", "1000")), HasSubstr("shorter repeat_s"));
+}
+
+// The work of a request is bounded, not that of a signal: what one multisine may take, two may not.
+TEST(ExcitationRequest, CountsTheWorkOfAllItsSignalsTogether) {
+  const auto many = [](int count, const std::string& to_hz) {
+    std::string text = "kind: excitation\nhold_s: 1\nexcitation:\n";
+    for (int i = 0; i < count; ++i) {
+      text +=
+          "  - {channel: de_x, signal: multisine, amplitude_a: 0.01, from_hz: 10, to_hz: " + to_hz +
+          ", repeat_s: 1.5}\n";
+    }
+    return text;
+  };
+  // 1.5e4 samples: 2190 Hz are 3285 lines, 4.9e7 in all.
+  EXPECT_EQ(Problems(many(1, "2200")), "");
+  EXPECT_THAT(Problems(many(2, "2200")), HasSubstr("fewer multisines"));
+  EXPECT_THAT(Problems(many(8, "2200")), HasSubstr("3.97e+08"));  // 8 x 1.5e4 x (3285 + 20)
+  EXPECT_EQ(Problems(many(8, "250")), "");
+}
+
+TEST(ExcitationRequest, IsNoLongTableOfFewLinesEither) {
+  // One line, but 1e7 samples, each with its two cosines.
+  EXPECT_THAT(Problems("kind: excitation\nhold_s: 1\nexcitation:\n  - {channel: de_x, signal: "
+                       "multisine, amplitude_a: 0.1, from_hz: 1, to_hz: 1.001, repeat_s: 1000}\n"),
+              HasSubstr("shorter repeat_s"));
 }
 
 TEST(ExcitationRequest, HasNoMoreSignalsThanTheLimit) {
