@@ -4,14 +4,11 @@
 
 #include <levitas_msg/excitation_request_t.hpp>
 #include <levitas_msg/operator_command_t.hpp>
-#include <vector>
 
 #include "transport/lcm_packet.hpp"
 
 namespace levitas::dashboard {
 namespace {
-
-constexpr std::string_view kPrefix = "command ";
 
 template <class Message>
 void Append(const Message& message, std::vector<std::uint8_t>& datagram) {
@@ -23,19 +20,6 @@ void Append(const Message& message, std::vector<std::uint8_t>& datagram) {
 
 }  // namespace
 
-std::optional<CommandAnswer> AnswerIn(const std::string& event_text) {
-  const std::string_view text = event_text;
-  if (!text.starts_with(kPrefix)) return std::nullopt;
-  const std::string_view rest = text.substr(kPrefix.size());
-  for (std::uint8_t i = 1; i < kOperatorCommandCount; ++i) {
-    const auto command = static_cast<OperatorCommand>(i);
-    const std::string_view name = Name(command);
-    if (!rest.starts_with(name) || !rest.substr(name.size()).starts_with(' ')) continue;
-    return CommandAnswer{command, rest.substr(name.size()).starts_with(" refused")};
-  }
-  return std::nullopt;
-}
-
 Commander::Commander(const transport::LcmNetwork& network, std::chrono::milliseconds patience)
     : patience_(patience),
       sender_(network, transport::Direction::kCommand),
@@ -44,20 +28,53 @@ Commander::Commander(const transport::LcmNetwork& network, std::chrono::millisec
                     std::chrono::system_clock::now().time_since_epoch())
                     .count()) {}
 
+void Commander::Send(const char* channel, Datagram& datagram) {
+  transport::WriteHeader(datagram, datagrams_.fetch_add(1), channel);
+  sender_.Send(datagram);
+}
+
 template <class Encode>
 CommandReply Commander::Ask(OperatorCommand command, const char* channel, Encode encode) {
+  Datagram datagram(transport::HeaderSize(channel));
+  const bool stop = command == OperatorCommand::kEmergencyStop;
+  std::int64_t sequence = 0;
+  if (stop) {
+    sequence = NextNumber();
+    encode(datagram, sequence);
+    Send(channel, datagram);
+    Withdraw(sequence);
+  }
   std::unique_lock lock(mutex_);
-  std::vector<std::uint8_t> datagram(transport::HeaderSize(channel));
-  encode(datagram, ++sequence_);
-  Answers& answers = answers_.at(static_cast<std::size_t>(command));
-  const std::uint64_t before = answers.count;
+  if (!stop) {
+    // Under the lock in which it is sent first: what leaves later has the larger number.
+    sequence = NextNumber();
+    encode(datagram, sequence);
+  }
+  const auto mine = waiting_.emplace(sequence, std::nullopt).first;
+  const auto settled = [&] { return mine->second || (!stop && Withdrawn(sequence)); };
   const auto end = std::chrono::steady_clock::now() + patience_;
-  while (std::chrono::steady_clock::now() < end) {
-    transport::WriteHeader(datagram, datagrams_++, channel);
-    sender_.Send(datagram);
-    if (answered_.wait_for(lock, kRepeat, [&] { return answers.count != before; })) {
-      return answers.newest;
-    }
+  for (bool said = stop; !settled() && std::chrono::steady_clock::now() < end; said = false) {
+    if (!said) Send(channel, datagram);
+    answered_.wait_for(lock, kRepeat, settled);
+  }
+  const CommandReply reply = mine->second ? *mine->second : Unanswered(command, settled());
+  waiting_.erase(mine);
+  return reply;
+}
+
+/// What is older and unanswered gives up.
+void Commander::Withdraw(std::int64_t stop) {
+  std::int64_t newest = newest_stop_.load();
+  while (newest < stop && !newest_stop_.compare_exchange_weak(newest, stop)) {
+  }
+  answered_.notify_all();
+}
+
+CommandReply Commander::Unanswered(OperatorCommand command, bool withdrawn) const {
+  if (withdrawn) {
+    return {CommandOutcome::kUnanswered,
+            fmt::format("{} is not asked for any more: an emergency stop came after it",
+                        Name(command))};
   }
   return {CommandOutcome::kUnanswered,
           fmt::format("the controller did not answer {} within {:.1f} s: is it running, and on "
@@ -71,7 +88,7 @@ CommandReply Commander::Send(const CommandRequest& request) {
   message.speed_rad_per_s = request.speed_rad_per_s;
   message.acceleration_rad_per_s2 = request.acceleration_rad_per_s2;
   return Ask(request.command, transport::channel::kCommand,
-             [&](std::vector<std::uint8_t>& datagram, std::int64_t sequence) {
+             [&](Datagram& datagram, std::int64_t sequence) {
                message.sequence = sequence;
                Append(message, datagram);
              });
@@ -81,21 +98,20 @@ CommandReply Commander::SendExcitation(const std::string& step_yaml) {
   levitas_msg::excitation_request_t message{};
   message.step_yaml = step_yaml;
   return Ask(OperatorCommand::kExcite, transport::channel::kExcitation,
-             [&](std::vector<std::uint8_t>& datagram, std::int64_t sequence) {
+             [&](Datagram& datagram, std::int64_t sequence) {
                message.sequence = sequence;
                Append(message, datagram);
              });
 }
 
-void Commander::Saw(const std::string& event_text) {
-  const auto answer = AnswerIn(event_text);
-  if (!answer) return;
+void Commander::Saw(const transport::CommandAnswer& answer) {
+  if (answer.sender_port != sender_.port()) return;
   {
     const std::lock_guard lock(mutex_);
-    Answers& answers = answers_.at(static_cast<std::size_t>(answer->command));
-    ++answers.count;
-    answers.newest = {answer->refused ? CommandOutcome::kRefused : CommandOutcome::kAccepted,
-                      event_text};
+    const auto mine = waiting_.find(answer.sequence);
+    if (mine == waiting_.end()) return;
+    mine->second = {answer.refused ? CommandOutcome::kRefused : CommandOutcome::kAccepted,
+                    answer.text};
   }
   answered_.notify_all();
 }

@@ -1,23 +1,29 @@
 #pragma once
 // Sends an operator's command to the controller and waits for the controller's own word on it.
 //
-// Confirmed  by the event that the controller publishes for each command it takes ("command lift
-//            ..." or "... refused in mode ..."). Nothing is assumed: without that event within
-//            `patience` the reply is "unanswered", and the page says so. Repetition the same
-//            message goes out every kRepeat until it is answered; the controller takes a sequence
-//            number once (transport/operator_receiver.hpp).
+// Confirmed  by the answer that the controller publishes under the command's number and the port it
+//            came from (transport/command_answer.hpp): what others ask, or a scenario does, confirms
+//            nothing here. Nothing is assumed: without an answer within `patience` the reply is
+//            "unanswered", and the page says so.
+// Repetition the same message goes out every kRepeat until it is answered; the controller takes a
+//            number once, and none below the largest (transport/operator_receiver.hpp).
+// Stop       an emergency stop leaves before any lock is asked for. What was asked before it and is
+//            unanswered is not repeated any more: it must not undo the stop.
 // Thread     Send: any, several at once; it blocks for at most `patience`. Saw: the receiver's.
 // Failure    construction throws Problem when the network cannot be reached.
 
-#include <array>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/enums.hpp"
+#include "transport/command_answer.hpp"
 #include "transport/multicast_socket.hpp"
 
 namespace levitas::dashboard {
@@ -35,13 +41,6 @@ struct CommandReply {
   std::string text;  ///< the controller's sentence, or what to look at
 };
 
-/// What an event's text says about a command; nothing when it is about something else.
-struct CommandAnswer {
-  OperatorCommand command{};
-  bool refused{};
-};
-[[nodiscard]] std::optional<CommandAnswer> AnswerIn(const std::string& event_text);
-
 class Commander {
  public:
   static constexpr std::chrono::milliseconds kPatience{1500};
@@ -53,26 +52,31 @@ class Commander {
   [[nodiscard]] CommandReply Send(const CommandRequest& request);
   /// `step_yaml`: see config/excitation_request.hpp.
   [[nodiscard]] CommandReply SendExcitation(const std::string& step_yaml);
-  /// Text of every event of the controller.
-  void Saw(const std::string& event_text);
+  /// Every answer of the controller, to whomever.
+  void Saw(const transport::CommandAnswer& answer);
 
  private:
-  struct Answers {
-    std::uint64_t count{0};
-    CommandReply newest;
-  };
+  using Datagram = std::vector<std::uint8_t>;
 
-  /// Sends what `encode(sequence)` gives until an answer to `command` is there.
+  /// Sends what `encode(sequence)` gives until its answer is there.
   template <class Encode>
   [[nodiscard]] CommandReply Ask(OperatorCommand command, const char* channel, Encode encode);
+  [[nodiscard]] CommandReply Unanswered(OperatorCommand command, bool withdrawn) const;
+  void Send(const char* channel, Datagram& datagram);
+  void Withdraw(std::int64_t stop);
+  [[nodiscard]] bool Withdrawn(std::int64_t sequence) const noexcept {
+    return sequence < newest_stop_.load();
+  }
+  [[nodiscard]] std::int64_t NextNumber() noexcept { return sequence_.fetch_add(1) + 1; }
 
   std::chrono::milliseconds patience_;
+  transport::MulticastSender sender_;
+  std::atomic<std::int64_t> sequence_;
+  std::atomic<std::int64_t> newest_stop_{0};  ///< its number
+  std::atomic<std::uint32_t> datagrams_{0};
   std::mutex mutex_;
   std::condition_variable answered_;
-  transport::MulticastSender sender_;
-  std::int64_t sequence_;
-  std::uint32_t datagrams_{0};
-  std::array<Answers, kOperatorCommandCount> answers_;
+  std::map<std::int64_t, std::optional<CommandReply>> waiting_;  ///< by number
 };
 
 }  // namespace levitas::dashboard

@@ -77,11 +77,14 @@ struct Dashboard::Impl {
   void Hear(const transport::Received& received, std::int64_t now_ns) {
     const transport::Packet packet = transport::ParsePacket(received.datagram);
     if (packet.kind != transport::PacketKind::kShort) return;
+    if (packet.channel == transport::channel::kAnswer) {
+      if (const auto answer = transport::ReadAnswer(packet.payload)) commander.Saw(*answer);
+      return;
+    }
     const std::uint64_t event_before = run.newest_event();
     run.Take(packet.channel, packet.payload, now_ns);
     if (run.newest_event() != event_before) {
       const session::Event& event = run.events().back().event;
-      commander.Saw(event.text);
       if (event.severity == session::Event::Severity::kTrip) scope.Tripped(event.cycle);
       hub.PutEvent(run.newest_event(), EventJson(run.events().back()));
     }

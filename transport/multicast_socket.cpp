@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/core.h>
+#include <linux/filter.h>
 #include <net/if.h>
 #include <netinet/in.h>
 #include <poll.h>
@@ -117,6 +118,14 @@ std::string AddressText(std::uint64_t sender) {
   return fmt::format("{}:{}", text.data(), ntohs(static_cast<std::uint16_t>(sender)));
 }
 
+std::uint16_t MulticastSender::port() const noexcept {
+  sockaddr_in own{};
+  socklen_t size = sizeof(own);
+  // The sockets' interface knows every address by this type.
+  const bool known = getsockname(socket_, reinterpret_cast<sockaddr*>(&own), &size) == 0;
+  return known ? ntohs(own.sin_port) : std::uint16_t{0};
+}
+
 // Storage for one recvmmsg: the newest frame is wanted, so all that is queued is fetched at once
 // instead of one call each and a last one that finds nothing.
 struct MulticastReceiver::Batch {
@@ -198,6 +207,12 @@ MulticastReceiver::MulticastReceiver(const LcmNetwork& network, Direction direct
 MulticastReceiver::~MulticastReceiver() { close(socket_); }
 
 std::uint64_t MulticastReceiver::foreign() const noexcept { return batch_->foreign; }
+bool MulticastReceiver::Filter(std::span<const sock_filter> program) noexcept {
+  // The kernel's interface takes a pointer to what it only reads.
+  std::vector<sock_filter> steps(program.begin(), program.end());
+  const sock_fprog filter{static_cast<unsigned short>(steps.size()), steps.data()};
+  return Set(socket_, SOL_SOCKET, SO_ATTACH_FILTER, filter);
+}
 
 Received MulticastReceiver::Poll() noexcept {
   batch_->Fetch(socket_);

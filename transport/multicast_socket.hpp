@@ -22,6 +22,8 @@
 
 #include "transport/lcm_network.hpp"
 
+struct sock_filter;  // linux/filter.h
+
 namespace levitas::transport {
 
 class MulticastSender {
@@ -33,6 +35,8 @@ class MulticastSender {
 
   /// False when the kernel did not take the datagram.
   bool Send(std::span<const std::uint8_t> datagram) noexcept;
+  /// The UDP port it sends from.
+  [[nodiscard]] std::uint16_t port() const noexcept;
 
  private:
   int socket_{-1};
@@ -61,6 +65,8 @@ class MulticastReceiver {
   [[nodiscard]] Received Receive(std::int64_t deadline_ns) noexcept;
   /// Datagrams dropped because they came in through an interface that is not joined.
   [[nodiscard]] std::uint64_t foreign() const noexcept;
+  /// The kernel queues only what `program` passes from now on; false when it refuses.
+  [[nodiscard]] bool Filter(std::span<const sock_filter> program) noexcept;
 
  private:
   [[nodiscard]] Received Poll() noexcept;

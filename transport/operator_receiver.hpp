@@ -1,72 +1,97 @@
 #pragma once
-// Receives operator commands from the network in a thread of its own and hands them to the loop
-// through a wait-free ring.
+// Receives what operators ask for over the network, in two threads: the emergency stop on a path of
+// its own (stop_receiver.hpp), everything else here, handed on to those who do the work.
 //
-// Repetition  a command whose sequence number is the last one of the same sender is the same
-//             command sent again, and is passed on once, whoever else has spoken in between. The
-//             latest kRemembered senders are known: each start of an operator's program is one.
-// Excitation  is asked for with a message of its own, whose text is passed on as it came: the
-//             command `excite` without one is refused here.
-// Failure     construction throws Problem; unknown commands, numbers that are not finite, texts
-//             beyond kLongestText and malformed messages are counted and dropped.
+// Numbers    each sender's grow. One that is not above the largest taken of that sender is a
+//            repetition or old, and is not taken: a datagram that comes twice or late does nothing.
+//            A number counts as taken only when the command was: what found no room is taken when
+//            it is said again. The latest kRemembered senders are known: each start of an
+//            operator's program is one.
+// Share      a sender's commands beyond kMostPerSecond are dropped as if there were no room: a flood
+//            leaves the others theirs, and the loop and the log what they can carry.
+// Stops      are taken whatever their number. A command that was sent before a stop is dropped
+//            when it is read after it: the same datagram arrives here too, in the order of sending,
+//            and until then whatever comes is older. It may be said again.
+// Excitation is asked for with a message of its own, whose text is passed on as it came: the
+//            command `excite` without one is refused here.
+// Failure    construction throws Problem; unsound messages are counted and dropped.
 
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <thread>
 
-#include "common/enums.hpp"
+#include "common/stop_latch.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/multicast_socket.hpp"
+#include "transport/operator_message.hpp"
+#include "transport/stop_receiver.hpp"
 
 namespace levitas::transport {
 
-struct NetworkCommand {
-  OperatorCommand command{OperatorCommand::kNone};
-  double speed_rad_per_s{};
-  double acceleration_rad_per_s2{};
+/// Called in the receiver's thread, which must not be held up: they queue. False: no room.
+struct OperatorHandlers {
+  std::function<bool(const NetworkCommand&)> take{};  ///< never an emergency stop
+  std::function<bool(const NetworkExcitation&)>
+      excite{};                     ///< without it such requests are left alone
+  std::function<void()> dropped{};  ///< after each that found no room
+  std::function<void()> enter_stop_thread{};
+};
+
+/// What was not taken, and why.
+struct OperatorCounts {
+  std::uint64_t rejected{};   ///< no sound message
+  std::uint64_t old{};        ///< a number below the largest of the sender
+  std::uint64_t overtaken{};  ///< sent before an emergency stop, read after it
+  std::uint64_t dropped{};    ///< no room, or more than the sender's share
 };
 
 class OperatorReceiver {
  public:
   static constexpr std::size_t kRemembered = 64;
-  static constexpr std::size_t kLongestText = 4096;
+  static constexpr int kMostPerSecond = 50;  ///< far more than a person gives
 
-  /// `take` and `excite` are called in the receiver's thread; while they work, further commands
-  /// wait. `excite` gets the text of an excitation_request_t; without it, such requests are left
-  /// alone.
-  OperatorReceiver(const LcmNetwork& network, std::function<void(const NetworkCommand&)> take,
-                   std::function<void(const std::string&)> excite = {});
+  /// Keeps a reference to `stops`.
+  OperatorReceiver(const LcmNetwork& network, StopLatch& stops, OperatorHandlers handlers);
   ~OperatorReceiver();
   OperatorReceiver(const OperatorReceiver&) = delete;
   OperatorReceiver& operator=(const OperatorReceiver&) = delete;
 
-  [[nodiscard]] std::uint64_t rejected() const noexcept {
-    return rejected_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] OperatorCounts counts() const noexcept;
 
  private:
-  void Run();
-  void Handle(const Received& received);
-  void HandleCommand(const Packet& packet, std::uint64_t sender);
-  void HandleExcitation(const Packet& packet, std::uint64_t sender);
-  void Reject() noexcept { rejected_.fetch_add(1, std::memory_order_relaxed); }
-  [[nodiscard]] bool Repeated(std::uint64_t sender, std::int64_t sequence) noexcept;
-
-  MulticastReceiver receiver_;
-  std::function<void(const NetworkCommand&)> take_;
-  std::function<void(const std::string&)> excite_;
+  using Count = std::atomic<std::uint64_t>;
   struct Seen {
     std::uint64_t sender{0};
-    std::int64_t sequence{0};
+    std::int64_t largest{0};
+    std::int64_t second_ns{0};  ///< when its present second began ...
+    int in_second{0};           ///< ... and how many were taken in it
   };
+
+  void Run();
+  void Handle(const Received& received);
+  void HandleCommand(NetworkCommand command);
+  void HandleExcitation(NetworkExcitation request);
+  /// Whether this may be taken now; counts why not.
+  [[nodiscard]] bool Fits(const CommandOrigin& origin);
+  void Note(const CommandOrigin& origin) noexcept;
+  /// After what came of handing it on.
+  void Settle(const CommandOrigin& origin, bool taken);
+  void Drop();
+  [[nodiscard]] Seen* Find(std::uint64_t sender) noexcept;
+  static void Add(Count& count) noexcept { count.fetch_add(1, std::memory_order_relaxed); }
+
+  MulticastReceiver receiver_;
+  StopLatch& stops_;
+  OperatorHandlers handlers_;
   std::array<Seen, kRemembered> seen_{};
-  std::size_t next_seen_{0};  ///< the longest known sender, replaced by the next new one
-  std::atomic<std::uint64_t> rejected_{0};
+  std::size_t next_seen_{0};       ///< the longest known sender, replaced by the next new one
+  std::uint64_t stops_passed_{0};  ///< how many of the stops this thread has come past
+  Count rejected_{0}, old_{0}, overtaken_{0}, dropped_{0};
   std::atomic<bool> stopping_{false};
+  StopReceiver stop_receiver_;
   std::thread thread_;
 };
 

@@ -77,6 +77,9 @@ void ControlLoop::Cycle(bool frame_present, const SensorFrame& frame,
   timer_.Ended(cycle::Stage::kWrite);
   written_ns_ = timer_.last_ns();
   statistics_.compute.Add(written_ns_ - start_ns);
+  if (const std::int64_t received_ns = source_.stop_received_ns(); received_ns != 0) {
+    statistics_.emergency_stop.Add(written_ns_ - received_ns);
+  }
   if (statistics_.cycles == 0) statistics_.first_ns = start_ns;
   statistics_.last_ns = written_ns_;
   ++statistics_.cycles;

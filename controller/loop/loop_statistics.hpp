@@ -25,6 +25,7 @@ struct LoopStatistics {
   Histogram wakeup;                 ///< grid instant -> awake (real time)
   Histogram compute;                ///< frame read -> current written
   Histogram latency;                ///< sampling instant -> current written (real time)
+  Histogram emergency_stop;         ///< operator's stop received -> the trip's current written
   std::array<Histogram, cycle::kStageCount> stage;
   std::array<std::uint64_t, cycle::kStageCount> blamed{};  ///< overruns by stage
   cycle::Stage last_blamed{cycle::Stage::kNone};

@@ -7,7 +7,7 @@
 namespace levitas::loop {
 
 OperatorDesk::OperatorDesk(const DeskOptions& options, scenario::ScenarioPlayer* player,
-                           SpscRing<RemoteCommand>* remote)
+                           const RemoteDesk& remote)
     : options_(options), player_(player), remote_(remote) {}
 
 std::uint64_t OperatorDesk::Cycles(double seconds) const noexcept {
@@ -96,37 +96,63 @@ cycle::OperatorInput OperatorDesk::Next(const OperatorView& view) noexcept {
   return input;
 }
 
+// All that are there at once: one trip answers them all.
+bool OperatorDesk::TakeStop(std::uint64_t cycle) noexcept {
+  stop_received_ns_ = 0;
+  const bool asked = remote_.stops != nullptr && remote_.stops->Take();
+  if (!asked) {
+    return emergency_requested_.load(std::memory_order_relaxed) &&
+           emergency_requested_.exchange(false, std::memory_order_relaxed);
+  }
+  stop_received_ns_ = remote_.stops->received_ns();
+  CommandOrigin origin;
+  for (std::size_t i = 0; i < StopLatch::kOrigins && remote_.stops->TakeOrigin(origin); ++i) {
+    if (remote_.given != nullptr) remote_.given->Post({cycle, origin});
+  }
+  return true;
+}
+
+// The next one that is not older than a stop: at most as many as the ring holds.
+bool OperatorDesk::TakeRemote(RemoteCommand& remote) noexcept {
+  if (remote_.commands == nullptr) return false;
+  const std::uint64_t stopped = remote_.stops != nullptr ? remote_.stops->taken() : 0;
+  for (std::size_t i = 0; i < remote_.commands->capacity(); ++i) {
+    if (!remote_.commands->Take(remote)) return false;
+    if (remote.stops_before >= stopped) return true;
+    if (remote.excitation != nullptr) ExcitationShelf::GiveBack(remote.excitation);
+  }
+  return false;
+}
+
 cycle::OperatorInput OperatorDesk::Decide(const OperatorView& view) noexcept {
   if (!started_) {
     started_ = true;
     first_cycle_ = view.cycle;
   }
-  if (emergency_requested_.load(std::memory_order_relaxed)) {
-    emergency_requested_.store(false, std::memory_order_relaxed);
-    return {.command = OperatorCommand::kEmergencyStop};
-  }
+  if (TakeStop(view.cycle)) return {.command = OperatorCommand::kEmergencyStop};
   RemoteCommand remote;
-  const bool commanded = remote_ != nullptr && remote_->Take(remote);
-  const bool emergency = commanded && remote.command == OperatorCommand::kEmergencyStop;
-  cycle::OperatorInput input;
-  if (emergency || (commanded && !ending_)) {
+  const bool commanded = TakeRemote(remote);
+  if (commanded && !ending_) {
     Begin(remote);
-    input.command = remote.command;
-    input.speed_rad_per_s = remote.speed_rad_per_s;
-    input.acceleration_rad_per_s2 = remote.acceleration_rad_per_s2;
-    return input;
+    if (remote_.given != nullptr) remote_.given->Post({view.cycle, remote.origin});
+    return {.command = remote.command,
+            .speed_rad_per_s = remote.speed_rad_per_s,
+            .acceleration_rad_per_s2 = remote.acceleration_rad_per_s2};
   }
   if (commanded && remote.excitation != nullptr) ExcitationShelf::GiveBack(remote.excitation);
-  if (Ending(view)) return Stop(view);
-  if (player_ != nullptr) {
-    const auto played = player_->Next(view.mode, view.speed_rad_per_s, view.fault,
-                                      view.command_refused, view.radius_m);
-    input.command = played.command;
-    input.speed_rad_per_s = played.speed_rad_per_s;
-    input.acceleration_rad_per_s2 = played.acceleration_rad_per_s2;
-    input.excitation_a = played.excitation_a;
-    input.excitation_m = played.excitation_m;
-  }
+  return Ending(view) ? Stop(view) : Played(view);
+}
+
+cycle::OperatorInput OperatorDesk::Played(const OperatorView& view) noexcept {
+  cycle::OperatorInput input;
+  if (player_ == nullptr) return input;
+  const auto played = player_->Next(view.mode, view.speed_rad_per_s, view.fault,
+                                    view.command_refused, view.radius_m);
+  input.command = played.command;
+  input.speed_rad_per_s = played.speed_rad_per_s;
+  input.acceleration_rad_per_s2 = played.acceleration_rad_per_s2;
+  input.excitation_a = played.excitation_a;
+  input.excitation_m = played.excitation_m;
   return input;
 }
 

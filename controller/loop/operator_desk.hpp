@@ -1,8 +1,9 @@
 #pragma once
 // The operator's desk: decides in each cycle who gives the command.
 //
-// Order    the end of the program before a remote command before the scenario. A remote emergency
-//          stop always passes.
+// Order    an emergency stop before everything, in every state, also in a full ring; then the end of
+//          the program before a remote command before the scenario. A remote command that its
+//          sender gave before a stop is dropped after it: a stop is not undone by what is older.
 // Test signals  a remote one is added to the scenario's. It begins in the cycle after its command,
 //          unless that was refused, and ends by its own length, by command, by a new one, with a
 //          trip and where the mode does not pass it on; each end is a command of the record.
@@ -18,6 +19,7 @@
 #include <memory>
 
 #include "common/spsc_ring.hpp"
+#include "common/stop_latch.hpp"
 #include "controller/loop/excitation_shelf.hpp"
 #include "controller/loop/operator_source.hpp"
 #include "controller/scenario/scenario_player.hpp"
@@ -30,6 +32,21 @@ struct RemoteCommand {
   double speed_rad_per_s{};
   double acceleration_rad_per_s2{};
   ExcitationShelf::Place* excitation{nullptr};  ///< with kExcite
+  CommandOrigin origin{};
+  std::uint64_t stops_before{0};  ///< emergency stops of the latch that it came behind
+};
+
+/// A remote command that a cycle was given, for those who publish what became of it.
+struct GivenCommand {
+  std::uint64_t cycle{};
+  CommandOrigin origin;
+};
+
+/// What the desk shares with the threads of the network; each may be null.
+struct RemoteDesk {
+  SpscRing<RemoteCommand>* commands{nullptr};
+  StopLatch* stops{nullptr};
+  SpscRing<GivenCommand>* given{nullptr};
 };
 
 struct DeskOptions {
@@ -45,12 +62,15 @@ class OperatorDesk final : public OperatorSource {
   static constexpr double kStopLimitSeconds = 120.0;
   static constexpr double kRepeatSeconds = 0.1;  ///< a refused request of the end is made again
 
-  /// `player` and `remote` may be null.
+  /// `player` may be null.
   OperatorDesk(const DeskOptions& options, scenario::ScenarioPlayer* player,
-               SpscRing<RemoteCommand>* remote);
+               const RemoteDesk& remote);
 
   [[nodiscard]] cycle::OperatorInput Next(const OperatorView& view) noexcept override;
   [[nodiscard]] bool Done() const noexcept override { return done_; }
+  [[nodiscard]] std::int64_t stop_received_ns() const noexcept override {
+    return stop_received_ns_;
+  }
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
   /// Given in the next cycle, once; any thread.
   void RequestEmergencyStop() noexcept {
@@ -59,6 +79,9 @@ class OperatorDesk final : public OperatorSource {
 
  private:
   [[nodiscard]] cycle::OperatorInput Decide(const OperatorView& view) noexcept;
+  [[nodiscard]] bool TakeStop(std::uint64_t cycle) noexcept;
+  [[nodiscard]] bool TakeRemote(RemoteCommand& remote) noexcept;
+  [[nodiscard]] cycle::OperatorInput Played(const OperatorView& view) noexcept;
   void Begin(const RemoteCommand& remote) noexcept;
   void Excite(const OperatorView& view, cycle::OperatorInput& input) noexcept;
   void DropExcitation() noexcept;
@@ -68,7 +91,8 @@ class OperatorDesk final : public OperatorSource {
 
   DeskOptions options_;
   scenario::ScenarioPlayer* player_;
-  SpscRing<RemoteCommand>* remote_;
+  RemoteDesk remote_;
+  std::int64_t stop_received_ns_{0};
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> emergency_requested_{false};
   ExcitationShelf::Place* playing_{nullptr};

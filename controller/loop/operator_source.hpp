@@ -28,6 +28,9 @@ class OperatorSource {
   [[nodiscard]] virtual cycle::OperatorInput Next(const OperatorView& view) noexcept = 0;
   /// True when nothing more is wanted and the rig is at rest: the loop ends before its next cycle.
   [[nodiscard]] virtual bool Done() const noexcept = 0;
+  /// CLOCK_MONOTONIC [ns] at which the emergency stop that the latest Next gave had been received;
+  /// 0 when it gave none, or nobody knows. For the loop's statistics, not for its decisions.
+  [[nodiscard]] virtual std::int64_t stop_received_ns() const noexcept { return 0; }
 };
 
 }  // namespace levitas::loop

@@ -12,7 +12,8 @@
 #include "config/rig_file.hpp"
 #include "controller/loop/control_loop.hpp"
 #include "controller/loop/operator_desk.hpp"
-#include "controller/program/excitation_intake.hpp"
+#include "controller/program/command_answers.hpp"
+#include "controller/program/command_intake.hpp"
 #include "controller/program/loop_outlet.hpp"
 #include "controller/program/report.hpp"
 #include "controller/program/rig_connection.hpp"
@@ -34,7 +35,7 @@ namespace levitas::controller_program {
 
 namespace {
 
-constexpr std::size_t kRemoteCommands = 16;  // a person gives them one by one
+constexpr int kBelowTheLoop = 5;  // priority of the thread that hears the emergency stop
 
 struct Files {
   config::RigFile rig;
@@ -132,9 +133,8 @@ class Session {
              .header = header_,
              .trip_budget = {options.trip_files, std::uintmax_t{options.trip_megabytes} << 20U},
              .waits_for_room = !options.realtime,
-             .on_event = [this](const auto& event) { Announce(event, telemetry_); },
-             .on_record =
-                 [this](const auto& record) { batcher_.Add(record, rt::MonotonicNowNs()); }}),
+             .on_event = [this](const auto& event) { Heard(event); },
+             .on_record = [this](const auto& record) { Saw(record); }}),
         outlet_(recorder_, telemetry_, numbers_.period_ns),
         cycle_({numbers_, files.controller.law, files.controller.supervisor}),
         sequence_(files.controller.supervisor.sequence) {
@@ -154,14 +154,9 @@ class Session {
              std::min(sequence_.trip_acceleration_rad_per_s2, numbers_.max_acceleration_rad_per_s2),
          .standstill_rad_per_s = sequence_.standstill_rad_per_s,
          .duration_s = options_.duration_s},
-        player_ ? &*player_ : nullptr, &commands_);
-    transport::OperatorReceiver receiver(
-        network_,
-        [this](const auto& command) {
-          commands_.Post(
-              {command.command, command.speed_rad_per_s, command.acceleration_rad_per_s2});
-        },
-        [this](const std::string& step_yaml) { excitations_.Take(step_yaml); });
+        player_ ? &*player_ : nullptr, {&intake_.commands(), &intake_.stops(), &answers_.given()});
+    transport::OperatorReceiver receiver(network_, intake_.stops(),
+                                         intake_.Handlers([this] { EnterStopThread(); }));
     loop::ControlLoop loop(
         {.pace = options_.realtime ? loop::Pace::kRealtime : loop::Pace::kLockstep,
          .period_ns = numbers_.period_ns,
@@ -180,10 +175,28 @@ class Session {
     // Also after an end without a landing: with lines, the enable line falls here.
     Port().SayGoodbye({.cycle = loop.last().in.frame.cycle});
     recorder_.Finish();  // the report names the trip's file and comes after the last event
-    return Tell(loop.statistics(), receiver.rejected(), stayed);
+    return Tell(loop.statistics(), receiver.counts(), stayed);
   }
 
  private:
+  void Heard(const session::Event& event) {
+    answers_.Heard(event);
+    Announce(event, telemetry_);
+  }
+
+  void Saw(const cycle::CycleRecord& record) {
+    answers_.Saw(record);
+    batcher_.Add(record, rt::MonotonicNowNs());
+  }
+
+  /// Below the loop, above everything else of ours.
+  void EnterStopThread() const {
+    rt::RealTimeOptions wanted = wanted_;
+    wanted.priority -= kBelowTheLoop;
+    wanted.processor = -1;  // the loop's own is the one where it would have to wait
+    if (guard_) rt::EnterThread(wanted);
+  }
+
   void Warn(const std::string& text) {
     Announce({.cycle = outlet_.cycle(),
               .time_ns = static_cast<std::int64_t>(outlet_.cycle()) * numbers_.period_ns,
@@ -203,14 +216,15 @@ class Session {
     return guard_ ? guard_->facts() : kNone;
   }
 
-  ExitStatus Tell(const loop::LoopStatistics& statistics, std::uint64_t rejected, bool stayed) {
+  ExitStatus Tell(const loop::LoopStatistics& statistics, const transport::OperatorCounts& commands,
+                  bool stayed) {
     const RunFacts facts{.options = options_,
                          .statistics = statistics,
                          .port = Port().counters(),
                          .transport = Port().Trouble(),
                          .records_lost = recorder_.lost(),
                          .telemetry_dropped = telemetry_.dropped(),
-                         .commands_rejected = rejected,
+                         .commands = commands,
                          .trips = outlet_.trips(),
                          .first_fault = outlet_.first_fault(),
                          .trip_file = recorder_.trip_file(),
@@ -231,6 +245,9 @@ class Session {
   std::unique_ptr<RigConnection> rig_;
   std::optional<gpio::GuardedPort> guarded_;
   transport::Telemetry telemetry_;
+  CommandAnswers answers_{[this](const transport::CommandAnswer& answer) {
+    telemetry_.PostAnswer(transport::EncodeAnswer(answer));
+  }};
   session::SessionHeader header_;
   transport::SampleBatcher batcher_;
   session::Recorder recorder_;
@@ -238,9 +255,11 @@ class Session {
   cycle::ControlCycle cycle_;
   supervisor::SequenceConfig sequence_;
   std::optional<scenario::ScenarioPlayer> player_;
-  SpscRing<loop::RemoteCommand> commands_{kRemoteCommands};
-  ExcitationIntake excitations_{numbers_, commands_,
-                                [this](const std::string& text) { Warn(text); }};
+  CommandIntake intake_{numbers_, [this](const std::string& text) { Warn(text); },
+                        [this](const std::string& text, const CommandOrigin& origin) {
+                          Warn(text);
+                          answers_.Refuse(OperatorCommand::kExcite, origin, outlet_.cycle(), text);
+                        }};
   rt::MonotonicClock clock_;
 };
 

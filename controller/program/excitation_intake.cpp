@@ -4,31 +4,95 @@
 #include <utility>
 
 #include "config/excitation_request.hpp"
+#include "controller/rt/thread_trouble.hpp"
 
 namespace levitas::controller_program {
 
-ExcitationIntake::ExcitationIntake(const RigNumbers& rig, SpscRing<loop::RemoteCommand>& commands,
-                                   std::function<void(const std::string&)> refused)
-    : rig_(rig), commands_(commands), refused_(std::move(refused)) {}
+ExcitationIntake::ExcitationIntake(const RigNumbers& rig, CommandInbox& inbox,
+                                   const StopLatch& stops, Refused refused)
+    : rig_(rig), inbox_(inbox), stops_(stops), refused_(std::move(refused)) {
+  thread_ = std::thread([this] { Run(); });
+}
 
-void ExcitationIntake::Take(const std::string& step_yaml) {
-  std::string why;
-  try {
-    why = Try(step_yaml);
-  } catch (const std::exception& problem) {  // a stranger's text: whatever is wrong with it
-    why = problem.what();
+ExcitationIntake::~ExcitationIntake() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
   }
-  if (!why.empty()) refused_("command excite refused: " + why);
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool ExcitationIntake::Take(const transport::NetworkExcitation& request) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (waiting_.size() >= kWaiting) return false;
+    waiting_.push_back(request);
+  }
+  changed_.notify_all();
+  return true;
+}
+
+void ExcitationIntake::EndWaiting() {
+  const std::lock_guard lock(mutex_);
+  to_end_ = waiting_.size() + (at_work_ ? 1 : 0);
+}
+
+/// Of the request at work, which this takes from the bench; under the lock.
+bool ExcitationIntake::Ended() noexcept {
+  at_work_ = false;
+  if (to_end_ == 0) return false;
+  --to_end_;
+  return true;
+}
+
+void ExcitationIntake::Run() {
+  for (;;) {
+    transport::NetworkExcitation request;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return closing_ || !waiting_.empty(); });
+      if (closing_) return;
+      request = std::move(waiting_.front());
+      waiting_.pop_front();
+      at_work_ = true;
+    }
+    rt::Guarded("test signals", [&] {
+      std::string why;
+      try {
+        why = Try(request);
+      } catch (const std::exception& problem) {  // a stranger's text: whatever is wrong with it
+        const std::lock_guard lock(mutex_);
+        (void)Ended();
+        why = problem.what();
+      }
+      if (!why.empty()) refused_("command excite refused: " + why, request.origin);
+    });
+  }
 }
 
 /// Empty when the desk has it.
-std::string ExcitationIntake::Try(const std::string& step_yaml) {
-  const scenario::Step step = config::ParseExcitation(step_yaml, "request", rig_);
+std::string ExcitationIntake::Try(const transport::NetworkExcitation& request) {
+  const scenario::Step step = config::ParseExcitation(request.step_yaml, "request", rig_);
   loop::ExcitationShelf::Place* place = shelf_.Put(step, rig_.period_s());
+  std::string why = HandOver(request, place);
+  if (!why.empty() && place != nullptr) loop::ExcitationShelf::GiveBack(place);
+  return why;
+}
+
+// Under one lock with the end of what waits: the command that ends a signal is never before it in
+// the inbox.
+std::string ExcitationIntake::HandOver(const transport::NetworkExcitation& request,
+                                       loop::ExcitationShelf::Place* place) {
+  const std::lock_guard lock(mutex_);
+  if (Ended()) return "it was ended before it began";
+  if (request.stops_before < stops_.asked()) return "an emergency stop came before it began";
   if (place == nullptr) return "too many at once";
-  if (commands_.Post({.command = OperatorCommand::kExcite, .excitation = place})) return {};
-  loop::ExcitationShelf::GiveBack(place);
-  return "too many commands at once";
+  const bool posted = inbox_.Post({.command = OperatorCommand::kExcite,
+                                   .excitation = place,
+                                   .origin = request.origin,
+                                   .stops_before = request.stops_before});
+  return posted ? "" : "too many commands at once";
 }
 
 }  // namespace levitas::controller_program

@@ -1,35 +1,68 @@
 #pragma once
-// Makes the test signals that are asked for over the network and hands them to the operator's desk.
+// Makes the test signals that are asked for over the network, in a thread of its own, and hands them
+// to the operator's desk. What one costs is bounded by config/excitation_request.hpp, how many wait
+// by kWaiting, and nobody waits for either.
 //
-// Thread   Take: the command receiver's; it allocates. The desk plays what lies on the shelf.
-// Failure  a request that cannot be met is told, and nothing else happens.
+// Order    one after the other. One that waits when an emergency stop or the command to end the test
+//          signal comes is not begun any more.
+// Thread   Take and EndWaiting: any but the loop's; they lock for the length of a copy. The desk
+//          plays what lies on the shelf.
+// Failure  a request that cannot be met is told, and nothing else happens. Take returns false when
+//          kWaiting wait already.
 
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
 #include <functional>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "common/rig_numbers.hpp"
-#include "common/spsc_ring.hpp"
+#include "common/stop_latch.hpp"
 #include "controller/loop/excitation_shelf.hpp"
-#include "controller/loop/operator_desk.hpp"
+#include "controller/program/command_inbox.hpp"
+#include "transport/operator_message.hpp"
 
 namespace levitas::controller_program {
 
 class ExcitationIntake {
  public:
-  /// Keeps references to rig and commands. `refused` hears why.
-  ExcitationIntake(const RigNumbers& rig, SpscRing<loop::RemoteCommand>& commands,
-                   std::function<void(const std::string&)> refused);
+  static constexpr std::size_t kWaiting = 4;
+  using Refused = std::function<void(const std::string& why, const CommandOrigin& origin)>;
 
-  /// `step_yaml`: config/excitation_request.hpp.
-  void Take(const std::string& step_yaml);
+  /// Keeps references to the first three. `refused` is called in the intake's thread.
+  ExcitationIntake(const RigNumbers& rig, CommandInbox& inbox, const StopLatch& stops,
+                   Refused refused);
+  /// What waits is left.
+  ~ExcitationIntake();
+  ExcitationIntake(const ExcitationIntake&) = delete;
+  ExcitationIntake& operator=(const ExcitationIntake&) = delete;
+
+  /// False: no room.
+  bool Take(const transport::NetworkExcitation& request);
+  /// Whatever waits now is refused.
+  void EndWaiting();
 
  private:
-  [[nodiscard]] std::string Try(const std::string& step_yaml);
+  void Run();
+  [[nodiscard]] std::string Try(const transport::NetworkExcitation& request);
+  [[nodiscard]] std::string HandOver(const transport::NetworkExcitation& request,
+                                     loop::ExcitationShelf::Place* place);
+  [[nodiscard]] bool Ended() noexcept;
 
   const RigNumbers& rig_;
-  SpscRing<loop::RemoteCommand>& commands_;
-  std::function<void(const std::string&)> refused_;
+  CommandInbox& inbox_;
+  const StopLatch& stops_;
+  Refused refused_;
   loop::ExcitationShelf shelf_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<transport::NetworkExcitation> waiting_;
+  std::size_t to_end_{0};  ///< how many of the first ones, the one at work included, are refused
+  bool at_work_{false};
+  bool closing_{false};
+  std::thread thread_;
 };
 
 }  // namespace levitas::controller_program

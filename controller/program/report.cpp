@@ -46,7 +46,11 @@ nlohmann::ordered_json ReportJson(const RunFacts& facts) {
       {"transport", facts.transport},
       {"records_lost", facts.records_lost},
       {"telemetry_dropped", facts.telemetry_dropped},
-      {"commands_rejected", facts.commands_rejected},
+      {"commands_rejected", facts.commands.rejected},
+      {"commands_old", facts.commands.old},
+      {"commands_overtaken", facts.commands.overtaken},
+      {"commands_dropped", facts.commands.dropped},
+      {"emergency_stop", HistogramJson(facts.statistics.emergency_stop)},
       {"trips", facts.trips},
       {"first_fault", Name(facts.first_fault)},
       {"trip_file", facts.trip_file},
@@ -84,6 +88,17 @@ std::string ReportText(const RunFacts& facts) {
                           statistics.blamed[at]);
     }
     text += '\n';
+  }
+  if (const Histogram& stop = statistics.emergency_stop; stop.count() > 0) {
+    text += fmt::format(
+        "operator's stop to trip          {:.1f} / {:.1f} / {:.1f} us (p50 / p99 / "
+        "longest of {})\n",
+        stop.Percentile(0.5) * 1e-3, stop.Percentile(0.99) * 1e-3,
+        static_cast<double>(stop.max_ns()) * 1e-3, stop.count());
+  }
+  if (facts.commands.dropped > 0) {
+    text +=
+        fmt::format("commands                         {} found no room\n", facts.commands.dropped);
   }
   if (facts.lines != nullptr && facts.lines->write_failures > 0) {
     text += fmt::format("lines: an output could not be written in {} cycles\n",

@@ -10,6 +10,7 @@
 #include "controller/program/controller_options.hpp"
 #include "controller/rt/real_time.hpp"
 #include "hil/guarded_port/guarded_port.hpp"
+#include "transport/operator_receiver.hpp"
 
 namespace levitas::controller_program {
 
@@ -21,7 +22,7 @@ struct RunFacts {
   std::string transport;  ///< what went wrong on it
   std::uint64_t records_lost{};
   std::uint64_t telemetry_dropped{};
-  std::uint64_t commands_rejected{};
+  transport::OperatorCounts commands;  ///< those that were not taken
   std::uint64_t trips{};
   Fault first_fault{Fault::kNone};
   std::string trip_file;

@@ -1,4 +1,4 @@
-// What the page takes for an answer is what the controller's events say, for every command.
+// The page believes the controller's answer to its own command, and nothing else.
 
 #include "dashboard/commander.hpp"
 
@@ -6,46 +6,23 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <future>
 #include <memory>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 #include "common/problem.hpp"
-#include "session/event_deriver.hpp"
 #include "transport/operator_receiver.hpp"
 
 namespace levitas::dashboard {
 namespace {
 
-/// The text of the event that the controller derives when a cycle takes the command.
-std::string EventOf(OperatorCommand command, bool refused) {
-  session::EventDeriver deriver({"de_x", "de_y"}, 100'000);
-  cycle::CycleRecord record;
-  record.in.cycle = 4711;
-  record.in.frame_present = true;
-  record.in.op.command = command;
-  record.out.command_refused = refused;
-  std::vector<session::Event> events;
-  deriver.Step(record, events);
-  return events.empty() ? "" : events.front().text;
-}
-
-TEST(CommandAnswer, IsFoundInTheEventOfEveryCommand) {
-  for (std::uint8_t i = 1; i < kOperatorCommandCount; ++i) {
-    const auto command = static_cast<OperatorCommand>(i);
-    for (const bool refused : {false, true}) {
-      const auto answer = AnswerIn(EventOf(command, refused));
-      ASSERT_TRUE(answer) << Name(command);
-      EXPECT_EQ(answer->command, command);
-      EXPECT_EQ(answer->refused, refused);
-    }
-  }
-}
-
-TEST(CommandAnswer, IsNotSeenInOtherEvents) {
-  for (const char* text : {"", "off -> lift (cycle 3)", "command", "command ", "command liftoff 3",
-                           "the command lift failed"}) {
-    EXPECT_FALSE(AnswerIn(text)) << text;
-  }
+transport::CommandAnswer AnswerTo(const CommandOrigin& origin, OperatorCommand command,
+                                  bool refused = false, const std::string& text = "") {
+  transport::CommandAnswer answer{.command = command, .refused = refused, .text = text};
+  transport::SetSender(answer, origin);
+  return answer;
 }
 
 // Far above any delay of a busy machine: a test that waits this long has failed.
@@ -74,39 +51,36 @@ class CommanderOnTheNetwork : public testing::Test {
 TEST_F(CommanderOnTheNetwork, BelievesTheControllerOnly) {
   Make(kLong);
   if (IsSkipped()) return;
-  transport::OperatorReceiver controller(Network(), [this](const transport::NetworkCommand& got) {
-    commander_->Saw(EventOf(got.command, got.command == OperatorCommand::kLand));
-  });
+  StopLatch stops;
+  const transport::OperatorReceiver controller(
+      Network(), stops, {.take = [this](const transport::NetworkCommand& got) {
+        const bool refused = got.command == OperatorCommand::kLand;
+        commander_->Saw(AnswerTo(got.origin, got.command, refused, refused ? "not now" : ""));
+        return true;
+      }});
   EXPECT_EQ(commander_->Send({OperatorCommand::kLift, 0.0, 0.0}).outcome,
             CommandOutcome::kAccepted);
   const CommandReply land = commander_->Send({OperatorCommand::kLand, 0.0, 0.0});
   EXPECT_EQ(land.outcome, CommandOutcome::kRefused);
-  EXPECT_EQ(land.text, EventOf(OperatorCommand::kLand, true));
+  EXPECT_EQ(land.text, "not now");
 }
 
 TEST_F(CommanderOnTheNetwork, CarriesATestSignalsTextToTheController) {
   Make(kLong);
   if (IsSkipped()) return;
+  StopLatch stops;
   std::string text;
-  transport::OperatorReceiver controller(
-      Network(), [](const transport::NetworkCommand&) {},
-      [&](const std::string& step_yaml) {
-        text = step_yaml;
-        commander_->Saw(EventOf(OperatorCommand::kExcite, false));
-      });
+  const transport::OperatorReceiver controller(
+      Network(), stops,
+      {.take = [](const transport::NetworkCommand&) { return true; },
+       .excite =
+           [&](const transport::NetworkExcitation& request) {
+             text = request.step_yaml;
+             commander_->Saw(AnswerTo(request.origin, OperatorCommand::kExcite));
+             return true;
+           }});
   EXPECT_EQ(commander_->SendExcitation("hold_s: 1").outcome, CommandOutcome::kAccepted);
   EXPECT_EQ(text, "hold_s: 1");
-}
-
-TEST_F(CommanderOnTheNetwork, TellsWhyATestSignalWasRefused) {
-  Make(kLong);
-  if (IsSkipped()) return;
-  transport::OperatorReceiver controller(
-      Network(), [](const transport::NetworkCommand&) {},
-      [&](const std::string&) { commander_->Saw("command excite refused: too many at once"); });
-  const CommandReply reply = commander_->SendExcitation("hold_s: 1");
-  EXPECT_EQ(reply.outcome, CommandOutcome::kRefused);
-  EXPECT_NE(reply.text.find("too many"), std::string::npos);
 }
 
 TEST_F(CommanderOnTheNetwork, SaysSoWhenNobodyAnswers) {
@@ -117,14 +91,88 @@ TEST_F(CommanderOnTheNetwork, SaysSoWhenNobodyAnswers) {
   EXPECT_NE(reply.text.find("did not answer emergency_stop"), std::string::npos) << reply.text;
 }
 
-TEST_F(CommanderOnTheNetwork, IsNotConfirmedByTheAnswerToAnotherCommand) {
+// The same command, the same instant: another number, or another sender's.
+TEST_F(CommanderOnTheNetwork, IsNotConfirmedByTheAnswerToAnotherNumberOrSender) {
   Make(kShort);
   if (IsSkipped()) return;
-  transport::OperatorReceiver controller(Network(), [this](const transport::NetworkCommand&) {
-    commander_->Saw(EventOf(OperatorCommand::kReset, false));
-  });
+  StopLatch stops;
+  const transport::OperatorReceiver controller(
+      Network(), stops, {.take = [this](const transport::NetworkCommand& got) {
+        CommandOrigin other = got.origin;
+        ++other.sequence;
+        commander_->Saw(AnswerTo(other, got.command));
+        other = got.origin;
+        other.sender ^= 0x0100U;  // another port
+        commander_->Saw(AnswerTo(other, got.command));
+        return true;
+      }});
   EXPECT_EQ(commander_->Send({OperatorCommand::kLift, 0.0, 0.0}).outcome,
             CommandOutcome::kUnanswered);
+}
+
+TEST_F(CommanderOnTheNetwork, GivesEachOfTwoPeopleTheAnswerToTheirOwn) {
+  Make(kLong);
+  if (IsSkipped()) return;
+  StopLatch stops;
+  std::vector<CommandOrigin> heard;
+  const transport::OperatorReceiver controller(
+      Network(), stops, {.take = [&](const transport::NetworkCommand& got) {
+        heard.push_back(got.origin);
+        if (heard.size() < 2) return true;
+        // Answered in the other order: the later one is accepted.
+        commander_->Saw(AnswerTo(heard[1], got.command));
+        commander_->Saw(AnswerTo(heard[0], got.command, true));
+        return true;
+      }});
+  const auto ask = [this] { return commander_->Send({OperatorCommand::kSpin, 1.0, 1.0}).outcome; };
+  auto one = std::async(std::launch::async, ask);
+  auto other = std::async(std::launch::async, ask);
+  const auto first = one.get();
+  const auto second = other.get();
+  EXPECT_NE(first, second);
+  EXPECT_NE(first, CommandOutcome::kUnanswered);
+  EXPECT_NE(second, CommandOutcome::kUnanswered);
+}
+
+// A reset whose answer is late, then a stop: the reset is not said again after the stop.
+TEST_F(CommanderOnTheNetwork, DoesNotRepeatAfterAStopWhatWasAskedBefore) {
+  Make(kLong);
+  if (IsSkipped()) return;
+  StopLatch stops;
+  std::promise<void> arrived;
+  std::mutex mutex;
+  std::vector<OperatorCommand> taken;
+  const transport::OperatorReceiver controller(
+      Network(), stops, {.take = [&](const transport::NetworkCommand& got) {
+        const std::lock_guard lock(mutex);
+        taken.push_back(got.command);
+        if (taken.size() == 1) arrived.set_value();
+        return false;  // not taken, so that a repetition would be
+      }});
+  auto reset = std::async(std::launch::async, [this] {
+    return commander_->Send({OperatorCommand::kReset, 0.0, 0.0});
+  });
+  arrived.get_future().wait();
+  auto stop = std::async(std::launch::async, [this] {
+    return commander_->Send({OperatorCommand::kEmergencyStop, 0.0, 0.0});
+  });
+  const CommandReply reply = reset.get();  // long before its patience ends
+  EXPECT_EQ(reply.outcome, CommandOutcome::kUnanswered);
+  EXPECT_NE(reply.text.find("emergency stop"), std::string::npos) << reply.text;
+  while (stops.asked() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::size_t resets = 0;
+  {
+    const std::lock_guard lock(mutex);
+    resets = taken.size();
+  }
+  std::this_thread::sleep_for(3 * Commander::kRepeat);
+  const std::lock_guard lock(mutex);
+  // One may have been on its way; three more would have been sent.
+  EXPECT_LE(taken.size(), resets + 1);
+  CommandOrigin origin;
+  ASSERT_TRUE(stops.TakeOrigin(origin));
+  commander_->Saw(AnswerTo(origin, OperatorCommand::kEmergencyStop));
+  EXPECT_EQ(stop.get().outcome, CommandOutcome::kAccepted);
 }
 
 }  // namespace

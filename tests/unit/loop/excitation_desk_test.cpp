@@ -57,7 +57,7 @@ class ExcitationDesk : public testing::Test {
 
   ExcitationShelf shelf_;
   SpscRing<RemoteCommand> ring_{8};
-  OperatorDesk desk_{kOptions, nullptr, &ring_};
+  OperatorDesk desk_{kOptions, nullptr, {&ring_}};
   OperatorView view_{.mode = Mode::kLevitating, .amplifiers_enabled = true};
   cycle::OperatorInput last_;
 };

@@ -10,6 +10,8 @@ namespace {
 constexpr DeskOptions kOptions{
     .period_s = 1e-4, .stop_acceleration_rad_per_s2 = 50.0, .standstill_rad_per_s = 1.0};
 
+constexpr std::int64_t kReceivedNs = 123'456'789;
+
 OperatorView View(std::uint64_t cycle, Mode mode, double speed_rad_per_s = 0.0) {
   return {.cycle = cycle,
           .mode = mode,
@@ -18,7 +20,7 @@ OperatorView View(std::uint64_t cycle, Mode mode, double speed_rad_per_s = 0.0) 
 }
 
 TEST(OperatorDesk, WithoutScenarioOrCommandAsksForNothingAndDoesNotEnd) {
-  OperatorDesk desk(kOptions, nullptr, nullptr);
+  OperatorDesk desk(kOptions, nullptr, {});
   for (std::uint64_t cycle = 0; cycle < 1000; ++cycle) {
     EXPECT_EQ(desk.Next(View(cycle, Mode::kOff)).command, OperatorCommand::kNone);
   }
@@ -27,7 +29,7 @@ TEST(OperatorDesk, WithoutScenarioOrCommandAsksForNothingAndDoesNotEnd) {
 
 TEST(OperatorDesk, PassesARemoteCommandOnOnce) {
   SpscRing<RemoteCommand> ring(4);
-  OperatorDesk desk(kOptions, nullptr, &ring);
+  OperatorDesk desk(kOptions, nullptr, {&ring});
   ring.Post({OperatorCommand::kSpin, 100.0, 10.0});
   const auto input = desk.Next(View(0, Mode::kLevitating));
   EXPECT_EQ(input.command, OperatorCommand::kSpin);
@@ -37,14 +39,14 @@ TEST(OperatorDesk, PassesARemoteCommandOnOnce) {
 }
 
 TEST(OperatorDesk, EndsAtOnceWhenStoppedWithTheRotorDown) {
-  OperatorDesk desk(kOptions, nullptr, nullptr);
+  OperatorDesk desk(kOptions, nullptr, {});
   desk.RequestStop();
   EXPECT_EQ(desk.Next(View(0, Mode::kOff)).command, OperatorCommand::kNone);
   EXPECT_TRUE(desk.Done());
 }
 
 TEST(OperatorDesk, StopsASpinningRotorBrakesItThenLandsItThenEnds) {
-  OperatorDesk desk(kOptions, nullptr, nullptr);
+  OperatorDesk desk(kOptions, nullptr, {});
   desk.RequestStop();
   const auto brake = desk.Next(View(0, Mode::kSpinning, 300.0));
   EXPECT_EQ(brake.command, OperatorCommand::kSpin);
@@ -61,7 +63,7 @@ TEST(OperatorDesk, StopsASpinningRotorBrakesItThenLandsItThenEnds) {
 }
 
 TEST(OperatorDesk, AsksAgainWhenTheRequestOfTheEndWasRefused) {
-  OperatorDesk desk(kOptions, nullptr, nullptr);
+  OperatorDesk desk(kOptions, nullptr, {});
   desk.RequestStop();
   int asked = 0;
   for (std::uint64_t cycle = 0; cycle <= 3'000; ++cycle) {
@@ -71,7 +73,7 @@ TEST(OperatorDesk, AsksAgainWhenTheRequestOfTheEndWasRefused) {
 }
 
 TEST(OperatorDesk, MakesAnEndThatIsNotReachedAnEmergencyStop) {
-  OperatorDesk desk(kOptions, nullptr, nullptr);
+  OperatorDesk desk(kOptions, nullptr, {});
   desk.RequestStop();
   (void)desk.Next(View(0, Mode::kLevitating));
   EXPECT_EQ(desk.Next(View(1'200'001, Mode::kLevitating)).command,  // beyond 120 s
@@ -81,7 +83,7 @@ TEST(OperatorDesk, MakesAnEndThatIsNotReachedAnEmergencyStop) {
 TEST(OperatorDesk, BeginsTheEndWhenTheDurationIsOver) {
   DeskOptions options = kOptions;
   options.duration_s = 1.0;
-  OperatorDesk desk(options, nullptr, nullptr);
+  OperatorDesk desk(options, nullptr, {});
   EXPECT_EQ(desk.Next(View(0, Mode::kLevitating)).command, OperatorCommand::kNone);
   EXPECT_EQ(desk.Next(View(9'999, Mode::kLevitating)).command, OperatorCommand::kNone);
   EXPECT_EQ(desk.Next(View(10'000, Mode::kLevitating)).command, OperatorCommand::kLand);
@@ -89,12 +91,13 @@ TEST(OperatorDesk, BeginsTheEndWhenTheDurationIsOver) {
 
 TEST(OperatorDesk, WhileEndingTakesNoRemoteCommandButTheEmergencyStop) {
   SpscRing<RemoteCommand> ring(4);
-  OperatorDesk desk(kOptions, nullptr, &ring);
+  StopLatch stops;
+  OperatorDesk desk(kOptions, nullptr, {&ring, &stops});
   desk.RequestStop();
   (void)desk.Next(View(0, Mode::kSpinning, 300.0));
   ring.Post({OperatorCommand::kSpin, 500.0, 10.0});
   EXPECT_EQ(desk.Next(View(1, Mode::kSpinning, 300.0)).command, OperatorCommand::kNone);
-  ring.Post({OperatorCommand::kEmergencyStop, 0.0, 0.0});
+  stops.Ask(kReceivedNs, {});
   EXPECT_EQ(desk.Next(View(2, Mode::kSpinning, 300.0)).command, OperatorCommand::kEmergencyStop);
 }
 
@@ -108,7 +111,7 @@ TEST(OperatorDesk, AfterATripUnderAScenarioEndsOnceTheTripsRecordingIsWhole) {
   lift.timeout_s = 5.0;
   config.steps.push_back(lift);
   scenario::ScenarioPlayer player(config, 1e-4, 1.0);
-  OperatorDesk desk(kOptions, &player, nullptr);
+  OperatorDesk desk(kOptions, &player, {});
   EXPECT_EQ(desk.Next(View(0, Mode::kOff)).command, OperatorCommand::kLift);
   OperatorView tripped = View(1, Mode::kTripped);
   tripped.fault = Fault::kOrbitExceeded;
@@ -124,7 +127,7 @@ TEST(OperatorDesk, AfterATripUnderAScenarioEndsOnceTheTripsRecordingIsWhole) {
 }
 
 TEST(OperatorDesk, WithoutAScenarioWaitsForTheResetOfATrip) {
-  OperatorDesk desk(kOptions, nullptr, nullptr);
+  OperatorDesk desk(kOptions, nullptr, {});
   OperatorView tripped = View(0, Mode::kTripped);
   tripped.fault = Fault::kRigRestarted;
   tripped.amplifiers_enabled = false;
@@ -134,7 +137,7 @@ TEST(OperatorDesk, WithoutAScenarioWaitsForTheResetOfATrip) {
 
 TEST(OperatorDesk, TakesOneRemoteCommandPerCycleInTheOrderTheyCame) {
   SpscRing<RemoteCommand> ring(4);
-  OperatorDesk desk(kOptions, nullptr, &ring);
+  OperatorDesk desk(kOptions, nullptr, {&ring});
   const OperatorCommand sent[] = {OperatorCommand::kSpin, OperatorCommand::kCoastDown,
                                   OperatorCommand::kLand, OperatorCommand::kLift};
   for (const auto command : sent) ASSERT_TRUE(ring.Post({command, 1.0, 1.0}));
@@ -146,36 +149,20 @@ TEST(OperatorDesk, TakesOneRemoteCommandPerCycleInTheOrderTheyCame) {
 
 TEST(OperatorDesk, ServesWhatAFullRingHoldsAndTheRingCountsWhatItRefused) {
   SpscRing<RemoteCommand> ring(2);
-  OperatorDesk desk(kOptions, nullptr, &ring);
+  OperatorDesk desk(kOptions, nullptr, {&ring});
   for (int i = 0; i < 5; ++i) ring.Post({OperatorCommand::kSpin, 10.0 * i, 1.0});
   EXPECT_EQ(ring.lost(), 3U);
   EXPECT_EQ(desk.Next(View(0, Mode::kSpinning)).speed_rad_per_s, 0.0);
   EXPECT_EQ(desk.Next(View(1, Mode::kSpinning)).speed_rad_per_s, 10.0);
-  ASSERT_TRUE(ring.Post({OperatorCommand::kEmergencyStop, 0.0, 0.0}));  // room again
-  EXPECT_EQ(desk.Next(View(2, Mode::kSpinning)).command, OperatorCommand::kEmergencyStop);
-}
-
-TEST(OperatorDesk, PassesAnEmergencyStopInEveryModeWhetherEndingOrNot) {
-  for (std::uint8_t mode = 0; mode < kModeCount; ++mode) {
-    for (const bool ending : {false, true}) {
-      SpscRing<RemoteCommand> ring(2);
-      OperatorDesk desk(kOptions, nullptr, &ring);
-      if (ending) desk.RequestStop();
-      (void)desk.Next(View(0, static_cast<Mode>(mode), 100.0));
-      ring.Post({OperatorCommand::kEmergencyStop, 0.0, 0.0});
-      EXPECT_EQ(desk.Next(View(1, static_cast<Mode>(mode), 100.0)).command,
-                OperatorCommand::kEmergencyStop)
-          << Name(static_cast<Mode>(mode)) << (ending ? " ending" : "");
-    }
-  }
+  EXPECT_EQ(desk.Next(View(2, Mode::kSpinning)).command, OperatorCommand::kNone);
 }
 
 // Two desks that see the same give the same: no clock, no history but the view.
 TEST(OperatorDesk, GivesTheSameInputsForTheSameViews) {
   DeskOptions options = kOptions;
   options.duration_s = 0.2;
-  OperatorDesk one(options, nullptr, nullptr);
-  OperatorDesk other(options, nullptr, nullptr);
+  OperatorDesk one(options, nullptr, {});
+  OperatorDesk other(options, nullptr, {});
   Random random(20261121);
   for (std::uint64_t cycle = 0; cycle < 10'000; ++cycle) {
     const auto mode = static_cast<Mode>(random.Bits() % kModeCount);

@@ -2,6 +2,7 @@
 // One well-formed message of every type, and its bytes.
 
 #include <cstdint>
+#include <levitas_msg/command_answer_t.hpp>
 #include <levitas_msg/controller_state_t.hpp>
 #include <levitas_msg/current_frame_t.hpp>
 #include <levitas_msg/cycle_record_t.hpp>
@@ -21,12 +22,11 @@ namespace levitas::message::testing {
 
 using Bytes = std::vector<std::uint8_t>;
 
-using EveryMessage =
-    std::tuple<levitas_msg::controller_state_t, levitas_msg::current_frame_t,
-               levitas_msg::cycle_record_t, levitas_msg::event_t, levitas_msg::excitation_request_t,
-               levitas_msg::loop_histogram_t, levitas_msg::loop_timing_t,
-               levitas_msg::operator_command_t, levitas_msg::sample_batch_t,
-               levitas_msg::sensor_frame_t, levitas_msg::session_header_t>;
+using EveryMessage = std::tuple<
+    levitas_msg::command_answer_t, levitas_msg::controller_state_t, levitas_msg::current_frame_t,
+    levitas_msg::cycle_record_t, levitas_msg::event_t, levitas_msg::excitation_request_t,
+    levitas_msg::loop_histogram_t, levitas_msg::loop_timing_t, levitas_msg::operator_command_t,
+    levitas_msg::sample_batch_t, levitas_msg::sensor_frame_t, levitas_msg::session_header_t>;
 constexpr std::size_t kEveryMessageCount = std::tuple_size_v<EveryMessage>;
 
 template <class Message>
@@ -38,6 +38,7 @@ Bytes Encoded(const Message& message) {
 
 constexpr int kAxes = 4;
 
+inline void Fill(levitas_msg::command_answer_t& m) { m.text = "command lift (cycle 4711)"; }
 inline void Fill(levitas_msg::controller_state_t& m) {
   m.axes = kAxes;
   m.position_m = m.reference_m = m.control_current_a = {0.1, 0.2, 0.3, 0.4};
