@@ -80,6 +80,16 @@ TEST(OperatorDesk, MakesAnEndThatIsNotReachedAnEmergencyStop) {
             OperatorCommand::kEmergencyStop);
 }
 
+TEST(OperatorDesk, GivesARequestedEmergencyStopOnceAndBeforeTheEnd) {
+  OperatorDesk desk(kOptions, nullptr, nullptr);
+  desk.RequestEmergencyStop();
+  desk.RequestStop();
+  EXPECT_EQ(desk.Next(View(0, Mode::kSpinning, 300.0)).command, OperatorCommand::kEmergencyStop);
+  for (std::uint64_t cycle = 1; cycle < 100; ++cycle) {  // the trip brakes: nothing more to ask
+    EXPECT_EQ(desk.Next(View(cycle, Mode::kTripped, 300.0)).command, OperatorCommand::kNone);
+  }
+}
+
 TEST(OperatorDesk, BeginsTheEndWhenTheDurationIsOver) {
   DeskOptions options = kOptions;
   options.duration_s = 1.0;
