@@ -81,7 +81,7 @@ TEST(OperatorDesk, MakesAnEndThatIsNotReachedAnEmergencyStop) {
 }
 
 TEST(OperatorDesk, GivesARequestedEmergencyStopOnceAndBeforeTheEnd) {
-  OperatorDesk desk(kOptions, nullptr, nullptr);
+  OperatorDesk desk(kOptions, nullptr, {});
   desk.RequestEmergencyStop();
   desk.RequestStop();
   EXPECT_EQ(desk.Next(View(0, Mode::kSpinning, 300.0)).command, OperatorCommand::kEmergencyStop);
