@@ -11,7 +11,6 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -20,6 +19,7 @@
 #include "cli/identify/geared_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/kept_memory.hpp"
+#include "common/output_file.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "trials/held_evidence.hpp"
 #include "trials/scores.hpp"
@@ -103,7 +103,7 @@ void WriteTrial(const trials::Trial& trial, const std::string& root, std::uint64
   const std::string folder = fmt::format("{}/{}", root, seed);
   std::filesystem::create_directories(folder + "/secret");
   trials::WriteCsv(trial.campaign, trial.rig.numbers, folder);
-  std::ofstream(folder + "/rig.yaml") << config::WriteRig(trial.rig);
+  WriteWholeFile(folder + "/rig.yaml", config::WriteRig(trial.rig));
   nlohmann::ordered_json truth{{"effects", trial.secret.effects},
                                {"outside", Name(trial.secret.outside)}};
   WriteJsonFile(folder + "/secret/truth.json", truth);
@@ -252,9 +252,8 @@ ExitStatus Run(const BenchOptions& options) {
   for (const trials::Outcome& outcome : outcomes) json["trials"].push_back(Json(outcome));
   fmt::print("\n{}\n{}", trials::Tables(outcomes), trials::ConfusionTable(outcomes));
   if (!options.markdown_path.empty()) {
-    std::ofstream file(options.markdown_path);
-    file << "```\n" << trials::Tables(outcomes) << "```\n\n" << trials::ConfusionTable(outcomes);
-    if (!file.flush()) throw BadInput(options.markdown_path + ": cannot be written");
+    WriteWholeFile(options.markdown_path, "```\n" + trials::Tables(outcomes) + "```\n\n" +
+                                              trials::ConfusionTable(outcomes));
   }
   WriteJsonFile(options.json_path, json);
   return ExitStatus::kDone;

@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
+#include "common/output_file.hpp"
 #include "config/rig_file.hpp"
 #include "hil/can/dbc.hpp"
 #include "session/output_path.hpp"
@@ -53,9 +53,7 @@ ExitStatus Write(const DbcOptions& options) {
     return ExitStatus::kDone;
   }
   session::CheckOutputPath(options.out_path, path);
-  std::ofstream file(options.out_path);
-  file << text << std::flush;
-  if (!file) throw Problem(ExitStatus::kOther, options.out_path + ": cannot be written");
+  WriteWholeFile(options.out_path, text);
   WriteJsonFile(options.json_path, Json(options, layout));
   return ExitStatus::kDone;
 }

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
 #include "common/nearest.hpp"
+#include "common/output_file.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/signature.hpp"
 
@@ -88,12 +88,7 @@ nlohmann::ordered_json Json(const effect::Row& row) {
   return json;
 }
 
-void WriteDocument(const std::string& path) {
-  if (path.empty()) return;
-  std::ofstream file(path, std::ios::binary);
-  file << signature::EffectsDocument();
-  if (!file.flush()) throw BadInput(path + ": cannot be written");
-}
+void WriteDocument(const std::string& path) { WriteWholeFile(path, signature::EffectsDocument()); }
 
 /// The rig asked for; for effects of teeth one that has them.
 plant::PlantParameters RigFor(const effect::Row& row, const EffectsOptions& options) {

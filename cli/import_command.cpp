@@ -25,6 +25,7 @@ struct ImportCommandOptions {
   std::string rig_name;
   std::string out_path;
   std::string json_path;
+  bool overwrite{false};
   std::vector<std::string> tags;
 };
 
@@ -82,6 +83,7 @@ ExitStatus Import(const ImportCommandOptions& options) {
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
   }
+  session::CheckNoRecording(options.out_path, options.overwrite);
   const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
   session::ImportOptions import{.data_path = options.data_path,
                                 .out_path = options.out_path,
@@ -125,6 +127,7 @@ void AddImportCommand(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--rig", options->rig_name, "Rig file, or name of a shipped one")->required();
   command->add_option("--out", options->out_path, "Session to write")->required();
+  command->add_flag("--overwrite", options->overwrite, "Replace a session that is there already");
   command->add_option("--tag", options->tags,
                       "Tag in the catalogue (amb sessions); may be repeated");
   command->add_option("--json", options->json_path, "Write what was done as JSON");

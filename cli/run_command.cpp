@@ -156,6 +156,7 @@ ExitStatus Execute(const RunOptions& options) {
   for (const std::string& path : {options.record_path, options.json_path}) {
     session::CheckOutputPath(path, {});
   }
+  session::CheckNoRecording(options.record_path, options.overwrite);
   std::optional<transport::LcmNetwork> network = CheckPort(options.port);
   const RunFiles files = CheckFiles(options);
   CheckBuses(options, files);
@@ -211,6 +212,7 @@ void AddRunCommand(CLI::App& app, Action& action) {
       "stands behind CAN buses, see docs/can.md); default: lcm on free ports");
   auto* record =
       command->add_option("--record", options->record_path, "Keep the record in this file");
+  command->add_flag("--overwrite", options->overwrite, "Replace a record that is there already");
   command
       ->add_option("--tag", options->tags, "Tag of the record, see amb sessions; may be repeated")
       ->needs(record);

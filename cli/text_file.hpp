@@ -1,7 +1,7 @@
 #pragma once
 // A text written to a file that appears under its name only when it is whole.
 //
-// Failure  BadInput when the file cannot be written; nothing is left behind.
+// Failure  that of common/output_file.hpp; nothing is left behind.
 
 #include <string>
 

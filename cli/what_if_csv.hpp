@@ -6,12 +6,11 @@
 //          appears under its name when Finish is called; what was not finished is removed.
 
 #include <cstdint>
-#include <fstream>
 #include <optional>
 #include <string>
 
+#include "common/output_file.hpp"
 #include "controller/cycle/cycle_io.hpp"
-#include "session/output_path.hpp"
 #include "session/session_header.hpp"
 
 namespace levitas::cli {
@@ -25,8 +24,7 @@ class WhatIfCsv {
 
  private:
   std::string path_;
-  std::optional<session::PartFile> part_;  ///< none without a path
-  std::ofstream file_;
+  std::optional<OutputFile> file_;  ///< none without a path
   std::size_t axes_;
   std::int64_t period_ns_;
 };

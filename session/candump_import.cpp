@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "common/output_file.hpp"
 #include "common/problem.hpp"
 #include "hil/can/assemblers.hpp"
 #include "session/line_source.hpp"
@@ -201,10 +202,12 @@ CandumpReport ImportCandump(const ImportOptions& options, const can::Layout& lay
   header.start_utc_ns = options.start_utc_ns;
   header.source = options.data_path;
   header.channels = options.rig.channels;
-  {
+  try {
     SessionWriter writer(part.part_path(), header);
     Convert(options, layout, writer, report);
-    writer.Flush();
+    writer.Close();
+  } catch (const WriteFailed& failed) {  // nothing of an import is kept
+    CannotWrite(options.out_path, failed.error());
   }
   part.Commit();
   return report;

@@ -2,25 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <iterator>
-#include <memory>
 #include <vector>
 
-#include "common/problem.hpp"
+#include "common/output_file.hpp"
 #include "session/export_rows.hpp"
-#include "session/output_path.hpp"
 
 namespace levitas::session {
 namespace {
-
-struct Closer {
-  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): this is the owner's deleter
-  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-};
 
 void Number(fmt::memory_buffer& out, double value) {
   if (std::isnan(value)) {  // one spelling, whatever sign the bits have
@@ -47,8 +37,9 @@ void Row(fmt::memory_buffer& out, std::int64_t time_ns, const std::vector<double
 }  // namespace
 
 std::string SecondsText(std::int64_t time_ns) {
-  constexpr std::int64_t kSecond = 1'000'000'000;
-  const std::int64_t magnitude = time_ns < 0 ? -time_ns : time_ns;
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  const auto bits = static_cast<std::uint64_t>(time_ns);
+  const std::uint64_t magnitude = time_ns < 0 ? 0U - bits : bits;
   std::string text =
       fmt::format("{}{}.{:09}", time_ns < 0 ? "-" : "", magnitude / kSecond, magnitude % kSecond);
   text.erase(text.find_last_not_of('0') + 1);
@@ -57,22 +48,11 @@ std::string SecondsText(std::int64_t time_ns) {
 }
 
 ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
-  PartFile part(csv_path);
-  std::unique_ptr<std::FILE, Closer> file(std::fopen(part.part_path().c_str(), "we"));
-  if (!file) {
-    throw BadInput(
-        fmt::format("{}: cannot be written: {}. Name a file in a folder you may write to.",
-                    csv_path, std::strerror(errno)));
-  }
+  OutputFile file(csv_path);
   ExportRows rows(reader.header());
   std::vector<double> values;
   fmt::memory_buffer out;
-  fmt::format_to(std::back_inserter(out), "{}", Joined(rows.names()));
-  bool sound = true;
-  const auto write = [&] {
-    sound = sound && std::fwrite(out.data(), 1, out.size(), file.get()) == out.size();
-    out.clear();
-  };
+  file.Write(Joined(rows.names()));
   ExportReport report;
   cycle::CycleRecord record;
   while (reader.Next(record)) {
@@ -82,16 +62,10 @@ ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
     }
     Row(out, rows.Next(record, values), values);
     ++report.rows;
-    constexpr std::size_t kBlockBytes = std::size_t{1} << 18;
-    if (out.size() > kBlockBytes) write();
+    file.Write({out.data(), out.size()});
+    out.clear();
   }
-  write();
-  sound = sound && std::fflush(file.get()) == 0;
-  file.reset();
-  if (!sound) {
-    throw Problem(ExitStatus::kOther, fmt::format("{}: writing failed: disk full?", csv_path));
-  }
-  part.Commit();
+  file.Commit();
   return report;
 }
 

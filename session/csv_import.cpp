@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "common/output_file.hpp"
 #include "common/problem.hpp"
 #include "session/csv_rows.hpp"
 #include "session/mat_rows.hpp"
@@ -123,6 +124,11 @@ class RecordMaker {
   }
 
   void Advance(const CsvRow& row, const RowSource& reader, ImportReport& report) {
+    constexpr double kLargestTimeS = 4e9;  // since 1970 until 2096; counts of ns hold twice as much
+    if (!(std::abs(row.time_s) <= kLargestTimeS)) {
+      throw reader.Bad(
+          fmt::format("time_s is {}; allowed {} to {}", row.time_s, -kLargestTimeS, kLargestTimeS));
+    }
     if (!last_) return;
     const double periods = (row.time_s - last_->time_s) / rig_.period_s();
     const double whole = std::round(periods);
@@ -210,13 +216,17 @@ void Convert(const ImportOptions& options, RowSource& reader, const std::string&
   if (report.rows == 0) throw reader.Bad("no rows follow the column names");
   if (first) writer.Write(*first);
   report.duration_s = row.time_s - first_time_s;
-  writer.Flush();
+  writer.Close();
 }
 
 ImportReport Import(const ImportOptions& options, RowSource& source) {
   PartFile part(options.out_path);
   ImportReport report;
-  Convert(options, source, part.part_path(), report);
+  try {
+    Convert(options, source, part.part_path(), report);
+  } catch (const WriteFailed& failed) {  // nothing of an import is kept
+    CannotWrite(options.out_path, failed.error());
+  }
   part.Commit();
   return report;
 }

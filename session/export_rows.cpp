@@ -8,7 +8,7 @@ ExportRows::ExportRows(const SessionHeader& header)
     : names_{"time_s", "rotor_angle_rad", "speed_rpm"},
       axes_(header.channels.size()),
       injects_position_(header.scenario_yaml.find("point: measured_position") != std::string::npos),
-      period_ns_(header.period_ns),
+      period_ns_(static_cast<std::uint64_t>(header.period_ns)),
       from_zero_(header.pace == "realtime") {
   const auto name_all = [&](const char* quantity, const char* unit) {
     for (const auto& channel : header.channels) names_.push_back(quantity + channel + unit);
@@ -19,19 +19,20 @@ ExportRows::ExportRows(const SessionHeader& header)
   if (injects_position_) name_all("excitation_", "_m");
 }
 
+// Modulo 2^64: stamps that no rig gives, of a file that lies, must not be undefined.
 std::int64_t ExportRows::TimeOf(const cycle::CycleInputs& in) {
+  const auto sample_ns = static_cast<std::uint64_t>(in.frame.sample_time_ns);
   if (!started_) {
-    offset_ns_ = from_zero_ ? -in.frame.sample_time_ns : 0;
+    offset_ns_ = from_zero_ ? 0U - sample_ns : 0U;
   } else if (in.frame.rig_session != rig_session_) {
     // A new rig counts anew: the controller's own count bridges the restart.
-    const auto cycles = static_cast<std::int64_t>(in.cycle - cycle_);
-    offset_ns_ = time_ns_ + cycles * period_ns_ - in.frame.sample_time_ns;
+    offset_ns_ = time_ns_ + (in.cycle - cycle_) * period_ns_ - sample_ns;
   }
   started_ = true;
   rig_session_ = in.frame.rig_session;
   cycle_ = in.cycle;
-  time_ns_ = in.frame.sample_time_ns + offset_ns_;
-  return time_ns_;
+  time_ns_ = sample_ns + offset_ns_;
+  return static_cast<std::int64_t>(time_ns_);
 }
 
 std::int64_t ExportRows::Next(const cycle::CycleRecord& record, std::vector<double>& values) {

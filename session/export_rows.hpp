@@ -37,13 +37,13 @@ class ExportRows {
   std::vector<std::string> names_;
   std::size_t axes_;
   bool injects_position_;
-  std::int64_t period_ns_;
+  std::uint64_t period_ns_;
   bool from_zero_;
   bool started_{false};
   std::uint32_t rig_session_{};
   std::uint64_t cycle_{};
-  std::int64_t time_ns_{};
-  std::int64_t offset_ns_{};
+  std::uint64_t time_ns_{};
+  std::uint64_t offset_ns_{};
 };
 
 }  // namespace levitas::session

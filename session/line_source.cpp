@@ -7,9 +7,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 
 #include "common/problem.hpp"
@@ -18,7 +18,10 @@ extern char** environ;
 
 namespace levitas::session {
 
-LineSource::LineSource(const std::string& path) : path_(path) {
+LineSource::LineSource(const std::string& path) : LineSource(path, Limits{}) {}
+
+LineSource::LineSource(const std::string& path, const Limits& limits)
+    : path_(path), limits_(limits) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
     throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
@@ -29,7 +32,7 @@ LineSource::LineSource(const std::string& path) : path_(path) {
   if (path.ends_with(".xz")) {
     OpenCompressed();
   } else {
-    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): this class owns it, as getline wants it
+    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): this class owns it
     file_ = std::fopen(path.c_str(), "re");
   }
   if (file_ == nullptr) {
@@ -38,10 +41,8 @@ LineSource::LineSource(const std::string& path) : path_(path) {
 }
 
 LineSource::~LineSource() {
-  // NOLINTBEGIN(cppcoreguidelines-owning-memory,cppcoreguidelines-no-malloc): getline's own storage
+  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): this class owns it
   if (file_ != nullptr) std::fclose(file_);
-  std::free(buffer_);
-  // NOLINTEND(cppcoreguidelines-owning-memory,cppcoreguidelines-no-malloc)
   if (child_ > 0) ::waitpid(child_, nullptr, 0);
 }
 
@@ -81,17 +82,46 @@ void LineSource::FinishCompressed() {
   }
 }
 
+bool LineSource::Fill() {
+  constexpr std::size_t kChunkBytes = std::size_t{64} << 10;
+  buffer_.erase(0, begin_);
+  begin_ = 0;
+  const std::size_t before = buffer_.size();
+  buffer_.resize(before + kChunkBytes);
+  const std::size_t got = std::fread(buffer_.data() + before, 1, kChunkBytes, file_);
+  buffer_.resize(before + got);
+  bytes_ += got;
+  if (got == 0 && std::ferror(file_) != 0) {
+    throw BadInput(fmt::format("{}: reading after line {} failed", path_, line_number_));
+  }
+  if (bytes_ > limits_.bytes) {
+    throw BadInput(fmt::format("{}: longer than {} bytes{}; split it", path_, limits_.bytes,
+                               path_.ends_with(".xz") ? " when unpacked" : ""));
+  }
+  return got > 0;
+}
+
 bool LineSource::Next(std::string_view& line) {
-  const ssize_t length = ::getline(&buffer_, &capacity_, file_);
-  if (length < 0) {
-    if (std::ferror(file_) != 0) {
-      throw BadInput(fmt::format("{}: reading after line {} failed", path_, line_number_));
+  std::size_t searched = 0;  // behind begin_
+  std::size_t end = std::string::npos;
+  bool more = true;
+  for (;;) {
+    end = buffer_.find('\n', begin_ + searched);
+    searched = std::min(end, buffer_.size()) - begin_;
+    if (searched > limits_.line) {
+      throw BadInput(fmt::format("{}: line {} is longer than {} bytes: no rows of text", path_,
+                                 line_number_ + 1, limits_.line));
     }
+    if (end != std::string::npos || !more) break;
+    more = Fill();
+  }
+  if (end == std::string::npos && searched == 0) {
     if (child_ > 0) FinishCompressed();
     return false;
   }
-  line = {buffer_, static_cast<std::size_t>(length)};
-  while (line.ends_with('\n') || line.ends_with('\r')) line.remove_suffix(1);
+  line = std::string_view(buffer_).substr(begin_, searched);
+  begin_ = std::min(begin_ + searched + 1, buffer_.size());
+  while (line.ends_with('\r')) line.remove_suffix(1);
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (++line_number_ == 1 && line.starts_with(kByteOrderMark)) {
     line.remove_prefix(kByteOrderMark.size());

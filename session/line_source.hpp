@@ -2,8 +2,11 @@
 // Lines of a text file, plain or compressed by xz (read through `xz -dc`).
 //
 // Line ends  LF, CRLF and a last line without an end; a UTF-8 byte order mark is dropped.
-// Failure    BadInput: not there, not readable, xz not installed or the compressed data damaged.
+// Limits     a line of 1 MiB and 64 GiB in all, unpacked: a device or a small file that unpacks to
+//            an endless one is refused and never held in memory.
+// Failure    BadInput: not there, not readable, too long, xz not installed or its data damaged.
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -13,7 +16,13 @@ namespace levitas::session {
 
 class LineSource {
  public:
+  /// Of a row of any number of channels, and of a day at 10 kHz and more.
+  struct Limits {
+    std::size_t line{std::size_t{1} << 20};
+    std::uint64_t bytes{std::uint64_t{64} << 30};
+  };
   explicit LineSource(const std::string& path);
+  LineSource(const std::string& path, const Limits& limits);
   ~LineSource();
   LineSource(const LineSource&) = delete;
   LineSource& operator=(const LineSource&) = delete;
@@ -24,6 +33,8 @@ class LineSource {
   [[nodiscard]] std::uint64_t line_number() const noexcept { return line_number_; }
 
  private:
+  /// Reads on; false at the end.
+  bool Fill();
   void OpenCompressed();
   /// Collects xz's exit; throws when it failed.
   void FinishCompressed();
@@ -31,8 +42,10 @@ class LineSource {
   std::string path_;
   std::FILE* file_{nullptr};
   int child_{-1};
-  char* buffer_{nullptr};  ///< owned by getline
-  std::size_t capacity_{0};
+  Limits limits_;
+  std::string buffer_;
+  std::size_t begin_{0};    ///< of the next line in it
+  std::uint64_t bytes_{0};  ///< read so far, unpacked
   std::uint64_t line_number_{0};
 };
 

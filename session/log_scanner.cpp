@@ -52,7 +52,10 @@ std::span<const std::uint8_t> LogScanner::Window(std::uint64_t from, std::size_t
   if (from >= size_) return {};
   const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - from));
   if (from < window_offset_ || from + wanted > window_offset_ + window_bytes_) {
-    window_.resize(std::max(kChunkBytes, wanted));
+    // Twice what is asked for: whoever goes on behind a length that lied finds the next bytes here,
+    // so that a file is read about twice, however many lengths in it lie.
+    const std::uint64_t room = std::max<std::uint64_t>(kChunkBytes, 2 * std::uint64_t{wanted});
+    window_.resize(static_cast<std::size_t>(std::min(room, size_ - from)));
     window_offset_ = from;
     window_bytes_ = 0;
     while (window_bytes_ < window_.size()) {

@@ -1,14 +1,12 @@
 #include "session/mcap_export.hpp"
 
 #include <array>
-#include <fstream>
 #include <vector>
 
 #include "common/enums.hpp"
-#include "common/problem.hpp"
+#include "common/output_file.hpp"
 #include "session/export_rows.hpp"
 #include "session/mcap_writer.hpp"
-#include "session/output_path.hpp"
 #include "session/protobuf_schema.hpp"
 
 namespace levitas::session {
@@ -54,10 +52,9 @@ void WriteEvents(McapWriter& writer, std::uint16_t channel, const SessionReader&
 }  // namespace
 
 ExportReport ExportMcap(SessionReader& reader, const std::string& mcap_path) {
-  PartFile part(mcap_path);
-  std::ofstream file(part.part_path(), std::ios::binary);
+  OutputFile file(mcap_path);
   ExportRows rows(reader.header());
-  McapWriter writer(file, "levitas");
+  McapWriter writer([&file](std::string_view bytes) { file.Write(bytes); }, "levitas");
   const std::uint16_t cycles = AddCycles(writer, rows.names());
   const std::uint16_t events = AddEvents(writer);
   AddHeader(writer, reader.header());
@@ -81,11 +78,7 @@ ExportReport ExportMcap(SessionReader& reader, const std::string& mcap_path) {
   }
   WriteEvents(writer, events, reader);
   writer.Finish();
-  file.close();
-  if (!writer.good() || !file) {
-    throw BadInput(mcap_path + ": cannot be written; is the folder yours, and the disk not full?");
-  }
-  part.Commit();
+  file.Commit();
   return report;
 }
 

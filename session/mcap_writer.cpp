@@ -1,6 +1,7 @@
 #include "session/mcap_writer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/crc32.hpp"
 
@@ -58,13 +59,13 @@ McapBytes& McapBytes::Text(std::string_view text) {
   return U32(static_cast<std::uint32_t>(text.size())).Raw(text);
 }
 
-McapWriter::McapWriter(std::ostream& out, const std::string& library) : out_(out) {
+McapWriter::McapWriter(Sink out, const std::string& library) : out_(std::move(out)) {
   Put(kMagic);
   Put(Record(kHeader, McapBytes().Text("").Text(library)));
 }
 
 void McapWriter::Put(std::string_view bytes) {
-  out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out_(bytes);
   at_ += bytes.size();
   crc_ = Crc(bytes, crc_);
 }

@@ -6,12 +6,12 @@
 //           channels, statistics, chunk indexes), footer. Every CRC that the format knows is set.
 // Memory    one chunk of about kChunkBytes, and 40 bytes a chunk for the index.
 // Units     times in nanoseconds since 1970 UTC, messages in any order; numbers little-endian.
-// Thread    one. Failure: good() is false when the stream has failed; the owner looks at the end.
+// Thread    one. Failure: what the sink throws.
 // Not done  no compression, attachments or summary offsets: a reader that wants them rewrites.
 
 #include <cstdint>
+#include <functional>
 #include <map>
-#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +38,8 @@ class McapWriter {
  public:
   static constexpr std::size_t kChunkBytes = 1U << 20U;
 
-  McapWriter(std::ostream& out, const std::string& library);
+  using Sink = std::function<void(std::string_view)>;
+  McapWriter(Sink out, const std::string& library);
 
   /// `encoding` "protobuf": `data` is a FileDescriptorSet. Before the first message.
   [[nodiscard]] std::uint16_t AddSchema(const std::string& name, const std::string& encoding,
@@ -49,7 +50,6 @@ class McapWriter {
   void Write(std::uint16_t channel, std::int64_t time_ns, std::string_view data);
   /// The last chunk, the summary and the footer; nothing may follow.
   void Finish();
-  [[nodiscard]] bool good() const { return out_.good(); }
 
  private:
   struct ChunkIndex {
@@ -63,7 +63,7 @@ class McapWriter {
   [[nodiscard]] std::string Summary() const;
   [[nodiscard]] std::string Statistics() const;
 
-  std::ostream& out_;
+  Sink out_;
   std::uint64_t at_{0};
   std::uint32_t crc_{0};            ///< of the data section so far
   std::string schemas_, channels_;  ///< records, for the summary

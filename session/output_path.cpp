@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "common/problem.hpp"
 
@@ -31,29 +30,15 @@ void CheckOutputPath(const std::string& output_path, const std::string& input_pa
   }
 }
 
-namespace {
-
-std::string PartPath(const std::string& path) {
-  std::error_code ignored;
-  const auto kind = std::filesystem::status(path, ignored).type();
-  using Type = std::filesystem::file_type;
-  return kind == Type::not_found || kind == Type::regular || kind == Type::directory
-             ? path + ".part"
-             : path;
-}
-
-}  // namespace
-
-PartFile::PartFile(std::string path) : path_(std::move(path)), part_path_(PartPath(path_)) {}
-
-PartFile::~PartFile() {
-  std::error_code ignored;
-  if (!committed_ && part_path_ != path_) std::filesystem::remove(part_path_, ignored);
-}
-
-void PartFile::Commit() {
-  if (part_path_ != path_) std::filesystem::rename(part_path_, path_);
-  committed_ = true;
+void CheckNoRecording(const std::string& path, bool overwrite) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  if (overwrite || !fs::is_regular_file(path, unknown)) return;
+  if (const auto size = fs::file_size(path, unknown); unknown || size == 0) return;
+  throw Problem(ExitStatus::kUsage,
+                fmt::format("{}: is there already, and would be lost. Name another file, or add "
+                            "--overwrite",
+                            path));
 }
 
 }  // namespace levitas::session

@@ -12,25 +12,8 @@ namespace levitas::session {
 /// `input_path` is empty when no file is read; an empty `output_path` is never wrong.
 void CheckOutputPath(const std::string& output_path, const std::string& input_path);
 
-/// A file that appears under its name only when it is complete: written beside it (".part") and
-/// renamed by Commit, removed when that never comes. What exists and is no regular file (a device,
-/// a pipe) is written directly and never renamed over or removed.
-class PartFile {
- public:
-  explicit PartFile(std::string path);
-  ~PartFile();
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
-
-  /// Where to write until Commit.
-  [[nodiscard]] const std::string& part_path() const noexcept { return part_path_; }
-  /// Call once the writing is closed. Throws std::filesystem::filesystem_error.
-  void Commit();
-
- private:
-  std::string path_;
-  std::string part_path_;
-  bool committed_{};
-};
+/// A recording that is there already is not truncated without being asked: a usage Problem unless
+/// `overwrite`. An empty file, and what is no regular file, holds no recording.
+void CheckNoRecording(const std::string& path, bool overwrite);
 
 }  // namespace levitas::session

@@ -163,6 +163,8 @@ void RecordCodec::Encode(const cycle::CycleRecord& record, Bytes& out) {
 }
 
 bool RecordCodec::Decode(Input bytes, cycle::CycleRecord& record) {
+  // The layout first: it is quickly walked, whatever length a damaged file claims.
+  if (!message::Fits(message::kLayout<levitas_msg::cycle_record_t>, bytes)) return false;
   if (!CrcFits(bytes) || !message::DecodeChecked(bytes, message_)) return false;
   record = {GetInputs(message_), GetOutputs(message_)};
   return true;
@@ -230,6 +232,9 @@ HeaderResult DecodeHeader(Input bytes, SessionHeader& header, int& version) {
   constexpr int kHighestBelievable = 1000;
   version = GetBigEndian<std::int32_t>(bytes.data() + kHashBytes);
   const bool other = version != kFormatVersion && version > 0 && version < kHighestBelievable;
+  if (!other && !message::Fits(message::kLayout<levitas_msg::session_header_t>, bytes)) {
+    return HeaderResult::kDamaged;
+  }
   if (!CrcFits(bytes)) return HeaderResult::kDamaged;
   if (other) return HeaderResult::kOtherVersion;
   levitas_msg::session_header_t message;

@@ -33,22 +33,15 @@ struct SessionReader::Impl {
         continue;
       }
       any_event = true;
-      if (event.channel != kHeaderChannel) {
-        // A record's content is not judged here: the search goes on behind its sync word only
-        // when its end is not the start of another event.
-        scanner.MoveTo(event.end);
-        RawEvent next;
-        const Look after = scanner.At(next);
-        if (after == Look::kNotEvent) {
-          scanner.MoveTo(event.offset);
-          scanner.SkipToSync();
-        }
+      if (event.channel != kHeaderChannel) {  // its length may lie: nothing behind it is skipped
+        scanner.SkipToSync();
         continue;
       }
       header_channel = true;
       int version = 0;
-      switch (DecodeHeader(event.data, header, version)) {
+      switch (Judge(event, header, version)) {
         case HeaderResult::kGood:
+          CheckPeriod();
           return;
         case HeaderResult::kOtherVersion:
           throw BadInput(
@@ -60,6 +53,25 @@ struct SessionReader::Impl {
       }
     }
     throw BadInput(MissingHeader(any_event, header_channel));
+  }
+
+  /// Of another version only the checksum can be judged; of headers that overlap it would be computed
+  /// over the same bytes again and again: after so many, what calls itself a header is not looked at.
+  HeaderResult Judge(const RawEvent& event, SessionHeader& to, int& version) {
+    constexpr std::uint64_t kMostInVain = std::uint64_t{256} << 20;
+    if (header_bytes_in_vain > kMostInVain) return HeaderResult::kDamaged;
+    const HeaderResult result = DecodeHeader(event.data, to, version);
+    // What is of our version is walked along its layout first, which ends at the first lie.
+    const bool checksum_alone = version > 0 && version != kFormatVersion;
+    if (result != HeaderResult::kGood && checksum_alone) header_bytes_in_vain += event.data.size();
+    return result;
+  }
+
+  void CheckPeriod() const {
+    if (header.period_ns > 0) return;
+    throw BadInput(
+        fmt::format("{}: the header names a sampling period of {} ns; it must be above 0", path,
+                    header.period_ns));
   }
 
   [[nodiscard]] std::string MissingHeader(bool any_event, bool header_channel) const {
@@ -125,7 +137,7 @@ struct SessionReader::Impl {
     if (event.channel == kHeaderChannel) {
       SessionHeader copy;
       int version = 0;
-      return DecodeHeader(event.data, copy, version) == HeaderResult::kGood;
+      return Judge(event, copy, version) == HeaderResult::kGood;
     }
     return false;  // nothing else is ever written: a damaged channel name
   }
@@ -153,6 +165,7 @@ struct SessionReader::Impl {
   bool bad_known{false};
   bool have_record{false};
   std::uint64_t last_cycle{0};
+  std::uint64_t header_bytes_in_vain{0};
 };
 
 SessionReader::SessionReader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-#include "common/problem.hpp"
+#include "common/output_file.hpp"
 #include "session/log_format.hpp"
 #include "session/record_codec.hpp"
 
@@ -31,10 +31,7 @@ struct SessionWriter::Impl {
         start_utc_ns(header.start_utc_ns) {
     fd = ::open(path.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
     if (fd < 0) {
-      throw BadInput(
-          fmt::format("{}: cannot be created: {}. Name a file in a folder you may write "
-                      "to.",
-                      path, std::strerror(errno)));
+      CannotWrite(path, errno);
     }
     buffer.reserve(kBufferBytes + kMaxDataBytes / 16);
     EncodeHeader(header, header_bytes);
@@ -69,9 +66,7 @@ struct SessionWriter::Impl {
       if (wrote <= 0) {
         const int error = errno;
         buffer.clear();  // so that the destructor does not try, and fail, again
-        throw Problem(ExitStatus::kOther,
-                      fmt::format("{}: recording stopped: {}. What was written before is readable.",
-                                  path, std::strerror(error)));
+        throw WriteFailed(path, error);
       }
       done += static_cast<std::size_t>(wrote);
     }
@@ -105,8 +100,15 @@ struct SessionWriter::Impl {
   std::uint64_t first_cycle{0};
   std::uint64_t missed{0};
   bool first_cycle_known{false};
+  bool closed{false};
   std::int64_t last_time_us{start_utc_ns / 1000};
 };
+
+WriteFailed::WriteFailed(const std::string& path, int error)
+    : Problem(ExitStatus::kOther,
+              fmt::format("{}: recording stopped: {}. What was written before is readable.", path,
+                          std::strerror(error))),
+      error_(error) {}
 
 SessionWriter::SessionWriter(const std::string& path, const SessionHeader& header)
     : impl_(std::make_unique<Impl>(path, header)) {
@@ -115,12 +117,9 @@ SessionWriter::SessionWriter(const std::string& path, const SessionHeader& heade
 
 SessionWriter::~SessionWriter() {
   try {
-    if (impl_->records > 0) {
-      impl_->Append(kHeaderChannel, impl_->header_bytes, impl_->last_time_us);
-    }
-    impl_->Flush();
+    Close();
   } catch (const std::exception&) {
-    // A destructor cannot report; Flush before it is how a caller learns of a full disk.
+    // A destructor cannot report; Close before it is how a caller learns of a full disk.
   }
 }
 
@@ -138,5 +137,13 @@ void SessionWriter::Write(const Event& event) {
 }
 
 void SessionWriter::Flush() { impl_->Flush(); }
+
+void SessionWriter::Close() {
+  if (impl_->records > 0 && !impl_->closed) {
+    impl_->Append(kHeaderChannel, impl_->header_bytes, impl_->last_time_us);
+  }
+  impl_->closed = true;
+  impl_->Flush();
+}
 
 }  // namespace levitas::session

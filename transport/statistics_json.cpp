@@ -1,20 +1,14 @@
 #include "transport/statistics_json.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
-#include "common/problem.hpp"
+#include "common/output_file.hpp"
 
 namespace levitas::transport {
 
 void WriteJson(const nlohmann::ordered_json& value, const std::string& path) {
-  std::ofstream file(path);
-  file << value.dump(2) << '\n';
-  file.flush();
-  if (!file) {
-    throw Problem(ExitStatus::kOther,
-                  "--json " + path + ": cannot be written: " + std::strerror(errno));
+  try {
+    WriteWholeFile(path, value.dump(2) + '\n');
+  } catch (const Problem& problem) {  // no fault of an input: the run was done, its report is lost
+    throw Problem(ExitStatus::kOther, std::string("--json ") + problem.what());
   }
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <numbers>
 
@@ -201,22 +200,23 @@ std::vector<diagnosis::Record> AsRecords(const Campaign& campaign, const RigNumb
 void WriteCsv(const Campaign& campaign, const RigNumbers& rig, const std::string& folder) {
   for (const Measured& measured : campaign.records) {
     const std::string path = folder + "/" + measured.name + ".csv";
-    std::ofstream file(path);
-    file << "time_s,rotor_angle_rad";
+    OutputFile file(path);
+    file.Write("time_s,rotor_angle_rad");
     for (const char* kind : {"position", "control_current", "excitation"}) {
       for (const std::string& channel : rig.channels) {
-        file << fmt::format(",{}_{}_{}", kind, channel, *kind == 'p' ? "m" : "a");
+        file.Write(fmt::format(",{}_{}_{}", kind, channel, *kind == 'p' ? "m" : "a"));
       }
     }
-    file << '\n';
+    file.Write("\n");
     for (const MeasuredRow& row : measured.rows) {
-      file << fmt::format("{:.6f},{:.8g}", row.time_s, row.angle_rad);
+      file.Write(fmt::format("{:.6f},{:.8g}", row.time_s, row.angle_rad));
       for (const auto* values : {&row.position_m, &row.control_current_a, &row.excitation_a}) {
-        for (std::size_t a = 0; a < rig.axes(); ++a) file << fmt::format(",{:.8g}", (*values)[a]);
+        for (std::size_t a = 0; a < rig.axes(); ++a)
+          file.Write(fmt::format(",{:.8g}", (*values)[a]));
       }
-      file << '\n';
+      file.Write("\n");
     }
-    if (!file.flush()) throw BadInput(path + ": cannot be written");
+    file.Commit();
   }
 }
 

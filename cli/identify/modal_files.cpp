@@ -1,13 +1,12 @@
 #include "cli/identify/modal_files.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "cli/analysis_options.hpp"
 #include "cli/identify/response_files.hpp"
-#include "common/problem.hpp"
+#include "common/output_file.hpp"
 #include "identification/modal/modal_quality.hpp"
 #include "report/svg/figure.hpp"
 
@@ -144,12 +143,7 @@ std::vector<std::string> WriteModalPictures(const std::string& prefix, const Mod
 }
 
 void WriteRigFile(const std::string& path, const config::RigFile& rig) {
-  std::ofstream file(path);
-  file << config::WriteRig(rig);
-  file.flush();
-  if (!file) {
-    throw BadInput(path + ": cannot be written; check that the folder exists and is yours");
-  }
+  WriteWholeFile(path, config::WriteRig(rig));
 }
 
 }  // namespace levitas::cli

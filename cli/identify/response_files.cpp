@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "cli/analysis_options.hpp"
-#include "common/problem.hpp"
+#include "common/output_file.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {
@@ -182,12 +181,7 @@ void WriteResponseCsv(const std::string& path, const std::vector<FrequencyRespon
   if (path.empty() || responses.empty()) return;
   std::string text = CsvHeader(responses.front());
   for (const FrequencyResponse& response : responses) AppendRows(response, text);
-  std::ofstream file(path);
-  file << text;
-  file.flush();
-  if (!file) {
-    throw BadInput(path + ": cannot be written; check that the folder exists and is yours");
-  }
+  WriteWholeFile(path, text);
 }
 
 nlohmann::ordered_json ResponseJson(const FrequencyResponse& r) {

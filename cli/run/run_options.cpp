@@ -105,6 +105,7 @@ RunPlan PlanRun(const RunOptions& options, const RunFiles& files, const RunPaths
       plan.controller.arguments.end(),
       {"--controller", files.controller_path, "--scenario", files.scenario_path, "--record",
        paths.session, "--trip-folder", paths.trip_folder, "--json", paths.controller_json});
+  if (options.overwrite) plan.controller.arguments.emplace_back("--overwrite");
   if (can) plan.controller.arguments.insert(plan.controller.arguments.end(), {"--telemetry", lcm});
   if (options.duration_s > 0.0) {
     plan.controller.arguments.insert(plan.controller.arguments.end(),

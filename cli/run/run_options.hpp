@@ -25,6 +25,7 @@ struct RunOptions {
   std::string pace{"lockstep"};
   std::string port;               ///< empty: lcm on ports nobody else uses
   std::string record_path;        ///< empty: a temporary file
+  bool overwrite{false};          ///< a record that is there already
   std::vector<std::string> tags;  ///< of the record in the catalogue of sessions
   std::int64_t seed{1};
   std::string json_path;

@@ -83,12 +83,22 @@ class Builder : public YAML::EventHandler {
     }
     Level& parent = stack_.back();
     if (parent.node.kind == Node::Kind::kMap && parent.key_next) {
+      RefuseMoreKeys(node.place, parent.node.keys.size());
       parent.node.keys.emplace_back(std::move(node.text), node.place);
       parent.key_next = false;
       return;
     }
     parent.node.items.push_back(std::move(node));
     parent.key_next = true;
+  }
+  /// No group of ours has a tenth of it; each key is compared with those that are known, and with
+  /// the others of its group.
+  static void RefuseMoreKeys(Place place, std::size_t keys) {
+    constexpr std::size_t kMostKeys = 256;
+    if (keys >= kMostKeys) {
+      throw Refused{
+          {place, fmt::format("a group of more than {} keys: no file of ours", kMostKeys)}};
+    }
   }
   static void RefuseAnchor(Place place, YAML::anchor_t anchor) {
     if (anchor != 0) throw Refused{{place, "anchors (&name) are not allowed"}};

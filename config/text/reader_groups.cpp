@@ -47,10 +47,13 @@ void Reader::FinishEarly() {
   std::string text;
   if (problems_.size() > 1)
     text = fmt::format("{} problems in {}:\n", problems_.size(), file_name_);
-  for (std::size_t i = 0; i < problems_.size(); ++i) {
+  constexpr std::size_t kMostTold = 50;
+  const std::size_t told = std::min(problems_.size(), kMostTold);
+  for (std::size_t i = 0; i < told; ++i) {
     text += fmt::format("{}{}:{}:{}: {}", i == 0 ? "" : "\n", file_name_, problems_[i].place.line,
                         problems_[i].place.column, problems_[i].text);
   }
+  if (problems_.size() > told) text += fmt::format("\nand {} more", problems_.size() - told);
   throw BadInput(text);
 }
 

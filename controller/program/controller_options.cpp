@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/whole_number.hpp"
+#include "session/output_path.hpp"
 
 namespace levitas::controller_program {
 
@@ -29,6 +30,7 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
   app.add_option("--duration", options.duration_s, "Land and end after this long [s]")
       ->check(CLI::PositiveNumber);
   app.add_option("--record", options.record, "Session file to write");
+  app.add_flag("--overwrite", options.overwrite, "Replace a session that is there already");
   app.add_option("--trip-folder", options.trip_folder, "Where a trip's recording goes")
       ->capture_default_str();
   std::vector<std::size_t> budget{options.trip_files, options.trip_megabytes};
@@ -55,6 +57,7 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
     app.parse(argc, argv);
     options.trip_files = budget[0];
     options.trip_megabytes = budget[1];
+    session::CheckNoRecording(options.record, options.overwrite);
     return true;
   } catch (const CLI::ParseError& error) {
     status = app.exit(error) == 0 ? ExitStatus::kDone : ExitStatus::kUsage;

@@ -17,6 +17,7 @@ struct ControllerOptions {
   bool realtime{false};
   double duration_s{0.0};  ///< 0: no limit
   std::string record;      ///< session file; empty: none
+  bool overwrite{false};   ///< a session that is there already
   std::string trip_folder{"."};
   std::size_t trip_files{20};       ///< at most so many trip files stay in it
   std::size_t trip_megabytes{100};  ///< and so much

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
-#include "common/problem.hpp"
+#include "common/output_file.hpp"
 
 namespace levitas::svg {
 namespace {
@@ -218,13 +217,7 @@ std::string Draw(const Figure& figure) {
 }
 
 void Write(const std::string& path, const Figure& figure) {
-  if (path.empty()) return;
-  std::ofstream file(path);
-  file << Draw(figure);
-  file.flush();
-  if (!file) {
-    throw BadInput(path + ": cannot be written; check that the folder exists and is yours");
-  }
+  WriteWholeFile(path, path.empty() ? std::string{} : Draw(figure));
 }
 
 }  // namespace levitas::svg

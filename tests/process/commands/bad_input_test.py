@@ -4,7 +4,7 @@ import os
 import unittest
 from pathlib import Path
 
-from command import (BAD_INPUT, SHIPPED_CONTROLLER, SHIPPED_RIG, USAGE, CommandTest, amb, edited,
+from command import (BAD_INPUT, OTHER, SHIPPED_CONTROLLER, SHIPPED_RIG, USAGE, CommandTest, amb, edited,
                      make_record)
 
 ANALYSES = ("modes", "poles", "margins")
@@ -119,10 +119,13 @@ class BadInput(CommandTest):
                     *(("simulate", "s.lcmlog", option, bad)
                       for option in ("--json", "--csv", "--svg") for bad in (ABSENT, "folder")),
                     *((command, "--json", bad) for command in ANALYSES
-                      for bad in (ABSENT, "folder", "/dev/full"))]
+                      for bad in (ABSENT, "folder"))]
         for command in commands:
             with self.subTest(command=command):
                 self.refuse(BAD_INPUT, "cannot be", *command)
+        for command in ANALYSES:
+            with self.subTest(command=command):
+                self.refuse(OTHER, "No space left on device", command, "--json", "/dev/full")
 
     @unittest.skipIf(os.geteuid() == 0, "the superuser may write anywhere")
     def test_folder_of_somebody_else(self):

@@ -11,7 +11,7 @@ OPTIONS = {
     "margins": {"--rig", "--controller", "--speed-rpm", "--speeds", "--json"},
     "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--csv", "--svg",
                  "--json"},
-    "import": {"--rig", "--out", "--tag", "--json"},
+    "import": {"--rig", "--out", "--overwrite", "--tag", "--json"},
     "sessions": {"--rig", "--outcome", "--tag", "--text", "--from", "--to", "--catalogue", "--json"},
     "manual": {"--markdown", "--man", "--bash"},
     "export": {"--csv", "--mat", "--mcap", "--json"},
@@ -20,7 +20,7 @@ OPTIONS = {
     "dash": {"--port", "--http-port", "--listen", "--allow-network", "--token", "--answer-within",
              "--json"},
     "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--port", "--record",
-            "--tag", "--seed", "--json", "--dash", "--no-dash"},
+            "--overwrite", "--tag", "--seed", "--json", "--dash", "--no-dash"},
     "identify": set(),  # its subcommands follow
     "identify frf": {"--rig", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",
                      "--speed-rpm", "--json"},

@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from command import BAD_INPUT, DONE, USAGE, CommandTest, amb, make_record
+from command import BAD_INPUT, DONE, OTHER, USAGE, CommandTest, amb, make_record
 
 ROWS = 2_000
 CHANNELS = ["de_x", "de_y", "nde_x", "nde_y"]
@@ -23,7 +23,7 @@ class ImportExport(CommandTest):
 
     def import_as(self, name, data=None):
         _, report = self.compute("import", data or self.csv, "--rig", "flexible_rotor", "--out",
-                                 name)
+                                 name, "--overwrite")
         return report
 
     def write_rows(self, name, names, rows, separator=","):
@@ -56,6 +56,36 @@ class ImportExport(CommandTest):
         first, second = (self.compute("simulate", name)[1] for name in ("a.lcmlog", "b.lcmlog"))
         self.assertEqual(first["channels"], second["channels"])
         self.assertEqual(first["departures"][0]["place"], "1x of rotation")
+
+    def test_a_session_that_is_there_is_not_lost_without_being_asked(self):
+        self.import_as("a.lcmlog")
+        before = (self.folder / "a.lcmlog").read_bytes()
+        shorter = make_record(self.folder / "shorter.csv", rows=300)
+        again = ("import", shorter, "--rig", "flexible_rotor", "--out", "a.lcmlog")
+        told = self.refuse(USAGE, "is there already", *again)
+        self.assertIn("--overwrite", told)
+        self.refuse(USAGE, "is there already", "run", "--record", "a.lcmlog")
+        self.assertEqual((self.folder / "a.lcmlog").read_bytes(), before)
+        self.compute(*again, "--overwrite")
+        self.assertLess((self.folder / "a.lcmlog").stat().st_size, len(before))
+
+    def test_an_export_spares_what_has_the_name_of_its_temporary_file(self):
+        self.import_as("a.lcmlog")
+        (self.folder / "precious").write_text("keep")
+        (self.folder / "x.csv.part").symlink_to("precious")
+        self.compute("export", "a.lcmlog", "--csv", "x.csv")
+        self.assertEqual((self.folder / "precious").read_text(), "keep")
+        self.assertFalse((self.folder / "x.csv").is_symlink())
+
+    def test_a_full_disk_is_status_1_for_every_export(self):
+        self.import_as("a.lcmlog")
+        for option in ("--csv", "--mcap"):
+            self.refuse(OTHER, "No space left on device", "export", "a.lcmlog", option, "/dev/full")
+        self.refuse(USAGE, "no regular file", "export", "a.lcmlog", "--mat", "/dev/full")
+
+    def test_endless_lines_are_refused(self):
+        self.refuse(BAD_INPUT, "line 1 is longer than", "import", "/dev/zero", "--rig",
+                    "flexible_rotor", "--out", "z.lcmlog")
 
     def test_report_of_an_import_agrees_with_the_file(self):
         printed = self.compute("import", self.csv, "--rig", "flexible_rotor", "--out",

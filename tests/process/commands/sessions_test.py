@@ -19,7 +19,8 @@ class Sessions(CommandTest):
         return done
 
     def record(self, name, *more):
-        return self.call("import", "r.csv", "--rig", "flexible_rotor", "--out", name, *more)
+        return self.call("import", "r.csv", "--rig", "flexible_rotor", "--out", name, "--overwrite",
+                         *more)
 
     def json(self, name):
         return json.loads((self.folder / name).read_text())

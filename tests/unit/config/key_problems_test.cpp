@@ -1,5 +1,6 @@
 // What is said about keys, groups and lists: exact texts with line and column.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/config/samples.hpp"
@@ -10,6 +11,20 @@ namespace {
 TEST(UnknownKey, NamesTheNearestAndDoesNotReportTheRightOneAsMissing) {
   EXPECT_EQ(RigProblems(With(kRig, "gap_mm", "gapp_mm")),
             "rig.yaml:21:7: bearings[0].magnet.gapp_mm: unknown key, nearest key gap_mm");
+}
+
+TEST(UnknownKey, AHundredThousandOfThemAreOneProblem) {
+  std::string text = kRig;
+  for (int i = 0; i < 100'000; ++i) text += fmt::format("unknown_{}: 1\n", i);
+  EXPECT_THAT(RigProblems(text), ::testing::HasSubstr("a group of more than 256 keys"));
+}
+
+TEST(UnknownKey, MoreThanFiftyAreCountedAndNotAllTold) {
+  std::string text = kRig;
+  for (int i = 0; i < 60; ++i) text += fmt::format("far_from_everything_{}: 1\n", i);
+  const std::string problems = RigProblems(text);
+  EXPECT_THAT(problems, ::testing::StartsWith("60 problems in rig.yaml:"));
+  EXPECT_THAT(problems, ::testing::EndsWith("\nand 10 more"));
 }
 
 TEST(UnknownKey, FarFromAllListsTheKeysOfItsGroup) {

@@ -211,6 +211,19 @@ TEST_F(Csv, EveryKindOfBadRowIsToldWithLineAndColumn) {
   EXPECT_THAT(row("0.00015,0,0,0,0\n"), HasSubstr("must be a whole number of periods"));
 }
 
+TEST_F(Csv, ATimeThatNoCountOfNanosecondsHoldsIsRefused) {
+  for (const char* time : {"1e300", "-1e300", "5e9", "-4.1e9"}) {
+    try {
+      Import(std::string(kNames) + time + ",0,0,0,0\n");
+      ADD_FAILURE() << time << " was taken";
+    } catch (const BadInput& problem) {
+      EXPECT_THAT(problem.what(), ::testing::HasSubstr("line 2"));
+      EXPECT_THAT(problem.what(), ::testing::HasSubstr("time_s is"));
+    }
+  }
+  EXPECT_EQ(Import(std::string(kNames) + "1.9e9,0,0,0,0\n").rows, 1U) << "seconds since 1970";
+}
+
 TEST_F(Csv, FilesWithoutRowsOrNamesAreRefused) {
   EXPECT_THAT(Refusal(""), HasSubstr("line 1: no column names; the file is empty"));
   EXPECT_THAT(Refusal(kNames), HasSubstr("no rows follow the column names"));

@@ -3,6 +3,10 @@
 #include "session/mat_export.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
 
 #include "common/problem.hpp"
 #include "session/mat_rows.hpp"
@@ -57,6 +61,43 @@ TEST(MatExport, OfAFolderThatIsNotThereIsRefusedWithItsName) {
     FAIL() << "written into a folder that is not there";
   } catch (const BadInput& problem) {
     EXPECT_NE(std::string(problem.what()).find("no/s.mat"), std::string::npos);
+  }
+}
+
+// matio reports success when nothing could be written.
+TEST(MatExport, ThatDoesNotReachTheDiskIsStatusOneAndLeavesNothing) {
+  const Folder folder;
+  WriteSession(folder / "s", DrawRecords(3000));
+  SessionReader session(folder / "s");
+  struct rlimit before {};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const struct rlimit small { .rlim_cur = 100'000, .rlim_max = before.rlim_max };
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  ExitStatus status = ExitStatus::kDone;
+  std::string text;
+  try {
+    static_cast<void>(ExportMat(session, folder / "s.mat"));
+  } catch (const Problem& problem) {
+    status = problem.status();
+    text = problem.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(status, ExitStatus::kOther);
+  EXPECT_NE(text.find("s.mat: writing failed: File too large"), std::string::npos) << text;
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.mat"));
+}
+
+TEST(MatExport, ToADeviceIsAUsageProblem) {
+  const Folder folder;
+  WriteSession(folder / "s", DrawRecords(3));
+  SessionReader session(folder / "s");
+  try {
+    static_cast<void>(ExportMat(session, "/dev/full"));
+    FAIL() << "nothing was written, and nothing said";
+  } catch (const Problem& problem) {
+    EXPECT_EQ(problem.status(), ExitStatus::kUsage);
   }
 }
 

@@ -197,11 +197,10 @@ TEST_F(McapExport, OfAFolderThatIsNotThereIsRefusedWithItsName) {
 }
 
 TEST(McapWriter, OfNothingIsStillAWholeFile) {
-  std::ostringstream out;
-  McapWriter writer(out, "test");
+  std::string out;
+  McapWriter writer([&out](std::string_view bytes) { out += bytes; }, "test");
   writer.Finish();
-  EXPECT_TRUE(writer.good());
-  EXPECT_EQ(out.str().substr(out.str().size() - 8), std::string("\x89MCAP0\r\n"));
+  EXPECT_EQ(out.substr(out.size() - 8), std::string("\x89MCAP0\r\n"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "common/output_file.hpp"
 #include "common/problem.hpp"
 #include "levitas_msg/cycle_record_t.hpp"
 #include "levitas_msg/session_header_t.hpp"

@@ -1,0 +1,65 @@
+#pragma once
+// Files that appear under their names only when they are whole and on the disk.
+//
+// Written   beside the name, as PATH.<drawn at random>.part: made new, never through a symbolic
+//           link, never over what is there. Commit has the kernel write it out and renames it; what
+//           stood under the name until then, a symbolic link too, is replaced. Without Commit
+//           it is removed.
+// Direct    what exists and is no regular file (a device, a pipe), and whatever lies below /dev
+//           (but for /dev/shm) or /proc, as /dev/stdout, is written as it is, and never renamed over or removed.
+// Failure   BadInput for a name that cannot be written; Problem of status 1 when the disk is full,
+//           a quota or limit is used up, or the device fails. Both say what the kernel said.
+// Thread    one per object.
+
+#include <string>
+#include <string_view>
+
+#include "common/problem.hpp"
+
+namespace levitas {
+
+/// Throws what is to be said of a file that could not be written, from errno.
+[[noreturn]] void CannotWrite(const std::string& path, int error);
+
+/// For writers that open a file by its name.
+class PartFile {
+ public:
+  explicit PartFile(std::string path);
+  ~PartFile();
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  /// Where to write until Commit.
+  [[nodiscard]] const std::string& part_path() const noexcept { return part_path_; }
+  [[nodiscard]] bool direct() const noexcept { return part_path_ == path_; }
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+  /// Call once the writing is done, and its success known.
+  void Commit();
+
+ private:
+  std::string path_;
+  std::string part_path_;
+  int descriptor_{-1};
+  bool committed_{false};
+};
+
+/// For everything else: every byte's way to the kernel is checked.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::string& path);
+
+  void Write(std::string_view bytes);
+  void Commit();
+
+ private:
+  void Flush();
+
+  PartFile part_;
+  std::string buffer_;
+};
+
+/// A whole text; an empty path means that none was asked for.
+void WriteWholeFile(const std::string& path, std::string_view text);
+
+}  // namespace levitas
