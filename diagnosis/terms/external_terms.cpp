@@ -12,7 +12,7 @@ namespace {
 
 enum class Kind { kDirect, kSymmetric, kAntisymmetric };
 
-/// A spring between shaft and ground at z: f = -(x, y), -(y, x) or (y, -x), times theta.
+/// A spring between shaft and ground at z: f = -(x, y), -(y, x) or (-y, x), times theta.
 Term Spring(const RigView& rig, std::string effect, double z_m, Kind kind, double wide) {
   const auto shape = rig.Shape(z_m);
   const std::string parameter = kind == Kind::kDirect ? "direct" : "cross";
@@ -25,8 +25,8 @@ Term Spring(const RigView& rig, std::string effect, double z_m, Kind kind, doubl
           x += shape[i] * static_cast<double>(m.q[i]);
           y += shape[i] * static_cast<double>(m.q[modes + i]);
         }
-        const double fx = theta * (kind == Kind::kDirect ? -x : kind == Kind::kSymmetric ? -y : y);
-        const double fy = theta * (kind == Kind::kDirect ? -y : -x);
+        const double fx = theta * (kind == Kind::kDirect ? -x : -y);
+        const double fy = theta * (kind == Kind::kDirect ? -y : kind == Kind::kSymmetric ? -x : x);
         for (std::size_t i = 0; i < modes; ++i) {
           add.Modal(i, shape[i] * fx);
           add.Modal(modes + i, shape[i] * fy);

@@ -23,7 +23,7 @@ constexpr std::array kCoupling{
 
 constexpr std::array kCrossCoupled{Plane(std::nullopt, 0.3),
                                    Signed("stiffness", "n_per_m", 1e9, 5e3, std::nullopt,
-                                          "kq of f = kq [y, -x]; negative drives forward whirl")};
+                                          "kq of f = kq [-y, x]; positive drives forward whirl")};
 
 constexpr std::array kStaticLoad{
     Plane(std::nullopt, 0.3), Signed("force_x", "n", 1e6, 5.0, 0.0, "constant force towards +x"),
@@ -61,10 +61,11 @@ constexpr std::array kRows{
         "raises (softens, if negative) the rigid modes; conservative, so it does not damp or drive",
         "Genta 2005, Dynamics of Rotating Systems, ch. 4", true},
     Row{Id::kCrossCoupledStiffness, "cross_coupled_stiffness", Place::kExternal, Scope::kRig,
-        kCrossCoupled, "a seal or an impeller pushes across the deflection", "f(z) = kq [y, -x]",
-        "damping of a whirl at w changes by -kq phi^2/w backward and +kq phi^2/w forward; "
+        kCrossCoupled, "a seal or an impeller pushes across the deflection", "f(z) = kq [-y, x]",
+        "damping of a whirl at w changes by -kq phi^2/w forward and +kq phi^2/w backward; "
         "frequencies unchanged to first order",
-        "Alford 1965, ASME J. Eng. Power 87(4) 333; Childs 1993, Turbomachinery Rotordynamics",
+        "Alford 1965, ASME J. Eng. Power 87(4) 333; Childs 1993, Turbomachinery Rotordynamics; "
+        "API RP 684, whose sign it has",
         true},
     Row{Id::kStaticLoad, "static_load", Place::kExternal, Scope::kRig, kStaticLoad,
         "a constant force: belt, motor pull", "f(z) = [force_x, force_y]",

@@ -138,7 +138,7 @@ void ApplyFromOutside(const EffectConfig& entry, const Values& values,
       spring(values[1], values[2], values[2]);
       break;
     case Id::kCrossCoupledStiffness:
-      spring(0.0, -values[1], values[1]);
+      spring(0.0, values[1], -values[1]);
       break;
     case Id::kStaticLoad:
       for (std::size_t i = 0; i < modes; ++i) {

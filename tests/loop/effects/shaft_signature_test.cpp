@@ -171,7 +171,7 @@ TEST(CouplingStiffness, IsASymmetricSpring) {
 TEST(CrossCoupledStiffness, PushesAcrossTheDeflection) {
   ExpectAdds(Entry(Id::kCrossCoupledStiffness, {kZ_m, 5e3}), [](std::size_t i, const Motion& m) {
     const Complex r = At(m, kZ_m, 0, false);
-    return Shape(i, kZ_m) * 5e3 * Complex(r.imag(), -r.real());  // kq [y, -x]
+    return Shape(i, kZ_m) * 5e3 * Complex(-r.imag(), r.real());  // kq [-y, x]
   });
 }
 

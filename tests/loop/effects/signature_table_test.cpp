@@ -210,11 +210,11 @@ std::vector<SignatureRow> TurningForces() {
          return line(Entry(Id::kCouplingStiffness, {0.0, 2e4, 0.0}), 0, 0.0);
        },
        -2e4 * ShapeOf(0.0) * ShapeOf(0.0) * kBent, kExact, nullptr},
-      {Id::kCrossCoupledStiffness, Place::kExternal, "static across", -1,
+      {Id::kCrossCoupledStiffness, Place::kExternal, "static across", 1,
        [=] {
          return ForceLine(Entry(Id::kCrossCoupledStiffness, {kZ_m, 5e3}), 0).imag();
        },
-       -5e3 * ShapeOf(kZ_m) * ShapeOf(kZ_m) * kBent, kExact, nullptr},
+       5e3 * ShapeOf(kZ_m) * ShapeOf(kZ_m) * kBent, kExact, nullptr},
       {Id::kInternalDamping, Place::kRotor, "static across", 1,
        [=] {
          return ForceLine(Entry(Id::kInternalDamping, {kZ_m, 20.0}), 0).imag();

@@ -57,15 +57,15 @@ TEST(InternalDamping, DampsBelowAndDestabilisesAboveTheThresholdSpeed) {
   EXPECT_GT(growth(1.01 * threshold), 0.0);
 }
 
-TEST(CrossCoupledStiffness, ChangesTheDampingOfForwardAndBackwardWhirlOppositely) {
+TEST(CrossCoupledStiffness, IfPositiveTakesDampingFromForwardWhirlAndGivesItToBackward) {
   constexpr double kZ_m = 0.23;
   constexpr double kKq = 100.0;
   const auto model = QuietWith(Entry(Id::kCrossCoupledStiffness, {kZ_m, kKq}));
   const double phi = model->effects().springs[0].shape[2];
   const double w = Quiet()->frequency()[2];
   const auto entry = Entry(Id::kCrossCoupledStiffness, {kZ_m, kKq});
-  // At rest both whirls lie at w: s^2 + 2 zeta w s + w^2 +- j kq phi^2 = 0 splits their real parts
-  // by -+ kq phi^2/(2 w); the nearest pole to j w is one of them, its partner the other.
+  // At rest both whirls lie at w: s^2 + 2 zeta w s + w^2 -+ j kq phi^2 = 0 splits their real parts
+  // by +- kq phi^2/(2 w), which is zeta = (c w - kq)/(2 m w^2) of forward whirl with m = 1/phi^2; the nearest pole to j w is one of them, its partner the other.
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(
       [&] {
         PlantParameters parameters = Quiet()->parameters();
@@ -84,7 +84,7 @@ TEST(CrossCoupledStiffness, ChangesTheDampingOfForwardAndBackwardWhirlOppositely
     const std::complex<double> x = solver.eigenvectors()(2, i);
     const std::complex<double> y = solver.eigenvectors()(10, i);
     const bool forward = (y / x).imag() < 0.0;
-    const double expected = nominal + (forward ? -1.0 : 1.0) * kKq * phi * phi / (2.0 * w);
+    const double expected = nominal + (forward ? 1.0 : -1.0) * kKq * phi * phi / (2.0 * w);
     // Second order in kq: (kq phi^2)^2/(8 w^3) and coupling to other modes, below 1 % of the shift.
     EXPECT_NEAR(pole.real(), expected, 0.01 * kKq * phi * phi / (2.0 * w));
   }

@@ -181,11 +181,11 @@ TEST_F(RotorTermsTest, InternalDampingDrivesAForwardWhirlBelowTheSpeedOfTheShaft
               1e-3 * PowerInForwardWhirl(term, 0.5 * kSpeedRadPerS));
 }
 
-// f = kq [y, -x]: against the forward whirl, so that it is a negative kq that drives it.
+// f = kq [-y, x]: along with the forward whirl, which a positive kq drives (Alford 1965).
 TEST_F(RotorTermsTest, CrossCouplingWorksOnTheWhirlAndDirectStiffnessDoesNot) {
   const double coupled =
       PowerInForwardWhirl(Named(terms_, "cross_coupled_stiffness", "z 299.2 mm"), 300.0);
-  EXPECT_LT(coupled, 0.0);
+  EXPECT_GT(coupled, 0.0);
   const Term direct = Named(terms_, "coupling_stiffness", "z 0.0 mm", "direct");
   EXPECT_NEAR(PowerInForwardWhirl(direct, 300.0), 0.0, 1e-4 * std::abs(coupled));
 }
