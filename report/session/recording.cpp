@@ -6,6 +6,7 @@
 #include "common/problem.hpp"
 #include "config/rig_file.hpp"
 #include "controller/cycle/probe_map.hpp"
+#include "plant_sim/plant/train_model.hpp"
 #include "session/session_reader.hpp"
 #include "verdict/phase.hpp"
 
@@ -54,7 +55,14 @@ Recording Load(const std::string& path) {
   Recording recording;
   recording.header = reader.header();
   const std::string within = path + " (header)";
-  recording.rig = config::ParseRig(recording.header.rig_yaml, within).numbers;
+  const config::RigFile rig = config::ParseRig(recording.header.rig_yaml, within);
+  recording.rig = rig.numbers;
+  if (!rig.plant.shafts.empty()) {
+    const std::vector<double> ratio = plant::SpeedRatios(rig.plant);
+    for (const auto& bearing : rig.plant.bearings) {
+      recording.shaft_ratio.push_back(ratio[bearing.shaft]);
+    }
+  }
   recording.standstill_rad_per_s = kSlow;
   if (!recording.header.controller_yaml.empty()) {
     recording.standstill_rad_per_s =

@@ -33,7 +33,12 @@ struct Recording {
   std::uint64_t without_frame{};
   std::uint64_t missed_deadlines{};
   double top_speed_rad_per_s{};
+  std::vector<double> shaft_ratio;  ///< speed of each bearing's shaft over that of the first, with
+                                    ///< its sign; empty: all bearings carry one rotor
 
+  [[nodiscard]] double RatioOf(std::size_t bearing) const {
+    return bearing < shaft_ratio.size() ? shaft_ratio[bearing] : 1.0;
+  }
   [[nodiscard]] std::size_t size() const noexcept { return cycle.size(); }
   [[nodiscard]] double TimeOf(std::size_t i) const {
     return static_cast<double>(cycle[i] - cycle.front()) * rig.period_s();

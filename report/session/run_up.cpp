@@ -1,5 +1,6 @@
 #include "report/session/run_up.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -26,26 +27,71 @@ double AngleStep(const Recording& r, std::size_t i) {
       static_cast<double>(r.angle_rad[i]) - static_cast<double>(r.angle_rad[i - 1]), kTurn);
 }
 
+/// Angle of the first shaft for one turn of the slowest one.
+double TurnOfTheSlowest(const Recording& r) {
+  double slowest = 1.0;
+  for (const double ratio : r.shaft_ratio) slowest = std::min(slowest, std::abs(ratio));
+  return kTurn / slowest;
+}
+
+/// Angle of the first shaft with whole turns counted, over a gap by its speed. Empty when nothing
+/// is geared, where whole turns do not matter.
+std::vector<double> CountedAngle(const Recording& r) {
+  if (r.shaft_ratio.empty() || r.size() == 0) return {};
+  std::vector<double> counted{static_cast<double>(r.angle_rad[0])};
+  counted.reserve(r.size());
+  for (std::size_t i = 1; i < r.size(); ++i) {
+    const double periods = static_cast<double>(r.cycle[i] - r.cycle[i - 1]);
+    const double expected_rad =
+        static_cast<double>(r.speed_rad_per_s[i - 1]) * periods * r.rig.period_s();
+    const double step_rad = AngleStep(r, i);
+    counted.push_back(counted.back() + step_rad +
+                      kTurn * std::round((expected_rad - step_rad) / kTurn));
+  }
+  return counted;
+}
+
 /// From `first` on as many whole turns as needed; nothing when the rotor stops or a cycle is gone.
 std::optional<Window> WindowFrom(const Recording& r, std::size_t first) {
+  const double turn_rad = TurnOfTheSlowest(r);
   double turned_rad = 0.0;
-  double wanted_rad = kTurns * kTurn;
+  double wanted_rad = kTurns * turn_rad;
   for (std::size_t i = first + 1; i < r.size(); ++i) {
     if (!Turns(r, i) || r.cycle[i] != r.cycle[i - 1] + 1) return std::nullopt;
     turned_rad += AngleStep(r, i);
     if (!(std::abs(turned_rad) >= wanted_rad)) continue;
     if (static_cast<double>(i - first) * r.rig.period_s() >= kLeastS) return Window{first, i - 1};
-    wanted_rad += kTurn;
+    wanted_rad += turn_rad;
   }
   return std::nullopt;
 }
 
+/// As much of a window as is whole turns of a shaft.
+Window WholeTurns(const Recording& r, double ratio, const Window& window) {
+  Window whole = window;
+  double turned_rad = 0.0;
+  double wanted_rad = kTurn;
+  for (std::size_t i = window.first + 1; i <= window.last + 1 && i < r.size(); ++i) {
+    turned_rad += ratio * AngleStep(r, i);
+    if (!(std::abs(turned_rad) >= wanted_rad)) continue;
+    whole.last = i - 1;
+    wanted_rad += kTurn;
+  }
+  return whole;
+}
+
 /// Over the angle, not over time: a rotor that speeds up spends more samples at its slower angles.
-std::complex<double> Forward(const Recording& r, std::size_t bearing, const Window& window) {
+std::complex<double> Forward(const Recording& r, const std::vector<double>& counted_rad,
+                             std::size_t bearing, const Window& all) {
+  const double ratio = r.RatioOf(bearing);
+  const Window window = counted_rad.empty() ? all : WholeTurns(r, ratio, all);
+  const auto angle_rad = [&](std::size_t i) {
+    return counted_rad.empty() ? static_cast<double>(r.angle_rad[i]) : ratio * counted_rad[i];
+  };
   const auto seen = [&](std::size_t i) {  // from the turning rotor
     return std::complex<double>(static_cast<double>(r.position_m[2 * bearing][i]),
                                 static_cast<double>(r.position_m[2 * bearing + 1][i])) *
-           std::polar(1.0, -static_cast<double>(r.angle_rad[i]));
+           std::polar(1.0, -angle_rad(i));
   };
   std::complex<double> sum{};
   double turned_rad = 0.0;
@@ -69,6 +115,7 @@ Ramp RampOf(const Recording& r, const Window& window) {
 
 std::vector<SynchronousPoint> Synchronous(const Recording& recording) {
   std::vector<SynchronousPoint> points;
+  const std::vector<double> counted_rad = CountedAngle(recording);
   std::size_t first = 0;
   while (first + 1 < recording.size()) {
     if (!Turns(recording, first)) {
@@ -89,7 +136,7 @@ std::vector<SynchronousPoint> Synchronous(const Recording& recording) {
     point.speed_rad_per_s = std::abs(static_cast<double>(recording.speed_rad_per_s[point.index]));
     point.ramp = RampOf(recording, *window);
     for (std::size_t b = 0; b < recording.rig.bearings.size(); ++b) {
-      point.forward_m.push_back(Forward(recording, b, *window));
+      point.forward_m.push_back(Forward(recording, counted_rad, b, *window));
     }
     points.push_back(std::move(point));
     first = points.back().index;

@@ -54,8 +54,13 @@ svg::Series Curve(const std::vector<SynchronousPoint>& points, std::size_t beari
 NamedPicture Bode(const Recording& r, const std::vector<SynchronousPoint>& points,
                   std::size_t bearing) {
   const std::string& name = r.rig.bearings[bearing];
-  svg::Panel size{fmt::format("synchronous vibration (1X forward), {}", name), "rpm", "um"};
-  svg::Panel phase{"phase to the rotor's mark", "rpm", "degrees"};
+  const bool geared = !r.shaft_ratio.empty();
+  const char* const speed = geared ? "rpm of the first shaft" : "rpm";
+  svg::Panel size{geared ? fmt::format("vibration with its own shaft (its 1X), {}", name)
+                         : fmt::format("synchronous vibration (1X forward), {}", name),
+                  speed, "um"};
+  svg::Panel phase{geared ? "phase to its shaft's mark" : "phase to the rotor's mark", speed,
+                   "degrees"};
   for (const Ramp ramp : {Ramp::kUp, Ramp::kDown}) {
     svg::Series curve = Curve(points, bearing, ramp, false);
     if (curve.x.size() < 2) continue;
@@ -72,9 +77,12 @@ NamedPicture Bode(const Recording& r, const std::vector<SynchronousPoint>& point
   figure.panel_height = 200;
   figure.panels.push_back(std::move(phase));
   return {fmt::format("bode_{}", name),
-          fmt::format("Radius and phase of the forward circle that turns with the rotor at {}, "
-                      "over speed.",
-                      name),
+          geared ? fmt::format("Radius and phase of the circle that turns with the shaft of {}, at "
+                               "{:.4g} times the speed of the first, over that speed.",
+                               name, r.RatioOf(bearing))
+                 : fmt::format("Radius and phase of the forward circle that turns with the rotor "
+                               "at {}, over speed.",
+                               name),
           std::move(figure)};
 }
 

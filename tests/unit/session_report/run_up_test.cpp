@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 
 #include "whirling_rotor.hpp"
 
@@ -29,6 +31,54 @@ TEST(Synchronous, SeesNothingOfABackwardWhirl) {
   backward.direction = -1.0;
   for (const SynchronousPoint& point : Synchronous(WhirlingRotor(backward))) {
     EXPECT_LT(std::abs(point.forward_m.at(0)), kShare * test::kRadiusM);
+  }
+}
+
+// A second bearing on a shaft that the first one drives: its own circle, which turns at `ratio`
+// times the angle, and three times as large a circle that turns with the first shaft.
+Recording Geared(double ratio) {
+  Recording r = WhirlingRotor();
+  r.rig.channels = {"p_x", "p_y", "g_x", "g_y"};
+  r.rig.bearings = {"p", "g"};
+  r.shaft_ratio = {1.0, ratio};
+  r.position_m.resize(4);
+  double angle_rad = 0.0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const double own_rad = ratio * angle_rad + test::kLeadRad;
+    r.position_m[2].push_back(
+        static_cast<float>(test::kRadiusM * (std::cos(own_rad) + 3.0 * std::cos(angle_rad))));
+    r.position_m[3].push_back(
+        static_cast<float>(test::kRadiusM * (std::sin(own_rad) + 3.0 * std::sin(angle_rad))));
+    angle_rad += static_cast<double>(r.speed_rad_per_s[i]) * 1e-4;
+  }
+  return r;
+}
+
+// Of the circles beside it some 7 rad of the first shaft's angle may be left over: whole turns of
+// one shaft are not whole turns of the other. 3 x 7 of at least 50 rad, as a share of the radius,
+// were it all on one side; the circle itself turns over in that angle, which leaves a third of it.
+constexpr double kOtherShaft = 0.15;
+
+TEST(Synchronous, FollowsADrivenShaftByItsOwnAngleAndSense) {
+  for (const double ratio : {-0.5, -0.8, 0.5}) {
+    const auto points = Synchronous(Geared(ratio));
+    ASSERT_GT(points.size(), 10U);
+    for (const SynchronousPoint& point : points) {
+      const auto lead = std::polar(test::kRadiusM, test::kLeadRad);
+      EXPECT_LT(std::abs(point.forward_m.at(1) - lead), kOtherShaft * test::kRadiusM) << ratio;
+      EXPECT_NEAR(std::abs(point.forward_m.at(0)), test::kRadiusM, kShare * test::kRadiusM);
+    }
+  }
+}
+
+TEST(Synchronous, TakesADrivenShaftThatTurnsTheOtherWayForAnother) {
+  for (const SynchronousPoint& point : Synchronous(Geared(-0.5))) {
+    EXPECT_GT(std::abs(point.forward_m.at(1)), 0.8 * test::kRadiusM);
+  }
+  Recording wrong = Geared(-0.5);
+  wrong.shaft_ratio = {1.0, 0.5};
+  for (const SynchronousPoint& point : Synchronous(wrong)) {
+    EXPECT_LT(std::abs(point.forward_m.at(1)), kOtherShaft * test::kRadiusM);
   }
 }
 
