@@ -1,18 +1,46 @@
 #include "cli/analysis_options.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "cli/run/general_files.hpp"
+#include "controller/law/discrete_law.hpp"
 
 namespace levitas::cli {
 namespace {
 
 constexpr const char* kReferenceController = "flexible_rotor";
 constexpr double kFastestRpm = 1e6;  // beyond any rotor: turbine-driven spindles reach 5e5
+
+constexpr double kWorthSaying = 0.01;  // of the frequency that the file gives for a notch
+
+/// Notches that stand elsewhere in discrete time, each once with the axes that have it.
+std::string NotchesElsewhere(const config::ControllerFile& controller, const RigNumbers& rig) {
+  std::map<double, std::vector<std::string>> axes;  // by the frequency given
+  const std::size_t count = std::min(controller.law.axes.size(), rig.channels.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const law::Notch& notch : controller.law.axes[i].notches) {
+      const double away = std::abs(law::StandsAt(notch, rig.period_s()) - notch.frequency_hz);
+      if (away <= kWorthSaying * notch.frequency_hz) continue;
+      auto& names = axes[notch.frequency_hz];
+      if (names.empty() || names.back() != rig.channels[i]) names.push_back(rig.channels[i]);
+    }
+  }
+  std::string text;
+  for (const auto& [frequency_hz, names] : axes) {
+    const double stands_hz = law::StandsAt({frequency_hz, 0.0, 1.0}, rig.period_s());
+    text += fmt::format("\n  the notch given at {:.1f} Hz stands at {:.1f} Hz ({})", frequency_hz,
+                        stands_hz, fmt::join(names, ", "));
+  }
+  if (!text.empty()) text += "\n  (Tustin's rule; prewarp: true puts a notch where it is given)";
+  return text;
+}
 
 /// Refuses what strtod accepts and no rotor does.
 std::string CheckSpeed(const std::string& text) {
@@ -59,11 +87,13 @@ FoundController LoadController(const AnalysisOptions& options, const config::Rig
   std::string name = options.controller_name.empty() ? rig.run.controller : options.controller_name;
   if (name.empty()) name = kReferenceController;
   const std::string path = config::FindConfig(name, "controllers");
-  return {path, config::LoadController(path, rig.numbers)};
+  FoundController found{path, config::LoadController(path, rig.numbers), {}};
+  found.notches = NotchesElsewhere(found.file, rig.numbers);
+  return found;
 }
 
 std::string ControllerText(const FoundController& controller) {
-  return fmt::format("{} ({})", controller.file.name, controller.path);
+  return fmt::format("{} ({}){}", controller.file.name, controller.path, controller.notches);
 }
 
 std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig) {

@@ -27,10 +27,11 @@ void AddJsonOption(CLI::App& command, AnalysisOptions& options);
 struct FoundController {
   std::string path;
   config::ControllerFile file;
+  std::string notches;  ///< what to say of notches that stand elsewhere than the file gives
 };
 [[nodiscard]] FoundController LoadController(const AnalysisOptions& options,
                                              const config::RigFile& rig);
-/// "name (file)".
+/// "name (file)", and a line for each notch that stands more than 1 % from the frequency given.
 [[nodiscard]] std::string ControllerText(const FoundController& controller);
 /// Says so when it is not the one that `amb run` would take; else empty.
 [[nodiscard]] std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "config/schema/schema.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 using namespace unit;
 
 constexpr std::size_t kMaxFilters = 8;
+constexpr std::array<std::string_view, 2> kNoYes{"false", "true"};
 
 void Describe(Visitor& v, law::AxisLawConfig& law, double nyquist_hz) {
   const auto below_nyquist = [&](double frequency_hz, std::string_view key) {
@@ -42,6 +44,12 @@ void Describe(Visitor& v, law::AxisLawConfig& law, double nyquist_hz) {
                {"pole_damping", kOne, 0.001, 10, kRequired, "zp, damping ratio of the denominator"},
                notch.pole_damping);
            below_nyquist(notch.frequency_hz, "frequency_hz");
+           std::size_t prewarp = notch.prewarp ? 1 : 0;
+           v.Choice({"prewarp", kNoYes, kNoYes[0],
+                     "true: sampled, it stands at this frequency; false: below it, by Tustin's "
+                     "rule, as the gains of published laws are given"},
+                    prewarp);
+           notch.prewarp = prewarp == 1;
          });
 }
 
@@ -51,7 +59,7 @@ bool Same(const law::AxisLawConfig& a, const law::AxisLawConfig& b) {
   };
   const auto same_notch = [](const law::Notch& p, const law::Notch& q) {
     return p.frequency_hz == q.frequency_hz && p.zero_damping == q.zero_damping &&
-           p.pole_damping == q.pole_damping;
+           p.pole_damping == q.pole_damping && p.prewarp == q.prewarp;
   };
   return a.kp_a_per_m == b.kp_a_per_m && a.ki_a_per_m_s == b.ki_a_per_m_s &&
          a.kd_a_s_per_m == b.kd_a_s_per_m && a.derivative_hz == b.derivative_hz &&

@@ -58,7 +58,9 @@ Section Discretise(const Notch& block, double period_s) {
   NeedPositive(block.frequency_hz, "notch frequency_hz");
   NeedPositive(block.pole_damping, "notch pole_damping");
   NeedFinite(block.zero_damping, "notch zero_damping");
-  const double r = Ratio(block.frequency_hz, period_s);
+  // With prewarp the substitution is exact at the notch: s/w = r (1-q)/(1+q) with r = 1/tan(wT/2).
+  const double r = block.prewarp ? 1.0 / std::tan(0.5 * kTwoPi * block.frequency_hz * period_s)
+                                 : Ratio(block.frequency_hz, period_s);
   const double zero = 2.0 * block.zero_damping * r;
   const double pole = 2.0 * block.pole_damping * r;
   const double a0 = r * r + pole + 1.0;
@@ -84,6 +86,11 @@ std::complex<double> Response(const Section& section, std::complex<double> q) {
 }
 
 }  // namespace
+
+double StandsAt(const Notch& notch, double period_s) {
+  if (notch.prewarp) return notch.frequency_hz;
+  return std::atan(0.5 * kTwoPi * notch.frequency_hz * period_s) / (0.5 * kTwoPi * period_s);
+}
 
 DiscreteLaw Discretise(const AxisLawConfig& config, double period_s) {
   NeedPositive(period_s, "period_s");

@@ -1,8 +1,9 @@
 #pragma once
 // The axis law in discrete time, as numbers: what axis_law.hpp executes and analysis reads.
 //
-// Equation   s -> (2/T)(z-1)/(z+1) (Tustin, no prewarp) in each block of law_config.hpp; see
-//            docs/derivations_law.md eq. (L1)-(L8). Written in q = z^-1:
+// Equation   s -> (2/T)(z-1)/(z+1) (Tustin) in each block of law_config.hpp, without prewarp, but
+//            s -> w/tan(wT/2) (z-1)/(z+1) in a notch at w with prewarp; see docs/derivations_law.md
+//            eq. (L1)-(L8). Written in q = z^-1:
 //              PID      Kp + g (1+q)/(1-q) + b (1-q)/(1+a q)
 //              section  (b0 + b1 q + b2 q^2) / (1 + a1 q + a2 q^2)
 // Units      input metres, output amperes; frequencies in Hz.
@@ -35,6 +36,10 @@ struct DiscreteLaw {
   std::vector<Section> lead_lags;  ///< first order
   std::vector<Section> notches;    ///< second order
 };
+
+/// Where a notch given at frequency_hz stands in discrete time [Hz]: there with prewarp, below it
+/// without, atan(w T/2)/(pi T).
+[[nodiscard]] double StandsAt(const Notch& notch, double period_s);
 
 [[nodiscard]] DiscreteLaw Discretise(const AxisLawConfig& config, double period_s);
 

@@ -25,6 +25,7 @@ struct Notch {
   double frequency_hz{};
   double zero_damping{};  ///< [1] damping ratio of the numerator
   double pole_damping{};  ///< [1] damping ratio of the denominator
+  bool prewarp{};         ///< stands at frequency_hz in discrete time too, see discrete_law.hpp
 };
 
 struct AxisLawConfig {

@@ -46,6 +46,17 @@ TEST(Bore, MustBeSmallerThanTheOutside) {
       "outer diameter");
 }
 
+TEST(Notch, StandsByTustinsRuleUnlessTheFileAsksForPrewarp) {
+  const RigNumbers numbers = ParseRig(kRig, "rig.yaml").numbers;
+  const auto notch = [&](const std::string& text) {
+    return ParseController(text, "controller.yaml", numbers).law.axes[0].notches[0];
+  };
+  EXPECT_FALSE(notch(kController).prewarp);
+  const std::string key = "pole_damping: 0.8\n        prewarp: ";
+  EXPECT_TRUE(notch(With(kController, "pole_damping: 0.8", key + "true")).prewarp);
+  EXPECT_FALSE(notch(With(kController, "pole_damping: 0.8", key + "false")).prewarp);
+}
+
 TEST(SensorRange, MustCoverTheClearance) {
   EXPECT_EQ(RigProblems(With(kRig, "range_um: 300", "range_um: 199")),
             "rig.yaml:25:5: bearings[0].sensor: sensor range 199 um is smaller than the touchdown "

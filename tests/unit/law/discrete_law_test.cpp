@@ -49,6 +49,47 @@ TEST(DiscreteLaw, HoldsForAnyNumberOfSectionsAndOtherPeriods) {
   ExpectTustin(axis, kPeriodS);
 }
 
+// Where the zeros of a section lie on the unit circle [Hz]; without damping they lie on it.
+double ZerosAt(const Section& s, double period_s) {
+  return std::acos(-0.5 * s.b1 / s.b0) / (2.0 * std::numbers::pi * period_s);
+}
+
+TEST(Notch, WithPrewarpStandsAtTheFrequencyGiven) {
+  for (const double frequency_hz : {10.0, 449.181, 1049.0, 2000.0, 4500.0}) {
+    const Notch notch{frequency_hz, 0.0, 0.5, true};
+    AxisLawConfig axis = FlexibleRotorAxis();
+    axis.notches = {notch};
+    const DiscreteLaw law = Discretise(axis, kPeriodS);
+    // acos loses digits at low frequency, where the cosine is flat: 1e-9 holds from 10 Hz on.
+    EXPECT_NEAR(ZerosAt(law.notches[0], kPeriodS) / frequency_hz, 1.0, 1e-9) << frequency_hz;
+    EXPECT_EQ(StandsAt(notch, kPeriodS), frequency_hz);
+  }
+}
+
+TEST(Notch, WithoutPrewarpStandsBelowAsTustinsRuleHasIt) {
+  const Notch notch{1049.0, 0.0, 0.5};
+  AxisLawConfig axis = FlexibleRotorAxis();
+  axis.notches = {notch};
+  const double stands_hz = ZerosAt(Discretise(axis, kPeriodS).notches[0], kPeriodS);
+  EXPECT_NEAR(StandsAt(notch, kPeriodS) / stands_hz, 1.0, 1e-9);
+  // tan(pi f T) = pi 1049 T: 1013.x Hz.
+  EXPECT_NEAR(std::tan(std::numbers::pi * stands_hz * kPeriodS),
+              std::numbers::pi * 1049.0 * kPeriodS, 1e-9);
+  EXPECT_NEAR(StandsAt({2000.0, 0.0, 0.5}, kPeriodS), 1786.0, 1.0);
+}
+
+TEST(Notch, KeepsItsDampingUnderPrewarp) {
+  // The substitution maps the frequency given onto itself: there N = zz/zp with and without zeros
+  // on the circle.
+  AxisLawConfig with = FlexibleRotorAxis();
+  with.notches = {{1500.0, 0.2, 0.8, true}};
+  AxisLawConfig without = with;
+  without.notches.clear();
+  const Complex ratio = FrequencyResponse(Discretise(with, kPeriodS), 1500.0, kPeriodS) /
+                        FrequencyResponse(Discretise(without, kPeriodS), 1500.0, kPeriodS);
+  EXPECT_LT(std::abs(ratio - 0.25), kRounding);
+}
+
 TEST(DiscreteLaw, NotchesPassZeroFrequencyAndNyquistUnchanged) {
   const DiscreteLaw law = Discretise(FlexibleRotorAxis(), kPeriodS);
   ASSERT_EQ(law.notches.size(), 2U);
