@@ -143,6 +143,10 @@ void DescribeDrive(Visitor& v, RigFile& rig) {
            drive.coast_down_1_per_s);
   v.Number({"friction", kRpmPerSecond, 0, 1e6, kRequired, "friction of the same equation"},
            drive.coast_down_rad_per_s2);
+  v.Number({"polar_inertia", kInertia, 0, 1e6, 0,
+            "of all that turns, as the first shaft feels it: friction in the touchdown bearings "
+            "brakes it; 0: unknown, and contact does not change the speed"},
+           drive.polar_inertia_kg_m2);
 }
 
 constexpr std::array<std::string_view, 3> kCarriesWords{"everything", "from_rig", "to_rig"};

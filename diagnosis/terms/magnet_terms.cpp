@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "diagnosis/terms/terms.hpp"
+#include "plant_sim/effect/coil.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 
 namespace levitas::diagnosis {
@@ -98,13 +99,15 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
     const auto magnet = rig.magnet(a).magnet;
     const double bias_a = rig.bias_a(a);
     // The current counts for more, not the force: at a current that carries weight the two differ.
-    Term gain = MakeTerm({"current_gain", channel, "ratio", "1"}, tolerances.current_gain, 0.15,
-                         [=](const Moment& m, double theta, Addition& add) {
-                           const double x = static_cast<double>(m.actuator_m[a]);
-                           const double i = static_cast<double>(m.coil_mean_a[a]);
-                           add.force_n[a] += magnet::Force(magnet, bias_a, (1.0 + theta) * i, x) -
-                                             magnet::Force(magnet, bias_a, i, x);
-                         });
+    Term gain = MakeTerm(
+        {"current_gain", channel, "ratio", "1"}, tolerances.current_gain, 0.15,
+        [=](const Moment& m, double theta, Addition& add) {
+          const double x = static_cast<double>(m.actuator_m[a]);
+          const double i = static_cast<double>(m.coil_mean_a[a]);
+          const effect::CoilPair acting = effect::Scaled({bias_a + i, bias_a - i}, 1.0 + theta);
+          add.force_n[a] += magnet::ForceOfCoils(magnet, acting.towards, acting.away, x) -
+                            magnet::Force(magnet, bias_a, i, x);
+        });
     gain.linear = false;
     gain.step = 0.02;
     gain.slope = [a](const Moment& m, double theta, AddedSlopes& added) {

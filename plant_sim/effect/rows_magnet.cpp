@@ -31,7 +31,8 @@ constexpr std::array kRotation{Parameter{"angle", "rad", "deg", -45.0 * kDegree,
 constexpr std::array kRows{
     Row{Id::kCurrentGain, "current_gain", Place::kMagnet, Scope::kChannels, kCurrentGain,
         "the force per control current differs from nominal", "F = F_nominal(ratio ic, x)",
-        "every response to current scaled by ratio; ks and all else unchanged",
+        "every response to current scaled by ratio; ks, the limits of the coils and all else "
+        "unchanged",
         "Schweitzer & Maslen 2009, Magnetic Bearings, ch. 4"},
     Row{Id::kDisplacementStiffness, "displacement_stiffness", Place::kMagnet, Scope::kChannels,
         kStiffness, "the negative stiffness of the magnet differs from nominal",

@@ -141,6 +141,7 @@ void CheckConfig(const PlantConfig& config) {
   NotNegative("drive.max_acceleration_rad_per_s2", config.drive.max_acceleration_rad_per_s2);
   NotNegative("drive.coast_down_1_per_s", config.drive.coast_down_1_per_s);
   NotNegative("drive.coast_down_rad_per_s2", config.drive.coast_down_rad_per_s2);
+  NotNegative("drive.polar_inertia_kg_m2", config.drive.polar_inertia_kg_m2);
   CheckEffects(config);
 }
 

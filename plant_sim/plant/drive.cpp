@@ -46,4 +46,11 @@ void Coast(Rotation& rotation, const DriveConfig& drive, double duration_s) noex
   rotation.acceleration_rad_per_s2 = sign * (end - start) / duration_s;
 }
 
+void Brake(Rotation& rotation, double polar_inertia_kg_m2, double torque_n_m, double slip_rad_per_s,
+           double duration_s) noexcept {
+  if (!(polar_inertia_kg_m2 > 0.0)) return;
+  rotation.speed_rad_per_s +=
+      std::clamp(torque_n_m / polar_inertia_kg_m2 * duration_s, -slip_rad_per_s, slip_rad_per_s);
+}
+
 }  // namespace levitas::plant

@@ -1,6 +1,7 @@
 #include "plant_sim/plant/effect_forces.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "plant_sim/effect/coil.hpp"
 #include "plant_sim/effect/crack.hpp"
@@ -11,12 +12,13 @@ namespace {
 
 double AxisForce(const magnet::Magnet& m, const MagnetEffects& e, double bias_a, double control_a,
                  double x_m) noexcept {
-  const double control = e.gain * control_a;
-  const double towards = std::clamp(bias_a + control, 0.0, m.max_coil_current_a);
-  const double away = std::clamp(bias_a - control, 0.0, m.max_coil_current_a);
+  const double towards_a = std::clamp(bias_a + control_a, 0.0, m.max_coil_current_a);
+  const double away_a = std::clamp(bias_a - control_a, 0.0, m.max_coil_current_a);
+  const effect::CoilPair acting = effect::Scaled({towards_a, away_a}, e.gain);
   const double force_n = magnet::ForceOfCoils(
-      m, e.towards * effect::Saturated(towards, e.per_knee_1_per_a, e.knee_exponent),
-      e.away * effect::Saturated(away, e.per_knee_1_per_a, e.knee_exponent), x_m);
+      m,
+      e.towards * effect::Saturated(std::abs(acting.towards), e.per_knee_1_per_a, e.knee_exponent),
+      e.away * effect::Saturated(std::abs(acting.away), e.per_knee_1_per_a, e.knee_exponent), x_m);
   return force_n + e.stiffness_n_per_m * x_m;
 }
 
@@ -84,15 +86,17 @@ PlaneForce MagnetWithEffects(const BearingModel& bearing, const BearingEffects& 
   return {c * fx_n - s * fy_n, s * fx_n + c * fy_n};
 }
 
-PlaneForce Rub(const BearingEffects& effects, double x_m, double y_m, double vx_m_per_s,
-               double vy_m_per_s, double speed_rad_per_s, ForceReport& report) noexcept {
+PlaneForce Rub(const BearingModel& bearing, const BearingEffects& effects, double x_m, double y_m,
+               double vx_m_per_s, double vy_m_per_s, double speed_rad_per_s,
+               ForceReport& report) noexcept {
   PlaneForce sum;
   for (const support::Touchdown& ring : effects.rubs) {
     if (!support::Touches(ring, x_m, y_m)) continue;
-    const auto contact = support::Push(ring, x_m, y_m, vx_m_per_s, vy_m_per_s, speed_rad_per_s);
+    const auto contact = support::Push(ring, x_m, y_m, vx_m_per_s, vy_m_per_s,
+                                       bearing.speed_ratio * speed_rad_per_s);
     sum.x_n += contact.x_n;
     sum.y_n += contact.y_n;
-    report.contact_n = std::max(report.contact_n, contact.normal_n);
+    Report(ring, contact, bearing.speed_ratio, report);
   }
   return sum;
 }

@@ -20,9 +20,9 @@ struct PlaneForce {
                                            std::size_t axis, double x_m, double y_m) noexcept;
 
 /// The rubbing rings that a journal touches, if any.
-[[nodiscard]] PlaneForce Rub(const BearingEffects& effects, double x_m, double y_m,
-                             double vx_m_per_s, double vy_m_per_s, double speed_rad_per_s,
-                             ForceReport& report) noexcept;
+[[nodiscard]] PlaneForce Rub(const BearingModel& bearing, const BearingEffects& effects, double x_m,
+                             double y_m, double vx_m_per_s, double vy_m_per_s,
+                             double speed_rad_per_s, ForceReport& report) noexcept;
 
 /// Adds the modal accelerations of EffectModel::motions.
 void AddEffectForces(const PlantModel& model, const Spin& spin, const double* position,

@@ -98,6 +98,7 @@ std::vector<Entry> Entries(PlantParameters& p) {
       {"drive.max_acceleration_rad_per_s2", &p.config.drive.max_acceleration_rad_per_s2});
   entries.push_back({"drive.coast_down_1_per_s", &p.config.drive.coast_down_1_per_s});
   entries.push_back({"drive.coast_down_rad_per_s2", &p.config.drive.coast_down_rad_per_s2});
+  entries.push_back({"drive.polar_inertia_kg_m2", &p.config.drive.polar_inertia_kg_m2});
   // The rigid modes have neither frequency nor damping: a free rotor's cannot be set. Geared
   // shafts that stand on springs have none.
   const bool one_rotor = p.config.shafts.empty();

@@ -96,6 +96,9 @@ struct DriveConfig {
   double max_acceleration_rad_per_s2{};
   double coast_down_1_per_s{};     ///< without torque the speed decays as d omega/dt = -c omega ...
   double coast_down_rad_per_s2{};  ///< ... - this (dry friction) until it stands
+  double
+      polar_inertia_kg_m2{};  ///< of all that turns, as the first shaft feels it; contact friction
+                              ///< brakes it. 0: unknown, and contact does not change the speed
 };
 
 struct PlantConfig {

@@ -163,6 +163,10 @@ void Plant::Impl::Integrate(const StepTable& table, const CoilCommand& coils,
     StepRotor(*model, table, start, end, start_spin, end_spin, state.data() + at.q_x,
               state.data() + at.v_x, work, report, moving);
     if (moving != nullptr) StoreHousings(housings);
+    if (report.friction_n_m != 0.0) {
+      Brake(rotation, model->config().drive.polar_inertia_kg_m2, report.friction_n_m,
+            report.slip_rad_per_s, table.duration_s);
+    }
     const AxisArray now_m = SensorPositions();
     for (std::size_t a = 0; a < model->axes(); ++a) {
       const sensor::FilterStep& filter = table.sensor[a];

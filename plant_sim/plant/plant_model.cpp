@@ -156,6 +156,7 @@ void PlantModel::BuildBearings() {
     model.touchdown = {b.touchdown.clearance_m, b.touchdown.stiffness_n_per_m,
                        b.touchdown.damping_n_s_per_m, b.touchdown.friction,
                        b.touchdown.journal_radius_m};
+    if (train_.shafts > 0) model.speed_ratio = train_.ratio[b.shaft];
     model.has_touchdown = b.touchdown.stiffness_n_per_m > 0.0;
     model.actuator_shape = ToVector(parameters_.modes.ShapeAt(b.actuator_z_m, b.shaft));
     model.sensor_shape = ToVector(parameters_.modes.ShapeAt(b.sensor_z_m, b.shaft));

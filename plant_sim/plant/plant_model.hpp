@@ -60,6 +60,7 @@ struct BearingModel {
   sensor::Converter converter;
   support::Touchdown touchdown;
   bool has_touchdown{};
+  double speed_ratio{1.0};             ///< of its shaft: speed over that of the first, (G15)
   std::vector<double> actuator_shape;  ///< per mode
   std::vector<double> sensor_shape;    ///< per mode
 

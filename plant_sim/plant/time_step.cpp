@@ -93,11 +93,11 @@ void AddBearing(Count modes, const BearingModel& b, const Currents& currents, st
                                          currents.control_a[axis + 1], y_m);
   if (b.has_touchdown && support::Touches(b.touchdown, x_m, y_m)) {
     const auto [vx_m_per_s, vy_m_per_s] = BothPlanes(modes, shape, velocity);
-    const auto contact =
-        support::Push(b.touchdown, x_m, y_m, vx_m_per_s, vy_m_per_s, speed_rad_per_s);
+    const auto contact = support::Push(b.touchdown, x_m, y_m, vx_m_per_s, vy_m_per_s,
+                                       b.speed_ratio * speed_rad_per_s);
     fx_n += contact.x_n;
     fy_n += contact.y_n;
-    report.contact_n = std::max(report.contact_n, contact.normal_n);
+    Report(b.touchdown, contact, b.speed_ratio, report);
   }
   Project(modes, shape, fx_n, fy_n, acceleration);
 }
@@ -119,15 +119,15 @@ void AddBearingWithEffects(Count modes, const BearingModel& b, const BearingEffe
   }
   PlaneForce force = MagnetWithEffects(b, effects, currents, axis, x_m, y_m);
   if (b.x_only) force.y_n = 0.0;
-  const PlaneForce rub = Rub(effects, x_m, y_m, vx_m_per_s, vy_m_per_s, speed_rad_per_s, report);
+  const PlaneForce rub = Rub(b, effects, x_m, y_m, vx_m_per_s, vy_m_per_s, speed_rad_per_s, report);
   force.x_n += rub.x_n;
   force.y_n += rub.y_n;
   if (b.has_touchdown && support::Touches(b.touchdown, x_m, y_m)) {
-    const auto contact =
-        support::Push(b.touchdown, x_m, y_m, vx_m_per_s, vy_m_per_s, speed_rad_per_s);
+    const auto contact = support::Push(b.touchdown, x_m, y_m, vx_m_per_s, vy_m_per_s,
+                                       b.speed_ratio * speed_rad_per_s);
     force.x_n += contact.x_n;
     force.y_n += contact.y_n;
-    report.contact_n = std::max(report.contact_n, contact.normal_n);
+    Report(b.touchdown, contact, b.speed_ratio, report);
   }
   report.bearing_n[axis] = force.x_n;
   report.bearing_n[axis + 1] = force.y_n;
@@ -138,6 +138,8 @@ template <class Count>
 void Forces(Count modes, const PlantModel& model, const Currents& currents, const Spin& spin,
             const double* position, const double* velocity, double* acceleration,
             ForceReport& report, const Housings* housings) noexcept {
+  report.friction_n_m = 0.0;
+  report.slip_rad_per_s = 0.0;
   AddSteadyForces(modes, model, spin, acceleration);
   if (spin.speed_rad_per_s != 0.0) {
     AddGyroscopic(modes, model.gyroscopic().data(), spin.speed_rad_per_s, velocity, acceleration);
@@ -239,6 +241,15 @@ void WithModes(const PlantModel& model, const Function& function) noexcept {
 }
 
 }  // namespace
+
+void Report(const support::Touchdown& ring, const support::Contact& contact, double ratio,
+            ForceReport& report) noexcept {
+  report.contact_n = std::max(report.contact_n, contact.normal_n);
+  if (!(contact.normal_n > 0.0) || !(ring.journal_radius_m > 0.0)) return;
+  report.friction_n_m += ratio * contact.tangential_n * ring.journal_radius_m;
+  report.slip_rad_per_s = std::max(
+      report.slip_rad_per_s, std::abs(contact.sliding_m_per_s / (ratio * ring.journal_radius_m)));
+}
 
 Heading MakeHeading(const Rotation& rotation) noexcept {
   return {std::cos(rotation.angle_rad), std::sin(rotation.angle_rad)};

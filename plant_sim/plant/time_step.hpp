@@ -48,10 +48,17 @@ struct Heading {
 
 /// Forces found on the way, for those who ask.
 struct ForceReport {
-  double contact_n{};  ///< largest normal force since it was last set to zero
+  double contact_n{};       ///< largest normal force since it was last set to zero
+  double friction_n_m{};    ///< torque of all contacts on the rotation of the first shaft, now
+  double slip_rad_per_s{};  ///< largest change of its speed at which a contact would stop sliding
   AxisArray
       bearing_n{};  ///< on the rotor by each bearing, of the latest instant; with effects only
 };
+
+/// What a contact does besides its force. Shaft s turns at ratio times the speed of the first: its
+/// torque counts there `ratio` times, since the powers are equal.
+void Report(const support::Touchdown& ring, const support::Contact& contact, double ratio,
+            ForceReport& report) noexcept;
 
 /// Modal accelerations besides those of the free oscillators, over PlantModel::coordinates().
 /// `housings` is null when none moves.

@@ -5,8 +5,8 @@
 //            T = -mu N v/sqrt(v^2 + v0^2),  v = tangential velocity + speed x journal radius.
 //            docs/derivations.md (23)-(25). One-sided: it pushes, it never pulls.
 // Frame      bearing frame, rotation positive from x to y.
-// Thread     any; pure functions. Not done: the bearing's own rotation and mass, wear, heat, and
-//            the braking torque of the friction on the shaft's rotation.
+//            T acts at the journal's surface: T journal radius is its torque on the shaft.
+// Thread     any; pure functions. Not done: the bearing's own rotation and mass, wear, heat.
 
 #include <cmath>
 
@@ -26,7 +26,9 @@ inline constexpr double kSmoothingMPerS = 0.01;
 struct Contact {
   double x_n{};
   double y_n{};
-  double normal_n{};  ///< >= 0
+  double normal_n{};         ///< >= 0
+  double tangential_n{};     ///< T, positive from x to y
+  double sliding_m_per_s{};  ///< v
 };
 
 [[nodiscard]] inline bool Touches(const Touchdown& t, double x_m, double y_m) noexcept {
@@ -48,7 +50,8 @@ struct Contact {
   const double tangential_n =
       -t.friction * normal_n * sliding_m_per_s /
       std::sqrt(sliding_m_per_s * sliding_m_per_s + kSmoothingMPerS * kSmoothingMPerS);
-  return {-normal_n * nx - tangential_n * ny, -normal_n * ny + tangential_n * nx, normal_n};
+  return {-normal_n * nx - tangential_n * ny, -normal_n * ny + tangential_n * nx, normal_n,
+          tangential_n, sliding_m_per_s};
 }
 
 }  // namespace levitas::support

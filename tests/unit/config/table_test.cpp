@@ -251,7 +251,7 @@ TEST(Tables, KnowEveryFieldOfTheStructs) {
   EXPECT_EQ(FieldCount<plant::SensorConfig>(), 5U);
   EXPECT_EQ(FieldCount<plant::TouchdownConfig>(), 5U);
   EXPECT_EQ(FieldCount<plant::UnbalanceMass>(), 4U);
-  EXPECT_EQ(FieldCount<plant::DriveConfig>(), 3U);
+  EXPECT_EQ(FieldCount<plant::DriveConfig>(), 4U);
   EXPECT_EQ(FieldCount<rotor::RotorConfig>(), 8U);
   EXPECT_EQ(FieldCount<rotor::Material>(), 3U);
   EXPECT_EQ(FieldCount<rotor::Section>(), 3U);
@@ -265,7 +265,7 @@ TEST(Tables, KnowEveryFieldOfTheStructs) {
   EXPECT_EQ(FieldCount<law::LawConfig>(), 4U);
   EXPECT_EQ(FieldCount<law::AxisLawConfig>(), 6U);
   EXPECT_EQ(FieldCount<law::LeadLag>(), 2U);
-  EXPECT_EQ(FieldCount<law::Notch>(), 3U);
+  EXPECT_EQ(FieldCount<law::Notch>(), 4U);
   EXPECT_EQ(FieldCount<supervisor::SequenceConfig>(), 8U);
   EXPECT_EQ(FieldCount<supervisor::ProtectionConfig>(), 10U);
   EXPECT_EQ(FieldCount<scenario::Step>(), 9U);
