@@ -72,6 +72,35 @@ TEST(Backlash, LeavesNoForceWithinTheGap) {
   EXPECT_NEAR(MeshForce(law, At(0.1), {-15e-6, 0.0}, {}).x, -5.0, kRounding_n);
 }
 
+TEST(Backlash, LetsTheDampingTakeNoMoreThanTheSpringPresses) {
+  // 5 N of spring beyond the gap, 300 N s/m of damping: teeth that part at 0.1 m/s do not hold each
+  // other back with 25 N.
+  for (const auto direction : {Direction::kIsotropic, Direction::kLineOfAction}) {
+    MeshLaw law = Law(direction);
+    law.half_backlash_m = 10e-6;
+    const Vector& n = law.normal;
+    for (const double side : {1.0, -1.0}) {
+      const auto pressed = [&](double rate_m_per_s) {
+        return side * Dot(MeshForce(law, At(0.1), side * 15e-6 * n, side * rate_m_per_s * n), n);
+      };
+      EXPECT_NEAR(pressed(-0.1), 0.0, 10.0 * kRounding_n);
+      EXPECT_NEAR(pressed(-0.01), 2.0, 10.0 * kRounding_n);
+      EXPECT_NEAR(pressed(0.1), 35.0, 10.0 * kRounding_n);
+    }
+    law.half_backlash_m = 0.0;  // what leaves one flank lies on the other
+    EXPECT_NEAR(Dot(MeshForce(law, At(0.1), 15e-6 * n, -0.1 * n), n), -15.0, 10.0 * kRounding_n);
+  }
+}
+
+TEST(Backlash, UnderLoadPartingTeethLackAtMostTheLoad) {
+  MeshLaw law = Law(Direction::kLineOfAction);
+  law.half_backlash_m = 10e-6;
+  law.preload_n = 20.0;
+  const Vector& n = law.normal;
+  // 5 um of the load's 20 um are left, and the teeth part fast: no force between them, 20 N missing.
+  EXPECT_NEAR(Dot(MeshForce(law, At(0.1), -15e-6 * n, -0.1 * n), n), -20.0, 10.0 * kRounding_n);
+}
+
 TEST(Backlash, TakesAwayOnlyTheLoadWhenTheTeethSeparate) {
   MeshLaw law = Law(Direction::kLineOfAction);
   law.half_backlash_m = 10e-6;

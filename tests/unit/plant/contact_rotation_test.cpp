@@ -165,6 +165,7 @@ Energy OfAThrow(double plant_inertia_kg_m2) {
   constexpr double kInertia_kg_m2 = 1e-3;
   PlantConfig config = Lying(plant_inertia_kg_m2, 0.3);
   config.gravity_m_per_s2 = 0.0;
+  config.substeps = 32;  // it ends in a whirl deep in the ring, where Coulomb's corner is stiff
   Plant plant(config, 1);
   plant.RestInTouchdown();  // amplifiers off, coils empty
   plant.PlaceAtRest({});
