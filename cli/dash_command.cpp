@@ -21,11 +21,24 @@ struct DashOptions {
   std::string port{"lcm"};
   dashboard::WebOptions web;
   bool allow_network{false};
+  std::string token_path;
   double answer_within_s{1.5};
   std::string json_path;
 };
 
+/// The one given, checked; empty when none was.
+std::string GivenToken(const DashOptions& options) {
+  if (!options.token_path.empty()) return dashboard::ReadToken(options.token_path);
+  if (options.web.token.empty()) return {};
+  dashboard::CheckToken(options.web.token, "--token");
+  fmt::print(stderr,
+             "warning: every user of this machine can see --token in the list of processes; "
+             "--token-file keeps it out of sight\n");
+  return options.web.token;
+}
+
 ExitStatus Serve(DashOptions options) {
+  options.web.token = GivenToken(options);
   if (!dashboard::IsLoopback(options.web.address)) {
     if (!options.allow_network) {
       throw Problem(ExitStatus::kUsage,
@@ -69,7 +82,14 @@ void AddDashCommand(CLI::App& app, Action& action) {
       ->capture_default_str();
   command->add_flag("--allow-network", options->allow_network,
                     "Let other machines in, with a token that is part of the printed address");
-  command->add_option("--token", options->web.token, "Token to ask for; default: a random one");
+  auto* token = command->add_option(
+      "--token", options->web.token,
+      "Token to ask for, 16 characters or more, which every user of this machine can see; "
+      "default: a random one");
+  command
+      ->add_option("--token-file", options->token_path,
+                   "Token to ask for: the first line of a file that only its owner may read")
+      ->excludes(token);
   command
       ->add_option("--answer-within", options->answer_within_s,
                    "How long a command waits for the controller's word before it counts as "

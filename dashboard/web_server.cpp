@@ -4,12 +4,17 @@
 #include <httplib.h>
 #include <sys/socket.h>
 
+#include <atomic>
 #include <chrono>
-#include <thread>
+#include <optional>
 #include <utility>
 
+#include "common/enums.hpp"
 #include "common/problem.hpp"
 #include "dashboard/access.hpp"
+#include "dashboard/answer_stream.hpp"
+#include "dashboard/front_door.hpp"
+#include "dashboard/lane.hpp"
 #include "dashboard/page_files.hpp"
 
 namespace levitas::dashboard {
@@ -18,8 +23,14 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 
-constexpr std::size_t kThreads = WebServer::kMaxViewers + 16;
-constexpr std::size_t kMaxRequestBytes = 64 * 1024;
+constexpr std::size_t kStopThreads = 4;
+constexpr std::size_t kCommandThreads = 4;
+constexpr std::size_t kPageThreads = 4;
+// Two more than viewers: who is one too many is told so.
+constexpr std::size_t kViewerThreads = WebServer::kMaxViewers + 2;
+constexpr std::size_t kMostWaiting = 32;  // in each lane
+constexpr const char* kEvents = "/events";
+constexpr const char* kCommand = "/api/command";
 constexpr std::chrono::milliseconds kHeartbeat{2000};
 constexpr int kForbidden = 403;
 constexpr int kUnavailable = 503;
@@ -38,32 +49,63 @@ void Refuse(Response& response, int status, const char* why) {
                        "application/json");
 }
 
+/// The library's routes and answers over connections and requests of ours.
+class Library : public httplib::Server {
+ public:
+  ~Library() override { (void)Connection(svr_sock_.exchange(INVALID_SOCKET)); }
+
+  [[nodiscard]] int listening() const { return svr_sock_; }
+
+  void Answer(const Asked& asked) {
+    const bool endless = asked.request.path() == kEvents;
+    AnswerStream stream(asked.connection.socket(), asked.request.text(),
+                        endless ? std::nullopt : std::optional(WebServer::kAnswerWithin));
+    bool closed = false;
+    (void)process_request(stream, true, closed, nullptr);
+  }
+};
+
 }  // namespace
 
 struct WebServer::Impl {
   Impl(const WebOptions& given, Hub& the_hub, std::vector<Route> the_routes)
       : options(given), hub(the_hub), routes(std::move(the_routes)) {
-    // Owned and deleted by the library, whose interface is this pointer.
-    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory)
-    server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     server.set_socket_options(SetSocketOptions);
-    server.set_tcp_nodelay(true);
-    server.set_keep_alive_timeout(1);
-    server.set_read_timeout(5);
-    server.set_write_timeout(3);
-    server.set_payload_max_length(kMaxRequestBytes);
     server.set_pre_routing_handler([this](const Request& request, Response& response) {
-      if (Allowed(request)) return Server::HandlerResponse::Unhandled;
+      if (FromAnotherPage(request.get_header_value("Host"), request.get_header_value("Origin"),
+                          request.get_header_value("Sec-Fetch-Site"))) {
+        Refuse(response, kForbidden, "another page asked for this");
+        return Library::HandlerResponse::Handled;
+      }
+      if (Allowed(request)) return Library::HandlerResponse::Unhandled;
       Refuse(response, kForbidden, "open the address with the token that amb dash printed");
-      return Server::HandlerResponse::Handled;
+      return Library::HandlerResponse::Handled;
     });
-    server.Get("/events", [this](const Request&, Response& response) { Stream(response); });
+    server.Get(kEvents, [this](const Request&, Response& response) { Stream(response); });
     for (const Route& route : routes) Serve(route);
     ServePage();  // last: it takes every other path
     Bind();
-    thread = std::thread([this] { server.listen_after_bind(); });
-    // Before that, a stop would not be heard.
-    while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    door.emplace(server.listening(),
+                 [this](Asked& asked) { return LaneOf(asked.request).Put(asked); });
+  }
+
+  ~Impl() {
+    hub.Close();
+    door->Close();  // the lanes end before it goes: they hand their connections back to it
+  }
+
+  Lane& LaneOf(const RequestReader& request) {
+    if (request.path() == kEvents) return viewer_lane;
+    if (!request.post()) return page_lane;
+    const bool stop =
+        request.path() == kCommand &&
+        request.body().find(Name(OperatorCommand::kEmergencyStop)) != std::string::npos;
+    return stop ? stop_lane : command_lane;
+  }
+
+  void Answer(Asked asked) {
+    server.Answer(asked);
+    door->SeeOut(std::move(asked.connection));
   }
 
   [[nodiscard]] bool Allowed(const Request& request) const {
@@ -146,7 +188,6 @@ struct WebServer::Impl {
                               options.address, options.port));
   }
 
-  using Server = httplib::Server;
   inline static const std::string kComment{": still here\n\n"};
 
   WebOptions options;
@@ -154,18 +195,19 @@ struct WebServer::Impl {
   const std::vector<Route> routes;
   std::atomic<int> viewers{0};
   int port{0};
-  Server server;
-  std::thread thread;
+  Library server;
+  std::optional<FrontDoor> door;
+  const Lane::Serve serve{[this](Asked asked) { Answer(std::move(asked)); }};
+  Lane stop_lane{kStopThreads, kMostWaiting, serve};
+  Lane command_lane{kCommandThreads, kMostWaiting, serve};
+  Lane page_lane{kPageThreads, kMostWaiting, serve};
+  Lane viewer_lane{kViewerThreads, kMostWaiting, serve};
 };
 
 WebServer::WebServer(const WebOptions& options, Hub& hub, std::vector<Route> routes)
     : impl_(std::make_unique<Impl>(options, hub, std::move(routes))) {}
 
-WebServer::~WebServer() {
-  impl_->hub.Close();
-  impl_->server.stop();
-  impl_->thread.join();
-}
+WebServer::~WebServer() = default;
 
 std::string WebServer::Url() const {
   const std::string& address = impl_->options.address;

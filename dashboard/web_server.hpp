@@ -5,15 +5,17 @@
 //   GET  /events      server-sent events: what the hub has, one stream per viewer
 //   routes            as given: command_api.hpp, scope_desk.hpp; POST needs the page's header
 //
-// Bounds    a request of more than 64 KiB is refused (413). kMaxViewers streams at once, the next is told 503. A viewer that takes nothing for
-//           three seconds is dropped (its browser comes back by itself); what the kernel holds for
-//           it is kSendBufferBytes.
+// Bounds    front_door.hpp, request_reader.hpp: connections, their times and sizes. kMaxViewers
+//           streams at once, the next is told 503. A viewer that takes nothing for three seconds is
+//           dropped (its browser comes back by itself); what the kernel holds for it is
+//           kSendBufferBytes. Any other answer must be taken within kAnswerWithin.
+// Lanes     the emergency stop, other commands, the page and the viewers have threads of their own
+//           (lane.hpp): none can hold back another's.
 // Access    access.hpp.
-// Thread    a pool of its own; the hub and the routes are called from there.
+// Thread    its own; the hub and the routes are called from there.
 // Failure   Problem (exit status 1) when the address cannot be bound, naming it.
 
-#include <atomic>
-#include <cstdint>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,6 +37,7 @@ class WebServer {
   static constexpr int kMaxViewers = 16;
   static constexpr int kPortsTried = 64;
   static constexpr int kSendBufferBytes = 256 * 1024;
+  static constexpr std::chrono::seconds kAnswerWithin{30};
 
   WebServer(const WebOptions& options, Hub& hub, std::vector<Route> routes);
   /// Closes the hub, so that the streams end, and joins.

@@ -107,15 +107,36 @@ class Access(unittest.TestCase):
         self.assertEqual(until(rig.url, lambda name, data: name == "tick")["mode"], "off")
 
     def test_needs_the_token_where_a_token_is_asked_for(self):
-        rig = Rig(self, "--token", "secret")
+        secret = "0123456789abcdef"
+        rig = Rig(self, "--token", secret)
         base, _, token = rig.url.partition("?")
-        self.assertEqual(token, "token=secret")
+        self.assertEqual(token, "token=" + secret)
+        self.assertIn("--token-file", rig.dash.text)  # the warning
         lift = {"command": "lift"}
         self.assertEqual(rig.post(lift, url=base)[0], 403)
-        self.assertEqual(rig.post(lift, {"X-Levitas": "1", "X-Levitas-Token": "Secret"}, base)[0], 403)
+        self.assertEqual(rig.post(lift, {"X-Levitas": "1", "X-Levitas-Token": secret.upper()}, base)[0], 403)
         with self.assertRaises(urllib.error.HTTPError):
             urllib.request.urlopen(base + "events", timeout=LONG)
-        self.assertEqual(rig.post(lift, {"X-Levitas": "1", "X-Levitas-Token": "secret"}, base)[0], 200)
+        self.assertEqual(rig.post(lift, {"X-Levitas": "1", "X-Levitas-Token": secret}, base)[0], 200)
+
+    def test_takes_the_token_from_a_file_that_is_the_users_alone(self):
+        rig = Rig(self)
+        path = Path(rig.folder) / "token"
+        path.write_text("fedcba9876543210\n")
+        path.chmod(0o600)
+        rig.start_dash("--token-file", str(path))
+        self.assertTrue(rig.url.endswith("?token=fedcba9876543210"))
+        for text, mode, arguments, status, said in (
+                ("fedcba9876543210\n", 0o644, ("--token-file", path), 3, "chmod 600"),
+                ("short\n", 0o600, ("--token-file", path), 2, "16"),
+                ("", 0o600, ("--token", "short"), 2, "16"),
+                ("fedcba9876543210\n", 0o600, ("--token-file", path, "--token", "x" * 16), 2, "--token")):
+            path.write_text(text)
+            path.chmod(mode)
+            done = subprocess.run([BINARIES / "amb", "dash", *arguments], text=True,
+                                  capture_output=True, timeout=LONG, check=False)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertIn(said, done.stderr)
 
     def test_is_not_given_to_the_network_by_accident(self):
         done = subprocess.run([BINARIES / "amb", "dash", "--listen", "0.0.0.0"], text=True,
@@ -138,6 +159,76 @@ class Access(unittest.TestCase):
             urllib.request.urlopen(request, timeout=LONG)
         self.assertEqual(refused.exception.code, 404)
         self.assertEqual(rig.command("lift"), (200, "accepted"))
+
+
+class Floods(unittest.TestCase):
+    """A client that sends without end, or never ends its request."""
+
+    HEAD = b"Host: localhost\r\nX-Levitas: 1\r\n"
+    MEGABYTE = 1 << 20
+    # Room for threads and buffers [MB]; what was sent is 400 MB each.
+    MOST_GROWTH_MB = 40
+
+    def connected(self, rig):
+        where = urllib.parse.urlsplit(rig.url)
+        sock = socket.create_connection((where.hostname, where.port), timeout=LONG)
+        self.addCleanup(sock.close)
+        return sock
+
+    @staticmethod
+    def resident_mb(process):
+        status = Path(f"/proc/{process.child.pid}/status").read_text()
+        return int(status.split("VmRSS:")[1].split()[0]) / 1024
+
+    def test_of_four_hundred_megabytes_are_not_kept(self):
+        rig = Rig(self)
+        before = self.resident_mb(rig.dash)
+        much = b"a" * self.MEGABYTE
+        post = b"POST /api/command HTTP/1.1\r\n" + self.HEAD
+        headers = b"".join(b"X%07d: %s\r\n" % (i, b"y" * 100) for i in range(9000))
+        for name, begin, more in (
+                ("chunked", post + b"Transfer-Encoding: chunked\r\n\r\n",
+                 b"100000\r\n" + much + b"\r\n"),
+                ("without a length", post + b"\r\n", much),
+                ("many headers", b"GET / HTTP/1.1\r\n" + self.HEAD, headers),
+                ("a long header", b"GET / HTTP/1.1\r\n" + self.HEAD + b"X: ", much),
+                ("a long address", b"GET /", much)):
+            with self.subTest(name):
+                sock = self.connected(rig)
+                sock.sendall(begin)
+                sent = 0
+                try:
+                    while sent < 400 * self.MEGABYTE:
+                        sock.sendall(more)
+                        sent += len(more)
+                except OSError:
+                    pass
+                self.assertLess(sent, 400 * self.MEGABYTE)
+                self.assertLess(self.resident_mb(rig.dash) - before, self.MOST_GROWTH_MB)
+        self.assertEqual(rig.command("emergency_stop"), (200, "accepted"))
+
+    def test_of_slow_clients_do_not_hold_back_the_emergency_stop(self):
+        rig = Rig(self)
+        ended = threading.Event()
+        self.addCleanup(ended.set)
+        begin = b"POST /api/command HTTP/1.1\r\n" + self.HEAD
+        clients = [self.connected(rig) for _ in range(120)]
+        for i, sock in enumerate(clients):
+            sock.sendall((b"", begin + b"X-A: ", begin + b"Content-Length: 60000\r\n\r\n")[i % 3])
+
+        def drip():
+            while not ended.wait(0.5):
+                for i, sock in enumerate(clients):
+                    try:
+                        if i % 3:
+                            sock.sendall(b"a")
+                    except OSError:
+                        clients[i] = self.connected(rig)  # thrown out: there it is again
+                        clients[i].sendall(begin + b"X-A: ")
+
+        threading.Thread(target=drip, daemon=True).start()
+        # They never let go: only who is answered beside them is answered.
+        self.assertEqual(rig.command("emergency_stop"), (200, "accepted"))
 
 
 def drain(stream):

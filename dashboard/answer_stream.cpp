@@ -1,0 +1,51 @@
+#include "dashboard/answer_stream.hpp"
+
+#include <sys/poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <string>
+
+namespace levitas::dashboard {
+
+using std::chrono::steady_clock;
+
+AnswerStream::AnswerStream(int socket, std::string_view request,
+                           std::optional<std::chrono::milliseconds> within)
+    : socket_(socket), unread_(request) {
+  if (within) end_ = steady_clock::now() + *within;
+}
+
+bool AnswerStream::is_writable() const {
+  if (end_ && steady_clock::now() > *end_) return false;
+  pollfd polled{socket_, POLLOUT, 0};
+  if (::poll(&polled, 1, static_cast<int>(kTakesNothing.count())) <= 0) return false;
+  // Who asked once may have said that no more will come; a viewer that did has gone.
+  if (end_) return true;
+  char next{};
+  return ::recv(socket_, &next, 1, MSG_PEEK | MSG_DONTWAIT) != 0;
+}
+
+ssize_t AnswerStream::read(char* to, std::size_t size) {
+  const std::size_t count = std::min(size, unread_.size());
+  std::copy_n(unread_.begin(), count, to);
+  unread_.remove_prefix(count);
+  return static_cast<ssize_t>(count);
+}
+
+ssize_t AnswerStream::write(const char* from, std::size_t size) {
+  if (!is_writable()) return -1;
+  return ::send(socket_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
+}
+
+void AnswerStream::get_remote_ip_and_port(std::string& ip, int& port) const {
+  ip.clear();  // nothing of the page asks
+  port = 0;
+}
+
+void AnswerStream::get_local_ip_and_port(std::string& ip, int& port) const {
+  ip.clear();
+  port = 0;
+}
+
+}  // namespace levitas::dashboard
