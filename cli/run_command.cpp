@@ -149,16 +149,17 @@ ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunP
   }
 }
 
-ExitStatus Execute(const RunOptions& options) {
-  if (!std::isfinite(options.duration_s)) {  // which the option's own check lets pass
+ExitStatus Execute(const RunOptions& asked) {
+  if (!std::isfinite(asked.duration_s)) {  // which the option's own check lets pass
     throw Problem(ExitStatus::kUsage, "--duration: not a number of seconds; allowed: above 0");
   }
-  for (const std::string& path : {options.record_path, options.json_path}) {
+  for (const std::string& path : {asked.record_path, asked.json_path}) {
     session::CheckOutputPath(path, {});
   }
-  session::CheckNoRecording(options.record_path, options.overwrite);
-  std::optional<transport::LcmNetwork> network = CheckPort(options.port);
-  const RunFiles files = CheckFiles(options);
+  session::CheckNoRecording(asked.record_path, asked.overwrite);
+  std::optional<transport::LcmNetwork> network = CheckPort(asked.port);
+  const RunFiles files = CheckFiles(asked);
+  const RunOptions options = SettleRig(asked, config::LoadRig(files.rig_path));
   CheckBuses(options, files);
   const PortLease lease = Lease(network);
   RunFolder folder;
@@ -171,8 +172,9 @@ ExitStatus Execute(const RunOptions& options) {
   const std::string port = socketcan::IsCanPort(options.port)
                                ? options.port
                                : network->Url(transport::Direction::kSensor);
-  rt::Say(fmt::format("rig {}, controller {}, scenario {}, {}, port {}", files.rig.name,
-                      files.controller_path, files.scenario_name, options.pace, port));
+  rt::Say(fmt::format("rig {}{}, controller {}, scenario {}, {}, port {}", files.rig.name,
+                      options.rig_is_there ? " (not simulated)" : "", files.controller_path,
+                      files.scenario_name, options.pace, port));
   const PagePlan page = PlanPage(options.page, LookAround(options.pace == "realtime"));
   RunResult result = RunBoth(plan, files, *network, page);
   result.trouble = WithRoom(result.trouble, paths, folder);
@@ -187,8 +189,9 @@ ExitStatus Execute(const RunOptions& options) {
 
 void AddRunCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand(
-      "run", "Levitate the simulated rig with the controller process and judge the run");
+  CLI::App* command = app.add_subcommand("run",
+                                         "Levitate the rig, simulated or on a real bus, with the "
+                                         "controller process and judge the run");
   command->add_option("--rig", options->rig, "Rig file, or the name of a shipped one")
       ->capture_default_str();
   command
@@ -203,13 +206,19 @@ void AddRunCommand(CLI::App& app, Action& action) {
       ->add_option("--duration", options->duration_s,
                    "Land after this long [s of the rig's time], wherever the scenario is")
       ->check(CLI::PositiveNumber);
-  command->add_option("--pace", options->pace, "lockstep or realtime")
+  command
+      ->add_option("--pace", options->pace,
+                   "lockstep or realtime; default: realtime where the rig is not simulated here")
       ->check(CLI::IsMember({"lockstep", "realtime"}))
-      ->capture_default_str();
+      ->default_str("lockstep");
   command->add_option(
       "--port", options->port,
       "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can, or can:IF[,IF...] (the rig then "
       "stands behind CAN buses, see docs/can.md); default: lcm on free ports");
+  command->add_flag("--no-simulated-rig", options->rig_is_there,
+                    "Start the controller alone, for a rig that is on --port already; on a bus "
+                    "that is no virtual "
+                    "one (vcan, vxcan) a simulated rig is never started");
   auto* record =
       command->add_option("--record", options->record_path, "Keep the record in this file");
   command->add_flag("--overwrite", options->overwrite, "Replace a record that is there already");

@@ -145,6 +145,15 @@ Object Timing(const Inputs& in) {
   timing["lost_messages"] = told.lost_messages;
   timing["rejected_frames"] = told.rejected_frames;
   timing["real_time"] = told.real_time;
+  if (told.delay) {
+    timing["delay"] = {{"expected_periods", told.delay->expected_periods},
+                       {"acting",
+                        {{"count", told.delay->count},
+                         {"least_periods", told.delay->least_periods},
+                         {"median_periods", told.delay->median_periods},
+                         {"most_periods", told.delay->most_periods}}},
+                       {"objection", told.delay->objection}};
+  }
   for (const DurationFigures& row : told.durations) timing["durations"][row.name] = Duration(row);
   return timing;
 }

@@ -146,6 +146,16 @@ void Losses(const Inputs& in, Out out) {
   }
 }
 
+void Delay(const DelayFigures& delay, Out out) {
+  if (delay.count == 0) return;
+  fmt::format_to(out,
+                 "delay     from sample to current {:.2f} / {:.2f} / {:.2f} periods measured "
+                 "(least, median, most), {:.2f} taken for margins\n",
+                 delay.least_periods, delay.median_periods, delay.most_periods,
+                 delay.expected_periods);
+  if (!delay.objection.empty()) fmt::format_to(out, "          {}\n", delay.objection);
+}
+
 void Timing(const Inputs& in, Out out) {
   const SessionFigures& session = in.session;
   fmt::format_to(out, "\ntiming    {} cycles, {:.2f} s of the rig's time", session.cycles,
@@ -157,6 +167,7 @@ void Timing(const Inputs& in, Out out) {
   fmt::format_to(out, "\n");
   Losses(in, out);
   if (in.timing) {
+    if (in.timing->delay) Delay(*in.timing->delay, out);
     Indented(in.timing->real_time, out);
     Durations(*in.timing, in.rig_process, out);
   }

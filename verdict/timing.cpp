@@ -62,6 +62,16 @@ std::optional<Figures> Read(const std::string& path,
   }
 }
 
+std::optional<DelayFigures> Delay(const Json& json) {
+  if (!json.contains("delay")) return std::nullopt;
+  const Json& delay = json.at("delay");
+  const Json& acting = delay.at("acting");
+  return DelayFigures{
+      acting.at("count").get<std::uint64_t>(),  delay.at("expected_periods").get<double>(),
+      acting.at("least_periods").get<double>(), acting.at("median_periods").get<double>(),
+      acting.at("most_periods").get<double>(),  delay.at("objection").get<std::string>()};
+}
+
 }  // namespace
 
 std::optional<TimingFigures> ReadControllerReport(const std::string& path, double period_s) {
@@ -77,6 +87,7 @@ std::optional<TimingFigures> ReadControllerReport(const std::string& path, doubl
     figures.rejected_frames = json.at("frames_rejected").get<std::uint64_t>();
     figures.real_time = json.at("realtime").get<std::string>();
     figures.trip_file = json.at("trip_file").get<std::string>();
+    figures.delay = Delay(json);
     ReadTiming(json.at("timing"), figures);
   });
 }

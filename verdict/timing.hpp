@@ -19,6 +19,14 @@ struct DurationFigures {
   double p50_ns{}, p99_ns{}, p999_ns{}, max_ns{};
 };
 
+/// From sample to current on a CAN bus [periods]: measured, and as margins are computed.
+struct DelayFigures {
+  std::uint64_t count{};
+  double expected_periods{};
+  double least_periods{}, median_periods{}, most_periods{};  ///< until the current acts
+  std::string objection;                                     ///< empty: they agree
+};
+
 /// What the controller's process says of itself.
 struct TimingFigures {
   std::uint64_t cycles{};
@@ -26,12 +34,13 @@ struct TimingFigures {
   double cycles_per_s{};     ///< of wall-clock time
   double times_real_time{};  ///< simulated time over wall-clock time
   std::vector<DurationFigures> durations;
-  std::string blamed_stage;         ///< of most overruns; empty when there was none
-  std::uint64_t lost_records{};     ///< the recording thread could not take
-  std::uint64_t lost_messages{};    ///< gaps in the sequence of sensor frames
-  std::uint64_t rejected_frames{};  ///< undecodable
-  std::string real_time;            ///< what the machine granted and refused, one line per fact
-  std::string trip_file;            ///< frozen by the first trip, empty if none
+  std::string blamed_stage;           ///< of most overruns; empty when there was none
+  std::uint64_t lost_records{};       ///< the recording thread could not take
+  std::uint64_t lost_messages{};      ///< gaps in the sequence of sensor frames
+  std::uint64_t rejected_frames{};    ///< undecodable
+  std::string real_time;              ///< what the machine granted and refused, one line per fact
+  std::optional<DelayFigures> delay;  ///< real time, over CAN
+  std::string trip_file;              ///< frozen by the first trip, empty if none
 };
 
 /// What the rig's process says of itself.

@@ -73,6 +73,21 @@ std::optional<transport::LcmNetwork> CheckPort(const std::string& port) {
   return transport::ParseLcmNetwork(port, "can, can:IF[,IF...], ");
 }
 
+RunOptions SettleRig(RunOptions options, const config::RigFile& rig,
+                     socketcan::LinkKind (*find)(const std::string&)) {
+  if (options.rig_is_there && options.port.empty()) {
+    throw Problem(ExitStatus::kUsage,
+                  "--no-simulated-rig needs --port: where the rig is that is there already");
+  }
+  if (socketcan::IsCanPort(options.port)) {
+    if (options.pace == "lockstep") socketcan::RefuseLockstep(rig, options.port, find);
+    options.rig_is_there =
+        options.rig_is_there || !socketcan::RealInterface(rig, options.port, find).empty();
+  }
+  if (options.pace.empty()) options.pace = options.rig_is_there ? "realtime" : "lockstep";
+  return options;
+}
+
 void CheckBuses(const RunOptions& options, const RunFiles& files) {
   if (!socketcan::IsCanPort(options.port)) return;
   static_cast<void>(
@@ -97,9 +112,11 @@ RunPlan PlanRun(const RunOptions& options, const RunFiles& files, const RunPaths
       "--rig",  files.rig_path, "--port", can ? options.port : lcm,
       "--pace", options.pace,   "--seed", std::to_string(options.seed)};
   RunPlan plan;
-  plan.plant = {ProgramBeside(can ? "amb-rig" : "amb-plant"), both, paths.plant_log};
-  plan.plant.arguments.insert(plan.plant.arguments.end(),
-                              {"--scenario", files.scenario_path, "--json", paths.plant_json});
+  if (!options.rig_is_there) {
+    plan.plant = {ProgramBeside(can ? "amb-rig" : "amb-plant"), both, paths.plant_log};
+    plan.plant.arguments.insert(plan.plant.arguments.end(),
+                                {"--scenario", files.scenario_path, "--json", paths.plant_json});
+  }
   plan.controller = {ProgramBeside("amb-controller"), both, paths.controller_log};
   plan.controller.arguments.insert(
       plan.controller.arguments.end(),

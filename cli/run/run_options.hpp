@@ -13,17 +13,20 @@
 #include "cli/run/live_page.hpp"
 #include "cli/run/supervise.hpp"
 #include "common/rig_numbers.hpp"
+#include "config/rig_file.hpp"
+#include "hil/socketcan/link_kind.hpp"
 #include "transport/lcm_network.hpp"
 
 namespace levitas::cli {
 
 struct RunOptions {
   std::string rig{"flexible_rotor"};
-  std::string controller;  ///< empty: the one that the rig names, else kGeneralController
-  std::string scenario;    ///< empty: the one that the rig names, else kGeneralScenario
-  double duration_s{0.0};  ///< 0: as long as the scenario takes
-  std::string pace{"lockstep"};
+  std::string controller;         ///< empty: the one that the rig names, else kGeneralController
+  std::string scenario;           ///< empty: the one that the rig names, else kGeneralScenario
+  double duration_s{0.0};         ///< 0: as long as the scenario takes
+  std::string pace;               ///< empty: real time where a rig is there already, else lockstep
   std::string port;               ///< empty: lcm on ports nobody else uses
+  bool rig_is_there{};            ///< start the controller alone: the rig is on the port already
   std::string record_path;        ///< empty: a temporary file
   bool overwrite{false};          ///< a record that is there already
   std::vector<std::string> tags;  ///< of the record in the catalogue of sessions
@@ -45,6 +48,13 @@ struct RunFiles {
 /// The network --port names; empty when free ports are to be looked for (with a CAN port for
 /// telemetry). Refuses what is neither an LCM nor a CAN port with the list of what is.
 [[nodiscard]] std::optional<transport::LcmNetwork> CheckPort(const std::string& port);
+
+/// Completes what depends on what is on the port. On a bus that is no virtual one only a real rig
+/// can be: then none is simulated, and the pace is real time. Refuses what contradicts that, and a
+/// rig that is said to be there without a port where it could be.
+[[nodiscard]] RunOptions SettleRig(
+    RunOptions options, const config::RigFile& rig,
+    socketcan::LinkKind (*find)(const std::string&) = socketcan::FindLink);
 
 /// Refuses a CAN port whose buses do not carry the loop of the rig; nothing happens for LCM.
 void CheckBuses(const RunOptions& options, const RunFiles& files);

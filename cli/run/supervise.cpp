@@ -5,6 +5,7 @@
 #include <csignal>
 #include <exception>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 #include "controller/rt/stop_signal.hpp"
@@ -41,7 +42,7 @@ class Run {
   Run(const RunPlan& plan, const RunHooks& hooks)
       : plan_(plan),
         hooks_(hooks),
-        plant_(plan.plant.program, plan.plant.arguments, plan.plant.log_file),
+        plant_(Started(plan.plant)),
         controller_(plan.controller.program, plan.controller.arguments, plan.controller.log_file),
         last_progress_(Clock::now()) {}
 
@@ -62,6 +63,11 @@ class Run {
   }
 
  private:
+  static std::unique_ptr<ChildProcess> Started(const ProgramCall& call) {
+    if (call.program.empty()) return nullptr;
+    return std::make_unique<ChildProcess>(call.program, call.arguments, call.log_file);
+  }
+
   /// What happens in `look` is no reason to leave a turning rotor alone.
   template <class Look>
   void Followed(const Look& look) {
@@ -105,11 +111,11 @@ class Run {
 
   /// A rig that ended orderly does so at the goodbye of a controller that is about to end, too.
   void WatchPlant() {
-    const auto ended = plant_.Poll();
+    const auto ended = plant_ ? plant_->Poll() : std::nullopt;
     if (!ended) return;
     if (controller_.WaitFor(plan_.notice)) return;
     result_.trouble =
-        fmt::format("{} {} while {} went on", plant_.name(), ended->Text(), controller_.name());
+        fmt::format("{} {} while {} went on", plant_->name(), ended->Text(), controller_.name());
   }
 
   void WatchProgress() {
@@ -118,24 +124,27 @@ class Run {
       return;
     }
     if (Clock::now() - last_progress_ < plan_.silence_limit) return;
-    result_.trouble = fmt::format("no control cycle for {} s: {} is {}, {} is {}; both were ended",
-                                  plan_.silence_limit.count() / 1000, controller_.name(),
-                                  StateOf(controller_.pid()), plant_.name(), StateOf(plant_.pid()));
+    result_.trouble =
+        fmt::format("no control cycle for {} s: {} is {}", plan_.silence_limit.count() / 1000,
+                    controller_.name(), StateOf(controller_.pid()));
+    result_.trouble +=
+        plant_ ? fmt::format(", {} is {}; both were ended", plant_->name(), StateOf(plant_->pid()))
+               : "; it was ended";
     // A stopped process does not see SIGTERM before it goes on.
     controller_.Signal(SIGCONT);
-    plant_.Signal(SIGCONT);
+    if (plant_) plant_->Signal(SIGCONT);
   }
 
   void Finish() {
     const bool by_itself = controller_.Poll().has_value();
     result_.controller = by_itself ? *controller_.Poll() : controller_.End(plan_.grace);
-    result_.plant = plant_.WaitFor(plan_.notice);
-    if (!result_.plant) plant_.End(plan_.grace);
+    if (plant_) result_.plant = plant_->WaitFor(plan_.notice);
+    if (plant_ && !result_.plant) plant_->End(plan_.grace);
     if (!blind_.empty()) {
       result_.trouble = blind_ + (result_.trouble.empty() ? "" : "; " + result_.trouble);
     }
     if (!result_.trouble.empty()) {
-      result_.trouble += Said(plant_) + Said(controller_);
+      result_.trouble += (plant_ ? Said(*plant_) : "") + Said(controller_);
       return;
     }
     const bool plant_failed =
@@ -143,7 +152,8 @@ class Run {
     const bool orderly = !result_.controller.signalled &&
                          (result_.controller.code == 0 || result_.controller.code == 4);
     if (plant_failed) {
-      result_.trouble = fmt::format("{} {}{}", plant_.name(), result_.plant->Text(), Said(plant_));
+      result_.trouble =
+          fmt::format("{} {}{}", plant_->name(), result_.plant->Text(), Said(*plant_));
     }
     if (!orderly) {
       result_.trouble += fmt::format("{}{} {}{}", plant_failed ? "\n" : "", controller_.name(),
@@ -153,7 +163,7 @@ class Run {
 
   const RunPlan& plan_;
   const RunHooks& hooks_;
-  ChildProcess plant_;
+  std::unique_ptr<ChildProcess> plant_;  ///< null: a rig is there already
   ChildProcess controller_;
   RunResult result_;
   std::string blind_;  ///< why the run is not followed any more; empty: it is

@@ -2,6 +2,8 @@
 // Runs controller and rig side by side until the controller ends, and says what went wrong if one
 // of them dies or hangs. Every wait has a bound.
 //
+// Alone      without a simulated rig (a real one is on the port) the controller alone is run, and
+//            what is said of the rig below does not apply.
 // End        the controller ends by itself when its scenario is done or has tripped; the rig then
 //            follows it, or is asked to.
 // Ctrl-C     the first is passed to the controller, which lands the rotor; the second ends both at
@@ -32,7 +34,7 @@ struct ProgramCall {
 };
 
 struct RunPlan {
-  ProgramCall plant;
+  ProgramCall plant;  ///< no program: a rig is there already
   ProgramCall controller;
   std::chrono::milliseconds notice{1'000};
   std::chrono::milliseconds grace{5'000};
@@ -42,7 +44,8 @@ struct RunPlan {
 
 struct RunResult {
   ChildExit controller;
-  std::optional<ChildExit> plant;  ///< empty: still running when the controller ended; ended by us
+  std::optional<ChildExit> plant;  ///< empty: still running when the controller ended; ended by us;
+                                   ///< or none was started
   bool interrupted{};              ///< Ctrl-C was pressed
   std::string trouble;  ///< one message; empty when the controller ended with status 0 or 4
 };

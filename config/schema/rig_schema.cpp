@@ -150,6 +150,7 @@ void DescribeDrive(Visitor& v, RigFile& rig) {
 }
 
 constexpr std::array<std::string_view, 3> kCarriesWords{"everything", "from_rig", "to_rig"};
+constexpr std::array<std::string_view, 2> kActsWords{"at_next_sample", "on_arrival"};
 
 void Describe(Visitor& v, can::BusConfig& bus) {
   v.Name({"name", "of the bus, for messages to people"}, bus.name);
@@ -163,6 +164,11 @@ void Describe(Visitor& v, can::BusConfig& bus) {
   auto carries = static_cast<std::size_t>(bus.carries);
   v.Choice({"carries", kCarriesWords, "everything", "the messages of which sender"}, carries);
   bus.carries = static_cast<can::Carries>(carries);
+  auto acts = static_cast<std::size_t>(bus.current_acts);
+  v.Choice({"current_acts", kActsWords, "at_next_sample",
+            "when the rig lets a current act whose frame has arrived"},
+           acts);
+  bus.current_acts = static_cast<can::Acts>(acts);
   v.Number({"load_limit", kOne, 0.05, 1, 0.8,
             "share of the time that the loop may occupy; beyond it the port refuses"},
            bus.load_limit);

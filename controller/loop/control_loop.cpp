@@ -52,6 +52,14 @@ bool ControlLoop::AwaitFrame(SensorFrame& frame) noexcept {
   return false;
 }
 
+void ControlLoop::Date(SensorFrame& frame) noexcept {
+  const std::int64_t now_ns = clock_.NowNs();
+  const std::int64_t at_ns = frame.sample_time_ns;
+  if (at_ns >= now_ns - options_.farthest_ns && at_ns <= now_ns + options_.farthest_ns) return;
+  frame.sample_time_ns = now_ns - options_.phase_ns;
+  ++statistics_.undated_frames;
+}
+
 bool ControlLoop::Repeated(const SensorFrame& frame) const noexcept {
   const SensorFrame& previous = record_.in.frame;
   return answered_ && frame.rig_session == previous.rig_session && frame.cycle == previous.cycle;
@@ -115,6 +123,7 @@ void ControlLoop::CountOverrun(std::int64_t skipped) noexcept {
 void ControlLoop::RunRealtime() noexcept {
   SensorFrame frame;
   if (!AwaitFrame(frame)) return;
+  Date(frame);
   const std::int64_t phase_ns = frame.sample_time_ns + options_.phase_ns;
   std::int64_t due_ns = rt::FirstWake(phase_ns, options_.period_ns, clock_.NowNs());
   std::uint32_t missed = 0;
@@ -124,7 +133,10 @@ void ControlLoop::RunRealtime() noexcept {
     timer_.Ended(cycle::Stage::kWait);
     statistics_.wakeup.Add(timer_.last_ns() - due_ns);
     const bool read = port_.Read(frame, due_ns + options_.grace_ns) == port::ReadResult::kFrame;
-    if (read) heard_.fetch_add(1, std::memory_order_relaxed);
+    if (read) {
+      heard_.fetch_add(1, std::memory_order_relaxed);
+      Date(frame);
+    }
     const bool present = read && !Repeated(frame);
     timer_.Ended(cycle::Stage::kRead);
     Cycle(present, frame, missed);

@@ -6,6 +6,8 @@
 // Real time a fixed grid, `phase_ns` after the rig's sampling instants. A frame that is not there
 //           `grace_ns` after the wake-up is missing. The grid never moves: an overrun skips whole
 //           periods, which are counted, told to the cycle and blamed on a stage.
+//           A sampling instant further than `farthest_ns` from now (another machine's clock, a sender
+//           gone wrong) is none: the frame's arrival less `phase_ns` takes its place, and is counted.
 // Thread    Run in one thread; no allocation, lock or exception between its first and last cycle.
 //           Abort and frames_heard from any thread.
 // Failure   none of its own: a silent rig shows in frames_heard, and the caller decides.
@@ -37,6 +39,7 @@ struct LoopOptions {
   std::int64_t period_ns{100'000};
   std::int64_t phase_ns{30'000};  ///< rig's sampling instant -> wake-up: the frame's way here
   std::int64_t grace_ns{45'000};  ///< wake-up -> a frame not there is missing
+  std::int64_t farthest_ns{1'000'000'000};  ///< of a sampling instant from now
 };
 
 class ControlLoop {
@@ -63,6 +66,8 @@ class ControlLoop {
   void RunRealtime() noexcept;
   /// Waits for the first frame; false when aborted before.
   [[nodiscard]] bool AwaitFrame(SensorFrame& frame) noexcept;
+  /// Real time: gives a frame that came now an instant of sampling that can be.
+  void Date(SensorFrame& frame) noexcept;
   [[nodiscard]] bool Repeated(const SensorFrame& frame) const noexcept;
   void Cycle(bool frame_present, const SensorFrame& frame, std::uint32_t missed) noexcept;
   void CountOverrun(std::int64_t skipped) noexcept;

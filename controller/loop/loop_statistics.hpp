@@ -21,6 +21,7 @@ struct LoopStatistics {
   std::uint64_t skipped_periods{};  ///< of the grid, in which no cycle was started
   std::uint64_t overruns{};         ///< cycles that caused them
   std::uint64_t missing_frames{};   ///< cycles without a new sensor frame
+  std::uint64_t undated_frames{};   ///< of which the sampling instant made no sense (real time)
   std::uint64_t repeated_frames{};  ///< asked again in lockstep: answered again, no cycle
   Histogram wakeup;                 ///< grid instant -> awake (real time)
   Histogram compute;                ///< frame read -> current written

@@ -230,7 +230,8 @@ class Session {
                          .trip_file = recorder_.trip_file(),
                          .scenario_problem = player_ ? player_->Text() : "",
                          .lines = guarded_ ? &guarded_->line_counters() : nullptr,
-                         .real_time = Facts()};
+                         .real_time = Facts(),
+                         .delay = rig_->delay()};
     rt::Say(ReportText(facts), rt::Speaker::Kind::kReport);
     if (!options_.json.empty()) transport::WriteJson(ReportJson(facts), options_.json);
     return Status(facts, stayed);

@@ -21,6 +21,27 @@ nlohmann::ordered_json TimingJson(const loop::LoopStatistics& statistics) {
   return json;
 }
 
+nlohmann::ordered_json Figures(const can_port::DelayFigures& delay) {
+  return {{"count", delay.count},
+          {"least_periods", delay.least_periods},
+          {"median_periods", delay.median_periods},
+          {"p99_periods", delay.p99_periods},
+          {"most_periods", delay.most_periods}};
+}
+
+std::string DelayText(const DelayWatch& delay) {
+  const can_port::DelayFigures arrived = delay.meter().Arrived();
+  if (arrived.count == 0) return "";
+  const can_port::DelayFigures acting = delay.meter().Acting();
+  std::string text = fmt::format(
+      "delay of the buses               current there after {:.2f} / {:.2f} / {:.2f} periods "
+      "(least, median, most), acts after {:.2f}; taken for margins: {:.2f}\n",
+      arrived.least_periods, arrived.median_periods, arrived.most_periods, acting.median_periods,
+      delay.expected_periods());
+  const std::string objection = DelayObjection(acting, delay.expected_periods());
+  return objection.empty() ? text : text + objection + '\n';
+}
+
 std::string Triple(const Histogram& histogram) {
   return fmt::format("{:.2f} / {:.2f} / {:.2f} us", histogram.Percentile(0.5) * 1e-3,
                      histogram.Percentile(0.99) * 1e-3, histogram.Percentile(0.999) * 1e-3);
@@ -36,6 +57,7 @@ nlohmann::ordered_json ReportJson(const RunFacts& facts) {
       {"overruns", facts.statistics.overruns},
       {"missing_frames", facts.statistics.missing_frames},
       {"repeated_frames", facts.statistics.repeated_frames},
+      {"undated_frames", facts.statistics.undated_frames},
       {"frames_read", facts.port.frames_read},
       {"frames_skipped", facts.port.frames_skipped},
       {"frames_rejected", facts.port.frames_rejected},
@@ -65,6 +87,13 @@ nlohmann::ordered_json ReportJson(const RunFacts& facts) {
                      {"pulses_missing", facts.lines->pulses.missing},
                      {"pulse_jumps", facts.lines->pulses.jumps}};
   }
+  if (facts.delay != nullptr) {
+    const can_port::DelayFigures acting = facts.delay->meter().Acting();
+    json["delay"] = {{"expected_periods", facts.delay->expected_periods()},
+                     {"arrived", Figures(facts.delay->meter().Arrived())},
+                     {"acting", Figures(acting)},
+                     {"objection", DelayObjection(acting, facts.delay->expected_periods())}};
+  }
   json["timing"] = TimingJson(facts.statistics);
   return json;
 }
@@ -80,6 +109,7 @@ std::string ReportText(const RunFacts& facts) {
     text += fmt::format("wake-up error                    {}\n", Triple(statistics.wakeup));
     text += fmt::format("sample to current                {}\n", Triple(statistics.latency));
   }
+  if (facts.delay != nullptr) text += DelayText(*facts.delay);
   if (statistics.overruns > 0) {
     text += fmt::format("overruns                         {}, blamed:", statistics.overruns);
     for (std::size_t at = 1; at < cycle::kStageCount; ++at) {
@@ -99,6 +129,11 @@ std::string ReportText(const RunFacts& facts) {
   if (facts.commands.dropped > 0) {
     text +=
         fmt::format("commands                         {} found no room\n", facts.commands.dropped);
+  }
+  if (statistics.undated_frames > 0) {
+    text +=
+        fmt::format("{} frames bore a sampling instant that cannot be: dated by their arrival\n",
+                    statistics.undated_frames);
   }
   if (facts.lines != nullptr && facts.lines->write_failures > 0) {
     text += fmt::format("lines: an output could not be written in {} cycles\n",

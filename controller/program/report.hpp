@@ -8,6 +8,7 @@
 #include "controller/loop/loop_statistics.hpp"
 #include "controller/port/rig_port.hpp"
 #include "controller/program/controller_options.hpp"
+#include "controller/program/delay_watch.hpp"
 #include "controller/rt/real_time.hpp"
 #include "hil/guarded_port/guarded_port.hpp"
 #include "transport/operator_receiver.hpp"
@@ -29,6 +30,7 @@ struct RunFacts {
   std::string scenario_problem;
   const gpio::LineCounters* lines{};  ///< null: no lines in use
   const std::vector<rt::RealTimeFact>& real_time;
+  const DelayWatch* delay{};  ///< of the buses; null: not measured
 };
 
 [[nodiscard]] nlohmann::ordered_json ReportJson(const RunFacts& facts);

@@ -1,6 +1,7 @@
 #include "controller/program/rig_connection.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "controller/rt/clock.hpp"
 #include "hil/can_port/can_rig_port.hpp"
@@ -11,8 +12,7 @@
 namespace levitas::controller_program {
 namespace {
 
-constexpr std::int64_t kSpinNs = 20'000;     // see docs/timing.md
-constexpr std::int64_t kArrivalNs = 30'000;  // the frame's way through two kernels' queues
+constexpr std::int64_t kSpinNs = 20'000;  // see docs/timing.md
 
 class LcmConnection final : public RigConnection {
  public:
@@ -23,7 +23,8 @@ class LcmConnection final : public RigConnection {
     return network_.Url(transport::Direction::kSensor);
   }
   [[nodiscard]] const char* SimulatedRig() const noexcept override { return "amb-plant"; }
-  [[nodiscard]] std::int64_t phase_ns() const noexcept override { return kArrivalNs; }
+  [[nodiscard]] bool virtual_rig() const noexcept override { return true; }
+  [[nodiscard]] std::int64_t phase_ns() const noexcept override { return can::kArrivalNs; }
 
  private:
   transport::LcmNetwork network_;
@@ -32,21 +33,36 @@ class LcmConnection final : public RigConnection {
 
 class CanPortConnection final : public RigConnection {
  public:
-  CanPortConnection(const socketcan::CanConnection& plan, bool realtime)
+  CanPortConnection(const socketcan::CanConnection& plan, bool realtime, double delay_periods)
       : text_(plan.text),
+        virtual_bus_(plan.virtual_bus),
         wire_ns_(plan.virtual_bus ? 0 : std::llround(plan.budget.from_rig_s * 1e9)),
         access_(plan.layout, plan.buses, can::Sender::kController),
-        port_(plan.layout, plan.buses, {.realtime = realtime, .wire_ns = wire_ns_}, access_) {}
+        port_(plan.layout, plan.buses, {.realtime = realtime, .wire_ns = wire_ns_}, access_) {
+    if (realtime) delay_.emplace(plan, delay_periods);
+  }
   port::RigPort& port() noexcept override { return port_; }
   [[nodiscard]] std::string Where() const override { return text_; }
   [[nodiscard]] const char* SimulatedRig() const noexcept override { return "amb-rig"; }
-  [[nodiscard]] std::int64_t phase_ns() const noexcept override { return kArrivalNs + wire_ns_; }
+  [[nodiscard]] bool virtual_rig() const noexcept override { return virtual_bus_; }
+  [[nodiscard]] std::string TakeNews() override {
+    std::string news = port_.TakeNews();
+    return news.empty() && delay_ ? delay_->TakeNews() : news;
+  }
+  [[nodiscard]] const DelayWatch* delay() const noexcept override {
+    return delay_ ? &*delay_ : nullptr;
+  }
+  [[nodiscard]] std::int64_t phase_ns() const noexcept override {
+    return can::kArrivalNs + wire_ns_;
+  }
 
  private:
   std::string text_;
+  bool virtual_bus_;
   std::int64_t wire_ns_;
   socketcan::SocketCan access_;
   can_port::CanRigPort port_;
+  std::optional<DelayWatch> delay_;
 };
 
 }  // namespace
@@ -60,7 +76,8 @@ transport::LcmNetwork TelemetryNetwork(const ControllerOptions& options) {
 
 void ApplyPort(const ControllerOptions& options, config::RigFile& rig) {
   if (!socketcan::IsCanPort(options.port)) return;
-  socketcan::ApplyWireDelay(rig, socketcan::PlanConnection(rig, options.rig, options.port).budget);
+  if (!options.realtime) socketcan::RefuseLockstep(rig, options.port);
+  socketcan::ApplyBusDelay(rig, socketcan::PlanConnection(rig, options.rig, options.port).budget);
 }
 
 std::unique_ptr<RigConnection> Connect(const ControllerOptions& options,
@@ -70,7 +87,8 @@ std::unique_ptr<RigConnection> Connect(const ControllerOptions& options,
                                            rig.numbers.axes());
   }
   return std::make_unique<CanPortConnection>(
-      socketcan::PlanConnection(rig, options.rig, options.port), options.realtime);
+      socketcan::PlanConnection(rig, options.rig, options.port), options.realtime,
+      rig.plant.delay_samples);
 }
 
 }  // namespace levitas::controller_program

@@ -39,7 +39,7 @@ bool Watchman::Watch(const std::atomic<bool>& running) noexcept {
 void Watchman::Look() {
   LookAtGuard();
   LookAtPartner();
-  if (const std::string news = rig_.port().TakeNews(); !news.empty()) warn_(news);
+  if (const std::string news = rig_.TakeNews(); !news.empty()) warn_(news);
   if (rt::QuitSignal()) {
     if (landing_since_ns_ == 0) desk_.RequestEmergencyStop();
     Land("emergency stop by SIGQUIT");
@@ -72,10 +72,13 @@ void Watchman::LookAtPartner() {
   const Word word = partner_.Check(rt::MonotonicNowNs(), loop_.frames_heard());
   if (word == Word::kFound) rt::Say("amb-controller: rig found");
   if (word == Word::kMissing) {
+    const std::string remedy =
+        rig_.virtual_rig()
+            ? fmt::format("start {} with the same --rig, --port and --pace", rig_.SimulatedRig())
+            : "is the rig powered, and does candump show its positions (0x110)?";
     rt::Say(fmt::format(
-        "amb-controller: no sensor frames at {}; start {} with the same --rig, --port and --pace "
-        "(giving up {} s after its last message)",
-        rig_.Where(), rig_.SimulatedRig(), options_.partner_timeout_s));
+        "amb-controller: no sensor frames at {}; {} (giving up {} s after its last message)",
+        rig_.Where(), remedy, options_.partner_timeout_s));
   }
   if (word != Word::kGiveUp) return;
   rt::Say(fmt::format("amb-controller: no rig for {} s, ending", options_.partner_timeout_s));

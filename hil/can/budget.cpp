@@ -53,6 +53,19 @@ Budget MakeBudget(const Layout& layout, const std::vector<BusConfig>& buses) {
   return budget;
 }
 
+LoopDelay DelayOf(const Budget& budget) {
+  LoopDelay delay{.from_rig_s = budget.from_rig_s,
+                  .arrival_s = kArrivalNs * 1e-9,
+                  .answer_s = kAnswerNs * 1e-9,
+                  .to_rig_s = budget.to_rig_s};
+  const bool held = std::any_of(budget.buses.begin(), budget.buses.end(), [](const BusLoad& bus) {
+    return bus.bus.carries != Carries::kFromRig && bus.bus.current_acts == Acts::kAtNextSample;
+  });
+  const double periods = delay.arrived_s() * budget.rate_hz;
+  if (held) delay.hold_s = (std::ceil(periods) - periods) / budget.rate_hz;
+  return delay;
+}
+
 std::string RefusalText(const Budget& budget) {
   std::string text;
   for (const BusLoad& bus : budget.buses) {
@@ -91,6 +104,13 @@ std::string BudgetText(const Budget& budget) {
       "slow frame may add {:.1f} us\n",
       budget.from_rig_s * 1e6, budget.to_rig_s * 1e6, budget.transport_s() * 1e6,
       budget.transport_s() * budget.rate_hz, budget.blocking_s * 1e6);
+  const LoopDelay delay = DelayOf(budget);
+  text += fmt::format(
+      "from sample to current: {:.1f} us on the wire, {:.1f} us until the controller wakes, {:.1f} "
+      "us "
+      "until it has answered, {:.1f} us until the rig's next sample: {:.2f} periods\n",
+      budget.transport_s() * 1e6, delay.arrival_s * 1e6, delay.answer_s * 1e6, delay.hold_s * 1e6,
+      delay.total_s() * budget.rate_hz);
   return text;
 }
 

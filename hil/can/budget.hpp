@@ -5,10 +5,13 @@
 // Transport  from sample to current: the frames of one period, one behind the other in each
 //            direction, both directions added. A frame of lower priority that has just begun adds
 //            its own time (`blocking_s`): jitter, not a constant delay.
+// Delay      from a sample to its current acting: what LoopDelay lists, in this order. It is the
+//            delay of the loop on these buses, for margins, verdict and the simulated rig alike.
 // Thread     any; not for the loop.
 // Failure    MakeBudget throws std::invalid_argument as layout.hpp does; a budget that does not fit
 //            is a value.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -42,6 +45,26 @@ struct Budget {
   [[nodiscard]] double transport_s() const noexcept { return from_rig_s + to_rig_s; }
   [[nodiscard]] bool fits() const noexcept;
 };
+
+/// [ns] from a whole frame on the wire to the controller's wake-up: two kernels' queues.
+inline constexpr std::int64_t kArrivalNs = 30'000;
+/// [ns] from the wake-up to the answer in the chip: reading, law, writing. An allowance.
+inline constexpr std::int64_t kAnswerNs = 5'000;
+
+/// What lies between a sample and the instant from which its current acts.
+struct LoopDelay {
+  double from_rig_s{};  ///< positions on the wire
+  double arrival_s{};   ///< until the controller wakes
+  double answer_s{};    ///< until it has answered
+  double to_rig_s{};    ///< currents on the wire
+  double hold_s{};      ///< until the rig's next sampling instant, where it waits for that
+  [[nodiscard]] double arrived_s() const noexcept {
+    return from_rig_s + arrival_s + answer_s + to_rig_s;
+  }
+  [[nodiscard]] double total_s() const noexcept { return arrived_s() + hold_s; }
+};
+
+[[nodiscard]] LoopDelay DelayOf(const Budget& budget);
 
 [[nodiscard]] Budget MakeBudget(const Layout& layout, const std::vector<BusConfig>& buses);
 

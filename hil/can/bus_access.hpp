@@ -16,6 +16,7 @@ enum class BusEvent : std::uint8_t {
   kFrame,          ///< a data frame
   kBusOff,         ///< the controller chip has left the bus
   kRestarted,      ///< ... and is back
+  kErrorActive,    ///< it takes part again without restrictions, so it is not off
   kErrorPassive,   ///< it may only listen to errors; the wiring or a node is bad
   kProtocolError,  ///< a bit, form, stuff, checksum or acknowledge error on the wire
   kChipOverrun,    ///< the chip lost frames before the kernel saw them
@@ -45,6 +46,8 @@ class BusAccess {
   virtual bool Wait(std::int64_t deadline_ns) noexcept = 0;
   /// Frames the kernel dropped because this end read too slowly.
   [[nodiscard]] virtual std::uint64_t dropped() const noexcept = 0;
+  /// How often the wall clock was set, of which the kernel's time stamps are.
+  [[nodiscard]] virtual std::uint64_t clock_steps() const noexcept { return 0; }
 };
 
 }  // namespace levitas::can

@@ -17,10 +17,14 @@ void BusWatch::Note(const can::Reception& reception) noexcept {
     case BusEvent::kBusOff:
       ++counters_.bus_off;
       off_[reception.socket] = true;
+      unheard_[reception.socket] = 0;
       break;
     case BusEvent::kRestarted:
       ++counters_.restarts;
-      off_[reception.socket] = false;
+      Back(reception.socket);
+      break;
+    case BusEvent::kErrorActive:
+      Back(reception.socket);
       break;
     case BusEvent::kErrorPassive:
       ++counters_.error_passive;
@@ -33,8 +37,18 @@ void BusWatch::Note(const can::Reception& reception) noexcept {
       break;
     case BusEvent::kLinkDown:
       ++counters_.link_down;
+      Back(reception.socket);
       break;
   }
+}
+
+bool BusWatch::Hears(std::size_t socket) noexcept {
+  if (!off_[socket]) return true;
+  ++counters_.unheard;
+  if (++unheard_[socket] < kBackAfter) return false;
+  ++counters_.returns;
+  Back(socket);
+  return true;
 }
 
 void BusWatch::Note(can::SendResult result) noexcept {
@@ -47,9 +61,10 @@ bool BusWatch::AnyOff() const noexcept {
 }
 
 std::string Text(const BusCounters& counters, std::uint64_t dropped) {
-  const std::array<std::pair<std::uint64_t, const char*>, 12> kinds{
+  const std::array<std::pair<std::uint64_t, const char*>, 13> kinds{
       {{counters.bus_off, "bus off"},
        {counters.restarts, "bus restarted"},
+       {counters.returns, "bus back without a word of its chip"},
        {counters.error_passive, "error passive"},
        {counters.protocol_errors, "error on the wire"},
        {counters.chip_overruns, "frames lost in the chip"},

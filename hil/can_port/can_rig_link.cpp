@@ -40,10 +40,7 @@ port::RigLink::Answer CanRigLink::Accept(const can::Reception& reception,
     watch_.Note(reception);
     return Answer::kNothing;
   }
-  if (watch_.Off(reception.socket)) {
-    ++watch_.counters().unheard;
-    return Answer::kNothing;
-  }
+  if (!watch_.Hears(reception.socket)) return Answer::kNothing;
   const can::Outcome outcome = assembler_.Take(reception.frame, own_cycle_, frame);
   if (outcome == can::Outcome::kGoodbye) return Answer::kGoodbye;
   return outcome == can::Outcome::kFrame ? Answer::kCurrent : Answer::kNothing;

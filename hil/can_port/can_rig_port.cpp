@@ -25,10 +25,7 @@ bool CanRigPort::Accept(const can::Reception& reception, std::int64_t newest_ns,
     watch_.Note(reception);
     return false;
   }
-  if (watch_.Off(reception.socket)) {
-    ++watch_.counters().unheard;
-    return false;
-  }
+  if (!watch_.Hears(reception.socket)) return false;
   SensorFrame got;
   if (assembler_.Take(reception.frame, got) != can::Outcome::kFrame) return false;
   if (options_.realtime) {
@@ -117,6 +114,10 @@ std::string CanRigPort::Trouble() const {
     if (outcomes[outcome] == 0) return;
     text += (text.empty() ? "" : "; ") + std::to_string(outcomes[outcome]) + " x " + name;
   };
+  if (access_.clock_steps() > 0) {
+    text += (text.empty() ? "" : "; ") + std::to_string(access_.clock_steps()) +
+            " x the wall clock was set (without effect)";
+  }
   add(can::Outcome::kDamaged, "damaged frame");
   add(can::Outcome::kRepeated, "copy of a frame");
   add(can::Outcome::kOutOfOrder, "frame out of order");

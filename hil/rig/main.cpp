@@ -34,6 +34,19 @@ class LineGate final : public plant_run::AmplifierGate {
   gpio::RigLines lines_;
 };
 
+/// Two rigs on one bus would both send positions, and both obey.
+void RefuseRealBus(const plant_run::PlantOptions& options, const config::RigFile& rig) {
+  const std::string real = socketcan::RealInterface(rig, options.port);
+  if (real.empty() || options.on_a_real_bus) return;
+  throw Problem(
+      ExitStatus::kUsage,
+      fmt::format(
+          "--port {}: {} is no virtual CAN bus, so a real rig may be there, and a simulated "
+          "one would send positions beside it; allowed: a vcan or vxcan, or "
+          "--on-a-real-bus when no rig but this one is on it",
+          options.port, real));
+}
+
 ExitStatus Run(const plant_run::PlantOptions& options) {
   config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
   if (!socketcan::IsCanPort(options.port)) {
@@ -43,8 +56,9 @@ ExitStatus Run(const plant_run::PlantOptions& options) {
                     "rig is amb-plant",
                     options.port));
   }
+  RefuseRealBus(options, rig);
   const auto connection = socketcan::PlanConnection(rig, options.rig, options.port);
-  socketcan::ApplyWireDelay(rig, connection.budget);
+  socketcan::ApplyBusDelay(rig, connection.budget);
   socketcan::SocketCan access(connection.layout, connection.buses, can::Sender::kRig);
   can_port::CanRigLink link(connection.layout, connection.buses, access);
   rt::Say(fmt::format("amb-rig: from sample to current {:.2f} periods, on the wire {:.1f} us of it",

@@ -49,6 +49,7 @@ std::vector<can::BusConfig> MergeShared(const std::vector<can::BusConfig>& buses
     }
     same->name += " and " + bus.name;
     same->carries = can::Carries::kEverything;
+    if (bus.carries == can::Carries::kToRig) same->current_acts = bus.current_acts;
     same->load_limit = std::min(same->load_limit, bus.load_limit);
     same->rates.arbitration_bit_per_s =
         std::min(same->rates.arbitration_bit_per_s, bus.rates.arbitration_bit_per_s);
@@ -76,10 +77,31 @@ std::string MissingText(const std::vector<can::BusConfig>& buses) {
 
 bool IsCanPort(const std::string& port) { return port == "can" || port.starts_with("can:"); }
 
-bool IsVirtual(const std::string& interface) {
-  std::error_code none;
-  const auto device = std::filesystem::read_symlink("/sys/class/net/" + interface, none);
-  return device.string().find("/virtual/") != std::string::npos;
+bool IsVirtual(const std::string& interface) { return FindLink(interface) == LinkKind::kVirtual; }
+
+std::string RealInterface(const config::RigFile& rig, const std::string& port,
+                          LinkKind (*find)(const std::string&)) {
+  std::vector<std::string> names = InterfacesOf(port);
+  if (names.empty()) {
+    for (const can::BusConfig& bus : rig.buses) names.push_back(bus.interface);
+  }
+  const auto real = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return find(name) == LinkKind::kReal;
+  });
+  return real == names.end() ? std::string{} : *real;
+}
+
+void RefuseLockstep(const config::RigFile& rig, const std::string& port,
+                    LinkKind (*find)(const std::string&)) {
+  const std::string real = RealInterface(rig, port, find);
+  if (real.empty()) return;
+  throw Problem(
+      ExitStatus::kUsage,
+      fmt::format("--port {}: {} is no virtual CAN bus, so a real rig may be there, which "
+                  "does not wait for its controller: --pace lockstep is refused, with it "
+                  "no missing frame would trip and the rig's lines would not be used; "
+                  "allowed: --pace realtime",
+                  port, real));
 }
 
 CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_name,
@@ -116,9 +138,9 @@ CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_
   return connection;
 }
 
-void ApplyWireDelay(config::RigFile& rig, const can::Budget& budget) {
+void ApplyBusDelay(config::RigFile& rig, const can::Budget& budget) {
   rig.plant.delay_samples =
-      std::max(rig.plant.delay_samples, budget.transport_s() * budget.rate_hz);
+      std::max(rig.plant.delay_samples, can::DelayOf(budget).total_s() * budget.rate_hz);
 }
 
 }  // namespace levitas::socketcan

@@ -8,8 +8,10 @@
 // Shared     buses on one real interface are one bus, and are budgeted as one. A virtual interface
 //            (vcan) has no bit rate: it stands for as many buses as the file describes, and each of
 //            these must carry its own load.
-// Delay      the time on the wire is part of the rig's delay from sample to current: where it is
-//            longer than `delay_samples`, it lengthens it.
+// Delay      from sample to current on these buses (can::DelayOf): where it is longer than the
+//            `delay_samples` of the rig's file, it takes that number's place.
+// Lockstep   is for rigs that wait. A real one does not: refused where an interface is no virtual
+//            one.
 // Failure    Problem (exit status 2) for a port that cannot be read; BadInput (3) for a rig without
 //            buses or with more load than they carry, with the rate that fits.
 // Thread     any; not for the loop.
@@ -19,6 +21,7 @@
 
 #include "config/rig_file.hpp"
 #include "hil/can/budget.hpp"
+#include "hil/socketcan/link_kind.hpp"
 
 namespace levitas::socketcan {
 
@@ -33,15 +36,24 @@ struct CanConnection {
   std::string text;    ///< for people: "can:vcan0 (positions), ..."
 };
 
-/// Whether an interface is a virtual one of this kernel.
+/// Whether an interface is there and a virtual one of this kernel (link_kind.hpp).
 [[nodiscard]] bool IsVirtual(const std::string& interface);
+
+/// The first interface of a CAN port that is there and no virtual one: a real rig may stand behind
+/// it, and no simulated one belongs there. Empty: there is none. `find` is asked once for each.
+[[nodiscard]] std::string RealInterface(const config::RigFile& rig, const std::string& port,
+                                        LinkKind (*find)(const std::string&) = FindLink);
+
+/// Refuses (exit status 2) the lockstep pace where RealInterface names one.
+void RefuseLockstep(const config::RigFile& rig, const std::string& port,
+                    LinkKind (*find)(const std::string&) = FindLink);
 
 /// `is_virtual` is asked once for each interface.
 [[nodiscard]] CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_name,
                                            const std::string& port,
                                            bool (*is_virtual)(const std::string&) = IsVirtual);
 
-/// Lengthens the delay of the simulated rig to the time on the wire where that is longer.
-void ApplyWireDelay(config::RigFile& rig, const can::Budget& budget);
+/// Lengthens the delay of the rig to that of the loop on its buses where that is longer.
+void ApplyBusDelay(config::RigFile& rig, const can::Budget& budget);
 
 }  // namespace levitas::socketcan

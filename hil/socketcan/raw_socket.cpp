@@ -21,7 +21,6 @@ namespace {
 constexpr std::size_t kBatch = 8;
 constexpr std::size_t kControlBytes = 128;
 constexpr int kReceiveBuffer = 1 << 20;  // [byte] a tenth of a second and more of 10 kHz
-constexpr std::uint32_t kMeasureClocksEvery = 256;
 constexpr can_err_mask_t kErrors = CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CRTL |
                                    CAN_ERR_PROT | CAN_ERR_ACK | CAN_ERR_TX_TIMEOUT |
                                    CAN_ERR_BUSERROR;
@@ -71,6 +70,7 @@ can::BusEvent EventOf(const canfd_frame& error) noexcept {
     if ((detail & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) != 0) {
       return BusEvent::kErrorPassive;
     }
+    if ((detail & CAN_ERR_CRTL_ACTIVE) != 0) return BusEvent::kErrorActive;
   }
   return BusEvent::kProtocolError;
 }
@@ -108,7 +108,7 @@ RawSocket::RawSocket(const std::string& interface, bool fd, const std::vector<st
     close(socket_);
     throw;
   }
-  MeasureClocks();
+  ReadClocks();
 }
 
 RawSocket::~RawSocket() { close(socket_); }
@@ -148,12 +148,14 @@ void RawSocket::Configure(const std::string& interface, bool fd,
   }
 }
 
-void RawSocket::MeasureClocks() noexcept {
+void RawSocket::ReadClocks() noexcept {
+  timespec before{};
   timespec real{};
-  timespec monotonic{};
+  timespec after{};
+  clock_gettime(CLOCK_MONOTONIC, &before);
   clock_gettime(CLOCK_REALTIME, &real);
-  clock_gettime(CLOCK_MONOTONIC, &monotonic);
-  clock_offset_ns_ = Nanoseconds(monotonic) - Nanoseconds(real);
+  clock_gettime(CLOCK_MONOTONIC, &after);
+  clock_.Read(Nanoseconds(before), Nanoseconds(real), Nanoseconds(after));
 }
 
 void RawSocket::ReadControl(std::size_t at, can::WireFrame& frame) noexcept {
@@ -163,7 +165,7 @@ void RawSocket::ReadControl(std::size_t at, can::WireFrame& frame) noexcept {
     if (item->cmsg_type == SO_TIMESTAMPNS) {
       timespec stamp{};
       std::memcpy(&stamp, CMSG_DATA(item), sizeof(stamp));
-      frame.received_ns = Nanoseconds(stamp) + clock_offset_ns_;
+      frame.received_ns = clock_.Monotonic(Nanoseconds(stamp));
     } else if (item->cmsg_type == SO_RXQ_OVFL) {
       std::uint32_t overflow = 0;  // since the socket was made, modulo 2^32
       std::memcpy(&overflow, CMSG_DATA(item), sizeof(overflow));
@@ -201,16 +203,19 @@ can::Reception RawSocket::Next() noexcept {
     }
     // A batch that was not full emptied the socket: the next call would find nothing.
     if (batch.filled > 0 && batch.filled < kBatch) {
+      clock_.Emptied();
       batch.filled = 0;
       batch.taken = 0;
       return {};
     }
-    if (++batches_ % kMeasureClocksEvery == 0) MeasureClocks();
     for (auto& message : batch.messages) message.msg_hdr.msg_controllen = kControlBytes;
     const int count = recvmmsg(socket_, batch.messages.data(), kBatch, MSG_DONTWAIT, nullptr);
     batch.taken = 0;
     batch.filled = count > 0 ? static_cast<std::size_t>(count) : 0;
-    if (count > 0) continue;
+    if (count > 0) {
+      ReadClocks();
+      continue;
+    }
     can::Reception none;
     if (count < 0 && errno != EAGAIN && errno != EINTR) none.event = can::BusEvent::kLinkDown;
     return none;

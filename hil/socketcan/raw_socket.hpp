@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hil/can/bus_access.hpp"
+#include "hil/socketcan/stamp_clock.hpp"
 
 namespace levitas::socketcan {
 
@@ -26,19 +27,20 @@ class RawSocket {
   [[nodiscard]] can::SendResult Send(const can::WireFrame& frame) noexcept;
   [[nodiscard]] int descriptor() const noexcept { return socket_; }
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_; }
+  /// How often the wall clock was set.
+  [[nodiscard]] std::uint64_t clock_steps() const noexcept { return clock_.steps(); }
 
  private:
   struct Batch;
   void Configure(const std::string& interface, bool fd, const std::vector<std::uint32_t>& ids);
   [[nodiscard]] can::Reception Translate(std::size_t at) noexcept;
   void ReadControl(std::size_t at, can::WireFrame& frame) noexcept;
-  /// CLOCK_MONOTONIC less the clock of time stamps.
-  void MeasureClocks() noexcept;
+  /// What the clock of time stamps shows now.
+  void ReadClocks() noexcept;
 
   int socket_{-1};
   std::unique_ptr<Batch> batch_;  ///< frames of one system call
-  std::int64_t clock_offset_ns_{0};
-  std::uint32_t batches_{0};
+  StampClock clock_;
   std::uint64_t dropped_{0};
   std::uint32_t last_overflow_{0};
 };

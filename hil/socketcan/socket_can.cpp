@@ -27,7 +27,7 @@ struct SocketCan::Impl {
 };
 
 SocketCan::SocketCan(const can::Layout& layout, const std::vector<can::BusConfig>& buses,
-                     can::Sender own)
+                     std::optional<can::Sender> own)
     : impl_(std::make_unique<Impl>()) {
   std::vector<std::string> interfaces;
   for (const can::BusConfig& bus : buses) {
@@ -78,6 +78,12 @@ std::uint64_t SocketCan::dropped() const noexcept {
   std::uint64_t dropped = 0;
   for (const auto& socket : impl_->sockets) dropped += socket->dropped();
   return dropped;
+}
+
+std::uint64_t SocketCan::clock_steps() const noexcept {
+  std::uint64_t steps = 0;
+  for (const auto& socket : impl_->sockets) steps = std::max(steps, socket->clock_steps());
+  return steps;
 }
 
 }  // namespace levitas::socketcan

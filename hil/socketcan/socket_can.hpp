@@ -3,7 +3,7 @@
 //
 // Filters     only the identifiers of the other end reach us, and error frames of the chip.
 // Time        each frame carries the kernel's time stamp of its reception, turned to
-//             CLOCK_MONOTONIC.
+//             CLOCK_MONOTONIC, whenever somebody sets the wall clock (stamp_clock.hpp).
 // Bounded     Next never waits; Wait sleeps in ppoll, a short wait spins.
 // Lost        the kernel's own count of frames that did not fit our buffer (SO_RXQ_OVFL).
 // Thread      one; after construction no allocation, no exception.
@@ -11,6 +11,7 @@
 //             down, no CAN FD, no CAN in the kernel. Later failures are events.
 
 #include <memory>
+#include <optional>
 
 #include "hil/can/bus_access.hpp"
 #include "hil/can/layout.hpp"
@@ -19,8 +20,9 @@ namespace levitas::socketcan {
 
 class SocketCan final : public can::BusAccess {
  public:
-  /// `own` is this end: what it sends is not received.
-  SocketCan(const can::Layout& layout, const std::vector<can::BusConfig>& buses, can::Sender own);
+  /// `own` is this end: what it sends is not received. None: a listener beside both ends.
+  SocketCan(const can::Layout& layout, const std::vector<can::BusConfig>& buses,
+            std::optional<can::Sender> own);
   ~SocketCan() override;
   SocketCan(const SocketCan&) = delete;
   SocketCan& operator=(const SocketCan&) = delete;
@@ -29,6 +31,7 @@ class SocketCan final : public can::BusAccess {
   can::SendResult Send(std::size_t bus, const can::WireFrame& frame) noexcept override;
   bool Wait(std::int64_t deadline_ns) noexcept override;
   [[nodiscard]] std::uint64_t dropped() const noexcept override;
+  [[nodiscard]] std::uint64_t clock_steps() const noexcept override;
 
  private:
   struct Impl;

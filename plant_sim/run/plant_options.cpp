@@ -35,6 +35,9 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
       ->capture_default_str();
   app.add_flag("--no-lines", options.no_lines,
                "amb-rig: leave the rig file's lines (enable, heartbeat ...) alone");
+  app.add_flag(
+      "--on-a-real-bus", options.on_a_real_bus,
+      "amb-rig: play the rig also on a bus that is no virtual one; no real rig may be on it");
   app.add_flag("--stay", options.stay, "When the controller ends, wait for the next one");
   try {
     app.parse(argc, argv);

@@ -19,7 +19,8 @@ struct PlantOptions {
   bool require_realtime{false};
   bool stay{false};  ///< wait for the next controller instead of ending with the present one
   std::uint32_t watchdog_periods{1000};
-  bool no_lines{false};  ///< amb-rig: leave the rig file's lines alone
+  bool no_lines{false};       ///< amb-rig: leave the rig file's lines alone
+  bool on_a_real_bus{false};  ///< amb-rig: play the rig also on a bus that is no virtual one
 };
 
 /// What differs between the programs.

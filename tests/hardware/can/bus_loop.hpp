@@ -91,7 +91,7 @@ class BusLoop {
     return {rig.numbers, controller.law, controller.supervisor};
   }
   static plant::PlantConfig Delayed(config::RigFile rig, const socketcan::CanConnection& plan) {
-    socketcan::ApplyWireDelay(rig, plan.budget);
+    socketcan::ApplyBusDelay(rig, plan.budget);
     return rig.plant;
   }
   /// The rig's side of the answer: hold, and the watchdog.

@@ -55,7 +55,7 @@ class OverTheBus(unittest.TestCase):
         # Both runs with the delay of the slower way, so that only the bus differs.
         rig = (SOURCE / "config/rigs/flexible_rotor.yaml").read_text(encoding="utf-8")
         cls.rig = cls.folder / "rig.yaml"
-        cls.rig.write_text(rig.replace("delay_samples: 1 ", "delay_samples: 1.5 "), encoding="utf-8")
+        cls.rig.write_text(rig.replace("delay_samples: 1 ", "delay_samples: 2 "), encoding="utf-8")
         cls.scenario = cls.folder / "standing.yaml"
         cls.scenario.write_text(SCENARIO, encoding="utf-8")
 

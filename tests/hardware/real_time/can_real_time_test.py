@@ -3,12 +3,14 @@
 The programs are the unmodified ones; the bus is the kernel's.
 """
 
+import json
 import math
 import os
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -77,6 +79,48 @@ class RealTimeOverCan(unittest.TestCase):
         replay = subprocess.run([BINARIES / "amb", "replay", self.folder / "run.lcm"],
                                 capture_output=True, text=True, check=False)
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+
+    # Stamps of frames are of the wall clock. Before, a step of a second either way tripped the loop.
+    def test_setting_the_wall_clock_changes_nothing(self):
+        rig, control = self.start(SCENARIO % 0.5)
+        control.says("-> levitating")
+        for step_s in (-1.0, 1.0, 3600.0, -3600.0):
+            time.clock_settime(time.CLOCK_REALTIME, time.clock_gettime(time.CLOCK_REALTIME) + step_s)
+            time.sleep(0.05)
+        self.assertEqual(control.status(), 0, control.text)
+        self.assertIn("4 x the wall clock was set", control.text)
+        records = self.records()
+        self.assertEqual({record.fault for record in records}, {0})
+        self.assertEqual([r.cycle for r in records if not r.frame_present], [])
+        # Virtual time passes only while programs wait: a microsecond holds the reading of clocks.
+        instants = [record.sample_time_ns for record in records]
+        off = max(abs(b - a - PERIOD_NS) for a, b in zip(instants, instants[1:]))
+        print(f"sampling instants: at worst {off} ns off a period")
+        self.assertLess(off, PERIOD_NS / 2)
+
+    def test_amb_run_of_a_rig_that_is_there_is_one_command_to_the_verdict(self):
+        rig = Process(self.folder, "amb-rig", "--rig", "flexible_rotor", "--port", "can:vcan0",
+                      "--pace", "realtime")
+        self.addCleanup(rig.kill)
+        scenario = self.folder / "scenario.yaml"
+        scenario.write_text(SCENARIO % 1.2)
+        verdict = self.folder / "verdict.json"
+        run = subprocess.run(
+            [BINARIES / "amb", "run", "--port", "can:vcan0", "--no-simulated-rig", "--scenario",
+             scenario, "--record", self.folder / "run.lcm", "--json", verdict, "--no-dash"],
+            capture_output=True, text=True, check=False)
+        print(run.stdout)
+        self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+        self.assertIn("(not simulated)", run.stderr)
+        told = json.loads(verdict.read_text(encoding="utf-8"))
+        self.assertEqual(told["provenance"]["pace"], "realtime")
+        self.assertTrue(all(record.frame_present for record in self.records()))
+        self.assertEqual(rig.status(), 0, rig.text)  # at the goodbye of the one controller
+        # Two periods: docs/can.md. The path that is simulated is the one that is measured.
+        delay = told["timing"]["delay"]
+        self.assertEqual(delay["expected_periods"], 2.0)
+        self.assertEqual(delay["acting"]["median_periods"], 2.0)
+        self.assertEqual(delay["objection"], "")
 
     def test_a_silent_rig_trips_in_the_cycle_that_the_limit_names(self):
         rig, control = self.start(SCENARIO % 3)

@@ -26,6 +26,30 @@ class WrongPartner(unittest.TestCase):
             self.assertEqual(rig.text.count("no controller answers at udpm://239.255.76.67:7668"), 1)
             self.assertIn("start amb-controller", rig.text)
 
+    def status_and_message(self, program, *words):
+        done = subprocess.run([str(BINARIES / program), *words], capture_output=True, text=True,
+                              timeout=20, check=False)
+        return done.returncode, done.stderr
+
+    # The loopback interface is no virtual CAN bus: for what may be a rig, like any chip's.
+    def test_lockstep_is_refused_where_a_real_rig_may_be(self):
+        words = ["--rig", "flexible_rotor", "--controller", "flexible_rotor", "--port", "can:lo"]
+        for pace in ([], ["--pace", "lockstep"]):
+            status, message = self.status_and_message("amb-controller", *words, *pace)
+            self.assertEqual(status, 2, message)
+            self.assertIn("allowed: --pace realtime", message)
+        status, message = self.status_and_message("amb-controller", *words, "--pace", "realtime")
+        self.assertNotIn("lockstep", message)
+        self.assertNotEqual(status, 2, message)  # one bus for both directions is too slow
+
+    def test_a_simulated_rig_stays_off_a_bus_where_a_real_one_may_be(self):
+        words = ["--rig", "flexible_rotor", "--port", "can:lo"]
+        status, message = self.status_and_message("amb-rig", *words)
+        self.assertEqual(status, 2, message)
+        self.assertIn("--on-a-real-bus", message)
+        status, message = self.status_and_message("amb-rig", *words, "--on-a-real-bus")
+        self.assertNotEqual(status, 2, message)
+
     def test_another_port_is_another_network(self):
         elsewhere = "lcm:udpm://239.255.76.67:8667?ttl=0"
         with plant(self.folder, "--partner-timeout", 3) as rig, \

@@ -71,6 +71,16 @@ TEST_F(RunFailureTest, RefusesOptionsThatMakeNoSense) {
   }
 }
 
+// The loopback interface is no virtual CAN bus: for what may be a rig, like any chip's.
+TEST_F(RunFailureTest, LockstepIsRefusedWhereARealRigMayBe) {
+  AmbRun run(scratch_, "run", {"--port", "can:lo", "--pace", "lockstep"});
+  EXPECT_EQ(run.Status(), 2) << run.Said();
+  EXPECT_THAT(run.Said(), HasSubstr("allowed: --pace realtime"));
+  AmbRun nowhere(scratch_, "run", {"--no-simulated-rig"});
+  EXPECT_EQ(nowhere.Status(), 2) << nowhere.Said();
+  EXPECT_THAT(nowhere.Said(), HasSubstr("needs --port"));
+}
+
 // Without a law that exceeds the magnets' negative stiffness nothing lifts (ki Kp < ks); the other
 // half of the pair is RunTest.LevitatesJudgesAndLeavesNothingBehind.
 TEST_F(RunFailureTest, ATripIsStatusFourAndItsRecordIsKeptAndNamed) {

@@ -22,6 +22,38 @@ TEST(BusWatch, HoldsABusOffUntilItsOwnRestart) {
   EXPECT_FALSE(watch.AnyOff());
 }
 
+TEST(BusWatch, IsBackWhenTheChipIsErrorActive) {
+  BusWatch watch;
+  watch.Note({BusEvent::kBusOff, 1, {}});
+  watch.Note({BusEvent::kErrorActive, 1, {}});
+  EXPECT_FALSE(watch.AnyOff());
+}
+
+// ip link set can0 down; ip link set can0 up: the chip starts anew, and says nothing of a restart.
+TEST(BusWatch, IsBackAfterTheLinkWasTakenDown) {
+  BusWatch watch;
+  watch.Note({BusEvent::kBusOff, 1, {}});
+  watch.Note({BusEvent::kLinkDown, 0, {}});
+  EXPECT_TRUE(watch.Off(1));
+  watch.Note({BusEvent::kLinkDown, 1, {}});
+  EXPECT_FALSE(watch.AnyOff());
+}
+
+// A trip after frame_missing_cycles, 10 as shipped, comes first.
+TEST(BusWatch, IsBackWhenFramesKeepComingThoughTheDriverSaysNothing) {
+  BusWatch watch;
+  for (int time = 1; time <= 2; ++time) {
+    watch.Note({BusEvent::kBusOff, 1, {}});
+    EXPECT_TRUE(watch.Hears(0));
+    for (std::uint32_t frame = 1; frame < BusWatch::kBackAfter; ++frame) {
+      EXPECT_FALSE(watch.Hears(1)) << frame;
+    }
+    EXPECT_TRUE(watch.Hears(1));
+    EXPECT_FALSE(watch.AnyOff());
+  }
+  EXPECT_EQ(watch.counters().returns, 2U);
+}
+
 TEST(BusWatch, SaysNothingWhenNothingHappened) { EXPECT_EQ(Text(BusCounters{}, 0), ""); }
 
 TEST(BusWatch, NamesEveryKindWithItsCount) {
@@ -50,6 +82,7 @@ TEST(ErrorFrames, OfTheKernelBecomeEvents) {
   EXPECT_EQ(EventOf(ErrorFrame(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE)), BusEvent::kErrorPassive);
   EXPECT_EQ(EventOf(ErrorFrame(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE)), BusEvent::kErrorPassive);
   EXPECT_EQ(EventOf(ErrorFrame(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW)), BusEvent::kChipOverrun);
+  EXPECT_EQ(EventOf(ErrorFrame(CAN_ERR_CRTL, CAN_ERR_CRTL_ACTIVE)), BusEvent::kErrorActive);
   EXPECT_EQ(EventOf(ErrorFrame(CAN_ERR_PROT)), BusEvent::kProtocolError);
   EXPECT_EQ(EventOf(ErrorFrame(CAN_ERR_ACK)), BusEvent::kProtocolError);
 }

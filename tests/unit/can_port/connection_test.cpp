@@ -90,14 +90,75 @@ TEST(CanConnection, KnowsItsOwnPorts) {
   EXPECT_FALSE(IsCanPort("canned"));
 }
 
-TEST(WireDelay, LengthensAShorterDelayAndLeavesALongerOne) {
+// The instants of docs/can.md at 100 us: 72.6 us of positions, 30 us until the controller wakes, 5 us
+// until it has answered, 64.6 us of currents.
+TEST(BusDelay, OfACurrentThatActsOnArrivalHoldsTheWayThereAndTheController) {
   config::RigFile rig = Rig();
-  const can::Budget budget = PlanConnection(rig, "rig.yaml", "can", Real).budget;
-  ApplyWireDelay(rig, budget);
-  EXPECT_NEAR(rig.plant.delay_samples, 1.372, 1e-9);  // 72.6 us and 64.6 us at 100 us
-  rig.plant.delay_samples = 2.0;
-  ApplyWireDelay(rig, budget);
-  EXPECT_EQ(rig.plant.delay_samples, 2.0);
+  rig.buses[1].current_acts = can::Acts::kOnArrival;
+  ApplyBusDelay(rig, PlanConnection(rig, "rig.yaml", "can", Real).budget);
+  EXPECT_NEAR(rig.plant.delay_samples, 1.722, 1e-9);
+}
+
+TEST(BusDelay, OfACurrentThatActsAtTheNextSampleIsWholePeriods) {
+  config::RigFile rig = Rig();
+  ApplyBusDelay(rig, PlanConnection(rig, "rig.yaml", "can", Real).budget);
+  EXPECT_NEAR(rig.plant.delay_samples, 2.0, 1e-9);
+}
+
+TEST(BusDelay, LeavesALongerDelayOfTheRigsFile) {
+  config::RigFile rig = Rig();
+  rig.plant.delay_samples = 2.5;
+  ApplyBusDelay(rig, PlanConnection(rig, "rig.yaml", "can", Real).budget);
+  EXPECT_EQ(rig.plant.delay_samples, 2.5);
+}
+
+TEST(BusDelay, OfOneBusForBothDirectionsTakesWhatTheCurrentsBusSays) {
+  config::RigFile rig = Rig();
+  rig.numbers.period_ns = 500'000;  // one bus carries that
+  rig.buses[1].current_acts = can::Acts::kOnArrival;
+  const can::LoopDelay delay = can::DelayOf(PlanConnection(rig, "rig.yaml", "can:a", Real).budget);
+  EXPECT_EQ(delay.hold_s, 0.0);
+  EXPECT_NEAR(delay.total_s(), 172.2e-6, 1e-9);
+}
+
+LinkKind Wired(const std::string& interface) {
+  if (interface.starts_with("no")) return LinkKind::kAbsent;
+  return interface.starts_with("v") ? LinkKind::kVirtual : LinkKind::kReal;
+}
+
+TEST(LinkKind, IsVirtualOnlyByTheDriversVcanAndVxcan) {
+  EXPECT_EQ(KindOf("vcan"), LinkKind::kVirtual);
+  EXPECT_EQ(KindOf("vxcan"), LinkKind::kVirtual);
+  for (const char* driver : {"", "can", "slcan", "dummy", "veth", "vcan0"}) {
+    EXPECT_EQ(KindOf(driver), LinkKind::kReal) << driver;
+  }
+}
+
+// The loopback interface is there on every machine, and sysfs lists it among the virtual devices.
+TEST(LinkKind, IsAskedOfTheKernel) {
+  EXPECT_EQ(FindLink("lo"), LinkKind::kReal);
+  EXPECT_EQ(FindLink("nolink0"), LinkKind::kAbsent);
+  EXPECT_FALSE(IsVirtual("lo"));
+  EXPECT_FALSE(IsVirtual("nolink0"));
+}
+
+TEST(RealInterface, IsTheFirstThatIsThereAndNotVirtual) {
+  EXPECT_EQ(RealInterface(Rig(), "can:v0,can5", Wired), "can5");
+  EXPECT_EQ(RealInterface(Rig(), "can", Wired), "can0");  // of the rig's file
+  EXPECT_EQ(RealInterface(Rig(), "can:v0,v1", Wired), "");
+  EXPECT_EQ(RealInterface(Rig(), "can:no0,v1", Wired), "");
+}
+
+TEST(Lockstep, IsRefusedOnAWireAndNamesThePaceThatIsAllowed) {
+  try {
+    RefuseLockstep(Rig(), "can:v0,can5", Wired);
+    FAIL() << "not refused";
+  } catch (const Problem& problem) {
+    EXPECT_EQ(problem.status(), ExitStatus::kUsage);
+    EXPECT_THAT(problem.what(), HasSubstr("can5 is no virtual CAN bus"));
+    EXPECT_THAT(problem.what(), HasSubstr("allowed: --pace realtime"));
+  }
+  EXPECT_NO_THROW(RefuseLockstep(Rig(), "can:v0", Wired));
 }
 
 }  // namespace

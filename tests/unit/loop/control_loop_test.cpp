@@ -96,6 +96,28 @@ TEST(ControlLoopRealtime, WakesOnTheGridOfTheRig) {
   EXPECT_EQ(bench.clock.now_ns, 30'000 + 99 * kPeriod);
 }
 
+// Of another machine's clock, of a sender gone wrong, or made to overflow.
+TEST(ControlLoopRealtime, DatesAFrameByItsArrivalWhenItsSamplingInstantCannotBe) {
+  for (const std::int64_t said_ns :
+       {INT64_MIN, INT64_MAX, std::int64_t{-5'000'000'000}, std::int64_t{5'000'000'000}}) {
+    Bench bench(Pace::kRealtime, 100);
+    bench.port.date = [&](std::int64_t) { return said_ns; };
+    const auto& statistics = bench.Run();
+    EXPECT_EQ(statistics.cycles, 100U);
+    EXPECT_EQ(statistics.skipped_periods, 0U);
+    EXPECT_EQ(statistics.undated_frames, 101U);  // the first one only tells that the rig is there
+    EXPECT_EQ(statistics.latency.max_ns(), 30'000);
+    // The first frame is read at 0: it was sampled 30 us before, and the next wake-up is at 100 us.
+    EXPECT_EQ(bench.clock.now_ns, 100 * kPeriod) << said_ns;
+  }
+}
+
+TEST(ControlLoopRealtime, LeavesASamplingInstantThatCanBeAsItIs) {
+  Bench bench(Pace::kRealtime, 100);
+  bench.port.date = [](std::int64_t true_ns) { return true_ns - 700'000'000; };
+  EXPECT_EQ(bench.Run().undated_frames, 0U);
+}
+
 TEST(ControlLoopRealtime, CountsAMissingFrameInItsCycleAndNowhereElse) {
   Bench bench(Pace::kRealtime, 100);
   bench.port.silent = [&] { return bench.port.reads == 42; };

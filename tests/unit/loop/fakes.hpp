@@ -42,6 +42,7 @@ class FakePort final : public port::RigPort {
     next_.rig_session = 1;
     next_.axes = 4;
     frame = next_;
+    if (date) frame.sample_time_ns = date(frame.sample_time_ns);
     return port::ReadResult::kFrame;
   }
   bool Write(const CurrentFrame& frame) noexcept override {
@@ -52,6 +53,7 @@ class FakePort final : public port::RigPort {
   [[nodiscard]] port::PortCounters counters() const noexcept override { return {}; }
 
   std::function<bool()> silent;
+  std::function<std::int64_t(std::int64_t)> date;  ///< what a frame says instead of the truth
   std::function<void()> on_read;
   std::function<void()> on_write;
   bool lockstep{false};

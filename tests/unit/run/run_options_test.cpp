@@ -33,6 +33,55 @@ TEST(CheckPort, RefusesAnotherTransportAsUsageWithWhatIsAllowed) {
   }
 }
 
+config::RigFile Rig() { return config::LoadRig(config::FindConfig("flexible_rotor", "rigs")); }
+
+socketcan::LinkKind Wired(const std::string& interface) {
+  return interface.starts_with("v") ? socketcan::LinkKind::kVirtual : socketcan::LinkKind::kReal;
+}
+
+TEST(SettleRig, SimulatesTheRigInLockstepOverLcmAndOnAVirtualBus) {
+  for (const char* port : {"", "lcm", "can:vcan0"}) {
+    RunOptions options;
+    options.port = port;
+    const RunOptions settled = SettleRig(options, Rig(), Wired);
+    EXPECT_FALSE(settled.rig_is_there) << port;
+    EXPECT_EQ(settled.pace, "lockstep") << port;
+  }
+}
+
+TEST(SettleRig, StartsTheControllerAloneInRealTimeOnARealBus) {
+  for (const char* port : {"can", "can:can0,can1", "can:vcan0,can1"}) {
+    RunOptions options;
+    options.port = port;
+    const RunOptions settled = SettleRig(options, Rig(), Wired);
+    EXPECT_TRUE(settled.rig_is_there) << port;
+    EXPECT_EQ(settled.pace, "realtime") << port;
+  }
+}
+
+TEST(SettleRig, RefusesLockstepOnARealBus) {
+  RunOptions options;
+  options.port = "can:can0,can1";
+  options.pace = "lockstep";
+  try {
+    static_cast<void>(SettleRig(options, Rig(), Wired));
+    ADD_FAILURE() << "lockstep was accepted";
+  } catch (const Problem& problem) {
+    EXPECT_EQ(problem.status(), ExitStatus::kUsage);
+    EXPECT_THAT(problem.what(), HasSubstr("--pace realtime"));
+  }
+}
+
+TEST(SettleRig, NeedsAPortForARigThatIsSaidToBeThere) {
+  RunOptions options;
+  options.rig_is_there = true;
+  EXPECT_THROW(static_cast<void>(SettleRig(options, Rig(), Wired)), Problem);
+  options.port = "can:vcan0";
+  EXPECT_EQ(SettleRig(options, Rig(), Wired).pace, "realtime");
+  options.pace = "lockstep";  // somebody's simulated rig on a virtual bus
+  EXPECT_EQ(SettleRig(options, Rig(), Wired).pace, "lockstep");
+}
+
 TEST(CheckFiles, FindsTheShippedDefaults) {
   const RunFiles files = CheckFiles(RunOptions{});
   EXPECT_EQ(files.rig.name, "flexible_rotor");

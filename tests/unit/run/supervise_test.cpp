@@ -23,7 +23,7 @@ class SuperviseTest : public testing::Test {
   RunResult With(const std::string& controller, const std::string& plant) {
     RunPlan plan;
     plan.controller = {"/bin/sh", {"-c", controller}, scratch_ / "controller.log"};
-    plan.plant = {"/bin/sh", {"-c", plant}, scratch_ / "plant.log"};
+    if (!plant.empty()) plan.plant = {"/bin/sh", {"-c", plant}, scratch_ / "plant.log"};
     plan.notice = milliseconds(300);
     plan.grace = milliseconds(300);
     plan.silence_limit = silence_limit_;
@@ -54,6 +54,21 @@ TEST_F(SuperviseTest, EndsOrderlyWithTheController) {
   EXPECT_THAT(result.trouble, IsEmpty());
   EXPECT_EQ(result.controller.code, 0);
   EXPECT_FALSE(result.interrupted);
+}
+
+TEST_F(SuperviseTest, RunsTheControllerAloneWhereTheRigIsThereAlready) {
+  const RunResult result = With("sleep 0.05; exit 4", "");
+  EXPECT_THAT(result.trouble, IsEmpty());
+  EXPECT_EQ(result.controller.code, 4);
+  EXPECT_FALSE(result.plant.has_value());
+}
+
+TEST_F(SuperviseTest, LandsAnInterruptedRunOfTheControllerAlone) {
+  interrupts_ = [](std::uint64_t cycle) { return cycle > 3 ? 1 : 0; };
+  const RunResult result = With("trap 'exit 0' INT; while :; do sleep 0.02; done", "");
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_THAT(result.trouble, IsEmpty());
+  EXPECT_EQ(result.controller.code, 0);
 }
 
 TEST_F(SuperviseTest, PassesATripOnWithoutCallingItTrouble) {
