@@ -77,6 +77,30 @@ TEST_F(CanFault, BusOffThatRestartsInTimeTripsNothing) {
   for (int cycle = 0; cycle < 200; ++cycle) ASSERT_EQ(loop_->Step().fault, Fault::kNone);
 }
 
+// As somebody does whose chip left the bus; no driver tells of a restart then.
+TEST_F(CanFault, BusOffEndsWhenTheLinkIsTakenDownAndUp) {
+  intruder_->SendError(CAN_ERR_BUSOFF);
+  ExpectTrip(Fault::kFrameMissing, loop_->StepsUntilOff(100), kFrameMissingCycles);
+  bus_.Set("down");
+  loop_->Step();
+  bus_.Set("up");
+  for (int cycle = 0; cycle < 3000; ++cycle) loop_->Step();
+  loop_->Step(OperatorCommand::kReset);
+  loop_->Step();
+  EXPECT_EQ(loop_->out.mode, Mode::kOff);
+  EXPECT_EQ(loop_->out.fault, Fault::kNone);
+}
+
+TEST_F(CanFault, BusOffOfADriverThatSaysNoMoreEndsAfterTheTripWithTheFramesThatKeepComing) {
+  intruder_->SendError(CAN_ERR_BUSOFF);
+  ExpectTrip(Fault::kFrameMissing, loop_->StepsUntilOff(100), kFrameMissingCycles);
+  for (int cycle = 0; cycle < 3000; ++cycle) loop_->Step();
+  loop_->Step(OperatorCommand::kReset);
+  loop_->Step();
+  EXPECT_EQ(loop_->out.mode, Mode::kOff);
+  EXPECT_EQ(loop_->port().bus_counters().returns, 1U);
+}
+
 TEST_F(CanFault, ErrorPassiveAndWireErrorsTripNothing) {
   intruder_->SendError(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE);
   intruder_->SendError(CAN_ERR_PROT);

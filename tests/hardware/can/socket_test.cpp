@@ -8,6 +8,7 @@
 #include "controller/rt/clock.hpp"
 #include "hil/can_port/can_rig_link.hpp"
 #include "hil/can_port/can_rig_port.hpp"
+#include "hil/socketcan/link_kind.hpp"
 #include "hil/socketcan/socket_can.hpp"
 #include "tests/hardware/can/vcan.hpp"
 #include "tests/unit/can/rigs.hpp"
@@ -197,6 +198,15 @@ TEST(TwoBuses, AreReadInTurnAndWrittenApart) {
     ASSERT_EQ(link.Receive(current, rt::MonotonicNowNs() + kSecondNs),
               port::RigLink::Answer::kCurrent);
     ASSERT_EQ(current.cycle, cycle);
+  }
+}
+
+TEST(LinkKindOfTheKernel, IsVirtualForVcanAndForBothEndsOfVxcan) {
+  const test::VirtualBus bus("vcan6");
+  const test::VirtualWire wire("vxa6", "vxb6");
+  if (!bus.made() || !wire.made()) GTEST_SKIP() << "this kernel has no vcan or vxcan";
+  for (const char* interface : {"vcan6", "vxa6", "vxb6"}) {
+    EXPECT_EQ(FindLink(interface), LinkKind::kVirtual) << interface;
   }
 }
 
