@@ -88,7 +88,9 @@ nlohmann::ordered_json Json(const effect::Row& row) {
   return json;
 }
 
-void WriteDocument(const std::string& path) { WriteWholeFile(path, signature::EffectsDocument()); }
+void WriteDocument(const std::string& path) {
+  if (!path.empty()) WriteWholeFile(path, signature::EffectsDocument());
+}
 
 /// The rig asked for; for effects of teeth one that has them.
 plant::PlantParameters RigFor(const effect::Row& row, const EffectsOptions& options) {

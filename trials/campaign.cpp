@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "analysis/recorded_rows.hpp"
-#include "common/problem.hpp"
+#include "common/output_file.hpp"
 #include "controller/law/axis_law.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
