@@ -50,7 +50,21 @@ void OperatorReceiver::Run() {
   }
 }
 
+// Where the queue overflows, a stop's own datagram may never arrive here, and it is never empty.
+void OperatorReceiver::CountRead() noexcept {
+  const std::uint64_t asked = stops_.asked();
+  if (stops_passed_ >= asked) {
+    read_behind_ = 0;
+    return;
+  }
+  if (read_behind_ == 0) next_passed_ = asked;
+  if (++read_behind_ <= kMostQueued) return;
+  stops_passed_ = std::max(stops_passed_, next_passed_);
+  read_behind_ = 0;
+}
+
 void OperatorReceiver::Handle(const Received& received) {
+  CountRead();
   const Packet packet = ParsePacket(received.datagram);
   if (packet.kind == PacketKind::kFragment) return;
   if (packet.kind != PacketKind::kShort) {

@@ -51,6 +51,8 @@ struct OperatorCounts {
 class OperatorReceiver {
  public:
   static constexpr std::size_t kRemembered = 64;
+  /// More than the kernel's queue can hold, whose smallest datagrams take 768 bytes of 8 MiB.
+  static constexpr std::size_t kMostQueued = 16'384;
   static constexpr int kMostPerSecond = 50;  ///< far more than a person gives
 
   /// Keeps a reference to `stops`.
@@ -80,6 +82,8 @@ class OperatorReceiver {
   /// After what came of handing it on.
   void Settle(const CommandOrigin& origin, bool taken);
   void Drop();
+  /// Of each datagram: what was queued before a stop is behind us after kMostQueued at the latest.
+  void CountRead() noexcept;
   [[nodiscard]] Seen* Find(std::uint64_t sender) noexcept;
   static void Add(Count& count) noexcept { count.fetch_add(1, std::memory_order_relaxed); }
 
@@ -89,6 +93,8 @@ class OperatorReceiver {
   std::array<Seen, kRemembered> seen_{};
   std::size_t next_seen_{0};       ///< the longest known sender, replaced by the next new one
   std::uint64_t stops_passed_{0};  ///< how many of the stops this thread has come past
+  std::uint64_t next_passed_{0};   ///< of the stops: once enough was read ...
+  std::size_t read_behind_{0};     ///< ... since it was set
   Count rejected_{0}, old_{0}, overtaken_{0}, dropped_{0};
   std::atomic<bool> stopping_{false};
   StopReceiver stop_receiver_;
