@@ -125,7 +125,8 @@ LoopPoles ClosedLoopPoles(const plant::PlantConfig& plant, const law::LawConfig&
   LoopPoles result;
   result.speed_rad_per_s = speed_rad_per_s;
   result.largest_pole_modulus = values.cwiseAbs().maxCoeff();
-  result.stable = result.largest_pole_modulus < 1.0;
+  result.point = loop.point;
+  result.stable = result.largest_pole_modulus < 1.0 && loop.point.failure.empty();
   std::vector<Pole> oscillating;
   std::vector<Pole> real;
   for (Eigen::Index i = 0; i < values.size(); ++i) {

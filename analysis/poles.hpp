@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "controller/law/law_config.hpp"
+#include "plant_sim/plant/operating_point.hpp"
 #include "plant_sim/plant/plant_config.hpp"
 
 namespace levitas::analysis {
@@ -30,7 +31,8 @@ struct Pole {
 
 struct LoopPoles {
   double speed_rad_per_s{};
-  bool stable{};  ///< every |z| < 1
+  bool stable{};                ///< every |z| < 1, and the static load is carried
+  plant::OperatingPoint point;  ///< about which the loop is linear
   double largest_pole_modulus{};
   std::vector<Pole> poles;       ///< ascending |frequency|; poles at z = 0 are left out
   std::size_t deadbeat_poles{};  ///< eigenvalues at z = 0 (pure delay)

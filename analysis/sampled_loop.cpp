@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "common/problem.hpp"
+#include "plant_sim/plant/find_operating_point.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::analysis {
@@ -70,25 +71,55 @@ AxisModel ModelOf(std::vector<law::Section> sections) {
   return model;
 }
 
-SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
-                      double speed_rad_per_s) {
-  RefuseMismatch(plant, law);
-  const plant::PlantModel model(plant);
-  plant::LinearModel continuous = plant::Linearise(model, speed_rad_per_s);
-  SampledLoop loop;
-  const auto channels = static_cast<Eigen::Index>(model.channels());
-  continuous.b.conservativeResize(Eigen::NoChange, channels);
-  continuous.c.conservativeResize(channels, Eigen::NoChange);
-  loop.period_s = static_cast<double>(plant.period_ns) * 1e-9;
-  loop.plant = plant::Discretise(continuous, loop.period_s, model.delay_samples());
-  loop.modes = static_cast<Eigen::Index>(model.layout().modes);
+namespace {
+
+/// A gain beyond this at z = 1 is an integrator's: [A/m], laws have 1e3 to 1e6.
+constexpr double kIntegrates = 1e9;
+
+plant::StaticLaw StaticLawOf(const SampledLoop& loop, const law::LawConfig& law) {
+  const auto axes = static_cast<Eigen::Index>(law.axis_count());
+  plant::StaticLaw at_rest{Eigen::MatrixXd::Zero(axes, axes), {}, law.current_limit_a};
+  if (loop.coupled) {
+    at_rest.gain_a_per_m = loop.coupled->At(1.0).real();
+  } else {
+    for (Eigen::Index i = 0; i < axes; ++i) {
+      at_rest.gain_a_per_m(i, i) = loop.law[static_cast<std::size_t>(i)].At(1.0).real();
+    }
+  }
+  for (Eigen::Index i = 0; i < axes; ++i) {
+    // Not >: what is no number comes from a pole at z = 1 as well.
+    at_rest.integrates.push_back(
+        !(at_rest.gain_a_per_m.row(i).cwiseAbs().maxCoeff() < kIntegrates));
+  }
+  return at_rest;
+}
+
+void TakeLaw(const law::LawConfig& law, SampledLoop& loop) {
   if (law.state_space) {
     loop.coupled = ModelOf(*law.state_space, loop.period_s);
-    return loop;
+    return;
   }
   for (const auto& axis : law.axes) {
     loop.law.push_back(ModelOf(law::DiscreteSections(axis, loop.period_s)));
   }
+}
+
+}  // namespace
+
+SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
+                      double speed_rad_per_s) {
+  RefuseMismatch(plant, law);
+  const plant::PlantModel model(plant);
+  SampledLoop loop;
+  loop.period_s = static_cast<double>(plant.period_ns) * 1e-9;
+  TakeLaw(law, loop);
+  loop.point = plant::FindOperatingPoint(model, speed_rad_per_s, StaticLawOf(loop, law));
+  plant::LinearModel continuous = plant::Linearise(model, speed_rad_per_s, loop.point);
+  const auto channels = static_cast<Eigen::Index>(model.channels());
+  continuous.b.conservativeResize(Eigen::NoChange, channels);
+  continuous.c.conservativeResize(channels, Eigen::NoChange);
+  loop.plant = plant::Discretise(continuous, loop.period_s, model.delay_samples());
+  loop.modes = static_cast<Eigen::Index>(model.layout().modes);
   return loop;
 }
 

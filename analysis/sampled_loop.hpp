@@ -2,6 +2,7 @@
 // The sampled linear loop of a rig and its law, as matrices: common ground of poles and margins.
 //
 // Plant     x[n+1] = A x[n] + B u[n], y[n] = C x[n]; delay included as states.
+//           Linear about the point at which the rotor stands under its static load with this law.
 // Law       decentralised (or, with a state-space law, one model of all axes), per axis  w[n+1] =
 //           Aw w[n] + Bw y[n],  u[n] = -(Cw w[n] + Dw y[n]); the sections of the discrete law
 //           itself, not a second discretisation of it.
@@ -17,6 +18,7 @@
 #include "controller/law/discrete_law.hpp"
 #include "controller/law/law_config.hpp"
 #include "plant_sim/plant/linear_model.hpp"
+#include "plant_sim/plant/operating_point.hpp"
 #include "plant_sim/plant/plant_config.hpp"
 
 namespace levitas::analysis {
@@ -46,6 +48,7 @@ struct CoupledModel {
 
 struct SampledLoop {
   plant::LinearModel plant;
+  plant::OperatingPoint point;          ///< with a failure: the model is that of the centred rotor
   std::vector<AxisModel> law;           ///< one per axis; empty when the law is coupled
   std::optional<CoupledModel> coupled;  ///< instead of `law`
   double period_s{};

@@ -15,6 +15,12 @@ namespace {
 
 constexpr double kLowestHz = 0.1;
 constexpr double kPointsPerDecade = 150.0;
+/// Below that for gain crossings alone: a slow integrator may turn the loop round down there, and
+/// nothing resonates.
+constexpr double kLowestCrossingHz = 1e-4;
+constexpr double kCrossingPointsPerDecade = 10.0;
+/// A loop gain beyond this is an integrator's, and no crossing at a finite gain.
+constexpr double kLargestLoopGain = 1e6;
 /// Poles less damped than this get grid points of their own: their resonance may be narrower than
 /// the grid.
 constexpr double kLightDamping = 0.5;
@@ -50,6 +56,16 @@ std::vector<double> GridFrequencies(const LoopPoles& poles, double nyquist_hz) {
   std::sort(grid_hz.begin(), grid_hz.end());
   grid_hz.erase(std::unique(grid_hz.begin(), grid_hz.end()), grid_hz.end());
   return grid_hz;
+}
+
+/// From z = 1 itself, where every loop without an integrator is real, to the lowest peak counted.
+std::vector<GridPoint> CrossingPoints(const LoopResponse& response) {
+  std::vector<GridPoint> points{Evaluate(response, 0.0)};
+  const double ratio = std::pow(10.0, 1.0 / kCrossingPointsPerDecade);
+  for (double f = kLowestCrossingHz; f < kLowestHz; f *= ratio) {
+    points.push_back(Evaluate(response, f));
+  }
+  return points;
 }
 
 struct Peak {
@@ -137,13 +153,23 @@ void TakePhaseCrossing(std::complex<double> loop, double frequency_hz, AxisMargi
   margins.phase_at_hz = frequency_hz;
 }
 
+/// At z = 1 and z = -1 every loop is real: a crossing there shows in no change of sign.
+void TakeRealEnd(std::complex<double> loop, AxisMargins& margins) {
+  if (std::isfinite(loop.real()) && std::abs(loop) < kLargestLoopGain) {
+    TakeGainCrossing(loop.real(), margins);
+  }
+}
+
+/// `grid` begins at z = 1 and ends at z = -1.
 AxisMargins MarginsOf(const LoopResponse& response, const std::vector<GridPoint>& grid,
                       Eigen::Index axis) {
   const auto imaginary = [](std::complex<double> l) { return l.imag(); };
   const auto excess = [](std::complex<double> l) { return std::norm(l) - 1.0; };
   AxisMargins margins;
   double frequency_hz = 0.0;
-  for (std::size_t i = 1; i < grid.size(); ++i) {
+  TakeRealEnd(OpenLoop(grid.front(), axis), margins);
+  TakeRealEnd(OpenLoop(grid.back(), axis), margins);
+  for (std::size_t i = 2; i < grid.size(); ++i) {
     const std::complex<double> before = OpenLoop(grid[i - 1], axis);
     const std::complex<double> after = OpenLoop(grid[i], axis);
     const double low_hz = grid[i - 1].frequency_hz;
@@ -157,8 +183,6 @@ AxisMargins MarginsOf(const LoopResponse& response, const std::vector<GridPoint>
       TakePhaseCrossing(loop, frequency_hz, margins);
     }
   }
-  // At half the sampling rate every loop is real: the last possible crossing.
-  TakeGainCrossing(OpenLoop(grid.back(), axis).real(), margins);
   return margins;
 }
 
@@ -183,9 +207,12 @@ SensitivityResult SensitivityPeaks(const plant::PlantConfig& plant, const law::L
   for (const double f : GridFrequencies(poles, response.nyquist_hz())) {
     grid.push_back(Evaluate(response, f));
   }
+  std::vector<GridPoint> whole = CrossingPoints(response);
+  whole.insert(whole.end(), grid.begin(), grid.end());
   SensitivityResult result;
   result.speed_rad_per_s = speed_rad_per_s;
   result.stable = poles.stable;
+  result.point = poles.point;
   result.largest_pole_modulus = poles.largest_pole_modulus;
   double worst = 0.0;
   for (std::size_t i = 0; i < response.axes(); ++i) {
@@ -197,7 +224,7 @@ SensitivityResult SensitivityPeaks(const plant::PlantConfig& plant, const law::L
     entry.frequency_hz = peak.frequency_hz;
     if (result.stable) {
       entry.zone = ZoneOf(peak.value);
-      entry.margins = MarginsOf(response, grid, axis);
+      entry.margins = MarginsOf(response, whole, axis);
     }
     worst = std::max(worst, peak.value);
     result.axes.push_back(entry);

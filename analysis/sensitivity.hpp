@@ -9,6 +9,8 @@
 //            pole of the closed loop until the peak is known to about 1e-6 of its value.
 // Margins    of the loop of one axis with the others closed, L_i = 1/S_ii - 1. An AMB loop is
 //            conditionally stable: it has a gain margin towards more and one towards less gain.
+//            Crossings are sought from z = 1, where a law without integrator meets the magnet's
+//            negative stiffness and a loop too weak is lost, to z = -1.
 // Failure    an unstable loop is a result, not an error: peaks are still given, zones are not,
 //            since a peak says nothing about a loop that does not settle.
 // Thread     any.
@@ -19,6 +21,7 @@
 #include <vector>
 
 #include "controller/law/law_config.hpp"
+#include "plant_sim/plant/operating_point.hpp"
 #include "plant_sim/plant/plant_config.hpp"
 
 namespace levitas::analysis {
@@ -44,7 +47,8 @@ struct AxisSensitivity {
 
 struct SensitivityResult {
   double speed_rad_per_s{};
-  bool stable{};
+  bool stable{};                  ///< also: the static load is carried
+  plant::OperatingPoint point;    ///< about which the loop is linear
   double largest_pole_modulus{};  ///< [1] of the closed loop; stable below 1
   std::vector<AxisSensitivity> axes;
   double largest_singular_value{};  ///< [1] max over frequency of the norm of S

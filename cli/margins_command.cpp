@@ -26,8 +26,21 @@ std::string ZoneText(const std::optional<analysis::Zone>& zone) {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
+/// About which point of the nonlinear magnets the numbers hold.
+void PrintPoint(const plant::OperatingPoint& point, const std::vector<std::string>& channels) {
+  if (!point.failure.empty()) return;
+  fmt::print("  static: ");
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    fmt::print("{}{} {:.3f} A at {:.1f} um", i == 0 ? "" : ", ", channels[i], point.control_a[i],
+               1e6 * point.displacement_m[i]);
+  }
+  fmt::print("\n");
+}
+
 void Print(const analysis::SensitivityResult& at, const std::vector<std::string>& channels) {
-  if (at.stable) {
+  if (!at.point.failure.empty()) {
+    fmt::print("{:.0f} rpm: NOT HELD: {}. No grade.\n", Rpm(at.speed_rad_per_s), at.point.failure);
+  } else if (at.stable) {
     fmt::print("{:.0f} rpm: STABLE, zone {}\n", Rpm(at.speed_rad_per_s), ZoneText(at.zone));
   } else {
     fmt::print(
@@ -46,6 +59,7 @@ void Print(const analysis::SensitivityResult& at, const std::vector<std::string>
   }
   fmt::print("  {:<8}{:>9.3f}{:>11.2f}   largest singular value of S\n", "all",
              at.largest_singular_value, at.largest_singular_value_hz);
+  PrintPoint(at.point, channels);
 }
 
 nlohmann::ordered_json Number(const std::optional<double>& value) {
@@ -64,12 +78,15 @@ nlohmann::ordered_json Json(const analysis::SensitivityResult& at,
   json["stable"] = at.stable;
   json["largest_pole_modulus"] = at.largest_pole_modulus;
   json["zone"] = ZoneJson(at.zone);
+  json["not_held_because"] = at.point.failure;
   for (std::size_t i = 0; i < at.axes.size(); ++i) {
     const auto& axis = at.axes[i];
     json["axes"].push_back({{"channel", channels[i]},
                             {"sensitivity_peak", axis.peak},
                             {"frequency_hz", axis.frequency_hz},
                             {"zone", ZoneJson(axis.zone)},
+                            {"static_current_a", at.point.control_a[i]},
+                            {"static_position_m", at.point.displacement_m[i]},
                             {"gain_margin_up", Number(axis.margins.gain_up)},
                             {"gain_margin_down", Number(axis.margins.gain_down)},
                             {"phase_margin_rad", Number(axis.margins.phase_rad)},

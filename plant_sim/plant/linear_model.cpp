@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "plant_sim/plant/find_operating_point.hpp"
 #include "plant_sim/plant/linear_parts.hpp"
 #include "plant_sim/plant/train_linear.hpp"
 
@@ -47,7 +48,8 @@ double CurrentPerCommand(const PlantModel& model, std::size_t bearing) {
 
 }  // namespace
 
-LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
+LinearModel LineariseWith(const PlantModel& model, double speed_rad_per_s,
+                          const std::vector<Slopes>& slopes) {
   const StateLayout& at = model.layout();
   LinearModel linear;
   linear.a = Eigen::MatrixXd::Zero(At(at.size), At(at.size));
@@ -57,7 +59,7 @@ LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
   AddShaftEffects(model, speed_rad_per_s, linear.a);
   AddTrain(model, linear.a);
   for (std::size_t bearing = 0; bearing < model.bearings().size(); ++bearing) {
-    AddMagnets(model, bearing, linear.a);
+    AddMagnets(model, bearing, slopes[bearing], linear.a);
     AddSensors(model, bearing, linear.a);
   }
   for (std::size_t axis = 0; axis < model.axes(); ++axis) {
@@ -68,6 +70,24 @@ LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
     linear.c(At(axis), At(at.sensor + axis)) = 1.0;
   }
   return linear;
+}
+
+LinearModel Linearise(const PlantModel& model, double speed_rad_per_s) {
+  std::vector<Slopes> slopes;
+  for (std::size_t b = 0; b < model.bearings().size(); ++b) {
+    slopes.push_back(SlopesAtCentre(model, b));
+  }
+  return LineariseWith(model, speed_rad_per_s, slopes);
+}
+
+LinearModel Linearise(const PlantModel& model, double speed_rad_per_s,
+                      const OperatingPoint& point) {
+  if (point.centred()) return Linearise(model, speed_rad_per_s);
+  std::vector<Slopes> slopes;
+  for (std::size_t b = 0; b < model.bearings().size(); ++b) {
+    slopes.push_back(SlopesAt(model, b, point));
+  }
+  return LineariseWith(model, speed_rad_per_s, slopes);
 }
 
 LinearModel Linearise(const PlantConfig& config, double speed_rad_per_s) {

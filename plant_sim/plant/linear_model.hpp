@@ -1,5 +1,6 @@
 #pragma once
-// The plant linearised about the centred rotor: for poles, margins, observers and identification.
+// The plant linearised: about the centred rotor, for observers and identification; about the point
+// at which the levitated rotor stands (find_operating_point.hpp), for poles and margins.
 //
 // Continuous   x' = A x + B ic,  y = C x : states ordered as StateLayout, magnet F = ki ic + ks x,
 //              amplifier and sensor filters included, no contact, gravity, unbalance or noise.
@@ -30,6 +31,12 @@ class PlantModel;
 [[nodiscard]] LinearModel Linearise(const PlantConfig& config, double speed_rad_per_s);
 /// The same of a model that exists already, parameters set by name included.
 [[nodiscard]] LinearModel Linearise(const PlantModel& model, double speed_rad_per_s);
+
+struct OperatingPoint;
+
+/// About a static operating point, coil by coil; at the centre when the point is.
+[[nodiscard]] LinearModel Linearise(const PlantModel& model, double speed_rad_per_s,
+                                    const OperatingPoint& point);
 
 /// Sampled model: x[n+1] = A x[n] + B u[n], y[n] = C x[n], with u[n] the command from sample n.
 [[nodiscard]] LinearModel Discretise(const LinearModel& continuous, double period_s,

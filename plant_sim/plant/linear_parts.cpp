@@ -25,13 +25,31 @@ Eigen::Map<const Eigen::VectorXd> Vector(const std::vector<double>& values) {
 Index Displacement(const StateLayout& at, int plane) { return At(plane == 0 ? at.q_x : at.q_y); }
 Index Velocity(const StateLayout& at, int plane) { return At(plane == 0 ? at.v_x : at.v_y); }
 
-/// Force of a bearing per current that makes flux and per displacement, in the rig's axes.
-struct Slopes {
-  Eigen::Matrix2d current;
-  Eigen::Matrix2d displacement;
-};
+/// Displacement along a plane at a bearing, relative to its housing.
+Eigen::RowVectorXd Seen(const PlantModel& model, std::size_t bearing, int plane,
+                        const std::vector<double>& shape, Index states) {
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(states);
+  row.segment(Displacement(model.layout(), plane), At(shape.size())) = Vector(shape).transpose();
+  const std::size_t housing = model.effects().bearings[bearing].housing_state;
+  if (housing != kNoState) row[At(housing) + plane] = -1.0;
+  return row;
+}
 
-Slopes SlopesOf(const PlantModel& model, std::size_t bearing) {
+void AddHousing(const BearingEffects& effects, Eigen::MatrixXd& a) {
+  if (effects.housing_state == kNoState) return;
+  const double w = effects.housing_rad_per_s;
+  for (Index plane = 0; plane < 2; ++plane) {
+    const Index position = At(effects.housing_state) + plane;
+    const Index velocity = position + 2;
+    a(position, velocity) = 1.0;
+    a(velocity, position) -= w * w;
+    a(velocity, velocity) -= 2.0 * effects.housing_damping_ratio * w;
+  }
+}
+
+}  // namespace
+
+Slopes SlopesAtCentre(const PlantModel& model, std::size_t bearing) {
   const BearingEffects& effects = model.effects().bearings[bearing];
   const magnet::Magnet& magnet = model.bearings()[bearing].magnet;
   const double bias_a = model.config().bearings[bearing].magnet.bias_current_a;
@@ -49,7 +67,6 @@ Slopes SlopesOf(const PlantModel& model, std::size_t bearing) {
   return {turn * ki.asDiagonal(), turn * ks.asDiagonal() * turn.transpose()};
 }
 
-/// One newton along a plane at a bearing: on the rotor, and back on its housing.
 Eigen::VectorXd Reaction(const PlantModel& model, std::size_t bearing, int plane, Index states) {
   Eigen::VectorXd column = Eigen::VectorXd::Zero(states);
   const auto shape = Vector(model.bearings()[bearing].actuator_shape);
@@ -61,17 +78,11 @@ Eigen::VectorXd Reaction(const PlantModel& model, std::size_t bearing, int plane
   return column;
 }
 
-/// Displacement along a plane at a bearing, relative to its housing.
-Eigen::RowVectorXd Seen(const PlantModel& model, std::size_t bearing, int plane,
-                        const std::vector<double>& shape, Index states) {
-  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(states);
-  row.segment(Displacement(model.layout(), plane), At(shape.size())) = Vector(shape).transpose();
-  const std::size_t housing = model.effects().bearings[bearing].housing_state;
-  if (housing != kNoState) row[At(housing) + plane] = -1.0;
-  return row;
+Eigen::RowVectorXd SeenByMagnet(const PlantModel& model, std::size_t bearing, int plane,
+                                Eigen::Index states) {
+  return Seen(model, bearing, plane, model.bearings()[bearing].actuator_shape, states);
 }
 
-/// The current that makes flux on an axis, as a row; with it the lags' own equations.
 Eigen::RowVectorXd Flux(const PlantModel& model, std::size_t axis, Eigen::MatrixXd& a) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(a.cols());
   const MagnetEffects& magnet = model.effects().bearings[axis / 2].axis[axis % 2];
@@ -94,20 +105,6 @@ Eigen::RowVectorXd Flux(const PlantModel& model, std::size_t axis, Eigen::Matrix
   }
   return row;
 }
-
-void AddHousing(const BearingEffects& effects, Eigen::MatrixXd& a) {
-  if (effects.housing_state == kNoState) return;
-  const double w = effects.housing_rad_per_s;
-  for (Index plane = 0; plane < 2; ++plane) {
-    const Index position = At(effects.housing_state) + plane;
-    const Index velocity = position + 2;
-    a(position, velocity) = 1.0;
-    a(velocity, position) -= w * w;
-    a(velocity, velocity) -= 2.0 * effects.housing_damping_ratio * w;
-  }
-}
-
-}  // namespace
 
 void AddRotor(const PlantModel& model, double speed_rad_per_s, Eigen::MatrixXd& a) {
   const StateLayout& at = model.layout();
@@ -151,11 +148,10 @@ void AddShaftEffects(const PlantModel& model, double speed_rad_per_s, Eigen::Mat
   }
 }
 
-void AddMagnets(const PlantModel& model, std::size_t bearing, Eigen::MatrixXd& a) {
-  const Slopes slopes = SlopesOf(model, bearing);
-  const auto& shape = model.bearings()[bearing].actuator_shape;
+void AddMagnets(const PlantModel& model, std::size_t bearing, const Slopes& slopes,
+                Eigen::MatrixXd& a) {
   for (int from = 0; from < 2; ++from) {
-    const Eigen::RowVectorXd seen = Seen(model, bearing, from, shape, a.cols());
+    const Eigen::RowVectorXd seen = SeenByMagnet(model, bearing, from, a.cols());
     const Eigen::RowVectorXd flux = Flux(model, 2 * bearing + static_cast<std::size_t>(from), a);
     for (int to = 0; to < 2; ++to) {
       a += Reaction(model, bearing, to, a.rows()) *

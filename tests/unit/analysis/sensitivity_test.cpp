@@ -152,6 +152,29 @@ INSTANTIATE_TEST_SUITE_P(FlexibleRotor, GainMargins,
                          testing::Combine(testing::Values(0U, 1U, 2U, 3U),
                                           testing::Values(0.0, 6000.0)));
 
+// (ki Kp - ks) x = f: statically a PD loop is lost where ki Kp = ks, and nothing oscillates then.
+TEST(GainMargin, TowardsLessGainCountsTheCrossingAtStandstillOfTheLoop) {
+  const plant::PlantConfig plant = test::RigidCylinder();
+  // Stiff and well damped: with less gain nothing is lost before the static stiffness is.
+  const law::LawConfig law = test::PdLaw(plant, 6000.0, 15.0, 1e5);
+  // Both axes of a plane share two motions, so one axis alone may lose less than both together:
+  // translation and tilt have P = p_t/2 +- p_r/2 with p = 2 ki/(-2 ks) each at f = 0, hence
+  // diagonal alone, and L(0) = -ki Kp/ks.
+  const double lost = (40.0 / 0.381e-3) / (40.0 * 6000.0);
+  const SensitivityResult result = SensitivityPeaks(plant, law, 0.0);
+  ASSERT_TRUE(result.stable);
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    ASSERT_TRUE(result.axes[axis].margins.gain_down.has_value());
+    // Rounding of P(1) only.
+    EXPECT_NEAR(*result.axes[axis].margins.gain_down, lost, 1e-6);
+    for (const double beside : {0.99, 1.01}) {
+      law::LawConfig changed = law;
+      Scale(changed.axes[axis], beside * lost);
+      EXPECT_EQ(ClosedLoopPoles(plant, changed, 0.0).stable, beside > 1.0);
+    }
+  }
+}
+
 TEST(PhaseMargin, BoundsTheSensitivityFromBelow) {
   // At |L| = 1 the distance to -1 is 2 sin(margin/2), so that the peak is at least its inverse.
   const auto result = SensitivityPeaks(test::QuietFlexibleRotor(), test::FlexibleRotorLaw(), 0.0);
