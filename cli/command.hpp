@@ -27,6 +27,7 @@ void AddCanDbcCommand(CLI::App& app, Action& action);
 void AddDashCommand(CLI::App& app, Action& action);
 void AddSessionsCommand(CLI::App& app, Action& action);
 void AddDoctorCommand(CLI::App& app, Action& action);
+void AddKeyCommand(CLI::App& app, Action& action);
 void AddSimulateCommand(CLI::App& app, Action& action);
 void AddEffectsCommand(CLI::App& app, Action& action);
 void AddIdentifyCommand(CLI::App& app, Action& action);

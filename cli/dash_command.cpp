@@ -23,6 +23,7 @@ struct DashOptions {
   bool allow_network{false};
   std::string token_path;
   double answer_within_s{1.5};
+  std::string key;  ///< file with the key of those who may speak; empty: none
   std::string json_path;
 };
 
@@ -52,7 +53,9 @@ ExitStatus Serve(DashOptions options) {
   const InterruptGuard interrupts;
   const std::chrono::milliseconds patience(
       static_cast<std::int64_t>(options.answer_within_s * 1e3));
-  const dashboard::Dashboard page(transport::ParseLcmNetwork(options.port), options.web, patience);
+  transport::LcmNetwork network = transport::ParseLcmNetwork(options.port);
+  transport::TakeKey(network, options.key, "pretend to be the controller");
+  const dashboard::Dashboard page(network, options.web, patience);
   fmt::print("page: {}   (Ctrl-C ends)\n", page.Url());
   WriteJsonFile(options.json_path, {{"page", page.Url()}});
   std::fflush(stdout);
@@ -72,6 +75,8 @@ void AddDashCommand(CLI::App& app, Action& action) {
                    "Where the run is: lcm, or lcm:udpm://<group>:<port>?ttl=<n> as amb run "
                    "prints it")
       ->capture_default_str();
+  command->add_option("--key", options->key,
+                      "File with the key of those who may speak on that network (amb key)");
   auto* http = command
                    ->add_option("--http-port", options->web.port,
                                 "TCP port of the page; default: 8970, or the next free one")

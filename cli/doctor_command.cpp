@@ -14,6 +14,7 @@
 #include "hil/can/budget.hpp"
 #include "hil/machine/checks.hpp"
 #include "hil/machine/system_probe.hpp"
+#include "transport/network_key.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -24,7 +25,8 @@ using machine::State;
 
 struct DoctorOptions {
   std::string json_path;
-  std::string bus_rig;  ///< rig file or shipped name: judge its buses instead of this machine
+  std::string key_path;  ///< key of a network to be looked at; empty: none
+  std::string bus_rig;   ///< rig file or shipped name: judge its buses instead of this machine
 };
 
 constexpr std::array kAreas{Area::kRealTime, Area::kLcm, Area::kCan, Area::kGpio, Area::kStorage};
@@ -114,6 +116,16 @@ nlohmann::ordered_json Json(const can::Budget& budget) {
   return json;
 }
 
+Finding LookAtKey(const std::string& path) {
+  try {
+    static_cast<void>(transport::NetworkKey::Load(path));
+    return {Area::kLcm, "key", State::kOk, path + ": whoever has a copy may speak", ""};
+  } catch (const Problem& problem) {
+    return {Area::kLcm, "key", State::kDegraded, problem.what(),
+            fmt::format("chmod 600 {0}, or amb key {0} for a new one", path)};
+  }
+}
+
 ExitStatus JudgeBuses(const DoctorOptions& options) {
   const std::string path = config::FindConfig(options.bus_rig, "rigs");
   const config::RigFile rig = config::LoadRig(path);
@@ -135,12 +147,15 @@ void AddDoctorCommand(CLI::App& app, Action& action) {
       "--bus", options->bus_rig,
       "Judge the CAN buses of this rig file (or shipped rig) instead: worst frame "
       "times, load, the highest rate that fits; exit status 1 when they do not fit");
+  command->add_option("--key", options->key_path,
+                      "Look also at this key file of a network: owner, permissions, content");
   command->add_option("--json", options->json_path, "Write the findings to this file");
   command->callback([options, &action] {
     action = [options] {
       if (!options->bus_rig.empty()) return JudgeBuses(*options);
-      const auto findings =
+      auto findings =
           machine::CheckMachine(machine::SystemProbe{}, std::filesystem::current_path().string());
+      if (!options->key_path.empty()) findings.push_back(LookAtKey(options->key_path));
       PrintFindings(findings);
       PrintVerdicts(findings);
       WriteJsonFile(options->json_path, Json(findings));

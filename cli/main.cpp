@@ -65,6 +65,7 @@ int Main(int argc, char** argv) {
   cli::AddReportCommand(app, action);
   cli::AddSessionsCommand(app, action);
   cli::AddDoctorCommand(app, action);
+  cli::AddKeyCommand(app, action);
   cli::AddSimulateCommand(app, action);
   cli::AddEffectsCommand(app, action);
   cli::AddIdentifyCommand(app, action);

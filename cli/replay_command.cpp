@@ -198,6 +198,10 @@ void AddReplayCommand(CLI::App& app, Action& action) {
       ->needs(publish)
       ->check(CLI::Range(1e-3, 1e3));
   command->add_option("--port", options->publishing.port, "lcm or lcm:URL")->needs(publish);
+  command
+      ->add_option("--key", options->publishing.key,
+                   "File with the key of those who may speak on that network (amb key)")
+      ->needs(publish);
   command->add_option("--json", options->json_path, "Write the result as JSON");
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

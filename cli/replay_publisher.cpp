@@ -117,7 +117,8 @@ class Pace {
 
 PublishReport Publish(session::SessionReader& reader, const PublishOptions& options) {
   namespace channel = transport::channel;
-  const transport::LcmNetwork network = transport::ParseLcmNetwork(options.port);
+  transport::LcmNetwork network = transport::ParseLcmNetwork(options.port);
+  transport::TakeKey(network, options.key, "take what is published for their own");
   Outlet sensors(network, Direction::kSensor);
   Outlet currents(network, Direction::kCurrent);
   Outlet telemetry(network, Direction::kTelemetry);

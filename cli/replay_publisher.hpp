@@ -16,6 +16,7 @@ namespace levitas::cli {
 
 struct PublishOptions {
   std::string port{"lcm"};  ///< as --port of the live programs
+  std::string key;          ///< file with the key of those who may speak; empty: none
   double speed{1.0};        ///< of the recorded pace; 2 is twice as fast
 };
 

@@ -162,6 +162,7 @@ ExitStatus Execute(const RunOptions& asked) {
   const RunOptions options = SettleRig(asked, config::LoadRig(files.rig_path));
   CheckBuses(options, files);
   const PortLease lease = Lease(network);
+  transport::TakeKey(*network, options.key, "play the rig or the controller");
   RunFolder folder;
   if (!folder.removed().empty()) {
     rt::Say(fmt::format("removed {} older folders of runs beside {}", folder.removed().size(),
@@ -219,6 +220,11 @@ void AddRunCommand(CLI::App& app, Action& action) {
                     "Start the controller alone, for a rig that is on --port already; on a bus "
                     "that is no virtual "
                     "one (vcan, vxcan) a simulated rig is never started");
+  command->add_option("--key", options->key,
+                      "File with the key of those who may speak on the network (amb key FILE "
+                      "makes one); with ttl above 0 it is needed");
+  command->add_flag("--no-commands", options->no_commands,
+                    "Take no commands over the network, not even the live page's");
   auto* record =
       command->add_option("--record", options->record_path, "Keep the record in this file");
   command->add_flag("--overwrite", options->overwrite, "Replace a record that is there already");

@@ -32,6 +32,12 @@ find_library(GPIOD_LIBRARY gpiod REQUIRED)
 add_library(gpiod SHARED IMPORTED)
 set_target_properties(gpiod PROPERTIES IMPORTED_LOCATION ${GPIOD_LIBRARY}
                                        INTERFACE_INCLUDE_DIRECTORIES ${GPIOD_INCLUDE})
+# libsodium of Debian has a .pc file only.
+find_path(SODIUM_INCLUDE sodium.h REQUIRED)
+find_library(SODIUM_LIBRARY sodium REQUIRED)
+add_library(sodium SHARED IMPORTED)
+set_target_properties(sodium PROPERTIES IMPORTED_LOCATION ${SODIUM_LIBRARY}
+                                        INTERFACE_INCLUDE_DIRECTORIES ${SODIUM_INCLUDE})
 # cpp-httplib of Debian is compiled with these switches, and its classes differ without them.
 find_path(HTTPLIB_INCLUDE httplib.h REQUIRED)
 find_library(HTTPLIB_LIBRARY cpp-httplib REQUIRED)

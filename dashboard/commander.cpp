@@ -29,6 +29,7 @@ Commander::Commander(const transport::LcmNetwork& network, std::chrono::millisec
                     .count()) {}
 
 void Commander::Send(const char* channel, Datagram& datagram) {
+  const std::lock_guard lock(sending_);  // for the length of a system call
   transport::WriteHeader(datagram, datagrams_.fetch_add(1), channel);
   sender_.Send(datagram);
 }

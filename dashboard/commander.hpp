@@ -70,6 +70,7 @@ class Commander {
   [[nodiscard]] std::int64_t NextNumber() noexcept { return sequence_.fetch_add(1) + 1; }
 
   std::chrono::milliseconds patience_;
+  std::mutex sending_;  ///< numbers of seals grow in the order of sending
   transport::MulticastSender sender_;
   std::atomic<std::int64_t> sequence_;
   std::atomic<std::int64_t> newest_stop_{0};  ///< its number

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "common/problem.hpp"
+#include "transport/network_key.hpp"
 
 namespace levitas::transport {
 
@@ -62,6 +63,17 @@ LcmNetwork ParseLcmNetwork(const std::string& text, const std::string& other_for
                              network.group));
   }
   return network;
+}
+
+void TakeKey(LcmNetwork& network, const std::string& key_path, const char* could) {
+  if (!key_path.empty()) network.key = NetworkKey::Load(key_path);
+  if (network.key || network.this_machine_only()) return;
+  throw Problem(
+      ExitStatus::kUsage,
+      fmt::format("{}: other machines reach this network and could {}; name the key of those who "
+                  "may with --key FILE (`amb key FILE` makes one), or keep to this machine with "
+                  "ttl=0",
+                  network.Url(Direction::kSensor), could));
 }
 
 }  // namespace levitas::transport

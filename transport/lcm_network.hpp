@@ -10,6 +10,7 @@
 // Failure  Problem (exit status 2) with the form that is allowed.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace levitas::transport {
@@ -33,10 +34,14 @@ inline constexpr const char* kCommand = "LEVITAS_COMMAND";        ///< operator 
 inline constexpr const char* kExcitation = "LEVITAS_EXCITATION";  ///< operator -> controller
 }  // namespace channel
 
+class NetworkKey;
+
 struct LcmNetwork {
   std::string group{"239.255.76.67"};
   std::uint16_t base_port{7667};
   int ttl{0};  ///< 0: loopback interface only, see multicast_socket.hpp
+  /// Who may speak: every datagram carries a seal of it (seal.hpp). Null: none is asked for.
+  std::shared_ptr<const NetworkKey> key{};
 
   [[nodiscard]] bool this_machine_only() const noexcept { return ttl == 0; }
 
@@ -51,5 +56,9 @@ struct LcmNetwork {
 /// for the message on one that nobody takes.
 [[nodiscard]] LcmNetwork ParseLcmNetwork(const std::string& text,
                                          const std::string& other_forms = {});
+
+/// Gives the network the key of this file; an empty path: none. Without one, a network that other
+/// machines reach is refused (exit status 2): `could` says what they could do there.
+void TakeKey(LcmNetwork& network, const std::string& key_path, const char* could);
 
 }  // namespace levitas::transport

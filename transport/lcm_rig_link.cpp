@@ -61,13 +61,13 @@ port::RigLink::Answer LcmRigLink::Receive(CurrentFrame& frame, std::int64_t dead
 port::RigLink::Counters LcmRigLink::counters() const noexcept {
   Counters counters = counters_;
   counters.currents_lost = watch_.lost();
-  counters.currents_refused = partner_.refused() + receiver_.foreign();
+  counters.currents_refused = partner_.refused() + receiver_.refused();
   return counters;
 }
 
 std::string LcmRigLink::TakeNews() {
   const auto stranger = partner_.TakeNews();
-  if (!stranger) return {};
+  if (!stranger) return receiver_.TakeNews();
   return fmt::format(
       "currents of a second controller at {} are refused: the controller at {} is heard; end one "
       "of them, or give each pair a --port of its own",
@@ -75,7 +75,7 @@ std::string LcmRigLink::TakeNews() {
 }
 
 std::string LcmRigLink::Trouble() const {
-  if (partner_.stranger() == 0) return {};
+  if (partner_.stranger() == 0) return receiver_.Trouble();
   return fmt::format("{} currents of a second controller were refused, last of {}",
                      partner_.refused(), AddressText(partner_.stranger()));
 }

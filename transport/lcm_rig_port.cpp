@@ -66,13 +66,13 @@ bool LcmRigPort::Write(const CurrentFrame& frame) noexcept {
 port::PortCounters LcmRigPort::counters() const noexcept {
   port::PortCounters counters = counters_;
   counters.frames_lost = watch_.lost();
-  counters.frames_refused = partner_.refused() + receiver_.foreign();
+  counters.frames_refused = partner_.refused() + receiver_.refused();
   return counters;
 }
 
 std::string LcmRigPort::TakeNews() {
   const auto stranger = partner_.TakeNews();
-  if (!stranger) return {};
+  if (!stranger) return receiver_.TakeNews();
   return fmt::format(
       "frames of a second rig at {} are refused: the rig at {} is heard; end one of them, or give "
       "each pair a --port of its own",
@@ -80,7 +80,7 @@ std::string LcmRigPort::TakeNews() {
 }
 
 std::string LcmRigPort::Trouble() const {
-  if (partner_.stranger() == 0) return {};
+  if (partner_.stranger() == 0) return receiver_.Trouble();
   return fmt::format("{} frames of a second rig were refused, last of {}", partner_.refused(),
                      AddressText(partner_.stranger()));
 }

@@ -7,7 +7,9 @@
 //                  that nothing of another machine arrives and no route is needed; what came in
 //                  through another interface all the same is counted and dropped. With ttl above
 //                  0 the interface is that of the route to the group.
-// Thread           one thread per object. After construction no allocation, no exception.
+// Key              of a network with one: what is sent is sealed, what is received without a good seal
+//                  is dropped, counted and named (seal.hpp).
+// Thread           one thread per object; TakeNews, Trouble and refused: any one other. After construction no allocation, no exception.
 // Blocking         Send never waits. Receive waits at most until its deadline: a short wait spins,
 //                  a long one spins for a bounded time (while that has been paying off), then
 //                  sleeps in ppoll.
@@ -40,6 +42,8 @@ class MulticastSender {
 
  private:
   int socket_{-1};
+  struct Sealing;
+  std::unique_ptr<Sealing> sealing_;  ///< null: no key
 };
 
 struct Received {
@@ -63,8 +67,12 @@ class MulticastReceiver {
   [[nodiscard]] Received Next() noexcept;
   /// Next datagram, waiting until CLOCK_MONOTONIC reaches `deadline_ns` at the latest.
   [[nodiscard]] Received Receive(std::int64_t deadline_ns) noexcept;
-  /// Datagrams dropped because they came in through an interface that is not joined.
-  [[nodiscard]] std::uint64_t foreign() const noexcept;
+  /// Datagrams dropped: through an interface that is not joined, or without a good seal.
+  [[nodiscard]] std::uint64_t refused() const noexcept;
+  /// What was refused for the first time, and of whom; empty when there is nothing new.
+  [[nodiscard]] std::string TakeNews();
+  /// How much was refused and why; empty when nothing was.
+  [[nodiscard]] std::string Trouble() const;
   /// The kernel queues only what `program` passes from now on; false when it refuses.
   [[nodiscard]] bool Filter(std::span<const sock_filter> program) noexcept;
 
@@ -74,6 +82,7 @@ class MulticastReceiver {
 
   int socket_{-1};
   std::int64_t spin_ns_;
+  std::string url_;  ///< for people
   std::uint32_t waits_{0};
   std::uint32_t fruitless_spins_{0};
   struct Batch;

@@ -29,7 +29,7 @@ OperatorReceiver::~OperatorReceiver() {
 
 OperatorCounts OperatorReceiver::counts() const noexcept {
   const auto get = [](const Count& count) { return count.load(std::memory_order_relaxed); };
-  return {get(rejected_), get(old_), get(overtaken_), get(dropped_)};
+  return {get(rejected_) + receiver_.refused(), get(old_), get(overtaken_), get(dropped_)};
 }
 
 void OperatorReceiver::Run() {

@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <thread>
 
 #include "common/stop_latch.hpp"
@@ -62,6 +63,8 @@ class OperatorReceiver {
   OperatorReceiver& operator=(const OperatorReceiver&) = delete;
 
   [[nodiscard]] OperatorCounts counts() const noexcept;
+  /// As MulticastReceiver::TakeNews.
+  [[nodiscard]] std::string TakeNews() { return receiver_.TakeNews(); }
 
  private:
   using Count = std::atomic<std::uint64_t>;

@@ -124,6 +124,12 @@ RunPlan PlanRun(const RunOptions& options, const RunFiles& files, const RunPaths
        paths.session, "--trip-folder", paths.trip_folder, "--json", paths.controller_json});
   if (options.overwrite) plan.controller.arguments.emplace_back("--overwrite");
   if (can) plan.controller.arguments.insert(plan.controller.arguments.end(), {"--telemetry", lcm});
+  if (!options.key.empty()) {
+    // Frames on a bus carry no seal; the controller's own network does.
+    if (!can) plan.plant.arguments.insert(plan.plant.arguments.end(), {"--key", options.key});
+    plan.controller.arguments.insert(plan.controller.arguments.end(), {"--key", options.key});
+  }
+  if (options.no_commands) plan.controller.arguments.emplace_back("--no-commands");
   if (options.duration_s > 0.0) {
     plan.controller.arguments.insert(plan.controller.arguments.end(),
                                      {"--duration", fmt::format("{}", options.duration_s)});

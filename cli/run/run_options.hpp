@@ -27,6 +27,8 @@ struct RunOptions {
   std::string pace;               ///< empty: real time where a rig is there already, else lockstep
   std::string port;               ///< empty: lcm on ports nobody else uses
   bool rig_is_there{};            ///< start the controller alone: the rig is on the port already
+  std::string key;                ///< file with the key of those who may speak; empty: none
+  bool no_commands{};             ///< nobody commands over the network
   std::string record_path;        ///< empty: a temporary file
   bool overwrite{false};          ///< a record that is there already
   std::vector<std::string> tags;  ///< of the record in the catalogue of sessions

@@ -24,6 +24,17 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
       ->capture_default_str();
   app.add_option("--telemetry", options.telemetry,
                  "With --port can: LCM network for state, events and commands (default lcm)");
+  app.add_option("--key", options.key,
+                 "File with the key of those who may speak on the network (amb key FILE makes "
+                 "one); with ttl above 0 it is needed");
+  using transport::CommandWish;
+  auto* none = app.add_flag_callback(
+      "--no-commands", [&options] { options.commands = CommandWish::kNo; },
+      "Take no commands over the network");
+  app.add_flag_callback(
+         "--commands", [&options] { options.commands = CommandWish::kYes; },
+         "Take commands over the network also with a rig on a real bus and without a key")
+      ->excludes(none);
   app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
       ->transform(CLI::Transformer(paces))
       ->type_name("PACE");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/problem.hpp"
+#include "transport/command_policy.hpp"
 
 namespace levitas::controller_program {
 
@@ -14,6 +15,8 @@ struct ControllerOptions {
   std::string scenario;    ///< path or shipped name; empty: commands come over the network
   std::string port{"lcm"};
   std::string telemetry;  ///< LCM network of state, timing, events, commands; empty: that of port
+  std::string key;        ///< file with the key of those who may speak; empty: none
+  transport::CommandWish commands{transport::CommandWish::kDefault};
   bool realtime{false};
   double duration_s{0.0};  ///< 0: no limit
   std::string record;      ///< session file; empty: none

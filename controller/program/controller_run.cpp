@@ -26,6 +26,7 @@
 #include "levitas_version.hpp"
 #include "session/record_codec.hpp"
 #include "session/recorder.hpp"
+#include "transport/command_policy.hpp"
 #include "transport/operator_receiver.hpp"
 #include "transport/sample_batcher.hpp"
 #include "transport/statistics_json.hpp"
@@ -124,6 +125,7 @@ class Session {
         guard_(PrepareRealTime(options, wanted_)),
         network_(TelemetryNetwork(options)),
         rig_(Connect(options, files.rig)),
+        policy_(transport::DecideCommands(options.commands, network_, !rig_->virtual_rig())),
         telemetry_(network_),
         header_(Header(options, files, Facts())),
         batcher_(numbers_.axes(), [this](auto batch) { telemetry_.PostSamples(std::move(batch)); }),
@@ -155,16 +157,21 @@ class Session {
          .standstill_rad_per_s = sequence_.standstill_rad_per_s,
          .duration_s = options_.duration_s},
         player_ ? &*player_ : nullptr, {&intake_.commands(), &intake_.stops(), &answers_.given()});
-    transport::OperatorReceiver receiver(network_, intake_.stops(),
-                                         intake_.Handlers([this] { EnterStopThread(); }));
+    rt::Say("amb-controller: who may command: " + policy_.who);
+    std::optional<transport::OperatorReceiver> receiver;
+    if (policy_.open) {
+      receiver.emplace(network_, intake_.stops(), intake_.Handlers([this] { EnterStopThread(); }));
+    }
     loop::ControlLoop loop(
         {.pace = options_.realtime ? loop::Pace::kRealtime : loop::Pace::kLockstep,
          .period_ns = numbers_.period_ns,
          .phase_ns = rig_->phase_ns()},
         Port(), cycle_, desk, outlet_, clock_);
     std::atomic<bool> running{true};
-    Watchman watchman(loop, desk, options_, *rig_, lines_,
-                      [this](const std::string& text) { Warn(text); });
+    Watchman watchman(loop, desk, options_, *rig_, lines_, [&] {
+      TellNews(rig_->TakeNews());
+      if (receiver) TellNews(receiver->TakeNews());
+    });
     std::thread thread([&] {
       if (guard_) rt::Guarded("loop", [this] { rt::EnterThread(wanted_); });
       loop.Run();
@@ -175,7 +182,8 @@ class Session {
     // Also after an end without a landing: with lines, the enable line falls here.
     Port().SayGoodbye({.cycle = loop.last().in.frame.cycle});
     recorder_.Finish();  // the report names the trip's file and comes after the last event
-    return Tell(loop.statistics(), receiver.counts(), stayed);
+    return Tell(loop.statistics(), receiver ? receiver->counts() : transport::OperatorCounts{},
+                stayed);
   }
 
  private:
@@ -203,6 +211,10 @@ class Session {
               .severity = session::Event::Severity::kWarning,
               .text = text},
              telemetry_);
+  }
+
+  void TellNews(const std::string& news) {
+    if (!news.empty()) Warn(news);
   }
 
   /// What the loop faces: the connection, with the rig's lines beside it where it has any.
@@ -244,6 +256,7 @@ class Session {
   std::unique_ptr<rt::RealTimeGuard> guard_;
   transport::LcmNetwork network_;
   std::unique_ptr<RigConnection> rig_;
+  transport::CommandPolicy policy_;
   std::optional<gpio::GuardedPort> guarded_;
   transport::Telemetry telemetry_;
   CommandAnswers answers_{[this](const transport::CommandAnswer& answer) {

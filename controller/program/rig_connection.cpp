@@ -8,6 +8,7 @@
 #include "hil/socketcan/can_connection.hpp"
 #include "hil/socketcan/socket_can.hpp"
 #include "transport/lcm_rig_port.hpp"
+#include "transport/network_key.hpp"
 
 namespace levitas::controller_program {
 namespace {
@@ -69,9 +70,14 @@ class CanPortConnection final : public RigConnection {
 
 transport::LcmNetwork TelemetryNetwork(const ControllerOptions& options) {
   if (!socketcan::IsCanPort(options.port)) {
-    return transport::ParseLcmNetwork(options.port, "can, can:IF[,IF...], ");
+    auto network = transport::ParseLcmNetwork(options.port, "can, can:IF[,IF...], ");
+    transport::TakeKey(network, options.key, "play the rig");
+    return network;
   }
-  return transport::ParseLcmNetwork(options.telemetry.empty() ? "lcm" : options.telemetry);
+  auto network = transport::ParseLcmNetwork(options.telemetry.empty() ? "lcm" : options.telemetry);
+  // Without commands only telemetry leaves; with them, DecideCommands asks for the key.
+  if (!options.key.empty()) network.key = transport::NetworkKey::Load(options.key);
+  return network;
 }
 
 void ApplyPort(const ControllerOptions& options, config::RigFile& rig) {
@@ -83,8 +89,7 @@ void ApplyPort(const ControllerOptions& options, config::RigFile& rig) {
 std::unique_ptr<RigConnection> Connect(const ControllerOptions& options,
                                        const config::RigFile& rig) {
   if (!socketcan::IsCanPort(options.port)) {
-    return std::make_unique<LcmConnection>(transport::ParseLcmNetwork(options.port),
-                                           rig.numbers.axes());
+    return std::make_unique<LcmConnection>(TelemetryNetwork(options), rig.numbers.axes());
   }
   return std::make_unique<CanPortConnection>(
       socketcan::PlanConnection(rig, options.rig, options.port), options.realtime,

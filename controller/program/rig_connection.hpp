@@ -32,7 +32,7 @@ class RigConnection {
   [[nodiscard]] virtual std::int64_t phase_ns() const noexcept = 0;
 };
 
-/// Of the port with LCM, else of --telemetry.
+/// Of the port with LCM, else of --telemetry; with the key, and refused where frames need one.
 [[nodiscard]] transport::LcmNetwork TelemetryNetwork(const ControllerOptions& options);
 
 /// What the port changes of the rig's description: from sample to current on its buses.

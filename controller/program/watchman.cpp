@@ -18,14 +18,14 @@ constexpr auto kLookEvery = std::chrono::milliseconds(20);
 }  // namespace
 
 Watchman::Watchman(loop::ControlLoop& loop, loop::OperatorDesk& desk,
-                   const ControllerOptions& options, RigConnection& rig,
-                   const gpio::GpiodLines* lines, std::function<void(const std::string&)> warn)
+                   const ControllerOptions& options, const RigConnection& rig,
+                   const gpio::GpiodLines* lines, std::function<void()> tell_news)
     : loop_(loop),
       desk_(desk),
       options_(options),
       rig_(rig),
       lines_(lines),
-      warn_(std::move(warn)),
+      tell_news_(std::move(tell_news)),
       partner_(rt::MonotonicNowNs(), static_cast<std::int64_t>(options.partner_timeout_s * 1e9)) {}
 
 bool Watchman::Watch(const std::atomic<bool>& running) noexcept {
@@ -39,7 +39,7 @@ bool Watchman::Watch(const std::atomic<bool>& running) noexcept {
 void Watchman::Look() {
   LookAtGuard();
   LookAtPartner();
-  if (const std::string news = rig_.TakeNews(); !news.empty()) warn_(news);
+  tell_news_();
   if (rt::QuitSignal()) {
     if (landing_since_ns_ == 0) desk_.RequestEmergencyStop();
     Land("emergency stop by SIGQUIT");

@@ -11,7 +11,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <string>
 
 #include "controller/loop/control_loop.hpp"
 #include "controller/loop/operator_desk.hpp"
@@ -29,10 +28,11 @@ class Watchman {
   /// stay for ever.
   static constexpr std::int64_t kLandingLimitNs = 600'000'000'000;
 
-  /// Keeps references to all of them; `lines` may be null. `warn` gets the news of the port.
+  /// Keeps references to all of them; `lines` may be null. `tell_news`: what port and
+  /// network have to say.
   Watchman(loop::ControlLoop& loop, loop::OperatorDesk& desk, const ControllerOptions& options,
-           RigConnection& rig, const gpio::GpiodLines* lines,
-           std::function<void(const std::string&)> warn);
+           const RigConnection& rig, const gpio::GpiodLines* lines,
+           std::function<void()> tell_news);
 
   /// Until `running` is false. False: the rig stayed away.
   bool Watch(const std::atomic<bool>& running) noexcept;
@@ -46,9 +46,9 @@ class Watchman {
   loop::ControlLoop& loop_;
   loop::OperatorDesk& desk_;
   const ControllerOptions& options_;
-  RigConnection& rig_;
+  const RigConnection& rig_;
   const gpio::GpiodLines* lines_;
-  std::function<void(const std::string&)> warn_;
+  std::function<void()> tell_news_;
   transport::PartnerWatch partner_;
   std::int64_t landing_since_ns_{0};  ///< 0: not asked for
   bool guarded_{true};

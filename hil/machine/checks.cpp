@@ -111,7 +111,8 @@ Finding SocketBuffer(const Probe& probe) {
 }  // namespace
 
 std::vector<Finding> CheckLcm(const Probe& probe) {
-  return {MulticastRoute(probe), MulticastLoopback(probe), SocketBuffer(probe)};
+  return {MulticastRoute(probe), MulticastLoopback(probe), SocketBuffer(probe),
+          WhoMayCommand(probe)};
 }
 
 std::vector<Finding> CheckCan(const Probe& probe) {

@@ -17,6 +17,8 @@ inline constexpr std::int64_t kWakeUpTrialNs = 500'000'000;
 
 [[nodiscard]] std::vector<Finding> CheckRealTime(const Probe& probe);
 [[nodiscard]] std::vector<Finding> CheckLcm(const Probe& probe);
+/// Part of CheckLcm.
+[[nodiscard]] Finding WhoMayCommand(const Probe& probe);
 [[nodiscard]] std::vector<Finding> CheckCan(const Probe& probe);
 [[nodiscard]] std::vector<Finding> CheckGpio(const Probe& probe);
 /// `folder`: where sessions would be recorded.

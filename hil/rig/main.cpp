@@ -57,6 +57,9 @@ ExitStatus Run(const plant_run::PlantOptions& options) {
                     options.port));
   }
   RefuseRealBus(options, rig);
+  if (!options.key.empty()) {
+    throw Problem(ExitStatus::kUsage, "--key: frames on a bus carry no seal; leave it out");
+  }
   const auto connection = socketcan::PlanConnection(rig, options.rig, options.port);
   socketcan::ApplyBusDelay(rig, connection.budget);
   socketcan::SocketCan access(connection.layout, connection.buses, can::Sender::kRig);

@@ -16,7 +16,8 @@ constexpr plant_run::PlantProgram kProgram{
 
 ExitStatus Run(const plant_run::PlantOptions& options) {
   const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
-  const transport::LcmNetwork network = transport::ParseLcmNetwork(options.port);
+  transport::LcmNetwork network = transport::ParseLcmNetwork(options.port);
+  transport::TakeKey(network, options.key, "play the controller");
   transport::LcmRigLink link(network, rig.numbers.axes(), kSpinNs);
   return plant_run::RunPlant({.program = kProgram,
                               .options = options,

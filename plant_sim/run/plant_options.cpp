@@ -16,6 +16,9 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
       "--scenario", options.scenario,
       "Scenario whose rig_events happen to the rig; a file, or the name of a shipped one");
   app.add_option("--port", options.port, program.port_help)->capture_default_str();
+  app.add_option("--key", options.key,
+                 "amb-plant: file with the key of those who may speak on the network; with ttl "
+                 "above 0 it is needed");
   app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
       ->transform(CLI::Transformer(paces))
       ->type_name("PACE");

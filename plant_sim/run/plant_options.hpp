@@ -12,6 +12,7 @@ struct PlantOptions {
   std::string rig;          ///< path or shipped name
   std::string scenario;     ///< path or shipped name; empty: nothing happens to the rig
   std::string port{"lcm"};  ///< lcm or lcm:URL
+  std::string key;          ///< file with the key of those who may speak; empty: none
   bool realtime{false};
   std::uint64_t seed{1};
   std::string json;  ///< statistics go there; empty: nowhere

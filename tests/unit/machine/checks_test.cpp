@@ -146,6 +146,33 @@ TEST(DoctorLcm, TakesTheNarrowestRouteForMulticastAndIgnoresThoseThatAreDown) {
   EXPECT_THAT(finding({"nonsense"}).found, HasSubstr("no route"));
 }
 
+TEST(DoctorLcm, SaysWhoCouldCommandAndWhichPortsAreBound) {
+  FakeProbe probe;
+  EXPECT_EQ(Get(CheckLcm(probe), "who may command").state, State::kOk);
+  EXPECT_THAT(Get(CheckLcm(probe), "who may command").found, HasSubstr("no other machine"));
+  probe.files["/proc/net/udp"] = {
+      "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid",
+      "  1: 434CFFEF:1DF6 00000000:0000 07 00000000:00000000 00:00000000 00000000     0",
+      "  2: 0100007F:0035 00000000:0000 07 00000000:00000000 00:00000000 00000000     0",
+      "  3: 434CFFEF:1DF3 00000000:0000 07 00000000:00000000 00:00000000 00000000     0"};
+  EXPECT_THAT(Get(CheckLcm(probe), "who may command").found,
+              HasSubstr("bound now: UDP 7667, 7670"));
+}
+
+TEST(DoctorLcm, WarnsOfAProgramThatHasJoinedTheGroupOnANetworkCard) {
+  const std::vector<std::string> on_loopback{
+      "Idx\tDevice    : Count Querier\tGroup    Users Timer", "1\tlo        :     2      V3",
+      "\t\t\t\t434CFFEF     1 0:00000000\t\t0", "\t\t\t\t010000E0     1 0:00000000\t\t0"};
+  FakeProbe probe;
+  probe.files["/proc/net/igmp"] = on_loopback;
+  EXPECT_EQ(Get(CheckLcm(probe), "who may command").state, State::kOk);
+  auto& lines = probe.files["/proc/net/igmp"];
+  lines.emplace_back("2\teth0      :     2      V3");
+  lines.emplace_back("\t\t\t\t434CFFEF     1 0:00000000\t\t0");
+  EXPECT_EQ(Get(CheckLcm(probe), "who may command").state, State::kDegraded);
+  EXPECT_THAT(Get(CheckLcm(probe), "who may command").found, HasSubstr("on eth0"));
+}
+
 TEST(DoctorLcm, SaysHowManyMessagesCameBack) {
   FakeProbe probe;
   probe.multicast = {100, 93, 20.0, ""};

@@ -78,6 +78,12 @@ const OneFault kFaults[] = {
      State::kDegraded, "239.255.76.67", "ip route replace 224.0.0.0/4 dev lo"},
     {"multicast route to the network", [](FakeProbe& p) { p.files["/proc/net/route"].resize(2); },
      "route", State::kDegraded, "leaves through eth0", "ip route replace 224.0.0.0/4 dev lo"},
+    {"group joined on a network card",
+     [](FakeProbe& p) {
+       p.files["/proc/net/igmp"] = {"2\teth0      :     1      V3",
+                                    "\t\t\t\t434CFFEF     1 0:0\t\t0"};
+     },
+     "who may command", State::kDegraded, "on eth0", "--key FILE"},
     {"messages lost", [](FakeProbe& p) { p.multicast.received = 99; }, "loopback", State::kDegraded,
      "99 of 100", "stop other load"},
     {"no message came back",
