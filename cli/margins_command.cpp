@@ -48,7 +48,6 @@ void Print(const analysis::SensitivityResult& at, const std::vector<std::string>
         "says nothing about a loop that does not settle.\n",
         Rpm(at.speed_rad_per_s), at.largest_pole_modulus);
   }
-  PrintPoint(at.point, channels);
   fmt::print("  {:<8}{:>9}{:>11}{:>11}{:>12}{:>12}{:>18}\n", "axis", "max |S|", "at Hz", "zone",
              "gain up", "gain down", "phase margin");
   for (std::size_t i = 0; i < at.axes.size(); ++i) {
