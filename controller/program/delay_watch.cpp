@@ -14,6 +14,7 @@ namespace levitas::controller_program {
 namespace {
 
 constexpr auto kLookEvery = std::chrono::milliseconds(5);
+constexpr int kMostPerLook = 4096;  // a bus that babbles keeps the thread from nothing else
 
 }  // namespace
 
@@ -35,8 +36,9 @@ DelayWatch::~DelayWatch() {
 
 void DelayWatch::Listen() noexcept {
   while (!ends_.load()) {
-    for (can::Reception got = access_->Next(); got.event != can::BusEvent::kNothing;
-         got = access_->Next()) {
+    for (int look = 0; look < kMostPerLook; ++look) {
+      const can::Reception got = access_->Next();
+      if (got.event == can::BusEvent::kNothing) break;
       if (got.event == can::BusEvent::kFrame) meter_.Take(got.frame);
     }
     std::this_thread::sleep_for(kLookEvery);

@@ -6,7 +6,7 @@
 // Judged   once, after kEnough frames: a delay that differs from the one that margins and verdict
 //          are computed with by more than kTolerance periods is news. The median has the width of a
 //          bin of the histogram, 4.4 %.
-// Thread   its own, at normal priority, which looks every 5 ms.
+// Thread   its own, at normal priority, which looks every 5 ms, at a bounded number of frames.
 // Failure  sockets that cannot be made are said once; nothing is measured then.
 
 #include <atomic>

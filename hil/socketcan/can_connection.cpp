@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -139,8 +140,10 @@ CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_
 }
 
 void ApplyBusDelay(config::RigFile& rig, const can::Budget& budget) {
+  // In whole nanoseconds: a hold until the next sample is a whole period to the bit.
+  const auto delay_ns = static_cast<double>(std::llround(can::DelayOf(budget).total_s() * 1e9));
   rig.plant.delay_samples =
-      std::max(rig.plant.delay_samples, can::DelayOf(budget).total_s() * budget.rate_hz);
+      std::max(rig.plant.delay_samples, delay_ns / static_cast<double>(rig.numbers.period_ns));
 }
 
 }  // namespace levitas::socketcan

@@ -102,7 +102,7 @@ TEST(BusDelay, OfACurrentThatActsOnArrivalHoldsTheWayThereAndTheController) {
 TEST(BusDelay, OfACurrentThatActsAtTheNextSampleIsWholePeriods) {
   config::RigFile rig = Rig();
   ApplyBusDelay(rig, PlanConnection(rig, "rig.yaml", "can", Real).budget);
-  EXPECT_NEAR(rig.plant.delay_samples, 2.0, 1e-9);
+  EXPECT_EQ(rig.plant.delay_samples, 2.0);
 }
 
 TEST(BusDelay, LeavesALongerDelayOfTheRigsFile) {
