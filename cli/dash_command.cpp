@@ -11,6 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/run/interrupt.hpp"
+#include "controller/rt/say.hpp"
 #include "dashboard/access.hpp"
 #include "dashboard/dashboard.hpp"
 
@@ -32,9 +33,9 @@ std::string GivenToken(const DashOptions& options) {
   if (!options.token_path.empty()) return dashboard::ReadToken(options.token_path);
   if (options.web.token.empty()) return {};
   dashboard::CheckToken(options.web.token, "--token");
-  fmt::print(stderr,
-             "warning: every user of this machine can see --token in the list of processes; "
-             "--token-file keeps it out of sight\n");
+  rt::Say(
+      "warning: every user of this machine can see --token in the list of processes; "
+      "--token-file keeps it out of sight\n");
   return options.web.token;
 }
 

@@ -5,23 +5,20 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace levitas::dashboard {
 
-using std::chrono::steady_clock;
-
 AnswerStream::AnswerStream(int socket, std::string_view request,
-                           std::optional<std::chrono::milliseconds> within)
-    : socket_(socket), unread_(request) {
-  if (within) end_ = steady_clock::now() + *within;
-}
+                           std::optional<std::chrono::milliseconds> within, Now now)
+    : socket_(socket), now_(std::move(now)), unread_(request), within_(within) {}
 
 bool AnswerStream::is_writable() const {
-  if (end_ && steady_clock::now() > *end_) return false;
+  if (end_ && now_() > *end_) return false;
   pollfd polled{socket_, POLLOUT, 0};
   if (::poll(&polled, 1, static_cast<int>(kTakesNothing.count())) <= 0) return false;
   // Who asked once may have said that no more will come; a viewer that did has gone.
-  if (end_) return true;
+  if (within_) return true;
   char next{};
   return ::recv(socket_, &next, 1, MSG_PEEK | MSG_DONTWAIT) != 0;
 }
@@ -34,6 +31,7 @@ ssize_t AnswerStream::read(char* to, std::size_t size) {
 }
 
 ssize_t AnswerStream::write(const char* from, std::size_t size) {
+  if (within_ && !end_) end_ = now_() + *within_;
   if (!is_writable()) return -1;
   return ::send(socket_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
 }

@@ -2,12 +2,14 @@
 // What the HTTP library reads a whole request from, and writes its answer to.
 //
 // Bounds    writing ends in failure after kTakesNothing without a byte taken, and `within` after
-//           the beginning if given: a client that reads slowly holds its thread no longer.
+//           its first byte if given: a client that reads slowly holds its thread no longer. How long
+//           the answer takes to be found does not count.
 // Thread    one. Failure: of the library's kind, -1.
 
 #include <httplib.h>
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -17,9 +19,12 @@ class AnswerStream final : public httplib::Stream {
  public:
   static constexpr std::chrono::milliseconds kTakesNothing{3000};
 
+  using Now = std::function<std::chrono::steady_clock::time_point()>;
+
   /// `request` must outlive this; `socket` does not block.
   AnswerStream(int socket, std::string_view request,
-               std::optional<std::chrono::milliseconds> within);
+               std::optional<std::chrono::milliseconds> within,
+               Now now = std::chrono::steady_clock::now);
 
   [[nodiscard]] bool is_readable() const override { return true; }
   /// Waits; false when the client has gone.
@@ -32,8 +37,10 @@ class AnswerStream final : public httplib::Stream {
 
  private:
   int socket_;
+  Now now_;
   std::string_view unread_;
-  std::optional<std::chrono::steady_clock::time_point> end_;
+  std::optional<std::chrono::milliseconds> within_;
+  std::optional<std::chrono::steady_clock::time_point> end_;  ///< from the first byte on
 };
 
 }  // namespace levitas::dashboard
