@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
-from forged import LIFT, STOP, command, everything, goodbye, sensor_frame  # noqa: E402
+from forged import LIFT, STOP, command, everything, sensor_frame  # noqa: E402
 from lcm_network import (COMMAND, GROUP, SENSOR, SKIPPED, TELEMETRY, Bus, controller,  # noqa: E402
                          plant, run)
 from two_machines import OWN, OtherMachine, possible  # noqa: E402
@@ -56,7 +56,8 @@ class TwoMachines(unittest.TestCase):
             control.says("-> levitating")
             self.own.send(command(STOP, 2)[1])
             control.says("TRIP")
-            self.own.socket.sendto(goodbye()[1], (GROUP, goodbye()[0]))
+            control.terminate()
+            self.assertEqual(control.status(), 4, control.text)
             self.assertEqual(rig.status(), 0, rig.text)
 
     def test_a_lonely_controller_does_not_take_the_other_machine_for_its_rig(self):
