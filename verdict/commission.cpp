@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
+#include "analysis/speed_sweep.hpp"
 #include "config/rig_file.hpp"
 #include "session/session_reader.hpp"
 
@@ -38,16 +41,13 @@ std::string BreaksOff(const session::Damage& damage, const std::vector<ModeSpan>
   return fmt::format("the record ends while {}", Name(last));
 }
 
-/// At rest, and at the highest speed of the run if it was spun.
-std::vector<analysis::SensitivityResult> Sensitivities(const config::RigFile& rig,
-                                                       const config::ControllerFile& controller,
-                                                       double top_speed_rad_per_s) {
-  std::vector<analysis::SensitivityResult> results;
-  results.push_back(analysis::SensitivityPeaks(rig.plant, controller.law, 0.0));
-  if (top_speed_rad_per_s > controller.supervisor.sequence.standstill_rad_per_s) {
-    results.push_back(analysis::SensitivityPeaks(rig.plant, controller.law, top_speed_rad_per_s));
-  }
-  return results;
+/// From rest to the highest speed of the run if it was spun.
+analysis::SpeedSweep Sensitivities(const config::RigFile& rig,
+                                   const config::ControllerFile& controller,
+                                   double top_speed_rad_per_s) {
+  const bool spun = top_speed_rad_per_s > controller.supervisor.sequence.standstill_rad_per_s;
+  return analysis::SensitivityOverSpeed(rig.plant, controller.law,
+                                        spun ? top_speed_rad_per_s : 0.0);
 }
 
 }  // namespace
@@ -67,7 +67,9 @@ Verdict Commission(const CommissionOptions& options) {
   Inputs inputs;
   inputs.rig = rig.numbers;
   inputs.session = statistics.Figures();
-  inputs.sensitivity = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
+  analysis::SpeedSweep sweep = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
+  inputs.sensitivity = std::move(sweep.speeds);
+  inputs.worst_sensitivity = sweep.worst;
   inputs.step_error =
       analysis::MeasureStepError(rig.plant, controller.law, inputs.session.top_speed_rad_per_s);
   inputs.timing = ReadControllerReport(options.controller_report, rig.numbers.period_s());

@@ -67,7 +67,8 @@ Object Profile(const Inputs& in) {
 
 Object Sensitivity(const Inputs& in) {
   Object all = Object::array();
-  for (const auto& result : in.sensitivity) {
+  for (std::size_t speed = 0; speed < in.sensitivity.size(); ++speed) {
+    const auto& result = in.sensitivity[speed];
     Object axes = Object::array();
     for (std::size_t i = 0; i < result.axes.size(); ++i) {
       const analysis::AxisSensitivity& axis = result.axes[i];
@@ -78,6 +79,8 @@ Object Sensitivity(const Inputs& in) {
            {"zone", axis.zone ? Object(std::string(1, Letter(*axis.zone))) : Object(nullptr)}});
     }
     all.push_back({{"speed_rpm", Rpm(result.speed_rad_per_s)},
+                   {"source", "computed"},
+                   {"worst_of_all_speeds", speed == in.worst_sensitivity},
                    {"stable", result.stable},
                    {"largest_pole_modulus", Number(result.largest_pole_modulus)},
                    {"axes", axes}});

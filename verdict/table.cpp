@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "analysis/speed_sweep.hpp"
 #include "verdict/report.hpp"
 
 namespace levitas::verdict {
@@ -79,19 +80,31 @@ void Currents(const Inputs& in, Out out) {
   CurrentsOf(in, in.session.spinning, true, out);
 }
 
+void WorstSensitivity(const Inputs& in, Out out) {
+  if (in.sensitivity.size() < 2 || in.worst_sensitivity >= in.sensitivity.size()) return;
+  const analysis::SensitivityResult& worst = in.sensitivity[in.worst_sensitivity];
+  if (worst.axes.empty()) return;
+  const std::size_t axis = analysis::WorstAxis(worst);
+  fmt::format_to(out, "worst from {:.0f} to {:.0f} rpm, computed: {} with {:.2f} at {:.0f} rpm\n",
+                 Rpm(in.sensitivity.front().speed_rad_per_s),
+                 Rpm(in.sensitivity.back().speed_rad_per_s), in.rig.channels.at(axis),
+                 worst.axes[axis].peak, Rpm(worst.speed_rad_per_s));
+}
+
 void Sensitivity(const Inputs& in, Out out) {
   if (in.sensitivity.empty()) return;
-  fmt::format_to(out, "\n{:<{}}{:>10}{:>9}{:>9}   {}\n", "peak |S|", NameWidth(in.rig.channels),
-                 "speed rpm", "peak", "at Hz", "zone");
+  fmt::format_to(out, "\n{:<{}}{:>10}{:>9}{:>9}   {:<16}{}\n", "peak |S|",
+                 NameWidth(in.rig.channels), "speed rpm", "peak", "at Hz", "zone", "from");
   for (const auto& result : in.sensitivity) {
     for (std::size_t i = 0; i < result.axes.size(); ++i) {
       const analysis::AxisSensitivity& axis = result.axes[i];
       const std::string zone = axis.zone ? std::string(1, Letter(*axis.zone)) : "none: unstable";
-      fmt::format_to(out, "{:<{}}{:>10.0f}{:>9.3f}{:>9.1f}   {}\n", in.rig.channels.at(i),
-                     NameWidth(in.rig.channels), Rpm(result.speed_rad_per_s), axis.peak,
-                     axis.frequency_hz, zone);
+      fmt::format_to(out, "{:<{}}{:>10.0f}{:>9.3f}{:>9.1f}   {:<16}computed\n",
+                     in.rig.channels.at(i), NameWidth(in.rig.channels), Rpm(result.speed_rad_per_s),
+                     axis.peak, axis.frequency_hz, zone);
     }
   }
+  WorstSensitivity(in, out);
 }
 
 void TimeStep(const Inputs& in, Out out) {

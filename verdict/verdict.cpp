@@ -49,6 +49,10 @@ void ObjectToOrbit(const OrbitJudgement& at, std::vector<std::string>& objection
 void ObjectToSensitivity(const analysis::SensitivityResult& result, const RigNumbers& rig,
                          std::vector<std::string>& objections) {
   const double speed_rpm = Rpm(result.speed_rad_per_s);
+  if (!result.point.failure.empty()) {
+    objections.push_back(fmt::format("{} (at {:.0f} rpm)", result.point.failure, speed_rpm));
+    return;
+  }
   if (!result.stable) {
     objections.push_back(fmt::format("the linear loop is unstable at {:.0f} rpm", speed_rpm));
     return;
@@ -57,7 +61,7 @@ void ObjectToSensitivity(const analysis::SensitivityResult& result, const RigNum
     const analysis::AxisSensitivity& axis = result.axes[i];
     if (axis.zone && Acceptable(*axis.zone)) continue;
     objections.push_back(fmt::format(
-        "sensitivity peak of {} is {:.2f} at {:.0f} rpm{}", rig.channels.at(i), axis.peak,
+        "computed sensitivity peak of {} is {:.2f} at {:.0f} rpm{}", rig.channels.at(i), axis.peak,
         speed_rpm, axis.zone ? fmt::format(", zone {}", Letter(*axis.zone)) : ""));
   }
 }

@@ -53,8 +53,10 @@ struct OrbitJudgement {
 struct Inputs {
   RigNumbers rig;
   SessionFigures session;
-  std::vector<analysis::SensitivityResult> sensitivity;  ///< at 0 and at the top speed of the run
-  std::optional<analysis::StepError> step_error;         ///< of the simulation's time step
+  /// Computed at 0, at the top speed of the run, and at the worst speed between if it is worse.
+  std::vector<analysis::SensitivityResult> sensitivity;
+  std::size_t worst_sensitivity{};                ///< which of them is the worst
+  std::optional<analysis::StepError> step_error;  ///< of the simulation's time step
   std::optional<TimingFigures> timing;
   std::optional<RigFigures> rig_process;
   Provenance provenance;

@@ -6,6 +6,7 @@
 
 #include "analysis/poles.hpp"
 #include "analysis/sensitivity.hpp"
+#include "analysis/speed_sweep.hpp"
 #include "analysis/step_error.hpp"
 #include "tests/support/shipped_loop.hpp"
 
@@ -64,6 +65,29 @@ TEST(TurbomolecularPump, LosesItsUpperAxisAtTheGainThatItsMarginNames) {
     law.state_space->output_a_per_v[0] *= factor;
     EXPECT_EQ(analysis::ClosedLoopPoles(loop.rig.plant, law, 0.0).stable, factor > 0.85) << factor;
   }
+}
+
+// At standstill 14, at the rated speed 3: between them the forward conical mode is least damped, and
+// the loop is nearest to its edge there.
+TEST(TurbomolecularPump, HasItsWorstSensitivityBetweenStandstillAndTheRatedSpeed) {
+  const ShippedLoop loop("turbomolecular_pump", "turbomolecular_pump");
+  const auto sweep =
+      analysis::SensitivityOverSpeed(loop.rig.plant, loop.controller.law, 30e3 * kRpm);
+  ASSERT_EQ(sweep.speeds.size(), 3U);
+  ASSERT_EQ(sweep.worst, 1U);
+  const auto& worst = sweep.speeds[1];
+  const std::size_t axis = analysis::WorstAxis(worst);
+  EXPECT_EQ(loop.rig.numbers.channels[axis][0], 'l');
+  EXPECT_NEAR(worst.speed_rad_per_s / kRpm, 10e3, 1.5e3);
+  // Nowhere on a grid of its own is it worse: the place is known to 1 % of the range.
+  for (double rpm = 0.0; rpm <= 30e3; rpm += 1e3) {
+    const auto at = analysis::SensitivityPeaks(loop.rig.plant, loop.controller.law, rpm * kRpm);
+    EXPECT_LT(at.axes[analysis::WorstAxis(at)].peak, 1.01 * worst.axes[axis].peak) << rpm;
+  }
+  for (const std::size_t end : {0U, 2U}) {
+    EXPECT_LT(sweep.speeds[end].axes[axis].peak, 0.8 * worst.axes[axis].peak);
+  }
+  EXPECT_GT(worst.axes[axis].peak, 20.0);
 }
 
 TEST(TurbomolecularPump, HasTheForcePerControllerOutputOfItsSource) {

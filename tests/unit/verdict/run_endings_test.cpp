@@ -110,7 +110,7 @@ const Ending kEndings[] = {
     {"sensitivity in zone C",
      [](Inputs& in) { in.sensitivity = {Loop(in.rig, 4.2, Zone::kC)}; },
      Outcome::kNotAccepted,
-     {"sensitivity peak of b0_x is 4.20 at 0 rpm, zone C"}},
+     {"computed sensitivity peak of b0_x is 4.20 at 0 rpm, zone C"}},
     {"unstable loop",
      [](Inputs& in) { in.sensitivity = {Loop(in.rig, 9.0, {})}; },
      Outcome::kNotAccepted,

@@ -94,7 +94,7 @@ TEST(Judge, GradesSensitivityAndRefusesZoneC) {
   EXPECT_EQ(Judge(inputs).outcome, Outcome::kAccepted);
   inputs.sensitivity = {Loop(4.2)};
   EXPECT_EQ(Judge(inputs).sentence,
-            "NOT ACCEPTED: sensitivity peak of nde_y is 4.20 at 100 rpm, zone C");
+            "NOT ACCEPTED: computed sensitivity peak of nde_y is 4.20 at 100 rpm, zone C");
 }
 
 TEST(Judge, GivesAnUnstableLoopNoGradeAndNoAcceptance) {
