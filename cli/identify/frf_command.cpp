@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/analysis_options.hpp"
 #include "cli/identify/identify_commands.hpp"
 #include "cli/identify/response_files.hpp"
 #include "cli/json_file.hpp"
 #include "cli/written_files.hpp"
+#include "identification/frf/measured_sensitivity.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -67,6 +69,37 @@ void Print(const FrequencyResponse& r, double orbit_bound_um) {
   fmt::print("\n");
 }
 
+/// Computed with the controller that the user names; empty without one.
+std::vector<double> ComputedPeaks(const FrequencyResponse& r, const config::RigFile& rig,
+                                  const std::optional<FoundController>& controller) {
+  std::vector<double> peaks;
+  if (!controller) return peaks;
+  for (const auto& axis :
+       analysis::SensitivityPeaks(rig.plant, controller->file.law, r.speed_rad_per_s).axes) {
+    peaks.push_back(axis.peak);
+  }
+  return peaks;
+}
+
+void PrintSensitivity(const FrequencyResponse& r, const std::vector<double>& computed) {
+  fmt::print("measured sensitivity, zones of ISO 14839-3:\n{:<8}{:>9}{:>9}{:>10}{:>11}   {}\n",
+             "axis", "max |S|", "sigma", "at Hz", "lines Hz", "zone");
+  const auto measured = identification::MeasuredPeaks(r);
+  for (const auto& peak : measured) {
+    fmt::print("{:<8}{:>9.3f}{:>9.3f}{:>10.2f}{:>11.3f}   {}\n", peak.channel, peak.peak,
+               peak.sigma, peak.frequency_hz, peak.spacing_hz,
+               peak.zone ? std::string(analysis::Name(*peak.zone)) : "none: " + peak.refused);
+  }
+  for (std::size_t i = 0; i < computed.size(); ++i) {
+    const bool apart = measured[i].zone && identification::Disagree(computed[i], measured[i].peak);
+    fmt::print("{:<8}{:>9.3f}   computed{}\n", measured[i].channel, computed[i],
+               apart ? fmt::format("; WARNING: measured {:.3f}, more than 20 % apart: the rig file "
+                                   "or the controller is not what runs",
+                                   measured[i].peak)
+                     : "");
+  }
+}
+
 void RefuseWideOrbits(const std::vector<FrequencyResponse>& responses, double bound_um) {
   if (bound_um <= 0.0) return;
   for (const FrequencyResponse& r : responses) {
@@ -84,6 +117,8 @@ ExitStatus Run(const FrfOptions& options) {
     session::CheckOutputPath(path, options.data_path);
   }
   const config::RigFile rig = LoadRig(options);
+  std::optional<FoundController> controller;
+  if (!options.controller_name.empty()) controller = LoadController(options, rig);
   const auto record = identification::ReadRecord(options.data_path, rig);
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
   identification::ExperimentOptions experiment;
@@ -93,7 +128,10 @@ ExitStatus Run(const FrfOptions& options) {
   const auto responses = identification::EstimateResponses(record, delay_s, experiment, response);
   fmt::print("{}: frequency response of {} at {} speed(s)\n", options.data_path, rig.numbers.name,
              responses.size());
-  for (const auto& r : responses) Print(r, options.orbit_bound_um);
+  for (const auto& r : responses) {
+    Print(r, options.orbit_bound_um);
+    PrintSensitivity(r, ComputedPeaks(r, rig, controller));
+  }
   WriteResponseCsv(options.csv_path, responses);
   const auto nearest = std::ranges::min_element(responses, {}, [&](const auto& r) {
     return std::abs(Rpm(r.speed_rad_per_s) - options.picture_rpm);
@@ -117,6 +155,8 @@ void AddIdentifyFrf(CLI::App& identify, Action& action) {
   command->add_option("DATA", options->data_path, "Session, or CSV file (.csv, .csv.xz)")
       ->required();
   AddRigOption(*command, *options);
+  command->add_option("--controller", options->controller_name,
+                      "Hold the measured sensitivity against that computed with this controller");
   command->add_option("--drop", options->dropped_periods, "Periods taken as transient")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();

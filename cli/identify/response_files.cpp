@@ -11,6 +11,7 @@
 
 #include "cli/analysis_options.hpp"
 #include "common/output_file.hpp"
+#include "identification/frf/measured_sensitivity.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {
@@ -175,6 +176,31 @@ svg::Panel Residual(const FrequencyResponse& r, const ModelLines& model,
   return panel;
 }
 
+/// |S_ii| of a place in both planes, where it is clear of its noise, with the borders of the zones.
+svg::Panel Sensitivity(const FrequencyResponse& r, const std::vector<Pair>& pairs) {
+  svg::Panel panel = EmptyPanel(r, pairs, "|S| measured");
+  panel.title = "sensitivity";
+  panel.y_scale = svg::Scale::kLogarithmic;
+  for (const double border : {3.0, 4.0, 5.0}) {
+    panel.series.push_back({.name = border == 3.0 ? "zones A to D" : "",
+                            .x = {panel.x_range->low, panel.x_range->high},
+                            .y = {border, border},
+                            .colour = "#bbbbbb",
+                            .width = 0.8,
+                            .dashes = "5 3"});
+  }
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const Index i = pairs[n].to;
+    svg::Series line{.name = Channel(r, i), .x = r.frequency_hz, .colour = svg::Colour(n)};
+    for (std::size_t k = 0; k < r.frequency_hz.size(); ++k) {
+      const double size = std::abs(r.sensitivity[k](i, i));
+      line.y.push_back(kSaysSize * std::sqrt(r.own_variance[k][i]) < size ? size : kGap);
+    }
+    panel.series.push_back(std::move(line));
+  }
+  return panel;
+}
+
 }  // namespace
 
 void WriteResponseCsv(const std::string& path, const std::vector<FrequencyResponse>& responses) {
@@ -194,6 +220,17 @@ nlohmann::ordered_json ResponseJson(const FrequencyResponse& r) {
       {"largest_current_a", r.largest_current_a},
       {"left_out_hz", r.left_out_hz},
       {"frequency_hz", r.frequency_hz}};
+  for (const auto& peak : identification::MeasuredPeaks(r)) {
+    json["measured_sensitivity"].push_back(
+        {{"channel", peak.channel},
+         {"sensitivity_peak", peak.peak},
+         {"sigma", peak.sigma},
+         {"frequency_hz", peak.frequency_hz},
+         {"line_spacing_hz", peak.spacing_hz},
+         {"zone", peak.zone ? nlohmann::ordered_json(std::string(analysis::Name(*peak.zone)))
+                            : nlohmann::ordered_json(nullptr)},
+         {"refused", peak.refused}});
+  }
   for (Index j = 0; j < r.axes(); ++j) {
     for (Index i = 0; i < r.axes(); ++i) {
       auto& entry = json["plant"][Channel(r, i)][Channel(r, j)];
@@ -231,6 +268,13 @@ void WriteBode(const std::string& path, const FrequencyResponse& r, const ModelL
                                                 : Residual(r, model, pairs));
       }
     }
+  }
+  for (Index place = 0; model.empty() && place < per_plane; ++place) {
+    std::vector<Pair> own;
+    for (Index plane = 0; plane < planes; ++plane) {
+      own.push_back({planes * place + plane, planes * place + plane});
+    }
+    figure.panels.push_back(Sensitivity(r, own));
   }
   svg::Write(path, figure);
 }

@@ -96,6 +96,24 @@ Eigen::MatrixXd NoisePower(const std::vector<Spectra>& all, std::size_t line,
   return power;
 }
 
+/// Power of what does not repeat in S_ii: the scatter of its own current, as a matrix of one column.
+Eigen::MatrixXd OwnScatter(const std::vector<Spectra>& all, std::size_t line, Index axes) {
+  Eigen::MatrixXd power = Eigen::MatrixXd::Zero(axes, 1);
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(axes);
+  for (const Spectra& spectra : all) {
+    const std::vector<Spectrum>& current = spectra.current[spectra.axis];
+    const Complex mean = MeanOf(current, line);
+    double sum = 0.0;
+    for (const Spectrum& period : current) sum += std::norm(period[line] - mean);
+    const auto periods = static_cast<double>(spectra.periods);
+    power(At(spectra.axis), 0) +=
+        sum / (periods * (periods - 1.0) * std::norm(spectra.excitation[line]));
+    count[At(spectra.axis)] += 1.0;
+  }
+  for (Index j = 0; j < axes; ++j) power(j, 0) /= count[j] * count[j];
+  return power;
+}
+
 Eigen::MatrixXd CoherenceOf(const std::vector<Spectra>& all, std::size_t line, Index axes) {
   Eigen::MatrixXd coherence = Eigen::MatrixXd::Zero(axes, axes);
   for (const Spectra& spectra : all) {
@@ -204,6 +222,7 @@ FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaig
     response.periods = std::min(response.periods, e.periods);
   }
   std::vector<Eigen::MatrixXd> power;
+  std::vector<Eigen::MatrixXd> own;
   std::vector<Eigen::MatrixXcd> inverse;
   const Index axes = response.axes();
   for (const std::size_t line : ExcitedLines(all, options.highest_hz)) {
@@ -219,6 +238,7 @@ FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaig
     response.sensitivity.push_back(means.s);
     response.coherence.push_back(CoherenceOf(all, line, axes));
     power.push_back(NoisePower(all, line, response.plant.back()));
+    own.push_back(OwnScatter(all, line, axes));
   }
   if (power.empty()) throw BadInput(record.name + ": no line of the spectrum is excited");
   const auto smooth = Smoothed(power, all.front().neighbours);
@@ -227,6 +247,9 @@ FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaig
     response.variance.push_back(smooth[k] * inverse[k].cwiseAbs2());
   }
   response.noise = smooth;
+  for (const auto& line : Smoothed(own, all.front().neighbours)) {
+    response.own_variance.emplace_back(line.col(0));
+  }
   response.moments = MomentsOf(record, campaign, options.amplifier_hz);
   FindExtremes(record, campaign, response);
   return response;

@@ -43,6 +43,7 @@ struct FrequencyResponse {
   std::vector<Eigen::MatrixXd> variance;      ///< of `plant` [m^2/A^2]
   std::vector<Eigen::MatrixXd> coherence;     ///< [1]
   std::vector<Eigen::MatrixXd> noise;  ///< variance of G - P S, G and S as measured [m^2/A^2]
+  std::vector<Eigen::VectorXd> own_variance;  ///< of S_ii, complex, from its scatter [1]
   Moments moments;
   std::vector<double> left_out_hz;  ///< lines next to an order of rotation
   std::size_t periods{};            ///< averaged, least of all experiments
