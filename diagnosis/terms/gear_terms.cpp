@@ -60,7 +60,10 @@ struct Teeth {
     const double reach_m = std::abs(d);
     if (half_gap_m > 0.0 && reach_m <= half_gap_m) return {};
     const double share = half_gap_m > 0.0 ? 1.0 - half_gap_m / reach_m : 1.0;
-    return mesh->stiffness_n_per_m * share * d + mesh->damping_n_s_per_m * rate;
+    const Complex force = mesh->stiffness_n_per_m * share * d + mesh->damping_n_s_per_m * rate;
+    // Teeth with room to part do not pull, (G4).
+    const bool pulls = half_gap_m > 0.0 && std::real(std::conj(d) * force) <= 0.0;
+    return pulls ? Complex{} : force;
   }
   /// Mean over the period of a law of displacement, rate and angle of engagement that is not smooth:
   /// high harmonics of the error move the teeth by micrometres within a period.

@@ -87,6 +87,7 @@ TEST_P(SelfTest, EnergisesNothingOnARigThatIsNotFit) {
   cycle::CycleConfig blind = Only(Fault::kNone);
   blind.supervisor.sequence.standstill_rad_per_s = 1e6;
   blind.rig.clearance_m = 1e-3;  // nothing a probe can read lies beyond 1.25 of it
+  blind.rig.clearances_m.clear();
   const auto without = Lift(blind, GetParam(), &without_a);
   EXPECT_NE(without.fault, Fault::kSelfTestFailed);
   EXPECT_GT(without_a, 1.0);  // bias and more

@@ -12,7 +12,7 @@ import unittest
 from command import BAD_INPUT, BINARIES, DONE, USAGE, CommandTest, amb, make_record
 
 # Have nothing to report: groups of commands, and the manual, whose text is the result.
-WITHOUT_JSON = {"identify", "bench", "manual"}
+WITHOUT_JSON = {"identify", "bench", "manual", "key"}
 ABSENT = "absent.lcm"
 # Quick enough to be run here; the others report in tests of their own.
 QUICK = {
@@ -46,7 +46,7 @@ MISSING = {
     "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }
 # Look for no file that a user names; the nonlinear fits take theirs with more options.
-NO_FILE = {"dash", "doctor", "effects", "sessions", "sessions add", "manual", "identify", "bench",
+NO_FILE = {"dash", "key", "doctor", "effects", "sessions", "sessions add", "manual", "identify", "bench",
            "bench diagnosis", "bench identification", "bench full-spectrum", "bench pump",
            "identify hammerstein-wiener", "identify narx", "identify narmax", "identify grey-box"}
 

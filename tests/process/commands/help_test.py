@@ -15,7 +15,7 @@ OPTIONS = {
     "sessions": {"--rig", "--outcome", "--tag", "--text", "--from", "--to", "--catalogue", "--json"},
     "manual": {"--markdown", "--man", "--bash"},
     "export": {"--csv", "--mat", "--mcap", "--json"},
-    "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--json"},
+    "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--key", "--json"},
     "report": {"--out", "--pictures", "--speeds", "--run-json", "--json"},
     "dash": {"--port", "--http-port", "--listen", "--allow-network", "--token", "--token-file", "--answer-within",
              "--json"},

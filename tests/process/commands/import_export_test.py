@@ -222,7 +222,8 @@ class ImportExport(CommandTest):
         self.import_as("a.lcmlog")
         before = (self.folder / "a.lcmlog").read_bytes()
         broken = self.write("broken.csv", self.csv.read_text() + "0.5,what\n")
-        done = amb(self.folder, "import", broken, "--rig", "flexible_rotor", "--out", "a.lcmlog")
+        done = amb(self.folder, "import", broken, "--rig", "flexible_rotor", "--out", "a.lcmlog",
+                   "--overwrite")
         self.assertEqual(done.returncode, BAD_INPUT)
         self.assertEqual((self.folder / "a.lcmlog").read_bytes(), before)
         # And a sound one replaces it.
