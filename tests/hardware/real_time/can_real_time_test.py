@@ -35,8 +35,8 @@ SPIN = f"""kind: scenario
 name: spin
 steps:
   - {{do: lift, until: levitating, timeout_s: 5, hold_s: 0.05}}
-  - {{do: spin, speed_rpm: {SPEED_RPM}, acceleration_rpm_per_s: 3000, until: speed_reached, timeout_s: 5, hold_s: 0.3}}
-  - {{do: spin, speed_rpm: 0, acceleration_rpm_per_s: 3000, until: standstill, timeout_s: 5}}
+  - {{do: spin, speed_rpm: {SPEED_RPM}, acceleration_rpm_per_s: 2000, until: speed_reached, timeout_s: 5, hold_s: 0.3}}
+  - {{do: spin, speed_rpm: 0, acceleration_rpm_per_s: 2000, until: standstill, timeout_s: 5}}
   - {{do: land, until: off, timeout_s: 5}}
 """
 

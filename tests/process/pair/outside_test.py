@@ -48,7 +48,7 @@ class Outside(unittest.TestCase):
                  "flexible_rotor_commissioned", "--scenario", self.folder / "spin.yaml",
                  "--trip-folder", self.folder, *more]
         if record:
-            words += ["--record", self.session]
+            words += ["--record", self.session, "--overwrite"]
         with (self.folder / "controller.log").open("wb") as log:
             options = {"stderr": log, **options}
             control = subprocess.Popen([str(word) for word in words], cwd=self.folder, **options)
