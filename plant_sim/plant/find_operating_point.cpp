@@ -36,9 +36,10 @@ PlaneForce ForceAt(const PlantModel& model, std::size_t bearing, const AxisArray
   return force;
 }
 
-Eigen::Vector2d Slope(const PlantModel& model, std::size_t bearing, OperatingPoint point,
+Eigen::Vector2d Slope(const PlantModel& model, std::size_t bearing, const OperatingPoint& about,
                       AxisArray OperatingPoint::*what, std::size_t axis, double step) {
-  const double here = (point.*what)[axis];
+  OperatingPoint point = about;
+  const double here = (about.*what)[axis];
   (point.*what)[axis] = here + step;
   const PlaneForce more = ForceAt(model, bearing, point.flux_a, point.displacement_m);
   (point.*what)[axis] = here - step;
