@@ -69,7 +69,7 @@ struct Teeth {
   /// high harmonics of the error move the teeth by micrometres within a period.
   template <class Law>
   [[nodiscard]] Complex Mean(const Moment& m, Law law) const {
-    constexpr int kInstants = 8;
+    constexpr int kInstants = 16;  // teeth part, touch and let go within one period
     const double mid_rad = MidAngle(m, period_s);
     const auto speed = static_cast<double>(m.speed_rad_per_s);
     Complex imposed;

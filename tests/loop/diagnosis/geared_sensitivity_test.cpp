@@ -153,7 +153,7 @@ TEST_F(GearedTerms, OfACrackedToothAreThePlantsEffect) {
             kHeld);
 }
 // Both laws jump within a period, at the pitch point and where the teeth part; the plant takes four steps
-// of it, the term eight instants: a fifth of what they do lies in how a jump is cut up.
+// of it, the term sixteen instants: a fifth of what they do lies in how a jump is cut up.
 constexpr double kJumps = 0.3;
 
 TEST_F(GearedTerms, OfFrictionAndOfAGapAreThePlantsEffect) {

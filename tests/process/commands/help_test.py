@@ -17,7 +17,7 @@ OPTIONS = {
     "export": {"--csv", "--mat", "--mcap", "--json"},
     "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--key", "--json"},
     "report": {"--out", "--pictures", "--speeds", "--run-json", "--json"},
-    "dash": {"--port", "--http-port", "--listen", "--allow-network", "--token", "--token-file", "--answer-within",
+    "dash": {"--port", "--key", "--http-port", "--listen", "--allow-network", "--token", "--token-file", "--answer-within",
              "--json"},
     "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--port", "--record",
             "--overwrite", "--tag", "--seed", "--json", "--dash", "--no-dash"},
