@@ -58,7 +58,7 @@ CommandReply Commander::Ask(OperatorCommand command, const char* channel, Encode
     if (!said) Send(channel, datagram);
     answered_.wait_for(lock, kRepeat, settled);
   }
-  const CommandReply reply = mine->second ? *mine->second : Unanswered(command, settled());
+  CommandReply reply = mine->second ? *mine->second : Unanswered(command, settled());
   waiting_.erase(mine);
   return reply;
 }

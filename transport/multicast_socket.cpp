@@ -12,7 +12,7 @@
 namespace levitas::transport {
 
 struct MulticastSender::Sealing {
-  explicit Sealing(SealingKey key) : sealer(key), buffer(kMaxDatagram) {}
+  explicit Sealing(const SealingKey& key) : sealer(key), buffer(kMaxDatagram) {}
   Sealer sealer;
   std::vector<std::uint8_t> buffer;
 };

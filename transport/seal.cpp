@@ -32,7 +32,7 @@ std::uint64_t Drawn() noexcept {
 
 }  // namespace
 
-Sealer::Sealer(SealingKey key) : key_(key), sender_(Drawn()) {}
+Sealer::Sealer(const SealingKey& key) : key_(key), sender_(Drawn()) {}
 
 std::span<const std::uint8_t> Sealer::Append(std::span<std::uint8_t> buffer, std::size_t size,
                                              std::int64_t now_utc_ns) noexcept {
@@ -63,7 +63,7 @@ const char* Text(SealWord word) noexcept {
   return "";
 }
 
-SealCheck::SealCheck(SealingKey key, std::int64_t start_utc_ns, bool always_timely) noexcept
+SealCheck::SealCheck(const SealingKey& key, std::int64_t start_utc_ns, bool always_timely) noexcept
     : key_(key), floor_(static_cast<std::uint64_t>(start_utc_ns)), always_timely_(always_timely) {}
 
 SealWord SealCheck::Open(std::span<const std::uint8_t>& datagram,

@@ -26,7 +26,7 @@ inline constexpr std::size_t kTrailerBytes = 4 + 8 + 8 + SealingKey::kSealBytes;
 
 class Sealer {
  public:
-  explicit Sealer(SealingKey key);
+  explicit Sealer(const SealingKey& key);
   /// Appends the trailer: `buffer` holds the datagram in its first `size` bytes and has room for
   /// kTrailerBytes more. Returns the whole.
   [[nodiscard]] std::span<const std::uint8_t> Append(std::span<std::uint8_t> buffer,
@@ -57,7 +57,7 @@ class SealCheck {
   static constexpr std::size_t kSenders = 64;
 
   /// `always_timely`: the clock counts for every datagram, not only for a sender's first.
-  SealCheck(SealingKey key, std::int64_t start_utc_ns, bool always_timely) noexcept;
+  SealCheck(const SealingKey& key, std::int64_t start_utc_ns, bool always_timely) noexcept;
 
   /// Takes the trailer off `datagram` when it is good.
   [[nodiscard]] SealWord Open(std::span<const std::uint8_t>& datagram,
