@@ -22,7 +22,7 @@ OPTIONS = {
     "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--port", "--record",
             "--overwrite", "--tag", "--seed", "--json", "--dash", "--no-dash"},
     "identify": set(),  # its subcommands follow
-    "identify frf": {"--rig", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",
+    "identify frf": {"--rig", "--controller", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",
                      "--speed-rpm", "--json"},
     "identify modal": {"--rig", "--highest-hz", "--fit-amplifiers", "--fit-sensors", "--out",
                        "--svg", "--starts", "--spread", "--spread-gains", "--json"},
