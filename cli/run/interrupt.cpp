@@ -27,8 +27,13 @@ InterruptGuard::InterruptGuard() {
   }
 }
 
+// A lost connection is told several times: after the landing that the first one asked for, the next
+// must not end the verdict that follows. Ctrl-C may.
 InterruptGuard::~InterruptGuard() {
-  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &previous[i], nullptr);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    if (kSignals[i] == SIGHUP && rt::StopSignals() > 0) previous[i].sa_handler = SIG_IGN;
+    sigaction(kSignals[i], &previous[i], nullptr);
+  }
 }
 
 int InterruptGuard::count() const noexcept { return rt::StopSignals(); }
