@@ -7,8 +7,7 @@
 namespace levitas::law {
 namespace {
 
-constexpr double kOnCircle = 1e-12;  // as in state_space_law.cpp: a rounding of 1
-constexpr double kSamePole = 1e-9;   // of the pole's size: printed with nine digits or more
+constexpr double kSamePole = 1e-9;  // of the pole's size: printed with nine digits or more
 
 using Column = std::array<std::complex<double>, kMaxAxes>;
 

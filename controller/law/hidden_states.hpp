@@ -27,6 +27,8 @@ struct GrowingBlock {
 };
 
 inline constexpr double kDependent = 1e-9;
+/// Poles this close to the unit circle count as lying on it: a rounding of 1 in a printed number.
+inline constexpr double kOnCircle = 1e-12;
 
 /// Every block with a growing pole, in the order of the configuration.
 [[nodiscard]] std::vector<GrowingBlock> GrowingBlocks(const StateSpaceConfig& config);

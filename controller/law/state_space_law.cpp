@@ -6,12 +6,10 @@
 #include <string>
 
 #include "controller/law/axis_law.hpp"
+#include "controller/law/hidden_states.hpp"
 
 namespace levitas::law {
 namespace {
-
-// Poles this close to the unit circle count as lying on it: a rounding of 1 in a printed number.
-constexpr double kOnCircle = 1e-12;
 
 void Check(const StateSpaceConfig& config, double period_s) {
   const auto refuse = [](const std::string& text) {
