@@ -19,11 +19,11 @@ namespace {
 constexpr std::size_t kInputs = 1024;
 
 // Errors of a levitated rotor: 1 um of noise.
-std::vector<AxisArray> Errors() {
+std::vector<AxisArray> Errors(double deviation_m = 1e-6) {
   Random random(1);
   std::vector<AxisArray> errors(kInputs);
   for (AxisArray& error_m : errors) {
-    for (std::size_t i = 0; i < 4; ++i) error_m[i] = 1e-6 * random.Normal();
+    for (std::size_t i = 0; i < 4; ++i) error_m[i] = deviation_m * random.Normal();
   }
   return errors;
 }
@@ -66,10 +66,38 @@ void StraightLineC(benchmark::State& state) {
 }
 BENCHMARK(StraightLineC);
 
-void AxisLaw(benchmark::State& state) {
-  const law::LawCoefficients coefficients(law::FlexibleRotorLaw());
+// The largest law there is: blocks of two states, each fed by all axes and feeding all.
+law::LawConfig LargestLaw() {
+  law::LawConfig config;
+  config.period_s = 1e-4;
+  config.current_limit_a = 1.0;
+  law::StateSpaceConfig modal;
+  modal.axes = 4;
+  modal.discrete = true;
+  for (std::size_t i = 0; i < law::StateSpaceConfig::kMaxStates / 2; ++i) {
+    law::ModalBlock block;
+    block.pole_real = 0.6 + 0.01 * static_cast<double>(i);
+    block.pole_imaginary = 0.3;
+    block.first_input.fill(1.0);
+    block.second_input.fill(0.5);
+    block.first_output.fill(100.0);
+    block.second_output.fill(-50.0);
+    modal.blocks.push_back(block);
+  }
+  modal.input_v_per_m.fill(1.0);
+  modal.output_a_per_v.fill(1.0);
+  config.state_space = modal;
+  return config;
+}
+
+// A law whose states are no longer normal numbers (below 2.2e-308): where a filter's memory decays to
+// when its input is exactly zero. Every product is then the processor's slow case.
+constexpr double kSubnormalM = 1e-315;
+
+void StepLaw(benchmark::State& state, const law::LawConfig& config, double deviation_m) {
+  const law::LawCoefficients coefficients(config);
   law::LawState memory(coefficients);
-  const std::vector<AxisArray> errors = Errors();
+  const std::vector<AxisArray> errors = Errors(deviation_m);
   const AxisArray excitation_a{};
   std::size_t n = 0;
   for (auto _ : state) {
@@ -78,7 +106,22 @@ void AxisLaw(benchmark::State& state) {
     n = (n + 1) % kInputs;
   }
 }
+
+void AxisLaw(benchmark::State& state) { StepLaw(state, law::FlexibleRotorLaw(), 1e-6); }
 BENCHMARK(AxisLaw);
+
+void AxisLawOfSubnormals(benchmark::State& state) {
+  StepLaw(state, law::FlexibleRotorLaw(), kSubnormalM);
+}
+BENCHMARK(AxisLawOfSubnormals);
+
+void StateSpaceLaw(benchmark::State& state) { StepLaw(state, LargestLaw(), 1e-6); }
+BENCHMARK(StateSpaceLaw);
+
+void StateSpaceLawOfSubnormals(benchmark::State& state) {
+  StepLaw(state, LargestLaw(), kSubnormalM);
+}
+BENCHMARK(StateSpaceLawOfSubnormals);
 
 // Check, supervise and law for four axes, spinning.
 void WholeCycle(benchmark::State& state) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "common/problem.hpp"
+#include "common/standard_arithmetic.hpp"
 #include "config/rig_file.hpp"
 
 namespace levitas::session {
@@ -48,6 +49,7 @@ void RefuseUnlessWhole(const SessionHeader& header, const cycle::CycleRecord& fi
 
 ReplayReport Replay(SessionReader& reader, const cycle::CycleConfig& config,
                     const std::string& session_path) {
+  UseStandardArithmetic();
   cycle::ControlCycle control(config);
   ReplayReport report;
   cycle::CycleRecord record;

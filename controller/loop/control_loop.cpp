@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/standard_arithmetic.hpp"
 #include "controller/rt/next_wake.hpp"
 
 namespace levitas::loop {
@@ -35,6 +36,7 @@ ControlLoop::ControlLoop(const LoopOptions& options, port::RigPort& port,
       cycles_per_second_(static_cast<std::uint64_t>(1'000'000'000 / options.period_ns)) {}
 
 void ControlLoop::Run() noexcept {
+  UseStandardArithmetic();
   if (options_.pace == Pace::kLockstep) {
     RunLockstep();
   } else {

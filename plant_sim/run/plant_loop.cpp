@@ -1,5 +1,6 @@
 #include "plant_sim/run/plant_loop.hpp"
 
+#include "common/standard_arithmetic.hpp"
 #include "controller/rt/next_wake.hpp"
 
 namespace levitas::plant_run {
@@ -13,6 +14,7 @@ constexpr double kFallS = 0.5;                   // a rotor lies still after les
 }  // namespace
 
 void PlantLoop::Run() noexcept {
+  UseStandardArithmetic();
   if (options_.realtime) {
     RunRealtime();
   } else {

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <optional>
+#include <thread>
+#include <vector>
 
 #include "config/rig_file.hpp"
 #include "tests/support/allocation_guard.hpp"
@@ -84,6 +87,17 @@ TEST(ControlLoop, EndsOnAbortAlthoughTheRigIsSilent) {
     EXPECT_EQ(bench.Run().cycles, 0U);
     EXPECT_EQ(bench.loop->frames_heard(), 0U);
   }
+}
+
+TEST(ControlLoop, ComputesInStandardArithmeticWhateverItsThreadWasSetTo) {
+  std::vector<int> rounding;
+  std::thread([&] {
+    Bench bench(Pace::kLockstep, 3);
+    bench.port.on_write = [&] { rounding.push_back(std::fegetround()); };
+    std::fesetround(FE_UPWARD);
+    (void)bench.Run();
+  }).join();
+  EXPECT_EQ(rounding, (std::vector<int>{FE_TONEAREST, FE_TONEAREST, FE_TONEAREST}));
 }
 
 TEST(ControlLoopRealtime, WakesOnTheGridOfTheRig) {
