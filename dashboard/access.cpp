@@ -1,18 +1,12 @@
 #include "dashboard/access.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <random>
 
+#include "common/private_file.hpp"
 #include "common/problem.hpp"
-#include "dashboard/connection.hpp"
 
 namespace levitas::dashboard {
 
@@ -78,26 +72,12 @@ void CheckToken(std::string_view token, const std::string& source) {
 }
 
 std::string ReadToken(const std::string& path) {
-  // Not waiting for a writer, should it be a pipe.
-  const Connection file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat facts {};
-  if (file.socket() < 0 || ::fstat(file.socket(), &facts) != 0) {
-    throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  constexpr std::size_t kMostBytes = 1024;
+  const PrivateFile file = ReadPrivateFile(path, kMostBytes);
+  if (!file.refused.empty()) {
+    throw BadInput(fmt::format("token file {}: {}", path, file.refused));
   }
-  if (!S_ISREG(facts.st_mode)) throw BadInput(fmt::format("{}: is not a regular file", path));
-  if ((facts.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
-    throw BadInput(
-        fmt::format("{}: others may read or write the token (mode {:03o}); remedy: chmod 600 {}",
-                    path, facts.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO), path));
-  }
-  if (facts.st_uid != ::geteuid() && facts.st_uid != 0) {
-    throw BadInput(fmt::format("{}: belongs to another user", path));
-  }
-  std::array<char, 1024> text{};
-  const ssize_t count = ::read(file.socket(), text.data(), text.size());
-  if (count < 0) throw BadInput(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  const std::string_view whole(text.data(), static_cast<std::size_t>(count));
-  std::string token(whole.substr(0, whole.find_first_of("\r\n")));
+  std::string token = file.content.substr(0, file.content.find_first_of("\r\n"));
   CheckToken(token, path);
   return token;
 }

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "common/private_file.hpp"
 #include "common/problem.hpp"
 
 namespace levitas::transport {
@@ -17,7 +18,6 @@ namespace levitas::transport {
 namespace {
 
 constexpr std::size_t kDigits = 2 * SealingKey::kBytes;
-constexpr mode_t kOthers = S_IRWXG | S_IRWXO;
 
 // Chooses the fastest implementation for this processor, once; 1 on every later call.
 void Prepare() {
@@ -46,18 +46,6 @@ class File {
   int handle_;
 };
 
-// Of the open file, not of its name: what is checked is what is read.
-void CheckOwner(const std::string& path, const struct stat& facts) {
-  if (!S_ISREG(facts.st_mode)) Refuse(path, "it is not a regular file");
-  if (facts.st_uid != geteuid() && facts.st_uid != 0) {
-    Refuse(path, fmt::format("it belongs to user {}", facts.st_uid));
-  }
-  if ((facts.st_mode & kOthers) != 0) {
-    Refuse(path, fmt::format("its mode {:o} lets others read or write it (chmod 600 {})",
-                             facts.st_mode & (S_IRWXU | kOthers), path));
-  }
-}
-
 }  // namespace
 
 SealingKey::~SealingKey() { sodium_memzero(secret_.data(), secret_.size()); }
@@ -81,18 +69,13 @@ NetworkKey::NetworkKey(const SealingKey::Bytes& secret, std::string path)
 }
 
 std::shared_ptr<const NetworkKey> NetworkKey::Load(const std::string& path) {
-  // Without O_NONBLOCK a pipe in the key's place would hold the program here.
-  const File file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  if (file.handle() < 0) Refuse(path, std::strerror(errno));
-  struct stat facts {};
-  if (fstat(file.handle(), &facts) != 0) Refuse(path, std::strerror(errno));
-  CheckOwner(path, facts);
-  std::array<char, kDigits + 2> digits{};  // and a line end, and one to see that there is more
-  const ssize_t got = read(file.handle(), digits.data(), digits.size());
-  const bool line_end = got == kDigits + 1 && digits[kDigits] == '\n';
+  PrivateFile file = ReadPrivateFile(path, kDigits + 2);  // a line end, and one to see that it ends
+  if (!file.refused.empty()) Refuse(path, file.refused);
+  std::string& digits = file.content;
+  const bool line_end = digits.size() == kDigits + 1 && digits[kDigits] == '\n';
   SealingKey::Bytes secret{};
   std::size_t bytes = 0;
-  if ((got != kDigits && !line_end) ||
+  if ((digits.size() != kDigits && !line_end) ||
       sodium_hex2bin(secret.data(), secret.size(), digits.data(), kDigits, nullptr, &bytes,
                      nullptr) != 0 ||
       bytes != secret.size()) {
