@@ -79,9 +79,13 @@ class Sessions(CommandTest):
     def test_enters_a_folder_and_tells_what_it_could_not_read(self):
         self.record("a.lcmlog")
         self.call("sessions", "forget", "a.lcmlog")
-        self.write("bad.lcm", "no session")
+        whole = (self.folder / "a.lcmlog").read_bytes()
+        self.write("0.lcm", "no session")
+        (self.folder / "1.lcm").write_bytes(whole[:200])  # a header that was cut off
+        self.write("z.lcm", "no session")
         done = self.call("sessions", "add", ".", status=BAD_INPUT)
-        self.assertIn("bad.lcm", done.stderr)
+        for bad in ("0.lcm", "1.lcm", "z.lcm"):
+            self.assertIn(bad, done.stderr)
         self.assertEqual(self.found(), ["a.lcmlog"])
 
     def test_a_catalogue_that_cannot_be_written_costs_no_record(self):

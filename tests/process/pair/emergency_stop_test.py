@@ -4,6 +4,7 @@ No time is judged: that a stop is taken at all, in which order, and under which 
 """
 
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -138,6 +139,21 @@ class EmergencyStop(unittest.TestCase):
             finally:
                 ending.set()
                 flooding.join()
+
+    def test_trips_again_and_again_leave_the_newest_trip_files_only(self):
+        kept = self.folder / "a note of the operator.lcmlog"
+        kept.write_text("not a trip file")
+        with plant(self.folder), controller(self.folder, "--trip-budget", "3", "100") as control:
+            control.says("rig found")
+            for _ in range(6):
+                self.stop_and_reset()
+            control.terminate()
+            self.assertEqual(control.status(), 4, control.text)  # it tripped
+        files = sorted(path.name for path in self.folder.glob("trip-*.lcmlog"))
+        removed = re.findall(r"--trip-budget\): (trip-\S+\.lcmlog)", control.text)
+        self.assertEqual((len(files), len(removed)), (3, 3), control.text)
+        self.assertLess(max(removed), min(files))  # their names begin with their time
+        self.assertTrue(kept.exists())
 
     def test_is_taken_while_nobody_reads_what_the_controller_says(self):
         with plant(self.folder):
