@@ -1,13 +1,14 @@
-# Libraries declare the layer they live in; a use of a higher layer, or of a sibling in the same
-# layer, stops the configuration with one sentence. Two digits: the first is the layer of the
-# architecture, the second orders parts and their compositions within it (see docs/layers.md).
+# Libraries declare the layer they live in, 0 to 5, and the libraries they use (docs/layers.md). A
+# library may use what lies on a lower layer, and of its own layer what it names in USES, itself or
+# through what it uses; no library reaches itself that way. Anything else stops the configuration
+# with one sentence.
 #
-#   levitas_library(law LAYER 10 FOLDER controller/law SOURCES pid.cpp USES common)
+#   levitas_library(law LAYER 1 FOLDER controller/law SOURCES pid.cpp USES common)
 #   levitas_program(amb-plant SOURCES main.cpp USES plant)
+#   levitas_keep_apart(WALL law cycle FROM plant)        neither reaches the other
 #
-# Programs stand above all libraries (layer 59, above their own parts) and not on each other.
-# USES names libraries of ours, LINKS third-party targets visible in our headers, PRIVATE_LINKS
-# third-party targets that stay inside the sources.
+# Programs stand on layer 5 and not on each other. USES names libraries of ours, LINKS third-party
+# targets visible in our headers, PRIVATE_LINKS third-party targets that stay inside the sources.
 
 set_property(GLOBAL PROPERTY LEVITAS_LIBRARIES "")
 # What `./amb run` needs: the programs without tests and benchmarks.
@@ -46,7 +47,7 @@ function(levitas_program name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin
-                                           LEVITAS_LAYER 59 LEVITAS_FOLDER "${folder}"
+                                           LEVITAS_LAYER 5 LEVITAS_FOLDER "${folder}"
                                            LEVITAS_USES "${A_USES}")
   set_property(GLOBAL APPEND PROPERTY LEVITAS_LIBRARIES ${name})
   add_dependencies(programs ${name})
@@ -69,10 +70,45 @@ function(_levitas_owner folder out)
   set(${out} "${best}" PARENT_SCOPE)
 endfunction()
 
-function(_levitas_refuse_unless_below library used where)
+# All that `library` uses, itself or through what it uses, in LEVITAS_REACHES; refuses a circle.
+function(_levitas_reach library)
+  get_target_property(known ${library} LEVITAS_REACHES)
+  if(NOT known MATCHES "NOTFOUND")
+    return()
+  endif()
+  get_property(asked GLOBAL PROPERTY LEVITAS_ASKED)
+  if(library IN_LIST asked)
+    list(JOIN asked " -> " circle)
+    message(FATAL_ERROR "libraries that use each other: ${circle} -> ${library}")
+  endif()
+  set_property(GLOBAL PROPERTY LEVITAS_ASKED ${asked} ${library})
+  get_target_property(uses ${library} LEVITAS_USES)
+  set(reaches ${uses})
+  foreach(used IN LISTS uses)
+    if(NOT TARGET ${used})
+      message(FATAL_ERROR "${library} uses ${used}, which is not a library of this project")
+    endif()
+    get_target_property(layer ${used} LEVITAS_LAYER)
+    if(layer MATCHES "NOTFOUND")
+      message(FATAL_ERROR "${library}: ${used} is not a library of this project; name it in LINKS")
+    endif()
+    _levitas_reach(${used})
+    get_target_property(more ${used} LEVITAS_REACHES)
+    list(APPEND reaches ${more})
+  endforeach()
+  list(REMOVE_DUPLICATES reaches)
+  set_target_properties(${library} PROPERTIES LEVITAS_REACHES "${reaches}")
+  set_property(GLOBAL PROPERTY LEVITAS_ASKED ${asked})
+endfunction()
+
+function(_levitas_refuse_unless_allowed library used where)
   get_target_property(own ${library} LEVITAS_LAYER)
   get_target_property(below ${used} LEVITAS_LAYER)
-  if(NOT below LESS own)
+  if(below LESS own)
+    return()
+  endif()
+  get_target_property(reaches ${library} LEVITAS_REACHES)
+  if(below GREATER own OR NOT used IN_LIST reaches)
     message(FATAL_ERROR "${library} (layer ${own}) may not use ${used} (layer ${below})${where}")
   endif()
 endfunction()
@@ -85,7 +121,7 @@ function(_levitas_check_includes library file)
     string(REGEX REPLACE ".*[<\"](.+)/[^/]+[>\"].*" "\\1" target_folder "${line}")
     _levitas_owner(${target_folder} owner)
     if(owner AND NOT owner STREQUAL library)
-      _levitas_refuse_unless_below(${library} ${owner} ": ${relative} has ${line}")
+      _levitas_refuse_unless_allowed(${library} ${owner} ": ${relative} has ${line}")
     endif()
   endforeach()
 endfunction()
@@ -95,16 +131,10 @@ endfunction()
 function(levitas_check_layers)
   get_property(all GLOBAL PROPERTY LEVITAS_LIBRARIES)
   foreach(library IN LISTS all)
+    _levitas_reach(${library})
     get_target_property(uses ${library} LEVITAS_USES)
     foreach(used IN LISTS uses)
-      if(NOT TARGET ${used})
-        message(FATAL_ERROR "${library} uses ${used}, which is not a library of this project")
-      endif()
-      get_target_property(layer ${used} LEVITAS_LAYER)
-      if(layer MATCHES "NOTFOUND")
-        message(FATAL_ERROR "${library}: ${used} is not a library of this project; name it in LINKS")
-      endif()
-      _levitas_refuse_unless_below(${library} ${used} "")
+      _levitas_refuse_unless_allowed(${library} ${used} "")
     endforeach()
     get_target_property(folder ${library} LEVITAS_FOLDER)
     file(GLOB_RECURSE files ${PROJECT_SOURCE_DIR}/${folder}/*.hpp ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
@@ -114,6 +144,24 @@ function(levitas_check_layers)
       _levitas_owner(${file_folder} owner)
       if(owner STREQUAL library)
         _levitas_check_includes(${library} ${file})
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+# Two groups of libraries of which none reaches one of the other.
+function(levitas_keep_apart)
+  cmake_parse_arguments(A "" "" "WALL;FROM" ${ARGN})
+  foreach(library IN LISTS A_WALL A_FROM)
+    _levitas_reach(${library})
+    get_target_property(reaches ${library} LEVITAS_REACHES)
+    set(others ${A_FROM})
+    if(library IN_LIST A_FROM)
+      set(others ${A_WALL})
+    endif()
+    foreach(other IN LISTS others)
+      if(other IN_LIST reaches)
+        message(FATAL_ERROR "${library} may not reach ${other}: they are kept apart")
       endif()
     endforeach()
   endforeach()

@@ -18,7 +18,7 @@ def declared():
         text = re.sub(r"#.*", "", path.read_text())
         found |= {name: int(layer) for name, layer in re.findall(
             r"levitas_library\(\s*([\w-]+)\s[^)]*?LAYER\s+(\d+)", text)}
-        found |= dict.fromkeys(re.findall(r"levitas_program\(\s*([\w-]+)", text), 59)
+        found |= dict.fromkeys(re.findall(r"levitas_program\(\s*([\w-]+)", text), 5)
         found |= dict.fromkeys(re.findall(r"levitas_lcm_types\(\s*([\w-]+)", text), 0)
     return found
 

@@ -1,4 +1,4 @@
-"""An upward or sideways use stops the configuration, whether declared or only included.
+"""An upward use, and a sideways one that nobody declared, stop the configuration.
 
 Each case writes a project of a few empty libraries, includes the real cmake/Layers.cmake, and
 configures it. The environment names CMAKE and LEVITAS_SOURCE.
@@ -22,7 +22,7 @@ BASE = {
 }
 
 
-def configure(libraries, files):
+def configure(libraries, files, last=""):
     """Status and output of configuring a project with these libraries and files (path -> text)."""
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
@@ -30,7 +30,7 @@ def configure(libraries, files):
                  f'include("{SOURCE}/cmake/Layers.cmake")']
         for name, (where, layer, uses) in libraries.items():
             lines.append(f"levitas_library({name} LAYER {layer} FOLDER {where} {uses})")
-        lines.append("levitas_check_layers()")
+        lines += ["levitas_check_layers()", last]
         (root / "CMakeLists.txt").write_text("\n".join(lines) + "\n")
         for path, text in files.items():
             (root / path).parent.mkdir(parents=True, exist_ok=True)
@@ -41,8 +41,8 @@ def configure(libraries, files):
 
 
 class Layers(unittest.TestCase):
-    def assert_refused(self, libraries, files, sentence):
-        status, said = configure(libraries, files)
+    def assert_refused(self, libraries, files, sentence, last=""):
+        status, said = configure(libraries, files, last)
         self.assertNotEqual(status, 0, said)
         self.assertIn(sentence, said)
 
@@ -57,9 +57,27 @@ class Layers(unittest.TestCase):
         self.assert_refused({**BASE, "law": ("controller/law", 1, "USES port_lcm")}, {},
                             "law (layer 1) may not use port_lcm (layer 4)")
 
-    def test_refuse_a_declared_sideways_use(self):
-        self.assert_refused({**BASE, "law": ("controller/law", 1, "USES magnet")}, {},
-                            "law (layer 1) may not use magnet (layer 1)")
+    def test_accept_a_sideways_use_that_is_declared_or_reached_through_one(self):
+        libraries = {**BASE, "law": ("controller/law", 1, "USES magnet"),
+                     "cycle": ("controller/cycle", 1, "USES law")}
+        status, said = configure(libraries, {
+            "controller/law/pid.hpp": '#include "plant_sim/magnet/force.hpp"\n',
+            "controller/cycle/cycle.hpp": '#include "plant_sim/magnet/force.hpp"\n'})
+        self.assertEqual(status, 0, said)
+
+    def test_refuse_libraries_that_use_each_other(self):
+        self.assert_refused({**BASE, "law": ("controller/law", 1, "USES magnet"),
+                             "magnet": ("plant_sim/magnet", 1, "USES law")}, {},
+                            "libraries that use each other: law -> magnet -> law")
+
+    def test_refuse_what_is_kept_apart_although_it_is_declared(self):
+        libraries = {**BASE, "gap": ("plant_sim/gap", 1, "USES magnet")}
+        apart = "levitas_keep_apart(WALL law FROM magnet)"
+        self.assertEqual(configure(libraries, {}, apart)[0], 0)
+        self.assert_refused({**libraries, "law": ("controller/law", 1, "USES gap")}, {},
+                            "law may not reach magnet: they are kept apart", apart)
+        self.assert_refused({**libraries, "magnet": ("plant_sim/magnet", 1, "USES law")}, {},
+                            "magnet may not reach law: they are kept apart", apart)
 
     def test_refuse_an_upward_include_and_name_the_file(self):
         self.assert_refused(
