@@ -20,9 +20,9 @@
 #include "cli/text_file.hpp"
 #include "cli/written_files.hpp"
 #include "diagnosis/levitator/plan.hpp"
-#include "diagnosis/plan.hpp"
-#include "diagnosis/session.hpp"
-#include "diagnosis/words.hpp"
+#include "diagnosis/report/plan.hpp"
+#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/words.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -7,11 +7,11 @@
 #include "cli/json_file.hpp"
 #include "cli/text_file.hpp"
 #include "common/problem.hpp"
-#include "diagnosis/calibrated_rig.hpp"
-#include "diagnosis/coverage.hpp"
-#include "diagnosis/doubt.hpp"
-#include "diagnosis/extended_rig.hpp"
-#include "diagnosis/words.hpp"
+#include "diagnosis/report/calibrated_rig.hpp"
+#include "diagnosis/report/coverage.hpp"
+#include "diagnosis/report/doubt.hpp"
+#include "diagnosis/report/extended_rig.hpp"
+#include "diagnosis/report/words.hpp"
 
 namespace levitas::cli {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "config/rig_file.hpp"
-#include "diagnosis/session.hpp"
+#include "diagnosis/report/session.hpp"
 
 namespace levitas::cli {
 

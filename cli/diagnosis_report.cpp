@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "cli/diagnosis_text.hpp"
-#include "diagnosis/doubt.hpp"
-#include "diagnosis/words.hpp"
+#include "diagnosis/report/doubt.hpp"
+#include "diagnosis/report/words.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {

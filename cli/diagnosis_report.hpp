@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "diagnosis/session.hpp"
+#include "diagnosis/report/session.hpp"
 
 namespace levitas::cli {
 

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "cli/text_table.hpp"
-#include "diagnosis/doubt.hpp"
-#include "diagnosis/words.hpp"
+#include "diagnosis/report/doubt.hpp"
+#include "diagnosis/report/words.hpp"
 
 namespace levitas::cli {
 namespace {

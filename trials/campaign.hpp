@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "controller/law/law_config.hpp"
-#include "diagnosis/model_run.hpp"
+#include "diagnosis/model/model_run.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "trials/outside.hpp"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/calibrate.hpp"
-#include "diagnosis/flight.hpp"
-#include "diagnosis/load.hpp"
-#include "diagnosis/search.hpp"
+#include "diagnosis/inference/calibrate.hpp"
+#include "diagnosis/inference/search.hpp"
+#include "diagnosis/records/flight.hpp"
+#include "diagnosis/records/load.hpp"
 
 namespace levitas::trials {
 namespace {

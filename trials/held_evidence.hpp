@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "config/rig_file.hpp"
-#include "diagnosis/model_run.hpp"
+#include "diagnosis/model/model_run.hpp"
 #include "plant_sim/effect/effect_config.hpp"
 
 namespace levitas::trials {

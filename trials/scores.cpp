@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "diagnosis/words.hpp"
+#include "diagnosis/report/words.hpp"
 #include "trials/true_value.hpp"
 
 namespace levitas::trials {

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "diagnosis/session.hpp"
+#include "diagnosis/report/session.hpp"
 #include "trials/trial.hpp"
 
 namespace levitas::trials {

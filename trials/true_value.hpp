@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "common/rig_numbers.hpp"
-#include "diagnosis/named_values.hpp"
+#include "diagnosis/report/named_values.hpp"
 #include "trials/trial.hpp"
 
 namespace levitas::trials {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "diagnosis/levitator/shared_form.hpp"
-#include "diagnosis/load.hpp"
-#include "diagnosis/same_rows.hpp"
+#include "diagnosis/records/load.hpp"
+#include "diagnosis/records/same_rows.hpp"
 
 namespace levitas::levitator {
 namespace {

@@ -18,7 +18,7 @@
 
 #include "diagnosis/levitator/run_fit.hpp"
 #include "diagnosis/levitator/search.hpp"
-#include "diagnosis/session.hpp"
+#include "diagnosis/report/session.hpp"
 
 namespace levitas::levitator {
 

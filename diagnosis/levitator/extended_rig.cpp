@@ -8,7 +8,7 @@
 
 #include "common/problem.hpp"
 #include "diagnosis/levitator/answer.hpp"
-#include "diagnosis/words.hpp"
+#include "diagnosis/report/words.hpp"
 
 namespace levitas::levitator {
 namespace {

@@ -5,7 +5,7 @@
 //            priors; a value that would have to be impossible (Row::least) stays at its bound.
 // Evidence   Laplace's approximation, -1/2 (squared sum + penalty + log det): differences between
 //            sets on the same whitening mean something, one number alone does not. As in
-//            diagnosis/evidence.hpp, where a prior of its own is added for every place.
+//            diagnosis/inference/evidence.hpp, where a prior of its own is added for every place.
 // Units      nat. Thread: blocks the caller, two threads inside.
 
 #include <vector>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/levinson.hpp"
-#include "diagnosis/two_threads.hpp"
+#include "diagnosis/model/levinson.hpp"
+#include "diagnosis/model/two_threads.hpp"
 
 namespace levitas::levitator {
 namespace {

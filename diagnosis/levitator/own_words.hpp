@@ -6,7 +6,7 @@
 
 #include "config/rig_file.hpp"
 #include "diagnosis/levitator/search.hpp"
-#include "diagnosis/session.hpp"
+#include "diagnosis/report/session.hpp"
 
 namespace levitas::levitator {
 

@@ -5,7 +5,7 @@
 //            run from the commanded voltage and the measured position. The lower coil's too where
 //            it moves.
 // Motion     fit of the one-step prediction with the fixed observer (motion_run.hpp), as in
-//            diagnosis/gain.hpp: a force that is wrong stays in it as an offset.
+//            diagnosis/inference/gain.hpp: a force that is wrong stays in it as an offset.
 // Ceiling    the fit that white noise alone would leave, of the power that what is left has near
 //            half the sampling rate, where coil and ball follow nothing.
 // Interval   5 to 95 % of a block bootstrap over blocks of half a second (Kuensch 1989), written

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/inference/diagnose.hpp"
 
 namespace levitas::levitator {
 namespace {

@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "diagnosis/linear_change.hpp"
+#include "diagnosis/model/linear_change.hpp"
 #include "diagnosis/terms/terms.hpp"
 
 namespace levitas::diagnosis {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "diagnosis/linear_change.hpp"
+#include "diagnosis/model/linear_change.hpp"
 #include "diagnosis/terms/terms.hpp"
 
 namespace levitas::diagnosis {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/linear_change.hpp"
+#include "diagnosis/model/linear_change.hpp"
 #include "diagnosis/terms/terms.hpp"
 
 namespace levitas::diagnosis {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "config/tolerances.hpp"
-#include "diagnosis/rig_view.hpp"
-#include "diagnosis/term.hpp"
+#include "diagnosis/model/rig_view.hpp"
+#include "diagnosis/model/term.hpp"
 
 namespace levitas::diagnosis {
 

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-#include "diagnosis/linear_change.hpp"
+#include "diagnosis/model/linear_change.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "plant_sim/amplifier/amplifier.hpp"
 

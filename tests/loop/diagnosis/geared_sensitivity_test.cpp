@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "diagnosis/search.hpp"
+#include "diagnosis/inference/search.hpp"
+#include "diagnosis/model/turns.hpp"
 #include "diagnosis/terms/terms.hpp"
-#include "diagnosis/turns.hpp"
 #include "trials/trial.hpp"
 
 namespace levitas::diagnosis {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/extended_rig.hpp"
+#include "diagnosis/report/extended_rig.hpp"
 #include "trials/scores.hpp"
 
 namespace levitas::trials {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnosis/search.hpp"
+#include "diagnosis/inference/search.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "trials/trial.hpp"
 

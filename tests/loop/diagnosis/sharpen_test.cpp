@@ -1,15 +1,15 @@
 // A slew limit between two members of its family is found where it is, and explains what neither
 // neighbour does.
 
-#include "diagnosis/sharpen.hpp"
+#include "diagnosis/inference/sharpen.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/calibrate.hpp"
-#include "diagnosis/load.hpp"
+#include "diagnosis/inference/calibrate.hpp"
+#include "diagnosis/records/load.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "trials/trial.hpp"
 

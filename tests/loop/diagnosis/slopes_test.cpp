@@ -1,13 +1,13 @@
 // Kept derivatives: their sums are those of the propagated derivatives, and a fit along them claims
 // no more than the model keeps.
 
-#include "diagnosis/slopes.hpp"
+#include "diagnosis/model/slopes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "diagnosis/calibrate.hpp"
+#include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "trials/trial.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/search.hpp"
+#include "diagnosis/inference/search.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "trials/campaign.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "diagnosis/session.hpp"
+#include "diagnosis/report/session.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {

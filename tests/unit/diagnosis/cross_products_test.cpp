@@ -1,6 +1,6 @@
 // Sums of products of columns against the plain ones.
 
-#include "diagnosis/cross_products.hpp"
+#include "diagnosis/model/cross_products.hpp"
 
 #include <gtest/gtest.h>
 

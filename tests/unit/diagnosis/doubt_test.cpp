@@ -1,13 +1,13 @@
 // When an answer is doubted: values that no healthy rig has, healthy records of another rig.
 
-#include "diagnosis/doubt.hpp"
+#include "diagnosis/report/doubt.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "diagnosis/words.hpp"
+#include "diagnosis/report/words.hpp"
 #include "tests/unit/diagnosis/answers.hpp"
 
 namespace levitas::diagnosis {

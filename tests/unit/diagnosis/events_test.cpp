@@ -1,7 +1,7 @@
 // Lost frames, the level of the noise and mains, found in records made by hand.
 
-#include "diagnosis/events.hpp"
-#include "diagnosis/mains_lines.hpp"
+#include "diagnosis/inference/events.hpp"
+#include "diagnosis/inference/mains_lines.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Evidence of a cause against the closed forms of Bayesian linear regression.
 
-#include "diagnosis/evidence.hpp"
+#include "diagnosis/inference/evidence.hpp"
 
 #include <gtest/gtest.h>
 

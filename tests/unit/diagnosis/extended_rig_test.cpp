@@ -1,6 +1,6 @@
 // The rig file with a cause switched on: read back strictly, it has the effect that was found.
 
-#include "diagnosis/extended_rig.hpp"
+#include "diagnosis/report/extended_rig.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "config/rig_file.hpp"
-#include "diagnosis/calibrated_rig.hpp"
+#include "diagnosis/report/calibrated_rig.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/effect/crack.hpp"
 #include "plant_sim/rotor/plane_shape.hpp"

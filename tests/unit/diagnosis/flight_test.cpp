@@ -1,6 +1,6 @@
 // Rows in contact with a touchdown bearing, or without current, are left out; flight stays.
 
-#include "diagnosis/flight.hpp"
+#include "diagnosis/records/flight.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The gain of an extension against what was put into the innovations.
 
-#include "diagnosis/gain.hpp"
+#include "diagnosis/inference/gain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The causes that a diagnosis considers, made from the terms of a rig.
 
-#include "diagnosis/hypothesis.hpp"
+#include "diagnosis/inference/hypothesis.hpp"
 
 #include <gtest/gtest.h>
 

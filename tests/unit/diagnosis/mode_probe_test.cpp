@@ -1,6 +1,6 @@
 // A mode that rings elsewhere than its file says is begun there.
 
-#include "diagnosis/mode_probe.hpp"
+#include "diagnosis/inference/mode_probe.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include "common/random.hpp"
 #include "config/rig_file.hpp"
-#include "diagnosis/rig_view.hpp"
-#include "diagnosis/term.hpp"
+#include "diagnosis/model/rig_view.hpp"
+#include "diagnosis/model/term.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 

@@ -1,10 +1,10 @@
 // The observer believes the same of a rotor whatever the scale in which sensors and modes show it.
 
-#include "diagnosis/observer_scale.hpp"
+#include "diagnosis/model/observer_scale.hpp"
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/linear_change.hpp"
+#include "diagnosis/model/linear_change.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {

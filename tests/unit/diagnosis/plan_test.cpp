@@ -1,6 +1,6 @@
 // The scenario that would separate what the data could not.
 
-#include "diagnosis/plan.hpp"
+#include "diagnosis/report/plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Records in another unit than their columns say are refused; what a rig can do is not.
 
-#include "diagnosis/plausible.hpp"
+#include "diagnosis/records/plausible.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

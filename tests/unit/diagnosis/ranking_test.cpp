@@ -1,6 +1,6 @@
 // What a ranking says of its candidates, on runs and candidates made by hand.
 
-#include "diagnosis/ranking.hpp"
+#include "diagnosis/inference/ranking.hpp"
 
 #include <gtest/gtest.h>
 

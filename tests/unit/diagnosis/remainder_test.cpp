@@ -1,6 +1,6 @@
 // What remains after a diagnosis: whether it is noise, and if not where it belongs.
 
-#include "diagnosis/remainder.hpp"
+#include "diagnosis/inference/remainder.hpp"
 
 #include <gtest/gtest.h>
 

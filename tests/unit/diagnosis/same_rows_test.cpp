@@ -1,6 +1,6 @@
 // Records that hold rows of another one are found, by whatever file they came.
 
-#include "diagnosis/same_rows.hpp"
+#include "diagnosis/records/same_rows.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/search.hpp"
+#include "diagnosis/inference/search.hpp"
 
 namespace levitas::diagnosis {
 namespace {

@@ -1,6 +1,6 @@
 // A model that loses the rotor, told from one that only errs.
 
-#include "diagnosis/stray.hpp"
+#include "diagnosis/model/stray.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "diagnosis/model_run.hpp"
+#include "diagnosis/model/model_run.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {

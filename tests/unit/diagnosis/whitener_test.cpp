@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/normal_equations.hpp"
+#include "diagnosis/model/normal_equations.hpp"
 #include "tests/unit/diagnosis/trajectories.hpp"
 
 namespace levitas::diagnosis {

@@ -1,6 +1,6 @@
 // What a diagnosis says.
 
-#include "diagnosis/words.hpp"
+#include "diagnosis/report/words.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <complex>
 
 #include "config/rig_file.hpp"
-#include "diagnosis/carry_over.hpp"
-#include "diagnosis/coverage.hpp"
-#include "diagnosis/plan.hpp"
+#include "diagnosis/report/carry_over.hpp"
+#include "diagnosis/report/coverage.hpp"
+#include "diagnosis/report/plan.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "tests/unit/diagnosis/answers.hpp"
 

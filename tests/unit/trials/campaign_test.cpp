@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "diagnosis/load.hpp"
+#include "diagnosis/records/load.hpp"
 #include "trials/trial.hpp"
 
 namespace levitas::trials {

@@ -1,0 +1,79 @@
+#include "diagnosis/inference/calibrate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "common/problem.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr std::size_t kFastRows = 18'000;  ///< of all records
+constexpr std::size_t kStartRows = 30'000;
+constexpr int kStartPasses = 5;
+constexpr double kHeld = 0.2;  ///< of its tolerance
+
+/// How a rig is built is held near its file; what state it is in is not.
+std::vector<Term> Held(std::vector<Term> terms) {
+  constexpr std::array<std::string_view, 4> kState{"unbalance", "static_load", "sensor_offset",
+                                                   "sensor_runout"};
+  for (Term& term : terms) {
+    if (std::find(kState.begin(), kState.end(), term.effect) == kState.end()) {
+      term.tolerance *= kHeld;
+    }
+  }
+  return terms;
+}
+
+/// From the usual rig: a fast observer on a few rows, then the one of `gains`.
+std::vector<double> FromFar(const RigView& rig, const Search& search,
+                            const std::vector<Term>& terms, const std::vector<Record>& few,
+                            const std::vector<Record>& records, const Gains& gains) {
+  const Gains fast = search.DesignGains(few, kFast);
+  std::vector<double> start = search.Usual();
+  const Refined coarse =
+      Refiner(search, terms, few, fast, rig.axes).Approach(start, kWhiteningOrder, 3);
+  const Refiner refiner(search, terms, records, gains, rig.axes);
+  // What a fast observer likes on a part of the records may be worse than the usual rig. Judged by
+  // plain power: a whitening of its own would take a large orbit for colour and forgive it.
+  if (coarse.ok && refiner.Misfit(coarse.theta, 0) <= refiner.Misfit(start, 0)) {
+    start = coarse.theta;
+  }
+  const Refined fine = refiner.Approach(start, kWhiteningOrder, kStartPasses);
+  return fine.ok ? fine.theta : start;
+}
+
+}  // namespace
+
+Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::vector<Term>& terms,
+                           const std::vector<Record>& all, const std::vector<Record>& records,
+                           const Gains& gains, const ObserverSpeed& speed, int passes) {
+  const std::vector<Term> held = Held(terms);
+  const Search cautious(rig, held);
+  const std::vector<Record> part = Spans(all, kStartRows);
+  const std::vector<double> start =
+      FromFar(rig, cautious, held, Spans(all, kFastRows), part, cautious.DesignGains(part, speed));
+  return Refiner(search, terms, records, gains, rig.axes).Approach(start, kWhiteningOrder, passes);
+}
+
+void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
+                      std::vector<Term>& terms) {
+  const Search search(rig, terms);
+  const std::vector<Record> records = Spans(healthy, kHealthyRows);
+  constexpr int kPasses = 8;
+  const Refined fit = CalibrateNuisances(rig, search, terms, healthy, records,
+                                         search.DesignGains(records, kSlow), kSlow, kPasses);
+  if (!fit.ok) throw BadInput("the healthy records cannot be calibrated: is it the same rig?");
+  const Fit posterior = Evidence(fit.problem, terms, {}).Solve();
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    Term& term = terms[i];
+    if (!term.nuisance()) continue;
+    const double left = posterior.deviation[static_cast<Eigen::Index>(i)] * term.scale();
+    term.usual = fit.theta[i];
+    term.tolerance = std::min(term.tolerance, std::hypot(left, kDaily * term.tolerance));
+  }
+}
+
+}  // namespace levitas::diagnosis

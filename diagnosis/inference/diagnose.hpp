@@ -1,0 +1,86 @@
+#pragma once
+// What a rig does that its model does not: the search for the cause, and its answer.
+//
+// Method     1 calibrate: the nuisances within their tolerances, with a fast observer first
+// (smooth,
+//              coarse) and a slow one after it (sees slow effects), Gauss-Newton on innovations;
+//            2 screen: one pass with the sensitivities of every term gives the evidence of every
+//              hypothesis (evidence.hpp) on top of the causes found so far;
+//            3 refit: the best few by Gauss-Newton together with the nuisances on the nonlinear
+//              model (refine.hpp); the best of them is a cause, and each earlier one is dropped
+//              again when the others explain its share (backward check); what only a few members
+//              of a family stand for is sharpened; again from 2 until none gains enough;
+//              Several causes are exchanged, one by one, for what comes nearest (exchange.hpp);
+//            4 rank: every effect in place of the first cause, the nearest refitted;
+//            5 judge what remains (remainder.hpp).
+// Strays     a model that loses the rotor is held by a faster observer until the causes found let go
+//            of it (stray.hpp).
+// Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.
+// Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of
+//            magnets and contacts are known to a tenth or so of their amplitude, so a hundredth of
+//            what the right one gains is left to be explained by wrong ones.
+// Answer     `effect` when a cause gains enough; ties are all that come within kDecisive of it;
+//            `unknown` when power is left that stands out of the noise, and is more than a small
+//            part of what the calibrated model left; else `none`.
+// Units      evidence in nats. Thread: blocks the caller, two threads inside.
+// Failure    BadInput for records that are too short.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference/evidence.hpp"
+#include "diagnosis/inference/remainder.hpp"
+#include "diagnosis/model/observer_speed.hpp"
+#include "diagnosis/terms/terms.hpp"
+
+namespace levitas::diagnosis {
+
+inline constexpr double kDecisive = 5.0;  ///< [nat] odds of 150 : 1
+inline constexpr double kForm = 0.02;     ///< share of the evidence that a law's form may leave
+
+struct Settings {
+  bool quick{};  ///< a first answer: the strongest cause, from a part of the records
+  std::size_t most_causes{3};
+  std::string only;  ///< the one effect that is looked for; empty: all
+  /// Share done and what is being done; may be empty.
+  std::function<void(double, const std::string&)> progress;
+};
+
+struct Candidate {
+  std::string effect;
+  std::string place;
+  double score{};  ///< [nat] evidence beyond nuisances and the other causes
+  std::size_t hypothesis{};
+  bool refitted{};  ///< on the nonlinear model; else from the screen
+};
+
+struct Estimate {
+  std::string effect, place, parameter, unit;
+  double value{};
+  double deviation{};
+};
+
+enum class Verdict { kNone, kEffect, kUnknown };
+
+struct Answer {
+  Verdict verdict{Verdict::kNone};
+  std::vector<Hypothesis> causes;          ///< in the order of selection
+  std::vector<std::string> also_possible;  ///< effects that the data cannot separate from the first
+  std::vector<Estimate> parameters;        ///< of the causes
+  std::vector<Estimate> calibration;       ///< of the nuisances
+  std::vector<Candidate> candidates;       ///< best place of every effect, best first
+  ObserverSpeed speed{kSlow};  ///< under which the model followed the records in the end
+  Remainder remainder;
+  std::vector<double> theta_calibrated;  ///< nuisances alone
+  std::vector<double> theta_extended;    ///< with the causes
+  std::vector<Trajectory> runs;          ///< of the extended model
+  double evidence{};                     ///< [nat] of all causes together
+  double explained{};                    ///< share of the calibrated model's excess over the noise
+};
+
+/// Terms of a family that is named become its best member (sharpen.hpp).
+[[nodiscard]] Answer Diagnose(const RigView& rig, const std::vector<Record>& records,
+                              const Settings& settings, std::vector<Term>& terms);
+
+}  // namespace levitas::diagnosis

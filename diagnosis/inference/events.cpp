@@ -1,0 +1,85 @@
+#include "diagnosis/inference/events.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace levitas::diagnosis {
+namespace {
+
+bool SameOnAllAxes(const AxisArray& a, const AxisArray& b, std::size_t axes) {
+  return std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(axes), b.begin());
+}
+
+/// More in a row are no loss but a pause: another flight, or rows that were left out.
+constexpr std::uint64_t kMostLost = 20;
+
+struct Frames {
+  std::size_t sent{}, lost{};
+};
+
+Frames CountFrames(const RigView& rig, const std::vector<Record>& records) {
+  Frames frames;
+  for (const Record& record : records) {
+    for (std::size_t n = 1; n < record.rows.size(); ++n) {
+      const auto& before = record.rows[n - 1];
+      const auto& now = record.rows[n];
+      if (!before.levitated || !now.levitated) continue;
+      if (now.cycle > before.cycle + 1 + kMostLost) continue;
+      const bool missing = now.cycle != before.cycle + 1;
+      const bool repeated =
+          SameOnAllAxes(before.sample.position_m, now.sample.position_m, rig.axes) ||
+          SameOnAllAxes(before.sample.command.control_current_a,
+                        now.sample.command.control_current_a, rig.axes);
+      ++frames.sent;
+      if (missing || repeated) ++frames.lost;
+    }
+  }
+  return frames;
+}
+
+/// What the rig file says is lost, and as many again as chance may add: three deviations of a sum
+/// of bursts.
+double LostByFile(const RigView& rig, const Frames& frames) {
+  double most = 0.0;
+  for (const effect::EffectConfig& entry : rig.by_chance) {
+    if (entry.id != effect::Id::kDroppedSamples) continue;
+    const double burst = entry.values[1];
+    const double lost = entry.values[0] * burst * static_cast<double>(frames.sent);
+    most += lost + 3.0 * std::sqrt(lost * burst);
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>& records,
+                                  const Remainder& remainder) {
+  std::vector<Candidate> found;
+  constexpr double kPerFrame = 10.0;  // [nat] a repetition by chance, and a prior of one in ten
+  const Frames frames = CountFrames(rig, records);
+  const double unforeseen = static_cast<double>(frames.lost) - LostByFile(rig, frames);
+  if (unforeseen > 0.0) {
+    found.push_back({.effect = "dropped_samples",
+                     .place = fmt::format("{} frames", frames.lost),
+                     .score = kPerFrame * (unforeseen - 1.0)});
+  }
+  double evidence = 0.0;
+  std::string where;
+  for (std::size_t a = 0; a < rig.axes && a < remainder.channels.size(); ++a) {
+    if (!(remainder.channels[a].noise_rms_m > 0.0)) continue;
+    const double off =
+        std::log(remainder.channels[a].noise_rms_m / rig.ReadingNoise(a)) / kNoiseTolerance;
+    const double gain = 0.5 * off * off - std::log(10.0);
+    if (gain < kDecisive) continue;
+    evidence += gain;
+    where += (where.empty() ? "" : ", ") + rig.numbers.channels[a];
+  }
+  if (evidence > 0.0) {
+    found.push_back({.effect = "sensor_noise", .place = where, .score = evidence});
+  }
+  return found;
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,76 @@
+#pragma once
+// What the data say for a cause: Laplace's approximation of the evidence, from normal equations.
+//
+// Equation   log p(data | base + cause) - log p(data | base) = 1/2 r^T (S+1)^-1 r - 1/2 log
+//            det(S+1), where S and r are the cause's normal equations after the base (nuisances
+//            with their tolerances, causes already accepted) has taken what it can. The second part
+//            makes a hypothesis pay for its freedom (MacKay 1992, Bayesian interpolation).
+// Origin     parameters are total ones with a prior about the nominal rig, wherever the model was
+//            linearised.
+// Units      nats. Thread: any; pure.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/inference/hypothesis.hpp"
+#include "diagnosis/model/normal_equations.hpp"
+
+namespace levitas::diagnosis {
+
+/// Normal equations as if taken at theta = 0 (units of Term::scale()).
+struct LinearProblem {
+  Eigen::MatrixXd jtj;
+  Eigen::VectorXd jte;
+  double ete{};
+  std::size_t values{};
+};
+
+[[nodiscard]] LinearProblem AtOrigin(const NormalEquations& equations,
+                                     const Eigen::VectorXd& theta_scaled);
+
+struct Fit {
+  Eigen::VectorXd theta;      ///< all terms, units of Term::scale()
+  Eigen::VectorXd deviation;  ///< posterior standard deviation of each term
+  double squared_sum{};       ///< predicted e^T e
+  double penalty{};           ///< squared sum of parameters over their priors
+  double log_evidence{};      ///< relative to all parameters at 0
+};
+
+class Evidence {
+ public:
+  /// `accepted` are causes that belong to the base.
+  Evidence(const LinearProblem& problem, const std::vector<Term>& terms,
+           const std::vector<Hypothesis>& accepted);
+
+  /// Gain of adding the hypothesis [nats], prior of its place included; -infinity if it would have
+  /// to be negative.
+  [[nodiscard]] double Gain(const Hypothesis& hypothesis) const;
+  /// The base with the accepted causes.
+  [[nodiscard]] Fit Solve() const;
+  /// Towards the solution from `theta` (units of Term::scale()), no further than the linearisation
+  /// is good for: steps are held back as if by `damping` more priors about theta, which leaves those
+  /// that the data determine and shortens those that they do not (Levenberg 1944).
+  [[nodiscard]] Eigen::VectorXd Step(const Eigen::VectorXd& theta, double damping) const;
+  /// The step of all and of one parameter more, whose slopes are known by their products alone.
+  struct Beside {
+    double step;            ///< of the further parameter
+    Eigen::VectorXd theta;  ///< where the others go with it
+  };
+  /// `cross`: slopes of all with its slope, J^T j; `gradient`: e^T j; `curvature`: j^T j. No further
+  /// than `most` either way; where the cost bends the wrong way, as far downhill.
+  [[nodiscard]] Beside StepBeside(const Eigen::VectorXd& theta, const Eigen::VectorXd& cross,
+                                  double gradient, double curvature, double most) const;
+
+ private:
+  /// Gradient of half the cost by the parameters of the base.
+  [[nodiscard]] Eigen::VectorXd Uphill(const Eigen::VectorXd& theta) const;
+
+  const LinearProblem& problem_;
+  Eigen::MatrixXd base_;      ///< terms x base parameters, scaled by their priors
+  Eigen::MatrixXd jtj_base_;  ///< terms x base parameters
+  Eigen::MatrixXd factor_;    ///< lower Cholesky factor of base normal equations + 1
+  Eigen::VectorXd solution_;
+  double log_determinant_{};
+};
+
+}  // namespace levitas::diagnosis

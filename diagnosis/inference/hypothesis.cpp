@@ -1,0 +1,142 @@
+#include "diagnosis/inference/hypothesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace levitas::diagnosis {
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+class Maker {
+ public:
+  Maker(const RigView& rig, const std::vector<Term>& terms) : rig_(rig), terms_(terms) {}
+
+  std::vector<Hypothesis> Make() {
+    std::map<std::string, Indices> effects;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (!terms_[i].effect.empty()) effects[terms_[i].effect].push_back(i);
+    }
+    for (const auto& [effect, indices] : effects) AddEffect(effect, indices);
+    std::map<std::string, double> places;
+    for (const Hypothesis& h : out_) places[h.effect] += 1.0;
+    for (Hypothesis& h : out_) h.log_prior = -std::log(places[h.effect]);
+    return std::move(out_);
+  }
+
+ private:
+  void AddEffect(const std::string& effect, const Indices& indices) {
+    std::map<std::string, Indices> places;
+    for (const std::size_t i : indices) places[terms_[i].place].push_back(i);
+    for (const auto& [place, members] : places) Free(effect, place, members);
+    const auto& channels = rig_.numbers.channels;
+    const bool by_axis = std::all_of(places.begin(), places.end(), [&](const auto& entry) {
+      return std::find(channels.begin(), channels.end(), entry.first) != channels.end();
+    });
+    if (by_axis) {
+      for (std::size_t b = 0; b < rig_.numbers.bearings.size(); ++b) {
+        Common(effect, rig_.numbers.bearings[b], OfBearing(indices, b));
+      }
+      Common(effect, "all axes", indices);
+      Free(effect, "every axis by itself", indices);
+      return;
+    }
+    // Grids of a shape parameter are alternatives; these sum up.
+    if (effect == "unbalance" || effect == "misalignment") Free(effect, "all places", indices);
+    if (effect == "sensor_runout") AddRunout(indices);
+    if (effect == "mains_pickup") AddMains(indices);
+  }
+
+  void AddRunout(const Indices& indices) {
+    for (const char* order : {"order 1", "order 2", "order 3"}) {
+      const Indices of_order = Within(indices, order);
+      for (std::size_t b = 0; b < rig_.numbers.bearings.size(); ++b) {
+        Free("sensor_runout", std::string(order) + ", " + rig_.numbers.bearings[b],
+             OfBearing(of_order, b));
+      }
+      Free("sensor_runout", std::string(order) + ", all axes", of_order);
+    }
+    Free("sensor_runout", "all orders, all axes", indices);
+  }
+
+  void AddMains(const Indices& indices) {
+    for (const char* line : {"50 Hz", "60 Hz", "100 Hz", "120 Hz", "150 Hz"}) {
+      const Indices of_line = Within(indices, line);
+      if (!of_line.empty()) Free("mains_pickup", std::string(line) + ", all axes", of_line);
+    }
+  }
+
+  [[nodiscard]] Indices Within(const Indices& indices, const std::string& part) const {
+    Indices found;
+    for (const std::size_t i : indices) {
+      const std::string place = " " + terms_[i].place;
+      if (place.find(" " + part) != std::string::npos) found.push_back(i);
+    }
+    return found;
+  }
+
+  /// Those whose place is an axis of the bearing, or ends with it.
+  [[nodiscard]] Indices OfBearing(const Indices& indices, std::size_t bearing) const {
+    Indices found;
+    for (const std::size_t i : indices) {
+      const std::string place = ", " + terms_[i].place;
+      for (const std::size_t a : {2 * bearing, 2 * bearing + 1}) {
+        if (place.ends_with(", " + rig_.numbers.channels[a])) found.push_back(i);
+      }
+    }
+    return found;
+  }
+
+  Hypothesis Empty(const std::string& effect, const std::string& place, const Indices& members,
+                   std::size_t columns) const {
+    Hypothesis h;
+    h.effect = effect;
+    h.place = place;
+    h.terms = members;
+    h.positive = terms_[members.front()].positive;
+    h.directions = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(terms_.size()),
+                                         static_cast<Eigen::Index>(columns));
+    return h;
+  }
+
+  /// Every term by its own amount.
+  void Free(const std::string& effect, const std::string& place, const Indices& members) {
+    Hypothesis h = Empty(effect, place, members, members.size());
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      h.directions(static_cast<Eigen::Index>(members[k]), static_cast<Eigen::Index>(k)) = 1.0;
+    }
+    h.positive = h.positive && members.size() == 1;
+    out_.push_back(std::move(h));
+  }
+
+  /// Terms with the same parameter by the same amount.
+  void Common(const std::string& effect, const std::string& place, const Indices& members) {
+    std::vector<std::string> parameters;
+    for (const std::size_t i : members) {
+      if (std::find(parameters.begin(), parameters.end(), terms_[i].parameter) ==
+          parameters.end()) {
+        parameters.push_back(terms_[i].parameter);
+      }
+    }
+    Hypothesis h = Empty(effect, place, members, parameters.size());
+    for (const std::size_t i : members) {
+      const auto column = std::find(parameters.begin(), parameters.end(), terms_[i].parameter);
+      h.directions(static_cast<Eigen::Index>(i), column - parameters.begin()) = 1.0;
+    }
+    out_.push_back(std::move(h));
+  }
+
+  const RigView& rig_;
+  const std::vector<Term>& terms_;
+  std::vector<Hypothesis> out_;
+};
+
+}  // namespace
+
+std::vector<Hypothesis> MakeHypotheses(const RigView& rig, const std::vector<Term>& terms) {
+  return Maker(rig, terms).Make();
+}
+
+}  // namespace levitas::diagnosis

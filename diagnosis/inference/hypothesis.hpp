@@ -1,0 +1,33 @@
+#pragma once
+// The causes a diagnosis considers: which terms move together, and where.
+//
+// Made from  the list of terms: every place of an effect by itself, the axes of a bearing together,
+//            all axes by the same amount, all of them freely. Terms of an effect at one place
+//            (cosine and sine, both powers) always move together.
+// Prior      each effect counts the same, whatever the number of its places: the evidence of a
+//            place is reduced by the logarithm of their number.
+// Thread     any; pure.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "diagnosis/model/rig_view.hpp"
+#include "diagnosis/model/term.hpp"
+
+namespace levitas::diagnosis {
+
+struct Hypothesis {
+  std::string effect;
+  std::string place;
+  /// Columns: directions in the space of all terms, in units of Term::scale(), prior variance 1.
+  Eigen::MatrixXd directions;
+  std::vector<std::size_t> terms;  ///< that it moves
+  bool positive{};
+  double log_prior{};
+};
+
+[[nodiscard]] std::vector<Hypothesis> MakeHypotheses(const RigView& rig,
+                                                     const std::vector<Term>& terms);
+
+}  // namespace levitas::diagnosis

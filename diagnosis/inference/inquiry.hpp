@@ -1,0 +1,85 @@
+#pragma once
+// What one diagnosis has before it and how far it is: rig, terms, records, the linearisation it
+// works on, the causes found so far.
+//
+// Units   evidence in nats. Thread: blocks the caller, two threads inside. Internal to diagnose.cpp,
+//         selection.cpp and rivals.cpp.
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference/diagnose.hpp"
+#include "diagnosis/inference/refine.hpp"
+
+namespace levitas::diagnosis {
+
+inline constexpr double kNear = 15.0;  ///< [nat] rivals that are refitted
+
+/// How thorough a search is.
+struct Effort {
+  int calibrations;       ///< passes with the slow observer
+  std::size_t shortlist;  ///< candidates refitted for every cause
+  int passes;             ///< of each
+  std::size_t rivals;     ///< refitted in the end
+  std::size_t rows;       ///< of all records
+  bool first_cause_only;
+};
+
+/// Causes and their fit.
+struct CauseSet {
+  std::vector<Hypothesis> causes;
+  Refined fit;
+
+  /// Keeps the better one.
+  void Take(const std::vector<Hypothesis>& other, Refined with) {
+    if (!with.ok || (fit.ok && with.evidence <= fit.evidence)) return;
+    causes = other;
+    fit = std::move(with);
+  }
+};
+
+struct Inquiry {
+  Inquiry(const RigView& of, const std::vector<Record>& recorded, const Settings& asked,
+          const Effort& spent, std::vector<Term>& all);
+  Inquiry(const Inquiry&) = delete;
+  Inquiry& operator=(const Inquiry&) = delete;
+
+  void Tell(double share, const std::string& what) const;
+  /// Observers of one speed from here on; what was linearised is not valid any more.
+  void Observe(std::size_t with);
+  /// Everything linearised about theta.
+  void LineariseAll();
+  /// Causes fitted from where the linearisation sees them (Refiner::Fit).
+  [[nodiscard]] Refined Refit(const std::vector<Hypothesis>& set,
+                              double worth = -std::numeric_limits<double>::infinity()) const;
+  /// A member of a family that was sharpened is told by its new place, here and in the search.
+  void TakePlace(Hypothesis& member);
+  /// What a cause gains beside the others, on the linearisation.
+  [[nodiscard]] double GainOf(std::size_t cause) const;
+
+  const RigView& rig;
+  const std::vector<Record>& all_records;
+  std::vector<Term>& terms;
+  const Settings& settings;
+  Effort effort;
+  Search search;
+  std::vector<Record> records;  ///< that are fitted
+  std::size_t speed{0};         ///< of the observers, in kSpeeds
+  std::size_t slowest{0};       ///< that can be gone back to
+  Gains gains;
+  Refiner refiner;
+
+  std::vector<double> theta, calibrated;  ///< with the causes; nuisances alone
+  std::vector<Trajectory> calibrated_runs;
+  View view;
+  std::vector<Hypothesis> causes;
+  std::vector<Candidate> refitted;    ///< by the last search for a further cause
+  std::vector<Candidate> candidates;  ///< every effect at its best place, best first
+  double leader_evidence{};           ///< of all causes with the first one
+
+ private:
+  mutable double told_{0.0};  ///< share of the work, by the last progress
+};
+
+}  // namespace levitas::diagnosis

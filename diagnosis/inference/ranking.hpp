@@ -1,0 +1,35 @@
+#pragma once
+// Candidates in order: every effect at its best place, who comes near the first, what is explained.
+//
+// Thread  any; pure.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference/diagnose.hpp"
+
+namespace levitas::diagnosis {
+
+/// Every effect at its best place on top of the base, best first; what would have to be negative
+/// is left out.
+[[nodiscard]] std::vector<Candidate> Screen(const Evidence& base,
+                                            const std::vector<Hypothesis>& hypotheses);
+
+void SortByScore(std::vector<Candidate>& candidates);
+
+/// Effects that come within kDecisive of the first cause, or before it.
+[[nodiscard]] std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
+                                            const std::vector<Hypothesis>& causes);
+
+/// Share of the excess over the noise, all lines and channels, that the causes take away.
+[[nodiscard]] double Explained(const Remainder& before, const Remainder& after);
+
+/// [nat] what a second model gains over a first one on samples kept back from both fits.
+[[nodiscard]] double HeldGain(const std::vector<Trajectory>& first,
+                              const std::vector<Trajectory>& second, const Whitener& whitener);
+
+/// All but one.
+[[nodiscard]] std::vector<Hypothesis> Without(const std::vector<Hypothesis>& causes,
+                                              std::size_t at);
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,213 @@
+#include "diagnosis/inference/refine.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace levitas::diagnosis {
+
+namespace {
+
+/// Of Levenberg's steps: none as long as all goes well.
+class Damping {
+ public:
+  void Refuse() noexcept { value_ = value_ > 0.0 ? kUp * value_ : kFirst; }
+  void Accept() noexcept { value_ = value_ > kFirst ? value_ / kDown : 0.0; }
+  [[nodiscard]] double value() const noexcept { return value_; }
+
+ private:
+  static constexpr double kFirst = 3.0;  // further priors
+  static constexpr double kUp = 10.0;
+  static constexpr double kDown = 10.0;
+  double value_{0.0};
+};
+
+}  // namespace
+
+double Refiner::Penalty(const std::vector<double>& theta,
+                        const std::vector<Hypothesis>& causes) const {
+  // Parameters are nuisances plus directions of causes: their prior has the covariance of both.
+  constexpr double kJitter = 1e-6;
+  const auto size = static_cast<Eigen::Index>(terms_.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+  for (const Hypothesis& h : causes) covariance += h.directions * h.directions.transpose();
+  Eigen::VectorXd away(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Term& term = terms_[static_cast<std::size_t>(i)];
+    covariance(i, i) += kJitter + std::pow(term.tolerance / term.scale(), 2);
+    away[i] = (theta[static_cast<std::size_t>(i)] - term.usual) / term.scale();
+  }
+  return away.dot(covariance.llt().solve(away));
+}
+
+double Refiner::Promised(const LinearProblem& problem,
+                         const std::vector<Hypothesis>& causes) const {
+  const auto line = Evidence(problem, terms_, causes).Solve();
+  return 0.5 * (line.squared_sum + line.penalty);
+}
+
+double Refiner::EvidenceOfSet(const LinearProblem& problem, const std::vector<Term>& terms,
+                              const std::vector<Hypothesis>& causes) {
+  const auto fit = Evidence(problem, terms, causes).Solve();
+  double evidence = fit.log_evidence - 0.5 * problem.ete;
+  for (const Hypothesis& h : causes) {
+    evidence += h.log_prior + (h.positive ? std::log(2.0) : 0.0);
+  }
+  return evidence;
+}
+
+void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
+                      std::vector<double> theta, int passes, Refined& best) const {
+  constexpr double kSettled = 0.3;  // [nat]
+  constexpr int kMostRefused = 4;
+  NormalEquations sum = view.sum;
+  Damping damping;
+  int refused = 0;
+  for (int pass = 0; pass < passes;) {
+    auto runs = search_.Run(records_, gains_, theta);
+    view.slopes->Renew(runs, view.whitener, sum);
+    const double cost = 0.5 * (sum.ete + Penalty(theta, causes));
+    const double gained = best.cost - cost;
+    if (!std::isfinite(cost) || gained < -kSettled) {
+      if (++refused > kMostRefused) return;
+      damping.Refuse();
+      if (best.ok && best.problem.jtj.size() > 0) {
+        theta = search_.Step(best.problem, causes, best.theta, damping.value());
+      } else {
+        // Without a run to go back to, towards the usual rig.
+        for (std::size_t i = 0; i < theta.size(); ++i) {
+          theta[i] = 0.5 * (theta[i] + terms_[i].usual);
+        }
+      }
+      continue;
+    }
+    best.cost = cost;
+    best.theta = theta;
+    best.runs = std::move(runs);
+    best.problem = search_.About(sum, theta);
+    best.ok = true;
+    if (gained < kSettled) return;
+    damping.Accept();
+    theta = search_.Step(best.problem, causes, best.theta, damping.value());
+    ++pass;
+  }
+}
+
+Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
+                     const View& view, int passes, double worth) const {
+  Refined best;
+  Descend(view, causes, std::move(start), passes, best);
+  const bool bends = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
+    return std::any_of(h.terms.begin(), h.terms.end(), [this](std::size_t i) {
+      const Family& family = terms_[i].family;
+      return !terms_[i].linear || family.shape != family.linearised_as;
+    });
+  });
+  // Slopes from further back stop before the end of the way where the model bends: as long as they
+  // promise what its runs do not keep, new ones are taken.
+  constexpr double kKept = 1.0;  // [nat]
+  constexpr int kMostRenewals = 2;
+  for (int renewal = 0; best.ok && renewal < kMostRenewals; ++renewal) {
+    const bool first = renewal == 0 && bends;
+    if (!first && best.cost - Promised(best.problem, causes) < kKept) break;
+    if (EvidenceOfSet(best.problem, terms_, causes) < worth) break;
+    const View here = search_.Linearise(std::move(best.runs), best.theta, view.whitener,
+                                        search_.NuisancesAnd(causes));
+    best.problem = here.problem;
+    Descend(here, causes, search_.Solve(here.problem, causes), passes, best);
+    if (best.runs.empty()) break;  // no step helped
+  }
+  best.runs.clear();
+  if (!best.ok) return best;
+  // What the model does, not what a straight line from it promises: that may lead where no rig is.
+  best.evidence =
+      EvidenceOfSet(best.problem, terms_, causes) + Promised(best.problem, causes) - best.cost;
+  if (!std::isfinite(best.evidence)) best.ok = false;
+  return best;
+}
+
+Search::ShapeStep Refiner::Along(const std::vector<Hypothesis>& causes,
+                                 const std::vector<double>& theta, const View& view, double width,
+                                 const std::function<void(double)>& become) const {
+  constexpr double kApart = 0.05;  // of the width
+  constexpr double kMost = 1.5;
+  const View here = search_.Linearise(search_.Run(records_, gains_, theta), theta, view.whitener,
+                                      search_.NuisancesAnd(causes));
+  const auto sum = [&](double by) {
+    become(by);
+    NormalEquations shifted = here.sum;
+    here.slopes->Renew(search_.Run(records_, gains_, theta), view.whitener, shifted);
+    return shifted;
+  };
+  const NormalEquations below = sum(-kApart * width);
+  const NormalEquations above = sum(kApart * width);
+  become(0.0);
+  return search_.StepAlong(causes, theta, here.sum, below, above, kApart * width, kMost * width);
+}
+
+double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_order) const {
+  const auto runs = search_.Run(records_, gains_, theta);
+  const Whitener whitener = MakeWhitener(runs, axes_, whitening_order);
+  std::size_t values = 0;
+  static_cast<void>(SquaredSum(runs, axes_, whitener, &values));
+  double log_power = 0.0;
+  for (const auto& filter : whitener.filter) log_power -= 2.0 * std::log(filter.front());
+  const double samples = static_cast<double>(values) / static_cast<double>(axes_);
+  return 0.5 * (log_power * samples + Penalty(theta, {}));
+}
+
+Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order,
+                          int passes) const {
+  constexpr double kSettled = 1.0;  // [nat]
+  constexpr double kFar = 100.0;    // [nat] a step that gains more has left its linearisation
+  constexpr int kMostRefused = 4;
+  Refined best;
+  std::vector<double> theta = std::move(start);
+  Damping damping;
+  Whitener whitener;
+  std::shared_ptr<const Slopes> slopes;
+  bool fresh = false;  // slopes were taken at best.theta
+  int refused = 0;
+  for (int pass = 0; pass < passes;) {
+    auto runs = search_.Run(records_, gains_, theta);
+    const double gained =
+        pass == 0 ? std::numeric_limits<double>::infinity()
+                  : best.cost - 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
+    if (pass > 0 && !(std::isfinite(gained) && gained > -kSettled)) {
+      if (++refused <= kMostRefused) {
+        damping.Refuse();
+        theta = search_.Step(best.problem, {}, best.theta, damping.value());
+        continue;
+      }
+      if (fresh) break;
+      // Slopes from further back led nowhere: those from here may.
+      refused = 0;
+      damping = {};
+      runs = search_.Run(records_, gains_, best.theta);
+      theta = best.theta;
+      slopes.reset();
+    }
+    whitener = MakeWhitener(runs, axes_, whitening_order);
+    best.cost = 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
+    if (!std::isfinite(best.cost)) break;
+    best.theta = theta;
+    best.ok = true;
+    if (gained < kSettled && fresh) break;
+    fresh = !slopes || gained > kFar || gained < kSettled;
+    if (fresh) {
+      slopes =
+          std::make_shared<const Slopes>(search_.rig(), runs, terms_, theta, search_.Nuisances());
+    }
+    best.problem = search_.About(slopes->Sum(runs, whitener), theta);
+    best.evidence = EvidenceOfSet(best.problem, terms_, {});
+    damping.Accept();
+    theta = search_.Step(best.problem, {}, best.theta, damping.value());
+    ++pass;
+  }
+  return best;
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,78 @@
+#pragma once
+// Nuisances and a given set of causes fitted together on the nonlinear model.
+//
+// Method     Gauss-Newton from a start; a step after which the model is further from the data, or
+//            not finite, is taken again with damping (Levenberg 1944), which holds back what the data
+//            do not determine and leaves the rest. Slopes are those of a linearisation that exists; where a cause
+//            bends (Term::linear) they are taken anew where it arrived. The whitening stays the
+//            same, so that sets can be compared.
+// Evidence   of the whole set, -1/2 (squared sum + penalty + log det), priors of places included;
+//            differences between sets of causes on the same records and whitening mean something,
+//            one number alone does not.
+// Thread     blocks the caller, two threads inside. Failure: `ok` false when no finite run was
+//            found.
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "diagnosis/inference/search.hpp"
+
+namespace levitas::diagnosis {
+
+struct Refined {
+  std::vector<double> theta;
+  double evidence{};
+  bool ok{};
+  LinearProblem problem;                                 ///< about theta
+  double cost{std::numeric_limits<double>::infinity()};  ///< [nat] of data and priors at theta
+  std::vector<Trajectory> runs;                          ///< at theta, while it is being fitted
+};
+
+class Refiner {
+ public:
+  Refiner(const Search& search, const std::vector<Term>& terms, const std::vector<Record>& records,
+          const Gains& gains, std::size_t axes)
+      : search_(search), terms_(terms), records_(records), gains_(gains), axes_(axes) {}
+
+  /// `view` has everything linearised on the records of this refiner. Slopes are not renewed for
+  /// what not even a straight line promises to be `worth`, an evidence.
+  [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
+                            const View& view, int passes,
+                            double worth = -std::numeric_limits<double>::infinity()) const;
+  /// Newton's step of all and of a shape parameter that has no slope of its own. `become` gives it
+  /// another value, relative to the present one in its logarithm.
+  [[nodiscard]] Search::ShapeStep Along(const std::vector<Hypothesis>& causes,
+                                        const std::vector<double>& theta, const View& view,
+                                        double width,
+                                        const std::function<void(double)>& become) const;
+  /// Nuisances alone, from far away: whitened anew at every pass, since what is not calibrated yet
+  /// is no noise and must not be weighted down as if it were.
+  [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order,
+                                 int passes) const;
+  /// [nat] how badly nuisances at theta do, each whitened by its own innovations; to compare
+  /// starts.
+  [[nodiscard]] double Misfit(const std::vector<double>& theta, std::size_t whitening_order) const;
+  /// Evidence of a set on a linearisation of everything.
+  [[nodiscard]] static double EvidenceOfSet(const LinearProblem& problem,
+                                            const std::vector<Term>& terms,
+                                            const std::vector<Hypothesis>& causes);
+
+ private:
+  /// Improves on `best` from theta on, as long as it goes.
+  void Descend(const View& view, const std::vector<Hypothesis>& causes, std::vector<double> theta,
+               int passes, Refined& best) const;
+  /// [nat] cost at the foot of the linearisation.
+  [[nodiscard]] double Promised(const LinearProblem& problem,
+                                const std::vector<Hypothesis>& causes) const;
+  [[nodiscard]] double Penalty(const std::vector<double>& theta,
+                               const std::vector<Hypothesis>& causes) const;
+
+  const Search& search_;
+  const std::vector<Term>& terms_;
+  const std::vector<Record>& records_;
+  const Gains& gains_;
+  std::size_t axes_;
+};
+
+}  // namespace levitas::diagnosis

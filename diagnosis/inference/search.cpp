@@ -1,0 +1,187 @@
+#include "diagnosis/inference/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "analysis/recorded_rows.hpp"
+#include "diagnosis/model/two_threads.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+/// What every (re)start leaves behind and no parameter explains; the slow rest of it is small
+/// beside what static loads do.
+constexpr double kSettling = 0.3;  // [s]
+
+/// Below this no rig is, whatever a straight line says.
+double Least(const Term& term) {
+  constexpr double kAlmostUndamped = -0.95;  // of the damping that the rig file says
+  constexpr double kAlmostNoLag = -0.95;
+  if (term.effect == "modal_damping") return kAlmostUndamped;
+  if (term.effect == "sensor_bandwidth") return kAlmostNoLag;
+  return term.positive ? 0.0 : -std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Search::Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only)
+    : rig_(rig), terms_(terms), hypotheses_(MakeHypotheses(rig, terms)) {
+  if (only.empty()) return;
+  std::erase_if(hypotheses_, [&only](const Hypothesis& h) { return h.effect != only; });
+}
+
+Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpeed& speed) const {
+  const auto design = [this](const Record& record, const ObserverSpeed& at) {
+    analysis::ObserverTuning tuning;
+    tuning.speed_rad_per_s = record.mean_speed_rad_per_s;
+    tuning.force_noise_share = at.force_noise_share;
+    tuning.force_drift_share = at.force_drift_share;
+    return analysis::DesignObserver(rig_.model->config(), tuning);
+  };
+  Gains gains;
+  gains.reserve(records.size());
+  for (const Record& record : records) {
+    analysis::ObserverGain start = design(record, kFast);
+    start.force_n_per_m.setZero();
+    gains.push_back({std::make_shared<const analysis::ObserverGain>(design(record, speed)),
+                     std::make_shared<const analysis::ObserverGain>(std::move(start))});
+  }
+  return gains;
+}
+
+std::vector<Trajectory> Search::Run(const std::vector<Record>& records, const Gains& gains,
+                                    const std::vector<double>& theta) const {
+  std::vector<Trajectory> runs(records.size());
+  InTwoThreads(records.size(), [&](std::size_t i, std::size_t /*thread*/) {
+    runs[i] = RunModel(rig_, records[i], gains[i], terms_, theta, kSettling);
+  });
+  return runs;
+}
+
+View Search::Linearise(const std::vector<Record>& records, const Gains& gains,
+                       const std::vector<double>& theta, std::size_t whitening_order,
+                       const std::vector<std::size_t>& chosen) const {
+  auto runs = Run(records, gains, theta);
+  const Whitener whitener = MakeWhitener(runs, rig_.axes, whitening_order);
+  return Linearise(std::move(runs), theta, whitener, chosen);
+}
+
+View Search::Linearise(std::vector<Trajectory> runs, const std::vector<double>& theta,
+                       const Whitener& whitener, const std::vector<std::size_t>& chosen) const {
+  View view;
+  view.runs = std::move(runs);
+  view.whitener = whitener;
+  view.slopes = std::make_shared<const Slopes>(rig_, view.runs, terms_, theta, chosen);
+  view.sum = view.slopes->Sum(view.runs, whitener);
+  view.problem = About(view.sum, theta);
+  return view;
+}
+
+Eigen::VectorXd Search::Scaled(const std::vector<double>& theta) const {
+  Eigen::VectorXd scaled(static_cast<Eigen::Index>(terms_.size()));
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    scaled[static_cast<Eigen::Index>(i)] = (theta[i] - terms_[i].usual) / terms_[i].scale();
+  }
+  return scaled;
+}
+
+std::vector<double> Search::Unscaled(const Eigen::VectorXd& scaled) const {
+  std::vector<double> theta(terms_.size());
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    theta[i] = terms_[i].usual + scaled[static_cast<Eigen::Index>(i)] * terms_[i].scale();
+    theta[i] = std::max(theta[i], Least(terms_[i]));
+  }
+  return theta;
+}
+
+LinearProblem Search::About(const NormalEquations& sum, const std::vector<double>& theta) const {
+  return AtOrigin(sum, Scaled(theta));
+}
+
+std::vector<double> Search::Solve(const LinearProblem& problem,
+                                  const std::vector<Hypothesis>& causes) const {
+  return Unscaled(Evidence(problem, terms_, causes).Solve().theta);
+}
+
+std::vector<double> Search::Step(const LinearProblem& problem,
+                                 const std::vector<Hypothesis>& causes,
+                                 const std::vector<double>& theta, double damping) const {
+  return Unscaled(Evidence(problem, terms_, causes).Step(Scaled(theta), damping));
+}
+
+Search::ShapeStep Search::StepAlong(const std::vector<Hypothesis>& causes,
+                                    const std::vector<double>& theta, const NormalEquations& sum,
+                                    const NormalEquations& below, const NormalEquations& above,
+                                    double apart, double most) const {
+  const Eigen::VectorXd cross = (above.jte - below.jte) / (2.0 * apart);
+  const double gradient = (above.ete - below.ete) / (4.0 * apart);
+  const double curvature = (above.ete + below.ete - 2.0 * sum.ete) / (2.0 * apart * apart);
+  const LinearProblem problem = About(sum, theta);
+  const auto beside =
+      Evidence(problem, terms_, causes).StepBeside(Scaled(theta), cross, gradient, curvature, most);
+  return {beside.step, Unscaled(beside.theta)};
+}
+
+void Search::Rename(const std::vector<std::size_t>& terms, const std::string& place) {
+  for (Hypothesis& h : hypotheses_) {
+    if (h.terms == terms) h.place = place;
+  }
+}
+
+std::vector<double> Search::Usual() const {
+  std::vector<double> theta;
+  theta.reserve(terms_.size());
+  for (const Term& term : terms_) theta.push_back(term.usual);
+  return theta;
+}
+
+std::vector<std::size_t> Search::Nuisances() const { return NuisancesAnd({}); }
+
+std::vector<std::size_t> Search::Everything() const {
+  std::vector<std::size_t> all(terms_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+std::vector<std::size_t> Search::NuisancesAnd(const std::vector<Hypothesis>& causes) const {
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const bool moved = std::any_of(causes.begin(), causes.end(), [i](const Hypothesis& h) {
+      return std::find(h.terms.begin(), h.terms.end(), i) != h.terms.end();
+    });
+    if (terms_[i].nuisance() || moved) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows) {
+  constexpr std::size_t kSpan = 10'000;  // rows; a third of it settles
+  std::size_t total = 0;
+  for (const Record& record : records) total += record.rows.size();
+  if (total <= rows) return records;
+  std::vector<Record> out;
+  out.reserve(records.size());
+  for (const Record& record : records) {
+    const std::size_t all = record.rows.size();
+    const auto share = static_cast<std::size_t>(
+        static_cast<double>(rows) * static_cast<double>(all) / static_cast<double>(total));
+    const std::size_t spans = std::max<std::size_t>(1, share / kSpan);
+    const std::size_t length = std::min(all, share / spans);
+    Record part = record;
+    part.rows.clear();
+    for (std::size_t i = 0; i < spans; ++i) {
+      // The first span begins and the last one ends with the record.
+      const std::size_t from = spans == 1 ? (all - length) / 2 : i * (all - length) / (spans - 1);
+      const auto first = record.rows.begin() + static_cast<std::ptrdiff_t>(from);
+      part.rows.insert(part.rows.end(), first, first + static_cast<std::ptrdiff_t>(length));
+    }
+    part.mean_speed_rad_per_s = analysis::MeanSpeed(part.rows);
+    out.push_back(std::move(part));
+  }
+  return out;
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,96 @@
+#pragma once
+// The search for the causes: calibration, screen, forward selection, refit (diagnosis.hpp).
+//
+// Thread  blocks the caller, two threads inside.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference/diagnose.hpp"
+#include "diagnosis/model/observer_speed.hpp"
+#include "diagnosis/model/slopes.hpp"
+
+namespace levitas::diagnosis {
+
+/// Observers of all records for one tuning.
+using Gains = std::vector<ObserverPair>;
+
+/// One linearisation, on the records it was made with.
+struct View {
+  std::vector<Trajectory> runs;
+  Whitener whitener;
+  std::shared_ptr<const Slopes> slopes;
+  NormalEquations sum;
+  LinearProblem problem;
+};
+
+class Search {
+ public:
+  /// `only`: the one effect that is looked for; empty: all.
+  Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only = "");
+
+  [[nodiscard]] Gains DesignGains(const std::vector<Record>& records,
+                                  const ObserverSpeed& speed) const;
+  [[nodiscard]] std::vector<Trajectory> Run(const std::vector<Record>& records, const Gains& gains,
+                                            const std::vector<double>& theta) const;
+  /// Runs and linearises. Terms outside `chosen` get sensitivities of zero.
+  [[nodiscard]] View Linearise(const std::vector<Record>& records, const Gains& gains,
+                               const std::vector<double>& theta, std::size_t whitening_order,
+                               const std::vector<std::size_t>& chosen) const;
+  /// The same of runs that exist, with a whitening of before.
+  [[nodiscard]] View Linearise(std::vector<Trajectory> runs, const std::vector<double>& theta,
+                               const Whitener& whitener,
+                               const std::vector<std::size_t>& chosen) const;
+  /// Sums of runs at theta as a problem about the usual rig.
+  [[nodiscard]] LinearProblem About(const NormalEquations& sum,
+                                    const std::vector<double>& theta) const;
+
+  /// Solution of nuisances and causes, in the terms' own units.
+  [[nodiscard]] std::vector<double> Solve(const LinearProblem& problem,
+                                          const std::vector<Hypothesis>& causes) const;
+
+  /// A damped step from theta towards the solution (Evidence::Step).
+  [[nodiscard]] std::vector<double> Step(const LinearProblem& problem,
+                                         const std::vector<Hypothesis>& causes,
+                                         const std::vector<double>& theta, double damping) const;
+
+  /// The same with a shape parameter; `above` and `below` are sums with it `apart` to either side.
+  struct ShapeStep {
+    double step;  ///< of the logarithm
+    std::vector<double> theta;
+  };
+  [[nodiscard]] ShapeStep StepAlong(const std::vector<Hypothesis>& causes,
+                                    const std::vector<double>& theta, const NormalEquations& sum,
+                                    const NormalEquations& below, const NormalEquations& above,
+                                    double apart, double most) const;
+
+  [[nodiscard]] const RigView& rig() const { return rig_; }
+  [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
+  /// A member of a family stands for another place than before.
+  void Rename(const std::vector<std::size_t>& terms, const std::string& place);
+  /// What the healthy rig is: where every search begins.
+  [[nodiscard]] std::vector<double> Usual() const;
+  [[nodiscard]] std::vector<std::size_t> Nuisances() const;
+  [[nodiscard]] std::vector<std::size_t> Everything() const;
+  [[nodiscard]] std::vector<std::size_t> NuisancesAnd(const std::vector<Hypothesis>& causes) const;
+
+ private:
+  /// In units of Term::scale() from the usual rig, and back.
+  [[nodiscard]] Eigen::VectorXd Scaled(const std::vector<double>& theta) const;
+  [[nodiscard]] std::vector<double> Unscaled(const Eigen::VectorXd& scaled) const;
+
+  const RigView& rig_;
+  const std::vector<Term>& terms_;
+  std::vector<Hypothesis> hypotheses_;
+};
+
+inline constexpr std::size_t kQuickRows = 30'000;    ///< of all records, for a first answer
+inline constexpr std::size_t kHealthyRows = 60'000;  ///< to learn what is usual
+inline constexpr std::size_t kMostRows = 200'000;    ///< more would take a minute and gigabytes
+
+/// At most about `rows` of all records together, each in proportion, as spans spread evenly over
+/// it: every excitation and every speed stays represented.
+[[nodiscard]] std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows);
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,55 @@
+#include "diagnosis/model/normal_equations.hpp"
+
+#include "diagnosis/model/levinson.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+/// Autoregression of one axis over uninterrupted counting samples.
+std::vector<double> FilterOf(const std::vector<Trajectory>& runs, std::size_t axis,
+                             std::size_t order) {
+  std::vector<double> correlation(order + 1, 0.0);
+  double count = 0.0;
+  for (const Trajectory& run : runs) {
+    for (std::size_t n = order; n < run.moments.size(); ++n) {
+      if (!run.moments[n].counts) continue;
+      const double now = static_cast<double>(run.moments[n].innovation_m[axis]);
+      for (std::size_t k = 0; k <= order; ++k) {
+        correlation[k] += now * static_cast<double>(run.moments[n - k].innovation_m[axis]);
+      }
+      count += 1.0;
+    }
+  }
+  return WhiteningFilter(correlation, count);
+}
+
+}  // namespace
+
+Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes, std::size_t order) {
+  Whitener whitener{order, {}};
+  for (std::size_t a = 0; a < axes; ++a) whitener.filter.push_back(FilterOf(runs, a, order));
+  return whitener;
+}
+
+double SquaredSum(const std::vector<Trajectory>& runs, std::size_t axes, const Whitener& whitener,
+                  std::size_t* values) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const Trajectory& run : runs) {
+    for (std::size_t n = whitener.order; n < run.moments.size(); ++n) {
+      if (!run.moments[n].counts) continue;
+      for (std::size_t a = 0; a < axes; ++a) {
+        double e = 0.0;
+        for (std::size_t k = 0; k <= whitener.order; ++k) {
+          e += whitener.filter[a][k] * static_cast<double>(run.moments[n - k].innovation_m[a]);
+        }
+        sum += e * e;
+        ++count;
+      }
+    }
+  }
+  if (values != nullptr) *values = count;
+  return sum;
+}
+
+}  // namespace levitas::diagnosis

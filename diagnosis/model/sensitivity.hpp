@@ -1,0 +1,87 @@
+#pragma once
+// Derivatives of the innovations by every term, along the run of the model.
+//
+// Equation   dx[n+1] = A(n) (dx[n] + d(K e[n])) + E dd[n] + B da,  de[n] = -(C dx[n] + dr): the model
+//            linearised about its own trajectory: true slopes of the magnet force at every sample,
+//            gyroscopic coupling at the speed of the sample, exact modal steps, and what the terms
+//            in force at theta change of these (linear_change.hpp). What a term adds
+//            (da, dr) is its addition at theta + h minus that at theta, over h; for linear terms
+//            that at 1. dK: what a term changes of the scales by which the gain is divided
+//            (observer_scale.hpp).
+// Cost       lanes.hpp, and what the terms themselves cost.
+// Thread     one instance per thread.
+
+#include <memory>
+#include <vector>
+
+#include "diagnosis/model/lanes.hpp"
+#include "diagnosis/model/model_run.hpp"
+#include "diagnosis/model/observer_scale.hpp"
+
+namespace levitas::diagnosis {
+
+/// The rig with the observer's steady gain, and with that for starts.
+struct LanePair {
+  LanePair(const RigView& rig, const ObserverPair& gains, const LinearChange& change)
+      : steady(std::make_shared<const LaneModel>(rig, *gains.steady, change)),
+        start(std::make_shared<const LaneModel>(rig, *gains.start, change)) {}
+  std::shared_ptr<const LaneModel> steady, start;
+};
+
+/// A block of up to kLanes terms propagated together.
+class SensitivityBlock {
+ public:
+  SensitivityBlock(const RigView& rig, LanePair models, const std::vector<Term>& terms,
+                   const std::vector<double>& theta, std::vector<std::size_t> chosen);
+
+  /// Advances one sample; writes de/dtheta [axis][lane] in metres per Term::scale().
+  void Step(const Moment& moment, float* derivative_m) noexcept;
+  [[nodiscard]] const std::vector<std::size_t>& chosen() const noexcept { return chosen_; }
+
+ private:
+  /// A term in force that does otherwise when another one changes when, or how fast, coils act.
+  struct Retimed {
+    Term now, stepped;
+    double theta{};
+  };
+
+  /// One term: what it adds with and without the step.
+  struct Probe {
+    Term now, stepped;
+    double theta{}, step{}, scale{};
+    bool linear{};
+    std::vector<Retimed> retimed{};
+    float late_periods{};  ///< with the step
+    AxisFloats coil_rate{};
+  };
+
+  /// A term that changes scales by which the gain is divided: relative change per Term::scale().
+  struct Rescaled {
+    std::size_t lane{};
+    AxisFloats readings{};
+    ModalFloats modes{};
+  };
+
+  void AddRescaled(const RigView& rig, const std::vector<Term>& terms,
+                   const std::vector<double>& theta, std::size_t chosen);
+  void CorrectModes(const LaneModel& model, const Rescaled& rescaled, const Moment& m) noexcept;
+  static void AddRetimed(const std::vector<Term>& terms, const std::vector<double>& theta,
+                         std::size_t chosen, Probe& probe);
+  void Read(const Moment& m, float* derivative_m) noexcept;
+  void Drive(const Moment& m) noexcept;
+  void DriveRetimed(Probe& probe, std::size_t lane, const Moment& m) noexcept;
+  /// The probe's difference in `difference_`; the scale to apply, 0 when nothing was added.
+  template <class Call>
+  float Difference(Probe& probe, Call call) noexcept;
+  void Clear() noexcept;
+
+  std::shared_ptr<const LaneModel> model_, start_;
+  std::vector<std::size_t> chosen_;
+  std::vector<Probe> probes_;
+  std::vector<Rescaled> rescaled_;
+  LaneState state_;
+  std::array<Lane, kMaxAxes> reading_{};  ///< of the sample that comes
+  Addition difference_, base_;
+};
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,95 @@
+#pragma once
+// One number by which a rig may differ from its nominal model, as what it adds to the model.
+//
+// Model      x[n+1] = f(x[n], u[n]) + B a(theta),  y[n] = h(x[n]) + r(theta): a term adds forces at
+//            the magnets, modal accelerations and coil currents over a period, and readings at a
+//            sample, all evaluated along the run of the model (Moment). theta = 0 is the nominal
+//            rig.
+// Why        a whole set of causes then costs one run of the nonlinear model, and their
+//            sensitivities follow from one linear propagation (sensitivity.hpp). It is written
+//            independently of plant_sim/effect, so that neither can hide an error of the other.
+// Stateful   terms with memory (eddy currents, hysteresis, supports) keep it in the closure; a copy
+//            of the term copies the memory. Reset() starts anew.
+// Thread     one copy per thread.
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/model/moment.hpp"
+
+namespace levitas::diagnosis {
+
+/// What a term adds over one period, and to the reading at a sample.
+struct Addition {
+  std::array<double, kMaxAxes> force_n{};      ///< at the magnets, held over the period
+  std::array<double, kMaxAxes> coil_end_a{};   ///< change of the coil current at the end
+  std::array<double, kMaxAxes> coil_mean_a{};  ///< mean change over the period
+  std::array<double, kMaxAxes> reading_m{};
+  std::array<double, 2 * kMaxModes> modal{};  ///< modal accelerations, held over the period
+  bool has_modal{};
+
+  void Modal(std::size_t at, double value) noexcept {
+    modal[at] += value;
+    has_modal = true;
+  }
+};
+
+struct TermName {
+  std::string effect, place, parameter, unit;
+};
+
+struct LinearChange;
+
+using Adds = std::function<void(const Moment&, double theta, Addition&)>;
+
+struct Term;
+
+/// Laws that differ by shape parameters, of which one stands for its neighbours.
+struct Family {
+  using Shape = std::vector<double>;
+  Shape shape;          ///< each > 0; SI units
+  Shape log_width;      ///< half the distance to the next member, or half of what is usual, ln
+  Shape linearised_as;  ///< shape at which slopes exist; another one needs its own
+  std::function<Term(const Shape& shape)> member;
+};
+
+struct Term {
+  std::string effect;  ///< id of the vocabulary it belongs to
+  std::string place;   ///< "de_x", "mode 3", "order 2, nde_y"
+  std::string parameter;
+  std::string unit;
+  double usual{};          ///< what a healthy rig's records have shown it to be; 0 without them
+  double tolerance{};      ///< standard deviation of theta on a healthy rig; 0: not a nuisance
+  double wide{1.0};        ///< standard deviation of theta when the effect is present
+  double step{1.0};        ///< theta at which a non-linear term is linearised from 0
+  bool positive{false};    ///< cannot be negative
+  bool linear{true};       ///< adds theta times what it adds at theta = 1
+  bool rotating{false};    ///< adds nothing at rest
+  bool moves_coil{false};  ///< its drive adds to the coil current, and to nothing else
+  bool timed{false};  ///< its drive looks at when and how fast coils act (Moment::late_periods)
+  int scales{-1};     ///< axis whose whole reading it makes 1 + theta as large; -1: none
+  int record{-1};     ///< acts in this record alone; -1: in all
+  /// Over the period that begins at the moment; `reading_m` then belongs to the sample at its end.
+  Adds drive;
+  /// At the sample of the moment.
+  Adds read;
+
+  Family family;
+
+  /// What it does to the linear model about which derivatives are taken: throughout, and at one
+  /// sample. Empty: too little to matter.
+  std::function<void(double theta, LinearChange&)> change;
+  std::function<void(const Moment&, double theta, AddedSlopes&)> slope;
+
+  /// theta in units in which every term is of order one.
+  [[nodiscard]] double scale() const noexcept { return wide > 0.0 ? wide : tolerance; }
+  [[nodiscard]] bool nuisance() const noexcept { return tolerance > 0.0; }
+};
+
+[[nodiscard]] Term MakeTerm(TermName name, double tolerance, double wide, Adds drive);
+/// One that adds to readings only.
+[[nodiscard]] Term MakeReading(TermName name, double tolerance, double wide, Adds read);
+
+}  // namespace levitas::diagnosis

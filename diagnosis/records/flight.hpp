@@ -1,0 +1,26 @@
+#pragma once
+// Rows in which the rotor flies free: a model without contact can answer for no others.
+//
+// Contact    the reading of a bearing is beyond kFree of the touchdown clearance, or all control
+//            currents are exactly zero (amplifiers off: a controller with noisy sensors does not
+//            ask for that), kOff rows in a row.
+// Margin     kMargin before and after belongs to it: the blow, and what the lift still swings.
+// Why        imported records do not say when the rotor was lifted and landed.
+// Thread     any; pure.
+
+#include <vector>
+
+#include "analysis/innovations.hpp"
+#include "diagnosis/model/model_run.hpp"
+#include "diagnosis/model/rig_view.hpp"
+
+namespace levitas::diagnosis {
+
+inline constexpr double kFree = 0.5;     ///< of the clearance
+inline constexpr std::size_t kOff = 5;   ///< rows
+inline constexpr double kMargin = 0.05;  ///< [s]
+
+/// Removes these rows and all that are not levitated; a model that meets a gap starts anew.
+void LeaveOutContact(const RigView& rig, Record& record);
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,21 @@
+#pragma once
+// The rig file as it was judged: with the calibrated values and the causes in it.
+//
+// Where    the delay and the unbalance in their own keys; all else as entries of the list
+//          `effects`, the causes first. Shapes of the modes have no key: they stand in comments.
+// Rigs     with geared shafts: the stiffness and damping of the shafts have none either.
+// Check    read back by the strict reader; entries it refuses become comments.
+// Thread   any.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/report/session.hpp"
+
+namespace levitas::diagnosis {
+
+/// Entries of effects of what was calibrated and has no key of its own.
+[[nodiscard]] std::vector<std::string> CalibratedEntries(const SessionAnswer& answer);
+[[nodiscard]] std::string CalibratedRig(const SessionAnswer& answer, const config::RigFile& rig);
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,44 @@
+#include "diagnosis/report/carry_over.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "diagnosis/report/session.hpp"
+
+namespace levitas::diagnosis {
+
+bool CarriesOver(const SessionAnswer& s) {
+  if (!s.own_holdout) return true;
+  const double held = std::sqrt(s.held_out.extended_over_noise);
+  const double fitted = std::sqrt(s.fitted.extended_over_noise);
+  return !(held > kFarAboveNoise && held > kFarAboveNoise * fitted);
+}
+
+std::string CarryOverSentence(const SessionAnswer& s) {
+  if (CarriesOver(s)) return {};
+  const double held = std::sqrt(s.held_out.extended_over_noise);
+  const double calibrated = std::sqrt(s.held_out.calibrated_over_noise);
+  std::string text = fmt::format(
+      "It does not carry over to the data held out: {:.3g} times the noise (rms) is left there, "
+      "{:.3g} times on the data used.",
+      held, std::sqrt(s.fitted.extended_over_noise));
+  if (!s.answer.causes.empty() && held > calibrated) {
+    text +=
+        fmt::format(" With the cause it is worse there than without ({:.3g} times).", calibrated);
+  }
+  return text;
+}
+
+bool HeldOutIsFaster(const SessionAnswer& s) {
+  constexpr double kFaster = 1.1;
+  return s.holdout_fastest_rad_per_s > kFaster * s.fastest_rad_per_s + 1.0;
+}
+
+std::string CarryOverExperiment(const SessionAnswer& s) {
+  return HeldOutIsFaster(s)
+             ? "a run-up over the speeds of the data held out, among the data that are fitted"
+             : "the same as the data held out once more, among the data that are fitted";
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,232 @@
+#include "diagnosis/report/effect_entry.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "config/schema/unit.hpp"
+#include "diagnosis/report/gear_entry.hpp"
+#include "diagnosis/report/words.hpp"
+#include "diagnosis/terms/terms.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+EntryValue Number(std::string key, double value, int digits = 6) {
+  return {std::move(key), value, {}, digits};
+}
+EntryValue Words(std::string key, std::string text) {
+  return {std::move(key), 0.0, std::move(text)};
+}
+EntryValue Channel(const std::string& channel) {
+  return Words("channels", fmt::format("[{}]", channel));
+}
+EntryValue AllChannels(const RigView& rig) {
+  return Words("channels", fmt::format("[{}]", fmt::join(rig.numbers.channels, ", ")));
+}
+
+EntryValues MagnetEntry(const RigView& rig, const PlacedEffect& g) {
+  const double bias_a = rig.bias_a(0);
+  if (g.effect == "coil_asymmetry") {
+    const double a = std::clamp(0.5 * g.At("ratio"), -0.6, 0.6);
+    return {Channel(g.place), Number("ratio", (1.0 + a) / (1.0 - a))};
+  }
+  if (g.effect == "magnetic_saturation") {
+    // The family's amplitude as a knee: far below it the loss goes with the power of the exponent.
+    const double share = std::max(1e-3, g.At("share"));
+    const double exponent = std::strtod(g.After("exponent ").c_str(), nullptr);
+    return {AllChannels(rig),
+            Number("knee_a", g.Number() * bias_a * std::pow(share, -1.0 / exponent)),
+            Number("exponent", exponent)};
+  }
+  if (g.effect == "hysteresis") {
+    return {AllChannels(rig),
+            Number("width_a", g.Number() * bias_a * std::max(0.0, g.At("share")))};
+  }
+  if (g.effect == "eddy_current") {
+    const double root = std::max(0.0, g.At("sqrt(tau_s)"));
+    return {Channel(g.place), Number("tau_us", 1e6 * root * root)};
+  }
+  if (g.effect == "axis_rotation") {
+    return {Words("bearing", g.After(" ")), Words("of", g.place.substr(0, g.place.find(' '))),
+            Number("angle_deg", g.At("angle_rad") * 180.0 / std::numbers::pi)};
+  }
+  return {Channel(g.place), Number("ratio", 1.0 + g.At("ratio"))};
+}
+
+EntryValues SensorEntry(const RigView& rig, const PlacedEffect& g) {
+  if (g.effect == "sensor_offset") {
+    return {Channel(g.place), Number("offset_um", 1e6 * g.At("offset_m"))};
+  }
+  if (g.effect == "sensor_nonlinearity") {
+    return {Channel(g.place), Number("a2_1_per_m", g.At("a2")), Number("a3_1_per_m2", g.At("a3"))};
+  }
+  if (g.effect == "sensor_position") {
+    return {Words("bearing", g.place), Number("shift_mm", 1e3 * g.At("shift_m"))};
+  }
+  if (g.effect == "sensor_runout") {
+    const auto& channels = rig.numbers.channels;
+    const auto at = std::find(channels.begin(), channels.end(), g.After(", ")) - channels.begin();
+    const bool y_probe = at % 2 == 1;
+    const double phase = -g.Phase() + (y_probe ? g.Number() * 0.5 * std::numbers::pi : 0.0);
+    return {Channel(g.After(", ")), Number("order", g.Number()),
+            Number("amplitude_um", 1e6 * g.Amplitude()),
+            PhaseValue(std::remainder(phase, 2.0 * std::numbers::pi))};
+  }
+  if (g.effect == "mains_pickup") {
+    return {Channel(g.After(", ")), Number("frequency_hz", g.Number()),
+            Number("amplitude_um", 1e6 * g.Amplitude()), PhaseValue(0.0)};
+  }
+  for (std::size_t a = 0; a < rig.axes; ++a) {
+    if (g.effect == "sensor_bandwidth" && g.place == rig.numbers.channels[a]) {
+      return {Channel(g.place),
+              Number("bandwidth_hz",
+                     rig.bearing(a).sensor.bandwidth_hz / std::max(0.05, 1.0 + g.At("lag_ratio")))};
+    }
+    if (g.effect == "amplifier_bandwidth" && g.place == rig.numbers.channels[a]) {
+      return {Channel(g.place), Number("bandwidth_hz", rig.bearing(a).amplifier.bandwidth_hz *
+                                                           std::max(0.05, 1.0 + g.At("ratio")))};
+    }
+  }
+  return {Channel(g.place), Number("ratio", 1.0 + g.At("ratio"))};
+}
+
+EntryValues RotorEntry(const RigView& rig, const PlacedEffect& g) {
+  const auto mode = static_cast<std::size_t>(g.Number());
+  if (g.effect == "unbalance") {
+    return {Number("z_mm", g.Number()), Number("moment_g_mm", 1e6 * g.Amplitude()),
+            PhaseValue(g.Phase())};
+  }
+  if (g.effect == "shaft_bow") {
+    return {Number("mode", static_cast<double>(mode)), Number("amplitude_um", 1e6 * g.Amplitude()),
+            PhaseValue(g.Phase())};
+  }
+  if (g.effect == "shaft_anisotropy") {
+    return {Number("ratio", g.Amplitude()), PhaseValue(0.5 * g.Phase())};
+  }
+  if (g.effect == "modal_frequency") {
+    return {Number("mode", static_cast<double>(mode)),
+            Number("frequency_hz",
+                   rig.omega_rad_per_s[mode + 1] / (2.0 * std::numbers::pi) * (1.0 + g.At("ratio")),
+                   8)};
+  }
+  if (g.effect == "modal_damping") {
+    return {Number("mode", static_cast<double>(mode)),
+            Number("damping_ratio",
+                   std::max(0.0, rig.damping_ratio[mode + 1] * (1.0 + g.At("ratio"))))};
+  }
+  if (g.effect == "breathing_crack") {
+    const double direction_deg = std::strtod(g.After("direction ").c_str(), nullptr);
+    return {Number("z_mm", g.Number()),
+            Number("depth", CrackDepth(rig, 1e-3 * g.Number(), g.At("softening"))),
+            PhaseValue(
+                std::remainder(direction_deg * std::numbers::pi / 180.0, 2.0 * std::numbers::pi))};
+  }
+  if (g.effect == "internal_damping") {
+    return {Number("z_mm", g.Number()), Number("damping_n_s_per_m", g.At("damping"))};
+  }
+  return {Number("ratio", 1.0 + g.At("ratio"))};
+}
+
+EntryValues ExternalEntry(const RigView& rig, const PlacedEffect& g) {
+  if (g.effect == "extra_delay") {
+    return {Number("delay_us", 1e6 * rig.period_s * std::max(0.0, g.At("samples")))};
+  }
+  if (g.effect == "amplifier_slew") {
+    return {AllChannels(rig), Number("slew_a_per_s", g.Number())};
+  }
+  if (g.effect == "misalignment") {
+    return {Number("z_mm", 0), Number("order", g.Number()), Number("force_n", g.Amplitude()),
+            PhaseValue(g.Phase())};
+  }
+  if (g.effect == "coupling_stiffness") {
+    return {Number("z_mm", g.Number()), Number("direct_n_per_m", g.At("direct")),
+            Number("cross_n_per_m", g.At("cross"))};
+  }
+  if (g.effect == "cross_coupled_stiffness") {
+    return {Number("z_mm", g.Number()), Number("stiffness_n_per_m", g.At("cross"))};
+  }
+  if (g.effect == "support_mode") {
+    return {Words("bearing", g.place.substr(0, g.place.find(','))),
+            Number("mass_kg", 1.0 / std::max(1e-3, g.At("1/mass_kg"))),
+            Number("frequency_hz", std::strtod(g.After(", ").c_str(), nullptr)),
+            Number("damping_ratio", std::strtod(g.After("damping ").c_str(), nullptr))};
+  }
+  if (g.effect == "touchdown_rub") {
+    return {Words("bearing", g.place.substr(0, g.place.find(','))),
+            Number("clearance_um", std::strtod(g.After("clearance ").c_str(), nullptr)),
+            Number("stiffness_n_per_m", std::max(0.0, g.At("stiffness_n_per_m"))),
+            Number("damping_n_s_per_m", std::max(0.0, g.At("damping_n_s_per_m"))),
+            Number("friction", std::strtod(g.After("friction ").c_str(), nullptr))};
+  }
+  if (g.effect == "static_load") {
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      if (rig.numbers.channels[a] != g.place) continue;
+      return {Number("z_mm", 1e3 * rig.bearing(a).actuator_z_m),
+              Number(fmt::format("force_{}_n", a % 2 == 0 ? "x" : "y"), g.At("force_n"))};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+EntryValue PhaseValue(double phase_rad) {
+  return Number(kPhaseKey, phase_rad * 180.0 / std::numbers::pi);
+}
+
+double PlacedEffect::At(const std::string& parameter) const {
+  const auto found = theta.find(parameter);
+  return found == theta.end() ? 0.0 : found->second;
+}
+
+double PlacedEffect::Amplitude() const { return std::hypot(At("cosine"), At("sine")); }
+double PlacedEffect::Phase() const { return std::atan2(At("sine"), At("cosine")); }
+
+double PlacedEffect::Number() const {
+  const auto at = place.find_first_of("-0123456789");
+  return at == std::string::npos ? 0.0 : std::strtod(place.c_str() + at, nullptr);
+}
+
+std::string PlacedEffect::After(const std::string& comma) const {
+  const auto at = place.find(comma);
+  return at == std::string::npos ? place : place.substr(at + comma.size());
+}
+
+EntryValues ValuesOf(const RigView& rig, const PlacedEffect& at) {
+  const std::string place = PlaceOfEffect(at.effect);
+  if (place == "gear") return GearEntry(rig, at.effect, at.place, at.theta);
+  if (place == "magnet") return MagnetEntry(rig, at);
+  if (place == "rotor") return RotorEntry(rig, at);
+  if (place == "sensor" || at.effect == "amplifier_bandwidth") return SensorEntry(rig, at);
+  return ExternalEntry(rig, at);
+}
+
+std::string EntryText(const std::string& effect, const EntryValues& values) {
+  if (values.empty()) return {};
+  std::string text = fmt::format("{{id: {}", effect);
+  for (const EntryValue& value : values) {
+    text += fmt::format(", {}: ", value.key);
+    text += value.is_number() ? fmt::format("{:.{}g}", value.number, value.digits) : value.text;
+  }
+  text += "}";
+  return text;
+}
+
+KeyUnit UnitOfKey(const std::string& key) {
+  const config::Unit* longest = nullptr;
+  for (const config::Unit& unit : config::AllUnits()) {
+    const std::string ending = fmt::format("_{}", unit.suffix);
+    if (unit.suffix.empty() || !key.ends_with(ending)) continue;
+    if (longest == nullptr || unit.suffix.size() > longest->suffix.size()) longest = &unit;
+  }
+  if (longest == nullptr) return {};
+  return {std::string(longest->symbol),
+          static_cast<double>(longest->factor) * std::pow(10.0, longest->decimal_exponent)};
+}
+
+}  // namespace levitas::diagnosis

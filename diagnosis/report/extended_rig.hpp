@@ -1,0 +1,24 @@
+#pragma once
+// The rig file with the causes switched on.
+//
+// Form       the nominal rig's complete text and the list `effects:` of docs/effects.md, one entry
+//            per place, parameters at their estimates. What a cause has beyond the vocabulary's
+//            parameters (lost frames' times, a line's phase of every record) is left out.
+// Check      read back by the strict reader, so that `amb run` accepts it; where this build's
+//            reader refuses an entry, it stays in the file as a comment that says so.
+// Thread     any.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/report/session.hpp"
+
+namespace levitas::diagnosis {
+
+/// One YAML flow mapping per entry: "{id: eddy_current, channels: [de_x], tau_us: 3}".
+[[nodiscard]] std::vector<std::string> EffectEntries(const SessionAnswer& answer);
+/// The rig's complete text with these entries behind its own; what its reader refuses as comments.
+[[nodiscard]] std::string WithEffects(config::RigFile rig, const std::vector<std::string>& entries);
+[[nodiscard]] std::string ExtendedRig(const SessionAnswer& answer, const config::RigFile& rig);
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,196 @@
+#include "diagnosis/report/named_values.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "diagnosis/report/session.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr double kInterval = 1.645;  ///< standard deviations of 5 and 95 %
+constexpr double kProbe = 1e-3;      ///< of a term's scale: does a key depend on it?
+constexpr double kTurnDeg = 360.0;
+
+double Difference(const EntryValue& value, double other) {
+  const double difference = other - value.number;
+  return value.key == kPhaseKey ? std::remainder(difference, kTurnDeg) : difference;
+}
+
+/// Adds what a key becomes to either side.
+void Widen(const EntryValue& value, double one, double other, double& low, double& high) {
+  const double first = Difference(value, one);
+  const double second = Difference(value, other);
+  low = std::hypot(low, std::min({0.0, first, second}));
+  high = std::hypot(high, std::max({0.0, first, second}));
+}
+
+/// One key of a cause with its bracket; nothing where the place alone says it.
+class Bracket {
+ public:
+  Bracket(const SessionAnswer& s, const PlacedEffect& at, std::size_t key)
+      : s_(s), at_(at), key_(key), value_(ValuesOf(*s.view, at).at(key)) {}
+
+  std::optional<NamedParameter> Find() {
+    for (const auto& [parameter, theta] : at_.theta) AddEstimate(parameter, theta);
+    AddForms();
+    if (!depends_) return std::nullopt;
+    const KeyUnit unit = UnitOfKey(value_.key);
+    NamedParameter p;
+    p.effect = at_.effect;
+    p.name = fmt::format("{}[{}]", value_.key, at_.place);
+    p.unit = unit.symbol;
+    p.value = value_.number;
+    if (value_.key == kPhaseKey) {
+      low_ = std::min(low_, 0.5 * kTurnDeg);
+      high_ = std::min(high_, 0.5 * kTurnDeg);
+    }
+    const bool size = at_.theta.contains("cosine") && value_.key != kPhaseKey;
+    p.low = size && p.value < high_ ? 0.0 : p.value - low_;
+    p.high = p.value + high_;
+    p.key = value_.key;
+    p.place = at_.place;
+    p.form = form_;
+    p.si = unit.si;
+    AddOfFile(p);
+    return p;
+  }
+
+ private:
+  [[nodiscard]] double At(const PlacedEffect& other) const {
+    const EntryValues values = ValuesOf(*s_.view, other);
+    return key_ < values.size() ? values[key_].number : value_.number;
+  }
+  [[nodiscard]] double Moved(const std::string& parameter, double by) const {
+    PlacedEffect other = at_;
+    other.theta[parameter] += by;
+    return At(other);
+  }
+  /// Effects of these kinds act beside what the file has in keys of its own.
+  void AddOfFile(NamedParameter& p) const {
+    const double found = p.value * p.si;
+    if (at_.effect == "extra_delay") {
+      const double file_s = s_.view->model->config().delay_samples * s_.view->period_s;
+      if (file_s > 0.0) p.of_file = OfFile{file_s / p.si, (file_s + found) / p.si};
+      return;
+    }
+    if (at_.effect != "unbalance") return;
+    const std::complex<double> file = UnbalanceOfFile(*s_.view, at_.place);
+    if (file == 0.0) return;
+    const std::complex<double> all = file + std::complex<double>(at_.At("cosine"), at_.At("sine"));
+    p.of_file = p.key == kPhaseKey ? OfFile{std::arg(file) / p.si, std::arg(all) / p.si}
+                                   : OfFile{std::abs(file) / p.si, std::abs(all) / p.si};
+  }
+  void AddEstimate(const std::string& parameter, double theta) {
+    const Estimate* estimate = EstimateOf(s_.answer.parameters, at_, parameter);
+    const Term* term = TermOf(s_.terms, at_, parameter);
+    if (estimate == nullptr || term == nullptr) return;
+    const double probe = kProbe * std::max(std::abs(theta), term->scale());
+    if (Moved(parameter, probe) == value_.number && Moved(parameter, -probe) == value_.number) {
+      return;
+    }
+    depends_ = true;
+    const double spread = kInterval * estimate->deviation;
+    Widen(value_, Moved(parameter, -spread), Moved(parameter, spread), low_, high_);
+  }
+  void AddForms() {
+    const auto term = std::find_if(s_.terms.begin(), s_.terms.end(), [this](const Term& t) {
+      return t.effect == at_.effect && t.place == at_.place && t.family.member;
+    });
+    if (term == s_.terms.end()) return;
+    for (std::size_t k = 0; k < term->family.log_width.size(); ++k) {
+      const auto neighbour = [&](double side) {
+        Family::Shape shape = term->family.shape;
+        shape[k] *= std::exp(side * term->family.log_width[k]);
+        PlacedEffect other = at_;
+        other.place = term->family.member(shape).place;
+        return At(other);
+      };
+      const double below = neighbour(-1.0);
+      const double above = neighbour(1.0);
+      if (below == value_.number && above == value_.number) continue;
+      depends_ = form_ = true;
+      Widen(value_, below, above, low_, high_);
+    }
+  }
+
+  const SessionAnswer& s_;
+  const PlacedEffect& at_;
+  std::size_t key_;
+  EntryValue value_;
+  double low_{}, high_{};
+  bool depends_{}, form_{};
+};
+
+/// "18 g mm at 0.0 deg"; the amount alone without a phase.
+std::string Amount(double value, const std::string& unit, const double* phase_deg) {
+  const std::string text = fmt::format("{:.4g} {}", value, unit);
+  return phase_deg == nullptr ? text : fmt::format("{} at {:.1f} deg", text, *phase_deg);
+}
+
+}  // namespace
+
+std::complex<double> UnbalanceOfFile(const RigView& rig, const std::string& place) {
+  std::complex<double> sum;
+  const auto add = [&](double z_m, double moment_kg_m, double phase_rad) {
+    if (fmt::format("z {:.1f} mm", z_m * 1e3) == place) sum += std::polar(moment_kg_m, phase_rad);
+  };
+  for (const auto& mass : rig.model->config().unbalance) {
+    add(mass.z_m, mass.moment_kg_m, mass.phase_rad);
+  }
+  for (const effect::EffectConfig& entry : rig.model->config().effects) {
+    if (entry.id != effect::Id::kUnbalance || entry.timed()) continue;
+    add(entry.values[0], entry.strength * entry.values[1], entry.values[2]);
+  }
+  return sum;
+}
+
+std::vector<std::string> TotalSentences(const SessionAnswer& s) {
+  std::vector<std::string> sentences;
+  const std::vector<NamedParameter> parameters = Parameters(s);
+  for (const NamedParameter& p : parameters) {
+    if (!p.of_file || p.key == kPhaseKey) continue;
+    const auto phase = std::find_if(parameters.begin(), parameters.end(), [&](const auto& other) {
+      return other.effect == p.effect && other.place == p.place && other.key == kPhaseKey &&
+             other.of_file;
+    });
+    const bool turned = phase != parameters.end();
+    sentences.push_back(
+        fmt::format("{} at {}: {} is added to the {} that the rig file has there: in all {}",
+                    p.effect, p.place, Amount(p.value, p.unit, turned ? &phase->value : nullptr),
+                    Amount(p.of_file->nominal, p.unit, turned ? &phase->of_file->nominal : nullptr),
+                    Amount(p.of_file->total, p.unit, turned ? &phase->of_file->total : nullptr)));
+  }
+  return sentences;
+}
+
+std::vector<std::string> TakenByCauses(const SessionAnswer& s) {
+  std::vector<std::string> taken;
+  if (s.own_words) return taken;
+  for (const PlacedEffect& at : CausesByPlace(s)) {
+    const bool calibrated = std::any_of(s.terms.begin(), s.terms.end(), [&at](const Term& t) {
+      return t.effect == at.effect && t.place == at.place && t.nuisance();
+    });
+    if (calibrated) taken.push_back(fmt::format("{} {}", at.effect, at.place));
+  }
+  return taken;
+}
+
+std::vector<NamedParameter> Parameters(const SessionAnswer& s) {
+  if (s.own_words) return s.own_words->parameters;
+  std::vector<NamedParameter> out;
+  for (const PlacedEffect& at : CausesByPlace(s)) {
+    const EntryValues values = ValuesOf(*s.view, at);
+    for (std::size_t key = 0; key < values.size(); ++key) {
+      if (!values[key].is_number()) continue;
+      if (const auto found = Bracket(s, at, key).Find()) out.push_back(*found);
+    }
+  }
+  return out;
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,79 @@
+#pragma once
+// The numbers of an answer under the keys and in the units of the rig file: parameters of the
+// causes, and what the calibration has moved.
+//
+// Interval   of parameters 5 to 95 % (90 %): every estimate to either side, squares added. The form
+//            of a law (knee, clearance, frequency of a support) is sought without one: there the
+//            bracket is the distance to the neighbouring forms.
+// Calibrated total values beside the causes, with the standard deviation that the data leave.
+//            Harmonics are told as amplitude and phase; unbalance is the file's with what was
+//            found. A mode's shape has no key: its change is told as a share of its rms.
+// Additions  an unbalance or a delay that is a cause stands in the list `effects`, and acts beside
+//            what the file has in `unbalance` and `delay_samples`.
+// Thread     any; pure.
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/report/effect_entry.hpp"
+
+namespace levitas::diagnosis {
+
+struct SessionAnswer;
+struct Estimate;
+struct Term;
+
+/// What the rig file has of the same in keys of its own, and that with what was found.
+struct OfFile {
+  double nominal{}, total{};  ///< unit of the parameter
+};
+
+struct NamedParameter {
+  std::string effect, name, unit;  ///< name: "tau_us[de_x]"
+  double value{}, low{}, high{};
+  std::string key, place;         ///< "tau_us", "de_x"
+  bool form{};                    ///< the bracket is no interval but the distance to other forms
+  double si{1.0};                 ///< of one unit
+  std::optional<OfFile> of_file;  ///< where the parameter is an addition to the file's
+};
+
+struct CalibratedValue {
+  std::string effect, place, key, unit;
+  double nominal{};   ///< of the rig file
+  double expected{};  ///< of earlier healthy records; else the nominal one
+  double calibrated{};
+  double deviation{};                                  ///< standard deviation that the data leave
+  double tolerance{};                                  ///< standard deviation on a healthy rig
+  std::optional<double> nominal_phase_rad, phase_rad;  ///< of a harmonic
+  std::optional<double> expected_phase_rad;
+  double moved{};      ///< from what was expected, in tolerances
+  double proven{};     ///< the same in standard deviations
+  double from_file{};  ///< from the nominal value, in tolerances of the rig file
+  double learned{};    ///< of that, what healthy records have shown
+};
+
+[[nodiscard]] std::vector<NamedParameter> Parameters(const SessionAnswer& answer);
+/// Of every cause that is an addition to what the file has: that, and the two together.
+[[nodiscard]] std::vector<std::string> TotalSentences(const SessionAnswer& answer);
+/// Numbers of the calibration that a cause has made its own, and are therefore not calibrated.
+[[nodiscard]] std::vector<std::string> TakenByCauses(const SessionAnswer& answer);
+/// [kg m] Of the file at a plane: its masses, and entries of `effects` that act all the time.
+[[nodiscard]] std::complex<double> UnbalanceOfFile(const RigView& rig, const std::string& place);
+/// Those that lie furthest out of their tolerance first.
+[[nodiscard]] std::vector<CalibratedValue> CalibratedValues(const SessionAnswer& answer);
+/// Moved by more than half a tolerance and more than two standard deviations.
+[[nodiscard]] bool WorthTelling(const CalibratedValue& value);
+
+/// Terms of a list of estimates, those of one effect at one place together.
+[[nodiscard]] std::vector<PlacedEffect> CausesByPlace(const SessionAnswer& answer);
+[[nodiscard]] std::vector<PlacedEffect> CalibrationByPlace(const SessionAnswer& answer);
+
+/// Of a parameter at a place; null where there is none.
+[[nodiscard]] const Estimate* EstimateOf(const std::vector<Estimate>& estimates,
+                                         const PlacedEffect& at, const std::string& parameter);
+[[nodiscard]] const Term* TermOf(const std::vector<Term>& terms, const PlacedEffect& at,
+                                 const std::string& parameter);
+
+}  // namespace levitas::diagnosis

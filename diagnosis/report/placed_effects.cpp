@@ -1,0 +1,58 @@
+// Terms and estimates by effect and place.
+
+#include <algorithm>
+
+#include "diagnosis/report/named_values.hpp"
+#include "diagnosis/report/session.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+void Add(std::vector<PlacedEffect>& groups, const std::string& effect, const std::string& place,
+         const std::string& parameter, double theta) {
+  const auto same = std::find_if(groups.begin(), groups.end(), [&](const PlacedEffect& g) {
+    return g.effect == effect && g.place == place;
+  });
+  PlacedEffect& group =
+      same != groups.end() ? *same : groups.emplace_back(PlacedEffect{effect, place, {}});
+  group.theta.try_emplace(parameter, theta);
+}
+
+}  // namespace
+
+const Estimate* EstimateOf(const std::vector<Estimate>& estimates, const PlacedEffect& at,
+                           const std::string& parameter) {
+  const auto found = std::find_if(estimates.begin(), estimates.end(), [&](const Estimate& e) {
+    return e.effect == at.effect && e.place == at.place && e.parameter == parameter;
+  });
+  return found == estimates.end() ? nullptr : &*found;
+}
+
+const Term* TermOf(const std::vector<Term>& terms, const PlacedEffect& at,
+                   const std::string& parameter) {
+  const auto found = std::find_if(terms.begin(), terms.end(), [&](const Term& t) {
+    return t.effect == at.effect && t.place == at.place && t.parameter == parameter;
+  });
+  return found == terms.end() ? nullptr : &*found;
+}
+
+std::vector<PlacedEffect> CausesByPlace(const SessionAnswer& s) {
+  std::vector<PlacedEffect> groups;
+  for (const Hypothesis& cause : s.answer.causes) {
+    for (const std::size_t t : cause.terms) {
+      const Term& term = s.terms[t];
+      Add(groups, term.effect, term.place, term.parameter, s.answer.theta_extended[t]);
+    }
+  }
+  return groups;
+}
+
+std::vector<PlacedEffect> CalibrationByPlace(const SessionAnswer& s) {
+  std::vector<PlacedEffect> groups;
+  for (const Estimate& e : s.answer.calibration) {
+    Add(groups, e.effect, e.place, e.parameter, e.value);
+  }
+  return groups;
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,91 @@
+#include "diagnosis/report/plan.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include "diagnosis/report/carry_over.hpp"
+#include "diagnosis/report/coverage.hpp"
+#include "diagnosis/report/words.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr std::array<std::string_view, 8> kRotating{
+    "unbalance",        "shaft_bow",          "sensor_runout",   "misalignment",
+    "shaft_anisotropy", "gyroscopic_inertia", "breathing_crack", "internal_damping"};
+/// They differ where an amplifier has long let go.
+constexpr std::array<std::string_view, 5> kOfTheLoop{
+    "extra_delay", "eddy_current", "amplifier_bandwidth", "sensor_bandwidth", "amplifier_slew"};
+
+template <std::size_t kCount>
+bool AnyOf(const std::vector<std::string>& effects,
+           const std::array<std::string_view, kCount>& list) {
+  return std::any_of(effects.begin(), effects.end(), [&list](const std::string& effect) {
+    return std::find(list.begin(), list.end(), effect) != list.end();
+  });
+}
+
+/// A maximum-length sequence of order 12 on every axis, one after the other.
+std::string TestSignals(const std::vector<std::string>& channels, int divisor, double period_s) {
+  std::string text;
+  const double hold_s = 2.0 * 4095.0 * divisor * period_s;
+  for (const std::string& channel : channels) {
+    text += fmt::format(
+        "  - do: nothing\n    hold_s: {:.3f}\n    excitation:\n"
+        "      - {{channel: {}, amplitude_a: 0.1, order: 12, divisor: {}}}\n",
+        hold_s, channel, divisor);
+  }
+  return text;
+}
+
+std::string Spin(double rpm, double hold_s, double rate_rpm_per_s, double most_rpm) {
+  return fmt::format(
+      "  - do: spin\n    speed_rpm: {:.0f}\n    acceleration_rpm_per_s: {:.0f}\n"
+      "    until: speed_reached\n    timeout_s: {:.0f}\n    hold_s: {:.1f}\n",
+      rpm, rate_rpm_per_s, 5.0 + 3.0 * most_rpm / rate_rpm_per_s, hold_s);
+}
+
+}  // namespace
+
+std::string PlanScenario(const SessionAnswer& s) {
+  const Answer& a = s.answer;
+  std::vector<std::string> effects = a.also_possible;
+  for (const Hypothesis& cause : a.causes) effects.push_back(cause.effect);
+  const bool sound = a.verdict == Verdict::kNone;
+  const bool rotating = effects.empty() || AnyOf(effects, kRotating) || HeldOutIsFaster(s);
+  const bool fast = AnyOf(effects, kOfTheLoop) || (sound && !CoverageOf(s).excited);
+  const auto& drive = s.view->model->config().drive;
+  const double most_rpm = s.view->numbers.max_speed_rad_per_s * 30.0 / std::numbers::pi;
+  const double rate = 0.5 * drive.max_acceleration_rad_per_s2 * 30.0 / std::numbers::pi;
+  std::string text = "kind: scenario\nname: diagnosis_next\n\n";
+  if (!CarriesOver(s)) {
+    text += fmt::format("# For a model that carries over: {}.\n", NextExperiment(s));
+  } else if (sound) {
+    text += fmt::format("# What the records lack: {}.\n", MissingRecords(s));
+  } else if (effects.empty()) {
+    text += "# To learn where the remainder belongs.\n";
+  } else {
+    text += fmt::format("# To separate {}:\n# {}.\n", fmt::join(effects, ", "), NextExperiment(s));
+  }
+  text += "steps:\n  - {do: lift, until: levitating, timeout_s: 10, hold_s: 1}\n";
+  text += TestSignals(s.view->numbers.channels, fast ? 1 : 2, s.view->period_s);
+  if (rotating && most_rpm > 0.0) {
+    text += Spin(0.08 * most_rpm, 3.0, rate, most_rpm);
+    text += Spin(0.5 * most_rpm, 1.0, rate, most_rpm);
+    text += TestSignals(s.view->numbers.channels, 2, s.view->period_s);
+    text += Spin(0.95 * most_rpm, 2.0, rate, most_rpm);
+    text += fmt::format(
+        "  - do: spin\n    speed_rpm: 0\n    acceleration_rpm_per_s: {:.0f}\n"
+        "    until: standstill\n    timeout_s: {:.0f}\n",
+        rate, 10.0 + 3.0 * most_rpm / rate);
+  }
+  return text + "  - {do: land, until: off, timeout_s: 10, hold_s: 0.2}\n";
+}
+
+}  // namespace levitas::diagnosis
