@@ -16,13 +16,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "benchmark/accuracy/held_evidence.hpp"
+#include "benchmark/accuracy/scores.hpp"
 #include "cli/identify/geared_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/kept_memory.hpp"
 #include "common/output_file.hpp"
 #include "plant_sim/effect/catalogue.hpp"
-#include "trials/held_evidence.hpp"
-#include "trials/scores.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -11,9 +11,9 @@
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
 #include "config/rig_file.hpp"
+#include "doctor/checks.hpp"
+#include "doctor/system_probe.hpp"
 #include "hil/can/budget.hpp"
-#include "hil/machine/checks.hpp"
-#include "hil/machine/system_probe.hpp"
 #include "transport/network_key.hpp"
 
 namespace levitas::cli {

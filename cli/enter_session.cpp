@@ -5,10 +5,10 @@
 #include <exception>
 #include <functional>
 
-#include "catalogue/catalogue.hpp"
-#include "catalogue/catalogue_path.hpp"
-#include "catalogue/describe_session.hpp"
 #include "controller/rt/say.hpp"
+#include "session_index/catalogue.hpp"
+#include "session_index/catalogue_path.hpp"
+#include "session_index/describe_session.hpp"
 
 namespace levitas::cli {
 namespace {

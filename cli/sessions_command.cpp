@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "catalogue/catalogue.hpp"
-#include "catalogue/catalogue_path.hpp"
-#include "catalogue/describe_session.hpp"
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/utc_text.hpp"
+#include "session_index/catalogue.hpp"
+#include "session_index/catalogue_path.hpp"
+#include "session_index/describe_session.hpp"
 #include "verdict/session_statistics.hpp"
 
 namespace levitas::cli {

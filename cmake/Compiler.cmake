@@ -34,7 +34,8 @@ endif()
 # Checks of every index and iterator of the standard library, but not in the arithmetic that runs
 # thousands of times per period or trial: there it costs more than 2 %.
 set(LEVITAS_UNCHECKED_ARITHMETIC law rotor magnet amplifier sensor support gear effect plant analysis
-    identification diagnosis_model diagnosis_terms diagnosis_inference levitator trials levitator_trials identification_trials)
+    identification diagnosis_model diagnosis_terms diagnosis_inference levitator accuracy
+    identification_accuracy)
 function(levitas_check_indices name)
   if(NOT name IN_LIST LEVITAS_UNCHECKED_ARITHMETIC)
     target_compile_definitions(${name} PRIVATE _GLIBCXX_ASSERTIONS)

@@ -4,7 +4,7 @@
     ./amb bench [FILTER] [--repeats N] [--min-time S]
 
 Google Benchmark programs are build/release/bench/*_bench; process-level measurements are the
-executable bench/*.py and bench/*.sh, which print their own lines and get BENCH_JSON, the file they
+executable benchmark/speed/*.py and *.sh, which print their own lines and get BENCH_JSON, the file they
 may write to. Everything lands in build/bench/. Compare rows of one run only: another run met
 another machine load.
 """
@@ -138,7 +138,7 @@ def main():
     (OUT / "environment.json").write_text(json.dumps(facts, indent=2) + "\n")
 
     programs = sorted(BINARIES.glob("*_bench"))
-    scripts = sorted(p for p in (ROOT / "bench").iterdir()
+    scripts = sorted(p for p in (ROOT / "benchmark/speed").iterdir()
                      if p.suffix in (".py", ".sh") and os.access(p, os.X_OK))
     chosen = [p for p in programs + scripts if options.filter in p.name]
     if not chosen:

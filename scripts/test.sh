@@ -9,7 +9,7 @@
 
 test_labels="unit loop replay process hardware build"
 # Unit tests of the parts that start threads or are shared between them.
-threaded_tests="common_test session_test transport_test loop_test rt_test machine_test gpio_test diagnosis_unit_test dashboard_test"
+threaded_tests="common_test session_test transport_test loop_test rt_test doctor_test gpio_test diagnosis_unit_test dashboard_test"
 
 # ctest_preset PRESET ARGUMENT...: one line of progress, then ctest's own closing lines.
 ctest_preset() {

@@ -9,9 +9,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/accuracy/identification/geared_bound.hpp"
 #include "cli/identify/geared_commands.hpp"
 #include "cli/json_file.hpp"
-#include "trials/identification/geared_bound.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -9,12 +9,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/accuracy/identification/modal_trial.hpp"
 #include "cli/analysis_options.hpp"
 #include "cli/identify/geared_commands.hpp"
 #include "cli/identify/start_options.hpp"
 #include "cli/json_file.hpp"
 #include "identification/modal/modal_starts.hpp"
-#include "trials/identification/modal_trial.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -7,11 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "benchmark/accuracy/identification/pump_trial.hpp"
 #include "cli/analysis_options.hpp"
 #include "cli/identify/geared_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/text_file.hpp"
-#include "trials/identification/pump_trial.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plant_sim/plant/effect_forces.hpp"
+#include "plant_sim/plant/effects/effect_forces.hpp"
 
 namespace levitas::plant {
 namespace {

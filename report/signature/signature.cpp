@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plant_sim/plant/apply_effects.hpp"
+#include "plant_sim/plant/effects/apply_effects.hpp"
 
 namespace levitas::signature {
 

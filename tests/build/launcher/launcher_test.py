@@ -75,6 +75,12 @@ class Launcher(unittest.TestCase):
         done = self.amb("run", "two words", "")
         self.assertEqual((done.stdout, done.returncode), ("[run][two words][]", 4), done.stderr)
 
+    def test_benchmarks_of_accuracy_are_the_programs_own(self):
+        for name in ("diagnosis", "identification", "full-spectrum", "pump"):
+            with self.subTest(name):
+                done = self.amb("bench", name, "--seeds", "3")
+                self.assertEqual(done.stdout, f"[bench][{name}][--seeds][3]", done.stderr)
+
     def test_says_nothing_of_its_own_when_everything_is_there(self):
         self.amb("run")
         self.assertEqual(self.amb("run").stderr, "")

@@ -30,7 +30,7 @@ class Bench(unittest.TestCase):
         (self.root / "scripts").mkdir()
         shutil.copy(SOURCE / "scripts/bench.py", self.root / "scripts")
         (self.root / "build/release/bench").mkdir(parents=True)
-        (self.root / "bench").mkdir()
+        (self.root / "benchmark/speed").mkdir(parents=True)
 
     def benchmark(self, name, rows, status=0):
         """A program that, as Google Benchmark does, writes its rows to --benchmark_out."""
@@ -47,7 +47,7 @@ exit {status}
         program.chmod(0o755)
 
     def script(self, name, body):
-        path = self.root / "bench" / name
+        path = self.root / "benchmark/speed" / name
         path.write_text("#!/bin/sh\n" + body)
         path.chmod(0o755)
 
@@ -101,7 +101,7 @@ exit {status}
 
     def test_scripts_are_told_where_to_write_and_where_the_programs_are(self):
         self.script("latency.sh", 'echo "{}" > "$BENCH_JSON"; echo "$LEVITAS_BINARIES"\n')
-        (self.root / "bench/notes.sh").write_text("not executable: not a benchmark\n")
+        (self.root / "benchmark/speed/notes.sh").write_text("not executable: not a benchmark\n")
         done = self.bench()
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.root / "build/bench/latency.json").exists())

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/inference/search.hpp"
 #include "diagnosis/model/turns.hpp"
 #include "diagnosis/terms/terms.hpp"
-#include "trials/trial.hpp"
 
 namespace levitas::diagnosis {
 namespace {

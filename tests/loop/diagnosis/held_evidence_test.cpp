@@ -1,14 +1,14 @@
 // What records hold for an effect: nothing of what tolerances imitate, the square of its size else.
 
-#include "trials/held_evidence.hpp"
+#include "benchmark/accuracy/held_evidence.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "benchmark/accuracy/trial.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "tests/support/effect_entry.hpp"
-#include "trials/trial.hpp"
 
 namespace levitas::trials {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "trials/scores.hpp"
+#include "benchmark/accuracy/scores.hpp"
 
 namespace levitas::trials {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/inference/search.hpp"
-#include "trials/trial.hpp"
 
 namespace levitas::diagnosis {
 namespace {

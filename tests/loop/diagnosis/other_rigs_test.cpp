@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "benchmark/accuracy/scores.hpp"
 #include "diagnosis/report/extended_rig.hpp"
-#include "trials/scores.hpp"
 
 namespace levitas::trials {
 namespace {

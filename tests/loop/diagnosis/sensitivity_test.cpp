@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/inference/search.hpp"
 #include "diagnosis/terms/terms.hpp"
-#include "trials/trial.hpp"
 
 namespace levitas::diagnosis {
 namespace {

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/records/load.hpp"
 #include "diagnosis/terms/terms.hpp"
-#include "trials/trial.hpp"
 
 namespace levitas::diagnosis {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
+#include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/terms/terms.hpp"
-#include "trials/trial.hpp"
 
 namespace levitas::diagnosis {
 namespace {

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "benchmark/accuracy/campaign.hpp"
+#include "benchmark/accuracy/trial.hpp"
+#include "benchmark/accuracy/true_rig.hpp"
 #include "diagnosis/inference/search.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "plant_sim/effect/catalogue.hpp"
-#include "trials/campaign.hpp"
-#include "trials/trial.hpp"
-#include "trials/true_rig.hpp"
 
 namespace levitas::diagnosis {
 namespace {

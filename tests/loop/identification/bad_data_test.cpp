@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <functional>
 
+#include "benchmark/accuracy/identification/simulated_campaign.hpp"
 #include "common/problem.hpp"
 #include "identification/frf/frequency_response.hpp"
 #include "tests/loop/identification/flexible_rotor.hpp"
-#include "trials/identification/simulated_campaign.hpp"
 
 namespace levitas::identification {
 namespace {

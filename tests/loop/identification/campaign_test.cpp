@@ -7,9 +7,9 @@
 #include <complex>
 #include <numbers>
 
+#include "benchmark/accuracy/identification/simulated_campaign.hpp"
 #include "identification/modal/identify_modal.hpp"
 #include "tests/loop/identification/flexible_rotor.hpp"
-#include "trials/identification/simulated_campaign.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -9,10 +9,10 @@
 #include <map>
 #include <numbers>
 
+#include "benchmark/accuracy/identification/simulated_campaign.hpp"
 #include "common/problem.hpp"
 #include "identification/frf/frequency_response.hpp"
 #include "tests/loop/identification/flexible_rotor.hpp"
-#include "trials/identification/simulated_campaign.hpp"
 
 namespace levitas::identification {
 namespace {

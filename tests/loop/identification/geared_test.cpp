@@ -7,10 +7,10 @@
 #include <functional>
 #include <numbers>
 
+#include "benchmark/accuracy/identification/geared_bound.hpp"
 #include "common/problem.hpp"
 #include "identification/geared/record_lines.hpp"
 #include "identification/identified_rig.hpp"
-#include "trials/identification/geared_bound.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <cstddef>
 
+#include "benchmark/accuracy/identification/simulated_campaign.hpp"
 #include "tests/loop/identification/flexible_rotor.hpp"
-#include "trials/identification/simulated_campaign.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "benchmark/accuracy/identification/modal_trial.hpp"
 #include "identification/identified_rig.hpp"
 #include "identification/modal/modal_response.hpp"
 #include "identification/modal/modal_starts.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "tests/loop/identification/flexible_rotor.hpp"
-#include "trials/identification/modal_trial.hpp"
 
 namespace levitas::identification {
 namespace {

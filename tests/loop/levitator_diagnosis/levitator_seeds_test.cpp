@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "diagnosis/levitator/answer.hpp"
-#include "trials/levitator/levitator_trial.hpp"
+#include "tests/support/levitator_trial.hpp"
 
 namespace levitas {
 namespace {

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "trials/identification/pump_trial.hpp"
+#include "benchmark/accuracy/identification/pump_trial.hpp"
 
 namespace levitas::test {
 namespace {

@@ -1,0 +1,72 @@
+#pragma once
+// Measured data of a hidden rig: what a technician would record, and nothing else.
+//
+// Records    standing with a test signal in one axis after the other, spinning with it, running up.
+//            A row holds what the CSV contract holds: time, angle, readings, commanded currents,
+//            test signal.
+// Loop       plant and axis law alone, one period at a time, from a levitated start that is not
+//            recorded.
+// Failure    `stable` false when the rotor came near its touchdown bearings or was lost, swings at rest, or is held by
+//            nothing but the most current.
+// Thread     any; no shared state.
+
+#include <string>
+#include <vector>
+
+#include "benchmark/accuracy/outside.hpp"
+#include "controller/law/law_config.hpp"
+#include "diagnosis/model/model_run.hpp"
+#include "plant_sim/plant/plant.hpp"
+
+namespace levitas::trials {
+
+struct MeasuredRow {
+  double time_s{};
+  double angle_rad{};
+  double speed_rad_per_s{};
+  AxisArray position_m{}, control_current_a{}, excitation_a{};
+};
+
+struct Measured {
+  std::string name;  ///< "standing", "spinning", "runup"
+  std::vector<MeasuredRow> rows;
+};
+
+/// Frames that never arrive: the controller does nothing, the rig holds its currents, and the row
+/// is missing from the record or repeats the one before.
+struct FrameLoss {
+  double probability{};  ///< that a burst begins
+  std::size_t burst{1};
+  bool missing{true};
+  std::uint64_t seed{};
+};
+
+struct CampaignPlan {
+  double spinning_rpm{3000.0};
+  double runup_from_rpm{480.0}, runup_to_rpm{5880.0};
+  double runup_s{2.0};
+  double quiet_s{0.3};  ///< before the test signals begin
+  double excitation_a{0.08};
+  int bits_per_axis{2047};  ///< of two periods each
+  double limit_m{120e-6};   ///< a reading beyond is not a healthy run
+  double resting_m{60e-6};  ///< nor beyond this with a shaft at rest: the loop swings by itself
+  std::uint64_t seed{1};    ///< of noise and test signal
+  FrameLoss loss;
+};
+
+struct Campaign {
+  std::vector<Measured> records;
+  bool stable{true};
+};
+
+[[nodiscard]] Campaign Record(const plant::PlantParameters& truth, const law::LawConfig& law,
+                              const CampaignPlan& plan, Outside outside, double outside_size,
+                              std::uint64_t outside_seed);
+
+/// Rows as the importer would give them.
+[[nodiscard]] std::vector<diagnosis::Record> AsRecords(const Campaign& campaign,
+                                                       const RigNumbers& rig);
+/// `folder`/<name>.csv of the contract in docs/formats.md.
+void WriteCsv(const Campaign& campaign, const RigNumbers& rig, const std::string& folder);
+
+}  // namespace levitas::trials

@@ -1,0 +1,36 @@
+#pragma once
+// What a bench does to one rig: which effects it hides, how large, how the rig is driven, and by how
+// much a healthy one is off.
+//
+// Sizes     DrawEffect's are those of the flexible rotor; here stand the factors on them that make
+//           an effect clear on another rig (25 nat and more in its records).
+// Thread    any; pure.
+
+#include <vector>
+
+#include "benchmark/accuracy/campaign.hpp"
+#include "benchmark/accuracy/true_rig.hpp"
+#include "config/rig_file.hpp"
+
+namespace levitas::trials {
+
+struct SizeOnRig {
+  effect::Id id;
+  double factor;
+};
+
+struct RigTrials {
+  std::vector<SizeOnRig> effects;  ///< that are hidden, in turn
+  CampaignPlan campaign;
+  double spinning_from_rpm{2400.0}, spinning_to_rpm{3600.0};  ///< drawn between
+  double runup_share{1.0};                                    ///< of a trial's usual length
+  Mismatch mismatch;
+
+  /// Factor on DrawEffect's size; 1 for an effect that is not in the list.
+  [[nodiscard]] double Factor(effect::Id id) const noexcept;
+};
+
+/// By the name of the rig; those of the flexible rotor for a rig that has none of its own.
+[[nodiscard]] RigTrials TrialsOf(const config::RigFile& rig);
+
+}  // namespace levitas::trials

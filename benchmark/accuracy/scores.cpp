@@ -1,0 +1,213 @@
+#include "benchmark/accuracy/scores.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "benchmark/accuracy/true_value.hpp"
+#include "diagnosis/report/words.hpp"
+
+namespace levitas::trials {
+namespace {
+
+bool Holds(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+std::string First(const Outcome& o) {
+  if (o.verdict != "effect" || o.named.empty()) return o.verdict;
+  return o.named.front();
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+std::string HeldText(const Outcome& o) {
+  return o.held_nat < 0.0 ? "evidence unknown"
+                          : fmt::format("the records hold {:.0f} nat", o.held_nat);
+}
+
+struct Count {
+  int right{}, partly{}, of{};
+  void Add(const Outcome& o) {
+    ++of;
+    right += o.Right() ? 1 : 0;
+    partly += !o.Right() && o.Partly() ? 1 : 0;
+  }
+  [[nodiscard]] std::string Text() const { return of == 0 ? "-" : fmt::format("{}/{}", right, of); }
+};
+
+}  // namespace
+
+bool Outcome::Right() const {
+  if (truth.empty() && outside.empty()) return verdict == "none";
+  if (truth.empty()) return verdict == "unknown";
+  return verdict == "effect" && !named.empty() &&
+         (named.front() == truth.front() || Holds(ties, truth.front()));
+}
+
+bool Outcome::Names(const std::string& effect) const {
+  return Holds(named, effect) || Holds(ties, effect);
+}
+
+bool Outcome::Partly() const {
+  return std::any_of(truth.begin(), truth.end(), [this](const auto& e) { return Names(e); });
+}
+
+bool Outcome::NamesMain() const { return !truth.empty() && Names(truth.front()); }
+
+bool Outcome::NamesAll() const {
+  return std::all_of(truth.begin(), truth.end(), [this](const auto& e) { return Names(e); });
+}
+
+bool Outcome::HoldsAllClearly() const {
+  return std::all_of(missed.begin(), missed.end(), [](const auto& effect) {
+    return SizeOf(effect.second.value_or(std::numeric_limits<double>::infinity())) == Size::kClear;
+  });
+}
+
+Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::SessionAnswer& answer,
+              const RigNumbers& rig) {
+  Outcome o;
+  o.seed = plan.seed;
+  o.truth = secret.effects;
+  o.in_file = secret.in_file;
+  if (secret.outside != Outside::kNothing) o.outside = Name(secret.outside);
+  o.drawn = secret.size;
+  const auto& a = answer.answer;
+  o.verdict = a.verdict == diagnosis::Verdict::kEffect    ? "effect"
+              : a.verdict == diagnosis::Verdict::kUnknown ? "unknown"
+                                                          : "none";
+  for (const auto& cause : a.causes) o.named.push_back(cause.effect);
+  o.ties = a.also_possible;
+  o.score_nat = a.candidates.empty() ? 0.0 : a.candidates.front().score;
+  for (const auto& c : a.candidates) {
+    if (!o.truth.empty() && c.effect == o.truth.front()) {
+      o.available_nat = std::max(o.available_nat, c.score);
+    }
+    if (o.nearest.size() < 7) {
+      o.nearest.push_back(
+          fmt::format("{} [{}] {:.1f}{}", c.effect, c.place, c.score, c.refitted ? "" : "?"));
+    }
+  }
+  o.explained = a.explained;
+  o.remainder_sigma = a.remainder.sigma;
+  o.achieved = answer.held_out.achieved.value;
+  for (const auto& p : diagnosis::Parameters(answer)) {
+    if (o.truth.empty() || p.effect != o.truth.front()) continue;
+    const double truth = TrueValue(p, secret, rig).value_or(0.0);
+    if (truth == 0.0) continue;
+    const double deviation = 0.5 * (p.high - p.low) / 1.645;
+    o.parameter_error = std::abs(p.value - truth) / std::abs(truth);
+    o.parameter_sigmas = deviation > 0.0 ? std::abs(p.value - truth) / deviation : 99.0;
+    break;
+  }
+  return o;
+}
+
+void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outcome& outcome) {
+  const std::string& truth = outcome.truth.front();
+  for (const auto& candidate : told.candidates) {
+    if (candidate.effect != truth) continue;
+    outcome.available_nat = std::max(outcome.available_nat, candidate.score);
+  }
+  outcome.held_nat = held.value_or(-1.0);
+  const bool named = std::any_of(told.causes.begin(), told.causes.end(),
+                                 [&truth](const auto& cause) { return cause.effect == truth; });
+  const bool there = held ? *held >= kHeldFrom : told.verdict == diagnosis::Verdict::kUnknown;
+  outcome.oracle_failed = !named && there;
+}
+
+std::string Tables(const std::vector<Outcome>& outcomes) {
+  std::map<std::string, std::map<Size, Count>> by_effect;
+  std::map<Size, Count> by_size;
+  Count clean, outside, several;
+  int several_main = 0;
+  int several_all = 0;
+  int several_clear = 0;
+  std::vector<double> achieved, seconds;
+  std::string failed;
+  int compared = 0;
+  int good = 0;
+  for (const Outcome& o : outcomes) {
+    seconds.push_back(o.seconds);
+    if (o.truth.empty()) {
+      (o.outside.empty() ? clean : outside).Add(o);
+      continue;
+    }
+    if (o.truth.size() > 1) {
+      several.Add(o);
+      several_main += o.NamesMain() ? 1 : 0;
+      several_all += o.NamesAll() ? 1 : 0;
+      several_clear += o.HoldsAllClearly() ? 1 : 0;
+      continue;
+    }
+    by_effect[o.truth.front()][o.size()].Add(o);
+    by_size[o.size()].Add(o);
+    if (o.oracle_failed) {
+      failed +=
+          fmt::format("  {} {} ({}, {})\n", o.seed, o.truth.front(), Name(o.size()), HeldText(o));
+    }
+    if (o.size() != Size::kClear || !o.Right()) continue;
+    achieved.push_back(o.achieved);
+    if (o.parameter_error < 0.0) continue;
+    ++compared;
+    good += o.parameter_error < 0.1 || o.parameter_sigmas < 2.0 ? 1 : 0;
+  }
+  std::string out =
+      fmt::format("{:<26}{:>9}{:>10}{:>8}{:>8}\n{:<26}{:>9}{:>10}{:>8}{:>8}\n", "effect", "clear",
+                  "moderate", "faint", "below", "evidence in the records", "25 nat", "10", "5", "");
+  const auto line = [&out](const std::string& name, std::map<Size, Count>& counts) {
+    out += fmt::format("{:<26}{:>9}{:>10}{:>8}{:>8}\n", name, counts[Size::kClear].Text(),
+                       counts[Size::kModerate].Text(), counts[Size::kFaint].Text(),
+                       counts[Size::kBelow].Text());
+  };
+  for (auto& [effect, counts] : by_effect) line(effect, counts);
+  line("all", by_size);
+  if (!failed.empty()) {
+    out += "\noracle failed, counted as not named in the size drawn:\n" + failed;
+  }
+  out += fmt::format(
+      "\nnothing hidden, called none: {}\noutside the vocabulary, called unknown: {}\n"
+      "several hidden, main one named: {}/{}, first: {}; all named: {}/{}; where the records hold "
+      "every one "
+      "clearly: {}/{}\n",
+      clean.Text(), outside.Text(), several_main, several.of, several.Text(), several_all,
+      several.of, several_all, several_clear);
+  out += fmt::format(
+      "clear and right: parameter within 10 % or two deviations {}/{}, median share of "
+      "the achievable gain {:.3f}\nmedian wall time {:.1f} s\n",
+      good, compared, Median(achieved), Median(seconds));
+  return out;
+}
+
+std::string ConfusionTable(const std::vector<Outcome>& outcomes) {
+  std::map<std::string, std::map<std::string, int>> cells;
+  for (const Outcome& o : outcomes) {
+    if (o.truth.size() > 1) continue;
+    const std::string truth = !o.truth.empty()    ? o.truth.front()
+                              : o.outside.empty() ? "(nothing)"
+                                                  : "(" + o.outside + ")";
+    ++cells[truth][First(o)];
+  }
+  std::string out = "| hidden | named first (times) |\n|---|---|\n";
+  for (const auto& [truth, row] : cells) {
+    std::vector<std::pair<std::string, int>> sorted(row.begin(), row.end());
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto& a, const auto& b) { return a.second > b.second; });
+    out += fmt::format("| {} |", truth);
+    for (const auto& [named, times] : sorted)
+      out += fmt::format(" {} {}", named, times) + (named == sorted.back().first ? "" : ",");
+    out += " |\n";
+  }
+  return out;
+}
+
+}  // namespace levitas::trials

@@ -1,0 +1,78 @@
+#pragma once
+// How a diagnosis did on trials: right, partly right, false alarms, confusion, parameters, gain.
+//
+// Right      the first cause is the main effect, or the main effect is among those declared
+//            inseparable from it.
+// Available  the evidence that the records hold for what is hidden, as the final ranking has it:
+//            what could be known at all. A hand-drawn size says little about it: some effects drown
+//            in tolerances.
+// Oracle     a second diagnosis that is told what is hidden. One that does not name it although the
+//            records hold it (held_evidence.hpp) has failed: what is available is not known, and the
+//            trial counts as not named in the size that was drawn.
+// Partly     any effect really present is named, but not as first.
+// Thread     any; pure.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmark/accuracy/trial.hpp"
+#include "diagnosis/report/session.hpp"
+
+namespace levitas::trials {
+
+/// One trial's outcome, as one row of the bench.
+struct Outcome {
+  std::uint64_t seed{};
+  std::vector<std::string> truth;    ///< empty: nothing hidden
+  std::vector<std::string> in_file;  ///< what the diagnosis's rig file holds
+  std::string outside;               ///< empty: nothing outside the vocabulary
+  double drawn{};                    ///< size relative to what is drawn as clear
+  std::string verdict;               ///< "none", "effect", "unknown"
+  std::vector<std::string> named;    ///< all causes, in order
+  std::vector<std::string> ties;
+  double score_nat{};
+  double available_nat{};  ///< what the records hold for the main effect, as far as a fit found it
+  double held_nat{-1.0};   ///< HeldEvidence; -1 = not computed, or none
+  bool oracle_failed{};    ///< `available_nat` says nothing
+  double explained{};      ///< share of the calibrated model's excess
+  double remainder_sigma{};
+  std::vector<std::string> nearest;  ///< candidates in words, best first
+  double achieved{};                 ///< fraction of the achievable gain, held out
+  double parameter_error{-1.0};      ///< of the main parameter: share of it; -1 = not comparable
+  double parameter_sigmas{-1.0};
+  double seconds{};
+  /// Of several, what was not named, and what the records hold for it beside the others.
+  std::vector<std::pair<std::string, std::optional<double>>> missed;
+
+  [[nodiscard]] Size size() const noexcept {
+    if (!oracle_failed) return SizeOf(available_nat);
+    return held_nat < 0.0 ? SizeDrawn(drawn) : SizeOf(held_nat);
+  }
+  [[nodiscard]] bool Right() const;
+  [[nodiscard]] bool Partly() const;
+  [[nodiscard]] bool Names(const std::string& effect) const;  ///< at any rank, or as a tie
+  [[nodiscard]] bool NamesMain() const;
+  [[nodiscard]] bool NamesAll() const;
+  /// Of several, whether records that can be read hold every one clearly. What was named is.
+  [[nodiscard]] bool HoldsAllClearly() const;
+};
+
+[[nodiscard]] Outcome Judge(const TrialPlan& plan, const Secret& secret,
+                            const diagnosis::SessionAnswer& answer, const RigNumbers& rig);
+
+/// From this on records that no diagnosis can read are no excuse: twice what decides, since a fit
+/// pays for its freedom.
+inline constexpr double kHeldFrom = 2.0 * diagnosis::kDecisive;
+
+/// Takes what the oracle says of an effect that was not named. `held` as HeldEvidence; where there is
+/// none an oracle fails that leaves something unexplained.
+void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outcome& outcome);
+
+/// Tables for people, of all outcomes.
+[[nodiscard]] std::string Tables(const std::vector<Outcome>& outcomes);
+/// The confusion matrix as a Markdown table: truth by row, first cause by column.
+[[nodiscard]] std::string ConfusionTable(const std::vector<Outcome>& outcomes);
+
+}  // namespace levitas::trials

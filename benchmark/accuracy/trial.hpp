@@ -1,0 +1,70 @@
+#pragma once
+// One trial of the diagnosis: a rig with something hidden in it, its measured data, and the answer
+// kept apart from them.
+//
+// Seed       decides everything: what the rig is off by, effects, sizes, places, speed, controller,
+//            noise. An effect under which the rig does not stay levitated is drawn smaller.
+// Lost       frames of `dropped_samples` are missing from the record, or stand in it twice.
+// Thread     any; two inside.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "benchmark/accuracy/campaign.hpp"
+#include "benchmark/accuracy/hidden_effect.hpp"
+#include "benchmark/accuracy/rig_trials.hpp"
+#include "config/rig_file.hpp"
+
+namespace levitas::trials {
+
+/// The rig under trial: nominal description and the laws it may be levitated with.
+struct Bench {
+  config::RigFile rig;
+  std::vector<law::LawConfig> laws;
+  RigTrials trials;
+};
+
+struct TrialPlan {
+  std::uint64_t seed{};
+  std::vector<effect::Id> hidden;  ///< the first is the main one
+  double size{1.0};                ///< of the main effect; 1 = what DrawEffect calls clear
+  double side_size{1.0};           ///< of the others
+  Outside outside{Outside::kNothing};
+  bool in_file{};           ///< the diagnosis is given a rig file that holds the effects
+  int bits_per_axis{2047};  ///< length of the test signal
+  double runup_s{2.0};
+};
+
+/// Sizes by the evidence that the records hold for the effect [nat]: from 25, from 10, from 5 (what
+/// decides), and what no records of this length can tell.
+enum class Size : std::uint8_t { kBelow, kFaint, kModerate, kClear };
+[[nodiscard]] Size SizeOf(double available_nat) noexcept;
+/// By what was drawn, where the evidence is not known: 1 is clear, 0.5 moderate, 0.25 faint. Nothing
+/// is drawn to be below all.
+[[nodiscard]] Size SizeDrawn(double drawn) noexcept;
+[[nodiscard]] const char* Name(Size size) noexcept;
+
+/// What is hidden. Never handed to the diagnosis.
+struct Secret {
+  std::vector<std::string> effects;  ///< none when the rig file holds them
+  std::vector<std::string> in_file;
+  Outside outside{Outside::kNothing};
+  plant::PlantParameters truth;
+  std::vector<effect::EffectConfig> hidden;  ///< as drawn; part of `truth`
+  double size{};                             ///< after making it smaller for stability
+};
+
+struct Trial {
+  config::RigFile rig;  ///< nominal, what the diagnosis is given
+  std::vector<diagnosis::Record> records;
+  Campaign campaign;
+  Secret secret;
+};
+
+[[nodiscard]] Trial MakeTrial(const Bench& bench, const TrialPlan& plan);
+
+/// Loads a rig and these controllers; without any, the one that the rig file names.
+[[nodiscard]] Bench LoadBench(const std::string& rig, const std::vector<std::string>& controllers);
+
+}  // namespace levitas::trials

@@ -1,0 +1,20 @@
+#pragma once
+// What a number of an answer is in the rig that was hidden from it.
+//
+// Combined   the hidden effect and what the rig is off by anyway at the same place: ratios multiply,
+//            harmonics of one order add as vectors, all else adds.
+// Units      those of the parameter. Thread: any; pure.
+
+#include <optional>
+
+#include "benchmark/accuracy/trial.hpp"
+#include "common/rig_numbers.hpp"
+#include "diagnosis/report/named_values.hpp"
+
+namespace levitas::trials {
+
+/// Nothing where the two cannot be compared: another place, a number that counts from the rig's own.
+[[nodiscard]] std::optional<double> TrueValue(const diagnosis::NamedParameter& parameter,
+                                              const Secret& secret, const RigNumbers& rig);
+
+}  // namespace levitas::trials

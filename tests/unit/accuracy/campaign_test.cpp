@@ -1,0 +1,114 @@
+// Recorded campaigns: same seed, same data; files say what memory says; lost frames are lost.
+
+#include "benchmark/accuracy/campaign.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "benchmark/accuracy/trial.hpp"
+#include "diagnosis/records/load.hpp"
+
+namespace levitas::trials {
+namespace {
+
+constexpr int kBits = 1275;  // 1.02 s: the shortest record that a diagnosis takes
+
+const Bench& TheBench() {
+  static const Bench bench = LoadBench("flexible_rotor", {"flexible_rotor"});
+  return bench;
+}
+
+TrialPlan Short(std::uint64_t seed, std::vector<effect::Id> hidden) {
+  TrialPlan plan;
+  plan.seed = seed;
+  plan.hidden = std::move(hidden);
+  plan.bits_per_axis = kBits;
+  plan.runup_s = 1.05;
+  return plan;
+}
+
+double Rms(const Measured& measured, std::size_t axis) {
+  double sum = 0.0;
+  for (const MeasuredRow& row : measured.rows) sum += std::pow(row.position_m[axis], 2);
+  return std::sqrt(sum / static_cast<double>(measured.rows.size()));
+}
+
+TEST(Campaign, RepeatsWithItsSeedAndDiffersWithAnother) {
+  const auto first = MakeTrial(TheBench(), Short(3, {}));
+  const auto again = MakeTrial(TheBench(), Short(3, {}));
+  const auto other = MakeTrial(TheBench(), Short(4, {}));
+  ASSERT_EQ(first.campaign.records.size(), 3U);
+  const auto& rows = first.campaign.records[1].rows;
+  EXPECT_EQ(rows.back().position_m, again.campaign.records[1].rows.back().position_m);
+  EXPECT_NE(rows.back().position_m, other.campaign.records[1].rows.back().position_m);
+}
+
+TEST(Campaign, ExcitesOneAxisAfterTheOtherAndNoneInTheRunUp) {
+  const auto trial = MakeTrial(TheBench(), Short(3, {}));
+  const auto& standing = trial.campaign.records[0].rows;
+  constexpr std::size_t kQuiet = 3000;  // 0.3 s
+  ASSERT_GT(standing.size(), kQuiet);
+  EXPECT_EQ(standing[kQuiet - 1].excitation_a[0], 0.0);
+  const std::size_t per_axis = (standing.size() - kQuiet) / 4;
+  for (std::size_t a = 0; a < 4; ++a) {
+    const auto& row = standing[kQuiet + a * per_axis + per_axis / 2];
+    for (std::size_t other = 0; other < 4; ++other) {
+      EXPECT_EQ(std::abs(row.excitation_a[other]), other == a ? 0.08 : 0.0);
+    }
+  }
+  for (const auto& row : trial.campaign.records[2].rows) ASSERT_EQ(row.excitation_a[0], 0.0);
+}
+
+TEST(Campaign, ShowsUnbalanceOnlyWhenItTurns) {
+  const auto healthy = MakeTrial(TheBench(), Short(3, {}));
+  const auto heavy = MakeTrial(TheBench(), Short(3, {effect::Id::kUnbalance}));
+  EXPECT_EQ(Rms(heavy.campaign.records[0], 0), Rms(healthy.campaign.records[0], 0));
+  EXPECT_NE(Rms(heavy.campaign.records[1], 0), Rms(healthy.campaign.records[1], 0));
+}
+
+TEST(Campaign, WrittenAsCsvIsReadBackAsTheSameRows) {
+  const auto trial = MakeTrial(TheBench(), Short(3, {}));
+  const auto folder = std::filesystem::temp_directory_path() / "levitas_campaign_test";
+  std::filesystem::create_directories(folder);
+  WriteCsv(trial.campaign, TheBench().rig.numbers, folder.string());
+  const auto read =
+      diagnosis::LoadRecord((folder / "spinning.csv").string(), TheBench().rig, folder.string());
+  std::filesystem::remove_all(folder);
+  const auto& rows = trial.records[1].rows;
+  ASSERT_EQ(read.rows.size(), rows.size());
+  for (const std::size_t n : {std::size_t{100}, rows.size() / 2, rows.size() - 1}) {
+    for (std::size_t a = 0; a < 4; ++a) {
+      // Half a unit of the eighth digit: 5e-13 m up to 100 um, 5e-9 A below 1 A. The speed comes
+      // from the slope of angles with eight digits.
+      EXPECT_NEAR(read.rows[n].sample.position_m[a], rows[n].sample.position_m[a], 1e-12);
+      EXPECT_NEAR(read.rows[n].sample.command.control_current_a[a],
+                  rows[n].sample.command.control_current_a[a], 1e-8);
+    }
+    EXPECT_NEAR(read.rows[n].sample.speed_rad_per_s, rows[n].sample.speed_rad_per_s, 0.1);
+  }
+}
+
+TEST(Campaign, WithLostFramesHasMissingOrRepeatedRows) {
+  const auto trial = MakeTrial(TheBench(), Short(5, {effect::Id::kDroppedSamples}));
+  std::size_t lost = 0;
+  const auto& rows = trial.campaign.records[0].rows;
+  for (std::size_t n = 1; n < rows.size(); ++n) {
+    const bool gap = rows[n].time_s - rows[n - 1].time_s > 1.5e-4;
+    lost += gap || rows[n].position_m == rows[n - 1].position_m ? 1U : 0U;
+  }
+  // 10 200 rows, four of a thousand: 41 expected, 15 is four standard deviations below.
+  EXPECT_GT(lost, 15U);
+}
+
+// What the plant itself held back would stand in no record, and a diagnosis could not know of it.
+TEST(Campaign, WithLostFramesLosesNoneBesideTheRecord) {
+  const auto trial = MakeTrial(TheBench(), Short(5, {effect::Id::kDroppedSamples}));
+  for (const auto& entry : trial.secret.truth.config.effects) {
+    EXPECT_NE(entry.id, effect::Id::kDroppedSamples);
+  }
+}
+
+}  // namespace
+}  // namespace levitas::trials

@@ -1,0 +1,173 @@
+// What counts as a right, a partly right and a wrong answer of the diagnosis.
+
+#include "benchmark/accuracy/scores.hpp"
+
+#include <gtest/gtest.h>
+
+namespace levitas::trials {
+namespace {
+
+Outcome Hidden(std::vector<std::string> truth, std::vector<std::string> named,
+               std::vector<std::string> ties = {}) {
+  Outcome o;
+  o.truth = std::move(truth);
+  o.verdict = named.empty() ? "none" : "effect";
+  o.named = std::move(named);
+  o.ties = std::move(ties);
+  o.available_nat = 40.0;
+  return o;
+}
+
+TEST(Outcome, IsRightOnlyWhenTheMainEffectIsNamedFirstOrDeclaredInseparable) {
+  EXPECT_TRUE(Hidden({"unbalance"}, {"unbalance"}).Right());
+  EXPECT_TRUE(Hidden({"unbalance"}, {"shaft_bow"}, {"unbalance"}).Right());
+  EXPECT_FALSE(Hidden({"unbalance"}, {"shaft_bow", "unbalance"}).Right());
+  EXPECT_FALSE(Hidden({"unbalance"}, {}).Right());
+}
+
+TEST(Outcome, IsPartlyRightWhenAnyEffectReallyPresentIsNamed) {
+  EXPECT_TRUE(Hidden({"unbalance", "hysteresis"}, {"hysteresis"}).Partly());
+  EXPECT_FALSE(Hidden({"unbalance", "hysteresis"}, {"hysteresis"}).NamesAll());
+  EXPECT_TRUE(Hidden({"unbalance", "hysteresis"}, {"hysteresis", "unbalance"}).NamesAll());
+  EXPECT_FALSE(Hidden({"unbalance"}, {"shaft_bow"}).Partly());
+}
+
+TEST(Outcome, OfACleanRecordIsRightOnlyWhenNothingIsNamed) {
+  EXPECT_TRUE(Hidden({}, {}).Right());
+  EXPECT_FALSE(Hidden({}, {"unbalance"}).Right());
+  Outcome unknown = Hidden({}, {});
+  unknown.verdict = "unknown";
+  EXPECT_FALSE(unknown.Right());
+}
+
+TEST(Outcome, OfSomethingOutsideTheVocabularyIsRightOnlyWhenCalledUnknown) {
+  Outcome o = Hidden({}, {});
+  o.outside = "turbulence";
+  EXPECT_FALSE(o.Right());
+  o.verdict = "unknown";
+  EXPECT_TRUE(o.Right());
+  o = Hidden({}, {"unbalance"});
+  o.outside = "turbulence";
+  EXPECT_FALSE(o.Right());
+}
+
+TEST(ConfusionTable, HasARowForEveryTruthAndCountsTheFirstNamed) {
+  const std::string table =
+      ConfusionTable({Hidden({"unbalance"}, {"unbalance"}), Hidden({"unbalance"}, {"unbalance"}),
+                      Hidden({"unbalance"}, {"shaft_bow"}), Hidden({}, {})});
+  EXPECT_NE(table.find("| unbalance | unbalance 2, shaft_bow 1 |"), std::string::npos) << table;
+  EXPECT_NE(table.find("| (nothing) | none 1 |"), std::string::npos) << table;
+}
+
+TEST(Tables, KeepEffectsSizesAndCleanRecordsApart) {
+  Outcome faint = Hidden({"unbalance"}, {});
+  faint.available_nat = 7.0;
+  const std::string text = Tables({Hidden({"unbalance"}, {"unbalance"}), faint, Hidden({}, {})});
+  EXPECT_NE(text.find("unbalance                       1/1         -     0/1"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("nothing hidden, called none: 1/1"), std::string::npos) << text;
+}
+
+TEST(Tables, CountPairsOfWhichTheRecordsHoldBothClearlyApart) {
+  Outcome both = Hidden({"unbalance", "hysteresis"}, {"unbalance", "hysteresis"});
+  Outcome missed = Hidden({"unbalance", "hysteresis"}, {"unbalance"});
+  missed.missed = {{"hysteresis", 90.0}};
+  Outcome below = missed;
+  below.missed = {{"hysteresis", 3.0}};
+  Outcome unknown = missed;
+  unknown.missed = {{"hysteresis", std::nullopt}};
+  Outcome second = missed;
+  second.named = {"shaft_bow", "unbalance"};
+  Outcome neither = missed;
+  neither.named = {"shaft_bow"};
+  const std::string text = Tables({both, missed, below, unknown, second, neither});
+  EXPECT_NE(text.find("main one named: 5/6, first: 4/6"), std::string::npos) << text;
+  EXPECT_NE(text.find("all named: 1/6; where the records hold every one clearly: 1/5"),
+            std::string::npos)
+      << text;
+}
+
+diagnosis::Answer Told(const std::string& effect, double score, bool named) {
+  diagnosis::Answer told;
+  diagnosis::Candidate candidate;
+  candidate.effect = effect;
+  candidate.score = score;
+  told.candidates.push_back(candidate);
+  if (!named) return told;
+  diagnosis::Hypothesis cause;
+  cause.effect = effect;
+  told.causes.push_back(cause);
+  return told;
+}
+
+Outcome Missed(double drawn) {
+  Outcome o = Hidden({"misalignment"}, {});
+  o.verdict = "unknown";
+  o.drawn = drawn;
+  o.available_nat = 0.0;
+  return o;
+}
+
+TEST(Oracle, ThatDoesNotNameWhatTheRecordsHoldHasFailedAndTheTrialHasTheSizeOfWhatTheyHold) {
+  for (const auto& [held, size] : {std::pair{2907.0, Size::kClear}, {18.0, Size::kModerate}}) {
+    Outcome o = Missed(0.5);
+    HearOracle(Told("misalignment", 0.0, false), held, o);
+    EXPECT_TRUE(o.oracle_failed);
+    EXPECT_EQ(o.size(), size);
+    EXPECT_FALSE(o.Right());
+  }
+}
+
+TEST(Oracle, ThatFindsNothingInRecordsThatHoldNothingHasNotFailed) {
+  Outcome o = Missed(1.0);
+  HearOracle(Told("misalignment", -0.6, false), 0.2, o);
+  EXPECT_FALSE(o.oracle_failed);
+  EXPECT_EQ(o.size(), Size::kBelow);
+}
+
+TEST(Oracle, ThatNamesTheEffectSaysItsSize) {
+  Outcome o = Missed(1.0);
+  HearOracle(Told("misalignment", 12.0, true), 40.0, o);
+  EXPECT_FALSE(o.oracle_failed);
+  EXPECT_EQ(o.size(), Size::kModerate);
+}
+
+TEST(Oracle, ThatLeavesSomethingIsNotBelievedWhereNothingElseSaysWhatTheRecordsHold) {
+  Outcome o = Missed(1.0);
+  diagnosis::Answer told = Told("misalignment", 0.0, false);
+  told.verdict = diagnosis::Verdict::kUnknown;
+  HearOracle(told, std::nullopt, o);
+  EXPECT_TRUE(o.oracle_failed);
+  EXPECT_EQ(o.size(), Size::kClear);
+  told.verdict = diagnosis::Verdict::kNone;
+  HearOracle(told, std::nullopt, o);
+  EXPECT_EQ(o.size(), Size::kBelow);
+}
+
+TEST(Oracle, CountsOnlyEvidenceForWhatIsHidden) {
+  Outcome o = Missed(1.0);
+  HearOracle(Told("sensor_noise", 300.0, true), 0.0, o);
+  EXPECT_EQ(o.size(), Size::kBelow);
+}
+
+TEST(Tables, ListATrialWhoseOracleFailedAndCountItAsNotNamed) {
+  Outcome o = Missed(1.0);
+  o.seed = 17328;
+  HearOracle(Told("misalignment", 0.0, false), 2907.0, o);
+  const std::string text = Tables({o});
+  EXPECT_NE(text.find("misalignment                    0/1         -       -       -"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("17328 misalignment (clear, the records hold 2907 nat)"), std::string::npos)
+      << text;
+}
+
+TEST(Sizes, AreWhatTheRecordsHoldAndWhatDoesNotDecideIsBelowAll) {
+  EXPECT_EQ(SizeOf(25.0), Size::kClear);
+  EXPECT_EQ(SizeOf(24.9), Size::kModerate);
+  EXPECT_EQ(SizeOf(9.9), Size::kFaint);
+  EXPECT_EQ(SizeOf(0.99 * diagnosis::kDecisive), Size::kBelow);
+}
+
+}  // namespace
+}  // namespace levitas::trials

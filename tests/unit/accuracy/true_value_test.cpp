@@ -1,0 +1,78 @@
+// The number of an answer against the rig that was hidden from it.
+
+#include "benchmark/accuracy/true_value.hpp"
+
+#include <gtest/gtest.h>
+
+#include "config/rig_file.hpp"
+#include "tests/support/effect_entry.hpp"
+
+namespace levitas::trials {
+namespace {
+
+using effect::Id;
+using test::Entry;
+
+class TrueValueTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::optional<double> Of(const std::string& effect, const std::string& key,
+                                         const std::string& place, double si = 1.0) const {
+    diagnosis::NamedParameter p;
+    p.effect = effect;
+    p.key = key;
+    p.place = place;
+    p.si = si;
+    return TrueValue(p, secret_, rig_.numbers);
+  }
+  void Hide(const effect::EffectConfig& entry) {
+    secret_.hidden.push_back(entry);
+    secret_.truth.config.effects.push_back(entry);
+  }
+  void OffAnyway(const effect::EffectConfig& entry) {
+    secret_.truth.config.effects.push_back(entry);
+  }
+
+  config::RigFile rig_ = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  Secret secret_;
+};
+
+TEST_F(TrueValueTest, OfOneChannelHasNothingOfAnotherWhoseNameItContains) {
+  Hide(Entry(Id::kCurrentGain, {0.8}, 0b0010));
+  Hide(Entry(Id::kCurrentGain, {0.9}, 0b1000));
+  ASSERT_EQ(rig_.numbers.channels[1], "de_y");
+  ASSERT_EQ(rig_.numbers.channels[3], "nde_y");
+  EXPECT_DOUBLE_EQ(Of("current_gain", "ratio", "nde_y").value_or(0.0), 0.9);
+}
+
+TEST_F(TrueValueTest, OfOneBearingHasNothingOfAnotherWhoseNameItContains) {
+  for (const std::size_t bearing : {0U, 1U}) {
+    auto entry = Entry(Id::kSensorPosition, {1e-3 * static_cast<double>(1 + bearing)});
+    entry.bearing = bearing;
+    Hide(entry);
+  }
+  EXPECT_DOUBLE_EQ(Of("sensor_position", "shift_mm", "nde", 1e-3).value_or(0.0), 2.0);
+}
+
+TEST_F(TrueValueTest, CombinesWhatIsHiddenWithWhatTheRigIsOffByAnyway) {
+  OffAnyway(Entry(Id::kSensorGain, {1.02}, 0b0001));
+  OffAnyway(Entry(Id::kSensorOffset, {3e-6}, 0b0001));
+  Hide(Entry(Id::kSensorGain, {1.10}, 0b0001));
+  Hide(Entry(Id::kSensorOffset, {-1e-6}, 0b0001));
+  EXPECT_DOUBLE_EQ(Of("sensor_gain", "ratio", "de_x").value_or(0.0), 1.02 * 1.10);
+  EXPECT_NEAR(Of("sensor_offset", "offset_um", "de_x", 1e-6).value_or(0.0), 2.0, 1e-12);
+}
+
+TEST_F(TrueValueTest, OfOnePlaneHasNothingOfAnother) {
+  Hide(Entry(Id::kStaticLoad, {0.13, 7.0, 5.0}));
+  OffAnyway(Entry(Id::kStaticLoad, {0.40, -1.0, 0.5}));
+  EXPECT_DOUBLE_EQ(Of("static_load", "force_x_n", "de_x").value_or(0.0), 7.0);
+}
+
+TEST_F(TrueValueTest, IsNotThereAtAPlaceWithoutTheEffect) {
+  Hide(Entry(Id::kSensorGain, {1.10}, 0b0001));
+  OffAnyway(Entry(Id::kSensorGain, {1.02}, 0b0100));
+  EXPECT_FALSE(Of("sensor_gain", "ratio", "nde_x").has_value());
+}
+
+}  // namespace
+}  // namespace levitas::trials
