@@ -15,7 +15,9 @@ namespace levitas::cli {
 using Action = std::function<ExitStatus()>;
 
 // The commands, in the order of the help. Each is defined in <name>_command.cpp.
-// (Add: declaration here, entry in main.cpp, source in CMakeLists.txt.)
+// (Add: declaration here, entry in running_commands.cpp, or in study/main.cpp and
+// study_commands.hpp, source in CMakeLists.txt.)
+void AddRunningCommands(CLI::App& app, Action& action);
 void AddRunCommand(CLI::App& app, Action& action);
 void AddModesCommand(CLI::App& app, Action& action);
 void AddPolesCommand(CLI::App& app, Action& action);

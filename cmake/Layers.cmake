@@ -11,8 +11,9 @@
 # targets visible in our headers, PRIVATE_LINKS third-party targets that stay inside the sources.
 
 set_property(GLOBAL PROPERTY LEVITAS_LIBRARIES "")
-# What `./amb run` needs: the programs without tests and benchmarks.
+# The programs without tests and benchmarks, and what of them `./amb run` needs.
 add_custom_target(programs)
+add_custom_target(running_programs)
 
 function(levitas_library name)
   cmake_parse_arguments(A "" "LAYER;FOLDER" "SOURCES;USES;LINKS;PRIVATE_LINKS" ${ARGN})

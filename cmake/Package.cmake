@@ -5,7 +5,7 @@
 include(GNUInstallDirs)
 
 function(levitas_install_programs)
-  install(TARGETS amb amb-controller amb-plant amb-rig RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS amb amb-study amb-controller amb-plant amb-rig RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   foreach(kind rigs controllers scenarios)
     install(DIRECTORY config/${kind} DESTINATION share/levitas FILES_MATCHING PATTERN "*.yaml")
   endforeach()

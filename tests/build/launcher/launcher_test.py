@@ -6,6 +6,7 @@ how they were called.
 """
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -19,9 +20,12 @@ SOURCE = Path(os.environ["LEVITAS_SOURCE"])
 PROJECT = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
 add_custom_target(programs)
+add_custom_target(running_programs)
 add_executable(amb main.cpp)
 set_target_properties(amb PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-add_dependencies(programs amb)
+add_dependencies(running_programs amb)
+add_executable(amb-study main.cpp)
+add_dependencies(programs amb amb-study)
 """
 PRESETS = """{"version": 5, "configurePresets": [{"name": "release", "generator": "Ninja",
 "binaryDir": "${sourceDir}/build/${presetName}"}]}"""
@@ -74,6 +78,18 @@ class Launcher(unittest.TestCase):
     def test_builds_then_passes_on_arguments_and_exit_status(self):
         done = self.amb("run", "two words", "")
         self.assertEqual((done.stdout, done.returncode), ("[run][two words][]", 4), done.stderr)
+
+    def test_what_runs_a_rig_is_built_first_and_the_rest_when_it_is_asked_for(self):
+        study = self.root / "build/release/amb-study"
+        self.amb("run")
+        self.assertFalse(study.exists())
+        listed = re.findall(r'StudyCommand\{"(\w+)"', (SOURCE / "cli/study_commands.hpp").read_text())
+        self.assertIn("diagnose", listed)
+        for name in set(listed) - {"bench"}:  # bench: below
+            with self.subTest(name):
+                study.unlink(missing_ok=True)
+                self.assertEqual(self.amb(name).stdout, f"[{name}]")
+                self.assertTrue(study.exists())
 
     def test_benchmarks_of_accuracy_are_the_programs_own(self):
         for name in ("diagnosis", "identification", "full-spectrum", "pump"):

@@ -89,6 +89,18 @@ class Help(CommandTest):
         for command in OPTIONS:
             self.assertRegex(text, rf"\n  {command.split()[0]} +\w+", command)
 
+    def test_amb_and_amb_study_list_the_same_commands(self):
+        study = subprocess.run([BINARIES / "amb-study", "--help"], capture_output=True, text=True,
+                               check=True)
+        self.assertEqual(self.help_of(), study.stdout)
+
+    def test_amb_without_amb_study_says_what_builds_it(self):
+        alone = self.folder / "amb"
+        shutil.copy(BINARIES / "amb", alone)
+        done = subprocess.run([alone, "identify", "frf"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("./amb identify", done.stderr)
+
     def test_defaults_are_told(self):
         for command, default in (("modes", "flexible_rotor"), ("poles", "flexible_rotor"),
                                  ("modes", "=4"), ("poles", "=1000"), ("simulate", "=8")):

@@ -1,4 +1,4 @@
-#include "cli/manual/manual.hpp"
+#include "cli/study/manual/manual.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The line that shows how far a long command is.
 
-#include "cli/progress_line.hpp"
+#include "cli/study/progress_line.hpp"
 
 #include <gtest/gtest.h>
 

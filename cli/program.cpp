@@ -1,0 +1,81 @@
+#include "cli/program.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "common/nearest.hpp"
+#include "controller/rt/say.hpp"
+
+namespace levitas::cli {
+
+namespace {
+
+/// A first word that is no command gets its own answer: CLI11 would only ask for a subcommand.
+void RefuseUnknownCommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string found = argv[1];
+  std::vector<std::string> known{"test", "package"};  // of the launcher, ./amb
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::find(known.begin() + 2, known.end(), found) != known.end()) return;
+  throw Problem(ExitStatus::kUsage, fmt::format("no command '{}'; nearest: {}. All: {}", found,
+                                                Nearest(found, known), Listed(known)));
+}
+
+/// The option parser's sentence, and for a misspelt option the one that was likely meant.
+std::string UsageText(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* command = &app;
+  std::string path = app.get_name();
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    path += " " + command->get_name();
+  }
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command->get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  std::string text = error.what();
+  for (const std::string& word : app.remaining(true)) {
+    const std::string meant = word.starts_with("--") ? LikelyMeant(word, known) : "";
+    if (!meant.empty()) text += fmt::format("; nearest to {}: {}", word, meant);
+  }
+  return fmt::format("{}; see {} --help", text, path);
+}
+
+int Parse(int argc, char** argv, const AddCommands& add_commands) {
+  CLI::App app{"Levitas: active magnetic bearing controller and its hardware-in-the-loop bench",
+               "amb"};
+  app.require_subcommand(1);
+  Action action;
+  try {
+    add_commands(app, action);
+    RefuseUnknownCommand(app, argc, argv);
+    app.parse(argc, argv);
+    return static_cast<int>(action ? action() : ExitStatus::kUsage);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    rt::Say(fmt::format("amb: {}", UsageText(app, error)));
+    return static_cast<int>(ExitStatus::kUsage);
+  } catch (const Problem& problem) {
+    rt::Say(fmt::format("amb: {}", problem.what()));
+    return static_cast<int>(problem.status());
+  } catch (const std::exception& error) {
+    rt::Say(fmt::format("amb: {}", error.what()));
+    return static_cast<int>(ExitStatus::kOther);
+  }
+}
+
+}  // namespace
+
+int RunProgram(int argc, char** argv, const AddCommands& add_commands) {
+  rt::OpenStandardFiles();
+  const int status = Parse(argc, argv, add_commands);
+  static_cast<void>(rt::FlushSaid());
+  return status;
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,139 @@
+// amb diagnose: what a rig does that its model does not, the extended model, and what it gains.
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/analysis_options.hpp"
+#include "cli/command.hpp"
+#include "cli/json_file.hpp"
+#include "cli/study/answer_folder.hpp"
+#include "cli/study/diagnosis_files.hpp"
+#include "cli/study/diagnosis_inputs.hpp"
+#include "cli/study/diagnosis_text.hpp"
+#include "cli/study/kept_memory.hpp"
+#include "cli/study/levitator_files.hpp"
+#include "cli/study/progress_line.hpp"
+#include "cli/study/written_files.hpp"
+#include "cli/study_commands.hpp"
+#include "cli/text_file.hpp"
+#include "diagnosis/levitator/plan.hpp"
+#include "diagnosis/report/plan.hpp"
+#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/words.hpp"
+
+namespace levitas::cli {
+namespace {
+
+constexpr const char* kHelp =
+    "Drives the rig's nonlinear model with the recorded currents and asks of every effect of the "
+    "vocabulary (docs/effects.md) whether it explains what the model gets wrong, together with "
+    "everything a healthy rig may differ by. Give several records of one rig at once: standing "
+    "with "
+    "a test signal, spinning, running up. Writes diagnosis.json, extended_rig.yaml, "
+    "calibrated_rig.yaml and report.html into --out; a terminal shows how far it is.\n"
+    "Records are sessions, or CSV or MAT as in docs/formats.md. Example:\n"
+    "  amb diagnose --rig flexible_rotor standing.csv spinning.csv runup.csv --out answer";
+
+struct DiagnoseOptions : AnalysisOptions {
+  std::vector<std::string> data;
+  std::vector<std::string> holdout;
+  std::vector<std::string> healthy;
+  std::string out, plan;
+  bool quick{}, explain{};
+};
+
+/// `why_not` is told instead of a scenario that is empty.
+void WritePlan(const std::string& path, const std::string& scenario, const char* why_not,
+               std::vector<std::string>& written) {
+  if (scenario.empty()) {
+    fmt::print("--plan: {}, {} is not written\n", why_not, path);
+    return;
+  }
+  WriteTextFile(path, scenario);
+  written.push_back(path);
+}
+
+/// One axis whose coils are on a voltage: models, causes and fits of its own.
+std::vector<std::string> RunLevitator(const diagnosis::SessionInputs& inputs,
+                                      const DiagnoseOptions& options, ProgressLine& progress) {
+  const levitator::Answer answer = levitator::Diagnose(inputs);
+  progress.Close();
+  PrintLevitator(answer, options.explain);
+  WriteJsonFile(options.json_path, LevitatorJson(answer));
+  auto written = WriteLevitator(answer, options.out);
+  if (!options.plan.empty()) {
+    WritePlan(options.plan, levitator::PlanScenario(inputs.rig, answer),
+              "nothing is left that a scenario could separate", written);
+  }
+  return written;
+}
+
+std::vector<std::string> RunRotor(const diagnosis::SessionInputs& inputs,
+                                  const DiagnoseOptions& options, ProgressLine& progress) {
+  const diagnosis::SessionAnswer answer = diagnosis::DiagnoseFiles(inputs);
+  progress.Close();
+  PrintDiagnosis(answer, options.explain);
+  WriteJsonFile(options.json_path, DiagnosisJson(answer));
+  auto written = WriteDiagnosis(answer, inputs.rig, options.out);
+  if (!options.plan.empty()) {
+    const bool needed = diagnosis::NeedsExperiment(answer);
+    WritePlan(options.plan, needed ? diagnosis::PlanScenario(answer) : "",
+              "nothing is left to separate", written);
+  }
+  return written;
+}
+
+ExitStatus Run(const DiagnoseOptions& options) {
+  KeepFreedMemory();
+  diagnosis::SessionInputs inputs;
+  inputs.rig = LoadRig(options);
+  RefuseSameFiles(options.data, options.holdout, options.healthy);
+  const AnswerFolder folder(options.out);
+  ProgressLine progress(stderr, isatty(STDERR_FILENO) == 1);
+  inputs.data = options.data;
+  inputs.holdout = options.holdout;
+  inputs.healthy = options.healthy;
+  inputs.scratch_folder = options.out;
+  inputs.settings.quick = options.quick;
+  inputs.settings.progress = [&progress](double share, const std::string& what) {
+    progress.Show(share, what);
+  };
+  auto written = levitator::IsLevitator(inputs.rig.plant) ? RunLevitator(inputs, options, progress)
+                                                          : RunRotor(inputs, options, progress);
+  if (!options.json_path.empty()) written.push_back(options.json_path);
+  TellWritten(written);
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddDiagnoseCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<DiagnoseOptions>();
+  CLI::App* command = AddStudyCommand(app, "diagnose");
+  command->footer(kHelp);
+  command->add_option("DATA", options->data, "Sessions, CSV or MAT files of one rig")->required();
+  AddRigOption(*command, *options);
+  command->add_option("--holdout", options->holdout,
+                      "Data on which the gain is measured, none of DATA; without it every sixth "
+                      "stretch of 50 ms is kept back");
+  command->add_option("--healthy", options->healthy,
+                      "Earlier records of the same rig, known to be well: they narrow what it may "
+                      "differ by from its file");
+  command->add_option("--plan", options->plan,
+                      "Write the scenario that would separate what these data cannot; not written "
+                      "when nothing is left to separate");
+  command->add_option("--out", options->out, "Folder for the answer")->required();
+  command->add_flag(
+      "--quick", options->quick,
+      "First answer: the strongest cause, from at most 30 000 samples of all records");
+  command->add_flag("--explain", options->explain,
+                    "Print every calibrated value and every candidate");
+  AddJsonOption(*command, *options);
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+}
+
+}  // namespace levitas::cli

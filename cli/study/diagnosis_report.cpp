@@ -1,0 +1,256 @@
+#include "cli/study/diagnosis_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/study/diagnosis_text.hpp"
+#include "diagnosis/report/doubt.hpp"
+#include "diagnosis/report/words.hpp"
+#include "report/svg/figure.hpp"
+
+namespace levitas::cli {
+namespace {
+
+using diagnosis::Candidate;
+using diagnosis::SessionAnswer;
+
+constexpr const char* kStyle =
+    "body{font:16px/1.5 sans-serif;max-width:64em;margin:2em auto;padding:0 1em;color:#222}"
+    "h1{font-size:1.5em}.verdict{font-size:1.25em;padding:.8em "
+    "1em;background:#eef4fb;border-left:6px "
+    "solid #1f77b4}table{border-collapse:collapse}td,th{padding:.2em .6em;text-align:left;"
+    "border-bottom:1px solid "
+    "#ddd}td.n{text-align:right;white-space:nowrap}td.k{white-space:nowrap}svg{margin:1em "
+    "0}.bar{background:#eee;"
+    "width:24em}"
+    ".bar div{height:1em}summary{cursor:pointer;padding:.4em 0}";
+
+std::string Escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+svg::Series Line(const char* name, const char* colour, const std::vector<double>& ratio,
+                 double spacing_hz) {
+  svg::Series line{.name = name};
+  line.colour = colour;
+  for (std::size_t i = 1; i < ratio.size(); ++i) {
+    line.x.push_back(static_cast<double>(i) * spacing_hz);
+    line.y.push_back(ratio[i]);
+  }
+  return line;
+}
+
+std::string Spectra(const SessionAnswer& s) {
+  svg::Panel panel;
+  panel.title =
+      "What the model leaves of the data used, in " + s.view->numbers.channels[s.shown_channel];
+  panel.x_label = "Hz";
+  panel.y_label = "power / sensor noise";
+  panel.x_scale = svg::Scale::kLogarithmic;
+  panel.y_scale = svg::Scale::kLogarithmic;
+  panel.series = {Line("rig file", "#888888", s.ratio_before, s.line_spacing_hz),
+                  Line("calibrated", "#1f77b4", s.ratio_calibrated, s.line_spacing_hz)};
+  if (!s.answer.causes.empty()) {
+    panel.series.back().width = 2.6;  // else the cause's line hides it
+    panel.series.push_back(Line("with the cause", "#d62728", s.ratio_after, s.line_spacing_hz));
+  }
+  svg::Figure figure;
+  figure.panel_width = 760;
+  figure.panels = {panel};
+  return svg::Draw(figure);
+}
+
+/// Why an effect is not the answer.
+std::string Why(const SessionAnswer& s, const Candidate& candidate) {
+  const auto& a = s.answer;
+  for (const auto& cause : a.causes) {
+    if (cause.effect == candidate.effect) return "named";
+  }
+  if (s.own_words) {
+    for (const auto& [effect, why] : s.own_words->why_not) {
+      if (effect == candidate.effect) return why;
+    }
+  }
+  const bool tied = std::find(a.also_possible.begin(), a.also_possible.end(), candidate.effect) !=
+                    a.also_possible.end();
+  if (tied) return "cannot be told from the cause with these data";
+  if (!std::isfinite(candidate.score))
+    return "would have to be negative, or cannot act in these data";
+  if (candidate.score < diagnosis::kDecisive) {
+    return candidate.score < 0.0 ? "explains less than its freedom costs"
+                                 : "too little to be decisive";
+  }
+  return fmt::format("explains {:.0f} nat less than the cause",
+                     a.candidates.front().score - candidate.score);
+}
+
+std::string Ranking(const SessionAnswer& s) {
+  constexpr std::size_t kShown = 8;
+  std::string rows;
+  std::string rest;
+  for (std::size_t i = 0; i < s.answer.candidates.size(); ++i) {
+    const Candidate& c = s.answer.candidates[i];
+    const std::string score = std::isfinite(c.score) ? fmt::format("{:.1f}", c.score) : "-";
+    (i < kShown ? rows : rest) +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{}</td><td>{}</td></tr>\n", c.effect,
+                    Escaped(c.place), score, Why(s, c));
+  }
+  const std::string head =
+      "<table><tr><th>effect</th><th>where</th><th>evidence, nat</th><th></th></tr>\n";
+  return head + rows + "</table>\n<details><summary>All others that were ruled out</summary>" +
+         head + rest + "</table></details>\n";
+}
+
+/// One line of the picture of what is left, the noise's power as 1; logarithmic, from a half on.
+std::string Bar(const char* name, double ratio, double largest, const char* colour) {
+  constexpr double kBegin = 0.5;
+  const double width =
+      std::log(std::max(ratio, kBegin) / kBegin) / std::log(std::max(largest, 2.0) / kBegin);
+  return fmt::format(
+      "<tr><td>{}</td><td><div class=bar><div style=\"width:{:.1f}%;background:{}\"></div></div>"
+      "</td><td class=n>{:.2f}</td></tr>\n",
+      name, 100.0 * std::clamp(width, 0.0, 1.0), colour, ratio);
+}
+
+/// What the models leave, on data kept back.
+std::string Left(const SessionAnswer& s) {
+  const diagnosis::Gain& held = s.held_out;
+  const double nominal = 1.0 + held.to_gain.value;
+  const double largest = std::max({nominal, held.calibrated_over_noise, held.extended_over_noise});
+  std::string text =
+      "<h2>What the model still gets wrong</h2><table>\n" +
+      Bar("sensors' noise alone", 1.0, largest, "#2ca02c") +
+      Bar("rig file", nominal, largest, "#888") +
+      Bar("with its tolerances calibrated", held.calibrated_over_noise, largest, "#1f77b4");
+  if (!s.answer.causes.empty()) {
+    text += Bar("with the cause", held.extended_over_noise, largest, "#d62728");
+  }
+  return text +
+         "</table><p>Squared error of the one-step prediction, as a multiple of the sensors' "
+         "noise, on data that were not fitted (bars logarithmic). Where calibration alone leaves "
+         "little, a cause is told by the evidence (nat: logarithm of the odds), not by this.</p>\n";
+}
+
+std::string CalibrationTable(const SessionAnswer& s) {
+  std::string told;
+  std::string rest;
+  for (const auto& v : diagnosis::CalibratedValues(s)) {
+    (diagnosis::WorthTelling(v) ? told : rest) += fmt::format(
+        "<tr><td>{}</td><td class=k>{}</td><td>{}</td><td class=n>{}</td><td class=n>{}</td>"
+        "<td class=n>{:.2g}</td><td class=n>{:.2g}</td></tr>\n",
+        v.effect, Escaped(v.place), v.key, AtPhase(v.nominal, v.nominal_phase_rad),
+        AtPhase(v.calibrated, v.phase_rad), v.deviation, v.tolerance);
+  }
+  if (told.empty() && rest.empty()) return {};
+  const std::string head =
+      "<table><tr><th>effect</th><th>where</th><th>key</th><th>rig file</th><th>calibrated</th>"
+      "<th>std</th><th>tolerance</th></tr>\n";
+  const std::string first = told.empty()
+                                ? "<p>None is further than half its tolerance from the file.</p>\n"
+                                : head + told + "</table>\n";
+  const auto taken = diagnosis::TakenByCauses(s);
+  return "<h2>What the calibration has moved</h2>\n<p>Numbers in which a healthy rig may differ "
+         "from its file; std is what these data leave open. All of them are in "
+         "<code>diagnosis.json</code>, and in force in <code>calibrated_rig.yaml</code>." +
+         (taken.empty() ? ""
+                        : fmt::format(" Not among them, being a cause: {}.",
+                                      Escaped(fmt::format("{}", fmt::join(taken, ", "))))) +
+         "</p>\n" + first + "<details><summary>All others</summary>" + head + rest +
+         "</table></details>\n";
+}
+
+/// Seconds, gain and limits in a sentence each.
+std::string Summary(const SessionAnswer& s) {
+  const bool part = s.seconds_used < 0.99 * s.seconds_of_data;
+  const std::string text =
+      part ? fmt::format("From {:.1f} s of {:.1f} s in flight, spans spread over all records.",
+                         s.seconds_used, s.seconds_of_data)
+           : fmt::format("From {:.1f} s in flight.", s.seconds_of_data);
+  return fmt::format("{} {}", text, GainSentence(s));
+}
+
+std::string ChannelTable(const SessionAnswer& s) {
+  std::string rows;
+  for (std::size_t i = 0; i < s.held_out.channel.size(); ++i) {
+    const auto& g = s.held_out.channel[i];
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td>"
+        "<td class=n>{:.3f} ({:.3f} to {:.3f})</td></tr>\n",
+        Escaped(s.view->numbers.channels[i]), s.held_out.channel_nominal_percent[i],
+        s.held_out.channel_extended_percent[i], g.value, g.low, g.high);
+  }
+  return "<details><summary>Channel by channel</summary><table><tr><th>channel</th>"
+         "<th>fit before, %</th><th>after, %</th><th>share of the achievable gain</th></tr>\n" +
+         rows + "</table></details>\n";
+}
+
+std::string FitTable(const SessionAnswer& s) {
+  const auto row = [](const char* name, const diagnosis::Gain& g) {
+    return fmt::format(
+        "<tr><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td>"
+        "<td class=n>{:.2f}</td><td class=n>{}</td></tr>\n",
+        name, g.nominal_percent, g.calibrated_percent, g.extended_percent, g.ceiling_percent,
+        diagnosis::SomethingToGain(g) ? fmt::format("{:.3f} ({:.3f} to {:.3f})", g.achieved.value,
+                                                    g.achieved.low, g.achieved.high)
+                                      : "nothing to gain");
+  };
+  return "<table><tr><th>fit, percent</th><th>nominal</th><th>calibrated</th><th>extended</th>"
+         "<th>ceiling</th><th>share of the achievable gain</th></tr>\n" +
+         row("data used", s.fitted) + row("data kept back", s.held_out) + "</table>\n";
+}
+
+std::string ParameterTable(const SessionAnswer& s) {
+  std::string rows;
+  bool form = false;
+  for (const auto& [p, places] : SharedParameters(s)) {
+    form = form || p.form;
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{:.5g}</td><td>{:.5g} to {:.5g}{}</td>"
+        "<td>{}</td></tr>\n",
+        p.effect, Escaped(places), p.key, p.value, p.low, p.high, p.form ? " *" : "",
+        Escaped(p.unit));
+  }
+  if (rows.empty()) return {};
+  std::string totals;
+  for (const std::string& total : diagnosis::TotalSentences(s)) {
+    totals += fmt::format("<p>{}.</p>\n", Escaped(total));
+  }
+  return "<h2>Parameters, as in a rig file</h2><table><tr><th>effect</th><th>where</th>"
+         "<th>key</th><th>value</th><th>90 % interval</th><th>unit</th></tr>\n" +
+         rows + "</table>\n" + totals +
+         (form ? "<p>* as far as the neighbouring forms of the law that were tried</p>\n" : "");
+}
+
+}  // namespace
+
+std::string DiagnosisPage(const SessionAnswer& s, const std::string& more) {
+  const std::string ceiling = CeilingSentence(s);
+  return fmt::format(
+      "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
+      "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n"
+      "<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{7}{6}{8}"
+      "<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig file. "
+      "Calibrated: with what a healthy rig may differ by. Extended: with the causes. Ceiling: the "
+      "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",
+      Escaped(s.view->numbers.name), kStyle, Escaped(diagnosis::VerdictSentence(s)),
+      Escaped(fmt::format("{} {}", Summary(s), diagnosis::HealthySentence(s))),
+      Escaped(diagnosis::NextExperiment(s)), Left(s), ParameterTable(s), Spectra(s),
+      CalibrationTable(s), Ranking(s), FitTable(s), ceiling, ChannelTable(s), more);
+}
+
+}  // namespace levitas::cli

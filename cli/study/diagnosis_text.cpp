@@ -1,0 +1,174 @@
+#include "cli/study/diagnosis_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "cli/text_table.hpp"
+#include "diagnosis/report/doubt.hpp"
+#include "diagnosis/report/words.hpp"
+
+namespace levitas::cli {
+namespace {
+
+using diagnosis::CalibratedValue;
+using diagnosis::Gain;
+using diagnosis::NamedParameter;
+using diagnosis::SessionAnswer;
+
+constexpr std::size_t kShown = 8;
+
+void PrintParameters(const SessionAnswer& s) {
+  const auto parameters = SharedParameters(s);
+  if (parameters.empty()) return;
+  fmt::print("Parameters, keys and units as in a rig file (in brackets: 90 % interval):\n");
+  bool form = false;
+  for (const auto& [p, places] : parameters) {
+    const std::string unit = p.unit.empty() ? "" : " " + p.unit;
+    fmt::print("  {} {}: {:.5g}{} ({:.5g} to {:.5g}){}, {}\n", p.effect, p.key, p.value, unit,
+               p.low, p.high, p.form ? "*" : "", places);
+    form = form || p.form;
+  }
+  if (form) fmt::print("  * as far as the neighbouring forms of the law that were tried\n");
+  for (const std::string& total : diagnosis::TotalSentences(s)) fmt::print("  {}\n", total);
+  fmt::print("\n");
+}
+
+void PrintCalibrated(const SessionAnswer& s, bool complete) {
+  const auto values = diagnosis::CalibratedValues(s);
+  std::vector<CalibratedValue> told;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(told),
+               [complete](const auto& v) { return complete || diagnosis::WorthTelling(v); });
+  if (!complete && told.size() > kShown) told.resize(kShown);
+  fmt::print("Calibration: {} numbers in which a healthy rig may differ from its file; ",
+             values.size());
+  const auto taken = diagnosis::TakenByCauses(s);
+  if (!taken.empty()) {
+    fmt::print("{} not among them, being a cause; ", fmt::join(taken, ", "));
+  }
+  if (told.empty()) {
+    fmt::print("none further than half its tolerance from it (--explain lists them).\n\n");
+    return;
+  }
+  fmt::print("{}:\n", complete ? "all of them" : "furthest out (--explain lists all)");
+  TextTable table;
+  table.Add({"", "where", "key", "rig file", "calibrated", "std", "tolerance"});
+  for (const CalibratedValue& v : told) {
+    table.Add({"  " + v.effect, v.place, v.key, AtPhase(v.nominal, v.nominal_phase_rad),
+               AtPhase(v.calibrated, v.phase_rad), fmt::format("{:.2g}", v.deviation),
+               fmt::format("{:.2g}", v.tolerance)});
+  }
+  fmt::print("{}", table.Text());
+  fmt::print("\n");
+}
+
+void PrintFits(const SessionAnswer& s) {
+  fmt::print("{:<46}{:>9}{:>12}{:>10}{:>9}\n", "Fit of the one-step prediction, percent", "nominal",
+             "calibrated", "extended", "ceiling");
+  const auto row = [](const char* name, const Gain& g) {
+    fmt::print("{:<46}{:>9.2f}{:>12.2f}{:>10.2f}{:>9.2f}\n", name, g.nominal_percent,
+               g.calibrated_percent, g.extended_percent, g.ceiling_percent);
+  };
+  row("  on data used", s.fitted);
+  row("  on data kept back or held out", s.held_out);
+  const std::string ceiling = CeilingSentence(s);
+  fmt::print("{}\n{}{}", GainSentence(s), ceiling, ceiling.empty() ? "" : "\n");
+}
+
+void PrintRanking(const SessionAnswer& s, bool complete) {
+  const auto& candidates = s.answer.candidates;
+  const std::size_t shown = complete ? candidates.size() : std::min(kShown, candidates.size());
+  fmt::print("\n{:<26}{:<42}{:>10}\n", "effect", "where", "nat");
+  bool screened = false;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto& c = candidates[i];
+    fmt::print("{:<26}{:<42}{:>10.1f}{}\n", c.effect, c.place, c.score,
+               c.refitted ? "" : "  (screen)");
+    screened = screened || !c.refitted;
+  }
+  if (screened) {
+    fmt::print("(screen): from the linearised model; too far behind to be refitted\n");
+  }
+}
+
+bool Above(const Gain& g) {
+  return std::max(g.extended_percent, g.calibrated_percent) > g.ceiling_percent + 0.005;
+}
+
+}  // namespace
+
+std::vector<SharedParameter> SharedParameters(const SessionAnswer& s) {
+  struct Places {
+    NamedParameter first;
+    std::vector<std::string> at;
+  };
+  std::vector<Places> groups;
+  for (const NamedParameter& p : diagnosis::Parameters(s)) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&p](const Places& g) {
+      return g.first.effect == p.effect && g.first.key == p.key && g.first.value == p.value &&
+             g.first.low == p.low && g.first.high == p.high;
+    });
+    (same == groups.end() ? groups.emplace_back(Places{p, {}}) : *same).at.push_back(p.place);
+  }
+  std::vector<SharedParameter> out;
+  for (const Places& g : groups) {
+    std::string places;
+    for (const std::string& place : g.at) places += (places.empty() ? "" : ", ") + place;
+    const bool all = g.at.size() > 1 && g.at == s.view->numbers.channels;
+    out.push_back({g.first, all ? "all axes" : places});
+  }
+  return out;
+}
+
+std::string AtPhase(double value, std::optional<double> phase_rad) {
+  return phase_rad
+             ? fmt::format("{:.4g} at {:.1f} deg", value, 180.0 / std::numbers::pi * *phase_rad)
+             : fmt::format("{:.5g}", value);
+}
+
+std::string GainSentence(const SessionAnswer& s) {
+  const Gain& held = s.held_out;
+  if (!diagnosis::SomethingToGain(held)) {
+    return "Nothing to gain that these data could tell: the rig file itself predicts them nearly "
+           "to "
+           "their noise.";
+  }
+  const std::string gained = fmt::format(
+      "Of what a better model could gain on data kept back, this one gains {:.1f} % "
+      "({:.1f} to {:.1f} %)",
+      100.0 * held.achieved.value, 100.0 * held.achieved.low, 100.0 * held.achieved.high);
+  if (s.answer.causes.empty()) return gained + ", by calibration.";
+  if (held.calibrated_over_noise < 1.0 + diagnosis::kLeastToGain) {
+    return fmt::format(
+        "{}; so does calibration alone, hardly more than the noise is left: the cause is told by "
+        "its "
+        "evidence of {:.0f} nat.",
+        gained, s.answer.evidence);
+  }
+  const double beyond = 100.0 * held.beyond_calibration.value;
+  return beyond < 0.0 ? fmt::format("{}; the cause adds {:.0f} % to what calibration leaves.",
+                                    gained, -beyond)
+                      : fmt::format("{}; of what calibration leaves, the cause takes {:.0f} %.",
+                                    gained, beyond);
+}
+
+std::string CeilingSentence(const SessionAnswer& s) {
+  if (!Above(s.fitted) && !Above(s.held_out)) return {};
+  return "A fit above the ceiling is at the ceiling: the noise is read from the highest third of "
+         "the spectrum, to a few per cent.";
+}
+
+void PrintDiagnosis(const SessionAnswer& s, bool complete) {
+  fmt::print("{}\n\n", diagnosis::VerdictSentence(s));
+  const std::string healthy = diagnosis::HealthySentence(s);
+  if (!healthy.empty()) fmt::print("{}\n\n", healthy);
+  PrintParameters(s);
+  PrintCalibrated(s, complete);
+  PrintFits(s);
+  PrintRanking(s, complete);
+  fmt::print("\nNext: {}\n", diagnosis::NextExperiment(s));
+}
+
+}  // namespace levitas::cli

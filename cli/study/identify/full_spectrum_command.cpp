@@ -1,0 +1,129 @@
+// amb identify full-spectrum: magnets, mesh, run-outs and transmission error of a geared rotor.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/analysis_options.hpp"
+#include "cli/json_file.hpp"
+#include "cli/study/identify/geared_commands.hpp"
+#include "cli/study/identify/geared_files.hpp"
+#include "cli/study/identify/modal_files.hpp"
+#include "cli/study/written_files.hpp"
+#include "common/problem.hpp"
+#include "identification/geared/record_lines.hpp"
+#include "identification/identified_rig.hpp"
+#include "session/output_path.hpp"
+
+namespace levitas::cli {
+namespace {
+
+using namespace identification;
+
+constexpr const char* kHelp =
+    "Linear least squares on the lines of the full spectrum (r = x + jy: forward and backward) of "
+    "two steady speeds or more: ks and ki of both magnets, both run-outs, mesh stiffness and "
+    "damping, mean and varying transmission error with phases, each with a standard deviation. "
+    "Masses and shafts are known from the rig file; tilts are eliminated dynamically, torsion by "
+    "its half spectrum.\n"
+    "  amb run --rig geared_rotor_8dof --record geared.lcm\n"
+    "  amb identify full-spectrum geared.lcm --rig geared_rotor_8dof --out identified.yaml";
+
+struct SpectrumOptions : AnalysisOptions {
+  std::string data_path;
+  std::string lines_path;
+  std::string out_path;
+  std::string svg_path;
+  double known_percent{0.0};
+};
+
+void PrintShaft(const char* name, const ShaftFound& s) {
+  fmt::print(
+      "{:<7} ks {:>11.0f} +- {:<8.0f} N/m   ki {:>8.3f} +- {:<7.3f} N/A   run-out {:>7.3f} +- "
+      "{:<6.3f} um at {:>7.3f} rad\n",
+      name, s.ks_n_per_m, 2.0 * s.ks_sigma, s.ki_n_per_a, 2.0 * s.ki_sigma,
+      1e6 * std::abs(s.run_out_m), 2e6 * s.run_out_sigma, std::arg(s.run_out_m));
+}
+
+void Print(const SpectrumOptions& options, const std::vector<GearedLine>& lines,
+           const GearedKnown& known, const GearedParameters& p) {
+  std::set<double> speeds;
+  for (const GearedLine& line : lines) speeds.insert(line.speed_rad_per_s);
+  const int freedom = known.torsion ? 12 : (known.pinion.tilt_stiffness_n_m > 0.0 ? 8 : 4);
+  fmt::print("{}: {} DOF, {} lines of {} speeds; +- two standard deviations\n",
+             options.data_path.empty() ? options.lines_path : options.data_path, freedom,
+             lines.size(), speeds.size());
+  PrintShaft("pinion", p.pinion);
+  PrintShaft("gear", p.gear);
+  fmt::print("mesh    km {:>11.0f} +- {:<8.0f} N/m   cm {:>8.2f} +- {:<7.2f} N s/m\n",
+             p.mesh_stiffness_n_per_m, 2.0 * p.mesh_stiffness_sigma, p.mesh_damping_n_s_per_m,
+             2.0 * p.mesh_damping_sigma);
+  fmt::print("\ntransmission error\n{:>8}{:>12}{:>12}{:>12}\n", "order", "um", "+- um", "rad");
+  for (const TransmissionError& e : p.error) {
+    fmt::print("{:>8}{:>12.4f}{:>12.4f}{:>12.4f}\n", e.harmonic, 1e6 * std::abs(e.amplitude_m),
+               2e6 * e.sigma, std::arg(e.amplitude_m));
+  }
+  fmt::print("\ncondition number {:.1f}\n", p.condition);
+  fmt::print(
+      "shaft stiffness and ks show only as their difference ({:.0f} and {:.0f} N/m): an error of "
+      "the one is that of the other;\n    to tell: record at a second bias current, ks goes with "
+      "its square\n",
+      known.pinion.stiffness_n_per_m - p.pinion.ks_n_per_m,
+      known.gear.stiffness_n_per_m - p.gear.ks_n_per_m);
+  if (p.mean_along_line_unknown) {
+    fmt::print(
+        "the mean error along the line of action is not told apart from the wheels' rotation: the "
+        "line 0 is its part across;\n    to tell: measure the rotation of both shafts\n");
+  }
+}
+
+ExitStatus Run(const SpectrumOptions& options) {
+  if (options.data_path.empty() == options.lines_path.empty()) {
+    throw BadInput("full-spectrum: give a record, or --lines with a file of lines");
+  }
+  for (const std::string& path : {options.out_path, options.json_path, options.svg_path}) {
+    session::CheckOutputPath(path, options.data_path);
+  }
+  const config::RigFile rig = LoadRig(options);
+  GearedKnown known = KnownOfRig(rig);
+  known.uncertainty = 0.01 * options.known_percent;
+  const auto lines = options.lines_path.empty()
+                         ? LinesOfRecord(ReadRecord(options.data_path, rig), rig)
+                         : ReadGearedLines(options.lines_path);
+  const GearedParameters found = IdentifyGeared(lines, known);
+  Print(options, lines, known, found);
+  WriteJsonFile(options.json_path, GearedJson(found));
+  WriteGearedPicture(options.svg_path, lines);
+  if (!options.out_path.empty()) WriteRigFile(options.out_path, IdentifiedRig(rig, found));
+  TellWritten({options.out_path, options.json_path, options.svg_path});
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddIdentifyFullSpectrum(CLI::App& identify, Action& action) {
+  auto options = std::make_shared<SpectrumOptions>();
+  options->rig_name = "geared_rotor_4dof";
+  CLI::App* command = identify.add_subcommand(
+      "full-spectrum", "Mesh, run-outs, transmission error and magnets of a geared rotor");
+  command->footer(kHelp);
+  command->add_option("DATA", options->data_path, "Session, or CSV file (.csv, .csv.xz)");
+  command->add_option("--lines", options->lines_path,
+                      "CSV of lines instead of a record (docs/identification.md)");
+  AddRigOption(*command, *options);
+  command
+      ->add_option("--known-percent", options->known_percent,
+                   "How well mass, damping and stiffness of the shafts are known; 0 = exactly")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command->add_option("--out", options->out_path, "Write the identified rig file");
+  command->add_option("--svg", options->svg_path, "Draw the full spectra into this file");
+  AddJsonOption(*command, *options);
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,21 @@
+// amb-study: every command, those of identification and diagnosis included. Started by amb.
+
+#include "cli/program.hpp"
+#include "cli/study/bench_command.hpp"
+
+namespace {
+
+void AddCommands(CLI::App& app, levitas::cli::Action& action) {
+  using namespace levitas::cli;
+  AddRunningCommands(app, action);
+  AddSimulateCommand(app, action);
+  AddEffectsCommand(app, action);
+  AddIdentifyCommand(app, action);
+  AddDiagnoseCommand(app, action);
+  AddBenchCommand(app, action);
+  AddManualCommand(app, action);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return levitas::cli::RunProgram(argc, argv, AddCommands); }

@@ -1,0 +1,15 @@
+#include "cli/study/written_files.hpp"
+
+#include <fmt/core.h>
+
+namespace levitas::cli {
+
+void TellWritten(const std::vector<std::string>& paths) {
+  std::string text;
+  for (const std::string& path : paths) {
+    if (!path.empty()) text += (text.empty() ? "" : ", ") + path;
+  }
+  if (!text.empty()) fmt::print("\nwrote {}\n", text);
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,39 @@
+#include "cli/study_commands.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace levitas::cli {
+
+const StudyCommand* FindStudyCommand(std::string_view name) {
+  const auto* found = std::find_if(kStudyCommands.begin(), kStudyCommands.end(),
+                                   [&](const auto& known) { return known.name == name; });
+  return found == kStudyCommands.end() ? nullptr : found;
+}
+
+CLI::App* AddStudyCommand(CLI::App& app, std::string_view name) {
+  const StudyCommand* command = FindStudyCommand(name);
+  if (command == nullptr) throw std::logic_error(fmt::format("'{}' is not in the list", name));
+  return app.add_subcommand(command->name, command->meaning);
+}
+
+void StartStudy(char** argv) {
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::string program = (self.parent_path() / "amb-study").string();
+  execv(program.c_str(), argv);
+  throw Problem(ExitStatus::kOther,
+                fmt::format("{}: {}. amb {} is a part of amb-study, which `./amb {}` builds",
+                            program, std::strerror(errno), argv[1], argv[1]));
+}
+
+}  // namespace levitas::cli
