@@ -1,9 +1,11 @@
 """The help of every command names each of its options, and each option it names is accepted."""
 
 import re
+import shutil
+import subprocess
 import unittest
 
-from command import DONE, SOURCE, USAGE, CommandTest, amb
+from command import BINARIES, DONE, SOURCE, USAGE, CommandTest, amb
 
 OPTIONS = {
     "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--json"},
