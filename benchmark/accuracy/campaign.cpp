@@ -56,7 +56,6 @@ class Loop {
   bool Run(const Motion& motion, std::uint64_t seed, Measured& out) {
     plant::Plant plant(model_, seed);
     law::LawState state(coefficients_);
-    const double bias_a = model_->config().bearings.front().magnet.bias_current_a;
     const auto warm_up = static_cast<std::size_t>(kWarmUpS / period_s_);
     const auto quiet = static_cast<std::size_t>(std::llround(plan_.quiet_s / period_s_));
     const double from = motion.from_rpm * kRadPerSPerRpm;
@@ -88,15 +87,11 @@ class Loop {
         const std::size_t axis = std::min(since / per_axis, model_->axes() - 1);
         row.excitation_a[axis] = bit ? plan_.excitation_a : -plan_.excitation_a;
       }
-      AxisArray error_m{};
-      for (std::size_t a = 0; a < model_->axes(); ++a) {
-        error_m[a] = -model_->config().sensor_polarity[a] * row.position_m[a];
-        // Before the integrators hold the weight the rotor sags.
-        const double limit_m = !recorded              ? kSaggingM
-                               : motion.to_rpm == 0.0 ? plan_.resting_m
-                                                      : plan_.limit_m;
-        if (!(std::abs(row.position_m[a]) < limit_m)) return false;
-      }
+      // Before the integrators hold the weight the rotor sags.
+      const double limit_m = !recorded              ? kSaggingM
+                             : motion.to_rpm == 0.0 ? plan_.resting_m
+                                                    : plan_.limit_m;
+      if (!Within(limit_m, row.position_m)) return false;
       const bool lost = recorded && Lost();
       if (lost) {
         row.position_m = held.position_m;
@@ -104,30 +99,51 @@ class Loop {
         row.excitation_a = held.excitation_a;
       } else {
         row.control_current_a =
-            law::Step(coefficients_, state, error_m, row.excitation_a, limit_a_).control_current_a;
+            law::Step(coefficients_, state, ErrorOf(row.position_m), row.excitation_a, limit_a_)
+                .control_current_a;
       }
       held = row;
       for (std::size_t a = 0; recorded && a < model_->axes(); ++a) {
         given_a[a] += std::abs(row.control_current_a[a]);
       }
       if (recorded && !(lost && plan_.loss.missing)) out.rows.push_back(row);
-      plant::PlantCommand command;
-      command.bias_current_a = bias_a;
-      command.drive_enabled = true;
-      command.speed_set_point_rad_per_s = speed;
-      command.acceleration_limit_rad_per_s2 = 1e6;
-      const AxisArray unknown_a = disturbance_.Current(clock_s, row.angle_rad, row.speed_rad_per_s);
-      for (std::size_t a = 0; a < model_->axes(); ++a) {
-        command.control_current_a[a] =
-            model_->config().actuator_polarity[a] * (row.control_current_a[a] + unknown_a[a]);
-      }
-      plant.Advance(command);
+      plant.Advance(CommandOf(row, clock_s));
     }
     const double most_a = kHolding * limit_a_ * static_cast<double>(motion.rows);
     return plant.finite() && *std::max_element(given_a.begin(), given_a.end()) < most_a;
   }
 
  private:
+  [[nodiscard]] bool Within(double limit_m, const AxisArray& position_m) const {
+    for (std::size_t a = 0; a < model_->axes(); ++a) {
+      if (!(std::abs(position_m[a]) < limit_m)) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] AxisArray ErrorOf(const AxisArray& position_m) const {
+    AxisArray error_m{};
+    for (std::size_t a = 0; a < model_->axes(); ++a) {
+      error_m[a] = -model_->config().sensor_polarity[a] * position_m[a];
+    }
+    return error_m;
+  }
+
+  /// What the rig is given for this row: the disturbance's current acts without being recorded.
+  plant::PlantCommand CommandOf(const MeasuredRow& row, double clock_s) {
+    plant::PlantCommand command;
+    command.bias_current_a = model_->config().bearings.front().magnet.bias_current_a;
+    command.drive_enabled = true;
+    command.speed_set_point_rad_per_s = row.speed_rad_per_s;
+    command.acceleration_limit_rad_per_s2 = 1e6;
+    const AxisArray unknown_a = disturbance_.Current(clock_s, row.angle_rad, row.speed_rad_per_s);
+    for (std::size_t a = 0; a < model_->axes(); ++a) {
+      command.control_current_a[a] =
+          model_->config().actuator_polarity[a] * (row.control_current_a[a] + unknown_a[a]);
+    }
+    return command;
+  }
+
   bool Lost() {
     if (plan_.loss.probability <= 0.0) return false;
     if (to_lose_ == 0 && loss_.Uniform() < plan_.loss.probability) to_lose_ = plan_.loss.burst;

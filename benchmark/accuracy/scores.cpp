@@ -125,7 +125,10 @@ void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outco
   outcome.oracle_failed = !named && there;
 }
 
-std::string Tables(const std::vector<Outcome>& outcomes) {
+namespace {
+
+/// Counts of a whole benchmark.
+struct Tally {
   std::map<std::string, std::map<Size, Count>> by_effect;
   std::map<Size, Count> by_size;
   Count clean, outside, several;
@@ -136,31 +139,51 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
   std::string failed;
   int compared = 0;
   int good = 0;
-  for (const Outcome& o : outcomes) {
-    seconds.push_back(o.seconds);
-    if (o.truth.empty()) {
-      (o.outside.empty() ? clean : outside).Add(o);
-      continue;
-    }
-    if (o.truth.size() > 1) {
-      several.Add(o);
-      several_main += o.NamesMain() ? 1 : 0;
-      several_all += o.NamesAll() ? 1 : 0;
-      several_clear += o.HoldsAllClearly() ? 1 : 0;
-      continue;
-    }
-    by_effect[o.truth.front()][o.size()].Add(o);
-    by_size[o.size()].Add(o);
-    if (o.oracle_failed) {
-      failed +=
-          fmt::format("  {} {} ({}, {})\n", o.seed, o.truth.front(), Name(o.size()), HeldText(o));
-    }
-    if (o.size() != Size::kClear || !o.Right()) continue;
-    achieved.push_back(o.achieved);
-    if (o.parameter_error < 0.0) continue;
-    ++compared;
-    good += o.parameter_error < 0.1 || o.parameter_sigmas < 2.0 ? 1 : 0;
+
+  void Add(const Outcome& o);
+
+ private:
+  void AddSeveral(const Outcome& o);
+  void AddSingle(const Outcome& o);
+};
+
+void Tally::Add(const Outcome& o) {
+  seconds.push_back(o.seconds);
+  if (o.truth.empty()) {
+    (o.outside.empty() ? clean : outside).Add(o);
+  } else if (o.truth.size() > 1) {
+    AddSeveral(o);
+  } else {
+    AddSingle(o);
   }
+}
+
+void Tally::AddSeveral(const Outcome& o) {
+  several.Add(o);
+  several_main += o.NamesMain() ? 1 : 0;
+  several_all += o.NamesAll() ? 1 : 0;
+  several_clear += o.HoldsAllClearly() ? 1 : 0;
+}
+
+void Tally::AddSingle(const Outcome& o) {
+  by_effect[o.truth.front()][o.size()].Add(o);
+  by_size[o.size()].Add(o);
+  if (o.oracle_failed) {
+    failed +=
+        fmt::format("  {} {} ({}, {})\n", o.seed, o.truth.front(), Name(o.size()), HeldText(o));
+  }
+  if (o.size() != Size::kClear || !o.Right()) return;
+  achieved.push_back(o.achieved);
+  if (o.parameter_error < 0.0) return;
+  ++compared;
+  good += o.parameter_error < 0.1 || o.parameter_sigmas < 2.0 ? 1 : 0;
+}
+
+}  // namespace
+
+std::string Tables(const std::vector<Outcome>& outcomes) {
+  Tally tally;
+  for (const Outcome& o : outcomes) tally.Add(o);
   std::string out =
       fmt::format("{:<26}{:>9}{:>10}{:>8}{:>8}\n{:<26}{:>9}{:>10}{:>8}{:>8}\n", "effect", "clear",
                   "moderate", "faint", "below", "evidence in the records", "25 nat", "10", "5", "");
@@ -169,22 +192,23 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
                        counts[Size::kModerate].Text(), counts[Size::kFaint].Text(),
                        counts[Size::kBelow].Text());
   };
-  for (auto& [effect, counts] : by_effect) line(effect, counts);
-  line("all", by_size);
-  if (!failed.empty()) {
-    out += "\noracle failed, counted as not named in the size drawn:\n" + failed;
+  for (auto& [effect, counts] : tally.by_effect) line(effect, counts);
+  line("all", tally.by_size);
+  if (!tally.failed.empty()) {
+    out += "\noracle failed, counted as not named in the size drawn:\n" + tally.failed;
   }
   out += fmt::format(
       "\nnothing hidden, called none: {}\noutside the vocabulary, called unknown: {}\n"
       "several hidden, main one named: {}/{}, first: {}; all named: {}/{}; where the records hold "
       "every one "
       "clearly: {}/{}\n",
-      clean.Text(), outside.Text(), several_main, several.of, several.Text(), several_all,
-      several.of, several_all, several_clear);
+      tally.clean.Text(), tally.outside.Text(), tally.several_main, tally.several.of,
+      tally.several.Text(), tally.several_all, tally.several.of, tally.several_all,
+      tally.several_clear);
   out += fmt::format(
       "clear and right: parameter within 10 % or two deviations {}/{}, median share of "
       "the achievable gain {:.3f}\nmedian wall time {:.1f} s\n",
-      good, compared, Median(achieved), Median(seconds));
+      tally.good, tally.compared, Median(tally.achieved), Median(tally.seconds));
   return out;
 }
 

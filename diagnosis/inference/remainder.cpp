@@ -138,6 +138,73 @@ bool StandsAlone(const std::vector<double>& ratio, double frequency_hz, double s
   return std::max({ratio[line - 1], ratio[line], ratio[line + 1]}) > 4.0 * beside;
 }
 
+/// Spectrum of one channel against its own noise: the worst band, or a line that is worse.
+ChannelRemainder ExamineChannel(const std::vector<Piece>& pieces, std::size_t channel_index,
+                                analysis::Welch& welch, double rate_hz) {
+  for (const Piece& piece : pieces) {
+    welch.Add(
+        Signal(piece, [channel_index](const Moment& m) { return m.innovation_m[channel_index]; }));
+  }
+  ChannelRemainder channel;
+  const auto density = welch.Density();
+  const double noise = NoiseDensity(density);
+  channel.noise_rms_m = std::sqrt(noise * 0.5 * rate_hz);
+  std::vector<double> ratio(density.size());
+  for (std::size_t i = 0; i < ratio.size(); ++i) ratio[i] = noise > 0.0 ? density[i] / noise : 0.0;
+  const Bands bands = JudgeBands(ratio, welch.line_spacing_hz(), welch.averages());
+  channel.sigma = bands.worst_sigma;
+  channel.band_ratio = bands.worst_ratio;
+  channel.peak_hz = bands.frequency_hz;
+  for (std::size_t i = 3; i < ratio.size() * 2 / 3; ++i) {
+    const double sigma = (ratio[i] - 1.0) * std::sqrt(static_cast<double>(welch.averages()) * 0.7);
+    // A single line needs more than a band: there are many of them, and their law has a tail.
+    if (sigma > 2.0 * channel.sigma) {
+      channel.sigma = 0.5 * sigma;
+      channel.band_ratio = ratio[i];
+      channel.peak_hz = static_cast<double>(i) * welch.line_spacing_hz();
+    }
+  }
+  channel.ratio = std::move(ratio);
+  return channel;
+}
+
+/// The order of the rotation that the worst channel holds most of; 0: none stands out.
+int StrongestOrder(const std::vector<Piece>& pieces, std::size_t channel, double noise_rms_m) {
+  int strongest = 0;
+  double strongest_ratio = 4.0;  // noise leaves 1 +- a few tenths
+  for (int order = 1; order <= 6; ++order) {
+    const double ratio = OrderRatio(pieces, channel, order, noise_rms_m);
+    if (ratio > strongest_ratio) {
+      strongest_ratio = ratio;
+      strongest = order;
+    }
+  }
+  return strongest;
+}
+
+bool IsLineOfTheMains(const Remainder& out, const ChannelRemainder& worst) {
+  for (const double mains : {50.0, 60.0, 100.0, 120.0, 150.0, 180.0}) {
+    if (std::abs(out.frequency_hz - mains) < out.line_spacing_hz && worst.band_ratio > 2.0 &&
+        StandsAlone(worst.ratio, mains, out.line_spacing_hz)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Which signal of the loop the worst channel's residual follows at its worst frequency.
+std::string CoherentSignal(const RigView& rig, const std::vector<Piece>& pieces,
+                           const Remainder& out) {
+  constexpr double kFollows = 0.05;
+  const double spacing = out.line_spacing_hz;
+  const double with_current =
+      LargestCoherence(pieces, out.worst_channel, rig.axes, out.frequency_hz, spacing, true);
+  const double with_position =
+      LargestCoherence(pieces, out.worst_channel, rig.axes, out.frequency_hz, spacing, false);
+  if (std::max(with_current, with_position) <= kFollows) return out.coherent_with;
+  return with_current >= with_position ? "current" : "position";
+}
+
 }  // namespace
 
 Remainder Examine(const RigView& rig, const std::vector<Trajectory>& runs) {
@@ -146,33 +213,8 @@ Remainder Examine(const RigView& rig, const std::vector<Trajectory>& runs) {
   const double rate_hz = 1.0 / rig.period_s;
   for (std::size_t a = 0; a < rig.axes; ++a) {
     analysis::Welch welch(kSegment, rate_hz);
-    for (const Piece& piece : pieces) {
-      welch.Add(Signal(piece, [a](const Moment& m) { return m.innovation_m[a]; }));
-    }
-    ChannelRemainder channel;
-    const auto density = welch.Density();
-    const double noise = NoiseDensity(density);
-    channel.noise_rms_m = std::sqrt(noise * 0.5 * rate_hz);
-    std::vector<double> ratio(density.size());
-    for (std::size_t i = 0; i < ratio.size(); ++i)
-      ratio[i] = noise > 0.0 ? density[i] / noise : 0.0;
-    const Bands bands = JudgeBands(ratio, welch.line_spacing_hz(), welch.averages());
-    channel.sigma = bands.worst_sigma;
-    channel.band_ratio = bands.worst_ratio;
-    channel.peak_hz = bands.frequency_hz;
-    for (std::size_t i = 3; i < ratio.size() * 2 / 3; ++i) {
-      const double sigma =
-          (ratio[i] - 1.0) * std::sqrt(static_cast<double>(welch.averages()) * 0.7);
-      // A single line needs more than a band: there are many of them, and their law has a tail.
-      if (sigma > 2.0 * channel.sigma) {
-        channel.sigma = 0.5 * sigma;
-        channel.band_ratio = ratio[i];
-        channel.peak_hz = static_cast<double>(i) * welch.line_spacing_hz();
-      }
-    }
-    channel.ratio = ratio;
+    out.channels.push_back(ExamineChannel(pieces, a, welch, rate_hz));
     out.line_spacing_hz = welch.line_spacing_hz();
-    out.channels.push_back(std::move(channel));
   }
   for (std::size_t a = 0; a < rig.axes; ++a) {
     if (out.channels[a].sigma > out.channels[out.worst_channel].sigma) out.worst_channel = a;
@@ -181,31 +223,13 @@ Remainder Examine(const RigView& rig, const std::vector<Trajectory>& runs) {
   const ChannelRemainder& worst = out.channels[out.worst_channel];
   out.sigma = worst.sigma;
   out.frequency_hz = worst.peak_hz;
-  double strongest_order = 4.0;  // noise leaves 1 +- a few tenths
-  for (int order = 1; order <= 6; ++order) {
-    const double order_ratio = OrderRatio(pieces, out.worst_channel, order, worst.noise_rms_m);
-    if (order_ratio > strongest_order) {
-      strongest_order = order_ratio;
-      out.order = order;
-      out.coherent_with = "rotation";
-    }
-  }
-  if (out.order > 0.0) return out;
-  for (const double mains : {50.0, 60.0, 100.0, 120.0, 150.0, 180.0}) {
-    if (std::abs(out.frequency_hz - mains) < out.line_spacing_hz && worst.band_ratio > 2.0 &&
-        StandsAlone(worst.ratio, mains, out.line_spacing_hz)) {
-      out.coherent_with = "mains";
-      return out;
-    }
-  }
-  constexpr double kFollows = 0.05;
-  const double spacing = out.line_spacing_hz;
-  const double with_current =
-      LargestCoherence(pieces, out.worst_channel, rig.axes, out.frequency_hz, spacing, true);
-  const double with_position =
-      LargestCoherence(pieces, out.worst_channel, rig.axes, out.frequency_hz, spacing, false);
-  if (std::max(with_current, with_position) > kFollows) {
-    out.coherent_with = with_current >= with_position ? "current" : "position";
+  if (const int order = StrongestOrder(pieces, out.worst_channel, worst.noise_rms_m); order > 0) {
+    out.order = order;
+    out.coherent_with = "rotation";
+  } else if (IsLineOfTheMains(out, worst)) {
+    out.coherent_with = "mains";
+  } else {
+    out.coherent_with = CoherentSignal(rig, pieces, out);
   }
   return out;
 }

@@ -39,6 +39,23 @@ std::string ExperimentFor(const std::vector<std::string>& unknowns) {
   return {};
 }
 
+/// The unknowns that an eigenvector of the information moves, the largest part first.
+Unidentifiable DirectionOf(const ModalStart& start, const std::vector<Index>& free,
+                           const Eigen::VectorXd& eigenvector) {
+  std::vector<std::pair<double, Index>> parts;
+  for (Index k = 0; k < static_cast<Index>(free.size()); ++k) {
+    const double part = std::abs(eigenvector[k]);
+    if (part > kPart) parts.emplace_back(-part, free[static_cast<std::size_t>(k)]);
+  }
+  std::ranges::sort(parts);
+  Unidentifiable direction;
+  for (const auto& [part, unknown] : parts) {
+    direction.unknowns.push_back(start.names[static_cast<std::size_t>(unknown)]);
+  }
+  direction.experiment = ExperimentFor(direction.unknowns);
+  return direction;
+}
+
 }  // namespace
 
 Uncertainty Assess(const ModalStart& start, const ModalFit& fit) {
@@ -87,18 +104,7 @@ Uncertainty Assess(const ModalStart& start, const ModalFit& fit) {
     result.products[at.axes() + axis] = sum_of({{at.ks + axis, 1.0}, {at.mass, -1.0}});
   }
   for (Index n = 0; n < solver.eigenvalues().size() && solver.eigenvalues()[n] < 1.0; ++n) {
-    std::vector<std::pair<double, Index>> parts;
-    for (Index k = 0; k < static_cast<Index>(free.size()); ++k) {
-      const double part = std::abs(solver.eigenvectors()(k, n));
-      if (part > kPart) parts.emplace_back(-part, free[static_cast<std::size_t>(k)]);
-    }
-    std::ranges::sort(parts);
-    Unidentifiable direction;
-    for (const auto& [part, unknown] : parts) {
-      direction.unknowns.push_back(start.names[static_cast<std::size_t>(unknown)]);
-    }
-    direction.experiment = ExperimentFor(direction.unknowns);
-    result.directions.push_back(std::move(direction));
+    result.directions.push_back(DirectionOf(start, free, solver.eigenvectors().col(n)));
   }
   return result;
 }
