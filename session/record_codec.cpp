@@ -142,6 +142,13 @@ cycle::CycleOutputs GetOutputs(const levitas_msg::cycle_record_t& m) noexcept {
   return out;
 }
 
+/// The words of the record are those that this program knows.
+bool WordsFit(const levitas_msg::cycle_record_t& m) noexcept {
+  const auto below = [](std::int8_t word, std::uint8_t count) { return word >= 0 && word < count; };
+  return below(m.mode, kModeCount) && below(m.fault, kFaultCount) &&
+         below(m.command, kOperatorCommandCount);
+}
+
 }  // namespace
 
 RecordCodec::RecordCodec(std::size_t axes) : message_{} {
@@ -165,7 +172,9 @@ void RecordCodec::Encode(const cycle::CycleRecord& record, Bytes& out) {
 bool RecordCodec::Decode(Input bytes, cycle::CycleRecord& record) {
   // The layout first: it is quickly walked, whatever length a damaged file claims.
   if (!message::Fits(message::kLayout<levitas_msg::cycle_record_t>, bytes)) return false;
-  if (!CrcFits(bytes) || !message::DecodeChecked(bytes, message_)) return false;
+  if (!CrcFits(bytes) || !message::DecodeChecked(bytes, message_) || !WordsFit(message_)) {
+    return false;
+  }
   record = {GetInputs(message_), GetOutputs(message_)};
   return true;
 }

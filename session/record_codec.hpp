@@ -3,7 +3,8 @@
 //
 // Integrity  records and headers end in a CRC-32 over their own bytes with the CRC field zero; it
 //            tells damage. What a sound CRC covers is still not believed: counts and lengths are
-//            checked against the bytes before anything is decoded (lcmtypes/checked_decode.hpp).
+//            checked against the bytes before anything is decoded (lcmtypes/checked_decode.hpp),
+//            and modes, faults and commands against their tables: others make a damaged record.
 // Bits       every double survives with its bits, NaN included.
 // Thread     one codec per thread; after the first record nothing is allocated for records.
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/crc32.hpp"
+#include "common/enums.hpp"
 #include "common/problem.hpp"
 #include "session/export_rows.hpp"
 #include "session/log_format.hpp"
@@ -52,6 +53,9 @@ void Read(const std::string& path) {
   while (reader.Next(record)) {
     rows.Next(record, values);
     Verify(values.size() + 1 == rows.names().size(), "a row has a value for every name");
+    Verify(Name(record.out.mode) != "invalid" && Name(record.out.fault) != "invalid" &&
+               Name(record.in.op.command) != "invalid",
+           "every word of a record has a name");
     Verify(record.in.coils <= record.in.coil_current_a.size(), "coil currents have room");
   }
   (void)reader.damage().Text();

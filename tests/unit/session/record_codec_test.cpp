@@ -61,6 +61,25 @@ TEST_F(Codec, AxisCountBeyondTheCapacityIsRefusedEvenWithAGoodCrc) {
   }
 }
 
+TEST_F(Codec, WordsBeyondTheirTablesAreRefusedEvenWithAGoodCrc) {
+  const auto decodes = [this](const cycle::CycleRecord& record) {
+    codec_.Encode(record, bytes_);
+    cycle::CycleRecord read;
+    return codec_.Decode(bytes_, read);
+  };
+  for (int word = 0; word < 256; ++word) {
+    cycle::CycleRecord record = record_;
+    record.out.mode = static_cast<Mode>(word);
+    EXPECT_EQ(decodes(record), word < kModeCount) << "mode " << word;
+    record = record_;
+    record.out.fault = static_cast<Fault>(word);
+    EXPECT_EQ(decodes(record), word < kFaultCount) << "fault " << word;
+    record = record_;
+    record.in.op.command = static_cast<OperatorCommand>(word);
+    EXPECT_EQ(decodes(record), word < kOperatorCommandCount) << "command " << word;
+  }
+}
+
 TEST_F(Codec, EveryAxisCountUpToTheCapacitySurvives) {
   for (std::uint32_t axes = 0; axes <= kMaxAxes; ++axes) {
     cycle::CycleRecord record = DrawRecord(draw_, axes);
