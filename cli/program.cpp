@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,9 @@ int Parse(int argc, char** argv, const AddCommands& add_commands) {
   } catch (const Problem& problem) {
     rt::Say(fmt::format("amb: {}", problem.what()));
     return static_cast<int>(problem.status());
+  } catch (const std::bad_alloc&) {
+    rt::Say("amb: not enough memory for this; nothing else is wrong with the command");
+    return static_cast<int>(ExitStatus::kOther);
   } catch (const std::exception& error) {
     rt::Say(fmt::format("amb: {}", error.what()));
     return static_cast<int>(ExitStatus::kOther);
