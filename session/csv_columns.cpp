@@ -67,10 +67,24 @@ std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {
   return known;
 }
 
+// No name of ours is nearly as long; of a longer one the beginning is looked at, so that a line of one
+// long word costs no more than a line of many.
+constexpr std::size_t kLongestName = 100;
+std::string_view Beginning(std::string_view name) { return name.substr(0, kLongestName); }
+
 const CsvColumn& Nearest(std::string_view name, const std::vector<CsvColumn>& known) {
-  return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-    return EditDistance(name, a.name) < EditDistance(name, b.name);
-  });
+  const CsvColumn* nearest = &known.front();
+  std::size_t least = EditDistance(name, nearest->name);
+  for (const CsvColumn& column : known) {
+    const std::size_t longer = std::max(name.size(), column.name.size());
+    // As many errors at least as one is longer than the other.
+    if (2 * longer - name.size() - column.name.size() >= least) continue;
+    const std::size_t distance = EditDistance(name, column.name);
+    if (distance >= least) continue;
+    nearest = &column;
+    least = distance;
+  }
+  return *nearest;
 }
 
 /// An unknown name that was probably meant to be one of ours.
@@ -165,6 +179,12 @@ CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
 
 CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string& where,
                        const std::vector<std::string>& channels) {
+  if (cells.size() > kMostColumns) {
+    throw BadInput(
+        fmt::format("{}: has {} columns, at most {} are allowed: leave out what is not "
+                    "of the rig",
+                    where, cells.size(), kMostColumns));
+  }
   RefuseOtherRig(cells, where, channels);
   CsvLayout layout;
   const std::vector<CsvColumn> known = KnownColumns(channels);
@@ -175,12 +195,12 @@ CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string&
     const auto is_it = [&](const CsvColumn& column) { return column.name == name; };
     const auto found = std::find_if(known.begin(), known.end(), is_it);
     if (found == known.end()) {
-      const std::string& nearest = Nearest(name, known).name;
-      if (LooksMeant(name, nearest)) {
+      const std::string& nearest = Nearest(Beginning(name), known).name;
+      if (LooksMeant(Beginning(name), nearest)) {
         problems.push_back(
             fmt::format("column {} \"{}\" is not known (channels of the rig: {}); "
                         "did you mean \"{}\"?",
-                        i + 1, name, Listed(channels), nearest));
+                        i + 1, Beginning(name), Listed(channels), nearest));
       }
       layout.ignored.push_back(name);
       layout.columns.push_back({CsvQuantity::kIgnored, 0, 1.0, name});

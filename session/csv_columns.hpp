@@ -10,8 +10,11 @@
 // Needed    time_s; position (or gap) and control current (or duty) of every channel of the rig.
 // Others    are ignored and listed, unless they look like a misspelt or misplaced name of the
 //           above.
+// Time      in proportion to the first line's length: at most kMostColumns names, of which the first
+//           100 characters are compared.
 // Failure   BadInput listing every problem of the first line at once.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -41,6 +44,8 @@ struct CsvColumn {
   double divisor{1.0};  ///< a value of the file divided by this is in SI (or rpm)
   std::string name;
 };
+
+inline constexpr std::size_t kMostColumns = 10'000;
 
 struct CsvLayout {
   char separator{','};

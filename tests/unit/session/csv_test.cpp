@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "session/csv_columns.hpp"
 #include "session/csv_export.hpp"
 #include "session/csv_import.hpp"
 #include "tests/support/paths.hpp"
@@ -20,6 +21,7 @@ using namespace testing;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 RigNumbers TwoAxes() {
   RigNumbers rig;
@@ -165,6 +167,25 @@ TEST_F(Csv, UnknownColumnsAreIgnoredAndListed) {
       "temperature,time_s,position_de_x_m,position_de_y_m,control_current_de_x_a,"
       "control_current_de_y_a\nwarm,0,0,0,0,0\n");
   EXPECT_THAT(report.ignored_columns, ElementsAre("temperature"));
+}
+
+TEST_F(Csv, MoreColumnsThanAreAllowedAreRefusedAndTheMostAreNot) {
+  const std::string names =
+      "time_s,position_de_x_m,position_de_y_m,control_current_de_x_a,control_current_de_y_a";
+  const auto more = [](std::size_t count) { return std::string(count - 5, ','); };
+  EXPECT_EQ(Import(names + more(kMostColumns) + "\n0,0,0,0,0" + more(kMostColumns) + "\n").rows,
+            1U);
+  std::filesystem::remove(out_);
+  EXPECT_THAT(Refusal(names + more(kMostColumns + 1) + "\n"),
+              HasSubstr("has 10001 columns, at most 10000 are allowed"));
+}
+
+TEST_F(Csv, OfAColumnWithoutEndTheBeginningIsComparedAndSaid) {
+  const std::string endless(900'000, 'x');
+  const std::string text = Refusal("time_s,position_de_x_" + endless + "\n");
+  EXPECT_THAT(text, HasSubstr("did you mean \"position_de_x_m\""));
+  EXPECT_LT(text.size(), 1000U);
+  EXPECT_THAT(Refusal("time_s," + endless + "\n"), Not(HasSubstr("did you mean")));
 }
 
 TEST_F(Csv, EveryProblemOfTheColumnNamesIsListedAtOnce) {
