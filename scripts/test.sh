@@ -84,9 +84,8 @@ run_all() {
   say "asan-ubsan tested after $SECONDS s"
   prepare_preset fuzz fuzzers
   say "fuzzing"
-  # Not fuzz_mat: libmatio reserves whatever size a hostile file claims (tests/fuzz/README.md).
   python3 -B "$root/tests/fuzz/run.py" "$build_root/fuzz/fuzzers" --seconds 60 --jobs "$(job_count)" \
-    fuzz_message fuzz_session fuzz_csv fuzz_candump fuzz_yaml || failed+=("fuzzing")
+    fuzz_message fuzz_session fuzz_csv fuzz_mat fuzz_candump fuzz_http fuzz_yaml || failed+=("fuzzing")
   say "fuzzed after $SECONDS s"
   prepare_preset tidy lcmtypes_generate
   say "clang-tidy"
