@@ -9,6 +9,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "tests/fuzz/verify.hpp"
+
 namespace levitas::fuzz {
 namespace {
 
@@ -20,6 +22,7 @@ class Scratch {
     fs::create_directory(path_);
   }
   ~Scratch() {
+    if (::getpid() != owner_) return;  // a process that the target started, and that broke
     std::error_code ignored;
     fs::remove_all(path_, ignored);
   }
@@ -29,6 +32,7 @@ class Scratch {
 
  private:
   std::string path_;
+  pid_t owner_{::getpid()};
 };
 
 void WriteSeeds(const fs::path& folder) {
@@ -47,7 +51,9 @@ const std::string& ScratchFolder() {
 
 std::string AsFile(const std::string& name, std::span<const std::uint8_t> input) {
   std::string path = ScratchFolder() + "/" + name;
-  std::ofstream(path, std::ios::binary) << AsText(input);
+  std::ofstream file(path, std::ios::binary);
+  file << AsText(input);
+  Verify(file.flush().good(), "the input is in its file");
   return path;
 }
 
