@@ -15,6 +15,7 @@
 #include "report/session/page.hpp"
 #include "session/output_path.hpp"
 #include "verdict/commission.hpp"
+#include "verdict/report.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -102,7 +103,10 @@ ExitStatus Report(const ReportOptions& options) {
   if (!recording.damage.empty()) {
     fmt::print("Not everything could be read: {}.\n", recording.damage);
   }
-  if (input.verdict) fmt::print("{}\n", input.verdict->sentence);
+  if (input.verdict) {
+    for (const std::string& warning : input.verdict->warnings) fmt::print("WARNING: {}\n", warning);
+    fmt::print("{}\n", input.verdict->sentence);
+  }
   WriteJsonFile(
       options.json_path,
       {{"session", options.session_path},
@@ -111,6 +115,7 @@ ExitStatus Report(const ReportOptions& options) {
        {"png", png},
        {"verdict", input.verdict ? nlohmann::ordered_json(verdict::Name(input.verdict->outcome))
                                  : nlohmann::ordered_json()},
+       {"judgement", input.verdict ? verdict::Json(*input.verdict) : nlohmann::ordered_json()},
        {"cycles", recording.records}});
   return ExitStatus::kDone;
 }

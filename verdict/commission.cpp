@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "analysis/speed_sweep.hpp"
@@ -41,6 +42,11 @@ std::string BreaksOff(const session::Damage& damage, const std::vector<ModeSpan>
   return fmt::format("the record ends while {}", Name(last));
 }
 
+bool HoldsTestSignal(const cycle::CycleRecord& record) {
+  const AxisArray& signal_a = record.in.op.excitation_a;
+  return std::any_of(signal_a.begin(), signal_a.end(), [](double a) { return a != 0.0; });
+}
+
 /// From rest to the highest speed of the run if it was spun.
 analysis::SpeedSweep Sensitivities(const config::RigFile& rig,
                                    const config::ControllerFile& controller,
@@ -62,7 +68,11 @@ Verdict Commission(const CommissionOptions& options) {
   SessionStatistics statistics(rig.numbers, controller.supervisor.sequence.standstill_rad_per_s,
                                kSettleAfterLiftS);
   cycle::CycleRecord record;
-  while (reader.Next(record)) statistics.Add(record);
+  bool excited = false;
+  while (reader.Next(record)) {
+    statistics.Add(record);
+    excited = excited || HoldsTestSignal(record);
+  }
 
   Inputs inputs;
   inputs.rig = rig.numbers;
@@ -70,6 +80,7 @@ Verdict Commission(const CommissionOptions& options) {
   analysis::SpeedSweep sweep = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
   inputs.sensitivity = std::move(sweep.speeds);
   inputs.worst_sensitivity = sweep.worst;
+  if (excited) inputs.measured = MeasureSensitivity(options.session_path, rig, controller.law);
   inputs.step_error =
       analysis::MeasureStepError(rig.plant, controller.law, inputs.session.top_speed_rad_per_s);
   inputs.timing = ReadControllerReport(options.controller_report, rig.numbers.period_s());

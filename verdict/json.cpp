@@ -65,6 +65,25 @@ Object Profile(const Inputs& in) {
   return all;
 }
 
+void AddMeasured(const Inputs& in, Object& all) {
+  if (!in.measured) return;
+  for (const MeasuredSpeed& at : in.measured->speeds) {
+    Object axes = Object::array();
+    for (const MeasuredAxis& axis : at.axes) {
+      axes.push_back(
+          {{"axis", axis.channel},
+           {"peak", Number(axis.peak)},
+           {"sigma", Number(axis.sigma)},
+           {"frequency_hz", axis.frequency_hz},
+           {"zone", axis.zone ? Object(std::string(1, Letter(*axis.zone))) : Object(nullptr)},
+           {"not_graded", axis.refused},
+           {"computed_peak", Number(axis.computed_peak)},
+           {"more_than_20_percent_apart", axis.differs}});
+    }
+    all.push_back({{"speed_rpm", Rpm(at.speed_rad_per_s)}, {"source", "measured"}, {"axes", axes}});
+  }
+}
+
 Object Sensitivity(const Inputs& in) {
   Object all = Object::array();
   for (std::size_t speed = 0; speed < in.sensitivity.size(); ++speed) {
@@ -85,6 +104,7 @@ Object Sensitivity(const Inputs& in) {
                    {"largest_pole_modulus", Number(result.largest_pole_modulus)},
                    {"axes", axes}});
   }
+  AddMeasured(in, all);
   return all;
 }
 
@@ -200,6 +220,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
   return {{"verdict", Name(verdict.outcome)},
           {"sentence", verdict.sentence},
           {"objections", verdict.objections},
+          {"warnings", verdict.warnings},
           {"provenance", From(in.provenance)},
           {"clearance_m", in.rig.clearance_m},
           {"top_speed_rpm", Rpm(in.session.top_speed_rad_per_s)},
@@ -208,6 +229,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
           {"orbits", Orbits(verdict)},
           {"currents", currents},
           {"sensitivity", Sensitivity(in)},
+          {"sensitivity_not_measured", in.measured ? in.measured->why_not : "no test signal"},
           {"time_step", TimeStep(in)},
           {"orbit_over_speed", Profile(in)},
           {"modes", Modes(in)},

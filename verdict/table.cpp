@@ -91,6 +91,23 @@ void WorstSensitivity(const Inputs& in, Out out) {
                  worst.axes[axis].peak, Rpm(worst.speed_rad_per_s));
 }
 
+void MeasuredRows(const Inputs& in, Out out) {
+  if (!in.measured) return;
+  for (const MeasuredSpeed& at : in.measured->speeds) {
+    for (const MeasuredAxis& axis : at.axes) {
+      const std::string zone = axis.zone ? std::string(1, Letter(*axis.zone)) : "none";
+      fmt::format_to(out, "{:<{}}{:>10.0f}{:>9.3f}{:>9.1f}   {:<16}measured, sigma {:.3f}{}\n",
+                     axis.channel, NameWidth(in.rig.channels), Rpm(at.speed_rad_per_s), axis.peak,
+                     axis.frequency_hz, zone, axis.sigma,
+                     axis.refused.empty() ? "" : ": " + axis.refused);
+    }
+  }
+  if (!in.measured->why_not.empty()) {
+    fmt::format_to(out, "not measured although there were test signals: {}\n",
+                   in.measured->why_not);
+  }
+}
+
 void Sensitivity(const Inputs& in, Out out) {
   if (in.sensitivity.empty()) return;
   fmt::format_to(out, "\n{:<{}}{:>10}{:>9}{:>9}   {:<16}{}\n", "peak |S|",
@@ -104,6 +121,7 @@ void Sensitivity(const Inputs& in, Out out) {
                      axis.peak, axis.frequency_hz, zone);
     }
   }
+  MeasuredRows(in, out);
   WorstSensitivity(in, out);
 }
 
@@ -197,6 +215,10 @@ std::string Table(const Verdict& verdict) {
   Sensitivity(verdict.inputs, out);
   TimeStep(verdict.inputs, out);
   Timing(verdict.inputs, out);
+  if (!verdict.warnings.empty()) fmt::format_to(out, "\n");
+  for (const std::string& warning : verdict.warnings) {
+    fmt::format_to(out, "WARNING: {}\n", warning);
+  }
   fmt::format_to(out, "\n{}\n", verdict.sentence);
   return text;
 }

@@ -46,8 +46,9 @@ void ObjectToOrbit(const OrbitJudgement& at, std::vector<std::string>& objection
   }
 }
 
-void ObjectToSensitivity(const analysis::SensitivityResult& result, const RigNumbers& rig,
-                         std::vector<std::string>& objections) {
+void ObjectToComputed(const analysis::SensitivityResult& result, const Inputs& in,
+                      std::vector<std::string>& objections) {
+  const RigNumbers& rig = in.rig;
   const double speed_rpm = Rpm(result.speed_rad_per_s);
   if (!result.point.failure.empty()) {
     objections.push_back(fmt::format("{} (at {:.0f} rpm)", result.point.failure, speed_rpm));
@@ -60,9 +61,29 @@ void ObjectToSensitivity(const analysis::SensitivityResult& result, const RigNum
   for (std::size_t i = 0; i < result.axes.size(); ++i) {
     const analysis::AxisSensitivity& axis = result.axes[i];
     if (axis.zone && Acceptable(*axis.zone)) continue;
+    if (in.measured && FindGraded(*in.measured, rig.channels.at(i), result.speed_rad_per_s)) {
+      continue;
+    }
     objections.push_back(fmt::format(
         "computed sensitivity peak of {} is {:.2f} at {:.0f} rpm{}", rig.channels.at(i), axis.peak,
         speed_rpm, axis.zone ? fmt::format(", zone {}", Letter(*axis.zone)) : ""));
+  }
+}
+
+void JudgeMeasured(const MeasuredSpeed& at, Verdict& verdict) {
+  const double speed_rpm = Rpm(at.speed_rad_per_s);
+  for (const MeasuredAxis& axis : at.axes) {
+    if (axis.zone && !Acceptable(*axis.zone)) {
+      verdict.objections.push_back(
+          fmt::format("measured sensitivity peak of {} is {:.2f} at {:.0f} rpm, zone {}",
+                      axis.channel, axis.peak, speed_rpm, Letter(*axis.zone)));
+    }
+    if (!axis.differs) continue;
+    verdict.warnings.push_back(fmt::format(
+        "sensitivity peak of {} at {:.0f} rpm: measured {:.2f}, computed {:.2f}, {:.0f} % apart: "
+        "the rig file or the controller file is not what runs",
+        axis.channel, speed_rpm, axis.peak, axis.computed_peak,
+        100.0 * std::abs(axis.computed_peak - axis.peak) / axis.peak));
   }
 }
 
@@ -112,7 +133,13 @@ Verdict Judge(Inputs inputs) {
   }
   for (const OrbitJudgement& at : verdict.orbits) ObjectToOrbit(at, verdict.objections);
   for (const auto& result : inputs.sensitivity) {
-    ObjectToSensitivity(result, inputs.rig, verdict.objections);
+    ObjectToComputed(result, inputs, verdict.objections);
+  }
+  if (inputs.measured) {
+    for (const MeasuredSpeed& at : inputs.measured->speeds) JudgeMeasured(at, verdict);
+  }
+  if (inputs.timing && inputs.timing->delay && !inputs.timing->delay->objection.empty()) {
+    verdict.warnings.push_back(inputs.timing->delay->objection);
   }
   if (inputs.session.trip) {
     verdict.outcome = Outcome::kTripped;

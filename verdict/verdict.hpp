@@ -3,7 +3,9 @@
 //
 // Accepted     the scenario was completed, the rotor was levitated, and every requirement is met:
 //              largest orbit standing and spinning below the rig's objectives, the same orbit in
-//              zone A or B of the clearance, every graded sensitivity peak in zone A or B.
+//              zone A or B of the clearance, every graded sensitivity peak in zone A or B. Where
+//              a peak was measured it counts instead of the one computed for that axis and speed.
+// Warned       measured and computed peak more than 20 % apart; a delay other than taken.
 // Requirement  a limit itself is not met: orbit must be below its objective.
 // Not judged   timing and saturation are reported; what they spoil shows in the orbit or as a trip.
 // Units        SI; names say which. Thread: any, offline.
@@ -16,6 +18,7 @@
 #include "analysis/sensitivity.hpp"
 #include "analysis/step_error.hpp"
 #include "common/rig_numbers.hpp"
+#include "verdict/measure_sensitivity.hpp"
 #include "verdict/session_statistics.hpp"
 #include "verdict/timing.hpp"
 #include "verdict/zones.hpp"
@@ -55,7 +58,9 @@ struct Inputs {
   SessionFigures session;
   /// Computed at 0, at the top speed of the run, and at the worst speed between if it is worse.
   std::vector<analysis::SensitivityResult> sensitivity;
-  std::size_t worst_sensitivity{};                ///< which of them is the worst
+  std::size_t worst_sensitivity{};  ///< which of them is the worst
+  /// Empty without a test signal in the record.
+  std::optional<MeasuredSensitivity> measured;
   std::optional<analysis::StepError> step_error;  ///< of the simulation's time step
   std::optional<TimingFigures> timing;
   std::optional<RigFigures> rig_process;
@@ -70,6 +75,7 @@ struct Verdict {
   Outcome outcome{};
   std::string sentence;                 ///< "ACCEPTED: ...", one line
   std::vector<std::string> objections;  ///< one per requirement not met
+  std::vector<std::string> warnings;    ///< sentences; none of them costs the acceptance
   std::vector<OrbitJudgement> orbits;   ///< bearing by bearing, phases that were run
 };
 

@@ -3,7 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
 #include "tests/unit/verdict/synthetic_session.hpp"
+#include "verdict/report.hpp"
 
 namespace levitas::verdict {
 namespace {
@@ -154,6 +159,58 @@ TEST(Outcome, HasStableNames) {
   EXPECT_EQ(Name(Outcome::kNotAccepted), "not_accepted");
   EXPECT_EQ(Name(Outcome::kTripped), "tripped");
   EXPECT_EQ(Name(Outcome::kIncomplete), "incomplete");
+}
+
+// nde_y at the speed of Loop(): what the test signals say of it.
+MeasuredSensitivity Measured(double peak, double computed, std::optional<Zone> zone) {
+  MeasuredAxis axis{"nde_y", peak, 0.02, 40.0, zone, zone ? "" : "too few lines", computed, false};
+  axis.differs = zone && std::abs(computed - peak) > 0.2 * peak;
+  return {{{100.0 * kRadPerSPerRpm, {axis}}}, ""};
+}
+
+TEST(JudgeMeasured, AMeasuredPeakCountsInsteadOfTheComputedOneOfItsAxisAndSpeed) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.sensitivity = {Loop(4.2)};
+  ASSERT_EQ(Judge(inputs).outcome, Outcome::kNotAccepted);
+  inputs.measured = Measured(3.9, 4.2, Zone::kB);
+  EXPECT_EQ(Judge(inputs).outcome, Outcome::kAccepted);
+  inputs.sensitivity[0].speed_rad_per_s *= 2.0;  // there, nothing was measured
+  EXPECT_EQ(Judge(inputs).outcome, Outcome::kNotAccepted);
+}
+
+TEST(JudgeMeasured, AMeasuredPeakBeyondZoneBIsAnObjectionWhateverWasComputed) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.sensitivity = {Loop(2.5)};
+  inputs.measured = Measured(4.3, 2.5, Zone::kC);
+  EXPECT_EQ(Judge(inputs).sentence,
+            "NOT ACCEPTED: measured sensitivity peak of nde_y is 4.30 at 100 rpm, zone C");
+}
+
+TEST(JudgeMeasured, APeakThatTheLinesDoNotCarryChangesNothing) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.sensitivity = {Loop(4.2)};
+  inputs.measured = Measured(2.0, 4.2, std::nullopt);
+  EXPECT_EQ(Judge(inputs).outcome, Outcome::kNotAccepted);
+  EXPECT_TRUE(Judge(inputs).warnings.empty());
+}
+
+TEST(JudgeMeasured, WarnsBeyondTwentyPercentInTableAndJsonAndNotWithin) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.sensitivity = {Loop(2.5)};
+  inputs.measured = Measured(2.9, 2.5, Zone::kA);
+  EXPECT_TRUE(Judge(inputs).warnings.empty());
+  inputs.measured = Measured(3.5, 2.5, Zone::kB);
+  const Verdict verdict = Judge(inputs);
+  EXPECT_EQ(verdict.outcome, Outcome::kAccepted);
+  ASSERT_EQ(verdict.warnings.size(), 1U);
+  EXPECT_THAT(verdict.warnings[0], StartsWith("sensitivity peak of nde_y at 100 rpm: measured "
+                                              "3.50, computed 2.50, 29 % apart"));
+  EXPECT_THAT(Table(verdict), HasSubstr("WARNING: " + verdict.warnings[0]));
+  EXPECT_THAT(Table(verdict), HasSubstr("measured, sigma 0.020"));
+  const auto json = Json(verdict);
+  EXPECT_EQ(json["warnings"], nlohmann::ordered_json(verdict.warnings));
+  EXPECT_EQ(json["sensitivity"][1]["source"], "measured");
+  EXPECT_EQ(json["sensitivity"][1]["axes"][0]["peak"], 3.5);
 }
 
 }  // namespace

@@ -1,0 +1,66 @@
+#include "verdict/measure_sensitivity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/problem.hpp"
+#include "identification/frf/frequency_response.hpp"
+#include "identification/frf/measured_sensitivity.hpp"
+#include "identification/record/record.hpp"
+
+namespace levitas::verdict {
+namespace {
+
+constexpr double kSameSpeedRadPerS = 0.1;  // 1 rpm
+
+MeasuredSpeed MeasuredAt(const identification::FrequencyResponse& response,
+                         const config::RigFile& rig, const law::LawConfig& law) {
+  MeasuredSpeed out{response.speed_rad_per_s, {}};
+  const analysis::SensitivityResult computed =
+      analysis::SensitivityPeaks(rig.plant, law, response.speed_rad_per_s);
+  const auto peaks = identification::MeasuredPeaks(response);
+  for (std::size_t i = 0; i < peaks.size(); ++i) {
+    MeasuredAxis axis{
+        peaks[i].channel, peaks[i].peak, peaks[i].sigma, peaks[i].frequency_hz, peaks[i].zone,
+        peaks[i].refused, 0.0,           false};
+    if (i < computed.axes.size()) {
+      axis.computed_peak = computed.axes[i].peak;
+      axis.differs =
+          axis.zone && computed.stable && identification::Disagree(axis.computed_peak, axis.peak);
+    }
+    out.axes.push_back(std::move(axis));
+  }
+  return out;
+}
+
+}  // namespace
+
+MeasuredSensitivity MeasureSensitivity(const std::string& session_path, const config::RigFile& rig,
+                                       const law::LawConfig& law) {
+  MeasuredSensitivity out;
+  try {
+    const auto record = identification::ReadRecord(session_path, rig);
+    const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
+    for (const auto& response : identification::EstimateResponses(record, delay_s)) {
+      out.speeds.push_back(MeasuredAt(response, rig, law));
+    }
+  } catch (const BadInput& problem) {
+    out.speeds.clear();
+    out.why_not = problem.what();
+  }
+  return out;
+}
+
+const MeasuredAxis* FindGraded(const MeasuredSensitivity& measured, const std::string& channel,
+                               double speed_rad_per_s) {
+  for (const MeasuredSpeed& at : measured.speeds) {
+    if (std::abs(at.speed_rad_per_s - speed_rad_per_s) > kSameSpeedRadPerS) continue;
+    const auto axis = std::find_if(at.axes.begin(), at.axes.end(), [&](const MeasuredAxis& one) {
+      return one.channel == channel && one.zone;
+    });
+    if (axis != at.axes.end()) return &*axis;
+  }
+  return nullptr;
+}
+
+}  // namespace levitas::verdict
