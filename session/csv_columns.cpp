@@ -72,9 +72,21 @@ std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {
 constexpr std::size_t kLongestName = 100;
 std::string_view Beginning(std::string_view name) { return name.substr(0, kLongestName); }
 
-const CsvColumn& Nearest(std::string_view name, const std::vector<CsvColumn>& known) {
-  const CsvColumn* nearest = &known.front();
-  std::size_t least = EditDistance(name, nearest->name);
+/// Errors that make a name of ours unknown: a letter or two.
+constexpr std::size_t kTypingErrors = 2;
+/// So many unknown names are looked at: a table of another program has thousands.
+constexpr std::size_t kMostComplaints = 20;
+
+bool HasPrefixOfOurs(std::string_view name) {
+  return std::any_of(kPerAxis.begin(), kPerAxis.end(),
+                     [&](const PerAxis& kind) { return name.starts_with(kind.prefix); });
+}
+
+/// The nearest of at most `most` errors; null: there is none.
+const CsvColumn* Nearest(std::string_view name, const std::vector<CsvColumn>& known,
+                         std::size_t most) {
+  const CsvColumn* nearest = nullptr;
+  std::size_t least = most + 1;
   for (const CsvColumn& column : known) {
     const std::size_t longer = std::max(name.size(), column.name.size());
     // As many errors at least as one is longer than the other.
@@ -84,15 +96,12 @@ const CsvColumn& Nearest(std::string_view name, const std::vector<CsvColumn>& kn
     nearest = &column;
     least = distance;
   }
-  return *nearest;
+  return nearest;
 }
 
-/// An unknown name that was probably meant to be one of ours.
-bool LooksMeant(std::string_view name, std::string_view nearest) {
-  constexpr std::size_t kTypingErrors = 2;
-  const auto has_prefix = [&](const PerAxis& kind) { return name.starts_with(kind.prefix); };
-  return std::any_of(kPerAxis.begin(), kPerAxis.end(), has_prefix) ||
-         EditDistance(name, nearest) <= kTypingErrors;
+/// Which column an unknown name was probably meant to be; null: none of ours.
+const CsvColumn* LikelyMeant(std::string_view name, const std::vector<CsvColumn>& known) {
+  return Nearest(name, known, HasPrefixOfOurs(name) ? kLongestName : kTypingErrors);
 }
 
 std::vector<std::string> Missing(const CsvLayout& layout,
@@ -195,12 +204,13 @@ CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string&
     const auto is_it = [&](const CsvColumn& column) { return column.name == name; };
     const auto found = std::find_if(known.begin(), known.end(), is_it);
     if (found == known.end()) {
-      const std::string& nearest = Nearest(Beginning(name), known).name;
-      if (LooksMeant(Beginning(name), nearest)) {
+      const CsvColumn* meant =
+          problems.size() < kMostComplaints ? LikelyMeant(Beginning(name), known) : nullptr;
+      if (meant != nullptr) {
         problems.push_back(
             fmt::format("column {} \"{}\" is not known (channels of the rig: {}); "
                         "did you mean \"{}\"?",
-                        i + 1, Beginning(name), Listed(channels), nearest));
+                        i + 1, Beginning(name), Listed(channels), meant->name));
       }
       layout.ignored.push_back(name);
       layout.columns.push_back({CsvQuantity::kIgnored, 0, 1.0, name});
