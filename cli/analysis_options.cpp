@@ -10,7 +10,9 @@
 #include <numbers>
 
 #include "cli/run/general_files.hpp"
+#include "config/law_notes.hpp"
 #include "controller/law/discrete_law.hpp"
+#include "hil/socketcan/can_connection.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -58,6 +60,29 @@ void AddRigOption(CLI::App& command, AnalysisOptions& options) {
       ->capture_default_str();
 }
 
+void AddPortOption(CLI::App& command, AnalysisOptions& options) {
+  command
+      .add_option("--port", options.port,
+                  "Whose delay counts: lcm (the rig file's), can or can:IF,... (of its buses)")
+      ->check([](const std::string& port) {
+        if (port == "lcm" || socketcan::IsCanPort(port)) return std::string{};
+        return "found '" + port + "', allowed: lcm, can, can:IF,...";
+      })
+      ->capture_default_str();
+}
+
+std::string TakeDelayOfPort(const AnalysisOptions& options, config::RigFile& rig) {
+  const double of_file = rig.plant.delay_samples;
+  if (options.port == "lcm") {
+    return fmt::format("delay from sample to current: {:.2f} periods, of the rig file{}\n", of_file,
+                       rig.buses.empty() ? "" : " (on its CAN buses: --port can)");
+  }
+  socketcan::ApplyBusDelay(rig,
+                           socketcan::PlanConnection(rig, options.rig_name, options.port).budget);
+  return fmt::format("delay from sample to current: {:.2f} periods, of {} (the rig file: {:.2f})\n",
+                     rig.plant.delay_samples, options.port, of_file);
+}
+
 void AddControllerOption(CLI::App& command, AnalysisOptions& options) {
   command
       .add_option("--controller", options.controller_name,
@@ -88,12 +113,13 @@ FoundController LoadController(const AnalysisOptions& options, const config::Rig
   if (name.empty()) name = kReferenceController;
   const std::string path = config::FindConfig(name, "controllers");
   FoundController found{path, config::LoadController(path, rig.numbers), {}};
-  found.notches = NotchesElsewhere(found.file, rig.numbers);
+  found.notes = NotchesElsewhere(found.file, rig.numbers);
+  for (const std::string& note : config::LawNotes(found.file.law)) found.notes += "\n  " + note;
   return found;
 }
 
 std::string ControllerText(const FoundController& controller) {
-  return fmt::format("{} ({}){}", controller.file.name, controller.path, controller.notches);
+  return fmt::format("{} ({}){}", controller.file.name, controller.path, controller.notes);
 }
 
 std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig) {

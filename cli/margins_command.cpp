@@ -99,13 +99,15 @@ nlohmann::ordered_json Json(const analysis::SensitivityResult& at,
 
 ExitStatus Run(const AnalysisOptions& options) {
   session::CheckOutputPath(options.json_path, {});
-  const config::RigFile rig = LoadRig(options);
+  config::RigFile rig = LoadRig(options);
   const FoundController controller = LoadController(options, rig);
+  const std::string delay = TakeDelayOfPort(options, rig);
   nlohmann::ordered_json json{{"rig", rig.numbers.name},
                               {"controller", controller.file.name},
-                              {"controller_file", controller.path}};
+                              {"controller_file", controller.path},
+                              {"delay_periods", rig.plant.delay_samples}};
   fmt::print("Sensitivity of the sampled loop, delay included; zones of ISO 14839-3\n");
-  fmt::print("rig {}, controller {}\n", rig.numbers.name, ControllerText(controller));
+  fmt::print("rig {}, controller {}\n{}", rig.numbers.name, ControllerText(controller), delay);
   for (const double rpm : options.speeds_rpm) {
     const auto result =
         analysis::SensitivityPeaks(rig.plant, controller.file.law, RadPerSecond(rpm));
@@ -125,6 +127,7 @@ void AddMarginsCommand(CLI::App& app, Action& action) {
       "margins", "Sensitivity peaks with ISO 14839-3 zones, gain and phase margins, over speed");
   AddRigOption(*command, *options);
   AddControllerOption(*command, *options);
+  AddPortOption(*command, *options);
   AddSpeedOption(*command, *options, {0.0});
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });

@@ -58,13 +58,15 @@ nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
 
 ExitStatus Run(const PolesOptions& options) {
   session::CheckOutputPath(options.json_path, {});
-  const config::RigFile rig = LoadRig(options);
+  config::RigFile rig = LoadRig(options);
   const FoundController controller = LoadController(options, rig);
+  const std::string delay = TakeDelayOfPort(options, rig);
   nlohmann::ordered_json json{{"rig", rig.numbers.name},
                               {"controller", controller.file.name},
-                              {"controller_file", controller.path}};
-  fmt::print("Poles of the sampled loop, delay included; rig {}, controller {}\n", rig.numbers.name,
-             ControllerText(controller));
+                              {"controller_file", controller.path},
+                              {"delay_periods", rig.plant.delay_samples}};
+  fmt::print("Poles of the sampled loop, delay included; rig {}, controller {}\n{}",
+             rig.numbers.name, ControllerText(controller), delay);
   for (const double rpm : options.speeds_rpm) {
     const auto poles = analysis::ClosedLoopPoles(rig.plant, controller.file.law, RadPerSecond(rpm));
     Print(poles, options.up_to_hz);
@@ -82,6 +84,7 @@ void AddPolesCommand(CLI::App& app, Action& action) {
       "poles", "Closed-loop poles of the sampled loop, delay included; stability first");
   AddRigOption(*command, *options);
   AddControllerOption(*command, *options);
+  AddPortOption(*command, *options);
   AddSpeedOption(*command, *options, {0.0});
   command->add_option("--up-to-hz", options->up_to_hz, "Print poles up to this frequency")
       ->check(CLI::PositiveNumber)

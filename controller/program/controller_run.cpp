@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "config/law_notes.hpp"
 #include "config/rig_file.hpp"
 #include "controller/loop/control_loop.hpp"
 #include "controller/loop/operator_desk.hpp"
@@ -142,6 +143,9 @@ class Session {
         sequence_(files.controller.supervisor.sequence) {
     if (files.scenario) {
       player_.emplace(*files.scenario, numbers_.period_s(), sequence_.standstill_rad_per_s);
+    }
+    for (const std::string& note : config::LawNotes(files.controller.law)) {
+      rt::Say("amb-controller: " + note);
     }
     if (lines_ != nullptr) guarded_.emplace(rig_->port(), *lines_, files.rig.lines);
     session::Bytes announcement;

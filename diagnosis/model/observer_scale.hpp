@@ -19,7 +19,7 @@
 namespace levitas::diagnosis {
 
 struct ObserverScale {
-  ObserverScale() {
+  ObserverScale() : readings{}, modes{} {
     readings.fill(1.0);
     modes.fill(1.0);
   }

@@ -9,8 +9,8 @@ from command import BINARIES, DONE, SOURCE, USAGE, CommandTest, amb
 
 OPTIONS = {
     "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--json"},
-    "poles": {"--rig", "--controller", "--speed-rpm", "--speeds", "--up-to-hz", "--json"},
-    "margins": {"--rig", "--controller", "--speed-rpm", "--speeds", "--json"},
+    "poles": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--up-to-hz", "--json"},
+    "margins": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--json"},
     "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--csv", "--svg",
                  "--json"},
     "import": {"--rig", "--out", "--overwrite", "--tag", "--json"},
