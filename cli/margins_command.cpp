@@ -105,7 +105,7 @@ ExitStatus Run(const AnalysisOptions& options) {
   nlohmann::ordered_json json{{"rig", rig.numbers.name},
                               {"controller", controller.file.name},
                               {"controller_file", controller.path},
-                              {"delay_periods", rig.plant.delay_samples}};
+                              {"delay_s", rig.plant.delay_samples * rig.numbers.period_s()}};
   fmt::print("Sensitivity of the sampled loop, delay included; zones of ISO 14839-3\n");
   fmt::print("rig {}, controller {}\n{}", rig.numbers.name, ControllerText(controller), delay);
   for (const double rpm : options.speeds_rpm) {

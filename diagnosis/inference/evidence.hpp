@@ -53,7 +53,7 @@ class Evidence {
   [[nodiscard]] Eigen::VectorXd Step(const Eigen::VectorXd& theta, double damping) const;
   /// The step of all and of one parameter more, whose slopes are known by their products alone.
   struct Beside {
-    double step;            ///< of the further parameter
+    double step{};          ///< of the further parameter
     Eigen::VectorXd theta;  ///< where the others go with it
   };
   /// `cross`: slopes of all with its slope, J^T j; `gradient`: e^T j; `curvature`: j^T j. No further

@@ -92,6 +92,17 @@ class Margins(CommandTest):
             _, loop = self.compute("poles", "--controller", "one.yaml", "--speed-rpm", "3000")
             self.assertEqual(loop["speeds"][0]["stable"], stable, factor)
 
+    def test_takes_the_delay_of_the_buses_where_they_are_the_port(self):
+        """On CAN the current of a sample acts a whole period later: less phase, larger peaks."""
+        _, lcm = self.compute("margins", "--controller", "flexible_rotor_commissioned")
+        printed, can = self.compute("margins", "--controller", "flexible_rotor_commissioned",
+                                    "--port", "can")
+        self.assertEqual((lcm["delay_s"], can["delay_s"]), (1e-4, 2e-4))
+        self.assertIn("2.00 periods, of can (the rig file: 1.00)", printed)
+        peak = [max(axis["sensitivity_peak"] for axis in loop["speeds"][0]["axes"])
+                for loop in (lcm, can)]
+        self.assertGreater(peak[1], peak[0])
+
     def test_delay_beyond_the_phase_margin_ends_stability(self):
         """A delay of T turns the phase at f by 2 pi f T: the margin allows phase/(2 pi f)."""
         _, margins = self.compute("margins")

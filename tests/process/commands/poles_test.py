@@ -65,8 +65,10 @@ class Poles(CommandTest):
         at = loop["speeds"][0]
         lines = [line for line in printed.splitlines()
                  if "the notch given at" not in line and "Tustin's rule" not in line]
-        title, head, names, *rows = lines
+        title, delay, head, names, *rows = lines
         self.assertIn("rig flexible_rotor, controller flexible_rotor", title)
+        self.assertIn("1.00 periods, of the rig file", delay)
+        self.assertEqual(loop["delay_s"], 1e-4)
         self.assertIn("1600 rpm: STABLE", head)
         self.assertIn(f"{at['largest_pole_modulus']:.6f}", head)
         self.assertIn("frequency Hz", names)
