@@ -11,6 +11,7 @@
 #include "cli/command.hpp"
 #include "common/nearest.hpp"
 #include "controller/rt/say.hpp"
+#include "levitas_version.hpp"
 
 namespace levitas::cli {
 
@@ -50,6 +51,7 @@ std::string UsageText(const CLI::App& app, const CLI::ParseError& error) {
 int Parse(int argc, char** argv, const AddCommands& add_commands) {
   CLI::App app{"Levitas: active magnetic bearing controller and its hardware-in-the-loop bench",
                "amb"};
+  app.set_version_flag("--version", "levitas " LEVITAS_VERSION);
   app.require_subcommand(1);
   Action action;
   try {

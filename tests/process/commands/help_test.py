@@ -91,6 +91,12 @@ class Help(CommandTest):
         for command in OPTIONS:
             self.assertRegex(text, rf"\n  {command.split()[0]} +\w+", command)
 
+    def test_the_version_is_the_projects(self):
+        cmake = (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8")
+        version = re.search(r"project\(levitas VERSION ([\d.]+)", cmake).group(1)
+        done = amb(self.folder, "--version")
+        self.assertEqual((done.returncode, done.stdout), (DONE, f"levitas {version}\n"))
+
     def test_amb_and_amb_study_list_the_same_commands(self):
         study = subprocess.run([BINARIES / "amb-study", "--help"], capture_output=True, text=True,
                                check=True)
