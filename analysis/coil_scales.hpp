@@ -1,5 +1,6 @@
 #pragma once
-// What an import needs to know of a rig whose records hold gaps and duties (session/csv_import.hpp).
+// What an import needs to know of a rig whose records hold gaps and duties
+// (session/csv_import.hpp).
 //
 // Thread  any; pure.
 

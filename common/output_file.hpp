@@ -6,7 +6,8 @@
 //           stood under the name until then, a symbolic link too, is replaced. Without Commit
 //           it is removed.
 // Direct    what exists and is no regular file (a device, a pipe), and whatever lies below /dev
-//           (but for /dev/shm) or /proc, as /dev/stdout, is written as it is, and never renamed over or removed.
+//           (but for /dev/shm) or /proc, as /dev/stdout, is written as it is, and never renamed
+//           over or removed.
 // Failure   BadInput for a name that cannot be written; Problem of status 1 when the disk is full,
 //           a quota or limit is used up, or the device fails. Both say what the kernel said.
 // Thread    one per object.

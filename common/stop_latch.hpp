@@ -1,6 +1,6 @@
 #pragma once
-// The emergency stop on its way from the thread that receives it to the loop: no queue that could be
-// full, nothing that could be waited for.
+// The emergency stop on its way from the thread that receives it to the loop: no queue that could
+// be full, nothing that could be waited for.
 //
 // Counted  every stop that is asked for has a number; the loop takes all that are there at once.
 //          A command belongs behind the stops that were counted before it (operator_desk.hpp).

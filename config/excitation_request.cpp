@@ -10,8 +10,9 @@
 namespace levitas::config {
 namespace {
 
-// Steps of work that the table takes: each line adds to each sample, and each sample costs two cosines
-// of its own, even where there is one line only. The other signals are made while they are played.
+// Steps of work that the table takes: each line adds to each sample, and each sample costs two
+// cosines of its own, even where there is one line only. The other signals are made while they are
+// played.
 double TableTerms(const scenario::Excitation& excitation, const RigNumbers& rig) {
   if (excitation.kind != scenario::SignalKind::kMultisine) return 0.0;
   const double samples = excitation.repeat_s / rig.period_s();

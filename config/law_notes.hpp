@@ -2,10 +2,10 @@
 // What an engineer should know of a law's own dynamics before it runs: poles that do not decay.
 //
 // Integrator   a real pole at z = 1 (s = 0).
-// Unstable     any other pole on or outside the unit circle (on or right of the imaginary axis): the
-//              law alone grows, and only the loop around it holds it. Allowed where the currents
-//              show it and the sensors reach it (controller/law/hidden_states.hpp); others are refused
-//              when the file is read.
+// Unstable     any other pole on or outside the unit circle (on or right of the imaginary axis):
+//              the law alone grows, and only the loop around it holds it. Allowed where the
+//              currents show it and the sensors reach it (controller/law/hidden_states.hpp); others
+//              are refused when the file is read.
 // Thread       any. Failure: none.
 
 #include <string>

@@ -8,8 +8,8 @@
 // Foreign    what a browser says comes from another page is refused on every path.
 // Elsewhere  every request needs the token that was printed at the start.
 // Token      at least kLeastTokenLength letters, digits and - . _ ~ (it is part of an address).
-// Thread     any. Failure: what is malformed is refused; Problem (exit status 2) for a token that is
-//            no token, BadInput for a file that cannot be read or that others may read.
+// Thread     any. Failure: what is malformed is refused; Problem (exit status 2) for a token that
+//            is no token, BadInput for a file that cannot be read or that others may read.
 
 #include <cstddef>
 #include <string>

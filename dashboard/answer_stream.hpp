@@ -2,8 +2,8 @@
 // What the HTTP library reads a whole request from, and writes its answer to.
 //
 // Bounds    writing ends in failure after kTakesNothing without a byte taken, and `within` after
-//           its first byte if given: a client that reads slowly holds its thread no longer. How long
-//           the answer takes to be found does not count.
+//           its first byte if given: a client that reads slowly holds its thread no longer. How
+//           long the answer takes to be found does not count.
 // Thread    one. Failure: of the library's kind, -1.
 
 #include <httplib.h>

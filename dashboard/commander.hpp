@@ -2,9 +2,9 @@
 // Sends an operator's command to the controller and waits for the controller's own word on it.
 //
 // Confirmed  by the answer that the controller publishes under the command's number and the port it
-//            came from (transport/command_answer.hpp): what others ask, or a scenario does, confirms
-//            nothing here. Nothing is assumed: without an answer within `patience` the reply is
-//            "unanswered", and the page says so.
+//            came from (transport/command_answer.hpp): what others ask, or a scenario does,
+//            confirms nothing here. Nothing is assumed: without an answer within `patience` the
+//            reply is "unanswered", and the page says so.
 // Repetition the same message goes out every kRepeat until it is answered; the controller takes a
 //            number once, and none below the largest (transport/operator_receiver.hpp).
 // Stop       an emergency stop leaves before any lock is asked for. What was asked before it and is

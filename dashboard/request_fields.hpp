@@ -1,6 +1,6 @@
 #pragma once
-// Reads the fields of a request one by one and names the first that cannot be used: what is missing,
-// of the wrong kind, out of range, or unknown.
+// Reads the fields of a request one by one and names the first that cannot be used: what is
+// missing, of the wrong kind, out of range, or unknown.
 //
 // Failure   std::invalid_argument with one sentence. Thread any.
 

@@ -1,6 +1,6 @@
 #pragma once
-// A scope on the run's samples: waits for a trigger, then keeps what lay before and after it at full
-// rate, all axes together.
+// A scope on the run's samples: waits for a trigger, then keeps what lay before and after it at
+// full rate, all axes together.
 //
 // Trigger   a position or current of one axis passes `level` (rising, falling or either), the
 //           controller trips, or at once. A pass is looked for between two samples that follow each

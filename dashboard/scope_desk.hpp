@@ -1,5 +1,6 @@
 #pragma once
-// The one scope of the page, shared by its viewers: requests come in, its state and captures go out.
+// The one scope of the page, shared by its viewers: requests come in, its state and captures go
+// out.
 //
 //   POST /api/scope      {"do": "arm", "source": "position", "channel": "de_x", "level_um": 20,
 //                         "edge": "rising", "length_ms": 200, "before_percent": 25}

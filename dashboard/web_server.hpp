@@ -8,7 +8,8 @@
 // Bounds    front_door.hpp, request_reader.hpp: connections, their times and sizes. kMaxViewers
 //           streams at once, the next is told 503. A viewer that takes nothing for three seconds is
 //           dropped (its browser comes back by itself); what the kernel holds for it is
-//           kSendBufferBytes. Any other answer must be taken within kAnswerWithin of its first byte.
+//           kSendBufferBytes. Any other answer must be taken within kAnswerWithin of its first
+//           byte.
 // Lanes     the emergency stop, other commands, the page and the viewers have threads of their own
 //           (lane.hpp): none can hold back another's.
 // Access    access.hpp.

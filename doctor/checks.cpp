@@ -22,8 +22,9 @@ constexpr std::uint64_t kSessionBytesPerSecond = 3'000'000;
 constexpr std::uint64_t kComfortableBytes = 600 * kSessionBytesPerSecond;
 constexpr std::uint64_t kLeastBytes = 30 * kSessionBytesPerSecond;
 
-/// True when some line of the route table covers 239.255.76.67; the narrowest one counts. Columns: interface, destination,
-/// gateway, flags, three counters, mask; addresses are hexadecimal in network byte order.
+/// True when some line of the route table covers 239.255.76.67; the narrowest one counts. Columns:
+/// interface, destination, gateway, flags, three counters, mask; addresses are hexadecimal in
+/// network byte order.
 bool CoversGroup(const std::vector<std::string>& routes, std::string& interface_name) {
   // 239.255.76.67 as the table writes it on a little-endian machine.
   constexpr unsigned long kGroup = 0x434CFFEFUL;

@@ -1,9 +1,9 @@
 #pragma once
 // The layout of a message's bytes, and whether given bytes have it.
 //
-// Why      LCM's generated decoders believe every count and length that they read: a wrong one makes
-//          them ask for gigabytes, throw, or read beyond the bytes. So bytes from a file or from the
-//          network are walked along the type's layout first, and decoded only if they fit.
+// Why      LCM's generated decoders believe every count and length that they read: a wrong one
+//          makes them ask for gigabytes, throw, or read beyond the bytes. So bytes from a file or
+//          from the network are walked along the type's layout first, and decoded only if they fit.
 // Fits     every count lies in 0 .. its @max of the .lcm file, every text ends with its only zero,
 //          and the last piece ends with the last byte.
 // Source   the layouts are written from lcmtypes/*.lcm by cmake/lcm_layouts.py at build time.

@@ -67,8 +67,8 @@ std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {
   return known;
 }
 
-// No name of ours is nearly as long; of a longer one the beginning is looked at, so that a line of one
-// long word costs no more than a line of many.
+// No name of ours is nearly as long; of a longer one the beginning is looked at, so that a line of
+// one long word costs no more than a line of many.
 constexpr std::size_t kLongestName = 100;
 std::string_view Beginning(std::string_view name) { return name.substr(0, kLongestName); }
 

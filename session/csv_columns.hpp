@@ -10,8 +10,8 @@
 // Needed    time_s; position (or gap) and control current (or duty) of every channel of the rig.
 // Others    are ignored and listed, unless they look like a misspelt or misplaced name of the
 //           above.
-// Time      in proportion to the first line's length: at most kMostColumns names, of which the first
-//           100 characters are compared.
+// Time      in proportion to the first line's length: at most kMostColumns names, of which the
+//           first 100 characters are compared.
 // Failure   BadInput listing every problem of the first line at once.
 
 #include <cstddef>

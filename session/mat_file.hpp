@@ -1,13 +1,14 @@
 #pragma once
 // The vectors, or one matrix, of a MAT file, read by a process of their own.
 //
-// Why        libmatio and libhdf5 reserve what a file claims and are not hardened against files that
-//            were made to harm. What happens to the process that reads happens to nobody else.
+// Why        libmatio and libhdf5 reserve what a file claims and are not hardened against files
+//            that were made to harm. What happens to the process that reads happens to nobody else.
 // Sizes      before a variable's numbers are read: no more numbers than the file has bytes, or
 //            kMostPerByte times as many when they may be compressed; and kMostNumbers in all.
 // Limits     of the reading process: memory MostMemory(), processor time MostSeconds(), both
 //            proportional to the size of the file; it writes no file.
-// Failure    BadInput: what is claimed and what the file can hold, or which limit ended the reading.
+// Failure    BadInput: what is claimed and what the file can hold, or which limit ended the
+//            reading.
 // Thread     any; forks, and waits for the other process.
 
 #include <cstddef>

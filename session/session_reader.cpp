@@ -55,8 +55,9 @@ struct SessionReader::Impl {
     throw BadInput(MissingHeader(any_event, header_channel));
   }
 
-  /// Of another version only the checksum can be judged; of headers that overlap it would be computed
-  /// over the same bytes again and again: after so many, what calls itself a header is not looked at.
+  /// Of another version only the checksum can be judged; of headers that overlap it would be
+  /// computed over the same bytes again and again: after so many, what calls itself a header is not
+  /// looked at.
   HeaderResult Judge(const RawEvent& event, SessionHeader& to, int& version) {
     constexpr std::uint64_t kMostInVain = std::uint64_t{256} << 20;
     if (header_bytes_in_vain > kMostInVain) return HeaderResult::kDamaged;

@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t kSensorAxesAt = 8 + 8 + 8 + 4 + 4 + 4;
 constexpr std::size_t kCurrentAxesAt = 8 + 8;
 
-// Another rig's count would be decoded too, into an array of another length; so it is compared first.
+// Another rig's count would be decoded too, into an array of another length; so it is compared
+// first.
 template <class Message>
 bool DecodeInto(Message& message, std::span<const std::uint8_t> payload, std::size_t axes_at,
                 std::size_t axes) noexcept {

@@ -7,9 +7,10 @@
 //                  that nothing of another machine arrives and no route is needed; what came in
 //                  through another interface all the same is counted and dropped. With ttl above
 //                  0 the interface is that of the route to the group.
-// Key              of a network with one: what is sent is sealed, what is received without a good seal
-//                  is dropped, counted and named (seal.hpp).
-// Thread           one thread per object; TakeNews, Trouble and refused: any one other. After construction no allocation, no exception.
+// Key              of a network with one: what is sent is sealed, what is received without a good
+//                  seal is dropped, counted and named (seal.hpp).
+// Thread           one thread per object; TakeNews, Trouble and refused: any one other. After
+//                  construction no allocation, no exception.
 // Blocking         Send never waits. Receive waits at most until its deadline: a short wait spins,
 //                  a long one spins for a bounded time (while that has been paying off), then
 //                  sleeps in ppoll.

@@ -2,8 +2,8 @@
 // What an operator sends, taken out of a datagram: a command, or a request for a test signal.
 //
 // Thread   any; no state.
-// Failure  nothing, for what is no sound message of its kind: unknown commands, numbers that are not
-//          finite, `excite` without a signal, texts beyond kLongestExcitation.
+// Failure  nothing, for what is no sound message of its kind: unknown commands, numbers that are
+//          not finite, `excite` without a signal, texts beyond kLongestExcitation.
 
 #include <cstddef>
 #include <cstdint>

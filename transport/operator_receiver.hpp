@@ -7,8 +7,8 @@
 //            A number counts as taken only when the command was: what found no room is taken when
 //            it is said again. The latest kRemembered senders are known: each start of an
 //            operator's program is one.
-// Share      a sender's commands beyond kMostPerSecond are dropped as if there were no room: a flood
-//            leaves the others theirs, and the loop and the log what they can carry.
+// Share      a sender's commands beyond kMostPerSecond are dropped as if there were no room: a
+//            flood leaves the others theirs, and the loop and the log what they can carry.
 // Stops      are taken whatever their number. A command that was sent before a stop is dropped
 //            when it is read after it: the same datagram arrives here too, in the order of sending,
 //            and until then whatever comes is older. It may be said again.

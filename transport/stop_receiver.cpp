@@ -16,8 +16,8 @@ namespace levitas::transport {
 namespace {
 constexpr std::int64_t kSliceNs = 50'000'000;  // how long the destructor may have to wait
 
-// Where the command stands, counted as the kernel's filter does, from the UDP header on: behind that
-// header, LCM's, the type's hash and the sequence number.
+// Where the command stands, counted as the kernel's filter does, from the UDP header on: behind
+// that header, LCM's, the type's hash and the sequence number.
 constexpr std::uint32_t kUdpHeader = 8;
 constexpr std::uint32_t kCommandAt =
     kUdpHeader + static_cast<std::uint32_t>(HeaderSize(channel::kCommand)) + 8 + 8;

@@ -4,8 +4,8 @@
 //
 // Equation  S = U E^-1 on the lines of the test signals, one axis excited at a time, all levitated
 //           (identification/frf/frequency_response.hpp); peak and zone as ISO 14839-3 asks for them
-//           (identification/frf/measured_sensitivity.hpp). Computed: analysis/sensitivity.hpp at the
-//           same speed.
+//           (identification/frf/measured_sensitivity.hpp). Computed: analysis/sensitivity.hpp at
+//           the same speed.
 // Units     rad/s, Hz. Thread: any, offline.
 // Failure   none: where the record does not carry a measurement, `why_not` says what it lacks.
 // Not done  a measurement between the speeds at which test signals were given.

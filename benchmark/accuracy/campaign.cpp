@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kRadPerSPerRpm = std::numbers::pi / 30.0;
 constexpr double kSaggingM = 350e-6;  // [m] beyond it the rotor is lost
-/// Of the most current, on the average over a record: an axis that gives more holds nothing any more.
+/// Of the most current, on the average over a record: an axis that gives more holds nothing any
+/// more.
 constexpr double kHolding = 0.8;
 constexpr double kWarmUpS = 1.2;  // [s] in which the integrators find the weight
 

@@ -6,8 +6,8 @@
 //            test signal.
 // Loop       plant and axis law alone, one period at a time, from a levitated start that is not
 //            recorded.
-// Failure    `stable` false when the rotor came near its touchdown bearings or was lost, swings at rest, or is held by
-//            nothing but the most current.
+// Failure    `stable` false when the rotor came near its touchdown bearings or was lost, swings at
+//            rest, or is held by nothing but the most current.
 // Thread     any; no shared state.
 
 #include <string>

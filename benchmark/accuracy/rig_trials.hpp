@@ -1,6 +1,6 @@
 #pragma once
-// What a bench does to one rig: which effects it hides, how large, how the rig is driven, and by how
-// much a healthy one is off.
+// What a bench does to one rig: which effects it hides, how large, how the rig is driven, and by
+// how much a healthy one is off.
 //
 // Sizes     DrawEffect's are those of the flexible rotor; here stand the factors on them that make
 //           an effect clear on another rig (25 nat and more in its records).

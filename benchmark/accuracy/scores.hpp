@@ -7,8 +7,8 @@
 //            what could be known at all. A hand-drawn size says little about it: some effects drown
 //            in tolerances.
 // Oracle     a second diagnosis that is told what is hidden. One that does not name it although the
-//            records hold it (held_evidence.hpp) has failed: what is available is not known, and the
-//            trial counts as not named in the size that was drawn.
+//            records hold it (held_evidence.hpp) has failed: what is available is not known, and
+//            the trial counts as not named in the size that was drawn.
 // Partly     any effect really present is named, but not as first.
 // Thread     any; pure.
 
@@ -66,8 +66,8 @@ struct Outcome {
 /// pays for its freedom.
 inline constexpr double kHeldFrom = 2.0 * diagnosis::kDecisive;
 
-/// Takes what the oracle says of an effect that was not named. `held` as HeldEvidence; where there is
-/// none an oracle fails that leaves something unexplained.
+/// Takes what the oracle says of an effect that was not named. `held` as HeldEvidence; where there
+/// is none an oracle fails that leaves something unexplained.
 void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outcome& outcome);
 
 /// Tables for people, of all outcomes.

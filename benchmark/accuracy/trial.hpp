@@ -40,8 +40,8 @@ struct TrialPlan {
 /// decides), and what no records of this length can tell.
 enum class Size : std::uint8_t { kBelow, kFaint, kModerate, kClear };
 [[nodiscard]] Size SizeOf(double available_nat) noexcept;
-/// By what was drawn, where the evidence is not known: 1 is clear, 0.5 moderate, 0.25 faint. Nothing
-/// is drawn to be below all.
+/// By what was drawn, where the evidence is not known: 1 is clear, 0.5 moderate, 0.25 faint.
+/// Nothing is drawn to be below all.
 [[nodiscard]] Size SizeDrawn(double drawn) noexcept;
 [[nodiscard]] const char* Name(Size size) noexcept;
 

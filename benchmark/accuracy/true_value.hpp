@@ -1,8 +1,8 @@
 #pragma once
 // What a number of an answer is in the rig that was hidden from it.
 //
-// Combined   the hidden effect and what the rig is off by anyway at the same place: ratios multiply,
-//            harmonics of one order add as vectors, all else adds.
+// Combined   the hidden effect and what the rig is off by anyway at the same place: ratios
+//            multiply, harmonics of one order add as vectors, all else adds.
 // Units      those of the parameter. Thread: any; pure.
 
 #include <optional>
@@ -13,7 +13,8 @@
 
 namespace levitas::trials {
 
-/// Nothing where the two cannot be compared: another place, a number that counts from the rig's own.
+/// Nothing where the two cannot be compared: another place, a number that counts from the rig's
+/// own.
 [[nodiscard]] std::optional<double> TrueValue(const diagnosis::NamedParameter& parameter,
                                               const Secret& secret, const RigNumbers& rig);
 

@@ -90,8 +90,8 @@ law::LawConfig LargestLaw() {
   return config;
 }
 
-// A law whose states are no longer normal numbers (below 2.2e-308): where a filter's memory decays to
-// when its input is exactly zero. Every product is then the processor's slow case.
+// A law whose states are no longer normal numbers (below 2.2e-308): where a filter's memory decays
+// to when its input is exactly zero. Every product is then the processor's slow case.
 constexpr double kSubnormalM = 1e-315;
 
 void StepLaw(benchmark::State& state, const law::LawConfig& config, double deviation_m) {

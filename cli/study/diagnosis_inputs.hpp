@@ -3,7 +3,8 @@
 // or diagnosed and called healthy.
 //
 // Same     the same file by another path, or another file with the same bytes. A session and its
-//          own CSV are known as the same by their rows (diagnosis/records/same_rows.hpp), which needs them read.
+//          own CSV are known as the same by their rows (diagnosis/records/same_rows.hpp), which
+//          needs them read.
 // Failure  BadInput with both names.
 
 #include <string>

@@ -13,8 +13,8 @@ namespace {
 using namespace unit;
 
 // The force constant k of F = k [((i0+ic)/(s0-x))^2 - ((i0-ic)/(s0+x))^2] is given in one of three
-// ways: directly; by ki = 4 k i0 / s0^2; or by the coil and its poles (docs/derivations.md (16a)), whose
-// gap is that at the pole: along the axis it is longer. Written directly, hence exactly.
+// ways: directly; by ki = 4 k i0 / s0^2; or by the coil and its poles (docs/derivations.md (16a)),
+// whose gap is that at the pole: along the axis it is longer. Written directly, hence exactly.
 void DescribeStrength(Visitor& v, plant::MagnetConfig& magnet) {
   double constant = magnet.force_constant_n_m2_per_a2;
   double ki_n_per_a{};

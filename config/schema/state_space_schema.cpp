@@ -71,7 +71,8 @@ void DescribeBlock(Visitor& v, law::ModalBlock& block, bool discrete, const RigN
                     pair, block.first_output, block.second_output);
 }
 
-// A growing state must be seen by the currents and reached by the sensors: no feedback holds it else.
+// A growing state must be seen by the currents and reached by the sensors: no feedback holds it
+// else.
 void RefuseHiddenGrowth(Visitor& v, const law::StateSpaceConfig& law) {
   for (const law::GrowingBlock& growing : law::GrowingBlocks(law)) {
     if (growing.seen && growing.reached) continue;

@@ -6,8 +6,9 @@
 // Real time a fixed grid, `phase_ns` after the rig's sampling instants. A frame that is not there
 //           `grace_ns` after the wake-up is missing. The grid never moves: an overrun skips whole
 //           periods, which are counted, told to the cycle and blamed on a stage.
-//           A sampling instant further than `farthest_ns` from now (another machine's clock, a sender
-//           gone wrong) is none: the frame's arrival less `phase_ns` takes its place, and is counted.
+//           A sampling instant further than `farthest_ns` from now (another machine's clock, a
+//           sender gone wrong) is none: the frame's arrival less `phase_ns` takes its place, and is
+//           counted.
 // Thread    Run in one thread; no allocation, lock or exception between its first and last cycle.
 //           Abort and frames_heard from any thread.
 // Failure   none of its own: a silent rig shows in frames_heard, and the caller decides.

@@ -1,6 +1,6 @@
 #pragma once
-// Test signals on their way from the network to the loop: made by a thread that may allocate, played
-// by the loop, which may not, and given back for the next.
+// Test signals on their way from the network to the loop: made by a thread that may allocate,
+// played by the loop, which may not, and given back for the next.
 //
 // Thread   Put: one thread at a time, not the loop's. Place::AddTo, GiveBack: loop thread; no
 //          allocation, no lock.

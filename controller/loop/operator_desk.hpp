@@ -1,8 +1,8 @@
 #pragma once
 // The operator's desk: decides in each cycle who gives the command.
 //
-// Order    an emergency stop before everything, in every state, also in a full ring; then the end of
-//          the program before a remote command before the scenario. A remote command that its
+// Order    an emergency stop before everything, in every state, also in a full ring; then the end
+//          of the program before a remote command before the scenario. A remote command that its
 //          sender gave before a stop is dropped after it: a stop is not undone by what is older.
 // Test signals  a remote one is added to the scenario's. It begins in the cycle after its command,
 //          unless that was refused, and ends by its own length, by command, by a new one, with a

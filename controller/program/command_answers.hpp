@@ -1,6 +1,6 @@
 #pragma once
-// Answers each command of the network under its own number: what the cycle that was given it made of
-// it, in the words of the event.
+// Answers each command of the network under its own number: what the cycle that was given it made
+// of it, in the words of the event.
 //
 // Thread   Heard and Saw: the recorder's, in the order of the records, a record's events first.
 //          Refuse: any but the loop's. given: written by the desk, in the loop's thread.

@@ -21,8 +21,8 @@ class CommandIntake {
  public:
   static constexpr std::chrono::seconds kSayEvery{1};
 
-  /// Keeps a reference to `rig`. `warn` is called in the receiver's thread, `refused` in that of the
-  /// test signals.
+  /// Keeps a reference to `rig`. `warn` is called in the receiver's thread, `refused` in that of
+  /// the test signals.
   CommandIntake(const RigNumbers& rig, std::function<void(const std::string&)> warn,
                 ExcitationIntake::Refused refused)
       : warn_(std::move(warn)), excitations_(rig, inbox_, stops_, std::move(refused)) {}

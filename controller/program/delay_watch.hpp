@@ -1,8 +1,8 @@
 #pragma once
 // Listens to the buses of the loop beside it and measures the delay of the path, while it runs.
 //
-// Path     sockets of its own: what the loop sends comes to them through the driver's loop-back. The
-//          loop does not know of it.
+// Path     sockets of its own: what the loop sends comes to them through the driver's loop-back.
+//          The loop does not know of it.
 // Judged   once, after kEnough frames: a delay that differs from the one that margins and verdict
 //          are computed with by more than kTolerance periods is news. The median has the width of a
 //          bin of the histogram, 4.4 %.

@@ -1,10 +1,10 @@
 #pragma once
-// Makes the test signals that are asked for over the network, in a thread of its own, and hands them
-// to the operator's desk. What one costs is bounded by config/excitation_request.hpp, how many wait
-// by kWaiting, and nobody waits for either.
+// Makes the test signals that are asked for over the network, in a thread of its own, and hands
+// them to the operator's desk. What one costs is bounded by config/excitation_request.hpp, how many
+// wait by kWaiting, and nobody waits for either.
 //
-// Order    one after the other. One that waits when an emergency stop or the command to end the test
-//          signal comes is not begun any more.
+// Order    one after the other. One that waits when an emergency stop or the command to end the
+//          test signal comes is not begun any more.
 // Thread   Take and EndWaiting: any but the loop's; they lock for the length of a copy. The desk
 //          plays what lies on the shelf.
 // Failure  a request that cannot be met is told, and nothing else happens. Take returns false when

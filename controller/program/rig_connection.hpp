@@ -1,8 +1,8 @@
 #pragma once
 // The port that --port names, with everything it stands on.
 //
-// Failure  Problem: 2 for a port that cannot be read, or lockstep on a bus that is no virtual one, 3 for a rig whose buses do not carry the
-//          loop, 1 when sockets cannot be made.
+// Failure  Problem: 2 for a port that cannot be read, or lockstep on a bus that is no virtual one,
+//          3 for a rig whose buses do not carry the loop, 1 when sockets cannot be made.
 
 #include <memory>
 #include <string>

@@ -3,9 +3,10 @@
 // tell about them.
 //
 // Method     a fast observer on a part of the records (smooth, coarse), then the slow one on all
-//            that is used. At first all that is the rig's build is held to a fifth of its tolerance:
-//            an orbit or an effect that is not explained yet drives gains and delays, which make up
-//            for one another, tens of tolerances away, where a fit that is free at once stays.
+//            that is used. At first all that is the rig's build is held to a fifth of its
+//            tolerance: an orbit or an effect that is not explained yet drives gains and delays,
+//            which make up for one another, tens of tolerances away, where a fit that is free at
+//            once stays.
 // Healthy    tolerances shrink to what the healthy records leave open, but not below kDaily of
 //            themselves: a rig is not the same from one day to the next. This separates what one
 //            record cannot: current gain from sensor gain, gap from bias.

@@ -20,8 +20,8 @@ constexpr double kExplained = 0.7;  ///< of the excess: less, and the cause is n
 /// nearly all.
 constexpr double kStandsOut = 30.0;
 constexpr double kNearlyAll = 0.95;
-/// [nat] lost on what was kept back. A sixth of the records scatters by a few nats about what a cause
-/// of some tens of nats gains there.
+/// [nat] lost on what was kept back. A sixth of the records scatters by a few nats about what a
+/// cause of some tens of nats gains there.
 constexpr double kHarm = 2.0 * kDecisive;
 
 bool IsUnexplained(const Remainder& remainder, bool named, double explained) {

@@ -13,8 +13,8 @@
 //              Several causes are exchanged, one by one, for what comes nearest (exchange.hpp);
 //            4 rank: every effect in place of the first cause, the nearest refitted;
 //            5 judge what remains (remainder.hpp).
-// Strays     a model that loses the rotor is held by a faster observer until the causes found let go
-//            of it (stray.hpp).
+// Strays     a model that loses the rotor is held by a faster observer until the causes found let
+//            go of it (stray.hpp).
 // Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.
 // Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of
 //            magnets and contacts are known to a tenth or so of their amplitude, so a hundredth of

@@ -48,16 +48,16 @@ class Evidence {
   /// The base with the accepted causes.
   [[nodiscard]] Fit Solve() const;
   /// Towards the solution from `theta` (units of Term::scale()), no further than the linearisation
-  /// is good for: steps are held back as if by `damping` more priors about theta, which leaves those
-  /// that the data determine and shortens those that they do not (Levenberg 1944).
+  /// is good for: steps are held back as if by `damping` more priors about theta, which leaves
+  /// those that the data determine and shortens those that they do not (Levenberg 1944).
   [[nodiscard]] Eigen::VectorXd Step(const Eigen::VectorXd& theta, double damping) const;
   /// The step of all and of one parameter more, whose slopes are known by their products alone.
   struct Beside {
     double step{};          ///< of the further parameter
     Eigen::VectorXd theta;  ///< where the others go with it
   };
-  /// `cross`: slopes of all with its slope, J^T j; `gradient`: e^T j; `curvature`: j^T j. No further
-  /// than `most` either way; where the cost bends the wrong way, as far downhill.
+  /// `cross`: slopes of all with its slope, J^T j; `gradient`: e^T j; `curvature`: j^T j. No
+  /// further than `most` either way; where the cost bends the wrong way, as far downhill.
   [[nodiscard]] Beside StepBeside(const Eigen::VectorXd& theta, const Eigen::VectorXd& cross,
                                   double gradient, double curvature, double most) const;
 

@@ -2,8 +2,8 @@
 // What one diagnosis has before it and how far it is: rig, terms, records, the linearisation it
 // works on, the causes found so far.
 //
-// Units   evidence in nats. Thread: blocks the caller, two threads inside. Internal to diagnose.cpp,
-//         selection.cpp and rivals.cpp.
+// Units   evidence in nats. Thread: blocks the caller, two threads inside. Internal to
+//         diagnose.cpp, selection.cpp and rivals.cpp.
 
 #include <limits>
 #include <string>

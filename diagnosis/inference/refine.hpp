@@ -2,10 +2,10 @@
 // Nuisances and a given set of causes fitted together on the nonlinear model.
 //
 // Method     Gauss-Newton from a start; a step after which the model is further from the data, or
-//            not finite, is taken again with damping (Levenberg 1944), which holds back what the data
-//            do not determine and leaves the rest. Slopes are those of a linearisation that exists; where a cause
-//            bends (Term::linear) they are taken anew where it arrived. The whitening stays the
-//            same, so that sets can be compared.
+//            not finite, is taken again with damping (Levenberg 1944), which holds back what the
+//            data do not determine and leaves the rest. Slopes are those of a linearisation that
+//            exists; where a cause bends (Term::linear) they are taken anew where it arrived. The
+//            whitening stays the same, so that sets can be compared.
 // Evidence   of the whole set, -1/2 (squared sum + penalty + log det), priors of places included;
 //            differences between sets of causes on the same records and whitening mean something,
 //            one number alone does not.

@@ -163,8 +163,8 @@ void SlowDown(Inquiry& q) {
   }
 }
 
-/// Once more without any cause and with a faster observer, which holds the model where a wrong cause
-/// leads it astray.
+/// Once more without any cause and with a faster observer, which holds the model where a wrong
+/// cause leads it astray.
 void StartAgain(Inquiry& q) {
   q.causes.clear();
   q.theta = q.calibrated;

@@ -1,9 +1,9 @@
 #pragma once
 // By how much the terms in force alter the linear model along which derivatives are propagated.
 //
-// Why     a lightly damped mode that is a per cent off rings at another frequency: derivatives taken
-//         about the file's mode instead of the calibrated one are out of phase after a few cycles,
-//         and a fit along them does not converge.
+// Why     a lightly damped mode that is a per cent off rings at another frequency: derivatives
+//         taken about the file's mode instead of the calibrated one are out of phase after a few
+//         cycles, and a fit along them does not converge.
 // Filled  by Term::change at the calibrated theta; what varies from sample to sample is in
 //         Moment::added (Term::slope).
 // Thread  plain data.

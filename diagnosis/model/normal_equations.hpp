@@ -1,5 +1,6 @@
 #pragma once
-// Whitened innovations and their sums over all records: J^T J, J^T e and e^T e (made by slopes.hpp).
+// Whitened innovations and their sums over all records: J^T J, J^T e and e^T e (made by
+// slopes.hpp).
 //
 // Whitening  an autoregressive filter per channel, from the innovations of the calibrated model
 //            (Yule-Walker), scaled to unit variance; the same filter for every hypothesis.

@@ -1,9 +1,9 @@
 #pragma once
 // The numbers of a rig that terms need, taken once from the plant's model.
 //
-// By chance  effects of the rig file that no model foretells, though it knows how often or how large
-//            they are: lost frames, instants that scatter, the phase of the mains. The model goes
-//            without them; who looks for them asks `by_chance` what is known.
+// By chance  effects of the rig file that no model foretells, though it knows how often or how
+//            large they are: lost frames, instants that scatter, the phase of the mains. The model
+//            goes without them; who looks for them asks `by_chance` what is known.
 // Thread  immutable after construction.
 
 #include <memory>

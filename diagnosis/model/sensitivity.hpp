@@ -1,10 +1,10 @@
 #pragma once
 // Derivatives of the innovations by every term, along the run of the model.
 //
-// Equation   dx[n+1] = A(n) (dx[n] + d(K e[n])) + E dd[n] + B da,  de[n] = -(C dx[n] + dr): the model
-//            linearised about its own trajectory: true slopes of the magnet force at every sample,
-//            gyroscopic coupling at the speed of the sample, exact modal steps, and what the terms
-//            in force at theta change of these (linear_change.hpp). What a term adds
+// Equation   dx[n+1] = A(n) (dx[n] + d(K e[n])) + E dd[n] + B da,  de[n] = -(C dx[n] + dr): the
+//            model linearised about its own trajectory: true slopes of the magnet force at every
+//            sample, gyroscopic coupling at the speed of the sample, exact modal steps, and what
+//            the terms in force at theta change of these (linear_change.hpp). What a term adds
 //            (da, dr) is its addition at theta + h minus that at theta, over h; for linear terms
 //            that at 1. dK: what a term changes of the scales by which the gain is divided
 //            (observer_scale.hpp).

@@ -1,8 +1,8 @@
 #pragma once
 // What geared shafts add to the linear model of the derivatives: supports, dampers, mean meshes.
 //
-// Equation   q'' = ... - stiffness q - damping q' over the modes of both planes (plant/train_linear),
-//            the meshes by the ratios that the terms in force give them.
+// Equation   q'' = ... - stiffness q - damping q' over the modes of both planes
+//            (plant/train_linear), the meshes by the ratios that the terms in force give them.
 // Thread     any; pure.
 
 #include <Eigen/Core>

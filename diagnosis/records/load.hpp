@@ -3,8 +3,8 @@
 //
 // CSV, MAT   go through session::ImportCsv or ImportMat into a scratch file in `scratch_folder`,
 //            so that all ways see the same rows. Currents are the commanded ones.
-// Kind       by the name's ending; other files must be sessions, and are refused with the ways there
-//            are when they are not.
+// Kind       by the name's ending; other files must be sessions, and are refused with the ways
+//            there are when they are not.
 // Failure    BadInput with file and line; for records of another rig or without flight.
 // Thread     any, each with a scratch folder of its own.
 

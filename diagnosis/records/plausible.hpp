@@ -1,14 +1,14 @@
 #pragma once
-// Refuses records whose numbers cannot be in the units that their columns say: a fit would turn them
-// into a rig that nobody has.
+// Refuses records whose numbers cannot be in the units that their columns say: a fit would turn
+// them into a rig that nobody has.
 //
-// Readings   of an axis scatter (standard deviation in flight) by less than kSilent of what noise and
-//            converter of its sensor make alone.
-// Currents   of all axes stay below kNoCurrent of the bias current (rms while amplifiers are on): no
-//            magnet carries a rotor with that. Or those of one axis are kFarBeyond times what its
-//            coils can take (rms).
-// Not here   readings beyond the touchdown clearance all the time (flight.hpp finds no flight); what
-//            is odd but possible (doubt.hpp).
+// Readings   of an axis scatter (standard deviation in flight) by less than kSilent of what noise
+//            and converter of its sensor make alone.
+// Currents   of all axes stay below kNoCurrent of the bias current (rms while amplifiers are on):
+//            no magnet carries a rotor with that. Or those of one axis are kFarBeyond times what
+//            its coils can take (rms).
+// Not here   readings beyond the touchdown clearance all the time (flight.hpp finds no flight);
+//            what is odd but possible (doubt.hpp).
 // Failure    BadInput: file, found, allowed, remedy. Thread: any; pure.
 
 #include "diagnosis/model/model_run.hpp"

@@ -5,8 +5,8 @@
 //            than the motion (ceiling below kNoMotion): units, signs or the rig file are wrong
 //            sooner than the rig.
 // Healthy    what the records called healthy have moved, and whether what is diagnosed now lies
-//            kChanged of the tolerances that they leave away from them: another rig, or one that has
-//            changed since.
+//            kChanged of the tolerances that they leave away from them: another rig, or one that
+//            has changed since.
 // Thread     any; pure.
 
 #include <string>

@@ -75,7 +75,8 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz, double damp
   return term;
 }
 
-/// Contact beyond a clearance, radial and with friction: normal force by penetration, or by its rate.
+/// Contact beyond a clearance, radial and with friction: normal force by penetration, or by its
+/// rate.
 Term Rub(const RigView& rig, std::size_t b, double clearance_m, double friction, bool by_rate) {
   const auto& shape_of_b = rig.magnet(2 * b).actuator_shape;
   Term term = MakeTerm(

@@ -1,7 +1,7 @@
 // Geared shafts: teeth, wheels, and what shafts of a healthy rig may be off by.
 //
-// Every change of the force F on the driven wheel pushes both shafts by -shape F. d: displacement of
-// the teeth, the static load's included; phi: angle of engagement.
+// Every change of the force F on the driven wheel pushes both shafts by -shape F. d: displacement
+// of the teeth, the static load's included; phi: angle of engagement.
 //   stiffness   k theta d               damping      c theta delta'
 //   variation   k theta cos(n phi) d    crack        -k theta w(wheel) d
 //   error       -(k + c d/dt) theta e^(j n phi)      run-out   (k + c d/dt) theta e^(j wheel)
@@ -65,8 +65,8 @@ struct Teeth {
     const bool pulls = half_gap_m > 0.0 && std::real(std::conj(d) * force) <= 0.0;
     return pulls ? Complex{} : force;
   }
-  /// Mean over the period of a law of displacement, rate and angle of engagement that is not smooth:
-  /// high harmonics of the error move the teeth by micrometres within a period.
+  /// Mean over the period of a law of displacement, rate and angle of engagement that is not
+  /// smooth: high harmonics of the error move the teeth by micrometres within a period.
   template <class Law>
   [[nodiscard]] Complex Mean(const Moment& m, Law law) const {
     constexpr int kInstants = 16;  // teeth part, touch and let go within one period
@@ -205,8 +205,8 @@ void AddCracks(const Teeth& t, bool driven, std::vector<Term>& terms) {
   }
 }
 
-/// Of the sliding velocity: an odd function between two pitch points, which turns round at each within
-/// this share of half an engagement.
+/// Of the sliding velocity: an odd function between two pitch points, which turns round at each
+/// within this share of half an engagement.
 double Sliding(double phi) {
   constexpr double kAtPitchPoint = 0.02;
   const double place = std::remainder(phi, 2.0 * std::numbers::pi) / std::numbers::pi;

@@ -49,8 +49,8 @@ void AddRunout(const RigView& rig, const Tolerances& t, std::vector<Term>& terms
             MakeTerm({"sensor_runout", fmt::format("order {}, {}", order, rig.numbers.channels[a]),
                       kParts[part], "m"},
                      order == 1 ? t.sensor_runout_m : 0.0, 3e-6, nullptr);
-        // It is on the shaft: the sensor's filter sees it, H = 1/(1 + j order W lag), and at rest it
-        // stays as an offset.
+        // It is on the shaft: the sensor's filter sees it, H = 1/(1 + j order W lag), and at rest
+        // it stays as an offset.
         const double lag_s = SensorLag(rig, a);
         term.read = [=](const Moment& m, double theta, Addition& add) {
           const double late = order * lag_s * static_cast<double>(m.speed_rad_per_s);

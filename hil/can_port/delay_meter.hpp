@@ -1,10 +1,10 @@
 #pragma once
-// How long it takes on these buses from a sample until its current is with the rig: measured, by the
-// cycle that a current sends back.
+// How long it takes on these buses from a sample until its current is with the rig: measured, by
+// the cycle that a current sends back.
 //
-// Input    every data frame of both directions with the kernel's time stamp. On a real bus that of a
-//          frame of ours is its end on the wire, as its driver loops it back; that of the rig's is
-//          its end, too, and the sampling instant lies `from_rig_ns` before it.
+// Input    every data frame of both directions with the kernel's time stamp. On a real bus that of
+//          a frame of ours is its end on the wire, as its driver loops it back; that of the rig's
+//          is its end, too, and the sampling instant lies `from_rig_ns` before it.
 // Virtual  nothing takes time on such a bus: both times on the wire are added, as they are to the
 //          delay with which the rig is simulated.
 // Hold     what the rig does with a current that is there cannot be seen from here; where the rig's

@@ -1,13 +1,14 @@
 #pragma once
 // From the kernel's time stamps, which are of CLOCK_REALTIME, to CLOCK_MONOTONIC.
 //
-// Offset     read anew for every batch of frames: somebody may set the wall clock at any time (date,
-//            an NTP daemon, a resumed machine).
-// Frames     that waited while it was set bear a stamp of the clock of before. A frame came after the
-//            socket was last emptied and before now: of the new offset, the one before, and now
+// Offset     read anew for every batch of frames: somebody may set the wall clock at any time
+//            (date, an NTP daemon, a resumed machine).
+// Frames     that waited while it was set bear a stamp of the clock of before. A frame came after
+//            the socket was last emptied and before now: of the new offset, the one before, and now
 //            itself, the first that says so dates it.
-// Precision  an offset is read between two readings of CLOCK_MONOTONIC, and is only as good as these
-//            lie close together: one that differs by less than that from the last is not taken.
+// Precision  an offset is read between two readings of CLOCK_MONOTONIC, and is only as good as
+//            these lie close together: one that differs by less than that from the last is not
+//            taken.
 // Thread     one; no allocation. Failure: none.
 
 #include <cstdint>

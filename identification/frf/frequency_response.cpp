@@ -96,7 +96,8 @@ Eigen::MatrixXd NoisePower(const std::vector<Spectra>& all, std::size_t line,
   return power;
 }
 
-/// Power of what does not repeat in S_ii: the scatter of its own current, as a matrix of one column.
+/// Power of what does not repeat in S_ii: the scatter of its own current, as a matrix of one
+/// column.
 Eigen::MatrixXd OwnScatter(const std::vector<Spectra>& all, std::size_t line, Index axes) {
   Eigen::MatrixXd power = Eigen::MatrixXd::Zero(axes, 1);
   Eigen::VectorXd count = Eigen::VectorXd::Zero(axes);

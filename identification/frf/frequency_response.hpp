@@ -25,8 +25,8 @@
 
 namespace levitas::identification {
 
-/// How far each axis moved about its mean in each experiment: rows by axis, columns by the axis that
-/// was excited; means of squares and of the product.
+/// How far each axis moved about its mean in each experiment: rows by axis, columns by the axis
+/// that was excited; means of squares and of the product.
 struct Moments {
   Eigen::MatrixXd current_square_a2;   ///< of what passes the amplifier
   Eigen::MatrixXd position_square_m2;  ///< as read

@@ -10,11 +10,11 @@
 //           line: - k_la^2/(k_aa - I_d W^2 + I_p w W). 12 DOF: w, the rotation of both wheels times
 //           their base radii, is real; its half spectrum follows from that of the mesh force along
 //           the line of action n through the known torsion: w = -G (f n* + (f(-W))* n)/2.
-// Method    linear least squares, twice; then, where lines have a noise or known numbers a doubt, all
-//           of it together from there (joint_fit.hpp). The sum of both equations has no mesh in it: ks, ki, eps
-//           of both shafts. Then the mesh force is known on every line: k_m and c_m from the lines
-//           of rotation, every e_i from its own lines, all speeds stacked. Lines with standard
-//           deviations are weighted by what their noise does to the equation.
+// Method    linear least squares, twice; then, where lines have a noise or known numbers a doubt,
+//           all of it together from there (joint_fit.hpp). The sum of both equations has no mesh in
+//           it: ks, ki, eps of both shafts. Then the mesh force is known on every line: k_m and c_m
+//           from the lines of rotation, every e_i from its own lines, all speeds stacked. Lines
+//           with standard deviations are weighted by what their noise does to the equation.
 // Known     masses, dampings and stiffnesses; with `uncertainty`, their relative standard
 //           deviation, a correction of each is fitted too, held to 0 by that. Where the law's
 //           current is alike on all lines, ks, ki and the shaft's stiffness show as one sum; then
@@ -23,8 +23,8 @@
 //           backward), mean at 0; with torsion also pinion_-1x and gear_+1x, which carry no
 //           run-out. With torsion the mean error along n is not told apart from the wheels'
 //           rotation.
-// Errors    standard deviations of the joint fit, else from the residual of each step; condition number
-//           of the first step's design with columns of unit length.
+// Errors    standard deviations of the joint fit, else from the residual of each step; condition
+//           number of the first step's design with columns of unit length.
 // Units     SI, complex amplitudes. Thread any.
 // Failure   BadInput: fewer than two speeds, lines missing, a design of too small rank, a negative
 //           ki, or forces on the shafts that the model leaves unexplained.

@@ -52,8 +52,8 @@ void HoldTheKnown(const GearedKnown& known, LineEquations& eq, Index unknowns) {
     eq.Real(at, 1.0);
     eq.Close(0.0, known.uncertainty);
   }
-  // All forces could shrink together, and noise in the lines would make them: the mean correction of
-  // mass, damping and stiffness is held at 0.
+  // All forces could shrink together, and noise in the lines would make them: the mean correction
+  // of mass, damping and stiffness is held at 0.
   for (Index at = kUnknowns; at < unknowns; ++at) {
     if ((at - kUnknowns) % static_cast<Index>(Correctable().size()) < 3) eq.Real(at, 1.0);
   }

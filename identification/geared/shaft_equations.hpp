@@ -1,5 +1,6 @@
 #pragma once
-// The sum of both shafts' equations, which has no mesh in it, solved for what belongs to the shafts.
+// The sum of both shafts' equations, which has no mesh in it, solved for what belongs to the
+// shafts.
 //
 // Unknowns  ks, ki and the unbalance m eps of either shaft; with uncertain known numbers also a
 //           relative correction of each, held to 0 by its uncertainty (full_spectrum.hpp).

@@ -2,10 +2,10 @@
 // The modal rig at one frequency: solved without magnets first, then with them. For the parts of
 // the modal fit only.
 //
-// Equation  D_f q = Phi_a f without the magnets' stiffness, D = D_f - Phi_a K Phi_a^T with it. K has
-//           the rank of the axes (Woodbury): X = D^-1 Phi_a = X_f (I - K M)^-1 with X_f = D_f^-1
-//           Phi_a, M = Phi_a^T X_f; Z = D^-T Phi_s = Z_f + Y_f (I - K M^T)^-1 K Phi_a^T Z_f with
-//           Y_f = D_f^-T Phi_a. So other magnets cost little.
+// Equation  D_f q = Phi_a f without the magnets' stiffness, D = D_f - Phi_a K Phi_a^T with it. K
+//           has the rank of the axes (Woodbury): X = D^-1 Phi_a = X_f (I - K M)^-1 with X_f =
+//           D_f^-1 Phi_a, M = Phi_a^T X_f; Z = D^-T Phi_s = Z_f + Y_f (I - K M^T)^-1 K Phi_a^T Z_f
+//           with Y_f = D_f^-T Phi_a. So other magnets cost little.
 // Units     SI; matrices have 2 modes rows (plane x, then y) and a column per axis.
 // Thread    any; no shared state.
 

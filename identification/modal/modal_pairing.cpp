@@ -20,7 +20,8 @@ constexpr int kApproaches = 3;
 constexpr double kKnownFrequency = 0.1;
 /// Pairings that are compared beyond the approach.
 constexpr std::size_t kFinalists = 3;
-/// Scan for a mode that no pole shows: reach and step in ln f, and what tells one place from others.
+/// Scan for a mode that no pole shows: reach and step in ln f, and what tells one place from
+/// others.
 constexpr int kScanSteps = 24;
 constexpr double kScanStep = 0.005;
 constexpr double kElsewhere = 0.02;

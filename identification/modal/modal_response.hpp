@@ -4,8 +4,8 @@
 // Equation  D(s) q = Phi_a diag(ki ha) u,  y = diag(g hs) Phi_s^T q, both planes x, y:
 //           D = [Dx, s W G; -s W G, Dy],  Dp = s^2 + 2 z w s + w^2 - sum_b ks_bp a_b a_b^T;
 //           ha: amplifier 1/(1 + jf/fa), delay and zero-order hold; hs: sensor 1/(1 + jf/fs).
-//           P also has the compliance of the modes beyond the fitted ones, ki ha / (w^2 + s^2); what
-//           ks makes of it is left out (1e-3 of a force).
+//           P also has the compliance of the modes beyond the fitted ones, ki ha / (w^2 + s^2);
+//           what ks makes of it is left out (1e-3 of a force).
 //           dP = Z^T (dPhi_a - dD X) + dPhi_s^T X with X = D^-1 Phi_a, Z = D^-T Phi_s.
 // Units     m/A; derivatives by the entries of the vector (modal_parameters.hpp).
 // Magnets   ki and ks are those of a small signal. In an experiment j of its own amplitude they are

@@ -15,7 +15,8 @@ using Index = Eigen::Index;
 /// Chance alone gives 8 entries F = 6 once in 1e12.
 constexpr double kClear = 6.0;
 constexpr double kStep = 0.001;
-/// Half width of what is looked at around a frequency, and the least number of lines on either side.
+/// Half width of what is looked at around a frequency, and the least number of lines on either
+/// side.
 constexpr double kWidth = 0.04;
 constexpr double kLeastLines = 8.0;
 constexpr std::array kDampings{0.0007, 0.0015, 0.003, 0.006, 0.012, 0.025};

@@ -1,11 +1,11 @@
 #pragma once
-// Modes that stand out of a response by their shape over frequency, however weak: what a rational fit
-// of everything at once does not hold on to.
+// Modes that stand out of a response by their shape over frequency, however weak: what a rational
+// fit of everything at once does not hold on to.
 //
-// Equation  about a frequency f every entry of P is c_0 + c_1 x + c_2 x^2 + r/(f^2 - g^2 + 2 j z f g)
-//           over the lines g, x = (g - f)/width, with complex c and r of its own: linear least squares
-//           in units of the noise, a matched filter. What r takes of the sum of squares, per entry
-//           and in units of what is left, is F: 1 with noise alone.
+// Equation  about a frequency f every entry of P is c_0 + c_1 x + c_2 x^2 + r/(f^2 - g^2 + 2 j z f
+//           g) over the lines g, x = (g - f)/width, with complex c and r of its own: linear least
+//           squares in units of the noise, a matched filter. What r takes of the sum of squares,
+//           per entry and in units of what is left, is F: 1 with noise alone.
 // Mode      F beyond kClear, largest within its surroundings, with the modes found before in the
 //           place of c where they are near; damping from a list, so it is coarse.
 // Thread    any; some tenths of a second.

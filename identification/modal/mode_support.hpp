@@ -2,8 +2,8 @@
 // Which bending modes of a model the data show, and which they do not: a mode without a stable pole
 // in the stabilisation diagram is the rig file's, whatever a fit makes of it.
 //
-// Before    PairModes pairs the model's modes with those of the diagram in ascending order: every way
-//           that leaves out only what has no counterpart by number, nearest first by the sum of
+// Before    PairModes pairs the model's modes with those of the diagram in ascending order: every
+//           way that leaves out only what has no counterpart by number, nearest first by the sum of
 //           |ln(f_model/f_data)|, and the one that leaves out pairs too far apart (0.25 for each
 //           side). Which is right is for the fit to say.
 // After     SupportOf compares the poles of the fitted plant (magnets' negative stiffness included,

@@ -1,8 +1,8 @@
 #pragma once
 // What the magnets' nonlinearity makes of ki and ks in an experiment, from what was recorded in it.
 //
-// Equation  F = k [((i0+i)/(s0-x))^2 - ((i0-i)/(s0+x))^2]; the best linear model of jointly Gaussian
-//           i and x has the means of its slopes (Bussgang 1952). To the second order, with
+// Equation  F = k [((i0+i)/(s0-x))^2 - ((i0-i)/(s0+x))^2]; the best linear model of jointly
+//           Gaussian i and x has the means of its slopes (Bussgang 1952). To the second order, with
 //           a = i/i0 and e = x/s0:
 //             E dF/di = ki (1 + 3 E e^2 + 2 E a e),   E dF/dx = ks (1 + E a^2 + 6 E e^2 + 6 E a e);
 //           the next order is below 1e-3 for a third of the bias and a tenth of the gap.

@@ -19,8 +19,8 @@ struct CoilPair {
   double away{};
 };
 
-/// What acts in the place of the currents carried. One of the two may come out below zero: its force
-/// is that of the square, so that at x = 0 the force is exactly `gain` times the nominal one.
+/// What acts in the place of the currents carried. One of the two may come out below zero: its
+/// force is that of the square, so that at x = 0 the force is exactly `gain` times the nominal one.
 [[nodiscard]] inline CoilPair Scaled(const CoilPair& carried, double gain) noexcept {
   if (gain == 1.0) return carried;
   const double bias_a = 0.5 * (carried.towards + carried.away);

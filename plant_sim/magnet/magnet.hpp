@@ -69,8 +69,9 @@ struct Magnet {
   return 4.0 * m.force_constant_n_m2_per_a2 * bias_a * bias_a / (m.gap_m * m.gap_m * m.gap_m);
 }
 
-/// Of a horseshoe magnet whose poles stand at an angle to its axis: along the axis the gap closes by
-/// the cosine only, which is law (14) with a constant and a gap of their own.           (16), (16a)
+/// Of a horseshoe magnet whose poles stand at an angle to its axis: along the axis the gap closes
+/// by the cosine only, which is law (14) with a constant and a gap of their own.           (16),
+/// (16a)
 struct AxisLaw {
   double force_constant_n_m2_per_a2{};  ///< mu0 N^2 A / (4 cos(half pole angle))
   double gap_m{};                       ///< gap at the pole / cos(half pole angle)

@@ -21,8 +21,8 @@ void Drive(Rotation& rotation, double set_point_rad_per_s, double limit_rad_per_
            double duration_s) noexcept;
 void Coast(Rotation& rotation, const DriveConfig& drive, double duration_s) noexcept;
 
-/// Torque of contact friction. It ends at the latest where nothing slides any more: within a step it
-/// cannot turn the sliding round.
+/// Torque of contact friction. It ends at the latest where nothing slides any more: within a step
+/// it cannot turn the sliding round.
 void Brake(Rotation& rotation, double polar_inertia_kg_m2, double torque_n_m, double slip_rad_per_s,
            double duration_s) noexcept;
 

@@ -2,8 +2,8 @@
 // Full spectrum of an orbit over orders of rotation, as a curve of a picture.
 //
 // Orbit    numbers x + jy, evenly over whole turns.
-// Curve    amplitude of each line times `unit`, 1e6 for um of m; positive orders turn forward. No window: the lines of whole
-//          turns fall on the bins.
+// Curve    amplitude of each line times `unit`, 1e6 for um of m; positive orders turn forward. No
+//          window: the lines of whole turns fall on the bins.
 // Thread   any; pure.
 
 #include <complex>

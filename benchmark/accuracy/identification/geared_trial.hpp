@@ -4,8 +4,8 @@
 // Truth     geared_lines.hpp, of which nothing is shared with the method.
 // Noise     white on every sample of displacement and current, a share of each signal's rms; on a
 //           line of a record of N samples it is 1/sqrt(N) of that.
-// Errors    every mass, damping, stiffness and inertia that the method takes as known, of bending and
-//           of torsion, and the magnets' ks/ki, is off by this share, up or down.
+// Errors    every mass, damping, stiffness and inertia that the method takes as known, of bending
+//           and of torsion, and the magnets' ks/ki, is off by this share, up or down.
 // Units     SI. Thread any. Failure BadInput for a rig that the method refuses.
 
 #include <vector>

@@ -4,7 +4,8 @@
 // Rig       flexible_rotor with every number off (true_rig.hpp): ki, ks 8 % per axis, sensor gain
 //           3 %, modal frequencies 3 %, dampings by e^+-0.4, deflections 4 %, delay, loads,
 //           unbalance, and the rigid body's mass and inertia (RigidBodyOff); what the method takes
-//           as known (amplifier, sensor bandwidth and place, centre of mass) is as in the file. Noise, converters, nonlinear magnets and gravity are on.
+//           as known (amplifier, sensor bandwidth and place, centre of mass) is as in the file.
+//           Noise, converters, nonlinear magnets and gravity are on.
 // Truth     ki and ks of a small signal about the static working point: the magnet's slopes where
 //           load and a probe's offset put the rotor; at the magnets, between which and the probes
 //           the rotor sags.

@@ -1,7 +1,7 @@
 #pragma once
 // An identification campaign on the simulated rig within one process: plant, cycle, PRBS or
-// another test signal on each axis in turn, as a record in memory. Noise, quantisation, nonlinear magnets, gravity and
-// unbalance are on; flexible_rotor's commissioned controller levitates.
+// another test signal on each axis in turn, as a record in memory. Noise, quantisation, nonlinear
+// magnets, gravity and unbalance are on; flexible_rotor's commissioned controller levitates.
 //
 // Failure  std::runtime_error when the rig does not levitate. Thread any; no shared state.
 

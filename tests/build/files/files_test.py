@@ -26,6 +26,9 @@ class Files(unittest.TestCase):
     def test_none_is_longer_than_400_lines(self):
         self.assert_none(violations(rules.too_long))
 
+    def test_no_comment_is_wider_than_100_columns(self):
+        self.assert_none(violations(rules.wide_comments, (".cpp", ".hpp")))
+
     def test_none_keeps_a_note_to_self(self):
         self.assert_none(violations(rules.notes_to_self))
 
@@ -72,6 +75,10 @@ class SeededViolations(unittest.TestCase):
     def test_401_lines_are_refused_and_400_are_not(self):
         self.assertTrue(rules.too_long("x\n" * 401))
         self.assertFalse(rules.too_long("x\n" * 400))
+
+    def test_a_comment_of_101_columns_is_refused_and_one_of_100_is_not(self):
+        self.assertIn("line 2", rules.wide_comments("\n  // " + 96 * "x" + "\n")[0])
+        self.assertFalse(rules.wide_comments("  // " + 95 * "x" + "\n"))
 
     def test_a_note_to_self_is_found_with_its_line(self):
         self.assertIn("line 2", rules.notes_to_self("int a;\n// TO" "DO: later\n")[0])

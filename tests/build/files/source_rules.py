@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 MAX_LINES = 400
+MAX_COLUMNS = 100
 CODE = (".cpp", ".hpp", ".py", ".sh", ".cmake", ".lcm", ".js", ".css", ".html")
 NOT_OURS = {".git", "sessions", "__pycache__"}
 
@@ -32,6 +33,13 @@ def source_files(root, suffixes=CODE):
 def too_long(text):
     count = text.count("\n")
     return [f"{count} lines, allowed {MAX_LINES}: split it by concern"] if count > MAX_LINES else []
+
+
+def wide_comments(text):
+    """The formatter leaves comments as they are."""
+    return [f"line {number}: a comment of {len(line)} columns, allowed {MAX_COLUMNS}"
+            for number, line in enumerate(text.splitlines(), 1)
+            if len(line) > MAX_COLUMNS and line.lstrip().startswith("//")]
 
 
 def notes_to_self(text):

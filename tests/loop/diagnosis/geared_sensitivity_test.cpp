@@ -107,8 +107,9 @@ class GearedTerms : public ::testing::Test {
   Gains gains_;
 };
 
-// A term's force is taken in the middle of a period and held, the plant's follows it in four steps: the
-// displacement within the period differs by a twelfth of the force's turn squared, 0.3 rad at the mesh.
+// A term's force is taken in the middle of a period and held, the plant's follows it in four steps:
+// the displacement within the period differs by a twelfth of the force's turn squared, 0.3 rad at
+// the mesh.
 constexpr double kHeld = 0.03;
 
 TEST_F(GearedTerms, OfAMeshsStiffnessAreThePlantsEffect) {
@@ -152,8 +153,8 @@ TEST_F(GearedTerms, OfACrackedToothAreThePlantsEffect) {
                          Entry(Id::kToothCrack, {0.1, 3.0})),
             kHeld);
 }
-// Both laws jump within a period, at the pitch point and where the teeth part; the plant takes four steps
-// of it, the term sixteen instants: a fifth of what they do lies in how a jump is cut up.
+// Both laws jump within a period, at the pitch point and where the teeth part; the plant takes four
+// steps of it, the term sixteen instants: a fifth of what they do lies in how a jump is cut up.
 constexpr double kJumps = 0.3;
 
 TEST_F(GearedTerms, OfFrictionAndOfAGapAreThePlantsEffect) {

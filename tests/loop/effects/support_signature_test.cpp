@@ -65,7 +65,8 @@ TEST(CrossCoupledStiffness, IfPositiveTakesDampingFromForwardWhirlAndGivesItToBa
   const double w = Quiet()->frequency()[2];
   const auto entry = Entry(Id::kCrossCoupledStiffness, {kZ_m, kKq});
   // At rest both whirls lie at w: s^2 + 2 zeta w s + w^2 -+ j kq phi^2 = 0 splits their real parts
-  // by +- kq phi^2/(2 w), which is zeta = (c w - kq)/(2 m w^2) of forward whirl with m = 1/phi^2; the nearest pole to j w is one of them, its partner the other.
+  // by +- kq phi^2/(2 w), which is zeta = (c w - kq)/(2 m w^2) of forward whirl with m = 1/phi^2;
+  // the nearest pole to j w is one of them, its partner the other.
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(
       [&] {
         PlantParameters parameters = Quiet()->parameters();

@@ -67,8 +67,8 @@ TEST(TurbomolecularPump, LosesItsUpperAxisAtTheGainThatItsMarginNames) {
   }
 }
 
-// At standstill 14, at the rated speed 3: between them the forward conical mode is least damped, and
-// the loop is nearest to its edge there.
+// At standstill 14, at the rated speed 3: between them the forward conical mode is least damped,
+// and the loop is nearest to its edge there.
 TEST(TurbomolecularPump, HasItsWorstSensitivityBetweenStandstillAndTheRatedSpeed) {
   const ShippedLoop loop("turbomolecular_pump", "turbomolecular_pump");
   const auto sweep =

@@ -39,8 +39,8 @@ class MagnetTermsTest : public ::testing::Test {
 // Single precision of what the model did leaves 1e-6 of the force of one coil.
 constexpr double kSingleN = 1e-4;  // [N]
 
-// docs/effects.md: F(ratio ic, x). Away from the centre that is not the ratio of the force: with the
-// latter the weight of the rotor left a rest that passed for saturation.
+// docs/effects.md: F(ratio ic, x). Away from the centre that is not the ratio of the force: with
+// the latter the weight of the rotor left a rest that passed for saturation.
 TEST_F(MagnetTermsTest, CurrentGainMakesTheCurrentCountForMore) {
   const double gained = 1.1 * MidCoil();
   const double expected = Law(bias_a_ + gained, bias_a_ - gained, X()) -

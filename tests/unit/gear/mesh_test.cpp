@@ -97,7 +97,8 @@ TEST(Backlash, UnderLoadPartingTeethLackAtMostTheLoad) {
   law.half_backlash_m = 10e-6;
   law.preload_n = 20.0;
   const Vector& n = law.normal;
-  // 5 um of the load's 20 um are left, and the teeth part fast: no force between them, 20 N missing.
+  // 5 um of the load's 20 um are left, and the teeth part fast: no force between them, 20 N
+  // missing.
   EXPECT_NEAR(Dot(MeshForce(law, At(0.1), -15e-6 * n, -0.1 * n), n), -20.0, 10.0 * kRounding_n);
 }
 

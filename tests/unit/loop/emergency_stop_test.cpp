@@ -1,4 +1,5 @@
-// The operator's emergency stop between the thread that hears it and the trip: it waits for nothing.
+// The operator's emergency stop between the thread that hears it and the trip: it waits for
+// nothing.
 
 #include <gtest/gtest.h>
 

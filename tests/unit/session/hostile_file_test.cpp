@@ -1,5 +1,5 @@
-// Session files that were made to harm: checksums right, counts and lengths wrong. Each is one clear
-// refusal or one lost record, quickly.
+// Session files that were made to harm: checksums right, counts and lengths wrong. Each is one
+// clear refusal or one lost record, quickly.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
