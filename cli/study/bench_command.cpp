@@ -290,7 +290,7 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--jobs", options->jobs, "Trials at a time")->check(CLI::Range(1, 64));
   command->add_flag("--explain", options->explain, "The nearest candidates of every trial");
   command->add_option("--write", options->write_folder, "Also write the records as CSV here");
-  command->add_option("--markdown", options->markdown_path, "Tables for docs/diagnosis.md");
+  command->add_option("--markdown", options->markdown_path, "Tables for docs/diagnosis_results.md");
   command->add_option("--json", options->json_path, "Every trial");
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

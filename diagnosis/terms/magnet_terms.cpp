@@ -1,5 +1,5 @@
-// Magnets: gains, asymmetry, saturation, rotation of the axes. docs/diagnosis.md lists what each
-// adds.
+// Perturbations of the magnets: gains, asymmetry, saturation, rotation of the axes. Equations:
+// docs/effects.md.
 #include <fmt/core.h>
 
 #include <algorithm>
