@@ -4,33 +4,25 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <string_view>
+
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
 constexpr double kSlowRoll = 0.02;  ///< of the rated speed
 
-constexpr std::array<std::string_view, 10> kTurning{
-    "unbalance",          "sensor_runout",      "misalignment",     "shaft_bow",
-    "shaft_anisotropy",   "gyroscopic_inertia", "internal_damping", "breathing_crack",
-    "transmission_error", "gear_runout"};
-constexpr std::array<std::string_view, 8> kExcited{
-    "current_gain",        "displacement_stiffness", "sensor_gain",  "extra_delay",
-    "amplifier_bandwidth", "sensor_bandwidth",       "eddy_current", "modal_frequency"};
-
 bool Has(const SessionAnswer& s, std::string_view effect) {
   return std::any_of(s.terms.begin(), s.terms.end(),
                      [effect](const Term& term) { return term.effect == effect; });
 }
 
-template <std::size_t kCount>
-void Append(const SessionAnswer& s, const std::array<std::string_view, kCount>& list,
-            std::vector<std::string>& to) {
-  for (const std::string_view effect : list) {
-    if (Has(s, effect)) to.emplace_back(effect);
+/// The effects that were searched and of which `needs` holds.
+void Append(const SessionAnswer& s, bool (*needs)(effect::Id), std::vector<std::string>& to) {
+  for (const effect::Row& row : effect::Catalogue()) {
+    if (needs(row.id) && Has(s, row.name)) to.emplace_back(row.name);
   }
 }
 
@@ -48,8 +40,8 @@ Coverage CoverageOf(const SessionAnswer& s) {
 std::vector<std::string> CannotTell(const SessionAnswer& s) {
   const Coverage c = CoverageOf(s);
   std::vector<std::string> effects;
-  if (!c.turns) Append(s, kTurning, effects);
-  if (!c.excited) Append(s, kExcited, effects);
+  if (!c.turns) Append(s, effect::NeedsRotation, effects);
+  if (!c.excited) Append(s, effect::NeedsExcitation, effects);
   return effects;
 }
 
@@ -58,8 +50,8 @@ std::string CannotTellSentence(const SessionAnswer& s) {
   if (c.turns && c.excited) return {};
   std::vector<std::string> turning;
   std::vector<std::string> excited;
-  Append(s, kTurning, turning);
-  Append(s, kExcited, excited);
+  Append(s, effect::NeedsRotation, turning);
+  Append(s, effect::NeedsExcitation, excited);
   std::string text = "These records cannot tell everything:";
   if (!c.turns) {
     text += fmt::format(" the rotor does not turn, so {} would not show", fmt::join(turning, ", "));

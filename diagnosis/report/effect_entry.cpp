@@ -200,7 +200,7 @@ std::string PlacedEffect::After(const std::string& comma) const {
 EntryValues ValuesOf(const RigView& rig, const PlacedEffect& at) {
   const std::string place = PlaceOfEffect(at.effect);
   if (place == "gear") return GearEntry(rig, at.effect, at.place, at.theta);
-  if (place == "magnet") return MagnetEntry(rig, at);
+  if (place == "magnet" || at.effect == "current_gain") return MagnetEntry(rig, at);
   if (place == "rotor") return RotorEntry(rig, at);
   if (place == "sensor" || at.effect == "amplifier_bandwidth") return SensorEntry(rig, at);
   return ExternalEntry(rig, at);

@@ -12,13 +12,11 @@
 #include "diagnosis/report/carry_over.hpp"
 #include "diagnosis/report/coverage.hpp"
 #include "diagnosis/report/words.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
-constexpr std::array<std::string_view, 8> kRotating{
-    "unbalance",        "shaft_bow",          "sensor_runout",   "misalignment",
-    "shaft_anisotropy", "gyroscopic_inertia", "breathing_crack", "internal_damping"};
 /// They differ where an amplifier has long let go.
 constexpr std::array<std::string_view, 5> kOfTheLoop{
     "extra_delay", "eddy_current", "amplifier_bandwidth", "sensor_bandwidth", "amplifier_slew"};
@@ -28,6 +26,13 @@ bool AnyOf(const std::vector<std::string>& effects,
            const std::array<std::string_view, kCount>& list) {
   return std::any_of(effects.begin(), effects.end(), [&list](const std::string& effect) {
     return std::find(list.begin(), list.end(), effect) != list.end();
+  });
+}
+
+bool AnyNeedsRotation(const std::vector<std::string>& effects) {
+  return std::any_of(effects.begin(), effects.end(), [](const std::string& name) {
+    const effect::Row* row = effect::Find(name);
+    return row != nullptr && effect::NeedsRotation(row->id);
   });
 }
 
@@ -58,7 +63,7 @@ std::string PlanScenario(const SessionAnswer& s) {
   std::vector<std::string> effects = a.also_possible;
   for (const Hypothesis& cause : a.causes) effects.push_back(cause.effect);
   const bool sound = a.verdict == Verdict::kNone;
-  const bool rotating = effects.empty() || AnyOf(effects, kRotating) || HeldOutIsFaster(s);
+  const bool rotating = effects.empty() || AnyNeedsRotation(effects) || HeldOutIsFaster(s);
   const bool fast = AnyOf(effects, kOfTheLoop) || (sound && !CoverageOf(s).excited);
   const auto& drive = s.view->model->config().drive;
   const double most_rpm = s.view->numbers.max_speed_rad_per_s * 30.0 / std::numbers::pi;

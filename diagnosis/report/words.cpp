@@ -5,53 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "diagnosis/report/carry_over.hpp"
 #include "diagnosis/report/coverage.hpp"
 #include "diagnosis/report/doubt.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
-
-struct EffectPlace {
-  const char* effect;
-  const char* place;
-};
-
-constexpr std::array kPlaces{EffectPlace{"extra_delay", "timing"},
-                             EffectPlace{"dropped_samples", "timing"},
-                             EffectPlace{"sample_jitter", "timing"},
-                             EffectPlace{"amplifier_bandwidth", "amplifier"},
-                             EffectPlace{"amplifier_slew", "amplifier"},
-                             EffectPlace{"current_gain", "magnet"},
-                             EffectPlace{"displacement_stiffness", "magnet"},
-                             EffectPlace{"coil_asymmetry", "magnet"},
-                             EffectPlace{"magnetic_saturation", "magnet"},
-                             EffectPlace{"hysteresis", "magnet"},
-                             EffectPlace{"eddy_current", "magnet"},
-                             EffectPlace{"axis_rotation", "magnet"},
-                             EffectPlace{"misalignment", "external"},
-                             EffectPlace{"coupling_stiffness", "external"},
-                             EffectPlace{"cross_coupled_stiffness", "external"},
-                             EffectPlace{"static_load", "external"},
-                             EffectPlace{"support_mode", "support"},
-                             EffectPlace{"touchdown_rub", "support"},
-                             EffectPlace{"unbalance", "rotor"},
-                             EffectPlace{"shaft_bow", "rotor"},
-                             EffectPlace{"shaft_anisotropy", "rotor"},
-                             EffectPlace{"modal_frequency", "rotor"},
-                             EffectPlace{"modal_damping", "rotor"},
-                             EffectPlace{"gyroscopic_inertia", "rotor"},
-                             EffectPlace{"internal_damping", "rotor"},
-                             EffectPlace{"rotor_mass", "rotor"},
-                             EffectPlace{"breathing_crack", "rotor"},
-                             EffectPlace{"mesh_stiffness", "gear"},
-                             EffectPlace{"mesh_stiffness_variation", "gear"},
-                             EffectPlace{"backlash", "gear"},
-                             EffectPlace{"mesh_friction", "gear"},
-                             EffectPlace{"transmission_error", "gear"},
-                             EffectPlace{"gear_runout", "gear"},
-                             EffectPlace{"tooth_crack", "gear"}};
 
 /// Pairs that look alike, and what tells them apart.
 struct Pair {
@@ -89,10 +51,9 @@ constexpr const char* kNoneNeeded = "none needed";
 }  // namespace
 
 std::string PlaceOfEffect(const std::string& effect) {
-  for (const auto& entry : kPlaces) {
-    if (effect == entry.effect) return entry.place;
-  }
-  return "sensor";
+  const effect::Row* row = effect::Find(effect);
+  if (row == nullptr) throw std::logic_error(effect + " is not in the catalogue of effects");
+  return std::string(effect::Name(row->place));
 }
 
 namespace {

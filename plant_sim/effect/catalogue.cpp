@@ -31,6 +31,45 @@ const Row* Find(std::string_view name) {
   return found == rows.end() ? nullptr : &*found;
 }
 
+bool NeedsRotation(Id id) noexcept {
+  switch (id) {
+    case Id::kUnbalance:
+    case Id::kShaftBow:
+    case Id::kShaftAnisotropy:
+    case Id::kGyroscopicInertia:
+    case Id::kInternalDamping:
+    case Id::kBreathingCrack:
+    case Id::kSensorRunout:
+    case Id::kMisalignment:
+    case Id::kMeshStiffness:
+    case Id::kMeshStiffnessVariation:
+    case Id::kBacklash:
+    case Id::kMeshFriction:
+    case Id::kTransmissionError:
+    case Id::kGearRunout:
+    case Id::kToothCrack:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool NeedsExcitation(Id id) noexcept {
+  switch (id) {
+    case Id::kCurrentGain:
+    case Id::kDisplacementStiffness:
+    case Id::kSensorGain:
+    case Id::kExtraDelay:
+    case Id::kAmplifierBandwidth:
+    case Id::kSensorBandwidth:
+    case Id::kEddyCurrent:
+    case Id::kModalFrequency:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::string_view Name(Place place) noexcept {
   constexpr std::array<std::string_view, 8> kNames{"timing",  "amplifier", "magnet", "rotor",
                                                    "support", "external",  "gear",   "sensor"};

@@ -63,6 +63,10 @@ struct Row {
 [[nodiscard]] const Row& At(Id id);
 /// Null when no effect has this name.
 [[nodiscard]] const Row* Find(std::string_view name);
+/// Shows only while the shaft turns: bound to its angle, its speed or its teeth.
+[[nodiscard]] bool NeedsRotation(Id id) noexcept;
+/// Hardly shows without a test signal: it changes the response of the loop and adds no force.
+[[nodiscard]] bool NeedsExcitation(Id id) noexcept;
 [[nodiscard]] std::string_view Name(Place place) noexcept;
 [[nodiscard]] std::string_view Name(Scope scope) noexcept;
 

@@ -29,7 +29,7 @@ constexpr std::array kRotation{Parameter{"angle", "rad", "deg", -45.0 * kDegree,
                                          "from x towards y", false}};
 
 constexpr std::array kRows{
-    Row{Id::kCurrentGain, "current_gain", Place::kMagnet, Scope::kChannels, kCurrentGain,
+    Row{Id::kCurrentGain, "current_gain", Place::kAmplifier, Scope::kChannels, kCurrentGain,
         "the force per control current differs from nominal", "F = F_nominal(ratio ic, x)",
         "every response to current scaled by ratio; ks, the limits of the coils and all else "
         "unchanged",

@@ -9,9 +9,10 @@
 namespace levitas::diagnosis {
 namespace {
 
-SessionAnswer Tie(const std::string& first, const std::string& second) {
+SessionAnswer Tie(const std::string& first, const std::string& second,
+                  const std::string& name = "flexible_rotor") {
   SessionAnswer s;
-  const auto rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  const auto rig = config::LoadRig(config::FindConfig(name, "rigs"));
   s.view = std::make_shared<const RigView>(rig.numbers, rig.plant);
   Hypothesis cause;
   cause.effect = first;
@@ -41,6 +42,11 @@ TEST(Plan, ForCausesOfTheRotationRollsSlowlyAndRunsUpToNearTheRatedSpeed) {
        {"speed_rpm: 480\n", "speed_rpm: 3000\n", "speed_rpm: 5700\n", "speed_rpm: 0\n"}) {
     EXPECT_EQ(Count(text, speed), 1U) << speed << text;
   }
+}
+
+TEST(Plan, ForCausesInTheTeethTurnsTheGears) {
+  const std::string text = PlanScenario(Tie("tooth_crack", "mesh_stiffness", "geared_rotor_4dof"));
+  EXPECT_EQ(Count(text, "do: spin"), 4U) << text;
 }
 
 TEST(Plan, SaysWhatItIsFor) {

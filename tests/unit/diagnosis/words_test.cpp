@@ -118,15 +118,23 @@ TEST(ParametersTest, OfAGainAreTheFactorOnTheNominalValue) {
   EXPECT_NEAR(parameters[0].value, 1.075, 1e-12);
 }
 
-TEST(PlaceTest, OfEveryEffectIsOneOfTheVocabularys) {
-  const SessionAnswer s = NothingFound();
-  for (const Term& term : s.terms) {
-    if (term.effect.empty()) continue;
-    EXPECT_THAT(
-        PlaceOfEffect(term.effect),
-        ::testing::AnyOf("timing", "amplifier", "magnet", "sensor", "rotor", "support", "external"))
-        << term.effect;
+TEST(PlaceTest, OfEveryTermOfEveryKindOfRigIsThatOfTheCatalogue) {
+  for (const char* name : {"flexible_rotor", "geared_rotor_4dof", "turbomolecular_pump"}) {
+    const auto rig = config::LoadRig(config::FindConfig(name, "rigs"));
+    const RigView view(rig.numbers, rig.plant);
+    for (const Term& term : AllTerms(view, Tolerances{}, 50e-6)) {
+      if (term.effect.empty()) continue;
+      const effect::Row* row = effect::Find(term.effect);
+      ASSERT_NE(row, nullptr) << term.effect;
+      EXPECT_EQ(PlaceOfEffect(term.effect), effect::Name(row->place)) << term.effect;
+    }
   }
+  EXPECT_EQ(PlaceOfEffect("current_gain"), "amplifier");
+  EXPECT_EQ(PlaceOfEffect("tooth_crack"), "gear");
+  EXPECT_THROW((void)PlaceOfEffect("no_effect"), std::logic_error);
+}
+
+TEST(PlaceTest, OfARotatedAxisIsWhereItsFrameIsRotated) {
   EXPECT_EQ(PlaceOf(Found("axis_rotation", "sensor de")), "sensor");
   EXPECT_EQ(PlaceOf(Found("axis_rotation", "magnet de")), "magnet");
   EXPECT_EQ(PlaceOf(NothingFound()), "");

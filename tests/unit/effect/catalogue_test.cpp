@@ -19,7 +19,7 @@ const std::map<std::string, std::string>& Vocabulary() {
       {"sample_jitter", "timing"},
       {"amplifier_bandwidth", "amplifier"},
       {"amplifier_slew", "amplifier"},
-      {"current_gain", "magnet"},
+      {"current_gain", "amplifier"},
       {"displacement_stiffness", "magnet"},
       {"coil_asymmetry", "magnet"},
       {"magnetic_saturation", "magnet"},
