@@ -1,9 +1,9 @@
 #pragma once
 // What crosses the boundary between controller and rig, once per period, as plain data.
 //
-// Frame   positions are in the bearing frame of the rig file (x, y per bearing; positive x towards
-//         the coil that a positive control current strengthens), after the port has undone scale;
-//         probe and amplifier polarity are undone in controller/cycle, nowhere else.
+// Frame   axes of the bearing frame of the rig file (x, y per bearing; positive x towards the coil
+//         that a positive control current strengthens), scaled by the port, with the polarity of
+//         probes and amplifiers as wired: controller/cycle and every reader of records remove it.
 // Units   SI, named in the identifiers.
 // Time    `cycle` is the integer number of the period; `_ns` is CLOCK_MONOTONIC in real time and
 //         cycle x period in lockstep.

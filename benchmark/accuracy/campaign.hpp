@@ -1,13 +1,13 @@
 #pragma once
-// Measured data of a hidden rig: what a technician would record, and nothing else.
+// Measured data of a rig with hidden parameters: only the signals that a technician would record.
 //
 // Records    standing with a test signal in one axis after the other, spinning with it, running up.
 //            A row holds what the CSV contract holds: time, angle, readings, commanded currents,
 //            test signal.
 // Loop       plant and axis law alone, one period at a time, from a levitated start that is not
 //            recorded.
-// Failure    `stable` false when the rotor came near its touchdown bearings or was lost, swings at
-//            rest, or is held by nothing but the most current.
+// Failure    `stable` is false if the rotor approached its touchdown bearings or was lost,
+//            oscillated at rest, or kept an axis at its current limit.
 // Thread     any; no shared state.
 
 #include <string>

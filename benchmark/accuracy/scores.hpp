@@ -43,7 +43,7 @@ struct Outcome {
   double parameter_error{-1.0};      ///< of the main parameter: share of it; -1 = not comparable
   double parameter_sigmas{-1.0};
   double seconds{};
-  /// Of several, what was not named, and what the records hold for it beside the others.
+  /// Of several effects, those not named, with their evidence in the records given the others.
   std::vector<std::pair<std::string, std::optional<double>>> missed;
 
   [[nodiscard]] Size size() const noexcept {
@@ -62,12 +62,12 @@ struct Outcome {
 [[nodiscard]] Outcome Judge(const TrialPlan& plan, const Secret& secret,
                             const diagnosis::SessionAnswer& answer, const RigNumbers& rig);
 
-/// From this on records that no diagnosis can read are no excuse: twice what decides, since a fit
-/// pays for its freedom.
+/// Above this evidence a missed effect counts as an error even if the informed diagnosis missed it
+/// too (twice kDecisive: a fit also pays an Occam factor).
 inline constexpr double kHeldFrom = 2.0 * diagnosis::kDecisive;
 
-/// Takes what the oracle says of an effect that was not named. `held` as HeldEvidence; where there
-/// is none an oracle fails that leaves something unexplained.
+/// Updates the outcome with the result of the informed diagnosis. `held` as HeldEvidence; without
+/// it, that diagnosis counts as failed when it leaves an unexplained residual.
 void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outcome& outcome);
 
 /// Tables for people, of all outcomes.

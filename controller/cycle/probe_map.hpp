@@ -1,5 +1,5 @@
 #pragma once
-// The only place where polarity is undone: probes on the way in, coils on the way out.
+// Removes polarity in the control cycle: probes on the way in, coils on the way out.
 //
 // Equation   q_B = P_s q_S (positions), ic_S = P_a ic_B (currents); P diagonal with +-1.
 // Frames     S: as the rig is wired. B: bearing frame, positive x towards the coil that a positive

@@ -36,8 +36,8 @@ std::vector<double> FromFar(const RigView& rig, const Search& search,
   const Refined coarse =
       Refiner(search, terms, few, fast, rig.axes).Approach(start, kWhiteningOrder, 3);
   const Refiner refiner(search, terms, records, gains, rig.axes);
-  // What a fast observer likes on a part of the records may be worse than the usual rig. Judged by
-  // plain power: a whitening of its own would take a large orbit for colour and forgive it.
+  // Keep the fast-observer fit only if its unwhitened residual power is not above the start's. A
+  // whitening filter refitted per candidate would hide a large orbit as coloured noise.
   if (coarse.ok && refiner.Misfit(coarse.theta, 0) <= refiner.Misfit(start, 0)) {
     start = coarse.theta;
   }

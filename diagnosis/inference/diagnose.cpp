@@ -12,16 +12,16 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// [sigma] of the remainder. Shapes of modes that no single number describes leave 10 on healthy
-/// rigs.
+/// Residual threshold [sigma]. Mode-shape errors outside the parametrisation leave about 10 on
+/// healthy rigs.
 constexpr double kUnexplained = 15.0;
-constexpr double kExplained = 0.7;  ///< of the excess: less, and the cause is not the cause
-/// A line that stands so far out is not what the form of a law leaves, unless that law took away
-/// nearly all.
+constexpr double kExplained = 0.7;  ///< least share of the excess residual power
+/// [sigma] An inexact force law does not leave a line that stands out so far, unless that law
+/// explains nearly all of the excess.
 constexpr double kStandsOut = 30.0;
 constexpr double kNearlyAll = 0.95;
-/// [nat] lost on what was kept back. A sixth of the records scatters by a few nats about what a
-/// cause of some tens of nats gains there.
+/// [nat] Allowed loss on the validation data. They are a sixth of the records; the gain of a cause
+/// of some tens of nats scatters by a few nats there.
 constexpr double kHarm = 2.0 * kDecisive;
 
 bool IsUnexplained(const Remainder& remainder, bool named, double explained) {
@@ -32,8 +32,8 @@ bool IsUnexplained(const Remainder& remainder, bool named, double explained) {
 constexpr Effort kQuick{5, 3, 3, 0, kQuickRows, true};
 constexpr Effort kThorough{10, 6, 8, 5, kMostRows, false};
 
-/// Nuisances only. A cause is looked for after that: far from the calibrated model the
-/// linearisation sees one in everything.
+/// Fits the nuisance parameters only. Causes are searched afterwards: away from the optimum the
+/// linearisation gives every hypothesis spurious evidence.
 void Calibrate(Inquiry& q) {
   q.Tell(0.02, "calibrating");
   for (;; q.Observe(q.speed + 1)) {

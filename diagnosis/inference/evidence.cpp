@@ -94,7 +94,7 @@ Evidence::Beside Evidence::StepBeside(const Eigen::VectorXd& theta, const Eigen:
   const Eigen::VectorXd uphill = Uphill(theta);
   const Eigen::VectorXd along = base_.transpose() * cross;
   const Eigen::VectorXd answer = solve(along);
-  // What of both the other parameters do not take up.
+  // Parts of both that are orthogonal to the other parameters (Schur complement).
   const double slope = gradient - answer.dot(uphill);
   const double bend = curvature - answer.dot(along);
   Beside beside;

@@ -1,12 +1,12 @@
 #pragma once
-// What the data say for a cause: Laplace's approximation of the evidence, from normal equations.
+// Evidence of the data for a cause: Laplace's approximation, from normal equations.
 //
 // Equation   log p(data | base + cause) - log p(data | base) = 1/2 r^T (S+1)^-1 r - 1/2 log
 //            det(S+1), where S and r are the cause's normal equations after the base (nuisances
-//            with their tolerances, causes already accepted) has taken what it can. The second part
-//            makes a hypothesis pay for its freedom (MacKay 1992, Bayesian interpolation).
-// Origin     parameters are total ones with a prior about the nominal rig, wherever the model was
-//            linearised.
+//            with their tolerances, causes already accepted) is projected out. The second part is
+//            the Occam factor of the hypothesis (MacKay 1992, Bayesian interpolation).
+// Origin     parameters are deviations from the nominal rig, not from the linearisation point;
+//            their priors are centred there.
 // Units      nats. Thread: any; pure.
 
 #include <Eigen/Core>

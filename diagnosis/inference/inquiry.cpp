@@ -22,7 +22,7 @@ Inquiry::Inquiry(const RigView& of, const std::vector<Record>& recorded, const S
 
 void Inquiry::Tell(double share, const std::string& what) const {
   if (!settings.progress) return;
-  // Stages are as long as the data make them: never back, and the end is told once.
+  // Stage lengths depend on the data: progress never decreases, and 100 % is reported once.
   told_ = std::max(told_, std::min(share, share < 1.0 ? 0.98 : 1.0));
   settings.progress(told_, what);
 }

@@ -7,14 +7,14 @@
 
 namespace levitas::diagnosis {
 
-/// Screens, refits the best few and adds the best, as long as one gains enough.
+/// Forward selection: screens, refits the best few and adds the best while one gains enough.
 void FindCauses(Inquiry& inquiry);
 
-/// Of causes that only together imitate one which the first choice passed by, that one is kept: any
-/// effect in place of all of them or of two, as long as one does what they did.
+/// Replaces two causes, or all, by a single effect that explains the data as well: forward
+/// selection may have imitated it by several.
 void MergeCauses(Inquiry& inquiry);
 
-/// Nothing is named that is not decisive beside the others; the weakest goes first.
+/// Backward check: drops causes that are not decisive given the others, the weakest first.
 void DropUnproven(Inquiry& inquiry);
 
 }  // namespace levitas::diagnosis

@@ -70,7 +70,7 @@ struct Step {
   double cost{};
 };
 
-/// The best of steps with growing caution; the same cost when none helps.
+/// One Levenberg-Marquardt step: raises the damping until the cost falls; else returns the start.
 Step TryStep(const Misfit& misfit, const Filters& filters, const Freedom& freedom, Normal normal,
              const Theta& theta, double cost, double& caution) {
   const Eigen::VectorXd z = Scaled(freedom, theta);
@@ -155,7 +155,7 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
     const double gained = cost - next.cost;
     out.theta = next.theta;
     cost = next.cost;
-    // The last linearisation serves for the spread; half a nat more is not worth another.
+    // Converged: the Jacobian of this step is reused for the covariance.
     if (gained < std::max(1.0, 1e-6 * cost)) break;
   }
   const Normal normal = WithPriors(sums, freedom, Scaled(freedom, out.theta));

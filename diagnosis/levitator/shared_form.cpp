@@ -43,7 +43,8 @@ void FillParameters(const Found& found, diagnosis::Answer& out) {
   }
 }
 
-/// One that moves all that a named cause moves, and more, is that cause with a number to spare.
+/// A candidate whose parameters include all of a named cause's is that cause with one more free
+/// parameter, not a tie.
 bool Contains(const Cause& cause, const Cause& named) {
   return std::all_of(named.moves.begin(), named.moves.end(), [&](std::size_t i) {
     return std::find(cause.moves.begin(), cause.moves.end(), i) != cause.moves.end();
@@ -106,7 +107,7 @@ std::vector<double> Spectrum(const std::vector<double>& error, double noise, std
   return power;
 }
 
-/// What is left, of the current where it was measured, else of the motion.
+/// Residual of the current where it was measured, otherwise of the motion.
 struct Left {
   std::vector<double> nominal, calibrated, extended;
 };

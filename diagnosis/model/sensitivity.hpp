@@ -39,7 +39,7 @@ class SensitivityBlock {
   [[nodiscard]] const std::vector<std::size_t>& chosen() const noexcept { return chosen_; }
 
  private:
-  /// A term in force that does otherwise when another one changes when, or how fast, coils act.
+  /// An active term whose contribution depends on a coil delay or bandwidth that another one moves.
   struct Retimed {
     Term now, stepped;
     double theta{};

@@ -44,7 +44,7 @@ void Unwrap(Record& record, double period_s) {
 void ChooseTurn(const RigView& rig, const ObserverPair& gains, Record& record) {
   const auto turns = static_cast<int>(std::lround(rig.model->train().turns_per_repeat));
   if (turns < 2) return;
-  // The gain for starts corrects no forces: a wheel that stands elsewhere pushes unseen otherwise.
+  // The start-up gain estimates no disturbance force, which would hide a wrong wheel position.
   const ObserverPair start{gains.start, gains.start};
   Record part = record;
   part.rows.resize(std::min(part.rows.size(), kEnough));

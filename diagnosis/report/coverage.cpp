@@ -31,7 +31,7 @@ void Append(const SessionAnswer& s, bool (*needs)(effect::Id), std::vector<std::
 Coverage CoverageOf(const SessionAnswer& s) {
   Coverage c;
   const double rated = s.view->numbers.max_speed_rad_per_s;
-  // Whose words are its own has nothing that turns (diagnosis/levitator).
+  // The levitator has no rotating parts (diagnosis/levitator).
   c.turns = rated <= 0.0 || s.fastest_rad_per_s > kSlowRoll * rated || s.own_words;
   c.excited = s.excited || s.own_words;
   return c;

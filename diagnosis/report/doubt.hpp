@@ -1,12 +1,12 @@
 #pragma once
-// When an answer says more about the input than about the rig: what to doubt first.
+// Warnings that the input, rather than the rig, may be wrong.
 //
-// Input      a calibrated value kFarOut tolerances of the rig file away, or a noise that is larger
-//            than the motion (ceiling below kNoMotion): units, signs or the rig file are wrong
-//            sooner than the rig.
-// Healthy    what the records called healthy have moved, and whether what is diagnosed now lies
-//            kChanged of the tolerances that they leave away from them: another rig, or one that
-//            has changed since.
+// Input      a calibrated value is kFarOut tolerances away from the rig file, or the noise exceeds
+//            the motion (ceiling below kNoMotion). Wrong units, signs or a wrong rig file are
+//            then more likely than a fault of the rig.
+// Healthy    how far the reference (healthy) records moved each parameter, and whether the present
+//            estimate is more than kChanged narrowed tolerances away from that: a different rig, or
+//            one that has changed since.
 // Thread     any; pure.
 
 #include <string>
@@ -22,7 +22,7 @@ inline constexpr double kChanged = 5.0;     ///< tolerances narrowed by healthy 
 
 /// Why units, signs or the rig file are to be doubted; empty where they are not.
 [[nodiscard]] std::string DoubtSentence(const SessionAnswer& answer);
-/// What the healthy records moved, and whether they are of this rig as it is; empty without them.
+/// Changes by the healthy records, and whether those fit the present rig; empty without them.
 [[nodiscard]] std::string HealthySentence(const SessionAnswer& answer);
 /// Calibrated values that are not what the healthy records say, furthest first.
 [[nodiscard]] std::vector<CalibratedValue> ChangedSince(const SessionAnswer& answer);

@@ -36,7 +36,7 @@ EntryValues MagnetEntry(const RigView& rig, const PlacedEffect& g) {
     return {Channel(g.place), Number("ratio", (1.0 + a) / (1.0 - a))};
   }
   if (g.effect == "magnetic_saturation") {
-    // The family's amplitude as a knee: far below it the loss goes with the power of the exponent.
+    // Amplitude to knee current: well below the knee the force loss goes as (i/knee)^exponent.
     const double share = std::max(1e-3, g.At("share"));
     const double exponent = std::strtod(g.After("exponent ").c_str(), nullptr);
     return {AllChannels(rig),

@@ -17,7 +17,7 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// They differ where an amplifier has long let go.
+/// Distinguishable only above the amplifier bandwidth.
 constexpr std::array<std::string_view, 5> kOfTheLoop{
     "extra_delay", "eddy_current", "amplifier_bandwidth", "sensor_bandwidth", "amplifier_slew"};
 
@@ -36,7 +36,7 @@ bool AnyNeedsRotation(const std::vector<std::string>& effects) {
   });
 }
 
-/// A maximum-length sequence of order 12 on every axis, one after the other.
+/// A maximum-length sequence of order 12 on every axis in turn.
 std::string TestSignals(const std::vector<std::string>& channels, int divisor, double period_s) {
   std::string text;
   const double hold_s = 2.0 * 4095.0 * divisor * period_s;

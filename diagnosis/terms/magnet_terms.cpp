@@ -98,7 +98,7 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
     const std::string& channel = rig.numbers.channels[a];
     const auto magnet = rig.magnet(a).magnet;
     const double bias_a = rig.bias_a(a);
-    // The current counts for more, not the force: at a current that carries weight the two differ.
+    // The gain scales the current, not the force; with a static load current the two differ.
     Term gain = MakeTerm(
         {"current_gain", channel, "ratio", "1"}, tolerances.current_gain, 0.15,
         [=](const Moment& m, double theta, Addition& add) {

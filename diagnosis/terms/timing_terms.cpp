@@ -159,7 +159,7 @@ Term Slew(const RigView& rig, double slew_a_per_s) {
     }
   };
   term.timed = true;
-  // As far as the second coil acts, what moves the first one does not.
+  // The slew-limited coil replaces the linear one by the share theta: its slope falls by theta.
   term.slope = [&rig](const Moment& m, double theta, AddedSlopes& added) {
     for (std::size_t a = 0; a < rig.axes; ++a) {
       added.force_per_a[a] -= static_cast<float>(theta) * m.force_per_a[a];

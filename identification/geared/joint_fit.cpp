@@ -64,7 +64,7 @@ std::vector<Group> GroupsOf(const std::vector<GearedLine>& lines, bool torsion) 
   return groups;
 }
 
-/// What is left of both equations of every line of the group [N].
+/// Residuals of both equations of every line of the group [N].
 Eigen::VectorXd Left(const Group& group, const GearedParameters& p) {
   std::vector<Complex> force;
   Eigen::VectorXd left(kEquations * static_cast<Index>(group.size()));
@@ -165,7 +165,7 @@ Normal NormalAt(const std::vector<Group>& groups, const JointUnknowns& unknowns,
   return normal;
 }
 
-/// Levenberg-Marquardt from `x`, in place; what the last point tells.
+/// Levenberg-Marquardt from `x`, in place; returns the values at the last point.
 Normal Descend(const std::vector<Group>& groups, const JointUnknowns& unknowns,
                Eigen::VectorXd& x) {
   Normal normal = NormalAt(groups, unknowns, x);
@@ -182,7 +182,7 @@ Normal Descend(const std::vector<Group>& groups, const JointUnknowns& unknowns,
     x = next;
     damping /= kMoreDamping;
     normal = NormalAt(groups, unknowns, x);
-    // What a full step still promises; a damped one always promises little.
+    // Predicted improvement of a full step; that of a damped one is always small.
     if (normal.pull.dot(normal.information.ldlt().solve(normal.pull)) < kStandsStill) break;
   }
   return normal;
@@ -223,7 +223,7 @@ void FitJointly(const std::vector<GearedLine>& lines, const GearedKnown& known,
   Normal normal;
   for (const Eigen::VectorXd& start : unknowns.starts()) {
     Eigen::VectorXd own = start;
-    // Precise lines make a narrow valley: it is entered from where their noise is taken for larger.
+    // Continuation: with low noise the basin is narrow: start with inflated noise and reduce it.
     for (double factor = LoudestOf(groups); factor > 1.0; factor *= 0.1) {
       static_cast<void>(Descend(Louder(groups, factor), unknowns, own));
     }

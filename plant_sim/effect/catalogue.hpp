@@ -1,6 +1,6 @@
 #pragma once
-// The catalogue of effects: one row per id. Configuration, parameter access, documentation and
-// diagnosis all read this table, so that they cannot disagree.
+// The catalogue of effects: one row per id. Configuration, parameter access and documentation read
+// this table. Diagnosis reads names, places and needs here; diagnosis/terms models effects anew.
 //
 // Units      every number is SI; `file_suffix` is the unit a file writes it in.
 // Neutral    the value at which the plant equals the nominal one, bit for bit, or as the limit.

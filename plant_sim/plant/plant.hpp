@@ -9,7 +9,7 @@
 //            acts at once.
 // Start      bias current at its design value, as if levitated; RestInTouchdown() de-energises.
 // Frame      bearing frame; sensor_polarity is applied to what Sample and SensorOutput return,
-//            actuator_polarity to the commanded current, nothing else knows of them.
+//            actuator_polarity to the commanded current; the plant applies them nowhere else.
 // Use        cheap to copy, no globals, no allocation in Sample and Advance, deterministic for a
 //            seed. One instance per thread; many instances may run in parallel.
 // Driving    open loop: give any command. Closed loop: feed Sample() to a controller. Observer
@@ -75,7 +75,7 @@ class Plant {
   void PlaceAtRest(const AxisArray& actuator_position_m) noexcept;
   /// Puts the rotor into the touchdown bearings where gravity holds it.
   void RestInTouchdown() noexcept;
-  /// With gears, an angle more than half a turn from the present one has passed a whole turn.
+  /// With gears the angle is unwrapped: a jump of more than half a turn counts as one revolution.
   void SetSpeed(double speed_rad_per_s, double angle_rad) noexcept;
 
   /// Changes of effects while it runs. The first gives this plant a model of its own (allocates, so
