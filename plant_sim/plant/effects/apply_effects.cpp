@@ -154,6 +154,10 @@ void ApplyEffects(const PlantParameters& parameters, const EntryShapes& shapes,
         ApplyToLoop(entry, values, period_s, now, model);
         break;
       case effect::Place::kAmplifier:
+        if (entry.id == Id::kCurrentGain) {  // a scale between current and force
+          ApplyToMagnets(parameters, entry, values, model);
+          break;
+        }
         for (std::size_t axis = 0; axis < 2 * parameters.config.bearings.size(); ++axis) {
           if (!entry.Acts(axis)) continue;
           const double value = ValuesAt(parameters, entry, axis, strength)[0];

@@ -124,6 +124,8 @@ void Mark(const EffectConfig& entry, EffectModel& model) {
       model.outputs = model.outputs || entry.id == Id::kSampleJitter;
       break;
     case effect::Place::kAmplifier:
+      model.magnets = model.magnets || entry.id == Id::kCurrentGain;
+      break;
     case effect::Place::kGear:
       break;
   }
