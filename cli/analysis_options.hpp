@@ -1,5 +1,5 @@
 #pragma once
-// What the analysis commands share: files by path or shipped name, speeds in rpm.
+// Options shared by the analysis commands: files by path or shipped name, speeds in rpm.
 
 #include <CLI/App.hpp>
 #include <string>

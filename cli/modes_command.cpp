@@ -115,7 +115,7 @@ std::string Names(const config::RigFile& rig, analysis::ModalInfluence influence
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// What the effects of the rig file do to the free rotor, and which are not in any number here.
+/// Influence of the rig file's effects on the free rotor, and those that are not applied.
 void ShowEffects(const ModesOptions& options, const config::RigFile& rig,
                  nlohmann::ordered_json& json) {
   using analysis::ModalInfluence;

@@ -1,5 +1,5 @@
 #pragma once
-// What the session commands share in telling a person (and a JSON reader) about a session.
+// Descriptions of a session, as text and JSON, shared by the session commands.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -1,12 +1,12 @@
 #pragma once
-// What records hold for a hidden effect, by its true values: no search, no verdict of a diagnosis
-// takes part.
+// Evidence in the records for a hidden effect, computed from its true parameters without a search
+// and without a diagnosis.
 //
 // Equation   held = L(nominal rig with the effect) - L(nominal rig), both with what else is hidden
 //            `beside` it, L the logarithm of the likelihood
 //            with all tolerances fitted on the nonlinear model, their priors included, each
 //            whitened by its own innovations (Refiner::Misfit). An upper estimate: a diagnosis also
-//            pays for the freedom of the cause.
+//            pays the Occam factor of the cause.
 // None       for what no model foretells (noise, jitter, lost frames, the phase of the mains), and
 //            for geared shafts, where it is open in which turn a record begins.
 // Units      nat. Thread: blocks the caller, two threads inside.

@@ -1,7 +1,7 @@
 #pragma once
 // Things that no effect of the vocabulary describes, to see whether a diagnosis admits it.
 //
-// They act beside the plant: on what is read, or as a current that the record does not know of.
+// They act outside the plant: on the readings, or as a current that is not recorded.
 // Units SI. Thread: one instance per run.
 
 #include <cstdint>

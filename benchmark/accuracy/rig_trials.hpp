@@ -1,6 +1,6 @@
 #pragma once
-// What a bench does to one rig: which effects it hides, how large, how the rig is driven, and by
-// how much a healthy one is off.
+// Trial settings of one rig: hidden effects, their sizes, excitation, and deviations of a healthy
+// rig.
 //
 // Sizes     DrawEffect's are those of the flexible rotor; here stand the factors on them that make
 //           an effect clear on another rig (25 nat and more in its records).

@@ -1,14 +1,14 @@
 #pragma once
-// How a diagnosis did on trials: right, partly right, false alarms, confusion, parameters, gain.
+// Scores of a diagnosis on Monte-Carlo trials: right, partly, false alarms, confusion, parameters.
 //
 // Right      the first cause is the main effect, or the main effect is among those declared
 //            inseparable from it.
-// Available  the evidence that the records hold for what is hidden, as the final ranking has it:
-//            what could be known at all. A hand-drawn size says little about it: some effects drown
-//            in tolerances.
-// Oracle     a second diagnosis that is told what is hidden. One that does not name it although the
-//            records hold it (held_evidence.hpp) has failed: what is available is not known, and
-//            the trial counts as not named in the size that was drawn.
+// Available  evidence in the records for the hidden effect, from the final ranking. The drawn size
+//            says little about it: some effects are smaller than the tolerances of similar
+//            parameters.
+// Oracle     an informed diagnosis, which is told the hidden effect. It has failed if it does not
+//            name it although the records hold it (held_evidence.hpp). The available evidence is
+//            then unknown, and the trial counts as not named in the size that was drawn.
 // Partly     any effect really present is named, but not as first.
 // Thread     any; pure.
 
@@ -33,7 +33,7 @@ struct Outcome {
   std::vector<std::string> named;    ///< all causes, in order
   std::vector<std::string> ties;
   double score_nat{};
-  double available_nat{};  ///< what the records hold for the main effect, as far as a fit found it
+  double available_nat{};  ///< evidence for the main effect, as far as a fit found it
   double held_nat{-1.0};   ///< HeldEvidence; -1 = not computed, or none
   bool oracle_failed{};    ///< `available_nat` says nothing
   double explained{};      ///< share of the calibrated model's excess

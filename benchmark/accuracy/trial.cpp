@@ -36,7 +36,7 @@ class Maker {
     double size = plan_.size;
     for (int attempt = 0; attempt < 8; ++attempt, size *= 0.6) {
       // A loop of little margin may not hold every rig that is off by its tolerances: another one.
-      // Nor do they hold everything that is hidden beside the main effect.
+      // Nor do they hold evidence for every hidden effect besides the main one.
       if (attempt >= kOtherRig) {
         rig_seed_ = random_.Bits();
         beside_ *= 0.6;

@@ -1,8 +1,8 @@
 #pragma once
-// One trial of the diagnosis: a rig with something hidden in it, its measured data, and the answer
-// kept apart from them.
+// One Monte-Carlo trial of the diagnosis: a rig with a hidden effect, its measured data, and the
+// ground truth, kept apart from them.
 //
-// Seed       decides everything: what the rig is off by, effects, sizes, places, speed, controller,
+// Seed       decides everything: deviations of the rig, effects, sizes, places, speed, controller,
 //            noise. An effect under which the rig does not stay levitated is drawn smaller.
 // Lost       frames of `dropped_samples` are missing from the record, or stand in it twice.
 // Thread     any; two inside.
@@ -36,8 +36,8 @@ struct TrialPlan {
   double runup_s{2.0};
 };
 
-/// Sizes by the evidence that the records hold for the effect [nat]: from 25, from 10, from 5 (what
-/// decides), and what no records of this length can tell.
+/// Sizes by the evidence for the effect in the records [nat]: from 25, from 10, from 5 (decisive),
+/// and effects that records of this length cannot show.
 enum class Size : std::uint8_t { kBelow, kFaint, kModerate, kClear };
 [[nodiscard]] Size SizeOf(double available_nat) noexcept;
 /// By what was drawn, where the evidence is not known: 1 is clear, 0.5 moderate, 0.25 faint.
@@ -45,7 +45,7 @@ enum class Size : std::uint8_t { kBelow, kFaint, kModerate, kClear };
 [[nodiscard]] Size SizeDrawn(double drawn) noexcept;
 [[nodiscard]] const char* Name(Size size) noexcept;
 
-/// What is hidden. Never handed to the diagnosis.
+/// Ground truth. Never handed to the diagnosis.
 struct Secret {
   std::vector<std::string> effects;  ///< none when the rig file holds them
   std::vector<std::string> in_file;

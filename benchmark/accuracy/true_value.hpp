@@ -1,5 +1,5 @@
 #pragma once
-// What a number of an answer is in the rig that was hidden from it.
+// True value of an estimated parameter, in the perturbed rig.
 //
 // Combined   the hidden effect and what the rig is off by anyway at the same place: ratios
 //            multiply, harmonics of one order add as vectors, all else adds.

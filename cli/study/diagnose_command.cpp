@@ -1,4 +1,4 @@
-// amb diagnose: what a rig does that its model does not, the extended model, and what it gains.
+// amb diagnose: names the cause of the difference between a rig and its model; extends the model.
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -46,7 +46,7 @@ struct DiagnoseOptions : AnalysisOptions {
   bool quick{}, explain{};
 };
 
-/// `why_not` is told instead of a scenario that is empty.
+/// Prints `why_not` if the scenario would be empty.
 void WritePlan(const std::string& path, const std::string& scenario, const char* why_not,
                std::vector<std::string>& written) {
   if (scenario.empty()) {
@@ -57,7 +57,7 @@ void WritePlan(const std::string& path, const std::string& scenario, const char*
   written.push_back(path);
 }
 
-/// One axis whose coils are on a voltage: models, causes and fits of its own.
+/// Two-magnet levitator: voltage-driven coils, with separate models, causes and fits.
 std::vector<std::string> RunLevitator(const diagnosis::SessionInputs& inputs,
                                       const DiagnoseOptions& options, ProgressLine& progress) {
   const levitator::Answer answer = levitator::Diagnose(inputs);

@@ -127,7 +127,7 @@ std::string Bar(const char* name, double ratio, double largest, const char* colo
       name, 100.0 * std::clamp(width, 0.0, 1.0), colour, ratio);
 }
 
-/// What the models leave, on data kept back.
+/// Residuals of the models on validation data.
 std::string Left(const SessionAnswer& s) {
   const diagnosis::Gain& held = s.held_out;
   const double nominal = 1.0 + held.to_gain.value;

@@ -88,7 +88,7 @@ void CutBeginning(std::vector<analysis::RecordedRow>& rows, double from_s, doubl
   if (rows.empty()) throw BadInput("--from leaves nothing of the session");
 }
 
-/// Where other places have less than expected, one may hold more than all that is unexplained.
+/// If other bands have less power than expected, one band can hold more than the total excess.
 double Percent(double share) { return 100.0 * std::min(1.0, share); }
 
 void PrintChannels(const Simulation& s) {

@@ -1,14 +1,14 @@
 #pragma once
-// The nominal rig with its tolerances fitted, and nothing else; and what a healthy rig's records
-// tell about them.
+// Calibration: fit of the nuisance parameters within their tolerances, without causes; and the
+// narrowing of the tolerances by records of the healthy rig.
 //
 // Method     a fast observer on a part of the records (smooth, coarse), then the slow one on all
-//            that is used. At first all that is the rig's build is held to a fifth of its
-//            tolerance: an orbit or an effect that is not explained yet drives gains and delays,
-//            which make up for one another, tens of tolerances away, where a fit that is free at
-//            once stays.
-// Healthy    tolerances shrink to what the healthy records leave open, but not below kDaily of
-//            themselves: a rig is not the same from one day to the next. This separates what one
+//            used records. At first the parameters of the rig's build are held to a fifth of
+//            their tolerances: an unexplained orbit or effect would drive gains and delays, which
+//            compensate one another, tens of tolerances away, into a local minimum that a fit free
+//            from the start does not leave.
+// Healthy    tolerances shrink to the posterior of the healthy records, but not below kDaily of
+//            themselves, since a rig changes from day to day. This separates parameters that one
 //            record cannot: current gain from sensor gain, gap from bias.
 // Thread     blocks the caller, two threads inside.
 

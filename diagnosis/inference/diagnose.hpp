@@ -1,27 +1,26 @@
 #pragma once
-// What a rig does that its model does not: the search for the cause, and its answer.
+// Model selection: the effects that explain the difference between a rig and its model.
 //
-// Method     1 calibrate: the nuisances within their tolerances, with a fast observer first
-// (smooth,
+// Method     1 calibrate: the nuisances within their tolerances, with a fast observer first (smooth,
 //              coarse) and a slow one after it (sees slow effects), Gauss-Newton on innovations;
 //            2 screen: one pass with the sensitivities of every term gives the evidence of every
 //              hypothesis (evidence.hpp) on top of the causes found so far;
 //            3 refit: the best few by Gauss-Newton together with the nuisances on the nonlinear
 //              model (refine.hpp); the best of them is a cause, and each earlier one is dropped
-//              again when the others explain its share (backward check); what only a few members
-//              of a family stand for is sharpened; again from 2 until none gains enough;
-//              Several causes are exchanged, one by one, for what comes nearest (exchange.hpp);
+//              again when the others explain its share (backward check); shape parameters of a
+//              family are refined (sharpen.hpp); again from 2 until none gains enough; each of
+//              several causes is exchanged for its nearest alternatives (exchange.hpp);
 //            4 rank: every effect in place of the first cause, the nearest refitted;
-//            5 judge what remains (remainder.hpp).
-// Strays     a model that loses the rotor is held by a faster observer until the causes found let
-//            go of it (stray.hpp).
+//            5 analyse the residual (remainder.hpp).
+// Strays     a model that diverges is held by a faster observer until the causes found make that
+//            unnecessary (stray.hpp).
 // Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.
 // Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of
-//            magnets and contacts are known to a tenth or so of their amplitude, so a hundredth of
-//            what the right one gains is left to be explained by wrong ones.
-// Answer     `effect` when a cause gains enough; ties are all that come within kDecisive of it;
-//            `unknown` when power is left that stands out of the noise, and is more than a small
-//            part of what the calibrated model left; else `none`.
+//            magnets and contacts are known to a tenth or so of their amplitude, so that a
+//            hundredth of the gain of the right cause remains for wrong ones to explain.
+// Answer     `effect` when a cause gains enough; ties are all causes within kDecisive of it;
+//            `unknown` when the residual power stands out of the noise and is more than a small
+//            part of the calibrated model's excess; else `none`.
 // Units      evidence in nats. Thread: blocks the caller, two threads inside.
 // Failure    BadInput for records that are too short.
 

@@ -39,8 +39,8 @@ Frames CountFrames(const RigView& rig, const std::vector<Record>& records) {
   return frames;
 }
 
-/// What the rig file says is lost, and as many again as chance may add: three deviations of a sum
-/// of bursts.
+/// Lost frames that the rig file states, and as many again as chance may add: three deviations of a
+/// sum of bursts.
 double LostByFile(const RigView& rig, const Frames& frames) {
   double most = 0.0;
   for (const effect::EffectConfig& entry : rig.by_chance) {

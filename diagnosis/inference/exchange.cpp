@@ -31,7 +31,7 @@ void Restore(const Shapes& shapes, std::vector<Term>& terms) {
   }
 }
 
-/// The shapes of all families among the causes, one after the other.
+/// Refines the shapes of all families among the causes in turn.
 Refined SharpenAll(Inquiry& q, const std::vector<Hypothesis>& causes, Refined fit) {
   for (const Hypothesis& cause : causes) {
     if (!fit.ok || !HasFamily(cause, q.terms)) continue;
@@ -40,7 +40,7 @@ Refined SharpenAll(Inquiry& q, const std::vector<Hypothesis>& causes, Refined fi
   return fit;
 }
 
-/// Others that come near a cause beside the rest, best first.
+/// Alternatives whose evidence is near that of a cause, given the other causes; best first.
 std::vector<Candidate> Near(const Inquiry& q, std::size_t at) {
   const double own = q.GainOf(at);
   std::vector<Candidate> near =

@@ -1,11 +1,11 @@
 #pragma once
-// Every one of several causes exchanged for what comes nearest to it.
+// Exchange step of the model selection: each cause is replaced by its nearest alternative.
 //
-// Why        causes are found one after the other, and the second is chosen while the first is
-//            still bent by what it does not explain: a slew limit that is found beside a delay
-//            nobody knows of is a little off, and a slow sensor then fits better than the delay.
-// Method     shapes of all causes are sought again together; then, cause by cause, the nearest
-//            others take its place, with all shapes sought again; the best set stays.
+// Why        causes are found in sequence, and the second is chosen while the first is still
+//            biased by the effect not found yet: with an unknown delay the estimate of a slew limit
+//            is a little off, and a slow sensor then fits better than the delay.
+// Method     the shape parameters of all causes are refined together. Then each cause in turn is
+//            replaced by the nearest alternatives, all shapes refined again; the best set stays.
 // Thread     blocks the caller, two threads inside.
 
 #include "diagnosis/inference/inquiry.hpp"

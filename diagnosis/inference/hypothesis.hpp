@@ -1,5 +1,5 @@
 #pragma once
-// The causes a diagnosis considers: which terms move together, and where.
+// Hypotheses of a diagnosis: which terms change together, and at which place.
 //
 // Made from  the list of terms: every place of an effect by itself, the axes of a bearing together,
 //            all axes by the same amount, all of them freely. Terms of an effect at one place

@@ -1,6 +1,6 @@
 #pragma once
-// What one diagnosis has before it and how far it is: rig, terms, records, the linearisation it
-// works on, the causes found so far.
+// State of the search of one diagnosis: rig, terms, records, the present linearisation, and the
+// causes found so far.
 //
 // Units   evidence in nats. Thread: blocks the caller, two threads inside. Internal to
 //         diagnose.cpp, selection.cpp and rivals.cpp.
@@ -14,9 +14,9 @@
 
 namespace levitas::diagnosis {
 
-inline constexpr double kNear = 15.0;  ///< [nat] rivals that are refitted
+inline constexpr double kNear = 15.0;  ///< [nat] competing hypotheses within this are refitted
 
-/// How thorough a search is.
+/// Extent of a search.
 struct Effort {
   int calibrations;       ///< passes with the slow observer
   std::size_t shortlist;  ///< candidates refitted for every cause
@@ -46,16 +46,16 @@ struct Inquiry {
   Inquiry& operator=(const Inquiry&) = delete;
 
   void Tell(double share, const std::string& what) const;
-  /// Observers of one speed from here on; what was linearised is not valid any more.
+  /// Selects the observers of one speed; invalidates the linearisation.
   void Observe(std::size_t with);
-  /// Everything linearised about theta.
+  /// Linearises all terms about theta.
   void LineariseAll();
   /// Causes fitted from where the linearisation sees them (Refiner::Fit).
   [[nodiscard]] Refined Refit(const std::vector<Hypothesis>& set,
                               double worth = -std::numeric_limits<double>::infinity()) const;
-  /// A member of a family that was sharpened is told by its new place, here and in the search.
+  /// Gives a refined member of a family its new place, here and in the search.
   void TakePlace(Hypothesis& member);
-  /// What a cause gains beside the others, on the linearisation.
+  /// Evidence of a cause given the others, on the linearisation.
   [[nodiscard]] double GainOf(std::size_t cause) const;
 
   const RigView& rig;

@@ -1,8 +1,8 @@
 #pragma once
-// Where else a bending mode may lie: places to begin a fit that derivatives do not reach.
+// Additional starts for the frequency of a bending mode, out of reach of the derivatives.
 //
-// Why      a lightly damped mode that lies many of its widths off its file's frequency rings where
-//          the model has nothing; derivatives about the file's frequency point nowhere.
+// Why      a lightly damped mode many of its widths off the file's frequency rings where the model
+//          has no response; derivatives about the file's frequency carry no information on it.
 // Method   of the spectra of innovations at rest (else of all), the highest line within 15 % of
 //          every mode, if it stands out of the noise.
 // Thread   any; pure.

@@ -122,7 +122,7 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   }
   best.runs.clear();
   if (!best.ok) return best;
-  // What the model does, not what a straight line from it promises: that may lead where no rig is.
+  // The nonlinear model decides, not its linear prediction, which may lead outside any real rig.
   best.evidence =
       EvidenceOfSet(best.problem, terms_, causes) + Promised(best.problem, causes) - best.cost;
   if (!std::isfinite(best.evidence)) best.ok = false;

@@ -1,14 +1,14 @@
 #pragma once
-// Nuisances and a given set of causes fitted together on the nonlinear model.
+// Joint fit of nuisance parameters and a given set of causes on the nonlinear model.
 //
-// Method     Gauss-Newton from a start; a step after which the model is further from the data, or
-//            not finite, is taken again with damping (Levenberg 1944), which holds back what the
-//            data do not determine and leaves the rest. Slopes are those of a linearisation that
-//            exists; where a cause bends (Term::linear) they are taken anew where it arrived. The
+// Method     Gauss-Newton from a start. A step that increases the cost, or is not finite, is
+//            repeated with damping (Levenberg 1944), which shortens the directions that the data
+//            do not determine. The Jacobian is that of an existing linearisation (chord method);
+//            for a nonlinear cause (Term::linear) it is renewed at the new point. The
 //            whitening stays the same, so that sets can be compared.
-// Evidence   of the whole set, -1/2 (squared sum + penalty + log det), priors of places included;
-//            differences between sets of causes on the same records and whitening mean something,
-//            one number alone does not.
+// Evidence   of the whole set, -1/2 (squared sum + penalty + log det), priors of places included.
+//            Only differences between sets of causes on the same records and whitening are
+//            meaningful.
 // Thread     blocks the caller, two threads inside. Failure: `ok` false when no finite run was
 //            found.
 
@@ -35,22 +35,22 @@ class Refiner {
           const Gains& gains, std::size_t axes)
       : search_(search), terms_(terms), records_(records), gains_(gains), axes_(axes) {}
 
-  /// `view` has everything linearised on the records of this refiner. Slopes are not renewed for
-  /// what not even a straight line promises to be `worth`, an evidence.
+  /// `view` has everything linearised on the records of this refiner. The Jacobian is not renewed
+  /// where even the linear prediction gains less than `worth`, an evidence.
   [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
                             const View& view, int passes,
                             double worth = -std::numeric_limits<double>::infinity()) const;
-  /// Newton's step of all and of a shape parameter that has no slope of its own. `become` gives it
-  /// another value, relative to the present one in its logarithm.
+  /// Newton's step of all parameters and of a shape parameter without analytic slope. `become`
+  /// sets it to another value, relative to the present one in its logarithm.
   [[nodiscard]] Search::ShapeStep Along(const std::vector<Hypothesis>& causes,
                                         const std::vector<double>& theta, const View& view,
                                         double width,
                                         const std::function<void(double)>& become) const;
-  /// Nuisances alone, from far away: whitened anew at every pass, since what is not calibrated yet
-  /// is no noise and must not be weighted down as if it were.
+  /// Nuisances alone, from far away. The whitening filter is re-estimated at every pass, since a
+  /// residual that is not calibrated yet is not noise and must not be weighted down as such.
   [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order,
                                  int passes) const;
-  /// [nat] how badly nuisances at theta do, each whitened by its own innovations; to compare
+  /// [nat] cost of the nuisance parameters at theta, whitened by their own innovations; compares
   /// starts.
   [[nodiscard]] double Misfit(const std::vector<double>& theta, std::size_t whitening_order) const;
   /// Evidence of a set on a linearisation of everything.

@@ -127,7 +127,7 @@ double OrderRatio(const std::vector<Piece>& pieces, std::size_t channel, int ord
   return chance > 0.0 ? power / chance : 0.0;
 }
 
-/// A line, and not the flank of something broad: four times what is a few lines beside it.
+/// A line, not the flank of a broad peak: four times the power a few lines away.
 bool StandsAlone(const std::vector<double>& ratio, double frequency_hz, double spacing_hz) {
   const auto line = static_cast<std::size_t>(std::lround(frequency_hz / spacing_hz));
   if (line < 6 || line + 6 >= ratio.size()) return false;

@@ -1,10 +1,10 @@
 #pragma once
-// What is left after calibration and causes: how much, where, in which band or order, following
-// what.
+// Residual analysis after calibration and causes: excess power by channel, band and order of
+// rotation, and the signals it is coherent with.
 //
 // Power      of the innovations relative to the sensors' own noise, in third-octave bands and
 //            single lines. The noise is taken from the highest third of the spectrum, where neither
-//            rotor nor magnet moves anything; a right model leaves no band above it.
+//            rotor nor magnet moves; a correct model leaves no band above it.
 // Coherence  of the remainder with the control currents, the positions, the rotation (orders) and
 //            the mains (50, 60 Hz), as the share of its excess that follows each.
 // Thread     any.
@@ -18,7 +18,7 @@ namespace levitas::diagnosis {
 
 struct ChannelRemainder {
   double noise_rms_m{};       ///< from the upper third of the spectrum
-  double sigma{};             ///< excess of the worst band, in standard deviations of chance
+  double sigma{};             ///< excess of the worst band, in standard deviations
   double band_ratio{};        ///< power there over the noise's
   double peak_hz{};           ///< where
   std::vector<double> ratio;  ///< power over noise, line by line

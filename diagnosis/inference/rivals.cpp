@@ -19,7 +19,7 @@ void RankCandidates(Inquiry& q) {
   const Evidence others(q.view.problem, q.terms, Without(q.causes, 0));
   q.candidates = Screen(others, q.search.hypotheses());
   if (q.causes.empty() || q.effort.first_cause_only) {
-    // What the nonlinear model did not keep of the screen's promises.
+    // Evidence predicted by the screen that the nonlinear model did not confirm.
     for (Candidate& c : q.candidates) {
       for (const Candidate& known : q.refitted) {
         if (known.effect == c.effect) c = known;

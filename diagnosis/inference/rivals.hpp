@@ -1,5 +1,5 @@
 #pragma once
-// Every effect in place of the first cause (4 of diagnosis.hpp).
+// Competing hypotheses: every effect in place of the first cause (step 4 of diagnose.hpp).
 //
 // Thread  blocks the caller, two threads inside.
 
@@ -7,10 +7,10 @@
 
 namespace levitas::diagnosis {
 
-/// The strongest cause leads; every effect is then tried in its place, on the linearisation.
+/// Puts the strongest cause first and tries every effect in its place, on the linearisation.
 void RankCandidates(Inquiry& inquiry);
 
-/// Who comes near the first cause by extrapolation, on the nonlinear model. The best one leads.
+/// Refits the alternatives near the first cause on the nonlinear model; the best becomes first.
 void RefitRivals(Inquiry& inquiry);
 
 /// What leads after all refits must still be decisive against the rest of the causes, refitted

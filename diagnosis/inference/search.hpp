@@ -1,5 +1,5 @@
 #pragma once
-// The search for the causes: calibration, screen, forward selection, refit (diagnosis.hpp).
+// The search for the causes: calibration, screen, forward selection, refit (diagnose.hpp).
 //
 // Thread  blocks the caller, two threads inside.
 
@@ -38,7 +38,7 @@ class Search {
   [[nodiscard]] View Linearise(const std::vector<Record>& records, const Gains& gains,
                                const std::vector<double>& theta, std::size_t whitening_order,
                                const std::vector<std::size_t>& chosen) const;
-  /// The same of runs that exist, with a whitening of before.
+  /// The same for existing runs, with a previous whitening filter.
   [[nodiscard]] View Linearise(std::vector<Trajectory> runs, const std::vector<double>& theta,
                                const Whitener& whitener,
                                const std::vector<std::size_t>& chosen) const;
@@ -67,9 +67,9 @@ class Search {
 
   [[nodiscard]] const RigView& rig() const { return rig_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
-  /// A member of a family stands for another place than before.
+  /// Moves a member of a family to another place.
   void Rename(const std::vector<std::size_t>& terms, const std::string& place);
-  /// What the healthy rig is: where every search begins.
+  /// Parameters of the healthy rig: the start of every search.
   [[nodiscard]] std::vector<double> Usual() const;
   [[nodiscard]] std::vector<std::size_t> Nuisances() const;
   [[nodiscard]] std::vector<std::size_t> Everything() const;

@@ -16,7 +16,7 @@ namespace {
 /// sufficed.
 constexpr double kFarBeyond = 3.0;
 
-/// What a further cause must gain when so much is explained.
+/// Least gain of a further cause, given the evidence explained already.
 double Enough(double explained_nat) { return kDecisive + kForm * std::max(0.0, explained_nat); }
 
 /// `fit` of all causes becomes that with the best member of the last one's family.
@@ -92,7 +92,7 @@ bool AddCause(Inquiry& q, double share) {
   if (!(screened.front().score > enough) && probes.empty()) return false;
   CauseSet best = BestOfScreen(q, screened, null, enough, share);
   TryProbes(q, probes, null, best);
-  // What the linear screen promised, the nonlinear model must keep. A large step may need more
+  // The nonlinear model must confirm the gain of the linear screen. A large step may need more
   // passes than were spent on it: what is far beyond doubt is taken and linearised anew.
   if (!best.fit.ok || !(best.fit.evidence - null > enough)) {
     if (!(screened.front().score > kFarBeyond * enough)) return false;
@@ -110,7 +110,7 @@ bool AddCause(Inquiry& q, double share) {
   return true;
 }
 
-/// Any effect beside `others`, as long as it does what all causes do; the best of those.
+/// The best effect that, together with `others`, explains as much as all causes.
 void TryBeside(Inquiry& q, const std::vector<Hypothesis>& others, double worth, CauseSet& best) {
   const auto screened = Screen(Evidence(q.view.problem, q.terms, others), q.search.hypotheses());
   for (std::size_t n = 0; n < std::min(screened.size(), q.effort.shortlist); ++n) {

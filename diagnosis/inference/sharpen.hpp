@@ -1,15 +1,15 @@
 #pragma once
-// The shape parameters of a family, sought between its members.
+// Refinement of the shape parameters of a family between its members.
 //
-// What       slew rates, knees, widths, clearances and frequencies enter a model in no way that a
-//            derivative at "nothing" shows: a few members stand for all (Term::Family). Once one of
-//            them is a cause, the best is sought around it: parameter by parameter, Newton's step
-//            of its logarithm together with all that is fitted, from runs of two neighbours that
-//            are a tenth of the width apart, shortened until it helps; until a round gains less
+// Why        slew rates, knees, widths, clearances and frequencies have no derivative at amplitude
+//            zero, so that a family is screened by a few members (Term::Family).
+// Method     around the member that was chosen as a cause, one parameter at a time: Newton's step
+//            of its logarithm together with all fitted parameters, from runs of two neighbours a
+//            tenth of the width apart; shortened until the cost falls; until a round gains less
 //            than 10 nat.
 // Cost       three runs, a linearisation and mostly one fit for each parameter and round.
 // Thread     blocks the caller, two threads inside.
-// Failure    none: what does not fit better is not kept.
+// Failure    none: a step that does not improve the fit is not kept.
 
 #include <vector>
 

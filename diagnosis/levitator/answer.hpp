@@ -6,8 +6,8 @@
 // Held out   the records given as such. Without any, each record in turn: parameters of the same
 //            causes are fitted to the others and judged on it, with nothing of its own; a lone
 //            record is fitted on its first two thirds and judged on the last.
-// Healthy    records of the same rig when it was well: what the file gets wrong of them is no
-//            cause; the search begins at the model that explains them (origin.hpp).
+// Healthy    records of the same rig in good condition. Errors of the file that they show are no
+//            cause; the search starts from the model that explains them (origin.hpp).
 // Form       what all diagnoses share is a diagnosis::SessionAnswer, so that files and pages are
 //            those of every rig; there a fit is that of the upper coil's current, where it was
 //            measured, else of the ball's motion.
@@ -31,7 +31,7 @@ struct HeldOutRun {
   Fit beyond_calibration;
 };
 
-/// Causes that the data cannot tell from a named one.
+/// Causes that the data cannot separate from a named one.
 struct Tie {
   std::string cause;
   std::vector<std::string> others;

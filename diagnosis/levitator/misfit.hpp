@@ -1,10 +1,10 @@
 #pragma once
-// What a set of parameters leaves of records, whitened, and how it changes with the parameters.
+// Whitened residuals of records for a set of parameters, and their Jacobian.
 //
 // Channels   upper coil, lower coil, position: measured minus free-running current, and the
 //            innovation of the motion. Without current probes the position alone.
-// Whitening  an autoregressive filter per channel, of the past 12 samples, from a given fit: what a
-//            model leaves at low frequency counts as little as it repeats itself.
+// Whitening  an autoregressive filter per channel, of the past 12 samples, estimated from a given
+//            fit, so that a slowly varying residual is not counted as independent samples.
 // Slopes     forward differences of the models themselves.
 // Cost       about a millisecond per second of record and parameter. Thread: blocks the caller, two
 //            threads inside.

@@ -7,8 +7,8 @@
 //            shaken faster and faster: a load that only adds parts from what scales a force; a test
 //            signal of a bit per period: delays and lags part from each other. As much of it as the
 //            causes need, all of it when the remainder has no name.
-// Not in it  what no record of the rig can tell: a mass from a force constant (weigh the ball), the
-//            gain of a probe from what it measures (an ammeter). The words say so.
+// Not in it  pairs that no record of the rig separates: a mass and a force constant (weigh the
+//            ball), the gain of a probe and its current (an ammeter). The text says so.
 // Size       leading takes two fifths of the touchdown clearance, shaking a seventh; the test
 //            signal is cut back where the ball goes further than four fifths.
 // Thread     any; pure.
@@ -18,7 +18,7 @@
 
 namespace levitas::levitator {
 
-/// What would separate the named causes from those that they cannot be told from; empty when
+/// The experiment that separates the named causes from their ties; empty when
 /// nothing is left to separate.
 [[nodiscard]] std::vector<std::string> Separations(const Answer& answer);
 

@@ -8,7 +8,7 @@
 namespace levitas::levitator {
 namespace {
 
-/// Squares of an error and of what it is compared with, over a stretch of time.
+/// Sums of squares of an error and of its reference, over a stretch of time.
 struct Block {
   double error{}, reference{}, noise{};
 

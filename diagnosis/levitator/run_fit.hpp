@@ -25,7 +25,7 @@ struct RunFit {
   Fit current, away, motion;  ///< of the upper coil, the lower coil, the ball
 };
 
-/// What a model leaves of a record, at the rows that count.
+/// Residual of a record at the evaluated rows.
 struct Errors {
   std::array<std::vector<double>, 2> current_a, measured_a;
   std::vector<double> motion_m, position_m;

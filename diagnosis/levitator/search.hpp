@@ -1,10 +1,10 @@
 #pragma once
-// The search for what is wrong with the model of a levitator, and its answer.
+// Model selection for a levitator: which causes explain its residual.
 //
 // Method     calibrate; screen every cause; refit the best few on the nonlinear model; accept the
 //            best; drop earlier ones that the others explain (backward check); again until none
-//            gains kDecisive and kForm of what is explained already. Whitened anew after every
-//            acceptance, since what has been explained is no noise.
+//            gains kDecisive and kForm of what is explained already. The whitening filter is
+//            re-estimated after every acceptance.
 // Score      nat that a cause adds to all others; of one that was not named, what it would add in
 //            place of the named one it does most for.
 // Held out   the same gain in likelihood on records that were not fitted, where there are any.
@@ -20,7 +20,7 @@ namespace levitas::levitator {
 
 inline constexpr double kForm = 0.001;  ///< share of the evidence that a law's form may leave
 
-/// What comes within so much of a cause's evidence cannot be told from it: the law's form decides.
+/// Causes within this share of a cause's evidence are a tie: force laws are not known better.
 inline constexpr double kFormOfTie = 0.005;
 
 struct Score {
@@ -50,7 +50,7 @@ struct SearchSettings {
 [[nodiscard]] Found Search(const Misfit& data, const Misfit* held_out,
                            const SearchSettings& settings);
 
-/// Values of a fit for records that it has not seen: of what each has of its own, the mean.
+/// Parameters of a fit for validation records: of the per-record parameters, the mean.
 [[nodiscard]] Theta ForOthers(const Theta& theta, std::size_t records);
 
 }  // namespace levitas::levitator

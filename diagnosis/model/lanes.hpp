@@ -56,7 +56,7 @@ struct LaneModel {
 struct LaneState {
   std::array<Lane, 2 * kMaxModes> q{}, v{};
   std::array<Lane, kMaxAxes> coil{}, sensor{}, force{};
-  // What the terms add over the period; consumed by Advance.
+  // Contributions of the terms over the period; consumed by Advance.
   std::array<Lane, 2 * kMaxModes> add_modal{};
   std::array<Lane, kMaxAxes> add_force{}, add_coil_end{}, add_coil_mean{};
 };

@@ -3,7 +3,7 @@
 //
 // Why      a current that follows noisy commands moves by tenths of the bias within a period, and
 //          the force goes with its square: the force of the mean current is not the mean force, and
-//          a delay that is told by their difference would look like another stiffness.
+//          a delay, which shows in their difference, would look like another stiffness.
 // Method   the current relaxes exponentially towards its command; the mean of a force that is
 //          quadratic in it is that of the two currents a standard deviation off the mean.
 // Units    SI, bearing frame. Thread: one object per model run.

@@ -56,7 +56,7 @@ struct MeshView {
   /// Displacement and rate; `q` and `v` over the modes of both planes.
   [[nodiscard]] TeethMoment At(double angle_rad, double speed_rad_per_s, const float* q,
                                const float* v) const noexcept;
-  /// What of a displacement the force follows.
+  /// Part of a displacement that the force follows.
   [[nodiscard]] std::complex<double> Seen(std::complex<double> delta) const noexcept {
     return isotropic ? delta : normal * std::real(delta * std::conj(normal));
   }

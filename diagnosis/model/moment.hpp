@@ -1,5 +1,5 @@
 #pragma once
-// What the model did in one sampling period, as the terms of a diagnosis look at it.
+// Sample point: state, currents and angle of the model in one sampling period, as terms need it.
 //
 // Made by    ModelRun, once per sample of a record; read by every term and by the sensitivities.
 // Instant    "mid": mean of the start (after the observer's correction) and the end of the period;

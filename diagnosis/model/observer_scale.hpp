@@ -5,7 +5,7 @@
 // Why     a gain that stays while the readings per state grow makes a faster observer, which lets
 //         more noise through than the gain was designed for, and one that shrinks with them a
 //         slower one: data would prefer a scale for the noise alone. Divided, only what the model
-//         predicts can tell the scales apart.
+//         predicts can identify the scales.
 // Scales  readings: the sensor's gain over the file's. modes: of one plane, the readings per modal
 //         displacement, sum_a h (h + dh) / sum_a h^2 over the plane's sensors.
 //         K'[row][axis] = K[row][axis] / (modes[row] readings[axis]).

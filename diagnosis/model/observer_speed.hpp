@@ -5,7 +5,7 @@
 
 namespace levitas::diagnosis {
 
-/// What is not explained by force noise of this size, the model must.
+/// Process noise; the model must explain all motion beyond it.
 struct ObserverSpeed {
   double force_noise_share;
   double force_drift_share;

@@ -45,7 +45,7 @@ class SensitivityBlock {
     double theta{};
   };
 
-  /// One term: what it adds with and without the step.
+  /// Contribution of one term with and without the step.
   struct Probe {
     Term now, stepped;
     double theta{}, step{}, scale{};

@@ -1,15 +1,15 @@
 #pragma once
-// Models that lose the rotor they are to follow, and the observers that hold them.
+// Divergence of the model or of its sensitivities, and the observers that prevent it.
 //
-// Why        a magnet pulls the harder the nearer the rotor: a model that is driven far enough from
-//            the measured rotor, by an effect it does not know, falls into the magnet whatever a
-//            slow observer does. Nothing can be learnt from there: neither misfit nor slopes speak
-//            of the rig any more. A faster observer sees less and holds the model until the cause
-//            is known.
+// Why        a magnet pulls harder the nearer the rotor is. A model that an unknown effect drives
+//            far enough from the measured rotor falls into the magnet, and a slow observer cannot
+//            prevent it. Its misfit and slopes then carry no information about the rig. A faster
+//            observer shows less of slow effects and holds the model until the cause is
+//            known.
 // Strays     a predicted reading beyond kShare of the clearance that is also kTimes as far out as
 //            any measured one of its record, or no number at all.
-// Runs away  derivatives that grow along the run until they say nothing: a model that is led by a
-//            wrong cause nearly loses the rotor, and its neighbours do.
+// Runs away  the sensitivities grow along the run without bound: under a wrong cause the model
+//            nearly loses the rotor, and slightly different models do.
 // Thread     any; pure.
 
 #include <vector>

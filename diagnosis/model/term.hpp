@@ -1,5 +1,5 @@
 #pragma once
-// One number by which a rig may differ from its nominal model, as what it adds to the model.
+// Perturbation of the model by one parameter in which a rig may differ from its nominal model.
 //
 // Model      x[n+1] = f(x[n], u[n]) + B a(theta),  y[n] = h(x[n]) + r(theta): a term adds forces at
 //            the magnets, modal accelerations and coil currents over a period, and readings at a
@@ -21,7 +21,7 @@
 
 namespace levitas::diagnosis {
 
-/// What a term adds over one period, and to the reading at a sample.
+/// Contribution of a term over one period, and to the reading at a sample.
 struct Addition {
   std::array<double, kMaxAxes> force_n{};      ///< at the magnets, held over the period
   std::array<double, kMaxAxes> coil_end_a{};   ///< change of the coil current at the end
@@ -46,11 +46,11 @@ using Adds = std::function<void(const Moment&, double theta, Addition&)>;
 
 struct Term;
 
-/// Laws that differ by shape parameters, of which one stands for its neighbours.
+/// Parametric family of force laws: one member represents nearby values of the shape parameters.
 struct Family {
   using Shape = std::vector<double>;
   Shape shape;          ///< each > 0; SI units
-  Shape log_width;      ///< half the distance to the next member, or half of what is usual, ln
+  Shape log_width;      ///< ln of half the distance to the next member, or of half the usual one
   Shape linearised_as;  ///< shape at which slopes exist; another one needs its own
   std::function<Term(const Shape& shape)> member;
 };
@@ -60,12 +60,12 @@ struct Term {
   std::string place;   ///< "de_x", "mode 3", "order 2, nde_y"
   std::string parameter;
   std::string unit;
-  double usual{};          ///< what a healthy rig's records have shown it to be; 0 without them
-  double tolerance{};      ///< standard deviation of theta on a healthy rig; 0: not a nuisance
-  double wide{1.0};        ///< standard deviation of theta when the effect is present
+  double usual{};          ///< prior mean, as healthy records have shown it; 0 without them
+  double tolerance{};      ///< prior std of theta on a healthy rig; 0: not a nuisance
+  double wide{1.0};        ///< prior std of theta when the effect is present
   double step{1.0};        ///< theta at which a non-linear term is linearised from 0
   bool positive{false};    ///< cannot be negative
-  bool linear{true};       ///< adds theta times what it adds at theta = 1
+  bool linear{true};       ///< contribution is proportional to theta
   bool rotating{false};    ///< adds nothing at rest
   bool moves_coil{false};  ///< its drive adds to the coil current, and to nothing else
   bool timed{false};  ///< its drive looks at when and how fast coils act (Moment::late_periods)
@@ -78,8 +78,8 @@ struct Term {
 
   Family family;
 
-  /// What it does to the linear model about which derivatives are taken: throughout, and at one
-  /// sample. Empty: too little to matter.
+  /// Its change of the linear model about which derivatives are taken: constant, and at one sample.
+  /// Empty: negligible.
   std::function<void(double theta, LinearChange&)> change;
   std::function<void(const Moment&, double theta, AddedSlopes&)> slope;
 

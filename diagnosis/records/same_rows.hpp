@@ -14,7 +14,7 @@
 
 namespace levitas::diagnosis {
 
-/// `option` and `remedy` are told.
+/// `option` and `remedy` appear in the message.
 void RefuseSameRows(const std::vector<Record>& data, const std::vector<Record>& others,
                     const std::string& option, const std::string& remedy);
 

@@ -14,7 +14,7 @@
 
 namespace levitas::diagnosis {
 
-/// Entries of effects of what was calibrated and has no key of its own.
+/// Entries of `effects` for calibrated values that have no key of their own.
 [[nodiscard]] std::vector<std::string> CalibratedEntries(const SessionAnswer& answer);
 [[nodiscard]] std::string CalibratedRig(const SessionAnswer& answer, const config::RigFile& rig);
 

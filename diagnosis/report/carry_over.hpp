@@ -1,9 +1,9 @@
 #pragma once
-// Whether an answer holds on records that were not fitted: what one does not carry over to another
-// speed or current, it has not understood.
+// Validation: whether the extended model also explains records that were not fitted, for instance
+// at another speed or current.
 //
-// Failed     the extended model leaves more than kFarAboveNoise times the noise (rms) on held-out
-//            records of their own, and as many times more than on those that were fitted.
+// Failed     on separate validation records the extended model leaves a residual of more than
+//            kFarAboveNoise times the noise (rms) and kFarAboveNoise times that on the fitted ones.
 // Thread     any; pure.
 
 #include <string>
@@ -15,11 +15,11 @@ struct SessionAnswer;
 inline constexpr double kFarAboveNoise = 1.5;
 
 [[nodiscard]] bool CarriesOver(const SessionAnswer& answer);
-/// What to tell of an answer that does not; empty where it does.
+/// Sentence for an answer that does not carry over; empty for one that does.
 [[nodiscard]] std::string CarryOverSentence(const SessionAnswer& answer);
-/// What to record or fit then.
+/// The next experiment for an answer that does not carry over.
 [[nodiscard]] std::string CarryOverExperiment(const SessionAnswer& answer);
-/// Whether the held-out records turn faster than what was fitted.
+/// Whether the rotor turns faster in the validation records than in the fitted ones.
 [[nodiscard]] bool HeldOutIsFaster(const SessionAnswer& answer);
 
 }  // namespace levitas::diagnosis

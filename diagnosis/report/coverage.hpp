@@ -1,11 +1,11 @@
 #pragma once
-// What records can and cannot tell, whatever is found in them: "nothing is hidden" holds only for
-// what would have shown.
+// Persistence of excitation: which effects the records can show at all. The verdict `none` holds
+// only for these.
 //
-// Rotation   a rotor that does not turn shows nothing that turns with it.
-// Test       without a test signal the currents hold little but the feedback of noise: what the
-//            loop does to them hardly shows. A CSV without the column does not say that it holds
-//            one, and counts as if it held none.
+// Rotation   effects that rotate with the rotor are not observable at rest.
+// Test       without a test signal the currents contain little but fed-back noise, and effects of
+//            the loop (gains, delays, bandwidths) are hardly observable. A CSV without the column
+//            counts as without test signal.
 // Thread     any; pure.
 
 #include <string>
@@ -21,11 +21,11 @@ struct Coverage {
 };
 
 [[nodiscard]] Coverage CoverageOf(const SessionAnswer& answer);
-/// Effects that would not show, or hardly.
+/// Effects that are not, or hardly, observable.
 [[nodiscard]] std::vector<std::string> CannotTell(const SessionAnswer& answer);
-/// One sentence of what the records cannot tell; empty when they can tell all.
+/// One sentence naming those effects; empty when there are none.
 [[nodiscard]] std::string CannotTellSentence(const SessionAnswer& answer);
-/// What to record for that; empty when nothing is missing.
+/// The record that would show them; empty when nothing is missing.
 [[nodiscard]] std::string MissingRecords(const SessionAnswer& answer);
 
 }  // namespace levitas::diagnosis

@@ -1,5 +1,5 @@
 #pragma once
-// What a cause is in a rig file: keys and values of one entry of the list `effects`.
+// Keys and values of a cause as one entry of the list `effects` of a rig file.
 //
 // Keys     those of docs/effects.md with their units, so that what is printed can be copied into a
 //          file.
@@ -27,7 +27,7 @@ struct EntryValue {
 };
 using EntryValues = std::vector<EntryValue>;
 
-/// Phases and directions are told and written in one unit, the one that rig files are written in.
+/// Phases and directions are reported in the unit of rig files.
 inline constexpr const char* kPhaseKey = "phase_deg";
 [[nodiscard]] EntryValue PhaseValue(double phase_rad);
 

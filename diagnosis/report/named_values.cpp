@@ -70,7 +70,7 @@ class Bracket {
     other.theta[parameter] += by;
     return At(other);
   }
-  /// Effects of these kinds act beside what the file has in keys of its own.
+  /// Effects of these kinds add to a value that the file has under its own key.
   void AddOfFile(NamedParameter& p) const {
     const double found = p.value * p.si;
     if (at_.effect == "extra_delay") {

@@ -1,15 +1,15 @@
 #pragma once
-// The numbers of an answer under the keys and in the units of the rig file: parameters of the
-// causes, and what the calibration has moved.
+// Parameters of the causes and calibrated values of an answer, under the keys and in the units of
+// the rig file.
 //
 // Interval   of parameters 5 to 95 % (90 %): every estimate to either side, squares added. The form
 //            of a law (knee, clearance, frequency of a support) is sought without one: there the
 //            bracket is the distance to the neighbouring forms.
-// Calibrated total values beside the causes, with the standard deviation that the data leave.
-//            Harmonics are told as amplitude and phase; unbalance is the file's with what was
-//            found. A mode's shape has no key: its change is told as a share of its rms.
-// Additions  an unbalance or a delay that is a cause stands in the list `effects`, and acts beside
-//            what the file has in `unbalance` and `delay_samples`.
+// Calibrated total values of all parameters but the causes, with their posterior std.
+//            Harmonics are given as amplitude and phase; unbalance is the sum of the file's and the
+//            estimate. A mode's shape has no key: its change is given as a share of its rms.
+// Additions  an unbalance or a delay that is a cause stands in the list `effects`, and adds to the
+//            file's `unbalance` and `delay_samples`.
 // Thread     any; pure.
 
 #include <complex>
@@ -25,7 +25,7 @@ struct SessionAnswer;
 struct Estimate;
 struct Term;
 
-/// What the rig file has of the same in keys of its own, and that with what was found.
+/// The rig file's own value of the same quantity, and its sum with the estimate.
 struct OfFile {
   double nominal{}, total{};  ///< unit of the parameter
 };

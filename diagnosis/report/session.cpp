@@ -49,7 +49,7 @@ double Fastest(const std::vector<Record>& records) {
   return fastest;
 }
 
-/// What the records hold besides positions and currents.
+/// Speed range, duration and excitation of the records.
 void Describe(const std::vector<Record>& records, const std::vector<Record>& holdout,
               SessionAnswer& out) {
   out.fastest_rad_per_s = Fastest(records);

@@ -15,7 +15,7 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// Pairs that look alike, and what tells them apart.
+/// Pairs of similar effects, and the experiment that separates them.
 struct Pair {
   const char* first;
   const char* second;

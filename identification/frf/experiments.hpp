@@ -19,7 +19,7 @@
 
 namespace levitas::identification {
 
-/// What is used of a sine that was held: whole periods, the transient over.
+/// Used part of a held sine: whole periods after the transient.
 struct HeldSine {
   std::size_t begin{}, end{};  ///< rows of the record
   double cycles_per_sample{};

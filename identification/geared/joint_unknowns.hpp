@@ -17,7 +17,7 @@ class JointUnknowns {
   /// way: a tilt's resonance may lie on the other side of a line.
   [[nodiscard]] std::vector<Eigen::VectorXd> starts() const;
   [[nodiscard]] GearedParameters At(const Eigen::VectorXd& x) const;
-  /// What is known beside the lines, as residuals in standard deviations, and their derivative.
+  /// Prior knowledge besides the lines, as residuals in standard deviations, and their derivative.
   [[nodiscard]] Eigen::VectorXd Held(const Eigen::VectorXd& x) const { return hold_ * x; }
   [[nodiscard]] const Eigen::MatrixXd& HeldBy() const noexcept { return hold_; }
   /// Values and standard deviations into `p`.

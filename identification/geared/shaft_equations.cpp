@@ -22,7 +22,7 @@ constexpr double kHeldScale = 0.01;
 constexpr Index kUnbalance = 4;
 constexpr Index kUnknowns = 8;
 
-/// What a relative error of every known number of a shaft does to its force.
+/// Sensitivity of a shaft's force to a relative error of each known parameter.
 double KnownSigma(const ShaftKnown& s, const GearedLine& line, Complex r, double uncertainty) {
   const double w = line.frequency_rad_per_s;
   const Complex stiff = s.stiffness_n_per_m - TiltSoftening(s, line);

@@ -98,7 +98,7 @@ void TakePoles(const ModalStart& start, const Assigned& assigned, Eigen::VectorX
   }
 }
 
-/// What a pairing costs by itself: a rig file knows its frequencies to some per cent.
+/// Prior cost of a pairing: the rig file's frequencies are known to some per cent.
 double Strangeness(const ModalStart& start, const Assigned& assigned) {
   const ModalLayout& at = start.frame.layout;
   double cost = 0.0;

@@ -5,8 +5,8 @@
 //           mass, centre and inertia (shapes 1/sqrt(m) and (z - zc)/sqrt(It), planes where the rig
 //           file says), m bending ones with free deflections at actuator and sensor planes.
 // Vector    positive numbers as logarithms, deflections times sqrt(m_nominal): steps of like size.
-// Prior     how far from the rig file a number may be, one standard deviation: wide, so that data
-//           decide wherever they can; it only holds what no data of this kind can tell.
+// Prior     standard deviation of a parameter about the rig file: wide, so that the data decide
+//           where they can; it only holds directions that such data do not identify.
 // Units     SI in `Rotor` and `Physical`; the vector is dimensionless but for the delay (samples).
 // Thread    any.
 
@@ -54,7 +54,7 @@ struct ModesBeyond {
   Eigen::MatrixXd actuator, sensor;  ///< modes x bearings [1/sqrt(kg)]
 };
 
-/// What is known of the rig and stays as it is.
+/// Known parameters of the rig, which are not fitted.
 struct ModalFrame {
   ModalLayout layout;
   Eigen::VectorXd actuator_z_m;

@@ -6,7 +6,7 @@
 //           prior stay where they are: one problem, many beginnings.
 // Same      the costs differ by less than 0.1 %, and the plants of two fits differ by less than a
 //           tenth of what the data allow: mean of |P_1 - P_2|^2 / (var + (floor |P_data|)^2) < 0.01
-//           over all fitted responses. What no response can tell does not count.
+//           over all fitted responses. Directions that no response identifies do not count.
 // Thread    any.
 
 #include "common/random.hpp"

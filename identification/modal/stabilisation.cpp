@@ -153,7 +153,7 @@ std::vector<ProposedMode> Propose(const std::vector<OrderPole>& all, std::size_t
   return modes;
 }
 
-/// What the scan sees confirms a stable pole nearby, or is a mode by itself.
+/// A resonance of the scan confirms a stable pole nearby, or is a mode by itself.
 void AddScanned(const std::vector<ScannedMode>& scanned, std::vector<ProposedMode>& modes) {
   const std::size_t stable = modes.size();
   for (const ScannedMode& mode : scanned) {

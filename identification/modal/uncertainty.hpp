@@ -1,5 +1,5 @@
 #pragma once
-// How well each unknown is known, and what the data cannot tell at all.
+// Standard deviation of each parameter, and directions that the data do not identify.
 //
 // Equation  covariance C = max(1, chi^2) (J^T J + diag(1/prior^2))^-1 over the fitted unknowns, or,
 //           where that is larger, C (S + diag(1/prior^2)) C with the scatter S of J^T r over groups

@@ -1,5 +1,5 @@
 #pragma once
-// What the magnets' nonlinearity makes of ki and ks in an experiment, from what was recorded in it.
+// Effective ki and ks in an experiment, with the magnets' nonlinearity, from its record.
 //
 // Equation  F = k [((i0+i)/(s0-x))^2 - ((i0-i)/(s0+x))^2]; the best linear model of jointly
 //           Gaussian i and x has the means of its slopes (Bussgang 1952). To the second order, with

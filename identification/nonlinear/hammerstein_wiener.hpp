@@ -48,7 +48,7 @@ struct HammersteinWienerOptions {
   std::vector<SensorCharacteristic> sensors{};  ///< per output; empty: straight
 };
 
-/// What is estimated, as numbers; enough to run the model.
+/// Estimated parameters; sufficient to run the model.
 struct HammersteinWienerModel {
   Eigen::Index inputs{}, outputs{};
   HammersteinWienerOptions options;

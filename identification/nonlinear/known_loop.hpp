@@ -6,7 +6,7 @@
 //           commands while it levitates.
 // Use       AtRest() begins a run with the law's states zero and the excitation's first row; the
 //           feedback refers to this object, which must outlive it.
-// Thread    any number of runs beside one another.
+// Thread    any number of runs in parallel.
 
 #include <Eigen/Core>
 

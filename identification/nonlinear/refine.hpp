@@ -1,5 +1,5 @@
 #pragma once
-// Coefficients of a lagged model that make its free run fit best, from those that predict one step.
+// Coefficients of a lagged model that minimise its free-run error, from the one-step estimate.
 //
 // Equation  minimises sum_k |y_k - yhat_k(theta)|^2 over the free run by Levenberg-Marquardt; the
 //           exact sensitivities follow the model's own recursion,

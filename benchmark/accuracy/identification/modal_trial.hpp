@@ -9,7 +9,7 @@
 // Truth     ki and ks of a small signal about the static working point: the magnet's slopes where
 //           load and a probe's offset put the rotor; at the magnets, between which and the probes
 //           the rotor sags.
-// Products  what a response from current to reading can tell: ki g/m and ks/m.
+// Products  identifiable from a response from current to reading: ki g/m and ks/m.
 // Units     SI. Thread any.
 
 #include "benchmark/accuracy/identification/simulated_campaign.hpp"

@@ -1,4 +1,4 @@
-// amb bench pump: models of the levitated pump beside one another and beside what noise allows.
+// amb bench pump: models of the levitated pump, compared with each other and with the noise floor.
 
 #include <fmt/core.h>
 

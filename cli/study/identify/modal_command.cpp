@@ -135,7 +135,7 @@ std::string Together(const Unidentifiable& direction) {
   return fmt::format("{}", fmt::join(names, " with "));
 }
 
-/// By the experiment that would tell, one line for all directions of an experiment.
+/// Grouped by the experiment that would determine them, one line per experiment.
 void PrintLimits(const ModalResult& r) {
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;
   for (const Unidentifiable& direction : r.uncertainty.directions) {
@@ -177,7 +177,7 @@ void PrintFit(const ModalResult& r) {
   }
 }
 
-/// What the record departs by from the rig file, and from the identified model.
+/// Deviation of the record from the rig file, and from the identified model.
 void PrintResiduals(const ModalResult& r) {
   fmt::print("\nresidual per channel, rms in units of what noise allows: rig file -> identified\n");
   for (const SpeedQuality& q : r.quality) {

@@ -1,6 +1,6 @@
 #pragma once
 // Frequency responses as files: CSV for other tools, JSON, and the Bode picture with or without a
-// model beside the data.
+// model next to the data.
 //
 // Failure  BadInput when a file cannot be written.
 
