@@ -63,7 +63,7 @@ std::vector<SignatureRow> Magnets() {
   };
   const std::complex<double> root = std::sqrt(std::complex<double>(0.0, kTwoPi * kTone_hz * 2e-4));
   return {
-      {Id::kCurrentGain, Place::kMagnet, "1f", -1,
+      {Id::kCurrentGain, Place::kAmplifier, "1f", -1,
        [] {
          return ForceOf(Entry(Id::kCurrentGain, {0.8}), 0.2, 0.0)[0] / (kKi_n_per_a * 0.2) - 1;
        },
