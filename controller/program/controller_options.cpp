@@ -9,15 +9,9 @@
 
 namespace levitas::controller_program {
 
-bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStatus& status) {
-  CLI::App app{"Magnetic bearing controller: levitates the rig it finds on its port",
-               "amb-controller"};
-  const std::map<std::string, bool> paces{{"lockstep", false}, {"realtime", true}};
-  app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
-  app.add_option("--controller", options.controller, "Controller file, or a shipped name")
-      ->required();
-  app.add_option("--scenario", options.scenario,
-                 "Scenario to play; without it commands come over the network");
+namespace {
+
+void AddNetworkOptions(CLI::App& app, ControllerOptions& options) {
   app.add_option("--port", options.port,
                  "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can (buses of the rig's file), or "
                  "can:IF[,IF...]")
@@ -35,21 +29,41 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
          "--commands", [&options] { options.commands = CommandWish::kYes; },
          "Take commands over the network also with a rig on a real bus and without a key")
       ->excludes(none);
-  app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
-      ->transform(CLI::Transformer(paces))
-      ->type_name("PACE");
-  app.add_option("--duration", options.duration_s, "Land and end after this long [s]")
-      ->check(CLI::PositiveNumber);
+}
+
+/// `budget`: files and megabytes of trip files.
+void AddRecordingOptions(CLI::App& app, ControllerOptions& options,
+                         std::vector<std::size_t>& budget) {
   app.add_option("--record", options.record, "Session file to write");
   app.add_flag("--overwrite", options.overwrite, "Replace a session that is there already");
   app.add_option("--trip-folder", options.trip_folder, "Where a trip's recording goes")
       ->capture_default_str();
-  std::vector<std::size_t> budget{options.trip_files, options.trip_megabytes};
   app.add_option("--trip-budget", budget,
                  "FILES MB: so many trip files, and so much, stay in that folder; older ones go")
       ->expected(2)
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
+}
+
+}  // namespace
+
+bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStatus& status) {
+  CLI::App app{"Magnetic bearing controller: levitates the rig it finds on its port",
+               "amb-controller"};
+  const std::map<std::string, bool> paces{{"lockstep", false}, {"realtime", true}};
+  app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
+  app.add_option("--controller", options.controller, "Controller file, or a shipped name")
+      ->required();
+  app.add_option("--scenario", options.scenario,
+                 "Scenario to play; without it commands come over the network");
+  AddNetworkOptions(app, options);
+  app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
+      ->transform(CLI::Transformer(paces))
+      ->type_name("PACE");
+  app.add_option("--duration", options.duration_s, "Land and end after this long [s]")
+      ->check(CLI::PositiveNumber);
+  std::vector<std::size_t> budget{options.trip_files, options.trip_megabytes};
+  AddRecordingOptions(app, options, budget);
   app.add_option("--seed", options.seed, "Seed of the rig, noted in the session")
       ->check(WhyNoWholeNumber)
       ->capture_default_str();

@@ -32,7 +32,8 @@ struct Sums {
 
 class Misfit {
  public:
-  Misfit(NominalRig rig, std::vector<Series> series) : rig_(rig), series_(std::move(series)) {}
+  Misfit(NominalRig rig, std::vector<Series> series)
+      : rig_(std::move(rig)), series_(std::move(series)) {}
 
   /// By what the model leaves at theta; `memory` 0 only scales.
   [[nodiscard]] Filters Whiten(const Theta& theta, std::size_t memory) const;
