@@ -79,8 +79,10 @@ std::string TakeDelayOfPort(const AnalysisOptions& options, config::RigFile& rig
   }
   socketcan::ApplyBusDelay(rig,
                            socketcan::PlanConnection(rig, options.rig_name, options.port).budget);
-  return fmt::format("delay from sample to current: {:.2f} periods, of {} (the rig file: {:.2f})\n",
-                     rig.plant.delay_samples, options.port, of_file);
+  return fmt::format(
+      "delay from sample to current: {:.2f} periods, the longer one of {} and the rig file "
+      "({:.2f})\n",
+      rig.plant.delay_samples, options.port, of_file);
 }
 
 void AddControllerOption(CLI::App& command, AnalysisOptions& options) {

@@ -21,9 +21,14 @@ namespace {
 void RefuseUnknownCommand(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   const std::string found = argv[1];
-  std::vector<std::string> known{"test", "package"};  // of the launcher, ./amb
+  if (found == "test" || found == "package") {
+    throw Problem(
+        ExitStatus::kUsage,
+        fmt::format("'{0}' is of the launcher: ./amb {0} in the folder of the source", found));
+  }
+  std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-  if (std::find(known.begin() + 2, known.end(), found) != known.end()) return;
+  if (std::find(known.begin(), known.end(), found) != known.end()) return;
   throw Problem(ExitStatus::kUsage, fmt::format("no command '{}'; nearest: {}. All: {}", found,
                                                 Nearest(found, known), Listed(known)));
 }
@@ -67,7 +72,7 @@ int Parse(int argc, char** argv, const AddCommands& add_commands) {
     rt::Say(fmt::format("amb: {}", problem.what()));
     return static_cast<int>(problem.status());
   } catch (const std::bad_alloc&) {
-    rt::Say("amb: not enough memory for this; nothing else is wrong with the command");
+    rt::Say("amb: not enough memory for this");
     return static_cast<int>(ExitStatus::kOther);
   } catch (const std::exception& error) {
     rt::Say(fmt::format("amb: {}", error.what()));

@@ -29,6 +29,10 @@ CLI::App* AddStudyCommand(CLI::App& app, std::string_view name) {
 void StartStudy(char** argv) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) {
+    throw Problem(ExitStatus::kOther, "/proc/self/exe: " + error.message() +
+                                          "; without it amb does not find amb-study");
+  }
   const std::string program = (self.parent_path() / "amb-study").string();
   execv(program.c_str(), argv);
   throw Problem(ExitStatus::kOther,

@@ -8,6 +8,7 @@
 // Decision subnormal numbers are not flushed to zero. A filter's memory decays to them where its
 //          input is exactly zero, and they cost a law of four axes nothing that can be measured and
 //          the largest state-space law a fraction of a microsecond (docs/timing.md).
+// Stays    set: what the thread computed in before is not restored.
 // Failure  std::terminate where the processor refuses its default state, which none does.
 
 #include <cfenv>

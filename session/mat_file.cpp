@@ -89,10 +89,14 @@ bool Get(int fd, Sequence& what, std::uint64_t most) {
   return ReadAll(fd, what.data(), what.size() * sizeof *what.data());
 }
 
+/// Never raises a limit that is there, and leaves none to be raised again.
 void Lower(decltype(RLIMIT_AS) which, std::uint64_t most) {
   rlimit limit{};
   if (::getrlimit(which, &limit) != 0) return;
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, most);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, most);
+  // A second more of processor time: at the soft limit it ends by a signal that says why.
+  const rlim_t grace = which == RLIMIT_CPU ? 1 : 0;
+  if (limit.rlim_cur < limit.rlim_max) limit.rlim_max = limit.rlim_cur + grace;
   (void)::setrlimit(which, &limit);
 }
 
@@ -122,7 +126,7 @@ bool Send(int to, Answer answer) { return WriteAll(to, &answer, sizeof answer); 
 void ReadAndSend(int to, const std::string& path, const std::string& matrix,
                  const std::vector<std::string>& matrix_rows) {
   try {
-    const MatTable table = ReadMatHere(path, matrix, matrix_rows);
+    const MatTable table = ReadMatInThisProcess(path, matrix, matrix_rows);
     const std::uint64_t count = table.names.size();
     bool sent = Send(to, Answer::kTable) && WriteAll(to, &count, sizeof count);
     for (std::size_t i = 0; sent && i < count; ++i) {
@@ -169,6 +173,7 @@ std::string HowItEnded(pid_t child) {
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!WIFSIGNALED(status)) return "the memory allowed for it does not suffice";
+  if (WTERMSIG(status) == SIGKILL) return "the reading process was killed, of memory or of time";
   if (WTERMSIG(status) == SIGXCPU) return "the time allowed for it does not suffice";
   return fmt::format("the reading process ended with signal {} ({})", WTERMSIG(status),
                      ::strsignal(WTERMSIG(status)));
@@ -223,8 +228,9 @@ MatTable ReadMat(const std::string& path, const std::string& matrix,
   MatTable table;
   if (Receive(from.fd(), path, table)) return table;
   throw BadInput(fmt::format(
-      "{}: cannot be read as a MAT file: {}; a file of {} bytes may take {} MiB and {} s. It is "
-      "damaged, or made to harm: export it again",
+      "{}: cannot be read as a MAT file: {}; a file of {} bytes may take {} MiB and {} s. It may "
+      "be "
+      "damaged: export it again",
       path, child.End(), file_bytes, MostMemory(file_bytes) / kMiB, MostSeconds(file_bytes)));
 }
 

@@ -1,8 +1,8 @@
 #pragma once
-// The vectors, or one matrix, of a MAT file, read by a process of their own.
+// The vectors, or one matrix, of a MAT file, read by a process of its own.
 //
-// Why        libmatio and libhdf5 reserve what a file claims and are not hardened against files
-//            that were made to harm. What happens to the process that reads happens to nobody else.
+// Why        libmatio and libhdf5 reserve what a file claims and may crash on a damaged one: then
+//            the process that reads ends, and the program that asked says why.
 // Sizes      before a variable's numbers are read: no more numbers than the file has bytes, or
 //            kMostPerByte times as many when they may be compressed; and kMostNumbers in all.
 // Limits     of the reading process: memory MostMemory(), processor time MostSeconds(), both
@@ -10,6 +10,7 @@
 // Failure    BadInput: what is claimed and what the file can hold, or which limit ended the
 //            reading.
 // Thread     any; forks, and waits for the other process.
+// Not done   a sandbox: the reading process has the user's files and rights.
 
 #include <cstddef>
 #include <cstdint>

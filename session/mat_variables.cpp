@@ -40,6 +40,10 @@ std::vector<double> Numbers(const matvar_t& variable) {
       return Converted<double>(variable, count);
     case MAT_C_SINGLE:
       return Converted<float>(variable, count);
+    case MAT_C_INT64:  // beyond 2^53 to the nearest double, as MATLAB's own double() gives it
+      return Converted<std::int64_t>(variable, count);
+    case MAT_C_UINT64:
+      return Converted<std::uint64_t>(variable, count);
     case MAT_C_INT32:
       return Converted<std::int32_t>(variable, count);
     case MAT_C_UINT32:
@@ -100,6 +104,8 @@ bool IsRealMatrix(const matvar_t& variable) {
   switch (variable.class_type) {
     case MAT_C_DOUBLE:
     case MAT_C_SINGLE:
+    case MAT_C_INT64:
+    case MAT_C_UINT64:
     case MAT_C_INT32:
     case MAT_C_UINT32:
     case MAT_C_INT16:
@@ -114,8 +120,8 @@ bool IsRealMatrix(const matvar_t& variable) {
 
 }  // namespace
 
-MatTable ReadMatHere(const std::string& path, const std::string& matrix,
-                     const std::vector<std::string>& matrix_rows) {
+MatTable ReadMatInThisProcess(const std::string& path, const std::string& matrix,
+                              const std::vector<std::string>& matrix_rows) {
   std::error_code unknown;
   const std::uint64_t file_bytes = std::filesystem::file_size(path, unknown);
   const File file(unknown ? nullptr : Mat_Open(path.c_str(), MAT_ACC_RDONLY));

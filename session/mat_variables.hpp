@@ -11,7 +11,8 @@
 
 namespace levitas::session {
 
-MatTable ReadMatHere(const std::string& path, const std::string& matrix,
-                     const std::vector<std::string>& matrix_rows);
+/// All vectors and matrices by name, or the rows (or columns) of `matrix` when the file has it.
+MatTable ReadMatInThisProcess(const std::string& path, const std::string& matrix,
+                              const std::vector<std::string>& matrix_rows);
 
 }  // namespace levitas::session

@@ -69,7 +69,7 @@ NetworkKey::NetworkKey(const SealingKey::Bytes& secret, std::string path)
 }
 
 std::shared_ptr<const NetworkKey> NetworkKey::Load(const std::string& path) {
-  PrivateFile file = ReadPrivateFile(path, kDigits + 2);  // a line end, and one to see that it ends
+  PrivateFile file = ReadPrivateFile(path, kDigits + 2);  // a line end, and one to see more
   if (!file.refused.empty()) Refuse(path, file.refused);
   std::string& digits = file.content;
   const bool line_end = digits.size() == kDigits + 1 && digits[kDigits] == '\n';
@@ -79,6 +79,8 @@ std::shared_ptr<const NetworkKey> NetworkKey::Load(const std::string& path) {
       sodium_hex2bin(secret.data(), secret.size(), digits.data(), kDigits, nullptr, &bytes,
                      nullptr) != 0 ||
       bytes != secret.size()) {
+    sodium_memzero(digits.data(), digits.size());
+    sodium_memzero(secret.data(), secret.size());
     Refuse(path, fmt::format("its content is not {} hexadecimal digits on one line", kDigits));
   }
   auto key = std::make_shared<const NetworkKey>(secret, path);

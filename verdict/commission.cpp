@@ -42,9 +42,8 @@ std::string BreaksOff(const session::Damage& damage, const std::vector<ModeSpan>
   return fmt::format("the record ends while {}", Name(last));
 }
 
-bool HoldsTestSignal(const cycle::CycleRecord& record) {
-  const AxisArray& signal_a = record.in.op.excitation_a;
-  return std::any_of(signal_a.begin(), signal_a.end(), [](double a) { return a != 0.0; });
+bool Any(const AxisArray& signal) {
+  return std::any_of(signal.begin(), signal.end(), [](double value) { return value != 0.0; });
 }
 
 /// From rest to the highest speed of the run if it was spun.
@@ -68,10 +67,12 @@ Verdict Commission(const CommissionOptions& options) {
   SessionStatistics statistics(rig.numbers, controller.supervisor.sequence.standstill_rad_per_s,
                                kSettleAfterLiftS);
   cycle::CycleRecord record;
-  bool excited = false;
+  bool current_excited = false;
+  bool position_excited = false;
   while (reader.Next(record)) {
     statistics.Add(record);
-    excited = excited || HoldsTestSignal(record);
+    current_excited = current_excited || Any(record.in.op.excitation_a);
+    position_excited = position_excited || Any(record.in.op.excitation_m);
   }
 
   Inputs inputs;
@@ -80,7 +81,13 @@ Verdict Commission(const CommissionOptions& options) {
   analysis::SpeedSweep sweep = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
   inputs.sensitivity = std::move(sweep.speeds);
   inputs.worst_sensitivity = sweep.worst;
-  if (excited) inputs.measured = MeasureSensitivity(options.session_path, rig, controller.law);
+  if (position_excited) {
+    inputs.measured.emplace();
+    inputs.measured->why_not =
+        "they were added to the measured position; only those added to the current are evaluated";
+  } else if (current_excited) {
+    inputs.measured = MeasureSensitivity(options.session_path, rig, controller.law);
+  }
   inputs.step_error =
       analysis::MeasureStepError(rig.plant, controller.law, inputs.session.top_speed_rad_per_s);
   inputs.timing = ReadControllerReport(options.controller_report, rig.numbers.period_s());

@@ -11,7 +11,7 @@
 namespace levitas::verdict {
 namespace {
 
-constexpr double kSameSpeedRadPerS = 0.1;  // 1 rpm
+constexpr double kSameSpeedRadPerS = 0.1;  // about 1 rpm
 
 MeasuredSpeed MeasuredAt(const identification::FrequencyResponse& response,
                          const config::RigFile& rig, const law::LawConfig& law) {

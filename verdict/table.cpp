@@ -219,6 +219,11 @@ std::string Table(const Verdict& verdict) {
   for (const std::string& warning : verdict.warnings) {
     fmt::format_to(out, "WARNING: {}\n", warning);
   }
+  if (verdict.inputs.measured) {
+    fmt::format_to(out,
+                   "\nThe run held test signals, which is no normal use; its orbits are judged as "
+                   "if it were.\n");
+  }
   fmt::format_to(out, "\n{}\n", verdict.sentence);
   return text;
 }

@@ -81,7 +81,7 @@ void JudgeMeasured(const MeasuredSpeed& at, Verdict& verdict) {
     if (!axis.differs) continue;
     verdict.warnings.push_back(fmt::format(
         "sensitivity peak of {} at {:.0f} rpm: measured {:.2f}, computed {:.2f}, {:.0f} % apart: "
-        "the rig file or the controller file is not what runs",
+        "the rig file or the controller file is probably not what runs",
         axis.channel, speed_rpm, axis.peak, axis.computed_peak,
         100.0 * std::abs(axis.computed_peak - axis.peak) / axis.peak));
   }

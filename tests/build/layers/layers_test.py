@@ -30,7 +30,7 @@ def configure(libraries, files, last=""):
                  f'include("{SOURCE}/cmake/Layers.cmake")']
         for name, (where, layer, uses) in libraries.items():
             lines.append(f"levitas_library({name} LAYER {layer} FOLDER {where} {uses})")
-        lines += ["levitas_check_layers()", last]
+        lines += [last, "levitas_check_layers()"]
         (root / "CMakeLists.txt").write_text("\n".join(lines) + "\n")
         for path, text in files.items():
             (root / path).parent.mkdir(parents=True, exist_ok=True)
@@ -98,6 +98,19 @@ class Layers(unittest.TestCase):
         self.assert_refused(
             BASE, {"controller/law/detail/deep.hpp": '#include "transport/lcm_port.hpp"\n'},
             "law (layer 1) may not use port_lcm (layer 4)")
+
+    def test_refuse_an_include_across_a_wall_also_of_a_lower_layer(self):
+        libraries = {**BASE, "cycle": ("controller/cycle", 3, "USES words")}
+        files = {"controller/cycle/cycle.cpp": '#include "plant_sim/magnet/force.hpp"\n'}
+        self.assertEqual(configure(libraries, files)[0], 0)
+        self.assert_refused(libraries, files, "cycle may not use magnet: they are kept apart: "
+                            "controller/cycle/cycle.cpp has",
+                            "levitas_keep_apart(WALL cycle FROM magnet)")
+
+    def test_refuse_a_library_without_a_layer_and_one_above_the_last(self):
+        for layer in ("", 7):
+            self.assert_refused({**BASE, "law": ("controller/law", layer, "")}, {},
+                                f"levitas_library(law): LAYER '{layer}', allowed 0 to 5")
 
     def test_refuse_a_use_of_something_that_is_not_ours(self):
         self.assert_refused({**BASE, "law": ("controller/law", 1, "USES nothing_known")}, {},

@@ -98,7 +98,7 @@ class Margins(CommandTest):
         printed, can = self.compute("margins", "--controller", "flexible_rotor_commissioned",
                                     "--port", "can")
         self.assertEqual((lcm["delay_s"], can["delay_s"]), (1e-4, 2e-4))
-        self.assertIn("2.00 periods, of can (the rig file: 1.00)", printed)
+        self.assertIn("2.00 periods, the longer one of can and the rig file (1.00)", printed)
         peak = [max(axis["sensitivity_peak"] for axis in loop["speeds"][0]["axes"])
                 for loop in (lcm, can)]
         self.assertGreater(peak[1], peak[0])

@@ -20,11 +20,11 @@ SOFT = "effects:\n  - id: displacement_stiffness\n    channels: [de_x, de_y, nde
 AXES = ("de_x", "de_y", "nde_x", "nde_y")
 
 
-def scenario(signals):
+def scenario(signals, signal="amplitude_a: 0.15"):
     steps = ["  - {do: lift, until: levitating, timeout_s: 5, hold_s: 1}"]
     for axis in signals:
         steps += ["  - do: nothing", "    hold_s: 3.276", "    orbit_limit_um: 100", "    excitation:",
-                  f"      - {{channel: {axis}, amplitude_a: 0.15, order: 12, divisor: 2}}",
+                  f"      - {{channel: {axis}, {signal}, order: 12, divisor: 2}}",
                   "  - {do: nothing, hold_s: 0.3}"]
     steps += ["  - {do: land, until: \"off\", timeout_s: 5}"]
     return "kind: scenario\nname: measure\nsteps:\n" + "\n".join(steps) + "\n"
@@ -36,11 +36,11 @@ class MeasuredSensitivity(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def verdict(self, signals, effects=""):
+    def verdict(self, signals, effects="", **signal):
         """What `amb report` says of the record, with nothing but the record."""
         (self.folder / "rig.yaml").write_text(RIG.read_text(encoding="utf-8") + effects,
                                               encoding="utf-8")
-        (self.folder / "scenario.yaml").write_text(scenario(signals), encoding="utf-8")
+        (self.folder / "scenario.yaml").write_text(scenario(signals, **signal), encoding="utf-8")
         with Process(self.folder, "amb-plant", "--rig", "rig.yaml") as rig, \
                 Process(self.folder, "amb-controller", "--rig", "flexible_rotor", "--controller",
                         "flexible_rotor_commissioned", "--scenario", "scenario.yaml", "--record",
@@ -68,7 +68,7 @@ class MeasuredSensitivity(unittest.TestCase):
 
     def test_warns_where_the_rig_is_not_what_its_file_says(self):
         verdict, _ = self.verdict(AXES, SOFT)
-        self.assertTrue(any("the rig file or the controller file is not what runs" in warning
+        self.assertTrue(any("the rig file or the controller file is probably not what runs" in warning
                             for warning in verdict["warnings"]), verdict["sensitivity"])
         apart = [a for a in self.measured(verdict).values() if a["more_than_20_percent_apart"]]
         self.assertEqual(len(apart), len(verdict["warnings"]))
@@ -77,6 +77,10 @@ class MeasuredSensitivity(unittest.TestCase):
         verdict, _ = self.verdict(AXES[:1])
         self.assertIn("de_y", verdict["sensitivity_not_measured"])
         self.assertEqual({s["source"] for s in verdict["sensitivity"]}, {"computed"})
+
+    def test_says_that_signals_in_the_measured_position_are_not_evaluated(self):
+        verdict, _ = self.verdict(AXES[:1], signal="point: measured_position, amplitude_um: 1")
+        self.assertIn("added to the measured position", verdict["sensitivity_not_measured"])
 
     def test_is_not_asked_for_without_a_test_signal(self):
         verdict, _ = self.verdict(())
