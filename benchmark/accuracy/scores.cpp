@@ -195,7 +195,7 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
   for (auto& [effect, counts] : tally.by_effect) line(effect, counts);
   line("all", tally.by_size);
   if (!tally.failed.empty()) {
-    out += "\noracle failed, counted as not named in the size drawn:\n" + tally.failed;
+    out += "\ninformed diagnosis failed, counted as not named in the size drawn:\n" + tally.failed;
   }
   out += fmt::format(
       "\nnothing hidden, called none: {}\noutside the vocabulary, called unknown: {}\n"

@@ -33,10 +33,9 @@ constexpr const char* kHelp =
     "spinning and running up (5.3 s), and diagnoses the records. Every seed is one trial; effects "
     "take turns. Prints accuracy by effect and by size, "
     "false alarms, what is outside the vocabulary, several at once, and the confusion matrix. An "
-    "effect that is not named is looked for once more by an oracle, a diagnosis that is told of "
-    "it; "
-    "one that does not find what the records hold is listed, and its trial counts as not named in "
-    "the size of what they hold.\n"
+    "effect that is not named is searched once more by an informed diagnosis, which is told the "
+    "effect. If that fails although the records hold evidence for it, the trial is listed and "
+    "counts as not named, in the size of that evidence.\n"
     "Example: amb bench diagnosis --seeds 34 --clean 10 --outside 10 --pairs 10";
 
 struct BenchOptions {
@@ -164,11 +163,11 @@ void PrintOne(const trials::Outcome& o) {
                          fmt::join(o.ties, ", ")),
              o.score_nat, o.seconds, o.Right() ? "" : (o.Partly() ? "   (partly)" : "   WRONG"));
   for (const auto& [effect, held] : o.missed) {
-    fmt::print("       not named: {}, of which the records hold {} beside the others\n", effect,
+    fmt::print("       not named: {}, of which the records hold {} given the others\n", effect,
                held ? fmt::format("{:.1f} nat", *held) : "an unknown amount");
   }
   if (o.oracle_failed) {
-    fmt::print("       oracle failed: told of {}, it does not name it; the records hold {}\n",
+    fmt::print("       informed diagnosis failed: it does not name {}; the records hold {}\n",
                o.truth.front(),
                o.held_nat < 0.0 ? "an unknown amount" : fmt::format("{:.1f} nat", o.held_nat));
   }
@@ -279,8 +278,7 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--clean", options->clean, "Trials with nothing hidden");
   command->add_option("--outside", options->outside, "Trials outside the vocabulary");
   command->add_option("--pairs", options->pairs, "Trials with two clear effects");
-  command->add_option("--weak", options->weak,
-                      "Trials with three small effects beside a clear one");
+  command->add_option("--weak", options->weak, "Trials with three small effects and a clear one");
   command->add_option("--first", options->first, "Seed of the first trial");
   command->add_option("--effect", options->effects, "Only these effects");
   command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");

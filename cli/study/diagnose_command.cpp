@@ -29,9 +29,9 @@ namespace levitas::cli {
 namespace {
 
 constexpr const char* kHelp =
-    "Drives the rig's nonlinear model with the recorded currents and asks of every effect of the "
-    "vocabulary (docs/effects.md) whether it explains what the model gets wrong, together with "
-    "everything a healthy rig may differ by. Give several records of one rig at once: standing "
+    "Drives the rig's nonlinear model with the recorded currents and tests for every effect "
+    "of docs/effects.md whether it explains the residual, together with all deviations that a "
+    "healthy rig may have. Give several records of one rig at once: standing "
     "with "
     "a test signal, spinning, running up. Writes diagnosis.json, extended_rig.yaml, "
     "calibrated_rig.yaml and report.html into --out; a terminal shows how far it is.\n"
@@ -118,11 +118,11 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   command->add_option("DATA", options->data, "Sessions, CSV or MAT files of one rig")->required();
   AddRigOption(*command, *options);
   command->add_option("--holdout", options->holdout,
-                      "Data on which the gain is measured, none of DATA; without it every sixth "
-                      "stretch of 50 ms is kept back");
+                      "Validation data for the gain, none of DATA; without it every sixth "
+                      "stretch of 50 ms is validation data");
   command->add_option("--healthy", options->healthy,
-                      "Earlier records of the same rig, known to be well: they narrow what it may "
-                      "differ by from its file");
+                      "Earlier records of the same rig in good condition: they narrow its "
+                      "tolerances");
   command->add_option("--plan", options->plan,
                       "Write the scenario that would separate what these data cannot; not written "
                       "when nothing is left to separate");

@@ -88,7 +88,7 @@ std::string Why(const SessionAnswer& s, const Candidate& candidate) {
   }
   const bool tied = std::find(a.also_possible.begin(), a.also_possible.end(), candidate.effect) !=
                     a.also_possible.end();
-  if (tied) return "cannot be told from the cause with these data";
+  if (tied) return "these data do not separate it from the cause";
   if (!std::isfinite(candidate.score))
     return "would have to be negative, or cannot act in these data";
   if (candidate.score < diagnosis::kDecisive) {
@@ -143,7 +143,7 @@ std::string Left(const SessionAnswer& s) {
   return text +
          "</table><p>Squared error of the one-step prediction, as a multiple of the sensors' "
          "noise, on data that were not fitted (bars logarithmic). Where calibration alone leaves "
-         "little, a cause is told by the evidence (nat: logarithm of the odds), not by this.</p>\n";
+         "little, the evidence (nat: logarithm of the odds) decides on a cause, not this.</p>\n";
 }
 
 std::string CalibrationTable(const SessionAnswer& s) {
@@ -164,8 +164,8 @@ std::string CalibrationTable(const SessionAnswer& s) {
                                 ? "<p>None is further than half its tolerance from the file.</p>\n"
                                 : head + told + "</table>\n";
   const auto taken = diagnosis::TakenByCauses(s);
-  return "<h2>What the calibration has moved</h2>\n<p>Numbers in which a healthy rig may differ "
-         "from its file; std is what these data leave open. All of them are in "
+  return "<h2>Calibrated values</h2>\n<p>Numbers in which a healthy rig may differ "
+         "from its file; std is their standard deviation given these data. All of them are in "
          "<code>diagnosis.json</code>, and in force in <code>calibrated_rig.yaml</code>." +
          (taken.empty() ? ""
                         : fmt::format(" Not among them, being a cause: {}.",
@@ -211,7 +211,7 @@ std::string FitTable(const SessionAnswer& s) {
   };
   return "<table><tr><th>fit, percent</th><th>nominal</th><th>calibrated</th><th>extended</th>"
          "<th>ceiling</th><th>share of the achievable gain</th></tr>\n" +
-         row("data used", s.fitted) + row("data kept back", s.held_out) + "</table>\n";
+         row("fitted data", s.fitted) + row("validation data", s.held_out) + "</table>\n";
 }
 
 std::string ParameterTable(const SessionAnswer& s) {
@@ -245,7 +245,7 @@ std::string DiagnosisPage(const SessionAnswer& s, const std::string& more) {
       "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n"
       "<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{7}{6}{8}"
       "<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig file. "
-      "Calibrated: with what a healthy rig may differ by. Extended: with the causes. Ceiling: the "
+      "Calibrated: with the deviations of a healthy rig. Extended: with the causes. Ceiling: the "
       "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",
       Escaped(s.view->numbers.name), kStyle, Escaped(diagnosis::VerdictSentence(s)),
       Escaped(fmt::format("{} {}", Summary(s), diagnosis::HealthySentence(s))),

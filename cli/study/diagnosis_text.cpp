@@ -71,8 +71,8 @@ void PrintFits(const SessionAnswer& s) {
     fmt::print("{:<46}{:>9.2f}{:>12.2f}{:>10.2f}{:>9.2f}\n", name, g.nominal_percent,
                g.calibrated_percent, g.extended_percent, g.ceiling_percent);
   };
-  row("  on data used", s.fitted);
-  row("  on data kept back or held out", s.held_out);
+  row("  on fitted data", s.fitted);
+  row("  on validation data", s.held_out);
   const std::string ceiling = CeilingSentence(s);
   fmt::print("{}\n{}{}", GainSentence(s), ceiling, ceiling.empty() ? "" : "\n");
 }
@@ -131,20 +131,16 @@ std::string AtPhase(double value, std::optional<double> phase_rad) {
 std::string GainSentence(const SessionAnswer& s) {
   const Gain& held = s.held_out;
   if (!diagnosis::SomethingToGain(held)) {
-    return "Nothing to gain that these data could tell: the rig file itself predicts them nearly "
-           "to "
-           "their noise.";
+    return "Nothing to gain: the rig file itself predicts these data nearly to their noise.";
   }
   const std::string gained = fmt::format(
-      "Of what a better model could gain on data kept back, this one gains {:.1f} % "
-      "({:.1f} to {:.1f} %)",
+      "On validation data this model reaches {:.1f} % ({:.1f} to {:.1f} %) of the achievable gain",
       100.0 * held.achieved.value, 100.0 * held.achieved.low, 100.0 * held.achieved.high);
   if (s.answer.causes.empty()) return gained + ", by calibration.";
   if (held.calibrated_over_noise < 1.0 + diagnosis::kLeastToGain) {
     return fmt::format(
-        "{}; so does calibration alone, hardly more than the noise is left: the cause is told by "
-        "its "
-        "evidence of {:.0f} nat.",
+        "{}; so does calibration alone, which leaves hardly more than the noise: the cause is "
+        "decided by its evidence of {:.0f} nat.",
         gained, s.answer.evidence);
   }
   const double beyond = 100.0 * held.beyond_calibration.value;

@@ -99,7 +99,7 @@ std::vector<std::pair<std::string, std::string>> WhyNot(const Answer& answer) {
           return tie.cause == named &&
                  std::find(tie.others.begin(), tie.others.end(), effect) != tie.others.end();
         });
-    out.emplace_back(effect, tied ? fmt::format("cannot be told from {}", named)
+    out.emplace_back(effect, tied ? fmt::format("not separable from {}", named)
                                   : fmt::format("explains {:.0f} nat less than {} in its place",
                                                 score.behind_nat, named));
   }
@@ -112,7 +112,7 @@ void PrintLevitator(const Answer& answer, bool complete) {
   PrintDiagnosis(answer.common, complete);
   for (const levitator::Tie& tie : answer.ties) {
     if (tie.others.empty()) continue;
-    fmt::print("{} cannot be told from", tie.cause);
+    fmt::print("{} is not separable from", tie.cause);
     for (const std::string& other : tie.others) fmt::print(" {}", other);
     fmt::print("\n");
   }

@@ -86,7 +86,7 @@ void AddEvents(Inquiry& q, const Remainder& remainder) {
 }
 
 Answer Conclude(Inquiry& q) {
-  q.Tell(0.9, "examining what is left");
+  q.Tell(0.9, "analysing the residual");
   Answer answer;
   answer.speed = kSpeeds[q.speed];
   answer.runs = q.search.Run(q.records, q.gains, q.theta);

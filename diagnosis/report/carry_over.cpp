@@ -20,8 +20,8 @@ std::string CarryOverSentence(const SessionAnswer& s) {
   const double held = std::sqrt(s.held_out.extended_over_noise);
   const double calibrated = std::sqrt(s.held_out.calibrated_over_noise);
   std::string text = fmt::format(
-      "It does not carry over to the data held out: {:.3g} times the noise (rms) is left there, "
-      "{:.3g} times on the data used.",
+      "It does not carry over to the validation data: {:.3g} times the noise (rms) is left there, "
+      "{:.3g} times on the fitted data.",
       held, std::sqrt(s.fitted.extended_over_noise));
   if (!s.answer.causes.empty() && held > calibrated) {
     text +=
@@ -37,8 +37,8 @@ bool HeldOutIsFaster(const SessionAnswer& s) {
 
 std::string CarryOverExperiment(const SessionAnswer& s) {
   return HeldOutIsFaster(s)
-             ? "a run-up over the speeds of the data held out, among the data that are fitted"
-             : "the same as the data held out once more, among the data that are fitted";
+             ? "a run-up over the speeds of the validation data, among the fitted data"
+             : "the same experiment as the validation data once more, among the fitted data";
 }
 
 }  // namespace levitas::diagnosis

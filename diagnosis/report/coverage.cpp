@@ -52,7 +52,7 @@ std::string CannotTellSentence(const SessionAnswer& s) {
   std::vector<std::string> excited;
   Append(s, effect::NeedsRotation, turning);
   Append(s, effect::NeedsExcitation, excited);
-  std::string text = "These records cannot tell everything:";
+  std::string text = "These records cannot show every effect:";
   if (!c.turns) {
     text += fmt::format(" the rotor does not turn, so {} would not show", fmt::join(turning, ", "));
   }

@@ -96,7 +96,7 @@ std::string Finding(const SessionAnswer& s) {
   if (a.verdict == Verdict::kNone) {
     const std::string limits = CannotTellSentence(s);
     return fmt::format("Nothing is hidden{}: {}{}{}",
-                       limits.empty() ? "" : " as far as these records can tell", Explained(s),
+                       limits.empty() ? "" : " as far as these records can show", Explained(s),
                        limits.empty() ? "" : " ", limits);
   }
   if (a.verdict == Verdict::kUnknown) {
@@ -104,7 +104,7 @@ std::string Finding(const SessionAnswer& s) {
     if (a.remainder.order > 0.0)
       where += fmt::format(", order {:.0f} of rotation", a.remainder.order);
     return fmt::format(
-        "Something is left that no effect of the vocabulary explains: most of all in {} "
+        "A residual is left that no effect of the vocabulary explains: most of all in {} "
         "about {}, following {}.",
         s.view->numbers.channels[a.remainder.worst_channel], where, a.remainder.coherent_with);
   }
@@ -117,7 +117,7 @@ std::string Finding(const SessionAnswer& s) {
                         Size(s, a.causes[i]));
   }
   if (!a.also_possible.empty()) {
-    text += "; these data cannot tell it from";
+    text += "; these data do not separate it from";
     for (const auto& other : a.also_possible) text += " " + other;
   }
   return text + ".";
@@ -144,8 +144,8 @@ std::string Experiment(const SessionAnswer& s) {
     return missing.empty() ? kNoneNeeded : missing;
   }
   if (a.verdict == Verdict::kUnknown) {
-    return "the same with another speed and another bias current: what the remainder does tells "
-           "whether it belongs to the rotation, the magnets or neither";
+    return "the same with another speed and another bias current: the change of the residual "
+           "shows whether it belongs to the rotation, the magnets or neither";
   }
   if (a.also_possible.empty()) return kNoneNeeded;
   const std::string& cause = a.causes.front().effect;

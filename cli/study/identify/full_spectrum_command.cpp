@@ -70,14 +70,15 @@ void Print(const SpectrumOptions& options, const std::vector<GearedLine>& lines,
   fmt::print("\ncondition number {:.1f}\n", p.condition);
   fmt::print(
       "shaft stiffness and ks show only as their difference ({:.0f} and {:.0f} N/m): an error of "
-      "the one is that of the other;\n    to tell: record at a second bias current, ks goes with "
+      "the one is that of the other;\n    experiment: record at a second bias current, ks goes "
+      "with "
       "its square\n",
       known.pinion.stiffness_n_per_m - p.pinion.ks_n_per_m,
       known.gear.stiffness_n_per_m - p.gear.ks_n_per_m);
   if (p.mean_along_line_unknown) {
     fmt::print(
-        "the mean error along the line of action is not told apart from the wheels' rotation: the "
-        "line 0 is its part across;\n    to tell: measure the rotation of both shafts\n");
+        "the mean error along the line of action is not separable from the wheels' rotation: the "
+        "line 0 is its part across;\n    experiment: measure the rotation of both shafts\n");
   }
 }
 

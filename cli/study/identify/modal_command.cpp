@@ -78,7 +78,7 @@ void PrintAxes(const ModalResult& r) {
                2.0 * r.rig.ks_n_per_m[a] * r.uncertainty.deviation[at.ks + a], r.rig.gain[a],
                2.0 * r.rig.gain[a] * r.uncertainty.deviation[at.gain + a]);
   }
-  fmt::print("{:<8}{:>20}{:>24}   (what responses tell by themselves)\n", "", "ki gain/mass",
+  fmt::print("{:<8}{:>20}{:>24}   (identifiable from responses alone)\n", "", "ki gain/mass",
              "ks/mass");
   for (Eigen::Index a = 0; a < at.axes(); ++a) {
     const double ki = r.rig.ki_n_per_a[a] * r.rig.gain[a] / r.rig.mass_kg;
@@ -101,9 +101,9 @@ void PrintSupport(const ModalResult& r) {
       fmt::print("\nmode {}: the fitted plant has it at {:.1f} Hz, the diagram at {:.1f} Hz\n",
                  i + 1, s.plant_hz, s.shown_hz);
     } else {
-      fmt::print("\nmode {}: nothing in the data tells its frequency and damping\n", i + 1);
+      fmt::print("\nmode {}: the data do not determine its frequency and damping\n", i + 1);
     }
-    fmt::print("    to tell: excite more strongly or for more periods around it\n");
+    fmt::print("    to determine them: excite more strongly or for more periods around it\n");
   }
 }
 
@@ -148,10 +148,10 @@ void PrintLimits(const ModalResult& r) {
     }
   }
   if (!groups.empty()) {
-    fmt::print("\nnot told apart by these data (values along them are the rig file's):\n");
+    fmt::print("\nnot separable with these data (values along them are the rig file's):\n");
   }
   for (const auto& [experiment, directions] : groups) {
-    fmt::print("  {}\n    to tell: {}\n", fmt::join(directions, "; "), experiment);
+    fmt::print("  {}\n    experiment: {}\n", fmt::join(directions, "; "), experiment);
   }
   for (const ProposedMode& mode : r.unmatched) {
     fmt::print("\nthe data show a mode at {:.1f} Hz that the rig file does not have\n",
