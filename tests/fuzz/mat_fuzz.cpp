@@ -1,4 +1,5 @@
-// A MAT file of version 5 or 7.3 becomes a session, or is refused in one sentence.
+// A MAT file of version 5 or 7.3 becomes columns of numbers, or is refused in one sentence. Read in
+// the fuzzer's own process: one of its own for each input allows forty inputs a second.
 
 #include <matio.h>
 
@@ -40,7 +41,8 @@ std::vector<std::string> Seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace levitas;
   try {
-    (void)session::ImportMat(fuzz::ImportInto(fuzz::AsFile("data.mat", {data, size})));
+    (void)session::ReadMatInThisProcess(fuzz::AsFile("data.mat", {data, size}), "log",
+                                        {"time_s", "position_de_x_m"});
   } catch (const BadInput&) {
     return 0;
   }
