@@ -50,12 +50,11 @@ SampledSystem ZeroOrderHold(const StateSpace& system, double period_s) {
 namespace {
 
 MatrixXcd ResponseAt(const StateSpace& system, std::complex<double> at) {
-  const MatrixXcd D = system.D.cast<std::complex<double>>();
-  if (system.states() == 0) return D;
+  if (system.states() == 0) return system.D.cast<std::complex<double>>();
   MatrixXcd shifted = -system.A.cast<std::complex<double>>();
   shifted.diagonal().array() += at;
   const MatrixXcd state = shifted.partialPivLu().solve(system.B.cast<std::complex<double>>());
-  return system.C * state + D;
+  return system.C * state + system.D;
 }
 
 }  // namespace
