@@ -51,8 +51,8 @@ Mode ModeOf(const CurrentFrame& current, double speed_rad_per_s) {
 
 class Converter {
  public:
-  Converter(const can::Layout& layout, SessionWriter& writer, CandumpReport& report)
-      : layout_(layout), rig_(layout), commands_(layout), writer_(writer), report_(report) {}
+  Converter(const can::Layout& layout, const RecordTaker& take, CandumpReport& report)
+      : layout_(layout), rig_(layout), commands_(layout), take_(take), report_(report) {}
 
   void Take(const can::WireFrame& wire) {
     SensorFrame sensor;
@@ -111,7 +111,7 @@ class Converter {
     record.out.current.cycle = pending_->cycle;
     record.out.current.axes = pending_->axes;
     record.out.mode = ModeOf(current_, pending_->speed_rad_per_s);
-    writer_.Write(record);
+    take_(record);
     ++report_.records;
     if (!answered_) ++report_.without_answer;
     next_cycle_ = cycle + 1;
@@ -121,7 +121,7 @@ class Converter {
   const can::Layout& layout_;
   can::RigAssembler rig_;
   can::CommandAssembler commands_;
-  SessionWriter& writer_;
+  const RecordTaker& take_;
   CandumpReport& report_;
   std::optional<SensorFrame> pending_;  ///< waits for its currents
   CurrentFrame current_{};
@@ -131,35 +131,6 @@ class Converter {
   std::uint64_t next_cycle_{0};
   std::int64_t offset_{0};
 };
-
-void Convert(const ImportOptions& options, const can::Layout& layout, SessionWriter& writer,
-             CandumpReport& report) {
-  Converter converter(layout, writer, report);
-  LineSource lines(options.data_path);
-  std::string_view text;
-  while (lines.Next(text)) {
-    if (text.empty()) continue;
-    ++report.lines;
-    can::WireFrame wire;
-    try {
-      if (ParseCandumpLine(std::string(text), wire)) {
-        converter.Take(wire);
-      } else {
-        ++report.other_lines;
-      }
-    } catch (const std::invalid_argument& error) {
-      throw BadInput(
-          fmt::format("{}:{}: {}", options.data_path, lines.line_number(), error.what()));
-    }
-  }
-  converter.Finish();
-  if (report.records == 0) {
-    throw BadInput(
-        fmt::format("{}: {} lines and no position frame of this rig among them ({} "
-                    "damaged); is it the rig of the log?",
-                    options.data_path, report.lines, report.damaged));
-  }
-}
 
 }  // namespace
 
@@ -190,21 +161,44 @@ bool ParseCandumpLine(const std::string& line, can::WireFrame& frame) {
   return true;
 }
 
+CandumpReport ReadCandump(const std::string& path, const can::Layout& layout,
+                          const RecordTaker& take) {
+  CandumpReport report;
+  Converter converter(layout, take, report);
+  LineSource lines(path);
+  std::string_view text;
+  while (lines.Next(text)) {
+    if (text.empty()) continue;
+    ++report.lines;
+    can::WireFrame wire;
+    try {
+      if (ParseCandumpLine(std::string(text), wire)) {
+        converter.Take(wire);
+      } else {
+        ++report.other_lines;
+      }
+    } catch (const std::invalid_argument& error) {
+      throw BadInput(fmt::format("{}:{}: {}", path, lines.line_number(), error.what()));
+    }
+  }
+  converter.Finish();
+  if (report.records == 0) {
+    throw BadInput(
+        fmt::format("{}: {} lines and no position frame of this rig among them ({} "
+                    "damaged); is it the rig of the log?",
+                    path, report.lines, report.damaged));
+  }
+  return report;
+}
+
 CandumpReport ImportCandump(const ImportOptions& options, const can::Layout& layout) {
   CheckOutputPath(options.out_path, options.data_path);
   PartFile part(options.out_path);
   CandumpReport report;
-  SessionHeader header;
-  header.program_version = options.program_version;
-  header.rig_yaml = options.rig_yaml;
-  header.pace = "imported";
-  header.period_ns = options.rig.period_ns;
-  header.start_utc_ns = options.start_utc_ns;
-  header.source = options.data_path;
-  header.channels = options.rig.channels;
   try {
-    SessionWriter writer(part.part_path(), header);
-    Convert(options, layout, writer, report);
+    SessionWriter writer(part.part_path(), ImportHeader(options));
+    report = ReadCandump(options.data_path, layout,
+                         [&writer](const cycle::CycleRecord& record) { writer.Write(record); });
     writer.Close();
   } catch (const WriteFailed& failed) {  // nothing of an import is kept
     CannotWrite(options.out_path, failed.error());

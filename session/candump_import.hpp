@@ -1,5 +1,5 @@
 #pragma once
-// A log of candump (-l, -L) of the buses of a rig becomes a session.
+// A log of candump (-l, -L) of the buses of a rig as cycle records, or as a session.
 //
 // Lines     (seconds) interface identifier#data, with CAN FD identifier##flags data. Messages of
 //           the rig's layout are taken from whatever interface; other lines are counted and left
@@ -33,6 +33,11 @@ struct CandumpReport {
   double duration_s{};
 };
 
+/// Hands the records of a log to `take`, one at a time.
+CandumpReport ReadCandump(const std::string& path, const can::Layout& layout,
+                          const RecordTaker& take);
+
+/// The same into a session.
 CandumpReport ImportCandump(const ImportOptions& options, const can::Layout& layout);
 
 /// One line of a log as a frame; false for a line that is none (error frame, remote frame,
