@@ -35,6 +35,23 @@ SampledSystem Tustin(const StateSpace& system, double period_s) {
   return {out, period_s};
 }
 
+StateSpace InverseTustin(const SampledSystem& sampled) {
+  const StateSpace& system = sampled.matrices;
+  CheckShapes(system);
+  const Index n = system.states();
+  const Eigen::FullPivLU<MatrixXd> lu(system.A + MatrixXd::Identity(n, n));
+  if (n > 0 && !lu.isInvertible())
+    throw Problem(ExitStatus::kOther,
+                  "the sampled plant has a pole at z = -1, which no continuous system has");
+  const MatrixXd half = 2.0 * lu.solve(MatrixXd::Identity(n, n));  // I - A T/2
+  StateSpace out;
+  out.A = 2.0 / sampled.period_s * (MatrixXd::Identity(n, n) - half);
+  out.B = half * system.B / sampled.period_s;
+  out.C = system.C * half;
+  out.D = system.D - 0.5 * out.C * system.B;
+  return out;
+}
+
 SampledSystem ZeroOrderHold(const StateSpace& system, double period_s) {
   CheckShapes(system);
   const Index n = system.states();

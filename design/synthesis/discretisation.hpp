@@ -32,6 +32,12 @@ struct SampledSystem {
 [[nodiscard]] SampledSystem Tustin(const StateSpace& system, double period_s);
 [[nodiscard]] SampledSystem ZeroOrderHold(const StateSpace& system, double period_s);
 
+/// Inverse of Tustin: the continuous system of a sampled one, exact at the warped frequencies. A
+/// controller made for it by an H-infinity synthesis and brought back by Tustin closes the sampled
+/// loop with the same norm: the delay and the hold are in the design without approximation. Throws
+/// Problem when the sampled system has a pole at z = -1.
+[[nodiscard]] StateSpace InverseTustin(const SampledSystem& sampled);
+
 /// At z = exp(jw T).
 [[nodiscard]] Eigen::MatrixXcd Response(const SampledSystem& system, double rad_per_s);
 

@@ -169,6 +169,89 @@ double LargestTurnedReal(const MatrixXcd& M, const PowerIteration& at) {
   return largest;
 }
 
+/// Largest |eigenvalue| of M Delta over the perturbations that power iterations find; complex blocks
+/// only.
+double ComplexLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks, int starts,
+                         Random& random) {
+  constexpr int kSteps = 100;
+  double largest = 0.0;
+  for (int start = 0; start < starts; ++start) {
+    PowerIteration iteration(M, blocks, random);
+    for (int step = 0; step < kSteps; ++step) iteration.Step();
+    largest = std::max(largest, Eigenvalues(M * iteration.Delta(0.0)).cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+/// M with rows and columns of the real blocks first.
+struct Parted {
+  MatrixXcd M;
+  Index real{};  ///< rows (and columns) of the real blocks
+  UncertaintyBlocks real_blocks, complex_blocks;
+};
+
+Parted RealFirst(const MatrixXcd& M, const UncertaintyBlocks& blocks) {
+  Parted out;
+  std::vector<Index> rows, columns;
+  for (const bool real : {true, false}) {
+    Index r = 0;
+    Index c = 0;
+    for (const auto& block : blocks) {
+      if ((block.kind == BlockKind::kRepeatedReal) == real) {
+        for (Index i = 0; i < block.rows; ++i) rows.push_back(r + i);
+        for (Index i = 0; i < block.columns; ++i) columns.push_back(c + i);
+        (real ? out.real_blocks : out.complex_blocks).push_back(block);
+        if (real) out.real += block.rows;
+      }
+      r += block.rows;
+      c += block.columns;
+    }
+  }
+  out.M = M(rows, columns);
+  return out;
+}
+
+/// Real parameters held at corners, at zero and at drawn places: with them at q/b, the complex blocks
+/// see F = M22 + M21 q/b (I - M11 q/b)^-1 M12, and b is a lower bound when that of F is b or more.
+double HeldRealLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks, double known,
+                          Random& random) {
+  constexpr int kStarts = 3;
+  constexpr std::size_t kDraws = 24;
+  constexpr int kHalvings = 12;
+  const Parted parted = RealFirst(M, blocks);
+  const Index n = parted.real;
+  const Index rest_rows = M.rows() - n;
+  const Index rest_columns = M.cols() - n;
+  double best = known;
+  for (std::size_t draw = 0; draw <= kDraws; ++draw) {
+    MatrixXcd q = MatrixXcd::Zero(n, n);
+    Index at = 0;
+    for (std::size_t i = 0; i < parted.real_blocks.size(); ++i) {
+      const double corner = i < 4 && ((draw >> i) & 1U) != 0U ? 1.0 : -1.0;
+      const double value = draw < 16 ? corner : (draw == 16 ? 0.0 : 2.0 * random.Uniform() - 1.0);
+      for (Index k = 0; k < parted.real_blocks[i].rows; ++k, ++at) q(at, at) = value;
+    }
+    const auto is_bound = [&](double b) {
+      const MatrixXcd one = MatrixXcd::Identity(n, n);
+      const MatrixXcd inner = (one - parted.M.topLeftCorner(n, n) * q / b)
+                                  .partialPivLu()
+                                  .solve(parted.M.topRightCorner(n, rest_columns));
+      const MatrixXcd F = parted.M.bottomRightCorner(rest_rows, rest_columns) +
+                          parted.M.bottomLeftCorner(rest_rows, n) * q / b * inner;
+      return F.allFinite() && ComplexLowerBound(F, parted.complex_blocks, kStarts, random) >= b;
+    };
+    double low = std::max(best * 1.002, 1e-9 * M.norm());
+    if (!is_bound(low)) continue;
+    double high = std::max(M.norm(), low);
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (is_bound(middle) ? low : high) = middle;
+    }
+    best = low;
+  }
+  return best;
+}
+
 }  // namespace
 
 double MuLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks) {
@@ -179,20 +262,16 @@ double MuLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks) {
   bool has_complex = false;
   for (const auto& block : blocks)
     (block.kind == BlockKind::kRepeatedReal ? has_real : has_complex) = true;
-  double largest = 0.0;
   Random random(20261123);
+  if (!has_real) return ComplexLowerBound(M, blocks, kStarts, random);
+  double largest = 0.0;
   for (int start = 0; start < kStarts; ++start) {
     PowerIteration iteration(M, blocks, random);
     for (int step = 0; step < kSteps; ++step) iteration.Step();
-    const MatrixXcd product = M * iteration.Delta(0.0);
-    if (!has_real) {
-      largest = std::max(largest, Eigenvalues(product).cwiseAbs().maxCoeff());
-    } else {
-      largest = std::max(largest, LargestReal(product));
-      if (has_complex) largest = std::max(largest, LargestTurnedReal(M, iteration));
-    }
+    largest = std::max(largest, LargestReal(M * iteration.Delta(0.0)));
+    if (has_complex) largest = std::max(largest, LargestTurnedReal(M, iteration));
   }
-  return largest;
+  return has_complex ? HeldRealLowerBound(M, blocks, largest, random) : largest;
 }
 
 }  // namespace levitas::synthesis

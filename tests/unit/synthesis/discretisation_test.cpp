@@ -30,6 +30,22 @@ TEST(Tustin, RefusesAGrowingModeAsFastAsTheSampling) {
   EXPECT_THROW(static_cast<void>(Tustin(FirstOrder(1.0, 5.0, -2.0 / kPeriod), kPeriod)), Problem);
 }
 
+TEST(InverseTustin, UndoesTustinAndKeepsADelay) {
+  Random random(33);
+  StateSpace system = DrawStable(random, 5, 2, 2);
+  system.A *= 1000.0;
+  const StateSpace again = InverseTustin(Tustin(system, kPeriod));
+  EXPECT_LT((Response(again, 700.0) - Response(system, 700.0)).norm(),
+            1e-10 * (1.0 + Response(system, 700.0).norm()));
+  // One period of delay, a pole at z = 0: e^{-jwT} at the warped frequency.
+  SampledSystem delay{Gain(Eigen::MatrixXd::Zero(1, 1)), kPeriod};
+  delay.matrices.A = Eigen::MatrixXd::Zero(1, 1);
+  delay.matrices.B = delay.matrices.C = Eigen::MatrixXd::Ones(1, 1);
+  const double w = 9000.0;
+  const double warped = 2.0 / kPeriod * std::tan(0.5 * w * kPeriod);
+  EXPECT_NEAR(std::arg(Response(InverseTustin(delay), warped)(0, 0)), -w * kPeriod, 1e-12);
+}
+
 TEST(ZeroOrderHold, OfAFirstOrderLagIsItsClosedForm) {
   const SampledSystem sampled = ZeroOrderHold(FirstOrder(3.0, 1e12, 700.0), kPeriod);
   const double decay = std::exp(-700.0 * kPeriod);

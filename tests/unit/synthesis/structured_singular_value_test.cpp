@@ -118,6 +118,16 @@ TEST(Mu, OfRealAndComplexBlocksEnclosesWhatASearchFinds) {
   }
 }
 
+TEST(Mu, LowerBoundIsNotBelowThatOfTheComplexBlocksAlone) {
+  // Real parameters at zero are allowed: what the complex block alone does is a bound.
+  Random random(7);
+  MatrixXcd M = 0.01 * DrawComplex(random, 6);
+  M.bottomRightCorner(4, 4) *= 100.0;
+  const UncertaintyBlocks blocks{kReal, kReal, {BlockKind::kFullComplex, 4, 4}};
+  EXPECT_GE(MuLowerBound(M, blocks), 0.99 * LargestSingularValue(M.bottomRightCorner(4, 4)));
+  EXPECT_LE(MuLowerBound(M, blocks), MuUpperBound(M, blocks).value * (1.0 + 1e-9));
+}
+
 TEST(Mu, OfRealBlocksIsNotAboveThatOfComplexOnes) {
   Random random(6);
   for (int trial = 0; trial < 5; ++trial) {
