@@ -169,8 +169,8 @@ double LargestTurnedReal(const MatrixXcd& M, const PowerIteration& at) {
   return largest;
 }
 
-/// Largest |eigenvalue| of M Delta over the perturbations that power iterations find; complex blocks
-/// only.
+/// Largest |eigenvalue| of M Delta over the perturbations that power iterations find; complex
+/// blocks only.
 double ComplexLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks, int starts,
                          Random& random) {
   constexpr int kSteps = 100;
@@ -211,8 +211,9 @@ Parted RealFirst(const MatrixXcd& M, const UncertaintyBlocks& blocks) {
   return out;
 }
 
-/// Real parameters held at corners, at zero and at drawn places: with them at q/b, the complex blocks
-/// see F = M22 + M21 q/b (I - M11 q/b)^-1 M12, and b is a lower bound when that of F is b or more.
+/// Real parameters held at corners, at zero and at drawn places: with them at q/b, the complex
+/// blocks see F = M22 + M21 q/b (I - M11 q/b)^-1 M12, and b is a lower bound when that of F is b or
+/// more.
 double HeldRealLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks, double known,
                           Random& random) {
   constexpr int kStarts = 3;

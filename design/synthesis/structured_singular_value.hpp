@@ -7,10 +7,10 @@
 //            J. C. Doyle, IEEE Trans. Automatic Control 36 (1991) 25. Solved as a generalised
 //            eigenvalue problem by the method of centres (S. Boyd, L. El Ghaoui, Linear Algebra
 //            Appl. 188 (1993) 63), Newton's method at each centre.
-// Lower      power iteration of P. M. Young, J. C. Doyle (Conf. Decision and Control 1990, 1230) from
-//            several starts; the perturbation that it finds is evaluated by its eigenvalues, so the
-//            bound holds whether the iteration settled or not. Beside complex blocks, real ones are
-//            also held at corners and drawn places. Weak for real blocks alone.
+// Lower      power iteration of P. M. Young, J. C. Doyle (Conf. Decision and Control 1990, 1230)
+//            from several starts; the perturbation that it finds is evaluated by its eigenvalues,
+//            so the bound holds whether the iteration settled or not. Beside complex blocks, real
+//            ones are also held at corners and drawn places. Weak for real blocks alone.
 // Thread     any; pure: restarts have a fixed seed.
 // Failure    std::invalid_argument for a structure that does not fit.
 
