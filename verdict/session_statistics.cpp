@@ -24,7 +24,7 @@ double Radius(double x_m, double y_m) {
 
 SessionStatistics::SessionStatistics(const RigNumbers& rig, double standstill_rad_per_s,
                                      double settle_s)
-    : rig_(rig), splitter_(standstill_rad_per_s, Cycles(settle_s, rig)) {
+    : rig_(rig), map_(rig), splitter_(standstill_rad_per_s, Cycles(settle_s, rig)) {
   standing_.bearings.resize(rig.bearings.size());
   spinning_.bearings.resize(rig.bearings.size());
 }
@@ -108,9 +108,10 @@ void SessionStatistics::AddOrbit(const cycle::CycleRecord& record, PhaseSums& su
     bin = &profile_[index];
     ++bin->cycles;
   }
+  const AxisArray position_m = map_.Positions({frame.position_m}).at;
   for (std::size_t b = 0; b < rig_.bearings.size(); ++b) {
-    const double x_m = rig_.sensor_polarity[2 * b] * frame.position_m[2 * b];
-    const double y_m = rig_.sensor_polarity[2 * b + 1] * frame.position_m[2 * b + 1];
+    const double x_m = position_m[2 * b];
+    const double y_m = position_m[2 * b + 1];
     const double radius_m = Radius(x_m, y_m);
     BearingSums& bearing = sums.bearings[b];
     bearing.sum_x_m += x_m;
@@ -127,9 +128,10 @@ void SessionStatistics::AddOrbit(const cycle::CycleRecord& record, PhaseSums& su
 
 void SessionStatistics::AddCurrents(const cycle::CycleRecord& record, PhaseSums& sums) const {
   if (record.out.saturated_axes != 0) ++sums.saturated;
+  // Signs are their own inverse: the way to the rig is the way back.
+  const AxisArray currents_a = map_.Currents({record.out.current.control_current_a}).at;
   for (std::size_t axis = 0; axis < 2 * rig_.bearings.size(); ++axis) {
-    const double current_a =
-        rig_.actuator_polarity[axis] * record.out.current.control_current_a[axis];
+    const double current_a = currents_a[axis];
     AxisSums& at = sums.bearings[axis / 2].axis[axis % 2];
     at.sum_a += current_a;
     at.square_a2 += current_a * current_a;

@@ -7,10 +7,11 @@
 //            rms = sqrt(mean(r^2)). Sensor noise is in the readings and so in the figures.
 // Current    commanded control current, excitation included, in the bearing frame: mean (static
 //            load), rms about the mean, largest magnitude.
-// Units      SI. Frame: polarity of probes and amplifiers undone with the rig's numbers.
+// Units      SI. Frame: polarity of probes and amplifiers undone by cycle::ProbeMap.
 // Thread     one; offline, allocates.
-// Failure    none: a cycle without a new sensor frame counts as missing and is left out of the
-//            orbit; readings that are not finite make the largest radius infinite.
+// Failure    std::invalid_argument for a rig whose polarity is neither +1 nor -1. A cycle without a
+//            new sensor frame counts as missing and is left out of the orbit; readings that are not
+//            finite make the largest radius infinite.
 // Not done   no judgement (see verdict.hpp), no spectra.
 
 #include <array>
@@ -21,6 +22,7 @@
 
 #include "common/rig_numbers.hpp"
 #include "controller/cycle/cycle_io.hpp"
+#include "controller/cycle/probe_map.hpp"
 #include "verdict/phase.hpp"
 
 namespace levitas::verdict {
@@ -126,6 +128,7 @@ class SessionStatistics {
   [[nodiscard]] PhaseFigures Summary(const PhaseSums& sums) const;
 
   RigNumbers rig_;
+  cycle::ProbeMap map_;
   PhaseSplitter splitter_;
   PhaseSums standing_, spinning_;
   std::vector<ProfileBin> profile_;
