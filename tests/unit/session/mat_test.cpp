@@ -1,11 +1,8 @@
 // MAT files in: a matrix with a quantity a row, vectors with the names of columns, and what is
-// refused. The files are written here byte by byte (version 4: a header of five numbers, the name,
-// the numbers column by column).
+// refused. The files are written by synthetic.hpp byte by byte.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <cstring>
 
 #include "common/problem.hpp"
 #include "session/csv_import.hpp"
@@ -16,20 +13,9 @@ namespace {
 
 using testing::Folder;
 using ::testing::HasSubstr;
+using testing::Matrix;
 using testing::ReadAll;
 using testing::WriteFile;
-
-std::string Matrix(const std::string& name, std::int32_t rows, const std::vector<double>& numbers) {
-  const std::array<std::int32_t, 5> header{0, rows,
-                                           static_cast<std::int32_t>(numbers.size()) / rows, 0,
-                                           static_cast<std::int32_t>(name.size()) + 1};
-  std::string bytes(sizeof header, '\0');
-  std::memcpy(bytes.data(), header.data(), sizeof header);
-  bytes += name + '\0';
-  std::string data(numbers.size() * sizeof(double), '\0');
-  std::memcpy(data.data(), numbers.data(), data.size());
-  return bytes + data;
-}
 
 class Mat : public ::testing::Test {
  protected:

@@ -173,6 +173,28 @@ TEST_F(RecordingTest, OfABusLogIsThatOfTheSessionWithinTheStepsOfTheBus) {
   ExpectSameRun(OfSession(records), LoadRecording(folder_ / "run.log", rig), 10.2e-9, 0.051e-3);
 }
 
+TEST_F(RecordingTest, OfGapsAndDutiesCountsThemInTheGapAndCurrentOfTheMagnet) {
+  config::RigFile rig;
+  rig.numbers.channels = {"x"};
+  rig.numbers.bearings = {"b"};
+  rig.numbers.sensor_polarity[0] = 1.0;
+  rig.numbers.actuator_polarity[0] = -1.0;
+  rig.plant.bearings.resize(1);
+  rig.plant.bearings[0].magnet.gap_m = 1e-3;
+  rig.plant.bearings[0].magnet.max_coil_current_a = 2.0;
+  rig.log = {.matrix = "log", .rows = {"time_s", "gap_x_m", "duty_towards_x", "duty_away_x"}};
+  WriteFile(folder_ / "d.csv", "time_s,gap_x_mm,duty_towards_x,duty_away_x\n0,0.4,0.75,0.25\n");
+  WriteFile(folder_ / "d.mat", Matrix("log", 4, {0.0, 0.4e-3, 0.75, 0.25}));
+  for (const std::string name : {"d.csv", "d.mat"}) {
+    const Recording recording = LoadRecording(folder_ / name, rig);
+    SCOPED_TRACE(name);
+    ASSERT_EQ(recording.rows(), 1U);
+    EXPECT_DOUBLE_EQ(recording.position_m[0][0], 0.6e-3) << "1 mm less 0.4 mm";
+    EXPECT_DOUBLE_EQ(recording.current_a[0][0], -0.5) << "half of 2 A x (0.75 - 0.25), reversed";
+    EXPECT_DOUBLE_EQ(recording.bias_current_a[0], 1.0) << "half of 2 A x (0.75 + 0.25)";
+  }
+}
+
 TEST_F(RecordingTest, ShowsLostFramesAsGapsBetweenLevitatedIntervals) {
   const Recording recording = OfSession(SomeRun(20));
   EXPECT_THAT(recording.Gaps(), ElementsAre(10U, 11U)) << "the count repeats, then leaps";

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -147,6 +149,20 @@ inline std::string ReadFile(const std::string& path) {
 inline void WriteFile(const std::string& path, const std::string& content) {
   std::ofstream file(path, std::ios::binary);
   file << content;
+}
+
+/// A MAT file of version 4: a header of five numbers, the name, the numbers column by column.
+inline std::string Matrix(const std::string& name, std::int32_t rows,
+                          const std::vector<double>& numbers) {
+  const std::array<std::int32_t, 5> header{0, rows,
+                                           static_cast<std::int32_t>(numbers.size()) / rows, 0,
+                                           static_cast<std::int32_t>(name.size()) + 1};
+  std::string bytes(sizeof header, '\0');
+  std::memcpy(bytes.data(), header.data(), sizeof header);
+  bytes += name + '\0';
+  std::string data(numbers.size() * sizeof(double), '\0');
+  std::memcpy(data.data(), numbers.data(), data.size());
+  return bytes + data;
 }
 
 inline std::vector<cycle::CycleRecord> ReadAll(SessionReader& reader) {
