@@ -3,11 +3,9 @@
 
 #include "session/recording.hpp"
 
-#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
@@ -15,11 +13,11 @@
 #include <limits>
 
 #include "common/problem.hpp"
-#include "hil/can/codec.hpp"
 #include "session/candump_import.hpp"
 #include "session/csv_export.hpp"
 #include "session/csv_import.hpp"
 #include "session/mat_export.hpp"
+#include "tests/unit/session/bus_log.hpp"
 #include "tests/unit/session/synthetic.hpp"
 
 namespace levitas::session {
@@ -61,29 +59,6 @@ std::vector<cycle::CycleRecord> SomeRun(std::size_t count) {
   records[10].in.frame = records[9].in.frame;
   records[10].in.frame_present = false;
   return records;
-}
-
-/// The lines of candump of a run: positions and the currents that answer them.
-std::string BusLog(const std::vector<cycle::CycleRecord>& records, const can::Layout& layout) {
-  const auto line = [](const can::WireFrame& frame) {
-    std::string text = fmt::format("(1.0) can0 {:03X}{}", frame.id, frame.fd ? "##1" : "#");
-    for (const std::uint8_t byte : frame.payload()) text += fmt::format("{:02X}", byte);
-    return text + "\n";
-  };
-  const auto codec_of = [&layout](std::uint32_t id) {
-    const auto message = std::find_if(layout.messages.begin(), layout.messages.end(),
-                                      [id](const can::Message& one) { return one.id == id; });
-    return can::MessageCodec(*message, layout.format);
-  };
-  can::MessageCodec positions = codec_of(can::kPositionsId);
-  can::MessageCodec currents = codec_of(can::kCurrentsId);
-  std::string log;
-  for (const auto& record : records) {
-    if (!record.in.frame_present) continue;
-    log += line(positions.Encode(can::ValuesOf(record.in.frame)));
-    log += line(currents.Encode(can::ValuesOf(record.out.current, false)));
-  }
-  return log;
 }
 
 class RecordingTest : public ::testing::Test {
