@@ -19,9 +19,9 @@
 namespace levitas::cli {
 namespace {
 
-using machine::Area;
-using machine::Finding;
-using machine::State;
+using doctor::Area;
+using doctor::Finding;
+using doctor::State;
 
 struct DoctorOptions {
   std::string json_path;
@@ -154,7 +154,7 @@ void AddDoctorCommand(CLI::App& app, Action& action) {
     action = [options] {
       if (!options->bus_rig.empty()) return JudgeBuses(*options);
       auto findings =
-          machine::CheckMachine(machine::SystemProbe{}, std::filesystem::current_path().string());
+          doctor::CheckMachine(doctor::SystemProbe{}, std::filesystem::current_path().string());
       if (!options->key_path.empty()) findings.push_back(LookAtKey(options->key_path));
       PrintFindings(findings);
       PrintVerdicts(findings);

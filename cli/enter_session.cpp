@@ -14,13 +14,13 @@ namespace levitas::cli {
 namespace {
 
 void Enter(const std::vector<std::string>& tags,
-           const std::function<catalogue::Entry()>& describe) noexcept {
+           const std::function<session_index::Entry()>& describe) noexcept {
   try {
-    const auto path = catalogue::CataloguePath();
+    const auto path = session_index::CataloguePath();
     if (!path) return;
-    catalogue::Entry entry = describe();
+    session_index::Entry entry = describe();
     entry.tags = tags;
-    catalogue::Catalogue(*path).Put(entry);
+    session_index::Catalogue(*path).Put(entry);
   } catch (const std::exception& error) {
     rt::Say("amb: not entered in the catalogue of sessions:");
     rt::Say(error.what());
@@ -31,11 +31,11 @@ void Enter(const std::vector<std::string>& tags,
 
 void EnterRun(const std::string& path, const verdict::Verdict& verdict,
               const std::vector<std::string>& tags) noexcept {
-  Enter(tags, [&] { return catalogue::DescribeRun(path, verdict); });
+  Enter(tags, [&] { return session_index::DescribeRun(path, verdict); });
 }
 
 void EnterSession(const std::string& path, const std::vector<std::string>& tags) noexcept {
-  Enter(tags, [&] { return catalogue::DescribeSession(path); });
+  Enter(tags, [&] { return session_index::DescribeSession(path); });
 }
 
 }  // namespace levitas::cli

@@ -22,12 +22,12 @@ namespace levitas::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using catalogue::Catalogue;
-using catalogue::Entry;
+using session_index::Catalogue;
+using session_index::Entry;
 
 struct SessionsOptions {
   std::string catalogue_path;
-  catalogue::Filter filter;
+  session_index::Filter filter;
   std::string from, to;
   std::string json_path;
   std::vector<std::string> paths;
@@ -39,7 +39,7 @@ struct SessionsOptions {
 
 std::string PathOfCatalogue(const SessionsOptions& options) {
   if (!options.catalogue_path.empty()) return options.catalogue_path;
-  if (const auto path = catalogue::CataloguePath()) return *path;
+  if (const auto path = session_index::CataloguePath()) return *path;
   throw Problem(ExitStatus::kUsage,
                 "no catalogue of sessions: LEVITAS_CATALOGUE is empty, or there is no home folder; "
                 "name a file with --catalogue");
@@ -87,7 +87,7 @@ void Print(const Entry& entry) {
 }
 
 ExitStatus List(const SessionsOptions& options) {
-  catalogue::Filter filter = options.filter;
+  session_index::Filter filter = options.filter;
   if (!options.from.empty()) filter.from_utc_ns = ParseUtc(options.from, "--from").begin_ns;
   if (!options.to.empty()) filter.before_utc_ns = ParseUtc(options.to, "--to").end_ns;
   const std::vector<Entry> found = Catalogue(PathOfCatalogue(options)).Find(filter);
@@ -127,7 +127,7 @@ std::optional<Entry> Described(const std::string& file, std::string& refused) {
     return std::nullopt;
   };
   try {
-    return catalogue::DescribeSession(file);
+    return session_index::DescribeSession(file);
   } catch (const BadInput& problem) {
     return refuse(problem.what());
   } catch (const std::exception& problem) {
@@ -242,7 +242,7 @@ void AddSessionsCommand(CLI::App& app, Action& action) {
   command->add_option("--rig", options->filter.rig, "Only of this rig");
   command->add_option("--outcome", options->filter.outcome, "Only with this outcome")
       ->check(CLI::IsMember(
-          {"accepted", "not_accepted", "tripped", "incomplete", catalogue::kNotJudged}));
+          {"accepted", "not_accepted", "tripped", "incomplete", session_index::kNotJudged}));
   command->add_option("--tag", options->filter.tags, "Only with this tag; may be repeated");
   command->add_option("--text", options->filter.text,
                       "Only with this text in path, controller, scenario or port");

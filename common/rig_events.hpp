@@ -19,7 +19,7 @@ enum class RigEventKind : std::uint8_t {
   kEffect          ///< an effect of the rig file goes to another strength
 };
 
-struct RigEvent {
+struct ScheduledRigEvent {
   RigEventKind kind{};
   double at_s{};
   double duration_s{};  ///< of a fault; 0: for good

@@ -3,7 +3,7 @@
 // be full, nothing that could be waited for.
 //
 // Counted  every stop that is asked for has a number; the loop takes all that are there at once.
-//          A command belongs behind the stops that were counted before it (operator_desk.hpp).
+//          A command belongs behind the stops that were counted before it (command_arbiter.hpp).
 // Origins  who asked, for the answers. Best effort: the stop itself needs no room.
 // Thread   Ask: one thread, the receiver's. Take and TakeOrigin: the loop's. asked: any. No
 //          allocation, no lock, after construction.

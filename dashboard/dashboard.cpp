@@ -10,7 +10,7 @@
 #include "dashboard/command_api.hpp"
 #include "dashboard/full_spectrum.hpp"
 #include "dashboard/live_run.hpp"
-#include "dashboard/scope_desk.hpp"
+#include "dashboard/scope_controller.hpp"
 #include "dashboard/snapshot.hpp"
 #include "transport/lcm_packet.hpp"
 
@@ -124,7 +124,7 @@ struct Dashboard::Impl {
   Commander commander;
   LiveRun run;  ///< our own thread's
   AnnouncedRig rig;
-  ScopeDesk scope;
+  ScopeController scope;
   std::uint64_t told_run{0};
   std::int64_t next_spectrum_ns{0};
   std::uint64_t spectrum_count{0};

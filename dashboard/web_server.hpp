@@ -3,7 +3,7 @@
 //
 //   GET  /            the page and its parts, from inside the program
 //   GET  /events      server-sent events: what the hub has, one stream per viewer
-//   routes            as given: command_api.hpp, scope_desk.hpp; POST needs the page's header
+//   routes            as given: command_api.hpp, scope_controller.hpp; POST needs the page's header
 //
 // Bounds    front_door.hpp, request_reader.hpp: connections, their times and sizes. kMaxViewers
 //           streams at once, the next is told 503. A viewer that takes nothing for three seconds is

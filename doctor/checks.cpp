@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdlib>
 
-namespace levitas::machine {
+namespace levitas::doctor {
 namespace {
 
 /// With 4 MB nothing was lost at four channels of 10 kHz; the usual 208 kB lost 0.1 to 3.6 per
@@ -214,4 +214,4 @@ std::vector<Finding> CheckMachine(const Probe& probe, const std::string& folder)
   return all;
 }
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

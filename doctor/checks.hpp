@@ -11,7 +11,7 @@
 #include "doctor/finding.hpp"
 #include "doctor/probe.hpp"
 
-namespace levitas::machine {
+namespace levitas::doctor {
 
 inline constexpr std::int64_t kWakeUpTrialNs = 500'000'000;
 
@@ -27,4 +27,4 @@ inline constexpr std::int64_t kWakeUpTrialNs = 500'000'000;
 /// All of the above, in this order.
 [[nodiscard]] std::vector<Finding> CheckMachine(const Probe& probe, const std::string& folder);
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace levitas::machine {
+namespace levitas::doctor {
 
 State Worst(const std::vector<Finding>& findings, Area area) noexcept {
   State worst = State::kOk;
@@ -25,4 +25,4 @@ bool FitForLockstep(const std::vector<Finding>& findings) noexcept {
          Worst(findings, Area::kStorage) != State::kMissing;
 }
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace levitas::machine {
+namespace levitas::doctor {
 
 enum class State : std::uint8_t { kOk, kDegraded, kMissing };
 
@@ -63,4 +63,4 @@ struct Finding {
 /// Lockstep needs no real time: only messages between two processes and room for a session.
 [[nodiscard]] bool FitForLockstep(const std::vector<Finding>& findings) noexcept;
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

@@ -9,7 +9,7 @@
 
 #include "doctor/checks.hpp"
 
-namespace levitas::machine {
+namespace levitas::doctor {
 namespace {
 
 /// 239.255.76.67 as the kernel's tables write it on a little-endian machine.
@@ -72,4 +72,4 @@ Finding WhoMayCommand(const Probe& probe) {
           "ss -ulnp | grep 239.255.76.67 names it; a rig there needs --key FILE (docs/network.md)"};
 }
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace levitas::machine {
+namespace levitas::doctor {
 
 /// Result of something that either works or fails with a reason of the system.
 struct Trial {
@@ -64,4 +64,4 @@ class Probe {
   [[nodiscard]] virtual MulticastTrial RoundTrips(int count) const = 0;
 };
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

@@ -2,7 +2,7 @@
 
 #include "doctor/checks.hpp"
 
-namespace levitas::machine {
+namespace levitas::doctor {
 namespace {
 
 constexpr Area kArea = Area::kRealTime;
@@ -154,4 +154,4 @@ std::vector<Finding> CheckRealTime(const Probe& probe) {
           IdleStates(probe), Throttling(probe), TimerSlack(probe), WakeUps(probe)};
 }
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

@@ -16,7 +16,7 @@
 #include <fstream>
 #include <thread>
 
-namespace levitas::machine {
+namespace levitas::doctor {
 namespace {
 
 /// Worked, or the reason that errno gives.
@@ -109,4 +109,4 @@ Trial SystemProbe::OpenCanSocket() const {
   return trial;
 }
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

@@ -8,7 +8,7 @@
 
 #include "doctor/probe.hpp"
 
-namespace levitas::machine {
+namespace levitas::doctor {
 
 class SystemProbe final : public Probe {
  public:
@@ -36,4 +36,4 @@ class SystemProbe final : public Probe {
   std::string root_;
 };
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

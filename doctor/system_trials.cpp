@@ -19,7 +19,7 @@
 #include "common/histogram.hpp"
 #include "doctor/system_probe.hpp"
 
-namespace levitas::machine {
+namespace levitas::doctor {
 namespace {
 
 constexpr int kFifoPriority = 80;
@@ -150,4 +150,4 @@ MulticastTrial SystemProbe::RoundTrips(int count) const {
   return trial;
 }
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

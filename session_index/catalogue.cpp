@@ -8,7 +8,7 @@
 #include "common/problem.hpp"
 #include "session_index/statement.hpp"
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 namespace {
 
 namespace fs = std::filesystem;
@@ -227,4 +227,4 @@ bool Catalogue::Forget(const std::string& path) {
   return impl_->Changes("DELETE FROM session WHERE path = ?", path, {});
 }
 
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

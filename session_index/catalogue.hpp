@@ -17,7 +17,7 @@
 
 #include "session_index/entry.hpp"
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 
 /// What an entry must have to be found; what is empty asks for nothing.
 struct Filter {
@@ -51,4 +51,4 @@ class Catalogue {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

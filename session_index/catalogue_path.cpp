@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 
 std::optional<std::string> CataloguePath() {
   if (const char* told = std::getenv("LEVITAS_CATALOGUE"); told != nullptr) {
@@ -17,4 +17,4 @@ std::optional<std::string> CataloguePath() {
   return std::nullopt;
 }
 
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 
 [[nodiscard]] std::optional<std::string> CataloguePath();
 
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

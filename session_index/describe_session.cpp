@@ -7,7 +7,7 @@
 #include "session/session_reader.hpp"
 #include "verdict/commission.hpp"
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ Entry DescribeSession(const std::string& path) {
   return entry;
 }
 
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

@@ -14,11 +14,11 @@ namespace levitas::verdict {
 struct Verdict;
 }
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 
 [[nodiscard]] Entry DescribeSession(const std::string& path);
 
 /// The same for a run that was judged a moment ago, without reading its file once more.
 [[nodiscard]] Entry DescribeRun(const std::string& path, const verdict::Verdict& verdict);
 
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

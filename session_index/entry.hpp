@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 
 inline constexpr const char* kNotJudged = "not_judged";
 
@@ -30,4 +30,4 @@ struct Entry {
   std::vector<std::string> tags;  ///< sorted
 };
 
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

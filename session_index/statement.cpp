@@ -4,7 +4,7 @@
 
 #include "common/problem.hpp"
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 
 void ThrowSqlite(sqlite3* connection, const std::string& file) {
   const char* why = connection != nullptr ? sqlite3_errmsg(connection) : "out of memory";
@@ -62,4 +62,4 @@ std::int64_t Statement::Integer(int column) const {
 
 double Statement::Real(int column) const { return sqlite3_column_double(statement_.get(), column); }
 
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

@@ -11,7 +11,7 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 
 /// Throws what SQLite says of the connection's last failure.
 [[noreturn]] void ThrowSqlite(sqlite3* connection, const std::string& file);
@@ -44,4 +44,4 @@ class Statement {
   int bound_{};
 };
 
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

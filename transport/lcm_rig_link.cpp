@@ -20,42 +20,44 @@ bool LcmRigLink::Send(const SensorFrame& frame) noexcept {
   return sent;
 }
 
-port::RigLink::Answer LcmRigLink::Accept(const Received& received, CurrentFrame& frame) noexcept {
+port::RigLink::ReceiveResult LcmRigLink::Accept(const Received& received,
+                                                CurrentFrame& frame) noexcept {
   const Packet packet = ParsePacket(received.datagram);
-  if (packet.kind == PacketKind::kFragment) return Answer::kNothing;
+  if (packet.kind == PacketKind::kFragment) return ReceiveResult::kNothing;
   const bool current = packet.channel == channel::kCurrent;
   const bool goodbye = packet.channel == channel::kGoodbye;
-  if (packet.kind == PacketKind::kShort && !current && !goodbye) return Answer::kNothing;
+  if (packet.kind == PacketKind::kShort && !current && !goodbye) return ReceiveResult::kNothing;
   const std::int64_t now_ns = rt::MonotonicNowNs();
   const bool sound = packet.kind == PacketKind::kShort;
-  if (sound && partner_.Refuses(received.sender, now_ns)) return Answer::kNothing;
+  if (sound && partner_.Refuses(received.sender, now_ns)) return ReceiveResult::kNothing;
   if (!sound || !current_codec_.Decode(packet.payload, frame)) {
     ++counters_.currents_rejected;
-    return Answer::kNothing;
+    return ReceiveResult::kNothing;
   }
   watch_.Saw(received.sender, packet.sequence);
   partner_.Heard(received.sender, now_ns);
   if (goodbye) partner_.Release();  // the next one need not wait for the silence
-  return goodbye ? Answer::kGoodbye : Answer::kCurrent;
+  return goodbye ? ReceiveResult::kGoodbye : ReceiveResult::kCurrent;
 }
 
-port::RigLink::Answer LcmRigLink::Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept {
+port::RigLink::ReceiveResult LcmRigLink::Receive(CurrentFrame& frame,
+                                                 std::int64_t deadline_ns) noexcept {
   bool found = false;
   for (ReadBound bound; bound.MayGoOn(deadline_ns);) {
     const Received received = found ? receiver_.Next() : receiver_.Receive(deadline_ns);
     if (received.datagram.empty()) break;
-    const Answer answer = Accept(received, frame);
-    if (answer == Answer::kNothing) {
+    const ReceiveResult answer = Accept(received, frame);
+    if (answer == ReceiveResult::kNothing) {
       bound.Useless();
       continue;
     }
     if (found) ++counters_.currents_skipped;
     found = true;
-    if (answer == Answer::kGoodbye) return answer;
+    if (answer == ReceiveResult::kGoodbye) return answer;
   }
-  if (!found) return Answer::kNothing;
+  if (!found) return ReceiveResult::kNothing;
   ++counters_.currents_read;
-  return Answer::kCurrent;
+  return ReceiveResult::kCurrent;
 }
 
 port::RigLink::Counters LcmRigLink::counters() const noexcept {

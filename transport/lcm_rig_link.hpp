@@ -18,13 +18,13 @@ class LcmRigLink final : public port::RigLink {
   LcmRigLink(const LcmNetwork& network, std::size_t axes, std::int64_t spin_ns);
 
   bool Send(const SensorFrame& frame) noexcept override;
-  Answer Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept override;
+  ReceiveResult Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept override;
   [[nodiscard]] Counters counters() const noexcept override;
   [[nodiscard]] std::string TakeNews() override;
   [[nodiscard]] std::string Trouble() const override;
 
  private:
-  [[nodiscard]] Answer Accept(const Received& received, CurrentFrame& frame) noexcept;
+  [[nodiscard]] ReceiveResult Accept(const Received& received, CurrentFrame& frame) noexcept;
 
   MulticastReceiver receiver_;
   MulticastSender sender_;

@@ -11,7 +11,7 @@
 #include "controller/law/axis_law.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 constexpr double kRadPerSPerRpm = std::numbers::pi / 30.0;
@@ -166,7 +166,7 @@ class Loop {
 }  // namespace
 
 Campaign Record(const plant::PlantParameters& truth, const law::LawConfig& law,
-                const CampaignPlan& plan, Outside outside, double outside_size,
+                const CampaignPlan& plan, Unmodelled outside, double outside_size,
                 std::uint64_t outside_seed) {
   const auto model = std::make_shared<const plant::PlantModel>(truth);
   const auto excited_rows = static_cast<std::size_t>(2 * plan.bits_per_axis) * model->axes() +
@@ -237,4 +237,4 @@ void WriteCsv(const Campaign& campaign, const RigNumbers& rig, const std::string
   }
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/accuracy/outside.hpp"
+#include "benchmark/accuracy/unmodelled_disturbance.hpp"
 #include "controller/law/law_config.hpp"
 #include "diagnosis/model/model_run.hpp"
 #include "plant_sim/plant/plant.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 struct MeasuredRow {
   double time_s{};
@@ -60,7 +60,7 @@ struct Campaign {
 };
 
 [[nodiscard]] Campaign Record(const plant::PlantParameters& truth, const law::LawConfig& law,
-                              const CampaignPlan& plan, Outside outside, double outside_size,
+                              const CampaignPlan& plan, Unmodelled outside, double outside_size,
                               std::uint64_t outside_seed);
 
 /// Rows as the importer would give them.
@@ -69,4 +69,4 @@ struct Campaign {
 /// `folder`/<name>.csv of the contract in docs/formats.md.
 void WriteCsv(const Campaign& campaign, const RigNumbers& rig, const std::string& folder);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -7,7 +7,7 @@
 
 #include "plant_sim/effect/catalogue.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using effect::EffectConfig;
@@ -71,7 +71,7 @@ class Drawer {
         Rotor();
         break;
       default:
-        Outside();
+        Unmodelled();
         break;
     }
     std::vector<EffectConfig> entries{entry_};
@@ -263,7 +263,7 @@ class Drawer {
            (2.0 * std::numbers::pi);
   }
 
-  void Outside() {
+  void Unmodelled() {
     switch (entry_.id) {
       case Id::kMisalignment: {
         constexpr std::array kOrders{2.0, -2.0, 3.0, -3.0};
@@ -318,4 +318,4 @@ std::vector<EffectConfig> DrawEffect(Id id, double size, const plant::PlantParam
   return Drawer(id, size, nominal, random).Draw();
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -15,7 +15,7 @@
 #include "common/random.hpp"
 #include "plant_sim/plant/plant_parameters.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 /// The effects that a rotor on radial bearings can have and that a diagnosis can be asked for.
 /// `sample_jitter` is not among them: on a slow rotor it is far below the sensors' noise.
@@ -26,4 +26,4 @@ namespace levitas::trials {
                                                            const plant::PlantParameters& nominal,
                                                            Random& random);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

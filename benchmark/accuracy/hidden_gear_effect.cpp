@@ -6,7 +6,7 @@
 
 #include "plant_sim/effect/catalogue.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 using effect::Id;
 
@@ -60,4 +60,4 @@ std::vector<effect::EffectConfig> DrawGearEffect(Id id, double size,
   return {entry};
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -9,10 +9,10 @@
 #include "common/random.hpp"
 #include "plant_sim/plant/plant_parameters.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 /// The id is one of a gear pair.
 [[nodiscard]] std::vector<effect::EffectConfig> DrawGearEffect(
     effect::Id id, double size, const plant::PlantParameters& nominal, Random& random);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

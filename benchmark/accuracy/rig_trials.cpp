@@ -2,7 +2,7 @@
 
 #include "benchmark/accuracy/hidden_effect.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using effect::Id;
@@ -75,4 +75,4 @@ RigTrials TrialsOf(const config::RigFile& rig) {
   return FlexibleRotor();
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

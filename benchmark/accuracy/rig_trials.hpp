@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "benchmark/accuracy/campaign.hpp"
-#include "benchmark/accuracy/true_rig.hpp"
+#include "benchmark/accuracy/perturbed_rig.hpp"
 #include "config/rig_file.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 struct SizeOnRig {
   effect::Id id;
@@ -33,4 +33,4 @@ struct RigTrials {
 /// By the name of the rig; those of the flexible rotor for a rig that has none of its own.
 [[nodiscard]] RigTrials TrialsOf(const config::RigFile& rig);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

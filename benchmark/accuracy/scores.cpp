@@ -11,14 +11,14 @@
 #include "benchmark/accuracy/true_value.hpp"
 #include "diagnosis/report/words.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 bool Holds(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-std::string First(const Outcome& o) {
+std::string First(const TrialScore& o) {
   if (o.verdict != "effect" || o.named.empty()) return o.verdict;
   return o.named.front();
 }
@@ -29,14 +29,14 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-std::string HeldText(const Outcome& o) {
-  return o.held_nat < 0.0 ? "evidence unknown"
-                          : fmt::format("the records hold {:.0f} nat", o.held_nat);
+std::string HeldText(const TrialScore& o) {
+  return o.record_nat < 0.0 ? "evidence unknown"
+                            : fmt::format("the records hold {:.0f} nat", o.record_nat);
 }
 
 struct Count {
   int right{}, partly{}, of{};
-  void Add(const Outcome& o) {
+  void Add(const TrialScore& o) {
     ++of;
     right += o.Right() ? 1 : 0;
     partly += !o.Right() && o.Partly() ? 1 : 0;
@@ -46,41 +46,41 @@ struct Count {
 
 }  // namespace
 
-bool Outcome::Right() const {
+bool TrialScore::Right() const {
   if (truth.empty() && outside.empty()) return verdict == "none";
   if (truth.empty()) return verdict == "unknown";
   return verdict == "effect" && !named.empty() &&
          (named.front() == truth.front() || Holds(ties, truth.front()));
 }
 
-bool Outcome::Names(const std::string& effect) const {
+bool TrialScore::Names(const std::string& effect) const {
   return Holds(named, effect) || Holds(ties, effect);
 }
 
-bool Outcome::Partly() const {
+bool TrialScore::Partly() const {
   return std::any_of(truth.begin(), truth.end(), [this](const auto& e) { return Names(e); });
 }
 
-bool Outcome::NamesMain() const { return !truth.empty() && Names(truth.front()); }
+bool TrialScore::NamesMain() const { return !truth.empty() && Names(truth.front()); }
 
-bool Outcome::NamesAll() const {
+bool TrialScore::NamesAll() const {
   return std::all_of(truth.begin(), truth.end(), [this](const auto& e) { return Names(e); });
 }
 
-bool Outcome::HoldsAllClearly() const {
+bool TrialScore::HoldsAllClearly() const {
   return std::all_of(missed.begin(), missed.end(), [](const auto& effect) {
     return SizeOf(effect.second.value_or(std::numeric_limits<double>::infinity())) == Size::kClear;
   });
 }
 
-Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::SessionAnswer& answer,
-              const RigNumbers& rig) {
-  Outcome o;
+TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
+                 const diagnosis::DiagnosisResult& answer, const RigNumbers& rig) {
+  TrialScore o;
   o.seed = plan.seed;
-  o.truth = secret.effects;
-  o.in_file = secret.in_file;
-  if (secret.outside != Outside::kNothing) o.outside = Name(secret.outside);
-  o.drawn = secret.size;
+  o.truth = ground_truth.effects;
+  o.in_file = ground_truth.in_file;
+  if (ground_truth.outside != Unmodelled::kNothing) o.outside = Name(ground_truth.outside);
+  o.drawn = ground_truth.size;
   const auto& a = answer.answer;
   o.verdict = a.verdict == diagnosis::Verdict::kEffect    ? "effect"
               : a.verdict == diagnosis::Verdict::kUnknown ? "unknown"
@@ -99,10 +99,10 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
   }
   o.explained = a.explained;
   o.remainder_sigma = a.remainder.sigma;
-  o.achieved = answer.held_out.achieved.value;
+  o.achieved = answer.validation.achieved.value;
   for (const auto& p : diagnosis::Parameters(answer)) {
     if (o.truth.empty() || p.effect != o.truth.front()) continue;
-    const double truth = TrueValue(p, secret, rig).value_or(0.0);
+    const double truth = TrueValue(p, ground_truth, rig).value_or(0.0);
     if (truth == 0.0) continue;
     const double deviation = 0.5 * (p.high - p.low) / 1.645;
     o.parameter_error = std::abs(p.value - truth) / std::abs(truth);
@@ -112,17 +112,18 @@ Outcome Judge(const TrialPlan& plan, const Secret& secret, const diagnosis::Sess
   return o;
 }
 
-void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outcome& outcome) {
+void AddInformedDiagnosis(const diagnosis::SearchResult& told, std::optional<double> held,
+                          TrialScore& outcome) {
   const std::string& truth = outcome.truth.front();
   for (const auto& candidate : told.candidates) {
     if (candidate.effect != truth) continue;
     outcome.available_nat = std::max(outcome.available_nat, candidate.score);
   }
-  outcome.held_nat = held.value_or(-1.0);
+  outcome.record_nat = held.value_or(-1.0);
   const bool named = std::any_of(told.causes.begin(), told.causes.end(),
                                  [&truth](const auto& cause) { return cause.effect == truth; });
-  const bool there = held ? *held >= kHeldFrom : told.verdict == diagnosis::Verdict::kUnknown;
-  outcome.oracle_failed = !named && there;
+  const bool there = held ? *held >= kAvailableFrom : told.verdict == diagnosis::Verdict::kUnknown;
+  outcome.informed_failed = !named && there;
 }
 
 namespace {
@@ -140,14 +141,14 @@ struct Tally {
   int compared = 0;
   int good = 0;
 
-  void Add(const Outcome& o);
+  void Add(const TrialScore& o);
 
  private:
-  void AddSeveral(const Outcome& o);
-  void AddSingle(const Outcome& o);
+  void AddSeveral(const TrialScore& o);
+  void AddSingle(const TrialScore& o);
 };
 
-void Tally::Add(const Outcome& o) {
+void Tally::Add(const TrialScore& o) {
   seconds.push_back(o.seconds);
   if (o.truth.empty()) {
     (o.outside.empty() ? clean : outside).Add(o);
@@ -158,17 +159,17 @@ void Tally::Add(const Outcome& o) {
   }
 }
 
-void Tally::AddSeveral(const Outcome& o) {
+void Tally::AddSeveral(const TrialScore& o) {
   several.Add(o);
   several_main += o.NamesMain() ? 1 : 0;
   several_all += o.NamesAll() ? 1 : 0;
   several_clear += o.HoldsAllClearly() ? 1 : 0;
 }
 
-void Tally::AddSingle(const Outcome& o) {
+void Tally::AddSingle(const TrialScore& o) {
   by_effect[o.truth.front()][o.size()].Add(o);
   by_size[o.size()].Add(o);
-  if (o.oracle_failed) {
+  if (o.informed_failed) {
     failed +=
         fmt::format("  {} {} ({}, {})\n", o.seed, o.truth.front(), Name(o.size()), HeldText(o));
   }
@@ -181,9 +182,9 @@ void Tally::AddSingle(const Outcome& o) {
 
 }  // namespace
 
-std::string Tables(const std::vector<Outcome>& outcomes) {
+std::string Tables(const std::vector<TrialScore>& outcomes) {
   Tally tally;
-  for (const Outcome& o : outcomes) tally.Add(o);
+  for (const TrialScore& o : outcomes) tally.Add(o);
   std::string out =
       fmt::format("{:<26}{:>9}{:>10}{:>8}{:>8}\n{:<26}{:>9}{:>10}{:>8}{:>8}\n", "effect", "clear",
                   "moderate", "faint", "below", "evidence in the records", "25 nat", "10", "5", "");
@@ -212,9 +213,9 @@ std::string Tables(const std::vector<Outcome>& outcomes) {
   return out;
 }
 
-std::string ConfusionTable(const std::vector<Outcome>& outcomes) {
+std::string ConfusionTable(const std::vector<TrialScore>& outcomes) {
   std::map<std::string, std::map<std::string, int>> cells;
-  for (const Outcome& o : outcomes) {
+  for (const TrialScore& o : outcomes) {
     if (o.truth.size() > 1) continue;
     const std::string truth = !o.truth.empty()    ? o.truth.front()
                               : o.outside.empty() ? "(nothing)"
@@ -234,4 +235,4 @@ std::string ConfusionTable(const std::vector<Outcome>& outcomes) {
   return out;
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

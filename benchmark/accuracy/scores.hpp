@@ -7,7 +7,8 @@
 //            says little about it: some effects are smaller than the tolerances of similar
 //            parameters.
 // Oracle     an informed diagnosis, which is told the hidden effect. It has failed if it does not
-//            name it although the records hold it (held_evidence.hpp). The available evidence is
+//            name it although the records hold it (available_evidence.hpp). The available
+//            evidence is
 //            then unknown, and the trial counts as not named in the size that was drawn.
 // Partly     any effect really present is named, but not as first.
 // Thread     any; pure.
@@ -18,12 +19,12 @@
 #include <vector>
 
 #include "benchmark/accuracy/trial.hpp"
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 /// One trial's outcome, as one row of the bench.
-struct Outcome {
+struct TrialScore {
   std::uint64_t seed{};
   std::vector<std::string> truth;    ///< empty: nothing hidden
   std::vector<std::string> in_file;  ///< what the diagnosis's rig file holds
@@ -33,10 +34,10 @@ struct Outcome {
   std::vector<std::string> named;    ///< all causes, in order
   std::vector<std::string> ties;
   double score_nat{};
-  double available_nat{};  ///< evidence for the main effect, as far as a fit found it
-  double held_nat{-1.0};   ///< HeldEvidence; -1 = not computed, or none
-  bool oracle_failed{};    ///< `available_nat` says nothing
-  double explained{};      ///< share of the calibrated model's excess
+  double available_nat{};   ///< evidence for the main effect, as far as a fit found it
+  double record_nat{-1.0};  ///< AvailableEvidence; -1 = not computed, or none
+  bool informed_failed{};   ///< `available_nat` says nothing
+  double explained{};       ///< share of the calibrated model's excess
   double remainder_sigma{};
   std::vector<std::string> nearest;  ///< candidates in words, best first
   double achieved{};                 ///< fraction of the achievable gain, held out
@@ -47,8 +48,8 @@ struct Outcome {
   std::vector<std::pair<std::string, std::optional<double>>> missed;
 
   [[nodiscard]] Size size() const noexcept {
-    if (!oracle_failed) return SizeOf(available_nat);
-    return held_nat < 0.0 ? SizeDrawn(drawn) : SizeOf(held_nat);
+    if (!informed_failed) return SizeOf(available_nat);
+    return record_nat < 0.0 ? SizeDrawn(drawn) : SizeOf(record_nat);
   }
   [[nodiscard]] bool Right() const;
   [[nodiscard]] bool Partly() const;
@@ -59,20 +60,22 @@ struct Outcome {
   [[nodiscard]] bool HoldsAllClearly() const;
 };
 
-[[nodiscard]] Outcome Judge(const TrialPlan& plan, const Secret& secret,
-                            const diagnosis::SessionAnswer& answer, const RigNumbers& rig);
+[[nodiscard]] TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
+                               const diagnosis::DiagnosisResult& answer, const RigNumbers& rig);
 
 /// Above this evidence a missed effect counts as an error even if the informed diagnosis missed it
 /// too (twice kDecisive: a fit also pays an Occam factor).
-inline constexpr double kHeldFrom = 2.0 * diagnosis::kDecisive;
+inline constexpr double kAvailableFrom = 2.0 * diagnosis::kDecisive;
 
-/// Updates the outcome with the result of the informed diagnosis. `held` as HeldEvidence; without
+/// Updates the outcome with the result of the informed diagnosis. `held` as AvailableEvidence;
+/// without
 /// it, that diagnosis counts as failed when it leaves an unexplained residual.
-void HearOracle(const diagnosis::Answer& told, std::optional<double> held, Outcome& outcome);
+void AddInformedDiagnosis(const diagnosis::SearchResult& told, std::optional<double> held,
+                          TrialScore& outcome);
 
 /// Tables for people, of all outcomes.
-[[nodiscard]] std::string Tables(const std::vector<Outcome>& outcomes);
+[[nodiscard]] std::string Tables(const std::vector<TrialScore>& outcomes);
 /// The confusion matrix as a Markdown table: truth by row, first cause by column.
-[[nodiscard]] std::string ConfusionTable(const std::vector<Outcome>& outcomes);
+[[nodiscard]] std::string ConfusionTable(const std::vector<TrialScore>& outcomes);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

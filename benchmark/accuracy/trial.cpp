@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "benchmark/accuracy/hidden_gear_effect.hpp"
-#include "benchmark/accuracy/true_rig.hpp"
+#include "benchmark/accuracy/perturbed_rig.hpp"
 #include "common/problem.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using effect::Id;
@@ -17,7 +17,7 @@ constexpr int kOtherRig = 4;  ///< attempts
 
 class Maker {
  public:
-  Maker(const Bench& bench, const TrialPlan& plan)
+  Maker(const TestRig& bench, const TrialPlan& plan)
       : bench_(bench), plan_(plan), nominal_(plant::Reduce(bench.rig.plant)), random_(plan.seed) {
     campaign_ = bench.trials.campaign;
     campaign_.seed = random_.Bits();
@@ -41,22 +41,22 @@ class Maker {
         rig_seed_ = random_.Bits();
         beside_ *= 0.6;
       }
-      trial.secret.size = size;
-      if (Run(size, trial.campaign, trial.secret)) break;
+      trial.ground_truth.size = size;
+      if (Run(size, trial.campaign, trial.ground_truth)) break;
     }
     if (!trial.campaign.stable) throw BadInput("the rig under trial does not levitate");
     trial.records = AsRecords(trial.campaign, bench_.rig.numbers);
-    trial.secret.outside = plan_.outside;
+    trial.ground_truth.outside = plan_.outside;
     trial.rig = bench_.rig;
     if (plan_.in_file) {
-      trial.rig.plant.effects = Draw(trial.secret.size);
+      trial.rig.plant.effects = Draw(trial.ground_truth.size);
       for (const auto& entry : trial.rig.plant.effects) {
-        trial.secret.in_file.emplace_back(effect::At(entry.id).name);
+        trial.ground_truth.in_file.emplace_back(effect::At(entry.id).name);
       }
       return trial;
     }
     for (const Id id : plan_.hidden) {
-      trial.secret.effects.emplace_back(effect::At(id).name);
+      trial.ground_truth.effects.emplace_back(effect::At(id).name);
     }
     return trial;
   }
@@ -76,9 +76,9 @@ class Maker {
     return entries;
   }
 
-  bool Run(double size, Campaign& out, Secret& secret) {
+  bool Run(double size, Campaign& out, GroundTruth& ground_truth) {
     auto hidden = Draw(size);
-    secret.hidden = hidden;
+    ground_truth.hidden = hidden;
     CampaignPlan plan = campaign_;
     for (const auto& entry : hidden) {
       if (entry.id != Id::kDroppedSamples) continue;
@@ -89,13 +89,13 @@ class Maker {
     // of which no record would know.
     std::erase_if(hidden, [](const auto& entry) { return entry.id == Id::kDroppedSamples; });
     Random rig_random(rig_seed_);
-    const auto truth = TrueRig(bench_.rig.plant, bench_.trials.mismatch, hidden, rig_random);
+    const auto truth = PerturbedRig(bench_.rig.plant, bench_.trials.mismatch, hidden, rig_random);
     out = Record(truth, bench_.laws[law_], plan, plan_.outside, size, effect_seed_);
-    secret.truth = truth;
+    ground_truth.truth = truth;
     return out.stable;
   }
 
-  const Bench& bench_;
+  const TestRig& bench_;
   const TrialPlan& plan_;
   plant::PlantParameters nominal_;
   Random random_;
@@ -134,10 +134,10 @@ const char* Name(Size size) noexcept {
   }
 }
 
-Trial MakeTrial(const Bench& bench, const TrialPlan& plan) { return Maker(bench, plan).Make(); }
+Trial MakeTrial(const TestRig& bench, const TrialPlan& plan) { return Maker(bench, plan).Make(); }
 
-Bench LoadBench(const std::string& rig, const std::vector<std::string>& controllers) {
-  Bench bench{config::LoadRig(config::FindConfig(rig, "rigs")), {}, {}};
+TestRig LoadTestRig(const std::string& rig, const std::vector<std::string>& controllers) {
+  TestRig bench{config::LoadRig(config::FindConfig(rig, "rigs")), {}, {}};
   bench.trials = TrialsOf(bench.rig);
   std::vector<std::string> names = controllers;
   if (names.empty()) names.push_back(bench.rig.run.controller);
@@ -148,4 +148,4 @@ Bench LoadBench(const std::string& rig, const std::vector<std::string>& controll
   return bench;
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -16,10 +16,10 @@
 #include "benchmark/accuracy/rig_trials.hpp"
 #include "config/rig_file.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 /// The rig under trial: nominal description and the laws it may be levitated with.
-struct Bench {
+struct TestRig {
   config::RigFile rig;
   std::vector<law::LawConfig> laws;
   RigTrials trials;
@@ -30,7 +30,7 @@ struct TrialPlan {
   std::vector<effect::Id> hidden;  ///< the first is the main one
   double size{1.0};                ///< of the main effect; 1 = what DrawEffect calls clear
   double side_size{1.0};           ///< of the others
-  Outside outside{Outside::kNothing};
+  Unmodelled outside{Unmodelled::kNothing};
   bool in_file{};           ///< the diagnosis is given a rig file that holds the effects
   int bits_per_axis{2047};  ///< length of the test signal
   double runup_s{2.0};
@@ -46,10 +46,10 @@ enum class Size : std::uint8_t { kBelow, kFaint, kModerate, kClear };
 [[nodiscard]] const char* Name(Size size) noexcept;
 
 /// Ground truth. Never handed to the diagnosis.
-struct Secret {
+struct GroundTruth {
   std::vector<std::string> effects;  ///< none when the rig file holds them
   std::vector<std::string> in_file;
-  Outside outside{Outside::kNothing};
+  Unmodelled outside{Unmodelled::kNothing};
   plant::PlantParameters truth;
   std::vector<effect::EffectConfig> hidden;  ///< as drawn; part of `truth`
   double size{};                             ///< after making it smaller for stability
@@ -59,12 +59,13 @@ struct Trial {
   config::RigFile rig;  ///< nominal, what the diagnosis is given
   std::vector<diagnosis::Record> records;
   Campaign campaign;
-  Secret secret;
+  GroundTruth ground_truth;
 };
 
-[[nodiscard]] Trial MakeTrial(const Bench& bench, const TrialPlan& plan);
+[[nodiscard]] Trial MakeTrial(const TestRig& bench, const TrialPlan& plan);
 
 /// Loads a rig and these controllers; without any, the one that the rig file names.
-[[nodiscard]] Bench LoadBench(const std::string& rig, const std::vector<std::string>& controllers);
+[[nodiscard]] TestRig LoadTestRig(const std::string& rig,
+                                  const std::vector<std::string>& controllers);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -12,7 +12,7 @@
 
 #include "plant_sim/effect/catalogue.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 /// Whether a place speaks of a channel or bearing by its whole name: "nde_y" is no word of "de_y".
@@ -37,7 +37,8 @@ std::size_t IndexOf(const effect::Row& row, std::initializer_list<std::string_vi
 /// Entries of what a parameter of the answer speaks of: the hidden one, and what the rig is off by
 /// anyway at the same place. Empty: it speaks of another place.
 std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter& p,
-                                                 const Secret& secret, const RigNumbers& rig) {
+                                                 const GroundTruth& ground_truth,
+                                                 const RigNumbers& rig) {
   const auto here = [&](const effect::EffectConfig& entry) {
     const effect::Row& row = effect::At(entry.id);
     if (row.name != p.effect) return false;
@@ -47,8 +48,8 @@ std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter
     }
     return row.scope != effect::Scope::kChannels;
   };
-  const auto hidden = std::find_if(secret.hidden.begin(), secret.hidden.end(), here);
-  if (hidden == secret.hidden.end()) return {};
+  const auto hidden = std::find_if(ground_truth.hidden.begin(), ground_truth.hidden.end(), here);
+  if (hidden == ground_truth.hidden.end()) return {};
   // What acts at several planes or orders is meant at those of the hidden one.
   const effect::Row& row = effect::At(hidden->id);
   const std::size_t z = IndexOf(row, {"z"});
@@ -59,7 +60,7 @@ std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter
     return {};
   }
   std::vector<const effect::EffectConfig*> found;
-  for (const effect::EffectConfig& entry : secret.truth.config.effects) {
+  for (const effect::EffectConfig& entry : ground_truth.truth.config.effects) {
     if (!here(entry)) continue;
     if (z < none && entry.values[z] != hidden->values[z]) continue;
     if (order < none && entry.values[order] != hidden->values[order]) continue;
@@ -70,9 +71,9 @@ std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter
 
 }  // namespace
 
-std::optional<double> TrueValue(const diagnosis::NamedParameter& p, const Secret& secret,
+std::optional<double> TrueValue(const diagnosis::NamedParameter& p, const GroundTruth& ground_truth,
                                 const RigNumbers& rig) {
-  const auto entries = Entries(p, secret, rig);
+  const auto entries = Entries(p, ground_truth, rig);
   if (entries.empty()) return std::nullopt;
   const effect::Row& row = effect::At(entries.front()->id);
   const auto is = [&p](const effect::Parameter& known) {
@@ -101,4 +102,4 @@ std::optional<double> TrueValue(const diagnosis::NamedParameter& p, const Secret
   return std::nullopt;
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -11,11 +11,12 @@
 #include "common/rig_numbers.hpp"
 #include "diagnosis/report/named_values.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 /// Nothing where the two cannot be compared: another place, a number that counts from the rig's
 /// own.
 [[nodiscard]] std::optional<double> TrueValue(const diagnosis::NamedParameter& parameter,
-                                              const Secret& secret, const RigNumbers& rig);
+                                              const GroundTruth& ground_truth,
+                                              const RigNumbers& rig);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

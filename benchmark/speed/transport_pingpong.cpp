@@ -103,7 +103,7 @@ class OwnRig final : public Side {
   void Send() override { (void)link_.Send(frame_); }
   bool Receive() override {
     return link_.Receive(answer_, rt::MonotonicNowNs() + kPatienceNs) ==
-           LcmRigLink::Answer::kCurrent;
+           LcmRigLink::ReceiveResult::kCurrent;
   }
 
  private:

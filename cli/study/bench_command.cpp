@@ -16,7 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "benchmark/accuracy/held_evidence.hpp"
+#include "benchmark/accuracy/available_evidence.hpp"
 #include "benchmark/accuracy/scores.hpp"
 #include "cli/json_file.hpp"
 #include "cli/study/identify/geared_commands.hpp"
@@ -50,9 +50,9 @@ struct BenchOptions {
   std::string json_path, markdown_path, write_folder;
 };
 
-std::vector<effect::Id> Chosen(const BenchOptions& options, const trials::Bench& bench) {
+std::vector<effect::Id> Chosen(const BenchOptions& options, const accuracy::TestRig& bench) {
   std::vector<effect::Id> ids;
-  for (const trials::SizeOnRig& on : bench.trials.effects) {
+  for (const accuracy::SizeOnRig& on : bench.trials.effects) {
     const std::string name(effect::At(on.id).name);
     if (options.effects.empty() ||
         std::find(options.effects.begin(), options.effects.end(), name) != options.effects.end()) {
@@ -66,11 +66,12 @@ std::vector<effect::Id> Chosen(const BenchOptions& options, const trials::Bench&
   return ids;
 }
 
-std::vector<trials::TrialPlan> Plans(const BenchOptions& options, const trials::Bench& bench) {
+std::vector<accuracy::TrialPlan> Plans(const BenchOptions& options,
+                                       const accuracy::TestRig& bench) {
   const auto ids = Chosen(options, bench);
-  std::vector<trials::TrialPlan> plans;
-  const auto add = [&](std::vector<effect::Id> hidden, double size) -> trials::TrialPlan& {
-    trials::TrialPlan plan;
+  std::vector<accuracy::TrialPlan> plans;
+  const auto add = [&](std::vector<effect::Id> hidden, double size) -> accuracy::TrialPlan& {
+    accuracy::TrialPlan plan;
     plan.seed = options.first + plans.size();
     plan.hidden = std::move(hidden);
     plan.size = size;
@@ -83,7 +84,7 @@ std::vector<trials::TrialPlan> Plans(const BenchOptions& options, const trials::
   }
   for (int i = 0; i < options.clean; ++i) add({}, 0.0);
   for (int i = 0; i < options.outside; ++i) {
-    add({}, 1.0).outside = static_cast<trials::Outside>(1 + i % 5);
+    add({}, 1.0).outside = static_cast<accuracy::Unmodelled>(1 + i % 5);
   }
   for (int i = 0; i < options.pairs; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -99,42 +100,43 @@ std::vector<trials::TrialPlan> Plans(const BenchOptions& options, const trials::
   return plans;
 }
 
-void WriteTrial(const trials::Trial& trial, const std::string& root, std::uint64_t seed) {
+void WriteTrial(const accuracy::Trial& trial, const std::string& root, std::uint64_t seed) {
   const std::string folder = fmt::format("{}/{}", root, seed);
   std::filesystem::create_directories(folder + "/secret");
-  trials::WriteCsv(trial.campaign, trial.rig.numbers, folder);
+  accuracy::WriteCsv(trial.campaign, trial.rig.numbers, folder);
   WriteWholeFile(folder + "/rig.yaml", config::WriteRig(trial.rig));
-  nlohmann::ordered_json truth{{"effects", trial.secret.effects},
-                               {"outside", Name(trial.secret.outside)}};
+  nlohmann::ordered_json truth{{"effects", trial.ground_truth.effects},
+                               {"outside", Name(trial.ground_truth.outside)}};
   WriteJsonFile(folder + "/secret/truth.json", truth);
 }
 
 /// What the records hold for one of what is hidden, beside the rest of it.
-std::optional<double> HeldFor(const trials::Trial& trial, const std::string& effect) {
+std::optional<double> HeldFor(const accuracy::Trial& trial, const std::string& effect) {
   std::vector<effect::EffectConfig> one;
   std::vector<effect::EffectConfig> rest;
-  for (const effect::EffectConfig& entry : trial.secret.hidden) {
+  for (const effect::EffectConfig& entry : trial.ground_truth.hidden) {
     (effect::At(entry.id).name == effect ? one : rest).push_back(entry);
   }
-  return trials::HeldEvidence(trial.rig, trial.records, one, rest);
+  return accuracy::AvailableEvidence(trial.rig, trial.records, one, rest);
 }
 
-void ListMissed(const trials::Trial& trial, trials::Outcome& outcome) {
+void ListMissed(const accuracy::Trial& trial, accuracy::TrialScore& outcome) {
   for (const std::string& effect : outcome.truth) {
     if (!outcome.Names(effect)) outcome.missed.emplace_back(effect, HeldFor(trial, effect));
   }
 }
 
-trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
-                    const BenchOptions& options) {
-  const trials::Trial trial = trials::MakeTrial(bench, plan);
+accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRig& bench,
+                         const BenchOptions& options) {
+  const accuracy::Trial trial = accuracy::MakeTrial(bench, plan);
   if (!options.write_folder.empty()) WriteTrial(trial, options.write_folder, plan.seed);
   diagnosis::Settings settings;
   settings.quick = options.quick;
   const auto start = std::chrono::steady_clock::now();
-  const diagnosis::SessionAnswer answer =
+  const diagnosis::DiagnosisResult answer =
       diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
-  trials::Outcome outcome = trials::Judge(plan, trial.secret, answer, bench.rig.numbers);
+  accuracy::TrialScore outcome =
+      accuracy::Judge(plan, trial.ground_truth, answer, bench.rig.numbers);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (outcome.truth.size() > 1 && plan.side_size == 1.0) ListMissed(trial, outcome);
   if (!outcome.truth.empty() && !outcome.Right()) {
@@ -143,22 +145,22 @@ trials::Outcome Try(const trials::TrialPlan& plan, const trials::Bench& bench,
     const auto told = diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
     const bool known =
         !outcome.missed.empty() && outcome.missed.front().first == outcome.truth.front();
-    trials::HearOracle(
+    accuracy::AddInformedDiagnosis(
         told.answer, known ? outcome.missed.front().second : HeldFor(trial, outcome.truth.front()),
         outcome);
   }
   return outcome;
 }
 
-std::string Hidden(const trials::Outcome& o) {
+std::string Hidden(const accuracy::TrialScore& o) {
   if (!o.truth.empty()) return fmt::format("{}", fmt::join(o.truth, "+"));
   if (!o.in_file.empty()) return fmt::format("({} in the file)", fmt::join(o.in_file, "+"));
   return o.outside.empty() ? "(nothing)" : o.outside;
 }
 
-void PrintOne(const trials::Outcome& o) {
+void PrintOne(const accuracy::TrialScore& o) {
   fmt::print("{:>6} {:<26}{:<9}-> {:<8}{:<60}{:>7.1f} nat {:.1f} s{}\n", o.seed, Hidden(o),
-             o.truth.empty() ? "" : trials::Name(o.size()), o.verdict,
+             o.truth.empty() ? "" : accuracy::Name(o.size()), o.verdict,
              fmt::format("{}{}{}", fmt::join(o.named, ", "), o.ties.empty() ? "" : " | ",
                          fmt::join(o.ties, ", ")),
              o.score_nat, o.seconds, o.Right() ? "" : (o.Partly() ? "   (partly)" : "   WRONG"));
@@ -166,21 +168,21 @@ void PrintOne(const trials::Outcome& o) {
     fmt::print("       not named: {}, of which the records hold {} given the others\n", effect,
                held ? fmt::format("{:.1f} nat", *held) : "an unknown amount");
   }
-  if (o.oracle_failed) {
+  if (o.informed_failed) {
     fmt::print("       informed diagnosis failed: it does not name {}; the records hold {}\n",
                o.truth.front(),
-               o.held_nat < 0.0 ? "an unknown amount" : fmt::format("{:.1f} nat", o.held_nat));
+               o.record_nat < 0.0 ? "an unknown amount" : fmt::format("{:.1f} nat", o.record_nat));
   }
   static_cast<void>(std::fflush(stdout));
 }
 
-void Explain(const trials::Outcome& o) {
+void Explain(const accuracy::TrialScore& o) {
   fmt::print("       {:.2f} of the excess explained, {:.1f} sigma left, gain held out {:.3f}; {}\n",
              o.explained, o.remainder_sigma, o.achieved, fmt::join(o.nearest, ", "));
   static_cast<void>(std::fflush(stdout));
 }
 
-nlohmann::ordered_json Json(const trials::Outcome& o) {
+nlohmann::ordered_json Json(const accuracy::TrialScore& o) {
   auto missed = nlohmann::ordered_json::array();
   for (const auto& [effect, held] : o.missed) {
     missed.push_back({{"effect", effect}, {"held_nat", held.value_or(-1.0)}});
@@ -190,14 +192,14 @@ nlohmann::ordered_json Json(const trials::Outcome& o) {
           {"outside", o.outside},
           {"in_file", o.in_file},
           {"drawn", o.drawn},
-          {"size", o.truth.empty() ? "" : trials::Name(o.size())},
+          {"size", o.truth.empty() ? "" : accuracy::Name(o.size())},
           {"verdict", o.verdict},
           {"named", o.named},
           {"ties", o.ties},
           {"score_nat", o.score_nat},
           {"available_nat", o.available_nat},
-          {"held_nat", o.held_nat},
-          {"oracle_failed", o.oracle_failed},
+          {"held_nat", o.record_nat},
+          {"oracle_failed", o.informed_failed},
           {"missed", missed},
           {"explained", o.explained},
           {"remainder_sigma", o.remainder_sigma},
@@ -211,9 +213,10 @@ nlohmann::ordered_json Json(const trials::Outcome& o) {
 }
 
 /// Several at a time, printed as they end, returned in the order of the plans.
-std::vector<trials::Outcome> TryAll(const std::vector<trials::TrialPlan>& plans,
-                                    const trials::Bench& bench, const BenchOptions& options) {
-  std::vector<trials::Outcome> outcomes(plans.size());
+std::vector<accuracy::TrialScore> TryAll(const std::vector<accuracy::TrialPlan>& plans,
+                                         const accuracy::TestRig& bench,
+                                         const BenchOptions& options) {
+  std::vector<accuracy::TrialScore> outcomes(plans.size());
   std::atomic<std::size_t> next{0};
   std::mutex printing;
   std::exception_ptr failure;
@@ -245,15 +248,15 @@ ExitStatus Run(const BenchOptions& options) {
   if (controllers.empty() && options.rig == "flexible_rotor") {
     controllers = {"flexible_rotor", "flexible_rotor_commissioned"};
   }
-  const trials::Bench bench = trials::LoadBench(options.rig, controllers);
-  const std::vector<trials::Outcome> outcomes = TryAll(Plans(options, bench), bench, options);
+  const accuracy::TestRig bench = accuracy::LoadTestRig(options.rig, controllers);
+  const std::vector<accuracy::TrialScore> outcomes = TryAll(Plans(options, bench), bench, options);
   nlohmann::ordered_json json;
   json["trials"] = nlohmann::ordered_json::array();
-  for (const trials::Outcome& outcome : outcomes) json["trials"].push_back(Json(outcome));
-  fmt::print("\n{}\n{}", trials::Tables(outcomes), trials::ConfusionTable(outcomes));
+  for (const accuracy::TrialScore& outcome : outcomes) json["trials"].push_back(Json(outcome));
+  fmt::print("\n{}\n{}", accuracy::Tables(outcomes), accuracy::ConfusionTable(outcomes));
   if (!options.markdown_path.empty()) {
-    WriteWholeFile(options.markdown_path, "```\n" + trials::Tables(outcomes) + "```\n\n" +
-                                              trials::ConfusionTable(outcomes));
+    WriteWholeFile(options.markdown_path, "```\n" + accuracy::Tables(outcomes) + "```\n\n" +
+                                              accuracy::ConfusionTable(outcomes));
   }
   WriteJsonFile(options.json_path, json);
   return ExitStatus::kDone;

@@ -21,8 +21,8 @@
 #include "cli/study_commands.hpp"
 #include "cli/text_file.hpp"
 #include "diagnosis/levitator/plan.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/plan.hpp"
-#include "diagnosis/report/session.hpp"
 #include "diagnosis/report/words.hpp"
 
 namespace levitas::cli {
@@ -58,9 +58,9 @@ void WritePlan(const std::string& path, const std::string& scenario, const char*
 }
 
 /// Two-magnet levitator: voltage-driven coils, with separate models, causes and fits.
-std::vector<std::string> RunLevitator(const diagnosis::SessionInputs& inputs,
+std::vector<std::string> RunLevitator(const diagnosis::DiagnosisRequest& inputs,
                                       const DiagnoseOptions& options, ProgressLine& progress) {
-  const levitator::Answer answer = levitator::Diagnose(inputs);
+  const levitator::LevitatorResult answer = levitator::Diagnose(inputs);
   progress.Close();
   PrintLevitator(answer, options.explain);
   WriteJsonFile(options.json_path, LevitatorJson(answer));
@@ -72,9 +72,9 @@ std::vector<std::string> RunLevitator(const diagnosis::SessionInputs& inputs,
   return written;
 }
 
-std::vector<std::string> RunRotor(const diagnosis::SessionInputs& inputs,
+std::vector<std::string> RunRotor(const diagnosis::DiagnosisRequest& inputs,
                                   const DiagnoseOptions& options, ProgressLine& progress) {
-  const diagnosis::SessionAnswer answer = diagnosis::DiagnoseFiles(inputs);
+  const diagnosis::DiagnosisResult answer = diagnosis::DiagnoseFiles(inputs);
   progress.Close();
   PrintDiagnosis(answer, options.explain);
   WriteJsonFile(options.json_path, DiagnosisJson(answer));
@@ -89,7 +89,7 @@ std::vector<std::string> RunRotor(const diagnosis::SessionInputs& inputs,
 
 ExitStatus Run(const DiagnoseOptions& options) {
   KeepFreedMemory();
-  diagnosis::SessionInputs inputs;
+  diagnosis::DiagnosisRequest inputs;
   inputs.rig = LoadRig(options);
   RefuseSameFiles(options.data, options.holdout, options.healthy);
   const AnswerFolder folder(options.out);

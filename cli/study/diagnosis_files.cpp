@@ -8,19 +8,19 @@
 #include "cli/text_file.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/report/calibrated_rig.hpp"
-#include "diagnosis/report/coverage.hpp"
-#include "diagnosis/report/doubt.hpp"
+#include "diagnosis/report/excitation_coverage.hpp"
 #include "diagnosis/report/extended_rig.hpp"
+#include "diagnosis/report/input_warnings.hpp"
 #include "diagnosis/report/words.hpp"
 
 namespace levitas::cli {
 
-using diagnosis::SessionAnswer;
+using diagnosis::DiagnosisResult;
 using diagnosis::Verdict;
 
 namespace {
 
-nlohmann::ordered_json ParametersJson(const SessionAnswer& s) {
+nlohmann::ordered_json ParametersJson(const DiagnosisResult& s) {
   auto json = nlohmann::ordered_json::object();
   for (const auto& p : diagnosis::Parameters(s)) {
     json[p.name] = {{"value", p.value},   {"low", p.low},
@@ -34,7 +34,7 @@ nlohmann::ordered_json ParametersJson(const SessionAnswer& s) {
   return json;
 }
 
-nlohmann::ordered_json CalibratedJson(const SessionAnswer& s) {
+nlohmann::ordered_json CalibratedJson(const DiagnosisResult& s) {
   auto json = nlohmann::ordered_json::array();
   for (const auto& v : diagnosis::CalibratedValues(s)) {
     nlohmann::ordered_json entry{{"effect", v.effect},
@@ -58,7 +58,7 @@ nlohmann::ordered_json CalibratedJson(const SessionAnswer& s) {
 
 }  // namespace
 
-nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
+nlohmann::ordered_json DiagnosisJson(const DiagnosisResult& s) {
   nlohmann::ordered_json json;
   const auto& a = s.answer;
   json["verdict"] = a.verdict == Verdict::kEffect    ? "effect"
@@ -77,18 +77,19 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
   json["fit_percent"] = {{"before", s.fitted.nominal_percent},
                          {"calibrated", s.fitted.calibrated_percent},
                          {"after", s.fitted.extended_percent},
-                         {"holdout_before", s.held_out.nominal_percent},
-                         {"holdout_calibrated", s.held_out.calibrated_percent},
-                         {"holdout_after", s.held_out.extended_percent},
-                         {"ceiling", s.held_out.ceiling_percent}};
+                         {"holdout_before", s.validation.nominal_percent},
+                         {"holdout_calibrated", s.validation.calibrated_percent},
+                         {"holdout_after", s.validation.extended_percent},
+                         {"ceiling", s.validation.ceiling_percent}};
   const auto share = [](const diagnosis::Share& g) {
     return nlohmann::ordered_json{{"fraction", g.value}, {"low", g.low}, {"high", g.high}};
   };
-  json["achievable_gain"] = share(s.held_out.achieved);
-  json["achievable_gain"]["beyond_calibration"] = s.held_out.beyond_calibration.value;
-  json["achievable_gain"]["meaningful"] = diagnosis::SomethingToGain(s.held_out);
-  for (std::size_t i = 0; i < s.held_out.channel.size(); ++i) {
-    json["achievable_gain"]["channels"][s.view->numbers.channels[i]] = share(s.held_out.channel[i]);
+  json["achievable_gain"] = share(s.validation.achieved);
+  json["achievable_gain"]["beyond_calibration"] = s.validation.beyond_calibration.value;
+  json["achievable_gain"]["meaningful"] = diagnosis::SomethingToGain(s.validation);
+  for (std::size_t i = 0; i < s.validation.channel.size(); ++i) {
+    json["achievable_gain"]["channels"][s.view->numbers.channels[i]] =
+        share(s.validation.channel[i]);
   }
   json["residual"] = {{"frequency_hz", a.remainder.frequency_hz},
                       {"order", a.remainder.order},
@@ -96,8 +97,8 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
                       {"channel", s.view->numbers.channels[a.remainder.worst_channel]},
                       {"sigma", a.remainder.sigma},
                       {"explained", a.explained}};
-  json["cannot_tell"] = {{"sentence", diagnosis::CannotTellSentence(s)},
-                         {"effects", diagnosis::CannotTell(s)},
+  json["cannot_tell"] = {{"sentence", diagnosis::UnobservableSentence(s)},
+                         {"effects", diagnosis::UnobservableEffects(s)},
                          {"record_next", diagnosis::MissingRecords(s)}};
   json["doubt"] = diagnosis::DoubtSentence(s);
   json["healthy_records"] = diagnosis::HealthySentence(s);
@@ -112,7 +113,7 @@ nlohmann::ordered_json DiagnosisJson(const SessionAnswer& s) {
   return json;
 }
 
-std::vector<std::string> WriteDiagnosis(const SessionAnswer& answer, const config::RigFile& rig,
+std::vector<std::string> WriteDiagnosis(const DiagnosisResult& answer, const config::RigFile& rig,
                                         const std::string& folder) {
   std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
                                  folder + "/calibrated_rig.yaml", folder + "/report.html"};

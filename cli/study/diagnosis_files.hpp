@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "config/rig_file.hpp"
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::cli {
 
-[[nodiscard]] nlohmann::ordered_json DiagnosisJson(const diagnosis::SessionAnswer& answer);
+[[nodiscard]] nlohmann::ordered_json DiagnosisJson(const diagnosis::DiagnosisResult& answer);
 /// The paths that were written.
-std::vector<std::string> WriteDiagnosis(const diagnosis::SessionAnswer& answer,
+std::vector<std::string> WriteDiagnosis(const diagnosis::DiagnosisResult& answer,
                                         const config::RigFile& rig, const std::string& folder);
 
 }  // namespace levitas::cli

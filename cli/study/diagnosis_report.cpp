@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "cli/study/diagnosis_text.hpp"
-#include "diagnosis/report/doubt.hpp"
+#include "diagnosis/report/input_warnings.hpp"
 #include "diagnosis/report/words.hpp"
 #include "report/svg/figure.hpp"
 
@@ -15,7 +15,7 @@ namespace levitas::cli {
 namespace {
 
 using diagnosis::Candidate;
-using diagnosis::SessionAnswer;
+using diagnosis::DiagnosisResult;
 
 constexpr const char* kStyle =
     "body{font:16px/1.5 sans-serif;max-width:64em;margin:2em auto;padding:0 1em;color:#222}"
@@ -55,7 +55,7 @@ svg::Series Line(const char* name, const char* colour, const std::vector<double>
   return line;
 }
 
-std::string Spectra(const SessionAnswer& s) {
+std::string Spectra(const DiagnosisResult& s) {
   svg::Panel panel;
   panel.title =
       "What the model leaves of the data used, in " + s.view->numbers.channels[s.shown_channel];
@@ -76,7 +76,7 @@ std::string Spectra(const SessionAnswer& s) {
 }
 
 /// Why an effect is not the answer.
-std::string Why(const SessionAnswer& s, const Candidate& candidate) {
+std::string Why(const DiagnosisResult& s, const Candidate& candidate) {
   const auto& a = s.answer;
   for (const auto& cause : a.causes) {
     if (cause.effect == candidate.effect) return "named";
@@ -99,7 +99,7 @@ std::string Why(const SessionAnswer& s, const Candidate& candidate) {
                      a.candidates.front().score - candidate.score);
 }
 
-std::string Ranking(const SessionAnswer& s) {
+std::string Ranking(const DiagnosisResult& s) {
   constexpr std::size_t kShown = 8;
   std::string rows;
   std::string rest;
@@ -128,8 +128,8 @@ std::string Bar(const char* name, double ratio, double largest, const char* colo
 }
 
 /// Residuals of the models on validation data.
-std::string Left(const SessionAnswer& s) {
-  const diagnosis::Gain& held = s.held_out;
+std::string Left(const DiagnosisResult& s) {
+  const diagnosis::Gain& held = s.validation;
   const double nominal = 1.0 + held.to_gain.value;
   const double largest = std::max({nominal, held.calibrated_over_noise, held.extended_over_noise});
   std::string text =
@@ -146,11 +146,11 @@ std::string Left(const SessionAnswer& s) {
          "little, the evidence (nat: logarithm of the odds) decides on a cause, not this.</p>\n";
 }
 
-std::string CalibrationTable(const SessionAnswer& s) {
+std::string CalibrationTable(const DiagnosisResult& s) {
   std::string told;
   std::string rest;
   for (const auto& v : diagnosis::CalibratedValues(s)) {
-    (diagnosis::WorthTelling(v) ? told : rest) += fmt::format(
+    (diagnosis::IsSignificant(v) ? told : rest) += fmt::format(
         "<tr><td>{}</td><td class=k>{}</td><td>{}</td><td class=n>{}</td><td class=n>{}</td>"
         "<td class=n>{:.2g}</td><td class=n>{:.2g}</td></tr>\n",
         v.effect, Escaped(v.place), v.key, AtPhase(v.nominal, v.nominal_phase_rad),
@@ -175,7 +175,7 @@ std::string CalibrationTable(const SessionAnswer& s) {
 }
 
 /// Seconds, gain and limits in a sentence each.
-std::string Summary(const SessionAnswer& s) {
+std::string Summary(const DiagnosisResult& s) {
   const bool part = s.seconds_used < 0.99 * s.seconds_of_data;
   const std::string text =
       part ? fmt::format("From {:.1f} s of {:.1f} s in flight, spans spread over all records.",
@@ -184,22 +184,22 @@ std::string Summary(const SessionAnswer& s) {
   return fmt::format("{} {}", text, GainSentence(s));
 }
 
-std::string ChannelTable(const SessionAnswer& s) {
+std::string ChannelTable(const DiagnosisResult& s) {
   std::string rows;
-  for (std::size_t i = 0; i < s.held_out.channel.size(); ++i) {
-    const auto& g = s.held_out.channel[i];
+  for (std::size_t i = 0; i < s.validation.channel.size(); ++i) {
+    const auto& g = s.validation.channel[i];
     rows += fmt::format(
         "<tr><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td>"
         "<td class=n>{:.3f} ({:.3f} to {:.3f})</td></tr>\n",
-        Escaped(s.view->numbers.channels[i]), s.held_out.channel_nominal_percent[i],
-        s.held_out.channel_extended_percent[i], g.value, g.low, g.high);
+        Escaped(s.view->numbers.channels[i]), s.validation.channel_nominal_percent[i],
+        s.validation.channel_extended_percent[i], g.value, g.low, g.high);
   }
   return "<details><summary>Channel by channel</summary><table><tr><th>channel</th>"
          "<th>fit before, %</th><th>after, %</th><th>share of the achievable gain</th></tr>\n" +
          rows + "</table></details>\n";
 }
 
-std::string FitTable(const SessionAnswer& s) {
+std::string FitTable(const DiagnosisResult& s) {
   const auto row = [](const char* name, const diagnosis::Gain& g) {
     return fmt::format(
         "<tr><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td>"
@@ -211,10 +211,10 @@ std::string FitTable(const SessionAnswer& s) {
   };
   return "<table><tr><th>fit, percent</th><th>nominal</th><th>calibrated</th><th>extended</th>"
          "<th>ceiling</th><th>share of the achievable gain</th></tr>\n" +
-         row("fitted data", s.fitted) + row("validation data", s.held_out) + "</table>\n";
+         row("fitted data", s.fitted) + row("validation data", s.validation) + "</table>\n";
 }
 
-std::string ParameterTable(const SessionAnswer& s) {
+std::string ParameterTable(const DiagnosisResult& s) {
   std::string rows;
   bool form = false;
   for (const auto& [p, places] : SharedParameters(s)) {
@@ -238,7 +238,7 @@ std::string ParameterTable(const SessionAnswer& s) {
 
 }  // namespace
 
-std::string DiagnosisPage(const SessionAnswer& s, const std::string& more) {
+std::string DiagnosisPage(const DiagnosisResult& s, const std::string& more) {
   const std::string ceiling = CeilingSentence(s);
   return fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "

@@ -6,12 +6,12 @@
 
 #include <string>
 
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::cli {
 
 /// `more` is put behind the verdict as it is.
-[[nodiscard]] std::string DiagnosisPage(const diagnosis::SessionAnswer& answer,
+[[nodiscard]] std::string DiagnosisPage(const diagnosis::DiagnosisResult& answer,
                                         const std::string& more = {});
 
 }  // namespace levitas::cli

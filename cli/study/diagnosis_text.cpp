@@ -7,20 +7,20 @@
 #include <numbers>
 
 #include "cli/text_table.hpp"
-#include "diagnosis/report/doubt.hpp"
+#include "diagnosis/report/input_warnings.hpp"
 #include "diagnosis/report/words.hpp"
 
 namespace levitas::cli {
 namespace {
 
 using diagnosis::CalibratedValue;
+using diagnosis::DiagnosisResult;
 using diagnosis::Gain;
 using diagnosis::NamedParameter;
-using diagnosis::SessionAnswer;
 
 constexpr std::size_t kShown = 8;
 
-void PrintParameters(const SessionAnswer& s) {
+void PrintParameters(const DiagnosisResult& s) {
   const auto parameters = SharedParameters(s);
   if (parameters.empty()) return;
   fmt::print("Parameters, keys and units as in a rig file (in brackets: 90 % interval):\n");
@@ -36,11 +36,11 @@ void PrintParameters(const SessionAnswer& s) {
   fmt::print("\n");
 }
 
-void PrintCalibrated(const SessionAnswer& s, bool complete) {
+void PrintCalibrated(const DiagnosisResult& s, bool complete) {
   const auto values = diagnosis::CalibratedValues(s);
   std::vector<CalibratedValue> told;
   std::copy_if(values.begin(), values.end(), std::back_inserter(told),
-               [complete](const auto& v) { return complete || diagnosis::WorthTelling(v); });
+               [complete](const auto& v) { return complete || diagnosis::IsSignificant(v); });
   if (!complete && told.size() > kShown) told.resize(kShown);
   fmt::print("Calibration: {} numbers in which a healthy rig may differ from its file; ",
              values.size());
@@ -64,7 +64,7 @@ void PrintCalibrated(const SessionAnswer& s, bool complete) {
   fmt::print("\n");
 }
 
-void PrintFits(const SessionAnswer& s) {
+void PrintFits(const DiagnosisResult& s) {
   fmt::print("{:<46}{:>9}{:>12}{:>10}{:>9}\n", "Fit of the one-step prediction, percent", "nominal",
              "calibrated", "extended", "ceiling");
   const auto row = [](const char* name, const Gain& g) {
@@ -72,12 +72,12 @@ void PrintFits(const SessionAnswer& s) {
                g.calibrated_percent, g.extended_percent, g.ceiling_percent);
   };
   row("  on fitted data", s.fitted);
-  row("  on validation data", s.held_out);
+  row("  on validation data", s.validation);
   const std::string ceiling = CeilingSentence(s);
   fmt::print("{}\n{}{}", GainSentence(s), ceiling, ceiling.empty() ? "" : "\n");
 }
 
-void PrintRanking(const SessionAnswer& s, bool complete) {
+void PrintRanking(const DiagnosisResult& s, bool complete) {
   const auto& candidates = s.answer.candidates;
   const std::size_t shown = complete ? candidates.size() : std::min(kShown, candidates.size());
   fmt::print("\n{:<26}{:<42}{:>10}\n", "effect", "where", "nat");
@@ -99,7 +99,7 @@ bool Above(const Gain& g) {
 
 }  // namespace
 
-std::vector<SharedParameter> SharedParameters(const SessionAnswer& s) {
+std::vector<SharedParameter> SharedParameters(const DiagnosisResult& s) {
   struct Places {
     NamedParameter first;
     std::vector<std::string> at;
@@ -128,8 +128,8 @@ std::string AtPhase(double value, std::optional<double> phase_rad) {
              : fmt::format("{:.5g}", value);
 }
 
-std::string GainSentence(const SessionAnswer& s) {
-  const Gain& held = s.held_out;
+std::string GainSentence(const DiagnosisResult& s) {
+  const Gain& held = s.validation;
   if (!diagnosis::SomethingToGain(held)) {
     return "Nothing to gain: the rig file itself predicts these data nearly to their noise.";
   }
@@ -150,13 +150,13 @@ std::string GainSentence(const SessionAnswer& s) {
                                     gained, beyond);
 }
 
-std::string CeilingSentence(const SessionAnswer& s) {
-  if (!Above(s.fitted) && !Above(s.held_out)) return {};
+std::string CeilingSentence(const DiagnosisResult& s) {
+  if (!Above(s.fitted) && !Above(s.validation)) return {};
   return "A fit above the ceiling is at the ceiling: the noise is read from the highest third of "
          "the spectrum, to a few per cent.";
 }
 
-void PrintDiagnosis(const SessionAnswer& s, bool complete) {
+void PrintDiagnosis(const DiagnosisResult& s, bool complete) {
   fmt::print("{}\n\n", diagnosis::VerdictSentence(s));
   const std::string healthy = diagnosis::HealthySentence(s);
   if (!healthy.empty()) fmt::print("{}\n\n", healthy);

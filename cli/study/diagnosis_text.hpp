@@ -6,24 +6,25 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::cli {
 
 /// `complete`: every calibrated value and every candidate.
-void PrintDiagnosis(const diagnosis::SessionAnswer& answer, bool complete);
+void PrintDiagnosis(const diagnosis::DiagnosisResult& answer, bool complete);
 
 /// Parameters that are the same at several places, once.
 struct SharedParameter {
   diagnosis::NamedParameter parameter;
   std::string places;
 };
-[[nodiscard]] std::vector<SharedParameter> SharedParameters(const diagnosis::SessionAnswer& answer);
+[[nodiscard]] std::vector<SharedParameter> SharedParameters(
+    const diagnosis::DiagnosisResult& answer);
 /// "18.5 at 120.3 deg", or the value alone.
 [[nodiscard]] std::string AtPhase(double value, std::optional<double> phase_rad);
 /// What share of what could be gained is, and by what; or that there was nothing to gain.
-[[nodiscard]] std::string GainSentence(const diagnosis::SessionAnswer& answer);
+[[nodiscard]] std::string GainSentence(const diagnosis::DiagnosisResult& answer);
 /// Why a fit can lie above its ceiling; empty when none does.
-[[nodiscard]] std::string CeilingSentence(const diagnosis::SessionAnswer& answer);
+[[nodiscard]] std::string CeilingSentence(const diagnosis::DiagnosisResult& answer);
 
 }  // namespace levitas::cli

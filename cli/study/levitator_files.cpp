@@ -15,16 +15,16 @@
 namespace levitas::cli {
 namespace {
 
-using levitator::Answer;
 using levitator::Fit;
-using levitator::HeldOutRun;
+using levitator::LevitatorResult;
+using levitator::ValidationRun;
 
 std::string Interval(const Fit& fit) { return fmt::format("{:.1f} to {:.1f}", fit.low, fit.high); }
 
-void PrintRuns(const std::vector<HeldOutRun>& runs) {
+void PrintRuns(const std::vector<ValidationRun>& runs) {
   fmt::print("{:<22}{:>9}{:>12}{:>10}{:>18}{:>9}\n", "", "nominal", "calibrated", "extended",
              "5 to 95 %", "ceiling");
-  for (const HeldOutRun& run : runs) {
+  for (const ValidationRun& run : runs) {
     const auto row = [](const std::string& name, const Fit& nominal, const Fit& calibrated,
                         const Fit& extended, double ceiling) {
       fmt::print("{:<22}{:>9.2f}{:>12.2f}{:>10.2f}{:>18}{:>9.2f}\n", name, nominal.percent,
@@ -46,9 +46,9 @@ nlohmann::ordered_json FitJson(const Fit& nominal, const Fit& calibrated, const 
           {"after_high", extended.high}, {"ceiling", ceiling}};
 }
 
-nlohmann::ordered_json RunsJson(const std::vector<HeldOutRun>& runs) {
+nlohmann::ordered_json RunsJson(const std::vector<ValidationRun>& runs) {
   auto json = nlohmann::ordered_json::array();
-  for (const HeldOutRun& run : runs) {
+  for (const ValidationRun& run : runs) {
     nlohmann::ordered_json entry{{"run", run.name}};
     if (run.current_ceiling > 0.0) {
       entry["current_percent"] = FitJson(run.nominal.current, run.calibrated.current,
@@ -63,9 +63,9 @@ nlohmann::ordered_json RunsJson(const std::vector<HeldOutRun>& runs) {
   return json;
 }
 
-std::string RunsTable(const std::vector<HeldOutRun>& runs) {
+std::string RunsTable(const std::vector<ValidationRun>& runs) {
   std::string rows;
-  for (const HeldOutRun& run : runs) {
+  for (const ValidationRun& run : runs) {
     const auto row = [&](const char* what, const Fit& nominal, const Fit& calibrated,
                          const Fit& extended, double ceiling) {
       rows += fmt::format(
@@ -88,7 +88,7 @@ std::string RunsTable(const std::vector<HeldOutRun>& runs) {
 }
 
 /// Each stands in the place of the named cause it does most for.
-std::vector<std::pair<std::string, std::string>> WhyNot(const Answer& answer) {
+std::vector<std::pair<std::string, std::string>> WhyNot(const LevitatorResult& answer) {
   std::vector<std::pair<std::string, std::string>> out;
   for (const levitator::Score& score : answer.found.scores) {
     if (score.named || score.instead_of >= levitator::Causes().size()) continue;
@@ -108,7 +108,7 @@ std::vector<std::pair<std::string, std::string>> WhyNot(const Answer& answer) {
 
 }  // namespace
 
-void PrintLevitator(const Answer& answer, bool complete) {
+void PrintLevitator(const LevitatorResult& answer, bool complete) {
   PrintDiagnosis(answer.common, complete);
   for (const levitator::Tie& tie : answer.ties) {
     if (tie.others.empty()) continue;
@@ -119,10 +119,10 @@ void PrintLevitator(const Answer& answer, bool complete) {
   fmt::print(
       "\nFit on runs that were not fitted, percent (I: current in free run, x: motion one "
       "step ahead)\n");
-  PrintRuns(answer.held_out);
+  PrintRuns(answer.validation);
 }
 
-nlohmann::ordered_json LevitatorJson(const Answer& answer) {
+nlohmann::ordered_json LevitatorJson(const LevitatorResult& answer) {
   nlohmann::ordered_json json = DiagnosisJson(answer.common);
   if (!answer.found.causes.empty()) {
     const levitator::Cause& first = levitator::Causes()[answer.found.causes.front()];
@@ -130,7 +130,7 @@ nlohmann::ordered_json LevitatorJson(const Answer& answer) {
   }
   json["ties"] = nlohmann::ordered_json::object();
   for (const levitator::Tie& tie : answer.ties) json["ties"][tie.cause] = tie.others;
-  json["runs_held_out"] = RunsJson(answer.held_out);
+  json["runs_held_out"] = RunsJson(answer.validation);
   json["runs_fitted"] = RunsJson(answer.fitted);
   for (std::size_t i = 0; i < answer.found.scores.size(); ++i) {
     const double nat = answer.found.scores[i].held_out_nat;
@@ -139,15 +139,15 @@ nlohmann::ordered_json LevitatorJson(const Answer& answer) {
   return json;
 }
 
-std::vector<std::string> WriteLevitator(const Answer& answer, const std::string& folder) {
+std::vector<std::string> WriteLevitator(const LevitatorResult& answer, const std::string& folder) {
   std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
                                  folder + "/calibrated_rig.yaml", folder + "/report.html"};
   WriteJsonFile(paths[0], LevitatorJson(answer));
   WriteTextFile(paths[1], answer.extended_rig);
   WriteTextFile(paths[2], answer.extended_rig);
-  diagnosis::SessionAnswer page = answer.common;
+  diagnosis::DiagnosisResult page = answer.common;
   if (page.own_words) page.own_words->why_not = WhyNot(answer);
-  WriteTextFile(paths[3], DiagnosisPage(page, RunsTable(answer.held_out)));
+  WriteTextFile(paths[3], DiagnosisPage(page, RunsTable(answer.validation)));
   return paths;
 }
 

@@ -8,13 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/levitator/answer.hpp"
+#include "diagnosis/levitator/levitator_result.hpp"
 
 namespace levitas::cli {
 
-void PrintLevitator(const levitator::Answer& answer, bool complete);
-[[nodiscard]] nlohmann::ordered_json LevitatorJson(const levitator::Answer& answer);
+void PrintLevitator(const levitator::LevitatorResult& answer, bool complete);
+[[nodiscard]] nlohmann::ordered_json LevitatorJson(const levitator::LevitatorResult& answer);
 /// The paths that were written.
-std::vector<std::string> WriteLevitator(const levitator::Answer& answer, const std::string& folder);
+std::vector<std::string> WriteLevitator(const levitator::LevitatorResult& answer,
+                                        const std::string& folder);
 
 }  // namespace levitas::cli

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 7> kKinds{
 
 }  // namespace
 
-void Describe(Visitor& v, RigEvent& event, const RigNumbers& rig) {
+void Describe(Visitor& v, ScheduledRigEvent& event, const RigNumbers& rig) {
   auto kind = static_cast<std::size_t>(event.kind);
   v.Choice({"what", kKinds, kRequired, "a fault, or an effect of the rig file that changes"}, kind);
   event.kind = static_cast<RigEventKind>(kind);

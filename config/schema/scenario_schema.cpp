@@ -112,7 +112,8 @@ void Describe(Visitor& v, scenario::ScenarioConfig& scenario, const RigNumbers& 
   v.List({"steps", 1, 1000, "one after the other"}, scenario.steps,
          [&](scenario::Step& step, std::size_t) { Describe(v, step, rig); });
   v.List({"rig_events", 0, 100, "what happens to the simulated rig, at times of its own"},
-         scenario.rig_events, [&](RigEvent& event, std::size_t) { Describe(v, event, rig); });
+         scenario.rig_events,
+         [&](ScheduledRigEvent& event, std::size_t) { Describe(v, event, rig); });
 }
 
 }  // namespace levitas::config

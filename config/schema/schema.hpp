@@ -33,7 +33,7 @@ void Describe(Visitor& v, law::StateSpaceConfig& law, const RigNumbers& rig);
 void Describe(Visitor& v, scenario::Excitation& excitation, const RigNumbers& rig);
 /// Hold time, test signals and orbit limit of a step.
 void DescribeExcitations(Visitor& v, scenario::Step& step, const RigNumbers& rig);
-void Describe(Visitor& v, RigEvent& event, const RigNumbers& rig);
+void Describe(Visitor& v, ScheduledRigEvent& event, const RigNumbers& rig);
 /// Reads and writes the channel of something that a scenario does to one axis.
 void DescribeChannel(Visitor& v, const RigNumbers& rig, std::string& channel, std::size_t& axis);
 /// Refuses a plane beyond the end of the shaft; silent while the shaft itself is not known.

@@ -65,7 +65,7 @@ struct ControlCycle::Impl {
   void Read(const CycleInputs& in) noexcept;
   void RunLaw(const OperatorInput& op, const supervisor::Decision& decision) noexcept;
   void CheckLaw() noexcept;
-  [[nodiscard]] CycleOutputs Answer(const supervisor::Decision& decision) const noexcept;
+  [[nodiscard]] CycleOutputs Outputs(const supervisor::Decision& decision) const noexcept;
 
   RigNumbers rig;
   double limit_a;
@@ -136,7 +136,7 @@ void ControlCycle::Impl::CheckLaw() noexcept {
   }
 }
 
-CycleOutputs ControlCycle::Impl::Answer(const supervisor::Decision& decision) const noexcept {
+CycleOutputs ControlCycle::Impl::Outputs(const supervisor::Decision& decision) const noexcept {
   const supervisor::StateRow& row = supervisor::Row(decision.state);
   CycleOutputs out;
   out.current.cycle = frame_cycle;
@@ -180,7 +180,7 @@ CycleOutputs ControlCycle::Step(const CycleInputs& in, StageObserver* observer) 
   ended(Stage::kSupervise);
   impl_->RunLaw(in.op, decision);
   impl_->CheckLaw();
-  const CycleOutputs out = impl_->Answer(decision);
+  const CycleOutputs out = impl_->Outputs(decision);
   ended(Stage::kLaw);
   return out;
 }

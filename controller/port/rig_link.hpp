@@ -15,7 +15,7 @@ namespace levitas::port {
 
 class RigLink {
  public:
-  enum class Answer : std::uint8_t {
+  enum class ReceiveResult : std::uint8_t {
     kCurrent,  ///< a new current frame was written to the argument
     kNothing,  ///< none before the deadline
     kGoodbye,  ///< the controller ends; the argument is its last frame
@@ -32,7 +32,7 @@ class RigLink {
 
   virtual ~RigLink() = default;
   virtual bool Send(const SensorFrame& frame) noexcept = 0;
-  virtual Answer Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept = 0;
+  virtual ReceiveResult Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept = 0;
   [[nodiscard]] virtual Counters counters() const noexcept = 0;
   /// What people should hear at once, each thing once; empty when there is nothing new. Any one
   /// thread beside the loop's.

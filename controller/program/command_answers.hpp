@@ -14,7 +14,7 @@
 
 #include "common/spsc_ring.hpp"
 #include "controller/cycle/cycle_io.hpp"
-#include "controller/loop/operator_desk.hpp"
+#include "controller/loop/command_arbiter.hpp"
 #include "session/session_header.hpp"
 #include "transport/command_answer.hpp"
 

@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "common/spsc_ring.hpp"
-#include "controller/loop/operator_desk.hpp"
+#include "controller/loop/command_arbiter.hpp"
 
 namespace levitas::controller_program {
 

@@ -11,8 +11,8 @@
 
 #include "config/law_notes.hpp"
 #include "config/rig_file.hpp"
+#include "controller/loop/command_arbiter.hpp"
 #include "controller/loop/control_loop.hpp"
-#include "controller/loop/operator_desk.hpp"
 #include "controller/program/command_answers.hpp"
 #include "controller/program/command_intake.hpp"
 #include "controller/program/loop_outlet.hpp"
@@ -154,7 +154,7 @@ class Session {
   }
 
   ExitStatus Run() {
-    loop::OperatorDesk desk(
+    loop::CommandArbiter desk(
         {.period_s = numbers_.period_s(),
          .stop_acceleration_rad_per_s2 =
              std::min(sequence_.trip_acceleration_rad_per_s2, numbers_.max_acceleration_rad_per_s2),

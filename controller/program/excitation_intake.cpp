@@ -74,16 +74,16 @@ void ExcitationIntake::Run() {
 /// Empty when the desk has it.
 std::string ExcitationIntake::Try(const transport::NetworkExcitation& request) {
   const scenario::Step step = config::ParseExcitation(request.step_yaml, "request", rig_);
-  loop::ExcitationShelf::Place* place = shelf_.Put(step, rig_.period_s());
+  loop::ExcitationPool::Slot* place = shelf_.Put(step, rig_.period_s());
   std::string why = HandOver(request, place);
-  if (!why.empty() && place != nullptr) loop::ExcitationShelf::GiveBack(place);
+  if (!why.empty() && place != nullptr) loop::ExcitationPool::GiveBack(place);
   return why;
 }
 
 // Under one lock with the end of what waits: the command that ends a signal is never before it in
 // the inbox.
 std::string ExcitationIntake::HandOver(const transport::NetworkExcitation& request,
-                                       loop::ExcitationShelf::Place* place) {
+                                       loop::ExcitationPool::Slot* place) {
   const std::lock_guard lock(mutex_);
   if (Ended()) return "it was ended before it began";
   if (request.stops_before < stops_.asked()) return "an emergency stop came before it began";

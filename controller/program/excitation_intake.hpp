@@ -20,7 +20,7 @@
 
 #include "common/rig_numbers.hpp"
 #include "common/stop_latch.hpp"
-#include "controller/loop/excitation_shelf.hpp"
+#include "controller/loop/excitation_pool.hpp"
 #include "controller/program/command_inbox.hpp"
 #include "transport/operator_message.hpp"
 
@@ -48,14 +48,14 @@ class ExcitationIntake {
   void Run();
   [[nodiscard]] std::string Try(const transport::NetworkExcitation& request);
   [[nodiscard]] std::string HandOver(const transport::NetworkExcitation& request,
-                                     loop::ExcitationShelf::Place* place);
+                                     loop::ExcitationPool::Slot* place);
   [[nodiscard]] bool Ended() noexcept;
 
   const RigNumbers& rig_;
   CommandInbox& inbox_;
   const StopLatch& stops_;
   Refused refused_;
-  loop::ExcitationShelf shelf_;
+  loop::ExcitationPool shelf_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<transport::NetworkExcitation> waiting_;

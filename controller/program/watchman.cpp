@@ -17,7 +17,7 @@ namespace {
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
 }  // namespace
 
-Watchman::Watchman(loop::ControlLoop& loop, loop::OperatorDesk& desk,
+Watchman::Watchman(loop::ControlLoop& loop, loop::CommandArbiter& desk,
                    const ControllerOptions& options, const RigConnection& rig,
                    const gpio::GpiodLines* lines, std::function<void()> tell_news)
     : loop_(loop),

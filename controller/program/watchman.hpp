@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <functional>
 
+#include "controller/loop/command_arbiter.hpp"
 #include "controller/loop/control_loop.hpp"
-#include "controller/loop/operator_desk.hpp"
 #include "controller/program/controller_options.hpp"
 #include "controller/program/rig_connection.hpp"
 #include "hil/libgpiod/gpiod_lines.hpp"
@@ -30,7 +30,7 @@ class Watchman {
 
   /// Keeps references to all of them; `lines` may be null. `tell_news`: what port and
   /// network have to say.
-  Watchman(loop::ControlLoop& loop, loop::OperatorDesk& desk, const ControllerOptions& options,
+  Watchman(loop::ControlLoop& loop, loop::CommandArbiter& desk, const ControllerOptions& options,
            const RigConnection& rig, const gpio::GpiodLines* lines,
            std::function<void()> tell_news);
 
@@ -44,7 +44,7 @@ class Watchman {
   void Land(const char* why);
 
   loop::ControlLoop& loop_;
-  loop::OperatorDesk& desk_;
+  loop::CommandArbiter& desk_;
   const ControllerOptions& options_;
   const RigConnection& rig_;
   const gpio::GpiodLines* lines_;

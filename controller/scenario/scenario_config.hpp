@@ -62,7 +62,8 @@ struct Step {
 struct ScenarioConfig {
   std::string name;
   std::vector<Step> steps;
-  std::vector<RigEvent> rig_events;  ///< for the simulated rig; the player does not look at them
+  std::vector<ScheduledRigEvent>
+      rig_events;  ///< for the simulated rig; the player does not look at them
 };
 
 }  // namespace levitas::scenario

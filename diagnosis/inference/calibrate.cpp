@@ -27,7 +27,7 @@ std::vector<Term> Held(std::vector<Term> terms) {
   return terms;
 }
 
-/// From the usual rig: a fast observer on a few rows, then the one of `gains`.
+/// From the nominal rig: a fast observer on a few rows, then the one of `gains`.
 std::vector<double> FromFar(const RigView& rig, const Search& search,
                             const std::vector<Term>& terms, const std::vector<Record>& few,
                             const std::vector<Record>& records, const Gains& gains) {
@@ -71,7 +71,7 @@ void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
     Term& term = terms[i];
     if (!term.nuisance()) continue;
     const double left = posterior.deviation[static_cast<Eigen::Index>(i)] * term.scale();
-    term.usual = fit.theta[i];
+    term.healthy_mean = fit.theta[i];
     term.tolerance = std::min(term.tolerance, std::hypot(left, kDaily * term.tolerance));
   }
 }

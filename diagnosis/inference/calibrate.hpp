@@ -28,7 +28,7 @@ inline constexpr double kDaily = 0.2;  ///< share of its tolerance
                                          const std::vector<Record>& records, const Gains& gains,
                                          const ObserverSpeed& speed, int passes);
 
-/// Sets `usual` and narrows `tolerance` of the nuisances.
+/// Sets `healthy_mean` and narrows `tolerance` of the nuisances.
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
                       std::vector<Term>& terms);
 

@@ -9,12 +9,13 @@
 //            3 refit: the best few by Gauss-Newton together with the nuisances on the nonlinear
 //              model (refine.hpp); the best of them is a cause, and each earlier one is dropped
 //              again when the others explain its share (backward check); shape parameters of a
-//              family are refined (sharpen.hpp); again from 2 until none gains enough; each of
+//              family are refined (refine_shape.hpp); again from 2 until none gains enough; each of
 //              several causes is exchanged for its nearest alternatives (exchange.hpp);
 //            4 rank: every effect in place of the first cause, the nearest refitted;
-//            5 analyse the residual (remainder.hpp).
-// Strays     a model that diverges is held by a faster observer until the causes found make that
-//            unnecessary (stray.hpp).
+//            5 analyse the residual (residual.hpp).
+// ModelDiverges     a model that diverges is held by a faster observer until the causes found
+//            make that
+//            unnecessary (divergence.hpp).
 // Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.
 // Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of
 //            magnets and contacts are known to a tenth or so of their amplitude, so that a
@@ -30,7 +31,7 @@
 #include <vector>
 
 #include "diagnosis/inference/evidence.hpp"
-#include "diagnosis/inference/remainder.hpp"
+#include "diagnosis/inference/residual.hpp"
 #include "diagnosis/model/observer_speed.hpp"
 #include "diagnosis/terms/terms.hpp"
 
@@ -63,7 +64,7 @@ struct Estimate {
 
 enum class Verdict { kNone, kEffect, kUnknown };
 
-struct Answer {
+struct SearchResult {
   Verdict verdict{Verdict::kNone};
   std::vector<Hypothesis> causes;          ///< in the order of selection
   std::vector<std::string> also_possible;  ///< effects that the data cannot separate from the first
@@ -71,7 +72,7 @@ struct Answer {
   std::vector<Estimate> calibration;       ///< of the nuisances
   std::vector<Candidate> candidates;       ///< best place of every effect, best first
   ObserverSpeed speed{kSlow};  ///< under which the model followed the records in the end
-  Remainder remainder;
+  Residual remainder;
   std::vector<double> theta_calibrated;  ///< nuisances alone
   std::vector<double> theta_extended;    ///< with the causes
   std::vector<Trajectory> runs;          ///< of the extended model
@@ -79,8 +80,8 @@ struct Answer {
   double explained{};                    ///< share of the calibrated model's excess over the noise
 };
 
-/// Terms of a family that is named become its best member (sharpen.hpp).
-[[nodiscard]] Answer Diagnose(const RigView& rig, const std::vector<Record>& records,
-                              const Settings& settings, std::vector<Term>& terms);
+/// Terms of a family that is named become its best member (refine_shape.hpp).
+[[nodiscard]] SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
+                                    const Settings& settings, std::vector<Term>& terms);
 
 }  // namespace levitas::diagnosis

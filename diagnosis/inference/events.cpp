@@ -55,7 +55,7 @@ double LostByFile(const RigView& rig, const Frames& frames) {
 }  // namespace
 
 std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>& records,
-                                  const Remainder& remainder) {
+                                  const Residual& remainder) {
   std::vector<Candidate> found;
   constexpr double kPerFrame = 10.0;  // [nat] a repetition by chance, and a prior of one in ten
   const Frames frames = CountFrames(rig, records);

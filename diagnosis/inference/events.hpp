@@ -19,6 +19,6 @@ inline constexpr double kNoiseTolerance = 0.06;
 /// Causes found this way with their evidence; those below kDecisive included.
 [[nodiscard]] std::vector<Candidate> FindEvents(const RigView& rig,
                                                 const std::vector<Record>& records,
-                                                const Remainder& remainder);
+                                                const Residual& remainder);
 
 }  // namespace levitas::diagnosis

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "diagnosis/inference/ranking.hpp"
-#include "diagnosis/inference/sharpen.hpp"
+#include "diagnosis/inference/refine_shape.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -32,78 +32,80 @@ void Restore(const Shapes& shapes, std::vector<Term>& terms) {
 }
 
 /// Refines the shapes of all families among the causes in turn.
-Refined SharpenAll(Inquiry& q, const std::vector<Hypothesis>& causes, Refined fit) {
+Refined SharpenAll(SearchState& state, const std::vector<Hypothesis>& causes, Refined fit) {
   for (const Hypothesis& cause : causes) {
-    if (!fit.ok || !HasFamily(cause, q.terms)) continue;
-    fit = Sharpen(q.refiner, cause, causes, q.view, q.effort.passes, std::move(fit), q.terms);
+    if (!fit.ok || !HasFamily(cause, state.terms)) continue;
+    fit = RefineShape(state.refiner, cause, causes, state.view, state.effort.passes, std::move(fit),
+                      state.terms);
   }
   return fit;
 }
 
 /// Alternatives whose evidence is near that of a cause, given the other causes; best first.
-std::vector<Candidate> Near(const Inquiry& q, std::size_t at) {
-  const double own = q.GainOf(at);
+std::vector<Candidate> Near(const SearchState& state, std::size_t at) {
+  const double own = state.GainOf(at);
   std::vector<Candidate> near =
-      Screen(Evidence(q.view.problem, q.terms, Without(q.causes, at)), q.search.hypotheses());
+      Screen(Evidence(state.view.problem, state.terms, Without(state.causes, at)),
+             state.search.hypotheses());
   std::erase_if(near, [&](const Candidate& c) {
     return c.score < own - std::max(kNear, kShare * own) ||
-           std::any_of(q.causes.begin(), q.causes.end(),
+           std::any_of(state.causes.begin(), state.causes.end(),
                        [&c](const Hypothesis& h) { return h.effect == c.effect; });
   });
   near.resize(std::min(near.size(), kOthers));
   return near;
 }
 
-void Keep(Inquiry& q, std::vector<Hypothesis> causes, const Refined& fit) {
+void Keep(SearchState& state, std::vector<Hypothesis> causes, const Refined& fit) {
   for (Hypothesis& cause : causes) {
-    if (HasFamily(cause, q.terms)) q.TakePlace(cause);
+    if (HasFamily(cause, state.terms)) state.TakePlace(cause);
   }
-  q.causes = std::move(causes);
-  q.theta = fit.theta;
+  state.causes = std::move(causes);
+  state.theta = fit.theta;
 }
 
 /// True when another one was better.
-bool ExchangeOne(Inquiry& q, std::size_t at, Refined& best) {
+bool ExchangeOne(SearchState& state, std::size_t at, Refined& best) {
   bool better = false;
-  Shapes shapes = ShapesOf(q.terms);
-  std::vector<Hypothesis> winner = q.causes;
-  for (const Candidate& other : Near(q, at)) {
-    q.Tell(0.74, "exchanging " + q.causes[at].effect + " for " + other.effect);
-    std::vector<Hypothesis> causes = q.causes;
-    causes[at] = q.search.hypotheses()[other.hypothesis];
-    Refined fit = SharpenAll(q, causes, q.Refit(causes));
+  Shapes shapes = ShapesOf(state.terms);
+  std::vector<Hypothesis> winner = state.causes;
+  for (const Candidate& other : Near(state, at)) {
+    state.ReportProgress(0.74, "exchanging " + state.causes[at].effect + " for " + other.effect);
+    std::vector<Hypothesis> causes = state.causes;
+    causes[at] = state.search.hypotheses()[other.hypothesis];
+    Refined fit = SharpenAll(state, causes, state.Refit(causes));
     if (fit.ok && fit.evidence > best.evidence) {
       best = std::move(fit);
       winner = std::move(causes);
-      shapes = ShapesOf(q.terms);
+      shapes = ShapesOf(state.terms);
       better = true;
     } else {
-      Restore(shapes, q.terms);
+      Restore(shapes, state.terms);
     }
   }
-  if (better) Keep(q, std::move(winner), best);
+  if (better) Keep(state, std::move(winner), best);
   return better;
 }
 
 }  // namespace
 
-void ExchangeCauses(Inquiry& q) {
-  if (q.causes.size() < 2) return;
+void ExchangeCauses(SearchState& state) {
+  if (state.causes.size() < 2) return;
   for (int round = 0; round < kRounds; ++round) {
-    Refined best = q.refiner.Fit(q.causes, q.theta, q.view, q.effort.passes);
-    best = SharpenAll(q, q.causes, std::move(best));
+    Refined best = state.refiner.Fit(state.causes, state.theta, state.view, state.effort.passes);
+    best = SharpenAll(state, state.causes, std::move(best));
     if (!best.ok) return;
-    Keep(q, q.causes, best);
-    q.LineariseAll();
+    Keep(state, state.causes, best);
+    state.LineariseAll();
     // Whitened anew: only what is fitted with the same whitening can be compared.
-    best = q.refiner.Fit(q.causes, q.theta, q.view, 1);
+    best = state.refiner.Fit(state.causes, state.theta, state.view, 1);
     if (!best.ok) return;
     bool better = false;
-    for (std::size_t at = 0; at < q.causes.size() && !better; ++at) {
-      better = ExchangeOne(q, at, best);
+    for (std::size_t at = 0; at < state.causes.size() && !better; ++at) {
+      better = ExchangeOne(state, at, best);
     }
     if (!better) return;
-    q.LineariseAll();
+    state.LineariseAll();
   }
 }
 

@@ -8,10 +8,10 @@
 //            replaced by the nearest alternatives, all shapes refined again; the best set stays.
 // Thread     blocks the caller, two threads inside.
 
-#include "diagnosis/inference/inquiry.hpp"
+#include "diagnosis/inference/search_state.hpp"
 
 namespace levitas::diagnosis {
 
-void ExchangeCauses(Inquiry& q);
+void ExchangeCauses(SearchState& state);
 
 }  // namespace levitas::diagnosis

@@ -24,7 +24,7 @@ using Block = std::array<Sums, kMaxAxes>;
 
 double Square(float value) { return static_cast<double>(value) * static_cast<double>(value); }
 
-bool Belongs(const Moment& m, Part part) { return part == Part::kFitted ? m.counts : m.held; }
+bool Belongs(const SamplePoint& m, Part part) { return part == Part::kFitted ? m.counts : m.held; }
 
 std::vector<Block> Blocks(const RigView& rig, const ModelRuns& runs,
                           const std::vector<double>& noise_rms_m, Part part) {
@@ -105,7 +105,7 @@ double Percent(const std::vector<Trajectory>& runs, std::size_t axis, double rms
   double innovation = 0.0;
   double count = 0.0;
   for (const Trajectory& run : runs) {
-    for (const Moment& m : run.moments) {
+    for (const SamplePoint& m : run.moments) {
       if (!Belongs(m, part)) continue;
       sum += static_cast<double>(m.measured_m[axis]);
       square += Square(m.measured_m[axis]);

@@ -51,7 +51,7 @@ void AddReadings(const RigView& rig, const Record& record, std::vector<Signal>& 
 void AddInnovations(const RigView& rig, const Trajectory& run, std::vector<Signal>& signals) {
   for (std::size_t a = 0; a < rig.axes; ++a) {
     Signal& innovations = signals.emplace_back();
-    for (const Moment& m : run.moments) {
+    for (const SamplePoint& m : run.moments) {
       if (m.settled) innovations.push_back(static_cast<double>(m.innovation_m[a]));
     }
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/inference/remainder.hpp"
+#include "diagnosis/inference/residual.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -17,14 +17,14 @@ std::vector<Trajectory> Standing(const std::vector<Trajectory>& runs) {
   std::vector<Trajectory> standing;
   for (const Trajectory& run : runs) {
     const bool turns = std::any_of(run.moments.begin(), run.moments.end(),
-                                   [](const Moment& m) { return m.speed_rad_per_s != 0.0F; });
+                                   [](const SamplePoint& m) { return m.speed_rad_per_s != 0.0F; });
     if (!turns) standing.push_back(run);
   }
   return standing.empty() ? runs : standing;
 }
 
 /// Power over noise, line by line, of all channels together.
-std::vector<double> Ratio(const Remainder& remainder) {
+std::vector<double> Ratio(const Residual& remainder) {
   std::vector<double> sum(remainder.channels.front().ratio.size(), 0.0);
   for (const ChannelRemainder& channel : remainder.channels) {
     for (std::size_t i = 0; i < std::min(sum.size(), channel.ratio.size()); ++i) {
@@ -56,7 +56,7 @@ std::vector<ModeProbe> ProbeModes(const RigView& rig, const std::vector<Term>& t
                                   const std::vector<Hypothesis>& hypotheses,
                                   const std::vector<Trajectory>& runs) {
   std::vector<ModeProbe> probes;
-  const Remainder remainder = Examine(rig, Standing(runs));
+  const Residual remainder = AnalyseResidual(rig, Standing(runs));
   if (remainder.channels.empty() || remainder.channels.front().ratio.size() < 3) return probes;
   const std::vector<double> ratio = Ratio(remainder);
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {

@@ -43,7 +43,7 @@ std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
   return ties;
 }
 
-double Explained(const Remainder& before, const Remainder& after) {
+double Explained(const Residual& before, const Residual& after) {
   double excess_before = 0.0;
   double excess_after = 0.0;
   for (std::size_t a = 0; a < before.channels.size(); ++a) {

@@ -22,7 +22,7 @@ void SortByScore(std::vector<Candidate>& candidates);
                                             const std::vector<Hypothesis>& causes);
 
 /// Share of the excess over the noise, all lines and channels, that the causes take away.
-[[nodiscard]] double Explained(const Remainder& before, const Remainder& after);
+[[nodiscard]] double Explained(const Residual& before, const Residual& after);
 
 /// [nat] what a second model gains over a first one on samples kept back from both fits.
 [[nodiscard]] double HeldGain(const std::vector<Trajectory>& first,

@@ -38,7 +38,7 @@ double Refiner::Penalty(const std::vector<double>& theta,
   for (Eigen::Index i = 0; i < size; ++i) {
     const Term& term = terms_[static_cast<std::size_t>(i)];
     covariance(i, i) += kJitter + std::pow(term.tolerance / term.scale(), 2);
-    away[i] = (theta[static_cast<std::size_t>(i)] - term.usual) / term.scale();
+    away[i] = (theta[static_cast<std::size_t>(i)] - term.healthy_mean) / term.scale();
   }
   return away.dot(covariance.llt().solve(away));
 }
@@ -77,9 +77,9 @@ void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
       if (best.ok && best.problem.jtj.size() > 0) {
         theta = search_.Step(best.problem, causes, best.theta, damping.value());
       } else {
-        // Without a run to go back to, towards the usual rig.
+        // Without a run to go back to, towards the nominal rig.
         for (std::size_t i = 0; i < theta.size(); ++i) {
-          theta[i] = 0.5 * (theta[i] + terms_[i].usual);
+          theta[i] = 0.5 * (theta[i] + terms_[i].healthy_mean);
         }
       }
       continue;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "analysis/recorded_rows.hpp"
-#include "diagnosis/model/two_threads.hpp"
+#include "diagnosis/model/parallel_for.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -55,7 +55,7 @@ Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpee
 std::vector<Trajectory> Search::Run(const std::vector<Record>& records, const Gains& gains,
                                     const std::vector<double>& theta) const {
   std::vector<Trajectory> runs(records.size());
-  InTwoThreads(records.size(), [&](std::size_t i, std::size_t /*thread*/) {
+  ParallelFor(records.size(), [&](std::size_t i, std::size_t /*thread*/) {
     runs[i] = RunModel(rig_, records[i], gains[i], terms_, theta, kSettling);
   });
   return runs;
@@ -83,7 +83,7 @@ View Search::Linearise(std::vector<Trajectory> runs, const std::vector<double>& 
 Eigen::VectorXd Search::Scaled(const std::vector<double>& theta) const {
   Eigen::VectorXd scaled(static_cast<Eigen::Index>(terms_.size()));
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    scaled[static_cast<Eigen::Index>(i)] = (theta[i] - terms_[i].usual) / terms_[i].scale();
+    scaled[static_cast<Eigen::Index>(i)] = (theta[i] - terms_[i].healthy_mean) / terms_[i].scale();
   }
   return scaled;
 }
@@ -91,7 +91,7 @@ Eigen::VectorXd Search::Scaled(const std::vector<double>& theta) const {
 std::vector<double> Search::Unscaled(const Eigen::VectorXd& scaled) const {
   std::vector<double> theta(terms_.size());
   for (std::size_t i = 0; i < theta.size(); ++i) {
-    theta[i] = terms_[i].usual + scaled[static_cast<Eigen::Index>(i)] * terms_[i].scale();
+    theta[i] = terms_[i].healthy_mean + scaled[static_cast<Eigen::Index>(i)] * terms_[i].scale();
     theta[i] = std::max(theta[i], Least(terms_[i]));
   }
   return theta;
@@ -134,7 +134,7 @@ void Search::Rename(const std::vector<std::size_t>& terms, const std::string& pl
 std::vector<double> Search::Usual() const {
   std::vector<double> theta;
   theta.reserve(terms_.size());
-  for (const Term& term : terms_) theta.push_back(term.usual);
+  for (const Term& term : terms_) theta.push_back(term.healthy_mean);
   return theta;
 }
 

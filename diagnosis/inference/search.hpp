@@ -42,7 +42,7 @@ class Search {
   [[nodiscard]] View Linearise(std::vector<Trajectory> runs, const std::vector<double>& theta,
                                const Whitener& whitener,
                                const std::vector<std::size_t>& chosen) const;
-  /// Sums of runs at theta as a problem about the usual rig.
+  /// Sums of runs at theta as a problem about the nominal rig.
   [[nodiscard]] LinearProblem About(const NormalEquations& sum,
                                     const std::vector<double>& theta) const;
 
@@ -76,7 +76,7 @@ class Search {
   [[nodiscard]] std::vector<std::size_t> NuisancesAnd(const std::vector<Hypothesis>& causes) const;
 
  private:
-  /// In units of Term::scale() from the usual rig, and back.
+  /// In units of Term::scale() from the nominal rig, and back.
   [[nodiscard]] Eigen::VectorXd Scaled(const std::vector<double>& theta) const;
   [[nodiscard]] std::vector<double> Unscaled(const Eigen::VectorXd& scaled) const;
 

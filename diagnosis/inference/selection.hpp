@@ -3,18 +3,18 @@
 //
 // Thread  blocks the caller, two threads inside.
 
-#include "diagnosis/inference/inquiry.hpp"
+#include "diagnosis/inference/search_state.hpp"
 
 namespace levitas::diagnosis {
 
 /// Forward selection: screens, refits the best few and adds the best while one gains enough.
-void FindCauses(Inquiry& inquiry);
+void FindCauses(SearchState& inquiry);
 
 /// Replaces two causes, or all, by a single effect that explains the data as well: forward
 /// selection may have imitated it by several.
-void MergeCauses(Inquiry& inquiry);
+void MergeCauses(SearchState& inquiry);
 
 /// Backward check: drops causes that are not decisive given the others, the weakest first.
-void DropUnproven(Inquiry& inquiry);
+void DropUnproven(SearchState& inquiry);
 
 }  // namespace levitas::diagnosis

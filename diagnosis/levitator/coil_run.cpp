@@ -151,7 +151,7 @@ double TruePosition(double measured_m, const Theta& theta, std::size_t record) {
 
 CoilRun RunCoils(const NominalRig& rig, const Series& series, const Theta& beside,
                  std::size_t record) {
-  const Theta theta = Beside(rig.origin, beside);
+  const Theta theta = ComposedWith(rig.origin, beside);
   std::vector<double> position_m;
   position_m.reserve(series.size());
   for (const double measured : series.position_m) {

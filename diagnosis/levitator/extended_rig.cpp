@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/problem.hpp"
-#include "diagnosis/levitator/answer.hpp"
+#include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/report/words.hpp"
 
 namespace levitas::levitator {
@@ -109,7 +109,7 @@ std::string Comments(const Found& found) {
 
 std::string ExtendedRig(const config::RigFile& file, const Theta& origin, const Found& found) {
   // A record that was not seen has what the others have on average.
-  Theta t = Beside(origin, ForOthers(found.extended.theta, 1));
+  Theta t = ComposedWith(origin, SharedPart(found.extended.theta, 1));
   config::RigFile rig = file;
   rig.plant.effects.clear();  // they are part of the origin
   t[kSensorOffset] += t[Own(0, kOwnOffset)];

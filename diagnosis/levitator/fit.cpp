@@ -139,7 +139,7 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
                    int steps) const {
   const Freedom freedom = FreedomOf(causes, misfit_.series().size(), misfit_.rig().origin);
   Fitted out;
-  out.theta = Nominal(misfit_.series().size());
+  out.theta = Zeros(misfit_.series().size());
   for (std::size_t i = 0; i < freedom.active.size(); ++i) {
     const auto at = static_cast<Index>(i);
     out.theta[freedom.active[i]] =
@@ -164,7 +164,7 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
   out.evidence = -0.5 * cost - HalfLogDeterminant(llt) + PriorOf(freedom);
   const Eigen::MatrixXd covariance =
       llt.solve(Eigen::MatrixXd::Identity(normal.matrix.rows(), normal.matrix.cols()));
-  out.deviation = Nominal(misfit_.series().size());
+  out.deviation = Zeros(misfit_.series().size());
   for (std::size_t i = 0; i < freedom.active.size(); ++i) {
     const auto at = static_cast<Index>(i);
     out.deviation[freedom.active[i]] = freedom.deviation[at] * std::sqrt(covariance(at, at));
@@ -175,7 +175,7 @@ Fitted Fitter::Fit(const CauseSet& causes, const Theta& start, const Filters& fi
 Filters Fitter::Noise() const {
   CauseSet everything(Causes().size());
   for (std::size_t c = 0; c < everything.size(); ++c) everything[c] = c;
-  Theta theta = Nominal(misfit_.series().size());
+  Theta theta = Zeros(misfit_.series().size());
   // Scaled alone at first: what is not explained yet is no noise.
   const Filters filters = misfit_.Whiten(theta, 0);
   constexpr int kSteps = 8;

@@ -39,7 +39,7 @@ struct Freedom {
 };
 
 [[nodiscard]] Freedom FreedomOf(const CauseSet& causes, std::size_t records,
-                                const Theta& origin = Nominal(0));
+                                const Theta& origin = Zeros(0));
 
 class Fitter {
  public:

@@ -101,7 +101,7 @@ class Walk {
   Walk(const NominalRig& rig, const Series& series, const Theta& theta, std::size_t record,
        const CoilRun& modelled)
       : series_(series),
-        theta_(Beside(rig.origin, theta)),
+        theta_(ComposedWith(rig.origin, theta)),
         record_(record),
         law_(LawOf(rig, theta_)),
         gains_(ObserverGains(rig)),

@@ -15,8 +15,8 @@ struct NominalRig {
   double far_gap_m{};  ///< of the lower coil there
   double force_n_per_a2{}, force_decay_m{};
   double mass_kg{}, gravity_m_per_s2{};
-  double noise_m{};           ///< of a reading, quantisation included
-  Theta origin = Nominal(0);  ///< what is known to differ from all of these
+  double noise_m{};         ///< of a reading, quantisation included
+  Theta origin = Zeros(0);  ///< what is known to differ from all of these
 };
 
 [[nodiscard]] inline NominalRig NominalOf(const config::RigFile& file) {

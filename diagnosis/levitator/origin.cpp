@@ -25,7 +25,7 @@ double LagOf(double bandwidth_hz) { return 1.0 / (2.0 * std::numbers::pi * bandw
 
 Theta Of(const effect::EffectConfig& entry, const config::RigFile& file) {
   const auto& v = entry.values;
-  Theta t = Nominal(0);
+  Theta t = Zeros(0);
   switch (entry.id) {
     case Id::kExtraDelay:
       t[kDelay] = v[0] / (static_cast<double>(file.plant.period_ns) * 1e-9);
@@ -73,7 +73,7 @@ Theta Of(const effect::EffectConfig& entry, const config::RigFile& file) {
 }  // namespace
 
 Theta EffectsOf(const config::RigFile& file) {
-  Theta all = Nominal(0);
+  Theta all = Zeros(0);
   for (const effect::EffectConfig& entry : file.plant.effects) {
     if (entry.timed() || entry.strength != 1.0) {
       throw BadInput(fmt::format(
@@ -81,7 +81,7 @@ Theta EffectsOf(const config::RigFile& file) {
           "from the beginning with strength 1",
           file.numbers.name, effect::At(entry.id).name, entry.at_s, entry.strength));
     }
-    all = Beside(all, Of(entry, file));
+    all = ComposedWith(all, Of(entry, file));
   }
   return all;
 }
@@ -99,7 +99,7 @@ Theta OriginOf(const config::RigFile& file) {
   return t;
 }
 
-double Beside(std::size_t parameter, double origin, double theta) {
+double ComposedWith(std::size_t parameter, double origin, double theta) {
   return IsRatio(parameter) ? (1.0 + origin) * (1.0 + theta) - 1.0 : origin + theta;
 }
 
@@ -108,8 +108,8 @@ double LeastBeside(std::size_t parameter, double origin) {
   return IsRatio(parameter) ? least : least - origin;
 }
 
-Theta Beside(const Theta& origin, Theta theta) {
-  for (std::size_t i = 0; i < kParameters; ++i) theta[i] = Beside(i, origin[i], theta[i]);
+Theta ComposedWith(const Theta& origin, Theta theta) {
+  for (std::size_t i = 0; i < kParameters; ++i) theta[i] = ComposedWith(i, origin[i], theta[i]);
   return theta;
 }
 

@@ -18,10 +18,10 @@ namespace levitas::levitator {
 /// there unless it says so.
 [[nodiscard]] Theta OriginOf(const config::RigFile& file);
 /// One number of the table.
-[[nodiscard]] double Beside(std::size_t parameter, double origin, double theta);
+[[nodiscard]] double ComposedWith(std::size_t parameter, double origin, double theta);
 /// Lower bound relative to the origin: an effect already present may shrink to zero.
 [[nodiscard]] double LeastBeside(std::size_t parameter, double origin);
 /// `theta` composed with an origin; parameters of single records stay as they are.
-[[nodiscard]] Theta Beside(const Theta& origin, Theta theta);
+[[nodiscard]] Theta ComposedWith(const Theta& origin, Theta theta);
 
 }  // namespace levitas::levitator

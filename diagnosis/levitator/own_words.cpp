@@ -59,7 +59,7 @@ Told TellWhole(const config::RigFile& rig, std::size_t i) {
 Told TellAs(const config::RigFile& rig, const Theta& origin, std::size_t i) {
   Told whole = TellWhole(rig, i);
   return {whole.key, [value = whole.value, i, from = origin[i]](double t) {
-            return value(Beside(i, from, t));
+            return value(ComposedWith(i, from, t));
           }};
 }
 

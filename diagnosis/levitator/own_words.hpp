@@ -6,7 +6,7 @@
 
 #include "config/rig_file.hpp"
 #include "diagnosis/levitator/search.hpp"
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::levitator {
 

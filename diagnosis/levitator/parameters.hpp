@@ -80,7 +80,7 @@ using Theta = std::vector<double>;
 [[nodiscard]] inline std::size_t Own(std::size_t record, OwnParameter parameter) {
   return kParameters + record * kOwnParameters + parameter;
 }
-[[nodiscard]] inline Theta Nominal(std::size_t records) {
+[[nodiscard]] inline Theta Zeros(std::size_t records) {
   return Theta(kParameters + records * kOwnParameters, 0.0);
 }
 

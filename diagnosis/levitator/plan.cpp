@@ -102,11 +102,11 @@ Pair Between(const std::string& one, const std::string& other) {
   return {one, other, {true, true, true}, kAllWords};
 }
 
-bool Nameless(const Answer& answer) {
+bool Nameless(const LevitatorResult& answer) {
   return answer.common.answer.verdict == diagnosis::Verdict::kUnknown;
 }
 
-Ways WaysOf(const Answer& answer) {
+Ways WaysOf(const LevitatorResult& answer) {
   if (Nameless(answer)) return {true, true, true};
   Ways all;
   for (const Tie& tie : answer.ties) {
@@ -120,7 +120,7 @@ Ways WaysOf(const Answer& answer) {
 
 }  // namespace
 
-std::vector<std::string> Separations(const Answer& answer) {
+std::vector<std::string> Separations(const LevitatorResult& answer) {
   std::vector<std::string> out;
   if (Nameless(answer)) {
     out.emplace_back(std::string("to learn where the remainder belongs: ") + kAllWords);
@@ -150,7 +150,7 @@ std::vector<std::string> Separations(const Answer& answer) {
   return out;
 }
 
-std::string PlanScenario(const config::RigFile& rig, const Answer& answer) {
+std::string PlanScenario(const config::RigFile& rig, const LevitatorResult& answer) {
   const Ways ways = WaysOf(answer);
   if (!AnyRecord(ways)) return {};
   const plant::BearingConfig& bearing = rig.plant.bearings.at(0);

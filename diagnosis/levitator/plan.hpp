@@ -14,15 +14,15 @@
 // Thread     any; pure.
 
 #include "config/rig_file.hpp"
-#include "diagnosis/levitator/answer.hpp"
+#include "diagnosis/levitator/levitator_result.hpp"
 
 namespace levitas::levitator {
 
 /// The experiment that separates the named causes from their ties; empty when
 /// nothing is left to separate.
-[[nodiscard]] std::vector<std::string> Separations(const Answer& answer);
+[[nodiscard]] std::vector<std::string> Separations(const LevitatorResult& answer);
 
 /// Empty when no scenario would help.
-[[nodiscard]] std::string PlanScenario(const config::RigFile& rig, const Answer& answer);
+[[nodiscard]] std::string PlanScenario(const config::RigFile& rig, const LevitatorResult& answer);
 
 }  // namespace levitas::levitator

@@ -44,11 +44,11 @@ std::vector<std::size_t> Nearest(const std::vector<double>& gain, const CauseSet
   return order;
 }
 
-class Hunt {
+class ForwardSelection {
  public:
-  Hunt(const Misfit& data, const SearchSettings& settings)
+  ForwardSelection(const Misfit& data, const SearchSettings& settings)
       : fitter_(data), settings_(settings), now_() {
-    now_.theta = Nominal(data.series().size());
+    now_.theta = Zeros(data.series().size());
   }
 
   void Calibrate() {
@@ -119,12 +119,12 @@ class Hunt {
   double explained_{};
 };
 
-double HeldOut(const Misfit* held_out, const Filters& filters, const Theta& with,
+double HeldOut(const Misfit* validation, const Filters& filters, const Theta& with,
                const Theta& without) {
-  if (held_out == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  const std::size_t records = held_out->series().size();
-  return 0.5 * (held_out->SquaredSum(ForOthers(without, records), filters) -
-                held_out->SquaredSum(ForOthers(with, records), filters));
+  if (validation == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  const std::size_t records = validation->series().size();
+  return 0.5 * (validation->SquaredSum(SharedPart(without, records), filters) -
+                validation->SquaredSum(SharedPart(with, records), filters));
 }
 
 /// Keeps of every effect what comes nearest to the cause in whose place it stands.
@@ -142,8 +142,8 @@ void KeepNearest(std::vector<Score>& scores, const Score& score) {
 }
 
 /// What others would add in the place of a cause that adds `nat` to `rest`.
-void RankInPlace(const Hunt& hunt, const Misfit* held_out, const CauseSet& rest, const Fitted& base,
-                 std::size_t of, double nat, std::vector<Score>& others) {
+void RankInPlace(const ForwardSelection& hunt, const Misfit* validation, const CauseSet& rest,
+                 const Fitted& base, std::size_t of, double nat, std::vector<Score>& others) {
   constexpr std::size_t kNearest = 4;
   const Fitter& fitter = hunt.fitter();
   const std::vector<double> gain = fitter.Screen(rest, base, hunt.filters());
@@ -163,24 +163,24 @@ void RankInPlace(const Hunt& hunt, const Misfit* held_out, const CauseSet& rest,
     // From the tolerances of the whole answer: those of the rest alone stand at their bounds.
     const Fitted fitted = fitter.Fit(With(rest, c), hunt.now().theta, hunt.filters(), kSteps);
     const double gained = fitted.evidence - base.evidence;
-    KeepNearest(others, {c, gained, HeldOut(held_out, hunt.filters(), fitted.theta, base.theta),
+    KeepNearest(others, {c, gained, HeldOut(validation, hunt.filters(), fitted.theta, base.theta),
                          nat - gained, false, true, of});
   }
 }
 
 /// What each named cause adds to the others, and what all others would add in its place.
-std::vector<Score> Rank(const Hunt& hunt, const Misfit* held_out, CauseSet& order) {
+std::vector<Score> Rank(const ForwardSelection& hunt, const Misfit* validation, CauseSet& order) {
   const std::size_t none = Causes().size();
   std::vector<Score> named;
   std::vector<Score> others;
-  if (hunt.set().empty()) RankInPlace(hunt, held_out, {}, hunt.now(), none, 0.0, others);
+  if (hunt.set().empty()) RankInPlace(hunt, validation, {}, hunt.now(), none, 0.0, others);
   for (const std::size_t c : hunt.set()) {
     const CauseSet rest = Without(hunt.set(), c);
     const Fitted base = hunt.fitter().Fit(rest, hunt.now().theta, hunt.filters(), kSteps);
     const double nat = hunt.now().evidence - base.evidence;
-    named.push_back({c, nat, HeldOut(held_out, hunt.filters(), hunt.now().theta, base.theta), 0.0,
+    named.push_back({c, nat, HeldOut(validation, hunt.filters(), hunt.now().theta, base.theta), 0.0,
                      true, true, none});
-    RankInPlace(hunt, held_out, rest, base, c, nat, others);
+    RankInPlace(hunt, validation, rest, base, c, nat, others);
   }
   const auto higher = [](const Score& a, const Score& b) { return a.nat > b.nat; };
   std::sort(named.begin(), named.end(), higher);
@@ -193,8 +193,8 @@ std::vector<Score> Rank(const Hunt& hunt, const Misfit* held_out, CauseSet& orde
 
 }  // namespace
 
-Theta ForOthers(const Theta& theta, std::size_t records) {
-  Theta out = Nominal(records);
+Theta SharedPart(const Theta& theta, std::size_t records) {
+  Theta out = Zeros(records);
   const std::size_t from = (theta.size() - kParameters) / kOwnParameters;
   for (const OwnParameter own : {kOwnResistance, kOwnOffset}) {
     double mean = 0.0;
@@ -205,15 +205,15 @@ Theta ForOthers(const Theta& theta, std::size_t records) {
   return out;
 }
 
-Found Search(const Misfit& data, const Misfit* held_out, const SearchSettings& settings) {
-  Hunt hunt(data, settings);
+Found Search(const Misfit& data, const Misfit* validation, const SearchSettings& settings) {
+  ForwardSelection hunt(data, settings);
   if (settings.progress) settings.progress(0.02, "calibrating");
   hunt.Calibrate();
   Found found;
   found.calibrated = hunt.now();
   while (hunt.set().size() < settings.most_causes && hunt.Forward()) hunt.Backward();
   if (settings.progress) settings.progress(0.75, "ranking");
-  found.scores = Rank(hunt, held_out, found.causes);
+  found.scores = Rank(hunt, validation, found.causes);
   found.extended = hunt.now();
   found.filters = hunt.filters();
   const Fitted bare = hunt.fitter().Fit({}, found.calibrated.theta, hunt.filters(), kScreenSteps);

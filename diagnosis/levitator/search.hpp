@@ -47,10 +47,10 @@ struct SearchSettings {
   std::function<void(double, const std::string&)> progress;
 };
 
-[[nodiscard]] Found Search(const Misfit& data, const Misfit* held_out,
+[[nodiscard]] Found Search(const Misfit& data, const Misfit* validation,
                            const SearchSettings& settings);
 
 /// Parameters of a fit for validation records: of the per-record parameters, the mean.
-[[nodiscard]] Theta ForOthers(const Theta& theta, std::size_t records);
+[[nodiscard]] Theta SharedPart(const Theta& theta, std::size_t records);
 
 }  // namespace levitas::levitator

@@ -27,7 +27,7 @@ std::vector<diagnosis::Term> TermsOf() {
   return terms;
 }
 
-void FillParameters(const Found& found, diagnosis::Answer& out) {
+void FillParameters(const Found& found, diagnosis::SearchResult& out) {
   const auto estimate = [](std::size_t i, const Fitted& fit) {
     const Row& row = Table()[i];
     return diagnosis::Estimate{std::string(row.effect), "ball_x",     std::string(row.name),
@@ -51,8 +51,8 @@ bool Contains(const Cause& cause, const Cause& named) {
   });
 }
 
-void FillCauses(const Found& found, Answer& answer) {
-  diagnosis::Answer& out = answer.common.answer;
+void FillCauses(const Found& found, LevitatorResult& answer) {
+  diagnosis::SearchResult& out = answer.common.answer;
   for (const std::size_t c : found.causes) {
     diagnosis::Hypothesis cause;
     cause.effect = Causes()[c].effect;
@@ -116,25 +116,25 @@ Left LeftOf(const NominalRig& rig, const std::vector<Series>& data, const Found&
   Left left;
   for (const Series& series : data) {
     const auto append = [&](const Theta& theta, std::vector<double>& to) {
-      const Errors errors = ErrorsOf(rig, series, ForOthers(theta, 1), 0);
+      const Errors errors = ErrorsOf(rig, series, SharedPart(theta, 1), 0);
       const auto& values = series.has_currents() ? errors.current_a[0] : errors.motion_m;
       to.insert(to.end(), values.begin(), values.end());
     };
-    append(Nominal(1), left.nominal);
+    append(Zeros(1), left.nominal);
     append(found.calibrated.theta, left.calibrated);
     append(found.extended.theta, left.extended);
   }
   return left;
 }
 
-void FillRemainder(const NominalRig& rig, const Left& left, diagnosis::SessionAnswer& common) {
+void FillRemainder(const NominalRig& rig, const Left& left, diagnosis::DiagnosisResult& common) {
   const auto length = static_cast<std::size_t>(std::max(16.0, 1.0 / rig.period_s));
   const double noise = WhiteNoise(left.extended);
   common.ratio_before = Spectrum(left.nominal, noise, length);
   common.ratio_calibrated = Spectrum(left.calibrated, noise, length);
   common.ratio_after = Spectrum(left.extended, noise, length);
   common.line_spacing_hz = 1.0 / (static_cast<double>(length) * rig.period_s);
-  diagnosis::Remainder& out = common.answer.remainder;
+  diagnosis::Residual& out = common.answer.remainder;
   diagnosis::ChannelRemainder channel;
   channel.noise_rms_m = noise;
   channel.ratio = common.ratio_after;
@@ -154,17 +154,17 @@ void FillRemainder(const NominalRig& rig, const Left& left, diagnosis::SessionAn
   const double after = Power(left.extended) - floor;
   common.answer.explained = before > 0.0 ? std::clamp(1.0 - after / before, 0.0, 1.0) : 0.0;
   const bool much = Power(left.extended) > kLeftOver * floor;
-  diagnosis::Answer& answer = common.answer;
+  diagnosis::SearchResult& answer = common.answer;
   answer.verdict = much && answer.explained < kExplained ? diagnosis::Verdict::kUnknown
                    : answer.causes.empty()               ? diagnosis::Verdict::kNone
                                                          : diagnosis::Verdict::kEffect;
 }
 
-diagnosis::Gain MeanOf(const std::vector<HeldOutRun>& runs, bool probes) {
+diagnosis::Gain MeanOf(const std::vector<ValidationRun>& runs, bool probes) {
   diagnosis::Gain gain;
   const double share = runs.empty() ? 0.0 : 1.0 / static_cast<double>(runs.size());
   const auto fit = [probes](const RunFit& f) { return (probes ? f.current : f.motion).percent; };
-  for (const HeldOutRun& run : runs) {
+  for (const ValidationRun& run : runs) {
     gain.nominal_percent += share * fit(run.nominal);
     gain.calibrated_percent += share * fit(run.calibrated);
     gain.extended_percent += share * fit(run.extended);
@@ -191,15 +191,15 @@ diagnosis::Gain MeanOf(const std::vector<HeldOutRun>& runs, bool probes) {
 }  // namespace
 
 void FillSharedForm(const config::RigFile& rig, const NominalRig& nominal,
-                    const std::vector<Series>& data, Answer& answer) {
-  diagnosis::SessionAnswer& common = answer.common;
+                    const std::vector<Series>& data, LevitatorResult& answer) {
+  diagnosis::DiagnosisResult& common = answer.common;
   common.view = std::make_shared<const diagnosis::RigView>(rig.numbers, rig.plant);
   common.terms = TermsOf();
   common.own_words = OwnWordsOf(rig, nominal.origin, answer.found);
   FillCauses(answer.found, answer);
   FillParameters(answer.found, common.answer);
-  common.answer.theta_calibrated = ForOthers(answer.found.calibrated.theta, 0);
-  common.answer.theta_extended = ForOthers(answer.found.extended.theta, 0);
+  common.answer.theta_calibrated = SharedPart(answer.found.calibrated.theta, 0);
+  common.answer.theta_extended = SharedPart(answer.found.extended.theta, 0);
   for (const Series& series : data) {
     common.seconds_of_data += static_cast<double>(series.size()) * nominal.period_s;
   }
@@ -208,7 +208,7 @@ void FillSharedForm(const config::RigFile& rig, const NominalRig& nominal,
   common.own_words->next = fmt::format("{}", fmt::join(Separations(answer), "; "));
   const bool probes = data.front().has_currents();
   common.fitted = MeanOf(answer.fitted, probes);
-  common.held_out = MeanOf(answer.held_out, probes);
+  common.validation = MeanOf(answer.validation, probes);
 }
 
 }  // namespace levitas::levitator

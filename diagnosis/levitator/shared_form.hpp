@@ -5,12 +5,12 @@
 //            causes have not explained most of what calibration left; else `effect`.
 // Thread     any.
 
-#include "diagnosis/levitator/answer.hpp"
+#include "diagnosis/levitator/levitator_result.hpp"
 
 namespace levitas::levitator {
 
 /// Fills `common` and `ties` from the rest.
 void FillSharedForm(const config::RigFile& rig, const NominalRig& nominal,
-                    const std::vector<Series>& data, Answer& answer);
+                    const std::vector<Series>& data, LevitatorResult& answer);
 
 }  // namespace levitas::levitator

@@ -5,14 +5,14 @@
 //         taken about the file's mode instead of the calibrated one are out of phase after a few
 //         cycles, and a fit along them does not converge.
 // Filled  by Term::change at the calibrated theta; what varies from sample to sample is in
-//         Moment::added (Term::slope).
+//         SamplePoint::added (Term::slope).
 // Thread  plain data.
 
 #include <array>
 #include <vector>
 
 #include "diagnosis/model/mesh_view.hpp"
-#include "diagnosis/model/moment.hpp"
+#include "diagnosis/model/sample_point.hpp"
 
 namespace levitas::diagnosis {
 

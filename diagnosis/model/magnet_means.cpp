@@ -11,7 +11,7 @@ namespace {
 constexpr double kStepA = 1e-4;
 constexpr double kStepM = 1e-8;
 
-double Displacement(const RigView& rig, std::size_t axis, const Moment& m) {
+double Displacement(const RigView& rig, std::size_t axis, const SamplePoint& m) {
   const auto& shape = rig.magnet(axis).actuator_shape;
   const float* q = m.q.data() + (axis % 2) * rig.modes;
   double sum = 0.0;
@@ -28,7 +28,7 @@ MagnetMeans::MagnetMeans(const RigView& rig) : rig_(rig) {
   }
 }
 
-void MagnetMeans::Fill(double bias_a, const Addition& add, Moment& m) {
+void MagnetMeans::Fill(double bias_a, const Contribution& add, SamplePoint& m) {
   for (std::size_t a = 0; a < rig_.axes; ++a) {
     const double away_a = static_cast<double>(m.coil_start_a[a] - m.command_now_a[a]);
     const double own_a = static_cast<double>(m.command_now_a[a]) + away_a * relaxing_[a];

@@ -10,8 +10,8 @@
 
 #include <array>
 
-#include "diagnosis/model/moment.hpp"
 #include "diagnosis/model/rig_view.hpp"
+#include "diagnosis/model/sample_point.hpp"
 #include "diagnosis/model/term.hpp"
 
 namespace levitas::diagnosis {
@@ -22,7 +22,7 @@ class MagnetMeans {
 
   /// Fills currents, displacements, forces and their slopes of a moment whose coil_start_a,
   /// coil_end_a (without what is added), command_now_a and q are known.
-  void Fill(double bias_a, const Addition& add, Moment& m);
+  void Fill(double bias_a, const Contribution& add, SamplePoint& m);
 
   /// [N] by what terms add to the current of an axis, at the last Fill.
   [[nodiscard]] double OfAddedCurrent(std::size_t axis) const { return added_n_[axis]; }

@@ -74,7 +74,7 @@ class Runner {
   }
 
   /// `arrived` false: the frame was lost, so the model goes on without correction.
-  void Step(const analysis::RecordedRow& row, bool arrived, Moment& moment) {
+  void Step(const analysis::RecordedRow& row, bool arrived, SamplePoint& moment) {
     if (since_start_++ == kStartRows) {
       steady_.mutable_plant() = starter_.plant();
       observer_ = &steady_;
@@ -84,7 +84,7 @@ class Runner {
     BeforeSample(row, moment);
     moment.late_periods = late_periods_;
     moment.coil_rate = coil_rate_;
-    Addition read;
+    Contribution read;
     read.reading_m = next_reading_m_;
     for (Active& a : active_) {
       if (a.term.read) a.term.read(moment, a.theta, read);
@@ -105,7 +105,7 @@ class Runner {
     }
     AfterPeriod(moment);
     // First what moves the currents, since the forces that others look at follow from them.
-    Addition drive;
+    Contribution drive;
     for (Active& a : active_) {
       if (a.term.moves_coil) a.term.drive(moment, a.theta, drive);
     }
@@ -119,7 +119,7 @@ class Runner {
   }
 
  private:
-  void BeforeSample(const analysis::RecordedRow& row, Moment& moment) {
+  void BeforeSample(const analysis::RecordedRow& row, SamplePoint& moment) {
     const auto& polarity = rig_.model->config().sensor_polarity;
     const auto state = observer_->plant().state();
     for (std::size_t i = 0; i < rig_.axes; ++i) {
@@ -146,7 +146,7 @@ class Runner {
     gain_state_ = &gain.state;
   }
 
-  void AfterPeriod(Moment& m) {
+  void AfterPeriod(SamplePoint& m) {
     const auto end = observer_->plant().state();
     // The start after the correction, which the observer does not keep.
     constexpr int kMostStates = 4 * static_cast<int>(kMaxModes) + 4 * static_cast<int>(kMaxAxes);
@@ -176,7 +176,7 @@ class Runner {
     }
   }
 
-  void Apply(const Addition& add) {
+  void Apply(const Contribution& add) {
     const auto state = observer_->mutable_plant().mutable_state();
     std::vector<double>& acceleration = acceleration_;
     acceleration.assign(add.modal.begin(),
@@ -250,7 +250,7 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverPair
   std::uint64_t since_start = 0;
   const analysis::RecordedRow* previous = nullptr;
   const auto step = [&](const analysis::RecordedRow& row, bool arrived, bool restart) {
-    Moment& moment = run.moments.emplace_back();
+    SamplePoint& moment = run.moments.emplace_back();
     moment.record = record.number;
     moment.time_s = static_cast<double>(row.cycle) * rig.period_s;
     if (restart) {
@@ -261,7 +261,7 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverPair
     runner.Step(row, arrived, moment);
     moment.arrived = arrived;
     moment.settled = since_start++ >= settling_rows;
-    const bool held = record.keep_back && KeptBack(row.cycle, record.number, rig.period_s);
+    const bool held = record.keeps_validation && KeptBack(row.cycle, record.number, rig.period_s);
     moment.held = moment.settled && arrived && held;
     moment.counts = moment.settled && arrived && !held;
   };

@@ -27,8 +27,8 @@ struct Record {
   std::string name;
   std::vector<analysis::RecordedRow> rows;
   double mean_speed_rad_per_s{};
-  std::uint32_t number{};  ///< within its diagnosis
-  bool keep_back{};        ///< part of it is not to be fitted
+  std::uint32_t number{};   ///< within its diagnosis
+  bool keeps_validation{};  ///< part of it is not to be fitted
 };
 
 /// Gains for one record.
@@ -37,7 +37,7 @@ struct ObserverPair {
 };
 
 struct Trajectory {
-  std::vector<Moment> moments;
+  std::vector<SamplePoint> moments;
   ObserverPair gains;  ///< as used: divided by the model's scales (observer_scale.hpp)
 };
 

@@ -7,7 +7,7 @@
 
 #include "analysis/observer.hpp"
 #include "common/problem.hpp"
-#include "diagnosis/model/moment.hpp"
+#include "diagnosis/model/sample_point.hpp"
 
 namespace levitas::diagnosis {
 namespace {

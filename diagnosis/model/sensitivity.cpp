@@ -7,7 +7,7 @@ namespace levitas::diagnosis {
 namespace {
 
 /// Ready for the next term; what was not touched is zero already.
-void Empty(Addition& add, std::size_t axes, std::size_t modes) noexcept {
+void Empty(Contribution& add, std::size_t axes, std::size_t modes) noexcept {
   for (std::size_t a = 0; a < axes; ++a) {
     add.force_n[a] = add.coil_end_a[a] = add.coil_mean_a[a] = add.reading_m[a] = 0.0;
   }
@@ -16,7 +16,8 @@ void Empty(Addition& add, std::size_t axes, std::size_t modes) noexcept {
   add.has_modal = false;
 }
 
-void Subtract(Addition& from, const Addition& what, std::size_t axes, std::size_t modes) noexcept {
+void Subtract(Contribution& from, const Contribution& what, std::size_t axes,
+              std::size_t modes) noexcept {
   for (std::size_t a = 0; a < axes; ++a) {
     from.force_n[a] -= what.force_n[a];
     from.coil_end_a[a] -= what.coil_end_a[a];
@@ -99,11 +100,12 @@ float SensitivityBlock::Difference(Probe& p, Call call) noexcept {
   return static_cast<float>(p.scale / p.step);
 }
 
-void SensitivityBlock::Read(const Moment& m, float* derivative_m) noexcept {
+void SensitivityBlock::Read(const SamplePoint& m, float* derivative_m) noexcept {
   for (std::size_t l = 0; l < probes_.size(); ++l) {
     if (!probes_[l].now.read) continue;
-    const float scale = Difference(
-        probes_[l], [&m](Term& term, double theta, Addition& add) { term.read(m, theta, add); });
+    const float scale = Difference(probes_[l], [&m](Term& term, double theta, Contribution& add) {
+      term.read(m, theta, add);
+    });
     for (std::size_t a = 0; a < model_->axes; ++a) {
       reading_[a].value[l] += scale * static_cast<float>(difference_.reading_m[a]);
     }
@@ -118,7 +120,7 @@ void SensitivityBlock::Read(const Moment& m, float* derivative_m) noexcept {
   }
   if (!m.arrived) return;
   // The gain is divided by the scales, which some terms change.
-  const LaneModel& model = m.starting ? *start_ : *model_;
+  const TangentBatch& model = m.starting ? *start_ : *model_;
   for (const Rescaled& r : rescaled_) {
     for (std::size_t a = 0; a < model.axes; ++a) {
       e[a].value[r.lane] -= r.readings[a] * m.innovation_m[a];
@@ -128,8 +130,8 @@ void SensitivityBlock::Read(const Moment& m, float* derivative_m) noexcept {
   for (const Rescaled& r : rescaled_) CorrectModes(model, r, m);
 }
 
-void SensitivityBlock::CorrectModes(const LaneModel& model, const Rescaled& r,
-                                    const Moment& m) noexcept {
+void SensitivityBlock::CorrectModes(const TangentBatch& model, const Rescaled& r,
+                                    const SamplePoint& m) noexcept {
   for (std::size_t i = 0; i < 2 * model.modes; ++i) {
     if (r.modes[i] == 0.0F) continue;
     float q = 0.0F;
@@ -143,12 +145,13 @@ void SensitivityBlock::CorrectModes(const LaneModel& model, const Rescaled& r,
   }
 }
 
-void SensitivityBlock::Drive(const Moment& m) noexcept {
+void SensitivityBlock::Drive(const SamplePoint& m) noexcept {
   for (std::size_t l = 0; l < probes_.size(); ++l) {
     if (!probes_[l].now.drive) continue;
-    const float scale = Difference(
-        probes_[l], [&m](Term& term, double theta, Addition& add) { term.drive(m, theta, add); });
-    const Addition& d = difference_;
+    const float scale = Difference(probes_[l], [&m](Term& term, double theta, Contribution& add) {
+      term.drive(m, theta, add);
+    });
+    const Contribution& d = difference_;
     for (std::size_t a = 0; a < model_->axes; ++a) {
       state_.add_force[a].value[l] = scale * static_cast<float>(d.force_n[a]);
       state_.add_coil_end[a].value[l] = scale * static_cast<float>(d.coil_end_a[a]);
@@ -163,8 +166,8 @@ void SensitivityBlock::Drive(const Moment& m) noexcept {
   }
 }
 
-void SensitivityBlock::DriveRetimed(Probe& p, std::size_t lane, const Moment& m) noexcept {
-  Moment other = m;
+void SensitivityBlock::DriveRetimed(Probe& p, std::size_t lane, const SamplePoint& m) noexcept {
+  SamplePoint other = m;
   other.late_periods = p.late_periods;
   other.coil_rate = p.coil_rate;
   const auto scale = static_cast<float>(p.scale / p.step);
@@ -180,7 +183,7 @@ void SensitivityBlock::DriveRetimed(Probe& p, std::size_t lane, const Moment& m)
   }
 }
 
-void SensitivityBlock::Step(const Moment& m, float* derivative_m) noexcept {
+void SensitivityBlock::Step(const SamplePoint& m, float* derivative_m) noexcept {
   if (m.restarted) Clear();
   Read(m, derivative_m);
   Drive(m);

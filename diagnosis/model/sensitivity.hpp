@@ -8,24 +8,24 @@
 //            (da, dr) is its addition at theta + h minus that at theta, over h; for linear terms
 //            that at 1. dK: what a term changes of the scales by which the gain is divided
 //            (observer_scale.hpp).
-// Cost       lanes.hpp, and what the terms themselves cost.
+// Cost       tangent_batch.hpp, and what the terms themselves cost.
 // Thread     one instance per thread.
 
 #include <memory>
 #include <vector>
 
-#include "diagnosis/model/lanes.hpp"
 #include "diagnosis/model/model_run.hpp"
 #include "diagnosis/model/observer_scale.hpp"
+#include "diagnosis/model/tangent_batch.hpp"
 
 namespace levitas::diagnosis {
 
 /// The rig with the observer's steady gain, and with that for starts.
 struct LanePair {
   LanePair(const RigView& rig, const ObserverPair& gains, const LinearChange& change)
-      : steady(std::make_shared<const LaneModel>(rig, *gains.steady, change)),
-        start(std::make_shared<const LaneModel>(rig, *gains.start, change)) {}
-  std::shared_ptr<const LaneModel> steady, start;
+      : steady(std::make_shared<const TangentBatch>(rig, *gains.steady, change)),
+        start(std::make_shared<const TangentBatch>(rig, *gains.start, change)) {}
+  std::shared_ptr<const TangentBatch> steady, start;
 };
 
 /// A block of up to kLanes terms propagated together.
@@ -35,7 +35,7 @@ class SensitivityBlock {
                    const std::vector<double>& theta, std::vector<std::size_t> chosen);
 
   /// Advances one sample; writes de/dtheta [axis][lane] in metres per Term::scale().
-  void Step(const Moment& moment, float* derivative_m) noexcept;
+  void Step(const SamplePoint& moment, float* derivative_m) noexcept;
   [[nodiscard]] const std::vector<std::size_t>& chosen() const noexcept { return chosen_; }
 
  private:
@@ -64,24 +64,25 @@ class SensitivityBlock {
 
   void AddRescaled(const RigView& rig, const std::vector<Term>& terms,
                    const std::vector<double>& theta, std::size_t chosen);
-  void CorrectModes(const LaneModel& model, const Rescaled& rescaled, const Moment& m) noexcept;
+  void CorrectModes(const TangentBatch& model, const Rescaled& rescaled,
+                    const SamplePoint& m) noexcept;
   static void AddRetimed(const std::vector<Term>& terms, const std::vector<double>& theta,
                          std::size_t chosen, Probe& probe);
-  void Read(const Moment& m, float* derivative_m) noexcept;
-  void Drive(const Moment& m) noexcept;
-  void DriveRetimed(Probe& probe, std::size_t lane, const Moment& m) noexcept;
+  void Read(const SamplePoint& m, float* derivative_m) noexcept;
+  void Drive(const SamplePoint& m) noexcept;
+  void DriveRetimed(Probe& probe, std::size_t lane, const SamplePoint& m) noexcept;
   /// The probe's difference in `difference_`; the scale to apply, 0 when nothing was added.
   template <class Call>
   float Difference(Probe& probe, Call call) noexcept;
   void Clear() noexcept;
 
-  std::shared_ptr<const LaneModel> model_, start_;
+  std::shared_ptr<const TangentBatch> model_, start_;
   std::vector<std::size_t> chosen_;
   std::vector<Probe> probes_;
   std::vector<Rescaled> rescaled_;
   LaneState state_;
   std::array<Lane, kMaxAxes> reading_{};  ///< of the sample that comes
-  Addition difference_, base_;
+  Contribution difference_, base_;
 };
 
 }  // namespace levitas::diagnosis

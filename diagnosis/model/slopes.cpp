@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/model/cross_products.hpp"
-#include "diagnosis/model/two_threads.hpp"
+#include "diagnosis/model/parallel_for.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -14,7 +14,7 @@ using Eigen::Index;
 std::vector<std::size_t> Acting(const Trajectory& run, const std::vector<Term>& terms,
                                 const std::vector<std::size_t>& chosen) {
   const bool turns = std::any_of(run.moments.begin(), run.moments.end(),
-                                 [](const Moment& m) { return m.speed_rad_per_s != 0.0F; });
+                                 [](const SamplePoint& m) { return m.speed_rad_per_s != 0.0F; });
   const int record = run.moments.empty() ? -1 : static_cast<int>(run.moments.front().record);
   std::vector<std::size_t> acting;
   for (const std::size_t i : chosen) {
@@ -57,7 +57,7 @@ void Whiten(const std::vector<double>& filter, const Trajectory& run, std::size_
 std::vector<float> Innovations(const Trajectory& run, std::size_t axis) {
   std::vector<float> values;
   values.reserve(run.moments.size());
-  for (const Moment& m : run.moments) values.push_back(m.innovation_m[axis]);
+  for (const SamplePoint& m : run.moments) values.push_back(m.innovation_m[axis]);
   return values;
 }
 
@@ -152,7 +152,7 @@ Slopes::Slopes(const RigView& rig, const std::vector<Trajectory>& runs,
       tasks.push_back({parts_.size() - 1, i});
     }
   }
-  InTwoThreads(tasks.size(), [&](std::size_t i, std::size_t /*thread*/) {
+  ParallelFor(tasks.size(), [&](std::size_t i, std::size_t /*thread*/) {
     const Task& task = tasks[i];
     Part& part = parts_[task.part];
     const std::size_t end = std::min(part.acting.size(), task.first + kLanes);
@@ -176,7 +176,7 @@ NormalEquations Slopes::Sum(const std::vector<Trajectory>& runs, const Whitener&
     const std::size_t stretches = (samples + kProductRows - 1) / kProductRows;
     std::vector<std::vector<float>> innovations;
     for (std::size_t a = 0; a < axes_; ++a) innovations.push_back(Innovations(runs[r], a));
-    InTwoThreads(stretches * axes_, [&](std::size_t i, std::size_t thread) {
+    ParallelFor(stretches * axes_, [&](std::size_t i, std::size_t thread) {
       const std::size_t a = i / stretches;
       sums[thread].Add(runs[r], part.slope, innovations[a], whitener.filter[a], a,
                        i % stretches * kProductRows);
@@ -190,7 +190,7 @@ void Slopes::Renew(const std::vector<Trajectory>& runs, const Whitener& whitener
                    NormalEquations& sum) const {
   std::vector<Eigen::VectorXd> jte(parts_.size() * axes_);
   std::vector<double> ete(jte.size(), 0.0);
-  InTwoThreads(jte.size(), [&](std::size_t i, std::size_t /*thread*/) {
+  ParallelFor(jte.size(), [&](std::size_t i, std::size_t /*thread*/) {
     const std::size_t r = i / axes_;
     const std::size_t a = i % axes_;
     const auto samples = static_cast<Index>(runs[r].moments.size());

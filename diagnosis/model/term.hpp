@@ -3,7 +3,8 @@
 //
 // Model      x[n+1] = f(x[n], u[n]) + B a(theta),  y[n] = h(x[n]) + r(theta): a term adds forces at
 //            the magnets, modal accelerations and coil currents over a period, and readings at a
-//            sample, all evaluated along the run of the model (Moment). theta = 0 is the nominal
+//            sample, all evaluated along the run of the model (SamplePoint). theta = 0 is the
+//            nominal
 //            rig.
 // Why        a whole set of causes then costs one run of the nonlinear model, and their
 //            sensitivities follow from one linear propagation (sensitivity.hpp). It is written
@@ -17,12 +18,12 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/model/moment.hpp"
+#include "diagnosis/model/sample_point.hpp"
 
 namespace levitas::diagnosis {
 
 /// Contribution of a term over one period, and to the reading at a sample.
-struct Addition {
+struct Contribution {
   std::array<double, kMaxAxes> force_n{};      ///< at the magnets, held over the period
   std::array<double, kMaxAxes> coil_end_a{};   ///< change of the coil current at the end
   std::array<double, kMaxAxes> coil_mean_a{};  ///< mean change over the period
@@ -42,7 +43,7 @@ struct TermName {
 
 struct LinearChange;
 
-using Adds = std::function<void(const Moment&, double theta, Addition&)>;
+using TermLaw = std::function<void(const SamplePoint&, double theta, Contribution&)>;
 
 struct Term;
 
@@ -60,36 +61,37 @@ struct Term {
   std::string place;   ///< "de_x", "mode 3", "order 2, nde_y"
   std::string parameter;
   std::string unit;
-  double usual{};          ///< prior mean, as healthy records have shown it; 0 without them
+  double healthy_mean{};   ///< prior mean, as healthy records have shown it; 0 without them
   double tolerance{};      ///< prior std of theta on a healthy rig; 0: not a nuisance
-  double wide{1.0};        ///< prior std of theta when the effect is present
+  double faulty_std{1.0};  ///< prior std of theta when the effect is present
   double step{1.0};        ///< theta at which a non-linear term is linearised from 0
   bool positive{false};    ///< cannot be negative
   bool linear{true};       ///< contribution is proportional to theta
   bool rotating{false};    ///< adds nothing at rest
   bool moves_coil{false};  ///< its drive adds to the coil current, and to nothing else
-  bool timed{false};  ///< its drive looks at when and how fast coils act (Moment::late_periods)
-  int scales{-1};     ///< axis whose whole reading it makes 1 + theta as large; -1: none
-  int record{-1};     ///< acts in this record alone; -1: in all
+  bool timed{
+      false};      ///< its drive looks at when and how fast coils act (SamplePoint::late_periods)
+  int scales{-1};  ///< axis whose whole reading it makes 1 + theta as large; -1: none
+  int record{-1};  ///< acts in this record alone; -1: in all
   /// Over the period that begins at the moment; `reading_m` then belongs to the sample at its end.
-  Adds drive;
+  TermLaw drive;
   /// At the sample of the moment.
-  Adds read;
+  TermLaw read;
 
   Family family;
 
   /// Its change of the linear model about which derivatives are taken: constant, and at one sample.
   /// Empty: negligible.
   std::function<void(double theta, LinearChange&)> change;
-  std::function<void(const Moment&, double theta, AddedSlopes&)> slope;
+  std::function<void(const SamplePoint&, double theta, AddedSlopes&)> slope;
 
   /// theta in units in which every term is of order one.
-  [[nodiscard]] double scale() const noexcept { return wide > 0.0 ? wide : tolerance; }
+  [[nodiscard]] double scale() const noexcept { return faulty_std > 0.0 ? faulty_std : tolerance; }
   [[nodiscard]] bool nuisance() const noexcept { return tolerance > 0.0; }
 };
 
-[[nodiscard]] Term MakeTerm(TermName name, double tolerance, double wide, Adds drive);
+[[nodiscard]] Term MakeTerm(TermName name, double tolerance, double faulty_std, TermLaw drive);
 /// One that adds to readings only.
-[[nodiscard]] Term MakeReading(TermName name, double tolerance, double wide, Adds read);
+[[nodiscard]] Term MakeReading(TermName name, double tolerance, double faulty_std, TermLaw read);
 
 }  // namespace levitas::diagnosis

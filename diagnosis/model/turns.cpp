@@ -15,7 +15,7 @@ constexpr std::size_t kEnough = 10'000;  ///< rows that tell the turn
 double Misfit(const RigView& rig, const ObserverPair& gains, const Record& record) {
   const Trajectory run = RunModel(rig, record, gains, {}, {}, 0.0);
   double sum = 0.0;
-  for (const Moment& m : run.moments) {
+  for (const SamplePoint& m : run.moments) {
     for (std::size_t a = 0; a < rig.axes; ++a) {
       sum += static_cast<double>(m.innovation_m[a]) * static_cast<double>(m.innovation_m[a]);
     }

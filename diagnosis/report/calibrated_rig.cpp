@@ -35,7 +35,7 @@ bool HasKey(const PlacedEffect& at) {
 
 }  // namespace
 
-std::vector<std::string> CalibratedEntries(const SessionAnswer& answer) {
+std::vector<std::string> CalibratedEntries(const DiagnosisResult& answer) {
   std::vector<std::string> entries;
   for (const PlacedEffect& at : CalibrationByPlace(answer)) {
     if (at.effect.empty() || HasKey(at)) continue;
@@ -45,7 +45,7 @@ std::vector<std::string> CalibratedEntries(const SessionAnswer& answer) {
   return entries;
 }
 
-std::string CalibratedRig(const SessionAnswer& answer, const config::RigFile& rig) {
+std::string CalibratedRig(const DiagnosisResult& answer, const config::RigFile& rig) {
   config::RigFile judged = rig;
   std::string comments =
       "# The rig as amb diagnose judged it: its causes, then what was calibrated.\n";

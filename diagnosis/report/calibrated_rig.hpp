@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 
 /// Entries of `effects` for calibrated values that have no key of their own.
-[[nodiscard]] std::vector<std::string> CalibratedEntries(const SessionAnswer& answer);
-[[nodiscard]] std::string CalibratedRig(const SessionAnswer& answer, const config::RigFile& rig);
+[[nodiscard]] std::vector<std::string> CalibratedEntries(const DiagnosisResult& answer);
+[[nodiscard]] std::string CalibratedRig(const DiagnosisResult& answer, const config::RigFile& rig);
 
 }  // namespace levitas::diagnosis

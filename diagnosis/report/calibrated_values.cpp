@@ -7,7 +7,7 @@
 #include <complex>
 #include <functional>
 
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kProbe = 1e-3;  ///< does a key depend on it?
 /// Standard deviations and tolerances of the terms at one place.
 class Calibrated {
  public:
-  Calibrated(const SessionAnswer& s, const PlacedEffect& at) : s_(s), at_(at) {}
+  Calibrated(const DiagnosisResult& s, const PlacedEffect& at) : s_(s), at_(at) {}
 
   void AddTo(std::vector<CalibratedValue>& out) const {
     if (at_.theta.contains("cosine")) {
@@ -31,17 +31,18 @@ class Calibrated {
       CalibratedValue v = Named(parameter);
       const auto value = Law(parameter, v);
       v.nominal = value(0.0);
-      v.expected = value(term->usual);
+      v.expected = value(term->healthy_mean);
       v.calibrated = value(theta);
       v.deviation =
           0.5 * std::abs(value(theta + estimate->deviation) - value(theta - estimate->deviation));
-      v.tolerance = 0.5 * std::abs(value(term->usual + term->tolerance) -
-                                   value(term->usual - term->tolerance));
-      v.moved = std::abs(theta - term->usual) / term->tolerance;
-      v.proven =
-          estimate->deviation > 0.0 ? std::abs(theta - term->usual) / estimate->deviation : 0.0;
+      v.tolerance = 0.5 * std::abs(value(term->healthy_mean + term->tolerance) -
+                                   value(term->healthy_mean - term->tolerance));
+      v.moved = std::abs(theta - term->healthy_mean) / term->tolerance;
+      v.proven = estimate->deviation > 0.0
+                     ? std::abs(theta - term->healthy_mean) / estimate->deviation
+                     : 0.0;
       v.from_file = std::abs(theta) / FileTolerance(*term);
-      v.learned = std::abs(term->usual) / FileTolerance(*term);
+      v.learned = std::abs(term->healthy_mean) / FileTolerance(*term);
       out.push_back(v);
     }
   }
@@ -129,25 +130,26 @@ class Calibrated {
     v.deviation = cosine->deviation / unit.si;
     v.tolerance = term->tolerance / unit.si;
     const Term* sine = TermOf(s_.terms, at_, "sine");
-    const std::complex<double> usual{term->usual, sine != nullptr ? sine->usual : 0.0};
-    if (usual != 0.0) {
-      v.expected = std::abs(file + usual) / unit.si;
-      v.expected_phase_rad = std::arg(file + usual);
+    const std::complex<double> healthy_mean{term->healthy_mean,
+                                            sine != nullptr ? sine->healthy_mean : 0.0};
+    if (healthy_mean != 0.0) {
+      v.expected = std::abs(file + healthy_mean) / unit.si;
+      v.expected_phase_rad = std::arg(file + healthy_mean);
     }
-    v.moved = std::abs(found - usual) / term->tolerance;
-    v.proven = cosine->deviation > 0.0 ? std::abs(found - usual) / cosine->deviation : 0.0;
+    v.moved = std::abs(found - healthy_mean) / term->tolerance;
+    v.proven = cosine->deviation > 0.0 ? std::abs(found - healthy_mean) / cosine->deviation : 0.0;
     v.from_file = std::abs(found) / FileTolerance(*term);
-    v.learned = std::abs(usual) / FileTolerance(*term);
+    v.learned = std::abs(healthy_mean) / FileTolerance(*term);
     out.push_back(v);
   }
 
-  const SessionAnswer& s_;
+  const DiagnosisResult& s_;
   const PlacedEffect& at_;
 };
 
 }  // namespace
 
-std::vector<CalibratedValue> CalibratedValues(const SessionAnswer& s) {
+std::vector<CalibratedValue> CalibratedValues(const DiagnosisResult& s) {
   std::vector<CalibratedValue> out;
   if (s.own_words) {
     out = s.own_words->calibrated;
@@ -160,7 +162,7 @@ std::vector<CalibratedValue> CalibratedValues(const SessionAnswer& s) {
   return out;
 }
 
-bool WorthTelling(const CalibratedValue& value) {
+bool IsSignificant(const CalibratedValue& value) {
   constexpr double kMoved = 0.5;
   constexpr double kProven = 2.0;
   return value.moved > kMoved && value.proven > kProven;

@@ -39,7 +39,7 @@ bool Accepts(config::RigFile rig, const std::vector<effect::EffectConfig>& effec
 
 }  // namespace
 
-std::vector<std::string> EffectEntries(const SessionAnswer& answer) {
+std::vector<std::string> EffectEntries(const DiagnosisResult& answer) {
   std::vector<std::string> entries;
   for (const PlacedEffect& group : CausesByPlace(answer)) {
     const std::string entry = EntryText(group.effect, ValuesOf(*answer.view, group));
@@ -67,7 +67,7 @@ std::string WithEffects(config::RigFile rig, const std::vector<std::string>& ent
   return refused + config::WriteRig(rig);
 }
 
-std::string ExtendedRig(const SessionAnswer& answer, const config::RigFile& rig) {
+std::string ExtendedRig(const DiagnosisResult& answer, const config::RigFile& rig) {
   std::string comments;
   for (const NamedParameter& p : Parameters(answer)) {
     comments += fmt::format("# {} {} = {:.5g}{}{} ({:.5g} to {:.5g})\n", p.effect, p.name, p.value,

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 
 /// One YAML flow mapping per entry: "{id: eddy_current, channels: [de_x], tau_us: 3}".
-[[nodiscard]] std::vector<std::string> EffectEntries(const SessionAnswer& answer);
+[[nodiscard]] std::vector<std::string> EffectEntries(const DiagnosisResult& answer);
 /// The rig's complete text with these entries behind its own; what its reader refuses as comments.
 [[nodiscard]] std::string WithEffects(config::RigFile rig, const std::vector<std::string>& entries);
-[[nodiscard]] std::string ExtendedRig(const SessionAnswer& answer, const config::RigFile& rig);
+[[nodiscard]] std::string ExtendedRig(const DiagnosisResult& answer, const config::RigFile& rig);
 
 }  // namespace levitas::diagnosis

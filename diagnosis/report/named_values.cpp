@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -32,7 +32,7 @@ void Widen(const EntryValue& value, double one, double other, double& low, doubl
 /// One key of a cause with its bracket; nothing where the place alone says it.
 class Bracket {
  public:
-  Bracket(const SessionAnswer& s, const PlacedEffect& at, std::size_t key)
+  Bracket(const DiagnosisResult& s, const PlacedEffect& at, std::size_t key)
       : s_(s), at_(at), key_(key), value_(ValuesOf(*s.view, at).at(key)) {}
 
   std::optional<NamedParameter> Find() {
@@ -118,7 +118,7 @@ class Bracket {
     }
   }
 
-  const SessionAnswer& s_;
+  const DiagnosisResult& s_;
   const PlacedEffect& at_;
   std::size_t key_;
   EntryValue value_;
@@ -149,7 +149,7 @@ std::complex<double> UnbalanceOfFile(const RigView& rig, const std::string& plac
   return sum;
 }
 
-std::vector<std::string> TotalSentences(const SessionAnswer& s) {
+std::vector<std::string> TotalSentences(const DiagnosisResult& s) {
   std::vector<std::string> sentences;
   const std::vector<NamedParameter> parameters = Parameters(s);
   for (const NamedParameter& p : parameters) {
@@ -168,7 +168,7 @@ std::vector<std::string> TotalSentences(const SessionAnswer& s) {
   return sentences;
 }
 
-std::vector<std::string> TakenByCauses(const SessionAnswer& s) {
+std::vector<std::string> TakenByCauses(const DiagnosisResult& s) {
   std::vector<std::string> taken;
   if (s.own_words) return taken;
   for (const PlacedEffect& at : CausesByPlace(s)) {
@@ -180,7 +180,7 @@ std::vector<std::string> TakenByCauses(const SessionAnswer& s) {
   return taken;
 }
 
-std::vector<NamedParameter> Parameters(const SessionAnswer& s) {
+std::vector<NamedParameter> Parameters(const DiagnosisResult& s) {
   if (s.own_words) return s.own_words->parameters;
   std::vector<NamedParameter> out;
   for (const PlacedEffect& at : CausesByPlace(s)) {

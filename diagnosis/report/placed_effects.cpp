@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/named_values.hpp"
-#include "diagnosis/report/session.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -36,7 +36,7 @@ const Term* TermOf(const std::vector<Term>& terms, const PlacedEffect& at,
   return found == terms.end() ? nullptr : &*found;
 }
 
-std::vector<PlacedEffect> CausesByPlace(const SessionAnswer& s) {
+std::vector<PlacedEffect> CausesByPlace(const DiagnosisResult& s) {
   std::vector<PlacedEffect> groups;
   for (const Hypothesis& cause : s.answer.causes) {
     for (const std::size_t t : cause.terms) {
@@ -47,7 +47,7 @@ std::vector<PlacedEffect> CausesByPlace(const SessionAnswer& s) {
   return groups;
 }
 
-std::vector<PlacedEffect> CalibrationByPlace(const SessionAnswer& s) {
+std::vector<PlacedEffect> CalibrationByPlace(const DiagnosisResult& s) {
   std::vector<PlacedEffect> groups;
   for (const Estimate& e : s.answer.calibration) {
     Add(groups, e.effect, e.place, e.parameter, e.value);

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "diagnosis/report/carry_over.hpp"
-#include "diagnosis/report/coverage.hpp"
+#include "diagnosis/report/excitation_coverage.hpp"
+#include "diagnosis/report/validation_check.hpp"
 #include "diagnosis/report/words.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
@@ -58,18 +58,18 @@ std::string Spin(double rpm, double hold_s, double rate_rpm_per_s, double most_r
 
 }  // namespace
 
-std::string PlanScenario(const SessionAnswer& s) {
-  const Answer& a = s.answer;
+std::string PlanScenario(const DiagnosisResult& s) {
+  const SearchResult& a = s.answer;
   std::vector<std::string> effects = a.also_possible;
   for (const Hypothesis& cause : a.causes) effects.push_back(cause.effect);
   const bool sound = a.verdict == Verdict::kNone;
-  const bool rotating = effects.empty() || AnyNeedsRotation(effects) || HeldOutIsFaster(s);
+  const bool rotating = effects.empty() || AnyNeedsRotation(effects) || ValidationIsFaster(s);
   const bool fast = AnyOf(effects, kOfTheLoop) || (sound && !CoverageOf(s).excited);
   const auto& drive = s.view->model->config().drive;
   const double most_rpm = s.view->numbers.max_speed_rad_per_s * 30.0 / std::numbers::pi;
   const double rate = 0.5 * drive.max_acceleration_rad_per_s2 * 30.0 / std::numbers::pi;
   std::string text = "kind: scenario\nname: diagnosis_next\n\n";
-  if (!CarriesOver(s)) {
+  if (!PassesValidation(s)) {
     text += fmt::format("# For a model that carries over: {}.\n", NextExperiment(s));
   } else if (sound) {
     text += fmt::format("# What the records lack: {}.\n", MissingRecords(s));

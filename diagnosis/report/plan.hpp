@@ -11,10 +11,10 @@
 
 #include <string>
 
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 
 namespace levitas::diagnosis {
 
-[[nodiscard]] std::string PlanScenario(const SessionAnswer& answer);
+[[nodiscard]] std::string PlanScenario(const DiagnosisResult& answer);
 
 }  // namespace levitas::diagnosis

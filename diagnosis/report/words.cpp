@@ -7,9 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "diagnosis/report/carry_over.hpp"
-#include "diagnosis/report/coverage.hpp"
-#include "diagnosis/report/doubt.hpp"
+#include "diagnosis/report/excitation_coverage.hpp"
+#include "diagnosis/report/input_warnings.hpp"
+#include "diagnosis/report/validation_check.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
@@ -60,7 +60,7 @@ namespace {
 
 /// ": tau_us 5.21 us (4.9 to 5.5)", the first number of a cause, with its place where it is not the
 /// same at all; empty where it has none.
-std::string Size(const SessionAnswer& s, const Hypothesis& cause) {
+std::string Size(const DiagnosisResult& s, const Hypothesis& cause) {
   const auto parameters = Parameters(s);
   const auto first = std::find_if(parameters.begin(), parameters.end(), [&](const auto& p) {
     return p.effect == cause.effect && p.key != kPhaseKey;
@@ -75,26 +75,26 @@ std::string Size(const SessionAnswer& s, const Hypothesis& cause) {
 }
 
 /// Of a rig in which nothing is hidden: how far it is from its file, and what that is worth.
-std::string Explained(const SessionAnswer& s) {
+std::string Explained(const DiagnosisResult& s) {
   const auto values = CalibratedValues(s);
   double furthest = 0.0;
   for (const CalibratedValue& v : values) furthest = std::max(furthest, v.from_file);
   const std::string moved = fmt::format("with its {} numbers moved by at most {:.1f} tolerances",
                                         values.size(), furthest);
-  if (!SomethingToGain(s.held_out)) {
+  if (!SomethingToGain(s.validation)) {
     return "the rig file explains the data to their noise as it stands" +
            (values.empty() ? "" : ", and " + moved) + ".";
   }
   return fmt::format(
       "the rig file {} explains the data to their noise; as it stands it does not "
       "({:.1f} times the noise, rms).",
-      moved, std::sqrt(1.0 + s.held_out.to_gain.value));
+      moved, std::sqrt(1.0 + s.validation.to_gain.value));
 }
 
-std::string Finding(const SessionAnswer& s) {
-  const Answer& a = s.answer;
+std::string Finding(const DiagnosisResult& s) {
+  const SearchResult& a = s.answer;
   if (a.verdict == Verdict::kNone) {
-    const std::string limits = CannotTellSentence(s);
+    const std::string limits = UnobservableSentence(s);
     return fmt::format("Nothing is hidden{}: {}{}{}",
                        limits.empty() ? "" : " as far as these records can show", Explained(s),
                        limits.empty() ? "" : " ", limits);
@@ -125,9 +125,9 @@ std::string Finding(const SessionAnswer& s) {
 
 }  // namespace
 
-std::string VerdictSentence(const SessionAnswer& s) {
+std::string VerdictSentence(const DiagnosisResult& s) {
   std::string text = Finding(s);
-  for (const std::string& more : {CarryOverSentence(s), DoubtSentence(s)}) {
+  for (const std::string& more : {ValidationSentence(s), DoubtSentence(s)}) {
     if (!more.empty()) text += " " + more;
   }
   return text;
@@ -135,9 +135,9 @@ std::string VerdictSentence(const SessionAnswer& s) {
 
 namespace {
 
-std::string Experiment(const SessionAnswer& s) {
-  const Answer& a = s.answer;
-  if (!CarriesOver(s)) return CarryOverExperiment(s);
+std::string Experiment(const DiagnosisResult& s) {
+  const SearchResult& a = s.answer;
+  if (!PassesValidation(s)) return ValidationExperiment(s);
   if (s.own_words) return s.own_words->next.empty() ? kNoneNeeded : s.own_words->next;
   if (a.verdict == Verdict::kNone) {
     const std::string missing = MissingRecords(s);
@@ -162,7 +162,7 @@ std::string Experiment(const SessionAnswer& s) {
 
 }  // namespace
 
-std::string NextExperiment(const SessionAnswer& s) {
+std::string NextExperiment(const DiagnosisResult& s) {
   std::string check;
   if (!DoubtSentence(s).empty()) {
     check = "check units and signs of the columns and the rig file, and diagnose again";
@@ -174,9 +174,9 @@ std::string NextExperiment(const SessionAnswer& s) {
   return experiment == kNoneNeeded ? check : fmt::format("{}; then {}", check, experiment);
 }
 
-bool NeedsExperiment(const SessionAnswer& s) { return Experiment(s) != kNoneNeeded; }
+bool NeedsExperiment(const DiagnosisResult& s) { return Experiment(s) != kNoneNeeded; }
 
-double Confidence(const SessionAnswer& s) {
+double Confidence(const DiagnosisResult& s) {
   const auto& candidates = s.answer.candidates;
   if (s.answer.verdict == Verdict::kUnknown) return 0.0;
   if (s.answer.verdict == Verdict::kNone) {
@@ -192,8 +192,8 @@ double Confidence(const SessionAnswer& s) {
   return std::exp(candidates.front().score - best) / sum;
 }
 
-std::string PlaceOf(const SessionAnswer& s) {
-  const Answer& a = s.answer;
+std::string PlaceOf(const DiagnosisResult& s) {
+  const SearchResult& a = s.answer;
   if (!a.causes.empty()) {
     if (a.causes.front().effect == "axis_rotation") return a.causes.front().place.substr(0, 6);
     return PlaceOfEffect(a.causes.front().effect);
@@ -205,7 +205,7 @@ std::string PlaceOf(const SessionAnswer& s) {
   return a.remainder.coherent_with == "mains" ? "sensor" : "external";
 }
 
-std::vector<std::string> Channels(const SessionAnswer& s) {
+std::vector<std::string> Channels(const DiagnosisResult& s) {
   const auto& channels = s.view->numbers.channels;
   if (s.answer.causes.empty()) {
     if (s.answer.verdict == Verdict::kNone) return {};

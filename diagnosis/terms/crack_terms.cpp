@@ -60,8 +60,8 @@ Term Crack(const RigView& rig, double z_m, double direction_rad) {
       {"breathing_crack", fmt::format("z {:.1f} mm, direction {:.1f} deg", z_m * 1e3, degrees),
        "softening", "1"},
       0.0, 0.05,
-      [=, modes = rig.modes, period_s = rig.period_s](const Moment& m, double theta,
-                                                      Addition& add) {
+      [=, modes = rig.modes, period_s = rig.period_s](const SamplePoint& m, double theta,
+                                                      Contribution& add) {
         const double angle =
             m.angle_rad + 0.5 * period_s * static_cast<double>(m.speed_rad_per_s) + direction_rad;
         const double ex = std::cos(angle);

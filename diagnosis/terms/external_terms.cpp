@@ -13,12 +13,12 @@ namespace {
 enum class Kind { kDirect, kSymmetric, kAntisymmetric };
 
 /// A spring between shaft and ground at z: f = -(x, y), -(y, x) or (-y, x), times theta.
-Term Spring(const RigView& rig, std::string effect, double z_m, Kind kind, double wide) {
+Term Spring(const RigView& rig, std::string effect, double z_m, Kind kind, double faulty_std) {
   const auto shape = rig.Shape(z_m);
   const std::string parameter = kind == Kind::kDirect ? "direct" : "cross";
   return MakeTerm(
-      {std::move(effect), fmt::format("z {:.1f} mm", z_m * 1e3), parameter, "N/m"}, 0.0, wide,
-      [shape, kind, modes = rig.modes](const Moment& m, double theta, Addition& add) {
+      {std::move(effect), fmt::format("z {:.1f} mm", z_m * 1e3), parameter, "N/m"}, 0.0, faulty_std,
+      [shape, kind, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
         double x = 0.0;
         double y = 0.0;
         for (std::size_t i = 0; i < modes; ++i) {
@@ -54,7 +54,7 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz, double damp
       }};
   const double w = 2.0 * std::numbers::pi * frequency_hz;
   term.drive = [b, w, damping_ratio, period_s = rig.period_s, h = Housing{}](
-                   const Moment& m, double theta, Addition& add) mutable {
+                   const SamplePoint& m, double theta, Contribution& add) mutable {
     for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t axis = 2 * b + i;
       const double away_m = static_cast<double>(m.measured_m[axis] - m.reading_m[axis]);
@@ -85,7 +85,7 @@ Term Rub(const RigView& rig, std::size_t b, double clearance_m, double friction,
                    clearance_m * 1e6, friction),
        by_rate ? "damping_n_s_per_m" : "stiffness_n_per_m", by_rate ? "N s/m" : "N/m"},
       0.0, by_rate ? 50.0 : 1e5,
-      [=, modes = rig.modes](const Moment& m, double theta, Addition& add) {
+      [=, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
         const double x = static_cast<double>(m.actuator_m[2 * b]);
         const double y = static_cast<double>(m.actuator_m[2 * b + 1]);
         const double r = std::hypot(x, y);
@@ -102,7 +102,7 @@ Term Rub(const RigView& rig, std::size_t b, double clearance_m, double friction,
       });
   if (!by_rate) {
     // In contact the ring's spring stands beside the magnet's: derivatives must know it.
-    term.slope = [=](const Moment& m, double theta, AddedSlopes& added) {
+    term.slope = [=](const SamplePoint& m, double theta, AddedSlopes& added) {
       const double x = static_cast<double>(m.actuator_m[2 * b]);
       const double y = static_cast<double>(m.actuator_m[2 * b + 1]);
       const double r = std::hypot(x, y);
@@ -127,9 +127,9 @@ std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& t, double 
   constexpr double kUsualFriction = 0.1;  // of a touchdown ring
   std::vector<Term> terms;
   for (std::size_t a = 0; a < rig.axes; ++a) {
-    terms.push_back(
-        MakeTerm({"static_load", rig.numbers.channels[a], "force_n", "N"}, t.static_load_n, 5.0,
-                 [a](const Moment&, double theta, Addition& add) { add.force_n[a] += theta; }));
+    terms.push_back(MakeTerm(
+        {"static_load", rig.numbers.channels[a], "force_n", "N"}, t.static_load_n, 5.0,
+        [a](const SamplePoint&, double theta, Contribution& add) { add.force_n[a] += theta; }));
   }
   terms.push_back(Spring(rig, "coupling_stiffness", 0.0, Kind::kDirect, 5e3));
   terms.push_back(Spring(rig, "coupling_stiffness", 0.0, Kind::kSymmetric, 5e3));

@@ -23,7 +23,7 @@ using Complex = std::complex<double>;
 
 constexpr const char* kParts[] = {"cosine", "sine"};  // NOLINT: two words
 
-double MidAngle(const Moment& m, double period_s) {
+double MidAngle(const SamplePoint& m, double period_s) {
   return m.angle_rad + 0.5 * period_s * static_cast<double>(m.speed_rad_per_s);
 }
 
@@ -40,18 +40,18 @@ struct Teeth {
   std::size_t at;  ///< among the meshes
   double period_s;
 
-  [[nodiscard]] double Phi(const Moment& m) const {
+  [[nodiscard]] double Phi(const SamplePoint& m) const {
     return mesh->engagement() * MidAngle(m, period_s);
   }
-  [[nodiscard]] Complex Unloaded(const Moment& m) const { return Delta(m.teeth[at]); }
-  [[nodiscard]] Complex Velocity(const Moment& m) const { return Rate(m.teeth[at]); }
+  [[nodiscard]] Complex Unloaded(const SamplePoint& m) const { return Delta(m.teeth[at]); }
+  [[nodiscard]] Complex Velocity(const SamplePoint& m) const { return Rate(m.teeth[at]); }
   /// With what the static load presses them together.
   [[nodiscard]] Complex Pressed(Complex delta, double half_gap_m) const {
     const double rest_m =
         mesh->preload_n > 0.0 ? mesh->preload_n / mesh->stiffness_n_per_m + half_gap_m : 0.0;
     return delta + rest_m * mesh->normal;
   }
-  [[nodiscard]] Complex Loaded(const Moment& m) const {
+  [[nodiscard]] Complex Loaded(const SamplePoint& m) const {
     return Pressed(Unloaded(m), mesh->half_backlash_m);
   }
   /// Force of teeth with a gap.
@@ -68,7 +68,7 @@ struct Teeth {
   /// Mean over the period of a law of displacement, rate and angle of engagement that is not
   /// smooth: high harmonics of the error move the teeth by micrometres within a period.
   template <class Law>
-  [[nodiscard]] Complex Mean(const Moment& m, Law law) const {
+  [[nodiscard]] Complex Mean(const SamplePoint& m, Law law) const {
     constexpr int kInstants = 16;  // teeth part, touch and let go within one period
     const double mid_rad = MidAngle(m, period_s);
     const auto speed = static_cast<double>(m.speed_rad_per_s);
@@ -87,7 +87,7 @@ struct Teeth {
     }
     return sum / static_cast<double>(kInstants);
   }
-  void Push(Complex force, Addition& add) const {
+  void Push(Complex force, Contribution& add) const {
     const std::size_t modes = mesh->shape.size();
     for (std::size_t i = 0; i < modes; ++i) {
       add.Modal(i, -mesh->shape[i] * force.real());
@@ -95,7 +95,7 @@ struct Teeth {
     }
   }
   /// Force of a prescribed displacement e^(j order angle) of the teeth, `by` its amplitude.
-  void Displace(const Moment& m, Complex by, double order, Addition& add) const {
+  void Displace(const SamplePoint& m, Complex by, double order, Contribution& add) const {
     const Complex line = by * std::polar(1.0, order * MidAngle(m, period_s));
     const Complex rate = Complex(0.0, order * static_cast<double>(m.speed_rad_per_s)) * line;
     Push(mesh->stiffness_n_per_m * mesh->Seen(line) + mesh->damping_n_s_per_m * mesh->Seen(rate),
@@ -109,14 +109,14 @@ void AddStiffness(const Teeth& t, const Tolerances& tolerances, std::vector<Term
   const std::string& name = t.mesh->name;
   terms.push_back(MakeTerm({"mesh_stiffness", name, "stiffness", "ratio"},
                            tolerances.mesh_stiffness, 0.2,
-                           [t](const Moment& m, double theta, Addition& add) {
+                           [t](const SamplePoint& m, double theta, Contribution& add) {
                              t.Push(theta * t.mesh->stiffness_n_per_m * t.Unloaded(m), add);
                            }));
   terms.back().change = [at = t.at](double theta, LinearChange& change) {
     change.mesh[at].stiffness *= 1.0 + theta;
   };
   terms.push_back(MakeTerm({"mesh_stiffness", name, "damping", "ratio"}, tolerances.mesh_damping,
-                           0.3, [t](const Moment& m, double theta, Addition& add) {
+                           0.3, [t](const SamplePoint& m, double theta, Contribution& add) {
                              t.Push(theta * t.mesh->damping_n_s_per_m * t.Velocity(m), add);
                            }));
   terms.back().change = [at = t.at](double theta, LinearChange& change) {
@@ -131,7 +131,7 @@ void AddVariation(const Teeth& t, std::vector<Term>& terms) {
       terms.push_back(
           MakeTerm({"mesh_stiffness_variation", fmt::format("{}, order {}", t.mesh->name, order),
                     kParts[part], "1"},
-                   0.0, 0.1, [=](const Moment& m, double theta, Addition& add) {
+                   0.0, 0.1, [=](const SamplePoint& m, double theta, Contribution& add) {
                      const double phi = order * t.Phi(m);
                      const double factor = part == 0 ? std::cos(phi) : -std::sin(phi);
                      t.Push(theta * t.mesh->stiffness_n_per_m * factor * t.Loaded(m), add);
@@ -146,12 +146,13 @@ void AddError(const Teeth& t, const Tolerances& tolerances, std::vector<Term>& t
   for (const gear::Harmonic& h : t.mesh->error) highest = std::max(highest, std::abs(h.order));
   for (int order = -highest - 1; order <= highest + 1; ++order) {
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(MakeTerm(
-          {"transmission_error", fmt::format("{}, order {}", t.mesh->name, order), kParts[part],
-           "m"},
-          tolerances.transmission_error_m, 5e-6, [=](const Moment& m, double theta, Addition& add) {
-            t.Displace(m, -theta * Part(part), order * t.mesh->engagement(), add);
-          }));
+      terms.push_back(
+          MakeTerm({"transmission_error", fmt::format("{}, order {}", t.mesh->name, order),
+                    kParts[part], "m"},
+                   tolerances.transmission_error_m, 5e-6,
+                   [=](const SamplePoint& m, double theta, Contribution& add) {
+                     t.Displace(m, -theta * Part(part), order * t.mesh->engagement(), add);
+                   }));
     }
   }
 }
@@ -164,7 +165,7 @@ void AddRunout(const Teeth& t, const Tolerances& tolerances, bool driven,
         {"gear_runout", fmt::format("{}, {} wheel", t.mesh->name, driven ? "driven" : "driving"),
          kParts[part], "m"},
         tolerances.gear_runout_m, 10e-6,
-        [=, w = &wheel](const Moment& m, double theta, Addition& add) {
+        [=, w = &wheel](const SamplePoint& m, double theta, Contribution& add) {
           const Complex by = theta * Part(part);
           t.Displace(m, driven ? -by : by, w->ratio, add);
           const double speed = w->ratio * static_cast<double>(m.speed_rad_per_s);
@@ -194,8 +195,8 @@ void AddCracks(const Teeth& t, bool driven, std::vector<Term>& terms) {
          fmt::format("{}, {} tooth {}", t.mesh->name, driven ? "driven" : "driving", tooth),
          "depth", "1"},
         0.0, 0.3,
-        [=, turn = std::abs(wheel.ratio), teeth = wheel.teeth](const Moment& m, double theta,
-                                                               Addition& add) {
+        [=, turn = std::abs(wheel.ratio), teeth = wheel.teeth](const SamplePoint& m, double theta,
+                                                               Contribution& add) {
           const double carries = Carries(turn * MidAngle(m, t.period_s), tooth, teeth);
           if (carries == 0.0) return;
           t.Push(-theta * carries * t.mesh->stiffness_n_per_m * t.Loaded(m), add);
@@ -216,7 +217,7 @@ double Sliding(double phi) {
 Term Friction(const Teeth& t) {
   Term term =
       MakeTerm({"mesh_friction", t.mesh->name, "coefficient", "1"}, 0.0, 0.1,
-               [t](const Moment& m, double theta, Addition& add) {
+               [t](const SamplePoint& m, double theta, Contribution& add) {
                  const Complex n = t.mesh->normal;
                  const double own = t.mesh->half_backlash_m;
                  t.Push(t.Mean(m,
@@ -234,7 +235,7 @@ Term Friction(const Teeth& t) {
 Term Backlash(const Teeth& t) {
   Term term =
       MakeTerm({"backlash", t.mesh->name, "gap_m", "m"}, 0.0, 20e-6,
-               [t](const Moment& m, double theta, Addition& add) {
+               [t](const SamplePoint& m, double theta, Contribution& add) {
                  const double own = t.mesh->half_backlash_m;
                  const double wider = own + 0.5 * std::max(0.0, theta);
                  t.Push(t.Mean(m,
@@ -256,7 +257,7 @@ void AddShafts(const RigView& rig, const Tolerances& tolerances, std::vector<Ter
     const double w2 = rig.omega_rad_per_s[i] * rig.omega_rad_per_s[i];
     terms.push_back(MakeTerm(
         {"", fmt::format("shaft mode {}", i + 1), "stiffness", "ratio"}, tolerances.shaft_stiffness,
-        0.0, [=](const Moment& m, double theta, Addition& add) {
+        0.0, [=](const SamplePoint& m, double theta, Contribution& add) {
           add.Modal(i, -theta * w2 * static_cast<double>(m.q[i]));
           add.Modal(modes + i, -theta * w2 * static_cast<double>(m.q[modes + i]));
         }));
@@ -268,7 +269,7 @@ void AddShafts(const RigView& rig, const Tolerances& tolerances, std::vector<Ter
     const plant::SupportModel& support = rig.model->train().supports[s];
     terms.push_back(MakeTerm({"", fmt::format("shaft support {}", s + 1), "damping", "ratio"},
                              tolerances.shaft_damping, 0.0,
-                             [=](const Moment& m, double theta, Addition& add) {
+                             [=](const SamplePoint& m, double theta, Contribution& add) {
                                double x = 0.0;
                                double y = 0.0;
                                for (std::size_t i = 0; i < modes; ++i) {

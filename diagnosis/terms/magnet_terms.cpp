@@ -16,7 +16,7 @@ namespace {
 /// Opposed coils of a healthy magnet: a few micrometres of gap, a turn more or less.
 constexpr double kAlike = 0.02;
 
-double ForceWithoutControl(const magnet::Magnet& magnet, double bias_a, const Moment& m,
+double ForceWithoutControl(const magnet::Magnet& magnet, double bias_a, const SamplePoint& m,
                            std::size_t a) {
   return magnet::Force(magnet, bias_a, 0.0, static_cast<double>(m.actuator_m[a]));
 }
@@ -43,24 +43,26 @@ double SaturatedForce(const magnet::Magnet& magnet, double bias_a, double contro
 /// One member of a family of knees and exponents; theta = 1 is the whole law. Where the control
 /// current is small beside the bias only its slopes show, and their ratio depends on the exponent.
 Term Saturation(const RigView& rig, double knee_share, double exponent) {
-  Term term = MakeTerm(
-      {"magnetic_saturation", fmt::format("knee {:.3f} i0, exponent {:.2f}", knee_share, exponent),
-       "share", "1"},
-      0.0, 0.7, [&rig, knee_share, exponent](const Moment& m, double theta, Addition& add) {
-        for (std::size_t a = 0; a < rig.axes; ++a) {
-          const double bias = rig.bias_a(a);
-          const double force =
-              SaturatedForce(rig.magnet(a).magnet, bias, static_cast<double>(m.coil_mean_a[a]),
-                             static_cast<double>(m.actuator_m[a]), {knee_share * bias, exponent});
-          add.force_n[a] += theta * (force - static_cast<double>(m.force_n[a]));
-        }
-      });
+  Term term =
+      MakeTerm({"magnetic_saturation",
+                fmt::format("knee {:.3f} i0, exponent {:.2f}", knee_share, exponent), "share", "1"},
+               0.0, 0.7,
+               [&rig, knee_share, exponent](const SamplePoint& m, double theta, Contribution& add) {
+                 for (std::size_t a = 0; a < rig.axes; ++a) {
+                   const double bias = rig.bias_a(a);
+                   const double force = SaturatedForce(
+                       rig.magnet(a).magnet, bias, static_cast<double>(m.coil_mean_a[a]),
+                       static_cast<double>(m.actuator_m[a]), {knee_share * bias, exponent});
+                   add.force_n[a] += theta * (force - static_cast<double>(m.force_n[a]));
+                 }
+               });
   term.positive = true;
   const Family::Shape shape{knee_share, exponent};
   term.family = {shape, {0.12, 0.25}, {}, [&rig](const Family::Shape& other) {
                    return Saturation(rig, other[0], other[1]);
                  }};
-  term.slope = [&rig, knee_share, exponent](const Moment& m, double theta, AddedSlopes& added) {
+  term.slope = [&rig, knee_share, exponent](const SamplePoint& m, double theta,
+                                            AddedSlopes& added) {
     constexpr double kStepA = 1e-4;
     constexpr double kStepM = 1e-8;
     for (std::size_t a = 0; a < rig.axes; ++a) {
@@ -83,7 +85,8 @@ Term Saturation(const RigView& rig, double knee_share, double exponent) {
 
 }  // namespace
 
-double ForceOfCurrent(const RigView& rig, const Moment& moment, std::size_t axis, double beside_a) {
+double ForceOfCurrent(const RigView& rig, const SamplePoint& moment, std::size_t axis,
+                      double beside_a) {
   const magnet::Magnet& magnet = rig.magnet(axis).magnet;
   const double bias_a = rig.bias_a(axis);
   const double coil_a = static_cast<double>(moment.coil_mean_a[axis]);
@@ -101,7 +104,7 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
     // The gain scales the current, not the force; with a static load current the two differ.
     Term gain = MakeTerm(
         {"current_gain", channel, "ratio", "1"}, tolerances.current_gain, 0.15,
-        [=](const Moment& m, double theta, Addition& add) {
+        [=](const SamplePoint& m, double theta, Contribution& add) {
           const double x = static_cast<double>(m.actuator_m[a]);
           const double i = static_cast<double>(m.coil_mean_a[a]);
           const effect::CoilPair acting = effect::Scaled({bias_a + i, bias_a - i}, 1.0 + theta);
@@ -110,20 +113,20 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
         });
     gain.linear = false;
     gain.step = 0.02;
-    gain.slope = [a](const Moment& m, double theta, AddedSlopes& added) {
+    gain.slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
       added.force_per_a[a] += static_cast<float>(theta) * m.force_per_a[a];
     };
     terms.push_back(std::move(gain));
     terms.push_back(MakeTerm({"displacement_stiffness", channel, "ratio", "1"},
                              tolerances.displacement_stiffness, 0.15,
-                             [=](const Moment& m, double theta, Addition& add) {
+                             [=](const SamplePoint& m, double theta, Contribution& add) {
                                add.force_n[a] += theta * ForceWithoutControl(magnet, bias_a, m, a);
                              }));
-    terms.back().slope = [a](const Moment& m, double theta, AddedSlopes& added) {
+    terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
       added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
     };
     terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, kAlike, 0.1,
-                             [=](const Moment& m, double theta, Addition& add) {
+                             [=](const SamplePoint& m, double theta, Contribution& add) {
                                const double x = static_cast<double>(m.actuator_m[a]);
                                const double i = static_cast<double>(m.coil_mean_a[a]);
                                const double k = magnet.force_constant_n_m2_per_a2;
@@ -136,7 +139,7 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
   for (std::size_t b = 0; b < rig.axes / 2; ++b) {
     terms.push_back(
         MakeTerm({"axis_rotation", "magnet " + rig.numbers.bearings[b], "angle_rad", "rad"}, 0.0,
-                 0.05, [b](const Moment& m, double theta, Addition& add) {
+                 0.05, [b](const SamplePoint& m, double theta, Contribution& add) {
                    add.force_n[2 * b] -= theta * static_cast<double>(m.force_n[2 * b + 1]);
                    add.force_n[2 * b + 1] += theta * static_cast<double>(m.force_n[2 * b]);
                  }));

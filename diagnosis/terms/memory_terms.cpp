@@ -62,8 +62,8 @@ Term Hysteresis(const RigView& rig, double width_share) {
                    return Hysteresis(rig, other[0]);
                  }};
   term.drive = [&rig, width_share, stop = std::array<double, kMaxAxes>{},
-                last = std::array<double, kMaxAxes>{}](const Moment& m, double theta,
-                                                       Addition& add) mutable {
+                last = std::array<double, kMaxAxes>{}](const SamplePoint& m, double theta,
+                                                       Contribution& add) mutable {
     for (std::size_t a = 0; a < rig.axes; ++a) {
       const double width_a = width_share * rig.bias_a(a);
       const double now_a = static_cast<double>(m.coil_end_a[a]);
@@ -90,7 +90,7 @@ std::vector<Term> MagnetMemoryTerms(const RigView& rig) {
     eddy.linear = false;
     eddy.positive = true;
     eddy.drive = [&rig, a, period_s = rig.period_s, lag = HalfOrderLag()](
-                     const Moment& m, double theta, Addition& add) mutable {
+                     const SamplePoint& m, double theta, Contribution& add) mutable {
       if (theta <= 0.0) return;
       lag.Tune(theta, period_s);
       if (m.restarted) lag = HalfOrderLag(), lag.Tune(theta, period_s);

@@ -11,7 +11,7 @@ namespace levitas::diagnosis {
 namespace {
 
 /// Angle in the middle of the period, where forces are evaluated.
-double MidAngle(const Moment& m, double period_s) {
+double MidAngle(const SamplePoint& m, double period_s) {
   return m.angle_rad + 0.5 * period_s * static_cast<double>(m.speed_rad_per_s);
 }
 
@@ -25,7 +25,7 @@ void AddUnbalance(const RigView& rig, const Tolerances& t, std::vector<Term>& te
       terms.push_back(
           MakeTerm({"unbalance", fmt::format("z {:.1f} mm", mass.z_m * 1e3), kParts[part], "kg m"},
                    t.unbalance_kg_m, 20e-6,
-                   [=, modes = rig.modes](const Moment& m, double theta, Addition& add) {
+                   [=, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
                      const double speed = static_cast<double>(m.speed_rad_per_s);
                      if (speed == 0.0) return;
                      // The sine part is a quarter turn ahead.
@@ -52,7 +52,7 @@ void AddRunout(const RigView& rig, const Tolerances& t, std::vector<Term>& terms
         // It is on the shaft: the sensor's filter sees it, H = 1/(1 + j order W lag), and at rest
         // it stays as an offset.
         const double lag_s = SensorLag(rig, a);
-        term.read = [=](const Moment& m, double theta, Addition& add) {
+        term.read = [=](const SamplePoint& m, double theta, Contribution& add) {
           const double late = order * lag_s * static_cast<double>(m.speed_rad_per_s);
           const double cosine = order == 1 ? m.cos_angle : std::cos(order * m.angle_rad);
           const double sine = order == 1 ? m.sin_angle : std::sin(order * m.angle_rad);
@@ -76,7 +76,7 @@ void AddBow(const RigView& rig, std::vector<Term>& terms) {
       terms.push_back(MakeTerm({"shaft_bow", fmt::format("mode {}", mode - 1), kParts[part], "m"},
                                0.0, 20e-6,
                                [=, modes = rig.modes, period_s = rig.period_s](
-                                   const Moment& m, double theta, Addition& add) {
+                                   const SamplePoint& m, double theta, Contribution& add) {
                                  const double angle = MidAngle(m, period_s) + part * kQuarterTurn;
                                  add.Modal(mode, theta * size * std::cos(angle));
                                  add.Modal(modes + mode, theta * size * std::sin(angle));
@@ -92,8 +92,8 @@ void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
     for (int part = 0; part < 2; ++part) {
       terms.push_back(
           MakeTerm({"misalignment", fmt::format("order {}", order), kParts[part], "N"}, 0.0, 0.5,
-                   [=, modes = rig.modes, period_s = rig.period_s](const Moment& m, double theta,
-                                                                   Addition& add) {
+                   [=, modes = rig.modes, period_s = rig.period_s](
+                       const SamplePoint& m, double theta, Contribution& add) {
                      if (m.speed_rad_per_s == 0.0F) return;
                      const double angle = order * MidAngle(m, period_s) + part * kQuarterTurn;
                      const double x = theta * std::cos(angle);
@@ -110,20 +110,20 @@ void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
 /// Stiffness that turns with the shaft, as a share of every bending mode's.
 void AddStiffness(const RigView& rig, std::vector<Term>& terms) {
   for (int part = 0; part < 2; ++part) {
-    terms.push_back(
-        MakeTerm({"shaft_anisotropy", "rotor", kParts[part], "1"}, 0.0, 0.1,
-                 [=, &rig, modes = rig.modes](const Moment& m, double theta, Addition& add) {
-                   const double angle = 2.0 * MidAngle(m, rig.period_s) + part * kQuarterTurn;
-                   const double c = theta * std::cos(angle);
-                   const double s = theta * std::sin(angle);
-                   for (std::size_t i = 2; i < modes; ++i) {
-                     const double w2 = rig.omega_rad_per_s[i] * rig.omega_rad_per_s[i];
-                     const double qx = static_cast<double>(m.q[i]);
-                     const double qy = static_cast<double>(m.q[modes + i]);
-                     add.Modal(i, -w2 * (c * qx + s * qy));
-                     add.Modal(modes + i, -w2 * (s * qx - c * qy));
-                   }
-                 }));
+    terms.push_back(MakeTerm(
+        {"shaft_anisotropy", "rotor", kParts[part], "1"}, 0.0, 0.1,
+        [=, &rig, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
+          const double angle = 2.0 * MidAngle(m, rig.period_s) + part * kQuarterTurn;
+          const double c = theta * std::cos(angle);
+          const double s = theta * std::sin(angle);
+          for (std::size_t i = 2; i < modes; ++i) {
+            const double w2 = rig.omega_rad_per_s[i] * rig.omega_rad_per_s[i];
+            const double qx = static_cast<double>(m.q[i]);
+            const double qy = static_cast<double>(m.q[modes + i]);
+            add.Modal(i, -w2 * (c * qx + s * qy));
+            add.Modal(modes + i, -w2 * (s * qx - c * qy));
+          }
+        }));
   }
 }
 

@@ -24,7 +24,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
   const std::size_t other = rig.modes + mode;
   const std::string place = fmt::format("mode {}", mode - 1);
   terms.push_back(MakeTerm({"modal_frequency", place, "ratio", "1"}, t.modal_frequency, 0.05,
-                           [=](const Moment& m, double theta, Addition& add) {
+                           [=](const SamplePoint& m, double theta, Contribution& add) {
                              const double gone = -w * w * ((1.0 + theta) * (1.0 + theta) - 1.0);
                              add.Modal(mode, gone * static_cast<double>(m.q[mode]));
                              add.Modal(other, gone * static_cast<double>(m.q[other]));
@@ -35,7 +35,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
     change.mode[mode].frequency *= 1.0 + theta;
   };
   terms.push_back(MakeTerm({"modal_damping", place, "ratio", "1"}, t.modal_damping, 3.0,
-                           [=](const Moment& m, double theta, Addition& add) {
+                           [=](const SamplePoint& m, double theta, Contribution& add) {
                              const double gone = -2.0 * z * w * theta;
                              add.Modal(mode, gone * static_cast<double>(m.v[mode]));
                              add.Modal(other, gone * static_cast<double>(m.v[other]));
@@ -47,7 +47,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
   for (std::size_t b = 0; b < rig.axes / 2; ++b) {
     terms.push_back(
         MakeTerm({"", fmt::format("magnet {}, {}", rig.numbers.bearings[b], place), "shape", "1"},
-                 t.modal_shape, 0.0, [=](const Moment& m, double theta, Addition& add) {
+                 t.modal_shape, 0.0, [=](const SamplePoint& m, double theta, Contribution& add) {
                    const double shape = theta * size;
                    add.Modal(mode, shape * static_cast<double>(m.force_n[2 * b]));
                    add.Modal(other, shape * static_cast<double>(m.force_n[2 * b + 1]));
@@ -59,7 +59,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
         MakeTerm({"", fmt::format("sensor {}, {}", rig.numbers.bearings[b], place), "shape", "1"},
                  t.modal_shape, 0.0, nullptr);
     const double lag_s = SensorLag(rig, 2 * b);
-    sensor.read = [=](const Moment& m, double theta, Addition& add) {
+    sensor.read = [=](const SamplePoint& m, double theta, Contribution& add) {
       const auto seen = [&](std::size_t i) {
         return static_cast<double>(m.read_q[i]) - lag_s * static_cast<double>(m.read_v[i]);
       };
@@ -80,7 +80,8 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
 Term InternalDamping(const RigView& rig, double z_m) {
   Term term = MakeTerm(
       {"internal_damping", fmt::format("z {:.1f} mm", z_m * 1e3), "damping", "N s/m"}, 0.0, 20.0,
-      [shape = rig.Shape(z_m), modes = rig.modes](const Moment& m, double theta, Addition& add) {
+      [shape = rig.Shape(z_m), modes = rig.modes](const SamplePoint& m, double theta,
+                                                  Contribution& add) {
         const double speed = static_cast<double>(m.speed_rad_per_s);
         double x = 0.0;
         double y = 0.0;
@@ -108,7 +109,7 @@ std::vector<Term> RotorTerms(const RigView& rig, const Tolerances& t) {
   const std::size_t modes = rig.modes;
   for (std::size_t mode = 2; mode < modes; ++mode) AddMode(rig, t, mode, terms);
   terms.push_back(MakeTerm({"rotor_mass", "rotor", "ratio", "1"}, t.rotor_mass, 0.1,
-                           [&rig, modes](const Moment& m, double theta, Addition& add) {
+                           [&rig, modes](const SamplePoint& m, double theta, Contribution& add) {
                              const double share = -theta / (1.0 + theta);
                              for (std::size_t a = 0; a < rig.axes; ++a) {
                                const auto& shape = rig.magnet(a).actuator_shape;
@@ -124,7 +125,7 @@ std::vector<Term> RotorTerms(const RigView& rig, const Tolerances& t) {
     for (std::size_t i = 0; i < 2; ++i) change.mode[i].drive /= 1.0 + theta;
   };
   terms.push_back(MakeTerm({"gyroscopic_inertia", "rotor", "ratio", "1"}, t.gyroscopic_inertia, 0.3,
-                           [&rig, modes](const Moment& m, double theta, Addition& add) {
+                           [&rig, modes](const SamplePoint& m, double theta, Contribution& add) {
                              const double* g = rig.model->gyroscopic().data();
                              const double speed = theta * static_cast<double>(m.speed_rad_per_s);
                              if (speed == 0.0) return;

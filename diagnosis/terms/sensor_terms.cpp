@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastLag = 0.05;  ///< of the file's; below it a sensor has none
 
 /// What a shape makes of the motion, behind the sensor's filter: motion is slow beside its lag.
-double Seen(const std::vector<double>& shape, const Moment& m, std::size_t at, double lag_s) {
+double Seen(const std::vector<double>& shape, const SamplePoint& m, std::size_t at, double lag_s) {
   double sum = 0.0;
   for (std::size_t i = 0; i < shape.size(); ++i) {
     sum += shape[i] *
@@ -57,7 +57,7 @@ Term Bandwidth(const RigView& rig, double tolerance, std::size_t a) {
   Term term = MakeTerm(
       {"sensor_bandwidth", rig.numbers.channels[a], "lag_ratio", "1"}, tolerance, 1.0,
       [=, period_s = rig.period_s, gain = rig.bearing(a).sensor.gain, both = Both{}](
-          const Moment& m, double theta, Addition& add) mutable {
+          const SamplePoint& m, double theta, Contribution& add) mutable {
         if (m.restarted) {
           both.file.Rest();
           both.other.Rest();
@@ -80,31 +80,31 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
   const std::string& channel = rig.numbers.channels[a];
   constexpr double kReferenceM = 100e-6;  // [m] a2, a3 are shares of it at this reading
   terms.push_back(MakeReading({"sensor_gain", channel, "ratio", "1"}, t.sensor_gain, 0.1,
-                              [a](const Moment& m, double theta, Addition& add) {
+                              [a](const SamplePoint& m, double theta, Contribution& add) {
                                 add.reading_m[a] += theta * static_cast<double>(m.reading_m[a]);
                               }));
   terms.back().scales = static_cast<int>(a);
-  terms.back().slope = [a](const Moment&, double theta, AddedSlopes& added) {
+  terms.back().slope = [a](const SamplePoint&, double theta, AddedSlopes& added) {
     added.reading_per_m[a] += static_cast<float>(theta);
   };
-  terms.push_back(
-      MakeReading({"sensor_offset", channel, "offset_m", "m"}, t.sensor_offset_m, 50e-6,
-                  [a](const Moment&, double theta, Addition& add) { add.reading_m[a] += theta; }));
+  terms.push_back(MakeReading(
+      {"sensor_offset", channel, "offset_m", "m"}, t.sensor_offset_m, 50e-6,
+      [a](const SamplePoint&, double theta, Contribution& add) { add.reading_m[a] += theta; }));
   terms.push_back(MakeReading({"sensor_nonlinearity", channel, "a2", "1/m"}, 0.0, 3e3,
-                              [a](const Moment& m, double theta, Addition& add) {
+                              [a](const SamplePoint& m, double theta, Contribution& add) {
                                 const double y = static_cast<double>(m.reading_m[a]);
                                 add.reading_m[a] += theta * y * y;
                               }));
-  terms.back().slope = [a](const Moment& m, double theta, AddedSlopes& added) {
+  terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
     added.reading_per_m[a] += static_cast<float>(2.0 * theta) * m.reading_m[a];
   };
   terms.push_back(MakeReading({"sensor_nonlinearity", channel, "a3", "1/m^2"}, 0.0,
                               1.0 / (kReferenceM * kReferenceM),
-                              [a](const Moment& m, double theta, Addition& add) {
+                              [a](const SamplePoint& m, double theta, Contribution& add) {
                                 const double y = static_cast<double>(m.reading_m[a]);
                                 add.reading_m[a] += theta * y * y * y;
                               }));
-  terms.back().slope = [a](const Moment& m, double theta, AddedSlopes& added) {
+  terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
     added.reading_per_m[a] += static_cast<float>(3.0 * theta) * m.reading_m[a] * m.reading_m[a];
   };
   terms.push_back(Bandwidth(rig, t.sensor_bandwidth, a));
@@ -117,7 +117,7 @@ void AddPosition(const RigView& rig, const Tolerances& t, std::size_t b, std::ve
   const double lag_s = SensorLag(rig, 2 * b);
   terms.push_back(
       MakeReading({"sensor_position", bearing, "shift_m", "m"}, t.sensor_position_m, 3e-3,
-                  [b, slope, modes, lag_s](const Moment& m, double theta, Addition& add) {
+                  [b, slope, modes, lag_s](const SamplePoint& m, double theta, Contribution& add) {
                     add.reading_m[2 * b] += theta * Seen(slope, m, 0, lag_s);
                     add.reading_m[2 * b + 1] += theta * Seen(slope, m, modes, lag_s);
                   }));
@@ -144,7 +144,7 @@ std::vector<Term> SensorTerms(const RigView& rig, const Tolerances& t) {
     const std::string& bearing = rig.numbers.bearings[b];
     if (!rig.geared()) AddPosition(rig, t, b, terms);
     terms.push_back(MakeReading({"axis_rotation", "sensor " + bearing, "angle_rad", "rad"}, 0.0,
-                                0.05, [b](const Moment& m, double theta, Addition& add) {
+                                0.05, [b](const SamplePoint& m, double theta, Contribution& add) {
                                   const double x = static_cast<double>(m.reading_m[2 * b]);
                                   const double y = static_cast<double>(m.reading_m[2 * b + 1]);
                                   add.reading_m[2 * b] += theta * y;
@@ -180,7 +180,7 @@ std::vector<Term> MainsTerms(const RigView& rig, const std::vector<double>& freq
           terms.push_back(MakeReading(
               {"mains_pickup", fmt::format("{:.0f} Hz, {}", hz, rig.numbers.channels[a]),
                part == 0 ? "cosine" : "sine", "m"},
-              known_m, 2e-6, [=](const Moment& m, double theta, Addition& add) {
+              known_m, 2e-6, [=](const SamplePoint& m, double theta, Contribution& add) {
                 if (m.record != record) return;
                 add.reading_m[a] +=
                     theta * (part == 0 ? std::cos(w * m.time_s) : std::sin(w * m.time_s));

@@ -21,7 +21,7 @@ using config::Tolerances;
 /// [N] what a current beside that of the model changes at the magnet of an axis. Not its slope
 /// times the current: a current that follows noise moves by tenths of the bias, and the square of
 /// that does not average out.
-[[nodiscard]] double ForceOfCurrent(const RigView& rig, const Moment& moment, std::size_t axis,
+[[nodiscard]] double ForceOfCurrent(const RigView& rig, const SamplePoint& moment, std::size_t axis,
                                     double beside_a);
 /// [s] time constant of an axis' sensor.
 [[nodiscard]] double SensorLag(const RigView& rig, std::size_t axis);

@@ -60,7 +60,7 @@ Term Delay(const RigView& rig, double tolerance) {
   loops.reserve(rig.axes);
   for (std::size_t a = 0; a < rig.axes; ++a) loops.push_back(LoopOf(rig, a));
   term.drive = [loops, of = 0.0, shifted = std::vector<Shifted>(rig.axes)](
-                   const Moment& m, double theta, Addition& add) mutable {
+                   const SamplePoint& m, double theta, Contribution& add) mutable {
     if (theta != of) {
       of = theta;
       for (std::size_t a = 0; a < loops.size(); ++a) shifted[a] = Shift(loops[a], theta);
@@ -86,7 +86,7 @@ Term Bandwidth(const RigView& rig, std::size_t a, double tolerance) {
   term.moves_coil = true;
   term.step = 0.02;
   term.drive = [loop = LoopOf(rig, a), a, of = 0.0, end = 0.0, mean = 0.0](
-                   const Moment& m, double theta, Addition& add) mutable {
+                   const SamplePoint& m, double theta, Contribution& add) mutable {
     if (theta != of) {
       of = theta;
       const Loop other{loop.rate_per_s * std::max(0.05, 1.0 + theta), loop.period_s};
@@ -111,7 +111,7 @@ class SlewingCoil {
       : bandwidth_hz_(bandwidth_hz), slew_a_per_s_(slew_a_per_s), period_s_(period_s) {}
 
   /// Mean over the period [A].
-  double Advance(const Moment& m, std::size_t a) {
+  double Advance(const SamplePoint& m, std::size_t a) {
     const double late = std::clamp(static_cast<double>(m.late_periods), -1.0, 1.0);
     const double hz = bandwidth_hz_ * static_cast<double>(m.coil_rate[a]);
     if (late >= 0.0) {
@@ -152,7 +152,7 @@ Term Slew(const RigView& rig, double slew_a_per_s) {
   for (std::size_t a = 0; a < rig.axes; ++a) {
     coils.emplace_back(rig.bearing(a).amplifier.bandwidth_hz, slew_a_per_s, rig.period_s);
   }
-  term.drive = [&rig, coils](const Moment& m, double theta, Addition& add) mutable {
+  term.drive = [&rig, coils](const SamplePoint& m, double theta, Contribution& add) mutable {
     for (std::size_t a = 0; a < rig.axes; ++a) {
       const double beside_a = coils[a].Advance(m, a) - static_cast<double>(m.coil_mean_a[a]);
       add.force_n[a] += theta * ForceOfCurrent(rig, m, a, beside_a);
@@ -160,7 +160,7 @@ Term Slew(const RigView& rig, double slew_a_per_s) {
   };
   term.timed = true;
   // The slew-limited coil replaces the linear one by the share theta: its slope falls by theta.
-  term.slope = [&rig](const Moment& m, double theta, AddedSlopes& added) {
+  term.slope = [&rig](const SamplePoint& m, double theta, AddedSlopes& added) {
     for (std::size_t a = 0; a < rig.axes; ++a) {
       added.force_per_a[a] -= static_cast<float>(theta) * m.force_per_a[a];
     }

@@ -34,39 +34,40 @@ bool CanRigLink::Send(const SensorFrame& frame) noexcept {
   return sent;
 }
 
-port::RigLink::Answer CanRigLink::Accept(const can::Reception& reception,
-                                         CurrentFrame& frame) noexcept {
+port::RigLink::ReceiveResult CanRigLink::Accept(const can::Reception& reception,
+                                                CurrentFrame& frame) noexcept {
   if (reception.event != can::BusEvent::kFrame) {
     watch_.Note(reception);
-    return Answer::kNothing;
+    return ReceiveResult::kNothing;
   }
-  if (!watch_.Hears(reception.socket)) return Answer::kNothing;
+  if (!watch_.Hears(reception.socket)) return ReceiveResult::kNothing;
   const can::Outcome outcome = assembler_.Take(reception.frame, own_cycle_, frame);
-  if (outcome == can::Outcome::kGoodbye) return Answer::kGoodbye;
-  return outcome == can::Outcome::kFrame ? Answer::kCurrent : Answer::kNothing;
+  if (outcome == can::Outcome::kGoodbye) return ReceiveResult::kGoodbye;
+  return outcome == can::Outcome::kFrame ? ReceiveResult::kCurrent : ReceiveResult::kNothing;
 }
 
-port::RigLink::Answer CanRigLink::Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept {
+port::RigLink::ReceiveResult CanRigLink::Receive(CurrentFrame& frame,
+                                                 std::int64_t deadline_ns) noexcept {
   bool found = false;
   for (int taken = 0;; ++taken) {
     if (taken == kMostPerRead) {
       ++watch_.counters().read_limit;
-      return Answer::kNothing;  // as in can_rig_port.cpp
+      return ReceiveResult::kNothing;  // as in can_rig_port.cpp
     }
     const can::Reception reception = access_.Next();
     if (reception.event == can::BusEvent::kNothing) {
       if (found || !access_.Wait(deadline_ns)) break;
       continue;
     }
-    const Answer answer = Accept(reception, frame);
-    if (answer == Answer::kGoodbye) return answer;
-    if (answer == Answer::kNothing) continue;
+    const ReceiveResult answer = Accept(reception, frame);
+    if (answer == ReceiveResult::kGoodbye) return answer;
+    if (answer == ReceiveResult::kNothing) continue;
     if (found) ++counters_.currents_skipped;
     found = true;
   }
-  if (!found) return Answer::kNothing;
+  if (!found) return ReceiveResult::kNothing;
   ++counters_.currents_read;
-  return Answer::kCurrent;
+  return ReceiveResult::kCurrent;
 }
 
 port::RigLink::Counters CanRigLink::counters() const noexcept {

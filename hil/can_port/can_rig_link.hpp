@@ -19,7 +19,7 @@ class CanRigLink final : public port::RigLink {
              can::BusAccess& access);
 
   bool Send(const SensorFrame& frame) noexcept override;
-  Answer Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept override;
+  ReceiveResult Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept override;
   [[nodiscard]] Counters counters() const noexcept override;
   [[nodiscard]] std::string Trouble() const override;
 
@@ -29,7 +29,7 @@ class CanRigLink final : public port::RigLink {
     std::size_t bus{};
     std::uint32_t every{};
   };
-  [[nodiscard]] Answer Accept(const can::Reception& reception, CurrentFrame& frame) noexcept;
+  [[nodiscard]] ReceiveResult Accept(const can::Reception& reception, CurrentFrame& frame) noexcept;
 
   can::BusAccess& access_;
   can::CommandAssembler assembler_;

@@ -5,7 +5,7 @@
 
 namespace levitas::events {
 
-EffectSchedule::EffectSchedule(const std::vector<RigEvent>& events,
+EffectSchedule::EffectSchedule(const std::vector<ScheduledRigEvent>& events,
                                const std::vector<std::string>& ids, std::vector<double> strengths,
                                double period_s)
     : strengths_(std::move(strengths)) {
@@ -14,7 +14,7 @@ EffectSchedule::EffectSchedule(const std::vector<RigEvent>& events,
   const auto cycles = [period_s](double time_s) {
     return static_cast<std::uint64_t>(std::ceil(std::max(time_s, 0.0) / period_s - 1e-6));
   };
-  for (const RigEvent& event : events) {
+  for (const ScheduledRigEvent& event : events) {
     if (event.kind != RigEventKind::kEffect) continue;
     bool found = false;
     for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -21,7 +21,7 @@ namespace levitas::events {
 class EffectSchedule {
  public:
   /// `ids` and `strengths` are those of the rig's entries, in order.
-  EffectSchedule(const std::vector<RigEvent>& events, const std::vector<std::string>& ids,
+  EffectSchedule(const std::vector<ScheduledRigEvent>& events, const std::vector<std::string>& ids,
                  std::vector<double> strengths, double period_s);
 
   template <class Set>

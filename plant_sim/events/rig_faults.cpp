@@ -15,10 +15,10 @@ std::uint64_t CycleAt(double time_s, double period_s) {
 
 }  // namespace
 
-RigFaults::RigFaults(const std::vector<RigEvent>& events, double period_s) {
+RigFaults::RigFaults(const std::vector<ScheduledRigEvent>& events, double period_s) {
   if (!(period_s > 0.0)) throw std::invalid_argument("rig faults: the period must be positive");
   faults_.reserve(events.size());
-  for (const RigEvent& event : events) {
+  for (const ScheduledRigEvent& event : events) {
     if (event.kind == RigEventKind::kEffect) continue;
     if (event.axis >= kMaxAxes) throw std::invalid_argument("rig faults: no such axis");
     const std::uint64_t end = event.duration_s > 0.0

@@ -19,7 +19,7 @@ namespace levitas::events {
 
 class RigFaults {
  public:
-  RigFaults(const std::vector<RigEvent>& events, double period_s);
+  RigFaults(const std::vector<ScheduledRigEvent>& events, double period_s);
 
   /// Changes a frame that is about to leave. Call once per cycle, in order.
   void Disturb(std::uint64_t cycle, SensorFrame& frame) noexcept;

@@ -6,7 +6,7 @@
 namespace levitas::plant_run {
 
 namespace {
-using Answer = port::RigLink::Answer;
+using ReceiveResult = port::RigLink::ReceiveResult;
 constexpr std::uint64_t kTimeEvery = 16;
 constexpr std::int64_t kRepeatNs = 100'000'000;  // lockstep: ask again
 constexpr std::int64_t kLookNs = 12'000;         // real time: before the next instant
@@ -99,10 +99,10 @@ bool PlantLoop::AwaitCurrent(std::uint64_t cycle, std::int64_t deadline_ns,
                              bool& goodbye) noexcept {
   CurrentFrame current;
   for (;;) {
-    const Answer answer = link_.Receive(current, deadline_ns);
-    if (answer == Answer::kNothing) return false;
+    const ReceiveResult answer = link_.Receive(current, deadline_ns);
+    if (answer == ReceiveResult::kNothing) return false;
     heard_.fetch_add(1, std::memory_order_relaxed);
-    if (answer == Answer::kGoodbye) {
+    if (answer == ReceiveResult::kGoodbye) {
       Take({});
       goodbye = true;
       return false;

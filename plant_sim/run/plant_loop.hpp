@@ -58,7 +58,7 @@ enum class RigEventKind : std::uint8_t {
   kLanded,       ///< on the touchdown bearings after switching off; value: [N] of the first contact
 };
 
-struct RigEvent {
+struct RigNotice {
   RigEventKind kind{};
   std::uint64_t cycle{};
   double value{};
@@ -103,7 +103,7 @@ class PlantLoop {
     return energised_.load(std::memory_order_relaxed);
   }
   /// The next event, oldest first; false when there is none.
-  bool TakeEvent(RigEvent& event) noexcept { return events_.Take(event); }
+  bool TakeEvent(RigNotice& event) noexcept { return events_.Take(event); }
   [[nodiscard]] const PlantStatistics& statistics() const noexcept { return statistics_; }
 
  private:
@@ -129,7 +129,7 @@ class PlantLoop {
   rt::Clock& clock_;
   AmplifierGate* gate_;
   TimedEvents* timed_events_;
-  SpscRing<RigEvent> events_{256};
+  SpscRing<RigNotice> events_{256};
   PlantStatistics statistics_;
   plant::PlantCommand command_{.amplifiers_enabled = false};
   std::uint64_t held_in_a_row_{0};

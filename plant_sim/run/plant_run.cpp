@@ -48,7 +48,7 @@ nlohmann::ordered_json Json(const PlantSetup& setup, const PlantStatistics& stat
           {"realtime", rt::Text(facts)}};
 }
 
-std::string Text(const RigEvent& event) {
+std::string Text(const RigNotice& event) {
   switch (event.kind) {
     case RigEventKind::kEnergised:
       return "amplifiers on";
@@ -68,7 +68,7 @@ std::string Text(const RigEvent& event) {
 }
 
 void TellEvents(PlantLoop& loop, const char* program) {
-  RigEvent event;
+  RigNotice event;
   while (loop.TakeEvent(event)) {
     rt::Say(fmt::format("{}: cycle {}: {}", program, event.cycle, Text(event)));
   }

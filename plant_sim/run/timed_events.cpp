@@ -28,7 +28,7 @@ std::vector<double> Strengths(const plant::PlantConfig& rig) {
 const scenario::ScenarioConfig& Checked(const scenario::ScenarioConfig& scenario,
                                         const config::RigFile& rig) {
   const std::vector<std::string> ids = EffectIds(rig.plant);
-  for (const levitas::RigEvent& event : scenario.rig_events) {
+  for (const levitas::ScheduledRigEvent& event : scenario.rig_events) {
     if (event.kind != levitas::RigEventKind::kEffect) continue;
     if (std::find(ids.begin(), ids.end(), event.effect) != ids.end()) continue;
     throw BadInput(

@@ -9,7 +9,7 @@
 #include "common/random.hpp"
 #include "diagnosis/levitator/nominal.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 /// The true rig, in numbers of its own.
@@ -302,4 +302,4 @@ LevitatorTrial MakeLevitatorTrial(const config::RigFile& rig, std::uint64_t seed
   return trial;
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -15,7 +15,7 @@
 
 #include "diagnosis/levitator/series.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 /// What one can be asked to hide: effect and its clear size.
 struct LevitatorEffect {
@@ -36,4 +36,4 @@ struct LevitatorTrial {
 [[nodiscard]] LevitatorTrial MakeLevitatorTrial(const config::RigFile& rig, std::uint64_t seed,
                                                 const std::string& hidden = {});
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

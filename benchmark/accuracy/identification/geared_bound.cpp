@@ -11,7 +11,7 @@
 
 #include "common/random.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using Complex = std::complex<double>;
@@ -276,4 +276,4 @@ GearedErrors BoundOf(const config::RigFile& rig, const GearedPlan& plan) {
   return median;
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -12,9 +12,9 @@
 
 #include "benchmark/accuracy/identification/geared_trial.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 /// `plan` needs noise; its seed draws.
 [[nodiscard]] GearedErrors BoundOf(const config::RigFile& rig, const GearedPlan& plan);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -10,7 +10,7 @@
 #include "plant_sim/gear/mesh.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using Complex = std::complex<double>;
@@ -251,4 +251,4 @@ std::vector<GearedLine> LinesAt(const config::RigFile& rig, const GearedPlan& pl
   return lines;
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -14,7 +14,7 @@
 #include "identification/geared/full_spectrum.hpp"
 #include "plant_sim/gear/gear_config.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 struct GearedPlan {
   std::vector<double> speeds_hz{15.0, 18.0, 21.0, 24.0, 27.0, 29.0};  ///< of the pinion
@@ -41,4 +41,4 @@ struct AddedCurrent {
 [[nodiscard]] std::complex<double> ErrorOf(const gear::GearPair& pair, int order);
 [[nodiscard]] std::complex<double> RunOut(const gear::Wheel& wheel);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -10,7 +10,7 @@
 #include "identification/geared/record_lines.hpp"
 #include "plant_sim/gear/mesh.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using Complex = std::complex<double>;
@@ -126,4 +126,4 @@ GearedErrors Compare(const config::RigFile& rig, const identification::GearedPar
   return errors;
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

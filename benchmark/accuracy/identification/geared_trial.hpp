@@ -12,7 +12,7 @@
 
 #include "benchmark/accuracy/identification/geared_lines.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 struct GearedTrial {
   std::vector<identification::GearedLine> lines;
@@ -33,4 +33,4 @@ struct GearedErrors {
 [[nodiscard]] GearedErrors Compare(const config::RigFile& rig,
                                    const identification::GearedParameters& found);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

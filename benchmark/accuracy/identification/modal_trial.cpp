@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmark/accuracy/true_rig.hpp"
+#include "benchmark/accuracy/perturbed_rig.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using Index = Eigen::Index;
@@ -108,7 +108,7 @@ Eigen::VectorXd Relative(const Eigen::VectorXd& found, const Eigen::VectorXd& tr
 ModalTrial MakeModalTrial(const config::RigFile& nominal, const ExcitationPlan& plan,
                           const RigidBodyOff& rigid) {
   Random random(plan.seed);
-  const plant::PlantParameters truth = TrueRig(nominal.plant, Unknown(rigid), {}, random);
+  const plant::PlantParameters truth = PerturbedRig(nominal.plant, Unknown(rigid), {}, random);
   const plant::PlantModel model(truth);
   ModalTrial trial{SimulateCampaign(nominal, truth, plan), {}};
   trial.truth = Truth(model, trial.record);
@@ -149,4 +149,4 @@ ModalScores Score(const ModalTruth& truth, const identification::ModalResult& fo
                 found.uncertainty.products.tail(at.axes()))};
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -1,7 +1,8 @@
 #pragma once
 // A rig of unknown numbers for the modal identification: its campaign, and the truth apart from it.
 //
-// Rig       flexible_rotor with every number off (true_rig.hpp): ki, ks 8 % per axis, sensor gain
+// Rig       flexible_rotor with every number off (perturbed_rig.hpp): ki, ks 8 % per axis, sensor
+//            gain
 //           3 %, modal frequencies 3 %, dampings by e^+-0.4, deflections 4 %, delay, loads,
 //           unbalance, and the rigid body's mass and inertia (RigidBodyOff); what the method takes
 //           as known (amplifier, sensor bandwidth and place, centre of mass) is as in the file.
@@ -15,7 +16,7 @@
 #include "benchmark/accuracy/identification/simulated_campaign.hpp"
 #include "identification/modal/identify_modal.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 struct ModalTruth {
   Eigen::VectorXd frequency_hz, damping_ratio;  ///< bending modes of the free rotor
@@ -53,4 +54,4 @@ struct ModalScores {
 
 [[nodiscard]] ModalScores Score(const ModalTruth& truth, const identification::ModalResult& found);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

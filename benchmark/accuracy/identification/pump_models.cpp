@@ -10,7 +10,7 @@
 #include "identification/nonlinear/suspended_rotor_fit.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using namespace identification;
@@ -118,4 +118,4 @@ PumpScore PumpTrial::Narmax() const {
   return ScoreOf(*this, "NARMAX", fit.model, loop, clock.s());
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

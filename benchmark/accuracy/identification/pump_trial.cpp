@@ -9,7 +9,7 @@
 #include "identification/nonlinear/lagged_model.hpp"
 #include "plant_sim/plant/plant.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using identification::SensorCharacteristic;
@@ -153,4 +153,4 @@ Eigen::VectorXd PumpTrial::Repeated(std::uint64_t noise_seed) const {
   return Fit(Record(noise_seed, {true, &record_.excitation_m}).series.output);
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -19,7 +19,7 @@
 #include "controller/scenario/scenario_config.hpp"
 #include "identification/nonlinear/hammerstein_wiener.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 struct PumpPlan {
   double knee_a{};          ///< of the magnets' iron; 0: straight
@@ -94,4 +94,4 @@ class PumpTrial {
   PumpRecord record_;
 };
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -11,7 +11,7 @@
 #include "controller/scenario/signal.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 constexpr double kRpm = std::numbers::pi / 30.0;
@@ -129,4 +129,4 @@ identification::Record SimulateCampaign(const config::RigFile& rig,
   return bench.record;
 }
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -13,7 +13,7 @@
 #include "identification/record/record.hpp"
 #include "plant_sim/plant/plant_parameters.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 
 struct ExcitationPlan {
   std::vector<double> speeds_rpm{0.0};
@@ -35,4 +35,4 @@ struct ExcitationPlan {
                                                       const plant::PlantParameters& truth,
                                                       const ExcitationPlan& plan);
 
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -26,7 +26,7 @@ constexpr const char* kHelp =
 struct StudyOptions {
   std::uint64_t first{1000};
   int seeds{50};
-  trials::GearedPlan plan;
+  accuracy::GearedPlan plan;
   std::string json_path;
 };
 
@@ -35,29 +35,29 @@ struct Case {
   double noise, model_error;
 };
 
-using Member = double trials::GearedErrors::*;
+using Member = double accuracy::GearedErrors::*;
 struct Column {
   const char* name;
   Member member;
 };
-constexpr std::array<Column, 8> kColumns{{{"km", &trials::GearedErrors::mesh_stiffness},
-                                          {"cm", &trials::GearedErrors::mesh_damping},
-                                          {"ks", &trials::GearedErrors::ks},
-                                          {"k-ks", &trials::GearedErrors::net_stiffness},
-                                          {"ki", &trials::GearedErrors::ki},
-                                          {"run-out", &trials::GearedErrors::run_out},
-                                          {"mean TE", &trials::GearedErrors::mean_error},
-                                          {"varying TE", &trials::GearedErrors::varying_error}}};
+constexpr std::array<Column, 8> kColumns{{{"km", &accuracy::GearedErrors::mesh_stiffness},
+                                          {"cm", &accuracy::GearedErrors::mesh_damping},
+                                          {"ks", &accuracy::GearedErrors::ks},
+                                          {"k-ks", &accuracy::GearedErrors::net_stiffness},
+                                          {"ki", &accuracy::GearedErrors::ki},
+                                          {"run-out", &accuracy::GearedErrors::run_out},
+                                          {"mean TE", &accuracy::GearedErrors::mean_error},
+                                          {"varying TE", &accuracy::GearedErrors::varying_error}}};
 
 /// How many of the seeds found the number within what is asked: 2 % of exact lines, 10 % at 5 % of
 /// noise and of error.
-void PrintWithin(const std::vector<trials::GearedErrors>& errors, double asked,
+void PrintWithin(const std::vector<accuracy::GearedErrors>& errors, double asked,
                  nlohmann::ordered_json& json) {
   std::size_t all = 0;
   fmt::print("{:<11}", fmt::format("  in {:.0f} %", 100.0 * asked));
   for (const Column& column : kColumns) {
     const auto within = static_cast<std::size_t>(std::ranges::count_if(
-        errors, [&](const trials::GearedErrors& e) { return e.*column.member < asked; }));
+        errors, [&](const accuracy::GearedErrors& e) { return e.*column.member < asked; }));
     all += within;
     fmt::print("{:>17}", fmt::format("{} of {}", within, errors.size()));
     json[column.name]["within"] = within;
@@ -70,11 +70,11 @@ void PrintWithin(const std::vector<trials::GearedErrors>& errors, double asked,
 /// Medians of the best that could be made of the same lines.
 void PrintBound(const config::RigFile& rig, const Case& one, const StudyOptions& options,
                 nlohmann::ordered_json& json) {
-  trials::GearedPlan plan = options.plan;
+  accuracy::GearedPlan plan = options.plan;
   plan.noise = one.noise;
   plan.model_error = one.model_error;
   plan.seed = options.first;
-  const trials::GearedErrors bound = trials::BoundOf(rig, plan);
+  const accuracy::GearedErrors bound = accuracy::BoundOf(rig, plan);
   fmt::print("{:<11}", "  bound");
   for (const Column& column : kColumns) {
     const double percent = 100.0 * bound.*column.member;
@@ -84,17 +84,17 @@ void PrintBound(const config::RigFile& rig, const Case& one, const StudyOptions&
   fmt::print("\n");
 }
 
-std::vector<trials::GearedErrors> Study(const config::RigFile& rig, const Case& one,
-                                        const StudyOptions& options) {
-  std::vector<trials::GearedErrors> all;
+std::vector<accuracy::GearedErrors> Study(const config::RigFile& rig, const Case& one,
+                                          const StudyOptions& options) {
+  std::vector<accuracy::GearedErrors> all;
   const int seeds = one.noise > 0.0 || one.model_error > 0.0 ? options.seeds : 1;
   for (int n = 0; n < seeds; ++n) {
-    trials::GearedPlan plan = options.plan;
+    accuracy::GearedPlan plan = options.plan;
     plan.noise = one.noise;
     plan.model_error = one.model_error;
     plan.seed = options.first + static_cast<std::uint64_t>(n);
-    const trials::GearedTrial trial = trials::MakeGearedTrial(rig, plan);
-    all.push_back(trials::Compare(rig, identification::IdentifyGeared(trial.lines, trial.known)));
+    const accuracy::GearedTrial trial = accuracy::MakeGearedTrial(rig, plan);
+    all.push_back(accuracy::Compare(rig, identification::IdentifyGeared(trial.lines, trial.known)));
   }
   return all;
 }

@@ -34,7 +34,7 @@ struct BenchOptions {
   int starts{0};
   StartSpread spread;
   double amplitude_a{0.15};
-  trials::RigidBodyOff rigid;
+  accuracy::RigidBodyOff rigid;
   ModalFitOptions fit;
   std::string json_path;
 };
@@ -42,8 +42,8 @@ struct BenchOptions {
 /// One seed's figures, all relative.
 struct Row {
   std::uint64_t seed{};
-  trials::ModalErrors errors;
-  trials::ModalScores scores;
+  accuracy::ModalErrors errors;
+  accuracy::ModalScores scores;
   std::vector<SpeedQuality> quality;
   std::vector<ModeSupport> support;
   double time_s{};
@@ -168,14 +168,14 @@ ExitStatus Run(const BenchOptions& options) {
   std::vector<Row> rows;
   nlohmann::ordered_json json;
   for (int n = 0; n < options.seeds; ++n) {
-    trials::ExcitationPlan plan;
+    accuracy::ExcitationPlan plan;
     plan.speeds_rpm = {0.0, 1600.0, 3000.0};
     plan.amplitude_a = options.amplitude_a;
     plan.seed = options.first + static_cast<std::uint64_t>(n);
-    trials::ModalTrial trial;
+    accuracy::ModalTrial trial;
     std::vector<FrequencyResponse> responses;
     try {
-      trial = trials::MakeModalTrial(rig, plan, options.rigid);
+      trial = accuracy::MakeModalTrial(rig, plan, options.rigid);
       responses = EstimateResponses(trial.record, delay_s, {}, ModalResponseOptions(rig));
     } catch (const std::exception& problem) {
       // Off by so much that the shipped controller does not hold it: nothing to identify.
@@ -185,8 +185,8 @@ ExitStatus Run(const BenchOptions& options) {
     const auto began = std::chrono::steady_clock::now();
     const ModalResult result = IdentifyModal(rig, responses, options.fit);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-    rows.push_back({plan.seed, trials::Compare(trial.truth, result.rig),
-                    trials::Score(trial.truth, result), result.quality, result.support,
+    rows.push_back({plan.seed, accuracy::Compare(trial.truth, result.rig),
+                    accuracy::Score(trial.truth, result), result.quality, result.support,
                     took.count()});
     PrintRow(rows.back());
     json["rigs"].push_back(Json(rows.back()));

@@ -35,14 +35,14 @@ constexpr std::array<Published, 3> kPublished{{{"Hammerstein-Wiener", {92.11, 93
                                                {"NARMAX", {75.91, 77.88, 78.32, 75.54}}}};
 
 struct PumpOptions {
-  trials::PumpPlan plan{.knee_a = 3.0, .a2_1_per_m = 1000.0, .a3_1_per_m2 = 1e7};
+  accuracy::PumpPlan plan{.knee_a = 3.0, .a2_1_per_m = 1000.0, .a3_1_per_m2 = 1e7};
   Eigen::Index iron{3};
   std::string csv_path;
   std::string json_path;
 };
 
 /// The record that all models see, for programs of others.
-void WriteCsv(const std::string& path, const trials::PumpTrial& trial) {
+void WriteCsv(const std::string& path, const accuracy::PumpTrial& trial) {
   if (path.empty()) return;
   const identification::Series& series = trial.series();
   std::string text = "time_s";
@@ -73,7 +73,7 @@ void Print(nlohmann::ordered_json& json, const std::string& name, const Eigen::V
   json[name] = std::vector<double>(fit.data(), fit.data() + fit.size());
 }
 
-void Print(nlohmann::ordered_json& json, const trials::PumpScore& score) {
+void Print(nlohmann::ordered_json& json, const accuracy::PumpScore& score) {
   if (score.one_step.size() > 0) Print(json, score.model + ", one step", score.one_step);
   if (score.diverged) {
     fmt::print("{:<42}{:>32}{:>9}{:>9.1f}\n", score.model + ", free run", "diverges", "",
@@ -85,7 +85,7 @@ void Print(nlohmann::ordered_json& json, const trials::PumpScore& score) {
 }
 
 ExitStatus Run(const PumpOptions& options) {
-  const trials::PumpTrial trial(options.plan);
+  const accuracy::PumpTrial trial(options.plan);
   WriteCsv(options.csv_path, trial);
   nlohmann::ordered_json json;
   fmt::print("{:<42}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}\n", "fit in %", "ux", "uy", "lx", "ly", "mean",
@@ -94,15 +94,15 @@ ExitStatus Run(const PumpOptions& options) {
   Print(json, "ceiling: noise of the readings", trial.CeilingOfReadings());
   Print(json, "ceiling: and what it does in the loop", ceiling);
   Print(json, "the rig again with other noise", trial.Repeated(options.plan.noise_seed + 1));
-  const trials::PumpScore rotor = trial.SuspendedRotor(options.iron);
+  const accuracy::PumpScore rotor = trial.SuspendedRotor(options.iron);
   Print(json, rotor);
   Print(json, "  below the ceiling", ceiling - rotor.free_run);
   if (options.iron > 0) {
-    trials::PumpScore straight = trial.SuspendedRotor(0);
+    accuracy::PumpScore straight = trial.SuspendedRotor(0);
     straight.model = "  with straight iron";
     Print(json, straight);
   }
-  const trials::PumpScore products = trial.HammersteinWiener(true);
+  const accuracy::PumpScore products = trial.HammersteinWiener(true);
   Print(json, products);
   Print(json, "  below the ceiling, products", ceiling - products.free_run);
   for (const auto& score : {trial.HammersteinWiener(false), trial.Narx(), trial.Narmax()}) {
@@ -122,7 +122,7 @@ void AddBenchPump(CLI::App& bench, Action& action) {
   auto options = std::make_shared<PumpOptions>();
   CLI::App* command = bench.add_subcommand("pump", "Nonlinear models of the levitated pump");
   command->footer(kHelp);
-  trials::PumpPlan& plan = options->plan;
+  accuracy::PumpPlan& plan = options->plan;
   command->add_option("--knee-a", plan.knee_a, "Coil current at which the iron bends; 0 = straight")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();

@@ -97,7 +97,7 @@ class BusLoop {
   /// The rig's side of the answer: hold, and the watchdog.
   void Answer() {
     CurrentFrame current;
-    if (link_.Receive(current, 0) == port::RigLink::Answer::kNothing) {
+    if (link_.Receive(current, 0) == port::RigLink::ReceiveResult::kNothing) {
       if (++held_ >= kWatchdogPeriods) command_ = {.amplifiers_enabled = false};
       return;
     }

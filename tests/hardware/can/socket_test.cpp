@@ -196,7 +196,7 @@ TEST(TwoBuses, AreReadInTurnAndWrittenApart) {
     ASSERT_TRUE(port.Write({.cycle = cycle, .axes = 4}));
     CurrentFrame current;
     ASSERT_EQ(link.Receive(current, rt::MonotonicNowNs() + kSecondNs),
-              port::RigLink::Answer::kCurrent);
+              port::RigLink::ReceiveResult::kCurrent);
     ASSERT_EQ(current.cycle, cycle);
   }
 }

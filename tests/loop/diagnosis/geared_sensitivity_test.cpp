@@ -43,11 +43,11 @@ double Apart(const Trajectory& one, const Trajectory& other, const Trajectory& b
 class GearedTerms : public ::testing::Test {
  protected:
   GearedTerms() {
-    trials::TrialPlan plan;
+    accuracy::TrialPlan plan;
     plan.seed = 21;
     plan.bits_per_axis = 500;
     plan.runup_s = 1.0;
-    spinning_ = trials::MakeTrial(bench_, plan).records[1];
+    spinning_ = accuracy::MakeTrial(bench_, plan).records[1];
     Unwrap(spinning_, view_.period_s);
     gains_ = search_.DesignGains({spinning_}, kSlow);
     ChooseTurn(view_, search_.DesignGains({spinning_}, kFast).front(), spinning_);
@@ -90,7 +90,7 @@ class GearedTerms : public ::testing::Test {
     SensitivityBlock block(view_, LanePair(view_, base.gains, LinearChange{}), terms_, theta,
                            {term});
     std::array<float, kMaxAxes * kLanes> d{};
-    for (Moment& m : predicted.moments) {
+    for (SamplePoint& m : predicted.moments) {
       block.Step(m, d.data());
       for (std::size_t a = 0; a < view_.axes; ++a) {
         m.innovation_m[a] += d[a * kLanes] * static_cast<float>(step / terms_[term].scale());
@@ -99,7 +99,7 @@ class GearedTerms : public ::testing::Test {
     return Apart(predicted, Run(term, step), base, view_.axes);
   }
 
-  trials::Bench bench_ = trials::LoadBench("geared_rotor_4dof", {});
+  accuracy::TestRig bench_ = accuracy::LoadTestRig("geared_rotor_4dof", {});
   RigView view_{bench_.rig.numbers, bench_.rig.plant};
   std::vector<Term> terms_ = AllTerms(view_, Tolerances{}, 50e-6);
   Search search_{view_, terms_};
@@ -182,7 +182,7 @@ TEST_F(GearedTerms, NeedTheTurnThatTheShaftsAreIn) {
     double sum = 0.0;
     const std::vector<double> theta(terms_.size(), 0.0);
     const std::vector<Trajectory> runs = search_.Run({record}, gains_, theta);
-    for (const Moment& m : runs.front().moments) {
+    for (const SamplePoint& m : runs.front().moments) {
       if (m.counts) sum += std::pow(static_cast<double>(m.innovation_m[0]), 2);
     }
     return sum;

@@ -1,6 +1,6 @@
 // What records hold for an effect: nothing of what tolerances imitate, the square of its size else.
 
-#include "benchmark/accuracy/held_evidence.hpp"
+#include "benchmark/accuracy/available_evidence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,13 @@
 #include "plant_sim/effect/catalogue.hpp"
 #include "tests/support/effect_entry.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 constexpr int kBits = 1275;  // 1.02 s: the shortest record that a diagnosis takes
 
-const Bench& TheBench() {
-  static const Bench bench = LoadBench("flexible_rotor", {"flexible_rotor"});
+const TestRig& TheBench() {
+  static const TestRig bench = LoadTestRig("flexible_rotor", {"flexible_rotor"});
   return bench;
 }
 
@@ -35,35 +35,36 @@ const Trial& Healthy() {
 }
 
 std::optional<double> Held(effect::Id id, std::initializer_list<double> values) {
-  return HeldEvidence(TheBench().rig, Healthy().records, {test::Entry(id, values, 1U)});
+  return AvailableEvidence(TheBench().rig, Healthy().records, {test::Entry(id, values, 1U)});
 }
 
-TEST(HeldEvidence, IsMuchWhereTheEffectIsAndNegativeWhereItIsNot) {
+TEST(AvailableEvidence, IsMuchWhereTheEffectIsAndNegativeWhereItIsNot) {
   const Trial hidden = With({effect::Id::kSensorRunout});
-  const auto held = HeldEvidence(TheBench().rig, hidden.records, hidden.secret.hidden);
+  const auto held = AvailableEvidence(TheBench().rig, hidden.records, hidden.ground_truth.hidden);
   ASSERT_TRUE(held.has_value());
   EXPECT_EQ(SizeOf(*held), Size::kClear);
-  const auto absent = HeldEvidence(TheBench().rig, Healthy().records, hidden.secret.hidden);
+  const auto absent =
+      AvailableEvidence(TheBench().rig, Healthy().records, hidden.ground_truth.hidden);
   ASSERT_TRUE(absent.has_value());
   EXPECT_LT(*absent, -25.0);
 }
 
 // Of an effect that another one does already, little is left to hold.
-TEST(HeldEvidence, BesideAnotherEffectIsWhatThatLeaves) {
+TEST(AvailableEvidence, BesideAnotherEffectIsWhatThatLeaves) {
   const Trial hidden = With({effect::Id::kSensorRunout});
-  auto half = hidden.secret.hidden;
+  auto half = hidden.ground_truth.hidden;
   for (auto& entry : half) entry.values[1] *= 0.5;
-  const auto whole = HeldEvidence(TheBench().rig, hidden.records, hidden.secret.hidden);
-  const auto rest = HeldEvidence(TheBench().rig, hidden.records, half, half);
-  const auto again =
-      HeldEvidence(TheBench().rig, hidden.records, hidden.secret.hidden, hidden.secret.hidden);
+  const auto whole = AvailableEvidence(TheBench().rig, hidden.records, hidden.ground_truth.hidden);
+  const auto rest = AvailableEvidence(TheBench().rig, hidden.records, half, half);
+  const auto again = AvailableEvidence(TheBench().rig, hidden.records, hidden.ground_truth.hidden,
+                                       hidden.ground_truth.hidden);
   ASSERT_TRUE(whole && rest && again);
   EXPECT_GT(*rest, 0.0);
   EXPECT_LT(*rest, *whole);
   EXPECT_LT(*again, -25.0);
 }
 
-TEST(HeldEvidence, OfWhatATenthOfAToleranceImitatesIsNearlyNothing) {
+TEST(AvailableEvidence, OfWhatATenthOfAToleranceImitatesIsNearlyNothing) {
   // A micrometre, which no slow observer takes away: some thousand nats were there no tolerance of
   // it.
   const auto tolerances = TheBench().rig.tolerances.value_or(config::Tolerances{});
@@ -72,16 +73,16 @@ TEST(HeldEvidence, OfWhatATenthOfAToleranceImitatesIsNearlyNothing) {
   EXPECT_LT(std::abs(*offset), 1.0);
 }
 
-TEST(HeldEvidence, IsNothingForAnEffectThatChangesNothing) {
+TEST(AvailableEvidence, IsNothingForAnEffectThatChangesNothing) {
   const auto neutral = Held(effect::Id::kSensorGain, {1.0});
   ASSERT_TRUE(neutral.has_value());
   EXPECT_LT(std::abs(*neutral), 1e-6);
 }
 
-TEST(HeldEvidence, IsNotKnownForNoiseAndForNothing) {
+TEST(AvailableEvidence, IsNotKnownForNoiseAndForNothing) {
   EXPECT_FALSE(Held(effect::Id::kSensorNoise, {3e-6}).has_value());
-  EXPECT_FALSE(HeldEvidence(TheBench().rig, Healthy().records, {}).has_value());
+  EXPECT_FALSE(AvailableEvidence(TheBench().rig, Healthy().records, {}).has_value());
 }
 
 }  // namespace
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -5,12 +5,12 @@
 
 #include "benchmark/accuracy/scores.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 /// Records of 0.9 to 1 s each: what a first answer needs, and no more.
-Outcome Ask(std::uint64_t seed, std::vector<effect::Id> hidden) {
-  const Bench bench = LoadBench("flexible_rotor", {"flexible_rotor"});
+TrialScore Ask(std::uint64_t seed, std::vector<effect::Id> hidden) {
+  const TestRig bench = LoadTestRig("flexible_rotor", {"flexible_rotor"});
   TrialPlan plan;
   plan.seed = seed;
   plan.hidden = std::move(hidden);
@@ -20,29 +20,29 @@ Outcome Ask(std::uint64_t seed, std::vector<effect::Id> hidden) {
   diagnosis::Settings settings;
   settings.quick = true;
   settings.most_causes = 1;
-  return Judge(plan, trial.secret,
+  return Judge(plan, trial.ground_truth,
                diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings),
                bench.rig.numbers);
 }
 
 // With another law of the gain the answer was saturation, and the gain on top of it.
 TEST(HiddenEffect, OfAMagnetsGainIsNamed) {
-  const Outcome outcome = Ask(5104, {effect::Id::kCurrentGain});
+  const TrialScore outcome = Ask(5104, {effect::Id::kCurrentGain});
   EXPECT_TRUE(outcome.Right()) << outcome.verdict << ", first "
                                << (outcome.named.empty() ? "nothing" : outcome.named.front());
   EXPECT_GT(outcome.score_nat, diagnosis::kDecisive);
 }
 
 TEST(HiddenEffect, ThatLosesFramesIsNamed) {
-  const Outcome outcome = Ask(41, {effect::Id::kDroppedSamples});
+  const TrialScore outcome = Ask(41, {effect::Id::kDroppedSamples});
   EXPECT_TRUE(outcome.Right()) << outcome.verdict << ", first "
                                << (outcome.named.empty() ? "nothing" : outcome.named.front());
 }
 
 TEST(HiddenEffect, IsNotFoundWhereNothingIsHidden) {
-  const Outcome outcome = Ask(42, {});
+  const TrialScore outcome = Ask(42, {});
   EXPECT_EQ(outcome.verdict, "none") << (outcome.named.empty() ? "" : outcome.named.front());
 }
 
 }  // namespace
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -10,18 +10,18 @@ namespace {
 
 std::size_t Counting(const Trajectory& run) {
   std::size_t count = 0;
-  for (const Moment& moment : run.moments) count += moment.counts ? 1 : 0;
+  for (const SamplePoint& moment : run.moments) count += moment.counts ? 1 : 0;
   return count;
 }
 
 class LostFrames : public ::testing::Test {
  protected:
   LostFrames() {
-    trials::TrialPlan plan;
+    accuracy::TrialPlan plan;
     plan.seed = 11;
     plan.bits_per_axis = 1275;
     plan.runup_s = 1.05;
-    whole_ = trials::MakeTrial(bench_, plan).records.front();
+    whole_ = accuracy::MakeTrial(bench_, plan).records.front();
   }
 
   [[nodiscard]] Trajectory Run(const Record& record) const {
@@ -30,7 +30,7 @@ class LostFrames : public ::testing::Test {
     return RunModel(view_, record, gains.front(), {}, {}, 0.3);
   }
 
-  trials::Bench bench_ = trials::LoadBench("flexible_rotor", {"flexible_rotor"});
+  accuracy::TestRig bench_ = accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"});
   RigView view_{bench_.rig.numbers, bench_.rig.plant};
   std::vector<Term> no_terms_;
   Record whole_;

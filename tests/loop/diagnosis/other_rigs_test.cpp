@@ -5,17 +5,17 @@
 #include "benchmark/accuracy/scores.hpp"
 #include "diagnosis/report/extended_rig.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 struct Asked {
-  Bench bench;
-  diagnosis::SessionAnswer answer;
-  Outcome outcome;
+  TestRig bench;
+  diagnosis::DiagnosisResult answer;
+  TrialScore outcome;
 };
 
 Asked Ask(const std::string& rig, std::uint64_t seed, std::vector<effect::Id> hidden) {
-  Asked asked{LoadBench(rig, {}), {}, {}};
+  Asked asked{LoadTestRig(rig, {}), {}, {}};
   TrialPlan plan;
   plan.seed = seed;
   plan.hidden = std::move(hidden);
@@ -26,7 +26,7 @@ Asked Ask(const std::string& rig, std::uint64_t seed, std::vector<effect::Id> hi
   settings.quick = true;
   settings.most_causes = 1;
   asked.answer = diagnosis::DiagnoseRecords(asked.bench.rig, trial.records, {}, settings);
-  asked.outcome = Judge(plan, trial.secret, asked.answer, asked.bench.rig.numbers);
+  asked.outcome = Judge(plan, trial.ground_truth, asked.answer, asked.bench.rig.numbers);
   return asked;
 }
 
@@ -55,4 +55,4 @@ TEST(Pump, WithALateLoopIsSaidToBeLate) {
 }
 
 }  // namespace
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

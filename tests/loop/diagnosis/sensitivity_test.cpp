@@ -14,11 +14,11 @@ namespace {
 class Sensitivity : public ::testing::Test {
  protected:
   Sensitivity() {
-    trials::TrialPlan plan;
+    accuracy::TrialPlan plan;
     plan.seed = 21;
     plan.bits_per_axis = 500;
     plan.runup_s = 1.0;
-    spinning_ = trials::MakeTrial(bench_, plan).records[1];
+    spinning_ = accuracy::MakeTrial(bench_, plan).records[1];
     gains_ = search_.DesignGains({spinning_}, kFast);
   }
 
@@ -78,7 +78,7 @@ class Sensitivity : public ::testing::Test {
     return std::sqrt(apart / size);
   }
 
-  trials::Bench bench_ = trials::LoadBench("flexible_rotor", {"flexible_rotor"});
+  accuracy::TestRig bench_ = accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"});
   RigView view_{bench_.rig.numbers, bench_.rig.plant};
   std::vector<Term> terms_ = AllTerms(view_, Tolerances{}, 50e-6);
   Search search_{view_, terms_};

@@ -1,7 +1,7 @@
 // A slew limit between two members of its family is found where it is, and explains what neither
 // neighbour does.
 
-#include "diagnosis/inference/sharpen.hpp"
+#include "diagnosis/inference/refine_shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,22 +16,22 @@
 namespace levitas::diagnosis {
 namespace {
 
-double TrueSlew(const trials::Trial& trial) {
-  for (const auto& entry : trial.secret.truth.config.effects) {
+double TrueSlew(const accuracy::Trial& trial) {
+  for (const auto& entry : trial.ground_truth.truth.config.effects) {
     if (entry.id == effect::Id::kAmplifierSlew) return entry.values[0];
   }
   return 0.0;
 }
 
-TEST(Sharpen, FindsTheShapeBetweenTwoMembers) {
-  const trials::Bench bench = trials::LoadBench("flexible_rotor", {"flexible_rotor"});
+TEST(RefineShape, FindsTheShapeBetweenTwoMembers) {
+  const accuracy::TestRig bench = accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"});
   const RigView rig(bench.rig.numbers, bench.rig.plant);
-  trials::TrialPlan plan;
+  accuracy::TrialPlan plan;
   plan.seed = 31;
   plan.hidden = {effect::Id::kAmplifierSlew};
   plan.bits_per_axis = 500;
   plan.runup_s = 1.0;
-  const trials::Trial trial = trials::MakeTrial(bench, plan);
+  const accuracy::Trial trial = accuracy::MakeTrial(bench, plan);
   std::vector<Record> records{trial.records[0]};
   std::vector<Term> terms = AllTerms(rig, Tolerances{}, LargestOrbit(records, rig.axes));
   Search search(rig, terms);
@@ -50,7 +50,7 @@ TEST(Sharpen, FindsTheShapeBetweenTwoMembers) {
   const std::vector<Hypothesis> causes{*member};
   const Refined blunt = refiner.Fit(causes, search.Solve(view.problem, causes), view, 5);
   ASSERT_TRUE(blunt.ok);
-  const Refined sharp = Sharpen(refiner, *member, causes, view, 5, blunt, terms);
+  const Refined sharp = RefineShape(refiner, *member, causes, view, 5, blunt, terms);
   // The member alone is off by a fifth of the limit; what decides is 5 nat.
   EXPECT_GT(sharp.evidence, blunt.evidence + kDecisive);
   const double found = terms[member->terms.front()].family.shape[0];

@@ -17,12 +17,12 @@ namespace {
 class SlopesTest : public ::testing::Test {
  protected:
   void Prepare(std::vector<effect::Id> hidden) {
-    trials::TrialPlan plan;
+    accuracy::TrialPlan plan;
     plan.seed = 22;
     plan.hidden = std::move(hidden);
     plan.bits_per_axis = 500;
     plan.runup_s = 1.0;
-    trial_ = trials::MakeTrial(bench_, plan);
+    trial_ = accuracy::MakeTrial(bench_, plan);
     records_ = {trial_.records[0], trial_.records[1]};
     records_[1].number = 1;
     gains_ = search_.DesignGains(records_, kFast);
@@ -36,11 +36,11 @@ class SlopesTest : public ::testing::Test {
     return 0;
   }
 
-  trials::Bench bench_ = trials::LoadBench("flexible_rotor", {"flexible_rotor"});
+  accuracy::TestRig bench_ = accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"});
   RigView view_{bench_.rig.numbers, bench_.rig.plant};
   std::vector<Term> terms_ = AllTerms(view_, Tolerances{}, 50e-6);
   Search search_{view_, terms_};
-  trials::Trial trial_;
+  accuracy::Trial trial_;
   std::vector<Record> records_;
   Gains gains_;
 };
@@ -137,7 +137,7 @@ TEST_F(SlopesTest, OfACalibrationAreRenewedUntilALargeUnbalanceIsFollowedToTheNo
   const auto rms = [this](const Trajectory& run, std::size_t axis) {
     double sum = 0.0;
     double count = 0.0;
-    for (const Moment& m : run.moments) {
+    for (const SamplePoint& m : run.moments) {
       if (!m.counts) continue;
       sum += std::pow(static_cast<double>(m.innovation_m[axis]), 2);
       count += 1.0;

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "benchmark/accuracy/campaign.hpp"
+#include "benchmark/accuracy/perturbed_rig.hpp"
 #include "benchmark/accuracy/trial.hpp"
-#include "benchmark/accuracy/true_rig.hpp"
 #include "diagnosis/inference/search.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "plant_sim/effect/catalogue.hpp"
@@ -17,8 +17,8 @@ namespace levitas::diagnosis {
 namespace {
 
 /// A rig that is its file but for the effects given.
-trials::Mismatch Exact() {
-  trials::Mismatch off;
+accuracy::Mismatch Exact() {
+  accuracy::Mismatch off;
   off.current_gain = off.displacement_stiffness = off.amplifier_bandwidth = 0.0;
   off.sensor_gain = off.sensor_bandwidth = off.sensor_offset_m = 0.0;
   off.sensor_position_m = off.sensor_runout_m = off.delay_samples = 0.0;
@@ -27,17 +27,17 @@ trials::Mismatch Exact() {
   return off;
 }
 
-std::vector<Record> Recorded(const trials::Bench& bench,
+std::vector<Record> Recorded(const accuracy::TestRig& bench,
                              const std::vector<effect::EffectConfig>& hidden) {
   Random random(7);
-  const auto truth = trials::TrueRig(bench.rig.plant, Exact(), hidden, random);
-  trials::CampaignPlan plan;
+  const auto truth = accuracy::PerturbedRig(bench.rig.plant, Exact(), hidden, random);
+  accuracy::CampaignPlan plan;
   plan.seed = 11;
   plan.spinning_rpm = 3000.0;
   plan.bits_per_axis = 1000;
   plan.runup_s = 1.0;
-  return trials::AsRecords(
-      trials::Record(truth, bench.laws.front(), plan, trials::Outside::kNothing, 0.0, 1),
+  return accuracy::AsRecords(
+      accuracy::Record(truth, bench.laws.front(), plan, accuracy::Unmodelled::kNothing, 0.0, 1),
       bench.rig.numbers);
 }
 
@@ -50,7 +50,7 @@ class TermModel : public ::testing::Test {
     return search.Run(records, search.DesignGains(records, kSlow), theta).front();
   }
 
-  trials::Bench bench_ = trials::LoadBench("flexible_rotor", {"flexible_rotor"});
+  accuracy::TestRig bench_ = accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"});
   RigView view_{bench_.rig.numbers, bench_.rig.plant};
   std::vector<Term> terms_ = AllTerms(view_, Tolerances{}, 50e-6);
 };

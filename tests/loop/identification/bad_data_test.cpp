@@ -17,10 +17,10 @@ using testing::HasSubstr;
 /// A short campaign: 255 bits of two samples, three periods on each axis.
 const Record& Good() {
   static const Record record = [] {
-    trials::ExcitationPlan plan;
+    accuracy::ExcitationPlan plan;
     plan.order = 8;
     plan.periods = 3;
-    return trials::SimulateCampaign(FlexibleRotor(), plan);
+    return accuracy::SimulateCampaign(FlexibleRotor(), plan);
   }();
   return record;
 }

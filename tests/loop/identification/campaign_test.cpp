@@ -16,7 +16,7 @@ namespace {
 
 const std::vector<FrequencyResponse>& Standing() {
   static const std::vector<FrequencyResponse> responses =
-      EstimateResponses(trials::SimulateCampaign(FlexibleRotor(), {}), 1e-4, {},
+      EstimateResponses(accuracy::SimulateCampaign(FlexibleRotor(), {}), 1e-4, {},
                         ModalResponseOptions(FlexibleRotor()));
   return responses;
 }

@@ -21,8 +21,8 @@ using scenario::SignalKind;
 using testing::HasSubstr;
 constexpr double kDelayS = 1e-4;
 
-trials::ExcitationPlan PlanOf(SignalKind kind) {
-  trials::ExcitationPlan plan;
+accuracy::ExcitationPlan PlanOf(SignalKind kind) {
+  accuracy::ExcitationPlan plan;
   if (kind == SignalKind::kPrbs) return plan;
   scenario::Excitation& e = plan.signal.emplace();
   e.kind = kind;
@@ -52,7 +52,7 @@ const Record& RecordOf(SignalKind kind) {
   static std::map<SignalKind, Record> records;
   const auto found = records.find(kind);
   if (found != records.end()) return found->second;
-  return records.emplace(kind, trials::SimulateCampaign(FlexibleRotor(), PlanOf(kind)))
+  return records.emplace(kind, accuracy::SimulateCampaign(FlexibleRotor(), PlanOf(kind)))
       .first->second;
 }
 
@@ -107,9 +107,9 @@ TEST_P(Kinds, GiveTheResponseOfThePrbsWithinTheVariancesOfBoth) {
 TEST_P(Kinds, CoherenceIsOneWhereThereIsHardlyAnyNoise) {
   config::RigFile silent = FlexibleRotor();
   for (auto& bearing : silent.plant.bearings) bearing.sensor.noise_rms_m = 5e-8;
-  trials::ExcitationPlan plan = PlanOf(GetParam());
+  accuracy::ExcitationPlan plan = PlanOf(GetParam());
   plan.hold_s = std::min(plan.hold_s, 2.4);  // of a stepped sine the first eight
-  const auto own = EstimateResponses(trials::SimulateCampaign(silent, plan), kDelayS);
+  const auto own = EstimateResponses(accuracy::SimulateCampaign(silent, plan), kDelayS);
   const FrequencyResponse& r = own.front();
   ASSERT_GT(r.frequency_hz.size(), 5U);
   std::vector<double> near_loop;

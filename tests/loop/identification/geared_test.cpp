@@ -27,8 +27,8 @@ class Geared : public testing::TestWithParam<const char*> {};
 
 TEST_P(Geared, ExactLinesGiveEveryParameter) {
   const config::RigFile rig = Rig(GetParam());
-  const trials::GearedTrial trial = trials::MakeGearedTrial(rig, {});
-  const auto e = trials::Compare(rig, IdentifyGeared(trial.lines, trial.known));
+  const accuracy::GearedTrial trial = accuracy::MakeGearedTrial(rig, {});
+  const auto e = accuracy::Compare(rig, IdentifyGeared(trial.lines, trial.known));
   // Tilts and torsion are eliminated without approximation: only rounding is left, magnified by a
   // condition number below a few thousand.
   for (const double error :
@@ -40,23 +40,23 @@ TEST_P(Geared, ExactLinesGiveEveryParameter) {
 TEST_P(Geared, NoiseAndWrongNumbersOfFivePercentLeaveTheMediansWithinTen) {
   const config::RigFile rig = Rig(GetParam());
   const gear::GearPair& mesh = rig.plant.gears.front();
-  std::vector<trials::GearedErrors> all;
+  std::vector<accuracy::GearedErrors> all;
   int covered = 0;
   for (std::uint64_t seed = 1; seed <= 9; ++seed) {
-    trials::GearedPlan plan;
+    accuracy::GearedPlan plan;
     plan.noise = 0.05;
     plan.model_error = 0.05;
     plan.seed = seed;
-    const trials::GearedTrial trial = trials::MakeGearedTrial(rig, plan);
+    const accuracy::GearedTrial trial = accuracy::MakeGearedTrial(rig, plan);
     const GearedParameters p = IdentifyGeared(trial.lines, trial.known);
-    all.push_back(trials::Compare(rig, p));
+    all.push_back(accuracy::Compare(rig, p));
     const auto within = [](double found, double truth, double sigma) {
       return std::abs(found - truth) < 2.0 * sigma ? 1 : 0;
     };
     covered += within(p.mesh_stiffness_n_per_m, mesh.stiffness_n_per_m, p.mesh_stiffness_sigma);
     covered += within(p.mesh_damping_n_s_per_m, mesh.damping_n_s_per_m, p.mesh_damping_sigma);
   }
-  const auto median = [&all](double trials::GearedErrors::*member) {
+  const auto median = [&all](double accuracy::GearedErrors::*member) {
     std::vector<double> values;
     for (const auto& e : all) values.push_back(e.*member);
     std::ranges::sort(values);
@@ -65,20 +65,20 @@ TEST_P(Geared, NoiseAndWrongNumbersOfFivePercentLeaveTheMediansWithinTen) {
   // What commissioning asks for: 10 % at 5 % of noise and 5 % of error in every known number, the
   // worse shaft counting.
   for (const auto member :
-       {&trials::GearedErrors::mesh_stiffness, &trials::GearedErrors::mesh_damping,
-        &trials::GearedErrors::ki, &trials::GearedErrors::ks, &trials::GearedErrors::net_stiffness,
-        &trials::GearedErrors::run_out, &trials::GearedErrors::mean_error,
-        &trials::GearedErrors::varying_error}) {
+       {&accuracy::GearedErrors::mesh_stiffness, &accuracy::GearedErrors::mesh_damping,
+        &accuracy::GearedErrors::ki, &accuracy::GearedErrors::ks,
+        &accuracy::GearedErrors::net_stiffness, &accuracy::GearedErrors::run_out,
+        &accuracy::GearedErrors::mean_error, &accuracy::GearedErrors::varying_error}) {
     EXPECT_LT(median(member), 0.10);
   }
   // Displacements tell run-out and transmission error whatever the forces: lines averaged over
   // 200 000 samples at 5 % of noise, and what is left is far below what is asked. The bound of the
   // same lines says how far: 2 times it, as nine seeds scatter.
-  trials::GearedPlan plan;
+  accuracy::GearedPlan plan;
   plan.noise = plan.model_error = 0.05;
-  const trials::GearedErrors bound = trials::BoundOf(rig, plan);
-  EXPECT_LT(median(&trials::GearedErrors::varying_error), 2.0 * bound.varying_error);
-  EXPECT_LT(median(&trials::GearedErrors::run_out), 2.0 * bound.run_out);
+  const accuracy::GearedErrors bound = accuracy::BoundOf(rig, plan);
+  EXPECT_LT(median(&accuracy::GearedErrors::varying_error), 2.0 * bound.varying_error);
+  EXPECT_LT(median(&accuracy::GearedErrors::run_out), 2.0 * bound.run_out);
   // Of 18 at 95 %, fewer than 14 within two standard deviations is one chance in 600.
   EXPECT_GE(covered, 14);
 }
@@ -89,11 +89,11 @@ INSTANTIATE_TEST_SUITE_P(Rigs, Geared,
 
 TEST(GearedBound, KnownNumbersThatAreOffCostStiffnessAndHardlyAnyRunOut) {
   const config::RigFile rig = Rig("geared_rotor_4dof");
-  trials::GearedPlan plan;
+  accuracy::GearedPlan plan;
   plan.noise = 0.05;
-  const trials::GearedErrors exact = trials::BoundOf(rig, plan);
+  const accuracy::GearedErrors exact = accuracy::BoundOf(rig, plan);
   plan.model_error = 0.05;
-  const trials::GearedErrors off = trials::BoundOf(rig, plan);
+  const accuracy::GearedErrors off = accuracy::BoundOf(rig, plan);
   // All forces could be larger together: what is known to 5 % six times holds that to 5 %/sqrt(6),
   // and 0.67 standard deviations of it are the median.
   EXPECT_GT(off.mesh_stiffness, 0.67 * 0.05 / std::sqrt(6.0));
@@ -103,7 +103,7 @@ TEST(GearedBound, KnownNumbersThatAreOffCostStiffnessAndHardlyAnyRunOut) {
   // A quarter of the samples: twice the error, where noise alone decides.
   plan.model_error = 0.0;
   plan.seconds /= 4.0;
-  EXPECT_NEAR(trials::BoundOf(rig, plan).run_out / exact.run_out, 2.0, 1e-3);
+  EXPECT_NEAR(accuracy::BoundOf(rig, plan).run_out / exact.run_out, 2.0, 1e-3);
 }
 
 /// A record whose every reading is the sum of the lines of two speeds, through sensor and
@@ -163,9 +163,9 @@ const config::RigFile& FourDof() {
 
 const Record& Good() {
   static const Record record = [] {
-    trials::GearedPlan plan;
+    accuracy::GearedPlan plan;
     plan.speeds_hz = {15.0, 25.0};
-    return RecordOf(FourDof(), trials::MakeGearedTrial(FourDof(), plan).lines);
+    return RecordOf(FourDof(), accuracy::MakeGearedTrial(FourDof(), plan).lines);
   }();
   return record;
 }
@@ -175,7 +175,7 @@ GearedParameters Identify(const Record& record) {
 }
 
 TEST(GearedRecord, GivesItsLinesBack) {
-  const auto e = trials::Compare(FourDof(), Identify(Good()));
+  const auto e = accuracy::Compare(FourDof(), Identify(Good()));
   // Readings are summed in double precision; the angle of a 3 s record is good to 1e-12 rad.
   EXPECT_LT(std::max({e.mesh_stiffness, e.mesh_damping, e.ks, e.ki, e.run_out, e.varying_error}),
             1e-5);
@@ -186,7 +186,7 @@ TEST(GearedRecord, AnIdentifiedRigFileHoldsWhatWasFound) {
   const config::RigFile out = IdentifiedRig(FourDof(), found);
   // A file reads back bit for bit what was written; identified again it is its own truth.
   const config::RigFile read = config::ParseRig(config::WriteRig(out), "identified");
-  const auto e = trials::Compare(read, found);
+  const auto e = accuracy::Compare(read, found);
   EXPECT_LT(std::max({e.mesh_stiffness, e.ks, e.ki, e.run_out, e.varying_error}), 1e-9);
 }
 

@@ -21,10 +21,10 @@ TEST_P(LoadedCampaign, MeasuresThePeaksThatWereComputed) {
   const auto controller = config::LoadController(
       config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
   const auto computed = analysis::SensitivityPeaks(rig.plant, controller.law, 0.0);
-  trials::ExcitationPlan plan;
+  accuracy::ExcitationPlan plan;
   plan.amplitude_a = 0.15;  // as the shipped campaign
   plan.periods = 8;
-  const auto responses = EstimateResponses(trials::SimulateCampaign(rig, plan), 1e-4);
+  const auto responses = EstimateResponses(accuracy::SimulateCampaign(rig, plan), 1e-4);
   ASSERT_EQ(responses.size(), 1U);
   const auto measured = MeasuredPeaks(responses.front());
   ASSERT_EQ(measured.size(), computed.axes.size());

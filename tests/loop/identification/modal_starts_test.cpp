@@ -19,17 +19,17 @@ namespace levitas::identification {
 namespace {
 
 struct Case {
-  trials::ModalTrial trial;
+  accuracy::ModalTrial trial;
   std::vector<FrequencyResponse> responses;
   ModalResult result;
 };
 
 const Case& Trial() {
   static const Case one = [] {
-    trials::ExcitationPlan plan;
+    accuracy::ExcitationPlan plan;
     plan.order = 11;  // half the lines: this is a test, not the bench
     plan.seed = 4242;
-    const trials::ModalTrial trial = trials::MakeModalTrial(FlexibleRotor(), plan);
+    const accuracy::ModalTrial trial = accuracy::MakeModalTrial(FlexibleRotor(), plan);
     const auto responses =
         EstimateResponses(trial.record, 1e-4, {}, ModalResponseOptions(FlexibleRotor()));
     ModalFitOptions options;
@@ -40,7 +40,7 @@ const Case& Trial() {
 }
 
 TEST(ModalTrial, FindsTheProductsOfARigThatIsOffEverywhere) {
-  const trials::ModalErrors errors = trials::Compare(Trial().trial.truth, Trial().result.rig);
+  const accuracy::ModalErrors errors = accuracy::Compare(Trial().trial.truth, Trial().result.rig);
   // The rig file is off by 8 % in every ki and ks, by 3 % in gains and frequencies. What is found
   // has to be better by half in the mean of the axes; of the frequencies, those that are shown.
   EXPECT_LT(errors.ki_product.mean(), 0.05);

@@ -15,7 +15,7 @@ namespace {
 ShippedLoop Levitator() { return ShippedLoop("two_magnet_levitator", "two_magnet_levitator"); }
 
 /// Plays what a loop holds, without measured currents, and diagnoses it by the shipped rig file.
-levitator::Answer Ask(ShippedLoop& loop) {
+levitator::LevitatorResult Ask(ShippedLoop& loop) {
   std::vector<analysis::RecordedRow> rows;
   EXPECT_EQ(loop.Play(7, 60.0,
                       [&](const cycle::CycleRecord& record) {
@@ -37,7 +37,7 @@ void ExpectThePlanToSeparate(const std::string& effect, const std::string& other
                              const std::function<void(config::RigFile&)>& hide) {
   ShippedLoop first = Levitator();
   hide(first.rig);
-  const levitator::Answer tied = Ask(first);
+  const levitator::LevitatorResult tied = Ask(first);
   ASSERT_FALSE(tied.ties.empty());
   // Whichever of them is named: nothing in the record decides.
   std::vector<std::string> together = tied.ties.front().others;
@@ -49,7 +49,7 @@ void ExpectThePlanToSeparate(const std::string& effect, const std::string& other
   hide(second.rig);
   second.scenario =
       config::ParseScenario(PlanScenario(Levitator().rig, tied), "next.yaml", second.rig.numbers);
-  const levitator::Answer separated = Ask(second);
+  const levitator::LevitatorResult separated = Ask(second);
   ASSERT_EQ(separated.ties.size(), 1U);
   EXPECT_EQ(separated.ties.front().cause, effect);
   EXPECT_TRUE(separated.ties.front().others.empty()) << separated.ties.front().others.front();
@@ -69,7 +69,7 @@ TEST(LevitatorPlan, TellsAProfileOfTheInductanceFromItsSize) {
 }
 
 TEST(LevitatorPlan, KeepsTheBallInTheFieldWithAllThatItCanDo) {
-  levitator::Answer nameless;
+  levitator::LevitatorResult nameless;
   nameless.common.answer.verdict = diagnosis::Verdict::kUnknown;
   ShippedLoop loop = Levitator();
   loop.scenario = config::ParseScenario(levitator::PlanScenario(loop.rig, nameless), "next.yaml",

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "diagnosis/levitator/answer.hpp"
+#include "diagnosis/levitator/levitator_result.hpp"
 #include "tests/support/levitator_trial.hpp"
 
 namespace levitas {
@@ -25,12 +25,12 @@ struct Outcome {
 
 Outcome Ask(std::uint64_t seed, const std::string& hidden, std::string& truth) {
   const config::RigFile rig = Rig();
-  const trials::LevitatorTrial trial = trials::MakeLevitatorTrial(rig, seed, hidden);
+  const accuracy::LevitatorTrial trial = accuracy::MakeLevitatorTrial(rig, seed, hidden);
   truth = trial.hidden;
   Outcome out;
   out.stable = trial.stable;
   if (!trial.stable) return out;
-  const levitator::Answer answer = levitator::Diagnose(rig, trial.records, {}, {});
+  const levitator::LevitatorResult answer = levitator::Diagnose(rig, trial.records, {}, {});
   const auto& found = answer.common.answer;
   out.first = found.verdict == diagnosis::Verdict::kUnknown ? "unknown"
               : found.causes.empty()                        ? "none"

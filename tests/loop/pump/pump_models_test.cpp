@@ -19,11 +19,11 @@ constexpr Eigen::Index kAxes = 4;
 class PumpModels : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    trial_ = std::make_unique<trials::PumpTrial>(trials::PumpPlan{.knee_a = 3.0,
-                                                                  .a2_1_per_m = 1000.0,
-                                                                  .a3_1_per_m2 = 1e7,
-                                                                  .noise_seed = 20270401,
-                                                                  .excitation_seed = 401});
+    trial_ = std::make_unique<accuracy::PumpTrial>(accuracy::PumpPlan{.knee_a = 3.0,
+                                                                      .a2_1_per_m = 1000.0,
+                                                                      .a3_1_per_m2 = 1e7,
+                                                                      .noise_seed = 20270401,
+                                                                      .excitation_seed = 401});
     ceiling_ = trial_->Ceiling();
   }
   static void TearDownTestSuite() { trial_.reset(); }
@@ -35,10 +35,10 @@ class PumpModels : public testing::Test {
     }
   }
 
-  static std::unique_ptr<trials::PumpTrial> trial_;
+  static std::unique_ptr<accuracy::PumpTrial> trial_;
   static Eigen::VectorXd ceiling_;
 };
-std::unique_ptr<trials::PumpTrial> PumpModels::trial_;
+std::unique_ptr<accuracy::PumpTrial> PumpModels::trial_;
 Eigen::VectorXd PumpModels::ceiling_;
 
 // The noise of the readings moves the rotor too: by how much, a second record tells without any

@@ -27,7 +27,8 @@ struct Seen {
 
 /// The flexible rotor at 1500 rpm from about 2.5 s to 7 s, with one effect in its file that has no
 /// strength, and the change, if any.
-std::vector<Seen> Played(const effect::EffectConfig& entry, const std::vector<RigEvent>& events) {
+std::vector<Seen> Played(const effect::EffectConfig& entry,
+                         const std::vector<ScheduledRigEvent>& events) {
   ShippedLoop loop("flexible_rotor", "levitate");
   loop.rig.plant.effects = {entry};
   loop.rig.plant.effects[0].strength = 0.0;
@@ -52,8 +53,8 @@ std::vector<Seen> Played(const effect::EffectConfig& entry, const std::vector<Ri
   return seen;
 }
 
-RigEvent Change(const std::string& id, double ramp_s) {
-  RigEvent event;
+ScheduledRigEvent Change(const std::string& id, double ramp_s) {
+  ScheduledRigEvent event;
   event.kind = RigEventKind::kEffect;
   event.effect = id;
   event.at_s = kEventAt_s;

@@ -10,13 +10,13 @@
 #include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/records/load.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 constexpr int kBits = 1275;  // 1.02 s: the shortest record that a diagnosis takes
 
-const Bench& TheBench() {
-  static const Bench bench = LoadBench("flexible_rotor", {"flexible_rotor"});
+const TestRig& TheBench() {
+  static const TestRig bench = LoadTestRig("flexible_rotor", {"flexible_rotor"});
   return bench;
 }
 
@@ -105,10 +105,10 @@ TEST(Campaign, WithLostFramesHasMissingOrRepeatedRows) {
 // What the plant itself held back would stand in no record, and a diagnosis could not know of it.
 TEST(Campaign, WithLostFramesLosesNoneBesideTheRecord) {
   const auto trial = MakeTrial(TheBench(), Short(5, {effect::Id::kDroppedSamples}));
-  for (const auto& entry : trial.secret.truth.config.effects) {
+  for (const auto& entry : trial.ground_truth.truth.config.effects) {
     EXPECT_NE(entry.id, effect::Id::kDroppedSamples);
   }
 }
 
 }  // namespace
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

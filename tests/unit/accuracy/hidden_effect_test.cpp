@@ -4,16 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include "benchmark/accuracy/perturbed_rig.hpp"
 #include "benchmark/accuracy/trial.hpp"
-#include "benchmark/accuracy/true_rig.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
-const Bench& TheBench() {
-  static const Bench bench = LoadBench("flexible_rotor", {"flexible_rotor"});
+const TestRig& TheBench() {
+  static const TestRig bench = LoadTestRig("flexible_rotor", {"flexible_rotor"});
   return bench;
 }
 
@@ -27,7 +27,7 @@ TEST(HiddenEffects, OfEveryIdAndSizeAreAcceptedByTheRig) {
       ASSERT_FALSE(entries.empty());
       for (const auto& entry : entries) EXPECT_EQ(entry.id, id);
       // The model's constructor refuses values, channels or places that the rig cannot have.
-      EXPECT_NO_THROW(plant::PlantModel(TrueRig(TheBench().rig.plant, {}, entries, random)))
+      EXPECT_NO_THROW(plant::PlantModel(PerturbedRig(TheBench().rig.plant, {}, entries, random)))
           << effect::At(id).name << " at " << size;
     }
   }
@@ -43,10 +43,10 @@ TEST(HiddenEffects, DifferBySeedAndRepeatWithIt) {
   EXPECT_NE(moment(5), moment(6));
 }
 
-TEST(TrueRig, IsAFewPerCentOffEverywhereAndHasMoreModesAndFinerSteps) {
+TEST(PerturbedRig, IsAFewPerCentOffEverywhereAndHasMoreModesAndFinerSteps) {
   const auto& nominal = TheBench().rig.plant;
   Random random(7);
-  const auto truth = TrueRig(nominal, {}, {}, random);
+  const auto truth = PerturbedRig(nominal, {}, {}, random);
   const auto healthy = plant::Reduce(nominal);
   EXPECT_GT(truth.config.substeps, nominal.substeps);
   ASSERT_GT(truth.modes.frequency_rad_per_s.size(), healthy.modes.frequency_rad_per_s.size());
@@ -58,15 +58,15 @@ TEST(TrueRig, IsAFewPerCentOffEverywhereAndHasMoreModesAndFinerSteps) {
   }
 }
 
-TEST(TrueRig, CombinesAHiddenRatioWithThatOfTheHealthyRig) {
+TEST(PerturbedRig, CombinesAHiddenRatioWithThatOfTheHealthyRig) {
   effect::EffectConfig hidden;
   hidden.id = effect::Id::kCurrentGain;
   hidden.axes = 1U;
   hidden.values[0] = 1.2;
   Random same(7);
   Random again(7);
-  const auto without = TrueRig(TheBench().rig.plant, {}, {}, same);
-  const auto with = TrueRig(TheBench().rig.plant, {}, {hidden}, again);
+  const auto without = PerturbedRig(TheBench().rig.plant, {}, {}, same);
+  const auto with = PerturbedRig(TheBench().rig.plant, {}, {hidden}, again);
   ASSERT_EQ(with.config.effects.size(), without.config.effects.size());
   for (std::size_t i = 0; i < with.config.effects.size(); ++i) {
     const auto& a = without.config.effects[i];
@@ -77,4 +77,4 @@ TEST(TrueRig, CombinesAHiddenRatioWithThatOfTheHealthyRig) {
 }
 
 }  // namespace
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

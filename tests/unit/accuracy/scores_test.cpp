@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
-Outcome Hidden(std::vector<std::string> truth, std::vector<std::string> named,
-               std::vector<std::string> ties = {}) {
-  Outcome o;
+TrialScore Hidden(std::vector<std::string> truth, std::vector<std::string> named,
+                  std::vector<std::string> ties = {}) {
+  TrialScore o;
   o.truth = std::move(truth);
   o.verdict = named.empty() ? "none" : "effect";
   o.named = std::move(named);
@@ -18,30 +18,30 @@ Outcome Hidden(std::vector<std::string> truth, std::vector<std::string> named,
   return o;
 }
 
-TEST(Outcome, IsRightOnlyWhenTheMainEffectIsNamedFirstOrDeclaredInseparable) {
+TEST(TrialScore, IsRightOnlyWhenTheMainEffectIsNamedFirstOrDeclaredInseparable) {
   EXPECT_TRUE(Hidden({"unbalance"}, {"unbalance"}).Right());
   EXPECT_TRUE(Hidden({"unbalance"}, {"shaft_bow"}, {"unbalance"}).Right());
   EXPECT_FALSE(Hidden({"unbalance"}, {"shaft_bow", "unbalance"}).Right());
   EXPECT_FALSE(Hidden({"unbalance"}, {}).Right());
 }
 
-TEST(Outcome, IsPartlyRightWhenAnyEffectReallyPresentIsNamed) {
+TEST(TrialScore, IsPartlyRightWhenAnyEffectReallyPresentIsNamed) {
   EXPECT_TRUE(Hidden({"unbalance", "hysteresis"}, {"hysteresis"}).Partly());
   EXPECT_FALSE(Hidden({"unbalance", "hysteresis"}, {"hysteresis"}).NamesAll());
   EXPECT_TRUE(Hidden({"unbalance", "hysteresis"}, {"hysteresis", "unbalance"}).NamesAll());
   EXPECT_FALSE(Hidden({"unbalance"}, {"shaft_bow"}).Partly());
 }
 
-TEST(Outcome, OfACleanRecordIsRightOnlyWhenNothingIsNamed) {
+TEST(TrialScore, OfACleanRecordIsRightOnlyWhenNothingIsNamed) {
   EXPECT_TRUE(Hidden({}, {}).Right());
   EXPECT_FALSE(Hidden({}, {"unbalance"}).Right());
-  Outcome unknown = Hidden({}, {});
+  TrialScore unknown = Hidden({}, {});
   unknown.verdict = "unknown";
   EXPECT_FALSE(unknown.Right());
 }
 
-TEST(Outcome, OfSomethingOutsideTheVocabularyIsRightOnlyWhenCalledUnknown) {
-  Outcome o = Hidden({}, {});
+TEST(TrialScore, OfSomethingOutsideTheVocabularyIsRightOnlyWhenCalledUnknown) {
+  TrialScore o = Hidden({}, {});
   o.outside = "turbulence";
   EXPECT_FALSE(o.Right());
   o.verdict = "unknown";
@@ -60,7 +60,7 @@ TEST(ConfusionTable, HasARowForEveryTruthAndCountsTheFirstNamed) {
 }
 
 TEST(Tables, KeepEffectsSizesAndCleanRecordsApart) {
-  Outcome faint = Hidden({"unbalance"}, {});
+  TrialScore faint = Hidden({"unbalance"}, {});
   faint.available_nat = 7.0;
   const std::string text = Tables({Hidden({"unbalance"}, {"unbalance"}), faint, Hidden({}, {})});
   EXPECT_NE(text.find("unbalance                       1/1         -     0/1"), std::string::npos)
@@ -69,16 +69,16 @@ TEST(Tables, KeepEffectsSizesAndCleanRecordsApart) {
 }
 
 TEST(Tables, CountPairsOfWhichTheRecordsHoldBothClearlyApart) {
-  Outcome both = Hidden({"unbalance", "hysteresis"}, {"unbalance", "hysteresis"});
-  Outcome missed = Hidden({"unbalance", "hysteresis"}, {"unbalance"});
+  TrialScore both = Hidden({"unbalance", "hysteresis"}, {"unbalance", "hysteresis"});
+  TrialScore missed = Hidden({"unbalance", "hysteresis"}, {"unbalance"});
   missed.missed = {{"hysteresis", 90.0}};
-  Outcome below = missed;
+  TrialScore below = missed;
   below.missed = {{"hysteresis", 3.0}};
-  Outcome unknown = missed;
+  TrialScore unknown = missed;
   unknown.missed = {{"hysteresis", std::nullopt}};
-  Outcome second = missed;
+  TrialScore second = missed;
   second.named = {"shaft_bow", "unbalance"};
-  Outcome neither = missed;
+  TrialScore neither = missed;
   neither.named = {"shaft_bow"};
   const std::string text = Tables({both, missed, below, unknown, second, neither});
   EXPECT_NE(text.find("main one named: 5/6, first: 4/6"), std::string::npos) << text;
@@ -87,8 +87,8 @@ TEST(Tables, CountPairsOfWhichTheRecordsHoldBothClearlyApart) {
       << text;
 }
 
-diagnosis::Answer Told(const std::string& effect, double score, bool named) {
-  diagnosis::Answer told;
+diagnosis::SearchResult Told(const std::string& effect, double score, bool named) {
+  diagnosis::SearchResult told;
   diagnosis::Candidate candidate;
   candidate.effect = effect;
   candidate.score = score;
@@ -100,8 +100,8 @@ diagnosis::Answer Told(const std::string& effect, double score, bool named) {
   return told;
 }
 
-Outcome Missed(double drawn) {
-  Outcome o = Hidden({"misalignment"}, {});
+TrialScore Missed(double drawn) {
+  TrialScore o = Hidden({"misalignment"}, {});
   o.verdict = "unknown";
   o.drawn = drawn;
   o.available_nat = 0.0;
@@ -110,50 +110,50 @@ Outcome Missed(double drawn) {
 
 TEST(Oracle, ThatDoesNotNameWhatTheRecordsHoldHasFailedAndTheTrialHasTheSizeOfWhatTheyHold) {
   for (const auto& [held, size] : {std::pair{2907.0, Size::kClear}, {18.0, Size::kModerate}}) {
-    Outcome o = Missed(0.5);
-    HearOracle(Told("misalignment", 0.0, false), held, o);
-    EXPECT_TRUE(o.oracle_failed);
+    TrialScore o = Missed(0.5);
+    AddInformedDiagnosis(Told("misalignment", 0.0, false), held, o);
+    EXPECT_TRUE(o.informed_failed);
     EXPECT_EQ(o.size(), size);
     EXPECT_FALSE(o.Right());
   }
 }
 
 TEST(Oracle, ThatFindsNothingInRecordsThatHoldNothingHasNotFailed) {
-  Outcome o = Missed(1.0);
-  HearOracle(Told("misalignment", -0.6, false), 0.2, o);
-  EXPECT_FALSE(o.oracle_failed);
+  TrialScore o = Missed(1.0);
+  AddInformedDiagnosis(Told("misalignment", -0.6, false), 0.2, o);
+  EXPECT_FALSE(o.informed_failed);
   EXPECT_EQ(o.size(), Size::kBelow);
 }
 
 TEST(Oracle, ThatNamesTheEffectSaysItsSize) {
-  Outcome o = Missed(1.0);
-  HearOracle(Told("misalignment", 12.0, true), 40.0, o);
-  EXPECT_FALSE(o.oracle_failed);
+  TrialScore o = Missed(1.0);
+  AddInformedDiagnosis(Told("misalignment", 12.0, true), 40.0, o);
+  EXPECT_FALSE(o.informed_failed);
   EXPECT_EQ(o.size(), Size::kModerate);
 }
 
 TEST(Oracle, ThatLeavesSomethingIsNotBelievedWhereNothingElseSaysWhatTheRecordsHold) {
-  Outcome o = Missed(1.0);
-  diagnosis::Answer told = Told("misalignment", 0.0, false);
+  TrialScore o = Missed(1.0);
+  diagnosis::SearchResult told = Told("misalignment", 0.0, false);
   told.verdict = diagnosis::Verdict::kUnknown;
-  HearOracle(told, std::nullopt, o);
-  EXPECT_TRUE(o.oracle_failed);
+  AddInformedDiagnosis(told, std::nullopt, o);
+  EXPECT_TRUE(o.informed_failed);
   EXPECT_EQ(o.size(), Size::kClear);
   told.verdict = diagnosis::Verdict::kNone;
-  HearOracle(told, std::nullopt, o);
+  AddInformedDiagnosis(told, std::nullopt, o);
   EXPECT_EQ(o.size(), Size::kBelow);
 }
 
 TEST(Oracle, CountsOnlyEvidenceForWhatIsHidden) {
-  Outcome o = Missed(1.0);
-  HearOracle(Told("sensor_noise", 300.0, true), 0.0, o);
+  TrialScore o = Missed(1.0);
+  AddInformedDiagnosis(Told("sensor_noise", 300.0, true), 0.0, o);
   EXPECT_EQ(o.size(), Size::kBelow);
 }
 
 TEST(Tables, ListATrialWhoseOracleFailedAndCountItAsNotNamed) {
-  Outcome o = Missed(1.0);
+  TrialScore o = Missed(1.0);
   o.seed = 17328;
-  HearOracle(Told("misalignment", 0.0, false), 2907.0, o);
+  AddInformedDiagnosis(Told("misalignment", 0.0, false), 2907.0, o);
   const std::string text = Tables({o});
   EXPECT_NE(text.find("misalignment                    0/1         -       -       -"),
             std::string::npos)
@@ -170,4 +170,4 @@ TEST(Sizes, AreWhatTheRecordsHoldAndWhatDoesNotDecideIsBelowAll) {
 }
 
 }  // namespace
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

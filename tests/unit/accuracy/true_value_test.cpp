@@ -7,7 +7,7 @@
 #include "config/rig_file.hpp"
 #include "tests/support/effect_entry.hpp"
 
-namespace levitas::trials {
+namespace levitas::accuracy {
 namespace {
 
 using effect::Id;
@@ -33,7 +33,7 @@ class TrueValueTest : public ::testing::Test {
   }
 
   config::RigFile rig_ = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
-  Secret secret_;
+  GroundTruth secret_;
 };
 
 TEST_F(TrueValueTest, OfOneChannelHasNothingOfAnotherWhoseNameItContains) {
@@ -75,4 +75,4 @@ TEST_F(TrueValueTest, IsNotThereAtAPlaceWithoutTheEffect) {
 }
 
 }  // namespace
-}  // namespace levitas::trials
+}  // namespace levitas::accuracy

@@ -9,7 +9,7 @@
 namespace levitas::can_port {
 namespace {
 
-using Answer = port::RigLink::Answer;
+using ReceiveResult = port::RigLink::ReceiveResult;
 
 class CanRigLinkTest : public testing::TestWithParam<can::Format> {
  protected:
@@ -49,7 +49,7 @@ TEST_P(CanRigLinkTest, TwentyThousandPeriodsPassWithoutALoss) {
     current.cycle = cycle;
     port_.Write(current);
     CurrentFrame got;
-    ASSERT_EQ(link_.Receive(got, 0), Answer::kCurrent);
+    ASSERT_EQ(link_.Receive(got, 0), ReceiveResult::kCurrent);
     ASSERT_EQ(got.cycle, cycle);
     ASSERT_EQ(got.amplifiers_enabled, current.amplifiers_enabled);
     for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -72,7 +72,7 @@ TEST_P(RigEnd, HoldsBackCurrentsOfABusThatIsOff) {
   rig_bus_.Event(can::BusEvent::kBusOff, 1);
   port_.Write({.cycle = 3, .axes = 4});
   CurrentFrame got;
-  EXPECT_EQ(link_.Receive(got, 0), Answer::kNothing);
+  EXPECT_EQ(link_.Receive(got, 0), ReceiveResult::kNothing);
   EXPECT_FALSE(link_.Send({.cycle = 4, .axes = 4}));
   EXPECT_EQ(link_.counters().send_failures, 1U);
   EXPECT_THAT(link_.Trouble(), testing::HasSubstr("1 x bus off"));
@@ -83,7 +83,7 @@ TEST_P(RigEnd, CountsDamagedCurrents) {
   port_.Write({.cycle = 3, .axes = 4});
   rig_bus_.arrived.back().frame.data[2] ^= 1U;
   CurrentFrame got;
-  EXPECT_EQ(link_.Receive(got, 0), Answer::kNothing);
+  EXPECT_EQ(link_.Receive(got, 0), ReceiveResult::kNothing);
   EXPECT_EQ(link_.counters().currents_rejected, 1U);
 }
 

@@ -65,7 +65,7 @@ TEST_F(CanRigPortTest, CurrentsArriveAtTheRigWithTheirBiasInTheSamePeriod) {
   current.amplifiers_enabled = true;
   ASSERT_TRUE(port_.Write(current));
   CurrentFrame got;
-  ASSERT_EQ(link_.Receive(got, 0), port::RigLink::Answer::kCurrent);
+  ASSERT_EQ(link_.Receive(got, 0), port::RigLink::ReceiveResult::kCurrent);
   EXPECT_NEAR(got.control_current_a[1], -0.5, 5e-5);
   EXPECT_NEAR(got.bias_current_a, 1.0, 5e-4);
   EXPECT_TRUE(got.amplifiers_enabled);
@@ -210,7 +210,7 @@ TEST_F(CanRigPortTest, SaysGoodbyeThreeTimes) {
   port_.SayGoodbye({.cycle = 0, .axes = 4});
   EXPECT_EQ(controller_bus_.sent.size(), 3U);
   CurrentFrame got;
-  EXPECT_EQ(link_.Receive(got, 0), port::RigLink::Answer::kGoodbye);
+  EXPECT_EQ(link_.Receive(got, 0), port::RigLink::ReceiveResult::kGoodbye);
 }
 
 TEST_F(CanRigPortTest, AllocatesNothingInTheLoop) {

@@ -4,14 +4,14 @@
 #include <memory>
 #include <vector>
 
-#include "diagnosis/report/session.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {
 
 /// An answer without a cause: the model explains data that can tell all.
-inline SessionAnswer NothingFound() {
-  SessionAnswer s;
+inline DiagnosisResult NothingFound() {
+  DiagnosisResult s;
   s.view = std::make_shared<const RigView>(FlexibleRotor().numbers, FlexibleRotor().plant);
   s.terms = AllTerms(*s.view, Tolerances{}, 50e-6);
   s.answer.theta_calibrated.assign(s.terms.size(), 0.0);
@@ -23,9 +23,9 @@ inline SessionAnswer NothingFound() {
 }
 
 /// The effect at that place, every term of it with `share` of its usual size.
-inline SessionAnswer Found(const std::string& effect, const std::string& place,
-                           double share = 0.5) {
-  SessionAnswer s = NothingFound();
+inline DiagnosisResult Found(const std::string& effect, const std::string& place,
+                             double share = 0.5) {
+  DiagnosisResult s = NothingFound();
   s.answer.verdict = Verdict::kEffect;
   for (const Hypothesis& h : MakeHypotheses(*s.view, s.terms)) {
     if (h.effect != effect || h.place != place) continue;

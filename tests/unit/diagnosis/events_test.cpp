@@ -30,8 +30,8 @@ Record NoisyRecord(std::uint64_t seed, std::size_t rows) {
 }
 
 /// A remainder whose noise is `factor` times the rig file's on the given axis.
-Remainder WithNoise(double factor, std::size_t axis = 0) {
-  Remainder remainder;
+Residual WithNoise(double factor, std::size_t axis = 0) {
+  Residual remainder;
   for (std::size_t a = 0; a < View().axes; ++a) {
     ChannelRemainder channel;
     channel.noise_rms_m =
@@ -113,7 +113,7 @@ TEST(EventsTest, WhatTheRigFileKnowsToBeLostOrNoisyIsNoCause) {
   const Record healthy = NoisyRecord(8, 5000);
   const RigView noisy = Holding(effect::Id::kSensorNoise, {1.5 * kNoise, 0.0});
   EXPECT_GT(Score(FindEvents(noisy, {healthy}, WithNoise(1.0)), "sensor_noise"), kDecisive);
-  Remainder remainder = WithNoise(1.0);
+  Residual remainder = WithNoise(1.0);
   for (auto& channel : remainder.channels) channel.noise_rms_m = 1.5 * kNoise;
   EXPECT_TRUE(FindEvents(noisy, {healthy}, remainder).empty());
 }

@@ -24,22 +24,22 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-config::RigFile ReadBack(const SessionAnswer& answer) {
+config::RigFile ReadBack(const DiagnosisResult& answer) {
   return config::ParseRig(ExtendedRig(answer, FlexibleRotor()), "extended_rig.yaml");
 }
 
 TEST(ExtendedRigTest, WithoutACauseIsTheNominalRig) {
-  const SessionAnswer answer = NothingFound();
+  const DiagnosisResult answer = NothingFound();
   EXPECT_THAT(EffectEntries(answer), IsEmpty());
   EXPECT_EQ(config::WriteRig(ReadBack(answer)), config::WriteRig(FlexibleRotor()));
 }
 
 TEST(ExtendedRigTest, IsReadBackForEveryEffectAtEveryPlace) {
-  const SessionAnswer nothing = NothingFound();
+  const DiagnosisResult nothing = NothingFound();
   std::set<std::string> effects;
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
     effects.insert(h.effect);
-    const SessionAnswer answer = Found(h.effect, h.place);
+    const DiagnosisResult answer = Found(h.effect, h.place);
     const std::string text = ExtendedRig(answer, FlexibleRotor());
     EXPECT_THAT(text, Not(HasSubstr("not known to this build"))) << h.effect << " at " << h.place;
     const config::RigFile rig = config::ParseRig(text, "extended_rig.yaml");
@@ -50,11 +50,11 @@ TEST(ExtendedRigTest, IsReadBackForEveryEffectAtEveryPlace) {
 }
 
 TEST(ExtendedRigTest, SaysThePresentEffectInTheUnitsOfTheFile) {
-  const auto only = [](const SessionAnswer& answer) {
+  const auto only = [](const DiagnosisResult& answer) {
     const auto entries = EffectEntries(answer);
     return entries.size() == 1 ? entries.front() : "not one entry";
   };
-  // wide 0.15, half of it
+  // faulty_std 0.15, half of it
   EXPECT_EQ(only(Found("current_gain", "nde_x")),
             "{id: current_gain, channels: [nde_x], ratio: 1.075}");
   // sqrt(tau) of 5e-3 s^0.5, half of it: 6.25 us
@@ -101,7 +101,7 @@ TEST(ExtendedRigTest, ChangesNothingButTheEffects) {
 }
 
 TEST(ExtendedRigTest, HoldsThePhaseUnderTheKeyAndWithTheDigitsThatAreTold) {
-  SessionAnswer answer = Found("unbalance", "z 299.2 mm");
+  DiagnosisResult answer = Found("unbalance", "z 299.2 mm");
   for (const std::size_t t : answer.answer.causes.front().terms) {
     answer.answer.theta_extended[t] = answer.terms[t].parameter == "sine" ? 7.3e-6 : -25.1e-6;
   }
@@ -119,7 +119,7 @@ TEST(ExtendedRigTest, NamesTheParametersWithTheirIntervals) {
 }
 
 TEST(CalibratedRigTest, IsReadBackWithWhatWasCalibratedAndTheCause) {
-  SessionAnswer answer = Found("eddy_current", "de_x");
+  DiagnosisResult answer = Found("eddy_current", "de_x");
   for (const Term& term : answer.terms) {
     if (!term.nuisance() || term.effect == "eddy_current") continue;
     answer.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,

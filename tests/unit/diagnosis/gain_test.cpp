@@ -13,7 +13,7 @@ constexpr std::size_t kSamples = 30'000;
 
 /// The same noise with an error of `size` times its power on every axis.
 Trajectory Error(double size, std::uint64_t seed = 3) {
-  return NoiseRun(seed, kSamples, [size](std::size_t, Moment& m) {
+  return NoiseRun(seed, kSamples, [size](std::size_t, SamplePoint& m) {
     for (std::size_t a = 0; a < View().axes; ++a) {
       m.innovation_m[a] += static_cast<float>(Sine(kNoise * std::sqrt(2.0 * size), 91.0, m.time_s));
     }

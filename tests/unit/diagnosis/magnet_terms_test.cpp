@@ -31,7 +31,7 @@ class MagnetTermsTest : public ::testing::Test {
   }
 
   Random random_{4};
-  Moment moment_ = Drawn(random_, 100.0);
+  SamplePoint moment_ = Drawn(random_, 100.0);
   std::vector<Term> terms_ = EveryTerm();
   double bias_a_ = View().bias_a(kAxis);
 };
@@ -68,7 +68,7 @@ TEST_F(MagnetTermsTest, OfOneAxisLeaveTheOthersAlone) {
   for (const char* effect :
        {"current_gain", "displacement_stiffness", "coil_asymmetry", "eddy_current"}) {
     Term term = Named(terms_, effect, kChannel);
-    const Addition add = Added(term, moment_, term.scale());
+    const Contribution add = Added(term, moment_, term.scale());
     for (std::size_t a = 0; a < View().axes; ++a) {
       if (a != kAxis) {
         EXPECT_EQ(add.force_n[a], 0.0) << effect;
@@ -80,7 +80,7 @@ TEST_F(MagnetTermsTest, OfOneAxisLeaveTheOthersAlone) {
 TEST_F(MagnetTermsTest, RotationOfTheAxesTurnsTheForce) {
   Term term = Named(terms_, "axis_rotation", "magnet nde");
   const double theta = 0.02;
-  const Addition add = Added(term, moment_, theta);
+  const Contribution add = Added(term, moment_, theta);
   const double fx = static_cast<double>(moment_.force_n[2]);
   const double fy = static_cast<double>(moment_.force_n[3]);
   // Rotation of (fx, fy) by theta to first order; its length then stays to second order.
@@ -93,7 +93,7 @@ TEST_F(MagnetTermsTest, RotationOfTheAxesTurnsTheForce) {
 
 TEST_F(MagnetTermsTest, SaturationTakesNothingFarBelowTheKneeAndMuchAboveIt) {
   // i/(1 + (i/knee)^4)^(1/4): at the knee 2^(-1/4) of the current is left, a tenth below it all.
-  Moment& m = moment_;
+  SamplePoint& m = moment_;
   m.actuator_m = {};
   m.coil_start_a = m.coil_end_a = m.coil_mean_a = {};
   const auto set = [&](double current_a) {
@@ -114,7 +114,7 @@ TEST_F(MagnetTermsTest, HysteresisOfAFullLoopTakesEnergy) {
   Term term = Named(terms_, "hysteresis", "width 0.03 i0");
   // Work of the force over a cycle of the current, i from sin: positive means taken from the drive.
   double loop = 0.0;
-  Moment m = Rest();
+  SamplePoint m = Rest();
   m.force_per_a[kAxis] = 40.0F;
   constexpr int kSteps = 400;
   for (int n = 0; n < 3 * kSteps; ++n) {
@@ -137,7 +137,7 @@ std::complex<double> EddyResponse(double tau_s, double hz) {
   Term term = Named(EveryTerm(), "eddy_current", kChannel);
   const double period = View().period_s;
   const double w = 2.0 * std::numbers::pi * hz;
-  Moment m = Rest();
+  SamplePoint m = Rest();
   const double bias = View().bias_a(kAxis);
   const double per_a = (Law(bias + 0.1, bias - 0.1, 0.0) - Law(bias, bias, 0.0)) / 0.1;
   std::complex<double> in = 0.0;
@@ -173,7 +173,7 @@ TEST(EddyCurrentTerm, HasTheHalfOrderLagOfLaminatedIron) {
 
 TEST(EddyCurrentTerm, LeavesASteadyCurrentAlone) {
   Term term = Named(EveryTerm(), "eddy_current", kChannel);
-  Moment m = Rest();
+  SamplePoint m = Rest();
   m.force_per_a[kAxis] = 1.0F;
   m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = m.coil_mean_a[kAxis] = 1.0F;
   double lag = -1.0;
@@ -185,7 +185,7 @@ TEST(EddyCurrentTerm, LeavesASteadyCurrentAlone) {
 TEST(EddyCurrentTerm, ForgetsAtAGapOfTheRecord) {
   Term used = Named(EveryTerm(), "eddy_current", kChannel);
   Term fresh = used;
-  Moment m = Rest();
+  SamplePoint m = Rest();
   m.force_per_a[kAxis] = 1.0F;
   m.coil_start_a[kAxis] = m.coil_end_a[kAxis] = m.coil_mean_a[kAxis] = 1.0F;
   for (int n = 0; n < 10; ++n) static_cast<void>(Added(used, m, 0.01));

@@ -14,7 +14,7 @@ class ModeProbeTest : public ::testing::Test {
   [[nodiscard]] std::vector<ModeProbe> Probes(double amplitude_m, double ratio,
                                               double speed_rad_per_s = 0.0) const {
     const double hz = ratio * View().omega_rad_per_s[3] / (2.0 * std::numbers::pi);
-    const auto ringing = [&](std::size_t, Moment& m) {
+    const auto ringing = [&](std::size_t, SamplePoint& m) {
       m.speed_rad_per_s = static_cast<float>(speed_rad_per_s);
       m.innovation_m[1] += static_cast<float>(Sine(amplitude_m, hz, m.time_s));
     };
@@ -40,7 +40,7 @@ TEST_F(ModeProbeTest, LeavesAloneWhatDerivativesReach) {
 TEST_F(ModeProbeTest, FindsNothingInNoise) { EXPECT_TRUE(Probes(0.0, 1.1).empty()); }
 
 TEST_F(ModeProbeTest, LooksAtRecordsAtRestWhenThereAreAny) {
-  const auto turning = [](std::size_t, Moment& m) {
+  const auto turning = [](std::size_t, SamplePoint& m) {
     m.speed_rad_per_s = 300.0F;
     m.innovation_m[1] += static_cast<float>(
         Sine(1e-6, 1.1 * View().omega_rad_per_s[3] / (2.0 * std::numbers::pi), m.time_s));

@@ -22,15 +22,15 @@ inline const RigView& View() {
 }
 
 /// At rest in the centre, no current.
-inline Moment Rest() { return {}; }
+inline SamplePoint Rest() { return {}; }
 
 /// Everything of the size it has on a levitated rotor; the magnet's force and its slopes are those
 /// of the currents and displacements drawn.
-inline Moment Drawn(Random& random, double speed_rad_per_s) {
+inline SamplePoint Drawn(Random& random, double speed_rad_per_s) {
   const auto draw = [&random](double size) {
     return static_cast<float>(size * (2.0 * random.Uniform() - 1.0));
   };
-  Moment m;
+  SamplePoint m;
   m.time_s = 10.0 * random.Uniform();
   m.Turn(6.28 * random.Uniform(), speed_rad_per_s, View().period_s);
   for (std::size_t i = 0; i < 2 * kMaxModes; ++i) {
@@ -74,8 +74,8 @@ inline Term Named(const std::vector<Term>& terms, const std::string& effect,
 }
 
 /// What the term adds over the period and at the sample together.
-inline Addition Added(Term& term, const Moment& moment, double theta) {
-  Addition add;
+inline Contribution Added(Term& term, const SamplePoint& moment, double theta) {
+  Contribution add;
   if (term.drive) term.drive(moment, theta, add);
   if (term.read) term.read(moment, theta, add);
   return add;

@@ -45,7 +45,7 @@ class ObserverScaleTest : public ::testing::Test {
       }
     }
     std::vector<AxisArray> innovations;
-    for (const Moment& m : RunModel(View(), record, pair_, terms_, theta_, 0.0).moments) {
+    for (const SamplePoint& m : RunModel(View(), record, pair_, terms_, theta_, 0.0).moments) {
       AxisArray& innovation = innovations.emplace_back();
       for (std::size_t a = 0; a < 4; ++a) {
         innovation[a] = static_cast<double>(m.innovation_m[a]) / scale;

@@ -9,9 +9,9 @@
 namespace levitas::diagnosis {
 namespace {
 
-SessionAnswer Tie(const std::string& first, const std::string& second,
-                  const std::string& name = "flexible_rotor") {
-  SessionAnswer s;
+DiagnosisResult Tie(const std::string& first, const std::string& second,
+                    const std::string& name = "flexible_rotor") {
+  DiagnosisResult s;
   const auto rig = config::LoadRig(config::FindConfig(name, "rigs"));
   s.view = std::make_shared<const RigView>(rig.numbers, rig.plant);
   Hypothesis cause;

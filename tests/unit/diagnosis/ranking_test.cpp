@@ -17,7 +17,7 @@ Hypothesis Named(const std::string& effect) {
 
 /// Noise of which every sixth sample is kept back; `factor` is on those alone.
 std::vector<Trajectory> KeptBack(double factor) {
-  return {NoiseRun(7, 12'000, [factor](std::size_t n, Moment& m) {
+  return {NoiseRun(7, 12'000, [factor](std::size_t n, SamplePoint& m) {
     m.held = n % 6 == 0;
     m.counts = !m.held;
     if (!m.held) return;

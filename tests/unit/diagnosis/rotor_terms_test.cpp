@@ -15,24 +15,26 @@ namespace {
 constexpr double kSpeedRadPerS = 200.0;  // [rad/s]
 
 /// Modal acceleration of a mode as one complex number, x + j y.
-std::complex<double> Modal(const Addition& add, std::size_t mode) {
+std::complex<double> Modal(const Contribution& add, std::size_t mode) {
   return {add.modal[mode], add.modal[View().modes + mode]};
 }
 
-Moment Turning(double angle_rad) {
-  Moment m;
+SamplePoint Turning(double angle_rad) {
+  SamplePoint m;
   m.Turn(angle_rad, kSpeedRadPerS, View().period_s);
   return m;
 }
 
 double SensorHz() { return View().bearing(1).sensor.bandwidth_hz; }
-double MidAngle(const Moment& m) { return m.angle_rad + 0.5 * View().period_s * kSpeedRadPerS; }
+double MidAngle(const SamplePoint& m) {
+  return m.angle_rad + 0.5 * View().period_s * kSpeedRadPerS;
+}
 
 class RotorTermsTest : public ::testing::Test {
  protected:
-  [[nodiscard]] Addition Of(const std::string& effect, const std::string& place,
-                            const std::string& parameter, const Moment& moment,
-                            double theta) const {
+  [[nodiscard]] Contribution Of(const std::string& effect, const std::string& place,
+                                const std::string& parameter, const SamplePoint& moment,
+                                double theta) const {
     Term term = Named(terms_, effect, place, parameter);
     return Added(term, moment, theta);
   }
@@ -43,8 +45,8 @@ class RotorTermsTest : public ::testing::Test {
 TEST_F(RotorTermsTest, UnbalanceTurnsWithTheShaftAndGrowsWithTheSquareOfSpeed) {
   const auto shape = View().Shape(0.2992);
   for (const double angle : {0.0, 1.0, 4.0}) {
-    const Moment m = Turning(angle);
-    const Addition add = Of("unbalance", "z 299.2 mm", "cosine", m, 3e-5);
+    const SamplePoint m = Turning(angle);
+    const Contribution add = Of("unbalance", "z 299.2 mm", "cosine", m, 3e-5);
     for (std::size_t i = 0; i < modes_; ++i) {
       const auto expected =
           std::polar(3e-5 * kSpeedRadPerS * kSpeedRadPerS * shape[i], MidAngle(m));
@@ -67,7 +69,7 @@ TEST_F(RotorTermsTest, ABowPullsWithTheStiffnessOfItsModeAtAnySpeed) {
   const double w2 = std::pow(View().omega_rad_per_s[2], 2);
   const auto& shapes = View().model->parameters().modes.shapes;
   const double largest = shapes.col(2).cwiseAbs().maxCoeff();
-  Moment slow = Turning(0.3);
+  SamplePoint slow = Turning(0.3);
   const auto fast_pull = Modal(Of("shaft_bow", "mode 1", "cosine", slow, 10e-6), 2);
   // The mode's own deflection has its largest value 10 um.
   EXPECT_NEAR(std::abs(fast_pull), w2 * 10e-6 / largest, 1e-6 * std::abs(fast_pull));
@@ -79,7 +81,7 @@ TEST_F(RotorTermsTest, ABowPullsWithTheStiffnessOfItsModeAtAnySpeed) {
 TEST_F(RotorTermsTest, MisalignmentOfANegativeOrderTurnsBackward) {
   for (const int order : {2, -2, 3, -3}) {
     const std::string place = "order " + std::to_string(order);
-    const Moment m = Turning(0.4);
+    const SamplePoint m = Turning(0.4);
     const auto shape = View().Shape(0.0);
     const auto pull = Modal(Of("misalignment", place, "cosine", m, 0.8), 0);
     EXPECT_LT(std::abs(pull - std::polar(0.8 * shape[0], order * MidAngle(m))), 1e-9) << place;
@@ -87,7 +89,7 @@ TEST_F(RotorTermsTest, MisalignmentOfANegativeOrderTurnsBackward) {
 }
 
 TEST_F(RotorTermsTest, RunoutIsThereAtRestAsWell) {
-  Moment still;
+  SamplePoint still;
   still.Turn(0.9, 0.0, View().period_s);
   EXPECT_NEAR(Of("sensor_runout", "order 1, nde_x", "cosine", still, 4e-6).reading_m[2],
               4e-6 * std::cos(0.9), 1e-12);
@@ -95,9 +97,9 @@ TEST_F(RotorTermsTest, RunoutIsThereAtRestAsWell) {
 }
 
 TEST_F(RotorTermsTest, RunoutIsReadAtItsOrderOnItsAxisAlone) {
-  const Moment m = Turning(0.9);
-  const Addition cosine = Of("sensor_runout", "order 2, de_y", "cosine", m, 4e-6);
-  const Addition sine = Of("sensor_runout", "order 2, de_y", "sine", m, 4e-6);
+  const SamplePoint m = Turning(0.9);
+  const Contribution cosine = Of("sensor_runout", "order 2, de_y", "cosine", m, 4e-6);
+  const Contribution sine = Of("sensor_runout", "order 2, de_y", "sine", m, 4e-6);
   // A first-order sensor: H = 1/(1 + j 2 W lag).
   const double late = 2.0 * kSpeedRadPerS / (2.0 * std::numbers::pi * SensorHz());
   const std::complex<double> seen = std::polar(4e-6, 1.8) / std::complex<double>(1.0, late);
@@ -108,7 +110,7 @@ TEST_F(RotorTermsTest, RunoutIsReadAtItsOrderOnItsAxisAlone) {
 }
 
 TEST_F(RotorTermsTest, AModeOfAnotherFrequencyHasAnotherStiffness) {
-  Moment m = Rest();
+  SamplePoint m = Rest();
   m.q[3] = 2e-5F;
   m.q[modes_ + 3] = -1e-5F;
   const double w = View().omega_rad_per_s[3];
@@ -119,7 +121,7 @@ TEST_F(RotorTermsTest, AModeOfAnotherFrequencyHasAnotherStiffness) {
 }
 
 TEST_F(RotorTermsTest, AModeOfMoreDampingLosesMoreEnergy) {
-  Moment m = Rest();
+  SamplePoint m = Rest();
   m.v[2] = 3e-3F;
   const double w = View().omega_rad_per_s[2];
   const double z = View().damping_ratio[2];
@@ -129,9 +131,9 @@ TEST_F(RotorTermsTest, AModeOfMoreDampingLosesMoreEnergy) {
 }
 
 TEST_F(RotorTermsTest, AHeavierRotorYieldsLessToTheSameForceAsARigidBody) {
-  Moment m = Rest();
+  SamplePoint m = Rest();
   for (std::size_t a = 0; a < View().axes; ++a) m.force_n[a] = 10.0F;
-  const Addition add = Of("rotor_mass", "rotor", "ratio", m, 0.1);
+  const Contribution add = Of("rotor_mass", "rotor", "ratio", m, 0.1);
   double rigid = 0.0;
   for (std::size_t b = 0; b < 2; ++b) rigid += View().magnet(2 * b).actuator_shape[0] * 10.0;
   // a = F/m, so m -> 1.1 m takes 1 - 1/1.1 of it.
@@ -141,8 +143,8 @@ TEST_F(RotorTermsTest, AHeavierRotorYieldsLessToTheSameForceAsARigidBody) {
 
 TEST_F(RotorTermsTest, GyroscopicForcesDoNoWork) {
   Random random(3);
-  const Moment m = Drawn(random, kSpeedRadPerS);
-  const Addition add = Of("gyroscopic_inertia", "rotor", "ratio", m, 0.2);
+  const SamplePoint m = Drawn(random, kSpeedRadPerS);
+  const Contribution add = Of("gyroscopic_inertia", "rotor", "ratio", m, 0.2);
   double work = 0.0;
   double size = 0.0;
   for (std::size_t i = 0; i < 2 * modes_; ++i) {
@@ -157,14 +159,14 @@ TEST_F(RotorTermsTest, GyroscopicForcesDoNoWork) {
 double PowerInForwardWhirl(Term term, double whirl_rad_per_s) {
   double power = 0.0;
   for (int n = 0; n < 24; ++n) {
-    Moment m = Turning(0.0);
+    SamplePoint m = Turning(0.0);
     const double phase = 2.0 * std::numbers::pi * n / 24.0;
     const std::size_t modes = View().modes;
     m.q[2] = static_cast<float>(1e-5 * std::cos(phase));
     m.q[modes + 2] = static_cast<float>(1e-5 * std::sin(phase));
     m.v[2] = static_cast<float>(-1e-5 * whirl_rad_per_s * std::sin(phase));
     m.v[modes + 2] = static_cast<float>(1e-5 * whirl_rad_per_s * std::cos(phase));
-    const Addition add = Added(term, m, term.scale());
+    const Contribution add = Added(term, m, term.scale());
     power += add.modal[2] * static_cast<double>(m.v[2]) +
              add.modal[modes + 2] * static_cast<double>(m.v[modes + 2]);
   }
@@ -193,7 +195,7 @@ TEST_F(RotorTermsTest, CrossCouplingWorksOnTheWhirlAndDirectStiffnessDoesNot) {
 TEST_F(RotorTermsTest, AnisotropyIsSoftInTheDirectionThatTurnsWithTheShaft) {
   // Deflected along the cosine direction the stiffness is larger by the ratio, across it smaller.
   for (const double angle : {0.0, 0.6}) {
-    Moment m = Turning(angle);
+    SamplePoint m = Turning(angle);
     const auto along = std::polar(1e-5, MidAngle(m));
     m.q[2] = static_cast<float>(along.real());
     m.q[modes_ + 2] = static_cast<float>(along.imag());
@@ -209,7 +211,7 @@ TEST_F(RotorTermsTest, ACrackIsOpenBelowClosedAboveAndSoftensAcrossItselfAlone) 
                                   View().model->gravity_direction_y()};
   // The angle at the sample for which the crack points somewhere in the middle of the period.
   const auto pointing = [&](double direction_rad, std::complex<double> sag) {
-    Moment m = Turning(direction_rad - kDirection - 0.5 * View().period_s * kSpeedRadPerS);
+    SamplePoint m = Turning(direction_rad - kDirection - 0.5 * View().period_s * kSpeedRadPerS);
     m.q[2] = static_cast<float>(sag.real());
     m.q[modes_ + 2] = static_cast<float>(sag.imag());
     return Modal(Of("breathing_crack", "z 228.6 mm, direction 90.0 deg", "softening", m, 0.05), 2);
@@ -228,17 +230,17 @@ TEST_F(RotorTermsTest, ACrackIsOpenBelowClosedAboveAndSoftensAcrossItselfAlone) 
 }
 
 TEST_F(RotorTermsTest, AStaticLoadIsAForceOnItsAxis) {
-  const Addition add = Of("static_load", "nde_y", "force_n", Rest(), 2.5);
+  const Contribution add = Of("static_load", "nde_y", "force_n", Rest(), 2.5);
   EXPECT_EQ(add.force_n[3], 2.5);
   EXPECT_EQ(add.force_n[0], 0.0);
 }
 
 TEST_F(RotorTermsTest, ARubPushesInwardsBeyondItsClearanceAndBrakesTheShaftsSurface) {
   // 50 um is the largest orbit the terms were made for: clearances of up to 40 um.
-  Moment m = Turning(0.0);
+  SamplePoint m = Turning(0.0);
   m.actuator_m[0] = 27e-6F;
   m.actuator_m[1] = 36e-6F;  // 45 um out
-  const Addition add =
+  const Contribution add =
       Of("touchdown_rub", "de, clearance 40.00 um, friction 0.100", "stiffness_n_per_m", m, 1e6);
   const std::complex<double> force(add.force_n[0], add.force_n[1]);
   const std::complex<double> outwards(0.6, 0.8);
@@ -247,7 +249,7 @@ TEST_F(RotorTermsTest, ARubPushesInwardsBeyondItsClearanceAndBrakesTheShaftsSurf
   EXPECT_NEAR(parts.imag(), -0.5, 1e-3);  // friction 0.1 against a counter-clockwise surface
   m.actuator_m[0] = 18e-6F;
   m.actuator_m[1] = 24e-6F;
-  const Addition inside =
+  const Contribution inside =
       Of("touchdown_rub", "de, clearance 40.00 um, friction 0.100", "stiffness_n_per_m", m, 1e6);
   EXPECT_EQ(inside.force_n[0], 0.0);
   EXPECT_EQ(inside.force_n[1], 0.0);
@@ -259,7 +261,7 @@ TEST_F(RotorTermsTest, ASupportResonatesAtItsFrequency) {
   const double w = 2.0 * std::numbers::pi * 90.0;
   double largest = 0.0;
   for (int n = 0; n < 40'000; ++n) {
-    Moment m = Rest();
+    SamplePoint m = Rest();
     m.force_n[2] = static_cast<float>(std::cos(w * n * View().period_s));
     const double moved = -Added(term, m, 1.0).reading_m[2];
     if (n > 30'000) largest = std::max(largest, std::abs(moved));
@@ -272,7 +274,7 @@ TEST_F(RotorTermsTest, ASupportUnderAConstantForceRestsWhereItsSpringHoldsIt) {
   Term term = Named(terms_, "support_mode", "nde, 90.0 Hz, damping 0.0200");
   const double w = 2.0 * std::numbers::pi * 90.0;
   for (int n = 0; n < 3'000; ++n) {
-    Moment m = Rest();
+    SamplePoint m = Rest();
     m.restarted = n == 0;
     m.force_n[2] = 8.0F;
     // From zero it would swing between nothing and twice this.
@@ -281,13 +283,13 @@ TEST_F(RotorTermsTest, ASupportUnderAConstantForceRestsWhereItsSpringHoldsIt) {
 }
 
 TEST_F(RotorTermsTest, ARubsDampingOpposesTheRadialVelocityAlone) {
-  Moment m = Turning(0.0);
+  SamplePoint m = Turning(0.0);
   m.actuator_m[0] = 45e-6F;
   m.actuator_m[1] = 0.0F;
   const auto& shape = View().magnet(0).actuator_shape;
   m.v[0] = static_cast<float>(2e-3 / shape[0]);             // outwards at 2 mm/s
   m.v[View().modes] = static_cast<float>(5e-3 / shape[0]);  // and along the ring
-  const Addition add =
+  const Contribution add =
       Of("touchdown_rub", "de, clearance 40.00 um, friction 0.100", "damping_n_s_per_m", m, 100.0);
   EXPECT_NEAR(add.force_n[0], -0.2, 1e-6);
   EXPECT_NEAR(add.force_n[1], -0.02, 1e-6);  // friction of the normal force

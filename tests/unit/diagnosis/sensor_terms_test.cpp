@@ -13,13 +13,13 @@ namespace {
 
 class SensorTermsTest : public ::testing::Test {
  protected:
-  [[nodiscard]] Addition Of(const std::string& effect, const std::string& place,
-                            const std::string& parameter, double theta) const {
+  [[nodiscard]] Contribution Of(const std::string& effect, const std::string& place,
+                                const std::string& parameter, double theta) const {
     Term term = Named(terms_, effect, place, parameter);
     return Added(term, moment_, theta);
   }
   Random random_{8};
-  Moment moment_ = Drawn(random_, 0.0);
+  SamplePoint moment_ = Drawn(random_, 0.0);
   std::vector<Term> terms_ = EveryTerm();
   double y_ = static_cast<double>(moment_.reading_m[1]);
 };
@@ -36,7 +36,7 @@ TEST_F(SensorTermsTest, OfOneAxisLeaveTheOthersAndTheForcesAlone) {
   for (const char* effect :
        {"sensor_gain", "sensor_offset", "sensor_nonlinearity", "sensor_bandwidth"}) {
     Term term = Named(terms_, effect, "de_y");
-    const Addition add = Added(term, moment_, term.step);
+    const Contribution add = Added(term, moment_, term.step);
     for (const std::size_t a : {0U, 2U, 3U}) EXPECT_EQ(add.reading_m[a], 0.0) << effect;
     for (std::size_t a = 0; a < View().axes; ++a) EXPECT_EQ(add.force_n[a], 0.0) << effect;
   }
@@ -51,7 +51,7 @@ TEST_F(SensorTermsTest, ASlowerSensorIsAFilterOfLowerBandwidth) {
   const auto filter = [w](double tau_s) { return 1.0 / std::complex<double>(1.0, w * tau_s); };
   const std::complex<double> expected = filter(kSlower * lag_s) - filter(lag_s);
   Term term = Named(terms_, "sensor_bandwidth", "de_y");
-  Moment m;
+  SamplePoint m;
   m.restarted = true;
   double most = 0.0;
   for (int n = 0; n < 2000; ++n) {
@@ -83,14 +83,14 @@ TEST_F(SensorTermsTest, ASensorElsewhereReadsTheSlopeOfTheShaft) {
     x += slope[i] * seen(i);
     y += slope[i] * seen(View().modes + i);
   }
-  const Addition add = Of("sensor_position", "de", "shift_m", 2e-3);
+  const Contribution add = Of("sensor_position", "de", "shift_m", 2e-3);
   EXPECT_NEAR(add.reading_m[0], 2e-3 * x, 1e-12);
   EXPECT_NEAR(add.reading_m[1], 2e-3 * y, 1e-12);
   EXPECT_EQ(add.reading_m[2], 0.0);
 }
 
 TEST_F(SensorTermsTest, TurnedSensorsReadATurnedPlace) {
-  const Addition add = Of("axis_rotation", "sensor de", "angle_rad", 0.03);
+  const Contribution add = Of("axis_rotation", "sensor de", "angle_rad", 0.03);
   const double x = static_cast<double>(moment_.reading_m[0]);
   const double y = static_cast<double>(moment_.reading_m[1]);
   // Axes turned by +theta see the place turned by -theta.
@@ -101,12 +101,12 @@ TEST_F(SensorTermsTest, TurnedSensorsReadATurnedPlace) {
 TEST(MainsTermsTest, HaveAPhaseOfTheirOwnInEveryRecord) {
   std::vector<Term> terms = MainsTerms(View(), {50.0}, 2);
   ASSERT_EQ(terms.size(), 2 * 2 * View().axes);
-  Moment m;
+  SamplePoint m;
   m.time_s = 1.0 / 200.0;  // a quarter of a period
   m.record = 1;
   double total = 0.0;
   for (Term& term : terms) {
-    const Addition add = Added(term, m, 1e-6);
+    const Contribution add = Added(term, m, 1e-6);
     double reading = 0.0;
     for (const double each : add.reading_m) reading += each;
     const bool sine_of_this_record = term.record == 1 && term.parameter == "sine";

@@ -10,7 +10,7 @@ namespace levitas::diagnosis {
 namespace {
 
 /// All numbers of an addition, each in units of what is usual for it.
-std::vector<double> Numbers(const Addition& add) {
+std::vector<double> Numbers(const Contribution& add) {
   std::vector<double> all;
   for (std::size_t a = 0; a < View().axes; ++a) {
     all.push_back(add.force_n[a]);
@@ -22,7 +22,7 @@ std::vector<double> Numbers(const Addition& add) {
   return all;
 }
 
-double Largest(const Addition& add) {
+double Largest(const Contribution& add) {
   double largest = 0.0;
   for (const double number : Numbers(add)) largest = std::max(largest, std::abs(number));
   return largest;
@@ -40,7 +40,7 @@ class TermLaws : public ::testing::Test {
 
 TEST_F(TermLaws, NothingIsAddedAtZero) {
   for (Term& term : terms_) {
-    const Moment moment = Drawn(random_, 300.0);
+    const SamplePoint moment = Drawn(random_, 300.0);
     EXPECT_EQ(Largest(Added(term, moment, 0.0)), 0.0) << Label(term);
   }
 }
@@ -48,7 +48,7 @@ TEST_F(TermLaws, NothingIsAddedAtZero) {
 TEST_F(TermLaws, WhatIsCalledLinearIsLinear) {
   for (const Term& term : terms_) {
     if (!term.linear) continue;
-    const Moment moment = Drawn(random_, 300.0);
+    const SamplePoint moment = Drawn(random_, 300.0);
     Term once_term = term;
     Term thrice_term = term;
     const auto once = Numbers(Added(once_term, moment, term.scale()));
@@ -62,7 +62,7 @@ TEST_F(TermLaws, WhatIsCalledLinearIsLinear) {
 TEST_F(TermLaws, WhatIsNotCalledLinearIsSmoothAboutZero) {
   for (const Term& term : terms_) {
     if (term.linear || term.positive) continue;  // sqrt(tau) begins at a corner
-    const Moment moment = Drawn(random_, 300.0);
+    const SamplePoint moment = Drawn(random_, 300.0);
     Term small_term = term;
     Term smaller_term = term;
     const auto small = Numbers(Added(small_term, moment, term.step));
@@ -92,7 +92,7 @@ TEST_F(TermLaws, WhatIsNotSilentAtRestOrTurningAddsSomethingFinite) {
   for (Term& term : terms_) {
     double largest = 0.0;
     for (int period = 0; period < 50; ++period) {
-      const Addition add = Added(term, Drawn(random_, 300.0), term.scale());
+      const Contribution add = Added(term, Drawn(random_, 300.0), term.scale());
       for (const double number : Numbers(add)) ASSERT_TRUE(std::isfinite(number)) << Label(term);
       largest = std::max(largest, Largest(add));
     }
@@ -110,7 +110,7 @@ TEST_F(TermLaws, ACopyHasMemoryOfItsOwn) {
       static_cast<void>(Added(disturbed, Drawn(other, 300.0), disturbed.scale()));
     }
     Term fresh = term;
-    const Moment moment = Drawn(random_, 300.0);
+    const SamplePoint moment = Drawn(random_, 300.0);
     EXPECT_EQ(Numbers(Added(fresh, moment, fresh.scale())),
               Numbers(Added(term, moment, term.scale())))
         << Label(term);

@@ -16,12 +16,12 @@ inline constexpr double kNoise = 1e-6;  // [m] rms
 /// Currents and positions are noise of their own. `shape` may change each moment after its noise
 /// was drawn: sample number and moment.
 inline Trajectory NoiseRun(std::uint64_t seed, std::size_t samples,
-                           const std::function<void(std::size_t, Moment&)>& shape = {}) {
+                           const std::function<void(std::size_t, SamplePoint&)>& shape = {}) {
   Random random(seed);
   Trajectory run;
   run.moments.resize(samples);
   for (std::size_t n = 0; n < samples; ++n) {
-    Moment& m = run.moments[n];
+    SamplePoint& m = run.moments[n];
     m.settled = m.counts = true;
     m.time_s = static_cast<double>(n) * View().period_s;
     for (std::size_t a = 0; a < View().axes; ++a) {

@@ -11,7 +11,7 @@ namespace {
 /// Innovations that remember 0.8 of the one before.
 Trajectory Coloured(std::uint64_t seed) {
   AxisFloats before{};
-  return NoiseRun(seed, 20'000, [&before](std::size_t, Moment& m) {
+  return NoiseRun(seed, 20'000, [&before](std::size_t, SamplePoint& m) {
     for (std::size_t a = 0; a < View().axes; ++a) {
       m.innovation_m[a] += 0.8F * before[a];
       before[a] = m.innovation_m[a];

@@ -10,9 +10,9 @@
 #include <complex>
 
 #include "config/rig_file.hpp"
-#include "diagnosis/report/carry_over.hpp"
-#include "diagnosis/report/coverage.hpp"
+#include "diagnosis/report/excitation_coverage.hpp"
 #include "diagnosis/report/plan.hpp"
+#include "diagnosis/report/validation_check.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "tests/unit/diagnosis/answers.hpp"
 
@@ -38,7 +38,7 @@ TEST(ParametersTest, OfAHarmonicAreItsAmplitudeAndItsPhase) {
 }
 
 TEST(ParametersTest, OfAnUnbalanceSayWhatItMakesWithTheOneOfTheFile) {
-  const SessionAnswer found = Found("unbalance", "z 299.2 mm");
+  const DiagnosisResult found = Found("unbalance", "z 299.2 mm");
   // The file has 18 g mm at 0 there, the cause 10 along x and 10 along y: 28 and 10.
   for (const NamedParameter& p : Parameters(found)) {
     ASSERT_TRUE(p.of_file.has_value()) << p.key;
@@ -54,7 +54,7 @@ TEST(ParametersTest, OfAnUnbalanceSayWhatItMakesWithTheOneOfTheFile) {
 }
 
 TEST(ParametersTest, OfADelaySayWhatItMakesWithTheOneOfTheFile) {
-  const SessionAnswer found = Found("extra_delay", "all axes");
+  const DiagnosisResult found = Found("extra_delay", "all axes");
   for (const NamedParameter& p : Parameters(found)) {
     ASSERT_TRUE(p.of_file.has_value()) << p.key;
     EXPECT_NEAR(p.of_file->nominal, 100.0, 1e-9);  // one period of 10 kHz
@@ -81,7 +81,7 @@ TEST(ParametersTest, OfAnEddyCurrentAreItsTimeConstant) {
 }
 
 TEST(ParametersTest, OfEveryEffectHaveTheKeysOfTheCatalogueInTheUnitsOfAFile) {
-  const SessionAnswer nothing = NothingFound();
+  const DiagnosisResult nothing = NothingFound();
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
     const effect::Row* row = effect::Find(h.effect);
     ASSERT_NE(row, nullptr) << h.effect;
@@ -141,7 +141,7 @@ TEST(PlaceTest, OfARotatedAxisIsWhereItsFrameIsRotated) {
 }
 
 TEST(PlaceTest, OfAnUnknownIsThatOfWhatItFollows) {
-  SessionAnswer s = NothingFound();
+  DiagnosisResult s = NothingFound();
   s.answer.verdict = Verdict::kUnknown;
   s.answer.remainder.coherent_with = "current";
   EXPECT_EQ(PlaceOf(s), "magnet");
@@ -162,72 +162,72 @@ TEST(ChannelsTest, AreThoseOfTheCause) {
 TEST(VerdictTest, NamesTheCauseTheUnknownOrNothing) {
   EXPECT_THAT(VerdictSentence(Found("unbalance", "z 299.2 mm")), HasSubstr("unbalance"));
   EXPECT_THAT(VerdictSentence(NothingFound()), Not(HasSubstr("unbalance")));
-  SessionAnswer s = NothingFound();
+  DiagnosisResult s = NothingFound();
   s.answer.verdict = Verdict::kUnknown;
   EXPECT_NE(VerdictSentence(s), VerdictSentence(NothingFound()));
 }
 
 /// What is left, as multiples of the noise, on data used and on a record held out.
-SessionAnswer HeldOut(double fitted, double held, double calibrated) {
-  SessionAnswer s = Found("eddy_current", "all axes");
-  s.own_holdout = true;
+DiagnosisResult HeldOut(double fitted, double held, double calibrated) {
+  DiagnosisResult s = Found("eddy_current", "all axes");
+  s.separate_validation = true;
   s.fitted.extended_over_noise = fitted * fitted;
-  s.held_out.extended_over_noise = held * held;
-  s.held_out.calibrated_over_noise = calibrated * calibrated;
+  s.validation.extended_over_noise = held * held;
+  s.validation.calibrated_over_noise = calibrated * calibrated;
   return s;
 }
 
 TEST(CarryOver, IsDeniedWhereMuchMoreThanTheNoiseIsLeftOnDataHeldOut) {
-  const SessionAnswer fails = HeldOut(1.0, 77.0, 59.0);
+  const DiagnosisResult fails = HeldOut(1.0, 77.0, 59.0);
   EXPECT_THAT(VerdictSentence(fails), HasSubstr("does not carry over"));
   EXPECT_THAT(VerdictSentence(fails), HasSubstr("77 times the noise"));
   EXPECT_THAT(VerdictSentence(fails), HasSubstr("worse there than without (59 times)"));
   EXPECT_TRUE(NeedsExperiment(fails));
-  const SessionAnswer holds = HeldOut(1.0, 1.1, 9.0);
+  const DiagnosisResult holds = HeldOut(1.0, 1.1, 9.0);
   EXPECT_THAT(VerdictSentence(holds), Not(HasSubstr("carry over")));
   EXPECT_FALSE(NeedsExperiment(holds));
   // What is not understood on the data used either is said by the verdict itself.
-  EXPECT_TRUE(CarriesOver(HeldOut(5.0, 6.0, 9.0)));
+  EXPECT_TRUE(PassesValidation(HeldOut(5.0, 6.0, 9.0)));
   EXPECT_THAT(VerdictSentence(HeldOut(1.0, 20.0, 59.0)), Not(HasSubstr("worse there")));
 }
 
 TEST(CarryOver, AsksForASpeedThatWasNotFitted) {
-  SessionAnswer s = HeldOut(1.0, 77.0, 59.0);
+  DiagnosisResult s = HeldOut(1.0, 77.0, 59.0);
   EXPECT_THAT(NextExperiment(s), Not(HasSubstr("run-up")));
   s.fastest_rad_per_s = 100.0;
-  s.holdout_fastest_rad_per_s = 300.0;
+  s.validation_fastest_rad_per_s = 300.0;
   EXPECT_THAT(NextExperiment(s), HasSubstr("run-up"));
 }
 
-SessionAnswer NothingFoundIn(double speed_rad_per_s, bool excited) {
-  SessionAnswer s = NothingFound();
+DiagnosisResult NothingFoundIn(double speed_rad_per_s, bool excited) {
+  DiagnosisResult s = NothingFound();
   s.fastest_rad_per_s = speed_rad_per_s;
   s.excited = excited;
   return s;
 }
 
 TEST(VerdictTest, OfNothingSaysWhatTheRecordsCannotTell) {
-  const SessionAnswer complete = NothingFoundIn(300.0, true);
-  EXPECT_THAT(CannotTellSentence(complete), IsEmpty());
-  EXPECT_THAT(CannotTell(complete), IsEmpty());
+  const DiagnosisResult complete = NothingFoundIn(300.0, true);
+  EXPECT_THAT(UnobservableSentence(complete), IsEmpty());
+  EXPECT_THAT(UnobservableEffects(complete), IsEmpty());
   EXPECT_FALSE(NeedsExperiment(complete));
   EXPECT_THAT(VerdictSentence(complete), Not(HasSubstr("as far as these records")));
 
-  const SessionAnswer standing = NothingFoundIn(0.0, true);
+  const DiagnosisResult standing = NothingFoundIn(0.0, true);
   EXPECT_THAT(VerdictSentence(standing),
               AllOf(HasSubstr("as far as these records"), HasSubstr("does not turn"),
                     HasSubstr("unbalance"), Not(HasSubstr("extra_delay"))));
-  EXPECT_THAT(CannotTell(standing), ::testing::Contains("misalignment"));
+  EXPECT_THAT(UnobservableEffects(standing), ::testing::Contains("misalignment"));
   EXPECT_THAT(NextExperiment(standing), HasSubstr("spinning"));
 
-  const SessionAnswer quiet = NothingFoundIn(300.0, false);
+  const DiagnosisResult quiet = NothingFoundIn(300.0, false);
   EXPECT_THAT(VerdictSentence(quiet), AllOf(HasSubstr("no test signal"), HasSubstr("extra_delay"),
                                             Not(HasSubstr("unbalance"))));
   EXPECT_TRUE(NeedsExperiment(quiet));
 }
 
 TEST(CalibratedValues, AreTotalsUnderTheKeysOfTheFileWithWhatTheyMovedBy) {
-  SessionAnswer s = NothingFound();
+  DiagnosisResult s = NothingFound();
   for (const Term& term : s.terms) {
     const bool unbalance = term.effect == "unbalance" && term.place == "z 299.2 mm";
     if (term.effect == "extra_delay" || unbalance ||
@@ -239,7 +239,7 @@ TEST(CalibratedValues, AreTotalsUnderTheKeysOfTheFileWithWhatTheyMovedBy) {
   const auto values = CalibratedValues(s);
   ASSERT_EQ(values.size(), 3U);
   for (const CalibratedValue& v : values) {
-    EXPECT_TRUE(WorthTelling(v)) << v.effect;
+    EXPECT_TRUE(IsSignificant(v)) << v.effect;
     if (v.effect == "extra_delay") {
       // One period in the file, two tolerances of 0.05 more.
       EXPECT_EQ(v.key, "delay_samples");
@@ -266,7 +266,7 @@ TEST(CalibratedValues, AreTotalsUnderTheKeysOfTheFileWithWhatTheyMovedBy) {
 }
 
 TEST(ConfidenceTest, FallsWithARivalAndWithALowScore) {
-  SessionAnswer s = Found("eddy_current", "de_x");
+  DiagnosisResult s = Found("eddy_current", "de_x");
   const double alone = Confidence(s);
   EXPECT_GT(alone, 0.99);
   s.answer.candidates.push_back({.effect = "extra_delay", .place = "all", .score = 19.5});
@@ -278,7 +278,7 @@ TEST(ConfidenceTest, FallsWithARivalAndWithALowScore) {
 }
 
 TEST(ConfidenceTest, OfNoneIsAgainstTheStrongestCandidateAndOfUnknownZero) {
-  SessionAnswer s = NothingFound();
+  DiagnosisResult s = NothingFound();
   EXPECT_EQ(Confidence(s), 1.0);
   s.answer.candidates.push_back({.effect = "extra_delay", .place = "all", .score = 0.0});
   EXPECT_NEAR(Confidence(s), 0.5, 1e-12);  // even odds
@@ -299,7 +299,7 @@ TEST(VerdictTest, OfACauseSaysItsSizeWithItsIntervalAndWhatItsEvidenceIs) {
 }
 
 TEST(VerdictTest, OfNothingSaysWhetherTheFileAsItStandsExplainsTheData) {
-  SessionAnswer s = NothingFound();
+  DiagnosisResult s = NothingFound();
   EXPECT_THAT(VerdictSentence(s), HasSubstr("as it stands"));
   EXPECT_THAT(VerdictSentence(s), Not(HasSubstr("does not")));
   for (const Term& term : s.terms) {
@@ -307,14 +307,14 @@ TEST(VerdictTest, OfNothingSaysWhetherTheFileAsItStandsExplainsTheData) {
     s.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,
                                     1.5 * term.tolerance, 0.1 * term.tolerance});
   }
-  s.held_out.to_gain = {99.0, 90.0, 110.0};  // squared, less the noise itself
+  s.validation.to_gain = {99.0, 90.0, 110.0};  // squared, less the noise itself
   EXPECT_THAT(VerdictSentence(s),
               AllOf(HasSubstr("4 numbers moved by at most 1.5 tolerances"),
                     HasSubstr("as it stands it does not (10.0 times the noise, rms)")));
 }
 
 TEST(PlanTest, IsAScenarioThatTheReaderTakesForEveryCause) {
-  const SessionAnswer nothing = NothingFound();
+  const DiagnosisResult nothing = NothingFound();
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
     const std::string text = PlanScenario(Found(h.effect, h.place));
     const auto scenario = config::ParseScenario(text, "diagnosis_next.yaml", nothing.view->numbers);

@@ -5,7 +5,7 @@
 
 #include "fake_probe.hpp"
 
-namespace levitas::machine {
+namespace levitas::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -250,4 +250,4 @@ TEST(Findings, TheWorstOfAnAreaCountsAndOnlyThere) {
 }
 
 }  // namespace
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

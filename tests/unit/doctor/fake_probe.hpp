@@ -6,7 +6,7 @@
 
 #include "doctor/probe.hpp"
 
-namespace levitas::machine {
+namespace levitas::doctor {
 
 class FakeProbe : public Probe {
  public:
@@ -75,4 +75,4 @@ class FakeProbe : public Probe {
   MulticastTrial multicast{100, 100, 20.0, ""};
 };
 
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

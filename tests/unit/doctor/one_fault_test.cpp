@@ -10,7 +10,7 @@
 #include "doctor/checks.hpp"
 #include "fake_probe.hpp"
 
-namespace levitas::machine {
+namespace levitas::doctor {
 namespace {
 
 using testing::HasSubstr;
@@ -169,4 +169,4 @@ TEST(OneFault, ForbidsLockstepOnlyWhereMessagesOrTheRecordAreLost) {
 }
 
 }  // namespace
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace levitas::machine {
+namespace levitas::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -90,4 +90,4 @@ TEST(SystemProbe, NeverReceivesMoreThanItSent) {
 }
 
 }  // namespace
-}  // namespace levitas::machine
+}  // namespace levitas::doctor

@@ -10,8 +10,9 @@ namespace {
 
 constexpr double kPeriod_s = 1e-3;
 
-RigEvent Change(const std::string& effect, double at_s, double strength, double ramp_s = 0.0) {
-  RigEvent event;
+ScheduledRigEvent Change(const std::string& effect, double at_s, double strength,
+                         double ramp_s = 0.0) {
+  ScheduledRigEvent event;
   event.kind = RigEventKind::kEffect;
   event.effect = effect;
   event.at_s = at_s;

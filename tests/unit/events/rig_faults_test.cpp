@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kPeriod_s = 1e-3;
 
-RigEvent Event(RigEventKind kind, double at_s, double duration_s, std::size_t axis = 1,
-               double value_m = 0.0) {
-  RigEvent event;
+ScheduledRigEvent Event(RigEventKind kind, double at_s, double duration_s, std::size_t axis = 1,
+                        double value_m = 0.0) {
+  ScheduledRigEvent event;
   event.kind = kind;
   event.at_s = at_s;
   event.duration_s = duration_s;

@@ -27,14 +27,14 @@ double Exponential(double from_a, double last_a, double seconds, double tau_s) {
 
 TEST(CoilRun, FollowsTheLagOfTheRigFile) {
   const NominalRig rig = Rig();
-  const CoilRun run = RunCoils(rig, StillSeries(20, 1.5, 1.0), Nominal(1), 0);
+  const CoilRun run = RunCoils(rig, StillSeries(20, 1.5, 1.0), Zeros(1), 0);
   const double expected_a = Exponential(1.0, 1.5 + rig.offset_a, 10e-3, Tau(rig, 10e-3));
   EXPECT_NEAR(run.reading_a[0][10], expected_a, kCloseEnough_a);
 }
 
 TEST(CoilRun, HasNoLagOfTheGapWhenItsProfileIsFlat) {
   const NominalRig rig = Rig();
-  Theta theta = Nominal(1);
+  Theta theta = Zeros(1);
   theta[kProfile] = 1.0;
   const CoilRun near = RunCoils(rig, StillSeries(20, 1.5, 1.0, 5e-3), theta, 0);
   const CoilRun far = RunCoils(rig, StillSeries(20, 1.5, 1.0, -5e-3), theta, 0);
@@ -47,7 +47,7 @@ TEST(CoilRun, ActsLaterByItsDelayAndByAFractionOfASample) {
   const NominalRig rig = Rig();
   Series series = StillSeries(30, 1.0, 1.0 + rig.offset_a);
   for (std::size_t n = 10; n < series.size(); ++n) series.asked_a[0][n] = 1.5;
-  Theta theta = Nominal(1);
+  Theta theta = Zeros(1);
   theta[kDelay] = 2.25;
   const CoilRun run = RunCoils(rig, series, theta, 0);
   EXPECT_NEAR(run.reading_a[0][12], 1.0 + rig.offset_a, kCloseEnough_a);
@@ -59,7 +59,7 @@ TEST(CoilRun, ActsLaterByItsDelayAndByAFractionOfASample) {
 
 TEST(CoilRun, EndsAtSupplyOverResistanceBeyondItsDeadBand) {
   const NominalRig rig = Rig();
-  Theta theta = Nominal(1);
+  Theta theta = Zeros(1);
   theta[kSupply] = 0.1;
   theta[kResistance] = 0.2;
   theta[kDeadBand] = 0.3;
@@ -69,7 +69,7 @@ TEST(CoilRun, EndsAtSupplyOverResistanceBeyondItsDeadBand) {
 
 TEST(CoilRun, LosesCurrentAsItWarms) {
   const NominalRig rig = Rig();
-  Theta theta = Nominal(1);
+  Theta theta = Zeros(1);
   theta[kHeating] = 0.05;
   const CoilRun run = RunCoils(rig, StillSeries(4000, 1.5, 1.5), theta, 0);
   // The coil follows within 4 ms a resistance that changes by 0.02 % in that time.
@@ -78,7 +78,7 @@ TEST(CoilRun, LosesCurrentAsItWarms) {
 
 TEST(CoilRun, ReadsWhatTheProbeMakesOfIt) {
   const NominalRig rig = Rig();
-  Theta theta = Nominal(1);
+  Theta theta = Zeros(1);
   theta[kProbeGain] = 0.05;
   theta[kProbeOffset] = 0.01;
   const CoilRun run = RunCoils(rig, StillSeries(400, 1.5, 1.0), theta, 0);
@@ -90,7 +90,7 @@ TEST(CoilRun, InducesInTheIdleCoilOnlyWithACoupling) {
   const NominalRig rig = Rig();
   Series series = StillSeries(60, 1.0, 1.0 + rig.offset_a);
   for (std::size_t n = 20; n < series.size(); ++n) series.asked_a[0][n] = 0.2;
-  Theta theta = Nominal(1);
+  Theta theta = Zeros(1);
   const CoilRun alone = RunCoils(rig, series, theta, 0);
   EXPECT_NEAR(alone.reading_a[1][25], rig.offset_a, kCloseEnough_a);
   theta[kMutual] = 0.1;
@@ -99,7 +99,7 @@ TEST(CoilRun, InducesInTheIdleCoilOnlyWithACoupling) {
 }
 
 TEST(TruePosition, UndoesWhatTheSensorDoes) {
-  Theta theta = Nominal(2);
+  Theta theta = Zeros(2);
   theta[kSensorGain] = 0.05;
   theta[kSensorOffset] = 1e-4;
   theta[Own(1, kOwnOffset)] = 5e-5;

@@ -71,7 +71,7 @@ class FitOfAKnownRig : public testing::Test {
     series_.push_back(test::LivelySeries(rig_, truth_, 3000, 5));
   }
   NominalRig rig_{NominalOf(test::LevitatorFile())};
-  Theta truth_{Nominal(1)};
+  Theta truth_{Zeros(1)};
   std::vector<Series> series_;
 };
 
@@ -80,7 +80,7 @@ TEST_F(FitOfAKnownRig, FindsItsParametersWithinThreeOfTheirDeviations) {
   const Fitter fitter(misfit);
   const Filters noise = misfit.Whiten(truth_, 0);
   const Fitted fitted =
-      fitter.Fit({CauseOf("inductance_profile"), CauseOf("extra_delay")}, Nominal(1), noise, 12);
+      fitter.Fit({CauseOf("inductance_profile"), CauseOf("extra_delay")}, Zeros(1), noise, 12);
   for (const Parameter p : {kProfile, kDelay}) {
     EXPECT_NEAR(fitted.theta[p], truth_[p], 3.0 * fitted.deviation[p]) << At(p).effect;
     EXPECT_LT(fitted.deviation[p], 0.1 * At(p).wide) << At(p).effect;
@@ -92,8 +92,8 @@ TEST_F(FitOfAKnownRig, SaysMoreForTheRightSetThanForAPartOfIt) {
   const Fitter fitter(misfit);
   const Filters noise = misfit.Whiten(truth_, 0);
   const CauseSet both{CauseOf("inductance_profile"), CauseOf("extra_delay")};
-  const double whole = fitter.Fit(both, Nominal(1), noise, 12).evidence;
-  const double part = fitter.Fit({both.front()}, Nominal(1), noise, 12).evidence;
+  const double whole = fitter.Fit(both, Zeros(1), noise, 12).evidence;
+  const double part = fitter.Fit({both.front()}, Zeros(1), noise, 12).evidence;
   EXPECT_GT(whole, part + 50.0);
 }
 
@@ -102,7 +102,7 @@ TEST_F(FitOfAKnownRig, ScreensTheMissingCauseAsTheBest) {
   const Fitter fitter(misfit);
   const Filters noise = misfit.Whiten(truth_, 0);
   const CauseSet rest{CauseOf("inductance_profile")};
-  const Fitted fitted = fitter.Fit(rest, Nominal(1), noise, 12);
+  const Fitted fitted = fitter.Fit(rest, Zeros(1), noise, 12);
   const std::vector<double> gain = fitter.Screen(rest, fitted, noise);
   const auto best =
       static_cast<std::size_t>(std::max_element(gain.begin(), gain.end()) - gain.begin());
@@ -120,10 +120,10 @@ TEST(Whitening, LeavesUnitVarianceOfWhatAModelLeaves) {
     series.position_m[n] += 16e-6 * random.Normal();
   }
   const Misfit misfit(rig, {series});
-  const Filters filters = misfit.Whiten(Nominal(1), kMemory);
-  const Sums sums = misfit.Linearise(Nominal(1), filters, {kSupply});
+  const Filters filters = misfit.Whiten(Zeros(1), kMemory);
+  const Sums sums = misfit.Linearise(Zeros(1), filters, {kSupply});
   EXPECT_NEAR(sums.ete / sums.values, 1.0, 0.02);  // its own autoregression, but for the edges
-  EXPECT_NEAR(misfit.SquaredSum(Nominal(1), filters), sums.ete, 1e-6 * sums.ete);
+  EXPECT_NEAR(misfit.SquaredSum(Zeros(1), filters), sums.ete, 1e-6 * sums.ete);
 }
 
 }  // namespace

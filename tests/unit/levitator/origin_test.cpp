@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "common/problem.hpp"
-#include "diagnosis/levitator/answer.hpp"
 #include "diagnosis/levitator/coil_run.hpp"
+#include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/motion_run.hpp"
 #include "tests/support/effect_entry.hpp"
 #include "tests/unit/levitator/rig.hpp"
@@ -29,14 +29,14 @@ config::RigFile Holding(const std::vector<effect::EffectConfig>& effects) {
 }
 
 TEST(Origin, RatiosMultiplyAndAllElseAdds) {
-  Theta origin = Nominal(0);
+  Theta origin = Zeros(0);
   origin[kMass] = 0.1;
   origin[kLoad] = 0.02;
-  Theta theta = Nominal(1);
+  Theta theta = Zeros(1);
   theta[kMass] = 0.2;
   theta[kLoad] = 0.03;
   theta[Own(0, kOwnOffset)] = 5e-5;
-  const Theta both = Beside(origin, theta);
+  const Theta both = ComposedWith(origin, theta);
   EXPECT_NEAR(both[kMass], 1.1 * 1.2 - 1.0, 1e-15);
   EXPECT_NEAR(both[kLoad], 0.05, 1e-15);
   EXPECT_EQ(both[Own(0, kOwnOffset)], 5e-5);
@@ -51,17 +51,16 @@ TEST(Origin, EffectsOfTheFileDoWhatTheirNumbersDo) {
   const NominalRig with = NominalOf(file);
   const NominalRig plain = NominalOf(LevitatorFile());
   const Series series = StillSeries(400, 1.0, CarryingCurrent(plain, 1e-3), 1e-3);
-  Theta theta = Nominal(1);
+  Theta theta = Zeros(1);
   theta[kLoad] = 0.02;
   theta[kMass] = 0.05;
   theta[kSensorGain] = -0.02;
   theta[kSensorSquare] = -20.0;
   theta[kSensorCube] = 300.0;
   const auto expected = Innovations(plain, series, theta, 0, RunCoils(plain, series, theta, 0));
-  const auto found =
-      Innovations(with, series, Nominal(1), 0, RunCoils(with, series, Nominal(1), 0));
+  const auto found = Innovations(with, series, Zeros(1), 0, RunCoils(with, series, Zeros(1), 0));
   const auto without =
-      Innovations(plain, series, Nominal(1), 0, RunCoils(plain, series, Nominal(1), 0));
+      Innovations(plain, series, Zeros(1), 0, RunCoils(plain, series, Zeros(1), 0));
   EXPECT_NEAR(found.back(), expected.back(), 1e-12);
   EXPECT_GT(std::abs(without.back() - expected.back()), 1e-5);
 }
@@ -69,8 +68,8 @@ TEST(Origin, EffectsOfTheFileDoWhatTheirNumbersDo) {
 TEST(Origin, AnExtendedFileSaysOnceWhatItsOwnEffectsAndTheCausesAre) {
   const config::RigFile file = Holding({Entry(effect::Id::kStaticLoad, {0.0, 0.02, 0.0})});
   Found found;
-  found.extended.theta = Nominal(1);
-  found.extended.deviation = Nominal(1);
+  found.extended.theta = Zeros(1);
+  found.extended.deviation = Zeros(1);
   found.extended.theta[kLoad] = 0.03;
   const config::RigFile read =
       config::ParseRig(ExtendedRig(file, OriginOf(file), found), "extended_rig.yaml");
@@ -81,7 +80,7 @@ TEST(Origin, AnExtendedFileSaysOnceWhatItsOwnEffectsAndTheCausesAre) {
 
 /// A size of each number that a rig file can hold, all of them at once.
 Theta Everything() {
-  Theta theta = Nominal(1);
+  Theta theta = Zeros(1);
   theta[kDelay] = 1.45;
   theta[kSupply] = 0.02;
   theta[kResistance] = -0.03;
@@ -113,13 +112,13 @@ Theta Everything() {
 config::RigFile Extended(const config::RigFile& file, const Theta& theta) {
   Found found;
   found.extended.theta = theta;
-  found.extended.deviation = Nominal(1);
+  found.extended.deviation = Zeros(1);
   return config::ParseRig(ExtendedRig(file, OriginOf(file), found), "extended_rig.yaml");
 }
 
 /// Both coils at work, neither probe's reading made by the model.
 Series BothAtWork(const NominalRig& rig) {
-  Series series = test::LivelySeries(rig, Nominal(1), 3000, 5);
+  Series series = test::LivelySeries(rig, Zeros(1), 3000, 5);
   for (std::size_t n = 0; n < series.size(); ++n) {
     series.asked_a[1][n] = n % 70 < 30 ? 0.05 : 0.6;
   }
@@ -145,20 +144,20 @@ TEST(Origin, AnExtendedFileIsTheModelThatWasFound) {
   for (std::size_t n = 0; n < steps.size(); ++n) steps.restart[n] = n % 2 == 0;
   std::vector<Theta> cases{Everything()};
   for (std::size_t i = 0; i < kParameters; ++i) {
-    cases.push_back(Nominal(1));
+    cases.push_back(Zeros(1));
     cases.back()[i] = Everything()[i];
   }
   for (std::size_t c = 0; c < cases.size(); ++c) {
     const std::string name = c == 0 ? "all" : std::string(Table()[c - 1].effect);
     const NominalRig read = NominalOf(Extended(file, cases[c]));
     const CoilRun found = RunCoils(plain, series, cases[c], 0);
-    const CoilRun known = RunCoils(read, series, Nominal(1), 0);
+    const CoilRun known = RunCoils(read, series, Zeros(1), 0);
     // Six digits of the entries of effects, where the keys have them all.
     EXPECT_LT(Farthest(found.reading_a[0], known.reading_a[0]), 1e-6) << name;
     EXPECT_LT(Farthest(found.reading_a[1], known.reading_a[1]), 1e-6) << name;
     // A hundred-thousandth of the weight moves the ball by 5e-11 m within a step.
     EXPECT_LT(Farthest(Innovations(plain, steps, cases[c], 0, found),
-                       Innovations(read, steps, Nominal(1), 0, known)),
+                       Innovations(read, steps, Zeros(1), 0, known)),
               5e-11)
         << name;
   }
@@ -166,7 +165,7 @@ TEST(Origin, AnExtendedFileIsTheModelThatWasFound) {
 
 TEST(Origin, AnExtendedFileOfAnExtendedFileHoldsEachNumberOnce) {
   const config::RigFile once = Extended(LevitatorFile(), Everything());
-  const config::RigFile twice = Extended(once, Nominal(1));
+  const config::RigFile twice = Extended(once, Zeros(1));
   EXPECT_EQ(config::WriteRig(twice), config::WriteRig(once));
 }
 

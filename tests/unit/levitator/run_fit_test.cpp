@@ -53,7 +53,7 @@ TEST(SharePercent, HasAnIntervalAroundItsValueWhereBlocksDiffer) {
 
 TEST(RunFit, IsPerfectForAModelOfItsOwnDataAndWorseForAnother) {
   const NominalRig rig = NominalOf(test::LevitatorFile());
-  Theta truth = Nominal(1);
+  Theta truth = Zeros(1);
   truth[kProfile] = 0.8;
   const Series series = test::LivelySeries(rig, truth, 3000, 4);
   const Errors own = ErrorsOf(rig, series, truth, 0);
@@ -61,7 +61,7 @@ TEST(RunFit, IsPerfectForAModelOfItsOwnDataAndWorseForAnother) {
   const double ceiling = Ceiling(own.measured_a[0], WhiteNoise(own.current_a[0]));
   EXPECT_NEAR(fit.current.percent, ceiling, 0.3);  // 3000 values of noise: 1.3 % of 2 %
   EXPECT_LT(fit.current.low, fit.current.percent);
-  const RunFit nominal = FitOf(ErrorsOf(rig, series, Nominal(1), 0), rig.period_s);
+  const RunFit nominal = FitOf(ErrorsOf(rig, series, Zeros(1), 0), rig.period_s);
   EXPECT_LT(nominal.current.percent, fit.current.percent - 10.0);
 }
 

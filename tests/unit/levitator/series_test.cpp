@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/problem.hpp"
-#include "diagnosis/levitator/answer.hpp"
+#include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/own_words.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
@@ -73,8 +73,8 @@ TEST(IsLevitator, IsTrueOfTheLevitatorAlone) {
 TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
   const config::RigFile rig = LevitatorFile();
   Found found;
-  found.extended.theta = Nominal(1);
-  found.extended.deviation = Nominal(1);
+  found.extended.theta = Zeros(1);
+  found.extended.deviation = Zeros(1);
   found.extended.theta[kDelay] = 1.4;
   found.extended.theta[kForce] = 0.2;
   found.extended.theta[kProfile] = 0.5;
@@ -82,7 +82,7 @@ TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
   found.extended.theta[kLoad] = 0.01;
   found.extended.theta[kDeadBand] = 0.1;
   const config::RigFile read =
-      config::ParseRig(ExtendedRig(rig, Nominal(0), found), "extended_rig.yaml");
+      config::ParseRig(ExtendedRig(rig, Zeros(0), found), "extended_rig.yaml");
   EXPECT_NEAR(read.plant.delay_samples, 1.4, 1e-12);
   const auto& bearing = read.plant.bearings[0];
   EXPECT_NEAR(bearing.magnet.exponential->force_n_per_a2, 1.2 * 3.008878, 1e-9);
@@ -97,8 +97,8 @@ TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
 TEST(OwnWords, AreTheKeysAndUnitsOfTheRigFile) {
   const config::RigFile rig = LevitatorFile();
   Found found;
-  found.extended.theta = Nominal(1);
-  found.extended.deviation = Nominal(1);
+  found.extended.theta = Zeros(1);
+  found.extended.deviation = Zeros(1);
   found.extended.theta[kSensorOffset] = 60e-6;
   found.extended.deviation[kSensorOffset] = 10e-6;
   found.extended.theta[kDelay] = 1.4;
@@ -107,7 +107,7 @@ TEST(OwnWords, AreTheKeysAndUnitsOfTheRigFile) {
     if (std::string_view(Causes()[c].effect) == "extra_delay") found.causes = {c};
   }
   ASSERT_EQ(found.causes.size(), 1U);
-  const diagnosis::OwnWords words = OwnWordsOf(rig, Nominal(0), found);
+  const diagnosis::OwnWords words = OwnWordsOf(rig, Zeros(0), found);
   ASSERT_EQ(words.parameters.size(), 1U);
   EXPECT_EQ(words.parameters[0].name, "delay_samples[ball_x]");
   EXPECT_NEAR(words.parameters[0].value, rig.plant.delay_samples + 1.4, 1e-12);
@@ -129,11 +129,11 @@ TEST(OwnWords, AreTheKeysAndUnitsOfTheRigFile) {
 TEST(ExtendedRigFile, KeepsTheForceAtTheCentreWhenTheStiffnessAloneIsOther) {
   const config::RigFile rig = LevitatorFile();
   Found found;
-  found.extended.theta = Nominal(1);
-  found.extended.deviation = Nominal(1);
+  found.extended.theta = Zeros(1);
+  found.extended.deviation = Zeros(1);
   found.extended.theta[kForceDecay] = 0.25;
   const config::RigFile read =
-      config::ParseRig(ExtendedRig(rig, Nominal(0), found), "extended_rig.yaml");
+      config::ParseRig(ExtendedRig(rig, Zeros(0), found), "extended_rig.yaml");
   const auto centre = [](const config::RigFile& file) {
     const auto& magnet = file.plant.bearings[0].magnet;
     return magnet.exponential->force_n_per_a2 *

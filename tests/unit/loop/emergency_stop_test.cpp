@@ -9,8 +9,8 @@
 #include "common/random.hpp"
 #include "common/stop_latch.hpp"
 #include "config/rig_file.hpp"
+#include "controller/loop/command_arbiter.hpp"
 #include "controller/loop/control_loop.hpp"
-#include "controller/loop/operator_desk.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/unit/loop/fakes.hpp"
@@ -49,7 +49,7 @@ TEST(EmergencyStop, PassesAFullRingInEveryModeWhetherEndingOrNot) {
     for (const bool ending : {false, true}) {
       SpscRing<RemoteCommand> ring(16);
       StopLatch stops;
-      OperatorDesk desk(kOptions, nullptr, {&ring, &stops});
+      CommandArbiter desk(kOptions, nullptr, {&ring, &stops});
       if (ending) desk.RequestStop();
       (void)desk.Next(View(0, static_cast<Mode>(mode)));
       while (ring.Post(Land())) {
@@ -66,7 +66,7 @@ TEST(EmergencyStop, PassesAFullRingInEveryModeWhetherEndingOrNot) {
 TEST(EmergencyStop, IsNotUndoneByCommandsThatWereGivenBeforeIt) {
   SpscRing<RemoteCommand> ring(16);
   StopLatch stops;
-  OperatorDesk desk(kOptions, nullptr, {&ring, &stops});
+  CommandArbiter desk(kOptions, nullptr, {&ring, &stops});
   ring.Post({.command = OperatorCommand::kReset, .stops_before = 0});
   ring.Post({.command = OperatorCommand::kLift, .stops_before = 0});
   stops.Ask(1, {});
@@ -79,7 +79,7 @@ TEST(EmergencyStop, IsNotUndoneByCommandsThatWereGivenBeforeIt) {
 TEST(EmergencyStop, WithoutOneTheSameCommandsPass) {
   SpscRing<RemoteCommand> ring(16);
   StopLatch stops;
-  OperatorDesk desk(kOptions, nullptr, {&ring, &stops});
+  CommandArbiter desk(kOptions, nullptr, {&ring, &stops});
   ring.Post({.command = OperatorCommand::kReset});
   ring.Post({.command = OperatorCommand::kLift});
   EXPECT_EQ(desk.Next(View(0, Mode::kTripped)).command, OperatorCommand::kReset);
@@ -89,18 +89,18 @@ TEST(EmergencyStop, WithoutOneTheSameCommandsPass) {
 TEST(EmergencyStop, GivesBackTheTestSignalThatCameBeforeIt) {
   SpscRing<RemoteCommand> ring(16);
   StopLatch stops;
-  ExcitationShelf shelf;
-  OperatorDesk desk(kOptions, nullptr, {&ring, &stops});
+  ExcitationPool shelf;
+  CommandArbiter desk(kOptions, nullptr, {&ring, &stops});
   scenario::Step step;
   step.hold_s = 1.0;
   step.excitation.emplace_back();
-  for (std::size_t place = 0; place < ExcitationShelf::kPlaces; ++place) {
+  for (std::size_t place = 0; place < ExcitationPool::kSlots; ++place) {
     ring.Post({.command = OperatorCommand::kExcite, .excitation = shelf.Put(step, 1e-4)});
   }
   ASSERT_EQ(shelf.Put(step, 1e-4), nullptr);
   stops.Ask(1, {});
   for (std::uint64_t cycle = 0; cycle < 3; ++cycle) (void)desk.Next(View(cycle, Mode::kTripped));
-  for (std::size_t place = 0; place < ExcitationShelf::kPlaces; ++place) {
+  for (std::size_t place = 0; place < ExcitationPool::kSlots; ++place) {
     EXPECT_NE(shelf.Put(step, 1e-4), nullptr);
   }
 }
@@ -108,7 +108,7 @@ TEST(EmergencyStop, GivesBackTheTestSignalThatCameBeforeIt) {
 TEST(EmergencyStop, NamesTheCycleToEverybodyWhoAsked) {
   StopLatch stops;
   SpscRing<GivenCommand> given(8);
-  OperatorDesk desk(kOptions, nullptr, {nullptr, &stops, &given});
+  CommandArbiter desk(kOptions, nullptr, {nullptr, &stops, &given});
   stops.Ask(1, {11, 4});
   stops.Ask(2, {12, 9});
   EXPECT_EQ(desk.Next(View(77, Mode::kSpinning)).command, kStop);
@@ -137,7 +137,7 @@ struct StopBench {
   std::optional<cycle::ControlCycle> cycle;
   SpscRing<RemoteCommand> ring{16};
   StopLatch stops;
-  OperatorDesk desk{kOptions, nullptr, {&ring, &stops}};
+  CommandArbiter desk{kOptions, nullptr, {&ring, &stops}};
   test::FakeSink sink;
   std::optional<ControlLoop> loop;
 };
@@ -194,7 +194,7 @@ TEST(EmergencyStop, AllocatesNothingInTheLoop) {
   SpscRing<RemoteCommand> ring(16);
   StopLatch stops;
   SpscRing<GivenCommand> given(8);
-  OperatorDesk desk(kOptions, nullptr, {&ring, &stops, &given});
+  CommandArbiter desk(kOptions, nullptr, {&ring, &stops, &given});
   const levitas::test::AllocationGuard guard;
   for (std::uint64_t cycle = 0; cycle < 10'000; ++cycle) {
     stops.Ask(1, {1, 2});

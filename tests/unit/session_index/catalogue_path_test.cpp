@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 namespace {
 
 /// An environment variable as it was before, once the test is over.
@@ -58,4 +58,4 @@ TEST(CataloguePath, IsNoneWithoutAHome) {
 }
 
 }  // namespace
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

@@ -11,7 +11,7 @@
 #include "common/problem.hpp"
 #include "tests/support/scratch_folder.hpp"
 
-namespace levitas::catalogue {
+namespace levitas::session_index {
 namespace {
 
 using ::testing::ElementsAre;
@@ -199,4 +199,4 @@ TEST_F(CatalogueTest, SaysWhereItCannotBeMade) {
 }
 
 }  // namespace
-}  // namespace levitas::catalogue
+}  // namespace levitas::session_index

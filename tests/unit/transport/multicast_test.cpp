@@ -57,7 +57,7 @@ TEST_F(Multicast, CarriesAFrameThereAndItsAnswerBack) {
   EXPECT_EQ(frame.cycle, 3U);
   ASSERT_TRUE(port_->Write({.cycle = 3}));
   CurrentFrame current;
-  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::Answer::kCurrent);
+  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::ReceiveResult::kCurrent);
   EXPECT_EQ(current.cycle, 3U);
 }
 
@@ -128,7 +128,7 @@ TEST_F(Multicast, ObeysOneControllerAndRefusesTheCurrentsAndTheGoodbyeOfASecond)
   ASSERT_TRUE(second.Write({.cycle = 100}));
   second.SayGoodbye({.cycle = 100});
   ASSERT_TRUE(port_->Write({.cycle = 2}));
-  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::Answer::kCurrent);
+  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::ReceiveResult::kCurrent);
   EXPECT_EQ(current.cycle, 2U);
   EXPECT_EQ(link_->counters().currents_refused, 4U);
   EXPECT_THAT(link_->TakeNews(), testing::HasSubstr("second controller at 127.0.0.1:"));
@@ -138,10 +138,10 @@ TEST_F(Multicast, TakesTheNextControllerAtOnceAfterAGoodbye) {
   CurrentFrame current;
   ASSERT_TRUE(port_->Write({.cycle = 1}));
   port_->SayGoodbye({.cycle = 1});
-  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::Answer::kGoodbye);
+  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::ReceiveResult::kGoodbye);
   LcmRigPort next(Network(), 4, 0);
   ASSERT_TRUE(next.Write({.cycle = 7}));
-  while (link_->Receive(current, Deadline()) == LcmRigLink::Answer::kGoodbye) {
+  while (link_->Receive(current, Deadline()) == LcmRigLink::ReceiveResult::kGoodbye) {
     // said three times
   }
   EXPECT_EQ(current.cycle, 7U);
@@ -161,7 +161,7 @@ TEST_F(Multicast, HearsTheGoodbyeAfterTheLastCurrent) {
   ASSERT_TRUE(port_->Write({.cycle = 1}));
   port_->SayGoodbye({.cycle = 1});
   CurrentFrame current;
-  EXPECT_EQ(link_->Receive(current, Deadline()), LcmRigLink::Answer::kGoodbye);
+  EXPECT_EQ(link_->Receive(current, Deadline()), LcmRigLink::ReceiveResult::kGoodbye);
 }
 
 TEST_F(Multicast, AllocatesNothingIn10000Exchanges) {

@@ -1,0 +1,112 @@
+#pragma once
+// The operator's desk: decides in each cycle who gives the command.
+//
+// Order    an emergency stop before everything, in every state, also in a full ring; then the end
+//          of the program before a remote command before the scenario. A remote command that its
+//          sender gave before a stop is dropped after it: a stop is not undone by what is older.
+// Test signals  a remote one is added to the scenario's. It begins in the cycle after its command,
+//          unless that was refused, and ends by its own length, by command, by a new one, with a
+//          trip and where the mode does not pass it on; each end is a command of the record.
+// The end  a finished or failed scenario, RequestStop and the duration all end in the same way:
+//          run down under the drive, land, amplifiers off. A trip under a scenario ends when the
+//          safe state is reached; without a scenario the desk waits for a reset.
+// Thread   loop thread, except the requests (any thread, also a signal's) and the writer's side of
+//          the ring. No allocation in Next.
+// Failure  an end that is not reached within kStopLimitSeconds becomes an emergency stop.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "common/spsc_ring.hpp"
+#include "common/stop_latch.hpp"
+#include "controller/loop/excitation_pool.hpp"
+#include "controller/loop/operator_source.hpp"
+#include "controller/scenario/scenario_player.hpp"
+
+namespace levitas::loop {
+
+/// A command as it came over the network.
+struct RemoteCommand {
+  OperatorCommand command{OperatorCommand::kNone};
+  double speed_rad_per_s{};
+  double acceleration_rad_per_s2{};
+  ExcitationPool::Slot* excitation{nullptr};  ///< with kExcite
+  CommandOrigin origin{};
+  std::uint64_t stops_before{0};  ///< emergency stops of the latch that it came behind
+};
+
+/// A remote command that a cycle was given, for those who publish what became of it.
+struct GivenCommand {
+  std::uint64_t cycle{};
+  CommandOrigin origin;
+};
+
+/// What the desk shares with the threads of the network; each may be null.
+struct RemoteDesk {
+  SpscRing<RemoteCommand>* commands{nullptr};
+  StopLatch* stops{nullptr};
+  SpscRing<GivenCommand>* given{nullptr};
+};
+
+struct DeskOptions {
+  double period_s{};
+  double stop_acceleration_rad_per_s2{};  ///< of the drive when running down to end
+  double standstill_rad_per_s{};          ///< below this the rotor counts as standing
+  double duration_s{0.0};                 ///< after this long the end begins; 0 = no limit
+  double trip_window_s{0.5};              ///< a trip's recording needs this much after it
+};
+
+class CommandArbiter final : public OperatorSource {
+ public:
+  static constexpr double kStopLimitSeconds = 120.0;
+  static constexpr double kRepeatSeconds = 0.1;  ///< a refused request of the end is made again
+
+  /// `player` may be null.
+  CommandArbiter(const DeskOptions& options, scenario::ScenarioPlayer* player,
+                 const RemoteDesk& remote);
+
+  [[nodiscard]] cycle::OperatorInput Next(const OperatorView& view) noexcept override;
+  [[nodiscard]] bool Done() const noexcept override { return done_; }
+  [[nodiscard]] std::int64_t stop_received_ns() const noexcept override {
+    return stop_received_ns_;
+  }
+  void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
+  /// Given in the next cycle, once; any thread.
+  void RequestEmergencyStop() noexcept {
+    emergency_requested_.store(true, std::memory_order_relaxed);
+  }
+
+ private:
+  [[nodiscard]] cycle::OperatorInput Decide(const OperatorView& view) noexcept;
+  [[nodiscard]] bool TakeStop(std::uint64_t cycle) noexcept;
+  [[nodiscard]] bool TakeRemote(RemoteCommand& remote) noexcept;
+  [[nodiscard]] cycle::OperatorInput Played(const OperatorView& view) noexcept;
+  void Begin(const RemoteCommand& remote) noexcept;
+  void Excite(const OperatorView& view, cycle::OperatorInput& input) noexcept;
+  void DropExcitation() noexcept;
+  [[nodiscard]] cycle::OperatorInput Stop(const OperatorView& view) noexcept;
+  [[nodiscard]] bool Ending(const OperatorView& view) noexcept;
+  [[nodiscard]] std::uint64_t Cycles(double seconds) const noexcept;
+
+  DeskOptions options_;
+  scenario::ScenarioPlayer* player_;
+  RemoteDesk remote_;
+  std::int64_t stop_received_ns_{0};
+  std::atomic<bool> stop_requested_{false};
+  std::atomic<bool> emergency_requested_{false};
+  ExcitationPool::Slot* playing_{nullptr};
+  bool awaits_answer_{false};  ///< the command to excite was given in the previous cycle
+  bool end_untold_{false};     ///< a test signal has ended and no record says so yet
+  bool ending_{false};
+  bool done_{false};
+  std::uint64_t first_cycle_{0};
+  std::uint64_t end_start_{0};
+  std::uint64_t safe_since_{0};
+  std::uint64_t last_request_{0};
+  bool started_{false};
+  bool safe_{false};
+  bool braking_{false};
+};
+
+}  // namespace levitas::loop

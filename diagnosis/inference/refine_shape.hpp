@@ -1,0 +1,29 @@
+#pragma once
+// Refinement of the shape parameters of a family between its members.
+//
+// Why        slew rates, knees, widths, clearances and frequencies have no derivative at amplitude
+//            zero, so that a family is screened by a few members (Term::Family).
+// Method     around the member that was chosen as a cause, one parameter at a time: Newton's step
+//            of its logarithm together with all fitted parameters, from runs of two neighbours a
+//            tenth of the width apart; shortened until the cost falls; until a round gains less
+//            than 10 nat.
+// Cost       three runs, a linearisation and mostly one fit for each parameter and round.
+// Thread     blocks the caller, two threads inside.
+// Failure    none: a step that does not improve the fit is not kept.
+
+#include <vector>
+
+#include "diagnosis/inference/refine.hpp"
+
+namespace levitas::diagnosis {
+
+/// True when the hypothesis is a member of a family.
+[[nodiscard]] bool HasFamily(const Hypothesis& cause, const std::vector<Term>& terms);
+
+/// `terms` are those of the refiner; those of `cause` become the best member's. `start` is the fit
+/// of `causes`, `cause` among them, on `view`. Returns the fit with the best member.
+[[nodiscard]] Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
+                                  const std::vector<Hypothesis>& causes, const View& view,
+                                  int passes, Refined start, std::vector<Term>& terms);
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,39 @@
+#pragma once
+// Residual analysis after calibration and causes: excess power by channel, band and order of
+// rotation, and the signals it is coherent with.
+//
+// Power      of the innovations relative to the sensors' own noise, in third-octave bands and
+//            single lines. The noise is taken from the highest third of the spectrum, where neither
+//            rotor nor magnet moves; a correct model leaves no band above it.
+// Coherence  of the remainder with the control currents, the positions, the rotation (orders) and
+//            the mains (50, 60 Hz), as the share of its excess that follows each.
+// Thread     any.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/model/model_run.hpp"
+
+namespace levitas::diagnosis {
+
+struct ChannelRemainder {
+  double noise_rms_m{};       ///< from the upper third of the spectrum
+  double sigma{};             ///< excess of the worst band, in standard deviations
+  double band_ratio{};        ///< power there over the noise's
+  double peak_hz{};           ///< where
+  std::vector<double> ratio;  ///< power over noise, line by line
+};
+
+struct Residual {
+  std::vector<ChannelRemainder> channels;
+  double line_spacing_hz{};
+  std::size_t worst_channel{};
+  double sigma{};         ///< of the worst channel
+  double frequency_hz{};  ///< of its excess
+  double order{};         ///< of rotation; 0 = not bound to it
+  std::string coherent_with{"nothing"};
+};
+
+[[nodiscard]] Residual AnalyseResidual(const RigView& rig, const std::vector<Trajectory>& runs);
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,53 @@
+#include "diagnosis/inference/search_state.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/inference/calibrate.hpp"
+#include "diagnosis/inference/ranking.hpp"
+
+namespace levitas::diagnosis {
+
+SearchState::SearchState(const RigView& of, const std::vector<Record>& recorded,
+                         const Settings& asked, const Effort& spent, std::vector<Term>& all)
+    : rig(of),
+      all_records(recorded),
+      terms(all),
+      settings(asked),
+      effort(spent),
+      search(rig, terms, asked.only),
+      records(Spans(recorded, spent.rows)),
+      gains(search.DesignGains(records, kSpeeds[0])),
+      refiner(search, terms, records, gains, rig.axes),
+      theta(search.Usual()) {}
+
+void SearchState::ReportProgress(double share, const std::string& what) const {
+  if (!settings.progress) return;
+  // Stage lengths depend on the data: progress never decreases, and 100 % is reported once.
+  progress_ = std::max(progress_, std::min(share, share < 1.0 ? 0.98 : 1.0));
+  settings.progress(progress_, what);
+}
+
+void SearchState::Observe(std::size_t with) {
+  speed = with;
+  gains = search.DesignGains(records, kSpeeds[with]);
+}
+
+void SearchState::LineariseAll() {
+  for (Term& term : terms) term.family.linearised_as = term.family.shape;
+  view = search.Linearise(records, gains, theta, kWhiteningOrder, search.Everything());
+}
+
+Refined SearchState::Refit(const std::vector<Hypothesis>& set, double worth) const {
+  return refiner.Fit(set, search.Solve(view.problem, set), view, effort.passes, worth);
+}
+
+void SearchState::TakePlace(Hypothesis& member) {
+  member.place = terms[member.terms.front()].place;
+  search.Rename(member.terms, member.place);
+}
+
+double SearchState::GainOf(std::size_t cause) const {
+  return Evidence(view.problem, terms, Without(causes, cause)).Gain(causes[cause]);
+}
+
+}  // namespace levitas::diagnosis

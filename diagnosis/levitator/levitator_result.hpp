@@ -1,0 +1,60 @@
+#pragma once
+// A whole diagnosis of a levitator: records in, cause, extended rig and fits per run out.
+//
+// Fitting    on four seconds of every record, spread over them, at most; fits are told for whole
+//            records.
+// Held out   the records given as such. Without any, each record in turn: parameters of the same
+//            causes are fitted to the others and judged on it, with nothing of its own; a lone
+//            record is fitted on its first two thirds and judged on the last.
+// Healthy    records of the same rig in good condition. Errors of the file that they show are no
+//            cause; the search starts from the model that explains them (origin.hpp).
+// Form       what all diagnoses share is a diagnosis::DiagnosisResult, so that files and pages are
+//            those of every rig; there a fit is that of the upper coil's current, where it was
+//            measured, else of the ball's motion.
+// Thread     blocks the caller, two threads inside. Failure: BadInput.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/levitator/run_fit.hpp"
+#include "diagnosis/levitator/search.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
+
+namespace levitas::levitator {
+
+/// The models on one record that was not used to fit them.
+struct ValidationRun {
+  std::string name;
+  RunFit nominal, calibrated, extended;
+  double current_ceiling{}, motion_ceiling{};
+  Fit achieved;  ///< percent of the achievable gain, nominal to extended
+  Fit beyond_calibration;
+};
+
+/// Causes that the data cannot separate from a named one.
+struct Tie {
+  std::string cause;
+  std::vector<std::string> others;
+};
+
+struct LevitatorResult {
+  diagnosis::DiagnosisResult common;
+  Found found;
+  std::vector<ValidationRun> fitted, validation;
+  std::vector<Tie> ties;
+  std::string extended_rig;  ///< text of the file
+};
+
+[[nodiscard]] LevitatorResult Diagnose(const diagnosis::DiagnosisRequest& inputs);
+/// The same on records in memory.
+[[nodiscard]] LevitatorResult Diagnose(const config::RigFile& rig, const std::vector<Series>& data,
+                                       const std::vector<Series>& validation,
+                                       const diagnosis::Settings& settings,
+                                       const std::vector<Series>& healthy = {});
+
+/// The rig file with the parameters of a fit, made beside `origin`, written into its keys and its
+/// list of effects.
+[[nodiscard]] std::string ExtendedRig(const config::RigFile& file, const Theta& origin,
+                                      const Found& found);
+
+}  // namespace levitas::levitator

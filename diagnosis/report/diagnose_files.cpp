@@ -1,0 +1,170 @@
+#include "diagnosis/report/diagnose_files.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/problem.hpp"
+#include "diagnosis/inference/calibrate.hpp"
+#include "diagnosis/inference/events.hpp"
+#include "diagnosis/inference/mains_lines.hpp"
+#include "diagnosis/model/turns.hpp"
+#include "diagnosis/records/input_checks.hpp"
+#include "diagnosis/records/levitated_interval.hpp"
+#include "diagnosis/records/same_rows.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+std::vector<Record> Load(const std::vector<std::string>& paths, const DiagnosisRequest& inputs) {
+  std::vector<Record> records;
+  records.reserve(paths.size());
+  for (const std::string& path : paths) {
+    records.push_back(LoadRecord(path, inputs.rig, inputs.scratch_folder));
+  }
+  return records;
+}
+
+double Seconds(const Record& record, const RigView& rig) {
+  return static_cast<double>(record.rows.size()) * rig.period_s;
+}
+
+/// Of geared shafts: angles that say where every wheel stands.
+void FollowTurns(const RigView& rig, std::vector<Record>& records) {
+  if (!rig.geared() || records.empty()) return;
+  for (Record& record : records) Unwrap(record, rig.period_s);
+  const Gains gains = Search(rig, {}).DesignGains(records, kFast);
+  for (std::size_t i = 0; i < records.size(); ++i) ChooseTurn(rig, gains[i], records[i]);
+}
+
+double Fastest(const std::vector<Record>& records) {
+  double fastest = 0.0;
+  for (const Record& record : records) {
+    for (const analysis::RecordedRow& row : record.rows) {
+      fastest = std::max(fastest, std::abs(row.sample.speed_rad_per_s));
+    }
+  }
+  return fastest;
+}
+
+/// Speed range, duration and excitation of the records.
+void Describe(const std::vector<Record>& records, const std::vector<Record>& holdout,
+              DiagnosisResult& out) {
+  out.fastest_rad_per_s = Fastest(records);
+  out.separate_validation = !holdout.empty();
+  out.validation_fastest_rad_per_s = Fastest(holdout);
+  for (const Record& record : records) {
+    out.seconds_of_data += Seconds(record, *out.view);
+    for (const analysis::RecordedRow& row : record.rows) {
+      out.excited = out.excited || std::any_of(row.excitation_a.begin(), row.excitation_a.end(),
+                                               [](double value) { return value != 0.0; });
+    }
+  }
+}
+
+/// What was found instead of flight.
+std::string NotLevitated(const RigView& rig, const Record& record) {
+  double clearance_m = 0.0;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  double farthest_m = 0.0;
+  for (const analysis::RecordedRow& row : record.rows) {
+    if (!row.levitated) continue;
+    for (std::size_t a = 0; a + 1 < rig.axes; a += 2) {
+      const double away_m = std::hypot(row.sample.position_m[a], row.sample.position_m[a + 1]);
+      nearest_m = std::min(nearest_m, away_m);
+      farthest_m = std::max(farthest_m, away_m);
+      clearance_m = rig.bearing(a).touchdown.clearance_m;
+    }
+  }
+  return fmt::format(
+      "readings are {:.4g} to {:.4g} um off the centre, free is within {:.0f} % of the touchdown "
+      "clearance of {:.4g} um, with the amplifiers on: was the rotor lifted, are the units and the "
+      "rig file right?",
+      1e6 * nearest_m, 1e6 * farthest_m, 100.0 * kFree, 1e6 * clearance_m);
+}
+
+std::vector<Record> IsLevitated(const RigView& rig, std::vector<Record> records) {
+  for (Record& record : records) {
+    RefuseWrongUnits(rig, record);
+    const double whole_s = Seconds(record, rig);
+    const std::string found = NotLevitated(rig, record);
+    LeaveOutContact(rig, record);
+    if (Seconds(record, rig) >= kShortest) continue;
+    throw BadInput(
+        fmt::format("{}: {:.2f} s of free flight in {:.2f} s, a diagnosis needs {} s; {}",
+                    record.name, Seconds(record, rig), whole_s, kShortest, found));
+  }
+  FollowTurns(rig, records);
+  return records;
+}
+
+void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdout,
+             DiagnosisResult& out) {
+  const Search search(*out.view, out.terms);
+  const std::vector<double> nothing(out.terms.size(), 0.0);
+  std::vector<double> noise_rms_m;
+  for (const auto& channel : out.answer.remainder.channels) {
+    noise_rms_m.push_back(channel.noise_rms_m);
+  }
+  const auto run = [&](const std::vector<Record>& records) {
+    const Gains gains = search.DesignGains(records, out.answer.speed);
+    return ModelRuns{search.Run(records, gains, nothing),
+                     search.Run(records, gains, out.answer.theta_calibrated),
+                     search.Run(records, gains, out.answer.theta_extended)};
+  };
+  const ModelRuns runs = run(fitted);
+  const Residual before = AnalyseResidual(*out.view, runs.nominal);
+  out.shown_channel = before.worst_channel;
+  out.ratio_before = before.channels[out.shown_channel].ratio;
+  out.ratio_calibrated =
+      AnalyseResidual(*out.view, runs.calibrated).channels[out.shown_channel].ratio;
+  out.ratio_after = out.answer.remainder.channels[out.shown_channel].ratio;
+  out.line_spacing_hz = before.line_spacing_hz;
+  out.fitted = MeasureGain(*out.view, runs, noise_rms_m, Part::kFitted);
+  out.validation = holdout.empty()
+                       ? MeasureGain(*out.view, runs, noise_rms_m, Part::kKeptBack)
+                       : MeasureGain(*out.view, run(holdout), noise_rms_m, Part::kFitted);
+}
+
+}  // namespace
+
+DiagnosisResult DiagnoseRecords(const config::RigFile& rig, const std::vector<Record>& records,
+                                const std::vector<Record>& holdout, const Settings& settings,
+                                const std::vector<Record>& healthy) {
+  DiagnosisResult out;
+  out.view = std::make_shared<const RigView>(rig.numbers, rig.plant);
+  const std::vector<Record> levitated = IsLevitated(*out.view, healthy);
+  const std::vector<Record> aside = IsLevitated(*out.view, holdout);
+  std::vector<Record> fitted = IsLevitated(*out.view, records);
+  out.terms = AllTerms(*out.view, rig.tolerances.value_or(config::Tolerances{}),
+                       LargestOrbit(fitted, out.view->axes));
+  if (!levitated.empty()) {
+    for (const Term& term : out.terms) out.file_tolerance.push_back(term.tolerance);
+    LearnFromHealthy(*out.view, levitated, out.terms);
+  }
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    fitted[i].number = static_cast<std::uint32_t>(i);
+    fitted[i].keeps_validation = holdout.empty();
+  }
+  Describe(fitted, aside, out);
+  const auto mains = MainsTerms(*out.view, MainsLines(*out.view, fitted), fitted.size());
+  out.terms.insert(out.terms.end(), mains.begin(), mains.end());
+  out.answer = Diagnose(*out.view, fitted, settings, out.terms);
+  const std::vector<Record> used = Spans(fitted, settings.quick ? kQuickRows : kMostRows);
+  for (const Record& record : used) out.seconds_used += Seconds(record, *out.view);
+  Measure(used, aside, out);
+  return out;
+}
+
+DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs) {
+  const std::vector<Record> data = Load(inputs.data, inputs);
+  const std::vector<Record> holdout = Load(inputs.holdout, inputs);
+  const std::vector<Record> healthy = Load(inputs.healthy, inputs);
+  RefuseSameRows(data, holdout, "--holdout", "what was fitted cannot judge the fit");
+  RefuseSameRows(data, healthy, "--healthy", "it would vouch for itself");
+  return DiagnoseRecords(inputs.rig, data, holdout, inputs.settings, healthy);
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,64 @@
+#pragma once
+// A whole diagnosis from files: load, search, measure the gain on data not used for it.
+//
+// Thread   blocks the caller, two threads inside. Failure: BadInput.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/rig_file.hpp"
+#include "diagnosis/inference/diagnose.hpp"
+#include "diagnosis/inference/gain.hpp"
+#include "diagnosis/records/load.hpp"
+#include "diagnosis/report/named_values.hpp"
+
+namespace levitas::diagnosis {
+
+struct DiagnosisRequest {
+  config::RigFile rig;
+  std::vector<std::string> data, holdout;
+  std::vector<std::string> healthy;  ///< earlier records of the same rig, known to be well
+  std::string scratch_folder;
+  Settings settings;
+};
+
+/// Numbers of a diagnosis whose parameters are not terms (diagnosis/levitator).
+struct OwnWords {
+  std::vector<NamedParameter> parameters;
+  std::vector<CalibratedValue> calibrated;
+  /// Why an effect is not named, by effect.
+  std::vector<std::pair<std::string, std::string>> why_not;
+  std::string next;  ///< the experiment that would separate what is tied; empty when nothing is
+};
+
+struct DiagnosisResult {
+  SearchResult answer;
+  std::vector<Term> terms;             ///< refer to `view`
+  std::vector<double> file_tolerance;  ///< per term, before healthy records; empty without them
+  std::optional<OwnWords> own_words;
+  std::shared_ptr<const RigView> view;
+  Gain fitted, validation;
+  /// Spectra of the worst channel, over noise.
+  std::vector<double> ratio_before, ratio_calibrated, ratio_after;
+  double line_spacing_hz{};
+  std::size_t shown_channel{};
+  double seconds_of_data{};               ///< in flight
+  double seconds_used{};                  ///< of them, by a search that takes spans
+  double fastest_rad_per_s{};             ///< of the rotor, in flight
+  bool excited{};                         ///< a recorded test signal is in the records
+  bool separate_validation{};             ///< the held-out data are records of their own
+  double validation_fastest_rad_per_s{};  ///< in those
+};
+
+[[nodiscard]] DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs);
+/// The same on records that are in memory; empty `holdout` keeps back stretches of `records`
+/// (model_run.hpp).
+[[nodiscard]] DiagnosisResult DiagnoseRecords(const config::RigFile& rig,
+                                              const std::vector<Record>& records,
+                                              const std::vector<Record>& holdout,
+                                              const Settings& settings,
+                                              const std::vector<Record>& healthy = {});
+
+}  // namespace levitas::diagnosis

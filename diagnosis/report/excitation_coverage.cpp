@@ -1,0 +1,74 @@
+#include "diagnosis/report/excitation_coverage.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+#include <string_view>
+
+#include "plant_sim/effect/catalogue.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr double kSlowRoll = 0.02;  ///< of the rated speed
+
+bool Has(const DiagnosisResult& s, std::string_view effect) {
+  return std::any_of(s.terms.begin(), s.terms.end(),
+                     [effect](const Term& term) { return term.effect == effect; });
+}
+
+/// The effects that were searched and of which `needs` holds.
+void Append(const DiagnosisResult& s, bool (*needs)(effect::Id), std::vector<std::string>& to) {
+  for (const effect::Row& row : effect::Catalogue()) {
+    if (needs(row.id) && Has(s, row.name)) to.emplace_back(row.name);
+  }
+}
+
+}  // namespace
+
+Coverage CoverageOf(const DiagnosisResult& s) {
+  Coverage c;
+  const double rated = s.view->numbers.max_speed_rad_per_s;
+  // The levitator has no rotating parts (diagnosis/levitator).
+  c.turns = rated <= 0.0 || s.fastest_rad_per_s > kSlowRoll * rated || s.own_words;
+  c.excited = s.excited || s.own_words;
+  return c;
+}
+
+std::vector<std::string> UnobservableEffects(const DiagnosisResult& s) {
+  const Coverage c = CoverageOf(s);
+  std::vector<std::string> effects;
+  if (!c.turns) Append(s, effect::NeedsRotation, effects);
+  if (!c.excited) Append(s, effect::NeedsExcitation, effects);
+  return effects;
+}
+
+std::string UnobservableSentence(const DiagnosisResult& s) {
+  const Coverage c = CoverageOf(s);
+  if (c.turns && c.excited) return {};
+  std::vector<std::string> turning;
+  std::vector<std::string> excited;
+  Append(s, effect::NeedsRotation, turning);
+  Append(s, effect::NeedsExcitation, excited);
+  std::string text = "These records cannot show every effect:";
+  if (!c.turns) {
+    text += fmt::format(" the rotor does not turn, so {} would not show", fmt::join(turning, ", "));
+  }
+  if (!c.excited) {
+    text += fmt::format("{} no test signal is recorded, so {} would hardly show",
+                        c.turns ? "" : ";", fmt::join(excited, ", "));
+  }
+  return text + ".";
+}
+
+std::string MissingRecords(const DiagnosisResult& s) {
+  const Coverage c = CoverageOf(s);
+  if (c.turns && c.excited) return {};
+  if (c.turns) return "standing with a test signal on every axis, and spinning with it";
+  if (c.excited) return "spinning at two speeds and a run-up, with the test signal";
+  return "standing with a test signal on every axis, spinning with it at two speeds, and a run-up";
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,25 @@
+#pragma once
+// Validation: whether the extended model also explains records that were not fitted, for instance
+// at another speed or current.
+//
+// Failed     on separate validation records the extended model leaves a residual of more than
+//            kFarAboveNoise times the noise (rms) and kFarAboveNoise times that on the fitted ones.
+// Thread     any; pure.
+
+#include <string>
+
+namespace levitas::diagnosis {
+
+struct DiagnosisResult;
+
+inline constexpr double kFarAboveNoise = 1.5;
+
+[[nodiscard]] bool PassesValidation(const DiagnosisResult& answer);
+/// Sentence for an answer that does not carry over; empty for one that does.
+[[nodiscard]] std::string ValidationSentence(const DiagnosisResult& answer);
+/// The next experiment for an answer that does not carry over.
+[[nodiscard]] std::string ValidationExperiment(const DiagnosisResult& answer);
+/// Whether the rotor turns faster in the validation records than in the fitted ones.
+[[nodiscard]] bool ValidationIsFaster(const DiagnosisResult& answer);
+
+}  // namespace levitas::diagnosis

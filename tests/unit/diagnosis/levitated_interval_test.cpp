@@ -1,0 +1,81 @@
+// Rows in contact with a touchdown bearing, or without current, are left out; flight stays.
+
+#include "diagnosis/records/levitated_interval.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/diagnosis/moments.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr std::size_t kRows = 20'000;
+
+/// A rotor that flies near the centre, its controller at work.
+Record Flight() {
+  Record record;
+  record.rows.resize(kRows);
+  for (std::size_t n = 0; n < kRows; ++n) {
+    analysis::RecordedRow& row = record.rows[n];
+    row.cycle = n;
+    row.levitated = true;
+    row.sample.position_m = {5e-6, -3e-6, 2e-6, 4e-6};
+    row.sample.command.control_current_a = {0.1, 0.1, 0.1, 0.1};
+  }
+  return record;
+}
+
+bool Has(const Record& record, std::uint64_t cycle) {
+  for (const auto& row : record.rows) {
+    if (row.cycle == cycle) return true;
+  }
+  return false;
+}
+
+TEST(FreeFlight, IsKeptWhole) {
+  Record record = Flight();
+  LeaveOutContact(View(), record);
+  EXPECT_EQ(record.rows.size(), kRows);
+}
+
+TEST(FreeFlight, IsNotWhereTheRotorLiesWithoutCurrent) {
+  Record record = Flight();
+  for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
+  LeaveOutContact(View(), record);
+  EXPECT_FALSE(Has(record, 2999));
+  EXPECT_FALSE(Has(record, 3000));  // the lift still swings: 50 ms
+  EXPECT_TRUE(Has(record, 3600));
+}
+
+TEST(FreeFlight, IsNotBeyondHalfTheClearance) {
+  Record record = Flight();
+  // 190 um of clearance; 70 um in both axes are 99 um away from the centre.
+  record.rows[10'000].sample.position_m = {0.0, 0.0, 70e-6, 70e-6};
+  record.rows[15'000].sample.position_m = {0.0, 0.0, 60e-6, 60e-6};
+  LeaveOutContact(View(), record);
+  EXPECT_FALSE(Has(record, 9'501));
+  EXPECT_FALSE(Has(record, 10'499));
+  EXPECT_TRUE(Has(record, 9'499));
+  EXPECT_TRUE(Has(record, 10'501));
+  EXPECT_TRUE(Has(record, 15'000));
+}
+
+TEST(FreeFlight, IsNotEndedByASingleZeroCurrent) {
+  Record record = Flight();
+  record.rows[5000].sample.command.control_current_a = {};
+  LeaveOutContact(View(), record);
+  EXPECT_EQ(record.rows.size(), kRows);
+}
+
+TEST(FreeFlight, KnowsItsOwnMeanSpeed) {
+  Record record = Flight();
+  for (std::size_t n = 0; n < kRows; ++n) {
+    record.rows[n].sample.speed_rad_per_s = n < 10'000 ? 0.0 : 300.0;
+    if (n < 10'000) record.rows[n].sample.command.control_current_a = {};
+  }
+  LeaveOutContact(View(), record);
+  EXPECT_DOUBLE_EQ(record.mean_speed_rad_per_s, 300.0);
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis
