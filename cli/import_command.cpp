@@ -7,13 +7,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "analysis/coil_scales.hpp"
 #include "cli/command.hpp"
 #include "cli/enter_session.hpp"
 #include "cli/json_file.hpp"
 #include "config/rig_file.hpp"
 #include "levitas_version.hpp"
 #include "session/candump_import.hpp"
+#include "session/coil_scales.hpp"
 #include "session/csv_import.hpp"
 #include "session/output_path.hpp"
 
@@ -91,7 +91,7 @@ ExitStatus Import(const ImportCommandOptions& options) {
                                 .rig_yaml = config::WriteRig(rig),
                                 .program_version = LEVITAS_VERSION,
                                 .start_utc_ns = UtcNowNs(),
-                                .coils = analysis::CoilScales(rig.plant, rig.numbers.axes()),
+                                .coils = session::CoilScales(rig.plant, rig.numbers.axes()),
                                 .matrix = rig.log.matrix,
                                 .matrix_rows = rig.log.rows};
   if (IsBusLog(options.data_path)) return ImportBusLog(options, rig, import);

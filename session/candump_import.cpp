@@ -193,17 +193,10 @@ CandumpReport ReadCandump(const std::string& path, const can::Layout& layout,
 
 CandumpReport ImportCandump(const ImportOptions& options, const can::Layout& layout) {
   CheckOutputPath(options.out_path, options.data_path);
-  PartFile part(options.out_path);
   CandumpReport report;
-  try {
-    SessionWriter writer(part.part_path(), ImportHeader(options));
-    report = ReadCandump(options.data_path, layout,
-                         [&writer](const cycle::CycleRecord& record) { writer.Write(record); });
-    writer.Close();
-  } catch (const WriteFailed& failed) {  // nothing of an import is kept
-    CannotWrite(options.out_path, failed.error());
-  }
-  part.Commit();
+  WriteImport(options, [&](const RecordTaker& take) {
+    report = ReadCandump(options.data_path, layout, take);
+  });
   return report;
 }
 

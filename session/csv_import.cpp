@@ -9,23 +9,6 @@
 namespace levitas::session {
 namespace {
 
-ImportReport Import(const ImportOptions& options, RowSource& source) {
-  PartFile part(options.out_path);
-  ImportReport report;
-  try {
-    SessionWriter writer(part.part_path(), ImportHeader(options));
-    report = ReadRecords(source, {.rig = options.rig, .coils = options.coils},
-                         [&writer](const cycle::CycleRecord& record) { writer.Write(record); });
-    writer.Close();
-  } catch (const WriteFailed& failed) {  // nothing of an import is kept
-    CannotWrite(options.out_path, failed.error());
-  }
-  part.Commit();
-  return report;
-}
-
-}  // namespace
-
 SessionHeader ImportHeader(const ImportOptions& options) {
   SessionHeader header;
   header.program_version = options.program_version;
@@ -36,6 +19,29 @@ SessionHeader ImportHeader(const ImportOptions& options) {
   header.source = options.data_path;
   header.channels = options.rig.channels;
   return header;
+}
+
+ImportReport Import(const ImportOptions& options, RowSource& source) {
+  ImportReport report;
+  WriteImport(options, [&](const RecordTaker& take) {
+    report = ReadRecords(source, {.rig = options.rig, .coils = options.coils}, take);
+  });
+  return report;
+}
+
+}  // namespace
+
+void WriteImport(const ImportOptions& options,
+                 const std::function<void(const RecordTaker&)>& read) {
+  PartFile part(options.out_path);
+  try {
+    SessionWriter writer(part.part_path(), ImportHeader(options));
+    read([&writer](const cycle::CycleRecord& record) { writer.Write(record); });
+    writer.Close();
+  } catch (const WriteFailed& failed) {  // nothing of an import is kept
+    CannotWrite(options.out_path, failed.error());
+  }
+  part.Commit();
 }
 
 ImportReport ImportCsv(const ImportOptions& options) {

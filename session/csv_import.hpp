@@ -6,12 +6,12 @@
 // Thread    any.
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "common/rig_numbers.hpp"
 #include "session/measured_data.hpp"
-#include "session/session_header.hpp"
 
 namespace levitas::session {
 
@@ -31,7 +31,8 @@ ImportReport ImportCsv(const ImportOptions& options);
 /// The same from a MAT file; see mat_rows.hpp.
 ImportReport ImportMat(const ImportOptions& options);
 
-/// Of the session that an import writes.
-[[nodiscard]] SessionHeader ImportHeader(const ImportOptions& options);
+/// Writes the session of an import: `read` hands every record to the taker it is given. When it
+/// throws, or the disk refuses, no output file is left behind.
+void WriteImport(const ImportOptions& options, const std::function<void(const RecordTaker&)>& read);
 
 }  // namespace levitas::session

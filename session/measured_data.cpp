@@ -127,7 +127,8 @@ class RecordMaker {
     if (!last_) return;
     const double periods = (row.time_s - last_->time_s) / rig_.period_s();
     const double whole = std::round(periods);
-    constexpr double kAllowedOffGrid = 0.25;  // of a period: more cannot be told from an error
+    // [periods] Half of the distance at which the nearest whole step is no longer certain.
+    constexpr double kAllowedOffGrid = 0.25;
     if (!(whole >= 1.0) || std::abs(periods - whole) > kAllowedOffGrid) {
       throw reader.Bad(fmt::format(
           "time_s goes from {} to {}: a step of {:.4g} periods; the rig samples every {} s and a "

@@ -49,8 +49,7 @@ class ColumnWriter {
                        recording_.rows());
     }
     const AxisArray position_m = map_.Positions({frame.position_m}).at;
-    // Signs are their own inverse: the way to the rig is the way back.
-    const AxisArray current_a = map_.Currents({command.control_current_a}).at;
+    const AxisArray current_a = map_.CommandedCurrents({command.control_current_a}).at;
     for (std::size_t axis = 0; axis < axes_; ++axis) {
       recording_.position_m[axis].push_back(position_m[axis]);
       recording_.current_a[axis].push_back(current_a[axis]);

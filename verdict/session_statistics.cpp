@@ -128,8 +128,7 @@ void SessionStatistics::AddOrbit(const cycle::CycleRecord& record, PhaseSums& su
 
 void SessionStatistics::AddCurrents(const cycle::CycleRecord& record, PhaseSums& sums) const {
   if (record.out.saturated_axes != 0) ++sums.saturated;
-  // Signs are their own inverse: the way to the rig is the way back.
-  const AxisArray currents_a = map_.Currents({record.out.current.control_current_a}).at;
+  const AxisArray currents_a = map_.CommandedCurrents({record.out.current.control_current_a}).at;
   for (std::size_t axis = 0; axis < 2 * rig_.bearings.size(); ++axis) {
     const double current_a = currents_a[axis];
     AxisSums& at = sums.bearings[axis / 2].axis[axis % 2];

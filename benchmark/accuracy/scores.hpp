@@ -6,10 +6,9 @@
 // Available  evidence in the records for the hidden effect, from the final ranking. The drawn size
 //            says little about it: some effects are smaller than the tolerances of similar
 //            parameters.
-// Oracle     an informed diagnosis, which is told the hidden effect. It has failed if it does not
-//            name it although the records hold it (available_evidence.hpp). The available
-//            evidence is
-//            then unknown, and the trial counts as not named in the size that was drawn.
+// Informed   a diagnosis that is given the hidden effect. It has failed if it does not name the
+//            effect although the records hold it (available_evidence.hpp). The available evidence
+//            is then unknown, and the trial counts as not named in the size that was drawn.
 // Partly     any effect really present is named, but not as first.
 // Thread     any; pure.
 
@@ -67,9 +66,9 @@ struct TrialScore {
 /// too (twice kDecisive: a fit also pays an Occam factor).
 inline constexpr double kAvailableFrom = 2.0 * diagnosis::kDecisive;
 
-/// Updates the outcome with the result of the informed diagnosis. `held` as AvailableEvidence;
-/// without
-/// it, that diagnosis counts as failed when it leaves an unexplained residual.
+/// Updates the outcome with the result of the informed diagnosis. `held` is that of
+/// AvailableEvidence; without it, the informed diagnosis counts as failed when it leaves an
+/// unexplained residual.
 void AddInformedDiagnosis(const diagnosis::SearchResult& told, std::optional<double> held,
                           TrialScore& outcome);
 

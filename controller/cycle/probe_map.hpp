@@ -1,5 +1,6 @@
 #pragma once
-// Removes polarity in the control cycle: probes on the way in, coils on the way out.
+// Removes polarity: probes on the way in, coils on the way out, and coils of a record on the way
+// back.
 //
 // Equation   q_B = P_s q_S (positions), ic_S = P_a ic_B (currents); P diagonal with +-1.
 // Frames     S: as the rig is wired. B: bearing frame, positive x towards the coil that a positive
@@ -38,6 +39,10 @@ class ProbeMap {
   }
   [[nodiscard]] RigFrame Currents(const BearingFrame& wanted_a) const noexcept {
     return {Product(actuator_, wanted_a.at)};
+  }
+  /// The way back: a sign is its own inverse.
+  [[nodiscard]] BearingFrame CommandedCurrents(const RigFrame& commanded_a) const noexcept {
+    return {Product(actuator_, commanded_a.at)};
   }
 
  private:

@@ -20,6 +20,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using synthesis::Append;
+using synthesis::Copies;
 using synthesis::Gain;
 using synthesis::Series;
 using synthesis::StateSpace;
@@ -58,12 +59,6 @@ StateSpace Shelf(double low, double high, double pole_hz) {
   out.A = MatrixXd::Constant(1, 1, -pole);
   out.B = MatrixXd::Constant(1, 1, pole);
   out.C = MatrixXd::Constant(1, 1, low - high);
-  return out;
-}
-
-StateSpace OnEach(const StateSpace& one, Index channels) {
-  StateSpace out = one;
-  for (Index i = 1; i < channels; ++i) out = Append(out, one);
   return out;
 }
 
@@ -161,10 +156,10 @@ WeightedPlant BuildPlant(const plant::PlantConfig& rig, const HinfWeights& weigh
   out.block(modes + 2 * axes, axes, axes, axes) = one;
   out.block(modes + 2 * axes, 2 * axes + modes, axes, axes) = one;
   const StateSpace first =
-      Append(Append(Through(modes), OnEach(Wd, axes)), Append(OnEach(Wn, axes), Through(axes)));
+      Append(Append(Through(modes), Copies(Wd, axes)), Append(Copies(Wn, axes), Through(axes)));
   const StateSpace middle = Append(Append(Through(axes), nominal), Through(axes));
   const StateSpace last =
-      Append(Append(Through(modes), OnEach(Wu, axes)), Append(OnEach(Wp, axes), Through(axes)));
+      Append(Append(Through(modes), Copies(Wu, axes)), Append(Copies(Wp, axes), Through(axes)));
   WeightedPlant built;
   built.plant.system = Series(Series(Series(Series(first, Gain(in)), middle), Gain(out)), last);
   built.plant.controls = axes;

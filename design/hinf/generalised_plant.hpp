@@ -6,8 +6,8 @@
 // Order      inputs: mode perturbations (one per flexible mode and plane), disturbances, noises, u;
 //            outputs: mode perturbations, weighted currents, weighted positions, y.
 // Units      u [A], y [um]; everything else is a ratio to its weight.
-// Reduced    states whose Hankel singular value is below a ten-thousandth of a micrometre per
-//            ampere are left out: far below what a sensor resolves.
+// Reduced    states whose Hankel singular value is below 0.01 um/A are left out: a current
+//            of the largest size moves them by less than the sensor noise.
 // Failure    Problem for a rig without period or with contradicting weights, naming the weight.
 // Thread     any; pure.
 

@@ -4,13 +4,14 @@
 // Problem    w = (disturbance at the control current, sensor noise), z = (control current,
 //            position), each divided by what is expected or allowed: all gains below one means all
 //            limits kept. The choice of signals and the numbers are those published for the
-//            flexible rotor by M. N. Sahinkaya & J. T. Sawicki, unless said otherwise.
+//            flexible rotor by A. Sahinkaya & J. T. Sawicki, unless said otherwise.
 // Wd         disturbance_a up to disturbance_hz, then falling in first order to floor_a. The source
 //            stops at the top speed (100 Hz). A controller made for that cancels the flexible modes
 //            above it instead of damping them, and loses them when they move by a hertz: the
 //            default holds the level to 1000 Hz, beyond the fourth mode, and never falls.
 // Wn         noise_m, constant.
-// Wu         1/control_a up to control_hz, rising in second order above (the amplifier's reach).
+// Wu         1/control_a up to control_hz (the amplifier's reach), rising above in first order to
+//            ten times that.
 // Wp         1/position_rest_m at rest, 1/position_m above: first order, corner position_rest_hz.
 // Modes      each flexible mode of each plane may move by mode_hz, as a complex perturbation of
 //            norm one: it stands for frequency (measured to +-2 Hz), damping, and for the

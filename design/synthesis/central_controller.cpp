@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "design/synthesis/riccati.hpp"
+#include "design/synthesis/singular_value.hpp"
 
 namespace levitas::synthesis {
 
@@ -14,10 +15,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-double LargestSingularValue(const MatrixXd& matrix) {
-  return matrix.size() == 0 ? 0.0 : Eigen::JacobiSVD<MatrixXd>(matrix).singularValues()(0);
-}
 
 std::optional<Half> SolveHalf(const MatrixXd& A, const MatrixXd& B1, const MatrixXd& B2,
                               const MatrixXd& C1, const MatrixXd& D11, const MatrixXd& D12,

@@ -64,20 +64,8 @@ SampledSystem ZeroOrderHold(const StateSpace& system, double period_s) {
   return {out, period_s};
 }
 
-namespace {
-
-MatrixXcd ResponseAt(const StateSpace& system, std::complex<double> at) {
-  if (system.states() == 0) return system.D.cast<std::complex<double>>();
-  MatrixXcd shifted = -system.A.cast<std::complex<double>>();
-  shifted.diagonal().array() += at;
-  const MatrixXcd state = shifted.partialPivLu().solve(system.B.cast<std::complex<double>>());
-  return system.C * state + system.D;
-}
-
-}  // namespace
-
 MatrixXcd Response(const SampledSystem& system, double rad_per_s) {
-  return ResponseAt(system.matrices, std::polar(1.0, rad_per_s * system.period_s));
+  return TransferAt(system.matrices, std::polar(1.0, rad_per_s * system.period_s));
 }
 
 double SamplingError(const StateSpace& system, const SampledSystem& sampled,
@@ -114,9 +102,7 @@ StateSpace PadeDelay(double delay_s, int order, Index channels) {
     one.C(0, k) = (sign_k - sign_n) * c(k) / c(n);
   }
   one.B(n - 1, 0) = 1.0 / delay_s;
-  StateSpace out = one;
-  for (Index channel = 1; channel < channels; ++channel) out = Append(out, one);
-  return out;
+  return Copies(one, channels);
 }
 
 namespace {
@@ -137,13 +123,7 @@ StateSpace Assembled(const ModalSystem& modal) {
     const double im = part.pole.imag();
     MatrixXd A = MatrixXd::Constant(1, 1, re);
     if (part.B.rows() == 2) A = Eigen::Matrix2d{{re, im}, {-im, re}};
-    StateSpace next{A, part.B, part.C, MatrixXd::Zero(modal.D.rows(), modal.D.cols())};
-    StateSpace both = Append(sum, next);
-    MatrixXd B(sum.states() + A.rows(), modal.D.cols());
-    B << sum.B, part.B;
-    MatrixXd C(modal.D.rows(), sum.states() + A.rows());
-    C << sum.C, part.C;
-    sum = {both.A, B, C, modal.D};
+    sum = Sum(sum, {A, part.B, part.C, MatrixXd::Zero(modal.D.rows(), modal.D.cols())});
   }
   return sum;
 }
@@ -178,8 +158,8 @@ ModalSystem ModalForm(const StateSpace& given) {
   const StateSpace again = Assembled(out);
   for (const auto& pole : poles) {  // near every pole, where an error is largest
     const std::complex<double> at(pole.real() + 0.1 * std::abs(pole) + 1e-3, std::abs(pole.imag()));
-    const MatrixXcd wanted = ResponseAt(system, at);
-    if (!((ResponseAt(again, at) - wanted).norm() <= kAllowed * (wanted.norm() + given.D.norm())))
+    const MatrixXcd wanted = TransferAt(system, at);
+    if (!((TransferAt(again, at) - wanted).norm() <= kAllowed * (wanted.norm() + given.D.norm())))
       throw Problem(ExitStatus::kOther,
                     "the controller's poles repeat and cannot stand alone as blocks of one or two "
                     "states: reduce its order, or move a pole of a weight by a little");

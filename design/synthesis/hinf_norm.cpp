@@ -8,15 +8,11 @@
 
 #include "common/problem.hpp"
 #include "design/synthesis/hamiltonian.hpp"
+#include "design/synthesis/singular_value.hpp"
 
 namespace levitas::synthesis {
 
 namespace {
-
-double LargestSingularValue(const Eigen::MatrixXcd& matrix) {
-  if (matrix.size() == 0) return 0.0;
-  return Eigen::JacobiSVD<Eigen::MatrixXcd>(matrix).singularValues()(0);
-}
 
 void Raise(const StateSpace& system, double rad_per_s, HinfNorm& norm) {
   const double value = LargestSingularValue(Response(system, rad_per_s));
@@ -29,7 +25,7 @@ void Raise(const StateSpace& system, double rad_per_s, HinfNorm& norm) {
 HinfNorm FirstGuess(const StateSpace& system, const Eigen::VectorXcd& poles) {
   HinfNorm norm;
   norm.rad_per_s = std::numeric_limits<double>::infinity();
-  norm.lower = LargestSingularValue(system.D.cast<std::complex<double>>());
+  norm.lower = LargestSingularValue(Response(system, norm.rad_per_s));
   Raise(system, 0.0, norm);
   for (const auto& pole : poles)
     if (pole.imag() >= 0.0) Raise(system, std::abs(pole), norm);

@@ -41,10 +41,7 @@ class PowerIteration {
     VectorXcd a = M_ * b_;
     a.normalize();
     VectorXcd z(M_.rows());
-    Index r = 0;
-    Index c = 0;
-    for (std::size_t i = 0; i < blocks_.size(); ++i) {
-      const auto& block = blocks_[i];
+    ForEachBlock(blocks_, [&](std::size_t i, const UncertaintyBlock& block, Index r, Index c) {
       const auto ai = a.segment(r, block.rows);
       const auto wi = w_.segment(c, block.columns);
       if (block.kind == BlockKind::kFullComplex) {
@@ -54,14 +51,10 @@ class PowerIteration {
       } else {
         z.segment(r, block.rows) = q_[i] * wi;
       }
-      r += block.rows;
-      c += block.columns;
-    }
+    });
     w_ = M_.adjoint() * z;
     w_.normalize();
-    r = c = 0;
-    for (std::size_t i = 0; i < blocks_.size(); ++i) {
-      const auto& block = blocks_[i];
+    ForEachBlock(blocks_, [&](std::size_t i, const UncertaintyBlock& block, Index r, Index c) {
       const auto ai = a.segment(r, block.rows);
       const auto wi = w_.segment(c, block.columns);
       auto bi = b_.segment(c, block.columns);
@@ -74,9 +67,7 @@ class PowerIteration {
         q_[i] = std::clamp(wanted, -1.0, 1.0);
         bi = q_[i] * ai;
       }
-      r += block.rows;
-      c += block.columns;
-    }
+    });
     a_ = a;
     b_.normalize();
   }
@@ -85,10 +76,7 @@ class PowerIteration {
   [[nodiscard]] MatrixXcd Delta(double phase) const {
     const Complex turn = std::polar(1.0, phase);
     MatrixXcd delta = MatrixXcd::Zero(M_.cols(), M_.rows());
-    Index r = 0;
-    Index c = 0;
-    for (std::size_t i = 0; i < blocks_.size(); ++i) {
-      const auto& block = blocks_[i];
+    ForEachBlock(blocks_, [&](std::size_t i, const UncertaintyBlock& block, Index r, Index c) {
       const auto ai = a_.segment(r, block.rows);
       const auto wi = w_.segment(c, block.columns);
       auto part = delta.block(c, r, block.columns, block.rows);
@@ -100,9 +88,7 @@ class PowerIteration {
       } else {
         part.diagonal().setConstant(q_[i]);
       }
-      r += block.rows;
-      c += block.columns;
-    }
+    });
     return delta;
   }
 
@@ -112,6 +98,13 @@ class PowerIteration {
   VectorXcd a_, b_, w_;
   std::vector<double> q_;
 };
+
+PowerIteration Iterated(const MatrixXcd& M, const UncertaintyBlocks& blocks, Random& random) {
+  constexpr int kSteps = 100;
+  PowerIteration iteration(M, blocks, random);
+  for (int step = 0; step < kSteps; ++step) iteration.Step();
+  return iteration;
+}
 
 VectorXcd Eigenvalues(const MatrixXcd& matrix) {
   return Eigen::ComplexEigenSolver<MatrixXcd>(matrix, false).eigenvalues();
@@ -173,11 +166,9 @@ double LargestTurnedReal(const MatrixXcd& M, const PowerIteration& at) {
 /// blocks only.
 double ComplexLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks, int starts,
                          Random& random) {
-  constexpr int kSteps = 100;
   double largest = 0.0;
   for (int start = 0; start < starts; ++start) {
-    PowerIteration iteration(M, blocks, random);
-    for (int step = 0; step < kSteps; ++step) iteration.Step();
+    const PowerIteration iteration = Iterated(M, blocks, random);
     largest = std::max(largest, Eigenvalues(M * iteration.Delta(0.0)).cwiseAbs().maxCoeff());
   }
   return largest;
@@ -194,18 +185,13 @@ Parted RealFirst(const MatrixXcd& M, const UncertaintyBlocks& blocks) {
   Parted out;
   std::vector<Index> rows, columns;
   for (const bool real : {true, false}) {
-    Index r = 0;
-    Index c = 0;
-    for (const auto& block : blocks) {
-      if ((block.kind == BlockKind::kRepeatedReal) == real) {
-        for (Index i = 0; i < block.rows; ++i) rows.push_back(r + i);
-        for (Index i = 0; i < block.columns; ++i) columns.push_back(c + i);
-        (real ? out.real_blocks : out.complex_blocks).push_back(block);
-        if (real) out.real += block.rows;
-      }
-      r += block.rows;
-      c += block.columns;
-    }
+    ForEachBlock(blocks, [&](std::size_t, const UncertaintyBlock& block, Index r, Index c) {
+      if ((block.kind == BlockKind::kRepeatedReal) != real) return;
+      for (Index i = 0; i < block.rows; ++i) rows.push_back(r + i);
+      for (Index i = 0; i < block.columns; ++i) columns.push_back(c + i);
+      (real ? out.real_blocks : out.complex_blocks).push_back(block);
+      if (real) out.real += block.rows;
+    });
   }
   out.M = M(rows, columns);
   return out;
@@ -257,7 +243,6 @@ double HeldRealLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks, d
 
 double MuLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks) {
   constexpr int kStarts = 12;
-  constexpr int kSteps = 100;
   CheckBlocks(blocks, M.rows(), M.cols());
   bool has_real = false;
   bool has_complex = false;
@@ -267,8 +252,7 @@ double MuLowerBound(const MatrixXcd& M, const UncertaintyBlocks& blocks) {
   if (!has_real) return ComplexLowerBound(M, blocks, kStarts, random);
   double largest = 0.0;
   for (int start = 0; start < kStarts; ++start) {
-    PowerIteration iteration(M, blocks, random);
-    for (int step = 0; step < kSteps; ++step) iteration.Step();
+    const PowerIteration iteration = Iterated(M, blocks, random);
     largest = std::max(largest, LargestReal(M * iteration.Delta(0.0)));
     if (has_complex) largest = std::max(largest, LargestTurnedReal(M, iteration));
   }

@@ -47,9 +47,7 @@ struct Direction {
 class ScalingSpace {
  public:
   ScalingSpace(const MatrixXcd& M, const UncertaintyBlocks& blocks, bool real_scaling) : M_(M) {
-    Index r = 0;
-    Index c = 0;
-    for (const auto& block : blocks) {
+    ForEachBlock(blocks, [&](std::size_t, const UncertaintyBlock& block, Index r, Index c) {
       if (block.kind == BlockKind::kFullComplex) {
         MuScaling of = Zero();
         of.rows.block(r, r, block.rows, block.rows).setIdentity();
@@ -58,9 +56,7 @@ class ScalingSpace {
       } else {
         AddRepeated(block, r, c, real_scaling);
       }
-      r += block.rows;
-      c += block.columns;
-    }
+    });
   }
 
   [[nodiscard]] Index unknowns() const { return static_cast<Index>(directions_.size()); }

@@ -36,16 +36,6 @@ StateSpace WithoutStates(const StateSpace& system) {
   return Gain(MatrixXd::Zero(system.outputs(), system.inputs()));
 }
 
-StateSpace Sum(const StateSpace& a, const StateSpace& b) {
-  StateSpace out = Append(a, b);
-  out.B.resize(a.states() + b.states(), a.inputs());
-  out.B << a.B, b.B;
-  out.C.resize(a.outputs(), a.states() + b.states());
-  out.C << a.C, b.C;
-  out.D = a.D + b.D;
-  return out;
-}
-
 }  // namespace
 
 SplitSystem SplitStable(const StateSpace& given) {

@@ -18,8 +18,8 @@ namespace levitas::synthesis {
 /// states leaves about 1e-12; a solution above 1e-7 has lost the digits that the norm check needs.
 inline constexpr double kRiccatiResidual = 1e-7;
 
-/// `q_terms`: norm of the terms whose difference Q is, where it is one; what rounding of them
-/// leaves in Q counts as zero.
+/// `q_terms`: norm of the larger terms when Q was computed as their difference. Entries of Q no
+/// larger than the rounding error of these terms count as zero.
 [[nodiscard]] std::optional<Eigen::MatrixXd> SolveRiccati(const Eigen::MatrixXd& A,
                                                           const Eigen::MatrixXd& G,
                                                           const Eigen::MatrixXd& Q,

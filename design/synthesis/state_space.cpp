@@ -57,6 +57,22 @@ StateSpace Append(const StateSpace& first, const StateSpace& second) {
           BlockDiagonal(first.C, second.C), BlockDiagonal(first.D, second.D)};
 }
 
+StateSpace Copies(const StateSpace& one, Eigen::Index count) {
+  StateSpace out = one;
+  for (Eigen::Index i = 1; i < count; ++i) out = Append(out, one);
+  return out;
+}
+
+StateSpace Sum(const StateSpace& first, const StateSpace& second) {
+  StateSpace out = Append(first, second);
+  out.B.resize(out.states(), first.inputs());
+  out.B << first.B, second.B;
+  out.C.resize(first.outputs(), out.states());
+  out.C << first.C, second.C;
+  out.D = first.D + second.D;
+  return out;
+}
+
 StateSpace Transposed(const StateSpace& system) {
   return {system.A.transpose(), system.C.transpose(), system.B.transpose(), system.D.transpose()};
 }
@@ -99,13 +115,18 @@ StateSpace LowerFeedback(const StateSpace& plant, const StateSpace& controller) 
   return out;
 }
 
-Eigen::MatrixXcd Response(const StateSpace& system, double rad_per_s) {
-  if (std::isinf(rad_per_s) || system.states() == 0) return system.D.cast<std::complex<double>>();
+Eigen::MatrixXcd TransferAt(const StateSpace& system, std::complex<double> s) {
+  if (system.states() == 0) return system.D.cast<std::complex<double>>();
   Eigen::MatrixXcd shifted = -system.A.cast<std::complex<double>>();
-  shifted.diagonal().array() += std::complex<double>(0.0, rad_per_s);
+  shifted.diagonal().array() += s;
   const Eigen::MatrixXcd state =
       shifted.partialPivLu().solve(system.B.cast<std::complex<double>>());
   return system.C * state + system.D;
+}
+
+Eigen::MatrixXcd Response(const StateSpace& system, double rad_per_s) {
+  if (std::isinf(rad_per_s)) return system.D.cast<std::complex<double>>();
+  return TransferAt(system, {0.0, rad_per_s});
 }
 
 Eigen::VectorXcd Poles(const StateSpace& system) {

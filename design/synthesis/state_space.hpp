@@ -31,6 +31,10 @@ void CheckShapes(const StateSpace& system);
 [[nodiscard]] StateSpace Series(const StateSpace& first, const StateSpace& second);
 /// diag(first, second).
 [[nodiscard]] StateSpace Append(const StateSpace& first, const StateSpace& second);
+/// diag(one, one, ...).
+[[nodiscard]] StateSpace Copies(const StateSpace& one, Eigen::Index count);
+/// first(s) + second(s): the same inputs, outputs added.
+[[nodiscard]] StateSpace Sum(const StateSpace& first, const StateSpace& second);
 /// The system of the transposed transfer matrix.
 [[nodiscard]] StateSpace Transposed(const StateSpace& system);
 
@@ -38,6 +42,8 @@ void CheckShapes(const StateSpace& system);
 /// Throws Problem when I - D22 Dk is singular.
 [[nodiscard]] StateSpace LowerFeedback(const StateSpace& plant, const StateSpace& controller);
 
+/// G(s) = C (s I - A)^-1 B + D. On a pole it is not finite.
+[[nodiscard]] Eigen::MatrixXcd TransferAt(const StateSpace& system, std::complex<double> s);
 /// G(jw) = C (jw I - A)^-1 B + D; `rad_per_s` infinite gives D. On a pole it is not finite.
 [[nodiscard]] Eigen::MatrixXcd Response(const StateSpace& system, double rad_per_s);
 

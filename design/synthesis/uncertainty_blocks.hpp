@@ -9,6 +9,7 @@
 // Failure    std::invalid_argument when they do not fit. Thread: any; pure.
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 namespace levitas::synthesis {
@@ -22,6 +23,18 @@ struct UncertaintyBlock {
 };
 
 using UncertaintyBlocks = std::vector<UncertaintyBlock>;
+
+/// visit(index, block, first row of M, first column of M) for every block in order.
+template <class Visit>
+void ForEachBlock(const UncertaintyBlocks& blocks, const Visit& visit) {
+  Eigen::Index row = 0;
+  Eigen::Index column = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    visit(i, blocks[i], row, column);
+    row += blocks[i].rows;
+    column += blocks[i].columns;
+  }
+}
 
 void CheckBlocks(const UncertaintyBlocks& blocks, Eigen::Index rows, Eigen::Index columns);
 

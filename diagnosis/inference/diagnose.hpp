@@ -13,8 +13,7 @@
 //              several causes is exchanged for its nearest alternatives (exchange.hpp);
 //            4 rank: every effect in place of the first cause, the nearest refitted;
 //            5 analyse the residual (residual.hpp).
-// ModelDiverges     a model that diverges is held by a faster observer until the causes found
-//            make that
+// Divergence a model that diverges is held by a faster observer until the causes found make that
 //            unnecessary (divergence.hpp).
 // Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.
 // Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of

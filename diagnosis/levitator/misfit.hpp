@@ -59,7 +59,7 @@ class Misfit {
 /// Wide and narrow standard deviations, as of parameters.hpp, of any index of a Theta.
 [[nodiscard]] double ToleranceOf(std::size_t index);
 [[nodiscard]] double WideOf(std::size_t index);
-/// ComposedWith an origin.
+/// Composed with an origin.
 [[nodiscard]] double LeastOf(std::size_t index, const Theta& origin);
 
 }  // namespace levitas::levitator

@@ -6,10 +6,9 @@
 //            prevent it. Its misfit and slopes then carry no information about the rig. A faster
 //            observer shows less of slow effects and holds the model until the cause is
 //            known.
-// ModelDiverges     a predicted reading beyond kShare of the clearance that is also kTimes as far
-//            out as
-//            any measured one of its record, or no number at all.
-// Runs away  the sensitivities grow along the run without bound: under a wrong cause the model
+// Model      diverges: a predicted reading beyond kShare of the clearance that is also kTimes as
+//            far out as any measured one of its record, or no number at all.
+// Sensitivities  diverge: they grow along the run without bound: under a wrong cause the model
 //            nearly loses the rotor, and slightly different models do.
 // Thread     any; pure.
 

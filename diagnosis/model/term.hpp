@@ -4,8 +4,7 @@
 // Model      x[n+1] = f(x[n], u[n]) + B a(theta),  y[n] = h(x[n]) + r(theta): a term adds forces at
 //            the magnets, modal accelerations and coil currents over a period, and readings at a
 //            sample, all evaluated along the run of the model (SamplePoint). theta = 0 is the
-//            nominal
-//            rig.
+//            nominal rig.
 // Why        a whole set of causes then costs one run of the nonlinear model, and their
 //            sensitivities follow from one linear propagation (sensitivity.hpp). It is written
 //            independently of plant_sim/effect, so that neither can hide an error of the other.

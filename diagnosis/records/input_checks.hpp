@@ -8,8 +8,7 @@
 //            no magnet carries a rotor with that. Or those of one axis are kFarBeyond times what
 //            its coils can take (rms).
 // Not here   readings beyond the touchdown clearance all the time (levitated_interval.hpp finds
-// no flight);
-//            what is odd but possible (input_warnings.hpp).
+//            no levitated interval); what is odd but possible (input_warnings.hpp).
 // Failure    BadInput: file, found, allowed, remedy. Thread: any; pure.
 
 #include "diagnosis/model/model_run.hpp"

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "analysis/coil_scales.hpp"
 #include "analysis/recorded_rows.hpp"
 #include "common/problem.hpp"
+#include "session/coil_scales.hpp"
 #include "session/csv_import.hpp"
 
 namespace levitas::diagnosis {
@@ -73,7 +73,7 @@ Record LoadRecord(const std::string& path, const config::RigFile& rig,
                                   .rig_yaml = config::WriteRig(rig),
                                   .program_version = "diagnose",
                                   .start_utc_ns = 0,
-                                  .coils = analysis::CoilScales(rig.plant, rig.numbers.axes()),
+                                  .coils = session::CoilScales(rig.plant, rig.numbers.axes()),
                                   .matrix = rig.log.matrix,
                                   .matrix_rows = rig.log.rows};
     IsMat(path) ? session::ImportMat(import) : session::ImportCsv(import);

@@ -25,8 +25,7 @@ void Add(Recording& recording, const cycle::CycleRecord& record, const cycle::Pr
   }
   const SensorFrame& frame = record.in.frame;
   const AxisArray position_m = probes.Positions({frame.position_m}).at;
-  // Signs are their own inverse: the way out is the way back.
-  const AxisArray current_a = probes.Currents({record.out.current.control_current_a}).at;
+  const AxisArray current_a = probes.CommandedCurrents({record.out.current.control_current_a}).at;
   recording.cycle.push_back(record.in.cycle);
   for (std::size_t axis = 0; axis < recording.position_m.size(); ++axis) {
     recording.position_m[axis].push_back(static_cast<float>(position_m[axis]));

@@ -2,8 +2,7 @@
 // A rig of unknown numbers for the modal identification: its campaign, and the truth apart from it.
 //
 // Rig       flexible_rotor with every number off (perturbed_rig.hpp): ki, ks 8 % per axis, sensor
-//            gain
-//           3 %, modal frequencies 3 %, dampings by e^+-0.4, deflections 4 %, delay, loads,
+//           gain 3 %, modal frequencies 3 %, dampings by e^+-0.4, deflections 4 %, delay, loads,
 //           unbalance, and the rigid body's mass and inertia (RigidBodyOff); what the method takes
 //           as known (amplifier, sensor bandwidth and place, centre of mass) is as in the file.
 //           Noise, converters, nonlinear magnets and gravity are on.

@@ -54,7 +54,7 @@ TEST(ExtendedRigTest, SaysThePresentEffectInTheUnitsOfTheFile) {
     const auto entries = EffectEntries(answer);
     return entries.size() == 1 ? entries.front() : "not one entry";
   };
-  // faulty_std 0.15, half of it
+  // half of the prior standard deviation 0.15
   EXPECT_EQ(only(Found("current_gain", "nde_x")),
             "{id: current_gain, channels: [nde_x], ratio: 1.075}");
   // sqrt(tau) of 5e-3 s^0.5, half of it: 6.25 us

@@ -30,8 +30,8 @@ DiagnosisResult Calibrated(double tolerances) {
   return s;
 }
 
-/// Records of the healthy rig have shown that axis to be `healthy_mean` tolerances off, and left
-/// a fifth.
+/// Records of the healthy rig have shown that axis to be `healthy_mean` tolerances off, and left a
+/// fifth of its tolerance.
 DiagnosisResult Learned(double healthy_mean, double found) {
   DiagnosisResult s = Calibrated(found);
   for (Term& term : s.terms) {
