@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "design/synthesis/linear_solve.hpp"
 #include "design/synthesis/riccati.hpp"
 #include "design/synthesis/singular_value.hpp"
 
@@ -29,13 +30,13 @@ std::optional<Half> SolveHalf(const MatrixXd& A, const MatrixXd& B1, const Matri
   const Eigen::FullPivLU<MatrixXd> lu(R);
   if (!lu.isInvertible()) return std::nullopt;
   const MatrixXd cross = D.transpose() * C1;
-  const MatrixXd Ax = A - B * lu.solve(cross);
-  const MatrixXd G = B * lu.solve(B.transpose());
-  const MatrixXd Q = C1.transpose() * C1 - cross.transpose() * lu.solve(cross);
+  const MatrixXd Ax = A - B * SolveColumns(lu, cross);
+  const MatrixXd G = B * SolveColumns(lu, B.transpose());
+  const MatrixXd Q = C1.transpose() * C1 - cross.transpose() * SolveColumns(lu, cross);
   auto X = SolveRiccati(Ax, 0.5 * (G + G.transpose()), 0.5 * (Q + Q.transpose()),
                         (C1.transpose() * C1).norm());
   if (!X) return std::nullopt;
-  return Half{*X, -lu.solve(cross + B.transpose() * *X)};
+  return Half{*X, -SolveColumns(lu, cross + B.transpose() * *X)};
 }
 
 bool IsNonNegative(const MatrixXd& X) {
@@ -55,8 +56,8 @@ StateSpace InUnitsOfThePlant(const NormalPlant& plant, StateSpace k) {
   // y - D22 u is what the controller was made for.
   const Index u = k.D.rows();
   const Eigen::FullPivLU<MatrixXd> loop(MatrixXd::Identity(u, u) + k.D * plant.D22);
-  const MatrixXd from_state = loop.solve(k.C);
-  const MatrixXd from_y = loop.solve(k.D);
+  const MatrixXd from_state = SolveColumns(loop, k.C);
+  const MatrixXd from_y = SolveColumns(loop, k.D);
   StateSpace out;
   out.A = k.A - k.B * plant.D22 * from_state;
   out.B = k.B - k.B * plant.D22 * from_y;
@@ -100,14 +101,15 @@ StateSpace AllControllers(const NormalPlant& plant, const Solved& solved, double
                                         solved.filter.solution * solved.regulator.solution / g2);
   const MatrixXd C2 = -D21 * (plant.C2 + F12);
   const MatrixXd by12 = D12.triangularView<Eigen::Lower>().solve(D11);  // D12^-1 D11
-  const MatrixXd by21 = D21.triangularView<Eigen::Upper>().solve(C2);   // D21^-1 C2
+  MatrixXd by21 = C2;  // D21^-1 C2; SolveColumns says why a plant without states is left out
+  if (n > 0) D21.triangularView<Eigen::Upper>().solveInPlace(by21);
   MatrixXd B(n, plant.B1.cols() + u);
   B << plant.B1, plant.B2;
   const MatrixXd B2 = (plant.B2 + L12) * D12;
-  const MatrixXd B1 = Z.solve(B2 * by12 - L2);
+  const MatrixXd B1 = SolveColumns(Z, B2 * by12 - L2);
   StateSpace all;
   all.B.resize(n, y + u);
-  all.B << B1, Z.solve(B2);
+  all.B << B1, SolveColumns(Z, B2);
   all.C.resize(u + y, n);
   all.C << F2 + D11 * by21, C2;
   all.A = plant.A + B * F + B1 * by21;

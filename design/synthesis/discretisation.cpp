@@ -9,6 +9,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "common/problem.hpp"
+#include "design/synthesis/linear_solve.hpp"
 
 namespace levitas::synthesis {
 
@@ -26,9 +27,9 @@ SampledSystem Tustin(const StateSpace& system, double period_s) {
                   "Tustin's rule has no answer: the controller has a growing mode as fast as the "
                   "sampling; sample faster, or limit the controller's bandwidth");
   // u and y stay those of the instant: D' = D + C (I - A T/2)^-1 B T/2.
-  const MatrixXd B = lu.solve(system.B * period_s);
+  const MatrixXd B = SolveColumns(lu, system.B * period_s);
   StateSpace out;
-  out.A = lu.solve(one + 0.5 * period_s * system.A);
+  out.A = SolveColumns(lu, one + 0.5 * period_s * system.A);
   out.B = B;
   out.C = 0.5 * system.C * (out.A + one);
   out.D = system.D + 0.5 * system.C * B;
@@ -43,7 +44,7 @@ StateSpace InverseTustin(const SampledSystem& sampled) {
   if (n > 0 && !lu.isInvertible())
     throw Problem(ExitStatus::kOther,
                   "the sampled plant has a pole at z = -1, which no continuous system has");
-  const MatrixXd half = 2.0 * lu.solve(MatrixXd::Identity(n, n));  // I - A T/2
+  const MatrixXd half = 2.0 * SolveColumns(lu, MatrixXd::Identity(n, n));  // I - A T/2
   StateSpace out;
   out.A = 2.0 / sampled.period_s * (MatrixXd::Identity(n, n) - half);
   out.B = half * system.B / sampled.period_s;
@@ -148,7 +149,7 @@ ModalSystem ModalForm(const StateSpace& given) {
       ++i;
     }
   }
-  const MatrixXd B = Eigen::FullPivLU<MatrixXd>(T).solve(system.B);
+  const MatrixXd B = SolveColumns(Eigen::FullPivLU<MatrixXd>(T), system.B);
   const MatrixXd C = system.C * T;
   for (Index i = 0; i < n; ++i) {
     const Index size = poles(i).imag() > 0.0 ? 2 : 1;

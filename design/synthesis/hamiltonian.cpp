@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/synthesis/linear_solve.hpp"
+
 namespace levitas::synthesis {
 
 namespace {
@@ -33,7 +35,7 @@ std::optional<Matrix> HamiltonianOf(const StateSpace& system, const Matrix& pi) 
   right << S.adjoint(), B.transpose();
   Matrix H(2 * n, 2 * n);
   H << A, Matrix::Zero(n, n), -Q, -A.transpose();
-  return H - left * lu.solve(right);
+  return H - left * SolveColumns(lu, right);
 }
 
 std::vector<double> OnTheAxis(const Eigen::VectorXcd& eigenvalues, bool both_signs) {

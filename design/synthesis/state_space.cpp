@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/problem.hpp"
+#include "design/synthesis/linear_solve.hpp"
 
 namespace levitas::synthesis {
 
@@ -97,7 +98,7 @@ StateSpace LowerFeedback(const StateSpace& plant, const StateSpace& controller) 
   if (u > 0 && !loop.isInvertible())
     throw Problem(ExitStatus::kOther,
                   "the direct gains of plant and controller form a loop without a solution");
-  const Eigen::MatrixXd Q = loop.solve(one);
+  const Eigen::MatrixXd Q = SolveColumns(loop, one);
   const Eigen::MatrixXd from_y = Q * controller.D;  // u per (C2 x + D21 w)
   const Eigen::MatrixXd from_k = Q * controller.C;  // u per xk
   const Eigen::MatrixXd y_gain = Eigen::MatrixXd::Identity(y, y) + D22 * from_y;

@@ -1,5 +1,4 @@
-// A MAT file of version 5 or 7.3 becomes columns of numbers, or is refused in one sentence. Read in
-// the fuzzer's own process: one of its own for each input allows forty inputs a second.
+// A MAT file of version 5 or 7.3 becomes a session, or is refused in one sentence.
 
 #include <matio.h>
 
@@ -41,8 +40,7 @@ std::vector<std::string> Seeds() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace levitas;
   try {
-    (void)session::ReadMatInThisProcess(fuzz::AsFile("data.mat", {data, size}), "log",
-                                        {"time_s", "position_de_x_m"});
+    (void)session::ImportMat(fuzz::ImportInto(fuzz::AsFile("data.mat", {data, size})));
   } catch (const BadInput&) {
     return 0;
   }

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/LU>
+
+namespace levitas::synthesis {
+
+/// The solution of A X = B by a factorisation of a square A, also for B without rows or columns:
+/// Eigen 3.4 takes the address of the first number of B there, which has none.
+template <class Factorisation>
+typename Factorisation::MatrixType SolveColumns(
+    const Factorisation& of_A, const typename Factorisation::MatrixType& right_side) {
+  if (right_side.size() == 0) return right_side;
+  return of_A.solve(right_side);
+}
+
+}  // namespace levitas::synthesis
