@@ -44,6 +44,13 @@ std::string NotchesElsewhere(const config::ControllerFile& controller, const Rig
   return text;
 }
 
+/// The reason why one real wire in place of the buses of the file would not carry the loop.
+std::string OneWireNote(const AnalysisOptions& options, const config::RigFile& rig) {
+  const std::string refusal = socketcan::RealWireRefusal(rig, options.rig_name, options.port);
+  if (refusal.empty()) return {};
+  return fmt::format("  on real wires {} would not carry the loop: {}\n", options.port, refusal);
+}
+
 /// Refuses what strtod accepts and no rotor does.
 std::string CheckSpeed(const std::string& text) {
   double rpm = 0.0;
@@ -77,12 +84,14 @@ std::string TakeDelayOfPort(const AnalysisOptions& options, config::RigFile& rig
     return fmt::format("delay from sample to current: {:.2f} periods, of the rig file{}\n", of_file,
                        rig.buses.empty() ? "" : " (on its CAN buses: --port can)");
   }
-  socketcan::ApplyBusDelay(rig,
-                           socketcan::PlanConnection(rig, options.rig_name, options.port).budget);
+  // Nothing is connected here, so no interface has to exist: each bus of the file counts.
+  const auto every = [](const std::string&) { return true; };
+  socketcan::ApplyBusDelay(
+      rig, socketcan::PlanConnection(rig, options.rig_name, options.port, every).budget);
   return fmt::format(
       "delay from sample to current: {:.2f} periods, the longer one of {} and the rig file "
-      "({:.2f})\n",
-      rig.plant.delay_samples, options.port, of_file);
+      "({:.2f})\n{}",
+      rig.plant.delay_samples, options.port, of_file, OneWireNote(options, rig));
 }
 
 void AddControllerOption(CLI::App& command, AnalysisOptions& options) {

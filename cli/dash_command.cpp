@@ -57,7 +57,11 @@ ExitStatus Serve(DashOptions options) {
   transport::LcmNetwork network = transport::ParseLcmNetwork(options.port);
   transport::TakeKey(network, options.key, "pretend to be the controller");
   const dashboard::Dashboard page(network, options.web, patience);
-  fmt::print("page: {}   (Ctrl-C ends)\n", page.Url());
+  fmt::print(
+      "page: {}   (Ctrl-C ends)\nThe page stays empty until a controller sends: ./amb run "
+      "--no-dash "
+      "beside it, or a controller with the same --port\n",
+      page.Url());
   WriteJsonFile(options.json_path, {{"page", page.Url()}});
   std::fflush(stdout);
   constexpr auto kLook = std::chrono::milliseconds(50);

@@ -1,6 +1,7 @@
 // amb sessions: the catalogue of recorded sessions; finds them, tags them, forgets them.
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
@@ -86,6 +88,16 @@ void Print(const Entry& entry) {
   if (!more.empty()) fmt::print("{:23}{}\n", "", more);
 }
 
+/// After a search that found nothing: which rigs there are sessions of.
+std::string WhatIsThere(const SessionsOptions& options) {
+  const std::vector<Entry> all = Catalogue(PathOfCatalogue(options)).Find({});
+  if (all.empty()) return ": nothing is recorded yet; amb run and amb sessions add enter sessions";
+  std::set<std::string> rigs;
+  for (const Entry& entry : all) rigs.insert(entry.rig);
+  return fmt::format(" of the {} recorded ones match; their rigs: {}", all.size(),
+                     fmt::join(rigs, ", "));
+}
+
 ExitStatus List(const SessionsOptions& options) {
   session_index::Filter filter = options.filter;
   if (!options.from.empty()) filter.from_utc_ns = ParseUtc(options.from, "--from").begin_ns;
@@ -96,7 +108,8 @@ ExitStatus List(const SessionsOptions& options) {
     Print(entry);
     sessions.push_back(Json(entry));
   }
-  fmt::print("{} session{}\n", found.size(), found.size() == 1 ? "" : "s");
+  fmt::print("{} session{}{}\n", found.size(), found.size() == 1 ? "" : "s",
+             found.empty() ? WhatIsThere(options) : "");
   WriteJsonFile(options.json_path, {{"sessions", sessions}});
   return ExitStatus::kDone;
 }

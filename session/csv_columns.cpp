@@ -77,6 +77,15 @@ constexpr std::size_t kTypingErrors = 2;
 /// So many unknown names are looked at: a table of another program has thousands.
 constexpr std::size_t kMostComplaints = 20;
 
+/// Names of columns have no capitals, so a capital is no error to be counted.
+std::string Lower(std::string_view name) {
+  std::string lower(name);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return lower;
+}
+
 bool HasPrefixOfOurs(std::string_view name) {
   return std::any_of(kPerAxis.begin(), kPerAxis.end(),
                      [&](const PerAxis& kind) { return name.starts_with(kind.prefix); });
@@ -101,7 +110,8 @@ const CsvColumn* Nearest(std::string_view name, const std::vector<CsvColumn>& kn
 
 /// Which column an unknown name was probably meant to be; null: none of ours.
 const CsvColumn* LikelyMeant(std::string_view name, const std::vector<CsvColumn>& known) {
-  return Nearest(name, known, HasPrefixOfOurs(name) ? kLongestName : kTypingErrors);
+  const std::string lower = Lower(name);
+  return Nearest(lower, known, HasPrefixOfOurs(lower) ? kLongestName : kTypingErrors);
 }
 
 std::vector<std::string> Missing(const CsvLayout& layout,
@@ -198,14 +208,16 @@ CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string&
   CsvLayout layout;
   const std::vector<CsvColumn> known = KnownColumns(channels);
   std::vector<std::string> problems;
+  std::size_t not_looked_at = 0;
   std::set<std::pair<CsvQuantity, std::size_t>> seen;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string& name = cells[i];
     const auto is_it = [&](const CsvColumn& column) { return column.name == name; };
     const auto found = std::find_if(known.begin(), known.end(), is_it);
     if (found == known.end()) {
-      const CsvColumn* meant =
-          problems.size() < kMostComplaints ? LikelyMeant(Beginning(name), known) : nullptr;
+      const bool looked_at = problems.size() < kMostComplaints;
+      if (!looked_at) ++not_looked_at;
+      const CsvColumn* meant = looked_at ? LikelyMeant(Beginning(name), known) : nullptr;
       if (meant != nullptr) {
         problems.push_back(
             fmt::format("column {} \"{}\" is not known (channels of the rig: {}); "
@@ -220,6 +232,10 @@ CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string&
       problems.push_back(fmt::format("column {} \"{}\" is given twice", i + 1, name));
     }
     layout.columns.push_back(*found);
+  }
+  if (not_looked_at > 0) {
+    problems.push_back(fmt::format("{} more unknown columns were not compared with the names known",
+                                   not_looked_at));
   }
   const auto missing = Missing(layout, channels);
   if (!missing.empty()) problems.push_back("columns missing: " + Listed(missing));

@@ -41,6 +41,10 @@ constexpr std::array<Row, kFaultCount> kRows{{
     {"the control law gives no number", 1.0, nullptr},
 }};
 
+constexpr const char* kLateRemedy =
+    " If the rig sent in time, this machine was late: amb doctor names what keeps it from real "
+    "time.";
+
 std::string Where(const cycle::CycleOutputs& out, const std::vector<std::string>& channels) {
   if (out.fault_axis < 0) return {};
   const auto axis = static_cast<std::size_t>(out.fault_axis);
@@ -79,11 +83,13 @@ std::string TripText(const cycle::CycleRecord& record, const std::vector<std::st
     numbers = fmt::format(": {:.4g} {}, allowed {:.4g} {}", record.out.fault_value * row.factor,
                           row.unit, record.out.fault_limit * row.factor, row.unit);
   }
+  const bool of_time =
+      record.out.fault == Fault::kFrameMissing || record.out.fault == Fault::kDeadlineMissed;
   return fmt::format(
-      "TRIP {} in cycle {}: {}{}{}. {} When it stands and the cause is "
+      "TRIP {} in cycle {}: {}{}{}. {}{} When it stands and the cause is "
       "gone, give the command reset.",
       Name(record.out.fault), record.in.cycle, row.cause, Where(record.out, channels), numbers,
-      SafeState(record.out.current, record.in.frame.speed_rad_per_s));
+      SafeState(record.out.current, record.in.frame.speed_rad_per_s), of_time ? kLateRemedy : "");
 }
 
 }  // namespace levitas::session

@@ -1,4 +1,6 @@
 #pragma once
+// A X = B for matrices that may be empty: a gain is a system without states.
+// Thread: any. Failure: none; whether A is regular is asked before.
 
 #include <Eigen/LU>
 

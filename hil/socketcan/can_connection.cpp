@@ -74,7 +74,44 @@ std::string MissingText(const std::vector<can::BusConfig>& buses) {
   return {};
 }
 
+/// Buses, layout and load, whether or not the load fits.
+CanConnection Loaded(const config::RigFile& rig, const std::string& rig_name,
+                     const std::string& port, bool (*is_virtual)(const std::string&)) {
+  const std::vector<std::string> interfaces = InterfacesOf(port);
+  if (rig.buses.empty()) {
+    throw BadInput(
+        fmt::format("{}: names no CAN buses; --port {} needs a section buses, see docs/can.md",
+                    rig_name, port));
+  }
+  if (interfaces.size() > rig.buses.size()) {
+    Refuse(port, fmt::format("{} interfaces for the {} buses of {}", interfaces.size(),
+                             rig.buses.size(), rig_name));
+  }
+  CanConnection connection;
+  connection.buses = rig.buses;
+  for (std::size_t at = 0; at < connection.buses.size() && !interfaces.empty(); ++at) {
+    connection.buses[at].interface = interfaces[std::min(at, interfaces.size() - 1)];
+  }
+  connection.buses = MergeShared(connection.buses, is_virtual);
+  connection.layout = can::MakeLayout(rig.numbers, can::FormatOf(connection.buses));
+  connection.budget = can::MakeBudget(connection.layout, connection.buses);
+  return connection;
+}
+
+/// Of a load that does not fit, without the end of its line.
+std::string LoadRefusal(const can::Budget& budget) {
+  std::string text = can::RefusalText(budget);
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
 }  // namespace
+
+std::string RealWireRefusal(const config::RigFile& rig, const std::string& rig_name,
+                            const std::string& port) {
+  const auto none = [](const std::string&) { return false; };
+  return LoadRefusal(Loaded(rig, rig_name, port, none).budget);
+}
 
 bool IsCanPort(const std::string& port) { return port == "can" || port.starts_with("can:"); }
 
@@ -107,28 +144,10 @@ void RefuseLockstep(const config::RigFile& rig, const std::string& port,
 
 CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_name,
                              const std::string& port, bool (*is_virtual)(const std::string&)) {
-  const std::vector<std::string> interfaces = InterfacesOf(port);
-  if (rig.buses.empty()) {
-    throw BadInput(
-        fmt::format("{}: names no CAN buses; --port {} needs a section buses, see docs/can.md",
-                    rig_name, port));
-  }
-  if (interfaces.size() > rig.buses.size()) {
-    Refuse(port, fmt::format("{} interfaces for the {} buses of {}", interfaces.size(),
-                             rig.buses.size(), rig_name));
-  }
-  CanConnection connection;
-  connection.buses = rig.buses;
-  for (std::size_t at = 0; at < connection.buses.size() && !interfaces.empty(); ++at) {
-    connection.buses[at].interface = interfaces[std::min(at, interfaces.size() - 1)];
-  }
-  connection.buses = MergeShared(connection.buses, is_virtual);
-  connection.layout = can::MakeLayout(rig.numbers, can::FormatOf(connection.buses));
-  connection.budget = can::MakeBudget(connection.layout, connection.buses);
+  CanConnection connection = Loaded(rig, rig_name, port, is_virtual);
   if (!connection.budget.fits()) {
-    std::string text = can::RefusalText(connection.budget);
-    text.pop_back();
-    throw BadInput(fmt::format("{}: {}{}", rig_name, MissingText(connection.buses), text));
+    throw BadInput(fmt::format("{}: {}{}", rig_name, MissingText(connection.buses),
+                               LoadRefusal(connection.budget)));
   }
   connection.virtual_bus = true;
   for (const can::BusConfig& bus : connection.buses) {

@@ -53,6 +53,10 @@ void RefuseLockstep(const config::RigFile& rig, const std::string& port,
                                            const std::string& port,
                                            bool (*is_virtual)(const std::string&) = IsVirtual);
 
+/// Why the loop would not fit if each interface named were one real wire; empty: it would.
+[[nodiscard]] std::string RealWireRefusal(const config::RigFile& rig, const std::string& rig_name,
+                                          const std::string& port);
+
 /// Lengthens the delay of the rig to that of the loop on its buses where that is longer.
 void ApplyBusDelay(config::RigFile& rig, const can::Budget& budget);
 

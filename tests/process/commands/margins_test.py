@@ -103,6 +103,15 @@ class Margins(CommandTest):
                 for loop in (lcm, can)]
         self.assertGreater(peak[1], peak[0])
 
+    def test_an_interface_that_is_not_there_is_computed_and_one_wire_for_two_buses_is_told(self):
+        printed, one = self.compute("margins", "--port", "can:absent0")
+        _, two = self.compute("margins", "--port", "can")
+        self.assertEqual(one["speeds"], two["speeds"])
+        self.assertIn("on real wires can:absent0 would not carry the loop", printed)
+        self.assertIn("at most 5684 Hz fits", printed)
+        printed, _ = self.compute("margins", "--port", "can:absent0,absent1")
+        self.assertNotIn("real wires", printed)
+
     def test_delay_beyond_the_phase_margin_ends_stability(self):
         """A delay of T turns the phase at f by 2 pi f T: the margin allows phase/(2 pi f)."""
         _, margins = self.compute("margins")

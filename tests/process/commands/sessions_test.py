@@ -68,6 +68,12 @@ class Sessions(CommandTest):
         self.call("sessions", "tag", "b.lcmlog", "y", "--remove")
         self.assertEqual(self.found("--tag", "y"), [])
 
+    def test_a_search_that_finds_nothing_says_what_there_is(self):
+        self.assertIn("nothing is recorded yet", self.call("sessions").stdout)
+        self.record("a.lcmlog")
+        self.assertIn("0 sessions of the 1 recorded ones match; their rigs: flexible_rotor",
+                      self.call("sessions", "--rig", "nosuch").stdout)
+
     def test_says_which_files_are_gone_and_forgets_them(self):
         self.record("a.lcmlog")
         self.record("b.lcmlog")

@@ -202,6 +202,22 @@ TEST_F(Csv, EveryProblemOfTheColumnNamesIsListedAtOnce) {
                                     "control_current_de_x_a (or ma), control_current_de_y_a")));
 }
 
+TEST_F(Csv, ANameInCapitalsIsNotIgnoredButOfferedInSmallLetters) {
+  const std::string whole =
+      "time_s,position_de_x_m,position_de_y_m,control_current_de_x_a,control_current_de_y_a";
+  EXPECT_THAT(Refusal(whole + ",EXCITATION_DE_X_A\n"),
+              HasSubstr("\"EXCITATION_DE_X_A\" is not known (channels of the rig: de_x, de_y); did "
+                        "you mean \"excitation_de_x_a\"?"));
+  EXPECT_THAT(Refusal(whole + ",Speed_RPM\n"), HasSubstr("did you mean \"speed_rpm\"?"));
+}
+
+TEST_F(Csv, OfAHundredUnknownNamesTheRestIsCounted) {
+  std::string names = "time_s";
+  for (int i = 0; i < 100; ++i) names += ",position_de_x_" + std::to_string(i);
+  // 20 are compared with the names known; 80 are left.
+  EXPECT_THAT(Refusal(names + "\n"), HasSubstr("80 more unknown columns"));
+}
+
 TEST_F(Csv, ColumnsOfAnotherRigAreToldInOneSentence) {
   const std::string text = Refusal(
       "time_s,position_ball_x_m,position_ball_y_m,control_current_ball_x_a,"

@@ -99,6 +99,17 @@ TEST(TripText, TellsEveryFaultWithCauseChannelFiguresUnitAndRemedy) {
   EXPECT_EQ(faults.size(), kFaultCount - 1U) << "a fault is not in the table of this test";
 }
 
+TEST(TripText, PointsToDoctorWhereTheMachineMayHaveBeenLate) {
+  cycle::CycleRecord record = Quiet(4711);
+  for (int fault = 1; fault < kFaultCount; ++fault) {
+    record.out.fault = static_cast<Fault>(fault);
+    const bool of_time =
+        record.out.fault == Fault::kFrameMissing || record.out.fault == Fault::kDeadlineMissed;
+    EXPECT_EQ(TripText(record, {}).find("amb doctor") != std::string::npos, of_time)
+        << Name(record.out.fault);
+  }
+}
+
 TEST(TripText, SaysWhichSafeStateTheCoilsAndTheDriveAreIn) {
   cycle::CycleRecord record = Quiet(1);
   record.out.fault = Fault::kEmergencyStop;
