@@ -3,27 +3,18 @@
 #include "cli/study/bench_command.hpp"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <exception>
-#include <filesystem>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
-#include "benchmark/accuracy/available_evidence.hpp"
-#include "benchmark/accuracy/scores.hpp"
 #include "cli/json_file.hpp"
+#include "cli/study/bench_sweep.hpp"
+#include "cli/study/bench_trials.hpp"
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/study/kept_memory.hpp"
 #include "cli/study_commands.hpp"
 #include "common/output_file.hpp"
-#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -38,217 +29,21 @@ constexpr const char* kHelp =
     "counts as not named, in the size of that evidence.\n"
     "Example: amb bench diagnosis --seeds 34 --clean 10 --outside 10 --pairs 10";
 
-struct BenchOptions {
-  std::string rig{"flexible_rotor"};
-  std::vector<std::string> controllers;
-  std::vector<std::string> effects;
-  std::vector<double> sizes{1.0, 0.5, 0.25};
-  std::uint64_t first{1000};
-  int seeds{0}, clean{0}, outside{0}, pairs{0}, weak{0};
-  bool quick{}, explain{}, in_file{};
-  std::size_t jobs{1};
-  std::string json_path, markdown_path, write_folder;
-};
-
-std::vector<effect::Id> Chosen(const BenchOptions& options, const accuracy::TestRig& bench) {
-  std::vector<effect::Id> ids;
-  for (const accuracy::SizeOnRig& on : bench.trials.effects) {
-    const std::string name(effect::At(on.id).name);
-    if (options.effects.empty() ||
-        std::find(options.effects.begin(), options.effects.end(), name) != options.effects.end()) {
-      ids.push_back(on.id);
-    }
-  }
-  if (ids.empty()) {
-    throw BadInput(fmt::format("--effect: no effect of that name is hidden in rig {}",
-                               bench.rig.numbers.name));
-  }
-  return ids;
-}
-
-std::vector<accuracy::TrialPlan> Plans(const BenchOptions& options,
-                                       const accuracy::TestRig& bench) {
-  const auto ids = Chosen(options, bench);
-  std::vector<accuracy::TrialPlan> plans;
-  const auto add = [&](std::vector<effect::Id> hidden, double size) -> accuracy::TrialPlan& {
-    accuracy::TrialPlan plan;
-    plan.seed = options.first + plans.size();
-    plan.hidden = std::move(hidden);
-    plan.size = size;
-    plan.in_file = options.in_file;
-    return plans.emplace_back(plan);
-  };
-  for (int i = 0; i < options.seeds; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    add({ids[at % ids.size()]}, options.sizes[at / ids.size() % options.sizes.size()]);
-  }
-  for (int i = 0; i < options.clean; ++i) add({}, 0.0);
-  for (int i = 0; i < options.outside; ++i) {
-    add({}, 1.0).outside = static_cast<accuracy::Unmodelled>(1 + i % 5);
-  }
-  for (int i = 0; i < options.pairs; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    add({ids[at % ids.size()], ids[(at * 7 + 3) % ids.size()]}, 1.0);
-  }
-  for (int i = 0; i < options.weak; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    add({ids[at % ids.size()], ids[(at + 5) % ids.size()], ids[(at + 13) % ids.size()],
-         ids[(at + 22) % ids.size()]},
-        1.0)
-        .side_size = 0.15;
-  }
-  return plans;
-}
-
-void WriteTrial(const accuracy::Trial& trial, const std::string& root, std::uint64_t seed) {
-  const std::string folder = fmt::format("{}/{}", root, seed);
-  std::filesystem::create_directories(folder + "/secret");
-  accuracy::WriteCsv(trial.campaign, trial.rig.numbers, folder);
-  WriteWholeFile(folder + "/rig.yaml", config::WriteRig(trial.rig));
-  nlohmann::ordered_json truth{{"effects", trial.ground_truth.effects},
-                               {"outside", Name(trial.ground_truth.outside)}};
-  WriteJsonFile(folder + "/secret/truth.json", truth);
-}
-
-/// What the records hold for one of what is hidden, beside the rest of it.
-std::optional<double> HeldFor(const accuracy::Trial& trial, const std::string& effect) {
-  std::vector<effect::EffectConfig> one;
-  std::vector<effect::EffectConfig> rest;
-  for (const effect::EffectConfig& entry : trial.ground_truth.hidden) {
-    (effect::At(entry.id).name == effect ? one : rest).push_back(entry);
-  }
-  return accuracy::AvailableEvidence(trial.rig, trial.records, one, rest);
-}
-
-void ListMissed(const accuracy::Trial& trial, accuracy::TrialScore& outcome) {
-  for (const std::string& effect : outcome.truth) {
-    if (!outcome.Names(effect)) outcome.missed.emplace_back(effect, HeldFor(trial, effect));
-  }
-}
-
-accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRig& bench,
-                         const BenchOptions& options) {
-  const accuracy::Trial trial = accuracy::MakeTrial(bench, plan);
-  if (!options.write_folder.empty()) WriteTrial(trial, options.write_folder, plan.seed);
-  diagnosis::Settings settings;
-  settings.quick = options.quick;
-  const auto start = std::chrono::steady_clock::now();
-  const diagnosis::DiagnosisResult answer =
-      diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
-  accuracy::TrialScore outcome =
-      accuracy::Judge(plan, trial.ground_truth, answer, bench.rig.numbers);
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (outcome.truth.size() > 1 && plan.side_size == 1.0) ListMissed(trial, outcome);
-  if (!outcome.truth.empty() && !outcome.Right()) {
-    // What the records hold for an effect that was not named is found by being told of it.
-    settings.only = outcome.truth.front();
-    const auto told = diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
-    const bool known =
-        !outcome.missed.empty() && outcome.missed.front().first == outcome.truth.front();
-    accuracy::AddInformedDiagnosis(
-        told.answer, known ? outcome.missed.front().second : HeldFor(trial, outcome.truth.front()),
-        outcome);
-  }
-  return outcome;
-}
-
-std::string Hidden(const accuracy::TrialScore& o) {
-  if (!o.truth.empty()) return fmt::format("{}", fmt::join(o.truth, "+"));
-  if (!o.in_file.empty()) return fmt::format("({} in the file)", fmt::join(o.in_file, "+"));
-  return o.outside.empty() ? "(nothing)" : o.outside;
-}
-
-void PrintOne(const accuracy::TrialScore& o) {
-  fmt::print("{:>6} {:<26}{:<9}-> {:<8}{:<60}{:>7.1f} nat {:.1f} s{}\n", o.seed, Hidden(o),
-             o.truth.empty() ? "" : accuracy::Name(o.size()), o.verdict,
-             fmt::format("{}{}{}", fmt::join(o.named, ", "), o.ties.empty() ? "" : " | ",
-                         fmt::join(o.ties, ", ")),
-             o.score_nat, o.seconds, o.Right() ? "" : (o.Partly() ? "   (partly)" : "   WRONG"));
-  for (const auto& [effect, held] : o.missed) {
-    fmt::print("       not named: {}, of which the records hold {} given the others\n", effect,
-               held ? fmt::format("{:.1f} nat", *held) : "an unknown amount");
-  }
-  if (o.informed_failed) {
-    fmt::print("       informed diagnosis failed: it does not name {}; the records hold {}\n",
-               o.truth.front(),
-               o.record_nat < 0.0 ? "an unknown amount" : fmt::format("{:.1f} nat", o.record_nat));
-  }
-  static_cast<void>(std::fflush(stdout));
-}
-
-void Explain(const accuracy::TrialScore& o) {
-  fmt::print("       {:.2f} of the excess explained, {:.1f} sigma left, gain held out {:.3f}; {}\n",
-             o.explained, o.remainder_sigma, o.achieved, fmt::join(o.nearest, ", "));
-  static_cast<void>(std::fflush(stdout));
-}
-
-nlohmann::ordered_json Json(const accuracy::TrialScore& o) {
-  auto missed = nlohmann::ordered_json::array();
-  for (const auto& [effect, held] : o.missed) {
-    missed.push_back({{"effect", effect}, {"held_nat", held.value_or(-1.0)}});
-  }
-  return {{"seed", o.seed},
-          {"truth", o.truth},
-          {"outside", o.outside},
-          {"in_file", o.in_file},
-          {"drawn", o.drawn},
-          {"size", o.truth.empty() ? "" : accuracy::Name(o.size())},
-          {"verdict", o.verdict},
-          {"named", o.named},
-          {"ties", o.ties},
-          {"score_nat", o.score_nat},
-          {"available_nat", o.available_nat},
-          {"held_nat", o.record_nat},
-          {"oracle_failed", o.informed_failed},
-          {"missed", missed},
-          {"explained", o.explained},
-          {"remainder_sigma", o.remainder_sigma},
-          {"nearest", o.nearest},
-          {"right", o.Right()},
-          {"partly", o.Partly()},
-          {"achieved", o.achieved},
-          {"parameter_error", o.parameter_error},
-          {"parameter_sigmas", o.parameter_sigmas},
-          {"seconds", o.seconds}};
-}
-
-/// Several at a time, printed as they end, returned in the order of the plans.
-std::vector<accuracy::TrialScore> TryAll(const std::vector<accuracy::TrialPlan>& plans,
-                                         const accuracy::TestRig& bench,
-                                         const BenchOptions& options) {
-  std::vector<accuracy::TrialScore> outcomes(plans.size());
-  std::atomic<std::size_t> next{0};
-  std::mutex printing;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < plans.size(); i = next++) {
-        outcomes[i] = Try(plans[i], bench, options);
-        const std::lock_guard lock(printing);
-        PrintOne(outcomes[i]);
-        if (options.explain) Explain(outcomes[i]);
-      }
-    } catch (...) {
-      const std::lock_guard lock(printing);
-      failure = std::current_exception();
-      next = plans.size();
-    }
-  };
-  std::vector<std::thread> others;
-  for (std::size_t i = 1; i < options.jobs; ++i) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
-  if (failure) std::rethrow_exception(failure);
-  return outcomes;
-}
-
 ExitStatus Run(const BenchOptions& options) {
+  if (options.constants) {
+    fmt::print("{}", diagnosis::JudgingMarkdown());
+    return ExitStatus::kDone;
+  }
   KeepFreedMemory();
   std::vector<std::string> controllers = options.controllers;
   if (controllers.empty() && options.rig == "flexible_rotor") {
     controllers = {"flexible_rotor", "flexible_rotor_commissioned"};
   }
   const accuracy::TestRig bench = accuracy::LoadTestRig(options.rig, controllers);
+  if (!options.sweep.empty()) {
+    WriteJsonFile(options.json_path, RunSweep(options, bench));
+    return ExitStatus::kDone;
+  }
   const std::vector<accuracy::TrialScore> outcomes = TryAll(Plans(options, bench), bench, options);
   nlohmann::ordered_json json;
   json["trials"] = nlohmann::ordered_json::array();
@@ -292,6 +87,11 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_flag("--explain", options->explain, "The nearest candidates of every trial");
   command->add_option("--write", options->write_folder, "Also write the records as CSV here");
   command->add_option("--markdown", options->markdown_path, "Tables for docs/diagnosis_results.md");
+  command->add_option("--sweep", options->sweep,
+                      "NAME=V,V,...: the same trials with each value of a number that decides");
+  command->add_flag(
+      "--constants", options->constants,
+      "Print the numbers that decide, with their sources (docs/judging_constants.md)");
   command->add_option("--json", options->json_path, "Every trial");
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

@@ -57,14 +57,16 @@ void RefitRivals(SearchState& state) {
   CauseSet best{state.causes, leader};
   std::size_t tried = 0;
   for (Candidate& candidate : state.candidates) {
-    if (tried == state.effort.rivals || candidate.score < std::max(kDecisive, lead - 2.0 * kNear))
+    if (tried == state.effort.rivals ||
+        candidate.score < std::max(state.settings.judging.decisive_nat,
+                                   lead - 2.0 * state.settings.judging.near_nat))
       break;
     if (candidate.refitted) continue;
     ++tried;
     state.ReportProgress(0.78 + 0.03 * static_cast<double>(tried), "refitting " + candidate.effect);
     std::vector<Hypothesis> causes = state.causes;
     causes[0] = state.search.hypotheses()[candidate.hypothesis];
-    Refined fit = state.Refit(causes, best.fit.evidence - kDecisive);
+    Refined fit = state.Refit(causes, best.fit.evidence - state.settings.judging.decisive_nat);
     if (!fit.ok) continue;
     candidate.score = lead + fit.evidence - leader.evidence;
     candidate.refitted = true;
@@ -81,8 +83,9 @@ bool LeaderFails(SearchState& state) {
   const std::vector<Hypothesis> rest = Without(state.causes, 0);
   const Refined fit = state.refiner.Fit(
       rest, rest.empty() ? state.calibrated : state.search.Solve(state.view.problem, rest),
-      state.view, state.effort.passes, state.leader_evidence - kDecisive);
-  if (!fit.ok || state.leader_evidence - fit.evidence >= kDecisive) return false;
+      state.view, state.effort.passes, state.leader_evidence - state.settings.judging.decisive_nat);
+  if (!fit.ok || state.leader_evidence - fit.evidence >= state.settings.judging.decisive_nat)
+    return false;
   state.causes = rest;
   state.theta = fit.theta;
   state.LineariseAll();

@@ -12,21 +12,11 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// Residual threshold [sigma]. Mode-shape errors outside the parametrisation leave about 10 on
-/// healthy rigs.
-constexpr double kUnexplained = 15.0;
-constexpr double kExplained = 0.7;  ///< least share of the excess residual power
-/// [sigma] An inexact force law does not leave a line that stands out so far, unless that law
-/// explains nearly all of the excess.
-constexpr double kStandsOut = 30.0;
-constexpr double kNearlyAll = 0.95;
-/// [nat] Allowed loss on the validation data. They are a sixth of the records; the gain of a cause
-/// of some tens of nats scatters by a few nats there.
-constexpr double kHarm = 2.0 * kDecisive;
-
-bool IsUnexplained(const Residual& remainder, bool named, double explained) {
-  if (!(remainder.sigma > kUnexplained)) return false;
-  return !named || explained < (remainder.sigma > kStandsOut ? kNearlyAll : kExplained);
+bool IsUnexplained(const Judging& judging, const Residual& remainder, bool named,
+                   double explained) {
+  if (!(remainder.sigma > judging.unexplained_sigma)) return false;
+  const bool stands_out = remainder.sigma > judging.stands_out_sigma;
+  return !named || explained < (stands_out ? judging.nearly_all_share : judging.explained_share);
 }
 
 constexpr Effort kQuick{5, 3, 3, 0, kQuickRows, true};
@@ -74,10 +64,11 @@ void Describe(const SearchState& state, const Fit& fit, SearchResult& answer) {
 /// Causes that no term describes. They explain none of what the other causes do; the stronger one
 /// leads.
 void AddEvents(SearchState& state, const Residual& remainder) {
+  const Judging& judging = state.settings.judging;
   for (const Candidate& event : FindEvents(state.rig, state.all_records, remainder)) {
-    if (event.effect == "sensor_noise" && remainder.sigma > kUnexplained) continue;
+    if (event.effect == "sensor_noise" && remainder.sigma > judging.unexplained_sigma) continue;
     state.candidates.push_back(event);
-    if (event.score < kDecisive) continue;
+    if (event.score < judging.decisive_nat) continue;
     Hypothesis cause;
     cause.effect = event.effect;
     cause.place = event.place;
@@ -91,11 +82,12 @@ void AddEvents(SearchState& state, const Residual& remainder) {
 
 SearchResult Conclude(SearchState& state) {
   state.ReportProgress(0.9, "analysing the residual");
+  const Judging& judging = state.settings.judging;
   SearchResult answer;
   answer.speed = kSpeeds[state.speed];
   answer.runs = state.search.Run(state.records, state.gains, state.theta);
   const double held = HeldGain(state.calibrated_runs, answer.runs, state.view.whitener);
-  if (!state.causes.empty() && held < -kHarm) {
+  if (!state.causes.empty() && held < -judging.harm_nat) {
     // What does harm where it was not fitted is no cause.
     state.causes.clear();
     state.theta = state.calibrated;
@@ -108,14 +100,15 @@ SearchResult Conclude(SearchState& state) {
     throw BadInput("no stretch of 0.2 s is without gaps: nothing can be said of what remains");
   }
   answer.explained = Explained(AnalyseResidual(state.rig, state.calibrated_runs), answer.remainder);
-  const bool unexplained = IsUnexplained(answer.remainder, !state.causes.empty(), answer.explained);
+  const bool unexplained =
+      IsUnexplained(judging, answer.remainder, !state.causes.empty(), answer.explained);
   if (unexplained) state.causes.clear();
   AddEvents(state, answer.remainder);
   const Fit fit = Evidence(state.view.problem, state.terms, state.causes).Solve();
   const Fit null = Evidence(state.view.problem, state.terms, {}).Solve();
   answer.evidence = fit.log_evidence - null.log_evidence;
   Describe(state, fit, answer);
-  answer.also_possible = Ties(state.candidates, state.causes);
+  answer.also_possible = Ties(state.candidates, state.causes, judging.decisive_nat);
   answer.causes = state.causes;
   answer.candidates = state.candidates;
   answer.verdict = !state.causes.empty() ? Verdict::kEffect

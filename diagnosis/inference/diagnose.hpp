@@ -16,10 +16,9 @@
 // Divergence a model that diverges is held by a faster observer until the causes found make that
 //            unnecessary (divergence.hpp).
 // Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.
-// Enough     kDecisive, and a further cause more than kForm of what is explained already: laws of
-//            magnets and contacts are known to a tenth or so of their amplitude, so that a
-//            hundredth of the gain of the right cause remains for wrong ones to explain.
-// Answer     `effect` when a cause gains enough; ties are all causes within kDecisive of it;
+// Enough     Judging::decisive_nat, and a further cause more than form_share of what is explained
+//            already (judging.hpp has all numbers that decide, with their sources).
+// Answer     `effect` when a cause gains enough; ties are all causes within decisive_nat of it;
 //            `unknown` when the residual power stands out of the noise and is more than a small
 //            part of the calibrated model's excess; else `none`.
 // Units      evidence in nats. Thread: blocks the caller, two threads inside.
@@ -30,19 +29,18 @@
 #include <vector>
 
 #include "diagnosis/inference/evidence.hpp"
+#include "diagnosis/inference/judging.hpp"
 #include "diagnosis/inference/residual.hpp"
 #include "diagnosis/model/observer_speed.hpp"
 #include "diagnosis/terms/terms.hpp"
 
 namespace levitas::diagnosis {
 
-inline constexpr double kDecisive = 5.0;  ///< [nat] odds of 150 : 1
-inline constexpr double kForm = 0.02;     ///< share of the evidence that a law's form may leave
-
 struct Settings {
   bool quick{};  ///< a first answer: the strongest cause, from a part of the records
   std::size_t most_causes{3};
   std::string only;  ///< the one effect that is looked for; empty: all
+  Judging judging;
   /// Share done and what is being done; may be empty.
   std::function<void(double, const std::string&)> progress;
 };

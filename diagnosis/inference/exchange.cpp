@@ -10,7 +10,6 @@ namespace levitas::diagnosis {
 namespace {
 
 constexpr std::size_t kOthers = 2;  ///< tried in the place of one cause
-constexpr double kShare = 0.4;      ///< of its gain, by which the screen may be wrong
 constexpr int kRounds = 2;
 
 using Shapes = std::vector<Family::Shape>;
@@ -48,7 +47,8 @@ std::vector<Candidate> Near(const SearchState& state, std::size_t at) {
       Screen(Evidence(state.view.problem, state.terms, Without(state.causes, at)),
              state.search.hypotheses());
   std::erase_if(near, [&](const Candidate& c) {
-    return c.score < own - std::max(kNear, kShare * own) ||
+    return c.score < own - std::max(state.settings.judging.near_nat,
+                                    state.settings.judging.exchange_share * own) ||
            std::any_of(state.causes.begin(), state.causes.end(),
                        [&c](const Hypothesis& h) { return h.effect == c.effect; });
   });

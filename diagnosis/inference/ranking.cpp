@@ -28,7 +28,7 @@ void SortByScore(std::vector<Candidate>& candidates) {
 }
 
 std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
-                              const std::vector<Hypothesis>& causes) {
+                              const std::vector<Hypothesis>& causes, double tie_nat) {
   std::vector<std::string> ties;
   if (causes.empty()) return ties;
   const auto own = std::find_if(candidates.begin(), candidates.end(), [&causes](const auto& c) {
@@ -38,7 +38,7 @@ std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
   for (const Candidate& c : candidates) {
     const bool also = std::any_of(causes.begin(), causes.end(),
                                   [&c](const Hypothesis& h) { return h.effect == c.effect; });
-    if (!also && c.score > own->score - kDecisive) ties.push_back(c.effect);
+    if (!also && c.score > own->score - tie_nat) ties.push_back(c.effect);
   }
   return ties;
 }

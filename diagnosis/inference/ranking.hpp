@@ -17,9 +17,9 @@ namespace levitas::diagnosis {
 
 void SortByScore(std::vector<Candidate>& candidates);
 
-/// Effects that come within kDecisive of the first cause, or before it.
+/// Effects that come within `tie_nat` of the first cause, or before it.
 [[nodiscard]] std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
-                                            const std::vector<Hypothesis>& causes);
+                                            const std::vector<Hypothesis>& causes, double tie_nat);
 
 /// Share of the excess over the noise, all lines and channels, that the causes take away.
 [[nodiscard]] double Explained(const Residual& before, const Residual& after);

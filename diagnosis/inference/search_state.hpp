@@ -14,8 +14,6 @@
 
 namespace levitas::diagnosis {
 
-inline constexpr double kNear = 15.0;  ///< [nat] competing hypotheses within this are refitted
-
 /// Extent of a search.
 struct Effort {
   int calibrations;       ///< passes with the slow observer

@@ -12,12 +12,10 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// The screen promises so many times what is enough that the refit's passes may just not have
-/// sufficed.
-constexpr double kFarBeyond = 3.0;
-
 /// Least gain of a further cause, given the evidence explained already.
-double Enough(double explained_nat) { return kDecisive + kForm * std::max(0.0, explained_nat); }
+double Enough(const Judging& judging, double explained_nat) {
+  return judging.decisive_nat + judging.form_share * std::max(0.0, explained_nat);
+}
 
 /// `fit` of all causes becomes that with the best member of the last one's family.
 void SharpenLast(SearchState& state, Refined& fit) {
@@ -33,7 +31,8 @@ void SharpenLast(SearchState& state, Refined& fit) {
 void DropSuperfluous(SearchState& state, const LinearProblem& problem) {
   for (std::size_t i = 0; i + 1 < state.causes.size();) {
     const std::vector<Hypothesis> rest = Without(state.causes, i);
-    if (Evidence(problem, state.terms, rest).Gain(state.causes[i]) < kDecisive) {
+    if (Evidence(problem, state.terms, rest).Gain(state.causes[i]) <
+        state.settings.judging.decisive_nat) {
       state.causes = rest;
       state.theta = state.search.Solve(problem, state.causes);
     } else {
@@ -45,7 +44,10 @@ void DropSuperfluous(SearchState& state, const LinearProblem& problem) {
 /// The best few of the screen on the nonlinear model; the best of those.
 CauseSet BestOfScreen(SearchState& state, const std::vector<Candidate>& screened, double null,
                       double enough, double share) {
-  const double from = std::min(screened.front().score - kNear, 0.3 * screened.front().score);
+  // Of the strongest causes the screen errs by a share of their gain rather than by an amount.
+  constexpr double kScreenErrs = 0.3;
+  const double from = std::min(screened.front().score - state.settings.judging.near_nat,
+                               kScreenErrs * screened.front().score);
   CauseSet best;
   state.refitted.clear();
   for (std::size_t i = 0; i < std::min(screened.size(), state.effort.shortlist); ++i) {
@@ -88,19 +90,21 @@ bool AddCause(SearchState& state, double share) {
       state.effort.first_cause_only
           ? std::vector<ModeProbe>{}
           : ProbeModes(state.rig, state.terms, state.search.hypotheses(), state.view.runs);
-  if (!(screened.front().score > kDecisive) && probes.empty()) return false;
+  if (!(screened.front().score > state.settings.judging.decisive_nat) && probes.empty())
+    return false;
   const Refined before = state.refiner.Fit(state.causes, state.theta, state.view, 2);
   const double null = before.ok
                           ? before.evidence
                           : Refiner::EvidenceOfSet(state.view.problem, state.terms, state.causes);
-  const double enough = Enough(null - Refiner::EvidenceOfSet(state.view.problem, state.terms, {}));
+  const double enough = Enough(state.settings.judging,
+                               null - Refiner::EvidenceOfSet(state.view.problem, state.terms, {}));
   if (!(screened.front().score > enough) && probes.empty()) return false;
   CauseSet best = BestOfScreen(state, screened, null, enough, share);
   TryProbes(state, probes, null, best);
   // The nonlinear model must confirm the gain of the linear screen. A large step may need more
   // passes than were spent on it: what is far beyond doubt is taken and linearised anew.
   if (!best.fit.ok || !(best.fit.evidence - null > enough)) {
-    if (!(screened.front().score > kFarBeyond * enough)) return false;
+    if (!(screened.front().score > state.settings.judging.far_beyond * enough)) return false;
     state.causes.push_back(state.search.hypotheses()[screened.front().hypothesis]);
     state.theta = state.search.Solve(state.view.problem, state.causes);
     if (state.effort.first_cause_only || !HasFamily(state.causes.back(), state.terms)) return true;
@@ -133,7 +137,7 @@ bool MergeOnce(SearchState& state) {
   if (!whole.ok) return false;
   const double explained =
       whole.evidence - Refiner::EvidenceOfSet(state.view.problem, state.terms, {});
-  const double worth = whole.evidence - Enough(explained);
+  const double worth = whole.evidence - Enough(state.settings.judging, explained);
   CauseSet best;
   // One for all first, then one for any two.
   if (state.causes.size() > 2) TryBeside(state, {}, worth, best);
@@ -215,7 +219,7 @@ void DropUnproven(SearchState& state) {
       least = gain;
       weakest = i;
     }
-    if (least >= kDecisive) return;
+    if (least >= state.settings.judging.decisive_nat) return;
     state.causes = Without(state.causes, weakest);
     state.theta = state.causes.empty() ? state.calibrated
                                        : state.search.Solve(state.view.problem, state.causes);

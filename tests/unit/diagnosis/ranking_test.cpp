@@ -29,13 +29,13 @@ TEST(RankingTest, TiesAreAllWithinTheDecisiveMargin) {
   const std::vector<Candidate> candidates{{"unbalance", "", 20.0, 0, true},
                                           {"shaft_bow", "", 16.0, 1, true},
                                           {"rotor_mass", "", 14.0, 2, true}};
-  EXPECT_EQ(Ties(candidates, {Named("unbalance")}), std::vector<std::string>{"shaft_bow"});
+  EXPECT_EQ(Ties(candidates, {Named("unbalance")}, 5.0), std::vector<std::string>{"shaft_bow"});
 }
 
 TEST(RankingTest, ACauseOfItsOwnIsNoTie) {
   const std::vector<Candidate> candidates{{"unbalance", "", 20.0, 0, true},
                                           {"shaft_bow", "", 16.0, 1, true}};
-  EXPECT_TRUE(Ties(candidates, {Named("unbalance"), Named("shaft_bow")}).empty());
+  EXPECT_TRUE(Ties(candidates, {Named("unbalance"), Named("shaft_bow")}, 5.0).empty());
 }
 
 TEST(RankingTest, AModelThatIsWorseOnWhatWasKeptBackLoses) {

@@ -1,0 +1,84 @@
+#include "diagnosis/inference/judging.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "common/problem.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr std::array<JudgingRow, 10> kTable{{
+    {"decisive_nat", &Judging::decisive_nat, "nat",
+     "evidence that a cause must gain to be named, and within which alternatives are ties",
+     "odds of 150 : 1, `strong` to `decisive` on Jeffreys' scale (Kass and Raftery 1995: beyond 5 "
+     "nat); 257 of 257 healthy rigs were answered `none` with it in 2026",
+     "--clean 20 --seeds 22 --size 0.4 --sweep decisive_nat=2,5,10"},
+    {"form_share", &Judging::form_share, "of the evidence explained",
+     "further evidence that a second cause must gain beside a strong first one",
+     "force laws of magnets and contacts differ from the file by a tenth in amplitude, a hundredth "
+     "in squared error; twice that",
+     "--seeds 22 --size 2 --sweep form_share=0,0.02,0.1"},
+    {"near_nat", &Judging::near_nat, "nat",
+     "distance to the leader within which a hypothesis is fitted on the nonlinear model",
+     "set by hand: a larger value costs time only", "--seeds 22 --size 1 --sweep near_nat=5,15,45"},
+    {"exchange_share", &Judging::exchange_share, "of a cause's gain",
+     "error of the linear screen that is allowed for when one of several causes is exchanged",
+     "set by hand, for causes so strong that the screen errs by more than near_nat",
+     "--pairs 16 --sweep exchange_share=0.1,0.4,0.8"},
+    {"far_beyond", &Judging::far_beyond, "times what is enough",
+     "screened evidence that is believed although the refit stopped before it gained enough",
+     "set by hand", "--seeds 22 --size 2 --sweep far_beyond=1,3,1e9"},
+    {"unexplained_sigma", &Judging::unexplained_sigma, "deviations of chance",
+     "power of the residual, in its worst band, from which the answer may be `unknown`",
+     "healthy rigs leave about 10, of mode shapes outside the parametrisation",
+     "--clean 20 --outside 20 --sweep unexplained_sigma=5,15,30"},
+    {"explained_share", &Judging::explained_share, "of the excess power",
+     "least share that causes must take away where the residual still stands out", "set by hand",
+     "--outside 20 --seeds 22 --size 2 --sweep explained_share=0.4,0.7,0.9"},
+    {"stands_out_sigma", &Judging::stands_out_sigma, "deviations of chance",
+     "power of the residual from which nearly_all_share counts in place of explained_share",
+     "twice unexplained_sigma: an inexact force law leaves no line that stands out so far",
+     "--outside 20 --seeds 22 --size 2 --sweep stands_out_sigma=15,30,60"},
+    {"nearly_all_share", &Judging::nearly_all_share, "of the excess power",
+     "least share that causes must take away where a line of the residual stands out",
+     "set by hand", "--outside 20 --seeds 22 --size 2 --sweep nearly_all_share=0.8,0.95,0.99"},
+    {"harm_nat", &Judging::harm_nat, "nat",
+     "loss on the validation data from which causes are no causes",
+     "twice decisive_nat: validation data are a sixth of the records, on which the gain of a cause "
+     "of 26 nat scattered by 5 nat (trial 25005, 2026)",
+     "--clean 20 --seeds 22 --size 0.4 --sweep harm_nat=0,10,1e9"},
+}};
+
+}  // namespace
+
+const std::array<JudgingRow, 10>& JudgingTable() { return kTable; }
+
+const JudgingRow& FindJudging(std::string_view name) {
+  const auto* found = std::find_if(kTable.begin(), kTable.end(),
+                                   [name](const JudgingRow& row) { return row.name == name; });
+  if (found != kTable.end()) return *found;
+  std::string allowed;
+  for (const JudgingRow& row : kTable) {
+    allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", row.name);
+  }
+  throw BadInput(
+      fmt::format("no number of that name decides: found {}, allowed {}", name, allowed));
+}
+
+std::string JudgingMarkdown() {
+  std::string text =
+      "# Numbers that decide which answer a diagnosis gives\n\nPrinted by `amb bench diagnosis "
+      "--constants`, from `diagnosis/inference/judging.cpp`. The last column is what to give to\n"
+      "`amb bench diagnosis` to find a value again: the same trials run with each value in "
+      "turn.\n\n"
+      "| name | value | unit | decides | source | sweep |\n|---|---|---|---|---|---|\n";
+  for (const JudgingRow& row : kTable) {
+    text += fmt::format("| `{}` | {:g} | {} | {} | {} | `{}` |\n", row.name, Judging{}.*row.value,
+                        row.unit, row.meaning, row.source, row.again);
+  }
+  return text;
+}
+
+}  // namespace levitas::diagnosis

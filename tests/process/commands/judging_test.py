@@ -1,0 +1,33 @@
+"""amb bench diagnosis --sweep and --constants: the numbers that decide, and what they do."""
+
+import unittest
+
+from command import BAD_INPUT, DONE, SOURCE, USAGE, CommandTest, amb
+
+
+class Judging(CommandTest):
+    def test_the_committed_page_is_current(self):
+        done = amb(self.folder, "bench", "diagnosis", "--constants")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        committed = (SOURCE / "docs/judging_constants.md").read_text(encoding="utf-8")
+        self.assertEqual(done.stdout.splitlines(), committed.splitlines(),
+                         "build/release/bin/amb bench diagnosis --constants > docs/judging_constants.md")
+
+    def test_a_sweep_changes_what_is_said_of_a_healthy_rig(self):
+        """Where no evidence is asked for, something is named although nothing is hidden."""
+        done = amb(self.folder, "bench", "diagnosis", "--quick", "--clean", "1", "--first", "1003",
+                   "--sweep", "decisive_nat=-1000,5")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        rows = [line.split() for line in done.stdout.splitlines()[-2:]]
+        self.assertEqual([(row[0], row[3:6]) for row in rows],
+                         [("-1000", ["0", "of", "1"]), ("5", ["1", "of", "1"])])
+
+    def test_refuses_what_it_does_not_know(self):
+        for text, status in (("decisive_nat", USAGE), ("decisive_nat=", USAGE),
+                             ("decisive_nat=two", USAGE), ("nat=2", BAD_INPUT)):
+            done = amb(self.folder, "bench", "diagnosis", "--clean", "1", "--sweep", text)
+            self.assertEqual(done.returncode, status, text + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
