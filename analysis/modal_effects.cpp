@@ -2,45 +2,14 @@
 
 #include <vector>
 
-namespace levitas::analysis {
+#include "plant_sim/effect/catalogue.hpp"
 
-ModalInfluence InfluenceOf(effect::Id id) noexcept {
-  using effect::Id;
-  switch (id) {
-    case Id::kModalFrequency:
-    case Id::kModalDamping:
-    case Id::kGyroscopicInertia:
-    case Id::kRotorMass:
-    case Id::kInternalDamping:
-    case Id::kCouplingStiffness:
-    case Id::kCrossCoupledStiffness:
-      return ModalInfluence::kOnTheRotor;
-    case Id::kShaftAnisotropy:
-    case Id::kBreathingCrack:
-      return ModalInfluence::kTurning;
-    case Id::kSupportMode:
-    case Id::kCurrentGain:
-    case Id::kDisplacementStiffness:
-    case Id::kCoilAsymmetry:
-    case Id::kMagneticSaturation:
-    case Id::kHysteresis:
-    case Id::kEddyCurrent:
-    case Id::kAxisRotation:
-    case Id::kExtraDelay:
-    case Id::kAmplifierBandwidth:
-    case Id::kSensorGain:
-    case Id::kSensorBandwidth:
-    case Id::kSensorPosition:
-      return ModalInfluence::kOnTheLoop;
-    default:
-      return ModalInfluence::kNone;
-  }
-}
+namespace levitas::analysis {
 
 plant::PlantConfig WithModalEffects(const plant::PlantConfig& plant) {
   plant::PlantConfig with = plant;
   std::erase_if(with.effects, [](const effect::EffectConfig& entry) {
-    return InfluenceOf(entry.id) != ModalInfluence::kOnTheRotor;
+    return effect::At(entry.id).facts.modes != effect::Modes::kOnTheRotor;
   });
   for (effect::EffectConfig& entry : with.effects) entry.at_s = entry.ramp_s = 0.0;
   return with;

@@ -1,5 +1,5 @@
 #pragma once
-// Which effects of a rig file change the modes of its free rotor.
+// The rotor of a rig file with the effects that change its free modes (effect::Modes).
 //
 // Free       a rotor in its surroundings, magnets without current: what acts through the magnets
 //            (currents, ki, ks, a moving support) changes the modes of the loop alone, which are
@@ -13,10 +13,6 @@
 #include "plant_sim/plant/plant_config.hpp"
 
 namespace levitas::analysis {
-
-enum class ModalInfluence : std::uint8_t { kNone, kOnTheLoop, kTurning, kOnTheRotor };
-
-[[nodiscard]] ModalInfluence InfluenceOf(effect::Id id) noexcept;
 
 /// The rig with those effects alone that change the modes of the free rotor, at full strength from
 /// the start.

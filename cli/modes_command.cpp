@@ -105,11 +105,11 @@ nlohmann::ordered_json DampedJson(const analysis::DampedModesAtSpeed& at) {
 }
 
 /// Names of the file's effects of one influence, each once.
-std::string Names(const config::RigFile& rig, analysis::ModalInfluence influence) {
+std::string Names(const config::RigFile& rig, effect::Modes influence) {
   std::vector<std::string> names;
   for (const effect::EffectConfig& entry : rig.plant.effects) {
     const std::string name(effect::At(entry.id).name);
-    if (analysis::InfluenceOf(entry.id) != influence) continue;
+    if (effect::At(entry.id).facts.modes != influence) continue;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return fmt::format("{}", fmt::join(names, ", "));
@@ -118,10 +118,10 @@ std::string Names(const config::RigFile& rig, analysis::ModalInfluence influence
 /// Influence of the rig file's effects on the free rotor, and those that are not applied.
 void ShowEffects(const ModesOptions& options, const config::RigFile& rig,
                  nlohmann::ordered_json& json) {
-  using analysis::ModalInfluence;
+  using effect::Modes;
   if (rig.plant.effects.empty()) return;
   fmt::print("\nThe numbers above are those of the rotor without the effects of the rig file.\n");
-  if (const auto names = Names(rig, ModalInfluence::kOnTheRotor); !names.empty()) {
+  if (const auto names = Names(rig, Modes::kOnTheRotor); !names.empty()) {
     fmt::print("With {} at full strength; damped modes, magnets without current:\n", names);
     for (const double speed : SpeedsOf(options, rig)) {
       const auto at = analysis::DampedModes(analysis::WithModalEffects(rig.plant), speed);
@@ -130,12 +130,12 @@ void ShowEffects(const ModesOptions& options, const config::RigFile& rig,
     }
   }
   constexpr std::array kOthers{
-      std::pair{ModalInfluence::kTurning,
+      std::pair{Modes::kTurning,
                 "turn with the rotor: no frequency stays the same over a turn. amb run shows them"},
       std::pair{
-          ModalInfluence::kOnTheLoop,
+          Modes::kOnTheLoop,
           "change the levitated rotor, not the free one: amb poles has what is linear of them"},
-      std::pair{ModalInfluence::kNone, "change no mode"}};
+      std::pair{Modes::kNone, "change no mode"}};
   for (const auto& [influence, why] : kOthers) {
     const std::string names = Names(rig, influence);
     if (!names.empty()) fmt::print("Not applied: {} ({})\n", names, why);

@@ -13,40 +13,14 @@ namespace {
 using effect::EffectConfig;
 using effect::Id;
 
-constexpr std::array kIds{Id::kExtraDelay,
-                          Id::kDroppedSamples,
-                          Id::kAmplifierBandwidth,
-                          Id::kAmplifierSlew,
-                          Id::kCurrentGain,
-                          Id::kDisplacementStiffness,
-                          Id::kCoilAsymmetry,
-                          Id::kMagneticSaturation,
-                          Id::kHysteresis,
-                          Id::kEddyCurrent,
-                          Id::kAxisRotation,
-                          Id::kSensorGain,
-                          Id::kSensorOffset,
-                          Id::kSensorNonlinearity,
-                          Id::kSensorBandwidth,
-                          Id::kSensorPosition,
-                          Id::kSensorRunout,
-                          Id::kMainsPickup,
-                          Id::kSensorNoise,
-                          Id::kUnbalance,
-                          Id::kShaftBow,
-                          Id::kShaftAnisotropy,
-                          Id::kModalFrequency,
-                          Id::kModalDamping,
-                          Id::kGyroscopicInertia,
-                          Id::kInternalDamping,
-                          Id::kRotorMass,
-                          Id::kBreathingCrack,
-                          Id::kMisalignment,
-                          Id::kCouplingStiffness,
-                          Id::kCrossCoupledStiffness,
-                          Id::kStaticLoad,
-                          Id::kSupportMode,
-                          Id::kTouchdownRub};
+/// All but those of teeth (hidden_gear_effect.hpp) and the jitter, which a rotor never shows.
+std::vector<Id> MakeIds() {
+  std::vector<Id> ids;
+  for (const effect::Row& row : effect::Catalogue()) {
+    if (row.place != effect::Place::kGear && row.id != Id::kSampleJitter) ids.push_back(row.id);
+  }
+  return ids;
+}
 
 class Drawer {
  public:
@@ -311,7 +285,10 @@ class Drawer {
 
 }  // namespace
 
-std::span<const effect::Id> HiddenIds() { return kIds; }
+std::span<const effect::Id> HiddenIds() {
+  static const std::vector<Id> kIds = MakeIds();
+  return kIds;
+}
 
 std::vector<EffectConfig> DrawEffect(Id id, double size, const plant::PlantParameters& nominal,
                                      Random& random) {

@@ -20,9 +20,9 @@ bool Has(const DiagnosisResult& s, std::string_view effect) {
 }
 
 /// The effects that were searched and of which `needs` holds.
-void Append(const DiagnosisResult& s, bool (*needs)(effect::Id), std::vector<std::string>& to) {
+void Append(const DiagnosisResult& s, bool effect::Facts::*needs, std::vector<std::string>& to) {
   for (const effect::Row& row : effect::Catalogue()) {
-    if (needs(row.id) && Has(s, row.name)) to.emplace_back(row.name);
+    if (row.facts.*needs && Has(s, row.name)) to.emplace_back(row.name);
   }
 }
 
@@ -40,8 +40,8 @@ Coverage CoverageOf(const DiagnosisResult& s) {
 std::vector<std::string> UnobservableEffects(const DiagnosisResult& s) {
   const Coverage c = CoverageOf(s);
   std::vector<std::string> effects;
-  if (!c.turns) Append(s, effect::NeedsRotation, effects);
-  if (!c.excited) Append(s, effect::NeedsExcitation, effects);
+  if (!c.turns) Append(s, &effect::Facts::needs_rotation, effects);
+  if (!c.excited) Append(s, &effect::Facts::needs_excitation, effects);
   return effects;
 }
 
@@ -50,8 +50,8 @@ std::string UnobservableSentence(const DiagnosisResult& s) {
   if (c.turns && c.excited) return {};
   std::vector<std::string> turning;
   std::vector<std::string> excited;
-  Append(s, effect::NeedsRotation, turning);
-  Append(s, effect::NeedsExcitation, excited);
+  Append(s, &effect::Facts::needs_rotation, turning);
+  Append(s, &effect::Facts::needs_excitation, excited);
   std::string text = "These records cannot show every effect:";
   if (!c.turns) {
     text += fmt::format(" the rotor does not turn, so {} would not show", fmt::join(turning, ", "));

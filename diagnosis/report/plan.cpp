@@ -32,7 +32,7 @@ bool AnyOf(const std::vector<std::string>& effects,
 bool AnyNeedsRotation(const std::vector<std::string>& effects) {
   return std::any_of(effects.begin(), effects.end(), [](const std::string& name) {
     const effect::Row* row = effect::Find(name);
-    return row != nullptr && effect::NeedsRotation(row->id);
+    return row != nullptr && row->facts.needs_rotation;
   });
 }
 

@@ -12,6 +12,7 @@ std::vector<Row> Collect() {
        {LoopRows(), MagnetRows(), SensorRows(), RotorRows(), ExternalRows(), GearRows()}) {
     all.insert(all.end(), rows.begin(), rows.end());
   }
+  std::sort(all.begin(), all.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
   return all;
 }
 
@@ -29,45 +30,6 @@ const Row* Find(std::string_view name) {
   const auto found =
       std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
   return found == rows.end() ? nullptr : &*found;
-}
-
-bool NeedsRotation(Id id) noexcept {
-  switch (id) {
-    case Id::kUnbalance:
-    case Id::kShaftBow:
-    case Id::kShaftAnisotropy:
-    case Id::kGyroscopicInertia:
-    case Id::kInternalDamping:
-    case Id::kBreathingCrack:
-    case Id::kSensorRunout:
-    case Id::kMisalignment:
-    case Id::kMeshStiffness:
-    case Id::kMeshStiffnessVariation:
-    case Id::kBacklash:
-    case Id::kMeshFriction:
-    case Id::kTransmissionError:
-    case Id::kGearRunout:
-    case Id::kToothCrack:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool NeedsExcitation(Id id) noexcept {
-  switch (id) {
-    case Id::kCurrentGain:
-    case Id::kDisplacementStiffness:
-    case Id::kSensorGain:
-    case Id::kExtraDelay:
-    case Id::kAmplifierBandwidth:
-    case Id::kSensorBandwidth:
-    case Id::kEddyCurrent:
-    case Id::kModalFrequency:
-      return true;
-    default:
-      return false;
-  }
 }
 
 std::string_view Name(Place place) noexcept {

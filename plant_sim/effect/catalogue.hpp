@@ -45,6 +45,31 @@ struct Parameter {
   bool whole{};  ///< an order or a count
 };
 
+/// Which picture shows it best.
+enum class Shows : std::uint8_t {
+  kResponse,  ///< frequency response of the plant
+  kSpectrum,  ///< orbit and spectrum of the turning rotor
+  kForce,     ///< force over current and displacement
+  kGearMesh
+};
+
+/// How it enters the modes of the rotor (`amb modes`).
+enum class Modes : std::uint8_t {
+  kNone,        ///< adds a force or a reading
+  kOnTheRotor,  ///< changes them with the rotor free in its bearings
+  kTurning,     ///< changes them periodically with the angle: no modes of their own
+  kOnTheLoop    ///< only with the loop closed
+};
+
+/// Each says something of the effect that others ask for; what is left out is false.
+struct Facts {
+  bool repeats{};           ///< several entries on one place add up; else one each
+  bool needs_rotation{};    ///< shows only while the shaft turns: by its angle, speed or teeth
+  bool needs_excitation{};  ///< hardly shows without a test signal: adds no force
+  Shows shows_in{Shows::kSpectrum};
+  Modes modes{Modes::kNone};
+};
+
 struct Row {
   Id id;
   std::string_view name;
@@ -55,7 +80,7 @@ struct Row {
   std::string_view equation;
   std::string_view signature;  ///< what it changes: order, place, sign
   std::string_view source;
-  bool repeats{};  ///< several entries on one place add up; else one each
+  Facts facts;
 };
 
 /// All rows, in the order of Id.
@@ -63,17 +88,13 @@ struct Row {
 [[nodiscard]] const Row& At(Id id);
 /// Null when no effect has this name.
 [[nodiscard]] const Row* Find(std::string_view name);
-/// Shows only while the shaft turns: bound to its angle, its speed or its teeth.
-[[nodiscard]] bool NeedsRotation(Id id) noexcept;
-/// Hardly shows without a test signal: it changes the response of the loop and adds no force.
-[[nodiscard]] bool NeedsExcitation(Id id) noexcept;
 [[nodiscard]] std::string_view Name(Place place) noexcept;
 [[nodiscard]] std::string_view Name(Scope scope) noexcept;
 
 /// An entry with every value at its clear size (`own` supplies what the rig has, see kOwn).
 [[nodiscard]] EffectConfig ClearEntry(Id id, double own = 1.0);
 
-// The rows by place, in the order of Id; one file each.
+// The rows by place; one file each.
 [[nodiscard]] std::span<const Row> LoopRows();
 [[nodiscard]] std::span<const Row> MagnetRows();
 [[nodiscard]] std::span<const Row> SensorRows();

@@ -48,43 +48,50 @@ constexpr std::array kRows{
         "f = stiffness delta + damping delta'",
         "moves the modes in which the wheels move against each other; a line of the transmission "
         "error pushes with k e, so it scales with k below them",
-        "Ozguven & Houser 1988, J. Sound Vib. 121(3) 383"},
+        "Ozguven & Houser 1988, J. Sound Vib. 121(3) 383",
+        Facts{.needs_rotation = true, .shows_in = Shows::kGearMesh}},
     Row{Id::kMeshStiffnessVariation, "mesh_stiffness_variation", Place::kGear, Scope::kGear,
         kVariation, "the stiffness varies as teeth come into and out of contact",
         "k(t) = k [1 + amplitude cos(order mesh angle + phase)]",
         "multiplies delta: sum and difference of order x mesh and every line there is; a static "
         "load alone shows as a line at order x mesh",
-        "Kahraman & Singh 1991, J. Sound Vib. 146(1) 135", true},
+        "Kahraman & Singh 1991, J. Sound Vib. 146(1) 135",
+        Facts{.repeats = true, .needs_rotation = true, .shows_in = Shows::kGearMesh}},
     Row{Id::kBacklash, "backlash", Place::kGear, Scope::kGear, kBacklashGap,
         "no mesh force within the gap between the flanks",
         "f = k d max(0, 1 - (gap/2)/|d|) + c d' while the teeth touch,  d = delta + n (F0/k + "
         "gap/2)",
         "nothing while the load keeps the teeth in contact; beyond, free flight and impacts: "
         "harmonics and sub-harmonics of the mesh",
-        "Kahraman & Singh 1990, J. Sound Vib. 142(1) 49"},
+        "Kahraman & Singh 1990, J. Sound Vib. 142(1) 49",
+        Facts{.needs_rotation = true, .shows_in = Shows::kGearMesh}},
     Row{Id::kMeshFriction, "mesh_friction", Place::kGear, Scope::kGear, kFriction,
         "the flanks slide on each other, one way before the pitch point, the other way behind it",
         "f += coefficient N sign(sliding) j n",
         "force across the line of action, in proportion to the load, a square wave over the mesh: "
         "odd mesh harmonics",
-        "Vaishya & Singh 2001, J. Sound Vib. 248(4) 671"},
+        "Vaishya & Singh 2001, J. Sound Vib. 248(4) 671",
+        Facts{.needs_rotation = true, .shows_in = Shows::kGearMesh}},
     Row{Id::kTransmissionError, "transmission_error", Place::kGear, Scope::kGear, kError,
         "a harmonic of the transmission error that the model lacks",
         "e(t) += amplitude e^(j (order mesh angle + phase))",
         "one line of the full spectrum at order x mesh, on its side only: forward or backward",
-        "Ozguven & Houser 1988, J. Sound Vib. 121(3) 383", true},
+        "Ozguven & Houser 1988, J. Sound Vib. 121(3) 383",
+        Facts{.repeats = true, .needs_rotation = true, .shows_in = Shows::kGearMesh}},
     Row{Id::kGearRunout, "gear_runout", Place::kGear, Scope::kGear, kEccentricity,
         "the pitch circle is eccentric on its shaft, and with it the wheel's mass",
         "delta += amplitude e^(j (angle + phase));  unbalance eccentric_mass x amplitude",
         "one line at the wheel's own rotation, in its sense: forward for the first shaft, backward "
         "for the one it turns",
-        "Smith 2003, Gear Noise and Vibration, 2nd ed., ch. 2", true},
+        "Smith 2003, Gear Noise and Vibration, 2nd ed., ch. 2",
+        Facts{.repeats = true, .needs_rotation = true, .shows_in = Shows::kGearMesh}},
     Row{Id::kToothCrack, "tooth_crack", Place::kGear, Scope::kGear, kCrack,
         "a tooth with a cracked root carries less, once per turn of its wheel",
         "k(t) = k [1 - depth w],  w a Hann window one pitch to either side of the tooth",
         "a pulse once per turn: lines at multiples of the wheel's rotation, side bands of the mesh "
         "at that spacing",
-        "Chaari, Fakhfakh & Haddar 2009, Eur. J. Mech. A/Solids 28(3) 461", true},
+        "Chaari, Fakhfakh & Haddar 2009, Eur. J. Mech. A/Solids 28(3) 461",
+        Facts{.repeats = true, .needs_rotation = true, .shows_in = Shows::kGearMesh}},
 };
 
 }  // namespace

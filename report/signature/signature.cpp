@@ -10,37 +10,7 @@
 namespace levitas::signature {
 
 using effect::Id;
-
-Kind KindOf(Id id) {
-  if (effect::At(id).place == effect::Place::kGear) return Kind::kGear;
-  switch (id) {
-    case Id::kCoilAsymmetry:
-    case Id::kMagneticSaturation:
-    case Id::kHysteresis:
-    case Id::kAmplifierSlew:
-      return Kind::kForce;
-    case Id::kExtraDelay:
-    case Id::kAmplifierBandwidth:
-    case Id::kCurrentGain:
-    case Id::kDisplacementStiffness:
-    case Id::kEddyCurrent:
-    case Id::kAxisRotation:
-    case Id::kSensorGain:
-    case Id::kSensorBandwidth:
-    case Id::kSensorPosition:
-    case Id::kModalFrequency:
-    case Id::kModalDamping:
-    case Id::kGyroscopicInertia:
-    case Id::kInternalDamping:
-    case Id::kRotorMass:
-    case Id::kCouplingStiffness:
-    case Id::kCrossCoupledStiffness:
-    case Id::kSupportMode:
-      return Kind::kResponse;
-    default:
-      return Kind::kSpectrum;
-  }
-}
+using effect::Shows;
 
 effect::EffectConfig ClearOn(const plant::PlantParameters& rig, Id id) {
   effect::EffectConfig entry = effect::ClearEntry(id);
@@ -63,17 +33,17 @@ svg::Figure Picture(const plant::PlantParameters& rig, const effect::EffectConfi
   svg::Figure figure;
   figure.title = std::string(effect::At(entry.id).name);
   figure.columns = 3;
-  switch (KindOf(entry.id)) {
-    case Kind::kResponse:
+  switch (effect::At(entry.id).facts.shows_in) {
+    case Shows::kResponse:
       figure.panels = ResponsePanels(rigs);
       break;
-    case Kind::kSpectrum:
+    case Shows::kSpectrum:
       figure.panels = SpectrumPanels(rigs);
       break;
-    case Kind::kForce:
+    case Shows::kForce:
       figure.panels = ForcePanels(rigs);
       break;
-    case Kind::kGear:
+    case Shows::kGearMesh:
       figure.panels = GearPanels(rigs);
       break;
   }

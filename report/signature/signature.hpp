@@ -19,11 +19,6 @@
 
 namespace levitas::signature {
 
-enum class Kind { kResponse, kSpectrum, kForce, kGear };
-
-/// The picture that shows this effect best.
-[[nodiscard]] Kind KindOf(effect::Id id);
-
 /// An entry of clear size on a rig: planes inside its shaft, factors on its own values.
 [[nodiscard]] effect::EffectConfig ClearOn(const plant::PlantParameters& rig, effect::Id id);
 
@@ -31,7 +26,7 @@ enum class Kind { kResponse, kSpectrum, kForce, kGear };
 [[nodiscard]] svg::Figure Picture(const plant::PlantParameters& rig,
                                   const effect::EffectConfig& entry);
 
-// The kinds; a pair of models: without and with the effect.
+// The panels of effect::Shows; a pair of models: without and with the effect.
 struct Pair {
   plant::PlantParameters without;
   plant::PlantParameters with;

@@ -97,7 +97,7 @@ void CheckEffects(const PlantConfig& config) {
     if (!config.shafts.empty() && NeedsOneRotor(entries[i])) {
       Refuse(i, entries[i], "needs a rig with one rotor, this one has geared shafts");
     }
-    if (effect::At(entries[i].id).repeats) continue;
+    if (effect::At(entries[i].id).facts.repeats) continue;
     for (std::size_t k = 0; k < i; ++k) {
       if (SamePlace(entries[i], entries[k], bearings)) {
         Refuse(i, entries[i], fmt::format("effects[{}] acts at the same place", k));

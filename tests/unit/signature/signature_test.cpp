@@ -86,8 +86,8 @@ TEST(Pictures, ShowWhatTheEffectChangesByItself) {
   for (const effect::Row& row : effect::Catalogue()) {
     const plant::PlantParameters& rig = RigFor(row);
     const svg::Figure figure = Picture(rig, ClearOn(rig, row.id));
-    const bool response = KindOf(row.id) == Kind::kResponse;
-    const std::size_t added = KindOf(row.id) == Kind::kGear ? 2 : 1;
+    const bool response = row.facts.shows_in == effect::Shows::kResponse;
+    const std::size_t added = row.facts.shows_in == effect::Shows::kGearMesh ? 2 : 1;
     double largest = 0.0;
     for (std::size_t panel = added; panel <= (response ? added + 1 : added); ++panel) {
       for (const svg::Series& series : figure.panels.at(panel).series) {
