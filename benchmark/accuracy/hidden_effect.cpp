@@ -88,27 +88,47 @@ class Drawer {
   void Bearing() { entry_.bearing = Pick(nominal_.config.bearings.size()); }
 
   void Loop() {
-    if (entry_.id == Id::kExtraDelay) Value(0) = 80e-6 * size_;
-    if (entry_.id == Id::kDroppedSamples) {
-      Value(0) = 0.004 * size_;
-      Value(1) = static_cast<double>(1 + Pick(2));
+    switch (entry_.id) {
+      case Id::kExtraDelay:
+        Value(0) = 80e-6 * size_;
+        break;
+      case Id::kDroppedSamples:
+        Value(0) = 0.004 * size_;
+        Value(1) = static_cast<double>(1 + Pick(2));
+        break;
+      case Id::kCurrentGain:
+        Channels();
+        Value(0) = Ratio(0.25);
+        break;
+      case Id::kAmplifierBandwidth:
+        Channels();
+        Value(0) = nominal_.config.bearings[0].amplifier.bandwidth_hz * Ratio(0.8);
+        break;
+      case Id::kAmplifierSlew:
+        AllChannels();
+        Value(0) = 5000.0 / std::sqrt(size_);
+        break;
+      default:
+        Clear();
+        break;
     }
-    if (entry_.id == Id::kAmplifierBandwidth) {
-      Channels();
-      Value(0) = nominal_.config.bearings[0].amplifier.bandwidth_hz * Ratio(0.8);
-    }
-    if (entry_.id == Id::kAmplifierSlew) {
-      AllChannels();
-      Value(0) = 5000.0 / std::sqrt(size_);
+  }
+
+  /// Every parameter off by the size times what is clear, to either side; for an effect that needs
+  /// no more than that.
+  void Clear() {
+    const effect::Row& row = effect::At(entry_.id);
+    if (row.scope == effect::Scope::kChannels) Channels();
+    if (row.scope == effect::Scope::kBearing) Bearing();
+    for (std::size_t i = 0; i < row.parameters.size(); ++i) {
+      const effect::Parameter& p = row.parameters[i];
+      if (p.scaling != effect::Scaling::kLinear) continue;
+      Value(i) = p.neutral + Sign() * size_ * (p.clear - p.neutral);
     }
   }
 
   void Magnet() {
     switch (entry_.id) {
-      case Id::kCurrentGain:
-        Channels();
-        Value(0) = Ratio(0.25);
-        break;
       case Id::kDisplacementStiffness:
         Channels();
         Value(0) = 1.0 + Sign() * 0.3 * size_;
@@ -131,8 +151,11 @@ class Drawer {
         Channels();
         Value(0) = 10e-6 * size_ * size_;
         break;
-      default:
+      case Id::kAxisRotation:
         Rotation();
+        break;
+      default:
+        Clear();
         break;
     }
   }

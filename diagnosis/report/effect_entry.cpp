@@ -12,6 +12,7 @@
 #include "diagnosis/report/gear_entry.hpp"
 #include "diagnosis/report/words.hpp"
 #include "diagnosis/terms/terms.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -27,6 +28,24 @@ EntryValue Channel(const std::string& channel) {
 }
 EntryValue AllChannels(const RigView& rig) {
   return Words("channels", fmt::format("[{}]", fmt::join(rig.numbers.channels, ", ")));
+}
+
+/// Of an effect whose term is named by the parameters of the catalogue and counts from neutral.
+EntryValues CatalogueEntry(const PlacedEffect& g) {
+  const effect::Row* row = effect::Find(g.effect);
+  if (row == nullptr) return {};
+  const auto named = [](std::string_view stem, std::string_view suffix) {
+    return suffix.empty() ? std::string(stem) : fmt::format("{}_{}", stem, suffix);
+  };
+  EntryValues values;
+  if (row->scope == effect::Scope::kChannels) values.push_back(Channel(g.place));
+  if (row->scope == effect::Scope::kBearing) values.push_back(Words("bearing", g.place));
+  for (const effect::Parameter& p : row->parameters) {
+    const std::string key = named(p.stem, p.file_suffix);
+    const double value = p.neutral + g.At(named(p.stem, p.si_suffix));
+    values.push_back(Number(key, value / UnitOfKey(key).si));
+  }
+  return values;
 }
 
 EntryValues MagnetEntry(const RigView& rig, const PlacedEffect& g) {
@@ -55,7 +74,7 @@ EntryValues MagnetEntry(const RigView& rig, const PlacedEffect& g) {
     return {Words("bearing", g.After(" ")), Words("of", g.place.substr(0, g.place.find(' '))),
             Number("angle_deg", g.At("angle_rad") * 180.0 / std::numbers::pi)};
   }
-  return {Channel(g.place), Number("ratio", 1.0 + g.At("ratio"))};
+  return CatalogueEntry(g);
 }
 
 EntryValues SensorEntry(const RigView& rig, const PlacedEffect& g) {
@@ -86,10 +105,6 @@ EntryValues SensorEntry(const RigView& rig, const PlacedEffect& g) {
       return {Channel(g.place),
               Number("bandwidth_hz",
                      rig.bearing(a).sensor.bandwidth_hz / std::max(0.05, 1.0 + g.At("lag_ratio")))};
-    }
-    if (g.effect == "amplifier_bandwidth" && g.place == rig.numbers.channels[a]) {
-      return {Channel(g.place), Number("bandwidth_hz", rig.bearing(a).amplifier.bandwidth_hz *
-                                                           std::max(0.05, 1.0 + g.At("ratio")))};
     }
   }
   return {Channel(g.place), Number("ratio", 1.0 + g.At("ratio"))};
@@ -132,12 +147,21 @@ EntryValues RotorEntry(const RigView& rig, const PlacedEffect& g) {
   return {Number("ratio", 1.0 + g.At("ratio"))};
 }
 
+EntryValues AmplifierEntry(const RigView& rig, const PlacedEffect& g) {
+  if (g.effect == "amplifier_slew") {
+    return {AllChannels(rig), Number("slew_a_per_s", g.Number())};
+  }
+  for (std::size_t a = 0; g.effect == "amplifier_bandwidth" && a < rig.axes; ++a) {
+    if (g.place != rig.numbers.channels[a]) continue;
+    return {Channel(g.place), Number("bandwidth_hz", rig.bearing(a).amplifier.bandwidth_hz *
+                                                         std::max(0.05, 1.0 + g.At("ratio")))};
+  }
+  return CatalogueEntry(g);
+}
+
 EntryValues ExternalEntry(const RigView& rig, const PlacedEffect& g) {
   if (g.effect == "extra_delay") {
     return {Number("delay_us", 1e6 * rig.period_s * std::max(0.0, g.At("samples")))};
-  }
-  if (g.effect == "amplifier_slew") {
-    return {AllChannels(rig), Number("slew_a_per_s", g.Number())};
   }
   if (g.effect == "misalignment") {
     return {Number("z_mm", 0), Number("order", g.Number()), Number("force_n", g.Amplitude()),
@@ -200,9 +224,10 @@ std::string PlacedEffect::After(const std::string& comma) const {
 EntryValues ValuesOf(const RigView& rig, const PlacedEffect& at) {
   const std::string place = PlaceOfEffect(at.effect);
   if (place == "gear") return GearEntry(rig, at.effect, at.place, at.theta);
-  if (place == "magnet" || at.effect == "current_gain") return MagnetEntry(rig, at);
+  if (place == "magnet") return MagnetEntry(rig, at);
+  if (place == "amplifier") return AmplifierEntry(rig, at);
   if (place == "rotor") return RotorEntry(rig, at);
-  if (place == "sensor" || at.effect == "amplifier_bandwidth") return SensorEntry(rig, at);
+  if (place == "sensor") return SensorEntry(rig, at);
   return ExternalEntry(rig, at);
 }
 

@@ -123,6 +123,24 @@ Values OwnValues(const PlantParameters& parameters, const EffectConfig& entry,
   return own;
 }
 
+namespace {
+
+/// How the coil currents follow their commands; other effects of amplifiers are scales and offsets.
+void ApplyToAmplifiers(const PlantParameters& parameters, const EffectConfig& entry,
+                       double strength, RigNow& now) noexcept {
+  for (std::size_t axis = 0; axis < 2 * parameters.config.bearings.size(); ++axis) {
+    if (!entry.Acts(axis)) continue;
+    const double value = ValuesAt(parameters, entry, axis, strength)[0];
+    if (entry.id == Id::kAmplifierBandwidth) now.amplifier_bandwidth_hz[axis] = value;
+    if (entry.id == Id::kAmplifierSlew && std::isfinite(value)) {
+      double& slew = now.slew_a_per_s[axis];
+      slew = slew > 0.0 ? std::min(slew, value) : value;
+    }
+  }
+}
+
+}  // namespace
+
 RigNow PrepareRig(const PlantParameters& parameters) {
   RigNow now;
   const auto modes = static_cast<std::size_t>(parameters.modes.frequency_rad_per_s.size());
@@ -154,20 +172,8 @@ void ApplyEffects(const PlantParameters& parameters, const EntryShapes& shapes,
         ApplyToLoop(entry, values, period_s, now, model);
         break;
       case effect::Place::kAmplifier:
-        if (entry.id == Id::kCurrentGain) {  // a scale between current and force
-          ApplyToMagnets(parameters, entry, values, model);
-          break;
-        }
-        for (std::size_t axis = 0; axis < 2 * parameters.config.bearings.size(); ++axis) {
-          if (!entry.Acts(axis)) continue;
-          const double value = ValuesAt(parameters, entry, axis, strength)[0];
-          if (entry.id == Id::kAmplifierBandwidth) {
-            now.amplifier_bandwidth_hz[axis] = value;
-          } else if (std::isfinite(value)) {
-            double& slew = now.slew_a_per_s[axis];
-            slew = slew > 0.0 ? std::min(slew, value) : value;
-          }
-        }
+        ApplyToAmplifiers(parameters, entry, strength, now);
+        ApplyToMagnets(parameters, entry, values, model);
         break;
       case effect::Place::kMagnet:
         ApplyToMagnets(parameters, entry, values, model);

@@ -124,7 +124,8 @@ void Mark(const EffectConfig& entry, EffectModel& model) {
       model.outputs = model.outputs || entry.id == Id::kSampleJitter;
       break;
     case effect::Place::kAmplifier:
-      model.magnets = model.magnets || entry.id == Id::kCurrentGain;
+      model.magnets =
+          model.magnets || (entry.id != Id::kAmplifierBandwidth && entry.id != Id::kAmplifierSlew);
       break;
     case effect::Place::kGear:
       break;
