@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 from lcm_network import BINARIES, run  # noqa: E402
 from rotor_fate import SPIN, Fate  # noqa: E402
 
-LONG = 90  # s: only a failing test waits for it
+LONG = 300  # s: only a failing test, or one under the thread sanitizer, waits for it
 
 
 def alive(pid):
