@@ -125,6 +125,15 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
     terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
       added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
     };
+    // Healthy magnets are off by current_gain and displacement_stiffness, which hold this one.
+    terms.push_back(MakeTerm({"force_constant", channel, "ratio", "1"}, 0.0, 0.15,
+                             [a](const SamplePoint& m, double theta, Contribution& add) {
+                               add.force_n[a] += theta * static_cast<double>(m.force_n[a]);
+                             }));
+    terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
+      added.force_per_a[a] += static_cast<float>(theta) * m.force_per_a[a];
+      added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
+    };
     terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, kAlike, 0.1,
                              [=](const SamplePoint& m, double theta, Contribution& add) {
                                const double x = static_cast<double>(m.actuator_m[a]);

@@ -57,6 +57,7 @@ enum class Id : std::uint8_t {
   kTransmissionError,
   kGearRunout,
   kToothCrack,
+  kForceConstant,
 };
 
 /// Where in the loop it sits.

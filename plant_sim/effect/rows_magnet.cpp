@@ -5,6 +5,7 @@ namespace levitas::effect {
 namespace {
 
 constexpr std::array kCurrentGain{Ratio(0.1, 3.0, 0.8, "ki over its nominal value")};
+constexpr std::array kForce{Ratio(0.1, 3.0, 0.85, "k over its nominal value")};
 constexpr std::array kStiffness{Ratio(0.0, 5.0, 1.25, "ks over its nominal value")};
 constexpr std::array kAsymmetry{
     Ratio(0.2, 5.0, 1.2, "force constant of the coil towards + over that of the opposed one")};
@@ -39,6 +40,12 @@ constexpr std::array kRows{
         kStiffness, "the negative stiffness of the magnet differs from nominal",
         "F = F_nominal(ic, x) + (ratio - 1) ks x",
         "low-frequency response and rigid poles; ki unchanged",
+        "Schweitzer & Maslen 2009, Magnetic Bearings, ch. 4",
+        Facts{.needs_excitation = true, .shows_in = Shows::kResponse, .modes = Modes::kOnTheLoop}},
+    Row{Id::kForceConstant, "force_constant", Place::kMagnet, Scope::kChannels, kForce,
+        "the constant of the force law differs from nominal: pole area, turns, leakage",
+        "F = ratio F_nominal(ic, x)",
+        "ki and ks scaled by the same ratio, so the magnet's share of every response",
         "Schweitzer & Maslen 2009, Magnetic Bearings, ch. 4",
         Facts{.needs_excitation = true, .shows_in = Shows::kResponse, .modes = Modes::kOnTheLoop}},
     Row{Id::kCoilAsymmetry, "coil_asymmetry", Place::kMagnet, Scope::kChannels, kAsymmetry,

@@ -21,6 +21,10 @@ void ApplyToAxis(const BearingConfig& bearing, Id id, const Values& values,
     case Id::kCurrentGain:
       magnet.gain *= values[0];
       break;
+    case Id::kForceConstant:
+      magnet.towards *= std::sqrt(values[0]);  // the force goes with the square of the current
+      magnet.away *= std::sqrt(values[0]);
+      break;
     case Id::kDisplacementStiffness:
       magnet.stiffness_n_per_m +=
           (values[0] - 1.0) *

@@ -47,6 +47,15 @@ TEST(CurrentGain, ScalesTheForceOfTheCurrentAndLeavesTheStiffness) {
   EXPECT_EQ(ForceOf(model, {}, kPlaces), ForceOf(Quiet(), {}, kPlaces));
 }
 
+TEST(ForceConstant, ScalesTheForceOfCurrentAndDisplacementAlike) {
+  const auto model = QuietWith(Entry(Id::kForceConstant, {0.8}));
+  const AxisArray with = ForceOf(model, kCurrents, kPlaces);
+  const AxisArray without = ForceOf(Quiet(), kCurrents, kPlaces);
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    EXPECT_NEAR(with[axis], 0.8 * without[axis], 1e-12 * std::abs(without[axis]));
+  }
+}
+
 TEST(DisplacementStiffness, AddsAShareOfKsTimesDisplacementAndNothingWithoutIt) {
   const auto model = QuietWith(Entry(Id::kDisplacementStiffness, {1.25}));
   const AxisArray with = ForceOf(model, kCurrents, kPlaces);

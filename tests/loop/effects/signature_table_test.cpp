@@ -72,6 +72,16 @@ std::vector<SignatureRow> Magnets() {
          return ForceOf(Entry(Id::kCurrentGain, {0.8}), 0.0, 2e-5)[0] / ForceOf({}, 0.0, 2e-5)[0] -
                 1.0;
        }},
+      {Id::kForceConstant, Place::kMagnet, "1f", -1,
+       [] {
+         return ForceOf(Entry(Id::kForceConstant, {0.8}), 0.2, 0.0)[0] / (kKi_n_per_a * 0.2) - 1;
+       },
+       -0.2, kExact,
+       [] {  // ki/ks stays, unlike with a current gain
+         const auto entry = Entry(Id::kForceConstant, {0.8});
+         return ForceOf(entry, 0.0, 2e-5)[0] / ForceOf({}, 0.0, 2e-5)[0] -
+                ForceOf(entry, 0.2, 0.0)[0] / ForceOf({}, 0.2, 0.0)[0];
+       }},
       {Id::kDisplacementStiffness, Place::kMagnet, "static", 1,
        [] {
          const auto entry = Entry(Id::kDisplacementStiffness, {1.25});

@@ -48,6 +48,11 @@ TEST_F(MagnetTermsTest, CurrentGainMakesTheCurrentCountForMore) {
   EXPECT_NEAR(Force("current_gain", kChannel, 0.1), expected, kSingleN);
 }
 
+TEST_F(MagnetTermsTest, ForceConstantIsAShareOfTheWholeForce) {
+  EXPECT_NEAR(Force("force_constant", kChannel, -0.2),
+              -0.2 * Law(bias_a_ + MidCoil(), bias_a_ - MidCoil(), X()), kSingleN);
+}
+
 TEST_F(MagnetTermsTest, DisplacementStiffnessIsTheShareThatIsThereWithoutCurrent) {
   EXPECT_NEAR(Force("displacement_stiffness", kChannel, -0.2), -0.2 * Law(bias_a_, bias_a_, X()),
               kSingleN);
@@ -65,8 +70,8 @@ TEST_F(MagnetTermsTest, CoilAsymmetryMakesOneCoilStrongerAndTheOtherWeaker) {
 }
 
 TEST_F(MagnetTermsTest, OfOneAxisLeaveTheOthersAlone) {
-  for (const char* effect :
-       {"current_gain", "displacement_stiffness", "coil_asymmetry", "eddy_current"}) {
+  for (const char* effect : {"current_gain", "force_constant", "displacement_stiffness",
+                             "coil_asymmetry", "eddy_current"}) {
     Term term = Named(terms_, effect, kChannel);
     const Contribution add = Added(term, moment_, term.scale());
     for (std::size_t a = 0; a < View().axes; ++a) {

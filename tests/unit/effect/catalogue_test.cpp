@@ -20,6 +20,7 @@ const std::map<std::string, std::string>& Vocabulary() {
       {"amplifier_bandwidth", "amplifier"},
       {"amplifier_slew", "amplifier"},
       {"current_gain", "amplifier"},
+      {"force_constant", "magnet"},
       {"displacement_stiffness", "magnet"},
       {"coil_asymmetry", "magnet"},
       {"magnetic_saturation", "magnet"},
