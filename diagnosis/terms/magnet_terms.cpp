@@ -134,6 +134,10 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
       added.force_per_a[a] += static_cast<float>(theta) * m.force_per_a[a];
       added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
     };
+    terms.push_back(MakeTerm({"command_offset", channel, "offset_a", "A"}, 0.0, 0.15,
+                             [&rig, a](const SamplePoint& m, double theta, Contribution& add) {
+                               add.force_n[a] += ForceOfCurrent(rig, m, a, theta);
+                             }));
     terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, kAlike, 0.1,
                              [=](const SamplePoint& m, double theta, Contribution& add) {
                                const double x = static_cast<double>(m.actuator_m[a]);

@@ -58,6 +58,7 @@ enum class Id : std::uint8_t {
   kGearRunout,
   kToothCrack,
   kForceConstant,
+  kCommandOffset,
 };
 
 /// Where in the loop it sits.

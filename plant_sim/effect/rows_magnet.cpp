@@ -29,6 +29,10 @@ constexpr std::array kRotation{Parameter{"angle", "rad", "deg", -45.0 * kDegree,
                                          5.0 * kDegree, 0.0, Scaling::kLinear, std::nullopt,
                                          "from x towards y", false}};
 
+constexpr std::array kOffset{Parameter{"offset", "a", "a", -10.0, 10.0, 0.05, 0.0, Scaling::kLinear,
+                                       std::nullopt,
+                                       "control current at a command of zero, towards +", false}};
+
 constexpr std::array kRows{
     Row{Id::kCurrentGain, "current_gain", Place::kAmplifier, Scope::kChannels, kCurrentGain,
         "the force per control current differs from nominal", "F = F_nominal(ratio ic, x)",
@@ -36,6 +40,12 @@ constexpr std::array kRows{
         "unchanged",
         "Schweitzer & Maslen 2009, Magnetic Bearings, ch. 4",
         Facts{.needs_excitation = true, .shows_in = Shows::kResponse, .modes = Modes::kOnTheLoop}},
+    Row{Id::kCommandOffset, "command_offset", Place::kAmplifier, Scope::kChannels, kOffset,
+        "the amplifier's zero: a constant is added to every command",
+        "coil command = i0 +- (ic + offset)",
+        "a static force ki offset that the law's integrator cancels with a command of -offset; "
+        "with currents off it is gone",
+        "Schweitzer & Maslen 2009, Magnetic Bearings, ch. 3", Facts{.shows_in = Shows::kSpectrum}},
     Row{Id::kDisplacementStiffness, "displacement_stiffness", Place::kMagnet, Scope::kChannels,
         kStiffness, "the negative stiffness of the magnet differs from nominal",
         "F = F_nominal(ic, x) + (ratio - 1) ks x",

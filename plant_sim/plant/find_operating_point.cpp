@@ -73,7 +73,8 @@ class Rest {
     OperatingPoint point;
     for (std::size_t axis = 0; axis < model_.axes(); ++axis) {
       point.control_a[axis] = z[states_ + At(axis)];
-      point.flux_a[axis] = flux_[axis] * z.head(states_);
+      const auto& magnet = model_.effects().bearings[axis / 2].axis[axis % 2];
+      point.flux_a[axis] = flux_[axis] * z.head(states_) + magnet.command_offset_a;
       point.displacement_m[axis] = seen_[axis] * z.head(states_);
     }
     return point;

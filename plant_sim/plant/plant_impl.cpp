@@ -53,9 +53,10 @@ CoilCommand Plant::Impl::Limited(const PlantCommand& command) const noexcept {
   limited.enabled = command.amplifiers_enabled;
   const auto& polarity = model->config().actuator_polarity;
   for (std::size_t axis = 0; axis < model->axes(); ++axis) {
+    const double offset_a = model->effects().bearings[axis / 2].axis[axis % 2].command_offset_a;
     limited.coils[axis] = amplifier::LimitedCommand(
         model->bearings()[axis / 2].amplifier, command.amplifiers_enabled,
-        polarity[axis] * command.control_current_a[axis], command.bias_current_a);
+        polarity[axis] * command.control_current_a[axis] + offset_a, command.bias_current_a);
   }
   return limited;
 }

@@ -21,6 +21,9 @@ void ApplyToAxis(const BearingConfig& bearing, Id id, const Values& values,
     case Id::kCurrentGain:
       magnet.gain *= values[0];
       break;
+    case Id::kCommandOffset:
+      magnet.command_offset_a += values[0];
+      break;
     case Id::kForceConstant:
       magnet.towards *= std::sqrt(values[0]);  // the force goes with the square of the current
       magnet.away *= std::sqrt(values[0]);

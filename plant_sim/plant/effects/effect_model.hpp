@@ -22,6 +22,7 @@ inline constexpr std::size_t kNoState = std::numeric_limits<std::size_t>::max();
 
 struct MagnetEffects {
   double gain{1.0};            ///< of the control current
+  double command_offset_a{};   ///< added to the command of the control current
   double stiffness_n_per_m{};  ///< added to ks
   double towards{1.0};         ///< factors on the two coil currents
   double away{1.0};

@@ -72,6 +72,9 @@ std::vector<SignatureRow> Magnets() {
          return ForceOf(Entry(Id::kCurrentGain, {0.8}), 0.0, 2e-5)[0] / ForceOf({}, 0.0, 2e-5)[0] -
                 1.0;
        }},
+      {Id::kCommandOffset, Place::kAmplifier, "static", 1,
+       [] { return ForceLeft(Entry(Id::kCommandOffset, {0.03})); }, kKi_n_per_a * 0.03, kExact,
+       [] { return std::abs(ToneRatio(Entry(Id::kCommandOffset, {0.03}))) - 1.0; }},
       {Id::kForceConstant, Place::kMagnet, "1f", -1,
        [] {
          return ForceOf(Entry(Id::kForceConstant, {0.8}), 0.2, 0.0)[0] / (kKi_n_per_a * 0.2) - 1;

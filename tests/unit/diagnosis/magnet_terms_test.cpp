@@ -53,6 +53,15 @@ TEST_F(MagnetTermsTest, ForceConstantIsAShareOfTheWholeForce) {
               -0.2 * Law(bias_a_ + MidCoil(), bias_a_ - MidCoil(), X()), kSingleN);
 }
 
+TEST_F(MagnetTermsTest, CommandOffsetIsTheForceOfAFurtherCurrent) {
+  constexpr double kOffsetA = -0.05;
+  const double with = MidCoil() + kOffsetA;
+  EXPECT_NEAR(
+      Force("command_offset", kChannel, kOffsetA),
+      Law(bias_a_ + with, bias_a_ - with, X()) - Law(bias_a_ + MidCoil(), bias_a_ - MidCoil(), X()),
+      kSingleN);
+}
+
 TEST_F(MagnetTermsTest, DisplacementStiffnessIsTheShareThatIsThereWithoutCurrent) {
   EXPECT_NEAR(Force("displacement_stiffness", kChannel, -0.2), -0.2 * Law(bias_a_, bias_a_, X()),
               kSingleN);
@@ -70,8 +79,8 @@ TEST_F(MagnetTermsTest, CoilAsymmetryMakesOneCoilStrongerAndTheOtherWeaker) {
 }
 
 TEST_F(MagnetTermsTest, OfOneAxisLeaveTheOthersAlone) {
-  for (const char* effect : {"current_gain", "force_constant", "displacement_stiffness",
-                             "coil_asymmetry", "eddy_current"}) {
+  for (const char* effect : {"current_gain", "force_constant", "command_offset",
+                             "displacement_stiffness", "coil_asymmetry", "eddy_current"}) {
     Term term = Named(terms_, effect, kChannel);
     const Contribution add = Added(term, moment_, term.scale());
     for (std::size_t a = 0; a < View().axes; ++a) {
