@@ -157,6 +157,17 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
                    add.force_n[2 * b + 1] += theta * static_cast<double>(m.force_n[2 * b]);
                  }));
   }
+  for (std::size_t b = 0; b < rig.axes / 2; ++b) {
+    const double ki = magnet::ForcePerCurrent(rig.magnet(2 * b).magnet, rig.bias_a(2 * b));
+    terms.push_back(MakeTerm({"magnetic_coupling", rig.numbers.bearings[b], "ratio", "1"}, 0.0, 0.1,
+                             [b, ki](const SamplePoint& m, double theta, Contribution& add) {
+                               const auto share = theta * ki;
+                               add.force_n[2 * b] +=
+                                   share * static_cast<double>(m.coil_mean_a[2 * b + 1]);
+                               add.force_n[2 * b + 1] +=
+                                   share * static_cast<double>(m.coil_mean_a[2 * b]);
+                             }));
+  }
   for (const double knee : {1.0, 1.3, 1.7, 2.2}) {
     for (const double exponent : {3.0, 4.0, 6.0}) terms.push_back(Saturation(rig, knee, exponent));
   }

@@ -59,6 +59,7 @@ enum class Id : std::uint8_t {
   kToothCrack,
   kForceConstant,
   kCommandOffset,
+  kMagneticCoupling,
 };
 
 /// Where in the loop it sits.

@@ -33,6 +33,10 @@ constexpr std::array kOffset{Parameter{"offset", "a", "a", -10.0, 10.0, 0.05, 0.
                                        std::nullopt,
                                        "control current at a command of zero, towards +", false}};
 
+constexpr std::array kCoupling{Parameter{"ratio", "", "", -0.5, 0.5, 0.08, 0.0, Scaling::kLinear,
+                                         std::nullopt,
+                                         "force across per force along the current's axis", false}};
+
 constexpr std::array kRows{
     Row{Id::kCurrentGain, "current_gain", Place::kAmplifier, Scope::kChannels, kCurrentGain,
         "the force per control current differs from nominal", "F = F_nominal(ratio ic, x)",
@@ -85,6 +89,13 @@ constexpr std::array kRows{
         "F = ki ic/(1 + sqrt(s tau)) + ks x",
         "gain falls by 10 dB per decade and phase tends to -45 degrees; static gain unchanged",
         "Zhu, Knospe & Maslen 2005, IEEE Trans. Magnetics 41(4) 1248",
+        Facts{.needs_excitation = true, .shows_in = Shows::kResponse, .modes = Modes::kOnTheLoop}},
+    Row{Id::kMagneticCoupling, "magnetic_coupling", Place::kMagnet, Scope::kBearing, kCoupling,
+        "a shared yoke: the current of one axis makes force in the other",
+        "Fx += ratio ki icy,  Fy += ratio ki icx",
+        "cross response x to y and y to x of the same sign, where a rotation has opposite ones; "
+        "none of displacement",
+        "Schweitzer & Maslen 2009, Magnetic Bearings, ch. 3",
         Facts{.needs_excitation = true, .shows_in = Shows::kResponse, .modes = Modes::kOnTheLoop}},
     Row{Id::kAxisRotation, "axis_rotation", Place::kMagnet, Scope::kBearing, kRotation,
         "the axes of magnets or sensors are turned: x acts on, or reads, a little of y",

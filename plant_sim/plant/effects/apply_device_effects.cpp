@@ -105,6 +105,10 @@ void ApplyToMagnets(const PlantParameters& parameters, const EffectConfig& entry
     }
     return;
   }
+  if (entry.id == Id::kMagneticCoupling) {
+    model.bearings[entry.bearing].coupling += values[0];
+    return;
+  }
   const auto& bearings = parameters.config.bearings;
   for (std::size_t axis = 0; axis < 2 * bearings.size(); ++axis) {
     if (!entry.Acts(axis)) continue;

@@ -79,10 +79,16 @@ PlaneForce MagnetWithEffects(const BearingModel& bearing, const BearingEffects& 
   // In the magnet's own axes, and back.
   const double c = effects.cosine;
   const double s = effects.sine;
+  const auto across_n = [&](std::size_t from) {
+    return effects.coupling * currents.control_a[from] *
+           magnet::ForcePerCurrent(bearing.magnet, currents.bias_a[from]);
+  };
   const double fx_n = AxisForce(bearing.magnet, effects.axis[0], currents.bias_a[axis],
-                                currents.control_a[axis], c * x_m + s * y_m);
+                                currents.control_a[axis], c * x_m + s * y_m) +
+                      across_n(axis + 1);
   const double fy_n = AxisForce(bearing.magnet, effects.axis[1], currents.bias_a[axis + 1],
-                                currents.control_a[axis + 1], c * y_m - s * x_m);
+                                currents.control_a[axis + 1], c * y_m - s * x_m) +
+                      across_n(axis);
   return {c * fx_n - s * fy_n, s * fx_n + c * fy_n};
 }
 

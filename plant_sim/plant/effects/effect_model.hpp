@@ -39,6 +39,7 @@ struct BearingEffects {
   std::array<MagnetEffects, 2> axis;
   double cosine{1.0};  ///< of the angle by which the magnet's axes are turned
   double sine{};
+  double coupling{};  ///< force across the control current per force along it
   std::vector<support::Touchdown> rubs;
   double housing_mass_kg{};  ///< 0 = it does not move
   double housing_rad_per_s{};

@@ -56,6 +56,18 @@ TEST(ForceConstant, ScalesTheForceOfCurrentAndDisplacementAlike) {
   }
 }
 
+TEST(MagneticCoupling, IsTheSameFromXToYAndBackAndAddsNothingElse) {
+  auto entry = Entry(Id::kMagneticCoupling, {0.1});
+  entry.bearing = 1;
+  const auto model = QuietWith(entry);
+  const AxisArray with = ForceOf(model, kCurrents, kPlaces);
+  const AxisArray without = ForceOf(Quiet(), kCurrents, kPlaces);
+  EXPECT_EQ(with[0], without[0]);
+  EXPECT_EQ(with[1], without[1]);
+  EXPECT_NEAR(with[2] - without[2], 0.1 * kKi_n_per_a * kCurrents[3], 1e-9);
+  EXPECT_NEAR(with[3] - without[3], 0.1 * kKi_n_per_a * kCurrents[2], 1e-9);
+}
+
 TEST(DisplacementStiffness, AddsAShareOfKsTimesDisplacementAndNothingWithoutIt) {
   const auto model = QuietWith(Entry(Id::kDisplacementStiffness, {1.25}));
   const AxisArray with = ForceOf(model, kCurrents, kPlaces);

@@ -85,6 +85,12 @@ std::vector<SignatureRow> Magnets() {
          return ForceOf(entry, 0.0, 2e-5)[0] / ForceOf({}, 0.0, 2e-5)[0] -
                 ForceOf(entry, 0.2, 0.0)[0] / ForceOf({}, 0.2, 0.0)[0];
        }},
+      {Id::kMagneticCoupling, Place::kMagnet, "1f", 1,
+       [] { return ForceOf(Entry(Id::kMagneticCoupling, {0.1}), 0.2, 0.0)[1]; },
+       0.1 * kKi_n_per_a * 0.2, kExact,
+       [] {  // a displacement makes none
+         return ForceOf(Entry(Id::kMagneticCoupling, {0.1}), 0.0, 2e-5)[1];
+       }},
       {Id::kDisplacementStiffness, Place::kMagnet, "static", 1,
        [] {
          const auto entry = Entry(Id::kDisplacementStiffness, {1.25});

@@ -62,6 +62,18 @@ TEST_F(MagnetTermsTest, CommandOffsetIsTheForceOfAFurtherCurrent) {
       kSingleN);
 }
 
+TEST_F(MagnetTermsTest, MagneticCouplingMakesForceAcrossTheCurrentWithOneSign) {
+  Term term = Named(terms_, "magnetic_coupling", "nde");
+  const auto added = Added(term, moment_, 0.1);
+  const double ki = magnet::ForcePerCurrent(View().magnet(kAxis).magnet, bias_a_);
+  const auto coil = [&](std::size_t axis) {
+    return static_cast<double>(moment_.coil_mean_a[axis]);
+  };
+  EXPECT_NEAR(added.force_n[kAxis], 0.1 * ki * coil(kAxis + 1), kSingleN);
+  EXPECT_NEAR(added.force_n[kAxis + 1], 0.1 * ki * coil(kAxis), kSingleN);
+  EXPECT_EQ(added.force_n[0], 0.0);
+}
+
 TEST_F(MagnetTermsTest, DisplacementStiffnessIsTheShareThatIsThereWithoutCurrent) {
   EXPECT_NEAR(Force("displacement_stiffness", kChannel, -0.2), -0.2 * Law(bias_a_, bias_a_, X()),
               kSingleN);

@@ -21,6 +21,7 @@ const std::map<std::string, std::string>& Vocabulary() {
       {"amplifier_slew", "amplifier"},
       {"current_gain", "amplifier"},
       {"force_constant", "magnet"},
+      {"magnetic_coupling", "magnet"},
       {"command_offset", "amplifier"},
       {"displacement_stiffness", "magnet"},
       {"coil_asymmetry", "magnet"},
