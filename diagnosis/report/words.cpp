@@ -36,6 +36,12 @@ constexpr std::array kPairs{
          "hung on the shaft"},
     Pair{"current_gain", "displacement_stiffness",
          "standing with a test signal at two bias currents"},
+    Pair{"current_gain", "force_constant",
+         "standing with a test signal at two bias currents: only a force "
+         "constant changes the negative stiffness"},
+    Pair{"command_offset", "static_load",
+         "two bias currents: the force of an offset current grows with the "
+         "bias, a load stays"},
     Pair{"extra_delay", "amplifier_bandwidth", "standing with a test signal rich above 500 Hz"},
     Pair{"extra_delay", "eddy_current", "standing with a test signal rich above 500 Hz"},
     Pair{"eddy_current", "amplifier_bandwidth",

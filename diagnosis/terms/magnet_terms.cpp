@@ -138,6 +138,8 @@ std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) 
                              [&rig, a](const SamplePoint& m, double theta, Contribution& add) {
                                add.force_n[a] += ForceOfCurrent(rig, m, a, theta);
                              }));
+    terms.back().linear = false;  // away from the centre: the two coils' gaps differ
+    terms.back().step = 0.02;
     terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, kAlike, 0.1,
                              [=](const SamplePoint& m, double theta, Contribution& add) {
                                const double x = static_cast<double>(m.actuator_m[a]);

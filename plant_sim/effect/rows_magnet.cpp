@@ -29,7 +29,7 @@ constexpr std::array kRotation{Parameter{"angle", "rad", "deg", -45.0 * kDegree,
                                          5.0 * kDegree, 0.0, Scaling::kLinear, std::nullopt,
                                          "from x towards y", false}};
 
-constexpr std::array kOffset{Parameter{"offset", "a", "a", -10.0, 10.0, 0.05, 0.0, Scaling::kLinear,
+constexpr std::array kOffset{Parameter{"offset", "a", "a", -10.0, 10.0, 0.12, 0.0, Scaling::kLinear,
                                        std::nullopt,
                                        "control current at a command of zero, towards +", false}};
 

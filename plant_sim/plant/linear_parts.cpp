@@ -59,12 +59,16 @@ Slopes SlopesAtCentre(const PlantModel& model, std::size_t bearing) {
     const MagnetEffects& e = effects.axis[static_cast<std::size_t>(i)];
     const double flux_a = effect::Saturated(bias_a, e.per_knee_1_per_a, e.knee_exponent);
     const double slope = effect::SaturatedSlope(bias_a, e.per_knee_1_per_a, e.knee_exponent);
-    ki[i] = e.gain * slope * magnet::ForcePerCurrent(magnet, flux_a);
-    ks[i] = magnet::NegativeStiffness(magnet, flux_a) + e.stiffness_n_per_m;
+    const double share = 0.5 * (e.towards * e.towards + e.away * e.away);
+    ki[i] = share * e.gain * slope * magnet::ForcePerCurrent(magnet, flux_a);
+    ks[i] = share * magnet::NegativeStiffness(magnet, flux_a) + e.stiffness_n_per_m;
   }
   Eigen::Matrix2d turn;
   turn << effects.cosine, -effects.sine, effects.sine, effects.cosine;
-  return {turn * ki.asDiagonal(), turn * ks.asDiagonal() * turn.transpose()};
+  Eigen::Matrix2d of_current = ki.asDiagonal();
+  const double across = effects.coupling * magnet::ForcePerCurrent(magnet, bias_a);
+  of_current(0, 1) = of_current(1, 0) = across;
+  return {turn * of_current, turn * ks.asDiagonal() * turn.transpose()};
 }
 
 Eigen::VectorXd Reaction(const PlantModel& model, std::size_t bearing, int plane, Index states) {
