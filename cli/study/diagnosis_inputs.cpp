@@ -57,7 +57,7 @@ void RefuseSameFiles(const std::vector<std::string>& data, const std::vector<std
   }
   RefuseShared(data, holdout, "--holdout",
                "what was fitted cannot judge the fit. Hold out another record, or leave --holdout "
-               "out: every sixth stretch is then kept back");
+               "out: every sixth stretch is then validation data");
   RefuseShared(data, healthy, "--healthy",
                "it would vouch for itself. Give an earlier record of the healthy rig");
 }

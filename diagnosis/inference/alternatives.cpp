@@ -42,7 +42,7 @@ void RankCandidates(SearchState& state) {
   SortByScore(state.candidates);
 }
 
-void RefitRivals(SearchState& state) {
+void RefitAlternatives(SearchState& state) {
   if (state.causes.empty()) return;
   const Refined leader = state.refiner.Fit(state.causes, state.theta, state.view, 1);
   state.leader_evidence = leader.ok ? leader.evidence : std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ void RefitRivals(SearchState& state) {
   CauseSet best{state.causes, leader};
   std::size_t tried = 0;
   for (Candidate& candidate : state.candidates) {
-    if (tried == state.effort.rivals ||
+    if (tried == state.effort.alternatives ||
         candidate.score < std::max(state.settings.judging.decisive_nat,
                                    lead - 2.0 * state.settings.judging.near_nat))
       break;

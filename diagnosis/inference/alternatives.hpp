@@ -8,13 +8,13 @@
 namespace levitas::diagnosis {
 
 /// Puts the strongest cause first and tries every effect in its place, on the linearisation.
-void RankCandidates(SearchState& inquiry);
+void RankCandidates(SearchState& state);
 
 /// Refits the alternatives near the first cause on the nonlinear model; the best becomes first.
-void RefitRivals(SearchState& inquiry);
+void RefitAlternatives(SearchState& state);
 
 /// What leads after all refits must still be decisive against the rest of the causes, refitted
 /// without it; else it goes, and the rest is to be ranked anew: true.
-[[nodiscard]] bool LeaderFails(SearchState& inquiry);
+[[nodiscard]] bool LeaderFails(SearchState& state);
 
 }  // namespace levitas::diagnosis

@@ -122,22 +122,22 @@ SearchResult Conclude(SearchState& state) {
 
 SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
                       const Settings& settings, std::vector<Term>& terms) {
-  SearchState inquiry(rig, records, settings, settings.quick ? kQuick : kThorough, terms);
-  Calibrate(inquiry);
-  FindCauses(inquiry);
-  if (inquiry.effort.first_cause_only) {
-    DropUnproven(inquiry);
-    RankCandidates(inquiry);
-    return Conclude(inquiry);
+  SearchState state(rig, records, settings, settings.quick ? kQuick : kThorough, terms);
+  Calibrate(state);
+  FindCauses(state);
+  if (state.effort.first_cause_only) {
+    DropUnproven(state);
+    RankCandidates(state);
+    return Conclude(state);
   }
-  MergeCauses(inquiry);
-  ExchangeCauses(inquiry);
+  MergeCauses(state);
+  ExchangeCauses(state);
   do {
-    DropUnproven(inquiry);
-    RankCandidates(inquiry);
-    RefitRivals(inquiry);
-  } while (LeaderFails(inquiry));
-  return Conclude(inquiry);
+    DropUnproven(state);
+    RankCandidates(state);
+    RefitAlternatives(state);
+  } while (LeaderFails(state));
+  return Conclude(state);
 }
 
 }  // namespace levitas::diagnosis

@@ -24,7 +24,7 @@ void SortByScore(std::vector<Candidate>& candidates);
 /// Share of the excess over the noise, all lines and channels, that the causes take away.
 [[nodiscard]] double Explained(const Residual& before, const Residual& after);
 
-/// [nat] what a second model gains over a first one on samples kept back from both fits.
+/// [nat] what a second model gains over a first one on validation data.
 [[nodiscard]] double HeldGain(const std::vector<Trajectory>& first,
                               const std::vector<Trajectory>& second, const Whitener& whitener);
 

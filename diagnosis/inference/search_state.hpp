@@ -16,11 +16,11 @@ namespace levitas::diagnosis {
 
 /// Extent of a search.
 struct Effort {
-  int calibrations;       ///< passes with the slow observer
-  std::size_t shortlist;  ///< candidates refitted for every cause
-  int passes;             ///< of each
-  std::size_t rivals;     ///< refitted in the end
-  std::size_t rows;       ///< of all records
+  int calibrations;          ///< passes with the slow observer
+  std::size_t shortlist;     ///< candidates refitted for every cause
+  int passes;                ///< of each
+  std::size_t alternatives;  ///< refitted in the end
+  std::size_t rows;          ///< of all records
   bool first_cause_only;
 };
 

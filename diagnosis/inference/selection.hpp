@@ -8,13 +8,13 @@
 namespace levitas::diagnosis {
 
 /// Forward selection: screens, refits the best few and adds the best while one gains enough.
-void FindCauses(SearchState& inquiry);
+void FindCauses(SearchState& state);
 
 /// Replaces two causes, or all, by a single effect that explains the data as well: forward
 /// selection may have imitated it by several.
-void MergeCauses(SearchState& inquiry);
+void MergeCauses(SearchState& state);
 
 /// Backward check: drops causes that are not decisive given the others, the weakest first.
-void DropUnproven(SearchState& inquiry);
+void DropUnproven(SearchState& state);
 
 }  // namespace levitas::diagnosis

@@ -4,7 +4,7 @@
 // Equation   analysis/observer.hpp, with what the terms add (term.hpp).
 // Lost       up to 20 frames in a row are bridged with the current held and no correction; so are
 //            frames that repeat. They do not count.
-// Kept back  every sixth stretch of 50 ms when the record asks for it: run and corrected like all
+// Validation  every sixth stretch of 50 ms when the record asks for it: run and corrected like all
 //            others, but `held` instead of `counts`, so that what is measured there was not fitted
 //            and every excitation and speed is in both parts.
 // Start      after a (re)start the modes swing as nobody knows, and a slow observer takes half a

@@ -39,8 +39,8 @@ struct SamplePoint {
   double cos_angle{}, sin_angle{};          ///< at the sample
   double cos_mid_angle{}, sin_mid_angle{};  ///< in the middle of the period
   float speed_rad_per_s{};
-  bool counts{};              ///< settled, arrived, not kept back
-  bool held{};                ///< would count but is kept back
+  bool counts{};              ///< settled, arrived, not validation data
+  bool held{};                ///< would count but is validation data
   bool restarted{};           ///< the first sample after a gap
   AxisFloats innovation_m{};  ///< measured minus predicted, bearing frame
   AxisFloats measured_m{};    ///< bearing frame

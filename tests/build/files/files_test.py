@@ -32,6 +32,10 @@ class Files(unittest.TestCase):
     def test_none_keeps_a_note_to_self(self):
         self.assert_none(violations(rules.notes_to_self))
 
+    def test_no_retired_word_comes_back(self):
+        found = violations(rules.retired_words, (".cpp", ".hpp", ".md"))
+        self.assert_none([line for line in found if not line.startswith("docs/glossary.md")])
+
     def test_every_test_asserts_something(self):
         self.assert_none(violations(rules.tests_without_assertion, (".cpp",)))
 
@@ -71,7 +75,33 @@ class Tour(unittest.TestCase):
                               check=False).returncode == 0
 
 
+class Commits(unittest.TestCase):
+    # The rule is younger than the project.
+    SINCE = "2026-11-23T16:00:00Z"
+
+    @unittest.skipUnless((SOURCE / ".git").exists() and shutil.which("git"), "no clone, or no git")
+    def test_the_last_ones_say_what_changed_and_why(self):
+        log = subprocess.run(["git", "-C", str(SOURCE), "log", "-50", "--no-merges", "--format=%s%x00%b%x01",
+                              f"--since={self.SINCE}"], capture_output=True, text=True, check=True)
+        found = []
+        for commit in log.stdout.split("\x01"):
+            subject, _, body = commit.strip("\n").partition("\0")
+            if subject:
+                found += rules.refused_message(subject, body)
+        self.assertFalse(found, "\n" + "\n".join(found))
+
+
 class SeededViolations(unittest.TestCase):
+    def test_a_retired_word_is_refused_with_the_fields_own(self):
+        self.assertEqual(rules.retired_words("gain\n// data Kept back\n"),
+                         ["line 2: 'Kept back': say validation data"])
+        self.assertFalse(rules.retired_words("std::remainder(a, b)"))
+
+    def test_a_subject_of_73_characters_or_without_a_reason_is_refused(self):
+        self.assertTrue(rules.refused_message("a" * 73, "why"))
+        self.assertTrue(rules.refused_message("a" * 72, "\n"))
+        self.assertFalse(rules.refused_message("a" * 72, "why"))
+
     def test_401_lines_are_refused_and_400_are_not(self):
         self.assertTrue(rules.too_long("x\n" * 401))
         self.assertFalse(rules.too_long("x\n" * 400))

@@ -6,6 +6,7 @@ from pathlib import Path
 
 MAX_LINES = 400
 MAX_COLUMNS = 100
+MAX_SUBJECT = 72
 CODE = (".cpp", ".hpp", ".py", ".sh", ".cmake", ".lcm", ".js", ".css", ".html")
 NOT_OURS = {".git", "sessions", "__pycache__"}
 
@@ -46,6 +47,30 @@ def notes_to_self(text):
     return [f"line {number}: '{match.group()}': finish it, or describe the limit in words"
             for number, line in enumerate(text.splitlines(), 1)
             if (match := NOTE_TO_SELF.search(line))]
+
+
+# Words that the field does not use, with its own (docs/glossary.md); they do not come back.
+RETIRED = {"inquiry": "search state", "oracle": "informed diagnosis", "kept back": "validation data",
+           "kept aside": "validation data", "rivals": "alternatives", "strays": "diverges",
+           "straying": "divergence", "sharpen": "refine", "flown": "levitated",
+           "carryover": "hold-out check"}
+RETIRED_WORD = re.compile(r"\b(" + "|".join(RETIRED) + r")\b", re.IGNORECASE)
+
+
+def retired_words(text):
+    return [f"line {number}: '{match.group()}': say {RETIRED[match.group().lower()]}"
+            for number, line in enumerate(text.splitlines(), 1)
+            if (match := RETIRED_WORD.search(line))]
+
+
+def refused_message(subject, body):
+    """The subject of a commit says what changed, its body why."""
+    found = []
+    if len(subject) > MAX_SUBJECT:
+        found.append(f"subject of {len(subject)} characters, allowed {MAX_SUBJECT}: {subject}")
+    if not body.strip():
+        found.append(f"no body that says why: {subject}")
+    return found
 
 
 def decodes_unchecked(text):

@@ -108,7 +108,8 @@ TrialScore Missed(double drawn) {
   return o;
 }
 
-TEST(Oracle, ThatDoesNotNameWhatTheRecordsHoldHasFailedAndTheTrialHasTheSizeOfWhatTheyHold) {
+TEST(InformedDiagnosis,
+     ThatDoesNotNameWhatTheRecordsHoldHasFailedAndTheTrialHasTheSizeOfWhatTheyHold) {
   for (const auto& [held, size] : {std::pair{2907.0, Size::kClear}, {18.0, Size::kModerate}}) {
     TrialScore o = Missed(0.5);
     AddInformedDiagnosis(Told("misalignment", 0.0, false), held, o);
@@ -118,21 +119,21 @@ TEST(Oracle, ThatDoesNotNameWhatTheRecordsHoldHasFailedAndTheTrialHasTheSizeOfWh
   }
 }
 
-TEST(Oracle, ThatFindsNothingInRecordsThatHoldNothingHasNotFailed) {
+TEST(InformedDiagnosis, ThatFindsNothingInRecordsThatHoldNothingHasNotFailed) {
   TrialScore o = Missed(1.0);
   AddInformedDiagnosis(Told("misalignment", -0.6, false), 0.2, o);
   EXPECT_FALSE(o.informed_failed);
   EXPECT_EQ(o.size(), Size::kBelow);
 }
 
-TEST(Oracle, ThatNamesTheEffectSaysItsSize) {
+TEST(InformedDiagnosis, ThatNamesTheEffectSaysItsSize) {
   TrialScore o = Missed(1.0);
   AddInformedDiagnosis(Told("misalignment", 12.0, true), 40.0, o);
   EXPECT_FALSE(o.informed_failed);
   EXPECT_EQ(o.size(), Size::kModerate);
 }
 
-TEST(Oracle, ThatLeavesSomethingIsNotBelievedWhereNothingElseSaysWhatTheRecordsHold) {
+TEST(InformedDiagnosis, ThatLeavesSomethingIsNotBelievedWhereNothingElseSaysWhatTheRecordsHold) {
   TrialScore o = Missed(1.0);
   diagnosis::SearchResult told = Told("misalignment", 0.0, false);
   told.verdict = diagnosis::Verdict::kUnknown;
@@ -144,7 +145,7 @@ TEST(Oracle, ThatLeavesSomethingIsNotBelievedWhereNothingElseSaysWhatTheRecordsH
   EXPECT_EQ(o.size(), Size::kBelow);
 }
 
-TEST(Oracle, CountsOnlyEvidenceForWhatIsHidden) {
+TEST(InformedDiagnosis, CountsOnlyEvidenceForWhatIsHidden) {
   TrialScore o = Missed(1.0);
   AddInformedDiagnosis(Told("sensor_noise", 300.0, true), 0.0, o);
   EXPECT_EQ(o.size(), Size::kBelow);

@@ -20,14 +20,14 @@ Trajectory Predicting(float reading_m, bool settled = true) {
   });
 }
 
-TEST(StraysTest, AModelStraysFarFromEverythingThatWasMeasured) {
+TEST(ModelDivergesTest, OfAModelFarFromEverythingThatWasMeasured) {
   const auto clearance_m = static_cast<float>(View().numbers.clearance_m);
   EXPECT_TRUE(ModelDiverges(View(), {Predicting(0.5F * clearance_m)}));
   EXPECT_TRUE(ModelDiverges(View(), {Predicting(-0.5F * clearance_m)}));
   EXPECT_TRUE(ModelDiverges(View(), {Predicting(std::numeric_limits<float>::quiet_NaN())}));
 }
 
-TEST(StraysTest, AnErrorOfTheModelIsNoStraying) {
+TEST(ModelDivergesTest, AnErrorOfTheModelIsNoDivergence) {
   EXPECT_FALSE(ModelDiverges(View(), {Predicting(0.0F)}));
   // Twice what was measured, but small beside the clearance.
   EXPECT_FALSE(
@@ -38,14 +38,14 @@ TEST(StraysTest, AnErrorOfTheModelIsNoStraying) {
 }
 
 // A sensor's offset is part of what is predicted, and the rotor stands where the offset puts it.
-TEST(StraysTest, AnOffsetThatTheModelKnowsIsNoStraying) {
+TEST(ModelDivergesTest, AnOffsetThatTheModelKnowsIsNoDivergence) {
   const auto run = NoiseRun(1, 500, [](std::size_t, SamplePoint& m) {
     m.reading_m[1] = 0.5F * static_cast<float>(View().numbers.clearance_m);
   });
   EXPECT_FALSE(ModelDiverges(View(), {run}));
 }
 
-TEST(StraysTest, OneRecordOfSeveralIsEnough) {
+TEST(ModelDivergesTest, OneRecordOfSeveralIsEnough) {
   const auto clearance_m = static_cast<float>(View().numbers.clearance_m);
   EXPECT_TRUE(ModelDiverges(View(), {Predicting(0.0F), Predicting(0.5F * clearance_m)}));
 }

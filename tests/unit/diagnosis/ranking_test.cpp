@@ -15,7 +15,7 @@ Hypothesis Named(const std::string& effect) {
   return h;
 }
 
-/// Noise of which every sixth sample is kept back; `factor` is on those alone.
+/// Noise of which every sixth sample is validation data; `factor` is on those alone.
 std::vector<Trajectory> KeptBack(double factor) {
   return {NoiseRun(7, 12'000, [factor](std::size_t n, SamplePoint& m) {
     m.held = n % 6 == 0;

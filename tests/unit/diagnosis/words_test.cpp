@@ -177,7 +177,7 @@ DiagnosisResult HeldOut(double fitted, double held, double calibrated) {
   return s;
 }
 
-TEST(CarryOver, IsDeniedWhereMuchMoreThanTheNoiseIsLeftOnDataHeldOut) {
+TEST(HoldoutCheck, IsDeniedWhereMuchMoreThanTheNoiseIsLeftOnDataHeldOut) {
   const DiagnosisResult fails = HeldOut(1.0, 77.0, 59.0);
   EXPECT_THAT(VerdictSentence(fails), HasSubstr("does not carry over"));
   EXPECT_THAT(VerdictSentence(fails), HasSubstr("77 times the noise"));
@@ -191,7 +191,7 @@ TEST(CarryOver, IsDeniedWhereMuchMoreThanTheNoiseIsLeftOnDataHeldOut) {
   EXPECT_THAT(VerdictSentence(HeldOut(1.0, 20.0, 59.0)), Not(HasSubstr("worse there")));
 }
 
-TEST(CarryOver, AsksForASpeedThatWasNotFitted) {
+TEST(HoldoutCheck, AsksForASpeedThatWasNotFitted) {
   DiagnosisResult s = HeldOut(1.0, 77.0, 59.0);
   EXPECT_THAT(NextExperiment(s), Not(HasSubstr("run-up")));
   s.fastest_rad_per_s = 100.0;
