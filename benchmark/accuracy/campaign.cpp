@@ -107,7 +107,7 @@ class Loop {
       for (std::size_t a = 0; recorded && a < model_->axes(); ++a) {
         given_a[a] += std::abs(row.control_current_a[a]);
       }
-      if (recorded && !(lost && plan_.loss.missing)) out.rows.push_back(row);
+      if (recorded && !(lost && plan_.loss.missing)) out.rows.push_back(AsSent(row));
       plant.Advance(CommandOf(row, clock_s));
     }
     const double most_a = kHolding * limit_a_ * static_cast<double>(motion.rows);
@@ -115,6 +115,14 @@ class Loop {
   }
 
  private:
+  /// A record holds readings and commands as they are on the wire.
+  [[nodiscard]] MeasuredRow AsSent(MeasuredRow row) const {
+    for (std::size_t a = 0; a < model_->axes(); ++a) {
+      row.control_current_a[a] *= model_->config().actuator_polarity[a];
+    }
+    return row;
+  }
+
   [[nodiscard]] bool Within(double limit_m, const AxisArray& position_m) const {
     for (std::size_t a = 0; a < model_->axes(); ++a) {
       if (!(std::abs(position_m[a]) < limit_m)) return false;

@@ -61,6 +61,21 @@ TEST(Campaign, ExcitesOneAxisAfterTheOtherAndNoneInTheRunUp) {
   for (const auto& row : trial.campaign.records[2].rows) ASSERT_EQ(row.excitation_a[0], 0.0);
 }
 
+TEST(Campaign, OfCoilsWiredTheOtherWayRoundRecordsTheCommandsThatWereSent) {
+  TestRig reversed = LoadTestRig("flexible_rotor", {"flexible_rotor"});
+  reversed.rig.plant.actuator_polarity[0] = -1.0;
+  reversed.rig.numbers.actuator_polarity[0] = -1.0;
+  const Trial built = MakeTrial(TheBench(), Short(3, {}));
+  const Trial other = MakeTrial(reversed, Short(3, {}));
+  const auto& as_built = built.campaign.records[0].rows;
+  const auto& rows = other.campaign.records[0].rows;
+  ASSERT_EQ(rows.size(), as_built.size());
+  EXPECT_EQ(rows.back().position_m, as_built.back().position_m);
+  EXPECT_NE(rows.back().control_current_a[0], 0.0);
+  EXPECT_EQ(rows.back().control_current_a[0], -as_built.back().control_current_a[0]);
+  EXPECT_EQ(rows.back().control_current_a[1], as_built.back().control_current_a[1]);
+}
+
 TEST(Campaign, ShowsUnbalanceOnlyWhenItTurns) {
   const auto healthy = MakeTrial(TheBench(), Short(3, {}));
   const auto heavy = MakeTrial(TheBench(), Short(3, {effect::Id::kUnbalance}));
