@@ -21,6 +21,7 @@
 #include "cli/study_commands.hpp"
 #include "cli/text_file.hpp"
 #include "diagnosis/levitator/plan.hpp"
+#include "diagnosis/report/build_report.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/plan.hpp"
 #include "diagnosis/report/words.hpp"
@@ -75,10 +76,11 @@ std::vector<std::string> RunLevitator(const diagnosis::DiagnosisRequest& inputs,
 std::vector<std::string> RunRotor(const diagnosis::DiagnosisRequest& inputs,
                                   const DiagnoseOptions& options, ProgressLine& progress) {
   const diagnosis::DiagnosisResult answer = diagnosis::DiagnoseFiles(inputs);
+  const diagnosis::DiagnosisReport report = diagnosis::BuildReport(answer);
   progress.Close();
   PrintDiagnosis(answer, options.explain);
-  WriteJsonFile(options.json_path, DiagnosisJson(answer));
-  auto written = WriteDiagnosis(answer, inputs.rig, options.out);
+  WriteJsonFile(options.json_path, DiagnosisJson(report));
+  auto written = WriteDiagnosis(answer, report, inputs.rig, options.out);
   if (!options.plan.empty()) {
     const bool needed = diagnosis::NeedsExperiment(answer);
     WritePlan(options.plan, needed ? diagnosis::PlanScenario(answer) : "",

@@ -8,21 +8,31 @@
 #include "cli/text_file.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/report/calibrated_rig.hpp"
-#include "diagnosis/report/excitation_coverage.hpp"
 #include "diagnosis/report/extended_rig.hpp"
-#include "diagnosis/report/input_warnings.hpp"
-#include "diagnosis/report/words.hpp"
 
 namespace levitas::cli {
 
+using diagnosis::DiagnosisReport;
 using diagnosis::DiagnosisResult;
 using diagnosis::Verdict;
 
 namespace {
 
-nlohmann::ordered_json ParametersJson(const DiagnosisResult& s) {
+const char* VerdictWord(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kEffect:
+      return "effect";
+    case Verdict::kUnknown:
+      return "unknown";
+    case Verdict::kNone:
+      break;
+  }
+  return "none";
+}
+
+nlohmann::ordered_json ParametersJson(const DiagnosisReport& report) {
   auto json = nlohmann::ordered_json::object();
-  for (const auto& p : diagnosis::Parameters(s)) {
+  for (const auto& p : report.parameters) {
     json[p.name] = {{"value", p.value},   {"low", p.low},
                     {"high", p.high},     {"unit", p.unit},
                     {"effect", p.effect}, {"where", p.place},
@@ -34,9 +44,9 @@ nlohmann::ordered_json ParametersJson(const DiagnosisResult& s) {
   return json;
 }
 
-nlohmann::ordered_json CalibratedJson(const DiagnosisResult& s) {
+nlohmann::ordered_json CalibratedJson(const DiagnosisReport& report) {
   auto json = nlohmann::ordered_json::array();
-  for (const auto& v : diagnosis::CalibratedValues(s)) {
+  for (const auto& v : report.calibrated) {
     nlohmann::ordered_json entry{{"effect", v.effect},
                                  {"where", v.place},
                                  {"key", v.key},
@@ -56,68 +66,80 @@ nlohmann::ordered_json CalibratedJson(const DiagnosisResult& s) {
   return json;
 }
 
-}  // namespace
+nlohmann::ordered_json FitJson(const DiagnosisReport& report) {
+  return {{"before", report.fitted.nominal_percent},
+          {"calibrated", report.fitted.calibrated_percent},
+          {"after", report.fitted.extended_percent},
+          {"holdout_before", report.validation.nominal_percent},
+          {"holdout_calibrated", report.validation.calibrated_percent},
+          {"holdout_after", report.validation.extended_percent},
+          {"ceiling", report.validation.ceiling_percent}};
+}
 
-nlohmann::ordered_json DiagnosisJson(const DiagnosisResult& s) {
-  nlohmann::ordered_json json;
-  const auto& a = s.answer;
-  json["verdict"] = a.verdict == Verdict::kEffect    ? "effect"
-                    : a.verdict == Verdict::kUnknown ? "unknown"
-                                                     : "none";
-  json["cause"] = nullptr;
-  if (!a.causes.empty()) json["cause"] = a.causes.front().effect;
-  json["also_possible"] = a.also_possible;
-  json["all_causes"] = nlohmann::ordered_json::array();
-  for (const auto& cause : a.causes) json["all_causes"].push_back(cause.effect);
-  json["confidence"] = diagnosis::Confidence(s);
-  json["place"] = diagnosis::PlaceOf(s);
-  json["channels"] = diagnosis::Channels(s);
-  json["parameters"] = ParametersJson(s);
-  json["calibrated"] = CalibratedJson(s);
-  json["fit_percent"] = {{"before", s.fitted.nominal_percent},
-                         {"calibrated", s.fitted.calibrated_percent},
-                         {"after", s.fitted.extended_percent},
-                         {"holdout_before", s.validation.nominal_percent},
-                         {"holdout_calibrated", s.validation.calibrated_percent},
-                         {"holdout_after", s.validation.extended_percent},
-                         {"ceiling", s.validation.ceiling_percent}};
-  const auto share = [](const diagnosis::Share& g) {
-    return nlohmann::ordered_json{{"fraction", g.value}, {"low", g.low}, {"high", g.high}};
-  };
-  json["achievable_gain"] = share(s.validation.achieved);
-  json["achievable_gain"]["beyond_calibration"] = s.validation.beyond_calibration.value;
-  json["achievable_gain"]["meaningful"] = diagnosis::SomethingToGain(s.validation);
-  for (std::size_t i = 0; i < s.validation.channel.size(); ++i) {
-    json["achievable_gain"]["channels"][s.view->numbers.channels[i]] =
-        share(s.validation.channel[i]);
-  }
-  json["residual"] = {{"frequency_hz", a.remainder.frequency_hz},
-                      {"order", a.remainder.order},
-                      {"coherent_with", a.remainder.coherent_with},
-                      {"channel", s.view->numbers.channels[a.remainder.worst_channel]},
-                      {"sigma", a.remainder.sigma},
-                      {"explained", a.explained}};
-  json["cannot_tell"] = {{"sentence", diagnosis::UnobservableSentence(s)},
-                         {"effects", diagnosis::UnobservableEffects(s)},
-                         {"record_next", diagnosis::MissingRecords(s)}};
-  json["doubt"] = diagnosis::DoubtSentence(s);
-  json["healthy_records"] = diagnosis::HealthySentence(s);
-  json["next_experiment"] = diagnosis::NextExperiment(s);
-  json["candidates"] = nlohmann::ordered_json::array();
-  for (const auto& c : a.candidates) {
-    nlohmann::ordered_json entry{{"effect", c.effect}, {"where", c.place}, {"score", nullptr}};
-    if (std::isfinite(c.score)) entry["score"] = c.score;
-    entry["refitted"] = c.refitted;
-    json["candidates"].push_back(entry);
+nlohmann::ordered_json ShareJson(const diagnosis::ReportShare& share) {
+  return {{"fraction", share.fraction}, {"low", share.low}, {"high", share.high}};
+}
+
+nlohmann::ordered_json GainJson(const diagnosis::ReportGain& gain) {
+  nlohmann::ordered_json json = ShareJson(gain.achieved);
+  json["beyond_calibration"] = gain.beyond_calibration;
+  json["meaningful"] = gain.meaningful;
+  for (const auto& channel : gain.channels) {
+    json["channels"][channel.name] = ShareJson(channel.achieved);
   }
   return json;
 }
 
-std::vector<std::string> WriteDiagnosis(const DiagnosisResult& answer, const config::RigFile& rig,
+nlohmann::ordered_json CandidatesJson(const DiagnosisReport& report) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& c : report.candidates) {
+    nlohmann::ordered_json entry{{"effect", c.effect}, {"where", c.place}, {"score", nullptr}};
+    if (std::isfinite(c.evidence_nat)) entry["score"] = c.evidence_nat;
+    entry["refitted"] = c.refitted;
+    json.push_back(entry);
+  }
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
+  nlohmann::ordered_json json;
+  json["verdict"] = VerdictWord(report.verdict);
+  json["cause"] = nullptr;
+  if (!report.causes.empty()) json["cause"] = report.causes.front().effect;
+  json["also_possible"] = report.also_possible;
+  json["all_causes"] = nlohmann::ordered_json::array();
+  for (const auto& cause : report.causes) json["all_causes"].push_back(cause.effect);
+  json["confidence"] = report.confidence;
+  json["place"] = report.place;
+  json["channels"] = report.channels;
+  json["parameters"] = ParametersJson(report);
+  json["calibrated"] = CalibratedJson(report);
+  json["fit_percent"] = FitJson(report);
+  json["achievable_gain"] = GainJson(report.gain);
+  json["residual"] = {{"frequency_hz", report.residual.frequency_hz},
+                      {"order", report.residual.order},
+                      {"coherent_with", report.residual.coherent_with},
+                      {"channel", report.residual.channel},
+                      {"sigma", report.residual.sigma},
+                      {"explained", report.residual.explained}};
+  json["cannot_tell"] = {{"sentence", report.coverage.sentence},
+                         {"effects", report.coverage.effects},
+                         {"record_next", report.coverage.missing_records}};
+  json["doubt"] = report.input_warning;
+  json["healthy_records"] = report.healthy_sentence;
+  json["next_experiment"] = report.next_experiment;
+  json["candidates"] = CandidatesJson(report);
+  return json;
+}
+
+std::vector<std::string> WriteDiagnosis(const DiagnosisResult& answer,
+                                        const DiagnosisReport& report, const config::RigFile& rig,
                                         const std::string& folder) {
   std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
                                  folder + "/calibrated_rig.yaml", folder + "/report.html"};
-  WriteJsonFile(paths[0], DiagnosisJson(answer));
+  WriteJsonFile(paths[0], DiagnosisJson(report));
   WriteTextFile(paths[1], diagnosis::ExtendedRig(answer, rig));
   WriteTextFile(paths[2], diagnosis::CalibratedRig(answer, rig));
   WriteTextFile(paths[3], DiagnosisPage(answer));

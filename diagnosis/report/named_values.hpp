@@ -13,10 +13,10 @@
 // Thread     any; pure.
 
 #include <complex>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "diagnosis/report/diagnosis_report.hpp"
 #include "diagnosis/report/effect_entry.hpp"
 
 namespace levitas::diagnosis {
@@ -24,35 +24,6 @@ namespace levitas::diagnosis {
 struct DiagnosisResult;
 struct Estimate;
 struct Term;
-
-/// The rig file's own value of the same quantity, and its sum with the estimate.
-struct OfFile {
-  double nominal{}, total{};  ///< unit of the parameter
-};
-
-struct NamedParameter {
-  std::string effect, name, unit;  ///< name: "tau_us[de_x]"
-  double value{}, low{}, high{};
-  std::string key, place;         ///< "tau_us", "de_x"
-  bool form{};                    ///< the bracket is no interval but the distance to other forms
-  double si{1.0};                 ///< of one unit
-  std::optional<OfFile> of_file;  ///< where the parameter is an addition to the file's
-};
-
-struct CalibratedValue {
-  std::string effect, place, key, unit;
-  double nominal{};   ///< of the rig file
-  double expected{};  ///< of earlier healthy records; else the nominal one
-  double calibrated{};
-  double deviation{};                                  ///< standard deviation that the data leave
-  double tolerance{};                                  ///< standard deviation on a healthy rig
-  std::optional<double> nominal_phase_rad, phase_rad;  ///< of a harmonic
-  std::optional<double> expected_phase_rad;
-  double moved{};      ///< from what was expected, in tolerances
-  double proven{};     ///< the same in standard deviations
-  double from_file{};  ///< from the nominal value, in tolerances of the rig file
-  double learned{};    ///< of that, what healthy records have shown
-};
 
 [[nodiscard]] std::vector<NamedParameter> Parameters(const DiagnosisResult& answer);
 /// Of every cause that is an addition to what the file has: that, and the two together.
