@@ -8,6 +8,8 @@
 namespace levitas::diagnosis {
 namespace {
 
+using effect::Id;
+
 /// The number behind `word` in a place: "mesh, order -3", "mesh, driven tooth 7".
 int Behind(const std::string& place, const std::string& word) {
   const auto at = place.rfind(word);
@@ -30,7 +32,7 @@ const MeshView* MeshOf(const RigView& rig, const std::string& place) {
   return nullptr;
 }
 
-EntryValues GearEntry(const RigView& rig, const std::string& effect, const std::string& place,
+EntryValues GearEntry(const RigView& rig, Id id, const std::string& place,
                       const std::map<std::string, double>& theta) {
   const MeshView* mesh = MeshOf(rig, place);
   if (mesh == nullptr) return {};
@@ -43,31 +45,31 @@ EntryValues GearEntry(const RigView& rig, const std::string& effect, const std::
   const int order = Behind(place, "order ");
   const char* wheel = place.find("driven") != std::string::npos ? "driven" : "driving";
   const EntryValue on = Words("gear", mesh->name);
-  if (effect == "mesh_stiffness") {
+  if (id == Id::kMeshStiffness) {
     return {on,
             Number("stiffness_n_per_m",
                    mesh->stiffness_n_per_m * std::max(0.01, 1.0 + value("stiffness")), 8),
             Number("damping_n_s_per_m",
                    mesh->damping_n_s_per_m * std::max(0.0, 1.0 + value("damping")), 8)};
   }
-  if (effect == "mesh_stiffness_variation") {
+  if (id == Id::kMeshStiffnessVariation) {
     return {on, Number("order", order), Number("amplitude", std::min(0.9, amplitude)),
             PhaseValue(phase)};
   }
-  if (effect == "transmission_error") {
+  if (id == Id::kTransmissionError) {
     return {on, Number("order", order), Number("amplitude_um", 1e6 * amplitude), PhaseValue(phase)};
   }
-  if (effect == "gear_runout") {
+  if (id == Id::kGearRunout) {
     return {on, Words("wheel", wheel), Number("amplitude_um", 1e6 * amplitude), PhaseValue(phase)};
   }
-  if (effect == "tooth_crack") {
+  if (id == Id::kToothCrack) {
     return {on, Words("wheel", wheel), Number("depth", std::clamp(value("depth"), 0.0, 1.0)),
             Number("tooth", Behind(place, "tooth "))};
   }
-  if (effect == "mesh_friction") {
+  if (id == Id::kMeshFriction) {
     return {on, Number("coefficient", std::clamp(value("coefficient"), 0.0, 1.0))};
   }
-  if (effect == "backlash") {
+  if (id == Id::kBacklash) {
     return {on, Number("gap_um", 1e6 * std::max(0.0, value("gap_m")))};
   }
   return {};

@@ -1,6 +1,8 @@
 // Terms and estimates by effect and place.
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/named_values.hpp"
@@ -19,6 +21,24 @@ void Add(std::vector<PlacedEffect>& groups, const std::string& effect, const std
 }
 
 }  // namespace
+
+double PlacedEffect::At(const std::string& parameter) const {
+  const auto found = theta.find(parameter);
+  return found == theta.end() ? 0.0 : found->second;
+}
+
+double PlacedEffect::Amplitude() const { return std::hypot(At("cosine"), At("sine")); }
+double PlacedEffect::Phase() const { return std::atan2(At("sine"), At("cosine")); }
+
+double PlacedEffect::Number() const {
+  const auto at = place.find_first_of("-0123456789");
+  return at == std::string::npos ? 0.0 : std::strtod(place.c_str() + at, nullptr);
+}
+
+std::string PlacedEffect::After(const std::string& comma) const {
+  const auto at = place.find(comma);
+  return at == std::string::npos ? place : place.substr(at + comma.size());
+}
 
 const Estimate* EstimateOf(const std::vector<Estimate>& estimates, const PlacedEffect& at,
                            const std::string& parameter) {
