@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/rotational_speed.hpp"
+
 namespace levitas::analysis {
 namespace {
 
@@ -36,7 +38,7 @@ void CollectWindows(std::size_t channel, const ChannelReport& report,
     if (window.ratio < kDepartureRatio * whole) continue;
     departures.push_back({channel,
                           fmt::format("{:.2f}-{:.2f} s ({:.0f} rpm)", window.start_s, window.end_s,
-                                      window.speed_rad_per_s * 30.0 / std::numbers::pi),
+                                      RadPerSToRpm(window.speed_rad_per_s)),
                           window.ratio, (window.ratio * window.ratio - 1.0) / total});
   }
 }

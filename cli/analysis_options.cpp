@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "cli/run/general_files.hpp"
 #include "config/law_notes.hpp"
@@ -138,8 +137,5 @@ std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig
   return fmt::format("These are the published gains. amb run takes others: --controller {}\n",
                      kGeneralController);
 }
-
-double RadPerSecond(double rpm) noexcept { return rpm * std::numbers::pi / 30.0; }
-double Rpm(double rad_per_s) noexcept { return rad_per_s * 30.0 / std::numbers::pi; }
 
 }  // namespace levitas::cli

@@ -43,7 +43,4 @@ struct FoundController {
 /// Says so when it is not the one that `amb run` would take; else empty.
 [[nodiscard]] std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig);
 
-[[nodiscard]] double RadPerSecond(double rpm) noexcept;
-[[nodiscard]] double Rpm(double rad_per_s) noexcept;
-
 }  // namespace levitas::cli

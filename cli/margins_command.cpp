@@ -11,6 +11,7 @@
 #include "cli/analysis_options.hpp"
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
+#include "common/rotational_speed.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -39,14 +40,16 @@ void PrintPoint(const plant::OperatingPoint& point, const std::vector<std::strin
 
 void Print(const analysis::SensitivityResult& at, const std::vector<std::string>& channels) {
   if (!at.point.failure.empty()) {
-    fmt::print("{:.0f} rpm: NOT HELD: {}. No grade.\n", Rpm(at.speed_rad_per_s), at.point.failure);
+    fmt::print("{:.0f} rpm: NOT HELD: {}. No grade.\n", RadPerSToRpm(at.speed_rad_per_s),
+               at.point.failure);
   } else if (at.stable) {
-    fmt::print("{:.0f} rpm: STABLE, zone {}\n", Rpm(at.speed_rad_per_s), ZoneText(at.zone));
+    fmt::print("{:.0f} rpm: STABLE, zone {}\n", RadPerSToRpm(at.speed_rad_per_s),
+               ZoneText(at.zone));
   } else {
     fmt::print(
         "{:.0f} rpm: UNSTABLE (largest |z| {:.6f}): no grade. A sensitivity peak, however small, "
         "says nothing about a loop that does not settle.\n",
-        Rpm(at.speed_rad_per_s), at.largest_pole_modulus);
+        RadPerSToRpm(at.speed_rad_per_s), at.largest_pole_modulus);
   }
   fmt::print("  {:<8}{:>9}{:>11}{:>11}{:>12}{:>12}{:>18}\n", "axis", "max |S|", "at Hz", "zone",
              "gain up", "gain down", "phase margin");
@@ -74,7 +77,7 @@ nlohmann::ordered_json ZoneJson(const std::optional<analysis::Zone>& zone) {
 nlohmann::ordered_json Json(const analysis::SensitivityResult& at,
                             const std::vector<std::string>& channels) {
   nlohmann::ordered_json json;
-  json["speed_rpm"] = Rpm(at.speed_rad_per_s);
+  json["speed_rpm"] = RadPerSToRpm(at.speed_rad_per_s);
   json["stable"] = at.stable;
   json["largest_pole_modulus"] = at.largest_pole_modulus;
   json["zone"] = ZoneJson(at.zone);
@@ -110,7 +113,7 @@ ExitStatus Run(const AnalysisOptions& options) {
   fmt::print("rig {}, controller {}\n{}", rig.numbers.name, ControllerText(controller), delay);
   for (const double rpm : options.speeds_rpm) {
     const auto result =
-        analysis::SensitivityPeaks(rig.plant, controller.file.law, RadPerSecond(rpm));
+        analysis::SensitivityPeaks(rig.plant, controller.file.law, RpmToRadPerS(rpm));
     Print(result, rig.numbers.channels);
     json["speeds"].push_back(Json(result, rig.numbers.channels));
   }

@@ -16,6 +16,7 @@
 #include "cli/analysis_options.hpp"
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
+#include "common/rotational_speed.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "session/output_path.hpp"
 
@@ -37,7 +38,7 @@ std::vector<double> SpeedsOf(const ModesOptions& options, const config::RigFile&
     }
     return speeds;
   }
-  for (const double rpm : options.speeds_rpm) speeds.push_back(RadPerSecond(rpm));
+  for (const double rpm : options.speeds_rpm) speeds.push_back(RpmToRadPerS(rpm));
   return speeds;
 }
 
@@ -54,7 +55,7 @@ void Print(const config::RigFile& rig, const analysis::FreeModes& modes) {
   }
   fmt::print("\n");
   for (const auto& at : modes.whirl) {
-    fmt::print("{:>10.0f}", Rpm(at.speed_rad_per_s));
+    fmt::print("{:>10.0f}", RadPerSToRpm(at.speed_rad_per_s));
     for (std::size_t i = 0; i < at.forward_hz.size(); ++i) {
       fmt::print("{:>11.3f}{:>11.3f}", at.backward_hz[i], at.forward_hz[i]);
     }
@@ -72,7 +73,7 @@ nlohmann::ordered_json Json(const config::RigFile& rig, const analysis::FreeMode
                                 {"ks_n_per_m", bearing.ks_n_per_m}});
   }
   for (const auto& at : modes.whirl) {
-    json["speeds"].push_back({{"speed_rpm", Rpm(at.speed_rad_per_s)},
+    json["speeds"].push_back({{"speed_rpm", RadPerSToRpm(at.speed_rad_per_s)},
                               {"backward_hz", at.backward_hz},
                               {"forward_hz", at.forward_hz}});
   }
@@ -80,21 +81,21 @@ nlohmann::ordered_json Json(const config::RigFile& rig, const analysis::FreeMode
 }
 
 void PrintDamped(const analysis::DampedModesAtSpeed& at, std::size_t count, const char* of) {
-  fmt::print("{:.0f} rpm{}\n{:>14}{:>14}{:>14}  {}\n", Rpm(at.speed_rad_per_s), of, "frequency Hz",
-             "rad/s", "damping", "motion");
+  fmt::print("{:.0f} rpm{}\n{:>14}{:>14}{:>14}  {}\n", RadPerSToRpm(at.speed_rad_per_s), of,
+             "frequency Hz", "rad/s", "damping", "motion");
   const bool turning = at.speed_rad_per_s != 0.0;
   for (std::size_t i = 0; i < std::min(count, at.modes.size()); ++i) {
     const analysis::DampedMode& mode = at.modes[i];
     const char* whirl = mode.forward_share > 0.5 ? "forward" : "backward";
     if (!turning || std::abs(mode.forward_share - 0.5) < 0.05) whirl = "bending";
     fmt::print("{:>14.3f}{:>14.3f}{:>14.5f}  {}\n", mode.frequency_hz,
-               RadPerSecond(60.0 * mode.frequency_hz), mode.damping_ratio,
+               RpmToRadPerS(60.0 * mode.frequency_hz), mode.damping_ratio,
                mode.torsion_share > 0.5 ? "torsion" : whirl);
   }
 }
 
 nlohmann::ordered_json DampedJson(const analysis::DampedModesAtSpeed& at) {
-  nlohmann::ordered_json json{{"speed_rpm", Rpm(at.speed_rad_per_s)}};
+  nlohmann::ordered_json json{{"speed_rpm", RadPerSToRpm(at.speed_rad_per_s)}};
   for (const auto& mode : at.modes) {
     json["modes"].push_back({{"frequency_hz", mode.frequency_hz},
                              {"damping_ratio", mode.damping_ratio},

@@ -11,6 +11,7 @@
 #include "cli/analysis_options.hpp"
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
+#include "common/rotational_speed.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -30,7 +31,7 @@ const char* Direction(const analysis::Pole& pole, bool turning) {
 }
 
 void Print(const analysis::LoopPoles& at, double up_to_hz) {
-  fmt::print("{:.0f} rpm: {} (largest |z| {:.6f})\n", Rpm(at.speed_rad_per_s),
+  fmt::print("{:.0f} rpm: {} (largest |z| {:.6f})\n", RadPerSToRpm(at.speed_rad_per_s),
              at.stable ? "STABLE" : "UNSTABLE", at.largest_pole_modulus);
   fmt::print("{:>14}{:>14}{:>14}  {}\n", "frequency Hz", "damping", "Re s 1/s", "whirl");
   for (const auto& pole : at.poles) {
@@ -43,7 +44,7 @@ void Print(const analysis::LoopPoles& at, double up_to_hz) {
 
 nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
   nlohmann::ordered_json json;
-  json["speed_rpm"] = Rpm(at.speed_rad_per_s);
+  json["speed_rpm"] = RadPerSToRpm(at.speed_rad_per_s);
   json["stable"] = at.stable;
   json["largest_pole_modulus"] = at.largest_pole_modulus;
   for (const auto& pole : at.poles) {
@@ -68,7 +69,7 @@ ExitStatus Run(const PolesOptions& options) {
   fmt::print("Poles of the sampled loop, delay included; rig {}, controller {}\n{}",
              rig.numbers.name, ControllerText(controller), delay);
   for (const double rpm : options.speeds_rpm) {
-    const auto poles = analysis::ClosedLoopPoles(rig.plant, controller.file.law, RadPerSecond(rpm));
+    const auto poles = analysis::ClosedLoopPoles(rig.plant, controller.file.law, RpmToRadPerS(rpm));
     Print(poles, options.up_to_hz);
     json["speeds"].push_back(Json(poles));
   }

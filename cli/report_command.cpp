@@ -12,6 +12,7 @@
 #include "cli/png_pictures.hpp"
 #include "cli/report_command.hpp"
 #include "cli/text_file.hpp"
+#include "common/rotational_speed.hpp"
 #include "report/session/page.hpp"
 #include "session/output_path.hpp"
 #include "verdict/commission.hpp"
@@ -90,7 +91,7 @@ ExitStatus Report(const ReportOptions& options) {
   }
   report::PictureOptions pictures;
   for (const double speed_rpm : options.speeds_rpm) {
-    pictures.speeds_rad_per_s.push_back(speed_rpm * verdict::kRadPerSPerRpm);
+    pictures.speeds_rad_per_s.push_back(RpmToRadPerS(speed_rpm));
   }
   input.pictures = report::Pictures(recording, pictures);
   WriteTextFile(options.html_path, report::Page(recording, input));

@@ -15,6 +15,7 @@
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/utc_text.hpp"
+#include "common/rotational_speed.hpp"
 #include "session_index/catalogue.hpp"
 #include "session_index/catalogue_path.hpp"
 #include "session_index/describe_session.hpp"
@@ -69,7 +70,7 @@ nlohmann::ordered_json Json(const Entry& entry) {
           {"scenario", entry.scenario},
           {"pace", entry.pace},
           {"port", entry.port},
-          {"top_speed_rpm", entry.top_speed_rad_per_s / verdict::kRadPerSPerRpm},
+          {"top_speed_rpm", RadPerSToRpm(entry.top_speed_rad_per_s)},
           {"outcome", entry.outcome},
           {"sentence", entry.sentence},
           {"damage", entry.damage},

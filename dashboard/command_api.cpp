@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <stdexcept>
 
 #include "common/enums.hpp"
+#include "common/rotational_speed.hpp"
 #include "config/excitation_request.hpp"
 #include "dashboard/request_fields.hpp"
 
@@ -15,7 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kRadPerSPerRpm = std::numbers::pi / 30.0;
 // Wider than any rig: what is too fast for this one is the controller's to refuse.
 constexpr double kMostRpm = 1e7;
 constexpr double kMostRpmPerS = 1e9;
@@ -40,10 +39,9 @@ CommandRequest Understand(const std::string& body) {
     throw std::invalid_argument(fmt::format("no command '{}'; there are {}", name, names));
   }
   if (understood.command == OperatorCommand::kSpin) {
-    understood.speed_rad_per_s =
-        NumberIn(request, "speed_rpm", -kMostRpm, kMostRpm) * kRadPerSPerRpm;
+    understood.speed_rad_per_s = RpmToRadPerS(NumberIn(request, "speed_rpm", -kMostRpm, kMostRpm));
     understood.acceleration_rad_per_s2 =
-        NumberIn(request, "acceleration_rpm_per_s", -kMostRpmPerS, kMostRpmPerS) * kRadPerSPerRpm;
+        RpmToRadPerS(NumberIn(request, "acceleration_rpm_per_s", -kMostRpmPerS, kMostRpmPerS));
   }
   return understood;
 }

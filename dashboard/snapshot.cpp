@@ -9,13 +9,13 @@
 #include <numbers>
 
 #include "common/enums.hpp"
+#include "common/rotational_speed.hpp"
 
 namespace levitas::dashboard {
 namespace {
 
 constexpr double kNano = 1e9;
 constexpr double kMilli = 1e3;
-constexpr double kRpm = 30.0 / std::numbers::pi;
 constexpr std::int64_t kSilentNs = 1'000'000'000;  // a hundred states late
 constexpr double kOrbitTurns = 2.0;
 constexpr double kShortestOrbitSeconds = 0.02;
@@ -83,7 +83,7 @@ void PutEnvelopes(std::string& text, std::vector<Envelope> buckets, std::size_t 
   PutList(text, buckets.size(), [&](std::size_t i) { Put(text, kMilli * buckets[i].time_s); });
   text += ",\"rpm\":";
   PutList(text, buckets.size(),
-          [&](std::size_t i) { Put(text, kRpm * buckets[i].speed_rad_per_s); });
+          [&](std::size_t i) { Put(text, RadPerSToRpm(buckets[i].speed_rad_per_s)); });
   text += ",\"position_nm\":";
   both(&Envelope::low_m, &Envelope::high_m, kNano);
   text += ",\"current_ma\":";
@@ -101,7 +101,7 @@ void PutState(std::string& text, const LiveRun& run, std::int64_t now_ns) {
       state->cycle, Name(static_cast<Mode>(state->mode)), Name(static_cast<Fault>(state->fault)),
       static_cast<int>(state->fault_axis), state->records_lost);
   text += ",\"speed_rpm\":";
-  Put(text, kRpm * state->speed_rad_per_s);
+  Put(text, RadPerSToRpm(state->speed_rad_per_s));
   text += ",\"bias_ma\":";
   Put(text, kMilli * state->bias_current_a);
 }
@@ -120,7 +120,7 @@ std::string RigJson(const LiveRun& run, std::int64_t server) {
                  {"clearance_m", rig.clearance_m},
                  {"bias_a", rig.bias_current_a},
                  {"max_coil_current_a", rig.max_coil_current_a},
-                 {"max_speed_rpm", rig.max_speed_rad_per_s * kRpm},
+                 {"max_speed_rpm", RadPerSToRpm(rig.max_speed_rad_per_s)},
                  {"pace", header.pace},
                  {"version", header.program_version},
                  {"source", header.source}});
@@ -144,7 +144,7 @@ std::string TickJson(LiveRun& run, std::int64_t now_ns) {
 std::string SpectrumJson(const FullSpectrum& spectrum) {
   std::string text = fmt::format(
       "{{\"line_hz\":{},\"highest_hz\":{},\"t_ms\":{:.0f},\"rpm\":{:.1f}", spectrum.line_spacing_hz,
-      spectrum.highest_hz, kMilli * spectrum.time_s, kRpm * spectrum.speed_rad_per_s);
+      spectrum.highest_hz, kMilli * spectrum.time_s, RadPerSToRpm(spectrum.speed_rad_per_s));
   // Tenths of a nanometre: below the noise of any sensor here, and short.
   text += ",\"amplitude_dnm\":";
   PutList(text, spectrum.amplitude_m.size(), [&](std::size_t bearing) {

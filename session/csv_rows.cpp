@@ -4,15 +4,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <numbers>
+
+#include "common/rotational_speed.hpp"
 
 namespace levitas::session {
-namespace {
-
-constexpr double kRadPerSPerRpm = std::numbers::pi / 30.0;
-
-}  // namespace
-
 CsvRows::CsvRows(const std::string& path, const std::vector<std::string>& channels)
     : path_(path), lines_(path) {
   std::string_view line;
@@ -78,7 +73,7 @@ void Put(const CsvColumn& column, double in_unit, CsvRow& row) noexcept {
       row.angle_rad = value;
       return;
     case CsvQuantity::kSpeed:
-      row.speed_rad_per_s = value * kRadPerSPerRpm;
+      row.speed_rad_per_s = RpmToRadPerS(value);
       return;
     case CsvQuantity::kPosition:
       row.position_m[column.axis] = value;

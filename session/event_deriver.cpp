@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "common/rotational_speed.hpp"
 
 namespace levitas::session {
 namespace {
@@ -15,9 +16,7 @@ constexpr const char* kLostRecord =
     "record(s) lost: the recorder could not keep up; the control cycle was not affected";
 constexpr const char* kMissedDeadline = "period(s) skipped: the loop was too late";
 
-std::string Speed(double rad_per_s) {
-  return fmt::format("{:.0f} rpm", rad_per_s * 30.0 / std::numbers::pi);
-}
+std::string Speed(double rad_per_s) { return fmt::format("{:.0f} rpm", RadPerSToRpm(rad_per_s)); }
 
 bool FrameUsable(const cycle::CycleRecord& record) noexcept { return record.in.frame_present; }
 

@@ -1,6 +1,6 @@
 #include "session/export_rows.hpp"
 
-#include <numbers>
+#include "common/rotational_speed.hpp"
 
 namespace levitas::session {
 
@@ -36,11 +36,10 @@ std::int64_t ExportRows::TimeOf(const cycle::CycleInputs& in) {
 }
 
 std::int64_t ExportRows::Next(const cycle::CycleRecord& record, std::vector<double>& values) {
-  constexpr double kRpmPerRadPerS = 30.0 / std::numbers::pi;
   const SensorFrame& frame = record.in.frame;
   values.clear();
   values.push_back(frame.angle_rad);
-  values.push_back(frame.speed_rad_per_s * kRpmPerRadPerS);
+  values.push_back(RadPerSToRpm(frame.speed_rad_per_s));
   const auto add = [&](const AxisArray& numbers) {
     for (std::size_t axis = 0; axis < axes_; ++axis) values.push_back(numbers[axis]);
   };

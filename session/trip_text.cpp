@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "common/rotational_speed.hpp"
 #include "session/event_deriver.hpp"
 
 namespace levitas::session {
@@ -20,7 +20,7 @@ struct Row {
 
 constexpr double kStandingRadPerS = 1.0;  // [rad/s] below, nobody says that it runs down
 constexpr double kMicro = 1e6;
-constexpr double kRpm = 30.0 / std::numbers::pi;
+constexpr double kRpmPerRadPerS = RadPerSToRpm(1.0);
 
 constexpr std::array<Row, kFaultCount> kRows{{
     {"no fault", 1.0, nullptr},
@@ -31,7 +31,7 @@ constexpr std::array<Row, kFaultCount> kRows{{
     {"sensor frames are missing", 1.0, "cycles in a row"},
     {"too many deadlines were missed", 1.0, "periods"},
     {"the coil current is at its limit for too long", 1.0, "s"},
-    {"the rotor is too fast", kRpm, "rpm"},
+    {"the rotor is too fast", kRpmPerRadPerS, "rpm"},
     {"emergency stop", 1.0, nullptr},
     {"the rig restarted", 1.0, nullptr},
     {"an amplifier reports a fault", 1.0, nullptr},
@@ -72,7 +72,7 @@ std::string TripText(const cycle::CycleRecord& record, const std::vector<std::st
   Row row = index < kRows.size() ? kRows[index] : Row{"unknown fault", 1.0, nullptr};
   // Without an axis the self-test failed because the rotor turns.
   if (record.out.fault == Fault::kSelfTestFailed && record.out.fault_axis < 0) {
-    row = {"the self-test failed: the rotor turns", kRpm, "rpm"};
+    row = {"the self-test failed: the rotor turns", kRpmPerRadPerS, "rpm"};
   }
   // With a limit it is not a report of the rig but the lack of one.
   if (record.out.fault == Fault::kAmplifierFault && record.out.fault_limit > 0.0) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/rotational_speed.hpp"
 #include "verdict/report.hpp"
 
 namespace levitas::verdict {
@@ -9,8 +10,6 @@ namespace {
 
 // Ordered: the file reads in the order of the table.
 using Object = nlohmann::ordered_json;
-
-double Rpm(double speed_rad_per_s) { return speed_rad_per_s / kRadPerSPerRpm; }
 
 /// JSON knows no infinity: a figure that is not finite is written as null.
 Object Number(double value) { return std::isfinite(value) ? Object(value) : Object(nullptr); }
@@ -21,7 +20,7 @@ Object Orbits(const Verdict& verdict) {
     all.push_back({{"bearing", at.bearing},
                    {"phase", at.spinning ? "spinning" : "standing"},
                    {"max_m", Number(at.orbit.max_m)},
-                   {"max_at_speed_rpm", Rpm(at.orbit.max_speed_rad_per_s)},
+                   {"max_at_speed_rpm", RadPerSToRpm(at.orbit.max_speed_rad_per_s)},
                    {"max_at_time_s", at.orbit.max_time_s},
                    {"rms_m", Number(at.orbit.rms_m)},
                    {"offset_x_m", Number(at.orbit.offset_x_m)},
@@ -56,7 +55,7 @@ Object Length(const PhaseFigures& phase) {
 Object Profile(const Inputs& in) {
   Object all = Object::array();
   for (const ProfileBin& bin : in.session.profile) {
-    Object row{{"speed_rpm", Rpm(bin.speed_rad_per_s)}, {"cycles", bin.cycles}};
+    Object row{{"speed_rpm", RadPerSToRpm(bin.speed_rad_per_s)}, {"cycles", bin.cycles}};
     for (std::size_t b = 0; b < bin.max_m.size(); ++b) {
       row["max_m"][in.rig.bearings.at(b)] = Number(bin.max_m[b]);
     }
@@ -80,7 +79,8 @@ void AddMeasured(const Inputs& in, Object& all) {
            {"computed_peak", Number(axis.computed_peak)},
            {"more_than_20_percent_apart", axis.differs}});
     }
-    all.push_back({{"speed_rpm", Rpm(at.speed_rad_per_s)}, {"source", "measured"}, {"axes", axes}});
+    all.push_back(
+        {{"speed_rpm", RadPerSToRpm(at.speed_rad_per_s)}, {"source", "measured"}, {"axes", axes}});
   }
 }
 
@@ -97,7 +97,7 @@ Object Sensitivity(const Inputs& in) {
            {"frequency_hz", axis.frequency_hz},
            {"zone", axis.zone ? Object(std::string(1, Letter(*axis.zone))) : Object(nullptr)}});
     }
-    all.push_back({{"speed_rpm", Rpm(result.speed_rad_per_s)},
+    all.push_back({{"speed_rpm", RadPerSToRpm(result.speed_rad_per_s)},
                    {"source", "computed"},
                    {"worst_of_all_speeds", speed == in.worst_sensitivity},
                    {"stable", result.stable},
@@ -128,7 +128,7 @@ Object Trip(const Inputs& in) {
           {"limit_si", Number(trip.limit)},
           {"time_s", trip.time_s},
           {"mode_before", Name(trip.mode_before)},
-          {"speed_rpm", Rpm(trip.speed_rad_per_s)},
+          {"speed_rpm", RadPerSToRpm(trip.speed_rad_per_s)},
           {"text", in.trip_text},
           {"file", in.provenance.trip_file},
           {"count", in.session.trips}};
@@ -188,7 +188,7 @@ Object TimeStep(const Inputs& in) {
           {"step_s", in.rig.period_s() / error.substeps},
           {"compared_with_substeps", error.compared_with},
           {"simulated_s", error.duration_s},
-          {"speed_rpm", Rpm(error.speed_rad_per_s)},
+          {"speed_rpm", RadPerSToRpm(error.speed_rad_per_s)},
           {"largest_difference_m", Number(error.largest_m)},
           {"peak_m", Number(error.peak_m)},
           {"share_of_peak", Number(error.Share())}};
@@ -223,7 +223,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
           {"warnings", verdict.warnings},
           {"provenance", From(in.provenance)},
           {"clearance_m", in.rig.clearance_m},
-          {"top_speed_rpm", Rpm(in.session.top_speed_rad_per_s)},
+          {"top_speed_rpm", RadPerSToRpm(in.session.top_speed_rad_per_s)},
           {"standing", Length(in.session.standing)},
           {"spinning", Length(in.session.spinning)},
           {"orbits", Orbits(verdict)},

@@ -12,7 +12,7 @@ std::uint64_t Cycles(double time_s, const RigNumbers& rig) {
 }
 
 /// Faster than any rotor: a reading beyond it, or none at all, belongs to no bin.
-constexpr double kFastest = 1e6 * kRadPerSPerRpm;
+constexpr double kFastest = RpmToRadPerS(1e6);
 
 /// A reading that is not finite must look large, not vanish in a comparison with NaN.
 double Radius(double x_m, double y_m) {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "common/rig_numbers.hpp"
+#include "common/rotational_speed.hpp"
 #include "controller/cycle/cycle_io.hpp"
 #include "controller/cycle/probe_map.hpp"
 #include "verdict/phase.hpp"
@@ -93,8 +94,7 @@ struct SessionFigures {
   std::uint64_t missing_records{};  ///< gaps in the cycle numbers
 };
 
-inline constexpr double kRadPerSPerRpm = 3.14159265358979323846 / 30.0;
-inline constexpr double kProfileBinRadPerS = 50.0 * kRadPerSPerRpm;
+inline constexpr double kProfileBinRadPerS = RpmToRadPerS(50.0);
 
 class SessionStatistics {
  public:

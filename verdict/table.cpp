@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "analysis/speed_sweep.hpp"
+#include "common/rotational_speed.hpp"
 #include "verdict/report.hpp"
 
 namespace levitas::verdict {
@@ -12,7 +13,6 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-double Rpm(double speed_rad_per_s) { return speed_rad_per_s / kRadPerSPerRpm; }
 double Um(double length_m) { return length_m * 1e6; }
 
 std::string_view PhaseName(bool spinning) { return spinning ? "spinning" : "standing"; }
@@ -47,8 +47,8 @@ void Orbits(const Verdict& verdict, Out out) {
                  "zone", "worst at");
   for (const OrbitJudgement& at : verdict.orbits) {
     const std::string where =
-        at.spinning ? fmt::format("{:.0f} rpm, {:.2f} s", Rpm(at.orbit.max_speed_rad_per_s),
-                                  at.orbit.max_time_s)
+        at.spinning ? fmt::format("{:.0f} rpm, {:.2f} s",
+                                  RadPerSToRpm(at.orbit.max_speed_rad_per_s), at.orbit.max_time_s)
                     : fmt::format("{:.2f} s", at.orbit.max_time_s);
     fmt::format_to(
         out, "{:<{}}{:<10}{:>7.2f}{:>8.2f}{:>10.2f}{:>10.1f} {:<5}{:>13.3f}{:>5}{:>21}\n",
@@ -86,9 +86,9 @@ void WorstSensitivity(const Inputs& in, Out out) {
   if (worst.axes.empty()) return;
   const std::size_t axis = analysis::WorstAxis(worst);
   fmt::format_to(out, "worst from {:.0f} to {:.0f} rpm, computed: {} with {:.2f} at {:.0f} rpm\n",
-                 Rpm(in.sensitivity.front().speed_rad_per_s),
-                 Rpm(in.sensitivity.back().speed_rad_per_s), in.rig.channels.at(axis),
-                 worst.axes[axis].peak, Rpm(worst.speed_rad_per_s));
+                 RadPerSToRpm(in.sensitivity.front().speed_rad_per_s),
+                 RadPerSToRpm(in.sensitivity.back().speed_rad_per_s), in.rig.channels.at(axis),
+                 worst.axes[axis].peak, RadPerSToRpm(worst.speed_rad_per_s));
 }
 
 void MeasuredRows(const Inputs& in, Out out) {
@@ -97,8 +97,8 @@ void MeasuredRows(const Inputs& in, Out out) {
     for (const MeasuredAxis& axis : at.axes) {
       const std::string zone = axis.zone ? std::string(1, Letter(*axis.zone)) : "none";
       fmt::format_to(out, "{:<{}}{:>10.0f}{:>9.3f}{:>9.1f}   {:<16}measured, sigma {:.3f}{}\n",
-                     axis.channel, NameWidth(in.rig.channels), Rpm(at.speed_rad_per_s), axis.peak,
-                     axis.frequency_hz, zone, axis.sigma,
+                     axis.channel, NameWidth(in.rig.channels), RadPerSToRpm(at.speed_rad_per_s),
+                     axis.peak, axis.frequency_hz, zone, axis.sigma,
                      axis.refused.empty() ? "" : ": " + axis.refused);
     }
   }
@@ -117,8 +117,8 @@ void Sensitivity(const Inputs& in, Out out) {
       const analysis::AxisSensitivity& axis = result.axes[i];
       const std::string zone = axis.zone ? std::string(1, Letter(*axis.zone)) : "none: unstable";
       fmt::format_to(out, "{:<{}}{:>10.0f}{:>9.3f}{:>9.1f}   {:<16}computed\n",
-                     in.rig.channels.at(i), NameWidth(in.rig.channels), Rpm(result.speed_rad_per_s),
-                     axis.peak, axis.frequency_hz, zone);
+                     in.rig.channels.at(i), NameWidth(in.rig.channels),
+                     RadPerSToRpm(result.speed_rad_per_s), axis.peak, axis.frequency_hz, zone);
     }
   }
   MeasuredRows(in, out);

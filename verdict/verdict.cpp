@@ -7,13 +7,14 @@
 #include <array>
 #include <cmath>
 
+#include "common/rotational_speed.hpp"
+
 namespace levitas::verdict {
 namespace {
 
 constexpr std::array<std::string_view, 4> kOutcomes{"accepted", "not_accepted", "tripped",
                                                     "incomplete"};
 
-double Rpm(double speed_rad_per_s) { return speed_rad_per_s / kRadPerSPerRpm; }
 double Um(double length_m) { return length_m * 1e6; }
 
 void JudgePhase(const RigNumbers& rig, const PhaseFigures& phase, bool spinning,
@@ -33,7 +34,7 @@ std::string While(bool spinning) { return spinning ? "while spinning" : "while s
 
 void ObjectToOrbit(const OrbitJudgement& at, std::vector<std::string>& objections) {
   const std::string where =
-      at.spinning ? fmt::format(" at {:.0f} rpm", Rpm(at.orbit.max_speed_rad_per_s)) : "";
+      at.spinning ? fmt::format(" at {:.0f} rpm", RadPerSToRpm(at.orbit.max_speed_rad_per_s)) : "";
   if (!at.met) {
     objections.push_back(fmt::format("{} orbit {:.1f} um {} exceeds {:.1f} um{}", at.bearing,
                                      Um(at.orbit.max_m), While(at.spinning), Um(at.objective_m),
@@ -49,7 +50,7 @@ void ObjectToOrbit(const OrbitJudgement& at, std::vector<std::string>& objection
 void ObjectToComputed(const analysis::SensitivityResult& result, const Inputs& in,
                       std::vector<std::string>& objections) {
   const RigNumbers& rig = in.rig;
-  const double speed_rpm = Rpm(result.speed_rad_per_s);
+  const double speed_rpm = RadPerSToRpm(result.speed_rad_per_s);
   if (!result.point.failure.empty()) {
     objections.push_back(fmt::format("{} (at {:.0f} rpm)", result.point.failure, speed_rpm));
     return;
@@ -71,7 +72,7 @@ void ObjectToComputed(const analysis::SensitivityResult& result, const Inputs& i
 }
 
 void JudgeMeasured(const MeasuredSpeed& at, Verdict& verdict) {
-  const double speed_rpm = Rpm(at.speed_rad_per_s);
+  const double speed_rpm = RadPerSToRpm(at.speed_rad_per_s);
   for (const MeasuredAxis& axis : at.axes) {
     if (axis.zone && !Acceptable(*axis.zone)) {
       verdict.objections.push_back(
@@ -100,7 +101,7 @@ std::string TripSentence(const Inputs& in) {
   const std::string beginning =
       what.starts_with("TRIP ") ? "TRIPPED " + what.substr(5) : "TRIPPED: " + what;
   return fmt::format("{} (It was in mode {} at {:.0f} rpm, {:.3f} s after the start.)", beginning,
-                     Name(trip.mode_before), Rpm(trip.speed_rad_per_s), trip.time_s);
+                     Name(trip.mode_before), RadPerSToRpm(trip.speed_rad_per_s), trip.time_s);
 }
 
 /// "standing 4.1 um (objective 7.0 um)" for the worst bearing of a phase, or that it was not run.

@@ -4,17 +4,16 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "analysis/recorded_rows.hpp"
 #include "common/output_file.hpp"
+#include "common/rotational_speed.hpp"
 #include "controller/law/axis_law.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::accuracy {
 namespace {
 
-constexpr double kRadPerSPerRpm = std::numbers::pi / 30.0;
 constexpr double kSaggingM = 350e-6;  // [m] beyond it the rotor is lost
 /// Of the most current, on the average over a record: an axis that gives more holds nothing any
 /// more.
@@ -59,9 +58,9 @@ class Loop {
     law::LawState state(coefficients_);
     const auto warm_up = static_cast<std::size_t>(kWarmUpS / period_s_);
     const auto quiet = static_cast<std::size_t>(std::llround(plan_.quiet_s / period_s_));
-    const double from = motion.from_rpm * kRadPerSPerRpm;
+    const double from = RpmToRadPerS(motion.from_rpm);
     const double slope =
-        (motion.to_rpm - motion.from_rpm) * kRadPerSPerRpm / static_cast<double>(motion.rows);
+        RpmToRadPerS(motion.to_rpm - motion.from_rpm) / static_cast<double>(motion.rows);
     BitSequence bits(seed);
     bool bit = false;
     MeasuredRow held;

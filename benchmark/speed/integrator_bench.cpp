@@ -7,9 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "benchmark/speed/candidate_steps.hpp"
+#include "common/rotational_speed.hpp"
 #include "plant_sim/plant/rest.hpp"
 #include "tests/loop/reference/textbook_law.hpp"
 #include "tests/support/reference_csv.hpp"
@@ -93,7 +93,7 @@ double ErrorPercent(Scheme scheme, int substeps, std::size_t modes, const char* 
                     const AxisArray& actuator_position_m, double speed_rpm) {
   Rig rig(substeps, modes);
   rig.Place(actuator_position_m);
-  rig.speed_rad_per_s = speed_rpm * 2.0 * std::numbers::pi / 60.0;
+  rig.speed_rad_per_s = RpmToRadPerS(speed_rpm);
   std::array<test::TextbookAxis, 4> law{
       test::TextbookAxis{1.0, 1e-4}, test::TextbookAxis{1.0, 1e-4},
       test::TextbookAxis{2.1294, 1e-4}, test::TextbookAxis{2.1294, 1e-4}};

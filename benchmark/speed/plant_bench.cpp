@@ -2,8 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <numbers>
-
+#include "common/rotational_speed.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "tests/support/test_rigs.hpp"
@@ -21,7 +20,7 @@ void ReportRatio(benchmark::State& state, const PlantConfig& config) {
 // what is timed is the plant in normal use: all magnets, never in contact.
 void Run(benchmark::State& state, const PlantConfig& config, double speed_rpm) {
   Plant plant(config, 1);
-  plant.SetSpeed(speed_rpm * 2.0 * std::numbers::pi / 60.0, 0.0);
+  plant.SetSpeed(RpmToRadPerS(speed_rpm), 0.0);
   PlantCommand command;
   command.bias_current_a = 1.0;
   command.drive_enabled = true;

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/rotational_speed.hpp"
+
 namespace levitas::cli {
 namespace {
 
-constexpr double kRpmPerRadPerS = 30.0 / 3.14159265358979323846;
 constexpr std::chrono::milliseconds kRedraw{100};  // faster than this nobody reads
 constexpr std::chrono::milliseconds kRateWindow{500};
 
-double Rpm(double speed_rad_per_s) { return std::abs(speed_rad_per_s) * kRpmPerRadPerS; }
+double Rpm(double speed_rad_per_s) { return RadPerSToRpm(std::abs(speed_rad_per_s)); }
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "cli/analysis_options.hpp"
 #include "cli/text_file.hpp"
 #include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -52,7 +53,7 @@ Json ChannelJson(const InnovationContext& context, std::size_t i) {
   for (const auto& window : channel.windows) {
     json["windows"].push_back({{"start_s", window.start_s},
                                {"end_s", window.end_s},
-                               {"speed_rpm", Rpm(window.speed_rad_per_s)},
+                               {"speed_rpm", RadPerSToRpm(window.speed_rad_per_s)},
                                {"ratio", window.ratio}});
   }
   return json;

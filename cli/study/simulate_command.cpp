@@ -19,6 +19,7 @@
 #include "cli/study/innovation_files.hpp"
 #include "cli/study_commands.hpp"
 #include "cli/text_table.hpp"
+#include "common/rotational_speed.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -166,7 +167,7 @@ void PrintWindows(const Simulation& s) {
   std::vector<std::string> speed{"rpm"};
   for (const auto& window : s.report.channels.front().windows) {
     from.push_back(fmt::format("{:.2f}", window.start_s));
-    speed.push_back(fmt::format("{:.0f}", Rpm(window.speed_rad_per_s)));
+    speed.push_back(fmt::format("{:.0f}", RadPerSToRpm(window.speed_rad_per_s)));
   }
   table.Add(from);
   table.Add(speed);
@@ -201,8 +202,8 @@ void Print(const Simulation& s, const SimulateOptions& options) {
   fmt::print(
       " in {} piece(s), mean speed {:.0f} rpm; left out: {} samples while the observer "
       "settles, {} not levitated; {} gap(s)\n",
-      s.run.pieces.size(), Rpm(s.mean_speed_rad_per_s), s.run.settling_rows, s.run.idle_rows,
-      s.run.gaps);
+      s.run.pieces.size(), RadPerSToRpm(s.mean_speed_rad_per_s), s.run.settling_rows,
+      s.run.idle_rows, s.run.gaps);
   if (!s.damage.empty()) fmt::print("{}\n", s.damage);
   fmt::print(
       "\nInnovations (x noise: multiples of one reading's noise; expected: with a right "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "common/rotational_speed.hpp"
 #include "config/schema/schema.hpp"
 
 namespace levitas::config {
@@ -64,24 +65,23 @@ void Describe(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
   step.command = static_cast<OperatorCommand>(command);
   v.When(step.command == OperatorCommand::kSpin, "with do: spin", [&] {
     v.Number({"speed", kRpm, 0, 300000, kRequired, "speed to reach"}, step.speed_rad_per_s);
-    v.RefuseIf(rig.max_speed_rad_per_s > 0.0 && step.speed_rad_per_s > rig.max_speed_rad_per_s,
-               "speed_rpm",
-               fmt::format("found {:.6g} rpm, but the rig is rated for {:.6g} rpm",
-                           step.speed_rad_per_s * 30.0 / static_cast<double>(kPi),
-                           rig.max_speed_rad_per_s * 30.0 / static_cast<double>(kPi)));
-    constexpr double kRpmPerRadPerS = 30.0 / static_cast<double>(kPi);
+    v.RefuseIf(
+        rig.max_speed_rad_per_s > 0.0 && step.speed_rad_per_s > rig.max_speed_rad_per_s,
+        "speed_rpm",
+        fmt::format("found {:.6g} rpm, but the rig is rated for {:.6g} rpm",
+                    RadPerSToRpm(step.speed_rad_per_s), RadPerSToRpm(rig.max_speed_rad_per_s)));
     const double most_rpm_per_s =
-        std::min(kAsFastAsItCan, rig.max_acceleration_rad_per_s2 * kRpmPerRadPerS);
+        std::min(kAsFastAsItCan, RadPerSToRpm(rig.max_acceleration_rad_per_s2));
     v.Number({"acceleration", kRpmPerSecond, 0.1, kAsFastAsItCan, kAsFastAsItCan,
               "rate, up or down, within the drive's; left out: a step, as fast as the drive can"},
              step.acceleration_rad_per_s2);
-    if (step.acceleration_rad_per_s2 * kRpmPerRadPerS * kRounding >= kAsFastAsItCan) {
-      step.acceleration_rad_per_s2 = most_rpm_per_s / kRpmPerRadPerS;
+    if (RadPerSToRpm(step.acceleration_rad_per_s2) * kRounding >= kAsFastAsItCan) {
+      step.acceleration_rad_per_s2 = RpmToRadPerS(most_rpm_per_s);
     }
-    v.RefuseIf(step.acceleration_rad_per_s2 * kRpmPerRadPerS > most_rpm_per_s * kRounding,
+    v.RefuseIf(RadPerSToRpm(step.acceleration_rad_per_s2) > most_rpm_per_s * kRounding,
                "acceleration_rpm_per_s",
                fmt::format("found {:.6g} rpm/s, but the rig's drive does {:.6g} rpm/s",
-                           step.acceleration_rad_per_s2 * kRpmPerRadPerS, most_rpm_per_s));
+                           RadPerSToRpm(step.acceleration_rad_per_s2), most_rpm_per_s));
   });
   std::size_t wait = WaitIndex(step);
   v.Choice({"until", kWaits, "nothing", "what to wait for: a mode, the speed, standstill"}, wait);

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
+#include "common/rotational_speed.hpp"
+
 namespace levitas::scenario {
 namespace {
-
-constexpr double kRpm = std::numbers::pi / 30.0;
 
 std::uint64_t Cycles(double time_s, double period_s) {
   return static_cast<std::uint64_t>(std::llround(std::max(time_s, 0.0) / period_s));
@@ -144,14 +143,14 @@ std::string ScenarioPlayer::Why() const {
     case Outcome::kFinished:
       return {};
   }
-  const double speed_rpm = last_speed_rad_per_s_ / kRpm;
+  const double speed_rpm = RadPerSToRpm(last_speed_rad_per_s_);
   switch (step.wait) {
     case Wait::kMode:
       return fmt::format("mode {} was not reached within {} s; mode is {}", Name(step.wait_mode),
                          step.timeout_s, Name(last_mode_));
     case Wait::kSpeedReached:
       return fmt::format("{:.0f} rpm was not reached within {} s; speed is {:.0f} rpm",
-                         step.speed_rad_per_s / kRpm, step.timeout_s, speed_rpm);
+                         RadPerSToRpm(step.speed_rad_per_s), step.timeout_s, speed_rpm);
     case Wait::kStandstill:
     case Wait::kNothing:
       break;

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
+#include "common/rotational_speed.hpp"
 #include "diagnosis/report/excitation_coverage.hpp"
 #include "diagnosis/report/validation_check.hpp"
 #include "diagnosis/report/words.hpp"
@@ -66,8 +66,8 @@ std::string PlanScenario(const DiagnosisResult& s) {
   const bool rotating = effects.empty() || AnyNeedsRotation(effects) || ValidationIsFaster(s);
   const bool fast = AnyOf(effects, kOfTheLoop) || (sound && !CoverageOf(s).excited);
   const auto& drive = s.view->model->config().drive;
-  const double most_rpm = s.view->numbers.max_speed_rad_per_s * 30.0 / std::numbers::pi;
-  const double rate = 0.5 * drive.max_acceleration_rad_per_s2 * 30.0 / std::numbers::pi;
+  const double most_rpm = RadPerSToRpm(s.view->numbers.max_speed_rad_per_s);
+  const double rate = RadPerSToRpm(0.5 * drive.max_acceleration_rad_per_s2);
   std::string text = "kind: scenario\nname: diagnosis_next\n\n";
   if (!PassesValidation(s)) {
     text += fmt::format("# For a model that carries over: {}.\n", NextExperiment(s));

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
 #include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
 #include "identification/frf/excitation_period.hpp"
 #include "identification/frf/sine_steps.hpp"
 
@@ -32,8 +32,6 @@ struct Piece {
   std::size_t end{};
   std::size_t available{};  ///< row at which something else begins
 };
-
-double Rpm(double rad_per_s) { return rad_per_s * 30.0 / std::numbers::pi; }
 
 std::string Where(const Record& record, std::size_t axis, std::size_t row) {
   return fmt::format("{}: excitation of {} from {:.4f} s", record.name, record.channels[axis],
@@ -127,8 +125,8 @@ double SteadySpeed(const Record& record, const Experiment& experiment) {
   const double mean = 0.5 * (*low + *high);
   if (*high - *low > std::max(kStandsRadPerS, kSameSpeed * std::abs(mean))) {
     throw BadInput(fmt::format("{}: the speed changes from {:.0f} to {:.0f} rpm meanwhile",
-                               Where(record, experiment.axis, experiment.begin), Rpm(*low),
-                               Rpm(*high)));
+                               Where(record, experiment.axis, experiment.begin), RadPerSToRpm(*low),
+                               RadPerSToRpm(*high)));
   }
   return mean;
 }
@@ -275,7 +273,7 @@ void RefuseIncomplete(const Record& record, const Campaign& campaign) {
   if (!missing.empty()) {
     throw BadInput(fmt::format(
         "{}: {} not excited at {:.0f} rpm; a rig with {} axes needs an experiment on each",
-        record.name, missing, Rpm(campaign.speed_rad_per_s), record.axes()));
+        record.name, missing, RadPerSToRpm(campaign.speed_rad_per_s), record.axes()));
   }
   RefuseUnlike(record, campaign);
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
 #include "identification/modal/modal_quality.hpp"
 
 namespace levitas::identification {
@@ -48,7 +49,7 @@ ModalResult IdentifyModal(const config::RigFile& rig,
   if (std::abs(standing.speed_rad_per_s) >= 1.0) {
     throw BadInput(fmt::format(
         "the slowest response was taken at {:.0f} rpm; the fit starts from one at standstill",
-        standing.speed_rad_per_s * 30.0 / std::numbers::pi));
+        RadPerSToRpm(standing.speed_rad_per_s)));
   }
   ModalFitOptions used = options;
   used.highest_hz = std::min(options.highest_hz, UsableBandHz(standing));

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
 #include "session/session_reader.hpp"
 
 namespace levitas::identification {
@@ -40,7 +41,7 @@ std::vector<cycle::CycleRecord> ExcitedRows(const std::string& path, const RigNu
     if (std::abs(record.in.frame.speed_rad_per_s) > kStandingRadPerS) {
       throw BadInput(fmt::format(
           "{}: the rotor turns at {:.0f} rpm in cycle {}: needed is a record of its standstill",
-          path, record.in.frame.speed_rad_per_s * 30.0 / std::numbers::pi, record.in.cycle));
+          path, RadPerSToRpm(record.in.frame.speed_rad_per_s), record.in.cycle));
     }
     rows.push_back(record);
   }

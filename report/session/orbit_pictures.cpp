@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "common/rotational_speed.hpp"
 #include "report/session/pictures.hpp"
 
 namespace levitas::report {
@@ -46,7 +47,8 @@ svg::Series Path(const Recording& r, std::size_t bearing, const Stretch& stretch
                  std::size_t number) {
   svg::Series path;
   const double speed = std::abs(static_cast<double>(r.speed_rad_per_s[stretch.last]));
-  path.name = speed > r.standstill_rad_per_s ? fmt::format("{:.0f} rpm", Rpm(speed)) : "standing";
+  path.name =
+      speed > r.standstill_rad_per_s ? fmt::format("{:.0f} rpm", RadPerSToRpm(speed)) : "standing";
   path.colour = svg::Colour(number);
   const std::size_t step = (stretch.last - stretch.first) / kMostPoints + 1;
   for (std::size_t i = stretch.first; i <= stretch.last; i += step) {

@@ -4,6 +4,7 @@
 
 #include <ctime>
 
+#include "common/rotational_speed.hpp"
 #include "verdict/report.hpp"
 
 namespace levitas::report {
@@ -83,7 +84,7 @@ std::string Identity(const Recording& r, const PageInput& input) {
          Row("recorded", Utc(header.start_utc_ns)) +
          Row("run", fmt::format("{:.2f} s at {:g} kHz, {}, seed {}, {}", seconds,
                                 1e-3 / r.rig.period_s(), header.pace, header.seed, header.source)) +
-         Row("top speed", fmt::format("{:.0f} rpm", Rpm(r.top_speed_rad_per_s))) +
+         Row("top speed", fmt::format("{:.0f} rpm", RadPerSToRpm(r.top_speed_rad_per_s))) +
          Row("machine", header.machine) + Row("program", header.program_version) +
          Row("excerpt of", header.excerpt_of) + Row("damage", r.damage) + "</table></div>\n";
 }

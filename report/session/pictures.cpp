@@ -7,8 +7,6 @@
 
 namespace levitas::report {
 
-double Rpm(double speed_rad_per_s) noexcept { return speed_rad_per_s / verdict::kRadPerSPerRpm; }
-
 svg::Figure Wide(svg::Panel panel) {
   svg::Figure figure;
   figure.panel_width = 440;

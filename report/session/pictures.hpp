@@ -41,7 +41,6 @@ struct PictureOptions {
 
 // Shared by the groups.
 inline constexpr double kUm = 1e6;
-[[nodiscard]] double Rpm(double speed_rad_per_s) noexcept;
 /// A picture of one panel as a report shows it.
 [[nodiscard]] svg::Figure Wide(svg::Panel panel);
 /// A level across the panel, dashed.

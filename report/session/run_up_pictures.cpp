@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/full_spectrum.hpp"
+#include "common/rotational_speed.hpp"
 #include "report/session/pictures.hpp"
 
 namespace levitas::report {
@@ -45,7 +46,7 @@ svg::Series Curve(const std::vector<SynchronousPoint>& points, std::size_t beari
       if (!series.y.empty()) value = before_deg + std::remainder(value - before_deg, 360.0);
       before_deg = value;
     }
-    series.x.push_back(Rpm(point.speed_rad_per_s));
+    series.x.push_back(RadPerSToRpm(point.speed_rad_per_s));
     series.y.push_back(value);
   }
   return series;
@@ -146,7 +147,7 @@ svg::Series Line(const Spectrum& spectrum, double line_hz, double rpm_per_m) {
 
 NamedPicture Waterfall(const Recording& r, const std::vector<SynchronousPoint>& points,
                        std::size_t bearing) {
-  const double top_rpm = Rpm(r.top_speed_rad_per_s);
+  const double top_rpm = RadPerSToRpm(r.top_speed_rad_per_s);
   const double line_hz = 1.0 / (r.rig.period_s() * static_cast<double>(kSpectrumLength));
   const double shown_hz = std::max(kLeastShownHz, kOrdersShown * top_rpm / 60.0);
   const auto lines = static_cast<std::size_t>(shown_hz / line_hz);
@@ -154,7 +155,7 @@ NamedPicture Waterfall(const Recording& r, const std::vector<SynchronousPoint>& 
   double highest_m = 0.0;
   for (const std::size_t middle : Instants(points)) {
     const double speed = std::abs(static_cast<double>(r.speed_rad_per_s[middle]));
-    Spectrum spectrum{Rpm(speed), SpectrumAt(r, bearing, middle, lines)};
+    Spectrum spectrum{RadPerSToRpm(speed), SpectrumAt(r, bearing, middle, lines)};
     if (spectrum.amplitude_m.empty()) continue;
     for (const double amplitude : spectrum.amplitude_m) highest_m = std::max(highest_m, amplitude);
     spectra.push_back(std::move(spectrum));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/histogram.hpp"
+#include "common/rotational_speed.hpp"
 #include "report/session/pictures.hpp"
 
 namespace levitas::report {
@@ -84,7 +85,7 @@ NamedPicture SpeedPicture(const Recording& r) {
   svg::Series series;
   ForBuckets(r, [&](std::size_t first, std::size_t) {
     series.x.push_back(r.TimeOf(first));
-    series.y.push_back(Rpm(static_cast<double>(r.speed_rad_per_s[first])));
+    series.y.push_back(RadPerSToRpm(static_cast<double>(r.speed_rad_per_s[first])));
   });
   const auto [least, most] = std::minmax_element(series.y.begin(), series.y.end());
   panel.x_range = svg::Range{0.0, r.TimeOf(r.size() - 1)};

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "common/rotational_speed.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/prbs.hpp"
 #include "controller/scenario/signal.hpp"
@@ -13,8 +13,6 @@
 
 namespace levitas::accuracy {
 namespace {
-
-constexpr double kRpm = std::numbers::pi / 30.0;
 
 class Rig {
  public:
@@ -57,8 +55,8 @@ class Rig {
   }
   /// At speed without the time of a run-up: the drive holds it.
   void SpinAt(double rpm) {
-    plant_.SetSpeed(rpm * kRpm, 0.0);
-    (void)Step({OperatorCommand::kSpin, rpm * kRpm, 800.0 * kRpm, {}});
+    plant_.SetSpeed(RpmToRadPerS(rpm), 0.0);
+    (void)Step({OperatorCommand::kSpin, RpmToRadPerS(rpm), RpmToRadPerS(800.0), {}});
     Run(0.5);
   }
 

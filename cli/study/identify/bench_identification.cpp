@@ -14,6 +14,7 @@
 #include "cli/json_file.hpp"
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/study/identify/start_options.hpp"
+#include "common/rotational_speed.hpp"
 #include "identification/modal/modal_starts.hpp"
 
 namespace levitas::cli {
@@ -69,8 +70,8 @@ void PrintPercent(const char* name, const Eigen::VectorXd& values) {
 void PrintRow(const Row& row) {
   fmt::print("seed {}: fitted in {:.2f} s; misfit", row.seed, row.time_s);
   for (const SpeedQuality& q : row.quality) {
-    fmt::print(" {:.0f} rpm {:.2f}, fit {:.2f} % of {:.2f} %{};", Rpm(q.speed_rad_per_s), q.misfit,
-               q.percent.fit, q.percent.ceiling, q.fitted ? "" : " (validation)");
+    fmt::print(" {:.0f} rpm {:.2f}, fit {:.2f} % of {:.2f} %{};", RadPerSToRpm(q.speed_rad_per_s),
+               q.misfit, q.percent.fit, q.percent.ceiling, q.fitted ? "" : " (validation)");
   }
   fmt::print(" errors by mode and axis:\n");
   PrintPercent("frequency", row.errors.frequency);
@@ -97,7 +98,7 @@ nlohmann::ordered_json Json(const Row& row) {
                               {"ks_product_error", list(row.errors.ks_product)},
                               {"ki_over_ks_error", list(row.errors.deflection_per_ampere)}};
   for (const SpeedQuality& q : row.quality) {
-    json["misfit"].push_back({{"speed_rpm", Rpm(q.speed_rad_per_s)},
+    json["misfit"].push_back({{"speed_rpm", RadPerSToRpm(q.speed_rad_per_s)},
                               {"misfit", q.misfit},
                               {"fitted", q.fitted},
                               {"fit_percent", q.percent.fit},

@@ -13,6 +13,7 @@
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/identify/response_files.hpp"
 #include "cli/study/written_files.hpp"
+#include "common/rotational_speed.hpp"
 #include "identification/frf/measured_sensitivity.hpp"
 #include "session/output_path.hpp"
 
@@ -54,8 +55,8 @@ void Print(const FrequencyResponse& r, double orbit_bound_um) {
   fmt::print(
       "\n{:.0f} rpm: {} lines, {:.3f} to {:.0f} Hz, {} periods averaged, {} lines next to orders "
       "of rotation left out\n",
-      Rpm(r.speed_rad_per_s), r.frequency_hz.size(), r.frequency_hz.front(), r.frequency_hz.back(),
-      r.periods, r.left_out_hz.size());
+      RadPerSToRpm(r.speed_rad_per_s), r.frequency_hz.size(), r.frequency_hz.front(),
+      r.frequency_hz.back(), r.periods, r.left_out_hz.size());
   fmt::print("largest orbit {:.1f} um{}, largest control current {:.3f} A\n",
              1e6 * r.largest_orbit_m,
              orbit_bound_um > 0.0 ? fmt::format(" (bound {:.1f} um)", orbit_bound_um) : "",
@@ -107,7 +108,7 @@ void RefuseWideOrbits(const std::vector<FrequencyResponse>& responses, double bo
     throw Problem(ExitStatus::kOther,
                   fmt::format("the orbit reached {:.1f} um at {:.0f} rpm, bound {:.1f} um: excite "
                               "with {:.0f} % of the amplitude",
-                              1e6 * r.largest_orbit_m, Rpm(r.speed_rad_per_s), bound_um,
+                              1e6 * r.largest_orbit_m, RadPerSToRpm(r.speed_rad_per_s), bound_um,
                               1e-4 * bound_um / r.largest_orbit_m));
   }
 }
@@ -134,7 +135,7 @@ ExitStatus Run(const FrfOptions& options) {
   }
   WriteResponseCsv(options.csv_path, responses);
   const auto nearest = std::ranges::min_element(responses, {}, [&](const auto& r) {
-    return std::abs(Rpm(r.speed_rad_per_s) - options.picture_rpm);
+    return std::abs(RadPerSToRpm(r.speed_rad_per_s) - options.picture_rpm);
   });
   WriteBode(options.svg_path, *nearest);
   nlohmann::ordered_json json{{"data", options.data_path}, {"rig", rig.numbers.name}};

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cli/analysis_options.hpp"
+#include "common/rotational_speed.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {
@@ -32,7 +33,7 @@ svg::Panel SpectrumPanel(const std::string& title,
                    .y_scale = svg::Scale::kLogarithmic};
   std::size_t colour = 0;
   for (const auto& [speed, lines] : speeds) {
-    svg::Series series{.name = fmt::format("{:.0f} rpm", Rpm(speed)),
+    svg::Series series{.name = fmt::format("{:.0f} rpm", RadPerSToRpm(speed)),
                        .colour = svg::Colour(colour++),
                        .width = 0,
                        .mark = svg::Mark::kDot};

@@ -20,6 +20,7 @@
 #include "cli/study/identify/response_files.hpp"
 #include "cli/study/identify/start_options.hpp"
 #include "cli/study/written_files.hpp"
+#include "common/rotational_speed.hpp"
 #include "identification/identified_rig.hpp"
 #include "identification/modal/modal_starts.hpp"
 #include "session/output_path.hpp"
@@ -171,8 +172,8 @@ void PrintFit(const ModalResult& r) {
   for (const ProposedMode& mode : r.stabilisation.modes) fmt::print(" {:.1f}", mode.frequency_hz);
   fmt::print(" Hz\n\nmisfit (1: only noise is left) and fit (ceiling: the data's own noise)\n");
   for (const SpeedQuality& q : r.quality) {
-    fmt::print("  {:>6.0f} rpm {:>8.3f} {:>8.2f} % of {:.2f} %  {}\n", Rpm(q.speed_rad_per_s),
-               q.misfit, q.percent.fit, q.percent.ceiling,
+    fmt::print("  {:>6.0f} rpm {:>8.3f} {:>8.2f} % of {:.2f} %  {}\n",
+               RadPerSToRpm(q.speed_rad_per_s), q.misfit, q.percent.fit, q.percent.ceiling,
                q.fitted ? "fitted" : "validation, not used in the fit");
   }
 }
@@ -181,7 +182,7 @@ void PrintFit(const ModalResult& r) {
 void PrintResiduals(const ModalResult& r) {
   fmt::print("\nresidual per channel, rms in units of what noise allows: rig file -> identified\n");
   for (const SpeedQuality& q : r.quality) {
-    fmt::print("  {:>6.0f} rpm", Rpm(q.speed_rad_per_s));
+    fmt::print("  {:>6.0f} rpm", RadPerSToRpm(q.speed_rad_per_s));
     for (Eigen::Index a = 0; a < q.after.size(); ++a) {
       fmt::print("   {} {:.1f} -> {:.2f}", r.channels[static_cast<std::size_t>(a)],
                  std::sqrt(q.before[a]), std::sqrt(q.after[a]));

@@ -7,6 +7,7 @@
 #include "cli/analysis_options.hpp"
 #include "cli/study/identify/response_files.hpp"
 #include "common/output_file.hpp"
+#include "common/rotational_speed.hpp"
 #include "identification/modal/modal_quality.hpp"
 #include "report/svg/figure.hpp"
 
@@ -56,7 +57,7 @@ svg::Figure Campbell(const ModalResult& r) {
     const double speed = highest * n / (kSpeeds - 1);
     const auto f = WhirlFrequenciesHz(r.rig, speed);
     for (std::size_t i = 0; i < std::min(modes, f.size()); ++i) {
-      lines[i].x.push_back(Rpm(speed));
+      lines[i].x.push_back(RadPerSToRpm(speed));
       lines[i].y.push_back(std::abs(f[i]));
       lines[i].colour = svg::Colour(f[i] > 0.0 ? 0 : 1);
     }
@@ -64,7 +65,7 @@ svg::Figure Campbell(const ModalResult& r) {
   if (modes > 0) lines.front().name = "backward";
   if (modes > 0) lines.back().name = "forward";
   svg::Series rotation{.name = "1x",
-                       .x = {0.0, Rpm(highest)},
+                       .x = {0.0, RadPerSToRpm(highest)},
                        .y = {0.0, highest / kTwoPi},
                        .colour = "#888888",
                        .dashes = "4 4"};
@@ -112,7 +113,7 @@ Json ModalJson(const ModalResult& r) {
     json["not_identifiable"].push_back({{"unknowns", d.unknowns}, {"experiment", d.experiment}});
   }
   for (const SpeedQuality& q : r.quality) {
-    json["speeds"].push_back({{"speed_rpm", Rpm(q.speed_rad_per_s)},
+    json["speeds"].push_back({{"speed_rpm", RadPerSToRpm(q.speed_rad_per_s)},
                               {"misfit", q.misfit},
                               {"fitted", q.fitted},
                               {"fit_percent", q.percent.fit},

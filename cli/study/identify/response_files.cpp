@@ -11,6 +11,7 @@
 
 #include "cli/analysis_options.hpp"
 #include "common/output_file.hpp"
+#include "common/rotational_speed.hpp"
 #include "identification/frf/measured_sensitivity.hpp"
 #include "report/svg/figure.hpp"
 
@@ -41,7 +42,7 @@ std::string CsvHeader(const FrequencyResponse& r) {
 
 void AppendRows(const FrequencyResponse& r, std::string& text) {
   for (std::size_t k = 0; k < r.frequency_hz.size(); ++k) {
-    text += fmt::format("{:.3f},{:.6f}", Rpm(r.speed_rad_per_s), r.frequency_hz[k]);
+    text += fmt::format("{:.3f},{:.6f}", RadPerSToRpm(r.speed_rad_per_s), r.frequency_hz[k]);
     for (Index j = 0; j < r.axes(); ++j) {
       for (Index i = 0; i < r.axes(); ++i) {
         text += fmt::format(",{:.8e},{:.8e},{:.4e},{:.5f},{:.8e},{:.8e}", r.plant[k](i, j).real(),
@@ -212,7 +213,7 @@ void WriteResponseCsv(const std::string& path, const std::vector<FrequencyRespon
 
 nlohmann::ordered_json ResponseJson(const FrequencyResponse& r) {
   nlohmann::ordered_json json{
-      {"speed_rpm", Rpm(r.speed_rad_per_s)},
+      {"speed_rpm", RadPerSToRpm(r.speed_rad_per_s)},
       {"lines", r.frequency_hz.size()},
       {"periods", r.periods},
       {"line_spacing_hz", r.frequency_hz.size() > 1 ? r.frequency_hz[1] - r.frequency_hz[0] : 0.0},
@@ -249,7 +250,7 @@ void WriteBode(const std::string& path, const FrequencyResponse& r, const ModelL
   if (path.empty()) return;
   svg::Figure figure;
   figure.title = fmt::format("Plant P = G S^-1 at {:.0f} rpm, {} periods averaged",
-                             Rpm(r.speed_rad_per_s), r.periods);
+                             RadPerSToRpm(r.speed_rad_per_s), r.periods);
   // The axes of one plane are every other channel: de_x, nde_x, then de_y, nde_y.
   const Index planes = std::min<Index>(2, r.axes());
   const Index per_plane = r.axes() / planes;

@@ -10,6 +10,7 @@
 
 #include "common/problem.hpp"
 #include "common/random.hpp"
+#include "common/rotational_speed.hpp"
 #include "controller/law/axis_law.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "tests/support/test_rigs.hpp"
@@ -75,7 +76,7 @@ double OrderShare(const ChannelReport& channel, int order) {
   return channel.orders.at(static_cast<std::size_t>(order - 1)).share;
 }
 
-constexpr double kSpeed = 3000.0 * test::kRpm;
+constexpr double kSpeed = RpmToRadPerS(3000.0);
 
 TEST(Innovations, AreWhiteAndAtTheNoiseWhenTheRecordComesFromTheSamePlant) {
   const Outcome outcome = Simulate(Record(test::FlexibleRotor(), kSpeed), kSpeed);

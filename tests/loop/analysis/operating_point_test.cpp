@@ -10,6 +10,7 @@
 
 #include "analysis/poles.hpp"
 #include "analysis/sensitivity.hpp"
+#include "common/rotational_speed.hpp"
 #include "config/rig_file.hpp"
 #include "controller/law/axis_law.hpp"
 #include "plant_sim/plant/find_operating_point.hpp"
@@ -152,7 +153,7 @@ class LoadedRotor : public testing::TestWithParam<std::tuple<double, double>> {}
 
 TEST_P(LoadedRotor, MeasuresTheSensitivityThatWasComputed) {
   const auto [gravity, speed_rpm] = GetParam();
-  const double speed = speed_rpm * test::kRpm;
+  const double speed = RpmToRadPerS(speed_rpm);
   config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
   const auto controller = config::LoadController(
       config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);

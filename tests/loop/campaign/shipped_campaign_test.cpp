@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/rotational_speed.hpp"
 #include "tests/support/shipped_loop.hpp"
 
 namespace levitas {
@@ -30,7 +31,7 @@ TEST(ShippedCampaign, ExcitesWithWholePeriodsInsideItsStatedBoundUpToFullSpeed) 
   EXPECT_LT(loop.most.orbit_m, kBoundM);
   EXPECT_EQ(loop.most.contact_n, 0.0);
   EXPECT_EQ(loop.most.excitation_a, kAmplitudeA);
-  EXPECT_GT(loop.most.speed_rad_per_s, 2990.0 * M_PI / 30.0);
+  EXPECT_GT(loop.most.speed_rad_per_s, RpmToRadPerS(2990.0));
 }
 
 TEST(ShippedCampaign, WouldBeCutBackByTheLimitThatAScenarioHasWithoutAWord) {

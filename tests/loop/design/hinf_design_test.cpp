@@ -1,9 +1,9 @@
 #include "design/hinf/hinf_design.hpp"
+#include "common/rotational_speed.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <string>
 
 #include "analysis/sensitivity.hpp"
@@ -13,16 +13,14 @@
 namespace levitas::hinf {
 namespace {
 
-constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;
-
 TEST(HinfDesign, OfTheFlexibleRotorHoldsItFromRestToTopSpeed) {
   const plant::PlantConfig rig = test::QuietFlexibleRotor();
   const HinfDesign design =
-      DesignHinf(rig, 1.0, HinfWeights{}, {.speed_rad_per_s = 3000.0 * kRpm, .turns = 1});
+      DesignHinf(rig, 1.0, HinfWeights{}, {.speed_rad_per_s = RpmToRadPerS(3000.0), .turns = 1});
   EXPECT_LE(design.states, static_cast<Eigen::Index>(law::StateSpaceConfig::kMaxStates));
   // The sampled loop of the rig, exact delay, every mode: another linear model than the design's.
   for (const double rpm : {0.0, 1600.0, 3000.0, 6000.0}) {
-    const auto judged = analysis::SensitivityPeaks(rig, design.law, rpm * kRpm);
+    const auto judged = analysis::SensitivityPeaks(rig, design.law, RpmToRadPerS(rpm));
     EXPECT_TRUE(judged.stable) << rpm << " rpm";
     for (const auto& axis : judged.axes)
       EXPECT_LT(axis.peak, 3.0) << rpm << " rpm";  // ISO 14839-3: zone A
@@ -32,9 +30,9 @@ TEST(HinfDesign, OfTheFlexibleRotorHoldsItFromRestToTopSpeed) {
 TEST(HinfDesign, IgnoringTheModesMotionLosesThemAtAnotherSpeed) {
   // The harm that the uncertain modes prevent: a controller that may trust them exactly.
   const plant::PlantConfig rig = test::QuietFlexibleRotor();
-  const HinfDesign design =
-      DesignHinf(rig, 1.0, {.mode_hz = 1e-3}, {.speed_rad_per_s = 3000.0 * kRpm, .turns = 1});
-  EXPECT_TRUE(analysis::SensitivityPeaks(rig, design.law, 3000.0 * kRpm).stable);
+  const HinfDesign design = DesignHinf(rig, 1.0, {.mode_hz = 1e-3},
+                                       {.speed_rad_per_s = RpmToRadPerS(3000.0), .turns = 1});
+  EXPECT_TRUE(analysis::SensitivityPeaks(rig, design.law, RpmToRadPerS(3000.0)).stable);
   EXPECT_FALSE(analysis::SensitivityPeaks(rig, design.law, 0.0).stable);
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 
+#include "common/rotational_speed.hpp"
 #include "config/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/supervisor/supervisor.hpp"
@@ -16,8 +17,6 @@
 #include "tests/support/paths.hpp"
 
 namespace levitas::test {
-
-inline constexpr double kRpm = 3.14159265358979323846 / 30.0;
 
 inline const config::RigFile& ShippedRig() {
   static const config::RigFile rig =
@@ -120,7 +119,7 @@ class ClosedLoop {
     return false;
   }
   void Command(OperatorCommand command, double speed_rpm = 0.0, double rpm_per_s = 0.0) {
-    (void)Step({command, speed_rpm * kRpm, rpm_per_s * kRpm, {}});
+    (void)Step({command, RpmToRadPerS(speed_rpm), RpmToRadPerS(rpm_per_s), {}});
   }
   /// From rest in the touchdown bearings to levitation.
   bool Levitate() {
@@ -129,14 +128,14 @@ class ClosedLoop {
   }
   /// Levitated at a constant speed without the time of a run-up: the drive holds it.
   void SpinAt(double speed_rpm) {
-    plant.SetSpeed(speed_rpm * kRpm, 0.0);
+    plant.SetSpeed(RpmToRadPerS(speed_rpm), 0.0);
     Command(OperatorCommand::kSpin, speed_rpm, 800.0);
     Run(0.5);
     Reset();
   }
   void Reset() { most = {}; }
   [[nodiscard]] supervisor::State state() const { return control.decision().state; }
-  [[nodiscard]] double speed_rpm() const { return plant.speed_rad_per_s() / kRpm; }
+  [[nodiscard]] double speed_rpm() const { return RadPerSToRpm(plant.speed_rad_per_s()); }
 
   plant::Plant plant;
   cycle::ControlCycle control;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/rotational_speed.hpp"
 #include "tests/loop/levitation/closed_loop.hpp"
 
 namespace levitas::test {
@@ -25,7 +26,7 @@ Harm Trip(Reaction reaction, double speed_rpm) {
   const auto brake = [](plant::PlantCommand& command) {
     command.drive_enabled = true;
     command.speed_set_point_rad_per_s = 0.0;
-    command.acceleration_limit_rad_per_s2 = 1000.0 * kRpm;
+    command.acceleration_limit_rad_per_s2 = RpmToRadPerS(1000.0);
   };
   if (reaction == Reaction::kLevitatedStop) {
     loop.Command(OperatorCommand::kEmergencyStop);

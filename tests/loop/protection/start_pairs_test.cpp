@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/rotational_speed.hpp"
 #include "tests/loop/levitation/closed_loop.hpp"
 
 namespace levitas::test {
@@ -71,7 +72,7 @@ class SelfTest : public testing::TestWithParam<SelfTestCase> {};
 cycle::CycleOutputs Lift(const cycle::CycleConfig& config, const SelfTestCase& test,
                          double* coil_a) {
   ClosedLoop loop(config, RollingTouchdownRig());
-  loop.plant.SetSpeed(test.speed_rpm * kRpm, 0.0);
+  loop.plant.SetSpeed(RpmToRadPerS(test.speed_rpm), 0.0);
   loop.disturb = [&](cycle::CycleInputs& in) { in.frame.position_m[0] += test.offset_m; };
   loop.Command(OperatorCommand::kLift);
   loop.Run(1.0);

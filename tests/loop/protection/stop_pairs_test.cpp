@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/rotational_speed.hpp"
 #include "tests/loop/levitation/closed_loop.hpp"
 
 namespace levitas::test {
@@ -14,7 +15,7 @@ TEST(OverSpeedPair, DriveTurnsBackwardsFasterThanTold) {
   const auto fastest_rpm = [](Fault kept) {
     ClosedLoop loop(Only(kept), RollingTouchdownRig());
     EXPECT_TRUE(loop.Levitate());
-    loop.plant.SetSpeed(-5800.0 * kRpm, 0.0);
+    loop.plant.SetSpeed(RpmToRadPerS(-5800.0), 0.0);
     loop.Command(OperatorCommand::kSpin, -5800.0, 800.0);
     loop.Run(0.5);
     loop.overrule = [](plant::PlantCommand& command) { command.speed_set_point_rad_per_s *= 1.3; };
@@ -128,7 +129,7 @@ TEST(RigRestartedPair, TurningRotorIsLeftInItsBearings) {
     loop.SpinAt(1500.0);
     loop.plant = plant::Plant(RollingTouchdownRig(), 2);
     loop.plant.RestInTouchdown();
-    loop.plant.SetSpeed(1500.0 * kRpm, 0.0);
+    loop.plant.SetSpeed(RpmToRadPerS(1500.0), 0.0);
     if (told) loop.disturb = [](cycle::CycleInputs& in) { in.frame.rig_session = 99; };
     (void)loop.Step();
     loop.Reset();

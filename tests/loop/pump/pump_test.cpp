@@ -2,18 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "analysis/poles.hpp"
 #include "analysis/sensitivity.hpp"
 #include "analysis/speed_sweep.hpp"
 #include "analysis/step_error.hpp"
+#include "common/rotational_speed.hpp"
 #include "tests/support/shipped_loop.hpp"
 
 namespace levitas::test {
 namespace {
-
-constexpr double kRpm = std::numbers::pi / 30.0;
 
 TEST(TurbomolecularPump, LevitatesFromStandstillTo30000RpmAndBackAtTwentyKilohertz) {
   ShippedLoop loop("turbomolecular_pump", "turbomolecular_pump");
@@ -26,7 +23,7 @@ TEST(TurbomolecularPump, LevitatesFromStandstillTo30000RpmAndBackAtTwentyKiloher
   }
   ASSERT_EQ(loop.rig.numbers.period_ns, 50'000);
   EXPECT_EQ(loop.Play(20261121, 10.0), "");
-  EXPECT_GT(loop.most.speed_rad_per_s, 29'900.0 * kRpm);
+  EXPECT_GT(loop.most.speed_rad_per_s, RpmToRadPerS(29'900.0));
   EXPECT_EQ(loop.most.contact_n, 0.0);
   EXPECT_LT(loop.most.orbit_m, loop.rig.numbers.spinning_orbit_objective_m);
 }
@@ -44,7 +41,8 @@ TEST(TurbomolecularPump, IsNotHeldWithTheSignOfItsControllersTurned) {
 TEST(TurbomolecularPump, IsStableAndDampedFromStandstillToTheRatedSpeed) {
   const ShippedLoop loop("turbomolecular_pump", "turbomolecular_pump");
   for (const double rpm : {0.0, 5e3, 10e3, 15e3, 20e3, 25e3, 30e3}) {
-    const auto poles = analysis::ClosedLoopPoles(loop.rig.plant, loop.controller.law, rpm * kRpm);
+    const auto poles =
+        analysis::ClosedLoopPoles(loop.rig.plant, loop.controller.law, RpmToRadPerS(rpm));
     EXPECT_TRUE(poles.stable) << rpm;
     double least = 1.0;
     for (const auto& pole : poles.poles) least = std::min(least, pole.damping_ratio);
@@ -72,16 +70,17 @@ TEST(TurbomolecularPump, LosesItsUpperAxisAtTheGainThatItsMarginNames) {
 TEST(TurbomolecularPump, HasItsWorstSensitivityBetweenStandstillAndTheRatedSpeed) {
   const ShippedLoop loop("turbomolecular_pump", "turbomolecular_pump");
   const auto sweep =
-      analysis::SensitivityOverSpeed(loop.rig.plant, loop.controller.law, 30e3 * kRpm);
+      analysis::SensitivityOverSpeed(loop.rig.plant, loop.controller.law, RpmToRadPerS(30e3));
   ASSERT_EQ(sweep.speeds.size(), 3U);
   ASSERT_EQ(sweep.worst, 1U);
   const auto& worst = sweep.speeds[1];
   const std::size_t axis = analysis::WorstAxis(worst);
   EXPECT_EQ(loop.rig.numbers.channels[axis][0], 'l');
-  EXPECT_NEAR(worst.speed_rad_per_s / kRpm, 10e3, 1.5e3);
+  EXPECT_NEAR(RadPerSToRpm(worst.speed_rad_per_s), 10e3, 1.5e3);
   // Nowhere on a grid of its own is it worse: the place is known to 1 % of the range.
   for (double rpm = 0.0; rpm <= 30e3; rpm += 1e3) {
-    const auto at = analysis::SensitivityPeaks(loop.rig.plant, loop.controller.law, rpm * kRpm);
+    const auto at =
+        analysis::SensitivityPeaks(loop.rig.plant, loop.controller.law, RpmToRadPerS(rpm));
     EXPECT_LT(at.axes[analysis::WorstAxis(at)].peak, 1.01 * worst.axes[axis].peak) << rpm;
   }
   for (const std::size_t end : {0U, 2U}) {
@@ -107,7 +106,7 @@ TEST(TurbomolecularPump, HasTheForcePerControllerOutputOfItsSource) {
 TEST(TurbomolecularPump, IsSimulatedWithinAThousandthOfItsMotion) {
   const ShippedLoop loop("turbomolecular_pump", "turbomolecular_pump");
   const auto error =
-      analysis::MeasureStepError(loop.rig.plant, loop.controller.law, 30'000.0 * kRpm);
+      analysis::MeasureStepError(loop.rig.plant, loop.controller.law, RpmToRadPerS(30'000.0));
   EXPECT_EQ(error.compared_with, 8 * error.substeps);
   EXPECT_GT(error.peak_m, 1e-6);
   EXPECT_LT(error.Share(), 1e-3);

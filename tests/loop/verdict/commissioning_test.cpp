@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/rotational_speed.hpp"
 #include "config/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
@@ -65,7 +66,7 @@ TEST(ShippedRig, MeetsItsObjectivesFromStandstillTo6000RpmWithNoise) {
   Bench bench("run_up_6000");
   const verdict::Verdict verdict = bench.Play(20261121);
   EXPECT_EQ(verdict.outcome, verdict::Outcome::kAccepted) << verdict::Table(verdict);
-  EXPECT_GT(verdict.inputs.session.top_speed_rad_per_s, 5990.0 * verdict::kRadPerSPerRpm);
+  EXPECT_GT(verdict.inputs.session.top_speed_rad_per_s, RpmToRadPerS(5990.0));
   for (const verdict::OrbitJudgement& at : verdict.orbits) {
     EXPECT_LT(at.orbit.max_m, at.spinning ? 36e-6 : 7e-6) << verdict::Table(verdict);
   }

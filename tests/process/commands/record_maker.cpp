@@ -8,11 +8,11 @@
 
 #include <array>
 #include <fstream>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "common/random.hpp"
+#include "common/rotational_speed.hpp"
 #include "config/rig_file.hpp"
 #include "controller/law/axis_law.hpp"
 #include "plant_sim/plant/plant.hpp"
@@ -23,7 +23,6 @@ namespace {
 
 constexpr double kTestCurrentA = 0.05;  // so that the magnets work
 constexpr std::uint64_t kSettleCycles = 5'000;
-constexpr double kRpm = std::numbers::pi / 30.0;
 
 plant::PlantConfig Truth(const std::string& name, plant::PlantConfig rig) {
   if (name == "unbalance") {
@@ -51,7 +50,7 @@ void Record(const std::string& path, const plant::PlantConfig& truth, const conf
   const law::LawCoefficients law(controller.law);
   law::LawState state(law);
   plant::Plant plant(truth, seed);
-  plant.SetSpeed(speed_rpm * kRpm, 0.0);
+  plant.SetSpeed(RpmToRadPerS(speed_rpm), 0.0);
   Random random(seed + 1);
   std::ofstream csv(path);
   WriteNames(csv, rig.numbers.channels);
@@ -67,11 +66,11 @@ void Record(const std::string& path, const plant::PlantConfig& truth, const conf
     command.control_current_a =
         law::Step(law, state, error_m, excitation_a, rig.numbers.bias_current_a).control_current_a;
     command.drive_enabled = true;
-    command.speed_set_point_rad_per_s = speed_rpm * kRpm;
+    command.speed_set_point_rad_per_s = RpmToRadPerS(speed_rpm);
     plant.Advance(command);
     if (n < kSettleCycles) continue;
     csv << fmt::format("{:.4f},{},{}", static_cast<double>(n - kSettleCycles) * 1e-4,
-                       frame.angle_rad, frame.speed_rad_per_s / kRpm);
+                       frame.angle_rad, RadPerSToRpm(frame.speed_rad_per_s));
     const std::array<const AxisArray*, 3> groups{&frame.position_m, &command.control_current_a,
                                                  &excitation_a};
     for (const AxisArray* values : groups) {

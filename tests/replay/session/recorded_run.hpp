@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/rotational_speed.hpp"
 #include "config/rig_file.hpp"
 #include "session/session_writer.hpp"
 #include "tests/loop/levitation/closed_loop.hpp"
@@ -54,7 +55,7 @@ class RecordedRun {
   }
   void Command(OperatorCommand command, double speed_rpm = 0.0, double rpm_per_s = 0.0) {
     Step([&](cycle::CycleInputs& in) {
-      in.op = {command, speed_rpm * test::kRpm, rpm_per_s * test::kRpm, {}, {}};
+      in.op = {command, RpmToRadPerS(speed_rpm), RpmToRadPerS(rpm_per_s), {}, {}};
     });
   }
   bool RunUntil(Mode mode, int most_cycles) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/rotational_speed.hpp"
 #include "tests/support/reference_csv.hpp"
 #include "tests/support/test_rigs.hpp"
 #include "tests/unit/analysis/laws.hpp"
@@ -14,7 +15,7 @@ TEST(FreeModes, AgreeWithAnIndependentProgramAtEverySpeedOfTheCampbellDiagram) {
   const auto table = test::ReadReference("flexible_rotor_campbell.csv");
   ASSERT_EQ(table.size(), 13U);
   std::vector<double> speeds;
-  for (const auto& row : table) speeds.push_back(row[0] * test::kRpm);
+  for (const auto& row : table) speeds.push_back(RpmToRadPerS(row[0]));
   const FreeModes modes = ComputeFreeModes(test::QuietFlexibleRotor(), speeds, 4);
   ASSERT_EQ(modes.whirl.size(), table.size());
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -59,7 +60,7 @@ TEST(FreeModes, AgreeWithTheProgramPublishedForTheUfuRig) {
 
 TEST(FreeModes, SplitFurtherApartTheFasterTheRotorTurns) {
   const FreeModes modes = ComputeFreeModes(test::QuietFlexibleRotor(),
-                                           {0.0, 3000.0 * test::kRpm, 6000.0 * test::kRpm}, 1);
+                                           {0.0, RpmToRadPerS(3000.0), RpmToRadPerS(6000.0)}, 1);
   std::vector<double> split_hz;
   for (const auto& at : modes.whirl) split_hz.push_back(at.forward_hz[0] - at.backward_hz[0]);
   EXPECT_LT(split_hz[0], 1e-3);  // no rotation, no split: rounding only

@@ -1,12 +1,11 @@
 #pragma once
 // Laws the analysis is tested with, and a rotor whose poles are closed forms.
 
+#include "common/rotational_speed.hpp"
 #include "controller/law/law_config.hpp"
 #include "plant_sim/plant/plant_config.hpp"
 
 namespace levitas::test {
-
-inline constexpr double kRpm = 3.14159265358979323846 / 30.0;  ///< [rad/s] of one rpm
 
 /// Law of the flexible rotor (Sahinkaya & Sawicki), as the reference poles have it.
 [[nodiscard]] law::LawConfig FlexibleRotorLaw();

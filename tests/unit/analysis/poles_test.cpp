@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
 #include "tests/support/reference_csv.hpp"
 #include "tests/support/test_rigs.hpp"
 #include "tests/unit/analysis/laws.hpp"
@@ -42,7 +43,7 @@ class ReferenceSpeeds : public testing::TestWithParam<double> {};
 
 TEST_P(ReferenceSpeeds, HaveEveryPoleOfTheReferenceOnceAndNoOther) {
   const LoopPoles poles = ClosedLoopPoles(test::QuietFlexibleRotor(), test::FlexibleRotorLaw(),
-                                          GetParam() * test::kRpm);
+                                          RpmToRadPerS(GetParam()));
   EXPECT_TRUE(poles.stable);
   std::vector<Pole> left;
   std::copy_if(poles.poles.begin(), poles.poles.end(), std::back_inserter(left),
@@ -175,8 +176,8 @@ TEST(ClosedLoopPoles, RefuseALawWithAnotherNumberOfAxes) {
 TEST(ClosedLoopPoles, AreConjugateUnderReversalOfTheRotation) {
   const auto plant = test::QuietFlexibleRotor();
   const auto law = test::FlexibleRotorLaw();
-  const LoopPoles ahead = ClosedLoopPoles(plant, law, 3000.0 * test::kRpm);
-  const LoopPoles astern = ClosedLoopPoles(plant, law, -3000.0 * test::kRpm);
+  const LoopPoles ahead = ClosedLoopPoles(plant, law, RpmToRadPerS(3000.0));
+  const LoopPoles astern = ClosedLoopPoles(plant, law, RpmToRadPerS(-3000.0));
   ASSERT_EQ(ahead.poles.size(), astern.poles.size());
   for (const Pole& pole : ahead.poles) {
     if (std::abs(pole.frequency_hz) < 1.0 || std::abs(pole.frequency_hz) > 1000.0) continue;

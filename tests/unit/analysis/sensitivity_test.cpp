@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "analysis/poles.hpp"
+#include "common/rotational_speed.hpp"
 #include "controller/law/discrete_law.hpp"
 #include "tests/support/test_rigs.hpp"
 #include "tests/unit/analysis/laws.hpp"
@@ -74,7 +75,7 @@ TEST(Sensitivity, OfARigidRotorIsTheMeanOfItsTwoMotions) {
 TEST(SensitivityPeaks, AreNotExceededAnywhereOnAGridOfTheirOwn) {
   const auto plant = test::QuietFlexibleRotor();
   const auto law = test::FlexibleRotorLaw();
-  const double speed = 3000.0 * test::kRpm;
+  const double speed = RpmToRadPerS(3000.0);
   const SensitivityResult result = SensitivityPeaks(plant, law, speed);
   ASSERT_TRUE(result.stable);
   std::vector<double> frequencies_hz;
@@ -125,7 +126,7 @@ TEST_P(GainMargins, AreTheFactorsAtWhichTheLoopLosesItsStability) {
   const auto plant = test::QuietFlexibleRotor();
   const law::LawConfig law = test::FlexibleRotorLaw();
   const auto [axis, speed_rpm] = GetParam();
-  const double speed = speed_rpm * test::kRpm;
+  const double speed = RpmToRadPerS(speed_rpm);
   const SensitivityResult result = SensitivityPeaks(plant, law, speed);
   ASSERT_TRUE(result.stable);
   const AxisMargins margins = result.axes[axis].margins;

@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <string>
 
 #include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
 #include "config/rig_file.hpp"
 #include "tests/unit/config/full_samples.hpp"
 
@@ -161,7 +161,7 @@ TEST(Spin, FasterThanTheDriveCanIsRefusedNotShortened) {
         std::to_string(rpm_per_s) + "}\n";
     return ProblemOf([&] { (void)ParseScenario(text, "s.yaml", FullRig().numbers); });
   };
-  const double most = FullRig().plant.drive.max_acceleration_rad_per_s2 * 30.0 / std::numbers::pi;
+  const double most = RadPerSToRpm(FullRig().plant.drive.max_acceleration_rad_per_s2);
   EXPECT_THAT(problem(1.001 * most), HasSubstr("steps[0].acceleration_rpm_per_s: found"));
   EXPECT_THAT(problem(1.001 * most), HasSubstr("the rig's drive does"));
   EXPECT_EQ(problem(0.999 * most), "accepted");

@@ -6,13 +6,12 @@
 #include <iterator>
 #include <numbers>
 
+#include "common/rotational_speed.hpp"
 #include "config/rig_file.hpp"
 #include "tests/support/paths.hpp"
 
 namespace levitas::config {
 namespace {
-
-constexpr double kRpm = std::numbers::pi / 30.0;
 
 double Ki(const plant::MagnetConfig& m) {
   return 4.0 * m.force_constant_n_m2_per_a2 * m.bias_current_a / (m.gap_m * m.gap_m);
@@ -29,7 +28,7 @@ TEST(FlexibleRotor, IsThePublishedRig) {
   EXPECT_EQ(rig.numbers.clearance_m, 190e-6);
   EXPECT_EQ(rig.numbers.standing_orbit_objective_m, 7e-6);
   EXPECT_EQ(rig.numbers.spinning_orbit_objective_m, 36e-6);
-  EXPECT_DOUBLE_EQ(rig.numbers.max_speed_rad_per_s, 6000.0 * kRpm);
+  EXPECT_DOUBLE_EQ(rig.numbers.max_speed_rad_per_s, RpmToRadPerS(6000.0));
   EXPECT_EQ(rig.plant.rotor.sections[0].length_m, 0.4572);
   EXPECT_EQ(rig.plant.rotor.sections[0].outer_diameter_m, 9.525e-3);
   EXPECT_EQ(rig.plant.bearings[0].sensor_z_m, 0.1099);
@@ -120,7 +119,7 @@ TEST(Scenarios, TakeTheTimeTheySay) {
   }
   EXPECT_GT(seconds, 12.0);
   EXPECT_LT(seconds, 15.0);
-  EXPECT_DOUBLE_EQ(fastest, 3000.0 * kRpm);
+  EXPECT_DOUBLE_EQ(fastest, RpmToRadPerS(3000.0));
 }
 
 /// The rig whose name a file's name begins with; files for any rig are tried with the first one.

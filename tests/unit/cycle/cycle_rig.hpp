@@ -4,12 +4,11 @@
 #include <cstdint>
 
 #include "common/random.hpp"
+#include "common/rotational_speed.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "tests/unit/law/flexible_rotor_law.hpp"
 
 namespace levitas::cycle {
-
-inline constexpr double kRpm = 3.14159265358979323846 / 30.0;
 
 inline CycleConfig FlexibleRotorCycle() {
   CycleConfig config;
@@ -22,7 +21,7 @@ inline CycleConfig FlexibleRotorCycle() {
   rig.max_coil_current_a = 2.0;
   rig.clearance_m = 190e-6;
   rig.sensor_range_m = 400e-6;
-  rig.max_speed_rad_per_s = 6000.0 * kRpm;
+  rig.max_speed_rad_per_s = RpmToRadPerS(6000.0);
   rig.sensor_polarity = {1, 1, 1, 1};
   rig.actuator_polarity = {1, 1, 1, 1};
   rig.standing_orbit_objective_m = 7e-6;

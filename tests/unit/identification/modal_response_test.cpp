@@ -1,4 +1,5 @@
 #include "identification/modal/modal_response.hpp"
+#include "common/rotational_speed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +14,6 @@
 
 namespace levitas::identification {
 namespace {
-
-constexpr double kRpm = std::numbers::pi / 30.0;
 
 const config::RigFile& Rig() {
   static const config::RigFile rig =
@@ -35,8 +34,8 @@ TEST(ModalResponse, IsThatOfTheSampledPlantAtEverySpeed) {
   const Physical rig = ToPhysical(start.frame, start.vector);
   for (const double rpm : {0.0, 3000.0}) {
     for (const double f_hz : {7.0, 60.0, 89.0, 300.0, 505.0, 700.0, 900.0}) {
-      const Eigen::MatrixXcd exact = Exact(f_hz, rpm * kRpm);
-      const Eigen::MatrixXcd model = ModalResponse(start.frame, rig, f_hz, rpm * kRpm);
+      const Eigen::MatrixXcd exact = Exact(f_hz, RpmToRadPerS(rpm));
+      const Eigen::MatrixXcd model = ModalResponse(start.frame, rig, f_hz, RpmToRadPerS(rpm));
       // The images of the hold that the model leaves out, see its header.
       const double mass_line = 80.0 / (2.3 * std::pow(2.0 * std::numbers::pi * f_hz, 2.0));
       EXPECT_LT((exact - model).cwiseAbs().maxCoeff(), 1e-3 * mass_line) << f_hz << " Hz " << rpm;
@@ -46,7 +45,7 @@ TEST(ModalResponse, IsThatOfTheSampledPlantAtEverySpeed) {
 
 TEST(ModalResponse, DerivativesAreThoseOfFiniteDifferences) {
   const ModalStart start = StartFromRig(Rig().plant, 5);
-  for (const double speed : {0.0, 3000.0 * kRpm}) {
+  for (const double speed : {0.0, RpmToRadPerS(3000.0)}) {
     const double f_hz = 95.0;
     ResponseDerivative derivative;
     (void)ModalResponse(start.frame, ToPhysical(start.frame, start.vector), f_hz, speed,

@@ -1,6 +1,7 @@
 // A mode stands out by its shape over frequency, noise does not; whirl frequencies lead the
 // gyroscopic matrix to where the data have it.
 #include "identification/modal/mode_scan.hpp"
+#include "common/rotational_speed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,6 @@
 namespace levitas::identification {
 namespace {
 
-constexpr double kRpm = std::numbers::pi / 30.0;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 const ModalStart& Start() {
@@ -92,15 +92,15 @@ TEST(WhirlStart, WhirlsAreThoseOfTheFreeRotorWithoutMagnets) {
   // Without G each mode has its own frequency twice.
   Physical still = rig;
   still.gyroscopic.setZero();
-  const auto standing = WhirlsInMagnets(still, 3000.0 * kRpm);
-  const auto turning = WhirlsInMagnets(rig, 3000.0 * kRpm);
+  const auto standing = WhirlsInMagnets(still, RpmToRadPerS(3000.0));
+  const auto turning = WhirlsInMagnets(rig, RpmToRadPerS(3000.0));
   for (std::size_t i = 0; i < turning.size(); ++i) {
     const auto mode = static_cast<Eigen::Index>(i);
     const double own_hz = rig.frequency_rad_per_s[2 + mode] / kTwoPi;
     EXPECT_NEAR(standing[i].backward_hz, own_hz, 1e-6 * own_hz);
     EXPECT_NEAR(standing[i].forward_hz, own_hz, 1e-6 * own_hz);
     // First order in G: apart by W G_ii / 2 pi; the other entries act to the second, a tenth here.
-    const double apart_hz = 3000.0 * kRpm * rig.gyroscopic(2 + mode, 2 + mode) / kTwoPi;
+    const double apart_hz = RpmToRadPerS(3000.0) * rig.gyroscopic(2 + mode, 2 + mode) / kTwoPi;
     EXPECT_NEAR(turning[i].forward_hz - turning[i].backward_hz, apart_hz, 0.1 * apart_hz);
   }
 }
@@ -109,7 +109,8 @@ TEST(WhirlStart, TheDiagonalOfTheMatrixComesFromTheSplits) {
   const ModalStart& start = Start();
   const ModalLayout& at = start.frame.layout;
   std::vector<ProposedMode> shown;
-  for (const Whirl& whirl : WhirlsInMagnets(ToPhysical(start.frame, start.vector), 3000.0 * kRpm)) {
+  for (const Whirl& whirl :
+       WhirlsInMagnets(ToPhysical(start.frame, start.vector), RpmToRadPerS(3000.0))) {
     shown.push_back({whirl.backward_hz, 0.003, 1.0});
     shown.push_back({whirl.forward_hz, 0.003, 1.0});
   }
@@ -118,7 +119,7 @@ TEST(WhirlStart, TheDiagonalOfTheMatrixComesFromTheSplits) {
   for (Eigen::Index i = 0; i < at.bending; ++i) {
     vector[at.gyroscopic_at(1 + i, 1 + i)] *= i % 2 == 0 ? 0.6 : 1.4;
   }
-  MeetWhirls(start.frame, 3000.0 * kRpm, shown, vector);
+  MeetWhirls(start.frame, RpmToRadPerS(3000.0), shown, vector);
   for (Eigen::Index i = 0; i < at.bending; ++i) {
     const Eigen::Index k = at.gyroscopic_at(1 + i, 1 + i);
     EXPECT_NEAR(vector[k] / start.vector[k], 1.0, 0.01) << "mode " << i + 1;
@@ -127,7 +128,7 @@ TEST(WhirlStart, TheDiagonalOfTheMatrixComesFromTheSplits) {
 
 TEST(WhirlStart, WithoutWhirlsInTheDataNothingMoves) {
   Eigen::VectorXd vector = Start().vector;
-  MeetWhirls(Start().frame, 3000.0 * kRpm, {}, vector);
+  MeetWhirls(Start().frame, RpmToRadPerS(3000.0), {}, vector);
   EXPECT_EQ(vector, Start().vector);
 }
 

@@ -1,13 +1,13 @@
 // The small cost function that Ceres gets has cost, gradient and matrix of all lines; an experiment
 // in which magnets are stiffer responds as a rig with such magnets.
 #include "identification/modal/normal_cost.hpp"
+#include "common/rotational_speed.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "common/random.hpp"
@@ -17,8 +17,6 @@
 
 namespace levitas::identification {
 namespace {
-
-constexpr double kRpm = std::numbers::pi / 30.0;
 
 const ModalStart& Start() {
   static const ModalStart start = StartFromRig(
@@ -30,7 +28,7 @@ const ModalStart& Start() {
 FrequencyResponse Data(double rpm) {
   Random random(7);
   FrequencyResponse data;
-  data.speed_rad_per_s = rpm * kRpm;
+  data.speed_rad_per_s = RpmToRadPerS(rpm);
   data.period_s = 1e-4;
   data.channels = {"de_x", "de_y", "nde_x", "nde_y"};
   const Physical rig = ToPhysical(Start().frame, Start().vector);

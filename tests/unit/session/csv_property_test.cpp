@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
 #include "session/csv_import.hpp"
 #include "tests/unit/session/synthetic.hpp"
 
@@ -168,7 +169,7 @@ TEST_F(MeasuredCsv, AnglesOfASteadilyGrowingSpeedAreHalfTheRateTimesTimeSquared)
       return rate_rpm_per_s * static_cast<double>(row) * kPeriodS;
     }));
     ASSERT_EQ(records.size(), 5000U);
-    const double rate = rate_rpm_per_s * std::numbers::pi / 30.0;
+    const double rate = RpmToRadPerS(rate_rpm_per_s);
     for (std::size_t row = 0; row < records.size(); ++row) {
       const double time_s = static_cast<double>(row) * kPeriodS;
       const double angle_rad = records[row].in.frame.angle_rad;
@@ -221,7 +222,7 @@ TEST_F(MeasuredCsv, TakesNumbersAsPeopleWriteThemAndRefusesWhatIsNone) {
   for (const auto& [cell, rpm] : good) {
     const auto records = Import(speed(cell));
     ASSERT_EQ(records.size(), 1U) << cell;
-    EXPECT_DOUBLE_EQ(records[0].in.frame.speed_rad_per_s, rpm * std::numbers::pi / 30.0) << cell;
+    EXPECT_DOUBLE_EQ(records[0].in.frame.speed_rad_per_s, RpmToRadPerS(rpm)) << cell;
   }
   for (const char* cell : {"+-3000", "++3000", "--3000", "3000 rpm", "0x10", "1e", "1e999", "nan",
                            "-inf", "", "-", "\"\"", "3 000", "3.000.000"}) {

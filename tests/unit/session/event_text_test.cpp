@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
-#include <numbers>
 #include <set>
 
+#include "common/rotational_speed.hpp"
 #include "session/event_deriver.hpp"
 #include "tests/unit/session/synthetic.hpp"
 
@@ -19,8 +19,6 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-constexpr double kRpm = std::numbers::pi / 30.0;
 
 cycle::CycleRecord Quiet(std::uint64_t cycle) {
   Random draw{cycle};
@@ -54,7 +52,7 @@ const Told kTold[] = {
     {Fault::kFrameMissing, -1, 10.0, 10.0, "frames are missing", ": 10 cycles in a row"},
     {Fault::kDeadlineMissed, -1, 7.0, 5.0, "deadlines", ": 7 periods, allowed 5 periods."},
     {Fault::kCoilSaturated, 3, 0.25, 0.05, "at its limit", ": 0.25 s, allowed 0.05 s."},
-    {Fault::kOverSpeed, -1, 6660.0 * kRpm, 6600.0 * kRpm, "too fast",
+    {Fault::kOverSpeed, -1, RpmToRadPerS(6660.0), RpmToRadPerS(6600.0), "too fast",
      ": 6660 rpm, allowed 6600 rpm."},
     {Fault::kEmergencyStop, -1, 1.0, 0.0, "emergency stop", ""},
     {Fault::kRigRestarted, -1, 2.0, 1.0, "restarted", ""},
@@ -62,7 +60,7 @@ const Told kTold[] = {
     {Fault::kAmplifierFault, -1, 50.0, 50.0, "amplifiers do not report that they are on",
      ": 50 cycles in a row, allowed 50 cycles"},
     {Fault::kSelfTestFailed, 2, 240e-6, 237.5e-6, "self-test", ": 240 um, allowed 237.5 um."},
-    {Fault::kSelfTestFailed, -1, 30.0 * kRpm, 10.0 * kRpm, "rotor turns",
+    {Fault::kSelfTestFailed, -1, RpmToRadPerS(30.0), RpmToRadPerS(10.0), "rotor turns",
      ": 30 rpm, allowed 10 rpm."},
     {Fault::kLiftFailed, 0, 50e-6, 20e-6, "did not reach the centre", ": 50 um, allowed 20 um."},
     {Fault::kSpeedUnknown, -1, 1.0, 0.0, "speed is not known", ""},

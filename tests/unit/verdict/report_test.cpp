@@ -1,4 +1,5 @@
 #include "verdict/report.hpp"
+#include "common/rotational_speed.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ Inputs FullRun() {
   SyntheticSession session;
   session.Append(Mode::kLevitating, 400, {.radius_m = 4e-6, .static_a = 0.25});
   session.Append(Mode::kSpinning, 400,
-                 {.radius_m = 20e-6, .speed_rad_per_s = 3000.0 * kRadPerSPerRpm});
+                 {.radius_m = 20e-6, .speed_rad_per_s = RpmToRadPerS(3000.0)});
   Inputs inputs;
   inputs.rig = TwoBearingRig();
   inputs.session = session.Figures(inputs.rig);

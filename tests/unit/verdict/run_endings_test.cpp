@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "common/random.hpp"
+#include "common/rotational_speed.hpp"
 #include "tests/unit/verdict/synthetic_session.hpp"
 #include "verdict/report.hpp"
 
@@ -55,7 +56,7 @@ Inputs GoodRun(const RigNumbers& rig) {
   in.rig = rig;
   in.session.cycles = 20'000;
   in.session.duration_s = 2.0;
-  in.session.top_speed_rad_per_s = 3000.0 * kRadPerSPerRpm;
+  in.session.top_speed_rad_per_s = RpmToRadPerS(3000.0);
   in.session.standing = Phase(rig, 4e-6, 0.0);
   in.session.spinning = Phase(rig, 20e-6, in.session.top_speed_rad_per_s);
   return in;
@@ -206,10 +207,10 @@ TEST(Table, FitsAHundredColumnsForOneToFourBearingsAndLongFigures) {
   for (std::size_t bearings = 1; bearings <= 4; ++bearings) {
     Inputs in = GoodRun(Rig(bearings, "bearing_"));
     in.sensitivity = {Loop(in.rig, 1234.567, Zone::kD), Loop(in.rig, 1e3, {})};
-    in.sensitivity[1].speed_rad_per_s = 120'000.0 * kRadPerSPerRpm;
+    in.sensitivity[1].speed_rad_per_s = RpmToRadPerS(120'000.0);
     for (BearingFigures& bearing : in.session.spinning.bearings) {
       bearing.orbit.max_m = bearing.orbit.rms_m = 9.9999e-4;
-      bearing.orbit.max_speed_rad_per_s = 120'000.0 * kRadPerSPerRpm;
+      bearing.orbit.max_speed_rad_per_s = RpmToRadPerS(120'000.0);
       bearing.orbit.max_time_s = 9999.99;
       for (CurrentFigures& current : bearing.current) current = {-12.5, 12.5, 25.0, 1.0};
     }

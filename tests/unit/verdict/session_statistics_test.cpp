@@ -1,4 +1,5 @@
 #include "verdict/session_statistics.hpp"
+#include "common/rotational_speed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -100,18 +101,15 @@ TEST(SessionStatistics, SaysAtWhichSpeedAndTimeTheOrbitWasWorst) {
 // Bins are 50 rpm wide: 10 rpm lies in [0, 50), 120 rpm in [100, 150), nothing between.
 TEST(SessionStatistics, KeepsTheLargestOrbitOfEachSpeedBin) {
   SyntheticSession session;
-  session.Append(Mode::kSpinning, 200,
-                 {.radius_m = 2e-6, .speed_rad_per_s = 10.0 * kRadPerSPerRpm});
-  session.Append(Mode::kSpinning, 200,
-                 {.radius_m = 6e-6, .speed_rad_per_s = 120.0 * kRadPerSPerRpm});
-  session.Append(Mode::kCoastDown, 200,
-                 {.radius_m = 3e-6, .speed_rad_per_s = 20.0 * kRadPerSPerRpm});
+  session.Append(Mode::kSpinning, 200, {.radius_m = 2e-6, .speed_rad_per_s = RpmToRadPerS(10.0)});
+  session.Append(Mode::kSpinning, 200, {.radius_m = 6e-6, .speed_rad_per_s = RpmToRadPerS(120.0)});
+  session.Append(Mode::kCoastDown, 200, {.radius_m = 3e-6, .speed_rad_per_s = RpmToRadPerS(20.0)});
   const SessionFigures figures = session.Figures(TwoBearingRig(), 0.0, 0.1);
   ASSERT_EQ(figures.profile.size(), 2U);
-  EXPECT_NEAR(figures.profile[0].speed_rad_per_s, 25.0 * kRadPerSPerRpm, 1e-9);
+  EXPECT_NEAR(figures.profile[0].speed_rad_per_s, RpmToRadPerS(25.0), 1e-9);
   EXPECT_NEAR(figures.profile[0].max_m[0], 3e-6, kRounding_m);
   EXPECT_EQ(figures.profile[0].cycles, 400U);
-  EXPECT_NEAR(figures.profile[1].speed_rad_per_s, 125.0 * kRadPerSPerRpm, 1e-9);
+  EXPECT_NEAR(figures.profile[1].speed_rad_per_s, RpmToRadPerS(125.0), 1e-9);
   EXPECT_NEAR(figures.profile[1].max_m[1], 6e-6, kRounding_m);
 }
 

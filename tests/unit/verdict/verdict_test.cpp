@@ -1,4 +1,5 @@
 #include "verdict/verdict.hpp"
+#include "common/rotational_speed.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ Inputs RunWith(double standing_m, double spinning_m) {
   SyntheticSession session;
   session.Append(Mode::kLevitating, 400, {.radius_m = standing_m});
   session.Append(Mode::kSpinning, 400,
-                 {.radius_m = spinning_m, .speed_rad_per_s = 2870.0 * kRadPerSPerRpm});
+                 {.radius_m = spinning_m, .speed_rad_per_s = RpmToRadPerS(2870.0)});
   Inputs inputs;
   inputs.rig = TwoBearingRig();
   inputs.session = session.Figures(inputs.rig);
@@ -30,7 +31,7 @@ Inputs RunWith(double standing_m, double spinning_m) {
 analysis::SensitivityResult Loop(double peak, bool stable = true) {
   analysis::SensitivityResult result;
   result.stable = stable;
-  result.speed_rad_per_s = 100.0 * kRadPerSPerRpm;
+  result.speed_rad_per_s = RpmToRadPerS(100.0);
   result.axes.resize(4);
   for (auto& axis : result.axes) {
     axis.peak = 2.0;
@@ -134,7 +135,7 @@ TEST(Judge, ATripStandsBeforeEveryOtherVerdict) {
   Inputs inputs = RunWith(8e-6, 20e-6);
   inputs.incomplete_reason = "interrupted";
   inputs.session.trip = TripFigures{Fault::kOrbitExceeded, 2, 99e-6, 95e-6, 1.25, Mode::kSpinning,
-                                    100.0 * kRadPerSPerRpm};
+                                    RpmToRadPerS(100.0)};
   const Verdict silent = Judge(inputs);
   EXPECT_EQ(silent.outcome, Outcome::kTripped);
   EXPECT_EQ(silent.sentence,
@@ -165,7 +166,7 @@ TEST(Outcome, HasStableNames) {
 MeasuredSensitivity Measured(double peak, double computed, std::optional<Zone> zone) {
   MeasuredAxis axis{"nde_y", peak, 0.02, 40.0, zone, zone ? "" : "too few lines", computed, false};
   axis.differs = zone && std::abs(computed - peak) > 0.2 * peak;
-  return {{{100.0 * kRadPerSPerRpm, {axis}}}, ""};
+  return {{{RpmToRadPerS(100.0), {axis}}}, ""};
 }
 
 TEST(JudgeMeasured, AMeasuredPeakCountsInsteadOfTheComputedOneOfItsAxisAndSpeed) {
