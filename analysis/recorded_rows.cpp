@@ -1,6 +1,8 @@
 #include "analysis/recorded_rows.hpp"
 
-#include "session/recording.hpp"
+#include <cmath>
+
+#include "controller/cycle/probe_map.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -23,7 +25,44 @@ RecordedRow RowOf(const cycle::CycleRecord& record, std::size_t axes) {
   return row;
 }
 
+RecordedRow RowOf(const session::Recording& recording, std::size_t row,
+                  const cycle::ProbeMap& probes) {
+  cycle::BearingFrame position_m;
+  cycle::BearingFrame current_a;
+  RecordedRow made;
+  for (std::size_t axis = 0; axis < recording.axes(); ++axis) {
+    position_m.at[axis] = recording.position_m[axis][row];
+    current_a.at[axis] = recording.current_a[axis][row];
+    made.excitation_a[axis] = recording.ExcitationOf(axis, row);
+  }
+  for (std::size_t coil = 0; coil < recording.coil_current_a.size(); ++coil) {
+    const double measured_a = recording.coil_current_a[coil][row];
+    if (std::isnan(measured_a)) continue;
+    made.coil_current_a[coil] = measured_a;
+    made.coils = static_cast<std::uint32_t>(coil + 1);
+  }
+  made.cycle = recording.cycle[row];
+  made.levitated = recording.levitated[row] != 0;
+  made.sample.position_m = probes.Readings(position_m).at;
+  made.sample.command.control_current_a = probes.Currents(current_a).at;
+  made.sample.command.bias_current_a = recording.bias_current_a[row];
+  made.sample.command.amplifiers_enabled = recording.amplifiers_enabled[row] != 0;
+  made.sample.speed_rad_per_s = recording.speed_rad_per_s[row];
+  made.sample.angle_rad = recording.angle_rad[row];
+  return made;
+}
+
 }  // namespace
+
+std::vector<RecordedRow> RowsOf(const session::Recording& recording, const RigNumbers& rig) {
+  const cycle::ProbeMap probes(rig);
+  std::vector<RecordedRow> rows;
+  rows.reserve(recording.rows());
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    rows.push_back(RowOf(recording, row, probes));
+  }
+  return rows;
+}
 
 std::vector<RecordedRow> ReadRows(session::SessionReader& session, const RigNumbers& rig) {
   session::RefuseOtherRig(session.header(), rig);

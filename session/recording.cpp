@@ -34,8 +34,13 @@ class ColumnWriter {
     recording_.name = path;
     recording_.period_ns = rig.period_ns;
     recording_.channels = rig.channels;
-    for (auto* columns :
-         {&recording_.position_m, &recording_.current_a, &recording_.excitation_a}) {
+    for (std::size_t axis = 0; axis < axes_; ++axis) {
+      recording_.sensor_range_m.push_back(rig.SensorRangeOf(axis / 2));
+    }
+    recording_.current_limit_a =
+        std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);
+    for (auto* columns : {&recording_.position_m, &recording_.current_a, &recording_.excitation_a,
+                          &recording_.excitation_m}) {
       columns->assign(axes_, {});
     }
   }
@@ -46,6 +51,8 @@ class ColumnWriter {
     TakeCoils(record.in);
     for (std::size_t axis = 0; axis < axes_; ++axis) {
       AppendUnlessZero(recording_.excitation_a[axis], record.in.op.excitation_a[axis],
+                       recording_.rows());
+      AppendUnlessZero(recording_.excitation_m[axis], record.in.op.excitation_m[axis],
                        recording_.rows());
     }
     const AxisArray position_m = map_.Positions({frame.position_m}).at;
@@ -72,7 +79,7 @@ class ColumnWriter {
       column->shrink_to_fit();
     }
     for (auto* columns : {&recording_.position_m, &recording_.current_a, &recording_.excitation_a,
-                          &recording_.coil_current_a}) {
+                          &recording_.excitation_m, &recording_.coil_current_a}) {
       for (Column& column : *columns) column.shrink_to_fit();
     }
     return std::move(recording_);

@@ -7,13 +7,16 @@
 // Frame      bearing frame: the polarity of probes and coils is undone here, by cycle::ProbeMap.
 //            Coil currents are measured magnitudes of named coils and have no polarity.
 // Units      SI. Commanded currents are the total of a row's sample, excitation included.
+// Limits     of the rig file: a position at the sensor's range is clipped, a control current at its
+//            limit is saturated. The limit is what bias and largest coil current leave to both
+//            sides.
 // Rows       one per cycle of the record, in its order. `cycle` is the count of the sensor frame:
 //            it repeats while no frame arrives and leaves out the drop-outs of a log.
 // Levitated  the amplifiers are on, the mode is levitating, spinning or coast-down, the frame
 //            arrived and its positions are numbers. CSV and MAT records are levitated wherever
 //            the positions are numbers: such files do not say when the rotor was lifted or landed.
 // Memory     34 bytes a row and 16 per axis (98 bytes with four axes: 1.0 MB a second at 10 kHz,
-//            so 300 s take 294 MB); 8 more per axis with excitation and per measured coil. While
+//            so 300 s take 294 MB); 8 more per excited axis and measured coil. While
 //            a file is read, up to twice as much, and of a MAT file its own columns too.
 // Thread     any; LoadRecording keeps no state between calls.
 // Failure    BadInput naming the file: unreadable, other period or channels than the rig.
@@ -45,6 +48,8 @@ struct Recording {
   std::string name;  ///< path, for messages
   std::int64_t period_ns{};
   std::vector<std::string> channels;
+  Column sensor_range_m;     ///< per axis
+  double current_limit_a{};  ///< of the control current, to both sides
   std::vector<std::uint64_t> cycle;
   std::vector<std::uint8_t> levitated;
   std::vector<std::uint8_t> amplifiers_enabled;
@@ -53,7 +58,8 @@ struct Recording {
   Column bias_current_a;
   std::vector<Column> position_m;      ///< per axis; NaN where the sensor gave no number
   std::vector<Column> current_a;       ///< per axis: commanded control current
-  std::vector<Column> excitation_a;    ///< per axis; empty columns when no row has excitation
+  std::vector<Column> excitation_a;    ///< per axis: part of the command; empty: never excited
+  std::vector<Column> excitation_m;    ///< per axis: added to the reading; empty: never excited
   std::vector<Column> coil_current_a;  ///< towards + and away, axis by axis; none: not measured
 
   [[nodiscard]] std::size_t rows() const noexcept { return cycle.size(); }
@@ -61,6 +67,9 @@ struct Recording {
   [[nodiscard]] double period_s() const noexcept { return static_cast<double>(period_ns) * 1e-9; }
   [[nodiscard]] double ExcitationOf(std::size_t axis, std::size_t row) const noexcept {
     return excitation_a[axis].empty() ? 0.0 : excitation_a[axis][row];
+  }
+  [[nodiscard]] double PositionExcitationOf(std::size_t axis, std::size_t row) const noexcept {
+    return excitation_m[axis].empty() ? 0.0 : excitation_m[axis][row];
   }
   /// Whether `row` is the sample right after the row before it; the first row follows nothing.
   [[nodiscard]] bool Follows(std::size_t row) const noexcept {

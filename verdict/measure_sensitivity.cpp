@@ -6,7 +6,7 @@
 #include "common/problem.hpp"
 #include "identification/frf/frequency_response.hpp"
 #include "identification/frf/measured_sensitivity.hpp"
-#include "identification/record/record.hpp"
+#include "session/recording.hpp"
 
 namespace levitas::verdict {
 namespace {
@@ -39,7 +39,7 @@ MeasuredSensitivity MeasureSensitivity(const std::string& session_path, const co
                                        const law::LawConfig& law) {
   MeasuredSensitivity out;
   try {
-    const auto record = identification::ReadRecord(session_path, rig);
+    const auto record = session::LoadRecording(session_path, rig);
     const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
     for (const auto& response : identification::EstimateResponses(record, delay_s)) {
       out.speeds.push_back(MeasuredAt(response, rig, law));

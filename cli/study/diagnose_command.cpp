@@ -99,7 +99,6 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.data = options.data;
   inputs.holdout = options.holdout;
   inputs.healthy = options.healthy;
-  inputs.scratch_folder = options.out;
   inputs.settings.quick = options.quick;
   inputs.settings.progress = [&progress](double share, const std::string& what) {
     progress.Show(share, what);

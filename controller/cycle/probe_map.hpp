@@ -44,6 +44,10 @@ class ProbeMap {
   [[nodiscard]] BearingFrame CommandedCurrents(const RigFrame& commanded_a) const noexcept {
     return {Product(actuator_, commanded_a.at)};
   }
+  /// What the probes read at these positions.
+  [[nodiscard]] RigFrame Readings(const BearingFrame& position_m) const noexcept {
+    return {Product(sensor_, position_m.at)};
+  }
 
  private:
   static double Checked(double polarity, const char* name) {

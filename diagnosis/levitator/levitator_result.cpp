@@ -18,7 +18,7 @@ std::vector<diagnosis::Record> Load(const std::vector<std::string>& paths,
   std::vector<diagnosis::Record> out;
   out.reserve(paths.size());
   for (const std::string& path : paths) {
-    out.push_back(diagnosis::LoadRecord(path, inputs.rig, inputs.scratch_folder));
+    out.push_back(diagnosis::LoadRecord(path, inputs.rig));
   }
   return out;
 }

@@ -1,12 +1,9 @@
 #pragma once
-// Measured data for a diagnosis: sessions, or CSV (also .xz) or MAT files of docs/formats.md.
+// A recorded run of any format (session/recording.hpp) as the rows of a diagnosis.
 //
-// CSV, MAT   go through session::ImportCsv or ImportMat into a scratch file in `scratch_folder`,
-//            so that all ways see the same rows. Currents are the commanded ones.
-// Kind       by the name's ending; other files must be sessions, and are refused with the ways
-//            there are when they are not.
+// Currents   are the commanded ones.
 // Failure    BadInput with file and line; for records of another rig or without flight.
-// Thread     any, each with a scratch folder of its own.
+// Thread     any.
 
 #include <string>
 #include <vector>
@@ -18,8 +15,7 @@ namespace levitas::diagnosis {
 
 inline constexpr double kShortest = 0.5;  ///< [s] of free flight: a model settles for 0.3
 
-[[nodiscard]] Record LoadRecord(const std::string& path, const config::RigFile& rig,
-                                const std::string& scratch_folder);
+[[nodiscard]] Record LoadRecord(const std::string& path, const config::RigFile& rig);
 
 /// Largest distance of the rotor from the centre in any record [m], at the sensors.
 [[nodiscard]] double LargestOrbit(const std::vector<Record>& records, std::size_t axes);

@@ -22,7 +22,7 @@ std::vector<Record> Load(const std::vector<std::string>& paths, const DiagnosisR
   std::vector<Record> records;
   records.reserve(paths.size());
   for (const std::string& path : paths) {
-    records.push_back(LoadRecord(path, inputs.rig, inputs.scratch_folder));
+    records.push_back(LoadRecord(path, inputs.rig));
   }
   return records;
 }

@@ -20,7 +20,6 @@ struct DiagnosisRequest {
   config::RigFile rig;
   std::vector<std::string> data, holdout;
   std::vector<std::string> healthy;  ///< earlier records of the same rig, known to be well
-  std::string scratch_folder;
   Settings settings;
 };
 

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "common/problem.hpp"
-#include "identification/record/flat_top.hpp"
+#include "identification/frf/flat_top.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -28,16 +28,16 @@ constexpr double kBeyondLoopHz = 2000.0;
 
 using Problems = std::vector<std::string>;
 
-void CheckChannel(const Record& record, const Experiment& e, std::size_t channel,
+void CheckChannel(const session::Recording& record, const Experiment& e, std::size_t channel,
                   Problems& problems) {
-  const Column& position_m = record.position_m[channel];
-  const Column& current_a = record.current_a[channel];
+  const session::Column& position_m = record.position_m[channel];
+  const session::Column& current_a = record.current_a[channel];
   std::set<double> values;
   std::size_t clipped = 0;
   std::size_t saturated = 0;
   for (std::size_t row = e.begin; row < e.end(); ++row) {
     if (values.size() < 4) values.insert(position_m[row]);
-    if (std::abs(position_m[row]) >= 0.999 * record.SensorRangeOf(channel)) ++clipped;
+    if (std::abs(position_m[row]) >= 0.999 * record.sensor_range_m[channel]) ++clipped;
     if (std::abs(current_a[row]) >= 0.9999 * record.current_limit_a) ++saturated;
   }
   const auto rows = static_cast<double>(e.end() - e.begin);
@@ -52,7 +52,7 @@ void CheckChannel(const Record& record, const Experiment& e, std::size_t channel
     problems.push_back(fmt::format(
         "position {} is clipped at the sensor's range ({:.4g} um) in {:.1f} % of the samples while "
         "{} is excited, allowed {:g} %: use a smaller amplitude",
-        name, 1e6 * record.SensorRangeOf(channel), 100.0 * static_cast<double>(clipped) / rows,
+        name, 1e6 * record.sensor_range_m[channel], 100.0 * static_cast<double>(clipped) / rows,
         excited, 100.0 * kClippedShare));
   } else if (values.size() >= 4) {
     const double flat = FlatShare(std::span(position_m).subspan(e.begin, e.end() - e.begin));
@@ -81,7 +81,8 @@ void Refuse(const std::string& name, const Problems& problems) {
 
 }  // namespace
 
-void RefuseBadSignals(const Record& record, const std::vector<Experiment>& experiments) {
+void RefuseBadSignals(const session::Recording& record,
+                      const std::vector<Experiment>& experiments) {
   Problems problems;
   for (std::size_t channel = 0; channel < record.axes(); ++channel) {
     // One sentence per channel: the first experiment that shows the defect.

@@ -17,7 +17,7 @@
 
 namespace levitas::identification {
 
-void RefuseBadSignals(const Record& record, const std::vector<Experiment>& experiments);
+void RefuseBadSignals(const session::Recording& record, const std::vector<Experiment>& experiments);
 /// `delay_s`: from sample to acting current, the rig's; its phase is taken out first.
 void RefuseWrongSigns(const FrequencyResponse& response, double delay_s);
 

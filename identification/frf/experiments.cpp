@@ -33,16 +33,16 @@ struct Piece {
   std::size_t available{};  ///< row at which something else begins
 };
 
-std::string Where(const Record& record, std::size_t axis, std::size_t row) {
+std::string Where(const session::Recording& record, std::size_t axis, std::size_t row) {
   return fmt::format("{}: excitation of {} from {:.4f} s", record.name, record.channels[axis],
-                     static_cast<double>(record.cycle[row] - record.cycle[0]) * record.period_s);
+                     static_cast<double>(record.cycle[row] - record.cycle[0]) * record.period_s());
 }
 
 /// The axis excited in a row; `axes` when none is.
-std::size_t ExcitedAxis(const Record& record, std::size_t row) {
+std::size_t ExcitedAxis(const session::Recording& record, std::size_t row) {
   std::size_t found = record.axes();
   for (std::size_t axis = 0; axis < record.axes(); ++axis) {
-    if (record.excitation_a[axis][row] == 0.0) continue;
+    if (record.ExcitationOf(axis, row) == 0.0) continue;
     if (found != record.axes()) {
       throw BadInput(fmt::format(
           "{}: excites {} and {} together: their responses cannot be told apart; excite one axis "
@@ -54,8 +54,8 @@ std::size_t ExcitedAxis(const Record& record, std::size_t row) {
   return found;
 }
 
-std::vector<Piece> FindPieces(const Record& record) {
-  const auto pause = static_cast<std::size_t>(std::lround(kPauseS / record.period_s));
+std::vector<Piece> FindPieces(const session::Recording& record) {
+  const auto pause = static_cast<std::size_t>(std::lround(kPauseS / record.period_s()));
   std::vector<Piece> pieces;
   for (std::size_t row = 0; row < record.rows(); ++row) {
     const std::size_t axis = ExcitedAxis(record, row);
@@ -72,9 +72,9 @@ std::vector<Piece> FindPieces(const Record& record) {
   return pieces;
 }
 
-bool Alike(const Record& record, const Piece& a, const Piece& b) {
+bool Alike(const session::Recording& record, const Piece& a, const Piece& b) {
   if (a.axis != b.axis || a.end - a.begin != b.end - b.begin) return false;
-  const Column& signal = record.excitation_a[a.axis];
+  const session::Column& signal = record.excitation_a[a.axis];
   double largest = 0.0;
   double apart = 0.0;
   for (std::size_t n = 0; n < a.end - a.begin; ++n) {
@@ -85,7 +85,7 @@ bool Alike(const Record& record, const Piece& a, const Piece& b) {
 }
 
 /// Strokes that are alike, shorter than the pauses and evenly spaced are one train.
-std::vector<Piece> JoinTrains(const Record& record, const std::vector<Piece>& pieces) {
+std::vector<Piece> JoinTrains(const session::Recording& record, const std::vector<Piece>& pieces) {
   std::vector<Piece> joined;
   for (std::size_t first = 0; first < pieces.size();) {
     std::size_t last = first;
@@ -103,13 +103,13 @@ std::vector<Piece> JoinTrains(const Record& record, const std::vector<Piece>& pi
   return joined;
 }
 
-void CheckRows(const Record& record, const Piece& piece, std::size_t end) {
+void CheckRows(const session::Recording& record, const Piece& piece, std::size_t end) {
   for (std::size_t row = piece.begin; row < end; ++row) {
     if (row > piece.begin && record.cycle[row] != record.cycle[row - 1] + 1) {
       throw BadInput(fmt::format(
           "{}: {} samples are missing at {:.4f} s; record it again",
           Where(record, piece.axis, piece.begin), record.cycle[row] - record.cycle[row - 1] - 1,
-          static_cast<double>(record.cycle[row] - record.cycle[0]) * record.period_s));
+          static_cast<double>(record.cycle[row] - record.cycle[0]) * record.period_s()));
     }
     if (record.levitated[row] == 0) {
       throw BadInput(Where(record, piece.axis, piece.begin) +
@@ -118,7 +118,7 @@ void CheckRows(const Record& record, const Piece& piece, std::size_t end) {
   }
 }
 
-double SteadySpeed(const Record& record, const Experiment& experiment) {
+double SteadySpeed(const session::Recording& record, const Experiment& experiment) {
   const auto begin = record.speed_rad_per_s.begin() + static_cast<std::ptrdiff_t>(experiment.begin);
   const auto end = record.speed_rad_per_s.begin() + static_cast<std::ptrdiff_t>(experiment.end());
   const auto [low, high] = std::minmax_element(begin, end);
@@ -131,12 +131,13 @@ double SteadySpeed(const Record& record, const Experiment& experiment) {
   return mean;
 }
 
-std::span<const double> SignalOf(const Record& record, const Piece& piece) {
+std::span<const double> SignalOf(const session::Recording& record, const Piece& piece) {
   return std::span<const double>(record.excitation_a[piece.axis])
       .subspan(piece.begin, piece.end - piece.begin);
 }
 
-Experiment Periodic(const Record& record, const Piece& piece, const ExperimentOptions& options) {
+Experiment Periodic(const session::Recording& record, const Piece& piece,
+                    const ExperimentOptions& options) {
   const auto signal = SignalOf(record, piece);
   const auto period = RepeatsAfter(signal);
   if (!period) {
@@ -146,7 +147,7 @@ Experiment Periodic(const Record& record, const Piece& piece, const ExperimentOp
         "transient. A signal that the scenario's orbit limit cut back does not repeat either: "
         "raise orbit_limit_um or lower the amplitude",
         Where(record, piece.axis, piece.begin),
-        static_cast<double>(signal.size()) * record.period_s,
+        static_cast<double>(signal.size()) * record.period_s(),
         options.dropped_periods + options.needed_periods));
   }
   // An impulse train ends with its last stroke: its last period goes on as long as nothing else
@@ -182,18 +183,18 @@ std::size_t BlocksOf(const HeldSine& sine) {
   return std::min(kMostBlocks, static_cast<std::size_t>(std::lround(periods)));
 }
 
-void RefuseShort(const Record& record, const Piece& piece, const HeldSine& sine,
+void RefuseShort(const session::Recording& record, const Piece& piece, const HeldSine& sine,
                  const ExperimentOptions& options) {
   if (BlocksOf(sine) >= options.needed_periods) return;
   throw BadInput(fmt::format(
       "{}: {:.2f} Hz is held for {} whole periods after settling, needed are {}: hold it longer "
       "(dwell_s), or begin higher",
-      Where(record, piece.axis, piece.begin), sine.cycles_per_sample / record.period_s,
+      Where(record, piece.axis, piece.begin), sine.cycles_per_sample / record.period_s(),
       BlocksOf(sine), options.needed_periods));
 }
 
 /// One experiment per whole sweep.
-std::vector<Experiment> Stepped(const Record& record, const Piece& piece,
+std::vector<Experiment> Stepped(const session::Recording& record, const Piece& piece,
                                 const std::vector<SineStep>& steps,
                                 const ExperimentOptions& options) {
   std::vector<std::vector<HeldSine>> sweeps(1);
@@ -221,7 +222,7 @@ std::vector<Experiment> Stepped(const Record& record, const Piece& piece,
   return experiments;
 }
 
-std::vector<Experiment> ExperimentsOf(const Record& record, const Piece& piece,
+std::vector<Experiment> ExperimentsOf(const session::Recording& record, const Piece& piece,
                                       const ExperimentOptions& options) {
   const auto steps = FindSineSteps(SignalOf(record, piece));
   auto experiments = steps.empty() ? std::vector<Experiment>{Periodic(record, piece, options)}
@@ -243,7 +244,7 @@ bool SameSines(const Experiment& a, const Experiment& b) {
   });
 }
 
-void RefuseUnlike(const Record& record, const Campaign& campaign) {
+void RefuseUnlike(const session::Recording& record, const Campaign& campaign) {
   const Experiment& first = campaign.experiments.front();
   for (const Experiment& e : campaign.experiments) {
     if (e.period_samples != first.period_samples) {
@@ -263,7 +264,7 @@ void RefuseUnlike(const Record& record, const Campaign& campaign) {
   }
 }
 
-void RefuseIncomplete(const Record& record, const Campaign& campaign) {
+void RefuseIncomplete(const session::Recording& record, const Campaign& campaign) {
   std::string missing;
   for (std::size_t axis = 0; axis < record.axes(); ++axis) {
     const bool there = std::ranges::any_of(campaign.experiments,
@@ -280,7 +281,8 @@ void RefuseIncomplete(const Record& record, const Campaign& campaign) {
 
 }  // namespace
 
-std::vector<Experiment> FindExperiments(const Record& record, const ExperimentOptions& options) {
+std::vector<Experiment> FindExperiments(const session::Recording& record,
+                                        const ExperimentOptions& options) {
   const std::vector<Piece> pieces = JoinTrains(record, FindPieces(record));
   if (pieces.empty()) {
     throw BadInput(record.name +
@@ -295,7 +297,7 @@ std::vector<Experiment> FindExperiments(const Record& record, const ExperimentOp
   return experiments;
 }
 
-std::vector<Campaign> GroupBySpeed(const Record& record,
+std::vector<Campaign> GroupBySpeed(const session::Recording& record,
                                    const std::vector<Experiment>& experiments) {
   std::vector<Campaign> campaigns;
   for (const Experiment& experiment : experiments) {

@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "identification/record/record.hpp"
+#include "session/recording.hpp"
 
 namespace levitas::identification {
 
@@ -45,7 +45,7 @@ struct ExperimentOptions {
 };
 
 /// In the order of the record.
-[[nodiscard]] std::vector<Experiment> FindExperiments(const Record& record,
+[[nodiscard]] std::vector<Experiment> FindExperiments(const session::Recording& record,
                                                       const ExperimentOptions& options = {});
 
 /// Experiments of one speed, all axes covered.
@@ -55,7 +55,7 @@ struct Campaign {
 };
 
 /// By ascending speed. BadInput when an axis is missing at a speed or the signals differ in length.
-[[nodiscard]] std::vector<Campaign> GroupBySpeed(const Record& record,
+[[nodiscard]] std::vector<Campaign> GroupBySpeed(const session::Recording& record,
                                                  const std::vector<Experiment>& experiments);
 
 }  // namespace levitas::identification

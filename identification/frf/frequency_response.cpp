@@ -145,7 +145,8 @@ std::vector<Eigen::MatrixXd> Smoothed(const std::vector<Eigen::MatrixXd>& power,
   return smooth;
 }
 
-void FindExtremes(const Record& record, const Campaign& campaign, FrequencyResponse& response) {
+void FindExtremes(const session::Recording& record, const Campaign& campaign,
+                  FrequencyResponse& response) {
   for (const Experiment& e : campaign.experiments) {
     std::vector<double> mean(record.axes(), 0.0);
     for (std::size_t axis = 0; axis < record.axes(); ++axis) {
@@ -177,7 +178,7 @@ std::vector<double> Passed(std::span<const double> current_a, double amplifier_h
   return coil_a;
 }
 
-Moments MomentsOf(const Record& record, const Campaign& campaign, double amplifier_hz) {
+Moments MomentsOf(const session::Recording& record, const Campaign& campaign, double amplifier_hz) {
   const Index axes = At(record.axes());
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(axes, axes);
   Moments moments{zero, zero, zero};
@@ -189,7 +190,7 @@ Moments MomentsOf(const Record& record, const Campaign& campaign, double amplifi
     rows[j] += static_cast<double>(count);
     for (std::size_t axis = 0; axis < record.axes(); ++axis) {
       const auto coil_a = Passed(std::span(record.current_a[axis]).subspan(e.begin, count),
-                                 amplifier_hz, record.period_s);
+                                 amplifier_hz, record.period_s());
       const Eigen::Map<const Eigen::ArrayXd> i_a(coil_a.data(), size);
       const Eigen::Map<const Eigen::ArrayXd> x_m(&record.position_m[axis][e.begin], size);
       const Eigen::ArrayXd i = i_a - i_a.mean();
@@ -208,11 +209,11 @@ Moments MomentsOf(const Record& record, const Campaign& campaign, double amplifi
 
 }  // namespace
 
-FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaign,
+FrequencyResponse EstimateResponse(const session::Recording& record, const Campaign& campaign,
                                    const ResponseOptions& options) {
   FrequencyResponse response;
   response.speed_rad_per_s = campaign.speed_rad_per_s;
-  response.period_s = record.period_s;
+  response.period_s = record.period_s();
   response.channels = record.channels;
   const bool turns = std::abs(campaign.speed_rad_per_s) > std::numbers::pi;
   std::vector<Spectra> all;
@@ -256,7 +257,7 @@ FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaig
   return response;
 }
 
-std::vector<FrequencyResponse> EstimateResponses(const Record& record, double delay_s,
+std::vector<FrequencyResponse> EstimateResponses(const session::Recording& record, double delay_s,
                                                  const ExperimentOptions& experiment_options,
                                                  const ResponseOptions& options) {
   const auto experiments = FindExperiments(record, experiment_options);

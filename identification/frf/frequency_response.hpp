@@ -61,12 +61,13 @@ struct ResponseOptions {
   double amplifier_hz{0.0};   ///< bandwidth, for the moments only; 0: without limit
 };
 
-[[nodiscard]] FrequencyResponse EstimateResponse(const Record& record, const Campaign& campaign,
+[[nodiscard]] FrequencyResponse EstimateResponse(const session::Recording& record,
+                                                 const Campaign& campaign,
                                                  const ResponseOptions& options = {});
 
 /// Everything from a record: cuts it, checks it, estimates one response per speed.
 [[nodiscard]] std::vector<FrequencyResponse> EstimateResponses(
-    const Record& record, double delay_s, const ExperimentOptions& experiment_options = {},
-    const ResponseOptions& options = {});
+    const session::Recording& record, double delay_s,
+    const ExperimentOptions& experiment_options = {}, const ResponseOptions& options = {});
 
 }  // namespace levitas::identification

@@ -29,8 +29,8 @@ double RotationHz(const Experiment& e) {
   return std::abs(e.speed_rad_per_s) / (2.0 * std::numbers::pi);
 }
 
-std::vector<Spectrum> PeriodSpectra(const Column& column, const Record& record, const Experiment& e,
-                                    int orders, Eigen::FFT<double>& fft) {
+std::vector<Spectrum> PeriodSpectra(const session::Column& column, const session::Recording& record,
+                                    const Experiment& e, int orders, Eigen::FFT<double>& fft) {
   const auto piece = std::span(column).subspan(e.begin, e.end() - e.begin);
   const auto angle = std::span(record.angle_rad).subspan(e.begin, piece.size());
   const std::vector<double> rest = WithoutSynchronous(piece, angle, orders);
@@ -46,7 +46,7 @@ std::vector<Spectrum> PeriodSpectra(const Column& column, const Record& record, 
   return spectra;
 }
 
-Spectra Periodic(const Record& record, const Experiment& e, int orders) {
+Spectra Periodic(const session::Recording& record, const Experiment& e, int orders) {
   Eigen::FFT<double> fft;
   Spectra s;
   s.axis = e.axis;
@@ -61,7 +61,7 @@ Spectra Periodic(const Record& record, const Experiment& e, int orders) {
   fft.fwd(s.excitation, samples);
   s.excitation.resize(e.period_samples / 2);
   s.excitation.erase(s.excitation.begin());
-  const double spacing_hz = 1.0 / (static_cast<double>(e.period_samples) * record.period_s);
+  const double spacing_hz = 1.0 / (static_cast<double>(e.period_samples) * record.period_s());
   for (std::size_t k = 1; k <= s.excitation.size(); ++k) {
     s.frequency_hz.push_back(static_cast<double>(k) * spacing_hz);
     s.near_order.push_back(
@@ -71,8 +71,8 @@ Spectra Periodic(const Record& record, const Experiment& e, int orders) {
 }
 
 /// Amplitudes of one held sine in `column`, block by block.
-void AddBlocks(const Column& column, const Record& record, const HeldSine& line, std::size_t blocks,
-               int orders, std::vector<Spectrum>& to) {
+void AddBlocks(const session::Column& column, const session::Recording& record,
+               const HeldSine& line, std::size_t blocks, int orders, std::vector<Spectrum>& to) {
   const auto piece = std::span(column).subspan(line.begin, line.end - line.begin);
   const auto angle = std::span(record.angle_rad).subspan(line.begin, piece.size());
   const auto rest = WithoutSynchronous(piece, angle, orders, line.cycles_per_sample);
@@ -84,7 +84,7 @@ void AddBlocks(const Column& column, const Record& record, const HeldSine& line,
   }
 }
 
-Spectra Stepped(const Record& record, const Experiment& e, int orders) {
+Spectra Stepped(const session::Recording& record, const Experiment& e, int orders) {
   Spectra s;
   s.axis = e.axis;
   s.periods = e.periods;
@@ -99,8 +99,8 @@ Spectra Stepped(const Record& record, const Experiment& e, int orders) {
     const std::span<const double> excitation(record.excitation_a[e.axis]);
     s.excitation.push_back(SineAmplitude(excitation.subspan(line.begin, line.end - line.begin),
                                          line.cycles_per_sample, 0));
-    const double length_s = static_cast<double>(line.end - line.begin) * record.period_s;
-    s.frequency_hz.push_back(line.cycles_per_sample / record.period_s);
+    const double length_s = static_cast<double>(line.end - line.begin) * record.period_s();
+    s.frequency_hz.push_back(line.cycles_per_sample / record.period_s());
     s.near_order.push_back(
         NearOrder(s.frequency_hz.back(), RotationHz(e), orders, kSteppedOrderWidth / length_s));
   }
@@ -109,7 +109,7 @@ Spectra Stepped(const Record& record, const Experiment& e, int orders) {
 
 }  // namespace
 
-Spectra SpectraOf(const Record& record, const Experiment& experiment, int orders) {
+Spectra SpectraOf(const session::Recording& record, const Experiment& experiment, int orders) {
   return experiment.sines.empty() ? Periodic(record, experiment, orders)
                                   : Stepped(record, experiment, orders);
 }

@@ -30,6 +30,7 @@ struct Spectra {
 };
 
 /// `orders` of rotation are removed; 0 with a rotor that stands.
-[[nodiscard]] Spectra SpectraOf(const Record& record, const Experiment& experiment, int orders);
+[[nodiscard]] Spectra SpectraOf(const session::Recording& record, const Experiment& experiment,
+                                int orders);
 
 }  // namespace levitas::identification

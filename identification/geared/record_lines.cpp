@@ -11,7 +11,7 @@
 #include <span>
 
 #include "common/problem.hpp"
-#include "identification/record/flat_top.hpp"
+#include "identification/frf/flat_top.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -51,23 +51,23 @@ Chain ChainOf(const plant::PlantConfig& rig, std::size_t shaft) {
   return {2 * b, bearing.sensor.gain, bearing.sensor.bandwidth_hz, bearing.amplifier.bandwidth_hz};
 }
 
-std::vector<double> Unwrapped(const Record& record) {
+std::vector<double> Unwrapped(const session::Recording& record) {
   std::vector<double> angle(record.rows());
   for (std::size_t n = 0; n < record.rows(); ++n) {
     angle[n] = record.angle_rad[n];
     if (n == 0) continue;
     const auto cycles = static_cast<double>(record.cycle[n] - record.cycle[n - 1]);
-    const double expected = angle[n - 1] + record.speed_rad_per_s[n] * cycles * record.period_s;
+    const double expected = angle[n - 1] + record.speed_rad_per_s[n] * cycles * record.period_s();
     angle[n] += kTwoPi * std::round((expected - angle[n]) / kTwoPi);
   }
   return angle;
 }
 
-std::vector<Stretch> Steady(const Record& record, const std::vector<double>& angle,
+std::vector<Stretch> Steady(const session::Recording& record, const std::vector<double>& angle,
                             double turns_per_repeat) {
   std::vector<Stretch> stretches;
-  const auto transient = static_cast<std::size_t>(kTransientS / record.period_s);
-  const auto least = static_cast<std::size_t>(kLeastS / record.period_s);
+  const auto transient = static_cast<std::size_t>(kTransientS / record.period_s());
+  const auto least = static_cast<std::size_t>(kLeastS / record.period_s());
   for (std::size_t begin = 0; begin < record.rows();) {
     const double speed = record.speed_rad_per_s[begin];
     std::size_t end = begin;
@@ -82,7 +82,7 @@ std::vector<Stretch> Steady(const Record& record, const std::vector<double>& ang
       while (angle[stretch.end - 1] - angle[stretch.begin] >= whole) --stretch.end;
       stretch.speed_rad_per_s =
           (angle[stretch.end - 1] - angle[stretch.begin]) /
-          (static_cast<double>(stretch.end - 1 - stretch.begin) * record.period_s);
+          (static_cast<double>(stretch.end - 1 - stretch.begin) * record.period_s());
       stretches.push_back(stretch);
     }
     begin = std::max(end, begin + 1);
@@ -104,9 +104,9 @@ std::vector<Order> Orders(const gear::GearPair& pair, int harmonics) {
   return orders;
 }
 
-void RefuseBadRows(const Record& record, const Stretch& stretch) {
+void RefuseBadRows(const session::Recording& record, const Stretch& stretch) {
   const auto rows = static_cast<double>(stretch.end - stretch.begin);
-  const double at_s = static_cast<double>(stretch.begin) * record.period_s;
+  const double at_s = static_cast<double>(stretch.begin) * record.period_s();
   std::string problems;
   if (record.cycle[stretch.end - 1] - record.cycle[stretch.begin] !=
       stretch.end - 1 - stretch.begin) {
@@ -118,7 +118,7 @@ void RefuseBadRows(const Record& record, const Stretch& stretch) {
     double limited = 0.0;
     for (std::size_t n = stretch.begin; n < stretch.end; ++n) {
       if (values.size() < 4) values.insert(record.position_m[axis][n]);
-      if (std::abs(record.position_m[axis][n]) >= 0.999 * record.SensorRangeOf(axis))
+      if (std::abs(record.position_m[axis][n]) >= 0.999 * record.sensor_range_m[axis])
         clipped += 1.0;
       if (std::abs(record.current_a[axis][n]) >= 0.9999 * record.current_limit_a) limited += 1.0;
     }
@@ -148,8 +148,9 @@ struct Amplitudes {
   Eigen::Vector4d sigma;
 };
 
-Amplitudes Fit(const Record& record, const std::vector<double>& angle, const Stretch& stretch,
-               const std::vector<Order>& orders, const Chain& pinion, const Chain& gear) {
+Amplitudes Fit(const session::Recording& record, const std::vector<double>& angle,
+               const Stretch& stretch, const std::vector<Order>& orders, const Chain& pinion,
+               const Chain& gear) {
   const auto size = static_cast<Eigen::Index>(orders.size());
   Eigen::MatrixXcd normal = Eigen::MatrixXcd::Zero(size, size);
   Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(size, 4);
@@ -189,7 +190,7 @@ Complex Drive(double w, double corner_hz, double delay_s, double period_s) {
 
 }  // namespace
 
-std::vector<GearedLine> LinesOfRecord(const Record& record, const config::RigFile& rig,
+std::vector<GearedLine> LinesOfRecord(const session::Recording& record, const config::RigFile& rig,
                                       int harmonics) {
   const bool torsion = KnownOfRig(rig).torsion.has_value();
   const gear::GearPair& pair = rig.plant.gears.front();
@@ -206,7 +207,7 @@ std::vector<GearedLine> LinesOfRecord(const Record& record, const config::RigFil
         "different speed are needed (amb run --rig {})",
         record.name, stretches.size(), kLeastS + kTransientS, rig.numbers.name));
   }
-  const double delay_s = rig.plant.delay_samples * record.period_s;
+  const double delay_s = rig.plant.delay_samples * record.period_s();
   std::vector<GearedLine> lines;
   for (const Stretch& stretch : stretches) {
     RefuseBadRows(record, stretch);
@@ -225,7 +226,7 @@ std::vector<GearedLine> LinesOfRecord(const Record& record, const config::RigFil
         return c.sensor_gain * Lag(w / kTwoPi, c.sensor_hz);
       };
       const auto drive = [&](const Chain& c) {
-        return Drive(w, c.amplifier_hz, delay_s, record.period_s);
+        return Drive(w, c.amplifier_hz, delay_s, record.period_s());
       };
       line.pinion_m = row[0] / read(pinion);
       line.gear_m = row[1] / read(gear);

@@ -18,13 +18,13 @@
 
 #include "config/rig_file.hpp"
 #include "identification/geared/full_spectrum.hpp"
-#include "identification/record/record.hpp"
+#include "session/recording.hpp"
 
 namespace levitas::identification {
 
 [[nodiscard]] GearedKnown KnownOfRig(const config::RigFile& rig);
 
-[[nodiscard]] std::vector<GearedLine> LinesOfRecord(const Record& record,
+[[nodiscard]] std::vector<GearedLine> LinesOfRecord(const session::Recording& record,
                                                     const config::RigFile& rig, int harmonics = 5);
 
 }  // namespace levitas::identification

@@ -2,13 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
-#include "session/session_reader.hpp"
+#include "session/recording.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -18,62 +17,57 @@ using Index = Eigen::Index;
 constexpr double kStandingRadPerS = 2.0 * std::numbers::pi;  ///< 60 rpm: gyroscopics are nothing
 constexpr std::size_t kLeastRows = 100;
 
-bool Excited(const cycle::OperatorInput& op, std::size_t axes) {
-  const auto any = [axes](const AxisArray& values) {
-    return std::any_of(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(axes),
-                       [](double value) { return value != 0.0; });
-  };
-  return any(op.excitation_m) || any(op.excitation_a);
+bool Excited(const session::Recording& run, std::size_t row) {
+  for (std::size_t axis = 0; axis < run.axes(); ++axis) {
+    if (run.ExcitationOf(axis, row) != 0.0 || run.PositionExcitationOf(axis, row) != 0.0) {
+      return true;
+    }
+  }
+  return false;
 }
 
-bool Levitated(Mode mode) { return mode == Mode::kLevitating || mode == Mode::kSpinning; }
-
-std::vector<cycle::CycleRecord> ExcitedRows(const std::string& path, const RigNumbers& rig) {
-  session::SessionReader session(path);
-  std::vector<cycle::CycleRecord> rows;
-  cycle::CycleRecord record;
-  while (session.Next(record)) {
-    if (rows.empty() && !(Levitated(record.out.mode) && Excited(record.in.op, rig.axes()))) {
-      continue;
+/// From the first excited row of a levitated interval to the end of that interval.
+session::RowRange ExcitedRows(const session::Recording& run) {
+  for (const session::RowRange& interval : run.LevitatedIntervals()) {
+    for (std::size_t row = interval.begin; row < interval.end; ++row) {
+      if (Excited(run, row)) return {row, interval.end};
     }
-    const bool follows = rows.empty() || record.in.cycle == rows.back().in.cycle + 1;
-    if (!follows || !record.in.frame_present || !Levitated(record.out.mode)) break;
-    if (std::abs(record.in.frame.speed_rad_per_s) > kStandingRadPerS) {
+  }
+  throw BadInput(run.name +
+                 ": no excitation in the record; record a scenario that excites all axes");
+}
+
+void RefuseUnfit(const session::Recording& run, const session::RowRange& rows) {
+  if (rows.end - rows.begin < kLeastRows) {
+    throw BadInput(fmt::format("{}: {} levitated rows follow the first excited one, needed are {}",
+                               run.name, rows.end - rows.begin, kLeastRows));
+  }
+  for (std::size_t row = rows.begin; row < rows.end; ++row) {
+    if (std::abs(run.speed_rad_per_s[row]) > kStandingRadPerS) {
       throw BadInput(fmt::format(
           "{}: the rotor turns at {:.0f} rpm in cycle {}: needed is a record of its standstill",
-          path, RadPerSToRpm(record.in.frame.speed_rad_per_s), record.in.cycle));
+          run.name, RadPerSToRpm(run.speed_rad_per_s[row]), run.cycle[row]));
     }
-    rows.push_back(record);
   }
-  return rows;
 }
 
 }  // namespace
 
-LoopRecord ReadLoopRecord(const std::string& path, const RigNumbers& rig) {
-  const auto rows = ExcitedRows(path, rig);
-  if (rows.empty()) {
-    throw BadInput(path + ": no excitation in the record; record a scenario that excites all axes");
-  }
-  if (rows.size() < kLeastRows) {
-    throw BadInput(fmt::format("{}: {} levitated rows follow the first excited one, needed are {}",
-                               path, rows.size(), kLeastRows));
-  }
-  if (rows.front().in.frame.axes != rig.axes()) {
-    throw BadInput(fmt::format("{}: {} channels, rig {} has {}", path, rows.front().in.frame.axes,
-                               rig.name, rig.axes()));
-  }
-  const auto axes = static_cast<Index>(rig.axes());
-  const Eigen::MatrixXd empty(static_cast<Index>(rows.size()), axes);
-  LoopRecord loop{{rig.period_s(), rig.channels, rig.channels, empty, empty}, {empty, empty}};
-  for (Index k = 0; k < empty.rows(); ++k) {
-    const cycle::CycleRecord& row = rows[static_cast<std::size_t>(k)];
-    for (Index i = 0; i < axes; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      loop.series.input(k, i) = rig.actuator_polarity[at] * row.out.current.control_current_a[at];
-      loop.series.output(k, i) = rig.sensor_polarity[at] * row.in.frame.position_m[at];
-      loop.excitation.position_m(k, i) = row.in.op.excitation_m[at];
-      loop.excitation.current_a(k, i) = row.in.op.excitation_a[at];
+LoopRecord ReadLoopRecord(const std::string& path, const config::RigFile& rig) {
+  const session::Recording run = session::LoadRecording(path, rig);
+  const session::RowRange rows = ExcitedRows(run);
+  RefuseUnfit(run, rows);
+  const Eigen::MatrixXd empty(static_cast<Index>(rows.end - rows.begin),
+                              static_cast<Index>(run.axes()));
+  LoopRecord loop{{run.period_s(), run.channels, run.channels, empty, empty}, {empty, empty}};
+  for (std::size_t row = rows.begin; row < rows.end; ++row) {
+    const auto k = static_cast<Index>(row - rows.begin);
+    for (std::size_t axis = 0; axis < run.axes(); ++axis) {
+      const auto i = static_cast<Index>(axis);
+      loop.series.input(k, i) = run.current_a[axis][row];
+      loop.series.output(k, i) = run.position_m[axis][row];
+      loop.excitation.position_m(k, i) = run.PositionExcitationOf(axis, row);
+      loop.excitation.current_a(k, i) = run.ExcitationOf(axis, row);
     }
   }
   return loop;

@@ -1,17 +1,17 @@
 #pragma once
-// What a session says of the closed loop of a standing rotor while it is excited, on all axes at
-// once: readings, commands and what was added to either.
+// Readings, commands and excitation of the closed loop of a standing rotor, cut out of a recorded
+// run (session/recording.hpp) as the matrices that the fit needs.
 //
 // Rows     from the first excited one on, consecutive, up to the first that is missing or not
 //          levitated.
-// Frame    bearing frame: probe and amplifier polarity of the rig file are undone.
+// Frame    bearing frame.
 // Thread   any.
-// Failure  BadInput: not a session of this rig, no excitation in it, a rotor that turns, too few
-//          rows.
+// Failure  BadInput: not a recorded run of this rig, no excitation in it, a rotor that turns, too
+//          few rows.
 
 #include <string>
 
-#include "common/rig_numbers.hpp"
+#include "config/rig_file.hpp"
 #include "identification/nonlinear/known_loop.hpp"
 
 namespace levitas::identification {
@@ -21,6 +21,6 @@ struct LoopRecord {
   LoopExcitation excitation;
 };
 
-[[nodiscard]] LoopRecord ReadLoopRecord(const std::string& path, const RigNumbers& rig);
+[[nodiscard]] LoopRecord ReadLoopRecord(const std::string& path, const config::RigFile& rig);
 
 }  // namespace levitas::identification

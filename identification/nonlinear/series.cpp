@@ -75,7 +75,7 @@ double Cell(const std::vector<std::string_view>& cells, std::size_t at, char sep
   return value;
 }
 
-Eigen::MatrixXd Matrix(const std::vector<Column>& columns) {
+Eigen::MatrixXd Matrix(const std::vector<session::Column>& columns) {
   const auto rows = columns.empty() ? 0 : static_cast<Index>(columns.front().size());
   Eigen::MatrixXd matrix(rows, static_cast<Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -144,7 +144,7 @@ Series ReadSeries(const std::string& path, const SeriesColumns& wanted, double p
   }
   const bool timed = columns.Has("time_s");
   if (timed) at.push_back(columns.At("time_s"));
-  std::vector<Column> values(at.size());
+  std::vector<session::Column> values(at.size());
   std::vector<std::string_view> cells;
   while (lines.Next(line)) {
     if (line.empty()) continue;
@@ -157,7 +157,7 @@ Series ReadSeries(const std::string& path, const SeriesColumns& wanted, double p
   if (values.front().size() < 2) throw BadInput(path + ": fewer than two rows");
   Series series{period_s, wanted.inputs, wanted.outputs, {}, {}};
   if (timed) {
-    const Column& time_s = values.back();
+    const session::Column& time_s = values.back();
     series.period_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
     values.pop_back();
   }
@@ -170,15 +170,18 @@ Series ReadSeries(const std::string& path, const SeriesColumns& wanted, double p
   return series;
 }
 
-Series SeriesOf(const Record& record, const SeriesColumns& wanted) {
-  std::map<std::string, const Column*> known;
+Series SeriesOf(const session::Recording& record, const SeriesColumns& wanted) {
+  std::map<std::string, const session::Column*> known;
+  const session::Column never_excited(record.rows(), 0.0);
   for (std::size_t axis = 0; axis < record.axes(); ++axis) {
+    const session::Column& excitation = record.excitation_a[axis];
     known["position_" + record.channels[axis]] = &record.position_m[axis];
     known["control_current_" + record.channels[axis]] = &record.current_a[axis];
-    known["excitation_" + record.channels[axis]] = &record.excitation_a[axis];
+    known["excitation_" + record.channels[axis]] =
+        excitation.empty() ? &never_excited : &excitation;
   }
   const auto gather = [&](const std::vector<std::string>& names) {
-    std::vector<Column> columns;
+    std::vector<session::Column> columns;
     for (const std::string& name : names) {
       const auto at = known.find(name);
       if (at == known.end()) {
@@ -192,7 +195,7 @@ Series SeriesOf(const Record& record, const SeriesColumns& wanted) {
     }
     return Matrix(columns);
   };
-  return {record.period_s, wanted.inputs, wanted.outputs, gather(wanted.inputs),
+  return {record.period_s(), wanted.inputs, wanted.outputs, gather(wanted.inputs),
           gather(wanted.outputs)};
 }
 

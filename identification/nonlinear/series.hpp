@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/record/record.hpp"
+#include "session/recording.hpp"
 
 namespace levitas::identification {
 
@@ -48,7 +48,7 @@ struct SeriesColumns {
 
 /// The same from a record: position_<channel>, control_current_<channel>, excitation_<channel>,
 /// in SI units.
-[[nodiscard]] Series SeriesOf(const Record& record, const SeriesColumns& columns);
+[[nodiscard]] Series SeriesOf(const session::Recording& record, const SeriesColumns& columns);
 
 /// One sentence when no model can come of it: a dead or clipped column, values that are no numbers,
 /// an input that never changes, too few rows for `unknowns`.

@@ -29,7 +29,7 @@ Mismatch Unknown(const RigidBodyOff& rigid) {
 
 double RigidMass(const plant::PlantModel& model) { return model.rigid().col(0).squaredNorm(); }
 
-double Mean(const identification::Column& column) {
+double Mean(const session::Column& column) {
   double sum = 0.0;
   for (const double value : column) sum += value;
   return sum / static_cast<double>(column.size());
@@ -59,7 +59,7 @@ Eigen::VectorXd AtMagnets(const plant::PlantModel& model, const Eigen::VectorXd&
   return actuator.topRows(2).transpose() * rigid + actuator.bottomRows(n - 2).transpose() * bent;
 }
 
-ModalTruth Truth(const plant::PlantModel& model, const identification::Record& record) {
+ModalTruth Truth(const plant::PlantModel& model, const session::Recording& record) {
   const auto& modes = model.parameters().modes;
   const auto& bearings = model.config().bearings;
   const auto axes = static_cast<Index>(2 * bearings.size());

@@ -24,7 +24,7 @@ struct ModalTruth {
 };
 
 struct ModalTrial {
-  identification::Record record;
+  session::Recording record;
   ModalTruth truth;  ///< never handed to the fit
 };
 

@@ -21,11 +21,12 @@ class Rig {
       : plant_(model, seed), cycle_(Cycle(rig)) {
     plant_.RestInTouchdown();
     record.name = "simulated campaign";
-    record.period_s = rig.numbers.period_s();
+    record.period_ns = rig.numbers.period_ns;
     record.channels = rig.numbers.channels;
-    record.sensor_range_m = rig.numbers.sensor_range_m;
+    record.sensor_range_m.assign(rig.numbers.axes(), rig.numbers.sensor_range_m);
     record.current_limit_a = rig.numbers.bias_current_a;
-    for (auto* columns : {&record.position_m, &record.current_a, &record.excitation_a}) {
+    for (auto* columns :
+         {&record.position_m, &record.current_a, &record.excitation_a, &record.excitation_m}) {
       columns->resize(rig.numbers.axes());
     }
   }
@@ -45,7 +46,7 @@ class Rig {
     return out.mode;
   }
   void Run(double time_s) {
-    for (long n = std::lround(time_s / record.period_s); n > 0; --n) (void)Step({});
+    for (long n = std::lround(time_s / record.period_s()); n > 0; --n) (void)Step({});
   }
   void Levitate() {
     Mode mode = Step({OperatorCommand::kLift, 0.0, 0.0, {}});
@@ -60,7 +61,7 @@ class Rig {
     Run(0.5);
   }
 
-  identification::Record record;
+  session::Recording record;
 
  private:
   static cycle::CycleConfig Cycle(const config::RigFile& rig) {
@@ -102,22 +103,21 @@ long SamplesOf(const ExcitationPlan& plan, double period_s) {
 
 }  // namespace
 
-identification::Record SimulateCampaign(const config::RigFile& rig, const ExcitationPlan& plan) {
+session::Recording SimulateCampaign(const config::RigFile& rig, const ExcitationPlan& plan) {
   return SimulateCampaign(rig, plant::Reduce(rig.plant), plan);
 }
 
-identification::Record SimulateCampaign(const config::RigFile& rig,
-                                        const plant::PlantParameters& truth,
-                                        const ExcitationPlan& plan) {
+session::Recording SimulateCampaign(const config::RigFile& rig, const plant::PlantParameters& truth,
+                                    const ExcitationPlan& plan) {
   Rig bench(rig, std::make_shared<const plant::PlantModel>(truth), plan.seed);
   bench.Levitate();
   for (const double rpm : plan.speeds_rpm) {
     if (rpm > 0.0) bench.SpinAt(rpm);
     for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis) {
       const scenario::Excitation test = TestSignal(plan);
-      scenario::Signal signal(test, bench.record.period_s);
+      scenario::Signal signal(test, bench.record.period_s());
       cycle::OperatorInput op;
-      for (long n = SamplesOf(plan, bench.record.period_s); n > 0; --n) {
+      for (long n = SamplesOf(plan, bench.record.period_s()); n > 0; --n) {
         op.excitation_a[axis] = test.amplitude_a * signal.Next();
         (void)bench.Step(op, true);
       }

@@ -10,8 +10,8 @@
 
 #include "config/rig_file.hpp"
 #include "controller/scenario/scenario_config.hpp"
-#include "identification/record/record.hpp"
 #include "plant_sim/plant/plant_parameters.hpp"
+#include "session/recording.hpp"
 
 namespace levitas::accuracy {
 
@@ -28,11 +28,11 @@ struct ExcitationPlan {
 };
 
 /// The record holds the excited rows only.
-[[nodiscard]] identification::Record SimulateCampaign(const config::RigFile& rig,
-                                                      const ExcitationPlan& plan);
+[[nodiscard]] session::Recording SimulateCampaign(const config::RigFile& rig,
+                                                  const ExcitationPlan& plan);
 /// `truth` is what is simulated; `rig` only gives channels and limits.
-[[nodiscard]] identification::Record SimulateCampaign(const config::RigFile& rig,
-                                                      const plant::PlantParameters& truth,
-                                                      const ExcitationPlan& plan);
+[[nodiscard]] session::Recording SimulateCampaign(const config::RigFile& rig,
+                                                  const plant::PlantParameters& truth,
+                                                  const ExcitationPlan& plan);
 
 }  // namespace levitas::accuracy

@@ -120,7 +120,7 @@ ExitStatus Run(const FrfOptions& options) {
   const config::RigFile rig = LoadRig(options);
   std::optional<FoundController> controller;
   if (!options.controller_name.empty()) controller = LoadController(options, rig);
-  const auto record = identification::ReadRecord(options.data_path, rig);
+  const auto record = session::LoadRecording(options.data_path, rig);
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
   identification::ExperimentOptions experiment;
   experiment.dropped_periods = options.dropped_periods;

@@ -93,7 +93,7 @@ ExitStatus Run(const SpectrumOptions& options) {
   GearedKnown known = KnownOfRig(rig);
   known.uncertainty = 0.01 * options.known_percent;
   const auto lines = options.lines_path.empty()
-                         ? LinesOfRecord(ReadRecord(options.data_path, rig), rig)
+                         ? LinesOfRecord(session::LoadRecording(options.data_path, rig), rig)
                          : ReadGearedLines(options.lines_path);
   const GearedParameters found = IdentifyGeared(lines, known);
   Print(options, lines, known, found);

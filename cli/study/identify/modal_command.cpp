@@ -196,7 +196,7 @@ ExitStatus Run(const ModalOptions& options) {
     session::CheckOutputPath(path, options.data_path);
   }
   const config::RigFile rig = LoadRig(options);
-  const auto record = ReadRecord(options.data_path, rig);
+  const auto record = session::LoadRecording(options.data_path, rig);
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
   const auto responses = EstimateResponses(record, delay_s, {}, ModalResponseOptions(rig));
   const auto began = std::chrono::steady_clock::now();

@@ -94,7 +94,7 @@ ExitStatus Run(const CommandOptions& given) {
   SuspendedRotor start = DesignOf(plant::Reduce(rig.plant), given.iron);
   const auto sensors = SensorsOf(given.sensors, start.axes());
   if (!sensors.empty()) start.sensor = sensors;
-  LoopRecord record = ReadLoopRecord(given.data_path, rig.numbers);
+  LoopRecord record = ReadLoopRecord(given.data_path, rig);
   const Index rows = record.series.rows();
   const Index fitted = std::min(given.fitted, rows);
   const KnownLoop loop(controller.law, rig.numbers, std::move(record.excitation));

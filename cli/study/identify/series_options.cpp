@@ -86,7 +86,7 @@ Series LoadSeries(const SeriesOptions& o) {
   if (o.data_path.ends_with(".csv") || o.data_path.ends_with(".csv.xz")) {
     return ReadSeries(o.data_path, o.columns, o.rate_hz > 0.0 ? 1.0 / o.rate_hz : 0.0);
   }
-  return SeriesOf(ReadRecord(o.data_path, LoadRig(o)), o.columns);
+  return SeriesOf(session::LoadRecording(o.data_path, LoadRig(o)), o.columns);
 }
 
 std::vector<Judged> Judge(const SeriesOptions& o, const Series& all, const Predict& one_step,

@@ -48,8 +48,8 @@ accuracy::ExcitationPlan PlanOf(SignalKind kind) {
   return plan;
 }
 
-const Record& RecordOf(SignalKind kind) {
-  static std::map<SignalKind, Record> records;
+const session::Recording& RecordOf(SignalKind kind) {
+  static std::map<SignalKind, session::Recording> records;
   const auto found = records.find(kind);
   if (found != records.end()) return found->second;
   return records.emplace(kind, accuracy::SimulateCampaign(FlexibleRotor(), PlanOf(kind)))
@@ -135,8 +135,8 @@ INSTANTIATE_TEST_SUITE_P(Signals, Kinds,
                            }
                          });
 
-std::string Refusal(SignalKind kind, const std::function<void(Record&)>& spoil) {
-  Record record = RecordOf(kind);
+std::string Refusal(SignalKind kind, const std::function<void(session::Recording&)>& spoil) {
+  session::Recording record = RecordOf(kind);
   spoil(record);
   try {
     (void)EstimateResponses(record, kDelayS);
@@ -147,11 +147,11 @@ std::string Refusal(SignalKind kind, const std::function<void(Record&)>& spoil) 
 }
 
 /// Of every axis' signal only the first `seconds` remain.
-std::function<void(Record&)> OnlyTheFirst(double seconds, double of_s) {
-  return [seconds, of_s](Record& r) {
-    const auto keep = static_cast<std::size_t>(std::lround(seconds / r.period_s));
-    const auto all = static_cast<std::size_t>(std::lround(of_s / r.period_s));
-    for (Column& column : r.excitation_a) {
+std::function<void(session::Recording&)> OnlyTheFirst(double seconds, double of_s) {
+  return [seconds, of_s](session::Recording& r) {
+    const auto keep = static_cast<std::size_t>(std::lround(seconds / r.period_s()));
+    const auto all = static_cast<std::size_t>(std::lround(of_s / r.period_s()));
+    for (session::Column& column : r.excitation_a) {
       for (std::size_t n = 0; n < column.size(); ++n) {
         if (n % all >= keep) column[n] = 0.0;
       }
@@ -175,7 +175,7 @@ TEST(ShortSignals, OneStrokeIsNoTrain) {
 }
 
 TEST(ShortSignals, ASineThatIsNotHeldLongEnoughIsNamed) {
-  Record record = RecordOf(SignalKind::kSteppedSine);
+  session::Recording record = RecordOf(SignalKind::kSteppedSine);
   ExperimentOptions options;
   options.settle_share = 0.9;  // of 0.3 s at 15 Hz nothing whole remains
   EXPECT_THROW(
@@ -191,15 +191,15 @@ TEST(ShortSignals, ASineThatIsNotHeldLongEnoughIsNamed) {
 }
 
 TEST(ShortSignals, AnAxisWhoseSweepBreaksOffIsNamed) {
-  const std::string text = Refusal(SignalKind::kSteppedSine, [](Record& r) {
-    Column& last = r.excitation_a[3];
+  const std::string text = Refusal(SignalKind::kSteppedSine, [](session::Recording& r) {
+    session::Column& last = r.excitation_a[3];
     for (std::size_t n = r.rows() - 12'000; n < r.rows(); ++n) last[n] = 0.0;
   });
   EXPECT_THAT(text, HasSubstr("the sines of de_x (24 frequencies) are not those of nde_y (20)"));
 }
 
 TEST(ShortSignals, ASweepThatWasCutBackIsRefused) {
-  const std::string text = Refusal(SignalKind::kSteppedSine, [](Record& r) {
+  const std::string text = Refusal(SignalKind::kSteppedSine, [](session::Recording& r) {
     for (std::size_t n = 31'000; n < 36'000; ++n) r.excitation_a[0][n] *= 0.3;
   });
   EXPECT_THAT(text, HasSubstr("orbit limit"));

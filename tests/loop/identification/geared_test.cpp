@@ -108,12 +108,12 @@ TEST(GearedBound, KnownNumbersThatAreOffCostStiffnessAndHardlyAnyRunOut) {
 
 /// A record whose every reading is the sum of the lines of two speeds, through sensor and
 /// amplifier.
-Record RecordOf(const config::RigFile& rig, const std::vector<GearedLine>& lines) {
-  Record record;
+session::Recording RecordOf(const config::RigFile& rig, const std::vector<GearedLine>& lines) {
+  session::Recording record;
   record.name = "made of lines";
-  record.period_s = rig.numbers.period_s();
+  record.period_ns = rig.numbers.period_ns;
   record.channels = rig.numbers.channels;
-  record.sensor_range_m = rig.numbers.sensor_range_m;
+  record.sensor_range_m.assign(4, rig.numbers.sensor_range_m);
   record.current_limit_a = 1.0;
   for (auto* columns : {&record.position_m, &record.current_a}) columns->resize(4);
   record.excitation_a.resize(4);
@@ -125,7 +125,7 @@ Record RecordOf(const config::RigFile& rig, const std::vector<GearedLine>& lines
     }
   }
   for (const double speed : speeds) {
-    for (int n = 0; n < 15'000; ++n, angle += speed * record.period_s) {
+    for (int n = 0; n < 15'000; ++n, angle += speed * record.period_s()) {
       std::array<Complex, 4> sum{};
       for (const GearedLine& l : lines) {
         if (l.speed_rad_per_s != speed) continue;
@@ -161,8 +161,8 @@ const config::RigFile& FourDof() {
   return rig;
 }
 
-const Record& Good() {
-  static const Record record = [] {
+const session::Recording& Good() {
+  static const session::Recording record = [] {
     accuracy::GearedPlan plan;
     plan.speeds_hz = {15.0, 25.0};
     return RecordOf(FourDof(), accuracy::MakeGearedTrial(FourDof(), plan).lines);
@@ -170,7 +170,7 @@ const Record& Good() {
   return record;
 }
 
-GearedParameters Identify(const Record& record) {
+GearedParameters Identify(const session::Recording& record) {
   return IdentifyGeared(LinesOfRecord(record, FourDof()), KnownOfRig(FourDof()));
 }
 
@@ -190,8 +190,8 @@ TEST(GearedRecord, AnIdentifiedRigFileHoldsWhatWasFound) {
   EXPECT_LT(std::max({e.mesh_stiffness, e.ks, e.ki, e.run_out, e.varying_error}), 1e-9);
 }
 
-std::string Refusal(const std::function<void(Record&)>& spoil) {
-  Record record = Good();
+std::string Refusal(const std::function<void(session::Recording&)>& spoil) {
+  session::Recording record = Good();
   spoil(record);
   try {
     (void)Identify(record);
@@ -202,37 +202,38 @@ std::string Refusal(const std::function<void(Record&)>& spoil) {
 }
 
 TEST(GearedRecord, ADeadChannelIsNamed) {
-  EXPECT_THAT(Refusal([](Record& r) { r.position_m[1].assign(r.rows(), 0.0); }),
+  EXPECT_THAT(Refusal([](session::Recording& r) { r.position_m[1].assign(r.rows(), 0.0); }),
               HasSubstr("position " + FourDof().numbers.channels[1] + " is dead"));
 }
 
 TEST(GearedRecord, AClippedChannelIsNamed) {
-  EXPECT_THAT(Refusal([](Record& r) {
+  EXPECT_THAT(Refusal([](session::Recording& r) {
                 for (double& v : r.position_m[2]) v = v > 5e-6 ? r.sensor_range_m : v;
               }),
               HasSubstr("is clipped"));
 }
 
 TEST(GearedRecord, MissingSamplesAreSaid) {
-  EXPECT_THAT(Refusal([](Record& r) {
+  EXPECT_THAT(Refusal([](session::Recording& r) {
                 for (std::size_t n = 9000; n < r.rows(); ++n) r.cycle[n] += 7;
               }),
               HasSubstr("samples are missing"));
 }
 
 TEST(GearedRecord, OneSpeedIsTooFew) {
-  EXPECT_THAT(Refusal([](Record& r) { r.speed_rad_per_s.assign(r.rows(), kTwoPi * 15.0); }),
-              HasSubstr("at least two"));
+  EXPECT_THAT(
+      Refusal([](session::Recording& r) { r.speed_rad_per_s.assign(r.rows(), kTwoPi * 15.0); }),
+      HasSubstr("at least two"));
 }
 
 TEST(GearedRecord, AStandingRotorExcitesNothing) {
-  EXPECT_THAT(Refusal([](Record& r) { r.speed_rad_per_s.assign(r.rows(), 0.0); }),
+  EXPECT_THAT(Refusal([](session::Recording& r) { r.speed_rad_per_s.assign(r.rows(), 0.0); }),
               HasSubstr("0 stretch(es)"));
 }
 
 TEST(GearedRecord, CurrentsOfTheWrongSignAreRefused) {
-  EXPECT_THAT(Refusal([](Record& r) {
-                for (Column& column : r.current_a) {
+  EXPECT_THAT(Refusal([](session::Recording& r) {
+                for (session::Column& column : r.current_a) {
                   for (double& value : column) value = -value;
                 }
               }),
@@ -240,7 +241,7 @@ TEST(GearedRecord, CurrentsOfTheWrongSignAreRefused) {
 }
 
 TEST(GearedRecord, AProbeOfTheWrongSignIsRefused) {
-  EXPECT_THAT(Refusal([](Record& r) {
+  EXPECT_THAT(Refusal([](session::Recording& r) {
                 for (double& value : r.position_m[0]) value = -value;
               }),
               HasSubstr("sign"));

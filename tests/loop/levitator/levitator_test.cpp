@@ -13,10 +13,7 @@
 #include "analysis/poles.hpp"
 #include "analysis/recorded_rows.hpp"
 #include "common/problem.hpp"
-#include "session/csv_import.hpp"
-#include "session/session_reader.hpp"
 #include "tests/support/paths.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tests/support/shipped_loop.hpp"
 
 namespace levitas::test {
@@ -91,20 +88,7 @@ std::ostream& operator<<(std::ostream& out, const KnownRun& run) { return out <<
 class Measured : public testing::TestWithParam<KnownRun> {};
 
 std::vector<analysis::RecordedRow> Rows(const config::RigFile& rig, const std::string& path) {
-  const ScratchFolder folder;
-  session::ImportOptions import{.data_path = path,
-                                .out_path = folder / "run.lcmlog",
-                                .rig = rig.numbers,
-                                .rig_yaml = config::WriteRig(rig),
-                                .program_version = "test"};
-  import.coils = {
-      { rig.plant.bearings[0].magnet.gap_m,
-        rig.plant.bearings[0].magnet.max_coil_current_a }};
-  import.matrix = rig.log.matrix;
-  import.matrix_rows = rig.log.rows;
-  (void)session::ImportMat(import);
-  session::SessionReader reader(import.out_path);
-  return analysis::ReadRows(reader, rig.numbers);
+  return analysis::RowsOf(session::LoadRecording(path, rig), rig.numbers);
 }
 
 // What is known of all runs of the rig, these and others: the model predicts the upper coil's

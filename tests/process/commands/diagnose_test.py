@@ -111,7 +111,7 @@ class DiagnoseOwnModel(unittest.TestCase):
 
     def test_data_of_another_kind_or_rig_are_refused_in_one_line_with_a_way_on(self):
         (Path(self.shared.name) / "notes.txt").write_text("time position\n0 1\n")
-        self.refuse(("notes.txt", "not a session", ".csv", "amb import"), "--rig",
+        self.refuse(("notes.txt", "not a session", ".csv", ".mat", "candump"), "--rig",
                     "flexible_rotor", "notes.txt")
         self.refuse(("run.csv", "de_x", "ball_x", "--rig"), "--rig", "two_magnet_levitator",
                     "run.csv")

@@ -88,8 +88,7 @@ TEST(Campaign, WrittenAsCsvIsReadBackAsTheSameRows) {
   const auto folder = std::filesystem::temp_directory_path() / "levitas_campaign_test";
   std::filesystem::create_directories(folder);
   WriteCsv(trial.campaign, TheBench().rig.numbers, folder.string());
-  const auto read =
-      diagnosis::LoadRecord((folder / "spinning.csv").string(), TheBench().rig, folder.string());
+  const auto read = diagnosis::LoadRecord((folder / "spinning.csv").string(), TheBench().rig);
   std::filesystem::remove_all(folder);
   const auto& rows = trial.records[1].rows;
   ASSERT_EQ(read.rows.size(), rows.size());

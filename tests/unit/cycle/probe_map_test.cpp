@@ -33,6 +33,12 @@ TEST(ProbeMap, LeavesNothingBeyondTheRigsAxes) {
   EXPECT_EQ(map.Positions({{0, 0, 0, 0, 5.0, 6.0, 7.0, 8.0}}).at, AxisArray{});
 }
 
+TEST(ProbeMap, GivesBackTheReadingsOfThePositionsThatItMade) {
+  const ProbeMap map(Wired({1, -1, -1, 1}, {-1, 1, 1, 1}));
+  const RigFrame read_m{{1e-6, -2e-6, 3e-6, -4e-6}};
+  EXPECT_EQ(map.Readings(map.Positions(read_m)).at, read_m.at);
+}
+
 TEST(ProbeMap, RefusesAPolarityThatIsNotASign) {
   for (const double bad : {0.0, 2.0, -0.5, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(ProbeMap(Wired({1, 1, bad, 1}, {1, 1, 1, 1})), std::invalid_argument);

@@ -1,4 +1,4 @@
-#include "identification/record/flat_top.hpp"
+#include "identification/frf/flat_top.hpp"
 
 #include <gtest/gtest.h>
 

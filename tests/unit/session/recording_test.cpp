@@ -204,6 +204,33 @@ TEST_F(RecordingTest, HoldsExcitationThatBeginsLateInItsRows) {
   EXPECT_EQ(recording.excitation_a[1][12], records[12].in.op.excitation_a[1]);
 }
 
+TEST_F(RecordingTest, HoldsTheExcitationOfReadingsAsTheOperatorAskedForIt) {
+  auto records = DrawRecords(30);
+  for (std::size_t row = 0; row < 30; ++row) {
+    records[row].in.op.excitation_m = {};
+    if (row > 11) records[row].in.op.excitation_m[0] = 1e-6 * static_cast<double>(row);
+  }
+  const Recording recording = OfSession(records);
+  ASSERT_EQ(recording.excitation_m[0].size(), 30U);
+  EXPECT_EQ(recording.PositionExcitationOf(0, 11), 0.0);
+  // The probe of axis 0 is reversed; the excitation is added behind its correction.
+  EXPECT_EQ(recording.PositionExcitationOf(0, 12), 12e-6);
+  EXPECT_THAT(recording.excitation_m[1], IsEmpty());
+  EXPECT_EQ(recording.PositionExcitationOf(1, 29), 0.0);
+}
+
+TEST_F(RecordingTest, NamesTheLimitsOfTheRigWhereReadingsAndCurrentsEnd) {
+  config::RigFile rig = Rig();
+  rig.numbers.sensor_ranges_m = {300e-6, 400e-6};
+  rig.numbers.bias_current_a = 1.0;
+  rig.numbers.max_coil_current_a = 1.7;
+  WriteSession(session_, DrawRecords(3));
+  const Recording recording = LoadRecording(session_, rig);
+  EXPECT_THAT(recording.sensor_range_m, ElementsAre(300e-6, 300e-6, 400e-6, 400e-6));
+  // The coil that is strengthened reaches 1.7 A before the other one reaches zero.
+  EXPECT_DOUBLE_EQ(recording.current_limit_a, 0.7);
+}
+
 TEST_F(RecordingTest, HoldsMeasuredCoilCurrentsWithoutPolarity) {
   auto records = DrawRecords(30);
   for (auto& record : records) {
