@@ -208,7 +208,7 @@ TEST(GearedRecord, ADeadChannelIsNamed) {
 
 TEST(GearedRecord, AClippedChannelIsNamed) {
   EXPECT_THAT(Refusal([](session::Recording& r) {
-                for (double& v : r.position_m[2]) v = v > 5e-6 ? r.sensor_range_m : v;
+                for (double& v : r.position_m[2]) v = v > 5e-6 ? r.sensor_range_m[2] : v;
               }),
               HasSubstr("is clipped"));
 }

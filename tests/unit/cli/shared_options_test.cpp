@@ -91,13 +91,6 @@ TEST(AnalysisOptions, LoadTheShippedFilesByName) {
   EXPECT_THROW((void)LoadRig(Parsed("--rig flexible_roter")), BadInput);
 }
 
-TEST(Speed, ConvertsToRadiansPerSecondAndBack) {
-  EXPECT_DOUBLE_EQ(RadPerSecond(60.0), 6.283185307179586);  // one turn per second is 2 pi
-  for (const double rpm : {0.0, 1.0, -6000.0, 1e-9, 1e9}) {
-    EXPECT_DOUBLE_EQ(Rpm(RadPerSecond(rpm)), rpm);  // two roundings: within 4 ULP
-  }
-}
-
 TEST(JsonFile, HoldsTheContentInItsOrderWithEveryBit) {
   const test::ScratchFolder folder;
   const nlohmann::ordered_json content{{"zeta", 0.1 + 0.2}, {"alpha", {1, 2}}, {"name", "µ\"\\"}};
