@@ -101,8 +101,8 @@ StateSpace AllControllers(const NormalPlant& plant, const Solved& solved, double
                                         solved.filter.solution * solved.regulator.solution / g2);
   const MatrixXd C2 = -D21 * (plant.C2 + F12);
   const MatrixXd by12 = D12.triangularView<Eigen::Lower>().solve(D11);  // D12^-1 D11
-  MatrixXd by21 = C2;  // D21^-1 C2; SolveColumns says why a plant without states is left out
-  if (n > 0) D21.triangularView<Eigen::Upper>().solveInPlace(by21);
+  // D21^-1 C2; SolveColumns says why a plant without states is left out.
+  const MatrixXd by21 = n > 0 ? MatrixXd(D21.triangularView<Eigen::Upper>().solve(C2)) : C2;
   MatrixXd B(n, plant.B1.cols() + u);
   B << plant.B1, plant.B2;
   const MatrixXd B2 = (plant.B2 + L12) * D12;
