@@ -11,7 +11,7 @@
 #include "cli/study/diagnosis_report.hpp"
 #include "cli/study/diagnosis_text.hpp"
 #include "cli/text_file.hpp"
-#include "diagnosis/report/build_report.hpp"
+#include "diagnosis/levitator/build_report.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -124,12 +124,7 @@ void PrintLevitator(const LevitatorResult& answer, bool complete) {
 }
 
 nlohmann::ordered_json LevitatorJson(const LevitatorResult& answer) {
-  diagnosis::DiagnosisReport report = diagnosis::BuildReport(answer.common);
-  if (!answer.found.causes.empty()) {
-    const levitator::Cause& first = levitator::Causes()[answer.found.causes.front()];
-    report.place = std::string(levitator::Table()[first.moves.front()].place);
-  }
-  nlohmann::ordered_json json = DiagnosisJson(report);
+  nlohmann::ordered_json json = DiagnosisJson(levitator::BuildReport(answer));
   json["ties"] = nlohmann::ordered_json::object();
   for (const levitator::Tie& tie : answer.ties) json["ties"][tie.cause] = tie.others;
   json["runs_held_out"] = RunsJson(answer.validation);

@@ -40,13 +40,17 @@ ReportResidual ResidualOf(const DiagnosisResult& result) {
 }  // namespace
 
 DiagnosisReport BuildReport(const DiagnosisResult& result) {
+  return BuildReport(result, PlaceOf(result));
+}
+
+DiagnosisReport BuildReport(const DiagnosisResult& result, const std::string& place) {
   const SearchResult& found = result.answer;
   DiagnosisReport report;
   report.verdict = found.verdict;
   for (const Hypothesis& cause : found.causes) report.causes.push_back({cause.effect, cause.place});
   report.also_possible = found.also_possible;
   report.confidence = Confidence(result);
-  report.place = PlaceOf(result);
+  report.place = place;
   report.channels = Channels(result);
   report.parameters = Parameters(result);
   report.calibrated = CalibratedValues(result);

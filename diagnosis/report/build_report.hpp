@@ -3,7 +3,10 @@
 // calibrated values and sentences are computed for the writers.
 //
 // Thread   any; pure.
-// Failure  none for the result of DiagnoseFiles, DiagnoseRecords or levitator::Diagnose.
+// Failure  std::logic_error for a cause that is not in the catalogue of effects, unless the place
+//          is given.
+
+#include <string>
 
 #include "diagnosis/report/diagnosis_report.hpp"
 
@@ -12,5 +15,7 @@ namespace levitas::diagnosis {
 struct DiagnosisResult;
 
 [[nodiscard]] DiagnosisReport BuildReport(const DiagnosisResult& result);
+/// The same with a place that the catalogue of effects does not know.
+[[nodiscard]] DiagnosisReport BuildReport(const DiagnosisResult& result, const std::string& place);
 
 }  // namespace levitas::diagnosis
