@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/whirl_direction.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
@@ -13,15 +14,6 @@ namespace {
 
 // Slower than this is a shaft turning as a whole, not a vibration.
 constexpr double kSlowestRadPerS = 1e-3;
-
-double ForwardShare(const Eigen::VectorXcd& vector, Eigen::Index modes) {
-  const std::complex<double> j{0.0, 1.0};
-  const auto x = vector.head(modes);
-  const auto y = vector.segment(modes, modes);
-  const double forward = (x + j * y).squaredNorm();
-  const double backward = (x - j * y).squaredNorm();
-  return forward + backward > 0.0 ? forward / (forward + backward) : 0.5;
-}
 
 }  // namespace
 

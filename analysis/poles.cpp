@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/sampled_loop.hpp"
+#include "analysis/whirl_direction.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -16,16 +17,6 @@ constexpr double kDeadbeatModulus = 1e-8;
 /// Poles of the two planes closer than this (relative to |s|) are one pole twice. Larger than the
 /// scatter of the eigenvalue solver for a pair, far smaller than any gyroscopic split of interest.
 constexpr double kSamePole = 1e-7;
-
-/// Share of forward whirl in a mode, from the rotor's modal displacements in both planes.
-double ForwardShare(const Eigen::VectorXcd& vector, Eigen::Index modes) {
-  const std::complex<double> j{0.0, 1.0};
-  const auto x = vector.head(modes);
-  const auto y = vector.segment(modes, modes);
-  const double forward = (x + j * y).squaredNorm();
-  const double backward = (x - j * y).squaredNorm();
-  return forward + backward > 0.0 ? forward / (forward + backward) : 0.5;
-}
 
 bool Same(const Pole& a, const Pole& b) {
   return std::abs(a.s_rad_per_s - b.s_rad_per_s) < kSamePole * std::abs(a.s_rad_per_s);

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controller/cycle/law_at_rig_period.hpp"
+
 namespace levitas::session {
 namespace {
-
-law::LawConfig AtRigPeriod(const cycle::CycleConfig& config) {
-  law::LawConfig law = config.law;
-  law.period_s = config.rig.period_s();
-  return law;
-}
 
 /// Both coils stay within 0 .. maximum.
 double CurrentLimit(const cycle::CycleConfig& config) {
@@ -25,7 +21,7 @@ LawAlone::LawAlone(const cycle::CycleConfig& config)
     : axes_(config.rig.axes()),
       limit_a_(CurrentLimit(config)),
       probes_(config.rig),
-      coefficients_(AtRigPeriod(config)),
+      coefficients_(cycle::LawAtRigPeriod(config)),
       state_(coefficients_) {}
 
 cycle::CycleOutputs LawAlone::Step(const cycle::CycleInputs& in) noexcept {

@@ -10,6 +10,7 @@
 
 #include "benchmark/accuracy/true_value.hpp"
 #include "diagnosis/report/words.hpp"
+#include "numerics/normal_distribution.hpp"
 
 namespace levitas::accuracy {
 namespace {
@@ -104,7 +105,7 @@ TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
     if (o.truth.empty() || p.effect != o.truth.front()) continue;
     const double truth = TrueValue(p, ground_truth, rig).value_or(0.0);
     if (truth == 0.0) continue;
-    const double deviation = 0.5 * (p.high - p.low) / 1.645;
+    const double deviation = 0.5 * (p.high - p.low) / numerics::kInterval90;
     o.parameter_error = std::abs(p.value - truth) / std::abs(truth);
     o.parameter_sigmas = deviation > 0.0 ? std::abs(p.value - truth) / deviation : 99.0;
     break;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "controller/cycle/law_at_rig_period.hpp"
 #include "controller/cycle/probe_map.hpp"
 #include "controller/law/axis_law.hpp"
 #include "controller/supervisor/supervisor.hpp"
@@ -32,12 +33,6 @@ const CycleConfig& Checked(const CycleConfig& config) {
   return config;
 }
 
-law::LawConfig AtRigPeriod(const CycleConfig& config) {
-  law::LawConfig law = config.law;
-  law.period_s = config.rig.period_s();
-  return law;
-}
-
 // Both coils stay within 0 .. maximum: i0 - |ic| >= 0 and i0 + |ic| <= maximum.
 double CurrentLimit(const CycleConfig& config) {
   const double bias_a = config.rig.bias_current_a;
@@ -58,7 +53,7 @@ struct ControlCycle::Impl {
       : rig(Checked(config).rig),
         limit_a(CurrentLimit(config)),
         probes(config.rig),
-        coefficients(AtRigPeriod(config)),
+        coefficients(LawAtRigPeriod(config)),
         law_state(coefficients),
         supervisor(config.rig, config.supervisor) {}
 

@@ -9,6 +9,7 @@
 #include "common/problem.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/report/words.hpp"
+#include "numerics/normal_distribution.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -91,11 +92,10 @@ bool InTheModel(std::size_t i) {
 
 std::string Comments(const Found& found) {
   std::string text;
-  constexpr double kInterval = 1.645;
   for (const std::size_t c : found.causes) {
     for (const std::size_t i : Causes()[c].moves) {
       const Row& row = Table()[i];
-      const double spread = kInterval * found.extended.deviation[i];
+      const double spread = numerics::kInterval90 * found.extended.deviation[i];
       text += fmt::format("# {} {} = {:.5g} {} ({:.5g} to {:.5g}){}\n", row.effect, row.name,
                           found.extended.theta[i], row.unit, found.extended.theta[i] - spread,
                           found.extended.theta[i] + spread,

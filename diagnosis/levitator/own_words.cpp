@@ -8,11 +8,10 @@
 #include <numbers>
 
 #include "diagnosis/levitator/origin.hpp"
+#include "numerics/normal_distribution.hpp"
 
 namespace levitas::levitator {
 namespace {
-
-constexpr double kInterval = 1.645;  ///< standard deviations of 5 and 95 %
 
 /// A key and what a value of the table is under it.
 struct Told {
@@ -72,7 +71,7 @@ diagnosis::NamedParameter Tell(const config::RigFile& rig, const Theta& origin, 
                                const Fitted& fit) {
   const Row& row = Table()[i];
   const Told told = TellAs(rig, origin, i);
-  const double spread = kInterval * fit.deviation[i];
+  const double spread = numerics::kInterval90 * fit.deviation[i];
   diagnosis::NamedParameter p;
   p.effect = row.effect;
   p.key = told.key;

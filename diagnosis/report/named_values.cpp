@@ -8,12 +8,12 @@
 #include <numbers>
 
 #include "diagnosis/report/diagnose_files.hpp"
+#include "numerics/normal_distribution.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
-constexpr double kInterval = 1.645;  ///< standard deviations of 5 and 95 %
-constexpr double kProbe = 1e-3;      ///< of a term's scale: does a key depend on it?
+constexpr double kProbe = 1e-3;  ///< of a term's scale: does a key depend on it?
 constexpr double kTurnDeg = 360.0;
 
 double Difference(const EntryValue& value, double other) {
@@ -94,7 +94,7 @@ class Bracket {
       return;
     }
     depends_ = true;
-    const double spread = kInterval * estimate->deviation;
+    const double spread = numerics::kInterval90 * estimate->deviation;
     Widen(value_, Moved(parameter, -spread), Moved(parameter, spread), low_, high_);
   }
   void AddForms() {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "plant_sim/rotor/beam_element.hpp"
+#include "plant_sim/rotor/section_at.hpp"
 
 namespace levitas::rotor {
 namespace {
@@ -57,15 +58,6 @@ std::vector<double> FixedPlaces(const RotorConfig& config, const std::vector<dou
   const auto same = [](double a, double b) { return b - a < kSamePlaceM; };
   places.erase(std::unique(places.begin(), places.end(), same), places.end());
   return places;
-}
-
-const Section& SectionAt(const RotorConfig& config, double z_m) {
-  double end = 0.0;
-  for (const auto& section : config.sections) {
-    end += section.length_m;
-    if (z_m < end) return section;
-  }
-  return config.sections.back();
 }
 
 std::size_t NearestNode(const std::vector<double>& nodes, double z_m) {

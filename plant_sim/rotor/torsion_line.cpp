@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "plant_sim/rotor/beam_element.hpp"
+#include "plant_sim/rotor/section_at.hpp"
 
 namespace levitas::rotor {
 namespace {
@@ -43,15 +44,6 @@ void AddSpring(Eigen::MatrixXd& stiffness, Eigen::Index at, double k) {
 double PolarSecondMoment(const Section& piece) {
   return std::numbers::pi / 32.0 *
          (std::pow(piece.outer_diameter_m, 4) - std::pow(piece.inner_diameter_m, 4));
-}
-
-const Section& SectionAt(const RotorConfig& config, double z_m) {
-  double end = 0.0;
-  for (const auto& section : config.sections) {
-    end += section.length_m;
-    if (z_m < end) return section;
-  }
-  return config.sections.back();
 }
 
 Eigen::Index Nearest(const std::vector<double>& nodes, double z_m) {
