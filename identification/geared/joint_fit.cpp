@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
+#include <utility>
 
 #include "identification/geared/geared_forces.hpp"
 #include "identification/geared/joint_unknowns.hpp"
+#include "numerics/levenberg_marquardt.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -16,10 +19,15 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 using Kind = GearedLine::Kind;
 
-constexpr int kIterations = 60;
-constexpr double kDampingAtFirst = 1e-3, kMoreDamping = 5.0, kMostDamping = 1e8;
 constexpr double kLoud = 0.01;
-constexpr double kStandsStill = 1e-6;
+/// The normal equations cost as much as a dozen runs of the model: damping moves in small steps, and
+/// the search ends where an undamped step would gain a millionth of a noise variance.
+constexpr numerics::LevenbergMarquardtOptions kOptions{.first_damping = 1e-3,
+                                                       .lowered_by = 0.2,
+                                                       .raised_by = 5.0,
+                                                       .most_damping = 1e8,
+                                                       .most_trials = 60,
+                                                       .least_predicted_gain = 1e-6};
 /// Cost per degree of freedom that noise alone hardly leaves: some hundred of them.
 constexpr double kExplained = 1.5;
 constexpr double kExact = 1e-4;
@@ -65,9 +73,9 @@ std::vector<Group> GroupsOf(const std::vector<GearedLine>& lines, bool torsion) 
 }
 
 /// Residuals of both equations of every line of the group [N].
-Eigen::VectorXd Left(const Group& group, const GearedParameters& p) {
+Eigen::VectorXd Residual(const Group& group, const GearedParameters& p) {
   std::vector<Complex> force;
-  Eigen::VectorXd left(kEquations * static_cast<Index>(group.size()));
+  Eigen::VectorXd residual(kEquations * static_cast<Index>(group.size()));
   for (const GearedLine& line : group) force.push_back(MeshForce(line, p.corrected, p));
   const auto twist = TwistOnLines(group, force, p.corrected.torsion);
   for (std::size_t n = 0; n < group.size(); ++n) {
@@ -84,10 +92,10 @@ Eigen::VectorXd Left(const Group& group, const GearedParameters& p) {
                        line.frequency_rad_per_s * p.mesh_damping_n_s_per_m);
     const Complex sum = both.from_pinion - both.from_gear;
     const Complex teeth = force[n] - mesh * deflection;
-    left.segment<kEquations>(kEquations * static_cast<Index>(n)) =
+    residual.segment<kEquations>(kEquations * static_cast<Index>(n)) =
         Eigen::Vector4d(sum.real(), sum.imag(), teeth.real(), teeth.imag());
   }
-  return left;
+  return residual;
 }
 
 double SigmaOf(const GearedLine& line, std::size_t reading) {
@@ -104,88 +112,83 @@ void Move(Group& group, Index number, double share) {
 
 /// A group's equations in units of their noise, with the lines as they are best explained.
 struct Whitened {
-  Eigen::VectorXd left;
+  Eigen::VectorXd residual;
   Eigen::LLT<Eigen::MatrixXd> noise;
   Group explained;
 };
 
 Whitened Whiten(const Group& group, const GearedParameters& p) {
-  const Eigen::VectorXd left = Left(group, p);
+  const Eigen::VectorXd residual = Residual(group, p);
   const auto numbers = kReadings * static_cast<Index>(group.size());
-  Eigen::MatrixXd by_noise(left.size(), numbers);
+  Eigen::MatrixXd by_noise(residual.size(), numbers);
   for (Index k = 0; k < numbers; ++k) {
     Group moved = group;
     Move(moved, k, 1.0);
-    by_noise.col(k) = Left(moved, p) - left;
+    by_noise.col(k) = Residual(moved, p) - residual;
   }
   Whitened w{{}, Eigen::LLT<Eigen::MatrixXd>(by_noise * by_noise.transpose()), group};
-  const Eigen::VectorXd shift = -by_noise.transpose() * w.noise.solve(left);
+  const Eigen::VectorXd shift = -by_noise.transpose() * w.noise.solve(residual);
   for (Index k = 0; k < numbers; ++k) Move(w.explained, k, shift[k]);
-  w.left = w.noise.matrixL().solve(left);
+  w.residual = w.noise.matrixL().solve(residual);
   return w;
 }
 
-double CostAt(const std::vector<Group>& groups, const JointUnknowns& unknowns,
-              const Eigen::VectorXd& x) {
-  const GearedParameters p = unknowns.At(x);
-  double cost = unknowns.Held(x).squaredNorm();
-  for (const Group& group : groups) cost += Whiten(group, p).left.squaredNorm();
-  return cost;
-}
+/// Every group's equations, and the known numbers that priors hold, as one sum of squares.
+class JointProblem {
+ public:
+  using Iterate = numerics::Iterate<Eigen::VectorXd>;
 
-struct Normal {
-  Eigen::MatrixXd information;
-  Eigen::VectorXd pull;
-  double cost{};
+  JointProblem(const std::vector<Group>& groups, const JointUnknowns& unknowns)
+      : groups_(groups), unknowns_(unknowns) {}
+
+  [[nodiscard]] Iterate At(Eigen::VectorXd x) const {
+    const GearedParameters p = unknowns_.At(x);
+    double cost = unknowns_.Held(x).squaredNorm();
+    for (const Group& group : groups_) cost += Whiten(group, p).residual.squaredNorm();
+    return {std::move(x), cost};
+  }
+  [[nodiscard]] Iterate Step(const Eigen::VectorXd& from, const Eigen::VectorXd& step) const {
+    return At(from + step);
+  }
+  [[nodiscard]] std::optional<numerics::NormalEquations> Linearise(const Iterate& at) const {
+    return EquationsAt(at.point);
+  }
+  [[nodiscard]] numerics::NormalEquations EquationsAt(const Eigen::VectorXd& x) const;
+
+ private:
+  const std::vector<Group>& groups_;
+  const JointUnknowns& unknowns_;
 };
 
-Normal NormalAt(const std::vector<Group>& groups, const JointUnknowns& unknowns,
-                const Eigen::VectorXd& x) {
-  const GearedParameters p = unknowns.At(x);
+numerics::NormalEquations JointProblem::EquationsAt(const Eigen::VectorXd& x) const {
+  const GearedParameters p = unknowns_.At(x);
   std::vector<std::array<GearedParameters, 2>> sides;
   for (Index k = 0; k < x.size(); ++k) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(x.size(), k);
-    sides.push_back({unknowns.At(x + step), unknowns.At(x - step)});
+    sides.push_back({unknowns_.At(x + step), unknowns_.At(x - step)});
   }
-  const Eigen::MatrixXd& hold = unknowns.HeldBy();
-  const Eigen::VectorXd held = unknowns.Held(x);
-  Normal normal{hold.transpose() * hold, hold.transpose() * held, held.squaredNorm()};
-  for (const Group& group : groups) {
+  const Eigen::MatrixXd& hold = unknowns_.HeldBy();
+  numerics::NormalEquations equations{hold.transpose() * hold,
+                                      hold.transpose() * unknowns_.Held(x)};
+  for (const Group& group : groups_) {
     const Whitened w = Whiten(group, p);
-    Eigen::MatrixXd by_unknowns(w.left.size(), x.size());
+    Eigen::MatrixXd by_unknowns(w.residual.size(), x.size());
     for (Index k = 0; k < x.size(); ++k) {
       const auto& [more, less] = sides[static_cast<std::size_t>(k)];
-      by_unknowns.col(k) = (Left(w.explained, more) - Left(w.explained, less)) / (2.0 * kStep);
+      by_unknowns.col(k) =
+          (Residual(w.explained, more) - Residual(w.explained, less)) / (2.0 * kStep);
     }
     const Eigen::MatrixXd jacobian = w.noise.matrixL().solve(by_unknowns);
-    normal.information += jacobian.transpose() * jacobian;
-    normal.pull += jacobian.transpose() * w.left;
-    normal.cost += w.left.squaredNorm();
+    equations.matrix += jacobian.transpose() * jacobian;
+    equations.gradient += jacobian.transpose() * w.residual;
   }
-  return normal;
+  return equations;
 }
 
-/// Levenberg-Marquardt from `x`, in place; returns the values at the last point.
-Normal Descend(const std::vector<Group>& groups, const JointUnknowns& unknowns,
-               Eigen::VectorXd& x) {
-  Normal normal = NormalAt(groups, unknowns, x);
-  double damping = kDampingAtFirst;
-  for (int n = 0; n < kIterations && damping < kMostDamping; ++n) {
-    Eigen::MatrixXd damped = normal.information;
-    damped.diagonal() *= 1.0 + damping;
-    const Eigen::VectorXd next = x - damped.ldlt().solve(normal.pull);
-    const double cost = CostAt(groups, unknowns, next);
-    if (!(cost <= normal.cost)) {
-      damping *= kMoreDamping;
-      continue;
-    }
-    x = next;
-    damping /= kMoreDamping;
-    normal = NormalAt(groups, unknowns, x);
-    // Predicted improvement of a full step; that of a damped one is always small.
-    if (normal.pull.dot(normal.information.ldlt().solve(normal.pull)) < kStandsStill) break;
-  }
-  return normal;
+JointProblem::Iterate Fit(const std::vector<Group>& groups, const JointUnknowns& unknowns,
+                          const Eigen::VectorXd& start) {
+  JointProblem problem(groups, unknowns);
+  return numerics::LevenbergMarquardt(problem, problem.At(start), kOptions).at;
 }
 
 /// What makes the noise kLoud of the rms of all positions.
@@ -217,27 +220,26 @@ void FitJointly(const std::vector<GearedLine>& lines, const GearedKnown& known,
                 GearedParameters& p) {
   const std::vector<Group> groups = GroupsOf(lines, known.torsion.has_value());
   const JointUnknowns unknowns(known, p);
-  Eigen::VectorXd x = unknowns.starts().front();
+  const Index count = unknowns.starts().front().size();
   const auto rows = kEquations * static_cast<Index>(lines.size()) + unknowns.HeldBy().rows();
-  const double freedom = std::max<double>(1.0, static_cast<double>(rows - x.size()));
-  Normal normal;
+  const double freedom = std::max<double>(1.0, static_cast<double>(rows - count));
+  JointProblem::Iterate best{unknowns.starts().front(), std::numeric_limits<double>::infinity()};
   for (const Eigen::VectorXd& start : unknowns.starts()) {
-    Eigen::VectorXd own = start;
+    Eigen::VectorXd x = start;
     // Continuation: with low noise the basin is narrow: start with inflated noise and reduce it.
     for (double factor = LoudestOf(groups); factor > 1.0; factor *= 0.1) {
-      static_cast<void>(Descend(Louder(groups, factor), unknowns, own));
+      x = Fit(Louder(groups, factor), unknowns, x).point;
     }
-    Normal found = Descend(groups, unknowns, own);
-    if (normal.pull.size() == 0 || found.cost < normal.cost) {
-      x = own;
-      normal = found;
-    }
-    if (normal.cost < kExplained * freedom) break;
+    JointProblem::Iterate found = Fit(groups, unknowns, x);
+    if (found.cost < best.cost) best = std::move(found);
+    if (best.cost < kExplained * freedom) break;
   }
-  const double scale = std::sqrt(std::max(1.0, normal.cost / freedom));
-  const Eigen::MatrixXd covariance =
-      normal.information.ldlt().solve(Eigen::MatrixXd::Identity(x.size(), x.size()));
-  unknowns.Take(x, scale * covariance.diagonal().cwiseMax(0.0).cwiseSqrt(), p);
+  const double scale = std::sqrt(std::max(1.0, best.cost / freedom));
+  const Eigen::MatrixXd covariance = JointProblem(groups, unknowns)
+                                         .EquationsAt(best.point)
+                                         .matrix.ldlt()
+                                         .solve(Eigen::MatrixXd::Identity(count, count));
+  unknowns.Take(best.point, scale * covariance.diagonal().cwiseMax(0.0).cwiseSqrt(), p);
 }
 
 }  // namespace levitas::identification

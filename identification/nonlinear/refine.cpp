@@ -3,6 +3,9 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "numerics/levenberg_marquardt.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -11,13 +14,22 @@ using Index = Eigen::Index;
 
 constexpr double kDivergedScales = 1000.0;
 
-/// Sum of squares of the free run, and with `derive` its normal equations.
-struct Normal {
+/// Sum of squares of the free run, and with `derive` its normal equations (lower triangle).
+struct Evaluation {
   double squares{};
   Index count{};
-  Eigen::MatrixXd jtj;
-  Eigen::VectorXd jtr;
+  numerics::NormalEquations equations;
 };
+
+LaggedModel Moved(const LaggedModel& model, const Eigen::VectorXd& step) {
+  LaggedModel moved = model;
+  Index first = 0;
+  for (Eigen::VectorXd& theta : moved.theta) {
+    theta += step.segment(first, theta.size());
+    first += theta.size();
+  }
+  return moved;
+}
 
 class FreeRun {
  public:
@@ -27,13 +39,24 @@ class FreeRun {
         none_(Eigen::MatrixXd::Zero(series.rows(), start.layout.outputs)),
         skip_(std::max(skip, start.layout.Memory())) {}
 
-  [[nodiscard]] Normal Evaluate(const LaggedModel& model, bool derive) const {
+  /// One step of the minimisation, and the normal equations, for numerics::LevenbergMarquardt.
+  [[nodiscard]] numerics::Iterate<LaggedModel> Step(const LaggedModel& from,
+                                                    const Eigen::VectorXd& step) const {
+    LaggedModel moved = Moved(from, step);
+    const double squares = Evaluate(moved, false).squares;
+    return {std::move(moved), squares};
+  }
+  [[nodiscard]] std::optional<numerics::NormalEquations> Linearise(
+      const numerics::Iterate<LaggedModel>& at) const {
+    return Evaluate(at.point, true).equations;
+  }
+
+  [[nodiscard]] Evaluation Evaluate(const LaggedModel& model, bool derive) const {
     const WindowLayout& at = model.layout;
     const Index unknowns = model.unknowns();
-    Normal normal;
+    Evaluation sums;
     if (derive) {
-      normal.jtj = Eigen::MatrixXd::Zero(unknowns, unknowns);
-      normal.jtr = Eigen::VectorXd::Zero(unknowns);
+      sums.equations = {Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns)};
     }
     Eigen::MatrixXd output = measured_;
     Eigen::VectorXd window(at.size());
@@ -45,32 +68,32 @@ class FreeRun {
       FillWindow(model, input_, output, none_, k, window);
       Index first = 0;
       for (Index o = 0; o < at.outputs; ++o) {
-        output(k, o) = Step(model, o, window, derive, k, first, ring, now);
+        output(k, o) = Predict(model, o, window, derive, k, first, ring, now);
         first += model.theta[static_cast<std::size_t>(o)].size();
       }
       if (!(output.row(k).cwiseAbs().maxCoeff() < kDivergedScales)) {
-        normal.squares = std::numeric_limits<double>::infinity();
-        return normal;
+        sums.squares = std::numeric_limits<double>::infinity();
+        return sums;
       }
       if (derive) ring[static_cast<std::size_t>(k % at.output_lags)] = now;
       if (k < skip_) continue;
       for (Index o = 0; o < at.outputs; ++o) {
         const double residual = measured_(k, o) - output(k, o);
-        normal.squares += residual * residual;
-        ++normal.count;
+        sums.squares += residual * residual;
+        ++sums.count;
         if (!derive) continue;
-        normal.jtj.selfadjointView<Eigen::Lower>().rankUpdate(now.col(o));
-        normal.jtr += residual * now.col(o);
+        sums.equations.matrix.selfadjointView<Eigen::Lower>().rankUpdate(now.col(o));
+        sums.equations.gradient -= residual * now.col(o);
       }
     }
-    return normal;
+    return sums;
   }
 
  private:
   /// Prediction of one output; with `derive` its sensitivities go into a column of `now`.
-  static double Step(const LaggedModel& model, Index o, const Eigen::VectorXd& window, bool derive,
-                     Index k, Index first, const std::vector<Eigen::MatrixXd>& ring,
-                     Eigen::MatrixXd& now) {
+  static double Predict(const LaggedModel& model, Index o, const Eigen::VectorXd& window,
+                        bool derive, Index k, Index first, const std::vector<Eigen::MatrixXd>& ring,
+                        Eigen::MatrixXd& now) {
     const WindowLayout& at = model.layout;
     const auto& features = model.features[static_cast<std::size_t>(o)];
     const Eigen::VectorXd& theta = model.theta[static_cast<std::size_t>(o)];
@@ -99,53 +122,25 @@ class FreeRun {
   Index skip_;
 };
 
-LaggedModel Moved(const LaggedModel& model, const Eigen::VectorXd& step) {
-  LaggedModel moved = model;
-  Index first = 0;
-  for (Eigen::VectorXd& theta : moved.theta) {
-    theta += step.segment(first, theta.size());
-    first += theta.size();
-  }
-  return moved;
-}
-
 }  // namespace
 
 Refinement RefineFreeRun(const LaggedModel& start, const Series& series,
                          const RefineOptions& options) {
-  const FreeRun run(series, start, options.skip);
-  Refinement result{start, 0.0, 0.0, {}, 0, false};
-  Normal at = run.Evaluate(start, true);
-  const auto rms = [](const Normal& n) {
-    return std::sqrt(n.squares / std::max(1.0, static_cast<double>(n.count)));
+  FreeRun run(series, start, options.skip);
+  const auto rms = [](const Evaluation& sums) {
+    return std::sqrt(sums.squares / std::max(1.0, static_cast<double>(sums.count)));
   };
-  result.rms_before = rms(at);
-  double damping = 1e-3;
-  while (std::isfinite(at.squares) && result.iterations < options.most_iterations &&
-         damping < 1e12) {
-    Eigen::MatrixXd system = at.jtj.selfadjointView<Eigen::Lower>();
-    system.diagonal() *= 1.0 + damping;
-    const LaggedModel trial = Moved(result.model, system.ldlt().solve(at.jtr));
-    const double squares = run.Evaluate(trial, false).squares;
-    if (!(squares < at.squares)) {
-      damping *= 10.0;
-      continue;
-    }
-    const double gain = 1.0 - squares / at.squares;
-    result.model = trial;
-    ++result.iterations;
-    at = run.Evaluate(trial, true);
-    damping *= 0.1;
-    if (gain < options.least_gain) {
-      result.converged = true;
-      break;
-    }
-  }
+  const Evaluation before = run.Evaluate(start, false);
+  auto found = numerics::LevenbergMarquardt(
+      run, numerics::Iterate<LaggedModel>{start, before.squares},
+      {.most_steps = options.most_iterations, .least_relative_gain = options.least_gain});
+  const Evaluation after = run.Evaluate(found.at.point, true);
+  Refinement result{std::move(found.at.point), rms(before), rms(after), {}, found.steps, false};
   // No step helps at any damping: that is an optimum too.
-  if (std::isfinite(at.squares) && damping >= 1e12) result.converged = true;
-  result.rms_after = rms(at);
-  if (std::isfinite(at.squares)) {
-    const Eigen::MatrixXd full = at.jtj.selfadjointView<Eigen::Lower>();
+  result.converged = found.end == numerics::SearchEnd::kConverged ||
+                     found.end == numerics::SearchEnd::kNoStepHelps;
+  if (std::isfinite(after.squares)) {
+    const Eigen::MatrixXd full = after.equations.matrix.selfadjointView<Eigen::Lower>();
     const Index n = full.rows();
     const Eigen::MatrixXd covariance = full.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
     result.deviation = covariance.diagonal().cwiseMax(0.0).cwiseSqrt() * result.rms_after;

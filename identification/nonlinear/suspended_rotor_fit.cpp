@@ -2,12 +2,15 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "common/problem.hpp"
+#include "numerics/levenberg_marquardt.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -48,10 +51,19 @@ void ForEachUnknown(SuspendedRotor& model, const SuspendedRotor& start, Free fre
   }
 }
 
-class FreeRunFit {
+/// A model and its free run over the judged rows, in one column; empty when the run diverges.
+struct ModelRun {
+  SuspendedRotor model;
+  Eigen::VectorXd readings;
+};
+
+/// The free run's squared error over the numbers of a model, for numerics::LevenbergMarquardt.
+class FreeRunError {
  public:
-  FreeRunFit(const SuspendedRotor& start, const Series& series, const LoopAtRest& at_rest,
-             Index skip, Free free)
+  using Iterate = numerics::Iterate<ModelRun>;
+
+  FreeRunError(const SuspendedRotor& start, const Series& series, const LoopAtRest& at_rest,
+               Index skip, Free free)
       : start_(start),
         rows_(series.rows()),
         judged_(series.rows() - skip),
@@ -60,71 +72,51 @@ class FreeRunFit {
         measured_(series.output.bottomRows(judged_).reshaped()) {
     SuspendedRotor count = start;
     ForEachUnknown(count, start, free, [&](double&, double) { ++unknowns_; });
-    Accept(start, Readings(start));
   }
 
-  [[nodiscard]] bool runs() const noexcept { return readings_.size() > 0; }
-  [[nodiscard]] const SuspendedRotor& model() const noexcept { return model_; }
   [[nodiscard]] Index unknowns() const noexcept { return unknowns_; }
-  [[nodiscard]] double rms_m() const noexcept {
-    return std::sqrt(squares_ / static_cast<double>(measured_.size()));
+  [[nodiscard]] double RmsM(const Iterate& at) const noexcept {
+    return std::sqrt(at.cost / static_cast<double>(measured_.size()));
   }
-
-  /// One step of Levenberg-Marquardt; the share of the squares it took away, 0 when none helps.
-  double Step() {
+  [[nodiscard]] Iterate At(SuspendedRotor model) const {
+    Eigen::VectorXd readings = Readings(model);
+    const double squares = readings.size() == 0 ? std::numeric_limits<double>::infinity()
+                                                : (measured_ - readings).squaredNorm();
+    return {{std::move(model), std::move(readings)}, squares};
+  }
+  [[nodiscard]] Iterate Step(const ModelRun& from, const Eigen::VectorXd& step) const {
+    return At(Moved(from.model, step));
+  }
+  /// By forward differences; nothing when a neighbour diverges.
+  [[nodiscard]] std::optional<numerics::NormalEquations> Linearise(const Iterate& at) const {
     Eigen::MatrixXd jacobian(measured_.size(), unknowns_);
-    if (!Differentiate(jacobian)) return 0.0;
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
-    const Eigen::VectorXd right = jacobian.transpose() * (measured_ - readings_);
-    constexpr double kMost = 1e8;
-    constexpr double kLeast = 1e-9;
-    for (; damping_ < kMost; damping_ *= 10.0) {
-      Eigen::MatrixXd system = normal.selfadjointView<Eigen::Lower>();
-      system.diagonal() *= 1.0 + damping_;
-      const SuspendedRotor trial = Moved(system.ldlt().solve(right));
-      const double before = squares_;
-      if (!Accept(trial, Readings(trial))) continue;
-      damping_ = std::max(kLeast, 0.1 * damping_);
-      return 1.0 - squares_ / before;
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(unknowns_);
+    for (Index n = 0; n < unknowns_; ++n) {
+      step[n] = kDifference;
+      const Eigen::VectorXd neighbour = Readings(Moved(at.point.model, step));
+      if (neighbour.size() == 0) return std::nullopt;
+      jacobian.col(n) = (neighbour - at.point.readings) / kDifference;
+      step[n] = 0.0;
     }
-    return 0.0;
+    numerics::NormalEquations equations{Eigen::MatrixXd::Zero(unknowns_, unknowns_),
+                                        jacobian.transpose() * (at.point.readings - measured_)};
+    equations.matrix.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
+    return equations;
   }
 
  private:
-  [[nodiscard]] SuspendedRotor Moved(const Eigen::VectorXd& step) const {
-    SuspendedRotor moved = model_;
+  [[nodiscard]] SuspendedRotor Moved(const SuspendedRotor& from,
+                                     const Eigen::VectorXd& step) const {
+    SuspendedRotor moved = from;
     Index n = 0;
     ForEachUnknown(moved, start_, free_,
                    [&](double& value, double scale) { value += scale * step[n++]; });
     return moved;
   }
-  /// Of the judged rows, in one column; empty when the run diverges.
   [[nodiscard]] Eigen::VectorXd Readings(const SuspendedRotor& model) const {
     const Prediction run = RunFree(model, rows_, at_rest_());
     if (run.diverged_at) return {};
     return run.output.bottomRows(judged_).reshaped();
-  }
-  bool Accept(const SuspendedRotor& model, Eigen::VectorXd readings) {
-    if (readings.size() == 0) return false;
-    const double squares = (measured_ - readings).squaredNorm();
-    if (runs() && !(squares < squares_)) return false;
-    model_ = model;
-    readings_ = std::move(readings);
-    squares_ = squares;
-    return true;
-  }
-  /// False when a neighbour diverges.
-  bool Differentiate(Eigen::MatrixXd& jacobian) const {
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(unknowns_);
-    for (Index n = 0; n < unknowns_; ++n) {
-      step[n] = kDifference;
-      const Eigen::VectorXd beside = Readings(Moved(step));
-      if (beside.size() == 0) return false;
-      jacobian.col(n) = (beside - readings_) / kDifference;
-      step[n] = 0.0;
-    }
-    return true;
   }
 
   SuspendedRotor start_;
@@ -133,11 +125,17 @@ class FreeRunFit {
   Free free_;
   Eigen::VectorXd measured_;
   Index unknowns_{};
-  SuspendedRotor model_;
-  Eigen::VectorXd readings_;
-  double squares_{};
-  double damping_{1e-4};
 };
+
+/// The damping starts low because forces and gaps come from a design; below its least value a step is
+/// Gauss-Newton's to nine digits, and beyond its greatest value no step moves the model any more.
+numerics::LevenbergMarquardtOptions Options(int most_steps, double least_relative_gain) {
+  return {.first_damping = 1e-4,
+          .least_damping = 1e-9,
+          .most_damping = 1e8,
+          .most_steps = most_steps,
+          .least_relative_gain = least_relative_gain};
+}
 
 /// The start with all forces times what fits best.
 SuspendedRotor Scaled(const SuspendedRotor& start, const Series& series, const LoopAtRest& at_rest,
@@ -149,9 +147,10 @@ SuspendedRotor Scaled(const SuspendedRotor& start, const Series& series, const L
     for (auto& plane : trial.plane) {
       for (RotorMode& mode : plane) mode.in *= factor;
     }
-    const FreeRunFit fit(trial, series, at_rest, skip, Free::kForces);
-    if (!fit.runs() || !(fit.rms_m() < least_m)) continue;
-    least_m = fit.rms_m();
+    const FreeRunError error(trial, series, at_rest, skip, Free::kForces);
+    const double rms_m = error.RmsM(error.At(trial));
+    if (!(rms_m < least_m)) continue;
+    least_m = rms_m;
     best = trial;
   }
   if (!std::isfinite(least_m)) {
@@ -176,24 +175,25 @@ SuspendedRotorFit FitSuspendedRotor(const SuspendedRotor& start, const Series& s
   const auto head = static_cast<std::size_t>(std::min(series.rows(), kFirstRows));
   const Series first = Slice(series, {0, head});
   const Index skip = std::min(options.skip, static_cast<Index>(head) / 2);
-  FreeRunFit forces(Scaled(start, first, at_rest, skip), first, at_rest, skip, Free::kForces);
-  for (int n = 0; n < kMostOfForces && forces.Step() > kEnoughOfForces; ++n) {
-  }
-  const SuspendedRotor from = forces.model();
-  FreeRunFit all(from, series, at_rest, options.skip, Free::kAll);
+  const SuspendedRotor scaled = Scaled(start, first, at_rest, skip);
+  FreeRunError forces(scaled, first, at_rest, skip, Free::kForces);
+  const SuspendedRotor from = numerics::LevenbergMarquardt(forces, forces.At(scaled),
+                                                           Options(kMostOfForces, kEnoughOfForces))
+                                  .at.point.model;
+  FreeRunError all(from, series, at_rest, options.skip, Free::kAll);
   const RowRange judged{static_cast<std::size_t>(options.skip),
                         static_cast<std::size_t>(series.rows())};
   RefuseUnfit(Slice(series, judged), static_cast<std::size_t>(all.unknowns()));
-  SuspendedRotorFit fit{start, all.rms_m(), 0.0, all.unknowns(), 0};
-  if (!all.runs()) {
+  auto begin = all.At(from);
+  SuspendedRotorFit fit{start, all.RmsM(begin), 0.0, all.unknowns(), 0};
+  if (!std::isfinite(begin.cost)) {
     throw BadInput("the model that fits the first rows does not run free through all of them");
   }
-  while (fit.iterations < options.most_iterations) {
-    ++fit.iterations;
-    if (all.Step() < options.least_gain) break;
-  }
-  fit.model = all.model();
-  fit.rms_after_m = all.rms_m();
+  const auto found = numerics::LevenbergMarquardt(
+      all, std::move(begin), Options(options.most_iterations, options.least_gain));
+  fit.iterations = found.steps;
+  fit.model = found.at.point.model;
+  fit.rms_after_m = all.RmsM(found.at);
   return fit;
 }
 
