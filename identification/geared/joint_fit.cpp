@@ -20,8 +20,8 @@ using Index = Eigen::Index;
 using Kind = GearedLine::Kind;
 
 constexpr double kLoud = 0.01;
-/// The normal equations cost as much as a dozen runs of the model: damping moves in small steps, and
-/// the search ends where an undamped step would gain a millionth of a noise variance.
+/// The normal equations cost as much as a dozen evaluations: damping moves in small steps, and the
+/// search ends where an undamped step would gain a millionth of a noise variance.
 constexpr numerics::LevenbergMarquardtOptions kOptions{.first_damping = 1e-3,
                                                        .lowered_by = 0.2,
                                                        .raised_by = 5.0,

@@ -127,8 +127,8 @@ class FreeRunError {
   Index unknowns_{};
 };
 
-/// The damping starts low because forces and gaps come from a design; below its least value a step is
-/// Gauss-Newton's to nine digits, and beyond its greatest value no step moves the model any more.
+/// The damping starts low because forces and gaps come from a design. At its least value a step is
+/// Gauss-Newton's to nine digits; at its greatest value a step no longer moves the model.
 numerics::LevenbergMarquardtOptions Options(int most_steps, double least_relative_gain) {
   return {.first_damping = 1e-4,
           .least_damping = 1e-9,
