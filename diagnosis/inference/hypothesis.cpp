@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace levitas::diagnosis {
 namespace {
@@ -15,11 +16,18 @@ class Maker {
   Maker(const RigView& rig, const std::vector<Term>& terms) : rig_(rig), terms_(terms) {}
 
   std::vector<Hypothesis> Make() {
-    std::map<std::string, Indices> effects;
+    std::map<std::pair<std::string, std::string>, Indices> forms;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (!terms_[i].effect.empty()) effects[terms_[i].effect].push_back(i);
+      if (!terms_[i].effect.empty()) forms[{terms_[i].effect, terms_[i].form}].push_back(i);
     }
-    for (const auto& [effect, indices] : effects) AddEffect(effect, indices);
+    for (const auto& [form, indices] : forms) {
+      const std::size_t first = out_.size();
+      AddEffect(form.first, indices);
+      // Places name a hypothesis among those of its effect.
+      for (std::size_t h = first; h < out_.size() && !form.second.empty(); ++h) {
+        out_[h].place += ", " + form.second;
+      }
+    }
     std::map<std::string, double> places;
     for (const Hypothesis& h : out_) places[h.effect] += 1.0;
     for (Hypothesis& h : out_) h.log_prior = -std::log(places[h.effect]);

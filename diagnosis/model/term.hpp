@@ -60,6 +60,8 @@ struct Term {
   std::string place;   ///< "de_x", "mode 3", "order 2, nde_y"
   std::string parameter;
   std::string unit;
+  /// Of a law whose forms exclude each other, one that is not the usual: hypotheses hold one form.
+  std::string form;
   double healthy_mean{};   ///< prior mean, as healthy records have shown it; 0 without them
   double tolerance{};      ///< prior std of theta on a healthy rig; 0: not a nuisance
   double faulty_std{1.0};  ///< prior std of theta when the effect is present

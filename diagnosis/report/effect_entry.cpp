@@ -69,8 +69,11 @@ EntryValues MagnetEntry(const RigView& rig, Id id, const PlacedEffect& g) {
             Number("width_a", g.Number() * bias_a * std::max(0.0, g.At("share")))};
   }
   if (id == Id::kEddyCurrent) {
-    const double root = std::max(0.0, g.At("sqrt(tau_s)"));
-    return {Channel(g.place), Number("tau_us", 1e6 * root * root)};
+    const bool current_alone = g.theta.count(kRootTauOfCurrent) > 0;
+    const double root = std::max(0.0, g.At(current_alone ? kRootTauOfCurrent : kRootTau));
+    EntryValues values{Channel(g.place), Number("tau_us", 1e6 * root * root)};
+    if (current_alone) values.push_back(Number("displacement_share", 0.0));
+    return values;
   }
   if (id == Id::kAxisRotation) {
     return {Words("bearing", g.After(" ")), Words("of", g.place.substr(0, g.place.find(' '))),

@@ -1,6 +1,7 @@
 // Magnets with memory: eddy currents and hysteresis.
 //
-// Eddy       F = ki ic/(1 + sqrt(s tau)). The half-order lag as a sum of first-order ones: its jump
+// Eddy       F = (ki ic + ks x)/(1 + sqrt(s tau)): ic + (ks/ki) x drives the lag, or ic alone in a
+//            second form. The half-order lag as a sum of first-order ones: its jump
 //            across the negative real axis gives 1/(1 + sqrt s) = int w(x) x/(s + x) dln x,
 //            w = sqrt(x)/(pi (1 + x)) (spectral representation of Cole-Cole relaxation), sampled
 //            at half decades.
@@ -38,7 +39,7 @@ class HalfOrderLag {
     for (double& weight : weight_) weight /= sum;
   }
 
-  /// Mean of lagged minus unlagged current over a period with `start` -> `end`, held at its middle.
+  /// Mean of lagged minus unlagged input over a period, held at its middle value `mid_a`.
   double Step(double mid_a) {
     double lagging = 0.0;
     for (std::size_t k = 0; k < kSections; ++k) {
@@ -53,6 +54,13 @@ class HalfOrderLag {
   double root_tau_{-1.0};
   std::array<double, kSections> weight_{}, decay_{}, mean_{}, state_{};
 };
+
+/// [A/m] ks/ki: the control current that makes as much force as a displacement.
+double CurrentPerDisplacement(const RigView& rig, std::size_t axis) {
+  const magnet::Magnet& magnet = rig.magnet(axis).magnet;
+  return magnet::NegativeStiffness(magnet, rig.bias_a(axis)) /
+         magnet::ForcePerCurrent(magnet, rig.bias_a(axis));
+}
 
 Term Hysteresis(const RigView& rig, double width_share) {
   Term term = MakeTerm({"hysteresis", fmt::format("width {:.4g} i0", width_share), "share", "1"},
@@ -79,25 +87,34 @@ Term Hysteresis(const RigView& rig, double width_share) {
   return term;
 }
 
+/// `a_per_m`: current whose lag is that of a displacement; 0 where the current alone lags.
+Term Eddy(const RigView& rig, std::size_t axis, double a_per_m) {
+  Term eddy = MakeTerm({"eddy_current", rig.numbers.channels[axis], kRootTau, "s^0.5"}, 0.0, 5e-3,
+                       nullptr);  // tau 25 us
+  eddy.step = 3e-3;
+  eddy.linear = false;
+  eddy.positive = true;
+  eddy.drive = [&rig, axis, a_per_m, period_s = rig.period_s, lag = HalfOrderLag()](
+                   const SamplePoint& m, double theta, Contribution& add) mutable {
+    if (theta <= 0.0) return;
+    lag.Tune(theta, period_s);
+    if (m.restarted) lag = HalfOrderLag(), lag.Tune(theta, period_s);
+    const double behind_a = lag.Step(static_cast<double>(m.coil_mean_a[axis]) +
+                                     a_per_m * static_cast<double>(m.actuator_m[axis]));
+    add.force_n[axis] += ForceOfCurrent(rig, m, axis, behind_a);
+  };
+  return eddy;
+}
+
 }  // namespace
 
 std::vector<Term> MagnetMemoryTerms(const RigView& rig) {
   std::vector<Term> terms;
   for (std::size_t a = 0; a < rig.axes; ++a) {
-    Term eddy = MakeTerm({"eddy_current", rig.numbers.channels[a], "sqrt(tau_s)", "s^0.5"}, 0.0,
-                         5e-3, nullptr);  // tau 25 us
-    eddy.step = 3e-3;
-    eddy.linear = false;
-    eddy.positive = true;
-    eddy.drive = [&rig, a, period_s = rig.period_s, lag = HalfOrderLag()](
-                     const SamplePoint& m, double theta, Contribution& add) mutable {
-      if (theta <= 0.0) return;
-      lag.Tune(theta, period_s);
-      if (m.restarted) lag = HalfOrderLag(), lag.Tune(theta, period_s);
-      const double behind_a = lag.Step(static_cast<double>(m.coil_mean_a[a]));
-      add.force_n[a] += ForceOfCurrent(rig, m, a, behind_a);
-    };
-    terms.push_back(std::move(eddy));
+    terms.push_back(Eddy(rig, a, CurrentPerDisplacement(rig, a)));
+    terms.push_back(Eddy(rig, a, 0.0));
+    terms.back().parameter = kRootTauOfCurrent;
+    terms.back().form = "current alone";
   }
   for (const double width_share : {0.01, 0.03, 0.1}) terms.push_back(Hysteresis(rig, width_share));
   return terms;

@@ -18,6 +18,10 @@ namespace levitas::diagnosis {
 
 using config::Tolerances;
 
+/// Parameters of `eddy_current`: the whole force lags, or that of the current alone.
+inline constexpr const char* kRootTau = "sqrt(tau_s)";
+inline constexpr const char* kRootTauOfCurrent = "sqrt(tau_s) of the current";
+
 /// [N] what a current beside that of the model changes at the magnet of an axis. Not its slope
 /// times the current: a current that follows noise moves by tenths of the bias, and the square of
 /// that does not average out.

@@ -1,14 +1,18 @@
 #pragma once
 // Eddy currents: the flux of a solid or thick-laminated core lags the current by diffusion.
 //
-// Equation   F = ki ic/(1 + sqrt(s tau)). The transfer function is a Stieltjes function,
+// Equation   F = (ki ic + ks x)/(1 + sqrt(s tau)) about the bias: current and displacement make the
+//            flux as one, so both lag. A lag of the negative stiffness works as damping. A magnet
+//            whose current alone is delayed lags a share of 0 of ks x.
+//            The transfer function is a Stieltjes function,
 //              1/(1 + sqrt p) = (1/pi) integral over x > 0 of sqrt(x)/((1 + x)(x + p)) dx,
 //            so the trapezoid rule in ln x turns it into parallel first-order lags with positive
 //            gains: passive, monotone, and smooth in tau. docs/effects.md.
 // Accuracy   0.6 % for 2 pi f tau up to 10 (5 % at 100); static gain exact.
 // Source     Zhu, Knospe & Maslen (2005), IEEE Trans. Magnetics 41(4) 1248.
-// States     kEddyLags per axis [A]: the control current after each lag.
-// Thread     any; pure. Not done: lag of the bias, and of the stiffness ks.
+// States     kEddyLags per axis [A]: ic + (ks/ki) x after each lag.
+// Thread     any; pure. Not done: lag of the bias, and of the force's products of current and
+//            displacement.
 
 #include <array>
 #include <cstddef>

@@ -22,8 +22,12 @@ constexpr std::array kHysteresis{
     Parameter{"shape", "", "", 0.0, 2.0, 1.0, 1.0, Scaling::kFixed, 1.0,
               "0 = play (a parallelogram), 1 = exponential approach", false}};
 
-constexpr std::array kEddy{Parameter{"tau", "s", "us", 0.0, 0.1, 50e-6, 0.0, Scaling::kLinear,
-                                     std::nullopt, "diffusion time of the flux", false}};
+constexpr std::array kEddy{
+    Parameter{"tau", "s", "us", 0.0, 0.1, 50e-6, 0.0, Scaling::kLinear, std::nullopt,
+              "diffusion time of the flux", false},
+    Parameter{"displacement_share", "", "", 0.0, 1.0, 1.0, 1.0, Scaling::kFixed, 1.0,
+              "of the force of displacement that lags too: 0 where only the current is delayed",
+              false}};
 
 constexpr std::array kRotation{Parameter{"angle", "rad", "deg", -45.0 * kDegree, 45.0 * kDegree,
                                          5.0 * kDegree, 0.0, Scaling::kLinear, std::nullopt,
@@ -85,9 +89,10 @@ constexpr std::array kRows{
         "play for shape 0: Krasnosel'skii & Pokrovskii 1989",
         Facts{.shows_in = Shows::kForce, .modes = Modes::kOnTheLoop}},
     Row{Id::kEddyCurrent, "eddy_current", Place::kMagnet, Scope::kChannels, kEddy,
-        "the flux lags the current by a diffusion law of half order",
-        "F = ki ic/(1 + sqrt(s tau)) + ks x",
-        "gain falls by 10 dB per decade and phase tends to -45 degrees; static gain unchanged",
+        "the flux lags current and displacement by a diffusion law of half order",
+        "F = (ki ic + share ks x)/(1 + sqrt(s tau)) + (1 - share) ks x",
+        "gain falls by 10 dB per decade and phase tends to -45 degrees; static force unchanged; "
+        "the lag of ks x adds damping",
         "Zhu, Knospe & Maslen 2005, IEEE Trans. Magnetics 41(4) 1248",
         Facts{.needs_excitation = true, .shows_in = Shows::kResponse, .modes = Modes::kOnTheLoop}},
     Row{Id::kMagneticCoupling, "magnetic_coupling", Place::kMagnet, Scope::kBearing, kCoupling,

@@ -35,6 +35,16 @@ Eigen::RowVectorXd Seen(const PlantModel& model, std::size_t bearing, int plane,
   return row;
 }
 
+/// Displacement along an axis of the magnet, which may be turned.
+Eigen::RowVectorXd InMagnetAxis(const PlantModel& model, std::size_t axis, Index states) {
+  const std::size_t bearing = axis / 2;
+  const BearingEffects& effects = model.effects().bearings[bearing];
+  const double sine = axis % 2 == 0 ? effects.sine : -effects.sine;
+  const int own = static_cast<int>(axis % 2);
+  return effects.cosine * SeenByMagnet(model, bearing, own, states) +
+         sine * SeenByMagnet(model, bearing, 1 - own, states);
+}
+
 void AddHousing(const BearingEffects& effects, Eigen::MatrixXd& a) {
   if (effects.housing_state == kNoState) return;
   const double w = effects.housing_rad_per_s;
@@ -99,11 +109,18 @@ Eigen::RowVectorXd Flux(const PlantModel& model, std::size_t axis, Eigen::Matrix
   if (magnet.eddy_state == kNoState) return row;
   const effect::EddyLags& eddy = effect::Eddy();
   const bool lags = magnet.eddy_tau_s > 0.0;
-  if (lags) row[coil] = eddy.direct;
+  // ic + (ks/ki) x lags as one; the displacement's own force is added without a lag elsewhere.
+  Eigen::RowVectorXd displacement = Eigen::RowVectorXd::Zero(a.cols());
+  if (lags) {
+    displacement = magnet.eddy_a_per_m * InMagnetAxis(model, axis, a.cols());
+    row[coil] = eddy.direct;
+    row += (eddy.direct - 1.0) * displacement;
+  }
   for (std::size_t k = 0; k < effect::kEddyLags; ++k) {
     const Index state = At(magnet.eddy_state + k);
     const double rate = std::min(eddy.rate[k] / magnet.eddy_tau_s, kFastestLagPerSecond);
     a(state, state) = -rate;
+    a.row(state) += rate * displacement;
     a(state, coil) = rate;
     if (lags) row[state] = eddy.gain[k];
   }

@@ -69,6 +69,7 @@ void Plant::PlaceAtRest(const AxisArray& actuator_position_m) noexcept {
   std::fill(self.state.begin(), self.state.end(), 0.0);
   PlaceRigidly(*self.model, actuator_position_m, self.state);
   self.Energise(true);
+  self.SettleMemory();
   self.SettleSensors();
 }
 
@@ -77,6 +78,7 @@ void Plant::RestInTouchdown() noexcept {
   std::fill(self.state.begin(), self.state.end(), 0.0);
   PlaceInTouchdown(*self.model, self.state);
   self.Energise(false);
+  self.SettleMemory();
   self.SettleSensors();
 }
 
@@ -124,7 +126,10 @@ AxisArray Plant::MagnetForce() const noexcept {
   const PlantModel& model = *impl_->model;
   const EffectModel& effects = model.effects();
   Currents now = impl_->CurrentsNow();
-  if (effects.memory) now.control_a = Magnetising(effects, now.control_a, impl_->state.data());
+  if (effects.memory) {
+    now.control_a = Magnetising(effects, {now.control_a, SeenByMagnets(effects, position_m)},
+                                impl_->state.data());
+  }
   AxisArray force_n{};
   for (std::size_t axis = 0; axis < model.axes(); axis += 2) {
     const BearingModel& bearing = model.bearings()[axis / 2];

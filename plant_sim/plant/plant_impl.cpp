@@ -178,13 +178,38 @@ void Plant::Impl::Integrate(const StepTable& table, const CoilCommand& coils,
   }
 }
 
+AxisArray Plant::Impl::PositionInMagnets(double ahead_s) const noexcept {
+  const StateLayout& at = model->layout();
+  AxisArray position_m{};
+  AxisArray rate_m_per_s{};
+  for (std::size_t axis = 0; axis < model->axes(); axis += 2) {
+    const std::vector<double>& shape = model->bearings()[axis / 2].actuator_shape;
+    AtPlanes(*model, shape, state.data() + at.q_x, position_m[axis], position_m[axis + 1]);
+    AtPlanes(*model, shape, state.data() + at.v_x, rate_m_per_s[axis], rate_m_per_s[axis + 1]);
+  }
+  if (model->effects().housings) {
+    Housings housings;
+    LoadHousings(housings);
+    for (std::size_t axis = 0; axis < model->axes(); ++axis) {
+      position_m[axis] -= housings.position_m[axis];
+      rate_m_per_s[axis] -= housings.velocity_m_per_s[axis];
+    }
+  }
+  for (std::size_t axis = 0; axis < model->axes(); ++axis) {
+    position_m[axis] += ahead_s * rate_m_per_s[axis];
+  }
+  return SeenByMagnets(model->effects(), position_m);
+}
+
 void Plant::Impl::Remember(const StepTable& table, Currents& start, Currents& end) noexcept {
   const EffectModel& effects = model->effects();
-  const AxisArray before_a = start.control_a;
-  const AxisArray after_a = end.control_a;
-  start.control_a = Magnetising(effects, before_a, state.data());
-  AdvanceMemory(effects, table, before_a, after_a, state.data());
-  end.control_a = Magnetising(effects, after_a, state.data());
+  // The rotor has not moved yet: its place at the end is that of an even motion, off by the square
+  // of the substep, which is the order of the rotor's own step.
+  const MagnetInput before{start.control_a, PositionInMagnets(0.0)};
+  const MagnetInput after{end.control_a, PositionInMagnets(table.duration_s)};
+  start.control_a = Magnetising(effects, before, state.data());
+  AdvanceMemory(effects, table, before, after, state.data());
+  end.control_a = Magnetising(effects, after, state.data());
 }
 
 void Plant::Impl::LoadHousings(Housings& housings) const noexcept {
@@ -203,6 +228,12 @@ void Plant::Impl::StoreHousings(const Housings& housings) noexcept {
     state[at + axis % 2] = housings.position_m[axis];
     state[at + 2 + axis % 2] = housings.velocity_m_per_s[axis];
   }
+}
+
+void Plant::Impl::SettleMemory() noexcept {
+  const EffectModel& effects = model->effects();
+  if (!effects.memory) return;
+  plant::SettleMemory(effects, {CurrentsNow().control_a, PositionInMagnets(0.0)}, state.data());
 }
 
 void Plant::Impl::SettleSensors() noexcept {

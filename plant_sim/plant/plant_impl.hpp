@@ -102,6 +102,9 @@ struct Plant::Impl {
   void Integrate(const StepTable& table, const CoilCommand& coils,
                  const PlantCommand& command) noexcept;
 
+  // Displacement in the axes of the magnets, after an even motion of `ahead_s`.
+  [[nodiscard]] AxisArray PositionInMagnets(double ahead_s) const noexcept;
+
   // From the currents in the coils to those that make flux, at both ends of a substep.
   void Remember(const StepTable& table, Currents& start, Currents& end) noexcept;
 
@@ -109,6 +112,8 @@ struct Plant::Impl {
 
   void StoreHousings(const Housings& housings) noexcept;
 
+  // Eddy currents and sensor filters that have seen the present place for long.
+  void SettleMemory() noexcept;
   void SettleSensors() noexcept;
 
   // Sensor outputs without noise, polarity not yet applied.

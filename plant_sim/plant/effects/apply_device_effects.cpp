@@ -49,6 +49,10 @@ void ApplyToAxis(const BearingConfig& bearing, Id id, const Values& values,
       break;
     case Id::kEddyCurrent:
       magnet.eddy_tau_s = values[0];
+      magnet.eddy_a_per_m =
+          values[1] *
+          magnet::NegativeStiffness(MagnetOf(bearing.magnet), bearing.magnet.bias_current_a) /
+          magnet::ForcePerCurrent(MagnetOf(bearing.magnet), bearing.magnet.bias_current_a);
       break;
     default:
       break;

@@ -31,6 +31,7 @@ struct MagnetEffects {
   double hysteresis_width_a{};
   double hysteresis_shape{};
   double eddy_tau_s{};
+  double eddy_a_per_m{};  ///< share of ks/ki: the current whose lag is that of 1 m
   std::size_t hysteresis_state{kNoState};
   std::size_t eddy_state{kNoState};
 };

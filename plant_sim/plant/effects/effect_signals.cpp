@@ -1,5 +1,6 @@
 #include "plant_sim/plant/effects/effect_signals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,9 +11,17 @@
 namespace levitas::plant {
 namespace {
 
-double Lagged(const MagnetEffects& magnet, double control_a, const double* state) noexcept {
-  if (magnet.eddy_state == kNoState || magnet.eddy_tau_s <= 0.0) return control_a;
-  return effect::EddyOutput(control_a, state + magnet.eddy_state);
+bool HasLag(const MagnetEffects& magnet) noexcept {
+  return magnet.eddy_state != kNoState && magnet.eddy_tau_s > 0.0;
+}
+
+// Current and displacement make flux as one, ic + (ks/ki) x, and lag as one; the force law adds the
+// displacement without a lag, so its share is taken off again.
+double Lagged(const MagnetEffects& magnet, double control_a, double displacement_m,
+              const double* state) noexcept {
+  if (!HasLag(magnet)) return control_a;
+  const double displacement_a = magnet.eddy_a_per_m * displacement_m;
+  return effect::EddyOutput(control_a + displacement_a, state + magnet.eddy_state) - displacement_a;
 }
 
 bool HasLoop(const MagnetEffects& magnet) noexcept {
@@ -21,12 +30,23 @@ bool HasLoop(const MagnetEffects& magnet) noexcept {
 
 }  // namespace
 
-AxisArray Magnetising(const EffectModel& effects, const AxisArray& control_a,
+AxisArray SeenByMagnets(const EffectModel& effects, const AxisArray& position_m) noexcept {
+  AxisArray seen_m = position_m;
+  for (std::size_t b = 0; b < effects.bearings.size(); ++b) {
+    const double c = effects.bearings[b].cosine;
+    const double s = effects.bearings[b].sine;
+    seen_m[2 * b] = c * position_m[2 * b] + s * position_m[2 * b + 1];
+    seen_m[2 * b + 1] = c * position_m[2 * b + 1] - s * position_m[2 * b];
+  }
+  return seen_m;
+}
+
+AxisArray Magnetising(const EffectModel& effects, const MagnetInput& input,
                       const double* state) noexcept {
-  AxisArray flux_a = control_a;
+  AxisArray flux_a = input.control_a;
   for (std::size_t axis = 0; axis < 2 * effects.bearings.size(); ++axis) {
     const MagnetEffects& magnet = effects.bearings[axis / 2].axis[axis % 2];
-    flux_a[axis] = Lagged(magnet, control_a[axis], state);
+    flux_a[axis] = Lagged(magnet, input.control_a[axis], input.displacement_m[axis], state);
     if (HasLoop(magnet)) {
       flux_a[axis] -= magnet.hysteresis_width_a * state[magnet.hysteresis_state];
     }
@@ -34,23 +54,37 @@ AxisArray Magnetising(const EffectModel& effects, const AxisArray& control_a,
   return flux_a;
 }
 
-void AdvanceMemory(const EffectModel& effects, const StepTable& table, const AxisArray& before_a,
-                   const AxisArray& after_a, double* state) noexcept {
+void AdvanceMemory(const EffectModel& effects, const StepTable& table, const MagnetInput& before,
+                   const MagnetInput& after, double* state) noexcept {
   for (std::size_t axis = 0; axis < 2 * effects.bearings.size(); ++axis) {
     const MagnetEffects& magnet = effects.bearings[axis / 2].axis[axis % 2];
-    const double before = Lagged(magnet, before_a[axis], state);
+    const double lagged_before_a =
+        Lagged(magnet, before.control_a[axis], before.displacement_m[axis], state);
     if (magnet.eddy_state != kNoState) {
+      const double per_m = magnet.eddy_a_per_m;
+      const double before_a = before.control_a[axis] + per_m * before.displacement_m[axis];
+      const double after_a = after.control_a[axis] + per_m * after.displacement_m[axis];
       const sensor::FilterStep* lag = table.eddy.data() + axis * effect::kEddyLags;
       for (std::size_t k = 0; k < effect::kEddyLags; ++k) {
         double& value = state[magnet.eddy_state + k];
-        value = lag[k].decay * value + lag[k].start * before_a[axis] + lag[k].end * after_a[axis];
+        value = lag[k].decay * value + lag[k].start * before_a + lag[k].end * after_a;
       }
     }
     if (HasLoop(magnet)) {
       double& z = state[magnet.hysteresis_state];
-      z = effect::HysteresisStep(magnet.hysteresis_width_a, magnet.hysteresis_shape, z, before,
-                                 Lagged(magnet, after_a[axis], state));
+      z = effect::HysteresisStep(
+          magnet.hysteresis_width_a, magnet.hysteresis_shape, z, lagged_before_a,
+          Lagged(magnet, after.control_a[axis], after.displacement_m[axis], state));
     }
+  }
+}
+
+void SettleMemory(const EffectModel& effects, const MagnetInput& input, double* state) noexcept {
+  for (std::size_t axis = 0; axis < 2 * effects.bearings.size(); ++axis) {
+    const MagnetEffects& magnet = effects.bearings[axis / 2].axis[axis % 2];
+    if (magnet.eddy_state == kNoState) continue;
+    std::fill_n(state + magnet.eddy_state, effect::kEddyLags,
+                input.control_a[axis] + magnet.eddy_a_per_m * input.displacement_m[axis]);
   }
 }
 

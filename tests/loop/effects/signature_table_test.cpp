@@ -126,7 +126,9 @@ std::vector<SignatureRow> Magnets() {
        kKi_n_per_a * 0.03, kExact, [] { return ForceLeft({}) / (kKi_n_per_a * 0.03); }},
       // 1/(1 + sqrt(s tau)); the bank of lags is within 0.6 % of it, of a phase of 0.2 rad.
       {Id::kEddyCurrent, Place::kMagnet, "1f", -1,
-       [] { return std::arg(ForceToneRatio(Entry(Id::kEddyCurrent, {2e-4}))); },
+       [] {
+         return std::arg(ForceToneRatio(Entry(Id::kEddyCurrent, {2e-4, 1.0})));
+       },
        -std::arg(1.0 + root), 0.04, nullptr},
       {Id::kAxisRotation, Place::kMagnet, "1f across", 1,
        [] { return ForceOf(Entry(Id::kAxisRotation, {0.1}), 0.2, 0.0)[1] / (kKi_n_per_a * 0.2); },

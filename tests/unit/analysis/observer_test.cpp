@@ -51,7 +51,7 @@ TEST(DesignObserver, TrustsTheSensorsMoreWhenMoreForceIsUnknown) {
 // which hardly believed in forces, took seconds to find the rotor.
 TEST(DesignObserver, KnowsForcesThatDoNotComeFromTheCoil) {
   plant::PlantConfig lagging = test::FlexibleRotor();
-  lagging.effects.push_back(test::Entry(effect::Id::kEddyCurrent, {50e-6}));
+  lagging.effects.push_back(test::Entry(effect::Id::kEddyCurrent, {50e-6, 1.0}));
   const auto plain = GainFor(test::FlexibleRotor());
   const auto behind = GainFor(lagging);
   const Eigen::Index rotor = 4 * 8;  // q and v of eight modes in both planes

@@ -60,6 +60,8 @@ TEST(ExtendedRigTest, SaysThePresentEffectInTheUnitsOfTheFile) {
   // sqrt(tau) of 5e-3 s^0.5, half of it: 6.25 us
   EXPECT_EQ(only(Found("eddy_current", "de_x")),
             "{id: eddy_current, channels: [de_x], tau_us: 6.25}");
+  EXPECT_EQ(only(Found("eddy_current", "de_x, current alone")),
+            "{id: eddy_current, channels: [de_x], tau_us: 6.25, displacement_share: 0}");
   // 5 N
   EXPECT_THAT(only(Found("static_load", "de_y")), HasSubstr("force_y_n: 2.5"));
   // 0.05 rad

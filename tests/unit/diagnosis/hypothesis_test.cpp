@@ -85,6 +85,15 @@ TEST_F(HypothesesTest, ASignIsAskedOfSingleAmountsOnly) {
   EXPECT_FALSE(Of("current_gain", "de_x").positive);
 }
 
+TEST_F(HypothesesTest, FormsOfOneLawAreNeverMixed) {
+  std::size_t of_the_second_form = 0;
+  for (const Hypothesis& h : all_) {
+    for (const std::size_t t : h.terms) EXPECT_EQ(terms_[t].form, terms_[h.terms[0]].form);
+    if (!terms_[h.terms[0]].form.empty()) ++of_the_second_form;
+  }
+  EXPECT_EQ(of_the_second_form, 8U);  // four axes, two bearings, all alike, each by itself
+}
+
 TEST_F(HypothesesTest, GridsOfAShapeAreAlternativesAndNeverSummed) {
   for (const Hypothesis& h : all_) {
     if (h.effect == "magnetic_saturation" || h.effect == "support_mode" ||

@@ -103,6 +103,41 @@ TEST_F(MagnetTermsTest, OfOneAxisLeaveTheOthersAlone) {
   }
 }
 
+TEST_F(MagnetTermsTest, EddyCurrentLagsCurrentAndDisplacementAsOne) {
+  // A displacement x and the current (ks/ki) x that makes its force are the same to the lag.
+  const auto& magnet = View().magnet(kAxis).magnet;
+  const double a_per_m = bias_a_ / magnet.gap_m;  // ks/ki of the law of the gap squared
+  Term of_current = Named(terms_, "eddy_current", kChannel);
+  Term of_displacement = Named(terms_, "eddy_current", kChannel);
+  Term of_both = Named(terms_, "eddy_current", kChannel);
+  const double theta = std::sqrt(50e-6);
+  constexpr double kPlaceM = 1e-6;
+  SamplePoint m = moment_;
+  m.restarted = false;
+  for (int n = 0; n < 20; ++n) {
+    const auto added = [&](Term& term, double current_a, double x_m) {
+      m.coil_mean_a[kAxis] = static_cast<float>(current_a);
+      m.actuator_m[kAxis] = static_cast<float>(x_m);
+      return Added(term, m, theta).force_n[kAxis];
+    };
+    const double current_n = added(of_current, a_per_m * kPlaceM, 0.0);
+    // The law's curvature: (x/s0) of the force, 0.3 %.
+    EXPECT_NEAR(added(of_displacement, 0.0, kPlaceM), current_n, 0.01 * std::abs(current_n));
+    EXPECT_NEAR(added(of_both, -a_per_m * kPlaceM, kPlaceM), 0.0, 0.01 * std::abs(current_n));
+    EXPECT_LT(current_n, 0.0);  // less than the force without a lag
+  }
+}
+
+TEST_F(MagnetTermsTest, EddyCurrentOfTheCurrentAloneDoesNotSeeADisplacement) {
+  Term term = Named(terms_, "eddy_current", kChannel, kRootTauOfCurrent);
+  SamplePoint m = moment_;
+  m.restarted = false;
+  m.coil_mean_a[kAxis] = 0.0F;
+  EXPECT_EQ(Added(term, m, std::sqrt(50e-6)).force_n[kAxis], 0.0);
+  m.coil_mean_a[kAxis] = 0.1F;
+  EXPECT_LT(Added(term, m, std::sqrt(50e-6)).force_n[kAxis], 0.0);
+}
+
 TEST_F(MagnetTermsTest, RotationOfTheAxesTurnsTheForce) {
   Term term = Named(terms_, "axis_rotation", "magnet nde");
   const double theta = 0.02;
