@@ -11,15 +11,15 @@ namespace levitas::diagnosis {
 
 namespace {
 
-/// Of Levenberg's steps: none as long as all goes well.
-class Damping {
+/// Levenberg's damping in units of the priors' information: zero while the steps succeed.
+class LevenbergDamping {
  public:
   void Refuse() noexcept { value_ = value_ > 0.0 ? kUp * value_ : kFirst; }
   void Accept() noexcept { value_ = value_ > kFirst ? value_ / kDown : 0.0; }
   [[nodiscard]] double value() const noexcept { return value_; }
 
  private:
-  static constexpr double kFirst = 3.0;  // further priors
+  static constexpr double kFirst = 3.0;  // times the information of the priors
   static constexpr double kUp = 10.0;
   static constexpr double kDown = 10.0;
   double value_{0.0};
@@ -34,19 +34,19 @@ double Refiner::Penalty(const std::vector<double>& theta,
   const auto size = static_cast<Eigen::Index>(terms_.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
   for (const Hypothesis& h : causes) covariance += h.directions * h.directions.transpose();
-  Eigen::VectorXd away(size);
+  Eigen::VectorXd deviation(size);
   for (Eigen::Index i = 0; i < size; ++i) {
     const Term& term = terms_[static_cast<std::size_t>(i)];
     covariance(i, i) += kJitter + std::pow(term.tolerance / term.scale(), 2);
-    away[i] = (theta[static_cast<std::size_t>(i)] - term.healthy_mean) / term.scale();
+    deviation[i] = (theta[static_cast<std::size_t>(i)] - term.healthy_mean) / term.scale();
   }
-  return away.dot(covariance.llt().solve(away));
+  return deviation.dot(covariance.llt().solve(deviation));
 }
 
-double Refiner::Promised(const LinearProblem& problem,
-                         const std::vector<Hypothesis>& causes) const {
-  const auto line = Evidence(problem, terms_, causes).Solve();
-  return 0.5 * (line.squared_sum + line.penalty);
+double Refiner::PredictedCost(const LinearProblem& problem,
+                              const std::vector<Hypothesis>& causes) const {
+  const auto solution = Evidence(problem, terms_, causes).Solve();
+  return 0.5 * (solution.squared_sum + solution.penalty);
 }
 
 double Refiner::EvidenceOfSet(const LinearProblem& problem, const std::vector<Term>& terms,
@@ -59,25 +59,25 @@ double Refiner::EvidenceOfSet(const LinearProblem& problem, const std::vector<Te
   return evidence;
 }
 
-void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
-                      std::vector<double> theta, int passes, Refined& best) const {
-  constexpr double kSettled = 0.3;  // [nat]
+void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes,
+                               std::vector<double> theta, int passes, Refined& best) const {
+  constexpr double kConverged = 0.3;  // [nat]
   constexpr int kMostRefused = 4;
   NormalEquations sum = view.sum;
-  Damping damping;
+  LevenbergDamping damping;
   int refused = 0;
   for (int pass = 0; pass < passes;) {
     auto runs = search_.Run(records_, gains_, theta);
     view.slopes->Renew(runs, view.whitener, sum);
     const double cost = 0.5 * (sum.ete + Penalty(theta, causes));
     const double gained = best.cost - cost;
-    if (!std::isfinite(cost) || gained < -kSettled) {
+    if (!std::isfinite(cost) || gained < -kConverged) {
       if (++refused > kMostRefused) return;
       damping.Refuse();
       if (best.ok && best.problem.jtj.size() > 0) {
         theta = search_.Step(best.problem, causes, best.theta, damping.value());
       } else {
-        // Without a run to go back to, towards the nominal rig.
+        // The start itself diverges: approach the healthy rig by halves.
         for (std::size_t i = 0; i < theta.size(); ++i) {
           theta[i] = 0.5 * (theta[i] + terms_[i].healthy_mean);
         }
@@ -89,7 +89,7 @@ void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
     best.runs = std::move(runs);
     best.problem = search_.About(sum, theta);
     best.ok = true;
-    if (gained < kSettled) return;
+    if (gained < kConverged) return;
     damping.Accept();
     theta = search_.Step(best.problem, causes, best.theta, damping.value());
     ++pass;
@@ -99,32 +99,32 @@ void Refiner::Descend(const View& view, const std::vector<Hypothesis>& causes,
 Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
                      const View& view, int passes, double worth) const {
   Refined best;
-  Descend(view, causes, std::move(start), passes, best);
-  const bool bends = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
+  MinimiseByChords(view, causes, std::move(start), passes, best);
+  const bool nonlinear = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
     return std::any_of(h.terms.begin(), h.terms.end(), [this](std::size_t i) {
       const Family& family = terms_[i].family;
       return !terms_[i].linear || family.shape != family.linearised_as;
     });
   });
-  // Slopes from further back stop before the end of the way where the model bends: as long as they
-  // promise what its runs do not keep, new ones are taken.
-  constexpr double kKept = 1.0;  // [nat]
+  // With a Jacobian of an earlier point the steps end before the minimum of a nonlinear model. It
+  // is renewed while the linear prediction is better than the model's run by more than this.
+  constexpr double kPredictionError = 1.0;  // [nat]
   constexpr int kMostRenewals = 2;
   for (int renewal = 0; best.ok && renewal < kMostRenewals; ++renewal) {
-    const bool first = renewal == 0 && bends;
-    if (!first && best.cost - Promised(best.problem, causes) < kKept) break;
+    const bool first = renewal == 0 && nonlinear;
+    if (!first && best.cost - PredictedCost(best.problem, causes) < kPredictionError) break;
     if (EvidenceOfSet(best.problem, terms_, causes) < worth) break;
     const View here = search_.Linearise(std::move(best.runs), best.theta, view.whitener,
                                         search_.NuisancesAnd(causes));
     best.problem = here.problem;
-    Descend(here, causes, search_.Solve(here.problem, causes), passes, best);
+    MinimiseByChords(here, causes, search_.Solve(here.problem, causes), passes, best);
     if (best.runs.empty()) break;  // no step helped
   }
   best.runs.clear();
   if (!best.ok) return best;
   // The nonlinear model decides, not its linear prediction, which may lead outside any real rig.
   best.evidence =
-      EvidenceOfSet(best.problem, terms_, causes) + Promised(best.problem, causes) - best.cost;
+      EvidenceOfSet(best.problem, terms_, causes) + PredictedCost(best.problem, causes) - best.cost;
   if (!std::isfinite(best.evidence)) best.ok = false;
   return best;
 }
@@ -161,29 +161,29 @@ double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_o
 
 Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order,
                           int passes) const {
-  constexpr double kSettled = 1.0;  // [nat]
-  constexpr double kFar = 100.0;    // [nat] a step that gains more has left its linearisation
+  constexpr double kConverged = 1.0;  // [nat]
+  constexpr double kFar = 100.0;      // [nat] a step that gains more has left its linearisation
   constexpr int kMostRefused = 4;
   Refined best;
   std::vector<double> theta = std::move(start);
-  Damping damping;
+  LevenbergDamping damping;
   Whitener whitener;
   std::shared_ptr<const Slopes> slopes;
-  bool fresh = false;  // slopes were taken at best.theta
+  bool current = false;  // the Jacobian was taken at best.theta
   int refused = 0;
   for (int pass = 0; pass < passes;) {
     auto runs = search_.Run(records_, gains_, theta);
     const double gained =
         pass == 0 ? std::numeric_limits<double>::infinity()
                   : best.cost - 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
-    if (pass > 0 && !(std::isfinite(gained) && gained > -kSettled)) {
+    if (pass > 0 && !(std::isfinite(gained) && gained > -kConverged)) {
       if (++refused <= kMostRefused) {
         damping.Refuse();
         theta = search_.Step(best.problem, {}, best.theta, damping.value());
         continue;
       }
-      if (fresh) break;
-      // Slopes from further back led nowhere: those from here may.
+      if (current) break;
+      // No step with the Jacobian of an earlier point succeeded; take it at the best point.
       refused = 0;
       damping = {};
       runs = search_.Run(records_, gains_, best.theta);
@@ -195,9 +195,9 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
     if (!std::isfinite(best.cost)) break;
     best.theta = theta;
     best.ok = true;
-    if (gained < kSettled && fresh) break;
-    fresh = !slopes || gained > kFar || gained < kSettled;
-    if (fresh) {
+    if (gained < kConverged && current) break;
+    current = !slopes || gained > kFar || gained < kConverged;
+    if (current) {
       slopes =
           std::make_shared<const Slopes>(search_.rig(), runs, terms_, theta, search_.Nuisances());
     }

@@ -6,6 +6,11 @@
 //            do not determine. The Jacobian is that of an existing linearisation (chord method);
 //            for a nonlinear cause (Term::linear) it is renewed at the new point. The
 //            whitening stays the same, so that sets can be compared.
+// Own loop   numerics::LevenbergMarquardt runs the model once for the cost of a step and once more
+//            for the normal equations. Here one run gives both (Slopes::Renew), and a run is almost
+//            all the time of a diagnosis. The damping adds the priors' information, with their
+//            correlations, instead of a share of the diagonal; Approach changes the cost itself at
+//            every pass, since it estimates the whitening anew.
 // Evidence   of the whole set, -1/2 (squared sum + penalty + log det), priors of places included.
 //            Only differences between sets of causes on the same records and whitening are
 //            meaningful.
@@ -59,12 +64,12 @@ class Refiner {
                                             const std::vector<Hypothesis>& causes);
 
  private:
-  /// Improves on `best` from theta on, as long as it goes.
-  void Descend(const View& view, const std::vector<Hypothesis>& causes, std::vector<double> theta,
-               int passes, Refined& best) const;
-  /// [nat] cost at the foot of the linearisation.
-  [[nodiscard]] double Promised(const LinearProblem& problem,
-                                const std::vector<Hypothesis>& causes) const;
+  /// Improves `best` from theta on with the Jacobian of `view`, until a step gains too little.
+  void MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes,
+                        std::vector<double> theta, int passes, Refined& best) const;
+  /// [nat] cost at the minimum of the linearised model.
+  [[nodiscard]] double PredictedCost(const LinearProblem& problem,
+                                     const std::vector<Hypothesis>& causes) const;
   [[nodiscard]] double Penalty(const std::vector<double>& theta,
                                const std::vector<Hypothesis>& causes) const;
 
