@@ -70,49 +70,54 @@ LineMeans Means(const std::vector<Spectra>& all, std::size_t line, Index axes) {
   return means;
 }
 
-/// Power of what does not repeat, per output and experiment: |r|^2 / (M (M - 1) |E|^2), the
-/// variance of the mean over the periods.
+/// Power of what does not repeat, per output and experiment: |r|^2 / (M (M - 1)), the variance of
+/// the mean over the periods.
 Eigen::MatrixXd NoisePower(const std::vector<Spectra>& all, std::size_t line,
                            const Eigen::MatrixXcd& plant) {
   const Index axes = plant.rows();
-  Eigen::MatrixXd power = Eigen::MatrixXd::Zero(axes, axes);
-  Eigen::VectorXd count = Eigen::VectorXd::Zero(axes);
-  for (const Spectra& spectra : all) {
-    const Index j = At(spectra.axis);
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(axes);
+  Eigen::MatrixXd power = Eigen::MatrixXd::Zero(axes, At(all.size()));
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const Spectra& spectra = all[n];
     for (std::size_t m = 0; m < spectra.periods; ++m) {
       Eigen::VectorXcd dy(axes), du(axes);
       for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) {
         dy[At(i)] = spectra.position[i][m][line] - MeanOf(spectra.position[i], line);
         du[At(i)] = spectra.current[i][m][line] - MeanOf(spectra.current[i], line);
       }
-      sum += (dy - plant * du).cwiseAbs2();
+      power.col(At(n)) += (dy - plant * du).cwiseAbs2();
     }
     const auto periods = static_cast<double>(spectra.periods);
-    power.col(j) += sum / (periods * (periods - 1.0) * std::norm(spectra.excitation[line]));
-    count[j] += 1.0;
+    power.col(At(n)) /= periods * (periods - 1.0);
   }
-  for (Index j = 0; j < axes; ++j) power.col(j) /= count[j] * count[j];
   return power;
 }
 
-/// Power of what does not repeat in S_ii: the scatter of its own current, as a matrix of one
-/// column.
-Eigen::MatrixXd OwnScatter(const std::vector<Spectra>& all, std::size_t line, Index axes) {
-  Eigen::MatrixXd power = Eigen::MatrixXd::Zero(axes, 1);
-  Eigen::VectorXd count = Eigen::VectorXd::Zero(axes);
-  for (const Spectra& spectra : all) {
-    const std::vector<Spectrum>& current = spectra.current[spectra.axis];
+/// Power of what does not repeat in the excited axis' own current, per experiment: one row.
+Eigen::MatrixXd OwnScatter(const std::vector<Spectra>& all, std::size_t line) {
+  Eigen::MatrixXd power = Eigen::MatrixXd::Zero(1, At(all.size()));
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const std::vector<Spectrum>& current = all[n].current[all[n].axis];
     const Complex mean = MeanOf(current, line);
-    double sum = 0.0;
-    for (const Spectrum& period : current) sum += std::norm(period[line] - mean);
-    const auto periods = static_cast<double>(spectra.periods);
-    power(At(spectra.axis), 0) +=
-        sum / (periods * (periods - 1.0) * std::norm(spectra.excitation[line]));
-    count[At(spectra.axis)] += 1.0;
+    for (const Spectrum& period : current) power(0, At(n)) += std::norm(period[line] - mean);
+    const auto periods = static_cast<double>(all[n].periods);
+    power(0, At(n)) /= periods * (periods - 1.0);
   }
-  for (Index j = 0; j < axes; ++j) power(j, 0) /= count[j] * count[j];
   return power;
+}
+
+/// Variances of the responses to each axis from the powers of its experiments: each is divided by
+/// the power of its excitation on this very line, which need not be that of the lines beside it.
+Eigen::MatrixXd PerExcitation(const std::vector<Spectra>& all, std::size_t line,
+                              const Eigen::MatrixXd& power, Index axes) {
+  Eigen::MatrixXd variance = Eigen::MatrixXd::Zero(power.rows(), axes);
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(axes);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const Index j = At(all[n].axis);
+    variance.col(j) += power.col(At(n)) / std::norm(all[n].excitation[line]);
+    count[j] += 1.0;
+  }
+  for (Index j = 0; j < axes; ++j) variance.col(j) /= count[j] * count[j];
+  return variance;
 }
 
 Eigen::MatrixXd CoherenceOf(const std::vector<Spectra>& all, std::size_t line, Index axes) {
@@ -226,6 +231,7 @@ FrequencyResponse EstimateResponse(const session::Recording& record, const Campa
   std::vector<Eigen::MatrixXd> power;
   std::vector<Eigen::MatrixXd> own;
   std::vector<Eigen::MatrixXcd> inverse;
+  std::vector<std::size_t> lines;
   const Index axes = response.axes();
   for (const std::size_t line : ExcitedLines(all, options.highest_hz)) {
     const double f = all.front().frequency_hz[line];
@@ -234,23 +240,23 @@ FrequencyResponse EstimateResponse(const session::Recording& record, const Campa
       continue;
     }
     const LineMeans means = Means(all, line, axes);
+    lines.push_back(line);
     inverse.push_back(means.s.inverse());
     response.frequency_hz.push_back(f);
     response.plant.push_back(means.g * inverse.back());
     response.sensitivity.push_back(means.s);
     response.coherence.push_back(CoherenceOf(all, line, axes));
     power.push_back(NoisePower(all, line, response.plant.back()));
-    own.push_back(OwnScatter(all, line, axes));
+    own.push_back(OwnScatter(all, line));
   }
   if (power.empty()) throw BadInput(record.name + ": no line of the spectrum is excited");
   const auto smooth = Smoothed(power, all.front().neighbours);
-  response.variance.reserve(smooth.size());
-  for (std::size_t k = 0; k < smooth.size(); ++k) {
-    response.variance.push_back(smooth[k] * inverse[k].cwiseAbs2());
-  }
-  response.noise = smooth;
-  for (const auto& line : Smoothed(own, all.front().neighbours)) {
-    response.own_variance.emplace_back(line.col(0));
+  const auto smooth_own = Smoothed(own, all.front().neighbours);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    response.noise.push_back(PerExcitation(all, lines[k], smooth[k], axes));
+    response.variance.push_back(response.noise[k] * inverse[k].cwiseAbs2());
+    response.own_variance.emplace_back(
+        PerExcitation(all, lines[k], smooth_own[k], axes).row(0).transpose());
   }
   response.moments = MomentsOf(record, campaign, options.amplifier_hz);
   FindExtremes(record, campaign, response);

@@ -71,6 +71,14 @@ TEST(FrequencyResponse, ErrorsUnderNoiseAreOfTheVarianceThatItStates) {
   EXPECT_LT(ratio.maxCoeff(), 1.31) << ratio;
 }
 
+TEST(FrequencyResponse, ErrorsAreOfTheVarianceThoughTheSignalExcitesItsLinesUnevenly) {
+  const Eigen::Matrix2d ratio = ErrorPerVariance(
+      Estimate(LinearLoop::Run({.periods = 9, .noise_m = 3e-10, .flat = false, .seed = 11})));
+  // As above: four sigma.
+  EXPECT_GT(ratio.minCoeff(), 0.69) << ratio;
+  EXPECT_LT(ratio.maxCoeff(), 1.31) << ratio;
+}
+
 TEST(FrequencyResponse, FourTimesAsManyPeriodsQuarterTheVariance) {
   const FrequencyResponse few = Estimate(LinearLoop::Run({.periods = 5, .noise_m = 3e-9}));
   const FrequencyResponse many = Estimate(LinearLoop::Run({.periods = 17, .noise_m = 3e-9}));
