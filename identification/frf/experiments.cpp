@@ -105,6 +105,12 @@ std::vector<Piece> JoinTrains(const session::Recording& record, const std::vecto
 
 void CheckRows(const session::Recording& record, const Piece& piece, std::size_t end) {
   for (std::size_t row = piece.begin; row < end; ++row) {
+    if (row > piece.begin && record.cycle[row] <= record.cycle[row - 1]) {
+      throw BadInput(fmt::format(
+          "{}: no frame arrived after {:.4f} s; record it again",
+          Where(record, piece.axis, piece.begin),
+          static_cast<double>(record.cycle[row - 1] - record.cycle[0]) * record.period_s()));
+    }
     if (row > piece.begin && record.cycle[row] != record.cycle[row - 1] + 1) {
       throw BadInput(fmt::format(
           "{}: {} samples are missing at {:.4f} s; record it again",

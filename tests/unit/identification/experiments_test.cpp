@@ -197,6 +197,16 @@ INSTANTIATE_TEST_SUITE_P(
                {"7 samples are missing at 0.0207 s", "record it again"}}),
     [](const auto& p) { return p.param.name; });
 
+TEST(FindExperiments, AFrameThatDidNotArriveIsNamedWithItsTime) {
+  // The count of the sensor frame stays while none arrives, and such a row is not levitated.
+  session::Recording record = TwoAxes();
+  for (std::size_t n = 300; n < record.rows(); ++n) record.cycle[n] -= 1;
+  record.levitated[300] = 0;
+  EXPECT_THAT(Refusal(record),
+              AllOf(HasSubstr("excitation of x"), HasSubstr("no frame arrived after 0.0299 s"),
+                    HasSubstr("record it again")));
+}
+
 TEST(FindExperiments, AGapAfterTheLastWholePeriodDoesNotMatter) {
   session::Recording record = TwoAxes();
   for (std::size_t n = 470; n < record.rows(); ++n) record.cycle[n] += 7;
