@@ -83,6 +83,88 @@ Term Saturation(const RigView& rig, double knee_share, double exponent) {
   return term;
 }
 
+/// Terms of one axis: its current, its displacement, and the force law of its two coils.
+void AddAxisTerms(const RigView& rig, const Tolerances& tolerances, std::size_t a,
+                  std::vector<Term>& terms) {
+  const std::string& channel = rig.numbers.channels[a];
+  const auto magnet = rig.magnet(a).magnet;
+  const double bias_a = rig.bias_a(a);
+  // The gain scales the current, not the force; with a static load current the two differ.
+  Term gain = MakeTerm(
+      {"current_gain", channel, "ratio", "1"}, tolerances.current_gain, 0.15,
+      [=](const SamplePoint& m, double theta, Contribution& add) {
+        const double x = static_cast<double>(m.actuator_m[a]);
+        const double i = static_cast<double>(m.coil_mean_a[a]);
+        const effect::CoilPair acting = effect::Scaled({bias_a + i, bias_a - i}, 1.0 + theta);
+        add.force_n[a] += magnet::ForceOfCoils(magnet, acting.towards, acting.away, x) -
+                          magnet::Force(magnet, bias_a, i, x);
+      });
+  gain.linear = false;
+  gain.step = 0.02;
+  gain.slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
+    added.force_per_a[a] += static_cast<float>(theta) * m.force_per_a[a];
+  };
+  terms.push_back(std::move(gain));
+  terms.push_back(MakeTerm({"displacement_stiffness", channel, "ratio", "1"},
+                           tolerances.displacement_stiffness, 0.15,
+                           [=](const SamplePoint& m, double theta, Contribution& add) {
+                             add.force_n[a] += theta * ForceWithoutControl(magnet, bias_a, m, a);
+                           }));
+  terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
+    added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
+  };
+  // Healthy magnets are off by current_gain and displacement_stiffness, which hold this one.
+  terms.push_back(MakeTerm({"force_constant", channel, "ratio", "1"}, 0.0, 0.15,
+                           [a](const SamplePoint& m, double theta, Contribution& add) {
+                             add.force_n[a] += theta * static_cast<double>(m.force_n[a]);
+                           }));
+  terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
+    added.force_per_a[a] += static_cast<float>(theta) * m.force_per_a[a];
+    added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
+  };
+}
+
+/// Terms of one axis that a healthy rig has hardly: the amplifier's zero, unequal coils.
+void AddAsymmetries(const RigView& rig, std::size_t a, std::vector<Term>& terms) {
+  const std::string& channel = rig.numbers.channels[a];
+  const auto magnet = rig.magnet(a).magnet;
+  const double bias_a = rig.bias_a(a);
+  terms.push_back(MakeTerm({"command_offset", channel, "offset_a", "A"}, 0.0, 0.15,
+                           [&rig, a](const SamplePoint& m, double theta, Contribution& add) {
+                             add.force_n[a] += ForceOfCurrent(rig, m, a, theta);
+                           }));
+  terms.back().linear = false;  // away from the centre: the two coils' gaps differ
+  terms.back().step = 0.02;
+  terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, kAlike, 0.1,
+                           [=](const SamplePoint& m, double theta, Contribution& add) {
+                             const double x = static_cast<double>(m.actuator_m[a]);
+                             const double i = static_cast<double>(m.coil_mean_a[a]);
+                             const double k = magnet.force_constant_n_m2_per_a2;
+                             const double towards = (bias_a + i) / (magnet.gap_m - x);
+                             const double away = (bias_a - i) / (magnet.gap_m + x);
+                             add.force_n[a] += 0.5 * theta * k * (towards * towards + away * away);
+                           }));
+}
+
+/// Terms of one bearing, whose two axes act on each other.
+Term Rotation(const RigView& rig, std::size_t b) {
+  return MakeTerm({"axis_rotation", "magnet " + rig.numbers.bearings[b], "angle_rad", "rad"}, 0.0,
+                  0.05, [b](const SamplePoint& m, double theta, Contribution& add) {
+                    add.force_n[2 * b] -= theta * static_cast<double>(m.force_n[2 * b + 1]);
+                    add.force_n[2 * b + 1] += theta * static_cast<double>(m.force_n[2 * b]);
+                  });
+}
+
+Term Coupling(const RigView& rig, std::size_t b) {
+  const double ki = magnet::ForcePerCurrent(rig.magnet(2 * b).magnet, rig.bias_a(2 * b));
+  return MakeTerm({"magnetic_coupling", rig.numbers.bearings[b], "ratio", "1"}, 0.0, 0.1,
+                  [b, ki](const SamplePoint& m, double theta, Contribution& add) {
+                    const auto share = theta * ki;
+                    add.force_n[2 * b] += share * static_cast<double>(m.coil_mean_a[2 * b + 1]);
+                    add.force_n[2 * b + 1] += share * static_cast<double>(m.coil_mean_a[2 * b]);
+                  });
+}
+
 }  // namespace
 
 double ForceOfCurrent(const RigView& rig, const SamplePoint& moment, std::size_t axis,
@@ -98,78 +180,11 @@ double ForceOfCurrent(const RigView& rig, const SamplePoint& moment, std::size_t
 std::vector<Term> MagnetTerms(const RigView& rig, const Tolerances& tolerances) {
   std::vector<Term> terms;
   for (std::size_t a = 0; a < rig.axes; ++a) {
-    const std::string& channel = rig.numbers.channels[a];
-    const auto magnet = rig.magnet(a).magnet;
-    const double bias_a = rig.bias_a(a);
-    // The gain scales the current, not the force; with a static load current the two differ.
-    Term gain = MakeTerm(
-        {"current_gain", channel, "ratio", "1"}, tolerances.current_gain, 0.15,
-        [=](const SamplePoint& m, double theta, Contribution& add) {
-          const double x = static_cast<double>(m.actuator_m[a]);
-          const double i = static_cast<double>(m.coil_mean_a[a]);
-          const effect::CoilPair acting = effect::Scaled({bias_a + i, bias_a - i}, 1.0 + theta);
-          add.force_n[a] += magnet::ForceOfCoils(magnet, acting.towards, acting.away, x) -
-                            magnet::Force(magnet, bias_a, i, x);
-        });
-    gain.linear = false;
-    gain.step = 0.02;
-    gain.slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
-      added.force_per_a[a] += static_cast<float>(theta) * m.force_per_a[a];
-    };
-    terms.push_back(std::move(gain));
-    terms.push_back(MakeTerm({"displacement_stiffness", channel, "ratio", "1"},
-                             tolerances.displacement_stiffness, 0.15,
-                             [=](const SamplePoint& m, double theta, Contribution& add) {
-                               add.force_n[a] += theta * ForceWithoutControl(magnet, bias_a, m, a);
-                             }));
-    terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
-      added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
-    };
-    // Healthy magnets are off by current_gain and displacement_stiffness, which hold this one.
-    terms.push_back(MakeTerm({"force_constant", channel, "ratio", "1"}, 0.0, 0.15,
-                             [a](const SamplePoint& m, double theta, Contribution& add) {
-                               add.force_n[a] += theta * static_cast<double>(m.force_n[a]);
-                             }));
-    terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
-      added.force_per_a[a] += static_cast<float>(theta) * m.force_per_a[a];
-      added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
-    };
-    terms.push_back(MakeTerm({"command_offset", channel, "offset_a", "A"}, 0.0, 0.15,
-                             [&rig, a](const SamplePoint& m, double theta, Contribution& add) {
-                               add.force_n[a] += ForceOfCurrent(rig, m, a, theta);
-                             }));
-    terms.back().linear = false;  // away from the centre: the two coils' gaps differ
-    terms.back().step = 0.02;
-    terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, kAlike, 0.1,
-                             [=](const SamplePoint& m, double theta, Contribution& add) {
-                               const double x = static_cast<double>(m.actuator_m[a]);
-                               const double i = static_cast<double>(m.coil_mean_a[a]);
-                               const double k = magnet.force_constant_n_m2_per_a2;
-                               const double towards = (bias_a + i) / (magnet.gap_m - x);
-                               const double away = (bias_a - i) / (magnet.gap_m + x);
-                               add.force_n[a] +=
-                                   0.5 * theta * k * (towards * towards + away * away);
-                             }));
+    AddAxisTerms(rig, tolerances, a, terms);
+    AddAsymmetries(rig, a, terms);
   }
-  for (std::size_t b = 0; b < rig.axes / 2; ++b) {
-    terms.push_back(
-        MakeTerm({"axis_rotation", "magnet " + rig.numbers.bearings[b], "angle_rad", "rad"}, 0.0,
-                 0.05, [b](const SamplePoint& m, double theta, Contribution& add) {
-                   add.force_n[2 * b] -= theta * static_cast<double>(m.force_n[2 * b + 1]);
-                   add.force_n[2 * b + 1] += theta * static_cast<double>(m.force_n[2 * b]);
-                 }));
-  }
-  for (std::size_t b = 0; b < rig.axes / 2; ++b) {
-    const double ki = magnet::ForcePerCurrent(rig.magnet(2 * b).magnet, rig.bias_a(2 * b));
-    terms.push_back(MakeTerm({"magnetic_coupling", rig.numbers.bearings[b], "ratio", "1"}, 0.0, 0.1,
-                             [b, ki](const SamplePoint& m, double theta, Contribution& add) {
-                               const auto share = theta * ki;
-                               add.force_n[2 * b] +=
-                                   share * static_cast<double>(m.coil_mean_a[2 * b + 1]);
-                               add.force_n[2 * b + 1] +=
-                                   share * static_cast<double>(m.coil_mean_a[2 * b]);
-                             }));
-  }
+  for (std::size_t b = 0; b < rig.axes / 2; ++b) terms.push_back(Rotation(rig, b));
+  for (std::size_t b = 0; b < rig.axes / 2; ++b) terms.push_back(Coupling(rig, b));
   for (const double knee : {1.0, 1.3, 1.7, 2.2}) {
     for (const double exponent : {3.0, 4.0, 6.0}) terms.push_back(Saturation(rig, knee, exponent));
   }

@@ -29,6 +29,11 @@ class Files(unittest.TestCase):
     def test_no_comment_is_wider_than_100_columns(self):
         self.assert_none(violations(rules.wide_comments, (".cpp", ".hpp")))
 
+    def test_no_function_is_longer_than_60_lines(self):
+        found = violations(rules.long_functions, (".cpp", ".hpp"))
+        # Tables of cases are as long as their cases.
+        self.assert_none([line for line in found if not line.startswith("tests/")])
+
     def test_none_keeps_a_note_to_self(self):
         self.assert_none(violations(rules.notes_to_self))
 
@@ -109,6 +114,14 @@ class SeededViolations(unittest.TestCase):
     def test_a_comment_of_101_columns_is_refused_and_one_of_100_is_not(self):
         self.assertIn("line 2", rules.wide_comments("\n  // " + 96 * "x" + "\n")[0])
         self.assertFalse(rules.wide_comments("  // " + 95 * "x" + "\n"))
+
+    def test_a_function_of_61_lines_is_refused_and_one_of_60_is_not(self):
+        head = "namespace a {\nint Sum(int first,\n        int second) {\n"
+        self.assertEqual(rules.long_functions(head + "  x();\n" * 61 + "}\n}\n"),
+                         ["line 2: a function of 61 lines, allowed 60"])
+        self.assertFalse(rules.long_functions(head + "  x();\n" * 60 + "}\n}\n"))
+        method = "class A {\n public:\n  void B() {\n"
+        self.assertTrue(rules.long_functions(method + "    x();\n" * 61 + "  }\n};\n"))
 
     def test_a_note_to_self_is_found_with_its_line(self):
         self.assertIn("line 2", rules.notes_to_self("int a;\n// TO" "DO: later\n")[0])

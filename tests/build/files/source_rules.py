@@ -6,6 +6,7 @@ from pathlib import Path
 
 MAX_LINES = 400
 MAX_COLUMNS = 100
+MAX_BODY = 60
 MAX_SUBJECT = 72
 CODE = (".cpp", ".hpp", ".py", ".sh", ".cmake", ".lcm", ".js", ".css", ".html")
 NOT_OURS = {".git", "sessions", "__pycache__"}
@@ -41,6 +42,30 @@ def wide_comments(text):
     return [f"line {number}: a comment of {len(line)} columns, allowed {MAX_COLUMNS}"
             for number, line in enumerate(text.splitlines(), 1)
             if len(line) > MAX_COLUMNS and line.lstrip().startswith("//")]
+
+
+NO_FUNCTION = re.compile(r"\s*(?:namespace|class|struct|enum|union|extern)\b")
+LAMBDA = re.compile(r"\[[&=\w, *]*\] ?[({]")
+
+
+def long_functions(text):
+    """In the project's format a body ends with a brace in the column in which its head begins."""
+    found, lines = [], text.splitlines()
+    for at, line in enumerate(lines):
+        if not re.search(r"[\w)}] \{$", line) or line.lstrip().startswith("//"):
+            continue
+        start = at
+        while start > 0 and lines[start].startswith("    "):
+            start -= 1  # a head of several lines
+        head = "".join(lines[start:at + 1])
+        indent = len(head) - len(head.lstrip())
+        if indent > 2 or NO_FUNCTION.match(head) or LAMBDA.search(head) or "(" not in head:
+            continue
+        close = next((number for number in range(at + 1, len(lines))
+                      if lines[number].startswith(" " * indent + "}")), at)
+        if close - at - 1 > MAX_BODY:
+            found.append(f"line {start + 1}: a function of {close - at - 1} lines, allowed {MAX_BODY}")
+    return found
 
 
 def notes_to_self(text):
