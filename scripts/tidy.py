@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""clang-tidy over every source file of the project; a finding fails.
+"""clang-tidy over every source file and header of the project; a finding fails.
 
     scripts/tidy.py [--build build/tidy] [--jobs N] [FILE...]
 
 A file whose preprocessed text, flags and settings passed before is not looked at again: its digest
 is kept in ~/.cache/levitas/tidy-passed (XDG_CACHE_HOME is heard; --no-cache looks at everything).
 Comments are part of the digest, because NOLINT is one; places in the file system are not, so that
-another clone of the same text is quick too. Headers are checked through the sources that include
-them.
+another clone of the same text is quick too. A header is checked once, as a file of its own with the
+flags of the nearest source, and not again through every source that includes it; so every header
+also has to compile by itself.
 """
 
 import argparse
@@ -32,6 +33,39 @@ def commands(build):
         if path.is_relative_to(ROOT) and not path.is_relative_to(build) and "tests" not in path.parts:
             found[path] = (shlex.split(entry["command"]), entry["directory"])
     return found
+
+
+def header_commands(sources):
+    """Our headers, each with the command of the nearest source: its own, or one of its folder."""
+    found = {}
+    for path in sorted(ROOT.rglob("*.hpp")):
+        parts = path.relative_to(ROOT).parts
+        if parts[0] in ("build", "tests"):
+            continue
+        source = path.with_suffix(".cpp")
+        if source not in sources:
+            below = [other for other in sorted(sources) if other.is_relative_to(ROOT / parts[0])]
+            beside = [other for other in below if other.parent == path.parent]
+            source = (beside or below or sorted(sources))[0]
+        arguments, directory = sources[source]
+        arguments = [str(path) if Path(directory, word) == source else word for word in arguments]
+        arguments.insert(arguments.index("-c"), "-xc++")
+        found[path] = (arguments, directory)
+    return found
+
+
+def look(path, build, command):
+    """Runs clang-tidy on one file."""
+    flags = []
+    if path.suffix == ".hpp":  # the compilation database does not know headers
+        words = list(command[0])[1:]
+        while not words[0].startswith("-"):
+            words.pop(0)
+        at = words.index("-o")
+        flags = ["--", *words[:at], *words[at + 2:], "-Wno-pragma-once-outside-header"]
+        flags = [word for word in flags if word not in ("-c", str(path))]
+    return subprocess.run([CLANG_TIDY, "--quiet", "-p", build, path, *flags], cwd=command[1],
+                          capture_output=True, text=True, check=False)
 
 
 def digest(path, arguments, directory, settings):
@@ -63,8 +97,7 @@ def check(path, build, command, settings, cache):
     passed = cache / key if key else None
     if passed and passed.exists():
         return ""
-    done = subprocess.run([CLANG_TIDY, "--quiet", "-p", build, path], capture_output=True,
-                          text=True, check=False)
+    done = look(path, build, command)
     if done.returncode != 0:
         return done.stdout or done.stderr
     if passed:
@@ -82,11 +115,12 @@ def main():
     build = options.build.resolve()
     cache = None if options.no_cache else cache_folder()
     sources = commands(build)
+    sources |= header_commands(sources)
     if options.files:
         chosen = {path.resolve() for path in options.files}
         if strangers := chosen - set(sources):
             names = ", ".join(os.path.relpath(path, ROOT) for path in sorted(strangers))
-            print(f"tidy.py: no source that {build} builds: {names}", file=sys.stderr)
+            print(f"tidy.py: no header, and no source that {build} builds: {names}", file=sys.stderr)
             return 2
         sources = {path: command for path, command in sources.items() if path in chosen}
     version = subprocess.run([CLANG_TIDY, "--version"], capture_output=True, check=True).stdout

@@ -10,9 +10,9 @@ namespace levitas::synthesis {
 /// Eigen 3.4 takes the address of the first number of B there, which has none.
 template <class Factorisation>
 typename Factorisation::MatrixType SolveColumns(
-    const Factorisation& of_A, const typename Factorisation::MatrixType& right_side) {
+    const Factorisation& factorisation, const typename Factorisation::MatrixType& right_side) {
   if (right_side.size() == 0) return right_side;
-  return of_A.solve(right_side);
+  return factorisation.solve(right_side);
 }
 
 }  // namespace levitas::synthesis
