@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/spectrum.hpp"
+#include "numerics/fourier_transform.hpp"
 
 namespace levitas::analysis {
 
@@ -18,7 +18,7 @@ std::vector<double> FullAmplitudes(std::vector<std::complex<double>> orbit,
     const double phase = 2.0 * std::numbers::pi * static_cast<double>(n);
     orbit[n] = (orbit[n] - mean) * (0.5 - 0.5 * std::cos(phase / static_cast<double>(size)));
   }
-  FourierTransform(orbit);
+  numerics::FourierTransform(orbit);
   // The Hann window's mean is one half: a line keeps its height.
   const double scale = 2.0 / static_cast<double>(size);
   const std::size_t lines = std::min(lines_each_side, size / 2 - 1);

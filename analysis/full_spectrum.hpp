@@ -7,7 +7,8 @@
 // is forward whirl (x to y, as docs/conventions.md), negative backward. After Southwick (1994).
 //
 // Units    those of the orbit (amplitude, not density). Thread any; allocates.
-// Failure  std::invalid_argument (FourierTransform) unless the length is a power of two.
+// Length   two samples at least; products of small primes are fast (numerics/fourier_transform.hpp).
+// Failure  none.
 
 #include <complex>
 #include <cstddef>

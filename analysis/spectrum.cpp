@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "numerics/fourier_transform.hpp"
+
 namespace levitas::analysis {
 namespace {
 
@@ -26,29 +28,6 @@ std::vector<double> HannWindow(std::size_t segment) {
 
 }  // namespace
 
-void FourierTransform(std::vector<Complex>& values) {
-  const std::size_t size = values.size();
-  for (std::size_t i = 1, reversed = 0; i < size; ++i) {
-    std::size_t bit = size >> 1;
-    for (; (reversed & bit) != 0; bit >>= 1) reversed ^= bit;
-    reversed ^= bit;
-    if (i < reversed) std::swap(values[i], values[reversed]);
-  }
-  for (std::size_t length = 2; length <= size; length <<= 1) {
-    const std::size_t half = length / 2;
-    const double angle = -2.0 * std::numbers::pi / static_cast<double>(length);
-    for (std::size_t k = 0; k < half; ++k) {
-      const Complex twiddle = std::polar(1.0, angle * static_cast<double>(k));
-      for (std::size_t start = 0; start < size; start += length) {
-        const Complex even = values[start + k];
-        const Complex odd = values[start + k + half] * twiddle;
-        values[start + k] = even + odd;
-        values[start + k + half] = even - odd;
-      }
-    }
-  }
-}
-
 Welch::Welch(std::size_t segment, double sample_rate_hz)
     : sample_rate_hz_(sample_rate_hz), window_(HannWindow(segment)), sum_(segment / 2 + 1, 0.0) {}
 
@@ -64,10 +43,10 @@ void Welch::Add(std::span<const double> piece) {
 }
 
 void Welch::AddSegment(std::span<const double> samples) {
-  std::vector<Complex> values(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) values[i] = samples[i] * window_[i];
-  FourierTransform(values);
-  for (std::size_t line = 0; line < sum_.size(); ++line) sum_[line] += std::norm(values[line]);
+  std::vector<double> windowed(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) windowed[i] = samples[i] * window_[i];
+  const std::vector<Complex> lines = numerics::HalfSpectrum(windowed);
+  for (std::size_t line = 0; line < sum_.size(); ++line) sum_[line] += std::norm(lines[line]);
   ++averages_;
 }
 
@@ -102,7 +81,7 @@ void Coherence::Add(std::span<const double> first, std::span<const double> secon
     for (std::size_t i = 0; i < segment; ++i) {
       both[i] = window_[i] * Complex(first[start + i], second[start + i]);
     }
-    FourierTransform(both);
+    numerics::FourierTransform(both);
     for (std::size_t line = 0; line < cross_.size(); ++line) {
       const Complex mirrored = std::conj(both[(segment - line) % segment]);
       const Complex one = 0.5 * (both[line] + mirrored);

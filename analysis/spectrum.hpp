@@ -12,9 +12,6 @@
 
 namespace levitas::analysis {
 
-/// Discrete Fourier transform in place, unscaled (radix 2); the size is a power of two.
-void FourierTransform(std::vector<std::complex<double>>& values);
-
 class Welch {
  public:
   /// `segment` samples per segment, a power of two of at least 8 (std::invalid_argument else).

@@ -10,6 +10,7 @@
 
 #include "diagnosis/levitator/own_words.hpp"
 #include "diagnosis/levitator/plan.hpp"
+#include "numerics/fourier_transform.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -85,22 +86,17 @@ double Power(const std::vector<double>& error) {
 /// Mean power over white noise's, line by line; Hann windows of a second.
 std::vector<double> Spectrum(const std::vector<double>& error, double noise, std::size_t length) {
   std::vector<double> power(length / 2, 0.0);
+  std::vector<double> windowed(length);
   double windows = 0.0;
   for (std::size_t at = 0; at + length <= error.size(); at += length) {
     windows += 1.0;
-    for (std::size_t k = 0; k < power.size(); ++k) {
-      const std::complex<double> turn = std::polar(
-          1.0, -2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(length));
-      std::complex<double> phase = 1.0;
-      std::complex<double> sum = 0.0;
-      for (std::size_t n = 0; n < length; ++n) {
-        const double hann = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(n) /
-                                                 static_cast<double>(length));
-        sum += hann * error[at + n] * phase;
-        phase *= turn;
-      }
-      power[k] += std::norm(sum);
+    for (std::size_t n = 0; n < length; ++n) {
+      const double hann = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(n) /
+                                               static_cast<double>(length));
+      windowed[n] = hann * error[at + n];
     }
+    const std::vector<std::complex<double>> lines = numerics::HalfSpectrum(windowed);
+    for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(lines[k]);
   }
   const double white = 0.375 * static_cast<double>(length) * noise * noise * std::max(1.0, windows);
   for (double& value : power) value /= white > 0.0 ? white : 1.0;

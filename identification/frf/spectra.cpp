@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unsupported/Eigen/FFT>
+#include <span>
 
 #include "identification/frf/sine_steps.hpp"
 #include "identification/frf/synchronous.hpp"
+#include "numerics/fourier_transform.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -29,38 +30,38 @@ double RotationHz(const Experiment& e) {
   return std::abs(e.speed_rad_per_s) / (2.0 * std::numbers::pi);
 }
 
+/// Lines of one period, without the mean and without half the sampling rate.
+Spectrum PeriodSpectrum(std::span<const double> samples) {
+  Spectrum spectrum = numerics::HalfSpectrum(samples);
+  spectrum.resize(samples.size() / 2);
+  spectrum.erase(spectrum.begin());
+  return spectrum;
+}
+
 std::vector<Spectrum> PeriodSpectra(const session::Column& column, const session::Recording& record,
-                                    const Experiment& e, int orders, Eigen::FFT<double>& fft) {
+                                    const Experiment& e, int orders) {
   const auto piece = std::span(column).subspan(e.begin, e.end() - e.begin);
   const auto angle = std::span(record.angle_rad).subspan(e.begin, piece.size());
   const std::vector<double> rest = WithoutSynchronous(piece, angle, orders);
-  std::vector<Spectrum> spectra(e.periods);
-  std::vector<double> samples(e.period_samples);
+  std::vector<Spectrum> spectra;
   for (std::size_t m = 0; m < e.periods; ++m) {
-    const auto from = rest.begin() + static_cast<std::ptrdiff_t>(m * e.period_samples);
-    std::copy_n(from, e.period_samples, samples.begin());
-    fft.fwd(spectra[m], samples);
-    spectra[m].resize(e.period_samples / 2);
-    spectra[m].erase(spectra[m].begin());  // the mean
+    spectra.push_back(
+        PeriodSpectrum(std::span(rest).subspan(m * e.period_samples, e.period_samples)));
   }
   return spectra;
 }
 
 Spectra Periodic(const session::Recording& record, const Experiment& e, int orders) {
-  Eigen::FFT<double> fft;
   Spectra s;
   s.axis = e.axis;
   s.periods = e.periods;
   s.neighbours = kPeriodicNeighbours;
   for (std::size_t axis = 0; axis < record.axes(); ++axis) {
-    s.position.push_back(PeriodSpectra(record.position_m[axis], record, e, orders, fft));
-    s.current.push_back(PeriodSpectra(record.current_a[axis], record, e, orders, fft));
+    s.position.push_back(PeriodSpectra(record.position_m[axis], record, e, orders));
+    s.current.push_back(PeriodSpectra(record.current_a[axis], record, e, orders));
   }
-  const auto from = record.excitation_a[e.axis].begin() + static_cast<std::ptrdiff_t>(e.begin);
-  std::vector<double> samples(from, from + static_cast<std::ptrdiff_t>(e.period_samples));
-  fft.fwd(s.excitation, samples);
-  s.excitation.resize(e.period_samples / 2);
-  s.excitation.erase(s.excitation.begin());
+  s.excitation =
+      PeriodSpectrum(std::span(record.excitation_a[e.axis]).subspan(e.begin, e.period_samples));
   const double spacing_hz = 1.0 / (static_cast<double>(e.period_samples) * record.period_s());
   for (std::size_t k = 1; k <= s.excitation.size(); ++k) {
     s.frequency_hz.push_back(static_cast<double>(k) * spacing_hz);
