@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "controller/cycle/probe_map.hpp"
+#include "common/probe_map.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -25,10 +25,9 @@ RecordedRow RowOf(const cycle::CycleRecord& record, std::size_t axes) {
   return row;
 }
 
-RecordedRow RowOf(const session::Recording& recording, std::size_t row,
-                  const cycle::ProbeMap& probes) {
-  cycle::BearingFrame position_m;
-  cycle::BearingFrame current_a;
+RecordedRow RowOf(const session::Recording& recording, std::size_t row, const ProbeMap& probes) {
+  BearingFrame position_m;
+  BearingFrame current_a;
   RecordedRow made;
   for (std::size_t axis = 0; axis < recording.axes(); ++axis) {
     position_m.at[axis] = recording.position_m[axis][row];
@@ -55,7 +54,7 @@ RecordedRow RowOf(const session::Recording& recording, std::size_t row,
 }  // namespace
 
 std::vector<RecordedRow> RowsOf(const session::Recording& recording, const RigNumbers& rig) {
-  const cycle::ProbeMap probes(rig);
+  const ProbeMap probes(rig);
   std::vector<RecordedRow> rows;
   rows.reserve(recording.rows());
   for (std::size_t row = 0; row < recording.rows(); ++row) {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <utility>
 
+#include "common/probe_map.hpp"
 #include "common/problem.hpp"
-#include "controller/cycle/probe_map.hpp"
 #include "session/candump_import.hpp"
 #include "session/coil_scales.hpp"
 #include "session/csv_rows.hpp"
@@ -97,7 +97,7 @@ class ColumnWriter {
     }
   }
 
-  cycle::ProbeMap map_;
+  ProbeMap map_;
   std::size_t axes_;
   Recording recording_;
 };

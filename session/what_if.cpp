@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "common/problem.hpp"
-#include "session/law_alone.hpp"
+#include "controller/cycle/law_alone.hpp"
 #include "session/replay.hpp"
 
 namespace levitas::session {
@@ -30,7 +30,7 @@ class Other {
   }
 
  private:
-  std::optional<LawAlone> law_;
+  std::optional<cycle::LawAlone> law_;
   std::optional<cycle::ControlCycle> control_;
 };
 

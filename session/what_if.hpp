@@ -5,8 +5,9 @@
 // Meaning    the rotor does not answer: it moves as recorded, whatever this controller says. Large
 //            or growing differences say that the two disagree, not what the rotor would have done.
 // Compared   cycles in which both have their coils energised.
-// Imported   data have neither modes nor commands: the law runs alone (law_alone.hpp), and the
-//            first 0.1 s, in which its filters fill, are left out.
+// Imported   data have neither modes nor commands: the law runs alone, without a supervisor
+//            (controller/cycle/law_alone.hpp), and the first 0.1 s, in which its filters fill, are
+//            left out.
 // Failure    BadInput when the file starts in the middle of a run.
 
 #include <cstdint>

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/probe_map.hpp"
 #include "controller/cycle/law_at_rig_period.hpp"
-#include "controller/cycle/probe_map.hpp"
 #include "controller/law/axis_law.hpp"
 #include "controller/supervisor/supervisor.hpp"
 

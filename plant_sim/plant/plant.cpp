@@ -37,20 +37,18 @@ SensorFrame Plant::Sample() noexcept {
   if (!self.LatestActing().enabled) frame.rig_status |= kRigAmplifiersOff;
   AxisArray output_m = self.Outputs();
   if (model.effects().jitter_s > 0.0) self.Jitter(output_m);
+  BearingFrame read_m;
   for (std::size_t axis = 0; axis < model.channels(); ++axis) {
-    frame.position_m[axis] = model.config().sensor_polarity[axis] * self.Read(axis, output_m[axis]);
+    read_m.at[axis] = self.Read(axis, output_m[axis]);
   }
+  frame.position_m = self.probes.Readings(read_m).at;
   frame.speed_rad_per_s = self.rotation.speed_rad_per_s;
   frame.angle_rad = self.rotation.angle_rad;
   return frame;
 }
 
 AxisArray Plant::SensorOutput() const noexcept {
-  AxisArray output_m = impl_->Outputs();
-  for (std::size_t axis = 0; axis < impl_->model->axes(); ++axis) {
-    output_m[axis] *= impl_->model->config().sensor_polarity[axis];
-  }
-  return output_m;
+  return impl_->probes.Readings({impl_->Outputs()}).at;
 }
 
 void Plant::Advance(const PlantCommand& command) noexcept {

@@ -8,8 +8,8 @@
 //            command computed from sample n acts `delay_samples` periods after t_n; its drive part
 //            acts at once.
 // Start      bias current at its design value, as if levitated; RestInTouchdown() de-energises.
-// Frame      bearing frame; sensor_polarity is applied to what Sample and SensorOutput return,
-//            actuator_polarity to the commanded current; the plant applies them nowhere else.
+// Frame      bearing frame; readings and commands are those of the wires, by ProbeMap. A model that
+//            never meets wires has straight ones (bearing_frame.hpp).
 // Use        cheap to copy, no globals, no allocation in Sample and Advance, deterministic for a
 //            seed. One instance per thread; many instances may run in parallel.
 // Driving    open loop: give any command. Closed loop: feed Sample() to a controller. Observer

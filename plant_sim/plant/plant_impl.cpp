@@ -51,12 +51,12 @@ void Plant::Impl::Energise(bool on) noexcept {
 CoilCommand Plant::Impl::Limited(const PlantCommand& command) const noexcept {
   CoilCommand limited;
   limited.enabled = command.amplifiers_enabled;
-  const auto& polarity = model->config().actuator_polarity;
+  const AxisArray control_a = probes.CommandedCurrents({command.control_current_a}).at;
   for (std::size_t axis = 0; axis < model->axes(); ++axis) {
     const double offset_a = model->effects().bearings[axis / 2].axis[axis % 2].command_offset_a;
-    limited.coils[axis] = amplifier::LimitedCommand(
-        model->bearings()[axis / 2].amplifier, command.amplifiers_enabled,
-        polarity[axis] * command.control_current_a[axis] + offset_a, command.bias_current_a);
+    limited.coils[axis] =
+        amplifier::LimitedCommand(model->bearings()[axis / 2].amplifier, command.amplifiers_enabled,
+                                  control_a[axis] + offset_a, command.bias_current_a);
   }
   return limited;
 }

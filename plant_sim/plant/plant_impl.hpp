@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/probe_map.hpp"
 #include "common/random.hpp"
 #include "plant_sim/effect/strength.hpp"
 #include "plant_sim/plant/plant.hpp"
@@ -34,6 +35,7 @@ inline std::size_t MostWhole(double delay_samples) {
 struct Plant::Impl {
   Impl(std::shared_ptr<const PlantModel> shared, std::uint64_t seed)
       : model(std::move(shared)),
+        probes(model->config().sensor_polarity, model->config().actuator_polarity, model->axes()),
         state(model->layout().size, 0.0),
         work(*model),
         random(seed),
@@ -126,6 +128,7 @@ struct Plant::Impl {
   void Jitter(AxisArray& output_m) noexcept;
 
   std::shared_ptr<const PlantModel> model;
+  ProbeMap probes;
   std::shared_ptr<PlantModel> own;  ///< the same, when it may change
   std::vector<double> strengths;    ///< of the effects, now
   std::vector<bool> follows_schedule;

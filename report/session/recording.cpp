@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/probe_map.hpp"
 #include "common/problem.hpp"
 #include "config/rig_file.hpp"
-#include "controller/cycle/probe_map.hpp"
 #include "plant_sim/plant/train_model.hpp"
 #include "session/session_reader.hpp"
 #include "verdict/phase.hpp"
@@ -16,7 +16,7 @@ namespace {
 /// Slower than any bearing is judged at; for records that name no controller.
 constexpr double kSlow = 1.0;
 
-void Add(Recording& recording, const cycle::CycleRecord& record, const cycle::ProbeMap& probes) {
+void Add(Recording& recording, const cycle::CycleRecord& record, const ProbeMap& probes) {
   ++recording.records;
   recording.missed_deadlines += record.in.missed_deadlines;
   if (!record.in.frame_present) {
@@ -70,7 +70,7 @@ Recording Load(const std::string& path) {
   }
   recording.position_m.resize(2 * recording.rig.bearings.size());
   recording.current_a.resize(2 * recording.rig.bearings.size());
-  const cycle::ProbeMap probes(recording.rig);
+  const ProbeMap probes(recording.rig);
   cycle::CycleRecord record;
   while (reader.Next(record)) {
     // Numbers that go back (files put together) would make times without meaning.

@@ -1,11 +1,11 @@
-#include "controller/cycle/probe_map.hpp"
+#include "common/probe_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <stdexcept>
 
-namespace levitas::cycle {
+namespace levitas {
 namespace {
 
 RigNumbers Wired(AxisArray sensor, AxisArray actuator) {
@@ -47,4 +47,4 @@ TEST(ProbeMap, RefusesAPolarityThatIsNotASign) {
 }
 
 }  // namespace
-}  // namespace levitas::cycle
+}  // namespace levitas

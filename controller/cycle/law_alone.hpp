@@ -6,26 +6,26 @@
 // Thread   any; pure as the law itself.
 // Failure  std::invalid_argument for configurations that a control cycle would refuse as well.
 
+#include "common/probe_map.hpp"
 #include "controller/cycle/control_cycle.hpp"
-#include "controller/cycle/probe_map.hpp"
 #include "controller/law/axis_law.hpp"
 
-namespace levitas::session {
+namespace levitas::cycle {
 
 class LawAlone {
  public:
-  explicit LawAlone(const cycle::CycleConfig& config);
+  explicit LawAlone(const CycleConfig& config);
 
   /// Outputs with the currents and energised coils; the mode is left off.
-  [[nodiscard]] cycle::CycleOutputs Step(const cycle::CycleInputs& in) noexcept;
+  [[nodiscard]] CycleOutputs Step(const CycleInputs& in) noexcept;
 
  private:
   std::size_t axes_;
   double limit_a_;
-  cycle::ProbeMap probes_;
+  ProbeMap probes_;
   law::LawCoefficients coefficients_;
   law::LawState state_;
   law::LawOutput given_;
 };
 
-}  // namespace levitas::session
+}  // namespace levitas::cycle

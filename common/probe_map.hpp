@@ -1,7 +1,9 @@
 #pragma once
-// Removes polarity: probes on the way in, coils on the way out, and coils of a record on the way
-// back.
+// Signs of probes and coils as they are wired: the one class that knows them, for both directions.
 //
+// Users      the control cycle (controller/cycle), the simulated rig (plant_sim/plant) and whoever
+//            takes frames off the wire or out of a file into the bearing frame or back:
+//            session/record_frame.hpp. Everything else has numbers of the bearing frame only.
 // Equation   q_B = P_s q_S (positions), ic_S = P_a ic_B (currents); P diagonal with +-1.
 // Frames     S: as the rig is wired. B: bearing frame, positive x towards the coil that a positive
 //            control current strengthens. The two are types, so one cannot be taken for the other.
@@ -14,7 +16,7 @@
 #include "common/axes.hpp"
 #include "common/rig_numbers.hpp"
 
-namespace levitas::cycle {
+namespace levitas {
 
 /// One number per axis as the rig is wired.
 struct RigFrame {
@@ -27,10 +29,12 @@ struct BearingFrame {
 
 class ProbeMap {
  public:
-  explicit ProbeMap(const RigNumbers& rig) {
-    for (std::size_t i = 0; i < rig.axes() && i < kMaxAxes; ++i) {
-      sensor_[i] = Checked(rig.sensor_polarity[i], "sensor_polarity");
-      actuator_[i] = Checked(rig.actuator_polarity[i], "actuator_polarity");
+  explicit ProbeMap(const RigNumbers& rig)
+      : ProbeMap(rig.sensor_polarity, rig.actuator_polarity, rig.axes()) {}
+  ProbeMap(const AxisArray& sensor_polarity, const AxisArray& actuator_polarity, std::size_t axes) {
+    for (std::size_t i = 0; i < axes && i < kMaxAxes; ++i) {
+      sensor_[i] = Checked(sensor_polarity[i], "sensor_polarity");
+      actuator_[i] = Checked(actuator_polarity[i], "actuator_polarity");
     }
   }
 
@@ -67,4 +71,4 @@ class ProbeMap {
   AxisArray actuator_{};
 };
 
-}  // namespace levitas::cycle
+}  // namespace levitas

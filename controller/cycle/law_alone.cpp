@@ -1,15 +1,15 @@
-#include "session/law_alone.hpp"
+#include "controller/cycle/law_alone.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "controller/cycle/law_at_rig_period.hpp"
 
-namespace levitas::session {
+namespace levitas::cycle {
 namespace {
 
 /// Both coils stay within 0 .. maximum.
-double CurrentLimit(const cycle::CycleConfig& config) {
+double CurrentLimit(const CycleConfig& config) {
   const double bias_a = config.rig.bias_current_a;
   const double limit_a = std::min(bias_a, config.rig.max_coil_current_a - bias_a);
   return config.law.current_limit_a > 0.0 ? std::min(limit_a, config.law.current_limit_a) : limit_a;
@@ -17,14 +17,14 @@ double CurrentLimit(const cycle::CycleConfig& config) {
 
 }  // namespace
 
-LawAlone::LawAlone(const cycle::CycleConfig& config)
+LawAlone::LawAlone(const CycleConfig& config)
     : axes_(config.rig.axes()),
       limit_a_(CurrentLimit(config)),
       probes_(config.rig),
-      coefficients_(cycle::LawAtRigPeriod(config)),
+      coefficients_(LawAtRigPeriod(config)),
       state_(coefficients_) {}
 
-cycle::CycleOutputs LawAlone::Step(const cycle::CycleInputs& in) noexcept {
+CycleOutputs LawAlone::Step(const CycleInputs& in) noexcept {
   const AxisArray position_m = probes_.Positions({in.frame.position_m}).at;
   bool usable = in.frame_present;
   AxisArray error_m{};
@@ -34,7 +34,7 @@ cycle::CycleOutputs LawAlone::Step(const cycle::CycleInputs& in) noexcept {
     error_m[axis] -= in.op.excitation_m[axis];
   }
   if (usable) given_ = law::Step(coefficients_, state_, error_m, in.op.excitation_a, limit_a_);
-  cycle::CycleOutputs out;
+  CycleOutputs out;
   out.current.cycle = in.frame.cycle;
   out.current.axes = static_cast<std::uint32_t>(axes_);
   out.current.control_current_a = probes_.Currents({given_.control_current_a}).at;
@@ -43,4 +43,4 @@ cycle::CycleOutputs LawAlone::Step(const cycle::CycleInputs& in) noexcept {
   return out;
 }
 
-}  // namespace levitas::session
+}  // namespace levitas::cycle
