@@ -77,7 +77,8 @@ void DescribeChannel(Visitor& v, const RigNumbers& rig, std::string& channel, st
   if (names.empty()) names.push_back(channel);  // written without its rig
   const auto at = std::ranges::find(names, channel);
   auto index = at == names.end() ? 0 : static_cast<std::size_t>(at - names.begin());
-  v.Choice({"channel", names, kRequired, "axis of the rig"}, index);
+  const std::string owner = "rig " + rig.name;
+  v.Choice({"channel", names, kRequired, "axis of the rig", owner}, index);
   if (rig.channels.empty()) return;
   channel = rig.channels[index];
   axis = index;

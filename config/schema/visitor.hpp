@@ -49,6 +49,9 @@ struct ChoiceField {
   std::span<const std::string_view> words;
   std::optional<std::string_view> fallback;
   std::string_view meaning;
+  /// Whose words they are ("rig pump"): a file written for another owner is one problem, not one
+  /// for each of its words. Empty: words of the program itself.
+  std::string_view owner{};
 };
 
 struct ListField {

@@ -180,6 +180,8 @@ void Reader::Choice(const ChoiceField& field, std::size_t& index) {
   const std::size_t found = position(*text);
   if (found < words.size()) {
     index = found;
+  } else if (!field.owner.empty()) {
+    ReportForeign(field, entry, Describe(*entry.value));
   } else {
     Report(entry.value->place, entry.key,
            fmt::format("found {}, allowed {}; nearest {}", Describe(*entry.value), allowed(),

@@ -68,6 +68,13 @@ class Reader : public Visitor {
     std::vector<Expected> expected;
     bool mute{};  ///< what is wrong with it has been said
   };
+  /// Words that the owner of a choice does not have: all of them are one problem.
+  struct Foreign {
+    std::size_t problem{};  ///< index, at the first place
+    std::string where;      ///< how its text begins
+    std::size_t places{};
+    std::vector<std::string> words;  ///< each once
+  };
   struct OpenList {
     const Node* node{};
     std::string path;
@@ -89,6 +96,7 @@ class Reader : public Visitor {
   /// Scalar text of an entry; reports and returns null when it is something else.
   const std::string* Scalar(const Entry& entry, const Text& allowed, bool number);
   void Report(Place place, const std::string& key, const std::string& text);
+  void ReportForeign(const ChoiceField& field, const Entry& entry, const std::string& word);
   void OpenFrame(const Node* node, std::string path, std::string name, Place place);
   void CloseFrame();
   void ReportUnknown(Frame& frame);
@@ -105,6 +113,7 @@ class Reader : public Visitor {
   std::vector<Problem> problems_;
   std::map<std::string, std::string> homes_;  ///< every key met, and the first group it is of
   std::vector<std::pair<std::size_t, std::string>> strays_;  ///< problem and its unknown key
+  std::map<std::string, Foreign> foreign_;                   ///< by owner
   bool probing_{};  ///< only the keys of a form are being collected
   std::vector<std::string> probed_;
 };

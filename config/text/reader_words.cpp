@@ -1,5 +1,6 @@
 // The part of the reader for lists of words, and for a word on which the other keys depend.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -36,6 +37,30 @@ void Reader::Words(const WordsField& field, std::uint32_t& mask) {
     mask |= bit;
   }
   if (mask == (1U << words.size()) - 1U) mask = kAllWords;
+}
+
+void Reader::ReportForeign(const ChoiceField& field, const Entry& entry, const std::string& word) {
+  Foreign& foreign = foreign_[std::string(field.owner)];
+  if (foreign.places++ == 0) {
+    foreign.problem = problems_.size();
+    Report(entry.value->place, entry.key, "");
+    foreign.where = problems_.back().text;
+  }
+  if (std::ranges::find(foreign.words, word) == foreign.words.end()) foreign.words.push_back(word);
+  const std::vector<std::string> allowed(field.words.begin(), field.words.end());
+  std::string& text = problems_[foreign.problem].text;
+  const std::string places =
+      foreign.places == 1 ? "" : fmt::format(" in {} places, first here", foreign.places);
+  if (foreign.words.size() == 1) {
+    text = fmt::format("{}found {}{}, allowed {}; nearest {}", foreign.where, word, places,
+                       Listed(allowed), Nearest(entry.value->text, allowed));
+  } else {
+    text = fmt::format(
+        "{}found {}{}; {} has {}. The file seems to be written for another rig: "
+        "use it with that rig, or change these words",
+        foreign.where, fmt::join(foreign.words, ", "), places, field.owner,
+        fmt::join(allowed, ", "));
+  }
 }
 
 void Reader::Variant(const ChoiceField& field, std::size_t& index,

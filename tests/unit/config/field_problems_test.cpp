@@ -148,6 +148,26 @@ TEST(Choice, OfAChannelIsTheRigs) {
       "nearest de_x");
 }
 
+// Before: one problem for each of the words.
+TEST(Choice, OfTheChannelsOfAnotherRigIsOneProblemThatNamesThemAllAndTheRigs) {
+  const std::string excitation =
+      "hold_s: 1\n    excitation:\n      - {channel: lx, amplitude_a: 0.1}\n"
+      "      - {channel: uy, amplitude_a: 0.1}\n      - {channel: lx, amplitude_a: 0.2}";
+  EXPECT_EQ(ScenarioProblems(With(kScenario, "hold_s: 1", excitation)),
+            "scenario.yaml:9:19: steps[0].excitation[0].channel: found \"lx\", \"uy\" in 3 places, "
+            "first here; rig small has de_x, de_y. The file seems to be written for another rig: "
+            "use it with that rig, or change these words");
+}
+
+TEST(Choice, OfAMisspeltChannelIsOneProblemHoweverOftenItIsWritten) {
+  const std::string excitation =
+      "hold_s: 1\n    excitation:\n      - {channel: dex, amplitude_a: 0.1}\n"
+      "      - {channel: dex, amplitude_a: 0.2}";
+  EXPECT_EQ(ScenarioProblems(With(kScenario, "hold_s: 1", excitation)),
+            "scenario.yaml:9:19: steps[0].excitation[0].channel: found \"dex\" in 2 places, first "
+            "here, allowed de_x, de_y; nearest de_x");
+}
+
 TEST(EveryProblem, IsListedInTheOrderOfTheFile) {
   std::string text = With(kRig, "period_us: 100", "period_us: 5");
   text = With(text, "poisson: 0.3", "poissson: 0.3");
