@@ -44,9 +44,7 @@ CoilCurrents PredictCoilCurrents(const plant::PlantConfig& rig,
     const CoilPlace place = PlaceOf(rig, index);
     const std::size_t axis = index / 2;
     const double limit_a = rig.bearings[axis / 2].magnet.max_coil_current_a;
-    const auto position = [&](std::size_t n) {
-      return rig.sensor_polarity[axis] * rows[n].sample.position_m[axis];
-    };
+    const auto position = [&](std::size_t n) { return rows[n].sample.position_m[axis]; };
     double now_a = rows.front().coil_current_a[index];
     predicted.front()[index] = now_a;
     for (std::size_t n = 0; n + 1 < rows.size(); ++n) {
@@ -59,10 +57,9 @@ CoilCurrents PredictCoilCurrents(const plant::PlantConfig& rig,
       // A fraction of a sample in the delay: the older command acts first.
       const auto follow = [&](std::size_t age, double duration_s) {
         const plant::PlantCommand& command = rows[n >= age ? n - age : 0].sample.command;
-        const double asked_a =
-            std::clamp(command.bias_current_a + place.command_sign * rig.actuator_polarity[axis] *
-                                                    command.control_current_a[axis],
-                       0.0, limit_a);
+        const double asked_a = std::clamp(
+            command.bias_current_a + place.command_sign * command.control_current_a[axis], 0.0,
+            limit_a);
         return amplifier::Follow(place.coil, now_a, asked_a, command.amplifiers_enabled, gap_m,
                                  rate, duration_s, warm);
       };

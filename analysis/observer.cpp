@@ -3,9 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "analysis/riccati.hpp"
 #include "plant_sim/magnet/magnet.hpp"
+#include "plant_sim/plant/bearing_frame.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
@@ -151,28 +153,28 @@ Observer::Observer(std::shared_ptr<const plant::PlantModel> model,
     : plant_(std::move(model), 0),
       gain_(std::move(gain)),
       force_n_(Eigen::VectorXd::Zero(gain_->force_n_per_m.rows())),
-      innovation_m_(force_n_) {}
+      innovation_m_(force_n_) {
+  if (!plant::IsInBearingFrame(plant_.model().config())) {
+    throw std::invalid_argument("an observer's model has probes and coils wired straight");
+  }
+}
 
 Observer::Observer(const plant::PlantConfig& plant, std::shared_ptr<const ObserverGain> gain)
-    : Observer(std::make_shared<const plant::PlantModel>(plant), std::move(gain)) {}
+    : Observer(std::make_shared<const plant::PlantModel>(plant::InBearingFrame(plant)),
+               std::move(gain)) {}
 
 void Observer::Restart(const AxisArray& position_m) {
-  AxisArray place_m{};
+  AxisArray place_m = position_m;
   const plant::PlantConfig& config = plant_.model().config();
   const auto& bearings = config.bearings;
-  const std::size_t axes = 2 * bearings.size();
-  for (std::size_t axis = 0; axis < axes; ++axis) {
-    place_m[axis] = config.sensor_polarity[axis] * position_m[axis];
-  }
   if (bearings.size() == 2 && config.shafts.empty()) {
     // A rigid rotor through both sensor planes, read off at the actuator planes.
-    const AxisArray sensor_m = place_m;
     const double first_z_m = bearings[0].sensor_z_m;
     const double span_m = bearings[1].sensor_z_m - first_z_m;
-    for (std::size_t axis = 0; axis < axes; ++axis) {
+    for (std::size_t axis = 0; axis < 2 * bearings.size(); ++axis) {
       const double share = (bearings[axis / 2].actuator_z_m - first_z_m) / span_m;
       const std::size_t plane = axis % 2;
-      place_m[axis] = sensor_m[plane] + share * (sensor_m[plane + 2] - sensor_m[plane]);
+      place_m[axis] = position_m[plane] + share * (position_m[plane + 2] - position_m[plane]);
     }
   }
   plant_.PlaceAtRest(place_m);
@@ -180,12 +182,11 @@ void Observer::Restart(const AxisArray& position_m) {
 
 AxisArray Observer::Step(const RecordedSample& sample, const AxisArray& added_m) noexcept {
   const AxisArray predicted_m = plant_.SensorOutput();
-  const AxisArray& polarity = plant_.model().config().sensor_polarity;
   AxisArray innovation_m{};
   for (Eigen::Index axis = 0; axis < innovation_m_.size(); ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     innovation_m[i] = sample.position_m[i] - (predicted_m[i] + added_m[i]);
-    innovation_m_[axis] = polarity[i] * innovation_m[i];
+    innovation_m_[axis] = innovation_m[i];
   }
   const std::span<double> state = plant_.mutable_state();
   Eigen::Map<Eigen::VectorXd> x(state.data(), gain_->state.rows());

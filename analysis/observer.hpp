@@ -11,8 +11,8 @@
 //            smooth function of them. Commands on their way (delay) are known and need no estimate.
 // Noise      measurement: the sensor's noise_rms and the converter's step/sqrt(12). Process: white
 //            force per axis (unmodelled force; larger = trusts the sensors more) and the drift.
-// Innovation measured minus predicted position [m]; white and little above the sensor noise when
-//            the plant is right.
+// Innovation measured minus predicted position [m], both in the bearing frame; white and little
+//            above the sensor noise when the plant is right.
 // Cost       one plant period and one small matrix-vector product per sample. No allocation in
 //            Step.
 // Thread     one instance per thread; a gain may be shared.
@@ -53,7 +53,7 @@ struct ObserverGain {
 
 /// One recorded sample: what was read and what was commanded from it.
 struct RecordedSample {
-  AxisArray position_m{};  ///< as read by the sensors, probe polarity included
+  AxisArray position_m{};  ///< as read by the sensors
   plant::PlantCommand command;
   double speed_rad_per_s{};  ///< [rad/s] mean speed until the next sample
   double angle_rad{};        ///< [rad] rotor angle at this sample
@@ -61,7 +61,7 @@ struct RecordedSample {
 
 class Observer {
  public:
-  /// `model` need not be the one the gain was designed for.
+  /// Of any `model` in the bearing frame (std::invalid_argument), not only that of the gain.
   Observer(std::shared_ptr<const plant::PlantModel> model,
            std::shared_ptr<const ObserverGain> gain);
   Observer(const plant::PlantConfig& plant, std::shared_ptr<const ObserverGain> gain);

@@ -2,12 +2,14 @@
 
 #include <cmath>
 
-#include "common/probe_map.hpp"
+#include "session/record_frame.hpp"
 
 namespace levitas::analysis {
 namespace {
 
-RecordedRow RowOf(const cycle::CycleRecord& record, std::size_t axes) {
+RecordedRow RowOf(const cycle::CycleRecord& record, const session::RecordFrame& bearing,
+                  std::size_t axes) {
+  const session::AxisSample sample = bearing.Bearing(record);
   const SensorFrame& frame = record.in.frame;
   const CurrentFrame& current = record.out.current;
   RecordedRow row;
@@ -16,8 +18,8 @@ RecordedRow RowOf(const cycle::CycleRecord& record, std::size_t axes) {
   row.excitation_a = record.in.op.excitation_a;
   row.coil_current_a = record.in.coil_current_a;
   row.coils = record.in.coils;
-  row.sample.position_m = frame.position_m;
-  row.sample.command.control_current_a = current.control_current_a;
+  row.sample.position_m = sample.position_m;
+  row.sample.command.control_current_a = sample.current_a;
   row.sample.command.bias_current_a = current.bias_current_a;
   row.sample.command.amplifiers_enabled = current.amplifiers_enabled;
   row.sample.speed_rad_per_s = frame.speed_rad_per_s;
@@ -25,13 +27,11 @@ RecordedRow RowOf(const cycle::CycleRecord& record, std::size_t axes) {
   return row;
 }
 
-RecordedRow RowOf(const session::Recording& recording, std::size_t row, const ProbeMap& probes) {
-  BearingFrame position_m;
-  BearingFrame current_a;
+RecordedRow RowOf(const session::Recording& recording, std::size_t row) {
   RecordedRow made;
   for (std::size_t axis = 0; axis < recording.axes(); ++axis) {
-    position_m.at[axis] = recording.position_m[axis][row];
-    current_a.at[axis] = recording.current_a[axis][row];
+    made.sample.position_m[axis] = recording.position_m[axis][row];
+    made.sample.command.control_current_a[axis] = recording.current_a[axis][row];
     made.excitation_a[axis] = recording.ExcitationOf(axis, row);
   }
   for (std::size_t coil = 0; coil < recording.coil_current_a.size(); ++coil) {
@@ -42,8 +42,6 @@ RecordedRow RowOf(const session::Recording& recording, std::size_t row, const Pr
   }
   made.cycle = recording.cycle[row];
   made.levitated = recording.levitated[row] != 0;
-  made.sample.position_m = probes.Readings(position_m).at;
-  made.sample.command.control_current_a = probes.Currents(current_a).at;
   made.sample.command.bias_current_a = recording.bias_current_a[row];
   made.sample.command.amplifiers_enabled = recording.amplifiers_enabled[row] != 0;
   made.sample.speed_rad_per_s = recording.speed_rad_per_s[row];
@@ -53,21 +51,21 @@ RecordedRow RowOf(const session::Recording& recording, std::size_t row, const Pr
 
 }  // namespace
 
-std::vector<RecordedRow> RowsOf(const session::Recording& recording, const RigNumbers& rig) {
-  const ProbeMap probes(rig);
+std::vector<RecordedRow> RowsOf(const session::Recording& recording) {
   std::vector<RecordedRow> rows;
   rows.reserve(recording.rows());
   for (std::size_t row = 0; row < recording.rows(); ++row) {
-    rows.push_back(RowOf(recording, row, probes));
+    rows.push_back(RowOf(recording, row));
   }
   return rows;
 }
 
 std::vector<RecordedRow> ReadRows(session::SessionReader& session, const RigNumbers& rig) {
   session::RefuseOtherRig(session.header(), rig);
+  const session::RecordFrame bearing(rig);
   std::vector<RecordedRow> rows;
   cycle::CycleRecord record;
-  while (session.Next(record)) rows.push_back(RowOf(record, rig.axes()));
+  while (session.Next(record)) rows.push_back(RowOf(record, bearing, rig.axes()));
   return rows;
 }
 

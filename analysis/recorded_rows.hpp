@@ -1,7 +1,7 @@
 #pragma once
 // A recorded run as the rows that an observer is driven with.
 //
-// Frame      as the rig is wired: the plant in the observer takes commands and gives readings so.
+// Frame      bearing frame, as that of the observer's plant.
 // Levitated  session/recording.hpp says of which rows.
 // Coils      a row has the currents of all coils up to the last that was measured in it.
 // Memory     328 bytes a row (3.3 MB a second at 10 kHz) besides the recording.
@@ -22,9 +22,7 @@ namespace levitas::analysis {
 [[nodiscard]] std::vector<RecordedRow> ReadRows(session::SessionReader& session,
                                                 const RigNumbers& rig);
 
-/// The rows of `recording`, which is of the rig `rig`.
-[[nodiscard]] std::vector<RecordedRow> RowsOf(const session::Recording& recording,
-                                              const RigNumbers& rig);
+[[nodiscard]] std::vector<RecordedRow> RowsOf(const session::Recording& recording);
 
 /// Mean over the levitated rows; 0 when there are none.
 [[nodiscard]] double MeanSpeed(const std::vector<RecordedRow>& rows);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "controller/law/axis_law.hpp"
+#include "plant_sim/plant/bearing_frame.hpp"
 #include "plant_sim/plant/plant.hpp"
 
 namespace levitas::analysis {
@@ -15,7 +16,8 @@ constexpr double kDurationS = 1.0;
 constexpr double kManyModes = 16.0;
 constexpr double kRelease = 0.1;  // of the clearance
 
-plant::PlantConfig Quiet(plant::PlantConfig rig) {
+plant::PlantConfig Quiet(const plant::PlantConfig& given) {
+  plant::PlantConfig rig = plant::InBearingFrame(given);
   for (auto& bearing : rig.bearings) {
     bearing.amplifier.dac_bits = 0;
     bearing.sensor.noise_rms_m = 0.0;
@@ -28,7 +30,7 @@ plant::PlantConfig Quiet(plant::PlantConfig rig) {
 class BareLoop {
  public:
   BareLoop(const plant::PlantConfig& rig, const law::LawConfig& law, double speed_rad_per_s)
-      : rig_(rig), plant_(rig, 1), coefficients_(AtPeriod(rig, law)), state_(coefficients_) {
+      : plant_(rig, 1), coefficients_(AtPeriod(rig, law)), state_(coefficients_) {
     AxisArray release_m{};
     double bias_a = 0.0;
     limit_a_ = law.current_limit_a;
@@ -49,18 +51,15 @@ class BareLoop {
     command_.acceleration_limit_rad_per_s2 = rig.drive.max_acceleration_rad_per_s2;
   }
 
-  /// Bearing frame, as the sensors show it.
+  /// Positions as the sensors show them.
   AxisArray Step() {
     AxisArray error_m{};
-    AxisArray seen_m = plant_.SensorOutput();
+    const AxisArray seen_m = plant_.SensorOutput();
     for (std::size_t axis = 0; axis < coefficients_.axes(); ++axis) {
-      seen_m[axis] *= rig_.sensor_polarity[axis];
       error_m[axis] = -seen_m[axis];
     }
     const law::LawOutput out = law::Step(coefficients_, state_, error_m, {}, limit_a_);
-    for (std::size_t axis = 0; axis < coefficients_.axes(); ++axis) {
-      command_.control_current_a[axis] = rig_.actuator_polarity[axis] * out.control_current_a[axis];
-    }
+    command_.control_current_a = out.control_current_a;
     plant_.Advance(command_);
     return seen_m;
   }
@@ -71,7 +70,6 @@ class BareLoop {
     return law;
   }
 
-  plant::PlantConfig rig_;
   plant::Plant plant_;
   law::LawCoefficients coefficients_;
   law::LawState state_;

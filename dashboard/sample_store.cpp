@@ -8,18 +8,13 @@
 namespace levitas::dashboard {
 
 SampleStore::SampleStore(const RigNumbers& rig)
-    : period_s_(rig.period_s()),
+    : frame_(rig),
+      period_s_(rig.period_s()),
       bucket_cycles_(std::max<std::uint64_t>(
           1, static_cast<std::uint64_t>(std::llround(kBucketSeconds / rig.period_s())))),
       position_m_(rig.axes(), std::vector<float>(kCapacity)),
       current_a_(rig.axes(), std::vector<float>(kCapacity)),
       speed_rad_per_s_(kCapacity) {
-  sensor_polarity_.reserve(rig.axes());
-  actuator_polarity_.reserve(rig.axes());
-  for (std::size_t i = 0; i < rig.axes(); ++i) {
-    sensor_polarity_.push_back(static_cast<float>(rig.sensor_polarity[i]));
-    actuator_polarity_.push_back(static_cast<float>(rig.actuator_polarity[i]));
-  }
   OpenBucket();
 }
 
@@ -51,9 +46,15 @@ bool SampleStore::Add(const levitas_msg::sample_batch_t& batch) {
 
 void SampleStore::Put(const levitas_msg::sample_batch_t& batch, std::size_t sample) {
   const auto at = static_cast<std::size_t>(count_ % kCapacity);
+  session::AxisSample wired;
   for (std::size_t i = 0; i < axes(); ++i) {
-    position_m_[i][at] = sensor_polarity_[i] * batch.position_m[sample * axes() + i];
-    current_a_[i][at] = actuator_polarity_[i] * batch.control_current_a[sample * axes() + i];
+    wired.position_m[i] = static_cast<double>(batch.position_m[sample * axes() + i]);
+    wired.current_a[i] = static_cast<double>(batch.control_current_a[sample * axes() + i]);
+  }
+  const session::AxisSample shown = frame_.Bearing(wired);
+  for (std::size_t i = 0; i < axes(); ++i) {
+    position_m_[i][at] = static_cast<float>(shown.position_m[i]);
+    current_a_[i][at] = static_cast<float>(shown.current_a[i]);
   }
   speed_rad_per_s_[at] = batch.speed_rad_per_s[sample];
   ++count_;

@@ -5,7 +5,7 @@
 //           gap; only those make a spectrum or an oscilloscope's picture.
 // Envelope  smallest and largest value of each channel per bucket of `bucket_cycles`: a vibration
 //           faster than any screen keeps its amplitude, which every n-th sample would not show.
-// Frames    bearing frame: polarity of probes and coils is undone here with the rig's numbers.
+// Frames    bearing frame, as session/record_frame.hpp gives it.
 // Units     SI. Thread one. Failure: a batch of other axes than the rig's is refused.
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/rig_numbers.hpp"
+#include "session/record_frame.hpp"
 
 namespace levitas::dashboard {
 
@@ -72,9 +73,9 @@ class SampleStore {
   void Widen(std::size_t at);
   void OpenBucket();
 
+  session::RecordFrame frame_;
   double period_s_;
   std::uint64_t bucket_cycles_;
-  std::vector<float> sensor_polarity_, actuator_polarity_;
   std::vector<std::vector<float>> position_m_, current_a_;
   std::vector<float> speed_rad_per_s_;
   std::uint64_t count_{0};

@@ -8,13 +8,13 @@
 #include <fstream>
 #include <utility>
 
-#include "common/probe_map.hpp"
 #include "common/problem.hpp"
 #include "session/candump_import.hpp"
 #include "session/coil_scales.hpp"
 #include "session/csv_rows.hpp"
 #include "session/mat_rows.hpp"
 #include "session/measured_data.hpp"
+#include "session/record_frame.hpp"
 #include "session/session_reader.hpp"
 
 namespace levitas::session {
@@ -30,7 +30,7 @@ void AppendUnlessZero(Column& column, double value, std::size_t rows_before) {
 /// Takes cycle records into the columns of a recording.
 class ColumnWriter {
  public:
-  ColumnWriter(const std::string& path, const RigNumbers& rig) : map_(rig), axes_(rig.axes()) {
+  ColumnWriter(const std::string& path, const RigNumbers& rig) : frame_(rig), axes_(rig.axes()) {
     recording_.name = path;
     recording_.period_ns = rig.period_ns;
     recording_.channels = rig.channels;
@@ -55,11 +55,10 @@ class ColumnWriter {
       AppendUnlessZero(recording_.excitation_m[axis], record.in.op.excitation_m[axis],
                        recording_.rows());
     }
-    const AxisArray position_m = map_.Positions({frame.position_m}).at;
-    const AxisArray current_a = map_.CommandedCurrents({command.control_current_a}).at;
+    const AxisSample sample = frame_.Bearing(record);
     for (std::size_t axis = 0; axis < axes_; ++axis) {
-      recording_.position_m[axis].push_back(position_m[axis]);
-      recording_.current_a[axis].push_back(current_a[axis]);
+      recording_.position_m[axis].push_back(sample.position_m[axis]);
+      recording_.current_a[axis].push_back(sample.current_a[axis]);
     }
     recording_.levitated.push_back(IsLevitated(record, axes_) ? 1 : 0);
     recording_.amplifiers_enabled.push_back(command.amplifiers_enabled ? 1 : 0);
@@ -97,7 +96,7 @@ class ColumnWriter {
     }
   }
 
-  ProbeMap map_;
+  RecordFrame frame_;
   std::size_t axes_;
   Recording recording_;
 };

@@ -4,7 +4,7 @@
 // Formats    by the ending of the name: .csv, .csv.xz and .mat (docs/formats.md), .log and .log.xz
 //            (candump of the rig's CAN buses, unless it begins as a session does); every other
 //            name must be a session. No file is written on the way.
-// Frame      bearing frame: the polarity of probes and coils is undone here, by ProbeMap.
+// Frame      bearing frame: the polarity of probes and coils is undone here (record_frame.hpp).
 //            Coil currents are measured magnitudes of named coils and have no polarity.
 // Units      SI. Commanded currents are the total of a row's sample, excitation included.
 // Limits     of the rig file: a position at the sensor's range is clipped, a control current at its

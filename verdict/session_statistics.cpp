@@ -24,7 +24,7 @@ double Radius(double x_m, double y_m) {
 
 SessionStatistics::SessionStatistics(const RigNumbers& rig, double standstill_rad_per_s,
                                      double settle_s)
-    : rig_(rig), map_(rig), splitter_(standstill_rad_per_s, Cycles(settle_s, rig)) {
+    : rig_(rig), frame_(rig), splitter_(standstill_rad_per_s, Cycles(settle_s, rig)) {
   standing_.bearings.resize(rig.bearings.size());
   spinning_.bearings.resize(rig.bearings.size());
 }
@@ -108,7 +108,7 @@ void SessionStatistics::AddOrbit(const cycle::CycleRecord& record, PhaseSums& su
     bin = &profile_[index];
     ++bin->cycles;
   }
-  const AxisArray position_m = map_.Positions({frame.position_m}).at;
+  const AxisArray position_m = frame_.Bearing(record).position_m;
   for (std::size_t b = 0; b < rig_.bearings.size(); ++b) {
     const double x_m = position_m[2 * b];
     const double y_m = position_m[2 * b + 1];
@@ -128,7 +128,7 @@ void SessionStatistics::AddOrbit(const cycle::CycleRecord& record, PhaseSums& su
 
 void SessionStatistics::AddCurrents(const cycle::CycleRecord& record, PhaseSums& sums) const {
   if (record.out.saturated_axes != 0) ++sums.saturated;
-  const AxisArray currents_a = map_.CommandedCurrents({record.out.current.control_current_a}).at;
+  const AxisArray currents_a = frame_.Bearing(record).current_a;
   for (std::size_t axis = 0; axis < 2 * rig_.bearings.size(); ++axis) {
     const double current_a = currents_a[axis];
     AxisSums& at = sums.bearings[axis / 2].axis[axis % 2];

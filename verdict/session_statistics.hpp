@@ -7,7 +7,7 @@
 //            rms = sqrt(mean(r^2)). Sensor noise is in the readings and so in the figures.
 // Current    commanded control current, excitation included, in the bearing frame: mean (static
 //            load), rms about the mean, largest magnitude.
-// Units      SI. Frame: polarity of probes and amplifiers undone by ProbeMap.
+// Units      SI. Frame: bearing frame, as session/record_frame.hpp gives it.
 // Thread     one; offline, allocates.
 // Failure    std::invalid_argument for a rig whose polarity is neither +1 nor -1. A cycle without a
 //            new sensor frame counts as missing and is left out of the orbit; readings that are not
@@ -20,10 +20,10 @@
 #include <string>
 #include <vector>
 
-#include "common/probe_map.hpp"
 #include "common/rig_numbers.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/cycle/cycle_io.hpp"
+#include "session/record_frame.hpp"
 #include "verdict/phase.hpp"
 
 namespace levitas::verdict {
@@ -128,7 +128,7 @@ class SessionStatistics {
   [[nodiscard]] PhaseFigures Summary(const PhaseSums& sums) const;
 
   RigNumbers rig_;
-  ProbeMap map_;
+  session::RecordFrame frame_;
   PhaseSplitter splitter_;
   PhaseSums standing_, spinning_;
   std::vector<ProfileBin> profile_;

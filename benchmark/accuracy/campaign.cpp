@@ -9,7 +9,9 @@
 #include "common/output_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/law/axis_law.hpp"
+#include "plant_sim/plant/bearing_frame.hpp"
 #include "plant_sim/plant/plant_model.hpp"
+#include "session/record_frame.hpp"
 
 namespace levitas::accuracy {
 namespace {
@@ -53,7 +55,7 @@ class Loop {
         disturbance_(disturbance),
         loss_(plan.loss.seed) {}
 
-  bool Run(const Motion& motion, std::uint64_t seed, Measured& out) {
+  bool Run(const Motion& motion, std::uint64_t seed, diagnosis::Record& out) {
     plant::Plant plant(model_, seed);
     law::LawState state(coefficients_);
     const auto warm_up = static_cast<std::size_t>(kWarmUpS / period_s_);
@@ -63,7 +65,7 @@ class Loop {
         RpmToRadPerS(motion.to_rpm - motion.from_rpm) / static_cast<double>(motion.rows);
     BitSequence bits(seed);
     bool bit = false;
-    MeasuredRow held;
+    analysis::RecordedRow held;
     AxisArray given_a{};
     plant.SetSpeed(from, 0.0);
     out.name = motion.name;
@@ -71,15 +73,10 @@ class Loop {
     for (std::size_t n = 0; n < warm_up + motion.rows; ++n) {
       const bool recorded = n >= warm_up;
       const double speed = from + slope * (recorded ? static_cast<double>(n - warm_up) : 0.0);
-      plant.SetSpeed(speed, plant.angle_rad());
-      const SensorFrame frame = plant.Sample();
-      MeasuredRow row;
-      row.time_s = recorded ? period_s_ * static_cast<double>(n - warm_up) : 0.0;
-      row.angle_rad = plant.angle_rad();
-      row.speed_rad_per_s = speed;
-      row.position_m = frame.position_m;
       const double clock_s = period_s_ * static_cast<double>(n);
-      disturbance_.Read(clock_s, row.position_m);
+      analysis::RecordedRow row = Read(plant, speed, clock_s);
+      analysis::RecordedSample& sample = row.sample;
+      row.cycle = recorded ? n - warm_up : 0;
       if (n >= warm_up + quiet && motion.excited) {
         const std::size_t since = n - warm_up - quiet;
         if (since % 2 == 0) bit = bits.Next();
@@ -91,34 +88,42 @@ class Loop {
       const double limit_m = !recorded              ? kSaggingM
                              : motion.to_rpm == 0.0 ? plan_.resting_m
                                                     : plan_.limit_m;
-      if (!Within(limit_m, row.position_m)) return false;
+      if (!Within(limit_m, sample.position_m)) return false;
       const bool lost = recorded && Lost();
       if (lost) {
-        row.position_m = held.position_m;
-        row.control_current_a = held.control_current_a;
+        sample.position_m = held.sample.position_m;
+        sample.command.control_current_a = held.sample.command.control_current_a;
         row.excitation_a = held.excitation_a;
       } else {
-        row.control_current_a =
-            law::Step(coefficients_, state, ErrorOf(row.position_m), row.excitation_a, limit_a_)
+        sample.command.control_current_a =
+            law::Step(coefficients_, state, ErrorOf(sample.position_m), row.excitation_a, limit_a_)
                 .control_current_a;
       }
       held = row;
       for (std::size_t a = 0; recorded && a < model_->axes(); ++a) {
-        given_a[a] += std::abs(row.control_current_a[a]);
+        given_a[a] += std::abs(sample.command.control_current_a[a]);
       }
-      if (recorded && !(lost && plan_.loss.missing)) out.rows.push_back(AsSent(row));
-      plant.Advance(CommandOf(row, clock_s));
+      if (recorded && !(lost && plan_.loss.missing)) out.rows.push_back(row);
+      plant.Advance(CommandOf(sample, clock_s));
     }
     const double most_a = kHolding * limit_a_ * static_cast<double>(motion.rows);
     return plant.finite() && *std::max_element(given_a.begin(), given_a.end()) < most_a;
   }
 
  private:
-  /// A record holds readings and commands as they are on the wire.
-  [[nodiscard]] MeasuredRow AsSent(MeasuredRow row) const {
-    for (std::size_t a = 0; a < model_->axes(); ++a) {
-      row.control_current_a[a] *= model_->config().actuator_polarity[a];
-    }
+  /// A row without control current and test signal.
+  analysis::RecordedRow Read(plant::Plant& plant, double speed_rad_per_s, double clock_s) {
+    plant.SetSpeed(speed_rad_per_s, plant.angle_rad());
+    analysis::RecordedRow row;
+    row.levitated = true;
+    analysis::RecordedSample& sample = row.sample;
+    sample.position_m = plant.Sample().position_m;
+    disturbance_.Read(clock_s, sample.position_m);
+    sample.angle_rad = plant.angle_rad();
+    sample.speed_rad_per_s = speed_rad_per_s;
+    sample.command.bias_current_a = model_->config().bearings.front().magnet.bias_current_a;
+    sample.command.drive_enabled = speed_rad_per_s != 0.0;
+    sample.command.speed_set_point_rad_per_s = speed_rad_per_s;
     return row;
   }
 
@@ -132,23 +137,19 @@ class Loop {
   [[nodiscard]] AxisArray ErrorOf(const AxisArray& position_m) const {
     AxisArray error_m{};
     for (std::size_t a = 0; a < model_->axes(); ++a) {
-      error_m[a] = -model_->config().sensor_polarity[a] * position_m[a];
+      error_m[a] = -position_m[a];
     }
     return error_m;
   }
 
-  /// What the rig is given for this row: the disturbance's current acts without being recorded.
-  plant::PlantCommand CommandOf(const MeasuredRow& row, double clock_s) {
-    plant::PlantCommand command;
-    command.bias_current_a = model_->config().bearings.front().magnet.bias_current_a;
+  /// What the rig is given for this sample: the disturbance's current acts without being recorded.
+  plant::PlantCommand CommandOf(const analysis::RecordedSample& sample, double clock_s) {
+    plant::PlantCommand command = sample.command;
     command.drive_enabled = true;
-    command.speed_set_point_rad_per_s = row.speed_rad_per_s;
     command.acceleration_limit_rad_per_s2 = 1e6;
-    const AxisArray unknown_a = disturbance_.Current(clock_s, row.angle_rad, row.speed_rad_per_s);
-    for (std::size_t a = 0; a < model_->axes(); ++a) {
-      command.control_current_a[a] =
-          model_->config().actuator_polarity[a] * (row.control_current_a[a] + unknown_a[a]);
-    }
+    const AxisArray unknown_a =
+        disturbance_.Current(clock_s, sample.angle_rad, sample.speed_rad_per_s);
+    for (std::size_t a = 0; a < model_->axes(); ++a) command.control_current_a[a] += unknown_a[a];
     return command;
   }
 
@@ -175,7 +176,9 @@ class Loop {
 Campaign Record(const plant::PlantParameters& truth, const law::LawConfig& law,
                 const CampaignPlan& plan, Unmodelled outside, double outside_size,
                 std::uint64_t outside_seed) {
-  const auto model = std::make_shared<const plant::PlantModel>(truth);
+  plant::PlantParameters parameters = truth;
+  parameters.config = plant::InBearingFrame(truth.config);
+  const auto model = std::make_shared<const plant::PlantModel>(std::move(parameters));
   const auto excited_rows = static_cast<std::size_t>(2 * plan.bits_per_axis) * model->axes() +
                             static_cast<std::size_t>(std::llround(plan.quiet_s / law.period_s));
   const std::vector<Motion> motions{
@@ -190,40 +193,18 @@ Campaign Record(const plant::PlantParameters& truth, const law::LawConfig& law,
     Loop loop(model, law, plan,
               Disturbance(outside, outside_size, model->axes(), law.period_s, random));
     campaign.stable = loop.Run(motion, seed++, campaign.records.emplace_back()) && campaign.stable;
+    campaign.records.back().mean_speed_rad_per_s =
+        analysis::MeanSpeed(campaign.records.back().rows);
     if (!campaign.stable) break;
   }
   return campaign;
 }
 
-std::vector<diagnosis::Record> AsRecords(const Campaign& campaign, const RigNumbers& rig) {
-  std::vector<diagnosis::Record> records;
-  for (const Measured& measured : campaign.records) {
-    diagnosis::Record& record = records.emplace_back();
-    record.name = measured.name;
-    record.rows.reserve(measured.rows.size());
-    for (std::size_t n = 0; n < measured.rows.size(); ++n) {
-      const MeasuredRow& from = measured.rows[n];
-      analysis::RecordedRow row;
-      row.cycle = static_cast<std::uint64_t>(std::llround(from.time_s / rig.period_s()));
-      row.levitated = true;
-      row.sample.position_m = from.position_m;
-      row.sample.command.bias_current_a = rig.bias_current_a;
-      row.sample.command.control_current_a = from.control_current_a;
-      row.sample.command.drive_enabled = from.speed_rad_per_s != 0.0;
-      row.sample.command.speed_set_point_rad_per_s = from.speed_rad_per_s;
-      row.sample.speed_rad_per_s = from.speed_rad_per_s;
-      row.sample.angle_rad = from.angle_rad;
-      row.excitation_a = from.excitation_a;
-      record.rows.push_back(row);
-    }
-    record.mean_speed_rad_per_s = analysis::MeanSpeed(record.rows);
-  }
-  return records;
-}
-
-void WriteCsv(const Campaign& campaign, const RigNumbers& rig, const std::string& folder) {
-  for (const Measured& measured : campaign.records) {
-    const std::string path = folder + "/" + measured.name + ".csv";
+void WriteCsv(const std::vector<diagnosis::Record>& records, const RigNumbers& rig,
+              const std::string& folder) {
+  const session::RecordFrame frame(rig);
+  for (const diagnosis::Record& record : records) {
+    const std::string path = folder + "/" + record.name + ".csv";
     OutputFile file(path);
     file.Write("time_s,rotor_angle_rad");
     for (const char* kind : {"position", "control_current", "excitation"}) {
@@ -232,11 +213,15 @@ void WriteCsv(const Campaign& campaign, const RigNumbers& rig, const std::string
       }
     }
     file.Write("\n");
-    for (const MeasuredRow& row : measured.rows) {
-      file.Write(fmt::format("{:.6f},{:.8g}", row.time_s, row.angle_rad));
-      for (const auto* values : {&row.position_m, &row.control_current_a, &row.excitation_a}) {
-        for (std::size_t a = 0; a < rig.axes(); ++a)
+    for (const analysis::RecordedRow& row : record.rows) {
+      const session::AxisSample wired =
+          frame.Wired({row.sample.position_m, row.sample.command.control_current_a});
+      file.Write(fmt::format("{:.6f},{:.8g}", rig.period_s() * static_cast<double>(row.cycle),
+                             row.sample.angle_rad));
+      for (const auto* values : {&wired.position_m, &wired.current_a, &row.excitation_a}) {
+        for (std::size_t a = 0; a < rig.axes(); ++a) {
           file.Write(fmt::format(",{:.8g}", (*values)[a]));
+        }
       }
       file.Write("\n");
     }

@@ -2,8 +2,8 @@
 // Measured data of a rig with hidden parameters: only the signals that a technician would record.
 //
 // Records    standing with a test signal in one axis after the other, spinning with it, running up.
-//            A row holds what the CSV contract holds: time, angle, readings, commanded currents,
-//            test signal.
+//            Rows as the importer would give them (analysis/recorded_rows.hpp), in the bearing
+//            frame; the plant of the loop is in it too, and only a CSV file has the rig's wiring.
 // Loop       plant and axis law alone, one period at a time, from a levitated start that is not
 //            recorded.
 // Failure    `stable` is false if the rotor approached its touchdown bearings or was lost,
@@ -19,18 +19,6 @@
 #include "plant_sim/plant/plant.hpp"
 
 namespace levitas::accuracy {
-
-struct MeasuredRow {
-  double time_s{};
-  double angle_rad{};
-  double speed_rad_per_s{};
-  AxisArray position_m{}, control_current_a{}, excitation_a{};
-};
-
-struct Measured {
-  std::string name;  ///< "standing", "spinning", "runup"
-  std::vector<MeasuredRow> rows;
-};
 
 /// Frames that never arrive: the controller does nothing, the rig holds its currents, and the row
 /// is missing from the record or repeats the one before.
@@ -55,7 +43,7 @@ struct CampaignPlan {
 };
 
 struct Campaign {
-  std::vector<Measured> records;
+  std::vector<diagnosis::Record> records;  ///< "standing", "spinning", "runup"
   bool stable{true};
 };
 
@@ -63,10 +51,8 @@ struct Campaign {
                               const CampaignPlan& plan, Unmodelled outside, double outside_size,
                               std::uint64_t outside_seed);
 
-/// Rows as the importer would give them.
-[[nodiscard]] std::vector<diagnosis::Record> AsRecords(const Campaign& campaign,
-                                                       const RigNumbers& rig);
-/// `folder`/<name>.csv of the contract in docs/formats.md.
-void WriteCsv(const Campaign& campaign, const RigNumbers& rig, const std::string& folder);
+/// `folder`/<name>.csv of the contract in docs/formats.md, readings and commands as on the wires.
+void WriteCsv(const std::vector<diagnosis::Record>& records, const RigNumbers& rig,
+              const std::string& folder);
 
 }  // namespace levitas::accuracy

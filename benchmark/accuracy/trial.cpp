@@ -34,6 +34,7 @@ class Maker {
   Trial Make() {
     Trial trial;
     double size = plan_.size;
+    Campaign campaign;
     for (int attempt = 0; attempt < 8; ++attempt, size *= 0.6) {
       // A loop of little margin may not hold every rig that is off by its tolerances: another one.
       // Nor do they hold evidence for every hidden effect besides the main one.
@@ -42,10 +43,10 @@ class Maker {
         beside_ *= 0.6;
       }
       trial.ground_truth.size = size;
-      if (Run(size, trial.campaign, trial.ground_truth)) break;
+      if (Run(size, campaign, trial.ground_truth)) break;
     }
-    if (!trial.campaign.stable) throw BadInput("the rig under trial does not levitate");
-    trial.records = AsRecords(trial.campaign, bench_.rig.numbers);
+    if (!campaign.stable) throw BadInput("the rig under trial does not levitate");
+    trial.records = std::move(campaign.records);
     trial.ground_truth.outside = plan_.outside;
     trial.rig = bench_.rig;
     if (plan_.in_file) {

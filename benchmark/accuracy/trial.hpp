@@ -58,7 +58,6 @@ struct GroundTruth {
 struct Trial {
   config::RigFile rig;  ///< nominal, what the diagnosis is given
   std::vector<diagnosis::Record> records;
-  Campaign campaign;
   GroundTruth ground_truth;
 };
 

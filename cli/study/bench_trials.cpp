@@ -40,7 +40,7 @@ std::vector<effect::Id> Chosen(const BenchOptions& options, const accuracy::Test
 void WriteTrial(const accuracy::Trial& trial, const std::string& root, std::uint64_t seed) {
   const std::string folder = fmt::format("{}/{}", root, seed);
   std::filesystem::create_directories(folder + "/secret");
-  accuracy::WriteCsv(trial.campaign, trial.rig.numbers, folder);
+  accuracy::WriteCsv(trial.records, trial.rig.numbers, folder);
   WriteWholeFile(folder + "/rig.yaml", config::WriteRig(trial.rig));
   nlohmann::ordered_json truth{{"effects", trial.ground_truth.effects},
                                {"outside", Name(trial.ground_truth.outside)}};

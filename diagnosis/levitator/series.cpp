@@ -15,7 +15,7 @@ constexpr double kLiftOffShare = 0.2;
 constexpr double kLeastS = 1.0;
 
 double Asked(const plant::PlantConfig& rig, const plant::PlantCommand& command, std::size_t coil) {
-  const double sign = (coil == 0 ? 1.0 : -1.0) * rig.actuator_polarity[0];
+  const double sign = coil == 0 ? 1.0 : -1.0;
   return std::clamp(command.bias_current_a + sign * command.control_current_a[0], 0.0,
                     rig.bearings[0].magnet.max_coil_current_a);
 }
@@ -23,7 +23,7 @@ double Asked(const plant::PlantConfig& rig, const plant::PlantCommand& command, 
 void Append(const plant::PlantConfig& rig, const analysis::RecordedRow& row, double time_s,
             Series& series) {
   series.time_s.push_back(time_s);
-  series.position_m.push_back(rig.sensor_polarity[0] * row.sample.position_m[0]);
+  series.position_m.push_back(row.sample.position_m[0]);
   for (std::size_t coil = 0; coil < 2; ++coil) {
     series.asked_a[coil].push_back(Asked(rig, row.sample.command, coil));
     if (row.coils >= 2) series.measured_a[coil].push_back(row.coil_current_a[coil]);

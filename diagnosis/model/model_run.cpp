@@ -89,9 +89,8 @@ class Runner {
     for (Active& a : active_) {
       if (a.term.read) a.term.read(moment, a.theta, read);
     }
-    const auto& polarity = rig_.model->config().sensor_polarity;
     AxisArray added_m{};
-    for (std::size_t i = 0; i < rig_.axes; ++i) added_m[i] = polarity[i] * read.reading_m[i];
+    for (std::size_t i = 0; i < rig_.axes; ++i) added_m[i] = read.reading_m[i];
     analysis::RecordedSample sample = row.sample;
     if (!arrived) {
       const AxisArray predicted_m = observer_->plant().SensorOutput();
@@ -101,7 +100,7 @@ class Runner {
     }
     const AxisArray innovation_m = observer_->Step(sample, added_m);
     for (std::size_t i = 0; i < rig_.axes; ++i) {
-      moment.innovation_m[i] = static_cast<float>(polarity[i] * innovation_m[i]);
+      moment.innovation_m[i] = static_cast<float>(innovation_m[i]);
     }
     AfterPeriod(moment);
     // First what moves the currents, since the forces that others look at follow from them.
@@ -120,20 +119,18 @@ class Runner {
 
  private:
   void BeforeSample(const analysis::RecordedRow& row, SamplePoint& moment) {
-    const auto& polarity = rig_.model->config().sensor_polarity;
     const auto state = observer_->plant().state();
     for (std::size_t i = 0; i < rig_.axes; ++i) {
       moment.reading_m[i] = static_cast<float>(state[at_.sensor + i]);
-      moment.measured_m[i] = static_cast<float>(polarity[i] * row.sample.position_m[i]);
+      moment.measured_m[i] = static_cast<float>(row.sample.position_m[i]);
     }
     for (std::size_t i = 0; i < 2 * rig_.modes; ++i) {
       moment.read_q[i] = static_cast<float>(state[at_.q_x + i]);
       moment.read_v[i] = static_cast<float>(state[at_.v_x + i]);
     }
     moment.Turn(row.sample.angle_rad, row.sample.speed_rad_per_s, rig_.period_s);
-    const auto& wiring = rig_.model->config().actuator_polarity;
     for (std::size_t i = 0; i < rig_.axes; ++i) {
-      const double commanded_a = wiring[i] * row.sample.command.control_current_a[i];
+      const double commanded_a = row.sample.command.control_current_a[i];
       const double limit_a = rig_.bias_a(i);
       moment.command_before_a[i] = before_a_[i];
       moment.command_now_a[i] = now_a_[i];

@@ -8,6 +8,7 @@
 #include "analysis/observer.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/model/sample_point.hpp"
+#include "plant_sim/plant/bearing_frame.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -43,7 +44,7 @@ plant::PlantConfig Foretold(plant::PlantConfig plant) {
 
 RigView::RigView(const RigNumbers& rig_numbers, const plant::PlantConfig& plant)
     : numbers(rig_numbers),
-      model(std::make_shared<const plant::PlantModel>(Foretold(plant))),
+      model(std::make_shared<const plant::PlantModel>(plant::InBearingFrame(Foretold(plant)))),
       axes(model->axes()),
       modes(model->layout().modes),
       period_s(static_cast<double>(plant.period_ns) * 1e-9) {

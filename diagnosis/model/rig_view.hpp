@@ -1,5 +1,5 @@
 #pragma once
-// The numbers of a rig that terms need, taken once from the plant's model.
+// The numbers of a rig that terms need, taken once from the plant's model in the bearing frame.
 //
 // By chance  effects of the rig file that no model foretells, though it knows how often or how
 //            large they are: lost frames, instants that scatter, the phase of the mains. The model

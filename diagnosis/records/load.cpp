@@ -15,7 +15,7 @@ namespace levitas::diagnosis {
 Record LoadRecord(const std::string& path, const config::RigFile& rig) {
   Record record;
   record.name = std::filesystem::path(path).filename().string();
-  record.rows = analysis::RowsOf(session::LoadRecording(path, rig), rig.numbers);
+  record.rows = analysis::RowsOf(session::LoadRecording(path, rig));
   const bool flew = std::any_of(record.rows.begin(), record.rows.end(),
                                 [](const analysis::RecordedRow& row) { return row.levitated; });
   if (!flew) {

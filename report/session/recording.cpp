@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/probe_map.hpp"
 #include "common/problem.hpp"
 #include "config/rig_file.hpp"
 #include "plant_sim/plant/train_model.hpp"
+#include "session/record_frame.hpp"
 #include "session/session_reader.hpp"
 #include "verdict/phase.hpp"
 
@@ -16,7 +16,8 @@ namespace {
 /// Slower than any bearing is judged at; for records that name no controller.
 constexpr double kSlow = 1.0;
 
-void Add(Recording& recording, const cycle::CycleRecord& record, const ProbeMap& probes) {
+void Add(Recording& recording, const cycle::CycleRecord& record,
+         const session::RecordFrame& bearing) {
   ++recording.records;
   recording.missed_deadlines += record.in.missed_deadlines;
   if (!record.in.frame_present) {
@@ -24,12 +25,11 @@ void Add(Recording& recording, const cycle::CycleRecord& record, const ProbeMap&
     return;
   }
   const SensorFrame& frame = record.in.frame;
-  const AxisArray position_m = probes.Positions({frame.position_m}).at;
-  const AxisArray current_a = probes.CommandedCurrents({record.out.current.control_current_a}).at;
+  const session::AxisSample sample = bearing.Bearing(record);
   recording.cycle.push_back(record.in.cycle);
   for (std::size_t axis = 0; axis < recording.position_m.size(); ++axis) {
-    recording.position_m[axis].push_back(static_cast<float>(position_m[axis]));
-    recording.current_a[axis].push_back(static_cast<float>(current_a[axis]));
+    recording.position_m[axis].push_back(static_cast<float>(sample.position_m[axis]));
+    recording.current_a[axis].push_back(static_cast<float>(sample.current_a[axis]));
   }
   recording.speed_rad_per_s.push_back(static_cast<float>(frame.speed_rad_per_s));
   recording.angle_rad.push_back(static_cast<float>(frame.angle_rad));
@@ -70,12 +70,12 @@ Recording Load(const std::string& path) {
   }
   recording.position_m.resize(2 * recording.rig.bearings.size());
   recording.current_a.resize(2 * recording.rig.bearings.size());
-  const ProbeMap probes(recording.rig);
+  const session::RecordFrame bearing(recording.rig);
   cycle::CycleRecord record;
   while (reader.Next(record)) {
     // Numbers that go back (files put together) would make times without meaning.
     const bool forward = recording.cycle.empty() || record.in.cycle > recording.cycle.back();
-    if (forward) Add(recording, record, probes);
+    if (forward) Add(recording, record, bearing);
   }
   recording.events = reader.events();
   recording.damage = reader.damage().Text();

@@ -1,7 +1,7 @@
 #pragma once
 // A recorded session in memory, as its pictures need it.
 //
-// Frame    bearing frame: polarity of probes and coils is undone here with the rig's numbers.
+// Frame    bearing frame: as session/record_frame.hpp gives it.
 // Units    SI; single precision (7 digits: 0.1 nm of 1 mm). About 50 bytes a cycle with four axes.
 //          Left out cycles without a new sensor frame; a gap in `cycle` remains.
 // Thread   any; offline. Failure: BadInput when the session or its header cannot be read.

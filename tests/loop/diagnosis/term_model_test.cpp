@@ -36,9 +36,8 @@ std::vector<Record> Recorded(const accuracy::TestRig& bench,
   plan.spinning_rpm = 3000.0;
   plan.bits_per_axis = 1000;
   plan.runup_s = 1.0;
-  return accuracy::AsRecords(
-      accuracy::Record(truth, bench.laws.front(), plan, accuracy::Unmodelled::kNothing, 0.0, 1),
-      bench.rig.numbers);
+  return accuracy::Record(truth, bench.laws.front(), plan, accuracy::Unmodelled::kNothing, 0.0, 1)
+      .records;
 }
 
 class TermModel : public ::testing::Test {

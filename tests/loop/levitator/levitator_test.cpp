@@ -88,7 +88,7 @@ std::ostream& operator<<(std::ostream& out, const KnownRun& run) { return out <<
 class Measured : public testing::TestWithParam<KnownRun> {};
 
 std::vector<analysis::RecordedRow> Rows(const config::RigFile& rig, const std::string& path) {
-  return analysis::RowsOf(session::LoadRecording(path, rig), rig.numbers);
+  return analysis::RowsOf(session::LoadRecording(path, rig));
 }
 
 // What is known of all runs of the rig, these and others: the model predicts the upper coil's

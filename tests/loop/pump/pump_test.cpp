@@ -122,6 +122,17 @@ TEST(StepError, FallsWithTheSquareOfTheStep) {
   EXPECT_NEAR(coarse.largest_m / fine.largest_m, 4.0, 0.5);  // higher orders add a little
 }
 
+TEST(StepError, IsTheSameHoweverProbesAndCoilsAreWired) {
+  ShippedLoop loop("turbomolecular_pump", "turbomolecular_pump");
+  loop.rig.plant.substeps = 2;
+  const auto straight = analysis::MeasureStepError(loop.rig.plant, loop.controller.law, 1000.0);
+  loop.rig.plant.sensor_polarity[0] = -1.0;
+  loop.rig.plant.actuator_polarity[1] = -1.0;
+  const auto wired = analysis::MeasureStepError(loop.rig.plant, loop.controller.law, 1000.0);
+  EXPECT_EQ(wired.largest_m, straight.largest_m);
+  EXPECT_EQ(wired.peak_m, straight.peak_m);
+}
+
 TEST(StepError, SaysWhenTheLoopDoesNotHoldTheRotor) {
   ShippedLoop loop("turbomolecular_pump", "turbomolecular_pump");
   loop.controller.law.state_space->output_a_per_v = {};

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/coil_prediction.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/own_words.hpp"
@@ -47,6 +48,20 @@ TEST(MakeSeries, StartsAnewBehindMissingRows) {
   std::size_t restarts = 0;
   for (const bool restart : series.restart) restarts += restart ? 1 : 0;
   EXPECT_EQ(restarts, 2U);
+}
+
+// Rows are in the bearing frame: a rig that is wired the other way round has the same series and
+// the same currents in its coils.
+TEST(MakeSeries, KnowsNothingOfTheWiringOfTheRig) {
+  config::RigFile reversed = LevitatorFile();
+  reversed.plant.sensor_polarity[0] = reversed.plant.actuator_polarity[0] = -1.0;
+  const auto rows = Rows(10'000);
+  const Series straight = MakeSeries("run", LevitatorFile(), rows);
+  const Series wired = MakeSeries("run", reversed, rows);
+  EXPECT_EQ(wired.position_m, straight.position_m);
+  EXPECT_EQ(wired.asked_a, straight.asked_a);
+  EXPECT_EQ(analysis::PredictCoilCurrents(reversed.plant, rows),
+            analysis::PredictCoilCurrents(LevitatorFile().plant, rows));
 }
 
 TEST(MakeSeries, RefusesWhatIsTooShortOrMeasuredInPart) {
