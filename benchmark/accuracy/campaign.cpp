@@ -9,6 +9,7 @@
 #include "common/output_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/law/axis_law.hpp"
+#include "controller/scenario/prbs.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "session/record_frame.hpp"
@@ -29,19 +30,14 @@ struct Motion {
   bool excited{};
 };
 
-/// Maximum-length sequence of order 11, x^11 + x^9 + 1.
-class BitSequence {
- public:
-  explicit BitSequence(std::uint64_t seed) : bits_(1 + seed % 2047) {}
-  bool Next() {
-    const std::uint64_t bit = ((bits_ >> 10) ^ (bits_ >> 8)) & 1U;
-    bits_ = ((bits_ << 1) | bit) & 0x7FFU;
-    return bit != 0;
-  }
-
- private:
-  std::uint64_t bits_;
-};
+/// The excitation of a seed: a maximum-length sequence of 2047 bits. Its first bit is the first
+/// feedback of the register, which leaves it as many steps later as the register is long.
+scenario::Prbs BitsOf(std::uint64_t seed) {
+  constexpr int kOrder = 11;
+  auto bits = scenario::Prbs::FromRegister(kOrder, static_cast<std::uint32_t>(1 + seed % 2047));
+  bits.Skip(kOrder);
+  return bits;
+}
 
 class Loop {
  public:
@@ -63,7 +59,7 @@ class Loop {
     const double from = RpmToRadPerS(motion.from_rpm);
     const double slope =
         RpmToRadPerS(motion.to_rpm - motion.from_rpm) / static_cast<double>(motion.rows);
-    BitSequence bits(seed);
+    scenario::Prbs bits = BitsOf(seed);
     bool bit = false;
     analysis::RecordedRow held;
     AxisArray given_a{};

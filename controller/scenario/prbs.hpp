@@ -45,6 +45,13 @@ class Prbs {
     Skip(static_cast<std::uint32_t>(start * static_cast<double>(period())));
   }
 
+  /// Starts with the register's bits given, of which `order` count; without a one, with the first.
+  [[nodiscard]] static constexpr Prbs FromRegister(int order, std::uint32_t bits) noexcept {
+    Prbs sequence(order);
+    if ((bits & sequence.period()) != 0) sequence.state_ = bits & sequence.period();
+    return sequence;
+  }
+
   [[nodiscard]] constexpr std::uint32_t period() const noexcept { return (1U << order_) - 1U; }
 
   constexpr bool Next() noexcept {

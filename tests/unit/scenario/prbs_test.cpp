@@ -102,5 +102,19 @@ TEST(Prbs, LongOrdersHaveTheirFullPeriodToo) {
   }
 }
 
+TEST(Prbs, StartsWithTheBitsOfItsRegister) {
+  constexpr std::uint32_t kBits = 0b101'1001'0110;
+  Prbs sequence = Prbs::FromRegister(11, kBits);
+  for (int i = 10; i >= 0; --i) EXPECT_EQ(sequence.Next(), ((kBits >> i) & 1U) != 0) << i;
+  // x^11 + x^9 + 1: the next bit is the sum of those 11 and 9 places back.
+  EXPECT_EQ(sequence.Next(), (((kBits >> 10) ^ (kBits >> 8)) & 1U) != 0);
+}
+
+TEST(Prbs, WithoutAOneInTheRegisterStartsAtTheBeginning) {
+  Prbs empty = Prbs::FromRegister(5, 0b100000);  // beyond its five bits
+  Prbs first(5);
+  for (int i = 0; i < 31; ++i) EXPECT_EQ(empty.Next(), first.Next());
+}
+
 }  // namespace
 }  // namespace levitas::scenario
