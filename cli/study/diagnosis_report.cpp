@@ -9,6 +9,7 @@
 #include "cli/study/diagnosis_text.hpp"
 #include "diagnosis/report/input_warnings.hpp"
 #include "diagnosis/report/words.hpp"
+#include "report/svg/escaped_text.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {
@@ -28,21 +29,7 @@ constexpr const char* kStyle =
     "width:24em}"
     ".bar div{height:1em}summary{cursor:pointer;padding:.4em 0}";
 
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
+using svg::Escaped;
 
 svg::Series Line(const char* name, const char* colour, const std::vector<double>& ratio,
                  double spacing_hz) {

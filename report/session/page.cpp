@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "common/rotational_speed.hpp"
+#include "report/svg/escaped_text.hpp"
 #include "verdict/report.hpp"
 
 namespace levitas::report {
@@ -27,28 +28,7 @@ summary{cursor:pointer;font-weight:bold;padding:.3em 0}
 @media print{figure{break-inside:avoid}details{display:none}}
 )css";
 
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
+using svg::Escaped;
 
 /// A picture as an address that holds it. As an image of its own its names collide with no other's.
 std::string DataAddress(const std::string& svg) {

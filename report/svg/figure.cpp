@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/output_file.hpp"
+#include "report/svg/escaped_text.hpp"
 
 namespace levitas::svg {
 namespace {
@@ -16,27 +17,6 @@ constexpr double kLeft = 62, kRight = 12, kTop = 26, kBottom = 40;
 constexpr double kTitleHeight = 28;
 constexpr double kLegendHeight = 15;
 constexpr double kLetter = 6.0;  // width of one, about
-
-/// Text that may stand between tags.
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 struct Frame {
   double left{}, right{}, top{}, bottom{};
