@@ -8,27 +8,13 @@
 #include <cerrno>
 #include <cstring>
 
+#include "common/file_descriptor.hpp"
+
 namespace levitas {
 
 namespace {
 
 constexpr mode_t kOthers = S_IRWXG | S_IRWXO;
-
-/// An open file, closed at the end of its scope.
-class File {
- public:
-  explicit File(const std::string& path)
-      : handle_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {}
-  ~File() {
-    if (handle_ >= 0) close(handle_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  [[nodiscard]] int handle() const noexcept { return handle_; }
-
- private:
-  int handle_;
-};
 
 std::string WhyNotPrivate(const struct stat& facts, const std::string& path) {
   if (!S_ISREG(facts.st_mode)) return "it is not a regular file";
@@ -46,9 +32,9 @@ std::string WhyNotPrivate(const struct stat& facts, const std::string& path) {
 
 PrivateFile ReadPrivateFile(const std::string& path, std::size_t most_bytes) {
   const auto refuse = [](const std::string& why) { return PrivateFile{"", why}; };
-  const File file(path);
+  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   struct stat facts {};
-  if (file.handle() < 0 || fstat(file.handle(), &facts) != 0) return refuse(std::strerror(errno));
+  if (!file.is_open() || fstat(file.handle(), &facts) != 0) return refuse(std::strerror(errno));
   if (std::string why = WhyNotPrivate(facts, path); !why.empty()) return refuse(why);
   PrivateFile read_file;
   read_file.content.resize(most_bytes);

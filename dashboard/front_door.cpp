@@ -54,18 +54,18 @@ FrontDoor::~FrontDoor() { Close(); }
 void FrontDoor::Close() {
   if (!thread_.joinable()) return;
   closing_.store(true);
-  (void)::eventfd_write(wake_.socket(), 1);
+  (void)::eventfd_write(wake_.handle(), 1);
   thread_.join();
   guests_.clear();
 }
 
-void FrontDoor::SeeOut(Connection connection) {
-  (void)::shutdown(connection.socket(), SHUT_WR);
+void FrontDoor::SeeOut(FileDescriptor connection) {
+  (void)::shutdown(connection.handle(), SHUT_WR);
   {
     const std::lock_guard lock(served_mutex_);
     served_.push_back(std::move(connection));
   }
-  (void)::eventfd_write(wake_.socket(), 1);
+  (void)::eventfd_write(wake_.handle(), 1);
 }
 
 void FrontDoor::Run() {
@@ -88,21 +88,21 @@ void FrontDoor::Run() {
 
 void FrontDoor::WaitForNews() {
   polled_.clear();
-  for (const Guest& guest : guests_) polled_.push_back({guest.connection.socket(), POLLIN, 0});
+  for (const Guest& guest : guests_) polled_.push_back({guest.connection.handle(), POLLIN, 0});
   polled_.push_back({listening_, POLLIN, 0});
-  polled_.push_back({wake_.socket(), POLLIN, 0});
+  polled_.push_back({wake_.handle(), POLLIN, 0});
   (void)::poll(polled_.data(), polled_.size(), kLookMs);
   eventfd_t ignored{};
-  (void)::eventfd_read(wake_.socket(), &ignored);
+  (void)::eventfd_read(wake_.handle(), &ignored);
 }
 
 void FrontDoor::TakeThoseServed(Clock::time_point now) {
-  std::vector<Connection> served;
+  std::vector<FileDescriptor> served;
   {
     const std::lock_guard lock(served_mutex_);
     served.swap(served_);
   }
-  for (Connection& connection : served) {
+  for (FileDescriptor& connection : served) {
     MakeRoom(kMostGuests);
     guests_.push_back({std::move(connection), now, {}, true, 0, false});
   }
@@ -110,14 +110,15 @@ void FrontDoor::TakeThoseServed(Clock::time_point now) {
 
 void FrontDoor::Accept(Clock::time_point now) {
   for (int i = 0; i < kMostAcceptedAtOnce; ++i) {
-    Connection connection(::accept4(listening_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-    if (connection.socket() < 0) {
+    FileDescriptor connection(
+        ::accept4(listening_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    if (connection.handle() < 0) {
       // No descriptors left: whoever has waited longest gives his.
       if (errno == EMFILE || errno == ENFILE) MakeRoom(1);
       return;
     }
     const int yes = 1;
-    (void)::setsockopt(connection.socket(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+    (void)::setsockopt(connection.handle(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
     MakeRoom(kMostGuests);
     guests_.push_back({std::move(connection), now, {}, false, 0, false});
     Read(guests_.back(), now);  // mostly it is there already
@@ -141,7 +142,7 @@ void FrontDoor::Read(Guest& guest, Clock::time_point now) {
   std::array<char, kPieceBytes> piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled
   while (guest.request.Wanted() > 0) {
     const std::size_t most = std::min(piece.size(), guest.request.Wanted());
-    const ssize_t count = ::recv(guest.connection.socket(), piece.data(), most, 0);
+    const ssize_t count = ::recv(guest.connection.handle(), piece.data(), most, 0);
     if (NothingYet(count)) return;
     if (count <= 0) {
       guest.gone = true;
@@ -163,7 +164,7 @@ void FrontDoor::Read(Guest& guest, Clock::time_point now) {
 void FrontDoor::ThrowAway(Guest& guest) {
   std::array<char, kPieceBytes> piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled
   for (;;) {
-    const ssize_t count = ::recv(guest.connection.socket(), piece.data(), piece.size(), 0);
+    const ssize_t count = ::recv(guest.connection.handle(), piece.data(), piece.size(), 0);
     if (NothingYet(count)) return;
     if (count > 0) guest.thrown_away += static_cast<std::size_t>(count);
     guest.gone = count <= 0 || guest.thrown_away > kMostThrownAway;
@@ -172,8 +173,8 @@ void FrontDoor::ThrowAway(Guest& guest) {
 }
 
 void FrontDoor::Refuse(Guest& guest, int status, const char* why, Clock::time_point now) {
-  Tell(guest.connection.socket(), status, why);
-  (void)::shutdown(guest.connection.socket(), SHUT_WR);
+  Tell(guest.connection.handle(), status, why);
+  (void)::shutdown(guest.connection.handle(), SHUT_WR);
   guest.leaving = true;
   guest.since = now;
 }

@@ -21,7 +21,7 @@
 #include <thread>
 #include <vector>
 
-#include "dashboard/connection.hpp"
+#include "common/file_descriptor.hpp"
 #include "dashboard/lane.hpp"
 #include "dashboard/request_reader.hpp"
 
@@ -47,13 +47,13 @@ class FrontDoor {
   FrontDoor& operator=(const FrontDoor&) = delete;
 
   /// After an answer: closes when the client has read it, or soon.
-  void SeeOut(Connection connection);
+  void SeeOut(FileDescriptor connection);
   /// No `enter` after this.
   void Close();
 
  private:
   struct Guest {
-    Connection connection;
+    FileDescriptor connection;
     Clock::time_point since;  ///< accepted; then the first byte; then leaving
     RequestReader request;
     bool leaving{false};
@@ -74,11 +74,11 @@ class FrontDoor {
 
   const int listening_;
   const Enter enter_;
-  const Connection wake_;
+  const FileDescriptor wake_;
   std::vector<Guest> guests_;
   std::vector<pollfd> polled_;
   std::mutex served_mutex_;
-  std::vector<Connection> served_;
+  std::vector<FileDescriptor> served_;
   std::atomic<bool> closing_{false};
   std::thread thread_;
 };

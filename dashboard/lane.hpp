@@ -13,13 +13,13 @@
 #include <thread>
 #include <vector>
 
-#include "dashboard/connection.hpp"
+#include "common/file_descriptor.hpp"
 #include "dashboard/request_reader.hpp"
 
 namespace levitas::dashboard {
 
 struct Asked {
-  Connection connection;
+  FileDescriptor connection;
   RequestReader request;  ///< whole
 };
 

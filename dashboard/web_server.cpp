@@ -52,13 +52,13 @@ void Refuse(Response& response, int status, const char* why) {
 /// The library's routes and answers over connections and requests of ours.
 class Library : public httplib::Server {
  public:
-  ~Library() override { (void)Connection(svr_sock_.exchange(INVALID_SOCKET)); }
+  ~Library() override { (void)FileDescriptor(svr_sock_.exchange(INVALID_SOCKET)); }
 
   [[nodiscard]] int listening() const { return svr_sock_; }
 
   void Answer(const Asked& asked) {
     const bool endless = asked.request.path() == kEvents;
-    AnswerStream stream(asked.connection.socket(), asked.request.text(),
+    AnswerStream stream(asked.connection.handle(), asked.request.text(),
                         endless ? std::nullopt : std::optional(WebServer::kAnswerWithin));
     bool closed = false;
     (void)process_request(stream, true, closed, nullptr);

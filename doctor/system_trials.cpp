@@ -16,6 +16,7 @@
 #include <ctime>
 #include <thread>
 
+#include "common/file_descriptor.hpp"
 #include "common/histogram.hpp"
 #include "doctor/system_probe.hpp"
 
@@ -64,20 +65,7 @@ WakeUpTrial MeasureWakeUps(std::int64_t period_ns, std::int64_t duration_ns) {
   return trial;
 }
 
-/// A UDP socket that is closed at the end of its scope.
-class Socket {
- public:
-  Socket() : handle_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {}
-  ~Socket() {
-    if (handle_ >= 0) close(handle_);
-  }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-  [[nodiscard]] int handle() const noexcept { return handle_; }
-
- private:
-  int handle_;
-};
+FileDescriptor UdpSocket() { return FileDescriptor(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)); }
 
 /// The interface that the programs use with ttl 0, as the socket options want it.
 ip_mreqn Loopback() {
@@ -89,7 +77,7 @@ ip_mreqn Loopback() {
 
 /// Binds the receiver to a free port of the group; the port is written to `group`. False: see
 /// errno.
-bool JoinGroup(const Socket& receiver, sockaddr_in& group) {
+bool JoinGroup(const FileDescriptor& receiver, sockaddr_in& group) {
   group.sin_family = AF_INET;
   inet_pton(AF_INET, kGroup, &group.sin_addr);
   ip_mreqn request = Loopback();
@@ -111,8 +99,8 @@ WakeUpTrial SystemProbe::WakeUps(std::int64_t period_ns, std::int64_t duration_n
 
 MulticastTrial SystemProbe::RoundTrips(int count) const {
   MulticastTrial trial;
-  const Socket receiver;
-  const Socket sender;
+  const FileDescriptor receiver = UdpSocket();
+  const FileDescriptor sender = UdpSocket();
   sockaddr_in group{};
   if (receiver.handle() < 0 || sender.handle() < 0 || !JoinGroup(receiver, group)) {
     trial.reason = std::strerror(errno);

@@ -17,6 +17,7 @@
 #include <new>
 #include <utility>
 
+#include "common/file_descriptor.hpp"
 #include "common/problem.hpp"
 #include "session/mat_variables.hpp"
 
@@ -33,22 +34,6 @@ constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(th
 constexpr bool kSanitized = false;
 #endif
 enum class Answer : char { kTable = 'T', kRefused = 'R', kNoMemory = 'M' };
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() { Close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  void Close() {
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = -1;
-  }
-  [[nodiscard]] int fd() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 bool WriteAll(int fd, const void* from, std::size_t bytes) {
   const char* at = static_cast<const char*>(from);
@@ -213,20 +198,20 @@ MatTable ReadMat(const std::string& path, const std::string& matrix,
   if (unknown) throw BadInput(fmt::format("{}: cannot be read: {}", path, unknown.message()));
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::bad_alloc();
-  const Descriptor from(ends[0]);
-  Descriptor to(ends[1]);
+  const FileDescriptor from(ends[0]);
+  FileDescriptor to(ends[1]);
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid < 0) throw std::bad_alloc();
   if (pid == 0) {
     Confine(file_bytes, parent);
-    ReadAndSend(to.fd(), path, matrix, matrix_rows);
+    ReadAndSend(to.handle(), path, matrix, matrix_rows);
     ::_exit(0);
   }
   to.Close();
   Child child(pid);
   MatTable table;
-  if (Receive(from.fd(), path, table)) return table;
+  if (Receive(from.handle(), path, table)) return table;
   throw BadInput(fmt::format(
       "{}: cannot be read as a MAT file: {}; a file of {} bytes may take {} MiB and {} s. It may "
       "be "

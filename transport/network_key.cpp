@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "common/file_descriptor.hpp"
 #include "common/private_file.hpp"
 #include "common/problem.hpp"
 
@@ -30,21 +31,6 @@ void Prepare() {
       "that nobody else may read (mode 600 or 400); `amb key FILE` makes one",
       path, why, kDigits));
 }
-
-/// An open file, closed at the end of its scope.
-class File {
- public:
-  explicit File(int handle) noexcept : handle_(handle) {}
-  ~File() {
-    if (handle_ >= 0) close(handle_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  [[nodiscard]] int handle() const noexcept { return handle_; }
-
- private:
-  int handle_;
-};
 
 }  // namespace
 
@@ -91,7 +77,8 @@ std::shared_ptr<const NetworkKey> NetworkKey::Load(const std::string& path) {
 
 void NetworkKey::Make(const std::string& path) {
   Prepare();
-  const File file(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR));
+  const FileDescriptor file(
+      open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR));
   if (file.handle() < 0) {
     throw BadInput(fmt::format("key file {}: {}; a key is never written over another file", path,
                                std::strerror(errno)));

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "dashboard/connection.hpp"
+#include "common/file_descriptor.hpp"
 
 namespace levitas::dashboard {
 namespace {
@@ -32,11 +32,11 @@ class Client {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the interface of sockets
     const auto* const where = reinterpret_cast<const sockaddr*>(&address);
-    EXPECT_EQ(::connect(connection_.socket(), where, sizeof address), 0);
+    EXPECT_EQ(::connect(connection_.handle(), where, sizeof address), 0);
   }
 
   bool Send(const std::string& text) const {
-    return ::send(connection_.socket(), text.data(), text.size(), MSG_NOSIGNAL) ==
+    return ::send(connection_.handle(), text.data(), text.size(), MSG_NOSIGNAL) ==
            static_cast<ssize_t>(text.size());
   }
 
@@ -45,7 +45,7 @@ class Client {
     std::string text;
     std::array<char, 4096> piece{};
     while (text.find(wanted) == std::string::npos) {
-      const ssize_t count = ::recv(connection_.socket(), piece.data(), piece.size(), 0);
+      const ssize_t count = ::recv(connection_.handle(), piece.data(), piece.size(), 0);
       if (count <= 0) break;
       text.append(piece.data(), static_cast<std::size_t>(count));
     }
@@ -53,7 +53,7 @@ class Client {
   }
 
  private:
-  Connection connection_;
+  FileDescriptor connection_;
 };
 
 std::string Post(const std::string& body, const std::string& headers = "X-Levitas: 1\r\n") {
