@@ -7,7 +7,7 @@
 // is forward whirl (x to y, as docs/conventions.md), negative backward. After Southwick (1994).
 //
 // Units    those of the orbit (amplitude, not density). Thread any; allocates.
-// Length   two samples at least; products of small primes are fast (numerics/fourier_transform.hpp).
+// Length   at least two samples; fast for products of small primes (fourier_transform.hpp).
 // Failure  none.
 
 #include <complex>

@@ -109,7 +109,7 @@ const CsvColumn* Nearest(std::string_view name, const std::vector<CsvColumn>& kn
 }
 
 /// Which column an unknown name was probably meant to be; null: none of ours.
-const CsvColumn* LikelyMeant(std::string_view name, const std::vector<CsvColumn>& known) {
+const CsvColumn* ColumnMeant(std::string_view name, const std::vector<CsvColumn>& known) {
   const std::string lower = Lower(name);
   return Nearest(lower, known, HasPrefixOfOurs(lower) ? kLongestName : kTypingErrors);
 }
@@ -217,7 +217,7 @@ CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string&
     if (found == known.end()) {
       const bool looked_at = problems.size() < kMostComplaints;
       if (!looked_at) ++not_looked_at;
-      const CsvColumn* meant = looked_at ? LikelyMeant(Beginning(name), known) : nullptr;
+      const CsvColumn* meant = looked_at ? ColumnMeant(Beginning(name), known) : nullptr;
       if (meant != nullptr) {
         problems.push_back(
             fmt::format("column {} \"{}\" is not known (channels of the rig: {}); "

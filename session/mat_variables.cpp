@@ -30,35 +30,43 @@ std::vector<double> Converted(const matvar_t& variable, std::size_t count) {
   return values;
 }
 
-/// All numbers of a real matrix, column by column; empty for what is none.
+using Conversion = std::vector<double> (*)(const matvar_t&, std::size_t count);
+
+/// The conversion of a class of real numbers to doubles; null for any other class.
+Conversion ConversionOf(matio_classes numbers) {
+  switch (numbers) {
+    case MAT_C_DOUBLE:
+      return Converted<double>;
+    case MAT_C_SINGLE:
+      return Converted<float>;
+    case MAT_C_INT64:  // beyond 2^53 to the nearest double, as MATLAB's own double() gives it
+      return Converted<std::int64_t>;
+    case MAT_C_UINT64:
+      return Converted<std::uint64_t>;
+    case MAT_C_INT32:
+      return Converted<std::int32_t>;
+    case MAT_C_UINT32:
+      return Converted<std::uint32_t>;
+    case MAT_C_INT16:
+      return Converted<std::int16_t>;
+    case MAT_C_UINT16:
+      return Converted<std::uint16_t>;
+    case MAT_C_INT8:
+      return Converted<std::int8_t>;
+    case MAT_C_UINT8:
+      return Converted<std::uint8_t>;
+    default:
+      return nullptr;
+  }
+}
+
+/// All numbers of a real matrix, column by column; empty for a variable that is no real matrix.
 std::vector<double> Numbers(const matvar_t& variable) {
   if (variable.rank != 2 || variable.isComplex != 0 || variable.data == nullptr) return {};
   const std::size_t count = variable.dims[0] * variable.dims[1];
   if (variable.nbytes != count * static_cast<std::size_t>(variable.data_size)) return {};
-  switch (variable.class_type) {
-    case MAT_C_DOUBLE:
-      return Converted<double>(variable, count);
-    case MAT_C_SINGLE:
-      return Converted<float>(variable, count);
-    case MAT_C_INT64:  // beyond 2^53 to the nearest double, as MATLAB's own double() gives it
-      return Converted<std::int64_t>(variable, count);
-    case MAT_C_UINT64:
-      return Converted<std::uint64_t>(variable, count);
-    case MAT_C_INT32:
-      return Converted<std::int32_t>(variable, count);
-    case MAT_C_UINT32:
-      return Converted<std::uint32_t>(variable, count);
-    case MAT_C_INT16:
-      return Converted<std::int16_t>(variable, count);
-    case MAT_C_UINT16:
-      return Converted<std::uint16_t>(variable, count);
-    case MAT_C_INT8:
-      return Converted<std::int8_t>(variable, count);
-    case MAT_C_UINT8:
-      return Converted<std::uint8_t>(variable, count);
-    default:
-      return {};
-  }
+  const Conversion convert = ConversionOf(variable.class_type);
+  return convert == nullptr ? std::vector<double>{} : convert(variable, count);
 }
 
 /// Row r of a matrix stored column by column is every `rows`-th number from r on.
@@ -101,21 +109,8 @@ void CheckSize(const matvar_t& variable, bool may_be_packed, std::uint64_t file_
 }
 
 bool IsRealMatrix(const matvar_t& variable) {
-  switch (variable.class_type) {
-    case MAT_C_DOUBLE:
-    case MAT_C_SINGLE:
-    case MAT_C_INT64:
-    case MAT_C_UINT64:
-    case MAT_C_INT32:
-    case MAT_C_UINT32:
-    case MAT_C_INT16:
-    case MAT_C_UINT16:
-    case MAT_C_INT8:
-    case MAT_C_UINT8:
-      return variable.rank == 2 && variable.dims != nullptr && variable.isComplex == 0;
-    default:
-      return false;
-  }
+  return ConversionOf(variable.class_type) != nullptr && variable.rank == 2 &&
+         variable.dims != nullptr && variable.isComplex == 0;
 }
 
 }  // namespace
