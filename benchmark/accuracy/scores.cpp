@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "benchmark/accuracy/true_value.hpp"
-#include "diagnosis/report/words.hpp"
 #include "numerics/normal_distribution.hpp"
 
 namespace levitas::accuracy {
@@ -75,33 +74,32 @@ bool TrialScore::HoldsAllClearly() const {
 }
 
 TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
-                 const diagnosis::DiagnosisResult& answer, const RigNumbers& rig) {
+                 const diagnosis::DiagnosisReport& report, const RigNumbers& rig) {
   TrialScore o;
   o.seed = plan.seed;
   o.truth = ground_truth.effects;
   o.in_file = ground_truth.in_file;
   if (ground_truth.outside != Unmodelled::kNothing) o.outside = Name(ground_truth.outside);
   o.drawn = ground_truth.size;
-  const auto& a = answer.answer;
-  o.verdict = a.verdict == diagnosis::Verdict::kEffect    ? "effect"
-              : a.verdict == diagnosis::Verdict::kUnknown ? "unknown"
-                                                          : "none";
-  for (const auto& cause : a.causes) o.named.push_back(cause.effect);
-  o.ties = a.also_possible;
-  o.score_nat = a.candidates.empty() ? 0.0 : a.candidates.front().score;
-  for (const auto& c : a.candidates) {
+  o.verdict = report.verdict == diagnosis::Verdict::kEffect    ? "effect"
+              : report.verdict == diagnosis::Verdict::kUnknown ? "unknown"
+                                                               : "none";
+  for (const auto& cause : report.causes) o.named.push_back(cause.effect);
+  o.ties = report.also_possible;
+  o.score_nat = report.candidates.empty() ? 0.0 : report.candidates.front().evidence_nat;
+  for (const auto& c : report.candidates) {
     if (!o.truth.empty() && c.effect == o.truth.front()) {
-      o.available_nat = std::max(o.available_nat, c.score);
+      o.available_nat = std::max(o.available_nat, c.evidence_nat);
     }
     if (o.nearest.size() < 7) {
-      o.nearest.push_back(
-          fmt::format("{} [{}] {:.1f}{}", c.effect, c.place, c.score, c.refitted ? "" : "?"));
+      o.nearest.push_back(fmt::format("{} [{}] {:.1f}{}", c.effect, c.place, c.evidence_nat,
+                                      c.refitted ? "" : "?"));
     }
   }
-  o.explained = a.explained;
-  o.remainder_sigma = a.remainder.sigma;
-  o.achieved = answer.validation.achieved.value;
-  for (const auto& p : diagnosis::Parameters(answer)) {
+  o.explained = report.residual.explained;
+  o.remainder_sigma = report.residual.sigma;
+  o.achieved = report.validation.achieved.fraction;
+  for (const auto& p : report.parameters) {
     if (o.truth.empty() || p.effect != o.truth.front()) continue;
     const double truth = TrueValue(p, ground_truth, rig).value_or(0.0);
     if (truth == 0.0) continue;
@@ -113,17 +111,18 @@ TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
   return o;
 }
 
-void AddInformedDiagnosis(const diagnosis::SearchResult& told, std::optional<double> held,
+void AddInformedDiagnosis(const diagnosis::DiagnosisReport& informed, std::optional<double> held,
                           TrialScore& outcome) {
   const std::string& truth = outcome.truth.front();
-  for (const auto& candidate : told.candidates) {
+  for (const auto& candidate : informed.candidates) {
     if (candidate.effect != truth) continue;
-    outcome.available_nat = std::max(outcome.available_nat, candidate.score);
+    outcome.available_nat = std::max(outcome.available_nat, candidate.evidence_nat);
   }
   outcome.record_nat = held.value_or(-1.0);
-  const bool named = std::any_of(told.causes.begin(), told.causes.end(),
+  const bool named = std::any_of(informed.causes.begin(), informed.causes.end(),
                                  [&truth](const auto& cause) { return cause.effect == truth; });
-  const bool there = held ? *held >= kAvailableFrom : told.verdict == diagnosis::Verdict::kUnknown;
+  const bool there =
+      held ? *held >= kAvailableFrom : informed.verdict == diagnosis::Verdict::kUnknown;
   outcome.informed_failed = !named && there;
 }
 

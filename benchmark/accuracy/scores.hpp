@@ -19,6 +19,7 @@
 
 #include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::accuracy {
 
@@ -60,7 +61,7 @@ struct TrialScore {
 };
 
 [[nodiscard]] TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
-                               const diagnosis::DiagnosisResult& answer, const RigNumbers& rig);
+                               const diagnosis::DiagnosisReport& report, const RigNumbers& rig);
 
 /// Above this evidence a missed effect counts as an error even if the informed diagnosis missed it
 /// too (twice kDecisive: a fit also pays an Occam factor).
@@ -69,7 +70,7 @@ inline constexpr double kAvailableFrom = 2.0 * diagnosis::kDecisive;
 /// Updates the outcome with the result of the informed diagnosis. `held` is that of
 /// AvailableEvidence; without it, the informed diagnosis counts as failed when it leaves an
 /// unexplained residual.
-void AddInformedDiagnosis(const diagnosis::SearchResult& told, std::optional<double> held,
+void AddInformedDiagnosis(const diagnosis::DiagnosisReport& informed, std::optional<double> held,
                           TrialScore& outcome);
 
 /// Tables for people, of all outcomes.

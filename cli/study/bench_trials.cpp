@@ -16,6 +16,7 @@
 #include "cli/json_file.hpp"
 #include "common/output_file.hpp"
 #include "common/problem.hpp"
+#include "diagnosis/report/build_report.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::cli {
@@ -71,20 +72,21 @@ accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRi
   settings.quick = options.quick;
   settings.judging = options.judging;
   const auto start = std::chrono::steady_clock::now();
-  const diagnosis::DiagnosisResult answer =
-      diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
+  const diagnosis::DiagnosisReport report =
+      diagnosis::BuildReport(diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings));
   accuracy::TrialScore outcome =
-      accuracy::Judge(plan, trial.ground_truth, answer, bench.rig.numbers);
+      accuracy::Judge(plan, trial.ground_truth, report, bench.rig.numbers);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (outcome.truth.size() > 1 && plan.side_size == 1.0) ListMissed(trial, outcome);
   if (!outcome.truth.empty() && !outcome.Right()) {
     // What the records hold for an effect that was not named is found by being told of it.
     settings.only = outcome.truth.front();
-    const auto told = diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
+    const auto informed =
+        diagnosis::BuildReport(diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings));
     const bool known =
         !outcome.missed.empty() && outcome.missed.front().first == outcome.truth.front();
     accuracy::AddInformedDiagnosis(
-        told.answer, known ? outcome.missed.front().second : HeldFor(trial, outcome.truth.front()),
+        informed, known ? outcome.missed.front().second : HeldFor(trial, outcome.truth.front()),
         outcome);
   }
   return outcome;

@@ -15,16 +15,15 @@
 #include "cli/study/diagnosis_inputs.hpp"
 #include "cli/study/diagnosis_text.hpp"
 #include "cli/study/kept_memory.hpp"
-#include "cli/study/levitator_files.hpp"
 #include "cli/study/progress_line.hpp"
 #include "cli/study/written_files.hpp"
 #include "cli/study_commands.hpp"
 #include "cli/text_file.hpp"
+#include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/plan.hpp"
 #include "diagnosis/report/build_report.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/plan.hpp"
-#include "diagnosis/report/words.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -47,46 +46,40 @@ struct DiagnoseOptions : AnalysisOptions {
   bool quick{}, explain{};
 };
 
-/// Prints `why_not` if the scenario would be empty.
-void WritePlan(const std::string& path, const std::string& scenario, const char* why_not,
-               std::vector<std::string>& written) {
-  if (scenario.empty()) {
-    fmt::print("--plan: {}, {} is not written\n", why_not, path);
-    return;
-  }
-  WriteTextFile(path, scenario);
-  written.push_back(path);
-}
+/// What was found, and the scenario that would separate what is left.
+struct Diagnosed {
+  diagnosis::DiagnosisReport report;
+  std::string scenario;       ///< empty when none is needed or would help
+  const char* no_scenario{};  ///< why
+};
 
 /// Two-magnet levitator: voltage-driven coils, with separate models, causes and fits.
-std::vector<std::string> RunLevitator(const diagnosis::DiagnosisRequest& inputs,
-                                      const DiagnoseOptions& options, ProgressLine& progress) {
-  const levitator::LevitatorResult answer = levitator::Diagnose(inputs);
-  progress.Close();
-  PrintLevitator(answer, options.explain);
-  WriteJsonFile(options.json_path, LevitatorJson(answer));
-  auto written = WriteLevitator(answer, options.out);
-  if (!options.plan.empty()) {
-    WritePlan(options.plan, levitator::PlanScenario(inputs.rig, answer),
-              "nothing is left that a scenario could separate", written);
-  }
-  return written;
+Diagnosed DiagnoseLevitator(const diagnosis::DiagnosisRequest& inputs) {
+  Diagnosed out;
+  out.report = levitator::Diagnose(inputs).report;
+  out.scenario = levitator::PlanScenario(inputs.rig, out.report);
+  out.no_scenario = "nothing is left that a scenario could separate";
+  return out;
 }
 
-std::vector<std::string> RunRotor(const diagnosis::DiagnosisRequest& inputs,
-                                  const DiagnoseOptions& options, ProgressLine& progress) {
-  const diagnosis::DiagnosisResult answer = diagnosis::DiagnoseFiles(inputs);
-  const diagnosis::DiagnosisReport report = diagnosis::BuildReport(answer);
-  progress.Close();
-  PrintDiagnosis(answer, options.explain);
-  WriteJsonFile(options.json_path, DiagnosisJson(report));
-  auto written = WriteDiagnosis(answer, report, inputs.rig, options.out);
-  if (!options.plan.empty()) {
-    const bool needed = diagnosis::NeedsExperiment(answer);
-    WritePlan(options.plan, needed ? diagnosis::PlanScenario(answer) : "",
-              "nothing is left to separate", written);
+Diagnosed DiagnoseRotor(const diagnosis::DiagnosisRequest& inputs) {
+  Diagnosed out;
+  out.report = diagnosis::BuildReport(diagnosis::DiagnoseFiles(inputs), inputs.rig);
+  if (out.report.needs_experiment) {
+    out.scenario = diagnosis::PlanScenario(out.report, inputs.rig);
   }
-  return written;
+  out.no_scenario = "nothing is left to separate";
+  return out;
+}
+
+/// Prints the reason if there is no scenario.
+void WritePlan(const std::string& path, const Diagnosed& found, std::vector<std::string>& written) {
+  if (found.scenario.empty()) {
+    fmt::print("--plan: {}, {} is not written\n", found.no_scenario, path);
+    return;
+  }
+  WriteTextFile(path, found.scenario);
+  written.push_back(path);
 }
 
 ExitStatus Run(const DiagnoseOptions& options) {
@@ -103,8 +96,13 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.settings.progress = [&progress](double share, const std::string& what) {
     progress.Show(share, what);
   };
-  auto written = levitator::IsLevitator(inputs.rig.plant) ? RunLevitator(inputs, options, progress)
-                                                          : RunRotor(inputs, options, progress);
+  const Diagnosed found =
+      levitator::IsLevitator(inputs.rig.plant) ? DiagnoseLevitator(inputs) : DiagnoseRotor(inputs);
+  progress.Close();
+  PrintDiagnosis(found.report, options.explain);
+  WriteJsonFile(options.json_path, DiagnosisJson(found.report));
+  auto written = WriteDiagnosis(found.report, options.out);
+  if (!options.plan.empty()) WritePlan(options.plan, found, written);
   if (!options.json_path.empty()) written.push_back(options.json_path);
   TellWritten(written);
   return ExitStatus::kDone;

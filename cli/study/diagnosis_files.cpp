@@ -4,16 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/json_file.hpp"
-#include "cli/study/diagnosis_report.hpp"
+#include "cli/study/diagnosis_page.hpp"
 #include "cli/text_file.hpp"
-#include "common/problem.hpp"
-#include "diagnosis/report/calibrated_rig.hpp"
-#include "diagnosis/report/extended_rig.hpp"
 
 namespace levitas::cli {
 
 using diagnosis::DiagnosisReport;
-using diagnosis::DiagnosisResult;
 using diagnosis::Verdict;
 
 namespace {
@@ -80,7 +76,7 @@ nlohmann::ordered_json ShareJson(const diagnosis::ReportShare& share) {
   return {{"fraction", share.fraction}, {"low", share.low}, {"high", share.high}};
 }
 
-nlohmann::ordered_json GainJson(const diagnosis::ReportGain& gain) {
+nlohmann::ordered_json GainJson(const diagnosis::ReportFit& gain) {
   nlohmann::ordered_json json = ShareJson(gain.achieved);
   json["beyond_calibration"] = gain.beyond_calibration;
   json["meaningful"] = gain.meaningful;
@@ -96,9 +92,36 @@ nlohmann::ordered_json CandidatesJson(const DiagnosisReport& report) {
     nlohmann::ordered_json entry{{"effect", c.effect}, {"where", c.place}, {"score", nullptr}};
     if (std::isfinite(c.evidence_nat)) entry["score"] = c.evidence_nat;
     entry["refitted"] = c.refitted;
+    if (c.validation_nat) entry["held_out_nat"] = *c.validation_nat;
     json.push_back(entry);
   }
   return json;
+}
+
+nlohmann::ordered_json RunFitJson(const diagnosis::ReportRunFit& fit) {
+  return {{"before", fit.nominal.value},     {"calibrated", fit.calibrated.value},
+          {"after", fit.extended.value},     {"after_low", fit.extended.low},
+          {"after_high", fit.extended.high}, {"ceiling", fit.ceiling_percent}};
+}
+
+nlohmann::ordered_json RunsJson(const std::vector<diagnosis::ReportRun>& runs) {
+  auto json = nlohmann::ordered_json::array();
+  for (const diagnosis::ReportRun& run : runs) {
+    nlohmann::ordered_json entry{{"run", run.name}};
+    if (run.current) entry["current_percent"] = RunFitJson(*run.current);
+    if (run.lower_current) entry["lower_current_percent"] = RunFitJson(*run.lower_current);
+    entry["motion_percent"] = RunFitJson(run.motion);
+    json.push_back(entry);
+  }
+  return json;
+}
+
+/// Of a diagnosis that judges records one by one.
+void AddRuns(const DiagnosisReport& report, nlohmann::ordered_json& json) {
+  json["ties"] = nlohmann::ordered_json::object();
+  for (const diagnosis::ReportTie& tie : report.ties) json["ties"][tie.cause] = tie.others;
+  json["runs_held_out"] = RunsJson(report.validation_runs);
+  json["runs_fitted"] = RunsJson(report.fitted_runs);
 }
 
 }  // namespace
@@ -117,7 +140,7 @@ nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   json["parameters"] = ParametersJson(report);
   json["calibrated"] = CalibratedJson(report);
   json["fit_percent"] = FitJson(report);
-  json["achievable_gain"] = GainJson(report.gain);
+  json["achievable_gain"] = GainJson(report.validation);
   json["residual"] = {{"frequency_hz", report.residual.frequency_hz},
                       {"order", report.residual.order},
                       {"coherent_with", report.residual.coherent_with},
@@ -131,18 +154,17 @@ nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   json["healthy_records"] = report.healthy_sentence;
   json["next_experiment"] = report.next_experiment;
   json["candidates"] = CandidatesJson(report);
+  if (!report.fitted_runs.empty()) AddRuns(report, json);
   return json;
 }
 
-std::vector<std::string> WriteDiagnosis(const DiagnosisResult& answer,
-                                        const DiagnosisReport& report, const config::RigFile& rig,
-                                        const std::string& folder) {
+std::vector<std::string> WriteDiagnosis(const DiagnosisReport& report, const std::string& folder) {
   std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
                                  folder + "/calibrated_rig.yaml", folder + "/report.html"};
   WriteJsonFile(paths[0], DiagnosisJson(report));
-  WriteTextFile(paths[1], diagnosis::ExtendedRig(answer, rig));
-  WriteTextFile(paths[2], diagnosis::CalibratedRig(answer, rig));
-  WriteTextFile(paths[3], DiagnosisPage(answer));
+  WriteTextFile(paths[1], report.extended_rig);
+  WriteTextFile(paths[2], report.calibrated_rig);
+  WriteTextFile(paths[3], DiagnosisPage(report));
   return paths;
 }
 

@@ -7,16 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "config/rig_file.hpp"
-#include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::cli {
 
 [[nodiscard]] nlohmann::ordered_json DiagnosisJson(const diagnosis::DiagnosisReport& report);
 /// The paths that were written.
-std::vector<std::string> WriteDiagnosis(const diagnosis::DiagnosisResult& answer,
-                                        const diagnosis::DiagnosisReport& report,
-                                        const config::RigFile& rig, const std::string& folder);
+std::vector<std::string> WriteDiagnosis(const diagnosis::DiagnosisReport& report,
+                                        const std::string& folder);
 
 }  // namespace levitas::cli

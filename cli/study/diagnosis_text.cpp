@@ -7,20 +7,21 @@
 #include <numbers>
 
 #include "cli/text_table.hpp"
-#include "diagnosis/report/input_warnings.hpp"
-#include "diagnosis/report/words.hpp"
+#include "diagnosis/report/report_text.hpp"
 
 namespace levitas::cli {
 namespace {
 
 using diagnosis::CalibratedValue;
-using diagnosis::DiagnosisResult;
-using diagnosis::Gain;
+using diagnosis::DiagnosisReport;
 using diagnosis::NamedParameter;
+using diagnosis::ReportFit;
+using diagnosis::ReportRun;
+using diagnosis::ReportRunFit;
 
 constexpr std::size_t kShown = 8;
 
-void PrintParameters(const DiagnosisResult& s) {
+void PrintParameters(const DiagnosisReport& s) {
   const auto parameters = SharedParameters(s);
   if (parameters.empty()) return;
   fmt::print("Parameters, keys and units as in a rig file (in brackets: 90 % interval):\n");
@@ -32,30 +33,30 @@ void PrintParameters(const DiagnosisResult& s) {
     form = form || p.form;
   }
   if (form) fmt::print("  * as far as the neighbouring forms of the law that were tried\n");
-  for (const std::string& total : diagnosis::TotalSentences(s)) fmt::print("  {}\n", total);
+  for (const std::string& total : diagnosis::TotalSentences(s.parameters))
+    fmt::print("  {}\n", total);
   fmt::print("\n");
 }
 
-void PrintCalibrated(const DiagnosisResult& s, bool complete) {
-  const auto values = diagnosis::CalibratedValues(s);
-  std::vector<CalibratedValue> told;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(told),
+void PrintCalibrated(const DiagnosisReport& s, bool complete) {
+  const auto& values = s.calibrated;
+  std::vector<CalibratedValue> shown;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(shown),
                [complete](const auto& v) { return complete || diagnosis::IsSignificant(v); });
-  if (!complete && told.size() > kShown) told.resize(kShown);
+  if (!complete && shown.size() > kShown) shown.resize(kShown);
   fmt::print("Calibration: {} numbers in which a healthy rig may differ from its file; ",
              values.size());
-  const auto taken = diagnosis::TakenByCauses(s);
-  if (!taken.empty()) {
-    fmt::print("{} not among them, being a cause; ", fmt::join(taken, ", "));
+  if (!s.taken_by_causes.empty()) {
+    fmt::print("{} not among them, being a cause; ", fmt::join(s.taken_by_causes, ", "));
   }
-  if (told.empty()) {
+  if (shown.empty()) {
     fmt::print("none further than half its tolerance from it (--explain lists them).\n\n");
     return;
   }
   fmt::print("{}:\n", complete ? "all of them" : "furthest out (--explain lists all)");
   TextTable table;
   table.Add({"", "where", "key", "rig file", "calibrated", "std", "tolerance"});
-  for (const CalibratedValue& v : told) {
+  for (const CalibratedValue& v : shown) {
     table.Add({"  " + v.effect, v.place, v.key, AtPhase(v.nominal, v.nominal_phase_rad),
                AtPhase(v.calibrated, v.phase_rad), fmt::format("{:.2g}", v.deviation),
                fmt::format("{:.2g}", v.tolerance)});
@@ -64,10 +65,10 @@ void PrintCalibrated(const DiagnosisResult& s, bool complete) {
   fmt::print("\n");
 }
 
-void PrintFits(const DiagnosisResult& s) {
+void PrintFits(const DiagnosisReport& s) {
   fmt::print("{:<46}{:>9}{:>12}{:>10}{:>9}\n", "Fit of the one-step prediction, percent", "nominal",
              "calibrated", "extended", "ceiling");
-  const auto row = [](const char* name, const Gain& g) {
+  const auto row = [](const char* name, const ReportFit& g) {
     fmt::print("{:<46}{:>9.2f}{:>12.2f}{:>10.2f}{:>9.2f}\n", name, g.nominal_percent,
                g.calibrated_percent, g.extended_percent, g.ceiling_percent);
   };
@@ -77,14 +78,14 @@ void PrintFits(const DiagnosisResult& s) {
   fmt::print("{}\n{}{}", GainSentence(s), ceiling, ceiling.empty() ? "" : "\n");
 }
 
-void PrintRanking(const DiagnosisResult& s, bool complete) {
-  const auto& candidates = s.answer.candidates;
+void PrintRanking(const DiagnosisReport& s, bool complete) {
+  const auto& candidates = s.candidates;
   const std::size_t shown = complete ? candidates.size() : std::min(kShown, candidates.size());
   fmt::print("\n{:<26}{:<42}{:>10}\n", "effect", "where", "nat");
   bool screened = false;
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& c = candidates[i];
-    fmt::print("{:<26}{:<42}{:>10.1f}{}\n", c.effect, c.place, c.score,
+    fmt::print("{:<26}{:<42}{:>10.1f}{}\n", c.effect, c.place, c.evidence_nat,
                c.refitted ? "" : "  (screen)");
     screened = screened || !c.refitted;
   }
@@ -93,19 +94,44 @@ void PrintRanking(const DiagnosisResult& s, bool complete) {
   }
 }
 
-bool Above(const Gain& g) {
+/// Ties of all causes; those of the first are in the verdict's sentence as well.
+void PrintTies(const DiagnosisReport& s) {
+  for (const diagnosis::ReportTie& tie : s.ties) {
+    if (tie.others.empty()) continue;
+    fmt::print("{} is not separable from {}\n", tie.cause, fmt::join(tie.others, " "));
+  }
+}
+
+void PrintRuns(const DiagnosisReport& s) {
+  if (s.validation_runs.empty()) return;
+  fmt::print(
+      "\nFit on runs that were not fitted, percent (I: current in free run, x: motion one "
+      "step ahead)\n");
+  fmt::print("{:<22}{:>9}{:>12}{:>10}{:>18}{:>9}\n", "", "nominal", "calibrated", "extended",
+             "5 to 95 %", "ceiling");
+  const auto row = [](const std::string& name, const ReportRunFit& fit) {
+    fmt::print("{:<22}{:>9.2f}{:>12.2f}{:>10.2f}{:>18}{:>9.2f}\n", name, fit.nominal.value,
+               fit.calibrated.value, fit.extended.value, IntervalText(fit), fit.ceiling_percent);
+  };
+  for (const ReportRun& run : s.validation_runs) {
+    if (run.current) row(run.name + " I", *run.current);
+    row(run.name + " x", run.motion);
+  }
+}
+
+bool Above(const ReportFit& g) {
   return std::max(g.extended_percent, g.calibrated_percent) > g.ceiling_percent + 0.005;
 }
 
 }  // namespace
 
-std::vector<SharedParameter> SharedParameters(const DiagnosisResult& s) {
+std::vector<SharedParameter> SharedParameters(const DiagnosisReport& s) {
   struct Places {
     NamedParameter first;
     std::vector<std::string> at;
   };
   std::vector<Places> groups;
-  for (const NamedParameter& p : diagnosis::Parameters(s)) {
+  for (const NamedParameter& p : s.parameters) {
     const auto same = std::find_if(groups.begin(), groups.end(), [&p](const Places& g) {
       return g.first.effect == p.effect && g.first.key == p.key && g.first.value == p.value &&
              g.first.low == p.low && g.first.high == p.high;
@@ -116,10 +142,14 @@ std::vector<SharedParameter> SharedParameters(const DiagnosisResult& s) {
   for (const Places& g : groups) {
     std::string places;
     for (const std::string& place : g.at) places += (places.empty() ? "" : ", ") + place;
-    const bool all = g.at.size() > 1 && g.at == s.view->numbers.channels;
+    const bool all = g.at.size() > 1 && g.at == s.rig_channels;
     out.push_back({g.first, all ? "all axes" : places});
   }
   return out;
+}
+
+std::string IntervalText(const ReportRunFit& fit) {
+  return fmt::format("{:.1f} to {:.1f}", fit.extended.low, fit.extended.high);
 }
 
 std::string AtPhase(double value, std::optional<double> phase_rad) {
@@ -128,43 +158,44 @@ std::string AtPhase(double value, std::optional<double> phase_rad) {
              : fmt::format("{:.5g}", value);
 }
 
-std::string GainSentence(const DiagnosisResult& s) {
-  const Gain& held = s.validation;
-  if (!diagnosis::SomethingToGain(held)) {
+std::string GainSentence(const DiagnosisReport& s) {
+  const ReportFit& held = s.validation;
+  if (!held.meaningful) {
     return "Nothing to gain: the rig file itself predicts these data nearly to their noise.";
   }
   const std::string gained = fmt::format(
       "On validation data this model reaches {:.1f} % ({:.1f} to {:.1f} %) of the achievable gain",
-      100.0 * held.achieved.value, 100.0 * held.achieved.low, 100.0 * held.achieved.high);
-  if (s.answer.causes.empty()) return gained + ", by calibration.";
-  if (held.calibrated_over_noise < 1.0 + diagnosis::kLeastToGain) {
+      100.0 * held.achieved.fraction, 100.0 * held.achieved.low, 100.0 * held.achieved.high);
+  if (s.causes.empty()) return gained + ", by calibration.";
+  if (held.calibration_is_complete) {
     return fmt::format(
         "{}; so does calibration alone, which leaves hardly more than the noise: the cause is "
         "decided by its evidence of {:.0f} nat.",
-        gained, s.answer.evidence);
+        gained, s.evidence_nat);
   }
-  const double beyond = 100.0 * held.beyond_calibration.value;
+  const double beyond = 100.0 * held.beyond_calibration;
   return beyond < 0.0 ? fmt::format("{}; the cause adds {:.0f} % to what calibration leaves.",
                                     gained, -beyond)
                       : fmt::format("{}; of what calibration leaves, the cause takes {:.0f} %.",
                                     gained, beyond);
 }
 
-std::string CeilingSentence(const DiagnosisResult& s) {
+std::string CeilingSentence(const DiagnosisReport& s) {
   if (!Above(s.fitted) && !Above(s.validation)) return {};
   return "A fit above the ceiling is at the ceiling: the noise is read from the highest third of "
          "the spectrum, to a few per cent.";
 }
 
-void PrintDiagnosis(const DiagnosisResult& s, bool complete) {
-  fmt::print("{}\n\n", diagnosis::VerdictSentence(s));
-  const std::string healthy = diagnosis::HealthySentence(s);
-  if (!healthy.empty()) fmt::print("{}\n\n", healthy);
+void PrintDiagnosis(const DiagnosisReport& s, bool complete) {
+  fmt::print("{}\n\n", s.verdict_sentence);
+  if (!s.healthy_sentence.empty()) fmt::print("{}\n\n", s.healthy_sentence);
   PrintParameters(s);
   PrintCalibrated(s, complete);
   PrintFits(s);
   PrintRanking(s, complete);
-  fmt::print("\nNext: {}\n", diagnosis::NextExperiment(s));
+  fmt::print("\nNext: {}\n", s.next_experiment);
+  PrintTies(s);
+  PrintRuns(s);
 }
 
 }  // namespace levitas::cli

@@ -1,17 +1,18 @@
 #pragma once
 // What amb diagnose prints: the verdict, the parameters as they stand in a rig file, what the
-// calibration has moved, fits, the ranking, what to record next.
+// calibration has moved, fits, the ranking, what to record next; ties and the fits
+// of single records where the report has them.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::cli {
 
 /// `complete`: every calibrated value and every candidate.
-void PrintDiagnosis(const diagnosis::DiagnosisResult& answer, bool complete);
+void PrintDiagnosis(const diagnosis::DiagnosisReport& report, bool complete);
 
 /// Parameters that are the same at several places, once.
 struct SharedParameter {
@@ -19,12 +20,14 @@ struct SharedParameter {
   std::string places;
 };
 [[nodiscard]] std::vector<SharedParameter> SharedParameters(
-    const diagnosis::DiagnosisResult& answer);
+    const diagnosis::DiagnosisReport& report);
+/// "91.8 to 93.2", of the extended model.
+[[nodiscard]] std::string IntervalText(const diagnosis::ReportRunFit& fit);
 /// "18.5 at 120.3 deg", or the value alone.
 [[nodiscard]] std::string AtPhase(double value, std::optional<double> phase_rad);
 /// What share of what could be gained is, and by what; or that there was nothing to gain.
-[[nodiscard]] std::string GainSentence(const diagnosis::DiagnosisResult& answer);
+[[nodiscard]] std::string GainSentence(const diagnosis::DiagnosisReport& report);
 /// Why a fit can lie above its ceiling; empty when none does.
-[[nodiscard]] std::string CeilingSentence(const diagnosis::DiagnosisResult& answer);
+[[nodiscard]] std::string CeilingSentence(const diagnosis::DiagnosisReport& report);
 
 }  // namespace levitas::cli

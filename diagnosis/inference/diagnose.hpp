@@ -31,6 +31,7 @@
 #include "diagnosis/inference/evidence.hpp"
 #include "diagnosis/inference/judging.hpp"
 #include "diagnosis/inference/residual.hpp"
+#include "diagnosis/inference/verdict.hpp"
 #include "diagnosis/model/observer_speed.hpp"
 #include "diagnosis/terms/terms.hpp"
 
@@ -58,8 +59,6 @@ struct Estimate {
   double value{};
   double deviation{};
 };
-
-enum class Verdict { kNone, kEffect, kUnknown };
 
 struct SearchResult {
   Verdict verdict{Verdict::kNone};

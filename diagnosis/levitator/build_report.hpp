@@ -3,13 +3,21 @@
 //
 // Place    that of the first cause's parameter (parameters.hpp). Effects of voltage-driven coils
 //          are not in the catalogue of effects, which knows the places of a rotor's effects alone.
+// Ties     of every named cause: candidates that are less than the decisive evidence, or a share of
+//          the cause's, behind it in its place.
 // Thread   any; pure.
 
 #include "diagnosis/levitator/levitator_result.hpp"
-#include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::levitator {
 
-[[nodiscard]] diagnosis::DiagnosisReport BuildReport(const LevitatorResult& result);
+/// From `found`, `validation` and `fitted` of the result, for the records it was found in.
+[[nodiscard]] diagnosis::DiagnosisReport BuildReport(const config::RigFile& rig,
+                                                     const NominalRig& nominal,
+                                                     const std::vector<Series>& data,
+                                                     const LevitatorResult& result);
+
+/// Causes, candidates, ties and place alone.
+void AddCauses(const Found& found, diagnosis::DiagnosisReport& report);
 
 }  // namespace levitas::levitator

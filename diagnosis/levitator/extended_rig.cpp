@@ -8,7 +8,6 @@
 
 #include "common/problem.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
-#include "diagnosis/report/words.hpp"
 #include "numerics/normal_distribution.hpp"
 
 namespace levitas::levitator {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/levitator/shared_form.hpp"
+#include "diagnosis/levitator/build_report.hpp"
 #include "diagnosis/records/load.hpp"
 #include "diagnosis/records/same_rows.hpp"
 
@@ -142,8 +142,7 @@ LevitatorResult Diagnose(const config::RigFile& rig, const std::vector<Series>& 
     answer.validation = JudgeAll(nominal, validation, answer.found);
   }
   answer.fitted = JudgeAll(nominal, data, answer.found);
-  FillSharedForm(rig, nominal, data, answer);
-  answer.extended_rig = ExtendedRig(rig, nominal.origin, answer.found);
+  answer.report = BuildReport(rig, nominal, data, answer);
   return answer;
 }
 

@@ -1,16 +1,14 @@
 #pragma once
 // A whole diagnosis of a levitator: records in, cause, extended rig and fits per run out.
 //
-// Fitting    on four seconds of every record, spread over them, at most; fits are told for whole
+// Fitting    on four seconds of every record, spread over them, at most; fits are given for whole
 //            records.
 // Held out   the records given as such. Without any, each record in turn: parameters of the same
 //            causes are fitted to the others and judged on it, with nothing of its own; a lone
 //            record is fitted on its first two thirds and judged on the last.
 // Healthy    records of the same rig in good condition. Errors of the file that they show are no
 //            cause; the search starts from the model that explains them (origin.hpp).
-// Form       what all diagnoses share is a diagnosis::DiagnosisResult, so that files and pages are
-//            those of every rig; there a fit is that of the upper coil's current, where it was
-//            measured, else of the ball's motion.
+// Report     the same plain data as for a rotor (build_report.hpp).
 // Thread     blocks the caller, two threads inside. Failure: BadInput.
 
 #include <string>
@@ -19,6 +17,7 @@
 #include "diagnosis/levitator/run_fit.hpp"
 #include "diagnosis/levitator/search.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::levitator {
 
@@ -31,18 +30,10 @@ struct ValidationRun {
   Fit beyond_calibration;
 };
 
-/// Causes that the data cannot separate from a named one.
-struct Tie {
-  std::string cause;
-  std::vector<std::string> others;
-};
-
 struct LevitatorResult {
-  diagnosis::DiagnosisResult common;
   Found found;
   std::vector<ValidationRun> fitted, validation;
-  std::vector<Tie> ties;
-  std::string extended_rig;  ///< text of the file
+  diagnosis::DiagnosisReport report;
 };
 
 [[nodiscard]] LevitatorResult Diagnose(const diagnosis::DiagnosisRequest& inputs);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 namespace levitas::levitator {
@@ -102,14 +103,14 @@ Pair Between(const std::string& one, const std::string& other) {
   return {one, other, {true, true, true}, kAllWords};
 }
 
-bool Nameless(const LevitatorResult& answer) {
-  return answer.common.answer.verdict == diagnosis::Verdict::kUnknown;
+bool Nameless(const diagnosis::DiagnosisReport& report) {
+  return report.verdict == diagnosis::Verdict::kUnknown;
 }
 
-Ways WaysOf(const LevitatorResult& answer) {
-  if (Nameless(answer)) return {true, true, true};
+Ways WaysOf(const diagnosis::DiagnosisReport& report) {
+  if (Nameless(report)) return {true, true, true};
   Ways all;
-  for (const Tie& tie : answer.ties) {
+  for (const diagnosis::ReportTie& tie : report.ties) {
     for (const std::string& other : tie.others) {
       const Ways ways = Between(tie.cause, other).ways;
       all = {all.stroke || ways.stroke, all.shake || ways.shake, all.clock || ways.clock};
@@ -120,12 +121,12 @@ Ways WaysOf(const LevitatorResult& answer) {
 
 }  // namespace
 
-std::vector<std::string> Separations(const LevitatorResult& answer) {
+std::vector<std::string> Separations(const diagnosis::DiagnosisReport& report) {
   std::vector<std::string> out;
-  if (Nameless(answer)) {
+  if (Nameless(report)) {
     out.emplace_back(std::string("to learn where the remainder belongs: ") + kAllWords);
   }
-  for (const Tie& tie : answer.ties) {
+  for (const diagnosis::ReportTie& tie : report.ties) {
     // Told once of all that the same does for.
     std::vector<std::pair<std::string, std::string>> told;
     for (const std::string& other : tie.others) {
@@ -150,8 +151,8 @@ std::vector<std::string> Separations(const LevitatorResult& answer) {
   return out;
 }
 
-std::string PlanScenario(const config::RigFile& rig, const LevitatorResult& answer) {
-  const Ways ways = WaysOf(answer);
+std::string PlanScenario(const config::RigFile& rig, const diagnosis::DiagnosisReport& report) {
+  const Ways ways = WaysOf(report);
   if (!AnyRecord(ways)) return {};
   const plant::BearingConfig& bearing = rig.plant.bearings.at(0);
   const std::string& channel = rig.numbers.channels.front();
@@ -170,7 +171,7 @@ std::string PlanScenario(const config::RigFile& rig, const LevitatorResult& answ
         hold_s, limit_um, channel, size_um, from_hz, to_hz);
   };
   std::string text = "kind: scenario\nname: diagnosis_next\n\n";
-  for (const std::string& words : Separations(answer)) text += fmt::format("# {}.\n", words);
+  for (const std::string& words : Separations(report)) text += fmt::format("# {}.\n", words);
   text +=
       "# The ball leaves its objective on purpose: a verdict of such a run is not one of the rig.\n"
       "steps:\n  - {do: lift, until: levitating, timeout_s: 10, hold_s: 1}\n";

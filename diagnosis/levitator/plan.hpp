@@ -13,16 +13,20 @@
 //            signal is cut back where the ball goes further than four fifths.
 // Thread     any; pure.
 
+#include <string>
+#include <vector>
+
 #include "config/rig_file.hpp"
-#include "diagnosis/levitator/levitator_result.hpp"
+#include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::levitator {
 
 /// The experiment that separates the named causes from their ties; empty when
 /// nothing is left to separate.
-[[nodiscard]] std::vector<std::string> Separations(const LevitatorResult& answer);
+[[nodiscard]] std::vector<std::string> Separations(const diagnosis::DiagnosisReport& report);
 
 /// Empty when no scenario would help.
-[[nodiscard]] std::string PlanScenario(const config::RigFile& rig, const LevitatorResult& answer);
+[[nodiscard]] std::string PlanScenario(const config::RigFile& rig,
+                                       const diagnosis::DiagnosisReport& report);
 
 }  // namespace levitas::levitator

@@ -1,30 +1,41 @@
 #include "diagnosis/report/build_report.hpp"
 
+#include "diagnosis/report/affected_part.hpp"
+#include "diagnosis/report/calibrated_rig.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/excitation_coverage.hpp"
+#include "diagnosis/report/extended_rig.hpp"
 #include "diagnosis/report/input_warnings.hpp"
-#include "diagnosis/report/words.hpp"
+#include "diagnosis/report/named_values.hpp"
+#include "diagnosis/report/report_text.hpp"
+#include "diagnosis/report/validation_check.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
-ReportFit FitOf(const Gain& gain) {
-  return {gain.nominal_percent, gain.calibrated_percent, gain.extended_percent,
-          gain.ceiling_percent};
-}
-
 ReportShare ShareOf(const Share& share) { return {share.value, share.low, share.high}; }
 
-ReportGain GainOf(const DiagnosisResult& result) {
-  const Gain& gain = result.validation;
-  ReportGain out;
-  out.achieved = ShareOf(gain.achieved);
-  out.beyond_calibration = gain.beyond_calibration.value;
-  out.meaningful = SomethingToGain(gain);
+ReportFit FitOf(const Gain& gain, const std::vector<std::string>& channels) {
+  ReportFit fit;
+  fit.nominal_percent = gain.nominal_percent;
+  fit.calibrated_percent = gain.calibrated_percent;
+  fit.extended_percent = gain.extended_percent;
+  fit.ceiling_percent = gain.ceiling_percent;
+  fit.nominal_over_noise = 1.0 + gain.to_gain.value;
+  fit.calibrated_over_noise = gain.calibrated_over_noise;
+  fit.extended_over_noise = gain.extended_over_noise;
+  fit.achieved = ShareOf(gain.achieved);
+  fit.beyond_calibration = gain.beyond_calibration.value;
+  fit.meaningful = SomethingToGain(gain);
+  fit.calibration_is_complete = gain.calibrated_over_noise < 1.0 + kLeastToGain;
   for (std::size_t i = 0; i < gain.channel.size(); ++i) {
-    out.channels.push_back({result.view->numbers.channels[i], ShareOf(gain.channel[i])});
+    const auto at = [i](const std::vector<double>& percent) {
+      return i < percent.size() ? percent[i] : 0.0;
+    };
+    fit.channels.push_back({channels[i], at(gain.channel_nominal_percent),
+                            at(gain.channel_extended_percent), ShareOf(gain.channel[i])});
   }
-  return out;
+  return fit;
 }
 
 ReportResidual ResidualOf(const DiagnosisResult& result) {
@@ -37,35 +48,79 @@ ReportResidual ResidualOf(const DiagnosisResult& result) {
           .explained = result.answer.explained};
 }
 
-}  // namespace
-
-DiagnosisReport BuildReport(const DiagnosisResult& result) {
-  return BuildReport(result, PlaceOf(result));
+ReportCoverage CoverageFor(const DiagnosisResult& result) {
+  const Coverage coverage = CoverageOf(result);
+  return {.turns = coverage.turns,
+          .excited = coverage.excited,
+          .sentence = UnobservableSentence(result),
+          .effects = UnobservableEffects(result),
+          .missing_records = MissingRecords(result)};
 }
 
-DiagnosisReport BuildReport(const DiagnosisResult& result, const std::string& place) {
-  const SearchResult& found = result.answer;
-  DiagnosisReport report;
+void AddFound(const SearchResult& found, DiagnosisReport& report) {
   report.verdict = found.verdict;
   for (const Hypothesis& cause : found.causes) report.causes.push_back({cause.effect, cause.place});
   report.also_possible = found.also_possible;
-  report.confidence = Confidence(result);
-  report.place = place;
+  report.evidence_nat = found.evidence;
+  for (const Candidate& c : found.candidates) {
+    report.candidates.push_back({.effect = c.effect,
+                                 .place = c.place,
+                                 .evidence_nat = c.score,
+                                 .refitted = c.refitted,
+                                 .reason = {},
+                                 .validation_nat = {}});
+  }
+}
+
+void AddFits(const DiagnosisResult& result, DiagnosisReport& report) {
+  report.fitted = FitOf(result.fitted, report.rig_channels);
+  report.validation = FitOf(result.validation, report.rig_channels);
+  report.separate_validation = result.separate_validation;
+  report.validation_is_faster =
+      IsFaster(result.validation_fastest_rad_per_s, result.fastest_rad_per_s);
+  report.residual = ResidualOf(result);
+  report.spectra = {.channel = report.rig_channels[result.shown_channel],
+                    .line_spacing_hz = result.line_spacing_hz,
+                    .nominal = result.ratio_before,
+                    .calibrated = result.ratio_calibrated,
+                    .extended = result.ratio_after};
+  report.seconds_of_data = result.seconds_of_data;
+  report.seconds_used = result.seconds_used;
+}
+
+void AddWarnings(const DiagnosisResult& result, DiagnosisReport& report) {
+  report.input_warning = InputWarning(report);
+  if (result.file_tolerance.empty()) return;  // without healthy records
+  report.healthy_sentence = HealthySentence(report.calibrated);
+  report.changed_since_healthy = !ChangedSince(report.calibrated).empty();
+}
+
+}  // namespace
+
+DiagnosisReport BuildReport(const DiagnosisResult& result) {
+  DiagnosisReport report;
+  report.rig_name = result.view->numbers.name;
+  report.rig_channels = result.view->numbers.channels;
+  AddFound(result.answer, report);
+  AddFits(result, report);
+  report.place = PlaceOf(result);
   report.channels = Channels(result);
   report.parameters = Parameters(result);
   report.calibrated = CalibratedValues(result);
-  report.fitted = FitOf(result.fitted);
-  report.validation = FitOf(result.validation);
-  report.gain = GainOf(result);
-  report.residual = ResidualOf(result);
-  report.coverage = {UnobservableSentence(result), UnobservableEffects(result),
-                     MissingRecords(result)};
-  report.input_warning = DoubtSentence(result);
-  report.healthy_sentence = HealthySentence(result);
-  report.next_experiment = NextExperiment(result);
-  for (const Candidate& c : found.candidates) {
-    report.candidates.push_back({c.effect, c.place, c.score, c.refitted});
-  }
+  report.taken_by_causes = TakenByCauses(result);
+  report.coverage = CoverageFor(result);
+  AddWarnings(result, report);
+  const std::string experiment = SeparatingExperiment(report);
+  report.needs_experiment = experiment != kNoneNeeded;
+  report.next_experiment = NextExperiment(report, experiment);
+  CompleteReport(report);
+  return report;
+}
+
+DiagnosisReport BuildReport(const DiagnosisResult& result, const config::RigFile& rig) {
+  DiagnosisReport report = BuildReport(result);
+  report.extended_rig = ExtendedRig(result, rig);
+  report.calibrated_rig = CalibratedRig(result, rig);
   return report;
 }
 

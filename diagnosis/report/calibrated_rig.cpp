@@ -6,7 +6,7 @@
 #include <complex>
 
 #include "diagnosis/report/extended_rig.hpp"
-#include "diagnosis/report/words.hpp"
+#include "diagnosis/report/named_values.hpp"
 
 namespace levitas::diagnosis {
 namespace {

@@ -151,21 +151,11 @@ class Calibrated {
 
 std::vector<CalibratedValue> CalibratedValues(const DiagnosisResult& s) {
   std::vector<CalibratedValue> out;
-  if (s.own_words) {
-    out = s.own_words->calibrated;
-  } else {
-    for (const PlacedEffect& at : CalibrationByPlace(s)) Calibrated(s, at).AddTo(out);
-  }
+  for (const PlacedEffect& at : CalibrationByPlace(s)) Calibrated(s, at).AddTo(out);
   std::stable_sort(out.begin(), out.end(), [](const CalibratedValue& a, const CalibratedValue& b) {
     return a.moved > b.moved;
   });
   return out;
-}
-
-bool IsSignificant(const CalibratedValue& value) {
-  constexpr double kMoved = 0.5;
-  constexpr double kProven = 2.0;
-  return value.moved > kMoved && value.proven > kProven;
 }
 
 }  // namespace levitas::diagnosis

@@ -3,16 +3,14 @@
 //
 // Thread   blocks the caller, two threads inside. Failure: BadInput.
 
-#include <optional>
+#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "config/rig_file.hpp"
 #include "diagnosis/inference/diagnose.hpp"
 #include "diagnosis/inference/gain.hpp"
 #include "diagnosis/records/load.hpp"
-#include "diagnosis/report/named_values.hpp"
 
 namespace levitas::diagnosis {
 
@@ -23,20 +21,10 @@ struct DiagnosisRequest {
   Settings settings;
 };
 
-/// Numbers of a diagnosis whose parameters are not terms (diagnosis/levitator).
-struct OwnWords {
-  std::vector<NamedParameter> parameters;
-  std::vector<CalibratedValue> calibrated;
-  /// Why an effect is not named, by effect.
-  std::vector<std::pair<std::string, std::string>> why_not;
-  std::string next;  ///< the experiment that would separate what is tied; empty when nothing is
-};
-
 struct DiagnosisResult {
   SearchResult answer;
   std::vector<Term> terms;             ///< refer to `view`
   std::vector<double> file_tolerance;  ///< per term, before healthy records; empty without them
-  std::optional<OwnWords> own_words;
   std::shared_ptr<const RigView> view;
   Gain fitted, validation;
   /// Spectra of the worst channel, over noise.

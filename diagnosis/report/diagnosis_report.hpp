@@ -1,23 +1,23 @@
 #pragma once
-// Report of one diagnosis as plain data: the one result that writers read.
+// Report of one diagnosis as plain data: the one result that the terminal, diagnosis.json, the
+// page, the rig files, the next scenario and the benchmark read.
 //
-// Made by   BuildReport (build_report.hpp), once, from the result of a search.
+// Made by   BuildReport of diagnosis/report for a rotor and of diagnosis/levitator for a ball
+//           between two magnets, once, from the result of a search.
 // Units     of parameters and calibrated values those of the rig file's keys, named in `unit`;
 //           fits in percent; evidence in nats; shares and confidence as fractions of 1.
 // Frame     phases are relative to the key phasor, as in the rig file.
 // Thread    any; plain values, no reference to the rig or to the records.
-// Not done  no spectra and no rig files: they need the model (diagnose_files.hpp,
-//           extended_rig.hpp).
+// Not done  no layout: sentences and rig files are text, tables and pictures are made by readers.
 
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace levitas::diagnosis {
+#include "diagnosis/inference/verdict.hpp"
 
-/// Defined in diagnosis/inference/diagnose.hpp.
-enum class Verdict;
+namespace levitas::diagnosis {
 
 /// The rig file's own value of the same quantity, and its sum with the estimate.
 struct OfFile {
@@ -56,13 +56,10 @@ struct ReportCause {
 /// An effect at its best place.
 struct ReportCandidate {
   std::string effect, place;
-  double evidence_nat{};  ///< -infinity: the effect cannot be present
-  bool refitted{};        ///< on the nonlinear model; else from the linear screen
-};
-
-/// One-step prediction on the same data by three models, and the fit that noise alone leaves.
-struct ReportFit {
-  double nominal_percent{}, calibrated_percent{}, extended_percent{}, ceiling_percent{};
+  double evidence_nat{};                 ///< -infinity: the effect cannot be present
+  bool refitted{};                       ///< on the nonlinear model; else from the linear screen
+  std::string reason;                    ///< why the effect is not the answer; "named" for a cause
+  std::optional<double> validation_nat;  ///< gain in likelihood on records that were not fitted
 };
 
 /// A share with its 5 to 95 % interval.
@@ -70,13 +67,18 @@ struct ReportShare {
   double fraction{}, low{}, high{};
 };
 
-/// Share of the achievable gain on validation data (gain.hpp).
-struct ReportGain {
-  ReportShare achieved;
-  double beyond_calibration{};  ///< share of the calibrated model's excess that the causes remove
-  bool meaningful{};            ///< the nominal model leaves enough beyond the noise
+/// One-step prediction on the same data by three models, and the fit that noise alone leaves
+/// (gain.hpp).
+struct ReportFit {
+  double nominal_percent{}, calibrated_percent{}, extended_percent{}, ceiling_percent{};
+  double nominal_over_noise{}, calibrated_over_noise{}, extended_over_noise{};  ///< squared
+  ReportShare achieved;            ///< of the achievable gain, nominal to extended
+  double beyond_calibration{};     ///< share of the calibrated model's excess that causes remove
+  bool meaningful{};               ///< the nominal model leaves enough beyond the noise
+  bool calibration_is_complete{};  ///< the calibrated model leaves next to nothing beyond the noise
   struct Channel {
     std::string name;
+    double nominal_percent{}, extended_percent{};
     ReportShare achieved;
   };
   std::vector<Channel> channels;
@@ -86,36 +88,80 @@ struct ReportGain {
 struct ReportResidual {
   double frequency_hz{};
   double order{};  ///< of rotation; 0: not bound to it
-  std::string coherent_with;
+  std::string coherent_with{"nothing"};
   std::string channel;  ///< the worst one
   double sigma{};       ///< excess of its worst band in standard deviations
   double explained{};   ///< share of the calibrated model's excess that the causes remove
 };
 
+/// Power of the residuals over the sensors' noise in one channel, line by line.
+struct ReportSpectra {
+  std::string channel;
+  double line_spacing_hz{};
+  std::vector<double> nominal, calibrated, extended;
+};
+
 /// Effects that these records cannot show (excitation_coverage.hpp).
 struct ReportCoverage {
+  bool turns{true}, excited{true};
   std::string sentence;  ///< empty when every effect is observable
   std::vector<std::string> effects;
   std::string missing_records;
 };
 
+/// Effects that the data cannot separate from one cause.
+struct ReportTie {
+  std::string cause;
+  std::vector<std::string> others;
+};
+
+/// Three models on one quantity of one record.
+struct ReportRunFit {
+  struct Percent {
+    double value{}, low{}, high{};
+  };
+  Percent nominal, calibrated, extended;
+  double ceiling_percent{};
+};
+
+/// The fits of one record where a diagnosis judges records one by one.
+struct ReportRun {
+  std::string name;
+  std::optional<ReportRunFit> current, lower_current;  ///< of the coils, where measured
+  ReportRunFit motion;
+};
+
 struct DiagnosisReport {
+  std::string rig_name;
+  std::vector<std::string> rig_channels;
   Verdict verdict{};
+  std::string verdict_sentence;
   std::vector<ReportCause> causes;         ///< in the order of selection
   std::vector<std::string> also_possible;  ///< effects not separable from the first cause
+  std::vector<ReportTie> ties;             ///< of every cause, where the search decides them all
+  double evidence_nat{};                   ///< of all causes together
   double confidence{};                     ///< probability that the verdict is right
   std::string place;                       ///< "magnet", "sensor" ...; empty for a healthy rig
   std::vector<std::string> channels;       ///< affected ones
   std::vector<NamedParameter> parameters;  ///< of the causes
   std::vector<CalibratedValue> calibrated;
+  std::vector<std::string> taken_by_causes;  ///< values not calibrated because a cause has them
   ReportFit fitted, validation;
-  ReportGain gain;
+  bool separate_validation{};   ///< on records that were given for it
+  bool validation_is_faster{};  ///< the rotor turns faster in them than in the fitted ones
+  std::vector<ReportRun> validation_runs, fitted_runs;
   ReportResidual residual;
+  ReportSpectra spectra;
   ReportCoverage coverage;
+  double seconds_of_data{};      ///< in flight
+  double seconds_used{};         ///< of them, by a search that takes spans
   std::string input_warning;     ///< why units, signs or the rig file are to be doubted; or empty
   std::string healthy_sentence;  ///< changes by healthy records; empty without them
+  bool changed_since_healthy{};  ///< a value is far from that of the healthy records
+  bool needs_experiment{};       ///< a further record would decide something
   std::string next_experiment;
-  std::vector<ReportCandidate> candidates;  ///< best first
+  std::vector<ReportCandidate> candidates;   ///< best first
+  std::string extended_rig, calibrated_rig;  ///< text of the rig files; empty where not asked for
 };
 
 }  // namespace levitas::diagnosis

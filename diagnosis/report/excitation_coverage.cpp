@@ -31,9 +31,8 @@ void Append(const DiagnosisResult& s, bool effect::Facts::*needs, std::vector<st
 Coverage CoverageOf(const DiagnosisResult& s) {
   Coverage c;
   const double rated = s.view->numbers.max_speed_rad_per_s;
-  // The levitator has no rotating parts (diagnosis/levitator).
-  c.turns = rated <= 0.0 || s.fastest_rad_per_s > kSlowRoll * rated || s.own_words;
-  c.excited = s.excited || s.own_words;
+  c.turns = rated <= 0.0 || s.fastest_rad_per_s > kSlowRoll * rated;
+  c.excited = s.excited;
   return c;
 }
 

@@ -3,7 +3,8 @@
 #include <fmt/core.h>
 
 #include "common/problem.hpp"
-#include "diagnosis/report/words.hpp"
+#include "diagnosis/report/named_values.hpp"
+#include "diagnosis/report/report_text.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -69,11 +70,14 @@ std::string WithEffects(config::RigFile rig, const std::vector<std::string>& ent
 
 std::string ExtendedRig(const DiagnosisResult& answer, const config::RigFile& rig) {
   std::string comments;
-  for (const NamedParameter& p : Parameters(answer)) {
+  const std::vector<NamedParameter> parameters = Parameters(answer);
+  for (const NamedParameter& p : parameters) {
     comments += fmt::format("# {} {} = {:.5g}{}{} ({:.5g} to {:.5g})\n", p.effect, p.name, p.value,
                             p.unit.empty() ? "" : " ", p.unit, p.low, p.high);
   }
-  for (const std::string& total : TotalSentences(answer)) comments += fmt::format("# {}\n", total);
+  for (const std::string& total : TotalSentences(parameters)) {
+    comments += fmt::format("# {}\n", total);
+  }
   return comments + WithEffects(rig, EffectEntries(answer));
 }
 

@@ -7,13 +7,11 @@
 #include <numbers>
 #include <optional>
 
-#include "diagnosis/report/diagnose_files.hpp"
-
 namespace levitas::diagnosis {
 namespace {
 
-constexpr double kMoved = 0.5;  ///< tolerances of the file; less is not told
-constexpr std::size_t kTold = 3;
+constexpr double kMoved = 0.5;  ///< tolerances of the file; less is not listed
+constexpr std::size_t kListed = 3;
 
 std::string Unit(const CalibratedValue& v) { return v.unit.empty() ? "" : " " + v.unit; }
 
@@ -34,24 +32,24 @@ std::string ChangedText(const CalibratedValue& v) {
 
 template <class Text>
 std::string List(const std::vector<CalibratedValue>& values, Text text) {
-  std::vector<std::string> told;
-  for (std::size_t i = 0; i < std::min(kTold, values.size()); ++i) told.push_back(text(values[i]));
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < std::min(kListed, values.size()); ++i)
+    texts.push_back(text(values[i]));
   const std::string more =
-      values.size() > kTold ? fmt::format(", and {} more", values.size() - kTold) : "";
-  return fmt::format("{}{}", fmt::join(told, ", "), more);
+      values.size() > kListed ? fmt::format(", and {} more", values.size() - kListed) : "";
+  return fmt::format("{}{}", fmt::join(texts, ", "), more);
 }
 
 }  // namespace
 
-std::string DoubtSentence(const DiagnosisResult& s) {
-  if (s.own_words) return {};
+std::string InputWarning(const DiagnosisReport& s) {
   const std::string doubt = ": units, signs or the rig file are likelier wrong than the rig.";
   const double ceiling = std::min(s.fitted.ceiling_percent, s.validation.ceiling_percent);
   if (ceiling < kNoMotion) {
     return fmt::format("The noise is larger than the motion (ceiling of the fit {:.3g} %){}",
                        ceiling, doubt);
   }
-  const auto values = CalibratedValues(s);
+  const auto& values = s.calibrated;
   const auto worst =
       std::max_element(values.begin(), values.end(),
                        [](const auto& a, const auto& b) { return a.from_file < b.from_file; });
@@ -61,25 +59,22 @@ std::string DoubtSentence(const DiagnosisResult& s) {
                      worst->from_file, doubt);
 }
 
-std::vector<CalibratedValue> ChangedSince(const DiagnosisResult& s) {
+std::vector<CalibratedValue> ChangedSince(const std::vector<CalibratedValue>& calibrated) {
   std::vector<CalibratedValue> changed;
-  if (s.file_tolerance.empty()) return changed;
-  const auto values = CalibratedValues(s);
-  std::copy_if(values.begin(), values.end(), std::back_inserter(changed),
+  std::copy_if(calibrated.begin(), calibrated.end(), std::back_inserter(changed),
                [](const auto& v) { return v.moved > kChanged && v.proven > kChanged; });
   return changed;
 }
 
-std::string HealthySentence(const DiagnosisResult& s) {
-  if (s.file_tolerance.empty()) return {};
-  auto learned = CalibratedValues(s);
+std::string HealthySentence(const std::vector<CalibratedValue>& calibrated) {
+  auto learned = calibrated;
   std::erase_if(learned, [](const auto& v) { return v.learned < kMoved; });
   std::stable_sort(learned.begin(), learned.end(),
                    [](const auto& a, const auto& b) { return a.learned > b.learned; });
   std::string text = learned.empty()
                          ? "The healthy records move nothing by more than half a tolerance."
                          : fmt::format("The healthy records move {}.", List(learned, LearnedText));
-  const auto changed = ChangedSince(s);
+  const auto changed = ChangedSince(calibrated);
   if (changed.empty()) return text;
   return fmt::format("{} Here {}: another rig, or changed since?", text,
                      List(changed, ChangedText));

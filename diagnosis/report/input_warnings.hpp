@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/report/named_values.hpp"
+#include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::diagnosis {
 
@@ -20,11 +20,13 @@ inline constexpr double kFarOut = 10.0;     ///< tolerances of the rig file
 inline constexpr double kNoMotion = -10.0;  ///< [%] of the ceiling, which is known to a few
 inline constexpr double kChanged = 5.0;     ///< tolerances narrowed by healthy records
 
-/// Why units, signs or the rig file are to be doubted; empty where they are not.
-[[nodiscard]] std::string DoubtSentence(const DiagnosisResult& answer);
-/// Changes by the healthy records, and whether those fit the present rig; empty without them.
-[[nodiscard]] std::string HealthySentence(const DiagnosisResult& answer);
-/// Calibrated values that are not what the healthy records say, furthest first.
-[[nodiscard]] std::vector<CalibratedValue> ChangedSince(const DiagnosisResult& answer);
+/// Why units, signs or the rig file are to be doubted, from the calibrated values and the ceilings
+/// of the fits; empty where they are not.
+[[nodiscard]] std::string InputWarning(const DiagnosisReport& report);
+/// Changes by the healthy records, and whether those fit the present rig.
+[[nodiscard]] std::string HealthySentence(const std::vector<CalibratedValue>& calibrated);
+/// Calibrated values that are not what the healthy records say, in the given order.
+[[nodiscard]] std::vector<CalibratedValue> ChangedSince(
+    const std::vector<CalibratedValue>& calibrated);
 
 }  // namespace levitas::diagnosis

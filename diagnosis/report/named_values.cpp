@@ -126,12 +126,6 @@ class Bracket {
   bool depends_{}, form_{};
 };
 
-/// "18 g mm at 0.0 deg"; the amount alone without a phase.
-std::string Amount(double value, const std::string& unit, const double* phase_deg) {
-  const std::string text = fmt::format("{:.4g} {}", value, unit);
-  return phase_deg == nullptr ? text : fmt::format("{} at {:.1f} deg", text, *phase_deg);
-}
-
 }  // namespace
 
 std::complex<double> UnbalanceOfFile(const RigView& rig, const std::string& place) {
@@ -149,28 +143,8 @@ std::complex<double> UnbalanceOfFile(const RigView& rig, const std::string& plac
   return sum;
 }
 
-std::vector<std::string> TotalSentences(const DiagnosisResult& s) {
-  std::vector<std::string> sentences;
-  const std::vector<NamedParameter> parameters = Parameters(s);
-  for (const NamedParameter& p : parameters) {
-    if (!p.of_file || p.key == kPhaseKey) continue;
-    const auto phase = std::find_if(parameters.begin(), parameters.end(), [&](const auto& other) {
-      return other.effect == p.effect && other.place == p.place && other.key == kPhaseKey &&
-             other.of_file;
-    });
-    const bool turned = phase != parameters.end();
-    sentences.push_back(
-        fmt::format("{} at {}: {} is added to the {} that the rig file has there: in all {}",
-                    p.effect, p.place, Amount(p.value, p.unit, turned ? &phase->value : nullptr),
-                    Amount(p.of_file->nominal, p.unit, turned ? &phase->of_file->nominal : nullptr),
-                    Amount(p.of_file->total, p.unit, turned ? &phase->of_file->total : nullptr)));
-  }
-  return sentences;
-}
-
 std::vector<std::string> TakenByCauses(const DiagnosisResult& s) {
   std::vector<std::string> taken;
-  if (s.own_words) return taken;
   for (const PlacedEffect& at : CausesByPlace(s)) {
     const bool calibrated = std::any_of(s.terms.begin(), s.terms.end(), [&at](const Term& t) {
       return t.effect == at.effect && t.place == at.place && t.nuisance();
@@ -181,7 +155,6 @@ std::vector<std::string> TakenByCauses(const DiagnosisResult& s) {
 }
 
 std::vector<NamedParameter> Parameters(const DiagnosisResult& s) {
-  if (s.own_words) return s.own_words->parameters;
   std::vector<NamedParameter> out;
   for (const PlacedEffect& at : CausesByPlace(s)) {
     const EntryValues values = ValuesOf(*s.view, at);

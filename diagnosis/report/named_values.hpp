@@ -26,16 +26,12 @@ struct Estimate;
 struct Term;
 
 [[nodiscard]] std::vector<NamedParameter> Parameters(const DiagnosisResult& answer);
-/// Of every cause that is an addition to what the file has: that, and the two together.
-[[nodiscard]] std::vector<std::string> TotalSentences(const DiagnosisResult& answer);
 /// Numbers of the calibration that a cause has made its own, and are therefore not calibrated.
 [[nodiscard]] std::vector<std::string> TakenByCauses(const DiagnosisResult& answer);
 /// [kg m] Of the file at a plane: its masses, and entries of `effects` that act all the time.
 [[nodiscard]] std::complex<double> UnbalanceOfFile(const RigView& rig, const std::string& place);
 /// Those that lie furthest out of their tolerance first.
 [[nodiscard]] std::vector<CalibratedValue> CalibratedValues(const DiagnosisResult& answer);
-/// Moved by more than half a tolerance and more than two standard deviations.
-[[nodiscard]] bool IsSignificant(const CalibratedValue& value);
 
 /// Terms of a list of estimates, those of one effect at one place together.
 [[nodiscard]] std::vector<PlacedEffect> CausesByPlace(const DiagnosisResult& answer);

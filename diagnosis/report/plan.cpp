@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "common/rotational_speed.hpp"
-#include "diagnosis/report/excitation_coverage.hpp"
 #include "diagnosis/report/validation_check.hpp"
-#include "diagnosis/report/words.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
@@ -58,32 +56,32 @@ std::string Spin(double rpm, double hold_s, double rate_rpm_per_s, double most_r
 
 }  // namespace
 
-std::string PlanScenario(const DiagnosisResult& s) {
-  const SearchResult& a = s.answer;
-  std::vector<std::string> effects = a.also_possible;
-  for (const Hypothesis& cause : a.causes) effects.push_back(cause.effect);
-  const bool sound = a.verdict == Verdict::kNone;
-  const bool rotating = effects.empty() || AnyNeedsRotation(effects) || ValidationIsFaster(s);
-  const bool fast = AnyOf(effects, kOfTheLoop) || (sound && !CoverageOf(s).excited);
-  const auto& drive = s.view->model->config().drive;
-  const double most_rpm = RadPerSToRpm(s.view->numbers.max_speed_rad_per_s);
-  const double rate = RadPerSToRpm(0.5 * drive.max_acceleration_rad_per_s2);
+std::string PlanScenario(const DiagnosisReport& s, const config::RigFile& rig) {
+  std::vector<std::string> effects = s.also_possible;
+  for (const ReportCause& cause : s.causes) effects.push_back(cause.effect);
+  const bool sound = s.verdict == Verdict::kNone;
+  const bool rotating = effects.empty() || AnyNeedsRotation(effects) || s.validation_is_faster;
+  const bool fast = AnyOf(effects, kOfTheLoop) || (sound && !s.coverage.excited);
+  const std::vector<std::string>& channels = rig.numbers.channels;
+  const double period_s = 1e-9 * static_cast<double>(rig.plant.period_ns);
+  const double most_rpm = RadPerSToRpm(rig.numbers.max_speed_rad_per_s);
+  const double rate = RadPerSToRpm(0.5 * rig.plant.drive.max_acceleration_rad_per_s2);
   std::string text = "kind: scenario\nname: diagnosis_next\n\n";
   if (!PassesValidation(s)) {
-    text += fmt::format("# For a model that carries over: {}.\n", NextExperiment(s));
+    text += fmt::format("# For a model that carries over: {}.\n", s.next_experiment);
   } else if (sound) {
-    text += fmt::format("# What the records lack: {}.\n", MissingRecords(s));
+    text += fmt::format("# What the records lack: {}.\n", s.coverage.missing_records);
   } else if (effects.empty()) {
     text += "# To learn where the remainder belongs.\n";
   } else {
-    text += fmt::format("# To separate {}:\n# {}.\n", fmt::join(effects, ", "), NextExperiment(s));
+    text += fmt::format("# To separate {}:\n# {}.\n", fmt::join(effects, ", "), s.next_experiment);
   }
   text += "steps:\n  - {do: lift, until: levitating, timeout_s: 10, hold_s: 1}\n";
-  text += TestSignals(s.view->numbers.channels, fast ? 1 : 2, s.view->period_s);
+  text += TestSignals(channels, fast ? 1 : 2, period_s);
   if (rotating && most_rpm > 0.0) {
     text += Spin(0.08 * most_rpm, 3.0, rate, most_rpm);
     text += Spin(0.5 * most_rpm, 1.0, rate, most_rpm);
-    text += TestSignals(s.view->numbers.channels, 2, s.view->period_s);
+    text += TestSignals(channels, 2, period_s);
     text += Spin(0.95 * most_rpm, 2.0, rate, most_rpm);
     text += fmt::format(
         "  - do: spin\n    speed_rpm: 0\n    acceleration_rpm_per_s: {:.0f}\n"

@@ -6,15 +6,16 @@
 //            frequency; slow roll, two speeds and a run-up when causes of the rotation are; all of
 //            it when the remainder has no name.
 // Not in it  what a scenario cannot do: another bias current, a weight hung on the shaft, a record
-//            of the healthy rig. NextExperiment (words.hpp) says when one of those is needed.
+//            of the healthy rig. NextExperiment (report_text.hpp) says when one of those is needed.
 // Thread     any; pure.
 
 #include <string>
 
-#include "diagnosis/report/diagnose_files.hpp"
+#include "config/rig_file.hpp"
+#include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::diagnosis {
 
-[[nodiscard]] std::string PlanScenario(const DiagnosisResult& answer);
+[[nodiscard]] std::string PlanScenario(const DiagnosisReport& report, const config::RigFile& rig);
 
 }  // namespace levitas::diagnosis

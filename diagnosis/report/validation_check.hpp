@@ -10,16 +10,16 @@
 
 namespace levitas::diagnosis {
 
-struct DiagnosisResult;
+struct DiagnosisReport;
 
 inline constexpr double kFarAboveNoise = 1.5;
 
-[[nodiscard]] bool PassesValidation(const DiagnosisResult& answer);
+[[nodiscard]] bool PassesValidation(const DiagnosisReport& report);
 /// Sentence for an answer that does not carry over; empty for one that does.
-[[nodiscard]] std::string ValidationSentence(const DiagnosisResult& answer);
+[[nodiscard]] std::string ValidationSentence(const DiagnosisReport& report);
 /// The next experiment for an answer that does not carry over.
-[[nodiscard]] std::string ValidationExperiment(const DiagnosisResult& answer);
-/// Whether the rotor turns faster in the validation records than in the fitted ones.
-[[nodiscard]] bool ValidationIsFaster(const DiagnosisResult& answer);
+[[nodiscard]] std::string ValidationExperiment(const DiagnosisReport& report);
+/// Whether the rotor turns faster in the validation records than in the fitted ones [rad/s].
+[[nodiscard]] bool IsFaster(double validation_rad_per_s, double fitted_rad_per_s);
 
 }  // namespace levitas::diagnosis

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmark/accuracy/scores.hpp"
+#include "diagnosis/report/build_report.hpp"
 
 namespace levitas::accuracy {
 namespace {
@@ -20,9 +21,8 @@ TrialScore Ask(std::uint64_t seed, std::vector<effect::Id> hidden) {
   diagnosis::Settings settings;
   settings.quick = true;
   settings.most_causes = 1;
-  return Judge(plan, trial.ground_truth,
-               diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings),
-               bench.rig.numbers);
+  const auto result = diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings);
+  return Judge(plan, trial.ground_truth, diagnosis::BuildReport(result), bench.rig.numbers);
 }
 
 // With another law of the gain the answer was saturation, and the gain on top of it.

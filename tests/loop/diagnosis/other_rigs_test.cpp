@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmark/accuracy/scores.hpp"
+#include "diagnosis/report/build_report.hpp"
 #include "diagnosis/report/extended_rig.hpp"
 
 namespace levitas::accuracy {
@@ -26,7 +27,8 @@ Asked Ask(const std::string& rig, std::uint64_t seed, std::vector<effect::Id> hi
   settings.quick = true;
   settings.most_causes = 1;
   asked.answer = diagnosis::DiagnoseRecords(asked.bench.rig, trial.records, {}, settings);
-  asked.outcome = Judge(plan, trial.ground_truth, asked.answer, asked.bench.rig.numbers);
+  asked.outcome = Judge(plan, trial.ground_truth, diagnosis::BuildReport(asked.answer),
+                        asked.bench.rig.numbers);
   return asked;
 }
 

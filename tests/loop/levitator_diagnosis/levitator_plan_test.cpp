@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/plan.hpp"
 #include "tests/support/effect_entry.hpp"
 #include "tests/support/shipped_loop.hpp"
@@ -15,7 +16,7 @@ namespace {
 ShippedLoop Levitator() { return ShippedLoop("two_magnet_levitator", "two_magnet_levitator"); }
 
 /// Plays what a loop holds, without measured currents, and diagnoses it by the shipped rig file.
-levitator::LevitatorResult Ask(ShippedLoop& loop) {
+diagnosis::DiagnosisReport Ask(ShippedLoop& loop) {
   std::vector<analysis::RecordedRow> rows;
   EXPECT_EQ(loop.Play(7, 60.0,
                       [&](const cycle::CycleRecord& record) {
@@ -29,7 +30,7 @@ levitator::LevitatorResult Ask(ShippedLoop& loop) {
             "");
   EXPECT_EQ(loop.most.contact_n, 0.0);
   const config::RigFile file = Levitator().rig;
-  return levitator::Diagnose(file, {levitator::MakeSeries("run", file, rows)}, {}, {});
+  return levitator::Diagnose(file, {levitator::MakeSeries("run", file, rows)}, {}, {}).report;
 }
 
 /// Diagnosed from the shipped scenario, then from the plan of that answer.
@@ -37,7 +38,7 @@ void ExpectThePlanToSeparate(const std::string& effect, const std::string& other
                              const std::function<void(config::RigFile&)>& hide) {
   ShippedLoop first = Levitator();
   hide(first.rig);
-  const levitator::LevitatorResult tied = Ask(first);
+  const diagnosis::DiagnosisReport tied = Ask(first);
   ASSERT_FALSE(tied.ties.empty());
   // Whichever of them is named: nothing in the record decides.
   std::vector<std::string> together = tied.ties.front().others;
@@ -47,9 +48,9 @@ void ExpectThePlanToSeparate(const std::string& effect, const std::string& other
   }
   ShippedLoop second = Levitator();
   hide(second.rig);
-  second.scenario =
-      config::ParseScenario(PlanScenario(Levitator().rig, tied), "next.yaml", second.rig.numbers);
-  const levitator::LevitatorResult separated = Ask(second);
+  second.scenario = config::ParseScenario(levitator::PlanScenario(Levitator().rig, tied),
+                                          "next.yaml", second.rig.numbers);
+  const diagnosis::DiagnosisReport separated = Ask(second);
   ASSERT_EQ(separated.ties.size(), 1U);
   EXPECT_EQ(separated.ties.front().cause, effect);
   EXPECT_TRUE(separated.ties.front().others.empty()) << separated.ties.front().others.front();
@@ -69,8 +70,8 @@ TEST(LevitatorPlan, TellsAProfileOfTheInductanceFromItsSize) {
 }
 
 TEST(LevitatorPlan, KeepsTheBallInTheFieldWithAllThatItCanDo) {
-  levitator::LevitatorResult nameless;
-  nameless.common.answer.verdict = diagnosis::Verdict::kUnknown;
+  diagnosis::DiagnosisReport nameless;
+  nameless.verdict = diagnosis::Verdict::kUnknown;
   ShippedLoop loop = Levitator();
   loop.scenario = config::ParseScenario(levitator::PlanScenario(loop.rig, nameless), "next.yaml",
                                         loop.rig.numbers);

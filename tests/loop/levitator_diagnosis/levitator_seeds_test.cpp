@@ -30,8 +30,7 @@ Outcome Ask(std::uint64_t seed, const std::string& hidden, std::string& truth) {
   Outcome out;
   out.stable = trial.stable;
   if (!trial.stable) return out;
-  const levitator::LevitatorResult answer = levitator::Diagnose(rig, trial.records, {}, {});
-  const auto& found = answer.common.answer;
+  const diagnosis::DiagnosisReport found = levitator::Diagnose(rig, trial.records, {}, {}).report;
   out.first = found.verdict == diagnosis::Verdict::kUnknown ? "unknown"
               : found.causes.empty()                        ? "none"
                                                             : found.causes.front().effect;

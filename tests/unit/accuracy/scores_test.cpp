@@ -87,17 +87,13 @@ TEST(Tables, CountPairsOfWhichTheRecordsHoldBothClearlyApart) {
       << text;
 }
 
-diagnosis::SearchResult Told(const std::string& effect, double score, bool named) {
-  diagnosis::SearchResult told;
-  diagnosis::Candidate candidate;
+diagnosis::DiagnosisReport Informed(const std::string& effect, double evidence_nat, bool named) {
+  diagnosis::DiagnosisReport report;
+  diagnosis::ReportCandidate& candidate = report.candidates.emplace_back();
   candidate.effect = effect;
-  candidate.score = score;
-  told.candidates.push_back(candidate);
-  if (!named) return told;
-  diagnosis::Hypothesis cause;
-  cause.effect = effect;
-  told.causes.push_back(cause);
-  return told;
+  candidate.evidence_nat = evidence_nat;
+  if (named) report.causes.push_back({effect, ""});
+  return report;
 }
 
 TrialScore Missed(double drawn) {
@@ -112,7 +108,7 @@ TEST(InformedDiagnosis,
      ThatDoesNotNameWhatTheRecordsHoldHasFailedAndTheTrialHasTheSizeOfWhatTheyHold) {
   for (const auto& [held, size] : {std::pair{2907.0, Size::kClear}, {18.0, Size::kModerate}}) {
     TrialScore o = Missed(0.5);
-    AddInformedDiagnosis(Told("misalignment", 0.0, false), held, o);
+    AddInformedDiagnosis(Informed("misalignment", 0.0, false), held, o);
     EXPECT_TRUE(o.informed_failed);
     EXPECT_EQ(o.size(), size);
     EXPECT_FALSE(o.Right());
@@ -121,40 +117,40 @@ TEST(InformedDiagnosis,
 
 TEST(InformedDiagnosis, ThatFindsNothingInRecordsThatHoldNothingHasNotFailed) {
   TrialScore o = Missed(1.0);
-  AddInformedDiagnosis(Told("misalignment", -0.6, false), 0.2, o);
+  AddInformedDiagnosis(Informed("misalignment", -0.6, false), 0.2, o);
   EXPECT_FALSE(o.informed_failed);
   EXPECT_EQ(o.size(), Size::kBelow);
 }
 
 TEST(InformedDiagnosis, ThatNamesTheEffectSaysItsSize) {
   TrialScore o = Missed(1.0);
-  AddInformedDiagnosis(Told("misalignment", 12.0, true), 40.0, o);
+  AddInformedDiagnosis(Informed("misalignment", 12.0, true), 40.0, o);
   EXPECT_FALSE(o.informed_failed);
   EXPECT_EQ(o.size(), Size::kModerate);
 }
 
 TEST(InformedDiagnosis, ThatLeavesSomethingIsNotBelievedWhereNothingElseSaysWhatTheRecordsHold) {
   TrialScore o = Missed(1.0);
-  diagnosis::SearchResult told = Told("misalignment", 0.0, false);
-  told.verdict = diagnosis::Verdict::kUnknown;
-  AddInformedDiagnosis(told, std::nullopt, o);
+  diagnosis::DiagnosisReport informed = Informed("misalignment", 0.0, false);
+  informed.verdict = diagnosis::Verdict::kUnknown;
+  AddInformedDiagnosis(informed, std::nullopt, o);
   EXPECT_TRUE(o.informed_failed);
   EXPECT_EQ(o.size(), Size::kClear);
-  told.verdict = diagnosis::Verdict::kNone;
-  AddInformedDiagnosis(told, std::nullopt, o);
+  informed.verdict = diagnosis::Verdict::kNone;
+  AddInformedDiagnosis(informed, std::nullopt, o);
   EXPECT_EQ(o.size(), Size::kBelow);
 }
 
 TEST(InformedDiagnosis, CountsOnlyEvidenceForWhatIsHidden) {
   TrialScore o = Missed(1.0);
-  AddInformedDiagnosis(Told("sensor_noise", 300.0, true), 0.0, o);
+  AddInformedDiagnosis(Informed("sensor_noise", 300.0, true), 0.0, o);
   EXPECT_EQ(o.size(), Size::kBelow);
 }
 
 TEST(Tables, ListATrialWhoseOracleFailedAndCountItAsNotNamed) {
   TrialScore o = Missed(1.0);
   o.seed = 17328;
-  AddInformedDiagnosis(Told("misalignment", 0.0, false), 2907.0, o);
+  AddInformedDiagnosis(Informed("misalignment", 0.0, false), 2907.0, o);
   const std::string text = Tables({o});
   EXPECT_NE(text.find("misalignment                    0/1         -       -       -"),
             std::string::npos)

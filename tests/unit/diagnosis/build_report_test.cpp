@@ -61,11 +61,11 @@ TEST(BuildReportTest, NamesTheShareOfEachChannelByItsChannel) {
   DiagnosisResult result = NothingFound();
   result.validation.to_gain = {0.5, 0.4, 0.6};
   result.validation.channel = {{0.1, 0.0, 0.2}, {0.8, 0.7, 0.9}};
-  const ReportGain gain = BuildReport(result).gain;
-  EXPECT_TRUE(gain.meaningful);
-  ASSERT_EQ(gain.channels.size(), 2U);
-  EXPECT_EQ(gain.channels[1].name, result.view->numbers.channels[1]);
-  EXPECT_EQ(gain.channels[1].achieved.fraction, 0.8);
+  const ReportFit fit = BuildReport(result).validation;
+  EXPECT_TRUE(fit.meaningful);
+  ASSERT_EQ(fit.channels.size(), 2U);
+  EXPECT_EQ(fit.channels[1].name, result.view->numbers.channels[1]);
+  EXPECT_EQ(fit.channels[1].achieved.fraction, 0.8);
 }
 
 TEST(BuildReportTest, SaysWhichEffectsARotorAtRestCannotShow) {
@@ -74,6 +74,35 @@ TEST(BuildReportTest, SaysWhichEffectsARotorAtRestCannotShow) {
   const DiagnosisReport report = BuildReport(result);
   EXPECT_THAT(report.coverage.effects, ::testing::Contains("unbalance"));
   EXPECT_NE(report.coverage.missing_records, "");
+}
+
+TEST(BuildReportTest, SaysOfEveryCandidateWhyItIsNotTheAnswer) {
+  DiagnosisResult result = Found("current_gain", "nde_x");
+  const auto add = [&result](const char* effect, double nat) {
+    result.answer.candidates.push_back({.effect = effect, .place = "de", .score = nat});
+  };
+  add("sensor_gain", 18.0);
+  add("extra_delay", 12.0);
+  add("unbalance", 1.0);
+  add("shaft_bow", -2.0);
+  add("hysteresis", -INFINITY);
+  result.answer.also_possible = {"sensor_gain"};
+  std::vector<std::string> reasons;
+  for (const ReportCandidate& c : BuildReport(result).candidates) reasons.push_back(c.reason);
+  EXPECT_THAT(reasons,
+              ElementsAre("named", "these data do not separate it from the cause",
+                          "explains 8 nat less than the cause", "too little to be decisive",
+                          "explains less than its freedom costs",
+                          "would have to be negative, or cannot act in these data"));
+}
+
+TEST(BuildReportTest, HoldsTheTextOfTheRigFilesWhereARigIsGiven) {
+  const DiagnosisResult result = Found("eddy_current", "de_x");
+  EXPECT_EQ(BuildReport(result).extended_rig, "");
+  const DiagnosisReport report = BuildReport(result, FlexibleRotor());
+  EXPECT_EQ(config::ParseRig(report.extended_rig, "extended_rig.yaml").plant.effects.size(), 1U);
+  EXPECT_EQ(config::ParseRig(report.calibrated_rig, "calibrated_rig.yaml").plant.effects.size(),
+            1U);
 }
 
 }  // namespace

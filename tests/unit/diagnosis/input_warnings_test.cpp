@@ -7,7 +7,8 @@
 
 #include <string>
 
-#include "diagnosis/report/words.hpp"
+#include "diagnosis/report/build_report.hpp"
+#include "diagnosis/report/named_values.hpp"
 #include "tests/unit/diagnosis/answers.hpp"
 
 namespace levitas::diagnosis {
@@ -47,31 +48,31 @@ DiagnosisResult Learned(double healthy_mean, double found) {
 TEST(DoubtTest, IsOfUnitsSignsAndTheFileWhereAValueIsFarOutOfItsTolerance) {
   // A tolerance of 0.03: -61 of them make -0.83 of a stiffness.
   const DiagnosisResult s = Calibrated(-61.0);
-  EXPECT_THAT(DoubtSentence(s),
+  EXPECT_THAT(BuildReport(s).input_warning,
               AllOf(HasSubstr("displacement_stiffness ratio of nde_y"), HasSubstr("-0.83"),
                     HasSubstr("61 tolerances off"), HasSubstr("units, signs or the rig file")));
-  EXPECT_THAT(VerdictSentence(s), HasSubstr(DoubtSentence(s)));
-  EXPECT_THAT(NextExperiment(s), HasSubstr("check units and signs"));
-  EXPECT_FALSE(NeedsExperiment(s)) << "a scenario would not tell";
+  EXPECT_THAT(BuildReport(s).verdict_sentence, HasSubstr(BuildReport(s).input_warning));
+  EXPECT_THAT(BuildReport(s).next_experiment, HasSubstr("check units and signs"));
+  EXPECT_FALSE(BuildReport(s).needs_experiment) << "a scenario would not tell";
 }
 
 TEST(DoubtTest, IsNoneWithinWhatRigsDo) {
-  EXPECT_THAT(DoubtSentence(Calibrated(7.0)), IsEmpty());
-  EXPECT_THAT(NextExperiment(Calibrated(7.0)), Not(HasSubstr("check")));
+  EXPECT_THAT(BuildReport(Calibrated(7.0)).input_warning, IsEmpty());
+  EXPECT_THAT(BuildReport(Calibrated(7.0)).next_experiment, Not(HasSubstr("check")));
 }
 
 TEST(DoubtTest, IsWhereTheNoiseIsLargerThanTheMotion) {
   DiagnosisResult s = NothingFound();
   s.validation.ceiling_percent = -5.0;  // known to a few per cent
-  EXPECT_THAT(DoubtSentence(s), IsEmpty());
+  EXPECT_THAT(BuildReport(s).input_warning, IsEmpty());
   s.validation.ceiling_percent = -1e8;
-  EXPECT_THAT(DoubtSentence(s), HasSubstr("larger than the motion"));
+  EXPECT_THAT(BuildReport(s).input_warning, HasSubstr("larger than the motion"));
 }
 
 TEST(HealthyTest, RecordsSayWhatTheyMoved) {
-  EXPECT_THAT(HealthySentence(Calibrated(2.0)), IsEmpty()) << "there are none";
+  EXPECT_THAT(BuildReport(Calibrated(2.0)).healthy_sentence, IsEmpty()) << "there are none";
   // 2 tolerances of 0.03
-  EXPECT_THAT(HealthySentence(Learned(2.0, 2.0)),
+  EXPECT_THAT(BuildReport(Learned(2.0, 2.0)).healthy_sentence,
               AllOf(HasSubstr("displacement_stiffness ratio of nde_y from 1 to 1.06"),
                     HasSubstr("(2.0 tolerances)"), Not(HasSubstr("another rig"))));
 }
@@ -79,11 +80,11 @@ TEST(HealthyTest, RecordsSayWhatTheyMoved) {
 TEST(HealthyTest, RecordsOfAnotherRigAreQuestioned) {
   // From 2 tolerances to 0.5: 7.5 times the fifth that was left.
   const DiagnosisResult s = Learned(2.0, 0.5);
-  EXPECT_THAT(ChangedSince(s), SizeIs(1));
-  EXPECT_THAT(HealthySentence(s), AllOf(HasSubstr("is 1.015, 7.5 of the tolerances"),
-                                        HasSubstr("another rig, or changed since?")));
-  EXPECT_THAT(NextExperiment(s), HasSubstr("healthy records are of this rig"));
-  EXPECT_THAT(ChangedSince(Learned(2.0, 1.5)), IsEmpty());
+  EXPECT_THAT(ChangedSince(CalibratedValues(s)), SizeIs(1));
+  EXPECT_THAT(BuildReport(s).healthy_sentence, AllOf(HasSubstr("is 1.015, 7.5 of the tolerances"),
+                                                     HasSubstr("another rig, or changed since?")));
+  EXPECT_THAT(BuildReport(s).next_experiment, HasSubstr("healthy records are of this rig"));
+  EXPECT_THAT(ChangedSince(CalibratedValues(Learned(2.0, 1.5))), IsEmpty());
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-LevitatorResult Tied(const std::string& cause, const std::vector<std::string>& others) {
-  LevitatorResult answer;
-  answer.common.answer.verdict = diagnosis::Verdict::kEffect;
+diagnosis::DiagnosisReport Tied(const std::string& cause, const std::vector<std::string>& others) {
+  diagnosis::DiagnosisReport answer;
+  answer.verdict = diagnosis::Verdict::kEffect;
   answer.ties = {{cause, others}};
   return answer;
 }
@@ -26,7 +26,7 @@ scenario::ScenarioConfig Read(const std::string& text) {
 }
 
 TEST(LevitatorPlan, LeadsTheBallOverItsStrokeForWhatGoesByTheGap) {
-  const LevitatorResult answer = Tied("inductance_profile", {"coil_inductance"});
+  const diagnosis::DiagnosisReport answer = Tied("inductance_profile", {"coil_inductance"});
   const auto file = test::LevitatorFile();
   const auto plan = Read(PlanScenario(file, answer));
   ASSERT_EQ(plan.steps.size(), 3U);  // lift, led, land
@@ -41,7 +41,7 @@ TEST(LevitatorPlan, LeadsTheBallOverItsStrokeForWhatGoesByTheGap) {
 }
 
 TEST(LevitatorPlan, ShakesTheBallForALoadAndSaysWhy) {
-  const LevitatorResult answer = Tied("static_load", {"rotor_mass"});
+  const diagnosis::DiagnosisReport answer = Tied("static_load", {"rotor_mass"});
   const std::string text = PlanScenario(test::LevitatorFile(), answer);
   EXPECT_EQ(Read(text).steps.size(), 3U);
   EXPECT_THAT(Separations(answer), ElementsAre(StartsWith("static_load from rotor_mass: ")));
@@ -49,7 +49,7 @@ TEST(LevitatorPlan, ShakesTheBallForALoadAndSaysWhy) {
 }
 
 TEST(LevitatorPlan, WritesNoScenarioForWhatNoRecordCanTell) {
-  const LevitatorResult answer = Tied("rotor_mass", {"current_gain"});
+  const diagnosis::DiagnosisReport answer = Tied("rotor_mass", {"current_gain"});
   EXPECT_EQ(PlanScenario(test::LevitatorFile(), answer), "");
   EXPECT_THAT(Separations(answer), ElementsAre(HasSubstr("weighed")));
 }
@@ -66,14 +66,14 @@ TEST(LevitatorPlan, HasNothingToSeparateWithoutATie) {
 }
 
 TEST(LevitatorPlan, DoesAllItCanForARemainderWithoutAName) {
-  LevitatorResult answer;
-  answer.common.answer.verdict = diagnosis::Verdict::kUnknown;
+  diagnosis::DiagnosisReport answer;
+  answer.verdict = diagnosis::Verdict::kUnknown;
   EXPECT_EQ(Read(PlanScenario(test::LevitatorFile(), answer)).steps.size(), 5U);
   EXPECT_EQ(Separations(answer).size(), 1U);
 }
 
 TEST(LevitatorPlan, AlsoHasAWayForCausesThatItDoesNotKnowTogether) {
-  const LevitatorResult answer = Tied("coil_heating", {"magnet_coupling"});
+  const diagnosis::DiagnosisReport answer = Tied("coil_heating", {"magnet_coupling"});
   EXPECT_EQ(Read(PlanScenario(test::LevitatorFile(), answer)).steps.size(), 5U);
 }
 

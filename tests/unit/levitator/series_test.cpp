@@ -7,7 +7,7 @@
 #include "analysis/coil_prediction.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
-#include "diagnosis/levitator/own_words.hpp"
+#include "diagnosis/levitator/report_values.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
 namespace levitas::levitator {
@@ -109,7 +109,7 @@ TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
   EXPECT_EQ(read.plant.effects[1].id, effect::Id::kStaticLoad);
 }
 
-TEST(OwnWords, AreTheKeysAndUnitsOfTheRigFile) {
+TEST(ReportValues, AreTheKeysAndUnitsOfTheRigFile) {
   const config::RigFile rig = LevitatorFile();
   Found found;
   found.extended.theta = Zeros(1);
@@ -122,13 +122,13 @@ TEST(OwnWords, AreTheKeysAndUnitsOfTheRigFile) {
     if (std::string_view(Causes()[c].effect) == "extra_delay") found.causes = {c};
   }
   ASSERT_EQ(found.causes.size(), 1U);
-  const diagnosis::OwnWords words = OwnWordsOf(rig, Zeros(0), found);
-  ASSERT_EQ(words.parameters.size(), 1U);
-  EXPECT_EQ(words.parameters[0].name, "delay_samples[ball_x]");
-  EXPECT_NEAR(words.parameters[0].value, rig.plant.delay_samples + 1.4, 1e-12);
-  EXPECT_NEAR(words.parameters[0].high - words.parameters[0].value, 0.1645, 1e-12);
+  const auto parameters = ReportParameters(rig, Zeros(0), found);
+  ASSERT_EQ(parameters.size(), 1U);
+  EXPECT_EQ(parameters[0].name, "delay_samples[ball_x]");
+  EXPECT_NEAR(parameters[0].value, rig.plant.delay_samples + 1.4, 1e-12);
+  EXPECT_NEAR(parameters[0].high - parameters[0].value, 0.1645, 1e-12);
   bool offset = false;
-  for (const diagnosis::CalibratedValue& v : words.calibrated) {
+  for (const diagnosis::CalibratedValue& v : ReportCalibration(rig, Zeros(0), found)) {
     EXPECT_NE(v.effect, "extra_delay") << "a cause is not calibrated";
     if (v.effect != "sensor_offset") continue;
     offset = true;

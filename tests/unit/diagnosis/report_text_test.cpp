@@ -1,6 +1,6 @@
-// What a diagnosis says.
+// Sentences, parameters and places of a report.
 
-#include "diagnosis/report/words.hpp"
+#include "diagnosis/report/report_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,10 @@
 #include <complex>
 
 #include "config/rig_file.hpp"
+#include "diagnosis/report/affected_part.hpp"
+#include "diagnosis/report/build_report.hpp"
 #include "diagnosis/report/excitation_coverage.hpp"
+#include "diagnosis/report/named_values.hpp"
 #include "diagnosis/report/plan.hpp"
 #include "diagnosis/report/validation_check.hpp"
 #include "plant_sim/effect/catalogue.hpp"
@@ -47,10 +50,10 @@ TEST(ParametersTest, OfAnUnbalanceSayWhatItMakesWithTheOneOfTheFile) {
     EXPECT_NEAR(p.of_file->total, phase ? 19.6538 : 29.7321, 1e-3);
   }
   EXPECT_THAT(
-      TotalSentences(found),
+      TotalSentences(Parameters(found)),
       ElementsAre(AllOf(HasSubstr("14.14 g mm at 45.0 deg is added to the 18 g mm at 0.0 deg"),
                         HasSubstr("in all 29.73 g mm at 19.7 deg"))));
-  EXPECT_THAT(TotalSentences(Found("eddy_current", "de_x")), IsEmpty());
+  EXPECT_THAT(TotalSentences(Parameters(Found("eddy_current", "de_x"))), IsEmpty());
 }
 
 TEST(ParametersTest, OfADelaySayWhatItMakesWithTheOneOfTheFile) {
@@ -60,7 +63,7 @@ TEST(ParametersTest, OfADelaySayWhatItMakesWithTheOneOfTheFile) {
     EXPECT_NEAR(p.of_file->nominal, 100.0, 1e-9);  // one period of 10 kHz
     EXPECT_NEAR(p.of_file->total, 100.0 + p.value, 1e-9);
   }
-  EXPECT_EQ(TotalSentences(found).size(), 1U);
+  EXPECT_EQ(TotalSentences(Parameters(found)).size(), 1U);
 }
 
 TEST(CalibratedValues, SayWhichOfThemACauseHasTaken) {
@@ -160,11 +163,12 @@ TEST(ChannelsTest, AreThoseOfTheCause) {
 }
 
 TEST(VerdictTest, NamesTheCauseTheUnknownOrNothing) {
-  EXPECT_THAT(VerdictSentence(Found("unbalance", "z 299.2 mm")), HasSubstr("unbalance"));
-  EXPECT_THAT(VerdictSentence(NothingFound()), Not(HasSubstr("unbalance")));
+  EXPECT_THAT(BuildReport(Found("unbalance", "z 299.2 mm")).verdict_sentence,
+              HasSubstr("unbalance"));
+  EXPECT_THAT(BuildReport(NothingFound()).verdict_sentence, Not(HasSubstr("unbalance")));
   DiagnosisResult s = NothingFound();
   s.answer.verdict = Verdict::kUnknown;
-  EXPECT_NE(VerdictSentence(s), VerdictSentence(NothingFound()));
+  EXPECT_NE(BuildReport(s).verdict_sentence, BuildReport(NothingFound()).verdict_sentence);
 }
 
 /// What is left, as multiples of the noise, on data used and on a record held out.
@@ -179,24 +183,26 @@ DiagnosisResult HeldOut(double fitted, double held, double calibrated) {
 
 TEST(HoldoutCheck, IsDeniedWhereMuchMoreThanTheNoiseIsLeftOnDataHeldOut) {
   const DiagnosisResult fails = HeldOut(1.0, 77.0, 59.0);
-  EXPECT_THAT(VerdictSentence(fails), HasSubstr("does not carry over"));
-  EXPECT_THAT(VerdictSentence(fails), HasSubstr("77 times the noise"));
-  EXPECT_THAT(VerdictSentence(fails), HasSubstr("worse there than without (59 times)"));
-  EXPECT_TRUE(NeedsExperiment(fails));
+  EXPECT_THAT(BuildReport(fails).verdict_sentence, HasSubstr("does not carry over"));
+  EXPECT_THAT(BuildReport(fails).verdict_sentence, HasSubstr("77 times the noise"));
+  EXPECT_THAT(BuildReport(fails).verdict_sentence,
+              HasSubstr("worse there than without (59 times)"));
+  EXPECT_TRUE(BuildReport(fails).needs_experiment);
   const DiagnosisResult holds = HeldOut(1.0, 1.1, 9.0);
-  EXPECT_THAT(VerdictSentence(holds), Not(HasSubstr("carry over")));
-  EXPECT_FALSE(NeedsExperiment(holds));
+  EXPECT_THAT(BuildReport(holds).verdict_sentence, Not(HasSubstr("carry over")));
+  EXPECT_FALSE(BuildReport(holds).needs_experiment);
   // What is not understood on the data used either is said by the verdict itself.
-  EXPECT_TRUE(PassesValidation(HeldOut(5.0, 6.0, 9.0)));
-  EXPECT_THAT(VerdictSentence(HeldOut(1.0, 20.0, 59.0)), Not(HasSubstr("worse there")));
+  EXPECT_TRUE(PassesValidation(BuildReport(HeldOut(5.0, 6.0, 9.0))));
+  EXPECT_THAT(BuildReport(HeldOut(1.0, 20.0, 59.0)).verdict_sentence,
+              Not(HasSubstr("worse there")));
 }
 
 TEST(HoldoutCheck, AsksForASpeedThatWasNotFitted) {
   DiagnosisResult s = HeldOut(1.0, 77.0, 59.0);
-  EXPECT_THAT(NextExperiment(s), Not(HasSubstr("run-up")));
+  EXPECT_THAT(BuildReport(s).next_experiment, Not(HasSubstr("run-up")));
   s.fastest_rad_per_s = 100.0;
   s.validation_fastest_rad_per_s = 300.0;
-  EXPECT_THAT(NextExperiment(s), HasSubstr("run-up"));
+  EXPECT_THAT(BuildReport(s).next_experiment, HasSubstr("run-up"));
 }
 
 DiagnosisResult NothingFoundIn(double speed_rad_per_s, bool excited) {
@@ -210,20 +216,21 @@ TEST(VerdictTest, OfNothingSaysWhatTheRecordsCannotTell) {
   const DiagnosisResult complete = NothingFoundIn(300.0, true);
   EXPECT_THAT(UnobservableSentence(complete), IsEmpty());
   EXPECT_THAT(UnobservableEffects(complete), IsEmpty());
-  EXPECT_FALSE(NeedsExperiment(complete));
-  EXPECT_THAT(VerdictSentence(complete), Not(HasSubstr("as far as these records")));
+  EXPECT_FALSE(BuildReport(complete).needs_experiment);
+  EXPECT_THAT(BuildReport(complete).verdict_sentence, Not(HasSubstr("as far as these records")));
 
   const DiagnosisResult standing = NothingFoundIn(0.0, true);
-  EXPECT_THAT(VerdictSentence(standing),
+  EXPECT_THAT(BuildReport(standing).verdict_sentence,
               AllOf(HasSubstr("as far as these records"), HasSubstr("does not turn"),
                     HasSubstr("unbalance"), Not(HasSubstr("extra_delay"))));
   EXPECT_THAT(UnobservableEffects(standing), ::testing::Contains("misalignment"));
-  EXPECT_THAT(NextExperiment(standing), HasSubstr("spinning"));
+  EXPECT_THAT(BuildReport(standing).next_experiment, HasSubstr("spinning"));
 
   const DiagnosisResult quiet = NothingFoundIn(300.0, false);
-  EXPECT_THAT(VerdictSentence(quiet), AllOf(HasSubstr("no test signal"), HasSubstr("extra_delay"),
-                                            Not(HasSubstr("unbalance"))));
-  EXPECT_TRUE(NeedsExperiment(quiet));
+  EXPECT_THAT(
+      BuildReport(quiet).verdict_sentence,
+      AllOf(HasSubstr("no test signal"), HasSubstr("extra_delay"), Not(HasSubstr("unbalance"))));
+  EXPECT_TRUE(BuildReport(quiet).needs_experiment);
 }
 
 TEST(CalibratedValues, AreTotalsUnderTheKeysOfTheFileWithWhatTheyMovedBy) {
@@ -267,48 +274,48 @@ TEST(CalibratedValues, AreTotalsUnderTheKeysOfTheFileWithWhatTheyMovedBy) {
 
 TEST(ConfidenceTest, FallsWithARivalAndWithALowScore) {
   DiagnosisResult s = Found("eddy_current", "de_x");
-  const double alone = Confidence(s);
+  const double alone = BuildReport(s).confidence;
   EXPECT_GT(alone, 0.99);
   s.answer.candidates.push_back({.effect = "extra_delay", .place = "all", .score = 19.5});
-  EXPECT_LT(Confidence(s), 0.7);
-  EXPECT_GT(Confidence(s), 0.5);  // still the first of two
+  EXPECT_LT(BuildReport(s).confidence, 0.7);
+  EXPECT_GT(BuildReport(s).confidence, 0.5);  // still the first of two
   s = Found("eddy_current", "de_x");
   s.answer.candidates.front().score = 0.0;
-  EXPECT_NEAR(Confidence(s), 0.5, 1e-9);
+  EXPECT_NEAR(BuildReport(s).confidence, 0.5, 1e-9);
 }
 
 TEST(ConfidenceTest, OfNoneIsAgainstTheStrongestCandidateAndOfUnknownZero) {
   DiagnosisResult s = NothingFound();
-  EXPECT_EQ(Confidence(s), 1.0);
+  EXPECT_EQ(BuildReport(s).confidence, 1.0);
   s.answer.candidates.push_back({.effect = "extra_delay", .place = "all", .score = 0.0});
-  EXPECT_NEAR(Confidence(s), 0.5, 1e-12);  // even odds
+  EXPECT_NEAR(BuildReport(s).confidence, 0.5, 1e-12);  // even odds
   s.answer.candidates.front().score = -std::log(3.0);
-  EXPECT_NEAR(Confidence(s), 0.75, 1e-12);  // three to one
+  EXPECT_NEAR(BuildReport(s).confidence, 0.75, 1e-12);  // three to one
   s.answer.verdict = Verdict::kUnknown;
   s.answer.candidates.front().score = 334.0;
-  EXPECT_EQ(Confidence(s), 0.0);
+  EXPECT_EQ(BuildReport(s).confidence, 0.0);
 }
 
 TEST(VerdictTest, OfACauseSaysItsSizeWithItsIntervalAndWhatItsEvidenceIs) {
   // sqrt(tau) of 2.5e-3, known to 0.25e-3: 1.645 of it to either side, squared
-  EXPECT_THAT(VerdictSentence(Found("eddy_current", "de_x")),
+  EXPECT_THAT(BuildReport(Found("eddy_current", "de_x")).verdict_sentence,
               AllOf(HasSubstr("tau_us 6.25 us (4.363 to 8.475)"),
                     HasSubstr("20 nat, which is odds of e^20 to 1")));
-  EXPECT_THAT(VerdictSentence(Found("unbalance", "z 299.2 mm")),
+  EXPECT_THAT(BuildReport(Found("unbalance", "z 299.2 mm")).verdict_sentence,
               HasSubstr("moment_g_mm 14.14 g mm"));
 }
 
 TEST(VerdictTest, OfNothingSaysWhetherTheFileAsItStandsExplainsTheData) {
   DiagnosisResult s = NothingFound();
-  EXPECT_THAT(VerdictSentence(s), HasSubstr("as it stands"));
-  EXPECT_THAT(VerdictSentence(s), Not(HasSubstr("does not")));
+  EXPECT_THAT(BuildReport(s).verdict_sentence, HasSubstr("as it stands"));
+  EXPECT_THAT(BuildReport(s).verdict_sentence, Not(HasSubstr("does not")));
   for (const Term& term : s.terms) {
     if (term.effect != "current_gain") continue;
     s.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,
                                     1.5 * term.tolerance, 0.1 * term.tolerance});
   }
   s.validation.to_gain = {99.0, 90.0, 110.0};  // squared, less the noise itself
-  EXPECT_THAT(VerdictSentence(s),
+  EXPECT_THAT(BuildReport(s).verdict_sentence,
               AllOf(HasSubstr("4 numbers moved by at most 1.5 tolerances"),
                     HasSubstr("as it stands it does not (10.0 times the noise, rms)")));
 }
@@ -316,25 +323,29 @@ TEST(VerdictTest, OfNothingSaysWhetherTheFileAsItStandsExplainsTheData) {
 TEST(PlanTest, IsAScenarioThatTheReaderTakesForEveryCause) {
   const DiagnosisResult nothing = NothingFound();
   for (const Hypothesis& h : MakeHypotheses(*nothing.view, nothing.terms)) {
-    const std::string text = PlanScenario(Found(h.effect, h.place));
+    const std::string text = PlanScenario(BuildReport(Found(h.effect, h.place)), FlexibleRotor());
     const auto scenario = config::ParseScenario(text, "diagnosis_next.yaml", nothing.view->numbers);
     ASSERT_GT(scenario.steps.size(), 2U) << h.effect;
   }
 }
 
 TEST(PlanTest, ExcitesEveryAxisAndTurnsTheRotorForCausesOfRotation) {
-  const std::string turning = PlanScenario(Found("unbalance", "z 299.2 mm"));
+  const std::string turning =
+      PlanScenario(BuildReport(Found("unbalance", "z 299.2 mm")), FlexibleRotor());
   for (const char* channel :
        {"channel: de_x", "channel: de_y", "channel: nde_x", "channel: nde_y"}) {
     EXPECT_THAT(turning, HasSubstr(channel));
   }
   EXPECT_THAT(turning, HasSubstr("do: spin"));
-  EXPECT_THAT(PlanScenario(Found("current_gain", "de_x")), Not(HasSubstr("do: spin")));
+  EXPECT_THAT(PlanScenario(BuildReport(Found("current_gain", "de_x")), FlexibleRotor()),
+              Not(HasSubstr("do: spin")));
 }
 
 TEST(PlanTest, UsesTheFastestClockForWhatDiffersAtHighFrequency) {
-  EXPECT_THAT(PlanScenario(Found("eddy_current", "de_x")), HasSubstr("divisor: 1}"));
-  EXPECT_THAT(PlanScenario(Found("current_gain", "de_x")), HasSubstr("divisor: 2}"));
+  EXPECT_THAT(PlanScenario(BuildReport(Found("eddy_current", "de_x")), FlexibleRotor()),
+              HasSubstr("divisor: 1}"));
+  EXPECT_THAT(PlanScenario(BuildReport(Found("current_gain", "de_x")), FlexibleRotor()),
+              HasSubstr("divisor: 2}"));
 }
 
 }  // namespace

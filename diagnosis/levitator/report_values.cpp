@@ -1,4 +1,4 @@
-#include "diagnosis/levitator/own_words.hpp"
+#include "diagnosis/levitator/report_values.hpp"
 
 #include <fmt/core.h>
 
@@ -8,22 +8,23 @@
 #include <numbers>
 
 #include "diagnosis/levitator/origin.hpp"
+#include "diagnosis/report/effect_entry.hpp"
 #include "numerics/normal_distribution.hpp"
 
 namespace levitas::levitator {
 namespace {
 
-/// A key and what a value of the table is under it.
-struct Told {
+/// A key of the rig file, and the value under it as a function of a parameter of the table.
+struct FileKey {
   std::string key;
   std::function<double(double)> value;
 };
 
-Told Scaled(std::string key, double by) {
+FileKey Scaled(std::string key, double by) {
   return {std::move(key), [by](double t) { return by * t; }};
 }
 
-Told TellWhole(const config::RigFile& rig, std::size_t i) {
+FileKey KeyOf(const config::RigFile& rig, std::size_t i) {
   const Row& row = Table()[i];
   switch (i) {
     case kDelay:
@@ -54,54 +55,55 @@ Told TellWhole(const config::RigFile& rig, std::size_t i) {
   return {std::string(row.name), [base](double t) { return base + t; }};
 }
 
-/// Of values beside an origin.
-Told TellAs(const config::RigFile& rig, const Theta& origin, std::size_t i) {
-  Told whole = TellWhole(rig, i);
+/// The same for a parameter that was fitted relative to an origin.
+FileKey KeyBeside(const config::RigFile& rig, const Theta& origin, std::size_t i) {
+  FileKey whole = KeyOf(rig, i);
   return {whole.key, [value = whole.value, i, from = origin[i]](double t) {
             return value(ComposedWith(i, from, t));
           }};
 }
 
-std::string UnitOf(const Told& told, const Row& row) {
-  const std::string symbol = diagnosis::UnitOfKey(told.key).symbol;
+std::string UnitOf(const FileKey& file_key, const Row& row) {
+  const std::string symbol = diagnosis::UnitOfKey(file_key.key).symbol;
   return symbol.empty() ? std::string(row.unit) : symbol;
 }
 
-diagnosis::NamedParameter Tell(const config::RigFile& rig, const Theta& origin, std::size_t i,
-                               const Fitted& fit) {
+diagnosis::NamedParameter ParameterOf(const config::RigFile& rig, const Theta& origin,
+                                      std::size_t i, const Fitted& fit) {
   const Row& row = Table()[i];
-  const Told told = TellAs(rig, origin, i);
+  const FileKey file_key = KeyBeside(rig, origin, i);
   const double spread = numerics::kInterval90 * fit.deviation[i];
   diagnosis::NamedParameter p;
   p.effect = row.effect;
-  p.key = told.key;
+  p.key = file_key.key;
   p.place = rig.numbers.channels.front();
   p.name = fmt::format("{}[{}]", p.key, p.place);
-  p.unit = UnitOf(told, row);
+  p.unit = UnitOf(file_key, row);
   p.si = diagnosis::UnitOfKey(p.key).si;
-  p.value = told.value(fit.theta[i]);
-  const double one = told.value(fit.theta[i] - spread);
-  const double other = told.value(fit.theta[i] + spread);
+  p.value = file_key.value(fit.theta[i]);
+  const double one = file_key.value(fit.theta[i] - spread);
+  const double other = file_key.value(fit.theta[i] + spread);
   p.low = std::min(one, other);
   p.high = std::max(one, other);
   return p;
 }
 
-diagnosis::CalibratedValue Calibrated(const config::RigFile& rig, const Theta& origin,
-                                      std::size_t i, const Fitted& fit) {
+diagnosis::CalibratedValue CalibratedOf(const config::RigFile& rig, const Theta& origin,
+                                        std::size_t i, const Fitted& fit) {
   const Row& row = Table()[i];
-  const Told told = TellAs(rig, origin, i);
+  const FileKey file_key = KeyBeside(rig, origin, i);
   const double theta = fit.theta[i];
   const double deviation = fit.deviation[i];
   diagnosis::CalibratedValue v;
   v.effect = row.effect;
   v.place = rig.numbers.channels.front();
-  v.key = told.key;
-  v.unit = UnitOf(told, row);
-  v.nominal = v.expected = told.value(0.0);
-  v.calibrated = told.value(theta);
-  v.deviation = 0.5 * std::abs(told.value(theta + deviation) - told.value(theta - deviation));
-  v.tolerance = 0.5 * std::abs(told.value(row.tolerance) - told.value(-row.tolerance));
+  v.key = file_key.key;
+  v.unit = UnitOf(file_key, row);
+  v.nominal = v.expected = file_key.value(0.0);
+  v.calibrated = file_key.value(theta);
+  v.deviation =
+      0.5 * std::abs(file_key.value(theta + deviation) - file_key.value(theta - deviation));
+  v.tolerance = 0.5 * std::abs(file_key.value(row.tolerance) - file_key.value(-row.tolerance));
   v.moved = v.from_file = std::abs(theta) / row.tolerance;
   v.proven = deviation > 0.0 ? std::abs(theta) / deviation : 0.0;
   return v;
@@ -109,22 +111,32 @@ diagnosis::CalibratedValue Calibrated(const config::RigFile& rig, const Theta& o
 
 }  // namespace
 
-diagnosis::OwnWords OwnWordsOf(const config::RigFile& rig, const Theta& origin,
-                               const Found& found) {
-  diagnosis::OwnWords words;
-  std::vector<bool> named(kParameters, false);
+std::vector<diagnosis::NamedParameter> ReportParameters(const config::RigFile& rig,
+                                                        const Theta& origin, const Found& found) {
+  std::vector<diagnosis::NamedParameter> parameters;
   for (const std::size_t c : found.causes) {
     for (const std::size_t i : Causes()[c].moves) {
-      words.parameters.push_back(Tell(rig, origin, i, found.extended));
-      named[i] = true;
+      parameters.push_back(ParameterOf(rig, origin, i, found.extended));
     }
   }
+  return parameters;
+}
+
+std::vector<diagnosis::CalibratedValue> ReportCalibration(const config::RigFile& rig,
+                                                          const Theta& origin, const Found& found) {
+  std::vector<bool> named(kParameters, false);
+  for (const std::size_t c : found.causes) {
+    for (const std::size_t i : Causes()[c].moves) named[i] = true;
+  }
+  std::vector<diagnosis::CalibratedValue> calibrated;
   for (std::size_t i = 0; i < kParameters; ++i) {
     if (Table()[i].tolerance > 0.0 && !named[i]) {
-      words.calibrated.push_back(Calibrated(rig, origin, i, found.extended));
+      calibrated.push_back(CalibratedOf(rig, origin, i, found.extended));
     }
   }
-  return words;
+  std::stable_sort(calibrated.begin(), calibrated.end(),
+                   [](const auto& a, const auto& b) { return a.moved > b.moved; });
+  return calibrated;
 }
 
 }  // namespace levitas::levitator

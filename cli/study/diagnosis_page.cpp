@@ -1,4 +1,4 @@
-#include "cli/study/diagnosis_report.hpp"
+#include "cli/study/diagnosis_page.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,16 +7,17 @@
 #include <cmath>
 
 #include "cli/study/diagnosis_text.hpp"
-#include "diagnosis/report/input_warnings.hpp"
-#include "diagnosis/report/words.hpp"
+#include "diagnosis/report/report_text.hpp"
 #include "report/svg/escaped_text.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {
 namespace {
 
-using diagnosis::Candidate;
-using diagnosis::DiagnosisResult;
+using diagnosis::DiagnosisReport;
+using diagnosis::ReportCandidate;
+using diagnosis::ReportFit;
+using diagnosis::ReportRunFit;
 
 constexpr const char* kStyle =
     "body{font:16px/1.5 sans-serif;max-width:64em;margin:2em auto;padding:0 1em;color:#222}"
@@ -42,19 +43,20 @@ svg::Series Line(const char* name, const char* colour, const std::vector<double>
   return line;
 }
 
-std::string Spectra(const DiagnosisResult& s) {
+std::string Spectra(const DiagnosisReport& s) {
   svg::Panel panel;
-  panel.title =
-      "What the model leaves of the data used, in " + s.view->numbers.channels[s.shown_channel];
+  const diagnosis::ReportSpectra& spectra = s.spectra;
+  panel.title = "What the model leaves of the data used, in " + spectra.channel;
   panel.x_label = "Hz";
   panel.y_label = "power / sensor noise";
   panel.x_scale = svg::Scale::kLogarithmic;
   panel.y_scale = svg::Scale::kLogarithmic;
-  panel.series = {Line("rig file", "#888888", s.ratio_before, s.line_spacing_hz),
-                  Line("calibrated", "#1f77b4", s.ratio_calibrated, s.line_spacing_hz)};
-  if (!s.answer.causes.empty()) {
+  panel.series = {Line("rig file", "#888888", spectra.nominal, spectra.line_spacing_hz),
+                  Line("calibrated", "#1f77b4", spectra.calibrated, spectra.line_spacing_hz)};
+  if (!s.causes.empty()) {
     panel.series.back().width = 2.6;  // else the cause's line hides it
-    panel.series.push_back(Line("with the cause", "#d62728", s.ratio_after, s.line_spacing_hz));
+    panel.series.push_back(
+        Line("with the cause", "#d62728", spectra.extended, spectra.line_spacing_hz));
   }
   svg::Figure figure;
   figure.panel_width = 760;
@@ -62,40 +64,17 @@ std::string Spectra(const DiagnosisResult& s) {
   return svg::Draw(figure);
 }
 
-/// Why an effect is not the answer.
-std::string Why(const DiagnosisResult& s, const Candidate& candidate) {
-  const auto& a = s.answer;
-  for (const auto& cause : a.causes) {
-    if (cause.effect == candidate.effect) return "named";
-  }
-  if (s.own_words) {
-    for (const auto& [effect, why] : s.own_words->why_not) {
-      if (effect == candidate.effect) return why;
-    }
-  }
-  const bool tied = std::find(a.also_possible.begin(), a.also_possible.end(), candidate.effect) !=
-                    a.also_possible.end();
-  if (tied) return "these data do not separate it from the cause";
-  if (!std::isfinite(candidate.score))
-    return "would have to be negative, or cannot act in these data";
-  if (candidate.score < diagnosis::kDecisive) {
-    return candidate.score < 0.0 ? "explains less than its freedom costs"
-                                 : "too little to be decisive";
-  }
-  return fmt::format("explains {:.0f} nat less than the cause",
-                     a.candidates.front().score - candidate.score);
-}
-
-std::string Ranking(const DiagnosisResult& s) {
+std::string Ranking(const DiagnosisReport& s) {
   constexpr std::size_t kShown = 8;
   std::string rows;
   std::string rest;
-  for (std::size_t i = 0; i < s.answer.candidates.size(); ++i) {
-    const Candidate& c = s.answer.candidates[i];
-    const std::string score = std::isfinite(c.score) ? fmt::format("{:.1f}", c.score) : "-";
+  for (std::size_t i = 0; i < s.candidates.size(); ++i) {
+    const ReportCandidate& c = s.candidates[i];
+    const std::string score =
+        std::isfinite(c.evidence_nat) ? fmt::format("{:.1f}", c.evidence_nat) : "-";
     (i < kShown ? rows : rest) +=
         fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{}</td><td>{}</td></tr>\n", c.effect,
-                    Escaped(c.place), score, Why(s, c));
+                    Escaped(c.place), score, c.reason);
   }
   const std::string head =
       "<table><tr><th>effect</th><th>where</th><th>evidence, nat</th><th></th></tr>\n";
@@ -115,16 +94,16 @@ std::string Bar(const char* name, double ratio, double largest, const char* colo
 }
 
 /// Residuals of the models on validation data.
-std::string Left(const DiagnosisResult& s) {
-  const diagnosis::Gain& held = s.validation;
-  const double nominal = 1.0 + held.to_gain.value;
+std::string Left(const DiagnosisReport& s) {
+  const ReportFit& held = s.validation;
+  const double nominal = held.nominal_over_noise;
   const double largest = std::max({nominal, held.calibrated_over_noise, held.extended_over_noise});
   std::string text =
       "<h2>What the model still gets wrong</h2><table>\n" +
       Bar("sensors' noise alone", 1.0, largest, "#2ca02c") +
       Bar("rig file", nominal, largest, "#888") +
       Bar("with its tolerances calibrated", held.calibrated_over_noise, largest, "#1f77b4");
-  if (!s.answer.causes.empty()) {
+  if (!s.causes.empty()) {
     text += Bar("with the cause", held.extended_over_noise, largest, "#d62728");
   }
   return text +
@@ -133,24 +112,24 @@ std::string Left(const DiagnosisResult& s) {
          "little, the evidence (nat: logarithm of the odds) decides on a cause, not this.</p>\n";
 }
 
-std::string CalibrationTable(const DiagnosisResult& s) {
-  std::string told;
+std::string CalibrationTable(const DiagnosisReport& s) {
+  std::string significant;
   std::string rest;
-  for (const auto& v : diagnosis::CalibratedValues(s)) {
-    (diagnosis::IsSignificant(v) ? told : rest) += fmt::format(
+  for (const auto& v : s.calibrated) {
+    (diagnosis::IsSignificant(v) ? significant : rest) += fmt::format(
         "<tr><td>{}</td><td class=k>{}</td><td>{}</td><td class=n>{}</td><td class=n>{}</td>"
         "<td class=n>{:.2g}</td><td class=n>{:.2g}</td></tr>\n",
         v.effect, Escaped(v.place), v.key, AtPhase(v.nominal, v.nominal_phase_rad),
         AtPhase(v.calibrated, v.phase_rad), v.deviation, v.tolerance);
   }
-  if (told.empty() && rest.empty()) return {};
+  if (significant.empty() && rest.empty()) return {};
   const std::string head =
       "<table><tr><th>effect</th><th>where</th><th>key</th><th>rig file</th><th>calibrated</th>"
       "<th>std</th><th>tolerance</th></tr>\n";
-  const std::string first = told.empty()
+  const std::string first = significant.empty()
                                 ? "<p>None is further than half its tolerance from the file.</p>\n"
-                                : head + told + "</table>\n";
-  const auto taken = diagnosis::TakenByCauses(s);
+                                : head + significant + "</table>\n";
+  const auto& taken = s.taken_by_causes;
   return "<h2>Calibrated values</h2>\n<p>Numbers in which a healthy rig may differ "
          "from its file; std is their standard deviation given these data. All of them are in "
          "<code>diagnosis.json</code>, and in force in <code>calibrated_rig.yaml</code>." +
@@ -162,7 +141,7 @@ std::string CalibrationTable(const DiagnosisResult& s) {
 }
 
 /// Seconds, gain and limits in a sentence each.
-std::string Summary(const DiagnosisResult& s) {
+std::string Summary(const DiagnosisReport& s) {
   const bool part = s.seconds_used < 0.99 * s.seconds_of_data;
   const std::string text =
       part ? fmt::format("From {:.1f} s of {:.1f} s in flight, spans spread over all records.",
@@ -171,37 +150,36 @@ std::string Summary(const DiagnosisResult& s) {
   return fmt::format("{} {}", text, GainSentence(s));
 }
 
-std::string ChannelTable(const DiagnosisResult& s) {
+std::string ChannelTable(const DiagnosisReport& s) {
   std::string rows;
-  for (std::size_t i = 0; i < s.validation.channel.size(); ++i) {
-    const auto& g = s.validation.channel[i];
+  for (const ReportFit::Channel& channel : s.validation.channels) {
     rows += fmt::format(
         "<tr><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td>"
         "<td class=n>{:.3f} ({:.3f} to {:.3f})</td></tr>\n",
-        Escaped(s.view->numbers.channels[i]), s.validation.channel_nominal_percent[i],
-        s.validation.channel_extended_percent[i], g.value, g.low, g.high);
+        Escaped(channel.name), channel.nominal_percent, channel.extended_percent,
+        channel.achieved.fraction, channel.achieved.low, channel.achieved.high);
   }
   return "<details><summary>Channel by channel</summary><table><tr><th>channel</th>"
          "<th>fit before, %</th><th>after, %</th><th>share of the achievable gain</th></tr>\n" +
          rows + "</table></details>\n";
 }
 
-std::string FitTable(const DiagnosisResult& s) {
-  const auto row = [](const char* name, const diagnosis::Gain& g) {
+std::string FitTable(const DiagnosisReport& s) {
+  const auto row = [](const char* name, const ReportFit& g) {
     return fmt::format(
         "<tr><td>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td>"
         "<td class=n>{:.2f}</td><td class=n>{}</td></tr>\n",
         name, g.nominal_percent, g.calibrated_percent, g.extended_percent, g.ceiling_percent,
-        diagnosis::SomethingToGain(g) ? fmt::format("{:.3f} ({:.3f} to {:.3f})", g.achieved.value,
-                                                    g.achieved.low, g.achieved.high)
-                                      : "nothing to gain");
+        g.meaningful ? fmt::format("{:.3f} ({:.3f} to {:.3f})", g.achieved.fraction, g.achieved.low,
+                                   g.achieved.high)
+                     : "nothing to gain");
   };
   return "<table><tr><th>fit, percent</th><th>nominal</th><th>calibrated</th><th>extended</th>"
          "<th>ceiling</th><th>share of the achievable gain</th></tr>\n" +
          row("fitted data", s.fitted) + row("validation data", s.validation) + "</table>\n";
 }
 
-std::string ParameterTable(const DiagnosisResult& s) {
+std::string ParameterTable(const DiagnosisReport& s) {
   std::string rows;
   bool form = false;
   for (const auto& [p, places] : SharedParameters(s)) {
@@ -214,7 +192,7 @@ std::string ParameterTable(const DiagnosisResult& s) {
   }
   if (rows.empty()) return {};
   std::string totals;
-  for (const std::string& total : diagnosis::TotalSentences(s)) {
+  for (const std::string& total : diagnosis::TotalSentences(s.parameters)) {
     totals += fmt::format("<p>{}.</p>\n", Escaped(total));
   }
   return "<h2>Parameters, as in a rig file</h2><table><tr><th>effect</th><th>where</th>"
@@ -223,9 +201,29 @@ std::string ParameterTable(const DiagnosisResult& s) {
          (form ? "<p>* as far as the neighbouring forms of the law that were tried</p>\n" : "");
 }
 
+std::string RunsTable(const DiagnosisReport& s) {
+  if (s.validation_runs.empty()) return {};
+  std::string rows;
+  const auto add = [&rows](const std::string& run, const char* quantity, const ReportRunFit& fit) {
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td class=n>{:.1f}</td><td class=n>{:.1f}</td>"
+        "<td class=n><b>{:.1f}</b> ({})</td><td class=n>{:.1f}</td></tr>\n",
+        run, quantity, fit.nominal.value, fit.calibrated.value, fit.extended.value,
+        IntervalText(fit), fit.ceiling_percent);
+  };
+  for (const diagnosis::ReportRun& run : s.validation_runs) {
+    if (run.current) add(run.name, "current, free run", *run.current);
+    add(run.name, "motion, one step", run.motion);
+  }
+  return "<h2>Runs that were not fitted: fit in percent</h2><table><tr><th>run</th><th></th>"
+         "<th>rig file</th><th>calibrated</th><th>extended (5 to 95 %)</th><th>noise alone</th>"
+         "</tr>\n" +
+         rows + "</table>\n";
+}
+
 }  // namespace
 
-std::string DiagnosisPage(const DiagnosisResult& s, const std::string& more) {
+std::string DiagnosisPage(const DiagnosisReport& s) {
   const std::string ceiling = CeilingSentence(s);
   return fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
@@ -234,10 +232,10 @@ std::string DiagnosisPage(const DiagnosisResult& s, const std::string& more) {
       "<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig file. "
       "Calibrated: with the deviations of a healthy rig. Extended: with the causes. Ceiling: the "
       "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",
-      Escaped(s.view->numbers.name), kStyle, Escaped(diagnosis::VerdictSentence(s)),
-      Escaped(fmt::format("{} {}", Summary(s), diagnosis::HealthySentence(s))),
-      Escaped(diagnosis::NextExperiment(s)), Left(s), ParameterTable(s), Spectra(s),
-      CalibrationTable(s), Ranking(s), FitTable(s), ceiling, ChannelTable(s), more);
+      Escaped(s.rig_name), kStyle, Escaped(s.verdict_sentence),
+      Escaped(fmt::format("{} {}", Summary(s), s.healthy_sentence)), Escaped(s.next_experiment),
+      Left(s), ParameterTable(s), Spectra(s), CalibrationTable(s), Ranking(s), FitTable(s), ceiling,
+      ChannelTable(s), RunsTable(s));
 }
 
 }  // namespace levitas::cli

@@ -1,0 +1,21 @@
+#pragma once
+// The part of a rotor's rig that a diagnosis points at, and the channels that show it.
+//
+// Thread   any; pure.
+// Failure  std::logic_error for an effect that is not in the catalogue.
+
+#include <string>
+#include <vector>
+
+namespace levitas::diagnosis {
+
+struct DiagnosisResult;
+
+/// "magnet", "sensor" ...; for an unknown, that of the signal which the residual follows.
+[[nodiscard]] std::string PlaceOf(const DiagnosisResult& result);
+[[nodiscard]] std::string PlaceOfEffect(const std::string& effect);
+/// The place of a residual without a cause, from the signal that it follows.
+[[nodiscard]] std::string PlaceOfResidual(const std::string& coherent_with);
+[[nodiscard]] std::vector<std::string> Channels(const DiagnosisResult& result);
+
+}  // namespace levitas::diagnosis

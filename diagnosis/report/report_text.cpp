@@ -1,0 +1,238 @@
+#include "diagnosis/report/report_text.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "diagnosis/inference/judging.hpp"
+#include "diagnosis/report/effect_entry.hpp"
+#include "diagnosis/report/validation_check.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+/// Pairs of similar effects, and the experiment that separates them.
+struct Pair {
+  const char* first;
+  const char* second;
+  const char* experiment;
+};
+
+constexpr std::array kPairs{
+    Pair{"unbalance", "shaft_bow",
+         "a run-up over at least a factor of two in speed: unbalance "
+         "grows with the square of speed, a bow does not"},
+    Pair{"unbalance", "sensor_runout",
+         "a slow roll and a run-up: run-out stays as it is at low "
+         "speed, unbalance vanishes"},
+    Pair{"sensor_runout", "misalignment",
+         "a run-up through a bending mode: only a force excites it"},
+    Pair{"current_gain", "sensor_gain",
+         "a record of the healthy rig or a known weight "
+         "hung on the shaft"},
+    Pair{"current_gain", "displacement_stiffness",
+         "standing with a test signal at two bias currents"},
+    Pair{"current_gain", "force_constant",
+         "standing with a test signal at two bias currents: only a force "
+         "constant changes the negative stiffness"},
+    Pair{"command_offset", "static_load",
+         "two bias currents: the force of an offset current grows with the "
+         "bias, a load stays"},
+    Pair{"extra_delay", "amplifier_bandwidth", "standing with a test signal rich above 500 Hz"},
+    Pair{"extra_delay", "eddy_current", "standing with a test signal rich above 500 Hz"},
+    Pair{"eddy_current", "amplifier_bandwidth",
+         "standing with measured coil currents, or a test "
+         "signal rich above 500 Hz"},
+    Pair{"sensor_offset", "static_load",
+         "two bias currents: an offset's force grows with the bias "
+         "squared, a load stays"},
+    Pair{"mains_pickup", "sensor_runout", "another speed: mains stay at their frequency"}};
+
+/// ": tau_us 5.21 us (4.9 to 5.5)", the first number of a cause, with its place where it is not the
+/// same at all; empty where it has none.
+std::string Size(const DiagnosisReport& report, const ReportCause& cause) {
+  const auto& parameters = report.parameters;
+  const auto first = std::find_if(parameters.begin(), parameters.end(), [&](const auto& p) {
+    return p.effect == cause.effect && p.key != kPhaseKey;
+  });
+  if (first == parameters.end()) return {};
+  const bool everywhere = std::all_of(first, parameters.end(), [&first](const auto& p) {
+    return p.effect != first->effect || p.key != first->key || p.value == first->value;
+  });
+  return fmt::format(": {} {:.4g}{}{}{} ({:.4g} to {:.4g})", first->key, first->value,
+                     first->unit.empty() ? "" : " ", first->unit,
+                     everywhere ? "" : " at " + first->place, first->low, first->high);
+}
+
+/// Of a rig in which nothing is hidden: how far it is from its file, and what that is worth.
+std::string Explained(const DiagnosisReport& report) {
+  const auto& values = report.calibrated;
+  double furthest = 0.0;
+  for (const CalibratedValue& v : values) furthest = std::max(furthest, v.from_file);
+  const std::string moved = fmt::format("with its {} numbers moved by at most {:.1f} tolerances",
+                                        values.size(), furthest);
+  if (!report.validation.meaningful) {
+    return "the rig file explains the data to their noise as it stands" +
+           (values.empty() ? "" : ", and " + moved) + ".";
+  }
+  return fmt::format(
+      "the rig file {} explains the data to their noise; as it stands it does not "
+      "({:.1f} times the noise, rms).",
+      moved, std::sqrt(report.validation.nominal_over_noise));
+}
+
+std::string UnknownText(const ReportResidual& residual) {
+  std::string where = fmt::format("{:.0f} Hz", residual.frequency_hz);
+  if (residual.order > 0.0) where += fmt::format(", order {:.0f} of rotation", residual.order);
+  return fmt::format(
+      "A residual is left that no effect of the vocabulary explains: most of all in {} "
+      "about {}, following {}.",
+      residual.channel, where, residual.coherent_with);
+}
+
+std::string Finding(const DiagnosisReport& report) {
+  if (report.verdict == Verdict::kNone) {
+    const std::string& limits = report.coverage.sentence;
+    return fmt::format("Nothing is hidden{}: {}{}{}",
+                       limits.empty() ? "" : " as far as these records can show", Explained(report),
+                       limits.empty() ? "" : " ", limits);
+  }
+  if (report.verdict == Verdict::kUnknown || report.causes.empty()) {
+    return UnknownText(report.residual);
+  }
+  const double nat =
+      report.candidates.empty() ? report.evidence_nat : report.candidates.front().evidence_nat;
+  const auto& causes = report.causes;
+  std::string text = fmt::format("{} at {}{}; {:.0f} nat, which is odds of e^{:.0f} to 1 for it",
+                                 causes.front().effect, causes.front().place,
+                                 Size(report, causes.front()), nat, nat);
+  for (std::size_t i = 1; i < causes.size(); ++i) {
+    text +=
+        fmt::format("; and {} at {}{}", causes[i].effect, causes[i].place, Size(report, causes[i]));
+  }
+  if (!report.also_possible.empty()) {
+    text += "; these data do not separate it from";
+    for (const auto& other : report.also_possible) text += " " + other;
+  }
+  return text + ".";
+}
+
+/// "18 g mm at 0.0 deg"; the amount alone without a phase.
+std::string Amount(double value, const std::string& unit, const double* phase_deg) {
+  const std::string text = fmt::format("{:.4g} {}", value, unit);
+  return phase_deg == nullptr ? text : fmt::format("{} at {:.1f} deg", text, *phase_deg);
+}
+
+}  // namespace
+
+void CompleteReport(DiagnosisReport& report) {
+  report.confidence = Confidence(report);
+  report.verdict_sentence = VerdictSentence(report);
+  for (ReportCandidate& candidate : report.candidates) candidate.reason = Reason(report, candidate);
+}
+
+std::string VerdictSentence(const DiagnosisReport& report) {
+  std::string text = Finding(report);
+  for (const std::string& more : {ValidationSentence(report), report.input_warning}) {
+    if (!more.empty()) text += " " + more;
+  }
+  return text;
+}
+
+std::string SeparatingExperiment(const DiagnosisReport& report) {
+  if (!PassesValidation(report)) return ValidationExperiment(report);
+  if (report.verdict == Verdict::kNone) {
+    const std::string& missing = report.coverage.missing_records;
+    return missing.empty() ? kNoneNeeded : missing;
+  }
+  if (report.verdict == Verdict::kUnknown) {
+    return "the same with another speed and another bias current: the change of the residual "
+           "shows whether it belongs to the rotation, the magnets or neither";
+  }
+  if (report.also_possible.empty() || report.causes.empty()) return kNoneNeeded;
+  const std::string& cause = report.causes.front().effect;
+  for (const auto& pair : kPairs) {
+    for (const auto& other : report.also_possible) {
+      if ((cause == pair.first && other == pair.second) ||
+          (cause == pair.second && other == pair.first)) {
+        return pair.experiment;
+      }
+    }
+  }
+  return "a longer record with a stronger test signal, standing and at two speeds";
+}
+
+std::string NextExperiment(const DiagnosisReport& report, const std::string& experiment) {
+  std::string check;
+  if (!report.input_warning.empty()) {
+    check = "check units and signs of the columns and the rig file, and diagnose again";
+  } else if (report.changed_since_healthy) {
+    check = "check that the healthy records are of this rig, as it was before";
+  }
+  if (check.empty()) return experiment;
+  return experiment == kNoneNeeded ? check : fmt::format("{}; then {}", check, experiment);
+}
+
+double Confidence(const DiagnosisReport& report) {
+  const auto& candidates = report.candidates;
+  if (report.verdict == Verdict::kUnknown) return 0.0;
+  if (report.verdict == Verdict::kNone) {
+    const double rival = candidates.empty() ? -INFINITY : candidates.front().evidence_nat;
+    return 1.0 / (1.0 + std::exp(rival));
+  }
+  if (candidates.empty()) return 0.0;
+  const double best = std::max(0.0, candidates.front().evidence_nat);
+  double sum = std::exp(-best);
+  for (const ReportCandidate& c : candidates) {
+    if (std::isfinite(c.evidence_nat)) sum += std::exp(c.evidence_nat - best);
+  }
+  return std::exp(candidates.front().evidence_nat - best) / sum;
+}
+
+std::string Reason(const DiagnosisReport& report, const ReportCandidate& candidate) {
+  for (const ReportCause& cause : report.causes) {
+    if (cause.effect == candidate.effect) return "named";
+  }
+  if (!candidate.reason.empty()) return candidate.reason;
+  const auto& tied = report.also_possible;
+  if (std::find(tied.begin(), tied.end(), candidate.effect) != tied.end()) {
+    return "these data do not separate it from the cause";
+  }
+  if (!std::isfinite(candidate.evidence_nat)) {
+    return "would have to be negative, or cannot act in these data";
+  }
+  if (candidate.evidence_nat < kDecisive) {
+    return candidate.evidence_nat < 0.0 ? "explains less than its freedom costs"
+                                        : "too little to be decisive";
+  }
+  return fmt::format("explains {:.0f} nat less than the cause",
+                     report.candidates.front().evidence_nat - candidate.evidence_nat);
+}
+
+std::vector<std::string> TotalSentences(const std::vector<NamedParameter>& parameters) {
+  std::vector<std::string> sentences;
+  for (const NamedParameter& p : parameters) {
+    if (!p.of_file || p.key == kPhaseKey) continue;
+    const auto phase = std::find_if(parameters.begin(), parameters.end(), [&](const auto& other) {
+      return other.effect == p.effect && other.place == p.place && other.key == kPhaseKey &&
+             other.of_file;
+    });
+    const bool turned = phase != parameters.end();
+    sentences.push_back(
+        fmt::format("{} at {}: {} is added to the {} that the rig file has there: in all {}",
+                    p.effect, p.place, Amount(p.value, p.unit, turned ? &phase->value : nullptr),
+                    Amount(p.of_file->nominal, p.unit, turned ? &phase->of_file->nominal : nullptr),
+                    Amount(p.of_file->total, p.unit, turned ? &phase->of_file->total : nullptr)));
+  }
+  return sentences;
+}
+
+bool IsSignificant(const CalibratedValue& value) {
+  constexpr double kMoved = 0.5;
+  constexpr double kProven = 2.0;
+  return value.moved > kMoved && value.proven > kProven;
+}
+
+}  // namespace levitas::diagnosis

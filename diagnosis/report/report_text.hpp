@@ -1,0 +1,39 @@
+#pragma once
+// Sentences of a report, from its numbers alone.
+//
+// Order       CompleteReport needs causes, candidates, parameters, calibrated values, fits,
+//             coverage and warnings; it writes confidence, reasons and the verdict's sentence.
+// Thread      any; pure.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/report/diagnosis_report.hpp"
+
+namespace levitas::diagnosis {
+
+/// The next experiment of a diagnosis that leaves nothing open.
+inline constexpr const char* kNoneNeeded = "none needed";
+
+/// Confidence, reasons of the candidates that have none, and the verdict's sentence.
+void CompleteReport(DiagnosisReport& report);
+
+[[nodiscard]] std::string VerdictSentence(const DiagnosisReport& report);
+/// The experiment that separates tied causes or excites what the records lack; kNoneNeeded when
+/// nothing is left open.
+[[nodiscard]] std::string SeparatingExperiment(const DiagnosisReport& report);
+/// `experiment`, after a check of the input where that is doubted.
+[[nodiscard]] std::string NextExperiment(const DiagnosisReport& report,
+                                         const std::string& experiment);
+/// Probability that the verdict is right: of a cause, among all candidates and none of them; of
+/// `none`, against the strongest candidate; 0 for `unknown`, which no effect explains.
+[[nodiscard]] double Confidence(const DiagnosisReport& report);
+/// Why a candidate is not the answer; "named" for a cause.
+[[nodiscard]] std::string Reason(const DiagnosisReport& report, const ReportCandidate& candidate);
+/// One sentence per cause that adds to a value of the rig file: that value, and the two together.
+[[nodiscard]] std::vector<std::string> TotalSentences(
+    const std::vector<NamedParameter>& parameters);
+/// Moved by more than half a tolerance and more than two standard deviations.
+[[nodiscard]] bool IsSignificant(const CalibratedValue& value);
+
+}  // namespace levitas::diagnosis
