@@ -86,7 +86,8 @@ Verdict Commission(const CommissionOptions& options) {
     inputs.measured->why_not =
         "they were added to the measured position; only those added to the current are evaluated";
   } else if (current_excited) {
-    inputs.measured = MeasureSensitivity(options.session_path, rig, controller.law);
+    inputs.measured =
+        MeasureSensitivity(options.session_path, rig, controller.law, inputs.sensitivity);
   }
   inputs.step_error =
       analysis::MeasureStepError(rig.plant, controller.law, inputs.session.top_speed_rad_per_s);

@@ -13,11 +13,19 @@ namespace {
 
 constexpr double kSameSpeedRadPerS = 0.1;  // about 1 rpm
 
+analysis::SensitivityResult ComputedAt(double speed_rad_per_s, const config::RigFile& rig,
+                                       const law::LawConfig& law,
+                                       std::span<const analysis::SensitivityResult> known) {
+  const auto found = std::ranges::find_if(known, [&](const analysis::SensitivityResult& one) {
+    return std::abs(one.speed_rad_per_s - speed_rad_per_s) <= kSameSpeedRadPerS;
+  });
+  return found != known.end() ? *found
+                              : analysis::SensitivityPeaks(rig.plant, law, speed_rad_per_s);
+}
+
 MeasuredSpeed MeasuredAt(const identification::FrequencyResponse& response,
-                         const config::RigFile& rig, const law::LawConfig& law) {
+                         const analysis::SensitivityResult& computed) {
   MeasuredSpeed out{response.speed_rad_per_s, {}};
-  const analysis::SensitivityResult computed =
-      analysis::SensitivityPeaks(rig.plant, law, response.speed_rad_per_s);
   const auto peaks = identification::MeasuredPeaks(response);
   for (std::size_t i = 0; i < peaks.size(); ++i) {
     MeasuredAxis axis{
@@ -36,13 +44,15 @@ MeasuredSpeed MeasuredAt(const identification::FrequencyResponse& response,
 }  // namespace
 
 MeasuredSensitivity MeasureSensitivity(const std::string& session_path, const config::RigFile& rig,
-                                       const law::LawConfig& law) {
+                                       const law::LawConfig& law,
+                                       std::span<const analysis::SensitivityResult> computed) {
   MeasuredSensitivity out;
   try {
     const auto record = session::LoadRecording(session_path, rig);
     const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
     for (const auto& response : identification::EstimateResponses(record, delay_s)) {
-      out.speeds.push_back(MeasuredAt(response, rig, law));
+      out.speeds.push_back(
+          MeasuredAt(response, ComputedAt(response.speed_rad_per_s, rig, law, computed)));
     }
   } catch (const BadInput& problem) {
     out.speeds.clear();

@@ -5,12 +5,13 @@
 // Equation  S = U E^-1 on the lines of the test signals, one axis excited at a time, all levitated
 //           (identification/frf/frequency_response.hpp); peak and zone as ISO 14839-3 asks for them
 //           (identification/frf/measured_sensitivity.hpp). Computed: analysis/sensitivity.hpp at
-//           the same speed.
+//           the same speed, taken from the caller's sweep where that holds it within 1 rpm.
 // Units     rad/s, Hz. Thread: any, offline.
 // Failure   none: where the record does not carry a measurement, `why_not` says what it lacks.
 // Not done  a measurement between the speeds at which test signals were given.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,10 @@ struct MeasuredSensitivity {
   std::string why_not;                ///< one clause; empty when there are speeds
 };
 
-/// Of a session that holds test signals.
-[[nodiscard]] MeasuredSensitivity MeasureSensitivity(const std::string& session_path,
-                                                     const config::RigFile& rig,
-                                                     const law::LawConfig& law);
+/// Of a session that holds test signals; `computed`: of this rig and law at some speeds.
+[[nodiscard]] MeasuredSensitivity MeasureSensitivity(
+    const std::string& session_path, const config::RigFile& rig, const law::LawConfig& law,
+    std::span<const analysis::SensitivityResult> computed);
 
 /// The axis' measured and graded peak at this speed (within 1 rpm); null without one.
 [[nodiscard]] const MeasuredAxis* FindGraded(const MeasuredSensitivity& measured,
