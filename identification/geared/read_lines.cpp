@@ -2,8 +2,10 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "common/problem.hpp"
@@ -29,10 +31,20 @@ std::vector<std::string> Cells(const std::string& line) {
 double Number(const std::string& cell, const std::string& where) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size()) {
-    throw BadInput(fmt::format("{}: '{}' is no number", where, cell));
+  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) {
+    throw BadInput(fmt::format("{}: '{}' is no finite number", where, cell));
   }
   return value;
+}
+
+/// Of "mesh_+1", "mesh_-1" and the like; nothing else begins so.
+std::optional<int> MeshHarmonic(const std::string& name) {
+  if (!name.starts_with("mesh_")) return std::nullopt;
+  const std::string digits = name.substr(name.starts_with("mesh_+") ? 6 : 5);
+  int harmonic = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), harmonic);
+  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+  return harmonic;
 }
 
 void SetKind(GearedLine& line, const std::string& name, const std::string& where) {
@@ -44,10 +56,9 @@ void SetKind(GearedLine& line, const std::string& name, const std::string& where
     line.kind = GearedLine::Kind::kMirror;
   } else if (name == "mean") {
     line.kind = GearedLine::Kind::kTransmissionError;
-  } else if (name.starts_with("mesh_")) {
+  } else if (const auto harmonic = MeshHarmonic(name)) {
     line.kind = GearedLine::Kind::kTransmissionError;
-    const std::string digits = name.substr(name.starts_with("mesh_+") ? 6 : 5);
-    line.harmonic = static_cast<int>(Number(digits, where));
+    line.harmonic = *harmonic;
   } else {
     throw BadInput(fmt::format(
         "{}: line '{}', allowed: pinion_1x, gear_1x, pinion_-1x, gear_+1x, mean, mesh_+1, mesh_-1 "

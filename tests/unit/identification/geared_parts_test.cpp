@@ -279,7 +279,11 @@ INSTANTIATE_TEST_SUITE_P(
              "line 2: 10 cells, needed 11"},
         File{"NoNumber",
              std::string(kHeader) + "20,mean,0,1,2,3,4,5,6,7,8\n20,mean,0,x,2,3,4,5,6,7,8\n",
-             "line 3: 'x' is no number"},
+             "line 3: 'x' is no finite number"},
+        File{"NotANumber", std::string(kHeader) + "20,mean,0,nan,2,3,4,5,6,7,8\n",
+             "line 2: 'nan' is no finite number"},
+        File{"HalfHarmonic", std::string(kHeader) + "20,mesh_+1.5,0,1,2,3,4,5,6,7,8\n",
+             "line 2: line 'mesh_+1.5', allowed: pinion_1x"},
         File{"UnknownLine", std::string(kHeader) + "20,shaft_2x,0,1,2,3,4,5,6,7,8\n",
              "line 2: line 'shaft_2x', allowed: pinion_1x"}),
     [](const auto& p) { return p.param.name; });
