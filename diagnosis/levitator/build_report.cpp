@@ -107,7 +107,7 @@ diagnosis::DiagnosisReport BuildReport(const config::RigFile& rig, const Nominal
                                                    : diagnosis::kNoneNeeded;
   diagnosis::CompleteReport(report);
   report.extended_rig = ExtendedRig(rig, nominal.origin, result.found);
-  report.calibrated_rig = report.extended_rig;
+  report.calibrated_rig = CalibratedRig(rig, nominal.origin, result.found);
   return report;
 }
 

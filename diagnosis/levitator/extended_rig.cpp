@@ -1,4 +1,4 @@
-// The rig file with what a fit has found: in its keys where the law has one, else as effects.
+// Rig files of a fit: in the file's keys where the law has one, else as effects.
 
 #include <fmt/core.h>
 
@@ -32,6 +32,7 @@ void ExtendCoil(const Theta& t, plant::VoltageDrive& coil) {
 }
 
 void ExtendForce(const Theta& t, double gap_m, plant::ExponentialForce& law) {
+  if (t[kForce] == 0.0 && t[kForceDecay] == 0.0 && t[kForceAway] == 0.0) return;
   const double up = law.force_n_per_a2 * (1.0 + t[kForce]) * std::exp(-gap_m / law.decay_m);
   const double down = law.force_n_per_a2 * (1.0 + t[kForce]) * (1.0 + t[kForceAway]) *
                       std::exp(-law.far_gap_m / law.decay_m);
@@ -104,14 +105,10 @@ std::string Comments(const Found& found) {
   return text;
 }
 
-}  // namespace
-
-std::string ExtendedRig(const config::RigFile& file, const Theta& origin, const Found& found) {
-  // A record that was not seen has what the others have on average.
-  Theta t = ComposedWith(origin, SharedPart(found.extended.theta, 1));
+/// The rig file with all values of the table, which hold the effects of the file as well.
+std::string WithValues(const config::RigFile& file, const Theta& t, const std::string& comments) {
   config::RigFile rig = file;
-  rig.plant.effects.clear();  // they are part of the origin
-  t[kSensorOffset] += t[Own(0, kOwnOffset)];
+  rig.plant.effects.clear();  // the values hold them
   config::RigFile extended = rig;
   plant::BearingConfig& bearing = extended.plant.bearings.at(0);
   extended.plant.delay_samples += t[kDelay];
@@ -133,7 +130,28 @@ std::string ExtendedRig(const config::RigFile& file, const Theta& origin, const 
     if (effects.empty()) refused += "#  - " + entry + "\n";
   }
   if (!refused.empty()) refused.insert(0, "# not known to this build's reader:\n");
-  return Comments(found) + refused + config::WriteRig(extended);
+  return comments + refused + config::WriteRig(extended);
+}
+
+}  // namespace
+
+std::string ExtendedRig(const config::RigFile& file, const Theta& origin, const Found& found) {
+  Theta t = ComposedWith(OriginOf(file), Zeros(1));
+  for (const std::size_t c : found.causes) {
+    for (const std::size_t i : Causes()[c].moves) {
+      t[i] = ComposedWith(i, origin[i], found.extended.theta[i]);
+    }
+  }
+  return WithValues(file, t, Comments(found));
+}
+
+std::string CalibratedRig(const config::RigFile& file, const Theta& origin, const Found& found) {
+  // A record that was not seen has what the others have on average.
+  Theta t = ComposedWith(origin, SharedPart(found.extended.theta, 1));
+  t[kSensorOffset] += t[Own(0, kOwnOffset)];
+  return WithValues(file, t,
+                    "# The rig as amb diagnose judged it: its causes, and what was calibrated.\n" +
+                        Comments(found));
 }
 
 }  // namespace levitas::levitator

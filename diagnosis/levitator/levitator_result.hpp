@@ -43,9 +43,13 @@ struct LevitatorResult {
                                        const diagnosis::Settings& settings,
                                        const std::vector<Series>& healthy = {});
 
-/// The rig file with the parameters of a fit, made beside `origin`, written into its keys and its
-/// list of effects.
+/// The rig file with the causes of a fit, made relative to `origin`, and nothing else that was
+/// fitted; values in the file's keys and its list of effects.
 [[nodiscard]] std::string ExtendedRig(const config::RigFile& file, const Theta& origin,
                                       const Found& found);
+/// The rig file as it was judged: with the causes, the calibrated values and what healthy records
+/// have shown.
+[[nodiscard]] std::string CalibratedRig(const config::RigFile& file, const Theta& origin,
+                                        const Found& found);
 
 }  // namespace levitas::levitator

@@ -65,14 +65,14 @@ TEST(Origin, EffectsOfTheFileDoWhatTheirNumbersDo) {
   EXPECT_GT(std::abs(without.back() - expected.back()), 1e-5);
 }
 
-TEST(Origin, AnExtendedFileSaysOnceWhatItsOwnEffectsAndTheCausesAre) {
+TEST(Origin, ACalibratedFileSaysOnceWhatItsOwnEffectsAndTheCausesAre) {
   const config::RigFile file = Holding({Entry(effect::Id::kStaticLoad, {0.0, 0.02, 0.0})});
   Found found;
   found.extended.theta = Zeros(1);
   found.extended.deviation = Zeros(1);
   found.extended.theta[kLoad] = 0.03;
   const config::RigFile read =
-      config::ParseRig(ExtendedRig(file, OriginOf(file), found), "extended_rig.yaml");
+      config::ParseRig(CalibratedRig(file, OriginOf(file), found), "calibrated_rig.yaml");
   ASSERT_EQ(read.plant.effects.size(), 1U);
   EXPECT_EQ(read.plant.effects[0].id, effect::Id::kStaticLoad);
   EXPECT_NEAR(read.plant.effects[0].values[1], 0.05, 1e-6);
@@ -113,7 +113,7 @@ config::RigFile Extended(const config::RigFile& file, const Theta& theta) {
   Found found;
   found.extended.theta = theta;
   found.extended.deviation = Zeros(1);
-  return config::ParseRig(ExtendedRig(file, OriginOf(file), found), "extended_rig.yaml");
+  return config::ParseRig(CalibratedRig(file, OriginOf(file), found), "calibrated_rig.yaml");
 }
 
 /// Both coils at work, neither probe's reading made by the model.

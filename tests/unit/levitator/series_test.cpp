@@ -85,7 +85,7 @@ TEST(IsLevitator, IsTrueOfTheLevitatorAlone) {
   EXPECT_FALSE(IsLevitator(config::LoadRig(config::FindConfig("one_axis", "rigs")).plant));
 }
 
-TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
+TEST(CalibratedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
   const config::RigFile rig = LevitatorFile();
   Found found;
   found.extended.theta = Zeros(1);
@@ -97,7 +97,7 @@ TEST(ExtendedRigFile, IsReadBackWithTheFoundValuesInItsKeys) {
   found.extended.theta[kLoad] = 0.01;
   found.extended.theta[kDeadBand] = 0.1;
   const config::RigFile read =
-      config::ParseRig(ExtendedRig(rig, Zeros(0), found), "extended_rig.yaml");
+      config::ParseRig(CalibratedRig(rig, Zeros(0), found), "calibrated_rig.yaml");
   EXPECT_NEAR(read.plant.delay_samples, 1.4, 1e-12);
   const auto& bearing = read.plant.bearings[0];
   EXPECT_NEAR(bearing.magnet.exponential->force_n_per_a2, 1.2 * 3.008878, 1e-9);
@@ -141,14 +141,77 @@ TEST(ReportValues, AreTheKeysAndUnitsOfTheRigFile) {
   EXPECT_TRUE(offset);
 }
 
-TEST(ExtendedRigFile, KeepsTheForceAtTheCentreWhenTheStiffnessAloneIsOther) {
+/// A delay as the cause, a weaker magnet and a shifted sensor within their tolerances.
+Found DelayFound() {
+  Found found;
+  found.extended.theta = Zeros(1);
+  found.extended.deviation = Zeros(1);
+  found.extended.theta[kDelay] = 1.4;
+  found.extended.theta[kForce] = -0.03;
+  found.extended.theta[kSensorOffset] = 60e-6;
+  found.extended.theta[Own(0, kOwnOffset)] = 20e-6;
+  for (std::size_t c = 0; c < Causes().size(); ++c) {
+    if (Causes()[c].effect == "extra_delay") found.causes = {c};
+  }
+  return found;
+}
+
+TEST(ExtendedRigFile, HasTheCausesAndNothingElseThatWasFitted) {
+  const config::RigFile rig = LevitatorFile();
+  config::RigFile expected = rig;
+  expected.plant.delay_samples += 1.4;
+  const config::RigFile read =
+      config::ParseRig(ExtendedRig(rig, Zeros(0), DelayFound()), "extended_rig.yaml");
+  EXPECT_EQ(config::WriteRig(read), config::WriteRig(expected));
+}
+
+TEST(ExtendedRigFile, WithoutACauseIsTheRigFileItself) {
+  const config::RigFile rig = LevitatorFile();
+  Found found = DelayFound();
+  found.causes.clear();
+  const config::RigFile read =
+      config::ParseRig(ExtendedRig(rig, Zeros(0), found), "extended_rig.yaml");
+  EXPECT_EQ(config::WriteRig(read), config::WriteRig(rig));
+}
+
+TEST(ExtendedRigFile, KeepsTheEffectsOfTheFileButNotWhatHealthyRecordsHaveShown) {
+  config::RigFile rig = LevitatorFile();
+  rig.plant.effects = config::ParseRig(CalibratedRig(rig, Zeros(0), DelayFound()), "r.yaml")
+                          .plant.effects;  // a sensor's offset of 80 um
+  ASSERT_EQ(rig.plant.effects.size(), 1U);
+  Theta healthy = OriginOf(rig);
+  healthy[kSpring] += 30.0;
+  const config::RigFile read =
+      config::ParseRig(ExtendedRig(rig, healthy, DelayFound()), "extended_rig.yaml");
+  ASSERT_EQ(read.plant.effects.size(), 1U);
+  EXPECT_EQ(read.plant.effects[0].id, effect::Id::kSensorOffset);
+  EXPECT_NEAR(read.plant.effects[0].values[0], 80e-6, 1e-10);
+}
+
+TEST(CalibratedRigFile, HasTheCausesTheCalibratedValuesAndWhatHealthyRecordsHaveShown) {
+  const config::RigFile rig = LevitatorFile();
+  Theta healthy = OriginOf(rig);
+  healthy[kSpring] += 30.0;
+  const config::RigFile read =
+      config::ParseRig(CalibratedRig(rig, healthy, DelayFound()), "calibrated_rig.yaml");
+  EXPECT_NEAR(read.plant.delay_samples, rig.plant.delay_samples + 1.4, 1e-9);
+  const double nominal = rig.plant.bearings[0].magnet.exponential->force_n_per_a2;
+  EXPECT_NEAR(read.plant.bearings[0].magnet.exponential->force_n_per_a2, 0.97 * nominal,
+              1e-6 * nominal);
+  ASSERT_EQ(read.plant.effects.size(), 2U);
+  EXPECT_EQ(read.plant.effects[0].id, effect::Id::kSensorOffset);
+  EXPECT_NEAR(read.plant.effects[0].values[0], 80e-6, 1e-10);  // the records' mean besides
+  EXPECT_EQ(read.plant.effects[1].id, effect::Id::kCouplingStiffness);
+}
+
+TEST(CalibratedRigFile, KeepsTheForceAtTheCentreWhenTheStiffnessAloneIsOther) {
   const config::RigFile rig = LevitatorFile();
   Found found;
   found.extended.theta = Zeros(1);
   found.extended.deviation = Zeros(1);
   found.extended.theta[kForceDecay] = 0.25;
   const config::RigFile read =
-      config::ParseRig(ExtendedRig(rig, Zeros(0), found), "extended_rig.yaml");
+      config::ParseRig(CalibratedRig(rig, Zeros(0), found), "calibrated_rig.yaml");
   const auto centre = [](const config::RigFile& file) {
     const auto& magnet = file.plant.bearings[0].magnet;
     return magnet.exponential->force_n_per_a2 *
