@@ -1,6 +1,7 @@
 #include "identification/nonlinear/refine.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -61,7 +62,9 @@ class FreeRun {
     Eigen::MatrixXd output = measured_;
     Eigen::VectorXd window(at.size());
     // Sensitivities of the last `output_lags` rows, as a ring: unknowns x outputs each.
-    std::vector<Eigen::MatrixXd> ring(static_cast<std::size_t>(at.output_lags),
+    // A model of inputs alone has no use for them, and a ring of one.
+    const Index kept = std::max<Index>(at.output_lags, 1);
+    std::vector<Eigen::MatrixXd> ring(static_cast<std::size_t>(kept),
                                       Eigen::MatrixXd::Zero(unknowns, derive ? at.outputs : 0));
     Eigen::MatrixXd now(unknowns, derive ? at.outputs : 0);
     for (Index k = at.Memory(); k < output.rows(); ++k) {
@@ -75,7 +78,7 @@ class FreeRun {
         sums.squares = std::numeric_limits<double>::infinity();
         return sums;
       }
-      if (derive) ring[static_cast<std::size_t>(k % at.output_lags)] = now;
+      if (derive) ring[static_cast<std::size_t>(k % kept)] = now;
       if (k < skip_) continue;
       for (Index o = 0; o < at.outputs; ++o) {
         const double residual = measured_(k, o) - output(k, o);
