@@ -2,13 +2,16 @@
 
 #include <CLI/App.hpp>
 
+#include "cli/build_mark.hpp"
 #include "cli/program.hpp"
 #include "cli/study_commands.hpp"
 
 int main(int argc, char** argv) {
   using namespace levitas;
   return cli::RunProgram(argc, argv, [&](CLI::App& app, cli::Action& action) {
-    if (argc > 1 && cli::FindStudyCommand(argv[1]) != nullptr) cli::StartStudy(argv);
+    if (argc > 1 && cli::FindStudyCommand(argv[1]) != nullptr) {
+      cli::StartStudy(argv, BuildMark());
+    }
     cli::AddRunningCommands(app, action);
     // For the list of commands only.
     for (const cli::StudyCommand& command : cli::kStudyCommands) {

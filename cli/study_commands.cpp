@@ -6,6 +6,7 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -26,18 +27,39 @@ CLI::App* AddStudyCommand(CLI::App& app, std::string_view name) {
   return app.add_subcommand(command->name, command->meaning);
 }
 
-void StartStudy(char** argv) {
+namespace {
+
+/// amb-study in the folder of the program that runs.
+std::string StudyPath() {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) {
     throw Problem(ExitStatus::kOther, "/proc/self/exe: " + error.message() +
                                           "; without it amb does not find amb-study");
   }
-  const std::string program = (self.parent_path() / "amb-study").string();
+  return (self.parent_path() / "amb-study").string();
+}
+
+}  // namespace
+
+void StartStudy(char** argv, const char* mark) {
+  const std::string program = StudyPath();
+  setenv(kStartedBy, mark, 1);
   execv(program.c_str(), argv);
   throw Problem(ExitStatus::kOther,
                 fmt::format("{}: {}. amb {} is a part of amb-study, which `./amb {}` builds",
                             program, std::strerror(errno), argv[1], argv[1]));
+}
+
+void RefuseOtherBuild(const char* mark) {
+  const char* starter = std::getenv(kStartedBy);
+  if (starter == nullptr || std::string_view(starter) == mark) return;
+  throw Problem(
+      ExitStatus::kOther,
+      fmt::format("{} is of another build (mark {}) than the amb beside it (mark {}), so that the "
+                  "two may read and compute differently; `ninja programs` in the build folder, or "
+                  "any command through ./amb, builds both",
+                  StudyPath(), mark, starter));
 }
 
 }  // namespace levitas::cli

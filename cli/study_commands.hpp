@@ -4,6 +4,8 @@
 // Why      identification and diagnosis are more than half of what there is to compile; whoever
 //          wants to run a rig does not wait for them.
 // Found    amb-study lies in the folder of the program that asks.
+// Build    the two must come from one build: amb hands over its mark (build_mark.hpp) in the
+//          environment, and an amb-study that was linked with other libraries refuses to answer.
 // Failure  StartStudy returns only by throwing Problem (kOther): the program is not there or cannot
 //          be started.
 
@@ -37,7 +39,13 @@ inline constexpr std::array kStudyCommands{
 /// The subcommand of that name, with its meaning, to be given options. `name` is in the list.
 [[nodiscard]] CLI::App* AddStudyCommand(CLI::App& app, std::string_view name);
 
-/// Puts amb-study in the place of this process.
-[[noreturn]] void StartStudy(char** argv);
+/// The variable of the environment with the mark of the amb that started amb-study.
+inline constexpr const char* kStartedBy = "LEVITAS_STARTED_BY_BUILD";
+
+/// Puts amb-study in the place of this process; `mark` is that of this program.
+[[noreturn]] void StartStudy(char** argv, const char* mark);
+
+/// Throws Problem (kOther) when an amb of another mark than `mark` started this program.
+void RefuseOtherBuild(const char* mark);
 
 }  // namespace levitas::cli

@@ -1,12 +1,15 @@
 // amb-study: every command, those of identification and diagnosis included. Started by amb.
 
+#include "cli/build_mark.hpp"
 #include "cli/program.hpp"
 #include "cli/study/bench_command.hpp"
+#include "cli/study_commands.hpp"
 
 namespace {
 
 void AddCommands(CLI::App& app, levitas::cli::Action& action) {
   using namespace levitas::cli;
+  RefuseOtherBuild(levitas::BuildMark());
   AddRunningCommands(app, action);
   AddSimulateCommand(app, action);
   AddEffectsCommand(app, action);

@@ -1,5 +1,6 @@
 """The help of every command names each of its options, and each option it names is accepted."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -108,6 +109,19 @@ class Help(CommandTest):
         done = subprocess.run([alone, "identify", "frf"], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 1)
         self.assertIn("./amb identify", done.stderr)
+
+    def test_amb_study_of_another_build_than_the_amb_that_starts_it_refuses_to_answer(self):
+        command = [BINARIES / "amb-study", "effects"]
+        alone = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual(alone.returncode, DONE, alone.stderr)
+        self.assertEqual(amb(self.folder, "effects").stdout, alone.stdout)
+        stale = subprocess.run(command, capture_output=True, text=True, check=False,
+                               env=dict(os.environ, LEVITAS_STARTED_BY_BUILD="0123456789abcdef"))
+        self.assertEqual(stale.returncode, 1)
+        self.assertEqual(stale.stdout, "")
+        self.assertRegex(stale.stderr, r"amb-study is of another build \(mark [0-9a-f]{16}\) than the "
+                                       r"amb beside it \(mark 0123456789abcdef\)")
+        self.assertIn("builds both", stale.stderr)
 
     def test_defaults_are_told(self):
         for command, default in (("modes", "flexible_rotor"), ("poles", "flexible_rotor"),
