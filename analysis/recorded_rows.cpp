@@ -2,30 +2,8 @@
 
 #include <cmath>
 
-#include "session/record_frame.hpp"
-
 namespace levitas::analysis {
 namespace {
-
-RecordedRow RowOf(const cycle::CycleRecord& record, const session::RecordFrame& bearing,
-                  std::size_t axes) {
-  const session::AxisSample sample = bearing.Bearing(record);
-  const SensorFrame& frame = record.in.frame;
-  const CurrentFrame& current = record.out.current;
-  RecordedRow row;
-  row.cycle = frame.cycle;
-  row.levitated = session::IsLevitated(record, axes);
-  row.excitation_a = record.in.op.excitation_a;
-  row.coil_current_a = record.in.coil_current_a;
-  row.coils = record.in.coils;
-  row.sample.position_m = sample.position_m;
-  row.sample.command.control_current_a = sample.current_a;
-  row.sample.command.bias_current_a = current.bias_current_a;
-  row.sample.command.amplifiers_enabled = current.amplifiers_enabled;
-  row.sample.speed_rad_per_s = frame.speed_rad_per_s;
-  row.sample.angle_rad = frame.angle_rad;
-  return row;
-}
 
 RecordedRow RowOf(const session::Recording& recording, std::size_t row) {
   RecordedRow made;
@@ -57,15 +35,6 @@ std::vector<RecordedRow> RowsOf(const session::Recording& recording) {
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     rows.push_back(RowOf(recording, row));
   }
-  return rows;
-}
-
-std::vector<RecordedRow> ReadRows(session::SessionReader& session, const RigNumbers& rig) {
-  session::RefuseOtherRig(session.header(), rig);
-  const session::RecordFrame bearing(rig);
-  std::vector<RecordedRow> rows;
-  cycle::CycleRecord record;
-  while (session.Next(record)) rows.push_back(RowOf(record, bearing, rig.axes()));
   return rows;
 }
 

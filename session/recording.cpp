@@ -68,6 +68,8 @@ class ColumnWriter {
     recording_.cycle.push_back(frame.cycle);
   }
 
+  void SetDamage(std::string text) { recording_.damage = std::move(text); }
+
   /// Gives the recording away, without spare room.
   Recording Finish() {
     recording_.cycle.shrink_to_fit();
@@ -134,6 +136,7 @@ void TakeSession(const std::string& path, const RigNumbers& rig, ColumnWriter& c
     RefuseOtherRig(session.header(), rig);
     cycle::CycleRecord record;
     while (session.Next(record)) columns.Take(record);
+    columns.SetDamage(session.damage().Text());
   } catch (const BadInput& refused) {
     const std::string text = refused.what();
     throw BadInput(text.starts_with(path) ? text : fmt::format("{}: {}", path, text));

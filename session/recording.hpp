@@ -21,7 +21,7 @@
 // Thread     any; LoadRecording keeps no state between calls.
 // Failure    BadInput naming the file: unreadable, other period or channels than the rig.
 //            std::invalid_argument for a rig whose polarity is neither +1 nor -1.
-// Not done   damage of a session and its events are not kept: session_reader.hpp has them.
+// Not done   events of a session are not kept: session_reader.hpp has them.
 
 #include <cstddef>
 #include <cstdint>
@@ -45,7 +45,8 @@ struct RowRange {
 };
 
 struct Recording {
-  std::string name;  ///< path, for messages
+  std::string name;    ///< path, for messages
+  std::string damage;  ///< of a session that was not read whole, in words; empty: none
   std::int64_t period_ns{};
   std::vector<std::string> channels;
   Column sensor_range_m;     ///< per axis

@@ -225,9 +225,12 @@ void Print(const Simulation& s, const SimulateOptions& options) {
 Simulation Simulate(const SimulateOptions& options) {
   Simulation s;
   s.rig = LoadRig(options);
-  session::SessionReader session(options.session_path);
-  auto rows = analysis::ReadRows(session, s.rig.numbers);
-  s.damage = session.damage().Text();
+  std::vector<analysis::RecordedRow> rows;
+  {
+    const session::Recording recording = session::LoadRecording(options.session_path, s.rig);
+    s.damage = recording.damage;
+    rows = analysis::RowsOf(recording);
+  }
   if (!rows.empty() && rows.front().coils > 0) {
     s.coils = analysis::FitCoils(rows, analysis::PredictCoilCurrents(s.rig.plant, rows),
                                  s.rig.numbers.period_s(), options.from_s, s.rig.numbers.channels);
@@ -265,7 +268,8 @@ void AddSimulateCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = AddStudyCommand(app, "simulate");
   command->footer(kHelp);
-  command->add_option("session", options->session_path, "Session file (see amb import)")
+  command
+      ->add_option("session", options->session_path, "Session, CSV or MAT file (docs/formats.md)")
       ->required();
   AddRigOption(*command, *options);
   command
