@@ -1,10 +1,9 @@
 #include "analysis/full_spectrum.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "numerics/fourier_transform.hpp"
+#include "numerics/hann_window.hpp"
 
 namespace levitas::analysis {
 
@@ -15,8 +14,7 @@ std::vector<double> FullAmplitudes(std::vector<std::complex<double>> orbit,
   for (const auto& value : orbit) mean += value;
   mean /= static_cast<double>(size);
   for (std::size_t n = 0; n < size; ++n) {
-    const double phase = 2.0 * std::numbers::pi * static_cast<double>(n);
-    orbit[n] = (orbit[n] - mean) * (0.5 - 0.5 * std::cos(phase / static_cast<double>(size)));
+    orbit[n] = (orbit[n] - mean) * numerics::HannWeight(n, size);
   }
   numerics::FourierTransform(orbit);
   // The Hann window's mean is one half: a line keeps its height.

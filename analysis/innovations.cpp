@@ -12,6 +12,7 @@
 #include "analysis/excitation_coherence.hpp"
 #include "analysis/spectrum.hpp"
 #include "common/problem.hpp"
+#include "numerics/hann_window.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -110,8 +111,7 @@ double OrderAmplitude2(const std::vector<InnovationRow>& piece, std::size_t star
   double turns = 0.0;
   for (std::size_t i = 0; i < kOrderWindow; ++i) {
     const InnovationRow& row = piece[start + i];
-    const double phase = 2.0 * std::numbers::pi * static_cast<double>(i) / kOrderWindow;
-    const double weight = 0.5 - 0.5 * std::cos(phase);
+    const double weight = numerics::HannWeight(i, kOrderWindow);
     sum += weight * row.innovation_m[channel] * std::polar(1.0, -order * row.angle_rad);
     weights += weight;
     turns += std::abs(row.speed_rad_per_s) * period_s / (2.0 * std::numbers::pi);

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <complex>
-#include <numbers>
 #include <stdexcept>
 
 #include "numerics/fourier_transform.hpp"
+#include "numerics/hann_window.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -19,10 +18,7 @@ std::vector<double> HannWindow(std::size_t segment) {
     throw std::invalid_argument("a spectrum's segment must be a power of two of at least 8");
   }
   std::vector<double> window(segment);
-  for (std::size_t i = 0; i < segment; ++i) {
-    const double phase = 2.0 * std::numbers::pi * static_cast<double>(i);
-    window[i] = 0.5 - 0.5 * std::cos(phase / static_cast<double>(segment));
-  }
+  for (std::size_t i = 0; i < segment; ++i) window[i] = numerics::HannWeight(i, segment);
   return window;
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include "diagnosis/inference/gain.hpp"
 #include "diagnosis/levitator/run_fit.hpp"
 #include "numerics/fourier_transform.hpp"
+#include "numerics/hann_window.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -29,9 +29,7 @@ std::vector<double> Spectrum(const std::vector<double>& error, double noise, std
   for (std::size_t at = 0; at + length <= error.size(); at += length) {
     windows += 1.0;
     for (std::size_t n = 0; n < length; ++n) {
-      const double hann = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(n) /
-                                               static_cast<double>(length));
-      windowed[n] = hann * error[at + n];
+      windowed[n] = numerics::HannWeight(n, length) * error[at + n];
     }
     const std::vector<std::complex<double>> lines = numerics::HalfSpectrum(windowed);
     for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(lines[k]);

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "numerics/hann_window.hpp"
+
 namespace levitas::numerics {
 namespace {
 
@@ -83,6 +85,21 @@ TEST(HalfSpectrum, IsTheFirstHalfOfTheWholeOne) {
     }
   }
   EXPECT_TRUE(HalfSpectrum({}).empty());
+}
+
+TEST(HannWeight, HasTheMeansOfTheWindowAndNoGapWhereCopiesOverlap) {
+  for (const std::size_t length : {8U, 1000U, 1024U}) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t n = 0; n < length; ++n) {
+      const double weight = HannWeight(n, length);
+      sum += weight;
+      squares += weight * weight;
+      EXPECT_NEAR(weight + HannWeight((n + length / 2) % length, length), 1.0, kRounding);
+    }
+    EXPECT_NEAR(sum / static_cast<double>(length), 0.5, kRounding);
+    EXPECT_NEAR(squares / static_cast<double>(length), 3.0 / 8.0, kRounding);
+  }
 }
 
 TEST(HalfSpectrum, OfASineStandsOnItsLineWithItsPhase) {
