@@ -14,6 +14,9 @@ COMPILER = shutil.which("c++")
 SKIP_STATUS = 77
 
 
+ALL = {"law/header.hpp", "law/law.cpp", "rotor/rotor.cpp"}
+
+
 class TidyCache(unittest.TestCase):
     def setUp(self):
         self.root = Path(tempfile.mkdtemp()).resolve()
@@ -43,7 +46,8 @@ class TidyCache(unittest.TestCase):
         path = self.root / "tools/clang-tidy-14"
         self.write("tools/clang-tidy-14", "#!/bin/sh\n"
                    f'[ "$1" != --version ] || {{ echo "{self.version}"; exit 0; }}\n'
-                   f'for last; do :; done\necho "$last" >> {self.root}/looked_at\n'
+                   'for word; do case "$word" in *.[ch]pp) '
+                   f'echo "$word" >> {self.root}/looked_at;; esac; done\n'
                    + (f'echo "{finding}"; exit 1\n' if finding else "exit 0\n"))
         path.chmod(0o755)
 
@@ -59,11 +63,13 @@ class TidyCache(unittest.TestCase):
                   for line in (self.root / "looked_at").read_text().splitlines()}
         return done, looked
 
-    def test_looks_at_our_sources_not_at_tests_or_generated_code(self):
+    def test_looks_at_our_sources_and_headers_not_at_tests_or_generated_code(self):
+        self.write("tests/support.hpp", "int Support();\n")
+        self.write("build/tidy/generated.hpp", "int Generated();\n")
         done, looked = self.tidy()
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(looked, {"law/law.cpp", "rotor/rotor.cpp"})
-        self.assertIn("clang-tidy: 2 files, 0 with findings", done.stdout)
+        self.assertEqual(looked, ALL)
+        self.assertIn("clang-tidy: 3 files, 0 with findings", done.stdout)
 
     def test_does_not_look_again_until_text_header_or_settings_change(self):
         self.tidy()
@@ -71,20 +77,19 @@ class TidyCache(unittest.TestCase):
         self.write("rotor/rotor.cpp", "int Modes() { return 9; }\n")
         self.assertEqual(self.tidy()[1], {"rotor/rotor.cpp"})
         self.write("law/header.hpp", "int Gain();\nint More();\n")
-        self.assertEqual(self.tidy()[1], {"law/law.cpp"})
+        self.assertEqual(self.tidy()[1], {"law/header.hpp", "law/law.cpp"})
         self.write(".clang-tidy", "Checks: 'bugprone-*'\n")
-        self.assertEqual(self.tidy()[1], {"law/law.cpp", "rotor/rotor.cpp"})
+        self.assertEqual(self.tidy()[1], ALL)
 
     def test_looks_again_when_asked_to_or_when_clang_tidy_or_the_flags_are_others(self):
-        both = {"law/law.cpp", "rotor/rotor.cpp"}
         self.tidy()
-        self.assertEqual(self.tidy("--no-cache")[1], both)
+        self.assertEqual(self.tidy("--no-cache")[1], ALL)
         self.version = "14.0.7"
         self.says()
-        self.assertEqual(self.tidy()[1], both)
+        self.assertEqual(self.tidy()[1], ALL)
         database = self.root / "build/tidy/compile_commands.json"
         database.write_text(database.read_text().replace(" -o ", " -Wall -o "))
-        self.assertEqual(self.tidy()[1], both)
+        self.assertEqual(self.tidy()[1], ALL)
 
     def test_a_comment_counts_because_it_may_silence_a_finding(self):
         self.write("rotor/rotor.cpp", "int Modes() { return 8; }  // NOLINT: as it should be\n")
@@ -99,8 +104,7 @@ class TidyCache(unittest.TestCase):
         self.setUp()
         self.assertNotEqual(self.root, first)
         self.assertEqual(self.tidy(cache=shared)[1], set())
-        self.assertEqual(self.tidy(cache=self.root / "own")[1],
-                         {"law/law.cpp", "rotor/rotor.cpp"})
+        self.assertEqual(self.tidy(cache=self.root / "own")[1], ALL)
 
     def test_a_finding_fails_is_told_once_and_is_looked_at_again(self):
         self.says("header.hpp:1: something is wrong")
@@ -108,11 +112,16 @@ class TidyCache(unittest.TestCase):
             done, looked = self.tidy()
             self.assertEqual(done.returncode, 1)
             self.assertEqual(done.stdout.count("something is wrong"), 1)
-            self.assertIn("2 files, 2 with findings", done.stdout)
-            self.assertEqual(len(looked), 2)
+            self.assertIn("3 files, 3 with findings", done.stdout)
+            self.assertEqual(looked, ALL)
 
     def test_looks_only_at_the_files_that_are_named(self):
         self.assertEqual(self.tidy("law/law.cpp")[1], {"law/law.cpp"})
+        self.assertEqual(self.tidy("law/header.hpp")[1], {"law/header.hpp"})
+
+    def test_a_header_in_a_folder_without_sources_is_looked_at_as_well(self):
+        self.write("units/units.hpp", "double Metres();\n")
+        self.assertEqual(self.tidy()[1], ALL | {"units/units.hpp"})
 
     def test_a_named_file_that_is_not_built_is_a_usage_error_not_a_pass(self):
         self.write("law/new.cpp", "int New();\n")

@@ -106,7 +106,8 @@ TEST(Impedance, OfATiltingDiscIsTheForcePerDisplacementOfItsFourByFourEquation) 
   const ShaftKnown shaft{2.0, 60.0, 2.0e5, 3.0e3, 4.0e2, 0.01, 0.018, -0.6};
   for (const double w : {-900.0, -40.0, 10.0, 350.0}) {
     const GearedLine line = At(w, 120.0);
-    // Displacement r and tilt p, both x + jy: [k + jWc - mW^2, k_la; k_la, k_aa - I_d W^2 + I_p w W]
+    // Displacement r and tilt p, both x + jy:
+    // [k + jWc - mW^2, k_la; k_la, k_aa - I_d W^2 + I_p w W]
     Eigen::Matrix2cd dynamic;
     dynamic << Complex(2.0e5 - 2.0 * w * w, 60.0 * w), 3.0e3, 3.0e3,
         4.0e2 - 0.01 * w * w + 0.018 * -0.6 * 120.0 * w;
