@@ -1,7 +1,8 @@
 #pragma once
 // Hann's window, periodic: the one for spectra (Harris 1978, Proc. IEEE 66, 51).
 //
-// Equation  w_n = 1/2 - 1/2 cos(2 pi n / N). Mean 1/2, mean square 3/8; copies N/2 apart add up to 1.
+// Equation  w_n = 1/2 - 1/2 cos(2 pi n / N): mean 1/2, mean square 3/8; two of them, N/2 apart,
+//           add up to 1.
 // Thread    any; pure. Failure: none.
 
 #include <cmath>
