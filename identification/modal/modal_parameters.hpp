@@ -89,7 +89,7 @@ struct ModalStart {
 };
 
 /// From a rig file, with its first `bending_modes` bending modes; modes that the file does not have
-/// start with frequency 0 in `frequency_rad_per_s` and small deflections of alternating sign.
+/// start at 1 rad/s, far below the band, with small deflections of alternating sign.
 [[nodiscard]] ModalStart StartFromRig(const plant::PlantConfig& rig, Eigen::Index bending_modes);
 
 }  // namespace levitas::identification
