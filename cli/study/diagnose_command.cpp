@@ -11,9 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/study/answer_folder.hpp"
-#include "cli/study/diagnosis_files.hpp"
 #include "cli/study/diagnosis_inputs.hpp"
-#include "cli/study/diagnosis_text.hpp"
 #include "cli/study/kept_memory.hpp"
 #include "cli/study/progress_line.hpp"
 #include "cli/study/written_files.hpp"
@@ -24,6 +22,8 @@
 #include "diagnosis/report/build_report.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/plan.hpp"
+#include "report/diagnosis/diagnosis_files.hpp"
+#include "report/diagnosis/diagnosis_text.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -18,8 +18,8 @@
 #include "cli/json_file.hpp"
 #include "cli/study/innovation_files.hpp"
 #include "cli/study_commands.hpp"
-#include "cli/text_table.hpp"
 #include "common/rotational_speed.hpp"
+#include "report/text/text_table.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {

@@ -11,10 +11,10 @@
 #include "cli/analysis_options.hpp"
 #include "cli/json_file.hpp"
 #include "cli/study/identify/identify_commands.hpp"
-#include "cli/study/identify/response_files.hpp"
 #include "cli/study/written_files.hpp"
 #include "common/rotational_speed.hpp"
 #include "identification/frf/measured_sensitivity.hpp"
+#include "report/identification/response_files.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {

@@ -11,12 +11,12 @@
 #include "cli/analysis_options.hpp"
 #include "cli/json_file.hpp"
 #include "cli/study/identify/geared_commands.hpp"
-#include "cli/study/identify/geared_files.hpp"
-#include "cli/study/identify/modal_files.hpp"
 #include "cli/study/written_files.hpp"
 #include "common/problem.hpp"
 #include "identification/geared/record_lines.hpp"
 #include "identification/identified_rig.hpp"
+#include "report/identification/geared_files.hpp"
+#include "report/identification/modal_files.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {

@@ -16,13 +16,13 @@
 #include "cli/analysis_options.hpp"
 #include "cli/json_file.hpp"
 #include "cli/study/identify/identify_commands.hpp"
-#include "cli/study/identify/modal_files.hpp"
-#include "cli/study/identify/response_files.hpp"
 #include "cli/study/identify/start_options.hpp"
 #include "cli/study/written_files.hpp"
 #include "common/rotational_speed.hpp"
 #include "identification/identified_rig.hpp"
 #include "identification/modal/modal_starts.hpp"
+#include "report/identification/modal_files.hpp"
+#include "report/identification/response_files.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {

@@ -1,6 +1,6 @@
 // Tables for people: columns never run together, whatever stands in them.
 
-#include "cli/text_table.hpp"
+#include "report/text/text_table.hpp"
 
 #include <gtest/gtest.h>
 

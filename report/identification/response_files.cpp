@@ -1,4 +1,4 @@
-#include "cli/study/identify/response_files.hpp"
+#include "report/identification/response_files.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "cli/analysis_options.hpp"
 #include "common/output_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "identification/frf/measured_sensitivity.hpp"

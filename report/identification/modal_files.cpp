@@ -1,14 +1,13 @@
-#include "cli/study/identify/modal_files.hpp"
+#include "report/identification/modal_files.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "cli/analysis_options.hpp"
-#include "cli/study/identify/response_files.hpp"
 #include "common/output_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "identification/modal/modal_quality.hpp"
+#include "report/identification/response_files.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {

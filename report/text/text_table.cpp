@@ -1,4 +1,4 @@
-#include "cli/text_table.hpp"
+#include "report/text/text_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/study/diagnosis_page.hpp"
+#include "report/diagnosis/diagnosis_page.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/study/diagnosis_text.hpp"
 #include "diagnosis/report/report_text.hpp"
+#include "report/diagnosis/diagnosis_text.hpp"
 #include "report/svg/escaped_text.hpp"
 #include "report/svg/figure.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/study/diagnosis_text.hpp"
+#include "report/diagnosis/diagnosis_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "cli/text_table.hpp"
 #include "diagnosis/report/report_text.hpp"
+#include "report/text/text_table.hpp"
 
 namespace levitas::cli {
 namespace {

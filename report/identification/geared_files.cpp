@@ -1,4 +1,4 @@
-#include "cli/study/identify/geared_files.hpp"
+#include "report/identification/geared_files.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "cli/analysis_options.hpp"
 #include "common/rotational_speed.hpp"
 #include "report/svg/figure.hpp"
 

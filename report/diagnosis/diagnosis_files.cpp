@@ -1,11 +1,10 @@
-#include "cli/study/diagnosis_files.hpp"
+#include "report/diagnosis/diagnosis_files.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/json_file.hpp"
-#include "cli/study/diagnosis_page.hpp"
-#include "cli/text_file.hpp"
+#include "common/output_file.hpp"
+#include "report/diagnosis/diagnosis_page.hpp"
 
 namespace levitas::cli {
 
@@ -161,10 +160,10 @@ nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
 std::vector<std::string> WriteDiagnosis(const DiagnosisReport& report, const std::string& folder) {
   std::vector<std::string> paths{folder + "/diagnosis.json", folder + "/extended_rig.yaml",
                                  folder + "/calibrated_rig.yaml", folder + "/report.html"};
-  WriteJsonFile(paths[0], DiagnosisJson(report));
-  WriteTextFile(paths[1], report.extended_rig);
-  WriteTextFile(paths[2], report.calibrated_rig);
-  WriteTextFile(paths[3], DiagnosisPage(report));
+  WriteWholeFile(paths[0], DiagnosisJson(report).dump(2) + '\n');
+  WriteWholeFile(paths[1], report.extended_rig);
+  WriteWholeFile(paths[2], report.calibrated_rig);
+  WriteWholeFile(paths[3], DiagnosisPage(report));
   return paths;
 }
 
