@@ -3,8 +3,8 @@
 #include <CLI/App.hpp>
 
 #include "cli/build_mark.hpp"
+#include "cli/commands/study_commands.hpp"
 #include "cli/program.hpp"
-#include "cli/study_commands.hpp"
 
 int main(int argc, char** argv) {
   using namespace levitas;

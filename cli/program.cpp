@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/command.hpp"
+#include "cli/commands/command.hpp"
 #include "common/nearest.hpp"
 #include "controller/rt/say.hpp"
 #include "levitas_version.hpp"

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "cli/command.hpp"
+#include "cli/commands/command.hpp"
 
 namespace levitas::cli {
 

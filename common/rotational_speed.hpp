@@ -4,7 +4,7 @@
 //
 // Equation   w = n pi/30. The same two functions convert an acceleration in rpm/s.
 // Rounding   both are within two units in the last place. Files of rigs are converted from their
-//            text instead (config/schema/unit.hpp), which rounds once.
+//            text instead (configuration/schema/unit.hpp), which rounds once.
 // Thread     any; pure. Failure: none; what is not finite stays so.
 
 #include <numbers>

@@ -7,7 +7,7 @@
 
 #include "common/enums.hpp"
 #include "common/rotational_speed.hpp"
-#include "config/excitation_request.hpp"
+#include "configuration/excitation_request.hpp"
 #include "dashboard/request_fields.hpp"
 
 namespace levitas::dashboard {

@@ -5,7 +5,7 @@
 //   POST /api/excitation  {"hold_s": 5, "orbit_limit_um": 75, "excitation": [{"channel": "de_x",
 //                          "signal": "chirp", "amplitude_a": 0.2, "from_hz": 10, "to_hz": 400,
 //                          "repeat_s": 2}]}: keys, units and ranges of a scenario's step
-//                          (config/excitation_request.hpp)
+//                          (configuration/excitation_request.hpp)
 //
 // Answer   200 the controller accepted it, 409 it refused, 504 it did not answer, 400 the request
 //          cannot be understood. {"outcome": "accepted", "text": "command lift (cycle 4711)"}

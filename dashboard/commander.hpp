@@ -50,7 +50,7 @@ class Commander {
                      std::chrono::milliseconds patience = kPatience);
 
   [[nodiscard]] CommandReply Send(const CommandRequest& request);
-  /// `step_yaml`: see config/excitation_request.hpp.
+  /// `step_yaml`: see configuration/excitation_request.hpp.
   [[nodiscard]] CommandReply SendExcitation(const std::string& step_yaml);
   /// Every answer of the controller, to whomever.
   void Saw(const transport::CommandAnswer& answer);

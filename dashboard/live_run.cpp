@@ -4,7 +4,7 @@
 #include <levitas_msg/sample_batch_t.hpp>
 #include <utility>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "lcmtypes/checked_decode.hpp"
 #include "session/record_codec.hpp"
 #include "transport/lcm_network.hpp"

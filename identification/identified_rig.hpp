@@ -11,7 +11,7 @@
 // Failure   BadInput when ki or ks of a bearing is not positive: no magnet is like that. Thread
 // any.
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/geared/full_spectrum.hpp"
 #include "identification/modal/identify_modal.hpp"
 

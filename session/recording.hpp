@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "common/rig_numbers.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/cycle/cycle_io.hpp"
 #include "session/session_header.hpp"
 

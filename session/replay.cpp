@@ -4,7 +4,7 @@
 
 #include "common/problem.hpp"
 #include "common/standard_arithmetic.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 
 namespace levitas::session {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "session/session_reader.hpp"
 #include "verdict/commission.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "analysis/speed_sweep.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "session/session_reader.hpp"
 
 namespace levitas::verdict {

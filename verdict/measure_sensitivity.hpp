@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "analysis/sensitivity.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 
 namespace levitas::verdict {
 

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/model/model_run.hpp"
 #include "plant_sim/effect/effect_config.hpp"
 

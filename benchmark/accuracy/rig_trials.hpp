@@ -10,7 +10,7 @@
 
 #include "benchmark/accuracy/campaign.hpp"
 #include "benchmark/accuracy/perturbed_rig.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 
 namespace levitas::accuracy {
 

@@ -14,7 +14,7 @@
 #include "benchmark/accuracy/campaign.hpp"
 #include "benchmark/accuracy/hidden_effect.hpp"
 #include "benchmark/accuracy/rig_trials.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 
 namespace levitas::accuracy {
 

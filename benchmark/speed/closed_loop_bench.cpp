@@ -3,7 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "plant_sim/plant/plant.hpp"
 

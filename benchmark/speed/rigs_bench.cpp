@@ -10,7 +10,7 @@
 
 #include <filesystem>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 

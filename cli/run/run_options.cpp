@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "common/problem.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "hil/socketcan/can_connection.hpp"
 
 namespace levitas::cli {

@@ -13,7 +13,7 @@
 #include "cli/run/live_page.hpp"
 #include "cli/run/supervise.hpp"
 #include "common/rig_numbers.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "hil/socketcan/link_kind.hpp"
 #include "transport/lcm_network.hpp"
 

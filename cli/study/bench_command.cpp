@@ -8,12 +8,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/study/bench_sweep.hpp"
 #include "cli/study/bench_trials.hpp"
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/study/kept_memory.hpp"
-#include "cli/study_commands.hpp"
 #include "common/output_file.hpp"
 
 namespace levitas::cli {

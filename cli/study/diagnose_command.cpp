@@ -7,15 +7,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/analysis_options.hpp"
-#include "cli/command.hpp"
+#include "cli/commands/command.hpp"
+#include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "cli/study/answer_folder.hpp"
 #include "cli/study/diagnosis_inputs.hpp"
 #include "cli/study/kept_memory.hpp"
 #include "cli/study/progress_line.hpp"
 #include "cli/study/written_files.hpp"
-#include "cli/study_commands.hpp"
 #include "cli/text_file.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/plan.hpp"

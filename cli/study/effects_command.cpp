@@ -8,10 +8,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/analysis_options.hpp"
-#include "cli/command.hpp"
+#include "cli/commands/command.hpp"
+#include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
-#include "cli/study_commands.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "common/nearest.hpp"
 #include "common/output_file.hpp"
 #include "plant_sim/plant/plant_model.hpp"

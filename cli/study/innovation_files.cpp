@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/analysis_options.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "cli/text_file.hpp"
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"

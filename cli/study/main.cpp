@@ -1,9 +1,9 @@
 // amb-study: every command, those of identification and diagnosis included. Started by amb.
 
 #include "cli/build_mark.hpp"
+#include "cli/commands/study_commands.hpp"
 #include "cli/program.hpp"
 #include "cli/study/bench_command.hpp"
-#include "cli/study_commands.hpp"
 
 namespace {
 

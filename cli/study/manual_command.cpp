@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "cli/command.hpp"
+#include "cli/commands/command.hpp"
+#include "cli/commands/study_commands.hpp"
 #include "cli/study/manual/manual.hpp"
-#include "cli/study_commands.hpp"
 #include "levitas_version.hpp"
 
 namespace levitas::cli {

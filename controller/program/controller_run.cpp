@@ -9,8 +9,8 @@
 #include <optional>
 #include <thread>
 
-#include "config/law_notes.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/law_notes.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/loop/command_arbiter.hpp"
 #include "controller/loop/control_loop.hpp"
 #include "controller/program/command_answers.hpp"

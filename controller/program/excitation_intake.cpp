@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "config/excitation_request.hpp"
+#include "configuration/excitation_request.hpp"
 #include "controller/rt/thread_trouble.hpp"
 
 namespace levitas::controller_program {

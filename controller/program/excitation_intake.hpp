@@ -1,7 +1,8 @@
 #pragma once
 // Makes the test signals that are asked for over the network, in a thread of its own, and hands
-// them to the operator's desk. What one costs is bounded by config/excitation_request.hpp, how many
-// wait by kWaiting, and nobody waits for either.
+// them to the operator's desk. The cost of one signal is bounded by
+// configuration/excitation_request.hpp, the number of waiting signals by kWaiting, and nobody waits
+// for either.
 //
 // Order    one after the other. One that waits when an emergency stop or the command to end the
 //          test signal comes is not begun any more.

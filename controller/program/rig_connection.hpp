@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/port/rig_port.hpp"
 #include "controller/program/controller_options.hpp"
 #include "controller/program/delay_watch.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // The numbers of the rig file that the models need. Thread: plain data.
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/levitator/origin.hpp"
 
 namespace levitas::levitator {

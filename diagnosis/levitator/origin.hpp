@@ -7,7 +7,7 @@
 //            that set in later: passed over, they would be found again as a cause.
 // Thread     any; pure.
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/levitator/parameters.hpp"
 
 namespace levitas::levitator {

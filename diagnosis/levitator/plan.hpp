@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::levitator {

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/levitator/search.hpp"
 #include "diagnosis/report/diagnosis_report.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "analysis/innovations.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 
 namespace levitas::levitator {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/model/model_run.hpp"
 
 namespace levitas::diagnosis {

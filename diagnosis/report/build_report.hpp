@@ -5,7 +5,7 @@
 // Thread   any; pure.
 // Failure  std::logic_error for a cause that is not in the catalogue of effects.
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::diagnosis {

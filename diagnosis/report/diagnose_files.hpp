@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/inference/diagnose.hpp"
 #include "diagnosis/inference/gain.hpp"
 #include "diagnosis/records/load.hpp"

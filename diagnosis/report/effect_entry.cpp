@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "config/schema/unit.hpp"
+#include "configuration/schema/unit.hpp"
 #include "diagnosis/report/gear_entry.hpp"
 #include "diagnosis/terms/terms.hpp"
 #include "plant_sim/effect/catalogue.hpp"

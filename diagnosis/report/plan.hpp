@@ -11,7 +11,7 @@
 
 #include <string>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/report/diagnosis_report.hpp"
 
 namespace levitas::diagnosis {

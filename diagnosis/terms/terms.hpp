@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "config/tolerances.hpp"
+#include "configuration/tolerances.hpp"
 #include "diagnosis/model/rig_view.hpp"
 #include "diagnosis/model/term.hpp"
 

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "hil/can/budget.hpp"
 #include "hil/socketcan/link_kind.hpp"
 

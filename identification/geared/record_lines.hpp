@@ -16,7 +16,7 @@
 
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/geared/full_spectrum.hpp"
 #include "session/recording.hpp"
 

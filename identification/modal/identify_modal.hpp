@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/modal/modal_fit.hpp"
 #include "identification/modal/modal_quality.hpp"
 #include "identification/modal/uncertainty.hpp"

@@ -11,7 +11,7 @@
 
 #include <string>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/nonlinear/known_loop.hpp"
 
 namespace levitas::identification {

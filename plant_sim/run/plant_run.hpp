@@ -11,7 +11,7 @@
 #include <string>
 
 #include "common/problem.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "plant_sim/run/plant_loop.hpp"
 #include "plant_sim/run/plant_options.hpp"
 

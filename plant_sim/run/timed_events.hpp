@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "plant_sim/events/effect_schedule.hpp"
 #include "plant_sim/events/rig_faults.hpp"
 #include "plant_sim/plant/plant.hpp"

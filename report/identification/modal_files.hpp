@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/modal/identify_modal.hpp"
 
 namespace levitas::cli {

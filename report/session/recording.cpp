@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/problem.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "plant_sim/plant/train_model.hpp"
 #include "session/record_frame.hpp"
 #include "session/session_reader.hpp"

@@ -2,8 +2,8 @@
 // chooses which.
 
 #include "common/problem.hpp"
-#include "config/excitation_request.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/excitation_request.hpp"
+#include "configuration/rig_file.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace levitas::fuzz {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
 #include "plant_sim/plant/plant.hpp"

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/geared/full_spectrum.hpp"
 #include "plant_sim/gear/gear_config.hpp"
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/scenario/scenario_config.hpp"
 #include "identification/nonlinear/hammerstein_wiener.hpp"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/scenario/scenario_config.hpp"
 #include "plant_sim/plant/plant_parameters.hpp"
 #include "session/recording.hpp"

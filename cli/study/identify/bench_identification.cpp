@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/accuracy/identification/modal_trial.hpp"
-#include "cli/analysis_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/study/identify/start_options.hpp"
 #include "common/rotational_speed.hpp"

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/accuracy/identification/pump_trial.hpp"
-#include "cli/analysis_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/text_file.hpp"
 

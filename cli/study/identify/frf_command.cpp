@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/analysis_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/written_files.hpp"
 #include "common/rotational_speed.hpp"

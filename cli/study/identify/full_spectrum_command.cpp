@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "cli/analysis_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/study/written_files.hpp"
 #include "common/problem.hpp"

@@ -1,7 +1,7 @@
 #pragma once
-// Commands for geared rotors and for trials of the identification; as cli/command.hpp says.
+// Commands for geared rotors and for trials of the identification (cli/commands/command.hpp).
 
-#include "cli/command.hpp"
+#include "cli/commands/command.hpp"
 
 namespace levitas::cli {
 

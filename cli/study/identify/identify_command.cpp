@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/commands/study_commands.hpp"
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/study/identify/identify_commands.hpp"
-#include "cli/study_commands.hpp"
 
 namespace levitas::cli {
 

@@ -1,7 +1,7 @@
 #pragma once
-// The subcommands of `amb identify`: each adds its options and action, as cli/command.hpp says.
+// The subcommands of `amb identify`: each adds its options and action (cli/commands/command.hpp).
 
-#include "cli/command.hpp"
+#include "cli/commands/command.hpp"
 
 namespace levitas::cli {
 

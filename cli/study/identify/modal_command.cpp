@@ -13,8 +13,8 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/analysis_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/identify/start_options.hpp"
 #include "cli/study/written_files.hpp"

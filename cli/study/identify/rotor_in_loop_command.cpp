@@ -9,8 +9,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/analysis_options.hpp"
 #include "cli/json_file.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/identify/sensor_options.hpp"
 #include "cli/study/written_files.hpp"

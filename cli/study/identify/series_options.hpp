@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/analysis_options.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "identification/nonlinear/lagged_model.hpp"
 
 namespace CLI {

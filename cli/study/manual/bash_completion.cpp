@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
 #include "cli/study/manual/manual.hpp"
-#include "config/shipped_names.hpp"
+#include "configuration/shipped_names.hpp"
 
 namespace levitas::cli {
 namespace {

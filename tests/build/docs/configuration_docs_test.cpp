@@ -6,8 +6,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "config/rig_file.hpp"
-#include "config/text/documenter.hpp"
+#include "configuration/rig_file.hpp"
+#include "configuration/text/documenter.hpp"
 #include "tests/support/paths.hpp"
 
 namespace levitas::config {

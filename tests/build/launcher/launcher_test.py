@@ -83,7 +83,7 @@ class Launcher(unittest.TestCase):
         study = self.root / "build/release/amb-study"
         self.amb("run")
         self.assertFalse(study.exists())
-        listed = re.findall(r'StudyCommand\{"(\w+)"', (SOURCE / "cli/study_commands.hpp").read_text())
+        listed = re.findall(r'StudyCommand\{"(\w+)"', (SOURCE / "cli/commands/study_commands.hpp").read_text())
         self.assertIn("diagnose", listed)
         for name in set(listed) - {"bench"}:  # bench: below
             with self.subTest(name):

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/rt/clock.hpp"
 #include "hil/can_port/can_rig_link.hpp"

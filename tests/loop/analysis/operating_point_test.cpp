@@ -11,7 +11,7 @@
 #include "analysis/poles.hpp"
 #include "analysis/sensitivity.hpp"
 #include "common/rotational_speed.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/law/axis_law.hpp"
 #include "plant_sim/plant/find_operating_point.hpp"
 #include "plant_sim/plant/linear_model.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 
 namespace levitas::identification {

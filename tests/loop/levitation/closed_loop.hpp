@@ -10,7 +10,7 @@
 #include <string>
 
 #include "common/rotational_speed.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/supervisor/supervisor.hpp"
 #include "plant_sim/plant/plant.hpp"

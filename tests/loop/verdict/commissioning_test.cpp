@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/rotational_speed.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
 #include "plant_sim/plant/plant.hpp"

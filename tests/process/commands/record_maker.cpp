@@ -13,7 +13,7 @@
 
 #include "common/random.hpp"
 #include "common/rotational_speed.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/law/axis_law.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "tests/support/paths.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/rotational_speed.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "session/session_writer.hpp"
 #include "tests/loop/levitation/closed_loop.hpp"
 #include "tests/support/paths.hpp"

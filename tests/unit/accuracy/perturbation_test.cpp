@@ -11,7 +11,7 @@
 #include "benchmark/accuracy/perturbed_rig.hpp"
 #include "benchmark/accuracy/rig_trials.hpp"
 #include "benchmark/accuracy/unmodelled_disturbance.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::accuracy {

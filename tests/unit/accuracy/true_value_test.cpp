@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "tests/support/effect_entry.hpp"
 
 namespace levitas::accuracy {

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "tests/unit/can/rigs.hpp"
 
 namespace levitas::can {

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cli/analysis_options.hpp"
+#include "cli/commands/session_text.hpp"
+#include "cli/commands/what_if_csv.hpp"
 #include "cli/json_file.hpp"
-#include "cli/session_text.hpp"
-#include "cli/what_if_csv.hpp"
+#include "cli/options/analysis_options.hpp"
 #include "common/problem.hpp"
 #include "tests/support/scratch_folder.hpp"
 

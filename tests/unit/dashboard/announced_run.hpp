@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "dashboard/live_run.hpp"
 #include "session/record_codec.hpp"
 #include "transport/lcm_network.hpp"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "config/excitation_request.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/excitation_request.hpp"
+#include "configuration/rig_file.hpp"
 
 namespace levitas::dashboard {
 namespace {

@@ -10,7 +10,7 @@
 #include <set>
 #include <tuple>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/report/calibrated_rig.hpp"
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/effect/crack.hpp"

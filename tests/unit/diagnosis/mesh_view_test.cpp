@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "common/random.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/model/rig_view.hpp"
 #include "diagnosis/model/train_coupling.hpp"
 #include "diagnosis/model/turns.hpp"

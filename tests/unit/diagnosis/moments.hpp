@@ -3,7 +3,7 @@
 // are zero, or drawn.
 
 #include "common/random.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/model/rig_view.hpp"
 #include "diagnosis/model/term.hpp"
 #include "diagnosis/terms/terms.hpp"

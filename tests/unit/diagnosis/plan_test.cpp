@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 
 namespace levitas::diagnosis {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <complex>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/report/affected_part.hpp"
 #include "diagnosis/report/build_report.hpp"
 #include "diagnosis/report/excitation_coverage.hpp"

@@ -8,7 +8,7 @@
 
 #include "common/problem.hpp"
 #include "common/random.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/identified_rig.hpp"
 #include "identification/modal/modal_response.hpp"
 #include "identification/modal/stabilisation.hpp"

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/modal/modal_line.hpp"
 #include "identification/modal/modal_quality.hpp"
 #include "identification/modal/modal_response.hpp"

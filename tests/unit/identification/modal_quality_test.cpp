@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "common/random.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/modal/identify_modal.hpp"
 #include "identification/modal/modal_response.hpp"
 #include "identification/modal/modal_starts.hpp"

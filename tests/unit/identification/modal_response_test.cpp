@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "tests/support/paths.hpp"
 

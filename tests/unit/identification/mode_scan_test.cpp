@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "common/random.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/modal/modal_response.hpp"
 #include "identification/modal/whirl_start.hpp"
 #include "tests/support/paths.hpp"

@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "common/random.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/modal/working_gains.hpp"
 #include "tests/support/paths.hpp"
 

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "common/problem.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "identification/nonlinear/suspended_rotor_fit.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/plant_model.hpp"

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/law/state_space_law.hpp"
 
 namespace levitas::law {

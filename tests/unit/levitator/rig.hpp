@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "common/random.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "diagnosis/levitator/misfit.hpp"
 
 namespace levitas::test {

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/unit/loop/fakes.hpp"

@@ -8,7 +8,7 @@
 
 #include "common/random.hpp"
 #include "common/stop_latch.hpp"
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "controller/loop/command_arbiter.hpp"
 #include "controller/loop/control_loop.hpp"
 #include "tests/support/allocation_guard.hpp"

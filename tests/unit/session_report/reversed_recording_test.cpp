@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "config/rig_file.hpp"
+#include "configuration/rig_file.hpp"
 #include "report/session/recording.hpp"
 #include "session/session_writer.hpp"
 

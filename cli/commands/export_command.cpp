@@ -1,0 +1,97 @@
+// amb export: a session as CSV, MAT or MCAP file for other tools.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/command.hpp"
+#include "cli/commands/session_text.hpp"
+#include "cli/json_file.hpp"
+#include "session/csv_export.hpp"
+#include "session/mat_export.hpp"
+#include "session/mcap_export.hpp"
+#include "session/output_path.hpp"
+
+namespace levitas::cli {
+namespace {
+
+struct ExportOptions {
+  std::string session_path;
+  std::string csv_path;
+  std::string mat_path;
+  std::string mcap_path;
+  std::string json_path;
+};
+
+using Exporter = session::ExportReport (*)(session::SessionReader&, const std::string&);
+
+/// Reads the session once for one file.
+session::ExportReport Write(const std::string& session_path, const std::string& path,
+                            Exporter exporter) {
+  session::SessionReader reader(session_path);
+  const session::ExportReport report = exporter(reader, path);
+  fmt::print("{}: {} rows", path, report.rows);
+  if (report.cycles_without_frame > 0) {
+    fmt::print("; {} cycles had no sensor frame and have no row", report.cycles_without_frame);
+  }
+  fmt::print("\n");
+  return report;
+}
+
+ExitStatus Export(const ExportOptions& options) {
+  const std::array<std::pair<const std::string*, Exporter>, 3> files{
+      {{&options.csv_path, session::ExportCsv},
+       {&options.mat_path, session::ExportMat},
+       {&options.mcap_path, session::ExportMcap}}};
+  if (std::all_of(files.begin(), files.end(),
+                  [](const auto& file) { return file.first->empty(); })) {
+    throw Problem(ExitStatus::kUsage,
+                  "nothing to write: name --csv FILE, --mat FILE, --mcap FILE or several of them");
+  }
+  for (const auto& [path, exporter] : files) {
+    session::CheckOutputPath(*path, options.session_path);
+  }
+  session::CheckOutputPath(options.json_path, options.session_path);
+  session::SessionReader reader(options.session_path);
+  fmt::print("{}\n", Describe(options.session_path, reader.header()));
+  session::ExportReport report;
+  for (const auto& [path, exporter] : files) {
+    if (!path->empty()) report = Write(options.session_path, *path, exporter);
+  }
+  cycle::CycleRecord record;
+  while (reader.Next(record)) {
+  }  // to its end, for what was lost
+  const session::Damage& damage = reader.damage();
+  PrintDamage(damage);
+  WriteJsonFile(options.json_path, {{"session", options.session_path},
+                                    {"csv", options.csv_path},
+                                    {"mat", options.mat_path},
+                                    {"mcap", options.mcap_path},
+                                    {"rows", report.rows},
+                                    {"cycles_without_frame", report.cycles_without_frame},
+                                    {"damage", DamageJson(damage)}});
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddExportCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command =
+      app.add_subcommand("export", "A session as CSV, MAT or MCAP file for other tools");
+  command->add_option("SESSION", options->session_path, "Session or trip file")->required();
+  command->add_option("--csv", options->csv_path, "CSV file to write");
+  command->add_option("--mat", options->mat_path,
+                      "MAT file to write (version 5: MATLAB, Octave, SciPy), a vector per column");
+  command->add_option("--mcap", options->mcap_path,
+                      "MCAP file to write (Foxglove, PlotJuggler, mcap libraries), with events");
+  command->add_option("--json", options->json_path, "Write what was done as JSON");
+  command->callback([options, &action] { action = [options] { return Export(*options); }; });
+  command->footer("  amb export run.lcm --csv run.csv --mcap run.mcap");
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,137 @@
+// amb import: measured data of others becomes a session.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/command.hpp"
+#include "cli/json_file.hpp"
+#include "cli/options/enter_session.hpp"
+#include "configuration/rig_file.hpp"
+#include "levitas_version.hpp"
+#include "session/candump_import.hpp"
+#include "session/coil_scales.hpp"
+#include "session/csv_import.hpp"
+#include "session/output_path.hpp"
+
+namespace levitas::cli {
+namespace {
+
+struct ImportCommandOptions {
+  std::string data_path;
+  std::string rig_name;
+  std::string out_path;
+  std::string json_path;
+  bool overwrite{false};
+  std::vector<std::string> tags;
+};
+
+std::int64_t UtcNowNs() {
+  using std::chrono::duration_cast;
+  using std::chrono::nanoseconds;
+  return duration_cast<nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+void Print(const std::string& out_path, const session::ImportReport& report) {
+  fmt::print("{}: {} samples over {:.4f} s", out_path, report.rows, report.duration_s);
+  fmt::print(", rotation {}", report.has_rotation ? "known" : "not given: taken as standing");
+  fmt::print(", excitation {}\n", report.has_excitation ? "known" : "not given: taken as none");
+  if (report.drop_outs > 0) {
+    fmt::print("{} drop-outs in time, {} samples missing in them\n", report.drop_outs,
+               report.missing_cycles);
+  }
+  for (const auto& name : report.ignored_columns) fmt::print("column \"{}\" ignored\n", name);
+}
+
+ExitStatus ImportBusLog(const ImportCommandOptions& options, const config::RigFile& rig,
+                        const session::ImportOptions& import) {
+  if (rig.buses.empty()) {
+    throw BadInput(options.rig_name + ": names no CAN buses (section buses, docs/can.md)");
+  }
+  const can::Layout layout = can::MakeLayout(rig.numbers, can::FormatOf(rig.buses));
+  const session::CandumpReport report = session::ImportCandump(import, layout);
+  fmt::print("{}: {} samples over {:.4f} s of the rig's count, from {} lines\n", options.out_path,
+             report.records, report.duration_s, report.lines);
+  fmt::print(
+      "{} samples missing, {} without currents of their own, {} frames damaged, {} copies or "
+      "out of order, {} restarts of the rig, {} other lines\n",
+      report.missing_cycles, report.without_answer, report.damaged, report.out_of_order,
+      report.rig_restarts, report.other_lines);
+  EnterSession(options.out_path, options.tags);
+  WriteJsonFile(options.json_path, {{"data", options.data_path},
+                                    {"rig", rig.numbers.name},
+                                    {"session", options.out_path},
+                                    {"samples", report.records},
+                                    {"duration_s", report.duration_s},
+                                    {"missing_samples", report.missing_cycles},
+                                    {"without_answer", report.without_answer},
+                                    {"damaged", report.damaged},
+                                    {"out_of_order", report.out_of_order},
+                                    {"rig_restarts", report.rig_restarts},
+                                    {"other_lines", report.other_lines}});
+  return ExitStatus::kDone;
+}
+
+bool IsBusLog(const std::string& path) {
+  return path.ends_with(".log") || path.ends_with(".log.xz");
+}
+
+ExitStatus Import(const ImportCommandOptions& options) {
+  for (const std::string& path : {options.out_path, options.json_path}) {
+    session::CheckOutputPath(path, options.data_path);
+  }
+  session::CheckNoRecording(options.out_path, options.overwrite);
+  const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+  session::ImportOptions import{.data_path = options.data_path,
+                                .out_path = options.out_path,
+                                .rig = rig.numbers,
+                                .rig_yaml = config::WriteRig(rig),
+                                .program_version = LEVITAS_VERSION,
+                                .start_utc_ns = UtcNowNs(),
+                                .coils = session::CoilScales(rig.plant, rig.numbers.axes()),
+                                .matrix = rig.log.matrix,
+                                .matrix_rows = rig.log.rows};
+  if (IsBusLog(options.data_path)) return ImportBusLog(options, rig, import);
+  const session::ImportReport report =
+      options.data_path.ends_with(".mat") ? session::ImportMat(import) : session::ImportCsv(import);
+  Print(options.out_path, report);
+  EnterSession(options.out_path, options.tags);
+  WriteJsonFile(options.json_path, {{"data", options.data_path},
+                                    {"rig", rig.numbers.name},
+                                    {"session", options.out_path},
+                                    {"samples", report.rows},
+                                    {"duration_s", report.duration_s},
+                                    {"drop_outs", report.drop_outs},
+                                    {"missing_samples", report.missing_cycles},
+                                    {"has_rotation", report.has_rotation},
+                                    {"has_excitation", report.has_excitation},
+                                    {"has_coil_currents", report.has_coil_currents},
+                                    {"ignored_columns", report.ignored_columns}});
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddImportCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ImportCommandOptions>();
+  CLI::App* command = app.add_subcommand(
+      "import",
+      "Measured data (CSV, MAT), or a candump log of a rig's CAN buses, becomes a session");
+  command
+      ->add_option(
+          "DATA", options->data_path,
+          "CSV file or log of candump (.log), either compressed by xz (.xz), or MAT file (.mat)")
+      ->required();
+  command->add_option("--rig", options->rig_name, "Rig file, or name of a shipped one")->required();
+  command->add_option("--out", options->out_path, "Session to write")->required();
+  command->add_flag("--overwrite", options->overwrite, "Replace a session that is there already");
+  command->add_option("--tag", options->tags,
+                      "Tag in the catalogue (amb sessions); may be repeated");
+  command->add_option("--json", options->json_path, "Write what was done as JSON");
+  command->callback([options, &action] { action = [options] { return Import(*options); }; });
+}
+
+}  // namespace levitas::cli

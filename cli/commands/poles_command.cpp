@@ -1,0 +1,97 @@
+// amb poles: closed-loop poles of the sampled loop.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "analysis/poles.hpp"
+#include "cli/commands/command.hpp"
+#include "cli/json_file.hpp"
+#include "cli/options/analysis_options.hpp"
+#include "common/rotational_speed.hpp"
+#include "session/output_path.hpp"
+
+namespace levitas::cli {
+namespace {
+
+struct PolesOptions : AnalysisOptions {
+  double up_to_hz{1000.0};
+};
+
+/// At rest neither direction is the forward one: both planes of the rig may share the pole, and any
+/// mixture of them is a mode.
+const char* Direction(const analysis::Pole& pole, bool turning) {
+  if (pole.frequency_hz == 0.0) return "no oscillation";
+  if (!turning) return "at rest";
+  if (std::abs(pole.forward_share - 0.5) < 0.05) return "plane";
+  return pole.forward_share > 0.5 ? "forward" : "backward";
+}
+
+void Print(const analysis::LoopPoles& at, double up_to_hz) {
+  fmt::print("{:.0f} rpm: {} (largest |z| {:.6f})\n", RadPerSToRpm(at.speed_rad_per_s),
+             at.stable ? "STABLE" : "UNSTABLE", at.largest_pole_modulus);
+  fmt::print("{:>14}{:>14}{:>14}  {}\n", "frequency Hz", "damping", "Re s 1/s", "whirl");
+  for (const auto& pole : at.poles) {
+    if (std::abs(pole.frequency_hz) > up_to_hz) continue;
+    fmt::print("{:>14.3f}{:>14.5f}{:>14.3f}  {}{}\n", pole.frequency_hz, pole.damping_ratio,
+               pole.s_rad_per_s.real(), Direction(pole, at.speed_rad_per_s != 0.0),
+               std::abs(pole.z) >= 1.0 ? "  <- unstable" : "");
+  }
+}
+
+nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
+  nlohmann::ordered_json json;
+  json["speed_rpm"] = RadPerSToRpm(at.speed_rad_per_s);
+  json["stable"] = at.stable;
+  json["largest_pole_modulus"] = at.largest_pole_modulus;
+  for (const auto& pole : at.poles) {
+    json["poles"].push_back({{"frequency_hz", pole.frequency_hz},
+                             {"damping_ratio", pole.damping_ratio},
+                             {"real_part_1_per_s", pole.s_rad_per_s.real()},
+                             {"imaginary_part_rad_per_s", pole.s_rad_per_s.imag()},
+                             {"forward_share", pole.forward_share}});
+  }
+  return json;
+}
+
+ExitStatus Run(const PolesOptions& options) {
+  session::CheckOutputPath(options.json_path, {});
+  config::RigFile rig = LoadRig(options);
+  const FoundController controller = LoadController(options, rig);
+  const std::string delay = TakeDelayOfPort(options, rig);
+  nlohmann::ordered_json json{{"rig", rig.numbers.name},
+                              {"controller", controller.file.name},
+                              {"controller_file", controller.path},
+                              {"delay_s", rig.plant.delay_samples * rig.numbers.period_s()}};
+  fmt::print("Poles of the sampled loop, delay included; rig {}, controller {}\n{}",
+             rig.numbers.name, ControllerText(controller), delay);
+  for (const double rpm : options.speeds_rpm) {
+    const auto poles = analysis::ClosedLoopPoles(rig.plant, controller.file.law, RpmToRadPerS(rpm));
+    Print(poles, options.up_to_hz);
+    json["speeds"].push_back(Json(poles));
+  }
+  WriteJsonFile(options.json_path, json);
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddPolesCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<PolesOptions>();
+  CLI::App* command = app.add_subcommand(
+      "poles", "Closed-loop poles of the sampled loop, delay included; stability first");
+  AddRigOption(*command, *options);
+  AddControllerOption(*command, *options);
+  AddPortOption(*command, *options);
+  AddSpeedOption(*command, *options, {0.0});
+  command->add_option("--up-to-hz", options->up_to_hz, "Print poles up to this frequency")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  AddJsonOption(*command, *options);
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,250 @@
+// amb run: controller and simulated rig as two processes, progress, and the commissioning verdict.
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/command.hpp"
+#include "cli/json_file.hpp"
+#include "cli/options/enter_session.hpp"
+#include "cli/run/disk_room.hpp"
+#include "cli/run/interrupt.hpp"
+#include "cli/run/live_page.hpp"
+#include "cli/run/port_lease.hpp"
+#include "cli/run/progress.hpp"
+#include "cli/run/run_folder.hpp"
+#include "cli/run/run_options.hpp"
+#include "cli/run/supervise.hpp"
+#include "cli/run/telemetry.hpp"
+#include "common/whole_number.hpp"
+#include "controller/rt/say.hpp"
+#include "hil/socketcan/can_connection.hpp"
+#include "session/output_path.hpp"
+#include "verdict/commission.hpp"
+#include "verdict/report.hpp"
+
+namespace levitas::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Ports of our own unless the user named some.
+PortLease Lease(std::optional<transport::LcmNetwork>& network) {
+  if (network) return PortLease::Claim(network->base_port);
+  PortLease lease = PortLease::FirstFree();
+  network = transport::LcmNetwork{};
+  network->base_port = lease.base_port();
+  return lease;
+}
+
+RunPaths PathsOf(const RunOptions& options, const RunFolder& folder) {
+  RunPaths paths;
+  paths.session = options.record_path.empty() ? folder / "session.lcmlog" : options.record_path;
+  paths.controller_json = folder / "controller.json";
+  paths.plant_json = folder / "plant.json";
+  paths.controller_log = folder / "controller.log";
+  paths.plant_log = folder / "plant.log";
+  // Beside a record the user keeps; else with the record, which a trip keeps.
+  const fs::path beside = fs::path(paths.session).parent_path();
+  paths.trip_folder = beside.empty() ? "." : beside.string();
+  return paths;
+}
+
+RunResult RunBoth(const RunPlan& plan, const RunFiles& files, const transport::LcmNetwork& network,
+                  const PagePlan& page_plan) {
+  const InterruptGuard interrupts;
+  Telemetry telemetry(network);
+  const auto draw = [](const std::string& part) { rt::Say(part, rt::Speaker::Kind::kPart); };
+  Progress progress(files.rig.bearings, files.rig.period_s(), draw, isatty(STDERR_FILENO) == 1);
+  RunHooks hooks;
+  hooks.telemetry = [&](std::chrono::milliseconds limit) { return telemetry.Wait(limit); };
+  hooks.progress = [&](const ProgressSample& sample) { progress.Show(sample); };
+  hooks.say = [&](const std::string& text) {
+    progress.Close();
+    rt::Say(text);
+  };
+  hooks.interrupts = [&] { return interrupts.count(); };
+  const LivePage page(page_plan, network, hooks.say);
+  RunResult result = Supervise(plan, hooks);
+  progress.Close();
+  static_cast<void>(rt::FlushSaid());  // what follows goes to standard output
+  return result;
+}
+
+verdict::CommissionOptions WhatToJudge(const RunFiles& files, const RunPaths& paths,
+                                       const RunResult& result, const std::string& port) {
+  verdict::CommissionOptions judge;
+  judge.session_path = paths.session;
+  judge.controller_report = paths.controller_json;
+  judge.plant_report = paths.plant_json;
+  judge.provenance.rig_file = files.rig_path;
+  judge.provenance.controller_file = files.controller_path;
+  judge.provenance.scenario_file = files.scenario_path;
+  judge.provenance.scenario = files.scenario_name;
+  judge.provenance.session_file = paths.session;
+  judge.provenance.port = port;
+  const std::string stopped = RecordingStopped(paths.controller_log);
+  if (!result.trouble.empty()) {
+    judge.incomplete_reason = result.trouble.substr(0, result.trouble.find('\n'));
+  } else if (!stopped.empty()) {
+    judge.incomplete_reason = stopped;
+  } else if (result.interrupted) {
+    judge.incomplete_reason = "stopped by the operator before the end; the rotor was landed";
+  }
+  return judge;
+}
+
+ExitStatus StatusOf(const RunResult& result) {
+  const bool refused = !result.controller.signalled &&
+                       (result.controller.code == static_cast<int>(ExitStatus::kUsage) ||
+                        result.controller.code == static_cast<int>(ExitStatus::kBadInput));
+  if (refused) return static_cast<ExitStatus>(result.controller.code);
+  if (!result.trouble.empty()) return ExitStatus::kOther;
+  if (result.controller.code == static_cast<int>(ExitStatus::kTripped)) return ExitStatus::kTripped;
+  return result.interrupted ? ExitStatus::kOther : ExitStatus::kDone;
+}
+
+/// What the programs could not say themselves, since it is where they say it.
+std::string WithRoom(const std::string& trouble, const RunPaths& paths, const RunFolder& folder) {
+  const std::string full = NoRoom({folder.path(), paths.session, paths.trip_folder});
+  if (trouble.empty() || full.empty()) return trouble;
+  return fmt::format(
+      "{}\n{} (TMPDIR names the folder of a run's logs and reports, --record that "
+      "of its record)",
+      trouble, full);
+}
+
+void SayWhereTheRecordIs(const RunPaths& paths, const std::string& trip_file) {
+  fmt::print("record: {}   (amb replay {})\n", paths.session, paths.session);
+  if (!trip_file.empty()) {
+    fmt::print("trip:   {}   (amb export {} --csv trip.csv)\n", trip_file, trip_file);
+  }
+}
+
+/// Prints the verdict of what was recorded, if anything was; the run's exit status.
+ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunPaths& paths,
+                    const RunResult& result, const std::string& port) {
+  const ExitStatus status = StatusOf(result);
+  const bool keep = !options.record_path.empty() || status == ExitStatus::kTripped;
+  if (!fs::exists(paths.session) || fs::file_size(paths.session) == 0) return status;
+  verdict::CommissionOptions judge = WhatToJudge(files, paths, result, port);
+  if (!keep) judge.provenance.session_file.clear();
+  try {
+    const verdict::Verdict verdict = verdict::Commission(judge);
+    fmt::print("{}", verdict::Table(verdict));
+    WriteJsonFile(options.json_path, verdict::Json(verdict));
+    if (!options.record_path.empty()) EnterRun(paths.session, verdict, options.tags);
+    if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
+    const bool incomplete = verdict.outcome == verdict::Outcome::kIncomplete;
+    return incomplete && status == ExitStatus::kDone ? ExitStatus::kOther : status;
+  } catch (const BadInput&) {
+    // Files that are not whole follow from what went wrong, and that is what is told.
+    if (result.trouble.empty()) throw;
+    return status;
+  }
+}
+
+ExitStatus Execute(const RunOptions& asked) {
+  if (!std::isfinite(asked.duration_s)) {  // which the option's own check lets pass
+    throw Problem(ExitStatus::kUsage, "--duration: not a number of seconds; allowed: above 0");
+  }
+  for (const std::string& path : {asked.record_path, asked.json_path}) {
+    session::CheckOutputPath(path, {});
+  }
+  session::CheckNoRecording(asked.record_path, asked.overwrite);
+  std::optional<transport::LcmNetwork> network = CheckPort(asked.port);
+  const RunFiles files = CheckFiles(asked);
+  const RunOptions options = SettleRig(asked, config::LoadRig(files.rig_path));
+  CheckBuses(options, files);
+  const PortLease lease = Lease(network);
+  transport::TakeKey(*network, options.key, "play the rig or the controller");
+  RunFolder folder;
+  if (!folder.removed().empty()) {
+    rt::Say(fmt::format("removed {} older folders of runs beside {}", folder.removed().size(),
+                        folder.path()));
+  }
+  const RunPaths paths = PathsOf(options, folder);
+  const RunPlan plan = PlanRun(options, files, paths, *network);
+  const std::string port = socketcan::IsCanPort(options.port)
+                               ? options.port
+                               : network->Url(transport::Direction::kSensor);
+  rt::Say(fmt::format("rig {}{}, controller {}, scenario {}, {}, port {}", files.rig.name,
+                      options.rig_is_there ? " (not simulated)" : "", files.controller_path,
+                      files.scenario_name, options.pace, port));
+  const PagePlan page = PlanPage(options.page, LookAround(options.pace == "realtime"));
+  RunResult result = RunBoth(plan, files, *network, page);
+  result.trouble = WithRoom(result.trouble, paths, folder);
+  const ExitStatus status = JudgeRun(options, files, paths, result, port);
+  if (status == ExitStatus::kTripped && options.record_path.empty()) folder.Keep();
+  std::fflush(stdout);
+  if (!result.trouble.empty()) throw Problem(status, result.trouble);
+  return status;
+}
+
+}  // namespace
+
+void AddRunCommand(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run",
+                                         "Levitate the rig, simulated or on a real bus, with the "
+                                         "controller process and judge the run");
+  command->add_option("--rig", options->rig, "Rig file, or the name of a shipped one")
+      ->capture_default_str();
+  command
+      ->add_option("--controller", options->controller,
+                   "Controller file or shipped name; default: the one the rig file names")
+      ->default_str(kGeneralController);
+  command
+      ->add_option("--scenario", options->scenario,
+                   "Scenario file or shipped name; default: the one the rig file names")
+      ->default_str(kGeneralScenario);
+  command
+      ->add_option("--duration", options->duration_s,
+                   "Land after this long [s of the rig's time], wherever the scenario is")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--pace", options->pace,
+                   "lockstep or realtime; default: realtime where the rig is not simulated here")
+      ->check(CLI::IsMember({"lockstep", "realtime"}))
+      ->default_str("lockstep");
+  command->add_option(
+      "--port", options->port,
+      "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can, or can:IF[,IF...] (the rig then "
+      "stands behind CAN buses, see docs/can.md); default: lcm on free ports");
+  command->add_flag("--no-simulated-rig", options->rig_is_there,
+                    "Start the controller alone, for a rig that is on --port already; on a bus "
+                    "that is no virtual "
+                    "one (vcan, vxcan) a simulated rig is never started");
+  command->add_option("--key", options->key,
+                      "File with the key of those who may speak on the network (amb key FILE "
+                      "makes one); with ttl above 0 it is needed");
+  command->add_flag("--no-commands", options->no_commands,
+                    "Take no commands over the network, not even the live page's");
+  auto* record =
+      command->add_option("--record", options->record_path, "Keep the record in this file");
+  command->add_flag("--overwrite", options->overwrite, "Replace a record that is there already");
+  command
+      ->add_option("--tag", options->tags, "Tag of the record, see amb sessions; may be repeated")
+      ->needs(record);
+  command->add_option("--seed", options->seed, "Seed of the sensor noise")
+      ->check(WhyNoWholeNumber)
+      ->capture_default_str();
+  command->add_option("--json", options->json_path, "Write the verdict to this file");
+  auto* dash = command->add_flag_callback(
+      "--dash", [options] { options->page = PageWish::kAlways; },
+      "Serve the live page during the run and print its address");
+  command
+      ->add_flag_callback(
+          "--no-dash", [options] { options->page = PageWish::kNever; },
+          "No live page; default: on a terminal, when the pace is real time, it is served and "
+          "opened in the desktop's browser")
+      ->excludes(dash);
+  command->callback([options, &action] { action = [options] { return Execute(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,46 @@
+#pragma once
+// Options shared by the analysis commands: files by path or shipped name, speeds in rpm.
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+#include "configuration/rig_file.hpp"
+
+namespace levitas::cli {
+
+struct AnalysisOptions {
+  std::string rig_name{"flexible_rotor"};
+  std::string controller_name;  ///< empty: the one that the rig names, else flexible_rotor
+  std::string port{"lcm"};      ///< whose delay counts; see TakeDelayOfPort
+  std::vector<double> speeds_rpm;
+  std::string json_path;
+};
+
+void AddRigOption(CLI::App& command, AnalysisOptions& options);
+void AddControllerOption(CLI::App& command, AnalysisOptions& options);
+/// `default_rpm` are the speeds when none is given.
+void AddSpeedOption(CLI::App& command, AnalysisOptions& options, std::vector<double> default_rpm);
+void AddJsonOption(CLI::App& command, AnalysisOptions& options);
+
+[[nodiscard]] config::RigFile LoadRig(const AnalysisOptions& options);
+void AddPortOption(CLI::App& command, AnalysisOptions& options);
+/// Gives the rig the delay from sample to current of the port, as `amb run --port` has it: the rig
+/// file's with LCM, that of its buses with CAN where it is longer. Returns the line that says so,
+/// and what the other one would be. Failure: see socketcan::PlanConnection.
+[[nodiscard]] std::string TakeDelayOfPort(const AnalysisOptions& options, config::RigFile& rig);
+/// A controller and where it was read from.
+struct FoundController {
+  std::string path;
+  config::ControllerFile file;
+  std::string notes;  ///< notches that stand elsewhere than given; poles that do not decay
+};
+[[nodiscard]] FoundController LoadController(const AnalysisOptions& options,
+                                             const config::RigFile& rig);
+/// "name (file)", and a line for each notch that stands more than 1 % from the frequency given and
+/// for what config::LawNotes says.
+[[nodiscard]] std::string ControllerText(const FoundController& controller);
+/// Says so when it is not the one that `amb run` would take; else empty.
+[[nodiscard]] std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig);
+
+}  // namespace levitas::cli

@@ -1,0 +1,18 @@
+// Writes docs/configuration.md from the tables: generate_docs FILE.
+
+#include <cstdio>
+#include <fstream>
+
+#include "configuration/text/documenter.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: generate_docs FILE\n", stderr);
+    return 2;
+  }
+  std::ofstream file(argv[1], std::ios::binary);
+  file << levitas::config::ConfigurationDocument();
+  if (file.flush()) return 0;
+  std::fprintf(stderr, "generate_docs: %s cannot be written\n", argv[1]);
+  return 1;
+}

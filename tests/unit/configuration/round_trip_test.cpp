@@ -1,0 +1,139 @@
+// What is written reads back to the same bits.
+#include <gtest/gtest.h>
+
+#include "configuration/schema/schema.hpp"
+#include "tests/unit/configuration/field_list.hpp"
+#include "tests/unit/configuration/full_samples.hpp"
+#include "tests/unit/configuration/samples.hpp"
+
+namespace levitas::config::test {
+namespace {
+
+template <class... Context, class File>
+std::vector<std::uint64_t> BitsOf(File file, const Context&... context) {
+  Bits bits;
+  Describe(bits, file, context...);
+  return bits.all;
+}
+
+constexpr int kRounds = 100;
+
+TEST(RoundTrip, OfARigKeepsEveryBit) {
+  for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
+    RigFile rig = FullRig();
+    Jitter jitter(seed);
+    Describe(jitter, rig);
+    const std::string text = WriteRig(rig);
+    const RigFile back = ParseRig(text, "written.yaml");
+    ASSERT_EQ(BitsOf(back), BitsOf(rig)) << "seed " << seed;
+    ASSERT_EQ(WriteRig(back), text);
+  }
+}
+
+TEST(RoundTrip, OfAControllerKeepsEveryBit) {
+  const RigNumbers rig = FullRig().numbers;
+  for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
+    ControllerFile controller = FullController(rig);
+    Jitter jitter(seed);
+    Describe(jitter, controller, rig);
+    const std::string text = WriteController(controller, rig);
+    ASSERT_EQ(BitsOf(ParseController(text, "written.yaml", rig), rig), BitsOf(controller, rig))
+        << "seed " << seed;
+  }
+}
+
+TEST(RoundTrip, OfAScenarioKeepsEveryBit) {
+  const RigNumbers rig = FullRig().numbers;
+  for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
+    scenario::ScenarioConfig scenario = FullScenario(rig);
+    Jitter jitter(seed);
+    Describe(jitter, scenario, rig);
+    const std::string text = WriteScenario(scenario);
+    ASSERT_EQ(BitsOf(ParseScenario(text, "written.yaml", rig), rig), BitsOf(scenario, rig))
+        << "seed " << seed;
+  }
+}
+
+TEST(RoundTrip, OfARotorOfGivenModesKeepsEveryBit) {
+  for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
+    RigFile rig = ModalRig();
+    Jitter jitter(seed);
+    Describe(jitter, rig);
+    const RigFile back = ParseRig(WriteRig(rig), "written.yaml");
+    ASSERT_EQ(BitsOf(back), BitsOf(rig)) << "seed " << seed;
+    ASSERT_EQ(back.numbers.channels, rig.numbers.channels);
+  }
+}
+
+TEST(RoundTrip, OfAStateSpaceLawKeepsEveryBit) {
+  const RigNumbers rig = ModalRig().numbers;
+  for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
+    ControllerFile controller = StateSpaceController(rig);
+    Jitter jitter(seed);
+    Describe(jitter, controller, rig);
+    const std::string text = WriteController(controller, rig);
+    const ControllerFile back = ParseController(text, "written.yaml", rig);
+    ASSERT_EQ(BitsOf(back, rig), BitsOf(controller, rig)) << "seed " << seed;
+    ASSERT_EQ(WriteController(back, rig), text);
+  }
+}
+
+TEST(RoundTrip, OfEverySignalAndEventKeepsEveryBit) {
+  const RigNumbers rig = FullRig().numbers;
+  for (std::uint64_t seed = 1; seed <= kRounds; ++seed) {
+    scenario::ScenarioConfig scenario = EventfulScenario(rig);
+    Jitter jitter(seed);
+    Describe(jitter, scenario, rig);
+    const std::string text = WriteScenario(scenario);
+    ASSERT_EQ(BitsOf(ParseScenario(text, "written.yaml", rig), rig), BitsOf(scenario, rig))
+        << "seed " << seed;
+  }
+}
+
+TEST(RoundTrip, KeepsNamesPolarityAndChannels) {
+  RigFile rig = FullRig();
+  rig.plant.sensor_polarity[3] = -1.0;
+  rig.plant.actuator_polarity[0] = -1.0;
+  const RigFile back = ParseRig(WriteRig(rig), "");
+  EXPECT_EQ(back.numbers.name, "flexible_rotor");
+  EXPECT_EQ(back.plant.sensor_polarity, rig.plant.sensor_polarity);
+  EXPECT_EQ(back.plant.actuator_polarity, rig.plant.actuator_polarity);
+  EXPECT_EQ(back.numbers.sensor_polarity, rig.plant.sensor_polarity);
+  const scenario::ScenarioConfig scenario = FullScenario(rig.numbers);
+  const auto again = ParseScenario(WriteScenario(scenario), "", rig.numbers);
+  EXPECT_EQ(again.steps[1].excitation[1].channel, "nde_y");
+  EXPECT_EQ(again.steps[1].excitation[1].axis, 3U);
+  EXPECT_EQ(again.steps[0].wait_mode, Mode::kLevitating);
+}
+
+TEST(RoundTrip, WritesADifferentLawUnderItsAxis) {
+  const RigNumbers rig = FullRig().numbers;
+  ControllerFile controller = FullController(rig);
+  controller.law.axes[2].notches.pop_back();
+  const std::string text = WriteController(controller, rig);
+  EXPECT_NE(text.find("\n  de:"), std::string::npos);
+  EXPECT_EQ(text.find("\n  nde:"), std::string::npos);
+  EXPECT_NE(text.find("\n  nde_x:"), std::string::npos);
+  const ControllerFile back = ParseController(text, "", rig);
+  EXPECT_EQ(back.law.axes[2].notches.size(), 1U);
+  EXPECT_EQ(back.law.axes[3].notches.size(), 2U);
+}
+
+TEST(RoundTrip, OfAnExcitationWithoutAChannelIsRefusedWhenRead) {
+  scenario::ScenarioConfig scenario = FullScenario(FullRig().numbers);
+  scenario.steps[1].excitation[0].channel.clear();
+  const std::string text = WriteScenario(scenario);
+  EXPECT_THROW((void)ParseScenario(text, "", FullRig().numbers), BadInput);
+  EXPECT_THROW((void)ParseScenario(text, "", RigNumbers{}), BadInput);
+}
+
+TEST(RoundTrip, WritesEveryDefault) {
+  const std::string text = WriteRig(ParseRig(kRig, ""));
+  for (const char* line : {"delay_samples: 1\n", "substeps: 4\n", "inner_diameter_mm: 0\n",
+                           "discs: []\n", "modes_per_plane: 8\n", "direction_deg: 225\n"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+  }
+}
+
+}  // namespace
+}  // namespace levitas::config::test
