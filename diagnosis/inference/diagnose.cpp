@@ -85,21 +85,23 @@ SearchResult Conclude(SearchState& state) {
   const Judging& judging = state.settings.judging;
   SearchResult answer;
   answer.speed = kSpeeds[state.speed];
-  answer.runs = state.search.Run(state.records, state.gains, state.theta);
-  const double held = HeldGain(state.calibrated_runs, answer.runs, state.view.whitener);
+  auto runs = std::make_shared<const std::vector<Trajectory>>(
+      state.search.Run(state.records, state.gains, state.theta));
+  const double held = HeldGain(*state.calibrated_runs, *runs, state.view.whitener);
   if (!state.causes.empty() && held < -judging.harm_nat) {
     // What does harm where it was not fitted is no cause.
     state.causes.clear();
     state.theta = state.calibrated;
-    answer.runs = state.calibrated_runs;
+    runs = state.calibrated_runs;
   }
   answer.theta_extended = state.theta;
   answer.theta_calibrated = state.calibrated;
-  answer.remainder = AnalyseResidual(state.rig, answer.runs);
+  answer.remainder = AnalyseResidual(state.rig, *runs);
   if (answer.remainder.channels.empty() || !(answer.remainder.channels.front().noise_rms_m > 0.0)) {
     throw BadInput("no stretch of 0.2 s is without gaps: nothing can be said of what remains");
   }
-  answer.explained = Explained(AnalyseResidual(state.rig, state.calibrated_runs), answer.remainder);
+  answer.explained =
+      Explained(AnalyseResidual(state.rig, *state.calibrated_runs), answer.remainder);
   const bool unexplained =
       IsUnexplained(judging, answer.remainder, !state.causes.empty(), answer.explained);
   if (unexplained) state.causes.clear();

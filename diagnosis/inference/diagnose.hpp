@@ -71,7 +71,6 @@ struct SearchResult {
   Residual remainder;
   std::vector<double> theta_calibrated;  ///< nuisances alone
   std::vector<double> theta_extended;    ///< with the causes
-  std::vector<Trajectory> runs;          ///< of the extended model
   double evidence{};                     ///< [nat] of all causes together
   double explained{};                    ///< share of the calibrated model's excess over the noise
 };

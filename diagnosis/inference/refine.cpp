@@ -59,6 +59,17 @@ double Refiner::EvidenceOfSet(const LinearProblem& problem, const std::vector<Te
   return evidence;
 }
 
+bool Refiner::TakenAt(const std::vector<double>& theta, const View& view) const {
+  return view.theta == theta && std::all_of(terms_.begin(), terms_.end(), [](const Term& term) {
+           return term.family.shape == term.family.linearised_as;
+         });
+}
+
+Runs Refiner::RunAt(const std::vector<double>& theta, const View& view) const {
+  if (view.runs && TakenAt(theta, view)) return view.runs;
+  return std::make_shared<const std::vector<Trajectory>>(search_.Run(records_, gains_, theta));
+}
+
 void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes,
                                std::vector<double> theta, int passes, Refined& best) const {
   constexpr double kConverged = 0.3;  // [nat]
@@ -67,8 +78,8 @@ void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& 
   LevenbergDamping damping;
   int refused = 0;
   for (int pass = 0; pass < passes;) {
-    auto runs = search_.Run(records_, gains_, theta);
-    view.slopes->Renew(runs, view.whitener, sum);
+    Runs runs = RunAt(theta, view);
+    view.slopes->Renew(*runs, view.whitener, sum);
     const double cost = 0.5 * (sum.ete + Penalty(theta, causes));
     const double gained = best.cost - cost;
     if (!std::isfinite(cost) || gained < -kConverged) {
@@ -114,13 +125,21 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
     const bool first = renewal == 0 && nonlinear;
     if (!first && best.cost - PredictedCost(best.problem, causes) < kPredictionError) break;
     if (EvidenceOfSet(best.problem, terms_, causes) < worth) break;
-    const View here = search_.Linearise(std::move(best.runs), best.theta, view.whitener,
-                                        search_.NuisancesAnd(causes));
-    best.problem = here.problem;
-    MinimiseByChords(here, causes, search_.Solve(here.problem, causes), passes, best);
-    if (best.runs.empty()) break;  // no step helped
+    const bool known = TakenAt(best.theta, view);
+    if (known && passes > 1) break;  // its step was tried
+    Runs runs = std::exchange(best.runs, nullptr);
+    View here;
+    if (!known) {
+      here = search_.Linearise(std::move(runs), best.theta, view.whitener,
+                               search_.NuisancesAnd(causes));
+      here.runs = nullptr;
+      best.problem = here.problem;
+    }
+    MinimiseByChords(known ? view : here, causes, search_.Solve(best.problem, causes), passes,
+                     best);
+    if (!best.runs) break;  // no step helped
   }
-  best.runs.clear();
+  best.runs = nullptr;
   if (!best.ok) return best;
   // The nonlinear model decides, not its linear prediction, which may lead outside any real rig.
   best.evidence =
@@ -134,8 +153,9 @@ Search::ShapeStep Refiner::Along(const std::vector<Hypothesis>& causes,
                                  const std::function<void(double)>& become) const {
   constexpr double kApart = 0.05;  // of the width
   constexpr double kMost = 1.5;
-  const View here = search_.Linearise(search_.Run(records_, gains_, theta), theta, view.whitener,
-                                      search_.NuisancesAnd(causes));
+  View here =
+      search_.Linearise(RunAt(theta, view), theta, view.whitener, search_.NuisancesAnd(causes));
+  here.runs = nullptr;
   const auto sum = [&](double by) {
     become(by);
     NormalEquations shifted = here.sum;

@@ -31,7 +31,7 @@ struct Refined {
   bool ok{};
   LinearProblem problem;                                 ///< about theta
   double cost{std::numeric_limits<double>::infinity()};  ///< [nat] of data and priors at theta
-  std::vector<Trajectory> runs;                          ///< at theta, while it is being fitted
+  Runs runs;                                             ///< at theta, while it is being fitted
 };
 
 class Refiner {
@@ -67,6 +67,9 @@ class Refiner {
   /// Improves `best` from theta on with the Jacobian of `view`, until a step gains too little.
   void MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes,
                         std::vector<double> theta, int passes, Refined& best) const;
+  [[nodiscard]] Runs RunAt(const std::vector<double>& theta, const View& view) const;
+  /// The linearisation was taken at theta, with the present shapes of all families.
+  [[nodiscard]] bool TakenAt(const std::vector<double>& theta, const View& view) const;
   /// [nat] cost at the minimum of the linearised model.
   [[nodiscard]] double PredictedCost(const LinearProblem& problem,
                                      const std::vector<Hypothesis>& causes) const;

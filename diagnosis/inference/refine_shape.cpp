@@ -77,10 +77,15 @@ Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
   Members members(refiner, cause, causes, view, passes, terms);
   Refined best = std::move(start);
   const Family::Shape width = members.family().log_width;
+  // A parameter whose trials failed fails again until another one has moved the fit.
+  std::size_t failed = 0;
   for (int round = 0; round < kRounds; ++round) {
     const double before = best.evidence;
     for (std::size_t parameter = 0; parameter < width.size(); ++parameter) {
+      if (failed == width.size()) return best;
+      const double evidence = best.evidence;
       best = members.Improve(parameter, width[parameter], std::move(best));
+      failed = best.evidence > evidence ? 0 : failed + 1;
     }
     if (best.evidence - before < kWorth) break;
   }

@@ -55,7 +55,10 @@ Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpee
 std::vector<Trajectory> Search::Run(const std::vector<Record>& records, const Gains& gains,
                                     const std::vector<double>& theta) const {
   std::vector<Trajectory> runs(records.size());
-  ParallelFor(records.size(), [&](std::size_t i, std::size_t /*thread*/) {
+  std::vector<std::size_t> rows;
+  rows.reserve(records.size());
+  for (const Record& record : records) rows.push_back(record.rows.size());
+  LongestFirst(rows, [&](std::size_t i) {
     runs[i] = RunModel(rig_, records[i], gains[i], terms_, theta, kSettling);
   });
   return runs;
@@ -64,18 +67,19 @@ std::vector<Trajectory> Search::Run(const std::vector<Record>& records, const Ga
 View Search::Linearise(const std::vector<Record>& records, const Gains& gains,
                        const std::vector<double>& theta, std::size_t whitening_order,
                        const std::vector<std::size_t>& chosen) const {
-  auto runs = Run(records, gains, theta);
-  const Whitener whitener = MakeWhitener(runs, rig_.axes, whitening_order);
+  auto runs = std::make_shared<const std::vector<Trajectory>>(Run(records, gains, theta));
+  const Whitener whitener = MakeWhitener(*runs, rig_.axes, whitening_order);
   return Linearise(std::move(runs), theta, whitener, chosen);
 }
 
-View Search::Linearise(std::vector<Trajectory> runs, const std::vector<double>& theta,
-                       const Whitener& whitener, const std::vector<std::size_t>& chosen) const {
+View Search::Linearise(Runs runs, const std::vector<double>& theta, const Whitener& whitener,
+                       const std::vector<std::size_t>& chosen) const {
   View view;
+  view.theta = theta;
   view.runs = std::move(runs);
   view.whitener = whitener;
-  view.slopes = std::make_shared<const Slopes>(rig_, view.runs, terms_, theta, chosen);
-  view.sum = view.slopes->Sum(view.runs, whitener);
+  view.slopes = std::make_shared<const Slopes>(rig_, *view.runs, terms_, theta, chosen);
+  view.sum = view.slopes->Sum(*view.runs, whitener);
   view.problem = About(view.sum, theta);
   return view;
 }

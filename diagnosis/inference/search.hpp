@@ -16,9 +16,13 @@ namespace levitas::diagnosis {
 /// Observers of all records for one tuning.
 using Gains = std::vector<ObserverPair>;
 
+/// Runs of one model over all records: shared, since those of 13 s take 150 MB.
+using Runs = std::shared_ptr<const std::vector<Trajectory>>;
+
 /// One linearisation, on the records it was made with.
 struct View {
-  std::vector<Trajectory> runs;
+  std::vector<double> theta;  ///< where it was taken
+  Runs runs;
   Whitener whitener;
   std::shared_ptr<const Slopes> slopes;
   NormalEquations sum;
@@ -39,7 +43,7 @@ class Search {
                                const std::vector<double>& theta, std::size_t whitening_order,
                                const std::vector<std::size_t>& chosen) const;
   /// The same for existing runs, with a previous whitening filter.
-  [[nodiscard]] View Linearise(std::vector<Trajectory> runs, const std::vector<double>& theta,
+  [[nodiscard]] View Linearise(Runs runs, const std::vector<double>& theta,
                                const Whitener& whitener,
                                const std::vector<std::size_t>& chosen) const;
   /// Sums of runs at theta as a problem about the nominal rig.

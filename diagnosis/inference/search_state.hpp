@@ -69,7 +69,7 @@ struct SearchState {
   Refiner refiner;
 
   std::vector<double> theta, calibrated;  ///< with the causes; nuisances alone
-  std::vector<Trajectory> calibrated_runs;
+  Runs calibrated_runs;
   View view;
   std::vector<Hypothesis> causes;
   std::vector<Candidate> refitted;    ///< by the last search for a further cause

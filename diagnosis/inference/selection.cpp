@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "diagnosis/inference/mode_probe.hpp"
@@ -89,7 +90,7 @@ bool AddCause(SearchState& state, double share) {
   const std::vector<ModeProbe> probes =
       state.effort.first_cause_only
           ? std::vector<ModeProbe>{}
-          : ProbeModes(state.rig, state.terms, state.search.hypotheses(), state.view.runs);
+          : ProbeModes(state.rig, state.terms, state.search.hypotheses(), *state.view.runs);
   if (!(screened.front().score > state.settings.judging.decisive_nat) && probes.empty())
     return false;
   const Refined before = state.refiner.Fit(state.causes, state.theta, state.view, 2);
@@ -119,12 +120,29 @@ bool AddCause(SearchState& state, double share) {
   return true;
 }
 
+/// Which hypotheses of the search the causes are.
+std::set<std::size_t> Indices(const SearchState& state, const std::vector<Hypothesis>& causes) {
+  std::set<std::size_t> indices;
+  const auto& all = state.search.hypotheses();
+  for (const Hypothesis& cause : causes) {
+    const auto same = std::find_if(all.begin(), all.end(), [&cause](const Hypothesis& h) {
+      return h.effect == cause.effect && h.place == cause.place && h.terms == cause.terms;
+    });
+    indices.insert(static_cast<std::size_t>(same - all.begin()));
+  }
+  return indices;
+}
+
 /// The best effect that, together with `others`, explains as much as all causes.
 void TryBeside(SearchState& state, const std::vector<Hypothesis>& others, double worth,
-               CauseSet& best) {
+               std::set<std::set<std::size_t>>& tried, CauseSet& best) {
   const auto screened =
       Screen(Evidence(state.view.problem, state.terms, others), state.search.hypotheses());
+  const std::set<std::size_t> rest = Indices(state, others);
   for (std::size_t n = 0; n < std::min(screened.size(), state.effort.shortlist); ++n) {
+    std::set<std::size_t> set = rest;
+    set.insert(screened[n].hypothesis);
+    if (!tried.insert(set).second) continue;
     state.ReportProgress(0.7, "refitting " + screened[n].effect);
     std::vector<Hypothesis> causes{state.search.hypotheses()[screened[n].hypothesis]};
     causes.insert(causes.end(), others.begin(), others.end());
@@ -139,12 +157,13 @@ bool MergeOnce(SearchState& state) {
       whole.evidence - Refiner::EvidenceOfSet(state.view.problem, state.terms, {});
   const double worth = whole.evidence - Enough(state.settings.judging, explained);
   CauseSet best;
+  std::set<std::set<std::size_t>> tried;
   // One for all first, then one for any two.
-  if (state.causes.size() > 2) TryBeside(state, {}, worth, best);
+  if (state.causes.size() > 2) TryBeside(state, {}, worth, tried, best);
   for (std::size_t i = 0; i < state.causes.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (best.causes.size() == 1 && best.fit.evidence >= worth) break;
-      TryBeside(state, Without(Without(state.causes, i), k), worth, best);
+      TryBeside(state, Without(Without(state.causes, i), k), worth, tried, best);
     }
   }
   if (!best.fit.ok || best.fit.evidence < worth) return false;
@@ -172,7 +191,8 @@ void SlowDown(SearchState& state) {
     }
     state.theta = fit.theta;
     if (!state.effort.first_cause_only) SharpenLast(state, fit);
-    state.calibrated_runs = state.search.Run(state.records, state.gains, state.calibrated);
+    state.calibrated_runs = std::make_shared<const std::vector<Trajectory>>(
+        state.search.Run(state.records, state.gains, state.calibrated));
   }
 }
 

@@ -138,6 +138,7 @@ Slopes::Slopes(const RigView& rig, const std::vector<Trajectory>& runs,
     std::size_t part, first;
   };
   std::vector<Task> tasks;
+  std::vector<std::size_t> work;  // terms times samples
   std::vector<LanePair> models;
   const LinearChange change = ChangeOf(terms, theta);
   parts_.reserve(runs.size());
@@ -150,9 +151,10 @@ Slopes::Slopes(const RigView& rig, const std::vector<Trajectory>& runs,
                       static_cast<Index>(part.acting.size()));
     for (std::size_t i = 0; i < part.acting.size(); i += kLanes) {
       tasks.push_back({parts_.size() - 1, i});
+      work.push_back(std::min(kLanes, part.acting.size() - i) * run.moments.size());
     }
   }
-  ParallelFor(tasks.size(), [&](std::size_t i, std::size_t /*thread*/) {
+  LongestFirst(work, [&](std::size_t i) {
     const Task& task = tasks[i];
     Part& part = parts_[task.part];
     const std::size_t end = std::min(part.acting.size(), task.first + kLanes);

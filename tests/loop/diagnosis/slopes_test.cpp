@@ -53,7 +53,7 @@ TEST_F(SlopesTest, SumUpToWhatThePropagatedDerivativesGive) {
   double jtj = 0.0;
   double jte = 0.0;
   double ete = 0.0;
-  for (const Trajectory& run : view.runs) {
+  for (const Trajectory& run : *view.runs) {
     SensitivityBlock block(view_, LanePair(view_, run.gains, ChangeOf(terms_, theta)), terms_,
                            theta, {at});
     const std::size_t samples = run.moments.size();
@@ -85,7 +85,7 @@ TEST_F(SlopesTest, RenewedWithTheSameRunStayWhatTheyWere) {
   Prepare({});
   const View view = search_.Linearise(records_, gains_, search_.Usual(), 4, search_.Everything());
   NormalEquations sum = view.sum;
-  view.slopes->Renew(view.runs, view.whitener, sum);
+  view.slopes->Renew(*view.runs, view.whitener, sum);
   EXPECT_NEAR(sum.ete, view.sum.ete, 1e-9 * sum.ete);
   for (Eigen::Index i = 0; i < sum.jte.size(); ++i) {
     // Products in single precision: a millionth of the two vectors' lengths.

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -175,6 +176,16 @@ TEST(ParallelFor, CallsEveryIndexOnceAndAlwaysOnTheSameThread) {
       EXPECT_EQ(calls[i], 1);
       EXPECT_EQ(thread[i], i % kThreads);
     }
+  }
+}
+
+TEST(LongestFirst, CallsEveryIndexOnce) {
+  for (const std::size_t count : {0U, 1U, 2U, 9U}) {
+    std::vector<std::size_t> lengths(count);
+    for (std::size_t i = 0; i < count; ++i) lengths[i] = (7 * i) % 5;
+    std::vector<std::atomic<int>> calls(count);
+    LongestFirst(lengths, [&](std::size_t i) { ++calls[i]; });
+    for (const auto& of_index : calls) EXPECT_EQ(of_index, 1);
   }
 }
 
