@@ -6,6 +6,16 @@
 #include "diagnosis/inference/ranking.hpp"
 
 namespace levitas::diagnosis {
+namespace {
+
+/// Spans of records that are longer than `rows`; empty when they are not.
+std::vector<Record> PartOf(const std::vector<Record>& records, std::size_t rows) {
+  std::size_t total = 0;
+  for (const Record& record : records) total += record.rows.size();
+  return total > rows ? Spans(records, rows) : std::vector<Record>{};
+}
+
+}  // namespace
 
 SearchState::SearchState(const RigView& of, const std::vector<Record>& recorded,
                          const Settings& asked, const Effort& spent, std::vector<Term>& all)
@@ -15,7 +25,8 @@ SearchState::SearchState(const RigView& of, const std::vector<Record>& recorded,
       settings(asked),
       effort(spent),
       search(rig, terms, asked.only),
-      records(Spans(recorded, spent.rows)),
+      part(PartOf(recorded, spent.rows)),
+      records(part.empty() ? recorded : part),
       gains(search.DesignGains(records, kSpeeds[0])),
       refiner(search, terms, records, gains, rig.axes),
       theta(search.Usual()) {}
@@ -34,6 +45,7 @@ void SearchState::Observe(std::size_t with) {
 
 void SearchState::LineariseAll() {
   for (Term& term : terms) term.family.linearised_as = term.family.shape;
+  view = {};  // two of them do not fit into a gigabyte
   view = search.Linearise(records, gains, theta, kWhiteningOrder, search.Everything());
 }
 

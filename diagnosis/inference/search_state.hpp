@@ -62,9 +62,10 @@ struct SearchState {
   const Settings& settings;
   Effort effort;
   Search search;
-  std::vector<Record> records;  ///< that are fitted
-  std::size_t speed{0};         ///< of the observers, in kSpeeds
-  std::size_t slowest{0};       ///< that can be gone back to
+  std::vector<Record> part;            ///< of longer records
+  const std::vector<Record>& records;  ///< that are fitted
+  std::size_t speed{0};                ///< of the observers, in kSpeeds
+  std::size_t slowest{0};              ///< that can be gone back to
   Gains gains;
   Refiner refiner;
 
