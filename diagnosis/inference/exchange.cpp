@@ -1,6 +1,7 @@
 #include "diagnosis/inference/exchange.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "diagnosis/inference/ranking.hpp"
@@ -30,12 +31,13 @@ void Restore(const Shapes& shapes, std::vector<Term>& terms) {
   }
 }
 
-/// Refines the shapes of all families among the causes in turn.
-Refined SharpenAll(SearchState& state, const std::vector<Hypothesis>& causes, Refined fit) {
+/// Refines the shapes of all families among the causes in turn, where `worth` can be reached.
+Refined SharpenAll(SearchState& state, const std::vector<Hypothesis>& causes, Refined fit,
+                   double worth) {
   for (const Hypothesis& cause : causes) {
     if (!fit.ok || !HasFamily(cause, state.terms)) continue;
     fit = RefineShape(state.refiner, cause, causes, state.view, state.effort.passes, std::move(fit),
-                      state.terms);
+                      state.terms, worth);
   }
   return fit;
 }
@@ -73,7 +75,7 @@ bool ExchangeOne(SearchState& state, std::size_t at, Refined& best) {
     state.ReportProgress(0.74, "exchanging " + state.causes[at].effect + " for " + other.effect);
     std::vector<Hypothesis> causes = state.causes;
     causes[at] = state.search.hypotheses()[other.hypothesis];
-    Refined fit = SharpenAll(state, causes, state.Refit(causes));
+    Refined fit = SharpenAll(state, causes, state.Refit(causes), best.evidence);
     if (fit.ok && fit.evidence > best.evidence) {
       best = std::move(fit);
       winner = std::move(causes);
@@ -93,7 +95,8 @@ void ExchangeCauses(SearchState& state) {
   if (state.causes.size() < 2) return;
   for (int round = 0; round < kRounds; ++round) {
     Refined best = state.refiner.Fit(state.causes, state.theta, state.view, state.effort.passes);
-    best = SharpenAll(state, state.causes, std::move(best));
+    best =
+        SharpenAll(state, state.causes, std::move(best), -std::numeric_limits<double>::infinity());
     if (!best.ok) return;
     Keep(state, state.causes, best);
     state.LineariseAll();

@@ -49,6 +49,14 @@ double Refiner::PredictedCost(const LinearProblem& problem,
   return 0.5 * (solution.squared_sum + solution.penalty);
 }
 
+double Refiner::LinearCost(const LinearProblem& problem, const std::vector<Hypothesis>& causes,
+                           const std::vector<double>& theta) const {
+  const Eigen::VectorXd scaled = search_.Scaled(theta);
+  const double square =
+      problem.ete + 2.0 * scaled.dot(problem.jte) + scaled.dot(problem.jtj * scaled);
+  return 0.5 * (square + Penalty(theta, causes));
+}
+
 double Refiner::EvidenceOfSet(const LinearProblem& problem, const std::vector<Term>& terms,
                               const std::vector<Hypothesis>& causes) {
   const auto fit = Evidence(problem, terms, causes).Solve();
@@ -71,9 +79,12 @@ Runs Refiner::RunAt(const std::vector<double>& theta, const View& view) const {
 }
 
 void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes,
-                               std::vector<double> theta, int passes, Refined& best) const {
+                               std::vector<double> theta, int passes, double worth,
+                               Refined& best) const {
   constexpr double kConverged = 0.3;  // [nat]
-  constexpr int kMostRefused = 4;
+  constexpr double kDecides = 5.0;    // [nat] as Judging::decisive_nat
+  // With a Jacobian of this very point a step that fails twice fails for the model's own bends.
+  const int most_refused = view.close ? 1 : 4;
   NormalEquations sum = view.sum;
   LevenbergDamping damping;
   int refused = 0;
@@ -83,10 +94,14 @@ void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& 
     const double cost = 0.5 * (sum.ete + Penalty(theta, causes));
     const double gained = best.cost - cost;
     if (!std::isfinite(cost) || gained < -kConverged) {
-      if (++refused > kMostRefused) return;
+      if (++refused > most_refused) return;
       damping.Refuse();
       if (best.ok && best.problem.jtj.size() > 0) {
+        if (EvidenceOfSet(best.problem, terms_, causes) < worth) return;
         theta = search_.Step(best.problem, causes, best.theta, damping.value());
+        // A step that cannot gain is not run; the third one must gain what would decide.
+        const double least = refused > 1 ? kDecides : kConverged;
+        if (best.cost - LinearCost(best.problem, causes, theta) < least) return;
       } else {
         // The start itself diverges: approach the healthy rig by halves.
         for (std::size_t i = 0; i < theta.size(); ++i) {
@@ -110,18 +125,19 @@ void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& 
 Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
                      const View& view, int passes, double worth) const {
   Refined best;
-  MinimiseByChords(view, causes, std::move(start), passes, best);
-  const bool nonlinear = std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
-    return std::any_of(h.terms.begin(), h.terms.end(), [this](std::size_t i) {
-      const Family& family = terms_[i].family;
-      return !terms_[i].linear || family.shape != family.linearised_as;
-    });
-  });
+  MinimiseByChords(view, causes, std::move(start), passes, worth, best);
+  const bool nonlinear =
+      !view.close && std::any_of(causes.begin(), causes.end(), [this](const Hypothesis& h) {
+        return std::any_of(h.terms.begin(), h.terms.end(), [this](std::size_t i) {
+          const Family& family = terms_[i].family;
+          return !terms_[i].linear || family.shape != family.linearised_as;
+        });
+      });
   // With a Jacobian of an earlier point the steps end before the minimum of a nonlinear model. It
   // is renewed while the linear prediction is better than the model's run by more than this.
   constexpr double kPredictionError = 1.0;  // [nat]
   constexpr int kMostRenewals = 2;
-  for (int renewal = 0; best.ok && renewal < kMostRenewals; ++renewal) {
+  for (int renewal = 0; !view.close && best.ok && renewal < kMostRenewals; ++renewal) {
     const bool first = renewal == 0 && nonlinear;
     if (!first && best.cost - PredictedCost(best.problem, causes) < kPredictionError) break;
     if (EvidenceOfSet(best.problem, terms_, causes) < worth) break;
@@ -136,7 +152,7 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
       best.problem = here.problem;
     }
     MinimiseByChords(known ? view : here, causes, search_.Solve(best.problem, causes), passes,
-                     best);
+                     worth, best);
     if (!best.runs) break;  // no step helped
   }
   best.runs = nullptr;
@@ -148,9 +164,9 @@ Refined Refiner::Fit(const std::vector<Hypothesis>& causes, std::vector<double> 
   return best;
 }
 
-Search::ShapeStep Refiner::Along(const std::vector<Hypothesis>& causes,
-                                 const std::vector<double>& theta, const View& view, double width,
-                                 const std::function<void(double)>& become) const {
+Refiner::Along Refiner::StepAlong(const std::vector<Hypothesis>& causes,
+                                  const std::vector<double>& theta, const View& view, double width,
+                                  const std::function<void(double)>& become) const {
   constexpr double kApart = 0.05;  // of the width
   constexpr double kMost = 1.5;
   View here =
@@ -165,7 +181,9 @@ Search::ShapeStep Refiner::Along(const std::vector<Hypothesis>& causes,
   const NormalEquations below = sum(-kApart * width);
   const NormalEquations above = sum(kApart * width);
   become(0.0);
-  return search_.StepAlong(causes, theta, here.sum, below, above, kApart * width, kMost * width);
+  here.close = true;
+  return {search_.StepAlong(causes, theta, here.sum, below, above, kApart * width, kMost * width),
+          here};
 }
 
 double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_order) const {

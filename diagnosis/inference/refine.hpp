@@ -40,17 +40,21 @@ class Refiner {
           const Gains& gains, std::size_t axes)
       : search_(search), terms_(terms), records_(records), gains_(gains), axes_(axes) {}
 
-  /// `view` has everything linearised on the records of this refiner. The Jacobian is not renewed
-  /// where even the linear prediction gains less than `worth`, an evidence.
+  /// `view` has everything linearised on the records of this refiner, or is close. The Jacobian is
+  /// not renewed, and a step that was refused not shortened, where even the linear prediction gains
+  /// less than `worth`, an evidence. A close Jacobian is never renewed.
   [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
                             const View& view, int passes,
                             double worth = -std::numeric_limits<double>::infinity()) const;
+  struct Along {
+    Search::ShapeStep step;
+    View here;  ///< nuisances and causes, without runs
+  };
   /// Newton's step of all parameters and of a shape parameter without analytic slope. `become`
   /// sets it to another value, relative to the present one in its logarithm.
-  [[nodiscard]] Search::ShapeStep Along(const std::vector<Hypothesis>& causes,
-                                        const std::vector<double>& theta, const View& view,
-                                        double width,
-                                        const std::function<void(double)>& become) const;
+  [[nodiscard]] Along StepAlong(const std::vector<Hypothesis>& causes,
+                                const std::vector<double>& theta, const View& view, double width,
+                                const std::function<void(double)>& become) const;
   /// Nuisances alone, from far away. The whitening filter is re-estimated at every pass, since a
   /// residual that is not calibrated yet is not noise and must not be weighted down as such.
   [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order,
@@ -66,13 +70,17 @@ class Refiner {
  private:
   /// Improves `best` from theta on with the Jacobian of `view`, until a step gains too little.
   void MinimiseByChords(const View& view, const std::vector<Hypothesis>& causes,
-                        std::vector<double> theta, int passes, Refined& best) const;
+                        std::vector<double> theta, int passes, double worth, Refined& best) const;
   [[nodiscard]] Runs RunAt(const std::vector<double>& theta, const View& view) const;
   /// The linearisation was taken at theta, with the present shapes of all families.
   [[nodiscard]] bool TakenAt(const std::vector<double>& theta, const View& view) const;
   /// [nat] cost at the minimum of the linearised model.
   [[nodiscard]] double PredictedCost(const LinearProblem& problem,
                                      const std::vector<Hypothesis>& causes) const;
+  /// [nat] cost of data and priors at theta, as the linearised model has it.
+  [[nodiscard]] double LinearCost(const LinearProblem& problem,
+                                  const std::vector<Hypothesis>& causes,
+                                  const std::vector<double>& theta) const;
   [[nodiscard]] double Penalty(const std::vector<double>& theta,
                                const std::vector<Hypothesis>& causes) const;
 

@@ -40,15 +40,15 @@ class Members {
   /// A better value of one parameter than the present one, if there is one.
   Refined Improve(std::size_t parameter, double width, Refined start) {
     const double here = std::log(family().shape[parameter]);
-    const Search::ShapeStep step = refiner_.Along(causes_, start.theta, view_, width,
-                                                  [&](double by) { Become(parameter, here + by); });
+    const auto [step, view] = refiner_.StepAlong(causes_, start.theta, view_, width,
+                                                 [&](double by) { Become(parameter, here + by); });
     std::vector<double> theta = step.theta;
     for (double share = 1.0; share > kLeast; share *= 0.3) {
       for (std::size_t i = 0; i < theta.size(); ++i) {
         theta[i] = start.theta[i] + share * (step.theta[i] - start.theta[i]);
       }
       Become(parameter, here + share * step.step);
-      Refined fit = refiner_.Fit(causes_, theta, view_, passes_);
+      Refined fit = refiner_.Fit(causes_, theta, view, passes_, start.evidence);
       if (fit.ok && fit.evidence > start.evidence) return fit;
     }
     Become(parameter, here);
@@ -73,7 +73,7 @@ bool HasFamily(const Hypothesis& cause, const std::vector<Term>& terms) {
 
 Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
                     const std::vector<Hypothesis>& causes, const View& view, int passes,
-                    Refined start, std::vector<Term>& terms) {
+                    Refined start, std::vector<Term>& terms, double worth) {
   Members members(refiner, cause, causes, view, passes, terms);
   Refined best = std::move(start);
   const Family::Shape width = members.family().log_width;
@@ -87,7 +87,8 @@ Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
       best = members.Improve(parameter, width[parameter], std::move(best));
       failed = best.evidence > evidence ? 0 : failed + 1;
     }
-    if (best.evidence - before < kWorth) break;
+    const double gained = best.evidence - before;
+    if (gained < kWorth || best.evidence + (kRounds - 1 - round) * gained < worth) break;
   }
   return best;
 }

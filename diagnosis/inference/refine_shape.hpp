@@ -11,6 +11,7 @@
 // Thread     blocks the caller, two threads inside.
 // Failure    none: a step that does not improve the fit is not kept.
 
+#include <limits>
 #include <vector>
 
 #include "diagnosis/inference/refine.hpp"
@@ -21,9 +22,11 @@ namespace levitas::diagnosis {
 [[nodiscard]] bool HasFamily(const Hypothesis& cause, const std::vector<Term>& terms);
 
 /// `terms` are those of the refiner; those of `cause` become the best member's. `start` is the fit
-/// of `causes`, `cause` among them, on `view`. Returns the fit with the best member.
+/// of `causes`, `cause` among them, on `view`. Returns the fit with the best member. Ends when the
+/// evidence `worth` is out of reach though all further rounds gained as much as the last one.
 [[nodiscard]] Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
                                   const std::vector<Hypothesis>& causes, const View& view,
-                                  int passes, Refined start, std::vector<Term>& terms);
+                                  int passes, Refined start, std::vector<Term>& terms,
+                                  double worth = -std::numeric_limits<double>::infinity());
 
 }  // namespace levitas::diagnosis

@@ -22,6 +22,7 @@ using Runs = std::shared_ptr<const std::vector<Trajectory>>;
 /// One linearisation, on the records it was made with.
 struct View {
   std::vector<double> theta;  ///< where it was taken
+  bool close{};               ///< to what is fitted with it, shapes included
   Runs runs;
   Whitener whitener;
   std::shared_ptr<const Slopes> slopes;
@@ -75,13 +76,14 @@ class Search {
   void Rename(const std::vector<std::size_t>& terms, const std::string& place);
   /// Parameters of the healthy rig: the start of every search.
   [[nodiscard]] std::vector<double> Usual() const;
+  /// In units of Term::scale() from the healthy rig.
+  [[nodiscard]] Eigen::VectorXd Scaled(const std::vector<double>& theta) const;
   [[nodiscard]] std::vector<std::size_t> Nuisances() const;
   [[nodiscard]] std::vector<std::size_t> Everything() const;
   [[nodiscard]] std::vector<std::size_t> NuisancesAnd(const std::vector<Hypothesis>& causes) const;
 
  private:
-  /// In units of Term::scale() from the nominal rig, and back.
-  [[nodiscard]] Eigen::VectorXd Scaled(const std::vector<double>& theta) const;
+  /// Back from units of Term::scale().
   [[nodiscard]] std::vector<double> Unscaled(const Eigen::VectorXd& scaled) const;
 
   const RigView& rig_;
