@@ -74,7 +74,7 @@ bool TrialScore::HoldsAllClearly() const {
 }
 
 TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
-                 const diagnosis::DiagnosisReport& report, const RigNumbers& rig) {
+                 const diagnosis::DiagnosisReport& report) {
   TrialScore o;
   o.seed = plan.seed;
   o.truth = ground_truth.effects;
@@ -101,7 +101,7 @@ TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
   o.achieved = report.validation.achieved.fraction;
   for (const auto& p : report.parameters) {
     if (o.truth.empty() || p.effect != o.truth.front()) continue;
-    const double truth = TrueValue(p, ground_truth, rig).value_or(0.0);
+    const double truth = TrueValue(p, ground_truth).value_or(0.0);
     if (truth == 0.0) continue;
     const double deviation = 0.5 * (p.high - p.low) / numerics::kInterval90;
     o.parameter_error = std::abs(p.value - truth) / std::abs(truth);

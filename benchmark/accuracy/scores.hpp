@@ -61,7 +61,7 @@ struct TrialScore {
 };
 
 [[nodiscard]] TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
-                               const diagnosis::DiagnosisReport& report, const RigNumbers& rig);
+                               const diagnosis::DiagnosisReport& report);
 
 /// Above this evidence a missed effect counts as an error even if the informed diagnosis missed it
 /// too (twice kDecisive: a fit also pays an Occam factor).

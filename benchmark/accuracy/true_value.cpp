@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <complex>
 #include <initializer_list>
@@ -14,17 +13,6 @@
 
 namespace levitas::accuracy {
 namespace {
-
-/// Whether a place speaks of a channel or bearing by its whole name: "nde_y" is no word of "de_y".
-bool Speaks(std::string_view place, std::string_view name) {
-  const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
-  for (auto at = place.find(name); at != std::string_view::npos; at = place.find(name, at + 1)) {
-    const std::size_t end = at + name.size();
-    const bool begins = at == 0 || !(letter(place[at - 1]) || place[at - 1] == '_');
-    if (begins && (end == place.size() || !letter(place[end]))) return true;
-  }
-  return false;
-}
 
 /// Index of the parameter with one of these stems; the number of parameters when there is none.
 std::size_t IndexOf(const effect::Row& row, std::initializer_list<std::string_view> stems) {
@@ -37,15 +25,12 @@ std::size_t IndexOf(const effect::Row& row, std::initializer_list<std::string_vi
 /// Entries of what a parameter of the answer speaks of: the hidden one, and what the rig is off by
 /// anyway at the same place. Empty: it speaks of another place.
 std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter& p,
-                                                 const GroundTruth& ground_truth,
-                                                 const RigNumbers& rig) {
+                                                 const GroundTruth& ground_truth) {
   const auto here = [&](const effect::EffectConfig& entry) {
     const effect::Row& row = effect::At(entry.id);
     if (row.name != p.effect) return false;
-    if (row.scope == effect::Scope::kBearing) return Speaks(p.place, rig.bearings[entry.bearing]);
-    for (std::size_t a = 0; a < rig.axes(); ++a) {
-      if (entry.Acts(a) && Speaks(p.place, rig.channels[a])) return true;
-    }
+    if (row.scope == effect::Scope::kBearing) return p.location.bearing == entry.bearing;
+    if (p.location.axis && entry.Acts(*p.location.axis)) return true;
     return row.scope != effect::Scope::kChannels;
   };
   const auto hidden = std::find_if(ground_truth.hidden.begin(), ground_truth.hidden.end(), here);
@@ -55,10 +40,7 @@ std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter
   const std::size_t z = IndexOf(row, {"z"});
   const std::size_t order = IndexOf(row, {"order"});
   const std::size_t none = row.parameters.size();
-  if (order < none &&
-      p.place.find(fmt::format("order {:.0f}", hidden->values[order])) == std::string::npos) {
-    return {};
-  }
+  if (order < none && p.location.order != std::lround(hidden->values[order])) return {};
   std::vector<const effect::EffectConfig*> found;
   for (const effect::EffectConfig& entry : ground_truth.truth.config.effects) {
     if (!here(entry)) continue;
@@ -71,9 +53,9 @@ std::vector<const effect::EffectConfig*> Entries(const diagnosis::NamedParameter
 
 }  // namespace
 
-std::optional<double> TrueValue(const diagnosis::NamedParameter& p, const GroundTruth& ground_truth,
-                                const RigNumbers& rig) {
-  const auto entries = Entries(p, ground_truth, rig);
+std::optional<double> TrueValue(const diagnosis::NamedParameter& p,
+                                const GroundTruth& ground_truth) {
+  const auto entries = Entries(p, ground_truth);
   if (entries.empty()) return std::nullopt;
   const effect::Row& row = effect::At(entries.front()->id);
   const auto is = [&p](const effect::Parameter& known) {

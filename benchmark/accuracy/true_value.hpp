@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "benchmark/accuracy/trial.hpp"
-#include "common/rig_numbers.hpp"
 #include "diagnosis/report/named_values.hpp"
 
 namespace levitas::accuracy {
@@ -16,7 +15,6 @@ namespace levitas::accuracy {
 /// Nothing where the two cannot be compared: another place, a number that counts from the rig's
 /// own.
 [[nodiscard]] std::optional<double> TrueValue(const diagnosis::NamedParameter& parameter,
-                                              const GroundTruth& ground_truth,
-                                              const RigNumbers& rig);
+                                              const GroundTruth& ground_truth);
 
 }  // namespace levitas::accuracy

@@ -74,8 +74,7 @@ accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRi
   const auto start = std::chrono::steady_clock::now();
   const diagnosis::DiagnosisReport report =
       diagnosis::BuildReport(diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings));
-  accuracy::TrialScore outcome =
-      accuracy::Judge(plan, trial.ground_truth, report, bench.rig.numbers);
+  accuracy::TrialScore outcome = accuracy::Judge(plan, trial.ground_truth, report);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (outcome.truth.size() > 1 && plan.side_size == 1.0) ListMissed(trial, outcome);
   if (!outcome.truth.empty() && !outcome.Right()) {

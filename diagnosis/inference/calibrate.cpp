@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
 
 #include "common/problem.hpp"
 
@@ -17,12 +16,13 @@ constexpr double kHeld = 0.2;  ///< of its tolerance
 
 /// How a rig is built is held near its file; what state it is in is not.
 std::vector<Term> Held(std::vector<Term> terms) {
-  constexpr std::array<std::string_view, 4> kState{"unbalance", "static_load", "sensor_offset",
-                                                   "sensor_runout"};
+  using effect::Id;
+  constexpr std::array kState{Id::kUnbalance, Id::kStaticLoad, Id::kSensorOffset,
+                              Id::kSensorRunout};
   for (Term& term : terms) {
-    if (std::find(kState.begin(), kState.end(), term.effect) == kState.end()) {
-      term.tolerance *= kHeld;
-    }
+    const bool of_state =
+        std::any_of(kState.begin(), kState.end(), [&term](Id id) { return term.effect == id; });
+    if (!of_state) term.tolerance *= kHeld;
   }
   return terms;
 }

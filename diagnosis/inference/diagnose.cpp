@@ -48,7 +48,7 @@ void Describe(const SearchState& state, const Fit& fit, SearchResult& answer) {
   for (std::size_t i = 0; i < state.terms.size(); ++i) {
     const Term& t = state.terms[i];
     const double deviation = fit.deviation[static_cast<Eigen::Index>(i)] * t.scale();
-    const Estimate estimate{t.effect, t.place, t.parameter, t.unit, state.theta[i], deviation};
+    const Estimate estimate{i, state.theta[i], deviation};
     const bool cause =
         std::any_of(state.causes.begin(), state.causes.end(), [i](const Hypothesis& h) {
           return std::find(h.terms.begin(), h.terms.end(), i) != h.terms.end();

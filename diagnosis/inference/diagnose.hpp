@@ -54,8 +54,9 @@ struct Candidate {
   bool refitted{};  ///< on the nonlinear model; else from the screen
 };
 
+/// Of the parameter of one term, in its unit.
 struct Estimate {
-  std::string effect, place, parameter, unit;
+  std::size_t term{};  ///< index among the terms
   double value{};
   double deviation{};
 };

@@ -1,9 +1,11 @@
 #include "diagnosis/inference/hypothesis.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace levitas::diagnosis {
@@ -18,7 +20,8 @@ class Maker {
   std::vector<Hypothesis> Make() {
     std::map<std::pair<std::string, std::string>, Indices> forms;
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (!terms_[i].effect.empty()) forms[{terms_[i].effect, terms_[i].form}].push_back(i);
+      if (!terms_[i].effect) continue;
+      forms[{std::string(terms_[i].effect_name()), terms_[i].form}].push_back(i);
     }
     for (const auto& [form, indices] : forms) {
       const std::size_t first = out_.size();
@@ -37,11 +40,10 @@ class Maker {
  private:
   void AddEffect(const std::string& effect, const Indices& indices) {
     std::map<std::string, Indices> places;
-    for (const std::size_t i : indices) places[terms_[i].place].push_back(i);
+    for (const std::size_t i : indices) places[terms_[i].location.name].push_back(i);
     for (const auto& [place, members] : places) Free(effect, place, members);
-    const auto& channels = rig_.numbers.channels;
-    const bool by_axis = std::all_of(places.begin(), places.end(), [&](const auto& entry) {
-      return std::find(channels.begin(), channels.end(), entry.first) != channels.end();
+    const bool by_axis = std::all_of(indices.begin(), indices.end(), [this](std::size_t i) {
+      return terms_[i].location.is_axis();
     });
     if (by_axis) {
       for (std::size_t b = 0; b < rig_.numbers.bearings.size(); ++b) {
@@ -58,43 +60,40 @@ class Maker {
   }
 
   void AddRunout(const Indices& indices) {
-    for (const char* order : {"order 1", "order 2", "order 3"}) {
-      const Indices of_order = Within(indices, order);
+    for (const int order : {1, 2, 3}) {
+      const Indices of_order =
+          Where(indices, [order](const Location& at) { return at.order == order; });
+      const std::string name = AtOrder(order).name;
       for (std::size_t b = 0; b < rig_.numbers.bearings.size(); ++b) {
-        Free("sensor_runout", std::string(order) + ", " + rig_.numbers.bearings[b],
-             OfBearing(of_order, b));
+        Free("sensor_runout", name + ", " + rig_.numbers.bearings[b], OfBearing(of_order, b));
       }
-      Free("sensor_runout", std::string(order) + ", all axes", of_order);
+      Free("sensor_runout", name + ", all axes", of_order);
     }
     Free("sensor_runout", "all orders, all axes", indices);
   }
 
   void AddMains(const Indices& indices) {
-    for (const char* line : {"50 Hz", "60 Hz", "100 Hz", "120 Hz", "150 Hz"}) {
-      const Indices of_line = Within(indices, line);
-      if (!of_line.empty()) Free("mains_pickup", std::string(line) + ", all axes", of_line);
+    for (const double line_hz : {50.0, 60.0, 100.0, 120.0, 150.0}) {
+      const Indices of_line =
+          Where(indices, [line_hz](const Location& at) { return at.frequency_hz == line_hz; });
+      if (of_line.empty()) continue;
+      Free("mains_pickup", fmt::format("{:.0f} Hz, all axes", line_hz), of_line);
     }
   }
 
-  [[nodiscard]] Indices Within(const Indices& indices, const std::string& part) const {
+  /// Those of the terms whose location is as asked.
+  template <typename AsAsked>
+  [[nodiscard]] Indices Where(const Indices& indices, const AsAsked& as_asked) const {
     Indices found;
-    for (const std::size_t i : indices) {
-      const std::string place = " " + terms_[i].place;
-      if (place.find(" " + part) != std::string::npos) found.push_back(i);
-    }
+    std::copy_if(indices.begin(), indices.end(), std::back_inserter(found),
+                 [&](std::size_t i) { return as_asked(terms_[i].location); });
     return found;
   }
 
-  /// Those whose place is an axis of the bearing, or ends with it.
+  /// Those on an axis of the bearing.
   [[nodiscard]] Indices OfBearing(const Indices& indices, std::size_t bearing) const {
-    Indices found;
-    for (const std::size_t i : indices) {
-      const std::string place = ", " + terms_[i].place;
-      for (const std::size_t a : {2 * bearing, 2 * bearing + 1}) {
-        if (place.ends_with(", " + rig_.numbers.channels[a])) found.push_back(i);
-      }
-    }
-    return found;
+    return Where(indices,
+                 [bearing](const Location& at) { return at.axis && *at.axis / 2 == bearing; });
   }
 
   Hypothesis Empty(const std::string& effect, const std::string& place, const Indices& members,

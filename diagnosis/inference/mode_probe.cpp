@@ -64,7 +64,7 @@ std::vector<ModeProbe> ProbeModes(const RigView& rig, const std::vector<Term>& t
     if (hypothesis.effect != "modal_frequency" || hypothesis.terms.size() != 1) continue;
     const std::size_t term = hypothesis.terms.front();
     for (std::size_t mode = 2; mode < rig.modes; ++mode) {
-      if (terms[term].place != "mode " + std::to_string(mode - 1)) continue;
+      if (terms[term].location.mode != mode - 1) continue;
       const double mode_hz = rig.omega_rad_per_s[mode] / (2.0 * std::numbers::pi);
       const double peak_hz = Peak(ratio, remainder.line_spacing_hz, mode_hz);
       const double theta = peak_hz / mode_hz - 1.0;

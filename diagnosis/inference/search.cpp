@@ -20,8 +20,8 @@ constexpr double kSettling = 0.3;  // [s]
 double Least(const Term& term) {
   constexpr double kAlmostUndamped = -0.95;  // of the damping that the rig file says
   constexpr double kAlmostNoLag = -0.95;
-  if (term.effect == "modal_damping") return kAlmostUndamped;
-  if (term.effect == "sensor_bandwidth") return kAlmostNoLag;
+  if (term.effect == effect::Id::kModalDamping) return kAlmostUndamped;
+  if (term.effect == effect::Id::kSensorBandwidth) return kAlmostNoLag;
   return term.positive ? 0.0 : -std::numeric_limits<double>::infinity();
 }
 

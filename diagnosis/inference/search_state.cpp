@@ -54,7 +54,7 @@ Refined SearchState::Refit(const std::vector<Hypothesis>& set, double worth) con
 }
 
 void SearchState::TakePlace(Hypothesis& member) {
-  member.place = terms[member.terms.front()].place;
+  member.place = terms[member.terms.front()].location.name;
   search.Rename(member.terms, member.place);
 }
 

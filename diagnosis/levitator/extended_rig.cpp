@@ -6,8 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/problem.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
+#include "diagnosis/report/effect_entry.hpp"
+#include "diagnosis/report/extended_rig.hpp"
 #include "numerics/normal_distribution.hpp"
 
 namespace levitas::levitator {
@@ -41,47 +42,30 @@ void ExtendForce(const Theta& t, double gap_m, plant::ExponentialForce& law) {
   law.far_gap_m = law.decay_m * std::log(law.force_n_per_a2 / down);
 }
 
-/// Entries of the list of effects, of what has no key.
-std::vector<std::string> Entries(const std::string& channel, const Theta& t, double bandwidth_hz) {
-  std::vector<std::string> out;
-  const auto add = [&](bool there, const std::string& id, const std::string& values) {
-    if (there) out.push_back(fmt::format("{{id: {}, {}}}", id, values));
+/// Entries of the list of effects, for the values that have no key.
+std::vector<effect::EffectConfig> Entries(const RigNumbers& rig, const Theta& t,
+                                          double bandwidth_hz) {
+  using effect::Id;
+  std::vector<effect::EffectConfig> out;
+  const auto add = [&](bool there, Id id, const diagnosis::EntryValues& values) {
+    if (!there) return;
+    const auto entry = diagnosis::MakeEntry(id, diagnosis::AtAxis(rig, 0), rig.axes(), values);
+    if (entry) out.push_back(*entry);
   };
-  const std::string at = fmt::format("channels: [{}]", channel);
-  add(t[kForceKnee] > 0.0, "magnetic_saturation",
-      fmt::format("{}, knee_a: {:.6g}, exponent: 2", at,
-                  1.0 / std::sqrt(std::max(1e-9, t[kForceKnee]))));
-  add(t[kForceLag] > 0.0, "eddy_current",
-      fmt::format("{}, tau_us: {:.6g}", at, 1e6 * t[kForceLag]));
-  add(t[kSensorGain] != 0.0, "sensor_gain",
-      fmt::format("{}, ratio: {:.6g}", at, 1.0 + t[kSensorGain]));
-  add(t[kSensorOffset] != 0.0, "sensor_offset",
-      fmt::format("{}, offset_um: {:.6g}", at, 1e6 * t[kSensorOffset]));
-  add(t[kSensorSquare] != 0.0 || t[kSensorCube] != 0.0, "sensor_nonlinearity",
-      fmt::format("{}, a2_1_per_m: {:.6g}, a3_1_per_m2: {:.6g}", at, t[kSensorSquare],
-                  t[kSensorCube]));
+  add(t[kForceKnee] > 0.0, Id::kMagneticSaturation,
+      {{"knee_a", 1.0 / std::sqrt(std::max(1e-9, t[kForceKnee]))}, {"exponent", 2.0}});
+  add(t[kForceLag] > 0.0, Id::kEddyCurrent, {{"tau_us", 1e6 * t[kForceLag]}});
+  add(t[kSensorGain] != 0.0, Id::kSensorGain, {{"ratio", 1.0 + t[kSensorGain]}});
+  add(t[kSensorOffset] != 0.0, Id::kSensorOffset, {{"offset_um", 1e6 * t[kSensorOffset]}});
+  add(t[kSensorSquare] != 0.0 || t[kSensorCube] != 0.0, Id::kSensorNonlinearity,
+      {{"a2_1_per_m", t[kSensorSquare]}, {"a3_1_per_m2", t[kSensorCube]}});
   const double lag_s = 1.0 / (2.0 * std::numbers::pi * bandwidth_hz) + t[kSensorLag];
-  add(t[kSensorLag] > 0.0, "sensor_bandwidth",
-      fmt::format("{}, bandwidth_hz: {:.6g}", at, 1.0 / (2.0 * std::numbers::pi * lag_s)));
-  add(t[kMass] != 0.0, "rotor_mass", fmt::format("ratio: {:.6g}", 1.0 + t[kMass]));
-  add(t[kLoad] != 0.0, "static_load", fmt::format("z_mm: 0, force_x_n: {:.6g}", t[kLoad]));
-  add(t[kSpring] != 0.0, "coupling_stiffness",
-      fmt::format("z_mm: 0, direct_n_per_m: {:.6g}", t[kSpring]));
+  add(t[kSensorLag] > 0.0, Id::kSensorBandwidth,
+      {{"bandwidth_hz", 1.0 / (2.0 * std::numbers::pi * lag_s)}});
+  add(t[kMass] != 0.0, Id::kRotorMass, {{"ratio", 1.0 + t[kMass]}});
+  add(t[kLoad] != 0.0, Id::kStaticLoad, {{"z_mm", 0.0}, {"force_x_n", t[kLoad]}});
+  add(t[kSpring] != 0.0, Id::kCouplingStiffness, {{"z_mm", 0.0}, {"direct_n_per_m", t[kSpring]}});
   return out;
-}
-
-/// The entry as the strict reader takes it; nothing where it refuses.
-std::vector<effect::EffectConfig> Read(const config::RigFile& rig, const std::string& entry) {
-  std::string text = config::WriteRig(rig);
-  const std::string none = "effects: []\n";
-  const auto at = text.find(none);
-  if (at == std::string::npos) return {};
-  text.replace(at, none.size(), "effects:\n  - " + entry + "\n");
-  try {
-    return config::ParseRig(text, "extended_rig.yaml").plant.effects;
-  } catch (const BadInput&) {
-    return {};
-  }
 }
 
 bool InTheModel(std::size_t i) {
@@ -107,9 +91,8 @@ std::string Comments(const Found& found) {
 
 /// The rig file with all values of the table, which hold the effects of the file as well.
 std::string WithValues(const config::RigFile& file, const Theta& t, const std::string& comments) {
-  config::RigFile rig = file;
-  rig.plant.effects.clear();  // the values hold them
-  config::RigFile extended = rig;
+  config::RigFile extended = file;
+  extended.plant.effects.clear();  // the values hold them
   plant::BearingConfig& bearing = extended.plant.bearings.at(0);
   extended.plant.delay_samples += t[kDelay];
   if (bearing.amplifier.voltage) ExtendCoil(t, *bearing.amplifier.voltage);
@@ -122,15 +105,9 @@ std::string WithValues(const config::RigFile& file, const Theta& t, const std::s
           std::exp((bearing.magnet.exponential->far_gap_m - far_m) / coil->decay_m);
     }
   }
-  std::string refused;
-  for (const std::string& entry :
-       Entries(rig.numbers.channels.front(), t, bearing.sensor.bandwidth_hz)) {
-    const auto effects = Read(rig, entry);
-    extended.plant.effects.insert(extended.plant.effects.end(), effects.begin(), effects.end());
-    if (effects.empty()) refused += "#  - " + entry + "\n";
-  }
-  if (!refused.empty()) refused.insert(0, "# not known to this build's reader:\n");
-  return comments + refused + config::WriteRig(extended);
+  const std::vector<effect::EffectConfig> entries =
+      Entries(file.numbers, t, bearing.sensor.bandwidth_hz);
+  return comments + diagnosis::WithEffects(extended, entries);
 }
 
 }  // namespace

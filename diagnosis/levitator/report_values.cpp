@@ -76,8 +76,8 @@ diagnosis::NamedParameter ParameterOf(const config::RigFile& rig, const Theta& o
   diagnosis::NamedParameter p;
   p.effect = row.effect;
   p.key = file_key.key;
-  p.place = rig.numbers.channels.front();
-  p.name = fmt::format("{}[{}]", p.key, p.place);
+  p.location = diagnosis::AtAxis(rig.numbers, 0);
+  p.name = fmt::format("{}[{}]", p.key, p.location.name);
   p.unit = UnitOf(file_key, row);
   p.si = diagnosis::UnitOfKey(p.key).si;
   p.value = file_key.value(fit.theta[i]);

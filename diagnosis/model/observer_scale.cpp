@@ -45,8 +45,8 @@ ObserverScale ObserverScale::Of(const RigView& rig, const std::vector<Term>& ter
                                 const std::vector<double>& theta) {
   ObserverScale scale;
   for (std::size_t i = 0; i < terms.size(); ++i) {
-    if (terms[i].scales < 0) continue;
-    scale.readings[static_cast<std::size_t>(terms[i].scales)] += theta[i];
+    if (!terms[i].scales) continue;
+    scale.readings[*terms[i].scales] += theta[i];
   }
   const LinearChange change = ChangeOf(terms, theta);
   for (std::size_t plane = 0; plane < 2; ++plane) {

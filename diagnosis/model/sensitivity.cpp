@@ -42,7 +42,7 @@ SensitivityBlock::SensitivityBlock(const RigView& rig, LanePair models,
     probes_.push_back(
         {terms[i], terms[i], theta[i], terms[i].step, terms[i].scale(), terms[i].linear});
     if (terms[i].moves_coil) AddRetimed(terms, theta, i, probes_.back());
-    if (terms[i].scales >= 0 || terms[i].change) AddRescaled(rig, terms, theta, i);
+    if (terms[i].scales || terms[i].change) AddRescaled(rig, terms, theta, i);
   }
 }
 

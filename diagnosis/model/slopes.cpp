@@ -15,10 +15,10 @@ std::vector<std::size_t> Acting(const Trajectory& run, const std::vector<Term>& 
                                 const std::vector<std::size_t>& chosen) {
   const bool turns = std::any_of(run.moments.begin(), run.moments.end(),
                                  [](const SamplePoint& m) { return m.speed_rad_per_s != 0.0F; });
-  const int record = run.moments.empty() ? -1 : static_cast<int>(run.moments.front().record);
   std::vector<std::size_t> acting;
   for (const std::size_t i : chosen) {
-    const bool here = terms[i].record < 0 || terms[i].record == record;
+    const bool here =
+        !terms[i].record || run.moments.empty() || *terms[i].record == run.moments.front().record;
     if (here && (turns || !terms[i].rotating)) acting.push_back(i);
   }
   return acting;

@@ -2,12 +2,18 @@
 
 #include <utility>
 
+#include "plant_sim/effect/catalogue.hpp"
+
 namespace levitas::diagnosis {
+
+std::string_view Term::effect_name() const {
+  return effect ? effect::At(*effect).name : std::string_view{};
+}
 
 Term MakeTerm(TermName name, double tolerance, double faulty_std, TermLaw drive) {
   Term term;
-  term.effect = std::move(name.effect);
-  term.place = std::move(name.place);
+  term.effect = name.effect;
+  term.location = std::move(name.location);
   term.parameter = std::move(name.parameter);
   term.unit = std::move(name.unit);
   term.tolerance = tolerance;

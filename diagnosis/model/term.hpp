@@ -14,10 +14,14 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "diagnosis/model/location.hpp"
 #include "diagnosis/model/sample_point.hpp"
+#include "plant_sim/effect/effect_config.hpp"
 
 namespace levitas::diagnosis {
 
@@ -37,7 +41,10 @@ struct Contribution {
 };
 
 struct TermName {
-  std::string effect, place, parameter, unit;
+  /// Of the catalogue; none for a part of the model that healthy rigs differ in (mode shapes).
+  std::optional<effect::Id> effect;
+  Location location;
+  std::string parameter, unit;
 };
 
 struct LinearChange;
@@ -56,8 +63,8 @@ struct Family {
 };
 
 struct Term {
-  std::string effect;  ///< id of the vocabulary it belongs to
-  std::string place;   ///< "de_x", "mode 3", "order 2, nde_y"
+  std::optional<effect::Id> effect;  ///< none: see TermName
+  Location location;
   std::string parameter;
   std::string unit;
   /// Of a law whose forms exclude each other, one that is not the usual: hypotheses hold one form.
@@ -70,10 +77,10 @@ struct Term {
   bool linear{true};       ///< contribution is proportional to theta
   bool rotating{false};    ///< adds nothing at rest
   bool moves_coil{false};  ///< its drive adds to the coil current, and to nothing else
-  bool timed{
-      false};      ///< its drive looks at when and how fast coils act (SamplePoint::late_periods)
-  int scales{-1};  ///< axis whose whole reading it makes 1 + theta as large; -1: none
-  int record{-1};  ///< acts in this record alone; -1: in all
+  /// Its drive looks at when and how fast coils act (SamplePoint::late_periods).
+  bool timed{false};
+  std::optional<std::size_t> scales;    ///< axis whose whole reading it makes 1 + theta as large
+  std::optional<std::uint32_t> record;  ///< acts in this record alone; none: in all
   /// Over the period that begins at the moment; `reading_m` then belongs to the sample at its end.
   TermLaw drive;
   /// At the sample of the moment.
@@ -86,6 +93,8 @@ struct Term {
   std::function<void(double theta, LinearChange&)> change;
   std::function<void(const SamplePoint&, double theta, AddedSlopes&)> slope;
 
+  /// Name in the catalogue; empty without an effect.
+  [[nodiscard]] std::string_view effect_name() const;
   /// theta in units in which every term is of order one.
   [[nodiscard]] double scale() const noexcept { return faulty_std > 0.0 ? faulty_std : tolerance; }
   [[nodiscard]] bool nuisance() const noexcept { return tolerance > 0.0; }

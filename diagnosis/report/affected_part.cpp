@@ -23,8 +23,9 @@ std::string PlaceOfResidual(const std::string& coherent_with) {
 std::string PlaceOf(const DiagnosisResult& s) {
   const SearchResult& a = s.answer;
   if (!a.causes.empty()) {
-    if (a.causes.front().effect == "axis_rotation") return a.causes.front().place.substr(0, 6);
-    return PlaceOfEffect(a.causes.front().effect);
+    const Hypothesis& first = a.causes.front();
+    if (!first.terms.empty() && s.terms[first.terms.front()].location.on_sensor) return "sensor";
+    return PlaceOfEffect(first.effect);
   }
   if (a.verdict == Verdict::kNone) return "";
   return PlaceOfResidual(a.remainder.coherent_with);
@@ -38,16 +39,11 @@ std::vector<std::string> Channels(const DiagnosisResult& s) {
   }
   std::vector<std::string> found;
   for (std::size_t a = 0; a < channels.size(); ++a) {
-    const std::string& channel = channels[a];
-    const std::string& bearing = s.view->numbers.bearings[a / 2];
-    for (const std::size_t t : s.answer.causes.front().terms) {
-      const std::string place = " " + s.terms[t].place + ",";
-      const bool named = place.find(" " + channel + ",") != std::string::npos ||
-                         place.find(" " + bearing + ",") != std::string::npos;
-      if (named && std::find(found.begin(), found.end(), channel) == found.end()) {
-        found.push_back(channel);
-      }
-    }
+    const std::vector<std::size_t>& terms = s.answer.causes.front().terms;
+    const bool touched = std::any_of(terms.begin(), terms.end(), [&s, a](std::size_t t) {
+      return s.terms[t].location.Touches(a);
+    });
+    if (touched) found.push_back(channels[a]);
   }
   return found.empty() ? channels : found;
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 
 #include "diagnosis/report/extended_rig.hpp"
@@ -13,13 +14,13 @@ namespace {
 
 /// Into the keys that the file has of its own.
 bool IntoKeys(const PlacedEffect& at, config::RigFile& rig) {
-  if (at.effect == "extra_delay") {
+  if (at.effect == effect::Id::kExtraDelay) {
     rig.plant.delay_samples = std::max(0.0, rig.plant.delay_samples + at.At("samples"));
     return true;
   }
-  if (at.effect != "unbalance") return false;
+  if (at.effect != effect::Id::kUnbalance) return false;
   for (auto& mass : rig.plant.unbalance) {
-    if (fmt::format("z {:.1f} mm", mass.z_m * 1e3) != at.place) continue;
+    if (std::abs(mass.z_m - at.location.z_m.value()) >= kSamePlaneM) continue;
     const std::complex<double> sum = std::polar(mass.moment_kg_m, mass.phase_rad) +
                                      std::complex<double>(at.At("cosine"), at.At("sine"));
     mass.moment_kg_m = std::abs(sum);
@@ -30,17 +31,16 @@ bool IntoKeys(const PlacedEffect& at, config::RigFile& rig) {
 }
 
 bool HasKey(const PlacedEffect& at) {
-  return at.effect == "extra_delay" || at.effect == "unbalance";
+  return at.effect == effect::Id::kExtraDelay || at.effect == effect::Id::kUnbalance;
 }
 
 }  // namespace
 
-std::vector<std::string> CalibratedEntries(const DiagnosisResult& answer) {
-  std::vector<std::string> entries;
+std::vector<effect::EffectConfig> CalibratedEntries(const DiagnosisResult& answer) {
+  std::vector<effect::EffectConfig> entries;
   for (const PlacedEffect& at : CalibrationByPlace(answer)) {
-    if (at.effect.empty() || HasKey(at)) continue;
-    const std::string entry = EntryText(at.effect, ValuesOf(*answer.view, at));
-    if (!entry.empty()) entries.push_back(entry);
+    if (!at.effect || HasKey(at)) continue;
+    if (const auto entry = EntryFor(*answer.view, at)) entries.push_back(*entry);
   }
   return entries;
 }
@@ -50,12 +50,12 @@ std::string CalibratedRig(const DiagnosisResult& answer, const config::RigFile& 
   std::string comments =
       "# The rig as amb diagnose judged it: its causes, then what was calibrated.\n";
   for (const PlacedEffect& at : CalibrationByPlace(answer)) {
-    if (IntoKeys(at, judged) || !at.effect.empty()) continue;
-    comments += fmt::format("# no key for {} of {}: {:+.5f}\n", at.theta.begin()->first, at.place,
-                            at.theta.begin()->second);
+    if (IntoKeys(at, judged) || at.effect) continue;
+    comments += fmt::format("# no key for {} of {}: {:+.5f}\n", at.theta.begin()->first,
+                            at.location.name, at.theta.begin()->second);
   }
-  std::vector<std::string> entries = EffectEntries(answer);
-  for (std::string& entry : CalibratedEntries(answer)) entries.push_back(std::move(entry));
+  std::vector<effect::EffectConfig> entries = EffectEntries(answer);
+  for (const effect::EffectConfig& entry : CalibratedEntries(answer)) entries.push_back(entry);
   return comments + WithEffects(judged, entries);
 }
 

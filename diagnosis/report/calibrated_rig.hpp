@@ -15,7 +15,7 @@
 namespace levitas::diagnosis {
 
 /// Entries of `effects` for calibrated values that have no key of their own.
-[[nodiscard]] std::vector<std::string> CalibratedEntries(const DiagnosisResult& answer);
+[[nodiscard]] std::vector<effect::EffectConfig> CalibratedEntries(const DiagnosisResult& answer);
 [[nodiscard]] std::string CalibratedRig(const DiagnosisResult& answer, const config::RigFile& rig);
 
 }  // namespace levitas::diagnosis

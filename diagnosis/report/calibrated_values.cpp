@@ -25,9 +25,10 @@ class Calibrated {
       return;
     }
     for (const auto& [parameter, theta] : at_.theta) {
-      const Estimate* estimate = EstimateOf(s_.answer.calibration, at_, parameter);
-      const Term* term = TermOf(s_.terms, at_, parameter);
-      if (estimate == nullptr || term == nullptr) continue;
+      const std::size_t index = at_.term.at(parameter);
+      const Term* term = &s_.terms[index];
+      const Estimate* estimate = EstimateOf(s_.answer.calibration, index);
+      if (estimate == nullptr) continue;
       CalibratedValue v = Named(parameter);
       const auto value = Law(parameter, v);
       v.nominal = value(0.0);
@@ -50,9 +51,9 @@ class Calibrated {
  private:
   [[nodiscard]] CalibratedValue Named(const std::string& parameter) const {
     CalibratedValue v;
-    v.effect = at_.effect;
-    v.place = at_.place;
-    if (at_.effect.empty()) {
+    v.effect = at_.effect_name();
+    v.place = at_.location.name;
+    if (!at_.effect) {
       v.effect = parameter == "shape" ? "modal_shape" : "shaft_" + parameter;
       v.key = parameter == "shape" ? "share" : "ratio";
     }
@@ -68,10 +69,10 @@ class Calibrated {
   /// theta to the number under its key; names the key.
   [[nodiscard]] std::function<double(double)> Law(const std::string& parameter,
                                                   CalibratedValue& v) const {
-    if (at_.effect.empty()) {
+    if (!at_.effect) {
       return [base = v.key == "share" ? 0.0 : 1.0](double theta) { return base + theta; };
     }
-    if (at_.effect == "extra_delay") {
+    if (at_.effect == effect::Id::kExtraDelay) {
       v.key = "delay_samples";
       v.unit = "samples";
       return [file = s_.view->model->config().delay_samples](double theta) { return file + theta; };
@@ -92,8 +93,7 @@ class Calibrated {
   [[nodiscard]] std::size_t KeyOf(const std::string& parameter) const {
     const EntryValues values = ValuesOf(*s_.view, at_);
     for (std::size_t k = 0; k < values.size(); ++k) {
-      if (values[k].is_number() &&
-          ValueAt(parameter, at_.theta.at(parameter) + kProbe, k) != values[k].number) {
+      if (ValueAt(parameter, at_.theta.at(parameter) + kProbe, k) != values[k].number) {
         return k;
       }
     }
@@ -101,15 +101,16 @@ class Calibrated {
   }
 
   void AddHarmonic(std::vector<CalibratedValue>& out) const {
-    const Estimate* cosine = EstimateOf(s_.answer.calibration, at_, "cosine");
-    const Term* term = TermOf(s_.terms, at_, "cosine");
+    const std::size_t index = at_.term.at("cosine");
+    const Term* term = &s_.terms[index];
+    const Estimate* cosine = EstimateOf(s_.answer.calibration, index);
     const EntryValues values = ValuesOf(*s_.view, at_);
-    if (cosine == nullptr || term == nullptr || values.empty()) return;
+    if (cosine == nullptr || values.empty()) return;
     CalibratedValue v;
-    v.effect = at_.effect;
-    v.place = at_.place;
+    v.effect = at_.effect_name();
+    v.place = at_.location.name;
     for (const EntryValue& value : values) {
-      const bool size = value.is_number() && value.key != "order" && value.key != "z_mm";
+      const bool size = value.key != "order" && value.key != "z_mm" && value.key != "frequency_hz";
       if (value.key == kPhaseKey) {
         v.phase_rad = value.number * UnitOfKey(kPhaseKey).si;
       } else if (size) {
@@ -119,8 +120,9 @@ class Calibrated {
     const KeyUnit unit = UnitOfKey(v.key);
     v.unit = unit.symbol;
     const std::complex<double> found{at_.At("cosine"), at_.At("sine")};
-    const std::complex<double> file =
-        at_.effect == "unbalance" ? UnbalanceOfFile(*s_.view, at_.place) : 0.0;
+    const std::complex<double> file = at_.effect == effect::Id::kUnbalance
+                                          ? UnbalanceOfFile(*s_.view, at_.location.z_m.value())
+                                          : 0.0;
     v.nominal = v.expected = std::abs(file) / unit.si;
     v.calibrated = std::abs(file + found) / unit.si;
     if (file != 0.0) {
@@ -129,9 +131,8 @@ class Calibrated {
     }
     v.deviation = cosine->deviation / unit.si;
     v.tolerance = term->tolerance / unit.si;
-    const Term* sine = TermOf(s_.terms, at_, "sine");
     const std::complex<double> healthy_mean{term->healthy_mean,
-                                            sine != nullptr ? sine->healthy_mean : 0.0};
+                                            s_.terms[at_.term.at("sine")].healthy_mean};
     if (healthy_mean != 0.0) {
       v.expected = std::abs(file + healthy_mean) / unit.si;
       v.expected_phase_rad = std::arg(file + healthy_mean);

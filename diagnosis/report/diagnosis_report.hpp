@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "diagnosis/inference/verdict.hpp"
+#include "diagnosis/model/location.hpp"
 
 namespace levitas::diagnosis {
 
@@ -27,7 +28,8 @@ struct OfFile {
 struct NamedParameter {
   std::string effect, name, unit;  ///< name: "tau_us[de_x]"
   double value{}, low{}, high{};
-  std::string key, place;         ///< "tau_us", "de_x"
+  std::string key;  ///< "tau_us"
+  Location location;
   bool form{};                    ///< the bracket is no interval but the distance to other forms
   double si{1.0};                 ///< of one unit
   std::optional<OfFile> of_file;  ///< where the parameter is an addition to the file's

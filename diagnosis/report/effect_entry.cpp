@@ -1,13 +1,12 @@
 #include "diagnosis/report/effect_entry.hpp"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "configuration/schema/unit.hpp"
 #include "diagnosis/report/gear_entry.hpp"
@@ -20,197 +19,196 @@ namespace {
 using effect::Id;
 
 EntryValue Number(std::string key, double value, int digits = 6) {
-  return {std::move(key), value, {}, digits};
+  return {std::move(key), value, digits};
 }
-EntryValue Words(std::string key, std::string text) {
-  return {std::move(key), 0.0, std::move(text)};
+
+/// The unit that a key ends in; null for a pure number.
+const config::Unit* FindUnit(const std::string& key) {
+  const config::Unit* longest = nullptr;
+  for (const config::Unit& unit : config::AllUnits()) {
+    const std::string ending = fmt::format("_{}", unit.suffix);
+    if (unit.suffix.empty() || !key.ends_with(ending)) continue;
+    if (longest == nullptr || unit.suffix.size() > longest->suffix.size()) longest = &unit;
+  }
+  return longest;
 }
-EntryValue Channel(const std::string& channel) {
-  return Words("channels", fmt::format("[{}]", channel));
-}
-EntryValue AllChannels(const RigView& rig) {
-  return Words("channels", fmt::format("[{}]", fmt::join(rig.numbers.channels, ", ")));
+
+/// "tau_us" of the stem "tau".
+std::string KeyOf(std::string_view stem, std::string_view suffix) {
+  return suffix.empty() ? std::string(stem) : fmt::format("{}_{}", stem, suffix);
 }
 
 /// Of an effect whose term is named by the parameters of the catalogue and counts from neutral.
-EntryValues CatalogueEntry(const PlacedEffect& g) {
-  const effect::Row* row = effect::Find(g.effect);
-  if (row == nullptr) return {};
-  const auto named = [](std::string_view stem, std::string_view suffix) {
-    return suffix.empty() ? std::string(stem) : fmt::format("{}_{}", stem, suffix);
-  };
+EntryValues CatalogueEntry(const effect::Row& row, const PlacedEffect& at) {
   EntryValues values;
-  if (row->scope == effect::Scope::kChannels) values.push_back(Channel(g.place));
-  if (row->scope == effect::Scope::kBearing) values.push_back(Words("bearing", g.place));
-  for (const effect::Parameter& p : row->parameters) {
-    const std::string key = named(p.stem, p.file_suffix);
-    const double value = p.neutral + g.At(named(p.stem, p.si_suffix));
+  for (const effect::Parameter& p : row.parameters) {
+    const std::string key = KeyOf(p.stem, p.file_suffix);
+    const double value = p.neutral + at.At(KeyOf(p.stem, p.si_suffix));
     values.push_back(Number(key, value / UnitOfKey(key).si));
   }
   return values;
 }
 
-EntryValues MagnetEntry(const RigView& rig, Id id, const PlacedEffect& g) {
+EntryValues MagnetEntry(const RigView& rig, Id id, const PlacedEffect& at) {
   const double bias_a = rig.bias_a(0);
   if (id == Id::kCoilAsymmetry) {
-    const double a = std::clamp(0.5 * g.At("ratio"), -0.6, 0.6);
-    return {Channel(g.place), Number("ratio", (1.0 + a) / (1.0 - a))};
+    const double a = std::clamp(0.5 * at.At("ratio"), -0.6, 0.6);
+    return {Number("ratio", (1.0 + a) / (1.0 - a))};
   }
   if (id == Id::kMagneticSaturation) {
     // Amplitude to knee current: well below the knee the force loss goes as (i/knee)^exponent.
-    const double share = std::max(1e-3, g.At("share"));
-    const double exponent = std::strtod(g.After("exponent ").c_str(), nullptr);
-    return {AllChannels(rig),
-            Number("knee_a", g.Number() * bias_a * std::pow(share, -1.0 / exponent)),
+    const double share = std::max(1e-3, at.At("share"));
+    const double knee_share = at.shape.at(0);
+    const double exponent = at.shape.at(1);
+    return {Number("knee_a", knee_share * bias_a * std::pow(share, -1.0 / exponent)),
             Number("exponent", exponent)};
   }
   if (id == Id::kHysteresis) {
-    return {AllChannels(rig),
-            Number("width_a", g.Number() * bias_a * std::max(0.0, g.At("share")))};
+    return {Number("width_a", at.shape.at(0) * bias_a * std::max(0.0, at.At("share")))};
   }
   if (id == Id::kEddyCurrent) {
-    const bool current_alone = g.theta.count(kRootTauOfCurrent) > 0;
-    const double root = std::max(0.0, g.At(current_alone ? kRootTauOfCurrent : kRootTau));
-    EntryValues values{Channel(g.place), Number("tau_us", 1e6 * root * root)};
+    const bool current_alone = at.theta.contains(kRootTauOfCurrent);
+    const double root = std::max(0.0, at.At(current_alone ? kRootTauOfCurrent : kRootTau));
+    EntryValues values{Number("tau_us", 1e6 * root * root)};
     if (current_alone) values.push_back(Number("displacement_share", 0.0));
     return values;
   }
   if (id == Id::kAxisRotation) {
-    return {Words("bearing", g.After(" ")), Words("of", g.place.substr(0, g.place.find(' '))),
-            Number("angle_deg", g.At("angle_rad") * 180.0 / std::numbers::pi)};
+    return {Number("angle_deg", at.At("angle_rad") * 180.0 / std::numbers::pi)};
   }
-  return CatalogueEntry(g);
+  return CatalogueEntry(effect::At(id), at);
 }
 
-EntryValues SensorEntry(const RigView& rig, Id id, const PlacedEffect& g) {
-  if (id == Id::kSensorOffset) {
-    return {Channel(g.place), Number("offset_um", 1e6 * g.At("offset_m"))};
-  }
+EntryValues SensorEntry(const RigView& rig, Id id, const PlacedEffect& at) {
+  if (id == Id::kSensorOffset) return {Number("offset_um", 1e6 * at.At("offset_m"))};
   if (id == Id::kSensorNonlinearity) {
-    return {Channel(g.place), Number("a2_1_per_m", g.At("a2")), Number("a3_1_per_m2", g.At("a3"))};
+    return {Number("a2_1_per_m", at.At("a2")), Number("a3_1_per_m2", at.At("a3"))};
   }
-  if (id == Id::kSensorPosition) {
-    return {Words("bearing", g.place), Number("shift_mm", 1e3 * g.At("shift_m"))};
-  }
+  if (id == Id::kSensorPosition) return {Number("shift_mm", 1e3 * at.At("shift_m"))};
   if (id == Id::kSensorRunout) {
-    const auto& channels = rig.numbers.channels;
-    const auto at = std::find(channels.begin(), channels.end(), g.After(", ")) - channels.begin();
-    const bool y_probe = at % 2 == 1;
-    const double phase = -g.Phase() + (y_probe ? g.Number() * 0.5 * std::numbers::pi : 0.0);
-    return {Channel(g.After(", ")), Number("order", g.Number()),
-            Number("amplitude_um", 1e6 * g.Amplitude()),
+    const int order = at.location.order.value();
+    const bool y_probe = at.location.axis.value() % 2 == 1;
+    const double phase = -at.Phase() + (y_probe ? order * 0.5 * std::numbers::pi : 0.0);
+    return {Number("order", order), Number("amplitude_um", 1e6 * at.Amplitude()),
             PhaseValue(std::remainder(phase, 2.0 * std::numbers::pi))};
   }
   if (id == Id::kMainsPickup) {
-    return {Channel(g.After(", ")), Number("frequency_hz", g.Number()),
-            Number("amplitude_um", 1e6 * g.Amplitude()), PhaseValue(0.0)};
+    return {Number("frequency_hz", at.location.frequency_hz.value()),
+            Number("amplitude_um", 1e6 * at.Amplitude()), PhaseValue(0.0)};
   }
-  for (std::size_t a = 0; a < rig.axes; ++a) {
-    if (id == Id::kSensorBandwidth && g.place == rig.numbers.channels[a]) {
-      return {Channel(g.place),
-              Number("bandwidth_hz",
-                     rig.bearing(a).sensor.bandwidth_hz / std::max(0.05, 1.0 + g.At("lag_ratio")))};
-    }
+  if (id == Id::kSensorBandwidth) {
+    return {Number("bandwidth_hz", rig.bearing(at.location.axis.value()).sensor.bandwidth_hz /
+                                       std::max(0.05, 1.0 + at.At("lag_ratio")))};
   }
-  return {Channel(g.place), Number("ratio", 1.0 + g.At("ratio"))};
+  return {Number("ratio", 1.0 + at.At("ratio"))};
 }
 
-EntryValues RotorEntry(const RigView& rig, Id id, const PlacedEffect& g) {
-  const auto mode = static_cast<std::size_t>(g.Number());
+EntryValues RotorEntry(const RigView& rig, Id id, const PlacedEffect& at) {
   if (id == Id::kUnbalance) {
-    return {Number("z_mm", g.Number()), Number("moment_g_mm", 1e6 * g.Amplitude()),
-            PhaseValue(g.Phase())};
+    return {Number("z_mm", 1e3 * at.location.z_m.value()),
+            Number("moment_g_mm", 1e6 * at.Amplitude()), PhaseValue(at.Phase())};
   }
   if (id == Id::kShaftBow) {
-    return {Number("mode", static_cast<double>(mode)), Number("amplitude_um", 1e6 * g.Amplitude()),
-            PhaseValue(g.Phase())};
+    return {Number("amplitude_um", 1e6 * at.Amplitude()), PhaseValue(at.Phase())};
   }
   if (id == Id::kShaftAnisotropy) {
-    return {Number("ratio", g.Amplitude()), PhaseValue(0.5 * g.Phase())};
+    return {Number("ratio", at.Amplitude()), PhaseValue(0.5 * at.Phase())};
   }
   if (id == Id::kModalFrequency) {
-    return {Number("mode", static_cast<double>(mode)),
-            Number("frequency_hz",
-                   rig.omega_rad_per_s[mode + 1] / (2.0 * std::numbers::pi) * (1.0 + g.At("ratio")),
-                   8)};
+    const double own_rad_per_s = rig.omega_rad_per_s[at.location.mode.value() + 1];
+    return {Number("frequency_hz",
+                   own_rad_per_s / (2.0 * std::numbers::pi) * (1.0 + at.At("ratio")), 8)};
   }
   if (id == Id::kModalDamping) {
-    return {Number("mode", static_cast<double>(mode)),
-            Number("damping_ratio",
-                   std::max(0.0, rig.damping_ratio[mode + 1] * (1.0 + g.At("ratio"))))};
+    const double own = rig.damping_ratio[at.location.mode.value() + 1];
+    return {Number("damping_ratio", std::max(0.0, own * (1.0 + at.At("ratio"))))};
   }
   if (id == Id::kBreathingCrack) {
-    const double direction_deg = std::strtod(g.After("direction ").c_str(), nullptr);
-    return {Number("z_mm", g.Number()),
-            Number("depth", CrackDepth(rig, 1e-3 * g.Number(), g.At("softening"))),
-            PhaseValue(
-                std::remainder(direction_deg * std::numbers::pi / 180.0, 2.0 * std::numbers::pi))};
+    const double z_m = at.shape.at(0);
+    const double direction_rad = at.shape.at(1);
+    return {Number("z_mm", 1e3 * z_m), Number("depth", CrackDepth(rig, z_m, at.At("softening"))),
+            PhaseValue(std::remainder(direction_rad, 2.0 * std::numbers::pi))};
   }
   if (id == Id::kInternalDamping) {
-    return {Number("z_mm", g.Number()), Number("damping_n_s_per_m", g.At("damping"))};
+    return {Number("z_mm", 1e3 * at.location.z_m.value()),
+            Number("damping_n_s_per_m", at.At("damping"))};
   }
-  return {Number("ratio", 1.0 + g.At("ratio"))};
+  return {Number("ratio", 1.0 + at.At("ratio"))};
 }
 
-EntryValues AmplifierEntry(const RigView& rig, Id id, const PlacedEffect& g) {
-  if (id == Id::kAmplifierSlew) {
-    return {AllChannels(rig), Number("slew_a_per_s", g.Number())};
-  }
-  for (std::size_t a = 0; id == Id::kAmplifierBandwidth && a < rig.axes; ++a) {
-    if (g.place != rig.numbers.channels[a]) continue;
-    return {Channel(g.place), Number("bandwidth_hz", rig.bearing(a).amplifier.bandwidth_hz *
-                                                         std::max(0.05, 1.0 + g.At("ratio")))};
-  }
-  return CatalogueEntry(g);
+EntryValues AmplifierEntry(const RigView& rig, Id id, const PlacedEffect& at) {
+  if (id == Id::kAmplifierSlew) return {Number("slew_a_per_s", at.shape.at(0))};
+  return {Number("bandwidth_hz", rig.bearing(at.location.axis.value()).amplifier.bandwidth_hz *
+                                     std::max(0.05, 1.0 + at.At("ratio")))};
 }
 
-EntryValues ExternalEntry(const RigView& rig, Id id, const PlacedEffect& g) {
+EntryValues ExternalEntry(const RigView& rig, Id id, const PlacedEffect& at) {
   if (id == Id::kExtraDelay) {
-    return {Number("delay_us", 1e6 * rig.period_s * std::max(0.0, g.At("samples")))};
+    return {Number("delay_us", 1e6 * rig.period_s * std::max(0.0, at.At("samples")))};
   }
   if (id == Id::kMisalignment) {
-    return {Number("z_mm", 0), Number("order", g.Number()), Number("force_n", g.Amplitude()),
-            PhaseValue(g.Phase())};
+    return {Number("z_mm", 0), Number("order", at.location.order.value()),
+            Number("force_n", at.Amplitude()), PhaseValue(at.Phase())};
   }
   if (id == Id::kCouplingStiffness) {
-    return {Number("z_mm", g.Number()), Number("direct_n_per_m", g.At("direct")),
-            Number("cross_n_per_m", g.At("cross"))};
+    return {Number("z_mm", 1e3 * at.location.z_m.value()),
+            Number("direct_n_per_m", at.At("direct")), Number("cross_n_per_m", at.At("cross"))};
   }
   if (id == Id::kCrossCoupledStiffness) {
-    return {Number("z_mm", g.Number()), Number("stiffness_n_per_m", g.At("cross"))};
+    return {Number("z_mm", 1e3 * at.location.z_m.value()),
+            Number("stiffness_n_per_m", at.At("cross"))};
   }
   if (id == Id::kSupportMode) {
-    return {Words("bearing", g.place.substr(0, g.place.find(','))),
-            Number("mass_kg", 1.0 / std::max(1e-3, g.At("1/mass_kg"))),
-            Number("frequency_hz", std::strtod(g.After(", ").c_str(), nullptr)),
-            Number("damping_ratio", std::strtod(g.After("damping ").c_str(), nullptr))};
+    return {Number("mass_kg", 1.0 / std::max(1e-3, at.At("1/mass_kg"))),
+            Number("frequency_hz", at.shape.at(0)), Number("damping_ratio", at.shape.at(1))};
   }
   if (id == Id::kTouchdownRub) {
-    return {Words("bearing", g.place.substr(0, g.place.find(','))),
-            Number("clearance_um", std::strtod(g.After("clearance ").c_str(), nullptr)),
-            Number("stiffness_n_per_m", std::max(0.0, g.At("stiffness_n_per_m"))),
-            Number("damping_n_s_per_m", std::max(0.0, g.At("damping_n_s_per_m"))),
-            Number("friction", std::strtod(g.After("friction ").c_str(), nullptr))};
+    return {Number("clearance_um", 1e6 * at.shape.at(0)),
+            Number("stiffness_n_per_m", std::max(0.0, at.At("stiffness_n_per_m"))),
+            Number("damping_n_s_per_m", std::max(0.0, at.At("damping_n_s_per_m"))),
+            Number("friction", at.shape.at(1))};
   }
   if (id == Id::kStaticLoad) {
-    for (std::size_t a = 0; a < rig.axes; ++a) {
-      if (rig.numbers.channels[a] != g.place) continue;
-      return {Number("z_mm", 1e3 * rig.bearing(a).actuator_z_m),
-              Number(fmt::format("force_{}_n", a % 2 == 0 ? "x" : "y"), g.At("force_n"))};
-    }
+    const std::size_t axis = at.location.axis.value();
+    return {Number("z_mm", 1e3 * rig.bearing(axis).actuator_z_m),
+            Number(axis % 2 == 0 ? "force_x_n" : "force_y_n", at.At("force_n"))};
   }
   return {};
 }
 
+/// Where the entry acts: what the kind of effect refers to, else the whole rig.
+effect::EffectConfig PlaceIn(const effect::Row& row, const Location& at, std::size_t axes) {
+  effect::EffectConfig entry;
+  entry.id = row.id;
+  if (row.scope == effect::Scope::kChannels) {
+    const std::uint32_t all = (1U << axes) - 1U;
+    entry.axes = at.axis ? 1U << *at.axis : all;
+  }
+  entry.bearing = at.bearing.value_or(0);
+  entry.mode = at.mode.value_or(1);
+  entry.on_sensor = at.on_sensor;
+  entry.gear = at.gear.value_or(0);
+  entry.on_driven = at.on_driven;
+  return entry;
+}
+
+/// In SI, rounded to the digits that a file shows.
+std::optional<double> RoundedSi(const EntryValue& value) {
+  if (!std::isfinite(value.number)) return std::nullopt;
+  const config::Unit* unit = FindUnit(value.key);
+  return config::ToSi(fmt::format("{:.{}g}", value.number, value.digits),
+                      unit == nullptr ? config::unit::kOne : *unit);
+}
+
 /// Every effect has its line: a new one without an entry is refused by the compiler (-Wswitch).
-EntryValues EntryOf(const RigView& rig, Id id, const PlacedEffect& at) {
+EntryValues NumbersOf(const RigView& rig, Id id, const PlacedEffect& at) {
   switch (id) {
     case Id::kDisplacementStiffness:
     case Id::kCurrentGain:
     case Id::kForceConstant:
     case Id::kCommandOffset:
     case Id::kMagneticCoupling:
-      return CatalogueEntry(at);
+      return CatalogueEntry(effect::At(id), at);
     case Id::kAmplifierBandwidth:
     case Id::kAmplifierSlew:
       return AmplifierEntry(rig, id, at);
@@ -254,7 +252,7 @@ EntryValues EntryOf(const RigView& rig, Id id, const PlacedEffect& at) {
     case Id::kTransmissionError:
     case Id::kGearRunout:
     case Id::kToothCrack:
-      return GearEntry(rig, id, at.place, at.theta);
+      return GearEntry(rig, id, at);
     case Id::kDroppedSamples:
     case Id::kSampleJitter:
       return {};
@@ -269,32 +267,39 @@ EntryValue PhaseValue(double phase_rad) {
 }
 
 EntryValues ValuesOf(const RigView& rig, const PlacedEffect& at) {
-  const effect::Row* row = effect::Find(at.effect);
-  if (row == nullptr) throw std::logic_error(at.effect + " is not in the catalogue of effects");
-  return EntryOf(rig, row->id, at);
+  return NumbersOf(rig, at.effect.value(), at);
 }
 
-std::string EntryText(const std::string& effect, const EntryValues& values) {
-  if (values.empty()) return {};
-  std::string text = fmt::format("{{id: {}", effect);
-  for (const EntryValue& value : values) {
-    text += fmt::format(", {}: ", value.key);
-    text += value.is_number() ? fmt::format("{:.{}g}", value.number, value.digits) : value.text;
+std::optional<effect::EffectConfig> MakeEntry(Id id, const Location& at, std::size_t axes_of_rig,
+                                              const EntryValues& values) {
+  const effect::Row& row = effect::At(id);
+  effect::EffectConfig entry = PlaceIn(row, at, axes_of_rig);
+  for (std::size_t i = 0; i < row.parameters.size(); ++i) {
+    const effect::Parameter& p = row.parameters[i];
+    const std::string key = KeyOf(p.stem, p.file_suffix);
+    const auto value = std::find_if(values.begin(), values.end(),
+                                    [&key](const EntryValue& v) { return v.key == key; });
+    if (value == values.end() && !p.fallback) {
+      throw std::logic_error(fmt::format("the entry of {} has no {}", row.name, key));
+    }
+    const std::optional<double> si = value == values.end() ? p.fallback : RoundedSi(*value);
+    if (!si) return std::nullopt;
+    entry.values[i] = *si;
   }
-  text += "}";
-  return text;
+  return entry;
+}
+
+std::optional<effect::EffectConfig> EntryFor(const RigView& rig, const PlacedEffect& at) {
+  const EntryValues values = ValuesOf(rig, at);
+  if (values.empty()) return std::nullopt;
+  return MakeEntry(at.effect.value(), at.location, rig.axes, values);
 }
 
 KeyUnit UnitOfKey(const std::string& key) {
-  const config::Unit* longest = nullptr;
-  for (const config::Unit& unit : config::AllUnits()) {
-    const std::string ending = fmt::format("_{}", unit.suffix);
-    if (unit.suffix.empty() || !key.ends_with(ending)) continue;
-    if (longest == nullptr || unit.suffix.size() > longest->suffix.size()) longest = &unit;
-  }
-  if (longest == nullptr) return {};
-  return {std::string(longest->symbol),
-          static_cast<double>(longest->factor) * std::pow(10.0, longest->decimal_exponent)};
+  const config::Unit* unit = FindUnit(key);
+  if (unit == nullptr) return {};
+  return {std::string(unit->symbol),
+          static_cast<double>(unit->factor) * std::pow(10.0, unit->decimal_exponent)};
 }
 
 }  // namespace levitas::diagnosis

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <string_view>
 
 #include "plant_sim/effect/catalogue.hpp"
 
@@ -14,7 +13,7 @@ namespace {
 
 constexpr double kSlowRoll = 0.02;  ///< of the rated speed
 
-bool Has(const DiagnosisResult& s, std::string_view effect) {
+bool Has(const DiagnosisResult& s, effect::Id effect) {
   return std::any_of(s.terms.begin(), s.terms.end(),
                      [effect](const Term& term) { return term.effect == effect; });
 }
@@ -22,7 +21,7 @@ bool Has(const DiagnosisResult& s, std::string_view effect) {
 /// The effects that were searched and of which `needs` holds.
 void Append(const DiagnosisResult& s, bool effect::Facts::*needs, std::vector<std::string>& to) {
   for (const effect::Row& row : effect::Catalogue()) {
-    if (row.facts.*needs && Has(s, row.name)) to.emplace_back(row.name);
+    if (row.facts.*needs && Has(s, row.id)) to.emplace_back(row.name);
   }
 }
 

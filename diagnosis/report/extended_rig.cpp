@@ -2,69 +2,60 @@
 
 #include <fmt/core.h>
 
+#include <sstream>
+
 #include "common/problem.hpp"
 #include "diagnosis/report/named_values.hpp"
 #include "diagnosis/report/report_text.hpp"
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
-/// Entries as the strict reader takes them on this rig; none when it refuses one of them.
-std::vector<effect::EffectConfig> Read(config::RigFile rig,
-                                       const std::vector<std::string>& entries) {
-  const std::string none = "effects: []\n";
-  rig.plant.effects.clear();
-  std::string text = config::WriteRig(rig);
-  const auto at = text.rfind(none);
-  if (at == std::string::npos) return {};
-  std::string list = "effects:\n";
-  for (const std::string& entry : entries) list += "  - " + entry + "\n";
-  text.replace(at, none.size(), list);
+/// Why the strict reader refuses the rig; empty when it takes it.
+std::string Refusal(const config::RigFile& rig) {
   try {
-    return config::ParseRig(text, "extended_rig.yaml").plant.effects;
-  } catch (const BadInput&) {
+    static_cast<void>(config::ParseRig(config::WriteRig(rig), "extended_rig.yaml"));
     return {};
+  } catch (const BadInput& refused) {
+    return refused.what();
   }
 }
 
-/// What the file and the entries hold together, as far as they can stand side by side.
-bool Accepts(config::RigFile rig, const std::vector<effect::EffectConfig>& effects) {
-  rig.plant.effects.insert(rig.plant.effects.end(), effects.begin(), effects.end());
-  try {
-    static_cast<void>(config::ParseRig(config::WriteRig(rig), "extended_rig.yaml"));
-    return true;
-  } catch (const BadInput&) {
-    return false;
-  }
+/// Each line of a text as a comment of YAML.
+std::string AsComment(const std::string& text) {
+  std::string comment;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) comment += fmt::format("#   {}\n", line);
+  return comment;
 }
 
 }  // namespace
 
-std::vector<std::string> EffectEntries(const DiagnosisResult& answer) {
-  std::vector<std::string> entries;
-  for (const PlacedEffect& group : CausesByPlace(answer)) {
-    const std::string entry = EntryText(group.effect, ValuesOf(*answer.view, group));
-    if (!entry.empty()) entries.push_back(entry);
+std::vector<effect::EffectConfig> EffectEntries(const DiagnosisResult& answer) {
+  std::vector<effect::EffectConfig> entries;
+  for (const PlacedEffect& cause : CausesByPlace(answer)) {
+    if (!cause.effect) continue;
+    if (const auto entry = EntryFor(*answer.view, cause)) entries.push_back(*entry);
   }
   return entries;
 }
 
-std::string WithEffects(config::RigFile rig, const std::vector<std::string>& entries) {
+std::string WithEffects(config::RigFile rig, const std::vector<effect::EffectConfig>& entries) {
+  std::vector<effect::EffectConfig>& effects = rig.plant.effects;
+  const std::vector<effect::EffectConfig> of_file = effects;
+  effects.insert(effects.end(), entries.begin(), entries.end());
+  if (Refusal(rig).empty()) return config::WriteRig(rig);
+  effects = of_file;
   std::string refused;
-  const auto all = entries.empty() ? std::vector<effect::EffectConfig>{} : Read(rig, entries);
-  if (!all.empty() && Accepts(rig, all)) {
-    rig.plant.effects.insert(rig.plant.effects.end(), all.begin(), all.end());
-    return config::WriteRig(rig);
+  for (const effect::EffectConfig& entry : entries) {
+    effects.push_back(entry);
+    const std::string reason = Refusal(rig);
+    if (reason.empty()) continue;
+    effects.pop_back();
+    refused += fmt::format("# not known to this build's reader: {}\n{}", effect::At(entry.id).name,
+                           AsComment(reason));
   }
-  for (const std::string& entry : entries) {
-    const auto effects = Read(rig, {entry});
-    if (effects.empty() || !Accepts(rig, effects)) {
-      refused += "#  - " + entry + "\n";
-    } else {
-      rig.plant.effects.insert(rig.plant.effects.end(), effects.begin(), effects.end());
-    }
-  }
-  if (!refused.empty()) refused.insert(0, "# not known to this build's reader:\n");
   return refused + config::WriteRig(rig);
 }
 

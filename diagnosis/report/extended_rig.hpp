@@ -15,10 +15,11 @@
 
 namespace levitas::diagnosis {
 
-/// One YAML flow mapping per entry: "{id: eddy_current, channels: [de_x], tau_us: 3}".
-[[nodiscard]] std::vector<std::string> EffectEntries(const DiagnosisResult& answer);
+/// One entry per place of a cause.
+[[nodiscard]] std::vector<effect::EffectConfig> EffectEntries(const DiagnosisResult& answer);
 /// The rig's complete text with these entries behind its own; what its reader refuses as comments.
-[[nodiscard]] std::string WithEffects(config::RigFile rig, const std::vector<std::string>& entries);
+[[nodiscard]] std::string WithEffects(config::RigFile rig,
+                                      const std::vector<effect::EffectConfig>& entries);
 [[nodiscard]] std::string ExtendedRig(const DiagnosisResult& answer, const config::RigFile& rig);
 
 }  // namespace levitas::diagnosis

@@ -41,8 +41,8 @@ class Bracket {
     if (!depends_) return std::nullopt;
     const KeyUnit unit = UnitOfKey(value_.key);
     NamedParameter p;
-    p.effect = at_.effect;
-    p.name = fmt::format("{}[{}]", value_.key, at_.place);
+    p.effect = at_.effect_name();
+    p.name = fmt::format("{}[{}]", value_.key, at_.location.name);
     p.unit = unit.symbol;
     p.value = value_.number;
     if (value_.key == kPhaseKey) {
@@ -53,7 +53,7 @@ class Bracket {
     p.low = size && p.value < high_ ? 0.0 : p.value - low_;
     p.high = p.value + high_;
     p.key = value_.key;
-    p.place = at_.place;
+    p.location = at_.location;
     p.form = form_;
     p.si = unit.si;
     AddOfFile(p);
@@ -73,23 +73,23 @@ class Bracket {
   /// Effects of these kinds add to a value that the file has under its own key.
   void AddOfFile(NamedParameter& p) const {
     const double found = p.value * p.si;
-    if (at_.effect == "extra_delay") {
+    if (at_.effect == effect::Id::kExtraDelay) {
       const double file_s = s_.view->model->config().delay_samples * s_.view->period_s;
       if (file_s > 0.0) p.of_file = OfFile{file_s / p.si, (file_s + found) / p.si};
       return;
     }
-    if (at_.effect != "unbalance") return;
-    const std::complex<double> file = UnbalanceOfFile(*s_.view, at_.place);
+    if (at_.effect != effect::Id::kUnbalance) return;
+    const std::complex<double> file = UnbalanceOfFile(*s_.view, at_.location.z_m.value());
     if (file == 0.0) return;
     const std::complex<double> all = file + std::complex<double>(at_.At("cosine"), at_.At("sine"));
     p.of_file = p.key == kPhaseKey ? OfFile{std::arg(file) / p.si, std::arg(all) / p.si}
                                    : OfFile{std::abs(file) / p.si, std::abs(all) / p.si};
   }
   void AddEstimate(const std::string& parameter, double theta) {
-    const Estimate* estimate = EstimateOf(s_.answer.parameters, at_, parameter);
-    const Term* term = TermOf(s_.terms, at_, parameter);
-    if (estimate == nullptr || term == nullptr) return;
-    const double probe = kProbe * std::max(std::abs(theta), term->scale());
+    const std::size_t term = at_.term.at(parameter);
+    const Estimate* estimate = EstimateOf(s_.answer.parameters, term);
+    if (estimate == nullptr) return;
+    const double probe = kProbe * std::max(std::abs(theta), s_.terms[term].scale());
     if (Moved(parameter, probe) == value_.number && Moved(parameter, -probe) == value_.number) {
       return;
     }
@@ -98,16 +98,11 @@ class Bracket {
     Widen(value_, Moved(parameter, -spread), Moved(parameter, spread), low_, high_);
   }
   void AddForms() {
-    const auto term = std::find_if(s_.terms.begin(), s_.terms.end(), [this](const Term& t) {
-      return t.effect == at_.effect && t.place == at_.place && t.family.member;
-    });
-    if (term == s_.terms.end()) return;
-    for (std::size_t k = 0; k < term->family.log_width.size(); ++k) {
+    const Family& family = s_.terms[at_.term.begin()->second].family;
+    for (std::size_t k = 0; k < family.log_width.size(); ++k) {
       const auto neighbour = [&](double side) {
-        Family::Shape shape = term->family.shape;
-        shape[k] *= std::exp(side * term->family.log_width[k]);
         PlacedEffect other = at_;
-        other.place = term->family.member(shape).place;
+        other.shape[k] *= std::exp(side * family.log_width[k]);
         return At(other);
       };
       const double below = neighbour(-1.0);
@@ -128,10 +123,10 @@ class Bracket {
 
 }  // namespace
 
-std::complex<double> UnbalanceOfFile(const RigView& rig, const std::string& place) {
+std::complex<double> UnbalanceOfFile(const RigView& rig, double z_m) {
   std::complex<double> sum;
-  const auto add = [&](double z_m, double moment_kg_m, double phase_rad) {
-    if (fmt::format("z {:.1f} mm", z_m * 1e3) == place) sum += std::polar(moment_kg_m, phase_rad);
+  const auto add = [&](double at_m, double moment_kg_m, double phase_rad) {
+    if (std::abs(at_m - z_m) < kSamePlaneM) sum += std::polar(moment_kg_m, phase_rad);
   };
   for (const auto& mass : rig.model->config().unbalance) {
     add(mass.z_m, mass.moment_kg_m, mass.phase_rad);
@@ -147,9 +142,9 @@ std::vector<std::string> TakenByCauses(const DiagnosisResult& s) {
   std::vector<std::string> taken;
   for (const PlacedEffect& at : CausesByPlace(s)) {
     const bool calibrated = std::any_of(s.terms.begin(), s.terms.end(), [&at](const Term& t) {
-      return t.effect == at.effect && t.place == at.place && t.nuisance();
+      return t.effect == at.effect && t.location.name == at.location.name && t.nuisance();
     });
-    if (calibrated) taken.push_back(fmt::format("{} {}", at.effect, at.place));
+    if (calibrated) taken.push_back(fmt::format("{} {}", at.effect_name(), at.location.name));
   }
   return taken;
 }
@@ -159,7 +154,6 @@ std::vector<NamedParameter> Parameters(const DiagnosisResult& s) {
   for (const PlacedEffect& at : CausesByPlace(s)) {
     const EntryValues values = ValuesOf(*s.view, at);
     for (std::size_t key = 0; key < values.size(); ++key) {
-      if (!values[key].is_number()) continue;
       if (const auto found = Bracket(s, at, key).Find()) out.push_back(*found);
     }
   }

@@ -23,13 +23,14 @@ namespace levitas::diagnosis {
 
 struct DiagnosisResult;
 struct Estimate;
-struct Term;
 
 [[nodiscard]] std::vector<NamedParameter> Parameters(const DiagnosisResult& answer);
 /// Numbers of the calibration that a cause has made its own, and are therefore not calibrated.
 [[nodiscard]] std::vector<std::string> TakenByCauses(const DiagnosisResult& answer);
+/// Planes closer than this are one: a rig file has its lengths to a tenth of a millimetre.
+inline constexpr double kSamePlaneM = 0.05e-3;
 /// [kg m] Of the file at a plane: its masses, and entries of `effects` that act all the time.
-[[nodiscard]] std::complex<double> UnbalanceOfFile(const RigView& rig, const std::string& place);
+[[nodiscard]] std::complex<double> UnbalanceOfFile(const RigView& rig, double z_m);
 /// Those that lie furthest out of their tolerance first.
 [[nodiscard]] std::vector<CalibratedValue> CalibratedValues(const DiagnosisResult& answer);
 
@@ -37,10 +38,7 @@ struct Term;
 [[nodiscard]] std::vector<PlacedEffect> CausesByPlace(const DiagnosisResult& answer);
 [[nodiscard]] std::vector<PlacedEffect> CalibrationByPlace(const DiagnosisResult& answer);
 
-/// Of a parameter at a place; null where there is none.
-[[nodiscard]] const Estimate* EstimateOf(const std::vector<Estimate>& estimates,
-                                         const PlacedEffect& at, const std::string& parameter);
-[[nodiscard]] const Term* TermOf(const std::vector<Term>& terms, const PlacedEffect& at,
-                                 const std::string& parameter);
+/// Of the parameter of a term; null where there is none.
+[[nodiscard]] const Estimate* EstimateOf(const std::vector<Estimate>& estimates, std::size_t term);
 
 }  // namespace levitas::diagnosis

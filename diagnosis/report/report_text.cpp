@@ -63,7 +63,7 @@ std::string Size(const DiagnosisReport& report, const ReportCause& cause) {
   });
   return fmt::format(": {} {:.4g}{}{}{} ({:.4g} to {:.4g})", first->key, first->value,
                      first->unit.empty() ? "" : " ", first->unit,
-                     everywhere ? "" : " at " + first->place, first->low, first->high);
+                     everywhere ? "" : " at " + first->location.name, first->low, first->high);
 }
 
 /// Of a rig in which nothing is hidden: how far it is from its file, and what that is worth.
@@ -216,15 +216,15 @@ std::vector<std::string> TotalSentences(const std::vector<NamedParameter>& param
   for (const NamedParameter& p : parameters) {
     if (!p.of_file || p.key == kPhaseKey) continue;
     const auto phase = std::find_if(parameters.begin(), parameters.end(), [&](const auto& other) {
-      return other.effect == p.effect && other.place == p.place && other.key == kPhaseKey &&
-             other.of_file;
+      return other.effect == p.effect && other.location.name == p.location.name &&
+             other.key == kPhaseKey && other.of_file;
     });
     const bool turned = phase != parameters.end();
-    sentences.push_back(
-        fmt::format("{} at {}: {} is added to the {} that the rig file has there: in all {}",
-                    p.effect, p.place, Amount(p.value, p.unit, turned ? &phase->value : nullptr),
-                    Amount(p.of_file->nominal, p.unit, turned ? &phase->of_file->nominal : nullptr),
-                    Amount(p.of_file->total, p.unit, turned ? &phase->of_file->total : nullptr)));
+    sentences.push_back(fmt::format(
+        "{} at {}: {} is added to the {} that the rig file has there: in all {}", p.effect,
+        p.location.name, Amount(p.value, p.unit, turned ? &phase->value : nullptr),
+        Amount(p.of_file->nominal, p.unit, turned ? &phase->of_file->nominal : nullptr),
+        Amount(p.of_file->total, p.unit, turned ? &phase->of_file->total : nullptr)));
   }
   return sentences;
 }

@@ -19,6 +19,8 @@
 namespace levitas::diagnosis {
 namespace {
 
+using effect::Id;
+
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// Curvature of the modes [1/m of unit amplitude] at a plane: between the middles of the elements,
@@ -57,7 +59,7 @@ Term Crack(const RigView& rig, double z_m, double direction_rad) {
   const double gy = rig.model->gravity_direction_y();
   const double degrees = std::fmod(direction_rad, kTurn) * 360.0 / kTurn;
   Term term = MakeTerm(
-      {"breathing_crack", fmt::format("z {:.1f} mm, direction {:.1f} deg", z_m * 1e3, degrees),
+      {Id::kBreathingCrack, AtPlane(z_m).Named(fmt::format("direction {:.1f} deg", degrees)),
        "softening", "1"},
       0.0, 0.05,
       [=, modes = rig.modes, period_s = rig.period_s](const SamplePoint& m, double theta,

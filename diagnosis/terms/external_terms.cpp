@@ -10,14 +10,16 @@
 namespace levitas::diagnosis {
 namespace {
 
+using effect::Id;
+
 enum class Kind { kDirect, kSymmetric, kAntisymmetric };
 
 /// A spring between shaft and ground at z: f = -(x, y), -(y, x) or (-y, x), times theta.
-Term Spring(const RigView& rig, std::string effect, double z_m, Kind kind, double faulty_std) {
+Term Spring(const RigView& rig, Id effect, double z_m, Kind kind, double faulty_std) {
   const auto shape = rig.Shape(z_m);
   const std::string parameter = kind == Kind::kDirect ? "direct" : "cross";
   return MakeTerm(
-      {std::move(effect), fmt::format("z {:.1f} mm", z_m * 1e3), parameter, "N/m"}, 0.0, faulty_std,
+      {effect, AtPlane(z_m), parameter, "N/m"}, 0.0, faulty_std,
       [shape, kind, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
         double x = 0.0;
         double y = 0.0;
@@ -42,11 +44,12 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz, double damp
   struct Housing {
     std::array<double, 2> u{}, v{};
   };
-  Term term = MakeTerm({"support_mode",
-                        fmt::format("{}, {:.1f} Hz, damping {:.4f}", rig.numbers.bearings[b],
-                                    frequency_hz, damping_ratio),
-                        "1/mass_kg", "1/kg"},
-                       0.0, 0.2, nullptr);
+  Term term =
+      MakeTerm({Id::kSupportMode,
+                AtBearing(rig.numbers, b)
+                    .Named(fmt::format("{:.1f} Hz, damping {:.4f}", frequency_hz, damping_ratio)),
+                "1/mass_kg", "1/kg"},
+               0.0, 0.2, nullptr);
   term.positive = true;
   term.family = {
       {frequency_hz, damping_ratio}, {0.04, 0.5}, {}, [&rig, b](const Family::Shape& other) {
@@ -80,9 +83,9 @@ Term Support(const RigView& rig, std::size_t b, double frequency_hz, double damp
 Term Rub(const RigView& rig, std::size_t b, double clearance_m, double friction, bool by_rate) {
   const auto& shape_of_b = rig.magnet(2 * b).actuator_shape;
   Term term = MakeTerm(
-      {"touchdown_rub",
-       fmt::format("{}, clearance {:.2f} um, friction {:.3f}", rig.numbers.bearings[b],
-                   clearance_m * 1e6, friction),
+      {Id::kTouchdownRub,
+       AtBearing(rig.numbers, b)
+           .Named(fmt::format("clearance {:.2f} um, friction {:.3f}", clearance_m * 1e6, friction)),
        by_rate ? "damping_n_s_per_m" : "stiffness_n_per_m", by_rate ? "N s/m" : "N/m"},
       0.0, by_rate ? 50.0 : 1e5,
       [=, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
@@ -128,13 +131,13 @@ std::vector<Term> ExternalTerms(const RigView& rig, const Tolerances& t, double 
   std::vector<Term> terms;
   for (std::size_t a = 0; a < rig.axes; ++a) {
     terms.push_back(MakeTerm(
-        {"static_load", rig.numbers.channels[a], "force_n", "N"}, t.static_load_n, 5.0,
+        {Id::kStaticLoad, AtAxis(rig.numbers, a), "force_n", "N"}, t.static_load_n, 5.0,
         [a](const SamplePoint&, double theta, Contribution& add) { add.force_n[a] += theta; }));
   }
-  terms.push_back(Spring(rig, "coupling_stiffness", 0.0, Kind::kDirect, 5e3));
-  terms.push_back(Spring(rig, "coupling_stiffness", 0.0, Kind::kSymmetric, 5e3));
+  terms.push_back(Spring(rig, Id::kCouplingStiffness, 0.0, Kind::kDirect, 5e3));
+  terms.push_back(Spring(rig, Id::kCouplingStiffness, 0.0, Kind::kSymmetric, 5e3));
   for (const auto& disc : rig.model->config().rotor.discs) {
-    terms.push_back(Spring(rig, "cross_coupled_stiffness", disc.z_m, Kind::kAntisymmetric, 5e3));
+    terms.push_back(Spring(rig, Id::kCrossCoupledStiffness, disc.z_m, Kind::kAntisymmetric, 5e3));
   }
   for (std::size_t b = 0; b < rig.axes / 2; ++b) {
     // From 30 to 270 Hz, each a tenth above the one before: a support is that sharp.

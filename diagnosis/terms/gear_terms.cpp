@@ -19,6 +19,8 @@
 namespace levitas::diagnosis {
 namespace {
 
+using effect::Id;
+
 using Complex = std::complex<double>;
 
 constexpr const char* kParts[] = {"cosine", "sine"};  // NOLINT: two words
@@ -107,7 +109,7 @@ Complex Part(int part) { return part == 0 ? Complex(1.0, 0.0) : Complex(0.0, 1.0
 
 void AddStiffness(const Teeth& t, const Tolerances& tolerances, std::vector<Term>& terms) {
   const std::string& name = t.mesh->name;
-  terms.push_back(MakeTerm({"mesh_stiffness", name, "stiffness", "ratio"},
+  terms.push_back(MakeTerm({Id::kMeshStiffness, AtGear(name, t.at), "stiffness", "ratio"},
                            tolerances.mesh_stiffness, 0.2,
                            [t](const SamplePoint& m, double theta, Contribution& add) {
                              t.Push(theta * t.mesh->stiffness_n_per_m * t.Unloaded(m), add);
@@ -115,8 +117,9 @@ void AddStiffness(const Teeth& t, const Tolerances& tolerances, std::vector<Term
   terms.back().change = [at = t.at](double theta, LinearChange& change) {
     change.mesh[at].stiffness *= 1.0 + theta;
   };
-  terms.push_back(MakeTerm({"mesh_stiffness", name, "damping", "ratio"}, tolerances.mesh_damping,
-                           0.3, [t](const SamplePoint& m, double theta, Contribution& add) {
+  terms.push_back(MakeTerm({Id::kMeshStiffness, AtGear(name, t.at), "damping", "ratio"},
+                           tolerances.mesh_damping, 0.3,
+                           [t](const SamplePoint& m, double theta, Contribution& add) {
                              t.Push(theta * t.mesh->damping_n_s_per_m * t.Velocity(m), add);
                            }));
   terms.back().change = [at = t.at](double theta, LinearChange& change) {
@@ -128,14 +131,13 @@ void AddVariation(const Teeth& t, std::vector<Term>& terms) {
   constexpr int kHighest = 3;
   for (int order = 1; order <= kHighest; ++order) {
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(
-          MakeTerm({"mesh_stiffness_variation", fmt::format("{}, order {}", t.mesh->name, order),
-                    kParts[part], "1"},
-                   0.0, 0.1, [=](const SamplePoint& m, double theta, Contribution& add) {
-                     const double phi = order * t.Phi(m);
-                     const double factor = part == 0 ? std::cos(phi) : -std::sin(phi);
-                     t.Push(theta * t.mesh->stiffness_n_per_m * factor * t.Loaded(m), add);
-                   }));
+      terms.push_back(MakeTerm(
+          {Id::kMeshStiffnessVariation, AtGearOrder(t.mesh->name, t.at, order), kParts[part], "1"},
+          0.0, 0.1, [=](const SamplePoint& m, double theta, Contribution& add) {
+            const double phi = order * t.Phi(m);
+            const double factor = part == 0 ? std::cos(phi) : -std::sin(phi);
+            t.Push(theta * t.mesh->stiffness_n_per_m * factor * t.Loaded(m), add);
+          }));
     }
   }
 }
@@ -146,13 +148,12 @@ void AddError(const Teeth& t, const Tolerances& tolerances, std::vector<Term>& t
   for (const gear::Harmonic& h : t.mesh->error) highest = std::max(highest, std::abs(h.order));
   for (int order = -highest - 1; order <= highest + 1; ++order) {
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(
-          MakeTerm({"transmission_error", fmt::format("{}, order {}", t.mesh->name, order),
-                    kParts[part], "m"},
-                   tolerances.transmission_error_m, 5e-6,
-                   [=](const SamplePoint& m, double theta, Contribution& add) {
-                     t.Displace(m, -theta * Part(part), order * t.mesh->engagement(), add);
-                   }));
+      terms.push_back(MakeTerm(
+          {Id::kTransmissionError, AtGearOrder(t.mesh->name, t.at, order), kParts[part], "m"},
+          tolerances.transmission_error_m, 5e-6,
+          [=](const SamplePoint& m, double theta, Contribution& add) {
+            t.Displace(m, -theta * Part(part), order * t.mesh->engagement(), add);
+          }));
     }
   }
 }
@@ -161,22 +162,21 @@ void AddRunout(const Teeth& t, const Tolerances& tolerances, bool driven,
                std::vector<Term>& terms) {
   const WheelView& wheel = driven ? t.mesh->driven : t.mesh->driving;
   for (int part = 0; part < 2; ++part) {
-    terms.push_back(MakeTerm(
-        {"gear_runout", fmt::format("{}, {} wheel", t.mesh->name, driven ? "driven" : "driving"),
-         kParts[part], "m"},
-        tolerances.gear_runout_m, 10e-6,
-        [=, w = &wheel](const SamplePoint& m, double theta, Contribution& add) {
-          const Complex by = theta * Part(part);
-          t.Displace(m, driven ? -by : by, w->ratio, add);
-          const double speed = w->ratio * static_cast<double>(m.speed_rad_per_s);
-          const Complex heading = std::polar(1.0, w->ratio * MidAngle(m, t.period_s));
-          const Complex force = w->eccentric_mass_kg * speed * speed * by * heading;
-          const std::size_t modes = w->shape.size();
-          for (std::size_t i = 0; i < modes; ++i) {
-            add.Modal(i, w->shape[i] * force.real());
-            add.Modal(modes + i, w->shape[i] * force.imag());
-          }
-        }));
+    terms.push_back(
+        MakeTerm({Id::kGearRunout, AtWheel(t.mesh->name, t.at, driven), kParts[part], "m"},
+                 tolerances.gear_runout_m, 10e-6,
+                 [=, w = &wheel](const SamplePoint& m, double theta, Contribution& add) {
+                   const Complex by = theta * Part(part);
+                   t.Displace(m, driven ? -by : by, w->ratio, add);
+                   const double speed = w->ratio * static_cast<double>(m.speed_rad_per_s);
+                   const Complex heading = std::polar(1.0, w->ratio * MidAngle(m, t.period_s));
+                   const Complex force = w->eccentric_mass_kg * speed * speed * by * heading;
+                   const std::size_t modes = w->shape.size();
+                   for (std::size_t i = 0; i < modes; ++i) {
+                     add.Modal(i, w->shape[i] * force.real());
+                     add.Modal(modes + i, w->shape[i] * force.imag());
+                   }
+                 }));
   }
 }
 
@@ -191,8 +191,7 @@ void AddCracks(const Teeth& t, bool driven, std::vector<Term>& terms) {
   const WheelView& wheel = driven ? t.mesh->driven : t.mesh->driving;
   for (int tooth = 0; tooth < wheel.teeth; ++tooth) {
     terms.push_back(MakeTerm(
-        {"tooth_crack",
-         fmt::format("{}, {} tooth {}", t.mesh->name, driven ? "driven" : "driving", tooth),
+        {Id::kToothCrack, AtTooth(t.mesh->name, t.at, driven, static_cast<std::size_t>(tooth)),
          "depth", "1"},
         0.0, 0.3,
         [=, turn = std::abs(wheel.ratio), teeth = wheel.teeth](const SamplePoint& m, double theta,
@@ -216,7 +215,7 @@ double Sliding(double phi) {
 
 Term Friction(const Teeth& t) {
   Term term =
-      MakeTerm({"mesh_friction", t.mesh->name, "coefficient", "1"}, 0.0, 0.1,
+      MakeTerm({Id::kMeshFriction, AtGear(t.mesh->name, t.at), "coefficient", "1"}, 0.0, 0.1,
                [t](const SamplePoint& m, double theta, Contribution& add) {
                  const Complex n = t.mesh->normal;
                  const double own = t.mesh->half_backlash_m;
@@ -234,7 +233,7 @@ Term Friction(const Teeth& t) {
 
 Term Backlash(const Teeth& t) {
   Term term =
-      MakeTerm({"backlash", t.mesh->name, "gap_m", "m"}, 0.0, 20e-6,
+      MakeTerm({Id::kBacklash, AtGear(t.mesh->name, t.at), "gap_m", "m"}, 0.0, 20e-6,
                [t](const SamplePoint& m, double theta, Contribution& add) {
                  const double own = t.mesh->half_backlash_m;
                  const double wider = own + 0.5 * std::max(0.0, theta);
@@ -256,8 +255,9 @@ void AddShafts(const RigView& rig, const Tolerances& tolerances, std::vector<Ter
   for (std::size_t i = 0; i < modes; ++i) {
     const double w2 = rig.omega_rad_per_s[i] * rig.omega_rad_per_s[i];
     terms.push_back(MakeTerm(
-        {"", fmt::format("shaft mode {}", i + 1), "stiffness", "ratio"}, tolerances.shaft_stiffness,
-        0.0, [=](const SamplePoint& m, double theta, Contribution& add) {
+        {std::nullopt, Everywhere(fmt::format("shaft mode {}", i + 1)), "stiffness", "ratio"},
+        tolerances.shaft_stiffness, 0.0,
+        [=](const SamplePoint& m, double theta, Contribution& add) {
           add.Modal(i, -theta * w2 * static_cast<double>(m.q[i]));
           add.Modal(modes + i, -theta * w2 * static_cast<double>(m.q[modes + i]));
         }));
@@ -267,22 +267,22 @@ void AddShafts(const RigView& rig, const Tolerances& tolerances, std::vector<Ter
   }
   for (std::size_t s = 0; s < rig.model->train().supports.size(); ++s) {
     const plant::SupportModel& support = rig.model->train().supports[s];
-    terms.push_back(MakeTerm({"", fmt::format("shaft support {}", s + 1), "damping", "ratio"},
-                             tolerances.shaft_damping, 0.0,
-                             [=](const SamplePoint& m, double theta, Contribution& add) {
-                               double x = 0.0;
-                               double y = 0.0;
-                               for (std::size_t i = 0; i < modes; ++i) {
-                                 x += support.shape[i] * static_cast<double>(m.v[i]);
-                                 y += support.shape[i] * static_cast<double>(m.v[modes + i]);
-                               }
-                               x *= theta * support.damping_x_n_s_per_m;
-                               y *= theta * support.damping_y_n_s_per_m;
-                               for (std::size_t i = 0; i < modes; ++i) {
-                                 add.Modal(i, -support.shape[i] * x);
-                                 add.Modal(modes + i, -support.shape[i] * y);
-                               }
-                             }));
+    terms.push_back(MakeTerm(
+        {std::nullopt, Everywhere(fmt::format("shaft support {}", s + 1)), "damping", "ratio"},
+        tolerances.shaft_damping, 0.0, [=](const SamplePoint& m, double theta, Contribution& add) {
+          double x = 0.0;
+          double y = 0.0;
+          for (std::size_t i = 0; i < modes; ++i) {
+            x += support.shape[i] * static_cast<double>(m.v[i]);
+            y += support.shape[i] * static_cast<double>(m.v[modes + i]);
+          }
+          x *= theta * support.damping_x_n_s_per_m;
+          y *= theta * support.damping_y_n_s_per_m;
+          for (std::size_t i = 0; i < modes; ++i) {
+            add.Modal(i, -support.shape[i] * x);
+            add.Modal(modes + i, -support.shape[i] * y);
+          }
+        }));
   }
 }
 

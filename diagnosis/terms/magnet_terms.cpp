@@ -13,6 +13,8 @@
 namespace levitas::diagnosis {
 namespace {
 
+using effect::Id;
+
 /// Opposed coils of a healthy magnet: a few micrometres of gap, a turn more or less.
 constexpr double kAlike = 0.02;
 
@@ -44,8 +46,9 @@ double SaturatedForce(const magnet::Magnet& magnet, double bias_a, double contro
 /// current is small beside the bias only its slopes show, and their ratio depends on the exponent.
 Term Saturation(const RigView& rig, double knee_share, double exponent) {
   Term term =
-      MakeTerm({"magnetic_saturation",
-                fmt::format("knee {:.3f} i0, exponent {:.2f}", knee_share, exponent), "share", "1"},
+      MakeTerm({Id::kMagneticSaturation,
+                Everywhere(fmt::format("knee {:.3f} i0, exponent {:.2f}", knee_share, exponent)),
+                "share", "1"},
                0.0, 0.7,
                [&rig, knee_share, exponent](const SamplePoint& m, double theta, Contribution& add) {
                  for (std::size_t a = 0; a < rig.axes; ++a) {
@@ -86,12 +89,11 @@ Term Saturation(const RigView& rig, double knee_share, double exponent) {
 /// Terms of one axis: its current, its displacement, and the force law of its two coils.
 void AddAxisTerms(const RigView& rig, const Tolerances& tolerances, std::size_t a,
                   std::vector<Term>& terms) {
-  const std::string& channel = rig.numbers.channels[a];
   const auto magnet = rig.magnet(a).magnet;
   const double bias_a = rig.bias_a(a);
   // The gain scales the current, not the force; with a static load current the two differ.
   Term gain = MakeTerm(
-      {"current_gain", channel, "ratio", "1"}, tolerances.current_gain, 0.15,
+      {Id::kCurrentGain, AtAxis(rig.numbers, a), "ratio", "1"}, tolerances.current_gain, 0.15,
       [=](const SamplePoint& m, double theta, Contribution& add) {
         const double x = static_cast<double>(m.actuator_m[a]);
         const double i = static_cast<double>(m.coil_mean_a[a]);
@@ -105,7 +107,7 @@ void AddAxisTerms(const RigView& rig, const Tolerances& tolerances, std::size_t 
     added.force_per_a[a] += static_cast<float>(theta) * m.force_per_a[a];
   };
   terms.push_back(std::move(gain));
-  terms.push_back(MakeTerm({"displacement_stiffness", channel, "ratio", "1"},
+  terms.push_back(MakeTerm({Id::kDisplacementStiffness, AtAxis(rig.numbers, a), "ratio", "1"},
                            tolerances.displacement_stiffness, 0.15,
                            [=](const SamplePoint& m, double theta, Contribution& add) {
                              add.force_n[a] += theta * ForceWithoutControl(magnet, bias_a, m, a);
@@ -114,7 +116,7 @@ void AddAxisTerms(const RigView& rig, const Tolerances& tolerances, std::size_t 
     added.force_per_m[a] += static_cast<float>(theta) * m.force_per_m[a];
   };
   // Healthy magnets are off by current_gain and displacement_stiffness, which hold this one.
-  terms.push_back(MakeTerm({"force_constant", channel, "ratio", "1"}, 0.0, 0.15,
+  terms.push_back(MakeTerm({Id::kForceConstant, AtAxis(rig.numbers, a), "ratio", "1"}, 0.0, 0.15,
                            [a](const SamplePoint& m, double theta, Contribution& add) {
                              add.force_n[a] += theta * static_cast<double>(m.force_n[a]);
                            }));
@@ -126,16 +128,15 @@ void AddAxisTerms(const RigView& rig, const Tolerances& tolerances, std::size_t 
 
 /// Terms of one axis that a healthy rig has hardly: the amplifier's zero, unequal coils.
 void AddAsymmetries(const RigView& rig, std::size_t a, std::vector<Term>& terms) {
-  const std::string& channel = rig.numbers.channels[a];
   const auto magnet = rig.magnet(a).magnet;
   const double bias_a = rig.bias_a(a);
-  terms.push_back(MakeTerm({"command_offset", channel, "offset_a", "A"}, 0.0, 0.15,
+  terms.push_back(MakeTerm({Id::kCommandOffset, AtAxis(rig.numbers, a), "offset_a", "A"}, 0.0, 0.15,
                            [&rig, a](const SamplePoint& m, double theta, Contribution& add) {
                              add.force_n[a] += ForceOfCurrent(rig, m, a, theta);
                            }));
   terms.back().linear = false;  // away from the centre: the two coils' gaps differ
   terms.back().step = 0.02;
-  terms.push_back(MakeTerm({"coil_asymmetry", channel, "ratio", "1"}, kAlike, 0.1,
+  terms.push_back(MakeTerm({Id::kCoilAsymmetry, AtAxis(rig.numbers, a), "ratio", "1"}, kAlike, 0.1,
                            [=](const SamplePoint& m, double theta, Contribution& add) {
                              const double x = static_cast<double>(m.actuator_m[a]);
                              const double i = static_cast<double>(m.coil_mean_a[a]);
@@ -148,8 +149,8 @@ void AddAsymmetries(const RigView& rig, std::size_t a, std::vector<Term>& terms)
 
 /// Terms of one bearing, whose two axes act on each other.
 Term Rotation(const RigView& rig, std::size_t b) {
-  return MakeTerm({"axis_rotation", "magnet " + rig.numbers.bearings[b], "angle_rad", "rad"}, 0.0,
-                  0.05, [b](const SamplePoint& m, double theta, Contribution& add) {
+  return MakeTerm({Id::kAxisRotation, AtSide(rig.numbers, b, false), "angle_rad", "rad"}, 0.0, 0.05,
+                  [b](const SamplePoint& m, double theta, Contribution& add) {
                     add.force_n[2 * b] -= theta * static_cast<double>(m.force_n[2 * b + 1]);
                     add.force_n[2 * b + 1] += theta * static_cast<double>(m.force_n[2 * b]);
                   });
@@ -157,7 +158,7 @@ Term Rotation(const RigView& rig, std::size_t b) {
 
 Term Coupling(const RigView& rig, std::size_t b) {
   const double ki = magnet::ForcePerCurrent(rig.magnet(2 * b).magnet, rig.bias_a(2 * b));
-  return MakeTerm({"magnetic_coupling", rig.numbers.bearings[b], "ratio", "1"}, 0.0, 0.1,
+  return MakeTerm({Id::kMagneticCoupling, AtBearing(rig.numbers, b), "ratio", "1"}, 0.0, 0.1,
                   [b, ki](const SamplePoint& m, double theta, Contribution& add) {
                     const auto share = theta * ki;
                     add.force_n[2 * b] += share * static_cast<double>(m.coil_mean_a[2 * b + 1]);

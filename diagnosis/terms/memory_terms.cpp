@@ -19,6 +19,8 @@
 namespace levitas::diagnosis {
 namespace {
 
+using effect::Id;
+
 constexpr std::size_t kSections = 15;  ///< x from 10^-3 to 10^4, half decades
 
 /// The half-order lag of one axis, advanced period by period.
@@ -63,8 +65,9 @@ double CurrentPerDisplacement(const RigView& rig, std::size_t axis) {
 }
 
 Term Hysteresis(const RigView& rig, double width_share) {
-  Term term = MakeTerm({"hysteresis", fmt::format("width {:.4g} i0", width_share), "share", "1"},
-                       0.0, 1.0, nullptr);
+  Term term = MakeTerm(
+      {Id::kHysteresis, Everywhere(fmt::format("width {:.4g} i0", width_share)), "share", "1"}, 0.0,
+      1.0, nullptr);
   term.positive = true;
   term.family = {{width_share}, {0.55}, {}, [&rig](const Family::Shape& other) {
                    return Hysteresis(rig, other[0]);
@@ -89,7 +92,7 @@ Term Hysteresis(const RigView& rig, double width_share) {
 
 /// `a_per_m`: current whose lag is that of a displacement; 0 where the current alone lags.
 Term Eddy(const RigView& rig, std::size_t axis, double a_per_m) {
-  Term eddy = MakeTerm({"eddy_current", rig.numbers.channels[axis], kRootTau, "s^0.5"}, 0.0, 5e-3,
+  Term eddy = MakeTerm({Id::kEddyCurrent, AtAxis(rig.numbers, axis), kRootTau, "s^0.5"}, 0.0, 5e-3,
                        nullptr);  // tau 25 us
   eddy.step = 3e-3;
   eddy.linear = false;

@@ -1,7 +1,5 @@
 // What turns with the shaft: unbalance, bow, run-out, misalignment, anisotropy.
 // Every harmonic is given by its cosine and sine parts, which enter linearly.
-#include <fmt/core.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +7,8 @@
 
 namespace levitas::diagnosis {
 namespace {
+
+using effect::Id;
 
 /// Angle in the middle of the period, where forces are evaluated.
 double MidAngle(const SamplePoint& m, double period_s) {
@@ -22,21 +22,20 @@ void AddUnbalance(const RigView& rig, const Tolerances& t, std::vector<Term>& te
   for (const auto& mass : rig.model->config().unbalance) {
     const auto shape = rig.Shape(mass.z_m);
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(
-          MakeTerm({"unbalance", fmt::format("z {:.1f} mm", mass.z_m * 1e3), kParts[part], "kg m"},
-                   t.unbalance_kg_m, 20e-6,
-                   [=, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
-                     const double speed = static_cast<double>(m.speed_rad_per_s);
-                     if (speed == 0.0) return;
-                     // The sine part is a quarter turn ahead.
-                     const double force = theta * speed * speed;
-                     const double cosine = force * (part == 0 ? m.cos_mid_angle : -m.sin_mid_angle);
-                     const double sine = force * (part == 0 ? m.sin_mid_angle : m.cos_mid_angle);
-                     for (std::size_t i = 0; i < modes; ++i) {
-                       add.Modal(i, shape[i] * cosine);
-                       add.Modal(modes + i, shape[i] * sine);
-                     }
-                   }));
+      terms.push_back(MakeTerm(
+          {Id::kUnbalance, AtPlane(mass.z_m), kParts[part], "kg m"}, t.unbalance_kg_m, 20e-6,
+          [=, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
+            const double speed = static_cast<double>(m.speed_rad_per_s);
+            if (speed == 0.0) return;
+            // The sine part is a quarter turn ahead.
+            const double force = theta * speed * speed;
+            const double cosine = force * (part == 0 ? m.cos_mid_angle : -m.sin_mid_angle);
+            const double sine = force * (part == 0 ? m.sin_mid_angle : m.cos_mid_angle);
+            for (std::size_t i = 0; i < modes; ++i) {
+              add.Modal(i, shape[i] * cosine);
+              add.Modal(modes + i, shape[i] * sine);
+            }
+          }));
     }
   }
 }
@@ -46,8 +45,7 @@ void AddRunout(const RigView& rig, const Tolerances& t, std::vector<Term>& terms
     for (std::size_t a = 0; a < rig.axes; ++a) {
       for (int part = 0; part < 2; ++part) {
         Term term =
-            MakeTerm({"sensor_runout", fmt::format("order {}, {}", order, rig.numbers.channels[a]),
-                      kParts[part], "m"},
+            MakeTerm({Id::kSensorRunout, AtOrderOf(rig.numbers, order, a), kParts[part], "m"},
                      order == 1 ? t.sensor_runout_m : 0.0, 3e-6, nullptr);
         // It is on the shaft: the sensor's filter sees it, H = 1/(1 + j order W lag), and at rest
         // it stays as an offset.
@@ -73,8 +71,7 @@ void AddBow(const RigView& rig, std::vector<Term>& terms) {
                                .maxCoeff();
     const double size = std::pow(rig.omega_rad_per_s[mode], 2) / largest;
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(MakeTerm({"shaft_bow", fmt::format("mode {}", mode - 1), kParts[part], "m"},
-                               0.0, 20e-6,
+      terms.push_back(MakeTerm({Id::kShaftBow, AtMode(mode - 1), kParts[part], "m"}, 0.0, 20e-6,
                                [=, modes = rig.modes, period_s = rig.period_s](
                                    const SamplePoint& m, double theta, Contribution& add) {
                                  const double angle = MidAngle(m, period_s) + part * kQuarterTurn;
@@ -90,19 +87,19 @@ void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
   const auto shape = rig.Shape(0.0);
   for (const int order : {2, -2, 3, -3}) {
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(
-          MakeTerm({"misalignment", fmt::format("order {}", order), kParts[part], "N"}, 0.0, 0.5,
-                   [=, modes = rig.modes, period_s = rig.period_s](
-                       const SamplePoint& m, double theta, Contribution& add) {
-                     if (m.speed_rad_per_s == 0.0F) return;
-                     const double angle = order * MidAngle(m, period_s) + part * kQuarterTurn;
-                     const double x = theta * std::cos(angle);
-                     const double y = theta * std::sin(angle);
-                     for (std::size_t i = 0; i < modes; ++i) {
-                       add.Modal(i, shape[i] * x);
-                       add.Modal(modes + i, shape[i] * y);
-                     }
-                   }));
+      terms.push_back(MakeTerm({Id::kMisalignment, AtOrder(order), kParts[part], "N"}, 0.0, 0.5,
+                               [=, modes = rig.modes, period_s = rig.period_s](
+                                   const SamplePoint& m, double theta, Contribution& add) {
+                                 if (m.speed_rad_per_s == 0.0F) return;
+                                 const double angle =
+                                     order * MidAngle(m, period_s) + part * kQuarterTurn;
+                                 const double x = theta * std::cos(angle);
+                                 const double y = theta * std::sin(angle);
+                                 for (std::size_t i = 0; i < modes; ++i) {
+                                   add.Modal(i, shape[i] * x);
+                                   add.Modal(modes + i, shape[i] * y);
+                                 }
+                               }));
     }
   }
 }
@@ -111,7 +108,7 @@ void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
 void AddStiffness(const RigView& rig, std::vector<Term>& terms) {
   for (int part = 0; part < 2; ++part) {
     terms.push_back(MakeTerm(
-        {"shaft_anisotropy", "rotor", kParts[part], "1"}, 0.0, 0.1,
+        {Id::kShaftAnisotropy, Everywhere("rotor"), kParts[part], "1"}, 0.0, 0.1,
         [=, &rig, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
           const double angle = 2.0 * MidAngle(m, rig.period_s) + part * kQuarterTurn;
           const double c = theta * std::cos(angle);
@@ -142,7 +139,7 @@ std::vector<Term> RotatingTerms(const RigView& rig, const Tolerances& t) {
   AddStiffness(rig, terms);
   // Run-out, a bow and flats are there at rest as well.
   for (Term& term : terms) {
-    term.rotating = term.effect == "unbalance" || term.effect == "misalignment";
+    term.rotating = term.effect == Id::kUnbalance || term.effect == Id::kMisalignment;
   }
   return terms;
 }

@@ -1,6 +1,4 @@
 // Rotor at any speed: frequencies, damping, shapes, mass, gyroscopic inertia, internal damping.
-#include <fmt/core.h>
-
 #include <cmath>
 
 #include "diagnosis/model/linear_change.hpp"
@@ -8,6 +6,8 @@
 
 namespace levitas::diagnosis {
 namespace {
+
+using effect::Id;
 
 double Rms(const RigView& rig, std::size_t mode) {
   double sum = 0.0;
@@ -22,8 +22,8 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
   const double w = rig.omega_rad_per_s[mode];
   const double z = rig.damping_ratio[mode];
   const std::size_t other = rig.modes + mode;
-  const std::string place = fmt::format("mode {}", mode - 1);
-  terms.push_back(MakeTerm({"modal_frequency", place, "ratio", "1"}, t.modal_frequency, 0.05,
+  const Location place = AtMode(mode - 1);
+  terms.push_back(MakeTerm({Id::kModalFrequency, place, "ratio", "1"}, t.modal_frequency, 0.05,
                            [=](const SamplePoint& m, double theta, Contribution& add) {
                              const double gone = -w * w * ((1.0 + theta) * (1.0 + theta) - 1.0);
                              add.Modal(mode, gone * static_cast<double>(m.q[mode]));
@@ -34,7 +34,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
   terms.back().change = [mode](double theta, LinearChange& change) {
     change.mode[mode].frequency *= 1.0 + theta;
   };
-  terms.push_back(MakeTerm({"modal_damping", place, "ratio", "1"}, t.modal_damping, 3.0,
+  terms.push_back(MakeTerm({Id::kModalDamping, place, "ratio", "1"}, t.modal_damping, 3.0,
                            [=](const SamplePoint& m, double theta, Contribution& add) {
                              const double gone = -2.0 * z * w * theta;
                              add.Modal(mode, gone * static_cast<double>(m.v[mode]));
@@ -46,7 +46,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
   const double size = Rms(rig, mode);
   for (std::size_t b = 0; b < rig.axes / 2; ++b) {
     terms.push_back(
-        MakeTerm({"", fmt::format("magnet {}, {}", rig.numbers.bearings[b], place), "shape", "1"},
+        MakeTerm({std::nullopt, AtSide(rig.numbers, b, false).InMode(mode - 1), "shape", "1"},
                  t.modal_shape, 0.0, [=](const SamplePoint& m, double theta, Contribution& add) {
                    const double shape = theta * size;
                    add.Modal(mode, shape * static_cast<double>(m.force_n[2 * b]));
@@ -56,7 +56,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
       for (const std::size_t a : {2 * b, 2 * b + 1}) change.axis[a].drive[mode] += theta * size;
     };
     Term sensor =
-        MakeTerm({"", fmt::format("sensor {}, {}", rig.numbers.bearings[b], place), "shape", "1"},
+        MakeTerm({std::nullopt, AtSide(rig.numbers, b, true).InMode(mode - 1), "shape", "1"},
                  t.modal_shape, 0.0, nullptr);
     const double lag_s = SensorLag(rig, 2 * b);
     sensor.read = [=](const SamplePoint& m, double theta, Contribution& add) {
@@ -78,26 +78,25 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
 
 /// f(z) = -damping (r' - j W r) of the bending alone.
 Term InternalDamping(const RigView& rig, double z_m) {
-  Term term = MakeTerm(
-      {"internal_damping", fmt::format("z {:.1f} mm", z_m * 1e3), "damping", "N s/m"}, 0.0, 20.0,
-      [shape = rig.Shape(z_m), modes = rig.modes](const SamplePoint& m, double theta,
-                                                  Contribution& add) {
-        const double speed = static_cast<double>(m.speed_rad_per_s);
-        double x = 0.0;
-        double y = 0.0;
-        double vx = 0.0;
-        double vy = 0.0;
-        for (std::size_t i = 2; i < modes; ++i) {
-          x += shape[i] * static_cast<double>(m.q[i]);
-          y += shape[i] * static_cast<double>(m.q[modes + i]);
-          vx += shape[i] * static_cast<double>(m.v[i]);
-          vy += shape[i] * static_cast<double>(m.v[modes + i]);
-        }
-        for (std::size_t i = 2; i < modes; ++i) {
-          add.Modal(i, -theta * shape[i] * (vx + speed * y));
-          add.Modal(modes + i, -theta * shape[i] * (vy - speed * x));
-        }
-      });
+  Term term = MakeTerm({Id::kInternalDamping, AtPlane(z_m), "damping", "N s/m"}, 0.0, 20.0,
+                       [shape = rig.Shape(z_m), modes = rig.modes](
+                           const SamplePoint& m, double theta, Contribution& add) {
+                         const double speed = static_cast<double>(m.speed_rad_per_s);
+                         double x = 0.0;
+                         double y = 0.0;
+                         double vx = 0.0;
+                         double vy = 0.0;
+                         for (std::size_t i = 2; i < modes; ++i) {
+                           x += shape[i] * static_cast<double>(m.q[i]);
+                           y += shape[i] * static_cast<double>(m.q[modes + i]);
+                           vx += shape[i] * static_cast<double>(m.v[i]);
+                           vy += shape[i] * static_cast<double>(m.v[modes + i]);
+                         }
+                         for (std::size_t i = 2; i < modes; ++i) {
+                           add.Modal(i, -theta * shape[i] * (vx + speed * y));
+                           add.Modal(modes + i, -theta * shape[i] * (vy - speed * x));
+                         }
+                       });
   term.positive = true;
   return term;
 }
@@ -108,7 +107,7 @@ std::vector<Term> RotorTerms(const RigView& rig, const Tolerances& t) {
   std::vector<Term> terms;
   const std::size_t modes = rig.modes;
   for (std::size_t mode = 2; mode < modes; ++mode) AddMode(rig, t, mode, terms);
-  terms.push_back(MakeTerm({"rotor_mass", "rotor", "ratio", "1"}, t.rotor_mass, 0.1,
+  terms.push_back(MakeTerm({Id::kRotorMass, Everywhere("rotor"), "ratio", "1"}, t.rotor_mass, 0.1,
                            [&rig, modes](const SamplePoint& m, double theta, Contribution& add) {
                              const double share = -theta / (1.0 + theta);
                              for (std::size_t a = 0; a < rig.axes; ++a) {
@@ -124,7 +123,8 @@ std::vector<Term> RotorTerms(const RigView& rig, const Tolerances& t) {
   terms.back().change = [](double theta, LinearChange& change) {
     for (std::size_t i = 0; i < 2; ++i) change.mode[i].drive /= 1.0 + theta;
   };
-  terms.push_back(MakeTerm({"gyroscopic_inertia", "rotor", "ratio", "1"}, t.gyroscopic_inertia, 0.3,
+  terms.push_back(MakeTerm({Id::kGyroscopicInertia, Everywhere("rotor"), "ratio", "1"},
+                           t.gyroscopic_inertia, 0.3,
                            [&rig, modes](const SamplePoint& m, double theta, Contribution& add) {
                              const double* g = rig.model->gyroscopic().data();
                              const double speed = theta * static_cast<double>(m.speed_rad_per_s);

@@ -1,6 +1,4 @@
 // Sensors: scale, offset, characteristic, bandwidth, place, rotation of the axes, mains.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +8,8 @@
 
 namespace levitas::diagnosis {
 namespace {
+
+using effect::Id;
 
 constexpr double kLeastLag = 0.05;  ///< of the file's; below it a sensor has none
 
@@ -55,7 +55,7 @@ Term Bandwidth(const RigView& rig, double tolerance, std::size_t a) {
     Lag file, other;
   };
   Term term = MakeTerm(
-      {"sensor_bandwidth", rig.numbers.channels[a], "lag_ratio", "1"}, tolerance, 1.0,
+      {Id::kSensorBandwidth, AtAxis(rig.numbers, a), "lag_ratio", "1"}, tolerance, 1.0,
       [=, period_s = rig.period_s, gain = rig.bearing(a).sensor.gain, both = Both{}](
           const SamplePoint& m, double theta, Contribution& add) mutable {
         if (m.restarted) {
@@ -77,28 +77,28 @@ Term Bandwidth(const RigView& rig, double tolerance, std::size_t a) {
 }
 
 void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vector<Term>& terms) {
-  const std::string& channel = rig.numbers.channels[a];
   constexpr double kReferenceM = 100e-6;  // [m] a2, a3 are shares of it at this reading
-  terms.push_back(MakeReading({"sensor_gain", channel, "ratio", "1"}, t.sensor_gain, 0.1,
+  terms.push_back(MakeReading({Id::kSensorGain, AtAxis(rig.numbers, a), "ratio", "1"},
+                              t.sensor_gain, 0.1,
                               [a](const SamplePoint& m, double theta, Contribution& add) {
                                 add.reading_m[a] += theta * static_cast<double>(m.reading_m[a]);
                               }));
-  terms.back().scales = static_cast<int>(a);
+  terms.back().scales = a;
   terms.back().slope = [a](const SamplePoint&, double theta, AddedSlopes& added) {
     added.reading_per_m[a] += static_cast<float>(theta);
   };
   terms.push_back(MakeReading(
-      {"sensor_offset", channel, "offset_m", "m"}, t.sensor_offset_m, 50e-6,
+      {Id::kSensorOffset, AtAxis(rig.numbers, a), "offset_m", "m"}, t.sensor_offset_m, 50e-6,
       [a](const SamplePoint&, double theta, Contribution& add) { add.reading_m[a] += theta; }));
-  terms.push_back(MakeReading({"sensor_nonlinearity", channel, "a2", "1/m"}, 0.0, 3e3,
-                              [a](const SamplePoint& m, double theta, Contribution& add) {
+  terms.push_back(MakeReading({Id::kSensorNonlinearity, AtAxis(rig.numbers, a), "a2", "1/m"}, 0.0,
+                              3e3, [a](const SamplePoint& m, double theta, Contribution& add) {
                                 const double y = static_cast<double>(m.reading_m[a]);
                                 add.reading_m[a] += theta * y * y;
                               }));
   terms.back().slope = [a](const SamplePoint& m, double theta, AddedSlopes& added) {
     added.reading_per_m[a] += static_cast<float>(2.0 * theta) * m.reading_m[a];
   };
-  terms.push_back(MakeReading({"sensor_nonlinearity", channel, "a3", "1/m^2"}, 0.0,
+  terms.push_back(MakeReading({Id::kSensorNonlinearity, AtAxis(rig.numbers, a), "a3", "1/m^2"}, 0.0,
                               1.0 / (kReferenceM * kReferenceM),
                               [a](const SamplePoint& m, double theta, Contribution& add) {
                                 const double y = static_cast<double>(m.reading_m[a]);
@@ -111,16 +111,15 @@ void AddOneAxis(const RigView& rig, const Tolerances& t, std::size_t a, std::vec
 }
 
 void AddPosition(const RigView& rig, const Tolerances& t, std::size_t b, std::vector<Term>& terms) {
-  const std::string& bearing = rig.numbers.bearings[b];
   const auto slope = rig.Slope(rig.model->config().bearings[b].sensor_z_m);
   const std::size_t modes = rig.modes;
   const double lag_s = SensorLag(rig, 2 * b);
-  terms.push_back(
-      MakeReading({"sensor_position", bearing, "shift_m", "m"}, t.sensor_position_m, 3e-3,
-                  [b, slope, modes, lag_s](const SamplePoint& m, double theta, Contribution& add) {
-                    add.reading_m[2 * b] += theta * Seen(slope, m, 0, lag_s);
-                    add.reading_m[2 * b + 1] += theta * Seen(slope, m, modes, lag_s);
-                  }));
+  terms.push_back(MakeReading(
+      {Id::kSensorPosition, AtBearing(rig.numbers, b), "shift_m", "m"}, t.sensor_position_m, 3e-3,
+      [b, slope, modes, lag_s](const SamplePoint& m, double theta, Contribution& add) {
+        add.reading_m[2 * b] += theta * Seen(slope, m, 0, lag_s);
+        add.reading_m[2 * b + 1] += theta * Seen(slope, m, modes, lag_s);
+      }));
   terms.back().change = [b, slope, lag_s](double theta, LinearChange& change) {
     for (std::size_t i = 0; i < slope.size(); ++i) {
       for (const std::size_t a : {2 * b, 2 * b + 1}) {
@@ -141,15 +140,15 @@ std::vector<Term> SensorTerms(const RigView& rig, const Tolerances& t) {
   std::vector<Term> terms;
   for (std::size_t a = 0; a < rig.axes; ++a) AddOneAxis(rig, t, a, terms);
   for (std::size_t b = 0; b < rig.axes / 2; ++b) {
-    const std::string& bearing = rig.numbers.bearings[b];
     if (!rig.geared()) AddPosition(rig, t, b, terms);
-    terms.push_back(MakeReading({"axis_rotation", "sensor " + bearing, "angle_rad", "rad"}, 0.0,
-                                0.05, [b](const SamplePoint& m, double theta, Contribution& add) {
-                                  const double x = static_cast<double>(m.reading_m[2 * b]);
-                                  const double y = static_cast<double>(m.reading_m[2 * b + 1]);
-                                  add.reading_m[2 * b] += theta * y;
-                                  add.reading_m[2 * b + 1] -= theta * x;
-                                }));
+    terms.push_back(
+        MakeReading({Id::kAxisRotation, AtSide(rig.numbers, b, true), "angle_rad", "rad"}, 0.0,
+                    0.05, [b](const SamplePoint& m, double theta, Contribution& add) {
+                      const double x = static_cast<double>(m.reading_m[2 * b]);
+                      const double y = static_cast<double>(m.reading_m[2 * b + 1]);
+                      add.reading_m[2 * b] += theta * y;
+                      add.reading_m[2 * b + 1] -= theta * x;
+                    }));
   }
   return terms;
 }
@@ -178,14 +177,13 @@ std::vector<Term> MainsTerms(const RigView& rig, const std::vector<double>& freq
         const double known_m = KnownAmplitude(rig, hz, a);
         for (int part = 0; part < 2; ++part) {
           terms.push_back(MakeReading(
-              {"mains_pickup", fmt::format("{:.0f} Hz, {}", hz, rig.numbers.channels[a]),
-               part == 0 ? "cosine" : "sine", "m"},
+              {Id::kMainsPickup, AtLineOf(rig.numbers, hz, a), part == 0 ? "cosine" : "sine", "m"},
               known_m, 2e-6, [=](const SamplePoint& m, double theta, Contribution& add) {
                 if (m.record != record) return;
                 add.reading_m[a] +=
                     theta * (part == 0 ? std::cos(w * m.time_s) : std::sin(w * m.time_s));
               }));
-          terms.back().record = static_cast<int>(record);
+          terms.back().record = record;
         }
       }
     }

@@ -19,6 +19,8 @@
 namespace levitas::diagnosis {
 namespace {
 
+using effect::Id;
+
 struct Loop {
   double rate_per_s;  ///< 2 pi bandwidth
   double period_s;
@@ -55,7 +57,8 @@ Shifted Shift(const Loop& loop, double theta) {
 }
 
 Term Delay(const RigView& rig, double tolerance) {
-  Term term = MakeTerm({"extra_delay", "all axes", "samples", "1"}, tolerance, 0.5, nullptr);
+  Term term =
+      MakeTerm({Id::kExtraDelay, Everywhere("all axes"), "samples", "1"}, tolerance, 0.5, nullptr);
   std::vector<Loop> loops;
   loops.reserve(rig.axes);
   for (std::size_t a = 0; a < rig.axes; ++a) loops.push_back(LoopOf(rig, a));
@@ -80,7 +83,7 @@ Term Delay(const RigView& rig, double tolerance) {
 }
 
 Term Bandwidth(const RigView& rig, std::size_t a, double tolerance) {
-  Term term = MakeTerm({"amplifier_bandwidth", rig.numbers.channels[a], "ratio", "1"}, tolerance,
+  Term term = MakeTerm({Id::kAmplifierBandwidth, AtAxis(rig.numbers, a), "ratio", "1"}, tolerance,
                        0.3, nullptr);
   term.linear = false;
   term.moves_coil = true;
@@ -142,8 +145,9 @@ class SlewingCoil {
 };
 
 Term Slew(const RigView& rig, double slew_a_per_s) {
-  Term term = MakeTerm({"amplifier_slew", fmt::format("{:.0f} A/s", slew_a_per_s), "share", "1"},
-                       0.0, 0.7, nullptr);
+  Term term = MakeTerm(
+      {Id::kAmplifierSlew, Everywhere(fmt::format("{:.0f} A/s", slew_a_per_s)), "share", "1"}, 0.0,
+      0.7, nullptr);
   term.positive = true;
   term.family = {{slew_a_per_s}, {0.4}, {}, [&rig](const Family::Shape& other) {
                    return Slew(rig, other[0]);

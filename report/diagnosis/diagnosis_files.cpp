@@ -30,7 +30,7 @@ nlohmann::ordered_json ParametersJson(const DiagnosisReport& report) {
   for (const auto& p : report.parameters) {
     json[p.name] = {{"value", p.value},   {"low", p.low},
                     {"high", p.high},     {"unit", p.unit},
-                    {"effect", p.effect}, {"where", p.place},
+                    {"effect", p.effect}, {"where", p.location.name},
                     {"key", p.key},       {"bracket", p.form ? "neighbouring forms" : "5 to 95 %"}};
     if (!p.of_file) continue;
     json[p.name]["of_file"] = p.of_file->nominal;

@@ -136,7 +136,8 @@ std::vector<SharedParameter> SharedParameters(const DiagnosisReport& s) {
       return g.first.effect == p.effect && g.first.key == p.key && g.first.value == p.value &&
              g.first.low == p.low && g.first.high == p.high;
     });
-    (same == groups.end() ? groups.emplace_back(Places{p, {}}) : *same).at.push_back(p.place);
+    (same == groups.end() ? groups.emplace_back(Places{p, {}}) : *same)
+        .at.push_back(p.location.name);
   }
   std::vector<SharedParameter> out;
   for (const Places& g : groups) {

@@ -56,7 +56,7 @@ class GearedTerms : public ::testing::Test {
   [[nodiscard]] std::size_t Find(const std::string& effect, const std::string& place,
                                  const std::string& parameter) const {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (terms_[i].effect == effect && terms_[i].place == place &&
+      if (terms_[i].effect_name() == effect && terms_[i].location.name == place &&
           terms_[i].parameter == parameter) {
         return i;
       }

@@ -22,7 +22,7 @@ TrialScore Ask(std::uint64_t seed, std::vector<effect::Id> hidden) {
   settings.quick = true;
   settings.most_causes = 1;
   const auto result = diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings);
-  return Judge(plan, trial.ground_truth, diagnosis::BuildReport(result), bench.rig.numbers);
+  return Judge(plan, trial.ground_truth, diagnosis::BuildReport(result));
 }
 
 // With another law of the gain the answer was saturation, and the gain on top of it.

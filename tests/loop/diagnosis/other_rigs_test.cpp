@@ -27,8 +27,7 @@ Asked Ask(const std::string& rig, std::uint64_t seed, std::vector<effect::Id> hi
   settings.quick = true;
   settings.most_causes = 1;
   asked.answer = diagnosis::DiagnoseRecords(asked.bench.rig, trial.records, {}, settings);
-  asked.outcome = Judge(plan, trial.ground_truth, diagnosis::BuildReport(asked.answer),
-                        asked.bench.rig.numbers);
+  asked.outcome = Judge(plan, trial.ground_truth, diagnosis::BuildReport(asked.answer));
   return asked;
 }
 

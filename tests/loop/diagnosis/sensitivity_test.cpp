@@ -24,7 +24,7 @@ class Sensitivity : public ::testing::Test {
 
   [[nodiscard]] std::size_t Find(const std::string& effect) const {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (terms_[i].effect == effect) return i;
+      if (terms_[i].effect_name() == effect) return i;
     }
     ADD_FAILURE() << effect;
     return 0;
@@ -32,7 +32,7 @@ class Sensitivity : public ::testing::Test {
 
   [[nodiscard]] std::size_t FindAt(const std::string& effect, const std::string& place) const {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (terms_[i].effect == effect && terms_[i].place == place) return i;
+      if (terms_[i].effect_name() == effect && terms_[i].location.name == place) return i;
     }
     ADD_FAILURE() << effect << " " << place;
     return 0;

@@ -30,7 +30,7 @@ class SlopesTest : public ::testing::Test {
 
   [[nodiscard]] std::size_t Find(const std::string& effect) const {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (terms_[i].effect == effect) return i;
+      if (terms_[i].effect_name() == effect) return i;
     }
     ADD_FAILURE() << effect;
     return 0;
@@ -90,7 +90,7 @@ TEST_F(SlopesTest, RenewedWithTheSameRunStayWhatTheyWere) {
   for (Eigen::Index i = 0; i < sum.jte.size(); ++i) {
     // Products in single precision: a millionth of the two vectors' lengths.
     EXPECT_NEAR(sum.jte[i], view.sum.jte[i], 1e-6 * std::sqrt(sum.jtj(i, i) * sum.ete))
-        << terms_[static_cast<std::size_t>(i)].effect;
+        << terms_[static_cast<std::size_t>(i)].effect_name();
   }
 }
 

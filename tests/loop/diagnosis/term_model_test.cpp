@@ -79,7 +79,7 @@ TEST_F(TermModel, ADelayDoesWhatADelayInTheRigFileDoes) {
   const Trajectory none = Run(view_, terms_, spinning, theta);
   const Trajectory file = Run(late_view, AllTerms(late_view, Tolerances{}, 50e-6), spinning, theta);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    if (terms_[i].effect == "extra_delay") theta[i] = kLate;
+    if (terms_[i].effect_name() == "extra_delay") theta[i] = kLate;
   }
   EXPECT_LT(Apart(Run(view_, terms_, spinning, theta), file), 0.03 * Apart(none, file));
 }
@@ -101,12 +101,12 @@ TEST_F(TermModel, ASlewingAmplifierDoesWhatOneInTheRigFileDoes) {
   std::vector<double> theta(terms_.size(), 0.0);
   const Trajectory file = Run(view, AllTerms(view, Tolerances{}, 50e-6), spinning, theta);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    if (terms_[i].effect == "extra_delay") theta[i] = kLate;
-    if (terms_[i].effect == "amplifier_bandwidth") theta[i] = kRate - 1.0;
+    if (terms_[i].effect_name() == "extra_delay") theta[i] = kLate;
+    if (terms_[i].effect_name() == "amplifier_bandwidth") theta[i] = kRate - 1.0;
   }
   const Trajectory fast = Run(view_, terms_, spinning, theta);
   const auto term = std::find_if(terms_.begin(), terms_.end(), [](const Term& t) {
-    return t.effect == "amplifier_slew" && t.family.shape[0] == kSlew;
+    return t.effect_name() == "amplifier_slew" && t.family.shape[0] == kSlew;
   });
   ASSERT_NE(term, terms_.end());
   theta[static_cast<std::size_t>(term - terms_.begin())] = 1.0;
@@ -136,7 +136,7 @@ TEST_F(TermModel, AHeavyHousingExplainsTheRecordToItsNoise) {
   const double noise_m = view_.bearing(0).sensor.noise_rms_m;
   EXPECT_GT(Rms(Run(view_, terms_, spinning, theta), 0), 3.0 * noise_m);
   const auto term = std::find_if(terms_.begin(), terms_.end(), [](const Term& t) {
-    return t.effect == "support_mode" && t.place.starts_with("de");
+    return t.effect_name() == "support_mode" && t.location.name.starts_with("de");
   });
   ASSERT_NE(term, terms_.end());
   *term = term->family.member({kHz, kDamping});

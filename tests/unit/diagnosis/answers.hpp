@@ -31,10 +31,9 @@ inline DiagnosisResult Found(const std::string& effect, const std::string& place
     if (h.effect != effect || h.place != place) continue;
     s.answer.causes = {h};
     for (const std::size_t t : h.terms) {
-      const Term& term = s.terms[t];
-      s.answer.theta_extended[t] = share * term.scale();
-      s.answer.parameters.push_back({term.effect, term.place, term.parameter, term.unit,
-                                     share * term.scale(), 0.05 * term.scale()});
+      const double scale = s.terms[t].scale();
+      s.answer.theta_extended[t] = share * scale;
+      s.answer.parameters.push_back({t, share * scale, 0.05 * scale});
     }
     s.answer.candidates.push_back({.effect = effect, .place = place, .score = 20.0});
     return s;

@@ -25,8 +25,9 @@ LinearProblem Problem(double overlap, double truth) {
 }
 
 std::vector<Term> TwoTerms() {
-  return {MakeTerm({"", "anywhere", "nuisance", "1"}, 1.0, 1.0, nullptr),
-          MakeTerm({"cause", "somewhere", "size", "1"}, 0.0, 1.0, nullptr)};
+  return {
+      MakeTerm({std::nullopt, Everywhere("anywhere"), "nuisance", "1"}, 1.0, 1.0, nullptr),
+      MakeTerm({effect::Id::kRotorMass, Everywhere("somewhere"), "size", "1"}, 0.0, 1.0, nullptr)};
 }
 
 Hypothesis Cause(bool positive = false) {
@@ -103,7 +104,8 @@ TEST(Evidence, HoldsBackOnlyWhatTheDataDoNotDetermine) {
 // A parameter beside the others, told by its products, goes where it would as one of them.
 TEST(Evidence, StepsBesideAsIfTheParameterWereOneOfItsOwn) {
   const LinearProblem whole = Problem(40.0, 0.5);
-  const std::vector<Term> terms{MakeTerm({"", "anywhere", "nuisance", "1"}, 1.0, 1.0, nullptr)};
+  const std::vector<Term> terms{
+      MakeTerm({std::nullopt, Everywhere("anywhere"), "nuisance", "1"}, 1.0, 1.0, nullptr)};
   LinearProblem part;
   part.jtj = whole.jtj.topLeftCorner(1, 1);
   part.jte = whole.jte.head(1);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 #include "configuration/rig_file.hpp"
@@ -52,24 +53,33 @@ TEST(ExtendedRigTest, IsReadBackForEveryEffectAtEveryPlace) {
 TEST(ExtendedRigTest, SaysThePresentEffectInTheUnitsOfTheFile) {
   const auto only = [](const DiagnosisResult& answer) {
     const auto entries = EffectEntries(answer);
-    return entries.size() == 1 ? entries.front() : "not one entry";
+    if (entries.size() != 1) throw std::runtime_error("not one entry");
+    return entries.front();
   };
   // half of the prior standard deviation 0.15
-  EXPECT_EQ(only(Found("current_gain", "nde_x")),
-            "{id: current_gain, channels: [nde_x], ratio: 1.075}");
+  const effect::EffectConfig gain = only(Found("current_gain", "nde_x"));
+  EXPECT_EQ(gain.id, effect::Id::kCurrentGain);
+  EXPECT_EQ(gain.axes, 0b0100U);
+  EXPECT_EQ(gain.values[0], 1.075);
   // sqrt(tau) of 5e-3 s^0.5, half of it: 6.25 us
-  EXPECT_EQ(only(Found("eddy_current", "de_x")),
-            "{id: eddy_current, channels: [de_x], tau_us: 6.25}");
-  EXPECT_EQ(only(Found("eddy_current", "de_x, current alone")),
-            "{id: eddy_current, channels: [de_x], tau_us: 6.25, displacement_share: 0}");
+  EXPECT_THAT(ExtendedRig(Found("eddy_current", "de_x"), FlexibleRotor()),
+              HasSubstr("tau_us: 6.25\n"));
+  EXPECT_EQ(only(Found("eddy_current", "de_x")).values[1], 1.0);
+  EXPECT_EQ(only(Found("eddy_current", "de_x, current alone")).values[1], 0.0);
   // 5 N
-  EXPECT_THAT(only(Found("static_load", "de_y")), HasSubstr("force_y_n: 2.5"));
+  const effect::EffectConfig load = only(Found("static_load", "de_y"));
+  EXPECT_EQ(load.values[1], 0.0);
+  EXPECT_EQ(load.values[2], 2.5);
   // 0.05 rad
-  EXPECT_THAT(only(Found("axis_rotation", "sensor nde")),
-              AllOf(HasSubstr("bearing: nde, of: sensor"), HasSubstr("angle_deg: 1.43239")));
+  const effect::EffectConfig turned = only(Found("axis_rotation", "sensor nde"));
+  EXPECT_EQ(turned.bearing, 1U);
+  EXPECT_TRUE(turned.on_sensor);
+  EXPECT_NEAR(turned.values[0], 0.025, 1e-7);
   // cosine and sine of 10e-6 kg m each: an eighth of a turn, sqrt(2) times one of them
-  EXPECT_EQ(only(Found("unbalance", "z 299.2 mm")),
-            "{id: unbalance, z_mm: 299.2, moment_g_mm: 14.1421, phase_deg: 45}");
+  const effect::EffectConfig unbalance = only(Found("unbalance", "z 299.2 mm"));
+  EXPECT_EQ(unbalance.values[0], 0.2992);
+  EXPECT_NEAR(unbalance.values[1], 10e-6 * std::numbers::sqrt2, 1e-10);
+  EXPECT_NEAR(unbalance.values[2], 0.25 * std::numbers::pi, 1e-9);
 }
 
 TEST(ExtendedRigTest, GivesACrackTheDepthThatSoftensTheShaftAsMuch) {
@@ -122,10 +132,10 @@ TEST(ExtendedRigTest, NamesTheParametersWithTheirIntervals) {
 
 TEST(CalibratedRigTest, IsReadBackWithWhatWasCalibratedAndTheCause) {
   DiagnosisResult answer = Found("eddy_current", "de_x");
-  for (const Term& term : answer.terms) {
-    if (!term.nuisance() || term.effect == "eddy_current") continue;
-    answer.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,
-                                         0.5 * term.tolerance, 0.1 * term.tolerance});
+  for (std::size_t t = 0; t < answer.terms.size(); ++t) {
+    const Term& term = answer.terms[t];
+    if (!term.nuisance() || term.effect_name() == "eddy_current") continue;
+    answer.answer.calibration.push_back({t, 0.5 * term.tolerance, 0.1 * term.tolerance});
   }
   const std::string text = CalibratedRig(answer, FlexibleRotor());
   EXPECT_THAT(text, Not(HasSubstr("not known to this build")));

@@ -28,7 +28,7 @@ class HypothesesTest : public ::testing::Test {
 TEST_F(HypothesesTest, EveryEffectWithATermIsConsideredAndNoOther) {
   std::set<std::string> of_terms;
   for (const Term& term : terms_) {
-    if (!term.effect.empty()) of_terms.insert(term.effect);
+    if (term.effect) of_terms.emplace(term.effect_name());
   }
   std::set<std::string> considered;
   for (const Hypothesis& h : all_) considered.insert(h.effect);
@@ -50,7 +50,7 @@ TEST_F(HypothesesTest, DirectionsMoveTheNamedTermsAndNoOther) {
       const double size = h.directions.row(static_cast<Eigen::Index>(i)).norm();
       EXPECT_EQ(size > 0.0, named.contains(i)) << h.effect << " at " << h.place;
     }
-    for (const std::size_t i : h.terms) EXPECT_EQ(terms_[i].effect, h.effect);
+    for (const std::size_t i : h.terms) EXPECT_EQ(terms_[i].effect_name(), h.effect);
   }
 }
 
@@ -58,8 +58,8 @@ TEST_F(HypothesesTest, ABearingMovesBothAxesByTheSameAmount) {
   const Hypothesis& h = Of("current_gain", "nde");
   ASSERT_EQ(h.directions.cols(), 1);
   ASSERT_EQ(h.terms.size(), 2U);
-  EXPECT_EQ(terms_[h.terms[0]].place, "nde_x");
-  EXPECT_EQ(terms_[h.terms[1]].place, "nde_y");
+  EXPECT_EQ(terms_[h.terms[0]].location.name, "nde_x");
+  EXPECT_EQ(terms_[h.terms[1]].location.name, "nde_y");
   EXPECT_EQ(h.directions(static_cast<Eigen::Index>(h.terms[0]), 0),
             h.directions(static_cast<Eigen::Index>(h.terms[1]), 0));
 }
@@ -67,7 +67,7 @@ TEST_F(HypothesesTest, ABearingMovesBothAxesByTheSameAmount) {
 TEST_F(HypothesesTest, TheNameOfABearingIsNotFoundWithinAnothers) {
   // "de" ends "nde".
   for (const std::size_t i : Of("current_gain", "de").terms) {
-    EXPECT_TRUE(terms_[i].place.starts_with("de_")) << terms_[i].place;
+    EXPECT_TRUE(terms_[i].location.name.starts_with("de_")) << terms_[i].location.name;
   }
 }
 

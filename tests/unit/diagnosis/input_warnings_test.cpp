@@ -23,10 +23,10 @@ using ::testing::SizeIs;
 /// Stiffness of one axis calibrated that many tolerances off.
 DiagnosisResult Calibrated(double tolerances) {
   DiagnosisResult s = NothingFound();
-  for (const Term& term : s.terms) {
-    if (term.effect != "displacement_stiffness" || term.place != "nde_y") continue;
-    s.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,
-                                    tolerances * term.tolerance, 0.1 * term.tolerance});
+  for (std::size_t t = 0; t < s.terms.size(); ++t) {
+    const Term& term = s.terms[t];
+    if (term.effect_name() != "displacement_stiffness" || term.location.name != "nde_y") continue;
+    s.answer.calibration.push_back({t, tolerances * term.tolerance, 0.1 * term.tolerance});
   }
   return s;
 }
@@ -37,7 +37,7 @@ DiagnosisResult Learned(double healthy_mean, double found) {
   DiagnosisResult s = Calibrated(found);
   for (Term& term : s.terms) {
     s.file_tolerance.push_back(term.tolerance);
-    if (term.effect == "displacement_stiffness" && term.place == "nde_y") {
+    if (term.effect_name() == "displacement_stiffness" && term.location.name == "nde_y") {
       term.healthy_mean = healthy_mean * term.tolerance;
       term.tolerance *= 0.2;
     }

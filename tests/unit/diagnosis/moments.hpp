@@ -65,7 +65,7 @@ inline std::vector<Term> EveryTerm() { return AllTerms(View(), Tolerances{}, 50e
 inline Term Named(const std::vector<Term>& terms, const std::string& effect,
                   const std::string& place, const std::string& parameter = "") {
   for (const Term& term : terms) {
-    if (term.effect == effect && term.place == place &&
+    if (term.effect_name() == effect && term.location.name == place &&
         (parameter.empty() || term.parameter == parameter)) {
       return term;
     }

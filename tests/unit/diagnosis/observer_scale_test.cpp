@@ -22,7 +22,7 @@ class ObserverScaleTest : public ::testing::Test {
 
   void Set(const std::string& effect, const std::string& place, double value) {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (terms_[i].effect == effect && terms_[i].place == place) theta_[i] = value;
+      if (terms_[i].effect_name() == effect && terms_[i].location.name == place) theta_[i] = value;
     }
   }
 

@@ -126,10 +126,10 @@ TEST(PlaceTest, OfEveryTermOfEveryKindOfRigIsThatOfTheCatalogue) {
     const auto rig = config::LoadRig(config::FindConfig(name, "rigs"));
     const RigView view(rig.numbers, rig.plant);
     for (const Term& term : AllTerms(view, Tolerances{}, 50e-6)) {
-      if (term.effect.empty()) continue;
-      const effect::Row* row = effect::Find(term.effect);
-      ASSERT_NE(row, nullptr) << term.effect;
-      EXPECT_EQ(PlaceOfEffect(term.effect), effect::Name(row->place)) << term.effect;
+      if (!term.effect) continue;
+      EXPECT_EQ(PlaceOfEffect(std::string(term.effect_name())),
+                effect::Name(effect::At(*term.effect).place))
+          << term.effect_name();
     }
   }
   EXPECT_EQ(PlaceOfEffect("current_gain"), "amplifier");
@@ -235,12 +235,12 @@ TEST(VerdictTest, OfNothingSaysWhatTheRecordsCannotTell) {
 
 TEST(CalibratedValues, AreTotalsUnderTheKeysOfTheFileWithWhatTheyMovedBy) {
   DiagnosisResult s = NothingFound();
-  for (const Term& term : s.terms) {
-    const bool unbalance = term.effect == "unbalance" && term.place == "z 299.2 mm";
-    if (term.effect == "extra_delay" || unbalance ||
-        (term.effect == "modal_frequency" && term.place == "mode 1")) {
-      s.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,
-                                      2.0 * term.tolerance, 0.5 * term.tolerance});
+  for (std::size_t t = 0; t < s.terms.size(); ++t) {
+    const Term& term = s.terms[t];
+    const bool unbalance = term.effect_name() == "unbalance" && term.location.name == "z 299.2 mm";
+    if (term.effect_name() == "extra_delay" || unbalance ||
+        (term.effect_name() == "modal_frequency" && term.location.name == "mode 1")) {
+      s.answer.calibration.push_back({t, 2.0 * term.tolerance, 0.5 * term.tolerance});
     }
   }
   const auto values = CalibratedValues(s);
@@ -309,10 +309,10 @@ TEST(VerdictTest, OfNothingSaysWhetherTheFileAsItStandsExplainsTheData) {
   DiagnosisResult s = NothingFound();
   EXPECT_THAT(BuildReport(s).verdict_sentence, HasSubstr("as it stands"));
   EXPECT_THAT(BuildReport(s).verdict_sentence, Not(HasSubstr("does not")));
-  for (const Term& term : s.terms) {
-    if (term.effect != "current_gain") continue;
-    s.answer.calibration.push_back({term.effect, term.place, term.parameter, term.unit,
-                                    1.5 * term.tolerance, 0.1 * term.tolerance});
+  for (std::size_t t = 0; t < s.terms.size(); ++t) {
+    const Term& term = s.terms[t];
+    if (term.effect_name() != "current_gain") continue;
+    s.answer.calibration.push_back({t, 1.5 * term.tolerance, 0.1 * term.tolerance});
   }
   s.validation.to_gain = {99.0, 90.0, 110.0};  // squared, less the noise itself
   EXPECT_THAT(BuildReport(s).verdict_sentence,
