@@ -3,7 +3,7 @@
 # through what it uses; no library reaches itself that way. Anything else stops the configuration
 # with one sentence.
 #
-#   levitas_library(law LAYER 1 FOLDER controller/law SOURCES pid.cpp USES common)
+#   levitas_library(law LAYER 1 FOLDER controller/law SOURCES axis_law.cpp USES common)
 #   levitas_program(amb-plant SOURCES main.cpp USES plant)
 #   levitas_keep_apart(WALL law cycle FROM plant)        neither reaches the other
 #

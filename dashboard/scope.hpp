@@ -10,7 +10,7 @@
 // Gaps      a run that is faster than the clock leaves stretches out (docs/dashboard.md); a capture
 //           that a gap would cut is given up, counted, and the scope waits for the next trigger.
 // Units     SI, bearing frame. Thread one at a time: the owner locks.
-// Failure   none; what cannot be asked for is refused before (scope_api.hpp).
+// Failure   none; what cannot be asked for is refused before it comes here.
 
 #include <cstdint>
 #include <memory>

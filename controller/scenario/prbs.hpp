@@ -45,7 +45,7 @@ class Prbs {
     Skip(static_cast<std::uint32_t>(start * static_cast<double>(period())));
   }
 
-  /// Starts with the register's bits given, of which `order` count; without a one, with the first.
+  /// Starts with the register's bits given, of which `order` count; if all are 0, with register 1.
   [[nodiscard]] static constexpr Prbs FromRegister(int order, std::uint32_t bits) noexcept {
     Prbs sequence(order);
     if ((bits & sequence.period()) != 0) sequence.state_ = bits & sequence.period();

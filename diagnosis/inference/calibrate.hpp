@@ -7,9 +7,10 @@
 //            their tolerances: an unexplained orbit or effect would drive gains and delays, which
 //            compensate one another, tens of tolerances away, into a local minimum that a fit free
 //            from the start does not leave.
-// Healthy    tolerances shrink to the posterior of the healthy records, but not below kDaily of
-//            themselves, since a rig changes from day to day. This separates parameters that one
-//            record cannot: current gain from sensor gain, gap from bias.
+// Healthy    tolerances shrink to the root sum of squares of the posterior of the healthy records
+//            and kDaily of themselves, since a rig changes from day to day. This separates
+//            parameters that one record cannot: current gain from sensor gain, gap from bias.
+// Failure    BadInput for healthy records that the model cannot follow.
 // Thread     blocks the caller, two threads inside.
 
 #include <vector>

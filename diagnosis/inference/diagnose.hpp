@@ -2,8 +2,8 @@
 // Model selection: the effects that explain the difference between a rig and its model.
 //
 // Method     1 calibrate: the nuisances within their tolerances, with a fast observer first
-//            (smooth,
-//              coarse) and a slow one after it (sees slow effects), Gauss-Newton on innovations;
+//              (smooth, coarse) and a slow one after it (sees slow effects), Gauss-Newton on
+//              innovations;
 //            2 screen: one pass with the sensitivities of every term gives the evidence of every
 //              hypothesis (evidence.hpp) on top of the causes found so far;
 //            3 refit: the best few by Gauss-Newton together with the nuisances on the nonlinear

@@ -16,7 +16,8 @@ namespace levitas::diagnosis {
 
 inline constexpr double kNoiseTolerance = 0.06;
 
-/// Causes found this way with their evidence; those below kDecisive included.
+/// Causes found this way with their evidence. Noise counts the channels whose own evidence is
+/// decisive (kDecisive).
 [[nodiscard]] std::vector<Candidate> FindEvents(const RigView& rig,
                                                 const std::vector<Record>& records,
                                                 const Residual& remainder);

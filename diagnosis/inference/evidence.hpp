@@ -4,7 +4,8 @@
 // Equation   log p(data | base + cause) - log p(data | base) = 1/2 r^T (S+1)^-1 r - 1/2 log
 //            det(S+1), where S and r are the cause's normal equations after the base (nuisances
 //            with their tolerances, causes already accepted) is projected out. The second part is
-//            the Occam factor of the hypothesis (MacKay 1992, Bayesian interpolation).
+//            the Occam factor of the hypothesis (MacKay 1992, Bayesian interpolation). Added are
+//            the log prior of its place and, for a cause that cannot be negative, ln 2.
 // Origin     parameters are deviations from the nominal rig, not from the linearisation point;
 //            their priors are centred there.
 // Units      nats. Thread: any; pure.

@@ -42,7 +42,7 @@ std::vector<double> Signal(const Piece& piece, Value value) {
   return signal;
 }
 
-/// Two to three periods' sampling rate below Nyquist: nothing of the rig moves there.
+/// Mean density of the highest third of the spectrum: nothing of the rig moves there.
 double NoiseDensity(const std::vector<double>& density) {
   std::vector<double> top(density.begin() + static_cast<std::ptrdiff_t>(density.size() * 2 / 3),
                           density.end() - 1);

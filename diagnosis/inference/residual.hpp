@@ -3,10 +3,11 @@
 // rotation, and the signals it is coherent with.
 //
 // Power      of the innovations relative to the sensors' own noise, in third-octave bands and
-//            single lines. The noise is taken from the highest third of the spectrum, where neither
-//            rotor nor magnet moves; a correct model leaves no band above it.
-// Coherence  of the remainder with the control currents, the positions, the rotation (orders) and
-//            the mains (50, 60 Hz), as the share of its excess that follows each.
+//            single lines; a line counts half, because there are many of them. The noise is taken
+//            from the highest third of the spectrum, where neither rotor nor magnet moves; a
+//            correct model leaves no band above it.
+// Coherence  of the residual with the control currents, the positions, the rotation (orders 1 to 6)
+//            and the mains (50, 60 Hz and multiples): the one that most of its excess follows.
 // Thread     any.
 
 #include <string>

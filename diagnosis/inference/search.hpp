@@ -1,5 +1,5 @@
 #pragma once
-// The search for the causes: calibration, screen, forward selection, refit (diagnose.hpp).
+// Linearised problems of a search for causes: runs of the model, linearisation, solution.
 //
 // Thread  blocks the caller, two threads inside.
 

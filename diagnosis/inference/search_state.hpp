@@ -3,7 +3,7 @@
 // causes found so far.
 //
 // Units   evidence in nats. Thread: blocks the caller, two threads inside. Internal to
-//         diagnose.cpp, selection.cpp and alternatives.cpp.
+//         diagnose.cpp, selection.cpp, exchange.cpp and alternatives.cpp.
 
 #include <limits>
 #include <string>

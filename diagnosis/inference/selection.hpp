@@ -1,5 +1,5 @@
 #pragma once
-// Causes by forward selection with backward checks (2 and 3 of diagnosis.hpp).
+// Causes by forward selection with backward checks (2 and 3 of diagnose.hpp).
 //
 // Thread  blocks the caller, two threads inside.
 

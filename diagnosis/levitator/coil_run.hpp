@@ -3,7 +3,7 @@
 //
 // Equation   i' = (r k u(a) + c - R i)/(R0 tau) + e i z'/d,   per coil, closed form over a period,
 //              tau = L tau0 e^(-(1 - p) z/d)/(1 + s i^2)     inductance, its profile, iron
-//              u(a) = a - b for a > b, else 0, + q a (1 - a/full)   dead band, curvature
+//              u(a) = v + q v (1 - a/full), v = max(0, a - b)   dead band b, curvature q
 //              R = (1 + resistance)(1 + own)(1 + heating t)
 //            reading = (1 + g)(i + eddy (i_last - i)) + offset, late by its lag; the other coil's
 //            slope enters by the mutual inductance. Signs and symbols: parameters.hpp.

@@ -1,9 +1,9 @@
 #pragma once
 // One-step predictions of the ball's position, driven by the coil currents.
 //
-// Equation   m (1 + mass) (x'' + g) = F_up - F_down + load - c x' - k x - friction sign(x')
-//              F_up = f0 (1 + f) s(i)^2 |s(i)|^n e^(-z0/d) e^(x (1 + stiffness)/d),
-//              s(i) = i/sqrt(1 + knee i^2), late by the force's lag (first order)
+// Equation   m (1 + mass) (x'' + g) = F_up - F_down + load - c x' - k x - friction tanh(x'/v)
+//              F_up = f0 (1 + f) s(i)^2 i^n e^(-z0/d) e^(x (1 + stiffness)/d),
+//              v = 2 mm/s, s(i) = i/sqrt(1 + knee i^2), late by the force's lag (first order)
 //            reading = (1 + g) x + offset + a2 x^2 + a3 x^3, late by the sensor's lag
 // Observer   position and velocity corrected at every sample by fixed gains (both poles at
 //            kObserverRadPerS), whatever the parameters, since the ball is unstable alone: what

@@ -8,8 +8,8 @@
 //            known.
 // Model      diverges: a predicted reading beyond kShare of the clearance that is also kTimes as
 //            far out as any measured one of its record, or no number at all.
-// Sensitivities  diverge: they grow along the run without bound: under a wrong cause the model
-//            nearly loses the rotor, and slightly different models do.
+// Sensitivities  diverge: beyond 3000 rms of the noise per scale of their term: under a wrong cause
+//            the model nearly loses the rotor, and slightly different models do.
 // Thread     any; pure.
 
 #include <vector>

@@ -8,7 +8,7 @@
 //         predicts can identify the scales.
 // Scales  readings: the sensor's gain over the file's. modes: of one plane, the readings per modal
 //         displacement, sum_a h (h + dh) / sum_a h^2 over the plane's sensors.
-//         K'[row][axis] = K[row][axis] / (modes[row] readings[axis]).
+//         K'[row][axis] = K[row][axis] / (modes[row] readings[axis]); modes are at least 0.2.
 // Thread  any; plain data.
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 // Sample point: state, currents and angle of the model in one sampling period, as terms need it.
 //
-// Made by    ModelRun, once per sample of a record; read by every term and by the sensitivities.
+// Made by    RunModel, once per sample of a record; read by every term and by the sensitivities.
 // Instant    "mid": mean of the start (after the observer's correction) and the end of the period;
 //            a force that is evaluated there and held acts with second-order accuracy.
 // Frame      bearing frame. Units SI. Modes of both planes: x plane, then y plane.

@@ -4,7 +4,7 @@
 // Rounding   to the nearest step; numbers beyond the range of a signal become its last step, and
 //            what is not finite becomes "absent", which decodes to NaN.
 // Not carried  the time of sampling, the rig's count of held currents and its full session number
-//            and cycle: the receiver completes them (see rig_assembler.hpp, command_assembler.hpp).
+//            and cycle: the receiver completes them (see assemblers.hpp).
 // Thread     one per object; no allocation after construction, no exception.
 // Failure    Decode is false unless length, format and checksum are those of the message; then its
 //            argument is untouched.

@@ -6,7 +6,7 @@
 // Scale       raw x factor = SI value. The factor is the smallest of 1-2-5 steps (10 nm and 0.1 mA
 //             at least) with which 16 bits cover the sensor range and the coil current of the rig.
 // Absent      a signed signal at its most negative raw value carries "not a number".
-// Cycle       12 bits of the rig's count; the receiver completes them (sequence.hpp).
+// Cycle       12 bits of the rig's count; the receiver completes them (assemblers.hpp).
 // Classical   two axes a frame, rotation in a frame of its own: 8 bytes hold no more.
 // Identifier  lower wins the bus: currents, positions, drive, rotation. The Data ID of the
 //             protection is the identifier.

@@ -4,8 +4,8 @@
 //
 // Equation  about a frequency f every entry of P is c_0 + c_1 x + c_2 x^2 + r/(f^2 - g^2 + 2 j z f
 //           g) over the lines g, x = (g - f)/width, with complex c and r of its own: linear least
-//           squares in units of the noise, a matched filter. What r takes of the sum of squares,
-//           per entry and in units of what is left, is F: 1 with noise alone.
+//           squares in units of the noise, a matched filter. F is the reduction of the sum of
+//           squares by r, per entry, over the residual variance: 1 with noise alone.
 // Mode      F beyond kClear, largest within its surroundings, with the modes found before in the
 //           place of c where they are near; damping from a list, so it is coarse.
 // Thread    any; some tenths of a second.
