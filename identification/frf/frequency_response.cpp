@@ -120,18 +120,20 @@ Eigen::MatrixXd PerExcitation(const std::vector<Spectra>& all, std::size_t line,
   return variance;
 }
 
+/// Share of the readings' power that repeats from period to period, over all experiments of an
+/// axis together.
 Eigen::MatrixXd CoherenceOf(const std::vector<Spectra>& all, std::size_t line, Index axes) {
-  Eigen::MatrixXd coherence = Eigen::MatrixXd::Zero(axes, axes);
+  Eigen::MatrixXd repeats = Eigen::MatrixXd::Zero(axes, axes);
+  Eigen::MatrixXd power = Eigen::MatrixXd::Zero(axes, axes);
   for (const Spectra& spectra : all) {
+    const Index j = At(spectra.axis);
     for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i) {
-      double power = 0.0;
-      for (const Spectrum& period : spectra.position[i]) power += std::norm(period[line]);
-      const double mean = std::norm(MeanOf(spectra.position[i], line));
-      coherence(At(i), At(spectra.axis)) =
-          power > 0.0 ? mean * static_cast<double>(spectra.periods) / power : 0.0;
+      for (const Spectrum& period : spectra.position[i]) power(At(i), j) += std::norm(period[line]);
+      repeats(At(i), j) +=
+          static_cast<double>(spectra.periods) * std::norm(MeanOf(spectra.position[i], line));
     }
   }
-  return coherence;
+  return (power.array() > 0.0).select(repeats.array() / power.array(), 0.0);
 }
 
 /// Replaces each line's noise power by the mean over its neighbours.

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "common/problem.hpp"
+#include "common/random.hpp"
 #include "common/rotational_speed.hpp"
 #include "tests/unit/identification/linear_loop.hpp"
 
@@ -139,6 +140,31 @@ TEST(FrequencyResponse, OneAxisExcitedTwiceHasTheMeanOfBothAndHalfTheVariance) {
     EXPECT_LT((twice.noise[k].col(1) - single.noise[k].col(1)).norm(),
               1e-9 * single.noise[k].col(1).norm());
   }
+}
+
+TEST(FrequencyResponse, CoherenceCountsEveryExperimentOfAnAxisInWhateverOrder) {
+  session::Recording record = LinearLoop::Run({.periods = 10, .noise_m = 1e-9});
+  auto campaign = GroupBySpeed(record, FindExperiments(record)).front();
+  for (auto& experiment : campaign.experiments) experiment.periods = 4;
+  auto second = campaign.experiments[0];
+  second.begin += 4 * second.period_samples;
+  const FrequencyResponse quiet = EstimateResponse(record, campaign);
+  // Only the second experiment is disturbed, by a reading that does not repeat.
+  Random random(11);
+  for (std::size_t row = second.begin; row < second.end(); ++row) {
+    record.position_m[0][row] += 2e-6 * random.Normal();
+  }
+  campaign.experiments.push_back(second);
+  const FrequencyResponse after = EstimateResponse(record, campaign);
+  std::swap(campaign.experiments.front(), campaign.experiments.back());
+  const FrequencyResponse before = EstimateResponse(record, campaign);
+  double lost = 0.0;
+  for (std::size_t k = 0; k < quiet.plant.size(); ++k) {
+    EXPECT_LT((after.coherence[k] - before.coherence[k]).norm(), 1e-12);
+    EXPECT_EQ(after.coherence[k].col(1), quiet.coherence[k].col(1));
+    lost = std::max(lost, quiet.coherence[k](0, 0) - after.coherence[k](0, 0));
+  }
+  EXPECT_GT(lost, 0.1);  // the harm that the order of experiments hid
 }
 
 TEST(FrequencyResponse, RunOutDoesNotReachTheLinesBesideItsOrders) {
