@@ -20,6 +20,7 @@ using Index = Eigen::Index;
 /// Fewer rows than this many per unknown let noise decide.
 constexpr std::size_t kRowsPerUnknown = 10;
 /// Share of the rows that stand exactly at the largest or smallest value of a clipped signal.
+constexpr double kTimeShare = 0.5;  ///< of the usual step: time stamps are rounded, rows are not
 constexpr double kClippedShare = 0.02;
 
 std::size_t Number(std::string_view text, const std::string& whole) {
@@ -82,6 +83,25 @@ Eigen::MatrixXd Matrix(const std::vector<session::Column>& columns) {
     matrix.col(static_cast<Index>(c)) = Eigen::Map<const Eigen::VectorXd>(columns[c].data(), rows);
   }
   return matrix;
+}
+
+/// Models of samples know one period only: a time that falls, stands or leaps is another one.
+void RefuseUnevenTime(const session::Column& time_s, const std::string& path) {
+  std::vector<double> steps_s(time_s.size() - 1);
+  for (std::size_t k = 0; k < steps_s.size(); ++k) steps_s[k] = time_s[k + 1] - time_s[k];
+  std::vector<double> sorted = steps_s;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double usual_s = *middle;
+  for (std::size_t k = 0; k < steps_s.size(); ++k) {
+    if (steps_s[k] > 0.0 && std::abs(steps_s[k] - usual_s) <= kTimeShare * usual_s) continue;
+    throw BadInput(fmt::format(
+        "{}: column time_s: a step of {:g} s at row {}, the usual step is {:g} s; allowed: steps "
+        "that rise and differ by at most {:.0f} % from the usual one. Resample the record, or "
+        "leave "
+        "the column out and give the sampling rate",
+        path, steps_s[k], k + 1, usual_s, 100.0 * kTimeShare));
+  }
 }
 
 void RefuseColumn(const Eigen::VectorXd& values, const std::string& name, bool input) {
@@ -158,6 +178,7 @@ Series ReadSeries(const std::string& path, const SeriesColumns& wanted, double p
   Series series{period_s, wanted.inputs, wanted.outputs, {}, {}};
   if (timed) {
     const session::Column& time_s = values.back();
+    RefuseUnevenTime(time_s, path);
     series.period_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
     values.pop_back();
   }

@@ -69,6 +69,24 @@ TEST_F(SeriesFile, WithoutTimeARateIsNeeded) {
   EXPECT_THAT(text, HasSubstr("no column time_s: give the sampling rate"));
 }
 
+TEST_F(SeriesFile, ATimeThatFallsStandsOrLeapsIsRefusedWithItsRow) {
+  const auto refusal = [this](const std::string& rows) {
+    const std::string path = Write("time_s,u,y\n" + rows);
+    return Refusal([&] { (void)ReadSeries(path, {{"u"}, {"y"}}, 1.0); });
+  };
+  EXPECT_THAT(refusal("3,1,1\n2,2,2\n1,3,4\n"), HasSubstr("time_s: a step of -1 s at row 1"));
+  EXPECT_THAT(refusal("0,1,1\n1,2,2\n1,3,4\n2,5,6\n"), HasSubstr("a step of 0 s at row 2"));
+  // 1 ms throughout, one row missing.
+  EXPECT_THAT(refusal("0,1,1\n0.001,2,2\n0.002,3,4\n0.004,5,6\n0.005,1,2\n"),
+              HasSubstr("a step of 0.002 s at row 3, the usual step is 0.001 s"));
+}
+
+TEST_F(SeriesFile, ATimeRoundedToItsDigitsIsTaken) {
+  // 1/3 ms in whole tenths of a millisecond: steps of 0.3 and 0.4 ms.
+  const std::string path = Write("time_s,u,y\n0,1,1\n0.0003,2,2\n0.0007,3,4\n0.0010,5,6\n");
+  EXPECT_NEAR(ReadSeries(path, {{"u"}, {"y"}}, 0.0).period_s, 1e-3 / 3.0, 1e-12);
+}
+
 TEST(Ranges, AreHalfOpenAndMayBeOpenEnded) {
   EXPECT_EQ(ParseRange("10:20", 100).begin, 10U);
   EXPECT_EQ(ParseRange("10:", 100).end, 100U);
