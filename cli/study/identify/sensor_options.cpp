@@ -20,9 +20,11 @@ std::vector<identification::SensorCharacteristic> SensorsOf(const SensorOptions&
   for (const auto* values : {&given.a2, &given.a3}) {
     if (values->empty()) continue;
     if (values->size() != sensors.size()) {
-      throw Problem(ExitStatus::kUsage,
-                    fmt::format("sensor characteristic: {} numbers for {} outputs", values->size(),
-                                sensors.size()));
+      throw Problem(
+          ExitStatus::kUsage,
+          fmt::format("{}: {} numbers for {} outputs; give one per output, in their order",
+                      values == &given.a2 ? "--sensor-a2" : "--sensor-a3", values->size(),
+                      sensors.size()));
     }
     for (std::size_t i = 0; i < values->size(); ++i) {
       (values == &given.a2 ? sensors[i].a2 : sensors[i].a3) = (*values)[i];

@@ -17,6 +17,20 @@ using namespace identification;
 
 /// Rows of a picture, at most: more than a screen has pixels says nothing.
 constexpr Eigen::Index kPictureRows = 4000;
+constexpr std::size_t kMostSkipped = 1'000'000'000;
+
+/// Before anything is fitted: a range without a row that judges.
+void RefuseShortRanges(const SeriesOptions& o, std::size_t rows) {
+  const auto refuse = [&](const char* option, const std::string& text) {
+    const RowRange range = ParseRange(text, rows);
+    if (range.end - range.begin - 1 > o.skip) return;
+    throw BadInput(fmt::format(
+        "{} '{}': {} rows, of which --skip leaves out {}; allowed: two rows more than are left out",
+        option, text, range.end - range.begin, o.skip));
+  };
+  refuse("--train", o.train);
+  for (const std::string& text : o.tests) refuse("--test", text);
+}
 
 /// "0.5157 mV", or plain without a unit.
 std::string WithUnit(double value, const std::string& unit) {
@@ -73,6 +87,7 @@ void AddSeriesOptions(CLI::App& command, SeriesOptions& o) {
   command.add_option("--train", o.train, "Rows that are fitted, FIRST:END")->capture_default_str();
   command.add_option("--test", o.tests, "Rows that only judge; may be given several times");
   command.add_option("--skip", o.skip, "Rows at the start of every range that do not judge")
+      ->check(CLI::Range(std::size_t{0}, kMostSkipped))
       ->capture_default_str();
   command.add_option("--unit", o.unit, "Unit of the outputs, for print: V, m, A");
   command.add_option("--svg", o.svg_path, "Draw the last range into this file");
@@ -83,10 +98,15 @@ Series LoadSeries(const SeriesOptions& o) {
   for (const std::string& path : {o.svg_path, o.json_path}) {
     session::CheckOutputPath(path, o.data_path);
   }
-  if (o.data_path.ends_with(".csv") || o.data_path.ends_with(".csv.xz")) {
-    return ReadSeries(o.data_path, o.columns, o.rate_hz > 0.0 ? 1.0 / o.rate_hz : 0.0);
+  if (!o.svg_path.empty() && o.svg_path == o.json_path) {
+    throw Problem(ExitStatus::kUsage,
+                  fmt::format("--svg and --json: both '{}'; give each a file", o.svg_path));
   }
-  return SeriesOf(session::LoadRecording(o.data_path, LoadRig(o)), o.columns);
+  const bool csv = o.data_path.ends_with(".csv") || o.data_path.ends_with(".csv.xz");
+  Series series = csv ? ReadSeries(o.data_path, o.columns, o.rate_hz > 0.0 ? 1.0 / o.rate_hz : 0.0)
+                      : SeriesOf(session::LoadRecording(o.data_path, LoadRig(o)), o.columns);
+  RefuseShortRanges(o, static_cast<std::size_t>(series.rows()));
+  return series;
 }
 
 std::vector<Judged> Judge(const SeriesOptions& o, const Series& all, const Predict& one_step,
@@ -97,10 +117,6 @@ std::vector<Judged> Judge(const SeriesOptions& o, const Series& all, const Predi
   judged.reserve(ranges.size());
   for (const std::string& text : ranges) {
     const RowRange range = ParseRange(text, static_cast<std::size_t>(all.rows()));
-    if (range.end - range.begin <= o.skip + 1) {
-      throw BadInput(fmt::format("range '{}': {} rows, of which {} are skipped", text,
-                                 range.end - range.begin, o.skip));
-    }
     Series part = Slice(all, range);
     Prediction one = one_step(part);
     Prediction free = free_run(part);
