@@ -13,7 +13,8 @@ constexpr std::array<JudgingRow, 10> kTable{{
     {"decisive_nat", &Judging::decisive_nat, "nat",
      "evidence that a cause must gain to be named, and within which alternatives are ties",
      "odds of 148 : 1: `decisive` for Jeffreys (beyond 100 : 1), the border of `strong` and `very "
-     "strong` in Kass and Raftery 1995; 257 of 257 healthy rigs were answered `none` with it in 2026",
+     "strong` in Kass and Raftery 1995; 257 of 257 healthy rigs were answered `none` with it in "
+     "2026",
      "--clean 20 --seeds 22 --size 0.4 --sweep decisive_nat=2,5,10"},
     {"form_share", &Judging::form_share, "of the evidence explained",
      "further evidence that a second cause must gain beside a strong first one",
