@@ -73,7 +73,9 @@ def digest(path, arguments, directory, settings):
     words = list(arguments)
     if "ccache" in words[0]:
         words.pop(0)
-    words[words.index("-c") : words.index("-c") + 1] = ["-E", "-P", "-CC"]
+    # A header as a file of its own has its #pragma once in the main file.
+    words[words.index("-c") : words.index("-c") + 1] = [
+        "-Wno-pragma-once-outside-header", "-E", "-P", "-CC"]
     words[words.index("-o") + 1] = "-"
     done = subprocess.run(words, cwd=directory, capture_output=True, check=False)
     if done.returncode != 0:

@@ -1,5 +1,6 @@
 """clang-tidy is alive: a file with one violation of each family is refused for each of them."""
 
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -44,6 +45,24 @@ class Tidy(unittest.TestCase):
         families = {name.strip().split("-")[0] for name in checks
                     if name.strip()[:1].isalpha()} - {">"}
         self.assertEqual({name.split("-")[0] for name in SEEDED}, families)
+
+    def test_a_header_has_a_digest_that_changes_with_its_text_and_its_exceptions(self):
+        # Without one, headers that passed would be looked at again every time.
+        script = importlib.util.spec_from_file_location("tidy_script", SOURCE / "scripts/tidy.py")
+        module = importlib.util.module_from_spec(script)
+        script.loader.exec_module(module)
+        with tempfile.TemporaryDirectory() as folder:
+            module.ROOT = Path(folder)
+            header = Path(folder) / "seeded.hpp"
+            command = ["clang++-14", "-std=c++20", "-Wall", "-Werror", "-xc++", "-c", str(header),
+                       "-o", "seeded.o"]
+            digests = []
+            for text in ["int a;", "int a;", "int b;", "int b;  // NOLINT"]:
+                header.write_text(f"#pragma once\n{text}\n")
+                digests.append(module.digest(header, command, folder, b"settings"))
+        self.assertNotIn(None, digests)
+        self.assertEqual(digests[0], digests[1])
+        self.assertEqual(len(set(digests)), 3)
 
     def test_a_clean_file_is_accepted(self):
         status, said = tidy("namespace clean {\nint Twice(int count) { return 2 * count; }\n}\n")
