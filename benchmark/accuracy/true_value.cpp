@@ -1,7 +1,5 @@
 #include "benchmark/accuracy/true_value.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -58,9 +56,7 @@ std::optional<double> TrueValue(const diagnosis::NamedParameter& p,
   const auto entries = Entries(p, ground_truth);
   if (entries.empty()) return std::nullopt;
   const effect::Row& row = effect::At(entries.front()->id);
-  const auto is = [&p](const effect::Parameter& known) {
-    return p.key == known.stem || p.key == fmt::format("{}_{}", known.stem, known.file_suffix);
-  };
+  const auto is = [&p](const effect::Parameter& known) { return p.key == effect::FileKey(known); };
   const std::size_t none = row.parameters.size();
   const std::size_t phase = IndexOf(row, {"phase"});
   if (phase < none) {

@@ -36,14 +36,11 @@ const effect::Row& RowOf(const std::string& id) {
       fmt::format("no effect '{}'; nearest: {}. `amb effects` lists all", id, Nearest(id, names)));
 }
 
-std::string Key(const effect::Parameter& p) {
-  return fmt::format("{}{}{}", p.stem, p.file_suffix.empty() ? "" : "_", p.file_suffix);
-}
-
 void PrintAll() {
   for (const effect::Row& row : effect::Catalogue()) {
     std::string keys;
-    for (const effect::Parameter& p : row.parameters) keys += (keys.empty() ? "" : ", ") + Key(p);
+    for (const effect::Parameter& p : row.parameters)
+      keys += (keys.empty() ? "" : ", ") + effect::FileKey(p);
     fmt::print("{:<10} {:<24} {:<9} {}\n", effect::Name(row.place), row.name,
                effect::Name(row.scope), keys);
   }
@@ -56,7 +53,7 @@ void PrintOne(const effect::Row& row) {
              effect::Name(row.place), effect::Name(row.scope), row.meaning, row.equation,
              row.signature, row.source);
   for (const effect::Parameter& p : row.parameters) {
-    fmt::print("  {:<22} {} (SI: {:g} to {:g}{})\n", Key(p), p.meaning, p.low, p.high,
+    fmt::print("  {:<22} {} (SI: {:g} to {:g}{})\n", effect::FileKey(p), p.meaning, p.low, p.high,
                p.fallback ? fmt::format(", default {:g}", *p.fallback) : "");
   }
 }
@@ -79,7 +76,7 @@ nlohmann::ordered_json Json(const effect::Row& row) {
   for (const effect::Parameter& p : row.parameters) {
     json["parameters"].push_back({{"name", p.stem},
                                   {"unit", p.si_suffix},
-                                  {"key", Key(p)},
+                                  {"key", effect::FileKey(p)},
                                   {"low", p.low},
                                   {"high", p.high},
                                   {"neutral", Value(p.neutral)},

@@ -33,17 +33,12 @@ const config::Unit* FindUnit(const std::string& key) {
   return longest;
 }
 
-/// "tau_us" of the stem "tau".
-std::string KeyOf(std::string_view stem, std::string_view suffix) {
-  return suffix.empty() ? std::string(stem) : fmt::format("{}_{}", stem, suffix);
-}
-
 /// Of an effect whose term is named by the parameters of the catalogue and counts from neutral.
 EntryValues CatalogueEntry(const effect::Row& row, const PlacedEffect& at) {
   EntryValues values;
   for (const effect::Parameter& p : row.parameters) {
-    const std::string key = KeyOf(p.stem, p.file_suffix);
-    const double value = p.neutral + at.At(KeyOf(p.stem, p.si_suffix));
+    const std::string key = effect::FileKey(p);
+    const double value = p.neutral + at.At(effect::SiName(p));
     values.push_back(Number(key, value / UnitOfKey(key).si));
   }
   return values;
@@ -276,7 +271,7 @@ std::optional<effect::EffectConfig> MakeEntry(Id id, const Location& at, std::si
   effect::EffectConfig entry = PlaceIn(row, at, axes_of_rig);
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
     const effect::Parameter& p = row.parameters[i];
-    const std::string key = KeyOf(p.stem, p.file_suffix);
+    const std::string key = effect::FileKey(p);
     const auto value = std::find_if(values.begin(), values.end(),
                                     [&key](const EntryValue& v) { return v.key == key; });
     if (value == values.end() && !p.fallback) {

@@ -6,6 +6,12 @@
 namespace levitas::effect {
 namespace {
 
+std::string Joined(std::string_view stem, std::string_view suffix) {
+  std::string name(stem);
+  if (!suffix.empty()) name.append("_").append(suffix);
+  return name;
+}
+
 std::vector<Row> Collect() {
   std::vector<Row> all;
   for (const auto rows :
@@ -41,6 +47,14 @@ std::string_view Name(Place place) noexcept {
 std::string_view Name(Scope scope) noexcept {
   constexpr std::array<std::string_view, 5> kNames{"rig", "channels", "bearing", "mode", "gear"};
   return kNames.at(static_cast<std::size_t>(scope));
+}
+
+std::string FileKey(const Parameter& parameter) {
+  return Joined(parameter.stem, parameter.file_suffix);
+}
+
+std::string SiName(const Parameter& parameter) {
+  return Joined(parameter.stem, parameter.si_suffix);
 }
 
 EffectConfig ClearEntry(Id id, double own) {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "plant_sim/effect/effect_config.hpp"
@@ -90,6 +91,10 @@ struct Row {
 [[nodiscard]] const Row* Find(std::string_view name);
 [[nodiscard]] std::string_view Name(Place place) noexcept;
 [[nodiscard]] std::string_view Name(Scope scope) noexcept;
+
+/// "amplitude_um": the key of a rig file; "amplitude_m": the same quantity in SI.
+[[nodiscard]] std::string FileKey(const Parameter& parameter);
+[[nodiscard]] std::string SiName(const Parameter& parameter);
 
 /// An entry with every value at its clear size (`own` supplies what the rig has, see kOwn).
 [[nodiscard]] EffectConfig ClearEntry(Id id, double own = 1.0);

@@ -79,10 +79,7 @@ void AddGear(std::vector<Entry>& entries, const std::string& at, gear::GearPair&
 void AddEffect(std::vector<Entry>& entries, const std::string& at, effect::EffectConfig& e) {
   const auto parameters = effect::At(e.id).parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const effect::Parameter& p = parameters[k];
-    entries.push_back(
-        {fmt::format("{}{}{}{}", at, p.stem, p.si_suffix.empty() ? "" : "_", p.si_suffix),
-         &e.values[k]});
+    entries.push_back({at + effect::SiName(parameters[k]), &e.values[k]});
   }
   entries.push_back({at + "strength", &e.strength});
   entries.push_back({at + "at_s", &e.at_s});
