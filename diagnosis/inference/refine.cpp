@@ -7,6 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "diagnosis/inference/judging.hpp"
+
 namespace levitas::diagnosis {
 
 namespace {
@@ -82,7 +84,6 @@ void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& 
                                std::vector<double> theta, int passes, double worth,
                                Refined& best) const {
   constexpr double kConverged = 0.3;  // [nat]
-  constexpr double kDecides = 5.0;    // [nat] as Judging::decisive_nat
   // With a Jacobian of this very point a step that fails twice fails for the model's own bends.
   const int most_refused = view.close ? 1 : 4;
   NormalEquations sum = view.sum;
@@ -100,7 +101,7 @@ void Refiner::MinimiseByChords(const View& view, const std::vector<Hypothesis>& 
         if (EvidenceOfSet(best.problem, terms_, causes) < worth) return;
         theta = search_.Step(best.problem, causes, best.theta, damping.value());
         // A step that cannot gain is not run; the third one must gain what would decide.
-        const double least = refused > 1 ? kDecides : kConverged;
+        const double least = refused > 1 ? kDecisive : kConverged;
         if (best.cost - LinearCost(best.problem, causes, theta) < least) return;
       } else {
         // The start itself diverges: approach the healthy rig by halves.

@@ -35,7 +35,6 @@ std::string AsComment(const std::string& text) {
 std::vector<effect::EffectConfig> EffectEntries(const DiagnosisResult& answer) {
   std::vector<effect::EffectConfig> entries;
   for (const PlacedEffect& cause : CausesByPlace(answer)) {
-    if (!cause.effect) continue;
     if (const auto entry = EntryFor(*answer.view, cause)) entries.push_back(*entry);
   }
   return entries;
