@@ -102,13 +102,9 @@ nlohmann::ordered_json Json(const analysis::SensitivityResult& at,
 
 ExitStatus Run(const AnalysisOptions& options) {
   session::CheckOutputPath(options.json_path, {});
-  config::RigFile rig = LoadRig(options);
-  const FoundController controller = LoadController(options, rig);
-  const std::string delay = TakeDelayOfPort(options, rig);
-  nlohmann::ordered_json json{{"rig", rig.numbers.name},
-                              {"controller", controller.file.name},
-                              {"controller_file", controller.path},
-                              {"delay_s", rig.plant.delay_samples * rig.numbers.period_s()}};
+  const auto [rig, controller, delay] = LoadLoop(options);
+  nlohmann::ordered_json json =
+      LoopJson(rig.numbers, controller, rig.plant.delay_samples * rig.numbers.period_s());
   fmt::print("Sensitivity of the sampled loop, delay included; zones of ISO 14839-3\n");
   fmt::print("rig {}, controller {}\n{}", rig.numbers.name, ControllerText(controller), delay);
   for (const double rpm : options.speeds_rpm) {

@@ -128,6 +128,14 @@ FoundController LoadController(const AnalysisOptions& options, const config::Rig
   return found;
 }
 
+AnalysedLoop LoadLoop(const AnalysisOptions& options) {
+  AnalysedLoop loop;
+  loop.rig = LoadRig(options);
+  loop.controller = LoadController(options, loop.rig);
+  loop.delay = TakeDelayOfPort(options, loop.rig);
+  return loop;
+}
+
 std::string ControllerText(const FoundController& controller) {
   return fmt::format("{} ({}){}", controller.file.name, controller.path, controller.notes);
 }

@@ -37,6 +37,13 @@ struct FoundController {
 };
 [[nodiscard]] FoundController LoadController(const AnalysisOptions& options,
                                              const config::RigFile& rig);
+/// What a command on the closed loop works with.
+struct AnalysedLoop {
+  config::RigFile rig;  ///< with the delay of the port
+  FoundController controller;
+  std::string delay;  ///< what TakeDelayOfPort says
+};
+[[nodiscard]] AnalysedLoop LoadLoop(const AnalysisOptions& options);
 /// "name (file)", and a line for each notch that stands more than 1 % from the frequency given and
 /// for what config::LawNotes says.
 [[nodiscard]] std::string ControllerText(const FoundController& controller);
