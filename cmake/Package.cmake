@@ -1,7 +1,8 @@
 # What an installation holds, and the Debian package made of it by `./amb package`.
 #
 # Places  programs in bin, shipped rigs, controllers, scenarios in share/levitas (looked for above
-#         the program, configuration/find_config.cpp), messages and an example reader in share/levitas too.
+#         the program, configuration/find_config.cpp), messages and an example reader in
+#         share/levitas too.
 include(GNUInstallDirs)
 
 function(levitas_install_programs)

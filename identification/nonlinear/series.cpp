@@ -97,9 +97,8 @@ void RefuseUnevenTime(const session::Column& time_s, const std::string& path) {
     if (steps_s[k] > 0.0 && std::abs(steps_s[k] - usual_s) <= kTimeShare * usual_s) continue;
     throw BadInput(fmt::format(
         "{}: column time_s: a step of {:g} s at row {}, the usual step is {:g} s; allowed: steps "
-        "that rise and differ by at most {:.0f} % from the usual one. Resample the record, or "
-        "leave "
-        "the column out and give the sampling rate",
+        "that rise and differ by at most {:.0f} % from the usual one. Resample the record, "
+        "or leave the column out and give the sampling rate",
         path, steps_s[k], k + 1, usual_s, 100.0 * kTimeShare));
   }
 }
