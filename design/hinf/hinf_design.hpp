@@ -1,37 +1,41 @@
 #pragma once
 // A robust H-infinity controller for a rig, as the law that the controller program runs.
 //
-// Method     generalised_plant.hpp, D-K iteration with constant scalings (so that the controller
-//            does not grow), balanced truncation to the states a law may have, Tustin, blocks of
-//            one or two states.
-// Not proven here  the speed range, saturation, and the static load: the design is linear, at one
-//            speed. Judge the law by the rig's own sampled loop (analysis/sensitivity.hpp) and by
-//            campaigns on the nonlinear plant before it is used.
-// Units      SI. Thread: any; pure; seconds to tens of seconds.
-// Failure    Problem: a weight (generalised_plant.hpp), a plant without a controller
-//            (synthesis/plant_rank.hpp), or a reduction that would lose stability or mu.
+// Method     plane by plane at rest (plane_plant.hpp), Riccati synthesis a few per cent above the
+//            smallest gamma, balanced truncation, Tustin, blocks of one or two states. The speed
+//            range is covered by the perturbations of the modes.
+// Not proven here  the speed range, saturation, the static load, mu: design/gate judges the law.
+// Units      SI. Thread: any; pure; a fraction of a second for two magnets.
+// Failure    BadInput: a weight. Problem: a plant without a controller (synthesis/plant_rank.hpp),
+//            or a law with a pole that does not decay: it winds up at the current limit, and lifts
+//            of the rotor fail.
 
 #include "controller/law/law_config.hpp"
 #include "design/hinf/hinf_weights.hpp"
-#include "design/synthesis/dk_iteration.hpp"
 #include "plant_sim/plant/plant_config.hpp"
 
 namespace levitas::hinf {
 
 struct HinfDesignOptions {
-  double speed_rad_per_s{};  ///< of the linear model: the middle of the range splits modes least
-  int turns{3};              ///< of the D-K iteration
-  double allowed_loss{0.1};  ///< share of mu that the reduction may cost
+  double current_limit_a{};
+  double top_speed_rad_per_s{};  ///< sizes the force at the disc
+  std::size_t most_states{48};   ///< of the law, all axes together
 };
 
 struct HinfDesign {
   law::LawConfig law;  ///< state space, discrete
-  double mu{};         ///< proven peak of the reduced controller's loop, weights included
-  Eigen::Index states{};
-  std::vector<synthesis::DkTurn> turns;
+  double gamma{};      ///< at which the worst plane's controller was formed
+  std::size_t full_states{};
+  std::size_t states{};
+  double slowest_pole_1_per_s{};  ///< decay rate of the law's slowest state; <= 0: it grows
 };
 
-[[nodiscard]] HinfDesign DesignHinf(const plant::PlantConfig& rig, double current_limit_a,
-                                    const HinfWeights& weights, const HinfDesignOptions& options);
+/// The law, stable or not.
+[[nodiscard]] HinfDesign MakeLaw(const plant::PlantConfig& rig, const HinfWeights& weights,
+                                 const HinfDesignOptions& options);
+
+/// The same, a law that does not decay refused, the plant's conditions checked first.
+[[nodiscard]] HinfDesign DesignHinf(const plant::PlantConfig& rig, const HinfWeights& weights,
+                                    const HinfDesignOptions& options);
 
 }  // namespace levitas::hinf

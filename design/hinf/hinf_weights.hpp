@@ -1,37 +1,60 @@
 #pragma once
-// Weights and uncertainty of the signal-based H-infinity problem of a rig.
+// Weights of the H-infinity synthesis of a rig: the numbers that a designer, or a search, moves.
 //
-// Problem    w = (disturbance at the control current, sensor noise), z = (control current,
-//            position), each divided by what is expected or allowed: all gains below one means all
-//            limits kept. The choice of signals and the numbers are those published for the
-//            flexible rotor by A. Sahinkaya & J. T. Sawicki, unless said otherwise.
-// Wd         disturbance_a up to disturbance_hz, then falling in first order to floor_a. The source
-//            stops at the top speed (100 Hz). A controller made for that cancels the flexible modes
-//            above it instead of damping them, and loses them when they move by a hertz: the
-//            default holds the level to 1000 Hz, beyond the fourth mode, and never falls.
-// Wn         noise_m, constant.
-// Wu         1/control_a up to control_hz (the amplifier's reach), rising above in first order to
-//            ten times that.
-// Wp         1/position_rest_m at rest, 1/position_m above: first order, corner position_rest_hz.
-// Modes      each flexible mode of each plane may move by mode_hz, as a complex perturbation of
-//            norm one: it stands for frequency (measured to +-2 Hz), damping, and for the
-//            gyroscopic splitting over the speed range about the design speed.
+// Problem    w = (modes' perturbations, force at the disc, disturbance at the control current,
+//            sensor noise), z = (modes, control current, measured position), each divided by what
+//            is expected or allowed. Signals after A. Sahinkaya & J. T. Sawicki; the force at the
+//            disc is ours: without it a controller hides the rotor's own modes from the coils
+//            instead of damping them, and the unbalance, which pushes at the disc, finds them.
+// Wd         disturbance_a up to disturbance_hz, then first order down to the share
+//            disturbance_floor of it; the same for the force at the disc, whose size is disc_ratio
+//            times the rig's own unbalance force at top speed (7.1 N, flexible rotor).
+// Wu         1/control_a up to control_hz, rising above in second order to a hundred times that.
+// Wp         1/position_rest_m at rest, 1/position_m from position_hz on, first order. z is the
+//            measured position: of the true one, noise and stiffness at rest contradict each other
+//            (T(0) = 1 hands the noise on: gamma >= noise_m/position_rest_m).
+//            The source reaches 36 um at 0.1 Hz, which lets a rotor creep back to its place for a
+//            minute; some hertz bring it there within a second. The analysis keeps 0.1 Hz.
+// Integrator none: a pole at z = 1 is not stabilisable in the weighted plant. The law's slowest
+//            pole is that of Wp, position_hz position_rest_m/position_m, so its gain at rest is
+//            finite and the rotor sags by about what position_rest_m allows.
+// Modes      each flexible mode below model_hz may move by mode_hz times its share, as a complex
+//            perturbation. In the synthesis only, where it stands for frequency, damping and the
+//            gyroscopic splitting; the analysis has real parameters (design/uncertainty).
+// Defaults   found by design/search for the rig flexible_rotor (2450 syntheses from neutral
+//            weights; they look nothing like the limits that the analysis judges by, and need not).
+// Lists      entry by entry for bearings or modes; what is beyond the list counts as 1.
 // Units      SI, in the names. Thread: plain data.
+
+#include <cstddef>
+#include <vector>
 
 namespace levitas::hinf {
 
 struct HinfWeights {
-  double disturbance_a{
-      0.3};  ///< 1.05 x the largest control current of the published runs, 0.2786 A
-  double disturbance_floor_a{0.3};
-  double disturbance_hz{1000.0};
-  double noise_m{1e-6};  ///< published sensor noise
-  double control_a{1.0};
-  double control_hz{720.0};  ///< published bandwidth of the actuators
-  double position_rest_m{0.7e-6};
-  double position_rest_hz{0.1};
-  double position_m{36e-6};  ///< published limit of the orbit
-  double mode_hz{4.0};
+  double disturbance_a{0.357};
+  double disturbance_hz{111.0};
+  double disturbance_floor{0.532};  ///< [1]
+  double disc_ratio{0.329};         ///< [1]
+  double disc_hz{52.4};
+  double noise_m{0.533e-6};
+  double control_a{1.451};
+  double control_hz{1607.0};
+  double position_rest_m{0.6e-6};
+  double position_m{21.3e-6};
+  double position_hz{2.2};
+  double mode_hz{25.0};
+  double model_hz{1200.0};  ///< modes above are left out of the design's model
+  std::vector<double> bearing_disturbance{1.0, 0.597};              ///< [1] share of disturbance_a
+  std::vector<double> bearing_position{1.0, 0.808};                 ///< [1] share of position_m
+  std::vector<double> mode_share{0.473, 0.521, 0.695, 3.69, 3.94};  ///< [1] share of mode_hz
 };
+
+[[nodiscard]] inline double ShareOf(const std::vector<double>& shares, std::size_t index) {
+  return index < shares.size() ? shares[index] : 1.0;
+}
+
+/// Throws BadInput naming a weight that is not above zero, or two that contradict each other.
+void CheckWeights(const HinfWeights& weights);
 
 }  // namespace levitas::hinf

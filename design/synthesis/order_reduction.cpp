@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-[[noreturn]] void Refuse(const std::string& text) { throw Problem(ExitStatus::kOther, text); }
+[[noreturn]] void RefuseOrder(const std::string& text) { throw Problem(ExitStatus::kOther, text); }
 
 /// Orthonormal basis of the range of a projection of known rank.
 MatrixXd RangeOf(const MatrixXd& projection, Index rank) {
@@ -49,7 +49,7 @@ SplitSystem SplitStable(const StateSpace& given) {
   if (n == 0 || stable == n) return {system, WithoutStates(system)};
   const MatrixXd one = MatrixXd::Identity(n, n);
   const auto sign = MatrixSign(system.A + shift * one);
-  if (!sign) Refuse("the controller's decaying and growing modes cannot be told apart");
+  if (!sign) RefuseOrder("the controller's decaying and growing modes cannot be told apart");
   MatrixXd T(n, n);
   T << RangeOf(0.5 * (one - *sign), stable), RangeOf(0.5 * (one + *sign), n - stable);
   const Eigen::PartialPivLU<MatrixXd> lu(T);
@@ -70,7 +70,8 @@ BalancedSystem Balance(const StateSpace& system) {
   if (stable.states() == 0) return {stable, Eigen::VectorXd(0), std::move(split.other)};
   const auto P = SolveLyapunov(stable.A.transpose(), stable.B * stable.B.transpose());
   const auto Q = SolveLyapunov(stable.A, stable.C.transpose() * stable.C);
-  if (!P || !Q) Refuse("the controller has no gramians: a mode decays too slowly to be weighed");
+  if (!P || !Q)
+    RefuseOrder("the controller has no gramians: a mode decays too slowly to be weighed");
   const MatrixXd reach = FactorOf(*P);
   const MatrixXd see = FactorOf(*Q);
   const Eigen::BDCSVD<MatrixXd> svd(see.transpose() * reach,
@@ -100,7 +101,7 @@ ReducedController ReduceKeeping(const StateSpace& controller,
   ReducedController best{balanced.Truncated(high), 0.0};
   best.criterion = criterion(best.controller);
   if (!(best.criterion <= allowed))
-    Refuse(
+    RefuseOrder(
         fmt::format("the controller cannot lose a state: its criterion is {:.4g} before the "
                     "reduction, allowed {:.4g}",
                     best.criterion, allowed));

@@ -15,7 +15,7 @@ namespace levitas::synthesis {
 
 namespace {
 
-[[noreturn]] void Refuse(const std::string& text) { throw Problem(ExitStatus::kOther, text); }
+[[noreturn]] void RefusePlant(const std::string& text) { throw Problem(ExitStatus::kOther, text); }
 
 std::string ModeText(std::complex<double> pole) {
   return fmt::format("the mode at {:.4g} Hz (real part {:.4g} 1/s)",
@@ -44,14 +44,14 @@ void CheckReachable(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const ch
   const Eigen::VectorXcd poles = A.eigenvalues();
   for (const auto& pole : poles)
     if (pole.imag() >= 0.0 && pole.real() >= -rounding && IsUnreachable(A, B, pole))
-      Refuse(fmt::format("{}: {} does not decay", lead, ModeText(pole)));
+      RefusePlant(fmt::format("{}: {} does not decay", lead, ModeText(pole)));
 }
 
 void CheckColumns(const Eigen::MatrixXd& D12, const char* text) {
-  if (D12.cols() == 0) Refuse("the plant has no control input or no measurement");
+  if (D12.cols() == 0) RefusePlant("the plant has no control input or no measurement");
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(D12);
   const Eigen::VectorXd& values = svd.singularValues();
-  if (D12.rows() < D12.cols() || !(values(D12.cols() - 1) > 1e-12 * values(0))) Refuse(text);
+  if (D12.rows() < D12.cols() || !(values(D12.cols() - 1) > 1e-12 * values(0))) RefusePlant(text);
 }
 
 /// Zeros of (A, B, C, D) on the axis, D of full column rank: unobservable modes of
@@ -67,7 +67,7 @@ void CheckAxisZeros(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const Ei
   for (const auto& zero : zeros)
     if (zero.imag() >= 0.0 && std::abs(zero.real()) <= rounding &&
         IsUnreachable(Az.transpose(), Cz.transpose(), zero))
-      Refuse(
+      RefusePlant(
           fmt::format("{} at {:.4g} Hz: move the poles of the weights there off the axis, or "
                       "give the mode damping",
                       lead, zero.imag() / (2.0 * std::numbers::pi)));

@@ -1,0 +1,138 @@
+#include "cli/study/design/gate_options.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/study/progress_line.hpp"
+#include "common/rotational_speed.hpp"
+#include "report/text/text_table.hpp"
+
+namespace levitas::cli {
+namespace {
+
+std::string PeakText(const design::Peak& peak) {
+  return fmt::format("{:.2f} at {:.1f} Hz, {:.0f} rpm", peak.value, peak.hz,
+                     RadPerSToRpm(peak.speed_rad_per_s));
+}
+
+std::string Micrometres(const std::vector<double>& values) {
+  std::string out;
+  for (const double value : values)
+    out += fmt::format("{}{:.1f}", out.empty() ? "" : "/", 1e6 * value);
+  return out;
+}
+
+nlohmann::ordered_json PeakJson(const design::Peak& peak) {
+  return {{"value", peak.value},
+          {"frequency_hz", peak.hz},
+          {"speed_rpm", RadPerSToRpm(peak.speed_rad_per_s)}};
+}
+
+}  // namespace
+
+void AddGateOptions(CLI::App& command, GateCommandOptions& options) {
+  command.add_option("--design", options.design_path,
+                     "Design file: weights of the judgement, and of the law where one is made");
+  command
+      .add_option("--uncertainty", options.from,
+                  "stated (+-2 Hz, +-50 % damping, +-5 % ki, +-5 % ks) or tolerances (of the rig "
+                  "file, three deviations)")
+      ->check(CLI::IsMember({"stated", "tolerances"}))
+      ->capture_default_str();
+  command.add_option("--draws", options.draws, "Rigs drawn for the nonlinear runs")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command.add_option("--corners", options.corners, "Corners of the uncertainty judged by poles")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "Of the draws")->capture_default_str();
+  command.add_option("--most-sensitivity", options.sensitivity, "Largest |S| of an axis allowed")
+      ->check(CLI::Range(1.0, 100.0))
+      ->capture_default_str();
+  command
+      .add_option("--third-harmonic", options.third_n,
+                  "Force [N] at three times the speed, against rotation, in the nonlinear runs")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+}
+
+std::vector<uncertainty::Parameter> ParametersOf(const config::RigFile& rig,
+                                                 const std::string& from) {
+  return from == "tolerances" ? uncertainty::FromTolerances(rig, 4) : uncertainty::Stated(rig, {});
+}
+
+design::DesignFile DesignOf(const GateCommandOptions& options) {
+  return options.design_path.empty() ? design::DesignFile{}
+                                     : design::LoadDesign(options.design_path);
+}
+
+design::GateOptions GateOf(const GateCommandOptions& options,
+                           const uncertainty::AnalysisWeights& weights,
+                           const config::RigFile& rig) {
+  design::GateOptions gate;
+  gate.draws = options.draws;
+  gate.corners = options.corners;
+  gate.seed = options.seed;
+  gate.sensitivity = options.sensitivity;
+  gate.third_n = options.third_n;
+  gate.weights = weights;
+  gate.run_speeds_rad_per_s = design::RunSpeeds(rig.numbers.max_speed_rad_per_s);
+  return gate;
+}
+
+design::GateResult JudgeAndPrint(const config::RigFile& rig, const law::LawConfig& law,
+                                 const GateCommandOptions& options,
+                                 const uncertainty::AnalysisWeights& weights) {
+  const design::GateOptions gate = GateOf(options, weights, rig);
+  ProgressLine line(stderr, isatty(STDERR_FILENO) != 0);
+  auto result =
+      design::Judge(rig, law, ParametersOf(rig, options.from), gate,
+                    [&](double share, const std::string& what) { line.Show(share, what); });
+  line.Close();
+  fmt::print("poles    {} loops from rest to {:.0f} rpm and {} corners: largest |z| {:.6f}\n",
+             result.loops, gate.over_speed * RadPerSToRpm(rig.numbers.max_speed_rad_per_s),
+             options.corners, result.pole_modulus);
+  fmt::print("|S|      {}; corners {}; largest singular value {}\n", PeakText(result.sensitivity),
+             PeakText(result.corner_sensitivity), PeakText(result.singular));
+  fmt::print("mu       at most {} (real parameters, bounded as complex ones)\n",
+             PeakText(result.mu));
+  fmt::print("runs     {} drawn rigs on the nonlinear plant{}\n", result.rigs,
+             options.third_n > 0.0
+                 ? fmt::format(", {:.2f} N at three times the speed", options.third_n)
+                 : "");
+  TextTable table;
+  table.Add({"  rpm", "lost", "worst orbit [um]", "median [um]"});
+  for (const auto& at : result.drawn)
+    table.Add({fmt::format("  {:.0f}", RadPerSToRpm(at.speed_rad_per_s)),
+               fmt::format("{}", at.lost), Micrometres(at.worst_orbit_m),
+               Micrometres(at.median_orbit_m)});
+  fmt::print("{}", table.Text());
+  if (result.accepted)
+    fmt::print("ACCEPTED by the checks above\n");
+  else
+    fmt::print("NOT ACCEPTED: {}\n", result.reason);
+  return result;
+}
+
+nlohmann::ordered_json GateJson(const design::GateResult& result) {
+  nlohmann::ordered_json json;
+  json["accepted"] = result.accepted;
+  json["reason"] = result.reason;
+  json["loops"] = result.loops;
+  json["largest_pole_modulus"] = result.pole_modulus;
+  json["sensitivity"] = PeakJson(result.sensitivity);
+  json["corner_sensitivity"] = PeakJson(result.corner_sensitivity);
+  json["singular_value"] = PeakJson(result.singular);
+  json["mu_upper"] = PeakJson(result.mu);
+  json["drawn_rigs"] = result.rigs;
+  for (const auto& at : result.drawn)
+    json["speeds"].push_back({{"speed_rpm", RadPerSToRpm(at.speed_rad_per_s)},
+                              {"lost", at.lost},
+                              {"worst_orbit_m", at.worst_orbit_m},
+                              {"median_orbit_m", at.median_orbit_m}});
+  return json;
+}
+
+}  // namespace levitas::cli

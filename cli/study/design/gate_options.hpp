@@ -1,0 +1,45 @@
+#pragma once
+// Options and output of the gate, for the commands that judge a law.
+// Thread   that of the caller.
+
+#include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/options/analysis_options.hpp"
+#include "design/file/design_file.hpp"
+#include "design/gate/gate.hpp"
+
+namespace levitas::cli {
+
+struct GateCommandOptions {
+  std::string design_path;     ///< design file; empty: default weights
+  std::string from{"stated"};  ///< or "tolerances"
+  std::size_t draws{20};
+  std::size_t corners{8};
+  std::uint64_t seed{1};
+  double sensitivity{4.0};
+  double third_n{0.0};
+};
+
+void AddGateOptions(CLI::App& command, GateCommandOptions& options);
+
+[[nodiscard]] std::vector<uncertainty::Parameter> ParametersOf(const config::RigFile& rig,
+                                                               const std::string& from);
+
+/// The design file that was named, or the default weights.
+[[nodiscard]] design::DesignFile DesignOf(const GateCommandOptions& options);
+
+/// What the options ask of the gate on this rig, by these weights.
+[[nodiscard]] design::GateOptions GateOf(const GateCommandOptions& options,
+                                         const uncertainty::AnalysisWeights& weights,
+                                         const config::RigFile& rig);
+
+/// Judges with a progress bar on a terminal, prints the figures.
+[[nodiscard]] design::GateResult JudgeAndPrint(const config::RigFile& rig,
+                                               const law::LawConfig& law,
+                                               const GateCommandOptions& options,
+                                               const uncertainty::AnalysisWeights& weights);
+
+[[nodiscard]] nlohmann::ordered_json GateJson(const design::GateResult& result);
+
+}  // namespace levitas::cli

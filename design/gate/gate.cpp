@@ -1,0 +1,201 @@
+#include "design/gate/gate.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/poles.hpp"
+#include "analysis/sensitivity.hpp"
+#include "common/rotational_speed.hpp"
+
+namespace levitas::design {
+namespace {
+
+using Progress = std::function<void(double, const std::string&)>;
+
+void Raise(Peak& peak, double value, double hz, double speed) {
+  if (value > peak.value) peak = {value, hz, speed};
+}
+
+std::vector<double> DrawCorner(Random& draw, std::size_t parameters) {
+  auto out = uncertainty::DrawPlace(draw, parameters);
+  for (double& place : out) place = place < 0.0 ? -1.0 : 1.0;
+  return out;
+}
+
+/// Poles and |S| of one loop; false when it is unstable.
+bool JudgeLoop(const config::RigFile& rig, const law::LawConfig& law, double speed, bool nominal,
+               GateResult& out) {
+  const auto found = analysis::SensitivityPeaks(rig.plant, law, speed);
+  ++out.loops;
+  if (found.largest_pole_modulus > out.pole_modulus) {
+    out.pole_modulus = found.largest_pole_modulus;
+    out.pole_speed_rad_per_s = speed;
+  }
+  for (const auto& axis : found.axes)
+    Raise(nominal ? out.sensitivity : out.corner_sensitivity, axis.peak, axis.frequency_hz, speed);
+  if (nominal)
+    Raise(out.singular, found.largest_singular_value, found.largest_singular_value_hz, speed);
+  if (found.stable || !out.reason.empty()) return found.stable;
+  out.reason =
+      fmt::format("the loop is unstable at {:.0f} rpm ({}, |z| {:.6f})", RadPerSToRpm(speed),
+                  nominal ? "the rig file" : "a corner", found.largest_pole_modulus);
+  return false;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void RunDrawn(const config::RigFile& rig, const law::LawConfig& law,
+              const std::vector<uncertainty::Parameter>& parameters, const GateOptions& options,
+              const Progress& progress, GateResult& out) {
+  const std::size_t bearings = rig.numbers.bearings.size();
+  std::vector<std::vector<std::vector<double>>> orbits(options.run_speeds_rad_per_s.size(),
+                                                       std::vector<std::vector<double>>(bearings));
+  for (const double speed : options.run_speeds_rad_per_s)
+    out.drawn.push_back({speed, 0, std::vector<double>(bearings), std::vector<double>(bearings)});
+  Random draw(options.seed);
+  double worst_m = -1.0;
+  for (std::size_t n = 0; n < options.draws; ++n) {
+    // The first is the rig as its file has it.
+    const auto drawn =
+        n == 0 ? rig
+               : uncertainty::At(rig, parameters, uncertainty::DrawPlace(draw, parameters.size()));
+    const auto pushed = WithThirdHarmonic(drawn, options.third_n);
+    for (std::size_t s = 0; s < out.drawn.size(); ++s) {
+      const auto run = RunOnce(
+          pushed, law, {.speed_rad_per_s = out.drawn[s].speed_rad_per_s, .seed = options.seed + n});
+      double largest_m = run.lost ? 1.0 : 0.0;
+      if (run.lost) ++out.drawn[s].lost;
+      for (std::size_t b = 0; b < bearings && !run.lost; ++b) {
+        orbits[s][b].push_back(run.orbit_m[b]);
+        out.drawn[s].worst_orbit_m[b] = std::max(out.drawn[s].worst_orbit_m[b], run.orbit_m[b]);
+        largest_m = std::max(largest_m, run.orbit_m[b]);
+      }
+      if (largest_m > worst_m) {
+        worst_m = largest_m;
+        out.worst = pushed;
+      }
+    }
+    ++out.rigs;
+    progress(0.4 + 0.6 * static_cast<double>(n + 1) / static_cast<double>(options.draws),
+             fmt::format("{} of {} drawn rigs", n + 1, options.draws));
+  }
+  for (std::size_t s = 0; s < out.drawn.size(); ++s) {
+    for (std::size_t b = 0; b < bearings; ++b)
+      out.drawn[s].median_orbit_m[b] = Median(orbits[s][b]);
+    if (out.drawn[s].lost > 0 && out.reason.empty())
+      out.reason = fmt::format("{} of {} drawn rigs are lost at {:.0f} rpm", out.drawn[s].lost,
+                               out.rigs, RadPerSToRpm(out.drawn[s].speed_rad_per_s));
+  }
+}
+
+}  // namespace
+
+Peak MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
+              const std::vector<uncertainty::Parameter>& parameters,
+              const uncertainty::AnalysisWeights& weights, double speed) {
+  constexpr int kPoints = 300;
+  constexpr double kBracketed = 1.01;
+  constexpr double kLightlyDamped = 0.12;
+  const uncertainty::UncertainPlant plant(rig, parameters, speed);
+  const uncertainty::LawResponse response(law);
+  std::vector<std::pair<double, double>> at;
+  const auto mu_of = [&](double hz) {
+    const auto point = plant.At(hz);
+    return uncertainty::ComplexMu(uncertainty::LoopMatrix(point, response.At(hz), weights),
+                                  plant.perturbations());
+  };
+  const auto add = [&](double hz) { at.emplace_back(hz, mu_of(hz)); };
+  for (int i = 0; i < kPoints; ++i)
+    add(weights.first_hz * std::pow(weights.last_hz / weights.first_hz, i / (kPoints - 1.0)));
+  for (const auto& pole : analysis::ClosedLoopPoles(rig.plant, law, speed).poles) {
+    const double hz = std::abs(pole.frequency_hz);
+    if (pole.damping_ratio < kLightlyDamped && hz > weights.first_hz && hz < weights.last_hz)
+      for (const double beside : {1.0 - pole.damping_ratio, 1.0, 1.0 + pole.damping_ratio})
+        add(beside * hz);
+  }
+  for (int turn = 0; turn < 6; ++turn) {
+    std::sort(at.begin(), at.end());
+    std::vector<double> between;
+    const double largest = std::max_element(at.begin(), at.end(), [](auto& a, auto& b) {
+                             return a.second < b.second;
+                           })->second;
+    for (std::size_t i = 1; i + 1 < at.size(); ++i) {
+      const bool top = at[i].second >= at[i - 1].second && at[i].second >= at[i + 1].second;
+      if (!top || at[i].second < 0.7 * largest) continue;
+      for (const std::size_t k : {i - 1, i}) {
+        const double ratio = at[k].second / at[k + 1].second;
+        if (std::max(ratio, 1.0 / ratio) > kBracketed)
+          between.push_back(std::sqrt(at[k].first * at[k + 1].first));
+      }
+    }
+    if (between.empty()) break;
+    for (const double hz : between) add(hz);
+  }
+  Peak out;
+  for (const auto& [hz, mu] : at) Raise(out, mu, hz, speed);
+  return out;
+}
+
+std::vector<double> RunSpeeds(double rated_rad_per_s) {
+  std::vector<double> out{0.0};
+  for (int i = 2; i <= 20 && rated_rad_per_s > 0.0; ++i) out.push_back(rated_rad_per_s * i / 20.0);
+  return out;
+}
+
+GateResult RunDrawnRigs(const config::RigFile& rig, const law::LawConfig& law,
+                        const std::vector<uncertainty::Parameter>& parameters,
+                        const GateOptions& options) {
+  GateResult out;
+  RunDrawn(
+      rig, law, parameters, options, [](double, const std::string&) {}, out);
+  out.accepted = out.reason.empty();
+  return out;
+}
+
+GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
+                 const std::vector<uncertainty::Parameter>& parameters, const GateOptions& options,
+                 const Progress& progress) {
+  GateResult out;
+  std::vector<double> speeds;
+  const double top = rig.numbers.max_speed_rad_per_s;
+  for (double w = 0.0; w < options.over_speed * top + 1e-6; w += options.step_rad_per_s)
+    speeds.push_back(w);
+  if (speeds.empty()) speeds.push_back(0.0);
+  for (const double speed : speeds) {
+    JudgeLoop(rig, law, speed, true, out);
+    progress(0.2 * speed / std::max(speeds.back(), 1e-9),
+             fmt::format("poles and |S| at {:.0f} rpm", RadPerSToRpm(speed)));
+  }
+  Random draw(options.seed + 1000);
+  for (std::size_t c = 0; c < options.corners; ++c) {
+    const auto corner = uncertainty::At(rig, parameters, DrawCorner(draw, parameters.size()));
+    for (const double speed : {0.0, top}) JudgeLoop(corner, law, speed, false, out);
+    progress(0.2 + 0.1 * static_cast<double>(c + 1) / static_cast<double>(options.corners),
+             "corners of the uncertainty");
+  }
+  if (out.reason.empty() && out.sensitivity.value > options.sensitivity)
+    out.reason = fmt::format("|S| reaches {:.2f} at {:.1f} Hz, {:.0f} rpm; allowed {:.2f}",
+                             out.sensitivity.value, out.sensitivity.hz,
+                             RadPerSToRpm(out.sensitivity.speed_rad_per_s), options.sensitivity);
+  for (const double speed : {0.0, 0.5 * top, top}) {
+    const Peak peak = MuPeakAt(rig, law, parameters, options.weights, speed);
+    Raise(out.mu, peak.value, peak.hz, peak.speed_rad_per_s);
+  }
+  progress(0.4, "mu");
+  if (out.reason.empty() && options.mu && out.mu.value > *options.mu)
+    out.reason =
+        fmt::format("mu reaches {:.2f} at {:.1f} Hz, {:.0f} rpm; allowed {:.2f}", out.mu.value,
+                    out.mu.hz, RadPerSToRpm(out.mu.speed_rad_per_s), *options.mu);
+  RunDrawn(rig, law, parameters, options, progress, out);
+  out.accepted = out.reason.empty();
+  return out;
+}
+
+}  // namespace levitas::design

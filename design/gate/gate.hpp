@@ -1,0 +1,82 @@
+#pragma once
+// Whether a law may be used: checks that share no line with the synthesis or its search.
+//
+// 1 Poles   of the sampled loop with exact delay (analysis/sensitivity.hpp), at speeds from rest to
+//           `over_speed` times the rated speed, of the file's rig and of drawn corners.
+// 2 |S|     on bracketed peaks, the same loops; the limit is the zone's of ISO 14839-3.
+// 3 mu      an upper bound (complex perturbations, design/uncertainty) with every local maximum of
+//           a dense grid bracketed until neighbours differ by less than 1 %; told, and a limit when
+//           `mu` is given.
+// 4 Rigs    drawn from the uncertainty, simulated with contact, saturation, noise: none is lost.
+// Accepted  the first, the second and the fourth pass, the third where asked.
+// Worst     the drawn rig with the largest orbit, or the first that was lost, as a rig file.
+// Thread    that of the caller; the same seed gives the same answer.
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "design/gate/drawn_runs.hpp"
+#include "design/uncertainty/uncertain_plant.hpp"
+
+namespace levitas::design {
+
+struct GateOptions {
+  double step_rad_per_s{52.35987755982988};  ///< between speeds: 500 rpm
+  double over_speed{1.1};
+  std::size_t corners{8};
+  std::size_t draws{20};
+  std::uint64_t seed{1};
+  double sensitivity{4.0};  ///< upper edge of zone B
+  std::optional<double> mu;
+  double third_n{};  ///< of WithThirdHarmonic, in the drawn runs
+  std::vector<double> run_speeds_rad_per_s;
+  uncertainty::AnalysisWeights weights;
+};
+
+struct Peak {
+  double value{}, hz{}, speed_rad_per_s{};
+};
+
+struct DrawnSpeed {
+  double speed_rad_per_s{};
+  std::size_t lost{};
+  std::vector<double> worst_orbit_m;   ///< per bearing, of the rigs that were not lost
+  std::vector<double> median_orbit_m;  ///< per bearing
+};
+
+struct GateResult {
+  bool accepted{};
+  std::string reason;  ///< the limit that failed; empty when accepted
+  double pole_modulus{};
+  double pole_speed_rad_per_s{};
+  std::size_t loops{};      ///< judged by poles
+  Peak sensitivity;         ///< of the file's rig, any axis
+  Peak corner_sensitivity;  ///< of the corners
+  Peak singular;            ///< largest singular value of S, the file's rig
+  Peak mu;
+  std::vector<DrawnSpeed> drawn;
+  std::size_t rigs{};
+  std::optional<config::RigFile> worst;
+};
+
+[[nodiscard]] GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
+                               const std::vector<uncertainty::Parameter>& parameters,
+                               const GateOptions& options,
+                               const std::function<void(double, const std::string&)>& progress);
+
+/// At rest, and from a tenth of the rated speed up in steps of a twentieth: close enough to meet
+/// the resonances of a rotor with once and three times the speed.
+[[nodiscard]] std::vector<double> RunSpeeds(double rated_rad_per_s);
+
+/// The runs alone: `drawn`, `rigs`, `worst`, and `reason` when a rig is lost.
+[[nodiscard]] GateResult RunDrawnRigs(const config::RigFile& rig, const law::LawConfig& law,
+                                      const std::vector<uncertainty::Parameter>& parameters,
+                                      const GateOptions& options);
+
+/// The peak of mu at one speed, neighbours of each maximum bracketed.
+[[nodiscard]] Peak MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
+                            const std::vector<uncertainty::Parameter>& parameters,
+                            const uncertainty::AnalysisWeights& weights, double speed_rad_per_s);
+
+}  // namespace levitas::design

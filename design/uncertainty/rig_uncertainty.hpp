@@ -1,0 +1,54 @@
+#pragma once
+// By how much the numbers of a rig may differ from its file: real parameters, each within bounds.
+//
+// Parameters  frequency [Hz] and damping ratio [1] of the first flexible modes, both planes alike;
+//             ki and ks of each axis as a share of the file's [1]; of geared shafts these alone.
+// Stated      +-2 Hz, +-50 % of the damping, +-5 % ki, +-5 % ks: A. Sahinkaya & J. T. Sawicki.
+// Tolerances  of a rig file, three standard deviations each.
+// Drawn       a rig with every parameter at its place between the bounds, as entries of `effects`:
+//             it can be simulated, and written as a file.
+// Thread      any; pure.
+
+#include <string>
+#include <vector>
+
+#include "common/random.hpp"
+#include "configuration/rig_file.hpp"
+
+namespace levitas::uncertainty {
+
+enum class Kind { kModeFrequency, kModeDamping, kCurrentGain, kStiffness };
+
+struct Parameter {
+  Kind kind{};
+  std::size_t index{};  ///< flexible mode (0: the first), or axis
+  double nominal{};     ///< [Hz], [1]; 1 for shares
+  double low{}, high{};
+  /// Half of the interval.
+  [[nodiscard]] double size() const noexcept { return 0.5 * (high - low); }
+};
+
+struct StatedUncertainty {
+  double mode_hz{2.0};
+  double damping_share{0.5};
+  double current_gain{0.05};
+  double stiffness{0.05};
+  std::size_t modes{4};
+};
+
+[[nodiscard]] std::vector<Parameter> Stated(const config::RigFile& rig,
+                                            const StatedUncertainty& stated);
+[[nodiscard]] std::vector<Parameter> FromTolerances(const config::RigFile& rig, std::size_t modes);
+
+/// "mode 2 frequency [Hz]", "ki de_x [1]"
+[[nodiscard]] std::string NameOf(const Parameter& parameter,
+                                 const std::vector<std::string>& channels);
+
+/// Uniform in -1..1 for each parameter.
+[[nodiscard]] std::vector<double> DrawPlace(Random& draw, std::size_t parameters);
+/// `place` has one number in -1..1 per parameter.
+[[nodiscard]] config::RigFile At(const config::RigFile& rig,
+                                 const std::vector<Parameter>& parameters,
+                                 const std::vector<double>& place);
+
+}  // namespace levitas::uncertainty
