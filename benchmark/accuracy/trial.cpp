@@ -1,6 +1,7 @@
 #include "benchmark/accuracy/trial.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "benchmark/accuracy/hidden_gear_effect.hpp"
 #include "benchmark/accuracy/perturbed_rig.hpp"
@@ -31,7 +32,8 @@ class Maker {
     law_ = random_.Bits() % bench.laws.size();
   }
 
-  Trial Make() {
+  /// Nothing when the rig does not levitate.
+  std::optional<Trial> Make() {
     Trial trial;
     double size = plan_.size;
     Campaign campaign;
@@ -45,7 +47,7 @@ class Maker {
       trial.ground_truth.size = size;
       if (Run(size, campaign, trial.ground_truth)) break;
     }
-    if (!campaign.stable) throw BadInput("the rig under trial does not levitate");
+    if (!campaign.stable) return std::nullopt;
     trial.records = std::move(campaign.records);
     trial.ground_truth.outside = plan_.outside;
     trial.rig = bench_.rig;
@@ -135,7 +137,15 @@ const char* Name(Size size) noexcept {
   }
 }
 
-Trial MakeTrial(const TestRig& bench, const TrialPlan& plan) { return Maker(bench, plan).Make(); }
+std::optional<Trial> TryTrial(const TestRig& bench, const TrialPlan& plan) {
+  return Maker(bench, plan).Make();
+}
+
+Trial MakeTrial(const TestRig& bench, const TrialPlan& plan) {
+  std::optional<Trial> trial = TryTrial(bench, plan);
+  if (!trial) throw BadInput("the rig under trial does not levitate");
+  return *std::move(trial);
+}
 
 TestRig LoadTestRig(const std::string& rig, const std::vector<std::string>& controllers) {
   TestRig bench{config::LoadRig(config::FindConfig(rig, "rigs")), {}, {}};

@@ -8,6 +8,7 @@
 // Thread     any; two inside.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,10 @@ struct Trial {
   GroundTruth ground_truth;
 };
 
+/// Nothing when the rig does not levitate, whatever is drawn anew.
+[[nodiscard]] std::optional<Trial> TryTrial(const TestRig& bench, const TrialPlan& plan);
+
+/// The same; BadInput when it does not levitate.
 [[nodiscard]] Trial MakeTrial(const TestRig& bench, const TrialPlan& plan);
 
 /// Loads a rig and these controllers; without any, the one that the rig file names.

@@ -54,8 +54,7 @@ class Trio:
         # The page first: beside two real-time loops a busy machine starts nothing in good time.
         self.folder = folder
         self.dash = Process(folder, "amb", "dash")
-        self.dash.says("page: ")
-        self.url = self.dash.text.split("page: ")[1].split()[0]
+        self.url = self.dash.says(re.compile(r"page: \S+(?=\s)")).rsplit("page: ", 1)[1]
         self.parts = [self.dash]
 
     def start(self, seconds):

@@ -21,11 +21,13 @@ void SealAndCheck(benchmark::State& state) {
   std::vector<std::uint8_t> buffer(frame.begin(), frame.end());
   buffer.resize(frame.size() + kTrailerBytes);
   Sealer sealer(Key());
-  SealCheck check(Key(), kNow, false);
+  SealCheck check(Key(), SealRule::kClock, 0);
   std::int64_t now_ns = kNow;
   for (auto _ : state) {
-    auto datagram = sealer.Append(buffer, frame.size(), ++now_ns);
-    if (check.Open(datagram, now_ns) != SealWord::kGood) state.SkipWithError("refused");
+    ++now_ns;
+    auto datagram = sealer.Append(buffer, frame.size(), static_cast<std::uint64_t>(now_ns));
+    if (check.Open(datagram, {now_ns, now_ns - kNow}) != SealWord::kGood)
+      state.SkipWithError("refused");
   }
   state.counters["bytes"] = static_cast<double>(frame.size());
 }

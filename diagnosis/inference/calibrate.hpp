@@ -19,7 +19,11 @@
 
 namespace levitas::diagnosis {
 
-inline constexpr std::size_t kWhiteningOrder = 4;
+/// Past innovations from which the whitening filter foretells the next one. The observer's noise is
+/// a share of ki i0, not that of this rig: with strong magnets and quiet probes it follows readings
+/// too closely, and the innovations stay coloured over tens of samples. A likelihood that takes
+/// them as white (or whitened by a few) prefers any parameter that imitates another observer.
+inline constexpr std::size_t kWhiteningOrder = 40;
 inline constexpr double kDaily = 0.2;  ///< share of its tolerance
 
 /// `gains` are those of observers of this speed for `records`; `all` may be longer.

@@ -1,10 +1,10 @@
-#include <algorithm>
-
 #include "common/problem.hpp"
 #include "diagnosis/inference/alternatives.hpp"
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/inference/events.hpp"
 #include "diagnosis/inference/exchange.hpp"
+#include "diagnosis/inference/fit_gain.hpp"
+#include "diagnosis/inference/moved_calibration.hpp"
 #include "diagnosis/inference/ranking.hpp"
 #include "diagnosis/inference/selection.hpp"
 #include "diagnosis/model/divergence.hpp"
@@ -20,7 +20,7 @@ bool IsUnexplained(const Judging& judging, const Residual& remainder, bool named
 }
 
 constexpr Effort kQuick{5, 3, 3, 0, kQuickRows, true};
-constexpr Effort kThorough{10, 6, 8, 5, kMostRows, false};
+constexpr Effort kThorough{40, 6, 8, 5, kMostRows, false};
 
 /// Fits the nuisance parameters only. Causes are searched afterwards: away from the optimum the
 /// linearisation gives every hypothesis spurious evidence.
@@ -49,11 +49,7 @@ void Describe(const SearchState& state, const Fit& fit, SearchResult& answer) {
     const Term& t = state.terms[i];
     const double deviation = fit.deviation[static_cast<Eigen::Index>(i)] * t.scale();
     const Estimate estimate{i, state.theta[i], deviation};
-    const bool cause =
-        std::any_of(state.causes.begin(), state.causes.end(), [i](const Hypothesis& h) {
-          return std::find(h.terms.begin(), h.terms.end(), i) != h.terms.end();
-        });
-    if (cause) {
+    if (Moves(state.causes, i)) {
       answer.parameters.push_back(estimate);
     } else if (t.nuisance()) {
       answer.calibration.push_back(estimate);
@@ -130,6 +126,8 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
   if (state.effort.first_cause_only) {
     DropUnproven(state);
     RankCandidates(state);
+    DropUngained(state);
+    NameMovedCalibration(state);
     return Conclude(state);
   }
   MergeCauses(state);
@@ -139,6 +137,8 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
     RankCandidates(state);
     RefitAlternatives(state);
   } while (LeaderFails(state));
+  DropUngained(state);
+  NameMovedCalibration(state);
   return Conclude(state);
 }
 

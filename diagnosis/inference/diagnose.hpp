@@ -12,7 +12,9 @@
 //              family are refined (refine_shape.hpp); again from 2 until none gains enough; each of
 //              several causes is exchanged for its nearest alternatives (exchange.hpp);
 //            4 rank: every effect in place of the first cause, the nearest refitted;
-//            5 analyse the residual (residual.hpp).
+//            5 no cause stays unless all together fit better than chance would (fit_gain.hpp);
+//              what calibration had to move too far is tried as one (moved_calibration.hpp);
+//            6 analyse the residual (residual.hpp).
 // Divergence a model that diverges is held by a faster observer until the causes found make that
 //            unnecessary (divergence.hpp).
 // Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.

@@ -142,6 +142,16 @@ class Maker {
 
 }  // namespace
 
+bool Moves(const Hypothesis& hypothesis, std::size_t term) noexcept {
+  return std::find(hypothesis.terms.begin(), hypothesis.terms.end(), term) !=
+         hypothesis.terms.end();
+}
+
+bool Moves(const std::vector<Hypothesis>& causes, std::size_t term) noexcept {
+  return std::any_of(causes.begin(), causes.end(),
+                     [term](const Hypothesis& h) { return Moves(h, term); });
+}
+
 std::vector<Hypothesis> MakeHypotheses(const RigView& rig, const std::vector<Term>& terms) {
   return Maker(rig, terms).Make();
 }

@@ -27,6 +27,12 @@ struct Hypothesis {
   double log_prior{};
 };
 
+/// True when the term is one of those that it moves.
+[[nodiscard]] bool Moves(const Hypothesis& hypothesis, std::size_t term) noexcept;
+
+/// True when any of them moves it.
+[[nodiscard]] bool Moves(const std::vector<Hypothesis>& causes, std::size_t term) noexcept;
+
 [[nodiscard]] std::vector<Hypothesis> MakeHypotheses(const RigView& rig,
                                                      const std::vector<Term>& terms);
 

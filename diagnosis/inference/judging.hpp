@@ -26,6 +26,8 @@ struct Judging {
   double stands_out_sigma{30.0};
   double nearly_all_share{0.95};
   double harm_nat{10.0};
+  double gain_deviations{1.645};
+  double moved_tolerances{3.0};
 };
 
 struct JudgingRow {
@@ -38,7 +40,7 @@ struct JudgingRow {
 };
 
 /// In the order of the members.
-[[nodiscard]] const std::array<JudgingRow, 10>& JudgingTable();
+[[nodiscard]] const std::array<JudgingRow, 12>& JudgingTable();
 
 /// The row of a name; BadInput lists the names.
 [[nodiscard]] const JudgingRow& FindJudging(std::string_view name);

@@ -11,12 +11,12 @@
 namespace levitas::diagnosis {
 namespace {
 
-using Signal = std::vector<double>;
+using Samples = std::vector<double>;
 
 constexpr double kTimes = 12.0;  ///< noise alone exceeds its mean so far once in e^12 lines
 
 /// |sum of y e^{-jwt}|^2 with a Hann window.
-double LinePower(const Signal& signal, double hz, double period_s) {
+double LinePower(const Samples& signal, double hz, double period_s) {
   const auto count = static_cast<double>(signal.size());
   const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * hz * period_s);
   const std::complex<double> window_turn = std::polar(1.0, 2.0 * std::numbers::pi / count);
@@ -31,7 +31,7 @@ double LinePower(const Signal& signal, double hz, double period_s) {
   return std::norm(sum);
 }
 
-bool StandsOut(const Signal& signal, double hz, double period_s) {
+bool StandsOut(const Samples& signal, double hz, double period_s) {
   const double spacing_hz = 1.0 / (static_cast<double>(signal.size()) * period_s);
   double around = 0.0;
   constexpr std::array kBeside{-7.0, -5.0, -3.0, 3.0, 5.0, 7.0};
@@ -41,16 +41,16 @@ bool StandsOut(const Signal& signal, double hz, double period_s) {
   return LinePower(signal, hz, period_s) > kTimes * around;
 }
 
-void AddReadings(const RigView& rig, const Record& record, std::vector<Signal>& signals) {
+void AddReadings(const RigView& rig, const Record& record, std::vector<Samples>& signals) {
   for (std::size_t a = 0; a < rig.axes; ++a) {
-    Signal& readings = signals.emplace_back();
+    Samples& readings = signals.emplace_back();
     for (const auto& row : record.rows) readings.push_back(row.sample.position_m[a]);
   }
 }
 
-void AddInnovations(const RigView& rig, const Trajectory& run, std::vector<Signal>& signals) {
+void AddInnovations(const RigView& rig, const Trajectory& run, std::vector<Samples>& signals) {
   for (std::size_t a = 0; a < rig.axes; ++a) {
-    Signal& innovations = signals.emplace_back();
+    Samples& innovations = signals.emplace_back();
     for (const SamplePoint& m : run.moments) {
       if (m.settled) innovations.push_back(static_cast<double>(m.innovation_m[a]));
     }
@@ -62,7 +62,7 @@ void AddInnovations(const RigView& rig, const Trajectory& run, std::vector<Signa
 std::vector<double> MainsLines(const RigView& rig, const std::vector<Record>& records) {
   const std::vector<Term> healthy;
   const Search search(rig, healthy);
-  std::vector<Signal> signals;
+  std::vector<Samples> signals;
   for (const Record& record : records) AddReadings(rig, record, signals);
   for (const Trajectory& run : search.Run(records, search.DesignGains(records, kFast), {})) {
     AddInnovations(rig, run, signals);
@@ -72,7 +72,7 @@ std::vector<double> MainsLines(const RigView& rig, const std::vector<Record>& re
     if (entry.id == effect::Id::kMainsPickup) lines.push_back(entry.values[0]);
   }
   for (const double hz : {50.0, 60.0, 100.0, 120.0, 150.0}) {
-    const bool out = std::any_of(signals.begin(), signals.end(), [&](const Signal& signal) {
+    const bool out = std::any_of(signals.begin(), signals.end(), [&](const Samples& signal) {
       return !signal.empty() && StandsOut(signal, hz, rig.period_s);
     });
     if (out && std::find(lines.begin(), lines.end(), hz) == lines.end()) lines.push_back(hz);

@@ -34,7 +34,7 @@ std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
   const auto own = std::find_if(candidates.begin(), candidates.end(), [&causes](const auto& c) {
     return c.effect == causes.front().effect;
   });
-  if (own == candidates.end()) return ties;
+  if (own == candidates.end() || own->score < tie_nat) return ties;
   for (const Candidate& c : candidates) {
     const bool also = std::any_of(causes.begin(), causes.end(),
                                   [&c](const Hypothesis& h) { return h.effect == c.effect; });

@@ -17,7 +17,9 @@ namespace levitas::diagnosis {
 
 void SortByScore(std::vector<Candidate>& candidates);
 
-/// Effects that come within `tie_nat` of the first cause, or before it.
+/// Effects that come within `tie_nat` of the first cause, or before it. None for a cause that gains
+/// less than that: it is named for where calibration went (moved_calibration.hpp), which no other
+/// effect takes back.
 [[nodiscard]] std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
                                             const std::vector<Hypothesis>& causes, double tie_nat);
 

@@ -234,6 +234,7 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
     if (!std::isfinite(best.cost)) break;
     best.theta = theta;
     best.ok = true;
+    refused = 0;
     if (gained < kConverged && current) break;
     current = !slopes || gained > kFar || gained < kConverged;
     if (current) {

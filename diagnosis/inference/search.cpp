@@ -153,10 +153,7 @@ std::vector<std::size_t> Search::Everything() const {
 std::vector<std::size_t> Search::NuisancesAnd(const std::vector<Hypothesis>& causes) const {
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    const bool moved = std::any_of(causes.begin(), causes.end(), [i](const Hypothesis& h) {
-      return std::find(h.terms.begin(), h.terms.end(), i) != h.terms.end();
-    });
-    if (terms_[i].nuisance() || moved) chosen.push_back(i);
+    if (terms_[i].nuisance() || Moves(causes, i)) chosen.push_back(i);
   }
   return chosen;
 }

@@ -3,7 +3,8 @@
 // causes found so far.
 //
 // Units   evidence in nats. Thread: blocks the caller, two threads inside. Internal to
-//         diagnose.cpp, selection.cpp, exchange.cpp and alternatives.cpp.
+//         diagnose.cpp, selection.cpp, exchange.cpp, alternatives.cpp, fit_gain.cpp and
+//         moved_calibration.cpp.
 
 #include <limits>
 #include <string>

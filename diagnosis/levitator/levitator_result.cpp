@@ -11,7 +11,7 @@ namespace levitas::levitator {
 namespace {
 
 constexpr double kStretchS = 4.0;
-constexpr int kSteps = 5;
+constexpr int kBisections = 5;
 
 std::vector<diagnosis::Record> Load(const std::vector<std::string>& paths,
                                     const diagnosis::DiagnosisRequest& inputs) {
@@ -89,8 +89,8 @@ std::vector<ValidationRun> InTurn(const NominalRig& rig, const std::vector<Serie
     const Theta start = SharedPart(found.extended.theta, others.size());
     const Theta plain = SharedPart(found.calibrated.theta, others.size());
     runs.push_back(Judge(rig, data[out],
-                         {fitter.Fit({}, plain, found.filters, kSteps).theta,
-                          fitter.Fit(found.causes, start, found.filters, kSteps).theta}));
+                         {fitter.Fit({}, plain, found.filters, kBisections).theta,
+                          fitter.Fit(found.causes, start, found.filters, kBisections).theta}));
   }
   return runs;
 }

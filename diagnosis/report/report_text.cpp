@@ -102,12 +102,19 @@ std::string Finding(const DiagnosisReport& report) {
   if (report.verdict == Verdict::kUnknown || report.causes.empty()) {
     return UnknownText(report.residual);
   }
-  const double nat =
-      report.candidates.empty() ? report.evidence_nat : report.candidates.front().evidence_nat;
   const auto& causes = report.causes;
-  std::string text = fmt::format("{} at {}{}; {:.0f} nat, which is odds of e^{:.0f} to 1 for it",
-                                 causes.front().effect, causes.front().place,
-                                 Size(report, causes.front()), nat, nat);
+  const auto own =
+      std::find_if(report.candidates.begin(), report.candidates.end(),
+                   [&causes](const auto& c) { return c.effect == causes.front().effect; });
+  const double nat = own == report.candidates.end() ? report.evidence_nat : own->evidence_nat;
+  std::string text = fmt::format("{} at {}{}; ", causes.front().effect, causes.front().place,
+                                 Size(report, causes.front()));
+  text += nat < kDecisive
+              ? fmt::format(
+                    "named because it is further from the rig file than its tolerances "
+                    "allow; calibration could absorb it, which leaves {:.0f} nat for it",
+                    nat)
+              : fmt::format("{:.0f} nat, which is odds of e^{:.0f} to 1 for it", nat, nat);
   for (std::size_t i = 1; i < causes.size(); ++i) {
     text +=
         fmt::format("; and {} at {}{}", causes[i].effect, causes[i].place, Size(report, causes[i]));

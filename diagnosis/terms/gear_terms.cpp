@@ -14,6 +14,7 @@
 #include <numbers>
 
 #include "diagnosis/model/linear_change.hpp"
+#include "diagnosis/terms/harmonic.hpp"
 #include "diagnosis/terms/terms.hpp"
 
 namespace levitas::diagnosis {
@@ -22,12 +23,6 @@ namespace {
 using effect::Id;
 
 using Complex = std::complex<double>;
-
-constexpr const char* kParts[] = {"cosine", "sine"};  // NOLINT: two words
-
-double MidAngle(const SamplePoint& m, double period_s) {
-  return m.angle_rad + 0.5 * period_s * static_cast<double>(m.speed_rad_per_s);
-}
 
 Complex Delta(const TeethMoment& t) {
   return {static_cast<double>(t.delta_x_m), static_cast<double>(t.delta_y_m)};
@@ -131,13 +126,14 @@ void AddVariation(const Teeth& t, std::vector<Term>& terms) {
   constexpr int kHighest = 3;
   for (int order = 1; order <= kHighest; ++order) {
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(MakeTerm(
-          {Id::kMeshStiffnessVariation, AtGearOrder(t.mesh->name, t.at, order), kParts[part], "1"},
-          0.0, 0.1, [=](const SamplePoint& m, double theta, Contribution& add) {
-            const double phi = order * t.Phi(m);
-            const double factor = part == 0 ? std::cos(phi) : -std::sin(phi);
-            t.Push(theta * t.mesh->stiffness_n_per_m * factor * t.Loaded(m), add);
-          }));
+      terms.push_back(
+          MakeTerm({Id::kMeshStiffnessVariation, AtGearOrder(t.mesh->name, t.at, order),
+                    PartName(part), "1"},
+                   0.0, 0.1, [=](const SamplePoint& m, double theta, Contribution& add) {
+                     const double phi = order * t.Phi(m);
+                     const double factor = part == 0 ? std::cos(phi) : -std::sin(phi);
+                     t.Push(theta * t.mesh->stiffness_n_per_m * factor * t.Loaded(m), add);
+                   }));
     }
   }
 }
@@ -149,7 +145,7 @@ void AddError(const Teeth& t, const Tolerances& tolerances, std::vector<Term>& t
   for (int order = -highest - 1; order <= highest + 1; ++order) {
     for (int part = 0; part < 2; ++part) {
       terms.push_back(MakeTerm(
-          {Id::kTransmissionError, AtGearOrder(t.mesh->name, t.at, order), kParts[part], "m"},
+          {Id::kTransmissionError, AtGearOrder(t.mesh->name, t.at, order), PartName(part), "m"},
           tolerances.transmission_error_m, 5e-6,
           [=](const SamplePoint& m, double theta, Contribution& add) {
             t.Displace(m, -theta * Part(part), order * t.mesh->engagement(), add);
@@ -163,7 +159,7 @@ void AddRunout(const Teeth& t, const Tolerances& tolerances, bool driven,
   const WheelView& wheel = driven ? t.mesh->driven : t.mesh->driving;
   for (int part = 0; part < 2; ++part) {
     terms.push_back(
-        MakeTerm({Id::kGearRunout, AtWheel(t.mesh->name, t.at, driven), kParts[part], "m"},
+        MakeTerm({Id::kGearRunout, AtWheel(t.mesh->name, t.at, driven), PartName(part), "m"},
                  tolerances.gear_runout_m, 10e-6,
                  [=, w = &wheel](const SamplePoint& m, double theta, Contribution& add) {
                    const Complex by = theta * Part(part);

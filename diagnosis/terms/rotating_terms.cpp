@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/terms/harmonic.hpp"
 #include "diagnosis/terms/terms.hpp"
 
 namespace levitas::diagnosis {
@@ -10,20 +11,14 @@ namespace {
 
 using effect::Id;
 
-/// Angle in the middle of the period, where forces are evaluated.
-double MidAngle(const SamplePoint& m, double period_s) {
-  return m.angle_rad + 0.5 * period_s * static_cast<double>(m.speed_rad_per_s);
-}
-
 constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
-constexpr const char* kParts[] = {"cosine", "sine"};  // NOLINT: two words
 
 void AddUnbalance(const RigView& rig, const Tolerances& t, std::vector<Term>& terms) {
   for (const auto& mass : rig.model->config().unbalance) {
     const auto shape = rig.Shape(mass.z_m);
     for (int part = 0; part < 2; ++part) {
       terms.push_back(MakeTerm(
-          {Id::kUnbalance, AtPlane(mass.z_m), kParts[part], "kg m"}, t.unbalance_kg_m, 20e-6,
+          {Id::kUnbalance, AtPlane(mass.z_m), PartName(part), "kg m"}, t.unbalance_kg_m, 20e-6,
           [=, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
             const double speed = static_cast<double>(m.speed_rad_per_s);
             if (speed == 0.0) return;
@@ -45,7 +40,7 @@ void AddRunout(const RigView& rig, const Tolerances& t, std::vector<Term>& terms
     for (std::size_t a = 0; a < rig.axes; ++a) {
       for (int part = 0; part < 2; ++part) {
         Term term =
-            MakeTerm({Id::kSensorRunout, AtOrderOf(rig.numbers, order, a), kParts[part], "m"},
+            MakeTerm({Id::kSensorRunout, AtOrderOf(rig.numbers, order, a), PartName(part), "m"},
                      order == 1 ? t.sensor_runout_m : 0.0, 3e-6, nullptr);
         // It is on the shaft: the sensor's filter sees it, H = 1/(1 + j order W lag), and at rest
         // it stays as an offset.
@@ -71,7 +66,7 @@ void AddBow(const RigView& rig, std::vector<Term>& terms) {
                                .maxCoeff();
     const double size = std::pow(rig.omega_rad_per_s[mode], 2) / largest;
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(MakeTerm({Id::kShaftBow, AtMode(mode - 1), kParts[part], "m"}, 0.0, 20e-6,
+      terms.push_back(MakeTerm({Id::kShaftBow, AtMode(mode - 1), PartName(part), "m"}, 0.0, 20e-6,
                                [=, modes = rig.modes, period_s = rig.period_s](
                                    const SamplePoint& m, double theta, Contribution& add) {
                                  const double angle = MidAngle(m, period_s) + part * kQuarterTurn;
@@ -87,7 +82,7 @@ void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
   const auto shape = rig.Shape(0.0);
   for (const int order : {2, -2, 3, -3}) {
     for (int part = 0; part < 2; ++part) {
-      terms.push_back(MakeTerm({Id::kMisalignment, AtOrder(order), kParts[part], "N"}, 0.0, 0.5,
+      terms.push_back(MakeTerm({Id::kMisalignment, AtOrder(order), PartName(part), "N"}, 0.0, 0.5,
                                [=, modes = rig.modes, period_s = rig.period_s](
                                    const SamplePoint& m, double theta, Contribution& add) {
                                  if (m.speed_rad_per_s == 0.0F) return;
@@ -108,7 +103,7 @@ void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
 void AddStiffness(const RigView& rig, std::vector<Term>& terms) {
   for (int part = 0; part < 2; ++part) {
     terms.push_back(MakeTerm(
-        {Id::kShaftAnisotropy, Everywhere("rotor"), kParts[part], "1"}, 0.0, 0.1,
+        {Id::kShaftAnisotropy, Everywhere("rotor"), PartName(part), "1"}, 0.0, 0.1,
         [=, &rig, modes = rig.modes](const SamplePoint& m, double theta, Contribution& add) {
           const double angle = 2.0 * MidAngle(m, rig.period_s) + part * kQuarterTurn;
           const double c = theta * std::cos(angle);

@@ -12,7 +12,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-Mismatch Unknown(const RigidBodyOff& rigid) {
+Mismatch UnknownOf(const RigidBodyOff& rigid) {
   Mismatch off;
   off.current_gain = 0.08;
   off.displacement_stiffness = 0.08;
@@ -108,7 +108,7 @@ Eigen::VectorXd Relative(const Eigen::VectorXd& found, const Eigen::VectorXd& tr
 ModalTrial MakeModalTrial(const config::RigFile& nominal, const ExcitationPlan& plan,
                           const RigidBodyOff& rigid) {
   Random random(plan.seed);
-  const plant::PlantParameters truth = PerturbedRig(nominal.plant, Unknown(rigid), {}, random);
+  const plant::PlantParameters truth = PerturbedRig(nominal.plant, UnknownOf(rigid), {}, random);
   const plant::PlantModel model(truth);
   ModalTrial trial{SimulateCampaign(nominal, truth, plan), {}};
   trial.truth = Truth(model, trial.record);

@@ -6,6 +6,7 @@
 
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
+#include "controller/supervisor/supervisor.hpp"
 #include "identification/nonlinear/lagged_model.hpp"
 #include "plant_sim/plant/plant.hpp"
 
@@ -98,8 +99,8 @@ PumpTrial::PumpRecord PumpTrial::Record(std::uint64_t seed, const Twin& twin) co
     ++in.cycle;
     in.frame = plant.Sample();
     in.frame_present = true;
-    auto asked =
-        player.Next(out.mode, 0.0, out.fault, out.command_refused, LargestRadius(in.frame));
+    auto asked = player.Next(out.mode, 0.0, out.fault, out.command_refused, LargestRadius(in.frame),
+                             cycle.decision().standing);
     if (row < 0 && asked.excitation_m[0] != 0.0) row = 0;
     if (row >= 0 && row < rows && twin.excitation_m != nullptr) {
       for (Index i = 0; i < axes; ++i) {
