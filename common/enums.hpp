@@ -36,8 +36,10 @@ enum class Fault : std::uint8_t {
   kLiftFailed = 13,
   kSpeedUnknown = 14,
   kLawNotFinite = 15,
+  kFramesLost = 16,
+  kCurrentsLate = 17,
 };
-inline constexpr std::uint8_t kFaultCount = 16;
+inline constexpr std::uint8_t kFaultCount = 18;
 
 /// What an operator (or a scenario) asks for. Requests that the mode table does not allow are
 /// refused and reported, never queued.

@@ -16,15 +16,12 @@ namespace levitas {
 namespace {
 
 constexpr mode_t kForAll = 0666;  // less what the user's umask takes away
+constexpr mode_t kForReaders = 0644;
 constexpr std::size_t kBlockBytes = std::size_t{256} << 10;
 
-bool IsDirect(const std::string& path) {
-  const bool below_dev = path.starts_with("/dev/") && !path.starts_with("/dev/shm/");
-  if (below_dev || path.starts_with("/proc/")) return true;
+bool IsFolder(const std::string& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return false;
-  if (S_ISDIR(status.st_mode)) CannotWrite(path, EISDIR);
-  return !S_ISREG(status.st_mode);
+  return ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
 }
 
 std::string Suffix() {
@@ -37,7 +34,54 @@ std::string Suffix() {
   return {text.data(), static_cast<std::size_t>(length)};
 }
 
+[[noreturn]] void NobodyReads(const std::string& path) {
+  throw BadInput(path +
+                 ": cannot be written: a pipe that nobody reads. Start its reader first, or name "
+                 "a file.");
+}
+
+bool IsPipe(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
+}
+
 }  // namespace
+
+bool IsWrittenAsItIs(const std::string& path) {
+  const bool below_dev = path.starts_with("/dev/") && !path.starts_with("/dev/shm/");
+  if (below_dev || path.starts_with("/proc/")) return true;
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return false;
+  return !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+int OpenUnderItsName(const std::string& path, Standing standing) {
+  if (IsWrittenAsItIs(path)) {
+    const int device =
+        ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK | O_NOCTTY,
+               kForReaders);
+    if (device < 0 && errno == ENXIO && IsPipe(path)) NobodyReads(path);
+    if (device < 0) CannotWrite(path, errno);
+    return device;
+  }
+  constexpr int kTries = 10;  // of whoever puts something there between the two calls
+  int file = -1;
+  for (int i = 0; i < kTries && file < 0; ++i) {
+    const int replaced = standing == Standing::kReplaced ? ::unlink(path.c_str()) : 0;
+    if (replaced != 0 && errno != ENOENT) CannotWrite(path, errno);
+    file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kForReaders);
+    if (file < 0 && (errno != EEXIST || standing == Standing::kKept)) break;
+  }
+  if (file < 0) CannotWrite(path, errno);
+  return file;
+}
+
+FileDescriptor RefuseDeafPipe(const std::string& path) {
+  if (!IsPipe(path)) return FileDescriptor(-1);
+  FileDescriptor pipe(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!pipe.is_open() && errno == ENXIO) NobodyReads(path);
+  return pipe;
+}
 
 void CannotWrite(const std::string& path, int error) {
   const std::string why = std::strerror(error);
@@ -55,7 +99,8 @@ void CannotWrite(const std::string& path, int error) {
 }
 
 PartFile::PartFile(std::string path) : path_(std::move(path)) {
-  if (IsDirect(path_)) {
+  if (IsFolder(path_)) CannotWrite(path_, EISDIR);
+  if (IsWrittenAsItIs(path_)) {
     part_path_ = path_;
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kForAll);
   } else {

@@ -15,12 +15,30 @@
 #include <string>
 #include <string_view>
 
+#include "common/file_descriptor.hpp"
 #include "common/problem.hpp"
 
 namespace levitas {
 
 /// Throws what is to be said of a file that could not be written, from errno.
 [[noreturn]] void CannotWrite(const std::string& path, int error);
+
+/// True for what is no regular file, and below /dev and /proc: see Direct.
+[[nodiscard]] bool IsWrittenAsItIs(const std::string& path);
+
+/// What becomes of a file, or of a symbolic link, that stands under the name already.
+enum class Standing { kKept, kReplaced };
+
+/// For a file that is read while it grows, so that it cannot appear at its end only: made new under
+/// its own name, never through a symbolic link. With kKept what is there is refused. Direct: as it
+/// is, and neither opening nor writing ever waits: a pipe that nobody reads is BadInput, a write to
+/// one that is full fails with EAGAIN. The descriptor is the caller's. Failure: as CannotWrite.
+[[nodiscard]] int OpenUnderItsName(const std::string& path, Standing standing);
+
+/// Throws BadInput for a named pipe that nobody has opened to read: to open it would wait for ever.
+/// For programs that no signal ends. Keep what it returns until the pipe is written: its reader
+/// takes the first close for the end.
+[[nodiscard]] FileDescriptor RefuseDeafPipe(const std::string& path);
 
 /// For writers that open a file by its name.
 class PartFile {

@@ -7,6 +7,8 @@
 // Thread   any. Failure: `refused` says why, as a clause without the path; `content` is then empty.
 // Not done no judgement of the content; who reads it clears it from memory where that matters.
 
+#include <sys/stat.h>
+
 #include <cstddef>
 #include <string>
 
@@ -16,6 +18,10 @@ struct PrivateFile {
   std::string content;  ///< at most the bytes that were asked for
   std::string refused;  ///< empty: it was read
 };
+
+/// Why a file with these facts is not private to the user `reader`; empty when it is.
+[[nodiscard]] std::string WhyNotPrivate(const struct stat& facts, uid_t reader,
+                                        const std::string& path);
 
 [[nodiscard]] PrivateFile ReadPrivateFile(const std::string& path, std::size_t most_bytes);
 

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace levitas::dashboard {
@@ -41,6 +42,25 @@ class AnswerStream final : public httplib::Stream {
   std::string_view unread_;
   std::optional<std::chrono::milliseconds> within_;
   std::optional<std::chrono::steady_clock::time_point> end_;  ///< from the first byte on
+};
+
+/// The same with the answer kept as text: nothing is waited for.
+class KeptAnswer final : public httplib::Stream {
+ public:
+  explicit KeptAnswer(std::string_view request) : unread_(request) {}
+
+  [[nodiscard]] bool is_readable() const override { return true; }
+  [[nodiscard]] bool is_writable() const override { return true; }
+  ssize_t read(char* to, std::size_t size) override;
+  ssize_t write(const char* from, std::size_t size) override;
+  void get_remote_ip_and_port(std::string& ip, int& port) const override;
+  void get_local_ip_and_port(std::string& ip, int& port) const override;
+  [[nodiscard]] socket_t socket() const override { return INVALID_SOCKET; }
+  [[nodiscard]] const std::string& text() const noexcept { return text_; }
+
+ private:
+  std::string_view unread_;
+  std::string text_;
 };
 
 }  // namespace levitas::dashboard

@@ -50,6 +50,15 @@ HttpAnswer NotUnderstood(const std::exception& problem) {
   return Answer(kHttpBadRequest, "not understood", problem.what());
 }
 
+/// JSON is YAML: a key a line, so that a problem's line tells which one.
+std::string StepYaml(const json& request) {
+  std::string yaml = "kind: excitation\n";
+  for (const auto& [key, value] : request.items()) yaml += key + ": " + value.dump() + '\n';
+  return yaml;
+}
+
+}  // namespace
+
 HttpAnswer Told(const CommandReply& reply) {
   switch (reply.outcome) {
     case CommandOutcome::kAccepted:
@@ -62,14 +71,13 @@ HttpAnswer Told(const CommandReply& reply) {
   return Answer(kHttpGatewayTimeout, "unanswered", reply.text);
 }
 
-/// JSON is YAML: a key a line, so that a problem's line tells which one.
-std::string StepYaml(const json& request) {
-  std::string yaml = "kind: excitation\n";
-  for (const auto& [key, value] : request.items()) yaml += key + ": " + value.dump() + '\n';
-  return yaml;
+bool AsksForStop(const std::string& body) {
+  try {
+    return Understand(body).command == OperatorCommand::kEmergencyStop;
+  } catch (const std::exception&) {
+    return false;  // AnswerCommand says what is wrong with it
+  }
 }
-
-}  // namespace
 
 HttpAnswer AnswerCommand(const std::string& body, const SendCommand& send) {
   CommandRequest request;

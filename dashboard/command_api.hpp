@@ -26,6 +26,11 @@ using SendExcitation = std::function<CommandReply(const std::string& step_yaml)>
 
 [[nodiscard]] HttpAnswer AnswerCommand(const std::string& body, const SendCommand& send);
 
+/// Whether a body of /api/command asks for an emergency stop, however it is written.
+[[nodiscard]] bool AsksForStop(const std::string& body);
+/// What became of a command, for the page.
+[[nodiscard]] HttpAnswer Told(const CommandReply& reply);
+
 /// `rig`: of the run; without one nothing can be checked, and nothing is sent.
 [[nodiscard]] HttpAnswer AnswerExcitation(const std::string& body,
                                           const std::optional<RigNumbers>& rig,

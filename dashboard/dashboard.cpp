@@ -4,6 +4,7 @@
 #include <exception>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "controller/rt/clock.hpp"
 #include "dashboard/announced_rig.hpp"
@@ -17,6 +18,8 @@
 namespace levitas::dashboard {
 namespace {
 
+constexpr std::chrono::milliseconds kHelloEvery{250};  // a challenge serves for eight of these
+
 constexpr std::int64_t Ns(std::chrono::nanoseconds duration) { return duration.count(); }
 
 }  // namespace
@@ -26,7 +29,7 @@ struct Dashboard::Impl {
        std::chrono::milliseconds patience)
       : receiver(network, transport::Direction::kTelemetry),
         commander(network, patience),
-        server(web, hub, Routes()),
+        server(web, hub, Routes(), Stops()),
         thread([this] { Run(); }) {}
 
   ~Impl() {
@@ -52,13 +55,26 @@ struct Dashboard::Impl {
     };
   }
 
+  StopRoute Stops() {
+    return {AsksForStop, [this](StopRoute::Done done) {
+              commander.Stop(
+                  [done = std::move(done)](const CommandReply& reply) { done(Told(reply)); });
+            }};
+  }
+
   void Run() {
     hub.Put(Topic::kRig, RigJson(run, started_ns));
+    receiver.HearUnproven();
     std::int64_t next_tick_ns = rt::MonotonicNowNs();
+    std::int64_t next_hello_ns = next_tick_ns;
     while (!stopping.load()) {
       const auto received = receiver.Receive(next_tick_ns);
       const std::int64_t now_ns = rt::MonotonicNowNs();
       if (!received.datagram.empty()) HearAnything(received, now_ns);
+      if (now_ns >= next_hello_ns) {
+        next_hello_ns = now_ns + Ns(kHelloEvery);
+        commander.SayHello();
+      }
       if (now_ns < next_tick_ns) continue;
       next_tick_ns = now_ns + Ns(kTick);
       Publish(now_ns);
@@ -77,6 +93,8 @@ struct Dashboard::Impl {
   void Hear(const transport::Received& received, std::int64_t now_ns) {
     const transport::Packet packet = transport::ParsePacket(received.datagram);
     if (packet.kind != transport::PacketKind::kShort) return;
+    if (packet.channel == transport::channel::kChallenge) return HearChallenge(received, packet);
+    if (!received.proven) return;
     if (packet.channel == transport::channel::kAnswer) {
       if (const auto answer = transport::ReadAnswer(packet.payload)) commander.Saw(*answer);
       return;
@@ -98,6 +116,15 @@ struct Dashboard::Impl {
       scope.RunIs(*run.rig());
       hub.Put(Topic::kRig, RigJson(run, started_ns));
     }
+  }
+
+  /// A controller whose clock differs from ours is known by its answer to our question.
+  void HearChallenge(const transport::Received& received, const transport::Packet& packet) {
+    const auto challenge = transport::ReadChallenge(packet.payload);
+    if (!challenge) return;
+    if (!received.proven && !commander.Asked(*challenge)) return;
+    if (!received.proven) receiver.Trust();
+    commander.Heard(*challenge);
   }
 
   void Publish(std::int64_t now_ns) {

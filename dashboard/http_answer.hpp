@@ -29,4 +29,14 @@ struct Route {
   std::function<HttpAnswer(const std::string& body)> answer;
 };
 
+/// The one request that waits for nothing: its path is that of a POST route, which answers every
+/// other body.
+struct StopRoute {
+  using Done = std::function<void(const HttpAnswer&)>;
+  /// Whether this body asks for an emergency stop; null: none does.
+  std::function<bool(const std::string& body)> asks{};
+  /// Stops, without waiting; `done` is called once, in any thread, perhaps before it returns.
+  std::function<void(Done done)> stop{};
+};
+
 }  // namespace levitas::dashboard

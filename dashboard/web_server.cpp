@@ -7,15 +7,16 @@
 #include <atomic>
 #include <chrono>
 #include <optional>
+#include <string_view>
 #include <utility>
 
-#include "common/enums.hpp"
 #include "common/problem.hpp"
 #include "dashboard/access.hpp"
 #include "dashboard/answer_stream.hpp"
 #include "dashboard/front_door.hpp"
 #include "dashboard/lane.hpp"
 #include "dashboard/page_files.hpp"
+#include "dashboard/stop_desk.hpp"
 
 namespace levitas::dashboard {
 namespace {
@@ -23,7 +24,6 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 
-constexpr std::size_t kStopThreads = 4;
 constexpr std::size_t kCommandThreads = 4;
 constexpr std::size_t kPageThreads = 4;
 // Two more than viewers: who is one too many is told so.
@@ -63,13 +63,21 @@ class Library : public httplib::Server {
     bool closed = false;
     (void)process_request(stream, true, closed, nullptr);
   }
+
+  /// What the routes and the checks before them say to this request, without a client.
+  [[nodiscard]] std::string Ask(const RequestReader& request) {
+    KeptAnswer answer(request.text());
+    bool closed = false;
+    (void)process_request(answer, true, closed, nullptr);
+    return answer.text();
+  }
 };
 
 }  // namespace
 
 struct WebServer::Impl {
-  Impl(const WebOptions& given, Hub& the_hub, std::vector<Route> the_routes)
-      : options(given), hub(the_hub), routes(std::move(the_routes)) {
+  Impl(const WebOptions& given, Hub& the_hub, std::vector<Route> the_routes, StopRoute the_stop)
+      : options(given), hub(the_hub), routes(std::move(the_routes)), stop(std::move(the_stop)) {
     server.set_socket_options(SetSocketOptions);
     server.set_pre_routing_handler([this](const Request& request, Response& response) {
       if (FromAnotherPage(request.get_header_value("Host"), request.get_header_value("Origin"),
@@ -85,22 +93,40 @@ struct WebServer::Impl {
     for (const Route& route : routes) Serve(route);
     ServePage();  // last: it takes every other path
     Bind();
-    door.emplace(server.listening(),
-                 [this](Asked& asked) { return LaneOf(asked.request).Put(asked); });
+    door.emplace(server.listening(), [this](Asked& asked) {
+      if (IsStop(asked.request)) return Stop(std::move(asked));
+      return LaneOf(asked.request).Put(asked);
+    });
   }
 
   ~Impl() {
     hub.Close();
+    stop_desk.Close();
     door->Close();  // the lanes end before it goes: they hand their connections back to it
   }
 
   Lane& LaneOf(const RequestReader& request) {
     if (request.path() == kEvents) return viewer_lane;
-    if (!request.post()) return page_lane;
-    const bool stop =
-        request.path() == kCommand &&
-        request.body().find(Name(OperatorCommand::kEmergencyStop)) != std::string::npos;
-    return stop ? stop_lane : command_lane;
+    return request.post() ? command_lane : page_lane;
+  }
+
+  [[nodiscard]] bool IsStop(const RequestReader& request) const {
+    return stop.asks && request.post() && request.path() == kCommand &&
+           stop.asks(std::string(request.body()));
+  }
+
+  /// In the front door's thread, which is the only one that passes here.
+  bool Stop(Asked asked) {
+    stop_passed = false;
+    const std::string refusal = server.Ask(asked.request);
+    if (!stop_passed) {
+      (void)::send(asked.connection.handle(), refusal.data(), refusal.size(),
+                   MSG_DONTWAIT | MSG_NOSIGNAL);
+      door->SeeOut(std::move(asked.connection));
+      return true;
+    }
+    stop.stop(stop_desk.Wait(std::move(asked.connection)));
+    return true;
   }
 
   void Answer(Asked asked) {
@@ -118,9 +144,14 @@ struct WebServer::Impl {
   }
 
   void Serve(const Route& route) {
-    const auto handler = [&route](const Request& request, Response& response) {
+    const auto handler = [this, &route](const Request& request, Response& response) {
       if (route.post && !request.has_header("X-Levitas")) {
         Refuse(response, kForbidden, "the header X-Levitas is missing");
+        return;
+      }
+      if (route.post && stop.asks && route.path == std::string_view(kCommand) &&
+          stop.asks(request.body)) {
+        stop_passed = true;  // this answer is not sent
         return;
       }
       const HttpAnswer answer = route.answer(request.body);
@@ -193,19 +224,21 @@ struct WebServer::Impl {
   WebOptions options;
   Hub& hub;
   const std::vector<Route> routes;
+  const StopRoute stop;
+  bool stop_passed{false};
   std::atomic<int> viewers{0};
   int port{0};
   Library server;
   std::optional<FrontDoor> door;
   const Lane::Serve serve{[this](Asked asked) { Answer(std::move(asked)); }};
-  Lane stop_lane{kStopThreads, kMostWaiting, serve};
+  StopDesk stop_desk{kMostStops, [this](FileDescriptor one) { door->SeeOut(std::move(one)); }};
   Lane command_lane{kCommandThreads, kMostWaiting, serve};
   Lane page_lane{kPageThreads, kMostWaiting, serve};
   Lane viewer_lane{kViewerThreads, kMostWaiting, serve};
 };
 
-WebServer::WebServer(const WebOptions& options, Hub& hub, std::vector<Route> routes)
-    : impl_(std::make_unique<Impl>(options, hub, std::move(routes))) {}
+WebServer::WebServer(const WebOptions& options, Hub& hub, std::vector<Route> routes, StopRoute stop)
+    : impl_(std::make_unique<Impl>(options, hub, std::move(routes), std::move(stop))) {}
 
 WebServer::~WebServer() = default;
 

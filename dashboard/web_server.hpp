@@ -10,8 +10,12 @@
 //           dropped (its browser comes back by itself); what the kernel holds for it is
 //           kSendBufferBytes. Any other answer must be taken within kAnswerWithin of its first
 //           byte.
-// Lanes     the emergency stop, other commands, the page and the viewers have threads of their own
-//           (lane.hpp): none can hold back another's.
+// Stop      an emergency stop is handed to `stop` in the thread that read it, as soon as its
+//           request is whole and its access checked; no thread, place or answer of anybody is
+//           waited for, and it is never told 503. kMostStops clients at a time wait for the word
+//           of the controller; who is one too many is told at once that the stop was sent.
+// Lanes     other commands, the page and the viewers have threads of their own (lane.hpp): none can
+//           hold back another's.
 // Access    access.hpp.
 // Thread    its own; the hub and the routes are called from there.
 // Failure   Problem (exit status 1) when the address cannot be bound, naming it.
@@ -40,7 +44,9 @@ class WebServer {
   static constexpr int kSendBufferBytes = 256 * 1024;
   static constexpr std::chrono::seconds kAnswerWithin{30};
 
-  WebServer(const WebOptions& options, Hub& hub, std::vector<Route> routes);
+  static constexpr std::size_t kMostStops = 256;
+
+  WebServer(const WebOptions& options, Hub& hub, std::vector<Route> routes, StopRoute stop = {});
   /// Closes the hub, so that the streams end, and joins.
   ~WebServer();
   WebServer(const WebServer&) = delete;

@@ -35,7 +35,7 @@ void WriteImport(const ImportOptions& options,
                  const std::function<void(const RecordTaker&)>& read) {
   PartFile part(options.out_path);
   try {
-    SessionWriter writer(part.part_path(), ImportHeader(options));
+    SessionWriter writer(part, ImportHeader(options));
     read([&writer](const cycle::CycleRecord& record) { writer.Write(record); });
     writer.Close();
   } catch (const WriteFailed& failed) {  // nothing of an import is kept

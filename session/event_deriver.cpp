@@ -78,6 +78,21 @@ void EventDeriver::ModeAndFault(const cycle::CycleRecord& record,
   }
 }
 
+// In off the drive is on only to brake a rotor that was found turning.
+void EventDeriver::Turning(const cycle::CycleRecord& record, std::vector<Event>& events) {
+  const bool off = record.out.mode == Mode::kOff;
+  if (off && record.out.current.drive_enabled && !turning_told_) {
+    turning_told_ = true;
+    events.push_back(
+        Make(record, Event::Severity::kWarning,
+             fmt::format(
+                 "the rotor turns at {} with the amplifiers off: the drive brakes it, and a lift "
+                 "is refused until it stands (cycle {})",
+                 Speed(record.in.frame.speed_rad_per_s), record.in.cycle)));
+  }
+  turning_told_ = turning_told_ && off;
+}
+
 void EventDeriver::Tell(Tally& tally, const cycle::CycleRecord& record, const char* what,
                         std::vector<Event>& events) const {
   events.push_back(
@@ -108,6 +123,7 @@ void EventDeriver::Step(const cycle::CycleRecord& record, std::vector<Event>& ev
   }
   Command(record, events);
   ModeAndFault(record, events);
+  Turning(record, events);
   Add(missed_deadlines_, record.in.missed_deadlines, record.in.cycle, record, kMissedDeadline,
       events);
   // Before the rig's first frame nothing is missing: it is being waited for.

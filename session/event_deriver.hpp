@@ -1,6 +1,7 @@
 #pragma once
 // Derives what a person should know from consecutive cycle records: mode changes, trips, refused
-// commands, missing frames, missed deadlines, restarts of the rig, records lost on the way here.
+// commands, a rotor that turns while the amplifiers are off, missing frames, missed deadlines,
+// restarts of the rig, records lost on the way here.
 //
 // Purity   same records, same events; no clock, no I/O.
 // Flood    missing frames, missed deadlines and lost records are summed up: one event at the
@@ -39,6 +40,7 @@ class EventDeriver {
   void Lost(const cycle::CycleRecord& record, std::vector<Event>& events);
   void Command(const cycle::CycleRecord& record, std::vector<Event>& events) const;
   void ModeAndFault(const cycle::CycleRecord& record, std::vector<Event>& events) const;
+  void Turning(const cycle::CycleRecord& record, std::vector<Event>& events);
   void Add(Tally& tally, std::uint64_t count, std::uint64_t first_cycle,
            const cycle::CycleRecord& record, const char* what, std::vector<Event>& events) const;
   void Tell(Tally& tally, const cycle::CycleRecord& record, const char* what,
@@ -48,6 +50,7 @@ class EventDeriver {
   std::uint64_t second_cycles_;
   bool have_previous_{false};
   cycle::CycleRecord previous_;
+  bool turning_told_{false};  ///< since the mode became off
   Tally lost_records_;
   Tally missing_frames_;
   Tally missed_deadlines_;

@@ -12,6 +12,7 @@
 
 #include "common/output_file.hpp"
 #include "session/export_rows.hpp"
+#include "session/mat_handles.hpp"
 
 namespace levitas::session {
 namespace {
@@ -19,24 +20,16 @@ namespace {
 /// A variable of version 5 counts its bytes in 31 bits, its own names and sizes included.
 constexpr std::size_t kMostRows = ((std::size_t{1} << 31U) - 4096) / sizeof(double);
 
-struct FreeVariable {
-  void operator()(matvar_t* variable) const noexcept { Mat_VarFree(variable); }
-};
-
 bool WriteVector(mat_t* file, const std::string& name, std::vector<double>& numbers) {
   std::array<std::size_t, 2> size{numbers.size(), 1};
-  const std::unique_ptr<matvar_t, FreeVariable> variable(
+  const std::unique_ptr<matvar_t, FreeMatVariable> variable(
       Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), numbers.data(),
                     MAT_F_DONT_COPY_DATA));
   return variable && Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE) == 0;
 }
 
-struct CloseFile {
-  void operator()(mat_t* file) const noexcept { Mat_Close(file); }
-};
-
 bool Holds(mat_t* file, const std::string& name, const std::vector<double>& numbers) {
-  const std::unique_ptr<matvar_t, FreeVariable> variable(Mat_VarRead(file, name.c_str()));
+  const std::unique_ptr<matvar_t, FreeMatVariable> variable(Mat_VarRead(file, name.c_str()));
   const std::size_t bytes = numbers.size() * sizeof(double);
   return variable && variable->data_type == MAT_T_DOUBLE && variable->nbytes == bytes &&
          (bytes == 0 || std::memcmp(variable->data, numbers.data(), bytes) == 0);
@@ -46,7 +39,7 @@ bool Holds(mat_t* file, const std::string& name, const std::vector<double>& numb
 /// should hold.
 bool Verified(const std::string& path, const std::vector<std::string>& names,
               const std::vector<std::vector<double>>& columns) {
-  const std::unique_ptr<mat_t, CloseFile> file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+  const std::unique_ptr<mat_t, CloseMat> file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   for (std::size_t i = 0; file && i < columns.size(); ++i) {
     if (!Holds(file.get(), names[i], columns[i])) return false;
   }

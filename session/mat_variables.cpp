@@ -8,18 +8,10 @@
 #include <memory>
 
 #include "common/problem.hpp"
+#include "session/mat_handles.hpp"
 
 namespace levitas::session {
 namespace {
-
-struct CloseFile {
-  void operator()(mat_t* file) const noexcept { (void)Mat_Close(file); }
-};
-struct FreeVariable {
-  void operator()(matvar_t* variable) const noexcept { Mat_VarFree(variable); }
-};
-using File = std::unique_ptr<mat_t, CloseFile>;
-using Variable = std::unique_ptr<matvar_t, FreeVariable>;
 
 template <class Number>
 std::vector<double> Converted(const matvar_t& variable, std::size_t count) {
@@ -119,12 +111,12 @@ MatTable ReadMatInThisProcess(const std::string& path, const std::string& matrix
                               const std::vector<std::string>& matrix_rows) {
   std::error_code unknown;
   const std::uint64_t file_bytes = std::filesystem::file_size(path, unknown);
-  const File file(unknown ? nullptr : Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+  const MatHandle file(unknown ? nullptr : Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   if (!file) throw BadInput(path + ": cannot be read as a MAT file");
   const bool hdf5 = Mat_GetVersion(file.get()) == MAT_FT_MAT73;
   std::uint64_t taken = 0;
   MatTable vectors;
-  for (Variable variable(Mat_VarReadNextInfo(file.get())); variable;
+  for (MatVariable variable(Mat_VarReadNextInfo(file.get())); variable;
        variable.reset(Mat_VarReadNextInfo(file.get()))) {
     const std::string name = variable->name == nullptr ? "" : variable->name;
     const std::string where = fmt::format("{}: {}", path, name);

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <numbers>
@@ -58,6 +60,28 @@ class SlopeOfAngle {
   double speed_{};
 };
 
+/// Tells a file of another sampling rate from one with drop-outs.
+class SamplingRate {
+ public:
+  void Count(std::uint64_t steps) noexcept {
+    ++rows_;
+    ++of_[std::min<std::uint64_t>(steps, of_.size() - 1)];
+  }
+  /// The whole number of periods that more than half of the steps have; 1 when none has.
+  [[nodiscard]] std::uint64_t periods() const noexcept {
+    const auto most = std::ranges::max_element(of_);
+    const auto steps = static_cast<std::uint64_t>(most - of_.begin());
+    // Of a few rows nothing can be said, and the last count holds all longer steps.
+    const bool sure = rows_ >= kFewest && 2 * *most > rows_ && steps + 1 < of_.size();
+    return sure ? steps : 1;
+  }
+
+ private:
+  static constexpr std::uint64_t kFewest = 10;
+  std::uint64_t rows_{};
+  std::array<std::uint64_t, 1002> of_{};  ///< by length: down to a thousandth of the rate
+};
+
 /// Turns rows into records: cycle numbers from time, rotation completed.
 class RecordMaker {
  public:
@@ -108,6 +132,17 @@ class RecordMaker {
     return record;
   }
 
+  /// Refuses a file that was sampled at a whole part of the rig's rate.
+  void RefuseOtherRate(const RowSource& reader) const {
+    const std::uint64_t periods = rate_.periods();
+    if (periods <= 1) return;
+    const double hz = 1.0 / rig_.period_s();
+    throw reader.Bad(fmt::format(
+        "the file's rate is {:g} Hz, the rig's {:g} Hz: most of its rows are {} periods "
+        "apart. Give a rig file with the period of the data, or resample them",
+        hz / static_cast<double>(periods), hz, periods));
+  }
+
  private:
   // The one axis of the rig: where it is by its gap, what was commanded by its duties.
   void Convert(CsvRow& row, double& bias_a) const {
@@ -135,7 +170,14 @@ class RecordMaker {
           "step must be a whole number of periods",
           last_->time_s, row.time_s, periods, rig_.period_s()));
     }
+    if (whole > std::round(kLongestGapS / rig_.period_s())) {
+      throw reader.Bad(fmt::format(
+          "time_s goes from {} to {}: a gap of {:.6g} s; allowed {:g} s. Split the file "
+          "there, into one session each",
+          last_->time_s, row.time_s, row.time_s - last_->time_s, kLongestGapS));
+    }
     const auto steps = static_cast<std::uint64_t>(whole);
+    rate_.Count(steps);
     if (steps > 1) {
       ++report.drop_outs;
       report.missing_cycles += steps - 1;
@@ -161,6 +203,7 @@ class RecordMaker {
   SlopeOfAngle slope_;
   std::optional<CsvRow> last_;
   std::uint64_t cycle_{0};
+  SamplingRate rate_;
 };
 
 ImportReport ReportOf(const CsvLayout& layout) {
@@ -206,6 +249,7 @@ ImportReport ReadRecords(RowSource& rows, const MeasuredData& data, const Record
     take(record);
   }
   if (report.rows == 0) throw rows.Bad("no rows follow the column names");
+  maker.RefuseOtherRate(rows);
   if (first) take(*first);
   report.duration_s = row.time_s - first_time_s;
   return report;

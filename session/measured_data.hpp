@@ -6,7 +6,9 @@
 //           difference, bias half the sum, in amperes that full duty would drive at last. The gap
 //           of the coil towards + becomes the position, gap at the centre minus gap.
 // Time      each row is one sample; steps in time_s are whole periods of the rig (within a
-//           quarter); a longer step is a recorded drop-out, whose cycles have no record.
+//           quarter); a longer step is a recorded drop-out, whose cycles have no record. A step
+//           beyond kLongestGapS is refused, and so is a file most of whose steps are longer than
+//           a period: it was sampled at another rate.
 // Speed     from speed_rpm, else from the slope of rotor_angle_rad over 20 rows, else 0.
 // Angle     from rotor_angle_rad (any number of turns), else integrated from speed_rpm.
 // Mode      the file does not know it: levitating, or spinning when the rotor turns.
@@ -25,6 +27,8 @@
 #include "session/csv_rows.hpp"
 
 namespace levitas::session {
+
+inline constexpr double kLongestGapS = 60.0;
 
 /// Receives the records of a file in the order of their cycles.
 using RecordTaker = std::function<void(const cycle::CycleRecord&)>;

@@ -30,8 +30,8 @@ constexpr int kFileOfSet = 1;
 constexpr int kFileName = 1, kFilePackage = 2, kFileMessage = 4, kFileSyntax = 12;
 constexpr int kMessageName = 1, kMessageField = 2;
 constexpr int kFieldName = 1, kFieldNumber = 3, kFieldLabel = 4, kFieldType = 5;
-constexpr int kLabelOptional = 1;
-constexpr int kTypeDouble = 1, kTypeString = 9;
+constexpr std::uint64_t kLabelOptional = 1;
+constexpr std::uint64_t kTypeDouble = 1, kTypeString = 9;
 
 }  // namespace
 

@@ -14,7 +14,6 @@
 #include "common/spsc_ring.hpp"
 #include "controller/rt/thread_trouble.hpp"
 #include "session/event_deriver.hpp"
-#include "session/session_writer.hpp"
 #include "session/trip_freezer.hpp"
 
 namespace levitas::session {
@@ -43,7 +42,8 @@ struct Recorder::Impl {
         ring(kRingRecords),
         deriver(options.header.channels, options.header.period_ns) {
     if (!options.session_path.empty()) {
-      session = std::make_unique<SessionWriter>(options.session_path, options.header);
+      session = std::make_unique<SessionWriter>(options.session_path, options.header,
+                                                Standing::kReplaced, options.patience);
       recording = true;
     }
     SessionHeader excerpt = options.header;
@@ -141,13 +141,25 @@ struct Recorder::Impl {
       freezer->Abandon();
       Warn(error.what());
     }
+    TellTripFolder();
+  }
+
+  /// What this run removed of its own, and once what it found of earlier runs.
+  void TellTripFolder() {
+    const OlderTrips older = freezer->TakeOlder();
+    if (older.files >= options.trip_budget.files || older.bytes > options.trip_budget.bytes) {
+      Warn(
+          fmt::format("trip folder: {} trip files of earlier runs, {} MB, are kept: remove them "
+                      "when they are no longer needed",
+                      older.files, older.bytes >> 20U));
+    }
     const std::vector<std::string> removed = freezer->TakeRemoved();
     if (removed.empty()) return;
     std::string names;
     for (const std::string& name : removed) names += (names.empty() ? "" : ", ") + name;
     Warn(
-        fmt::format("removed from the trip folder, which takes {} files and {} MB (--trip-budget): "
-                    "{}",
+        fmt::format("trip folder: older ones of this run removed, of which it keeps {} files and "
+                    "{} MB (--trip-budget): {}",
                     options.trip_budget.files, options.trip_budget.bytes >> 20U, names));
   }
 

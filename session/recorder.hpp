@@ -6,12 +6,14 @@
 // Loop side   Post: wait-free, never allocates; full means lost and counted. With `waits_for_room`
 //             (lockstep: no instant is missed by waiting) a full ring is waited for instead.
 // Safety      written data reaches the kernel at least every 50 ms.
-// Failure     a file that takes no more ends the recording with one message; of trip files it ends
-//             the one that was being written, and the next trip is frozen again. An exception
+// Failure     a file that takes no more, or a pipe whose reader has stopped for `patience`, ends
+//             the recording with one message (a loop that waits waits that long); of trip files it
+//             ends the one that was being written, and the next trip is frozen again. An exception
 //             elsewhere is noted (controller/rt/thread_trouble.hpp). Records are taken on.
 // Events      are also handed to `on_event` (recorder's thread), for telemetry and the console.
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -19,6 +21,7 @@
 
 #include "controller/cycle/cycle_io.hpp"
 #include "session/session_header.hpp"
+#include "session/session_writer.hpp"
 #include "session/trip_budget.hpp"
 
 namespace levitas::session {
@@ -27,8 +30,9 @@ struct RecorderOptions {
   std::string session_path;  ///< empty: nothing is recorded (trips still freeze)
   std::string trip_folder;   ///< where trip files go
   SessionHeader header;
-  TripBudget trip_budget;      ///< of the trip folder
-  double trip_window_s{0.5};   ///< before and after
+  TripBudget trip_budget;                         ///< of this run's trip files
+  double trip_window_s{0.5};                      ///< before and after
+  std::chrono::milliseconds patience{kPatience};  ///< with a reader of a pipe that stops
   bool waits_for_room{false};  ///< Post waits instead of losing; never in real time
   std::function<void(const Event&)> on_event;
   std::function<void(const cycle::CycleRecord&)> on_record;  ///< every record, recorder's thread

@@ -2,9 +2,10 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/stat.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -21,18 +22,38 @@ constexpr std::size_t kBufferBytes = std::size_t{256} << 10;
 // session whose first block is damaged is then still readable.
 constexpr std::uint64_t kRecordsPerHeaderCopy = 100'000;
 
+int DescriptorOf(const PartFile& file) {
+  const int own = ::fcntl(file.descriptor(), F_DUPFD_CLOEXEC, 0);
+  if (own < 0) CannotWrite(file.path(), errno);
+  return own;
+}
+
+// In short steps, so that time in which this process does not run does not count: the reader may
+// not have run either.
+bool AwaitRoom(int fd, std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds kStep{50};
+  for (auto left = patience; left.count() > 0; left -= kStep) {
+    pollfd room{.fd = fd, .events = POLLOUT, .revents = 0};
+    if (::poll(&room, 1, static_cast<int>(std::min(left, kStep).count())) > 0) return true;
+  }
+  return false;
+}
+
+std::string Why(int error) {
+  return error == EAGAIN ? "the reader of this pipe takes nothing any more" : std::strerror(error);
+}
+
 }  // namespace
 
 struct SessionWriter::Impl {
-  Impl(std::string file_path, const SessionHeader& header)
+  Impl(int descriptor, std::string file_path, const SessionHeader& header,
+       std::chrono::milliseconds patience_with_readers)
       : path(std::move(file_path)),
+        patience(patience_with_readers),
         codec(header.channels.size()),
         period_ns(header.period_ns),
-        start_utc_ns(header.start_utc_ns) {
-    fd = ::open(path.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
-    if (fd < 0) {
-      CannotWrite(path, errno);
-    }
+        start_utc_ns(header.start_utc_ns),
+        fd(descriptor) {
     buffer.reserve(kBufferBytes + kMaxDataBytes / 16);
     EncodeHeader(header, header_bytes);
     Append(kHeaderChannel, header_bytes, start_utc_ns / 1000);
@@ -63,6 +84,10 @@ struct SessionWriter::Impl {
     while (done < buffer.size()) {
       const ssize_t wrote = ::write(fd, buffer.data() + done, buffer.size() - done);
       if (wrote < 0 && errno == EINTR) continue;
+      if (wrote < 0 && errno == EAGAIN) {
+        if (AwaitRoom(fd, patience)) continue;
+        errno = EAGAIN;
+      }
       if (wrote <= 0) {
         const int error = errno;
         buffer.clear();  // so that the destructor does not try, and fail, again
@@ -88,6 +113,7 @@ struct SessionWriter::Impl {
   }
 
   std::string path;
+  std::chrono::milliseconds patience;
   RecordCodec codec;
   std::int64_t period_ns;
   std::int64_t start_utc_ns;
@@ -107,11 +133,17 @@ struct SessionWriter::Impl {
 WriteFailed::WriteFailed(const std::string& path, int error)
     : Problem(ExitStatus::kOther,
               fmt::format("{}: recording stopped: {}. What was written before is readable.", path,
-                          std::strerror(error))),
+                          Why(error))),
       error_(error) {}
 
-SessionWriter::SessionWriter(const std::string& path, const SessionHeader& header)
-    : impl_(std::make_unique<Impl>(path, header)) {
+SessionWriter::SessionWriter(const std::string& path, const SessionHeader& header,
+                             Standing standing, std::chrono::milliseconds patience)
+    : impl_(std::make_unique<Impl>(OpenUnderItsName(path, standing), path, header, patience)) {
+  impl_->Flush();
+}
+
+SessionWriter::SessionWriter(const PartFile& file, const SessionHeader& header)
+    : impl_(std::make_unique<Impl>(DescriptorOf(file), file.path(), header, kPatience)) {
   impl_->Flush();
 }
 

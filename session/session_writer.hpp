@@ -4,16 +4,25 @@
 //
 // Integrity  every record carries its cycle number and a CRC-32.
 // Thread     one thread, not the loop's (see Recorder). Write reuses its buffers.
-// Failure    BadInput when the file cannot be created; a full disk throws WriteFailed.
+// File       made new under its name from the first byte on, never through a symbolic link
+//            (common/output_file.hpp): a session that grows can be read.
+// Pipe       of a reader that stops reading: waited for, no longer than the patience at once.
+// Failure    BadInput when the file cannot be created or is a pipe that nobody reads; a full disk,
+//            and a reader beyond the patience, throw WriteFailed.
 
+#include <chrono>
 #include <memory>
 #include <string>
 
+#include "common/output_file.hpp"
 #include "common/problem.hpp"
 #include "controller/cycle/cycle_io.hpp"
 #include "session/session_header.hpp"
 
 namespace levitas::session {
+
+/// With a reader that takes nothing: below the 30 s after which a rig gives its controller up.
+inline constexpr std::chrono::milliseconds kPatience{5000};
 
 class WriteFailed : public Problem {
  public:
@@ -27,7 +36,12 @@ class WriteFailed : public Problem {
 
 class SessionWriter {
  public:
-  SessionWriter(const std::string& path, const SessionHeader& header);
+  /// What stands under the name is replaced, unless it is to be kept: then it is refused.
+  SessionWriter(const std::string& path, const SessionHeader& header,
+                Standing standing = Standing::kReplaced,
+                std::chrono::milliseconds patience = kPatience);
+  /// Into a file that appears when it is whole; `file` commits it.
+  SessionWriter(const PartFile& file, const SessionHeader& header);
   ~SessionWriter();
   SessionWriter(const SessionWriter&) = delete;
   SessionWriter& operator=(const SessionWriter&) = delete;

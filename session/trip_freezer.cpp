@@ -1,12 +1,17 @@
 #include "session/trip_freezer.hpp"
 
+#include <fcntl.h>
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <utility>
+
+#include "common/file_descriptor.hpp"
+#include "common/output_file.hpp"
 
 namespace levitas::session {
 namespace {
@@ -16,12 +21,21 @@ std::uint64_t Cycles(double window_s, std::int64_t period_ns) {
   return static_cast<std::uint64_t>(std::llround(std::max(window_s, 0.0) / period_s));
 }
 
-/// A path that does not exist yet: two trips in one millisecond get numbers.
-std::string FreePath(const std::string& folder, const std::string& name) {
+/// Makes the file empty, or says that the name is taken: by whatever it is, a link to nothing too.
+bool MakesNew(const std::string& path) {
+  const FileDescriptor file(
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644));
+  if (file.is_open()) return true;
+  if (errno != EEXIST) CannotWrite(path, errno);
+  return false;
+}
+
+/// The path of a file that did not exist and is ours now: two trips in one millisecond get numbers.
+std::string NewFile(const std::string& folder, const std::string& name) {
   namespace fs = std::filesystem;
   const fs::path base = fs::path(folder.empty() ? "." : folder) / name;
   fs::path path = base;
-  for (int copy = 2; fs::exists(path); ++copy) {
+  for (int copy = 2; !MakesNew(path.string()); ++copy) {
     path = base;
     path.replace_filename(
         fmt::format("{}-{}{}", base.stem().string(), copy, base.extension().string()));
@@ -59,7 +73,10 @@ void TripFreezer::Open(const cycle::CycleRecord& record) {
   if (filled_ > 0) header.start_utc_ns = utc_ns(before_[oldest].in.cycle);
   if (header.excerpt_of.empty()) header.excerpt_of = "an unrecorded run";
   if (!folder_.empty()) std::filesystem::create_directories(folder_);
-  path_ = FreePath(folder_, TripFileName(utc_ns(record.in.cycle), record.out.fault));
+  if (!looked_) older_ = OlderTripFiles(folder_, written_);
+  looked_ = true;
+  path_ = NewFile(folder_, TripFileName(utc_ns(record.in.cycle), record.out.fault));
+  written_.push_back(std::filesystem::path(path_).filename().string());
   file_ = std::make_unique<SessionWriter>(path_, header);
   for (std::size_t i = 0; i < filled_; ++i) {
     const cycle::CycleRecord& kept = before_[(oldest + i) % before_.size()];
@@ -113,7 +130,7 @@ void TripFreezer::Abandon() {
 }
 
 void TripFreezer::MakeRoom() {
-  for (std::string& name : KeepWithin(budget_, folder_, path_)) {
+  for (std::string& name : KeepWithin(budget_, folder_, written_)) {
     removed_.push_back(std::move(name));
   }
 }

@@ -7,7 +7,8 @@
 // Safety   the file is readable from its first moment on; Finish (or kill -9) leaves what was
 //          there.
 // Thread   one thread (the recorder's). Memory for the window is made at construction.
-// Budget   older trip files of the folder make room for a new one, see trip_budget.hpp.
+// Budget   older trip files of this run make room for a new one, see trip_budget.hpp; those of
+//          earlier runs stay.
 // Failure  BadInput or Problem when the file cannot be written; Abandon then makes it ready for the
 //          next trip, of which no record is missing.
 
@@ -38,6 +39,9 @@ class TripFreezer {
   void Abandon();
   /// Names of the files that had to make room since the last call.
   [[nodiscard]] std::vector<std::string> TakeRemoved() { return std::exchange(removed_, {}); }
+  /// Trip files of earlier runs in the folder, found when the first file was opened and reported
+  /// once; 0 files afterwards.
+  [[nodiscard]] OlderTrips TakeOlder() { return std::exchange(older_, {}); }
   /// Path of the newest closed file, empty if none.
   [[nodiscard]] const std::string& newest() const noexcept { return newest_; }
 
@@ -58,7 +62,10 @@ class TripFreezer {
   std::string path_;
   std::string newest_;
   TripBudget budget_;
+  std::vector<std::string> written_;  ///< names of this run's files, oldest first
   std::vector<std::string> removed_;
+  OlderTrips older_;
+  bool looked_{false};           ///< for those of earlier runs
   std::uint64_t last_cycle_{0};  ///< of the open file
 };
 

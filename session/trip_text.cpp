@@ -28,7 +28,7 @@ constexpr std::array<Row, kFaultCount> kRows{{
     {"the position sensor is out of its range", kMicro, "um"},
     {"the position sensor is frozen", 1.0, "equal readings"},
     {"the position sensor gives no number", 1.0, nullptr},
-    {"sensor frames are missing", 1.0, "cycles in a row"},
+    {"sensor frames are missing", 1.0, "cycles"},
     {"too many deadlines were missed", 1.0, "periods"},
     {"the coil current is at its limit for too long", 1.0, "s"},
     {"the rotor is too fast", kRpmPerRadPerS, "rpm"},
@@ -39,6 +39,8 @@ constexpr std::array<Row, kFaultCount> kRows{{
     {"the rotor did not reach the centre in time", kMicro, "um"},
     {"the speed is not known", 1.0, nullptr},
     {"the control law gives no number", 1.0, nullptr},
+    {"too many sensor frames were lost", 1.0, "cycles"},
+    {"too many currents came late, the rig held the last ones", 1.0, "periods"},
 }};
 
 constexpr const char* kLateRemedy =
@@ -74,6 +76,11 @@ std::string TripText(const cycle::CycleRecord& record, const std::vector<std::st
   if (record.out.fault == Fault::kSelfTestFailed && record.out.fault_axis < 0) {
     row = {"the self-test failed: the rotor turns", kRpmPerRadPerS, "rpm"};
   }
+  // With figures it is not a report of the rig: what was read, and what can have been.
+  if (record.out.fault == Fault::kSpeedUnknown && record.out.fault_limit != 0.0) {
+    row = {"the speed is not known: what is read contradicts what the drive can do", kRpmPerRadPerS,
+           "rpm"};
+  }
   // With a limit it is not a report of the rig but the lack of one.
   if (record.out.fault == Fault::kAmplifierFault && record.out.fault_limit > 0.0) {
     row = {"the amplifiers do not report that they are on", 1.0, "cycles in a row"};
@@ -83,8 +90,9 @@ std::string TripText(const cycle::CycleRecord& record, const std::vector<std::st
     numbers = fmt::format(": {:.4g} {}, allowed {:.4g} {}", record.out.fault_value * row.factor,
                           row.unit, record.out.fault_limit * row.factor, row.unit);
   }
-  const bool of_time =
-      record.out.fault == Fault::kFrameMissing || record.out.fault == Fault::kDeadlineMissed;
+  const Fault fault = record.out.fault;
+  const bool of_time = fault == Fault::kFrameMissing || fault == Fault::kDeadlineMissed ||
+                       fault == Fault::kFramesLost || fault == Fault::kCurrentsLate;
   return fmt::format(
       "TRIP {} in cycle {}: {}{}{}. {}{} When it stands and the cause is "
       "gone, give the command reset.",

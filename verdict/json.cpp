@@ -134,6 +134,12 @@ Object Trip(const Inputs& in) {
           {"count", in.session.trips}};
 }
 
+Object Release(const Inputs& in) {
+  if (!in.session.release) return nullptr;
+  const ReleaseFigures& release = *in.session.release;
+  return {{"time_s", release.time_s}, {"speed_rpm", Number(RadPerSToRpm(release.speed_rad_per_s))}};
+}
+
 Object Duration(const DurationFigures& row) {
   return {{"count", row.count},
           {"p50_ns", row.p50_ns},
@@ -234,6 +240,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
           {"orbit_over_speed", Profile(in)},
           {"modes", Modes(in)},
           {"trip", Trip(in)},
+          {"released_at_speed", Release(in)},
           {"timing", Timing(in)},
           {"damage", in.damage}};
 }

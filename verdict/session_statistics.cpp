@@ -24,7 +24,10 @@ double Radius(double x_m, double y_m) {
 
 SessionStatistics::SessionStatistics(const RigNumbers& rig, double standstill_rad_per_s,
                                      double settle_s)
-    : rig_(rig), frame_(rig), splitter_(standstill_rad_per_s, Cycles(settle_s, rig)) {
+    : rig_(rig),
+      frame_(rig),
+      splitter_(standstill_rad_per_s, Cycles(settle_s, rig)),
+      standstill_rad_per_s_(standstill_rad_per_s) {
   standing_.bearings.resize(rig.bearings.size());
   spinning_.bearings.resize(rig.bearings.size());
 }
@@ -41,6 +44,7 @@ void SessionStatistics::Add(const cycle::CycleRecord& record) {
   ++figures_.cycles;
   AddLosses(record);
   AddMode(record);
+  AddRelease(record);
   const double speed_rad_per_s = record.in.frame.speed_rad_per_s;
   figures_.top_speed_rad_per_s = std::max(figures_.top_speed_rad_per_s, std::abs(speed_rad_per_s));
   const Phase phase = splitter_.Next(record.in.cycle, record.out.mode, speed_rad_per_s);
@@ -69,6 +73,30 @@ void SessionStatistics::AddLosses(const cycle::CycleRecord& record) {
   first_frame_ = false;
   rig_session_ = frame.rig_session;
   previous_held_ = frame.held_currents;
+}
+
+// The frame before counts too: what switches the amplifiers off may be a single wrong speed. Two
+// frames must show that it turned, since one may as well be wrong in the other direction.
+void SessionStatistics::AddRelease(const cycle::CycleRecord& record) {
+  const double speed_rad_per_s = std::abs(record.in.frame.speed_rad_per_s);
+  const bool energised = record.out.current.amplifiers_enabled;
+  if (energised_ && !energised && !figures_.release) {
+    letting_go_ = ReleaseFigures{TimeOf(record), last_speed_rad_per_s_};
+  }
+  if (energised) letting_go_.reset();
+  energised_ = energised;
+  last_speed_rad_per_s_ = speed_rad_per_s;
+  if (!letting_go_ || figures_.release) return;
+  if (TimeOf(record) - letting_go_->time_s > kReleaseWindowS) {
+    letting_go_.reset();
+    return;
+  }
+  if (!(speed_rad_per_s > standstill_rad_per_s_)) return;
+  if (letting_go_->speed_rad_per_s > standstill_rad_per_s_) {
+    figures_.release = letting_go_;
+    figures_.release->speed_rad_per_s = std::min(letting_go_->speed_rad_per_s, speed_rad_per_s);
+  }
+  letting_go_->speed_rad_per_s = speed_rad_per_s;
 }
 
 void SessionStatistics::AddMode(const cycle::CycleRecord& record) {

@@ -72,6 +72,16 @@ struct TripFigures {
   double speed_rad_per_s{};
 };
 
+/// The amplifiers went off while the rotor turned, on purpose or not.
+struct ReleaseFigures {
+  double time_s{};
+  double speed_rad_per_s{};  ///< magnitude, shown by two frames
+};
+
+/// A rotor that turns does not stop within this time, so a speed read this long after the
+/// amplifiers went off shows that it turned then, whatever the one frame said on which they did.
+inline constexpr double kReleaseWindowS = 0.05;
+
 struct ModeSpan {
   Mode mode{};
   double start_s{};
@@ -86,12 +96,13 @@ struct SessionFigures {
   std::vector<ProfileBin>
       profile;  ///< spinning only, by rising speed, bins without cycles left out
   std::vector<ModeSpan> modes;
-  std::optional<TripFigures> trip;  ///< the first one
-  std::uint64_t trips{};            ///< faults latched
-  std::uint64_t missing_frames{};   ///< cycles that had no new sensor frame
-  std::uint64_t skipped_periods{};  ///< periods in which no cycle was started
-  std::uint64_t held_currents{};    ///< periods in which the rig reused an old current
-  std::uint64_t missing_records{};  ///< gaps in the cycle numbers
+  std::optional<TripFigures> trip;        ///< the first one
+  std::uint64_t trips{};                  ///< faults latched
+  std::optional<ReleaseFigures> release;  ///< the first one at speed
+  std::uint64_t missing_frames{};         ///< cycles that had no new sensor frame
+  std::uint64_t skipped_periods{};        ///< periods in which no cycle was started
+  std::uint64_t held_currents{};          ///< periods in which the rig reused an old current
+  std::uint64_t missing_records{};        ///< gaps in the cycle numbers
 };
 
 inline constexpr double kProfileBinRadPerS = RpmToRadPerS(50.0);
@@ -124,6 +135,7 @@ class SessionStatistics {
   void AddCurrents(const cycle::CycleRecord& record, PhaseSums& sums) const;
   void AddMode(const cycle::CycleRecord& record);
   void AddLosses(const cycle::CycleRecord& record);
+  void AddRelease(const cycle::CycleRecord& record);
   [[nodiscard]] double TimeOf(const cycle::CycleRecord& record) const;
   [[nodiscard]] PhaseFigures Summary(const PhaseSums& sums) const;
 
@@ -136,6 +148,10 @@ class SessionStatistics {
   std::uint64_t first_cycle_{}, previous_cycle_{};
   std::uint32_t previous_held_{}, rig_session_{};
   Fault previous_fault_{Fault::kNone};
+  double standstill_rad_per_s_;
+  bool energised_{false};
+  double last_speed_rad_per_s_{};
+  std::optional<ReleaseFigures> letting_go_;  ///< amplifiers just off, its window not yet over
   bool first_frame_{true};
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 4> kOutcomes{"accepted", "not_accepted", "tripped",
                                                     "incomplete"};
 
-double Um(double length_m) { return length_m * 1e6; }
+double Micrometres(double length_m) { return length_m * 1e6; }
 
 void JudgePhase(const RigNumbers& rig, const PhaseFigures& phase, bool spinning,
                 std::vector<OrbitJudgement>& orbits) {
@@ -37,8 +37,8 @@ void ObjectToOrbit(const OrbitJudgement& at, std::vector<std::string>& objection
       at.spinning ? fmt::format(" at {:.0f} rpm", RadPerSToRpm(at.orbit.max_speed_rad_per_s)) : "";
   if (!at.met) {
     objections.push_back(fmt::format("{} orbit {:.1f} um {} exceeds {:.1f} um{}", at.bearing,
-                                     Um(at.orbit.max_m), While(at.spinning), Um(at.objective_m),
-                                     where));
+                                     Micrometres(at.orbit.max_m), While(at.spinning),
+                                     Micrometres(at.objective_m), where));
   }
   if (!Acceptable(at.zone)) {
     objections.push_back(fmt::format("{} displacement of {:.2f} clearances {} is zone {}{}",
@@ -104,6 +104,13 @@ std::string TripSentence(const Inputs& in) {
                      Name(trip.mode_before), RadPerSToRpm(trip.speed_rad_per_s), trip.time_s);
 }
 
+std::string ReleaseSentence(const ReleaseFigures& release) {
+  return fmt::format(
+      "the amplifiers went off while the rotor turned at {:.0f} rpm, {:.3f} s after "
+      "the start",
+      RadPerSToRpm(release.speed_rad_per_s), release.time_s);
+}
+
 /// "standing 4.1 um (objective 7.0 um)" for the worst bearing of a phase, or that it was not run.
 std::string WorstOf(const std::vector<OrbitJudgement>& orbits, bool spinning) {
   const OrbitJudgement* worst = nullptr;
@@ -113,8 +120,9 @@ std::string WorstOf(const std::vector<OrbitJudgement>& orbits, bool spinning) {
   }
   const std::string_view phase = spinning ? "spinning" : "standing";
   if (worst == nullptr) return fmt::format("{} not run", phase);
-  return fmt::format("{} {:.1f} um of {:.1f} um allowed (zone {})", phase, Um(worst->orbit.max_m),
-                     Um(worst->objective_m), Letter(worst->zone));
+  return fmt::format("{} {:.1f} um of {:.1f} um allowed (zone {})", phase,
+                     Micrometres(worst->orbit.max_m), Micrometres(worst->objective_m),
+                     Letter(worst->zone));
 }
 
 }  // namespace
@@ -132,6 +140,9 @@ Verdict Judge(Inputs inputs) {
     verdict.objections.emplace_back(
         "the rotor was not levitated for longer than the settling time");
   }
+  if (inputs.session.release) {
+    verdict.objections.push_back(ReleaseSentence(*inputs.session.release));
+  }
   for (const OrbitJudgement& at : verdict.orbits) ObjectToOrbit(at, verdict.objections);
   for (const auto& result : inputs.sensitivity) {
     ObjectToComputed(result, inputs, verdict.objections);
@@ -145,9 +156,15 @@ Verdict Judge(Inputs inputs) {
   if (inputs.session.trip) {
     verdict.outcome = Outcome::kTripped;
     verdict.sentence = TripSentence(inputs);
+    if (inputs.session.release) {
+      verdict.sentence += fmt::format(" ({}.)", ReleaseSentence(*inputs.session.release));
+    }
   } else if (!inputs.incomplete_reason.empty()) {
     verdict.outcome = Outcome::kIncomplete;
     verdict.sentence = "INCOMPLETE: " + inputs.incomplete_reason;
+    if (inputs.session.release) {
+      verdict.sentence += "; " + ReleaseSentence(*inputs.session.release);
+    }
   } else if (!verdict.objections.empty()) {
     verdict.outcome = Outcome::kNotAccepted;
     verdict.sentence = fmt::format("NOT ACCEPTED: {}", fmt::join(verdict.objections, "; "));

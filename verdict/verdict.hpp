@@ -5,6 +5,8 @@
 //              largest orbit standing and spinning below the rig's objectives, the same orbit in
 //              zone A or B of the clearance, every graded sensitivity peak in zone A or B. Where
 //              a peak was measured it counts instead of the one computed for that axis and speed.
+//              A run whose amplifiers went off while the rotor turned is never accepted, whatever
+//              its exit status and orbits were.
 // Warned       measured and computed peak more than 20 % apart; a measured delay other than the
 //              files have.
 // Requirement  a limit itself is not met: orbit must be below its objective.

@@ -74,15 +74,15 @@ struct ControlCycle::Impl {
   law::LawOutput given;  // bearing frame
 };
 
-// A frame that repeats the last one's number, or has other axes than the rig, is not a new frame.
+// A frame whose number is not above the last one's (unless the rig has started anew), or that has
+// other axes than the rig, is not a new frame.
 void ControlCycle::Impl::Read(const CycleInputs& in) noexcept {
   const SensorFrame& frame = in.frame;
-  const bool repeated =
-      any_frame && frame.cycle == frame_cycle && frame.rig_session == seen.rig_session;
+  const bool old = any_frame && frame.cycle <= frame_cycle && frame.rig_session == seen.rig_session;
   seen.cycle = in.cycle;
   seen.missed_deadlines = in.missed_deadlines;
   seen.saturated_axes = given.saturated_axes;
-  seen.fresh = in.frame_present && frame.axes == rig.axes() && !repeated;
+  seen.fresh = in.frame_present && frame.axes == rig.axes() && !old;
   if (!seen.fresh) {
     // The stop chain may be a line of its own, read without a frame (hil/guarded_port).
     seen.rig_status |= frame.rig_status & kRigEmergencyStop;
@@ -94,6 +94,7 @@ void ControlCycle::Impl::Read(const CycleInputs& in) noexcept {
   seen.speed_rad_per_s = frame.speed_rad_per_s;
   seen.rig_session = frame.rig_session;
   seen.rig_status = frame.rig_status;
+  seen.held_currents = frame.held_currents;
 }
 
 // Without a fresh frame the last currents are held and the filters wait. Positions are taken at

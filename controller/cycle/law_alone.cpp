@@ -9,7 +9,7 @@ namespace levitas::cycle {
 namespace {
 
 /// Both coils stay within 0 .. maximum.
-double CurrentLimit(const CycleConfig& config) {
+double PermittedCurrent(const CycleConfig& config) {
   const double bias_a = config.rig.bias_current_a;
   const double limit_a = std::min(bias_a, config.rig.max_coil_current_a - bias_a);
   return config.law.current_limit_a > 0.0 ? std::min(limit_a, config.law.current_limit_a) : limit_a;
@@ -19,7 +19,7 @@ double CurrentLimit(const CycleConfig& config) {
 
 LawAlone::LawAlone(const CycleConfig& config)
     : axes_(config.rig.axes()),
-      limit_a_(CurrentLimit(config)),
+      limit_a_(PermittedCurrent(config)),
       probes_(config.rig),
       coefficients_(LawAtRigPeriod(config)),
       state_(coefficients_) {}

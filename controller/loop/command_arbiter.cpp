@@ -8,7 +8,14 @@ namespace levitas::loop {
 
 CommandArbiter::CommandArbiter(const DeskOptions& options, scenario::ScenarioPlayer* player,
                                const RemoteDesk& remote)
-    : options_(options), player_(player), remote_(remote) {}
+    : options_(options),
+      player_(player),
+      remote_(remote),
+      run_down_({.period_s = options.period_s,
+                 .deceleration_rad_per_s2 = options.stop_acceleration_rad_per_s2,
+                 .standstill_rad_per_s = options.standstill_rad_per_s,
+                 .landing_ramp_s = options.landing_ramp_s}),
+      guard_(options.excitation) {}
 
 std::uint64_t CommandArbiter::Cycles(double seconds) const noexcept {
   return static_cast<std::uint64_t>(std::llround(seconds / options_.period_s));
@@ -20,31 +27,50 @@ bool CommandArbiter::Ending(const OperatorView& view) noexcept {
       options_.duration_s > 0.0 && view.cycle - first_cycle_ >= Cycles(options_.duration_s);
   const bool played = player_ != nullptr && player_->outcome() != scenario::Outcome::kPlaying;
   ending_ = over || played || stop_requested_.load(std::memory_order_relaxed);
-  end_start_ = view.cycle;
+  if (!ending_) return false;
+  run_down_.Begin(view.cycle);
   last_request_ = view.cycle - Cycles(kRepeatSeconds);  // the first request is made at once
   return ending_;
+}
+
+void CommandArbiter::Tell(std::atomic<bool>& news) noexcept {
+  if (news.load(std::memory_order_relaxed)) return;
+  news_speed_rad_per_s_.store(run_down_.speed_rad_per_s(), std::memory_order_relaxed);
+  news.store(true, std::memory_order_relaxed);
+}
+
+// The magnets have let go; the supervisor brakes for as long as this goes on.
+void CommandArbiter::AwaitStandstill(const OperatorView& view) noexcept {
+  if (!safe_) {
+    safe_since_ = view.cycle;
+    run_down_.Begin(view.cycle);
+  }
+  safe_ = true;
+  const bool recorded =
+      view.mode == Mode::kOff || view.cycle - safe_since_ >= Cycles(options_.trip_window_s);
+  if (run_down_.brake_fails()) Tell(brake_fails_);
+  done_ = recorded && (run_down_.standing() || run_down_.brake_fails());
 }
 
 cycle::OperatorInput CommandArbiter::Stop(const OperatorView& view) noexcept {
   cycle::OperatorInput input;
   const bool at_rest = view.mode == Mode::kOff || view.mode == Mode::kTripped;
   if (at_rest && !view.amplifiers_enabled) {
-    if (!safe_) safe_since_ = view.cycle;
-    safe_ = true;
-    done_ = view.mode == Mode::kOff || view.cycle - safe_since_ >= Cycles(options_.trip_window_s);
+    AwaitStandstill(view);
     return input;
   }
   safe_ = false;
+  const bool turns = !run_down_.standing();
   const bool under_way = view.mode == Mode::kTripped || view.mode == Mode::kLanding ||
-                         (braking_ && view.mode == Mode::kSpinning &&
-                          std::abs(view.speed_rad_per_s) > options_.standstill_rad_per_s);
-  const bool overdue = view.cycle - end_start_ > Cycles(kStopLimitSeconds);
-  if (under_way && !overdue) return input;
+                         (braking_ && view.mode == Mode::kSpinning && turns);
+  const bool overdue = run_down_.Overdue(view.cycle);
+  if (overdue) Tell(overdue_);
+  if (under_way && (!overdue || view.mode == Mode::kTripped)) return input;
   if (view.cycle - last_request_ < Cycles(kRepeatSeconds)) return input;
   last_request_ = view.cycle;
   if (overdue) {
     input.command = OperatorCommand::kEmergencyStop;
-  } else if (std::abs(view.speed_rad_per_s) > options_.standstill_rad_per_s) {
+  } else if (turns) {
     braking_ = true;
     input.command = OperatorCommand::kSpin;
     input.acceleration_rad_per_s2 = options_.stop_acceleration_rad_per_s2;
@@ -82,6 +108,8 @@ void CommandArbiter::Excite(const OperatorView& view, cycle::OperatorInput& inpu
                !playing_->AddTo(input, view)) {
       DropExcitation();
       end_untold_ = true;
+    } else if (playing_->reduced()) {
+      guard_.NoteOrbitLimit();
     }
   }
   if (end_untold_ && input.command == OperatorCommand::kNone) {
@@ -91,8 +119,11 @@ void CommandArbiter::Excite(const OperatorView& view, cycle::OperatorInput& inpu
 }
 
 cycle::OperatorInput CommandArbiter::Next(const OperatorView& view) noexcept {
+  run_down_.Look(view.cycle, view.speed_rad_per_s, view.standing);
+  stands_.store(run_down_.standing(), std::memory_order_relaxed);
   cycle::OperatorInput input = Decide(view);
   Excite(view, input);
+  guard_.Limit(view.position_m, input.excitation_a, input.excitation_m);
   return input;
 }
 
@@ -147,12 +178,13 @@ cycle::OperatorInput CommandArbiter::Played(const OperatorView& view) noexcept {
   cycle::OperatorInput input;
   if (player_ == nullptr) return input;
   const auto played = player_->Next(view.mode, view.speed_rad_per_s, view.fault,
-                                    view.command_refused, view.radius_m);
+                                    view.command_refused, view.radius_m, view.standing);
   input.command = played.command;
   input.speed_rad_per_s = played.speed_rad_per_s;
   input.acceleration_rad_per_s2 = played.acceleration_rad_per_s2;
   input.excitation_a = played.excitation_a;
   input.excitation_m = played.excitation_m;
+  if (played.gain < scenario::OrbitLimiter::kWhole) guard_.NoteOrbitLimit();
   return input;
 }
 

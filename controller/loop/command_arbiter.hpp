@@ -7,12 +7,16 @@
 // Test signals  a remote one is added to the scenario's. It begins in the cycle after its command,
 //          unless that was refused, and ends by its own length, by command, by a new one, with a
 //          trip and where the mode does not pass it on; each end is a command of the record.
+//          The guard has the last word on all of them (scenario/excitation_guard.hpp).
 // The end  a finished or failed scenario, RequestStop and the duration all end in the same way:
-//          run down under the drive, land, amplifiers off. A trip under a scenario ends when the
-//          safe state is reached; without a scenario the desk waits for a reset.
-// Thread   loop thread, except the requests (any thread, also a signal's) and the writer's side of
-//          the ring. No allocation in Next.
-// Failure  an end that is not reached within kStopLimitSeconds becomes an emergency stop.
+//          run down under the drive, land, amplifiers off. A trip under a scenario ends the same
+//          way; without a scenario the desk waits for a reset. Where the magnets have let go of a
+//          turning rotor the desk stays, and the supervisor brakes, until the rotor stands or its
+//          brake fails (run_down.hpp).
+// Thread   loop thread, except the requests and the news (any thread, also a signal's) and the
+//          writer's side of the ring. No allocation in Next.
+// Failure  a landing that is overdue (run_down.hpp) becomes an emergency stop, and is news.
+//          Whatever turns levitated after that is held: only a second request ends it.
 
 #include <atomic>
 #include <cstdint>
@@ -22,6 +26,8 @@
 #include "common/stop_latch.hpp"
 #include "controller/loop/excitation_pool.hpp"
 #include "controller/loop/operator_source.hpp"
+#include "controller/loop/run_down.hpp"
+#include "controller/scenario/excitation_guard.hpp"
 #include "controller/scenario/scenario_player.hpp"
 
 namespace levitas::loop {
@@ -53,13 +59,21 @@ struct DeskOptions {
   double period_s{};
   double stop_acceleration_rad_per_s2{};  ///< of the drive when running down to end
   double standstill_rad_per_s{};          ///< below this the rotor counts as standing
+  double landing_ramp_s{};                ///< from the centre to the resting place
   double duration_s{0.0};                 ///< after this long the end begins; 0 = no limit
+  scenario::GuardLimits excitation{};     ///< of all test signals together; without axes none
   double trip_window_s{0.5};              ///< a trip's recording needs this much after it
+};
+
+/// What became of an end that did not go as planned.
+struct EndNews {
+  bool overdue{};            ///< the landing's limit has passed: it became an emergency stop
+  bool brake_fails{};        ///< released, the speed does not fall: the end was not waited for
+  double speed_rad_per_s{};  ///< magnitude when that was found
 };
 
 class CommandArbiter final : public OperatorSource {
  public:
-  static constexpr double kStopLimitSeconds = 120.0;
   static constexpr double kRepeatSeconds = 0.1;  ///< a refused request of the end is made again
 
   /// `player` may be null.
@@ -71,10 +85,23 @@ class CommandArbiter final : public OperatorSource {
   [[nodiscard]] std::int64_t stop_received_ns() const noexcept override {
     return stop_received_ns_;
   }
+  /// What was taken from the test signals. Loop thread, or after the loop.
+  [[nodiscard]] const scenario::GuardCounts& signals_reduced() const noexcept {
+    return guard_.counts();
+  }
+  /// The next beginning of a reduction, for people. Any one thread beside the loop's.
+  bool TakeNotice(scenario::GuardNotice& notice) noexcept { return guard_.TakeNotice(notice); }
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
   /// Given in the next cycle, once; any thread.
   void RequestEmergencyStop() noexcept {
     emergency_requested_.store(true, std::memory_order_relaxed);
+  }
+  /// The newest frames show a rotor that stands; any thread.
+  [[nodiscard]] bool standing() const noexcept { return stands_.load(std::memory_order_relaxed); }
+  /// What has happened at the end so far; any thread.
+  [[nodiscard]] EndNews news() const noexcept {
+    return {overdue_.load(std::memory_order_relaxed), brake_fails_.load(std::memory_order_relaxed),
+            news_speed_rad_per_s_.load(std::memory_order_relaxed)};
   }
 
  private:
@@ -86,27 +113,34 @@ class CommandArbiter final : public OperatorSource {
   void Excite(const OperatorView& view, cycle::OperatorInput& input) noexcept;
   void DropExcitation() noexcept;
   [[nodiscard]] cycle::OperatorInput Stop(const OperatorView& view) noexcept;
+  void AwaitStandstill(const OperatorView& view) noexcept;
+  void Tell(std::atomic<bool>& news) noexcept;
   [[nodiscard]] bool Ending(const OperatorView& view) noexcept;
   [[nodiscard]] std::uint64_t Cycles(double seconds) const noexcept;
 
   DeskOptions options_;
   scenario::ScenarioPlayer* player_;
   RemoteDesk remote_;
+  RunDown run_down_;
   std::int64_t stop_received_ns_{0};
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> emergency_requested_{false};
+  std::atomic<bool> stands_{false};
+  std::atomic<bool> overdue_{false};
+  std::atomic<bool> brake_fails_{false};
+  std::atomic<double> news_speed_rad_per_s_{0.0};
   ExcitationPool::Slot* playing_{nullptr};
   bool awaits_answer_{false};  ///< the command to excite was given in the previous cycle
   bool end_untold_{false};     ///< a test signal has ended and no record says so yet
   bool ending_{false};
   bool done_{false};
   std::uint64_t first_cycle_{0};
-  std::uint64_t end_start_{0};
   std::uint64_t safe_since_{0};
   std::uint64_t last_request_{0};
   bool started_{false};
   bool safe_{false};
   bool braking_{false};
+  scenario::ExcitationGuard guard_;
 };
 
 }  // namespace levitas::loop

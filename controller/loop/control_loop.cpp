@@ -5,6 +5,7 @@
 
 #include "common/standard_arithmetic.hpp"
 #include "controller/rt/next_wake.hpp"
+#include "controller/supervisor/supervisor.hpp"
 
 namespace levitas::loop {
 
@@ -67,6 +68,11 @@ bool ControlLoop::Repeated(const SensorFrame& frame) const noexcept {
   return answered_ && frame.rig_session == previous.rig_session && frame.cycle == previous.cycle;
 }
 
+bool ControlLoop::Overtaken(const SensorFrame& frame) const noexcept {
+  const SensorFrame& previous = record_.in.frame;
+  return answered_ && frame.rig_session == previous.rig_session && frame.cycle < previous.cycle;
+}
+
 void ControlLoop::Cycle(bool frame_present, const SensorFrame& frame,
                         std::uint32_t missed) noexcept {
   const std::int64_t start_ns = timer_.last_ns();
@@ -75,8 +81,10 @@ void ControlLoop::Cycle(bool frame_present, const SensorFrame& frame,
                           .fault = record_.out.fault,
                           .amplifiers_enabled = record_.out.current.amplifiers_enabled,
                           .command_refused = record_.out.command_refused,
+                          .standing = cycle_.decision().standing,
                           .speed_rad_per_s = frame.speed_rad_per_s,
-                          .radius_m = LargestRadius(frame)};
+                          .radius_m = LargestRadius(frame),
+                          .position_m = frame.position_m};
   record_.in.cycle = statistics_.cycles;
   record_.in.frame_present = frame_present;
   record_.in.frame = frame;
@@ -105,6 +113,10 @@ void ControlLoop::RunLockstep() noexcept {
   while (!Ends()) {
     timer_.Start(clock_.NowNs());
     if (!AwaitFrame(frame)) return;
+    if (Overtaken(frame)) {  // its answer was written when it was new, or a newer one was
+      ++statistics_.old_frames;
+      continue;
+    }
     if (Repeated(frame)) {
       ++statistics_.repeated_frames;
       port_.Write(record_.out.current);
@@ -113,6 +125,23 @@ void ControlLoop::RunLockstep() noexcept {
     timer_.Ended(cycle::Stage::kWait);
     Cycle(true, frame, 0);
   }
+}
+
+// Behind a frame that was overtaken the new one may still come. Without a new one the newest stays;
+// only the stop chain is taken, a line of its own.
+bool ControlLoop::ReadNew(SensorFrame& frame, std::int64_t deadline_ns) noexcept {
+  constexpr int kMostReads = 4;  // a flood of old ones is not waited for
+  for (int reads = 0; reads < kMostReads; ++reads) {
+    if (port_.Read(frame, deadline_ns) != port::ReadResult::kFrame) return false;
+    heard_.fetch_add(1, std::memory_order_relaxed);
+    Date(frame);
+    if (!Overtaken(frame)) return !Repeated(frame);
+    ++statistics_.old_frames;
+    const std::uint32_t stop = frame.rig_status & kRigEmergencyStop;
+    frame = record_.in.frame;
+    frame.rig_status |= stop;
+  }
+  return false;
 }
 
 void ControlLoop::CountOverrun(std::int64_t skipped) noexcept {
@@ -134,12 +163,7 @@ void ControlLoop::RunRealtime() noexcept {
     timer_.Start(due_ns);
     timer_.Ended(cycle::Stage::kWait);
     statistics_.wakeup.Add(timer_.last_ns() - due_ns);
-    const bool read = port_.Read(frame, due_ns + options_.grace_ns) == port::ReadResult::kFrame;
-    if (read) {
-      heard_.fetch_add(1, std::memory_order_relaxed);
-      Date(frame);
-    }
-    const bool present = read && !Repeated(frame);
+    const bool present = ReadNew(frame, due_ns + options_.grace_ns);
     timer_.Ended(cycle::Stage::kRead);
     Cycle(present, frame, missed);
     if (present) statistics_.latency.Add(written_ns_ - frame.sample_time_ns);

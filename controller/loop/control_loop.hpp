@@ -6,6 +6,8 @@
 // Real time a fixed grid, `phase_ns` after the rig's sampling instants. A frame that is not there
 //           `grace_ns` after the wake-up is missing. The grid never moves: an overrun skips whole
 //           periods, which are counted, told to the cycle and blamed on a stage.
+//           A frame older than the last one, of the same start of the rig, came too late: it is
+//           counted and missing.
 //           A sampling instant further than `farthest_ns` from now (another machine's clock, a
 //           sender gone wrong) is none: the frame's arrival less `phase_ns` takes its place, and is
 //           counted.
@@ -70,6 +72,10 @@ class ControlLoop {
   /// Real time: gives a frame that came now an instant of sampling that can be.
   void Date(SensorFrame& frame) noexcept;
   [[nodiscard]] bool Repeated(const SensorFrame& frame) const noexcept;
+  /// Of the same rig and older than the frame of the latest cycle.
+  [[nodiscard]] bool Overtaken(const SensorFrame& frame) const noexcept;
+  /// Real time: the newest frame; false when it is none that was not there before.
+  [[nodiscard]] bool ReadNew(SensorFrame& frame, std::int64_t deadline_ns) noexcept;
   void Cycle(bool frame_present, const SensorFrame& frame, std::uint32_t missed) noexcept;
   void CountOverrun(std::int64_t skipped) noexcept;
   [[nodiscard]] bool Ends() const noexcept {

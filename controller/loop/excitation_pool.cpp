@@ -21,6 +21,7 @@ ExcitationPool::Slot* ExcitationPool::Put(const scenario::Step& step, double per
 bool ExcitationPool::Slot::AddTo(cycle::OperatorInput& input, const OperatorView& view) noexcept {
   const scenario::PlayerOutput played =
       player_->Next(view.mode, view.speed_rad_per_s, view.fault, false, view.radius_m);
+  reduced_ = played.gain < scenario::OrbitLimiter::kWhole;
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
     input.excitation_a[i] += played.excitation_a[i];
     input.excitation_m[i] += played.excitation_m[i];

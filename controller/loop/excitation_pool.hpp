@@ -26,11 +26,14 @@ class ExcitationPool {
    public:
     /// Adds this cycle's value; false when there is none any more.
     [[nodiscard]] bool AddTo(cycle::OperatorInput& input, const OperatorView& view) noexcept;
+    /// The step's limit of the orbit has reduced what the latest AddTo added.
+    [[nodiscard]] bool reduced() const noexcept { return reduced_; }
 
    private:
     friend class ExcitationPool;
     std::optional<scenario::ScenarioPlayer> player_;
     std::atomic<bool> taken_{false};
+    bool reduced_{false};
   };
 
   /// `step`: one that does nothing but excite.

@@ -22,6 +22,7 @@ struct LoopStatistics {
   std::uint64_t overruns{};         ///< cycles that caused them
   std::uint64_t missing_frames{};   ///< cycles without a new sensor frame
   std::uint64_t undated_frames{};   ///< of which the sampling instant made no sense (real time)
+  std::uint64_t old_frames{};       ///< older than one that was there before: not used
   std::uint64_t repeated_frames{};  ///< asked again in lockstep: answered again, no cycle
   Histogram wakeup;                 ///< grid instant -> awake (real time)
   Histogram compute;                ///< frame read -> current written

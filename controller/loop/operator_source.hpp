@@ -17,8 +17,10 @@ struct OperatorView {
   Fault fault{Fault::kNone};
   bool amplifiers_enabled{};
   bool command_refused{};    ///< the previous cycle's command was not allowed
+  bool standing{};           ///< the supervisor knows that the rotor stands (its latest decision)
   double speed_rad_per_s{};  ///< as the newest frame says
   double radius_m{};         ///< largest of any bearing in the newest frame
+  AxisArray position_m{};    ///< as the newest frame says
 };
 
 class OperatorSource {

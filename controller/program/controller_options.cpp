@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "common/time_option.hpp"
 #include "common/whole_number.hpp"
 #include "session/output_path.hpp"
 
@@ -39,7 +40,8 @@ void AddRecordingOptions(CLI::App& app, ControllerOptions& options,
   app.add_option("--trip-folder", options.trip_folder, "Where a trip's recording goes")
       ->capture_default_str();
   app.add_option("--trip-budget", budget,
-                 "FILES MB: so many trip files, and so much, stay in that folder; older ones go")
+                 "FILES MB: so many trip files of this run, and so much, stay in that folder; its "
+                 "older ones go, those of earlier runs stay")
       ->expected(2)
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
@@ -61,7 +63,7 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
       ->transform(CLI::Transformer(paces))
       ->type_name("PACE");
   app.add_option("--duration", options.duration_s, "Land and end after this long [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(WhyNoTime);
   std::vector<std::size_t> budget{options.trip_files, options.trip_megabytes};
   AddRecordingOptions(app, options, budget);
   app.add_option("--seed", options.seed, "Seed of the rig, noted in the session")
@@ -70,11 +72,14 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
   app.add_option("--json", options.json, "Write statistics to this file");
   app.add_option("--partner-timeout", options.partner_timeout_s,
                  "Give up after this long without sensor frames [s]")
-      ->check(CLI::PositiveNumber)
+      ->check(WhyNoTime)
       ->capture_default_str();
   app.add_flag("--require-realtime", options.require_realtime,
                "Refuse to run when the machine does not grant real-time conditions");
   app.add_option("--processor", options.processor, "Run the loop on this processor only")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--life-line", options.life_line,
+                 "Descriptor of a pipe: land when its other end is closed (amb run's own)")
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--no-lines", options.no_lines,
                "Leave the rig file's lines (emergency stop, enable ...) alone");
@@ -82,6 +87,11 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
     app.parse(argc, argv);
     options.trip_files = budget[0];
     options.trip_megabytes = budget[1];
+    session::RefuseClash({{"--record", options.record}, {"--json", options.json}},
+                         {{"--rig", options.rig},
+                          {"--controller", options.controller},
+                          {"--scenario", options.scenario},
+                          {"--key", options.key}});
     session::CheckNoRecording(options.record, options.overwrite);
     return true;
   } catch (const CLI::ParseError& error) {

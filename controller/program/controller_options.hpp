@@ -29,6 +29,7 @@ struct ControllerOptions {
   double partner_timeout_s{30.0};
   bool require_realtime{false};
   int processor{-1};
+  int life_line{-1};     ///< pipe whose other end is held by who started us; -1: nobody's
   bool no_lines{false};  ///< leave the rig file's lines alone
 };
 

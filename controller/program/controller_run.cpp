@@ -85,9 +85,12 @@ void Announce(const session::Event& event, transport::Telemetry& telemetry) {
   telemetry.PostEvent(std::move(encoded));
 }
 
-ExitStatus Status(const RunFacts& facts, bool partner_stayed) {
+/// A landing beyond its limit is no trip of the rig's, though it ends in one.
+ExitStatus Status(const RunFacts& facts, const loop::EndNews& end, bool partner_stayed) {
+  if (end.overdue) return ExitStatus::kOther;
   if (facts.trips > 0) return ExitStatus::kTripped;
-  return partner_stayed && facts.scenario_problem.empty() ? ExitStatus::kDone : ExitStatus::kOther;
+  const bool done = partner_stayed && facts.scenario_problem.empty() && !end.brake_fails;
+  return done ? ExitStatus::kDone : ExitStatus::kOther;
 }
 
 std::unique_ptr<rt::RealTimeGuard> PrepareRealTime(const ControllerOptions& options,
@@ -140,7 +143,8 @@ class Session {
              .on_record = [this](const auto& record) { Saw(record); }}),
         outlet_(recorder_, telemetry_, numbers_.period_ns),
         cycle_({numbers_, files.controller.law, files.controller.supervisor}),
-        sequence_(files.controller.supervisor.sequence) {
+        sequence_(files.controller.supervisor.sequence),
+        signal_limits_(scenario::LimitsOf(numbers_, files.controller.law.current_limit_a)) {
     if (files.scenario) {
       player_.emplace(*files.scenario, numbers_.period_s(), sequence_.standstill_rad_per_s);
     }
@@ -154,17 +158,22 @@ class Session {
   }
 
   ExitStatus Run() {
-    loop::CommandArbiter desk(
-        {.period_s = numbers_.period_s(),
-         .stop_acceleration_rad_per_s2 =
-             std::min(sequence_.trip_acceleration_rad_per_s2, numbers_.max_acceleration_rad_per_s2),
-         .standstill_rad_per_s = sequence_.standstill_rad_per_s,
-         .duration_s = options_.duration_s},
-        player_ ? &*player_ : nullptr, {&intake_.commands(), &intake_.stops(), &answers_.given()});
+    loop::CommandArbiter desk({.period_s = numbers_.period_s(),
+                               .stop_acceleration_rad_per_s2 = StopRate(),
+                               .standstill_rad_per_s = sequence_.standstill_rad_per_s,
+                               .landing_ramp_s = sequence_.landing_ramp_s,
+                               .duration_s = options_.duration_s,
+                               .excitation = signal_limits_},
+                              player_ ? &*player_ : nullptr,
+                              {&intake_.commands(), &intake_.stops(), &answers_.given()});
     rt::Say("amb-controller: who may command: " + policy_.who);
     std::optional<transport::OperatorReceiver> receiver;
     if (policy_.open) {
-      receiver.emplace(network_, intake_.stops(), intake_.Handlers([this] { EnterStopThread(); }));
+      transport::OperatorHandlers handlers = intake_.Handlers([this] { EnterStopThread(); });
+      handlers.challenge = [this](const auto& challenge) {
+        telemetry_.PostChallenge(transport::EncodeChallenge(challenge));
+      };
+      receiver.emplace(network_, intake_.stops(), std::move(handlers));
     }
     loop::ControlLoop loop(
         {.pace = options_.realtime ? loop::Pace::kRealtime : loop::Pace::kLockstep,
@@ -174,6 +183,8 @@ class Session {
     std::atomic<bool> running{true};
     Watchman watchman(loop, desk, options_, *rig_, lines_, [&] {
       TellNews(rig_->TakeNews());
+      scenario::GuardNotice notice;
+      while (desk.TakeNotice(notice)) TellNews(scenario::Text(notice, numbers_));
       if (receiver) TellNews(receiver->TakeNews());
     });
     std::thread thread([&] {
@@ -184,13 +195,25 @@ class Session {
     const bool stayed = watchman.Watch(running);
     thread.join();
     // Also after an end without a landing: with lines, the enable line falls here.
-    Port().SayGoodbye({.cycle = loop.last().in.frame.cycle});
+    Port().SayGoodbye(Goodbye(loop.last().in.frame, desk.standing()));
     recorder_.Finish();  // the report names the trip's file and comes after the last event
     return Tell(loop.statistics(), receiver ? receiver->counts() : transport::OperatorCounts{},
-                stayed);
+                desk.news(), desk.signals_reduced(), stayed);
   }
 
  private:
+  [[nodiscard]] double StopRate() const {
+    return std::min(sequence_.trip_acceleration_rad_per_s2, numbers_.max_acceleration_rad_per_s2);
+  }
+
+  /// Amplifiers off, and the drive brakes a rotor that is not known to stand.
+  [[nodiscard]] CurrentFrame Goodbye(const SensorFrame& newest, bool standing) const {
+    return {.cycle = newest.cycle,
+            .axes = static_cast<std::uint32_t>(numbers_.axes()),
+            .acceleration_limit_rad_per_s2 = StopRate(),
+            .drive_enabled = !standing};
+  }
+
   void Heard(const session::Event& event) {
     answers_.Heard(event);
     Announce(event, telemetry_);
@@ -233,6 +256,7 @@ class Session {
   }
 
   ExitStatus Tell(const loop::LoopStatistics& statistics, const transport::OperatorCounts& commands,
+                  const loop::EndNews& end, const scenario::GuardCounts& signals_reduced,
                   bool stayed) {
     const RunFacts facts{.options = options_,
                          .statistics = statistics,
@@ -241,6 +265,7 @@ class Session {
                          .records_lost = recorder_.lost(),
                          .telemetry_dropped = telemetry_.dropped(),
                          .commands = commands,
+                         .signals_reduced = signals_reduced,
                          .trips = outlet_.trips(),
                          .first_fault = outlet_.first_fault(),
                          .trip_file = recorder_.trip_file(),
@@ -250,7 +275,7 @@ class Session {
                          .delay = rig_->delay()};
     rt::Say(ReportText(facts), rt::Speaker::Kind::kReport);
     if (!options_.json.empty()) transport::WriteJson(ReportJson(facts), options_.json);
-    return Status(facts, stayed);
+    return Status(facts, end, stayed);
   }
 
   const ControllerOptions& options_;
@@ -272,6 +297,7 @@ class Session {
   LoopOutlet outlet_;
   cycle::ControlCycle cycle_;
   supervisor::SequenceConfig sequence_;
+  scenario::GuardLimits signal_limits_;
   std::optional<scenario::ScenarioPlayer> player_;
   CommandIntake intake_{numbers_, [this](const std::string& text) { Warn(text); },
                         [this](const std::string& text, const CommandOrigin& origin) {

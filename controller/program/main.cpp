@@ -3,6 +3,7 @@
 #include <string>
 
 #include "controller/program/controller_run.hpp"
+#include "controller/rt/limits.hpp"
 #include "controller/rt/say.hpp"
 #include "controller/rt/stop_signal.hpp"
 
@@ -16,6 +17,8 @@ int Main(int argc, char** argv) {
     if (!controller_program::ReadCommandLine(argc, argv, options, status)) {
       return static_cast<int>(status);
     }
+    const std::string limited = rt::ReserveCpuTime();
+    if (!limited.empty()) rt::Say("amb-controller: " + limited);
     return static_cast<int>(controller_program::Run(options));
   } catch (const Problem& problem) {
     rt::Say(std::string("amb-controller: ") + problem.what());
@@ -30,6 +33,9 @@ int Main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   levitas::rt::OpenStandardFiles();
+  if (!levitas::rt::EnsureStack("amb-controller")) {
+    return static_cast<int>(levitas::ExitStatus::kOther);
+  }
   levitas::rt::CatchStopSignals();
   const int status = Main(argc, argv);
   static_cast<void>(levitas::rt::FlushSaid());

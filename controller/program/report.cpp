@@ -21,6 +21,31 @@ nlohmann::ordered_json TimingJson(const loop::LoopStatistics& statistics) {
   return json;
 }
 
+std::uint64_t Cycles(const scenario::GuardCounts& counts, scenario::Reduced why) {
+  return counts.cycles[static_cast<std::size_t>(why)];
+}
+
+nlohmann::ordered_json SignalsJson(const scenario::GuardCounts& counts) {
+  using scenario::Reduced;
+  return {{"cycles_reduced_current_sum", Cycles(counts, Reduced::kCurrentSum)},
+          {"cycles_reduced_shift_sum", Cycles(counts, Reduced::kShiftSum)},
+          {"cycles_cut_off", Cycles(counts, Reduced::kRadius)},
+          {"cycles_beyond_orbit_limit", Cycles(counts, Reduced::kOrbitLimit)},
+          {"farthest_share_of_clearance", counts.farthest}};
+}
+
+std::string SignalsText(const scenario::GuardCounts& counts) {
+  using scenario::Reduced;
+  const std::uint64_t sums =
+      Cycles(counts, Reduced::kCurrentSum) + Cycles(counts, Reduced::kShiftSum);
+  const std::uint64_t off = Cycles(counts, Reduced::kRadius);
+  const std::uint64_t orbit = Cycles(counts, Reduced::kOrbitLimit);
+  if (sums + off + orbit == 0) return "";
+  return fmt::format(
+      "test signals reduced             sum too large {}, cut off {}, orbit limit {} cycles\n",
+      sums, off, orbit);
+}
+
 nlohmann::ordered_json Figures(const can_port::DelayFigures& delay) {
   return {{"count", delay.count},
           {"least_periods", delay.least_periods},
@@ -57,6 +82,7 @@ nlohmann::ordered_json ReportJson(const RunFacts& facts) {
       {"overruns", facts.statistics.overruns},
       {"missing_frames", facts.statistics.missing_frames},
       {"repeated_frames", facts.statistics.repeated_frames},
+      {"old_frames", facts.statistics.old_frames},
       {"undated_frames", facts.statistics.undated_frames},
       {"frames_read", facts.port.frames_read},
       {"frames_skipped", facts.port.frames_skipped},
@@ -72,6 +98,7 @@ nlohmann::ordered_json ReportJson(const RunFacts& facts) {
       {"commands_old", facts.commands.old},
       {"commands_overtaken", facts.commands.overtaken},
       {"commands_dropped", facts.commands.dropped},
+      {"test_signals", SignalsJson(facts.signals_reduced)},
       {"emergency_stop", HistogramJson(facts.statistics.emergency_stop)},
       {"trips", facts.trips},
       {"first_fault", Name(facts.first_fault)},
@@ -126,6 +153,7 @@ std::string ReportText(const RunFacts& facts) {
         stop.Percentile(0.5) * 1e-3, stop.Percentile(0.99) * 1e-3,
         static_cast<double>(stop.max_ns()) * 1e-3, stop.count());
   }
+  text += SignalsText(facts.signals_reduced);
   if (facts.commands.dropped > 0) {
     text +=
         fmt::format("commands                         {} found no room\n", facts.commands.dropped);

@@ -10,6 +10,7 @@
 #include "controller/program/controller_options.hpp"
 #include "controller/program/delay_watch.hpp"
 #include "controller/rt/real_time.hpp"
+#include "controller/scenario/excitation_guard.hpp"
 #include "hil/guarded_port/guarded_port.hpp"
 #include "transport/operator_receiver.hpp"
 
@@ -23,7 +24,8 @@ struct RunFacts {
   std::string transport;  ///< what went wrong on it
   std::uint64_t records_lost{};
   std::uint64_t telemetry_dropped{};
-  transport::OperatorCounts commands;  ///< those that were not taken
+  transport::OperatorCounts commands;       ///< those that were not taken
+  scenario::GuardCounts signals_reduced{};  ///< what was taken from the test signals
   std::uint64_t trips{};
   Fault first_fault{Fault::kNone};
   std::string trip_file;

@@ -1,11 +1,13 @@
 #include "controller/program/watchman.hpp"
 
 #include <fmt/core.h>
+#include <poll.h>
 
 #include <chrono>
 #include <thread>
 #include <utility>
 
+#include "common/rotational_speed.hpp"
 #include "controller/rt/clock.hpp"
 #include "controller/rt/say.hpp"
 #include "controller/rt/stop_signal.hpp"
@@ -33,30 +35,32 @@ bool Watchman::Watch(const std::atomic<bool>& running) noexcept {
     std::this_thread::sleep_for(kLookEvery);
     if (running.load()) rt::Guarded("main", [this] { Look(); });
   }
+  rt::Guarded("main", [this] { TellEnd(); });
   return stayed_;
 }
 
 void Watchman::Look() {
   LookAtGuard();
+  LookAtParent();
   LookAtPartner();
   tell_news_();
+  TellEnd();
   if (rt::QuitSignal()) {
-    if (landing_since_ns_ == 0) desk_.RequestEmergencyStop();
+    if (!landing_) desk_.RequestEmergencyStop();
     Land("emergency stop by SIGQUIT");
   }
   const int asked = rt::StopSignals();
   if (asked > 0) Land("landing, asked by a signal (the same signal again ends at once)");
   if (rt::Troubles() > 0) Land("landing, since a thread failed");
-  if (landing_since_ns_ == 0) return;
-  const bool overdue = rt::MonotonicNowNs() - landing_since_ns_ > kLandingLimitNs;
+  if (!landing_) return;
   // Without a rig there is nothing to land; who asks again does not wait for it.
-  if (asked > 1 || overdue || !partner_.present()) loop_.Abort();
+  if (asked > 1 || !partner_.present()) loop_.Abort();
 }
 
 void Watchman::Land(const char* why) {
-  if (landing_since_ns_ != 0) return;
+  if (landing_) return;
+  landing_ = true;
   desk_.RequestStop();
-  landing_since_ns_ = rt::MonotonicNowNs();
   rt::Say(fmt::format("amb-controller: {}", why));
 }
 
@@ -64,6 +68,36 @@ void Watchman::LookAtGuard() {
   if (!guarded_ || lines_ == nullptr || lines_->guard_alive()) return;
   guarded_ = false;
   Land("the guard of the enable line has ended: landing");
+}
+
+void Watchman::LookAtParent() {
+  if (orphaned_ || options_.life_line < 0) return;
+  pollfd end{.fd = options_.life_line, .events = POLLIN, .revents = 0};
+  if (::poll(&end, 1, 0) <= 0 || (end.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0) return;
+  orphaned_ = true;
+  Land("the program that started this one has ended: landing");
+}
+
+void Watchman::TellEnd() {
+  const loop::EndNews news = desk_.news();
+  const double rpm = RadPerSToRpm(news.speed_rad_per_s);
+  if (news.overdue && !overdue_said_) {
+    overdue_said_ = true;
+    rt::Say(
+        fmt::format("amb-controller: the landing takes longer than its limit (speed over the "
+                    "deceleration of the files, and {:.0f} s) at {:.0f} rpm, and the speed does "
+                    "not fall: emergency stop; the rotor stays levitated while it turns (the same "
+                    "signal again ends at once)",
+                    loop::RunDown::kMarginS, rpm));
+  }
+  if (news.brake_fails && !brake_said_) {
+    brake_said_ = true;
+    rt::Say(
+        fmt::format("amb-controller: released, and the brake does not slow the rotor down: its "
+                    "speed of {:.0f} rpm falls by less than {:.0f} % of what the files' "
+                    "deceleration gives. Ending; the drive is told to go on braking",
+                    rpm, 100.0 * loop::RunDown::kBrakeShare));
+  }
 }
 
 void Watchman::LookAtPartner() {

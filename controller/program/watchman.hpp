@@ -2,10 +2,13 @@
 // Looks after the running loop from the main thread: signals, the rig, the guard of the enable line
 // and our own threads. What calls for an end lands the rotor.
 //
-// Landing  asked for by a signal, by a thread that failed (also by the main thread itself) and when
-//          the guard has ended. The loop is ended without one when the same signal comes again,
-//          when no rig is there, and kLandingLimitNs after the first request.
+// Landing  asked for by a signal, by a thread that failed (also by the main thread itself), when
+//          the guard has ended, and when the program that started this one has (its pipe ends). The
+//          loop is ended without one when the same signal comes again, and when no rig is there.
+//          How long a landing may take is the desk's business, in the rig's time: a wall clock
+//          knows nothing of a rig that runs down slowly, or of a machine that simulates slowly.
 // Quit     an emergency stop, and the end after it.
+// News     what the desk finds at the end (command_arbiter.hpp) is said once.
 // Thread   main. Failure: none.
 
 #include <atomic>
@@ -23,11 +26,6 @@ namespace levitas::controller_program {
 
 class Watchman {
  public:
-  /// The desk's own limit for a landing and the emergency stop behind it, on a machine that in
-  /// lockstep may be slower than the clock. A controller that nobody looks after any more does not
-  /// stay for ever.
-  static constexpr std::int64_t kLandingLimitNs = 600'000'000'000;
-
   /// Keeps references to all of them; `lines` may be null. `tell_news`: what port and
   /// network have to say.
   Watchman(loop::ControlLoop& loop, loop::CommandArbiter& desk, const ControllerOptions& options,
@@ -41,6 +39,8 @@ class Watchman {
   void Look();
   void LookAtGuard();
   void LookAtPartner();
+  void LookAtParent();
+  void TellEnd();
   void Land(const char* why);
 
   loop::ControlLoop& loop_;
@@ -50,7 +50,10 @@ class Watchman {
   const gpio::GpiodLines* lines_;
   std::function<void()> tell_news_;
   transport::PartnerWatch partner_;
-  std::int64_t landing_since_ns_{0};  ///< 0: not asked for
+  bool landing_{false};
+  bool orphaned_{false};
+  bool overdue_said_{false};
+  bool brake_said_{false};
   bool guarded_{true};
   bool stayed_{true};
 };

@@ -30,7 +30,8 @@ std::size_t CharacterBytes(std::string_view text) {
   return bad ? 0 : size;
 }
 
-std::string Shown(std::string_view text, std::string_view line_break) {
+std::string Shown(std::string_view text, std::string_view line_break,
+                  std::string_view tabulator = "\t") {
   std::string shown;
   shown.reserve(text.size());
   while (!text.empty()) {
@@ -38,7 +39,9 @@ std::string Shown(std::string_view text, std::string_view line_break) {
     std::size_t bytes = 1;
     if (first == '\n') {
       shown += line_break;
-    } else if (first == '\t' || (first >= 0x20 && first < 0x7f)) {
+    } else if (first == '\t') {
+      shown += tabulator;
+    } else if (first >= 0x20 && first < 0x7f) {
       shown += text[0];
     } else if (const std::size_t size = first < 0x80 ? 0 : CharacterBytes(text); size > 0) {
       shown += text.substr(0, size);
@@ -56,5 +59,7 @@ std::string Shown(std::string_view text, std::string_view line_break) {
 std::string Printable(std::string_view text) { return Shown(text, "\n"); }
 
 std::string Quoted(std::string_view text) { return Shown(text, "\n  "); }
+
+std::string OneLine(std::string_view text) { return Shown(text, "\\x0a", "\\x09"); }
 
 }  // namespace levitas::rt

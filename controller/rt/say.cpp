@@ -20,7 +20,7 @@
 namespace levitas::rt {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t kPieceBytes = PIPE_BUF;
 constexpr std::size_t kStackBytes = std::size_t{256} << 10;
 constexpr std::size_t kNoticeBytes = 80;  // of "[... lines lost so far ...]", and to spare
@@ -210,8 +210,8 @@ bool Speaker::Flush() noexcept {
   try {
     std::unique_lock lock(state_->mutex);
     const auto done = [this] { return state_->filled == 0 && !state_->writing; };
-    const auto end = Clock::now() + kEndWait;
-    while (!done() && state_->started && Clock::now() < end) {
+    const auto end = SteadyClock::now() + kEndWait;
+    while (!done() && state_->started && SteadyClock::now() < end) {
       const std::uint64_t before = state_->pieces;
       state_->changed.wait_for(lock, kStallWait,
                                [&] { return done() || state_->pieces != before; });

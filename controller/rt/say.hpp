@@ -61,6 +61,9 @@ class Speaker {
 [[nodiscard]] std::string Printable(std::string_view text);
 /// As Printable, with an indent after each line break: what others wrote, within a line of ours.
 [[nodiscard]] std::string Quoted(std::string_view text);
+/// As Printable, with line breaks and tabs as \x0a and \x09 too: a name or a tag of others, which
+/// then can be no row of its own in a table of ours.
+[[nodiscard]] std::string OneLine(std::string_view text);
 
 /// To standard error.
 void Say(std::string_view text, Speaker::Kind kind = Speaker::Kind::kLines) noexcept;

@@ -21,6 +21,7 @@ class OrbitLimiter {
   static constexpr double kRecoveryS = 1.0;
   static constexpr double kOff = 1.5;
   static constexpr double kQuiet = 0.8;
+  static constexpr double kWhole = 0.99;  ///< a gain that comes back exponentially counts as 1
 
   explicit OrbitLimiter(double period_s)
       : keep_(std::exp(-period_s / kCutS)), recover_(-std::expm1(-period_s / kRecoveryS)) {}

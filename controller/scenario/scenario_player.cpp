@@ -45,17 +45,19 @@ ScenarioPlayer::ScenarioPlayer(ScenarioConfig config, double period_s, double st
   }
 }
 
-bool ScenarioPlayer::Reached(const Step& step, Mode mode, double speed_rad_per_s) const noexcept {
+bool ScenarioPlayer::Reached(const Step& step, Mode mode, double speed_rad_per_s,
+                             bool standing) const noexcept {
   switch (step.wait) {
     case Wait::kNothing:
       return true;
     case Wait::kMode:
       return mode == step.wait_mode;
     case Wait::kSpeedReached:
-      return std::abs(speed_rad_per_s - step.speed_rad_per_s) <=
-             std::max(standstill_rad_per_s_, kSpeedTolerance * std::abs(step.speed_rad_per_s));
+      return (standing || step.speed_rad_per_s != 0.0) &&
+             std::abs(speed_rad_per_s - step.speed_rad_per_s) <=
+                 std::max(standstill_rad_per_s_, kSpeedTolerance * std::abs(step.speed_rad_per_s));
     case Wait::kStandstill:
-      return std::abs(speed_rad_per_s) < standstill_rad_per_s_;
+      return standing && std::abs(speed_rad_per_s) < standstill_rad_per_s_;
   }
   return false;
 }
@@ -71,7 +73,7 @@ bool ScenarioPlayer::Ended(Fault fault, bool refused) noexcept {
 }
 
 PlayerOutput ScenarioPlayer::Next(Mode mode, double speed_rad_per_s, Fault fault, bool refused,
-                                  double radius_m) noexcept {
+                                  double radius_m, bool standing) noexcept {
   PlayerOutput output;
   last_mode_ = mode;
   last_speed_rad_per_s_ = speed_rad_per_s;
@@ -82,7 +84,7 @@ PlayerOutput ScenarioPlayer::Next(Mode mode, double speed_rad_per_s, Fault fault
     trip_expected_ = false;
   }
   if (phase_ == Phase::kWait) {
-    if (Reached(config_.steps[step_], mode, speed_rad_per_s)) {
+    if (Reached(config_.steps[step_], mode, speed_rad_per_s, standing)) {
       phase_ = Phase::kHold;
       cycles_in_phase_ = 0;
     } else if (++cycles_in_phase_ > timing_[step_].timeout_cycles) {
@@ -123,6 +125,7 @@ void ScenarioPlayer::Excite(PlayerOutput& output, double radius_m) noexcept {
   if (sources_[step_].empty()) return;
   if (cycles_in_phase_ == 0) limiter_.Reset();
   const double gain = limiter_.Next(radius_m, config_.steps[step_].orbit_limit_m);
+  output.gain = gain;
   for (Source& source : sources_[step_]) {
     const double value = gain * (source.amplitude * source.signal.Next());
     (source.point == Injection::kControlCurrent ? output.excitation_a

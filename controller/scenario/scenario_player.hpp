@@ -28,6 +28,7 @@ struct PlayerOutput {
   double acceleration_rad_per_s2{};  ///< with kSpin
   AxisArray excitation_a{};          ///< [A] per axis, to be added to the control current
   AxisArray excitation_m{};          ///< [m] per axis, to be added to the measured position
+  double gain{1.0};  ///< of the step's limit of the orbit; below 1 it has reduced both
 };
 
 enum class Outcome : std::uint8_t { kPlaying, kFinished, kRefused, kTimedOut, kTripped };
@@ -45,9 +46,11 @@ class ScenarioPlayer {
   ScenarioPlayer(ScenarioConfig config, double period_s, double standstill_rad_per_s);
 
   /// `mode`, `fault` and `refused` are the controller's outputs of the previous cycle; `radius_m`
-  /// is the largest of any bearing in the newest frame.
+  /// is the largest of any bearing in the newest frame; `standing`: it is proven that the rotor
+  /// stands, which a wait for standstill or for the speed 0 needs as well.
   [[nodiscard]] PlayerOutput Next(Mode mode, double speed_rad_per_s, Fault fault,
-                                  bool refused = false, double radius_m = 0.0) noexcept;
+                                  bool refused = false, double radius_m = 0.0,
+                                  bool standing = true) noexcept;
 
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
   [[nodiscard]] bool finished() const noexcept { return outcome_ == Outcome::kFinished; }
@@ -70,7 +73,8 @@ class ScenarioPlayer {
     std::uint64_t hold_cycles{};
   };
 
-  [[nodiscard]] bool Reached(const Step& step, Mode mode, double speed_rad_per_s) const noexcept;
+  [[nodiscard]] bool Reached(const Step& step, Mode mode, double speed_rad_per_s,
+                             bool standing) const noexcept;
   [[nodiscard]] bool Ended(Fault fault, bool refused) noexcept;
   void Excite(PlayerOutput& output, double radius_m) noexcept;
   void Give(PlayerOutput& output) noexcept;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-std::uint64_t Cycles(double time_s, double period_s) {
+std::uint64_t WholeCycles(double time_s, double period_s) {
   return static_cast<std::uint64_t>(std::max(0LL, std::llround(time_s / period_s)));
 }
 
@@ -25,9 +25,9 @@ Signal::Signal(const Excitation& config, double period_s)
       to_hz_(config.to_hz),
       linear_(config.linear),
       steps_(std::max<std::uint32_t>(config.frequencies, 1)),
-      dwell_cycles_(std::max<std::uint64_t>(Cycles(config.dwell_s, period_s), 1)),
-      repeat_cycles_(Cycles(config.repeat_s, period_s)),
-      width_cycles_(std::max<std::uint64_t>(Cycles(config.width_s, period_s), 1)),
+      dwell_cycles_(std::max<std::uint64_t>(WholeCycles(config.dwell_s, period_s), 1)),
+      repeat_cycles_(WholeCycles(config.repeat_s, period_s)),
+      width_cycles_(std::max<std::uint64_t>(WholeCycles(config.width_s, period_s), 1)),
       period_s_(period_s) {
   if (kind_ == SignalKind::kSteppedSine) repeat_cycles_ = steps_ * dwell_cycles_;
   if (kind_ == SignalKind::kMultisine) FillMultisine(config, period_s);

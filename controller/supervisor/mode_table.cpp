@@ -23,9 +23,9 @@ constexpr std::array<std::string_view, kEventCount> kEventNames{
     "command_lift", "command_spin",  "command_coast_down",
     "command_land", "command_reset", "self_test_passed",
     "lifted",       "stands",        "landed",
-    "stop_fault",   "drop_fault"};
-constexpr std::array<std::string_view, 4> kGuardNames{"always", "standing", "speed_valid",
-                                                      "cause_gone"};
+    "turns",        "stop_fault",    "drop_fault"};
+constexpr std::array<std::string_view, 5> kGuardNames{"always", "standing", "not_turning",
+                                                      "speed_valid", "cause_gone"};
 constexpr std::array<std::string_view, 5> kActionNames{"none", "start_law", "take_speed", "latch",
                                                        "clear_latch"};
 constexpr std::array<std::string_view, 4> kReferenceNames{"none", "ramp_to_centre", "centre",
@@ -92,7 +92,9 @@ std::string ModeTableDocument() {
   }
   text +=
       "\nA fault that is not listed in a state is not looked for in it. orbit_exceeded as a drop "
-      "fault means that the rotor stays beyond the whole clearance.\n";
+      "fault means that the rotor stays beyond the whole clearance (tripped_stopping) or away from "
+      "where it is being lowered (tripped_landing). A rotor that turns in landing has an unknown "
+      "speed; under the drive's brake in off is only a rotor that is seen to turn.\n";
   text += "\n## Edges\n\n";
   text += Line({"from", "event", "only if", "to", "action"});
   text += "|---|---|---|---|---|\n";

@@ -40,16 +40,18 @@ enum class Event : std::uint8_t {
   kCommandReset,
   kSelfTestPassed,
   kLifted,  ///< the rotor stayed near the centre long enough
-  kStands,  ///< speed below standstill and nobody wants it to turn
+  kStands,  ///< proven to stand, and nobody wants it to turn
   kLanded,  ///< landing ramp finished
+  kTurns,   ///< believed to turn for some time, or the speed is unknown
   kStopFault,
   kDropFault,
 };
-inline constexpr std::size_t kEventCount = 11;
+inline constexpr std::size_t kEventCount = 12;
 
 enum class Guard : std::uint8_t {
   kAlways,
-  kStanding,    ///< speed below standstill
+  kStanding,    ///< proven to stand
+  kNotTurning,  ///< nothing says that the rotor turns
   kSpeedValid,  ///< set point finite and within the rated speed, acceleration positive
   kCauseGone,   ///< fresh plausible frame, no fault bit from the rig, rotor stands
 };
@@ -71,9 +73,10 @@ struct Edge {
   Action action{};
 };
 
-/// How the reference of the law moves in a state.
+/// How the reference of the law moves in a state. To the centre from wherever it is.
 enum class Reference : std::uint8_t { kNone, kRampToCentre, kCentre, kRampToRest };
-/// What the drive is told: no torque; the operator's set point; set point 0 at the trip's rate.
+/// What the drive is told: no torque; the operator's set point; set point 0 at the trip's rate, as
+/// long as the rotor may turn.
 enum class Drive : std::uint8_t { kFree, kSetPoint, kBrake };
 
 using FaultSet = std::uint32_t;
@@ -102,16 +105,18 @@ inline constexpr FaultSet kDropFaults =
 inline constexpr FaultSet kSignalFaults =
     Bit(Fault::kSensorOutOfRange) | Bit(Fault::kSensorFrozen) | Bit(Fault::kSensorNotFinite) |
     Bit(Fault::kFrameMissing) | Bit(Fault::kRigRestarted) | Bit(Fault::kAmplifierFault);
-inline constexpr FaultSet kLevitatedFaults = kSignalFaults | Bit(Fault::kDeadlineMissed) |
-                                             Bit(Fault::kCoilSaturated) | Bit(Fault::kOverSpeed) |
-                                             Bit(Fault::kEmergencyStop) |
-                                             Bit(Fault::kSpeedUnknown) | Bit(Fault::kLawNotFinite);
+inline constexpr FaultSet kLevitatedFaults =
+    kSignalFaults | Bit(Fault::kDeadlineMissed) | Bit(Fault::kCoilSaturated) |
+    Bit(Fault::kOverSpeed) | Bit(Fault::kEmergencyStop) | Bit(Fault::kSpeedUnknown) |
+    Bit(Fault::kLawNotFinite) | Bit(Fault::kFramesLost) | Bit(Fault::kCurrentsLate);
 
 inline constexpr std::array<StateRow, kStateCount> kStates{{
-    {State::kOff, Mode::kOff, false, Reference::kNone, Drive::kFree, false,
+    {State::kOff, Mode::kOff, false, Reference::kNone, Drive::kBrake, false,
      Bit(Fault::kEmergencyStop), kDropFaults},
     {State::kSelfTest, Mode::kSelfTest, false, Reference::kNone, Drive::kFree, false,
-     kSignalFaults | Bit(Fault::kEmergencyStop) | Bit(Fault::kSelfTestFailed), kDropFaults},
+     kSignalFaults | Bit(Fault::kEmergencyStop) | Bit(Fault::kSpeedUnknown) |
+         Bit(Fault::kSelfTestFailed),
+     kDropFaults},
     {State::kLift, Mode::kLift, true, Reference::kRampToCentre, Drive::kFree, false,
      kLevitatedFaults | Bit(Fault::kLiftFailed), kDropFaults},
     {State::kLevitating, Mode::kLevitating, true, Reference::kCentre, Drive::kFree, true,
@@ -121,17 +126,18 @@ inline constexpr std::array<StateRow, kStateCount> kStates{{
     {State::kCoastDown, Mode::kCoastDown, true, Reference::kCentre, Drive::kFree, true,
      kLevitatedFaults | Bit(Fault::kOrbitExceeded), kDropFaults},
     {State::kLanding, Mode::kLanding, true, Reference::kRampToRest, Drive::kFree, false,
-     kLevitatedFaults, kDropFaults},
+     kLevitatedFaults | Bit(Fault::kOrbitExceeded), kDropFaults},
     {State::kTrippedStopping, Mode::kTripped, true, Reference::kCentre, Drive::kBrake, false,
      kSignalFaults | Bit(Fault::kOrbitExceeded) | Bit(Fault::kLawNotFinite),
      kDropFaults | Bit(Fault::kOrbitExceeded)},
     {State::kTrippedLanding, Mode::kTripped, true, Reference::kRampToRest, Drive::kBrake, false,
-     kSignalFaults | Bit(Fault::kLawNotFinite), kDropFaults},
+     kSignalFaults | Bit(Fault::kOrbitExceeded) | Bit(Fault::kLawNotFinite),
+     kDropFaults | Bit(Fault::kOrbitExceeded)},
     {State::kTrippedReleased, Mode::kTripped, false, Reference::kNone, Drive::kBrake, false, 0, 0},
 }};
 
 inline constexpr std::array kEdges{
-    Edge{State::kOff, Event::kCommandLift, Guard::kAlways, State::kSelfTest, Action::kNone},
+    Edge{State::kOff, Event::kCommandLift, Guard::kNotTurning, State::kSelfTest, Action::kNone},
     Edge{State::kOff, Event::kStopFault, Guard::kAlways, State::kTrippedReleased, Action::kLatch},
 
     Edge{State::kSelfTest, Event::kSelfTestPassed, Guard::kAlways, State::kLift, Action::kStartLaw},
@@ -177,7 +183,7 @@ inline constexpr std::array kEdges{
          Action::kLatch},
 
     Edge{State::kLanding, Event::kLanded, Guard::kAlways, State::kOff, Action::kNone},
-    Edge{State::kLanding, Event::kStopFault, Guard::kAlways, State::kTrippedReleased,
+    Edge{State::kLanding, Event::kStopFault, Guard::kAlways, State::kTrippedStopping,
          Action::kLatch},
     Edge{State::kLanding, Event::kDropFault, Guard::kAlways, State::kTrippedReleased,
          Action::kLatch},
@@ -185,6 +191,8 @@ inline constexpr std::array kEdges{
     Edge{State::kTrippedStopping, Event::kStands, Guard::kAlways, State::kTrippedLanding,
          Action::kNone},
     Edge{State::kTrippedStopping, Event::kDropFault, Guard::kAlways, State::kTrippedReleased,
+         Action::kNone},
+    Edge{State::kTrippedLanding, Event::kTurns, Guard::kAlways, State::kTrippedStopping,
          Action::kNone},
     Edge{State::kTrippedLanding, Event::kLanded, Guard::kAlways, State::kTrippedReleased,
          Action::kNone},

@@ -17,6 +17,7 @@ struct Observation {
   double speed_rad_per_s{};          ///< as read, may be not finite
   std::uint32_t rig_session{};       ///< changes when the rig restarts
   std::uint32_t rig_status{};        ///< RigStatus bits
+  std::uint32_t held_currents{};     ///< periods in which the rig used an old current, its count
   std::uint32_t missed_deadlines{};  ///< periods skipped before this cycle
   std::uint16_t saturated_axes{};    ///< axes the law limited in the previous cycle
 };

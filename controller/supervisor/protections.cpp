@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/frames.hpp"
+#include "controller/supervisor/radius.hpp"
 
 namespace levitas::supervisor {
 namespace {
@@ -32,7 +33,24 @@ std::uint32_t Cycles(double time_s, double period_s) noexcept {
   return static_cast<std::uint32_t>(std::clamp(cycles, 1.0, static_cast<double>(kForever - 1)));
 }
 
-std::int8_t AxisNumber(std::size_t axis) noexcept { return static_cast<std::int8_t>(axis); }
+std::size_t Room(std::uint32_t events, const char* name) {
+  if (events == 0 || events > kMostMisses) {
+    throw std::invalid_argument(std::string("supervisor: ") + name + " = " +
+                                std::to_string(events) + ", allowed 1 to " +
+                                std::to_string(kMostMisses));
+  }
+  return events;
+}
+
+// A window of four times as many cycles as are a cut in a row; beyond what a file may ask for the
+// cut is out of reach.
+EventWindow CutWindow(std::uint32_t frame_missing_cycles) {
+  const std::uint64_t window = 4 * std::uint64_t{frame_missing_cycles};
+  if (window > kMostMisses) return {1, 0};
+  const auto limit = static_cast<std::size_t>(
+      std::ceil(kCutShare * static_cast<double>(std::max<std::uint64_t>(window, 1))));
+  return {limit, window};
+}
 
 }  // namespace
 
@@ -40,7 +58,14 @@ Protections::Protections(const RigNumbers& rig, const ProtectionConfig& config)
     : axes_(rig.axes()),
       config_(config),
       speed_limit_rad_per_s_(config.over_speed_fraction * rig.max_speed_rad_per_s),
-      period_s_(rig.period_s()) {
+      period_s_(rig.period_s()),
+      deadlines_(Room(config.deadline_missed_cycles, "deadline_missed_cycles"),
+                 config.deadline_window_cycles),
+      lost_(Room(config.frames_lost_cycles, "frames_lost_cycles"),
+            config.frames_lost_window_cycles),
+      cut_(CutWindow(config.frame_missing_cycles)),
+      late_(Room(config.currents_late_cycles, "currents_late_cycles"),
+            config.currents_late_window_cycles) {
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     clearance_m_[b] = rig.ClearanceOf(b);
     orbit_limit_m_[b] = config.orbit_fraction * rig.ClearanceOf(b);
@@ -56,25 +81,19 @@ Protections::Protections(const RigNumbers& rig, const ProtectionConfig& config)
   NeedPositive(config.sensor_range_cycles, "sensor_range_cycles");
   NeedPositive(config.sensor_frozen_cycles, "sensor_frozen_cycles");
   NeedPositive(config.frame_missing_cycles, "frame_missing_cycles");
-  NeedPositive(config.deadline_missed_cycles, "deadline_missed_cycles");
+  NeedPositive(config.frames_lost_window_cycles, "frames_lost_window_cycles");
+  NeedPositive(config.currents_late_window_cycles, "currents_late_window_cycles");
   NeedPositive(config.deadline_window_cycles, "deadline_window_cycles");
   NeedPositive(config.coil_saturated_s, "coil_saturated_s");
   saturated_limit_cycles_ = Cycles(config.coil_saturated_s, period_s_);
   contact_limit_cycles_ = Cycles(kContactS, period_s_);
-  if (config.deadline_missed_cycles > kMostMisses) {
-    throw std::invalid_argument(
-        "supervisor: deadline_missed_cycles = " + std::to_string(config.deadline_missed_cycles) +
-        ", allowed 1 to " + std::to_string(kMostMisses));
-  }
-  misses_.resize(config.deadline_missed_cycles);
 }
 
-Finding Protections::Check(const Observation& seen, FaultSet armed, bool energised,
-                           bool stop_requested) noexcept {
-  Count(seen, energised);
-  const Finding signal = FindSignalFault(seen, armed);
+Finding Protections::Check(const Observation& seen, const Circumstances& now) noexcept {
+  Count(seen, now);
+  const Finding signal = FindSignalFault(seen, now.armed);
   if (signal.fault != Fault::kNone) return signal;
-  return FindMotionFault(seen, armed, stop_requested);
+  return FindMotionFault(seen, now);
 }
 
 void Protections::AcceptSession(std::uint32_t rig_session) noexcept {
@@ -94,18 +113,14 @@ bool Protections::SignalsGood(const Observation& seen) const noexcept {
   return true;
 }
 
-void Protections::Count(const Observation& seen, bool energised) noexcept {
-  CountWhile(!seen.fresh, frames_missing_);
-  for (std::uint32_t i = 0; i < std::min<std::size_t>(seen.missed_deadlines, misses_.size()); ++i) {
-    misses_[next_miss_] = seen.cycle;
-    next_miss_ = next_miss_ + 1 == misses_.size() ? 0 : next_miss_ + 1;
-    miss_count_ = std::min(miss_count_ + 1, misses_.size());
-  }
+void Protections::Count(const Observation& seen, const Circumstances& now) noexcept {
+  CountTransport(seen, now.energised);
   for (std::size_t i = 0; i < axes_; ++i) {
-    CountWhile(energised && (seen.saturated_axes >> i & 1U) != 0, saturated_[i]);
+    CountWhile(now.energised && (seen.saturated_axes >> i & 1U) != 0, saturated_[i]);
   }
+  CountMotion(seen, now);
   if (!seen.fresh) return;  // no new evidence about the signals
-  CountWhile(energised && (seen.rig_status & kRigAmplifiersOff) != 0, amplifiers_silent_);
+  CountWhile(now.energised && (seen.rig_status & kRigAmplifiersOff) != 0, amplifiers_silent_);
   for (std::size_t i = 0; i < axes_; ++i) {
     const double position_m = seen.position_m[i];
     CountWhile(std::abs(position_m) >= range_limit_m_[i], out_of_range_[i]);
@@ -113,148 +128,49 @@ void Protections::Count(const Observation& seen, bool energised) noexcept {
     last_position_m_[i] = position_m;
   }
   has_position_ = true;
+}
+
+// A rig counts the periods it held; one that only reports each of them has its status bit.
+void Protections::CountTransport(const Observation& seen, bool energised) noexcept {
+  CountWhile(!seen.fresh, frames_missing_);
+  deadlines_.Add(seen.cycle, seen.missed_deadlines);
+  if (!seen.fresh) {
+    lost_.Add(seen.cycle, 1);
+    cut_.Add(seen.cycle, 1);
+    return;
+  }
+  const bool counted = seen.rig_session == held_session_ && seen.held_currents > held_before_;
+  const std::uint32_t reported = (seen.rig_status & kRigCurrentHeld) != 0 ? 1 : 0;
+  if (energised) {
+    late_.Add(seen.cycle, counted ? seen.held_currents - held_before_ : reported);
+  }
+  held_before_ = seen.held_currents;
+  held_session_ = seen.rig_session;
+}
+
+void Protections::CountBack(Counted& counted, std::uint64_t periods, std::uint64_t most) noexcept {
+  if (counted.beyond) {
+    counted.periods = std::min(counted.periods + periods, most);
+  } else {
+    counted.periods -= std::min(counted.periods, periods);
+  }
+}
+
+// Periods that were skipped, and this one without a frame, go to what was seen last.
+void Protections::CountMotion(const Observation& seen, const Circumstances& now) noexcept {
+  const std::uint64_t unseen = std::uint64_t{seen.missed_deadlines} + (seen.fresh ? 0 : 1);
+  const AxisArray deviation_m = Deviation(seen.position_m, now.reference_m);
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
-    const double radius_m = Radius(seen, b);
-    CountWhile(radius_m > orbit_limit_m_[b], beyond_orbit_[b]);
-    std::uint32_t& contact = in_contact_[b];
-    if (radius_m >= clearance_m_[b]) {
-      contact = std::min(contact + 1, contact_limit_cycles_);
-    } else if (contact > 0) {
-      --contact;
+    CountBack(orbit_[b], unseen, config_.orbit_cycles);
+    CountBack(contact_[b], unseen, contact_limit_cycles_);
+    if (seen.fresh) {
+      orbit_[b].beyond = Radius(deviation_m, b) > orbit_limit_m_[b];
+      contact_[b].beyond = Radius(seen.position_m, b) >= clearance_m_[b];
+      CountBack(orbit_[b], 1, config_.orbit_cycles);
+      CountBack(contact_[b], 1, contact_limit_cycles_);
     }
+    if (!now.energised) orbit_[b] = {};
   }
-}
-
-Finding Protections::FindSignalFault(const Observation& seen, FaultSet armed) const noexcept {
-  Finding found;
-  const auto look = [&](Finding candidate) {
-    if (found.fault == Fault::kNone && (armed & Bit(candidate.fault)) != 0) found = candidate;
-  };
-  if (seen.fresh && seen.rig_session != session_) {
-    look({Fault::kRigRestarted, -1, static_cast<double>(seen.rig_session),
-          static_cast<double>(session_)});
-  }
-  if (frames_missing_ >= config_.frame_missing_cycles) {
-    look({Fault::kFrameMissing, -1, static_cast<double>(frames_missing_),
-          static_cast<double>(config_.frame_missing_cycles)});
-  }
-  if (seen.fresh) {
-    look(NotFinite(seen));
-    look(AmplifierFault(seen));
-    look(OutOfRange(seen));
-    look(Frozen());
-  }
-  return found;
-}
-
-Finding Protections::FindMotionFault(const Observation& seen, FaultSet armed,
-                                     bool stop_requested) const noexcept {
-  Finding found;
-  const auto look = [&](Finding candidate) {
-    if (found.fault == Fault::kNone && (armed & Bit(candidate.fault)) != 0) found = candidate;
-  };
-  // Also in an old frame: lines are read without one, and a stop does not wait for the next.
-  if (stop_requested || (seen.rig_status & kRigEmergencyStop) != 0) {
-    look({Fault::kEmergencyStop, -1, 1.0, 0.0});
-  }
-  if (seen.fresh && (seen.rig_status & kRigSpeedUnknown) != 0) {
-    look({Fault::kSpeedUnknown, -1, 1.0, 0.0});
-  }
-  if (seen.fresh && std::abs(seen.speed_rad_per_s) > speed_limit_rad_per_s_) {
-    look({Fault::kOverSpeed, -1, std::abs(seen.speed_rad_per_s), speed_limit_rad_per_s_});
-  }
-  look(Orbit(seen));
-  look(Saturated());
-  look(DeadlineMissed(seen));
-  return found;
-}
-
-// The value is given as 0: NaN would not even equal itself when a replay compares the outputs.
-Finding Protections::NotFinite(const Observation& seen) const noexcept {
-  for (std::size_t i = 0; i < axes_; ++i) {
-    if (!std::isfinite(seen.position_m[i])) {
-      return {Fault::kSensorNotFinite, AxisNumber(i), 0.0, range_limit_m_[i]};
-    }
-  }
-  if (!std::isfinite(seen.speed_rad_per_s)) {
-    return {Fault::kSensorNotFinite, -1, 0.0, speed_limit_rad_per_s_};
-  }
-  return {};
-}
-
-Finding Protections::OutOfRange(const Observation& seen) const noexcept {
-  for (std::size_t i = 0; i < axes_; ++i) {
-    if (out_of_range_[i] >= config_.sensor_range_cycles) {
-      return {Fault::kSensorOutOfRange, AxisNumber(i), seen.position_m[i], range_limit_m_[i]};
-    }
-  }
-  return {};
-}
-
-// The first reading counts too: n identical readings are n - 1 repetitions.
-Finding Protections::Frozen() const noexcept {
-  for (std::size_t i = 0; i < axes_; ++i) {
-    if (std::uint64_t{unchanged_[i]} + 1 >= config_.sensor_frozen_cycles && unchanged_[i] > 0) {
-      return {Fault::kSensorFrozen, AxisNumber(i), static_cast<double>(unchanged_[i]) + 1.0,
-              static_cast<double>(config_.sensor_frozen_cycles)};
-    }
-  }
-  return {};
-}
-
-Finding Protections::AmplifierFault(const Observation& seen) const noexcept {
-  if ((seen.rig_status & kRigAmplifierFault) != 0) return {Fault::kAmplifierFault, -1, 1.0, 0.0};
-  if (amplifiers_silent_ >= kAmplifierAnswerCycles) {
-    return {Fault::kAmplifierFault, -1, static_cast<double>(amplifiers_silent_),
-            static_cast<double>(kAmplifierAnswerCycles)};
-  }
-  return {};
-}
-
-Finding Protections::Orbit(const Observation& seen) const noexcept {
-  for (std::size_t b = 0; 2 * b < axes_; ++b) {
-    if (beyond_orbit_[b] >= config_.orbit_cycles) return OrbitFinding(seen, b, orbit_limit_m_[b]);
-  }
-  return {};
-}
-
-Finding Protections::Contact(const Observation& seen) const noexcept {
-  for (std::size_t b = 0; 2 * b < axes_; ++b) {
-    if (in_contact_[b] >= contact_limit_cycles_) return OrbitFinding(seen, b, clearance_m_[b]);
-  }
-  return {};
-}
-
-Finding Protections::OrbitFinding(const Observation& seen, std::size_t bearing,
-                                  double limit_m) const noexcept {
-  const std::size_t x = 2 * bearing;
-  const bool x_is_larger = std::abs(seen.position_m[x]) >= std::abs(seen.position_m[x + 1]);
-  return {Fault::kOrbitExceeded, AxisNumber(x_is_larger ? x : x + 1), Radius(seen, bearing),
-          limit_m};
-}
-
-Finding Protections::DeadlineMissed(const Observation& seen) const noexcept {
-  if (miss_count_ < misses_.size()) return {};
-  const std::uint64_t oldest = misses_[next_miss_];
-  if (seen.cycle - oldest >= config_.deadline_window_cycles) return {};
-  return {Fault::kDeadlineMissed, -1, static_cast<double>(miss_count_),
-          static_cast<double>(config_.deadline_missed_cycles)};
-}
-
-Finding Protections::Saturated() const noexcept {
-  for (std::size_t i = 0; i < axes_; ++i) {
-    if (saturated_[i] >= saturated_limit_cycles_) {
-      return {Fault::kCoilSaturated, AxisNumber(i), saturated_[i] * period_s_,
-              config_.coil_saturated_s};
-    }
-  }
-  return {};
-}
-
-double Protections::Radius(const Observation& seen, std::size_t bearing) const noexcept {
-  const double x_m = seen.position_m[2 * bearing];
-  const double y_m = seen.position_m[2 * bearing + 1];
-  return std::sqrt(x_m * x_m + y_m * y_m);
 }
 
 }  // namespace levitas::supervisor

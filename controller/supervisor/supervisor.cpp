@@ -58,7 +58,8 @@ Supervisor::Supervisor(const RigNumbers& rig, const SupervisorConfig& config)
       max_acceleration_rad_per_s2_(rig.max_acceleration_rad_per_s2),
       sequence_(config.sequence),
       implausible_limit_cycles_(config.protection.sensor_range_cycles),
-      protections_(rig, config.protection) {
+      protections_(rig, config.protection),
+      speed_(rig, config.sequence) {
   const SequenceConfig& s = config.sequence;
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     resting_limit_m_[b] = kRestingPlaceFactor * rig.ClearanceOf(b);
@@ -84,24 +85,65 @@ Finding Supervisor::Check(const Observation& seen, const Request& request) noexc
   // same holds for the first frame of all, which may come after the command to lift.
   const bool idle = !row.energised && decision_.state != State::kSelfTest;
   if (seen.fresh && (idle || !protections_.session_known())) {
+    if (!protections_.Knows(seen.rig_session)) speed_.Forget();
     protections_.AcceptSession(seen.rig_session);
   }
+  const bool braked = decision_.drive_enabled && decision_.speed_set_point_rad_per_s == 0.0;
+  speed_.Update(seen, braked ? decision_.acceleration_rad_per_s2 : 0.0);
   // During a levitated stop the orbit that tripped may go on; only lasting contact counts then.
   const bool stopping = decision_.state == State::kTrippedStopping;
-  const FaultSet armed = stopping ? row.armed & ~Bit(Fault::kOrbitExceeded) : row.armed;
-  const Finding finding = protections_.Check(seen, armed, row.energised,
-                                             request.command == OperatorCommand::kEmergencyStop);
+  const Finding finding = protections_.Check(
+      seen, {.armed = stopping ? row.armed & ~Bit(Fault::kOrbitExceeded) : row.armed,
+             .energised = row.energised,
+             .stop_requested = request.command == OperatorCommand::kEmergencyStop,
+             .reference_m = Expected(seen),
+             .speed = SpeedFinding()});
   if (finding.fault != Fault::kNone) return finding;
   if (decision_.state == State::kSelfTest) return SelfTest(seen);
   if (decision_.state == State::kLift) return Lift(seen);
-  if (stopping) return protections_.Contact(seen);
+  if (stopping && !Returning()) return protections_.Contact(seen);
   return finding;
+}
+
+// A rotor that is lowered may run ahead of its reference: near the wall the magnets pull it over to
+// its resting place at once. It is expected on the line from the one to the other.
+AxisArray Supervisor::Expected(const Observation& seen) const noexcept {
+  AxisArray expected_m = decision_.reference_m;
+  if (Row(decision_.state).reference != Reference::kRampToRest) return expected_m;
+  for (std::size_t x = 0; x + 1 < axes_; x += 2) {
+    const double to_x_m = rest_m_[x] - expected_m[x];
+    const double to_y_m = rest_m_[x + 1] - expected_m[x + 1];
+    const double length2 = to_x_m * to_x_m + to_y_m * to_y_m;
+    const double along = (seen.position_m[x] - expected_m[x]) * to_x_m +
+                         (seen.position_m[x + 1] - expected_m[x + 1]) * to_y_m;
+    if (!(along > 0.0)) continue;  // also a position that is no number
+    const double share = std::min(along / length2, 1.0);
+    expected_m[x] += share * to_x_m;
+    expected_m[x + 1] += share * to_y_m;
+  }
+  return expected_m;
+}
+
+// Whoever lands was proven to stand: if the rotor turns all the same, the speed was not known.
+Finding Supervisor::SpeedFinding() const noexcept {
+  if (speed_.unknown()) return speed_.Contradiction();
+  if (decision_.state == State::kLanding && speed_.turns()) {
+    return {Fault::kSpeedUnknown, -1, speed_.Magnitude(), sequence_.standstill_rad_per_s};
+  }
+  return {};
+}
+
+// On the way back from a landing: the rotor may still touch where it was being lowered to.
+bool Supervisor::Returning() const noexcept {
+  return cycles_in_state_ < times_.lift_ramp && ramp_from_m_ != AxisArray{};
 }
 
 const Decision& Supervisor::Decide(const Observation& seen, const Request& request,
                                    const Finding& finding) noexcept {
   decision_.start_law = false;
   decision_.command_refused = false;
+  decision_.standing = speed_.stands();
+  decision_.turning = speed_.may_turn();
   ++cycles_in_state_;
   const std::optional<Event> command = CommandEvent(request.command);
   if (finding.fault != Fault::kNone) {
@@ -112,7 +154,7 @@ const Decision& Supervisor::Decide(const Observation& seen, const Request& reque
     const bool moved = command && Take(*command, seen, request, finding);
     decision_.command_refused = (command && !moved) || Refuses(decision_.state, request.command);
     for (const Event event :
-         {Event::kSelfTestPassed, Event::kLifted, Event::kStands, Event::kLanded}) {
+         {Event::kSelfTestPassed, Event::kLifted, Event::kStands, Event::kTurns, Event::kLanded}) {
       if (!moved && Happened(event, seen) && Take(event, seen, request, finding)) break;
     }
   }
@@ -130,15 +172,16 @@ const Decision& Supervisor::Drop(const Observation& seen, const Finding& finding
   return decision_;
 }
 
-// Plausible: the rotor lies within the touchdown bearings and stands. (Finite, in range, live and
-// fault-free is what the protections armed in this state look for.)
+// Plausible: the rotor lies within the touchdown bearings and does not turn. (Finite, in range,
+// live and fault-free is what the protections armed in this state look for.)
 Finding Supervisor::SelfTest(const Observation& seen) noexcept {
   if (!seen.fresh) return {};
   Finding found = FarthestBearing(seen, resting_limit_m_);
-  if (found.value <= found.limit) {
-    found = {Fault::kNone, -1, std::abs(seen.speed_rad_per_s), sequence_.standstill_rad_per_s};
+  bool implausible = !(found.value <= found.limit);
+  if (!implausible && speed_.may_turn()) {
+    found = {Fault::kNone, -1, speed_.Magnitude(), sequence_.standstill_rad_per_s};
+    implausible = true;
   }
-  const bool implausible = !(found.value <= found.limit);
   implausible_cycles_ = implausible ? implausible_cycles_ + 1 : 0;
   if (implausible_cycles_ < implausible_limit_cycles_) return {};
   found.fault = Fault::kSelfTestFailed;
@@ -163,12 +206,15 @@ Finding Supervisor::Lift(const Observation& seen) noexcept {
 bool Supervisor::Happened(Event event, const Observation& seen) const noexcept {
   switch (event) {
     case Event::kSelfTestPassed:
-      return seen.fresh && implausible_cycles_ == 0 && cycles_in_state_ > times_.self_test;
+      return seen.fresh && implausible_cycles_ == 0 && cycles_in_state_ > times_.self_test &&
+             speed_.stands();
     case Event::kLifted:
       return near_centre_cycles_ > 0 && near_centre_cycles_ >= times_.lift_settle;
     case Event::kStands:
-      return Standing(seen) &&
+      return speed_.stands() &&
              (Row(decision_.state).drive != Drive::kSetPoint || set_point_rad_per_s_ == 0.0);
+    case Event::kTurns:
+      return speed_.turns();
     case Event::kLanded:
       return cycles_in_state_ > times_.landing_ramp;
     default:
@@ -182,14 +228,16 @@ bool Supervisor::Holds(Guard guard, const Observation& seen,
     case Guard::kAlways:
       return true;
     case Guard::kStanding:
-      return Standing(seen);
+      return speed_.stands();
+    case Guard::kNotTurning:
+      return !speed_.may_turn();
     case Guard::kSpeedValid:  // written so that NaN does not pass
       return std::abs(request.speed_rad_per_s) <= max_speed_rad_per_s_ &&
              request.acceleration_rad_per_s2 > 0.0 &&
              std::isfinite(request.acceleration_rad_per_s2) &&
              request.acceleration_rad_per_s2 <= kRounding * max_acceleration_rad_per_s2_;
     case Guard::kCauseGone:
-      return protections_.SignalsGood(seen) && Standing(seen);
+      return protections_.SignalsGood(seen) && speed_.stands();
   }
   return false;
 }
@@ -198,6 +246,7 @@ bool Supervisor::Take(Event event, const Observation& seen, const Request& reque
                       const Finding& finding) noexcept {
   const Edge* const edge = FindEdge(decision_.state, event);
   if (edge == nullptr || !Holds(edge->guard, seen, request)) return false;
+  if (Row(decision_.state).energised && !Row(edge->to).energised) decision_.released = finding;
   Enter(edge->to);
   Act(edge->action, seen, request, finding);
   return true;
@@ -236,11 +285,11 @@ void Supervisor::Enter(State state) noexcept {
 
 void Supervisor::MoveReference() noexcept {
   const Reference reference = Row(decision_.state).reference;
-  if (reference == Reference::kNone || reference == Reference::kCentre) {
+  if (reference == Reference::kNone) {
     decision_.reference_m = {};
     return;
   }
-  const bool lifting = reference == Reference::kRampToCentre;
+  const bool lifting = reference != Reference::kRampToRest;
   const std::uint64_t ramp_cycles = lifting ? times_.lift_ramp : times_.landing_ramp;
   const double p = cycles_in_state_ >= ramp_cycles
                        ? 1.0
@@ -262,14 +311,13 @@ void Supervisor::CommandDrive(const Observation& seen) noexcept {
     decision_.speed_set_point_rad_per_s = set_point_rad_per_s_;
     decision_.acceleration_rad_per_s2 = acceleration_rad_per_s2_;
   } else if (drive == Drive::kBrake) {
-    // While the speed is not known the brake stays on: it does nothing to a rotor that stands.
-    decision_.drive_enabled = !(seen.fresh && Standing(seen));
+    // While the speed is not known the brake stays on: it does nothing to a rotor that stands. In
+    // off the rig may be another's, so it is braked only where its rotor is seen to turn.
+    const bool off = decision_.state == State::kOff;
+    decision_.drive_enabled = off ? speed_.may_turn() : !(seen.fresh && speed_.stands());
+    if (off && !decision_.drive_enabled) return;
     decision_.acceleration_rad_per_s2 = sequence_.trip_acceleration_rad_per_s2;
   }
-}
-
-bool Supervisor::Standing(const Observation& seen) const noexcept {
-  return std::abs(seen.speed_rad_per_s) < sequence_.standstill_rad_per_s;
 }
 
 // Of its own limit, not in metres: bearings may have different clearances.

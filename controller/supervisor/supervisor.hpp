@@ -4,7 +4,9 @@
 // Order      in one cycle: a fault first; without one the operator's command; then what happened
 //            by itself (self-test passed, lifted, stands, landed). Each takes at most one edge.
 // Reference  moves along 3 p^2 - 2 p^3 (p = share of the ramp's time), so that it starts and ends
-//            without a step in velocity.
+//            without a step in velocity; also on its way back from a landing that is given up.
+// Landing    is given up when the rotor turns after all, or leaves the reference: it returns to the
+//            centre under the brake, and contact counts as such only once it is there.
 // Frame      bearing frame. Units: SI.
 // Thread     loop thread only; Check and Decide allocate nothing and throw nothing.
 // Failure    faults are latched in the decision; the constructor throws std::invalid_argument for
@@ -17,6 +19,7 @@
 #include "controller/supervisor/mode_table.hpp"
 #include "controller/supervisor/observation.hpp"
 #include "controller/supervisor/protections.hpp"
+#include "controller/supervisor/speed_watch.hpp"
 #include "controller/supervisor/supervisor_config.hpp"
 
 namespace levitas::supervisor {
@@ -39,7 +42,10 @@ struct Decision {
   double speed_set_point_rad_per_s{};
   double acceleration_rad_per_s2{};
   bool command_refused{};
+  bool standing{};  ///< proven that the rotor stands (SpeedWatch)
+  bool turning{};   ///< must be taken to turn: above standstill as last believed, or unknown
   Latch latch;
+  Finding released;  ///< why the magnets let go; kNone: they did not, or as planned
 };
 
 class Supervisor {
@@ -75,7 +81,10 @@ class Supervisor {
   void Enter(State state) noexcept;
   void MoveReference() noexcept;
   void CommandDrive(const Observation& seen) noexcept;
-  [[nodiscard]] bool Standing(const Observation& seen) const noexcept;
+  [[nodiscard]] Finding SpeedFinding() const noexcept;
+  /// Where the rotor is to be, the reference of the orbit's limit.
+  [[nodiscard]] AxisArray Expected(const Observation& seen) const noexcept;
+  [[nodiscard]] bool Returning() const noexcept;
   [[nodiscard]] Finding FarthestBearing(const Observation& seen,
                                         const AxisArray& limit_m) const noexcept;
 
@@ -88,6 +97,7 @@ class Supervisor {
   std::uint32_t implausible_limit_cycles_{};
   Times times_{};
   Protections protections_;
+  SpeedWatch speed_;
 
   Decision decision_;
   std::uint64_t cycles_in_state_{};

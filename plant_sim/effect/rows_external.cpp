@@ -17,7 +17,7 @@ constexpr std::array kMisalignment{
               "of this order", false},
     Phase("at rotor angle 0, from x towards y")};
 
-constexpr std::array kCoupling{
+constexpr std::array kCouplingStiffness{
     Plane(0.0, 0.0), Signed("direct", "n_per_m", 1e9, 2e4, std::nullopt, "stiffness in x and in y"),
     Signed("cross", "n_per_m", 1e9, 0.0, 0.0, "stiffness between x and y, symmetric")};
 
@@ -47,7 +47,7 @@ constexpr std::array kRub{
     Parameter{"friction", "", "", 0.0, 1.0, 0.1, 0.1, Scaling::kFixed, 0.1,
               "Coulomb coefficient of the sliding contact", false}};
 
-constexpr std::array kRows{
+constexpr std::array kExternalRows{
     Row{Id::kMisalignment, "misalignment", Place::kExternal, Scope::kRig, kMisalignment,
         "a misaligned coupling pushes at multiples of rotation",
         "f(z) = force e^(j(order angle + phase))",
@@ -56,8 +56,9 @@ constexpr std::array kRows{
         "Gibbons 1976, Proc. 5th Turbomachinery Symp. 111; Sekhar & Prabhu 1995, J. Sound Vib. "
         "185(4) 655",
         Facts{.repeats = true, .needs_rotation = true, .shows_in = Shows::kSpectrum}},
-    Row{Id::kCouplingStiffness, "coupling_stiffness", Place::kExternal, Scope::kRig, kCoupling,
-        "a spring at the drive end", "f(z) = -[direct cross; cross direct] [x, y]",
+    Row{Id::kCouplingStiffness, "coupling_stiffness", Place::kExternal, Scope::kRig,
+        kCouplingStiffness, "a spring at the drive end",
+        "f(z) = -[direct cross; cross direct] [x, y]",
         "raises (softens, if negative) the rigid modes; conservative, so it does not damp or drive",
         "Genta 2005, Dynamics of Rotating Systems, ch. 4",
         Facts{.repeats = true, .shows_in = Shows::kResponse, .modes = Modes::kOnTheRotor}},
@@ -89,6 +90,6 @@ constexpr std::array kRows{
 
 }  // namespace
 
-std::span<const Row> ExternalRows() { return kRows; }
+std::span<const Row> ExternalRows() { return kExternalRows; }
 
 }  // namespace levitas::effect

@@ -4,7 +4,7 @@
 namespace levitas::effect {
 namespace {
 
-constexpr std::array kStiffness{
+constexpr std::array kToothStiffness{
     Parameter{"stiffness", "n_per_m", "n_per_m", 1.0, 1e12, 0.7, kOwn, Scaling::kLinear,
               std::nullopt, "mean stiffness of the mesh", false},
     Parameter{"damping", "n_s_per_m", "n_s_per_m", 0.0, 1e9, 0.8, kOwn, Scaling::kLinear,
@@ -36,14 +36,14 @@ constexpr std::array kEccentricity{
               "of the pitch circle off the shaft's axis, added to what the rig has", false},
     Phase("its direction in the wheel, from x towards y at angle 0")};
 
-constexpr std::array kCrack{
+constexpr std::array kToothCrack{
     Parameter{"depth", "", "", 0.0, 1.0, 0.5, 0.0, Scaling::kLinear, std::nullopt,
               "share of the stiffness lost while the tooth carries alone", false},
     Parameter{"tooth", "", "", 0.0, 10000.0, 0.0, 0.0, Scaling::kFixed, 0.0,
               "0: the one in mesh at angle 0", true}};
 
-constexpr std::array kRows{
-    Row{Id::kMeshStiffness, "mesh_stiffness", Place::kGear, Scope::kGear, kStiffness,
+constexpr std::array kGearRows{
+    Row{Id::kMeshStiffness, "mesh_stiffness", Place::kGear, Scope::kGear, kToothStiffness,
         "mean stiffness and damping of the teeth differ from the drawing's",
         "f = stiffness delta + damping delta'",
         "moves the modes in which the wheels move against each other; a line of the transmission "
@@ -85,7 +85,7 @@ constexpr std::array kRows{
         "for the one it turns",
         "Smith 2003, Gear Noise and Vibration, 2nd ed., ch. 2",
         Facts{.repeats = true, .needs_rotation = true, .shows_in = Shows::kGearMesh}},
-    Row{Id::kToothCrack, "tooth_crack", Place::kGear, Scope::kGear, kCrack,
+    Row{Id::kToothCrack, "tooth_crack", Place::kGear, Scope::kGear, kToothCrack,
         "a tooth with a cracked root carries less, once per turn of its wheel",
         "k(t) = k [1 - depth w],  w a Hann window one pitch to either side of the tooth",
         "a pulse once per turn: lines at multiples of the wheel's rotation, side bands of the mesh "
@@ -96,6 +96,6 @@ constexpr std::array kRows{
 
 }  // namespace
 
-std::span<const Row> GearRows() { return kRows; }
+std::span<const Row> GearRows() { return kGearRows; }
 
 }  // namespace levitas::effect

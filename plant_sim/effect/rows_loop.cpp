@@ -26,7 +26,7 @@ constexpr std::array kSlew{Parameter{"slew", "a_per_s", "a_per_s", 1.0, 1e8, 150
                                      Scaling::kInverse, std::nullopt,
                                      "most a coil current can change per second", false}};
 
-constexpr std::array kRows{
+constexpr std::array kLoopRows{
     Row{Id::kExtraDelay, "extra_delay", Place::kTiming, Scope::kRig, kExtraDelay,
         "the current acts later than the model says, by any fraction of a sample",
         "i(t) = u(t - T_rig - delay)",
@@ -60,6 +60,6 @@ constexpr std::array kRows{
 
 }  // namespace
 
-std::span<const Row> LoopRows() { return kRows; }
+std::span<const Row> LoopRows() { return kLoopRows; }
 
 }  // namespace levitas::effect

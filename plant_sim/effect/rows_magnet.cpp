@@ -41,7 +41,7 @@ constexpr std::array kCoupling{Parameter{"ratio", "", "", -0.5, 0.5, 0.08, 0.0, 
                                          std::nullopt,
                                          "force across per force along the current's axis", false}};
 
-constexpr std::array kRows{
+constexpr std::array kMagnetRows{
     Row{Id::kCurrentGain, "current_gain", Place::kAmplifier, Scope::kChannels, kCurrentGain,
         "the force per control current differs from nominal", "F = F_nominal(ratio ic, x)",
         "every response to current scaled by ratio; ks, the limits of the coils and all else "
@@ -112,6 +112,6 @@ constexpr std::array kRows{
 
 }  // namespace
 
-std::span<const Row> MagnetRows() { return kRows; }
+std::span<const Row> MagnetRows() { return kMagnetRows; }
 
 }  // namespace levitas::effect

@@ -41,7 +41,7 @@ constexpr std::array kCrack{
               "of the crack, as a share of the shaft's diameter", false},
     Phase("direction of the crack in the rotor, from x towards y at angle 0")};
 
-constexpr std::array kRows{
+constexpr std::array kRotorRows{
     Row{Id::kUnbalance, "unbalance", Place::kRotor, Scope::kRig, kUnbalance,
         "mass eccentricity differs from nominal", "f(z) = moment W^2 e^(j(W t + phase))",
         "forward line at 1 x rotation, force proportional to speed squared",
@@ -104,6 +104,6 @@ constexpr std::array kRows{
 
 }  // namespace
 
-std::span<const Row> RotorRows() { return kRows; }
+std::span<const Row> RotorRows() { return kRotorRows; }
 
 }  // namespace levitas::effect

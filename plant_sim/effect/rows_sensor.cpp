@@ -6,18 +6,18 @@ namespace {
 
 constexpr std::array kGain{Ratio(0.1, 10.0, 1.1, "reading over the nominal reading")};
 
-constexpr std::array kOffset{Parameter{"offset", "m", "um", -5e-3, 5e-3, 20e-6, 0.0,
-                                       Scaling::kLinear, std::nullopt,
-                                       "reading with the rotor in the magnetic centre", false}};
+constexpr std::array kReadingOffset{
+    Parameter{"offset", "m", "um", -5e-3, 5e-3, 20e-6, 0.0, Scaling::kLinear, std::nullopt,
+              "reading with the rotor in the magnetic centre", false}};
 
 constexpr std::array kNonlinearity{Parameter{"a2", "1_per_m", "1_per_m", -1e6, 1e6, 500.0, 0.0,
                                              Scaling::kLinear, 0.0, "quadratic coefficient", false},
                                    Parameter{"a3", "1_per_m2", "1_per_m2", -1e10, 1e10, 5e6, 0.0,
                                              Scaling::kLinear, 0.0, "cubic coefficient", false}};
 
-constexpr std::array kBandwidth{Parameter{"bandwidth", "hz", "hz", 10.0, 1e6, 0.2, kOwn,
-                                          Scaling::kGeometric, std::nullopt,
-                                          "-3 dB of the first-order sensor", false}};
+constexpr std::array kProbeBandwidth{Parameter{"bandwidth", "hz", "hz", 10.0, 1e6, 0.2, kOwn,
+                                               Scaling::kGeometric, std::nullopt,
+                                               "-3 dB of the first-order sensor", false}};
 
 constexpr std::array kPosition{Parameter{"shift", "m", "mm", -1.0, 1.0, 5e-3, 0.0, Scaling::kLinear,
                                          std::nullopt,
@@ -43,13 +43,13 @@ constexpr std::array kNoise{
     Parameter{"corner", "hz", "hz", 0.0, 1e6, 0.0, 0.0, Scaling::kFixed, 0.0,
               "above which it falls by 20 dB per decade; 0 = white", false}};
 
-constexpr std::array kRows{
+constexpr std::array kSensorRows{
     Row{Id::kSensorGain, "sensor_gain", Place::kSensor, Scope::kChannels, kGain,
         "the scale of the sensor is wrong", "reading = ratio x nominal reading",
         "every response of this channel scaled by ratio, at all frequencies",
         "ISO 14839-1; Schweitzer & Maslen 2009, Magnetic Bearings, ch. 3",
         Facts{.needs_excitation = true, .shows_in = Shows::kResponse, .modes = Modes::kOnTheLoop}},
-    Row{Id::kSensorOffset, "sensor_offset", Place::kSensor, Scope::kChannels, kOffset,
+    Row{Id::kSensorOffset, "sensor_offset", Place::kSensor, Scope::kChannels, kReadingOffset,
         "the sensor's zero is not the magnetic centre", "reading = nominal reading + offset",
         "constant (order 0) part of the reading only",
         "Schweitzer & Maslen 2009, Magnetic Bearings, ch. 3", Facts{.shows_in = Shows::kSpectrum}},
@@ -59,7 +59,7 @@ constexpr std::array kRows{
         "of a motion of amplitude A: mean and 2nd harmonic a2 A^2/2, 3rd harmonic a3 A^3/4",
         "Schweitzer & Maslen 2009, Magnetic Bearings, ch. 3; powers of a cosine",
         Facts{.shows_in = Shows::kSpectrum}},
-    Row{Id::kSensorBandwidth, "sensor_bandwidth", Place::kSensor, Scope::kChannels, kBandwidth,
+    Row{Id::kSensorBandwidth, "sensor_bandwidth", Place::kSensor, Scope::kChannels, kProbeBandwidth,
         "the sensor is slower or faster than nominal", "s' = 2 pi bandwidth (y - s)",
         "gain and phase of the reading above the bandwidth; static reading unchanged",
         "Schweitzer & Maslen 2009, Magnetic Bearings, ch. 3",
@@ -92,6 +92,6 @@ constexpr std::array kRows{
 
 }  // namespace
 
-std::span<const Row> SensorRows() { return kRows; }
+std::span<const Row> SensorRows() { return kSensorRows; }
 
 }  // namespace levitas::effect

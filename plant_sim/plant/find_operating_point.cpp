@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "plant_sim/plant/effects/effect_forces.hpp"
+#include "plant_sim/plant/eigen_index.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -20,8 +21,6 @@ constexpr double kFoundA = 1e-10;
 constexpr double kLargestGapShare = 0.95;
 /// Of gap and bias, for central differences: the error of the slope is of its square.
 constexpr double kDifferenceShare = 1e-5;
-
-Index At(std::size_t i) { return static_cast<Index>(i); }
 
 PlaneForce ForceAt(const PlantModel& model, std::size_t bearing, const AxisArray& flux_a,
                    const AxisArray& displacement_m) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "plant_sim/plant/eigen_index.hpp"
 #include "plant_sim/plant/find_operating_point.hpp"
 #include "plant_sim/plant/linear_parts.hpp"
 #include "plant_sim/plant/train_linear.hpp"
@@ -14,8 +15,6 @@ namespace levitas::plant {
 namespace {
 
 using Index = Eigen::Index;
-
-Index At(std::size_t i) { return static_cast<Index>(i); }
 
 struct Discrete {
   Eigen::MatrixXd a;

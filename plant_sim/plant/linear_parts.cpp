@@ -6,6 +6,7 @@
 
 #include "plant_sim/effect/coil.hpp"
 #include "plant_sim/effect/eddy_current.hpp"
+#include "plant_sim/plant/eigen_index.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -14,8 +15,6 @@ using Index = Eigen::Index;
 
 // A lag faster than this is no lag to a loop sampled at kilohertz, and would cost digits.
 constexpr double kFastestLagPerSecond = 1e9;
-
-Index At(std::size_t i) { return static_cast<Index>(i); }
 
 Eigen::Map<const Eigen::VectorXd> Vector(const std::vector<double>& values) {
   return {values.data(), At(values.size())};

@@ -7,16 +7,11 @@
 #include "plant_sim/effect/strength.hpp"
 #include "plant_sim/plant/check_config.hpp"
 #include "plant_sim/plant/coils_of.hpp"
+#include "plant_sim/plant/eigen_index.hpp"
 #include "plant_sim/plant/magnet_of.hpp"
 
 namespace levitas::plant {
-namespace {
-
-std::vector<double> ToVector(const Eigen::RowVectorXd& row) {
-  return {row.data(), row.data() + row.size()};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 PlantParameters Reduce(const PlantConfig& config) {
   CheckConfig(config);

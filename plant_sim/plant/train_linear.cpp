@@ -1,13 +1,12 @@
 #include "plant_sim/plant/train_linear.hpp"
 
+#include "plant_sim/plant/eigen_index.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::plant {
 namespace {
 
 using Index = Eigen::Index;
-
-Index At(std::size_t i) { return static_cast<Index>(i); }
 
 /// A spring and a damper that act on the displacement row * coordinates, by the same row.
 void AddElement(const PlantModel& model, const Eigen::RowVectorXd& row, double stiffness,

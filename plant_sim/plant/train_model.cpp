@@ -8,6 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "plant_sim/plant/eigen_index.hpp"
+
 namespace levitas::plant {
 namespace {
 
@@ -15,10 +17,6 @@ using Index = Eigen::Index;
 
 // A mode without stiffness of its own takes part in a placement as if it had this little.
 constexpr double kFreeModeRadPerS = 1.0;
-
-std::vector<double> ToVector(const Eigen::RowVectorXd& row) {
-  return {row.data(), row.data() + row.size()};
-}
 
 Eigen::RowVectorXd TwistAt(const PlantConfig& config, const TrainModes& modes,
                            const gear::Wheel& wheel) {

@@ -2,6 +2,7 @@
 
 #include "common/standard_arithmetic.hpp"
 #include "controller/rt/next_wake.hpp"
+#include "plant_sim/plant/command_of.hpp"
 
 namespace levitas::plant_run {
 
@@ -34,12 +35,8 @@ SensorFrame PlantLoop::Sample(std::int64_t sample_time_ns) noexcept {
 }
 
 void PlantLoop::Take(const CurrentFrame& current) noexcept {
-  command_ = {.control_current_a = current.control_current_a,
-              .bias_current_a = current.bias_current_a,
-              .amplifiers_enabled = current.amplifiers_enabled,
-              .drive_enabled = current.drive_enabled,
-              .speed_set_point_rad_per_s = current.speed_set_point_rad_per_s,
-              .acceleration_limit_rad_per_s2 = current.acceleration_limit_rad_per_s2};
+  command_ = plant::CommandOf(current);
+  driven_.store(current.drive_enabled, std::memory_order_relaxed);
   status_ = 0;
   if (latched_ && !current.amplifiers_enabled) {
     latched_ = false;
@@ -103,17 +100,23 @@ bool PlantLoop::AwaitCurrent(std::uint64_t cycle, std::int64_t deadline_ns,
     if (answer == ReceiveResult::kNothing) return false;
     heard_.fetch_add(1, std::memory_order_relaxed);
     if (answer == ReceiveResult::kGoodbye) {
-      Take({});
+      current.amplifiers_enabled = false;
+      Take(current);  // the drive goes on braking where the controller left a turning rotor
       goodbye = true;
       return false;
     }
     if (current.cycle == cycle) {
+      taken_cycle_ = cycle;
       if (timed_events_ != nullptr) timed_events_->Answered(cycle);
       Take(current);
       return true;
     }
     ++statistics_.stale_currents;
-    if (options_.realtime) Take(current);  // late, but newer than what is held
+    // Late, but newer than what is held: it acts, and somebody is there.
+    if (!options_.realtime || (answered_once_ && current.cycle <= taken_cycle_)) continue;
+    Take(current);
+    taken_cycle_ = current.cycle;
+    late_ = answered_once_ = true;
   }
 }
 
@@ -159,6 +162,11 @@ void PlantLoop::Hold() noexcept {
   if (!answered_once_) return;  // nobody is there yet: nothing is held
   ++statistics_.held_currents;
   status_ |= kRigCurrentHeld;
+  if (late_) {
+    late_ = false;
+    held_in_a_row_ = 0;
+    return;
+  }
   if (++held_in_a_row_ < options_.watchdog_periods) return;
   ++statistics_.watchdog_trips;
   command_ = {.amplifiers_enabled = false};

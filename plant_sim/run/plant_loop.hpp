@@ -8,12 +8,13 @@
 //            t_n+1 (a receiver that sleeps on its socket would cost the controller the wake-up:
 //            16 us of a send instead of 3). A current that is not there then is not waited for: the
 //            last one acts on and the period is counted as held.
-// Watchdog   when no current came for `watchdog_periods` in a row, the amplifiers are switched off
-//            and stay off until a controller has asked for just that. In lockstep periods do not
-//            pass by themselves: a controller that stays silent for `silence_ns` of the machine's
-//            time is taken for dead, and the rotor moves on without it (0: never).
+// Watchdog   when no new current, late or in time, came for `watchdog_periods` in a row, the
+//            amplifiers are switched off and stay off until a controller has asked for just that.
+//            In lockstep periods do not pass by themselves: a controller that stays silent for
+//            `silence_ns` of the machine's time is taken for dead, and the rotor moves on without
+//            it (0: never).
 // Gate       the rig's own lines, where it has some: they may keep the amplifiers off.
-// Thread     Run in one thread; Stop, heard, energised and TakeEvent from any one other.
+// Thread     Run in one thread; Stop, heard, energised, driven and TakeEvent from any one other.
 
 #include <atomic>
 #include <cstdint>
@@ -102,6 +103,8 @@ class PlantLoop {
   [[nodiscard]] bool energised() const noexcept {
     return energised_.load(std::memory_order_relaxed);
   }
+  /// The drive has a command: it runs the rotor, or brakes it.
+  [[nodiscard]] bool driven() const noexcept { return driven_.load(std::memory_order_relaxed); }
   /// The next event, oldest first; false when there is none.
   bool TakeEvent(RigNotice& event) noexcept { return events_.Take(event); }
   [[nodiscard]] const PlantStatistics& statistics() const noexcept { return statistics_; }
@@ -132,10 +135,13 @@ class PlantLoop {
   SpscRing<RigNotice> events_{256};
   PlantStatistics statistics_;
   plant::PlantCommand command_{.amplifiers_enabled = false};
-  std::uint64_t held_in_a_row_{0};
+  std::uint64_t held_in_a_row_{0};  ///< periods since a new current came, late or in time
+  std::uint64_t taken_cycle_{0};    ///< frame that the latest current taken answers
+  bool late_{false};                ///< a new current came in this period, for an earlier frame
   bool answered_once_{false};
   bool latched_{false};                 ///< the watchdog keeps the amplifiers off
   std::atomic<bool> energised_{false};  ///< as the plant was driven in the latest period
+  std::atomic<bool> driven_{false};     ///< by the newest command
   bool falling_{false};                 ///< switched off and not yet landed
   std::uint32_t status_{0};
   std::uint32_t gate_status_{0};

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "common/time_option.hpp"
 #include "common/whole_number.hpp"
 
 namespace levitas::plant_run {
@@ -28,7 +29,7 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
   app.add_option("--json", options.json, "Write statistics to this file");
   app.add_option("--partner-timeout", options.partner_timeout_s,
                  "Give up after this long without a controller [s]")
-      ->check(CLI::PositiveNumber)
+      ->check(WhyNoTime)
       ->capture_default_str();
   app.add_flag("--require-realtime", options.require_realtime,
                "Refuse to run when the machine does not grant real-time conditions");

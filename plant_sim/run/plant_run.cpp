@@ -7,6 +7,7 @@
 #include <random>
 #include <thread>
 
+#include "controller/rt/limits.hpp"
 #include "controller/rt/real_time.hpp"
 #include "controller/rt/say.hpp"
 #include "controller/rt/stop_signal.hpp"
@@ -19,8 +20,6 @@ namespace {
 
 // A blocked receive is overlooked for at most the period of the lockstep repetition.
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
-// Longer than the controller's own limit for a landing: a rig that nobody looks after ends, too.
-constexpr std::int64_t kLandingLimitNs = 660'000'000'000;
 
 nlohmann::ordered_json Json(const PlantSetup& setup, const PlantStatistics& statistics,
                             const std::vector<rt::RealTimeFact>& facts) {
@@ -121,13 +120,14 @@ class Watchman {
   }
 
   // A controller that is there has been asked too, or its rotor is in its hands: the rig stays
-  // until the amplifiers are off, else the first to end would be the one that the rotor needs.
+  // until the amplifiers are off and the drive brakes no more, else the first to end would be the
+  // one that the rotor needs.
   void HeedSignals() {
     const int asked = rt::StopSignals();
     if (asked == 0 && !rt::QuitSignal() && rt::Troubles() == 0) return;
-    const bool holds = loop_.energised() && controller_.present();
-    if (asked_since_ns_ == 0) {
-      asked_since_ns_ = rt::MonotonicNowNs();
+    const bool holds = (loop_.energised() || loop_.driven()) && controller_.present();
+    if (!asked_) {
+      asked_ = true;
       if (holds) {
         rt::Say(
             fmt::format("{}: asked to end: staying until the controller has switched the "
@@ -135,15 +135,14 @@ class Watchman {
                         setup_.program.name));
       }
     }
-    const bool overdue = rt::MonotonicNowNs() - asked_since_ns_ > kLandingLimitNs;
-    if (asked > 1 || rt::QuitSignal() || overdue || !holds) loop_.Stop();
+    if (asked > 1 || rt::QuitSignal() || !holds) loop_.Stop();
   }
 
   PlantLoop& loop_;
   const PlantSetup& setup_;
   double timeout_s_;
   transport::PartnerWatch controller_;
-  std::int64_t asked_since_ns_{0};  ///< 0: not asked to end
+  bool asked_{false};  ///< to end
   ExitStatus status_{ExitStatus::kDone};
 };
 
@@ -236,6 +235,7 @@ int Checked(const PlantProgram& program, int argc, char** argv,
 int MainOf(const PlantProgram& program, int argc, char** argv,
            const std::function<ExitStatus(const PlantOptions&)>& run) {
   rt::OpenStandardFiles();
+  if (!rt::EnsureStack(program.name)) return static_cast<int>(ExitStatus::kOther);
   rt::CatchStopSignals();
   const int status = Checked(program, argc, argv, run);
   static_cast<void>(rt::FlushSaid());

@@ -63,7 +63,7 @@ struct SensorTurn {
   double sine{};
 };
 
-struct Runout {
+struct SensorRunout {
   std::size_t axis{};
   int order{};
   std::complex<double> amplitude_m;
@@ -112,7 +112,7 @@ struct EffectModel {
   std::vector<BearingEffects> bearings;
   std::array<ReadingEffects, kMaxAxes> readings;
   std::vector<SensorTurn> turns;  ///< per bearing
-  std::vector<Runout> runouts;
+  std::vector<SensorRunout> runouts;
   std::vector<Pickup> pickups;
   std::vector<OrderForce> order_forces;
   std::vector<PlaneSpring> springs;

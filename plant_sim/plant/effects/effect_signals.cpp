@@ -103,7 +103,7 @@ void View(const PlantModel& model, double cosine, double sine, const double* sta
     y_m = c * y_m - s * x_m;
     x_m = turned_m;
   }
-  for (const Runout& runout : effects.runouts) {
+  for (const SensorRunout& runout : effects.runouts) {
     const auto turned = effect::Turned(cosine, sine, runout.order);
     seen_m[runout.axis] += (runout.amplitude_m * turned).real();
   }
