@@ -5,6 +5,16 @@ add_library(levitas_options INTERFACE)
 target_compile_options(levitas_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+# In a batch of sources (CMAKE_UNITY_BUILD) each source is an included file, where the compiler takes a
+# member of a type of the unnamed namespace for a mistake of a header.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(levitas_options INTERFACE -Wno-subobject-linkage)
+endif()
+# clang takes an alias that stands in two sources of a batch for a shadowed one; the preset dev and
+# GCC's batches look for what really is.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  target_compile_options(levitas_options INTERFACE -Wno-shadow)
+endif()
 if(LEVITAS_SANITIZE)
   add_compile_options(-fsanitize=${LEVITAS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${LEVITAS_SANITIZE})
@@ -12,6 +22,17 @@ if(LEVITAS_SANITIZE)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     add_compile_options(-Wno-maybe-uninitialized)
   endif()
+  # What is watched is our code and the standard library in it: with the headers of other libraries
+  # instrumented as well, most of the compile time and of the tests' time would go to Eigen's.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    add_compile_options(-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/not_sanitized.txt)
+  endif()
+endif()
+# For sources that are not hot, tests and commands: with a sanitizer the optimiser would take half of
+# their compile time.
+set(levitas_unhot $<$<CONFIG:Release>:-O1>)
+if(LEVITAS_SANITIZE)
+  set(levitas_unhot -O0)
 endif()
 if(LEVITAS_FUZZ)  # libFuzzer sees which branches an input takes
   add_compile_options(-fsanitize=fuzzer-no-link)

@@ -5,7 +5,7 @@
 
 Google Benchmark programs are build/release/bench/*_bench; process-level measurements are the
 executable benchmark/speed/*.py and *.sh, which print their own lines and get BENCH_JSON, the file they
-may write to. Everything lands in build/bench/. Compare rows of one run only: another run met
+may write to; what a machine lacks for one of them is said, and the rest goes on. Everything lands in build/bench/. Compare rows of one run only: another run met
 another machine load.
 """
 
@@ -21,6 +21,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 BINARIES = ROOT / "build/release/bench"
 OUT = ROOT / "build/bench"
+NOT_RUN = 77  # status of a script that says what it lacks on this machine
 
 
 def read(path, otherwise="unknown"):
@@ -100,18 +101,18 @@ def run_google_benchmark(program, options):
         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
         print(f"  failed with status {done.returncode}: {done.stderr.strip()[-300:]}")
-        return False
-    print_medians(json.loads(out.read_text()))
-    return True
+    else:
+        print_medians(json.loads(out.read_text()))
+    return done.returncode
 
 
 def run_script(script):
     environ = dict(os.environ, BENCH_JSON=str(OUT / f"{script.stem}.json"),
                    LEVITAS_BINARIES=str(ROOT / "build/release/bin"))
     status = subprocess.run([script], env=environ, check=False).returncode
-    if status != 0:
+    if status not in (0, NOT_RUN):
         print(f"  failed with status {status}")
-    return status == 0
+    return status
 
 
 def repeats(text):
@@ -145,14 +146,18 @@ def main():
         names = ", ".join(p.name for p in programs + scripts)
         print(f"amb bench: nothing is called '{options.filter}'; there are: {names}", file=sys.stderr)
         return 2
-    failed = []
+    failed, not_run = [], []
     print(f"\nmedian of {options.repeats} repetitions, variation (standard deviation / mean)")
     for item in chosen:
         print(f"\n{item.stem}", flush=True)
-        good = run_google_benchmark(item, options) if item in programs else run_script(item)
-        if not good:
+        status = run_google_benchmark(item, options) if item in programs else run_script(item)
+        if status == NOT_RUN:
+            not_run.append(item.name)  # it has said why
+        elif status != 0:
             failed.append(item.name)
     print(f"\nresults as JSON: {OUT.relative_to(ROOT)}/")
+    if not_run:
+        print(f"amb bench: not run: {', '.join(not_run)}", file=sys.stderr)
     if failed:
         print(f"amb bench: failed: {', '.join(failed)}", file=sys.stderr)
     return 1 if failed else 0

@@ -110,20 +110,26 @@ make_package() {
   sed -n 's/^CPack: - package: \(.*\) generated\.$/\1/p' "$log"
 }
 
-# build_preset PRESET TARGET... : ninja behind one line of progress.
+# build_preset PRESET TARGET... : ninja behind one line of progress; where nothing overwrites itself,
+# a line at each quarter of a long build.
 build_preset() {
   local preset=$1 dir=$build_root/$1
   shift
-  local log=$build_root/amb-build-$preset.log announced="" line status=0 jobs
+  local log=$build_root/amb-build-$preset.log announced="" line status=0 jobs quarter=1 done_ all
   jobs=$(job_count) || exit 1
   local pattern='^\[([0-9]+)/([0-9]+)\]'
   "${under[@]}" ninja -C "$dir" -j "$jobs" "$@" 2>&1 9>&- | tee "$log" | while IFS= read -r line; do
     [[ $line =~ $pattern ]] || continue
+    done_=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
     if [ -z "$announced" ] && [[ $line != *"Re-checking globbed"* ]]; then
       announced=yes
       [ -t 2 ] || say "building preset $preset"
     fi
-    progress "building preset $preset ${BASH_REMATCH[1]}/${BASH_REMATCH[2]}"
+    progress "building preset $preset $done_/$all"
+    if [ ! -t 2 ] && [ "$all" -ge 100 ] && [ $((4 * done_)) -ge $((quarter * all)) ] && [ $quarter -lt 4 ]; then
+      say "building preset $preset: $done_ of $all"
+      quarter=$((4 * done_ / all + 1))
+    fi
   done || status=$?
   progress_end
   [ "$status" -eq 0 ] && return 0

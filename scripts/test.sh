@@ -2,7 +2,7 @@
 #
 #   run_tests                 every label of preset release
 #   run_tests unit loop       these labels
-#   run_tests -R Pid          whatever ctest understands
+#   run_tests -R Pid          single tests by name; whatever ctest understands
 #   run_tests --all           what CI runs: besides, clang-tidy, ASan+UBSan, and fuzzing for a minute each
 #   run_tests --tsan          parts with threads, and the processes, under the thread sanitizer
 #   run_tests --help          says the above
@@ -10,6 +10,32 @@
 test_labels="unit loop replay process hardware build"
 # Unit tests of the parts that start threads or are shared between them.
 threaded_tests="common_test session_test transport_test loop_test rt_test doctor_test gpio_test diagnosis_unit_test dashboard_test"
+
+left_out=()  # names of tests that were not run, of every preset so far
+
+# The names of the tests of a preset that were skipped: entries of ctest, and single tests of a program
+# that went on without them.
+skipped_in() {
+  sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .*\*\*\*Skipped.*/\1/p' "$build_root/amb-test-$1.log"
+  sed -nE 's/^\[  SKIPPED \] ([^ ]+)$/\1/p' "$build_root/$1/Testing/Temporary/LastTest.log" 2>/dev/null | sort -u
+}
+
+# How many single tests the programs of a preset have run: "3218 tests in 63 programs".
+counted_in() {
+  awk '/^\[==========\] [0-9]+ tests? from .* ran\./ { tests += $2; programs++ }
+       /^Ran [0-9]+ tests? in / { tests += $2; programs++ }
+       END { printf "%d tests in %d programs\n", tests, programs }' "$build_root/$1/Testing/Temporary/LastTest.log"
+}
+
+# What would run a test that was not run.
+remedy_of() {
+  case $2 in
+    process.dashboard.*) echo "./amb test --all runs it: it installs Chromium (packages-browser.txt)" ;;
+    build.*) echo "./amb test --all runs it: it installs what it needs (packages-ci.txt, packages-deb.txt)" ;;
+    hardware.*) echo "./amb test hardware runs it, where it can have a kernel for it (docs/test_machine.md)" ;;
+    *) echo "ctest --test-dir build/$1 -R '$2' -V says what it lacks" ;;
+  esac
+}
 
 # ctest_preset PRESET ARGUMENT...: one line of progress, then ctest's own closing lines.
 ctest_preset() {
@@ -24,6 +50,12 @@ ctest_preset() {
   progress_end
   # From the closing line on: the share that passed, what did not run, what failed, times.
   sed -n '/% tests passed/,$p' "$log"
+  [ ! -f "$build_root/$preset/Testing/Temporary/LastTest.log" ] || say "$(counted_in "$preset")"
+  local name
+  while IFS= read -r name; do
+    say "not run: $name. $(remedy_of "$preset" "$name")"
+    left_out+=("$name")
+  done < <(skipped_in "$preset")
   if [ "$status" -ne 0 ]; then
     said_by_failed "$log"
     grep -q '% tests passed' "$log" || tail -n 5 "$log"
@@ -51,12 +83,28 @@ prepare_preset() {
 
 # Hardware tests need vcan and gpio-sim: of this kernel, or of a machine whose kernel is built once
 # (docs/test_machine.md). Where neither is possible they are named as not run; nothing else stops.
-prepare_machine() {
-  local machine=$root/scripts/test_machine.sh
-  if "$machine" kernel >/dev/null 2>&1; then return; fi
-  if ! (install_packages "$root/packages.txt" "$root/packages-machine.txt") || ! "$machine" build >/dev/null; then
+machine_missing() { ! "$root/scripts/test_machine.sh" kernel >/dev/null 2>&1; }
+build_machine() {
+  "$root/scripts/test_machine.sh" build >/dev/null ||
     say "hardware tests will not run: no vcan and gpio-sim here, and no kernel that has them"
+}
+
+# prepare_whole LABEL... : the tests of these labels in preset release. The kernel of the test machine
+# is compiled beside them: it fills the cores where our compiler waits for one long source.
+prepare_whole() {
+  local kernel=""
+  if [[ " $* " == *" hardware "* ]] && machine_missing; then
+    take_lock
+    if (install_packages "$root/packages.txt" "${ci_packages[@]}" "$root/packages-machine.txt"); then
+      build_machine 9>&- &
+      kernel=$!
+    else
+      say "hardware tests will not run: their packages could not be installed"
+    fi
+    release_lock
   fi
+  prepare_preset release "${@/#/tests_}"
+  [ -z "$kernel" ] || wait "$kernel"
 }
 
 run_tsan() {
@@ -66,33 +114,71 @@ run_tsan() {
   # Only what has threads: elsewhere the thread sanitizer has nothing to see.
   # shellcheck disable=SC2086 -- one word per target is meant
   prepare_preset tsan $threaded_tests tests_process
-  ctest_preset tsan -L '^(unit|process)$' -E '_NOT_BUILT$'
+  ctest_preset tsan -L '^(unit|process)$' -R "^(unit[.](${threaded_tests// /|})|process[.].*)\$"
 }
 
-# Every stage runs even when an earlier one failed, so that one run names everything.
+aside_pid="" aside_log=""
+
+# aside STEP ARGUMENT...: begins it on processor time that the tests leave (scripts/aside.sh).
+aside() {
+  aside_log=$build_root/amb-aside-$1.log
+  setsid "$root/scripts/aside.sh" "$@" >"$aside_log" 2>&1 &
+  aside_pid=$!
+  trap 'kill -- "-$aside_pid" 2>/dev/null || true' EXIT
+  trap 'exit 130' INT TERM
+}
+
+# Waits for it, prints what it said, and returns its status.
+end_aside() {
+  local status=0
+  wait "$aside_pid" || status=$?
+  trap - EXIT INT TERM
+  cat "$aside_log" >&2
+  return "$status"
+}
+
+# Every stage runs even when an earlier one failed, so that one run names everything. Tests wait as
+# often as they compute: what is compiled and looked at next is done beside them.
 run_all() {
-  local failed=() ci_packages=("$root/packages-ci.txt" "$root/packages-deb.txt")
+  local failed=() ci_packages=("$root/packages-ci.txt" "$root/packages-deb.txt" "$root/packages-browser.txt")
   SECONDS=0
-  prepare_preset release
-  prepare_machine
+  # shellcheck disable=SC2086 -- one word per label is meant
+  prepare_whole $test_labels
   say "built after $SECONDS s"
-  ctest_preset release || failed+=("release tests")
+  aside build asan-ubsan tests_unit tests_loop tests_replay tests_process
+  # Three minutes of the page's memory; its other tests need no number.
+  LEVITAS_PAGE_SECONDS=180 ctest_preset release -L "^(${test_labels// /|})\$" || failed+=("release tests")
   say "release tested after $SECONDS s"
-  prepare_preset asan-ubsan
+  local sanitized=yes
+  end_aside || { sanitized="" failed+=("asan-ubsan build"); }
   say "asan-ubsan built after $SECONDS s"
-  ctest_preset asan-ubsan -L '^(unit|loop|replay|process)$' || failed+=("asan-ubsan tests")
+  aside look
+  # A sanitizer keeps what is freed: its memory says nothing about the program's. A library loaded before
+  # it, as in blind_run, is not supported by it.
+  [ -z "$sanitized" ] || ctest_preset asan-ubsan -L '^(unit|loop|replay|process)$' \
+    -E '^process\.(dashboard\.memory|blind_run)$' || failed+=("asan-ubsan tests")
   say "asan-ubsan tested after $SECONDS s"
-  prepare_preset fuzz fuzzers
+  end_aside || failed+=("clang-tidy or the build for fuzzing")
+  say "looked at after $SECONDS s"
   say "fuzzing"
   python3 -B "$root/tests/fuzz/run.py" "$build_root/fuzz/fuzzers" --seconds 60 --jobs "$(job_count)" \
     fuzz_message fuzz_session fuzz_csv fuzz_mat fuzz_candump fuzz_http fuzz_yaml || failed+=("fuzzing")
-  say "fuzzed after $SECONDS s"
-  prepare_preset tidy lcmtypes_generate
-  say "clang-tidy"
-  python3 "$root/scripts/tidy.py" --jobs "$(job_count)" || failed+=("clang-tidy")
+  close_all
+}
+
+# The last word of run_all. The page's tests were given their browser: not run is failed.
+close_all() {
+  local name
+  for name in "${left_out[@]}"; do
+    [[ $name != process.dashboard.* ]] || failed+=("$name was not run")
+  done
   if [ ${#failed[@]} -ne 0 ]; then
     say "failed: $(IFS=,; echo "${failed[*]}")"
     return 1
+  fi
+  if [ ${#left_out[@]} -ne 0 ]; then
+    say "passed after $SECONDS s, but not run: $(printf '%s\n' "${left_out[@]}" | sort -u | tr '\n' ' ')"
+    return
   fi
   say "everything passed after $SECONDS s"
 }
@@ -107,7 +193,7 @@ run_tests() {
     cat <<'USAGE'
 ./amb test               every test of preset release
 ./amb test LABEL...      unit, loop, replay, process, hardware, build
-./amb test -R Pid        whatever ctest understands
+./amb test -R Pid        single tests by name; whatever ctest understands
 ./amb test --tsan        what has threads, under the thread sanitizer
 ./amb test --all         what CI runs: besides, clang-tidy, ASan+UBSan, and fuzzing for a minute each
 USAGE
@@ -118,16 +204,18 @@ USAGE
     run_all
     return
   fi
-  local labels=() whole="" ci_packages=()
-  [ $# -gt 0 ] || whole=yes
+  local labels=() ci_packages=() started=$SECONDS
   while [ $# -gt 0 ] && [[ $1 != -* ]]; do
     [[ " $test_labels " == *" $1 "* ]] || { say "no test label '$1'; labels: $test_labels"; return 2; }
     labels+=("$1")
     shift
   done
-  local selection=()
-  [ ${#labels[@]} -eq 0 ] || selection=(-L "^($(IFS='|'; echo "${labels[*]}"))\$")
-  prepare_preset release "${labels[@]/#/tests_}"
-  if [ -n "$whole" ] || [[ " ${labels[*]} " == *" hardware "* ]]; then prepare_machine; fi
-  ctest_preset release "${selection[@]}" "$@"
+  # shellcheck disable=SC2206 -- one word per label is meant
+  [ ${#labels[@]} -ne 0 ] || labels=($test_labels)
+  local selection="(${labels[*]})"
+  # What ctest is asked to choose by name, it chooses among the single tests of the programs, too.
+  [ $# -eq 0 ] || selection="(single[.])?$selection"
+  prepare_whole "${labels[@]}"
+  say "built after $((SECONDS - started)) s"
+  ctest_preset release -L "^${selection// /|}\$" "$@"
 }

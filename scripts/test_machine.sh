@@ -13,7 +13,7 @@
 #           multicast route. The working directory and LEVITAS_* variables are handed in;
 #           LEVITAS_TEST_MACHINE says virtual, real or host.
 # Status    that of COMMAND; 77: it could not be run, and the last line says why.
-# Limit     LEVITAS_MACHINE_SECONDS (240) of the host's time, then the machine is killed: 124.
+# Limit     LEVITAS_MACHINE_SECONDS (1500) of the host's time, then the machine is killed: 124.
 set -euo pipefail
 
 scripts=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
@@ -124,7 +124,7 @@ run() {
   trap "kill_left '$scratch'; rm -rf '$scratch'" EXIT
   write_init "$scratch/init" "$@"
   # shellcheck disable=SC2086 -- no option is no word
-  TMPDIR=$scratch timeout -k 2 "${LEVITAS_MACHINE_SECONDS:-240}" \
+  TMPDIR=$scratch timeout -k 2 "${LEVITAS_MACHINE_SECONDS:-1500}" \
     "$linux" mem="${LEVITAS_MACHINE_MEMORY:-512M}" rootfstype=hostfs rootflags=/ rw init="$scratch/init" \
     con=null con0=fd:0,fd:1 uml_dir="$scratch/" quiet $option </dev/null 2>"$scratch/kernel" |
     awk -v kept="$scratch/status" '
@@ -134,7 +134,7 @@ run() {
   status=$(cat "$scratch/status" 2>/dev/null || true)
   if [ -z "$status" ]; then
     tail -n 5 "$scratch/kernel" >&2
-    say "the machine ended without a status (killed after ${LEVITAS_MACHINE_SECONDS:-240} s?)"
+    say "the machine ended without a status (killed after ${LEVITAS_MACHINE_SECONDS:-1500} s?)"
     exit 124
   fi
   exit "$status"
