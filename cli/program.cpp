@@ -5,11 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/commands/command.hpp"
+#include "cli/output_clash.hpp"
+#include "cli/standard_output.hpp"
 #include "common/nearest.hpp"
+#include "controller/rt/limits.hpp"
 #include "controller/rt/say.hpp"
 #include "levitas_version.hpp"
 
@@ -53,6 +57,14 @@ std::string UsageText(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}; see {} --help", text, path);
 }
 
+/// Of --help and --version.
+int TellHelp(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream text;
+  const int status = app.exit(error, text, text);
+  fmt::print("{}", text.str());
+  return status;
+}
+
 int Parse(int argc, char** argv, const AddCommands& add_commands) {
   CLI::App app{"Levitas: active magnetic bearing controller and its hardware-in-the-loop bench",
                "amb"};
@@ -63,9 +75,10 @@ int Parse(int argc, char** argv, const AddCommands& add_commands) {
     add_commands(app, action);
     RefuseUnknownCommand(app, argc, argv);
     app.parse(argc, argv);
+    RefuseClashes(app);
     return static_cast<int>(action ? action() : ExitStatus::kUsage);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    if (error.get_exit_code() == 0) return TellHelp(app, error);
     rt::Say(fmt::format("amb: {}", UsageText(app, error)));
     return static_cast<int>(ExitStatus::kUsage);
   } catch (const Problem& problem) {
@@ -84,7 +97,15 @@ int Parse(int argc, char** argv, const AddCommands& add_commands) {
 
 int RunProgram(int argc, char** argv, const AddCommands& add_commands) {
   rt::OpenStandardFiles();
-  const int status = Parse(argc, argv, add_commands);
+  if (!rt::EnsureStack("amb")) return static_cast<int>(ExitStatus::kOther);
+  StandardOutput output;
+  int status = Parse(argc, argv, add_commands);
+  if (const std::string& refused = output.Finish(); !refused.empty()) {
+    rt::Say(fmt::format("amb: standard output: writing failed: {}; not all of the result was told",
+                        refused));
+    if (status == static_cast<int>(ExitStatus::kDone))
+      status = static_cast<int>(ExitStatus::kOther);
+  }
   static_cast<void>(rt::FlushSaid());
   return status;
 }

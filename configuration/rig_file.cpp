@@ -1,60 +1,45 @@
 #include "configuration/rig_file.hpp"
 
+#include <array>
 #include <fstream>
-#include <sstream>
 
 #include "common/problem.hpp"
 #include "configuration/schema/schema.hpp"
-#include "configuration/text/reader.hpp"
+#include "configuration/text/read_file.hpp"
 #include "configuration/text/writer.hpp"
 
 namespace levitas::config {
-namespace {
 
 std::string ReadText(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
+  std::string text;
+  std::array<char, 65536> block{};
+  // One byte more than is allowed is enough to be refused; /dev/zero never ends.
+  while (file && text.size() <= kMostBytes) {
+    file.read(block.data(), block.size());
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+  }
   // Reading a folder opens well and then fails, so the read is checked, not only the opening.
-  if (file) text << file.rdbuf();
-  if (!file || text.fail()) {
-    // An empty file makes operator<< fail although nothing is wrong with reading it.
-    if (file.is_open() && file.peek() == std::ifstream::traits_type::eof() && !file.bad())
-      return {};
+  if (!file.is_open() || file.bad()) {
     throw BadInput(path + ": cannot be read; give the path of a file");
   }
-  return text.str();
+  return text;
 }
-
-template <class Value, class Body>
-Value Read(const std::string& text, const std::string& file_name, std::string_view kind,
-           Body describe) {
-  const Document document = ReadDocument(text);
-  Reader reader(document, file_name);
-  Value value{};
-  if (reader.WrongKind(kind)) {
-    reader.FinishEarly();
-  } else {
-    describe(reader, value);
-    reader.Finish();
-  }
-  return value;
-}
-
-}  // namespace
 
 RigFile ParseRig(const std::string& text, const std::string& file_name) {
-  return Read<RigFile>(text, file_name, "rig", [](Visitor& v, RigFile& rig) { Describe(v, rig); });
+  return ReadAs<RigFile>(text, file_name, "rig",
+                         [](Visitor& v, RigFile& rig) { Describe(v, rig); });
 }
 
 ControllerFile ParseController(const std::string& text, const std::string& file_name,
                                const RigNumbers& rig) {
-  return Read<ControllerFile>(text, file_name, "controller",
-                              [&](Visitor& v, ControllerFile& file) { Describe(v, file, rig); });
+  return ReadAs<ControllerFile>(text, file_name, "controller",
+                                [&](Visitor& v, ControllerFile& file) { Describe(v, file, rig); });
 }
 
 scenario::ScenarioConfig ParseScenario(const std::string& text, const std::string& file_name,
                                        const RigNumbers& rig) {
-  return Read<scenario::ScenarioConfig>(
+  return ReadAs<scenario::ScenarioConfig>(
       text, file_name, "scenario",
       [&](Visitor& v, scenario::ScenarioConfig& file) { Describe(v, file, rig); });
 }

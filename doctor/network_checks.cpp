@@ -13,7 +13,7 @@ namespace levitas::doctor {
 namespace {
 
 /// 239.255.76.67 as the kernel's tables write it on a little-endian machine.
-constexpr unsigned long kGroup = 0x434CFFEFUL;
+constexpr unsigned long kLcmGroup = 0x434CFFEFUL;
 constexpr unsigned kFirstPort = 7667;
 constexpr unsigned kLastPort = 7670;
 
@@ -28,7 +28,7 @@ std::vector<std::string> JoinedOutside(const std::vector<std::string>& lines) {
     const bool indented = !line.empty() && (line.front() == '\t' || line.front() == ' ');
     if (!indented && std::sscanf(line.c_str(), "%*u %63[^ :]", name) == 1) {
       device = name;
-    } else if (indented && std::sscanf(line.c_str(), "%lx", &group) == 1 && group == kGroup &&
+    } else if (indented && std::sscanf(line.c_str(), "%lx", &group) == 1 && group == kLcmGroup &&
                device != "lo") {
       names.push_back(device);
     }

@@ -8,6 +8,13 @@ namespace levitas::session_index {
 
 void ThrowSqlite(sqlite3* connection, const std::string& file) {
   const char* why = connection != nullptr ? sqlite3_errmsg(connection) : "out of memory";
+  const int code = connection != nullptr ? sqlite3_errcode(connection) : SQLITE_NOMEM;
+  if (code == SQLITE_FULL || code == SQLITE_IOERR) {
+    throw Problem(ExitStatus::kOther,
+                  file + ": the catalogue of sessions: writing failed: " + why +
+                      ". Make room, or name a file on another disk with LEVITAS_CATALOGUE or "
+                      "--catalogue.");
+  }
   throw BadInput(file + ": the catalogue of sessions cannot be used (" + why +
                  "); name another with LEVITAS_CATALOGUE or --catalogue");
 }

@@ -1,7 +1,8 @@
 #pragma once
 // One SQL statement with its parameters bound by position, and the row it stands on.
 //
-// Failure   BadInput with the file's name and what SQLite says.
+// Failure   BadInput with the file's name and what SQLite says; a Problem of status 1 when the disk
+//           is full or fails.
 // Thread    that of its connection.
 
 #include <cstdint>

@@ -32,6 +32,8 @@ inline constexpr const char* kSamples = "LEVITAS_SAMPLES";        ///< full rate
 inline constexpr const char* kHeader = "LEVITAS_HEADER";          ///< what runs, once a second
 inline constexpr const char* kCommand = "LEVITAS_COMMAND";        ///< operator -> controller
 inline constexpr const char* kExcitation = "LEVITAS_EXCITATION";  ///< operator -> controller
+inline constexpr const char* kHello = "LEVITAS_HELLO";            ///< asks for a challenge
+inline constexpr const char* kChallenge = "LEVITAS_CHALLENGE";    ///< controller -> operators
 }  // namespace channel
 
 class NetworkKey;

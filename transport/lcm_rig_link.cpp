@@ -29,13 +29,13 @@ port::RigLink::ReceiveResult LcmRigLink::Accept(const Received& received,
   if (packet.kind == PacketKind::kShort && !current && !goodbye) return ReceiveResult::kNothing;
   const std::int64_t now_ns = rt::MonotonicNowNs();
   const bool sound = packet.kind == PacketKind::kShort;
-  if (sound && partner_.Refuses(received.sender, now_ns)) return ReceiveResult::kNothing;
+  if (sound && partner_.Refuses(received.speaker(), now_ns)) return ReceiveResult::kNothing;
   if (!sound || !current_codec_.Decode(packet.payload, frame)) {
     ++counters_.currents_rejected;
     return ReceiveResult::kNothing;
   }
-  watch_.Saw(received.sender, packet.sequence);
-  partner_.Heard(received.sender, now_ns);
+  watch_.Saw(received.identity, packet.sequence);
+  partner_.Heard(received.speaker(), now_ns);
   if (goodbye) partner_.Release();  // the next one need not wait for the silence
   return goodbye ? ReceiveResult::kGoodbye : ReceiveResult::kCurrent;
 }
@@ -46,12 +46,16 @@ port::RigLink::ReceiveResult LcmRigLink::Receive(CurrentFrame& frame,
   for (ReadBound bound; bound.MayGoOn(deadline_ns);) {
     const Received received = found ? receiver_.Next() : receiver_.Receive(deadline_ns);
     if (received.datagram.empty()) break;
-    const ReceiveResult answer = Accept(received, frame);
+    CurrentFrame next = frame;
+    const ReceiveResult answer = Accept(received, next);
     if (answer == ReceiveResult::kNothing) {
       bound.Useless();
       continue;
     }
     if (found) ++counters_.currents_skipped;
+    // On the way one may overtake another: the last to arrive is not always the newest.
+    if (found && answer == ReceiveResult::kCurrent && next.cycle < frame.cycle) continue;
+    frame = next;
     found = true;
     if (answer == ReceiveResult::kGoodbye) return answer;
   }

@@ -20,13 +20,13 @@ bool LcmRigPort::Accept(const Received& received, SensorFrame& frame) noexcept {
   const bool ours = packet.kind == PacketKind::kShort && packet.channel == channel::kSensor;
   if (packet.kind == PacketKind::kShort && !ours) return false;  // somebody else's channel
   const std::int64_t now_ns = rt::MonotonicNowNs();
-  if (ours && partner_.Refuses(received.sender, now_ns)) return false;
+  if (ours && partner_.Refuses(received.speaker(), now_ns)) return false;
   if (!ours || !sensor_codec_.Decode(packet.payload, frame)) {
     ++counters_.frames_rejected;
     return false;
   }
-  partner_.Heard(received.sender, now_ns);
-  watch_.Saw(received.sender, packet.sequence);
+  partner_.Heard(received.speaker(), now_ns);
+  watch_.Saw(received.identity, packet.sequence);
   if (wire_session_ != frame.rig_session) {
     wire_session_ = frame.rig_session;
     ++session_;
@@ -41,10 +41,17 @@ port::ReadResult LcmRigPort::Read(SensorFrame& frame, std::int64_t deadline_ns) 
     // Once there is a frame only what is already queued may replace it.
     const Received received = found ? receiver_.Next() : receiver_.Receive(deadline_ns);
     if (received.datagram.empty()) break;
-    if (!Accept(received, frame)) {
+    SensorFrame next = frame;
+    if (!Accept(received, next)) {
       bound.Useless();
       continue;
     }
+    // On the way one frame may overtake another: the last to arrive is not always the newest.
+    if (found && next.rig_session == frame.rig_session && next.cycle < frame.cycle) {
+      ++counters_.frames_skipped;
+      continue;
+    }
+    frame = next;
     // What queued up before the first read was nobody's to read.
     if (found && counters_.frames_read > 0) ++counters_.frames_skipped;
     found = true;

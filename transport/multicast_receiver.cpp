@@ -20,6 +20,7 @@
 #include "transport/lcm_packet.hpp"
 #include "transport/multicast_options.hpp"
 #include "transport/multicast_socket.hpp"
+#include "transport/operator_message.hpp"
 #include "transport/seal.hpp"
 
 namespace levitas::transport {
@@ -33,8 +34,17 @@ constexpr std::int64_t kShortWaitNs = 25'000;
 constexpr std::uint32_t kGiveUpSpins = 8;   // in a row without a message
 constexpr std::uint32_t kRetryEvery = 256;  // waits; then a spin is tried again
 
-constexpr std::array kRefusals{SealWord::kNone, SealWord::kWrongKey, SealWord::kOld,
-                               SealWord::kClock};
+constexpr std::array kRefusals{SealWord::kNone, SealWord::kVersion, SealWord::kWrongKey,
+                               SealWord::kOld,  SealWord::kClock,   SealWord::kChallenge};
+
+/// By the receiver's own challenge where commands arrive, else by time at first contact.
+std::unique_ptr<SealCheck> Seals(const LcmNetwork& network, Direction direction) {
+  if (!network.key) return nullptr;
+  const bool commands = direction == Direction::kCommand;
+  return std::make_unique<SealCheck>(KeyOf(network, direction),
+                                     commands ? SealRule::kChallenge : SealRule::kClock,
+                                     rt::MonotonicNowNs(), commands ? SealSuffices : nullptr);
+}
 
 std::string ClockText(const SealCheck& check) {
   return fmt::format(" ({:+.1f} s from this machine's clock)",
@@ -85,7 +95,7 @@ struct MulticastReceiver::Batch {
     filled = count > 0 ? static_cast<std::size_t>(count) : 0;
   }
   /// The next one that holds anything; an empty datagram says nothing.
-  [[nodiscard]] Received Take() noexcept {
+  [[nodiscard]] Received Take(bool unproven) noexcept {
     while (taken < filled) {
       const std::size_t at = taken++;
       if (messages[at].msg_len == 0) continue;
@@ -95,17 +105,19 @@ struct MulticastReceiver::Batch {
       }
       Received received{{bytes.data() + at * kMaxDatagram, messages[at].msg_len},
                         (std::uint64_t{from[at].sin_addr.s_addr} << 16) | from[at].sin_port};
-      if (seal_check) {
-        const SealWord word = seal_check->Open(received.datagram, UtcNowNs());
-        if (word != SealWord::kGood) {
-          refused_of[static_cast<std::size_t>(word)].store(received.sender,
-                                                           std::memory_order_relaxed);
-          continue;
-        }
-      }
+      received.identity = received.sender;
+      if (seal_check && !Opens(received, unproven)) continue;
       if (!received.datagram.empty()) return received;
     }
     return {};
+  }
+  [[nodiscard]] bool Opens(Received& received, bool unproven) noexcept {
+    const SealWord word = seal_check->Open(received.datagram, {UtcNowNs(), rt::MonotonicNowNs()});
+    received.identity = seal_check->sender();
+    received.proven = word == SealWord::kGood;
+    if (received.proven || (unproven && word == SealWord::kClock)) return true;
+    refused_of[static_cast<std::size_t>(word)].store(received.sender, std::memory_order_relaxed);
+    return false;
   }
 
   struct About {  ///< the kernel's word on one datagram
@@ -129,11 +141,8 @@ struct MulticastReceiver::Batch {
 MulticastReceiver::MulticastReceiver(const LcmNetwork& network, Direction direction,
                                      std::int64_t spin_ns)
     : spin_ns_(spin_ns), url_(network.Url(direction)) {
-  // A command that was held back must not be executed afterwards.
-  auto seals = network.key ? std::make_unique<SealCheck>(KeyOf(network, direction), UtcNowNs(),
-                                                         direction == Direction::kCommand)
-                           : nullptr;
-  batch_ = std::make_unique<Batch>(network.this_machine_only() ? Loopback() : 0, std::move(seals));
+  batch_ = std::make_unique<Batch>(network.this_machine_only() ? Loopback() : 0,
+                                   Seals(network, direction));
   socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket_ < 0) Fail(socket_, network, direction, "socket");
   // Several listeners share the port: lcm-logger may listen beside the controller. Bound to the
@@ -164,6 +173,14 @@ std::uint64_t MulticastReceiver::refused() const noexcept {
   if (!batch_->seal_check) return sum;
   for (const SealWord word : kRefusals) sum += batch_->seal_check->count(word);
   return sum;
+}
+
+void MulticastReceiver::Trust() noexcept {
+  if (batch_->seal_check) batch_->seal_check->Trust(rt::MonotonicNowNs());
+}
+
+std::uint64_t MulticastReceiver::Challenge() noexcept {
+  return batch_->seal_check ? batch_->seal_check->Challenge(rt::MonotonicNowNs()) : 0;
 }
 
 std::string MulticastReceiver::TakeNews() {
@@ -205,14 +222,14 @@ Received MulticastReceiver::Poll() noexcept {
   // A batch of which nothing may be taken does not mean that nothing is left.
   for (int batch = 0; batch < kFruitlessBatches && received.datagram.empty(); ++batch) {
     batch_->Fetch(socket_);
-    received = batch_->Take();
+    received = batch_->Take(unproven_);
     if (batch_->filled < kBatch) break;
   }
   return received;
 }
 
 Received MulticastReceiver::Next() noexcept {
-  const Received received = batch_->Take();
+  const Received received = batch_->Take(unproven_);
   if (!received.datagram.empty() || batch_->filled < kBatch) return received;
   return Poll();
 }
@@ -225,7 +242,7 @@ Received MulticastReceiver::Spin(std::int64_t until_ns) noexcept {
 }
 
 Received MulticastReceiver::Receive(std::int64_t deadline_ns) noexcept {
-  if (const Received queued = batch_->Take(); !queued.datagram.empty()) return queued;
+  if (const Received queued = batch_->Take(unproven_); !queued.datagram.empty()) return queued;
   if (const Received received = Poll(); !received.datagram.empty()) return received;
   std::int64_t now_ns = rt::MonotonicNowNs();
   if (now_ns >= deadline_ns) return {};

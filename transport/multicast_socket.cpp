@@ -12,13 +12,22 @@
 namespace levitas::transport {
 
 struct MulticastSender::Sealing {
-  explicit Sealing(const SealingKey& key) : sealer(key), buffer(kMaxDatagram) {}
+  Sealing(const SealingKey& key, bool to_challenge)
+      : sealer(key), by_challenge(to_challenge), buffer(kMaxDatagram) {}
+  [[nodiscard]] std::uint64_t Freshness() const noexcept {
+    return by_challenge ? challenge : static_cast<std::uint64_t>(UtcNowNs());
+  }
+
   Sealer sealer;
+  bool by_challenge;
+  std::uint64_t challenge{0};
   std::vector<std::uint8_t> buffer;
 };
 
 MulticastSender::MulticastSender(const LcmNetwork& network, Direction direction)
-    : sealing_(network.key ? std::make_unique<Sealing>(KeyOf(network, direction)) : nullptr) {
+    : sealing_(network.key ? std::make_unique<Sealing>(KeyOf(network, direction),
+                                                       direction == Direction::kCommand)
+                           : nullptr) {
   socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket_ < 0) Fail(socket_, network, direction, "socket");
   // Loop back: the partner is normally on this machine.
@@ -44,10 +53,18 @@ bool MulticastSender::Send(std::span<const std::uint8_t> datagram) noexcept {
   if (sealing_) {
     if (datagram.size() + kTrailerBytes > sealing_->buffer.size()) return false;
     std::copy(datagram.begin(), datagram.end(), sealing_->buffer.begin());
-    datagram = sealing_->sealer.Append(sealing_->buffer, datagram.size(), UtcNowNs());
+    datagram = sealing_->sealer.Append(sealing_->buffer, datagram.size(), sealing_->Freshness());
   }
   const auto sent = send(socket_, datagram.data(), datagram.size(), MSG_NOSIGNAL);
   return sent == static_cast<ssize_t>(datagram.size());
+}
+
+std::uint64_t MulticastSender::identity() const noexcept {
+  return sealing_ ? sealing_->sealer.sender() : 0;
+}
+
+void MulticastSender::AnswerChallenge(std::uint64_t challenge) noexcept {
+  if (sealing_) sealing_->challenge = challenge;
 }
 
 std::uint16_t MulticastSender::port() const noexcept {

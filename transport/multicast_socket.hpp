@@ -8,7 +8,8 @@
 //                  through another interface all the same is counted and dropped. With ttl above
 //                  0 the interface is that of the route to the group.
 // Key              of a network with one: what is sent is sealed, what is received without a good
-//                  seal is dropped, counted and named (seal.hpp).
+//                  seal is dropped, counted and named (seal.hpp). Of commands only what says the
+//                  receiver's challenge is taken, except for what SealSuffices names.
 // Thread           one thread per object; TakeNews, Trouble and refused: any one other. After
 //                  construction no allocation, no exception.
 // Blocking         Send never waits. Receive waits at most until its deadline: a short wait spins,
@@ -24,6 +25,7 @@
 #include <string>
 
 #include "transport/lcm_network.hpp"
+#include "transport/speaker.hpp"
 
 struct sock_filter;  // linux/filter.h
 
@@ -40,6 +42,10 @@ class MulticastSender {
   bool Send(std::span<const std::uint8_t> datagram) noexcept;
   /// The UDP port it sends from.
   [[nodiscard]] std::uint16_t port() const noexcept;
+  /// Who it is in its seals; 0 without a key.
+  [[nodiscard]] std::uint64_t identity() const noexcept;
+  /// From now on what is sent carries this challenge of the receiver (seal.hpp).
+  void AnswerChallenge(std::uint64_t challenge) noexcept;
 
  private:
   int socket_{-1};
@@ -50,6 +56,13 @@ class MulticastSender {
 struct Received {
   std::span<const std::uint8_t> datagram{};  ///< empty: nothing; valid until the next receive
   std::uint64_t sender{};                    ///< address and port of the sender, as one number
+  /// Who the sender is: of its seal where there is a key, else the same as `sender`. Whoever can
+  /// forge an address is somebody else all the same.
+  std::uint64_t identity{};
+  /// False: the seal is good, but a record may have it; see HearUnproven.
+  bool proven{true};
+
+  [[nodiscard]] Speaker speaker() const noexcept { return {identity, sender}; }
 };
 
 /// "127.0.0.1:4711", of Received::sender.
@@ -74,6 +87,12 @@ class MulticastReceiver {
   [[nodiscard]] std::string TakeNews();
   /// How much was refused and why; empty when nothing was.
   [[nodiscard]] std::string Trouble() const;
+  /// From now on also what a new sender seals by another clock than ours, marked as not proven.
+  void HearUnproven() noexcept { unproven_ = true; }
+  /// The sender of the datagram received last, not proven, has shown that it speaks now.
+  void Trust() noexcept;
+  /// What those who want to be heard here have to carry in their seals now; 0 without a key.
+  [[nodiscard]] std::uint64_t Challenge() noexcept;
   /// The kernel queues only what `program` passes from now on; false when it refuses.
   [[nodiscard]] bool Filter(std::span<const sock_filter> program) noexcept;
 
@@ -82,6 +101,7 @@ class MulticastReceiver {
   [[nodiscard]] Received Spin(std::int64_t until_ns) noexcept;
 
   int socket_{-1};
+  bool unproven_{false};
   std::int64_t spin_ns_;
   std::string url_;  ///< for people
   std::uint32_t waits_{0};

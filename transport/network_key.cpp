@@ -25,7 +25,7 @@ void Prepare() {
   if (sodium_init() < 0) throw Problem(ExitStatus::kOther, "libsodium cannot be initialised");
 }
 
-[[noreturn]] void Refuse(const std::string& path, const std::string& why) {
+[[noreturn]] void RefuseKey(const std::string& path, const std::string& why) {
   throw BadInput(fmt::format(
       "key file {}: {}; wanted: a regular file of this user or of root with {} hexadecimal digits "
       "that nobody else may read (mode 600 or 400); `amb key FILE` makes one",
@@ -56,7 +56,7 @@ NetworkKey::NetworkKey(const SealingKey::Bytes& secret, std::string path)
 
 std::shared_ptr<const NetworkKey> NetworkKey::Load(const std::string& path) {
   PrivateFile file = ReadPrivateFile(path, kDigits + 2);  // a line end, and one to see more
-  if (!file.refused.empty()) Refuse(path, file.refused);
+  if (!file.refused.empty()) RefuseKey(path, file.refused);
   std::string& digits = file.content;
   const bool line_end = digits.size() == kDigits + 1 && digits[kDigits] == '\n';
   SealingKey::Bytes secret{};
@@ -67,7 +67,7 @@ std::shared_ptr<const NetworkKey> NetworkKey::Load(const std::string& path) {
       bytes != secret.size()) {
     sodium_memzero(digits.data(), digits.size());
     sodium_memzero(secret.data(), secret.size());
-    Refuse(path, fmt::format("its content is not {} hexadecimal digits on one line", kDigits));
+    RefuseKey(path, fmt::format("its content is not {} hexadecimal digits on one line", kDigits));
   }
   auto key = std::make_shared<const NetworkKey>(secret, path);
   sodium_memzero(digits.data(), digits.size());

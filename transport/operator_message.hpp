@@ -2,13 +2,16 @@
 // What an operator sends, taken out of a datagram: a command, or a request for a test signal.
 //
 // Thread   any; no state.
-// Failure  nothing, for what is no sound message of its kind: unknown commands, numbers that are
-//          not finite, `excite` without a signal, texts beyond kLongestExcitation.
+// Unused   what a command does not use may hold anything: it is not read, and is 0 in the result.
+// Failure  nothing, for what is no sound message of its kind: unknown commands, numbers of a spin
+//          that are not finite, `excite` without a signal, texts beyond kLongestExcitation.
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "common/enums.hpp"
 #include "common/stop_latch.hpp"
@@ -33,6 +36,12 @@ struct NetworkExcitation {
 
 inline constexpr std::size_t kLongestExcitation = 4096;  ///< [byte] of an excitation_request_t
 
+/// On a network with a key: what a command has to carry, and who asked for it.
+struct Challenge {
+  std::uint64_t value{};     ///< never 0
+  std::uint64_t asked_by{};  ///< MulticastSender::identity
+};
+
 /// A sound operator_command_t; nothing when the payload is none.
 [[nodiscard]] std::optional<NetworkCommand> ReadCommand(const Packet& packet, std::uint64_t sender);
 [[nodiscard]] std::optional<NetworkExcitation> ReadExcitation(const Packet& packet,
@@ -40,5 +49,12 @@ inline constexpr std::size_t kLongestExcitation = 4096;  ///< [byte] of an excit
 
 /// True for an emergency stop; `origin` says whose.
 [[nodiscard]] bool IsEmergencyStop(const Received& received, CommandOrigin& origin);
+
+/// What a good seal alone is enough for: an emergency stop, for whom an old one costs a trip and a
+/// refused one a machine; and the question for a challenge, which moves nothing.
+[[nodiscard]] bool SealSuffices(std::span<const std::uint8_t> datagram) noexcept;
+
+[[nodiscard]] std::vector<std::uint8_t> EncodeChallenge(const Challenge& challenge);
+[[nodiscard]] std::optional<Challenge> ReadChallenge(std::span<const std::uint8_t> payload);
 
 }  // namespace levitas::transport

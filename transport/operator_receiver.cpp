@@ -70,14 +70,33 @@ void OperatorReceiver::Handle(const Received& received) {
   if (packet.kind != PacketKind::kShort) {
     Add(rejected_);
   } else if (packet.channel == channel::kCommand) {
-    if (auto command = ReadCommand(packet, received.sender)) return HandleCommand(*command);
+    if (auto command = ReadCommand(packet, received.sender))
+      return HandleCommand(received.identity, *command);
     Add(rejected_);
   } else if (packet.channel == channel::kExcitation && handlers_.excite) {
     if (auto request = ReadExcitation(packet, received.sender)) {
-      return HandleExcitation(*std::move(request));
+      return HandleExcitation(received.identity, *std::move(request));
     }
     Add(rejected_);
+  } else if (packet.channel == channel::kHello) {
+    Welcome(received.identity);
   }
+}
+
+bool OperatorReceiver::Share::Left(std::int64_t now_ns, int most) noexcept {
+  if (now_ns - second_ns >= kSecondNs) {
+    second_ns = now_ns;
+    in_second = 0;
+  }
+  return in_second < most;
+}
+
+void OperatorReceiver::Welcome(std::uint64_t sender) {
+  const std::uint64_t challenge = receiver_.Challenge();  // 0: no key, and none is needed
+  if (challenge == 0 || !handlers_.challenge) return;
+  if (!hellos_.Left(rt::MonotonicNowNs(), kMostHellos)) return;
+  ++hellos_.in_second;
+  handlers_.challenge({.value = challenge, .asked_by = sender});
 }
 
 OperatorReceiver::Seen* OperatorReceiver::Find(std::uint64_t sender) noexcept {
@@ -91,59 +110,55 @@ void OperatorReceiver::Drop() {
   if (handlers_.dropped) handlers_.dropped();
 }
 
-bool OperatorReceiver::Fits(const CommandOrigin& origin) {
-  Seen* seen = Find(origin.sender);
-  if (seen != nullptr && origin.sequence <= seen->largest) {
-    if (origin.sequence < seen->largest) Add(old_);
+bool OperatorReceiver::Fits(std::uint64_t sender, std::int64_t sequence) {
+  Seen* seen = Find(sender);
+  if (seen != nullptr && sequence <= seen->largest) {
+    if (sequence < seen->largest) Add(old_);
     return false;
   }
   if (stops_passed_ < stops_.asked()) {
     Add(overtaken_);
     return false;
   }
-  if (seen == nullptr) return true;
-  const std::int64_t now_ns = rt::MonotonicNowNs();
-  if (now_ns - seen->second_ns >= kSecondNs) {
-    seen->second_ns = now_ns;
-    seen->in_second = 0;
-  }
-  if (seen->in_second < kMostPerSecond) return true;
+  if (seen == nullptr || seen->share.Left(rt::MonotonicNowNs(), kMostPerSecond)) return true;
   Drop();
   return false;
 }
 
-void OperatorReceiver::Note(const CommandOrigin& origin) noexcept {
-  if (Seen* seen = Find(origin.sender); seen != nullptr) {
-    seen->largest = std::max(seen->largest, origin.sequence);
-    ++seen->in_second;
+void OperatorReceiver::Note(std::uint64_t sender, std::int64_t sequence) noexcept {
+  if (Seen* seen = Find(sender); seen != nullptr) {
+    seen->largest = std::max(seen->largest, sequence);
+    ++seen->share.in_second;
     return;
   }
-  seen_[next_seen_] = {.sender = origin.sender, .largest = origin.sequence, .in_second = 1};
+  seen_[next_seen_] = {.sender = sender, .largest = sequence, .share = {.in_second = 1}};
   next_seen_ = (next_seen_ + 1) % kRemembered;
 }
 
-void OperatorReceiver::Settle(const CommandOrigin& origin, bool taken) {
+void OperatorReceiver::Settle(std::uint64_t sender, std::int64_t sequence, bool taken) {
   if (!taken) return Drop();
-  Note(origin);
+  Note(sender, sequence);
 }
 
-void OperatorReceiver::HandleCommand(NetworkCommand command) {
+void OperatorReceiver::HandleCommand(std::uint64_t sender, NetworkCommand command) {
   if (command.command == OperatorCommand::kEmergencyStop) {
     // Taken elsewhere; here it makes what its sender said before it old. It may be ahead of the
     // other thread: then that stop still counts as not passed, until the socket is empty.
-    Note(command.origin);
+    Note(sender, command.origin.sequence);
     stops_passed_ = std::min(stops_passed_ + 1, stops_.asked());
     return;
   }
-  if (!Fits(command.origin)) return;
+  const std::int64_t sequence = command.origin.sequence;
+  if (!Fits(sender, sequence)) return;
   command.stops_before = stops_passed_;
-  Settle(command.origin, handlers_.take(command));
+  Settle(sender, sequence, handlers_.take(command));
 }
 
-void OperatorReceiver::HandleExcitation(NetworkExcitation request) {
-  if (!Fits(request.origin)) return;
+void OperatorReceiver::HandleExcitation(std::uint64_t sender, NetworkExcitation request) {
+  const std::int64_t sequence = request.origin.sequence;
+  if (!Fits(sender, sequence)) return;
   request.stops_before = stops_passed_;
-  Settle(request.origin, handlers_.excite(request));
+  Settle(sender, sequence, handlers_.excite(request));
 }
 
 }  // namespace levitas::transport

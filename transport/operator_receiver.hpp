@@ -12,6 +12,8 @@
 // Stops      are taken whatever their number. A command that was sent before a stop is dropped
 //            when it is read after it: the same datagram arrives here too, in the order of sending,
 //            and until then whatever comes is older. It may be said again.
+// Key        on a network with one the receiver's challenges say what is given now (seal.hpp): who
+//            says hello is given one, at most kMostHellos a second.
 // Excitation is asked for with a message of its own, whose text is passed on as it came: the
 //            command `excite` without one is refused here.
 // Failure    construction throws Problem; unsound messages are counted and dropped.
@@ -39,6 +41,7 @@ struct OperatorHandlers {
       excite{};                     ///< without it such requests are left alone
   std::function<void()> dropped{};  ///< after each that found no room
   std::function<void()> enter_stop_thread{};
+  std::function<void(const Challenge&)> challenge{};  ///< to be published, for who asked
 };
 
 /// What was not taken, and why.
@@ -55,6 +58,7 @@ class OperatorReceiver {
   /// More than the kernel's queue can hold, whose smallest datagrams take 768 bytes of 8 MiB.
   static constexpr std::size_t kMostQueued = 16'384;
   static constexpr int kMostPerSecond = 50;  ///< far more than a person gives
+  static constexpr int kMostHellos = 200;    ///< of all senders, who ask four times a second
 
   /// Keeps a reference to `stops`.
   OperatorReceiver(const LcmNetwork& network, StopLatch& stops, OperatorHandlers handlers);
@@ -68,22 +72,28 @@ class OperatorReceiver {
 
  private:
   using Count = std::atomic<std::uint64_t>;
-  struct Seen {
-    std::uint64_t sender{0};
-    std::int64_t largest{0};
-    std::int64_t second_ns{0};  ///< when its present second began ...
+  struct Share {
+    [[nodiscard]] bool Left(std::int64_t now_ns, int most) noexcept;
+    std::int64_t second_ns{0};  ///< when the present second began ...
     int in_second{0};           ///< ... and how many were taken in it
+  };
+  struct Seen {
+    std::uint64_t sender{0};  ///< Received::identity
+    std::int64_t largest{0};
+    Share share{};
   };
 
   void Run();
   void Handle(const Received& received);
-  void HandleCommand(NetworkCommand command);
-  void HandleExcitation(NetworkExcitation request);
+  void HandleCommand(std::uint64_t sender, NetworkCommand command);
+  void HandleExcitation(std::uint64_t sender, NetworkExcitation request);
+  /// Who asks for a challenge is given it.
+  void Welcome(std::uint64_t sender);
   /// Whether this may be taken now; counts why not.
-  [[nodiscard]] bool Fits(const CommandOrigin& origin);
-  void Note(const CommandOrigin& origin) noexcept;
+  [[nodiscard]] bool Fits(std::uint64_t sender, std::int64_t sequence);
+  void Note(std::uint64_t sender, std::int64_t sequence) noexcept;
   /// After what came of handing it on.
-  void Settle(const CommandOrigin& origin, bool taken);
+  void Settle(std::uint64_t sender, std::int64_t sequence, bool taken);
   void Drop();
   /// Of each datagram: what was queued before a stop is behind us after kMostQueued at the latest.
   void CountRead() noexcept;
@@ -98,6 +108,7 @@ class OperatorReceiver {
   std::uint64_t stops_passed_{0};  ///< how many of the stops this thread has come past
   std::uint64_t next_passed_{0};   ///< of the stops: once enough was read ...
   std::size_t read_behind_{0};     ///< ... since it was set
+  Share hellos_{};
   Count rejected_{0}, old_{0}, overtaken_{0}, dropped_{0};
   std::atomic<bool> stopping_{false};
   StopReceiver stop_receiver_;

@@ -1,6 +1,7 @@
 #pragma once
 // Who is talked to: the sender heard first, as long as it is heard. Another one is refused.
 //
+// Told apart  by identity: the sender of the seal on a network with a key, the address without one.
 // Policy   without a word of the partner for kSilenceNs, or after Release, the next sender takes
 //          its place: a rig that starts again has another port. What others sent meanwhile is
 //          counted; it is news for people once the partner is heard after it, since only then both
@@ -12,6 +13,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "transport/speaker.hpp"
+
 namespace levitas::transport {
 
 class PartnerLock {
@@ -19,30 +22,30 @@ class PartnerLock {
   static constexpr std::int64_t kSilenceNs = 500'000'000;  ///< far above a period or its repetition
 
   /// True, and counted, when `sender` is not the one that is talked to.
-  [[nodiscard]] bool Refuses(std::uint64_t sender, std::int64_t now_ns) noexcept {
+  [[nodiscard]] bool Refuses(const Speaker& sender, std::int64_t now_ns) noexcept {
     if (!partner_ || *partner_ == sender || now_ns - heard_ns_ > kSilenceNs) return false;
     refused_.store(refused_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     waiting_ = sender;
     return true;
   }
   /// A sound message of a sender that was not refused.
-  void Heard(std::uint64_t sender, std::int64_t now_ns) noexcept {
-    if (partner_ != sender) {
+  void Heard(const Speaker& sender, std::int64_t now_ns) noexcept {
+    if (!partner_ || !(*partner_ == sender)) {
       partner_ = sender;
       waiting_.reset();
     } else if (waiting_) {
-      stranger_.store(*waiting_, std::memory_order_relaxed);
+      stranger_.store(waiting_->address, std::memory_order_relaxed);
       waiting_.reset();
     }
     heard_ns_ = now_ns;
-    talks_to_.store(sender, std::memory_order_relaxed);
+    talks_to_.store(sender.address, std::memory_order_relaxed);
   }
   void Release() noexcept { partner_.reset(); }
 
   [[nodiscard]] std::uint64_t refused() const noexcept {
     return refused_.load(std::memory_order_relaxed);
   }
-  /// The latest who spoke beside the partner; 0: nobody.
+  /// Address of the latest who spoke beside the partner; 0: nobody.
   [[nodiscard]] std::uint64_t stranger() const noexcept {
     return stranger_.load(std::memory_order_relaxed);
   }
@@ -58,8 +61,8 @@ class PartnerLock {
   }
 
  private:
-  std::optional<std::uint64_t> partner_;
-  std::optional<std::uint64_t> waiting_;  ///< refused since the partner was last heard
+  std::optional<Speaker> partner_;
+  std::optional<Speaker> waiting_;  ///< refused since the partner was last heard
   std::int64_t heard_ns_{0};
   std::uint64_t told_{0};
   std::atomic<std::uint64_t> refused_{0};

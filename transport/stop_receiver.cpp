@@ -14,7 +14,7 @@
 namespace levitas::transport {
 
 namespace {
-constexpr std::int64_t kSliceNs = 50'000'000;  // how long the destructor may have to wait
+constexpr std::int64_t kStopSliceNs = 50'000'000;  // how long the destructor may have to wait
 
 // Where the command stands, counted as the kernel's filter does, from the UDP header on: behind
 // that header, LCM's, the type's hash and the sequence number.
@@ -44,7 +44,7 @@ void StopReceiver::Run() noexcept {
   if (enter_) rt::Guarded("emergency stop", enter_);
   while (!stopping_.load(std::memory_order_relaxed)) {
     rt::Guarded("emergency stop", [this] {
-      const Received received = receiver_.Receive(rt::MonotonicNowNs() + kSliceNs);
+      const Received received = receiver_.Receive(rt::MonotonicNowNs() + kStopSliceNs);
       CommandOrigin origin;
       if (received.datagram.empty() || !IsEmergencyStop(received, origin)) return;
       latch_.Ask(rt::MonotonicNowNs(), origin);

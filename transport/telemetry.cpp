@@ -26,7 +26,8 @@ constexpr std::size_t kStateRing = 64;     // 0.6 s of samples
 constexpr std::size_t kTimingRing = 4;     // seconds
 constexpr std::size_t kEventQueue = 64;    // more at once than a person can read
 constexpr std::size_t kAnswerQueue = 256;  // five times what a 10 kHz loop takes between two sends
-constexpr std::size_t kBatchQueue = 64;    // one second at the rate the batches are made
+constexpr std::size_t kChallengeQueue = 64;  // a third of a second of those given
+constexpr std::size_t kBatchQueue = 64;      // one second at the rate the batches are made
 constexpr auto kSendEvery = std::chrono::milliseconds(5);
 constexpr int kRoundsPerAnnouncement = 200;  // a second
 
@@ -109,17 +110,20 @@ struct Telemetry::Impl {
            HistogramMessage(timing.cycle, timing.wakeup, timing.compute, timing.latency));
     }
     std::deque<Encoded> answered;
+    std::deque<Encoded> challenged;
     std::deque<Encoded> told;
     std::deque<Encoded> sampled;
     Encoded announced;
     {
       const std::lock_guard lock(mutex);
       answered.swap(answers);
+      challenged.swap(challenges);
       told.swap(events);
       sampled.swap(batches);
       if (round++ % kRoundsPerAnnouncement == 0) announced = announcement;
     }
     for (const Encoded& answer : answered) SendEncoded(channel::kAnswer, answer);
+    for (const Encoded& one : challenged) SendEncoded(channel::kChallenge, one);
     for (const Encoded& event : told) SendEncoded(channel::kEvent, event);
     for (const Encoded& batch : sampled) SendEncoded(channel::kSamples, batch);
     if (!announced.empty()) SendEncoded(channel::kHeader, announced);
@@ -149,6 +153,7 @@ struct Telemetry::Impl {
   SpscRing<TimingSample> timings{kTimingRing};
   std::mutex mutex;
   std::deque<Encoded> answers;
+  std::deque<Encoded> challenges;
   std::deque<Encoded> events;
   std::deque<Encoded> batches;
   Encoded announcement;
@@ -177,6 +182,10 @@ void Telemetry::PostEvent(std::vector<std::uint8_t> encoded) {
 
 void Telemetry::PostAnswer(std::vector<std::uint8_t> encoded) {
   impl_->Queue(impl_->answers, kAnswerQueue, std::move(encoded));
+}
+
+void Telemetry::PostChallenge(std::vector<std::uint8_t> encoded) {
+  impl_->Queue(impl_->challenges, kChallengeQueue, std::move(encoded));
 }
 
 void Telemetry::PostSamples(std::vector<std::uint8_t> encoded) {

@@ -2,10 +2,10 @@
 // Publishes the controller's state, timing and events for people and tools, away from the loop.
 //
 // Channels  LEVITAS_STATE about 100 times a second, LEVITAS_TIMING, _HISTOGRAM and _HEADER about
-//           once, LEVITAS_EVENT, _ANSWER and _SAMPLES as they come. Best effort: what does not fit
-//           into a ring or queue is dropped and counted.
+//           once, LEVITAS_EVENT, _ANSWER, _CHALLENGE and _SAMPLES as they come. Best effort: what
+//           does not fit into a ring or queue is dropped and counted.
 // Thread    own thread for sending. PostState and PostTiming: loop thread, wait-free. PostEvent,
-//           PostAnswer, PostSamples and Announce: any other thread (they lock).
+//           PostAnswer, PostChallenge, PostSamples and Announce: any other thread (they lock).
 // Failure   construction throws Problem when the network cannot be joined; later never.
 
 #include <cstdint>
@@ -60,6 +60,8 @@ class Telemetry {
   void PostEvent(std::vector<std::uint8_t> encoded);
   /// `encoded`: a command_answer_t.
   void PostAnswer(std::vector<std::uint8_t> encoded);
+  /// `encoded`: a challenge_t.
+  void PostChallenge(std::vector<std::uint8_t> encoded);
   /// `encoded`: a sample_batch_t.
   void PostSamples(std::vector<std::uint8_t> encoded);
   /// `encoded`: the session_header_t of this run, sent again and again for those who come later.

@@ -1,6 +1,7 @@
 // amb dash: the live page of a run that is under way, or of the next one.
 
 #include <fmt/core.h>
+#include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -39,6 +40,19 @@ std::string GivenToken(const DashOptions& options) {
   return options.web.token;
 }
 
+/// A token that was in a file stays out of terminals and their logs.
+std::string AddressForPeople(const dashboard::Dashboard& page, const DashOptions& options) {
+  const std::string url = page.Url();
+  return options.token_path.empty() ? url : url.substr(0, url.find('?'));
+}
+
+std::string Completion(const DashOptions& options) {
+  return options.token_path.empty()
+             ? ""
+             : fmt::format("behind it goes ?token= and the first line of {}; ",
+                           rt::Quoted(options.token_path));
+}
+
 ExitStatus Serve(DashOptions options) {
   options.web.token = GivenToken(options);
   if (!dashboard::IsLoopback(options.web.address)) {
@@ -58,10 +72,12 @@ ExitStatus Serve(DashOptions options) {
   transport::TakeKey(network, options.key, "pretend to be the controller");
   const dashboard::Dashboard page(network, options.web, patience);
   fmt::print(
-      "page: {}   (Ctrl-C ends)\nThe page stays empty until a controller sends: ./amb run "
+      "page: {}   ({}Ctrl-C ends)\nThe page stays empty until a controller sends: ./amb run "
       "--no-dash "
       "beside it, or a controller with the same --port\n",
-      page.Url());
+      AddressForPeople(page, options), Completion(options));
+  // With a token in it the address is a secret: this user's alone, whatever stood there before.
+  if (!options.web.token.empty()) (void)::umask(S_IRWXG | S_IRWXO);
   WriteJsonFile(options.json_path, {{"page", page.Url()}});
   std::fflush(stdout);
   constexpr auto kLook = std::chrono::milliseconds(50);
@@ -106,7 +122,9 @@ void AddDashCommand(CLI::App& app, Action& action) {
                    "unanswered [s]")
       ->check(CLI::Range(0.1, 60.0))
       ->capture_default_str();
-  command->add_option("--json", options->json_path, "Write the page's address to this file");
+  command->add_option("--json", options->json_path,
+                      "Write the page's address, with its token, to this file; it is then this "
+                      "user's alone");
   command->callback([options, http, &action] {
     options->web.any_port = http->count() == 0;
     action = [options] { return Serve(*options); };

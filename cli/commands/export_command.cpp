@@ -11,6 +11,7 @@
 #include "cli/commands/command.hpp"
 #include "cli/commands/session_text.hpp"
 #include "cli/json_file.hpp"
+#include "controller/rt/say.hpp"
 #include "session/csv_export.hpp"
 #include "session/mat_export.hpp"
 #include "session/mcap_export.hpp"
@@ -34,7 +35,7 @@ session::ExportReport Write(const std::string& session_path, const std::string& 
                             Exporter exporter) {
   session::SessionReader reader(session_path);
   const session::ExportReport report = exporter(reader, path);
-  fmt::print("{}: {} rows", path, report.rows);
+  fmt::print("{}: {} rows", rt::OneLine(path), report.rows);
   if (report.cycles_without_frame > 0) {
     fmt::print("; {} cycles had no sensor frame and have no row", report.cycles_without_frame);
   }

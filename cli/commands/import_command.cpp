@@ -11,6 +11,7 @@
 #include "cli/json_file.hpp"
 #include "cli/options/enter_session.hpp"
 #include "configuration/rig_file.hpp"
+#include "controller/rt/say.hpp"
 #include "levitas_version.hpp"
 #include "session/candump_import.hpp"
 #include "session/coil_scales.hpp"
@@ -36,14 +37,16 @@ std::int64_t UtcNowNs() {
 }
 
 void Print(const std::string& out_path, const session::ImportReport& report) {
-  fmt::print("{}: {} samples over {:.4f} s", out_path, report.rows, report.duration_s);
+  fmt::print("{}: {} samples over {:.4f} s", rt::OneLine(out_path), report.rows, report.duration_s);
   fmt::print(", rotation {}", report.has_rotation ? "known" : "not given: taken as standing");
   fmt::print(", excitation {}\n", report.has_excitation ? "known" : "not given: taken as none");
   if (report.drop_outs > 0) {
     fmt::print("{} drop-outs in time, {} samples missing in them\n", report.drop_outs,
                report.missing_cycles);
   }
-  for (const auto& name : report.ignored_columns) fmt::print("column \"{}\" ignored\n", name);
+  for (const auto& name : report.ignored_columns) {
+    fmt::print("column \"{}\" ignored\n", rt::OneLine(name));
+  }
 }
 
 ExitStatus ImportBusLog(const ImportCommandOptions& options, const config::RigFile& rig,

@@ -23,7 +23,7 @@ struct PolesOptions : AnalysisOptions {
 
 /// At rest neither direction is the forward one: both planes of the rig may share the pole, and any
 /// mixture of them is a mode.
-const char* Direction(const analysis::Pole& pole, bool turning) {
+const char* WhirlOf(const analysis::Pole& pole, bool turning) {
   if (pole.frequency_hz == 0.0) return "no oscillation";
   if (!turning) return "at rest";
   if (std::abs(pole.forward_share - 0.5) < 0.05) return "plane";
@@ -37,7 +37,7 @@ void Print(const analysis::LoopPoles& at, double up_to_hz) {
   for (const auto& pole : at.poles) {
     if (std::abs(pole.frequency_hz) > up_to_hz) continue;
     fmt::print("{:>14.3f}{:>14.5f}{:>14.3f}  {}{}\n", pole.frequency_hz, pole.damping_ratio,
-               pole.s_rad_per_s.real(), Direction(pole, at.speed_rad_per_s != 0.0),
+               pole.s_rad_per_s.real(), WhirlOf(pole, at.speed_rad_per_s != 0.0),
                std::abs(pole.z) >= 1.0 ? "  <- unstable" : "");
   }
 }

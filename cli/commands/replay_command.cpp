@@ -15,6 +15,7 @@
 #include "cli/commands/what_if_csv.hpp"
 #include "cli/json_file.hpp"
 #include "configuration/rig_file.hpp"
+#include "controller/rt/say.hpp"
 #include "session/output_path.hpp"
 #include "session/replay.hpp"
 #include "session/what_if.hpp"
@@ -22,7 +23,7 @@
 namespace levitas::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Document = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 struct ReplayOptions {
@@ -71,10 +72,10 @@ ExitStatus Reproduce(const ReplayOptions& options) {
   const double run_s = RunSeconds(report.reproduced, reader.header());
   Print(report, run_s, took_s);
   PrintDamage(reader.damage());
-  Json json{{"session", options.session_path},        {"identical", report.identical()},
-            {"cycles_reproduced", report.reproduced}, {"run_s", run_s},
-            {"times_real_time", run_s / took_s},      {"events", reader.events().size()},
-            {"damage", DamageJson(reader.damage())}};
+  Document json{{"session", options.session_path},        {"identical", report.identical()},
+                {"cycles_reproduced", report.reproduced}, {"run_s", run_s},
+                {"times_real_time", run_s / took_s},      {"events", reader.events().size()},
+                {"damage", DamageJson(reader.damage())}};
   if (report.difference) {
     json["difference"] = {{"cycle", report.different_cycle},
                           {"field", report.difference->field},
@@ -106,15 +107,15 @@ void Print(const session::WhatIfReport& report) {
   }
 }
 
-Json WhatIfJson(const ReplayOptions& options, const session::WhatIfReport& report) {
-  Json json{{"session", options.session_path},
-            {"controller", options.controller_name},
-            {"cycles", report.cycles},
-            {"compared", report.compared},
-            {"first_compared_cycle", report.first_compared_cycle},
-            {"mode_differs", report.mode_differs},
-            {"fault", std::string(Name(report.fault))},
-            {"channels", Json::array()}};
+Document WhatIfJson(const ReplayOptions& options, const session::WhatIfReport& report) {
+  Document json{{"session", options.session_path},
+                {"controller", options.controller_name},
+                {"cycles", report.cycles},
+                {"compared", report.compared},
+                {"first_compared_cycle", report.first_compared_cycle},
+                {"mode_differs", report.mode_differs},
+                {"fault", std::string(Name(report.fault))},
+                {"channels", Document::array()}};
   if (report.fault != Fault::kNone) json["fault_cycle"] = report.fault_cycle;
   for (const auto& channel : report.channels) {
     json["channels"].push_back({{"channel", channel.channel},
@@ -132,7 +133,8 @@ ExitStatus Compare(const ReplayOptions& options) {
   fmt::print("{}\n", Describe(options.session_path, reader.header()));
   const std::string controller = config::FindConfig(options.controller_name, "controllers");
   const auto config = session::OtherConfig(reader.header(), options.session_path, controller);
-  fmt::print("What {} would have commanded while the rotor moved as recorded:\n", controller);
+  fmt::print("What {} would have commanded while the rotor moved as recorded:\n",
+             rt::OneLine(controller));
   WhatIfCsv csv(options.csv_path, reader.header());
   const session::WhatIfReport report =
       session::WhatIf(reader, config, options.session_path,
@@ -161,11 +163,16 @@ ExitStatus Republish(const ReplayOptions& options) {
   const PublishReport report = Publish(reader, options.publishing);
   fmt::print("{} cycles and {} events published, {} messages failed\n", report.cycles,
              report.events, report.failed);
+  if (report.gaps > 0) {
+    fmt::print("{} gaps of more than {} s were shortened to that\n", report.gaps,
+               kLongestWait.count());
+  }
   PrintDamage(reader.damage());
   WriteJsonFile(options.json_path, {{"session", options.session_path},
                                     {"cycles", report.cycles},
                                     {"events", report.events},
                                     {"failed", report.failed},
+                                    {"gaps", report.gaps},
                                     {"damage", DamageJson(reader.damage())}});
   return report.failed == 0 ? ExitStatus::kDone : ExitStatus::kOther;
 }
@@ -192,7 +199,9 @@ void AddReplayCommand(CLI::App& app, Action& action) {
   command->add_option("--csv", options->csv_path, "Recorded and other currents, cycle by cycle")
       ->needs(controller);
   CLI::Option* publish =
-      command->add_flag("--publish", options->publish, "Publish over LCM at the recorded pace")
+      command
+          ->add_flag("--publish", options->publish,
+                     "Publish over LCM at the recorded pace; in a gap 2 s are waited at most")
           ->excludes(controller);
   command->add_option("--speed", options->publishing.speed, "Factor on the recorded pace")
       ->needs(publish)

@@ -90,27 +90,35 @@ levitas_msg::controller_state_t StateMessage(const cycle::CycleRecord& record, s
   return m;
 }
 
-/// Waits for the moment a record had in the run, `speed` times as fast.
+/// Waits for the moment a record had in the run, `speed` times as fast; never longer than
+/// kLongestWait for one record.
 class Pace {
  public:
   Pace(std::int64_t period_ns, double speed)
       : period_s_(static_cast<double>(period_ns) * 1e-9 / speed), start_(Clock::now()) {}
 
   void WaitFor(const cycle::CycleInputs& in) {
-    if (!started_) first_cycle_ = in.cycle;
-    if (started_) missed_ += in.missed_deadlines;
+    if (started_) {
+      const auto periods =
+          static_cast<double>(in.cycle - last_cycle_) + static_cast<double>(in.missed_deadlines);
+      const std::chrono::duration<double> step(periods * period_s_);
+      if (step > kLongestWait) ++shortened_;
+      due_s_ += std::min<std::chrono::duration<double>>(step, kLongestWait).count();
+    }
     started_ = true;
-    const auto periods = static_cast<double>(in.cycle - first_cycle_ + missed_);
+    last_cycle_ = in.cycle;
     std::this_thread::sleep_until(start_ + std::chrono::duration_cast<Clock::duration>(
-                                               std::chrono::duration<double>(periods * period_s_)));
+                                               std::chrono::duration<double>(due_s_)));
   }
+  [[nodiscard]] std::uint64_t shortened() const noexcept { return shortened_; }
 
  private:
   double period_s_;
   Clock::time_point start_;
   bool started_{false};
-  std::uint64_t first_cycle_{};
-  std::uint64_t missed_{};
+  std::uint64_t last_cycle_{};
+  double due_s_{};
+  std::uint64_t shortened_{};
 };
 
 }  // namespace
@@ -149,6 +157,7 @@ PublishReport Publish(session::SessionReader& reader, const PublishOptions& opti
     ++report.cycles;
   }
   tell_events();
+  report.gaps = pace.shortened();
   return report;
 }
 

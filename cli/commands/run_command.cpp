@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,6 +20,8 @@
 #include "cli/run/run_options.hpp"
 #include "cli/run/supervise.hpp"
 #include "cli/run/telemetry.hpp"
+#include "common/output_file.hpp"
+#include "common/time_option.hpp"
 #include "common/whole_number.hpp"
 #include "controller/rt/say.hpp"
 #include "hil/socketcan/can_connection.hpp"
@@ -120,10 +121,10 @@ std::string WithRoom(const std::string& trouble, const RunPaths& paths, const Ru
 }
 
 void SayWhereTheRecordIs(const RunPaths& paths, const std::string& trip_file) {
-  fmt::print("record: {}   (amb replay {})\n", paths.session, paths.session);
-  if (!trip_file.empty()) {
-    fmt::print("trip:   {}   (amb export {} --csv trip.csv)\n", trip_file, trip_file);
-  }
+  const std::string record = rt::OneLine(paths.session);
+  const std::string trip = rt::OneLine(trip_file);
+  fmt::print("record: {}   (amb replay {})\n", record, record);
+  if (!trip.empty()) fmt::print("trip:   {}   (amb export {} --csv trip.csv)\n", trip, trip);
 }
 
 /// Prints the verdict of what was recorded, if anything was; the run's exit status.
@@ -149,16 +150,27 @@ ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunP
   }
 }
 
+/// The run is judged by its record, so it is read again.
+void RefuseWhatCannotBeRead(const std::string& record_path) {
+  if (record_path.empty() || !IsWrittenAsItIs(record_path)) return;
+  throw Problem(ExitStatus::kUsage,
+                fmt::format("--record {}: a pipe or a device, but a run is judged by its record. "
+                            "Name a file, or start amb-controller by itself",
+                            record_path));
+}
+
 ExitStatus Execute(const RunOptions& asked) {
-  if (!std::isfinite(asked.duration_s)) {  // which the option's own check lets pass
-    throw Problem(ExitStatus::kUsage, "--duration: not a number of seconds; allowed: above 0");
-  }
   for (const std::string& path : {asked.record_path, asked.json_path}) {
     session::CheckOutputPath(path, {});
   }
+  RefuseWhatCannotBeRead(asked.record_path);
   session::CheckNoRecording(asked.record_path, asked.overwrite);
   std::optional<transport::LcmNetwork> network = CheckPort(asked.port);
   const RunFiles files = CheckFiles(asked);
+  session::RefuseClash({{"--record", asked.record_path}, {"--json", asked.json_path}},
+                       {{"the rig file", files.rig_path},
+                        {"the controller file", files.controller_path},
+                        {"the scenario file", files.scenario_path}});
   const RunOptions options = SettleRig(asked, config::LoadRig(files.rig_path));
   CheckBuses(options, files);
   const PortLease lease = Lease(network);
@@ -179,6 +191,7 @@ ExitStatus Execute(const RunOptions& asked) {
   const PagePlan page = PlanPage(options.page, LookAround(options.pace == "realtime"));
   RunResult result = RunBoth(plan, files, *network, page);
   result.trouble = WithRoom(result.trouble, paths, folder);
+  for (const std::string& note : TripFolderNotes(paths.controller_log)) rt::Say(note);
   const ExitStatus status = JudgeRun(options, files, paths, result, port);
   if (status == ExitStatus::kTripped && options.record_path.empty()) folder.Keep();
   std::fflush(stdout);
@@ -206,7 +219,7 @@ void AddRunCommand(CLI::App& app, Action& action) {
   command
       ->add_option("--duration", options->duration_s,
                    "Land after this long [s of the rig's time], wherever the scenario is")
-      ->check(CLI::PositiveNumber);
+      ->check(WhyNoTime);
   command
       ->add_option("--pace", options->pace,
                    "lockstep or realtime; default: realtime where the rig is not simulated here")

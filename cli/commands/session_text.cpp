@@ -5,15 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/utc_text.hpp"
+#include "controller/rt/say.hpp"
 
 namespace levitas::cli {
 
 std::string Describe(const std::string& path, const session::SessionHeader& header) {
   std::string channels;
-  for (const auto& channel : header.channels) channels += " " + channel;
-  return fmt::format("{}: {} {}, every {} us, channels{}", path, header.pace,
-                     UtcText(header.start_utc_ns), static_cast<double>(header.period_ns) * 1e-3,
-                     channels);
+  for (const auto& channel : header.channels) channels += " " + rt::OneLine(channel);
+  return fmt::format("{}: {} {}, every {} us, channels{}", rt::OneLine(path),
+                     rt::OneLine(header.pace), UtcText(header.start_utc_ns),
+                     static_cast<double>(header.period_ns) * 1e-3, channels);
 }
 
 void PrintDamage(const session::Damage& damage) {

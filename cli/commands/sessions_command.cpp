@@ -16,6 +16,7 @@
 #include "cli/json_file.hpp"
 #include "cli/utc_text.hpp"
 #include "common/rotational_speed.hpp"
+#include "controller/rt/say.hpp"
 #include "session_index/catalogue.hpp"
 #include "session_index/catalogue_path.hpp"
 #include "session_index/describe_session.hpp"
@@ -79,13 +80,15 @@ nlohmann::ordered_json Json(const Entry& entry) {
 }
 
 void Print(const Entry& entry) {
+  using rt::OneLine;  // what a session or the catalogue says makes no row of its own
   const std::string what = entry.scenario.empty() ? entry.pace : entry.scenario;
   fmt::print("{:<21}{:>8.1f} s{:>8.1f} MB  {:<22}{:<16}{:<13}{}{}\n", UtcText(entry.start_utc_ns),
-             entry.duration_s, static_cast<double>(entry.size_byte) * 1e-6, entry.rig, what,
-             entry.outcome, entry.path, IsThere(entry) ? "" : "   (gone)");
+             entry.duration_s, static_cast<double>(entry.size_byte) * 1e-6, OneLine(entry.rig),
+             OneLine(what), OneLine(entry.outcome), OneLine(entry.path),
+             IsThere(entry) ? "" : "   (gone)");
   std::string more;
-  for (const std::string& tag : entry.tags) more += (more.empty() ? "tags " : ", ") + tag;
-  if (!entry.damage.empty()) more += (more.empty() ? "" : "; ") + entry.damage;
+  for (const std::string& tag : entry.tags) more += (more.empty() ? "tags " : ", ") + OneLine(tag);
+  if (!entry.damage.empty()) more += (more.empty() ? "" : "; ") + OneLine(entry.damage);
   if (!more.empty()) fmt::print("{:23}{}\n", "", more);
 }
 
@@ -94,7 +97,7 @@ std::string WhatIsThere(const SessionsOptions& options) {
   const std::vector<Entry> all = Catalogue(PathOfCatalogue(options)).Find({});
   if (all.empty()) return ": nothing is recorded yet; amb run and amb sessions add enter sessions";
   std::set<std::string> rigs;
-  for (const Entry& entry : all) rigs.insert(entry.rig);
+  for (const Entry& entry : all) rigs.insert(rt::OneLine(entry.rig));
   return fmt::format(" of the {} recorded ones match; their rigs: {}", all.size(),
                      fmt::join(rigs, ", "));
 }
@@ -202,7 +205,7 @@ ExitStatus Forget(const SessionsOptions& options) {
       if (IsThere(entry)) continue;
       catalogue.Forget(entry.path);
       forgotten.push_back(entry.path);
-      fmt::print("forgotten: {}\n", entry.path);
+      fmt::print("forgotten: {}\n", rt::OneLine(entry.path));
     }
   }
   WriteJsonFile(options.json_path, {{"forgotten", forgotten}});

@@ -27,8 +27,10 @@ inline constexpr std::array kStudyCommands{
                  "What a rig may do beyond its nominal model: the catalogue, and the signature of "
                  "each effect"},
     StudyCommand{"identify", "A model from a record"},
+    StudyCommand{"design",
+                 "Controllers from a rig and its uncertainty, judged before they are written"},
     StudyCommand{"diagnose", "What the model of a rig gets wrong, and why"},
-    StudyCommand{"bench", "How good the answers of diagnosis and identification are"},
+    StudyCommand{"bench", "How good diagnosis, identification and protections are"},
     StudyCommand{"manual",
                  "Every command and option: as a page, as a manual page, as completion for bash"},
 };

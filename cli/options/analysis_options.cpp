@@ -12,6 +12,7 @@
 #include "configuration/law_notes.hpp"
 #include "controller/law/discrete_law.hpp"
 #include "hil/socketcan/can_connection.hpp"
+#include "session/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -122,6 +123,7 @@ FoundController LoadController(const AnalysisOptions& options, const config::Rig
   std::string name = options.controller_name.empty() ? rig.run.controller : options.controller_name;
   if (name.empty()) name = kReferenceController;
   const std::string path = config::FindConfig(name, "controllers");
+  session::RefuseClash({{"--json", options.json_path}}, {{"the controller file", path}});
   FoundController found{path, config::LoadController(path, rig.numbers), {}};
   found.notes = NotchesElsewhere(found.file, rig.numbers);
   for (const std::string& note : config::LawNotes(found.file.law)) found.notes += "\n  " + note;

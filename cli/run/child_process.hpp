@@ -2,10 +2,15 @@
 // A program started beside this one, ended with it, never waited for without a bound.
 //
 // Life      the child is asked to end (SIGTERM) when this process dies, however that happens
-//           (PR_SET_PDEATHSIG, so start it from the main thread), and by the destructor, which
-//           waits for kLandingLimit and only then kills: a controller first lands its rotor. It
-//           has a process group of its own: Ctrl-C at the terminal reaches only us, and we decide
-//           what the child is told.
+//           (PR_SET_PDEATHSIG, so start it from the main thread), and by the destructor. It has a
+//           process group of its own: Ctrl-C at the terminal reaches only us, and we decide what
+//           the child is told.
+// Life line the kernel forgets that wish where the program has file capabilities. A child with a
+//           life line also holds the reading end of a pipe whose other end only this process has,
+//           and is told its descriptor: the end of the pipe is the end of this process.
+// Patience  a child with a life line holds a rotor: the destructor waits for its landing, and kills
+//           it only when it hangs, that is, when no thread of it has run for kHung
+//           (process_pulse.hpp). Any other child is killed after kPatience.
 // Output    standard output and error go to one log file each child has.
 // Failure   Problem (exit status 1) when the program cannot be started, naming it and why.
 // Thread    the thread that started it.
@@ -13,6 +18,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,12 +34,13 @@ struct ChildExit {
 
 class ChildProcess {
  public:
-  /// More than a controller takes to run its rotor down and land it.
-  static constexpr std::chrono::milliseconds kLandingLimit{180'000};
+  static constexpr std::chrono::milliseconds kPatience{180'000};
+  static constexpr std::chrono::milliseconds kHung{15'000};
 
-  /// `arguments` without the program's name.
+  /// `arguments` without the program's name. `life_line`: the option that tells the child the
+  /// descriptor of its life line; empty: it has none.
   ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
-               std::string log_file);
+               std::string log_file, const std::string& life_line = "");
   /// Ends a child that still runs, see Life, and reaps it.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -47,6 +54,8 @@ class ChildProcess {
   void Signal(int signal);
   /// Asks with SIGTERM, waits, then kills: returns when the child is gone.
   ChildExit End(std::chrono::milliseconds patience);
+  /// For how long no thread of it has run, as far as calls of this function have seen.
+  [[nodiscard]] std::chrono::milliseconds Silent();
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] pid_t pid() const noexcept { return pid_; }
@@ -57,6 +66,9 @@ class ChildProcess {
   std::string name_;
   std::string log_file_;
   pid_t pid_{-1};
+  int life_line_{-1};  ///< our end; closed with this object
+  std::uint64_t pulse_{0};
+  std::chrono::steady_clock::time_point last_sign_;
   std::optional<ChildExit> exit_;
 };
 

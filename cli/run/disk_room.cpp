@@ -51,4 +51,15 @@ std::string RecordingStopped(const std::string& controller_log) {
   return {};
 }
 
+std::vector<std::string> TripFolderNotes(const std::string& controller_log) {
+  constexpr std::string_view kWords = ": trip folder: ";
+  std::vector<std::string> notes;
+  std::ifstream log(controller_log);
+  for (std::string line; std::getline(log, line);) {
+    const std::size_t at = line.find(kWords);
+    if (at != std::string::npos) notes.push_back(line.substr(at + 2));
+  }
+  return notes;
+}
+
 }  // namespace levitas::cli

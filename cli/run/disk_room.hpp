@@ -15,4 +15,7 @@ namespace levitas::cli {
 /// The controller's own sentence on a recording that it had to stop, from its log; empty if none.
 [[nodiscard]] std::string RecordingStopped(const std::string& controller_log);
 
+/// What the controller said of the files in the trip folder: those it removed, those it found.
+[[nodiscard]] std::vector<std::string> TripFolderNotes(const std::string& controller_log);
+
 }  // namespace levitas::cli

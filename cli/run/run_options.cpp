@@ -117,7 +117,7 @@ RunPlan PlanRun(const RunOptions& options, const RunFiles& files, const RunPaths
     plan.plant.arguments.insert(plan.plant.arguments.end(),
                                 {"--scenario", files.scenario_path, "--json", paths.plant_json});
   }
-  plan.controller = {ProgramBeside("amb-controller"), both, paths.controller_log};
+  plan.controller = {ProgramBeside("amb-controller"), both, paths.controller_log, "--life-line"};
   plan.controller.arguments.insert(
       plan.controller.arguments.end(),
       {"--controller", files.controller_path, "--scenario", files.scenario_path, "--record",

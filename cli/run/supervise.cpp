@@ -43,7 +43,8 @@ class Run {
       : plan_(plan),
         hooks_(hooks),
         plant_(Started(plan.plant)),
-        controller_(plan.controller.program, plan.controller.arguments, plan.controller.log_file),
+        controller_(plan.controller.program, plan.controller.arguments, plan.controller.log_file,
+                    plan.controller.life_line),
         last_progress_(Clock::now()) {}
 
   RunResult UntilTheEnd() {
@@ -74,10 +75,23 @@ class Run {
     try {
       look();
     } catch (const std::exception& error) {
-      blind_ = fmt::format("the run could not be followed any further: {}", error.what());
-      last_progress_ = Clock::now();
-      controller_.Signal(SIGINT);
+      GoBlind(fmt::format("the run could not be followed any further: {}", error.what()));
     }
+  }
+
+  void GoBlind(const std::string& why) {
+    blind_ = why;
+    hooks_.say(why + "; landing the rotor (Ctrl-C twice ends at once)");
+    // A stopped process hears nothing before it goes on.
+    controller_.Signal(SIGCONT);
+    if (plant_) plant_->Signal(SIGCONT);
+    AskToLand();
+  }
+
+  /// Once: for the controller a second request would mean "at once, whatever the rotor does".
+  void AskToLand() {
+    if (!asked_to_land_) controller_.Signal(SIGINT);
+    asked_to_land_ = true;
   }
 
   void FollowTelemetry(milliseconds limit) {
@@ -93,8 +107,8 @@ class Run {
     if (count == 0) return;
     if (!result_.interrupted) {
       result_.interrupted = true;
-      hooks_.say("landing the rotor (Ctrl-C again ends at once)");
-      controller_.Signal(SIGINT);
+      if (blind_.empty()) hooks_.say("landing the rotor (Ctrl-C again ends at once)");
+      AskToLand();
     } else if (count > 1) {
       result_.trouble = "ended at once on request: the rotor was not landed";
       EndControllerAtOnce();
@@ -120,19 +134,18 @@ class Run {
 
   void WatchProgress() {
     if (!blind_.empty()) {
-      if (Clock::now() - last_progress_ >= plan_.landing) result_.trouble = "it did not land";
+      if (controller_.Silent() < plan_.hung_limit) return;
+      result_.trouble = fmt::format("{} hangs: no thread of it has run for {} s, it is {}; ended",
+                                    controller_.name(), plan_.hung_limit.count() / 1000,
+                                    StateOf(controller_.pid()));
       return;
     }
     if (Clock::now() - last_progress_ < plan_.silence_limit) return;
-    result_.trouble =
-        fmt::format("no control cycle for {} s: {} is {}", plan_.silence_limit.count() / 1000,
+    std::string why =
+        fmt::format("no telemetry for {} s: {} is {}", plan_.silence_limit.count() / 1000,
                     controller_.name(), StateOf(controller_.pid()));
-    result_.trouble +=
-        plant_ ? fmt::format(", {} is {}; both were ended", plant_->name(), StateOf(plant_->pid()))
-               : "; it was ended";
-    // A stopped process does not see SIGTERM before it goes on.
-    controller_.Signal(SIGCONT);
-    if (plant_) plant_->Signal(SIGCONT);
+    if (plant_) why += fmt::format(", {} is {}", plant_->name(), StateOf(plant_->pid()));
+    GoBlind(why);
   }
 
   void Finish() {
@@ -141,7 +154,11 @@ class Run {
     if (plant_) result_.plant = plant_->WaitFor(plan_.notice);
     if (plant_ && !result_.plant) plant_->End(plan_.grace);
     if (!blind_.empty()) {
-      result_.trouble = blind_ + (result_.trouble.empty() ? "" : "; " + result_.trouble);
+      result_.trouble = fmt::format("{}; {}", blind_,
+                                    result_.trouble.empty()
+                                        ? fmt::format("{} was asked to land the rotor, and {}",
+                                                      controller_.name(), result_.controller.Text())
+                                        : result_.trouble);
     }
     if (!result_.trouble.empty()) {
       result_.trouble += (plant_ ? Said(*plant_) : "") + Said(controller_);
@@ -167,6 +184,7 @@ class Run {
   ChildProcess controller_;
   RunResult result_;
   std::string blind_;  ///< why the run is not followed any more; empty: it is
+  bool asked_to_land_{false};
   std::uint64_t last_cycle_{0};
   Clock::time_point last_progress_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 // Runs controller and rig side by side until the controller ends, and says what went wrong if one
-// of them dies or hangs. Every wait has a bound.
+// of them dies or hangs. Every wait has a bound but the one for a controller that holds a rotor.
 //
 // Alone      without a simulated rig (a real one is on the port) the controller alone is run, and
 //            what is said of the rig below does not apply.
@@ -8,11 +8,14 @@
 //            follows it, or is asked to.
 // Ctrl-C     the first is passed to the controller, which lands the rotor; the second ends both at
 //            once: the controller switches the amplifiers off, or is killed after `grace`.
-// Blind      what goes wrong in following the run (a hook that throws) lands the rotor, within
-//            `landing`.
+// Blind      without telemetry for `silence_limit`, or when following the run goes wrong (a hook
+//            that throws), we see nothing of the rotor, and that is no reason to let go of it: the
+//            controller is asked to land it, and from then on followed as a process.
 // Death      of one: the other gets `notice` to see it (the controller trips, freezes what came
 //            before and closes its record), then it is asked to end, and after `grace` made to.
-// Hang       no new cycle in telemetry for `silence_limit`: both are ended.
+// Hang       no thread of the controller has run for `hung_limit` after that (process_pulse.hpp):
+//            both are asked to end, and after `grace` made to. A controller whose threads run is
+//            waited for as long as it takes: how long a landing may take, it knows itself.
 // Failure    Problem (exit status 1) only when a program cannot be started; all else is a result.
 // Thread     the main thread (see ChildProcess).
 
@@ -30,7 +33,8 @@ namespace levitas::cli {
 struct ProgramCall {
   std::string program;  ///< path
   std::vector<std::string> arguments;
-  std::string log_file;  ///< takes what it writes
+  std::string log_file;     ///< takes what it writes
+  std::string life_line{};  ///< option that names the child's end of a pipe; empty: it has none
 };
 
 struct RunPlan {
@@ -39,7 +43,7 @@ struct RunPlan {
   std::chrono::milliseconds notice{1'000};
   std::chrono::milliseconds grace{5'000};
   std::chrono::milliseconds silence_limit{15'000};
-  std::chrono::milliseconds landing{ChildProcess::kLandingLimit};
+  std::chrono::milliseconds hung_limit{ChildProcess::kHung};
 };
 
 struct RunResult {

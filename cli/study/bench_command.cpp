@@ -10,6 +10,7 @@
 
 #include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
+#include "cli/study/bench_lives.hpp"
 #include "cli/study/bench_sweep.hpp"
 #include "cli/study/bench_trials.hpp"
 #include "cli/study/identify/geared_commands.hpp"
@@ -19,8 +20,9 @@
 namespace levitas::cli {
 namespace {
 
-constexpr const char* kHelp =
-    "Draws a rig that is a few per cent off its file, hides an effect in it, records it standing, "
+constexpr const char* kBenchHelp =
+    "Draws a rig (rotor, magnets with ki i0 of 5 to 500 N, probe noise of 0.05 to 3 um) that is a "
+    "few per cent off its file, hides an effect in it, records it standing, "
     "spinning and running up (5.3 s), and diagnoses the records. Every seed is one trial; effects "
     "take turns. Prints accuracy by effect and by size, "
     "false alarms, what is outside the vocabulary, several at once, and the confusion matrix. An "
@@ -68,7 +70,8 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   AddBenchIdentification(*bench, action);
   AddBenchFullSpectrum(*bench, action);
   AddBenchPump(*bench, action);
-  command->footer(kHelp);
+  AddBenchLives(*bench, action);
+  command->footer(kBenchHelp);
   command->add_option("--rig", options->rig, "Nominal rig");
   command->add_option("--controller", options->controllers,
                       "Controllers, drawn by seed; without it those shipped for the rig");
@@ -81,8 +84,14 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--effect", options->effects, "Only these effects");
   command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");
   command->add_flag("--quick", options->quick, "A first answer instead of the complete ranking");
+  command->add_flag("--shipped", options->shipped,
+                    "The rig file as it is, instead of rotor, magnets and noise drawn by seed");
   command->add_flag("--in-file", options->in_file,
                     "Give the diagnosis rig files that hold the effects: right is none");
+  command
+      ->add_option("--bits", options->bits,
+                   "Length of the test signal per axis; 2047 makes 5.3 s of records")
+      ->check(CLI::Range(700, 2047));
   command->add_option("--jobs", options->jobs, "Trials at a time")->check(CLI::Range(1, 64));
   command->add_flag("--explain", options->explain, "The nearest candidates of every trial");
   command->add_option("--write", options->write_folder, "Also write the records as CSV here");

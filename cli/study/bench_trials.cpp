@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "benchmark/accuracy/available_evidence.hpp"
+#include "benchmark/accuracy/drawn_rig.hpp"
 #include "cli/json_file.hpp"
 #include "common/output_file.hpp"
 #include "common/problem.hpp"
@@ -21,6 +22,8 @@
 
 namespace levitas::cli {
 namespace {
+
+constexpr double kShortestRunUpS = 1.0;
 
 std::vector<effect::Id> Chosen(const BenchOptions& options, const accuracy::TestRig& bench) {
   std::vector<effect::Id> ids;
@@ -66,7 +69,8 @@ void ListMissed(const accuracy::Trial& trial, accuracy::TrialScore& outcome) {
 
 accuracy::TrialScore Try(const accuracy::TrialPlan& plan, const accuracy::TestRig& bench,
                          const BenchOptions& options) {
-  const accuracy::Trial trial = accuracy::MakeTrial(bench, plan);
+  const accuracy::Trial trial =
+      options.shipped ? accuracy::MakeTrial(bench, plan) : accuracy::MakeDrawnTrial(bench, plan);
   if (!options.write_folder.empty()) WriteTrial(trial, options.write_folder, plan.seed);
   diagnosis::Settings settings;
   settings.quick = options.quick;
@@ -133,6 +137,8 @@ std::vector<accuracy::TrialPlan> Plans(const BenchOptions& options,
     plan.hidden = std::move(hidden);
     plan.size = size;
     plan.in_file = options.in_file;
+    plan.runup_s = std::max(kShortestRunUpS, plan.runup_s * options.bits / plan.bits_per_axis);
+    plan.bits_per_axis = options.bits;
     return plans.emplace_back(plan);
   };
   for (int i = 0; i < options.seeds; ++i) {

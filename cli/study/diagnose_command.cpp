@@ -28,7 +28,7 @@
 namespace levitas::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kDiagnoseHelp =
     "Drives the rig's nonlinear model with the recorded currents and tests for every effect "
     "of docs/effects.md whether it explains the residual, together with all deviations that a "
     "healthy rig may have. Give several records of one rig at once: standing "
@@ -113,7 +113,7 @@ ExitStatus Run(const DiagnoseOptions& options) {
 void AddDiagnoseCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<DiagnoseOptions>();
   CLI::App* command = AddStudyCommand(app, "diagnose");
-  command->footer(kHelp);
+  command->footer(kDiagnoseHelp);
   command->add_option("DATA", options->data, "Sessions, CSV or MAT files of one rig")->required();
   AddRigOption(*command, *options);
   command->add_option("--holdout", options->holdout,

@@ -65,7 +65,7 @@ nlohmann::ordered_json Value(double value) {
   return value;
 }
 
-nlohmann::ordered_json Json(const effect::Row& row) {
+nlohmann::ordered_json RowJson(const effect::Row& row) {
   nlohmann::ordered_json json{{"id", row.name},
                               {"place", effect::Name(row.place)},
                               {"per", effect::Name(row.scope)},
@@ -120,10 +120,10 @@ ExitStatus Run(const EffectsOptions& options) {
   auto json = nlohmann::ordered_json::array();
   if (options.id.empty()) {
     PrintAll();
-    for (const effect::Row& row : effect::Catalogue()) json.push_back(Json(row));
+    for (const effect::Row& row : effect::Catalogue()) json.push_back(RowJson(row));
   } else {
     PrintOne(RowOf(options.id));
-    json.push_back(Json(RowOf(options.id)));
+    json.push_back(RowJson(RowOf(options.id)));
   }
   Draw(options);
   WriteDocument(options.document_path);

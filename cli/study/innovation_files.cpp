@@ -15,27 +15,27 @@
 namespace levitas::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Document = nlohmann::ordered_json;
 
-Json ChannelJson(const InnovationContext& context, std::size_t i) {
+Document ChannelJson(const InnovationContext& context, std::size_t i) {
   const auto& channel = context.report.channels[i];
-  Json json{{"channel", context.rig.channels[i]},
-            {"rms_m", channel.rms_m},
-            {"sensor_noise_m", context.gain.sensor_noise_m[i]},
-            {"multiple_of_noise", channel.multiple},
-            {"expected_multiple", channel.expected_multiple},
-            {"peak_m", channel.peak_m},
-            {"lag_one_correlation", channel.lag_one},
-            {"dominant_frequency_hz", channel.dominant_hz},
-            {"dominant_density_ratio", channel.dominant_ratio},
-            {"unknown_force_n", context.run.unknown_force_n[i]}};
+  Document json{{"channel", context.rig.channels[i]},
+                {"rms_m", channel.rms_m},
+                {"sensor_noise_m", context.gain.sensor_noise_m[i]},
+                {"multiple_of_noise", channel.multiple},
+                {"expected_multiple", channel.expected_multiple},
+                {"peak_m", channel.peak_m},
+                {"lag_one_correlation", channel.lag_one},
+                {"dominant_frequency_hz", channel.dominant_hz},
+                {"dominant_density_ratio", channel.dominant_ratio},
+                {"unknown_force_n", context.run.unknown_force_n[i]}};
   for (const auto& band : channel.bands) {
     json["bands"].push_back({{"low_hz", band.low_hz},
                              {"high_hz", band.high_hz},
                              {"ratio", band.ratio},
                              {"share", band.share}});
   }
-  json["excitation"] = Json::array();
+  json["excitation"] = Document::array();
   for (const auto& band : channel.excitation) {
     json["excitation"].push_back({{"low_hz", band.low_hz},
                                   {"high_hz", band.high_hz},
@@ -43,7 +43,7 @@ Json ChannelJson(const InnovationContext& context, std::size_t i) {
                                   {"sigmas", band.sigmas},
                                   {"share", band.share}});
   }
-  json["orders"] = Json::array();
+  json["orders"] = Document::array();
   for (const auto& order : channel.orders) {
     json["orders"].push_back({{"order", order.order},
                               {"amplitude_m", order.amplitude_m},
@@ -112,19 +112,19 @@ std::string Grid(const Chart& chart) {
 
 }  // namespace
 
-Json InnovationJson(const InnovationContext& context) {
+Document InnovationJson(const InnovationContext& context) {
   const auto& [rig, gain, run, report] = context;
-  Json json{{"rig", rig.name},
-            {"compared_s", report.duration_s},
-            {"pieces", run.pieces.size()},
-            {"gaps", run.gaps},
-            {"settling_samples", run.settling_rows},
-            {"not_levitated_samples", run.idle_rows},
-            {"line_spacing_hz", report.line_spacing_hz}};
+  Document json{{"rig", rig.name},
+                {"compared_s", report.duration_s},
+                {"pieces", run.pieces.size()},
+                {"gaps", run.gaps},
+                {"settling_samples", run.settling_rows},
+                {"not_levitated_samples", run.idle_rows},
+                {"line_spacing_hz", report.line_spacing_hz}};
   for (std::size_t i = 0; i < report.channels.size(); ++i) {
     json["channels"].push_back(ChannelJson(context, i));
   }
-  json["departures"] = Json::array();
+  json["departures"] = Document::array();
   for (const auto& departure : report.departures) {
     json["departures"].push_back({{"channel", rig.channels[departure.channel]},
                                   {"place", departure.place},

@@ -14,6 +14,7 @@ void AddCommands(CLI::App& app, levitas::cli::Action& action) {
   AddSimulateCommand(app, action);
   AddEffectsCommand(app, action);
   AddIdentifyCommand(app, action);
+  AddDesignCommand(app, action);
   AddDiagnoseCommand(app, action);
   AddBenchCommand(app, action);
   AddManualCommand(app, action);

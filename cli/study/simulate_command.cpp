@@ -25,7 +25,7 @@
 namespace levitas::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kSimulateHelp =
     "Drives the rig's nonlinear model with the recorded currents, corrected at every sample by a "
     "fixed Kalman gain, and reports the innovations (measured minus predicted one sample ahead) "
     "in time, spectrum and orders of rotation, as multiples of the sensors' noise.\n"
@@ -267,7 +267,7 @@ ExitStatus Run(const SimulateOptions& options) {
 void AddSimulateCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = AddStudyCommand(app, "simulate");
-  command->footer(kHelp);
+  command->footer(kSimulateHelp);
   command
       ->add_option("session", options->session_path, "Session, CSV or MAT file (docs/formats.md)")
       ->required();

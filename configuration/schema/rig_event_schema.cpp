@@ -9,7 +9,7 @@ namespace {
 using namespace unit;
 
 // In the order of RigEventKind.
-constexpr std::array<std::string_view, 7> kKinds{
+constexpr std::array<std::string_view, 7> kEventKinds{
     "sensor_frozen",   "sensor_stuck",   "sensor_invalid", "sensor_jump",
     "amplifier_fault", "emergency_stop", "effect"};
 
@@ -17,7 +17,8 @@ constexpr std::array<std::string_view, 7> kKinds{
 
 void Describe(Visitor& v, ScheduledRigEvent& event, const RigNumbers& rig) {
   auto kind = static_cast<std::size_t>(event.kind);
-  v.Choice({"what", kKinds, kRequired, "a fault, or an effect of the rig file that changes"}, kind);
+  v.Choice({"what", kEventKinds, kRequired, "a fault, or an effect of the rig file that changes"},
+           kind);
   event.kind = static_cast<RigEventKind>(kind);
   const bool effect = event.kind == RigEventKind::kEffect;
   const bool valued =

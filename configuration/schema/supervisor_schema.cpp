@@ -29,6 +29,9 @@ void Describe(Visitor& v, supervisor::SequenceConfig& sequence) {
            sequence.landing_ramp_s);
   v.Number({"standstill", kRpm, 0.01, 1000, 5, "below this speed the rotor counts as standing"},
            sequence.standstill_rad_per_s);
+  v.Number({"standstill", kSecond, 0.001, 60, 0.2,
+            "for so long below it without interruption, and reachable by what the drive can do"},
+           sequence.standstill_s);
   v.Number({"trip_deceleration", kRpmPerSecond, 1, 1e6, 1000,
             "the drive brakes at this rate after a trip that leaves the rotor levitated"},
            sequence.trip_acceleration_rad_per_s2);
@@ -37,7 +40,7 @@ void Describe(Visitor& v, supervisor::SequenceConfig& sequence) {
 void Describe(Visitor& v, supervisor::ProtectionConfig& protection) {
   v.Number({"orbit_fraction", kOne, 0.05, 0.99, 0.5, "of the clearance; trips beyond it"},
            protection.orbit_fraction);
-  v.Integer({"orbit_cycles", 1, 100000, 10, "consecutive cycles beyond it"},
+  v.Integer({"orbit_cycles", 1, 100000, 10, "cycles beyond it, those inside counted back"},
             protection.orbit_cycles);
   v.Number({"sensor_range_fraction", kOne, 0.1, 1, 0.95, "of the converter's range; trips beyond"},
            protection.sensor_range_fraction);
@@ -48,6 +51,19 @@ void Describe(Visitor& v, supervisor::ProtectionConfig& protection) {
             protection.sensor_frozen_cycles);
   v.Integer({"frame_missing_cycles", 1, 100000, 5, "consecutive cycles without a sensor frame"},
             protection.frame_missing_cycles);
+  v.Integer({"frames_lost_cycles", 1, 100000, 30, "cycles without a sensor frame in the window"},
+            protection.frames_lost_cycles);
+  v.Integer({"frames_lost_window_cycles", 1, 10000000, 100, "length of that window"},
+            protection.frames_lost_window_cycles);
+  v.RefuseIf(protection.frames_lost_cycles > protection.frames_lost_window_cycles,
+             "frames_lost_cycles", "more than the window holds: it could never trip");
+  v.Integer({"currents_late_cycles", 1, 100000, 18,
+             "periods in the window in which the rig held an old current"},
+            protection.currents_late_cycles);
+  v.Integer({"currents_late_window_cycles", 1, 10000000, 100, "length of that window"},
+            protection.currents_late_window_cycles);
+  v.RefuseIf(protection.currents_late_cycles > protection.currents_late_window_cycles,
+             "currents_late_cycles", "more than the window holds: it could never trip");
   v.Integer({"deadline_missed_cycles", 1, 100000, 20, "missed periods within the window"},
             protection.deadline_missed_cycles);
   v.Integer({"deadline_window_cycles", 1, 10000000, 1000, "length of that window"},

@@ -99,10 +99,11 @@ void Describe(Visitor& v, rotor::TorsionInertia& inertia) {
 
 void DescribeTorsion(Visitor& v, rotor::Shaft& shaft) {
   using rotor::TorsionKind;
-  constexpr std::array<std::string_view, 3> kKinds{"none", "inertias", "beam"};
+  constexpr std::array<std::string_view, 3> kTorsionKinds{"none", "inertias", "beam"};
   auto kind = static_cast<std::size_t>(shaft.torsion.kind);
-  v.Choice({"kind", kKinds, kRequired, "inertias on springs, or the torsion of the beam itself"},
-           kind);
+  v.Choice(
+      {"kind", kTorsionKinds, kRequired, "inertias on springs, or the torsion of the beam itself"},
+      kind);
   shaft.torsion.kind = static_cast<TorsionKind>(kind);
   v.RefuseIf(shaft.torsion.kind == TorsionKind::kBeam && !shaft.is_beam, "kind",
              "beam is for a shaft described as a beam");

@@ -23,7 +23,9 @@ that is set, else in `config/` of the checkout or `share/levitas` of the install
 - The first key is `kind: rig`, `kind: controller` or `kind: scenario`.
 - A key carries the unit of its number: `gap_mm: 0.381`. Any other unit of the same dimension may be
   used by changing the key: `gap_um: 381`, `gap_m: 381e-6`. The units are listed at the end.
-- Numbers are decimal, with a point, without quotes and without a unit behind them.
+- Numbers are decimal, with a point, without quotes and without a unit behind them. A zero in front
+  (`0144`) is refused: YAML 1.1 reads an octal number there, YAML 1.2 a decimal one.
+- A file has at most 4 MB.
 - Nothing is clamped or guessed. A key that is unknown, missing, given twice, out of range, not
   finite or of the wrong type is refused, and all problems of a file are listed at once:
   `file:line:column: key: found 7 mm, allowed 0.02 to 10 mm`.

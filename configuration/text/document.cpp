@@ -141,6 +141,13 @@ std::string Explained(const YAML::Exception& error, const std::string& text) {
 
 Document ReadDocument(const std::string& text) {
   Document document;
+  if (text.size() > kMostBytes) {
+    document.problem = {{1, 1},
+                        fmt::format("more than {} MB; allowed {} MB: a file of ours has some "
+                                    "kilobytes, is this one of another kind?",
+                                    kMostBytes >> 20U, kMostBytes >> 20U)};
+    return document;
+  }
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);

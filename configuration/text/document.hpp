@@ -3,14 +3,19 @@
 // YAML library.
 //
 // Strict   one document; no anchors, aliases or tags (they hide where a number comes from).
+// Size     at most kMostBytes: the library takes a second for some MB, and no file of ours has a
+//          hundredth of that (a controller of 48 states has 50 kB).
 // Lines    and columns count from 1, as editors do.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace levitas::config {
+
+inline constexpr std::size_t kMostBytes = std::size_t{4} << 20;
 
 struct Place {
   int line{1};

@@ -60,7 +60,27 @@ std::string Describe(const Node& node) {
   return node.quoted ? fmt::format("\"{}\" in quotes", text) : fmt::format("\"{}\"", text);
 }
 
+/// The number without the zeros in front of it: "0144" is 144 here and 100 in YAML 1.1 (octal).
+std::string WithoutLeadingZeros(const std::string& text) {
+  const std::size_t from = text.find_first_not_of("+-");
+  std::size_t first = std::min(from, text.size());
+  const auto digit = [&text](std::size_t at) {
+    return at < text.size() && text[at] >= '0' && text[at] <= '9';
+  };
+  while (digit(first + 1) && text[first] == '0') ++first;
+  return text.substr(0, std::min(from, text.size())) + text.substr(first);
+}
+
+bool HasLeadingZeros(const std::string& text) {
+  return IsDecimal(text) && WithoutLeadingZeros(text) != text;
+}
+
 std::string WhyNotANumber(const std::string& text) {
+  if (HasLeadingZeros(text)) {
+    return fmt::format(
+        "not one number to all: with a zero in front it is octal to some programs; write {}",
+        WithoutLeadingZeros(text));
+  }
   std::string lower = text;
   std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
   if (lower.find("nan") != std::string::npos || lower.find("inf") != std::string::npos) {
@@ -93,12 +113,12 @@ void Reader::Number(const NumberField& field, double& si) {
   const auto allowed = [&] { return Allowed(field, unit); };
   const std::string* text = Scalar(entry, allowed, true);
   if (text == nullptr) return;
-  const auto value = ToSi(*text, unit);
+  const auto value = HasLeadingZeros(*text) ? std::nullopt : ToSi(*text, unit);
   if (!value) {
+    const bool beyond = IsDecimal(*text) && !HasLeadingZeros(*text);
     Report(entry.value->place, entry.key,
            fmt::format("found {}, {}; allowed {}", Describe(*entry.value),
-                       IsDecimal(*text) ? "beyond what a double can hold" : WhyNotANumber(*text),
-                       allowed()));
+                       beyond ? "beyond what a double can hold" : WhyNotANumber(*text), allowed()));
   } else if (!(*value >= *ToSi(BoundText(field.low), field.unit) &&
                *value <= *ToSi(BoundText(field.high), field.unit))) {
     Report(entry.value->place, entry.key,
@@ -122,8 +142,10 @@ void Reader::WideInteger(const IntegerField& field, std::int64_t& value) {
   if (text->size() > 1 && *begin == '+') ++begin;
   std::int64_t found{};
   const auto [stop, error] = std::from_chars(begin, end, found);
-  if (stop != end || error == std::errc::invalid_argument) {
-    const std::string why = IsDecimal(*text) ? "not a whole number" : WhyNotANumber(*text);
+  const bool zeros = HasLeadingZeros(*text);
+  if (zeros || stop != end || error == std::errc::invalid_argument) {
+    const bool broken = IsDecimal(*text) && !zeros;
+    const std::string why = broken ? "not a whole number" : WhyNotANumber(*text);
     Report(entry.value->place, entry.key,
            fmt::format("found {}, {}; allowed {}", Describe(*entry.value), why, allowed()));
   } else if (error != std::errc{} || found < field.low || found > field.high) {

@@ -103,6 +103,7 @@ port::PortCounters CanRigPort::counters() const noexcept {
 void CanRigPort::SayGoodbye(const CurrentFrame& last) noexcept {
   const can::Values values = can::ValuesOf(last, true);
   for (int time = 0; time < kGoodbyes; ++time) {
+    for (Outgoing& outgoing : slow_) Send(outgoing, values);  // the drive's last set point
     for (Outgoing& outgoing : fast_) Send(outgoing, values);
   }
 }

@@ -3,17 +3,17 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
+
+#include "common/two_pi.hpp"
 
 namespace levitas::identification {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kTolerance = 1e-3;
 constexpr int kRefinements = 3;
 /// Neighbours closer than this are one sine whose amplitude was cut back.
-constexpr double kSameFrequency = 1e-3;
+constexpr double kSameSine = 1e-3;
 
 /// Samples from `begin` to the second change of sign after it: between half a period and one.
 std::optional<std::size_t> ToSecondCrossing(std::span<const double> x, std::size_t begin) {
@@ -108,7 +108,7 @@ std::vector<SineStep> FindSineSteps(std::span<const double> signal) {
       return remainder ? steps : std::vector<SineStep>{};
     }
     if (!steps.empty() &&
-        std::abs(step->cycles_per_sample / steps.back().cycles_per_sample - 1.0) < kSameFrequency) {
+        std::abs(step->cycles_per_sample / steps.back().cycles_per_sample - 1.0) < kSameSine) {
       return {};
     }
     steps.push_back(*step);

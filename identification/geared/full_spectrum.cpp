@@ -10,6 +10,7 @@
 
 #include "common/problem.hpp"
 #include "identification/geared/geared_forces.hpp"
+#include "identification/geared/imaginary_unit.hpp"
 #include "identification/geared/joint_fit.hpp"
 #include "identification/geared/line_equations.hpp"
 #include "identification/geared/shaft_equations.hpp"
@@ -21,7 +22,6 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 using Kind = GearedLine::Kind;
 
-const Complex kJ(0.0, 1.0);
 /// Weights depend on what is sought: a few rounds settle them.
 constexpr int kRounds = 8;
 /// Noise and a poor rig file stay below; a wrong sign does not.

@@ -6,6 +6,8 @@
 //             Zp Rp + f = m_p eps_p w_p^2 [1x of the pinion] + ks_p Rp - ki_p Ip
 //             Zg Rg - f = m_g eps_g w_g^2 [1x of the gear]   + ks_g Rg - ki_g Ig
 //             f = (k_m + jW c_m) D,  D = Rp - Rg (+ eps_p, - eps_g, - e_i on their lines) + n w
+// Sign      a positive I pushes against r, as in the source and in the files of `--lines`; records
+//           have the other sign, which LinesOfRecord turns (record_lines.hpp).
 // Z         4 DOF: k + jW c - m W^2. 8 DOF: the tilts leave it by dynamic reduction, exact on every
 //           line: - k_la^2/(k_aa - I_d W^2 + I_p w W). 12 DOF: w, the rotation of both wheels times
 //           their base radii, is real; its half spectrum follows from that of the mesh force along

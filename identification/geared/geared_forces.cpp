@@ -3,13 +3,14 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "identification/geared/imaginary_unit.hpp"
+
 namespace levitas::identification {
 namespace {
 
 using Complex = std::complex<double>;
 using Kind = GearedLine::Kind;
 
-const Complex kJ(0.0, 1.0);
 /// Lines of one speed mirror each other when their frequencies add up to less than this share.
 constexpr double kMirror = 1e-6;
 

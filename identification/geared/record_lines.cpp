@@ -5,13 +5,14 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <set>
 #include <span>
 
 #include "common/problem.hpp"
+#include "common/two_pi.hpp"
 #include "identification/frf/flat_top.hpp"
+#include "identification/geared/imaginary_unit.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -19,8 +20,6 @@ namespace {
 using Complex = std::complex<double>;
 using Kind = GearedLine::Kind;
 
-const Complex kJ(0.0, 1.0);
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kSameSpeed = 0.003;
 constexpr double kTransientS = 0.3;
 constexpr double kLeastS = 1.0;
@@ -230,8 +229,9 @@ std::vector<GearedLine> LinesOfRecord(const session::Recording& record, const co
       };
       line.pinion_m = row[0] / read(pinion);
       line.gear_m = row[1] / read(gear);
-      line.pinion_a = row[2] * drive(pinion);
-      line.gear_a = row[3] * drive(gear);
+      // The only place where the record's sign of a current (+ki ic) meets the equations' (-ki I).
+      line.pinion_a = -row[2] * drive(pinion);
+      line.gear_a = -row[3] * drive(gear);
       line.sigma_m = std::max(found.sigma[0], found.sigma[1]) / std::abs(read(pinion));
       line.sigma_a = std::max(found.sigma[2], found.sigma[3]);
       lines.push_back(line);

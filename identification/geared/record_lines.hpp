@@ -8,6 +8,8 @@
 //           -+ z_p/z_g, +- i z_p. Standard deviations from what remains.
 // Chain     readings are divided by sensor gain and lag; commands become coil currents by delay,
 //           hold and amplifier lag, all of the rig file.
+// Sign      a record's control current pulls in the positive direction, +ki ic
+//           (docs/conventions.md); the lines have that of the equations, -ki I, so I = -ic.
 // Limit     the gear's phase counts from the record's first row: a record that begins in another
 //           turn of the pinion gives it with another half turn (20 to 40 teeth).
 // Failure   BadInput: a rig without one gear pair on two lumped shafts with a bearing each; a

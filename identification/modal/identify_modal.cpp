@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
+#include "common/two_pi.hpp"
 #include "identification/modal/modal_quality.hpp"
 
 namespace levitas::identification {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 Eigen::Index ModesInBand(const config::RigFile& rig, double highest_hz) {
   const auto most = static_cast<Eigen::Index>(rig.plant.rotor.modes_per_plane) - 2;

@@ -21,7 +21,7 @@ struct SpeedQuality {
   double speed_rad_per_s{};
   double misfit{};  ///< modal_quality.hpp
   bool fitted{};
-  FitPercent percent;
+  FitShare percent;
   Eigen::VectorXd before, after;  ///< misfit per channel: of the rig file, of what was identified
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/two_pi.hpp"
+
 namespace levitas::identification {
 namespace {
 
@@ -11,8 +13,6 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 Complex Hold(double f, double period_s) {
   const double x = std::numbers::pi * f * period_s;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
+
+#include "common/two_pi.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using Index = Eigen::Index;
 using Kind = LineKind;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr int kPoleRounds = 8;
 constexpr int kApproaches = 3;
 /// ln of a frequency of the rig file, where pairings are compared.

@@ -48,8 +48,8 @@ double Misfit(const FrequencyResponse& response, const std::vector<Eigen::Matrix
   return MisfitByChannel(response, model, options).mean();
 }
 
-FitPercent FitOf(const FrequencyResponse& response, const std::vector<Eigen::MatrixXcd>& model,
-                 const ModalFitOptions& options) {
+FitShare FitOf(const FrequencyResponse& response, const std::vector<Eigen::MatrixXcd>& model,
+               const ModalFitOptions& options) {
   double left = 0.0;
   double noise = 0.0;
   double all = 0.0;

@@ -29,12 +29,12 @@ namespace levitas::identification {
                                               const std::vector<Eigen::MatrixXcd>& model,
                                               const ModalFitOptions& options);
 
-struct FitPercent {
+struct FitShare {
   double fit{}, ceiling{};
 };
-[[nodiscard]] FitPercent FitOf(const FrequencyResponse& response,
-                               const std::vector<Eigen::MatrixXcd>& model,
-                               const ModalFitOptions& options);
+[[nodiscard]] FitShare FitOf(const FrequencyResponse& response,
+                             const std::vector<Eigen::MatrixXcd>& model,
+                             const ModalFitOptions& options);
 
 /// Frequencies of the free rotor with the fitted gyroscopic matrix, signed by whirl, ascending.
 [[nodiscard]] std::vector<double> WhirlFrequenciesHz(const Physical& rig, double speed_rad_per_s);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 
+#include "common/two_pi.hpp"
 #include "identification/modal/modal_line.hpp"
 
 namespace levitas::identification {
@@ -13,8 +13,6 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 /// Derivatives of R = left (Phi_s^T X + beyond) F for some inputs with the forces F at the axes:
 /// columns of the derivative, entry (i, j) at row first + i + axes j.

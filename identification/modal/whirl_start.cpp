@@ -3,14 +3,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "common/two_pi.hpp"
 
 namespace levitas::identification {
 namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr int kRounds = 4;
 /// ln of a frequency ratio beyond which a whirl of the data is another mode's.
 constexpr double kOther = 0.08;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "identification/nonlinear/diverged.hpp"
 #include "identification/nonlinear/laguerre.hpp"
 
 namespace levitas::identification {
@@ -16,7 +17,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kDivergedScales = 1000.0;
 constexpr int kNewtonSteps = 20;
 
 Eigen::VectorXd Scale(const Eigen::MatrixXd& m) {

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "identification/nonlinear/diverged.hpp"
+
 namespace levitas::identification {
 namespace {
 
 using Index = Eigen::Index;
-
-/// A free run beyond this many standard deviations of the data has left every model's domain.
-constexpr double kDivergedScales = 1000.0;
 
 std::string EntryName(const WindowLayout& at, Index entry) {
   if (entry < at.input_at()) {

@@ -6,14 +6,13 @@
 #include <limits>
 #include <utility>
 
+#include "identification/nonlinear/diverged.hpp"
 #include "numerics/levenberg_marquardt.hpp"
 
 namespace levitas::identification {
 namespace {
 
 using Index = Eigen::Index;
-
-constexpr double kDivergedScales = 1000.0;
 
 /// Sum of squares of the free run, and with `derive` its normal equations (lower triangle).
 struct Evaluation {

@@ -11,10 +11,8 @@ import select
 import shutil
 import subprocess
 import tempfile
-import time
 
-# Far above any delay of a busy machine [s]: what waits this long has failed.
-PATIENCE_S = 120
+from waiting import LIMIT_S, until
 
 
 def find():
@@ -36,6 +34,7 @@ class Browser:
         self.child = subprocess.Popen(
             [find(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
              "--hide-scrollbars", "--no-first-run", "--disable-background-networking",
+             "--disable-component-update", "--disable-sync", "--disable-quic",
              f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}",
              "--remote-debugging-pipe", "about:blank"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=descriptors,
@@ -52,7 +51,7 @@ class Browser:
     def __exit__(self, *_):
         self.child.terminate()
         try:
-            self.child.wait(10)
+            self.child.wait(LIMIT_S)
         except subprocess.TimeoutExpired:
             self.child.kill()
             self.child.wait()
@@ -62,8 +61,8 @@ class Browser:
 
     def _message(self):
         while b"\0" not in self.buffer:
-            if not select.select([self.from_read], [], [], PATIENCE_S)[0]:
-                raise AssertionError(f"Chromium said nothing for {PATIENCE_S} s")
+            if not select.select([self.from_read], [], [], LIMIT_S)[0]:
+                raise AssertionError(f"Chromium said nothing for {LIMIT_S} s")
             part = os.read(self.from_read, 1 << 20)
             if not part:
                 raise AssertionError("Chromium ended")
@@ -95,8 +94,8 @@ class Browser:
         elif message.get("method") == "Log.entryAdded" and what["entry"]["level"] == "error":
             self.problems.append((session, what["entry"]["text"] + " " + what["entry"].get("url", "")))
 
-    def open(self, url, width=1280, height=720, phone=False):
-        """A new page; its handle."""
+    def open(self, url, width=1280, height=720, phone=False, before=None):
+        """A new page; its handle. The script `before` runs in it before its own."""
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         page = Page(self, session, target)
@@ -104,6 +103,8 @@ class Browser:
             page.call(f"{domain}.enable")
         page.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=1, mobile=phone)
+        if before:
+            page.call("Page.addScriptToEvaluateOnNewDocument", source=before)
         page.call("Page.navigate", url=url)
         page.until("location.href != 'about:blank' && document.readyState == 'complete'")
         return page
@@ -137,13 +138,10 @@ class Page:
             raise AssertionError(f"{expression}: {result['exceptionDetails']}")
         return result["result"].get("value")
 
-    def until(self, expression, timeout=PATIENCE_S):
+    def until(self, expression):
         """Waits until the expression is true; a time-out is a failure."""
-        end = time.monotonic() + timeout
-        while not self.value(expression):
-            if time.monotonic() > end:
-                raise AssertionError(f"never true: {expression}\n{self.value('document.body.innerText')}")
-            time.sleep(0.1)
+        until(lambda: self.value(expression), expression,
+              lambda: self.value("document.body.innerText"))
 
     def press(self, key):
         for kind in ("keyDown", "keyUp"):

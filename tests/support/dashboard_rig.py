@@ -3,13 +3,12 @@
 import json
 import re
 import tempfile
+import time
 import urllib.error
 import urllib.request
 
 from lcm_network import Process, plant
-
-# Far above any delay of a busy machine [s]: what waits this long has failed.
-LONG = 90
+from waiting import LIMIT_S
 
 
 class Rig:
@@ -25,7 +24,7 @@ class Rig:
         self.controller = self.started(Process(
             self.folder, "amb-controller", "--rig", "flexible_rotor", "--controller", controller,
             "--trip-folder", self.folder, *controller_arguments))
-        self.controller.says("rig found", LONG)
+        self.controller.says("rig found")
         self.dash = self.start_dash(*dash_arguments)
 
     def started(self, process):
@@ -35,8 +34,7 @@ class Rig:
     def start_dash(self, *arguments):
         patience = [] if "--answer-within" in arguments else ["--answer-within", "50"]
         dash = self.started(Process(self.folder, "amb", "dash", *patience, *arguments))
-        dash.says("page: ", LONG)
-        self.url = re.search(r"page: (\S+)", dash.text)[1]
+        self.url = dash.says(re.compile(r"page: \S+(?=\s)")).rsplit("page: ", 1)[1]
         return dash
 
     def post(self, body, headers=None, url=None, path="api/command"):
@@ -53,7 +51,7 @@ class Rig:
 
 def answer_of(request):
     try:
-        with urllib.request.urlopen(request, timeout=LONG) as answer:
+        with urllib.request.urlopen(request, timeout=LIMIT_S) as answer:
             return answer.status, json.loads(answer.read())
     except urllib.error.HTTPError as refused:
         return refused.code, json.loads(refused.read() or b"null")
@@ -69,15 +67,17 @@ def messages(stream):
             yield name, json.loads(line[6:])
 
 
-def until(url, wanted, most=2000):
+def until(url, wanted):
     """The first message for which wanted(event, data) holds."""
-    with urllib.request.urlopen(url + "events", timeout=LONG) as stream:
-        for count, (name, data) in enumerate(messages(stream)):
+    end, last = time.monotonic() + LIMIT_S, {}
+    with urllib.request.urlopen(url + "events", timeout=LIMIT_S) as stream:
+        for name, data in messages(stream):
             if wanted(name, data):
                 return data
-            if count > most:
+            last[name] = data
+            if time.monotonic() > end:
                 break
-    raise AssertionError("the message never came")
+    raise AssertionError(f"the message never came; the last of each kind: {last}")
 
 
 def fits_screens(test, page_of):

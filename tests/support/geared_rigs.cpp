@@ -5,7 +5,7 @@
 namespace levitas::test {
 namespace {
 
-plant::BearingConfig Bearing(const char* name, std::size_t shaft, double z_m) {
+plant::BearingConfig GearBearing(const char* name, std::size_t shaft, double z_m) {
   plant::BearingConfig b;
   b.name = name;
   b.shaft = shaft;
@@ -73,7 +73,7 @@ plant::PlantConfig GearedRotor4() {
   c.substeps = 4;
   c.shafts = {Lumped("pinion", 2.0, 2.0e5, 60.0), Lumped("gear", 3.5, 2.4e5, 80.0)};
   c.gears = {Pair()};
-  c.bearings = {Bearing("p", 0, 0.0), Bearing("g", 1, 0.0)};
+  c.bearings = {GearBearing("p", 0, 0.0), GearBearing("g", 1, 0.0)};
   c.drive = {100.0, 0.02, 2.0};
   c.sensor_polarity = {1.0, 1.0, 1.0, 1.0};
   c.actuator_polarity = {1.0, 1.0, 1.0, 1.0};

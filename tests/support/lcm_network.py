@@ -15,6 +15,8 @@ import time
 import unittest
 from pathlib import Path
 
+import waiting
+
 BINARIES = Path(os.environ.get("LEVITAS_BINARIES", "build/release/bin"))
 BUILD = Path(os.environ.get("LEVITAS_BUILD", BINARIES.parent))
 GROUP = "239.255.76.67"
@@ -48,8 +50,24 @@ def enter_namespace():
     os.execvp("unshare", [*UNSHARE, "sh", "-c", SET_UP, "sh", sys.executable, *sys.argv])
 
 
+def preloaded(library):
+    """The environment that loads one of tests/support/CMakeLists.txt into a program before all else."""
+    path = (BUILD / "tests/support" / library).resolve()
+    if not path.exists():
+        raise FileNotFoundError(f"{path} is not built: the loader would only warn and go on without it")
+    # The sanitizer wants to be loaded first; nothing of it is replaced by these.
+    options = filter(None, (os.environ.get("ASAN_OPTIONS"), "verify_asan_link_order=0"))
+    return {"LD_PRELOAD": str(path), "ASAN_OPTIONS": ":".join(options)}
+
+
 def short_message(channel, payload, sequence=0):
     return b"LC02" + struct.pack(">I", sequence) + channel.encode() + b"\0" + payload
+
+
+def listens(port):
+    """Whether a program listens to a UDP port of this network."""
+    table = Path("/proc/net/udp").read_text(encoding="utf-8").splitlines()[1:]
+    return any(line.split()[1].endswith(f":{port:04X}") for line in table)
 
 
 class Bus:
@@ -76,7 +94,7 @@ class Bus:
         self.send(short_message(channel, message.encode(), self.sequence))
         self.sequence += 1
 
-    def messages(self, seconds):
+    def messages(self, seconds=waiting.LIMIT_S):
         """(channel, payload) of every short message until the time is over."""
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
@@ -91,13 +109,20 @@ class Bus:
 
 
 class Process:
-    """A program of ours with its output in a file; ended when the test ends."""
+    """A program of ours with its output in a file; ended when the test ends.
 
-    def __init__(self, folder, name, *arguments):
-        self.log = Path(folder) / f"{name}-{time.monotonic_ns()}.log"
-        with self.log.open("w", encoding="utf-8") as out:
-            self.child = subprocess.Popen([str(BINARIES / name), *map(str, arguments)], stdout=out,
-                                          stderr=subprocess.STDOUT, cwd=folder)
+    `output` takes its standard output and error instead of the file. What it says arrives when it
+    arrives: says() waits for it, and `text` is for a process that has ended.
+    """
+
+    def __init__(self, folder, name, *arguments, output=None, **options):
+        self.name = Path(name).name
+        self.log = Path(folder) / f"{self.name}-{time.monotonic_ns()}.log"
+        with self.log.open("wb") as log:
+            options = {"stdout": log, "stderr": log, "cwd": folder, **options}
+            if output is not None:
+                options["stdout"] = options["stderr"] = output
+            self.child = subprocess.Popen([str(BINARIES / name), *map(str, arguments)], **options)
 
     def __enter__(self):
         return self
@@ -107,38 +132,45 @@ class Process:
 
     @property
     def text(self):
-        return self.log.read_text(encoding="utf-8")
+        """Everything that it said; it must have ended, else more may be on its way."""
+        if self.child.poll() is None:
+            raise AssertionError(f"{self.name} still runs: wait for its words with says(), or for "
+                                 "its end with status(), before you read what it said")
+        return self.said_so_far
 
-    def status(self, timeout=60):
-        try:
-            return self.child.wait(timeout)
-        except subprocess.TimeoutExpired as late:
-            raise AssertionError(f"did not end within {timeout} s:\n{self.text}") from late
+    @property
+    def said_so_far(self):
+        """For messages of failures only: what it says may be on its way."""
+        return self.log.read_text(encoding="utf-8", errors="replace")
 
-    def says(self, words, timeout=30):
-        """Waits until the output holds the words; a time-out is a failure that shows the output."""
-        end = time.monotonic() + timeout
-        while words not in self.text:
-            if time.monotonic() > end or (self.child.poll() is not None and words not in self.text):
-                raise AssertionError(f"never said {words!r}:\n{self.text}")
-            time.sleep(0.02)
+    def status(self, limit_s=waiting.LIMIT_S):
+        return waiting.ended(self.child, lambda: self.said_so_far, limit_s)
+
+    def says(self, words, limit_s=waiting.LIMIT_S):
+        """Everything said until the words (or a compiled pattern), which are waited for."""
+        return waiting.until(lambda: waiting.found(words, self.said_so_far),
+                             f"{self.name} says {words!r}", lambda: self.said_so_far,
+                             lambda: self.child.poll() is None, limit_s)
+
+    def send_signal(self, number):
+        self.child.send_signal(number)
 
     def terminate(self):
-        self.child.send_signal(signal.SIGTERM)
+        self.send_signal(signal.SIGTERM)
 
     def kill(self):
         if self.child.poll() is None:
             self.child.kill()
-            self.child.wait()
+        self.child.wait()
 
 
-def plant(folder, *arguments):
-    return Process(folder, "amb-plant", "--rig", "flexible_rotor", *arguments)
+def plant(folder, *arguments, **options):
+    return Process(folder, "amb-plant", "--rig", "flexible_rotor", *arguments, **options)
 
 
-def controller(folder, *arguments):
+def controller(folder, *arguments, **options):
     return Process(folder, "amb-controller", "--rig", "flexible_rotor", "--controller",
-                   "flexible_rotor", "--trip-folder", folder, *arguments)
+                   "flexible_rotor", "--trip-folder", folder, *arguments, **options)
 
 
 def log_events(path):

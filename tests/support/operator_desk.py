@@ -75,8 +75,9 @@ class Desk:
         self.out.send(short_message("LEVITAS_EXCITATION", message.encode()))
 
     def reset(self):
+        """Until it is taken; a late answer is waited for, since a second reset would be refused."""
         end = time.monotonic() + 30
-        while time.monotonic() < end:
-            if self.ask(RESET):
+        while (left := end - time.monotonic()) > 0:
+            if self.ask(RESET, patience=left):
                 return
         raise AssertionError("no reset was taken within 30 s")

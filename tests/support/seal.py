@@ -29,9 +29,10 @@ class Sealer:
     def __init__(self, key):
         self.key, self.sender, self.number = key, os.urandom(8), 0
 
-    def seal(self, datagram, port, group=GROUP):
+    def seal(self, datagram, port, challenge=None, group=GROUP):
         name = f"levitas network key 1 {group}:{port}"
         key = mac(self.key, f"{name} a".encode()) + mac(self.key, f"{name} b".encode())
-        self.number = max(self.number + 1, time.time_ns())
-        sealed = datagram + b"LKY1" + self.sender + struct.pack(">Q", self.number)
+        self.number += 1
+        fresh = time.time_ns() if challenge is None else challenge
+        sealed = (datagram + b"LKY2" + self.sender + struct.pack(">QQ", self.number, fresh))
         return sealed + mac(key, sealed)

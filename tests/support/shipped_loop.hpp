@@ -8,6 +8,7 @@
 #include "configuration/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
+#include "controller/supervisor/supervisor.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/run/timed_events.hpp"
 
@@ -51,9 +52,9 @@ struct ShippedLoop {
       record.in.frame = plant.Sample();
       events.Disturb(record.in.cycle, record.in.frame);
       record.in.frame_present = true;
-      const auto asked =
-          player.Next(record.out.mode, record.in.frame.speed_rad_per_s, record.out.fault,
-                      record.out.command_refused, Radius(record.in.frame));
+      const auto asked = player.Next(record.out.mode, record.in.frame.speed_rad_per_s,
+                                     record.out.fault, record.out.command_refused,
+                                     Radius(record.in.frame), cycle.decision().standing);
       record.in.op = {asked.command, asked.speed_rad_per_s, asked.acceleration_rad_per_s2,
                       asked.excitation_a, asked.excitation_m};
       record.out = cycle.Step(record.in);

@@ -6,11 +6,12 @@ a default route through it, no route of its own for multicast.
 
 import json
 import os
+import shutil
 import subprocess
 import sys
-import time
 
-from lcm_network import GROUP, UNSHARE
+from lcm_network import GROUP, UNSHARE, Process
+from waiting import LIMIT_S, until
 
 OWN, OTHER = "10.77.0.1", "10.77.0.2"
 
@@ -41,18 +42,18 @@ while True:
 
 
 def sh(script):
-    subprocess.run(["sh", "-ec", script], check=True, timeout=20, capture_output=True)
+    subprocess.run(["sh", "-ec", script], check=True, timeout=LIMIT_S, capture_output=True)
 
 
 class OtherMachine:
     """Lives until close(); needs the namespace of lcm_network.run around it."""
 
     def __init__(self):
-        self.holder = subprocess.Popen(["unshare", "-n", "sleep", "600"])
+        self.holder = subprocess.Popen(["unshare", "-n", "sleep", "infinity"])
         pid = self.holder.pid
         own = os.readlink("/proc/self/ns/net")
-        while os.readlink(f"/proc/{pid}/ns/net") == own:
-            time.sleep(0.01)
+        until(lambda: os.readlink(f"/proc/{pid}/ns/net") != own, "a network of the other machine",
+              running=lambda: self.holder.poll() is None)
         sh("ip route flush root 224.0.0.0/4;"
            f"ip link add vA type veth peer name vB; ip link set vB netns {pid};"
            f"ip address add {OWN}/24 dev vA; ip link set vA up")
@@ -66,29 +67,30 @@ class OtherMachine:
         self.holder.wait()
 
     def command(self, *arguments):
-        return ["nsenter", "-n", f"-t{self.holder.pid}", *map(str, arguments)]
+        return [shutil.which("nsenter"), "-n", f"-t{self.holder.pid}", *map(str, arguments)]
 
     def sh(self, script):
-        subprocess.run(self.command("sh", "-ec", script), check=True, timeout=20,
+        subprocess.run(self.command("sh", "-ec", script), check=True, timeout=LIMIT_S,
                        capture_output=True)
 
     def send(self, datagrams, times=20):
         """(port, bytes) to the group, as often as asked for."""
-        subprocess.run(self.command(sys.executable, "-c", SEND), check=True, timeout=60, text=True,
+        subprocess.run(self.command(sys.executable, "-c", SEND), check=True, timeout=LIMIT_S, text=True,
                        input=json.dumps([GROUP, [(port, data.hex()) for port, data in datagrams],
                                          times]))
 
-    def listen(self, port):
+    def listen(self, folder, port):
         """A process that prints, in hexadecimal, what it hears; the caller kills it."""
-        listener = subprocess.Popen(self.command(sys.executable, "-c", LISTEN, GROUP, port, OTHER),
-                                    stdout=subprocess.PIPE, text=True)
-        listener.stdout.readline()
+        listener = Process(folder, *self.command(sys.executable, "-c", LISTEN, GROUP, port, OTHER))
+        listener.says("listening\n")
         return listener
 
 
 def possible():
     """Whether this machine lets a namespace be joined to another."""
-    script = ("unshare -n sleep 5 & sleep 0.2; ip link add vA type veth peer name vB && "
-              "ip link set vB netns $! && nsenter -n -t$! true")
+    script = ("own() { readlink /proc/$1/ns/net; }; unshare -n sleep infinity & "
+              "while [ \"$(own $!)\" = \"$(own self)\" ]; do kill -0 $! || exit 1; done; "
+              "ip link add vA type veth peer name vB && ip link set vB netns $! && "
+              "nsenter -n -t$! true; status=$?; kill $!; exit $status")
     return subprocess.run([*UNSHARE, "sh", "-c", script], capture_output=True,
                           check=False).returncode == 0

@@ -16,7 +16,7 @@
 namespace levitas::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kBenchFullSpectrumHelp =
     "Lines of the linear model with ideal PD control at each speed, with noise on every sample "
     "and errors in every number that is taken as known; each figure is the median over the seeds "
     "and, in brackets, the worst. The bound is the median of the best that could be made of the "
@@ -142,7 +142,7 @@ void AddBenchFullSpectrum(CLI::App& bench, Action& action) {
   auto options = std::make_shared<StudyOptions>();
   CLI::App* command =
       bench.add_subcommand("full-spectrum", "Geared rotors under noise and wrong numbers");
-  command->footer(kHelp);
+  command->footer(kBenchFullSpectrumHelp);
   command->add_option("--first", options->first, "Seed of the first draw")->capture_default_str();
   command->add_option("--seeds", options->seeds, "Draws of noise and errors")
       ->check(CLI::Range(1, 10000))

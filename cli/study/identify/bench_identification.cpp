@@ -22,14 +22,14 @@ namespace {
 
 using namespace identification;
 
-constexpr const char* kHelp =
+constexpr const char* kBenchIdentificationHelp =
     "Every seed draws a flexible_rotor with all its numbers off, simulates the campaign of PRBS "
     "(noise, converters, nonlinear magnets, gravity on), fits standing and 3000 rpm from the "
     "shipped rig file, validates at 1600 rpm, and compares with the truth. With --starts the fit "
     "of the first seed is repeated from random starts.\n"
     "Example: amb bench identification --seeds 3 --starts 20";
 
-struct BenchOptions {
+struct IdentificationBenchOptions {
   std::uint64_t first{1};
   int seeds{3};
   int starts{0};
@@ -86,7 +86,7 @@ void PrintRow(const Row& row) {
   static_cast<void>(std::fflush(stdout));
 }
 
-nlohmann::ordered_json Json(const Row& row) {
+nlohmann::ordered_json RowJson(const Row& row) {
   const auto list = [](const Eigen::VectorXd& v) {
     return std::vector<double>(v.data(), v.data() + v.size());
   };
@@ -163,7 +163,7 @@ void PrintCoverage(const std::vector<Row>& rows, nlohmann::ordered_json& json) {
   print("ks/m", ks);
 }
 
-ExitStatus Run(const BenchOptions& options) {
+ExitStatus Run(const IdentificationBenchOptions& options) {
   const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
   std::vector<Row> rows;
@@ -190,7 +190,7 @@ ExitStatus Run(const BenchOptions& options) {
                     accuracy::Score(trial.truth, result), result.quality, result.support,
                     took.count()});
     PrintRow(rows.back());
-    json["rigs"].push_back(Json(rows.back()));
+    json["rigs"].push_back(RowJson(rows.back()));
     if (rows.size() > 1 || options.starts == 0) continue;
     const StartsOutcome starts =
         TryStarts(result, responses, options.starts, options.spread, plan.seed);
@@ -210,9 +210,9 @@ ExitStatus Run(const BenchOptions& options) {
 }  // namespace
 
 void AddBenchIdentification(CLI::App& bench, Action& action) {
-  auto options = std::make_shared<BenchOptions>();
+  auto options = std::make_shared<IdentificationBenchOptions>();
   CLI::App* command = bench.add_subcommand("identification", "Rigs of unknown numbers, identified");
-  command->footer(kHelp);
+  command->footer(kBenchIdentificationHelp);
   command->add_option("--first", options->first, "Seed of the first rig")->capture_default_str();
   command->add_option("--seeds", options->seeds, "Rigs")
       ->check(CLI::Range(1, 1000))

@@ -16,7 +16,7 @@
 namespace levitas::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kBenchPumpHelp =
     "The turbomolecular pump under the excitation of Chiu (2022), its magnets saturating and its "
     "sensors curved (the sensors' curve is known, as in the paper); fit in % on 4000 rows that "
     "were not fitted. A free run sees nothing but the excitation, the known controllers close its "
@@ -121,7 +121,7 @@ ExitStatus Run(const PumpOptions& options) {
 void AddBenchPump(CLI::App& bench, Action& action) {
   auto options = std::make_shared<PumpOptions>();
   CLI::App* command = bench.add_subcommand("pump", "Nonlinear models of the levitated pump");
-  command->footer(kHelp);
+  command->footer(kBenchPumpHelp);
   accuracy::PumpPlan& plan = options->plan;
   command->add_option("--knee-a", plan.knee_a, "Coil current at which the iron bends; 0 = straight")
       ->check(CLI::Range(0.0, 100.0))

@@ -20,7 +20,7 @@
 namespace levitas::cli {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kFrfHelp =
     "Closed loop, P = G S^-1: from the excitation of each axis in turn to positions and currents. "
     "Read are signals that repeat (PRBS, multisine, strokes), the first period of which is dropped "
     "as transient, and sines held one after the other, of which the second half counts. Whole "
@@ -152,7 +152,7 @@ void AddIdentifyFrf(CLI::App& identify, Action& action) {
   auto options = std::make_shared<FrfOptions>();
   CLI::App* command =
       identify.add_subcommand("frf", "Frequency response in closed loop, with its variance");
-  command->footer(kHelp);
+  command->footer(kFrfHelp);
   command->add_option("DATA", options->data_path, "Session, or CSV file (.csv, .csv.xz)")
       ->required();
   AddRigOption(*command, *options);

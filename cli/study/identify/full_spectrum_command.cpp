@@ -24,7 +24,7 @@ namespace {
 
 using namespace identification;
 
-constexpr const char* kHelp =
+constexpr const char* kFullSpectrumHelp =
     "Linear least squares on the lines of the full spectrum (r = x + jy: forward and backward) of "
     "two steady speeds or more: ks and ki of both magnets, both run-outs, mesh stiffness and "
     "damping, mean and varying transmission error with phases, each with a standard deviation. "
@@ -111,7 +111,7 @@ void AddIdentifyFullSpectrum(CLI::App& identify, Action& action) {
   options->rig_name = "geared_rotor_4dof";
   CLI::App* command = identify.add_subcommand(
       "full-spectrum", "Mesh, run-outs, transmission error and magnets of a geared rotor");
-  command->footer(kHelp);
+  command->footer(kFullSpectrumHelp);
   command->add_option("DATA", options->data_path, "Session, or CSV file (.csv, .csv.xz)");
   command->add_option("--lines", options->lines_path,
                       "CSV of lines instead of a record (docs/identification.md)");

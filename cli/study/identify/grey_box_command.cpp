@@ -18,7 +18,7 @@ namespace {
 
 using namespace identification;
 
-constexpr const char* kHelp =
+constexpr const char* kGreyBoxHelp =
     "m y'' + d y' + k(y) = g u with a polynomial spring k, fitted so that its free run follows the "
     "data: least squares on one step, then Levenberg-Marquardt on the simulation. --degree 1 is "
     "the linear oscillator to compare with.\n"
@@ -82,7 +82,7 @@ void AddIdentifyGreyBox(CLI::App& identify, Action& action) {
   auto options = std::make_shared<GreyBoxOptions>();
   CLI::App* command =
       identify.add_subcommand("grey-box", "An oscillator with a curved spring, one axis");
-  command->footer(kHelp);
+  command->footer(kGreyBoxHelp);
   AddSeriesOptions(*command, *options);
   command->add_option("--order", options->model.order, "Of the linear part")
       ->check(CLI::Range(2, 6))

@@ -19,7 +19,7 @@ namespace {
 
 using namespace identification;
 
-constexpr const char* kHelp =
+constexpr const char* kHammersteinWienerHelp =
     "Static curve of every input, linear dynamics of all inputs and outputs, known sensor "
     "characteristic y = x + a2 x^2 + a3 x^3; recursive extended least squares with a model of the "
     "coloured noise. --bandwidth-hz spreads the dynamics' memory over the time scale of the rig; "
@@ -94,7 +94,7 @@ void AddIdentifyHammersteinWiener(CLI::App& identify, Action& action) {
   auto options = std::make_shared<CommandOptions>();
   CLI::App* command = identify.add_subcommand(
       "hammerstein-wiener", "Static curves around linear dynamics, sample by sample");
-  command->footer(kHelp);
+  command->footer(kHammersteinWienerHelp);
   AddSeriesOptions(*command, *options);
   HammersteinWienerOptions& model = options->model;
   command->add_option("--order", model.order, "Of every signal's memory")

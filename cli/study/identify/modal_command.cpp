@@ -30,7 +30,7 @@ namespace {
 
 using namespace identification;
 
-constexpr const char* kHelp =
+constexpr const char* kModalHelp =
     "Frequencies, damping, deflections, current and position stiffness, rigid body and gyroscopic "
     "matrix, by nonlinear least squares. The rig file is the start and a wide prior. The standing "
     "response and the fastest one are fitted; the others are kept to validate.\n"
@@ -224,7 +224,7 @@ void AddIdentifyModal(CLI::App& identify, Action& action) {
   auto options = std::make_shared<ModalOptions>();
   CLI::App* command =
       identify.add_subcommand("modal", "Modes, stiffnesses and gyroscopic matrix, with intervals");
-  command->footer(kHelp);
+  command->footer(kModalHelp);
   command->add_option("DATA", options->data_path, "Session, or CSV file (.csv, .csv.xz)")
       ->required();
   AddRigOption(*command, *options);

@@ -18,7 +18,7 @@ namespace {
 
 using namespace identification;
 
-constexpr const char* kHelp =
+constexpr const char* kNarxHelp =
     "Terms are chosen by forward orthogonal least squares (error reduction ratio), coefficients "
     "fitted one step ahead. Such a model may predict well and still run free badly, or diverge: "
     "both are printed.\n"
@@ -88,7 +88,7 @@ void AddCommand(CLI::App& identify, Action& action, bool with_errors) {
       with_errors ? "narmax" : "narx",
       with_errors ? "Polynomial of past inputs, outputs and prediction errors"
                   : "Polynomial or network of past inputs and outputs");
-  command->footer(kHelp);
+  command->footer(kNarxHelp);
   AddSeriesOptions(*command, *options);
   NarxOptions& model = options->model;
   const auto lags = CLI::Range(1, 50);

@@ -26,7 +26,7 @@ namespace {
 using namespace identification;
 using Index = Eigen::Index;
 
-constexpr const char* kHelp =
+constexpr const char* kRotorInLoopHelp =
     "From a session in which all axes of a standing rotor are excited at once. The model runs free "
     "from the first excited row, the rig's controller closes its loop, and it sees nothing but the "
     "excitation; rows that are not fitted judge it. The rig file gives the start: magnets, "
@@ -126,7 +126,7 @@ void AddIdentifyRotorInLoop(CLI::App& identify, Action& action) {
   auto options = std::make_shared<CommandOptions>();
   CLI::App* command = identify.add_subcommand(
       "rotor-in-loop", "Force of current and position, rotor and sensors, in the known loop");
-  command->footer(kHelp);
+  command->footer(kRotorInLoopHelp);
   command->add_option("SESSION", options->data_path, "A recorded session")->required();
   AddRigOption(*command, *options);
   AddControllerOption(*command, *options);

@@ -41,13 +41,13 @@ std::string Option(const OptionText& option) {
   return fmt::format(".TP\n{}\n{}.\n", name, Escaped(meaning));
 }
 
-std::string Section(const CommandText& command) {
+std::string ManSection(const CommandText& command) {
   std::string text = fmt::format(".SS {}\n{}.\n", Escaped(command.path), Escaped(command.meaning));
   for (const OptionText& option : command.options) text += Option(option);
   if (!command.examples.empty()) {
     text += ".PP\n.nf\n" + Escaped(command.examples) + "\n.fi\n";
   }
-  for (const CommandText& inner : command.commands) text += Section(inner);
+  for (const CommandText& inner : command.commands) text += ManSection(inner);
   return text;
 }
 
@@ -60,7 +60,7 @@ std::string ManPage(const CommandText& root, const std::string& version) {
       ".SH SYNOPSIS\n.B {2}\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n"
       ".SH COMMANDS\n",
       UpperCase(root.name), version, root.name, Escaped(root.meaning));
-  for (const CommandText& command : root.commands) text += Section(command);
+  for (const CommandText& command : root.commands) text += ManSection(command);
   text +=
       ".SH EXIT STATUS\n0 done, 2 usage, 3 bad input file, 4 the rig tripped, 1 other.\n"
       ".SH ENVIRONMENT\n"

@@ -25,14 +25,14 @@ std::string Row(const OptionText& option) {
   return fmt::format("| `{}` | {} |\n", Cell(name), Cell(meaning));
 }
 
-std::string Section(const CommandText& command) {
+std::string MarkdownSection(const CommandText& command) {
   std::string text = fmt::format("\n## {}\n\n{}.\n", command.path, command.meaning);
   if (!command.options.empty()) {
     text += "\n| | |\n|---|---|\n";
     for (const OptionText& option : command.options) text += Row(option);
   }
   if (!command.examples.empty()) text += "\n```text\n" + command.examples + "\n```\n";
-  for (const CommandText& inner : command.commands) text += Section(inner);
+  for (const CommandText& inner : command.commands) text += MarkdownSection(inner);
   return text;
 }
 
@@ -47,7 +47,7 @@ std::string Markdown(const CommandText& root) {
   for (const CommandText& command : root.commands) {
     text += fmt::format("| `{}` | {} |\n", command.path, Cell(command.meaning));
   }
-  for (const CommandText& command : root.commands) text += Section(command);
+  for (const CommandText& command : root.commands) text += MarkdownSection(command);
   return text;
 }
 

@@ -10,10 +10,13 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
+
+sys.path.insert(0, str(Path(os.environ["LEVITAS_SOURCE"]) / "tests/support"))
+from waiting import LIMIT_S, pause  # noqa: E402
 
 SOURCE = Path(os.environ["LEVITAS_SOURCE"])
 
@@ -116,7 +119,7 @@ class Launcher(unittest.TestCase):
         both = [subprocess.Popen(self.command("x"), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                  text=True, env=self.environment) for _ in range(2)]
         for one in both:
-            out, err = one.communicate(timeout=100)
+            out, err = one.communicate(timeout=LIMIT_S)
             self.assertEqual(out, "[x]", err)
 
     def test_an_interrupted_set_up_is_finished_by_the_next_call(self):
@@ -126,9 +129,9 @@ class Launcher(unittest.TestCase):
                 first = subprocess.Popen(self.command("x"), stdout=subprocess.DEVNULL,
                                          stderr=subprocess.DEVNULL, start_new_session=True,
                                          env=self.environment)
-                time.sleep(delay_s)
+                pause(delay_s, "the next call finishes what was interrupted, whenever that was")
                 os.killpg(first.pid, signal.SIGINT)  # as Ctrl-C on a terminal does
-                first.wait(timeout=100)
+                first.wait(timeout=LIMIT_S)
                 self.assertEqual(self.amb("x").stdout, "[x]")
 
     def test_a_folder_that_was_moved_is_configured_afresh(self):

@@ -8,6 +8,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(os.environ["LEVITAS_SOURCE"]) / "tests/support"))
+from waiting import LIMIT_S  # noqa: E402
+
 SOURCE = Path(os.environ["LEVITAS_SOURCE"])
 BUILD = Path(os.environ["LEVITAS_BUILD"])
 SKIP_STATUS = 77
@@ -15,7 +18,7 @@ SKIP_STATUS = 77
 
 def run(*words, **more):
     return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False,
-                          timeout=240, **more)
+                          timeout=LIMIT_S, **more)
 
 
 class Package(unittest.TestCase):

@@ -51,9 +51,9 @@ exit {status}
         path.write_text("#!/bin/sh\n" + body)
         path.chmod(0o755)
 
-    def bench(self, *words):
+    def bench(self, *words, environment=None):
         return subprocess.run([sys.executable, "-B", self.root / "scripts/bench.py", *words],
-                              capture_output=True, text=True, check=False)
+                              capture_output=True, text=True, check=False, env=environment)
 
     def row(self, done, name):
         return next(line.split() for line in done.stdout.splitlines() if line.split()[:1] == [name])
@@ -107,6 +107,29 @@ exit {status}
         self.assertTrue((self.root / "build/bench/latency.json").exists())
         self.assertIn(str(self.root / "build/release/bin"), done.stdout)
         self.assertNotIn("notes", done.stdout)
+
+    def test_a_script_that_says_what_it_lacks_is_named_as_not_run_and_nothing_fails(self):
+        self.script("a.sh", 'echo "  not run: no such program here"; exit 77\n')
+        self.script("b.sh", 'echo "the rest goes on"\n')
+        done = self.bench()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("no such program here", done.stdout)
+        self.assertIn("the rest goes on", done.stdout)
+        self.assertEqual(done.stderr, "amb bench: not run: a.sh\n")
+
+    def test_without_cyclictest_its_comparison_is_one_sentence_and_no_failure(self):
+        script = self.root / "benchmark/speed/realtime_vs_cyclictest.py"
+        shutil.copy(SOURCE / "benchmark/speed" / script.name, script)
+        (self.root / "tests").symlink_to(SOURCE / "tests")
+        script.chmod(0o755)
+        tools = self.root / "tools"  # a PATH without it
+        tools.mkdir()
+        for name in ("python3", "env"):
+            (tools / name).symlink_to(shutil.which(name))
+        done = self.bench(environment={**os.environ, "PATH": str(tools)})
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("not run: the comparison needs cyclictest (Debian package rt-tests", done.stdout)
+        self.assertNotIn("Traceback", done.stdout + done.stderr)
 
     def test_a_name_that_is_none_is_a_usage_error_that_lists_them(self):
         self.benchmark("law_bench", [])

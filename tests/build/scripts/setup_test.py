@@ -4,16 +4,22 @@ Nothing is installed or built: apt-get, dpkg, dpkg-query, sudo, id, ninja, cmake
 scripts that write down how they were called; everything else is linked from the machine.
 """
 
+import errno
 import os
+import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(os.environ["LEVITAS_SOURCE"]) / "tests/support"))
+from waiting import LIMIT_S, until  # noqa: E402
+
 SOURCE = Path(os.environ["LEVITAS_SOURCE"])
 NEEDED = ("bash sh env sed sort comm grep head tail tee cut wc date mkdir rm touch flock awk nproc "
-          "cat basename sleep").split()
+          "cat basename sleep mkfifo tr setsid").split()
 RECORDING = '#!/bin/sh\necho "$(basename "$0") $*" >> "$CALLS"\n'
 
 
@@ -53,7 +59,7 @@ class SetUp(unittest.TestCase):
         environment = {"PATH": str(self.tools), "CALLS": str(self.folder / "calls"),
                        "HOME": str(self.folder), "LEVITAS_JOBS": "2"}
         return subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=False,
-                              env=environment, timeout=60)
+                              env=environment, timeout=LIMIT_S)
 
     def install(self, lists='"$root/packages.txt"'):
         return self.run_shell(f"install_packages {lists}")
@@ -153,8 +159,11 @@ class Jobs(SetUp):
 
 class Lock(SetUp):
     def test_a_second_one_says_that_it_waits_and_goes_on_when_the_first_is_done(self):
-        body = ('(take_lock; echo first; sleep 0.3; echo first-done) & sleep 0.1\n'
-                'take_lock; echo second; release_lock; wait')
+        # The first one holds the lock until the second one has said that it waits for it.
+        body = ('cd "$root"; touch said; say() { echo "$*" >&2; echo "$*" >>said; }; mkfifo held\n'
+                '(take_lock; echo first; echo >held\n'
+                ' until grep -q "waiting for" said; do sleep 0.01; done; echo first-done) &\n'
+                'read -r _ <held; take_lock; echo second; release_lock; wait')
         done = self.run_shell(body)
         self.assertEqual(done.stdout.split(), ["first", "first-done", "second"], done.stderr)
         self.assertEqual(done.stderr.count("waiting for another ./amb"), 1)
@@ -207,19 +216,94 @@ class Tests(SetUp):
         done = self.run_tests("unit loop -R Pid")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(self.calls("ninja")[-1].endswith("tests_unit tests_loop"))
-        self.assertIn("-L ^(unit|loop)$ -R Pid", self.calls("ctest")[-1])
+        # By name: among the single tests of their programs, too.
+        self.assertIn("-L ^(single[.])?(unit|loop)$ -R Pid", self.calls("ctest")[-1])
+        self.run_tests("unit")
+        self.assertTrue(self.calls("ctest")[-1].endswith("-L ^(unit)$"), self.calls("ctest"))
         self.assertEqual(done.stdout, "100% tests passed, 0 tests failed out of 3\n")
 
-    def test_without_a_label_everything_is_built_and_run(self):
+    def test_without_a_label_the_tests_are_built_and_run_and_no_benchmark(self):
         self.run_tests("")
-        self.assertTrue(self.calls("ninja")[-1].endswith("-j 2"), self.calls("ninja"))
-        self.assertNotIn("-L", self.calls("ctest")[-1])
+        targets = "tests_unit tests_loop tests_replay tests_process tests_hardware tests_build"
+        self.assertTrue(self.calls("ninja")[-1].endswith(targets), self.calls("ninja"))
+        self.assertIn("-L ^(unit|loop|replay|process|hardware|build)$", self.calls("ctest")[-1])
 
     def test_an_unknown_label_and_all_with_more_are_usage_errors_before_anything_runs(self):
         for words in ("untit", "unit nothing", "--all unit"):
             with self.subTest(words):
                 self.assertEqual(self.run_tests(words).returncode, 2)
                 self.assertEqual(self.calls("ninja") + self.calls("ctest"), [])
+
+    def ctest_of(self, *skipped):
+        """A ctest whose run skipped these tests."""
+        lines = "".join(f"  1/3 Test  #7: {name} .......***Skipped   0.06 sec\n" for name in skipped)
+        return f"cat <<'END'\n  2/3 Test  #8: unit.good ....   Passed    0.06 sec\n{lines}" \
+               "100% tests passed, 0 tests failed out of 3\nEND\n"
+
+    def test_what_was_not_run_is_named_with_the_command_that_would(self):
+        self.debian({"one": "installed", "two": "installed"})
+        self.tool("ctest", self.ctest_of("process.dashboard.browser", "build.tidy",
+                                         "hardware.can_run", "process.mcap"))
+        done = self.run_shell("ctest_preset release")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name, remedy in (("process.dashboard.browser", "./amb test --all"),
+                             ("build.tidy", "./amb test --all"),
+                             ("hardware.can_run", "./amb test hardware"),
+                             ("process.mcap", "ctest --test-dir build/release -R 'process.mcap' -V")):
+            self.assertRegex(done.stderr, f"not run: {re.escape(name)}\\. {re.escape(remedy)}")
+        self.assertNotIn("unit.good", done.stderr)
+
+    def close(self, *skipped):
+        self.tool("ctest", self.ctest_of(*skipped))
+        return self.run_shell("failed=(); ctest_preset release; close_all")
+
+    def test_everything_passed_only_where_everything_was_run(self):
+        self.assertIn("everything passed after", self.close().stderr)
+        left = self.close("process.mcap", "unit.a/1")
+        self.assertEqual(left.returncode, 0)
+        self.assertNotIn("everything passed", left.stderr)
+        self.assertIn("but not run: process.mcap unit.a/1", left.stderr)
+
+    def test_a_page_that_no_browser_has_seen_is_a_failure_of_all(self):
+        done = self.close("process.dashboard.memory")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("failed: process.dashboard.memory was not run", done.stderr)
+
+    def aside(self, step):
+        """One step beside the tests: scripts/aside.sh is an invented one that ends as `step` says."""
+        (self.root / "scripts/aside.sh").write_text(f"#!/bin/sh\necho \"step $*\"\n{step}\n")
+        (self.root / "scripts/aside.sh").chmod(0o755)
+        return self.run_shell('aside build asan-ubsan unit\necho tests\n'
+                              'end_aside || { echo "ended with $?"; exit 3; }')
+
+    def test_a_step_beside_the_tests_is_waited_for_and_its_words_are_kept(self):
+        done = self.aside("exit 0")
+        self.assertEqual((done.returncode, done.stdout), (0, "tests\n"), done.stderr)
+        self.assertIn("step build asan-ubsan unit", done.stderr)
+
+    def test_a_step_beside_the_tests_that_fails_is_a_failure(self):
+        done = self.aside("exit 5")
+        self.assertEqual((done.returncode, done.stdout), (3, "tests\nended with 5\n"), done.stderr)
+
+    def test_a_step_beside_the_tests_does_not_outlive_them(self):
+        begun, never = self.folder / "begun", self.folder / "never"
+        os.mkfifo(begun)
+        os.mkfifo(never)
+        # It has begun once its line is read, and then waits for a writer that never comes.
+        (self.root / "scripts/aside.sh").write_text(
+            f"#!/bin/sh\necho >'{begun}'\nwhile true; do read line <'{never}'; done\n")
+        (self.root / "scripts/aside.sh").chmod(0o755)
+        done = self.run_shell(f"aside build asan-ubsan unit\nread line <'{begun}'\nexit 4")
+        self.assertEqual(done.returncode, 4, done.stderr)
+
+        def gone():
+            try:
+                os.close(os.open(never, os.O_WRONLY | os.O_NONBLOCK))
+            except OSError as error:  # nobody reads
+                return error.errno == errno.ENXIO
+            return False
+
+        until(gone, "the step beside the tests to end")
 
     def test_the_status_of_failed_tests_is_passed_on_with_the_log(self):
         done = self.run_tests("unit", ctest_status=8)

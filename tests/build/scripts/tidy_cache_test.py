@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -59,8 +60,12 @@ class TidyCache(unittest.TestCase):
         done = subprocess.run([sys.executable, "-B", self.root / "scripts/tidy.py", "--jobs", "2",
                                *map(str, words)], capture_output=True, text=True, check=False,
                               env=environment, cwd=self.root)
-        looked = {str(Path(line).relative_to(self.root))
-                  for line in (self.root / "looked_at").read_text().splitlines()}
+        looked = set()
+        for line in (self.root / "looked_at").read_text().splitlines():
+            path = Path(line)
+            batch = "headers" in path.parts
+            names = re.findall(r'"(.+)"', path.read_text()) if batch else [path]
+            looked |= {str(Path(name).relative_to(self.root)) for name in names}
         return done, looked
 
     def test_looks_at_our_sources_and_headers_not_at_tests_or_generated_code(self):
@@ -106,6 +111,18 @@ class TidyCache(unittest.TestCase):
         self.assertEqual(self.tidy(cache=shared)[1], set())
         self.assertEqual(self.tidy(cache=self.root / "own")[1], ALL)
 
+    def test_what_the_repository_records_is_known_without_a_cache_until_its_text_changes(self):
+        self.tidy("--record", cache=self.root / "first")
+        self.assertEqual(self.tidy(cache=self.root / "second")[1], set())
+        self.write("rotor/rotor.cpp", "int Modes() { return 9; }\n")
+        self.assertEqual(self.tidy(cache=self.root / "third")[1], {"rotor/rotor.cpp"})
+
+    def test_what_has_a_finding_is_not_recorded(self):
+        self.says("header.hpp:1: something is wrong")
+        self.tidy("--record")
+        self.says()
+        self.assertEqual(self.tidy(cache=self.root / "second")[1], ALL)
+
     def test_a_finding_fails_is_told_once_and_is_looked_at_again(self):
         self.says("header.hpp:1: something is wrong")
         for _ in range(2):
@@ -122,6 +139,16 @@ class TidyCache(unittest.TestCase):
     def test_a_header_in_a_folder_without_sources_is_looked_at_as_well(self):
         self.write("units/units.hpp", "double Metres();\n")
         self.assertEqual(self.tidy()[1], ALL | {"units/units.hpp"})
+
+    def test_headers_of_a_folder_are_one_batch_and_each_compiles_by_itself(self):
+        self.write("law/gain.hpp", "double Twice(Gain gain);\n")  # wants a type that another declares
+        self.write("law/first.hpp", "using Gain = double;\n")
+        done, looked = self.tidy()
+        self.assertEqual(looked, ALL | {"law/gain.hpp", "law/first.hpp"})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("law/gain.hpp does not compile by itself", done.stdout)
+        self.write("law/gain.hpp", '#include "first.hpp"\ndouble Twice(Gain gain);\n')
+        self.assertEqual(self.tidy()[0].returncode, 0)
 
     def test_a_named_file_that_is_not_built_is_a_usage_error_not_a_pass(self):
         self.write("law/new.cpp", "int New();\n")

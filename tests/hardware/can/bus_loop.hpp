@@ -13,6 +13,7 @@
 #include "hil/can_port/can_rig_port.hpp"
 #include "hil/socketcan/can_connection.hpp"
 #include "hil/socketcan/socket_can.hpp"
+#include "plant_sim/plant/command_of.hpp"
 #include "plant_sim/plant/plant.hpp"
 
 namespace levitas::test {
@@ -102,12 +103,7 @@ class BusLoop {
       return;
     }
     held_ = 0;
-    command_ = {.control_current_a = current.control_current_a,
-                .bias_current_a = current.bias_current_a,
-                .amplifiers_enabled = current.amplifiers_enabled,
-                .drive_enabled = current.drive_enabled,
-                .speed_set_point_rad_per_s = current.speed_set_point_rad_per_s,
-                .acceleration_limit_rad_per_s2 = current.acceleration_limit_rad_per_s2};
+    command_ = plant::CommandOf(current);
   }
 
   config::RigFile rig_file_;

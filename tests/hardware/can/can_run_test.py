@@ -7,12 +7,14 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import tempfile
-import time
 import unittest
 
-BINARIES = pathlib.Path(os.environ["LEVITAS_BINARIES"])
 SOURCE = pathlib.Path(os.environ["LEVITAS_SOURCE"])
+sys.path.insert(0, str(SOURCE / "tests/support"))
+from lcm_network import BINARIES, Process  # noqa: E402
+
 CYCLES = 20_000
 # Positions are rounded to 20 nm on the bus, currents to 0.1 mA; the loop answers a change of its
 # reading by less than 5 times as much anywhere (its sensitivity peak is 2.6), and a step of the
@@ -86,35 +88,25 @@ class OverTheBus(unittest.TestCase):
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
     def start(self, *more):
-        rig = subprocess.Popen([BINARIES / "amb-rig", "--rig", self.rig, "--port", "can:vcan0",
-                                "--stay", *more], stderr=(self.folder / "rig.log").open("w"))
-        controller = subprocess.Popen(
-            [BINARIES / "amb-controller", "--rig", self.rig, "--controller",
-             "flexible_rotor_commissioned", "--scenario", self.scenario, "--port", "can:vcan0",
-             "--trip-folder", self.folder], stderr=subprocess.DEVNULL)
+        rig = Process(self.folder, "amb-rig", "--rig", self.rig, "--port", "can:vcan0", "--stay",
+                      *more)
+        controller = Process(
+            self.folder, "amb-controller", "--rig", self.rig, "--controller",
+            "flexible_rotor_commissioned", "--scenario", self.scenario, "--port", "can:vcan0",
+            "--trip-folder", self.folder)
         self.addCleanup(rig.kill)
         self.addCleanup(controller.kill)
         return rig, controller
 
-    def await_rig(self, words):
-        end = time.monotonic() + 60
-        text = ""
-        while time.monotonic() < end:
-            text = (self.folder / "rig.log").read_text(encoding="utf-8")
-            if words in text:
-                return text
-            time.sleep(0.01)
-        raise AssertionError(f"the rig never said {words!r}:\n{text}")
-
     def test_a_killed_controller_is_found_by_the_rigs_watchdog_and_the_rotor_lands(self):
         rig, controller = self.start()
-        self.await_rig("amplifiers on")
+        rig.says("amplifiers on")
         controller.send_signal(signal.SIGKILL)
-        text = self.await_rig("the rotor lies on its touchdown bearings")
+        text = rig.says("the rotor lies on its touchdown bearings")
         print(text)
         self.assertIn("amplifiers off: no valid current for 20 periods", text)
         rig.terminate()
-        self.assertEqual(rig.wait(20), 0)
+        self.assertEqual(rig.status(), 0)
 
     def test_a_bus_that_does_not_carry_the_loop_is_refused_before_anything_moves(self):
         slow = self.folder / "slow.yaml"

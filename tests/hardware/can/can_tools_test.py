@@ -8,18 +8,21 @@ import json
 import os
 import pathlib
 import shutil
+import socket
+import struct
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 SOURCE = pathlib.Path(os.environ["LEVITAS_SOURCE"])
 sys.path.insert(0, str(SOURCE / "tests/support"))
 import python_tools  # noqa: E402 -- found through the line above
+from lcm_network import BINARIES, Process  # noqa: E402
+from waiting import LIMIT_S, until  # noqa: E402
 
-BINARIES = pathlib.Path(os.environ["LEVITAS_BINARIES"])
 TOOLS = python_tools.find()
+LAST = 0x7FE  # an identifier of nobody
 SCENARIO = """kind: scenario
 name: lift
 steps:
@@ -28,8 +31,14 @@ steps:
 """
 
 
-def program(name, *words, **more):
-    return subprocess.Popen([BINARIES / name, *map(str, words)], **more)
+def hears(interface, programs):
+    """Waits until so many sockets listen to a CAN interface (receive lists of the kernel)."""
+    def count():
+        table = pathlib.Path("/proc/net/can")
+        return sum(line.split()[:1] == [interface] for name in ("rcvlist_all", "rcvlist_fil", "rcvlist_sff")
+                   for line in (table / name).read_text(encoding="utf-8").splitlines())
+    until(lambda: count() >= programs, f"a listener on {interface}",
+          lambda: (pathlib.Path("/proc/net/can/rcvlist_all")).read_text(encoding="utf-8"))
 
 
 @unittest.skipUnless(shutil.which("candump"), "can-utils is not installed")
@@ -41,22 +50,26 @@ class RecordedWithCandump(unittest.TestCase):
         cls.folder = pathlib.Path(tempfile.mkdtemp())
         cls.scenario = cls.folder / "lift.yaml"
         cls.scenario.write_text(SCENARIO, encoding="utf-8")
-        cls.log = cls.folder / "run.log"
         cls.session = cls.folder / "run.lcm"
-        with cls.log.open("w", encoding="utf-8") as out:
-            dump = subprocess.Popen(["candump", "-L", "-r", "8000000", "vcan0"], stdout=out)
-            time.sleep(0.5)
-            rig = program("amb-rig", "--rig", "flexible_rotor", "--port", "can:vcan0")
-            status = cls.controller("--record", cls.session).wait(200)
-            rig.wait(20)
-            time.sleep(0.5)
-            dump.terminate()
-            dump.wait(10)
-        assert status == 0, status
+        dump = Process(cls.folder, shutil.which("candump"), "-L", "-r", "8000000", "vcan0")
+        hears("vcan0", 1)
+        rig = Process(cls.folder, "amb-rig", "--rig", "flexible_rotor", "--port", "can:vcan0")
+        control = cls.controller("--record", cls.session)
+        assert control.status() == 0, control.text
+        rig.status()
+        # Frames of a bus keep their order: behind one of ours candump has heard all of theirs.
+        with socket.socket(socket.PF_CAN, socket.SOCK_RAW, socket.CAN_RAW) as ours:
+            ours.bind(("vcan0",))
+            ours.send(struct.pack("=IB3x8s", LAST, 0, b""))
+        heard = dump.says(f"{LAST:03X}#")
+        dump.terminate()
+        dump.status()
+        cls.log = cls.folder / "run.log"
+        cls.log.write_text(heard[:heard.rindex("\n") + 1], encoding="utf-8")
 
     @classmethod
     def controller(cls, *more):
-        return program("amb-controller", "--rig", "flexible_rotor", "--controller",
+        return Process(cls.folder, "amb-controller", "--rig", "flexible_rotor", "--controller",
                        "flexible_rotor_commissioned", "--scenario", cls.scenario, "--port",
                        "can:vcan0", "--trip-folder", cls.folder, *more)
 
@@ -127,9 +140,9 @@ class RecordedWithCandump(unittest.TestCase):
         spoken.write_text("".join(f"({1.0 + 0.002 * i:.6f}) {words[1]} {words[2]}\n"
                                   for i, words in enumerate(said)), encoding="utf-8")
         listener = self.controller("--record", again, "--partner-timeout", "3")
-        time.sleep(0.5)
-        subprocess.run(["canplayer", "-I", spoken, "-g", "1"], check=True, timeout=150)
-        listener.wait(60)
+        hears("vcan0", 1)
+        subprocess.run(["canplayer", "-I", spoken, "-g", "1"], check=True, timeout=LIMIT_S)
+        listener.status()
         first, second = self.csv(self.session), self.csv(again)
         same = 0
         for mine, other in zip(first[1:], second[1:]):
@@ -149,7 +162,7 @@ class RecordedWithCandump(unittest.TestCase):
         database = cantools.database.load_file(dbc)
         listener = self.controller("--partner-timeout", "2")
         bus = can.Bus("vcan0", interface="socketcan", fd=True)
-        time.sleep(0.5)
+        hears("vcan0", 2)
         answers = []
         for cycle in range(50):
             data = bytearray(database.encode_message(0x110, {
@@ -165,7 +178,7 @@ class RecordedWithCandump(unittest.TestCase):
                     answers.append(database.decode_message(0x100, bytes(message.data)))
                     break
         bus.shutdown()
-        listener.wait(30)
+        listener.status()
         self.assertEqual([answer["cycle"] for answer in answers], list(range(50)))
         self.assertEqual([answer["alive_counter"] for answer in answers],
                          [cycle % 15 for cycle in range(50)])

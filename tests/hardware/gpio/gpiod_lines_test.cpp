@@ -14,6 +14,7 @@
 #include "hil/rig_lines/gpio_sim.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/gpio_sim_chip.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace levitas::gpio {
 namespace {
@@ -115,7 +116,7 @@ TEST_F(GpiodLinesTest, PulsesCarryTheTimeOfTheirEdgeAndOnlyOfTheActiveOne) {
       shaft.Pull(true);
       after_ns.at(k) = rt::MonotonicNowNs();
       shaft.Pull(false);
-      std::this_thread::sleep_for(std::chrono::milliseconds(30));
+      test::Pause(std::chrono::milliseconds(30), "three ticks or more between two turns");
     }
     ASSERT_EQ(lines.ReadPulses(pulses), before_ns.size());
     for (std::size_t k = 0; k < before_ns.size(); ++k) {

@@ -5,8 +5,12 @@ import pathlib
 import socket
 import struct
 import subprocess
+import sys
 import time
 import unittest
+
+sys.path.insert(0, os.environ["LEVITAS_SOURCE"] + "/tests/support")
+from waiting import LIMIT_S  # noqa: E402
 
 VIRTUAL = os.environ["LEVITAS_TEST_MACHINE"] == "virtual"
 GPIO_SIM = pathlib.Path("/sys/kernel/config/gpio-sim")
@@ -26,7 +30,7 @@ class Bus(unittest.TestCase):
                 socket.socket(socket.PF_CAN, socket.SOCK_RAW, socket.CAN_RAW) as reader:
             writer.bind(("machine0",))
             reader.bind(("machine0",))
-            reader.settimeout(5)
+            reader.settimeout(LIMIT_S)
             writer.send(FRAME.pack(0x123, 3, b"abc"))
             identifier, length, data = FRAME.unpack(reader.recv(FRAME.size))
         self.assertEqual((identifier, data[:length]), (0x123, b"abc"))

@@ -45,7 +45,7 @@ class OperatorStop(unittest.TestCase):
         for _ in range(STOPS):
             before(desk)
             sent_ns.append(time.monotonic_ns())
-            self.assertTrue(desk.stop(), control.text)
+            self.assertTrue(desk.stop(), control.said_so_far)
             desk.reset()
         control.child.send_signal(signal.SIGTERM)
         control.status()

@@ -19,6 +19,7 @@ from levitas_msg import cycle_record_t  # noqa: E402
 
 PERIOD_NS = 100_000
 FRAME_MISSING, DEADLINE_MISSED, EMERGENCY_STOP, AMPLIFIER_FAULT = 5, 6, 9, 11
+CURRENTS_LATE = 17  # of common/enums.hpp: the rig held its currents meanwhile
 TRIPPED = 7
 MISSING_LIMIT, DEADLINE_LIMIT = 10, 50  # of flexible_rotor_commissioned.yaml
 SCENARIO = """kind: scenario
@@ -118,7 +119,7 @@ class RealTime(unittest.TestCase):
             levels.add(self.chip.level(HEARTBEAT))
             time.sleep(PERIOD_NS * 1e-9)
         self.assertEqual(len(levels), 1)
-        control.says("controller is gone: enable line made inactive", timeout=2)
+        control.says("controller is gone: enable line made inactive")
         del plant
 
     def test_a_silent_rig_trips_in_the_cycle_that_the_limit_names(self):
@@ -142,9 +143,14 @@ class RealTime(unittest.TestCase):
         control.child.send_signal(signal.SIGSTOP)
         time.sleep((DEADLINE_LIMIT + 5) * PERIOD_NS * 1e-9)
         control.child.send_signal(signal.SIGCONT)
-        trip = self.tripped(control, [])
-        self.assertIn(trip.fault, (DEADLINE_MISSED, FRAME_MISSING))
-        self.assertGreaterEqual(trip.missed_deadlines, DEADLINE_LIMIT)
+        records = []
+        trip = self.tripped(control, records)
+        self.assertIn(trip.fault, (DEADLINE_MISSED, FRAME_MISSING, CURRENTS_LATE))
+        # Stopped between two cycles it wakes to a frame that counts the currents it did not send,
+        # and learns of the missed deadlines in the cycle after.
+        stopped = next(record for record in records if record.missed_deadlines > 0)
+        self.assertGreaterEqual(stopped.missed_deadlines, DEADLINE_LIMIT)
+        self.assertLessEqual(abs(trip.cycle - stopped.cycle), 1)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ struct Asked {
   TrialScore outcome;
 };
 
-Asked Ask(const std::string& rig, std::uint64_t seed, std::vector<effect::Id> hidden) {
+Asked AskOn(const std::string& rig, std::uint64_t seed, std::vector<effect::Id> hidden) {
   Asked asked{LoadTestRig(rig, {}), {}, {}};
   TrialPlan plan;
   plan.seed = seed;
@@ -40,17 +40,17 @@ void ExpectReadable(const Asked& asked, effect::Id id) {
 }
 
 TEST(GearedRig, WithACrackedToothIsSaidToHaveOne) {
-  const Asked asked = Ask("geared_rotor_4dof", 21006, {effect::Id::kToothCrack});
+  const Asked asked = AskOn("geared_rotor_4dof", 21006, {effect::Id::kToothCrack});
   EXPECT_TRUE(asked.outcome.Right()) << asked.outcome.verdict;
   ExpectReadable(asked, effect::Id::kToothCrack);
 }
 
 TEST(GearedRig, WithNothingHiddenIsSaidToHaveNothing) {
-  EXPECT_EQ(Ask("geared_rotor_4dof", 21008, {}).outcome.verdict, "none");
+  EXPECT_EQ(AskOn("geared_rotor_4dof", 21008, {}).outcome.verdict, "none");
 }
 
 TEST(Pump, WithALateLoopIsSaidToBeLate) {
-  const Asked asked = Ask("turbomolecular_pump", 20002, {effect::Id::kExtraDelay});
+  const Asked asked = AskOn("turbomolecular_pump", 20002, {effect::Id::kExtraDelay});
   EXPECT_TRUE(asked.outcome.Right()) << asked.outcome.verdict;
   ExpectReadable(asked, effect::Id::kExtraDelay);
 }

@@ -134,7 +134,7 @@ TEST_F(SlopesTest, OfACalibrationAreRenewedUntilALargeUnbalanceIsFollowedToTheNo
   ASSERT_TRUE(fit.ok);
   const auto runs = search_.Run(records_, slow, fit.theta);
   const auto nominal = search_.Run(records_, slow, search_.Usual());
-  const auto rms = [this](const Trajectory& run, std::size_t axis) {
+  const auto rms = [](const Trajectory& run, std::size_t axis) {
     double sum = 0.0;
     double count = 0.0;
     for (const SamplePoint& m : run.moments) {

@@ -9,13 +9,13 @@
 namespace levitas::plant::test {
 namespace {
 
-constexpr double kSpeed_rad_per_s = 180.0;
+constexpr double kTurning_rad_per_s = 180.0;
 
-PlantConfig Rig() { return levitas::test::FlexibleRotor(); }
+PlantConfig ChangingRig() { return levitas::test::FlexibleRotor(); }
 
 /// All effects at once, each a little: what must not allocate.
 PlantConfig Everything(double strength) {
-  PlantConfig rig = Rig();
+  PlantConfig rig = ChangingRig();
   for (const effect::Id id : AllIds()) {
     rig.effects.push_back(ClearOn(rig, id));
     rig.effects.back().strength = strength;
@@ -24,11 +24,11 @@ PlantConfig Everything(double strength) {
 }
 
 std::vector<SensorFrame> SamplesOf(Plant& plant, int periods) {
-  return RunLevitated(plant, kSpeed_rad_per_s, periods);
+  return RunLevitated(plant, kTurning_rad_per_s, periods);
 }
 
 TEST(EffectChanges, OfAStepEqualAPlantThatHadTheEffectFromThereOn) {
-  PlantConfig rig = Rig();
+  PlantConfig rig = ChangingRig();
   rig.effects.push_back(ClearOn(rig, effect::Id::kSensorGain));
   rig.effects[0].at_s = 0.02;  // period 200
   Plant timed(rig, 1);
@@ -38,9 +38,9 @@ TEST(EffectChanges, OfAStepEqualAPlantThatHadTheEffectFromThereOn) {
   by_hand.AllowEffectChanges();
   ASSERT_TRUE(by_hand.SetEffectStrength(0, 0.0));
   SimpleLaw law;
-  law.speed_rad_per_s = kSpeed_rad_per_s;
-  by_hand.SetSpeed(kSpeed_rad_per_s, 0.0);
-  Plant nominal(Rig(), 1);
+  law.speed_rad_per_s = kTurning_rad_per_s;
+  by_hand.SetSpeed(kTurning_rad_per_s, 0.0);
+  Plant nominal(ChangingRig(), 1);
   const auto without = SamplesOf(nominal, 400);
   for (int i = 0; i < 400; ++i) {
     if (i == 200) {
@@ -57,7 +57,7 @@ TEST(EffectChanges, OfAStepEqualAPlantThatHadTheEffectFromThereOn) {
 }
 
 TEST(EffectChanges, AreRefusedWithoutPermissionOrWithAWrongIndexOrStrength) {
-  PlantConfig rig = Rig();
+  PlantConfig rig = ChangingRig();
   rig.effects.push_back(ClearOn(rig, effect::Id::kExtraDelay));
   Plant plant(rig, 1);
   EXPECT_FALSE(plant.SetEffectStrength(0, 0.5));
@@ -69,7 +69,7 @@ TEST(EffectChanges, AreRefusedWithoutPermissionOrWithAWrongIndexOrStrength) {
 }
 
 TEST(EffectChanges, ScaleTheValuesBetweenNeutralAndFull) {
-  PlantConfig rig = Rig();
+  PlantConfig rig = ChangingRig();
   rig.effects.push_back(ClearOn(rig, effect::Id::kExtraDelay));
   rig.effects[0].values[0] = 160e-6;
   Plant plant(rig, 1);
@@ -82,12 +82,12 @@ TEST(EffectChanges, ScaleTheValuesBetweenNeutralAndFull) {
 }
 
 TEST(EffectChanges, OfACopyLeaveTheOriginalAlone) {
-  PlantConfig rig = Rig();
+  PlantConfig rig = ChangingRig();
   rig.effects.push_back(ClearOn(rig, effect::Id::kEddyCurrent));
   Plant original(rig, 1);
   original.AllowEffectChanges();
   Plant copy(original);
-  Plant assigned(Rig(), 9);
+  Plant assigned(ChangingRig(), 9);
   assigned = original;
   ASSERT_TRUE(copy.SetEffectStrength(0, 0.0));
   EXPECT_EQ(original.model().effects().bearings[0].axis[0].eddy_tau_s, 50e-6);
@@ -100,7 +100,7 @@ TEST(Effects, AllTogetherRunOnInACopyBitForBit) {
   (void)SamplesOf(plant, 100);
   Plant copy(plant);
   SimpleLaw law;
-  law.speed_rad_per_s = kSpeed_rad_per_s;
+  law.speed_rad_per_s = kTurning_rad_per_s;
   SimpleLaw same_law = law;
   for (int i = 0; i < 200; ++i) {
     const SensorFrame a = StepOnce(plant, law);
@@ -114,8 +114,8 @@ TEST(Effects, AllTogetherAllocateNothingNeitherRunningNorChanging) {
   rig.effects[3].ramp_s = 0.02;
   Plant plant(rig, 5);
   SimpleLaw law;
-  law.speed_rad_per_s = kSpeed_rad_per_s;
-  plant.SetSpeed(kSpeed_rad_per_s, 0.0);
+  law.speed_rad_per_s = kTurning_rad_per_s;
+  plant.SetSpeed(kTurning_rad_per_s, 0.0);
   const levitas::test::AllocationGuard guard;
   for (int i = 0; i < 300; ++i) {
     (void)StepOnce(plant, law);
@@ -128,7 +128,7 @@ TEST(Effects, AllTogetherAllocateNothingNeitherRunningNorChanging) {
 }
 
 TEST(Effects, OfOneIdAtTwoPlacesActAtBoth) {
-  PlantConfig rig = Rig();
+  PlantConfig rig = ChangingRig();
   rig.effects.push_back(ClearOn(rig, effect::Id::kCurrentGain));
   rig.effects.push_back(rig.effects[0]);
   rig.effects[0].axes = 0b0001;
@@ -144,7 +144,7 @@ TEST(Effects, OfOneIdAtTwoPlacesActAtBoth) {
 }
 
 TEST(Effects, ThatFightForOnePlaceAreRefused) {
-  PlantConfig rig = Rig();
+  PlantConfig rig = ChangingRig();
   rig.effects.push_back(ClearOn(rig, effect::Id::kEddyCurrent));
   rig.effects.push_back(ClearOn(rig, effect::Id::kEddyCurrent));
   EXPECT_THROW(PlantModel{rig}, std::invalid_argument);
@@ -156,7 +156,7 @@ TEST(Effects, ThatFightForOnePlaceAreRefused) {
 }
 
 TEST(Effects, OfWhatTheRigDoesNotHaveAreRefused) {
-  PlantConfig rig = Rig();
+  PlantConfig rig = ChangingRig();
   rig.effects.push_back(ClearOn(rig, effect::Id::kSupportMode));
   rig.effects[0].bearing = 2;
   EXPECT_THROW(PlantModel{rig}, std::invalid_argument);
@@ -172,7 +172,7 @@ TEST(Effects, OfWhatTheRigDoesNotHaveAreRefused) {
 }
 
 TEST(StatesOfEffects, StandBehindTheNominalOnes) {
-  PlantConfig rig = Rig();
+  PlantConfig rig = ChangingRig();
   const StateLayout nominal = Plant(rig, 1).layout();
   rig.effects.push_back(ClearOn(rig, effect::Id::kEddyCurrent));
   rig.effects.push_back(ClearOn(rig, effect::Id::kHysteresis));

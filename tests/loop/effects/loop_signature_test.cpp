@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "common/two_pi.hpp"
 #include "tests/loop/effects/effect_rig.hpp"
 
 namespace levitas::plant::test {
@@ -11,8 +11,7 @@ namespace {
 
 using effect::Id;
 
-constexpr double kPeriod_s = 1e-4;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kSample_s = 1e-4;
 constexpr double kTau_s = 1.0 / (kTwoPi * 720.0);  // amplifier of the rig
 
 PlantCommand Command(double control_a) {
@@ -40,9 +39,9 @@ double FirstOrder(double time_s, double tau_s) {
 TEST(ExtraDelay, ShiftsTheCurrentByAnyFractionOfASampleAndChangesItsShapeInNothing) {
   for (const double extra_samples : {0.0, 0.3, 1.0, 2.75}) {
     const auto current_a =
-        StepResponse(Entry(Id::kExtraDelay, {extra_samples * kPeriod_s}), 0.1, 20);
+        StepResponse(Entry(Id::kExtraDelay, {extra_samples * kSample_s}), 0.1, 20);
     for (std::size_t i = 0; i < current_a.size(); ++i) {
-      const double since_s = (static_cast<double>(i + 1) - 1.0 - extra_samples) * kPeriod_s;
+      const double since_s = (static_cast<double>(i + 1) - 1.0 - extra_samples) * kSample_s;
       EXPECT_NEAR(current_a[i], 0.1 * FirstOrder(since_s, kTau_s), 1e-14) << extra_samples;
     }
   }
@@ -102,7 +101,7 @@ TEST(SampleJitter, ReadsAMotionWithAnErrorOfRateTimesDeviation) {
 TEST(AmplifierBandwidth, ChangesTheTimeConstantAndNotTheFinalCurrent) {
   const auto current_a = StepResponse(Entry(Id::kAmplifierBandwidth, {300.0}), 0.1, 200);
   for (std::size_t i = 0; i < current_a.size(); ++i) {
-    const double since_s = static_cast<double>(i) * kPeriod_s;
+    const double since_s = static_cast<double>(i) * kSample_s;
     EXPECT_NEAR(current_a[i], 0.1 * FirstOrder(since_s, 1.0 / (kTwoPi * 300.0)), 1e-14);
   }
   EXPECT_NEAR(current_a.back(), 0.1, 1e-14);
@@ -114,11 +113,11 @@ TEST(AmplifierSlew, LimitsTheRateOfALargeStepAndLeavesASmallOneAlone) {
   for (std::size_t i = 1; i < 20; ++i) {
     // Above an error of slew x tau = 33 mA the law asks for more than the limit.
     if (large_a[i] > 0.5 - kSlew_a_per_s * kTau_s) break;
-    EXPECT_NEAR(large_a[i] - large_a[i - 1], kSlew_a_per_s * kPeriod_s, 1e-12);
+    EXPECT_NEAR(large_a[i] - large_a[i - 1], kSlew_a_per_s * kSample_s, 1e-12);
   }
   const auto small_a = StepResponse(Entry(Id::kAmplifierSlew, {kSlew_a_per_s}), 0.03, 20);
   for (std::size_t i = 0; i < 20; ++i) {
-    EXPECT_NEAR(small_a[i], 0.03 * FirstOrder(static_cast<double>(i) * kPeriod_s, kTau_s), 1e-12);
+    EXPECT_NEAR(small_a[i], 0.03 * FirstOrder(static_cast<double>(i) * kSample_s, kTau_s), 1e-12);
   }
 }
 

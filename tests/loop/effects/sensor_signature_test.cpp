@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "common/two_pi.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "tests/loop/effects/effect_rig.hpp"
 
@@ -13,8 +14,8 @@ namespace {
 
 using effect::Id;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-const AxisArray kPlaces{20e-6, -30e-6, 20e-6, -30e-6};  // parallel: every plane reads the same
+const AxisArray kParallelPlaces{20e-6, -30e-6, 20e-6,
+                                -30e-6};  // parallel: every plane reads the same
 constexpr double kRounding_m = 1e-18;
 
 AxisArray ReadingAt(const effect::EffectConfig& entry, const AxisArray& place_m) {
@@ -28,7 +29,7 @@ bool RotorFeelsNothing(const effect::EffectConfig& entry) {
   Plant with(QuietWith(entry), 1);
   Plant without(Quiet(), 1);
   for (Plant* plant : {&with, &without}) {
-    plant->PlaceAtRest(kPlaces);
+    plant->PlaceAtRest(kParallelPlaces);
     plant->SetSpeed(200.0, 0.3);
     for (int i = 0; i < 20; ++i) {
       PlantCommand command;
@@ -46,7 +47,7 @@ bool RotorFeelsNothing(const effect::EffectConfig& entry) {
 TEST(SensorGain, ScalesTheReadingOfItsChannelsAlone) {
   auto entry = Entry(Id::kSensorGain, {1.1});
   entry.axes = 0b0010;
-  const AxisArray reading_m = ReadingAt(entry, kPlaces);
+  const AxisArray reading_m = ReadingAt(entry, kParallelPlaces);
   EXPECT_NEAR(reading_m[1], -33e-6, kRounding_m);
   EXPECT_NEAR(reading_m[0], 20e-6, kRounding_m);
   EXPECT_TRUE(RotorFeelsNothing(entry));
@@ -55,15 +56,15 @@ TEST(SensorGain, ScalesTheReadingOfItsChannelsAlone) {
 TEST(SensorOffset, IsReadInTheMagneticCentre) {
   const auto entry = Entry(Id::kSensorOffset, {15e-6});
   EXPECT_EQ(ReadingAt(entry, {})[0], 15e-6);
-  EXPECT_NEAR(ReadingAt(entry, kPlaces)[1], -15e-6, kRounding_m);
+  EXPECT_NEAR(ReadingAt(entry, kParallelPlaces)[1], -15e-6, kRounding_m);
   EXPECT_TRUE(RotorFeelsNothing(entry));
 }
 
 TEST(SensorNonlinearity, AddsSquareAndCubeOfTheDisplacement) {
   const auto entry = Entry(Id::kSensorNonlinearity, {500.0, 5e6});
-  const AxisArray reading_m = ReadingAt(entry, kPlaces);
+  const AxisArray reading_m = ReadingAt(entry, kParallelPlaces);
   for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
-    const double y = kPlaces[axis];
+    const double y = kParallelPlaces[axis];
     EXPECT_NEAR(reading_m[axis], y + 500.0 * y * y + 5e6 * y * y * y, kRounding_m);
   }
   EXPECT_TRUE(RotorFeelsNothing(entry));

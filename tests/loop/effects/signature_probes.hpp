@@ -3,13 +3,12 @@
 // (an entry of no size: {}).
 
 #include <complex>
-#include <numbers>
 
+#include "common/two_pi.hpp"
 #include "tests/loop/effects/effect_rig.hpp"
 
 namespace levitas::plant::test {
 
-inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
 inline constexpr double kPeriod_s = 1e-4;
 inline constexpr double kTone_hz = 100.0;  ///< a hundred samples
 inline constexpr double kKi_n_per_a = 40.0;

@@ -4,8 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
+#include "common/two_pi.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/time_step.hpp"
 #include "tests/loop/effects/effect_rig.hpp"
@@ -14,7 +14,6 @@ namespace levitas::plant::test {
 namespace {
 
 using effect::Id;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 /// The pole of the free rotor (no magnets) nearest to j w.
 std::complex<double> PoleNear(const effect::EffectConfig& entry, double w, double speed_rad_per_s) {

@@ -15,19 +15,19 @@
 namespace levitas::test {
 namespace {
 
-constexpr double kSpeed_rad_per_s = 2.0 * std::numbers::pi * 20.0;
+constexpr double kModelSpeed_rad_per_s = 2.0 * std::numbers::pi * 20.0;
 
 // Largest difference of both shafts over a quarter of a second, over the largest displacement.
 double Difference(const plant::PlantConfig& a, const plant::PlantConfig& b) {
   plant::Plant first(a, 1);
   plant::Plant second(b, 1);
-  first.SetSpeed(kSpeed_rad_per_s, 0.0);
-  second.SetSpeed(kSpeed_rad_per_s, 0.0);
+  first.SetSpeed(kModelSpeed_rad_per_s, 0.0);
+  second.SetSpeed(kModelSpeed_rad_per_s, 0.0);
   double difference = 0.0;
   double peak = 0.0;
   for (int n = 0; n < 2500; ++n) {
-    first.Advance(Passive(kSpeed_rad_per_s));
-    second.Advance(Passive(kSpeed_rad_per_s));
+    first.Advance(Passive(kModelSpeed_rad_per_s));
+    second.Advance(Passive(kModelSpeed_rad_per_s));
     const Whirl p = At(first);
     const Whirl q = At(second);
     difference = std::max({difference, std::abs(p.pinion - q.pinion), std::abs(p.gear - q.gear)});

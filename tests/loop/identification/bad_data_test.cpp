@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 /// A short campaign: 255 bits of two samples, three periods on each axis.
-const session::Recording& Good() {
+const session::Recording& GoodCampaign() {
   static const session::Recording record = [] {
     accuracy::ExcitationPlan plan;
     plan.order = 8;
@@ -28,8 +28,8 @@ constexpr std::size_t kPeriod = 510;
 constexpr std::size_t kRowsPerAxis = 3 * kPeriod;
 constexpr double kDelayS = 1e-4;
 
-std::string Refusal(const std::function<void(session::Recording&)>& spoil) {
-  session::Recording record = Good();
+std::string SpoiltRefusal(const std::function<void(session::Recording&)>& spoil) {
+  session::Recording record = GoodCampaign();
   spoil(record);
   try {
     (void)EstimateResponses(record, kDelayS);
@@ -54,31 +54,31 @@ void Erase(session::Recording& r, std::size_t from, std::size_t count) {
 }
 
 TEST(BadData, AGoodRecordIsAccepted) {
-  EXPECT_EQ(Refusal([](session::Recording&) {}), "accepted");
+  EXPECT_EQ(SpoiltRefusal([](session::Recording&) {}), "accepted");
 }
 
 TEST(BadData, ADeadChannelIsNamed) {
   const std::string text =
-      Refusal([](session::Recording& r) { r.position_m[2].assign(r.rows(), 1e-6); });
+      SpoiltRefusal([](session::Recording& r) { r.position_m[2].assign(r.rows(), 1e-6); });
   EXPECT_THAT(text, HasSubstr("position nde_x is dead"));
 }
 
 TEST(BadData, AClippedPositionIsNamed) {
-  const std::string text = Refusal([](session::Recording& r) {
+  const std::string text = SpoiltRefusal([](session::Recording& r) {
     for (double& value : r.position_m[1]) value = value > 2e-6 ? r.sensor_range_m[1] : value;
   });
   EXPECT_THAT(text, HasSubstr("position de_y is clipped"));
 }
 
 TEST(BadData, APositionThatIsCutOffBelowTheRangeIsNamed) {
-  const std::string text = Refusal([](session::Recording& r) {
+  const std::string text = SpoiltRefusal([](session::Recording& r) {
     for (double& value : r.position_m[1]) value = std::min(value, 2e-6);
   });
   EXPECT_THAT(text, HasSubstr("position de_y is cut off below the sensor's range"));
 }
 
 TEST(BadData, ASaturatedCurrentIsNamed) {
-  const std::string text = Refusal([](session::Recording& r) {
+  const std::string text = SpoiltRefusal([](session::Recording& r) {
     for (double& value : r.current_a[3]) value = value > 0.1 ? r.current_limit_a : value;
   });
   EXPECT_THAT(text, HasSubstr("control current nde_y is at its limit (1 A)"));
@@ -86,7 +86,7 @@ TEST(BadData, ASaturatedCurrentIsNamed) {
 }
 
 TEST(BadData, NoExcitationIsSaid) {
-  const std::string text = Refusal([](session::Recording& r) {
+  const std::string text = SpoiltRefusal([](session::Recording& r) {
     for (session::Column& column : r.excitation_a) column.assign(r.rows(), 0.0);
   });
   EXPECT_THAT(text, HasSubstr("no excitation in the record"));
@@ -94,20 +94,20 @@ TEST(BadData, NoExcitationIsSaid) {
 
 TEST(BadData, AMissingPeriodIsSaid) {
   // Of three periods of the last axis one and a half remain.
-  const std::string text =
-      Refusal([](session::Recording& r) { Erase(r, r.rows() - 3 * kPeriod / 2, 3 * kPeriod / 2); });
+  const std::string text = SpoiltRefusal(
+      [](session::Recording& r) { Erase(r, r.rows() - 3 * kPeriod / 2, 3 * kPeriod / 2); });
   EXPECT_THAT(text, HasSubstr("excitation of nde_y"));
   EXPECT_THAT(text, HasSubstr("does not repeat itself"));
 }
 
 TEST(BadData, TwoPeriodsAreTooFewToAverage) {
   const std::string text =
-      Refusal([](session::Recording& r) { Erase(r, r.rows() - kPeriod, kPeriod); });
+      SpoiltRefusal([](session::Recording& r) { Erase(r, r.rows() - kPeriod, kPeriod); });
   EXPECT_THAT(text, HasSubstr("2 whole periods of 510 samples, needed are 3"));
 }
 
 TEST(BadData, SignalsOfUnequalLengthAreRefused) {
-  const std::string text = Refusal([](session::Recording& r) {
+  const std::string text = SpoiltRefusal([](session::Recording& r) {
     for (std::size_t n = 3 * kRowsPerAxis; n < r.rows(); ++n) {
       r.excitation_a[3][n] = n % 100 < 50 ? 0.1 : -0.1;
     }
@@ -116,21 +116,21 @@ TEST(BadData, SignalsOfUnequalLengthAreRefused) {
 }
 
 TEST(BadData, AProbeWiredTheWrongWayIsNamed) {
-  const std::string text = Refusal([](session::Recording& r) {
+  const std::string text = SpoiltRefusal([](session::Recording& r) {
     for (double& value : r.position_m[0]) value = -value;
   });
   EXPECT_THAT(text, HasSubstr("de_x moves with the current"));
 }
 
 TEST(BadData, AnExcitationColumnOfTheWrongSignIsNamed) {
-  const std::string text = Refusal([](session::Recording& r) {
+  const std::string text = SpoiltRefusal([](session::Recording& r) {
     for (double& value : r.excitation_a[1]) value = -value;
   });
   EXPECT_THAT(text, HasSubstr("control current de_y follows its excitation with the wrong sign"));
 }
 
 TEST(BadData, MissingRowsAreCounted) {
-  const std::string text = Refusal([](session::Recording& r) {
+  const std::string text = SpoiltRefusal([](session::Recording& r) {
     for (std::size_t n = 700; n < r.rows(); ++n) r.cycle[n] += 3;
   });
   EXPECT_THAT(text, HasSubstr("3 samples are missing"));
@@ -138,18 +138,18 @@ TEST(BadData, MissingRowsAreCounted) {
 
 TEST(BadData, AnAxisWithoutExperimentIsNamed) {
   const std::string text =
-      Refusal([](session::Recording& r) { Erase(r, kRowsPerAxis, kRowsPerAxis); });
+      SpoiltRefusal([](session::Recording& r) { Erase(r, kRowsPerAxis, kRowsPerAxis); });
   EXPECT_THAT(text, HasSubstr("de_y not excited at 0 rpm"));
 }
 
 TEST(BadData, TwoAxesAtOnceAreRefused) {
   const std::string text =
-      Refusal([](session::Recording& r) { r.excitation_a[2].assign(r.rows(), 0.01); });
+      SpoiltRefusal([](session::Recording& r) { r.excitation_a[2].assign(r.rows(), 0.01); });
   EXPECT_THAT(text, HasSubstr("excites de_x and nde_x together"));
 }
 
 TEST(BadData, ASpeedThatChangesIsRefused) {
-  const std::string text = Refusal([](session::Recording& r) {
+  const std::string text = SpoiltRefusal([](session::Recording& r) {
     for (std::size_t n = 0; n < r.rows(); ++n) r.speed_rad_per_s[n] = 0.01 * static_cast<double>(n);
   });
   EXPECT_THAT(text, HasSubstr("the speed changes"));

@@ -19,7 +19,7 @@ namespace {
 
 using scenario::SignalKind;
 using testing::HasSubstr;
-constexpr double kDelayS = 1e-4;
+constexpr double kKindsDelayS = 1e-4;
 
 accuracy::ExcitationPlan PlanOf(SignalKind kind) {
   accuracy::ExcitationPlan plan;
@@ -48,7 +48,7 @@ accuracy::ExcitationPlan PlanOf(SignalKind kind) {
   return plan;
 }
 
-const session::Recording& RecordOf(SignalKind kind) {
+const session::Recording& RecordOfKind(SignalKind kind) {
   static std::map<SignalKind, session::Recording> records;
   const auto found = records.find(kind);
   if (found != records.end()) return found->second;
@@ -78,8 +78,8 @@ std::vector<Ratio> Ratios(const FrequencyResponse& r, Eigen::Index axis) {
 class Kinds : public testing::TestWithParam<SignalKind> {};
 
 TEST_P(Kinds, GiveTheResponseOfThePrbsWithinTheVariancesOfBoth) {
-  const auto prbs = EstimateResponses(RecordOf(SignalKind::kPrbs), kDelayS);
-  const auto own = EstimateResponses(RecordOf(GetParam()), kDelayS);
+  const auto prbs = EstimateResponses(RecordOfKind(SignalKind::kPrbs), kKindsDelayS);
+  const auto own = EstimateResponses(RecordOfKind(GetParam()), kKindsDelayS);
   ASSERT_EQ(own.size(), 1U);
   std::vector<double> apart;
   std::vector<double> off;
@@ -109,7 +109,7 @@ TEST_P(Kinds, CoherenceIsOneWhereThereIsHardlyAnyNoise) {
   for (auto& bearing : silent.plant.bearings) bearing.sensor.noise_rms_m = 5e-8;
   accuracy::ExcitationPlan plan = PlanOf(GetParam());
   plan.hold_s = std::min(plan.hold_s, 2.4);  // of a stepped sine the first eight
-  const auto own = EstimateResponses(accuracy::SimulateCampaign(silent, plan), kDelayS);
+  const auto own = EstimateResponses(accuracy::SimulateCampaign(silent, plan), kKindsDelayS);
   const FrequencyResponse& r = own.front();
   ASSERT_GT(r.frequency_hz.size(), 5U);
   std::vector<double> near_loop;
@@ -136,10 +136,10 @@ INSTANTIATE_TEST_SUITE_P(Signals, Kinds,
                          });
 
 std::string Refusal(SignalKind kind, const std::function<void(session::Recording&)>& spoil) {
-  session::Recording record = RecordOf(kind);
+  session::Recording record = RecordOfKind(kind);
   spoil(record);
   try {
-    (void)EstimateResponses(record, kDelayS);
+    (void)EstimateResponses(record, kKindsDelayS);
   } catch (const BadInput& problem) {
     return problem.what();
   }
@@ -175,13 +175,13 @@ TEST(ShortSignals, OneStrokeIsNoTrain) {
 }
 
 TEST(ShortSignals, ASineThatIsNotHeldLongEnoughIsNamed) {
-  session::Recording record = RecordOf(SignalKind::kSteppedSine);
+  session::Recording record = RecordOfKind(SignalKind::kSteppedSine);
   ExperimentOptions options;
   options.settle_share = 0.9;  // of 0.3 s at 15 Hz nothing whole remains
   EXPECT_THROW(
       {
         try {
-          (void)EstimateResponses(record, kDelayS, options);
+          (void)EstimateResponses(record, kKindsDelayS, options);
         } catch (const BadInput& problem) {
           EXPECT_THAT(problem.what(), HasSubstr("15.00 Hz is held for 0 whole periods"));
           throw;

@@ -107,7 +107,8 @@ TEST(GearedBound, KnownNumbersThatAreOffCostStiffnessAndHardlyAnyRunOut) {
 }
 
 /// A record whose every reading is the sum of the lines of two speeds, through sensor and
-/// amplifier.
+/// amplifier. Its currents pull in the positive direction (docs/conventions.md), those of the
+/// lines push against it.
 session::Recording RecordOf(const config::RigFile& rig, const std::vector<GearedLine>& lines) {
   session::Recording record;
   record.name = "made of lines";
@@ -138,8 +139,8 @@ session::Recording RecordOf(const config::RigFile& rig, const std::vector<Geared
             hold * std::polar(1.0, -w * 1e-4) / Complex(1.0, w / (kTwoPi * 2000.0));
         sum[0] += turn * l.pinion_m * read;
         sum[1] += turn * l.gear_m * read;
-        sum[2] += turn * l.pinion_a / drive;
-        sum[3] += turn * l.gear_a / drive;
+        sum[2] -= turn * l.pinion_a / drive;
+        sum[3] -= turn * l.gear_a / drive;
       }
       record.cycle.push_back(record.cycle.size());
       record.levitated.push_back(1);

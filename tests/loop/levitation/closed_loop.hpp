@@ -61,6 +61,12 @@ inline cycle::CycleConfig Only(Fault kept) {
   if (kept != Fault::kDeadlineMissed) p.deadline_missed_cycles = 1'000'000;
   if (kept != Fault::kCoilSaturated) p.coil_saturated_s = 1e5;
   if (kept != Fault::kOverSpeed) p.over_speed_fraction = 1e3;
+  const auto never = [](std::uint32_t& cycles, std::uint32_t& window) {
+    cycles = 2;
+    window = 1;
+  };
+  if (kept != Fault::kFramesLost) never(p.frames_lost_cycles, p.frames_lost_window_cycles);
+  if (kept != Fault::kCurrentsLate) never(p.currents_late_cycles, p.currents_late_window_cycles);
   return config;
 }
 
@@ -126,11 +132,25 @@ class ClosedLoop {
     Command(OperatorCommand::kLift);
     return RunUntil(5.0, [this] { return out.mode == Mode::kLevitating; });
   }
-  /// Levitated at a constant speed without the time of a run-up: the drive holds it.
+  /// Levitated at a constant speed without the time of a run-up: the drive holds it. The controller
+  /// is shown the speed rise at the drive's rate, for it believes no other.
   void SpinAt(double speed_rpm) {
+    const double from_rad_per_s = plant.speed_rad_per_s();
     plant.SetSpeed(RpmToRadPerS(speed_rpm), 0.0);
+    const double most_rad_per_s2 = rig_.drive.max_acceleration_rad_per_s2;
+    const double rise_s = std::abs(RpmToRadPerS(speed_rpm) - from_rad_per_s) / most_rad_per_s2;
+    const auto begin = cycle_;
+    const auto rise_cycles = rise_s / period_s_;
+    const auto shown = disturb;
+    disturb = [=](cycle::CycleInputs& in) {
+      const double share = std::min(1.0, static_cast<double>(in.cycle - begin) / rise_cycles);
+      in.frame.speed_rad_per_s =
+          from_rad_per_s + share * (RpmToRadPerS(speed_rpm) - from_rad_per_s);
+      if (shown) shown(in);
+    };
     Command(OperatorCommand::kSpin, speed_rpm, 800.0);
-    Run(0.5);
+    Run(std::max(rise_s, 0.5));
+    disturb = shown;
     Reset();
   }
   void Reset() { most = {}; }

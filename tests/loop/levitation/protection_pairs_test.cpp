@@ -182,7 +182,10 @@ TEST(RigRestartedPair, RotorIsBackInItsTouchdownBearings) {
     loop.Run(0.5);
     loop.plant = plant::Plant(RollingTouchdownRig(), 2);
     loop.plant.RestInTouchdown();
-    if (told) loop.disturb = [](cycle::CycleInputs& in) { in.frame.rig_session = 99; };
+    loop.disturb = [told](cycle::CycleInputs& in) {
+      in.frame.cycle = in.cycle;  // a count of its own would tell it as well
+      if (told) in.frame.rig_session = 99;
+    };
     (void)loop.Step();
     loop.Reset();
     loop.Run(0.1);
@@ -196,6 +199,7 @@ TEST(RigRestartedPair, RotorIsBackInItsTouchdownBearings) {
   EXPECT_EQ(with.out.fault, Fault::kRigRestarted);
   EXPECT_FALSE(with.out.current.amplifiers_enabled);
   EXPECT_NEAR(with.plant.ActuatorPosition()[0], -134e-6, 2e-6);  // untouched
+  with.Run(0.2);                                                 // proof that the rotor stands
   with.Command(OperatorCommand::kReset);
   EXPECT_EQ(with.out.mode, Mode::kOff);
   EXPECT_TRUE(with.Levitate()) << Name(with.out.fault);

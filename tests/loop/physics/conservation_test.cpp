@@ -11,7 +11,7 @@
 namespace levitas::plant {
 namespace {
 
-constexpr double kSpeed_rad_per_s = 250.0;
+constexpr double kConservedSpeed_rad_per_s = 250.0;
 
 class Conservation : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Seeds, Conservation, testing::Range<std::uint64_t>(1, 9));
@@ -41,7 +41,7 @@ std::complex<double> TiltMomentum(const Plant& plant) {
 }
 
 TEST_P(Conservation, OfLinearMomentumHoldsAtAnySpeed) {
-  for (const double speed_rad_per_s : {0.0, kSpeed_rad_per_s, -900.0}) {
+  for (const double speed_rad_per_s : {0.0, kConservedSpeed_rad_per_s, -900.0}) {
     Plant plant = Unpowered(RandomFreeRotor(GetParam()), speed_rad_per_s);
     Kick(plant, GetParam());
     const auto before = Velocity(plant, 0);
@@ -55,12 +55,12 @@ TEST_P(Conservation, OfAngularMomentumHoldsBetweenShaftAndSpinningDiscs) {
   const auto drift = [&](int substeps) {
     auto config = RandomFreeRotor(GetParam());
     config.substeps = substeps;
-    Plant plant = Unpowered(config, kSpeed_rad_per_s);
+    Plant plant = Unpowered(config, kConservedSpeed_rad_per_s);
     Kick(plant, GetParam());
     const auto before = TiltMomentum(plant);
     double largest = 0.0;
     for (int i = 0; i < 500; ++i) {
-      plant.Advance(HeldSpeed(kSpeed_rad_per_s));
+      plant.Advance(HeldSpeed(kConservedSpeed_rad_per_s));
       largest = std::max(largest, std::abs(TiltMomentum(plant) - before));
     }
     return largest / std::abs(before);
@@ -117,14 +117,14 @@ TEST_P(Conservation, AMovingObserverSeesTheSameVibration) {
   // spinning and unbalanced or not.
   auto config = RandomFreeRotor(GetParam());
   config.unbalance = RandomPlant(GetParam()).unbalance;
-  Plant still = Unpowered(config, kSpeed_rad_per_s);
+  Plant still = Unpowered(config, kConservedSpeed_rad_per_s);
   Kick(still, GetParam());
   Plant moving = still;
   const double mass_kg = still.model().parameters().modes.total_mass_kg;
   moving.mutable_state()[still.layout().v_x] += std::sqrt(mass_kg) * 0.01;  // 10 mm/s along x
   for (int i = 0; i < 500; ++i) {
-    still.Advance(HeldSpeed(kSpeed_rad_per_s));
-    moving.Advance(HeldSpeed(kSpeed_rad_per_s));
+    still.Advance(HeldSpeed(kConservedSpeed_rad_per_s));
+    moving.Advance(HeldSpeed(kConservedSpeed_rad_per_s));
   }
   for (std::size_t axis = 0; axis < 4; ++axis) {
     const double way_m = axis % 2 == 0 ? 0.01 * 0.05 : 0.0;

@@ -13,7 +13,7 @@
 namespace levitas::plant {
 namespace {
 
-constexpr double kSpeed_rad_per_s = 300.0;
+constexpr double kMirroredSpeed_rad_per_s = 300.0;
 constexpr int kPeriods = 150;
 
 // Positions of some 1e-4 m. Angles and sums are rounded differently on both sides; the negative
@@ -82,16 +82,17 @@ TEST_P(Symmetry, AQuarterTurnOfEverythingTurnsTheAnswer) {
   PlantConfig turned = config;
   turned.gravity_direction_rad += std::numbers::pi / 2.0;
   for (auto& mass : turned.unbalance) mass.phase_rad += std::numbers::pi / 2.0;
-  const Answer straight = AnswerOf(config, kSpeed_rad_per_s, 0.4, Same);
-  ExpectSame(AnswerOf(turned, kSpeed_rad_per_s, 0.4, QuarterTurn), Mapped(straight, QuarterTurn));
+  const Answer straight = AnswerOf(config, kMirroredSpeed_rad_per_s, 0.4, Same);
+  ExpectSame(AnswerOf(turned, kMirroredSpeed_rad_per_s, 0.4, QuarterTurn),
+             Mapped(straight, QuarterTurn));
 }
 
 TEST_P(Symmetry, TurningTheUnbalanceIsTurningTheAngleOfTheShaft) {
   const PlantConfig config = Rig(GetParam());
   PlantConfig turned = config;
   for (auto& mass : turned.unbalance) mass.phase_rad += 0.7;
-  ExpectSame(AnswerOf(turned, kSpeed_rad_per_s, 0.4, Same),
-             AnswerOf(config, kSpeed_rad_per_s, 1.1, Same));
+  ExpectSame(AnswerOf(turned, kMirroredSpeed_rad_per_s, 0.4, Same),
+             AnswerOf(config, kMirroredSpeed_rad_per_s, 1.1, Same));
 }
 
 TEST_P(Symmetry, AMirrorReversesTheRotationAndTheAnswer) {
@@ -99,8 +100,9 @@ TEST_P(Symmetry, AMirrorReversesTheRotationAndTheAnswer) {
   PlantConfig mirrored = config;
   mirrored.gravity_direction_rad = -config.gravity_direction_rad;
   for (auto& mass : mirrored.unbalance) mass.phase_rad = -mass.phase_rad;
-  const Answer straight = AnswerOf(config, kSpeed_rad_per_s, 0.4, Same);
-  ExpectSame(AnswerOf(mirrored, -kSpeed_rad_per_s, -0.4, MirrorY), Mapped(straight, MirrorY));
+  const Answer straight = AnswerOf(config, kMirroredSpeed_rad_per_s, 0.4, Same);
+  ExpectSame(AnswerOf(mirrored, -kMirroredSpeed_rad_per_s, -0.4, MirrorY),
+             Mapped(straight, MirrorY));
   EXPECT_GT(straight.contact_n, 0.0);  // friction was part of it
 }
 
@@ -110,8 +112,8 @@ TEST_P(Symmetry, WithoutTheReversalOfRotationTheMirrorImageIsAnother) {
   PlantConfig mirrored = config;
   mirrored.gravity_direction_rad = -config.gravity_direction_rad;
   for (auto& mass : mirrored.unbalance) mass.phase_rad = -mass.phase_rad;
-  const Answer straight = Mapped(AnswerOf(config, kSpeed_rad_per_s, 0.4, Same), MirrorY);
-  const Answer image = AnswerOf(mirrored, kSpeed_rad_per_s, -0.4, MirrorY);
+  const Answer straight = Mapped(AnswerOf(config, kMirroredSpeed_rad_per_s, 0.4, Same), MirrorY);
+  const Answer image = AnswerOf(mirrored, kMirroredSpeed_rad_per_s, -0.4, MirrorY);
   double difference_m = 0.0;
   for (std::size_t axis = 0; axis < 4; ++axis) {
     difference_m =
@@ -135,8 +137,8 @@ TEST_P(Symmetry, SeenFromTheOtherEndItIsTheSameRig) {
     turn(bearing.actuator_z_m);
     turn(bearing.sensor_z_m);
   }
-  const Answer straight = AnswerOf(config, kSpeed_rad_per_s, 0.4, Same);
-  const Answer other = AnswerOf(reversed, kSpeed_rad_per_s, 0.4, SwapEnds);
+  const Answer straight = AnswerOf(config, kMirroredSpeed_rad_per_s, 0.4, Same);
+  const Answer other = AnswerOf(reversed, kMirroredSpeed_rad_per_s, 0.4, SwapEnds);
   const Answer expected = Mapped(straight, SwapEnds);
   for (std::size_t axis = 0; axis < 4; ++axis) {
     // The modes of two assembled matrices: the solver's rounding, 1e-9 of 1e-4 m, has grown too.
@@ -156,8 +158,8 @@ TEST_P(Symmetry, WiringIsUndoneBySignsAndByNothingElse) {
       return a;
     };
   };
-  const Answer straight = AnswerOf(config, kSpeed_rad_per_s, 0.4, Same);
-  const Answer other = AnswerOf(wired, kSpeed_rad_per_s, 0.4, by(wired.actuator_polarity));
+  const Answer straight = AnswerOf(config, kMirroredSpeed_rad_per_s, 0.4, Same);
+  const Answer other = AnswerOf(wired, kMirroredSpeed_rad_per_s, 0.4, by(wired.actuator_polarity));
   EXPECT_EQ(other.position_m, straight.position_m);  // the very same numbers
   EXPECT_EQ(by(wired.sensor_polarity)(other.reading_m), straight.reading_m);
 }

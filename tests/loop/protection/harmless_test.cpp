@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "tests/loop/levitation/closed_loop.hpp"
@@ -52,7 +54,23 @@ INSTANTIATE_TEST_SUITE_P(
             "TenDeadlinesMissedASecond", 6000.0,
             [](long n, cycle::CycleInputs& in) { in.missed_deadlines = n % 1'000 == 0 ? 1U : 0U; }},
         Nuisance{"SpeedJustAboveTheRatedOne", 6000.0,
-                 [](long, cycle::CycleInputs& in) { in.frame.speed_rad_per_s *= 1.05; }},
+                 [](long n, cycle::CycleInputs& in) {
+                   // Within a second: a drive that overshoots, not one that jumps.
+                   in.frame.speed_rad_per_s *=
+                       1.0 + 0.05 * std::min(1.0, static_cast<double>(n) / 10'000.0);
+                 }},
+        Nuisance{"ASpeedReadAsZeroTenTimesASecond", 3000.0,
+                 [](long n, cycle::CycleInputs& in) {
+                   if (n % 1'000 == 500) in.frame.speed_rad_per_s = 0.0;
+                 }},
+        Nuisance{"ASpeedThatIsNoNumberTenTimesASecond", 3000.0,
+                 [](long n, cycle::CycleInputs& in) {
+                   if (n % 1'000 == 500) in.frame.speed_rad_per_s = std::nan("");
+                 }},
+        Nuisance{"OneCurrentInTenHeldByTheRig", 3000.0,
+                 [](long n, cycle::CycleInputs& in) {
+                   in.frame.held_currents = static_cast<std::uint32_t>(n / 10);
+                 }},
         Nuisance{"ExcitationOfEveryAxis", 3000.0,
                  [](long n, cycle::CycleInputs& in) {
                    for (std::size_t i = 0; i < 4; ++i) {

@@ -1,7 +1,8 @@
 #include "tests/loop/reference/textbook_law.hpp"
 
 #include <algorithm>
-#include <numbers>
+
+#include "common/two_pi.hpp"
 
 namespace levitas::test {
 
@@ -28,7 +29,6 @@ double Biquad::Step(double input) {
 }
 
 TextbookAxis::TextbookAxis(double gain, double period_s) {
-  constexpr double kTwoPi = 2.0 * std::numbers::pi;
   const double kp = 4514.47 * gain;
   const double ki = 24128.6 * gain;
   const double kd = 13.0414 * gain;

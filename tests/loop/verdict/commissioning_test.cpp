@@ -7,6 +7,7 @@
 #include "configuration/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
+#include "controller/supervisor/supervisor.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "verdict/report.hpp"
 #include "verdict/verdict.hpp"
@@ -36,8 +37,9 @@ struct Bench {
       ++record.in.cycle;
       record.in.frame = plant.Sample();
       record.in.frame_present = true;
-      const auto asked = player.Next(record.out.mode, record.in.frame.speed_rad_per_s,
-                                     record.out.fault, record.out.command_refused);
+      const auto asked =
+          player.Next(record.out.mode, record.in.frame.speed_rad_per_s, record.out.fault,
+                      record.out.command_refused, 0.0, cycle.decision().standing);
       record.in.op = {asked.command, asked.speed_rad_per_s, asked.acceleration_rad_per_s2,
                       asked.excitation_a};
       record.out = cycle.Step(record.in);

@@ -4,9 +4,13 @@ import json
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+from waiting import LIMIT_S  # noqa: E402
 
 BINARIES = Path(os.environ["LEVITAS_BINARIES"])
 SOURCE = Path(os.environ["LEVITAS_SOURCE"])
@@ -30,17 +34,17 @@ RATIOS = {"ratio", "share", "sigmas", "damping_ratio", "largest_pole_modulus", "
           "torsion_share", "sensitivity_peak", "gain_margin_up", "gain_margin_down", "largest_singular_value",
           "multiple_of_noise", "expected_multiple", "lag_one_correlation",
           "dominant_density_ratio", "saturated_share", "clearance_share", "share_of_peak", "peak",
-          "sigma", "computed_peak"}
+          "sigma", "computed_peak", "condition"}
 
 
 def amb(folder, *arguments, environment=None):
     return subprocess.run([str(BINARIES / "amb"), *map(str, arguments)], cwd=folder, text=True,
-                          capture_output=True, timeout=120, check=False, env=environment)
+                          capture_output=True, timeout=LIMIT_S, check=False, env=environment)
 
 
 def make_record(path, rotor="healthy", speed_rpm=0, rows=10_000, seed=20261121):
     subprocess.run([RECORD_MAKER, path, rotor, str(speed_rpm), str(rows), str(seed)], check=True,
-                   timeout=60)
+                   timeout=LIMIT_S)
     return path
 
 

@@ -6,13 +6,14 @@ The list of commands is the program's own (amb manual): one that is added withou
 import json
 import re
 import signal
-import subprocess
 import unittest
 
-from command import BAD_INPUT, BINARIES, DONE, USAGE, CommandTest, amb, make_record
+from command import BAD_INPUT, DONE, USAGE, CommandTest, amb, make_record
+from lcm_network import Process
+from waiting import found, until
 
 # Have nothing to report: groups of commands, and the manual, whose text is the result.
-WITHOUT_JSON = {"identify", "bench", "manual", "key"}
+WITHOUT_JSON = {"identify", "design", "bench", "manual", "key"}
 ABSENT = "absent.lcm"
 # Quick enough to be run here; the others report in tests of their own.
 QUICK = {
@@ -31,6 +32,7 @@ QUICK = {
     "sessions forget": ("s.lcm",),
     "simulate": ("s.lcm",),
     "effects": (),
+    "design uncertainty": (),
 }
 # A file that is not there: words of each command that make it look for one.
 MISSING = {
@@ -43,11 +45,14 @@ MISSING = {
     "identify frf": (ABSENT,), "identify modal": (ABSENT,),
     "identify full-spectrum": (ABSENT,),
     "identify rotor-in-loop": (ABSENT, "--rig", "turbomolecular_pump"),
+    "design hinf": ("--rig", ABSENT), "design check": ("--controller", ABSENT),
+    "design uncertainty": ("--rig", ABSENT), "design compare": (ABSENT,),
     "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }
 # Look for no file that a user names; the nonlinear fits take theirs with more options.
-NO_FILE = {"dash", "key", "doctor", "effects", "sessions", "sessions add", "manual", "identify", "bench",
-           "bench diagnosis", "bench identification", "bench full-spectrum", "bench pump",
+NO_FILE = {"dash", "key", "doctor", "effects", "sessions", "sessions add", "manual", "identify",
+           "design", "bench",
+           "bench diagnosis", "bench identification", "bench full-spectrum", "bench pump", "bench lives",
            "identify hammerstein-wiener", "identify narx", "identify narmax", "identify grey-box"}
 
 
@@ -100,18 +105,17 @@ class Contract(CommandTest):
             self.assertIsInstance(json.loads(path.read_text()), dict, command)
 
     def test_a_page_that_is_interrupted_has_done_what_it_should(self):
-        child = subprocess.Popen([BINARIES / "amb", "dash", "--json", "page.json"], text=True,
-                                 cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.addCleanup(child.kill)
-        line = child.stdout.readline()
-        if not line:  # a machine without multicast says so
-            self.assertEqual(child.wait(60), 1)
-            self.skipTest(child.stderr.read())
-        child.send_signal(signal.SIGINT)
-        child.communicate(timeout=60)
-        self.assertEqual(child.returncode, DONE)
+        page = Process(self.folder, "amb", "dash", "--json", "page.json")
+        self.addCleanup(page.kill)
+        until(lambda: found("page: ", page.said_so_far) or page.child.poll() is not None,
+              "the address of the page", lambda: page.said_so_far)
+        if page.child.poll() is not None:  # a machine without multicast says so
+            self.assertEqual(page.status(), 1)
+            self.skipTest(page.text)
+        page.send_signal(signal.SIGINT)
+        self.assertEqual(page.status(), DONE)
         address = json.loads((self.folder / "page.json").read_text())["page"]
-        self.assertIn(address, line)
+        self.assertIn(address, page.text)
 
 
 if __name__ == "__main__":

@@ -7,9 +7,13 @@ the plant have wrong in common, only a foreign simulator can show.
 import json
 import os
 import subprocess
+import sys
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+from waiting import LIMIT_S  # noqa: E402
 
 BINARIES = Path(os.environ["LEVITAS_BINARIES"])
 RECORDS = Path(os.environ["LEVITAS_SOURCE"]) / "tests/data/records"
@@ -22,7 +26,7 @@ def diagnose(campaign):
         assert len(data) == 3, data
         done = subprocess.run([str(BINARIES / "amb"), "diagnose", "--rig", "flexible_rotor", *data,
                                "--out", str(out)], cwd=folder, text=True, capture_output=True,
-                              timeout=500, check=False)
+                              timeout=LIMIT_S, check=False)
         assert done.returncode == 0, done.stderr
         return json.loads((out / "diagnosis.json").read_text())
 

@@ -7,9 +7,13 @@ lies in its touchdown bearings are in them and must not be taken for a cause.
 import json
 import os
 import subprocess
+import sys
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+from waiting import LIMIT_S  # noqa: E402
 
 BINARIES = Path(os.environ["LEVITAS_BINARIES"])
 RECORDS = Path(os.environ["LEVITAS_SOURCE"]) / "tests/data/records"
@@ -18,7 +22,7 @@ BAD_INPUT = 3
 
 def finished(folder, *arguments):
     return subprocess.run([str(BINARIES / "amb"), *map(str, arguments)], cwd=folder, text=True,
-                          capture_output=True, timeout=500, check=False)
+                          capture_output=True, timeout=LIMIT_S, check=False)
 
 
 def amb(folder, *arguments):

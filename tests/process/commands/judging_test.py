@@ -14,13 +14,13 @@ class Judging(CommandTest):
                          "build/release/bin/amb bench diagnosis --constants > docs/judging_constants.md")
 
     def test_a_sweep_changes_what_is_said_of_a_healthy_rig(self):
-        """Where no evidence is asked for, something is named although nothing is hidden."""
+        """Where no deviation is chance, what noise leaves is unknown although nothing is hidden."""
         done = amb(self.folder, "bench", "diagnosis", "--quick", "--clean", "1", "--first", "1003",
-                   "--sweep", "decisive_nat=-1000,5")
+                   "--bits", "700", "--sweep", "unexplained_sigma=0,15")
         self.assertEqual(done.returncode, DONE, done.stderr)
         rows = [line.split() for line in done.stdout.splitlines()[-2:]]
         self.assertEqual([(row[0], row[3:6]) for row in rows],
-                         [("-1000", ["0", "of", "1"]), ("5", ["1", "of", "1"])])
+                         [("0", ["0", "of", "1"]), ("15", ["1", "of", "1"])])
 
     def test_refuses_what_it_does_not_know(self):
         for text, status in (("decisive_nat", USAGE), ("decisive_nat=", USAGE),

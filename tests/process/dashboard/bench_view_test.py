@@ -10,8 +10,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 from chromium import Browser, find  # noqa: E402
-from dashboard_rig import LONG, Rig, fits_screens, in_mode, until  # noqa: E402
+from dashboard_rig import Rig, fits_screens, in_mode, until  # noqa: E402
 from lcm_network import SKIPPED, TELEMETRY, Bus, run  # noqa: E402
+from waiting import LIMIT_S  # noqa: E402
 
 MODE = "document.getElementById('mode').textContent"
 EXCITATION = "document.getElementById('excitation-answer').textContent"
@@ -34,7 +35,7 @@ def reach_m(axis, batches=40):
     values = []
     bus = Bus(TELEMETRY)
     try:
-        for channel, payload in bus.messages(LONG):
+        for channel, payload in bus.messages():
             if channel != "LEVITAS_SAMPLES":
                 continue
             batch = sample_batch_t.decode(payload)
@@ -118,7 +119,7 @@ class BenchView(unittest.TestCase):
         self.excite(page)
         page.until(f"{CAPTURE}.includes('rises above')")
         page.until("document.querySelectorAll('#capture-position canvas').length == 1")
-        with urllib.request.urlopen(rig.url + "api/scope.csv", timeout=LONG) as answer:
+        with urllib.request.urlopen(rig.url + "api/scope.csv", timeout=LIMIT_S) as answer:
             rows = list(csv.DictReader(io.StringIO(answer.read().decode())))
         self.assertEqual(len(rows), 501)  # 50 ms at 10 kHz, both ends
         triggers = [i for i, row in enumerate(rows) if float(row["time_s"]) == 0.0]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 from chromium import Browser, find  # noqa: E402
-from dashboard_rig import LONG, Rig, fits_screens  # noqa: E402
+from dashboard_rig import Rig, fits_screens  # noqa: E402
 from lcm_network import SKIPPED, run  # noqa: E402
 
 MODE = "document.getElementById('mode').textContent"
@@ -58,7 +58,7 @@ class ThePage(unittest.TestCase):
         page.until(f"{MODE} == 'levitating'")
         self.press(page, "#stop")
         page.until(f"{MODE} == 'tripped'")
-        rig.controller.says("emergency_stop", LONG)
+        rig.controller.says("emergency_stop")
         page.until("!document.getElementById('trip').hidden")
         # The banner takes height: the controller's answer stays readable to its end.
         self.answer(page, "accepted: command emergency_stop")
@@ -78,7 +78,7 @@ class ThePage(unittest.TestCase):
         page.value("document.getElementById('rpm').focus()")
         page.press("Escape")
         page.until(f"{MODE} == 'tripped'")
-        rig.controller.says("emergency_stop", LONG)
+        rig.controller.says("emergency_stop")
 
     def test_says_that_a_command_was_refused(self):
         _, page = self.rig_and_page()

@@ -1,20 +1,21 @@
 """amb dash between a client and a real controller: figures, commands, access, restart."""
 
 import http.client
+import json
 import signal
 import socket
 import subprocess
 import sys
 import threading
-import time
 import unittest
 import urllib.parse
 import urllib.request
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
-from dashboard_rig import LONG, Rig, answer_of, in_mode, messages, until  # noqa: E402
+from dashboard_rig import Rig, answer_of, in_mode, messages, until  # noqa: E402
 from lcm_network import BINARIES, run  # noqa: E402
+from waiting import LIMIT_S, pause  # noqa: E402
 
 
 class Figures(unittest.TestCase):
@@ -22,7 +23,7 @@ class Figures(unittest.TestCase):
         rig = Rig(self)
         cycles = []
         seen = set()
-        with urllib.request.urlopen(rig.url + "events", timeout=LONG) as stream:
+        with urllib.request.urlopen(rig.url + "events", timeout=LIMIT_S) as stream:
             for name, data in messages(stream):
                 seen.add(name)
                 if name == "rig" and data["run"] > 0:
@@ -39,7 +40,7 @@ class Figures(unittest.TestCase):
         tick = until(rig.url, lambda name, data: name == "tick" and "cycle" in data)
         self.assertFalse(tick["silent"])
         rig.controller.kill()
-        time.sleep(3)  # silence is a second; what was told before nobody looked knew of none
+        pause(3, "silence is one second or longer; what was told before nobody looked knew of none")
         self.assertTrue(until(rig.url, lambda name, data: name == "tick")["silent"])
 
     def test_say_when_the_controller_is_gone(self):
@@ -62,7 +63,7 @@ class Commands(unittest.TestCase):
         self.assertEqual(rig.command("emergency_stop"), (200, "accepted"))
         tick = until(rig.url, in_mode("tripped"))
         self.assertEqual(tick["fault"], "emergency_stop")
-        rig.controller.says("emergency_stop", LONG)
+        rig.controller.says("emergency_stop")
 
     def test_are_not_taken_for_done_when_nobody_answers(self):
         rig = Rig(self)
@@ -85,9 +86,9 @@ class TestSignals(unittest.TestCase):
         self.assertEqual((status, answer["outcome"]), (200, "accepted"), answer)
         until(rig.url, lambda name, data: name == "log" and "end_excitation" in data["text"])
         rig.controller.terminate()
-        self.assertEqual(rig.controller.status(LONG), 0, rig.controller.text)
+        self.assertEqual(rig.controller.status(), 0, rig.controller.text)
         done = subprocess.run([BINARIES / "amb", "replay", "run.lcm"], cwd=rig.folder, text=True,
-                              capture_output=True, timeout=LONG, check=False)
+                              capture_output=True, timeout=LIMIT_S, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("every output bit", done.stdout)
 
@@ -100,7 +101,7 @@ class Access(unittest.TestCase):
         self.assertEqual(rig.post(lift, headers={"X-Levitas": "1", "Host": "evil.example"})[0], 403)
         # Permission for foreign scripts is asked with OPTIONS; the answer must not give it.
         host = urllib.parse.urlsplit(rig.url).netloc
-        ask = http.client.HTTPConnection(host, timeout=LONG)
+        ask = http.client.HTTPConnection(host, timeout=LIMIT_S)
         ask.request("OPTIONS", "/api/command", headers={"Origin": "http://evil.example"})
         self.assertIsNone(ask.getresponse().getheader("Access-Control-Allow-Origin"))
         ask.close()
@@ -111,12 +112,12 @@ class Access(unittest.TestCase):
         rig = Rig(self, "--token", secret)
         base, _, token = rig.url.partition("?")
         self.assertEqual(token, "token=" + secret)
-        self.assertIn("--token-file", rig.dash.text)  # the warning
+        rig.dash.says("--token-file")  # the warning
         lift = {"command": "lift"}
         self.assertEqual(rig.post(lift, url=base)[0], 403)
         self.assertEqual(rig.post(lift, {"X-Levitas": "1", "X-Levitas-Token": secret.upper()}, base)[0], 403)
         with self.assertRaises(urllib.error.HTTPError):
-            urllib.request.urlopen(base + "events", timeout=LONG)
+            urllib.request.urlopen(base + "events", timeout=LIMIT_S)
         self.assertEqual(rig.post(lift, {"X-Levitas": "1", "X-Levitas-Token": secret}, base)[0], 200)
 
     def test_takes_the_token_from_a_file_that_is_the_users_alone(self):
@@ -124,8 +125,23 @@ class Access(unittest.TestCase):
         path = Path(rig.folder) / "token"
         path.write_text("fedcba9876543210\n")
         path.chmod(0o600)
-        rig.start_dash("--token-file", str(path))
-        self.assertTrue(rig.url.endswith("?token=fedcba9876543210"))
+        secret = "fedcba9876543210"
+        page = Path(rig.folder) / "page.json"
+        page.write_text("{}")
+        page.chmod(0o644)
+        dash = rig.start_dash("--token-file", str(path), "--json", str(page))
+        dash.says("behind it goes ?token= and the first line of")
+        dash.says("with the same --port")
+        self.assertNotIn("?", rig.url)
+        self.assertEqual(rig.post({"command": "lift"})[0], 403)
+        self.assertEqual(
+            rig.post({"command": "lift"}, {"X-Levitas": "1", "X-Levitas-Token": secret})[0], 200)
+        dash.child.send_signal(signal.SIGINT)
+        self.assertEqual(dash.status(), 0)
+        self.assertNotIn(secret, dash.text)
+        # The file holds the whole address, and nobody else may read it, whoever could before.
+        self.assertEqual(json.loads(page.read_text())["page"], rig.url + "?token=" + secret)
+        self.assertEqual(page.stat().st_mode & 0o777, 0o600)
         for text, mode, arguments, status, said in (
                 ("fedcba9876543210\n", 0o644, ("--token-file", path), 3, "chmod 600"),
                 ("short\n", 0o600, ("--token-file", path), 2, "16"),
@@ -134,13 +150,13 @@ class Access(unittest.TestCase):
             path.write_text(text)
             path.chmod(mode)
             done = subprocess.run([BINARIES / "amb", "dash", *arguments], text=True,
-                                  capture_output=True, timeout=LONG, check=False)
+                                  capture_output=True, timeout=LIMIT_S, check=False)
             self.assertEqual(done.returncode, status, done.stderr)
             self.assertIn(said, done.stderr)
 
     def test_is_not_given_to_the_network_by_accident(self):
         done = subprocess.run([BINARIES / "amb", "dash", "--listen", "0.0.0.0"], text=True,
-                              capture_output=True, timeout=LONG, check=False)
+                              capture_output=True, timeout=LIMIT_S, check=False)
         self.assertEqual(done.returncode, 2)
         self.assertIn("--allow-network", done.stderr)
 
@@ -156,7 +172,7 @@ class Access(unittest.TestCase):
             self.assertEqual(rig.post(b"{}", headers={}, path=path)[0], 403)
         request = urllib.request.Request(rig.url + "no/such/file")
         with self.assertRaises(urllib.error.HTTPError) as refused:
-            urllib.request.urlopen(request, timeout=LONG)
+            urllib.request.urlopen(request, timeout=LIMIT_S)
         self.assertEqual(refused.exception.code, 404)
         self.assertEqual(rig.command("lift"), (200, "accepted"))
 
@@ -171,7 +187,7 @@ class Floods(unittest.TestCase):
 
     def connected(self, rig):
         where = urllib.parse.urlsplit(rig.url)
-        sock = socket.create_connection((where.hostname, where.port), timeout=LONG)
+        sock = socket.create_connection((where.hostname, where.port), timeout=LIMIT_S)
         self.addCleanup(sock.close)
         return sock
 
@@ -249,13 +265,13 @@ class Viewers(unittest.TestCase):
             self.addCleanup(sock.close)
             sock.sendall(f"GET /events HTTP/1.1\r\nHost: {where.netloc}\r\n\r\n".encode())
             slow.append(sock)
-        time.sleep(1)  # they fill up meanwhile, or not: the others must not notice either way
+        pause(1, "they fill up meanwhile, or not: the others must not notice either way")
         self.assertEqual(rig.command("lift"), (200, "accepted"))
         until(rig.url, in_mode("levitating"))
 
     def test_beyond_the_limit_are_told_so(self):
         rig = Rig(self)
-        streams = [urllib.request.urlopen(rig.url + "events", timeout=LONG) for _ in range(16)]
+        streams = [urllib.request.urlopen(rig.url + "events", timeout=LIMIT_S) for _ in range(16)]
         for stream in streams:
             self.addCleanup(stream.close)
             # Somebody reads: a viewer that takes nothing would make room for the next.
@@ -273,24 +289,24 @@ class TheServer(unittest.TestCase):
         rig.start_dash()
         self.assertNotEqual(urllib.parse.urlsplit(rig.url).port, first)
         done = subprocess.run([BINARIES / "amb", "dash", "--http-port", str(first)], text=True,
-                              capture_output=True, timeout=LONG, check=False)
+                              capture_output=True, timeout=LIMIT_S, check=False)
         self.assertEqual(done.returncode, 1)
         self.assertIn(str(first), done.stderr)
 
     def test_ends_at_once_with_viewers_connected(self):
         rig = Rig(self)
-        stream = urllib.request.urlopen(rig.url + "events", timeout=LONG)
+        stream = urllib.request.urlopen(rig.url + "events", timeout=LIMIT_S)
         self.addCleanup(stream.close)
         next(messages(stream))
         rig.dash.child.send_signal(signal.SIGINT)
-        self.assertEqual(rig.dash.status(LONG), 0)
+        self.assertEqual(rig.dash.status(), 0)
 
     def test_serves_the_page_without_letting_others_frame_it(self):
         rig = Rig(self)
-        with urllib.request.urlopen(rig.url, timeout=LONG) as page:
+        with urllib.request.urlopen(rig.url, timeout=LIMIT_S) as page:
             self.assertIn("EMERGENCY STOP", page.read().decode())
             self.assertIn("frame-ancestors 'none'", page.headers["Content-Security-Policy"])
-        with urllib.request.urlopen(rig.url + "third_party/uPlot.iife.min.js", timeout=LONG) as script:
+        with urllib.request.urlopen(rig.url + "third_party/uPlot.iife.min.js", timeout=LIMIT_S) as script:
             self.assertIn("javascript", script.headers["Content-Type"])
             self.assertTrue(b"leeoniya/uPlot" in script.read())
 

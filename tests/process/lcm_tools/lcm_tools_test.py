@@ -1,16 +1,17 @@
 """LCM's own logger and log player, at work on a pair of our programs."""
 
 import shutil
-import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
-from lcm_network import (SENSOR, SKIPPED, TELEMETRY, Bus, controller, log_events,  # noqa: E402
-                         plant, run)
+from lcm_network import (SENSOR, SKIPPED, TELEMETRY, Bus, Process, controller,  # noqa: E402
+                         listens, log_events, plant, run, short_message)
+from waiting import until  # noqa: E402
+
+LOGGER, PLAYER = shutil.which("lcm-logger"), shutil.which("lcm-logplayer")
 
 
 def url(port):
@@ -25,18 +26,31 @@ class LcmTools(unittest.TestCase):
 
     def record_with_logger(self):
         """One run with lcm-logger on the sensor and the telemetry port."""
-        loggers = [subprocess.Popen(["lcm-logger", url(port), f"{port}.log"], cwd=self.folder,
-                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        loggers = [Process(self.folder, LOGGER, url(port), f"{port}.log")
                    for port in (SENSOR, TELEMETRY)]
-        time.sleep(0.5)
+        for logger, port in zip(loggers, (SENSOR, TELEMETRY)):
+            self.addCleanup(logger.kill)
+            until(lambda port=port: listens(port), f"lcm-logger on port {port}",
+                  lambda logger=logger: logger.said_so_far)
         with plant(self.folder) as rig, controller(self.folder, "--scenario", "levitate",
                                                    "--record", "session.lcmlog") as control:
             self.assertEqual(control.status(), 0, control.text)
             self.assertEqual(rig.status(), 0, rig.text)
-        time.sleep(0.5)
+        # What was sent may still lie in the logger's socket, or in its buffer until the next message
+        # comes. Messages keep their order: once it has written a last one of ours, it has written
+        # all that it took.
+        bus = Bus(TELEMETRY)
+        self.addCleanup(bus.close)
+        written = self.folder / f"{TELEMETRY}.log"
+
+        def marked():
+            bus.send(short_message("END_OF_RUN", b""))
+            return written.exists() and b"END_OF_RUN" in written.read_bytes()
+
+        until(marked, f"a last message in {written}")
         for logger in loggers:
             logger.terminate()
-            logger.wait(10)
+            logger.status()
 
     def session_records(self):
         from levitas_msg.cycle_record_t import cycle_record_t
@@ -78,12 +92,10 @@ class LcmTools(unittest.TestCase):
         log = [(c, d) for c, d in log_events(self.folder / f"{TELEMETRY}.log")]
         bus = Bus(TELEMETRY + 1000)
         self.addCleanup(bus.close)
-        player = subprocess.Popen(["lcm-logplayer", url(bus.port), f"{TELEMETRY}.log"],
-                                  cwd=self.folder, stdout=subprocess.DEVNULL,
-                                  stderr=subprocess.DEVNULL)
+        player = Process(self.folder, PLAYER, url(bus.port), f"{TELEMETRY}.log")
         self.addCleanup(player.kill)
         played = []
-        for message in bus.messages(60):
+        for message in bus.messages():
             played.append(message)
             if len(played) == len(log):
                 break
@@ -97,12 +109,10 @@ class LcmTools(unittest.TestCase):
         cycles = [d for c, d in log_events(self.folder / "session.lcmlog") if c == "LEVITAS_CYCLE"]
         bus = Bus(TELEMETRY + 1000)
         self.addCleanup(bus.close)
-        player = subprocess.Popen(["lcm-logplayer", url(bus.port), "session.lcmlog"],
-                                  cwd=self.folder, stdout=subprocess.DEVNULL,
-                                  stderr=subprocess.DEVNULL)
+        player = Process(self.folder, PLAYER, url(bus.port), "session.lcmlog")
         self.addCleanup(player.kill)
         channels = {}
-        for channel, payload in bus.messages(60):
+        for channel, payload in bus.messages():
             channels.setdefault(channel, []).append(payload)
             if len(channels.get("LEVITAS_CYCLE", [])) == len(cycles):
                 break
@@ -111,8 +121,7 @@ class LcmTools(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    for tool in ("lcm-logger", "lcm-logplayer"):
-        if shutil.which(tool) is None:
-            print(f"not run: {tool} is not installed (package liblcm-bin)")
-            sys.exit(SKIPPED)
+    if LOGGER is None or PLAYER is None:
+        print("not run: lcm-logger and lcm-logplayer are not installed (package liblcm-bin)")
+        sys.exit(SKIPPED)
     run()

@@ -14,8 +14,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 from lcm_network import BINARIES, BUILD, controller, plant, run  # noqa: E402
 from python_lcm_test import provide_package  # noqa: E402
+from waiting import LIMIT_S  # noqa: E402
 
-LONG = 120
 VENV = BUILD / "python-mcap"
 PACKAGES = ("mcap==1.6.0", "mcap-protobuf-support==0.6.0", "protobuf==7.36.2")
 
@@ -27,11 +27,11 @@ class Mcap(unittest.TestCase):
         folder = Path(folder.name)
         with plant(folder) as rig, controller(folder, "--scenario", "levitate", "--record",
                                               "session.lcm") as control:
-            self.assertEqual(control.status(LONG), 0, control.text)
-            self.assertEqual(rig.status(LONG), 0, rig.text)
+            self.assertEqual(control.status(), 0, control.text)
+            self.assertEqual(rig.status(), 0, rig.text)
         done = subprocess.run([BINARIES / "amb", "export", "session.lcm", "--mcap", "s.mcap",
                                "--json", "s.json"], cwd=folder, capture_output=True, text=True,
-                              timeout=LONG, check=False)
+                              timeout=LIMIT_S, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         return folder / "s.mcap", json.loads((folder / "s.json").read_text())
 

@@ -15,6 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 from lcm_network import BINARIES, BUILD  # noqa: E402
 from python_lcm_test import provide_package  # noqa: E402
+from waiting import LIMIT_S  # noqa: E402
 
 SCRIPT = Path(__file__).resolve().parents[3] / "scripts/read_session.py"
 RECORD_MAKER = BUILD / "tests/process/commands/record_maker"
@@ -25,11 +26,11 @@ class ReadSession(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         data = Path(folder.name) / "r.csv"
-        subprocess.run([RECORD_MAKER, data, "unbalance", "1500", "2000", "7"], check=True, timeout=120)
+        subprocess.run([RECORD_MAKER, data, "unbalance", "1500", "2000", "7"], check=True, timeout=LIMIT_S)
         subprocess.run([BINARIES / "amb", "import", "r.csv", "--rig", "flexible_rotor", "--out", "s"],
-                       cwd=folder.name, check=True, timeout=120, capture_output=True)
+                       cwd=folder.name, check=True, timeout=LIMIT_S, capture_output=True)
         done = subprocess.run([PYTHON, "-B", SCRIPT, "s"], cwd=folder.name, text=True, check=False,
-                              capture_output=True, timeout=120,
+                              capture_output=True, timeout=LIMIT_S,
                               env={**os.environ, "PYTHONPATH": str(BUILD / "lcmtypes/python")})
         self.assertEqual(done.returncode, 0, done.stderr)
         with data.open(newline="", encoding="utf-8") as file:

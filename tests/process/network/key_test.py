@@ -1,5 +1,6 @@
 """Two machines that reach each other (ttl 1): the key decides who may speak."""
 
+import re
 import subprocess
 import sys
 import tempfile
@@ -7,7 +8,8 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
-from forged import LIFT, STOP, command, everything  # noqa: E402
+from far_page import FarPage  # noqa: E402
+from forged import STOP, command, everything  # noqa: E402
 from lcm_network import COMMAND, SKIPPED, Process, controller, plant, run  # noqa: E402
 from seal import Sealer, new_key  # noqa: E402
 from two_machines import OtherMachine, possible  # noqa: E402
@@ -37,15 +39,15 @@ class Key(unittest.TestCase):
             stranger = Sealer(self.other_key)
             self.other.send([(port, stranger.seal(data, port)) for port, data in everything()])
             control.says("messages without a key are refused")
-            control.says("messages with another key, or changed on the way are refused")
-            self.assertNotIn("command lift", control.text)
+            said = control.says("messages with another key, or changed on the way are refused")
+            self.assertNotIn("command lift", said)
 
-            operator = Sealer(self.key)
-            port, lift = command(LIFT, 1)
-            recorded = operator.seal(lift, port)
-            self.other.send([(port, recorded)], 1)
-            control.says("-> levitating")
-            self.other.send([(port, recorded)])
+            recorder = self.other.listen(self.folder, COMMAND)
+            with recorder, FarPage(self.other, self.folder, "--port", PORT, "--key", "lab.key") as page:
+                self.assertEqual(page.command("lift"), "accepted")
+                control.says("-> levitating")
+                lift = self.recorded(recorder)
+            self.other.send([(COMMAND, lift)])
             control.says("messages repeated, or recorded before are refused")
             control.terminate()
             self.assertEqual(control.status(), 0, control.text)
@@ -53,22 +55,30 @@ class Key(unittest.TestCase):
         self.assertEqual(control.text.count("command lift"), 1)
         self.assertNotIn("TRIP", control.text)
 
-        # What was recorded of that run is worth nothing in the next one.
+        # What was recorded of that run is worth nothing in the next one, but for a stop, which
+        # needs no more than the seal: of another key it is none.
         rig, control = self.pair()
         with rig, control:
             control.says("rig found")
-            self.other.send([(port, recorded)])
-            control.says("are refused at udpm://239.255.76.67:7670?ttl=1")
-            self.other.send([(port, operator.seal(command(STOP, 2)[1], port))], 1)
-            control.says("TRIP")
-            self.assertNotIn("command lift", control.text)
+            port, stop = command(STOP)
+            self.other.send([(COMMAND, lift), (COMMAND, stranger.seal(stop, port))])
+            control.says("messages recorded before, or given without a challenge are refused")
+            said = control.says("messages with another key, or changed on the way are refused")
+            self.assertNotIn("TRIP", said)
+            self.other.send([(COMMAND, Sealer(self.key).seal(stop, port, challenge=0))], 1)
+            self.assertNotIn("command lift", control.says("TRIP"))
+
+    def recorded(self, recorder):
+        """A command as it was on the wire, with its seal."""
+        heard = recorder.says(re.compile(rf"[0-9a-f]*{b'LEVITAS_COMMAND'.hex()}00[0-9a-f]*\n"))
+        return bytes.fromhex(heard.splitlines()[-1])
 
     def test_other_machines_are_let_in_only_with_a_key(self):
         for name, arguments in (("amb-plant", []), ("amb-controller",
                                                     ["--controller", "flexible_rotor"])):
             with Process(self.folder, name, "--rig", "flexible_rotor", "--port", PORT,
                          *arguments) as process:
-                self.assertEqual(process.status(20), 2, process.text)
+                self.assertEqual(process.status(), 2, process.text)
                 self.assertIn("--key FILE", process.text)
 
     def test_a_key_that_others_may_read_is_a_bad_file(self):
@@ -76,7 +86,7 @@ class Key(unittest.TestCase):
         rig, control = self.pair()
         with rig, control:
             for process in (rig, control):
-                self.assertEqual(process.status(20), 3, process.text)
+                self.assertEqual(process.status(), 3, process.text)
                 self.assertIn("chmod 600 lab.key", process.text)
 
     def test_without_commands_nobody_commands(self):

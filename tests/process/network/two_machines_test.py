@@ -12,6 +12,7 @@ from forged import LIFT, STOP, command, everything, sensor_frame  # noqa: E402
 from lcm_network import (COMMAND, GROUP, SENSOR, SKIPPED, TELEMETRY, Bus, controller,  # noqa: E402
                          plant, run)
 from two_machines import OWN, OtherMachine, possible  # noqa: E402
+from waiting import LIMIT_S  # noqa: E402
 
 
 class TwoMachines(unittest.TestCase):
@@ -31,7 +32,7 @@ class TwoMachines(unittest.TestCase):
         listener.bind((GROUP, COMMAND + 1000))
         listener.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
                             socket.inet_aton(GROUP) + socket.inet_aton(OWN))
-        listener.settimeout(20)
+        listener.settimeout(LIMIT_S)
         self.other.send([(COMMAND + 1000, b"x")], 1)
         self.assertEqual(listener.recv(10), b"x")
 
@@ -64,18 +65,18 @@ class TwoMachines(unittest.TestCase):
         with controller(self.folder, "--partner-timeout", 3) as control:
             control.says("no sensor frames at")
             self.other.send([sensor_frame()])
-            self.assertEqual(control.status(20), 1, control.text)
+            self.assertEqual(control.status(), 1, control.text)
         self.assertNotIn("rig found", control.text)
 
     def test_nothing_of_a_run_leaves_the_machine(self):
-        listeners = [self.other.listen(port) for port in (SENSOR, TELEMETRY)]
+        listeners = [self.other.listen(self.folder, port) for port in (SENSOR, TELEMETRY)]
         with plant(self.folder) as rig, controller(self.folder, "--scenario", "levitate",
                                                    "--duration", 0.2) as control:
             self.assertEqual(control.status(), 0, control.text)
             self.assertEqual(rig.status(), 0, rig.text)
         for listener in listeners:
             listener.kill()
-            self.assertEqual(listener.communicate()[0], "")
+            self.assertEqual(listener.text, "listening\n")
 
 
 if __name__ == "__main__":

@@ -6,16 +6,17 @@ No time is judged: that a stop is taken at all, in which order, and under which 
 import os
 import re
 import socket
-import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
-from lcm_network import (BINARIES, COMMAND, GROUP, LOOPBACK, TELEMETRY, Bus,  # noqa: E402
+from lcm_network import (COMMAND, GROUP, LOOPBACK, TELEMETRY, Bus,  # noqa: E402
                          controller, plant, run, short_message)
+from waiting import LIMIT_S, until  # noqa: E402
 
 LIFT, LAND, STOP, RESET, EXCITE, END_EXCITATION = 1, 4, 5, 6, 7, 8
 ACCEPTED, REFUSED = 1, 2
@@ -68,15 +69,15 @@ class EmergencyStop(unittest.TestCase):
         message.sequence, message.step_yaml = number, text
         self.desk.publish("LEVITAS_EXCITATION", message)
 
-    def answers(self, seconds=60):
+    def answers(self, seconds=LIMIT_S):
         for channel, payload in self.telemetry.messages(seconds):
             if channel == "LEVITAS_ANSWER":
                 answer = self.answer_type.decode(payload)
                 if answer.sender_port == self.desk.port:
                     yield answer
 
-    def answer_to(self, number, seconds=60):
-        for answer in self.answers(seconds):
+    def answer_to(self, number):
+        for answer in self.answers():
             if answer.sequence == number:
                 return answer
         self.fail(f"number {number} was not answered")
@@ -87,7 +88,8 @@ class EmergencyStop(unittest.TestCase):
         answer = self.answer_to(number)
         self.assertEqual((answer.command, answer.outcome), (STOP, ACCEPTED))
         number = self.number + 1
-        for _ in range(600):
+        end = time.monotonic() + LIMIT_S
+        while time.monotonic() < end:
             self.command(RESET, number)
             for answer in self.answers(0.1):
                 if answer.sequence == number and answer.outcome == ACCEPTED:
@@ -111,7 +113,7 @@ class EmergencyStop(unittest.TestCase):
                 if answer.sequence == 3:
                     break
             order = [answer.sequence for answer in heard]
-            self.assertIn(5, order, control.text)  # before the last signal was made
+            self.assertIn(5, order, control.said_so_far)  # before the last signal was made
             self.assertIn("emergency stop", heard[-1].text)  # which then was not begun
             self.assertEqual(heard[-1].outcome, REFUSED)
             control.says("TRIP")
@@ -159,22 +161,20 @@ class EmergencyStop(unittest.TestCase):
         with plant(self.folder):
             read_end, write_end = os.pipe()
             self.addCleanup(os.close, read_end)
-            control = subprocess.Popen([BINARIES / "amb-controller", "--rig", "flexible_rotor",
-                                        "--controller", "flexible_rotor", "--trip-folder",
-                                        self.folder], stderr=write_end)
+            control = controller(self.folder, stderr=write_end)
             os.close(write_end)
             try:
                 for number in range(1, 3_001):  # far more text than a pipe holds
                     self.request(f"kind: excitation\nhold_s: 99999999\nnonsense: {number}\n", number)
-                for _ in range(600):
-                    number = self.command(STOP)
-                    if any(a.sequence == number for a in self.answers(0.1)):
-                        break
-                else:
-                    self.fail("no stop was taken")
+                numbers = []
+
+                def taken():
+                    numbers.append(self.command(STOP))
+                    return any(a.sequence in numbers for a in self.answers(0.1))
+
+                until(taken, "a stop that is answered")
             finally:
                 control.kill()
-                control.wait()
 
     def test_old_numbers_are_not_taken_and_each_answer_names_its_command(self):
         with plant(self.folder), controller(self.folder) as control:

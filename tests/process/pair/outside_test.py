@@ -5,7 +5,6 @@ import os
 import pty
 import resource
 import signal
-import subprocess
 import sys
 import tempfile
 import termios
@@ -14,14 +13,15 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
-from lcm_network import BINARIES, COMMAND, TELEMETRY, Bus, plant, run, short_message  # noqa: E402
+from lcm_network import (COMMAND, TELEMETRY, Bus, Process, plant, run,  # noqa: E402
+                         short_message)
 from rotor_fate import SPEED_RPM, SPIN, Fate  # noqa: E402
+from waiting import pause  # noqa: E402
 
 # A key with the escape that clears a terminal, as YAML writes it, and one as it is.
 NONSENSE = 'kind: excitation\n"nonsense \\e[2J \\x9b": 1\n'
 SPINNING = 4
 EMERGENCY_STOP = 5  # command
-LONG = 60  # s: only a failing test waits for it
 
 
 class Outside(unittest.TestCase):
@@ -44,38 +44,30 @@ class Outside(unittest.TestCase):
         rig = plant(self.folder)
         self.addCleanup(rig.kill)
         self.rig = rig
-        words = [BINARIES / "amb-controller", "--rig", "flexible_rotor", "--controller",
-                 "flexible_rotor_commissioned", "--scenario", self.folder / "spin.yaml",
-                 "--trip-folder", self.folder, *more]
+        words = ["--rig", "flexible_rotor", "--controller", "flexible_rotor_commissioned",
+                 "--scenario", self.folder / "spin.yaml", "--trip-folder", self.folder, *more]
         if record:
             words += ["--record", self.session, "--overwrite"]
-        with (self.folder / "controller.log").open("wb") as log:
-            options = {"stderr": log, **options}
-            control = subprocess.Popen([str(word) for word in words], cwd=self.folder, **options)
-        self.addCleanup(self.end, control)
-        return control
-
-    @staticmethod
-    def end(process):
-        if process.poll() is None:
-            process.kill()
-        process.wait()
+        self.control = Process(self.folder, "amb-controller", *words, **options)
+        self.addCleanup(self.control.kill)
+        return self.control
 
     def log(self):
-        return (self.folder / "controller.log").read_text(encoding="utf-8")
+        """For messages of failures."""
+        return self.control.said_so_far
 
     def turning(self, control):
-        for channel, payload in self.states.messages(LONG):
+        for channel, payload in self.states.messages():
             if channel != "LEVITAS_STATE":
                 continue
             state = self.state_type.decode(payload)
             if state.mode == SPINNING and state.speed_rad_per_s > 0.999 * SPEED_RPM * 0.10472:
                 return
-            self.assertIsNone(control.poll(), f"ended before the rotor turned:\n{self.log()}")
+            self.assertIsNone(control.child.poll(), f"ended before the rotor turned:\n{self.log()}")
         self.fail(f"the rotor does not turn:\n{self.log()}")
 
     def assert_landed(self, control, status=0):
-        self.assertEqual(control.wait(LONG), status, self.log())
+        self.assertEqual(control.status(), status, self.log())
         fate = Fate(self.session)
         print(f"{self.id().rsplit('.', 1)[1]}: {fate}")
         self.assertTrue(fate.landed, f"{fate}\n{self.log()}")
@@ -89,7 +81,7 @@ class Outside(unittest.TestCase):
         self.turning(control)
         for _ in range(4):
             control.send_signal(signal.SIGHUP)
-            time.sleep(0.3)  # longer in all than two requests that mean two
+            pause(0.3, "longer in all, or far longer, than two requests that mean two")
         self.assert_landed(control)
 
     def test_the_end_of_the_machine_and_of_a_shell_lands_the_rotor(self):
@@ -109,8 +101,8 @@ class Outside(unittest.TestCase):
                        signal.SIGUSR1, signal.SIGUSR2, signal.SIGIO, signal.SIGRTMIN,
                        signal.SIGRTMAX, signal.SIGWINCH, signal.SIGURG, signal.SIGCHLD):
             control.send_signal(number)
-            self.rig.child.send_signal(number)
-        for channel, payload in self.states.messages(LONG):
+            self.rig.send_signal(number)
+        for channel, payload in self.states.messages():
             if channel == "LEVITAS_STATE":
                 break
         self.turning(control)
@@ -121,18 +113,18 @@ class Outside(unittest.TestCase):
         control = self.start()
         self.turning(control)
         control.send_signal(signal.SIGTERM)
-        time.sleep(0.6)  # beyond what counts as one request
+        pause(0.6, "this or longer does not count as one request")
         control.send_signal(signal.SIGTERM)
-        self.assertEqual(control.wait(LONG), 0, self.log())
+        self.assertEqual(control.status(), 0, self.log())
         self.assertEqual(self.rig.status(), 0, self.rig.text)
-        self.assertIn("the same signal again ends at once", self.log())
+        self.assertIn("the same signal again ends at once", self.control.text)
 
     def test_quit_is_an_emergency_stop_that_brakes_the_levitated_rotor(self):
         control = self.start()
         self.turning(control)
         control.send_signal(signal.SIGQUIT)
         self.assert_landed(control, status=4)
-        self.assertIn("emergency_stop", self.log())
+        self.assertIn("emergency_stop", self.control.text)
 
     def test_a_rig_that_is_asked_to_end_with_its_controller_stays_until_the_rotor_lies(self):
         control = self.start()
@@ -234,7 +226,7 @@ class Outside(unittest.TestCase):
         self.warn()
         control.terminate()
         self.assert_landed(control)
-        text = (self.folder / "controller.log").read_bytes()
+        text = control.log.read_bytes()
         self.assertIn(b"nonsense", text)
         self.assertEqual([byte for byte in text if byte < 0x20 and byte != 0x0a], [])
         self.assertNotIn(0x9b, text)
@@ -246,12 +238,12 @@ class Outside(unittest.TestCase):
         control = self.start(preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE,
                                                                    (limit, limit)))
         self.turning(control)
+        control.says("recording stopped: File too large")
         self.assertLessEqual(self.session.stat().st_size, limit)
-        self.assertIn("recording stopped: File too large", self.log())
         control.terminate()
-        self.assertEqual(control.wait(LONG), 0, self.log())
-        self.assertIn("landing -> off", self.log())
-        self.assertIn("amplifiers off, as commanded", self.rig.text)
+        self.assertEqual(control.status(), 0, self.log())
+        self.assertIn("landing -> off", self.control.text)
+        self.rig.says("amplifiers off, as commanded")
 
 
 if __name__ == "__main__":

@@ -4,23 +4,19 @@
 #include <signal.h>
 #include <stdlib.h>  // setenv
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "cli/run/child_process.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace levitas::cli {
-
-/// Far more than a run takes on a loaded machine; only a failing test waits for it.
-inline constexpr std::chrono::milliseconds kRunLimit{120'000};
 
 /// Lift, a moment of levitation, a little speed, land: about 3 s of the rig's time.
 inline constexpr const char* kShortScenario = R"(kind: scenario
@@ -59,20 +55,23 @@ class AmbRun {
 
   /// Exit status; -1 when it did not end in time, 1000 + signal when a signal ended it.
   int Status() {
-    const auto ended = child_->WaitFor(kRunLimit);
+    const auto ended = child_->WaitFor(test::kLimit);
     if (!ended) return -1;
     return ended->signalled ? 1000 + ended->code : ended->code;
   }
   [[nodiscard]] std::string Said() const { return ReadAll(log_); }
   void Signal(int signal) { child_->Signal(signal); }
 
-  /// Waits until the run has said `text`; false when it ended before.
+  /// Waits until the run has said `text`; false when it ended without.
   bool Await(const std::string& text) {
-    while (Said().find(text) == std::string::npos) {
-      if (child_->Poll()) return Said().find(text) != std::string::npos;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return true;
+    bool ended = false;
+    bool said = false;
+    return test::Eventually([&] {
+             ended = child_->Poll().has_value();
+             said = Said().find(text) != std::string::npos;
+             return said || ended;
+           }) &&
+           said;
   }
 
   /// Process number of the run's child of that name; 0 when there is none.

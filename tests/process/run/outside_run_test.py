@@ -8,15 +8,13 @@ import subprocess
 import sys
 import tempfile
 import termios
-import time
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
-from lcm_network import BINARIES, run  # noqa: E402
+from lcm_network import BINARIES, Process, run  # noqa: E402
 from rotor_fate import SPIN, Fate  # noqa: E402
-
-LONG = 300  # s: only a failing test, or one under the thread sanitizer, waits for it
+from waiting import LIMIT_S, pause, until  # noqa: E402
 
 
 def alive(pid):
@@ -39,44 +37,29 @@ class OutsideRun(unittest.TestCase):
         return {**os.environ, "TMPDIR": str(self.folder)}
 
     def start(self, *more, **options):
-        words = [BINARIES / "amb", "run", "--scenario", self.folder / "spin.yaml", "--record",
-                 self.session, *more]
-        with (self.folder / "run.log").open("wb") as log:
-            options = {"stdout": log, "stderr": log, "cwd": self.folder, **options}
-            self.run_ = subprocess.Popen([str(word) for word in words], env=self.environment(),
-                                         **options)
-        self.addCleanup(self.end)
+        self.run_ = Process(self.folder, "amb", "run", "--scenario", self.folder / "spin.yaml",
+                            "--record", self.session, *more, env=self.environment(), **options)
+        self.addCleanup(self.run_.kill)
         return self.run_
 
-    def end(self):
-        if self.run_.poll() is None:
-            self.run_.kill()
-        self.run_.wait()
-
     def log(self):
-        return (self.folder / "run.log").read_text(encoding="utf-8", errors="replace")
+        """For messages of failures."""
+        return self.run_.said_so_far
 
     def children(self):
-        children = Path(f"/proc/{self.run_.pid}/task/{self.run_.pid}/children")
+        pid = self.run_.child.pid
+        children = Path(f"/proc/{pid}/task/{pid}/children")
         return [int(pid) for pid in children.read_text(encoding="utf-8").split()]
 
     def turning(self):
         """Waits until the record, which is written while it grows, shows full speed."""
-        end = time.monotonic() + LONG
-        while time.monotonic() < end:
-            self.assertIsNone(self.run_.poll(), self.log())
-            # 1.1 s to lift, 1.5 s to run up, of 10 000 records of 500 bytes each.
-            if self.session.exists() and self.session.stat().st_size > 27_000 * 500:
-                return
-            time.sleep(0.05)
-        self.fail(f"the rotor does not turn:\n{self.log()}")
+        # 1.1 s to lift, 1.5 s to run up, of 10 000 records of 500 bytes each.
+        until(lambda: self.session.exists() and self.session.stat().st_size > 27_000 * 500,
+              "a record of a turning rotor", self.log, lambda: self.run_.child.poll() is None)
 
     def assert_landed(self, children):
         """The children end by themselves, after the landing."""
-        end = time.monotonic() + LONG
-        while any(alive(pid) for pid in children) and time.monotonic() < end:
-            time.sleep(0.05)
-        self.assertEqual([pid for pid in children if alive(pid)], [])
+        until(lambda: not any(alive(pid) for pid in children), "the end of both programs", self.log)
         fate = Fate(self.session)
         print(f"{self.id().rsplit('.', 1)[1]}: {fate}")
         self.assertTrue(fate.landed, f"{fate}\n{self.log()}")
@@ -87,7 +70,6 @@ class OutsideRun(unittest.TestCase):
         children = self.children()
         self.assertEqual(len(children), 2)
         self.run_.kill()
-        self.run_.wait()
         self.assert_landed(children)
 
     def test_a_closed_terminal_lands_the_rotor_however_often_it_says_so(self):
@@ -96,10 +78,10 @@ class OutsideRun(unittest.TestCase):
         children = self.children()
         for _ in range(3):
             self.run_.send_signal(signal.SIGHUP)
-            time.sleep(0.4)
-        self.assertEqual(self.run_.wait(LONG), 1, self.log())
+            pause(0.4, "this or longer does not count as one request")
+        self.assertEqual(self.run_.status(), 1, self.log())
         self.assert_landed(children)
-        self.assertIn("stopped by the operator before the end; the rotor was landed", self.log())
+        self.assertIn("stopped by the operator before the end; the rotor was landed", self.run_.text)
 
     def test_a_reader_that_has_gone_or_stopped_does_not_keep_ctrl_c_from_landing(self):
         for stopped in (False, True):
@@ -115,7 +97,7 @@ class OutsideRun(unittest.TestCase):
                 self.turning()
                 children = self.children()
                 self.run_.send_signal(signal.SIGINT)
-                self.assertEqual(self.run_.wait(LONG), 1, self.log())
+                self.assertEqual(self.run_.status(), 1, self.log())
                 self.assert_landed(children)
                 if stopped:
                     os.close(here)
@@ -127,9 +109,9 @@ class OutsideRun(unittest.TestCase):
         self.turning()
         children = self.children()
         termios.tcflow(terminal, termios.TCOOFF)  # Ctrl-S
-        time.sleep(0.5)
+        pause(0.5, "the run meets it meanwhile with words of its own, or later")
         self.run_.send_signal(signal.SIGINT)
-        self.assertEqual(self.run_.wait(LONG), 1, self.log())
+        self.assertEqual(self.run_.status(), 1, self.log())
         self.assert_landed(children)
         os.close(ours)
         os.close(terminal)
@@ -138,18 +120,16 @@ class OutsideRun(unittest.TestCase):
         port = 9867
         network = f"lcm:udpm://239.255.76.67:{port}?ttl=0"
         self.start("--port", network)
-        page = subprocess.Popen([BINARIES / "amb", "dash", "--port", network],
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.assertIn(b"page: ", page.stdout.readline())
+        page = Process(self.folder, "amb", "dash", "--port", network)
+        self.addCleanup(page.kill)
+        page.says("page: ")
         self.turning()
         children = self.children()
         page.kill()
-        page.wait()
-        page.stdout.close()
-        time.sleep(0.5)
+        pause(0.5, "this or longer for it to matter, if it mattered")
         self.assertEqual([pid for pid in children if not alive(pid)], [])
         self.run_.send_signal(signal.SIGINT)
-        self.assertEqual(self.run_.wait(LONG), 1, self.log())
+        self.assertEqual(self.run_.status(), 1, self.log())
         self.assert_landed(children)
 
     # Disks that are full. The small ones exist within a mount namespace of the command alone.
@@ -159,7 +139,7 @@ class OutsideRun(unittest.TestCase):
         small.mkdir(exist_ok=True)
         script = f"mount -t tmpfs -o size={kilobytes}k none {small} && {command}"
         return subprocess.run(["unshare", "-m", "sh", "-c", script], capture_output=True, text=True,
-                              timeout=LONG, check=False, cwd=self.folder, env=self.environment())
+                              timeout=LIMIT_S, check=False, cwd=self.folder, env=self.environment())
 
     def test_a_record_that_breaks_off_for_want_of_room_is_incomplete_and_status_1(self):
         done = self.on_small_disk(3000, f"{BINARIES}/amb run --scenario short.yaml --record small/x.lcm")

@@ -26,7 +26,7 @@ class RigsRunTest : public testing::Test {
   std::pair<int, std::string> Replay(const std::string& session) {
     const std::string log = scratch_ / "replay.log";
     ChildProcess child(levitas::test::ProgramFolder() + "/amb", {"replay", session}, log);
-    const auto ended = child.WaitFor(kRunLimit);
+    const auto ended = child.WaitFor(test::kLimit);
     return {ended && !ended->signalled ? ended->code : -1, ReadAll(log)};
   }
 

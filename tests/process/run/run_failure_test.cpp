@@ -134,7 +134,6 @@ TEST_F(RunFailureTest, ChildrenDieWithARunThatIsKilled) {
   ASSERT_GT(controller, 0);
   run.Signal(SIGKILL);
   EXPECT_EQ(run.Status(), 1009);
-  const auto deadline = std::chrono::steady_clock::now() + kRunLimit;
   const auto lives = [](pid_t pid) {
     std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
     std::string number;
@@ -142,11 +141,7 @@ TEST_F(RunFailureTest, ChildrenDieWithARunThatIsKilled) {
     std::string state;
     return (stat >> number >> name >> state) && state != "Z";
   };
-  while ((lives(plant) || lives(controller)) && std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  EXPECT_FALSE(lives(plant));
-  EXPECT_FALSE(lives(controller));
+  EXPECT_TRUE(test::Eventually([&] { return !lives(plant) && !lives(controller); }));
 }
 
 }  // namespace

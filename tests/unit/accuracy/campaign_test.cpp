@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kBits = 1275;  // 1.02 s: the shortest record that a diagnosis takes
 
-const TestRig& TheBench() {
+const TestRig& CampaignBench() {
   static const TestRig bench = LoadTestRig("flexible_rotor", {"flexible_rotor"});
   return bench;
 }
@@ -38,9 +38,9 @@ double Rms(const diagnosis::Record& measured, std::size_t axis) {
 }
 
 TEST(Campaign, RepeatsWithItsSeedAndDiffersWithAnother) {
-  const auto first = MakeTrial(TheBench(), Short(3, {}));
-  const auto again = MakeTrial(TheBench(), Short(3, {}));
-  const auto other = MakeTrial(TheBench(), Short(4, {}));
+  const auto first = MakeTrial(CampaignBench(), Short(3, {}));
+  const auto again = MakeTrial(CampaignBench(), Short(3, {}));
+  const auto other = MakeTrial(CampaignBench(), Short(4, {}));
   ASSERT_EQ(first.records.size(), 3U);
   const auto& rows = first.records[1].rows;
   EXPECT_EQ(rows.back().sample.position_m, again.records[1].rows.back().sample.position_m);
@@ -48,7 +48,7 @@ TEST(Campaign, RepeatsWithItsSeedAndDiffersWithAnother) {
 }
 
 TEST(Campaign, ExcitesOneAxisAfterTheOtherAndNoneInTheRunUp) {
-  const auto trial = MakeTrial(TheBench(), Short(3, {}));
+  const auto trial = MakeTrial(CampaignBench(), Short(3, {}));
   const auto& standing = trial.records[0].rows;
   constexpr std::size_t kQuiet = 3000;  // 0.3 s
   ASSERT_GT(standing.size(), kQuiet);
@@ -85,7 +85,7 @@ TEST(Campaign, OfReversedProbesAndCoilsIsTheSameRunAndItsFilesHaveTheSignsOfTheW
        {&reversed.rig.plant.sensor_polarity, &reversed.rig.numbers.sensor_polarity}) {
     (*polarity)[1] = -1.0;
   }
-  const Trial built = MakeTrial(TheBench(), Short(3, {}));
+  const Trial built = MakeTrial(CampaignBench(), Short(3, {}));
   const Trial other = MakeTrial(reversed, Short(3, {}));
   const auto& as_built = built.records[0].rows;
   const auto& rows = other.records[0].rows;
@@ -95,7 +95,7 @@ TEST(Campaign, OfReversedProbesAndCoilsIsTheSameRunAndItsFilesHaveTheSignsOfTheW
             as_built.back().sample.command.control_current_a);
   const auto folder = std::filesystem::temp_directory_path() / "levitas_reversed_campaign_test";
   std::filesystem::create_directories(folder);
-  WriteCsv(built.records, TheBench().rig.numbers, folder.string());
+  WriteCsv(built.records, CampaignBench().rig.numbers, folder.string());
   const std::vector<double> straight = LastLine((folder / "standing.csv").string());
   WriteCsv(other.records, reversed.rig.numbers, folder.string());
   const std::vector<double> wired = LastLine((folder / "standing.csv").string());
@@ -111,18 +111,18 @@ TEST(Campaign, OfReversedProbesAndCoilsIsTheSameRunAndItsFilesHaveTheSignsOfTheW
 }
 
 TEST(Campaign, ShowsUnbalanceOnlyWhenItTurns) {
-  const auto healthy = MakeTrial(TheBench(), Short(3, {}));
-  const auto heavy = MakeTrial(TheBench(), Short(3, {effect::Id::kUnbalance}));
+  const auto healthy = MakeTrial(CampaignBench(), Short(3, {}));
+  const auto heavy = MakeTrial(CampaignBench(), Short(3, {effect::Id::kUnbalance}));
   EXPECT_EQ(Rms(heavy.records[0], 0), Rms(healthy.records[0], 0));
   EXPECT_NE(Rms(heavy.records[1], 0), Rms(healthy.records[1], 0));
 }
 
 TEST(Campaign, WrittenAsCsvIsReadBackAsTheSameRows) {
-  const auto trial = MakeTrial(TheBench(), Short(3, {}));
+  const auto trial = MakeTrial(CampaignBench(), Short(3, {}));
   const auto folder = std::filesystem::temp_directory_path() / "levitas_campaign_test";
   std::filesystem::create_directories(folder);
-  WriteCsv(trial.records, TheBench().rig.numbers, folder.string());
-  const auto read = diagnosis::LoadRecord((folder / "spinning.csv").string(), TheBench().rig);
+  WriteCsv(trial.records, CampaignBench().rig.numbers, folder.string());
+  const auto read = diagnosis::LoadRecord((folder / "spinning.csv").string(), CampaignBench().rig);
   std::filesystem::remove_all(folder);
   const auto& rows = trial.records[1].rows;
   ASSERT_EQ(read.rows.size(), rows.size());
@@ -139,7 +139,7 @@ TEST(Campaign, WrittenAsCsvIsReadBackAsTheSameRows) {
 }
 
 TEST(Campaign, WithLostFramesHasMissingOrRepeatedRows) {
-  const auto trial = MakeTrial(TheBench(), Short(5, {effect::Id::kDroppedSamples}));
+  const auto trial = MakeTrial(CampaignBench(), Short(5, {effect::Id::kDroppedSamples}));
   std::size_t lost = 0;
   const auto& rows = trial.records[0].rows;
   for (std::size_t n = 1; n < rows.size(); ++n) {
@@ -152,7 +152,7 @@ TEST(Campaign, WithLostFramesHasMissingOrRepeatedRows) {
 
 // What the plant itself held back would stand in no record, and a diagnosis could not know of it.
 TEST(Campaign, WithLostFramesLosesNoneBesideTheRecord) {
-  const auto trial = MakeTrial(TheBench(), Short(5, {effect::Id::kDroppedSamples}));
+  const auto trial = MakeTrial(CampaignBench(), Short(5, {effect::Id::kDroppedSamples}));
   for (const auto& entry : trial.ground_truth.truth.config.effects) {
     EXPECT_NE(entry.id, effect::Id::kDroppedSamples);
   }

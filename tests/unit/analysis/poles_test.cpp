@@ -16,7 +16,7 @@
 namespace levitas::analysis {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 struct ReferencePole {
   double frequency_hz{};
@@ -88,7 +88,7 @@ struct Cylinder {
 Cylinder CylinderMasses() {
   const double r = 0.5 * test::kCylinderDiameter;
   const double length = test::kCylinderLength;
-  const double mass = kPi * r * r * length * test::kCylinderDensity;
+  const double mass = kHalfTurn * r * r * length * test::kCylinderDensity;
   const double arm2 = test::kCylinderArm * test::kCylinderArm;
   return {mass, mass * (3.0 * r * r + length * length) / 12.0 / arm2, 0.5 * mass * r * r / arm2};
 }
@@ -106,8 +106,8 @@ TEST(ClosedLoopPoles, OfARigidRotorUnderPdTendToTheQuadraticAsThePeriodVanishes)
   for (const double inertia : {cylinder.mass_kg, cylinder.tilt_mass_kg}) {
     const Quadratic expected = Motion(inertia, kKi, kKs, kKp, kKd);
     ASSERT_LT(expected.damping, 1.0);
-    const double damped_hz =
-        expected.omega_rad_per_s * std::sqrt(1.0 - expected.damping * expected.damping) / 2.0 / kPi;
+    const double damped_hz = expected.omega_rad_per_s *
+                             std::sqrt(1.0 - expected.damping * expected.damping) / 2.0 / kHalfTurn;
     int forward = 0;
     int backward = 0;
     for (const Pole& pole : poles.poles) {
@@ -134,7 +134,7 @@ TEST(ClosedLoopPoles, OfATurningCylinderSplitByItsPolarInertiaInTheRightDirectio
       std::sqrt(damping * damping - 4.0 * cylinder.tilt_mass_kg * stiffness);
   for (const double sign : {1.0, -1.0}) {
     const std::complex<double> s = (-damping + sign * root) / (2.0 * cylinder.tilt_mass_kg);
-    const double expected_hz = s.imag() / 2.0 / kPi;
+    const double expected_hz = s.imag() / 2.0 / kHalfTurn;
     // The same 6 us of lag: it takes damping and adds well under 0.5 % of frequency.
     EXPECT_TRUE(std::any_of(poles.poles.begin(), poles.poles.end(),
                             [&](const Pole& pole) {

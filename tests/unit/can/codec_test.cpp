@@ -11,7 +11,7 @@
 namespace levitas::can {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261121;
+constexpr std::uint64_t kCodecSeed = 20261121;
 constexpr int kFrames = 20'000;
 
 MessageCodec CodecOf(const Layout& layout, const std::string& name) {
@@ -62,7 +62,7 @@ class EveryCodec : public testing::TestWithParam<std::tuple<std::size_t, Format>
 
 TEST_P(EveryCodec, ReturnsEachNumberWithinHalfAStep) {
   const auto [axes, format] = GetParam();
-  Random random(kSeed);
+  Random random(kCodecSeed);
   for (const Message& message : MakeLayout(TestRig(axes), format).messages) {
     MessageCodec codec(message, format);
     for (int count = 0; count < kFrames / 10; ++count) {

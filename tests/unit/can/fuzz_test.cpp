@@ -12,7 +12,7 @@
 namespace levitas::can {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261121;
+constexpr std::uint64_t kFuzzSeed = 20261121;
 
 std::uint64_t Frames() {
   const char* wanted = std::getenv("LEVITAS_FUZZ_FRAMES");
@@ -76,7 +76,7 @@ void ExpectPlausible(const CurrentFrame& frame, std::size_t axes, std::uint64_t 
 /// Frames that were taken, whole or in part.
 std::uint64_t Bombard(std::size_t axes, Format format, std::uint64_t frames) {
   const Layout layout = MakeLayout(TestRig(axes), format);
-  Mutator mutate(layout, kSeed + axes);
+  Mutator mutate(layout, kFuzzSeed + axes);
   RigAssembler rig(layout);
   CommandAssembler commands(layout);
   for (std::uint64_t count = 0; count < frames; ++count) {

@@ -5,6 +5,7 @@
 #include <bitset>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "hil/can/wire_frame.hpp"
 #include "tests/unit/can/rigs.hpp"
@@ -106,8 +107,8 @@ INSTANTIATE_TEST_SUITE_P(AxesAndFormats, EveryLayout,
                                           testing::Values(Format::kFd, Format::kClassical)));
 
 TEST(Layout, RefusesRigsWithoutAxesOrWithTooMany) {
-  EXPECT_THROW(MakeLayout(TestRig(0), Format::kFd), std::invalid_argument);
-  EXPECT_THROW(MakeLayout(TestRig(9), Format::kFd), std::invalid_argument);
+  EXPECT_THROW(std::ignore = MakeLayout(TestRig(0), Format::kFd), std::invalid_argument);
+  EXPECT_THROW(std::ignore = MakeLayout(TestRig(9), Format::kFd), std::invalid_argument);
 }
 
 TEST(Layout, CurrentsWinTheBusOverPositionsOverSlowMessages) {

@@ -208,9 +208,25 @@ TEST_F(CanRigPortTest, InRealTimeAFrameThatWaitedTwoPeriodsIsNoNews) {
 TEST_F(CanRigPortTest, SaysGoodbyeThreeTimes) {
   Period(0);
   port_.SayGoodbye({.cycle = 0, .axes = 4});
-  EXPECT_EQ(controller_bus_.sent.size(), 3U);
+  EXPECT_EQ(controller_bus_.sent.size(), 6U);  // currents, and the drive's set point
   CurrentFrame got;
   EXPECT_EQ(link_.Receive(got, 0), port::RigLink::ReceiveResult::kGoodbye);
+}
+
+// The set point travels in a message of its own: an older one would turn the rotor on.
+TEST_F(CanRigPortTest, AGoodbyeThatBrakesCarriesTheSetPointOfTheBrake) {
+  Period(0);
+  port_.SayGoodbye({.cycle = 0,
+                    .axes = 4,
+                    .speed_set_point_rad_per_s = 0.0,
+                    .acceleration_limit_rad_per_s2 = 104.0,
+                    .drive_enabled = true});
+  CurrentFrame got{.speed_set_point_rad_per_s = 314.0, .amplifiers_enabled = true};
+  ASSERT_EQ(link_.Receive(got, 0), port::RigLink::ReceiveResult::kGoodbye);
+  EXPECT_FALSE(got.amplifiers_enabled);
+  EXPECT_TRUE(got.drive_enabled);
+  EXPECT_EQ(got.speed_set_point_rad_per_s, 0.0);
+  EXPECT_NEAR(got.acceleration_limit_rad_per_s2, 104.0, 0.01);
 }
 
 TEST_F(CanRigPortTest, AllocatesNothingInTheLoop) {

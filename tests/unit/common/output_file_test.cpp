@@ -1,14 +1,18 @@
 #include "common/output_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <vector>
 
 #include "tests/support/scratch_folder.hpp"
 
@@ -53,6 +57,50 @@ TEST_F(Output, AppearsUnderItsNameOnlyWithCommit) {
   WriteWholeFile(scratch_ / "x.csv", "whole");
   EXPECT_EQ(Content(scratch_ / "x.csv"), "whole");
   EXPECT_EQ(Files(), 1);
+}
+
+TEST_F(Output, UnderItsNameIsNeverMadeThroughALink) {
+  Put(scratch_ / "target", "the user's own");
+  for (const char* target : {"target", "nowhere"}) {
+    fs::create_symlink(scratch_ / target, scratch_ / "link");
+    EXPECT_THROW((void)OpenUnderItsName(scratch_ / "link", Standing::kKept), BadInput);
+    EXPECT_TRUE(fs::is_symlink(scratch_ / "link"));
+    const int file = OpenUnderItsName(scratch_ / "link", Standing::kReplaced);
+    EXPECT_EQ(::write(file, "new", 3), 3);
+    ::close(file);
+    EXPECT_FALSE(fs::is_symlink(scratch_ / "link"));
+    EXPECT_EQ(Content(scratch_ / "link"), "new");
+    fs::remove(scratch_ / "link");
+  }
+  EXPECT_EQ(Content(scratch_ / "target"), "the user's own");
+  EXPECT_FALSE(fs::exists(scratch_ / "nowhere"));
+}
+
+// To open it for writing as any file waits for a reader, whatever signal comes that has a handler.
+TEST_F(Output, APipeIsOpenedWhereItIsReadAndRefusedWhereItIsNot) {
+  const std::string pipe = scratch_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const auto& open :
+       std::vector<std::function<void()>>{[&] { ::close(OpenUnderItsName(pipe, Standing::kKept)); },
+                                          [&] { EXPECT_TRUE(RefuseDeafPipe(pipe).is_open()); }}) {
+    const auto refused = Refusal(open);
+    EXPECT_EQ(refused.first, ExitStatus::kBadInput);
+    EXPECT_THAT(refused.second, HasSubstr("a pipe that nobody reads. Start its reader first"));
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    EXPECT_EQ(Refusal(open).second, "accepted");
+    ::close(reader);
+  }
+  EXPECT_FALSE(RefuseDeafPipe(scratch_ / "no pipe").is_open());
+}
+
+TEST_F(Output, UnderItsNameReplacesAFileAndNotWhatAnotherNameOfItHolds) {
+  Put(scratch_ / "old", "old");
+  fs::create_hard_link(scratch_ / "old", scratch_ / "kept");
+  EXPECT_THROW((void)OpenUnderItsName(scratch_ / "old", Standing::kKept), BadInput);
+  ::close(OpenUnderItsName(scratch_ / "old", Standing::kReplaced));
+  EXPECT_EQ(Content(scratch_ / "old"), "");
+  EXPECT_EQ(Content(scratch_ / "kept"), "old");
+  EXPECT_THROW((void)OpenUnderItsName(scratch_ / "", Standing::kReplaced), BadInput);  // a folder
 }
 
 TEST_F(Output, LeavesAFileOfTheUsersWithItsTemporarySuffixAlone) {

@@ -34,6 +34,16 @@ TEST(ReadDocument, KeepsAnEmptyValueAsEmpty) {
   EXPECT_EQ(document.root.items[0].kind, Node::Kind::kEmpty);
 }
 
+TEST(ReadDocument, RefusesATextThatIsTooLargeBeforeItIsParsed) {
+  for (const char* begin : {"name: ", "# "}) {
+    const std::string most = begin + std::string(kMostBytes - std::string(begin).size(), 'x');
+    EXPECT_EQ(ReadDocument(most).problem.has_value(), *begin == '#');  // a comment alone is empty
+    const Document document = ReadDocument(most + "x");
+    ASSERT_TRUE(document.problem);
+    EXPECT_NE(document.problem->text.find("allowed 4 MB"), std::string::npos);
+  }
+}
+
 TEST(ReadDocument, ReadsWindowsLineEndsAndAByteOrderMark) {
   const Document document = ReadDocument(
       "\xEF\xBB\xBF"

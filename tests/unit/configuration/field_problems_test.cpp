@@ -108,6 +108,18 @@ TEST(Number, GivenInTwoUnitsIsRefused) {
             "rig.yaml:22:7: bearings[0].magnet.gap_um: already given as gap_mm");
 }
 
+// YAML 1.1 reads 0144 as the octal number 100, YAML 1.2 as 144.
+TEST(Number, WithAZeroInFrontIsRefusedForTwoStandardsReadItAsTwoNumbers) {
+  EXPECT_EQ(
+      WithGap("00.4"),
+      "rig.yaml:21:15: bearings[0].magnet.gap_mm: found \"00.4\", not one number to all: with "
+      "a zero in front it is octal to some programs; write 0.4; allowed 0.02 to 10 mm");
+  for (const char* zeros : {"01", "+01", "0010", "-007"}) {
+    EXPECT_NE(WithGap(zeros).find("octal to some programs"), std::string::npos) << zeros;
+  }
+  for (const char* plain : {"0.4", "4e-1", "+0.4", "0.4e00"}) EXPECT_EQ(WithGap(plain), "");
+}
+
 TEST(Integer, MustBeWholeAndInRange) {
   const auto problems = [](const std::string& value) {
     return RigProblems(With(kRig, "range_um: 300", "range_um: 300\n      adc_bits: " + value));

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string Text(const std::string& name) {
+std::string ShippedText(const std::string& name) {
   std::ifstream file(FindConfig(name, "rigs"));
   std::ostringstream text;
   text << file.rdbuf();
@@ -23,7 +23,7 @@ std::string Text(const std::string& name) {
 
 /// The shipped text with one piece replaced.
 std::string With(const std::string& name, const std::string& from, const std::string& to) {
-  std::string text = Text(name);
+  std::string text = ShippedText(name);
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);

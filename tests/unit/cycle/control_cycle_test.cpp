@@ -31,10 +31,14 @@ TEST(ControlCycle, LiftsSpinsCoastsAndLandsAsTheTableSays) {
   EXPECT_EQ(control.Step(rig.Next(OperatorCommand::kCoastDown)).mode, Mode::kCoastDown);
   EXPECT_FALSE(control.Step(rig.Next()).current.drive_enabled);
   rig.speed_rad_per_s = 0.0;
-  EXPECT_EQ(control.Step(rig.Next()).mode, Mode::kLevitating);
-  EXPECT_EQ(control.Step(rig.Next(OperatorCommand::kLand)).mode, Mode::kLanding);
-  rig.position_m = {-134e-6, -134e-6, -134e-6, -134e-6};
-  out = StepUntil(control, rig, Mode::kOff, 6000);
+  EXPECT_EQ(control.Step(rig.Next()).mode, Mode::kCoastDown);
+  EXPECT_EQ(StepUntil(control, rig, Mode::kLevitating, 199).mode, Mode::kLevitating);  // 20 ms
+  out = control.Step(rig.Next(OperatorCommand::kLand));
+  EXPECT_EQ(out.mode, Mode::kLanding);
+  for (int n = 0; n < 6000 && out.mode == Mode::kLanding; ++n) {
+    rig.position_m = out.reference_m;
+    out = control.Step(rig.Next());
+  }
   EXPECT_EQ(out.mode, Mode::kOff) << Name(out.fault);
   EXPECT_FALSE(out.current.amplifiers_enabled);
   EXPECT_EQ(out.current.bias_current_a, 0.0);
@@ -60,6 +64,24 @@ TEST(ControlCycle, HoldsTheLastCurrentWhileFramesAreMissingThenDrops) {
   EXPECT_EQ(dropped.fault, Fault::kFrameMissing);
   EXPECT_EQ(dropped.current.bias_current_a, 0.0);
   EXPECT_EQ(dropped.current.control_current_a, AxisArray{});
+}
+
+// Frames that overtake each other on their way: the older one says nothing new.
+TEST(ControlCycle, TakesAFrameOlderThanTheLastForNoFrameUnlessTheRigHasStartedAnew) {
+  ControlCycle control(FlexibleRotorCycle());
+  StillRig rig;
+  ASSERT_EQ(Levitate(control, rig).mode, Mode::kLevitating);
+  const CycleInputs overtaken = rig.Next();
+  const CycleOutputs before = control.Step(rig.Next());
+  CycleInputs in = overtaken;
+  in.cycle += 2;
+  in.frame.position_m[0] = 50e-6;
+  const CycleOutputs held = control.Step(in);
+  EXPECT_EQ(held.current.control_current_a, before.current.control_current_a);
+  EXPECT_EQ(held.current.cycle, before.current.cycle);
+  in.frame.rig_session += 1;
+  in.cycle += 1;
+  EXPECT_EQ(control.Step(in).fault, Fault::kRigRestarted);
 }
 
 TEST(ControlCycle, TakesAStopOfTheChainWithoutAFrame) {
@@ -110,6 +132,28 @@ law::StateSpaceConfig HiddenGrowth() {
   law.output_a_per_v = {1.0, 1.0, 1.0, 1.0};
   for (std::size_t i = 0; i < 4; ++i) law.direct[i][i] = -1e3;
   return law;
+}
+
+// Beyond the converter's range a number means nothing: the law takes the end of the range. A law
+// that is only a gain of 1000 A/m, so that 400 um ask for 0.4 A of the 1 A there is.
+TEST(ControlCycle, TakesAPositionBeyondTheRangeOfItsSensorForTheEndOfTheRange) {
+  const auto current = [](double position_m) {
+    CycleConfig config = FlexibleRotorCycle();
+    config.law = {};
+    config.law.state_space = HiddenGrowth();
+    config.law.state_space->blocks.clear();
+    ControlCycle control(config);
+    StillRig rig;
+    EXPECT_EQ(Levitate(control, rig).mode, Mode::kLevitating);
+    CycleInputs in = rig.Next();
+    in.frame.position_m[1] = position_m;
+    return std::abs(control.Step(in).current.control_current_a[1]);
+  };
+  // 1e-12 A: rounding of the product.
+  EXPECT_NEAR(current(300e-6), 0.3, 1e-12);
+  EXPECT_NEAR(current(400e-6), 0.4, 1e-12);
+  EXPECT_NEAR(current(700e-6), 0.4, 1e-12);
+  EXPECT_NEAR(current(-1e30), 0.4, 1e-12);
 }
 
 TEST(LawNotFinitePair, AnUncheckedLawOfHiddenGrowthCommandsNoNumberOnEveryAxis) {

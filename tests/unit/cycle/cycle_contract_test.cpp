@@ -48,7 +48,7 @@ void GoTo(State wanted, ControlCycle& control, StillRig& rig) {
   (void)control.Step(rig.Next(OperatorCommand::kEmergencyStop));
   if (wanted == State::kTrippedStopping) return;
   rig.speed_rad_per_s = 0.0;
-  (void)control.Step(rig.Next());
+  while (control.decision().state == State::kTrippedStopping) (void)control.Step(rig.Next());
   if (wanted == State::kTrippedLanding) return;
   rig.status = kRigAmplifierFault;
   (void)control.Step(rig.Next());

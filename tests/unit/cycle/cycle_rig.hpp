@@ -34,6 +34,7 @@ inline CycleConfig FlexibleRotorCycle() {
                                 .settle_radius_m = 20e-6,
                                 .landing_ramp_s = 0.5,
                                 .standstill_rad_per_s = 1.0,
+                                .standstill_s = 0.02,
                                 .trip_acceleration_rad_per_s2 = 100.0};
   config.supervisor.protection = {.orbit_fraction = 0.6,
                                   .orbit_cycles = 3,

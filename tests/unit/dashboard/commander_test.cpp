@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <future>
 #include <memory>
@@ -13,6 +14,8 @@
 #include <vector>
 
 #include "common/problem.hpp"
+#include "tests/support/waiting.hpp"
+#include "transport/network_key.hpp"
 #include "transport/operator_receiver.hpp"
 
 namespace levitas::dashboard {
@@ -26,7 +29,7 @@ transport::CommandAnswer AnswerTo(const CommandOrigin& origin, OperatorCommand c
 }
 
 // Far above any delay of a busy machine: a test that waits this long has failed.
-constexpr std::chrono::milliseconds kLong{60'000};
+constexpr std::chrono::milliseconds kLong = levitas::test::kLimit;
 constexpr std::chrono::milliseconds kShort{300};
 
 class CommanderOnTheNetwork : public testing::Test {
@@ -159,13 +162,13 @@ TEST_F(CommanderOnTheNetwork, DoesNotRepeatAfterAStopWhatWasAskedBefore) {
   const CommandReply reply = reset.get();  // long before its patience ends
   EXPECT_EQ(reply.outcome, CommandOutcome::kUnanswered);
   EXPECT_NE(reply.text.find("emergency stop"), std::string::npos) << reply.text;
-  while (stops.asked() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(levitas::test::Eventually([&] { return stops.asked() != 0; }));
   std::size_t resets = 0;
   {
     const std::lock_guard lock(mutex);
     resets = taken.size();
   }
-  std::this_thread::sleep_for(3 * Commander::kRepeat);
+  levitas::test::Pause(3 * Commander::kRepeat, "a repetition would come within this or longer");
   const std::lock_guard lock(mutex);
   // One may have been on its way; three more would have been sent.
   EXPECT_LE(taken.size(), resets + 1);
@@ -173,6 +176,109 @@ TEST_F(CommanderOnTheNetwork, DoesNotRepeatAfterAStopWhatWasAskedBefore) {
   ASSERT_TRUE(stops.TakeOrigin(origin));
   commander_->Saw(AnswerTo(origin, OperatorCommand::kEmergencyStop));
   EXPECT_EQ(stop.get().outcome, CommandOutcome::kAccepted);
+}
+
+// Two hundred at once, nobody answers: each datagram has left before anybody waits, and one answer
+// to the last of them answers all.
+TEST_F(CommanderOnTheNetwork, SendsEveryStopAtOnceAndAnswersAllWithTheLast) {
+  Make(kLong);
+  if (IsSkipped()) return;
+  StopLatch stops;
+  const transport::OperatorReceiver controller(
+      Network(), stops, {.take = [](const transport::NetworkCommand&) { return true; }});
+  std::atomic<int> told{0};
+  for (int i = 0; i < 200; ++i) {
+    commander_->Stop([&](const CommandReply& reply) {
+      EXPECT_EQ(reply.outcome, CommandOutcome::kAccepted);
+      told.fetch_add(1);
+    });
+  }
+  EXPECT_EQ(told.load(), 0);
+  ASSERT_TRUE(levitas::test::Eventually([&] { return stops.asked() >= 200; }));
+  CommandOrigin origin;
+  EXPECT_TRUE(levitas::test::Eventually([&] {  // one said again answers for all before it
+    while (stops.TakeOrigin(origin)) {
+    }
+    commander_->Saw(AnswerTo(origin, OperatorCommand::kEmergencyStop));
+    return told.load() == 200;
+  }));
+}
+
+TEST_F(CommanderOnTheNetwork, TellsWhoWaitsForAStopWhenItEnds) {
+  Make(kLong);
+  if (IsSkipped()) return;
+  std::promise<CommandReply> reply;
+  commander_->Stop([&](const CommandReply& told) { reply.set_value(told); });
+  commander_.reset();
+  EXPECT_EQ(reply.get_future().get().outcome, CommandOutcome::kUnanswered);
+}
+
+class CommanderWithAKey : public CommanderOnTheNetwork {
+ protected:
+  static transport::LcmNetwork Sealed() {
+    transport::LcmNetwork network = Network();
+    network.key = std::make_shared<transport::NetworkKey>(transport::SealingKey::Bytes{1}, "test");
+    return network;
+  }
+  void SetUp() override {
+    try {
+      commander_ = std::make_unique<Commander>(Sealed(), kLong);
+    } catch (const Problem& problem) {
+      GTEST_SKIP() << problem.what();
+    }
+  }
+  /// Takes what `taken` is told of; gives its challenges to the commander when `welcomes` says so.
+  transport::OperatorHandlers Handlers() {
+    return {.take =
+                [this](const transport::NetworkCommand& got) {
+                  commander_->Saw(AnswerTo(got.origin, got.command));
+                  return true;
+                },
+            .challenge =
+                [this](const transport::Challenge& challenge) {
+                  asked_by_us_ = commander_->Asked(challenge);
+                  if (welcomes_) commander_->Heard(challenge);
+                  welcomed_.fetch_add(1);
+                }};
+  }
+  void Hello() {
+    const int before = welcomed_.load();
+    commander_->SayHello();
+    ASSERT_TRUE(levitas::test::Eventually([&] { return welcomed_.load() != before; }));
+  }
+  bool welcomes_{true};
+  std::atomic<bool> asked_by_us_{false};
+  std::atomic<int> welcomed_{0};
+  StopLatch stops_;
+};
+
+TEST_F(CommanderWithAKey, IsTakenOnceItHasTheChallengeOfThisControllerAndNotWithThatOfTheLast) {
+  auto controller = std::make_unique<transport::OperatorReceiver>(Sealed(), stops_, Handlers());
+  Hello();
+  EXPECT_TRUE(asked_by_us_.load());
+  EXPECT_EQ(commander_->Send({OperatorCommand::kLift, 0.0, 0.0}).outcome,
+            CommandOutcome::kAccepted);
+  controller = std::make_unique<transport::OperatorReceiver>(Sealed(), stops_, Handlers());
+  // Said again with the old challenge it is refused; after a new hello it is taken.
+  auto land = std::async(std::launch::async, [this] {
+    return commander_->Send({OperatorCommand::kLand, 0.0, 0.0});
+  });
+  EXPECT_TRUE(levitas::test::Eventually([&] { return controller->counts().rejected > 0; }));
+  Hello();
+  EXPECT_EQ(land.get().outcome, CommandOutcome::kAccepted);
+}
+
+TEST_F(CommanderWithAKey, StopsWithoutAChallenge) {
+  welcomes_ = false;
+  const transport::OperatorReceiver controller(Sealed(), stops_, Handlers());
+  std::promise<CommandReply> reply;
+  commander_->Stop([&](const CommandReply& told) { reply.set_value(told); });
+  ASSERT_TRUE(levitas::test::Eventually([&] { return stops_.asked() > 0; }));
+  EXPECT_EQ(controller.counts().rejected, 0U);
+  CommandOrigin origin;
+  ASSERT_TRUE(stops_.TakeOrigin(origin));
+  commander_->Saw(AnswerTo(origin, OperatorCommand::kEmergencyStop));
+  EXPECT_EQ(reply.get_future().get().outcome, CommandOutcome::kAccepted);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr milliseconds kAtOnce{0};
-constexpr milliseconds kLong{
+constexpr milliseconds kHubLimit{
     20'000};  // far above any delay: a test that waits this long has failed
 
 TEST(Hub, GivesAViewerTheNewestOfEachTopicOnce) {
@@ -75,7 +75,7 @@ TEST(Hub, WakesAWaitingViewer) {
   Hub hub;
   Seen seen;
   std::string told;
-  std::thread viewer([&] { told = hub.Wait(seen, kLong); });
+  std::thread viewer([&] { told = hub.Wait(seen, kHubLimit); });
   hub.Put(Topic::kSpectrum, "{}");
   viewer.join();
   EXPECT_EQ(told, "event: spectrum\ndata: {}\n\n");
@@ -84,7 +84,7 @@ TEST(Hub, WakesAWaitingViewer) {
 TEST(Hub, LetsEveryViewerGoWhenItCloses) {
   Hub hub;
   Seen seen;
-  std::thread viewer([&] { EXPECT_EQ(hub.Wait(seen, kLong), ""); });
+  std::thread viewer([&] { EXPECT_EQ(hub.Wait(seen, kHubLimit), ""); });
   hub.Close();
   viewer.join();
   EXPECT_TRUE(hub.closed());

@@ -9,14 +9,17 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <condition_variable>
 #include <cstdint>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/file_descriptor.hpp"
+#include "dashboard/command_api.hpp"
 
 namespace levitas::dashboard {
 namespace {
@@ -73,10 +76,14 @@ int StatusIn(const std::string& answer) {
 class ThePage : public testing::Test {
  protected:
   ThePage() { options_.port = 0; }
-  ~ThePage() override { released_.set_value(); }
+  ~ThePage() override {
+    released_.set_value();
+    server_.reset();
+    for (const auto& done : unanswered_) done(Answer(kHttpOk, "accepted", "too late"));
+  }
 
   int Port() {
-    if (!server_) server_ = std::make_unique<WebServer>(options_, hub_, Routes());
+    if (!server_) server_ = std::make_unique<WebServer>(options_, hub_, Routes(), Stops());
     const std::string url = server_->Url();
     return std::stoi(url.substr(url.rfind(':') + 1));
   }
@@ -89,13 +96,36 @@ class ThePage : public testing::Test {
 
   /// "lift" is answered when the test ends, as by a controller that says nothing.
   std::vector<Route> Routes() {
-    return {
-        {true, "/api/command", [this, until = released_.get_future().share()](const auto& body) {
-           if (body.find("lift") != std::string::npos) until.wait();
-           return Answer(kHttpOk, "accepted", body);
-         }}};
+    return {{true, "/api/command", [until = released_.get_future().share()](const auto& body) {
+               if (body.find("lift") != std::string::npos) until.wait();
+               return Answer(kHttpOk, "accepted", body);
+             }}};
   }
 
+  /// Answered at once, or never.
+  StopRoute Stops() {
+    return {AsksForStop, [this](StopRoute::Done done) {
+              {
+                const std::lock_guard lock(stops_mutex_);
+                ++stops_;
+                if (silent_) unanswered_.push_back(done);
+              }
+              stopped_.notify_all();
+              if (!silent_) done(Answer(kHttpOk, "accepted", "stopped"));
+            }};
+  }
+
+  /// Waits until so many stops were handed on; a wait for ever is the failure.
+  void WaitForStops(std::size_t count) {
+    std::unique_lock lock(stops_mutex_);
+    stopped_.wait(lock, [&] { return stops_ >= count; });
+  }
+
+  bool silent_{false};
+  std::mutex stops_mutex_;
+  std::condition_variable stopped_;
+  std::size_t stops_{0};
+  std::vector<StopRoute::Done> unanswered_;
   WebOptions options_;
   std::promise<void> released_;
   Hub hub_;
@@ -139,6 +169,54 @@ TEST_F(ThePage, AnswersTheStopWithEveryViewersPlaceTaken) {
   EXPECT_EQ(StatusOf(Get("/events")), 503);
   EXPECT_EQ(StatusOf(Post(kStop)), 200);
   EXPECT_EQ(StatusOf(Get("/")), 200);
+}
+
+// A controller that is slow or gone: whatever number of people wait for its word, the next stop is
+// sent, and the page serves.
+TEST_F(ThePage, PassesTheTwoHundredAndFirstStopOnWhileTwoHundredWaitForTheirAnswers) {
+  silent_ = true;
+  const int port = Port();
+  std::vector<Client> waiting;
+  for (int i = 0; i < 200; ++i) ASSERT_TRUE(waiting.emplace_back(port).Send(Post(kStop)));
+  WaitForStops(200);
+  const Client next(port);
+  ASSERT_TRUE(next.Send(Post(kStop)));
+  WaitForStops(201);
+  EXPECT_EQ(StatusOf(Get("/")), 200);
+  unanswered_[200](Answer(kHttpOk, "accepted", "tripped"));
+  EXPECT_EQ(StatusIn(next.Receive("tripped")), 200);
+}
+
+TEST_F(ThePage, PassesOnEveryStopOfManyMoreThanWaitAndTellsNoneThatThereIsNoRoom) {
+  silent_ = true;
+  const int port = Port();
+  std::vector<Client> waiting;
+  for (std::size_t i = 0; i < WebServer::kMostStops; ++i) {
+    ASSERT_TRUE(waiting.emplace_back(port).Send(Post(kStop)));
+  }
+  WaitForStops(WebServer::kMostStops);
+  for (std::size_t more = 1; more <= 20; ++more) {
+    const Client client(port);
+    ASSERT_TRUE(client.Send(Post(kStop)));
+    WaitForStops(WebServer::kMostStops + more);
+    const std::string answer = client.Receive("never sent");
+    EXPECT_EQ(StatusIn(answer), 504);
+    EXPECT_NE(answer.find("emergency_stop was sent"), std::string::npos) << answer;
+  }
+}
+
+TEST_F(ThePage, KnowsAStopHoweverItIsWrittenAndNothingElse) {
+  for (const char* stop :
+       {R"({"command":"emergency_stop"})", R"({ "command" : "emerg\u0065ncy_stop" })"}) {
+    EXPECT_EQ(StatusOf(Post(stop)), 200) << stop;
+  }
+  EXPECT_EQ(stops_, 2U);
+  for (const char* other : {R"({"x":"emergency_stop"})", R"({"command":"emergency_stop","x":1})",
+                            R"({"command":"emergency_stops"})", "emergency_stop", ""}) {
+    (void)StatusOf(Post(other));
+  }
+  EXPECT_EQ(StatusOf(Post(kStop, "")), 403);  // without the page's header
+  EXPECT_EQ(stops_, 2U);
 }
 
 TEST_F(ThePage, RefusesAnotherPageOnEveryPathAndGivesItNoViewersPlace) {

@@ -21,33 +21,33 @@ Trajectory Predicting(float reading_m, bool settled = true) {
 }
 
 TEST(ModelDivergesTest, OfAModelFarFromEverythingThatWasMeasured) {
-  const auto clearance_m = static_cast<float>(View().numbers.clearance_m);
-  EXPECT_TRUE(ModelDiverges(View(), {Predicting(0.5F * clearance_m)}));
-  EXPECT_TRUE(ModelDiverges(View(), {Predicting(-0.5F * clearance_m)}));
-  EXPECT_TRUE(ModelDiverges(View(), {Predicting(std::numeric_limits<float>::quiet_NaN())}));
+  const auto clearance_m = static_cast<float>(TheRig().numbers.clearance_m);
+  EXPECT_TRUE(ModelDiverges(TheRig(), {Predicting(0.5F * clearance_m)}));
+  EXPECT_TRUE(ModelDiverges(TheRig(), {Predicting(-0.5F * clearance_m)}));
+  EXPECT_TRUE(ModelDiverges(TheRig(), {Predicting(std::numeric_limits<float>::quiet_NaN())}));
 }
 
 TEST(ModelDivergesTest, AnErrorOfTheModelIsNoDivergence) {
-  EXPECT_FALSE(ModelDiverges(View(), {Predicting(0.0F)}));
+  EXPECT_FALSE(ModelDiverges(TheRig(), {Predicting(0.0F)}));
   // Twice what was measured, but small beside the clearance.
-  EXPECT_FALSE(
-      ModelDiverges(View(), {Predicting(0.2F * static_cast<float>(View().numbers.clearance_m))}));
+  EXPECT_FALSE(ModelDiverges(
+      TheRig(), {Predicting(0.2F * static_cast<float>(TheRig().numbers.clearance_m))}));
   // Before the observer has settled.
-  EXPECT_FALSE(
-      ModelDiverges(View(), {Predicting(static_cast<float>(View().numbers.clearance_m), false)}));
+  EXPECT_FALSE(ModelDiverges(
+      TheRig(), {Predicting(static_cast<float>(TheRig().numbers.clearance_m), false)}));
 }
 
 // A sensor's offset is part of what is predicted, and the rotor stands where the offset puts it.
 TEST(ModelDivergesTest, AnOffsetThatTheModelKnowsIsNoDivergence) {
   const auto run = NoiseRun(1, 500, [](std::size_t, SamplePoint& m) {
-    m.reading_m[1] = 0.5F * static_cast<float>(View().numbers.clearance_m);
+    m.reading_m[1] = 0.5F * static_cast<float>(TheRig().numbers.clearance_m);
   });
-  EXPECT_FALSE(ModelDiverges(View(), {run}));
+  EXPECT_FALSE(ModelDiverges(TheRig(), {run}));
 }
 
 TEST(ModelDivergesTest, OneRecordOfSeveralIsEnough) {
-  const auto clearance_m = static_cast<float>(View().numbers.clearance_m);
-  EXPECT_TRUE(ModelDiverges(View(), {Predicting(0.0F), Predicting(0.5F * clearance_m)}));
+  const auto clearance_m = static_cast<float>(TheRig().numbers.clearance_m);
+  EXPECT_TRUE(ModelDiverges(TheRig(), {Predicting(0.0F), Predicting(0.5F * clearance_m)}));
 }
 
 NormalEquations WithSlopes(double rms) {

@@ -21,7 +21,7 @@ Record NoisyRecord(std::uint64_t seed, std::size_t rows) {
     auto& row = record.rows[n];
     row.cycle = n;
     row.levitated = true;
-    for (std::size_t a = 0; a < View().axes; ++a) {
+    for (std::size_t a = 0; a < TheRig().axes; ++a) {
       row.sample.position_m[a] = kNoise * random.Normal();
       row.sample.command.control_current_a[a] = 0.1 * random.Normal();
     }
@@ -32,10 +32,10 @@ Record NoisyRecord(std::uint64_t seed, std::size_t rows) {
 /// A remainder whose noise is `factor` times the rig file's on the given axis.
 Residual WithNoise(double factor, std::size_t axis = 0) {
   Residual remainder;
-  for (std::size_t a = 0; a < View().axes; ++a) {
+  for (std::size_t a = 0; a < TheRig().axes; ++a) {
     ChannelRemainder channel;
     channel.noise_rms_m =
-        (a == axis ? factor : 1.0) * analysis::ReadingNoise(View().bearing(a).sensor);
+        (a == axis ? factor : 1.0) * analysis::ReadingNoise(TheRig().bearing(a).sensor);
     remainder.channels.push_back(channel);
   }
   return remainder;
@@ -49,19 +49,19 @@ double Score(const std::vector<Candidate>& found, const std::string& effect) {
 }
 
 TEST(EventsTest, AHealthyRecordHasNone) {
-  EXPECT_TRUE(FindEvents(View(), {NoisyRecord(1, 5000)}, WithNoise(1.0)).empty());
+  EXPECT_TRUE(FindEvents(TheRig(), {NoisyRecord(1, 5000)}, WithNoise(1.0)).empty());
 }
 
 TEST(EventsTest, APauseBetweenTwoFlightsIsNoLostFrame) {
   Record record = NoisyRecord(2, 5000);
   record.rows.erase(record.rows.begin() + 2000, record.rows.begin() + 3000);
-  EXPECT_TRUE(FindEvents(View(), {record}, WithNoise(1.0)).empty());
+  EXPECT_TRUE(FindEvents(TheRig(), {record}, WithNoise(1.0)).empty());
 }
 
 TEST(EventsTest, MissingCyclesAreLostFrames) {
   Record record = NoisyRecord(2, 5000);
   for (const int at : {400, 1400, 2400}) record.rows.erase(record.rows.begin() + at);
-  const auto found = FindEvents(View(), {record}, WithNoise(1.0));
+  const auto found = FindEvents(TheRig(), {record}, WithNoise(1.0));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].effect, "dropped_samples");
   EXPECT_EQ(found[0].place, "3 frames");
@@ -72,39 +72,39 @@ TEST(EventsTest, AReadingThatRepeatsOnAllAxesIsALostFrameAndOnOneIsChance) {
   Record record = NoisyRecord(3, 5000);
   record.rows[700].sample.position_m = record.rows[699].sample.position_m;
   record.rows[900].sample.position_m = record.rows[899].sample.position_m;
-  EXPECT_GT(Score(FindEvents(View(), {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
+  EXPECT_GT(Score(FindEvents(TheRig(), {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
   Record one = NoisyRecord(3, 5000);
   one.rows[700].sample.position_m[2] = one.rows[699].sample.position_m[2];
-  EXPECT_TRUE(FindEvents(View(), {one}, WithNoise(1.0)).empty());
+  EXPECT_TRUE(FindEvents(TheRig(), {one}, WithNoise(1.0)).empty());
 }
 
 TEST(EventsTest, FramesLostWhileTheRotorLiesDoNotCount) {
   Record record = NoisyRecord(4, 5000);
   for (auto& row : record.rows) row.levitated = row.cycle > 1000;
   record.rows.erase(record.rows.begin() + 300, record.rows.begin() + 310);
-  EXPECT_TRUE(FindEvents(View(), {record}, WithNoise(1.0)).empty());
+  EXPECT_TRUE(FindEvents(TheRig(), {record}, WithNoise(1.0)).empty());
 }
 
 TEST(EventsTest, ANoiseBeyondItsToleranceIsNamedWithItsChannel) {
-  const auto found = FindEvents(View(), {NoisyRecord(5, 5000)}, WithNoise(1.5, 2));
+  const auto found = FindEvents(TheRig(), {NoisyRecord(5, 5000)}, WithNoise(1.5, 2));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].effect, "sensor_noise");
   EXPECT_EQ(found[0].place, "nde_x");
   // A sixteenth more is within what a healthy rig shows.
-  EXPECT_TRUE(FindEvents(View(), {NoisyRecord(5, 5000)}, WithNoise(1.06, 2)).empty());
+  EXPECT_TRUE(FindEvents(TheRig(), {NoisyRecord(5, 5000)}, WithNoise(1.06, 2)).empty());
 }
 
-/// The rig of View() whose file holds an effect besides.
+/// The rig of TheRig() whose file holds an effect besides.
 RigView Holding(effect::Id id, std::initializer_list<double> values) {
-  plant::PlantConfig plant = View().model->config();
+  plant::PlantConfig plant = TheRig().model->config();
   plant.effects.push_back(test::Entry(id, values));
-  return {View().numbers, plant};
+  return {TheRig().numbers, plant};
 }
 
 TEST(EventsTest, WhatTheRigFileKnowsToBeLostOrNoisyIsNoCause) {
   Record record = NoisyRecord(7, 5000);
   for (int k = 0; k < 50; ++k) record.rows.erase(record.rows.begin() + 90 * (50 - k));
-  EXPECT_GT(Score(FindEvents(View(), {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
+  EXPECT_GT(Score(FindEvents(TheRig(), {record}, WithNoise(1.0)), "dropped_samples"), kDecisive);
   const RigView losing = Holding(effect::Id::kDroppedSamples, {0.01, 1.0});
   EXPECT_TRUE(FindEvents(losing, {record}, WithNoise(1.0)).empty());
   const RigView rarely = Holding(effect::Id::kDroppedSamples, {0.002, 1.0});
@@ -125,12 +125,12 @@ TEST(MainsLinesTest, OfTheRigFileAreThereWithoutStandingOut) {
 
 TEST(MainsLinesTest, AreThoseThatStandOutOfTheirNeighbourhood) {
   Record record = NoisyRecord(6, 20'000);
-  EXPECT_TRUE(MainsLines(View(), {record}).empty());
+  EXPECT_TRUE(MainsLines(TheRig(), {record}).empty());
   for (auto& row : record.rows) {
     row.sample.position_m[1] +=
-        Sine(0.3e-6, 100.0, static_cast<double>(row.cycle) * View().period_s);
+        Sine(0.3e-6, 100.0, static_cast<double>(row.cycle) * TheRig().period_s);
   }
-  EXPECT_EQ(MainsLines(View(), {record}), std::vector<double>{100.0});
+  EXPECT_EQ(MainsLines(TheRig(), {record}), std::vector<double>{100.0});
 }
 
 }  // namespace

@@ -9,25 +9,25 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr std::size_t kSamples = 30'000;
+constexpr std::size_t kGainSamples = 30'000;
 
 /// The same noise with an error of `size` times its power on every axis.
 Trajectory Error(double size, std::uint64_t seed = 3) {
-  return NoiseRun(seed, kSamples, [size](std::size_t, SamplePoint& m) {
-    for (std::size_t a = 0; a < View().axes; ++a) {
+  return NoiseRun(seed, kGainSamples, [size](std::size_t, SamplePoint& m) {
+    for (std::size_t a = 0; a < TheRig().axes; ++a) {
       m.innovation_m[a] += static_cast<float>(Sine(kNoise * std::sqrt(2.0 * size), 91.0, m.time_s));
     }
   });
 }
 
 const std::vector<double>& Noise() {
-  static const std::vector<double> kLevels(View().axes, kNoise);
+  static const std::vector<double> kLevels(TheRig().axes, kNoise);
   return kLevels;
 }
 
 TEST(GainTest, OfAnExtensionThatExplainsAllIsOne) {
   const Gain gain =
-      MeasureGain(View(), {{Error(2.0)}, {Error(1.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
+      MeasureGain(TheRig(), {{Error(2.0)}, {Error(1.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
   EXPECT_NEAR(gain.achieved.value, 1.0, 0.02);
   EXPECT_NEAR(gain.beyond_calibration.value, 1.0, 0.03);
   EXPECT_LE(gain.achieved.low, gain.achieved.value);
@@ -37,10 +37,10 @@ TEST(GainTest, OfAnExtensionThatExplainsAllIsOne) {
 TEST(GainTest, IsTheShareOfTheAchievablePower) {
   // From 2 to 0.5 of the noise's power: 1.5 of 2; from the calibrated 1 to 0.5: a half.
   const Gain gain =
-      MeasureGain(View(), {{Error(2.0)}, {Error(1.0)}, {Error(0.5)}}, Noise(), Part::kFitted);
+      MeasureGain(TheRig(), {{Error(2.0)}, {Error(1.0)}, {Error(0.5)}}, Noise(), Part::kFitted);
   EXPECT_NEAR(gain.achieved.value, 0.75, 0.02);
   EXPECT_NEAR(gain.beyond_calibration.value, 0.5, 0.03);
-  ASSERT_EQ(gain.channel.size(), View().axes);
+  ASSERT_EQ(gain.channel.size(), TheRig().axes);
   for (const Share& channel : gain.channel) {
     EXPECT_NEAR(channel.value, 0.75, 0.03);
     EXPECT_LT(channel.low, channel.high);
@@ -49,26 +49,26 @@ TEST(GainTest, IsTheShareOfTheAchievablePower) {
 
 TEST(GainTest, TellsWhatThereWasToGainInPowersOfTheNoise) {
   const Gain gain =
-      MeasureGain(View(), {{Error(2.0)}, {Error(1.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
+      MeasureGain(TheRig(), {{Error(2.0)}, {Error(1.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
   EXPECT_NEAR(gain.to_gain.value, 2.0, 0.05);
   EXPECT_NEAR(gain.calibrated_over_noise, 2.0, 0.04);
   EXPECT_NEAR(gain.extended_over_noise, 1.0, 0.02);
   EXPECT_TRUE(SomethingToGain(gain));
   // A rig that its file describes: a share of nothing means nothing, whatever it comes to.
   EXPECT_FALSE(SomethingToGain(
-      MeasureGain(View(), {{Error(0.0)}, {Error(0.0)}, {Error(0.1)}}, Noise(), Part::kFitted)));
+      MeasureGain(TheRig(), {{Error(0.0)}, {Error(0.0)}, {Error(0.1)}}, Noise(), Part::kFitted)));
 }
 
 TEST(GainTest, IsNegativeWhenTheExtensionIsWorse) {
   const Gain gain =
-      MeasureGain(View(), {{Error(1.0)}, {Error(1.0)}, {Error(1.5)}}, Noise(), Part::kFitted);
+      MeasureGain(TheRig(), {{Error(1.0)}, {Error(1.0)}, {Error(1.5)}}, Noise(), Part::kFitted);
   EXPECT_NEAR(gain.achieved.value, -0.5, 0.03);
   EXPECT_LT(gain.achieved.high, 0.0);
 }
 
 TEST(GainTest, FitIsThatOfTheInnovationsAndTheCeilingThatOfTheNoise) {
   const Gain gain =
-      MeasureGain(View(), {{Error(3.0)}, {Error(3.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
+      MeasureGain(TheRig(), {{Error(3.0)}, {Error(3.0)}, {Error(0.0)}}, Noise(), Part::kFitted);
   const double spread = 20e-6 / std::sqrt(2.0);  // of what was measured, a sine
   EXPECT_NEAR(gain.nominal_percent, 100.0 * (1.0 - 2.0 * kNoise / spread), 0.2);
   EXPECT_NEAR(gain.ceiling_percent, 100.0 * (1.0 - kNoise / spread), 0.1);
@@ -79,7 +79,7 @@ TEST(GainTest, IsMeasuredOnThePartAskedForAlone) {
   const auto halves = [](double first, double second) {
     Trajectory run = Error(first);
     const Trajectory other = Error(second);
-    for (std::size_t n = kSamples / 2; n < kSamples; ++n) {
+    for (std::size_t n = kGainSamples / 2; n < kGainSamples; ++n) {
       run.moments[n] = other.moments[n];
       run.moments[n].counts = false;
       run.moments[n].held = true;
@@ -87,13 +87,13 @@ TEST(GainTest, IsMeasuredOnThePartAskedForAlone) {
     return run;
   };
   const ModelRuns runs{{halves(2.0, 2.0)}, {halves(2.0, 2.0)}, {halves(0.0, 1.0)}};
-  EXPECT_NEAR(MeasureGain(View(), runs, Noise(), Part::kFitted).achieved.value, 1.0, 0.03);
-  EXPECT_NEAR(MeasureGain(View(), runs, Noise(), Part::kKeptBack).achieved.value, 0.5, 0.03);
+  EXPECT_NEAR(MeasureGain(TheRig(), runs, Noise(), Part::kFitted).achieved.value, 1.0, 0.03);
+  EXPECT_NEAR(MeasureGain(TheRig(), runs, Noise(), Part::kKeptBack).achieved.value, 0.5, 0.03);
 }
 
 TEST(GainTest, OfNothingMeasuredIsNothing) {
   const ModelRuns runs{{Trajectory{}}, {Trajectory{}}, {Trajectory{}}};
-  const Gain gain = MeasureGain(View(), runs, Noise(), Part::kKeptBack);
+  const Gain gain = MeasureGain(TheRig(), runs, Noise(), Part::kKeptBack);
   EXPECT_EQ(gain.achieved.value, 0.0);
   EXPECT_EQ(gain.nominal_percent, 0.0);
 }

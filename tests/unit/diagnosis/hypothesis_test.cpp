@@ -22,7 +22,7 @@ class HypothesesTest : public ::testing::Test {
     throw std::runtime_error("no hypothesis " + effect + " at " + place);
   }
   std::vector<Term> terms_ = EveryTerm();
-  std::vector<Hypothesis> all_ = MakeHypotheses(View(), terms_);
+  std::vector<Hypothesis> all_ = MakeHypotheses(TheRig(), terms_);
 };
 
 TEST_F(HypothesesTest, EveryEffectWithATermIsConsideredAndNoOther) {

@@ -34,14 +34,14 @@ bool Has(const Record& record, std::uint64_t cycle) {
 
 TEST(FreeFlight, IsKeptWhole) {
   Record record = Flight();
-  LeaveOutContact(View(), record);
+  LeaveOutContact(TheRig(), record);
   EXPECT_EQ(record.rows.size(), kRows);
 }
 
 TEST(FreeFlight, IsNotWhereTheRotorLiesWithoutCurrent) {
   Record record = Flight();
   for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
-  LeaveOutContact(View(), record);
+  LeaveOutContact(TheRig(), record);
   EXPECT_FALSE(Has(record, 2999));
   EXPECT_FALSE(Has(record, 3000));  // the lift still swings: 50 ms
   EXPECT_TRUE(Has(record, 3600));
@@ -52,7 +52,7 @@ TEST(FreeFlight, IsNotBeyondHalfTheClearance) {
   // 190 um of clearance; 70 um in both axes are 99 um away from the centre.
   record.rows[10'000].sample.position_m = {0.0, 0.0, 70e-6, 70e-6};
   record.rows[15'000].sample.position_m = {0.0, 0.0, 60e-6, 60e-6};
-  LeaveOutContact(View(), record);
+  LeaveOutContact(TheRig(), record);
   EXPECT_FALSE(Has(record, 9'501));
   EXPECT_FALSE(Has(record, 10'499));
   EXPECT_TRUE(Has(record, 9'499));
@@ -63,7 +63,7 @@ TEST(FreeFlight, IsNotBeyondHalfTheClearance) {
 TEST(FreeFlight, IsNotEndedByASingleZeroCurrent) {
   Record record = Flight();
   record.rows[5000].sample.command.control_current_a = {};
-  LeaveOutContact(View(), record);
+  LeaveOutContact(TheRig(), record);
   EXPECT_EQ(record.rows.size(), kRows);
 }
 
@@ -73,7 +73,7 @@ TEST(FreeFlight, KnowsItsOwnMeanSpeed) {
     record.rows[n].sample.speed_rad_per_s = n < 10'000 ? 0.0 : 300.0;
     if (n < 10'000) record.rows[n].sample.command.control_current_a = {};
   }
-  LeaveOutContact(View(), record);
+  LeaveOutContact(TheRig(), record);
   EXPECT_DOUBLE_EQ(record.mean_speed_rad_per_s, 300.0);
 }
 

@@ -62,10 +62,10 @@ TEST(LocationTest, KeepsItsNumbersUnderAFurtherName) {
 TEST(LocationTest, OfATermIsFoundInItsRigByNumber) {
   for (const Term& term : EveryTerm()) {
     const Location& at = term.location;
-    EXPECT_LT(at.axis.value_or(0), View().axes) << at.name;
-    EXPECT_LT(at.bearing.value_or(0), View().axes / 2) << at.name;
+    EXPECT_LT(at.axis.value_or(0), TheRig().axes) << at.name;
+    EXPECT_LT(at.bearing.value_or(0), TheRig().axes / 2) << at.name;
     EXPECT_GE(at.mode.value_or(1), 1U) << at.name;
-    EXPECT_LT(at.mode.value_or(1) + 1, View().modes) << at.name;
+    EXPECT_LT(at.mode.value_or(1) + 1, TheRig().modes) << at.name;
     EXPECT_FALSE(at.gear.has_value()) << at.name << ": a rig with one rotor has no gears";
   }
 }

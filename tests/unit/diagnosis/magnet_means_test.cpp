@@ -22,19 +22,19 @@ using testing::HasSubstr;
 constexpr double kBiasA = 1.0;
 
 double TimeConstant(std::size_t axis) {
-  return 1.0 / (2.0 * std::numbers::pi * View().bearing(axis).amplifier.bandwidth_hz);
+  return 1.0 / (2.0 * std::numbers::pi * TheRig().bearing(axis).amplifier.bandwidth_hz);
 }
 
 /// A period in which the coil relaxes from `start_a` towards `command_a`, the rotor at rest.
 SamplePoint Relaxing(double start_a, double command_a, double q0) {
   SamplePoint m;
-  const double decay = std::exp(-View().period_s / TimeConstant(0));
-  for (std::size_t a = 0; a < View().axes; ++a) {
+  const double decay = std::exp(-TheRig().period_s / TimeConstant(0));
+  for (std::size_t a = 0; a < TheRig().axes; ++a) {
     m.coil_start_a[a] = static_cast<float>(start_a);
     m.command_now_a[a] = static_cast<float>(command_a);
     m.coil_end_a[a] = static_cast<float>(command_a + (start_a - command_a) * decay);
   }
-  m.q[0] = m.q[View().modes] = static_cast<float>(q0);
+  m.q[0] = m.q[TheRig().modes] = static_cast<float>(q0);
   return m;
 }
 
@@ -43,7 +43,7 @@ double Mean(double start_a, double command_a, const std::function<double(double)
   constexpr int kSteps = 200;
   double sum = 0.0;
   for (int n = 0; n <= kSteps; ++n) {
-    const double t = View().period_s * n / kSteps;
+    const double t = TheRig().period_s * n / kSteps;
     const double weight = n == 0 || n == kSteps ? 1.0 : (n % 2 == 1 ? 4.0 : 2.0);
     sum += weight * of(command_a + (start_a - command_a) * std::exp(-t / TimeConstant(0)));
   }
@@ -59,10 +59,10 @@ class MagnetMeansTest : public testing::TestWithParam<Swing> {};
 TEST_P(MagnetMeansTest, ForceIsThatOfTheMovingCurrentAndNotOfItsMean) {
   const auto [start_a, command_a, q0] = GetParam();
   SamplePoint m = Relaxing(start_a, command_a, q0);
-  MagnetMeans means(View());
+  MagnetMeans means(TheRig());
   means.Fill(kBiasA, {}, m);
-  const magnet::Magnet& magnet = View().magnet(0).magnet;
-  const double x_m = q0 * View().magnet(0).actuator_shape[0];
+  const magnet::Magnet& magnet = TheRig().magnet(0).magnet;
+  const double x_m = q0 * TheRig().magnet(0).actuator_shape[0];
   EXPECT_NEAR(static_cast<double>(m.actuator_m[0]), x_m, 1e-12);  // single precision of 1e-5 m
   const double mean_a = Mean(start_a, command_a, [](double i) { return i; });
   EXPECT_NEAR(static_cast<double>(m.coil_mean_a[0]), mean_a, 1e-6);
@@ -76,10 +76,10 @@ TEST_P(MagnetMeansTest, ForceIsThatOfTheMovingCurrentAndNotOfItsMean) {
 TEST_P(MagnetMeansTest, SlopesAreThoseOfTheMagnetInThatState) {
   const auto [start_a, command_a, q0] = GetParam();
   SamplePoint m = Relaxing(start_a, command_a, q0);
-  MagnetMeans means(View());
+  MagnetMeans means(TheRig());
   means.Fill(kBiasA, {}, m);
-  const magnet::Magnet& magnet = View().magnet(0).magnet;
-  const double x_m = q0 * View().magnet(0).actuator_shape[0];
+  const magnet::Magnet& magnet = TheRig().magnet(0).magnet;
+  const double x_m = q0 * TheRig().magnet(0).actuator_shape[0];
   const double s = magnet.gap_m;
   const double k = magnet.force_constant_n_m2_per_a2;
   // F = k [((i0+i)/(s-x))^2 - ((i0-i)/(s+x))^2] by hand.
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Swings, MagnetMeansTest,
                                          Swing{0.4, -0.4, 2e-5}, Swing{0.0, 0.6, -3e-5}));
 
 TEST(MagnetMeans, OfAnAddedCurrentIsTheForceWithItMinusThatWithout) {
-  MagnetMeans means(View());
+  MagnetMeans means(TheRig());
   SamplePoint plain = Relaxing(0.3, 0.1, 1e-5);
   means.Fill(kBiasA, {}, plain);
   EXPECT_EQ(means.OfAddedCurrent(1), 0.0);

@@ -16,7 +16,7 @@ constexpr const char* kChannel = "nde_x";
 
 /// The law of two opposed coils, written out: k ((i0 + i)/(s - x))^2 - k ((i0 - i)/(s + x))^2.
 double Law(double plus_a, double minus_a, double x) {
-  const auto& magnet = View().magnet(kAxis).magnet;
+  const auto& magnet = TheRig().magnet(kAxis).magnet;
   return magnet.force_constant_n_m2_per_a2 *
          (std::pow(plus_a / (magnet.gap_m - x), 2) - std::pow(minus_a / (magnet.gap_m + x), 2));
 }
@@ -33,7 +33,7 @@ class MagnetTermsTest : public ::testing::Test {
   Random random_{4};
   SamplePoint moment_ = Drawn(random_, 100.0);
   std::vector<Term> terms_ = EveryTerm();
-  double bias_a_ = View().bias_a(kAxis);
+  double bias_a_ = TheRig().bias_a(kAxis);
 };
 
 // Single precision of what the model did leaves 1e-6 of the force of one coil.
@@ -65,7 +65,7 @@ TEST_F(MagnetTermsTest, CommandOffsetIsTheForceOfAFurtherCurrent) {
 TEST_F(MagnetTermsTest, MagneticCouplingMakesForceAcrossTheCurrentWithOneSign) {
   Term term = Named(terms_, "magnetic_coupling", "nde");
   const auto added = Added(term, moment_, 0.1);
-  const double ki = magnet::ForcePerCurrent(View().magnet(kAxis).magnet, bias_a_);
+  const double ki = magnet::ForcePerCurrent(TheRig().magnet(kAxis).magnet, bias_a_);
   const auto coil = [&](std::size_t axis) {
     return static_cast<double>(moment_.coil_mean_a[axis]);
   };
@@ -95,7 +95,7 @@ TEST_F(MagnetTermsTest, OfOneAxisLeaveTheOthersAlone) {
                              "displacement_stiffness", "coil_asymmetry", "eddy_current"}) {
     Term term = Named(terms_, effect, kChannel);
     const Contribution add = Added(term, moment_, term.scale());
-    for (std::size_t a = 0; a < View().axes; ++a) {
+    for (std::size_t a = 0; a < TheRig().axes; ++a) {
       if (a != kAxis) {
         EXPECT_EQ(add.force_n[a], 0.0) << effect;
       }
@@ -105,7 +105,7 @@ TEST_F(MagnetTermsTest, OfOneAxisLeaveTheOthersAlone) {
 
 TEST_F(MagnetTermsTest, EddyCurrentLagsCurrentAndDisplacementAsOne) {
   // A displacement x and the current (ks/ki) x that makes its force are the same to the lag.
-  const auto& magnet = View().magnet(kAxis).magnet;
+  const auto& magnet = TheRig().magnet(kAxis).magnet;
   const double a_per_m = bias_a_ / magnet.gap_m;  // ks/ki of the law of the gap squared
   Term of_current = Named(terms_, "eddy_current", kChannel);
   Term of_displacement = Named(terms_, "eddy_current", kChannel);
@@ -196,10 +196,10 @@ TEST_F(MagnetTermsTest, HysteresisOfAFullLoopTakesEnergy) {
 /// Gain of the lagged current over the current at a frequency, from the term's own steps.
 std::complex<double> EddyResponse(double tau_s, double hz) {
   Term term = Named(EveryTerm(), "eddy_current", kChannel);
-  const double period = View().period_s;
+  const double period = TheRig().period_s;
   const double w = 2.0 * std::numbers::pi * hz;
   SamplePoint m = Rest();
-  const double bias = View().bias_a(kAxis);
+  const double bias = TheRig().bias_a(kAxis);
   const double per_a = (Law(bias + 0.1, bias - 0.1, 0.0) - Law(bias, bias, 0.0)) / 0.1;
   std::complex<double> in = 0.0;
   std::complex<double> out = 0.0;

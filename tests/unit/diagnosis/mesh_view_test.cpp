@@ -143,8 +143,8 @@ INSTANTIATE_TEST_SUITE_P(Directions, MeshTest,
                          });
 
 TEST(MeshViews, OfOneRotorAreNoneAndItHasNoCoupling) {
-  EXPECT_TRUE(View().meshes.empty());
-  EXPECT_EQ(CouplingOf(View(), {}).stiffness.size(), 0);
+  EXPECT_TRUE(TheRig().meshes.empty());
+  EXPECT_EQ(CouplingOf(TheRig(), {}).stiffness.size(), 0);
 }
 
 /// A record whose angles are wrapped into one turn; `missing` cycles are left out after row 50.

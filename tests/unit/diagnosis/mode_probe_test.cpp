@@ -13,16 +13,16 @@ class ModeProbeTest : public ::testing::Test {
  protected:
   [[nodiscard]] std::vector<ModeProbe> Probes(double amplitude_m, double ratio,
                                               double speed_rad_per_s = 0.0) const {
-    const double hz = ratio * View().omega_rad_per_s[3] / (2.0 * std::numbers::pi);
+    const double hz = ratio * TheRig().omega_rad_per_s[3] / (2.0 * std::numbers::pi);
     const auto ringing = [&](std::size_t, SamplePoint& m) {
       m.speed_rad_per_s = static_cast<float>(speed_rad_per_s);
       m.innovation_m[1] += static_cast<float>(Sine(amplitude_m, hz, m.time_s));
     };
-    return ProbeModes(View(), terms_, hypotheses_, {NoiseRun(3, 20'000, ringing)});
+    return ProbeModes(TheRig(), terms_, hypotheses_, {NoiseRun(3, 20'000, ringing)});
   }
 
   std::vector<Term> terms_ = EveryTerm();
-  std::vector<Hypothesis> hypotheses_ = MakeHypotheses(View(), terms_);
+  std::vector<Hypothesis> hypotheses_ = MakeHypotheses(TheRig(), terms_);
 };
 
 TEST_F(ModeProbeTest, BeginsAtTheLineBesideTheModesFrequency) {
@@ -43,10 +43,10 @@ TEST_F(ModeProbeTest, LooksAtRecordsAtRestWhenThereAreAny) {
   const auto turning = [](std::size_t, SamplePoint& m) {
     m.speed_rad_per_s = 300.0F;
     m.innovation_m[1] += static_cast<float>(
-        Sine(1e-6, 1.1 * View().omega_rad_per_s[3] / (2.0 * std::numbers::pi), m.time_s));
+        Sine(1e-6, 1.1 * TheRig().omega_rad_per_s[3] / (2.0 * std::numbers::pi), m.time_s));
   };
   const std::vector<Trajectory> runs{NoiseRun(3, 20'000), NoiseRun(4, 20'000, turning)};
-  EXPECT_TRUE(ProbeModes(View(), terms_, hypotheses_, runs).empty());
+  EXPECT_TRUE(ProbeModes(TheRig(), terms_, hypotheses_, runs).empty());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ inline const config::RigFile& FlexibleRotor() {
   return kRig;
 }
 
-inline const RigView& View() {
+inline const RigView& TheRig() {
   static const RigView kView(FlexibleRotor().numbers, FlexibleRotor().plant);
   return kView;
 }
@@ -32,12 +32,12 @@ inline SamplePoint Drawn(Random& random, double speed_rad_per_s) {
   };
   SamplePoint m;
   m.time_s = 10.0 * random.Uniform();
-  m.Turn(6.28 * random.Uniform(), speed_rad_per_s, View().period_s);
+  m.Turn(6.28 * random.Uniform(), speed_rad_per_s, TheRig().period_s);
   for (std::size_t i = 0; i < 2 * kMaxModes; ++i) {
     m.q[i] = m.read_q[i] = draw(20e-6);
     m.v[i] = m.read_v[i] = draw(5e-3);
   }
-  for (std::size_t a = 0; a < View().axes; ++a) {
+  for (std::size_t a = 0; a < TheRig().axes; ++a) {
     m.coil_start_a[a] = draw(0.5);
     m.coil_end_a[a] = m.coil_start_a[a] + draw(0.1);
     m.coil_mean_a[a] = 0.5F * (m.coil_start_a[a] + m.coil_end_a[a]);
@@ -46,10 +46,10 @@ inline SamplePoint Drawn(Random& random, double speed_rad_per_s) {
     m.command_next_a[a] = draw(0.5);
     m.actuator_m[a] = draw(40e-6);
     m.reading_m[a] = m.measured_m[a] = draw(40e-6);
-    const magnet::Magnet& magnet = View().magnet(a).magnet;
+    const magnet::Magnet& magnet = TheRig().magnet(a).magnet;
     const double mid_a = static_cast<double>(m.coil_mean_a[a]);
     const auto force = [&](double i, double x) {
-      return magnet::Force(magnet, View().bias_a(a), i, x);
+      return magnet::Force(magnet, TheRig().bias_a(a), i, x);
     };
     const double x = static_cast<double>(m.actuator_m[a]);
     m.force_n[a] = static_cast<float>(force(mid_a, x));
@@ -59,7 +59,7 @@ inline SamplePoint Drawn(Random& random, double speed_rad_per_s) {
   return m;
 }
 
-inline std::vector<Term> EveryTerm() { return AllTerms(View(), Tolerances{}, 50e-6); }
+inline std::vector<Term> EveryTerm() { return AllTerms(TheRig(), Tolerances{}, 50e-6); }
 
 /// A copy, so that memory starts anew.
 inline Term Named(const std::vector<Term>& terms, const std::string& effect,

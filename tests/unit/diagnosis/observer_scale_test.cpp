@@ -16,7 +16,7 @@ class ObserverScaleTest : public ::testing::Test {
  protected:
   ObserverScaleTest() {
     auto gain = std::make_shared<const analysis::ObserverGain>(
-        analysis::DesignObserver(View().model->config(), {}));
+        analysis::DesignObserver(TheRig().model->config(), {}));
     pair_ = {gain, gain};
   }
 
@@ -27,7 +27,7 @@ class ObserverScaleTest : public ::testing::Test {
   }
 
   [[nodiscard]] analysis::ObserverGain Gain() const {
-    return *Divided(pair_, ObserverScale::Of(View(), terms_, theta_), View()).steady;
+    return *Divided(pair_, ObserverScale::Of(TheRig(), terms_, theta_), TheRig()).steady;
   }
 
   /// Noise alone on a rig at rest; [sample][axis], in multiples of the sensors' scale.
@@ -45,7 +45,7 @@ class ObserverScaleTest : public ::testing::Test {
       }
     }
     std::vector<AxisArray> innovations;
-    for (const SamplePoint& m : RunModel(View(), record, pair_, terms_, theta_, 0.0).moments) {
+    for (const SamplePoint& m : RunModel(TheRig(), record, pair_, terms_, theta_, 0.0).moments) {
       AxisArray& innovation = innovations.emplace_back();
       for (std::size_t a = 0; a < 4; ++a) {
         innovation[a] = static_cast<double>(m.innovation_m[a]) / scale;
@@ -67,7 +67,7 @@ TEST_F(ObserverScaleTest, LeavesTheGainOfTheRigFileAlone) {
 // Were the correction not divided, smaller readings would make a slower observer.
 TEST_F(ObserverScaleTest, SensorsOfAnotherScaleThatShowTheSameRotorHaveTheSameInnovations) {
   const auto plain = Noisy(1.0);
-  for (const std::string& channel : View().numbers.channels) {
+  for (const std::string& channel : TheRig().numbers.channels) {
     Set("sensor_gain", channel, kScale - 1.0);
   }
   const auto scaled = Noisy(kScale);
@@ -84,13 +84,13 @@ TEST_F(ObserverScaleTest, AModeThatIsReadLargerIsFedBackAsBefore) {
   const analysis::ObserverGain gain = Gain();
   const LinearChange change = ChangeOf(terms_, theta_);
   constexpr std::size_t kMode = 2;  // behind the two rigid ones
-  const plant::StateLayout& at = View().model->layout();
+  const plant::StateLayout& at = TheRig().model->layout();
   for (const std::size_t first : {at.q_x, at.v_x}) {
     const auto row = static_cast<Eigen::Index>(first + kMode);
     double before = 0.0;
     double now = 0.0;
-    for (std::size_t a = 0; a < View().axes; a += 2) {
-      const double h = View().magnet(a).sensor_shape[kMode];
+    for (std::size_t a = 0; a < TheRig().axes; a += 2) {
+      const double h = TheRig().magnet(a).sensor_shape[kMode];
       const double dh = change.axis[a].sensor_q[kMode];
       ASSERT_NE(dh, 0.0);
       before += pair_.steady->state(row, static_cast<Eigen::Index>(a)) * h;

@@ -32,6 +32,12 @@ TEST(RankingTest, TiesAreAllWithinTheDecisiveMargin) {
   EXPECT_EQ(Ties(candidates, {Named("unbalance")}, 5.0), std::vector<std::string>{"shaft_bow"});
 }
 
+TEST(RankingTest, ACauseThatIsNotNamedForItsEvidenceHasNoTies) {
+  const std::vector<Candidate> candidates{{"shaft_bow", "", 4.0, 1, true},
+                                          {"current_gain", "", 1.9, 0, true}};
+  EXPECT_TRUE(Ties(candidates, {Named("current_gain")}, 5.0).empty());
+}
+
 TEST(RankingTest, ACauseOfItsOwnIsNoTie) {
   const std::vector<Candidate> candidates{{"unbalance", "", 20.0, 0, true},
                                           {"shaft_bow", "", 16.0, 1, true}};
@@ -40,7 +46,7 @@ TEST(RankingTest, ACauseOfItsOwnIsNoTie) {
 
 TEST(RankingTest, AModelThatIsWorseOnWhatWasKeptBackLoses) {
   const auto before = KeptBack(1.0);
-  const Whitener whitener = MakeWhitener(before, View().axes, 0);
+  const Whitener whitener = MakeWhitener(before, TheRig().axes, 0);
   // 2000 samples of four axes: half of 21 % more power of each.
   EXPECT_NEAR(HeldGain(before, KeptBack(1.1), whitener), -0.5 * 0.21 * 8000.0, 40.0);
   EXPECT_NEAR(HeldGain(KeptBack(1.1), before, whitener), 0.5 * 0.21 * 8000.0, 40.0);
@@ -48,7 +54,7 @@ TEST(RankingTest, AModelThatIsWorseOnWhatWasKeptBackLoses) {
 
 TEST(RankingTest, WithoutSamplesKeptBackNothingIsGainedOrLost) {
   const std::vector<Trajectory> runs{NoiseRun(8, 2000)};
-  const Whitener whitener = MakeWhitener(runs, View().axes, 0);
+  const Whitener whitener = MakeWhitener(runs, TheRig().axes, 0);
   EXPECT_EQ(HeldGain(runs, {NoiseRun(9, 2000)}, whitener), 0.0);
 }
 

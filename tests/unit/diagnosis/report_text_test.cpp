@@ -305,6 +305,14 @@ TEST(VerdictTest, OfACauseSaysItsSizeWithItsIntervalAndWhatItsEvidenceIs) {
               HasSubstr("moment_g_mm 14.14 g mm"));
 }
 
+TEST(VerdictTest, OfACauseThatCalibrationCouldAbsorbSaysWhyItIsNamed) {
+  DiagnosisResult s = Found("eddy_current", "de_x");
+  s.answer.candidates.front().score = 2.0;
+  EXPECT_THAT(BuildReport(s).verdict_sentence,
+              AllOf(HasSubstr("further from the rig file than its tolerances allow"),
+                    HasSubstr("leaves 2 nat for it"), Not(HasSubstr("odds"))));
+}
+
 TEST(VerdictTest, OfNothingSaysWhetherTheFileAsItStandsExplainsTheData) {
   DiagnosisResult s = NothingFound();
   EXPECT_THAT(BuildReport(s).verdict_sentence, HasSubstr("as it stands"));

@@ -17,8 +17,8 @@ void AddTo(SamplePoint& m, std::size_t axis, double value) {
 
 TEST(RemainderTest, NoiseIsKnownByItsLevelAndStandsNowhereOut) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
-    const Residual r = AnalyseResidual(View(), {NoiseRun(seed, kSamples)});
-    ASSERT_EQ(r.channels.size(), View().axes);
+    const Residual r = AnalyseResidual(TheRig(), {NoiseRun(seed, kSamples)});
+    ASSERT_EQ(r.channels.size(), TheRig().axes);
     for (const ChannelRemainder& channel : r.channels) {
       EXPECT_NEAR(channel.noise_rms_m, kNoise, 0.03 * kNoise);
     }
@@ -31,7 +31,7 @@ TEST(RemainderTest, NoiseIsKnownByItsLevelAndStandsNowhereOut) {
 
 TEST(RemainderTest, ALineIsFoundOnItsChannelAtItsFrequency) {
   const Residual r =
-      AnalyseResidual(View(), {NoiseRun(5, kSamples, [](std::size_t, SamplePoint& m) {
+      AnalyseResidual(TheRig(), {NoiseRun(5, kSamples, [](std::size_t, SamplePoint& m) {
                         AddTo(m, 2, Sine(0.7e-6, 237.0, m.time_s));
                       })});
   EXPECT_EQ(r.worst_channel, 2U);
@@ -42,7 +42,7 @@ TEST(RemainderTest, ALineIsFoundOnItsChannelAtItsFrequency) {
 
 TEST(RemainderTest, ALineAtMainsFrequencyIsCalledMains) {
   const Residual r =
-      AnalyseResidual(View(), {NoiseRun(6, kSamples, [](std::size_t, SamplePoint& m) {
+      AnalyseResidual(TheRig(), {NoiseRun(6, kSamples, [](std::size_t, SamplePoint& m) {
                         AddTo(m, 0, Sine(1e-6, 50.0, m.time_s));
                       })});
   EXPECT_EQ(r.worst_channel, 0U);
@@ -52,7 +52,7 @@ TEST(RemainderTest, ALineAtMainsFrequencyIsCalledMains) {
 TEST(RemainderTest, ALineThatTurnsWithTheShaftIsCalledByItsOrder) {
   for (const int order : {1, 2, 3}) {
     const Residual r =
-        AnalyseResidual(View(), {NoiseRun(7, kSamples, [order](std::size_t, SamplePoint& m) {
+        AnalyseResidual(TheRig(), {NoiseRun(7, kSamples, [order](std::size_t, SamplePoint& m) {
                           m.speed_rad_per_s = 150.0F;
                           m.angle_rad = 150.0 * m.time_s;
                           AddTo(m, 1, 0.6e-6 * std::cos(order * m.angle_rad + 1.0));
@@ -68,7 +68,7 @@ TEST(RemainderTest, WhatFollowsTheCurrentIsToldFromWhatFollowsThePosition) {
     Random random(9);
     double slow = 0.0;
     const Residual r =
-        AnalyseResidual(View(), {NoiseRun(8, kSamples, [&](std::size_t, SamplePoint& m) {
+        AnalyseResidual(TheRig(), {NoiseRun(8, kSamples, [&](std::size_t, SamplePoint& m) {
                           slow += 0.05 * (random.Normal() - slow);  // below 80 Hz
                           if (current) m.command_now_a[3] += static_cast<float>(slow);
                           if (!current) m.reading_m[3] += static_cast<float>(5e-5 * slow);
@@ -81,7 +81,7 @@ TEST(RemainderTest, WhatFollowsTheCurrentIsToldFromWhatFollowsThePosition) {
 
 TEST(RemainderTest, SamplesThatDoNotCountAreNotLookedAt) {
   const Residual r =
-      AnalyseResidual(View(), {NoiseRun(10, kSamples, [](std::size_t n, SamplePoint& m) {
+      AnalyseResidual(TheRig(), {NoiseRun(10, kSamples, [](std::size_t n, SamplePoint& m) {
                         if (n >= 20'000) return;
                         m.settled = m.counts = false;
                         AddTo(m, 0, Sine(50e-6, 300.0, m.time_s));
@@ -90,7 +90,7 @@ TEST(RemainderTest, SamplesThatDoNotCountAreNotLookedAt) {
 }
 
 TEST(RemainderTest, OfRecordsTooShortForASpectrumIsEmpty) {
-  const Residual r = AnalyseResidual(View(), {NoiseRun(11, 1000)});
+  const Residual r = AnalyseResidual(TheRig(), {NoiseRun(11, 1000)});
   EXPECT_EQ(r.sigma, 0.0);
   EXPECT_EQ(r.coherent_with, "nothing");
 }

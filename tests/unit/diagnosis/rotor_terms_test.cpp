@@ -16,18 +16,18 @@ constexpr double kSpeedRadPerS = 200.0;  // [rad/s]
 
 /// Modal acceleration of a mode as one complex number, x + j y.
 std::complex<double> Modal(const Contribution& add, std::size_t mode) {
-  return {add.modal[mode], add.modal[View().modes + mode]};
+  return {add.modal[mode], add.modal[TheRig().modes + mode]};
 }
 
 SamplePoint Turning(double angle_rad) {
   SamplePoint m;
-  m.Turn(angle_rad, kSpeedRadPerS, View().period_s);
+  m.Turn(angle_rad, kSpeedRadPerS, TheRig().period_s);
   return m;
 }
 
-double SensorHz() { return View().bearing(1).sensor.bandwidth_hz; }
+double SensorHz() { return TheRig().bearing(1).sensor.bandwidth_hz; }
 double MidAngle(const SamplePoint& m) {
-  return m.angle_rad + 0.5 * View().period_s * kSpeedRadPerS;
+  return m.angle_rad + 0.5 * TheRig().period_s * kSpeedRadPerS;
 }
 
 class RotorTermsTest : public ::testing::Test {
@@ -39,11 +39,11 @@ class RotorTermsTest : public ::testing::Test {
     return Added(term, moment, theta);
   }
   std::vector<Term> terms_ = EveryTerm();
-  std::size_t modes_ = View().modes;
+  std::size_t modes_ = TheRig().modes;
 };
 
 TEST_F(RotorTermsTest, UnbalanceTurnsWithTheShaftAndGrowsWithTheSquareOfSpeed) {
-  const auto shape = View().Shape(0.2992);
+  const auto shape = TheRig().Shape(0.2992);
   for (const double angle : {0.0, 1.0, 4.0}) {
     const SamplePoint m = Turning(angle);
     const Contribution add = Of("unbalance", "z 299.2 mm", "cosine", m, 3e-5);
@@ -66,8 +66,8 @@ TEST_F(RotorTermsTest, TheSinePartIsAQuarterTurnAhead) {
 }
 
 TEST_F(RotorTermsTest, ABowPullsWithTheStiffnessOfItsModeAtAnySpeed) {
-  const double w2 = std::pow(View().omega_rad_per_s[2], 2);
-  const auto& shapes = View().model->parameters().modes.shapes;
+  const double w2 = std::pow(TheRig().omega_rad_per_s[2], 2);
+  const auto& shapes = TheRig().model->parameters().modes.shapes;
   const double largest = shapes.col(2).cwiseAbs().maxCoeff();
   SamplePoint slow = Turning(0.3);
   const auto fast_pull = Modal(Of("shaft_bow", "mode 1", "cosine", slow, 10e-6), 2);
@@ -82,7 +82,7 @@ TEST_F(RotorTermsTest, MisalignmentOfANegativeOrderTurnsBackward) {
   for (const int order : {2, -2, 3, -3}) {
     const std::string place = "order " + std::to_string(order);
     const SamplePoint m = Turning(0.4);
-    const auto shape = View().Shape(0.0);
+    const auto shape = TheRig().Shape(0.0);
     const auto pull = Modal(Of("misalignment", place, "cosine", m, 0.8), 0);
     EXPECT_LT(std::abs(pull - std::polar(0.8 * shape[0], order * MidAngle(m))), 1e-9) << place;
   }
@@ -90,7 +90,7 @@ TEST_F(RotorTermsTest, MisalignmentOfANegativeOrderTurnsBackward) {
 
 TEST_F(RotorTermsTest, RunoutIsThereAtRestAsWell) {
   SamplePoint still;
-  still.Turn(0.9, 0.0, View().period_s);
+  still.Turn(0.9, 0.0, TheRig().period_s);
   EXPECT_NEAR(Of("sensor_runout", "order 1, nde_x", "cosine", still, 4e-6).reading_m[2],
               4e-6 * std::cos(0.9), 1e-12);
   EXPECT_EQ(Of("unbalance", "z 299.2 mm", "cosine", still, 4e-6).modal[0], 0.0);
@@ -113,7 +113,7 @@ TEST_F(RotorTermsTest, AModeOfAnotherFrequencyHasAnotherStiffness) {
   SamplePoint m = Rest();
   m.q[3] = 2e-5F;
   m.q[modes_ + 3] = -1e-5F;
-  const double w = View().omega_rad_per_s[3];
+  const double w = TheRig().omega_rad_per_s[3];
   const auto pull = Modal(Of("modal_frequency", "mode 2", "ratio", m, 0.01), 3);
   const double missing = std::pow(1.01 * w, 2) - w * w;
   EXPECT_NEAR(pull.real(), -missing * static_cast<double>(m.q[3]), 1e-9 * missing);
@@ -123,8 +123,8 @@ TEST_F(RotorTermsTest, AModeOfAnotherFrequencyHasAnotherStiffness) {
 TEST_F(RotorTermsTest, AModeOfMoreDampingLosesMoreEnergy) {
   SamplePoint m = Rest();
   m.v[2] = 3e-3F;
-  const double w = View().omega_rad_per_s[2];
-  const double z = View().damping_ratio[2];
+  const double w = TheRig().omega_rad_per_s[2];
+  const double z = TheRig().damping_ratio[2];
   const auto pull = Modal(Of("modal_damping", "mode 1", "ratio", m, 0.5), 2);
   EXPECT_NEAR(pull.real(), -2.0 * (0.5 * z) * w * 3e-3, 1e-6 * w * 3e-3);
   EXPECT_LT(pull.real() * static_cast<double>(m.v[2]), 0.0);
@@ -132,10 +132,10 @@ TEST_F(RotorTermsTest, AModeOfMoreDampingLosesMoreEnergy) {
 
 TEST_F(RotorTermsTest, AHeavierRotorYieldsLessToTheSameForceAsARigidBody) {
   SamplePoint m = Rest();
-  for (std::size_t a = 0; a < View().axes; ++a) m.force_n[a] = 10.0F;
+  for (std::size_t a = 0; a < TheRig().axes; ++a) m.force_n[a] = 10.0F;
   const Contribution add = Of("rotor_mass", "rotor", "ratio", m, 0.1);
   double rigid = 0.0;
-  for (std::size_t b = 0; b < 2; ++b) rigid += View().magnet(2 * b).actuator_shape[0] * 10.0;
+  for (std::size_t b = 0; b < 2; ++b) rigid += TheRig().magnet(2 * b).actuator_shape[0] * 10.0;
   // a = F/m, so m -> 1.1 m takes 1 - 1/1.1 of it.
   EXPECT_NEAR(Modal(add, 0).real(), -(1.0 - 1.0 / 1.1) * rigid, 1e-6 * std::abs(rigid));
   for (std::size_t i = 2; i < modes_; ++i) EXPECT_EQ(Modal(add, i), std::complex<double>(0.0));
@@ -161,7 +161,7 @@ double PowerInForwardWhirl(Term term, double whirl_rad_per_s) {
   for (int n = 0; n < 24; ++n) {
     SamplePoint m = Turning(0.0);
     const double phase = 2.0 * std::numbers::pi * n / 24.0;
-    const std::size_t modes = View().modes;
+    const std::size_t modes = TheRig().modes;
     m.q[2] = static_cast<float>(1e-5 * std::cos(phase));
     m.q[modes + 2] = static_cast<float>(1e-5 * std::sin(phase));
     m.v[2] = static_cast<float>(-1e-5 * whirl_rad_per_s * std::sin(phase));
@@ -199,7 +199,7 @@ TEST_F(RotorTermsTest, AnisotropyIsSoftInTheDirectionThatTurnsWithTheShaft) {
     const auto along = std::polar(1e-5, MidAngle(m));
     m.q[2] = static_cast<float>(along.real());
     m.q[modes_ + 2] = static_cast<float>(along.imag());
-    const double w2 = std::pow(View().omega_rad_per_s[2], 2);
+    const double w2 = std::pow(TheRig().omega_rad_per_s[2], 2);
     const auto pull = Modal(Of("shaft_anisotropy", "rotor", "cosine", m, 0.1), 2);
     EXPECT_LT(std::abs(pull + 0.1 * w2 * along), 1e-5 * w2 * std::abs(along));
   }
@@ -207,18 +207,18 @@ TEST_F(RotorTermsTest, AnisotropyIsSoftInTheDirectionThatTurnsWithTheShaft) {
 
 TEST_F(RotorTermsTest, ACrackIsOpenBelowClosedAboveAndSoftensAcrossItselfAlone) {
   constexpr double kDirection = 0.5 * std::numbers::pi;  // of the crack at angle zero
-  const std::complex<double> down{View().model->gravity_direction_x(),
-                                  View().model->gravity_direction_y()};
+  const std::complex<double> down{TheRig().model->gravity_direction_x(),
+                                  TheRig().model->gravity_direction_y()};
   // The angle at the sample for which the crack points somewhere in the middle of the period.
   const auto pointing = [&](double direction_rad, std::complex<double> sag) {
-    SamplePoint m = Turning(direction_rad - kDirection - 0.5 * View().period_s * kSpeedRadPerS);
+    SamplePoint m = Turning(direction_rad - kDirection - 0.5 * TheRig().period_s * kSpeedRadPerS);
     m.q[2] = static_cast<float>(sag.real());
     m.q[modes_ + 2] = static_cast<float>(sag.imag());
     return Modal(Of("breathing_crack", "z 228.6 mm, direction 90.0 deg", "softening", m, 0.05), 2);
   };
   const double below = std::arg(down);
   const std::complex<double> sag = 1e-5 * down;
-  const double w2 = std::pow(View().omega_rad_per_s[2], 2);
+  const double w2 = std::pow(TheRig().omega_rad_per_s[2], 2);
   // Open: a twentieth of the stiffness is gone along the sag, none across it.
   EXPECT_LT(std::abs(pointing(below, sag) - 0.05 * w2 * sag), 1e-5 * w2 * std::abs(sag));
   const std::complex<double> quarter{0.0, 1.0};
@@ -262,7 +262,7 @@ TEST_F(RotorTermsTest, ASupportResonatesAtItsFrequency) {
   double largest = 0.0;
   for (int n = 0; n < 40'000; ++n) {
     SamplePoint m = Rest();
-    m.force_n[2] = static_cast<float>(std::cos(w * n * View().period_s));
+    m.force_n[2] = static_cast<float>(std::cos(w * n * TheRig().period_s));
     const double moved = -Added(term, m, 1.0).reading_m[2];
     if (n > 30'000) largest = std::max(largest, std::abs(moved));
   }
@@ -286,9 +286,9 @@ TEST_F(RotorTermsTest, ARubsDampingOpposesTheRadialVelocityAlone) {
   SamplePoint m = Turning(0.0);
   m.actuator_m[0] = 45e-6F;
   m.actuator_m[1] = 0.0F;
-  const auto& shape = View().magnet(0).actuator_shape;
-  m.v[0] = static_cast<float>(2e-3 / shape[0]);             // outwards at 2 mm/s
-  m.v[View().modes] = static_cast<float>(5e-3 / shape[0]);  // and along the ring
+  const auto& shape = TheRig().magnet(0).actuator_shape;
+  m.v[0] = static_cast<float>(2e-3 / shape[0]);               // outwards at 2 mm/s
+  m.v[TheRig().modes] = static_cast<float>(5e-3 / shape[0]);  // and along the ring
   const Contribution add =
       Of("touchdown_rub", "de, clearance 40.00 um, friction 0.100", "damping_n_s_per_m", m, 100.0);
   EXPECT_NEAR(add.force_n[0], -0.2, 1e-6);

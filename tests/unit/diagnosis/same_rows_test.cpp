@@ -28,7 +28,7 @@ Record Noisy(const std::string& name, std::uint64_t seed, std::size_t rows) {
 }
 
 /// What the refusal says; empty when there is none.
-std::string Refusal(const Record& data, const Record& other) {
+std::string RowsRefusal(const Record& data, const Record& other) {
   try {
     RefuseSameRows({data}, {other}, "--holdout", "give another");
   } catch (const BadInput& refused) {
@@ -42,8 +42,8 @@ TEST(SameRows, AreFoundInAPieceThatWasCutOut) {
   Record piece = whole;
   piece.name = "piece.csv";
   piece.rows.erase(piece.rows.begin(), piece.rows.begin() + 1003);
-  EXPECT_THAT(Refusal(whole, piece), AllOf(HasSubstr("--holdout piece.csv"), HasSubstr("100 %"),
-                                           HasSubstr("whole.csv"), HasSubstr("give another")));
+  EXPECT_THAT(RowsRefusal(whole, piece), AllOf(HasSubstr("--holdout piece.csv"), HasSubstr("100 %"),
+                                               HasSubstr("whole.csv"), HasSubstr("give another")));
 }
 
 TEST(SameRows, AreFoundThoughTheLastDigitsDiffer) {
@@ -53,17 +53,17 @@ TEST(SameRows, AreFoundThoughTheLastDigitsDiffer) {
     // Less than half a unit of the last place in single precision, nearly always.
     for (double& value : row.sample.position_m) value *= 1.0 + 1e-12;
   }
-  EXPECT_THAT(Refusal(whole, rounded), HasSubstr("of its rows"));
+  EXPECT_THAT(RowsRefusal(whole, rounded), HasSubstr("of its rows"));
 }
 
 TEST(SameRows, AreNotSeenInAnotherRecordNorWhereNothingMoves) {
-  EXPECT_EQ(Refusal(Noisy("a", 1, 4000), Noisy("b", 2, 4000)), "");
+  EXPECT_EQ(RowsRefusal(Noisy("a", 1, 4000), Noisy("b", 2, 4000)), "");
   Record still = Noisy("still", 3, 4000);
   for (auto& row : still.rows) {
     row.sample.position_m = {};
     row.sample.command.control_current_a = {};
   }
-  EXPECT_EQ(Refusal(still, still), "") << "at rest all records are alike";
+  EXPECT_EQ(RowsRefusal(still, still), "") << "at rest all records are alike";
 }
 
 }  // namespace

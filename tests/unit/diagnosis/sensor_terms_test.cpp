@@ -38,7 +38,7 @@ TEST_F(SensorTermsTest, OfOneAxisLeaveTheOthersAndTheForcesAlone) {
     Term term = Named(terms_, effect, "de_y");
     const Contribution add = Added(term, moment_, term.step);
     for (const std::size_t a : {0U, 2U, 3U}) EXPECT_EQ(add.reading_m[a], 0.0) << effect;
-    for (std::size_t a = 0; a < View().axes; ++a) EXPECT_EQ(add.force_n[a], 0.0) << effect;
+    for (std::size_t a = 0; a < TheRig().axes; ++a) EXPECT_EQ(add.force_n[a], 0.0) << effect;
   }
 }
 
@@ -47,7 +47,7 @@ TEST_F(SensorTermsTest, ASlowerSensorIsAFilterOfLowerBandwidth) {
   constexpr double kHz = 300.0;
   constexpr double kSlower = 4.0;
   const double w = 2.0 * std::numbers::pi * kHz;
-  const double lag_s = 1.0 / (2.0 * std::numbers::pi * View().bearing(1).sensor.bandwidth_hz);
+  const double lag_s = 1.0 / (2.0 * std::numbers::pi * TheRig().bearing(1).sensor.bandwidth_hz);
   const auto filter = [w](double tau_s) { return 1.0 / std::complex<double>(1.0, w * tau_s); };
   const std::complex<double> expected = filter(kSlower * lag_s) - filter(lag_s);
   Term term = Named(terms_, "sensor_bandwidth", "de_y");
@@ -55,13 +55,13 @@ TEST_F(SensorTermsTest, ASlowerSensorIsAFilterOfLowerBandwidth) {
   m.restarted = true;
   double most = 0.0;
   for (int n = 0; n < 2000; ++n) {
-    const double t = n * View().period_s;
-    m.v[View().modes] = static_cast<float>(w * std::cos(w * (t + 0.5 * View().period_s)));
-    const double position = View().magnet(1).sensor_shape[0];
+    const double t = n * TheRig().period_s;
+    m.v[TheRig().modes] = static_cast<float>(w * std::cos(w * (t + 0.5 * TheRig().period_s)));
+    const double position = TheRig().magnet(1).sensor_shape[0];
     // Of the sample at the end of the period.
     const double reading = Added(term, m, kSlower - 1.0).reading_m[1] / position;
     m.restarted = false;
-    const double wanted = (expected * std::polar(1.0, w * (t + View().period_s))).imag();
+    const double wanted = (expected * std::polar(1.0, w * (t + TheRig().period_s))).imag();
     if (n > 200) most = std::max(most, std::abs(reading - wanted));
   }
   // The velocity is not steady between samples: (w T)^2/24 of it.
@@ -69,19 +69,19 @@ TEST_F(SensorTermsTest, ASlowerSensorIsAFilterOfLowerBandwidth) {
 }
 
 TEST_F(SensorTermsTest, ASensorElsewhereReadsTheSlopeOfTheShaft) {
-  const double z = View().model->config().bearings[0].sensor_z_m;
-  const auto slope = View().Slope(z);
+  const double z = TheRig().model->config().bearings[0].sensor_z_m;
+  const auto slope = TheRig().Slope(z);
   double x = 0.0;
   double y = 0.0;
   // Behind a first-order filter the reading is v/w behind.
-  const double lag_s = 1.0 / (2.0 * std::numbers::pi * View().bearing(0).sensor.bandwidth_hz);
+  const double lag_s = 1.0 / (2.0 * std::numbers::pi * TheRig().bearing(0).sensor.bandwidth_hz);
   const auto seen = [&](std::size_t at) {
     return static_cast<double>(moment_.read_q[at]) -
            lag_s * static_cast<double>(moment_.read_v[at]);
   };
-  for (std::size_t i = 0; i < View().modes; ++i) {
+  for (std::size_t i = 0; i < TheRig().modes; ++i) {
     x += slope[i] * seen(i);
-    y += slope[i] * seen(View().modes + i);
+    y += slope[i] * seen(TheRig().modes + i);
   }
   const Contribution add = Of("sensor_position", "de", "shift_m", 2e-3);
   EXPECT_NEAR(add.reading_m[0], 2e-3 * x, 1e-12);
@@ -99,8 +99,8 @@ TEST_F(SensorTermsTest, TurnedSensorsReadATurnedPlace) {
 }
 
 TEST(MainsTermsTest, HaveAPhaseOfTheirOwnInEveryRecord) {
-  std::vector<Term> terms = MainsTerms(View(), {50.0}, 2);
-  ASSERT_EQ(terms.size(), 2 * 2 * View().axes);
+  std::vector<Term> terms = MainsTerms(TheRig(), {50.0}, 2);
+  ASSERT_EQ(terms.size(), 2 * 2 * TheRig().axes);
   SamplePoint m;
   m.time_s = 1.0 / 200.0;  // a quarter of a period
   m.record = 1;
@@ -113,7 +113,7 @@ TEST(MainsTermsTest, HaveAPhaseOfTheirOwnInEveryRecord) {
     EXPECT_NEAR(reading, sine_of_this_record ? 1e-6 : 0.0, 1e-15);
     total += reading;
   }
-  EXPECT_NEAR(total, 1e-6 * static_cast<double>(View().axes), 1e-14);
+  EXPECT_NEAR(total, 1e-6 * static_cast<double>(TheRig().axes), 1e-14);
 }
 
 }  // namespace

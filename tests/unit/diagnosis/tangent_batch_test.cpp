@@ -17,12 +17,13 @@ constexpr std::size_t kBending = 2;  // the first mode behind the two rigid ones
 class TangentTest : public testing::Test {
  protected:
   TangentTest()
-      : gain_(analysis::DesignObserver(View().model->config(), {})), model_(View(), gain_, {}) {}
+      : gain_(analysis::DesignObserver(TheRig().model->config(), {})),
+        model_(TheRig(), gain_, {}) {}
 
-  [[nodiscard]] static double Period() { return View().period_s; }
+  [[nodiscard]] static double Period() { return TheRig().period_s; }
   /// What the magnet of an axis does to a mode, per newton.
   [[nodiscard]] static double Shape(std::size_t axis, std::size_t mode) {
-    return View().magnet(axis).actuator_shape[mode];
+    return TheRig().magnet(axis).actuator_shape[mode];
   }
   [[nodiscard]] static double At(const Lane& lane, std::size_t l = 0) {
     return static_cast<double>(lane.value[l]);
@@ -63,8 +64,8 @@ class TangentTest : public testing::Test {
 };
 
 TEST_F(TangentTest, AFreeModeRingsAtItsFrequencyAndDecaysWithItsDamping) {
-  const double w = View().omega_rad_per_s[kBending];
-  const double z = View().damping_ratio[kBending];
+  const double w = TheRig().omega_rad_per_s[kBending];
+  const double z = TheRig().damping_ratio[kBending];
   const double damped = w * std::sqrt(1.0 - z * z);
   state_.q[kBending].value[0] = 1.0F;
   for (int n = 1; n <= 300; ++n) {
@@ -76,7 +77,7 @@ TEST_F(TangentTest, AFreeModeRingsAtItsFrequencyAndDecaysWithItsDamping) {
     EXPECT_NEAR(At(state_.q[kBending]), q, 1e-4) << n;
   }
   // The other plane and the other modes stay at rest.
-  EXPECT_EQ(At(state_.q[View().modes + kBending]), 0.0);
+  EXPECT_EQ(At(state_.q[TheRig().modes + kBending]), 0.0);
   EXPECT_EQ(At(state_.q[kBending + 1]), 0.0);
 }
 
@@ -84,10 +85,10 @@ TEST_F(TangentTest, AChangedModeRingsAsTheChangeSays) {
   LinearChange change;
   change.mode[kBending].frequency = 1.05;
   change.mode[kBending].damping = 2.0;
-  model_ = TangentBatch(View(), gain_, change);
-  const double w = 1.05 * View().omega_rad_per_s[kBending];
+  model_ = TangentBatch(TheRig(), gain_, change);
+  const double w = 1.05 * TheRig().omega_rad_per_s[kBending];
   // The ratio of 2 z w is 2: the decay rate z w doubles.
-  const double rate = 2.0 * View().damping_ratio[kBending] * View().omega_rad_per_s[kBending];
+  const double rate = 2.0 * TheRig().damping_ratio[kBending] * TheRig().omega_rad_per_s[kBending];
   const double damped = std::sqrt(w * w - rate * rate);
   state_.q[kBending].value[0] = 1.0F;
   Periods(200, Rest());
@@ -104,7 +105,7 @@ TEST_F(TangentTest, AConstantForceAcceleratesARigidModeByItsShape) {
   const double t = 100 * Period();
   for (std::size_t rigid = 0; rigid < 2; ++rigid) {
     const double acceleration = 2.0 * Shape(kAxis, rigid);
-    const std::size_t at = View().modes + rigid;
+    const std::size_t at = TheRig().modes + rigid;
     EXPECT_NEAR(At(state_.q[at], 3), 0.5 * acceleration * t * t,
                 1e-5 * std::abs(acceleration) * t * t);  // single precision over 100 steps
     EXPECT_NEAR(At(state_.v[at], 3), acceleration * t, 1e-5 * std::abs(acceleration) * t);
@@ -121,7 +122,7 @@ TEST_F(TangentTest, ARelaxingCoilMovesARigidModeAsItsExponentialForce) {
   moment.force_per_a[0] = 40.0F;
   state_.coil[0].value[0] = 0.5F;
   Periods(1, moment);
-  const double tau = 1.0 / (2.0 * std::numbers::pi * View().bearing(0).amplifier.bandwidth_hz);
+  const double tau = 1.0 / (2.0 * std::numbers::pi * TheRig().bearing(0).amplifier.bandwidth_hz);
   const double force = 0.5 * 40.0 * Shape(0, 0);
   const double gone = 1.0 - std::exp(-Period() / tau);
   const double v = force * tau * gone;
@@ -137,9 +138,10 @@ TEST_F(TangentTest, AReadingSettlesAtTheSensorsGainTimesTheDisplacement) {
   state_.q[0].value[0] = 1e-5F;  // rigid, at rest
   Periods(200, Rest());
   const auto reading = Readings();
-  for (std::size_t a = 0; a < View().axes; ++a) {
+  for (std::size_t a = 0; a < TheRig().axes; ++a) {
     const double expected =
-        a % 2 == 1 ? 0.0 : 1e-5 * View().bearing(a).sensor.gain * View().magnet(a).sensor_shape[0];
+        a % 2 == 1 ? 0.0
+                   : 1e-5 * TheRig().bearing(a).sensor.gain * TheRig().magnet(a).sensor_shape[0];
     EXPECT_NEAR(At(reading[a]), expected, 1e-5 * 1e-5) << a;  // single precision of 1e-5 m
   }
 }
@@ -148,7 +150,7 @@ TEST_F(TangentTest, AddedReadingsFollowDisplacementAndVelocity) {
   LinearChange change;
   change.axis[2].sensor_q[kBending] = 0.3;
   change.axis[2].sensor_v[kBending] = 2e-5;
-  model_ = TangentBatch(View(), gain_, change);
+  model_ = TangentBatch(TheRig(), gain_, change);
   state_.q[kBending].value[5] = 1e-5F;
   state_.v[kBending].value[5] = 1e-2F;
   const auto reading = Readings();
@@ -162,21 +164,21 @@ TEST_F(TangentTest, CorrectionAddsTheGainTimesTheInnovationToEveryState) {
   e[0].value[1] = 2e-6F;
   e[3].value[1] = -1e-6F;
   Correct(model_, e, state_);
-  const plant::StateLayout& at = View().model->layout();
-  Eigen::VectorXd innovation = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(View().axes));
+  const plant::StateLayout& at = TheRig().model->layout();
+  Eigen::VectorXd innovation = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(TheRig().axes));
   innovation[0] = 2e-6;
   innovation[3] = -1e-6;
   const Eigen::VectorXd expected = gain_.state * innovation;
   const Eigen::VectorXd force = gain_.force_n_per_m * innovation;
   const double largest = expected.cwiseAbs().maxCoeff();
-  for (std::size_t i = 0; i < 2 * View().modes; ++i) {
+  for (std::size_t i = 0; i < 2 * TheRig().modes; ++i) {
     // Single precision of the larger of two products.
     EXPECT_NEAR(At(state_.q[i], 1), expected[static_cast<Eigen::Index>(at.q_x + i)],
                 1e-6 * largest);
     EXPECT_NEAR(At(state_.v[i], 1), expected[static_cast<Eigen::Index>(at.v_x + i)],
                 1e-6 * largest);
   }
-  for (std::size_t a = 0; a < View().axes; ++a) {
+  for (std::size_t a = 0; a < TheRig().axes; ++a) {
     const auto row = static_cast<Eigen::Index>(a);
     EXPECT_NEAR(At(state_.force[a], 1), force[row], 1e-6 * force.cwiseAbs().maxCoeff());
     EXPECT_NEAR(At(state_.coil[a], 1), expected[static_cast<Eigen::Index>(at.coil_current) + row],
@@ -201,7 +203,7 @@ TEST_F(TangentTest, LanesInAnotherOrderHaveTheSameBitsInAnotherOrder) {
     Advance(model_, moment, one);
     Advance(model_, moment, other);
   }
-  for (std::size_t i = 0; i < 2 * View().modes; ++i) {
+  for (std::size_t i = 0; i < 2 * TheRig().modes; ++i) {
     for (std::size_t l = 0; l < kLanes; ++l) {
       EXPECT_EQ(At(other.q[i], l), At(one.q[i], (l + 3) % kLanes));
       EXPECT_EQ(At(other.v[i], l), At(one.v[i], (l + 3) % kLanes));
@@ -222,13 +224,13 @@ TEST_F(TangentTest, AdvanceIsLinearAndConsumesWhatWasAdded) {
   twofold(twice.add_coil_end), twofold(twice.add_coil_mean);
   Advance(model_, moment, one);
   Advance(model_, moment, twice);
-  for (std::size_t i = 0; i < 2 * View().modes; ++i) {
+  for (std::size_t i = 0; i < 2 * TheRig().modes; ++i) {
     // A power of two scales every rounding alike: the same bits.
     EXPECT_EQ(At(twice.q[i], 6), 2.0 * At(one.q[i], 6));
     EXPECT_EQ(At(twice.v[i], 6), 2.0 * At(one.v[i], 6));
     EXPECT_EQ(At(one.add_modal[i], 6), 0.0);
   }
-  for (std::size_t a = 0; a < View().axes; ++a) {
+  for (std::size_t a = 0; a < TheRig().axes; ++a) {
     EXPECT_EQ(At(twice.sensor[a], 6), 2.0 * At(one.sensor[a], 6));
     EXPECT_EQ(At(one.add_force[a], 6) + At(one.add_coil_end[a], 6) + At(one.add_coil_mean[a], 6),
               0.0);
@@ -241,28 +243,28 @@ TEST_F(TangentTest, GyroscopicForcesDoNoWork) {
   for (std::size_t l = 0; l < 2; ++l) {
     state_.v[0].value[l] = 1e-3F;
     state_.v[1].value[l] = l == 0 ? 2e-3F : -1e-3F;
-    state_.v[View().modes].value[l] = 5e-4F;
+    state_.v[TheRig().modes].value[l] = 5e-4F;
   }
   const auto energy = [&](std::size_t l) {
     double sum = 0.0;
     for (std::size_t i = 0; i < 2; ++i) {
-      sum += std::pow(At(state_.v[i], l), 2) + std::pow(At(state_.v[View().modes + i], l), 2);
+      sum += std::pow(At(state_.v[i], l), 2) + std::pow(At(state_.v[TheRig().modes + i], l), 2);
     }
     return sum;
   };
   SamplePoint moment;
   moment.speed_rad_per_s = 600.0F;
   const double before = energy(0);
-  const double turned_before = At(state_.v[View().modes + 1]);
+  const double turned_before = At(state_.v[TheRig().modes + 1]);
   Periods(1, moment);
   double g = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 2; ++k) {
-      g = std::max(g, std::abs(View().model->gyroscopic()[k * View().modes + i]));
+      g = std::max(g, std::abs(TheRig().model->gyroscopic()[k * TheRig().modes + i]));
     }
   }
   const double turn = 600.0 * g * Period();
-  EXPECT_GT(std::abs(At(state_.v[View().modes + 1]) - turned_before), 1e-7);
+  EXPECT_GT(std::abs(At(state_.v[TheRig().modes + 1]) - turned_before), 1e-7);
   EXPECT_LT(std::abs(energy(0) - before), (8.0 * turn * turn + 1e-6) * before);
 }
 

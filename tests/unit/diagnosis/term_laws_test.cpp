@@ -12,7 +12,7 @@ namespace {
 /// All numbers of an addition, each in units of what is usual for it.
 std::vector<double> Numbers(const Contribution& add) {
   std::vector<double> all;
-  for (std::size_t a = 0; a < View().axes; ++a) {
+  for (std::size_t a = 0; a < TheRig().axes; ++a) {
     all.push_back(add.force_n[a]);
     all.push_back(add.coil_end_a[a]);
     all.push_back(add.coil_mean_a[a]);

@@ -23,8 +23,8 @@ inline Trajectory NoiseRun(std::uint64_t seed, std::size_t samples,
   for (std::size_t n = 0; n < samples; ++n) {
     SamplePoint& m = run.moments[n];
     m.settled = m.counts = true;
-    m.time_s = static_cast<double>(n) * View().period_s;
-    for (std::size_t a = 0; a < View().axes; ++a) {
+    m.time_s = static_cast<double>(n) * TheRig().period_s;
+    for (std::size_t a = 0; a < TheRig().axes; ++a) {
       m.innovation_m[a] = static_cast<float>(kNoise * random.Normal());
       m.command_now_a[a] = static_cast<float>(0.1 * random.Normal());
       m.reading_m[a] = static_cast<float>(5e-6 * random.Normal());

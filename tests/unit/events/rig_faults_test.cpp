@@ -10,7 +10,7 @@
 namespace levitas::events {
 namespace {
 
-constexpr double kPeriod_s = 1e-3;
+constexpr double kFaultPeriod_s = 1e-3;
 
 ScheduledRigEvent Event(RigEventKind kind, double at_s, double duration_s, std::size_t axis = 1,
                         double value_m = 0.0) {
@@ -33,7 +33,7 @@ SensorFrame Frame(std::uint64_t cycle) {
 }
 
 TEST(RigFaults, ActFromTheirFirstCycleToTheLastAndOnNoOtherAxis) {
-  RigFaults faults({Event(RigEventKind::kSensorStuck, 0.010, 0.005, 1, 7e-6)}, kPeriod_s);
+  RigFaults faults({Event(RigEventKind::kSensorStuck, 0.010, 0.005, 1, 7e-6)}, kFaultPeriod_s);
   for (std::uint64_t cycle = 0; cycle < 30; ++cycle) {
     SensorFrame frame = Frame(cycle);
     faults.Disturb(cycle, frame);
@@ -45,7 +45,7 @@ TEST(RigFaults, ActFromTheirFirstCycleToTheLastAndOnNoOtherAxis) {
 }
 
 TEST(RigFaults, WithoutADurationStayForGood) {
-  RigFaults faults({Event(RigEventKind::kAmplifierFault, 0.010, 0.0)}, kPeriod_s);
+  RigFaults faults({Event(RigEventKind::kAmplifierFault, 0.010, 0.0)}, kFaultPeriod_s);
   SensorFrame before = Frame(9);
   faults.Disturb(9, before);
   EXPECT_EQ(before.rig_status, 0U);
@@ -55,7 +55,7 @@ TEST(RigFaults, WithoutADurationStayForGood) {
 }
 
 TEST(RigFaults, AFrozenSensorRepeatsTheReadingOfItsFirstCycle) {
-  RigFaults faults({Event(RigEventKind::kSensorFrozen, 0.002, 0.003)}, kPeriod_s);
+  RigFaults faults({Event(RigEventKind::kSensorFrozen, 0.002, 0.003)}, kFaultPeriod_s);
   for (std::uint64_t cycle = 0; cycle < 8; ++cycle) {
     SensorFrame frame = Frame(cycle);
     faults.Disturb(cycle, frame);
@@ -67,7 +67,7 @@ TEST(RigFaults, AFrozenSensorRepeatsTheReadingOfItsFirstCycle) {
 TEST(RigFaults, JumpAddsAndInvalidIsNotANumber) {
   RigFaults faults({Event(RigEventKind::kSensorJump, 0.0, 0.0, 0, 5e-6),
                     Event(RigEventKind::kSensorInvalid, 0.0, 0.0, 3)},
-                   kPeriod_s);
+                   kFaultPeriod_s);
   SensorFrame frame = Frame(2);
   faults.Disturb(2, frame);
   EXPECT_EQ(frame.position_m[0], Frame(2).position_m[0] + 5e-6);
@@ -75,7 +75,7 @@ TEST(RigFaults, JumpAddsAndInvalidIsNotANumber) {
 }
 
 TEST(RigFaults, EmergencyStopOpensTheChainForAsLongAsItLasts) {
-  RigFaults faults({Event(RigEventKind::kEmergencyStop, 0.001, 0.001)}, kPeriod_s);
+  RigFaults faults({Event(RigEventKind::kEmergencyStop, 0.001, 0.001)}, kFaultPeriod_s);
   for (std::uint64_t cycle = 0; cycle < 4; ++cycle) {
     SensorFrame frame = Frame(cycle);
     faults.Disturb(cycle, frame);
@@ -84,18 +84,18 @@ TEST(RigFaults, EmergencyStopOpensTheChainForAsLongAsItLasts) {
 }
 
 TEST(RigFaults, LeaveChangesOfEffectsToThePlant) {
-  EXPECT_TRUE(RigFaults({Event(RigEventKind::kEffect, 0.0, 0.0)}, kPeriod_s).empty());
+  EXPECT_TRUE(RigFaults({Event(RigEventKind::kEffect, 0.0, 0.0)}, kFaultPeriod_s).empty());
 }
 
 TEST(RigFaults, RefuseAPeriodThatIsNotPositiveAndAnAxisThatIsNotThere) {
   EXPECT_THROW(RigFaults({}, 0.0), std::invalid_argument);
   EXPECT_THROW(RigFaults({}, std::nan("")), std::invalid_argument);
-  EXPECT_THROW(RigFaults({Event(RigEventKind::kSensorStuck, 0.0, 0.0, kMaxAxes)}, kPeriod_s),
+  EXPECT_THROW(RigFaults({Event(RigEventKind::kSensorStuck, 0.0, 0.0, kMaxAxes)}, kFaultPeriod_s),
                std::invalid_argument);
 }
 
 TEST(RigFaults, AllocateNothing) {
-  RigFaults faults({Event(RigEventKind::kSensorFrozen, 0.5, 2.0)}, kPeriod_s);
+  RigFaults faults({Event(RigEventKind::kSensorFrozen, 0.5, 2.0)}, kFaultPeriod_s);
   const test::AllocationGuard guard;
   for (std::uint64_t cycle = 0; cycle < 10'000; ++cycle) {
     SensorFrame frame = Frame(cycle % 7);

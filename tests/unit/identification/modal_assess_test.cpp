@@ -28,16 +28,16 @@ const config::RigFile& Rig() {
   return rig;
 }
 
-const ModalStart& Start() {
+const ModalStart& AssessStart() {
   static const ModalStart start = StartFromRig(Rig().plant, 5);
   return start;
 }
 
 /// A fit of `free` unknowns of which the data say `information` each, apart from one another.
 ModalFit Apart(const std::vector<Index>& free, double information) {
-  const Index size = Start().vector.size();
+  const Index size = AssessStart().vector.size();
   ModalFit fit;
-  fit.vector = Start().vector;
+  fit.vector = AssessStart().vector;
   fit.fitted.assign(static_cast<std::size_t>(size), false);
   fit.information = fit.scatter = Eigen::MatrixXd::Zero(size, size);
   for (const Index k : free) {
@@ -48,45 +48,46 @@ ModalFit Apart(const std::vector<Index>& free, double information) {
 }
 
 TEST(Assess, DeviationsAreThoseOfDataAndPriorTogether) {
-  const ModalLayout& at = Start().frame.layout;
+  const ModalLayout& at = AssessStart().frame.layout;
   const std::vector<Index> free{at.frequency, at.ki + 1, at.delay};
-  const Uncertainty found = Assess(Start(), Apart(free, 400.0));
-  for (Index k = 0; k < Start().vector.size(); ++k) {
+  const Uncertainty found = Assess(AssessStart(), Apart(free, 400.0));
+  for (Index k = 0; k < AssessStart().vector.size(); ++k) {
     const bool fitted = std::ranges::find(free, k) != free.end();
-    const double prior = Start().prior[k];
+    const double prior = AssessStart().prior[k];
     const double expected = fitted ? 1.0 / std::sqrt(400.0 + 1.0 / (prior * prior)) : 0.0;
-    EXPECT_NEAR(found.deviation[k], expected, 1e-12) << Start().names[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(found.deviation[k], expected, 1e-12)
+        << AssessStart().names[static_cast<std::size_t>(k)];
   }
   EXPECT_TRUE(found.directions.empty());  // 400 x prior^2 is beyond 1 for all three
 }
 
 TEST(Assess, MisfitWidensIntervalsAndAFitBetterThanItsNoiseDoesNotNarrowThem) {
-  const std::vector<Index> free{Start().frame.layout.frequency};
+  const std::vector<Index> free{AssessStart().frame.layout.frequency};
   ModalFit fit = Apart(free, 400.0);
-  const double plain = Assess(Start(), fit).deviation[free[0]];
+  const double plain = Assess(AssessStart(), fit).deviation[free[0]];
   fit.reduced_chi_square = 4.0;
-  EXPECT_NEAR(Assess(Start(), fit).deviation[free[0]], 2.0 * plain, 1e-12);
+  EXPECT_NEAR(Assess(AssessStart(), fit).deviation[free[0]], 2.0 * plain, 1e-12);
   fit.reduced_chi_square = 0.25;
-  EXPECT_EQ(Assess(Start(), fit).deviation[free[0]], plain);
+  EXPECT_EQ(Assess(AssessStart(), fit).deviation[free[0]], plain);
   // Scatter nine times the information: C (S + 1/prior^2) C, which is nearly nine times C.
   fit.scatter(free[0], free[0]) = 9.0 * 400.0;
-  const double prior = 1.0 / std::pow(Start().prior[free[0]], 2.0);
-  EXPECT_NEAR(Assess(Start(), fit).deviation[free[0]], std::sqrt(3600.0 + prior) / (400.0 + prior),
-              1e-12);
+  const double prior = 1.0 / std::pow(AssessStart().prior[free[0]], 2.0);
+  EXPECT_NEAR(Assess(AssessStart(), fit).deviation[free[0]],
+              std::sqrt(3600.0 + prior) / (400.0 + prior), 1e-12);
 }
 
 TEST(Assess, WhatOnlyShowsAsAProductIsNamedWithTheExperimentThatTellsItApart) {
   // The data see ki g/m of axis 0 alone, to a thousandth: one row of the Jacobian.
-  const ModalLayout& at = Start().frame.layout;
+  const ModalLayout& at = AssessStart().frame.layout;
   ModalFit fit = Apart({at.mass, at.ki, at.gain}, 0.0);
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(Start().vector.size());
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(AssessStart().vector.size());
   row[at.ki] = row[at.gain] = 1e3;
   row[at.mass] = -1e3;
   fit.information = row * row.transpose();
-  const Uncertainty found = Assess(Start(), fit);
+  const Uncertainty found = Assess(AssessStart(), fit);
   EXPECT_NEAR(found.products[0], 1e-3, 1e-6);  // the priors add less than 1e-5 of it
   // By itself ki is known no better than mass and gain are by their priors.
-  const double others = std::hypot(Start().prior[at.mass], Start().prior[at.gain]);
+  const double others = std::hypot(AssessStart().prior[at.mass], AssessStart().prior[at.gain]);
   EXPECT_GT(found.deviation[at.ki], 0.9 * others);
   ASSERT_EQ(found.directions.size(), 2U);  // three unknowns, one product
   std::vector<std::string> named;
@@ -102,11 +103,11 @@ FrequencyResponse Response(double noise_m_per_a, double factor, bool with_rotor 
   Random random(23);
   FrequencyResponse data;
   data.channels = {"de_x", "de_y", "nde_x", "nde_y"};
-  const Physical rig = ToPhysical(Start().frame, Start().vector);
+  const Physical rig = ToPhysical(AssessStart().frame, AssessStart().vector);
   const double sigma = noise_m_per_a * factor;
   for (double f = 12.0; f < 1100.0; f += 1.2) {
     Eigen::MatrixXcd plant = Eigen::MatrixXcd::Zero(4, 4);
-    if (with_rotor) plant = factor * ModalResponse(Start().frame, rig, f, 0.0);
+    if (with_rotor) plant = factor * ModalResponse(AssessStart().frame, rig, f, 0.0);
     for (Index i = 0; i < 16; ++i) {
       plant.data()[i] +=
           sigma / std::numbers::sqrt2 * std::complex<double>(random.Normal(), random.Normal());
@@ -119,7 +120,7 @@ FrequencyResponse Response(double noise_m_per_a, double factor, bool with_rotor 
 }
 
 TEST(Stabilise, ProposesThePolesOfTheRotorInItsMagnetsWithTheirDamping) {
-  const Physical rig = ToPhysical(Start().frame, Start().vector);
+  const Physical rig = ToPhysical(AssessStart().frame, AssessStart().vector);
   const auto hz = PlantFrequenciesHz(rig, false);
   const auto modes = Stabilise(Response(3e-7, 1.0), {.highest_hz = 1050.0}).modes;
   ASSERT_EQ(modes.size(), 5U);
@@ -162,8 +163,17 @@ TEST(UsableBand, EndsWhereTheResponseFallsToTwiceItsNoise) {
 
 /// What a fit found: the nominal rig, changed by the test.
 ModalResult Found() {
-  ModalResult found{{}, {}, Start(), {}, {}, {}, {}, ToPhysical(Start().frame, Start().vector),
-                    {}, {}, 0.0};
+  ModalResult found{{},
+                    {},
+                    AssessStart(),
+                    {},
+                    {},
+                    {},
+                    {},
+                    ToPhysical(AssessStart().frame, AssessStart().vector),
+                    {},
+                    {},
+                    0.0};
   found.support.assign(5, {Support::kNotShown, 0.0, 0.0});
   found.support[1] = {Support::kShown, 250.0, 250.0};
   return found;

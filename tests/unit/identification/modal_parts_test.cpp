@@ -22,7 +22,7 @@ using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-const ModalStart& Start(Eigen::Index bending = 5) {
+const ModalStart& PartsStart(Eigen::Index bending = 5) {
   static const config::RigFile rig =
       config::LoadRig(test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
   static const ModalStart five = StartFromRig(rig.plant, 5);
@@ -30,8 +30,8 @@ const ModalStart& Start(Eigen::Index bending = 5) {
   return bending == 0 ? none : five;
 }
 
-Physical Nominal(Eigen::Index bending = 5) {
-  return ToPhysical(Start(bending).frame, Start(bending).vector);
+Physical PartsNominal(Eigen::Index bending = 5) {
+  return ToPhysical(PartsStart(bending).frame, PartsStart(bending).vector);
 }
 
 /// D of modal_response.hpp, both planes and magnets, written out in full.
@@ -53,9 +53,9 @@ Eigen::MatrixXcd DynamicStiffness(const Physical& rig, double frequency_hz, doub
 class AtSpeed : public testing::TestWithParam<double> {};
 
 TEST_P(AtSpeed, MagnetsAddedAfterwardsSolveTheWholeEquation) {
-  const Physical rig = Nominal();
+  const Physical rig = PartsNominal();
   for (const double f_hz : {0.7, 20.0, 88.0, 250.0, 777.0}) {
-    const ModalLine line = SolveFree(Start().frame, rig, f_hz, GetParam(), true);
+    const ModalLine line = SolveFree(PartsStart().frame, rig, f_hz, GetParam(), true);
     const ClosedLine closed = AddMagnets(line, rig.ks_n_per_m, true);
     const Eigen::MatrixXcd d = DynamicStiffness(rig, f_hz, GetParam(), line.actuator);
     // Woodbury against one dense solution; the condition of D stays below 1e7 here.
@@ -67,9 +67,9 @@ TEST_P(AtSpeed, MagnetsAddedAfterwardsSolveTheWholeEquation) {
 TEST_P(AtSpeed, RotationTheOtherWayRoundTransposesTheResponse) {
   // G enters D antisymmetrically, so D(-speed) = D(speed)^T; with sensors at the magnets and equal
   // chains the response from force to reading is transposed with it.
-  Physical rig = Nominal();
+  Physical rig = PartsNominal();
   rig.sensor = rig.actuator;
-  ModalFrame frame = Start().frame;
+  ModalFrame frame = PartsStart().frame;
   frame.beyond.sensor = frame.beyond.actuator;
   for (const double f_hz : {13.0, 91.0, 260.0}) {
     const Eigen::MatrixXcd one = ModalResponse(frame, rig, f_hz, GetParam());
@@ -80,7 +80,7 @@ TEST_P(AtSpeed, RotationTheOtherWayRoundTransposesTheResponse) {
 
 TEST_P(AtSpeed, EqualPlanesRespondAlikeAndCoupleWithOppositeSigns) {
   // Nothing of the nominal rotor prefers a plane: a quarter turn of the frame changes nothing.
-  const Eigen::MatrixXcd p = ModalResponse(Start().frame, Nominal(), 64.0, GetParam());
+  const Eigen::MatrixXcd p = ModalResponse(PartsStart().frame, PartsNominal(), 64.0, GetParam());
   for (Eigen::Index out = 0; out < 4; out += 2) {
     for (Eigen::Index in = 0; in < 4; in += 2) {
       EXPECT_LT(std::abs(p(out, in) - p(out + 1, in + 1)), 1e-12 * p.norm());
@@ -97,9 +97,9 @@ INSTANTIATE_TEST_SUITE_P(Speeds, AtSpeed, testing::Values(0.0, 100.0 * std::numb
 TEST(ModalResponse, OfARigidRotorAtRestIsMinusKiOverKs) {
   // Two rigid modes on two magnets: x = -K^-1 F at the magnets, and between and beyond them a
   // straight line through both.
-  ModalFrame frame = Start(0).frame;
+  ModalFrame frame = PartsStart(0).frame;
   frame.beyond.frequency_rad_per_s.resize(0);
-  Physical rig = Nominal(0);
+  Physical rig = PartsNominal(0);
   rig.gain << 1.0, 1.1, 0.9, 1.05;
   rig.ki_n_per_a << 40.0, 44.0, 35.0, 41.0;
   rig.ks_n_per_m << 1.0e5, 1.2e5, 0.9e5, 1.1e5;
@@ -136,7 +136,7 @@ TEST(WhirlFrequencies, OfOneModeAreTheRootsOfItsQuadratic) {
 }
 
 TEST(PlantFrequencies, WithoutMagnetsAreTheRotorsOwnAndSinkWithThemToFirstOrder) {
-  Physical rig = Nominal();
+  Physical rig = PartsNominal();
   const Eigen::VectorXd ks = rig.ks_n_per_m;
   rig.ks_n_per_m.setZero();
   const auto own = PlantFrequenciesHz(rig, false);
@@ -161,7 +161,7 @@ TEST(PlantFrequencies, WithoutMagnetsAreTheRotorsOwnAndSinkWithThemToFirstOrder)
 }
 
 TEST(SupportOf, AModeIsShownWithinAPerCentOfItsPoleAndMovedBeyond) {
-  const Physical rig = Nominal();
+  const Physical rig = PartsNominal();
   const auto plant = PlantFrequenciesHz(rig, false);
   Assigned assigned(5);
   const double second_hz = plant[plant.size() - 4];
@@ -177,7 +177,7 @@ TEST(SupportOf, AModeIsShownWithinAPerCentOfItsPoleAndMovedBeyond) {
 }
 
 TEST(StartFromRig, NamesEveryUnknownOnceAndHoldsEachByAPrior) {
-  const ModalStart& start = Start();
+  const ModalStart& start = PartsStart();
   const std::set<std::string> names(start.names.begin(), start.names.end());
   EXPECT_EQ(names.size(), start.names.size());
   EXPECT_EQ(names.count(""), 0U);
@@ -188,9 +188,9 @@ TEST(StartFromRig, NamesEveryUnknownOnceAndHoldsEachByAPrior) {
 
 TEST(StartFromRig, RigidModesAreMassNormalised) {
   // A force F at z: acceleration of the rotor at z is F (1/m + (z - zc)^2/It), the sum of squares.
-  const Physical rig = Nominal(0);
+  const Physical rig = PartsNominal(0);
   for (Eigen::Index b = 0; b < 2; ++b) {
-    const double arm_m = Start(0).frame.actuator_z_m[b] - rig.centre_z_m;
+    const double arm_m = PartsStart(0).frame.actuator_z_m[b] - rig.centre_z_m;
     EXPECT_NEAR(rig.actuator.col(b).squaredNorm(),
                 1.0 / rig.mass_kg + arm_m * arm_m / rig.inertia_kg_m2, 1e-12);
   }

@@ -19,13 +19,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-const ModalStart& Start() {
+const ModalStart& QualityStart() {
   static const ModalStart start = StartFromRig(
       config::LoadRig(test::SourceFolder() + "/config/rigs/flexible_rotor.yaml").plant, 5);
   return start;
 }
 
-Physical Nominal() { return ToPhysical(Start().frame, Start().vector); }
+Physical QualityNominal() { return ToPhysical(QualityStart().frame, QualityStart().vector); }
 
 /// The nominal response on some lines, all axes excited apart, with a variance of its own.
 FrequencyResponse Exact(double sigma_m_per_a) {
@@ -36,7 +36,7 @@ FrequencyResponse Exact(double sigma_m_per_a) {
   data.moments = {zero, zero, zero};
   for (double f = 5.0; f < 1000.0; f *= 1.03) {
     data.frequency_hz.push_back(f);
-    data.plant.push_back(ModalResponse(Start().frame, Nominal(), f, 0.0));
+    data.plant.push_back(ModalResponse(QualityStart().frame, QualityNominal(), f, 0.0));
     data.sensitivity.emplace_back(Eigen::MatrixXcd::Identity(4, 4));
     data.variance.push_back(Eigen::MatrixXd::Constant(4, 4, sigma_m_per_a * sigma_m_per_a));
   }
@@ -47,7 +47,7 @@ TEST(Misfit, IsZeroForTheModelOfTheDataAndOneForAnErrorOfTheAllowedSize) {
   // Entries across the planes are zero: a variance far below everything keeps them at zero error.
   const FrequencyResponse data = Exact(1e-15);
   const ModalFitOptions options{.floor = 0.02};
-  auto model = ModelOn(Start(), Start().vector, data);
+  auto model = ModelOn(QualityStart(), QualityStart().vector, data);
   EXPECT_LT(Misfit(data, model, options), 1e-20);  // the same equation twice
   for (Eigen::MatrixXcd& line : model) line *= Complex(1.0, 0.02);
   // Within a plane, which is half of the entries, each is off by 2 % of itself.
@@ -92,13 +92,13 @@ TEST(FitOf, IsTheShareThatTheModelExplainsAndItsCeilingThatOfTheNoise) {
   }
   auto model = data.plant;
   for (Eigen::MatrixXcd& line : model) line *= 0.9;
-  const FitPercent percent = FitOf(data, model, {.floor = 1.0});
+  const FitShare percent = FitOf(data, model, {.floor = 1.0});
   EXPECT_NEAR(percent.fit, 90.0, 1e-9);
   EXPECT_NEAR(percent.ceiling, 96.0, 1e-9);
 }
 
 TEST(RandomStart, MovesWhatIsFittedWithinItsSpreadAndNothingElse) {
-  const ModalStart& start = Start();
+  const ModalStart& start = QualityStart();
   const ModalLayout& at = start.frame.layout;
   std::vector<bool> fitted(static_cast<std::size_t>(at.size), true);
   fitted[static_cast<std::size_t>(at.mass)] = false;
@@ -106,7 +106,7 @@ TEST(RandomStart, MovesWhatIsFittedWithinItsSpreadAndNothingElse) {
   const Eigen::VectorXd moved =
       RandomStart(start, fitted, {.everything = 0.2, .gains = 0.05}, random);
   EXPECT_EQ(moved[at.mass], start.vector[at.mass]);
-  const Physical from = Nominal();
+  const Physical from = QualityNominal();
   const Physical to = ToPhysical(start.frame, moved);
   const auto apart = [](const auto& a, const auto& b) {
     return (a.cwiseQuotient(b).array() - 1.0).abs().maxCoeff();
@@ -129,9 +129,9 @@ TEST(RandomStart, MovesWhatIsFittedWithinItsSpreadAndNothingElse) {
 TEST(Apart, OfPlantsWhoseSensorsDifferByAShareIsItsSquareInUnitsOfTheFloor) {
   const FrequencyResponse data = Exact(1e-15);
   const auto result = [](double gain) {
-    ModalResult r{{}, {.floor = 0.01}, Start(), {}, {}, {}, {}, {}, {}, {}, 0.0};
-    r.fit.vector = Start().vector;
-    r.fit.vector.segment(Start().frame.layout.gain, 4).array() += std::log(gain);
+    ModalResult r{{}, {.floor = 0.01}, QualityStart(), {}, {}, {}, {}, {}, {}, {}, 0.0};
+    r.fit.vector = QualityStart().vector;
+    r.fit.vector.segment(QualityStart().frame.layout.gain, 4).array() += std::log(gain);
     r.quality.resize(1);
     r.quality[0].fitted = true;
     return r;
@@ -142,7 +142,7 @@ TEST(Apart, OfPlantsWhoseSensorsDifferByAShareIsItsSquareInUnitsOfTheFloor) {
   EXPECT_NEAR(Apart(result(1.0), result(1.003), {data}), 0.5 * 0.09, 1e-6);
   // Mass and magnets half as large again: the plant is the same, and so are the fits.
   ModalResult heavier = result(1.0);
-  const ModalLayout& at = Start().frame.layout;
+  const ModalLayout& at = QualityStart().frame.layout;
   heavier.fit.vector[at.mass] += std::log(1.5);
   heavier.fit.vector[at.inertia] += std::log(1.5);
   heavier.fit.vector.segment(at.ki, 8).array() += std::log(1.5);

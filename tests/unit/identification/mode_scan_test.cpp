@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-const ModalStart& Start() {
+const ModalStart& ScanStart() {
   static const ModalStart start = StartFromRig(
       config::LoadRig(test::SourceFolder() + "/config/rigs/flexible_rotor.yaml").plant, 5);
   return start;
@@ -31,10 +31,10 @@ FrequencyResponse Noisy(double noise_m_per_a, Eigen::Index without = -1) {
   Random random(19);
   FrequencyResponse data;
   data.channels = {"de_x", "de_y", "nde_x", "nde_y"};
-  Physical rig = ToPhysical(Start().frame, Start().vector);
+  Physical rig = ToPhysical(ScanStart().frame, ScanStart().vector);
   if (without >= 0) rig.actuator.row(2 + without).setZero();
   for (double f = 12.0; f < 1100.0; f += 1.2) {
-    Eigen::MatrixXcd plant = ModalResponse(Start().frame, rig, f, 0.0);
+    Eigen::MatrixXcd plant = ModalResponse(ScanStart().frame, rig, f, 0.0);
     for (Eigen::Index i = 0; i < 16; ++i) {
       plant.data()[i] += noise_m_per_a / std::numbers::sqrt2 *
                          std::complex<double>(random.Normal(), random.Normal());
@@ -47,7 +47,7 @@ FrequencyResponse Noisy(double noise_m_per_a, Eigen::Index without = -1) {
 }
 
 std::vector<double> InMagnets() {
-  auto hz = PlantFrequenciesHz(ToPhysical(Start().frame, Start().vector), false);
+  auto hz = PlantFrequenciesHz(ToPhysical(ScanStart().frame, ScanStart().vector), false);
   return {hz.end() - 5, hz.end()};
 }
 
@@ -87,7 +87,7 @@ TEST(ModeScan, SeesNothingInNoise) {
 }
 
 TEST(WhirlStart, WhirlsAreThoseOfTheFreeRotorWithoutMagnets) {
-  Physical rig = ToPhysical(Start().frame, Start().vector);
+  Physical rig = ToPhysical(ScanStart().frame, ScanStart().vector);
   rig.ks_n_per_m.setConstant(1e-6);
   // Without G each mode has its own frequency twice.
   Physical still = rig;
@@ -106,7 +106,7 @@ TEST(WhirlStart, WhirlsAreThoseOfTheFreeRotorWithoutMagnets) {
 }
 
 TEST(WhirlStart, TheDiagonalOfTheMatrixComesFromTheSplits) {
-  const ModalStart& start = Start();
+  const ModalStart& start = ScanStart();
   const ModalLayout& at = start.frame.layout;
   std::vector<ProposedMode> shown;
   for (const Whirl& whirl :
@@ -127,9 +127,9 @@ TEST(WhirlStart, TheDiagonalOfTheMatrixComesFromTheSplits) {
 }
 
 TEST(WhirlStart, WithoutWhirlsInTheDataNothingMoves) {
-  Eigen::VectorXd vector = Start().vector;
-  MeetWhirls(Start().frame, RpmToRadPerS(3000.0), {}, vector);
-  EXPECT_EQ(vector, Start().vector);
+  Eigen::VectorXd vector = ScanStart().vector;
+  MeetWhirls(ScanStart().frame, RpmToRadPerS(3000.0), {}, vector);
+  EXPECT_EQ(vector, ScanStart().vector);
 }
 
 }  // namespace

@@ -13,11 +13,11 @@ using test::CarryingCurrent;
 using test::LevitatorFile;
 using test::StillSeries;
 
-NominalRig Rig() { return NominalOf(LevitatorFile()); }
+NominalRig MotionRig() { return NominalOf(LevitatorFile()); }
 
 /// The last innovation of a ball that is held still by the current that carries it.
 double Last(const Theta& theta, double x_m = 0.0) {
-  const NominalRig rig = Rig();
+  const NominalRig rig = MotionRig();
   Series series = StillSeries(600, 1.0, CarryingCurrent(rig, x_m), x_m);
   for (double& lower_a : series.measured_a[1]) lower_a = 0.0;
   return Innovations(rig, series, theta, 0, {}).back();
@@ -60,13 +60,13 @@ TEST(Innovations, KeepTheirForceUnderTheUnitCurrentWhateverTheExponent) {
   // F ~ i^(2 + n): at 1 A the exponent does nothing, beyond it the force grows.
   Theta theta = Zeros(1);
   theta[kForceExponent] = 0.2;
-  const double carrying_a = CarryingCurrent(Rig(), 0.0);
+  const double carrying_a = CarryingCurrent(MotionRig(), 0.0);
   EXPECT_GT(carrying_a, 1.0);
   EXPECT_LT(Last(theta), 0.0);
 }
 
 TEST(Innovations, UseTheModelsCurrentsWhereNoneWereMeasured) {
-  const NominalRig rig = Rig();
+  const NominalRig rig = MotionRig();
   Series series = StillSeries(600, CarryingCurrent(rig, 0.0) - rig.offset_a, 0.0);
   series.measured_a = {};
   const CoilRun coils = RunCoils(rig, series, Zeros(1), 0);
@@ -75,7 +75,7 @@ TEST(Innovations, UseTheModelsCurrentsWhereNoneWereMeasured) {
 }
 
 TEST(Innovations, StartAnewWhereRowsAreMissing) {
-  const NominalRig rig = Rig();
+  const NominalRig rig = MotionRig();
   Series series = StillSeries(200, 1.0, CarryingCurrent(rig, 0.0));
   for (std::size_t n = 100; n < 200; ++n) series.position_m[n] = 3e-3;
   const auto jumped = Innovations(rig, series, Zeros(1), 0, {});

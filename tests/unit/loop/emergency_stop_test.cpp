@@ -18,12 +18,12 @@
 namespace levitas::loop {
 namespace {
 
-constexpr std::int64_t kPeriod = 100'000;
-constexpr DeskOptions kOptions{
+constexpr std::int64_t kStopPeriod = 100'000;
+constexpr DeskOptions kStopOptions{
     .period_s = 1e-4, .stop_acceleration_rad_per_s2 = 50.0, .standstill_rad_per_s = 1.0};
 constexpr auto kStop = OperatorCommand::kEmergencyStop;
 
-OperatorView View(std::uint64_t cycle, Mode mode) {
+OperatorView StopView(std::uint64_t cycle, Mode mode) {
   return {.cycle = cycle, .mode = mode, .amplifiers_enabled = mode != Mode::kOff};
 }
 
@@ -49,15 +49,15 @@ TEST(EmergencyStop, PassesAFullRingInEveryModeWhetherEndingOrNot) {
     for (const bool ending : {false, true}) {
       SpscRing<RemoteCommand> ring(16);
       StopLatch stops;
-      CommandArbiter desk(kOptions, nullptr, {&ring, &stops});
+      CommandArbiter desk(kStopOptions, nullptr, {&ring, &stops});
       if (ending) desk.RequestStop();
-      (void)desk.Next(View(0, static_cast<Mode>(mode)));
+      (void)desk.Next(StopView(0, static_cast<Mode>(mode)));
       while (ring.Post(Land())) {
       }
       stops.Ask(1, {});
-      EXPECT_EQ(desk.Next(View(1, static_cast<Mode>(mode))).command, kStop)
+      EXPECT_EQ(desk.Next(StopView(1, static_cast<Mode>(mode))).command, kStop)
           << Name(static_cast<Mode>(mode)) << (ending ? " ending" : "");
-      EXPECT_NE(desk.Next(View(2, static_cast<Mode>(mode))).command, kStop);
+      EXPECT_NE(desk.Next(StopView(2, static_cast<Mode>(mode))).command, kStop);
     }
   }
 }
@@ -66,31 +66,31 @@ TEST(EmergencyStop, PassesAFullRingInEveryModeWhetherEndingOrNot) {
 TEST(EmergencyStop, IsNotUndoneByCommandsThatWereGivenBeforeIt) {
   SpscRing<RemoteCommand> ring(16);
   StopLatch stops;
-  CommandArbiter desk(kOptions, nullptr, {&ring, &stops});
+  CommandArbiter desk(kStopOptions, nullptr, {&ring, &stops});
   ring.Post({.command = OperatorCommand::kReset, .stops_before = 0});
   ring.Post({.command = OperatorCommand::kLift, .stops_before = 0});
   stops.Ask(1, {});
   ring.Post(Land(1));  // given with the stop known
-  EXPECT_EQ(desk.Next(View(0, Mode::kTripped)).command, kStop);
-  EXPECT_EQ(desk.Next(View(1, Mode::kTripped)).command, OperatorCommand::kLand);
-  EXPECT_EQ(desk.Next(View(2, Mode::kTripped)).command, OperatorCommand::kNone);
+  EXPECT_EQ(desk.Next(StopView(0, Mode::kTripped)).command, kStop);
+  EXPECT_EQ(desk.Next(StopView(1, Mode::kTripped)).command, OperatorCommand::kLand);
+  EXPECT_EQ(desk.Next(StopView(2, Mode::kTripped)).command, OperatorCommand::kNone);
 }
 
 TEST(EmergencyStop, WithoutOneTheSameCommandsPass) {
   SpscRing<RemoteCommand> ring(16);
   StopLatch stops;
-  CommandArbiter desk(kOptions, nullptr, {&ring, &stops});
+  CommandArbiter desk(kStopOptions, nullptr, {&ring, &stops});
   ring.Post({.command = OperatorCommand::kReset});
   ring.Post({.command = OperatorCommand::kLift});
-  EXPECT_EQ(desk.Next(View(0, Mode::kTripped)).command, OperatorCommand::kReset);
-  EXPECT_EQ(desk.Next(View(1, Mode::kOff)).command, OperatorCommand::kLift);
+  EXPECT_EQ(desk.Next(StopView(0, Mode::kTripped)).command, OperatorCommand::kReset);
+  EXPECT_EQ(desk.Next(StopView(1, Mode::kOff)).command, OperatorCommand::kLift);
 }
 
 TEST(EmergencyStop, GivesBackTheTestSignalThatCameBeforeIt) {
   SpscRing<RemoteCommand> ring(16);
   StopLatch stops;
   ExcitationPool shelf;
-  CommandArbiter desk(kOptions, nullptr, {&ring, &stops});
+  CommandArbiter desk(kStopOptions, nullptr, {&ring, &stops});
   scenario::Step step;
   step.hold_s = 1.0;
   step.excitation.emplace_back();
@@ -99,7 +99,8 @@ TEST(EmergencyStop, GivesBackTheTestSignalThatCameBeforeIt) {
   }
   ASSERT_EQ(shelf.Put(step, 1e-4), nullptr);
   stops.Ask(1, {});
-  for (std::uint64_t cycle = 0; cycle < 3; ++cycle) (void)desk.Next(View(cycle, Mode::kTripped));
+  for (std::uint64_t cycle = 0; cycle < 3; ++cycle)
+    (void)desk.Next(StopView(cycle, Mode::kTripped));
   for (std::size_t place = 0; place < ExcitationPool::kSlots; ++place) {
     EXPECT_NE(shelf.Put(step, 1e-4), nullptr);
   }
@@ -108,10 +109,10 @@ TEST(EmergencyStop, GivesBackTheTestSignalThatCameBeforeIt) {
 TEST(EmergencyStop, NamesTheCycleToEverybodyWhoAsked) {
   StopLatch stops;
   SpscRing<GivenCommand> given(8);
-  CommandArbiter desk(kOptions, nullptr, {nullptr, &stops, &given});
+  CommandArbiter desk(kStopOptions, nullptr, {nullptr, &stops, &given});
   stops.Ask(1, {11, 4});
   stops.Ask(2, {12, 9});
-  EXPECT_EQ(desk.Next(View(77, Mode::kSpinning)).command, kStop);
+  EXPECT_EQ(desk.Next(StopView(77, Mode::kSpinning)).command, kStop);
   GivenCommand first;
   GivenCommand second;
   ASSERT_TRUE(given.Take(first) && given.Take(second));
@@ -127,17 +128,17 @@ struct StopBench {
     const auto controller = config::LoadController(
         SourceFolder() + "/config/controllers/flexible_rotor.yaml", rig.numbers);
     cycle.emplace(cycle::CycleConfig{rig.numbers, controller.law, controller.supervisor});
-    loop.emplace(LoopOptions{.pace = Pace::kRealtime, .period_ns = kPeriod}, port, *cycle, desk,
+    loop.emplace(LoopOptions{.pace = Pace::kRealtime, .period_ns = kStopPeriod}, port, *cycle, desk,
                  sink, clock);
   }
   static std::string SourceFolder() { return levitas::test::SourceFolder(); }
 
   test::FakeClock clock;
-  test::FakePort port{clock, kPeriod};
+  test::FakePort port{clock, kStopPeriod};
   std::optional<cycle::ControlCycle> cycle;
   SpscRing<RemoteCommand> ring{16};
   StopLatch stops;
-  CommandArbiter desk{kOptions, nullptr, {&ring, &stops}};
+  CommandArbiter desk{kStopOptions, nullptr, {&ring, &stops}};
   test::FakeSink sink;
   std::optional<ControlLoop> loop;
 };
@@ -155,7 +156,7 @@ TEST(EmergencyStop, IsATripWithinOnePeriodWhateverElseIsAsked) {
     while (bench.ring.Post(Land(bench.stops.asked()))) {
     }
     if (bench.sink.records.size() % 10 == 5 && asked < 1000) {
-      const auto since_ns = static_cast<std::int64_t>(random.Uniform() * (kPeriod - 1));
+      const auto since_ns = static_cast<std::int64_t>(random.Uniform() * (kStopPeriod - 1));
       pending_ns = bench.clock.now_ns - since_ns;
       bench.stops.Ask(pending_ns, {});
       ++asked;
@@ -178,7 +179,7 @@ TEST(EmergencyStop, IsATripWithinOnePeriodWhateverElseIsAsked) {
   EXPECT_EQ(stopped, 1000);
   EXPECT_EQ(measured.count(), 1000U);
   EXPECT_EQ(measured.max_ns(), longest_ns);
-  EXPECT_LE(longest_ns, kPeriod + kWorkNs);
+  EXPECT_LE(longest_ns, kStopPeriod + kWorkNs);
   EXPECT_EQ(bench.sink.records.back().out.fault, Fault::kEmergencyStop);
 }
 
@@ -194,12 +195,12 @@ TEST(EmergencyStop, AllocatesNothingInTheLoop) {
   SpscRing<RemoteCommand> ring(16);
   StopLatch stops;
   SpscRing<GivenCommand> given(8);
-  CommandArbiter desk(kOptions, nullptr, {&ring, &stops, &given});
+  CommandArbiter desk(kStopOptions, nullptr, {&ring, &stops, &given});
   const levitas::test::AllocationGuard guard;
   for (std::uint64_t cycle = 0; cycle < 10'000; ++cycle) {
     stops.Ask(1, {1, 2});
     ring.Post(Land());
-    (void)desk.Next(View(cycle, Mode::kLevitating));
+    (void)desk.Next(StopView(cycle, Mode::kLevitating));
   }
   EXPECT_EQ(guard.count(), 0U);
 }

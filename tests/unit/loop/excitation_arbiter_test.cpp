@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPeriodS = 1e-4;
 constexpr double kAmplitudeA = 0.25;
-constexpr DeskOptions kOptions{
+constexpr DeskOptions kExcitationOptions{
     .period_s = kPeriodS, .stop_acceleration_rad_per_s2 = 50.0, .standstill_rad_per_s = 1.0};
 constexpr auto kExcite = OperatorCommand::kExcite;
 constexpr auto kEnd = OperatorCommand::kEndExcitation;
@@ -57,7 +57,7 @@ class ExcitationDesk : public testing::Test {
 
   ExcitationPool shelf_;
   SpscRing<RemoteCommand> ring_{8};
-  CommandArbiter desk_{kOptions, nullptr, {&ring_}};
+  CommandArbiter desk_{kExcitationOptions, nullptr, {&ring_}};
   OperatorView view_{.mode = Mode::kLevitating, .amplifiers_enabled = true};
   cycle::OperatorInput last_;
 };

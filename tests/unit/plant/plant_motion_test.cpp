@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSpeed_rad_per_s = 314.0;
 
-PlantCommand Off(double speed_rad_per_s) {
+PlantCommand OffAt(double speed_rad_per_s) {
   PlantCommand command;
   command.amplifiers_enabled = false;
   command.drive_enabled = true;
@@ -57,7 +57,7 @@ double EnergyAfterOneSecond(double speed_rad_per_s, int substeps) {
     plant.mutable_state()[i] = 1e-3 * random.Normal();
   }
   const double before = Energy(plant);
-  for (int i = 0; i < 10'000; ++i) plant.Advance(Off(speed_rad_per_s));
+  for (int i = 0; i < 10'000; ++i) plant.Advance(OffAt(speed_rad_per_s));
   return Energy(plant) / before;
 }
 
@@ -89,7 +89,7 @@ TEST(Unbalance, MovesARigidRotorAboutItsCentreOfMassWhileItAccelerates) {
   plant.RestInTouchdown();  // takes the current away ...
   for (std::size_t i = 0; i < 4; ++i) plant.mutable_state()[i] = placed[i];  // ... and the place
   for (int i = 0; i < 3000; ++i) {
-    plant.Advance(Off(300.0));  // 0.3 s up to 300 rad/s
+    plant.Advance(OffAt(300.0));  // 0.3 s up to 300 rad/s
     const auto position_m = plant.ActuatorPosition();
     // Trapezoid on a force that turns by W h = 7.5e-3 per substep: (W h)^2/12 = 5e-6 of the orbit,
     // summed over the run-up by two integrations; 1 % is far below what a missing term leaves.
@@ -127,7 +127,7 @@ TEST(Unbalance, HoldsAFlexibleRotorInTheSteadyWhirlOfTheClosedForm) {
     plant.mutable_state()[at.v_x + i] = -kSpeed_rad_per_s * q.imag();
     plant.mutable_state()[at.v_y + i] = kSpeed_rad_per_s * q.real();
   }
-  for (int step = 0; step < 200; ++step) plant.Advance(Off(kSpeed_rad_per_s));
+  for (int step = 0; step < 200; ++step) plant.Advance(OffAt(kSpeed_rad_per_s));
   const std::complex<double> turn = std::polar(1.0, kSpeed_rad_per_s * 0.02);
   for (std::size_t i = 0; i < at.modes; ++i) {
     const std::complex<double> q = whirl[static_cast<Eigen::Index>(i)] * turn;
@@ -143,7 +143,7 @@ TEST(Gravity, PullsAFreeRotorDownTheWrittenDirection) {
   config.gravity_direction_rad = 225.0 * 3.14159265358979 / 180.0;
   Plant plant(config, 1);
   plant.RestInTouchdown();  // no touchdown bearings: stays in the centre, coils without current
-  for (int i = 0; i < 50; ++i) plant.Advance(Off(0.0));
+  for (int i = 0; i < 50; ++i) plant.Advance(OffAt(0.0));
   const double fall_m = 0.5 * 9.81 * 0.005 * 0.005;
   for (const double position_m : plant.ActuatorPosition()) {
     if (position_m == 0.0) continue;  // entries beyond the four axes

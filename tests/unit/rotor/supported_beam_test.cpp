@@ -13,9 +13,10 @@ namespace levitas::rotor {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr Material kSteel{210e9, 0.3, 7850.0};
+constexpr Material kBeamSteel{210e9, 0.3, 7850.0};
 
-FiniteElementModel Beam(const Section& section, int elements, const Material& material = kSteel) {
+FiniteElementModel Beam(const Section& section, int elements,
+                        const Material& material = kBeamSteel) {
   RotorConfig config;
   config.material = material;
   config.sections = {section};
@@ -178,7 +179,7 @@ TEST(SteppedCantilever, DeflectsAsCastiglianoSaysWhateverTheMesh) {
                           0.2 / ShearStiffnessN(thick) + 0.3 / ShearStiffnessN(thin);
   for (const double length_m : {0.5, 0.07, 0.011}) {
     RotorConfig config;
-    config.material = kSteel;
+    config.material = kBeamSteel;
     config.sections = {thick, thin};
     config.max_element_length_m = length_m;
     const auto shaft = ClampedAtTheDriveEnd(Assemble(config, {}));

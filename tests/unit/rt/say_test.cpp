@@ -187,6 +187,10 @@ TEST(Printable, ShowsWhatWouldSteerATerminal) {
             "\\xc2\\x9b31m");  // and as UTF-8
 }
 
+TEST(OneLine, LeavesANameNoWayToASecondRow) {
+  EXPECT_EQ(OneLine("a\nb\tc\x1b[m µ"), "a\\x0ab\\x09c\\x1b[m µ");
+}
+
 TEST(Printable, LeavesTextOfPeopleAlone) {
   const std::string text = "line\n\tµm, Ω, 磁, 𝄞\n";
   EXPECT_EQ(Printable(text), text);

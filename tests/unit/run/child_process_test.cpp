@@ -7,10 +7,10 @@
 
 #include <csignal>
 #include <fstream>
-#include <thread>
 
 #include "common/problem.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/waiting.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -18,14 +18,16 @@ namespace {
 using std::chrono::milliseconds;
 using testing::HasSubstr;
 
-// Long enough for any loaded machine; a passing test never waits for it.
-constexpr milliseconds kLong{30'000};
+/// Waits until the child has said the word.
+bool Says(const ChildProcess& child, const std::string& word) {
+  return test::Eventually([&] { return child.LastWords(1) == word; });
+}
 
 TEST(ChildProcess, TellsTheExitStatusAndTheLastWords) {
   const test::ScratchFolder scratch;
   ChildProcess child("/bin/sh", {"-c", "echo one; echo two >&2; echo three; exit 3"},
                      scratch / "log");
-  const auto ended = child.WaitFor(kLong);
+  const auto ended = child.WaitFor(test::kLimit);
   ASSERT_TRUE(ended);
   EXPECT_FALSE(ended->signalled);
   EXPECT_EQ(ended->code, 3);
@@ -37,7 +39,7 @@ TEST(ChildProcess, TellsTheExitStatusAndTheLastWords) {
 TEST(ChildProcess, TellsWhichSignalEndedIt) {
   const test::ScratchFolder scratch;
   ChildProcess child("/bin/sh", {"-c", "kill -9 $$"}, scratch / "log");
-  const auto ended = child.WaitFor(kLong);
+  const auto ended = child.WaitFor(test::kLimit);
   ASSERT_TRUE(ended);
   EXPECT_EQ(ended->Text(), "was ended by signal 9 (Killed)");
 }
@@ -45,7 +47,7 @@ TEST(ChildProcess, TellsWhichSignalEndedIt) {
 TEST(ChildProcess, HandsArgumentsOverUnchanged) {
   const test::ScratchFolder scratch;
   ChildProcess child("/bin/echo", {"a b", "$HOME", "*"}, scratch / "log");
-  ASSERT_TRUE(child.WaitFor(kLong));
+  ASSERT_TRUE(child.WaitFor(test::kLimit));
   EXPECT_EQ(child.LastWords(5), "a b $HOME *");
 }
 
@@ -66,7 +68,7 @@ TEST(ChildProcess, DoesNotWaitForAChildThatRuns) {
   ChildProcess child("/bin/sleep", {"1000"}, scratch / "log");
   EXPECT_FALSE(child.Poll());
   EXPECT_FALSE(child.WaitFor(milliseconds(20)));
-  const ChildExit ended = child.End(kLong);
+  const ChildExit ended = child.End(test::kLimit);
   EXPECT_TRUE(ended.signalled);
   EXPECT_EQ(ended.code, SIGTERM);
 }
@@ -75,7 +77,7 @@ TEST(ChildProcess, KillsAChildThatIgnoresTheRequestToEnd) {
   const test::ScratchFolder scratch;
   ChildProcess child("/bin/sh", {"-c", "trap '' TERM; echo deaf; while :; do sleep 0.05; done"},
                      scratch / "log");
-  while (child.LastWords(1) != "deaf") std::this_thread::sleep_for(milliseconds(5));
+  ASSERT_TRUE(Says(child, "deaf"));
   const ChildExit ended = child.End(milliseconds(100));
   EXPECT_TRUE(ended.signalled);
   EXPECT_EQ(ended.code, SIGKILL);
@@ -109,27 +111,24 @@ bool IsDead(pid_t process) {
 
 /// Starts `script` as the child of a process that is then killed: nobody tidies up but the kernel.
 /// Returns when the child is dead, false when it still lives after a long time.
-bool DiesAfterItsParent(const test::ScratchFolder& scratch, const std::string& script) {
+bool DiesAfterItsParent(const test::ScratchFolder& scratch, const std::string& script,
+                        const std::string& life_line = "") {
   const pid_t parent = fork();
   if (parent == 0) {
-    ChildProcess child("/bin/sh", {"-c", script}, scratch / "log");
-    while (child.LastWords(1) != "ready") std::this_thread::sleep_for(milliseconds(5));
+    ChildProcess child("/bin/sh", {"-c", script}, scratch / "log", life_line);
+    if (!Says(child, "ready")) _exit(1);
     std::ofstream(scratch / "pid.new") << child.pid() << std::endl;
     std::filesystem::rename(scratch / "pid.new", scratch / "pid");
     pause();
     _exit(0);
   }
-  while (!std::filesystem::exists(scratch / "pid")) std::this_thread::sleep_for(milliseconds(5));
+  EXPECT_TRUE(test::Eventually([&] { return std::filesystem::exists(scratch / "pid"); }));
   pid_t child = 0;
   std::ifstream(scratch / "pid") >> child;
   EXPECT_EQ(kill(child, 0), 0);
   kill(parent, SIGKILL);
   waitpid(parent, nullptr, 0);
-  const auto deadline = std::chrono::steady_clock::now() + kLong;
-  while (!IsDead(child) && std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::sleep_for(milliseconds(5));
-  }
-  return IsDead(child);
+  return test::Eventually([child] { return IsDead(child); });
 }
 
 TEST(ChildProcess, EndsWhenItsParentIsKilled) {
@@ -145,6 +144,17 @@ TEST(ChildProcess, HasTimeToLandAfterItsParentWasKilled) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "landed"));
 }
 
+// What a file capability of the program does: the kernel forgets the wish to be told. (/bin/sh gets
+// the descriptor as $1, its name for the option as $0.)
+TEST(ChildProcess, WithALifeLineSeesTheEndOfItsParentWithoutASignal) {
+  const test::ScratchFolder scratch;
+  const std::string script =
+      "trap '' TERM; echo ready; read nothing < /proc/self/fd/$1; echo landed > " +
+      (scratch / "landed") + "; exit 0";
+  EXPECT_TRUE(DiesAfterItsParent(scratch, script, "life-line"));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "landed"));
+}
+
 TEST(ChildProcess, HasTimeToLandWhenTheObjectEnds) {
   const test::ScratchFolder scratch;
   {
@@ -152,7 +162,7 @@ TEST(ChildProcess, HasTimeToLandWhenTheObjectEnds) {
                        {"-c", "trap 'sleep 0.3; echo landed > " + (scratch / "landed") +
                                   "; exit 0' TERM; echo ready; while :; do sleep 0.02; done"},
                        scratch / "log");
-    while (child.LastWords(1) != "ready") std::this_thread::sleep_for(milliseconds(5));
+    ASSERT_TRUE(Says(child, "ready"));
   }
   EXPECT_TRUE(std::filesystem::exists(scratch / "landed"));
 }

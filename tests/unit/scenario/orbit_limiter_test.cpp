@@ -9,16 +9,16 @@
 namespace levitas::scenario {
 namespace {
 
-constexpr double kPeriod_s = 1e-4;
+constexpr double kLimiterPeriod_s = 1e-4;
 constexpr double kLimit_m = 50e-6;
 
 TEST(OrbitLimiter, LeavesAnExcitationAloneWithinTheLimit) {
-  OrbitLimiter limiter(kPeriod_s);
+  OrbitLimiter limiter(kLimiterPeriod_s);
   for (int n = 0; n < 1000; ++n) EXPECT_EQ(limiter.Next(0.99 * kLimit_m, kLimit_m), 1.0);
 }
 
 TEST(OrbitLimiter, FallsByOneEthInAMillisecondBeyondTheLimit) {
-  OrbitLimiter limiter(kPeriod_s);
+  OrbitLimiter limiter(kLimiterPeriod_s);
   double gain = 1.0;
   for (int n = 0; n < 10; ++n) gain = limiter.Next(1.2 * kLimit_m, kLimit_m);
   EXPECT_NEAR(gain, std::exp(-1.0), 1e-12);
@@ -26,13 +26,13 @@ TEST(OrbitLimiter, FallsByOneEthInAMillisecondBeyondTheLimit) {
 
 TEST(OrbitLimiter, CutsOffAtOnceFarBeyondTheLimitAndForANumberThatIsNone) {
   for (const double radius_m : {1.5 * kLimit_m, 1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    OrbitLimiter limiter(kPeriod_s);
+    OrbitLimiter limiter(kLimiterPeriod_s);
     EXPECT_EQ(limiter.Next(radius_m, kLimit_m), 0.0);
   }
 }
 
 TEST(OrbitLimiter, ComesBackWithinSecondsOnceItIsQuiet) {
-  OrbitLimiter limiter(kPeriod_s);
+  OrbitLimiter limiter(kLimiterPeriod_s);
   (void)limiter.Next(1.0, kLimit_m);
   for (int n = 0; n < 100; ++n) EXPECT_EQ(limiter.Next(0.9 * kLimit_m, kLimit_m), 0.0);
   double gain = 0.0;
@@ -41,7 +41,7 @@ TEST(OrbitLimiter, ComesBackWithinSecondsOnceItIsQuiet) {
 }
 
 TEST(OrbitLimiter, WithoutALimitDoesNothing) {
-  OrbitLimiter limiter(kPeriod_s);
+  OrbitLimiter limiter(kLimiterPeriod_s);
   EXPECT_EQ(limiter.Next(1.0, 0.0), 1.0);
 }
 
@@ -58,7 +58,7 @@ TEST(ScenarioPlayer, CutsAnExcitationBackBeyondTheOrbitLimitOfItsStep) {
   position.point = Injection::kMeasuredPosition;
   position.amplitude_m = 10e-6;
   step.excitation = {current, position};
-  ScenarioPlayer player({"test", {step}, {}}, kPeriod_s, 0.5);
+  ScenarioPlayer player({"test", {step}, {}}, kLimiterPeriod_s, 0.5);
   (void)player.Next(Mode::kLevitating, 0.0, Fault::kNone);
   const PlayerOutput quiet = player.Next(Mode::kLevitating, 0.0, Fault::kNone, false, 0.0);
   EXPECT_EQ(std::abs(quiet.excitation_a[0]), 0.5);

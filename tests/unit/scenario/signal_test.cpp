@@ -14,7 +14,7 @@ namespace levitas::scenario {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kPeriod_s = 50e-6;  // 20 kHz
+constexpr double kSignalPeriod_s = 50e-6;  // 20 kHz
 
 Excitation Of(SignalKind kind) {
   Excitation e;
@@ -34,7 +34,8 @@ std::vector<double> Values(Signal& signal, std::size_t count) {
 double Line(const std::vector<double>& values, double frequency_hz) {
   std::complex<double> sum = 0.0;
   for (std::size_t n = 0; n < values.size(); ++n) {
-    sum += values[n] * std::polar(1.0, -kTwoPi * frequency_hz * static_cast<double>(n) * kPeriod_s);
+    sum += values[n] *
+           std::polar(1.0, -kTwoPi * frequency_hz * static_cast<double>(n) * kSignalPeriod_s);
   }
   return 2.0 * std::abs(sum) / static_cast<double>(values.size());
 }
@@ -43,7 +44,7 @@ TEST(Paprbs, HasTheSignsOfThePrbsAndAmplitudesSpreadEvenlyBetweenItsBounds) {
   Excitation e = Of(SignalKind::kPaprbs);
   e.low_share = 0.2;
   e.divisor = 10;  // 0.5 ms a bit, as the paper has it
-  Signal signal(e, kPeriod_s);
+  Signal signal(e, kSignalPeriod_s);
   Prbs signs(15);
   constexpr int kBits = 8000;
   double sum = 0.0;
@@ -72,7 +73,7 @@ TEST(Paprbs, QuarterStartsAreUncorrelated) {
     Excitation e = Of(SignalKind::kPaprbs);
     e.start = 0.25 * static_cast<double>(i);
     e.seed = i + 1;
-    Signal signal(e, kPeriod_s);
+    Signal signal(e, kSignalPeriod_s);
     inputs[i] = Values(signal, 8000);
   }
   for (std::size_t a = 0; a < 4; ++a) {
@@ -93,8 +94,8 @@ TEST(Paprbs, QuarterStartsAreUncorrelated) {
 
 // The other half of the pair: begun at the same place, two inputs are one.
 TEST(Paprbs, EqualStartsAndSeedsAreTheSameSignal) {
-  Signal one(Of(SignalKind::kPaprbs), kPeriod_s);
-  Signal other(Of(SignalKind::kPaprbs), kPeriod_s);
+  Signal one(Of(SignalKind::kPaprbs), kSignalPeriod_s);
+  Signal other(Of(SignalKind::kPaprbs), kSignalPeriod_s);
   EXPECT_EQ(Values(one, 1000), Values(other, 1000));
 }
 
@@ -104,12 +105,12 @@ TEST(SteppedSine, DwellsOnEachFrequencyWithoutABreakOfPhase) {
   e.to_hz = 400.0;
   e.frequencies = 3;  // by equal ratios: 100, 200, 400
   e.dwell_s = 0.1;
-  Signal signal(e, kPeriod_s);
+  Signal signal(e, kSignalPeriod_s);
   double last = 0.0;
   for (const double frequency_hz : {100.0, 200.0, 400.0, 100.0}) {
     const std::vector<double> values = Values(signal, 2000);
     EXPECT_NEAR(Line(values, frequency_hz), 1.0, 1e-9);  // whole periods: rounding only
-    EXPECT_LT(std::abs(values.front() - last), kTwoPi * 400.0 * kPeriod_s);  // largest slope
+    EXPECT_LT(std::abs(values.front() - last), kTwoPi * 400.0 * kSignalPeriod_s);  // largest slope
     last = values.back();
   }
 }
@@ -121,7 +122,7 @@ TEST(SteppedSine, SpacesFrequenciesEvenlyWhenAskedTo) {
   e.frequencies = 3;
   e.dwell_s = 0.1;
   e.linear = true;
-  Signal signal(e, kPeriod_s);
+  Signal signal(e, kSignalPeriod_s);
   for (const double frequency_hz : {100.0, 200.0, 300.0}) {
     EXPECT_NEAR(Line(Values(signal, 2000), frequency_hz), 1.0, 1e-9);
   }
@@ -136,9 +137,9 @@ TEST(Chirp, HasThePhaseOfItsSweep) {
     e.to_hz = 1000.0;
     e.repeat_s = 1.0;
     e.linear = linear;
-    Signal signal(e, kPeriod_s);
+    Signal signal(e, kSignalPeriod_s);
     for (int n = 0; n < 20'000; ++n) {
-      const double t = n * kPeriod_s;
+      const double t = n * kSignalPeriod_s;
       const double turns = linear ? 10.0 * t + 990.0 * t * t / 2.0
                                   : 10.0 / std::log(100.0) * (std::pow(100.0, t) - 1.0);
       // The sum over midpoints differs from the integral by f'' T^2/24 a second: 4e-5 turns.
@@ -152,7 +153,7 @@ TEST(Multisine, HoldsEqualLinesWithinItsBandAndNoneOutside) {
   e.from_hz = 20.0;
   e.to_hz = 500.0;
   e.repeat_s = 0.1;  // lines every 10 Hz: 49 of them
-  Signal signal(e, kPeriod_s);
+  Signal signal(e, kSignalPeriod_s);
   const std::vector<double> values = Values(signal, 2000);
   const double amplitude = Line(values, 20.0);
   double peak = 0.0;
@@ -170,9 +171,9 @@ TEST(Multisine, HoldsEqualLinesWithinItsBandAndNoneOutside) {
 TEST(Impulse, LastsItsWidthAndComesAgainOnlyWhenAskedTo) {
   Excitation e = Of(SignalKind::kImpulse);
   e.width_s = 1e-3;
-  Signal once(e, kPeriod_s);
+  Signal once(e, kSignalPeriod_s);
   e.repeat_s = 0.1;
-  Signal again(e, kPeriod_s);
+  Signal again(e, kSignalPeriod_s);
   for (int n = 0; n < 6000; ++n) {
     EXPECT_EQ(once.Next(), n < 20 ? 1.0 : 0.0);
     EXPECT_EQ(again.Next(), n % 2000 < 20 ? 1.0 : 0.0);
@@ -189,7 +190,7 @@ TEST(Signal, StaysWithinItsAmplitudeAndAllocatesNothing) {
     e.dwell_s = 0.01;
     e.repeat_s = 0.2;
     e.width_s = 0.001;
-    Signal signal(e, kPeriod_s);
+    Signal signal(e, kSignalPeriod_s);
     double largest = 0.0;
     const test::AllocationGuard guard;
     for (int n = 0; n < 20'000; ++n) largest = std::max(largest, std::abs(signal.Next()));

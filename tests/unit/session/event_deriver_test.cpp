@@ -103,6 +103,22 @@ TEST_F(Deriver, TellsCommandsAndRefusals) {
   EXPECT_EQ(events[0].severity, Event::Severity::kWarning);
 }
 
+TEST_F(Deriver, WarnsOnceOfARotorThatTurnsWhileTheAmplifiersAreOff) {
+  auto record = Quiet(1);
+  record.out.mode = Mode::kOff;
+  record.in.frame.speed_rad_per_s = 314.159265358979;  // 3000 rpm
+  record.out.current.drive_enabled = false;
+  EXPECT_EQ(Step(record).size(), 1U) << "the change of mode alone";
+  record.in.cycle = 2;
+  record.out.current.drive_enabled = true;
+  const auto events = Step(record);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].severity, Event::Severity::kWarning);
+  EXPECT_THAT(events[0].text, AllOf(HasSubstr("3000 rpm"), HasSubstr("lift is refused")));
+  record.in.cycle = 3;
+  EXPECT_TRUE(Step(record).empty());
+}
+
 TEST_F(Deriver, TellsARestartOfTheRig) {
   auto record = Quiet(1);
   record.in.frame.rig_session ^= 1U;

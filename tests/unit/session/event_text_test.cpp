@@ -49,7 +49,7 @@ const Told kTold[] = {
      ": -390 um, allowed 380 um."},
     {Fault::kSensorFrozen, 2, 20.0, 20.0, "frozen", ": 20 equal readings, allowed 20 equal"},
     {Fault::kSensorNotFinite, 3, 0.0, 380e-6, "no number", ""},
-    {Fault::kFrameMissing, -1, 10.0, 10.0, "frames are missing", ": 10 cycles in a row"},
+    {Fault::kFrameMissing, -1, 10.0, 10.0, "frames are missing", ": 10 cycles, allowed 10 cycles."},
     {Fault::kDeadlineMissed, -1, 7.0, 5.0, "deadlines", ": 7 periods, allowed 5 periods."},
     {Fault::kCoilSaturated, 3, 0.25, 0.05, "at its limit", ": 0.25 s, allowed 0.05 s."},
     {Fault::kOverSpeed, -1, RpmToRadPerS(6660.0), RpmToRadPerS(6600.0), "too fast",
@@ -64,6 +64,11 @@ const Told kTold[] = {
      ": 30 rpm, allowed 10 rpm."},
     {Fault::kLiftFailed, 0, 50e-6, 20e-6, "did not reach the centre", ": 50 um, allowed 20 um."},
     {Fault::kSpeedUnknown, -1, 1.0, 0.0, "speed is not known", ""},
+    {Fault::kSpeedUnknown, -1, 0.0, RpmToRadPerS(2500.0), "contradicts what the drive can do",
+     ": 0 rpm, allowed 2500 rpm."},
+    {Fault::kFramesLost, -1, 30.0, 30.0, "frames were lost", ": 30 cycles, allowed 30 cycles."},
+    {Fault::kCurrentsLate, -1, 18.0, 18.0, "currents came late",
+     ": 18 periods, allowed 18 periods."},
     {Fault::kLawNotFinite, 1, 0.0, 1.0, "law gives no number", ""},
 };
 
@@ -102,7 +107,8 @@ TEST(TripText, PointsToDoctorWhereTheMachineMayHaveBeenLate) {
   for (int fault = 1; fault < kFaultCount; ++fault) {
     record.out.fault = static_cast<Fault>(fault);
     const bool of_time =
-        record.out.fault == Fault::kFrameMissing || record.out.fault == Fault::kDeadlineMissed;
+        record.out.fault == Fault::kFrameMissing || record.out.fault == Fault::kDeadlineMissed ||
+        record.out.fault == Fault::kFramesLost || record.out.fault == Fault::kCurrentsLate;
     EXPECT_EQ(TripText(record, {}).find("amb doctor") != std::string::npos, of_time)
         << Name(record.out.fault);
   }
@@ -133,6 +139,7 @@ TEST(EventDeriver, TellsEveryChangeOfModeInWordsOfItsOwn) {
       (void)Step(deriver, record);
       record = Quiet(11);
       record.out.mode = static_cast<Mode>(to);
+      record.out.current.drive_enabled = false;  // in off it would brake a turning rotor
       const auto events = Step(deriver, record);
       ASSERT_EQ(events.size(), from == to ? 0U : 1U);
       if (events.empty()) continue;

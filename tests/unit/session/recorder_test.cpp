@@ -12,6 +12,7 @@
 
 #include "common/problem.hpp"
 #include "session/trip_freezer.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/unit/session/synthetic.hpp"
 
 namespace levitas::session {
@@ -87,7 +88,8 @@ TEST_F(Recording, CountsLostRecordsAndRecordsHowMany) {
     for (std::size_t i = 0; i + 1 < records.size(); ++i) recorder.Post(records[i]);
     lost = recorder.lost();
     go.store(true);
-    while (seen.load() + lost < records.size() - 1) std::this_thread::yield();
+    EXPECT_TRUE(
+        levitas::test::Eventually([&] { return seen.load() + lost >= records.size() - 1; }));
     recorder.Post(records.back());  // after the gap
     EXPECT_EQ(recorder.lost(), lost);
   }
@@ -122,7 +124,8 @@ TEST_F(Recording, LosesNothingWhenTheLoopMayWait) {
         ++posted;
       }
     });
-    while (posted.load() < 32'768) std::this_thread::yield();  // the ring is full
+    EXPECT_TRUE(
+        levitas::test::Eventually([&] { return posted.load() >= 32'768; }));  // the ring is full
     EXPECT_LT(posted.load(), records.size());
     go.store(true);
     loop.join();
@@ -151,7 +154,7 @@ TEST_F(Recording, FreezesTheWindowBeforeAndAfterATripToASessionOfItsOwn) {
   {
     Recorder recorder(Options(0.01));  // 100 cycles
     for (const auto& record : records) recorder.Post(record);
-    while (recorder.trip_file().empty()) std::this_thread::yield();
+    EXPECT_TRUE(levitas::test::Eventually([&] { return !recorder.trip_file().empty(); }));
     trip_file = recorder.trip_file();
   }
   EXPECT_THAT(trip_file, MatchesRegex(".*/trip-[0-9]+T[0-9]+\\.[0-9]+Z-orbit_exceeded\\.lcmlog"));
@@ -243,7 +246,7 @@ TEST_F(Recording, FreezesTheNextTripAfterOneThatCouldNotBeWritten) {
     };
     Recorder recorder(std::move(options));
     for (std::size_t i = 0; i < 500; ++i) recorder.Post(records[i]);
-    while (!failed.load()) std::this_thread::yield();
+    EXPECT_TRUE(levitas::test::Eventually([&] { return failed.load(); }));
     std::filesystem::remove(trips);
     for (std::size_t i = 500; i < records.size(); ++i) recorder.Post(records[i]);
     recorder.Finish();

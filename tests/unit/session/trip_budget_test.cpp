@@ -12,10 +12,10 @@
 namespace levitas::session {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
-class TripBudgetTest : public testing::Test {
+class TripBudgetTest : public ::testing::Test {
  protected:
   /// A trip file of `bytes`, so many minutes after an hour.
   std::string Trip(int minute, std::size_t bytes = 10) {
@@ -39,44 +39,52 @@ TEST_F(TripBudgetTest, LeavesTheNewestOfTooMany) {
   const std::string oldest = Trip(1);
   const std::string middle = Trip(2);
   const std::string newest = Trip(3);
-  EXPECT_THAT(KeepWithin({.files = 2, .bytes = 1000}, scratch_ / "", newest), ElementsAre(oldest));
+  std::vector<std::string> written{oldest, middle, newest};
+  EXPECT_THAT(KeepWithin({.files = 2, .bytes = 1000}, scratch_ / "", written), ElementsAre(oldest));
+  EXPECT_THAT(written, ElementsAre(middle, newest));
   EXPECT_FALSE(Is(oldest));
   EXPECT_TRUE(Is(middle));
   EXPECT_TRUE(Is(newest));
 }
 
 TEST_F(TripBudgetTest, LeavesTheNewestWithinTheBytes) {
-  const std::string small = Trip(1, 1);
-  const std::string large = Trip(2, 60);
-  const std::string newest = Trip(3, 50);
+  std::vector<std::string> written{Trip(1, 1), Trip(2, 60), Trip(3, 50)};
+  const std::vector<std::string> all = written;
   // The small one would fit, but it is older than one that does not.
-  EXPECT_THAT(KeepWithin({.files = 9, .bytes = 100}, scratch_ / "", newest),
-              ElementsAre(large, small));
-  EXPECT_TRUE(Is(newest));
+  EXPECT_THAT(KeepWithin({.files = 9, .bytes = 100}, scratch_ / "", written),
+              ElementsAre(all[1], all[0]));
+  EXPECT_TRUE(Is(all[2]));
 }
 
 TEST_F(TripBudgetTest, NeverRemovesTheNewest) {
-  const std::string newest = Trip(3, 500);
-  EXPECT_THAT(KeepWithin({.files = 1, .bytes = 100}, scratch_ / "", newest), IsEmpty());
-  EXPECT_TRUE(Is(newest));
+  std::vector<std::string> written{Trip(3, 500)};
+  EXPECT_THAT(KeepWithin({.files = 1, .bytes = 100}, scratch_ / "", written), IsEmpty());
+  EXPECT_TRUE(Is(written[0]));
 }
 
-TEST_F(TripBudgetTest, CountsTheFilesOfOneMillisecondInTheirOrder) {
-  const std::string first = Trip(1);
-  std::string second = first;
-  second.insert(second.rfind('.'), "-2");
-  std::string tenth = first;
-  tenth.insert(tenth.rfind('.'), "-10");
-  Write(second);
-  Write(tenth);
-  EXPECT_THAT(KeepWithin({.files = 1, .bytes = 1000}, scratch_ / "", tenth),
-              ElementsAre(second, first));
+TEST_F(TripBudgetTest, NeitherCountsNorRemovesWhatThisRunHasNotWritten) {
+  std::vector<std::string> earlier;
+  for (int minute = 1; minute <= 31; ++minute) earlier.push_back(Trip(minute, 60));
+  std::vector<std::string> written{Trip(40, 60)};
+  EXPECT_THAT(KeepWithin({.files = 1, .bytes = 100}, scratch_ / "", written), IsEmpty());
+  for (const std::string& name : earlier) EXPECT_TRUE(Is(name)) << name;
+  const OlderTrips older = OlderTripFiles(scratch_ / "", written);
+  EXPECT_EQ(older.files, 31U);
+  EXPECT_EQ(older.bytes, 31U * 60U);
 }
 
-TEST_F(TripBudgetTest, TouchesNoFileOfOthers) {
-  const std::string newest = Trip(9);
-  const std::string linked = "trip-20251121T044501.123Z-over_speed.lcmlog";
-  std::filesystem::create_symlink(scratch_ / newest, scratch_ / linked);
+TEST_F(TripBudgetTest, LeavesALinkAloneThatOthersHavePutInThePlaceOfAFile) {
+  std::vector<std::string> written{Trip(1), Trip(2)};
+  Write("precious");
+  const std::string linked = written[0];
+  std::filesystem::remove(scratch_ / linked);
+  std::filesystem::create_symlink(scratch_ / "precious", scratch_ / linked);
+  EXPECT_THAT(KeepWithin({.files = 1, .bytes = 1}, scratch_ / "", written), IsEmpty());
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch_ / linked));
+  EXPECT_TRUE(Is("precious"));
+}
+
+TEST_F(TripBudgetTest, KnowsNoFileOfOthersAsATripFile) {
   const std::vector<std::string> others{
       "trip.lcmlog",
       "trip-20251121T044501.123Z-holiday.lcmlog",
@@ -85,12 +93,8 @@ TEST_F(TripBudgetTest, TouchesNoFileOfOthers) {
       "trip-2025-11-21-over_speed.lcmlog",
   };
   for (const std::string& name : others) Write(name);
-  const std::string folder = "trip-20251121T044502.123Z-over_speed.lcmlog";
-  std::filesystem::create_directory(scratch_ / folder);
-  EXPECT_THAT(KeepWithin({.files = 1, .bytes = 1}, scratch_ / "", newest), IsEmpty());
-  for (const std::string& name : others) EXPECT_TRUE(Is(name)) << name;
-  EXPECT_TRUE(Is(folder));
-  EXPECT_TRUE(Is(linked));
+  std::filesystem::create_directory(scratch_ / "trip-20251121T044502.123Z-over_speed.lcmlog");
+  EXPECT_EQ(OlderTripFiles(scratch_ / "", {}).files, 0U);
 }
 
 TEST_F(TripBudgetTest, KnowsTheNameOfEveryFault) {
@@ -100,7 +104,9 @@ TEST_F(TripBudgetTest, KnowsTheNameOfEveryFault) {
 }
 
 TEST_F(TripBudgetTest, SurvivesAFolderThatIsNotThere) {
-  EXPECT_THAT(KeepWithin({}, scratch_ / "none", "x"), IsEmpty());
+  std::vector<std::string> written{"x"};
+  EXPECT_THAT(KeepWithin({}, scratch_ / "none", written), IsEmpty());
+  EXPECT_EQ(OlderTripFiles(scratch_ / "none", {}).files, 0U);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <thread>
 
 #include "session/recorder.hpp"
+#include "session/trip_freezer.hpp"
+#include "tests/support/waiting.hpp"
 #include "tests/unit/session/synthetic.hpp"
 
 namespace levitas::session {
@@ -89,6 +91,27 @@ TEST_F(TripSeries, EachTripOfASessionGetsItsOwnWindowAndTheSessionHoldsAll) {
   EXPECT_EQ(TripsTold(), trips.size());
 }
 
+// Somebody who may write to the folder guesses the name: what stands there is neither followed nor
+// written over, be it a link to nothing.
+TEST_F(TripSeries, WritesThroughNoLinkThatHasTheNameOfATrip) {
+  const auto records = WithTrips(800, {{500, 800, Fault::kOverSpeed}});
+  const RecorderOptions options = Options();
+  const std::string guessed =
+      TripFileName(options.header.start_utc_ns + 500 * options.header.period_ns, Fault::kOverSpeed);
+  const std::string elsewhere = folder_ / "elsewhere";
+  std::filesystem::create_symlink(elsewhere, folder_ / guessed);
+  {
+    Recorder recorder(Options());
+    for (const auto& record : records) recorder.Post(record);
+    recorder.Finish();
+    EXPECT_NE(recorder.trip_file(), folder_ / guessed);
+    SessionReader reader(recorder.trip_file());
+    EXPECT_FALSE(ReadAll(reader).empty());
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ / guessed));
+  EXPECT_FALSE(std::filesystem::exists(elsewhere));
+}
+
 TEST_F(TripSeries, RandomSeriesLeaveOneReadableFilePerTrip) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Random draw{seed};
@@ -146,7 +169,7 @@ TEST_F(TripSeries, ATripAmongLostRecordsIsStillToldAndFrozen) {
     const std::uint64_t lost = recorder.lost();
     ASSERT_GT(lost, 0U);
     go.store(true);
-    while (seen.load() + lost < kCount - 300) std::this_thread::yield();
+    EXPECT_TRUE(levitas::test::Eventually([&] { return seen.load() + lost >= kCount - 300; }));
     for (std::size_t i = kCount - 300; i < kCount; ++i) recorder.Post(records[i]);
     EXPECT_EQ(recorder.lost(), lost);
   }

@@ -14,7 +14,7 @@
 namespace levitas::supervisor {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kWalkNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A rig that is healthy most of the time, and an operator who presses everything. Faults last for
 /// a few cycles, so that counters of several cycles are reached.
@@ -30,8 +30,8 @@ class Chaos {
     static constexpr std::array kWanted{kLift,      kLift,      kSpin, kSpin,          kSpin,
                                         kCoastDown, kCoastDown, kLand, kEmergencyStop, kReset};
     request.command = kWanted[draw_.Bits() % kWanted.size()];
-    static constexpr std::array kSpeeds{0.0, 300.0, -600.0, 601.0, kNan};
-    static constexpr std::array kRates{50.0, 77.0, 1.0, 0.0, kNan};
+    static constexpr std::array kSpeeds{0.0, 300.0, -600.0, 601.0, kWalkNan};
+    static constexpr std::array kRates{50.0, 7.7e7, 1.0, 0.0, kWalkNan};
     request.speed_rad_per_s = kSpeeds[draw_.Bits() % kSpeeds.size()];
     request.acceleration_rad_per_s2 = kRates[draw_.Bits() % kRates.size()];
     return request;
@@ -45,6 +45,7 @@ class Chaos {
     }
     --left_;
     if (draw_.Bits() % 20 == 0) standing_ = !standing_;
+    if (every_other_) seen.fresh = left_ % 2 == 0;
     seen.speed_rad_per_s = speed_override_ ? *speed_override_ : standing_ ? 0.2 : 250.0;
     return seen.Next();
   }
@@ -58,10 +59,11 @@ class Chaos {
     seen.frozen = {};
     seen.position_m = {};
     speed_override_.reset();
+    every_other_ = false;
   }
 
   void Spoil(Seen& seen) {
-    switch (draw_.Bits() % 13) {
+    switch (draw_.Bits() % 15) {
       case 0:
         seen.fresh = false;
         break;
@@ -81,7 +83,7 @@ class Chaos {
         seen.frozen[draw_.Bits() % 4] = true;
         break;
       case 6:
-        seen.position_m[draw_.Bits() % 4] = kNan;
+        seen.position_m[draw_.Bits() % 4] = kWalkNan;
         break;
       case 7:
         seen.position_m[draw_.Bits() % 4] = 380e-6;  // near the end of the converter
@@ -100,6 +102,14 @@ class Chaos {
       case 11:
         seen.rig_status = kRigSpeedUnknown;
         break;
+      case 12:
+        seen.rig_status = kRigCurrentHeld;
+        left_ = 20;
+        break;
+      case 13:
+        every_other_ = true;
+        left_ = 40;
+        break;
       default:
         ++seen.rig_session;
         break;
@@ -110,19 +120,45 @@ class Chaos {
   double share_;
   std::uint64_t left_{};
   bool standing_{true};
+  bool every_other_{};
   std::optional<double> speed_override_;
+};
+
+/// From docs/safety.md: five periods below standstill without interruption prove that the rotor
+/// stands; a gap between two frames counts as ten periods at most. (Any change of the speed is one
+/// that the drive of these walks can have made.)
+class Standstill {
+ public:
+  void See(const Observation& seen) {
+    gap_ += 1 + static_cast<int>(seen.missed_deadlines);
+    if (!seen.fresh) return;
+    if ((seen.rig_status & kRigSpeedUnknown) != 0) {
+      slow_ = 0;
+    } else {
+      turning_ = std::abs(seen.speed_rad_per_s) >= 1.0;
+      slow_ = turning_ ? 0 : slow_ == 0 ? 1 : slow_ + std::min(gap_, 10);
+    }
+    gap_ = 0;
+  }
+  [[nodiscard]] bool stands() const { return slow_ >= 5; }
+  [[nodiscard]] bool turning() const { return turning_; }
+
+ private:
+  int slow_{};
+  int gap_{};
+  bool turning_{};
 };
 
 /// From docs/modes.md: cause_gone is a fresh plausible frame without a fault bit, the rotor stands.
 /// Whether an axis is frozen is not seen in one frame, so a walk with a frozen axis asks no reset.
-bool CauseGone(const Seen& seen) {
+bool CauseGone(const Seen& seen, bool standing) {
   const RigNumbers rig = TestRig();
   for (std::size_t i = 0; i < rig.axes(); ++i) {
     if (!(std::abs(seen.position_m[i]) < 0.9 * rig.sensor_range_m)) return false;
   }
   return seen.fresh &&
          (seen.rig_status & (kRigEmergencyStop | kRigAmplifierFault | kRigSpeedUnknown)) == 0 &&
-         std::abs(seen.speed_rad_per_s) < 1.0;
+         standing;
 }
 
 struct Visits {
@@ -136,6 +172,8 @@ void Walk(std::uint64_t seed, double fault_share, int cycles, Visits& visits) {
   Seen seen;
   Supervisor supervisor(TestRig(), TestConfig());
   ReferenceAutomaton reference;
+  Standstill standstill;
+  std::uint32_t session = 0;
   double set_point = 0.0;
   for (int i = 0; i < cycles; ++i) {
     Request request = chaos.Command();
@@ -146,15 +184,22 @@ void Walk(std::uint64_t seed, double fault_share, int cycles, Visits& visits) {
     const Fault cause_before = supervisor.decision().latch.finding.fault;
     const Finding found = supervisor.Check(observation, request);
     const Decision& decision = supervisor.Decide(observation, request, found);
+    // A rig that is another's is accepted where no current flows; nothing is known of its rotor.
+    if (seen.fresh && !Row(before).energised && before != State::kSelfTest) {
+      if (seen.rig_session != session) standstill = {};
+      session = seen.rig_session;
+    }
+    standstill.See(observation);
 
     const bool speed_valid = std::abs(request.speed_rad_per_s) <= 600.0 &&
                              request.acceleration_rad_per_s2 > 0.0 &&
-                             request.acceleration_rad_per_s2 <= 60.0;
+                             request.acceleration_rad_per_s2 <= 1e7;
     const auto answer = reference.Step({.found = found.fault,
                                         .command = request.command,
-                                        .standing = std::abs(observation.speed_rad_per_s) < 1.0,
+                                        .standing = standstill.stands(),
+                                        .turning = standstill.turning(),
                                         .speed_valid = speed_valid,
-                                        .cause_gone = CauseGone(seen),
+                                        .cause_gone = CauseGone(seen, standstill.stands()),
                                         .wants_stand = set_point == 0.0,
                                         .cycle = observation.cycle});
     ASSERT_TRUE(answer.allowed.contains(decision.state))
@@ -215,7 +260,8 @@ TEST(RandomWalk, NeverEnergisesDrivesOrReferencesWhereTheDocumentForbidsIt) {
       const Finding found = supervisor.Check(observation, request);
       const Decision& decision = supervisor.Decide(observation, request, found);
       const StateRow& row = Row(decision.state);
-      if (row.mode != Mode::kSpinning && row.mode != Mode::kTripped) {
+      const bool brakes_what_turns = row.mode == Mode::kOff && decision.turning;
+      if (row.mode != Mode::kSpinning && row.mode != Mode::kTripped && !brakes_what_turns) {
         ASSERT_FALSE(decision.drive_enabled) << Name(decision.state);
       }
       if (row.mode == Mode::kTripped) {

@@ -19,7 +19,8 @@ class ReferenceAutomaton {
   struct Cycle {
     Fault found{};
     OperatorCommand command{};
-    bool standing{};
+    bool standing{};     ///< proven
+    bool turning{};      ///< as last believed
     bool speed_valid{};  ///< set point and acceleration of a spin command can be
     bool cause_gone{};   ///< fresh, plausible, no fault bit, standing
     bool wants_stand{};  ///< the latest accepted set point is zero
@@ -71,12 +72,12 @@ class ReferenceAutomaton {
   }
 
   [[nodiscard]] State AfterFault(Fault fault) const {
-    static const std::set<Fault> kStops{Fault::kOrbitExceeded, Fault::kDeadlineMissed,
-                                        Fault::kCoilSaturated, Fault::kOverSpeed,
-                                        Fault::kEmergencyStop, Fault::kSpeedUnknown};
-    const bool centred =
-        state_ == State::kLevitating || state_ == State::kSpinning || state_ == State::kCoastDown;
-    return centred && kStops.contains(fault) ? State::kTrippedStopping : State::kTrippedReleased;
+    static const std::set<Fault> kStops{
+        Fault::kOrbitExceeded, Fault::kDeadlineMissed, Fault::kCoilSaturated, Fault::kOverSpeed,
+        Fault::kEmergencyStop, Fault::kSpeedUnknown,   Fault::kFramesLost,    Fault::kCurrentsLate};
+    const bool held = state_ == State::kLevitating || state_ == State::kSpinning ||
+                      state_ == State::kCoastDown || state_ == State::kLanding;
+    return held && kStops.contains(fault) ? State::kTrippedStopping : State::kTrippedReleased;
   }
 
   bool AfterCommand(const Cycle& seen, State& next) const {
@@ -84,7 +85,7 @@ class ReferenceAutomaton {
     const bool centred = turns || state_ == State::kLevitating;
     switch (seen.command) {
       case OperatorCommand::kLift:
-        if (state_ != State::kOff) return false;
+        if (state_ != State::kOff || seen.turning) return false;
         next = State::kSelfTest;
         return true;
       case OperatorCommand::kSpin:
@@ -115,7 +116,7 @@ class ReferenceAutomaton {
   void AddWhatHappensByItself(const Cycle& seen, std::set<State>& allowed) const {
     switch (state_) {
       case State::kSelfTest:
-        allowed.insert(State::kLift);
+        if (seen.standing) allowed.insert(State::kLift);
         break;
       case State::kLift:
         allowed.insert(State::kLevitating);
@@ -125,6 +126,7 @@ class ReferenceAutomaton {
         break;
       case State::kTrippedLanding:
         allowed.insert(State::kTrippedReleased);
+        if (!seen.standing) allowed.insert(State::kTrippedStopping);
         break;
       case State::kSpinning:
         if (seen.standing && seen.wants_stand) allowed = {State::kLevitating};

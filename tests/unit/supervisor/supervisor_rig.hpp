@@ -14,7 +14,8 @@ inline RigNumbers TestRig() {
   rig.clearance_m = 200e-6;
   rig.sensor_range_m = 400e-6;
   rig.max_speed_rad_per_s = 600.0;
-  rig.max_acceleration_rad_per_s2 = 60.0;
+  // Of a drive that brings the rotor to any speed within a period: tests set any speed at once.
+  rig.max_acceleration_rad_per_s2 = 1e7;
   return rig;
 }
 
@@ -27,6 +28,7 @@ inline SupervisorConfig TestConfig() {
                      .settle_radius_m = 20e-6,
                      .landing_ramp_s = 10e-4,
                      .standstill_rad_per_s = 1.0,
+                     .standstill_s = 5e-4,
                      .trip_acceleration_rad_per_s2 = 77.0};
   config.protection = {.orbit_fraction = 0.5,
                        .orbit_cycles = 3,
@@ -34,6 +36,10 @@ inline SupervisorConfig TestConfig() {
                        .sensor_range_cycles = 4,
                        .sensor_frozen_cycles = 6,
                        .frame_missing_cycles = 5,
+                       .frames_lost_cycles = 12,
+                       .frames_lost_window_cycles = 30,
+                       .currents_late_cycles = 7,
+                       .currents_late_window_cycles = 50,
                        .deadline_missed_cycles = 3,
                        .deadline_window_cycles = 100,
                        .coil_saturated_s = 8e-4,
@@ -103,7 +109,7 @@ class Driver {
     (void)Step(OperatorCommand::kEmergencyStop);
     if (wanted == State::kTrippedStopping) return;
     seen.speed_rad_per_s = 0.0;
-    (void)Step();
+    while (state() == State::kTrippedStopping) (void)Step();
     if (wanted == State::kTrippedLanding) return;
     while (state() == State::kTrippedLanding) (void)Step();
   }
@@ -111,5 +117,17 @@ class Driver {
   Seen seen;
   Supervisor supervisor;
 };
+
+/// A supervisor that has reached `state`, then shows `change` on each further cycle.
+template <class Change>
+inline Finding TripAfter(State state, int cycles, Change change) {
+  Driver driver;
+  driver.GoTo(state);
+  for (int i = 0; i < cycles; ++i) {
+    change(driver.seen, i);
+    (void)driver.Step();
+  }
+  return driver.supervisor.decision().latch.finding;
+}
 
 }  // namespace levitas::supervisor

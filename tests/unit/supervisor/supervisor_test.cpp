@@ -36,8 +36,8 @@ TEST(SelfTest, FailsForARotorBeyondTheTouchdownBearing) {
 
 TEST(SelfTest, FailsForATurningRotor) {
   Driver driver;
-  driver.seen.speed_rad_per_s = -5.0;
   (void)driver.Step(OperatorCommand::kLift);
+  driver.seen.speed_rad_per_s = -5.0;
   const Decision& decision = driver.Steps(4);
   EXPECT_EQ(decision.latch.finding.fault, Fault::kSelfTestFailed);
   EXPECT_EQ(decision.latch.finding.axis, -1);
@@ -116,8 +116,11 @@ TEST(Spin, RefusesSpeedsAndAccelerationsThatCannotBe) {
                                             {300.0, 0.0},
                                             {300.0, -1.0},
                                             {300.0, kNan},
+                                            {300.0, 61.0},
                                             {300.0, HUGE_VAL}}) {
-    Driver driver;
+    RigNumbers rig = TestRig();
+    rig.max_acceleration_rad_per_s2 = 60.0;
+    Driver driver(rig);
     driver.GoTo(State::kLevitating);
     const Decision& decision = driver.Step({OperatorCommand::kSpin, speed, acceleration});
     EXPECT_TRUE(decision.command_refused) << speed << " " << acceleration;
@@ -135,6 +138,7 @@ TEST(Spin, ReturnsToLevitatingOnlyWhenToldToStand) {
   (void)driver.Step({OperatorCommand::kSpin, 0.0, 50.0});
   EXPECT_EQ(driver.Step().state, State::kSpinning);
   driver.seen.speed_rad_per_s = 0.5;
+  EXPECT_EQ(driver.Steps(4).state, State::kSpinning);
   EXPECT_EQ(driver.Step().state, State::kLevitating);
 }
 
@@ -143,7 +147,10 @@ TEST(Landing, IsRefusedWhileTheRotorTurnsAndTakenWhenItStands) {
     Driver driver;
     driver.GoTo(state);
     EXPECT_TRUE(driver.Step(OperatorCommand::kLand).command_refused);
+    (void)driver.Step(Request{OperatorCommand::kSpin, 1.0, 50.0});  // still wanted to turn
     driver.seen.speed_rad_per_s = 0.0;
+    (void)driver.Steps(4);
+    EXPECT_EQ(driver.state(), State::kSpinning);
     EXPECT_EQ(driver.Step(OperatorCommand::kLand).state, State::kLanding);
   }
 }
@@ -156,7 +163,11 @@ TEST(Landing, LowersTheReferenceToTheRestingPlaceAndSwitchesOff) {
   driver.seen.position_m = {};
   while (driver.state() == State::kLift) (void)driver.Step();
   (void)driver.Step(OperatorCommand::kLand);
-  const Decision& decision = driver.Steps(10);
+  const Decision& decision = driver.supervisor.decision();
+  for (int i = 0; i < 10; ++i) {
+    driver.seen.position_m = decision.reference_m;  // the rotor follows
+    (void)driver.Step();
+  }
   EXPECT_EQ(decision.state, State::kLanding);
   EXPECT_NEAR(decision.reference_m[0], -90e-6, 1e-7);
   EXPECT_NEAR(decision.reference_m[3], -60e-6, 1e-7);
@@ -173,6 +184,7 @@ TEST(LevitatedStop, BrakesStandsLandsAndReleases) {
   EXPECT_EQ(decision.acceleration_rad_per_s2, 77.0);
   EXPECT_EQ(driver.Steps(1000).state, State::kTrippedStopping);  // still turning
   driver.seen.speed_rad_per_s = 0.0;
+  EXPECT_EQ(driver.Steps(4).state, State::kTrippedStopping);  // 0.5 ms at 10 kHz are not over
   EXPECT_EQ(driver.Step().state, State::kTrippedLanding);
   EXPECT_EQ(driver.Steps(11).state, State::kTrippedReleased);
   EXPECT_FALSE(driver.supervisor.decision().drive_enabled);
@@ -206,6 +218,7 @@ TEST(Release, KeepsBrakingARotorThatTurnsOrCannotBeSeen) {
   EXPECT_TRUE(driver.Step().drive_enabled);
   EXPECT_EQ(driver.supervisor.decision().acceleration_rad_per_s2, 77.0);
   driver.seen.speed_rad_per_s = 0.0;
+  EXPECT_TRUE(driver.Steps(4).drive_enabled);
   EXPECT_FALSE(driver.Step().drive_enabled);
   driver.seen.fresh = false;
   EXPECT_TRUE(driver.Step().drive_enabled);
@@ -221,6 +234,8 @@ TEST(Reset, IsRefusedUntilTheCauseIsGoneAndTheRotorStands) {
   driver.seen.rig_status = 0;
   EXPECT_TRUE(refused());  // turning
   driver.seen.speed_rad_per_s = 0.0;
+  EXPECT_TRUE(refused());  // for one frame only
+  (void)driver.Steps(5);
   driver.seen.fresh = false;
   EXPECT_TRUE(refused());  // nothing seen
   driver.seen.fresh = true;
@@ -243,6 +258,8 @@ TEST(Reset, AfterARigRestartLeadsToANewLift) {
   driver.GoTo(State::kLevitating);
   driver.seen.rig_session = 2;
   EXPECT_EQ(driver.Step().latch.finding.fault, Fault::kRigRestarted);
+  EXPECT_TRUE(driver.Step(OperatorCommand::kReset).command_refused);  // its rotor may turn
+  (void)driver.Steps(4);
   (void)driver.Step(OperatorCommand::kReset);
   ASSERT_EQ(driver.state(), State::kOff);
   driver.GoTo(State::kLevitating);
@@ -291,6 +308,8 @@ TEST(Supervisor, RefusesTimesAndRadiiThatCannotBe) {
   EXPECT_TRUE(throws([](SequenceConfig& s) { s.self_test_s = kNan; }));
   EXPECT_TRUE(throws([](SequenceConfig& s) { s.settle_radius_m = 0.0; }));
   EXPECT_TRUE(throws([](SequenceConfig& s) { s.standstill_rad_per_s = kNan; }));
+  EXPECT_TRUE(throws([](SequenceConfig& s) { s.standstill_s = 0.0; }));
+  EXPECT_TRUE(throws([](SequenceConfig& s) { s.standstill_s = kNan; }));
 }
 
 }  // namespace

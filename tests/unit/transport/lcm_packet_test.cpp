@@ -8,7 +8,7 @@
 namespace levitas::transport {
 namespace {
 
-std::vector<std::uint8_t> Bytes(const std::string& text) { return {text.begin(), text.end()}; }
+std::vector<std::uint8_t> BytesOf(const std::string& text) { return {text.begin(), text.end()}; }
 
 TEST(LcmPacket, HeaderIsTheDocumentedByteSequence) {
   std::vector<std::uint8_t> into(HeaderSize("AB"));
@@ -31,11 +31,11 @@ TEST(LcmPacket, ParsesWhatItWrites) {
 }
 
 TEST(LcmPacket, KnowsAFragmentWithoutReadingIt) {
-  EXPECT_EQ(ParsePacket(Bytes("LC03....")).kind, PacketKind::kFragment);
+  EXPECT_EQ(ParsePacket(BytesOf("LC03....")).kind, PacketKind::kFragment);
 }
 
 TEST(LcmPacket, AnEmptyPayloadIsAMessage) {
-  const auto datagram = Bytes(std::string("LC02\0\0\0\1A\0", 10));
+  const auto datagram = BytesOf(std::string("LC02\0\0\0\1A\0", 10));
   const Packet packet = ParsePacket(datagram);
   EXPECT_EQ(packet.kind, PacketKind::kShort);
   EXPECT_TRUE(packet.payload.empty());
@@ -43,16 +43,16 @@ TEST(LcmPacket, AnEmptyPayloadIsAMessage) {
 
 TEST(LcmPacket, CallsEverythingElseMalformed) {
   EXPECT_EQ(ParsePacket({}).kind, PacketKind::kMalformed);
-  EXPECT_EQ(ParsePacket(Bytes("LC02")).kind, PacketKind::kMalformed);
-  EXPECT_EQ(ParsePacket(Bytes("LC02....")).kind, PacketKind::kMalformed);     // no channel
-  EXPECT_EQ(ParsePacket(Bytes("LC02....ABC")).kind, PacketKind::kMalformed);  // unterminated
-  EXPECT_EQ(ParsePacket(Bytes("HTTP/1.1 200")).kind, PacketKind::kMalformed);
-  EXPECT_EQ(ParsePacket(Bytes(std::string("LC02....\0", 9))).kind, PacketKind::kMalformed);
+  EXPECT_EQ(ParsePacket(BytesOf("LC02")).kind, PacketKind::kMalformed);
+  EXPECT_EQ(ParsePacket(BytesOf("LC02....")).kind, PacketKind::kMalformed);     // no channel
+  EXPECT_EQ(ParsePacket(BytesOf("LC02....ABC")).kind, PacketKind::kMalformed);  // unterminated
+  EXPECT_EQ(ParsePacket(BytesOf("HTTP/1.1 200")).kind, PacketKind::kMalformed);
+  EXPECT_EQ(ParsePacket(BytesOf(std::string("LC02....\0", 9))).kind, PacketKind::kMalformed);
 }
 
 TEST(LcmPacket, TakesAChannelOf63BytesAndRefusesOneOf64) {
   const auto with = [](std::size_t length) {
-    return Bytes("LC02...." + std::string(length, 'C') + std::string(1, '\0'));
+    return BytesOf("LC02...." + std::string(length, 'C') + std::string(1, '\0'));
   };
   EXPECT_EQ(ParsePacket(with(kMaxChannel)).kind, PacketKind::kShort);
   EXPECT_EQ(ParsePacket(with(kMaxChannel + 1)).kind, PacketKind::kMalformed);

@@ -14,6 +14,7 @@
 #include "transport/lcm_packet.hpp"
 #include "transport/lcm_rig_link.hpp"
 #include "transport/lcm_rig_port.hpp"
+#include "transport/network_key.hpp"
 
 namespace levitas::transport {
 namespace {
@@ -70,6 +71,15 @@ TEST_F(Multicast, ReadsTheNewestFrameAndCountsTheOvertakenOnes) {
   EXPECT_EQ(frame.cycle, 20U);
   EXPECT_EQ(port_->counters().frames_skipped, 19U);
   EXPECT_EQ(port_->counters().frames_lost, 0U);
+}
+
+// Of what is queued: the last to arrive is not always the newest.
+TEST_F(Multicast, ReadsTheNewestCurrentsWhereOneOvertakesAnother) {
+  for (const std::uint64_t cycle : {5U, 7U, 6U}) ASSERT_TRUE(port_->Write({.cycle = cycle}));
+  CurrentFrame current;
+  ASSERT_EQ(link_->Receive(current, Deadline()), LcmRigLink::ReceiveResult::kCurrent);
+  EXPECT_EQ(current.cycle, 7U);
+  EXPECT_EQ(link_->counters().currents_skipped, 2U);
 }
 
 TEST_F(Multicast, NumbersTheRigsSessionsFromOneWhateverTheRigDraws) {
@@ -176,6 +186,33 @@ TEST_F(Multicast, AllocatesNothingIn10000Exchanges) {
   }
   EXPECT_EQ(guard.count(), 0U);
   EXPECT_EQ(port_->counters().frames_read, 10'000U);
+}
+
+// An address can be forged; who does so has another seal all the same. Without a key there is
+// nothing but the address.
+TEST_F(Multicast, KnowsASenderByItsSealAndWithoutAKeyByItsAddress) {
+  LcmNetwork sealed = Network();
+  sealed.group = "239.255.76.70";
+  sealed.key = std::make_shared<NetworkKey>(SealingKey::Bytes{1}, "test");
+  const std::array<std::uint8_t, 3> word{1, 2, 3};
+  MulticastReceiver receiver(sealed, Direction::kSensor);
+  MulticastSender one(sealed, Direction::kSensor);
+  MulticastSender other(sealed, Direction::kSensor);
+  for (MulticastSender* sender : {&one, &other}) {
+    ASSERT_TRUE(sender->Send(word));
+    const Received received = receiver.Receive(Deadline());
+    EXPECT_EQ(received.datagram.size(), word.size());
+    EXPECT_EQ(received.identity, sender->identity());
+    EXPECT_TRUE(received.proven);
+  }
+  EXPECT_NE(one.identity(), other.identity());
+
+  MulticastReceiver open(Network(), Direction::kTelemetry);
+  MulticastSender plain(Network(), Direction::kTelemetry);
+  ASSERT_TRUE(plain.Send(word));
+  const Received received = open.Receive(Deadline());
+  EXPECT_EQ(received.identity, received.sender);
+  EXPECT_EQ(plain.identity(), 0U);
 }
 
 }  // namespace

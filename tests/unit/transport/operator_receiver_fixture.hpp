@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <levitas_msg/excitation_request_t.hpp>
@@ -13,15 +12,17 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "common/problem.hpp"
+#include "tests/support/waiting.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/operator_receiver.hpp"
 
 namespace levitas::transport::test {
+
+using levitas::test::Eventually;
 
 inline constexpr auto kLift = OperatorCommand::kLift;
 inline constexpr auto kSpin = OperatorCommand::kSpin;
@@ -72,14 +73,6 @@ class Receiver : public testing::Test {
     }
     changed_.notify_all();
   }
-  /// What `what` says becomes true, in far less than this.
-  template <class What>
-  static bool Eventually(What what) {
-    for (int wait = 0; wait < 10'000 && !what(); ++wait) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return what();
-  }
   void TearDown() override {
     HoldUp(false);
     receiver_.reset();
@@ -97,6 +90,18 @@ class Receiver : public testing::Test {
     WriteHeader(datagram, 0, channel);
     message.encode(datagram.data() + HeaderSize(channel), 0, message.getEncodedSize());
     ASSERT_TRUE(sender_[from]->Send(datagram));
+  }
+
+  /// A message that ends one byte early.
+  void SendCut(OperatorCommand command) {
+    levitas_msg::operator_command_t message{};
+    message.command = static_cast<std::int8_t>(command);
+    const std::size_t header = HeaderSize(channel::kCommand);
+    std::vector<std::uint8_t> datagram(header + static_cast<std::size_t>(message.getEncodedSize()));
+    WriteHeader(datagram, 0, channel::kCommand);
+    message.encode(datagram.data() + header, 0, message.getEncodedSize());
+    datagram.pop_back();
+    ASSERT_TRUE(sender_[0]->Send(datagram));
   }
 
   /// `length`: what the message says of the text's bytes, its zero included.
@@ -118,20 +123,16 @@ class Receiver : public testing::Test {
   // Everything taken before a last, unmistakable command; datagrams of one machine keep their
   // order. It is said again while a stop that is not passed yet keeps it back.
   std::vector<OperatorCommand> TakenBeforeTheEnd() {
-    for (int wait = 0; wait < 10'000; ++wait) {
-      if (wait % 100 == 0) Send(1, 1'000'000, kSpin, kEnd);
-      {
-        const std::lock_guard lock(mutex_);
-        if (!taken_.empty() && taken_.back().speed_rad_per_s == kEnd) {
-          std::vector<OperatorCommand> commands;
-          for (std::size_t i = 0; i + 1 < taken_.size(); ++i) commands.push_back(taken_[i].command);
-          return commands;
-        }
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    ADD_FAILURE() << "the last command did not arrive";
-    return {};
+    int wait = 0;
+    std::vector<OperatorCommand> commands;
+    EXPECT_TRUE(Eventually([&] {
+      if (wait++ % 100 == 0) Send(1, 1'000'000, kSpin, kEnd);
+      const std::lock_guard lock(mutex_);
+      if (taken_.empty() || taken_.back().speed_rad_per_s != kEnd) return false;
+      for (std::size_t i = 0; i + 1 < taken_.size(); ++i) commands.push_back(taken_[i].command);
+      return true;
+    })) << "the last command did not arrive";
+    return commands;
   }
 
   static constexpr double kEnd = -777.0;

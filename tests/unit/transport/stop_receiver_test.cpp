@@ -37,10 +37,17 @@ TEST_F(Receiver, TakesEverySoundStopWhateverItsNumber) {
   EXPECT_EQ(TakenBeforeTheEnd(), Commands{kLand});  // it is nobody else's
 }
 
+TEST_F(Receiver, HearsAStopWhateverItsUnusedFieldsHold) {
+  for (const double unused : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e308}) Send(0, 1, kStop, unused);
+  EXPECT_TRUE(Eventually([this] { return stops_.asked() == 4; }));
+}
+
 TEST_F(Receiver, HearsNoStopInWhatIsNone) {
-  Send(0, 1, kStop, std::nan(""));
-  Send(0, 2, kStop, 0.0, channel::kState);
+  Send(0, 1, kStop, 0.0, channel::kState);
+  Send(0, 2, static_cast<OperatorCommand>(static_cast<int>(kStop) | 0x80));
   Send(0, 3, kLand);
+  SendText(4, "emergency_stop");
+  SendCut(kStop);
   EXPECT_EQ(TakenBeforeTheEnd(), Commands{kLand});
   EXPECT_EQ(stops_.asked(), 0U);
 }

@@ -110,14 +110,17 @@ TEST(SequenceWatch, CountsExactlyTheGapsOfARandomLossAcrossTheWrap) {
 
 constexpr std::int64_t kMs = 1'000'000;
 
+/// Without a key: who it is and where it speaks from are one.
+Speaker At(std::uint64_t address) { return {address, address}; }
+
 TEST(PartnerLock, RefusesASecondSenderForAsLongAsTheFirstIsHeard) {
   PartnerLock lock;
-  EXPECT_FALSE(lock.Refuses(1, 0));
-  lock.Heard(1, 0);
+  EXPECT_FALSE(lock.Refuses(At(1), 0));
+  lock.Heard(At(1), 0);
   for (std::int64_t at_ns = 100 * kMs; at_ns <= 10'000 * kMs; at_ns += 100 * kMs) {
-    EXPECT_TRUE(lock.Refuses(2, at_ns));
-    EXPECT_FALSE(lock.Refuses(1, at_ns));
-    lock.Heard(1, at_ns);
+    EXPECT_TRUE(lock.Refuses(At(2), at_ns));
+    EXPECT_FALSE(lock.Refuses(At(1), at_ns));
+    lock.Heard(At(1), at_ns);
   }
   EXPECT_EQ(lock.refused(), 100U);
   EXPECT_EQ(lock.TakeNews(), 2U);
@@ -125,21 +128,21 @@ TEST(PartnerLock, RefusesASecondSenderForAsLongAsTheFirstIsHeard) {
 
 TEST(PartnerLock, TakesAnotherSenderAfterTheFirstFellSilentAndIsNoNewsThen) {
   PartnerLock lock;
-  lock.Heard(1, 0);
-  EXPECT_TRUE(lock.Refuses(2, PartnerLock::kSilenceNs));
-  EXPECT_FALSE(lock.Refuses(2, PartnerLock::kSilenceNs + 1));
-  lock.Heard(2, PartnerLock::kSilenceNs + 1);
-  EXPECT_TRUE(lock.Refuses(1, PartnerLock::kSilenceNs + 2));
+  lock.Heard(At(1), 0);
+  EXPECT_TRUE(lock.Refuses(At(2), PartnerLock::kSilenceNs));
+  EXPECT_FALSE(lock.Refuses(At(2), PartnerLock::kSilenceNs + 1));
+  lock.Heard(At(2), PartnerLock::kSilenceNs + 1);
+  EXPECT_TRUE(lock.Refuses(At(1), PartnerLock::kSilenceNs + 2));
   EXPECT_EQ(lock.TakeNews(), std::nullopt);
 }
 
 TEST(PartnerLock, TellsEachStrangerOnce) {
   PartnerLock lock;
-  lock.Heard(1, 0);
+  lock.Heard(At(1), 0);
   for (const std::uint64_t stranger : {2U, 3U}) {
     for (int time = 0; time < 3; ++time) {
-      EXPECT_TRUE(lock.Refuses(stranger, kMs));
-      lock.Heard(1, kMs);
+      EXPECT_TRUE(lock.Refuses(At(stranger), kMs));
+      lock.Heard(At(1), kMs);
     }
     EXPECT_EQ(lock.TakeNews(), stranger);
     EXPECT_EQ(lock.TakeNews(), std::nullopt);
@@ -148,9 +151,21 @@ TEST(PartnerLock, TellsEachStrangerOnce) {
 
 TEST(PartnerLock, IsOpenAgainAfterARelease) {
   PartnerLock lock;
-  lock.Heard(1, 0);
+  lock.Heard(At(1), 0);
   lock.Release();
-  EXPECT_FALSE(lock.Refuses(2, 1));
+  EXPECT_FALSE(lock.Refuses(At(2), 1));
+}
+
+// With a key the seal says who speaks: who forges the partner's address is somebody else, and the
+// partner itself may speak from another one.
+TEST(PartnerLock, TellsPartnersApartByIdentityAndNamesTheirAddress) {
+  PartnerLock lock;
+  lock.Heard({.identity = 7, .address = 100}, 0);
+  EXPECT_TRUE(lock.Refuses({.identity = 8, .address = 100}, kMs));
+  EXPECT_FALSE(lock.Refuses({.identity = 7, .address = 200}, kMs));
+  lock.Heard({.identity = 7, .address = 200}, kMs);
+  EXPECT_EQ(lock.partner(), 200U);
+  EXPECT_EQ(lock.TakeNews(), 100U);
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+// A rig that nothing was tuned on, with probes of 0.3 um: nothing is named while it is healthy, and
+// a gain that calibration can absorb is.
+
+#include <gtest/gtest.h>
+
+#include "benchmark/accuracy/campaign.hpp"
+#include "benchmark/accuracy/trial.hpp"
+#include "diagnosis/report/diagnose_files.hpp"
+#include "plant_sim/plant/plant_model.hpp"
+#include "tests/support/effect_entry.hpp"
+#include "tests/support/paths.hpp"
+
+namespace levitas::accuracy {
+namespace {
+
+namespace dg = diagnosis;
+
+constexpr std::uint32_t kRearX = 1U << 2;
+constexpr double kLowGain = 0.88;
+
+const TestRig& Overhung() {
+  const std::string folder = test::DataFolder() + "/overhung_rotor/";
+  static const TestRig bench = LoadTestRig(folder + "rig.yaml", {folder + "controller.yaml"});
+  return bench;
+}
+
+/// 0.9 to 1 s each of the rig as its file says, with what is hidden in it.
+std::vector<dg::Record> RecordsOf(const std::vector<effect::EffectConfig>& hidden) {
+  const TestRig& bench = Overhung();
+  plant::PlantParameters truth = plant::Reduce(bench.rig.plant);
+  truth.config.effects = hidden;
+  CampaignPlan plan = bench.trials.campaign;
+  plan.bits_per_axis = 750;
+  plan.runup_s = 1.0;
+  Campaign campaign = Record(truth, bench.laws.front(), plan, Unmodelled::kNothing, 0.0, 1);
+  EXPECT_TRUE(campaign.stable);
+  return std::move(campaign.records);
+}
+
+const std::vector<dg::Record>& LowGain() {
+  static const std::vector<dg::Record> records =
+      RecordsOf({test::Entry(effect::Id::kCurrentGain, {kLowGain}, kRearX)});
+  return records;
+}
+
+dg::SearchResult Ask(const std::vector<dg::Record>& records, double moved_tolerances) {
+  dg::Settings settings;
+  settings.quick = true;
+  settings.most_causes = 1;
+  settings.judging.moved_tolerances = moved_tolerances;
+  return dg::DiagnoseRecords(Overhung().rig, records, {}, settings).answer;
+}
+
+TEST(QuietProbes, LeaveAHealthyRigHealthy) {
+  const dg::SearchResult answer = Ask(RecordsOf({}), dg::Judging{}.moved_tolerances);
+  EXPECT_EQ(answer.verdict, dg::Verdict::kNone);
+}
+
+TEST(QuietProbes, ShowAGainThatCalibrationAbsorbs) {
+  const dg::SearchResult answer = Ask(LowGain(), dg::Judging{}.moved_tolerances);
+  ASSERT_EQ(answer.causes.size(), 1U);
+  EXPECT_EQ(answer.causes.front().effect, "current_gain");
+  EXPECT_EQ(answer.causes.front().place, "rear_x");
+  ASSERT_EQ(answer.parameters.size(), 1U);
+  EXPECT_NEAR(answer.parameters.front().value, kLowGain - 1.0, 0.03);
+  // Its evidence alone does not name it: that is what the tolerances are for.
+  EXPECT_EQ(Ask(LowGain(), 1e9).verdict, dg::Verdict::kNone);
+}
+
+}  // namespace
+}  // namespace levitas::accuracy
