@@ -99,6 +99,94 @@ Augmented Augment(const plant::LinearModel& model, const Eigen::MatrixXd& force_
   return out;
 }
 
+/// The linear model in units in which states, forces and readings are of order one.
+class ScaledModel {
+ public:
+  ScaledModel(const plant::PlantConfig& nominal, double speed_rad_per_s);
+
+  /// Makes the noises those of a tuning.
+  void Tune(const ObserverTuning& tuning);
+  [[nodiscard]] Eigen::MatrixXd Stationary() const { return StationaryCovariance(a_, c_, q_, r_); }
+  [[nodiscard]] CovarianceSteps Steps(std::size_t most) const { return {a_, c_, q_, r_, most}; }
+  /// A covariance with the unknown forces known to be zero.
+  [[nodiscard]] Eigen::MatrixXd WithoutForce(Eigen::MatrixXd p) const;
+  /// The gain where the states' errors have covariance p. Without its settling time.
+  [[nodiscard]] ObserverGain GainOf(const Eigen::MatrixXd& p) const;
+  [[nodiscard]] double SettlingOf(const Eigen::MatrixXd& p) const {
+    return SettlingTime(a_ - a_ * ScaledGain(p) * c_, period_s_);
+  }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd ScaledGain(const Eigen::MatrixXd& p) const {
+    return (c_ * p * c_.transpose() + r_).llt().solve(c_ * p).transpose();
+  }
+
+  plant::LinearModel sampled_;
+  double period_s_;
+  Eigen::VectorXd reading_m_, full_force_n_;  ///< noise; ki i0
+  Eigen::VectorXd scale_;
+  Eigen::MatrixXd a_, c_, q_, r_;
+};
+
+ScaledModel::ScaledModel(const plant::PlantConfig& nominal, double speed_rad_per_s)
+    : period_s_(static_cast<double>(nominal.period_ns) * 1e-9) {
+  const plant::PlantModel reduced(nominal);
+  const auto axes = static_cast<Eigen::Index>(reduced.channels());
+  plant::LinearModel continuous = plant::Linearise(reduced, speed_rad_per_s);
+  continuous.b = ForceInput(reduced);
+  sampled_ = plant::Discretise(continuous, period_s_, 0.0);
+  reading_m_.resize(axes);
+  full_force_n_.resize(axes);
+  for (Eigen::Index axis = 0; axis < axes; ++axis) {
+    const auto& bearing = nominal.bearings[static_cast<std::size_t>(axis / 2)];
+    reading_m_[axis] = ReadingNoise(bearing.sensor);
+    full_force_n_[axis] = ForcePerCurrent(reduced, axis) * bearing.magnet.bias_current_a;
+  }
+  scale_ = Scales(reduced, reading_m_.maxCoeff());
+}
+
+void ScaledModel::Tune(const ObserverTuning& tuning) {
+  const Augmented model = Augment(sampled_, sampled_.b, reading_m_, full_force_n_, tuning);
+  const Eigen::VectorXd unscale = scale_.cwiseInverse();
+  const Eigen::VectorXd unread = reading_m_.cwiseInverse();
+  a_ = unscale.asDiagonal() * model.a * scale_.asDiagonal();
+  c_ = unread.asDiagonal() * model.c * scale_.asDiagonal();
+  q_ = unscale.asDiagonal() * model.q * unscale.asDiagonal();
+  r_ = unread.asDiagonal() * model.r * unread.asDiagonal();
+}
+
+Eigen::MatrixXd ScaledModel::WithoutForce(Eigen::MatrixXd p) const {
+  p.rightCols(reading_m_.size()).setZero();
+  p.bottomRows(reading_m_.size()).setZero();
+  return p;
+}
+
+ObserverGain ScaledModel::GainOf(const Eigen::MatrixXd& p) const {
+  const Eigen::Index axes = reading_m_.size();
+  const Eigen::MatrixXd unscaled =
+      scale_.asDiagonal() * ScaledGain(p) * reading_m_.cwiseInverse().asDiagonal();
+  ObserverGain gain;
+  gain.force_step = sampled_.b;
+  gain.state = unscaled.topRows(unscaled.rows() - axes);
+  gain.force_n_per_m = unscaled.bottomRows(axes);
+  const Eigen::MatrixXd innovation = c_ * p * c_.transpose() + r_;
+  for (Eigen::Index axis = 0; axis < axes; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    gain.sensor_noise_m[i] = reading_m_[axis];
+    gain.expected_innovation_m[i] = reading_m_[axis] * std::sqrt(innovation(axis, axis));
+  }
+  return gain;
+}
+
+/// Further away than this from the stationary gain it is not worth a stage of its own.
+bool IsNear(const ObserverGain& gain, const ObserverGain& stationary) {
+  constexpr double kNear = 0.02;
+  const auto near = [](const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
+    return (one - other).norm() <= kNear * other.norm();
+  };
+  return near(gain.state, stationary.state) && near(gain.force_n_per_m, stationary.force_n_per_m);
+}
+
 }  // namespace
 
 double ReadingNoise(const plant::SensorConfig& sensor) {
@@ -108,44 +196,40 @@ double ReadingNoise(const plant::SensorConfig& sensor) {
 }
 
 ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTuning& tuning) {
-  const plant::PlantModel reduced(nominal);
-  const double period_s = static_cast<double>(nominal.period_ns) * 1e-9;
-  const auto axes = static_cast<Eigen::Index>(reduced.channels());
-  plant::LinearModel continuous = plant::Linearise(reduced, tuning.speed_rad_per_s);
-  continuous.b = ForceInput(reduced);
-  const plant::LinearModel sampled = plant::Discretise(continuous, period_s, 0.0);
-
-  ObserverGain gain;
-  gain.force_step = sampled.b;
-  Eigen::VectorXd reading_m(axes);
-  Eigen::VectorXd full_force_n(axes);  // ki i0
-  for (Eigen::Index axis = 0; axis < axes; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    reading_m[axis] = gain.sensor_noise_m[i] = ReadingNoise(nominal.bearings[i / 2].sensor);
-    full_force_n[axis] =
-        ForcePerCurrent(reduced, axis) * nominal.bearings[i / 2].magnet.bias_current_a;
-  }
-  const Augmented model = Augment(sampled, gain.force_step, reading_m, full_force_n, tuning);
-  const Eigen::VectorXd scale = Scales(reduced, reading_m.maxCoeff());
-  const Eigen::VectorXd unscale = scale.cwiseInverse();
-  const Eigen::VectorXd unread = reading_m.cwiseInverse();
-  const Eigen::MatrixXd a = unscale.asDiagonal() * model.a * scale.asDiagonal();
-  const Eigen::MatrixXd c = unread.asDiagonal() * model.c * scale.asDiagonal();
-  const Eigen::MatrixXd q = unscale.asDiagonal() * model.q * unscale.asDiagonal();
-  const Eigen::MatrixXd r = unread.asDiagonal() * model.r * unread.asDiagonal();
-  const Eigen::MatrixXd p = StationaryCovariance(a, c, q, r);
-
-  const Eigen::MatrixXd innovation = c * p * c.transpose() + r;
-  const Eigen::MatrixXd k = innovation.llt().solve(c * p).transpose();
-  gain.settling_s = SettlingTime(a - a * k * c, period_s);
-  const Eigen::MatrixXd unscaled = scale.asDiagonal() * k * unread.asDiagonal();
-  gain.state = unscaled.topRows(unscaled.rows() - axes);
-  gain.force_n_per_m = unscaled.bottomRows(axes);
-  for (Eigen::Index axis = 0; axis < axes; ++axis) {
-    gain.expected_innovation_m[static_cast<std::size_t>(axis)] =
-        reading_m[axis] * std::sqrt(innovation(axis, axis));
-  }
+  ScaledModel model(nominal, tuning.speed_rad_per_s);
+  model.Tune(tuning);
+  const Eigen::MatrixXd p = model.Stationary();
+  ObserverGain gain = model.GainOf(p);
+  gain.settling_s = model.SettlingOf(p);
   return gain;
+}
+
+std::vector<StagedGain> DesignSettling(const plant::PlantConfig& nominal,
+                                       const ObserverTuning& from, const ObserverTuning& to) {
+  constexpr std::size_t kFirst = 4;  // powers of two of samples
+  constexpr std::size_t kLast = 13;
+  ScaledModel model(nominal, to.speed_rad_per_s);
+  model.Tune(from);
+  Eigen::MatrixXd p = model.WithoutForce(model.Stationary());
+  model.Tune(to);
+  const Eigen::MatrixXd stationary = model.Stationary();
+  ObserverGain last = model.GainOf(stationary);
+  last.settling_s = model.SettlingOf(stationary);
+  const CovarianceSteps steps = model.Steps(kLast);
+  std::vector<StagedGain> stages;
+  std::uint64_t from_sample = 0;
+  // Each stage is twice as long as the one before and has the gain of its middle.
+  for (std::size_t power = kFirst; power < kLast; ++power) {
+    const Eigen::MatrixXd middle = steps.After(p, power - 1);
+    ObserverGain gain = model.GainOf(middle);
+    if (IsNear(gain, last)) break;
+    gain.settling_s = last.settling_s;
+    stages.push_back({from_sample, std::move(gain)});
+    p = steps.After(middle, power - 1);
+    from_sample += std::uint64_t{1} << power;
+  }
+  stages.push_back({from_sample, std::move(last)});
+  return stages;
 }
 
 Observer::Observer(std::shared_ptr<const plant::PlantModel> model,

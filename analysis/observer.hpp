@@ -18,7 +18,10 @@
 // Thread     one instance per thread; a gain may be shared.
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "common/axes.hpp"
 #include "plant_sim/plant/plant.hpp"
@@ -51,6 +54,21 @@ struct ObserverGain {
 [[nodiscard]] ObserverGain DesignObserver(const plant::PlantConfig& nominal,
                                           const ObserverTuning& tuning);
 
+/// A gain from one sample on, until the next one's.
+struct StagedGain {
+  std::uint64_t from_sample{};
+  ObserverGain gain;
+};
+
+/// Gains after the change from the stationary observer of one tuning, with its force held at zero,
+/// to that of another: those of the Kalman filter that knows it, held over stages of 16, 32, 64 ...
+/// samples; the last is stationary. With the stationary gain alone what the first observer did not
+/// know would swing out for as long as the second one needs to settle, beside which a quiet probe
+/// shows every force that the model lacks.
+[[nodiscard]] std::vector<StagedGain> DesignSettling(const plant::PlantConfig& nominal,
+                                                     const ObserverTuning& from,
+                                                     const ObserverTuning& to);
+
 /// One recorded sample: what was read and what was commanded from it.
 struct RecordedSample {
   AxisArray position_m{};  ///< as read by the sensors
@@ -69,6 +87,8 @@ class Observer {
   /// Starts from rest at the measured place. The unknown force keeps its estimate: a gap in the
   /// record does not change gravity.
   void Restart(const AxisArray& position_m);
+  /// Goes on with another gain, of the same sizes.
+  void Use(std::shared_ptr<const ObserverGain> gain) noexcept { gain_ = std::move(gain); }
   /// Compares with the sample, corrects, and advances one period. Returns the innovation [m].
   AxisArray Step(const RecordedSample& sample) noexcept { return Step(sample, {}); }
   /// The same for a model whose sensors read `added_m` more than the plant's.

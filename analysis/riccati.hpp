@@ -10,6 +10,7 @@
 // Failure    Problem when the doubling does not settle. Thread: any; pure.
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace levitas::analysis {
 
@@ -17,6 +18,24 @@ namespace levitas::analysis {
                                                    const Eigen::MatrixXd& c,
                                                    const Eigen::MatrixXd& q,
                                                    const Eigen::MatrixXd& r);
+
+/// The covariance on its way there, by the same doubling.
+class CovarianceSteps {
+ public:
+  /// Up to 2^most samples at once. Arguments as of StationaryCovariance.
+  CovarianceSteps(const Eigen::MatrixXd& a, const Eigen::MatrixXd& c, const Eigen::MatrixXd& q,
+                  const Eigen::MatrixXd& r, std::size_t most);
+
+  /// 2^power samples after it was p. std::out_of_range beyond `most`.
+  [[nodiscard]] Eigen::MatrixXd After(const Eigen::MatrixXd& p, std::size_t power) const;
+
+ private:
+  /// P -> covariance + transition' P (1 + information P)^-1 transition
+  struct Step {
+    Eigen::MatrixXd transition, information, covariance;
+  };
+  std::vector<Step> steps_;
+};
 
 /// Left minus right side of the equation.
 [[nodiscard]] Eigen::MatrixXd RiccatiResidual(const Eigen::MatrixXd& a, const Eigen::MatrixXd& c,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/model/repeated_frames.hpp"
+
 namespace levitas::diagnosis {
 namespace {
 
@@ -22,6 +24,7 @@ struct Frames {
 Frames CountFrames(const RigView& rig, const std::vector<Record>& records) {
   Frames frames;
   for (const Record& record : records) {
+    const bool repeats_are_lost = CountRepeats(record.rows, rig.axes).AreLost();
     for (std::size_t n = 1; n < record.rows.size(); ++n) {
       const auto& before = record.rows[n - 1];
       const auto& now = record.rows[n];
@@ -29,7 +32,7 @@ Frames CountFrames(const RigView& rig, const std::vector<Record>& records) {
       if (now.cycle > before.cycle + 1 + kMostLost) continue;
       const bool missing = now.cycle != before.cycle + 1;
       const bool repeated =
-          SameOnAllAxes(before.sample.position_m, now.sample.position_m, rig.axes) ||
+          (repeats_are_lost && Repeats(before, now, rig.axes)) ||
           SameOnAllAxes(before.sample.command.control_current_a,
                         now.sample.command.control_current_a, rig.axes);
       ++frames.sent;

@@ -1,9 +1,9 @@
 #pragma once
 // What shows in single samples and in the noise, not in the mean motion: lost frames, noise level.
 //
-// Lost       a cycle missing from the record, a frame whose readings or a command whose currents
-//            all repeat bit for bit: with a noisy sensor that does not happen by itself. What the
-//            rig file's own `dropped_samples` explains does not count.
+// Lost       a cycle missing from the record, a command whose currents all repeat bit for bit, and
+//            a frame whose readings do, where that is more than chance (repeated_frames.hpp). What
+//            the rig file's own `dropped_samples` explains does not count.
 // Noise      the level in the upper third of the spectrum against the rig file's, which a healthy
 //            rig keeps within kNoiseTolerance (standard deviation of its logarithm).
 // Thread     any; pure.

@@ -34,20 +34,21 @@ Search::Search(const RigView& rig, const std::vector<Term>& terms, const std::st
 }
 
 Gains Search::DesignGains(const std::vector<Record>& records, const ObserverSpeed& speed) const {
-  const auto design = [this](const Record& record, const ObserverSpeed& at) {
-    analysis::ObserverTuning tuning;
-    tuning.speed_rad_per_s = record.mean_speed_rad_per_s;
-    tuning.force_noise_share = at.force_noise_share;
-    tuning.force_drift_share = at.force_drift_share;
-    return analysis::DesignObserver(rig_.model->config(), tuning);
+  const auto tuning = [](const Record& record, const ObserverSpeed& at) {
+    return analysis::ObserverTuning{record.mean_speed_rad_per_s, at.force_noise_share,
+                                    at.force_drift_share};
   };
-  Gains gains;
-  gains.reserve(records.size());
-  for (const Record& record : records) {
-    analysis::ObserverGain start = design(record, kFast);
+  const plant::PlantConfig& plant = rig_.model->config();
+  Gains gains(records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const analysis::ObserverTuning fast = tuning(records[i], kFast);
+    analysis::ObserverGain start = analysis::DesignObserver(plant, fast);
     start.force_n_per_m.setZero();
-    gains.push_back({std::make_shared<const analysis::ObserverGain>(design(record, speed)),
-                     std::make_shared<const analysis::ObserverGain>(std::move(start))});
+    gains[i].start = std::make_shared<const analysis::ObserverGain>(std::move(start));
+    for (auto& stage : analysis::DesignSettling(plant, fast, tuning(records[i], speed))) {
+      gains[i].stages.push_back({stage.from_sample, std::make_shared<const analysis::ObserverGain>(
+                                                        std::move(stage.gain))});
+    }
   }
   return gains;
 }

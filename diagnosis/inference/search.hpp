@@ -14,7 +14,7 @@
 namespace levitas::diagnosis {
 
 /// Observers of all records for one tuning.
-using Gains = std::vector<ObserverPair>;
+using Gains = std::vector<ObserverGains>;
 
 /// Runs of one model over all records: shared, since those of 13 s take 150 MB.
 using Runs = std::shared_ptr<const std::vector<Trajectory>>;

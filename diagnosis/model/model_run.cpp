@@ -6,6 +6,7 @@
 #include "diagnosis/model/linear_change.hpp"
 #include "diagnosis/model/magnet_means.hpp"
 #include "diagnosis/model/observer_scale.hpp"
+#include "diagnosis/model/repeated_frames.hpp"
 #include "diagnosis/model/turns.hpp"
 #include "plant_sim/plant/mode_step.hpp"
 #include "plant_sim/plant/time_step.hpp"
@@ -34,10 +35,11 @@ double Sum(const std::vector<double>& shape, const float* modal) {
 
 class Runner {
  public:
-  Runner(const RigView& rig, const ObserverPair& gains, const std::vector<Term>& terms,
+  Runner(const RigView& rig, const ObserverGains& gains, const std::vector<Term>& terms,
          const std::vector<double>& theta)
       : rig_(rig),
-        steady_(rig.model, gains.steady),
+        stages_(gains.stages),
+        steady_(rig.model, gains.stages.front().gain),
         starter_(rig.model, gains.start),
         observer_(&steady_),
         at_(rig.model->layout()),
@@ -78,8 +80,12 @@ class Runner {
     if (since_start_++ == kStartRows) {
       steady_.mutable_plant() = starter_.plant();
       observer_ = &steady_;
+      stage_ = stages_.begin();
+      steady_.Use(stage_->gain);
     }
     moment.starting = observer_ == &starter_;
+    if (!moment.starting) NextStage();
+    moment.stage = static_cast<std::uint8_t>(stage_ - stages_.begin());
     if (moment.starting) starter_angle_rad_ = row.sample.angle_rad;
     BeforeSample(row, moment);
     moment.late_periods = late_periods_;
@@ -118,6 +124,13 @@ class Runner {
   }
 
  private:
+  void NextStage() {
+    const auto next = stage_ + 1;
+    if (next == stages_.end() || since_start_ - 1 - kStartRows < next->from_row) return;
+    stage_ = next;
+    steady_.Use(stage_->gain);
+  }
+
   void BeforeSample(const analysis::RecordedRow& row, SamplePoint& moment) {
     const auto state = observer_->plant().state();
     for (std::size_t i = 0; i < rig_.axes; ++i) {
@@ -200,6 +213,8 @@ class Runner {
   }
 
   const RigView& rig_;
+  const std::vector<GainStage>& stages_;
+  std::vector<GainStage>::const_iterator stage_{stages_.begin()};
   analysis::Observer steady_, starter_;
   analysis::Observer* observer_;
   double starter_angle_rad_{0.0};  ///< total angle at which its plant stands, of geared shafts
@@ -218,14 +233,6 @@ class Runner {
   const Eigen::MatrixXd* gain_state_{nullptr};
 };
 
-/// A frame whose readings all repeat bit for bit did not arrive: noisy sensors do not do that.
-bool Repeats(const analysis::RecordedRow& before, const analysis::RecordedRow& now,
-             std::size_t axes) {
-  return std::equal(before.sample.position_m.begin(),
-                    before.sample.position_m.begin() + static_cast<std::ptrdiff_t>(axes),
-                    now.sample.position_m.begin());
-}
-
 /// Every sixth stretch; another one in every record.
 bool KeptBack(std::uint64_t cycle, std::uint32_t record, double period_s) {
   constexpr double kStretch = 0.05;  // [s]
@@ -236,7 +243,7 @@ bool KeptBack(std::uint64_t cycle, std::uint32_t record, double period_s) {
 
 }  // namespace
 
-Trajectory RunModel(const RigView& rig, const Record& record, const ObserverPair& gains,
+Trajectory RunModel(const RigView& rig, const Record& record, const ObserverGains& gains,
                     const std::vector<Term>& terms, const std::vector<double>& theta,
                     double settling_s) {
   Trajectory run;
@@ -245,6 +252,7 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverPair
   Runner runner(rig, run.gains, terms, theta);
   const auto settling_rows = static_cast<std::uint64_t>(std::llround(settling_s / rig.period_s));
   std::uint64_t since_start = 0;
+  const bool repeats_are_lost = CountRepeats(record.rows, rig.axes).AreLost();
   const analysis::RecordedRow* previous = nullptr;
   const auto step = [&](const analysis::RecordedRow& row, bool arrived, bool restart) {
     SamplePoint& moment = run.moments.emplace_back();
@@ -277,7 +285,8 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverPair
       }
     }
     if (row.levitated) {
-      step(row, !continues || !Repeats(*previous, row, rig.axes), !continues);
+      const bool lost_one = continues && repeats_are_lost && Repeats(*previous, row, rig.axes);
+      step(row, !lost_one, !continues);
     }
     previous = &row;
   }

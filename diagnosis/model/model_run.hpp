@@ -3,13 +3,15 @@
 //
 // Equation   analysis/observer.hpp, with what the terms add (term.hpp).
 // Lost       up to 20 frames in a row are bridged with the current held and no correction; so are
-//            frames that repeat. They do not count.
+//            frames that repeat more often than by chance (repeated_frames.hpp). They do not count.
 // Validation  every sixth stretch of 50 ms when the record asks for it: run and corrected like all
 //            others, but `held` instead of `counts`, so that what is measured there was not fitted
 //            and every excitation and speed is in both parts.
 // Start      after a (re)start the modes swing as nobody knows, and a slow observer takes half a
 //            second to learn it: a fast one does so first, its forces left at zero, since static
-//            forces are for the parameters to explain.
+//            forces are for the parameters to explain. From there on the gain falls as the Kalman
+//            filter's does (analysis::DesignSettling): what the fast one does not know would
+//            otherwise pass for a static force that the parameters lack.
 // Settling   the first `settling_s` after every (re)start are run and do not count.
 // Cost       2 to 3 us per sample. Thread: any; one call per thread.
 
@@ -31,19 +33,28 @@ struct Record {
   bool keeps_validation{};  ///< part of it is not to be fitted
 };
 
+/// A gain from one row after the start phase on, until the next one's.
+struct GainStage {
+  std::uint64_t from_row{};
+  std::shared_ptr<const analysis::ObserverGain> gain;
+};
+
 /// Gains for one record.
-struct ObserverPair {
-  std::shared_ptr<const analysis::ObserverGain> steady, start;
+struct ObserverGains {
+  std::shared_ptr<const analysis::ObserverGain> start;
+  std::vector<GainStage> stages;  ///< after the start; the last one is stationary
+
+  [[nodiscard]] const analysis::ObserverGain& steady() const { return *stages.back().gain; }
 };
 
 struct Trajectory {
   std::vector<SamplePoint> moments;
-  ObserverPair gains;  ///< as used: divided by the model's scales (observer_scale.hpp)
+  ObserverGains gains;  ///< as used: divided by the model's scales (observer_scale.hpp)
 };
 
 /// `theta` has one value per term. Terms at 0 cost nothing.
 [[nodiscard]] Trajectory RunModel(const RigView& rig, const Record& record,
-                                  const ObserverPair& gains, const std::vector<Term>& terms,
+                                  const ObserverGains& gains, const std::vector<Term>& terms,
                                   const std::vector<double>& theta, double settling_s);
 
 }  // namespace levitas::diagnosis

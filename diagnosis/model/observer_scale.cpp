@@ -57,8 +57,10 @@ ObserverScale ObserverScale::Of(const RigView& rig, const std::vector<Term>& ter
   return scale;
 }
 
-ObserverPair Divided(const ObserverPair& gains, const ObserverScale& by, const RigView& rig) {
-  return {Divided(*gains.steady, by, rig), Divided(*gains.start, by, rig)};
+ObserverGains Divided(const ObserverGains& gains, const ObserverScale& by, const RigView& rig) {
+  ObserverGains out{Divided(*gains.start, by, rig), gains.stages};
+  for (GainStage& stage : out.stages) stage.gain = Divided(*stage.gain, by, rig);
+  return out;
 }
 
 }  // namespace levitas::diagnosis

@@ -30,7 +30,7 @@ struct ObserverScale {
                                         const std::vector<double>& theta);
 };
 
-[[nodiscard]] ObserverPair Divided(const ObserverPair& gains, const ObserverScale& by,
-                                   const RigView& rig);
+[[nodiscard]] ObserverGains Divided(const ObserverGains& gains, const ObserverScale& by,
+                                    const RigView& rig);
 
 }  // namespace levitas::diagnosis

@@ -63,9 +63,10 @@ struct SamplePoint {
   std::array<TeethMoment, kMostMeshes> teeth{};  ///< mid, of the nominal meshes
   AddedSlopes added{};
   std::uint32_t record{};
-  bool arrived{};   ///< the frame is there; else the model went on without correction
-  bool settled{};   ///< levitated, and the observer has settled
-  bool starting{};  ///< corrected by the gain for starts
+  bool arrived{};        ///< the frame is there; else the model went on without correction
+  bool settled{};        ///< levitated, and the observer has settled
+  bool starting{};       ///< corrected by the gain for starts
+  std::uint8_t stage{};  ///< of ObserverGains::stages, when it is not
 
   /// The shaft's angle, what follows from it, and its speed.
   void Turn(double angle, double speed, double period_s) noexcept {

@@ -31,12 +31,10 @@ void Subtract(Contribution& from, const Contribution& what, std::size_t axes,
 
 }  // namespace
 
-SensitivityBlock::SensitivityBlock(const RigView& rig, LanePair models,
+SensitivityBlock::SensitivityBlock(const RigView& rig, LaneModels models,
                                    const std::vector<Term>& terms, const std::vector<double>& theta,
                                    std::vector<std::size_t> chosen)
-    : model_(std::move(models.steady)),
-      start_(std::move(models.start)),
-      chosen_(std::move(chosen)) {
+    : models_(std::move(models)), model_(models_.start), chosen_(std::move(chosen)) {
   probes_.reserve(chosen_.size());
   for (const std::size_t i : chosen_) {
     probes_.push_back(
@@ -120,7 +118,7 @@ void SensitivityBlock::Read(const SamplePoint& m, float* derivative_m) noexcept 
   }
   if (!m.arrived) return;
   // The gain is divided by the scales, which some terms change.
-  const TangentBatch& model = m.starting ? *start_ : *model_;
+  const TangentBatch& model = models_.At(m);
   for (const Rescaled& r : rescaled_) {
     for (std::size_t a = 0; a < model.axes; ++a) {
       e[a].value[r.lane] -= r.readings[a] * m.innovation_m[a];

@@ -20,18 +20,25 @@
 
 namespace levitas::diagnosis {
 
-/// The rig with the observer's steady gain, and with that for starts.
-struct LanePair {
-  LanePair(const RigView& rig, const ObserverPair& gains, const LinearChange& change)
-      : steady(std::make_shared<const TangentBatch>(rig, *gains.steady, change)),
-        start(std::make_shared<const TangentBatch>(rig, *gains.start, change)) {}
-  std::shared_ptr<const TangentBatch> steady, start;
+/// The rig with each of the observer's gains.
+struct LaneModels {
+  LaneModels(const RigView& rig, const ObserverGains& gains, const LinearChange& change)
+      : start(std::make_shared<const TangentBatch>(rig, *gains.start, change)) {
+    for (const GainStage& stage : gains.stages) {
+      stages.push_back(std::make_shared<const TangentBatch>(rig, *stage.gain, change));
+    }
+  }
+  [[nodiscard]] const TangentBatch& At(const SamplePoint& m) const {
+    return m.starting ? *start : *stages[m.stage];
+  }
+  std::shared_ptr<const TangentBatch> start;
+  std::vector<std::shared_ptr<const TangentBatch>> stages;
 };
 
 /// A block of up to kLanes terms propagated together.
 class SensitivityBlock {
  public:
-  SensitivityBlock(const RigView& rig, LanePair models, const std::vector<Term>& terms,
+  SensitivityBlock(const RigView& rig, LaneModels models, const std::vector<Term>& terms,
                    const std::vector<double>& theta, std::vector<std::size_t> chosen);
 
   /// Advances one sample; writes de/dtheta [axis][lane] in metres per Term::scale().
@@ -76,7 +83,8 @@ class SensitivityBlock {
   float Difference(Probe& probe, Call call) noexcept;
   void Clear() noexcept;
 
-  std::shared_ptr<const TangentBatch> model_, start_;
+  LaneModels models_;
+  std::shared_ptr<const TangentBatch> model_;  ///< any of them, for what does not depend on a gain
   std::vector<std::size_t> chosen_;
   std::vector<Probe> probes_;
   std::vector<Rescaled> rescaled_;

@@ -139,7 +139,7 @@ Slopes::Slopes(const RigView& rig, const std::vector<Trajectory>& runs,
   };
   std::vector<Task> tasks;
   std::vector<std::size_t> work;  // terms times samples
-  std::vector<LanePair> models;
+  std::vector<LaneModels> models;
   const LinearChange change = ChangeOf(terms, theta);
   parts_.reserve(runs.size());
   models.reserve(runs.size());

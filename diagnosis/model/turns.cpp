@@ -12,7 +12,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr std::size_t kEnough = 10'000;  ///< rows that tell the turn
 
 /// Squared innovations of the nominal model, from the first sample on.
-double Misfit(const RigView& rig, const ObserverPair& gains, const Record& record) {
+double Misfit(const RigView& rig, const ObserverGains& gains, const Record& record) {
   const Trajectory run = RunModel(rig, record, gains, {}, {}, 0.0);
   double sum = 0.0;
   for (const SamplePoint& m : run.moments) {
@@ -41,11 +41,11 @@ void Unwrap(Record& record, double period_s) {
   }
 }
 
-void ChooseTurn(const RigView& rig, const ObserverPair& gains, Record& record) {
+void ChooseTurn(const RigView& rig, const ObserverGains& gains, Record& record) {
   const auto turns = static_cast<int>(std::lround(rig.model->train().turns_per_repeat));
   if (turns < 2) return;
   // The start-up gain estimates no disturbance force, which would hide a wrong wheel position.
-  const ObserverPair start{gains.start, gains.start};
+  const ObserverGains start{gains.start, {{0, gains.start}}};
   Record part = record;
   part.rows.resize(std::min(part.rows.size(), kEnough));
   double least = std::numeric_limits<double>::infinity();

@@ -17,7 +17,7 @@ void Unwrap(Record& record, double period_s);
 
 /// The whole turns of the start under which the nominal model follows the record best, added to all
 /// angles. `gains` are those of a fast observer.
-void ChooseTurn(const RigView& rig, const ObserverPair& gains, Record& record);
+void ChooseTurn(const RigView& rig, const ObserverGains& gains, Record& record);
 
 /// Turns a plant from the total angle it stands at to another one.
 void TurnTo(plant::Plant& plant, double from_rad, double to_rad);

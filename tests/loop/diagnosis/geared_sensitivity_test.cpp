@@ -87,7 +87,7 @@ class GearedTerms : public ::testing::Test {
     const std::vector<double> theta(terms_.size(), 0.0);
     const Trajectory base = Run(theta);
     Trajectory predicted = base;
-    SensitivityBlock block(view_, LanePair(view_, base.gains, LinearChange{}), terms_, theta,
+    SensitivityBlock block(view_, LaneModels(view_, base.gains, LinearChange{}), terms_, theta,
                            {term});
     std::array<float, kMaxAxes * kLanes> d{};
     for (SamplePoint& m : predicted.moments) {

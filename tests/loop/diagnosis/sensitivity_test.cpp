@@ -57,7 +57,7 @@ class Sensitivity : public ::testing::Test {
                                     bool about_the_file = false) const {
     const Trajectory base = Run(theta);
     const LinearChange change = about_the_file ? LinearChange{} : ChangeOf(terms_, theta);
-    SensitivityBlock block(view_, LanePair(view_, base.gains, change), terms_, theta, {at});
+    SensitivityBlock block(view_, LaneModels(view_, base.gains, change), terms_, theta, {at});
     theta[at] += step;
     const Trajectory moved = Run(theta);
     std::array<float, kMaxAxes * kLanes> d{};
@@ -163,7 +163,7 @@ TEST_F(SensitivityAway, OfTheTimingOfASlewingAmplifierIsTheDifferenceOfTheModel)
 TEST_F(Sensitivity, OfWhatDoesNotDependOnOtherTermsInTheBlockIsTheSameAlone) {
   const std::vector<double> theta(terms_.size(), 0.0);
   const Trajectory run = Run(theta);
-  const LanePair model(view_, run.gains, LinearChange{});
+  const LaneModels model(view_, run.gains, LinearChange{});
   const std::size_t gain = Find("current_gain");
   const std::size_t mass = Find("unbalance");
   SensitivityBlock alone(view_, model, terms_, theta, {mass});

@@ -54,7 +54,7 @@ TEST_F(SlopesTest, SumUpToWhatThePropagatedDerivativesGive) {
   double jte = 0.0;
   double ete = 0.0;
   for (const Trajectory& run : *view.runs) {
-    SensitivityBlock block(view_, LanePair(view_, run.gains, ChangeOf(terms_, theta)), terms_,
+    SensitivityBlock block(view_, LaneModels(view_, run.gains, ChangeOf(terms_, theta)), terms_,
                            theta, {at});
     const std::size_t samples = run.moments.size();
     std::vector<std::array<float, kMaxAxes * kLanes>> d(samples);

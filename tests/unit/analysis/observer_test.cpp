@@ -69,6 +69,26 @@ TEST(DesignObserver, RefusesSensorsWithoutAnyNoise) {
 
 // A rotor held by currents that carry exactly its weight, at the centre where the magnet pulls
 // ki ic in good measure: the observer must find the force it was not told of.
+TEST(DesignSettling, BeginsWithWhatTheFastObserverKnewAndEndsWithTheStationaryGain) {
+  const auto plant = test::FlexibleRotor();
+  const ObserverTuning fast;
+  const ObserverTuning slow{0.0, 0.001, 1e-6};
+  const std::vector<StagedGain> stages = DesignSettling(plant, fast, slow);
+  const ObserverGain last = DesignObserver(plant, slow);
+  ASSERT_GT(stages.size(), 3U);
+  EXPECT_EQ(stages.front().from_sample, 0U);
+  EXPECT_EQ(stages.back().gain.state, last.state);
+  EXPECT_EQ(stages.back().gain.force_n_per_m, last.force_n_per_m);
+  for (std::size_t i = 1; i < stages.size(); ++i) {
+    EXPECT_GT(stages[i].from_sample, stages[i - 1].from_sample);
+  }
+  // The slower observer is to know more than the fast one did.
+  EXPECT_GT(stages.front().gain.expected_innovation_m[0], last.expected_innovation_m[0]);
+  EXPECT_GT(stages.front().gain.state.norm(), last.state.norm());
+  // A force that is known to be zero is learnt from nothing that happens in a few samples.
+  EXPECT_LT(stages.front().gain.force_n_per_m.norm(), 0.05 * last.force_n_per_m.norm());
+}
+
 TEST(Observer, FindsAConstantForceTheRigFileDoesNotHave) {
   plant::PlantConfig truth = test::FlexibleRotor();
   truth.gravity_m_per_s2 = 0.0;

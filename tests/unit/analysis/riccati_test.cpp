@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <stdexcept>
 
 #include "common/problem.hpp"
 #include "common/random.hpp"
@@ -60,6 +61,39 @@ TEST(StationaryCovariance, SaysWhatIsWrongWhenAGrowingStateIsNotSeen) {
     FAIL() << "no stationary covariance exists";
   } catch (const Problem& problem) {
     EXPECT_NE(std::string(problem.what()).find("cannot see"), std::string::npos);
+  }
+}
+
+/// The equation of one sample, applied again and again.
+Eigen::MatrixXd OneByOne(const Eigen::MatrixXd& a, const Eigen::MatrixXd& c,
+                         const Eigen::MatrixXd& q, const Eigen::MatrixXd& r, Eigen::MatrixXd p,
+                         int samples) {
+  for (int n = 0; n < samples; ++n) {
+    const Eigen::MatrixXd k = a * p * c.transpose() * (c * p * c.transpose() + r).inverse();
+    p = (a * p * a.transpose() - k * c * p * a.transpose() + q).eval();
+  }
+  return p;
+}
+
+TEST(CovarianceSteps, ReachWhatSamplesOneByOneDo) {
+  Random random(20261125);
+  for (int trial = 0; trial < 10; ++trial) {
+    const Eigen::Index n = 5;
+    Eigen::MatrixXd a(n, n), c(2, n), g(n, 2), s(n, n);
+    for (double& value : a.reshaped()) value = 0.5 * random.Normal();
+    for (double& value : c.reshaped()) value = random.Normal();
+    for (double& value : g.reshaped()) value = random.Normal();
+    for (double& value : s.reshaped()) value = 10.0 * random.Normal();
+    const Eigen::MatrixXd q = g * g.transpose();
+    const Eigen::MatrixXd r = Eigen::Vector2d(0.5, 2.0).asDiagonal();
+    const Eigen::MatrixXd start = s * s.transpose();
+    const CovarianceSteps steps(a, c, q, r, 4);
+    for (std::size_t power = 0; power <= 4; ++power) {
+      const Eigen::MatrixXd expected = OneByOne(a, c, q, r, start, 1 << power);
+      // Rounding, from a start a hundred times as large as what is left of it.
+      EXPECT_LT((steps.After(start, power) - expected).norm(), 1e-8 * start.norm()) << power;
+    }
+    EXPECT_THROW(static_cast<void>(steps.After(start, 5)), std::out_of_range);
   }
 }
 

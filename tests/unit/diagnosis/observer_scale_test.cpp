@@ -17,7 +17,7 @@ class ObserverScaleTest : public ::testing::Test {
   ObserverScaleTest() {
     auto gain = std::make_shared<const analysis::ObserverGain>(
         analysis::DesignObserver(TheRig().model->config(), {}));
-    pair_ = {gain, gain};
+    gains_ = {gain, {{0, gain}}};
   }
 
   void Set(const std::string& effect, const std::string& place, double value) {
@@ -27,7 +27,7 @@ class ObserverScaleTest : public ::testing::Test {
   }
 
   [[nodiscard]] analysis::ObserverGain Gain() const {
-    return *Divided(pair_, ObserverScale::Of(TheRig(), terms_, theta_), TheRig()).steady;
+    return *Divided(gains_, ObserverScale::Of(TheRig(), terms_, theta_), TheRig()).stages.back().gain;
   }
 
   /// Noise alone on a rig at rest; [sample][axis], in multiples of the sensors' scale.
@@ -45,7 +45,7 @@ class ObserverScaleTest : public ::testing::Test {
       }
     }
     std::vector<AxisArray> innovations;
-    for (const SamplePoint& m : RunModel(TheRig(), record, pair_, terms_, theta_, 0.0).moments) {
+    for (const SamplePoint& m : RunModel(TheRig(), record, gains_, terms_, theta_, 0.0).moments) {
       AxisArray& innovation = innovations.emplace_back();
       for (std::size_t a = 0; a < 4; ++a) {
         innovation[a] = static_cast<double>(m.innovation_m[a]) / scale;
@@ -56,12 +56,12 @@ class ObserverScaleTest : public ::testing::Test {
 
   std::vector<Term> terms_ = EveryTerm();
   std::vector<double> theta_ = std::vector<double>(terms_.size(), 0.0);
-  ObserverPair pair_;
+  ObserverGains gains_;
 };
 
 TEST_F(ObserverScaleTest, LeavesTheGainOfTheRigFileAlone) {
-  EXPECT_EQ(Gain().state, pair_.steady->state);
-  EXPECT_EQ(Gain().force_n_per_m, pair_.steady->force_n_per_m);
+  EXPECT_EQ(Gain().state, gains_.steady().state);
+  EXPECT_EQ(Gain().force_n_per_m, gains_.steady().force_n_per_m);
 }
 
 // Were the correction not divided, smaller readings would make a slower observer.
@@ -93,14 +93,14 @@ TEST_F(ObserverScaleTest, AModeThatIsReadLargerIsFedBackAsBefore) {
       const double h = TheRig().magnet(a).sensor_shape[kMode];
       const double dh = change.axis[a].sensor_q[kMode];
       ASSERT_NE(dh, 0.0);
-      before += pair_.steady->state(row, static_cast<Eigen::Index>(a)) * h;
+      before += gains_.steady().state(row, static_cast<Eigen::Index>(a)) * h;
       now += gain.state(row, static_cast<Eigen::Index>(a)) * (h + dh);
     }
     EXPECT_NEAR(now / before, 1.0, 0.05);
   }
   // Other modes are none of its business.
   const auto other = static_cast<Eigen::Index>(at.q_x + 3);
-  EXPECT_EQ(gain.state.row(other), pair_.steady->state.row(other));
+  EXPECT_EQ(gain.state.row(other), gains_.steady().state.row(other));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ class ReversedRig : public ::testing::Test {
     const RigView view(rig.numbers, rig.plant);
     const auto gain = std::make_shared<const analysis::ObserverGain>(
         analysis::DesignObserver(view.model->config(), {}));
-    return RunModel(view, record, {gain, gain}, {}, {}, 0.0).moments;
+    return RunModel(view, record, {gain, {{0, gain}}}, {}, {}, 0.0).moments;
   }
 
   [[nodiscard]] Record Load(const std::string& name, const config::RigFile& rig) const {
