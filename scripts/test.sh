@@ -37,13 +37,21 @@ remedy_of() {
   esac
 }
 
+# Tests at a time: LEVITAS_JOBS, else two per core, for those of several processes wait most of the time.
+test_count() {
+  local jobs
+  jobs=$(job_count) || exit 1
+  echo "${LEVITAS_JOBS:-$((2 * jobs))}"
+}
+
 # ctest_preset PRESET ARGUMENT...: one line of progress, then ctest's own closing lines.
 ctest_preset() {
-  local preset=$1 log=$build_root/amb-test-$1.log line status=0
+  local preset=$1 log=$build_root/amb-test-$1.log line status=0 jobs
+  jobs=$(test_count) || exit 1
   shift
   local pattern='^ *([0-9]+/[0-9]+) Test +#[0-9]+: ([^ ]+)'
   say "testing preset $preset"
-  "${under[@]}" ctest --test-dir "$build_root/$preset" -j "${LEVITAS_JOBS:-2}" --output-on-failure \
+  "${under[@]}" ctest --test-dir "$build_root/$preset" -j "$jobs" --output-on-failure \
         --no-tests=error "$@" 2>&1 | tee "$log" | while IFS= read -r line; do
     if [[ $line =~ $pattern ]]; then progress "testing ${BASH_REMATCH[1]} ${BASH_REMATCH[2]}"; fi
   done || status=$?

@@ -51,7 +51,7 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
                            const std::vector<Record>& all, const std::vector<Record>& records,
                            const Gains& gains, const ObserverSpeed& speed, int passes) {
   const std::vector<Term> held = Held(terms);
-  const Search cautious(rig, held);
+  const Search cautious(rig, held, "", search.model_error_share());
   const std::vector<Record> part = Spans(all, kStartRows);
   const std::vector<double> start =
       FromFar(rig, cautious, held, Spans(all, kFastRows), part, cautious.DesignGains(part, speed));

@@ -31,10 +31,9 @@ Frames CountFrames(const RigView& rig, const std::vector<Record>& records) {
       if (!before.levitated || !now.levitated) continue;
       if (now.cycle > before.cycle + 1 + kMostLost) continue;
       const bool missing = now.cycle != before.cycle + 1;
-      const bool repeated =
-          (repeats_are_lost && Repeats(before, now, rig.axes)) ||
-          SameOnAllAxes(before.sample.command.control_current_a,
-                        now.sample.command.control_current_a, rig.axes);
+      const bool repeated = (repeats_are_lost && Repeats(before, now, rig.axes)) ||
+                            SameOnAllAxes(before.sample.command.control_current_a,
+                                          now.sample.command.control_current_a, rig.axes);
       ++frames.sent;
       if (missing || repeated) ++frames.lost;
     }

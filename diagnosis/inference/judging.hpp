@@ -28,6 +28,7 @@ struct Judging {
   double harm_nat{10.0};
   double gain_deviations{1.645};
   double moved_tolerances{3.0};
+  double model_error_share{0.01};
 };
 
 struct JudgingRow {
@@ -40,7 +41,7 @@ struct JudgingRow {
 };
 
 /// In the order of the members.
-[[nodiscard]] const std::array<JudgingRow, 12>& JudgingTable();
+[[nodiscard]] const std::array<JudgingRow, 13>& JudgingTable();
 
 /// The row of a name; BadInput lists the names.
 [[nodiscard]] const JudgingRow& FindJudging(std::string_view name);

@@ -229,7 +229,7 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
       theta = best.theta;
       slopes.reset();
     }
-    whitener = MakeWhitener(runs, axes_, whitening_order);
+    whitener = search_.WhitenerOf(runs, whitening_order);
     best.cost = 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
     if (!std::isfinite(best.cost)) break;
     best.theta = theta;

@@ -27,8 +27,12 @@ double Least(const Term& term) {
 
 }  // namespace
 
-Search::Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only)
-    : rig_(rig), terms_(terms), hypotheses_(MakeHypotheses(rig, terms)) {
+Search::Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only,
+               double model_error_share)
+    : rig_(rig),
+      terms_(terms),
+      hypotheses_(MakeHypotheses(rig, terms)),
+      model_error_share_(model_error_share) {
   if (only.empty()) return;
   std::erase_if(hypotheses_, [&only](const Hypothesis& h) { return h.effect != only; });
 }
@@ -69,7 +73,7 @@ View Search::Linearise(const std::vector<Record>& records, const Gains& gains,
                        const std::vector<double>& theta, std::size_t whitening_order,
                        const std::vector<std::size_t>& chosen) const {
   auto runs = std::make_shared<const std::vector<Trajectory>>(Run(records, gains, theta));
-  const Whitener whitener = MakeWhitener(*runs, rig_.axes, whitening_order);
+  const Whitener whitener = WhitenerOf(*runs, whitening_order);
   return Linearise(std::move(runs), theta, whitener, chosen);
 }
 

@@ -32,9 +32,14 @@ struct View {
 
 class Search {
  public:
-  /// `only`: the one effect that is looked for; empty: all.
-  Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only = "");
+  /// `only`: the one effect that is looked for; empty: all. `model_error_share`: of judging.hpp.
+  Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only = "",
+         double model_error_share = Judging{}.model_error_share);
 
+  [[nodiscard]] Whitener WhitenerOf(const std::vector<Trajectory>& runs, std::size_t order) const {
+    return MakeWhitener(runs, rig_.axes, order, model_error_share_);
+  }
+  [[nodiscard]] double model_error_share() const { return model_error_share_; }
   [[nodiscard]] Gains DesignGains(const std::vector<Record>& records,
                                   const ObserverSpeed& speed) const;
   [[nodiscard]] std::vector<Trajectory> Run(const std::vector<Record>& records, const Gains& gains,
@@ -89,6 +94,7 @@ class Search {
   const RigView& rig_;
   const std::vector<Term>& terms_;
   std::vector<Hypothesis> hypotheses_;
+  double model_error_share_;
 };
 
 inline constexpr std::size_t kQuickRows = 30'000;    ///< of all records, for a first answer

@@ -1,5 +1,8 @@
 #include "diagnosis/model/normal_equations.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "diagnosis/model/levinson.hpp"
 
 namespace levitas::diagnosis {
@@ -23,11 +26,45 @@ std::vector<double> FilterOf(const std::vector<Trajectory>& runs, std::size_t ax
   return WhiteningFilter(correlation, count);
 }
 
+/// [m] rms of what an axis measured about its mean in each record, of samples that count.
+double MotionOf(const std::vector<Trajectory>& runs, std::size_t axis) {
+  double power = 0.0;
+  double count = 0.0;
+  for (const Trajectory& run : runs) {
+    double here = 0.0;
+    double sum = 0.0;
+    double square = 0.0;
+    for (const SamplePoint& m : run.moments) {
+      if (!m.counts) continue;
+      const auto measured = static_cast<double>(m.measured_m[axis]);
+      here += 1.0;
+      sum += measured;
+      square += measured * measured;
+    }
+    if (here > 0.0) power += std::max(0.0, square - sum * sum / here);
+    count += here;
+  }
+  return count > 0.0 ? std::sqrt(power / count) : 0.0;
+}
+
 }  // namespace
 
 Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes, std::size_t order) {
   Whitener whitener{order, {}};
   for (std::size_t a = 0; a < axes; ++a) whitener.filter.push_back(FilterOf(runs, a, order));
+  return whitener;
+}
+
+Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes, std::size_t order,
+                      double share) {
+  Whitener whitener = MakeWhitener(runs, axes, order);
+  for (std::size_t a = 0; a < axes; ++a) {
+    std::vector<double>& filter = whitener.filter[a];
+    const double least_m = share * MotionOf(runs, a);
+    const double weight = filter.front() * least_m;  // over the rms of what no past explains
+    if (!(weight > 1.0)) continue;
+    for (double& coefficient : filter) coefficient /= weight;
+  }
   return whitener;
 }
 

@@ -3,7 +3,8 @@
 // slopes.hpp).
 //
 // Whitening  an autoregressive filter per channel, from the innovations of the calibrated model
-//            (Yule-Walker), scaled to unit variance; the same filter for every hypothesis.
+//            (Yule-Walker), scaled to unit variance, or below it where the model is not worth as
+//            much as the probes; the same filter for every hypothesis.
 // Weights    the filters' variance; one number per channel.
 // Thread     any; pure.
 
@@ -22,6 +23,11 @@ struct Whitener {
 /// From the innovations that count. `order` 0 only scales.
 [[nodiscard]] Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes,
                                     std::size_t order);
+
+/// The same, with every channel as noisy at least as `share` of the rms of its motion: a model is
+/// never exact, and a quiet probe would take its errors for causes.
+[[nodiscard]] Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes,
+                                    std::size_t order, double share);
 
 struct NormalEquations {
   Eigen::MatrixXd jtj;  ///< terms x terms

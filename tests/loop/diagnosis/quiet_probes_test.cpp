@@ -67,5 +67,40 @@ TEST(QuietProbes, ShowAGainThatCalibrationAbsorbs) {
   EXPECT_EQ(Ask(LowGain(), 1e9).verdict, dg::Verdict::kNone);
 }
 
+/// Records of the shipped rotor, off by some per cent and with two modes more than its file, behind
+/// probes of 0.05 um.
+const Trial& MoreModesThanTheFile() {
+  static const Trial trial = [] {
+    TestRig bench = LoadTestRig("flexible_rotor", {"flexible_rotor_commissioned"});
+    for (auto& bearing : bench.rig.plant.bearings) {
+      bearing.sensor.noise_rms_m = 0.05e-6;
+      bearing.sensor.adc_bits = 18;
+    }
+    TrialPlan plan;
+    plan.seed = 2002;
+    plan.bits_per_axis = 750;
+    plan.runup_s = 1.0;
+    return MakeTrial(bench, plan);
+  }();
+  return trial;
+}
+
+/// [nat] for the likeliest cause.
+double Suspicion(double model_error_share) {
+  dg::Settings settings;
+  settings.quick = true;
+  settings.most_causes = 1;
+  settings.judging.model_error_share = model_error_share;
+  const Trial& trial = MoreModesThanTheFile();
+  const auto answer = dg::DiagnoseRecords(trial.rig, trial.records, {}, settings).answer;
+  return answer.candidates.empty() ? 0.0 : answer.candidates.front().score;
+}
+
+TEST(QuietProbes, MakeNoFaultOfWhatTheModelLacks) {
+  EXPECT_LT(Suspicion(dg::Judging{}.model_error_share), dg::kDecisive);
+  // A model that is taken to be exact needs a cause for it.
+  EXPECT_GT(Suspicion(0.0), dg::kDecisive);
+}
+
 }  // namespace
 }  // namespace levitas::accuracy

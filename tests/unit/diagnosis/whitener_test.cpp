@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/model/normal_equations.hpp"
 #include "tests/unit/diagnosis/trajectories.hpp"
@@ -45,6 +47,30 @@ TEST(WhitenerTest, LeavesUnitVariance) {
   const double sum = SquaredSum(runs, TheRig().axes, whitener, &values);
   EXPECT_GT(values, 79'000U);
   EXPECT_NEAR(sum / static_cast<double>(values), 1.0, 0.02);
+}
+
+/// Noise on a channel that swings about a place far out.
+Trajectory Swinging(double amplitude_m) {
+  return NoiseRun(5, 20'000, [amplitude_m](std::size_t n, SamplePoint& m) {
+    for (float& measured : m.measured_m) {
+      measured = static_cast<float>(1e-3 + amplitude_m * std::sin(0.1 * static_cast<double>(n)));
+    }
+  });
+}
+
+TEST(WhitenerTest, TakesNoChannelForQuieterThanAShareOfItsMotion) {
+  constexpr double kShare = 0.01;
+  const double amplitude_m = 300.0 * kNoise;
+  const Whitener whitener = MakeWhitener({Swinging(amplitude_m)}, TheRig().axes, 2, kShare);
+  for (const auto& filter : whitener.filter) {
+    EXPECT_NEAR(filter[0] * kShare * amplitude_m / std::sqrt(2.0), 1.0, 0.01);
+  }
+}
+
+TEST(WhitenerTest, LeavesANoisyChannelAlone) {
+  const std::vector<Trajectory> runs{Swinging(50.0 * kNoise)};
+  EXPECT_EQ(MakeWhitener(runs, TheRig().axes, 2, 0.01).filter,
+            MakeWhitener(runs, TheRig().axes, 2).filter);
 }
 
 /// What an observer leaves that follows its readings too closely: white noise less a slow mean of
