@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
+
 namespace levitas::analysis {
 namespace {
 
@@ -60,8 +63,8 @@ Eigen::MatrixXcd LoopResponse::Sensitivity(double frequency_hz) const {
 }
 
 double LargestSingularValue(const Eigen::MatrixXcd& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(matrix.adjoint() * matrix,
-                                                               Eigen::EigenvaluesOnly);
+  const Eigen::MatrixXcd gram = matrix.adjoint() * matrix;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(gram, Eigen::EigenvaluesOnly);
   return std::sqrt(solver.eigenvalues().maxCoeff());
 }
 

@@ -10,6 +10,9 @@
 #include "common/problem.hpp"
 #include "design/synthesis/matrix_sign.hpp"
 #include "design/synthesis/riccati.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
 
