@@ -6,6 +6,7 @@
 
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/orthogonal.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -35,7 +36,7 @@ void SolveHessenberg(std::complex<double> z, const Eigen::MatrixXd& hessenberg,
 
 LoopResponse::LoopResponse(const SampledLoop& loop) : loop_(loop) {
   const Eigen::HessenbergDecomposition<Eigen::MatrixXd> reduced(loop.plant.a);
-  const Eigen::MatrixXd q = reduced.matrixQ();
+  const Eigen::MatrixXd q = numerics::OrthogonalFactor(reduced);
   hessenberg_ = reduced.matrixH();
   input_ = (q.transpose() * loop.plant.b).cast<std::complex<double>>();
   output_ = (loop.plant.c * q).cast<std::complex<double>>();
