@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/whirl_direction.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 

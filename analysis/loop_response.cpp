@@ -4,6 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/orthogonal.hpp"
+
 namespace levitas::analysis {
 namespace {
 
@@ -32,7 +36,7 @@ void SolveHessenberg(std::complex<double> z, const Eigen::MatrixXd& hessenberg,
 
 LoopResponse::LoopResponse(const SampledLoop& loop) : loop_(loop) {
   const Eigen::HessenbergDecomposition<Eigen::MatrixXd> reduced(loop.plant.a);
-  const Eigen::MatrixXd q = reduced.matrixQ();
+  const Eigen::MatrixXd q = numerics::OrthogonalFactor(reduced);
   hessenberg_ = reduced.matrixH();
   input_ = (q.transpose() * loop.plant.b).cast<std::complex<double>>();
   output_ = (loop.plant.c * q).cast<std::complex<double>>();
@@ -60,8 +64,8 @@ Eigen::MatrixXcd LoopResponse::Sensitivity(double frequency_hz) const {
 }
 
 double LargestSingularValue(const Eigen::MatrixXcd& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(matrix.adjoint() * matrix,
-                                                               Eigen::EigenvaluesOnly);
+  const Eigen::MatrixXcd gram = matrix.adjoint() * matrix;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(gram, Eigen::EigenvaluesOnly);
   return std::sqrt(solver.eigenvalues().maxCoeff());
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "analysis/riccati.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
 #include "plant_sim/plant/linear_model.hpp"

@@ -7,6 +7,7 @@
 
 #include "analysis/sampled_loop.hpp"
 #include "analysis/whirl_direction.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 
 namespace levitas::analysis {
 namespace {

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "common/problem.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::analysis {
 namespace {

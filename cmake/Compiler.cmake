@@ -56,7 +56,7 @@ endif()
 # thousands of times per period or trial: there it costs more than 2 %.
 set(LEVITAS_UNCHECKED_ARITHMETIC law rotor magnet amplifier sensor support gear effect plant analysis
     identification diagnosis_model diagnosis_terms diagnosis_inference levitator accuracy
-    identification_accuracy synthesis)
+    identification_accuracy synthesis dense spectra)
 function(levitas_check_indices name)
   if(NOT name IN_LIST LEVITAS_UNCHECKED_ARITHMETIC)
     target_compile_definitions(${name} PRIVATE _GLIBCXX_ASSERTIONS)
@@ -66,5 +66,6 @@ endfunction()
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  # Without these words it does not keep what is compiled with precompiled headers (tests).
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()

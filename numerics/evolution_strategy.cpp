@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/random.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 
 namespace levitas::numerics {
 namespace {

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "numerics/dense/factorisations.hpp"
+
 namespace levitas::numerics {
 
 Eigen::VectorXd DampedStep(const NormalEquations& equations, double damping) {

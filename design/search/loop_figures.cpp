@@ -8,6 +8,7 @@
 #include "analysis/sampled_loop.hpp"
 #include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 
 namespace levitas::design {
 namespace {

@@ -9,6 +9,9 @@
 #include "design/synthesis/linear_solve.hpp"
 #include "design/synthesis/riccati.hpp"
 #include "design/synthesis/singular_value.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
 

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "common/problem.hpp"
 #include "design/synthesis/linear_solve.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/exponential.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::synthesis {
 

@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "design/synthesis/linear_solve.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
 

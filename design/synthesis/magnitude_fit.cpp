@@ -9,6 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
+
 namespace levitas::synthesis {
 
 namespace {

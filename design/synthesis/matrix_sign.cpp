@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "numerics/dense/factorisations.hpp"
+
 namespace levitas::synthesis {
 
 std::optional<Eigen::MatrixXd> MatrixSign(const Eigen::MatrixXd& matrix) {

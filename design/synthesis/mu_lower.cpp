@@ -8,6 +8,8 @@
 
 #include "common/random.hpp"
 #include "design/synthesis/structured_singular_value.hpp"
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "design/synthesis/structured_singular_value.hpp"
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
 
@@ -137,7 +139,8 @@ class Barrier {
 
   [[nodiscard]] double Value(const Eigen::VectorXd& x) const {
     const MatrixXcd D = problem_.At(x).columns;
-    const Eigen::LLT<MatrixXcd> outer(b_ * D - problem_.FormAt(x));
+    const MatrixXcd above = b_ * D - problem_.FormAt(x);
+    const Eigen::LLT<MatrixXcd> outer(above);
     const Eigen::LLT<MatrixXcd> inner(D);
     const double room = room_ - D.trace().real();
     if (outer.info() != Eigen::Success || inner.info() != Eigen::Success || !(room > 0.0))
@@ -148,7 +151,8 @@ class Barrier {
   /// Newton's direction and the square of its decrement.
   [[nodiscard]] std::pair<Eigen::VectorXd, double> Newton(const Eigen::VectorXd& x) const {
     const MatrixXcd D = problem_.At(x).columns;
-    const Eigen::LLT<MatrixXcd> outer(b_ * D - problem_.FormAt(x));
+    const MatrixXcd above = b_ * D - problem_.FormAt(x);
+    const Eigen::LLT<MatrixXcd> outer(above);
     const Eigen::LLT<MatrixXcd> inner(D);
     const double room = room_ - D.trace().real();
     const Index n = D.rows();
@@ -165,7 +169,8 @@ class Barrier {
           c.imag().reshaped(), trace;
       gradient(i) = -a.trace().real() - c.trace().real() + trace;
     }
-    const Eigen::VectorXd step = -(whitened.transpose() * whitened).ldlt().solve(gradient);
+    const Eigen::MatrixXd hessian = whitened.transpose() * whitened;
+    const Eigen::VectorXd step = -hessian.ldlt().solve(gradient);
     return {step, -gradient.dot(step)};
   }
 

@@ -10,6 +10,10 @@
 #include "common/problem.hpp"
 #include "design/synthesis/matrix_sign.hpp"
 #include "design/synthesis/riccati.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/orthogonal.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
 
@@ -23,7 +27,7 @@ using Eigen::MatrixXd;
 /// Orthonormal basis of the range of a projection of known rank.
 MatrixXd RangeOf(const MatrixXd& projection, Index rank) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(projection);
-  return qr.householderQ() * MatrixXd::Identity(projection.rows(), rank);
+  return numerics::OrthogonalColumns(qr, rank);
 }
 
 /// L with L L' = gramian; what rounding made negative is zero.

@@ -10,6 +10,8 @@
 #include <string>
 
 #include "common/problem.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "design/synthesis/matrix_sign.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::synthesis {
 

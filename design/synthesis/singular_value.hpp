@@ -5,6 +5,8 @@
 
 #include <Eigen/SVD>
 
+#include "numerics/spectra/spectra.hpp"
+
 namespace levitas::synthesis {
 
 template <class Matrix>

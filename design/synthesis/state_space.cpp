@@ -6,6 +6,8 @@
 
 #include "common/problem.hpp"
 #include "design/synthesis/linear_solve.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::synthesis {
 

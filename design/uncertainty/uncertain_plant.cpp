@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "common/two_pi.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/linear_parts.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 

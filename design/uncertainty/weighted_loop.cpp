@@ -5,6 +5,8 @@
 #include "common/two_pi.hpp"
 #include "controller/law/state_space_law.hpp"
 #include "design/uncertainty/uncertain_plant.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::uncertainty {
 namespace {
@@ -119,7 +121,8 @@ MatrixXcd Balance(const MatrixXcd& m, Index perturbations) {
 }
 
 double LargestGain(const MatrixXcd& m) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(m.adjoint() * m, Eigen::EigenvaluesOnly);
+  const MatrixXcd gram = m.adjoint() * m;
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(gram, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 

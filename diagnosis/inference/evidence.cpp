@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numerics/dense/factorisations.hpp"
+
 namespace levitas::diagnosis {
 
 LinearProblem AtOrigin(const NormalEquations& equations, const Eigen::VectorXd& theta_scaled) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "diagnosis/inference/judging.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::diagnosis {
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "numerics/dense/factorisations.hpp"
 #include "numerics/levenberg_marquardt.hpp"
 
 namespace levitas::levitator {

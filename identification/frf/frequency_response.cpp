@@ -12,6 +12,7 @@
 #include "common/problem.hpp"
 #include "identification/frf/checks.hpp"
 #include "identification/frf/spectra.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::identification {
 namespace {

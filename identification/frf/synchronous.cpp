@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/dense/factorisations.hpp"
+
 namespace levitas::identification {
 
 std::vector<double> WithoutSynchronous(std::span<const double> signal,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "identification/geared/imaginary_unit.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "identification/geared/geared_forces.hpp"
 #include "identification/geared/joint_unknowns.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "numerics/levenberg_marquardt.hpp"
 
 namespace levitas::identification {
@@ -126,7 +127,8 @@ Whitened Whiten(const Group& group, const GearedParameters& p) {
     Move(moved, k, 1.0);
     by_noise.col(k) = Residual(moved, p) - residual;
   }
-  Whitened w{{}, Eigen::LLT<Eigen::MatrixXd>(by_noise * by_noise.transpose()), group};
+  const Eigen::MatrixXd covariance = by_noise * by_noise.transpose();
+  Whitened w{{}, Eigen::LLT<Eigen::MatrixXd>(covariance), group};
   const Eigen::VectorXd shift = -by_noise.transpose() * w.noise.solve(residual);
   for (Index k = 0; k < numbers; ++k) Move(w.explained, k, shift[k]);
   w.residual = w.noise.matrixL().solve(residual);

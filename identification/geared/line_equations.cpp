@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/problem.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::identification {
 

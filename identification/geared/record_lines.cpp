@@ -13,6 +13,7 @@
 #include "common/two_pi.hpp"
 #include "identification/frf/flat_top.hpp"
 #include "identification/geared/imaginary_unit.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::identification {
 namespace {

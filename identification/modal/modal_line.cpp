@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "common/two_pi.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "identification/modal/working_gains.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::identification {
 

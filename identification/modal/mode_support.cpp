@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "numerics/dense/eigenvalues.hpp"
+
 namespace levitas::identification {
 namespace {
 

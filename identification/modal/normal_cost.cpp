@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "numerics/dense/factorisations.hpp"
+
 namespace levitas::identification {
 namespace {
 

@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "identification/modal/mode_scan.hpp"
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -91,7 +93,9 @@ Eigen::VectorXcd Denominator(const Normal& normal, Index order) {
   }
   Eigen::VectorXcd a(size);
   a[0] = 1.0;
-  a.tail(order) = m.bottomRightCorner(order, order).ldlt().solve(-m.col(0).tail(order));
+  const Eigen::MatrixXcd rest = m.bottomRightCorner(order, order);
+  const Eigen::VectorXcd right = -m.col(0).tail(order);
+  a.tail(order) = rest.ldlt().solve(right);
   return a;
 }
 

@@ -8,6 +8,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "numerics/dense/eigenvalues.hpp"
+
 namespace levitas::identification {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/two_pi.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::identification {
 namespace {

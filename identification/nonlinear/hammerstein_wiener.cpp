@@ -11,6 +11,7 @@
 #include "common/problem.hpp"
 #include "identification/nonlinear/diverged.hpp"
 #include "identification/nonlinear/laguerre.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::identification {
 namespace {

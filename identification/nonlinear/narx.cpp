@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "numerics/dense/factorisations.hpp"
+
 namespace levitas::identification {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "identification/nonlinear/diverged.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "numerics/levenberg_marquardt.hpp"
 
 namespace levitas::identification {

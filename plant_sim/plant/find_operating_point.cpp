@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/effects/effect_forces.hpp"
 #include "plant_sim/plant/eigen_index.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <unsupported/Eigen/MatrixFunctions>
 
+#include "numerics/dense/exponential.hpp"
 #include "plant_sim/plant/eigen_index.hpp"
 #include "plant_sim/plant/find_operating_point.hpp"
 #include "plant_sim/plant/linear_parts.hpp"

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/eigen_index.hpp"
 
 namespace levitas::plant {

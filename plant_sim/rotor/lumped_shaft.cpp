@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "numerics/dense/eigenvalues.hpp"
+
 namespace levitas::rotor {
 
 void SetSimplySupported(LumpedShaft& shaft, double span_m, double bending_stiffness_n_m2) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/rotor/finite_element.hpp"
 
 namespace levitas::rotor {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/rotor/beam_element.hpp"
 #include "plant_sim/rotor/section_at.hpp"
 

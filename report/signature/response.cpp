@@ -7,6 +7,8 @@
 #include <complex>
 #include <numbers>
 
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/signature.hpp"

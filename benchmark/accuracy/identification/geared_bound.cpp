@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "common/random.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::accuracy {
 namespace {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "benchmark/accuracy/perturbed_rig.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::accuracy {

@@ -9,6 +9,8 @@
 #include "analysis/sensitivity.hpp"
 #include "common/random.hpp"
 #include "common/rotational_speed.hpp"
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/spectra/spectra.hpp"
 
 namespace levitas::uncertainty {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/time_step.hpp"
 #include "plant_sim/rotor/plane_shape.hpp"

@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "common/two_pi.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/time_step.hpp"
 #include "tests/loop/effects/effect_rig.hpp"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "plant_sim/rotor/lumped_shaft.hpp"

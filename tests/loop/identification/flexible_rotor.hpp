@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "configuration/rig_file.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 
 namespace levitas::identification {

@@ -11,6 +11,7 @@
 #include "identification/identified_rig.hpp"
 #include "identification/modal/modal_response.hpp"
 #include "identification/modal/modal_starts.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "tests/loop/identification/flexible_rotor.hpp"

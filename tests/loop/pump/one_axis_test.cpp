@@ -9,6 +9,7 @@
 #include "analysis/observer.hpp"
 #include "analysis/poles.hpp"
 #include "analysis/sensitivity.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "tests/support/shipped_loop.hpp"

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "numerics/spectra/spectra.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "tests/loop/reference/textbook_law.hpp"

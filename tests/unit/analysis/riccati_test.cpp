@@ -8,6 +8,8 @@
 
 #include "common/problem.hpp"
 #include "common/random.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
 
 namespace levitas::analysis {
 namespace {

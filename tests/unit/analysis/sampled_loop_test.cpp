@@ -8,6 +8,7 @@
 
 #include "analysis/loop_response.hpp"
 #include "controller/law/axis_law.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "tests/support/test_rigs.hpp"
 #include "tests/unit/analysis/laws.hpp"
 

@@ -14,6 +14,7 @@
 #include "diagnosis/model/rig_view.hpp"
 #include "diagnosis/model/train_coupling.hpp"
 #include "diagnosis/model/turns.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "configuration/rig_file.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "tests/support/paths.hpp"
 

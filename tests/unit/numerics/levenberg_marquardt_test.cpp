@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "numerics/dense/factorisations.hpp"
+
 namespace levitas::numerics {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "common/random.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "tests/support/test_rigs.hpp"

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/rotor/finite_element.hpp"
 #include "tests/unit/rotor/random_rotor.hpp"
 #include "tests/unit/rotor/support_conditions.hpp"

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "numerics/dense/eigenvalues.hpp"
+
 namespace levitas::rotor {
 
 Supported Hold(const FiniteElementModel& model, const std::vector<int>& held) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/dense/factorisations.hpp"
 #include "plant_sim/rotor/beam_element.hpp"
 #include "tests/unit/rotor/support_conditions.hpp"
 

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "common/problem.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plants.hpp"
 
 namespace levitas::synthesis {

@@ -8,6 +8,7 @@
 
 #include "design/synthesis/hinf_norm.hpp"
 #include "design/synthesis/magnitude_fit.hpp"
+#include "numerics/spectra/spectra.hpp"
 #include "plants.hpp"
 
 namespace levitas::synthesis {

@@ -7,6 +7,7 @@
 
 #include "common/problem.hpp"
 #include "design/synthesis/hamiltonian.hpp"
+#include "numerics/spectra/spectra.hpp"
 #include "plants.hpp"
 
 namespace levitas::synthesis {

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "common/problem.hpp"
+#include "numerics/dense/eigenvalues.hpp"
+#include "numerics/spectra/spectra.hpp"
 #include "plants.hpp"
 
 namespace levitas::synthesis {

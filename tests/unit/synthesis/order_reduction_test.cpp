@@ -8,6 +8,7 @@
 #include "common/problem.hpp"
 #include "design/synthesis/hinf_norm.hpp"
 #include "design/synthesis/hinf_synthesis.hpp"
+#include "numerics/spectra/spectra.hpp"
 #include "plants.hpp"
 
 namespace levitas::synthesis {

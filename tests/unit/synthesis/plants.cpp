@@ -4,6 +4,8 @@
 #include <array>
 #include <numbers>
 
+#include "numerics/dense/eigenvalues.hpp"
+
 namespace levitas::synthesis {
 
 Eigen::MatrixXd DrawMatrix(Random& random, Eigen::Index rows, Eigen::Index columns) {

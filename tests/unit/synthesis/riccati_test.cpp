@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "design/synthesis/matrix_sign.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 #include "plants.hpp"
 
 namespace levitas::synthesis {

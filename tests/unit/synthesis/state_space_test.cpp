@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/problem.hpp"
+#include "numerics/dense/factorisations.hpp"
 #include "plants.hpp"
 
 namespace levitas::synthesis {
