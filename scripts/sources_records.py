@@ -1,0 +1,3 @@
+"""Figures of a record: from the rows that `amb export --csv` writes."""
+
+MEASURES = {}
