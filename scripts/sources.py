@@ -25,12 +25,16 @@ def written(value):
 
 
 def measured(text, data, left, folder):
-    """The data file's text with our figures as the commands give them now."""
-    values = []
+    """(the data file's text with our figures as the commands give them now, what could not be taken)."""
+    values, failed = [], []
     for row in sources_rows.rows(data):
         for figure in row.get("figures", []):
-            fresh = sources_figures.can_be_taken(row, left)
-            values.append(sources_figures.take(figure, left, folder) if fresh else None)
+            values.append(None)
+            if sources_figures.can_be_taken(row, left):
+                try:
+                    values[-1] = sources_figures.take(figure, left, folder)
+                except ValueError as error:
+                    failed.append(str(error))
     if len(values) != len(OURS.findall(text)):
         raise sources_rows.Refused("every figure needs a key 'ours', [] before it is measured")
     following = iter(values)
@@ -39,7 +43,7 @@ def measured(text, data, left, folder):
         value = next(following)
         return match[0] if value is None else f"ours = {written(value)}"
 
-    return OURS.sub(replaced, text)
+    return OURS.sub(replaced, text), failed
 
 
 def with_needed(names, data):
@@ -52,26 +56,33 @@ def with_needed(names, data):
     return found
 
 
-def main(arguments):
+def measure(names):
+    """Runs the commands (all without a name) and writes what they give; returns what went wrong."""
     data = sources_rows.load()
-    if arguments[:1] == ["--measure"]:
-        unknown = set(arguments[1:]) - {command["name"] for command in data["command"]}
-        if unknown:
-            sys.exit(f"no such command in {DATA}: {', '.join(sorted(unknown))}")
-        names = with_needed(arguments[1:], data)
-        with tempfile.TemporaryDirectory() as folder:
-            left = sources_figures.run_all(
-                data, folder, lambda command: not names or command["name"] in names,
-                lambda text: print(" ", text, flush=True))
-            DATA.write_text(measured(DATA.read_text(encoding="utf-8"), data, left, folder),
-                            encoding="utf-8")
-        data = sources_rows.load()
-    elif arguments:
+    unknown = set(names) - {command["name"] for command in data["command"]}
+    if unknown:
+        return [f"no such command: {', '.join(sorted(unknown))}"]
+    wanted = with_needed(names, data)
+    with tempfile.TemporaryDirectory() as folder:
+        left = sources_figures.run_all(
+            data, folder, lambda command: not wanted or command["name"] in wanted,
+            lambda text: print(" ", text, flush=True))
+        text, failed = measured(DATA.read_text(encoding="utf-8"), data, left, folder)
+    DATA.write_text(text, encoding="utf-8")
+    return failed
+
+
+def main(arguments):
+    if arguments and arguments[0] != "--measure":
         sys.exit(__doc__)
+    failed = measure(arguments[1:]) if arguments else []
+    data = sources_rows.load()
     try:
         PAGE.write_text(sources_rows.page(data), encoding="utf-8")
     except sources_rows.Refused as refused:
-        sys.exit(f"{DATA.name}:\n{refused}")
+        failed += str(refused).splitlines()
+    if failed:
+        sys.exit("\n".join([f"{DATA}:", *failed]))
     print(sources_rows.counted(sources_rows.rows(data)))
 
 

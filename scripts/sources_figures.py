@@ -46,7 +46,8 @@ def run(command, folder):
 def run_all(data, folder, wanted=lambda command: True, told=print):
     """name -> what it left, of every wanted command whose predecessors were run."""
     for file in data.get("file", []):
-        (Path(folder) / file["name"]).write_text(file["text"], encoding="utf-8")
+        before = (ROOT / file["copy_of"]).read_text(encoding="utf-8") if "copy_of" in file else ""
+        (Path(folder) / file["name"]).write_text(before + file["text"], encoding="utf-8")
     left = {}
     for command in data["command"]:
         if wanted(command) and all(name in left for name in command.get("after", [])):
@@ -76,8 +77,12 @@ def take(figure, left, folder):
                for name, do in sources_records.MEASURES.items()}
     known = {"max": max, "min": min, "abs": abs, "len": len, "sum": sum, "log10": math.log10,
              "degrees": math.degrees, "sqrt": math.sqrt, "number": first_number, "zip": zip,
-             "sorted": sorted, "range": range, "int": int, "__builtins__": {}} | records
-    value = eval(figure["take"], known | left)  # pylint: disable=eval-used
+             "sorted": sorted, "range": range, "polynomial": sources_records.polynomial,
+             "least_gain_hz": sources_records.least_gain_hz, "__builtins__": {}} | records
+    try:
+        value = eval(figure["take"], known | left)
+    except Exception as error:  # whatever an expression may raise
+        raise ValueError(f"{figure['take']}: {error!r}") from error
     return [rounded(one) for one in value] if isinstance(value, (list, tuple)) else rounded(value)
 
 

@@ -74,7 +74,8 @@ def wrong_with(row, commands):
             told.append(f"no command is named {name}")
     for figure in figures:
         take = figure["take"]
-        if not set(re.findall(r"[A-Za-z_]\w*", take)) & set(row.get("commands", [])):
+        # By its name, or by a file that is named after it.
+        if not any(re.search(rf"\b{name}", take) for name in row.get("commands", [])):
             told.append(f"'{take}' is taken from none of the row's commands")
         if figure.get("ours") in (None, []):
             told.append(f"'{take}' is not measured: scripts/sources.py --measure")
@@ -169,5 +170,5 @@ def page(data):
     files = data.get("file", [])
     if files:
         parts.append("## Files that the commands read\n\n" + "\n".join(
-            f"`{file['name']}`:\n\n```yaml\n{file['text'].strip()}\n```\n" for file in files))
+            f"`{file['name']}`{', after all of `' + file['copy_of'] + '`' if 'copy_of' in file else ''}:\n\n```yaml\n{file['text'].strip()}\n```\n" for file in files))
     return "\n".join(parts)

@@ -84,9 +84,16 @@ class Figures(unittest.TestCase):
     def test_measuring_writes_them_in_their_place(self):
         data = small()
         text = 'take = "modes.f", ours = [], theirs = [90, 252]'
-        self.assertEqual(sources.measured(text, data, self.LEFT, "."),
-                         'take = "modes.f", ours = [90.1, 252.04], theirs = [90, 252]')
-        self.assertEqual(sources.measured(text, data, {}, "."), text)
+        written, failed = sources.measured(text, data, self.LEFT, ".")
+        self.assertEqual(written, 'take = "modes.f", ours = [90.1, 252.04], theirs = [90, 252]')
+        self.assertEqual(failed, [])
+        self.assertEqual(sources.measured(text, data, {}, ".")[0], text)
+
+    def test_that_cannot_be_taken_are_told_and_stay(self):
+        data = small(figures=[{"take": "modes.g", "ours": 1.0}])
+        written, failed = sources.measured("ours = 1", data, self.LEFT, ".")
+        self.assertEqual(written, "ours = 1")
+        self.assertIn("modes.g", failed[0])
 
 
 if __name__ == "__main__":
