@@ -21,7 +21,10 @@ OURS = re.compile(r"\bours = (\[[^\]]*\]|[^,}\s]+)")
 
 
 def written(value):
-    return f"[{', '.join(f'{one:g}' for one in value)}]" if isinstance(value, list) else f"{value:g}"
+    digits = f".{sources_figures.SIGNIFICANT}g"
+    if isinstance(value, list):
+        return f"[{', '.join(format(one, digits) for one in value)}]"
+    return format(value, digits)
 
 
 def measured(text, data, left, folder):

@@ -11,7 +11,7 @@ from pathlib import Path
 import sources_records
 from sources_rows import ROOT, listed
 
-SIGNIFICANT = 6  # digits of a figure that are kept: more than any tolerance asks for
+SIGNIFICANT = 8  # digits of a figure that are kept: more than any tolerance asks for
 
 
 class Fields(dict):

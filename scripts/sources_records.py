@@ -22,11 +22,16 @@ def columns(path):
 
 @functools.lru_cache(maxsize=32)
 def at_speed(path, bearing, speed_rpm):
-    """(angle of the rotor, x + jy) of the rows at a speed."""
-    table = columns(path)
-    return [(angle, complex(x, y)) for angle, speed, x, y in
-            zip(table["rotor_angle_rad"], table["speed_rpm"], table[f"position_{bearing}_x_m"],
-                table[f"position_{bearing}_y_m"]) if abs(speed - speed_rpm) <= STEADY * speed_rpm]
+    """(turns of the rotor from the first row on, x + jy) of the rows at a speed."""
+    table, found, turns, last = columns(path), [], 0.0, None
+    for angle, speed, x, y in zip(table["rotor_angle_rad"], table["speed_rpm"],
+                                  table[f"position_{bearing}_x_m"],
+                                  table[f"position_{bearing}_y_m"]):
+        if abs(speed - speed_rpm) <= STEADY * speed_rpm:
+            turns += 0.0 if last is None else (angle - last) / math.tau % 1.0
+            last = angle
+            found.append((turns, complex(x, y)))
+    return found
 
 
 def vibration(path, bearings, speed_rpm):
@@ -40,9 +45,14 @@ def vibration(path, bearings, speed_rpm):
 
 
 def line(path, bearing, speed_rpm, order):
-    """Amplitude of the line at `order` times the angle of the rotor; negative: backward."""
+    """Amplitude of the line at `order` times the rotor's speed; negative: backward.
+
+    Of whole pairs of turns, in which a wheel at half the speed turns a whole number of times.
+    """
     rows = at_speed(path, bearing, speed_rpm)
-    return abs(sum(radius * cmath.exp(-1j * order * angle) for angle, radius in rows)) / len(rows)
+    end = 2 * (rows[-1][0] // 2)
+    values = [radius * cmath.exp(-1j * math.tau * order * turns) for turns, radius in rows if turns < end]
+    return abs(sum(values)) / len(values)
 
 
 def largest(path, column):

@@ -18,7 +18,9 @@ HEAD = """# The published works, row by row
 
 What each of the three works behind the shipped rigs says, the command that does the same here, our figure beside
 theirs, and why they differ or why it is not done. Written by `scripts/sources.py` from `docs/sources.toml`; do not edit.
-Figures of ours are what the commands print; the test `process.sources` runs them and compares.
+Figures of ours are what the commands print; the test `process.sources` runs them and compares. Those marked slow take
+more than about 10 s and are run by `process.sources_slow` where `LEVITAS_SLOW_SOURCES=1` asks for it, and named as not run
+otherwise. `scripts/sources.py --measure` runs everything and writes file and page anew (a few minutes).
 
 - **reproduced**: done here, with a figure of ours, and as the source says wherever it prints something to compare with.
 - **differs**: done here in another way or with another result, for the reason given.
@@ -39,6 +41,15 @@ def load(path=DATA):
 
 def rows(data):
     return [row for work in data["work"] for row in work["row"]]
+
+
+def slow_ones(data):
+    """Names of the slow commands, and of those that read what they leave."""
+    found = set()
+    for command in data["command"]:
+        if command.get("slow") or found & set(command.get("after", [])):
+            found.add(command["name"])
+    return found
 
 
 def listed(value):
@@ -126,8 +137,9 @@ def cell(text):
     return text.replace("|", "\\|").replace("\n", " ").strip()
 
 
-def line(row, commands):
-    runs = "<br>".join(f"`{commands[name]['run']}`" for name in row.get("commands", []))
+def line(row, commands, slow):
+    runs = "<br>".join(f"`{commands[name]['run']}`" + (" (slow)" if name in slow else "")
+                       for name in row.get("commands", []))
     why = row.get("differs", row.get("not_done", row.get("note", "")))
     said = f"**{row['at']}** {row['says']}" if "at" in row else row["says"]
     cells = (said, runs, shown_ours(row), shown_theirs(row), f"**{state(row)}**" + (f": {why}" if why else ""))
@@ -157,7 +169,7 @@ def needed(row_list, data):
 def page(data):
     """The text of docs/sources.md."""
     check(data)
-    commands = {command["name"]: command for command in data["command"]}
+    commands, slow = {command["name"]: command for command in data["command"]}, slow_ones(data)
     parts = [HEAD, f"In all {counted(rows(data))}.\n"]
     for work in data["work"]:
         parts.append(f"## {work['name']}\n\n{work['title']}\n\n{counted(work['row'])}.\n")
@@ -166,7 +178,7 @@ def page(data):
             runs = "\n".join(command["run"] for command in first)
             parts.append(f"Commands of this table read what these leave, in this order:\n\n```sh\n{runs}\n```\n")
         parts.append("| what it says | command | ours | theirs | state, and why |\n|---|---|---|---|---|\n" +
-                     "\n".join(line(row, commands) for row in work["row"]) + "\n")
+                     "\n".join(line(row, commands, slow) for row in work["row"]) + "\n")
     files = data.get("file", [])
     if files:
         parts.append("## Files that the commands read\n\n" + "\n".join(

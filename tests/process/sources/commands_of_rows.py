@@ -13,15 +13,7 @@ import sources_figures  # noqa: E402
 import sources_rows  # noqa: E402
 
 DATA = sources_rows.load()
-
-
-def slow_ones():
-    """Names of the slow commands, and of those that read what they leave."""
-    found = set()
-    for command in DATA["command"]:
-        if command.get("slow") or found & set(command.get("after", [])):
-            found.add(command["name"])
-    return found
+SLOW = sources_rows.slow_ones(DATA)
 
 
 def needed_by(names):
