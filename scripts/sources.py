@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Writes docs/sources.md: what the published works say, beside what our commands print.
 
-    scripts/sources.py                      writes the page from docs/sources.toml
-    scripts/sources.py --measure            runs every command first and writes our figures into that file
-    scripts/sources.py --measure NAME...    of these commands alone, and of what they need
+    scripts/sources.py                     writes the page from docs/sources.toml
+    scripts/sources.py --measure           runs all commands first, writes our figures into that file
+    scripts/sources.py --measure NAME...   of these commands alone, and of what they need
 
-The programs are those of build/release, or of the folder LEVITAS_BINARIES.
+The programs are those of build/release (`./amb manual` builds them), or of the folder LEVITAS_BINARIES.
 """
 
 import re
@@ -28,7 +28,7 @@ def written(value):
 
 
 def measured(text, data, left, folder):
-    """(the data file's text with our figures as the commands give them now, what could not be taken)."""
+    """(the data file's text with our figures as they are now, what could not be taken)."""
     values, failed = [], []
     for row in sources_rows.rows(data):
         for figure in row.get("figures", []):

@@ -11,6 +11,7 @@ from pathlib import Path
 import sources_records
 from sources_rows import ROOT, listed
 
+LIMIT_S = 1800  # of a command that hangs
 SIGNIFICANT = 8  # digits of a figure that are kept: more than any tolerance asks for
 
 
@@ -33,7 +34,7 @@ def run(command, folder):
     out = Path(folder) / f"{command['name']}.json"
     more = ["--json", str(out)] if command.get("json", True) else []
     done = subprocess.run([str(binaries / "amb"), *words[1:], *more], cwd=folder, text=True,
-                          capture_output=True, check=False,
+                          capture_output=True, check=False, timeout=LIMIT_S,
                           env=os.environ | {"LEVITAS_CATALOGUE": ""})
     if done.returncode != command.get("status", 0):
         raise RuntimeError(f"{command['run']}: status {done.returncode}\n{done.stdout}{done.stderr}")

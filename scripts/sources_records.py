@@ -1,5 +1,5 @@
-"""Figures that a row needs of whole files: of the rows that `amb export --csv` writes, of the response
-of an identified linear model, of a text that a command wrote. Lengths in m, as in the files.
+"""Figures that a row needs of whole files: of the rows that `amb export --csv` writes, of the
+response of an identified linear model, of a text that a command wrote. Lengths in m, as in the files.
 """
 
 import cmath
@@ -35,7 +35,7 @@ def at_speed(path, bearing, speed_rpm):
 
 
 def vibration(path, bearings, speed_rpm):
-    """rms of the radius about its mean at a speed, of several bearings together: root of the sum."""
+    """rms of the radius about its mean at a speed; of several bearings the root of the sum."""
     total = 0.0
     for bearing in bearings:
         radii = [radius for _, radius in at_speed(path, bearing, speed_rpm)]
@@ -51,7 +51,8 @@ def line(path, bearing, speed_rpm, order):
     """
     rows = at_speed(path, bearing, speed_rpm)
     end = 2 * (rows[-1][0] // 2)
-    values = [radius * cmath.exp(-1j * math.tau * order * turns) for turns, radius in rows if turns < end]
+    values = [radius * cmath.exp(-1j * math.tau * order * turns)
+              for turns, radius in rows if turns < end]
     return abs(sum(values)) / len(values)
 
 
@@ -72,7 +73,7 @@ def rows_excited(path, column):
 
 
 def largest_correlation(path, names, rows_per_bit, lags=50):
-    """Largest |correlation coefficient| of two of the columns, a value a bit, at up to `lags` bits."""
+    """Largest |correlation coefficient| of two of the columns, a value a bit, within `lags` bits."""
     bits = [excited(path, name)[rows_per_bit // 2::rows_per_bit] for name in names]
     scale = [math.sqrt(sum(value * value for value in row)) for row in bits]
     found = 0.0
@@ -96,7 +97,7 @@ def polynomial(terms, signal):
 
 
 def least_gain_hz(terms, signal, period_s, low_hz, high_hz):
-    """Frequency of the smallest gain from the signal to the output between two frequencies, to 0.5 Hz."""
+    """Where between two frequencies the gain from the signal to the output is least, to 0.5 Hz."""
     above, below = polynomial(terms, signal), polynomial(terms, "y1")
 
     def gain(hz):

@@ -18,9 +18,9 @@ HEAD = """# The published works, row by row
 
 What each of the three works behind the shipped rigs says, the command that does the same here, our figure beside
 theirs, and why they differ or why it is not done. Written by `scripts/sources.py` from `docs/sources.toml`; do not edit.
-Figures of ours are what the commands print; the test `process.sources` runs them and compares. Those marked slow take
-more than about 10 s and are run by `process.sources_slow` where `LEVITAS_SLOW_SOURCES=1` asks for it, and named as not run
-otherwise. `scripts/sources.py --measure` runs everything and writes file and page anew (a few minutes).
+Figures of ours are what the commands print; the test `process.sources` runs them and compares. Those marked slow are
+run by `process.sources_slow` where `LEVITAS_SLOW_SOURCES=1` asks for it, and named as not run otherwise.
+`scripts/sources.py --measure` runs everything and writes file and page anew, in a few minutes.
 
 - **reproduced**: done here, with a figure of ours, and as the source says wherever it prints something to compare with.
 - **differs**: done here in another way or with another result, for the reason given.
@@ -91,7 +91,8 @@ def wrong_with(row, commands):
         if figure.get("ours") in (None, []):
             told.append(f"'{take}' is not measured: scripts/sources.py --measure")
         elif not agrees(figure) and "differs" not in row:
-            told.append(f"'{take}' is {figure['ours']}, not what the source prints: say why in differs")
+            told.append(f"'{take}' is {figure['ours']}, not what the source prints: "
+                        "say why in differs")
     return told
 
 
@@ -142,7 +143,8 @@ def line(row, commands, slow):
                        for name in row.get("commands", []))
     why = row.get("differs", row.get("not_done", row.get("note", "")))
     said = f"**{row['at']}** {row['says']}" if "at" in row else row["says"]
-    cells = (said, runs, shown_ours(row), shown_theirs(row), f"**{state(row)}**" + (f": {why}" if why else ""))
+    judged = f"**{state(row)}**" + (f": {why}" if why else "")
+    cells = (said, runs, shown_ours(row), shown_theirs(row), judged)
     return "| " + " | ".join(map(cell, cells)) + " |"
 
 
@@ -166,6 +168,11 @@ def needed(row_list, data):
     return [command for command in data["command"] if command["name"] in before]
 
 
+def shown_file(file):
+    after = f", after all of `{file['copy_of']}`" if "copy_of" in file else ""
+    return f"`{file['name']}`{after}:\n\n```yaml\n{file['text'].strip()}\n```\n"
+
+
 def page(data):
     """The text of docs/sources.md."""
     check(data)
@@ -176,11 +183,11 @@ def page(data):
         first = needed(work["row"], data)
         if first:
             runs = "\n".join(command["run"] for command in first)
-            parts.append(f"Commands of this table read what these leave, in this order:\n\n```sh\n{runs}\n```\n")
-        parts.append("| what it says | command | ours | theirs | state, and why |\n|---|---|---|---|---|\n" +
+            parts.append("Commands of this table read what these leave, in this order:\n\n"
+                         f"```sh\n{runs}\n```\n")
+        parts.append("| what it says | command | ours | theirs | state, and why |\n"
+                     "|---|---|---|---|---|\n" +
                      "\n".join(line(row, commands, slow) for row in work["row"]) + "\n")
-    files = data.get("file", [])
-    if files:
-        parts.append("## Files that the commands read\n\n" + "\n".join(
-            f"`{file['name']}`{', after all of `' + file['copy_of'] + '`' if 'copy_of' in file else ''}:\n\n```yaml\n{file['text'].strip()}\n```\n" for file in files))
+    if data.get("file"):
+        parts.append("## Files that the commands read\n\n" + "\n".join(map(shown_file, data["file"])))
     return "\n".join(parts)
