@@ -144,7 +144,7 @@ std::string ControllerText(const FoundController& controller) {
 
 std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig) {
   if (!options.controller_name.empty() || !rig.run.controller.empty()) return {};
-  return fmt::format("These are the published gains. amb run takes others: --controller {}\n",
+  return fmt::format("These are the reference gains. amb run takes others: --controller {}\n",
                      kGeneralController);
 }
 

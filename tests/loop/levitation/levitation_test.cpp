@@ -44,9 +44,9 @@ TEST(Levitation, StandsQuieterThanTheObjective) {
   EXPECT_LT(loop.most.orbit_m, 7e-6);  // the rig's objective, for every one of 20 000 samples
 }
 
-// The published gains let 1 um of noise reach the current limit; every such cycle lacks damping, so
+// The reference gains let 1 um of noise reach the current limit; every such cycle lacks damping, so
 // their largest orbit is a matter of luck. What does not depend on it is the rms radius.
-TEST(Levitation, PublishedLawMeetsTheStandingObjectiveInTheMean) {
+TEST(Levitation, ReferenceLawMeetsTheStandingObjectiveInTheMean) {
   ClosedLoop loop;
   ASSERT_TRUE(loop.Levitate());
   loop.Run(0.5);
