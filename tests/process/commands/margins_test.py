@@ -56,7 +56,7 @@ class Margins(CommandTest):
         printed, _ = self.compute("margins", "--controller", warped)
         self.assertNotIn("stands at", printed)
 
-    def test_the_published_gains_are_not_taken_for_those_of_amb_run(self):
+    def test_the_reference_gains_are_not_taken_for_those_of_amb_run(self):
         printed, _ = self.compute("margins")
         self.assertIn("--controller flexible_rotor_commissioned", printed)
 
