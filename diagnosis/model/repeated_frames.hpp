@@ -8,7 +8,7 @@
 //            as often as the product of the shares of the single ones says.
 // Lost       when they are kTimesChance as many as chance makes of them, and as many of its
 //            deviations more. Below that single frames cannot be told apart, and all count as
-//            arrived: a few lost ones do less harm than readings that the model is not corrected by.
+//            arrived: a few lost ones do less harm than readings that do not correct the model.
 // Thread     any; pure.
 
 #include <cmath>

@@ -27,7 +27,9 @@ class ObserverScaleTest : public ::testing::Test {
   }
 
   [[nodiscard]] analysis::ObserverGain Gain() const {
-    return *Divided(gains_, ObserverScale::Of(TheRig(), terms_, theta_), TheRig()).stages.back().gain;
+    return *Divided(gains_, ObserverScale::Of(TheRig(), terms_, theta_), TheRig())
+                .stages.back()
+                .gain;
   }
 
   /// Noise alone on a rig at rest; [sample][axis], in multiples of the sensors' scale.
