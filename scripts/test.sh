@@ -37,17 +37,19 @@ remedy_of() {
   esac
 }
 
-# Tests at a time: LEVITAS_JOBS, else two per core, for those of several processes wait most of the time.
+# test_count PRESET: tests at a time. LEVITAS_JOBS, else two per core, for those of several processes
+# wait most of the time; under a sanitizer they compute, and one per core is enough.
 test_count() {
   local jobs
   jobs=$(job_count) || exit 1
-  echo "${LEVITAS_JOBS:-$((2 * jobs))}"
+  [ "$1" != release ] || jobs=$((2 * jobs))
+  echo "${LEVITAS_JOBS:-$jobs}"
 }
 
 # ctest_preset PRESET ARGUMENT...: one line of progress, then ctest's own closing lines.
 ctest_preset() {
   local preset=$1 log=$build_root/amb-test-$1.log line status=0 jobs
-  jobs=$(test_count) || exit 1
+  jobs=$(test_count "$preset") || exit 1
   shift
   local pattern='^ *([0-9]+/[0-9]+) Test +#[0-9]+: ([^ ]+)'
   say "testing preset $preset"
