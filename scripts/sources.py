@@ -49,23 +49,13 @@ def measured(text, data, left, folder):
     return OURS.sub(replaced, text), failed
 
 
-def with_needed(names, data):
-    """The commands and all that must run before them."""
-    before = {command["name"]: command.get("after", []) for command in data["command"]}
-    found = set()
-    while names:
-        found |= set(names)
-        names = [one for name in names for one in before[name] if one not in found]
-    return found
-
-
 def measure(names):
     """Runs the commands (all without a name) and writes what they give; returns what went wrong."""
     data = sources_rows.load()
     unknown = set(names) - {command["name"] for command in data["command"]}
     if unknown:
         return [f"no such command: {', '.join(sorted(unknown))}"]
-    wanted = with_needed(names, data)
+    wanted = sources_rows.with_needed(names, data)
     with tempfile.TemporaryDirectory() as folder:
         left = sources_figures.run_all(
             data, folder, lambda command: not wanted or command["name"] in wanted,

@@ -154,15 +154,19 @@ def counted(some):
     return f"{len(some)} rows: {', '.join(counts)}"
 
 
+def with_needed(names, data):
+    """The commands and all that must run before them."""
+    before = {command["name"]: command.get("after", []) for command in data["command"]}
+    found = set()
+    while names:
+        found |= set(names)
+        names = [one for name in names for one in before[name] if one not in found]
+    return found
+
+
 def needed(row_list, data):
     """Commands that others of these rows need, in the file's order."""
-    wanted = {name for row in row_list for name in row.get("commands", [])}
-    grown = True
-    while grown:
-        more = {before for command in data["command"] if command["name"] in wanted
-                for before in command.get("after", [])}
-        grown = not more <= wanted
-        wanted |= more
+    wanted = with_needed({name for row in row_list for name in row.get("commands", [])}, data)
     before = {name for command in data["command"] if command["name"] in wanted
               for name in command.get("after", [])}
     return [command for command in data["command"] if command["name"] in before]
