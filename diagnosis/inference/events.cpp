@@ -10,10 +10,6 @@
 namespace levitas::diagnosis {
 namespace {
 
-bool SameOnAllAxes(const AxisArray& a, const AxisArray& b, std::size_t axes) {
-  return std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(axes), b.begin());
-}
-
 /// More in a row are no loss but a pause: another flight, or rows that were left out.
 constexpr std::uint64_t kMostLost = 20;
 
@@ -31,9 +27,10 @@ Frames CountFrames(const RigView& rig, const std::vector<Record>& records) {
       if (!before.levitated || !now.levitated) continue;
       if (now.cycle > before.cycle + 1 + kMostLost) continue;
       const bool missing = now.cycle != before.cycle + 1;
-      const bool repeated = (repeats_are_lost && Repeats(before, now, rig.axes)) ||
-                            SameOnAllAxes(before.sample.command.control_current_a,
-                                          now.sample.command.control_current_a, rig.axes);
+      const bool repeated = (repeats_are_lost &&
+                             Repeats(before.sample.position_m, now.sample.position_m, rig.axes)) ||
+                            Repeats(before.sample.command.control_current_a,
+                                    now.sample.command.control_current_a, rig.axes);
       ++frames.sent;
       if (missing || repeated) ++frames.lost;
     }

@@ -285,7 +285,8 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverGain
       }
     }
     if (row.levitated) {
-      const bool lost_one = continues && repeats_are_lost && Repeats(*previous, row, rig.axes);
+      const bool lost_one = continues && repeats_are_lost &&
+                            Repeats(previous->sample.position_m, row.sample.position_m, rig.axes);
       step(row, !lost_one, !continues);
     }
     previous = &row;

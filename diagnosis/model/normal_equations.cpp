@@ -26,25 +26,33 @@ std::vector<double> FilterOf(const std::vector<Trajectory>& runs, std::size_t ax
   return WhiteningFilter(correlation, count);
 }
 
-/// [m] rms of what an axis measured about its mean in each record, of samples that count.
-double MotionOf(const std::vector<Trajectory>& runs, std::size_t axis) {
-  double power = 0.0;
+/// [m] rms of what each axis measured about its mean in each record, of samples that count.
+AxisArray MotionOf(const std::vector<Trajectory>& runs, std::size_t axes) {
+  AxisArray power{};
   double count = 0.0;
   for (const Trajectory& run : runs) {
+    AxisArray sum{};
+    AxisArray square{};
     double here = 0.0;
-    double sum = 0.0;
-    double square = 0.0;
     for (const SamplePoint& m : run.moments) {
       if (!m.counts) continue;
-      const auto measured = static_cast<double>(m.measured_m[axis]);
       here += 1.0;
-      sum += measured;
-      square += measured * measured;
+      for (std::size_t a = 0; a < axes; ++a) {
+        const auto measured = static_cast<double>(m.measured_m[a]);
+        sum[a] += measured;
+        square[a] += measured * measured;
+      }
     }
-    if (here > 0.0) power += std::max(0.0, square - sum * sum / here);
+    if (!(here > 0.0)) continue;
     count += here;
+    for (std::size_t a = 0; a < axes; ++a) {
+      power[a] += std::max(0.0, square[a] - sum[a] * sum[a] / here);
+    }
   }
-  return count > 0.0 ? std::sqrt(power / count) : 0.0;
+  AxisArray motion_m{};
+  if (!(count > 0.0)) return motion_m;
+  for (std::size_t a = 0; a < axes; ++a) motion_m[a] = std::sqrt(power[a] / count);
+  return motion_m;
 }
 
 }  // namespace
@@ -58,10 +66,11 @@ Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes, std
 Whitener MakeWhitener(const std::vector<Trajectory>& runs, std::size_t axes, std::size_t order,
                       double share) {
   Whitener whitener = MakeWhitener(runs, axes, order);
+  const AxisArray motion_m = MotionOf(runs, axes);
   for (std::size_t a = 0; a < axes; ++a) {
     std::vector<double>& filter = whitener.filter[a];
-    const double least_m = share * MotionOf(runs, a);
-    const double weight = filter.front() * least_m;  // over the rms of what no past explains
+    // The least noise over the rms of what no past explains.
+    const double weight = filter.front() * share * motion_m[a];
     if (!(weight > 1.0)) continue;
     for (double& coefficient : filter) coefficient /= weight;
   }

@@ -25,11 +25,9 @@ struct Repeating {
 
 }  // namespace
 
-bool Repeats(const analysis::RecordedRow& before, const analysis::RecordedRow& now,
-             std::size_t axes) noexcept {
-  return std::equal(before.sample.position_m.begin(),
-                    before.sample.position_m.begin() + static_cast<std::ptrdiff_t>(axes),
-                    now.sample.position_m.begin());
+bool Repeats(const AxisArray& before, const AxisArray& now, std::size_t axes) noexcept {
+  return std::equal(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(axes),
+                    now.begin());
 }
 
 RepeatedFrames CountRepeats(const std::vector<analysis::RecordedRow>& rows, std::size_t axes) {
@@ -48,7 +46,7 @@ RepeatedFrames CountRepeats(const std::vector<analysis::RecordedRow>& rows, std:
     for (std::size_t a = 0; a < axes; ++a) {
       if (before.sample.position_m[a] == now.sample.position_m[a]) ++stretch.axis[a];
     }
-    if (Repeats(before, now, axes)) ++stretch.all;
+    if (Repeats(before.sample.position_m, now.sample.position_m, axes)) ++stretch.all;
     if (stretch.frames == kStretch) close();
   }
   close();

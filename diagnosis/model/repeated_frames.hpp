@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "analysis/innovations.hpp"
+#include "common/axes.hpp"
 
 namespace levitas::diagnosis {
 
@@ -30,7 +31,8 @@ struct RepeatedFrames {
   }
 };
 
-[[nodiscard]] bool Repeats(const analysis::RecordedRow& before, const analysis::RecordedRow& now,
+/// All axes bit for bit: of readings, or of currents.
+[[nodiscard]] bool Repeats(const AxisArray& before, const AxisArray& now,
                            std::size_t axes) noexcept;
 
 /// Of consecutive cycles that are levitated.
