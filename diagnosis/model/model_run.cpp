@@ -6,6 +6,7 @@
 #include "diagnosis/model/linear_change.hpp"
 #include "diagnosis/model/magnet_means.hpp"
 #include "diagnosis/model/observer_scale.hpp"
+#include "diagnosis/model/plant_at.hpp"
 #include "diagnosis/model/repeated_frames.hpp"
 #include "diagnosis/model/turns.hpp"
 #include "plant_sim/plant/mode_step.hpp"
@@ -36,26 +37,26 @@ double Sum(const std::vector<double>& shape, const float* modal) {
 class Runner {
  public:
   Runner(const RigView& rig, const ObserverGains& gains, const std::vector<Term>& terms,
-         const std::vector<double>& theta)
+         const std::vector<double>& theta, const LinearChange& change)
       : rig_(rig),
+        plant_(PlantAt(rig, change)),
         stages_(gains.stages),
-        steady_(rig.model, gains.stages.front().gain),
-        starter_(rig.model, gains.start),
+        steady_(plant_, gains.stages.front().gain),
+        starter_(plant_, gains.start),
         observer_(&steady_),
         at_(rig.model->layout()),
         magnets_(rig) {
     for (std::size_t i = 0; i < terms.size(); ++i) {
-      if (theta[i] == 0.0) continue;
+      if (theta[i] == 0.0 || terms[i].in_plant) continue;
       active_.push_back({terms[i], theta[i]});
     }
-    const LinearChange change = ChangeOf(terms, theta);
     late_periods_ = static_cast<float>(change.late_periods);
     for (std::size_t a = 0; a < rig.axes; ++a) {
       coil_rate_[a] = static_cast<float>(change.axis[a].coil_rate);
     }
     for (std::size_t m = 0; m < rig.modes; ++m) {
       steps_.push_back(
-          plant::MakeModeStep(rig.omega_rad_per_s[m], rig.damping_ratio[m], rig.period_s));
+          plant::MakeModeStep(plant_->frequency()[m], plant_->damping_ratio()[m], rig.period_s));
     }
     for (const auto& bearing : rig.model->config().bearings) {
       filters_.push_back(
@@ -171,8 +172,11 @@ class Runner {
       return start_[i] + correction[static_cast<Eigen::Index>(i)];
     };
     for (std::size_t i = 0; i < 2 * rig_.modes; ++i) {
-      m.q[i] = static_cast<float>(0.5 * (start(at_.q_x + i) + end[at_.q_x + i]));
-      m.v[i] = static_cast<float>(0.5 * (start(at_.v_x + i) + end[at_.v_x + i]));
+      const double q0 = start(at_.q_x + i);
+      const double q1 = end[at_.q_x + i];
+      const double braked = start(at_.v_x + i) - end[at_.v_x + i];
+      m.q[i] = static_cast<float>(0.5 * (q0 + q1) + rig_.period_s / 12.0 * braked);
+      m.v[i] = static_cast<float>((q1 - q0) / rig_.period_s);
     }
     const double mid_rad =
         m.angle_rad + 0.5 * rig_.period_s * static_cast<double>(m.speed_rad_per_s);
@@ -213,6 +217,7 @@ class Runner {
   }
 
   const RigView& rig_;
+  std::shared_ptr<const plant::PlantModel> plant_;
   const std::vector<GainStage>& stages_;
   std::vector<GainStage>::const_iterator stage_{stages_.begin()};
   analysis::Observer steady_, starter_;
@@ -249,7 +254,7 @@ Trajectory RunModel(const RigView& rig, const Record& record, const ObserverGain
   Trajectory run;
   run.gains = Divided(gains, ObserverScale::Of(rig, terms, theta), rig);
   run.moments.reserve(record.rows.size());
-  Runner runner(rig, run.gains, terms, theta);
+  Runner runner(rig, run.gains, terms, theta, ChangeOf(terms, theta));
   const auto settling_rows = static_cast<std::uint64_t>(std::llround(settling_s / rig.period_s));
   std::uint64_t since_start = 0;
   const bool repeats_are_lost = CountRepeats(record.rows, rig.axes).AreLost();

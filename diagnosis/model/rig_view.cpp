@@ -64,12 +64,9 @@ RigView::RigView(const RigNumbers& rig_numbers, const plant::PlantConfig& plant)
                                numbers.name, plant.gears.size(), kMostMeshes));
   }
   meshes = MeshesOf(*model);
-  const auto& rotor = model->parameters().modes;
-  for (std::size_t i = 0; i < modes; ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    omega_rad_per_s.push_back(rotor.frequency_rad_per_s[at]);
-    damping_ratio.push_back(rotor.damping_ratio[at]);
-  }
+  // With what effects of the file make of them.
+  omega_rad_per_s = model->frequency();
+  damping_ratio = model->damping_ratio();
 }
 
 double RigView::ReadingNoise(std::size_t axis) const {

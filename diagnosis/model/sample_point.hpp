@@ -2,8 +2,9 @@
 // Sample point: state, currents and angle of the model in one sampling period, as terms need it.
 //
 // Made by    RunModel, once per sample of a record; read by every term and by the sensitivities.
-// Instant    "mid": mean of the start (after the observer's correction) and the end of the period;
-//            a force that is evaluated there and held acts with second-order accuracy.
+// Instant    "mean": over the period, from the start (after the observer's correction) to its end; of
+//            displacements by the cubic through both with their velocities. A force that is
+//            evaluated there and held acts with second-order accuracy.
 // Frame      bearing frame. Units SI. Modes of both planes: x plane, then y plane.
 // Thread     plain data.
 
@@ -47,12 +48,12 @@ struct SamplePoint {
   AxisFloats reading_m{};     ///< predicted, before the correction, without added readings
   ModalFloats read_q{};       ///< modal coordinates behind `reading_m`
   ModalFloats read_v{};
-  ModalFloats q{}, v{};       ///< mid
+  ModalFloats q{}, v{};       ///< mean
   AxisFloats coil_start_a{};  ///< control current
   AxisFloats coil_end_a{};
   AxisFloats coil_mean_a{};       ///< over the period
-  AxisFloats actuator_m{};        ///< mid, displacement at the magnets
-  AxisFloats force_n{};           ///< magnet force, mean over the period at the mid displacement
+  AxisFloats actuator_m{};        ///< mean displacement at the magnets
+  AxisFloats force_n{};           ///< magnet force, mean over the period at the mean displacement
   AxisFloats force_per_a{};       ///< dF/di, mean
   AxisFloats force_per_m{};       ///< dF/dx, mean
   AxisFloats command_before_a{};  ///< acted until the sample
@@ -60,7 +61,7 @@ struct SamplePoint {
   AxisFloats command_next_a{};    ///< acts from the next sample on
   float late_periods{};           ///< by which all of them act later; negative: earlier
   AxisFloats coil_rate{};         ///< times the bandwidth of the rig file's amplifiers
-  std::array<TeethMoment, kMostMeshes> teeth{};  ///< mid, of the nominal meshes
+  std::array<TeethMoment, kMostMeshes> teeth{};  ///< of the nominal meshes, at the mean motion
   AddedSlopes added{};
   std::uint32_t record{};
   bool arrived{};        ///< the frame is there; else the model went on without correction

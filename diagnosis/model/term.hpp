@@ -77,6 +77,8 @@ struct Term {
   bool linear{true};       ///< contribution is proportional to theta
   bool rotating{false};    ///< adds nothing at rest
   bool moves_coil{false};  ///< its drive adds to the coil current, and to nothing else
+  /// The plant is run with it (plant_at.hpp): `drive` serves derivatives alone.
+  bool in_plant{false};
   /// Its drive looks at when and how fast coils act (SamplePoint::late_periods).
   bool timed{false};
   std::optional<std::size_t> scales;    ///< axis whose whole reading it makes 1 + theta as large

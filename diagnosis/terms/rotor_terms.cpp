@@ -31,6 +31,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
                            }));
   terms.back().linear = false;
   terms.back().step = 1e-3;
+  terms.back().in_plant = true;
   terms.back().change = [mode](double theta, LinearChange& change) {
     change.mode[mode].frequency *= 1.0 + theta;
   };
@@ -40,6 +41,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
                              add.Modal(mode, gone * static_cast<double>(m.v[mode]));
                              add.Modal(other, gone * static_cast<double>(m.v[other]));
                            }));
+  terms.back().in_plant = true;
   terms.back().change = [mode](double theta, LinearChange& change) {
     change.mode[mode].damping += theta;
   };
@@ -139,6 +141,7 @@ std::vector<Term> RotorTerms(const RigView& rig, const Tolerances& t) {
                              }
                            }));
   terms.back().rotating = true;
+  terms.back().in_plant = true;
   terms.back().change = [](double theta, LinearChange& change) {
     change.gyroscopic *= 1.0 + theta;
   };
