@@ -1,18 +1,9 @@
 #include "diagnosis/model/cross_products.hpp"
 
-#include <cstring>
-
-// The bodies are inlined into a version for AVX2 and one for every processor.
-#define LEVITAS_INLINE [[gnu::always_inline]] inline  // NOLINT: an attribute cannot be a constant
+#include "diagnosis/model/four.hpp"
 
 namespace levitas::diagnosis {
 namespace {
-
-using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
-
-LEVITAS_INLINE void Load(const double* from, Four& to) noexcept {
-  std::memcpy(&to, from, sizeof to);
-}
 
 LEVITAS_INLINE double Total(const Four& value) noexcept {
   return (value[0] + value[1]) + (value[2] + value[3]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/model/convolve.hpp"
+#include "diagnosis/model/innovation_series.hpp"
 #include "diagnosis/model/levinson.hpp"
 
 namespace levitas::diagnosis {
@@ -14,12 +16,12 @@ std::vector<double> FilterOf(const std::vector<Trajectory>& runs, std::size_t ax
   std::vector<double> correlation(order + 1, 0.0);
   double count = 0.0;
   for (const Trajectory& run : runs) {
-    for (std::size_t n = order; n < run.moments.size(); ++n) {
-      if (!run.moments[n].counts) continue;
-      const double now = static_cast<double>(run.moments[n].innovation_m[axis]);
-      for (std::size_t k = 0; k <= order; ++k) {
-        correlation[k] += now * static_cast<double>(run.moments[n - k].innovation_m[axis]);
-      }
+    const std::vector<double> innovations = InnovationSeries(run, axis, 0);
+    const std::vector<std::uint8_t> counts = Counting(run);
+    for (std::size_t n = order; n < innovations.size(); ++n) {
+      if (counts[n] == 0) continue;
+      const double now = innovations[n];
+      for (std::size_t k = 0; k <= order; ++k) correlation[k] += now * innovations[n - k];
       count += 1.0;
     }
   }
@@ -82,16 +84,17 @@ double SquaredSum(const std::vector<Trajectory>& runs, std::size_t axes, const W
   double sum = 0.0;
   std::size_t count = 0;
   for (const Trajectory& run : runs) {
-    for (std::size_t n = whitener.order; n < run.moments.size(); ++n) {
-      if (!run.moments[n].counts) continue;
-      for (std::size_t a = 0; a < axes; ++a) {
-        double e = 0.0;
-        for (std::size_t k = 0; k <= whitener.order; ++k) {
-          e += whitener.filter[a][k] * static_cast<double>(run.moments[n - k].innovation_m[a]);
-        }
-        sum += e * e;
-        ++count;
-      }
+    const std::size_t samples = run.moments.size();
+    std::vector<std::vector<double>> white(axes, std::vector<double>(samples));
+    for (std::size_t a = 0; a < axes; ++a) {
+      const std::vector<double> innovations = InnovationSeries(run, a, whitener.order);
+      Convolve(whitener.filter[a], innovations.data() + whitener.order, samples, white[a].data());
+    }
+    const std::vector<std::uint8_t> counts = Counting(run);
+    for (std::size_t n = whitener.order; n < samples; ++n) {
+      if (counts[n] == 0) continue;
+      for (std::size_t a = 0; a < axes; ++a) sum += white[a][n] * white[a][n];
+      count += axes;
     }
   }
   if (values != nullptr) *values = count;

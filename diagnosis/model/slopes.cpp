@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "diagnosis/model/convolve.hpp"
 #include "diagnosis/model/cross_products.hpp"
+#include "diagnosis/model/innovation_series.hpp"
 #include "diagnosis/model/parallel_for.hpp"
 
 namespace levitas::diagnosis {
@@ -40,26 +42,25 @@ void Propagate(SensitivityBlock block, const Trajectory& run, std::size_t axes,
   }
 }
 
-/// `count` whitened values from sample `first` on of what `from` has; zero where nothing counts.
-void Whiten(const std::vector<double>& filter, const Trajectory& run, std::size_t first,
-            std::size_t count, const float* from, double* to) {
-  std::fill_n(to, count, 0.0);
-  for (std::size_t k = 0; k < filter.size(); ++k) {
-    const double weight = filter[k];
-    const std::size_t start = first < k ? k - first : 0;  // nothing is known before the record
-    const float* late = from + first + start - k;
-    double* out = to + start;
-    for (std::size_t n = 0; n + start < count; ++n) out[n] += weight * static_cast<double>(late[n]);
-  }
-  for (std::size_t n = 0; n < count; ++n) to[n] = run.moments[first + n].counts ? to[n] : 0.0;
+/// `count` whitened values of `now`; zero where nothing counts.
+void Whiten(const std::vector<double>& filter, const double* now, const std::uint8_t* counts,
+            std::size_t count, double* to) {
+  Convolve(filter, now, count, to);
+  for (std::size_t n = 0; n < count; ++n) to[n] = counts[n] != 0 ? to[n] : 0.0;
 }
 
-std::vector<float> Innovations(const Trajectory& run, std::size_t axis) {
-  std::vector<float> values;
-  values.reserve(run.moments.size());
-  for (const SamplePoint& m : run.moments) values.push_back(m.innovation_m[axis]);
-  return values;
-}
+/// What a stretch needs of a run besides the slopes.
+struct Weighed {
+  Weighed(const Trajectory& run, std::size_t axes, const Whitener& by)
+      : whitener(by), counts(Counting(run)) {
+    for (std::size_t a = 0; a < axes; ++a) {
+      innovations.push_back(InnovationSeries(run, a, whitener.order));
+    }
+  }
+  const Whitener& whitener;
+  std::vector<std::uint8_t> counts;
+  std::vector<std::vector<double>> innovations;  ///< per axis, behind zeros
+};
 
 /// One stretch of one axis, whitened, multiplied out and added; innovations last.
 class Stretch {
@@ -70,20 +71,24 @@ class Stretch {
                                         static_cast<Index>((columns + 4) / 4 * 4))),
         sum_(Eigen::MatrixXd::Zero(whitened_.cols(), whitened_.cols())) {}
 
-  void Add(const Trajectory& run, const Eigen::MatrixXf& slope,
-           const std::vector<float>& innovations, const std::vector<double>& filter,
-           std::size_t axis, std::size_t first) {
-    const std::size_t samples = run.moments.size();
+  void Add(const Weighed& run, const Eigen::MatrixXf& slope, std::size_t axis, std::size_t first) {
+    const std::size_t samples = run.counts.size();
     const std::size_t count = std::min(kProductRows, samples - first);
+    const std::vector<double>& filter = run.whitener.filter[axis];
+    const std::uint8_t* counts = run.counts.data() + first;
+    const std::size_t past = std::min(first, filter.size() - 1);
+    wide_.assign(filter.size() - 1 + count, 0.0);  // nothing is known before the record
+    double* now = wide_.data() + filter.size() - 1;
     if (count < kProductRows) whitened_.setZero();
     for (std::size_t c = 0; c < columns_; ++c) {
-      Whiten(filter, run, first, count, slope.col(static_cast<Index>(c)).data() + axis * samples,
-             whitened_.col(static_cast<Index>(c)).data());
+      const float* from = slope.col(static_cast<Index>(c)).data() + axis * samples + first;
+      std::copy(from - past, from + count, now - past);
+      Whiten(filter, now, counts, count, whitened_.col(static_cast<Index>(c)).data());
     }
-    Whiten(filter, run, first, count, innovations.data(),
+    Whiten(filter, run.innovations[axis].data() + run.whitener.order + first, counts, count,
            whitened_.col(static_cast<Index>(columns_)).data());
     AddCrossProducts(whitened_, sum_);
-    for (std::size_t n = first; n < first + count; ++n) values_ += run.moments[n].counts ? 1U : 0U;
+    values_ += static_cast<std::size_t>(std::count(counts, counts + count, std::uint8_t{1}));
   }
 
   /// Adds to sums over all terms.
@@ -106,25 +111,27 @@ class Stretch {
  private:
   std::size_t columns_;
   Eigen::MatrixXd whitened_, sum_;
+  std::vector<double> wide_;  ///< of one column, with what the filter needs of the past
   std::size_t values_{0};
 };
 
 /// What the slopes of one axis are to be multiplied with: the whitened innovations, whitened again
 /// backwards in time.
-Eigen::VectorXf TwiceWhitened(const Trajectory& run, const std::vector<double>& filter,
-                              std::size_t axis, double& square) {
+Eigen::VectorXf TwiceWhitened(const Trajectory& run, const Whitener& whitener, std::size_t axis,
+                              double& square) {
   const std::size_t samples = run.moments.size();
-  std::vector<double> once(samples);
-  Whiten(filter, run, 0, samples, Innovations(run, axis).data(), once.data());
+  const std::vector<double>& filter = whitener.filter[axis];
+  std::vector<double> once(whitener.order + samples, 0.0);
+  double* const white = once.data() + whitener.order;
+  Whiten(filter, InnovationSeries(run, axis, whitener.order).data() + whitener.order,
+         Counting(run).data(), samples, white);
+  for (std::size_t n = 0; n < samples; ++n) square += white[n] * white[n];
+  std::reverse(white, white + samples);
+  std::vector<double> backwards(samples);
+  Convolve(filter, white, samples, backwards.data());
   Eigen::VectorXf twice(static_cast<Index>(samples));
-  for (std::size_t n = 0; n < samples; ++n) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < filter.size() && n + k < samples; ++k) {
-      sum += filter[k] * once[n + k];
-    }
-    twice[static_cast<Index>(n)] = static_cast<float>(sum);
-    square += once[n] * once[n];
-  }
+  std::transform(backwards.rbegin(), backwards.rend(), twice.data(),
+                 [](double value) { return static_cast<float>(value); });
   return twice;
 }
 
@@ -176,12 +183,9 @@ NormalEquations Slopes::Sum(const std::vector<Trajectory>& runs, const Whitener&
     const std::size_t samples = runs[r].moments.size();
     std::vector<Stretch> sums(kThreads, Stretch(part.acting.size()));
     const std::size_t stretches = (samples + kProductRows - 1) / kProductRows;
-    std::vector<std::vector<float>> innovations;
-    for (std::size_t a = 0; a < axes_; ++a) innovations.push_back(Innovations(runs[r], a));
+    const Weighed run(runs[r], axes_, whitener);
     ParallelFor(stretches * axes_, [&](std::size_t i, std::size_t thread) {
-      const std::size_t a = i / stretches;
-      sums[thread].Add(runs[r], part.slope, innovations[a], whitener.filter[a], a,
-                       i % stretches * kProductRows);
+      sums[thread].Add(run, part.slope, i / stretches, i % stretches * kProductRows);
     });
     for (const Stretch& sum : sums) sum.AddTo(part.acting, out);
   }
@@ -196,7 +200,7 @@ void Slopes::Renew(const std::vector<Trajectory>& runs, const Whitener& whitener
     const std::size_t r = i / axes_;
     const std::size_t a = i % axes_;
     const auto samples = static_cast<Index>(runs[r].moments.size());
-    const Eigen::VectorXf twice = TwiceWhitened(runs[r], whitener.filter[a], a, ete[i]);
+    const Eigen::VectorXf twice = TwiceWhitened(runs[r], whitener, a, ete[i]);
     const auto slope = parts_[r].slope.middleRows(static_cast<Index>(a) * samples, samples);
     jte[i] = Eigen::VectorXd::Zero(slope.cols());
     constexpr Index kRows = 2048;  // sums of single precision stay short
