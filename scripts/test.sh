@@ -38,11 +38,11 @@ remedy_of() {
 }
 
 # test_count PRESET: tests at a time. LEVITAS_JOBS, else two per core, for those of several processes
-# wait most of the time; under a sanitizer they compute, and one per core is enough.
+# wait most of the time; under a sanitizer they compute more, and three for two cores are enough.
 test_count() {
   local jobs
   jobs=$(job_count) || exit 1
-  [ "$1" != release ] || jobs=$((2 * jobs))
+  if [ "$1" = release ]; then jobs=$((2 * jobs)); else jobs=$(((3 * jobs + 1) / 2)); fi
   echo "${LEVITAS_JOBS:-$jobs}"
 }
 

@@ -8,7 +8,6 @@
 #include <functional>
 #include <string>
 
-#include "common/problem.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/spectra/spectra.hpp"
 #include "plants.hpp"
@@ -27,15 +26,6 @@ void ExpectGainBelow(const GeneralisedPlant& plant, const HinfController& made) 
     const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(Response(loop, w));
     ASSERT_LE(svd.singularValues()(0), made.gamma * (1.0 + 1e-6)) << "at " << w << " rad/s";
   }
-}
-
-std::string RefusalOf(const GeneralisedPlant& plant) {
-  try {
-    static_cast<void>(Synthesise(plant));
-  } catch (const Problem& problem) {
-    return problem.what();
-  }
-  return "";
 }
 
 TEST(HinfSynthesis, OfAScalarPlantReachesItsClosedForm) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <numbers>
 
+#include "common/problem.hpp"
+#include "design/synthesis/hinf_synthesis.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 
 namespace levitas::synthesis {
@@ -39,6 +41,15 @@ StateSpace FirstOrder(double gain, double zero, double pole) {
   out.B = Eigen::MatrixXd::Constant(1, 1, pole);
   out.C = Eigen::MatrixXd::Constant(1, 1, gain - direct);
   return out;
+}
+
+std::string RefusalOf(const GeneralisedPlant& plant) {
+  try {
+    static_cast<void>(Synthesise(plant));
+  } catch (const Problem& problem) {
+    return problem.what();
+  }
+  return "";
 }
 
 GeneralisedPlant ScalarPlant(double a) {

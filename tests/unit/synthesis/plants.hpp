@@ -1,6 +1,8 @@
 #pragma once
 // Small linear models for the tests of the synthesis: drawn ones, and those with closed forms.
 
+#include <string>
+
 #include "common/random.hpp"
 #include "design/synthesis/plant_rank.hpp"
 #include "design/synthesis/state_space.hpp"
@@ -16,6 +18,9 @@ namespace levitas::synthesis {
 
 /// gain (s/zero + 1)/(s/pole + 1)
 [[nodiscard]] StateSpace FirstOrder(double gain, double zero, double pole);
+
+/// What a synthesis says of it; empty when it finds a controller.
+[[nodiscard]] std::string RefusalOf(const GeneralisedPlant& plant);
 
 /// dx = a x + w1 + u, z = (x, u), y = x + w2: smallest gamma a + sqrt(a^2 + 2), where both Riccati
 /// equations have the same solution X and X = gamma.
