@@ -79,7 +79,7 @@ TEST(FiledProblems, AMixedSensitivityOfTwoStatesReachesItsWeightAtInfinity) {
   ExpectLimit(problem, 2.0 / 3.0);
 }
 
-// python-control #367: mass, damper and spring with z = (P w + G u, u), y = P w + G u without noise:
+// python-control #367: mass, damper, spring with z = (P w + G u, u), y = P w + G u without noise:
 // no controller found, MATLAB returns one. At every frequency the smallest gain is
 // |P| / sqrt(1 + |G|^2), largest at rest; u = 0 gives 1.
 TEST(FiledProblems, AMeasurementWithoutNoiseIsRefusedAndItsLoopLiesBetweenItsBounds) {
@@ -98,8 +98,8 @@ TEST(FiledProblems, AMeasurementWithoutNoiseIsRefusedAndItsLoopLiesBetweenItsBou
   EXPECT_LE(gain, 1.0);
 }
 
-// GNU Octave control #13: a mass on which force and disturbance act, each with a copy of it, so that
-// the copies the disturbance moves are out of the control's reach.
+// GNU Octave control #13: a mass on which force and disturbance act, each with a copy of it: the
+// copies the disturbance moves are out of the control's reach.
 TEST(FiledProblems, ParallelCopiesOfAMassAreNamedAsOutOfReach) {
   const StateSpace mass =
       Proper(Eigen::RowVector3d(0.0, 0.0, 1.0), Eigen::RowVector3d(1.0, 0.0, 0.0));
@@ -131,7 +131,7 @@ TEST(FiledProblems, AMassWithItsDisturbanceAtTheInputReachesOne) {
   EXPECT_LE(fine.gamma, 1.05);
 }
 
-// The distillation column of S. Skogestad, I. Postlethwaite, Multivariable Feedback Control, 2nd ed.,
+// The distillation column of S. Skogestad, I. Postlethwaite, Multivariable Feedback Control,
 // 2005, example 8.12.4: gamma 1.182 in the first turn of the D-K iteration. A controller formed at
 // 1.02 gamma ends at 1.06: what it gives away, the next scalings do not take back.
 TEST(FiledProblems, TheDistillationColumnGainsFromTurnToTurn) {
