@@ -59,8 +59,8 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
 }
 
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
-                      std::vector<Term>& terms) {
-  const Search search(rig, terms);
+                      const Judging& judging, std::vector<Term>& terms) {
+  const Search search(rig, terms, "", judging.model_error_share);
   const std::vector<Record> records = Spans(healthy, kHealthyRows);
   constexpr int kPasses = 8;
   const Refined fit = CalibrateNuisances(rig, search, terms, healthy, records,

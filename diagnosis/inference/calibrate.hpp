@@ -35,6 +35,6 @@ inline constexpr double kDaily = 0.2;  ///< share of its tolerance
 
 /// Sets `healthy_mean` and narrows `tolerance` of the nuisances.
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
-                      std::vector<Term>& terms);
+                      const Judging& judging, std::vector<Term>& terms);
 
 }  // namespace levitas::diagnosis

@@ -142,7 +142,7 @@ DiagnosisResult DiagnoseRecords(const config::RigFile& rig, const std::vector<Re
                        LargestOrbit(fitted, out.view->axes));
   if (!levitated.empty()) {
     for (const Term& term : out.terms) out.file_tolerance.push_back(term.tolerance);
-    LearnFromHealthy(*out.view, levitated, out.terms);
+    LearnFromHealthy(*out.view, levitated, settings.judging, out.terms);
   }
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     fitted[i].number = static_cast<std::uint32_t>(i);
