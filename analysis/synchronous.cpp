@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analysis/excited_rows.hpp"
 #include "analysis/turn_windows.hpp"
 #include "numerics/dense/factorisations.hpp"
 
@@ -26,14 +27,6 @@ constexpr double kSameSpeed = 0.005;
 bool SameSpeed(double one_rad_per_s, double other_rad_per_s) {
   return std::abs(one_rad_per_s - other_rad_per_s) <=
          std::max(kSameSpeed * one_rad_per_s, 2.0 * kHeldRadPerS);
-}
-
-bool Excited(const session::Recording& recording, std::size_t row) {
-  for (std::size_t axis = 0; axis < recording.axes(); ++axis) {
-    if (recording.ExcitationOf(axis, row) != 0.0) return true;
-    if (recording.PositionExcitationOf(axis, row) != 0.0) return true;
-  }
-  return false;
 }
 
 /// 1, then cosine and sine of each order.
@@ -65,7 +58,7 @@ SynchronousAnalysis::SynchronousAnalysis(const session::Recording& recording,
     if (!(order > 0.0)) throw std::invalid_argument("synchronous: an order is above zero");
   }
   for (std::size_t row = 0; row < levitated_.size(); ++row) {
-    if (!std::isfinite(recording.speed_rad_per_s[row]) || Excited(recording, row)) {
+    if (!std::isfinite(recording.speed_rad_per_s[row]) || ExcitedAt(recording, row)) {
       levitated_[row] = 0;
     }
   }

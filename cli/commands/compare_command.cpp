@@ -13,7 +13,7 @@
 #include "cli/options/analysis_options.hpp"
 #include "cli/text_file.hpp"
 #include "common/rotational_speed.hpp"
-#include "report/session/comparison.hpp"
+#include "report/session/comparison_page.hpp"
 #include "session/output_path.hpp"
 #include "session/session_reader.hpp"
 
@@ -30,11 +30,14 @@ constexpr const char* kHelp =
     "turns, and marked with ~. Standing still the mean is told.\n"
     "  amb run --scenario run_up_6000 --record pid.lcm\n"
     "  amb run --scenario run_up_6000 --controller other.yaml --record other.lcm\n"
-    "  amb compare pid.lcm other.lcm --speeds 0,1600,3000,6000 --orders 1,3";
+    "  amb compare pid.lcm other.lcm --speeds 0,1600,3000,6000 --orders 1,3 --page c.html "
+    "--circle-um 36";
 
 struct CompareOptions : AnalysisOptions {
   std::vector<std::string> paths;
   std::vector<double> orders{1.0};
+  std::string page_path;
+  double circle_um{};
 };
 
 /// The rig and the law that a session says it is of.
@@ -73,15 +76,22 @@ std::vector<report::RecordToCompare> Load(const CompareOptions& options) {
 }
 
 ExitStatus Run(const CompareOptions& options) {
-  for (const std::string& path : options.paths) session::CheckOutputPath(options.json_path, path);
+  for (const std::string& path : options.paths) {
+    session::CheckOutputPath(options.json_path, path);
+    session::CheckOutputPath(options.page_path, path);
+  }
   report::ComparisonRequest request;
   request.orders = options.orders;
   for (const double rpm : options.speeds_rpm) {
     request.speeds_rad_per_s.push_back(std::abs(RpmToRadPerS(rpm)));
   }
-  request.over_speed = !options.json_path.empty();
+  request.over_speed = !options.json_path.empty() || !options.page_path.empty();
   const report::Comparison comparison = report::Compare(Load(options), request);
-  fmt::print("{}", ComparisonText(comparison));
+  const std::string table = ComparisonText(comparison);
+  fmt::print("{}", table);
+  if (!options.page_path.empty()) {
+    WriteTextFile(options.page_path, report::ComparisonPage(comparison, table, options.circle_um));
+  }
   WriteJsonFile(options.json_path, ComparisonJson(comparison));
   return ExitStatus::kDone;
 }
@@ -112,6 +122,13 @@ void AddCompareCommand(CLI::App& app, Action& action) {
       ->delimiter(',')
       ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
+  auto* page = command->add_option("--page", options->page_path,
+                                   "Write one HTML page to this file: table, orbits, curves");
+  command
+      ->add_option("--circle-um", options->circle_um,
+                   "Radius of the objective, drawn about the orbits of the page [um]")
+      ->needs(page)
+      ->check(CLI::Range(0.1, 1e5));
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }
