@@ -16,9 +16,10 @@ namespace {
 
 using session::NamedPath;
 
-constexpr std::array<std::string_view, 14> kWrites{
-    "--record", "--json",    "--csv",   "--mat",      "--mcap", "--out",       "--svg",
-    "--plan",   "--picture", "--write", "--document", "--html", "--worst-rig", "--write-design"};
+constexpr std::array<std::string_view, 16> kWrites{
+    "--record",    "--json",         "--csv",     "--mat",      "--mcap",     "--out",
+    "--svg",       "--plan",         "--picture", "--write",    "--document", "--html",
+    "--worst-rig", "--write-design", "--page",    "--write-rig"};
 
 /// Words, not files, although there may be a file of that name.
 constexpr std::array<std::string_view, 5> kWords{"--tag", "TAG", "--text", "--outcome", "--port"};

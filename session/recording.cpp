@@ -200,6 +200,11 @@ void RefuseOtherRig(const SessionHeader& header, const RigNumbers& rig) {
   }
 }
 
+bool IsSession(const std::string& path) {
+  if (EndsWithEither(path, ".csv") || path.ends_with(".mat")) return false;
+  return !EndsWithEither(path, ".log") || HasSyncWord(StartOf(path));
+}
+
 Recording LoadRecording(const std::string& path, const config::RigFile& rig) {
   ColumnWriter columns(path, rig.numbers);
   const RecordTaker take = [&columns](const cycle::CycleRecord& record) { columns.Take(record); };
@@ -211,10 +216,10 @@ Recording LoadRecording(const std::string& path, const config::RigFile& rig) {
   } else if (path.ends_with(".mat")) {
     MatRows rows(path, rig.numbers.channels, rig.log.matrix, rig.log.rows);
     static_cast<void>(ReadRecords(rows, data, take));
-  } else if (EndsWithEither(path, ".log") && !HasSyncWord(StartOf(path))) {
-    TakeBusLog(path, rig, take);
-  } else {
+  } else if (IsSession(path)) {
     TakeSession(path, rig.numbers, columns);
+  } else {
+    TakeBusLog(path, rig, take);
   }
   return columns.Finish();
 }

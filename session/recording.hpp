@@ -82,6 +82,9 @@ struct Recording {
   [[nodiscard]] std::vector<RowRange> LevitatedIntervals() const;
 };
 
+/// Whether the name of a record is that of a session, which holds the rig that it is of.
+[[nodiscard]] bool IsSession(const std::string& path);
+
 [[nodiscard]] Recording LoadRecording(const std::string& path, const config::RigFile& rig);
 
 /// Whether the positions of a record are those of a levitated rotor; see the head of this file.

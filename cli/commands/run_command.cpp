@@ -20,6 +20,7 @@
 #include "cli/run/run_options.hpp"
 #include "cli/run/supervise.hpp"
 #include "cli/run/telemetry.hpp"
+#include "cli/text_file.hpp"
 #include "common/output_file.hpp"
 #include "common/time_option.hpp"
 #include "common/whole_number.hpp"
@@ -159,15 +160,27 @@ void RefuseWhatCannotBeRead(const std::string& record_path) {
                             record_path));
 }
 
+/// Both programs read the rig from one file; where it is not as in its file, from one of the run.
+RunFiles WithRigAsRun(const RunOptions& options, RunFiles files, const RunFolder& folder) {
+  if (!options.rig_out.empty()) WriteTextFile(options.rig_out, files.rig_text);
+  if (!options.bias_current_a) return files;
+  rt::Say(fmt::format("bias current {:g} A", *options.bias_current_a));
+  files.rig_path = folder / "rig.yaml";
+  WriteTextFile(files.rig_path, files.rig_text);
+  return files;
+}
+
 ExitStatus Execute(const RunOptions& asked) {
-  for (const std::string& path : {asked.record_path, asked.json_path}) {
+  for (const std::string& path : {asked.record_path, asked.json_path, asked.rig_out}) {
     session::CheckOutputPath(path, {});
   }
   RefuseWhatCannotBeRead(asked.record_path);
   session::CheckNoRecording(asked.record_path, asked.overwrite);
   std::optional<transport::LcmNetwork> network = CheckPort(asked.port);
   const RunFiles files = CheckFiles(asked);
-  session::RefuseClash({{"--record", asked.record_path}, {"--json", asked.json_path}},
+  session::RefuseClash({{"--record", asked.record_path},
+                        {"--json", asked.json_path},
+                        {"--write-rig", asked.rig_out}},
                        {{"the rig file", files.rig_path},
                         {"the controller file", files.controller_path},
                         {"the scenario file", files.scenario_path}});
@@ -181,7 +194,7 @@ ExitStatus Execute(const RunOptions& asked) {
                         folder.path()));
   }
   const RunPaths paths = PathsOf(options, folder);
-  const RunPlan plan = PlanRun(options, files, paths, *network);
+  const RunPlan plan = PlanRun(options, WithRigAsRun(options, files, folder), paths, *network);
   const std::string port = socketcan::IsCanPort(options.port)
                                ? options.port
                                : network->Url(transport::Direction::kSensor);
@@ -216,6 +229,12 @@ void AddRunCommand(CLI::App& app, Action& action) {
       ->add_option("--scenario", options->scenario,
                    "Scenario file or shipped name; default: the one the rig file names")
       ->default_str(kGeneralScenario);
+  command->add_option(
+      "--bias-current-a", options->bias_current_a,
+      "Bias current [A] in place of the rig file's, for the rig and the controller; "
+      "the session holds the rig as it was run");
+  command->add_option("--write-rig", options->rig_out,
+                      "Write the rig as it is run to this file, for the commands on the record");
   command
       ->add_option("--duration", options->duration_s,
                    "Land after this long [s of the rig's time], wherever the scenario is")

@@ -14,6 +14,7 @@ void AddRunningCommands(CLI::App& app, Action& action) {
   AddCanDbcCommand(app, action);
   AddDashCommand(app, action);
   AddReportCommand(app, action);
+  AddCompareCommand(app, action);
   AddSessionsCommand(app, action);
   AddDoctorCommand(app, action);
   AddKeyCommand(app, action);

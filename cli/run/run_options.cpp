@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <utility>
 
+#include "cli/run/rig_as_run.hpp"
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
 #include "hil/socketcan/can_connection.hpp"
@@ -42,9 +44,10 @@ RunFiles CheckFiles(const RunOptions& options) {
   config::RunDefaults of_rig;
   const bool rig_good = Collect(problems, [&] {
     files.rig_path = config::FindConfig(options.rig, "rigs");
-    const config::RigFile rig = config::LoadRig(files.rig_path);
-    files.rig = rig.numbers;
-    of_rig = rig.run;
+    RigAsRun as_run = ReadRigAsRun(files.rig_path, options.bias_current_a);
+    files.rig = as_run.rig.numbers;
+    files.rig_text = std::move(as_run.text);
+    of_rig = as_run.rig.run;
   });
   // The other two are read for a rig. Without one, the shipped rig shows at least what is wrong in
   // them whatever the rig.

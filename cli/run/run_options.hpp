@@ -21,9 +21,11 @@ namespace levitas::cli {
 
 struct RunOptions {
   std::string rig{"flexible_rotor"};
-  std::string controller;         ///< empty: the one that the rig names, else kGeneralController
-  std::string scenario;           ///< empty: the one that the rig names, else kGeneralScenario
-  double duration_s{0.0};         ///< 0: as long as the scenario takes
+  std::string controller;  ///< empty: the one that the rig names, else kGeneralController
+  std::string scenario;    ///< empty: the one that the rig names, else kGeneralScenario
+  std::optional<double> bias_current_a;  ///< none: that of the rig file
+  std::string rig_out;                   ///< where the rig as run is written; empty: nowhere
+  double duration_s{0.0};                ///< 0: as long as the scenario takes
   std::string pace;               ///< empty: real time where a rig is there already, else lockstep
   std::string port;               ///< empty: lcm on ports nobody else uses
   bool rig_is_there{};            ///< start the controller alone: the rig is on the port already
@@ -41,7 +43,8 @@ struct RunOptions {
 struct RunFiles {
   std::string rig_path, controller_path, scenario_path;
   std::string scenario_name;
-  RigNumbers rig;
+  RigNumbers rig;        ///< as run
+  std::string rig_text;  ///< of the rig as run, see rig_as_run.hpp
 };
 
 /// Reads all three; throws one BadInput with the problems of all of them.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "analysis/coil_prediction.hpp"
 #include "analysis/innovations.hpp"
@@ -17,6 +18,7 @@
 #include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/study/free_run.hpp"
 #include "cli/study/innovation_files.hpp"
 #include "common/rotational_speed.hpp"
 #include "report/text/text_table.hpp"
@@ -29,9 +31,12 @@ constexpr const char* kSimulateHelp =
     "Drives the rig's nonlinear model with the recorded currents, corrected at every sample by a "
     "fixed Kalman gain, and reports the innovations (measured minus predicted one sample ahead) "
     "in time, spectrum and orders of rotation, as multiples of the sensors' noise.\n"
-    "A free simulation is not offered: without its controller the rotor is unstable, so that any "
-    "difference, however small, grows e-fold within milliseconds and says nothing about the "
-    "model.\n"
+    "--free-run: the model also runs by itself in closed loop with the law of the session, moved "
+    "by the recorded test signal, speed and angle alone; its fit to the measured positions in "
+    "percent stands beside that of the prediction. (Without the law the rotor is unstable: any "
+    "difference, however small, would grow e-fold within milliseconds.)\n"
+    "  amb run --scenario identify --record campaign.lcm\n"
+    "  amb simulate campaign.lcm --free-run --csv response.csv --svg response.svg\n"
     "Where coil currents were measured on coils without a current loop, they are predicted too, "
     "free running at the recorded commands and positions.";
 
@@ -39,9 +44,17 @@ struct SimulateOptions : AnalysisOptions {
   std::string session_path;
   std::string svg_path;
   std::string csv_path;
+  bool free_run{};
   std::size_t departures{8};
   double from_s{};
   double force_noise_percent{100.0 * analysis::ObserverTuning{}.force_noise_share};
+};
+
+/// The model by itself in the loop of the record.
+struct FreeLoop {
+  session::Recording recording;
+  LawOfRecord law;
+  analysis::FreeRun run;
 };
 
 struct Simulation {
@@ -52,6 +65,7 @@ struct Simulation {
   std::string damage;
   double mean_speed_rad_per_s{};
   std::vector<analysis::CoilFit> coils;
+  std::optional<FreeLoop> free;
 };
 
 void PrintCoils(const Simulation& s) {
@@ -222,14 +236,28 @@ void Print(const Simulation& s, const SimulateOptions& options) {
   PrintCoils(s);
 }
 
+/// Refuses a record that a free run has no law or no test signal of, before the work is done.
+FreeLoop WithLaw(const SimulateOptions& options, const config::RigFile& rig,
+                 session::Recording recording) {
+  FreeLoop free{
+      std::move(recording), FindLaw(options.session_path, options.controller_name, rig), {}};
+  analysis::RefuseUnexcited(free.recording);
+  return free;
+}
+
+FreeRunContext ContextOf(const Simulation& s) {
+  return {s.rig.numbers, s.free->recording, s.free->run, s.free->law.name};
+}
+
 Simulation Simulate(const SimulateOptions& options) {
   Simulation s;
   s.rig = LoadRig(options);
   std::vector<analysis::RecordedRow> rows;
   {
-    const session::Recording recording = session::LoadRecording(options.session_path, s.rig);
+    session::Recording recording = session::LoadRecording(options.session_path, s.rig);
     s.damage = recording.damage;
     rows = analysis::RowsOf(recording);
+    if (options.free_run) s.free = WithLaw(options, s.rig, std::move(recording));
   }
   if (!rows.empty() && rows.front().coils > 0) {
     s.coils = analysis::FitCoils(rows, analysis::PredictCoilCurrents(s.rig.plant, rows),
@@ -244,6 +272,9 @@ Simulation Simulate(const SimulateOptions& options) {
   s.run = analysis::RunObserver(s.rig.plant, std::make_shared<const analysis::ObserverGain>(s.gain),
                                 rows, s.gain.settling_s);
   s.report = analysis::Examine(s.run, s.gain, s.rig.numbers.axes());
+  if (s.free) {
+    s.free->run = analysis::RunFree(s.rig.plant, s.free->law.law, s.free->recording, s.run);
+  }
   return s;
 }
 
@@ -256,7 +287,16 @@ ExitStatus Run(const SimulateOptions& options) {
   const InnovationContext context{s.rig.numbers, s.gain, s.run, s.report};
   auto json = InnovationJson(context);
   if (!s.coils.empty()) json["coil_currents"] = CoilsJson(s);
+  if (s.free) {
+    PrintFreeRun(ContextOf(s));
+    json["free_run"] = FreeRunJson(ContextOf(s));
+  }
   WriteJsonFile(options.json_path, json);
+  if (s.free) {
+    WriteFreeRunCsv(options.csv_path, ContextOf(s));
+    WriteFreeRunSvg(options.svg_path, ContextOf(s));
+    return ExitStatus::kDone;
+  }
   WriteSpectrumCsv(options.csv_path, context);
   WriteSpectrumSvg(options.svg_path, context);
   return ExitStatus::kDone;
@@ -286,8 +326,14 @@ void AddSimulateCommand(CLI::App& app, Action& action) {
                    "Compare from this many seconds after the first sample on")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
-  command->add_option("--csv", options->csv_path, "Write the spectra to this file");
-  command->add_option("--svg", options->svg_path, "Draw the spectra into this file");
+  command->add_flag("--free-run", options->free_run,
+                    "Also run model and law in closed loop, moved by the recorded test signal");
+  command->add_option("--controller", options->controller_name,
+                      "Law of the free run, a file or shipped name; default: that of the session");
+  command->add_option("--csv", options->csv_path,
+                      "Write the spectra to this file; with --free-run the responses");
+  command->add_option("--svg", options->svg_path,
+                      "Draw the spectra into this file; with --free-run the responses");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

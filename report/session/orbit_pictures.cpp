@@ -58,20 +58,6 @@ svg::Series Path(const Recording& r, std::size_t bearing, const Stretch& stretch
   return path;
 }
 
-svg::Series Circle(double radius_um, const std::string& name, const std::string& dashes) {
-  constexpr int kCorners = 90;
-  svg::Series circle = Level(name, 0.0, 0.0, 0.0);
-  circle.dashes = dashes;
-  circle.x.clear();
-  circle.y.clear();
-  for (int i = 0; i <= kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    circle.x.push_back(radius_um * std::cos(angle));
-    circle.y.push_back(radius_um * std::sin(angle));
-  }
-  return circle;
-}
-
 /// The drawing area is square, so that a circle looks like one.
 svg::Figure Square(svg::Panel panel) {
   svg::Figure figure = Wide(std::move(panel));
@@ -114,6 +100,20 @@ NamedPicture Enlarged(const Recording& r, std::size_t bearing,
 }
 
 }  // namespace
+
+svg::Series Circle(double radius_um, const std::string& name, const std::string& dashes) {
+  constexpr int kCorners = 90;
+  svg::Series circle = Level(name, 0.0, 0.0, 0.0);
+  circle.dashes = dashes;
+  circle.x.clear();
+  circle.y.clear();
+  for (int i = 0; i <= kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    circle.x.push_back(radius_um * std::cos(angle));
+    circle.y.push_back(radius_um * std::sin(angle));
+  }
+  return circle;
+}
 
 std::vector<NamedPicture> OrbitPictures(const Recording& recording,
                                         const std::vector<double>& speeds_rad_per_s) {

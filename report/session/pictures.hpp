@@ -43,6 +43,9 @@ struct PictureOptions {
 inline constexpr double kUm = 1e6;
 /// A picture of one panel as a report shows it.
 [[nodiscard]] svg::Figure Wide(svg::Panel panel);
+/// A circle about the origin, dashed as SVG has it.
+[[nodiscard]] svg::Series Circle(double radius_um, const std::string& name,
+                                 const std::string& dashes);
 /// A level across the panel, dashed.
 [[nodiscard]] svg::Series Level(const std::string& name, double from_x, double to_x, double y);
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
+
+#include "analysis/turn_windows.hpp"
 
 namespace levitas::report {
 namespace {
@@ -12,20 +13,8 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 /// Slower changes of speed are taken for steady.
 constexpr double kRampRadPerS2 = 0.5;
 
-struct Window {
-  std::size_t first{}, last{};  ///< both included
-};
-
-bool Turns(const Recording& r, std::size_t i) {
-  return r.levitated[i] &&
-         std::abs(static_cast<double>(r.speed_rad_per_s[i])) > r.standstill_rad_per_s;
-}
-
-/// The angle may wrap between two samples.
-double AngleStep(const Recording& r, std::size_t i) {
-  return std::remainder(
-      static_cast<double>(r.angle_rad[i]) - static_cast<double>(r.angle_rad[i - 1]), kTurn);
-}
+using analysis::AngleStep;
+using Window = analysis::TurnWindow;
 
 /// Angle of the first shaft for one turn of the slowest one.
 double TurnOfTheSlowest(const Recording& r) {
@@ -49,21 +38,6 @@ std::vector<double> CountedAngle(const Recording& r) {
                       kTurn * std::round((expected_rad - step_rad) / kTurn));
   }
   return counted;
-}
-
-/// From `first` on as many whole turns as needed; nothing when the rotor stops or a cycle is gone.
-std::optional<Window> WindowFrom(const Recording& r, std::size_t first) {
-  const double turn_rad = TurnOfTheSlowest(r);
-  double turned_rad = 0.0;
-  double wanted_rad = kTurns * turn_rad;
-  for (std::size_t i = first + 1; i < r.size(); ++i) {
-    if (!Turns(r, i) || r.cycle[i] != r.cycle[i - 1] + 1) return std::nullopt;
-    turned_rad += AngleStep(r, i);
-    if (!(std::abs(turned_rad) >= wanted_rad)) continue;
-    if (static_cast<double>(i - first) * r.rig.period_s() >= kLeastS) return Window{first, i - 1};
-    wanted_rad += turn_rad;
-  }
-  return std::nullopt;
 }
 
 /// As much of a window as is whole turns of a shaft.
@@ -116,30 +90,21 @@ Ramp RampOf(const Recording& r, const Window& window) {
 std::vector<SynchronousPoint> Synchronous(const Recording& recording) {
   std::vector<SynchronousPoint> points;
   const std::vector<double> counted_rad = CountedAngle(recording);
-  std::size_t first = 0;
-  while (first + 1 < recording.size()) {
-    if (!Turns(recording, first)) {
-      ++first;
-      continue;
-    }
-    const auto window = WindowFrom(recording, first);
-    if (!window) {
-      // Where it ended the next one may begin: nothing shorter fits before that.
-      do {
-        ++first;
-      } while (first < recording.size() && Turns(recording, first) &&
-               recording.cycle[first] == recording.cycle[first - 1] + 1);
-      continue;
-    }
+  analysis::TurnRule rule;
+  rule.standstill_rad_per_s = recording.standstill_rad_per_s;
+  rule.turn_rad = TurnOfTheSlowest(recording);
+  rule.least_turns = kTurns;
+  rule.least_s = kLeastS;
+  rule.period_s = recording.rig.period_s();
+  for (const Window& window : analysis::TurnWindows(recording, rule)) {
     SynchronousPoint point;
-    point.index = window->first + (window->last - window->first) / 2;
+    point.index = window.first + (window.last - window.first) / 2;
     point.speed_rad_per_s = std::abs(static_cast<double>(recording.speed_rad_per_s[point.index]));
-    point.ramp = RampOf(recording, *window);
+    point.ramp = RampOf(recording, window);
     for (std::size_t b = 0; b < recording.rig.bearings.size(); ++b) {
-      point.forward_m.push_back(Forward(recording, counted_rad, b, *window));
+      point.forward_m.push_back(Forward(recording, counted_rad, b, window));
     }
     points.push_back(std::move(point));
-    first = points.back().index;
   }
   return points;
 }

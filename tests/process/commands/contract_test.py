@@ -26,6 +26,7 @@ QUICK = {
     "export": ("s.lcm", "--csv", "s.csv"),
     "can-dbc": ("--rig", "flexible_rotor"),
     "report": ("s.lcm", "--out", "s.html"),
+    "compare": ("run.lcm",),
     "sessions": (),
     "sessions add": ("s.lcm",),
     "sessions tag": ("s.lcm", "one"),
@@ -40,7 +41,7 @@ MISSING = {
     "margins": ("--controller", ABSENT), "replay": (ABSENT,),
     "import": (ABSENT, "--rig", "flexible_rotor", "--out", "x.lcm"),
     "export": (ABSENT, "--csv", "x.csv"), "can-dbc": ("--rig", ABSENT),
-    "report": (ABSENT, "--out", "x.html"), "sessions tag": (ABSENT, "one"),
+    "report": (ABSENT, "--out", "x.html"), "compare": (ABSENT,), "sessions tag": (ABSENT, "one"),
     "sessions forget": (ABSENT,), "simulate": (ABSENT,),
     "identify frf": (ABSENT,), "identify modal": (ABSENT,),
     "identify full-spectrum": (ABSENT,),
@@ -95,7 +96,7 @@ class Contract(CommandTest):
         make_record(self.folder / "r.csv", "healthy", 0, 6_000)
         done = self.here("import", "r.csv", "--rig", "flexible_rotor", "--out", "s.lcm")
         self.assertEqual(done.returncode, DONE, done.stderr)
-        self.assertEqual(self.here("run", "--duration", "0.5", "--record", "run.lcm").returncode, DONE)
+        self.assertEqual(self.here("run", "--duration", "1.5", "--record", "run.lcm").returncode, DONE)
         for command, arguments in QUICK.items():
             if command == "replay":  # an import has no law of its own to repeat
                 arguments = ("run.lcm",)

@@ -12,7 +12,8 @@ from command import (BINARIES, DONE, LIMIT_S, OTHER, SHIPPED_CONTROLLER, SHIPPED
                      CommandTest, amb, make_record)
 
 WRITES = {"--record", "--json", "--csv", "--mat", "--mcap", "--out", "--svg", "--plan", "--picture",
-          "--write", "--document", "--html", "--worst-rig", "--write-design"}
+          "--write", "--document", "--html", "--worst-rig", "--write-design", "--page",
+          "--write-rig"}
 FOLDERS = {"--pictures"}
 STOP = """kind: scenario
 name: stop

@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from command import (BAD_INPUT, DONE, FOREIGN_RECORD, SHIPPED_RIG, CommandTest, amb, edited,
-                     make_record)
+                     make_record, scaled_controller)
 
 CHANNELS = ["de_x", "de_y", "nde_x", "nde_y"]
 SPEED_RPM = 3000
@@ -214,6 +214,36 @@ class Simulate(CommandTest):
         done = amb(self.folder, "import", csv, "--rig", "flexible_rotor", "--out", session)
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.refuse(BAD_INPUT, "longer record", "simulate", session, "--json", "x.json")
+
+    def test_a_free_run_stays_near_the_record_with_the_right_law_only(self):
+        """Model and law by themselves, moved by nothing but the test signal of the record."""
+        session = self.sessions["standing"]
+        _, right = self.compute("simulate", session, "--free-run", "--controller", "flexible_rotor")
+        self.write("stiff.yaml", scaled_controller(1.5))
+        _, wrong = self.compute("simulate", session, "--free-run", "--controller", "stiff.yaml")
+        for one, other in zip(right["free_run"]["fit_percent"], wrong["free_run"]["fit_percent"]):
+            self.assertGreater(one, other + 5)
+        segments = right["free_run"]["segments"]
+        self.assertEqual([segment["excited"] for segment in segments], [CHANNELS])
+
+    def test_a_free_run_leaves_its_responses_and_a_picture(self):
+        self.compute("simulate", self.sessions["healthy"], "--free-run", "--controller",
+                     "flexible_rotor", "--csv", "f.csv", "--svg", "f.svg")
+        names, *rows = (self.folder / "f.csv").read_text().splitlines()
+        self.assertEqual(names, "time_s,speed_rpm," + ",".join(
+            f"measured_{channel}_m,model_{channel}_m" for channel in CHANNELS))
+        self.assertGreater(len(rows), 0.9 * ROWS)
+        self.assertIn("model, free run", (self.folder / "f.svg").read_text())
+
+    def test_a_free_run_needs_a_law_and_a_test_signal(self):
+        session = self.sessions["standing"]
+        self.refuse(BAD_INPUT, "give the law with --controller", "simulate", session, "--free-run")
+        rows = [line.split(",") for line in
+                session.with_name("standing.csv").read_text().splitlines()]
+        kept = [i for i, name in enumerate(rows[0]) if not name.startswith("excitation_")]
+        self.write("still.csv", "".join(",".join(row[i] for i in kept) + "\n" for row in rows))
+        self.refuse(BAD_INPUT, "no test signal", "simulate", "still.csv", "--free-run",
+                    "--controller", "flexible_rotor")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,39 @@
+#pragma once
+// amb simulate --free-run: model and law in closed loop beside the record, as text, JSON, CSV and a
+// picture. What is computed: analysis/free_run.hpp.
+//
+// Failure  BadInput, one sentence: a record that names no law when none is given, one without a
+//          test signal; a file that cannot be written. An empty path writes nothing.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "analysis/free_run.hpp"
+#include "configuration/rig_file.hpp"
+
+namespace levitas::cli {
+
+struct FreeRunContext {
+  const RigNumbers& rig;
+  const session::Recording& recording;
+  const analysis::FreeRun& run;
+  std::string law;  ///< name, and where it is from
+};
+
+struct LawOfRecord {
+  std::string name;
+  law::LawConfig law;
+};
+
+/// The law of `controller_name`, a file or shipped name, else that of the session.
+[[nodiscard]] LawOfRecord FindLaw(const std::string& record_path,
+                                  const std::string& controller_name, const config::RigFile& rig);
+
+void PrintFreeRun(const FreeRunContext& context);
+[[nodiscard]] nlohmann::ordered_json FreeRunJson(const FreeRunContext& context);
+/// time_s, speed_rpm, then measured_<channel>_m and model_<channel>_m of every channel.
+void WriteFreeRunCsv(const std::string& path, const FreeRunContext& context);
+/// For each excited axis its first segment: that axis, and the one beside it that moves most.
+void WriteFreeRunSvg(const std::string& path, const FreeRunContext& context);
+
+}  // namespace levitas::cli
