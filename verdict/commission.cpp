@@ -67,12 +67,10 @@ Verdict Commission(const CommissionOptions& options) {
   SessionStatistics statistics(rig.numbers, controller.supervisor.sequence.standstill_rad_per_s,
                                kSettleAfterLiftS);
   cycle::CycleRecord record;
-  bool current_excited = false;
-  bool position_excited = false;
+  bool excited = false;
   while (reader.Next(record)) {
     statistics.Add(record);
-    current_excited = current_excited || Any(record.in.op.excitation_a);
-    position_excited = position_excited || Any(record.in.op.excitation_m);
+    excited = excited || Any(record.in.op.excitation_a) || Any(record.in.op.excitation_m);
   }
 
   Inputs inputs;
@@ -81,11 +79,7 @@ Verdict Commission(const CommissionOptions& options) {
   analysis::SpeedSweep sweep = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
   inputs.sensitivity = std::move(sweep.speeds);
   inputs.worst_sensitivity = sweep.worst;
-  if (position_excited) {
-    inputs.measured.emplace();
-    inputs.measured->why_not =
-        "they were added to the measured position; only those added to the current are evaluated";
-  } else if (current_excited) {
+  if (excited) {
     inputs.measured =
         MeasureSensitivity(options.session_path, rig, controller.law, inputs.sensitivity);
   }

@@ -73,6 +73,7 @@ void AddMeasured(const Inputs& in, Object& all) {
           {{"axis", axis.channel},
            {"peak", Number(axis.peak)},
            {"sigma", Number(axis.sigma)},
+           {"largest_line", Number(axis.line_peak)},
            {"frequency_hz", axis.frequency_hz},
            {"zone", axis.zone ? Object(std::string(1, Letter(*axis.zone))) : Object(nullptr)},
            {"not_graded", axis.refused},

@@ -28,9 +28,15 @@ MeasuredSpeed MeasuredAt(const identification::FrequencyResponse& response,
   MeasuredSpeed out{response.speed_rad_per_s, {}};
   const auto peaks = identification::MeasuredPeaks(response);
   for (std::size_t i = 0; i < peaks.size(); ++i) {
-    MeasuredAxis axis{
-        peaks[i].channel, peaks[i].peak, peaks[i].sigma, peaks[i].frequency_hz, peaks[i].zone,
-        peaks[i].refused, 0.0,           false};
+    MeasuredAxis axis{peaks[i].channel,
+                      peaks[i].peak,
+                      peaks[i].sigma,
+                      peaks[i].line_peak,
+                      peaks[i].frequency_hz,
+                      peaks[i].zone,
+                      peaks[i].refused,
+                      0.0,
+                      false};
     if (i < computed.axes.size()) {
       axis.computed_peak = computed.axes[i].peak;
       axis.differs =

@@ -2,7 +2,8 @@
 // The sensitivity peaks of the loop that ran, measured from the test signals of its record, beside
 // those computed from its files.
 //
-// Equation  S = U E^-1 on the lines of the test signals, one axis excited at a time, all levitated
+// Equation  S = U E^-1 (signals added to the current) or I + Y E^-1 (added to the reading) on the
+//           lines of the test signals, one axis excited at a time, all levitated
 //           (identification/frf/frequency_response.hpp); peak and zone as ISO 14839-3 asks for them
 //           (identification/frf/measured_sensitivity.hpp). Computed: analysis/sensitivity.hpp at
 //           the same speed, taken from the caller's sweep where that holds it within 1 rpm.
@@ -22,9 +23,10 @@ namespace levitas::verdict {
 
 struct MeasuredAxis {
   std::string channel;
-  double peak{};                       ///< [1] max |S_ii| on a line clear of noise
+  double peak{};                       ///< [1] max |S_ii|, fitted over neighbouring lines
   double sigma{};                      ///< [1] its standard deviation
-  double frequency_hz{};               ///< of that line
+  double line_peak{};                  ///< [1] the largest single line, noise included
+  double frequency_hz{};               ///< of the peak
   std::optional<analysis::Zone> zone;  ///< empty: see `refused`
   std::string refused;                 ///< why the lines do not carry a grade
   double computed_peak{};              ///< [1] of the files, at this speed

@@ -96,10 +96,12 @@ void MeasuredRows(const Inputs& in, Out out) {
   for (const MeasuredSpeed& at : in.measured->speeds) {
     for (const MeasuredAxis& axis : at.axes) {
       const std::string zone = axis.zone ? std::string(1, Letter(*axis.zone)) : "none";
-      fmt::format_to(out, "{:<{}}{:>10.0f}{:>9.3f}{:>9.1f}   {:<16}measured, sigma {:.3f}{}\n",
-                     axis.channel, NameWidth(in.rig.channels), RadPerSToRpm(at.speed_rad_per_s),
-                     axis.peak, axis.frequency_hz, zone, axis.sigma,
-                     axis.refused.empty() ? "" : ": " + axis.refused);
+      fmt::format_to(
+          out,
+          "{:<{}}{:>10.0f}{:>9.3f}{:>9.1f}   {:<16}measured, sigma {:.3f}, single line {:.3f}{}\n",
+          axis.channel, NameWidth(in.rig.channels), RadPerSToRpm(at.speed_rad_per_s), axis.peak,
+          axis.frequency_hz, zone, axis.sigma, axis.line_peak,
+          axis.refused.empty() ? "" : ": " + axis.refused);
     }
   }
   if (!in.measured->why_not.empty()) {

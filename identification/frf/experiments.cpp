@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "common/problem.hpp"
@@ -26,8 +27,15 @@ constexpr std::size_t kMostBlocks = 8;
 /// Strokes are alike within this share of the largest.
 constexpr double kSameStroke = 1e-6;
 
-struct Piece {
+/// What is excited in a row.
+struct Excited {
   std::size_t axis{};
+  SummingPoint point{};
+  [[nodiscard]] bool operator==(const Excited&) const = default;
+};
+
+struct Piece {
+  Excited excited;
   std::size_t begin{};
   std::size_t end{};
   std::size_t available{};  ///< row at which something else begins
@@ -38,18 +46,25 @@ std::string Where(const session::Recording& record, std::size_t axis, std::size_
                      static_cast<double>(record.cycle[row] - record.cycle[0]) * record.period_s());
 }
 
-/// The axis excited in a row; `axes` when none is.
-std::size_t ExcitedAxis(const session::Recording& record, std::size_t row) {
-  std::size_t found = record.axes();
+/// The axis and the point excited in a row; nothing when none is.
+std::optional<Excited> ExcitedIn(const session::Recording& record, std::size_t row) {
+  std::optional<Excited> found;
   for (std::size_t axis = 0; axis < record.axes(); ++axis) {
-    if (record.ExcitationOf(axis, row) == 0.0) continue;
-    if (found != record.axes()) {
+    const bool current = record.ExcitationOf(axis, row) != 0.0;
+    const bool reading = record.PositionExcitationOf(axis, row) != 0.0;
+    if (!current && !reading) continue;
+    if (current && reading) {
+      throw BadInput(Where(record, axis, row) +
+                     ": excites its current and its reading together: their responses cannot be "
+                     "told apart; excite one point after the other");
+    }
+    if (found) {
       throw BadInput(fmt::format(
           "{}: excites {} and {} together: their responses cannot be told apart; excite one axis "
           "after the other",
-          Where(record, axis, row), record.channels[found], record.channels[axis]));
+          Where(record, axis, row), record.channels[found->axis], record.channels[axis]));
     }
-    found = axis;
+    found = Excited{axis, reading ? SummingPoint::kReading : SummingPoint::kCurrent};
   }
   return found;
 }
@@ -58,23 +73,23 @@ std::vector<Piece> FindPieces(const session::Recording& record) {
   const auto pause = static_cast<std::size_t>(std::lround(kPauseS / record.period_s()));
   std::vector<Piece> pieces;
   for (std::size_t row = 0; row < record.rows(); ++row) {
-    const std::size_t axis = ExcitedAxis(record, row);
-    if (axis == record.axes()) continue;
+    const auto excited = ExcitedIn(record, row);
+    if (!excited) continue;
     const bool goes_on =
-        !pieces.empty() && pieces.back().axis == axis && row - pieces.back().end <= pause;
+        !pieces.empty() && pieces.back().excited == *excited && row - pieces.back().end <= pause;
     if (goes_on) {
       pieces.back().end = row + 1;
     } else {
       if (!pieces.empty()) pieces.back().available = row;
-      pieces.push_back({axis, row, row + 1, record.rows()});
+      pieces.push_back({*excited, row, row + 1, record.rows()});
     }
   }
   return pieces;
 }
 
 bool Alike(const session::Recording& record, const Piece& a, const Piece& b) {
-  if (a.axis != b.axis || a.end - a.begin != b.end - b.begin) return false;
-  const session::Column& signal = record.excitation_a[a.axis];
+  if (a.excited != b.excited || a.end - a.begin != b.end - b.begin) return false;
+  const session::Column& signal = SignalColumn(record, a.excited.axis, a.excited.point);
   double largest = 0.0;
   double apart = 0.0;
   for (std::size_t n = 0; n < a.end - a.begin; ++n) {
@@ -97,7 +112,7 @@ std::vector<Piece> JoinTrains(const session::Recording& record, const std::vecto
       ++last;
     }
     joined.push_back(
-        {pieces[first].axis, pieces[first].begin, pieces[last].end, pieces[last].available});
+        {pieces[first].excited, pieces[first].begin, pieces[last].end, pieces[last].available});
     first = last + 1;
   }
   return joined;
@@ -108,17 +123,18 @@ void CheckRows(const session::Recording& record, const Piece& piece, std::size_t
     if (row > piece.begin && record.cycle[row] <= record.cycle[row - 1]) {
       throw BadInput(fmt::format(
           "{}: no frame arrived after {:.4f} s; record it again",
-          Where(record, piece.axis, piece.begin),
+          Where(record, piece.excited.axis, piece.begin),
           static_cast<double>(record.cycle[row - 1] - record.cycle[0]) * record.period_s()));
     }
     if (row > piece.begin && record.cycle[row] != record.cycle[row - 1] + 1) {
       throw BadInput(fmt::format(
           "{}: {} samples are missing at {:.4f} s; record it again",
-          Where(record, piece.axis, piece.begin), record.cycle[row] - record.cycle[row - 1] - 1,
+          Where(record, piece.excited.axis, piece.begin),
+          record.cycle[row] - record.cycle[row - 1] - 1,
           static_cast<double>(record.cycle[row] - record.cycle[0]) * record.period_s()));
     }
     if (record.levitated[row] == 0) {
-      throw BadInput(Where(record, piece.axis, piece.begin) +
+      throw BadInput(Where(record, piece.excited.axis, piece.begin) +
                      ": the rotor is not levitated throughout");
     }
   }
@@ -138,7 +154,7 @@ double SteadySpeed(const session::Recording& record, const Experiment& experimen
 }
 
 std::span<const double> SignalOf(const session::Recording& record, const Piece& piece) {
-  return std::span<const double>(record.excitation_a[piece.axis])
+  return std::span<const double>(SignalColumn(record, piece.excited.axis, piece.excited.point))
       .subspan(piece.begin, piece.end - piece.begin);
 }
 
@@ -152,7 +168,7 @@ Experiment Periodic(const session::Recording& record, const Piece& piece,
         "after the other; at least {} whole periods are needed, the first of which is the "
         "transient. A signal that the scenario's orbit limit cut back does not repeat either: "
         "raise orbit_limit_um or lower the amplitude",
-        Where(record, piece.axis, piece.begin),
+        Where(record, piece.excited.axis, piece.begin),
         static_cast<double>(signal.size()) * record.period_s(),
         options.dropped_periods + options.needed_periods));
   }
@@ -164,13 +180,17 @@ Experiment Periodic(const session::Recording& record, const Piece& piece,
   if (periods < options.dropped_periods + options.needed_periods) {
     throw BadInput(fmt::format(
         "{}: {} whole periods of {} samples, needed are {}: {} for the transient and {} to average",
-        Where(record, piece.axis, piece.begin), periods, *period,
+        Where(record, piece.excited.axis, piece.begin), periods, *period,
         options.dropped_periods + options.needed_periods, options.dropped_periods,
         options.needed_periods));
   }
-  return {piece.axis, piece.begin + options.dropped_periods * *period,
-          *period,    periods - options.dropped_periods,
-          0.0,        {}};
+  return {piece.excited.axis,
+          piece.excited.point,
+          piece.begin + options.dropped_periods * *period,
+          *period,
+          periods - options.dropped_periods,
+          0.0,
+          {}};
 }
 
 /// Whole periods of the settled part, in rows of the record.
@@ -195,7 +215,7 @@ void RefuseShort(const session::Recording& record, const Piece& piece, const Hel
   throw BadInput(fmt::format(
       "{}: {:.2f} Hz is held for {} whole periods after settling, needed are {}: hold it longer "
       "(dwell_s), or begin higher",
-      Where(record, piece.axis, piece.begin), sine.cycles_per_sample / record.period_s(),
+      Where(record, piece.excited.axis, piece.begin), sine.cycles_per_sample / record.period_s(),
       BlocksOf(sine), options.needed_periods));
 }
 
@@ -223,7 +243,9 @@ std::vector<Experiment> Stepped(const session::Recording& record, const Piece& p
       RefuseShort(record, piece, sine, options);
       blocks = std::min(blocks, BlocksOf(sine));
     }
-    experiments.push_back({piece.axis, sweep.front().begin, 0, blocks, 0.0, std::move(sweep)});
+    const std::size_t begin = sweep.front().begin;
+    experiments.push_back(
+        {piece.excited.axis, piece.excited.point, begin, 0, blocks, 0.0, std::move(sweep)});
   }
   return experiments;
 }
@@ -253,6 +275,13 @@ bool SameSines(const Experiment& a, const Experiment& b) {
 void RefuseUnlike(const session::Recording& record, const Campaign& campaign) {
   const Experiment& first = campaign.experiments.front();
   for (const Experiment& e : campaign.experiments) {
+    if (e.point != first.point) {
+      throw BadInput(fmt::format(
+          "{}: some of the excitations of {} and {} at {:.0f} rpm are added to the current and "
+          "some to the reading; use one point for all axes",
+          record.name, record.channels[first.axis], record.channels[e.axis],
+          RadPerSToRpm(campaign.speed_rad_per_s)));
+    }
     if (e.period_samples != first.period_samples) {
       throw BadInput(fmt::format(
           "{}: the excitation of {} repeats after {} samples, that of {} after {}; use one signal "
@@ -287,13 +316,20 @@ void RefuseIncomplete(const session::Recording& record, const Campaign& campaign
 
 }  // namespace
 
+const session::Column& SignalColumn(const session::Recording& record, std::size_t axis,
+                                    SummingPoint point) {
+  return point == SummingPoint::kReading ? record.excitation_m[axis] : record.excitation_a[axis];
+}
+
 std::vector<Experiment> FindExperiments(const session::Recording& record,
                                         const ExperimentOptions& options) {
   const std::vector<Piece> pieces = JoinTrains(record, FindPieces(record));
   if (pieces.empty()) {
-    throw BadInput(record.name +
-                   ": no excitation in the record; run a scenario with one (amb run --scenario "
-                   "identify), or name its columns excitation_<channel>_a");
+    throw BadInput(
+        record.name +
+        ": no excitation in the record; run a scenario with one (amb run --scenario "
+        "identify), or name its columns excitation_<channel>_a (added to the current) or "
+        "excitation_<channel>_m (added to the reading)");
   }
   std::vector<Experiment> experiments;
   experiments.reserve(pieces.size());

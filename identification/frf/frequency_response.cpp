@@ -51,7 +51,7 @@ std::vector<std::size_t> ExcitedLines(const std::vector<Spectra>& all, double hi
 
 /// Mean responses of one line: columns by excited axis; several experiments on one axis average.
 struct LineMeans {
-  Eigen::MatrixXcd g, s;
+  Eigen::MatrixXcd g, q;
 };
 
 LineMeans Means(const std::vector<Spectra>& all, std::size_t line, Index axes) {
@@ -63,11 +63,11 @@ LineMeans Means(const std::vector<Spectra>& all, std::size_t line, Index axes) {
     for (Index i = 0; i < axes; ++i) {
       const auto channel = static_cast<std::size_t>(i);
       means.g(i, j) += MeanOf(spectra.position[channel], line) / spectra.excitation[line];
-      means.s(i, j) += MeanOf(spectra.current[channel], line) / spectra.excitation[line];
+      means.q(i, j) += MeanOf(spectra.current[channel], line) / spectra.excitation[line];
     }
   }
   means.g *= count.cwiseInverse().asDiagonal();
-  means.s *= count.cwiseInverse().asDiagonal();
+  means.q *= count.cwiseInverse().asDiagonal();
   return means;
 }
 
@@ -93,13 +93,15 @@ Eigen::MatrixXd NoisePower(const std::vector<Spectra>& all, std::size_t line,
   return power;
 }
 
-/// Power of what does not repeat in the excited axis' own current, per experiment: one row.
+/// Power of what does not repeat in the sum behind the excited point, per experiment: one row.
 Eigen::MatrixXd OwnScatter(const std::vector<Spectra>& all, std::size_t line) {
   Eigen::MatrixXd power = Eigen::MatrixXd::Zero(1, At(all.size()));
   for (std::size_t n = 0; n < all.size(); ++n) {
-    const std::vector<Spectrum>& current = all[n].current[all[n].axis];
-    const Complex mean = MeanOf(current, line);
-    for (const Spectrum& period : current) power(0, At(n)) += std::norm(period[line] - mean);
+    const Spectra& s = all[n];
+    const std::vector<Spectrum>& sum =
+        s.point == SummingPoint::kReading ? s.position[s.axis] : s.current[s.axis];
+    const Complex mean = MeanOf(sum, line);
+    for (const Spectrum& period : sum) power(0, At(n)) += std::norm(period[line] - mean);
     const auto periods = static_cast<double>(all[n].periods);
     power(0, At(n)) /= periods * (periods - 1.0);
   }
@@ -223,6 +225,8 @@ FrequencyResponse EstimateResponse(const session::Recording& record, const Campa
   response.speed_rad_per_s = campaign.speed_rad_per_s;
   response.period_s = record.period_s();
   response.channels = record.channels;
+  response.point = campaign.experiments.front().point;
+  const bool reading = response.point == SummingPoint::kReading;
   const bool turns = std::abs(campaign.speed_rad_per_s) > std::numbers::pi;
   std::vector<Spectra> all;
   all.reserve(campaign.experiments.size());
@@ -244,10 +248,12 @@ FrequencyResponse EstimateResponse(const session::Recording& record, const Campa
     }
     const LineMeans means = Means(all, line, axes);
     lines.push_back(line);
-    inverse.push_back(means.s.inverse());
+    inverse.push_back(means.q.inverse());
     response.frequency_hz.push_back(f);
     response.plant.push_back(means.g * inverse.back());
-    response.sensitivity.push_back(means.s);
+    response.currents.push_back(means.q);
+    response.sensitivity.push_back(
+        reading ? Eigen::MatrixXcd(Eigen::MatrixXcd::Identity(axes, axes) + means.g) : means.q);
     response.coherence.push_back(CoherenceOf(all, line, axes));
     power.push_back(NoisePower(all, line, response.plant.back()));
     own.push_back(OwnScatter(all, line));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/frf/smoothed_sensitivity.hpp"
+
 namespace levitas::identification {
 namespace {
 
@@ -18,6 +20,8 @@ constexpr double kLeastClearLines = 0.5;
 /// Of the peak: when both neighbours are lower, the true peak may be as far above them again.
 constexpr double kLeastNeighbour = 0.7;
 constexpr double kWidestSpacing = 0.2;  // of the frequency
+/// At the lowest line; |S(0)| is then at most 5 % above it.
+constexpr double kFlatNeighbour = 0.85;
 constexpr double kDisagreement = 0.2;
 
 double Size(const FrequencyResponse& r, std::size_t line, Index axis) {
@@ -41,6 +45,16 @@ std::size_t BelowLoop(const FrequencyResponse& r, const std::vector<std::size_t>
       lines.begin(), lines.end(), [&](std::size_t k) { return r.frequency_hz[k] < kLoopHz; }));
 }
 
+/// The first line is the first multiple of the spacing and the next is nearly as large: |S| is even
+/// in the frequency, so that |S(0)| lies above the first by a third of the step to the second.
+bool FlatTowardsZero(const FrequencyResponse& r, Index axis,
+                     const std::vector<std::size_t>& clear) {
+  if (clear.size() < 2 || clear[0] != 0 || clear[1] != 1) return false;
+  const double spacing_hz = r.frequency_hz[1] - r.frequency_hz[0];
+  return r.frequency_hz[0] < 1.5 * spacing_hz &&
+         Size(r, 1, axis) > kFlatNeighbour * Size(r, 0, axis);
+}
+
 std::string Objection(const FrequencyResponse& r, Index axis, const std::vector<std::size_t>& clear,
                       std::size_t at, const MeasuredPeak& peak) {
   const auto in_loop = static_cast<std::size_t>(std::count_if(
@@ -51,9 +65,10 @@ std::string Objection(const FrequencyResponse& r, Index axis, const std::vector<
     return fmt::format("only {} of {} lines below 1 kHz are clear of noise: excite more, or longer",
                        said, in_loop);
   }
-  if (at == 0 || at + 1 == clear.size()) {
+  if ((at == 0 && !FlatTowardsZero(r, axis, clear)) || at + 1 == clear.size()) {
     return "the largest is the first or the last line: excite a wider range";
   }
+  if (at == 0) return {};
   const double beside = std::max(Size(r, clear[at - 1], axis), Size(r, clear[at + 1], axis));
   if (peak.spacing_hz > kWidestSpacing * peak.frequency_hz ||
       beside < kLeastNeighbour * peak.peak) {
@@ -71,12 +86,17 @@ MeasuredPeak PeakOf(const FrequencyResponse& r, Index axis) {
     peak.refused = "no line is clear of noise: excite more, or longer";
     return peak;
   }
-  const auto largest = std::max_element(
-      clear.begin(), clear.end(),
-      [&](std::size_t a, std::size_t b) { return Size(r, a, axis) < Size(r, b, axis); });
+  const std::vector<SmoothedLine> smooth = SmoothedSensitivity(r, axis);
+  const auto single =
+      std::ranges::max_element(clear, {}, [&](std::size_t line) { return Size(r, line, axis); });
+  peak.line_peak = Size(r, *single, axis);
+  peak.line_sigma = Sigma(r, *single, axis);
+  const auto largest =
+      std::ranges::max_element(clear, {}, [&](std::size_t line) { return smooth[line].size; });
   const auto at = static_cast<std::size_t>(largest - clear.begin());
-  peak.peak = Size(r, *largest, axis);
-  peak.sigma = Sigma(r, *largest, axis);
+  peak.peak = smooth[*largest].size;
+  peak.sigma = smooth[*largest].sigma;
+  peak.lines = smooth[*largest].lines;
   peak.frequency_hz = r.frequency_hz[*largest];
   for (const std::size_t beside : {at == 0 ? at : at - 1, std::min(at + 1, clear.size() - 1)}) {
     peak.spacing_hz =

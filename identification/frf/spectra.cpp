@@ -54,14 +54,15 @@ std::vector<Spectrum> PeriodSpectra(const session::Column& column, const session
 Spectra Periodic(const session::Recording& record, const Experiment& e, int orders) {
   Spectra s;
   s.axis = e.axis;
+  s.point = e.point;
   s.periods = e.periods;
   s.neighbours = kPeriodicNeighbours;
   for (std::size_t axis = 0; axis < record.axes(); ++axis) {
     s.position.push_back(PeriodSpectra(record.position_m[axis], record, e, orders));
     s.current.push_back(PeriodSpectra(record.current_a[axis], record, e, orders));
   }
-  s.excitation =
-      PeriodSpectrum(std::span(record.excitation_a[e.axis]).subspan(e.begin, e.period_samples));
+  s.excitation = PeriodSpectrum(
+      std::span(SignalColumn(record, e.axis, e.point)).subspan(e.begin, e.period_samples));
   const double spacing_hz = 1.0 / (static_cast<double>(e.period_samples) * record.period_s());
   for (std::size_t k = 1; k <= s.excitation.size(); ++k) {
     s.frequency_hz.push_back(static_cast<double>(k) * spacing_hz);
@@ -88,6 +89,7 @@ void AddBlocks(const session::Column& column, const session::Recording& record,
 Spectra Stepped(const session::Recording& record, const Experiment& e, int orders) {
   Spectra s;
   s.axis = e.axis;
+  s.point = e.point;
   s.periods = e.periods;
   s.neighbours = kSteppedNeighbours;
   s.position.assign(record.axes(), std::vector<Spectrum>(e.periods));
@@ -97,7 +99,7 @@ Spectra Stepped(const session::Recording& record, const Experiment& e, int order
       AddBlocks(record.position_m[axis], record, line, e.periods, orders, s.position[axis]);
       AddBlocks(record.current_a[axis], record, line, e.periods, orders, s.current[axis]);
     }
-    const std::span<const double> excitation(record.excitation_a[e.axis]);
+    const std::span<const double> excitation(SignalColumn(record, e.axis, e.point));
     s.excitation.push_back(SineAmplitude(excitation.subspan(line.begin, line.end - line.begin),
                                          line.cycles_per_sample, 0));
     const double length_s = static_cast<double>(line.end - line.begin) * record.period_s();

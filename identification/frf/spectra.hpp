@@ -20,6 +20,7 @@ using Spectrum = std::vector<std::complex<double>>;
 
 struct Spectra {
   std::size_t axis{};
+  SummingPoint point{};
   std::size_t periods{};  ///< of a stepped sine: blocks of every line
   std::vector<double> frequency_hz;
   std::vector<bool> near_order;

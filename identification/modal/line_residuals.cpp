@@ -17,7 +17,7 @@ LineResiduals::LineResiduals(const ModalFrame& frame, const FrequencyResponse& d
                              double floor)
     : frame_(frame),
       gains_(gains),
-      sensitivity_(data.sensitivity[line]),
+      currents_(data.currents[line]),
       frequency_hz_(data.frequency_hz[line]),
       speed_rad_per_s_(std::abs(data.speed_rad_per_s) < 1.0 ? 0.0 : data.speed_rad_per_s),
       kind_(kind) {
@@ -28,8 +28,8 @@ LineResiduals::LineResiduals(const ModalFrame& frame, const FrequencyResponse& d
 void LineResiduals::KeepEntries(const FrequencyResponse& data, std::size_t line, double floor) {
   const bool complex = kind_ == LineKind::kComplex;
   const Eigen::MatrixXcd value =
-      complex ? data.plant[line] * data.sensitivity[line] : data.plant[line];
-  const Eigen::MatrixXd size = data.plant[line].cwiseAbs2() * data.sensitivity[line].cwiseAbs2();
+      complex ? data.plant[line] * data.currents[line] : data.plant[line];
+  const Eigen::MatrixXd size = data.plant[line].cwiseAbs2() * data.currents[line].cwiseAbs2();
   for (Index j = 0; j < data.axes(); ++j) {
     for (Index i = 0; i < data.axes(); ++i) {
       if (speed_rad_per_s_ == 0.0 && (i + j) % 2 != 0) continue;
@@ -46,7 +46,7 @@ Eigen::MatrixXcd LineResiduals::Model(const Physical& rig, ResponseDerivative* d
   if (kind_ == LineKind::kLogMagnitude) {
     return ModalResponse(frame_, rig, frequency_hz_, speed_rad_per_s_, derivative);
   }
-  return ExperimentResponse(frame_, rig, frequency_hz_, speed_rad_per_s_, gains_, sensitivity_,
+  return ExperimentResponse(frame_, rig, frequency_hz_, speed_rad_per_s_, gains_, currents_,
                             derivative);
 }
 

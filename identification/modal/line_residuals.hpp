@@ -2,7 +2,7 @@
 // Residuals of the modal fit on one line of one response, with their analytic derivatives.
 //
 // Equation  (G - G_data)/sigma, real and imaginary part, with G_j = P_j S_j: what experiment j
-//           recorded against what its currents make of the model (an error in P = G S^-1 is shared
+//           recorded against what its currents make of the model (an error in P = G Q^-1 is shared
 //           by a whole row of P; here every entry has its own). Or ln(|P|/|P_data|)/sigma, the
 //           approach. Standing, only the entries within a plane count.
 // Weights   sigma^2 = (noise + floor^2 sum_k |P_ik S_kj|^2)/2 of each part; of a log-magnitude the
@@ -51,7 +51,7 @@ class LineResiduals {
 
   const ModalFrame& frame_;
   const WorkingGains& gains_;
-  const Eigen::MatrixXcd& sensitivity_;
+  const Eigen::MatrixXcd& currents_;
   double frequency_hz_;
   double speed_rad_per_s_;
   LineKind kind_;

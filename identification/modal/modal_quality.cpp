@@ -19,7 +19,7 @@ std::vector<Eigen::MatrixXcd> ModelOn(const ModalStart& start, const Eigen::Vect
   lines.reserve(response.frequency_hz.size());
   const WorkingGains gains = WorkingGainsOf(start.frame, response);
   for (std::size_t k = 0; k < response.frequency_hz.size(); ++k) {
-    const Eigen::MatrixXcd& currents = response.sensitivity[k];
+    const Eigen::MatrixXcd& currents = response.currents[k];
     lines.push_back(
         ExperimentResponse(start.frame, rig, response.frequency_hz[k], speed, gains, currents) *
         currents.inverse());

@@ -14,7 +14,7 @@
 
 namespace levitas::identification {
 
-/// The model on the lines of a response: what its experiments would have given, P = G S^-1 with the
+/// The model on the lines of a response: what its experiments would have given, P = G Q^-1 with the
 /// working gains of each.
 [[nodiscard]] std::vector<Eigen::MatrixXcd> ModelOn(const ModalStart& start,
                                                     const Eigen::VectorXd& vector,

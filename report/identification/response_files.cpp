@@ -213,6 +213,8 @@ void WriteResponseCsv(const std::string& path, const std::vector<FrequencyRespon
 nlohmann::ordered_json ResponseJson(const FrequencyResponse& r) {
   nlohmann::ordered_json json{
       {"speed_rpm", RadPerSToRpm(r.speed_rad_per_s)},
+      {"excited",
+       r.point == identification::SummingPoint::kReading ? "measured_position" : "control_current"},
       {"lines", r.frequency_hz.size()},
       {"periods", r.periods},
       {"line_spacing_hz", r.frequency_hz.size() > 1 ? r.frequency_hz[1] - r.frequency_hz[0] : 0.0},
@@ -225,6 +227,9 @@ nlohmann::ordered_json ResponseJson(const FrequencyResponse& r) {
         {{"channel", peak.channel},
          {"sensitivity_peak", peak.peak},
          {"sigma", peak.sigma},
+         {"fitted_lines", peak.lines},
+         {"largest_line", peak.line_peak},
+         {"largest_line_sigma", peak.line_sigma},
          {"frequency_hz", peak.frequency_hz},
          {"line_spacing_hz", peak.spacing_hz},
          {"zone", peak.zone ? nlohmann::ordered_json(std::string(analysis::Name(*peak.zone)))
@@ -248,7 +253,7 @@ nlohmann::ordered_json ResponseJson(const FrequencyResponse& r) {
 void WriteBode(const std::string& path, const FrequencyResponse& r, const ModelLines& model) {
   if (path.empty()) return;
   svg::Figure figure;
-  figure.title = fmt::format("Plant P = G S^-1 at {:.0f} rpm, {} periods averaged",
+  figure.title = fmt::format("Plant P = G Q^-1 at {:.0f} rpm, {} periods averaged",
                              RadPerSToRpm(r.speed_rad_per_s), r.periods);
   // The axes of one plane are every other channel: de_x, nde_x, then de_y, nde_y.
   const Index planes = std::min<Index>(2, r.axes());

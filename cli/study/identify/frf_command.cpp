@@ -21,10 +21,14 @@ namespace levitas::cli {
 namespace {
 
 constexpr const char* kFrfHelp =
-    "Closed loop, P = G S^-1: from the excitation of each axis in turn to positions and currents. "
+    "Closed loop, P = G Q^-1: from the excitation of each axis in turn to positions and currents. "
     "Read are signals that repeat (PRBS, multisine, strokes), the first period of which is dropped "
     "as transient, and sines held one after the other, of which the second half counts. Whole "
-    "periods leak nothing, and their scatter is the variance.\n"
+    "periods leak nothing, and their scatter is the variance. A signal may be added to "
+    "the current or to the reading (point: measured_position of a scenario), the same for all axes "
+    "at one speed. The largest of many noisy lines is too high: |S| is fitted over neighbouring "
+    "lines (column fitted) and its noise's share is taken off; the largest single line stands "
+    "beside it.\n"
     "  amb run --scenario identify --record campaign.lcm\n"
     "  amb identify frf campaign.lcm --csv frf.csv --svg frf.svg\n"
     "Scenarios identify_multisine, identify_impulse and identify_stepped_sine do it otherwise.\n"
@@ -83,12 +87,16 @@ std::vector<double> ComputedPeaks(const FrequencyResponse& r, const config::RigF
 }
 
 void PrintSensitivity(const FrequencyResponse& r, const std::vector<double>& computed) {
-  fmt::print("measured sensitivity, zones of ISO 14839-3:\n{:<8}{:>9}{:>9}{:>10}{:>11}   {}\n",
-             "axis", "max |S|", "sigma", "at Hz", "lines Hz", "zone");
+  fmt::print(
+      "measured sensitivity, excited at the {}, zones of ISO 14839-3:\n"
+      "{:<8}{:>9}{:>9}{:>10}{:>11}{:>9}{:>13}   {}\n",
+      r.point == identification::SummingPoint::kReading ? "reading" : "current", "axis", "max |S|",
+      "sigma", "at Hz", "lines Hz", "fitted", "single line", "zone");
   const auto measured = identification::MeasuredPeaks(r);
   for (const auto& peak : measured) {
-    fmt::print("{:<8}{:>9.3f}{:>9.3f}{:>10.2f}{:>11.3f}   {}\n", peak.channel, peak.peak,
-               peak.sigma, peak.frequency_hz, peak.spacing_hz,
+    fmt::print("{:<8}{:>9.3f}{:>9.3f}{:>10.2f}{:>11.3f}{:>9}{:>13.3f}   {}\n", peak.channel,
+               peak.peak, peak.sigma, peak.frequency_hz, peak.spacing_hz, peak.lines,
+               peak.line_peak,
                peak.zone ? std::string(analysis::Name(*peak.zone)) : "none: " + peak.refused);
   }
   for (std::size_t i = 0; i < computed.size(); ++i) {

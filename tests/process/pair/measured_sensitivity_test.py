@@ -17,14 +17,17 @@ from lcm_network import BINARIES, Process, run  # noqa: E402
 RIG = BINARIES.parents[2] / "config/rigs/flexible_rotor.yaml"
 # Every magnet has 1.25 times the negative stiffness of the file: the computed peak knows nothing of it.
 SOFT = "effects:\n  - id: displacement_stiffness\n    channels: [de_x, de_y, nde_x, nde_y]\n    ratio: 1.25\n"
+# Sines up to 600 Hz: the law answers the edges of a binary signal in its reading with all its current.
+READING = ("signal: multisine, point: measured_position, amplitude_um: 8, from_hz: 2, to_hz: 600, "
+           "repeat_s: 0.8")
 AXES = ("de_x", "de_y", "nde_x", "nde_y")
 
 
-def scenario(signals, signal="amplitude_a: 0.15"):
+def scenario(signals, signal="amplitude_a: 0.15, order: 12, divisor: 2"):
     steps = ["  - {do: lift, until: levitating, timeout_s: 5, hold_s: 1}"]
     for axis in signals:
-        steps += ["  - do: nothing", "    hold_s: 3.276", "    orbit_limit_um: 100", "    excitation:",
-                  f"      - {{channel: {axis}, {signal}, order: 12, divisor: 2}}",
+        steps += ["  - do: nothing", "    hold_s: 3.3", "    orbit_limit_um: 100", "    excitation:",
+                  f"      - {{channel: {axis}, {signal}}}",
                   "  - {do: nothing, hold_s: 0.3}"]
     steps += ["  - {do: land, until: \"off\", timeout_s: 5}"]
     return "kind: scenario\nname: measure\nsteps:\n" + "\n".join(steps) + "\n"
@@ -78,9 +81,22 @@ class MeasuredSensitivity(unittest.TestCase):
         self.assertIn("de_y", verdict["sensitivity_not_measured"])
         self.assertEqual({s["source"] for s in verdict["sensitivity"]}, {"computed"})
 
-    def test_says_that_signals_in_the_measured_position_are_not_evaluated(self):
-        verdict, _ = self.verdict(AXES[:1], signal="point: measured_position, amplitude_um: 1")
-        self.assertIn("added to the measured position", verdict["sensitivity_not_measured"])
+    def test_agrees_where_the_signals_are_added_to_the_reading(self):
+        verdict, text = self.verdict(AXES, signal=READING)
+        axes = self.measured(verdict)
+        self.assertEqual(set(axes), set(AXES))
+        for axis in axes.values():
+            self.assertIsNotNone(axis["zone"], axis)
+            # Three deviations, and 0.1 for what the largest of the fitted lines still adds.
+            self.assertLess(abs(axis["peak"] - axis["computed_peak"]), 3 * axis["sigma"] + 0.1, axis)
+        self.assertEqual((verdict["warnings"], verdict["sensitivity_not_measured"]), ([], ""))
+        self.assertIn("single line", text)
+
+    def test_warns_of_another_rig_where_the_signals_are_added_to_the_reading(self):
+        verdict, _ = self.verdict(AXES, SOFT, signal=READING)
+        apart = [a for a in self.measured(verdict).values() if a["more_than_20_percent_apart"]]
+        self.assertGreater(len(apart), 0, verdict["sensitivity"])
+        self.assertEqual(len(apart), len(verdict["warnings"]))
 
     def test_is_not_asked_for_without_a_test_signal(self):
         verdict, _ = self.verdict(())

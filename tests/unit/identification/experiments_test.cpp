@@ -260,7 +260,7 @@ std::vector<Experiment> Whole(session::Recording& record) {
   for (auto& column : record.position_m) {
     for (double& value : column) value = 0.1 * random.Normal();
   }
-  return {Experiment{0, 0, 250, 4, 0.0, {}}};
+  return {Experiment{0, SummingPoint::kCurrent, 0, 250, 4, 0.0, {}}};
 }
 
 TEST(RefuseBadSignals, ClippedReadingsAreCountedAtBothEndsOfTheRangeFromOneInAThousandOn) {

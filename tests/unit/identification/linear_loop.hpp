@@ -3,7 +3,7 @@
 // frequency response is a closed form, so an estimate from the record can be held against it.
 //
 // Equation  y[n] = A1 y[n-1] + A2 y[n-2] + B u[n-1],  reading = y + noise + run-out,
-//           u = -c reading + e.  P(z) = (I - A1 z^-1 - A2 z^-2)^-1 B z^-1.
+//           u = -c reading + e, or u = -c (reading + e) with e / c for e.  P(z) = (I - A1 z^-1 - A2 z^-2)^-1 B z^-1.
 // Poles     1.18 and 0.72 alone; of magnitude 0.93 in the loop, so that a transient falls below
 //           rounding within one period of the test signal (0.93^510 = 1e-16).
 // Units     m, A. Every random number has a seed.
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/random.hpp"
+#include "identification/frf/experiments.hpp"
 #include "session/recording.hpp"
 
 namespace levitas::test {
@@ -26,6 +27,7 @@ struct LoopPlan {
   double noise_m{};
   double run_out_m{};
   double speed_rad_per_s{};
+  identification::SummingPoint point{identification::SummingPoint::kCurrent};
   bool flat{true};  ///< all lines alike strong; else a random binary signal
   std::uint64_t seed{1};
 };
@@ -65,8 +67,13 @@ class LinearLoop {
         r.position_m[i][row] =
             y[at] + plan.noise_m * random.Normal() +
             plan.run_out_m * std::cos(r.angle_rad[row] - static_cast<double>(i) * 1.5);
-        r.excitation_a[i][row] = i == axis ? signal[row % plan.period_samples] : 0.0;
-        u[at] = r.excitation_a[i][row] - plan.controller_a_per_m * r.position_m[i][row];
+        const double excitation_a = i == axis ? signal[row % plan.period_samples] : 0.0;
+        u[at] = excitation_a - plan.controller_a_per_m * r.position_m[i][row];
+        if (plan.point == identification::SummingPoint::kCurrent) {
+          r.excitation_a[i][row] = excitation_a;
+        } else {
+          r.excitation_m[i][row] = -excitation_a / plan.controller_a_per_m;
+        }
         r.current_a[i][row] = u[at];
       }
     }
@@ -91,8 +98,7 @@ class LinearLoop {
           std::fmod(speed_rad_per_s * kPeriodS * static_cast<double>(row), 2.0 * std::numbers::pi));
     }
     const std::vector<session::Column> zeros(2, session::Column(rows, 0.0));
-    r.position_m = r.current_a = r.excitation_a = zeros;
-    r.excitation_m.resize(2);
+    r.position_m = r.current_a = r.excitation_a = r.excitation_m = zeros;
     return r;
   }
 

@@ -32,10 +32,13 @@ TEST(MeasuredPeaks, GradesThePeakOfClearLines) {
   const auto peaks = MeasuredPeaks(Resonance(3.5, 0.2, 1.0, 0.02));
   ASSERT_EQ(peaks.size(), 1U);
   EXPECT_EQ(peaks[0].refused, "");
-  EXPECT_NEAR(peaks[0].peak, 3.5, 1e-9);  // a line stands on the top, where S is `peak` exactly
-  EXPECT_EQ(peaks[0].frequency_hz, kPeakHz);
+  EXPECT_NEAR(peaks[0].line_peak, 3.5, 1e-9);  // a line stands on the top, where S is 3.5 exactly
+  EXPECT_EQ(peaks[0].line_sigma, 0.02);
+  // A parabola may miss the top by two deviations of what it is compared with.
+  EXPECT_NEAR(peaks[0].peak, 3.5, 0.04);
+  EXPECT_LT(peaks[0].sigma, 0.02);
+  EXPECT_NEAR(peaks[0].frequency_hz, kPeakHz, 5.0);
   EXPECT_EQ(peaks[0].spacing_hz, 1.0);
-  EXPECT_EQ(peaks[0].sigma, 0.02);
   EXPECT_EQ(peaks[0].zone, analysis::Zone::kB);
 }
 
@@ -60,6 +63,28 @@ TEST(MeasuredPeaks, GivesNoZoneToTheEndOfTheLines) {
   const auto peaks = MeasuredPeaks(r);
   EXPECT_FALSE(peaks[0].zone.has_value());
   EXPECT_THAT(peaks[0].refused, HasSubstr("first or the last line"));
+}
+
+/// |S| = 5 at rest, falling to 1 around `corner_hz`: a law without integrator.
+FrequencyResponse Falling(double corner_hz) {
+  FrequencyResponse r;
+  r.channels = {"x"};
+  for (double f = 1.0; f <= 1000.0; f += 1.0) {
+    const std::complex<double> s{0.0, f / corner_hz};
+    r.frequency_hz.push_back(f);
+    r.sensitivity.emplace_back(Eigen::MatrixXcd::Constant(1, 1, (s + 5.0) / (s + 1.0)));
+    r.own_variance.emplace_back(Eigen::VectorXd::Constant(1, 1e-6));
+  }
+  return r;
+}
+
+TEST(MeasuredPeaks, GradesAPeakAtZeroFrequencyWhereTheFirstLinesLieFlat) {
+  // Lines from 1 Hz: with a corner at 20 Hz the first is 0.1 % below |S(0)| = 5, at 1 Hz 28 %.
+  const auto flat = MeasuredPeaks(Falling(20.0));
+  EXPECT_EQ(flat[0].refused, "");
+  EXPECT_NEAR(flat[0].peak, 5.0, 0.05);
+  const auto steep = MeasuredPeaks(Falling(1.0));
+  EXPECT_THAT(steep[0].refused, HasSubstr("first or the last line"));
 }
 
 TEST(Disagree, BeginsBeyondAFifthOfWhatWasMeasured) {

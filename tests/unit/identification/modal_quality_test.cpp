@@ -37,7 +37,7 @@ FrequencyResponse Exact(double sigma_m_per_a) {
   for (double f = 5.0; f < 1000.0; f *= 1.03) {
     data.frequency_hz.push_back(f);
     data.plant.push_back(ModalResponse(QualityStart().frame, QualityNominal(), f, 0.0));
-    data.sensitivity.emplace_back(Eigen::MatrixXcd::Identity(4, 4));
+    data.currents.emplace_back(Eigen::MatrixXcd::Identity(4, 4));
     data.variance.push_back(Eigen::MatrixXd::Constant(4, 4, sigma_m_per_a * sigma_m_per_a));
   }
   return data;

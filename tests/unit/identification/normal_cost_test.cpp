@@ -41,7 +41,7 @@ FrequencyResponse Data(double rpm) {
     }
     data.frequency_hz.push_back(f);
     data.plant.push_back(plant);
-    data.sensitivity.push_back(currents);
+    data.currents.push_back(currents);
     data.variance.push_back(1e-4 * plant.cwiseAbs2());
     data.noise.push_back(Eigen::MatrixXd::Constant(4, 4, 1e-14));
   }
@@ -142,14 +142,14 @@ TEST(ExperimentResponse, IsThatOfARigWithTheMagnetsOfTheExperiment) {
   for (std::size_t k = 0; k < data.frequency_hz.size(); k += 7) {
     const double f = data.frequency_hz[k];
     const Eigen::MatrixXcd response =
-        ExperimentResponse(Start().frame, rig, f, data.speed_rad_per_s, gains, data.sensitivity[k]);
+        ExperimentResponse(Start().frame, rig, f, data.speed_rad_per_s, gains, data.currents[k]);
     for (Eigen::Index j = 0; j < 4; ++j) {
       Eigen::VectorXd vector = Start().vector;
       vector.segment(at.ki, 4) += gains.ki.col(j).array().log().matrix();
       vector.segment(at.ks, 4) += gains.ks.col(j).array().log().matrix();
       const Eigen::MatrixXcd plant =
           ModalResponse(Start().frame, ToPhysical(Start().frame, vector), f, data.speed_rad_per_s);
-      const Eigen::VectorXcd expected = plant * data.sensitivity[k].col(j);
+      const Eigen::VectorXcd expected = plant * data.currents[k].col(j);
       // Two ways of solving one equation; its condition stays below 1e6 beside a resonance.
       EXPECT_LT((response.col(j) - expected).norm(), 1e-9 * expected.norm()) << f;
     }

@@ -164,7 +164,8 @@ TEST(Outcome, HasStableNames) {
 
 // nde_y at the speed of Loop(): what the test signals say of it.
 MeasuredSensitivity Measured(double peak, double computed, std::optional<Zone> zone) {
-  MeasuredAxis axis{"nde_y", peak, 0.02, 40.0, zone, zone ? "" : "too few lines", computed, false};
+  MeasuredAxis axis{"nde_y",  peak, 0.02, peak, 40.0, zone, zone ? "" : "too few lines",
+                    computed, false};
   axis.differs = zone && std::abs(computed - peak) > 0.2 * peak;
   return {{{RpmToRadPerS(100.0), {axis}}}, ""};
 }
