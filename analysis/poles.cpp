@@ -105,6 +105,17 @@ Pole PoleOf(std::complex<double> z, double period_s) {
 
 }  // namespace
 
+bool Grows(const Pole& pole) { return !(std::abs(pole.z) < 1.0); }
+
+std::vector<Pole> WorstFirst(std::vector<Pole> poles) {
+  std::stable_sort(poles.begin(), poles.end(), [](const Pole& a, const Pole& b) {
+    if (Grows(a) != Grows(b)) return Grows(a);
+    if (Grows(a)) return std::abs(a.z) > std::abs(b.z);
+    return a.damping_ratio < b.damping_ratio;
+  });
+  return poles;
+}
+
 LoopPoles ClosedLoopPoles(const plant::PlantConfig& plant, const law::LawConfig& law,
                           double speed_rad_per_s) {
   const SampledLoop loop = CloseLoop(plant, law, speed_rad_per_s);

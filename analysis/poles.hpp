@@ -38,6 +38,12 @@ struct LoopPoles {
   std::size_t deadbeat_poles{};  ///< eigenvalues at z = 0 (pure delay)
 };
 
+/// On or outside the unit circle: its motion does not decay.
+[[nodiscard]] bool Grows(const Pole& pole);
+
+/// The same poles, worst first: those that grow, fastest first, then by rising damping ratio.
+[[nodiscard]] std::vector<Pole> WorstFirst(std::vector<Pole> poles);
+
 /// Throws BadInput when the law's axes do not fit the plant's.
 [[nodiscard]] LoopPoles ClosedLoopPoles(const plant::PlantConfig& plant, const law::LawConfig& law,
                                         double speed_rad_per_s);

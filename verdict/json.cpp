@@ -46,6 +46,14 @@ void AddCurrents(const Inputs& in, const PhaseFigures& phase, const char* name, 
   }
 }
 
+Object Range(const SpeedRange& range) {
+  return {{"shown_rpm", RadPerSToRpm(range.shown_rad_per_s)},
+          {"rated_rpm", RadPerSToRpm(range.rated_rad_per_s)},
+          {"shown_share", range.Share()},
+          {"whole", range.Whole()},
+          {"text", Text(range)}};
+}
+
 Object Length(const PhaseFigures& phase) {
   return {{"cycles", phase.cycles},
           {"duration_s", phase.duration_s},
@@ -231,6 +239,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
           {"provenance", From(in.provenance)},
           {"clearance_m", in.rig.clearance_m},
           {"top_speed_rpm", RadPerSToRpm(in.session.top_speed_rad_per_s)},
+          {"speed_range", Range(verdict.range)},
           {"standing", Length(in.session.standing)},
           {"spinning", Length(in.session.spinning)},
           {"orbits", Orbits(verdict)},

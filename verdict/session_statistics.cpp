@@ -28,6 +28,7 @@ SessionStatistics::SessionStatistics(const RigNumbers& rig, double standstill_ra
       frame_(rig),
       splitter_(standstill_rad_per_s, Cycles(settle_s, rig)),
       standstill_rad_per_s_(standstill_rad_per_s) {
+  figures_.standstill_rad_per_s = standstill_rad_per_s;
   standing_.bearings.resize(rig.bearings.size());
   spinning_.bearings.resize(rig.bearings.size());
 }
@@ -48,6 +49,7 @@ void SessionStatistics::Add(const cycle::CycleRecord& record) {
   const double speed_rad_per_s = record.in.frame.speed_rad_per_s;
   figures_.top_speed_rad_per_s = std::max(figures_.top_speed_rad_per_s, std::abs(speed_rad_per_s));
   const Phase phase = splitter_.Next(record.in.cycle, record.out.mode, speed_rad_per_s);
+  if (record.in.frame_present) AddSpeed(phase == Phase::kSpinning ? speed_rad_per_s : 0.0);
   if (phase != Phase::kNotJudged) {
     PhaseSums& sums = phase == Phase::kStanding ? standing_ : spinning_;
     ++sums.cycles;
@@ -55,6 +57,14 @@ void SessionStatistics::Add(const cycle::CycleRecord& record) {
     AddCurrents(record, sums);
   }
   previous_cycle_ = record.in.cycle;
+}
+
+// One frame alone may be wrong: the smaller of two in a row was reached.
+void SessionStatistics::AddSpeed(double speed_rad_per_s) {
+  const double now_rad_per_s = std::isfinite(speed_rad_per_s) ? std::abs(speed_rad_per_s) : 0.0;
+  figures_.levitated_speed_rad_per_s = std::max(
+      figures_.levitated_speed_rad_per_s, std::min(now_rad_per_s, previous_spinning_rad_per_s_));
+  previous_spinning_rad_per_s_ = now_rad_per_s;
 }
 
 void SessionStatistics::AddLosses(const cycle::CycleRecord& record) {

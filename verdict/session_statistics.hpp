@@ -89,9 +89,11 @@ struct ModeSpan {
 };
 
 struct SessionFigures {
-  std::uint64_t cycles{};  ///< records seen
-  double duration_s{};     ///< from the first to the last record, one period included
-  double top_speed_rad_per_s{};
+  std::uint64_t cycles{};              ///< records seen
+  double duration_s{};                 ///< from the first to the last record, one period included
+  double top_speed_rad_per_s{};        ///< of all records
+  double levitated_speed_rad_per_s{};  ///< largest shown by two frames in a row while spinning
+  double standstill_rad_per_s{};       ///< the controller's
   PhaseFigures standing, spinning;
   std::vector<ProfileBin>
       profile;  ///< spinning only, by rising speed, bins without cycles left out
@@ -131,6 +133,7 @@ class SessionStatistics {
     std::vector<BearingSums> bearings;
   };
 
+  void AddSpeed(double speed_rad_per_s);
   void AddOrbit(const cycle::CycleRecord& record, PhaseSums& sums, bool spinning);
   void AddCurrents(const cycle::CycleRecord& record, PhaseSums& sums) const;
   void AddMode(const cycle::CycleRecord& record);
@@ -149,6 +152,7 @@ class SessionStatistics {
   std::uint32_t previous_held_{}, rig_session_{};
   Fault previous_fault_{Fault::kNone};
   double standstill_rad_per_s_;
+  double previous_spinning_rad_per_s_{};  ///< of the frame before, 0 where it was not spinning
   bool energised_{false};
   double last_speed_rad_per_s_{};
   std::optional<ReleaseFigures> letting_go_;  ///< amplifiers just off, its window not yet over

@@ -58,6 +58,14 @@ void Orbits(const Verdict& verdict, Out out) {
   }
 }
 
+void Range(const Verdict& verdict, Out out) {
+  const SpeedRange& range = verdict.range;
+  if (verdict.orbits.empty() || !range.turns || !(range.rated_rad_per_s > 0.0)) return;
+  const std::string share =
+      range.Whole() ? "" : fmt::format(", {:.0f} % of the rated speed", 100.0 * range.Share());
+  fmt::format_to(out, "\nspeed     levitated {}{}\n", Text(range), share);
+}
+
 void CurrentsOf(const Inputs& in, const PhaseFigures& phase, bool spinning, Out out) {
   if (phase.cycles == 0) return;
   for (std::size_t b = 0; b < phase.bearings.size(); ++b) {
@@ -212,6 +220,7 @@ std::string Table(const Verdict& verdict) {
   std::string text;
   const Out out = std::back_inserter(text);
   Heading(verdict, out);
+  Range(verdict, out);
   Orbits(verdict, out);
   Currents(verdict.inputs, out);
   Sensitivity(verdict.inputs, out);

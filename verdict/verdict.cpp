@@ -125,6 +125,11 @@ std::string WorstOf(const std::vector<OrbitJudgement>& orbits, bool spinning) {
                      Letter(worst->zone));
 }
 
+std::string AcceptedWhere(const SpeedRange& range) {
+  const std::string where = Text(range);
+  return where.empty() ? "ACCEPTED" : "ACCEPTED " + where;
+}
+
 }  // namespace
 
 std::string_view Name(Outcome outcome) noexcept {
@@ -134,6 +139,7 @@ std::string_view Name(Outcome outcome) noexcept {
 
 Verdict Judge(Inputs inputs) {
   Verdict verdict;
+  verdict.range = RangeOf(inputs.rig, inputs.session);
   JudgePhase(inputs.rig, inputs.session.standing, false, verdict.orbits);
   JudgePhase(inputs.rig, inputs.session.spinning, true, verdict.orbits);
   if (verdict.orbits.empty()) {
@@ -170,8 +176,8 @@ Verdict Judge(Inputs inputs) {
     verdict.sentence = fmt::format("NOT ACCEPTED: {}", fmt::join(verdict.objections, "; "));
   } else {
     verdict.outcome = Outcome::kAccepted;
-    verdict.sentence = fmt::format("ACCEPTED: orbit {}, {}", WorstOf(verdict.orbits, false),
-                                   WorstOf(verdict.orbits, true));
+    verdict.sentence = fmt::format("{}: orbit {}, {}", AcceptedWhere(verdict.range),
+                                   WorstOf(verdict.orbits, false), WorstOf(verdict.orbits, true));
   }
   verdict.inputs = std::move(inputs);
   return verdict;

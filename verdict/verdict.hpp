@@ -9,6 +9,8 @@
 //              its exit status and orbits were.
 // Warned       measured and computed peak more than 20 % apart; a measured delay other than the
 //              files have.
+// Range        the speed up to which the run was shown, beside the rig's rated speed
+//              (speed_range.hpp): what is accepted is accepted up to there.
 // Requirement  a limit itself is not met: orbit must be below its objective.
 // Not judged   timing and saturation are reported; what they spoil shows in the orbit or as a trip.
 // Units        SI; names say which. Thread: any, offline.
@@ -23,6 +25,7 @@
 #include "common/rig_numbers.hpp"
 #include "verdict/measure_sensitivity.hpp"
 #include "verdict/session_statistics.hpp"
+#include "verdict/speed_range.hpp"
 #include "verdict/timing.hpp"
 #include "verdict/zones.hpp"
 
@@ -76,10 +79,11 @@ struct Inputs {
 struct Verdict {
   Inputs inputs;
   Outcome outcome{};
-  std::string sentence;                 ///< "ACCEPTED: ...", one line
+  std::string sentence;                 ///< "ACCEPTED up to 300 of 600 rpm: ...", one line
   std::vector<std::string> objections;  ///< one per requirement not met
   std::vector<std::string> warnings;    ///< sentences; none of them costs the acceptance
   std::vector<OrbitJudgement> orbits;   ///< bearing by bearing, phases that were run
+  SpeedRange range;
 };
 
 [[nodiscard]] Verdict Judge(Inputs inputs);

@@ -1,8 +1,9 @@
-// amb poles: closed-loop poles of the sampled loop.
+// amb poles: closed-loop poles of the sampled loop, the worst first.
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -30,16 +31,40 @@ const char* WhirlOf(const analysis::Pole& pole, bool turning) {
   return pole.forward_share > 0.5 ? "forward" : "backward";
 }
 
+/// Five decimals; of a pole at the edge of stability three digits, so that its sign is one.
+std::string DampingText(double ratio) {
+  return std::abs(ratio) < 1e-3 ? fmt::format("{:.2e}", ratio) : fmt::format("{:.5f}", ratio);
+}
+
+/// Of every frequency: --up-to-hz hides none of the least damped.
+constexpr std::size_t kAlwaysListed = 5;
+
+void PrintHidden(std::size_t hidden, double least_damping, double up_to_hz) {
+  if (hidden == 0) return;
+  fmt::print("beyond {:g} Hz {} more, all damped better than the worst {} above: {} at least\n",
+             up_to_hz, hidden, kAlwaysListed, DampingText(least_damping));
+}
+
 void Print(const analysis::LoopPoles& at, double up_to_hz) {
   fmt::print("{:.0f} rpm: {} (largest |z| {:.6f})\n", RadPerSToRpm(at.speed_rad_per_s),
              at.stable ? "STABLE" : "UNSTABLE", at.largest_pole_modulus);
   fmt::print("{:>14}{:>14}{:>14}  {}\n", "frequency Hz", "damping", "Re s 1/s", "whirl");
-  for (const auto& pole : at.poles) {
-    if (std::abs(pole.frequency_hz) > up_to_hz) continue;
-    fmt::print("{:>14.3f}{:>14.5f}{:>14.3f}  {}{}\n", pole.frequency_hz, pole.damping_ratio,
-               pole.s_rad_per_s.real(), WhirlOf(pole, at.speed_rad_per_s != 0.0),
-               std::abs(pole.z) >= 1.0 ? "  <- unstable" : "");
+  std::size_t decaying = 0;
+  std::size_t hidden = 0;
+  double hidden_damping = 1.0;
+  for (const auto& pole : analysis::WorstFirst(at.poles)) {
+    const bool grows = analysis::Grows(pole);
+    if (!grows) ++decaying;
+    if (!grows && decaying > kAlwaysListed && std::abs(pole.frequency_hz) > up_to_hz) {
+      ++hidden;
+      hidden_damping = std::min(hidden_damping, pole.damping_ratio);
+      continue;
+    }
+    fmt::print("{:>14.3f}{:>14}{:>14.3f}  {}{}\n", pole.frequency_hz,
+               DampingText(pole.damping_ratio), pole.s_rad_per_s.real(),
+               WhirlOf(pole, at.speed_rad_per_s != 0.0), grows ? "  <- unstable" : "");
   }
+  PrintHidden(hidden, hidden_damping, up_to_hz);
 }
 
 nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
@@ -47,12 +72,13 @@ nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
   json["speed_rpm"] = RadPerSToRpm(at.speed_rad_per_s);
   json["stable"] = at.stable;
   json["largest_pole_modulus"] = at.largest_pole_modulus;
-  for (const auto& pole : at.poles) {
+  for (const auto& pole : analysis::WorstFirst(at.poles)) {
     json["poles"].push_back({{"frequency_hz", pole.frequency_hz},
                              {"damping_ratio", pole.damping_ratio},
                              {"real_part_1_per_s", pole.s_rad_per_s.real()},
                              {"imaginary_part_rad_per_s", pole.s_rad_per_s.imag()},
-                             {"forward_share", pole.forward_share}});
+                             {"forward_share", pole.forward_share},
+                             {"unstable", analysis::Grows(pole)}});
   }
   return json;
 }
@@ -78,12 +104,15 @@ ExitStatus Run(const PolesOptions& options) {
 void AddPolesCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<PolesOptions>();
   CLI::App* command = app.add_subcommand(
-      "poles", "Closed-loop poles of the sampled loop, delay included; stability first");
+      "poles", "Closed-loop poles of the sampled loop, delay included; the worst first");
   AddRigOption(*command, *options);
   AddControllerOption(*command, *options);
   AddPortOption(*command, *options);
   AddSpeedOption(*command, *options, {0.0});
-  command->add_option("--up-to-hz", options->up_to_hz, "Print poles up to this frequency")
+  command
+      ->add_option("--up-to-hz", options->up_to_hz,
+                   "Print poles up to this frequency; those that grow and "
+                   "the five least damped at any")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   AddJsonOption(*command, *options);

@@ -72,14 +72,48 @@ class Poles(CommandTest):
         self.assertIn("1600 rpm: STABLE", head)
         self.assertIn(f"{at['largest_pole_modulus']:.6f}", head)
         self.assertIn("frequency Hz", names)
-        shown = [pole for pole in at["poles"] if abs(pole["frequency_hz"]) <= 300]
+        worst = at["poles"][:5]
+        shown = [pole for pole in at["poles"]
+                 if pole in worst or abs(pole["frequency_hz"]) <= 300]
+        *rows, hidden = rows
         self.assertEqual(len(rows), len(shown))
         self.assertLess(len(shown), len(at["poles"]))  # the option limits the print, not the file
+        left = [pole["damping_ratio"] for pole in at["poles"] if pole not in shown]
+        self.assertIn(f"beyond 300 Hz {len(left)} more", hidden)
+        self.assertAlmostEqual(numbers(hidden)[-1], min(left), delta=0.0000051)
         for row, pole in zip(rows, shown):
             frequency_hz, damping, real = numbers(row)
             self.assertAlmostEqual(frequency_hz, pole["frequency_hz"], delta=0.00051)
             self.assertAlmostEqual(damping, pole["damping_ratio"], delta=0.0000051)
             self.assertAlmostEqual(real, pole["real_part_1_per_s"], delta=0.00051)
+
+    def test_the_worst_come_first(self):
+        for rpm in (0, 30000):
+            _, loop = self.compute("poles", "--rig", "geared_rotor_8dof", "--speed-rpm", rpm)
+            poles = loop["speeds"][0]["poles"]
+            unstable = [pole for pole in poles if pole["unstable"]]
+            self.assertEqual([pole["real_part_1_per_s"] >= 0 for pole in unstable],
+                             [True] * len(unstable))
+            self.assertEqual(poles[:len(unstable)], unstable)
+            decaying = [pole["damping_ratio"] for pole in poles[len(unstable):]]
+            self.assertEqual(decaying, sorted(decaying))
+
+    def test_the_limit_of_the_list_hides_no_pole_that_grows(self):
+        """The geared rotor's growing pole at 30 000 rpm lies at 1.1 kHz, beyond the usual limit."""
+        printed = amb(self.folder, "poles", "--rig", "geared_rotor_8dof", "--speed-rpm", "30000",
+                      "--up-to-hz", "1").stdout
+        _, loop = self.compute("poles", "--rig", "geared_rotor_8dof", "--speed-rpm", "30000")
+        at = loop["speeds"][0]
+        growing = [pole for pole in at["poles"] if pole["unstable"]]
+        self.assertFalse(at["stable"])
+        self.assertTrue(all(pole["frequency_hz"] > 1000 for pole in growing), growing)
+        lines = printed.splitlines()
+        listed = lines[[" frequency Hz" in line for line in lines].index(True) + 1:]
+        self.assertEqual(sum("<- unstable" in line for line in listed), len(growing))
+        self.assertIn("<- unstable", listed[0])
+        # A stable loop has none such, with the same limit.
+        steady = amb(self.folder, "poles", "--rig", "geared_rotor_8dof", "--up-to-hz", "1").stdout
+        self.assertNotIn("<- unstable", steady)
 
     def test_gain_below_the_magnets_own_stiffness_is_called_unstable(self):
         """Drive end: ki Kp = 1.806e5 N/m against ks = 1.050e5 N/m, so half of it is too little."""

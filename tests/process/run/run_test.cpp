@@ -1,5 +1,6 @@
 // amb run as a person starts it: orderly runs.
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +41,7 @@ std::vector<cycle::CycleRecord> RecordsOf(const std::string& path) {
 TEST_F(RunTest, LevitatesJudgesAndLeavesNothingBehind) {
   AmbRun run(scratch_, "run", Short({"--json", scratch_ / "verdict.json"}));
   ASSERT_EQ(run.Status(), 0) << run.Said();
-  EXPECT_THAT(run.Said(), HasSubstr("\nACCEPTED: "));
+  EXPECT_THAT(run.Said(), HasSubstr(" of 6000 rpm: orbit standing "));
   for (const char* mode : {"lift ", "levitating ", "spinning ", "landing "}) {
     EXPECT_THAT(run.Said(), HasSubstr(std::string("\n") + mode));
   }
@@ -54,6 +55,10 @@ TEST_F(RunTest, LevitatesJudgesAndLeavesNothingBehind) {
   EXPECT_EQ(json["orbits"].size(), 4U);
   EXPECT_EQ(json["provenance"]["seed"], 1);
   EXPECT_EQ(json["provenance"]["session_file"], "");
+  const double shown_rpm = json["speed_range"]["shown_rpm"].get<double>();
+  EXPECT_NEAR(shown_rpm, 300.0, 6.0);  // within standstill_rpm, one frame before the last
+  EXPECT_NEAR(json["speed_range"]["shown_share"].get<double>(), shown_rpm / 6000.0, 1e-12);
+  EXPECT_THAT(run.Said(), HasSubstr(fmt::format("\nACCEPTED up to {:.0f} of 6000 rpm", shown_rpm)));
   EXPECT_GT(json["timing"]["cycles_per_s"].get<double>(), 0.0);
   EXPECT_NEAR(json["top_speed_rpm"].get<double>(), 300.0, 5.0);  // reached: within standstill_rpm
 }

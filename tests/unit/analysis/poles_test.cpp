@@ -189,5 +189,20 @@ TEST(ClosedLoopPoles, AreConjugateUnderReversalOfTheRotation) {
   }
 }
 
+TEST(WorstFirst, ListsWhatGrowsBeforeWhatIsHardlyDampedWhateverItsFrequency) {
+  const auto pole = [](double modulus, double damping) {
+    Pole one;
+    one.z = std::polar(modulus, 0.1);
+    one.damping_ratio = damping;
+    return one;
+  };
+  const auto sorted = WorstFirst(
+      {pole(0.9, 0.5), pole(1.01, -0.3), pole(0.999, 0.01), pole(1.2, -0.1), pole(1.0, 0.0)});
+  std::vector<double> dampings;
+  dampings.reserve(sorted.size());
+  for (const Pole& one : sorted) dampings.push_back(one.damping_ratio);
+  EXPECT_THAT(dampings, testing::ElementsAre(-0.1, -0.3, 0.0, 0.01, 0.5));
+}
+
 }  // namespace
 }  // namespace levitas::analysis

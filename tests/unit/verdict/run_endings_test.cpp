@@ -54,9 +54,11 @@ PhaseFigures Phase(const RigNumbers& rig, double radius_m, double speed_rad_per_
 Inputs GoodRun(const RigNumbers& rig) {
   Inputs in;
   in.rig = rig;
+  in.rig.max_speed_rad_per_s = RpmToRadPerS(6000.0);
   in.session.cycles = 20'000;
   in.session.duration_s = 2.0;
   in.session.top_speed_rad_per_s = RpmToRadPerS(3000.0);
+  in.session.levitated_speed_rad_per_s = in.session.top_speed_rad_per_s;
   in.session.standing = Phase(rig, 4e-6, 0.0);
   in.session.spinning = Phase(rig, 20e-6, in.session.top_speed_rad_per_s);
   return in;
@@ -82,11 +84,15 @@ const Ending kEndings[] = {
     {"everything met",
      [](Inputs&) {},
      Outcome::kAccepted,
-     {"ACCEPTED: orbit standing 4.0 um of 7.0 um", "spinning 20.0 um of 36.0 um", "(zone A)"}},
+     {"ACCEPTED up to 3000 of 6000 rpm: orbit standing 4.0 um of 7.0 um",
+      "spinning 20.0 um of 36.0 um", "(zone A)"}},
     {"never spun",
-     [](Inputs& in) { in.session.spinning = {}; },
+     [](Inputs& in) {
+       in.session.spinning = {};
+       in.session.levitated_speed_rad_per_s = 0.0;
+     },
      Outcome::kAccepted,
-     {"ACCEPTED: ", "spinning not run"}},
+     {"ACCEPTED standing, 0 of 6000 rpm: ", "spinning not run"}},
     {"orbit too large standing",
      [](Inputs& in) { in.session.standing.bearings[1].orbit.max_m = 9e-6; },
      Outcome::kNotAccepted,

@@ -46,7 +46,8 @@ TEST(Judge, AcceptsARunInsideEveryObjective) {
   const Verdict verdict = Judge(RunWith(4e-6, 20e-6));
   EXPECT_EQ(verdict.outcome, Outcome::kAccepted);
   EXPECT_EQ(verdict.sentence,
-            "ACCEPTED: orbit standing 4.0 um of 7.0 um allowed (zone A), spinning 20.0 um of 36.0 "
+            "ACCEPTED up to 2870 rpm: orbit standing 4.0 um of 7.0 um allowed (zone A), spinning "
+            "20.0 um of 36.0 "
             "um allowed (zone A)");
   EXPECT_EQ(verdict.orbits.size(), 4U);
   EXPECT_TRUE(verdict.objections.empty());
