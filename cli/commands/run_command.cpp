@@ -212,6 +212,16 @@ ExitStatus Execute(const RunOptions& asked) {
   return status;
 }
 
+void AddRigOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  command.add_option("--rig", options->rig, "Rig file, or the name of a shipped one")
+      ->capture_default_str();
+  command.add_option("--bias-current-a", options->bias_current_a,
+                     "Bias current [A] in place of the rig file's, for the rig and the controller; "
+                     "the session holds the rig as it was run");
+  command.add_option("--write-rig", options->rig_out,
+                     "Write the rig as it is run to this file, for the commands on the record");
+}
+
 }  // namespace
 
 void AddRunCommand(CLI::App& app, Action& action) {
@@ -219,8 +229,7 @@ void AddRunCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run",
                                          "Levitate the rig, simulated or on a real bus, with the "
                                          "controller process and judge the run");
-  command->add_option("--rig", options->rig, "Rig file, or the name of a shipped one")
-      ->capture_default_str();
+  AddRigOptions(*command, options);
   command
       ->add_option("--controller", options->controller,
                    "Controller file or shipped name; default: the one the rig file names")
@@ -229,12 +238,6 @@ void AddRunCommand(CLI::App& app, Action& action) {
       ->add_option("--scenario", options->scenario,
                    "Scenario file or shipped name; default: the one the rig file names")
       ->default_str(kGeneralScenario);
-  command->add_option(
-      "--bias-current-a", options->bias_current_a,
-      "Bias current [A] in place of the rig file's, for the rig and the controller; "
-      "the session holds the rig as it was run");
-  command->add_option("--write-rig", options->rig_out,
-                      "Write the rig as it is run to this file, for the commands on the record");
   command
       ->add_option("--duration", options->duration_s,
                    "Land after this long [s of the rig's time], wherever the scenario is")

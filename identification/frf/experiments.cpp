@@ -158,6 +158,15 @@ std::span<const double> SignalOf(const session::Recording& record, const Piece& 
       .subspan(piece.begin, piece.end - piece.begin);
 }
 
+/// What the last period lacks of a whole one is zero in the period before: an impulse train, or
+/// whole periods. A signal that was ended in its middle lacks more than time.
+bool EndsInSilence(std::span<const double> signal, std::size_t period) {
+  const std::size_t begun = signal.size() % period;
+  if (begun == 0 || signal.size() < period) return true;
+  const auto before = signal.subspan(signal.size() - begun - period, period).subspan(begun);
+  return std::all_of(before.begin(), before.end(), [](double value) { return value == 0.0; });
+}
+
 Experiment Periodic(const session::Recording& record, const Piece& piece,
                     const ExperimentOptions& options) {
   const auto signal = SignalOf(record, piece);
@@ -175,7 +184,8 @@ Experiment Periodic(const session::Recording& record, const Piece& piece,
   // An impulse train ends with its last stroke: its last period goes on as long as nothing else
   // begins.
   const std::size_t started = (signal.size() + *period - 1) / *period;
-  const bool complete = piece.begin + started * *period <= piece.available;
+  const bool complete =
+      EndsInSilence(signal, *period) && piece.begin + started * *period <= piece.available;
   const std::size_t periods = complete ? started : signal.size() / *period;
   if (periods < options.dropped_periods + options.needed_periods) {
     throw BadInput(fmt::format(

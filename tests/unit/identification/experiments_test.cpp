@@ -79,6 +79,16 @@ TEST(FindExperiments, CutsWholePeriodsAfterTheTransientAndLeavesOutTheRest) {
   EXPECT_EQ(found[1].begin, 50 + 3 * kPeriod + 37 + kPeriod);
 }
 
+// Its last period is not silent, as that of an impulse train is, so nothing after it belongs to it.
+TEST(FindExperiments, ASignalThatIsEndedWithinAPeriodGivesTheWholeOnes) {
+  session::Recording record = TwoAxes();
+  Excite(record, 1, 500, 4 * kPeriod + 7);
+  const std::vector<Experiment> whole = FindExperiments(TwoAxes(), {});
+  EXPECT_EQ(FindExperiments(record, {}).back().periods, whole.back().periods);
+  record.levitated[950] = 0;  // landed since
+  EXPECT_EQ(FindExperiments(record, {}).back().periods, whole.back().periods);
+}
+
 TEST(FindExperiments, DropsAsManyPeriodsAsAsked) {
   const session::Recording record = TwoAxes();
   const auto found = FindExperiments(record, {.dropped_periods = 2});
