@@ -112,7 +112,7 @@ void AddCompareCommand(CLI::App& app, Action& action) {
                       "Rig file or shipped name; default: the one in the session, so that a file "
                       "that is no session needs it");
   command
-      ->add_option("--speeds,--speed-rpm", options->speeds_rpm,
+      ->add_option("--speed-rpm,--speeds", options->speeds_rpm,
                    "Speeds to compare at [rpm]; default: those that the records hold")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1e6));

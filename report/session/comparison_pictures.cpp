@@ -28,9 +28,8 @@ double ReachUm(const Comparison& c, double circle_um) {
   return kRoom * reach;
 }
 
-svg::Series OrbitSeries(const Orbit& orbit, const std::string& name, std::size_t number) {
+svg::Series OrbitSeries(const Orbit& orbit, std::size_t number) {
   svg::Series series;
-  series.name = name;
   series.colour = svg::Colour(number);
   for (const double x_m : orbit.x_m) series.x.push_back(kUm * x_m);
   for (const double y_m : orbit.y_m) series.y.push_back(kUm * y_m);
@@ -42,6 +41,7 @@ NamedPicture OrbitsOf(const Comparison& c, std::size_t bearing, double circle_um
   figure.columns = c.speeds_rad_per_s.size();
   figure.panel_width = kOrbitWidth;
   figure.panel_height = kOrbitHeight;
+  std::vector<bool> named(c.records.size());  // once is enough: a legend needs room
   for (std::size_t i = 0; i < c.speeds_rad_per_s.size(); ++i) {
     svg::Panel panel{
         fmt::format("{}, {:.0f} rpm", c.bearings[bearing], RadPerSToRpm(c.speeds_rad_per_s[i])),
@@ -54,7 +54,10 @@ NamedPicture OrbitsOf(const Comparison& c, std::size_t bearing, double circle_um
     }
     for (std::size_t n = 0; n < c.records.size(); ++n) {
       const auto& at = c.records[n].speeds[i];
-      if (at) panel.series.push_back(OrbitSeries(at->orbits[bearing], c.records[n].label, n));
+      if (!at) continue;
+      panel.series.push_back(OrbitSeries(at->orbits[bearing], n));
+      if (!named[n]) panel.series.back().name = c.records[n].label;
+      named[n] = true;
     }
     figure.panels.push_back(std::move(panel));
   }
@@ -73,7 +76,6 @@ svg::Series AmplitudeCurve(const Comparison& c, std::size_t record, std::size_t 
                            std::size_t axis, Axes axes, double unit) {
   static constexpr const char* kDashes[] = {"", "6 3", "2 3", "8 3 2 3"};
   svg::Series series;
-  series.name = fmt::format("{} {:g}x", c.records[record].label, c.orders[order]);
   series.colour = svg::Colour(record);
   series.dashes = kDashes[order % std::size(kDashes)];
   for (const analysis::SynchronousRows& at : c.records[record].over_speed) {
@@ -83,9 +85,20 @@ svg::Series AmplitudeCurve(const Comparison& c, std::size_t record, std::size_t 
   return series;
 }
 
+/// "; solid 1x, dashed 3x"
+std::string LinesOf(const std::vector<double>& orders) {
+  static constexpr const char* kNames[] = {"solid", "dashed", "dotted", "dash-dotted"};
+  std::string text;
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    text +=
+        fmt::format("{} {} {:g}x", k == 0 ? ";" : ",", kNames[k % std::size(kNames)], orders[k]);
+  }
+  return text;
+}
+
 /// Amplitudes of one kind over speed, a panel per axis.
 NamedPicture OverSpeed(const Comparison& c, Axes axes, const std::string& name,
-                       const std::string& label, double unit) {
+                       const std::string& of, const std::string& label, double unit) {
   svg::Figure figure;
   figure.columns = 2;
   for (std::size_t axis = 0; axis < c.channels.size(); ++axis) {
@@ -93,14 +106,15 @@ NamedPicture OverSpeed(const Comparison& c, Axes axes, const std::string& name,
     for (std::size_t n = 0; n < c.records.size(); ++n) {
       for (std::size_t k = 0; k < c.orders.size(); ++k) {
         panel.series.push_back(AmplitudeCurve(c, n, k, axis, axes, unit));
+        if (axis == 0 && k == 0) panel.series.back().name = c.records[n].label;
       }
     }
     figure.panels.push_back(std::move(panel));
   }
-  return {name + "_over_speed",
+  return {name,
           fmt::format("Synchronous amplitude of the {} of each axis over speed, where the records "
-                      "turn without a test signal.",
-                      name),
+                      "turn without a test signal{}.",
+                      of, LinesOf(c.orders)),
           std::move(figure)};
 }
 
@@ -115,10 +129,10 @@ std::vector<NamedPicture> ComparisonPictures(const Comparison& comparison, doubl
   const bool turns = std::any_of(comparison.records.begin(), comparison.records.end(),
                                  [](const auto& record) { return !record.over_speed.empty(); });
   if (!turns) return pictures;
-  pictures.push_back(
-      OverSpeed(comparison, &analysis::SynchronousRows::position_m, "position", "um", kUm));
-  pictures.push_back(
-      OverSpeed(comparison, &analysis::SynchronousRows::current_a, "control current", "A", 1.0));
+  pictures.push_back(OverSpeed(comparison, &analysis::SynchronousRows::position_m,
+                               "position_over_speed", "position", "um", kUm));
+  pictures.push_back(OverSpeed(comparison, &analysis::SynchronousRows::current_a,
+                               "current_over_speed", "control current", "A", 1.0));
   return pictures;
 }
 

@@ -12,8 +12,9 @@ OPTIONS = {
     "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--json"},
     "poles": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--up-to-hz", "--json"},
     "margins": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--json"},
-    "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--csv", "--svg",
-                 "--json"},
+    "compare": {"--rig", "--speed-rpm", "--speeds", "--orders", "--page", "--circle-um", "--json"},
+    "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--free-run",
+                 "--controller", "--csv", "--svg", "--json"},
     "import": {"--rig", "--out", "--overwrite", "--tag", "--json"},
     "sessions": {"--rig", "--outcome", "--tag", "--text", "--from", "--to", "--catalogue", "--json"},
     "manual": {"--markdown", "--man", "--bash"},
@@ -23,7 +24,8 @@ OPTIONS = {
     "dash": {"--port", "--key", "--http-port", "--listen", "--allow-network", "--token", "--token-file", "--answer-within",
              "--json"},
     "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--port", "--record",
-            "--overwrite", "--tag", "--seed", "--json", "--dash", "--no-dash"},
+            "--overwrite", "--tag", "--seed", "--bias-current-a", "--write-rig", "--json", "--dash",
+            "--no-dash"},
     "identify": set(),  # its subcommands follow
     "identify frf": {"--rig", "--controller", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",
                      "--speed-rpm", "--json"},
@@ -31,7 +33,7 @@ OPTIONS = {
                        "--svg", "--starts", "--spread", "--spread-gains", "--json"},
     "doctor": {"--json"},
 }
-POSITIONAL = {"simulate": "session", "import": "DATA", "export": "SESSION", "report": "SESSION", "replay": "SESSION",
+POSITIONAL = {"simulate": "session", "import": "DATA", "export": "SESSION", "report": "SESSION", "compare": "RECORD", "replay": "SESSION",
               "identify frf": "DATA", "identify modal": "DATA"}
 
 
