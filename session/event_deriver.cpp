@@ -25,7 +25,8 @@ bool FrameUsable(const cycle::CycleRecord& record) noexcept { return record.in.f
 EventDeriver::EventDeriver(std::vector<std::string> channels, std::int64_t period_ns)
     : channels_(std::move(channels)),
       second_cycles_(
-          static_cast<std::uint64_t>(1'000'000'000 / std::max<std::int64_t>(period_ns, 1))) {}
+          static_cast<std::uint64_t>(1'000'000'000 / std::max<std::int64_t>(period_ns, 1))),
+      lift_(1e-9 * static_cast<double>(period_ns)) {}
 
 Event EventDeriver::Make(const cycle::CycleRecord& record, Event::Severity severity,
                          std::string text) const {
@@ -70,7 +71,7 @@ void EventDeriver::ModeAndFault(const cycle::CycleRecord& record,
   const Mode mode_before = have_previous_ ? previous_.out.mode : Mode::kOff;
   const Fault fault_before = have_previous_ ? previous_.out.fault : Fault::kNone;
   if (record.out.fault != Fault::kNone && record.out.fault != fault_before) {
-    events.push_back(Make(record, Event::Severity::kTrip, TripText(record, channels_)));
+    events.push_back(Make(record, Event::Severity::kTrip, TripText(record, channels_, &lift_)));
   } else if (record.out.mode != mode_before) {
     events.push_back(Make(record, Event::Severity::kInformation,
                           fmt::format("{} -> {} (cycle {})", Name(mode_before),
@@ -130,6 +131,7 @@ void EventDeriver::Step(const cycle::CycleRecord& record, std::vector<Event>& ev
   const bool rig_known = record.in.frame.axes > 0;
   Add(missing_frames_, rig_known && !FrameUsable(record) ? 1 : 0, record.in.cycle, record,
       kMissingFrame, events);
+  lift_.Add(record);
   previous_ = record;
   have_previous_ = true;
 }

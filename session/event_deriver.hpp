@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "controller/cycle/cycle_io.hpp"
+#include "session/lift_watch.hpp"
 #include "session/session_header.hpp"
 
 namespace levitas::session {
@@ -50,6 +51,7 @@ class EventDeriver {
   std::uint64_t second_cycles_;
   bool have_previous_{false};
   cycle::CycleRecord previous_;
+  LiftWatch lift_;
   bool turning_told_{false};  ///< since the mode became off
   Tally lost_records_;
   Tally missing_frames_;
@@ -57,8 +59,10 @@ class EventDeriver {
 };
 
 /// One sentence on a trip: cause, channel, value and limit with unit, cycle, what the safe state
-/// does, how to reset.
+/// does, how to reset. `lift`: what the records of the lift before it showed, may be null; with it
+/// a lift that failed names its reason and what helps.
 [[nodiscard]] std::string TripText(const cycle::CycleRecord& record,
-                                   const std::vector<std::string>& channels);
+                                   const std::vector<std::string>& channels,
+                                   const LiftWatch* lift = nullptr);
 
 }  // namespace levitas::session

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -54,6 +55,40 @@ std::string Where(const cycle::CycleOutputs& out, const std::vector<std::string>
   return fmt::format(" on {}", channels[axis]);
 }
 
+/// Why a lift was given up, with the figures of its last tenth of a second, and what helps.
+std::string LiftReasonText(const cycle::CycleOutputs& out, const LiftWatch& lift) {
+  const auto axis = static_cast<std::size_t>(std::max<int>(out.fault_axis, 0));
+  const double sag_um = lift.SagOf(axis) * kMicro;
+  const double radius_um = out.fault_limit * kMicro;
+  switch (lift.ReasonOf(axis, out.fault_limit)) {
+    case LiftReason::kUnknown:
+      return {};
+    case LiftReason::kAtLimit:
+      return fmt::format(
+          " The control current is at its limit and the rotor stays {:.4g} um off the centre: the "
+          "load is more than the magnets lift from there, or a probe or a coil is the wrong way "
+          "round.",
+          sag_um);
+    case LiftReason::kSags:
+      return fmt::format(
+          " It sags: from where it lay, {:.4g} um off the centre, it came to {:.4g} um, the settle "
+          "radius is {:.4g} um; the control current was {:.3g} A, below its limit. Raise ki "
+          "(without it the law carries the load with stiffness alone) or kp, or lift_timeout_s for "
+          "an integrator that is slow{}.",
+          lift.StartOf(axis) * kMicro, sag_um, radius_um, lift.CurrentOf(axis),
+          sag_um < 0.5 * lift.StartOf(axis) * kMicro
+              ? "; if it may hang there, raise settle_radius_um"
+              : "");
+    case LiftReason::kSwings:
+      return fmt::format(
+          " It does not sag (its mean place is {:.4g} um off the centre, the settle radius {:.4g} "
+          "um) but swings: it never stayed inside for lift_settle_s. Raise kd or settle_radius_um, "
+          "or lower the noise of the probes; amb poles names the least damped mode.",
+          sag_um, radius_um);
+  }
+  return {};
+}
+
 /// The safe state as the outputs of the tripping cycle command it (docs/safety.md).
 const char* SafeState(const CurrentFrame& current, double speed_rad_per_s) {
   if (!current.amplifiers_enabled) {
@@ -69,7 +104,8 @@ const char* SafeState(const CurrentFrame& current, double speed_rad_per_s) {
 
 }  // namespace
 
-std::string TripText(const cycle::CycleRecord& record, const std::vector<std::string>& channels) {
+std::string TripText(const cycle::CycleRecord& record, const std::vector<std::string>& channels,
+                     const LiftWatch* lift) {
   const auto index = static_cast<std::size_t>(record.out.fault);
   Row row = index < kRows.size() ? kRows[index] : Row{"unknown fault", 1.0, nullptr};
   // Without an axis the self-test failed because the rotor turns.
@@ -91,13 +127,17 @@ std::string TripText(const cycle::CycleRecord& record, const std::vector<std::st
                           row.unit, record.out.fault_limit * row.factor, row.unit);
   }
   const Fault fault = record.out.fault;
+  const std::string reason = fault == Fault::kLiftFailed && lift != nullptr
+                                 ? LiftReasonText(record.out, *lift)
+                                 : std::string{};
   const bool of_time = fault == Fault::kFrameMissing || fault == Fault::kDeadlineMissed ||
                        fault == Fault::kFramesLost || fault == Fault::kCurrentsLate;
   return fmt::format(
-      "TRIP {} in cycle {}: {}{}{}. {}{} When it stands and the cause is "
+      "TRIP {} in cycle {}: {}{}{}.{} {}{} When it stands and the cause is "
       "gone, give the command reset.",
       Name(record.out.fault), record.in.cycle, row.cause, Where(record.out, channels), numbers,
-      SafeState(record.out.current, record.in.frame.speed_rad_per_s), of_time ? kLateRemedy : "");
+      reason, SafeState(record.out.current, record.in.frame.speed_rad_per_s),
+      of_time ? kLateRemedy : "");
 }
 
 }  // namespace levitas::session

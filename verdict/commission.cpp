@@ -83,6 +83,8 @@ Verdict Commission(const CommissionOptions& options) {
     inputs.measured =
         MeasureSensitivity(options.session_path, rig, controller.law, inputs.sensitivity);
   }
+  inputs.damping = DampingOver(inputs.sensitivity, rig.plant, controller.law);
+  inputs.probe_noise_m = ProbeNoise(rig.plant);
   inputs.step_error =
       analysis::MeasureStepError(rig.plant, controller.law, inputs.session.top_speed_rad_per_s);
   inputs.timing = ReadControllerReport(options.controller_report, rig.numbers.period_s());

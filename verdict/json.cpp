@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/rotational_speed.hpp"
@@ -111,6 +112,7 @@ Object Sensitivity(const Inputs& in) {
                    {"worst_of_all_speeds", speed == in.worst_sensitivity},
                    {"stable", result.stable},
                    {"largest_pole_modulus", Number(result.largest_pole_modulus)},
+                   {"largest_singular_value", Number(result.largest_singular_value)},
                    {"axes", axes}});
   }
   AddMeasured(in, all);
@@ -196,6 +198,35 @@ Object Timing(const Inputs& in) {
   return timing;
 }
 
+Object Reserve(const Inputs& in) {
+  Object current = nullptr;
+  if (const auto used = CurrentUse(in.rig, in.session)) {
+    current = {{"axis", used->axis},
+               {"phase", used->spinning ? "spinning" : "standing"},
+               {"peak_a", Number(used->peak_a)},
+               {"limit_a", used->limit_a},
+               {"used_share", Number(used->share)}};
+  }
+  Object noise = Object::array();
+  const bool stood = in.session.standing.cycles > 0;
+  const PhaseFigures& phase = stood ? in.session.standing : in.session.spinning;
+  for (std::size_t b = 0; b < std::min(in.probe_noise_m.size(), phase.bearings.size()); ++b) {
+    const double orbit_m = phase.bearings[b].orbit.rms_m;
+    noise.push_back({{"bearing", phase.bearings[b].name},
+                     {"phase", stood ? "standing" : "spinning"},
+                     {"noise_rms_m", in.probe_noise_m[b]},
+                     {"orbit_rms_m", Number(orbit_m)},
+                     {"noise_share", Number(in.probe_noise_m[b] / orbit_m)}});
+  }
+  Object damping = nullptr;
+  if (in.damping) {
+    damping = {{"damping_ratio", in.damping->damping_ratio},
+               {"frequency_hz", in.damping->frequency_hz},
+               {"speed_rpm", RadPerSToRpm(in.damping->speed_rad_per_s)}};
+  }
+  return {{"current", current}, {"probe_noise", noise}, {"least_damping", damping}};
+}
+
 Object TimeStep(const Inputs& in) {
   if (!in.step_error) return nullptr;
   const analysis::StepError& error = *in.step_error;
@@ -246,6 +277,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
           {"currents", currents},
           {"sensitivity", Sensitivity(in)},
           {"sensitivity_not_measured", in.measured ? in.measured->why_not : "no test signal"},
+          {"reserve", Reserve(in)},
           {"time_step", TimeStep(in)},
           {"orbit_over_speed", Profile(in)},
           {"modes", Modes(in)},

@@ -135,6 +135,35 @@ void Sensitivity(const Inputs& in, Out out) {
   WorstSensitivity(in, out);
 }
 
+void Reserve(const Inputs& in, Out out) {
+  const auto used = CurrentUse(in.rig, in.session);
+  if (!used) return;
+  fmt::format_to(out,
+                 "\nreserve   {:.0f} % of the control current was used at most: {} {}, {:.3f} of "
+                 "{:.3f} A\n",
+                 100.0 * used->share, used->axis, PhaseName(used->spinning), used->peak_a,
+                 used->limit_a);
+  const bool stood = in.session.standing.cycles > 0;
+  const PhaseFigures& phase = stood ? in.session.standing : in.session.spinning;
+  for (std::size_t b = 0; b < std::min(in.probe_noise_m.size(), phase.bearings.size()); ++b) {
+    fmt::format_to(out,
+                   "          noise of the probes of {}: {:.2f} um rms, {:.2f} um the orbit {}\n",
+                   phase.bearings[b].name, Um(in.probe_noise_m[b]),
+                   Um(phase.bearings[b].orbit.rms_m), PhaseName(!stood));
+  }
+  if (in.damping) {
+    fmt::format_to(out,
+                   "          least damping ratio, computed: {:.4f} at {:.1f} Hz and {:.0f} rpm\n",
+                   in.damping->damping_ratio, in.damping->frequency_hz,
+                   RadPerSToRpm(in.damping->speed_rad_per_s));
+  }
+  double largest = 0.0;
+  for (const auto& at : in.sensitivity) largest = std::max(largest, at.largest_singular_value);
+  if (largest > 0.0) {
+    fmt::format_to(out, "          largest singular value of S, computed: {:.2f}\n", largest);
+  }
+}
+
 void TimeStep(const Inputs& in, Out out) {
   if (!in.step_error) return;
   const analysis::StepError& error = *in.step_error;
@@ -224,6 +253,7 @@ std::string Table(const Verdict& verdict) {
   Orbits(verdict, out);
   Currents(verdict.inputs, out);
   Sensitivity(verdict.inputs, out);
+  Reserve(verdict.inputs, out);
   TimeStep(verdict.inputs, out);
   Timing(verdict.inputs, out);
   if (!verdict.warnings.empty()) fmt::format_to(out, "\n");

@@ -24,6 +24,7 @@
 #include "analysis/step_error.hpp"
 #include "common/rig_numbers.hpp"
 #include "verdict/measure_sensitivity.hpp"
+#include "verdict/reserve.hpp"
 #include "verdict/session_statistics.hpp"
 #include "verdict/speed_range.hpp"
 #include "verdict/timing.hpp"
@@ -67,6 +68,8 @@ struct Inputs {
   std::size_t worst_sensitivity{};  ///< which of them is the worst
   /// Empty without a test signal in the record.
   std::optional<MeasuredSensitivity> measured;
+  std::vector<double> probe_noise_m;              ///< rms, per bearing; empty: not known
+  std::optional<LeastDamping> damping;            ///< of the model over the speeds of the run
   std::optional<analysis::StepError> step_error;  ///< of the simulation's time step
   std::optional<TimingFigures> timing;
   std::optional<RigFigures> rig_process;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include "configuration/schema/schema.hpp"
 
@@ -16,6 +18,7 @@ using scenario::SignalKind;
 // In the order of SignalKind and of Injection.
 constexpr std::array<std::string_view, 6> kSignals{"prbs",  "paprbs",    "stepped_sine",
                                                    "chirp", "multisine", "impulse"};
+constexpr std::string_view kEveryAxis = "all";
 constexpr std::array<std::string_view, 2> kPoints{"control_current", "measured_position"};
 
 void DescribeAmplitude(Visitor& v, scenario::Excitation& excitation, const RigNumbers& rig) {
@@ -70,7 +73,49 @@ void DescribeRepeat(Visitor& v, scenario::Excitation& excitation, std::string_vi
   v.Number({"repeat", kSecond, 1e-4, 1000, kRequired, meaning}, excitation.repeat_s);
 }
 
+/// An axis, or the word for all of them, which SpreadOverAxes takes apart.
+void DescribeAxes(Visitor& v, scenario::Excitation& excitation, const RigNumbers& rig) {
+  std::vector<std::string_view> names(rig.channels.begin(), rig.channels.end());
+  if (names.empty()) names.push_back(excitation.channel);  // written without its rig
+  names.push_back(kEveryAxis);
+  const auto at = std::ranges::find(names, excitation.channel);
+  auto index = at == names.end() ? 0 : static_cast<std::size_t>(at - names.begin());
+  const std::string owner = "rig " + rig.name;
+  v.Choice({"channel", names, kRequired, "axis of the rig, or every axis at once", owner}, index);
+  if (rig.channels.empty()) return;
+  excitation.channel = names[index];
+  excitation.axis = std::min(index, rig.channels.size() - 1);
+}
+
+/// One signal for each axis, pseudo-random ones begun at even shares of their period, so that they
+/// do not resemble each other.
+std::vector<scenario::Excitation> OnEveryAxis(const scenario::Excitation& one,
+                                              const RigNumbers& rig) {
+  std::vector<scenario::Excitation> all(rig.channels.size(), one);
+  for (std::size_t axis = 0; axis < all.size(); ++axis) {
+    all[axis].channel = rig.channels[axis];
+    all[axis].axis = axis;
+    const double share = static_cast<double>(axis) / static_cast<double>(all.size());
+    all[axis].start = std::fmod(one.start + share, 1.0);
+  }
+  return all;
+}
+
 }  // namespace
+
+void SpreadOverAxes(std::vector<scenario::Excitation>& excitations, const RigNumbers& rig) {
+  if (rig.channels.empty()) return;
+  std::vector<scenario::Excitation> spread;
+  for (const scenario::Excitation& one : excitations) {
+    if (one.channel != kEveryAxis) {
+      spread.push_back(one);
+      continue;
+    }
+    const auto all = OnEveryAxis(one, rig);
+    spread.insert(spread.end(), all.begin(), all.end());
+  }
+  excitations = std::move(spread);
+}
 
 void DescribeChannel(Visitor& v, const RigNumbers& rig, std::string& channel, std::size_t& axis) {
   std::vector<std::string_view> names(rig.channels.begin(), rig.channels.end());
@@ -85,7 +130,7 @@ void DescribeChannel(Visitor& v, const RigNumbers& rig, std::string& channel, st
 }
 
 void Describe(Visitor& v, scenario::Excitation& excitation, const RigNumbers& rig) {
-  DescribeChannel(v, rig, excitation.channel, excitation.axis);
+  DescribeAxes(v, excitation, rig);
   auto kind = static_cast<std::size_t>(excitation.kind);
   v.Choice({"signal", kSignals, "prbs", "kind of test signal"}, kind);
   excitation.kind = static_cast<SignalKind>(kind);

@@ -100,8 +100,13 @@ void Describe(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
 
 void DescribeExcitations(Visitor& v, scenario::Step& step, const RigNumbers& rig) {
   v.Number({"hold", kSecond, 0, 1e6, 0, "then stay this long"}, step.hold_s);
-  v.List({"excitation", 0, 4 * kMaxAxes, "test signals while the step holds"}, step.excitation,
+  constexpr std::size_t kMost = 4 * kMaxAxes;
+  v.List({"excitation", 0, kMost, "test signals while the step holds"}, step.excitation,
          [&](scenario::Excitation& excitation, std::size_t) { Describe(v, excitation, rig); });
+  SpreadOverAxes(step.excitation, rig);
+  v.RefuseIf(
+      step.excitation.size() > kMost, "excitation",
+      fmt::format("{} signals with those on all axes, allowed {}", step.excitation.size(), kMost));
   v.RefuseIf(!step.excitation.empty() && step.hold_s == 0.0, "hold_s",
              "an excitation acts during the hold time, which is 0");
   DescribeOrbitLimit(v, step, rig);

@@ -31,6 +31,8 @@ void DescribeTolerances(Visitor& v, std::optional<Tolerances>& tolerances);
 void DescribeEffects(Visitor& v, RigFile& rig);
 void Describe(Visitor& v, law::StateSpaceConfig& law, const RigNumbers& rig);
 void Describe(Visitor& v, scenario::Excitation& excitation, const RigNumbers& rig);
+/// Takes a signal of channel: all apart into one for each axis of the rig.
+void SpreadOverAxes(std::vector<scenario::Excitation>& excitations, const RigNumbers& rig);
 /// Hold time, test signals and orbit limit of a step.
 void DescribeExcitations(Visitor& v, scenario::Step& step, const RigNumbers& rig);
 void Describe(Visitor& v, ScheduledRigEvent& event, const RigNumbers& rig);

@@ -3,12 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
+#include "controller/scenario/excitation_guard.hpp"
+#include "controller/scenario/scenario_player.hpp"
 
 namespace levitas::config {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 RigNumbers Rig() { return LoadRig(FindConfig("flexible_rotor", "rigs")).numbers; }
@@ -105,6 +111,62 @@ TEST(ExcitationRequest, OfAnotherKindOfFileIsRefused) {
   EXPECT_THAT(Problems("kind: scenario\n"), HasSubstr("excitation"));
   EXPECT_NE(Problems(""), "");
   EXPECT_NE(Problems("\t\x01: ["), "");
+}
+
+std::string Prbs(const std::vector<std::string>& channels_and_starts) {
+  std::string text = "kind: excitation\nhold_s: 1\nexcitation:\n";
+  for (const std::string& which : channels_and_starts) {
+    text += "  - {channel: " + which + ", amplitude_a: 1, order: 9}\n";
+  }
+  return text;
+}
+
+/// The largest sum of a bearing that reaches the coils within a second, as a share of what its law
+/// has left: what is asked for, or, with the guard, what it lets through.
+double LargestSum(const scenario::Step& step, bool guarded) {
+  const RigNumbers rig = Rig();
+  scenario::ScenarioPlayer player({"test", {step}, {}}, rig.period_s(), 0.5);
+  scenario::ExcitationGuard guard(scenario::LimitsOf(rig, rig.bias_current_a));
+  double largest = 0.0;
+  for (int cycle = 0; cycle < 5000; ++cycle) {
+    auto given = player.Next(Mode::kLevitating, 0.0, Fault::kNone, false, 0.0, true);
+    if (guarded) guard.Limit({}, given.excitation_a, given.excitation_m);
+    for (std::size_t x = 0; x < rig.axes(); x += 2) {
+      largest = std::max(largest, std::hypot(given.excitation_a[x], given.excitation_a[x + 1]));
+    }
+  }
+  return largest / rig.bias_current_a;
+}
+
+TEST(ExcitationRequest, OnAllAxesIsWhatOneSignalPerAxisWouldBe) {
+  const scenario::Step all = ParseExcitation(Prbs({"all"}), "request", Rig());
+  const scenario::Step each = ParseExcitation(
+      Prbs({"de_x", "de_y, start: 0.25", "nde_x, start: 0.5", "nde_y, start: 0.75"}), "request",
+      Rig());
+  ASSERT_EQ(all.excitation.size(), 4U);
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    EXPECT_EQ(all.excitation[axis].channel, Rig().channels[axis]);
+    EXPECT_EQ(all.excitation[axis].axis, axis);
+    EXPECT_EQ(all.excitation[axis].start, each.excitation[axis].start);
+    EXPECT_EQ(all.excitation[axis].order, each.excitation[axis].order);
+  }
+  EXPECT_EQ(all.orbit_limit_m, each.orbit_limit_m);
+}
+
+// 1 A of 1 A on both axes of a bearing: sqrt(2) of what there is, of which the guard leaves 60 %.
+TEST(ExcitationRequest, OnAllAxesIsHeldToTheSumThatSeveralSignalsAreHeldTo) {
+  const scenario::Step all = ParseExcitation(Prbs({"all"}), "request", Rig());
+  EXPECT_NEAR(LargestSum(all, false), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(LargestSum(all, true), 0.6, 1e-12);
+}
+
+TEST(ExcitationRequest, OnAllAxesCountsAsAsManySignals) {
+  EXPECT_EQ(Problems(Prbs({"all", "all"})), "");
+  EXPECT_THAT(Problems(Prbs({"all", "all", "all"})), HasSubstr("12 signals"));
+}
+
+TEST(ExcitationRequest, NamesTheAxesAndTheWordForAllWhereItKnowsNeither) {
+  EXPECT_THAT(Problems(Prbs({"every"})), AllOf(HasSubstr("de_x"), HasSubstr("all")));
 }
 
 }  // namespace

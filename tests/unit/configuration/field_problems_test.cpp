@@ -156,7 +156,7 @@ TEST(Choice, OfAChannelIsTheRigs) {
       "hold_s: 1\n    excitation:\n      - {channel: dex, amplitude_a: 0.1}";
   EXPECT_EQ(
       ScenarioProblems(With(kScenario, "hold_s: 1", excitation)),
-      "scenario.yaml:9:19: steps[0].excitation[0].channel: found \"dex\", allowed de_x, de_y; "
+      "scenario.yaml:9:19: steps[0].excitation[0].channel: found \"dex\", allowed de_x, de_y, all; "
       "nearest de_x");
 }
 
@@ -165,10 +165,11 @@ TEST(Choice, OfTheChannelsOfAnotherRigIsOneProblemThatNamesThemAllAndTheRigs) {
   const std::string excitation =
       "hold_s: 1\n    excitation:\n      - {channel: lx, amplitude_a: 0.1}\n"
       "      - {channel: uy, amplitude_a: 0.1}\n      - {channel: lx, amplitude_a: 0.2}";
-  EXPECT_EQ(ScenarioProblems(With(kScenario, "hold_s: 1", excitation)),
-            "scenario.yaml:9:19: steps[0].excitation[0].channel: found \"lx\", \"uy\" in 3 places, "
-            "first here; rig small has de_x, de_y. The file seems to be written for another rig: "
-            "use it with that rig, or change these words");
+  EXPECT_EQ(
+      ScenarioProblems(With(kScenario, "hold_s: 1", excitation)),
+      "scenario.yaml:9:19: steps[0].excitation[0].channel: found \"lx\", \"uy\" in 3 places, "
+      "first here; rig small has de_x, de_y, all. The file seems to be written for another rig: "
+      "use it with that rig, or change these words");
 }
 
 TEST(Choice, OfAMisspeltChannelIsOneProblemHoweverOftenItIsWritten) {
@@ -177,7 +178,7 @@ TEST(Choice, OfAMisspeltChannelIsOneProblemHoweverOftenItIsWritten) {
       "      - {channel: dex, amplitude_a: 0.2}";
   EXPECT_EQ(ScenarioProblems(With(kScenario, "hold_s: 1", excitation)),
             "scenario.yaml:9:19: steps[0].excitation[0].channel: found \"dex\" in 2 places, first "
-            "here, allowed de_x, de_y; nearest de_x");
+            "here, allowed de_x, de_y, all; nearest de_x");
 }
 
 TEST(EveryProblem, IsListedInTheOrderOfTheFile) {

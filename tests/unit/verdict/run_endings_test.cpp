@@ -284,6 +284,8 @@ TEST(Json, NamesTheUnitOfEveryNumberThatHasOne) {
                                    "seed",
                                    "peak",
                                    "largest_pole_modulus",
+                                   "largest_singular_value",
+                                   "damping_ratio",
                                    "times_real_time",
                                    "skipped_periods",
                                    "missing_frames",

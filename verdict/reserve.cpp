@@ -1,0 +1,62 @@
+#include "verdict/reserve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/poles.hpp"
+
+namespace levitas::verdict {
+namespace {
+
+constexpr double kSlowestHz = 0.1;  // slower is an integrator, not a mode
+
+void TakeLarger(const RigNumbers& rig, const PhaseFigures& phase, bool spinning, double limit_a,
+                std::optional<CurrentReserve>& worst) {
+  if (phase.cycles == 0) return;
+  for (std::size_t axis = 0; axis < rig.axes(); ++axis) {
+    const double peak_a = phase.bearings[axis / 2].current[axis % 2].peak_a;
+    if (worst && peak_a <= worst->peak_a) continue;
+    worst = CurrentReserve{rig.channels[axis], spinning, peak_a, limit_a, peak_a / limit_a};
+  }
+}
+
+}  // namespace
+
+std::vector<double> ProbeNoise(const plant::PlantConfig& plant) {
+  std::vector<double> noise_m;
+  for (const auto& bearing : plant.bearings) {
+    const plant::SensorConfig& sensor = bearing.sensor;
+    const double step_m =
+        sensor.adc_bits > 0 ? std::ldexp(2.0 * sensor.range_m, -sensor.adc_bits) : 0.0;
+    // Two probes of a bearing, each with both parts.
+    const double square_m2 = sensor.noise_rms_m * sensor.noise_rms_m + step_m * step_m / 12.0;
+    noise_m.push_back(std::sqrt(2.0 * square_m2));
+  }
+  return noise_m;
+}
+
+std::optional<CurrentReserve> CurrentUse(const RigNumbers& rig, const SessionFigures& session) {
+  const double limit_a = std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);
+  std::optional<CurrentReserve> worst;
+  if (!(limit_a > 0.0)) return worst;
+  TakeLarger(rig, session.standing, false, limit_a, worst);
+  TakeLarger(rig, session.spinning, true, limit_a, worst);
+  return worst;
+}
+
+std::optional<LeastDamping> DampingOver(std::span<const analysis::SensitivityResult> speeds,
+                                        const plant::PlantConfig& plant,
+                                        const law::LawConfig& law) {
+  std::optional<LeastDamping> least;
+  for (const analysis::SensitivityResult& at : speeds) {
+    const auto loop = analysis::ClosedLoopPoles(plant, law, at.speed_rad_per_s);
+    for (const analysis::Pole& pole : loop.poles) {
+      if (std::abs(pole.frequency_hz) < kSlowestHz) continue;
+      if (least && pole.damping_ratio >= least->damping_ratio) continue;
+      least = LeastDamping{pole.damping_ratio, pole.frequency_hz, at.speed_rad_per_s};
+    }
+  }
+  return least;
+}
+
+}  // namespace levitas::verdict
