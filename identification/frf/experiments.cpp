@@ -158,6 +158,14 @@ std::span<const double> SignalOf(const session::Recording& record, const Piece& 
       .subspan(piece.begin, piece.end - piece.begin);
 }
 
+/// Whether the signal's period holds nothing but zeros from where the piece ends to `whole` rows.
+bool EndsInSilence(std::span<const double> signal, std::size_t period, std::size_t whole) {
+  for (std::size_t n = signal.size(); n < whole; ++n) {
+    if (signal[n - period] != 0.0) return false;
+  }
+  return true;
+}
+
 Experiment Periodic(const session::Recording& record, const Piece& piece,
                     const ExperimentOptions& options) {
   const auto signal = SignalOf(record, piece);
@@ -175,7 +183,8 @@ Experiment Periodic(const session::Recording& record, const Piece& piece,
   // An impulse train ends with its last stroke: its last period goes on as long as nothing else
   // begins.
   const std::size_t started = (signal.size() + *period - 1) / *period;
-  const bool complete = piece.begin + started * *period <= piece.available;
+  const bool complete = piece.begin + started * *period <= piece.available &&
+                        EndsInSilence(signal, *period, started * *period);
   const std::size_t periods = complete ? started : signal.size() / *period;
   if (periods < options.dropped_periods + options.needed_periods) {
     throw BadInput(fmt::format(
