@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "common/problem.hpp"
 #include "identification/frf/frequency_response.hpp"
@@ -76,6 +77,21 @@ TEST(ReadingExcitation, HasTheVarianceOfTheReadingsScatter) {
   }
   // 254 complex errors: their mean square is within 4/sqrt(254) of its expectation.
   EXPECT_NEAR(squares / expected, 1.0, 0.25);
+}
+
+TEST(Experiments, LeaveOutAPeriodThatTheSignalBreaksOffIn) {
+  LoopPlan plan;
+  plan.periods = 6;
+  session::Recording record = LinearLoop::Run(plan);
+  const std::size_t rows_per_axis = plan.periods * plan.period_samples;
+  const auto whole = FindExperiments(record);
+  ASSERT_EQ(whole.size(), 2U);
+  EXPECT_EQ(whole[0].periods, 5U);  // the first is the transient
+  // Half of the last period of the first axis is silent, and nothing else begins in it.
+  auto& signal = record.excitation_a[0];
+  std::fill(signal.begin() + static_cast<std::ptrdiff_t>(rows_per_axis - plan.period_samples / 2),
+            signal.end(), 0.0);
+  EXPECT_EQ(FindExperiments(record)[0].periods, 4U);
 }
 
 TEST(ReadingExcitation, OnOneAxisAndOfTheCurrentOnTheOtherIsRefused) {
