@@ -19,6 +19,7 @@ namespace {
 constexpr double kHeldS = 0.2;
 constexpr double kHeldShare = 0.002;
 constexpr double kHeldRadPerS = 0.25;
+constexpr double kSteadyRadPerS2 = 0.5;  // slower changes count as steady, as in a report
 constexpr double kLastS = 1.0;
 constexpr double kPassedShare = 0.02;
 /// Held stretches whose speeds differ by less are one speed of the record.
@@ -105,7 +106,9 @@ void SynchronousAnalysis::FindHeld() {
     const double last = MeanSpeed({end - rows / 4, end});
     const double before = MeanSpeed({end - rows / 2, end - rows / 4});
     // A slow ramp goes through an eighth of the band in each eighth of the rows; a hold stays.
-    const bool held = rows >= least && (Standing(start) || std::abs(last - before) < wide / 8.0);
+    const double quarter_s = 0.25 * static_cast<double>(rows) * recording_.period_s();
+    const double drift = std::min(wide / 8.0, kSteadyRadPerS2 * quarter_s);
+    const bool held = rows >= least && (Standing(start) || std::abs(last - before) < drift);
     if (held) held_.push_back({{begin, end}, Standing(start) ? 0.0 : last});
     begin = held ? end : begin + std::max<std::size_t>(1, rows / 8);
   }
