@@ -15,10 +15,10 @@ TEST(Convolve, IsTheSumOverThePast) {
   for (const std::size_t taps : {1U, 2U, 7U, 41U}) {
     for (const std::size_t count : {0U, 1U, 15U, 16U, 17U, 63U, 256U}) {
       std::vector<double> filter(taps);
-      std::vector<double> values(taps - 1 + count);
+      std::vector<double> values(taps + count);
       for (double& weight : filter) weight = random.Normal();
       for (double& value : values) value = random.Normal();
-      const double* now = values.data() + taps - 1;
+      const double* now = values.data() + taps;
       std::vector<double> to(count + 1, -7.0);
       Convolve(filter, now, count, to.data());
       for (std::size_t n = 0; n < count; ++n) {
