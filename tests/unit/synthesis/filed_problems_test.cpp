@@ -133,7 +133,7 @@ TEST(FiledProblems, AMassWithItsDisturbanceAtTheInputReachesOne) {
 
 // The distillation column of S. Skogestad, I. Postlethwaite, Multivariable Feedback Control,
 // 2005, example 8.12.4: gamma 1.182 in the first turn of the D-K iteration. A controller formed at
-// 1.02 gamma ends at 1.06: what it gives away, the next scalings do not take back.
+// 1.02 gamma comes to 1.07: what it gives away, the next scalings do not take back.
 TEST(FiledProblems, TheDistillationColumnGainsFromTurnToTurn) {
   const StateSpace lag =
       Proper(Eigen::RowVector2d(0.0, 1.0 / 75.0), Eigen::RowVector2d(1.0, 1.0 / 75.0));
@@ -158,7 +158,7 @@ TEST(FiledProblems, TheDistillationColumnGainsFromTurnToTurn) {
                                  {BlockKind::kFullComplex, 2, 2}};
   const auto iterate = [&](double relaxation) {
     return IterateDk(plant, blocks,
-                     {.turns = 7,
+                     {.turns = 4,
                       .settled = -1.0,
                       .peak = {.first_rad_per_s = 1e-4, .last_rad_per_s = 1e4},
                       .hinf = {.tolerance = 2e-4, .relaxation = relaxation}});
