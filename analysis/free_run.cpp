@@ -158,6 +158,13 @@ void Judge(const session::Recording& recording, const Innovations& innovations, 
   }
 }
 
+void RefuseNone(const session::Recording& recording, const std::vector<FreeRunSegment>& segments) {
+  if (!segments.empty()) return;
+  throw BadInput(recording.name +
+                 ": no test signal while levitated, so that there is nothing a free run could be "
+                 "moved by; a scenario with an excitation records one");
+}
+
 }  // namespace
 
 std::vector<FreeRunSegment> ExcitedSegments(const session::Recording& recording) {
@@ -171,17 +178,14 @@ std::vector<FreeRunSegment> ExcitedSegments(const session::Recording& recording)
 }
 
 void RefuseUnexcited(const session::Recording& recording) {
-  if (!ExcitedSegments(recording).empty()) return;
-  throw BadInput(recording.name +
-                 ": no test signal while levitated, so that there is nothing a free run could be "
-                 "moved by; a scenario with an excitation records one");
+  RefuseNone(recording, ExcitedSegments(recording));
 }
 
 FreeRun RunFree(const plant::PlantConfig& rig, const law::LawConfig& law,
                 const session::Recording& recording, const InnovationRun& one_step) {
   FreeRun made;
   made.segments = ExcitedSegments(recording);
-  RefuseUnexcited(recording);
+  RefuseNone(recording, made.segments);
   made.model_m.assign(recording.axes(), session::Column(recording.rows(), kNone));
   for (const session::RowRange& interval : recording.LevitatedIntervals()) {
     session::RowRange excited{interval.end, interval.begin};

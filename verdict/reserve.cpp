@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "analysis/observer.hpp"
 #include "analysis/poles.hpp"
 
 namespace levitas::verdict {
@@ -25,12 +27,8 @@ void TakeLarger(const RigNumbers& rig, const PhaseFigures& phase, bool spinning,
 std::vector<double> ProbeNoise(const plant::PlantConfig& plant) {
   std::vector<double> noise_m;
   for (const auto& bearing : plant.bearings) {
-    const plant::SensorConfig& sensor = bearing.sensor;
-    const double step_m =
-        sensor.adc_bits > 0 ? std::ldexp(2.0 * sensor.range_m, -sensor.adc_bits) : 0.0;
-    // Two probes of a bearing, each with both parts.
-    const double square_m2 = sensor.noise_rms_m * sensor.noise_rms_m + step_m * step_m / 12.0;
-    noise_m.push_back(std::sqrt(2.0 * square_m2));
+    // Two probes of a bearing.
+    noise_m.push_back(std::numbers::sqrt2 * analysis::ReadingNoise(bearing.sensor));
   }
   return noise_m;
 }

@@ -27,7 +27,7 @@ constexpr const char* kHelp =
     "of rotation, and the largest distance from the centre of the clearance. Only rows without a "
     "test signal count. A speed that is held at most 0.2 % off for 0.2 s is taken from the last "
     "second of the longest such stretch; one that is only passed from the nearest window of four "
-    "turns, and marked with ~. Standing still the mean is told.\n"
+    "turns, and marked with ~. Where the rotor stands, the mean is shown.\n"
     "  amb run --scenario run_up_6000 --record pid.lcm\n"
     "  amb run --scenario run_up_6000 --controller other.yaml --record other.lcm\n"
     "  amb compare pid.lcm other.lcm --speeds 0,1600,3000,6000 --orders 1,3 --page c.html "

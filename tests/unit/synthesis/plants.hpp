@@ -19,7 +19,7 @@ namespace levitas::synthesis {
 /// gain (s/zero + 1)/(s/pole + 1)
 [[nodiscard]] StateSpace FirstOrder(double gain, double zero, double pole);
 
-/// What a synthesis says of it; empty when it finds a controller.
+/// The message with which a synthesis refuses the plant; empty when it finds a controller.
 [[nodiscard]] std::string RefusalOf(const GeneralisedPlant& plant);
 
 /// dx = a x + w1 + u, z = (x, u), y = x + w2: smallest gamma a + sqrt(a^2 + 2), where both Riccati
