@@ -2,8 +2,8 @@
 // Sample point: state, currents and angle of the model in one sampling period, as terms need it.
 //
 // Made by    RunModel, once per sample of a record; read by every term and by the sensitivities.
-// Instant    "mean": over the period, from the start (after the observer's correction) to its end; of
-//            displacements by the cubic through both with their velocities. A force that is
+// Instant    "mean": over the period, from the start (after the observer's correction) to its end;
+//            of displacements by the cubic through both with their velocities. A force that is
 //            evaluated there and held acts with second-order accuracy.
 // Frame      bearing frame. Units SI. Modes of both planes: x plane, then y plane.
 // Thread     plain data.

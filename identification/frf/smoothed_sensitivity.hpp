@@ -7,7 +7,8 @@
 //            h grows through 2, 3, 5, 8, 12, 18 as long as the new value is no farther from each
 //            narrower one than noise moves it: |S^_h - S^_g|^2 <= 4 (var S^_g - var S^_h), g < h
 //            (Lepski's rule; the two variances subtract because the fits are nested, and noise
-//            alone exceeds it with the chance e^-4). A peak narrower than five lines keeps its line.
+//            alone exceeds it with the chance e^-4). A peak narrower than five lines keeps its own
+//            line.
 //            Size: sqrt(|S^|^2 - var S^), since E|S^|^2 = |S|^2 + var S^.
 // Not done   what the largest of the smoothed lines still adds: a third of sigma to one sigma.
 // Thread     any. Failure: none.

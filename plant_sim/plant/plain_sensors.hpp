@@ -1,6 +1,6 @@
 #pragma once
-// Whether the probes of a rig are such as methods need that model a probe by one pole and a straight
-// line. Thread: any; pure.
+// Whether the probes of a rig are such as methods need that model a probe by one pole and a
+// straight line. Thread: any; pure.
 
 #include <algorithm>
 

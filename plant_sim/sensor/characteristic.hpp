@@ -4,8 +4,8 @@
 //
 // Equation   cubic Hermite polynomial between neighbouring points; its slope at a point is the
 //            weighted harmonic mean of the two chords beside it, at the ends that of the chord
-//            (Fritsch & Butland 1984): monotone like the points, with a continuous slope. Beyond the
-//            table the slope of its end goes on.
+//            (Fritsch & Butland 1984): monotone like the points, with a continuous slope. Beyond
+//            the table the slope of its end goes on.
 // Centre     the curve passes through (0, 0): a probe is calibrated at the centre of its range. Its
 //            slope there is what linear models take (linear_model.hpp).
 // Units      m, along the axis before its polarity. Applied before the gain and the filter.

@@ -3,7 +3,8 @@
 // frequency response is a closed form, so an estimate from the record can be held against it.
 //
 // Equation  y[n] = A1 y[n-1] + A2 y[n-2] + B u[n-1],  reading = y + noise + run-out,
-//           u = -c reading + e, or u = -c (reading + e) with e / c for e.  P(z) = (I - A1 z^-1 - A2 z^-2)^-1 B z^-1.
+//           u = -c reading + e, or
+//           u = -c (reading + e / c).  P(z) = (I - A1 z^-1 - A2 z^-2)^-1 B z^-1.
 // Poles     1.18 and 0.72 alone; of magnitude 0.93 in the loop, so that a transient falls below
 //           rounding within one period of the test signal (0.93^510 = 1e-16).
 // Units     m, A. Every random number has a seed.
