@@ -52,6 +52,10 @@ Eigen::VectorXd Scales(const plant::PlantModel& model, double reading_m) {
   scale.segment(static_cast<Eigen::Index>(layout.v_y), modes).setConstant(reading_m * kTypicalRate);
   scale.segment(static_cast<Eigen::Index>(layout.coil_current), axes).setConstant(kTypicalCurrentA);
   scale.segment(static_cast<Eigen::Index>(layout.sensor), axes).setConstant(reading_m);
+  scale
+      .segment(static_cast<Eigen::Index>(layout.sensor_rate()),
+               static_cast<Eigen::Index>(layout.sensor_rates))
+      .setConstant(reading_m * kTypicalRate);
   scale.tail(channels).setConstant(kTypicalForceN);
   return scale;
 }

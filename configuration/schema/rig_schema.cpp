@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "configuration/schema/schema.hpp"
+#include "plant_sim/sensor/characteristic.hpp"
 
 namespace levitas::config {
 namespace {
@@ -22,9 +24,39 @@ void DescribePolarity(Visitor& v, std::string_view key, std::string_view meaning
   value = sign;
 }
 
+void DescribeCharacteristic(Visitor& v, plant::SensorConfig& sensor) {
+  constexpr double kFarthestUm = 20000.0;
+  v.List({"characteristic", 0, 200,
+          "measured curve of the probe, ascending, one point at the centre; none: a straight line"},
+         sensor.characteristic, [&](sensor::ProbePoint& point, std::size_t) {
+           v.Number({"displacement", kMicrometre, -kFarthestUm, kFarthestUm, kRequired,
+                     "where the rotor is along the axis"},
+                    point.displacement_m);
+           v.Number({"reading", kMicrometre, -kFarthestUm, kFarthestUm, kRequired,
+                     "what the probe says there, before its gain and filter"},
+                    point.reading_m);
+         });
+  // Fields that were refused are NaN and have been reported.
+  if (std::ranges::any_of(sensor.characteristic, [](const sensor::ProbePoint& point) {
+        return std::isnan(point.displacement_m) || std::isnan(point.reading_m);
+      })) {
+    return;
+  }
+  std::string problem;
+  try {
+    sensor::CheckCharacteristic("curve of the probe", sensor.characteristic);
+  } catch (const std::invalid_argument& refused) {
+    problem = refused.what();
+  }
+  v.RefuseIf(!problem.empty(), "characteristic", problem);
+}
+
 void Describe(Visitor& v, plant::SensorConfig& sensor) {
-  v.Number({"bandwidth", kHertz, 10, 1e6, kRequired, "-3 dB of the first-order sensor"},
-           sensor.bandwidth_hz);
+  constexpr std::array<std::string_view, 2> kFilters{"first_order", "butterworth_2"};
+  auto filter = static_cast<std::size_t>(sensor.filter);
+  v.Choice({"filter", kFilters, "first_order", "what precedes the converter"}, filter);
+  sensor.filter = static_cast<plant::SensorFilter>(filter);
+  v.Number({"bandwidth", kHertz, 10, 1e6, kRequired, "-3 dB of that filter"}, sensor.bandwidth_hz);
   v.Number({"noise_rms", kMicrometre, 0, 1000, kRequired, "white noise of one sample"},
            sensor.noise_rms_m);
   v.Integer({"adc_bits", 0, 24, 0, "resolution of the converter over its range; 0 for none"},
@@ -33,6 +65,7 @@ void Describe(Visitor& v, plant::SensorConfig& sensor) {
            sensor.range_m);
   v.Number({"gain", kOne, 0.1, 10, 1, "reading per displacement; 1 for a sensor as calibrated"},
            sensor.gain);
+  DescribeCharacteristic(v, sensor);
 }
 
 void Describe(Visitor& v, plant::TouchdownConfig& touchdown) {

@@ -8,6 +8,7 @@
 
 #include "common/problem.hpp"
 #include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/plant/plain_sensors.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -73,6 +74,10 @@ Theta Of(const effect::EffectConfig& entry, const config::RigFile& file) {
 }  // namespace
 
 Theta EffectsOf(const config::RigFile& file) {
+  if (!plant::HasPlainSensors(file.plant)) {
+    throw BadInput(
+        fmt::format("rig {}: a diagnosis {}", file.numbers.name, plant::kPlainSensorsOnly));
+  }
   Theta all = Zeros(0);
   for (const effect::EffectConfig& entry : file.plant.effects) {
     if (entry.timed() || entry.strength != 1.0) {

@@ -9,6 +9,7 @@
 #include "common/problem.hpp"
 #include "diagnosis/model/sample_point.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
+#include "plant_sim/plant/plain_sensors.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -49,6 +50,9 @@ RigView::RigView(const RigNumbers& rig_numbers, const plant::PlantConfig& plant)
       modes(model->layout().modes),
       period_s(static_cast<double>(plant.period_ns) * 1e-9) {
   std::copy_if(plant.effects.begin(), plant.effects.end(), std::back_inserter(by_chance), ByChance);
+  if (!plant::HasPlainSensors(plant)) {
+    throw BadInput(fmt::format("rig {}: a diagnosis {}", numbers.name, plant::kPlainSensorsOnly));
+  }
   if (modes > kMaxModes) {
     throw BadInput(
         fmt::format("rig {} has {} modes per plane, a diagnosis takes at most {}: lower "

@@ -9,6 +9,7 @@
 #include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
 #include "identification/modal/modal_quality.hpp"
+#include "plant_sim/plant/plain_sensors.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -43,6 +44,10 @@ ResponseOptions ModalResponseOptions(const config::RigFile& rig) {
 ModalResult IdentifyModal(const config::RigFile& rig,
                           const std::vector<FrequencyResponse>& responses,
                           const ModalFitOptions& options) {
+  if (!plant::HasPlainSensors(rig.plant)) {
+    throw BadInput(fmt::format("rig {}: the modal identification {}", rig.numbers.name,
+                               plant::kPlainSensorsOnly));
+  }
   const FrequencyResponse& standing = responses.front();
   if (std::abs(standing.speed_rad_per_s) >= 1.0) {
     throw BadInput(fmt::format(

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "plant_sim/plant/train_model.hpp"
+#include "plant_sim/sensor/characteristic.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -59,6 +60,7 @@ void CheckBearing(const BearingConfig& b, const std::string& at) {
   Within(at + "sensor.adc_bits", b.sensor.adc_bits, 0, 32);
   NotNegative(at + "sensor.range_m", b.sensor.range_m);
   if (b.sensor.adc_bits > 0) Positive(at + "sensor.range_m (with adc_bits)", b.sensor.range_m);
+  sensor::CheckCharacteristic(at + "sensor.characteristic", b.sensor.characteristic);
   Within(at + "sensor.gain", b.sensor.gain, -kInfinity, kInfinity);
   Within(at + "touchdown.clearance_m", b.touchdown.clearance_m, 0.0, b.magnet.gap_m);
   NotNegative(at + "touchdown.stiffness_n_per_m", b.touchdown.stiffness_n_per_m);

@@ -3,7 +3,8 @@
 // at which the levitated rotor stands (find_operating_point.hpp), for poles and margins.
 //
 // Continuous   x' = A x + B ic,  y = C x : states ordered as StateLayout, magnet F = ki ic + ks x,
-//              amplifier and sensor filters included, no contact, gravity, unbalance or noise.
+//              amplifier and sensor filters included, no contact, gravity, unbalance or noise;
+//              the measured curve of a probe by its slope at the centre.
 // Effects      those that are linear and do not depend on the rotor's angle, at the strengths the
 //              model has; extra_delay is PlantModel::delay_samples(). Left out: hysteresis (its
 //              state is there, decays and acts on nothing), slew, rub, anisotropy, crack, all

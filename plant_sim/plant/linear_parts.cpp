@@ -190,9 +190,27 @@ void AddSensors(const PlantModel& model, std::size_t bearing, Eigen::MatrixXd& a
     const ReadingEffects& reading = model.effects().readings[axis];
     const Index filter = At(model.layout().sensor + axis);
     const double rate = 2.0 * std::numbers::pi * reading.bandwidth_hz;
-    a(filter, filter) = -rate;
+    Index driven = filter;
+    double drive = rate * reading.gain;
+    if (model.bearings()[bearing].filter == SensorFilter::kButterworth2) {
+      // s'' + 2 z w s' + w^2 s = w^2 g p
+      driven = At(model.layout().sensor_rate() + axis);
+      drive *= rate;
+      a(filter, driven) = 1.0;
+      a(driven, filter) = -rate * rate;
+      a(driven, driven) = -2.0 * sensor::kButterworthDamping * rate;
+    } else {
+      a(filter, filter) = -rate;
+      // Of a rig whose other probes have the state: it is there, decays and acts on nothing.
+      if (model.layout().sensor_rates > 0) {
+        const Index unused = At(model.layout().sensor_rate() + axis);
+        a(unused, unused) = -rate;
+      }
+    }
+    const sensor::Characteristic& curve = model.bearings()[bearing].characteristic;
+    if (!curve.straight()) drive *= curve.SlopeAtCentre();
     for (int from = 0; from < 2; ++from) {
-      a.row(filter) += rate * reading.gain * turn(to, from) *
+      a.row(driven) += drive * turn(to, from) *
                        Seen(model, bearing, from, model.bearings()[bearing].sensor_shape, a.cols());
     }
   }

@@ -34,7 +34,7 @@ void AddMagnets(const PlantModel& model, std::size_t bearing, const Slopes& slop
 /// The current that makes flux on an axis, as a row; with it the lags' own equations into `a`.
 [[nodiscard]] Eigen::RowVectorXd Flux(const PlantModel& model, std::size_t axis,
                                       Eigen::MatrixXd& a);
-/// First-order sensors of a bearing.
+/// Sensors of a bearing: filters of first or second order, curves by their slope at the centre.
 void AddSensors(const PlantModel& model, std::size_t bearing, Eigen::MatrixXd& a);
 
 /// The model with given slopes of its magnets.

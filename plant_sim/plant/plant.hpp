@@ -47,6 +47,9 @@ struct StateLayout {
   std::size_t size{};
   std::size_t twists{};  ///< torsional modes of geared shafts
   std::size_t q_t{};     ///< their displacement, right behind q_y; their velocity right behind v_y
+  std::size_t sensor_rates{};  ///< number of states behind `sensor`: d/dt of the filtered position,
+                               ///< one per axis where any filter is of second order, else 0
+  [[nodiscard]] std::size_t sensor_rate() const noexcept { return effects - sensor_rates; }
 };
 
 class PlantModel;  // reduced rotor and derived constants, shared by copies

@@ -11,6 +11,7 @@
 #include "plant_sim/gear/gear_config.hpp"
 #include "plant_sim/rotor/rotor_config.hpp"
 #include "plant_sim/rotor/shaft_config.hpp"
+#include "plant_sim/sensor/probe_point.hpp"
 
 namespace levitas::plant {
 
@@ -56,12 +57,17 @@ struct AmplifierConfig {
   std::optional<VoltageDrive> voltage{};  ///< when there, it takes the place of the current loop
 };
 
+enum class SensorFilter : std::uint8_t { kFirstOrder, kButterworth2 };
+
 struct SensorConfig {
-  double bandwidth_hz{};  ///< first order
+  double bandwidth_hz{};  ///< -3 dB
   double noise_rms_m{};   ///< white, per sample
   int adc_bits{};         ///< 0 = no quantisation
   double range_m{};       ///< converter covers +- range, clips beyond
   double gain{1.0};       ///< reading per displacement; 1 = as calibrated
+  SensorFilter filter{SensorFilter::kFirstOrder};
+  std::vector<sensor::ProbePoint>
+      characteristic;  ///< static curve before the filter; empty = a straight
 };
 
 /// Touchdown (retainer) bearing at the actuator plane.

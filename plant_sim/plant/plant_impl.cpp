@@ -90,7 +90,34 @@ AxisArray Plant::Impl::SensorPositions() const noexcept {
              seen_m[2 * b + 1]);
   }
   if (model->effects().views) View(*model, heading.cosine, heading.sine, state.data(), seen_m);
+  for (std::size_t axis = 0; axis < model->axes(); ++axis) {
+    const sensor::Characteristic& curve = model->bearings()[axis / 2].characteristic;
+    if (!curve.straight()) seen_m[axis] = curve(seen_m[axis]);
+  }
   return seen_m;
+}
+
+void Plant::Impl::FollowDisplacements(const StepTable& table, const AxisArray& seen_m,
+                                      const AxisArray& now_m) noexcept {
+  const StateLayout& at = model->layout();
+  for (std::size_t a = 0; a < model->axes(); ++a) {
+    double& filtered = state[at.sensor + a];
+    if (model->bearings()[a / 2].filter == SensorFilter::kButterworth2) {
+      // s'' + 2 z w s' + w^2 s = w^2 g p, which is a mode that w^2 g p accelerates.
+      const ModeStep& step = table.second_order[a];
+      const ReadingEffects& reading = model->effects().readings[a];
+      const double w = 2.0 * std::numbers::pi * reading.bandwidth_hz;
+      const double start = w * w * reading.gain * seen_m[a];
+      const double change = w * w * reading.gain * (now_m[a] - seen_m[a]);
+      double& rate = state[at.sensor_rate() + a];
+      const double before = filtered;
+      filtered = step.xx * before + step.xv * rate + step.x0 * start + step.x1 * change;
+      rate = step.vx * before + step.vv * rate + step.v0 * start + step.v1 * change;
+      continue;
+    }
+    const sensor::FilterStep& filter = table.sensor[a];
+    filtered = filter.decay * filtered + filter.start * seen_m[a] + filter.end * now_m[a];
+  }
 }
 
 void Plant::Impl::FollowCurrents(const StepTable& table, const CoilCommand& command) noexcept {
@@ -169,11 +196,7 @@ void Plant::Impl::Integrate(const StepTable& table, const CoilCommand& coils,
             report.slip_rad_per_s, table.duration_s);
     }
     const AxisArray now_m = SensorPositions();
-    for (std::size_t a = 0; a < model->axes(); ++a) {
-      const sensor::FilterStep& filter = table.sensor[a];
-      double& filtered = state[at.sensor + a];
-      filtered = filter.decay * filtered + filter.start * seen_m[a] + filter.end * now_m[a];
-    }
+    FollowDisplacements(table, seen_m, now_m);
     seen_m = now_m;
   }
 }
@@ -240,6 +263,7 @@ void Plant::Impl::SettleSensors() noexcept {
   const AxisArray seen_m = SensorPositions();
   for (std::size_t axis = 0; axis < model->axes(); ++axis) {
     state[model->layout().sensor + axis] = model->effects().readings[axis].gain * seen_m[axis];
+    if (model->layout().sensor_rates > 0) state[model->layout().sensor_rate() + axis] = 0.0;
   }
 }
 
@@ -272,8 +296,11 @@ void Plant::Impl::Jitter(AxisArray& output_m) noexcept {
   for (std::size_t axis = 0; axis < model->axes(); ++axis) {
     const ReadingEffects& reading = model->effects().readings[axis];
     const double rate_1_per_s = 2.0 * std::numbers::pi * reading.bandwidth_hz;
-    output_m[axis] += late_s * rate_1_per_s *
-                      (reading.gain * seen_m[axis] - state[model->layout().sensor + axis]);
+    const bool second_order = model->bearings()[axis / 2].filter == SensorFilter::kButterworth2;
+    output_m[axis] +=
+        late_s * (second_order ? state[model->layout().sensor_rate() + axis]
+                               : rate_1_per_s * (reading.gain * seen_m[axis] -
+                                                 state[model->layout().sensor + axis]));
   }
 }
 

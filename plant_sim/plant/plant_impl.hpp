@@ -93,6 +93,10 @@ struct Plant::Impl {
 
   [[nodiscard]] AxisArray SensorPositions() const noexcept;
 
+  // Filters of all axes over one substep, in which the displacement runs linearly.
+  void FollowDisplacements(const StepTable& table, const AxisArray& seen_m,
+                           const AxisArray& now_m) noexcept;
+
   void FollowCurrents(const StepTable& table, const CoilCommand& command) noexcept;
 
   // A coil on a voltage: each by its own inductance, which the gap decides.

@@ -49,7 +49,11 @@ PlantModel::PlantModel(PlantParameters parameters) : parameters_(std::move(param
   layout_.v_y = layout_.v_x + modes;
   layout_.coil_current = 2 * coordinates();
   layout_.sensor = layout_.coil_current + axes;
-  layout_.effects = layout_.size = layout_.sensor + axes;
+  const bool second_order = std::ranges::any_of(config().bearings, [](const BearingConfig& b) {
+    return b.sensor.filter == SensorFilter::kButterworth2;
+  });
+  layout_.sensor_rates = second_order ? axes : 0;
+  layout_.effects = layout_.size = layout_.sensor + axes + layout_.sensor_rates;
   train_ =
       BuildTrain(config(), {parameters_.modes, parameters_.torsion, parameters_.first_torsion_row});
   gears_ = PrepareGears(parameters_, train_);
@@ -148,6 +152,8 @@ void PlantModel::BuildBearings() {
     model.converter = {b.sensor.noise_rms_m,
                        amplifier::ConverterStep(b.sensor.range_m, b.sensor.adc_bits),
                        b.sensor.range_m};
+    model.filter = b.sensor.filter;
+    model.characteristic = sensor::Characteristic(b.sensor.characteristic);
     model.touchdown = {b.touchdown.clearance_m, b.touchdown.stiffness_n_per_m,
                        b.touchdown.damping_n_s_per_m, b.touchdown.friction,
                        b.touchdown.journal_radius_m};

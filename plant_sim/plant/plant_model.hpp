@@ -23,6 +23,7 @@
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/plant/train_model.hpp"
 #include "plant_sim/rotor/finite_element.hpp"
+#include "plant_sim/sensor/characteristic.hpp"
 #include "plant_sim/sensor/sensor.hpp"
 #include "plant_sim/support/touchdown.hpp"
 
@@ -44,6 +45,7 @@ struct StepTable {
   std::vector<double> xx, xv, vx, vv, x0, v0, x1, v1;
   std::vector<amplifier::Step> amplifier;  ///< per axis
   std::vector<sensor::FilterStep> sensor;  ///< per axis
+  std::vector<ModeStep> second_order;      ///< per axis; empty where all filters are of first order
   std::vector<sensor::FilterStep> eddy;    ///< per axis and lag; empty without eddy currents
   std::vector<ModeStep> housing;           ///< per bearing; empty when none moves
 };
@@ -58,6 +60,8 @@ struct BearingModel {
   bool x_only{};             ///< no force in y, where a guide holds the rotor
   double far_gap_m{};        ///< of the coil away from +x, the rotor centred
   sensor::Converter converter;
+  SensorFilter filter{};
+  sensor::Characteristic characteristic;
   support::Touchdown touchdown;
   bool has_touchdown{};
   double speed_ratio{1.0};             ///< of its shaft: speed over that of the first, (G15)

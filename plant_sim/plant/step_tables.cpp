@@ -32,6 +32,7 @@ void PlantModel::ReserveSteps() {
     }
     table.amplifier.resize(axes);
     table.sensor.resize(axes);
+    if (layout_.sensor_rates > 0) table.second_order.resize(axes);
     if (eddy) table.eddy.resize(axes * effect::kEddyLags);
     if (effects_.housings) table.housing.resize(bearings_.size());
   }
@@ -88,6 +89,10 @@ void PlantModel::RefreshStep(StepTable& table, double share) noexcept {
     const ReadingEffects& reading = effects_.readings[axis];
     table.sensor[axis] =
         sensor::MakeFilterStep(reading.bandwidth_hz, reading.gain, table.duration_s);
+    if (!table.second_order.empty()) {
+      table.second_order[axis] = MakeModeStep(2.0 * std::numbers::pi * reading.bandwidth_hz,
+                                              sensor::kButterworthDamping, table.duration_s);
+    }
   }
   for (std::size_t i = 0; i < table.eddy.size(); ++i) {
     const std::size_t axis = i / effect::kEddyLags;

@@ -1,14 +1,19 @@
 #pragma once
-// Position sensor of one axis: first-order filter, then noise, converter and polarity.
+// Position sensor of one axis: filter of first or second order, then noise, converter and polarity.
 //
 // Equation   s' = (g p - s)/tau; over a step the position p runs linearly from start to end, for
-//            which the step is exact. docs/derivations.md (20)-(22).
-// Thread     any; pure functions. Not done: run-out, non-linear characteristic.
+//            which the step is exact. docs/derivations.md (20)-(22). A Butterworth filter of second
+//            order, s'' + 2 z w s' + w^2 s = w^2 g p with z = 1/sqrt 2, steps as a mode does
+//            (plant/mode_step.hpp); its -3 dB are at w.
+// Thread     any; pure functions. Not done: run-out; the static curve, see characteristic.hpp.
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace levitas::sensor {
+
+inline constexpr double kButterworthDamping = std::numbers::sqrt2 / 2.0;
 
 /// s(h) = decay s(0) + start p(0) + end p(h)
 struct FilterStep {

@@ -30,6 +30,32 @@ std::string WithVoltage(const std::string& more) {
       With(kRig, "bandwidth_hz: 1000", "voltage: {time_constant_ms: 30, decay_mm: 5" + more + "}"));
 }
 
+// A further key of the probe.
+std::string WithProbe(const std::string& more) {
+  return RigProblems(With(kRig, "noise_rms_um: 1\n", "noise_rms_um: 1\n      " + more + "\n"));
+}
+
+TEST(Probe, TakesAFilterOfSecondOrderAndNoOther) {
+  EXPECT_EQ(WithProbe("filter: butterworth_2"), "");
+  EXPECT_EQ(WithProbe("filter: first_order"), "");
+  EXPECT_NE(WithProbe("filter: bessel").find("bearings[0].sensor.filter"), std::string::npos);
+}
+
+TEST(Probe, TakesAMeasuredCurveThatAscendsThroughTheCentre) {
+  const auto curve = [](const std::string& last) {
+    return WithProbe(
+        "characteristic: [{displacement_um: -100, reading_um: -90}, {displacement_um: 0, "
+        "reading_um: 0}, {displacement_um: 100, reading_um: " +
+        last + "}]");
+  };
+  EXPECT_EQ(curve("120"), "");
+  EXPECT_NE(curve("-1").find("must both ascend"), std::string::npos);
+  EXPECT_NE(WithProbe("characteristic: [{displacement_um: -100, reading_um: -90}, "
+                      "{displacement_um: 100, reading_um: 120}]")
+                .find("one point must be the centre"),
+            std::string::npos);
+}
+
 TEST(Voltage, TakesWhatACoilCanDoAndRefusesTheRestKeyByKey) {
   EXPECT_EQ(WithVoltage(""), "");
   EXPECT_EQ(WithVoltage(", dead_band_ma: 90, curvature: -0.2, iron_1_per_a2: 0.2, "

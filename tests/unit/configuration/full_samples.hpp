@@ -9,6 +9,7 @@ namespace levitas::config::test {
 inline RigFile FullRig() {
   RigFile rig = LoadRig(FindConfig("flexible_rotor", "rigs"));
   rig.plant.rotor.rings.push_back({0.2, 0.01, 9.525e-3, 0.05, 7850.0});
+  rig.plant.bearings[0].sensor.characteristic = {{-1e-4, -9e-5}, {0.0, 0.0}, {1e-4, 1.2e-4}};
   rig.lines.emergency_stop = gpio::LinePlace{"gpiochip0", 0, true, gpio::Bias::kInternal};
   rig.lines.amplifier_enable = gpio::LinePlace{"pinctrl-bcm2711", 17, true, gpio::Bias::kExternal};
   rig.lines.amplifier_fault = gpio::LinePlace{"/dev/gpiochip1", 2, false, gpio::Bias::kExternal};
@@ -51,7 +52,11 @@ inline scenario::ScenarioConfig FullScenario(const RigNumbers& rig) {
 }
 
 /// A rotor of given modes, and the state-space law that goes with it.
-inline RigFile ModalRig() { return LoadRig(FindConfig("turbomolecular_pump", "rigs")); }
+inline RigFile ModalRig() {
+  RigFile rig = LoadRig(FindConfig("turbomolecular_pump", "rigs"));
+  rig.plant.rotor.given->gyroscopic = {{1, 0, -0.05}};
+  return rig;
+}
 
 inline ControllerFile StateSpaceController(const RigNumbers& rig) {
   return LoadController(FindConfig("turbomolecular_pump", "controllers"), rig);

@@ -251,7 +251,7 @@ TEST(Tables, KnowEveryFieldOfTheStructs) {
   EXPECT_EQ(FieldCount<plant::AmplifierConfig>(), 4U);
   EXPECT_EQ(FieldCount<plant::ExponentialForce>(), 3U);
   EXPECT_EQ(FieldCount<plant::VoltageDrive>(), 11U);
-  EXPECT_EQ(FieldCount<plant::SensorConfig>(), 5U);
+  EXPECT_EQ(FieldCount<plant::SensorConfig>(), 7U);
   EXPECT_EQ(FieldCount<plant::TouchdownConfig>(), 5U);
   EXPECT_EQ(FieldCount<plant::UnbalanceMass>(), 4U);
   EXPECT_EQ(FieldCount<plant::DriveConfig>(), 4U);
