@@ -6,10 +6,16 @@
 //          its place: a rig that starts again has another port. What others sent meanwhile is
 //          counted; it is news for people once the partner is heard after it, since only then both
 //          live, once per stranger.
+// Second   who was heard beside the partner lives beside it and is never its next self: the last
+//          kRemembered of them are refused however long the partner is silent (a process that the
+//          machine holds up for a second), until Release or somebody else takes its place.
 // Thread   Refuses, Heard and Release: one thread; refused, stranger and TakeNews: any one other.
 // Failure  none.
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -23,7 +29,8 @@ class PartnerLock {
 
   /// True, and counted, when `sender` is not the one that is talked to.
   [[nodiscard]] bool Refuses(const Speaker& sender, std::int64_t now_ns) noexcept {
-    if (!partner_ || *partner_ == sender || now_ns - heard_ns_ > kSilenceNs) return false;
+    if (!partner_ || *partner_ == sender) return false;
+    if (now_ns - heard_ns_ > kSilenceNs && !Beside(sender)) return false;
     refused_.store(refused_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     waiting_ = sender;
     return true;
@@ -33,14 +40,19 @@ class PartnerLock {
     if (!partner_ || !(*partner_ == sender)) {
       partner_ = sender;
       waiting_.reset();
+      beside_ = {};
     } else if (waiting_) {
+      Remember(*waiting_);
       stranger_.store(waiting_->address, std::memory_order_relaxed);
       waiting_.reset();
     }
     heard_ns_ = now_ns;
     talks_to_.store(sender.address, std::memory_order_relaxed);
   }
-  void Release() noexcept { partner_.reset(); }
+  void Release() noexcept {
+    partner_.reset();
+    beside_ = {};
+  }
 
   [[nodiscard]] std::uint64_t refused() const noexcept {
     return refused_.load(std::memory_order_relaxed);
@@ -61,7 +73,19 @@ class PartnerLock {
   }
 
  private:
+  static constexpr std::size_t kRemembered = 4;
+
+  [[nodiscard]] bool Beside(const Speaker& sender) const noexcept {
+    return std::ranges::find(beside_, std::optional(sender)) != beside_.end();
+  }
+  void Remember(const Speaker& sender) noexcept {
+    if (Beside(sender)) return;
+    std::ranges::rotate(beside_, beside_.end() - 1);
+    beside_.front() = sender;
+  }
+
   std::optional<Speaker> partner_;
+  std::array<std::optional<Speaker>, kRemembered> beside_{};  ///< latest first
   std::optional<Speaker> waiting_;  ///< refused since the partner was last heard
   std::int64_t heard_ns_{0};
   std::uint64_t told_{0};

@@ -136,6 +136,29 @@ TEST(PartnerLock, TakesAnotherSenderAfterTheFirstFellSilentAndIsNoNewsThen) {
   EXPECT_EQ(lock.TakeNews(), std::nullopt);
 }
 
+// Both live: however long the machine holds the first one up, the second is another rig.
+TEST(PartnerLock, NeverTakesWhoWasHeardBesideThePartnerForItsNextSelf) {
+  PartnerLock lock;
+  lock.Heard(At(1), 0);
+  EXPECT_TRUE(lock.Refuses(At(2), kMs));
+  lock.Heard(At(1), 2 * kMs);
+  constexpr std::int64_t kLate = 3600'000 * kMs;
+  EXPECT_TRUE(lock.Refuses(At(2), kLate));
+  // Another one may be the partner started again; then the second is as good as anybody.
+  EXPECT_FALSE(lock.Refuses(At(3), kLate));
+  lock.Heard(At(3), kLate);
+  EXPECT_FALSE(lock.Refuses(At(2), kLate + PartnerLock::kSilenceNs + 1));
+}
+
+TEST(PartnerLock, ForgetsWhoWasBesideWhenThePartnerSaysGoodbye) {
+  PartnerLock lock;
+  lock.Heard(At(1), 0);
+  EXPECT_TRUE(lock.Refuses(At(2), kMs));
+  lock.Heard(At(1), 2 * kMs);
+  lock.Release();
+  EXPECT_FALSE(lock.Refuses(At(2), 3 * kMs));
+}
+
 TEST(PartnerLock, TellsEachStrangerOnce) {
   PartnerLock lock;
   lock.Heard(At(1), 0);
