@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/problem.hpp"
+#include "identification/identified_rotor.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -37,6 +38,25 @@ void Add(config::RigFile& rig, Id id, double value, std::uint32_t axes, std::siz
   rig.plant.effects.push_back(entry);
 }
 
+/// What the found numbers of magnets, chain and rotor hold already: an entry of the file beside them
+/// would count twice.
+bool IsMeasured(const EffectConfig& entry) {
+  if (entry.timed()) return false;
+  switch (entry.id) {
+    case Id::kCurrentGain:
+    case Id::kDisplacementStiffness:
+    case Id::kSensorGain:
+    case Id::kExtraDelay:
+    case Id::kModalFrequency:
+    case Id::kModalDamping:
+    case Id::kGyroscopicInertia:
+    case Id::kRotorMass:
+      return true;
+    default:
+      return false;
+  }
+}
+
 void SetModes(config::RigFile& out, const ModalResult& found) {
   for (std::size_t i = 0; i < found.support.size(); ++i) {
     if (found.support[i].support != Support::kShown) continue;
@@ -49,8 +69,10 @@ void SetModes(config::RigFile& out, const ModalResult& found) {
 
 }  // namespace
 
-config::RigFile IdentifiedRig(const config::RigFile& rig, const ModalResult& found) {
+config::RigFile IdentifiedRig(const config::RigFile& rig, const ModalResult& found,
+                              RotorForm form) {
   config::RigFile out = rig;
+  std::erase_if(out.plant.effects, IsMeasured);
   out.numbers.name += "_identified";
   out.plant.delay_samples = found.rig.delay_samples;
   const Physical& p = found.rig;
@@ -71,7 +93,12 @@ config::RigFile IdentifiedRig(const config::RigFile& rig, const ModalResult& fou
       add(Id::kSensorGain, p.gain[axis] / gain);
     }
   }
-  SetModes(out, found);
+  if (form == RotorForm::kModes) {
+    out.plant.rotor = {};
+    out.plant.rotor.given = IdentifiedRotor(rig, found);
+  } else {
+    SetModes(out, found);
+  }
   return out;
 }
 

@@ -2,9 +2,13 @@
 // Identified numbers as a rig file: what its keys can hold, the rest stays the file's.
 //
 // Modal     force constant and gap, sensor gain per bearing (means of its axes), delay; what an
-//           axis differs by, and frequency and damping of every mode that the data show, as entries
-//           of `effects` (current_gain, displacement_stiffness, modal_frequency, modal_damping).
-//           Deflections, gyroscopic matrix and rigid body stay the shaft's.
+//           axis differs by as entries of `effects` (current_gain, displacement_stiffness,
+//           sensor_gain). Entries of the file that these numbers hold already, those that
+//           set in later excepted, are left out.
+// Rotor     as modes: rigid body, frequencies, damping, deflections and gyroscopic matrix
+//           (identified_rotor.hpp). As the file's shaft: frequency and damping of every mode that
+//           the data show as entries of `effects`; deflections, gyroscopic matrix and rigid body
+//           stay the shaft's, which keeps what needs a shaft (a crack).
 // Geared    force constant and gap per bearing, run-outs, mesh, transmission error.
 // ks        is that of the working point: a simulation of the file adds the magnet's own hardening
 //           with current again, a few per cent.
@@ -17,7 +21,10 @@
 
 namespace levitas::identification {
 
-[[nodiscard]] config::RigFile IdentifiedRig(const config::RigFile& rig, const ModalResult& found);
+enum class RotorForm { kModes, kShaft };
+
+[[nodiscard]] config::RigFile IdentifiedRig(const config::RigFile& rig, const ModalResult& found,
+                                            RotorForm form);
 [[nodiscard]] config::RigFile IdentifiedRig(const config::RigFile& rig,
                                             const GearedParameters& found);
 

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "configuration/schema/schema.hpp"
 
@@ -82,13 +84,37 @@ void Describe(Visitor& v, rotor::GivenMode& mode) {
            mode.modal_mass_kg);
   double last_m = -1.0;
   v.List(
-      {"shape", 1, 100, "straight between these points, ascending along the shaft"}, mode.shape,
+      {"shape", 1, 1000, "straight between these points, ascending along the shaft"}, mode.shape,
       [&](rotor::ShapePoint& point, std::size_t) {
         v.Number({"z", kMillimetre, 0, 100000, kRequired, "place on the shaft"}, point.z_m);
         v.RefuseIf(point.z_m <= last_m, "z_mm", "must be greater than that of the point before");
         last_m = point.z_m;
         v.Number({"deflection", kOne, -1e6, 1e6, kRequired, "of the mode here"}, point.deflection);
       });
+}
+
+// A row without a column for the tilt is refused, as is an entry that stands twice: one of them
+// would be lost without a word.
+void DescribeGyroscopic(Visitor& v, rotor::GivenRotor& rotor) {
+  const auto modes = static_cast<std::int64_t>(rotor.modes.size());
+  std::set<std::pair<std::size_t, std::size_t>> given;
+  v.List({"gyroscopic", 0, 5000, "entries of the symmetric gyroscopic matrix; left out: 0"},
+         rotor.gyroscopic, [&](rotor::GyroscopicEntry& entry, std::size_t) {
+           v.Integer({"row", 1, 98, kRequired, "bending mode, from the first on"}, entry.row);
+           v.Integer({"column", 0, 98, kRequired, "0: tilt of the rigid body; else a bending mode"},
+                     entry.column);
+           v.Number({"ratio", kOne, -100, 100, kRequired,
+                     "of mass-normalised modes, as Ip/It is of the rigid body"},
+                    entry.ratio);
+           v.RefuseIf(static_cast<std::int64_t>(entry.row) > modes, "row",
+                      fmt::format("found {}, but there are {} modes", entry.row, modes));
+           v.RefuseIf(entry.column > entry.row, "column",
+                      "greater than row: the matrix is symmetric, give its lower half");
+           v.RefuseIf(entry.column == 0 && rotor.transverse_inertia_kg_m2 == 0.0, "column",
+                      "0, but this rotor cannot tilt: its transverse_inertia is 0");
+           v.RefuseIf(!given.insert({entry.row, entry.column}).second, "row",
+                      "this entry has been given already");
+         });
 }
 
 void Describe(Visitor& v, rotor::GivenRotor& rotor) {
@@ -105,6 +131,7 @@ void Describe(Visitor& v, rotor::GivenRotor& rotor) {
            rotor.centre_z_m);
   v.List({"modes", 0, 98, "bending modes, the rigid body's excluded"}, rotor.modes,
          [&](rotor::GivenMode& mode, std::size_t) { Describe(v, mode); });
+  DescribeGyroscopic(v, rotor);
 }
 
 void DescribeReduction(Visitor& v, rotor::RotorConfig& rotor) {

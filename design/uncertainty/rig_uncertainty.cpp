@@ -3,20 +3,22 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
+#include "common/problem.hpp"
 #include "common/two_pi.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::uncertainty {
 namespace {
 
+/// Half intervals: of the i-th flexible mode about its number, of an axis as a share.
 struct Sizes {
-  double frequency_share{};  ///< of the frequency; 0: `frequency_hz` holds
-  double frequency_hz{};
-  double damping_share{};
-  double current_gain{};
-  double stiffness{};
+  std::function<double(std::size_t mode, double hz)> frequency_hz;
+  std::function<double(std::size_t mode)> damping_share;
+  std::function<double(std::size_t axis)> current_gain;
+  std::function<double(std::size_t axis)> stiffness;
 };
 
 std::vector<Parameter> Around(const config::RigFile& rig, const Sizes& sizes, std::size_t modes) {
@@ -29,53 +31,97 @@ std::vector<Parameter> Around(const config::RigFile& rig, const Sizes& sizes, st
     if (model.frequency()[i] > 0.0) flexible.push_back(i);
   for (std::size_t i = 0; i < flexible.size(); ++i) {
     const double hz = model.frequency()[flexible[i]] / kTwoPi;
-    const double size =
-        sizes.frequency_share > 0.0 ? sizes.frequency_share * hz : sizes.frequency_hz;
+    const double size = sizes.frequency_hz(i, hz);
     out.push_back({Kind::kModeFrequency, i, hz, hz - size, hz + size});
   }
   for (std::size_t i = 0; i < flexible.size(); ++i) {
     const double ratio = model.damping_ratio()[flexible[i]];
-    const double size = std::min(sizes.damping_share, 0.99) * ratio;  // damping stays damping
+    const double size = std::min(sizes.damping_share(i), 0.99) * ratio;  // damping stays damping
     out.push_back({Kind::kModeDamping, i, ratio, ratio - size, ratio + size});
   }
-  for (std::size_t axis = 0; axis < model.channels(); ++axis)
-    out.push_back(
-        {Kind::kCurrentGain, axis, 1.0, 1.0 - sizes.current_gain, 1.0 + sizes.current_gain});
-  for (std::size_t axis = 0; axis < model.channels(); ++axis)
-    out.push_back({Kind::kStiffness, axis, 1.0, 1.0 - sizes.stiffness, 1.0 + sizes.stiffness});
+  const auto per_axis = [&](Kind kind, const auto& size) {
+    for (std::size_t axis = 0; axis < model.channels(); ++axis)
+      out.push_back({kind, axis, 1.0, 1.0 - size(axis), 1.0 + size(axis)});
+  };
+  per_axis(Kind::kCurrentGain, sizes.current_gain);
+  per_axis(Kind::kStiffness, sizes.stiffness);
   return out;
 }
 
-void Add(plant::PlantConfig& rig, effect::Id id, std::uint32_t axes, std::size_t mode,
-         double value) {
-  effect::EffectConfig entry;
-  entry.id = id;
-  entry.axes = axes;
-  entry.mode = mode;
-  entry.values[0] = value;
-  rig.effects.push_back(entry);
+/// The entry of `rig` that holds this number of the whole axis or mode from the start, alone; it is
+/// made where there is none. An entry of several axes is divided.
+effect::EffectConfig& EntryOf(plant::PlantConfig& rig, effect::Id id, std::uint32_t axes,
+                              std::size_t mode, std::size_t channels, double without) {
+  const auto meant = [&](const effect::EffectConfig& entry) {
+    return entry.id == id && !entry.timed() && (entry.axes & axes) != 0U && entry.mode == mode;
+  };
+  effect::EffectConfig one;
+  one.id = id;
+  one.axes = axes;
+  one.mode = mode;
+  one.values[0] = without;
+  const auto found = std::ranges::find_if(rig.effects, meant);
+  if (found == rig.effects.end()) {
+    rig.effects.push_back(one);
+    return rig.effects.back();
+  }
+  const std::uint32_t all = (1U << static_cast<unsigned>(channels)) - 1U;
+  if (axes == effect::kAllAxes || (found->axes & all) == axes) return *found;
+  one.values = found->values;
+  one.strength = found->strength;
+  found->axes = found->axes & all & ~axes;
+  rig.effects.push_back(one);
+  return rig.effects.back();
 }
+
+/// The same for every mode and every axis.
+auto Always(double size) {
+  return [size](std::size_t) { return size; };
+}
+
+constexpr double kDeviations = 3.0;
 
 }  // namespace
 
 std::vector<Parameter> Stated(const config::RigFile& rig, const StatedUncertainty& stated) {
   return Around(rig,
-                {.frequency_hz = stated.mode_hz,
-                 .damping_share = stated.damping_share,
-                 .current_gain = stated.current_gain,
-                 .stiffness = stated.stiffness},
+                {.frequency_hz = [&](std::size_t, double) { return stated.mode_hz; },
+                 .damping_share = Always(stated.damping_share),
+                 .current_gain = Always(stated.current_gain),
+                 .stiffness = Always(stated.stiffness)},
                 stated.modes);
 }
 
 std::vector<Parameter> FromTolerances(const config::RigFile& rig, std::size_t modes) {
-  constexpr double kDeviations = 3.0;
   const config::Tolerances t = rig.tolerances.value_or(config::Tolerances{});
+  const double frequency_share = kDeviations * t.modal_frequency;
   return Around(rig,
-                {.frequency_share = kDeviations * t.modal_frequency,
-                 .damping_share = kDeviations * t.modal_damping,
-                 .current_gain = kDeviations * t.current_gain,
-                 .stiffness = kDeviations * t.displacement_stiffness},
+                {.frequency_hz = [=](std::size_t, double hz) { return frequency_share * hz; },
+                 .damping_share = Always(kDeviations * t.modal_damping),
+                 .current_gain = Always(kDeviations * t.current_gain),
+                 .stiffness = Always(kDeviations * t.displacement_stiffness)},
                 modes);
+}
+
+std::vector<Parameter> FromIdentification(const config::RigFile& rig,
+                                          const IdentifiedDeviations& found) {
+  if (found.current_gain.size() != rig.numbers.axes() ||
+      found.stiffness.size() != rig.numbers.axes() ||
+      found.frequency_hz.size() != found.damping_share.size()) {
+    throw BadInput(fmt::format(
+        "the identification is of {} axes, rig {} has {}; give the rig file that it wrote (--out)",
+        found.current_gain.size(), rig.numbers.name, rig.numbers.axes()));
+  }
+  const auto of = [](const std::vector<double>& deviations) {
+    return [&deviations](std::size_t i) { return kDeviations * deviations[i]; };
+  };
+  return Around(
+      rig,
+      {.frequency_hz = [&](std::size_t i, double) { return kDeviations * found.frequency_hz[i]; },
+       .damping_share = of(found.damping_share),
+       .current_gain = of(found.current_gain),
+       .stiffness = of(found.stiffness)},
+      found.frequency_hz.size());
 }
 
 std::string NameOf(const Parameter& parameter, const std::vector<std::string>& channels) {
@@ -106,19 +152,27 @@ config::RigFile At(const config::RigFile& rig, const std::vector<Parameter>& par
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& p = parameters[i];
     const double value = 0.5 * (p.low + p.high) + place[i] * p.size();
-    const auto axis = 1U << static_cast<unsigned>(p.index);
+    const auto of_mode = [&](effect::Id id) {
+      EntryOf(out.plant, id, effect::kAllAxes, p.index + 1, rig.numbers.axes(), value).values[0] =
+          value;
+    };
+    // A share is of what the file has: of its own entry where it has one.
+    const auto of_axis = [&](effect::Id id) {
+      EntryOf(out.plant, id, 1U << static_cast<unsigned>(p.index), 1, rig.numbers.axes(), 1.0)
+          .values[0] *= value;
+    };
     switch (p.kind) {
       case Kind::kModeFrequency:
-        Add(out.plant, effect::Id::kModalFrequency, effect::kAllAxes, p.index + 1, value);
+        of_mode(effect::Id::kModalFrequency);
         break;
       case Kind::kModeDamping:
-        Add(out.plant, effect::Id::kModalDamping, effect::kAllAxes, p.index + 1, value);
+        of_mode(effect::Id::kModalDamping);
         break;
       case Kind::kCurrentGain:
-        Add(out.plant, effect::Id::kCurrentGain, axis, 1, value);
+        of_axis(effect::Id::kCurrentGain);
         break;
       case Kind::kStiffness:
-        Add(out.plant, effect::Id::kDisplacementStiffness, axis, 1, value);
+        of_axis(effect::Id::kDisplacementStiffness);
         break;
     }
   }

@@ -5,6 +5,8 @@
 //             ki and ks of each axis as a share of the file's [1]; of geared shafts these alone.
 // Stated      +-2 Hz, +-50 % of the damping, +-5 % ki, +-5 % ks: A. Sahinkaya & J. T. Sawicki.
 // Tolerances  of a rig file, three standard deviations each.
+// Identified  three standard deviations of `amb identify modal`, about the rig file that it wrote.
+//             BadInput when it is of another number of axes.
 // Drawn       a rig with every parameter at its place between the bounds, as entries of `effects`:
 //             it can be simulated, and written as a file.
 // Thread      any; pure.
@@ -39,6 +41,16 @@ struct StatedUncertainty {
 [[nodiscard]] std::vector<Parameter> Stated(const config::RigFile& rig,
                                             const StatedUncertainty& stated);
 [[nodiscard]] std::vector<Parameter> FromTolerances(const config::RigFile& rig, std::size_t modes);
+
+/// Standard deviations, of flexible modes from the first on and of axes.
+struct IdentifiedDeviations {
+  std::vector<double> frequency_hz;
+  std::vector<double> damping_share;  ///< of the damping ratio [1]
+  std::vector<double> current_gain;   ///< of ki [1]
+  std::vector<double> stiffness;      ///< of ks [1]
+};
+[[nodiscard]] std::vector<Parameter> FromIdentification(const config::RigFile& rig,
+                                                        const IdentifiedDeviations& found);
 
 /// "mode 2 frequency [Hz]", "ki de_x [1]"
 [[nodiscard]] std::string NameOf(const Parameter& parameter,

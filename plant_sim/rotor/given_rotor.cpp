@@ -35,6 +35,28 @@ void Check(const GivenRotor& rotor) {
     if (mode.shape.empty())
       throw std::invalid_argument("rotor: a mode without points of its shape");
   }
+  for (const GyroscopicEntry& entry : rotor.gyroscopic) {
+    if (entry.row == 0 || entry.row > rotor.modes.size() || entry.column > entry.row) {
+      throw std::invalid_argument(fmt::format(
+          "rotor: gyroscopic row = {}, column = {}: rows are 1 to {} (a mode), columns 0 "
+          "to the row; correct the rig",
+          entry.row, entry.column, rotor.modes.size()));
+    }
+    if (!std::isfinite(entry.ratio)) {
+      throw std::invalid_argument("rotor: a gyroscopic ratio is not finite; correct the rig");
+    }
+  }
+}
+
+// The matrix of a rotor that cannot tilt has no row for it.
+void AddGyroscopic(const GivenRotor& rotor, ModalRotor& modal) {
+  const Index first = modal.rigid_modes - 1;  // where the tilt stands, or would stand
+  for (const GyroscopicEntry& entry : rotor.gyroscopic) {
+    const Index row = first + static_cast<Index>(entry.row);
+    const Index column = first + static_cast<Index>(entry.column);
+    if (entry.column == 0 && modal.rigid_modes < 2) continue;
+    modal.gyroscopic(row, column) = modal.gyroscopic(column, row) = entry.ratio;
+  }
 }
 
 struct DeflectionAndSlope {
@@ -108,6 +130,7 @@ ModalRotor FromGivenModes(const GivenRotor& rotor, std::vector<double> planes_m)
       modal.slopes(i, at) = scale * shape.slope_1_per_m;
     }
   }
+  AddGyroscopic(rotor, modal);
   return modal;
 }
 

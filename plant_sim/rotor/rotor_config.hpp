@@ -52,13 +52,22 @@ struct GivenMode {
   std::vector<ShapePoint> shape;  ///< straight between its points, ascending in z
 };
 
+/// An entry of the symmetric gyroscopic matrix of the mass-normalised modes: 0 is the tilt of the
+/// rigid body, i the i-th bending mode.
+struct GyroscopicEntry {
+  std::size_t row{};
+  std::size_t column{};  ///< not greater than row
+  double ratio{};        ///< [1]: of the whirl's angular frequency per angular speed, as Ip/It
+};
+
 /// A rotor known by its rigid body and its modes instead of its drawing.
 struct GivenRotor {
   double mass_kg{};
   double transverse_inertia_kg_m2{};  ///< about the centre of mass; 0: it cannot tilt
-  double polar_inertia_kg_m2{};       ///< of the tilting rigid body; the modes have none of it
+  double polar_inertia_kg_m2{};       ///< of the tilting rigid body
   double centre_z_m{};                ///< centre of mass
   std::vector<GivenMode> modes;
+  std::vector<GyroscopicEntry> gyroscopic;  ///< what is left out is 0; the tilt has Ip/It
 };
 
 struct RotorConfig {

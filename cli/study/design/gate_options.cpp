@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/study/design/identified_deviations.hpp"
 #include "cli/study/progress_line.hpp"
 #include "common/rotational_speed.hpp"
 #include "report/text/text_table.hpp"
@@ -32,15 +33,29 @@ nlohmann::ordered_json PeakJson(const design::Peak& peak) {
 
 }  // namespace
 
+void AddUncertaintyOption(CLI::App& command, std::string& from) {
+  const CLI::Validator allowed(
+      [](std::string& text) {
+        const bool known = text == "stated" || text == "tolerances" || text.ends_with(".json");
+        return known ? std::string{}
+                     : "found '" + text +
+                           "', allowed: stated, tolerances, or a .json file of "
+                           "amb identify modal --json";
+      },
+      "stated|tolerances|FILE.json");
+  command
+      .add_option("--uncertainty", from,
+                  "stated (+-2 Hz, +-50 % damping, +-5 % ki, +-5 % ks), tolerances (of the rig "
+                  "file, three deviations), or the file that amb identify modal --json wrote "
+                  "(three of its deviations)")
+      ->check(allowed)
+      ->capture_default_str();
+}
+
 void AddGateOptions(CLI::App& command, GateCommandOptions& options) {
   command.add_option("--design", options.design_path,
                      "Design file: weights of the judgement, and of the law where one is made");
-  command
-      .add_option("--uncertainty", options.from,
-                  "stated (+-2 Hz, +-50 % damping, +-5 % ki, +-5 % ks) or tolerances (of the rig "
-                  "file, three deviations)")
-      ->check(CLI::IsMember({"stated", "tolerances"}))
-      ->capture_default_str();
+  AddUncertaintyOption(command, options.from);
   command.add_option("--draws", options.draws, "Rigs drawn for the nonlinear runs")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
@@ -60,7 +75,9 @@ void AddGateOptions(CLI::App& command, GateCommandOptions& options) {
 
 std::vector<uncertainty::Parameter> ParametersOf(const config::RigFile& rig,
                                                  const std::string& from) {
-  return from == "tolerances" ? uncertainty::FromTolerances(rig, 4) : uncertainty::Stated(rig, {});
+  if (from == "tolerances") return uncertainty::FromTolerances(rig, 4);
+  if (from == "stated") return uncertainty::Stated(rig, {});
+  return uncertainty::FromIdentification(rig, ReadIdentifiedDeviations(from));
 }
 
 design::DesignFile DesignOf(const GateCommandOptions& options) {

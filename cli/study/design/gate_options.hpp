@@ -13,7 +13,7 @@ namespace levitas::cli {
 
 struct GateCommandOptions {
   std::string design_path;     ///< design file; empty: default weights
-  std::string from{"stated"};  ///< or "tolerances"
+  std::string from{"stated"};  ///< as ParametersOf takes it
   std::size_t draws{20};
   std::size_t corners{8};
   std::uint64_t seed{1};
@@ -23,6 +23,9 @@ struct GateCommandOptions {
 
 void AddGateOptions(CLI::App& command, GateCommandOptions& options);
 
+void AddUncertaintyOption(CLI::App& command, std::string& from);
+
+/// `from`: "stated", "tolerances", or a file of `amb identify modal --json`.
 [[nodiscard]] std::vector<uncertainty::Parameter> ParametersOf(const config::RigFile& rig,
                                                                const std::string& from);
 

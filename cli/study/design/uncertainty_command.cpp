@@ -72,14 +72,18 @@ svg::Figure Fan(const config::RigFile& rig, const std::vector<uncertainty::Param
   return figure;
 }
 
+std::string SourceText(const std::string& from) {
+  if (from == "stated") return "as stated: +-2 Hz, +-50 % damping, +-5 % ki, +-5 % ks";
+  if (from == "tolerances") return "three deviations of the file's tolerances";
+  return "three deviations of the identification " + from;
+}
+
 ExitStatus Run(const UncertaintyOptions& options) {
   session::CheckOutputPath(options.svg_path, {});
   session::CheckOutputPath(options.rig.json_path, {});
   const auto rig = LoadRig(options.rig);
   const auto parameters = ParametersOf(rig, options.from);
-  fmt::print("rig {}, uncertainty {}\n", rig.numbers.name,
-             options.from == "stated" ? "as stated: +-2 Hz, +-50 % damping, +-5 % ki, +-5 % ks"
-                                      : "three deviations of the file's tolerances");
+  fmt::print("rig {}, uncertainty {}\n", rig.numbers.name, SourceText(options.from));
   TextTable table;
   table.Add({"parameter", "rig file", "least", "most"});
   nlohmann::ordered_json json;
@@ -105,9 +109,7 @@ void AddDesignUncertainty(CLI::App& design, Action& action) {
       "uncertainty", "By how much the rig may differ: a table, and a fan of Bode curves");
   AddRigOption(*command, options->rig);
   AddSpeedOption(*command, options->rig, {0.0});
-  command->add_option("--uncertainty", options->from, "stated or tolerances (of the rig file)")
-      ->check(CLI::IsMember({"stated", "tolerances"}))
-      ->capture_default_str();
+  AddUncertaintyOption(*command, options->from);
   command->add_option("--svg", options->svg_path, "Picture to write: |P_ii| of drawn rigs");
   command->add_option("--draws", options->draws, "Rigs drawn for the picture")
       ->check(CLI::Range(1, 1000))

@@ -36,12 +36,18 @@ constexpr const char* kModalHelp =
     "response and the fastest one are fitted; the others are kept to validate.\n"
     "  amb run --scenario identify --record campaign.lcm\n"
     "  amb identify modal campaign.lcm --out identified.yaml --svg modal\n"
+    "The file that --out writes holds the rotor as rigid body and modes, with the deflections and "
+    "the\n"
+    "gyroscopic matrix that were found; with --rotor shaft the file's shaft stays, and "
+    "frequencies\n"
+    "and damping are entries of effects.\n"
     "--svg P writes P_bode.svg (data, model, residual), P_validation.svg, P_campbell.svg and "
     "P_stabilisation.svg.";
 
 struct ModalOptions : AnalysisOptions {
   std::string data_path;
   std::string out_path;
+  std::string rotor{"modes"};
   std::string svg_prefix;
   ModalFitOptions fit;
   int starts{0};
@@ -212,7 +218,10 @@ ExitStatus Run(const ModalOptions& options) {
   PrintStarts(result, responses, options);
   WriteJsonFile(options.json_path, ModalJson(result));
   std::vector<std::string> written = WriteModalPictures(options.svg_prefix, result, responses);
-  if (!options.out_path.empty()) WriteRigFile(options.out_path, IdentifiedRig(rig, result));
+  if (!options.out_path.empty()) {
+    const RotorForm form = options.rotor == "shaft" ? RotorForm::kShaft : RotorForm::kModes;
+    WriteRigFile(options.out_path, IdentifiedRig(rig, result, form));
+  }
   written.insert(written.begin(), {options.out_path, options.json_path});
   TellWritten(written);
   return ExitStatus::kDone;
@@ -240,6 +249,9 @@ void AddIdentifyModal(CLI::App& identify, Action& action) {
       ->capture_default_str();
   AddSpreadOptions(*command, options->spread);
   command->add_option("--out", options->out_path, "Write the identified rig file");
+  command->add_option("--rotor", options->rotor, "How that file holds the rotor: modes or shaft")
+      ->check(CLI::IsMember({"modes", "shaft"}))
+      ->capture_default_str();
   command->add_option("--svg", options->svg_prefix, "Draw pictures, their names begin with this");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });

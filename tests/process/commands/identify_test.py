@@ -68,6 +68,21 @@ class Identify(CommandTest):
             product = axis["ki_n_per_a"] * axis["sensor_gain"]
             self.assertLess(abs(product / KI_N_PER_A - 1.0), 0.06, axis)
 
+        # Its intervals are what a design takes for the uncertainty of that file.
+        self.assertIn("gyroscopic:", (self.folder / "identified.yaml").read_text())
+        done = self.run_amb("design", "uncertainty", "--rig", "identified.yaml", "--uncertainty",
+                            "m.json", "--json", "u.json")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        told = {p["name"]: p for p in json.loads((self.folder / "u.json").read_text())["parameters"]}
+        for axis in found["axes"]:
+            ki = told[f"ki {axis['channel']} [1]"]
+            sigma = axis["ki_sigma_n_per_a"] / axis["ki_n_per_a"]
+            self.assertAlmostEqual(ki["most"] - ki["least"], 6.0 * sigma, 6)
+        done = self.run_amb("design", "uncertainty", "--rig", "identified.yaml", "--uncertainty",
+                            "u.json")
+        self.assertEqual(done.returncode, BAD_INPUT, done.stderr)
+        self.assertIn("not what amb identify modal --json writes", done.stderr)
+
         # What was identified levitates as any rig file does.
         done = self.run_amb("run", "--rig", "identified.yaml", "--controller",
                             "flexible_rotor_commissioned", "--scenario", "levitate")

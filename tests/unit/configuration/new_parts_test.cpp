@@ -66,6 +66,21 @@ TEST(ModalRotor, RefusesInertiasOfNoBodyAndPointsThatDoNotAscend) {
               HasSubstr("must be greater than that of the point before"));
 }
 
+TEST(ModalRotor, TakesEachGyroscopicEntryOfItsModesOnce) {
+  constexpr const char* kFile = "gyroscopic: []";
+  RigFile rig = ModalRig();
+  rig.plant.rotor.given->gyroscopic.clear();
+  const std::string modal = WriteRig(rig);
+  const auto with = [&](const std::string& entries) {
+    return RigProblem(Replaced(modal, kFile, "gyroscopic: [" + entries + "]"));
+  };
+  EXPECT_EQ(with("{row: 1, column: 0, ratio: -0.2}, {row: 1, column: 1, ratio: 0.1}"), "accepted");
+  EXPECT_THAT(with("{row: 2, column: 0, ratio: 0.1}"), HasSubstr("found 2, but there are 1 modes"));
+  EXPECT_THAT(with("{row: 1, column: 2, ratio: 0.1}"), HasSubstr("greater than row"));
+  EXPECT_THAT(with("{row: 1, column: 0, ratio: 0.1}, {row: 1, column: 0, ratio: 0.2}"),
+              HasSubstr("this entry has been given already"));
+}
+
 TEST(Bearings, OfOneAxisStandAlone) {
   const std::string modal = WriteRig(ModalRig());
   EXPECT_THAT(RigProblem(Replaced(modal, "axes: xy", "axes: x")),

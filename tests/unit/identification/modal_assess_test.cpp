@@ -185,7 +185,7 @@ TEST(IdentifiedRig, HoldsMagnetsAndChainOfWhatWasFoundInItsKeys) {
   found.rig.ks_n_per_m = Eigen::Vector4d(1.3e5, 1.3e5, 0.9e5, 0.9e5);
   found.rig.gain = Eigen::Vector4d(1.02, 1.02, 0.97, 0.97);
   found.rig.delay_samples = 1.2;
-  const config::RigFile rig = IdentifiedRig(Rig(), found);
+  const config::RigFile rig = IdentifiedRig(Rig(), found, RotorForm::kShaft);
   EXPECT_EQ(rig.numbers.name, "flexible_rotor_identified");
   EXPECT_EQ(rig.plant.delay_samples, 1.2);
   // Read again as a start, the file gives the numbers back: ki = 4 k i0/s0^2, ks = 4 k i0^2/s0^3.
@@ -204,7 +204,7 @@ TEST(IdentifiedRig, HoldsMagnetsAndChainOfWhatWasFoundInItsKeys) {
 TEST(IdentifiedRig, AnAxisThatDiffersHasItsRatioToTheMeanOfItsBearing) {
   ModalResult found = Found();
   found.rig.ki_n_per_a = Eigen::Vector4d(44.0, 40.0, 40.0, 40.0);
-  const config::RigFile rig = IdentifiedRig(Rig(), found);
+  const config::RigFile rig = IdentifiedRig(Rig(), found, RotorForm::kShaft);
   int seen = 0;
   for (const effect::EffectConfig& entry : rig.plant.effects) {
     if (entry.id != effect::Id::kCurrentGain) continue;
@@ -220,7 +220,7 @@ TEST(IdentifiedRig, AForceConstantThatNoMagnetHasIsRefusedWithItsBearing) {
     ModalResult found = Found();
     (current ? found.rig.ki_n_per_a : found.rig.ks_n_per_m).tail(2).setConstant(-5.0);
     try {
-      (void)IdentifiedRig(Rig(), found);
+      (void)IdentifiedRig(Rig(), found, RotorForm::kShaft);
       FAIL() << "accepted";
     } catch (const BadInput& problem) {
       EXPECT_THAT(problem.what(), HasSubstr("of bearing nde are no magnet's"));

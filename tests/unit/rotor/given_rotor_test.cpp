@@ -21,7 +21,8 @@ GivenRotor Pump() {
           kTransverse_kg_m2,
           kPolar_kg_m2,
           kCentre_m,
-          {{561.0, 0.004, 1.5, {{0.04, -1.0}, {0.12, 1.0}, {0.18, -1.2}}}}};
+          {{561.0, 0.004, 1.5, {{0.04, -1.0}, {0.12, 1.0}, {0.18, -1.2}}}},
+          {}};
 }
 
 TEST(GivenRotor, TiltsAboutItsCentreOfMass) {
@@ -69,8 +70,29 @@ TEST(GivenRotor, HasTheGyroscopicsOfARigidBodyAlone) {
   EXPECT_NEAR(whirl.backward_hz[0], 561.0, 1e-9);
 }
 
+// One mode alone whirls as a disc on a spring: l^2 - g W l - w^2 = 0.
+TEST(GivenRotor, WhirlsWithTheGyroscopicRatioOfAMode) {
+  GivenRotor given = Pump();
+  given.gyroscopic = {{1, 1, 0.4}};
+  const WhirlFrequencies whirl = FreeWhirl(FromGivenModes(given, {0.04, 0.18}), 3000.0, 1);
+  const double w = 2.0 * std::numbers::pi * 561.0;
+  const double half = 0.5 * 0.4 * 3000.0;
+  const double root = std::sqrt(half * half + w * w);
+  EXPECT_NEAR(whirl.forward_hz[0], (root + half) / (2.0 * std::numbers::pi), 1e-9);
+  EXPECT_NEAR(whirl.backward_hz[0], (root - half) / (2.0 * std::numbers::pi), 1e-9);
+}
+
+TEST(GivenRotor, CouplesTiltAndModeAlikeFromEitherSide) {
+  GivenRotor given = Pump();
+  given.gyroscopic = {{1, 0, -0.2}};
+  const ModalRotor rotor = FromGivenModes(given, {0.04, 0.18});
+  EXPECT_EQ(rotor.gyroscopic(1, 2), -0.2);
+  EXPECT_EQ(rotor.gyroscopic(2, 1), -0.2);
+  EXPECT_DOUBLE_EQ(rotor.gyroscopic(1, 1), kPolar_kg_m2 / kTransverse_kg_m2);
+}
+
 TEST(GivenRotor, WithoutTransverseInertiaIsAPointThatCannotTilt) {
-  GivenRotor point{0.5, 0.0, 0.0, 0.0, {}};
+  GivenRotor point{0.5, 0.0, 0.0, 0.0, {}, {}};
   const ModalRotor rotor = FromGivenModes(point, {0.0});
   EXPECT_EQ(rotor.rigid_modes, 1);
   EXPECT_EQ(rotor.frequency_rad_per_s.size(), 1);
@@ -95,6 +117,11 @@ TEST(GivenRotor, RefusesWhatIsNoRotor) {
   expect_refused(rotor);
   rotor = Pump();
   rotor.modes[0].shape[1].z_m = 0.04;
+  expect_refused(rotor);
+  rotor = Pump();
+  rotor.gyroscopic = {{2, 0, 0.1}};  // one mode only
+  expect_refused(rotor);
+  rotor.gyroscopic = {{0, 0, 0.1}};  // the tilt's is Ip/It
   expect_refused(rotor);
 }
 
