@@ -38,8 +38,8 @@ void Add(config::RigFile& rig, Id id, double value, std::uint32_t axes, std::siz
   rig.plant.effects.push_back(entry);
 }
 
-/// What the found numbers of magnets, chain and rotor hold already: an entry of the file beside them
-/// would count twice.
+/// What the found numbers of magnets, chain and rotor hold already: an entry of the file beside
+/// them would count twice.
 bool IsMeasured(const EffectConfig& entry) {
   if (entry.timed()) return false;
   switch (entry.id) {

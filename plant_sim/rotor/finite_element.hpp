@@ -64,8 +64,8 @@ struct ModalRotor {
 
 /// The same from given modes, with a node at each of `planes_m`. A rigid body of mass m, transverse
 /// inertia It and polar inertia Ip about zc: shapes 1/sqrt(m) and (z - zc)/sqrt(It), gyroscopic
-/// Ip/It and the entries given; a mode of modal mass M: shape/sqrt(M). Throws std::invalid_argument for impossible
-/// numbers.
+/// Ip/It and the entries given; a mode of modal mass M: shape/sqrt(M). Throws std::invalid_argument
+/// for impossible numbers.
 [[nodiscard]] ModalRotor FromGivenModes(const GivenRotor& rotor, std::vector<double> planes_m);
 
 }  // namespace levitas::rotor

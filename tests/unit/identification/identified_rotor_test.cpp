@@ -49,7 +49,7 @@ std::vector<std::complex<double>> Poles(const plant::PlantConfig& rig, double sp
   return {values.begin(), values.end()};
 }
 
-/// How far the nearest pole of `among` is, for that of `poles` for which it is farthest, as a share.
+/// Distance to the nearest pole of `among`, of the one in `poles` for which it is largest, as a share.
 double Farthest(const std::vector<std::complex<double>>& poles,
                 const std::vector<std::complex<double>>& among) {
   double farthest = 0.0;

@@ -66,8 +66,8 @@ TEST(RigUncertainty, StatedIsTheSameForEveryModeAndAxis) {
   for (const Parameter& gain : Of(Kind::kCurrentGain, all)) EXPECT_NEAR(gain.size(), 0.04, 1e-12);
 }
 
-// A file with entries of its own, as an identification writes it: one axis is 10 % weak, and a bearing
-// has another stiffness.
+// A file with entries of its own, as an identification writes it: one axis is 10 % weak, and all are
+// stiffer.
 TEST(RigUncertainty, DrawsAboutTheEntriesThatTheFileHas) {
   config::RigFile rig = FlexibleRotor();
   const auto add = [&](effect::Id id, std::uint32_t axes, double value) {
