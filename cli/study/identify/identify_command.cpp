@@ -23,6 +23,7 @@ void AddIdentifyCommand(CLI::App& app, Action& action) {
   AddIdentifyNarx(*identify, action);
   AddIdentifyGreyBox(*identify, action);
   AddIdentifyRotorInLoop(*identify, action);
+  AddIdentifyController(*identify, action);
 }
 
 }  // namespace levitas::cli

@@ -12,5 +12,6 @@ void AddIdentifyHammersteinWiener(CLI::App& identify, Action& action);
 void AddIdentifyNarx(CLI::App& identify, Action& action);
 void AddIdentifyGreyBox(CLI::App& identify, Action& action);
 void AddIdentifyRotorInLoop(CLI::App& identify, Action& action);
+void AddIdentifyController(CLI::App& identify, Action& action);
 
 }  // namespace levitas::cli

@@ -44,7 +44,7 @@ MISSING = {
     "report": (ABSENT, "--out", "x.html"), "compare": (ABSENT,), "sessions tag": (ABSENT, "one"),
     "sessions forget": (ABSENT,), "simulate": (ABSENT,),
     "identify frf": (ABSENT,), "identify modal": (ABSENT,),
-    "identify full-spectrum": (ABSENT,),
+    "identify full-spectrum": (ABSENT,), "identify controller": (ABSENT,),
     "identify rotor-in-loop": (ABSENT, "--rig", "turbomolecular_pump"),
     "design hinf": ("--rig", ABSENT), "design check": ("--controller", ABSENT),
     "design uncertainty": ("--rig", ABSENT), "design compare": (ABSENT,),

@@ -29,7 +29,7 @@ OPTIONS = {
     "identify": set(),  # its subcommands follow
     "identify frf": {"--rig", "--controller", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",
                      "--speed-rpm", "--json"},
-    "identify modal": {"--rig", "--highest-hz", "--fit-amplifiers", "--fit-sensors", "--out",
+    "identify modal": {"--rig", "--highest-hz", "--fit-amplifiers", "--fit-sensors", "--out", "--rotor",
                        "--svg", "--starts", "--spread", "--spread-gains", "--json"},
     "doctor": {"--json"},
 }

@@ -49,7 +49,7 @@ std::vector<std::complex<double>> Poles(const plant::PlantConfig& rig, double sp
   return {values.begin(), values.end()};
 }
 
-/// Distance to the nearest pole of `among`, of the one in `poles` for which it is largest, as a share.
+/// Distance to the nearest pole of `among`, the largest over `poles`, as a share.
 double Farthest(const std::vector<std::complex<double>>& poles,
                 const std::vector<std::complex<double>>& among) {
   double farthest = 0.0;

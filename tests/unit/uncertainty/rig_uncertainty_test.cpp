@@ -66,8 +66,7 @@ TEST(RigUncertainty, StatedIsTheSameForEveryModeAndAxis) {
   for (const Parameter& gain : Of(Kind::kCurrentGain, all)) EXPECT_NEAR(gain.size(), 0.04, 1e-12);
 }
 
-// A file with entries of its own, as an identification writes it: one axis is 10 % weak, and all are
-// stiffer.
+// A file with entries of its own, as an identification writes it: one axis is weak, all are stiff.
 TEST(RigUncertainty, DrawsAboutTheEntriesThatTheFileHas) {
   config::RigFile rig = FlexibleRotor();
   const auto add = [&](effect::Id id, std::uint32_t axes, double value) {
