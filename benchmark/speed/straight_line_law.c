@@ -24,3 +24,28 @@ void straight_line_step(struct straight_line_law* law, const double* error_m,
     current_a[i] = given;
   }
 }
+
+void straight_line_modal_step(struct straight_line_modal* law, const double* error_m,
+                              const double* excitation_a, double* current_a) {
+  double signal[4];
+  for (int i = 0; i < 4; ++i) signal[i] = -law->input_gain[i] * error_m[i];
+  for (int i = 0; i < 4; ++i) {
+    double sum = 0.0;
+    for (int k = 0; k < STRAIGHT_PAIRS; ++k)
+      sum += law->output1[i][k] * law->state1[k] + law->output2[i][k] * law->state2[k];
+    for (int j = 0; j < 4; ++j) sum += law->direct[i][j] * signal[j];
+    const double wanted = law->output_gain[i] * sum + excitation_a[i];
+    const double high = wanted > law->limit ? law->limit : wanted;
+    current_a[i] = high < -law->limit ? -law->limit : high;
+  }
+  for (int k = 0; k < STRAIGHT_PAIRS; ++k) {
+    double next1 = law->real[k] * law->state1[k] + law->imaginary[k] * law->state2[k];
+    double next2 = law->real[k] * law->state2[k] - law->imaginary[k] * law->state1[k];
+    for (int j = 0; j < 4; ++j) {
+      next1 += law->input1[j][k] * signal[j];
+      next2 += law->input2[j][k] * signal[j];
+    }
+    law->state1[k] = next1;
+    law->state2[k] = next2;
+  }
+}

@@ -20,6 +20,21 @@ struct straight_line_law {
 void straight_line_step(struct straight_line_law* law, const double* error_m,
                         const double* excitation_a, double* current_a);
 
+/* A state-space law of pairs between four axes, its limit and the test of saturation, by hand. */
+enum { STRAIGHT_PAIRS = 34 };
+struct straight_line_modal {
+  double real[STRAIGHT_PAIRS], imaginary[STRAIGHT_PAIRS];
+  double input1[4][STRAIGHT_PAIRS], input2[4][STRAIGHT_PAIRS];
+  double output1[4][STRAIGHT_PAIRS], output2[4][STRAIGHT_PAIRS];
+  double direct[4][4];
+  double input_gain[4], output_gain[4];
+  double state1[STRAIGHT_PAIRS], state2[STRAIGHT_PAIRS];
+  double limit;
+};
+
+void straight_line_modal_step(struct straight_line_modal* law, const double* error_m,
+                              const double* excitation_a, double* current_a);
+
 #ifdef __cplusplus
 }
 #endif

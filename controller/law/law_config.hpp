@@ -49,7 +49,7 @@ struct ModalBlock {
 
 /// See state_space_law.hpp.
 struct StateSpaceConfig {
-  static constexpr std::size_t kMaxStates = 48;
+  static constexpr std::size_t kMaxStates = 96;
 
   std::size_t axes{};
   bool discrete{};  ///< the blocks are given in z; else in s, discretised by zero-order hold

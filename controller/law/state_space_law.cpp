@@ -1,5 +1,6 @@
 #include "controller/law/state_space_law.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -40,6 +41,9 @@ void Check(const StateSpaceConfig& config, double period_s) {
   finite(config.output_a_per_v);
 }
 
+/// Two radial bearings: the usual rig, for which the loops below are of fixed length.
+constexpr std::size_t kFewLanes = 4;
+
 // (L14): the block over one period with its input held. G = A^-1 (exp(AT) - I), of the same form
 // [a b; -b a] as A itself.
 ModalBlock Hold(const ModalBlock& block, double period_s) {
@@ -75,6 +79,7 @@ StateSpaceConfig DiscretiseBlocks(const StateSpaceConfig& config, double period_
 StateSpaceCoefficients::StateSpaceCoefficients(const StateSpaceConfig& config, double period_s) {
   const StateSpaceConfig law = DiscretiseBlocks(config, period_s);
   axes_ = law.axes;
+  lanes_ = axes_ <= kFewLanes ? kFewLanes : kMaxAxes;
   direct_ = law.direct;
   input_gain_ = law.input_v_per_m;
   output_gain_ = law.output_a_per_v;
@@ -90,11 +95,14 @@ StateSpaceCoefficients::StateSpaceCoefficients(const StateSpaceConfig& config, d
       first_input_[i * count + k] = block.first_input[i];
       second_input_[i * count + k] = pair ? block.second_input[i] : 0.0;
     }
-    first_output_.push_back(block.first_output);
-    second_output_.push_back(pair ? block.second_output : AxisArray{});
+    for (std::size_t i = 0; i < lanes_; ++i) {
+      first_output_.push_back(block.first_output[i]);
+      second_output_.push_back(pair ? block.second_output[i] : 0.0);
+    }
     const double modulus = std::hypot(block.pole_real, block.pole_imaginary);
-    integrates_.push_back(modulus >= 1.0 - kOnCircle ? 1 : 0);
-    any_integrates_ = any_integrates_ || integrates_.back() != 0;
+    const bool slow = std::hypot(1.0 - block.pole_real, block.pole_imaginary) < period_s / kMemoryS;
+    keeps_.push_back(modulus >= 1.0 - kOnCircle || slow ? 1 : 0);
+    any_keeps_ = any_keeps_ || keeps_.back() != 0;
   }
 }
 
@@ -108,18 +116,32 @@ struct StateSpaceStep {
   const StateSpaceCoefficients& c;
   StateSpaceState& state;
 
-  // i = go (C w + D v) + excitation, cut off at the limit; returns what is cut off.
+  // C w, block by block; axes beyond `kLanes` stay 0.
+  template <std::size_t kLanes>
+  [[nodiscard]] AxisArray Outputs() const noexcept {
+    // Lanes side by side in registers; written as loops, GCC 12 puts blocks there and shuffles.
+    using Side = Eigen::Array<double, static_cast<int>(kLanes), 1>;
+    Side sum = Side::Zero();
+    const double* c1 = c.first_output_.data();
+    const double* c2 = c.second_output_.data();
+    for (std::size_t k = 0; k < c.blocks(); ++k, c1 += kLanes, c2 += kLanes) {
+      sum += Eigen::Map<const Side>(c1) * state.first[k] +
+             Eigen::Map<const Side>(c2) * state.second[k];
+    }
+    AxisArray all{};
+    std::copy_n(sum.data(), kLanes, all.begin());
+    return all;
+  }
+
+  // i = go (C w + D v) + excitation, cut off at the limit; returns what is cut off. kAxes 0: any.
+  template <std::size_t kAxes>
   [[nodiscard]] AxisArray Drive(const AxisArray& signal, const AxisArray& excitation_a,
                                 double limit_a, LawOutput& out) const noexcept {
-    AxisArray sum{};
-    for (std::size_t k = 0; k < c.blocks(); ++k) {
-      for (std::size_t i = 0; i < kMaxAxes; ++i) {
-        sum[i] += c.first_output_[k][i] * state.first[k] + c.second_output_[k][i] * state.second[k];
-      }
-    }
+    const std::size_t axes = kAxes == 0 ? c.axes_ : kAxes;
+    AxisArray sum = c.lanes_ == kFewLanes ? Outputs<kFewLanes>() : Outputs<kMaxAxes>();
     AxisArray excess_a{};
-    for (std::size_t i = 0; i < c.axes_; ++i) {
-      for (std::size_t j = 0; j < c.axes_; ++j) sum[i] += c.direct_[i][j] * signal[j];
+    for (std::size_t i = 0; i < axes; ++i) {
+      for (std::size_t j = 0; j < axes; ++j) sum[i] += c.direct_[i][j] * signal[j];
       const double wanted_a = c.output_gain_[i] * sum[i] + excitation_a[i];
       const double given_a = std::min(std::max(wanted_a, -limit_a), limit_a);
       out.control_current_a[i] = given_a;
@@ -131,15 +153,16 @@ struct StateSpaceStep {
     return excess_a;
   }
 
-  // w <- A w + B v
+  // w <- A w + B v. With a fixed number of axes it is one pass over the states.
   void Advance(const AxisArray& signal) noexcept {
+    if (c.axes_ == kFewLanes) {
+      AdvanceOf<kFewLanes>(signal);
+      return;
+    }
+    AdvanceOf<0>(signal);
     const std::size_t count = c.blocks();
     double* __restrict next1 = state.next_first.data();
     double* __restrict next2 = state.next_second.data();
-    for (std::size_t k = 0; k < count; ++k) {
-      next1[k] = c.real_[k] * state.first[k] + c.imaginary_[k] * state.second[k];
-      next2[k] = c.real_[k] * state.second[k] - c.imaginary_[k] * state.first[k];
-    }
     for (std::size_t j = 0; j < c.axes_; ++j) {
       const double* __restrict b1 = c.first_input_.data() + j * count;
       const double* __restrict b2 = c.second_input_.data() + j * count;
@@ -150,16 +173,40 @@ struct StateSpaceStep {
     }
   }
 
-  // (L16): a block that integrates stays where it is while it would push a limited axis further.
-  void HoldIntegrators(const AxisArray& excess_a) noexcept {
+  // The first kAxes columns of B.
+  template <std::size_t kAxes>
+  void AdvanceOf(const AxisArray& signal) noexcept {
+    const std::size_t count = c.blocks();
+    double* __restrict next1 = state.next_first.data();
+    double* __restrict next2 = state.next_second.data();
+    const double* __restrict first = state.first.data();
+    const double* __restrict second = state.second.data();
+    const double* __restrict re = c.real_.data();
+    const double* __restrict im = c.imaginary_.data();
+    const double* __restrict b1 = c.first_input_.data();
+    const double* __restrict b2 = c.second_input_.data();
+    for (std::size_t k = 0; k < count; ++k) {
+      double one = re[k] * first[k] + im[k] * second[k];
+      double other = re[k] * second[k] - im[k] * first[k];
+      for (std::size_t j = 0; j < kAxes; ++j) {
+        one += b1[j * count + k] * signal[j];
+        other += b2[j * count + k] * signal[j];
+      }
+      next1[k] = one;
+      next2[k] = other;
+    }
+  }
+
+  // (L16): a block that remembers stays where it is while it would push a limited axis further.
+  void HoldMemory(const AxisArray& excess_a) noexcept {
     for (std::size_t k = 0; k < c.blocks(); ++k) {
-      if (c.integrates_[k] == 0) continue;
+      if (c.keeps_[k] == 0) continue;
       const double change1 = state.next_first[k] - state.first[k];
       const double change2 = state.next_second[k] - state.second[k];
       bool further = false;
       for (std::size_t i = 0; i < c.axes_; ++i) {
-        const double push = c.output_gain_[i] *
-                            (c.first_output_[k][i] * change1 + c.second_output_[k][i] * change2);
+        const double push = c.output_gain_[i] * (c.first_output_[k * c.lanes_ + i] * change1 +
+                                                 c.second_output_[k * c.lanes_ + i] * change2);
         further = further || push * excess_a[i] > 0.0;
       }
       if (!further) continue;
@@ -177,9 +224,11 @@ LawOutput Step(const StateSpaceCoefficients& coefficients, StateSpaceState& stat
   for (std::size_t i = 0; i < coefficients.axes(); ++i) {
     signal[i] = -coefficients.input_gain(i) * error_m[i];
   }
-  const AxisArray excess_a = step.Drive(signal, excitation_a, limit_a, out);
+  const AxisArray excess_a = coefficients.axes() == kFewLanes
+                                 ? step.Drive<kFewLanes>(signal, excitation_a, limit_a, out)
+                                 : step.Drive<0>(signal, excitation_a, limit_a, out);
   step.Advance(signal);
-  if (out.saturated_axes != 0 && coefficients.any_integrates()) step.HoldIntegrators(excess_a);
+  if (out.saturated_axes != 0 && coefficients.any_keeps()) step.HoldMemory(excess_a);
   std::swap(state.first, state.next_first);
   std::swap(state.second, state.next_second);
   return out;

@@ -7,8 +7,8 @@
 //           best (H.-L. Chiu 2022, Appl. Sci. 12, 8556: 0 to 5000 Hz logarithmically in 10 s).
 // Fit       rational_fit.hpp, on all lines of the band: every 1/duration; noise of the output is
 //           taken as white.
-// Order     the least of Schwarz's criterion, 2K ln(squares/2K) + unknowns ln(2K) over K lines; what
-//           is left below 1e-9 of the output is rounding.
+// Order     the least of Schwarz's criterion, 2K ln(squares/2K) + unknowns ln(2K) over K lines;
+//           what is left below 1e-9 of the output is rounding.
 // Not done  one output of several inputs; a limit that was reached; gains that change meanwhile.
 // Units     of the columns. Thread: any. Failure: BadInput in a sentence.
 

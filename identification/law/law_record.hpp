@@ -7,7 +7,7 @@
 // Rows      of the longest levitated interval; of an axis that was excited, from its first excited
 //           row to its last.
 // Thread    any.
-// Failure   BadInput: no levitated rows, a current at its limit (the law's answer is cut off there).
+// Failure   BadInput: no levitated rows, a current at its limit (the law is cut off there).
 
 #include <vector>
 
