@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "analysis/poles.hpp"
 #include "analysis/sensitivity.hpp"
 #include "common/rotational_speed.hpp"
+#include "design/uncertainty/healthy_rig.hpp"
+#include "design/uncertainty/mixed_mu.hpp"
 
 namespace levitas::design {
 namespace {
@@ -25,7 +28,9 @@ std::vector<double> DrawCorner(Random& draw, std::size_t parameters) {
 }
 
 /// Poles and |S| of one loop; false when it is unstable.
-bool JudgeLoop(const config::RigFile& rig, const law::LawConfig& law, double speed, bool nominal,
+enum class Of { kFile, kCorner, kDrawn };
+
+bool JudgeLoop(const config::RigFile& rig, const law::LawConfig& law, double speed, Of of,
                GateResult& out) {
   const auto found = analysis::SensitivityPeaks(rig.plant, law, speed);
   ++out.loops;
@@ -33,14 +38,19 @@ bool JudgeLoop(const config::RigFile& rig, const law::LawConfig& law, double spe
     out.pole_modulus = found.largest_pole_modulus;
     out.pole_speed_rad_per_s = speed;
   }
-  for (const auto& axis : found.axes)
-    Raise(nominal ? out.sensitivity : out.corner_sensitivity, axis.peak, axis.frequency_hz, speed);
-  if (nominal)
+  Peak& peak = of == Of::kFile     ? out.sensitivity
+               : of == Of::kCorner ? out.corner_sensitivity
+                                   : out.drawn_sensitivity;
+  for (const auto& axis : found.axes) Raise(peak, axis.peak, axis.frequency_hz, speed);
+  if (of == Of::kFile)
     Raise(out.singular, found.largest_singular_value, found.largest_singular_value_hz, speed);
   if (found.stable || !out.reason.empty()) return found.stable;
   out.reason =
       fmt::format("the loop is unstable at {:.0f} rpm ({}, |z| {:.6f})", RadPerSToRpm(speed),
-                  nominal ? "the rig file" : "a corner", found.largest_pole_modulus);
+                  of == Of::kFile     ? "the rig file"
+                  : of == Of::kCorner ? "a corner"
+                                      : "a drawn rig",
+                  found.largest_pole_modulus);
   return false;
 }
 
@@ -63,9 +73,13 @@ void RunDrawn(const config::RigFile& rig, const law::LawConfig& law,
   double worst_m = -1.0;
   for (std::size_t n = 0; n < options.draws; ++n) {
     // The first is the rig as its file has it.
-    const auto drawn =
+    auto drawn =
         n == 0 ? rig
                : uncertainty::At(rig, parameters, uncertainty::DrawPlace(draw, parameters.size()));
+    if (options.tolerances && n > 0) drawn = uncertainty::DrawWithin(drawn, draw);
+    if (options.tolerances)
+      for (const double speed : {0.0, rig.numbers.max_speed_rad_per_s})
+        JudgeLoop(drawn, law, speed, Of::kDrawn, out);
     const auto pushed = WithThirdHarmonic(drawn, options.third_n);
     for (std::size_t s = 0; s < out.drawn.size(); ++s) {
       const auto run = RunOnce(
@@ -97,9 +111,9 @@ void RunDrawn(const config::RigFile& rig, const law::LawConfig& law,
 
 }  // namespace
 
-Peak MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
-              const std::vector<uncertainty::Parameter>& parameters,
-              const uncertainty::AnalysisWeights& weights, double speed) {
+MuPeaks MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
+                 const std::vector<uncertainty::Parameter>& parameters,
+                 const uncertainty::AnalysisWeights& weights, double speed) {
   constexpr int kPoints = 300;
   constexpr double kBracketed = 1.01;
   constexpr double kLightlyDamped = 0.12;
@@ -138,8 +152,19 @@ Peak MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
     if (between.empty()) break;
     for (const double hz : between) add(hz);
   }
-  Peak out;
-  for (const auto& [hz, mu] : at) Raise(out, mu, hz, speed);
+  MuPeaks out;
+  for (const auto& [hz, mu] : at) Raise(out.of_complex, mu, hz, speed);
+  // Real perturbations have at most the bound of complex ones: where that is below what was found,
+  // nothing is left to look for.
+  std::ranges::sort(at, std::ranges::greater{}, &std::pair<double, double>::second);
+  for (const auto& [hz, mu] : at) {
+    if (mu <= out.of_real.value) break;
+    const auto point = plant.At(hz);
+    Raise(out.of_real,
+          uncertainty::MixedMu(uncertainty::LoopMatrix(point, response.At(hz), weights),
+                               plant.perturbations(), out.of_real.value),
+          hz, speed);
+  }
   return out;
 }
 
@@ -169,14 +194,14 @@ GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
     speeds.push_back(w);
   if (speeds.empty()) speeds.push_back(0.0);
   for (const double speed : speeds) {
-    JudgeLoop(rig, law, speed, true, out);
+    JudgeLoop(rig, law, speed, Of::kFile, out);
     progress(0.2 * speed / std::max(speeds.back(), 1e-9),
              fmt::format("poles and |S| at {:.0f} rpm", RadPerSToRpm(speed)));
   }
   Random draw(options.seed + 1000);
   for (std::size_t c = 0; c < options.corners; ++c) {
     const auto corner = uncertainty::At(rig, parameters, DrawCorner(draw, parameters.size()));
-    for (const double speed : {0.0, top}) JudgeLoop(corner, law, speed, false, out);
+    for (const double speed : {0.0, top}) JudgeLoop(corner, law, speed, Of::kCorner, out);
     progress(0.2 + 0.1 * static_cast<double>(c + 1) / static_cast<double>(options.corners),
              "corners of the uncertainty");
   }
@@ -185,8 +210,9 @@ GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
                              out.sensitivity.value, out.sensitivity.hz,
                              RadPerSToRpm(out.sensitivity.speed_rad_per_s), options.sensitivity);
   for (const double speed : {0.0, 0.5 * top, top}) {
-    const Peak peak = MuPeakAt(rig, law, parameters, options.weights, speed);
-    Raise(out.mu, peak.value, peak.hz, peak.speed_rad_per_s);
+    const MuPeaks peak = MuPeakAt(rig, law, parameters, options.weights, speed);
+    Raise(out.mu, peak.of_real.value, peak.of_real.hz, speed);
+    Raise(out.mu_complex, peak.of_complex.value, peak.of_complex.hz, speed);
   }
   progress(0.4, "mu");
   if (out.reason.empty() && options.mu && out.mu.value > *options.mu)

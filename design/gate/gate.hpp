@@ -4,10 +4,12 @@
 // 1 Poles   of the sampled loop with exact delay (analysis/sensitivity.hpp), at speeds from rest to
 //           `over_speed` times the rated speed, of the file's rig and of drawn corners.
 // 2 |S|     on bracketed peaks, the same loops; the limit is the zone's of ISO 14839-3.
-// 3 mu      an upper bound (complex perturbations, design/uncertainty) with every local maximum of
-//           a dense grid bracketed until neighbours differ by less than 1 %; told, and a limit when
-//           `mu` is given.
+// 3 mu      an upper bound with real perturbations (design/uncertainty/mixed_mu.hpp) on a dense
+//           grid; local maxima of the bound with complex ones are bracketed until neighbours differ
+//           by less than 1 %; told, and a limit when `mu` is given.
 // 4 Rigs    drawn from the uncertainty, simulated with contact, saturation, noise: none is lost.
+//           With `tolerances` everything else that the file states is drawn too
+//           (design/uncertainty/healthy_rig.hpp), and poles and |S| of each rig are judged.
 // Accepted  the first, the second and the fourth pass, the third where asked.
 // Worst     the drawn rig with the largest orbit, or the first that was lost, as a rig file.
 // Thread    that of the caller; the same seed gives the same answer.
@@ -29,6 +31,7 @@ struct GateOptions {
   std::uint64_t seed{1};
   double sensitivity{4.0};  ///< upper edge of zone B
   std::optional<double> mu;
+  bool tolerances{};
   double third_n{};  ///< of WithThirdHarmonic, in the drawn runs
   std::vector<double> run_speeds_rad_per_s;
   uncertainty::AnalysisWeights weights;
@@ -54,9 +57,11 @@ struct GateResult {
   Peak sensitivity;         ///< of the file's rig, any axis
   Peak corner_sensitivity;  ///< of the corners
   Peak singular;            ///< largest singular value of S, the file's rig
-  Peak mu;
+  Peak mu;                  ///< real perturbations
+  Peak mu_complex;          ///< were they complex
   std::vector<DrawnSpeed> drawn;
   std::size_t rigs{};
+  Peak drawn_sensitivity;  ///< of the drawn rigs, with `tolerances`
   std::optional<config::RigFile> worst;
 };
 
@@ -74,9 +79,13 @@ struct GateResult {
                                       const std::vector<uncertainty::Parameter>& parameters,
                                       const GateOptions& options);
 
-/// The peak of mu at one speed, neighbours of each maximum bracketed.
-[[nodiscard]] Peak MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
-                            const std::vector<uncertainty::Parameter>& parameters,
-                            const uncertainty::AnalysisWeights& weights, double speed_rad_per_s);
+struct MuPeaks {
+  Peak of_real, of_complex;
+};
+
+/// The peaks of mu at one speed, neighbours of each maximum bracketed.
+[[nodiscard]] MuPeaks MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
+                               const std::vector<uncertainty::Parameter>& parameters,
+                               const uncertainty::AnalysisWeights& weights, double speed_rad_per_s);
 
 }  // namespace levitas::design

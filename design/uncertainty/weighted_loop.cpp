@@ -4,6 +4,7 @@
 
 #include "common/two_pi.hpp"
 #include "controller/law/state_space_law.hpp"
+#include "design/uncertainty/balance.hpp"
 #include "design/uncertainty/uncertain_plant.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
@@ -100,10 +101,7 @@ MatrixXcd LoopMatrix(const PlantPoint& plant, const MatrixXcd& law,
   return out;
 }
 
-namespace {
-
-/// D M D^-1, the perturbations' rows balanced against their columns.
-MatrixXcd Balance(const MatrixXcd& m, Index perturbations) {
+MatrixXcd Balanced(const MatrixXcd& m, Index perturbations, Eigen::VectorXd& l) {
   constexpr int kSweeps = 6;
   Eigen::MatrixXd size = m.cwiseAbs2();
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(m.rows());
@@ -117,7 +115,15 @@ MatrixXcd Balance(const MatrixXcd& m, Index perturbations) {
       size.col(i) /= f * f;
       scale(i) *= f;
     }
+  l = scale.array().log();
   return scale.asDiagonal() * m * scale.cwiseInverse().asDiagonal();
+}
+
+namespace {
+
+MatrixXcd Balance(const MatrixXcd& m, Index perturbations) {
+  Eigen::VectorXd unused;
+  return Balanced(m, perturbations, unused);
 }
 
 double LargestGain(const MatrixXcd& m) {

@@ -70,7 +70,7 @@ Compared Measure(const config::RigFile& rig, const std::string& name, const Comp
     out.peak.push_back(peak);
   }
   for (const double speed : {0.0, top}) {
-    const auto peak = design::MuPeakAt(rig, out.law, parameters, weights, speed);
+    const auto peak = design::MuPeakAt(rig, out.law, parameters, weights, speed).of_real;
     if (peak.value > out.mu.value) out.mu = peak;
   }
   const design::GateOptions drawn = GateOf(options.gate, weights, rig);

@@ -59,6 +59,10 @@ void AddGateOptions(CLI::App& command, GateCommandOptions& options) {
   command.add_option("--draws", options.draws, "Rigs drawn for the nonlinear runs")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  command.add_flag(
+      "--tolerances", options.tolerances,
+      "Draw everything else that the rig file's tolerances state, too, and judge poles "
+      "and |S| of each rig");
   command.add_option("--corners", options.corners, "Corners of the uncertainty judged by poles")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
@@ -94,6 +98,7 @@ design::GateOptions GateOf(const GateCommandOptions& options,
   gate.seed = options.seed;
   gate.sensitivity = options.sensitivity;
   gate.third_n = options.third_n;
+  gate.tolerances = options.tolerances;
   gate.weights = weights;
   gate.run_speeds_rad_per_s = design::RunSpeeds(rig.numbers.max_speed_rad_per_s);
   return gate;
@@ -113,12 +118,15 @@ design::GateResult JudgeAndPrint(const config::RigFile& rig, const law::LawConfi
              options.corners, result.pole_modulus);
   fmt::print("|S|      {}; corners {}; largest singular value {}\n", PeakText(result.sensitivity),
              PeakText(result.corner_sensitivity), PeakText(result.singular));
-  fmt::print("mu       at most {} (real parameters, bounded as complex ones)\n",
-             PeakText(result.mu));
+  fmt::print("mu       at most {}, real parameters; were they complex, {}\n", PeakText(result.mu),
+             PeakText(result.mu_complex));
   fmt::print("runs     {} drawn rigs on the nonlinear plant{}\n", result.rigs,
              options.third_n > 0.0
                  ? fmt::format(", {:.2f} N at three times the speed", options.third_n)
                  : "");
+  if (options.tolerances)
+    fmt::print("         drawn within the file's tolerances too: |S| {}\n",
+               PeakText(result.drawn_sensitivity));
   TextTable table;
   table.Add({"  rpm", "lost", "worst orbit [um]", "median [um]"});
   for (const auto& at : result.drawn)
@@ -143,7 +151,9 @@ nlohmann::ordered_json GateJson(const design::GateResult& result) {
   json["corner_sensitivity"] = PeakJson(result.corner_sensitivity);
   json["singular_value"] = PeakJson(result.singular);
   json["mu_upper"] = PeakJson(result.mu);
+  json["mu_upper_complex"] = PeakJson(result.mu_complex);
   json["drawn_rigs"] = result.rigs;
+  json["drawn_sensitivity"] = PeakJson(result.drawn_sensitivity);
   for (const auto& at : result.drawn)
     json["speeds"].push_back({{"speed_rpm", RadPerSToRpm(at.speed_rad_per_s)},
                               {"lost", at.lost},

@@ -19,6 +19,7 @@ struct GateCommandOptions {
   std::uint64_t seed{1};
   double sensitivity{4.0};
   double third_n{0.0};
+  bool tolerances{};
 };
 
 void AddGateOptions(CLI::App& command, GateCommandOptions& options);
