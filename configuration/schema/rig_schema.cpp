@@ -277,8 +277,13 @@ void Describe(Visitor& v, RigFile& rig) {
   });
   bool has_run = !rig.run.controller.empty();
   v.OptionalGroup("run", "what the commands use with this rig unless told otherwise", has_run, [&] {
-    v.Name({"controller", "shipped name"}, rig.run.controller);
-    v.Name({"scenario", "shipped name"}, rig.run.scenario);
+    constexpr std::size_t kLongestPath = 1000;
+    v.Name({"controller",
+            "shipped name, or a path (with a /) from the folder of this file",
+            {},
+            kLongestPath},
+           rig.run.controller);
+    v.Name({"scenario", "the same", {}, kLongestPath}, rig.run.scenario);
   });
   DescribeLog(v, rig.log);
   DescribeTolerances(v, rig.tolerances);
