@@ -2,8 +2,8 @@
 // What kind of file somebody else's data are in, by its first bytes, whatever its name: what cannot
 // be read is refused with the step that makes a CSV file of it.
 //
-// Known     Excel (.xlsx, .xls), OpenDocument, TDMS and its index, MCAP, Parquet, HDF5, MATLAB,
-//           MDF, ROS bags, SQLite, gzip, zip, bzip2, zstd, xz, UTF-16, JSON, and sessions of our own.
+// Known     Excel (.xlsx, .xls), OpenDocument, TDMS and index, MCAP, Parquet, HDF5, MATLAB, MDF,
+//           ROS bags, SQLite, gzip, zip, bzip2, zstd, xz, UTF-16, JSON, and our own sessions.
 // Thread    any.
 // Failure   BadInput: the kind, the step that helps and the command that takes its result.
 
