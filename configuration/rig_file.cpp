@@ -1,6 +1,7 @@
 #include "configuration/rig_file.hpp"
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 
 #include "common/problem.hpp"
@@ -44,7 +45,16 @@ scenario::ScenarioConfig ParseScenario(const std::string& text, const std::strin
       [&](Visitor& v, scenario::ScenarioConfig& file) { Describe(v, file, rig); });
 }
 
-RigFile LoadRig(const std::string& path) { return ParseRig(ReadText(path), path); }
+RigFile LoadRig(const std::string& path) {
+  RigFile rig = ParseRig(ReadText(path), path);
+  // What a rig names by a path lies beside it: from here on the path is from where we run.
+  for (std::string* own : {&rig.run.controller, &rig.run.scenario}) {
+    const std::filesystem::path named(*own);
+    if (own->find('/') == std::string::npos || named.is_absolute()) continue;
+    *own = (std::filesystem::path(path).parent_path() / named).lexically_normal().string();
+  }
+  return rig;
+}
 
 ControllerFile LoadController(const std::string& path, const RigNumbers& rig) {
   return ParseController(ReadText(path), path, rig);

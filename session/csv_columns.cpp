@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -41,9 +42,14 @@ constexpr std::array<PerAxis, 9> kPerAxis{
 
 /// Every name that is understood, and what it means.
 std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {
+  constexpr double kDegree = 180.0 / std::numbers::pi;
   std::vector<CsvColumn> known{{CsvQuantity::kTime, 0, 1.0, "time_s"},
+                               {CsvQuantity::kTime, 0, 1e3, "time_ms"},
+                               {CsvQuantity::kTime, 0, 1e6, "time_us"},
                                {CsvQuantity::kAngle, 0, 1.0, "rotor_angle_rad"},
-                               {CsvQuantity::kSpeed, 0, 1.0, "speed_rpm"}};
+                               {CsvQuantity::kAngle, 0, kDegree, "rotor_angle_deg"},
+                               {CsvQuantity::kSpeed, 0, 1.0, "speed_rpm"},
+                               {CsvQuantity::kSpeed, 0, 1.0 / 60.0, "speed_hz"}};
   const auto add = [&](const PerAxis& kind, std::size_t axis, const Unit& unit) {
     known.push_back({kind.quantity, axis, unit.divisor,
                      fmt::format("{}{}{}{}", kind.prefix, channels[axis],
@@ -147,6 +153,20 @@ std::vector<std::string> ChannelsOf(const std::vector<std::string>& cells) {
   return found;
 }
 
+/// What is there instead, and what helps.
+std::string Found(const std::vector<std::string>& cells) {
+  constexpr std::size_t kMost = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(cells.size(), kMost); ++i) {
+    text += fmt::format("{}\"{}\"", i > 0 ? ", " : "", Beginning(cells[i]));
+  }
+  if (cells.size() > kMost) text += fmt::format(" and {} more", cells.size() - kMost);
+  return "\ncolumns found: " + text +
+         "\nrename them, or map them: amb import with --guess prints a map of what each probably "
+         "is, "
+         "--map takes it";
+}
+
 /// None of the channels is the rig's: one sentence says more than a line for every column.
 void RefuseOtherRig(const std::vector<std::string>& cells, const std::string& where,
                     const std::vector<std::string>& channels) {
@@ -163,6 +183,21 @@ void RefuseOtherRig(const std::vector<std::string>& cells, const std::string& wh
 
 }  // namespace
 
+bool IsNameOfOurs(std::string_view name) {
+  return name.starts_with("time_") || name.starts_with("rotor_angle_") ||
+         name.starts_with("speed_") || HasPrefixOfOurs(name);
+}
+
+char SeparatorOf(std::string_view line) {
+  const auto count = [line](char c) { return std::count(line.begin(), line.end(), c); };
+  const auto tabs = count('\t');
+  const auto semicolons = count(';');
+  const auto commas = count(',');
+  if (tabs > 0 && tabs >= semicolons && tabs >= commas) return '\t';
+  if (semicolons + commas > 0) return semicolons > commas ? ';' : ',';
+  return line.find(' ') != std::string_view::npos ? ' ' : ',';
+}
+
 bool CsvLayout::Has(CsvQuantity quantity) const noexcept {
   return std::any_of(columns.begin(), columns.end(),
                      [&](const CsvColumn& column) { return column.quantity == quantity; });
@@ -171,6 +206,10 @@ bool CsvLayout::Has(CsvQuantity quantity) const noexcept {
 void SplitCsv(std::string_view line, char separator, std::vector<std::string_view>& cells) {
   cells.clear();
   for (std::size_t start = 0; start <= line.size();) {
+    if (separator == ' ') {
+      start = std::min(line.find_first_not_of(' ', start), line.size());
+      if (start == line.size() && !cells.empty()) return;
+    }
     const std::size_t end = std::min(line.find(separator, start), line.size());
     std::string_view cell = line.substr(start, end - start);
     const auto blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -182,18 +221,6 @@ void SplitCsv(std::string_view line, char separator, std::vector<std::string_vie
     cells.push_back(cell);
     start = end + 1;
   }
-}
-
-CsvLayout ParseCsvHeader(std::string_view first_line, const std::string& path,
-                         const std::vector<std::string>& channels) {
-  const auto semicolons = std::count(first_line.begin(), first_line.end(), ';');
-  const auto commas = std::count(first_line.begin(), first_line.end(), ',');
-  const char separator = semicolons > commas ? ';' : ',';
-  std::vector<std::string_view> cells;
-  SplitCsv(first_line, separator, cells);
-  CsvLayout layout = ParseColumns({cells.begin(), cells.end()}, path + ": line 1", channels);
-  layout.separator = separator;
-  return layout;
 }
 
 CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string& where,
@@ -238,7 +265,7 @@ CsvLayout ParseColumns(const std::vector<std::string>& cells, const std::string&
                                    not_looked_at));
   }
   const auto missing = Missing(layout, channels);
-  if (!missing.empty()) problems.push_back("columns missing: " + Listed(missing));
+  if (!missing.empty()) problems.push_back("columns missing: " + Listed(missing) + Found(cells));
   if (!problems.empty()) {
     std::string text;
     for (const auto& problem : problems) text += (text.empty() ? "" : "\n") + problem;

@@ -46,13 +46,14 @@ void WriteImport(const ImportOptions& options,
 
 ImportReport ImportCsv(const ImportOptions& options) {
   CheckOutputPath(options.out_path, options.data_path);
-  CsvRows rows(options.data_path, options.rig.channels);
+  CsvRows rows(options.data_path, options.rig.channels, options.map);
   return Import(options, rows);
 }
 
 ImportReport ImportMat(const ImportOptions& options) {
   CheckOutputPath(options.out_path, options.data_path);
-  MatRows rows(options.data_path, options.rig.channels, options.matrix, options.matrix_rows);
+  MatRows rows(options.data_path, options.rig.channels, options.matrix, options.matrix_rows,
+               options.map);
   return Import(options, rows);
 }
 

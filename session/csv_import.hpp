@@ -25,6 +25,7 @@ struct ImportOptions {
   std::vector<CoilScale> coils{};          ///< per axis; needed for columns of gap and duty
   std::string matrix{};                    ///< of a MAT file without vectors of our names
   std::vector<std::string> matrix_rows{};  ///< names of its rows
+  const ColumnMap* map{};                  ///< what the columns are; null: as their names say
 };
 
 ImportReport ImportCsv(const ImportOptions& options);

@@ -1,8 +1,10 @@
 #pragma once
 // Rows of a measured CSV file in SI units, one after the other.
 //
-// Numbers  decimal point, or decimal comma when semicolons separate the cells. A position may be
+// Numbers  decimal point, or decimal comma where no comma separates the cells. A position may be
 //          "nan" (a sensor that gave no number is data); a time or a current may not.
+// Names    of the contract (csv_columns.hpp), or those that a map names (column_map.hpp). A row of
+//          units below the names must agree with names of the contract; a map knows better.
 // Failure  BadInput with line and column.
 
 #include <array>
@@ -12,7 +14,9 @@
 
 #include "common/axes.hpp"
 #include "common/problem.hpp"
+#include "session/column_map.hpp"
 #include "session/csv_columns.hpp"
+#include "session/csv_head.hpp"
 #include "session/line_source.hpp"
 
 namespace levitas::session {
@@ -47,7 +51,9 @@ void Put(const CsvColumn& column, double value, CsvRow& row) noexcept;
 
 class CsvRows : public RowSource {
  public:
-  CsvRows(const std::string& path, const std::vector<std::string>& channels);
+  /// `map` may be null.
+  CsvRows(const std::string& path, const std::vector<std::string>& channels,
+          const ColumnMap* map = nullptr);
   [[nodiscard]] const CsvLayout& layout() const noexcept override { return layout_; }
   /// Empty lines are skipped.
   bool Next(CsvRow& row) override;
@@ -55,12 +61,18 @@ class CsvRows : public RowSource {
 
  private:
   double Number(std::size_t index);
+  bool NextLine(std::string_view& line);
+  void RefuseOtherUnits() const;
 
   std::string path_;
   LineSource lines_;
+  CsvHead head_;
   CsvLayout layout_;
+  std::size_t taken_ahead_{};
+  std::uint64_t line_number_{};
+  double rate_hz_{};  ///< 0: a column tells the time
+  std::uint64_t rows_{};
   std::vector<std::string_view> cells_;
-  std::string scratch_;
 };
 
 }  // namespace levitas::session

@@ -9,10 +9,12 @@
 namespace levitas::session {
 
 MatRows::MatRows(const std::string& path, const std::vector<std::string>& channels,
-                 const std::string& matrix, const std::vector<std::string>& matrix_rows)
-    : path_(path) {
+                 const std::string& matrix, const std::vector<std::string>& matrix_rows,
+                 const ColumnMap* map)
+    : path_(path), rate_hz_(map != nullptr ? map->rate_hz : 0.0) {
   MatTable table = ReadMat(path, matrix, matrix_rows);
-  layout_ = ParseColumns(table.names, path, channels);
+  layout_ = map == nullptr ? ParseColumns(table.names, path, channels)
+                           : ParseMappedColumns(table.names, *map, path, channels);
   columns_ = std::move(table.columns);
   std::size_t length = 0;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
@@ -27,6 +29,7 @@ MatRows::MatRows(const std::string& path, const std::vector<std::string>& channe
 
 bool MatRows::Next(CsvRow& row) {
   const std::size_t sample = next_++;
+  if (rate_hz_ > 0.0) row.time_s = static_cast<double>(sample) / rate_hz_;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const CsvColumn& column = layout_.columns[i];
     if (column.quantity == CsvQuantity::kIgnored) continue;

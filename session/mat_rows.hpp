@@ -18,9 +18,10 @@ namespace levitas::session {
 
 class MatRows : public RowSource {
  public:
-  /// Without `matrix` only vectors are looked for.
+  /// Without `matrix` only vectors are looked for; `map` may be null.
   MatRows(const std::string& path, const std::vector<std::string>& channels,
-          const std::string& matrix, const std::vector<std::string>& matrix_rows);
+          const std::string& matrix, const std::vector<std::string>& matrix_rows,
+          const ColumnMap* map = nullptr);
   [[nodiscard]] const CsvLayout& layout() const noexcept override { return layout_; }
   bool Next(CsvRow& row) override;
   [[nodiscard]] BadInput Bad(const std::string& what) const override;
@@ -30,6 +31,7 @@ class MatRows : public RowSource {
   CsvLayout layout_;
   std::vector<std::vector<double>> columns_;
   std::size_t next_{0};
+  double rate_hz_{};  ///< 0: a column tells the time
 };
 
 }  // namespace levitas::session

@@ -19,6 +19,7 @@ using Action = std::function<ExitStatus()>;
 // study_commands.hpp, source in CMakeLists.txt.)
 void AddRunningCommands(CLI::App& app, Action& action);
 void AddRunCommand(CLI::App& app, Action& action);
+void AddNewCommand(CLI::App& app, Action& action);
 void AddModesCommand(CLI::App& app, Action& action);
 void AddPolesCommand(CLI::App& app, Action& action);
 void AddMarginsCommand(CLI::App& app, Action& action);

@@ -15,14 +15,26 @@
 #include "levitas_version.hpp"
 #include "session/candump_import.hpp"
 #include "session/coil_scales.hpp"
+#include "session/column_guess.hpp"
+#include "session/column_map.hpp"
 #include "session/csv_import.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
 
+constexpr const char* kImportHelp =
+    "The columns of the file are known by their names (docs/formats.md), or by a map. For a file "
+    "of "
+    "your own:\n"
+    "  amb import mine.csv --rig my_rig.yaml --guess > map.yaml    # what each column probably is\n"
+    "  amb import mine.csv --rig my_rig.yaml --map map.yaml --out mine.lcm\n"
+    "Check the map in between, signs and offsets above all.";
+
 struct ImportCommandOptions {
   std::string data_path;
+  std::string map_path;
+  bool guess{false};
   std::string rig_name;
   std::string out_path;
   std::string json_path;
@@ -82,7 +94,42 @@ bool IsBusLog(const std::string& path) {
   return path.ends_with(".log") || path.ends_with(".log.xz");
 }
 
+/// Of a guess: a map for a person to confirm.
+ExitStatus Guess(const ImportCommandOptions& options) {
+  session::CheckOutputPath(options.json_path, options.data_path);
+  const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+  const session::ColumnGuess guess = session::GuessColumns(
+      options.data_path.ends_with(".mat")
+          ? session::SampleMat(options.data_path, rig.log.matrix, rig.log.rows)
+          : session::SampleColumns(options.data_path),
+      rig.numbers);
+  fmt::print("{}", rt::Printable(session::GuessText(
+                       guess, rig.numbers, options.data_path,
+                       fmt::format("amb import {} --rig {} --map MAP.yaml --out SESSION.lcm",
+                                   options.data_path, options.rig_name))));
+  nlohmann::ordered_json json{{"data", options.data_path}, {"rig", rig.numbers.name}};
+  json["columns"] = nlohmann::ordered_json::array();
+  for (const auto& column : guess.columns) {
+    json["columns"].push_back({{"column", column.column},
+                               {"is", column.quantity},
+                               {"unit", column.unit},
+                               {"unit_by_values", column.unit_by_values}});
+  }
+  json["missing"] = guess.missing;
+  WriteJsonFile(options.json_path, json);
+  return ExitStatus::kDone;
+}
+
 ExitStatus Import(const ImportCommandOptions& options) {
+  if (options.guess) return Guess(options);
+  if (options.out_path.empty()) {
+    throw Problem(ExitStatus::kUsage,
+                  "--out is required: the session to write (or --guess, which writes none)");
+  }
+  if (!options.map_path.empty() && IsBusLog(options.data_path)) {
+    throw Problem(ExitStatus::kUsage,
+                  "--map: a log of candump has no columns, its frames say what they hold");
+  }
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
   }
@@ -97,6 +144,11 @@ ExitStatus Import(const ImportCommandOptions& options) {
                                 .coils = session::CoilScales(rig.plant, rig.numbers.axes()),
                                 .matrix = rig.log.matrix,
                                 .matrix_rows = rig.log.rows};
+  session::ColumnMap map;
+  if (!options.map_path.empty()) {
+    map = session::LoadColumnMap(options.map_path);
+    import.map = &map;
+  }
   if (IsBusLog(options.data_path)) return ImportBusLog(options, rig, import);
   const session::ImportReport report =
       options.data_path.ends_with(".mat") ? session::ImportMat(import) : session::ImportCsv(import);
@@ -123,13 +175,21 @@ void AddImportCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "import",
       "Measured data (CSV, MAT), or a candump log of a rig's CAN buses, becomes a session");
+  command->footer(kImportHelp);
   command
       ->add_option(
           "DATA", options->data_path,
           "CSV file or log of candump (.log), either compressed by xz (.xz), or MAT file (.mat)")
       ->required();
   command->add_option("--rig", options->rig_name, "Rig file, or name of a shipped one")->required();
-  command->add_option("--out", options->out_path, "Session to write")->required();
+  command->add_option("--out", options->out_path, "Session to write; required without --guess");
+  auto* map = command->add_option("--map", options->map_path,
+                                  "Map of columns: what each column of the file is, its unit, sign "
+                                  "and offset (docs/formats.md)");
+  command
+      ->add_flag("--guess", options->guess,
+                 "Print a map of columns as it probably is, for you to check; write no session")
+      ->excludes(map);
   command->add_flag("--overwrite", options->overwrite, "Replace a session that is there already");
   command->add_option("--tag", options->tags,
                       "Tag in the catalogue (amb sessions); may be repeated");

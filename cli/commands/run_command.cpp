@@ -14,6 +14,7 @@
 #include "cli/run/disk_room.hpp"
 #include "cli/run/interrupt.hpp"
 #include "cli/run/live_page.hpp"
+#include "cli/run/loop_warning.hpp"
 #include "cli/run/port_lease.hpp"
 #include "cli/run/progress.hpp"
 #include "cli/run/run_folder.hpp"
@@ -170,6 +171,16 @@ RunFiles WithRigAsRun(const RunOptions& options, RunFiles files, const RunFolder
   return files;
 }
 
+/// Before anything is lifted.
+void WarnOfUnstableLoop(const RunOptions& options, const RunFiles& files) {
+  const config::RigFile rig = config::ParseRig(files.rig_text, files.rig_path);
+  const auto controller = config::LoadController(files.controller_path, files.rig);
+  const auto scenario = config::LoadScenario(files.scenario_path, files.rig);
+  const std::string text = UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario), options.rig,
+                                        files.controller_path);
+  if (!text.empty()) rt::Say("amb: warning: " + text);
+}
+
 ExitStatus Execute(const RunOptions& asked) {
   for (const std::string& path : {asked.record_path, asked.json_path, asked.rig_out}) {
     session::CheckOutputPath(path, {});
@@ -201,6 +212,7 @@ ExitStatus Execute(const RunOptions& asked) {
   rt::Say(fmt::format("rig {}{}, controller {}, scenario {}, {}, port {}", files.rig.name,
                       options.rig_is_there ? " (not simulated)" : "", files.controller_path,
                       files.scenario_name, options.pace, port));
+  WarnOfUnstableLoop(options, files);
   const PagePlan page = PlanPage(options.page, LookAround(options.pace == "realtime"));
   RunResult result = RunBoth(plan, files, *network, page);
   result.trouble = WithRoom(result.trouble, paths, folder);

@@ -5,6 +5,7 @@ namespace levitas::cli {
 
 void AddRunningCommands(CLI::App& app, Action& action) {
   AddRunCommand(app, action);
+  AddNewCommand(app, action);
   AddModesCommand(app, action);
   AddPolesCommand(app, action);
   AddMarginsCommand(app, action);

@@ -11,6 +11,7 @@ namespace levitas::cli {
 
 struct AnalysisOptions {
   std::string rig_name{"flexible_rotor"};
+  std::string rig_named;  ///< by --rig of a command that reads records; see rig_of_records.hpp
   std::string controller_name;  ///< empty: the one that the rig names, else flexible_rotor
   std::string port{"lcm"};      ///< whose delay counts; see TakeDelayOfPort
   std::vector<double> speeds_rpm;

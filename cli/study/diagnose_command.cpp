@@ -11,6 +11,7 @@
 #include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/rig_of_records.hpp"
 #include "cli/study/answer_folder.hpp"
 #include "cli/study/diagnosis_inputs.hpp"
 #include "cli/study/kept_memory.hpp"
@@ -85,7 +86,10 @@ void WritePlan(const std::string& path, const Diagnosed& found, std::vector<std:
 ExitStatus Run(const DiagnoseOptions& options) {
   KeepFreedMemory();
   diagnosis::DiagnosisRequest inputs;
-  inputs.rig = LoadRig(options);
+  std::vector<std::string> records = options.data;
+  records.insert(records.end(), options.holdout.begin(), options.holdout.end());
+  records.insert(records.end(), options.healthy.begin(), options.healthy.end());
+  inputs.rig = LoadRigOfRecords(options, records);
   RefuseSameFiles(options.data, options.holdout, options.healthy);
   const AnswerFolder folder(options.out);
   ProgressLine progress(stderr, isatty(STDERR_FILENO) == 1);
@@ -115,7 +119,7 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   CLI::App* command = AddStudyCommand(app, "diagnose");
   command->footer(kDiagnoseHelp);
   command->add_option("DATA", options->data, "Sessions, CSV or MAT files of one rig")->required();
-  AddRigOption(*command, *options);
+  AddRigOfRecordsOption(*command, *options);
   command->add_option("--holdout", options->holdout,
                       "Validation data for the gain, none of DATA; without it every sixth "
                       "stretch of 50 ms is validation data");

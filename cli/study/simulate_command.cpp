@@ -18,6 +18,7 @@
 #include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/rig_of_records.hpp"
 #include "cli/study/free_run.hpp"
 #include "cli/study/innovation_files.hpp"
 #include "common/rotational_speed.hpp"
@@ -251,7 +252,7 @@ FreeRunContext ContextOf(const Simulation& s) {
 
 Simulation Simulate(const SimulateOptions& options) {
   Simulation s;
-  s.rig = LoadRig(options);
+  s.rig = LoadRigOfRecords(options, {options.session_path});
   std::vector<analysis::RecordedRow> rows;
   {
     session::Recording recording = session::LoadRecording(options.session_path, s.rig);
@@ -311,7 +312,7 @@ void AddSimulateCommand(CLI::App& app, Action& action) {
   command
       ->add_option("session", options->session_path, "Session, CSV or MAT file (docs/formats.md)")
       ->required();
-  AddRigOption(*command, *options);
+  AddRigOfRecordsOption(*command, *options);
   command
       ->add_option("--force-noise-percent", options->force_noise_percent,
                    "Observer: unknown force per axis and sample, rms, in percent of ki i0; larger "

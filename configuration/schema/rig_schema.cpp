@@ -71,13 +71,17 @@ void Describe(Visitor& v, plant::SensorConfig& sensor) {
 void Describe(Visitor& v, plant::TouchdownConfig& touchdown) {
   v.Number({"clearance", kMicrometre, 1, 20000, kRequired, "radial clearance"},
            touchdown.clearance_m);
-  v.Number({"stiffness", kStiffness, 1e4, 1e10, kRequired, "of the contact, radial"},
+  v.Number({"stiffness", kStiffness, 1e4, 1e10, 2e7,
+            "of the contact, radial; the default is of a soft-mounted ball bearing"},
            touchdown.stiffness_n_per_m);
-  v.Number({"damping", kDamping, 0, 1e6, kRequired, "of the contact, radial"},
+  v.Number({"damping", kDamping, 0, 1e6, 2000,
+            "of the contact, radial; the default is of a rubber mount"},
            touchdown.damping_n_s_per_m);
-  v.Number({"friction", kOne, 0, 1, kRequired, "Coulomb coefficient of the sliding contact"},
+  v.Number({"friction", kOne, 0, 1, 0.05,
+            "Coulomb coefficient of the sliding contact; the default is of an inner race that "
+            "spins up within a turn"},
            touchdown.friction);
-  v.Number({"journal_radius", kMillimetre, 0.1, 2000, kRequired, "where the shaft slides"},
+  v.Number({"journal_radius", kMillimetre, 0.1, 2000, 15, "where the shaft slides"},
            touchdown.journal_radius_m);
 }
 
@@ -310,8 +314,13 @@ void Describe(Visitor& v, RigFile& rig) {
   });
   bool has_run = !rig.run.controller.empty();
   v.OptionalGroup("run", "what the commands use with this rig unless told otherwise", has_run, [&] {
-    v.Name({"controller", "shipped name"}, rig.run.controller);
-    v.Name({"scenario", "shipped name"}, rig.run.scenario);
+    constexpr std::size_t kLongestPath = 1000;
+    v.Name({"controller",
+            "shipped name, or a path (with a /) from the folder of this file",
+            {},
+            kLongestPath},
+           rig.run.controller);
+    v.Name({"scenario", "the same", {}, kLongestPath}, rig.run.scenario);
   });
   DescribeLog(v, rig.log);
   DescribeTolerances(v, rig.tolerances);

@@ -42,6 +42,9 @@ struct NameField {
   std::string_view key;
   std::string_view meaning;
   std::string_view also{};  ///< characters allowed beside a-z, 0-9 and _, and then capitals too
+  /// Not a name but a text that others chose, of so many characters at most and none of control: a
+  /// column of their file, a path. 0: a name.
+  std::size_t most_text{};
 };
 
 struct ChoiceField {

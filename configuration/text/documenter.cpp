@@ -36,6 +36,9 @@ void Documenter::WideInteger(const IntegerField& field, std::int64_t&) {
 void Documenter::Name(const NameField& field, std::string&) {
   std::string allowed = field.also.empty() ? "name: a-z, 0-9, _" : "name: A-Z, a-z, 0-9, _";
   for (const char c : field.also) allowed += std::string(", ") + c;
+  if (field.most_text > 0) {
+    allowed = "text of at most " + std::to_string(field.most_text) + " characters";
+  }
   Row(field.key, "", allowed, "required", field.meaning);
 }
 

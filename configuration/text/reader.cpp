@@ -166,6 +166,7 @@ std::string JoinedCharacters(std::string_view characters) {
 
 void Reader::Name(const NameField& field, std::string& value) {
   const auto allowed = [&] {
+    if (field.most_text > 0) return fmt::format("a text of 1 to {} characters", field.most_text);
     return fmt::format("a name of 1 to 32 characters: {}a-z, 0-9, _{}",
                        field.also.empty() ? "" : "A-Z, ", JoinedCharacters(field.also));
   };
@@ -174,10 +175,14 @@ void Reader::Name(const NameField& field, std::string& value) {
   if (probing_ || entry.value == nullptr) return;
   const std::string* text = Scalar(entry, allowed, false);
   if (text == nullptr) return;
-  const bool good = !text->empty() && text->size() <= 32 && std::ranges::all_of(*text, [&](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' ||
-           (!field.also.empty() && c >= 'A' && c <= 'Z') || field.also.find(c) != field.also.npos;
-  });
+  const std::size_t most = field.most_text > 0 ? field.most_text : 32;
+  const bool good =
+      !text->empty() && text->size() <= most && std::ranges::all_of(*text, [&](char c) {
+        if (field.most_text > 0) return static_cast<unsigned char>(c) >= ' ' && c != '\x7f';
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' ||
+               (!field.also.empty() && c >= 'A' && c <= 'Z') ||
+               field.also.find(c) != field.also.npos;
+      });
   if (good) {
     value = *text;
   } else {

@@ -1,5 +1,7 @@
 #include "configuration/text/writer.hpp"
 
+#include <algorithm>
+
 namespace levitas::config {
 
 void Writer::Line(std::string_view key, std::string_view value) {
@@ -18,7 +20,24 @@ void Writer::WideInteger(const IntegerField& field, std::int64_t& value) {
   Line(field.key, std::to_string(value));
 }
 
-void Writer::Name(const NameField& field, std::string& value) { Line(field.key, value); }
+namespace {
+/// Of a letter, then letters, digits and _: no reader of YAML takes it for anything else.
+bool IsPlainName(const std::string& value) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+  return !value.empty() && letter(value.front()) &&
+         std::ranges::all_of(value, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+}  // namespace
+
+void Writer::Name(const NameField& field, std::string& value) {
+  if (field.most_text == 0 || IsPlainName(value)) return Line(field.key, value);
+  std::string quoted = "\"";
+  for (const char c : value) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  Line(field.key, quoted + "\"");
+}
 
 void Writer::Choice(const ChoiceField& field, std::size_t& index) {
   Line(field.key, field.words[index]);

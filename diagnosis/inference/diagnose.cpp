@@ -93,9 +93,7 @@ SearchResult Conclude(SearchState& state) {
   answer.theta_extended = state.theta;
   answer.theta_calibrated = state.calibrated;
   answer.remainder = AnalyseResidual(state.rig, *runs);
-  if (answer.remainder.channels.empty() || !(answer.remainder.channels.front().noise_rms_m > 0.0)) {
-    throw BadInput("no stretch of 0.2 s is without gaps: nothing can be said of what remains");
-  }
+  if (const std::string why = WhyNotJudged(state.rig, *runs); !why.empty()) throw BadInput(why);
   answer.explained =
       Explained(AnalyseResidual(state.rig, *state.calibrated_runs), answer.remainder);
   const bool unexplained =

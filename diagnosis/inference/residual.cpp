@@ -1,9 +1,12 @@
 #include "diagnosis/inference/residual.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "analysis/spectrum.hpp"
 
@@ -18,7 +21,7 @@ struct Piece {
   std::size_t first, count;
 };
 
-std::vector<Piece> PiecesOf(const std::vector<Trajectory>& runs) {
+std::vector<Piece> PiecesOf(const std::vector<Trajectory>& runs, std::size_t shortest = kSegment) {
   std::vector<Piece> pieces;
   for (const Trajectory& run : runs) {
     std::size_t first = 0;
@@ -26,7 +29,7 @@ std::vector<Piece> PiecesOf(const std::vector<Trajectory>& runs) {
     for (std::size_t n = 0; n <= m.size(); ++n) {
       const bool goes_on = n < m.size() && m[n].settled && !m[n].restarted;
       if (goes_on) continue;
-      if (n - first >= kSegment) pieces.push_back({&run, first, n - first});
+      if (n - first >= shortest) pieces.push_back({&run, first, n - first});
       first = n + 1;
     }
   }
@@ -205,7 +208,67 @@ std::string CoherentSignal(const RigView& rig, const std::vector<Piece>& pieces,
   return with_current >= with_position ? "current" : "position";
 }
 
+/// Where the model's prediction is no number any more.
+struct Departure {
+  double time_s{};
+  std::size_t channel{};
+};
+
+std::optional<Departure> FirstDeparture(const std::vector<Piece>& pieces, std::size_t axes) {
+  for (const Piece& piece : pieces) {
+    for (std::size_t n = piece.first; n < piece.first + piece.count; ++n) {
+      const SamplePoint& m = piece.run->moments[n];
+      for (std::size_t a = 0; a < axes; ++a) {
+        if (!std::isfinite(m.innovation_m[a])) return Departure{m.time_s, a};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::string TooShort(const RigView& rig, const std::vector<Trajectory>& runs) {
+  std::size_t longest = 0;
+  for (const Piece& piece : PiecesOf(runs, 1)) longest = std::max(longest, piece.count);
+  std::size_t rows = 0;
+  std::size_t starts = 0;
+  for (const Trajectory& run : runs) {
+    rows += run.moments.size();
+    starts += static_cast<std::size_t>(
+        std::ranges::count_if(run.moments, [](const SamplePoint& m) { return m.restarted; }));
+  }
+  return fmt::format(
+      "the longest stretch that can be judged has {} samples ({:.3f} s), a spectrum of what "
+      "remains "
+      "needs {} ({:.3f} s): the {:.2f} s of free flight are in {} piece(s), parted by drop-outs, "
+      "contact or trips, and at the start of each the model's observer has to settle. Record "
+      "longer, or without drop-outs",
+      longest, static_cast<double>(longest) * rig.period_s, kSegment,
+      static_cast<double>(kSegment) * rig.period_s, static_cast<double>(rows) * rig.period_s,
+      starts);
+}
+
 }  // namespace
+
+std::string WhyNotJudged(const RigView& rig, const std::vector<Trajectory>& runs) {
+  const auto pieces = PiecesOf(runs);
+  if (pieces.empty()) return TooShort(rig, runs);
+  if (const auto departure = FirstDeparture(pieces, rig.axes)) {
+    return fmt::format(
+        "the model of rig {} leaves the readings of {} for good by {:.3f} s of the record (its "
+        "prediction is no number): is it the rig that was recorded? A session's own rig is taken "
+        "without --rig",
+        rig.numbers.name, rig.numbers.channels[departure->channel], departure->time_s);
+  }
+  const Residual residual = AnalyseResidual(rig, runs);
+  for (std::size_t a = 0; a < rig.axes; ++a) {
+    if (residual.channels[a].noise_rms_m > 0.0) continue;
+    return fmt::format(
+        "what the model leaves of {} has no noise at all in the upper third of its spectrum: are "
+        "its readings measured ones?",
+        rig.numbers.channels[a]);
+  }
+  return {};
+}
 
 Residual AnalyseResidual(const RigView& rig, const std::vector<Trajectory>& runs) {
   Residual out;

@@ -37,4 +37,8 @@ struct Residual {
 
 [[nodiscard]] Residual AnalyseResidual(const RigView& rig, const std::vector<Trajectory>& runs);
 
+/// Why nothing can be said of what these runs leave, and what helps: no stretch is long enough, the
+/// model left the readings, or there is no noise in them. Empty: something can be said.
+[[nodiscard]] std::string WhyNotJudged(const RigView& rig, const std::vector<Trajectory>& runs);
+
 }  // namespace levitas::diagnosis

@@ -1,6 +1,7 @@
 #include "diagnosis/model/plant_at.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace levitas::diagnosis {
@@ -36,8 +37,11 @@ std::shared_ptr<const plant::PlantModel> PlantAt(const RigView& rig, const Linea
     if (changed.frequency == 1.0 && changed.damping == 1.0) continue;
     any = true;
     const auto at = static_cast<Eigen::Index>(i);
-    const double frequency = std::max(changed.frequency, kLeastFrequency);
-    const ModeRatios by{frequency, changed.damping / frequency};  // the change is one of 2 z w
+    // A step of a fit that is no number is refused for what the model then does, not here.
+    const double frequency =
+        changed.frequency > kLeastFrequency ? changed.frequency : kLeastFrequency;
+    const double damping = std::isfinite(changed.damping) ? changed.damping : 0.0;
+    const ModeRatios by{frequency, damping / frequency};  // the change is one of 2 z w
     double& damping_ratio = parameters.modes.damping_ratio[at];
     parameters.modes.frequency_rad_per_s[at] *= by.frequency;
     damping_ratio = std::clamp(damping_ratio * by.damping_ratio, 0.0, kMostDamping);

@@ -10,6 +10,7 @@
 
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/rig_of_records.hpp"
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/written_files.hpp"
 #include "common/rotational_speed.hpp"
@@ -125,7 +126,7 @@ ExitStatus Run(const FrfOptions& options) {
   for (const std::string& path : {options.csv_path, options.svg_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
   }
-  const config::RigFile rig = LoadRig(options);
+  const config::RigFile rig = LoadRigOfRecords(options, {options.data_path});
   std::optional<FoundController> controller;
   if (!options.controller_name.empty()) controller = LoadController(options, rig);
   const auto record = session::LoadRecording(options.data_path, rig);
@@ -163,7 +164,7 @@ void AddIdentifyFrf(CLI::App& identify, Action& action) {
   command->footer(kFrfHelp);
   command->add_option("DATA", options->data_path, "Session, or CSV file (.csv, .csv.xz)")
       ->required();
-  AddRigOption(*command, *options);
+  AddRigOfRecordsOption(*command, *options);
   command->add_option("--controller", options->controller_name,
                       "Hold the measured sensitivity against that computed with this controller");
   command->add_option("--drop", options->dropped_periods, "Periods taken as transient")

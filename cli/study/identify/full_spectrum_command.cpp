@@ -10,6 +10,7 @@
 
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/rig_of_records.hpp"
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/study/written_files.hpp"
 #include "common/problem.hpp"
@@ -89,7 +90,7 @@ ExitStatus Run(const SpectrumOptions& options) {
   for (const std::string& path : {options.out_path, options.json_path, options.svg_path}) {
     session::CheckOutputPath(path, options.data_path);
   }
-  const config::RigFile rig = LoadRig(options);
+  const config::RigFile rig = LoadRigOfRecords(options, {options.data_path});
   GearedKnown known = KnownOfRig(rig);
   known.uncertainty = 0.01 * options.known_percent;
   const auto lines = options.lines_path.empty()
@@ -115,7 +116,7 @@ void AddIdentifyFullSpectrum(CLI::App& identify, Action& action) {
   command->add_option("DATA", options->data_path, "Session, or CSV file (.csv, .csv.xz)");
   command->add_option("--lines", options->lines_path,
                       "CSV of lines instead of a record (docs/identification.md)");
-  AddRigOption(*command, *options);
+  AddRigOfRecordsOption(*command, *options);
   command
       ->add_option("--known-percent", options->known_percent,
                    "How well mass, damping and stiffness of the shafts are known; 0 = exactly")

@@ -15,6 +15,7 @@
 
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/rig_of_records.hpp"
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/identify/start_options.hpp"
 #include "cli/study/written_files.hpp"
@@ -201,7 +202,7 @@ ExitStatus Run(const ModalOptions& options) {
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.data_path);
   }
-  const config::RigFile rig = LoadRig(options);
+  const config::RigFile rig = LoadRigOfRecords(options, {options.data_path});
   const auto record = session::LoadRecording(options.data_path, rig);
   const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
   const auto responses = EstimateResponses(record, delay_s, {}, ModalResponseOptions(rig));
@@ -236,7 +237,7 @@ void AddIdentifyModal(CLI::App& identify, Action& action) {
   command->footer(kModalHelp);
   command->add_option("DATA", options->data_path, "Session, or CSV file (.csv, .csv.xz)")
       ->required();
-  AddRigOption(*command, *options);
+  AddRigOfRecordsOption(*command, *options);
   command->add_option("--highest-hz", options->fit.highest_hz, "Lines beyond it are not fitted")
       ->check(CLI::Range(50.0, 1e5))
       ->capture_default_str();

@@ -11,6 +11,7 @@
 
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/rig_of_records.hpp"
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/identify/sensor_options.hpp"
 #include "cli/study/written_files.hpp"
@@ -89,7 +90,7 @@ void PrintModel(const SuspendedRotor& model, const Series& series, nlohmann::ord
 
 ExitStatus Run(const CommandOptions& given) {
   session::CheckOutputPath(given.json_path, given.data_path);
-  const config::RigFile rig = LoadRig(given);
+  const config::RigFile rig = LoadRigOfRecords(given, {given.data_path});
   const config::ControllerFile controller = LoadController(given, rig).file;
   SuspendedRotor start = DesignOf(plant::Reduce(rig.plant), given.iron);
   const auto sensors = SensorsOf(given.sensors, start.axes());
@@ -128,7 +129,7 @@ void AddIdentifyRotorInLoop(CLI::App& identify, Action& action) {
       "rotor-in-loop", "Force of current and position, rotor and sensors, in the known loop");
   command->footer(kRotorInLoopHelp);
   command->add_option("SESSION", options->data_path, "A recorded session")->required();
-  AddRigOption(*command, *options);
+  AddRigOfRecordsOption(*command, *options);
   AddControllerOption(*command, *options);
   command->add_option("--fitted", options->fitted, "Rows that are fitted; those behind them judge")
       ->check(CLI::PositiveNumber)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/options/rig_of_records.hpp"
 #include "common/problem.hpp"
 #include "report/svg/figure.hpp"
 #include "session/output_path.hpp"
@@ -79,7 +80,7 @@ void AddSeriesOptions(CLI::App& command, SeriesOptions& o) {
                   "CSV file (.csv, .csv.xz) with the columns named below, or a session, whose "
                   "signals are position_C, control_current_C and excitation_C of every channel C")
       ->required();
-  AddRigOption(command, o);
+  AddRigOfRecordsOption(command, o);
   command.add_option("--input", o.columns.inputs, "Input columns")->delimiter(',')->required();
   command.add_option("--output", o.columns.outputs, "Output columns")->delimiter(',')->required();
   command.add_option("--rate-hz", o.rate_hz, "Sampling rate, when there is no column time_s")
@@ -103,8 +104,10 @@ Series LoadSeries(const SeriesOptions& o) {
                   fmt::format("--svg and --json: both '{}'; give each a file", o.svg_path));
   }
   const bool csv = o.data_path.ends_with(".csv") || o.data_path.ends_with(".csv.xz");
-  Series series = csv ? ReadSeries(o.data_path, o.columns, o.rate_hz > 0.0 ? 1.0 / o.rate_hz : 0.0)
-                      : SeriesOf(session::LoadRecording(o.data_path, LoadRig(o)), o.columns);
+  Series series =
+      csv ? ReadSeries(o.data_path, o.columns, o.rate_hz > 0.0 ? 1.0 / o.rate_hz : 0.0)
+          : SeriesOf(session::LoadRecording(o.data_path, LoadRigOfRecords(o, {o.data_path})),
+                     o.columns);
   RefuseShortRanges(o, static_cast<std::size_t>(series.rows()));
   return series;
 }

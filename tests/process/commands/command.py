@@ -101,12 +101,14 @@ class CommandTest(unittest.TestCase):
         (self.folder / name).write_text(text)
         return name
 
-    def compute(self, *arguments):
-        """(what was printed, its JSON) of a command that must succeed without a complaint."""
+    def compute(self, *arguments, warns=""):
+        """(what was printed, its JSON) of a command that must succeed without a complaint, or with
+        the one warning that has these words."""
         out = self.folder / "out.json"
         done = amb(self.folder, *arguments, "--json", out)
         self.assertEqual(done.returncode, DONE, done.stdout + done.stderr)
-        self.assertEqual(done.stderr, "")
+        self.assertEqual(len(done.stderr.splitlines()), 1 if warns else 0, done.stderr)
+        self.assertIn(warns, done.stderr)
         document = json.loads(out.read_text())
         self.assertEqual(keys_without_unit(document), [])
         return done.stdout, document

@@ -13,11 +13,13 @@ from lcm_network import Process
 from waiting import found, until
 
 # Have nothing to report: groups of commands, and the manual, whose text is the result.
-WITHOUT_JSON = {"identify", "design", "bench", "manual", "key"}
+WITHOUT_JSON = {"new", "identify", "design", "bench", "manual", "key"}
 ABSENT = "absent.lcm"
 # Quick enough to be run here; the others report in tests of their own.
 QUICK = {
     "run": ("--duration", "0.5"),
+    "new rig": ("mine", "--mass-kg", "8", "--length-mm", "300", "--speed-rpm", "3000", "--gap-mm",
+                "0.4", "--bias-a", "2", "--ki-n-per-a", "60"),
     "modes": (),
     "poles": (),
     "margins": (),
@@ -51,7 +53,7 @@ MISSING = {
     "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }
 # Look for no file that a user names; the nonlinear fits take theirs with more options.
-NO_FILE = {"dash", "key", "doctor", "effects", "sessions", "sessions add", "manual", "identify",
+NO_FILE = {"new", "new rig", "dash", "key", "doctor", "effects", "sessions", "sessions add", "manual", "identify",
            "design", "bench",
            "bench diagnosis", "bench identification", "bench full-spectrum", "bench pump", "bench lives",
            "identify hammerstein-wiener", "identify narx", "identify narmax", "identify grey-box"}

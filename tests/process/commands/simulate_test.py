@@ -39,8 +39,8 @@ class Simulate(CommandTest):
     def tearDownClass(cls):
         cls.shared.cleanup()
 
-    def simulate(self, name, *options):
-        return self.compute("simulate", self.sessions[name], *options)
+    def simulate(self, name, *options, warns=""):
+        return self.compute("simulate", self.sessions[name], *options, warns=warns)
 
     def test_right_model_departs_nowhere(self):
         for name in ("healthy", "standing"):
@@ -97,7 +97,7 @@ class Simulate(CommandTest):
     def test_model_with_the_tripled_unbalance_explains_it(self):
         changes = [(f"moment_g_mm: {n},", f"moment_g_mm: {3 * n},") for n in (5, 18)]
         rig = self.write("heavy.yaml", edited(SHIPPED_RIG, *changes))
-        _, result = self.simulate("unbalance", "--rig", rig)
+        _, result = self.simulate("unbalance", "--rig", rig, warns="the session's own rig")
         self.assertEqual(result["departures"], [])
 
     def test_model_with_the_weak_magnet_explains_it(self):
@@ -106,8 +106,19 @@ class Simulate(CommandTest):
         rig = self.write("weak.yaml",
                          before + "  - name: nde" + after.replace("ki_n_per_a: 40",
                                                                   "ki_n_per_a: 28"))
-        _, result = self.simulate("weak_magnet", "--rig", rig)
+        _, result = self.simulate("weak_magnet", "--rig", rig, warns="the session's own rig")
         self.assertEqual(result["departures"], [])
+
+    def test_rig_of_the_session_is_the_model_unless_another_is_named(self):
+        rig = self.write("heavy.yaml", edited(
+            SHIPPED_RIG, ("name: flexible_rotor", "name: heavy"), ("gap_mm: 0.381", "gap_mm: 0.4")))
+        done = amb(self.folder, "import", FOREIGN_RECORD, "--rig", rig, "--out", "own.lcmlog")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        printed, _ = self.compute("simulate", "own.lcmlog")
+        self.assertIn("own.lcmlog against rig heavy", printed)
+        printed, _ = self.compute("simulate", "own.lcmlog", "--rig", "flexible_rotor",
+                                  warns="was recorded with rig heavy, --rig names flexible_rotor")
+        self.assertIn("own.lcmlog against rig flexible_rotor", printed)
 
     def test_shares_of_one_channel_do_not_exceed_the_whole(self):
         _, result = self.simulate("unbalance")

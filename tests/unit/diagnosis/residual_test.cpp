@@ -2,12 +2,16 @@
 
 #include "diagnosis/inference/residual.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/diagnosis/trajectories.hpp"
 
 namespace levitas::diagnosis {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
 
 constexpr std::size_t kSamples = 40'000;  // 4 s
 
@@ -93,6 +97,37 @@ TEST(RemainderTest, OfRecordsTooShortForASpectrumIsEmpty) {
   const Residual r = AnalyseResidual(TheRig(), {NoiseRun(11, 1000)});
   EXPECT_EQ(r.sigma, 0.0);
   EXPECT_EQ(r.coherent_with, "nothing");
+}
+
+TEST(WhyNotJudged, IsSilentAboutARunThatCanBeJudged) {
+  EXPECT_EQ(WhyNotJudged(TheRig(), {NoiseRun(10, kSamples)}), "");
+}
+
+TEST(WhyNotJudged, NamesTheLongestStretchAndWhatASpectrumNeeds) {
+  const auto parted = [](std::size_t every) {
+    return NoiseRun(11, kSamples,
+                    [every](std::size_t n, SamplePoint& m) { m.restarted = n % every == 0; });
+  };
+  const std::string why = WhyNotJudged(TheRig(), {parted(2000)});
+  EXPECT_THAT(why, AllOf(HasSubstr("1999 samples"), HasSubstr("needs 2048"),
+                         HasSubstr("20 piece(s)"), HasSubstr("Record longer")));
+  EXPECT_EQ(WhyNotJudged(TheRig(), {parted(2049)}), "");
+}
+
+TEST(WhyNotJudged, SaysThatTheModelLeftTheReadingsAndWhere) {
+  const std::string why =
+      WhyNotJudged(TheRig(), {NoiseRun(12, kSamples, [](std::size_t n, SamplePoint& m) {
+                     if (n >= 30'000) m.innovation_m[2] = std::nanf("");
+                   })});
+  EXPECT_THAT(why, AllOf(HasSubstr("leaves the readings of nde_x"), HasSubstr("by 3.000 s"),
+                         HasSubstr("without --rig")));
+}
+
+TEST(WhyNotJudged, SaysThatThereIsNoNoise) {
+  const std::string why = WhyNotJudged(
+      TheRig(),
+      {NoiseRun(13, kSamples, [](std::size_t, SamplePoint& m) { m.innovation_m[1] = 0.0F; })});
+  EXPECT_THAT(why, AllOf(HasSubstr("leaves of de_y"), HasSubstr("no noise")));
 }
 
 }  // namespace

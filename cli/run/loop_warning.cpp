@@ -1,0 +1,69 @@
+#include "cli/run/loop_warning.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <optional>
+
+#include "analysis/poles.hpp"
+#include "common/rotational_speed.hpp"
+
+namespace levitas::cli {
+namespace {
+
+std::string PoleText(const analysis::LoopPoles& at) {
+  const auto worst = analysis::WorstFirst(at.poles);
+  if (worst.empty() || !analysis::Grows(worst.front())) {
+    return "the magnets cannot carry the static load";
+  }
+  const analysis::Pole& pole = worst.front();
+  const double rate = pole.s_rad_per_s.real();
+  const std::string grows =
+      rate > 0.0 ? fmt::format("grows e-fold every {:.3g} ms", 1e3 / rate) : "does not decay";
+  if (pole.frequency_hz == 0.0) {
+    return fmt::format("a pole without oscillation {}: too little stiffness against the magnets'",
+                       grows);
+  }
+  return fmt::format("a pole at {:.1f} Hz {}", std::abs(pole.frequency_hz), grows);
+}
+
+std::optional<analysis::LoopPoles> PolesAt(const config::RigFile& rig, const law::LawConfig& law,
+                                           double speed_rad_per_s) {
+  try {
+    return analysis::ClosedLoopPoles(rig.plant, law, speed_rad_per_s);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::string UnstableLoop(const config::RigFile& rig, const law::LawConfig& law,
+                         const std::vector<double>& speeds_rad_per_s, const std::string& rig_name,
+                         const std::string& controller_name) {
+  for (const double speed : speeds_rad_per_s) {
+    const auto at = PolesAt(rig, law, speed);
+    if (!at || at->stable) continue;
+    const double rpm = RadPerSToRpm(speed);
+    return fmt::format(
+        "the loop of rig {} and this controller is unstable {}: {}. See amb poles --rig {} "
+        "--controller {} --speed-rpm {:.0f}; amb design --help tells how to make a law for this "
+        "rig",
+        rig.numbers.name, speed == 0.0 ? "at rest" : fmt::format("at {:.0f} rpm", rpm),
+        PoleText(*at), rig_name, controller_name, rpm);
+  }
+  return {};
+}
+
+std::vector<double> ScenarioSpeeds(const scenario::ScenarioConfig& scenario) {
+  double fastest = 0.0;
+  for (const auto& step : scenario.steps) {
+    fastest = std::max(fastest, std::abs(step.speed_rad_per_s));
+  }
+  if (fastest == 0.0) return {0.0};
+  return {0.0, fastest};
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,56 @@
+"""docs/my_data.md, command by command, on the file it speaks of."""
+
+import csv
+import math
+import unittest
+
+from command import BINARIES, SOURCE, CommandTest, make_record
+
+import page  # of tests/support
+
+PAGE = (SOURCE / "docs/my_data.md").read_text()
+CHANNELS = {"XA": "de_x", "YA": "de_y", "XB": "nde_x", "YB": "nde_y"}
+
+
+def heading():
+    """Comment, names and units that the page shows, with the tabs of the file."""
+    block = PAGE.split("```text\n")[1].split("```")[0].splitlines()
+    return [block[0]] + ["\t".join(line.split()) for line in block[1:]]
+
+
+def own_file(path, contract):
+    """The record as the page's logger writes it: probe YA upside down, 0.25 mm off."""
+    lines = heading()
+    names = lines[1].split("\t")
+    with contract.open() as source:
+        for row in csv.DictReader(source):
+            own = {"t": 1e3 * float(row["time_s"]),
+                   "phi": math.degrees(float(row["rotor_angle_rad"])),
+                   "n": float(row["speed_rpm"])}
+            for name, channel in CHANNELS.items():
+                own[name] = 1e3 * float(row[f"position_{channel}_m"])
+                own[f"I{name}"] = 1e3 * float(row[f"control_current_{channel}_a"])
+            own["YA"] = 0.25 - own["YA"]
+            lines.append("\t".join(repr(own[name]) for name in names))
+    path.write_text("\n".join(lines) + "\n")
+
+
+class MyData(CommandTest):
+    def test_page_says_what_its_commands_do(self):
+        own_file(self.folder / "mine.txt",
+                 make_record(self.folder / "record.csv", "healthy", 3000, 15_000))
+        steps = page.steps(PAGE)
+        self.assertGreaterEqual(len(steps), 4, "the page is no longer read as it is written")
+        for commands, lines in steps:
+            status, printed = page.run(commands, self.folder, BINARIES)
+            self.assertEqual(status, 0, commands + printed)
+            self.assertIsNone(page.missing(lines, printed), commands + printed)
+
+    def test_a_line_that_is_not_printed_is_noticed(self):
+        self.assertIsNone(page.missing(["a 1 ...", "...", "c"], "a 1 x\nb\nc\n"))
+        self.assertEqual(page.missing(["a", "d"], "a\nb\nc\n"), "d")
+        self.assertEqual(page.missing(["c", "a"], "a\nb\nc\n"), "a")
+
+
+if __name__ == "__main__":
+    unittest.main()

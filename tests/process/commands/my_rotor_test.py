@@ -1,0 +1,75 @@
+"""docs/my_rotor.md, command by command: from six numbers to an accepted run at 12 000 rpm."""
+
+import json
+import unittest
+
+from command import BAD_INPUT, BINARIES, DONE, SOURCE, USAGE, CommandTest, amb
+
+import page  # of tests/support
+
+PAGE = (SOURCE / "docs/my_rotor.md").read_text()
+SIX = ("--mass-kg", "8", "--length-mm", "300", "--speed-rpm", "3000", "--gap-mm", "0.4", "--bias-a",
+       "2", "--ki-n-per-a", "60")
+
+
+class MyRotor(CommandTest):
+    def test_page_says_what_its_commands_do(self):
+        steps = page.steps(PAGE)
+        self.assertGreaterEqual(len(steps), 4, "the page is no longer read as it is written")
+        for commands, lines in steps:
+            status, printed = page.run(commands, self.folder, BINARIES)
+            self.assertEqual(status, 0, commands + printed)
+            self.assertIsNone(page.missing(lines, printed), commands + printed)
+
+    def test_stable_loop_is_run_without_a_warning(self):
+        self.compute("new", "rig", "own", *SIX)
+        done = amb(self.folder, "run", "--rig", "own/own.yaml", "--duration", "0.5")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertNotIn("unstable", done.stderr)
+
+    def test_files_that_are_there_are_kept(self):
+        _, made = self.compute("new", "rig", "own", *SIX)
+        self.assertTrue(made["stable"])
+        before = (self.folder / made["rig"]).read_text()
+        self.refuse(USAGE, "--overwrite", "new", "rig", "own", *SIX, "--vertical")
+        self.assertEqual((self.folder / made["rig"]).read_text(), before)
+        self.compute("new", "rig", "own", *SIX, "--vertical", "--overwrite")
+        self.assertIn("acceleration_m_per_s2: 0\n", (self.folder / made["rig"]).read_text())
+
+    def test_strength_of_a_magnet_is_ki_or_ks_or_turns(self):
+        without_ki = SIX[:-2]
+        _, made = self.compute("new", "rig", "own", *without_ki, "--ks-n-per-m", "3e5")
+        self.assertAlmostEqual(made["ki_n_per_a"], 60.0)  # ks gap / bias
+        _, coil = self.compute("new", "rig", "coil", *without_ki, "--turns", "100",
+                               "--pole-area-mm2", "200")
+        # ki = mu0 n^2 A i0 cos(a) / s0^2 of two poles in series, whose gap is s0 / cos(a) less.
+        self.assertGreater(coil["ki_n_per_a"], 20.0)
+        self.assertAlmostEqual(coil["ks_n_per_m"], coil["ki_n_per_a"] * 2 / 0.4e-3, delta=1.0)
+
+    def test_what_is_missing_is_named_at_once(self):
+        told = self.refuse(USAGE, "missing:", "new", "rig", "own", *SIX[:4])
+        self.assertIn("--speed-rpm --gap-mm --bias-a --ki-n-per-a", told)
+
+    def test_what_no_rotor_is_is_refused_and_leaves_nothing(self):
+        for status, words, options in (
+                (BAD_INPUT, "the discs have 9 kg", ("--disc", "100:9:50")),
+                (BAD_INPUT, "allowed 0 to 300 mm", ("--disc", "400:1:50")),
+                (BAD_INPUT, "must lie behind", ("--bearings-mm", "200,100")),
+                (USAGE, "Z_MM:MASS_KG:DIAMETER_MM", ("--disc", "100:1")),
+                (USAGE, "allowed: 0.01 to 50000", ("--mass-kg", "nan")),
+                (USAGE, "excludes", ("--ks-n-per-m", "1e5"))):
+            given = SIX if options[0] != "--mass-kg" else SIX[2:]
+            self.refuse(status, words, "new", "rig", "own", *given, *options)
+
+    def test_another_rig_names_files_of_its_own_folder(self):
+        self.compute("new", "rig", "own", *SIX)
+        (self.folder / "elsewhere").mkdir()
+        out = self.folder / "margins.json"
+        done = amb(self.folder / "elsewhere", "margins", "--rig", "../own/own.yaml", "--json", out)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertIn("own_controller.yaml", done.stdout)
+        self.assertTrue(json.loads(out.read_text())["speeds"][0]["stable"])
+
+
+if __name__ == "__main__":
+    unittest.main()

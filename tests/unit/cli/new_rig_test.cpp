@@ -1,0 +1,144 @@
+// A first rig from six numbers: what follows from them, and that the files are ones that run.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <numbers>
+
+#include "analysis/poles.hpp"
+#include "cli/new_rig/ask.hpp"
+#include "cli/new_rig/rig_sketch.hpp"
+#include "cli/new_rig/start_law.hpp"
+#include "cli/run/loop_warning.hpp"
+#include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
+#include "configuration/rig_file.hpp"
+
+namespace levitas::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+RigSketch Sketch() {
+  return {.name = "own",
+          .mass_kg = 8.0,
+          .length_mm = 600.0,
+          .max_speed_rpm = 12'000.0,
+          .ki_n_per_a = 60.0,
+          .gap_mm = 0.4,
+          .bias_a = 2.0,
+          .bearings_mm = {},
+          .discs = {}};
+}
+
+config::RigFile RigOf(const RigSketch& sketch) {
+  return config::ParseRig(SketchRig(sketch, "c.yaml", "s.yaml"), "own.yaml");
+}
+
+law::LawConfig LawOf(const RigSketch& sketch, const StartLaw& form) {
+  return config::ParseController(SketchController(sketch, form), "c.yaml", RigOf(sketch).numbers)
+      .law;
+}
+
+TEST(RigSketch, WeighsWhatItShouldAndCarriesItByTheLever) {
+  RigSketch sketch = Sketch();
+  sketch.bearings_mm = {100.0, 500.0};
+  sketch.discs = {{600.0, 2.0, 100.0}};
+  const SketchNumbers n = NumbersOf(sketch);
+  EXPECT_DOUBLE_EQ(n.centre_mm, (6.0 * 300.0 + 2.0 * 600.0) / 8.0);
+  EXPECT_DOUBLE_EQ(n.carried_kg[1], 8.0 * (375.0 - 100.0) / 400.0);
+  EXPECT_DOUBLE_EQ(n.carried_kg[0] + n.carried_kg[1], 8.0);
+  EXPECT_DOUBLE_EQ(n.ks_n_per_m, 60.0 * 2.0 / 0.4e-3);
+  const double section_m2 = 0.25 * std::numbers::pi * n.diameter_mm * n.diameter_mm * 1e-6;
+  EXPECT_NEAR(7850.0 * section_m2 * 0.6, 6.0, 1e-9);
+}
+
+TEST(RigSketch, IsARigThatTheStrictReaderTakes) {
+  RigSketch sketch = Sketch();
+  sketch.discs = {{585.0, 1.5, 180.0}};
+  const config::RigFile rig = RigOf(sketch);
+  EXPECT_EQ(rig.numbers.channels.size(), 4U);
+  EXPECT_EQ(rig.run.controller, "./c.yaml");
+  EXPECT_NEAR(rig.numbers.max_speed_rad_per_s, RpmToRadPerS(12'000.0), 1e-9);
+  // G 2.5: e omega = 2.5 mm/s, half of the rotor at each bearing.
+  EXPECT_NEAR(rig.plant.unbalance[0].moment_kg_m,
+              0.5 * 8.0 * 2.5e-3 / rig.numbers.max_speed_rad_per_s, 2e-9);
+  EXPECT_NEAR(rig.plant.bearings[0].touchdown.clearance_m, 0.2e-3, 1e-12);
+  sketch.vertical = true;
+  EXPECT_EQ(RigOf(sketch).plant.gravity_m_per_s2, 0.0);
+}
+
+TEST(RigSketch, RefusesWhatNoRotorIs) {
+  RigSketch sketch = Sketch();
+  sketch.discs = {{100.0, 8.0, 50.0}};
+  EXPECT_THROW(static_cast<void>(NumbersOf(sketch)), BadInput);
+  sketch = Sketch();
+  sketch.bearings_mm = {300.0, 300.0};
+  EXPECT_THROW(static_cast<void>(NumbersOf(sketch)), BadInput);
+}
+
+/// The bending modes of this spindle make the usual form unstable.
+TEST(StartLaw, HoldsASpindleThatTheUsualFormDoesNot) {
+  RigSketch sketch = Sketch();
+  sketch.bearings_mm = {120.0, 460.0};
+  sketch.discs = {{585.0, 1.5, 180.0}};
+  sketch.amplifier_hz = 2000.0;
+  const config::RigFile rig = RigOf(sketch);
+  const StartLaw chosen = ChooseStartLaw(sketch, rig);
+  for (const double speed : {0.0, rig.numbers.max_speed_rad_per_s}) {
+    EXPECT_FALSE(analysis::ClosedLoopPoles(rig.plant, LawOf(sketch, {}), speed).stable);
+    EXPECT_TRUE(analysis::ClosedLoopPoles(rig.plant, LawOf(sketch, chosen), speed).stable);
+  }
+  const std::vector<double> speeds{0.0, rig.numbers.max_speed_rad_per_s};
+  EXPECT_EQ(UnstableLoop(rig, LawOf(sketch, chosen), speeds, "r", "c"), "");
+  EXPECT_THAT(UnstableLoop(rig, LawOf(sketch, {}), speeds, "r.yaml", "c.yaml"),
+              AllOf(HasSubstr("unstable at rest: a pole at 11"), HasSubstr("grows e-fold every"),
+                    HasSubstr("amb poles --rig r.yaml --controller c.yaml --speed-rpm 0"),
+                    HasSubstr("amb design")));
+}
+
+TEST(LoopWarning, NamesTooLittleStiffnessAsWhatItIs) {
+  const RigSketch sketch = Sketch();
+  law::LawConfig law = LawOf(sketch, {});
+  // Below ks/ki = 5000 A/m the magnet wins, without oscillation.
+  for (auto& axis : law.axes) axis.kp_a_per_m = 4000.0, axis.ki_a_per_m_s = 0.0;
+  EXPECT_THAT(UnstableLoop(RigOf(sketch), law, {0.0}, "r", "c"),
+              HasSubstr("too little stiffness against the magnets'"));
+}
+
+TEST(LoopWarning, LooksAtStandstillAndTheFastestSpeedOfTheScenario) {
+  scenario::ScenarioConfig scenario;
+  EXPECT_THAT(ScenarioSpeeds(scenario), testing::ElementsAre(0.0));
+  scenario.steps.resize(3);
+  scenario.steps[1].speed_rad_per_s = -300.0;
+  scenario.steps[2].speed_rad_per_s = 100.0;
+  EXPECT_THAT(ScenarioSpeeds(scenario), testing::ElementsAre(0.0, 300.0));
+}
+
+TEST(Ask, TakesTheFirstAnswerThatIsANumberInRange) {
+  const Question mass{"--mass-kg", "mass [kg]", 1.0, 10.0};
+  const auto answered = [&](const std::string& typed) {
+    std::string text = typed;
+    std::FILE* in = fmemopen(text.data(), text.size(), "r");
+    std::FILE* out = std::fopen("/dev/null", "w");
+    double value = -1.0;
+    try {
+      value = Ask(mass, in, out);
+    } catch (const Problem& refused) {
+      EXPECT_EQ(refused.status(), ExitStatus::kUsage);
+      EXPECT_THAT(refused.what(), HasSubstr("--mass-kg"));
+    }
+    std::fclose(in);
+    std::fclose(out);
+    return value;
+  };
+  EXPECT_EQ(answered("8\n"), 8.0);
+  EXPECT_EQ(answered("eight\n11\n 2.5 \n"), 2.5);
+  EXPECT_EQ(answered("nan\n0\n-1\n5\n"), -1.0) << "three answers are enough";
+  EXPECT_EQ(answered("\n"), -1.0);
+}
+
+}  // namespace
+}  // namespace levitas::cli
