@@ -26,7 +26,8 @@ class Maker {
     for (std::size_t b = 0; b < config_.bearings.size(); ++b) Bearing(b);
     if (!config_.shafts.empty()) return MakeGeared(hidden);
     for (const auto& disc : config_.rotor.discs) {
-      Add(Id::kStaticLoad, {disc.z_m, Off(off_.static_load_n), Off(off_.static_load_n)});
+      Add(Id::kStaticLoad,
+          {WithinBearings(disc.z_m), Off(off_.static_load_n), Off(off_.static_load_n)});
     }
     Add(Id::kRotorMass, {1.0 + Off(off_.rotor_mass)});
     Add(Id::kGyroscopicInertia, {1.0 + Off(off_.gyroscopic_inertia)});
@@ -56,6 +57,15 @@ class Maker {
     }
     parameters.config.effects = config_.effects;
     return parameters;
+  }
+
+  /// A tolerance of load is one of what a bearing carries. On an overhung disc it would act on the
+  /// nearest bearing by a lever, and the rig would not be healthy by its own file.
+  [[nodiscard]] double WithinBearings(double z_m) const {
+    const auto& first = config_.bearings.front();
+    const auto& last = config_.bearings.back();
+    const auto [low, high] = std::minmax(first.actuator_z_m, last.actuator_z_m);
+    return std::clamp(z_m, low, high);
   }
 
   [[nodiscard]] double Off(double deviation) {
