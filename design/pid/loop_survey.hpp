@@ -1,0 +1,47 @@
+#pragma once
+// What a decentralised law makes of one plant: stability, peaks, damping, noise.
+//
+// Stable    by counting: the argument of det(I + P C) prod(1 - z^-1), integrators taken out, turns
+//           by pi (growing poles of the plant - growing poles of the loop) from z = 1 to -1. Where
+//           it turns by more than kTurn between neighbours, points are put between them until it
+//           does not: a resonance however narrow is met or lies within kNarrowest.
+// Peaks     of |S_ii|, |T_ii|, |C_i S_ii|, and the largest singular value of S: the same points;
+//           the three around a maximum fitted by a parabola of 1/|.|^2, exact for one resonance.
+// Damping   of every pole of the loop near the axis: from the minima of the determinant, by
+//           Schroeder's iteration s - tr X/tr X^2, X = M^-1 dM/ds (double poles count as one).
+// Noise     white at the sensors, its whole power between 0 and half the sampling rate: current
+//           and motion it makes, by the trapezoid rule.
+// Thread    any; pure.
+
+#include <vector>
+
+#include "controller/law/discrete_law.hpp"
+#include "design/pid/sampled_plant.hpp"
+
+namespace levitas::design {
+
+struct PeakAt {
+  double value{}, hz{};
+};
+
+struct LoopSurvey {
+  int growing{};  ///< poles of the loop outside the unit circle
+  PeakAt sensitivity, complementary, current_per_metre, singular;
+  PeakAt damping;                  ///< the least of an oscillating pole, and its frequency
+  std::vector<double> current_a;   ///< rms, per axis, of noise
+  std::vector<double> position_m;  ///< the same
+};
+
+/// Laws as they run, one per axis. `noise_m`: rms of each sensor.
+[[nodiscard]] LoopSurvey Survey(const SampledPlant& plant,
+                                const std::vector<law::DiscreteLaw>& laws,
+                                const std::vector<double>& noise_m);
+
+/// C(z) (1 - z^-1 where it integrates).
+struct LawValue {
+  std::complex<double> value;
+  bool integrates{};
+};
+[[nodiscard]] LawValue ValueAt(const law::DiscreteLaw& law, std::complex<double> q);
+
+}  // namespace levitas::design

@@ -1,0 +1,97 @@
+#pragma once
+// What is asked of a PID design, each with a name and a limit, and how far a law is from it.
+//
+// Ratio     found/limit, or limit/found where more is better: 1 at the limit, above it not met.
+// Peaks     |S|, |T|, |C S| of an axis, singular value of S: largest over the nominal plants, one a
+//           speed; |S| of the corners of the uncertainty has a limit of its own.
+// Damping   least of all plants' oscillating poles, corners included.
+// Standing  three standard deviations of the motion that noise makes, any axis.
+// Spinning  the same and the orbit of UnbalanceResponse.
+// Current   static, harmonics' amplitude and three standard deviations of noise, of the worst axis
+//           each; noise alone has a limit of its own: what it fills of the range is lost to all else.
+// Stiffness ki Kp - ks of the softest axis: against a step of force, before the integrator has it.
+// Units     SI, in the names. Thread: any; pure after construction.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "design/pid/unbalance_response.hpp"
+
+namespace levitas::design {
+
+enum class Limit : std::size_t {
+  kSensitivity,
+  kCornerSensitivity,
+  kComplementary,
+  kControl,
+  kSingular,
+  kDamping,
+  kStanding,
+  kSpinning,
+  kCurrent,
+  kNoise,
+  kStiffness
+};
+inline constexpr std::size_t kLimits = 11;
+
+struct PidLimits {
+  /// In the order of Limit; empty: not asked.
+  std::array<std::optional<double>, kLimits> at{};
+  [[nodiscard]] std::optional<double>& operator[](Limit limit) {
+    return at[static_cast<std::size_t>(limit)];
+  }
+  [[nodiscard]] const std::optional<double>& operator[](Limit limit) const {
+    return at[static_cast<std::size_t>(limit)];
+  }
+};
+
+/// |S| 3 (zone A), 4 at corners, |T| 3, singular value 4, damping 0.15 %, the rig's objectives, the law's current and a
+/// quarter of it for noise.
+[[nodiscard]] PidLimits UsualLimits(const config::RigFile& rig, double current_limit_a);
+
+struct Met {
+  double found{}, ratio{}, hz{}, speed_rad_per_s{};
+};
+
+struct PidFigures {
+  int growing{};  ///< poles, of all plants
+  std::array<Met, kLimits> met{};
+  [[nodiscard]] const Met& operator[](Limit limit) const {
+    return met[static_cast<std::size_t>(limit)];
+  }
+  [[nodiscard]] Met& operator[](Limit limit) { return met[static_cast<std::size_t>(limit)]; }
+};
+
+/// A plant to be held, and whether it is one of the rig file or of a corner.
+struct PlantToHold {
+  std::shared_ptr<const SampledPlant> plant;
+  bool nominal{true};
+};
+
+class PidJudge {
+ public:
+  PidJudge(const config::RigFile& rig, const PidLimits& limits, double third_n);
+
+  [[nodiscard]] PidFigures Of(const law::LawConfig& law,
+                              const std::vector<PlantToHold>& plants) const;
+  [[nodiscard]] const PidLimits& limits() const noexcept { return limits_; }
+  [[nodiscard]] bool spins() const noexcept { return !unbalance_.empty(); }
+
+ private:
+  PidLimits limits_;
+  std::vector<double> noise_m_;
+  UnbalanceResponse unbalance_;
+};
+
+/// The largest ratio, and whose it is.
+[[nodiscard]] Limit Limiting(const PidFigures& figures);
+/// "|S| of an axis"
+[[nodiscard]] std::string NameOf(Limit limit);
+/// "2.41", "0.32 %", "31.2 um"
+[[nodiscard]] std::string ValueText(Limit limit, double value);
+/// "|S| of an axis 2.41 (limit 2.40) at 212.1 Hz, 6000 rpm"
+[[nodiscard]] std::string MetText(Limit limit, const Met& met, double allowed);
+
+}  // namespace levitas::design
