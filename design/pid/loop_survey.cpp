@@ -36,7 +36,7 @@ Complex Through(const law::Section& s, Complex q, Complex value) {
 struct Sample {
   double hz{};
   Complex determinant;
-  double sensitivity{}, complementary{}, current_per_metre{}, frobenius{};
+  double sensitivity{}, complementary{}, current_per_metre{}, metre_per_newton{}, frobenius{};
   std::array<double, kMaxAxes> current{}, position{};  ///< squares of rows of C S and of T
 };
 
@@ -68,6 +68,7 @@ class Loop {
     out.sensitivity = Largest(&Sample::sensitivity);
     out.complementary = Largest(&Sample::complementary);
     out.current_per_metre = Largest(&Sample::current_per_metre);
+    out.metre_per_newton = Largest(&Sample::metre_per_newton);
     AddSingular(out);
     AddNoise(out);
     return out;
@@ -114,6 +115,7 @@ class Loop {
     out.hz = point.hz;
     out.determinant = m.determinant();
     const Matrix inverse = m.inverse();
+    AddCompliance(point.plant, inverse, factors, out);
     for (Index i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const double gain = std::norm(factors.law[at]);
@@ -133,6 +135,18 @@ class Loop {
     }
     out.frobenius = std::sqrt(out.frobenius);
     return out;
+  }
+
+  void AddCompliance(const AxisMatrix& plant, const Matrix& inverse, const Factors& factors,
+                     Sample& out) const {
+    for (Index i = 0; i < inverse.rows(); ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      Complex moved = 0.0;
+      for (Index k = 0; k < inverse.cols(); ++k) moved += inverse(i, k) * plant(k, i);
+      const double per_newton =
+          std::abs(factors.taken_out[axis] * moved) / std::abs(plant_.current_n_per_a()[axis]);
+      out.metre_per_newton = std::max(out.metre_per_newton, per_newton);
+    }
   }
 
   static double Turn(const Sample& a, const Sample& b) {

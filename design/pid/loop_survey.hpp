@@ -5,7 +5,7 @@
 //           by pi (growing poles of the plant - growing poles of the loop) from z = 1 to -1. Where
 //           it turns by more than kTurn between neighbours, points are put between them until it
 //           does not: a resonance however narrow is met or lies within kNarrowest.
-// Peaks     of |S_ii|, |T_ii|, |C_i S_ii|, and the largest singular value of S: the same points;
+// Peaks     of |S_ii|, |T_ii|, |C_i S_ii|, |(S P)_ii|/ki, and the largest singular value of S: the same points;
 //           the three around a maximum fitted by a parabola of 1/|.|^2, exact for one resonance.
 // Damping   of every pole of the loop near the axis: from the minima of the determinant, by
 //           Schroeder's iteration s - tr X/tr X^2, X = M^-1 dM/ds (double poles count as one).
@@ -27,7 +27,8 @@ struct PeakAt {
 struct LoopSurvey {
   int growing{};  ///< poles of the loop outside the unit circle
   PeakAt sensitivity, complementary, current_per_metre, singular;
-  PeakAt damping;                  ///< the least of an oscillating pole, and its frequency
+  PeakAt metre_per_newton;  ///< |(S P)_ii| over the axis' ki: what a force at its magnet moves
+  PeakAt damping;           ///< the least of an oscillating pole, and its frequency
   std::vector<double> current_a;   ///< rms, per axis, of noise
   std::vector<double> position_m;  ///< the same
 };

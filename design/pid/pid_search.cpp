@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 bool IsMargin(Limit limit) {
   return limit == Limit::kSensitivity || limit == Limit::kComplementary ||
-         limit == Limit::kSingular;
+         limit == Limit::kSingular || limit == Limit::kCompliance;
 }
 
 struct Candidate {
@@ -33,18 +33,24 @@ std::vector<PlantToHold> EveryPlant(const config::RigFile& rig,
                                     const PidSearchOptions& options) {
   constexpr int kSpeeds = 12;
   const double top = 1.1 * rig.numbers.max_speed_rad_per_s;
-  const bool turns = rig.numbers.axes() > 1;
+  const bool turns = rig.numbers.axes() > 1 && !options.first_levitation;
+  const Known known = options.first_levitation ? Known::kRigidBody : Known::kAll;
   std::vector<PlantToHold> out;
   for (int i = 0; i <= (turns ? kSpeeds : 0); ++i)
-    out.push_back({std::make_shared<SampledPlant>(rig, top * i / kSpeeds), true});
+    out.push_back({std::make_shared<SampledPlant>(rig, top * i / kSpeeds, known), true});
+  std::vector<uncertainty::Parameter> moved;
+  for (const auto& parameter : parameters)
+    if (!options.first_levitation || parameter.kind == uncertainty::Kind::kCurrentGain ||
+        parameter.kind == uncertainty::Kind::kStiffness)
+      moved.push_back(parameter);
   Random draw(options.seed + 500);
   for (std::size_t c = 0; c < options.corners; ++c) {
-    auto place = uncertainty::DrawPlace(draw, parameters.size());
+    auto place = uncertainty::DrawPlace(draw, moved.size());
     for (double& p : place) p = p < 0.0 ? -1.0 : 1.0;
-    const auto corner = uncertainty::At(rig, parameters, place);
+    const auto corner = uncertainty::At(rig, moved, place);
     for (const double speed : {0.0, top})
       if (speed == 0.0 || turns)
-        out.push_back({std::make_shared<SampledPlant>(corner, speed), false});
+        out.push_back({std::make_shared<SampledPlant>(corner, speed, known), false});
   }
   return out;
 }

@@ -5,8 +5,8 @@
 //            numerics/evolution_strategy.hpp twice side by side, in rounds. After each round the
 //            best law meets every speed of the range and drawn corners of the uncertainty; the worst
 //            of them join the plants to be held in the next round.
-// Cost       the largest of |S|, |T| and the singular value of S, each as a ratio to its limit; five
-//            times what every other ratio is above 1; a tenth of the mean of all. Unstable loops by
+// Cost       the largest of |S|, |T|, the singular value of S and, where asked, the compliance, each as
+//            a ratio to its limit; five times what every other ratio is above 1; a tenth of the mean of all. Unstable loops by
 //            their growing poles. So: the largest margin within the limits.
 // Same seed  same law, however many processors. Interrupted: the best so far.
 // Failure    Problem when the rig cannot be modelled; a law that does not meet the limits is a result.
@@ -26,6 +26,9 @@ struct PidSearchOptions {
   std::size_t lead_lags{1};
   std::size_t notches{2};
   bool own_filters{true};
+  /// As if nothing were known but ki, ks, mass, inertia, delay: one speed, no flexible mode, and
+  /// Limit::kAnyMode should be asked.
+  bool first_levitation{};
   std::uint64_t seed{1};
   double third_n{};
   double current_limit_a{};

@@ -3,8 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/rotational_speed.hpp"
+#include "common/two_pi.hpp"
+#include "plant_sim/plant/linear_parts.hpp"
+#include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::design {
 namespace {
@@ -24,6 +28,7 @@ void TakePeaks(const LoopSurvey& survey, double speed, PidFigures& out) {
   take(Limit::kComplementary, survey.complementary);
   take(Limit::kControl, survey.current_per_metre);
   take(Limit::kSingular, survey.singular);
+  take(Limit::kCompliance, survey.metre_per_newton);
 }
 
 double RatioOf(Limit limit, double found, double allowed) {
@@ -41,7 +46,6 @@ PidLimits UsualLimits(const config::RigFile& rig, double current_limit_a) {
   out[Limit::kCornerSensitivity] = 4.0;
   out[Limit::kComplementary] = 3.0;
   out[Limit::kSingular] = 4.0;
-  out[Limit::kDamping] = 0.0015;
   const auto& numbers = rig.numbers;
   if (numbers.standing_orbit_objective_m > 0.0)
     out[Limit::kStanding] = numbers.standing_orbit_objective_m;
@@ -49,6 +53,16 @@ PidLimits UsualLimits(const config::RigFile& rig, double current_limit_a) {
     out[Limit::kSpinning] = numbers.spinning_orbit_objective_m;
   out[Limit::kCurrent] = current_limit_a;
   out[Limit::kNoise] = 0.25 * current_limit_a;
+  const SampledPlant standing(rig, 0.0);
+  constexpr double kLeast = 0.0015;
+  constexpr double kOfOwn = 0.4;  // corners of the uncertainty have half of it
+  out[Limit::kDamping] = std::min(kLeast, kOfOwn * standing.own_damping());
+  if (standing.growing() == 0) {
+    const double without = Survey(standing, std::vector<law::DiscreteLaw>(rig.numbers.axes()),
+                                  std::vector<double>(rig.numbers.axes()))
+                               .metre_per_newton.value;
+    out[Limit::kCompliance] = 0.2 * without;
+  }
   return out;
 }
 
@@ -56,6 +70,38 @@ PidJudge::PidJudge(const config::RigFile& rig, const PidLimits& limits, double t
     : limits_(limits), unbalance_(rig, third_n) {
   for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis)
     noise_m_.push_back(rig.plant.bearings.at(axis / 2).sensor.noise_rms_m);
+  const plant::PlantModel model(rig.plant);
+  if (!rig.plant.shafts.empty() || model.bearings().front().on_voltage()) return;
+  const double period_s = rig.numbers.period_s();
+  const double delay_s = (model.delay_samples() + 0.5) * period_s;
+  const double mass_kg = model.parameters().modes.total_mass_kg;
+  constexpr double kFirstHz = 20.0;
+  constexpr double kNext = 1.04;
+  for (double hz = kFirstHz; hz < 0.5 / period_s; hz *= kNext) {
+    const double w = kTwoPi * hz;
+    Unknown at{hz, std::polar(1.0, -w * period_s), {}};
+    for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis) {
+      const auto& bearing = rig.plant.bearings.at(axis / 2);
+      const std::complex<double> lag =
+          std::polar(1.0, -w * delay_s) /
+          (std::complex<double>(1.0, hz / model.amplifier_bandwidth_hz(axis)) *
+           std::complex<double>(1.0, hz / bearing.sensor.bandwidth_hz));
+      const double ki = plant::SlopesAtCentre(model, axis / 2).current(0, 0);
+      at.chain.push_back(ki * lag / (2.0 * mass_kg * w * w));
+    }
+    unknown_.push_back(std::move(at));
+  }
+}
+
+Met PidJudge::AnyMode(const std::vector<law::DiscreteLaw>& laws) const {
+  Met out;
+  for (const Unknown& at : unknown_)
+    for (std::size_t axis = 0; axis < laws.size(); ++axis) {
+      const LawValue law = ValueAt(laws[axis], at.q);
+      const auto value = law.integrates ? law.value / (1.0 - at.q) : law.value;
+      TakeMost(out, -(value * at.chain[axis]).imag(), at.hz, 0.0);
+    }
+  return out;
 }
 
 PidFigures PidJudge::Of(const law::LawConfig& law, const std::vector<PlantToHold>& plants) const {
@@ -95,6 +141,7 @@ PidFigures PidJudge::Of(const law::LawConfig& law, const std::vector<PlantToHold
                            spinning.orbit_rad_per_s};
   out[Limit::kCurrent] = {static_a + spinning.current_a + kDeviations * out[Limit::kNoise].found,
                           0.0, 0.0, spinning.current_rad_per_s};
+  out[Limit::kAnyMode] = AnyMode(laws);
   for (std::size_t i = 0; i < kLimits; ++i)
     if (limits_.at[i])
       out.met[i].ratio = RatioOf(static_cast<Limit>(i), out.met[i].found, *limits_.at[i]);
@@ -118,7 +165,9 @@ std::string NameOf(Limit limit) {
                                                     "orbit spinning",
                                                     "current",
                                                     "current of noise, rms",
-                                                    "static stiffness"};
+                                                    "static stiffness",
+                                                    "compliance at a magnet",
+                                                    "damping an unknown mode needs"};
   return kNames[static_cast<std::size_t>(limit)];
 }
 
@@ -126,6 +175,10 @@ std::string ValueText(Limit limit, double value) {
   switch (limit) {
     case Limit::kControl:
       return fmt::format("{:.0f} A/m", value);
+    case Limit::kCompliance:
+      return fmt::format("{:.3f} um/N", 1e6 * value);
+    case Limit::kAnyMode:
+      return fmt::format("{:.3f} %", 100.0 * value);
     case Limit::kDamping:
       if (value >= 1.0) return "over 30 %";  // no pole near the axis
       return fmt::format("{:.3f} %", 100.0 * value);

@@ -10,6 +10,11 @@
 // Current   static, harmonics' amplitude and three standard deviations of noise, of the worst axis
 //           each; noise alone has a limit of its own: what it fills of the range is lost to all else.
 // Stiffness ki Kp - ks of the softest axis: against a step of force, before the integrator has it.
+// Compliance  what a force at a magnet moves there, largest over frequency. A rig that stands without
+//           control is asked for a fifth of what it has then: else no law at all would be the best.
+// Any mode  damping ratio that a flexible mode of the rotor's mass would need of its own, wherever
+//           its frequency: -ki Im(C A)/(2 m w^2), A amplifier, sensor, delay and hold. Sensor and
+//           magnet are taken to lie on the same side of its nodes.
 // Units     SI, in the names. Thread: any; pure after construction.
 
 #include <array>
@@ -32,9 +37,11 @@ enum class Limit : std::size_t {
   kSpinning,
   kCurrent,
   kNoise,
-  kStiffness
+  kStiffness,
+  kCompliance,
+  kAnyMode
 };
-inline constexpr std::size_t kLimits = 11;
+inline constexpr std::size_t kLimits = 13;
 
 struct PidLimits {
   /// In the order of Limit; empty: not asked.
@@ -47,7 +54,8 @@ struct PidLimits {
   }
 };
 
-/// |S| 3 (zone A), 4 at corners, |T| 3, singular value 4, damping 0.15 %, the rig's objectives, the law's current and a
+/// |S| 3 (zone A), 4 at corners, |T| 3, singular value 4, damping 0.15 % (or 0.4 of the rig's
+/// own, where that is less), the rig's objectives, the law's current and a
 /// quarter of it for noise.
 [[nodiscard]] PidLimits UsualLimits(const config::RigFile& rig, double current_limit_a);
 
@@ -77,11 +85,19 @@ class PidJudge {
   [[nodiscard]] PidFigures Of(const law::LawConfig& law,
                               const std::vector<PlantToHold>& plants) const;
   [[nodiscard]] const PidLimits& limits() const noexcept { return limits_; }
-  [[nodiscard]] bool spins() const noexcept { return !unbalance_.empty(); }
 
  private:
+  [[nodiscard]] Met AnyMode(const std::vector<law::DiscreteLaw>& laws) const;
+
   PidLimits limits_;
   std::vector<double> noise_m_;
+  /// ki A/(2 m w^2) of each axis on a grid, for AnyMode.
+  struct Unknown {
+    double hz{};
+    std::complex<double> q;
+    std::vector<std::complex<double>> chain;
+  };
+  std::vector<Unknown> unknown_;
   UnbalanceResponse unbalance_;
 };
 

@@ -73,12 +73,27 @@ Modal ModalForm(const plant::LinearModel& model, Index channels) {
   return out;
 }
 
+/// Without its flexible modes when only the rigid body is known.
+plant::PlantModel ModelOf(const plant::PlantConfig& config, Known known) {
+  plant::PlantParameters parameters = plant::Reduce(config);
+  if (known == Known::kAll) return plant::PlantModel(std::move(parameters));
+  rotor::ModalRotor& modes = parameters.modes;
+  const Index rigid = modes.rigid_modes;
+  modes.frequency_rad_per_s.conservativeResize(rigid);
+  modes.damping_ratio.conservativeResize(rigid);
+  modes.gyroscopic.conservativeResize(rigid, rigid);
+  modes.shapes.conservativeResize(Eigen::NoChange, rigid);
+  modes.slopes.conservativeResize(Eigen::NoChange, rigid);
+  modes.rigid.conservativeResize(rigid, Eigen::NoChange);
+  return plant::PlantModel(std::move(parameters));
+}
+
 }  // namespace
 
-SampledPlant::SampledPlant(const config::RigFile& rig, double speed_rad_per_s)
+SampledPlant::SampledPlant(const config::RigFile& rig, double speed_rad_per_s, Known known)
     : period_s_(static_cast<double>(rig.plant.period_ns) * 1e-9),
       speed_rad_per_s_(speed_rad_per_s) {
-  const plant::PlantModel model(rig.plant);
+  const plant::PlantModel model = ModelOf(rig.plant, known);
   const auto channels = static_cast<Index>(model.channels());
   const auto point = plant::FindOperatingPoint(
       model, speed_rad_per_s,
@@ -141,6 +156,7 @@ void SampledPlant::TakeLightModes(const Eigen::VectorXcd& poles) {
     const Complex l = poles[i];
     const bool light = l.imag() > 0.0 && std::abs(l.real()) < kLightlyDamped * std::abs(l);
     if (!light || taken[static_cast<std::size_t>(i)] || l.imag() * period_s_ > 3.0) continue;
+    own_damping_ = std::min(own_damping_, -l.real() / std::abs(l));
     std::vector<Index> group;
     for (Index k = i; k < poles.size(); ++k)
       if (std::abs(poles[k] - l) < kTogether * std::abs(l)) group.push_back(k);

@@ -7,6 +7,7 @@
 //           p2 = e^{l (1-f) T} (e^{l f T} - 1)/l. Exact at and between the grid's frequencies.
 // Point     about which it is linear: where a law that integrates holds the rotor.
 // Grid      from 0 to half the sampling rate, denser around the plant's lightly damped poles.
+// Rigid     with Known::kRigidBody the flexible modes are left out, as on a rig not identified yet.
 // Failure   Problem when the model has no independent eigenvectors (a rotor without magnets).
 // Shares    nothing with analysis/, which judges what is designed here.
 // Units     A in, m out. Thread: any number of readers.
@@ -38,9 +39,12 @@ struct LightMode {
   AxisMatrix others;               ///< P without it
 };
 
+/// Of the rotor: all that the rig file says, or its mass and inertia alone.
+enum class Known { kAll, kRigidBody };
+
 class SampledPlant {
  public:
-  SampledPlant(const config::RigFile& rig, double speed_rad_per_s);
+  SampledPlant(const config::RigFile& rig, double speed_rad_per_s, Known known = Known::kAll);
 
   [[nodiscard]] AxisMatrix At(std::complex<double> z) const;
   [[nodiscard]] SampledPoint AtHz(double hz) const;
@@ -48,6 +52,8 @@ class SampledPlant {
   [[nodiscard]] const std::vector<LightMode>& light_modes() const noexcept { return light_; }
   /// Poles outside the unit circle.
   [[nodiscard]] int growing() const noexcept { return growing_; }
+  /// Least damping ratio of the plant's own lightly damped poles; 1 when there are none.
+  [[nodiscard]] double own_damping() const noexcept { return own_damping_; }
   [[nodiscard]] double period_s() const noexcept { return period_s_; }
   [[nodiscard]] double speed_rad_per_s() const noexcept { return speed_rad_per_s_; }
   [[nodiscard]] Eigen::Index axes() const noexcept { return output_.rows(); }
@@ -68,6 +74,7 @@ class SampledPlant {
   double period_s_{}, speed_rad_per_s_{};
   int whole_delay_{};
   int growing_{};
+  double own_damping_{1.0};
   Eigen::VectorXcd z_poles_, now_, before_;  ///< e^{l T}, p1, p2
   Eigen::MatrixXcd input_, output_;
   std::vector<double> residue_;  ///< output x input of each mode: real parts, then imaginary ones

@@ -29,10 +29,11 @@ struct PidCommandOptions {
   design::PidSearchOptions search;
   std::string out_path;
   double sensitivity{3.0};
-  double damping_percent{0.15};
   /// 0: the rig's own, or not asked.
-  double complementary{}, control_a_per_m{}, singular{}, standing_um{}, spinning_um{};
-  double current_a{}, noise_a{}, stiffness_n_per_m{};
+  double damping_percent{}, complementary{}, control_a_per_m{}, singular{}, standing_um{},
+      spinning_um{};
+  double current_a{}, noise_a{}, stiffness_n_per_m{}, compliance_um_per_n{};
+  double unknown_damping_percent{0.3};
   bool shared_filters{};
 };
 
@@ -40,10 +41,10 @@ design::PidLimits LimitsOf(const PidCommandOptions& options, const config::RigFi
   auto out = design::UsualLimits(rig, options.search.current_limit_a);
   out[Limit::kSensitivity] = options.sensitivity;
   out[Limit::kCornerSensitivity] = options.gate.sensitivity;
-  out[Limit::kDamping] = 0.01 * options.damping_percent;
   const auto ask = [&](Limit limit, double value) {
     if (value > 0.0) out[limit] = value;
   };
+  ask(Limit::kDamping, 0.01 * options.damping_percent);
   ask(Limit::kComplementary, options.complementary);
   ask(Limit::kControl, options.control_a_per_m);
   ask(Limit::kSingular, options.singular);
@@ -52,6 +53,9 @@ design::PidLimits LimitsOf(const PidCommandOptions& options, const config::RigFi
   ask(Limit::kCurrent, options.current_a);
   ask(Limit::kNoise, options.noise_a);
   ask(Limit::kStiffness, options.stiffness_n_per_m);
+  ask(Limit::kCompliance, 1e-6 * options.compliance_um_per_n);
+  if (options.search.first_levitation)
+    out[Limit::kAnyMode] = 0.01 * options.unknown_damping_percent;
   return out;
 }
 
@@ -156,8 +160,9 @@ void AddLimitOptions(CLI::App& command, PidCommandOptions& options) {
   add("--singular-value", options.singular, "Limit: largest singular value of S; default: 4",
       100.0);
   add("--damping", options.damping_percent,
-      "Limit: least damping of every mode [%], corners of the uncertainty included", 100.0)
-      ->capture_default_str();
+      "Limit: least damping of every mode [%], corners of the uncertainty included; default: 0.15, "
+      "or 0.4 of the rig's own",
+      100.0);
   add("--standing-orbit", options.standing_um,
       "Limit [um]: three deviations of what noise moves; default: the rig's objective", 1e6);
   add("--spinning-orbit", options.spinning_um,
@@ -169,6 +174,11 @@ void AddLimitOptions(CLI::App& command, PidCommandOptions& options) {
       "Limit [A]: rms of noise; default: a quarter of what the coils allow", 1e4);
   add("--stiffness", options.stiffness_n_per_m,
       "Limit [N/m]: least static stiffness of an axis, without its integrator", 1e12);
+  add("--compliance", options.compliance_um_per_n,
+      "Limit [um/N]: what a force at a magnet moves at any frequency; default: none, or half of "
+      "what "
+      "it moves without control where the rig stands without",
+      1e9);
 }
 
 }  // namespace
@@ -190,6 +200,14 @@ void AddDesignPid(CLI::App& design, Action& action) {
       ->capture_default_str();
   command->add_option("--notches", options->search.notches, "Of each axis")
       ->check(CLI::Range(0, 4))
+      ->capture_default_str();
+  command->add_flag("--first-levitation", options->search.first_levitation,
+                    "From ki, ks, mass, inertia and delay alone, at rest: the largest margin with "
+                    "which a flexible mode at any frequency stays damped");
+  command
+      ->add_option("--unknown-damping", options->unknown_damping_percent,
+                   "With --first-levitation: damping [%] that any flexible mode has of its own")
+      ->check(CLI::Range(0.001, 10.0))
       ->capture_default_str();
   command->add_flag("--shared-filters", options->shared_filters,
                     "One derivative corner, lead-lag and set of notches for all bearings");
