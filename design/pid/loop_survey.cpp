@@ -261,7 +261,7 @@ class Loop {
       for (const Complex& nearness : {first, second}) {
         if (!(std::abs(nearness * s) > 3.0)) continue;
         Complex pole = s - Ratio(1.0, nearness);
-        if (Approach(pole)) found.push_back(pole);
+        if (-pole.real() < kMostDamped * std::abs(pole) && Approach(pole)) found.push_back(pole);
       }
     }
     for (const LightMode& mode : plant_.light_modes()) AddLight(mode, found);
@@ -305,6 +305,7 @@ class Loop {
   int TakePoles(const std::vector<Complex>& found, LoopSurvey& out) {
     constexpr double kNarrow = 1e-6;
     constexpr double kSame = 1e-3;
+    constexpr double kSeenByGrid = 0.05;
     const double last_hz = 0.5 / plant_.period_s();
     out.damping = {1.0, 0.0};
     std::vector<double> at_hz;
@@ -321,8 +322,10 @@ class Loop {
         continue;
       if (damping < 0.0) ++outside;
       if (damping < out.damping.value) out.damping = {damping, hz};
-      for (const double widths : {-1.5, -0.5, 0.0, 0.5, 1.5})
+      for (const double widths : {-1.5, -0.5, 0.0, 0.5, 1.5}) {
+        if (widths != 0.0 && damping > kSeenByGrid) continue;
         at_hz.push_back(hz * (1.0 + widths * std::max(std::abs(damping), kNarrow)));
+      }
     }
     Insert(at_hz);
     return outside;

@@ -94,10 +94,9 @@ std::vector<Candidate> Starts(const LawShape& shape, const SampledPlant& plant,
 class Watch {
  public:
   explicit Watch(const std::function<bool(double, const std::string&)>& seen) : seen_(seen) {}
-  bool Note(std::size_t island, std::size_t evaluations, double cost, double share) {
+  bool Note(std::size_t island, double cost, double share) {
     const std::lock_guard lock(mutex_);
     best_[island] = cost;
-    done_[island] = evaluations;
     if (!going_) return false;
     going_ = seen_(share, fmt::format("gains: cost {:.3f}; Ctrl-C: best so far",
                                       std::min(best_[0], best_[1])));
@@ -109,7 +108,6 @@ class Watch {
   const std::function<bool(double, const std::string&)>& seen_;
   std::mutex mutex_;
   std::array<double, 2> best_{1e9, 1e9};
-  std::array<std::size_t, 2> done_{};
   std::atomic<bool> going_{true};
 };
 
@@ -134,85 +132,133 @@ double CostOf(const PidFigures& figures) {
   return margin + 5.0 * excess + kAllMet * sum / kLimits;
 }
 
-PidSearchResult SearchPid(const config::RigFile& rig, const PidLimits& limits,
-                          const std::vector<uncertainty::Parameter>& parameters,
-                          const PidSearchOptions& options,
-                          const std::function<bool(double, const std::string&)>& seen) {
-  constexpr std::size_t kRounds = 4;
-  const PidJudge judge(rig, limits, options.third_n);
-  const auto every = EveryPlant(rig, parameters, options);
-  if (const std::string& failure = every.front().plant->failure(); !failure.empty())
-    throw Problem(ExitStatus::kOther, "no law holds this rig: " + failure);
-  LawShape shape;
-  shape.bearings = rig.plant.bearings.size();
-  shape.axes = rig.numbers.axes();
-  shape.lead_lags = options.lead_lags;
-  shape.notches = options.notches;
-  shape.period_s = rig.numbers.period_s();
-  shape.current_limit_a = options.current_limit_a;
-  std::vector<std::size_t> held{0};
-  for (std::size_t i = 1; i < every.size() && every[i].nominal; ++i)
-    if (i == 11) held.push_back(i);
-  const auto plants = [&] {
-    std::vector<PlantToHold> out;
-    for (const std::size_t i : held) out.push_back(every[i]);
-    return out;
-  };
-  auto now = plants();
-  const auto cost = [&](const VectorXd& x) { return CostOf(judge.Of(LawAt(shape, x), now)); };
-  PidSearchResult out;
-  auto best = Starts(shape, *every.front().plant, cost);
-  while (best.size() < 2) best.push_back(best.front());
-  Watch watch(seen);
-  const std::size_t each = options.evaluations / (2 * kRounds);
-  double step = 0.3;
-  for (std::size_t round = 0; round < kRounds && watch.going(); ++round) {
+namespace {
+
+/// One search: what is held grows round by round.
+class Rounds {
+ public:
+  Rounds(const config::RigFile& rig, const PidLimits& limits,
+         const std::vector<uncertainty::Parameter>& parameters, const PidSearchOptions& options)
+      : options_(options),
+        judge_(rig, limits, options.third_n),
+        every_(EveryPlant(rig, parameters, options)) {
+    if (const std::string& failure = every_.front().plant->failure(); !failure.empty())
+      throw Problem(ExitStatus::kOther, "no law holds this rig: " + failure);
+    shape_.bearings = rig.plant.bearings.size();
+    shape_.axes = rig.numbers.axes();
+    shape_.lead_lags = options.lead_lags;
+    shape_.notches = options.notches;
+    shape_.period_s = rig.numbers.period_s();
+    shape_.current_limit_a = options.current_limit_a;
+    Hold(0);
+    const auto last =
+        std::find_if(every_.begin(), every_.end(), [](const PlantToHold& p) { return !p.nominal; });
+    Hold(static_cast<std::size_t>(last - every_.begin()) - 1);
+    best_ = Starts(shape_, *every_.front().plant, [this](const VectorXd& x) { return Cost(x); });
+    while (best_.size() < 2) best_.push_back(best_.front());
+  }
+
+  PidSearchResult Run(const std::function<bool(double, const std::string&)>& seen) {
+    Watch watch(seen);
+    for (std::size_t round = 0; round < kRounds; ++round) {
+      SearchTwice(round, watch);
+      Keep();
+      if (!watch.going()) break;
+      if (round == 0 && options_.own_filters && shape_.bearings > 1) {
+        for (auto& candidate : best_) candidate.x = Untied(shape_, candidate.x);
+        shape_.own_filters = true;
+      } else if (round > 0) {
+        best_[1] = best_[0];
+      }
+    }
+    out_.plants_met = every_.size();
+    out_.plants_held = held_.size();
+    out_.interrupted = !watch.going();
+    return out_;
+  }
+
+ private:
+  static constexpr std::size_t kRounds = 6;
+  static constexpr std::size_t kMostHeld = 7;
+
+  [[nodiscard]] double Cost(const VectorXd& x) const {
+    return CostOf(judge_.Of(LawAt(shape_, x), held_));
+  }
+
+  void Hold(std::size_t plant) {
+    if (std::find(indices_.begin(), indices_.end(), plant) != indices_.end()) return;
+    if (indices_.size() == kMostHeld) return;
+    indices_.push_back(plant);
+    held_.push_back(every_[plant]);
+  }
+
+  void SearchTwice(std::size_t round, Watch& watch) {
+    constexpr std::array<double, kRounds> kSteps{0.3, 0.15, 0.1, 0.08, 0.05, 0.03};
+    const std::size_t each = options_.evaluations / (2 * kRounds);
     const auto search = [&](std::size_t island) {
       numerics::EvolutionOptions evolution;
       evolution.evaluations = each;
-      evolution.first_step = step;
-      evolution.seed = options.seed + 17 * round + island;
-      return numerics::Evolve(best[island].x, cost, evolution, [&](std::size_t n, double value) {
-        const double share =
-            (static_cast<double>(round) + static_cast<double>(n) / static_cast<double>(each)) /
-            kRounds;
-        return watch.Note(island, n, value, share);
-      });
+      evolution.first_step = kSteps[round];
+      evolution.seed = options_.seed + 17 * round + island;
+      return numerics::Evolve(
+          best_[island].x, [this](const VectorXd& x) { return Cost(x); }, evolution,
+          [&](std::size_t n, double value) {
+            const double of_round = static_cast<double>(n) / static_cast<double>(each);
+            return watch.Note(island, value, (static_cast<double>(round) + of_round) / kRounds);
+          });
     };
     auto other = std::async(std::launch::async, [&] { return search(1); });
     const auto first = search(0);
     const auto second = other.get();
-    best[0] = {first.best, first.cost};
-    best[1] = {second.best, second.cost};
-    if (second.cost < first.cost) std::swap(best[0], best[1]);
-    out.evaluations += first.evaluations + second.evaluations;
-    step = 0.15;
-    if (round == 0 && options.own_filters && shape.bearings > 1) {
-      for (auto& candidate : best) candidate.x = Untied(shape, candidate.x);
-      shape.own_filters = true;
-    } else if (round > 0) {
-      best[1] = best[0];
-      step = 0.08;
-    }
-    // The worst plant by cost of the best law joins.
-    double worst = CostOf(judge.Of(LawAt(shape, best[0].x), now));
-    std::size_t joins = every.size();
-    for (std::size_t i = 0; i < every.size(); ++i) {
-      const double alone = CostOf(judge.Of(LawAt(shape, best[0].x), {every[i]}));
-      if (alone <= worst + 1e-3) continue;
-      worst = alone;
-      joins = i;
-    }
-    if (joins < every.size()) held.push_back(joins);
-    now = plants();
+    best_[0] = {first.best, first.cost};
+    best_[1] = {second.best, second.cost};
+    if (second.cost < first.cost) std::swap(best_[0], best_[1]);
+    out_.evaluations += first.evaluations + second.evaluations;
   }
-  out.law = LawAt(shape, best[0].x);
-  out.figures = judge.Of(out.law, every);
-  out.cost = CostOf(out.figures);
-  out.plants_met = every.size();
-  out.plants_held = held.size();
-  out.interrupted = !watch.going();
-  return out;
+
+  /// The best law meets every plant: it is kept when none before was better there, and the plants
+  /// that are worst by one of its figures are held from now on.
+  void Keep() {
+    const law::LawConfig law = LawAt(shape_, best_[0].x);
+    const PidFigures all = judge_.Of(law, every_);
+    const double cost = CostOf(all);
+    if (out_.law.axes.empty() || cost < out_.cost) {
+      out_.law = law;
+      out_.figures = all;
+      out_.cost = cost;
+    }
+    std::array<std::pair<double, std::size_t>, kLimits + 1> worst{};
+    for (std::size_t i = 0; i < every_.size(); ++i) {
+      const PidFigures one = judge_.Of(law, {every_[i]});
+      const auto note = [&](std::size_t figure, double value) {
+        if (value > worst[figure].first) worst[figure] = {value, i};
+      };
+      note(kLimits, one.growing);
+      for (const Limit limit : {Limit::kSensitivity, Limit::kComplementary, Limit::kSingular,
+                                Limit::kDamping, Limit::kCornerSensitivity})
+        note(static_cast<std::size_t>(limit), one[limit].ratio);
+    }
+    constexpr double kNear = 0.9;  // of the limit: nothing that matters joins
+    for (const auto& [value, plant] : worst)
+      if (value > kNear) Hold(plant);
+  }
+
+  PidSearchOptions options_;
+  PidJudge judge_;
+  std::vector<PlantToHold> every_, held_;
+  std::vector<std::size_t> indices_;
+  LawShape shape_;
+  std::vector<Candidate> best_;
+  PidSearchResult out_;
+};
+
+}  // namespace
+
+PidSearchResult SearchPid(const config::RigFile& rig, const PidLimits& limits,
+                          const std::vector<uncertainty::Parameter>& parameters,
+                          const PidSearchOptions& options,
+                          const std::function<bool(double, const std::string&)>& seen) {
+  return Rounds(rig, limits, parameters, options).Run(seen);
 }
 
 }  // namespace levitas::design

@@ -11,8 +11,10 @@
 #include "cli/study/design/design_commands.hpp"
 #include "cli/study/design/gate_options.hpp"
 #include "cli/study/design/judged_law.hpp"
+#include "cli/study/design/pid_page.hpp"
 #include "cli/study/progress_line.hpp"
 #include "cli/study/written_files.hpp"
+#include "cli/text_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "design/pid/pid_search.hpp"
 #include "report/text/text_table.hpp"
@@ -28,6 +30,7 @@ struct PidCommandOptions {
   GateCommandOptions gate;
   design::PidSearchOptions search;
   std::string out_path;
+  std::string html_path;
   double sensitivity{3.0};
   /// 0: the rig's own, or not asked.
   double damping_percent{}, complementary{}, control_a_per_m{}, singular{}, standing_um{},
@@ -121,6 +124,7 @@ void RefuseUnmet(const design::PidFigures& figures, const design::PidLimits& lim
 
 ExitStatus Run(PidCommandOptions options) {
   session::CheckOutputPath(options.out_path, {});
+  session::CheckOutputPath(options.html_path, {});
   session::CheckOutputPath(options.loop.json_path, {});
   const auto weights = DesignOf(options.gate);
   auto rig = LoadRig(options.loop);
@@ -140,6 +144,14 @@ ExitStatus Run(PidCommandOptions options) {
                                     template_controller.file.supervisor};
   auto written =
       WriteJudged(options.out_path, "amb design pid", options.gate.seed, file, rig.numbers, result);
+  if (!options.html_path.empty())
+    WriteTextFile(
+        options.html_path,
+        PidPage(rig,
+                {{"before: " + template_controller.file.name, template_controller.file.law},
+                 {"after", found.law}},
+                found.figures, limits));
+  written.push_back(options.html_path);
   auto json = GateJson(result);
   json["requirements"] = RequirementsJson(found.figures, limits);
   json["laws_tried"] = found.evaluations;
@@ -191,6 +203,9 @@ void AddDesignPid(CLI::App& design, Action& action) {
   AddControllerOption(*command, options->loop);
   AddPortOption(*command, options->loop);
   command->add_option("--out", options->out_path, "Controller file to write when accepted");
+  command->add_option(
+      "--html", options->html_path,
+      "Page to write: requirements, map of the gains that hold the rig before and after");
   AddLimitOptions(*command, *options);
   command->add_option("--evaluations", options->search.evaluations, "Laws tried")
       ->check(CLI::Range(100, 1000000))
