@@ -18,11 +18,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-bool IsMargin(Limit limit) {
-  return limit == Limit::kSensitivity || limit == Limit::kComplementary ||
-         limit == Limit::kSingular || limit == Limit::kCompliance;
-}
-
 struct Candidate {
   VectorXd x;
   double cost{1e9};
@@ -117,19 +112,15 @@ double CostOf(const PidFigures& figures) {
   const double damping = figures[Limit::kDamping].found;
   if (figures.growing > 0)
     return 100.0 + 10.0 * figures.growing + std::clamp(-100.0 * damping, 0.0, 9.0);
+  constexpr double kSafe = 0.995;  // a peak between the points of a search is not beyond its limit
   constexpr double kAllMet = 0.1;  // what the mean of the ratios counts beside the largest peak
-  double margin = 0.0;
   double excess = 0.0;
   double sum = 0.0;
-  for (std::size_t i = 0; i < kLimits; ++i) {
-    const double ratio = figures.met[i].ratio;
-    sum += std::min(ratio, 1.0);
-    if (IsMargin(static_cast<Limit>(i)))
-      margin = std::max(margin, ratio);
-    else
-      excess += std::max(0.0, ratio - 0.995);
+  for (const Met& met : figures.met) {
+    sum += std::min(met.ratio, 1.0);
+    excess += std::max(0.0, met.ratio - kSafe);
   }
-  return margin + 5.0 * excess + kAllMet * sum / kLimits;
+  return figures.margin + 5.0 * excess + kAllMet * sum / kLimits;
 }
 
 namespace {

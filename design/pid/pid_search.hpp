@@ -5,9 +5,8 @@
 //            numerics/evolution_strategy.hpp twice side by side, in rounds. After each round the
 //            best law meets every speed of the range and drawn corners of the uncertainty; the worst
 //            of them join the plants to be held in the next round.
-// Cost       the largest of |S|, |T|, the singular value of S and, where asked, the compliance, each as
-//            a ratio to its limit; five times what every other ratio is above 1; a tenth of the mean of all. Unstable loops by
-//            their growing poles. So: the largest margin within the limits.
+// Cost       PidFigures::margin; five times what every ratio is above 1; a tenth of the mean of all.
+//            Unstable loops by their growing poles. So: the largest margin within the limits.
 // Same seed  same law, however many processors. Interrupted: the best so far.
 // Failure    Problem when the rig cannot be modelled; a law that does not meet the limits is a result.
 // Thread     that of the caller, and two of its own.

@@ -62,6 +62,7 @@ PidLimits UsualLimits(const config::RigFile& rig, double current_limit_a) {
                                   std::vector<double>(rig.numbers.axes()))
                                .metre_per_newton.value;
     out[Limit::kCompliance] = 0.2 * without;
+    out.stiffen_to_m_per_n = 0.02 * without;
   }
   return out;
 }
@@ -145,6 +146,10 @@ PidFigures PidJudge::Of(const law::LawConfig& law, const std::vector<PlantToHold
   for (std::size_t i = 0; i < kLimits; ++i)
     if (limits_.at[i])
       out.met[i].ratio = RatioOf(static_cast<Limit>(i), out.met[i].found, *limits_.at[i]);
+  for (const Limit limit : {Limit::kSensitivity, Limit::kComplementary, Limit::kSingular})
+    out.margin = std::max(out.margin, out[limit].ratio);
+  if (limits_.stiffen_to_m_per_n > 0.0)
+    out.margin = std::max(out.margin, out[Limit::kCompliance].found / limits_.stiffen_to_m_per_n);
   return out;
 }
 

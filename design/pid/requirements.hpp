@@ -11,7 +11,8 @@
 //           each; noise alone has a limit of its own: what it fills of the range is lost to all else.
 // Stiffness ki Kp - ks of the softest axis: against a step of force, before the integrator has it.
 // Compliance  what a force at a magnet moves there, largest over frequency. A rig that stands without
-//           control is asked for a fifth of what it has then: else no law at all would be the best.
+//           control is asked for a fifth of what it has then, and its search weighs a fiftieth of it
+//           like |S| at its limit: else no law at all would have the largest margin.
 // Any mode  damping ratio that a flexible mode of the rotor's mass would need of its own, wherever
 //           its frequency: -ki Im(C A)/(2 m w^2), A amplifier, sensor, delay and hold. Sensor and
 //           magnet are taken to lie on the same side of its nodes.
@@ -46,6 +47,8 @@ inline constexpr std::size_t kLimits = 13;
 struct PidLimits {
   /// In the order of Limit; empty: not asked.
   std::array<std::optional<double>, kLimits> at{};
+  /// Compliance that weighs as much as |S| at its limit; 0: none.
+  double stiffen_to_m_per_n{};
   [[nodiscard]] std::optional<double>& operator[](Limit limit) {
     return at[static_cast<std::size_t>(limit)];
   }
@@ -64,7 +67,9 @@ struct Met {
 };
 
 struct PidFigures {
-  int growing{};  ///< poles, of all plants
+  int growing{};    ///< poles, of all plants
+  double margin{};  ///< what a search makes small: the largest ratio of |S|, |T|, singular value of
+                    ///< S and, with `stiffen_to_m_per_n`, compliance
   std::array<Met, kLimits> met{};
   [[nodiscard]] const Met& operator[](Limit limit) const {
     return met[static_cast<std::size_t>(limit)];

@@ -17,10 +17,10 @@ struct Band {
   const char* colour;
 };
 /// Zones of ISO 14839-3; colours from dark to light, so that they print in grey too.
-constexpr std::array<Band, 4> kBands{{{"|S| below 3 (zone A)", 3.0, "#08519c"},
-                                      {"below 4 (B)", 4.0, "#3182bd"},
-                                      {"below 5 (C)", 5.0, "#6baed6"},
-                                      {"5 and more (D)", HUGE_VAL, "#c6dbef"}}};
+constexpr std::array<Band, 4> kBands{{{"|S| < 3", 3.0, "#08519c"},
+                                      {"< 4", 4.0, "#3182bd"},
+                                      {"< 5", 5.0, "#6baed6"},
+                                      {"more", HUGE_VAL, "#c6dbef"}}};
 
 svg::Panel MapPanel(const NamedLaw& named, const design::GainMap& map) {
   svg::Panel panel{named.name, "Kp over the law's", "Kd over the law's", svg::Scale::kLogarithmic,
@@ -41,7 +41,7 @@ svg::Panel MapPanel(const NamedLaw& named, const design::GainMap& map) {
     above = band.below;
     panel.series.push_back(std::move(series));
   }
-  svg::Series here{"the law", {1.0}, {1.0}, "#d62728", 0.0, "", svg::Mark::kCross, 6.0};
+  svg::Series here{"law", {1.0}, {1.0}, "#d62728", 0.0, "", svg::Mark::kCross, 6.0};
   panel.series.push_back(std::move(here));
   panel.x_range = svg::Range{map.factors.front() / 1.1, map.factors.back() * 1.1};
   panel.y_range = panel.x_range;
@@ -86,7 +86,7 @@ std::string PidPage(const config::RigFile& rig, const std::vector<NamedLaw>& law
       "</style>\n<h1>PID design: {}</h1>\n{}"
       "<h2>Gains that hold the rig</h2>\n<p>Kp (with Ki) and Kd of every axis times a factor, the "
       "filters unchanged; at rest and at the rated speed. Where nothing is drawn a loop is "
-      "unstable.</p>\n{}\n",
+      "unstable. |S| below 3, 4, 5: zones A, B, C of ISO 14839-3.</p>\n{}\n",
       rig.numbers.name, Table(figures, limits), svg::Draw(figure));
 }
 
