@@ -36,6 +36,7 @@ struct PidCommandOptions {
   double damping_percent{}, complementary{}, control_a_per_m{}, singular{}, standing_um{},
       spinning_um{};
   double current_a{}, noise_a{}, stiffness_n_per_m{}, compliance_um_per_n{};
+  double corner_sensitivity{};
   double unknown_damping_percent{0.3};
   bool shared_filters{};
 };
@@ -47,6 +48,7 @@ design::PidLimits LimitsOf(const PidCommandOptions& options, const config::RigFi
   const auto ask = [&](Limit limit, double value) {
     if (value > 0.0) out[limit] = value;
   };
+  ask(Limit::kCornerSensitivity, options.corner_sensitivity);
   ask(Limit::kDamping, 0.01 * options.damping_percent);
   ask(Limit::kComplementary, options.complementary);
   ask(Limit::kControl, options.control_a_per_m);
@@ -77,14 +79,35 @@ void PrintRequirements(const design::PidFigures& figures, const design::PidLimit
   fmt::print("{}", table.Text());
 }
 
+/// Unit of a requirement's numbers, as the end of their keys.
+std::string UnitOf(Limit limit) {
+  switch (limit) {
+    case Limit::kControl:
+      return "_a_per_m";
+    case Limit::kStanding:
+    case Limit::kSpinning:
+      return "_m";
+    case Limit::kCurrent:
+    case Limit::kNoise:
+      return "_a";
+    case Limit::kStiffness:
+      return "_n_per_m";
+    case Limit::kCompliance:
+      return "_m_per_n";
+    default:
+      return "";
+  }
+}
+
 nlohmann::ordered_json RequirementsJson(const design::PidFigures& figures,
                                         const design::PidLimits& limits) {
   nlohmann::ordered_json json;
   for (std::size_t i = 0; i < design::kLimits; ++i) {
     const auto limit = static_cast<Limit>(i);
     const auto& met = figures[limit];
-    nlohmann::ordered_json one{{"name", design::NameOf(limit)}, {"reached", met.found}};
-    if (limits[limit]) one["limit"] = *limits[limit];
+    nlohmann::ordered_json one{{"name", design::NameOf(limit)},
+                               {"reached" + UnitOf(limit), met.found}};
+    if (limits[limit]) one["limit" + UnitOf(limit)] = *limits[limit];
     if (met.hz > 0.0) one["frequency_hz"] = met.hz;
     one["speed_rpm"] = RadPerSToRpm(met.speed_rad_per_s);
     json.push_back(std::move(one));
@@ -96,6 +119,7 @@ design::PidSearchResult Search(const PidCommandOptions& options, const config::R
                                const design::PidLimits& limits) {
   ProgressLine line(stderr, isatty(STDERR_FILENO) != 0);
   const InterruptGuard interrupt;
+  std::fflush(stdout);  // whoever reads a pipe sees what is being designed
   auto found = design::SearchPid(rig, limits, ParametersOf(rig, options.gate.from), options.search,
                                  [&](double share, const std::string& text) {
                                    line.Show(share, text);
@@ -116,10 +140,18 @@ void RefuseUnmet(const design::PidFigures& figures, const design::PidLimits& lim
                   "no PID found holds this rig at every speed and corner of its uncertainty: more "
                   "--evaluations, another --notches, or less delay");
   const Limit limiting = design::Limiting(figures);
-  if (figures[limiting].ratio > kRounding)
-    throw Problem(ExitStatus::kOther,
-                  "the requirements are not met together; the nearest law misses " +
-                      design::MetText(limiting, figures[limiting], *limits[limiting]));
+  if (figures[limiting].ratio <= kRounding) return;
+  constexpr double kHeldBack = 0.98;  // of its limit: what the search could not give up
+  std::string others;
+  for (std::size_t i = 0; i < design::kLimits; ++i) {
+    const auto limit = static_cast<Limit>(i);
+    if (limit != limiting && figures[limit].ratio > kHeldBack)
+      others +=
+          (others.empty() ? "; also at or beyond their limits: " : ", ") + design::NameOf(limit);
+  }
+  throw Problem(ExitStatus::kOther,
+                "the requirements are not met together; the nearest law misses " +
+                    design::MetText(limiting, figures[limiting], *limits[limiting]) + others);
 }
 
 ExitStatus Run(PidCommandOptions options) {
@@ -165,8 +197,11 @@ void AddLimitOptions(CLI::App& command, PidCommandOptions& options) {
   const auto add = [&](const char* name, double& value, const char* text, double most) {
     return command.add_option(name, value, text)->check(CLI::Range(0.0, most));
   };
-  add("--sensitivity", options.sensitivity, "Limit: |S| of an axis at every speed", 100.0)
+  command.add_option("--sensitivity", options.sensitivity, "Limit: |S| of an axis at every speed")
+      ->check(CLI::Range(1.0, 100.0))
       ->capture_default_str();
+  add("--corner-sensitivity", options.corner_sensitivity,
+      "Limit: |S| at the corners of the uncertainty; default: what the check allows", 100.0);
   add("--complementary", options.complementary, "Limit: |T| of an axis; default: 3", 100.0);
   add("--control", options.control_a_per_m, "Limit: |K S| of an axis [A/m]", 1e9);
   add("--singular-value", options.singular, "Limit: largest singular value of S; default: 4",
