@@ -128,7 +128,7 @@ class Loop {
         out.current[at] += current * noise;
         out.position[at] += passed * noise;
         if (i != k) continue;
-        out.sensitivity = std::max(out.sensitivity, std::abs(s));
+        out.sensitivity = std::max(out.sensitivity, std::sqrt(std::norm(s)));
         out.complementary = std::max(out.complementary, std::sqrt(passed));
         out.current_per_metre = std::max(out.current_per_metre, std::sqrt(current));
       }

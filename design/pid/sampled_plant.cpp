@@ -29,6 +29,12 @@ Complex Held(Complex l, double h) {
   return (std::exp(x) - 1.0) / l;
 }
 
+Complex Power(Complex q, int times) {
+  Complex out = 1.0;
+  for (int i = 0; i < times; ++i) out *= q;
+  return out;
+}
+
 /// Powers of two that make rows and columns of like size (E. E. Osborne, J. ACM 7, 1960).
 Eigen::VectorXd ScaleAlike(Eigen::MatrixXd& a) {
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(a.rows());
@@ -146,7 +152,7 @@ SampledPlant::SampledPlant(const config::RigFile& rig, double speed_rad_per_s, K
 
 Complex SampledPlant::Gain(Index mode, Complex z) const {
   const Complex q = 1.0 / z;
-  return std::pow(q, whole_delay_) * (now_[mode] + before_[mode] * q);
+  return Power(q, whole_delay_) * (now_[mode] + before_[mode] * q);
 }
 
 void SampledPlant::TakeLightModes(const Eigen::VectorXcd& poles) {
@@ -181,23 +187,32 @@ void SampledPlant::TakeLightModes(const Eigen::VectorXcd& poles) {
   }
 }
 
-// The search's innermost loop: real arithmetic, entries side by side.
+// The search's innermost loop: real arithmetic, entries side by side, their number known to the
+// compiler for four axes.
 AxisMatrix SampledPlant::At(Complex z) const {
-  const Complex q = 1.0 / z;
-  const Complex late = std::pow(q, whole_delay_);
+  const Complex q = std::conj(z) / std::norm(z);
+  const Complex late = Power(q, whole_delay_);
+  constexpr std::size_t kFourAxes = 16;
   const auto entries = static_cast<std::size_t>(output_.rows() * input_.cols());
   std::array<double, kMaxAxes * kMaxAxes> real{};
   std::array<double, kMaxAxes * kMaxAxes> imaginary{};
   const double* residue = residue_.data();
-  for (Index i = 0; i < z_poles_.size(); ++i) {
-    const Complex away = z - z_poles_[i];
-    const Complex gain = late * (now_[i] + before_[i] * q) * std::conj(away) / std::norm(away);
+  const auto add = [&](Complex gain, std::size_t count) {
     const double* r = residue;
-    const double* j = residue + entries;
-    for (std::size_t k = 0; k < entries; ++k) {
+    const double* j = residue + count;
+    for (std::size_t k = 0; k < count; ++k) {
       real[k] += gain.real() * r[k] - gain.imag() * j[k];
       imaginary[k] += gain.real() * j[k] + gain.imag() * r[k];
     }
+  };
+  for (Index i = 0; i < z_poles_.size(); ++i) {
+    const Complex away = z - z_poles_[i];
+    const Complex gain =
+        late * (now_[i] + before_[i] * q) * std::conj(away) * (1.0 / std::norm(away));
+    if (entries == kFourAxes)
+      add(gain, kFourAxes);
+    else
+      add(gain, entries);
     residue += 2 * entries;
   }
   AxisMatrix out(output_.rows(), input_.cols());
