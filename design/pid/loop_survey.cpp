@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/two_pi.hpp"
+#include "design/pid/survey_samples.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 
 namespace levitas::design {
@@ -32,14 +33,6 @@ Complex Through(const law::Section& s, Complex q, Complex value) {
   return Ratio(value * (s.b0 + q * (s.b1 + q * s.b2)), 1.0 + q * (s.a1 + q * s.a2));
 }
 
-/// One frequency of the loop.
-struct Sample {
-  double hz{};
-  Complex determinant;
-  double sensitivity{}, complementary{}, current_per_metre{}, metre_per_newton{}, frobenius{};
-  std::array<double, kMaxAxes> current{}, position{};  ///< squares of rows of C S and of T
-};
-
 template <int N>
 class Loop {
  public:
@@ -63,14 +56,15 @@ class Loop {
     LoopSurvey out;
     const int outside = AddPoles(out);
     Refine();
-    out.growing = std::max(
-        outside, plant_.growing() - static_cast<int>(std::lround(Turned() / std::numbers::pi)));
-    out.sensitivity = Largest(&Sample::sensitivity);
-    out.complementary = Largest(&Sample::complementary);
-    out.current_per_metre = Largest(&Sample::current_per_metre);
-    out.metre_per_newton = Largest(&Sample::metre_per_newton);
+    out.growing =
+        std::max(outside, plant_.growing() -
+                              static_cast<int>(std::lround(Turned(samples_) / std::numbers::pi)));
+    out.sensitivity = LargestOf(samples_, &Sample::sensitivity);
+    out.complementary = LargestOf(samples_, &Sample::complementary);
+    out.current_per_metre = LargestOf(samples_, &Sample::current_per_metre);
+    out.metre_per_newton = LargestOf(samples_, &Sample::metre_per_newton);
     AddSingular(out);
-    AddNoise(out);
+    AddNoise(samples_, laws_.size(), out);
     return out;
   }
 
@@ -149,10 +143,6 @@ class Loop {
     }
   }
 
-  static double Turn(const Sample& a, const Sample& b) {
-    return std::arg(b.determinant * std::conj(a.determinant));
-  }
-
   /// Points between neighbours whose determinants point apart.
   void Refine() {
     std::vector<Sample> out{samples_.front()};
@@ -169,46 +159,6 @@ class Loop {
       ahead.pop_back();
     }
     samples_ = std::move(out);
-  }
-
-  [[nodiscard]] double Turned() const {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < samples_.size(); ++i) sum += Turn(samples_[i - 1], samples_[i]);
-    return sum;
-  }
-
-  [[nodiscard]] PeakAt Largest(double Sample::*of) const {
-    PeakAt out;
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const double here = samples_[i].*of;
-      if (here > out.value) out = {here, samples_[i].hz};
-      if (i == 0 || i + 1 == samples_.size()) continue;
-      const double left = samples_[i - 1].*of;
-      const double right = samples_[i + 1].*of;
-      if (here < left || here < right || !(left > 0.0) || !(right > 0.0)) continue;
-      const PeakAt top =
-          Vertex({samples_[i - 1].hz, left}, {samples_[i].hz, here}, {samples_[i + 1].hz, right});
-      if (top.value > out.value) out = top;
-    }
-    return out;
-  }
-
-  /// Top of the parabola of 1/value^2 through three points.
-  static PeakAt Vertex(std::pair<double, double> a, std::pair<double, double> b,
-                       std::pair<double, double> c) {
-    const double x1 = a.first - b.first;
-    const double x2 = c.first - b.first;
-    const double y0 = 1.0 / (b.second * b.second);
-    const double y1 = 1.0 / (a.second * a.second) - y0;
-    const double y2 = 1.0 / (c.second * c.second) - y0;
-    const double curve = (y1 / x1 - y2 / x2) / (x1 - x2);
-    const double slope = y1 / x1 - curve * x1;
-    if (!(curve > 0.0)) return {b.second, b.first};
-    const double lowest = y0 - slope * slope / (4.0 * curve);
-    const double x = -slope / (2.0 * curve);
-    // Beyond a factor of two the points are no resonance's.
-    if (!(lowest > 0.25 * y0) || x < x1 || x > x2) return {b.second, b.first};
-    return {1.0 / std::sqrt(lowest), b.first + x};
   }
 
   [[nodiscard]] Matrix MatrixAt(Complex s) const {
@@ -365,23 +315,6 @@ class Loop {
       power *= 0.5;
     }
     return scale * std::pow(gram.trace().real(), power);
-  }
-
-  void AddNoise(LoopSurvey& out) const {
-    const double last_hz = 0.5 / plant_.period_s();
-    for (std::size_t axis = 0; axis < laws_.size(); ++axis) {
-      double current = 0.0;
-      double position = 0.0;
-      for (std::size_t i = 1; i < samples_.size(); ++i) {
-        const Sample& a = samples_[i - 1];
-        const Sample& b = samples_[i];
-        const double width = 0.5 * (b.hz - a.hz) / last_hz;
-        current += width * (a.current[axis] + b.current[axis]);
-        position += width * (a.position[axis] + b.position[axis]);
-      }
-      out.current_a.push_back(std::sqrt(current));
-      out.position_m.push_back(std::sqrt(position));
-    }
   }
 
   const SampledPlant& plant_;

@@ -5,10 +5,11 @@
 //           by pi (growing poles of the plant - growing poles of the loop) from z = 1 to -1. Where
 //           it turns by more than kTurn between neighbours, points are put between them until it
 //           does not: a resonance however narrow is met or lies within kNarrowest.
-// Peaks     of |S_ii|, |T_ii|, |C_i S_ii|, |(S P)_ii|/ki, and the largest singular value of S: the same points;
-//           the three around a maximum fitted by a parabola of 1/|.|^2, exact for one resonance.
-// Damping   of every pole of the loop near the axis: from the minima of the determinant, by
-//           Schroeder's iteration s - tr X/tr X^2, X = M^-1 dM/ds (double poles count as one).
+// Peaks     of |S_ii|, |T_ii|, |C_i S_ii|, |(S P)_ii|/ki, and the largest singular value of S: the
+//           same points, read off as in survey_samples.hpp.
+// Damping   of every pole of the loop near the axis: Newton's iteration s - 1/x from the minima of
+//           the determinant, x the largest eigenvalue of M^-1 dM/ds, M = I + P C, so that poles in
+//           pairs are told apart; and, for modes that the law hardly moves, to first order.
 // Noise     white at the sensors, its whole power between 0 and half the sampling rate: current
 //           and motion it makes, by the trapezoid rule.
 // Thread    any; pure.

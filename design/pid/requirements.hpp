@@ -1,18 +1,19 @@
 #pragma once
 // What is asked of a PID design, each with a name and a limit, and how far a law is from it.
 //
-// Ratio     found/limit, or limit/found where more is better: 1 at the limit, above it not met.
+// Ratio     found/limit; where more is better limit/found above the limit, 2 - found/limit below:
+//           1 at the limit, larger when it is not met.
 // Peaks     |S|, |T|, |C S| of an axis, singular value of S: largest over the nominal plants, one a
 //           speed; |S| of the corners of the uncertainty has a limit of its own.
 // Damping   least of all plants' oscillating poles, corners included.
 // Standing  three standard deviations of the motion that noise makes, any axis.
 // Spinning  the same and the orbit of UnbalanceResponse.
 // Current   static, harmonics' amplitude and three standard deviations of noise, of the worst axis
-//           each; noise alone has a limit of its own: what it fills of the range is lost to all else.
+//           each; noise alone has a limit of its own: what it fills of the range is lost to others.
 // Stiffness ki Kp - ks of the softest axis: against a step of force, before the integrator has it.
-// Compliance  what a force at a magnet moves there, largest over frequency. A rig that stands without
-//           control is asked for a fifth of what it has then, and its search weighs a fiftieth of it
-//           like |S| at its limit: else no law at all would have the largest margin.
+// Compliance  what a force at a magnet moves there, largest over frequency. A rig that stands
+//           without control is asked for a fifth of what it has then, and its search weighs a
+//           fiftieth like |S| at its limit: else no law at all would have the largest margin.
 // Any mode  damping ratio that a flexible mode of the rotor's mass would need of its own, wherever
 //           its frequency: -ki Im(C A)/(2 m w^2), A amplifier, sensor, delay and hold. Sensor and
 //           magnet are taken to lie on the same side of its nodes.

@@ -1,5 +1,6 @@
 #pragma once
-// Page of a PID design: what was asked and reached, and the gains that hold the rig before and after.
+// Page of a PID design: what was asked and reached, and the gains that hold the rig before and
+// after.
 // Thread   that of the caller.
 
 #include <string>
