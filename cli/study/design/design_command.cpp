@@ -15,6 +15,7 @@ void AddDesignCommand(CLI::App& app, Action& action) {
       "  amb run --controller hinf.yaml --scenario run_up_6000\n"
       "A law is written as accepted only after a check that shares no line with its synthesis.");
   AddDesignHinf(*design, action);
+  AddDesignPid(*design, action);
   AddDesignCheck(*design, action);
   AddDesignUncertainty(*design, action);
   AddDesignCompare(*design, action);

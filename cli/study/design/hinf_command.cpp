@@ -4,14 +4,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "cli/json_file.hpp"
 #include "cli/run/interrupt.hpp"
 #include "cli/study/design/design_commands.hpp"
 #include "cli/study/design/gate_options.hpp"
+#include "cli/study/design/judged_law.hpp"
 #include "cli/study/progress_line.hpp"
 #include "cli/study/written_files.hpp"
 #include "cli/text_file.hpp"
@@ -32,12 +31,6 @@ struct HinfCommandOptions {
   double mu_goal{1.0};
   double sensitivity_goal{3.0};
 };
-
-/// OUT without its ending, with another.
-std::string Beside(const std::string& path, const std::string& ending) {
-  const std::filesystem::path given(path);
-  return (given.parent_path() / (given.stem().string() + ending)).string();
-}
 
 hinf::HinfWeights Search(const HinfCommandOptions& options, const config::RigFile& rig,
                          const design::DesignFile& start, const hinf::HinfDesignOptions& design) {
@@ -75,8 +68,7 @@ ExitStatus Run(const HinfCommandOptions& options) {
   const std::string delay = TakeDelayOfPort(options.loop, rig);
   const auto template_controller = LoadController(options.loop, rig);
   hinf::HinfDesignOptions design;
-  design.current_limit_a = std::min(rig.numbers.bias_current_a,
-                                    rig.numbers.max_coil_current_a - rig.numbers.bias_current_a);
+  design.current_limit_a = ControlLimitA(rig.numbers);
   design.top_speed_rad_per_s = rig.numbers.max_speed_rad_per_s;
   design.most_states = options.states;
   fmt::print("rig {}; protections from {}\n{}", rig.numbers.name, template_controller.path, delay);
@@ -88,23 +80,8 @@ ExitStatus Run(const HinfCommandOptions& options) {
   const auto result = JudgeAndPrint(rig, made.law, options.gate, weights.analysis);
   const config::ControllerFile file{rig.numbers.name + "_hinf", made.law,
                                     template_controller.file.supervisor};
-  std::vector<std::string> written;
-  const std::string path = options.out_path.empty() || result.accepted
-                               ? options.out_path
-                               : Beside(options.out_path, ".rejected.yaml");
-  if (!path.empty()) {
-    const std::string head =
-        result.accepted ? fmt::format("# amb design hinf: accepted by its check with seed {}\n",
-                                      options.gate.seed)
-                        : fmt::format("# amb design hinf: NOT ACCEPTED: {}\n", result.reason);
-    WriteTextFile(path, head + config::WriteController(file, rig.numbers));
-    written.push_back(path);
-    if (!result.accepted && result.worst) {
-      const std::string worst = Beside(options.out_path, ".worst_rig.yaml");
-      WriteTextFile(worst, config::WriteRig(*result.worst));
-      written.push_back(worst);
-    }
-  }
+  auto written = WriteJudged(options.out_path, "amb design hinf", options.gate.seed, file,
+                             rig.numbers, result);
   if (!options.weights_path.empty()) {
     WriteTextFile(options.weights_path, design::WriteDesign(weights));
     written.push_back(options.weights_path);

@@ -48,7 +48,7 @@ MISSING = {
     "identify frf": (ABSENT,), "identify modal": (ABSENT,),
     "identify full-spectrum": (ABSENT,), "identify controller": (ABSENT,),
     "identify rotor-in-loop": (ABSENT, "--rig", "turbomolecular_pump"),
-    "design hinf": ("--rig", ABSENT), "design check": ("--controller", ABSENT),
+    "design hinf": ("--rig", ABSENT), "design pid": ("--rig", ABSENT), "design check": ("--controller", ABSENT),
     "design uncertainty": ("--rig", ABSENT), "design compare": (ABSENT,),
     "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }

@@ -1,0 +1,269 @@
+// amb design pid: gains of a decentralised PID with filters, as a controller file.
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/json_file.hpp"
+#include "cli/run/interrupt.hpp"
+#include "cli/study/design/design_commands.hpp"
+#include "cli/study/design/gate_options.hpp"
+#include "cli/study/design/judged_law.hpp"
+#include "cli/study/design/pid_page.hpp"
+#include "cli/study/progress_line.hpp"
+#include "cli/study/written_files.hpp"
+#include "cli/text_file.hpp"
+#include "common/rotational_speed.hpp"
+#include "design/pid/pid_search.hpp"
+#include "report/text/text_table.hpp"
+#include "session/output_path.hpp"
+
+namespace levitas::cli {
+namespace {
+
+using design::Limit;
+
+struct PidCommandOptions {
+  AnalysisOptions loop;
+  GateCommandOptions gate;
+  design::PidSearchOptions search;
+  std::string out_path;
+  std::string html_path;
+  double sensitivity{3.0};
+  /// 0: the rig's own, or not asked.
+  double damping_percent{}, complementary{}, control_a_per_m{}, singular{}, standing_um{},
+      spinning_um{};
+  double current_a{}, noise_a{}, stiffness_n_per_m{}, compliance_um_per_n{};
+  double corner_sensitivity{};
+  double unknown_damping_percent{0.3};
+  bool shared_filters{};
+};
+
+design::PidLimits LimitsOf(const PidCommandOptions& options, const config::RigFile& rig) {
+  auto out = design::UsualLimits(rig, options.search.current_limit_a);
+  out[Limit::kSensitivity] = options.sensitivity;
+  out[Limit::kCornerSensitivity] = options.gate.sensitivity;
+  const auto ask = [&](Limit limit, double value) {
+    if (value > 0.0) out[limit] = value;
+  };
+  ask(Limit::kCornerSensitivity, options.corner_sensitivity);
+  ask(Limit::kDamping, 0.01 * options.damping_percent);
+  ask(Limit::kComplementary, options.complementary);
+  ask(Limit::kControl, options.control_a_per_m);
+  ask(Limit::kSingular, options.singular);
+  ask(Limit::kStanding, 1e-6 * options.standing_um);
+  ask(Limit::kSpinning, 1e-6 * options.spinning_um);
+  ask(Limit::kCurrent, options.current_a);
+  ask(Limit::kNoise, options.noise_a);
+  ask(Limit::kStiffness, options.stiffness_n_per_m);
+  ask(Limit::kCompliance, 1e-6 * options.compliance_um_per_n);
+  if (options.search.first_levitation)
+    out[Limit::kAnyMode] = 0.01 * options.unknown_damping_percent;
+  return out;
+}
+
+void PrintRequirements(const design::PidFigures& figures, const design::PidLimits& limits) {
+  TextTable table;
+  table.Add({"requirement", "limit", "reached", "at"});
+  for (std::size_t i = 0; i < design::kLimits; ++i) {
+    const auto limit = static_cast<Limit>(i);
+    const auto& met = figures[limit];
+    table.Add({design::NameOf(limit),
+               limits[limit] ? design::ValueText(limit, *limits[limit]) : std::string("-"),
+               design::ValueText(limit, met.found),
+               fmt::format("{}{:.0f} rpm", met.hz > 0.0 ? fmt::format("{:.1f} Hz, ", met.hz) : "",
+                           RadPerSToRpm(met.speed_rad_per_s))});
+  }
+  fmt::print("{}", table.Text());
+}
+
+/// Unit of a requirement's numbers, as the end of their keys.
+std::string UnitOf(Limit limit) {
+  switch (limit) {
+    case Limit::kControl:
+      return "_a_per_m";
+    case Limit::kStanding:
+    case Limit::kSpinning:
+      return "_m";
+    case Limit::kCurrent:
+    case Limit::kNoise:
+      return "_a";
+    case Limit::kStiffness:
+      return "_n_per_m";
+    case Limit::kCompliance:
+      return "_m_per_n";
+    default:
+      return "";
+  }
+}
+
+nlohmann::ordered_json RequirementsJson(const design::PidFigures& figures,
+                                        const design::PidLimits& limits) {
+  nlohmann::ordered_json json;
+  for (std::size_t i = 0; i < design::kLimits; ++i) {
+    const auto limit = static_cast<Limit>(i);
+    const auto& met = figures[limit];
+    nlohmann::ordered_json one{{"name", design::NameOf(limit)},
+                               {"reached" + UnitOf(limit), met.found}};
+    if (limits[limit]) one["limit" + UnitOf(limit)] = *limits[limit];
+    if (met.hz > 0.0) one["frequency_hz"] = met.hz;
+    one["speed_rpm"] = RadPerSToRpm(met.speed_rad_per_s);
+    json.push_back(std::move(one));
+  }
+  return json;
+}
+
+design::PidSearchResult Search(const PidCommandOptions& options, const config::RigFile& rig,
+                               const design::PidLimits& limits) {
+  ProgressLine line(stderr, isatty(STDERR_FILENO) != 0);
+  const InterruptGuard interrupt;
+  std::fflush(stdout);  // whoever reads a pipe sees what is being designed
+  auto found = design::SearchPid(rig, limits, ParametersOf(rig, options.gate.from), options.search,
+                                 [&](double share, const std::string& text) {
+                                   line.Show(share, text);
+                                   return interrupt.count() == 0;
+                                 });
+  line.Close();
+  fmt::print("search   {} laws, {} of {} plants (speeds, corners) held in it{}\n",
+             found.evaluations, found.plants_held, found.plants_met,
+             found.interrupted ? "; ended by a signal, the best so far is judged" : "");
+  return found;
+}
+
+/// Nothing is written for a law that misses what was asked.
+void RefuseUnmet(const design::PidFigures& figures, const design::PidLimits& limits) {
+  constexpr double kRounding = 1.0 + 1e-9;
+  if (figures.growing > 0)
+    throw Problem(ExitStatus::kOther,
+                  "no PID found holds this rig at every speed and corner of its uncertainty: more "
+                  "--evaluations, another --notches, or less delay");
+  const Limit limiting = design::Limiting(figures);
+  if (figures[limiting].ratio <= kRounding) return;
+  constexpr double kHeldBack = 0.98;  // of its limit: what the search could not give up
+  std::string others;
+  for (std::size_t i = 0; i < design::kLimits; ++i) {
+    const auto limit = static_cast<Limit>(i);
+    if (limit != limiting && figures[limit].ratio > kHeldBack)
+      others +=
+          (others.empty() ? "; also at or beyond their limits: " : ", ") + design::NameOf(limit);
+  }
+  throw Problem(ExitStatus::kOther,
+                "the requirements are not met together; the nearest law misses " +
+                    design::MetText(limiting, figures[limiting], *limits[limiting]) + others);
+}
+
+ExitStatus Run(PidCommandOptions options) {
+  session::CheckOutputPath(options.out_path, {});
+  session::CheckOutputPath(options.html_path, {});
+  session::CheckOutputPath(options.loop.json_path, {});
+  const auto weights = DesignOf(options.gate);
+  auto rig = LoadRig(options.loop);
+  const std::string delay = TakeDelayOfPort(options.loop, rig);
+  const auto template_controller = LoadController(options.loop, rig);
+  options.search.current_limit_a = ControlLimitA(rig.numbers);
+  options.search.seed = options.gate.seed;
+  options.search.third_n = options.gate.third_n;
+  options.search.own_filters = !options.shared_filters;
+  fmt::print("rig {}; protections from {}\n{}", rig.numbers.name, template_controller.path, delay);
+  const auto limits = LimitsOf(options, rig);
+  const auto found = Search(options, rig, limits);
+  PrintRequirements(found.figures, limits);
+  RefuseUnmet(found.figures, limits);
+  const auto result = JudgeAndPrint(rig, found.law, options.gate, weights.analysis);
+  const config::ControllerFile file{rig.numbers.name + "_pid", found.law,
+                                    template_controller.file.supervisor};
+  auto written =
+      WriteJudged(options.out_path, "amb design pid", options.gate.seed, file, rig.numbers, result);
+  if (!options.html_path.empty())
+    WriteTextFile(
+        options.html_path,
+        PidPage(rig,
+                {{"before: " + template_controller.file.name, template_controller.file.law},
+                 {"after", found.law}},
+                found.figures, limits));
+  written.push_back(options.html_path);
+  auto json = GateJson(result);
+  json["requirements"] = RequirementsJson(found.figures, limits);
+  json["laws_tried"] = found.evaluations;
+  WriteJsonFile(options.loop.json_path, json);
+  written.push_back(options.loop.json_path);
+  TellWritten(written);
+  return result.accepted ? ExitStatus::kDone : ExitStatus::kOther;
+}
+
+void AddLimitOptions(CLI::App& command, PidCommandOptions& options) {
+  const auto add = [&](const char* name, double& value, const char* text, double most) {
+    return command.add_option(name, value, text)->check(CLI::Range(0.0, most));
+  };
+  command.add_option("--sensitivity", options.sensitivity, "Limit: |S| of an axis at every speed")
+      ->check(CLI::Range(1.0, 100.0))
+      ->capture_default_str();
+  add("--corner-sensitivity", options.corner_sensitivity,
+      "Limit: |S| at the corners of the uncertainty; default: what the check allows", 100.0);
+  add("--complementary", options.complementary, "Limit: |T| of an axis; default: 3", 100.0);
+  add("--control", options.control_a_per_m, "Limit: |K S| of an axis [A/m]", 1e9);
+  add("--singular-value", options.singular, "Limit: largest singular value of S; default: 4",
+      100.0);
+  add("--damping", options.damping_percent,
+      "Limit: least damping of every mode [%], corners of the uncertainty included; default: 0.15, "
+      "or 0.4 of the rig's own",
+      100.0);
+  add("--standing-orbit", options.standing_um,
+      "Limit [um]: three deviations of what noise moves; default: the rig's objective", 1e6);
+  add("--spinning-orbit", options.spinning_um,
+      "Limit [um]: orbit of the unbalance and the same; default: the rig's objective", 1e6);
+  add("--current", options.current_a,
+      "Limit [A]: static, synchronous, three deviations of noise; default: what the coils allow",
+      1e4);
+  add("--noise-current", options.noise_a,
+      "Limit [A]: rms of noise; default: a quarter of what the coils allow", 1e4);
+  add("--stiffness", options.stiffness_n_per_m,
+      "Limit [N/m]: least static stiffness of an axis, without its integrator", 1e12);
+  add("--compliance", options.compliance_um_per_n,
+      "Limit [um/N]: what a force at a magnet moves at any frequency; default: none, or half of "
+      "what "
+      "it moves without control where the rig stands without",
+      1e9);
+}
+
+}  // namespace
+
+void AddDesignPid(CLI::App& design, Action& action) {
+  auto options = std::make_shared<PidCommandOptions>();
+  CLI::App* command = design.add_subcommand(
+      "pid", "Decentralised PID with filters against named limits, judged before it is written");
+  AddRigOption(*command, options->loop);
+  AddControllerOption(*command, options->loop);
+  AddPortOption(*command, options->loop);
+  command->add_option("--out", options->out_path, "Controller file to write when accepted");
+  command->add_option(
+      "--html", options->html_path,
+      "Page to write: requirements, map of the gains that hold the rig before and after");
+  AddLimitOptions(*command, *options);
+  command->add_option("--evaluations", options->search.evaluations, "Laws tried")
+      ->check(CLI::Range(100, 1000000))
+      ->capture_default_str();
+  command->add_option("--lead-lags", options->search.lead_lags, "Of each axis")
+      ->check(CLI::Range(0, 4))
+      ->capture_default_str();
+  command->add_option("--notches", options->search.notches, "Of each axis")
+      ->check(CLI::Range(0, 4))
+      ->capture_default_str();
+  command->add_flag("--first-levitation", options->search.first_levitation,
+                    "From ki, ks, mass, inertia and delay alone, at rest: the largest margin with "
+                    "which a flexible mode at any frequency stays damped");
+  command
+      ->add_option("--unknown-damping", options->unknown_damping_percent,
+                   "With --first-levitation: damping [%] that any flexible mode has of its own")
+      ->check(CLI::Range(0.001, 10.0))
+      ->capture_default_str();
+  command->add_flag("--shared-filters", options->shared_filters,
+                    "One derivative corner, lead-lag and set of notches for all bearings");
+  AddGateOptions(*command, options->gate);
+  AddJsonOption(*command, options->loop);
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,80 @@
+#include "design/pid/unbalance_response.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "common/two_pi.hpp"
+#include "design/uncertainty/uncertain_plant.hpp"
+#include "numerics/dense/factorisations.hpp"
+
+namespace levitas::design {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+
+double RadiusOf(Complex x, Complex y) {
+  const Complex j(0.0, 1.0);
+  return 0.5 * (std::abs(x + j * y) + std::abs(x - j * y));
+}
+
+}  // namespace
+
+UnbalanceResponse::UnbalanceResponse(const config::RigFile& rig, double third_n) {
+  const double rated = rig.numbers.max_speed_rad_per_s;
+  if (!rig.plant.shafts.empty() || rig.numbers.axes() < 2) return;
+  if (rig.plant.unbalance.empty() && third_n == 0.0) return;
+  const Complex j(0.0, 1.0);
+  per_speed_ = third_n > 0.0 ? 2 : 1;
+  for (int i = 2; i <= 20; ++i) {
+    const double w = rated * i / 20.0;
+    const SampledPlant sampled(rig, w);
+    const uncertainty::UncertainPlant forced(rig, {}, w);
+    const double hz = w / kTwoPi;
+    Harmonic first{w, sampled.AtHz(hz), Eigen::VectorXcd::Zero(sampled.axes())};
+    for (const auto& mass : rig.plant.unbalance) {
+      const Complex force = mass.moment_kg_m * w * w * std::polar(1.0, mass.phase_rad);
+      first.position_m += forced.PositionOf(hz, mass.z_m, force, -j * force);
+    }
+    harmonics_.push_back(std::move(first));
+    if (third_n > 0.0)
+      harmonics_.push_back(
+          {w, sampled.AtHz(3.0 * hz), forced.PositionOf(3.0 * hz, 0.0, third_n, j * third_n)});
+  }
+}
+
+UnbalanceFigures UnbalanceResponse::Of(const std::vector<law::DiscreteLaw>& laws) const {
+  UnbalanceFigures out;
+  for (std::size_t i = 0; i < harmonics_.size(); i += per_speed_) {
+    const auto axes = harmonics_[i].position_m.size();
+    Eigen::VectorXd orbit = Eigen::VectorXd::Zero(axes / 2);
+    Eigen::VectorXd current = Eigen::VectorXd::Zero(axes);
+    for (std::size_t k = i; k < i + per_speed_; ++k) {
+      const Harmonic& h = harmonics_[k];
+      const Complex q = std::conj(h.point.z);
+      Eigen::VectorXcd law(axes);
+      for (Index a = 0; a < axes; ++a) {
+        const LawValue value = ValueAt(laws[static_cast<std::size_t>(a)], q);
+        law[a] = value.integrates ? value.value / (1.0 - q) : value.value;
+      }
+      AxisMatrix loop = h.point.plant * law.asDiagonal();
+      loop.diagonal().array() += 1.0;
+      const Eigen::VectorXcd y = loop.inverse() * h.position_m;
+      current += law.cwiseProduct(y).cwiseAbs();
+      for (Index b = 0; b < orbit.size(); ++b) orbit(b) += RadiusOf(y(2 * b), y(2 * b + 1));
+    }
+    const double w = harmonics_[i].speed_rad_per_s;
+    if (orbit.maxCoeff() > out.orbit_m) {
+      out.orbit_m = orbit.maxCoeff();
+      out.orbit_rad_per_s = w;
+    }
+    if (current.maxCoeff() > out.current_a) {
+      out.current_a = current.maxCoeff();
+      out.current_rad_per_s = w;
+    }
+  }
+  return out;
+}
+
+}  // namespace levitas::design

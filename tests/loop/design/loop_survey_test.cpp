@@ -1,0 +1,117 @@
+// The search's own reading of a loop against analysis, which shares no line with it.
+#include "design/pid/loop_survey.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/poles.hpp"
+#include "analysis/sensitivity.hpp"
+#include "common/random.hpp"
+#include "design/pid/law_shape.hpp"
+
+namespace levitas::design {
+namespace {
+
+config::RigFile ShippedRig(const std::string& name) {
+  return config::LoadRig(config::FindConfig(name, "rigs"));
+}
+
+std::vector<law::DiscreteLaw> AsTheyRun(const law::LawConfig& law) {
+  std::vector<law::DiscreteLaw> out;
+  for (const auto& axis : law.axes) out.push_back(law::Discretise(axis, law.period_s));
+  return out;
+}
+
+/// Gains and filters drawn widely around what levitates: about half of the loops are unstable.
+law::LawConfig Drawn(const config::RigFile& rig, const SampledPlant& plant, Random& draw) {
+  LawShape shape;
+  shape.bearings = rig.plant.bearings.size();
+  shape.axes = rig.numbers.axes();
+  shape.period_s = rig.numbers.period_s();
+  shape.current_limit_a = 1.0;
+  PlainGains gains;
+  gains.notch_hz = {400.0, 900.0};
+  for (std::size_t b = 0; b < shape.bearings; ++b) {
+    const std::size_t axis = std::min(2 * b, shape.axes - 1);
+    const double even = plant.displacement_n_per_m()[axis] / plant.current_n_per_a()[axis];
+    gains.kp_a_per_m.push_back(even * (1.0 + std::exp(draw.Normal() - 0.5)));
+    gains.kd_a_s_per_m.push_back(gains.kp_a_per_m.back() * 2e-3 * std::exp(draw.Normal()));
+  }
+  Eigen::VectorXd x = StartAt(shape, gains);
+  for (Eigen::Index i = static_cast<Eigen::Index>(2 * shape.bearings) + 1; i < x.size(); ++i)
+    x(i) += 0.3 * draw.Normal();
+  return LawAt(shape, x);
+}
+
+double LeastDamping(const config::RigFile& rig, const law::LawConfig& law, double speed) {
+  double least = 1.0;
+  for (const auto& pole : analysis::ClosedLoopPoles(rig.plant, law, speed).poles) {
+    const double hz = std::abs(pole.frequency_hz);
+    if (hz > 1.0 && hz < 0.49 / law.period_s) least = std::min(least, pole.damping_ratio);
+  }
+  return least;
+}
+
+class SurveyOfARig : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SurveyOfARig, AgreesWithEigenvaluesAndBracketedPeaks) {
+  const auto rig = ShippedRig(GetParam());
+  Random draw(3);
+  int stable = 0;
+  for (const double share : {0.0, 1.0}) {
+    const double speed = share * rig.numbers.max_speed_rad_per_s;
+    const SampledPlant plant(rig, speed);
+    for (int n = 0; n < 12; ++n) {
+      const auto law = Drawn(rig, plant, draw);
+      const auto survey = Survey(plant, AsTheyRun(law), std::vector<double>(8, 1e-6));
+      const auto exact = analysis::SensitivityPeaks(rig.plant, law, speed);
+      EXPECT_EQ(survey.growing <= 0, exact.largest_pole_modulus < 1.0) << share << " draw " << n;
+      if (!exact.stable) continue;
+      ++stable;
+      double peak = 0.0;
+      for (const auto& axis : exact.axes) peak = std::max(peak, axis.peak);
+      // A parabola through three of forty points a decade.
+      EXPECT_NEAR(survey.sensitivity.value, peak, 0.02 * peak) << share << " draw " << n;
+      // No parabola: the grid's own step.
+      EXPECT_NEAR(survey.singular.value, exact.largest_singular_value,
+                  0.05 * exact.largest_singular_value);
+      const double least = LeastDamping(rig, law, speed);
+      // 1e-3: poles on the axis are taken as damped by 0.002 %, Newton stops at 2e-4 of the pole.
+      if (least < 0.1) {
+        EXPECT_NEAR(survey.damping.value, least, 1e-3) << share << " draw " << n;
+      }
+    }
+  }
+  EXPECT_GT(stable, 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, SurveyOfARig,
+                         ::testing::Values("flexible_rotor", "turbomolecular_pump",
+                                           "geared_rotor_4dof", "one_axis"));
+
+// One mass on one magnet: P(s) = ki A/(m s^2 - ks), known in closed form but for the hold.
+TEST(SampledPlantOfOneAxis, IsTheMassOnItsNegativeSpring) {
+  const SampledPlant plant(ShippedRig("one_axis"), 0.0);
+  EXPECT_EQ(plant.growing(), 1);
+  constexpr double kHz = 5.0;  // amplifier 1 kHz, sensor 5 kHz, delay 0.15 ms: below 1 % in size
+  const double w = 2.0 * M_PI * kHz;
+  // The weight moves ks by (ic0/i0)^2 = 1.5 %.
+  EXPECT_NEAR(std::abs(plant.AtHz(kHz).plant(0, 0)), 40.0 / (0.5 * w * w + 4e4), 0.03 * 40.0 / 4e4);
+}
+
+// Noise through C S: white noise of variance v leaves v times the mean of |C S|^2.
+TEST(SurveyOfNoise, DoublesWithTheNoiseAndVanishesWithoutIt) {
+  const auto rig = ShippedRig("flexible_rotor");
+  const SampledPlant plant(rig, 0.0);
+  const auto laws = AsTheyRun(
+      config::LoadController(config::FindConfig("flexible_rotor", "controllers"), rig.numbers).law);
+  const auto one = Survey(plant, laws, std::vector<double>(4, 1e-6));
+  const auto two = Survey(plant, laws, std::vector<double>(4, 2e-6));
+  const auto none = Survey(plant, laws, std::vector<double>(4, 0.0));
+  EXPECT_NEAR(two.current_a[0], 2.0 * one.current_a[0], 1e-9 * one.current_a[0]);
+  EXPECT_EQ(none.current_a[0], 0.0);
+}
+
+}  // namespace
+}  // namespace levitas::design
