@@ -56,6 +56,17 @@ class MyData(CommandTest):
             self.assertIn(f'"{column["column"]}", is: {column["is"]}, unit: {column["unit"]}',
                           printed)
 
+    def test_column_left_out_is_told_as_what_the_record_lacks(self):
+        record = make_record(self.folder / "r.csv", rows=500)
+        names, *rows = record.read_text().splitlines()
+        for own, told in (("exc_a_x", "ignored; it may be excitation_de_x (amb import --guess"),
+                          ("temperature", "ignored\n")):
+            self.write("own.csv", "\n".join([names.replace("excitation_de_x_a", own)
+                                             .replace("excitation_", "voltage_"), *rows]))
+            printed, _ = self.compute("import", "own.csv", "--rig", "flexible_rotor", "--out",
+                                      f"{own}.lcm")
+            self.assertIn(f'column "{own}" {told}', printed)
+
     def test_what_cannot_be_asked_for_is_status_2(self):
         own_file(self.folder / "mine.txt", make_record(self.folder / "record.csv", rows=500))
         (self.folder / "bus.log").write_text("")
