@@ -48,7 +48,19 @@ std::int64_t UtcNowNs() {
   return duration_cast<nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-void Print(const std::string& out_path, const session::ImportReport& report) {
+/// What a column that was left out may have been, where the record now lacks just that.
+std::string MayBe(const std::string& name, const session::ImportReport& report,
+                  const RigNumbers& rig) {
+  const auto guess = session::GuessColumns({{name}, {""}, {{}}}, rig);
+  const std::string& quantity = guess.columns.front().quantity;
+  const bool test_signal = quantity.starts_with("excitation_") && !report.has_excitation;
+  const bool rotation = (quantity == "speed" || quantity == "rotor_angle") && !report.has_rotation;
+  if (!test_signal && !rotation) return {};
+  return fmt::format("; it may be {} (amb import --guess, --map)", quantity);
+}
+
+void Print(const std::string& out_path, const session::ImportReport& report,
+           const RigNumbers& rig) {
   fmt::print("{}: {} samples over {:.4f} s", rt::OneLine(out_path), report.rows, report.duration_s);
   fmt::print(", rotation {}", report.has_rotation ? "known" : "not given: taken as standing");
   fmt::print(", excitation {}\n", report.has_excitation ? "known" : "not given: taken as none");
@@ -57,7 +69,7 @@ void Print(const std::string& out_path, const session::ImportReport& report) {
                report.missing_cycles);
   }
   for (const auto& name : report.ignored_columns) {
-    fmt::print("column \"{}\" ignored\n", rt::OneLine(name));
+    fmt::print("column \"{}\" ignored{}\n", rt::OneLine(name), MayBe(name, report, rig));
   }
 }
 
@@ -152,7 +164,7 @@ ExitStatus Import(const ImportCommandOptions& options) {
   if (IsBusLog(options.data_path)) return ImportBusLog(options, rig, import);
   const session::ImportReport report =
       options.data_path.ends_with(".mat") ? session::ImportMat(import) : session::ImportCsv(import);
-  Print(options.out_path, report);
+  Print(options.out_path, report, rig.numbers);
   EnterSession(options.out_path, options.tags);
   WriteJsonFile(options.json_path, {{"data", options.data_path},
                                     {"rig", rig.numbers.name},

@@ -10,8 +10,8 @@
 namespace levitas::cli {
 
 struct Question {
-  const char* option;  ///< that answers it without being asked: "--mass-kg"
-  const char* text;    ///< "mass of all that turns [kg]"
+  const char* option{};  ///< that answers it without being asked: "--mass-kg"
+  const char* text{};    ///< "mass of all that turns [kg]"
   double low{}, high{};
 };
 

@@ -15,7 +15,8 @@ std::vector<std::string> Seeds() {
   std::string semicolons = names;
   for (char& letter : semicolons) letter = letter == ',' ? ';' : letter;
   return {names + "0,0,3000,1e-6,0,0,nan,0.1,0,0,0\n0.0001,0.03,3000,0,0,0,0,0,0,0,0\n",
-          "\xEF\xBB\xBF" + semicolons + "0;0;3000;1,5e-6;0;0;0;0;0;0;0\r\n"};
+          "\xEF\xBB\xBF" + semicolons + "0;0;3000;1,5e-6;0;0;0;0;0;0;0\r\n",
+          "# mine\nrows 2\n" + names + "s,rad,rpm,m,m,m,m,A,A,A,A\n0,0,3000,0,0,0,0,0,0,0,0\n"};
 }
 
 }  // namespace levitas::fuzz

@@ -4,7 +4,7 @@ import csv
 import math
 import unittest
 
-from command import BINARIES, SOURCE, CommandTest, make_record
+from command import BAD_INPUT, BINARIES, SOURCE, USAGE, CommandTest, make_record
 
 import page  # of tests/support
 
@@ -45,6 +45,47 @@ class MyData(CommandTest):
             status, printed = page.run(commands, self.folder, BINARIES)
             self.assertEqual(status, 0, commands + printed)
             self.assertIsNone(page.missing(lines, printed), commands + printed)
+
+    def test_guess_is_an_object_of_what_it_printed_and_writes_no_session(self):
+        own_file(self.folder / "mine.txt", make_record(self.folder / "record.csv", rows=500))
+        before = self.files()
+        printed, guess = self.compute("import", "mine.txt", "--rig", "flexible_rotor", "--guess")
+        self.assertEqual(self.files() - before, {str(self.folder / "out.json")})
+        self.assertEqual(guess["missing"], [])
+        for column in guess["columns"]:
+            self.assertIn(f'"{column["column"]}", is: {column["is"]}, unit: {column["unit"]}',
+                          printed)
+
+    def test_column_left_out_is_told_as_what_the_record_lacks(self):
+        record = make_record(self.folder / "r.csv", rows=500)
+        names, *rows = record.read_text().splitlines()
+        for own, told in (("exc_a_x", "ignored; it may be excitation_de_x (amb import --guess"),
+                          ("temperature", "ignored\n")):
+            self.write("own.csv", "\n".join([names.replace("excitation_de_x_a", own)
+                                             .replace("excitation_", "voltage_"), *rows]))
+            printed, _ = self.compute("import", "own.csv", "--rig", "flexible_rotor", "--out",
+                                      f"{own}.lcm")
+            self.assertIn(f'column "{own}" {told}', printed)
+
+    def test_what_cannot_be_asked_for_is_status_2(self):
+        own_file(self.folder / "mine.txt", make_record(self.folder / "record.csv", rows=500))
+        (self.folder / "bus.log").write_text("")
+        for words, options in (
+                ("--out is required", ("mine.txt",)),
+                ("--map excludes --guess", ("mine.txt", "--map", "m.yaml", "--guess")),
+                ("a log of candump has no columns",
+                 ("bus.log", "--map", "m.yaml", "--out", "x.lcm"))):
+            self.refuse(USAGE, words, "import", *options, "--rig", "flexible_rotor")
+
+    def test_file_of_another_kind_is_refused_with_the_step_that_helps(self):
+        for name, start, words in (("a.xlsx", b"PK\x03\x04 [Content_Types].xml", "Save As, CSV"),
+                                   ("a.csv", b"PAR1", "to_csv"), ("a.tdms", b"TDSm", "nptdms"),
+                                   ("a.mcap", b"\x89MCAP0\r\n", "amb export")):
+            (self.folder / name).write_bytes(start + bytes(100))
+            for options in (("--guess",), ("--out", "x.lcm")):
+                told = self.refuse(BAD_INPUT, words, "import", name, "--rig", "flexible_rotor",
+                                   *options)
+                self.assertIn(name, told)
 
     def test_a_line_that_is_not_printed_is_noticed(self):
         self.assertIsNone(page.missing(["a 1 ...", "...", "c"], "a 1 x\nb\nc\n"))

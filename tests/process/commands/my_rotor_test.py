@@ -1,9 +1,12 @@
 """docs/my_rotor.md, command by command: from six numbers to an accepted run at 12 000 rpm."""
 
 import json
+import os
+import pty
+import subprocess
 import unittest
 
-from command import BAD_INPUT, BINARIES, DONE, SOURCE, USAGE, CommandTest, amb
+from command import BAD_INPUT, BINARIES, DONE, LIMIT_S, SOURCE, USAGE, CommandTest, amb
 
 import page  # of tests/support
 
@@ -45,6 +48,23 @@ class MyRotor(CommandTest):
         # ki = mu0 n^2 A i0 cos(a) / s0^2 of two poles in series, whose gap is s0 / cos(a) less.
         self.assertGreater(coil["ki_n_per_a"], 20.0)
         self.assertAlmostEqual(coil["ks_n_per_m"], coil["ki_n_per_a"] * 2 / 0.4e-3, delta=1.0)
+
+    def test_a_terminal_is_asked_for_what_is_missing(self):
+        ours, theirs = pty.openpty()
+        try:
+            os.write(ours, b"heavy\n8\n60\n")
+            asked = SIX[2:-2]  # all but mass and ki
+            done = subprocess.run([str(BINARIES / "amb"), "new", "rig", "own", *asked],
+                                  cwd=self.folder, stdin=theirs, stderr=theirs, text=True,
+                                  stdout=subprocess.PIPE, timeout=LIMIT_S, check=False)
+            told = os.read(ours, 4096).decode()
+        finally:
+            os.close(ours)
+            os.close(theirs)
+        self.assertEqual(done.returncode, DONE, told)
+        self.assertIn("mass of all that turns [kg]", told)
+        self.assertIn("found 'heavy', allowed: 0.01 to 50000", told)
+        self.assertIn("rig own, 8 kg on 300 mm", done.stdout)
 
     def test_what_is_missing_is_named_at_once(self):
         told = self.refuse(USAGE, "missing:", "new", "rig", "own", *SIX[:4])
