@@ -49,7 +49,7 @@ std::string UnstableLoop(const config::RigFile& rig, const law::LawConfig& law,
     const double rpm = RadPerSToRpm(speed);
     return fmt::format(
         "the loop of rig {} and this controller is unstable {}: {}. See amb poles --rig {} "
-        "--controller {} --speed-rpm {:.0f}; amb design hinf --rig {} --out FILE makes a law for "
+        "--controller {} --speed-rpm {:.0f}; amb design pid --rig {} --out FILE makes a law for "
         "it",
         rig.numbers.name, speed == 0.0 ? "at rest" : fmt::format("at {:.0f} rpm", rpm),
         PoleText(*at), rig_name, controller_name, rpm, rig_name);

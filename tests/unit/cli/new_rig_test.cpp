@@ -96,7 +96,7 @@ TEST(StartLaw, HoldsASpindleThatTheUsualFormDoesNot) {
   EXPECT_THAT(UnstableLoop(rig, LawOf(sketch, {}), speeds, "r.yaml", "c.yaml"),
               AllOf(HasSubstr("unstable at rest: a pole at 11"), HasSubstr("grows e-fold every"),
                     HasSubstr("amb poles --rig r.yaml --controller c.yaml --speed-rpm 0"),
-                    HasSubstr("amb design hinf --rig r.yaml --out")));
+                    HasSubstr("amb design pid --rig r.yaml --out")));
 }
 
 TEST(LoopWarning, NamesTooLittleStiffnessAsWhatItIs) {
