@@ -80,7 +80,7 @@ class PartnerLock {
   }
   void Remember(const Speaker& sender) noexcept {
     if (Beside(sender)) return;
-    std::ranges::rotate(beside_, beside_.end() - 1);
+    std::rotate(beside_.begin(), beside_.end() - 1, beside_.end());
     beside_.front() = sender;
   }
 
