@@ -4,7 +4,7 @@
 //
 // Drawn      normal, limited to three deviations: bandwidths, gains, offsets, run-out and places of
 //            the probes, bandwidth of the amplifiers, delay, mass and gyroscopic effect of the
-//            rotor, unbalance, a static force per disc; of geared shafts what belongs to axes alone.
+//            rotor, unbalance, a static force per disc; of geared shafts what belongs to axes.
 // Left out   deflections of the modes, which no rig file can hold beside its shaft; what the
 //            uncertainty draws: frequency and damping of its modes, ki and ks.
 // Units      of the file's tolerances. Thread: any; pure.
