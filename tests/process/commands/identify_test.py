@@ -79,7 +79,7 @@ class Identify(CommandTest):
         for axis in found["axes"]:
             ki = told[f"ki {axis['channel']} [1]"]
             sigma = axis["ki_sigma_n_per_a"] / axis["ki_n_per_a"]
-            self.assertAlmostEqual(ki["most"] - ki["least"], 6.0 * sigma, 6)
+            self.assertAlmostEqual(ki["high"] - ki["low"], 6.0 * sigma, 6)
         done = self.run_amb("design", "uncertainty", "--rig", "identified.yaml", "--uncertainty",
                             "u.json")
         self.assertEqual(done.returncode, BAD_INPUT, done.stderr)
