@@ -7,7 +7,6 @@ import unittest
 
 from command import BAD_INPUT, DONE, OTHER, USAGE, CommandTest, amb
 from lcm_network import Process
-from waiting import until
 
 # The one-axis rig is designed in a tenth of a second.
 QUICK = ("design", "pid", "--rig", "one_axis", "--evaluations", "300", "--draws", "1")
@@ -60,8 +59,7 @@ class DesignPid(CommandTest):
         process = Process(self.folder, "amb", *QUICK[:4], "--evaluations", "1000000", "--draws", "1",
                           "--out", "law.yaml")
         self.addCleanup(process.kill)
-        until(lambda: "rig one_axis" in process.said_so_far or process.child.poll() is not None,
-              "the search", lambda: process.said_so_far)
+        process.says("rig one_axis")
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.status(), DONE)
         self.assertIn("ended by a signal", process.text)
