@@ -68,7 +68,25 @@ class Drawing {
           {1.0, std::abs(Off(by_.sensor_runout_m)), kTwoPi * (draw_.Uniform() - 0.5)}, one);
     }
     if (rig_.plant.shafts.empty())
-      Add(Id::kSensorPosition, {Off(by_.sensor_position_m)}, effect::kAllAxes, b);
+      Add(Id::kSensorPosition, {OnShaft(bearing.sensor_z_m, Off(by_.sensor_position_m))},
+          effect::kAllAxes, b);
+  }
+
+  /// The shift, turned inwards where it would leave the shaft: of a rotor of given modes, what its
+  /// planes span.
+  [[nodiscard]] double OnShaft(double z_m, double shift_m) const {
+    double low_m = 0.0;
+    double high_m = 0.0;
+    for (const rotor::Section& section : rig_.plant.rotor.sections) high_m += section.length_m;
+    if (rig_.plant.rotor.given) {
+      low_m = high_m = rig_.plant.bearings.front().sensor_z_m;
+      for (const plant::BearingConfig& one : rig_.plant.bearings) {
+        low_m = std::min({low_m, one.sensor_z_m, one.actuator_z_m});
+        high_m = std::max({high_m, one.sensor_z_m, one.actuator_z_m});
+      }
+    }
+    const double moved_m = z_m + shift_m;
+    return moved_m < low_m || moved_m > high_m ? -shift_m : shift_m;
   }
 
   config::RigFile& rig_;
