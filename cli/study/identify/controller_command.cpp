@@ -75,12 +75,19 @@ std::vector<LawSignals> ReadTable(const ControllerOptions& options, double& peri
                   "a CSV file needs --axis NAME=INPUT:OUTPUT for each controller in it");
   }
   std::vector<LawSignals> signals;
+  SeriesColumns columns;
   for (const std::string& text : options.axes) {
     const auto [name, input, output] = PartsOf(text);
-    const Series series = ReadSeries(options.data_path, {{input}, {output}},
-                                     options.rate_hz > 0.0 ? 1.0 / options.rate_hz : 0.0);
-    period_s = series.period_s;
-    signals.push_back({name, series.input.col(0), series.output.col(0)});
+    signals.push_back({name, {}, {}});
+    columns.inputs.push_back(input);
+    columns.outputs.push_back(output);
+  }
+  const Series series =
+      ReadSeries(options.data_path, columns, options.rate_hz > 0.0 ? 1.0 / options.rate_hz : 0.0);
+  period_s = series.period_s;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    signals[i].input = series.input.col(static_cast<Eigen::Index>(i));
+    signals[i].output = series.output.col(static_cast<Eigen::Index>(i));
   }
   return signals;
 }
