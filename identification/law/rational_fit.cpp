@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "numerics/dense/factorisations.hpp"
 
@@ -122,24 +123,33 @@ double MovedBy(const std::vector<Pole>& from, const std::vector<Pole>& to) {
   return most;
 }
 
-/// The linear coefficients (Regressors without sigma) at the fit's poles, into the fit too.
-Eigen::VectorXd FitResidues(std::span<const SpectrumLine> lines, RationalFit& fit) {
+/// The linear least squares at given poles.
+struct LinearFit {
+  Eigen::MatrixXd matrix;  ///< Regressors without sigma
+  Eigen::VectorXd coefficients;
+  Eigen::VectorXd left;  ///< Y less the fit
+};
+
+/// At the fit's poles; coefficients and squares into the fit too.
+LinearFit FitResidues(std::span<const SpectrumLine> lines, RationalFit& fit) {
   Eigen::VectorXd right;
-  const Eigen::MatrixXd matrix = Regressors(lines, fit.poles, false, right);
-  Eigen::MatrixXd scaled = matrix;
-  const Eigen::VectorXd found = Solve(scaled, right);
-  fit.squares = (matrix * found - right).squaredNorm();
+  LinearFit linear{Regressors(lines, fit.poles, false, right), {}, {}};
+  Eigen::MatrixXd scaled = linear.matrix;
+  linear.coefficients = Solve(scaled, right);
+  linear.left = right - linear.matrix * linear.coefficients;
+  const Eigen::VectorXd& found = linear.coefficients;
+  fit.squares = linear.left.squaredNorm();
   fit.direct = found[0];
   Index at = 1;
   for (Pole& pole : fit.poles) {
     pole.residue = pole.order() == 2 ? Complex(found[at], found[at + 1]) : Complex(found[at], 0.0);
     at += static_cast<Index>(pole.order());
   }
-  return found;
+  return linear;
 }
 
 /// Derivatives of the fit by real and imaginary part of each pole, rows as those of Regressors;
-/// `linear` as FitResidues returned it.
+/// `linear` the coefficients of FitResidues.
 Eigen::MatrixXd ByPoles(std::span<const SpectrumLine> lines, const RationalFit& fit,
                         const Eigen::VectorXd& linear) {
   const Index n = OrderOf(fit.poles);
@@ -186,23 +196,20 @@ std::vector<Pole> Shifted(std::vector<Pole> poles, const Eigen::VectorXd& step, 
 // Gauss-Newton, the linear coefficients always at their own optimum, bring them there.
 void Refine(std::span<const SpectrumLine> lines, RationalFit& fit) {
   constexpr int kSteps = 12;
-  Eigen::VectorXd linear = FitResidues(lines, fit);
+  LinearFit linear = FitResidues(lines, fit);
   for (int turn = 0; turn < kSteps; ++turn) {
-    Eigen::VectorXd right;
-    const Eigen::MatrixXd known = Regressors(lines, fit.poles, false, right);
-    const Eigen::VectorXd left = right - known * linear;
     const Index n = OrderOf(fit.poles);
-    Eigen::MatrixXd all(known.rows(), known.cols() + n);
-    all << known, ByPoles(lines, fit, linear);
-    const Eigen::VectorXd step = Solve(all, left).tail(n);
+    Eigen::MatrixXd all(linear.matrix.rows(), linear.matrix.cols() + n);
+    all << linear.matrix, ByPoles(lines, fit, linear.coefficients);
+    const Eigen::VectorXd step = Solve(all, linear.left).tail(n);
     double share = 1.0;
     RationalFit moved;
     for (; share > 1e-3; share *= 0.5) {
       moved = fit;
       moved.poles = Shifted(fit.poles, step, share);
-      const Eigen::VectorXd found = FitResidues(lines, moved);
+      LinearFit found = FitResidues(lines, moved);
       if (OrderOf(moved.poles) != n || !(moved.squares < fit.squares)) continue;
-      linear = found;
+      linear = std::move(found);
       break;
     }
     if (share <= 1e-3) return;
