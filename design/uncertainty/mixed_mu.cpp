@@ -115,14 +115,12 @@ double Descend(const Bound& bound, double sharpness, double enough, VectorXd& x)
 }  // namespace
 
 double MixedMu(const MatrixXcd& m, Index perturbations, double enough) {
-  VectorXd l = VectorXd::Zero(m.rows());
-  const MatrixXcd balanced = Balanced(m, perturbations, l);
   const Bound of_balanced{m, perturbations, 1.0};
   VectorXd x = VectorXd::Zero(2 * perturbations);
   // What balances rows against columns may raise the largest gain; without it the bound holds too.
   double least = of_balanced.At(x, 1.0).largest;
   VectorXd other = x;
-  other.head(perturbations) = l.head(perturbations);
+  other.head(perturbations) = BalancingScale(m, perturbations).head(perturbations).array().log();
   const double after = of_balanced.At(other, 1.0).largest;
   if (after < least) {
     least = after;

@@ -101,7 +101,7 @@ MatrixXcd LoopMatrix(const PlantPoint& plant, const MatrixXcd& law,
   return out;
 }
 
-MatrixXcd Balanced(const MatrixXcd& m, Index perturbations, Eigen::VectorXd& l) {
+Eigen::VectorXd BalancingScale(const MatrixXcd& m, Index perturbations) {
   constexpr int kSweeps = 6;
   Eigen::MatrixXd size = m.cwiseAbs2();
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(m.rows());
@@ -115,15 +115,14 @@ MatrixXcd Balanced(const MatrixXcd& m, Index perturbations, Eigen::VectorXd& l) 
       size.col(i) /= f * f;
       scale(i) *= f;
     }
-  l = scale.array().log();
-  return scale.asDiagonal() * m * scale.cwiseInverse().asDiagonal();
+  return scale;
 }
 
 namespace {
 
 MatrixXcd Balance(const MatrixXcd& m, Index perturbations) {
-  Eigen::VectorXd unused;
-  return Balanced(m, perturbations, unused);
+  const Eigen::VectorXd scale = BalancingScale(m, perturbations);
+  return scale.asDiagonal() * m * scale.cwiseInverse().asDiagonal();
 }
 
 double LargestGain(const MatrixXcd& m) {
