@@ -63,6 +63,10 @@ function(levitas_check_indices name)
   endif()
 endfunction()
 
+# Programs name their sources from the folder of the repository, wherever that lies: a clone elsewhere
+# compiles to the same bytes, and the compiler's cache serves it.
+add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
