@@ -203,7 +203,10 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
                           int passes) const {
   constexpr double kConverged = 1.0;  // [nat]
   constexpr double kFar = 100.0;      // [nat] a step that gains more has left its linearisation
+  // The damping counts in the priors' information, and a lightly damped mode may be known ten thousand
+  // times better than its prior says: with the Jacobian of this point it grows until that is held, too.
   constexpr int kMostRefused = 4;
+  constexpr int kMostRefusedHere = 8;
   Refined best;
   std::vector<double> theta = std::move(start);
   LevenbergDamping damping;
@@ -217,7 +220,7 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
         pass == 0 ? std::numeric_limits<double>::infinity()
                   : best.cost - 0.5 * (SquaredSum(runs, axes_, whitener) + Penalty(theta, {}));
     if (pass > 0 && !(std::isfinite(gained) && gained > -kConverged)) {
-      if (++refused <= kMostRefused) {
+      if (++refused <= (current ? kMostRefusedHere : kMostRefused)) {
         damping.Refuse();
         theta = search_.Step(best.problem, {}, best.theta, damping.value());
         continue;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmark/accuracy/campaign.hpp"
+#include "benchmark/accuracy/drawn_rig.hpp"
 #include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
 #include "plant_sim/plant/plant_model.hpp"
@@ -100,6 +101,19 @@ TEST(QuietProbes, MakeNoFaultOfWhatTheModelLacks) {
   EXPECT_LT(Suspicion(dg::Judging{}.model_error_share), dg::kDecisive);
   // A model that is taken to be exact needs a cause for it.
   EXPECT_GT(Suspicion(0.0), dg::kDecisive);
+}
+
+/// The second mode of this drawn rig is known to 0.1 Hz where its file may be off by 18: the damping
+/// of the steps has to outgrow that, or calibration stops 3 Hz beside it with a line at 2400 sigma.
+TEST(DrawnRig, IsCalibratedWhereAModeIsKnownFarBetterThanItsPrior) {
+  constexpr double kLineSigma = 100.0;
+  TrialPlan plan;
+  plan.seed = 1159;
+  const Trial trial =
+      MakeDrawnTrial(LoadTestRig("flexible_rotor", {"flexible_rotor_commissioned"}), plan);
+  const dg::SearchResult answer = dg::DiagnoseRecords(trial.rig, trial.records, {}, {}).answer;
+  EXPECT_EQ(answer.verdict, dg::Verdict::kNone);
+  EXPECT_LT(answer.remainder.sigma, kLineSigma);
 }
 
 }  // namespace
