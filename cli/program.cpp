@@ -4,9 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commands/command.hpp"
@@ -65,6 +67,14 @@ int TellHelp(const CLI::App& app, const CLI::ParseError& error) {
   return status;
 }
 
+/// "help margins" is "margins --help", and "help" alone is "--help".
+void TakeHelpAsOption(int argc, char** argv) {
+  if (argc < 2 || std::string_view(argv[1]) != "help") return;
+  static std::array<char, 7> option{"--help"};
+  std::rotate(argv + 1, argv + 2, argv + argc);
+  argv[argc - 1] = option.data();
+}
+
 int Parse(int argc, char** argv, const AddCommands& add_commands) {
   CLI::App app{"Levitas: active magnetic bearing controller and its hardware-in-the-loop bench",
                "amb"};
@@ -98,6 +108,7 @@ int Parse(int argc, char** argv, const AddCommands& add_commands) {
 int RunProgram(int argc, char** argv, const AddCommands& add_commands) {
   rt::OpenStandardFiles();
   if (!rt::EnsureStack("amb")) return static_cast<int>(ExitStatus::kOther);
+  TakeHelpAsOption(argc, argv);
   StandardOutput output;
   int status = Parse(argc, argv, add_commands);
   if (const std::string& refused = output.Finish(); !refused.empty()) {

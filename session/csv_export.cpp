@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/output_file.hpp"
-#include "session/export_rows.hpp"
 
 namespace levitas::session {
 namespace {
@@ -26,11 +25,16 @@ std::string Joined(const std::vector<std::string>& names) {
   return line + "\n";
 }
 
-void Row(fmt::memory_buffer& out, std::int64_t time_ns, const std::vector<double>& values) {
+void Row(fmt::memory_buffer& out, std::int64_t time_ns, const std::vector<double>& values,
+         std::size_t speed_column) {
   fmt::format_to(std::back_inserter(out), "{}", SecondsText(time_ns));
-  Number(out, values[ExportRows::kAngle]);
-  fmt::format_to(std::back_inserter(out), ",{:.12g}", values[ExportRows::kSpeed]);
-  for (std::size_t i = ExportRows::kSpeed + 1; i < values.size(); ++i) Number(out, values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i == speed_column) {
+      fmt::format_to(std::back_inserter(out), ",{:.12g}", values[i]);
+    } else {
+      Number(out, values[i]);
+    }
+  }
   out.push_back('\n');
 }
 
@@ -47,24 +51,18 @@ std::string SecondsText(std::int64_t time_ns) {
   return text;
 }
 
-ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path) {
+ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path,
+                       const ExportSelection& selection) {
+  ExportRows rows(reader.header(), selection);
   OutputFile file(csv_path);
-  ExportRows rows(reader.header());
-  std::vector<double> values;
   fmt::memory_buffer out;
   file.Write(Joined(rows.names()));
-  ExportReport report;
-  cycle::CycleRecord record;
-  while (reader.Next(record)) {
-    if (!record.in.frame_present) {
-      ++report.cycles_without_frame;
-      continue;
-    }
-    Row(out, rows.Next(record, values), values);
-    ++report.rows;
-    file.Write({out.data(), out.size()});
-    out.clear();
-  }
+  const ExportReport report =
+      rows.ForEach(reader, [&](std::int64_t time_ns, const std::vector<double>& values) {
+        Row(out, time_ns, values, rows.speed_column());
+        file.Write({out.data(), out.size()});
+        out.clear();
+      });
   file.Commit();
   return report;
 }

@@ -1,8 +1,7 @@
 #pragma once
 // A session as CSV of the contract in docs/formats.md.
 //
-// Columns   time_s, rotor_angle_rad, speed_rpm, then per channel position [m], control current [A]
-//           and excitation [A]. Numbers are the shortest that read back to the same bits; speed_rpm
+// Columns   of export_rows.hpp. Numbers are the shortest that read back to the same bits; speed_rpm
 //           has 12 digits, so that the conversion to rad/s and back ends at the same text.
 // Rows      one per sensor frame; a cycle without a new frame has no row (a gap in time). time_s
 //           of the sample. In real time it starts at 0; when the rig restarts it runs on.
@@ -11,17 +10,14 @@
 #include <cstdint>
 #include <string>
 
+#include "session/export_rows.hpp"
 #include "session/session_reader.hpp"
 
 namespace levitas::session {
 
-struct ExportReport {
-  std::uint64_t rows{};
-  std::uint64_t cycles_without_frame{};
-};
-
 /// Reads the rest of `reader`. The file appears under its name when it is complete.
-ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path);
+ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path,
+                       const ExportSelection& selection = {});
 
 /// Seconds with all digits of the nanoseconds and none too many: 100000 -> "0.0001".
 [[nodiscard]] std::string SecondsText(std::int64_t time_ns);

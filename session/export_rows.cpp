@@ -1,15 +1,53 @@
 #include "session/export_rows.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/nearest.hpp"
+#include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
+#include "session/session_reader.hpp"
 
 namespace levitas::session {
+namespace {
 
-ExportRows::ExportRows(const SessionHeader& header)
+constexpr std::size_t kSpeed = 1;  // of the values behind the time
+
+/// The nanosecond of a limit; one beyond what a count can hold is none.
+std::int64_t Nanoseconds(double seconds) {
+  using Limits = std::numeric_limits<std::int64_t>;
+  constexpr double kMostS = 9e9;
+  if (std::abs(seconds) > kMostS) return seconds > 0.0 ? Limits::max() : Limits::min();
+  return static_cast<std::int64_t>(std::round(1e9 * seconds));
+}
+
+void Check(const ExportSelection& selection) {
+  if (std::isnan(selection.from_s) || std::isnan(selection.to_s) ||
+      selection.from_s > selection.to_s) {
+    throw Problem(ExitStatus::kUsage,
+                  fmt::format("--from {} s, --to {} s: expected a time and a later one",
+                              selection.from_s, selection.to_s));
+  }
+  if (selection.every == 0) {
+    throw Problem(ExitStatus::kUsage, "--every 0: expected a whole number from 1");
+  }
+}
+
+}  // namespace
+
+ExportRows::ExportRows(const SessionHeader& header, const ExportSelection& selection)
     : names_{"time_s", "rotor_angle_rad", "speed_rpm"},
       axes_(header.channels.size()),
       injects_position_(header.scenario_yaml.find("point: measured_position") != std::string::npos),
+      from_ns_(Nanoseconds(selection.from_s)),
+      to_ns_(Nanoseconds(selection.to_s)),
+      every_(selection.every),
       period_ns_(static_cast<std::uint64_t>(header.period_ns)),
       from_zero_(header.pace == "realtime") {
+  Check(selection);
   const auto name_all = [&](const char* quantity, const char* unit) {
     for (const auto& channel : header.channels) names_.push_back(quantity + channel + unit);
   };
@@ -17,6 +55,36 @@ ExportRows::ExportRows(const SessionHeader& header)
   name_all("control_current_", "_a");
   name_all("excitation_", "_a");
   if (injects_position_) name_all("excitation_", "_m");
+  names_.emplace_back("mode");
+  Choose(selection);
+}
+
+void ExportRows::Choose(const ExportSelection& selection) {
+  for (const std::string& column : selection.columns) {
+    if (column == names_.front()) continue;  // always there
+    const auto found = std::find(names_.begin(), names_.end(), column);
+    if (found == names_.end()) {
+      throw Problem(ExitStatus::kUsage,
+                    fmt::format("--columns: the session has no column '{}'; nearest: {}. All: {}",
+                                column, Nearest(column, names_), Listed(names_)));
+    }
+    const auto value = static_cast<std::size_t>(found - names_.begin()) - 1;
+    if (std::find(chosen_.begin(), chosen_.end(), value) != chosen_.end()) {
+      throw Problem(ExitStatus::kUsage, fmt::format("--columns: '{}' is named twice", column));
+    }
+    chosen_.push_back(value);
+  }
+  speed_column_ = kSpeed;
+  if (selection.columns.empty()) return;
+  if (chosen_.empty()) {
+    throw Problem(ExitStatus::kUsage, "--columns time_s: expected a column besides the time");
+  }
+  std::vector<std::string> names{names_.front()};
+  for (const std::size_t value : chosen_) names.push_back(names_[value + 1]);
+  names_ = std::move(names);
+  const auto speed = std::find(chosen_.begin(), chosen_.end(), kSpeed);
+  speed_column_ =
+      speed == chosen_.end() ? kNone : static_cast<std::size_t>(speed - chosen_.begin());
 }
 
 // Modulo 2^64: stamps that no rig gives, of a file that lies, must not be undefined.
@@ -35,19 +103,50 @@ std::int64_t ExportRows::TimeOf(const cycle::CycleInputs& in) {
   return static_cast<std::int64_t>(time_ns_);
 }
 
+bool ExportRows::AskedFor(std::int64_t time_ns) {
+  if (time_ns < from_ns_ || time_ns > to_ns_) return false;
+  return within_++ % every_ == 0;
+}
+
 std::int64_t ExportRows::Next(const cycle::CycleRecord& record, std::vector<double>& values) {
   const SensorFrame& frame = record.in.frame;
   values.clear();
-  values.push_back(frame.angle_rad);
-  values.push_back(RadPerSToRpm(frame.speed_rad_per_s));
+  const std::int64_t time_ns = TimeOf(record.in);
+  if (!AskedFor(time_ns)) return time_ns;
+  all_.clear();
+  all_.push_back(frame.angle_rad);
+  all_.push_back(RadPerSToRpm(frame.speed_rad_per_s));
   const auto add = [&](const AxisArray& numbers) {
-    for (std::size_t axis = 0; axis < axes_; ++axis) values.push_back(numbers[axis]);
+    for (std::size_t axis = 0; axis < axes_; ++axis) all_.push_back(numbers[axis]);
   };
   add(frame.position_m);
   add(record.out.current.control_current_a);
   add(record.in.op.excitation_a);
   if (injects_position_) add(record.in.op.excitation_m);
-  return TimeOf(record.in);
+  all_.push_back(static_cast<double>(record.out.mode));
+  if (chosen_.empty()) {
+    values = all_;
+  } else {
+    for (const std::size_t value : chosen_) values.push_back(all_[value]);
+  }
+  return time_ns;
+}
+
+ExportReport ExportRows::ForEach(SessionReader& reader, const Take& take) {
+  ExportReport report;
+  cycle::CycleRecord record;
+  std::vector<double> values;
+  while (reader.Next(record)) {
+    if (!record.in.frame_present) {
+      ++report.cycles_without_frame;
+      continue;
+    }
+    const std::int64_t time_ns = Next(record, values);
+    if (values.empty()) continue;
+    take(time_ns, values);
+    ++report.rows;
+  }
+  return report;
 }
 
 }  // namespace levitas::session

@@ -57,21 +57,15 @@ int Reason(int descriptor) {
 
 }  // namespace
 
-ExportReport ExportMat(SessionReader& reader, const std::string& mat_path) {
-  ExportRows rows(reader.header());
+ExportReport ExportMat(SessionReader& reader, const std::string& mat_path,
+                       const ExportSelection& selection) {
+  ExportRows rows(reader.header(), selection);
   std::vector<std::vector<double>> columns(rows.names().size());
-  std::vector<double> values;
-  ExportReport report;
-  cycle::CycleRecord record;
-  while (reader.Next(record)) {
-    if (!record.in.frame_present) {
-      ++report.cycles_without_frame;
-      continue;
-    }
-    columns[0].push_back(1e-9 * static_cast<double>(rows.Next(record, values)));
-    for (std::size_t i = 0; i < values.size(); ++i) columns[i + 1].push_back(values[i]);
-    ++report.rows;
-  }
+  const ExportReport report =
+      rows.ForEach(reader, [&](std::int64_t time_ns, const std::vector<double>& values) {
+        columns[0].push_back(1e-9 * static_cast<double>(time_ns));
+        for (std::size_t i = 0; i < values.size(); ++i) columns[i + 1].push_back(values[i]);
+      });
   if (report.rows > kMostRows) {
     throw BadInput(mat_path + ": the session is too long for a MAT file of version 5; use --csv");
   }

@@ -12,6 +12,7 @@
 namespace levitas::session {
 
 /// Reads the rest of `reader`. The file appears under its name when it is complete.
-ExportReport ExportMat(SessionReader& reader, const std::string& mat_path);
+ExportReport ExportMat(SessionReader& reader, const std::string& mat_path,
+                       const ExportSelection& selection = {});
 
 }  // namespace levitas::session

@@ -51,31 +51,24 @@ void WriteEvents(McapWriter& writer, std::uint16_t channel, const SessionReader&
 
 }  // namespace
 
-ExportReport ExportMcap(SessionReader& reader, const std::string& mcap_path) {
+ExportReport ExportMcap(SessionReader& reader, const std::string& mcap_path,
+                        const ExportSelection& selection) {
+  ExportRows rows(reader.header(), selection);
   OutputFile file(mcap_path);
-  ExportRows rows(reader.header());
   McapWriter writer([&file](std::string_view bytes) { file.Write(bytes); }, "levitas");
   const std::uint16_t cycles = AddCycles(writer, rows.names());
   const std::uint16_t events = AddEvents(writer);
   AddHeader(writer, reader.header());
-  ExportReport report;
-  cycle::CycleRecord record;
-  std::vector<double> values;
   std::vector<double> row;
   std::string message;
-  while (reader.Next(record)) {
-    if (!record.in.frame_present) {
-      ++report.cycles_without_frame;
-      continue;
-    }
-    const std::int64_t time_ns = rows.Next(record, values);
-    row.assign(1, 1e-9 * static_cast<double>(time_ns));
-    row.insert(row.end(), values.begin(), values.end());
-    message.clear();
-    AppendDoubles(row, message);
-    writer.Write(cycles, reader.header().start_utc_ns + time_ns, message);
-    ++report.rows;
-  }
+  const ExportReport report =
+      rows.ForEach(reader, [&](std::int64_t time_ns, const std::vector<double>& values) {
+        row.assign(1, 1e-9 * static_cast<double>(time_ns));
+        row.insert(row.end(), values.begin(), values.end());
+        message.clear();
+        AppendDoubles(row, message);
+        writer.Write(cycles, reader.header().start_utc_ns + time_ns, message);
+      });
   WriteEvents(writer, events, reader);
   writer.Finish();
   file.Commit();

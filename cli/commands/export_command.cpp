@@ -26,15 +26,17 @@ struct ExportOptions {
   std::string mat_path;
   std::string mcap_path;
   std::string json_path;
+  session::ExportSelection selection;
 };
 
-using Exporter = session::ExportReport (*)(session::SessionReader&, const std::string&);
+using Exporter = session::ExportReport (*)(session::SessionReader&, const std::string&,
+                                           const session::ExportSelection&);
 
 /// Reads the session once for one file.
-session::ExportReport Write(const std::string& session_path, const std::string& path,
+session::ExportReport Write(const ExportOptions& options, const std::string& path,
                             Exporter exporter) {
-  session::SessionReader reader(session_path);
-  const session::ExportReport report = exporter(reader, path);
+  session::SessionReader reader(options.session_path);
+  const session::ExportReport report = exporter(reader, path, options.selection);
   fmt::print("{}: {} rows", rt::OneLine(path), report.rows);
   if (report.cycles_without_frame > 0) {
     fmt::print("; {} cycles had no sensor frame and have no row", report.cycles_without_frame);
@@ -61,7 +63,7 @@ ExitStatus Export(const ExportOptions& options) {
   fmt::print("{}\n", Describe(options.session_path, reader.header()));
   session::ExportReport report;
   for (const auto& [path, exporter] : files) {
-    if (!path->empty()) report = Write(options.session_path, *path, exporter);
+    if (!path->empty()) report = Write(options, *path, exporter);
   }
   cycle::CycleRecord record;
   while (reader.Next(record)) {
@@ -90,9 +92,21 @@ void AddExportCommand(CLI::App& app, Action& action) {
                       "MAT file to write (version 5: MATLAB, Octave, SciPy), a vector per column");
   command->add_option("--mcap", options->mcap_path,
                       "MCAP file to write (Foxglove, PlotJuggler, mcap libraries), with events");
+  session::ExportSelection& selection = options->selection;
+  command->add_option("--from", selection.from_s, "First time of column time_s [s]");
+  command->add_option("--to", selection.to_s, "Last time of column time_s [s]");
+  command->add_option("--every", selection.every,
+                      "One row of so many; nothing is filtered, faster signals fold down");
+  command
+      ->add_option("--columns", selection.columns,
+                   "Names of columns behind time_s, in this order: speed_rpm,position_de_x_m")
+      ->delimiter(',');
   command->add_option("--json", options->json_path, "Write what was done as JSON");
   command->callback([options, &action] { action = [options] { return Export(*options); }; });
-  command->footer("  amb export run.lcm --csv run.csv --mcap run.mcap");
+  command->footer(
+      "  amb export run.lcm --csv run.csv --mcap run.mcap\n"
+      "  amb export run.lcm --csv orbit.csv --from 2 --to 3 --columns "
+      "position_de_x_m,position_de_y_m");
 }
 
 }  // namespace levitas::cli

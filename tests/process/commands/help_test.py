@@ -18,7 +18,7 @@ OPTIONS = {
     "import": {"--rig", "--out", "--map", "--guess", "--overwrite", "--tag", "--json"},
     "sessions": {"--rig", "--outcome", "--tag", "--text", "--from", "--to", "--catalogue", "--json"},
     "manual": {"--markdown", "--man", "--bash"},
-    "export": {"--csv", "--mat", "--mcap", "--json"},
+    "export": {"--csv", "--mat", "--mcap", "--from", "--to", "--every", "--columns", "--json"},
     "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--key", "--json"},
     "report": {"--out", "--pictures", "--speeds", "--run-json", "--json"},
     "dash": {"--port", "--key", "--http-port", "--listen", "--allow-network", "--token", "--token-file", "--answer-within",
@@ -44,6 +44,15 @@ class Help(CommandTest):
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.assertEqual(done.stderr, "")
         return done.stdout
+
+    def test_the_word_help_is_the_option_of_that_name(self):
+        for words in ((), ("margins",), ("diagnose",), ("identify", "frf")):
+            told = amb(self.folder, "help", *words)
+            asked = amb(self.folder, *words, "--help")
+            self.assertEqual((told.returncode, told.stdout), (DONE, asked.stdout), told.stderr)
+        unknown = amb(self.folder, "help", "margin")
+        self.assertEqual(unknown.returncode, USAGE)
+        self.assertIn("nearest: margins", unknown.stderr)
 
     def test_every_option_of_the_contract_is_explained(self):
         for command, options in OPTIONS.items():

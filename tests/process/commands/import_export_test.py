@@ -7,6 +7,7 @@ import unittest
 from command import BAD_INPUT, DONE, OTHER, USAGE, CommandTest, amb, make_record
 
 ROWS = 2_000
+SPINNING = "4"  # of the modes in docs/formats.md
 CHANNELS = ["de_x", "de_y", "nde_x", "nde_y"]
 
 
@@ -38,13 +39,14 @@ class ImportExport(CommandTest):
         self.assertIn(f"a.csv: {ROWS} rows", printed)
         names, rows = table(self.csv)
         out_names, out_rows = table(self.folder / "a.csv")
-        self.assertEqual(out_names, names)
+        self.assertEqual(out_names, [*names, "mode"])
         self.assertEqual(len(out_rows), len(rows))
         for before, after in zip(rows, out_rows):
             for name, wanted, got in zip(names, before, after):
                 # Speed is written with 12 digits, everything else to the bit.
                 tolerance = 1e-11 * abs(float(wanted)) if name == "speed_rpm" else 0.0
                 self.assertLessEqual(abs(float(got) - float(wanted)), tolerance, (name, wanted))
+            self.assertEqual(after[-1], SPINNING)
 
     def test_second_round_trip_gives_the_same_bytes_and_the_same_simulation(self):
         self.csv = make_record(self.folder / "long.csv", "unbalance", 3000, 12_000)
@@ -68,6 +70,29 @@ class ImportExport(CommandTest):
         self.assertEqual((self.folder / "a.lcmlog").read_bytes(), before)
         self.compute(*again, "--overwrite")
         self.assertLess((self.folder / "a.lcmlog").stat().st_size, len(before))
+
+    def test_an_export_takes_the_rows_and_columns_asked_for(self):
+        self.import_as("a.lcmlog")
+        self.compute("export", "a.lcmlog", "--csv", "all.csv")
+        names, rows = table(self.folder / "all.csv")
+        printed, report = self.compute("export", "a.lcmlog", "--csv", "part.csv", "--from", "0.01",
+                                       "--to", "0.02", "--every", "10", "--columns",
+                                       "position_nde_x_m,mode")
+        wanted = [names.index(name) for name in ("time_s", "position_nde_x_m", "mode")]
+        expected = [[row[i] for i in wanted] for row in rows if 0.01 <= float(row[0]) <= 0.02][::10]
+        found_names, found = table(self.folder / "part.csv")
+        self.assertEqual(found_names, ["time_s", "position_nde_x_m", "mode"])
+        self.assertEqual(found, expected)
+        self.assertEqual(report["rows"], len(expected))
+        self.assertIn(f"{len(expected)} rows", printed)
+
+    def test_a_selection_of_nothing_is_refused_and_leaves_no_file(self):
+        self.import_as("a.lcmlog")
+        for option, value, told in (("--columns", "position_de_z_m", "nearest: position_de_x_m"),
+                                    ("--every", "0", "--every"), ("--from", "nan", "--from"),
+                                    ("--every", "-3", "--every")):
+            self.refuse(USAGE, told, "export", "a.lcmlog", "--csv", "no.csv", option, value)
+            self.assertFalse((self.folder / "no.csv").exists(), option)
 
     def test_an_export_spares_what_has_the_name_of_its_temporary_file(self):
         self.import_as("a.lcmlog")

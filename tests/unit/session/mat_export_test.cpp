@@ -52,6 +52,21 @@ TEST(MatExport, LeavesOutCyclesWithoutASensorFrameAndCountsThem) {
   EXPECT_EQ(report.cycles_without_frame, 1U);
 }
 
+TEST(MatExport, HoldsTheRowsThatAreAskedFor) {
+  const Folder folder;
+  const auto records = DrawRecords(20);
+  WriteSession(folder / "s", records);
+  SessionReader session(folder / "s");
+  EXPECT_EQ(ExportMat(session, folder / "s.mat", {.from_s = 0.0005, .every = 5}).rows, 3U);
+  MatRows rows(folder / "s.mat", Header().channels, "", {});
+  CsvRow row;
+  for (const std::size_t expected : {5U, 10U, 15U}) {
+    ASSERT_TRUE(rows.Next(row));
+    EXPECT_TRUE(testing::SameBits(row.position_m, records[expected].in.frame.position_m));
+  }
+  EXPECT_FALSE(rows.Next(row));
+}
+
 TEST(MatExport, OfAFolderThatIsNotThereIsRefusedWithItsName) {
   const Folder folder;
   WriteSession(folder / "s", DrawRecords(3));

@@ -121,7 +121,8 @@ TEST_F(McapExport, HoldsEveryNumberOfEveryFrame) {
     const auto values = Doubles(message.content.substr(22));
     const auto& record = records.at(row);
     const std::size_t axes = record.in.frame.axes;
-    ASSERT_EQ(values.size(), 3 + 3 * axes);
+    ASSERT_EQ(values.size(), 3 + 3 * axes + 1);
+    EXPECT_EQ(values.back(), static_cast<double>(record.out.mode));
     EXPECT_EQ(values[0], 1e-9 * static_cast<double>(record.in.frame.sample_time_ns));
     for (std::size_t i = 0; i < axes; ++i) {
       const double position_m = record.in.frame.position_m[i];
