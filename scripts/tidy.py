@@ -143,7 +143,8 @@ def digest(path, arguments, directory, settings):
     done = subprocess.run(words, cwd=directory, capture_output=True, check=False)
     if done.returncode != 0:
         return None
-    flags = [word for word in words if word.startswith(("-W", "-f", "-std", "-m", "-O"))]
+    flags = [word for word in words if word.startswith(("-W", "-f", "-std", "-m", "-O"))
+             and not word.startswith("-ffile-prefix-map=")]  # names the clone
     head = " ".join([str(path.relative_to(ROOT)), *flags]).encode()
     return hashlib.sha256(b"\0".join([settings, head, done.stdout])).hexdigest()
 
