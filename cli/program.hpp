@@ -13,8 +13,8 @@ namespace levitas::cli {
 /// May throw Problem, as an action may.
 using AddCommands = std::function<void(CLI::App& app, Action& action)>;
 
-/// Parses, runs the command, and returns the exit status. `help COMMAND` is `COMMAND --help`; argv is
-/// changed to that.
+/// Parses, runs the command, and returns the exit status. `help COMMAND` is `COMMAND --help`; argv
+/// is changed to that.
 [[nodiscard]] int RunProgram(int argc, char** argv, const AddCommands& add_commands);
 
 }  // namespace levitas::cli

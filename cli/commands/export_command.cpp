@@ -95,8 +95,10 @@ void AddExportCommand(CLI::App& app, Action& action) {
   session::ExportSelection& selection = options->selection;
   command->add_option("--from", selection.from_s, "First time of column time_s [s]");
   command->add_option("--to", selection.to_s, "Last time of column time_s [s]");
-  command->add_option("--every", selection.every,
-                      "One row of so many; nothing is filtered, faster signals fold down");
+  command
+      ->add_option("--every", selection.every,
+                   "One row of so many; nothing is filtered, faster signals fold down")
+      ->check(CLI::PositiveNumber);  // of a negative one the parser makes a large one
   command
       ->add_option("--columns", selection.columns,
                    "Names of columns behind time_s, in this order: speed_rpm,position_de_x_m")

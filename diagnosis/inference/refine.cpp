@@ -203,8 +203,9 @@ Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order
                           int passes) const {
   constexpr double kConverged = 1.0;  // [nat]
   constexpr double kFar = 100.0;      // [nat] a step that gains more has left its linearisation
-  // The damping counts in the priors' information, and a lightly damped mode may be known ten thousand
-  // times better than its prior says: with the Jacobian of this point it grows until that is held, too.
+  // The damping counts in the priors' information, and a lightly damped mode may be known ten
+  // thousand times better than its prior says: with the Jacobian of this point it grows until that
+  // is held, too.
   constexpr int kMostRefused = 4;
   constexpr int kMostRefusedHere = 8;
   Refined best;

@@ -103,8 +103,9 @@ TEST(QuietProbes, MakeNoFaultOfWhatTheModelLacks) {
   EXPECT_GT(Suspicion(0.0), dg::kDecisive);
 }
 
-/// The second mode of this drawn rig is known to 0.1 Hz where its file may be off by 18: the damping
-/// of the steps has to outgrow that, or calibration stops 3 Hz beside it with a line at 2400 sigma.
+/// The second mode of this drawn rig is known to 0.1 Hz where its file may be off by 18: the
+/// damping of the steps has to outgrow that, or calibration stops 3 Hz beside it with a line at
+/// 2400 sigma.
 TEST(DrawnRig, IsCalibratedWhereAModeIsKnownFarBetterThanItsPrior) {
   constexpr double kLineSigma = 100.0;
   TrialPlan plan;
