@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <vector>
@@ -57,9 +58,12 @@ ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path,
   OutputFile file(csv_path);
   fmt::memory_buffer out;
   file.Write(Joined(rows.names()));
+  const auto& names = rows.names();
+  const auto speed = static_cast<std::size_t>(
+      std::find(names.begin() + 1, names.end(), "speed_rpm") - (names.begin() + 1));
   const ExportReport report =
       rows.ForEach(reader, [&](std::int64_t time_ns, const std::vector<double>& values) {
-        Row(out, time_ns, values, rows.speed_column());
+        Row(out, time_ns, values, speed);
         file.Write({out.data(), out.size()});
         out.clear();
       });

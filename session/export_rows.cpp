@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "common/nearest.hpp"
 #include "common/problem.hpp"
@@ -13,8 +15,6 @@
 
 namespace levitas::session {
 namespace {
-
-constexpr std::size_t kSpeed = 1;  // of the values behind the time
 
 /// The nanosecond of a limit; one beyond what a count can hold is none.
 std::int64_t Nanoseconds(double seconds) {
@@ -60,6 +60,11 @@ ExportRows::ExportRows(const SessionHeader& header, const ExportSelection& selec
 }
 
 void ExportRows::Choose(const ExportSelection& selection) {
+  if (selection.columns.empty()) {
+    chosen_.resize(names_.size() - 1);
+    std::iota(chosen_.begin(), chosen_.end(), std::size_t{0});
+    return;
+  }
   for (const std::string& column : selection.columns) {
     if (column == names_.front()) continue;  // always there
     const auto found = std::find(names_.begin(), names_.end(), column);
@@ -74,17 +79,12 @@ void ExportRows::Choose(const ExportSelection& selection) {
     }
     chosen_.push_back(value);
   }
-  speed_column_ = kSpeed;
-  if (selection.columns.empty()) return;
   if (chosen_.empty()) {
     throw Problem(ExitStatus::kUsage, "--columns time_s: expected a column besides the time");
   }
   std::vector<std::string> names{names_.front()};
   for (const std::size_t value : chosen_) names.push_back(names_[value + 1]);
   names_ = std::move(names);
-  const auto speed = std::find(chosen_.begin(), chosen_.end(), kSpeed);
-  speed_column_ =
-      speed == chosen_.end() ? kNone : static_cast<std::size_t>(speed - chosen_.begin());
 }
 
 // Modulo 2^64: stamps that no rig gives, of a file that lies, must not be undefined.
@@ -124,11 +124,7 @@ std::int64_t ExportRows::Next(const cycle::CycleRecord& record, std::vector<doub
   add(record.in.op.excitation_a);
   if (injects_position_) add(record.in.op.excitation_m);
   all_.push_back(static_cast<double>(record.out.mode));
-  if (chosen_.empty()) {
-    values = all_;
-  } else {
-    for (const std::size_t value : chosen_) values.push_back(all_[value]);
-  }
+  for (const std::size_t value : chosen_) values.push_back(all_[value]);
   return time_ns;
 }
 

@@ -41,9 +41,6 @@ class ExportRows {
 
   /// The time is the first.
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
-  /// Place of speed_rpm among the values behind the time; kNone when it is not exported.
-  [[nodiscard]] std::size_t speed_column() const noexcept { return speed_column_; }
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
   /// The time [ns] of a record with a sensor frame; `values` becomes what stands behind it, empty
   /// for a row that was not asked for. Call in order.
@@ -59,8 +56,7 @@ class ExportRows {
   std::int64_t TimeOf(const cycle::CycleInputs& in);
 
   std::vector<std::string> names_;
-  std::vector<std::size_t> chosen_;  ///< of all values; empty: all
-  std::size_t speed_column_{};
+  std::vector<std::size_t> chosen_;  ///< of all values
   std::size_t axes_;
   bool injects_position_;
   std::int64_t from_ns_, to_ns_;
