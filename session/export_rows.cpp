@@ -24,7 +24,8 @@ std::int64_t Nanoseconds(double seconds) {
   return static_cast<std::int64_t>(std::round(1e9 * seconds));
 }
 
-void Check(const ExportSelection& selection) {
+/// The selection, refused where it can hold no row.
+const ExportSelection& Checked(const ExportSelection& selection) {
   if (std::isnan(selection.from_s) || std::isnan(selection.to_s) ||
       selection.from_s > selection.to_s) {
     throw Problem(ExitStatus::kUsage,
@@ -34,6 +35,7 @@ void Check(const ExportSelection& selection) {
   if (selection.every == 0) {
     throw Problem(ExitStatus::kUsage, "--every 0: expected a whole number from 1");
   }
+  return selection;
 }
 
 }  // namespace
@@ -42,12 +44,11 @@ ExportRows::ExportRows(const SessionHeader& header, const ExportSelection& selec
     : names_{"time_s", "rotor_angle_rad", "speed_rpm"},
       axes_(header.channels.size()),
       injects_position_(header.scenario_yaml.find("point: measured_position") != std::string::npos),
-      from_ns_(Nanoseconds(selection.from_s)),
+      from_ns_(Nanoseconds(Checked(selection).from_s)),
       to_ns_(Nanoseconds(selection.to_s)),
       every_(selection.every),
       period_ns_(static_cast<std::uint64_t>(header.period_ns)),
       from_zero_(header.pace == "realtime") {
-  Check(selection);
   const auto name_all = [&](const char* quantity, const char* unit) {
     for (const auto& channel : header.channels) names_.push_back(quantity + channel + unit);
   };
