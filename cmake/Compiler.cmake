@@ -28,6 +28,14 @@ if(LEVITAS_SANITIZE)
     add_compile_options(-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/not_sanitized.txt)
   endif()
 endif()
+# Our libraries are linked into some hundred programs: lld takes a fifth of the time of GNU ld for it.
+# clang finds the lld of its own version.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  find_program(LEVITAS_LLD ld.lld-14)
+  if(LEVITAS_LLD)
+    add_link_options(-fuse-ld=lld)
+  endif()
+endif()
 # For sources that are not hot, tests and commands: with a sanitizer the optimiser would take half of
 # their compile time.
 set(levitas_unhot $<$<CONFIG:Release>:-O1>)
