@@ -20,7 +20,7 @@ struct Tolerances {
   double delay_samples{0.05};
   double modal_frequency{0.01};
   double modal_damping{0.3};
-  double modal_shape{0.02};  ///< of its rms over sensors and magnets
+  double modal_shape{0.02};  ///< of its rms along the shaft
   double rotor_mass{0.005};
   double gyroscopic_inertia{0.02};
   double unbalance_kg_m{3e-6};  ///< each of cosine and sine, per plane

@@ -27,8 +27,7 @@ void Describe(Visitor& v, Tolerances& t) {
   share("modal_frequency", 0.01, "every bending mode", t.modal_frequency);
   share("modal_damping", 0.3, "every bending mode", t.modal_damping);
   share("modal_shape", 0.02,
-        "of its rms over sensors and magnets, every bending mode at every one of them",
-        t.modal_shape);
+        "of its rms along the shaft, every bending mode at every sensor and magnet", t.modal_shape);
   share("rotor_mass", 0.005, "of the whole rotor", t.rotor_mass);
   share("gyroscopic_inertia", 0.02, "of the whole rotor", t.gyroscopic_inertia);
   v.Number({"unbalance", kGramMillimetre, 0.001, 1e6, 3, "each of its two parts, every plane"},

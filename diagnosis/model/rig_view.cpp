@@ -84,6 +84,12 @@ std::vector<double> RigView::Shape(double z_m) const {
   return Row(rotor.shapes, NearestNode(rotor.node_z_m, z_m));
 }
 
+double RigView::ShapeRms(std::size_t mode) const {
+  const auto& shapes = model->parameters().modes.shapes;
+  return std::sqrt(shapes.col(static_cast<Eigen::Index>(mode)).squaredNorm() /
+                   static_cast<double>(shapes.rows()));
+}
+
 std::vector<double> RigView::Slope(double z_m) const {
   const auto& rotor = model->parameters().modes;
   return Row(rotor.slopes, NearestNode(rotor.node_z_m, z_m));

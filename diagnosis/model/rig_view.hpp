@@ -33,6 +33,9 @@ struct RigView {
   /// Shape of the modes at a plane of the one rotor, and its slope.
   [[nodiscard]] std::vector<double> Shape(double z_m) const;
   [[nodiscard]] std::vector<double> Slope(double z_m) const;
+  /// Rms of a mode's shape over the nodes of the one rotor: what it typically bends. At probes and
+  /// magnets alone it would say little where these stand near the mode's nodes.
+  [[nodiscard]] double ShapeRms(std::size_t mode) const;
   [[nodiscard]] const plant::BearingConfig& bearing(std::size_t axis) const {
     return model->config().bearings[axis / 2];
   }

@@ -1,6 +1,4 @@
 // Rotor at any speed: frequencies, damping, shapes, mass, gyroscopic inertia, internal damping.
-#include <cmath>
-
 #include "diagnosis/model/linear_change.hpp"
 #include "diagnosis/terms/terms.hpp"
 
@@ -8,15 +6,6 @@ namespace levitas::diagnosis {
 namespace {
 
 using effect::Id;
-
-double Rms(const RigView& rig, std::size_t mode) {
-  double sum = 0.0;
-  for (const auto& b : rig.model->bearings()) {
-    sum += b.actuator_shape[mode] * b.actuator_shape[mode] +
-           b.sensor_shape[mode] * b.sensor_shape[mode];
-  }
-  return std::sqrt(sum / static_cast<double>(rig.axes));
-}
 
 void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vector<Term>& terms) {
   const double w = rig.omega_rad_per_s[mode];
@@ -45,7 +34,7 @@ void AddMode(const RigView& rig, const Tolerances& t, std::size_t mode, std::vec
   terms.back().change = [mode](double theta, LinearChange& change) {
     change.mode[mode].damping += theta;
   };
-  const double size = Rms(rig, mode);
+  const double size = rig.ShapeRms(mode);
   for (std::size_t b = 0; b < rig.axes / 2; ++b) {
     terms.push_back(
         MakeTerm({std::nullopt, AtSide(rig.numbers, b, false).InMode(mode - 1), "shape", "1"},
