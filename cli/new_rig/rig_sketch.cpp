@@ -60,10 +60,12 @@ std::string RotorText(const RigSketch& sketch, const SketchNumbers& n) {
   }
   for (const SketchDisc& disc : sketch.discs) {
     const double square_m2 = 1e-6 * disc.diameter_mm * disc.diameter_mm;
+    // Ip is twice what is written of Id: rounded by itself it could exceed what any body has.
+    const std::string diametral = fmt::format("{:.6g}", disc.mass_kg * square_m2 / 16.0);
     text += fmt::format(
-        "    - {{z_mm: {:.6g}, mass_kg: {:.6g}, diametral_inertia_kg_m2: {:.6g}, "
-        "polar_inertia_kg_m2: {:.6g}}}\n",
-        disc.z_mm, disc.mass_kg, disc.mass_kg * square_m2 / 16.0, disc.mass_kg * square_m2 / 8.0);
+        "    - {{z_mm: {:.6g}, mass_kg: {:.6g}, diametral_inertia_kg_m2: {}, "
+        "polar_inertia_kg_m2: {:.9g}}}\n",
+        disc.z_mm, disc.mass_kg, diametral, 2.0 * std::stod(diametral));
   }
   text += "  unbalance:                 # grade G 2.5 of ISO 21940-11 at top speed (assumed)\n";
   const std::array<int, 2> phases{0, 90};

@@ -12,6 +12,7 @@
 #include "cli/new_rig/start_law.hpp"
 #include "cli/run/loop_warning.hpp"
 #include "common/problem.hpp"
+#include "common/random.hpp"
 #include "common/rotational_speed.hpp"
 #include "configuration/rig_file.hpp"
 
@@ -53,6 +54,17 @@ TEST(RigSketch, WeighsWhatItShouldAndCarriesItByTheLever) {
   EXPECT_DOUBLE_EQ(n.ks_n_per_m, 60.0 * 2.0 / 0.4e-3);
   const double section_m2 = 0.25 * std::numbers::pi * n.diameter_mm * n.diameter_mm * 1e-6;
   EXPECT_NEAR(7850.0 * section_m2 * 0.6, 6.0, 1e-9);
+}
+
+// Ip = 2 Id of a thin disc: each rounded by itself, every fourth file would be refused.
+TEST(RigSketch, HasDiscsWhoseInertiaABodyCanHave) {
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    RigSketch sketch = Sketch();
+    sketch.discs = {{300.0, 0.5 + 5.0 * random.Uniform(), 100.0 + 300.0 * random.Uniform()}};
+    const auto disc = RigOf(sketch).plant.rotor.discs.front();
+    EXPECT_NEAR(disc.polar_inertia_kg_m2 / disc.diametral_inertia_kg_m2, 2.0, 1e-8);
+  }
 }
 
 TEST(RigSketch, IsARigThatTheStrictReaderTakes) {
