@@ -7,6 +7,7 @@
 
 #include "analysis/whirl_direction.hpp"
 #include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/spectrum.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
@@ -26,13 +27,13 @@ DampedModesAtSpeed DampedModes(const plant::PlantConfig& plant, double speed_rad
   const auto modes = static_cast<Eigen::Index>(model.layout().modes);
   const Eigen::MatrixXd a =
       plant::Linearise(model, speed_rad_per_s).a.topLeftCorner(2 * count, 2 * count);
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, true);
+  const numerics::Spectrum spectrum = numerics::SpectrumOf(a);
   DampedModesAtSpeed result{speed_rad_per_s, {}};
-  for (Eigen::Index i = 0; i < solver.eigenvalues().size(); ++i) {
-    const std::complex<double> s = solver.eigenvalues()[i];
+  for (Eigen::Index i = 0; i < spectrum.values.size(); ++i) {
+    const std::complex<double> s = spectrum.values[i];
     if (s.imag() <= kSlowestRadPerS) continue;
     // Coordinates are mass-normalised: squares of velocities are kinetic energies.
-    const Eigen::VectorXcd velocity = solver.eigenvectors().col(i).tail(count);
+    const Eigen::VectorXcd velocity = spectrum.vectors.col(i).tail(count);
     result.modes.push_back({s.imag() / (2.0 * std::numbers::pi), -s.real() / std::abs(s),
                             velocity.tail(count - 2 * modes).squaredNorm() / velocity.squaredNorm(),
                             ForwardShare(velocity, modes)});

@@ -8,6 +8,7 @@
 #include "analysis/sampled_loop.hpp"
 #include "analysis/whirl_direction.hpp"
 #include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -121,9 +122,9 @@ LoopPoles ClosedLoopPoles(const plant::PlantConfig& plant, const law::LawConfig&
   const SampledLoop loop = CloseLoop(plant, law, speed_rad_per_s);
   Eigen::MatrixXd closed = ClosedLoopMatrix(loop);
   const Eigen::VectorXd scale = Balance(closed);
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(closed, true);
-  const Eigen::VectorXcd& values = solver.eigenvalues();
-  const Eigen::MatrixXcd vectors = scale.asDiagonal() * solver.eigenvectors();
+  const numerics::Spectrum spectrum = numerics::SpectrumOf(closed);
+  const Eigen::VectorXcd& values = spectrum.values;
+  const Eigen::MatrixXcd vectors = scale.asDiagonal() * spectrum.vectors;
 
   LoopPoles result;
   result.speed_rad_per_s = speed_rad_per_s;

@@ -9,6 +9,7 @@
 #include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
 #include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::design {
 namespace {
@@ -109,7 +110,7 @@ LoopFigures FigureMaker::Of(const law::LawConfig& law) const {
   const uncertainty::LawResponse response(law);
   for (const Speed& speed : speeds_) {
     const auto loop = analysis::CloseLoop(rig_.plant, law, speed.rad_per_s);
-    const Eigen::VectorXcd poles = analysis::ClosedLoopMatrix(loop).eigenvalues();
+    const Eigen::VectorXcd poles = numerics::EigenvaluesOf(analysis::ClosedLoopMatrix(loop));
     out.pole_modulus = std::max(out.pole_modulus, poles.cwiseAbs().maxCoeff());
     out.stable = out.stable && out.pole_modulus < 1.0;
     for (const auto& point : speed.grid) Note(speed, point, response.At(point.hz), out);

@@ -11,6 +11,7 @@
 #include "design/synthesis/singular_value.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/spectrum.hpp"
 #include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
@@ -177,7 +178,7 @@ Verdict Solve(const NormalPlant& plant, double gamma, Solved& out) {
   out = {std::move(*regulator), std::move(*filter)};
   if (plant.A.rows() == 0) return Verdict::kSolved;
   const MatrixXd product = out.regulator.solution * out.filter.solution;
-  const double radius = product.eigenvalues().cwiseAbs().maxCoeff();
+  const double radius = numerics::EigenvaluesOf(product).cwiseAbs().maxCoeff();
   return radius < gamma * gamma ? Verdict::kSolved : Verdict::kCoupling;
 }
 

@@ -12,6 +12,7 @@
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/exponential.hpp"
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::synthesis {
 
@@ -139,11 +140,11 @@ ModalSystem ModalForm(const StateSpace& given) {
   ModalSystem out{{}, given.D};
   if (given.states() == 0) return out;
   const StateSpace system = Balanced(given);
-  const Eigen::EigenSolver<MatrixXd> solver(system.A);
+  const numerics::Spectrum spectrum = numerics::SpectrumOf(system.A);
   const Index n = system.states();
   MatrixXd T(n, n);
-  const auto& poles = solver.eigenvalues();
-  const MatrixXcd vectors = solver.eigenvectors();
+  const auto& poles = spectrum.values;
+  const MatrixXcd& vectors = spectrum.vectors;
   for (Index i = 0; i < n; ++i) {
     T.col(i) = vectors.col(i).real();
     if (poles(i).imag() > 0.0 && i + 1 < n) {  // the solver lists pairs together

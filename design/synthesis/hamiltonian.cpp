@@ -8,6 +8,7 @@
 #include "design/synthesis/linear_solve.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/spectrum.hpp"
 #include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
@@ -63,7 +64,7 @@ std::optional<std::vector<double>> CrossingFrequencies(const StateSpace& system,
   const auto H = HamiltonianOf(system, pi);
   if (!H) return std::nullopt;
   if (H->rows() == 0) return std::vector<double>{};
-  return OnTheAxis(Eigen::EigenSolver<Eigen::MatrixXd>(*H, false).eigenvalues(), false);
+  return OnTheAxis(numerics::EigenvaluesOf(*H), false);
 }
 
 std::optional<std::vector<double>> CrossingFrequencies(const StateSpace& system,

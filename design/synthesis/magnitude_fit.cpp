@@ -11,6 +11,7 @@
 
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::synthesis {
 
@@ -170,8 +171,8 @@ MagnitudeFit FitMagnitude(const VectorXd& w, const VectorXd& magnitudes, const V
     const VectorXd above = fit.a.cwiseProduct(fit.poles) / fit.a0;
     const VectorXd below = fit.c.cwiseProduct(fit.poles);
     const double smallest = 0.1 * w(0);
-    const Roots zeros = Mirrored((lag - one * above.transpose()).eigenvalues(), smallest);
-    const Roots poles = Mirrored((lag - one * below.transpose()).eigenvalues(), smallest);
+    const Roots zeros = Mirrored(numerics::EigenvaluesOf(lag - one * above.transpose()), smallest);
+    const Roots poles = Mirrored(numerics::EigenvaluesOf(lag - one * below.transpose()), smallest);
     out.system = Cascade(zeros, poles, std::abs(fit.a0));
   }
   out.log_error = 0.0;

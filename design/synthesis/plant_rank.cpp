@@ -11,6 +11,7 @@
 
 #include "common/problem.hpp"
 #include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/spectrum.hpp"
 #include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {
@@ -43,7 +44,7 @@ bool IsUnreachable(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, std::comp
 void CheckReachable(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const char* lead) {
   if (A.rows() == 0) return;
   const double rounding = 1e-13 * A.norm();
-  const Eigen::VectorXcd poles = A.eigenvalues();
+  const Eigen::VectorXcd poles = numerics::EigenvaluesOf(A);
   for (const auto& pole : poles)
     if (pole.imag() >= 0.0 && pole.real() >= -rounding && IsUnreachable(A, B, pole))
       RefusePlant(fmt::format("{}: {} does not decay", lead, ModeText(pole)));
@@ -65,7 +66,7 @@ void CheckAxisZeros(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const Ei
   const Eigen::MatrixXd Az = A - B * inverse * C;
   const Eigen::MatrixXd Cz = C - D * inverse * C;
   const double rounding = 1e-12 * Az.norm();
-  const Eigen::VectorXcd zeros = Az.eigenvalues();
+  const Eigen::VectorXcd zeros = numerics::EigenvaluesOf(Az);
   for (const auto& zero : zeros)
     if (zero.imag() >= 0.0 && std::abs(zero.real()) <= rounding &&
         IsUnreachable(Az.transpose(), Cz.transpose(), zero))

@@ -8,6 +8,7 @@
 #include "design/synthesis/linear_solve.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::synthesis {
 
@@ -134,7 +135,7 @@ Eigen::MatrixXcd Response(const StateSpace& system, double rad_per_s) {
 
 Eigen::VectorXcd Poles(const StateSpace& system) {
   if (system.states() == 0) return Eigen::VectorXcd(0);
-  return system.A.eigenvalues();
+  return numerics::EigenvaluesOf(system.A);
 }
 
 bool IsStable(const StateSpace& system) {

@@ -7,6 +7,7 @@
 #include "common/two_pi.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/spectrum.hpp"
 #include "plant_sim/plant/linear_parts.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
@@ -81,9 +82,9 @@ UncertainPlant::UncertainPlant(const config::RigFile& rig, const std::vector<Par
   v_x_ = static_cast<Index>(model.layout().v_x);
   v_y_ = static_cast<Index>(model.layout().v_y);
   const Channels of = ChannelsOf(model, parameters, states_);
-  const Eigen::EigenSolver<MatrixXd> solver(linear.a);
-  const Eigen::MatrixXcd vectors = solver.eigenvectors();
-  poles_ = solver.eigenvalues();
+  const numerics::Spectrum spectrum = numerics::SpectrumOf(linear.a);
+  const Eigen::MatrixXcd& vectors = spectrum.vectors;
+  poles_ = spectrum.values;
   inverse_ = vectors.inverse();
   push_ = inverse_ * of.push;
   drive_ = inverse_ * linear.b.leftCols(channels);

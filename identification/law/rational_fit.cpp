@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -91,7 +92,7 @@ std::vector<Complex> ZerosOf(const std::vector<Pole>& poles, const Eigen::Vector
     at += static_cast<Index>(pole.order());
   }
   const Eigen::MatrixXd closed = a - b * c.transpose();
-  const Eigen::VectorXcd zeros = closed.eigenvalues();
+  const Eigen::VectorXcd zeros = numerics::EigenvaluesOf(closed);
   return {zeros.begin(), zeros.end()};
 }
 

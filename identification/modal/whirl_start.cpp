@@ -6,6 +6,7 @@
 
 #include "common/two_pi.hpp"
 #include "numerics/dense/eigenvalues.hpp"
+#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -56,12 +57,12 @@ std::vector<Line> Ascending(const std::vector<Whirl>& whirls) {
 
 std::vector<Whirl> WhirlsInMagnets(const Physical& rig, double speed_rad_per_s) {
   const Index n = rig.frequency_rad_per_s.size();
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(StateMatrix(rig, speed_rad_per_s));
+  const numerics::Spectrum spectrum = numerics::SpectrumOf(StateMatrix(rig, speed_rad_per_s));
   std::vector<std::vector<double>> of_mode(static_cast<std::size_t>(n));
   for (Index k = 0; k < 4 * n; ++k) {
-    const double hz = solver.eigenvalues()[k].imag() / kTwoPi;
+    const double hz = spectrum.values[k].imag() / kTwoPi;
     if (hz <= 0.0) continue;
-    const Eigen::VectorXd size = solver.eigenvectors().col(k).head(2 * n).cwiseAbs2();
+    const Eigen::VectorXd size = spectrum.vectors.col(k).head(2 * n).cwiseAbs2();
     Index mode = 0;
     (size.head(n) + size.tail(n)).maxCoeff(&mode);
     of_mode[static_cast<std::size_t>(mode)].push_back(hz);

@@ -9,6 +9,7 @@
 #include "common/problem.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -55,7 +56,7 @@ void ReadLinearPart(const LaggedModel& model, Index order, double period_s, Osci
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
   companion.row(0) = model.theta[0].segment(1, order).transpose();
   companion.bottomLeftCorner(order - 1, order - 1).setIdentity();
-  const Eigen::VectorXcd poles = companion.eigenvalues();
+  const Eigen::VectorXcd poles = numerics::EigenvaluesOf(companion);
   // The slowest pair: with an order to spare, pairs near half the sampling rate only shape noise.
   for (Index i = 0; i < order; ++i) {
     const std::complex<double> s = std::log(poles[i]) / period_s;

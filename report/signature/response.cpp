@@ -9,6 +9,7 @@
 
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
+#include "numerics/dense/spectrum.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/signature.hpp"
@@ -42,7 +43,7 @@ struct System {
 /// Points about the lightly damped modes, which are narrower than the steps of the grid.
 void AddModes(const Eigen::MatrixXd& a, std::vector<double>& grid_hz) {
   constexpr std::array kHalfWidths{-8.0, -4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0, 8.0};
-  const Eigen::VectorXcd poles = a.eigenvalues();
+  const Eigen::VectorXcd poles = numerics::EigenvaluesOf(a);
   for (const Complex pole : poles) {
     const double damping = std::abs(pole.real()) / std::abs(pole);
     if (pole.imag() <= 0.0 || damping > kLightDamping) continue;

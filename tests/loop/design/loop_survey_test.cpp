@@ -90,6 +90,32 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SurveyOfARig,
                          ::testing::Values("flexible_rotor", "turbomolecular_pump",
                                            "geared_rotor_4dof", "one_axis"));
 
+/// A disc in the middle of a plain shaft between like bearings: its shift is the same in x and y at
+/// every speed, and so are two pairs of poles.
+config::RigFile SameInTwoDirections() {
+  auto rig = ShippedRig("flexible_rotor");
+  rotor::RotorConfig& rotor = rig.plant.rotor;
+  rotor.sections = {{0.3, 0.066, 0.0}};
+  rotor.discs = {{0.15, 20.0, 0.15, 0.3}};
+  rotor.modes_per_plane = 2;
+  rig.plant.unbalance.clear();
+  rig.plant.effects.clear();
+  rig.plant.bearings[1] = rig.plant.bearings[0];
+  for (const std::size_t b : {0U, 1U}) {
+    rig.plant.bearings[b].actuator_z_m = b == 0 ? 0.06 : 0.24;
+    rig.plant.bearings[b].sensor_z_m = b == 0 ? 0.04 : 0.26;
+  }
+  return rig;
+}
+
+TEST(SampledPlantOfASymmetricRotor, HasIndependentModesAtEverySpeed) {
+  const auto rig = SameInTwoDirections();
+  for (const double share : {0.0, 0.1, 0.37, 0.5, 1.0}) {
+    const double speed = share * rig.numbers.max_speed_rad_per_s;
+    EXPECT_NO_THROW(SampledPlant(rig, speed)) << share;
+  }
+}
+
 // One mass on one magnet: P(s) = ki A/(m s^2 - ks), known in closed form but for the hold.
 TEST(SampledPlantOfOneAxis, IsTheMassOnItsNegativeSpring) {
   const SampledPlant plant(ShippedRig("one_axis"), 0.0);
