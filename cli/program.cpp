@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/commands/command.hpp"
+#include "cli/json_file.hpp"
 #include "cli/output_clash.hpp"
 #include "cli/standard_output.hpp"
 #include "common/nearest.hpp"
@@ -75,7 +76,22 @@ void TakeHelpAsOption(int argc, char** argv) {
   argv[argc - 1] = option.data();
 }
 
-int Parse(int argc, char** argv, const AddCommands& add_commands) {
+/// The command that was parsed, and whether its JSON is asked for on standard output.
+void PrepareJson(const CLI::App& app, StandardOutput& output) {
+  const CLI::App* command = &app;
+  std::string name;
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    name += (name.empty() ? "" : "_") + command->get_name();
+  }
+  NameJson(name);
+  const CLI::Option* json = command->get_option_no_throw("--json");
+  if (json != nullptr && json->count() > 0 && json->as<std::string>() == kJsonToStandardOutput) {
+    output.GiveWayToData();
+  }
+}
+
+int Parse(int argc, char** argv, const AddCommands& add_commands, StandardOutput& output) {
   CLI::App app{"Levitas: active magnetic bearing controller and its hardware-in-the-loop bench",
                "amb"};
   app.set_version_flag("--version", "levitas " LEVITAS_VERSION);
@@ -86,6 +102,7 @@ int Parse(int argc, char** argv, const AddCommands& add_commands) {
     RefuseUnknownCommand(app, argc, argv);
     app.parse(argc, argv);
     RefuseClashes(app);
+    PrepareJson(app, output);
     return static_cast<int>(action ? action() : ExitStatus::kUsage);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return TellHelp(app, error);
@@ -110,7 +127,7 @@ int RunProgram(int argc, char** argv, const AddCommands& add_commands) {
   if (!rt::EnsureStack("amb")) return static_cast<int>(ExitStatus::kOther);
   TakeHelpAsOption(argc, argv);
   StandardOutput output;
-  int status = Parse(argc, argv, add_commands);
+  int status = Parse(argc, argv, add_commands, output);
   if (const std::string& refused = output.Finish(); !refused.empty()) {
     rt::Say(fmt::format("amb: standard output: writing failed: {}; not all of the result was told",
                         refused));

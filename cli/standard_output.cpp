@@ -31,7 +31,7 @@ std::size_t CutBytes(std::string_view text) {
 
 }  // namespace
 
-StandardOutput::StandardOutput() : before_(stdout) {
+StandardOutput::StandardOutput() : before_(stdout), descriptor_(STDOUT_FILENO) {
   const cookie_io_functions_t calls{
       .read = nullptr, .write = TakeBytes, .seek = nullptr, .close = nullptr};
   stream_ = ::fopencookie(this, "w", calls);
@@ -41,6 +41,11 @@ StandardOutput::StandardOutput() : before_(stdout) {
 }
 
 StandardOutput::~StandardOutput() { Finish(); }
+
+void StandardOutput::GiveWayToData() noexcept {
+  std::fflush(stdout);
+  descriptor_ = STDERR_FILENO;
+}
 
 const std::string& StandardOutput::Finish() noexcept {
   if (stream_ != nullptr) {
@@ -69,13 +74,13 @@ std::size_t StandardOutput::Take(const char* bytes, std::size_t size) noexcept {
 
 void StandardOutput::Put(const std::string& shown) noexcept {
   for (std::size_t done = 0; done < shown.size() && !gone_;) {
-    const ssize_t wrote = ::write(STDOUT_FILENO, shown.data() + done, shown.size() - done);
+    const ssize_t wrote = ::write(descriptor_, shown.data() + done, shown.size() - done);
     if (wrote < 0 && errno == EINTR) continue;
     if (wrote > 0) {
       done += static_cast<std::size_t>(wrote);
       continue;
     }
-    pollfd wait{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+    pollfd wait{.fd = descriptor_, .events = POLLOUT, .revents = 0};
     if (wrote < 0 && errno == EAGAIN && ::poll(&wait, 1, -1) > 0) continue;  // a pipe's other end
     gone_ = true;
     if (errno != EPIPE) refused_ = std::strerror(wrote < 0 ? errno : ENOSPC);

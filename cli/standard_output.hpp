@@ -25,6 +25,9 @@ class StandardOutput {
   StandardOutput(const StandardOutput&) = delete;
   StandardOutput& operator=(const StandardOutput&) = delete;
 
+  /// From now on the text goes to standard error: standard output is for data (--json -).
+  void GiveWayToData() noexcept;
+
   /// Writes what is left and gives `stdout` back. What the kernel said when it refused something;
   /// empty: everything was taken. Called again it says the same.
   const std::string& Finish() noexcept;
@@ -37,6 +40,7 @@ class StandardOutput {
 
   std::FILE* before_;
   std::FILE* stream_{};
+  int descriptor_;
   std::string cut_;  ///< the beginning of a character of UTF-8 whose rest is still to come
   std::string refused_;
   bool gone_{};  ///< nothing is taken any more

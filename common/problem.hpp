@@ -8,7 +8,14 @@
 namespace levitas {
 
 /// Exit statuses of every command (contract with users' scripts).
-enum class ExitStatus : int { kDone = 0, kOther = 1, kUsage = 2, kBadInput = 3, kTripped = 4 };
+enum class ExitStatus : int {
+  kDone = 0,
+  kOther = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kTripped = 4,
+  kNotMet = 5  ///< what --require asked
+};
 
 class Problem : public std::runtime_error {
  public:

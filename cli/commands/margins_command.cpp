@@ -11,6 +11,7 @@
 #include "cli/commands/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/requirement.hpp"
 #include "common/rotational_speed.hpp"
 #include "session/output_path.hpp"
 
@@ -100,21 +101,23 @@ nlohmann::ordered_json Json(const analysis::SensitivityResult& at,
   return json;
 }
 
-ExitStatus Run(const AnalysisOptions& options) {
+ExitStatus Run(const AnalysisOptions& options, const std::string& required) {
   session::CheckOutputPath(options.json_path, {});
   const auto [rig, controller, delay] = LoadLoop(options);
   nlohmann::ordered_json json =
       LoopJson(rig.numbers, controller, rig.plant.delay_samples * rig.numbers.period_s());
   fmt::print("Sensitivity of the sampled loop, delay included; zones of ISO 14839-3\n");
   fmt::print("rig {}, controller {}\n{}", rig.numbers.name, ControllerText(controller), delay);
+  std::vector<analysis::SensitivityResult> loops;
   for (const double rpm : options.speeds_rpm) {
-    const auto result =
-        analysis::SensitivityPeaks(rig.plant, controller.file.law, RpmToRadPerS(rpm));
+    const auto& result = loops.emplace_back(
+        analysis::SensitivityPeaks(rig.plant, controller.file.law, RpmToRadPerS(rpm)));
     Print(result, rig.numbers.channels);
     json["speeds"].push_back(Json(result, rig.numbers.channels));
   }
   fmt::print("{}", GainsNote(options, rig));
   WriteJsonFile(options.json_path, json);
+  RequireLoops(required, loops);
   return ExitStatus::kDone;
 }
 
@@ -128,8 +131,12 @@ void AddMarginsCommand(CLI::App& app, Action& action) {
   AddControllerOption(*command, *options);
   AddPortOption(*command, *options);
   AddSpeedOption(*command, *options, {0.0});
+  auto required = std::make_shared<std::string>();
+  AddLoopRequirement(*command, *required);
   AddJsonOption(*command, *options);
-  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+  command->callback([options, required, &action] {
+    action = [options, required] { return Run(*options, *required); };
+  });
 }
 
 }  // namespace levitas::cli

@@ -11,6 +11,7 @@
 #include "cli/commands/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/enter_session.hpp"
+#include "cli/options/requirement.hpp"
 #include "cli/run/disk_room.hpp"
 #include "cli/run/interrupt.hpp"
 #include "cli/run/live_page.hpp"
@@ -143,6 +144,7 @@ ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunP
     WriteJsonFile(options.json_path, verdict::Json(verdict));
     if (!options.record_path.empty()) EnterRun(paths.session, verdict, options.tags);
     if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
+    if (status == ExitStatus::kDone) RequireRun(options.required, verdict);
     const bool incomplete = verdict.outcome == verdict::Outcome::kIncomplete;
     return incomplete && status == ExitStatus::kDone ? ExitStatus::kOther : status;
   } catch (const BadInput&) {
@@ -281,7 +283,10 @@ void AddRunCommand(CLI::App& app, Action& action) {
   command->add_option("--seed", options->seed, "Seed of the sensor noise")
       ->check(WhyNoWholeNumber)
       ->capture_default_str();
-  command->add_option("--json", options->json_path, "Write the verdict to this file");
+  AddRunRequirement(*command, options->required);
+  command->add_option("--json", options->json_path,
+                      "Write the verdict to this file; -: to standard output, the text then to "
+                      "standard error");
   auto* dash = command->add_flag_callback(
       "--dash", [options] { options->page = PageWish::kAlways; },
       "Serve the live page during the run and print its address");

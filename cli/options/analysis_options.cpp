@@ -25,9 +25,10 @@ constexpr double kWorthSaying = 0.01;  // of the frequency that the file gives f
 /// Notches that stand elsewhere in discrete time, each once with the axes that have it.
 std::string NotchesElsewhere(const config::ControllerFile& controller, const RigNumbers& rig) {
   std::map<double, std::vector<std::string>> axes;  // by the frequency given
-  const std::size_t count = std::min(controller.law.axes.size(), rig.channels.size());
+  const law::LawConfig& law = controller.law;       // of a schedule, that at rest
+  const std::size_t count = std::min(law.axes.size(), rig.channels.size());
   for (std::size_t i = 0; i < count; ++i) {
-    for (const law::Notch& notch : controller.law.axes[i].notches) {
+    for (const law::Notch& notch : law.axes[i].notches) {
       const double away = std::abs(law::StandsAt(notch, rig.period_s()) - notch.frequency_hz);
       if (away <= kWorthSaying * notch.frequency_hz) continue;
       auto& names = axes[notch.frequency_hz];
@@ -112,7 +113,9 @@ void AddSpeedOption(CLI::App& command, AnalysisOptions& options, std::vector<dou
 }
 
 void AddJsonOption(CLI::App& command, AnalysisOptions& options) {
-  command.add_option("--json", options.json_path, "Also write the result to this file");
+  command.add_option("--json", options.json_path,
+                     "Also write the result to this file; -: to standard output, the text then to "
+                     "standard error");
 }
 
 config::RigFile LoadRig(const AnalysisOptions& options) {

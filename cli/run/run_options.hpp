@@ -36,6 +36,7 @@ struct RunOptions {
   std::vector<std::string> tags;  ///< of the record in the catalogue of sessions
   std::int64_t seed{1};
   std::string json_path;
+  std::string required;  ///< cli/options/requirement.hpp
   PageWish page{PageWish::kIfUseful};
 };
 

@@ -42,7 +42,8 @@ std::string Markdown(const CommandText& root) {
   std::string text =
       "# Commands\n\n"
       "Written by `amb manual --markdown`; the same texts stand in `--help` of each command.\n\n"
-      "Exit status: 0 done, 2 usage, 3 bad input file, 4 the rig tripped, 1 other.\n\n"
+      "Exit status: 0 done, 2 usage, 3 bad input file, 4 the rig tripped, 5 what --require asked "
+      "is not met, 1 other.\n\n"
       "| command | |\n|---|---|\n";
   for (const CommandText& command : root.commands) {
     text += fmt::format("| `{}` | {} |\n", command.path, Cell(command.meaning));

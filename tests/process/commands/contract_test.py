@@ -6,9 +6,10 @@ The list of commands is the program's own (amb manual): one that is added withou
 import json
 import re
 import signal
+import subprocess
 import unittest
 
-from command import BAD_INPUT, DONE, USAGE, CommandTest, amb, make_record
+from command import BAD_INPUT, BINARIES, DONE, USAGE, CommandTest, amb, make_record
 from lcm_network import Process
 from waiting import found, until
 
@@ -49,6 +50,7 @@ MISSING = {
     "identify full-spectrum": (ABSENT,), "identify controller": (ABSENT,),
     "identify rotor-in-loop": (ABSENT, "--rig", "turbomolecular_pump"),
     "design hinf": ("--rig", ABSENT), "design pid": ("--rig", ABSENT), "design check": ("--controller", ABSENT),
+    "design schedule": ("--rig", ABSENT),
     "design uncertainty": ("--rig", ABSENT), "design compare": (ABSENT,),
     "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }
@@ -105,7 +107,27 @@ class Contract(CommandTest):
             path = self.folder / f"{command.replace(' ', '_')}.json"
             done = self.here(*command.split(), *arguments, "--json", path)
             self.assertEqual(done.returncode, DONE, (command, done.stdout, done.stderr))
-            self.assertIsInstance(json.loads(path.read_text()), dict, command)
+            told = json.loads(path.read_text())
+            self.assertEqual(told["schema"], f"levitas_{command.replace(' ', '_')}_1")
+            self.assertRegex(told["version"], r"^\d+\.\d+")
+
+    def test_json_on_standard_output_is_alone_there(self):
+        for command, arguments in (("modes", ()), ("poles", ("--speed-rpm", "0")), ("margins", ()),
+                                   ("run", ("--duration", "1.5"))):
+            done = self.here(command, *arguments, "--json", "-")
+            self.assertEqual(done.returncode, DONE, (command, done.stderr))
+            self.assertEqual(json.loads(done.stdout)["schema"], f"levitas_{command}_1")
+            text = self.here(command, *arguments)
+            if command != "run":  # which says how long it took
+                self.assertEqual(done.stderr, text.stdout + text.stderr, command)
+            self.assertFalse((self.folder / "-").exists(), command)
+        # Appended to, not cut: the shell's file holds what was in it before.
+        with open(self.folder / "all.json", "a") as kept:
+            kept.write("before\n")
+            kept.flush()
+            subprocess.run([BINARIES / "amb", "modes", "--json", "-"], cwd=self.folder, stdout=kept,
+                           stderr=subprocess.DEVNULL, check=True)
+        self.assertTrue((self.folder / "all.json").read_text().startswith("before\n{"))
 
     def test_a_page_that_is_interrupted_has_done_what_it_should(self):
         page = Process(self.folder, "amb", "dash", "--json", "page.json")

@@ -11,7 +11,7 @@ from command import BINARIES, DONE, SOURCE, USAGE, CommandTest, amb
 OPTIONS = {
     "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--json"},
     "poles": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--up-to-hz", "--json"},
-    "margins": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--json"},
+    "margins": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--json", "--require"},
     "compare": {"--rig", "--speed-rpm", "--speeds", "--orders", "--page", "--circle-um", "--json"},
     "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--free-run",
                  "--controller", "--csv", "--svg", "--json"},

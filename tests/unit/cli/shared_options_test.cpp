@@ -94,9 +94,15 @@ TEST(AnalysisOptions, LoadTheShippedFilesByName) {
 TEST(JsonFile, HoldsTheContentInItsOrderWithEveryBit) {
   const test::ScratchFolder folder;
   const nlohmann::ordered_json content{{"zeta", 0.1 + 0.2}, {"alpha", {1, 2}}, {"name", "µ\"\\"}};
+  NameJson("margins");
   WriteJsonFile(folder / "out.json", content);
   std::ifstream file(folder / "out.json");
-  const auto read = nlohmann::ordered_json::parse(file);
+  auto read = nlohmann::ordered_json::parse(file);
+  EXPECT_EQ(read.begin().key(), "schema");
+  EXPECT_EQ(read["schema"], "levitas_margins_1");
+  EXPECT_TRUE(read["version"].is_string());
+  read.erase("schema");
+  read.erase("version");
   EXPECT_EQ(read, content);
   EXPECT_EQ(read.begin().key(), "zeta");
   EXPECT_EQ(read["zeta"].get<double>(), 0.1 + 0.2);
