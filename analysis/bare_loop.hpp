@@ -10,6 +10,7 @@
 
 #include "common/axes.hpp"
 #include "controller/law/axis_law.hpp"
+#include "controller/law/law_schedule.hpp"
 #include "plant_sim/plant/plant.hpp"
 
 namespace levitas::analysis {
@@ -19,18 +20,19 @@ class BareLoop {
   BareLoop(const plant::PlantConfig& rig, const law::LawConfig& law);
 
   void PlaceAtRest(const AxisArray& actuator_position_m) noexcept;
-  /// Speed and angle at the present sample; the speed then stays.
+  /// Speed and angle at the present sample; the speed then stays, and the law of a schedule too.
   void Turn(double speed_rad_per_s, double angle_rad) noexcept;
   /// One period. Test signals: added to the law's current, and to what the law reads. Returns the
   /// positions as the sensors show them at the start of the period.
   AxisArray Step(const AxisArray& excitation_a = {}, const AxisArray& excitation_m = {}) noexcept;
 
-  [[nodiscard]] std::size_t axes() const noexcept { return coefficients_.axes(); }
+  [[nodiscard]] std::size_t axes() const noexcept { return laws_[0].axes(); }
   [[nodiscard]] bool finite() const noexcept { return plant_.finite(); }
 
  private:
   plant::Plant plant_;
-  law::LawCoefficients coefficients_;
+  law::LawLadder laws_;
+  std::size_t rung_{};
   law::LawState state_;
   plant::PlantCommand command_;
   double limit_a_{};

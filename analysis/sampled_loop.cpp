@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "common/problem.hpp"
+#include "controller/law/law_schedule.hpp"
 #include "plant_sim/plant/find_operating_point.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
@@ -109,11 +110,12 @@ void TakeLaw(const law::LawConfig& law, SampledLoop& loop) {
 SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
                       double speed_rad_per_s) {
   RefuseMismatch(plant, law);
+  const law::LawConfig at_speed = law::LawAt(law, speed_rad_per_s);
   const plant::PlantModel model(plant);
   SampledLoop loop;
   loop.period_s = static_cast<double>(plant.period_ns) * 1e-9;
-  TakeLaw(law, loop);
-  loop.point = plant::FindOperatingPoint(model, speed_rad_per_s, StaticLawOf(loop, law));
+  TakeLaw(at_speed, loop);
+  loop.point = plant::FindOperatingPoint(model, speed_rad_per_s, StaticLawOf(loop, at_speed));
   plant::LinearModel continuous = plant::Linearise(model, speed_rad_per_s, loop.point);
   const auto channels = static_cast<Eigen::Index>(model.channels());
   continuous.b.conservativeResize(Eigen::NoChange, channels);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/rotational_speed.hpp"
 #include "controller/law/hidden_states.hpp"
 
 namespace levitas::config {
@@ -25,6 +26,11 @@ std::string PoleText(const law::ModalBlock& block, bool discrete) {
 
 std::vector<std::string> LawNotes(const law::LawConfig& law) {
   std::vector<std::string> notes;
+  if (!law.schedule.empty()) {
+    notes.push_back(fmt::format("a schedule: {} laws from rest to {:.0f} rpm",
+                                law.schedule.size() + 1,
+                                RadPerSToRpm(law.schedule.back().speed_rad_per_s)));
+  }
   if (!law.state_space) return notes;
   const law::StateSpaceConfig& blocks = *law.state_space;
   int integrators = 0;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "configuration/schema/schema.hpp"
+#include "controller/law/law_schedule.hpp"
 
 namespace levitas::config {
 namespace {
@@ -96,19 +97,44 @@ void DescribeLaws(Visitor& v, std::vector<law::AxisLawConfig>& axes, const RigNu
              fmt::format("no law for {}; give one for each bearing or axis of the rig", without));
 }
 
+// One law: of the whole file, or of one speed of its schedule.
+void DescribeLaw(Visitor& v, std::vector<law::AxisLawConfig>& axes,
+                 std::optional<law::StateSpaceConfig>& state_space, const RigNumbers& rig) {
+  bool given = state_space.has_value();
+  law::StateSpaceConfig blocks = state_space.value_or(law::StateSpaceConfig{});
+  v.OptionalGroup("state_space", "one law of any order between all axes, instead of laws", given,
+                  [&] { Describe(v, blocks, rig); });
+  if (given) state_space = blocks;
+  v.When(!given, "without state_space", [&] {
+    v.Group("laws", "one for each bearing or axis of the rig", [&] { DescribeLaws(v, axes, rig); });
+  });
+}
+
+void DescribeSchedule(Visitor& v, law::LawConfig& law, const RigNumbers& rig) {
+  constexpr std::size_t kMostSpeeds = 32;
+  constexpr double kFastestRpm = 1e6;
+  v.List(
+      {"speeds", 1, kMostSpeeds, "rising; each with the filters or the blocks of the file's law"},
+      law.schedule, [&](law::LawAtSpeed& at, std::size_t) {
+        v.Number({"speed", kRpm, 0, kFastestRpm, kRequired, "at which this law holds"},
+                 at.speed_rad_per_s);
+        DescribeLaw(v, at.axes, at.state_space, rig);
+      });
+  const std::string why = law::WhyNoSchedule(law);
+  v.RefuseIf(!why.empty(), "speeds", why);
+}
+
 }  // namespace
 
 void Describe(Visitor& v, ControllerFile& controller, const RigNumbers& rig) {
   v.Name({"name", "of the controller"}, controller.name);
-  bool given = controller.law.state_space.has_value();
-  law::StateSpaceConfig state_space = controller.law.state_space.value_or(law::StateSpaceConfig{});
-  v.OptionalGroup("state_space", "one law of any order between all axes, instead of laws", given,
-                  [&] { Describe(v, state_space, rig); });
-  if (given) controller.law.state_space = state_space;
-  v.When(!given, "without state_space", [&] {
-    v.Group("laws", "one for each bearing or axis of the rig",
-            [&] { DescribeLaws(v, controller.law.axes, rig); });
-  });
+  DescribeLaw(v, controller.law.axes, controller.law.state_space, rig);
+  bool scheduled = !controller.law.schedule.empty();
+  v.OptionalGroup(
+      "schedule",
+      "laws of higher speeds: the one above holds at rest, and between two speeds every "
+      "number is on the straight line between its values",
+      scheduled, [&] { DescribeSchedule(v, controller.law, rig); });
   Describe(v, controller.supervisor);
   controller.law.period_s = rig.period_s();
   controller.law.current_limit_a =

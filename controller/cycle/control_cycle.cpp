@@ -8,6 +8,7 @@
 #include "common/probe_map.hpp"
 #include "controller/cycle/law_at_rig_period.hpp"
 #include "controller/law/axis_law.hpp"
+#include "controller/law/law_schedule.hpp"
 #include "controller/supervisor/supervisor.hpp"
 
 namespace levitas::cycle {
@@ -53,8 +54,8 @@ struct ControlCycle::Impl {
       : rig(Checked(config).rig),
         limit_a(CurrentLimit(config)),
         probes(config.rig),
-        coefficients(LawAtRigPeriod(config)),
-        law_state(coefficients),
+        laws(LawAtRigPeriod(config)),
+        law_state(laws[0]),
         supervisor(config.rig, config.supervisor) {}
 
   void Read(const CycleInputs& in) noexcept;
@@ -65,7 +66,8 @@ struct ControlCycle::Impl {
   RigNumbers rig;
   double limit_a;
   ProbeMap probes;
-  law::LawCoefficients coefficients;
+  law::LawLadder laws;
+  std::size_t rung{};  ///< which of them runs
   law::LawState law_state;
   supervisor::Supervisor supervisor;
   supervisor::Observation seen;
@@ -106,8 +108,12 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
     given = {};
     return;
   }
-  if (decision.start_law) law_state.Reset();
+  if (decision.start_law) {
+    law_state.Reset();
+    rung = laws.Nearest(seen.speed_rad_per_s);
+  }
   if (!seen.fresh) return;
+  laws.Follow(seen.speed_rad_per_s, rung, law_state);
   AxisArray error_m{};
   AxisArray injected_a{};
   for (std::size_t i = 0; i < rig.axes(); ++i) {
@@ -118,7 +124,7 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
     if (std::isfinite(op.excitation_a[i])) injected_a[i] = op.excitation_a[i];
     if (std::isfinite(op.excitation_m[i])) error_m[i] -= op.excitation_m[i];
   }
-  given = law::Step(coefficients, law_state, error_m, injected_a, limit_a);
+  given = law::Step(laws[rung], law_state, error_m, injected_a, limit_a);
 }
 
 // What leaves is a number within the limit, whatever the law's states have come to. Else nothing

@@ -21,8 +21,8 @@ LawAlone::LawAlone(const CycleConfig& config)
     : axes_(config.rig.axes()),
       limit_a_(PermittedCurrent(config)),
       probes_(config.rig),
-      coefficients_(LawAtRigPeriod(config)),
-      state_(coefficients_) {}
+      laws_(LawAtRigPeriod(config)),
+      state_(laws_[0]) {}
 
 CycleOutputs LawAlone::Step(const CycleInputs& in) noexcept {
   const AxisArray position_m = probes_.Positions({in.frame.position_m}).at;
@@ -33,7 +33,13 @@ CycleOutputs LawAlone::Step(const CycleInputs& in) noexcept {
     error_m[axis] = -position_m[axis];
     error_m[axis] -= in.op.excitation_m[axis];
   }
-  if (usable) given_ = law::Step(coefficients_, state_, error_m, in.op.excitation_a, limit_a_);
+  if (usable) {
+    const double speed = in.frame.speed_rad_per_s;
+    if (!started_) rung_ = laws_.Nearest(speed);
+    laws_.Follow(speed, rung_, state_);
+    started_ = true;
+    given_ = law::Step(laws_[rung_], state_, error_m, in.op.excitation_a, limit_a_);
+  }
   CycleOutputs out;
   out.current.cycle = in.frame.cycle;
   out.current.axes = static_cast<std::uint32_t>(axes_);

@@ -9,6 +9,7 @@
 #include "common/probe_map.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/law/axis_law.hpp"
+#include "controller/law/law_schedule.hpp"
 
 namespace levitas::cycle {
 
@@ -23,7 +24,9 @@ class LawAlone {
   std::size_t axes_;
   double limit_a_;
   ProbeMap probes_;
-  law::LawCoefficients coefficients_;
+  law::LawLadder laws_;
+  std::size_t rung_{};
+  bool started_{};
   law::LawState state_;
   law::LawOutput given_;
 };

@@ -91,6 +91,9 @@ LawCoefficients::LawCoefficients(const LawConfig& config) : axes_(config.axis_co
     throw std::invalid_argument("law: " + std::to_string(axes_) + " axes, allowed 1 to " +
                                 std::to_string(kMaxAxes));
   }
+  if (!config.schedule.empty()) {
+    throw std::invalid_argument("law: a schedule is many laws; the one of a speed is meant");
+  }
   if (config.state_space) {
     state_space_.emplace(*config.state_space, config.period_s);
   } else {
@@ -139,6 +142,13 @@ void LawState::Reset() noexcept {
   integral_a = Lanes{};
   derivative_a = Lanes{};
   state_space.Reset();
+}
+
+void ChangeLaw(const LawCoefficients& from, const LawCoefficients& to, LawState& state) noexcept {
+  for (std::size_t i = 0; i < from.axes(); ++i) {
+    const double before = from.pid().derivative.at[i];
+    if (before != 0.0) state.derivative_a.at[i] *= to.pid().derivative.at[i] / before;
+  }
 }
 
 LawOutput Step(const LawCoefficients& coefficients, LawState& state, const AxisArray& error_m,

@@ -13,7 +13,8 @@
 // Units      SI, named in identifiers. Frame: bearing frame, positive current pulls towards +x.
 // Thread     loop thread only; Step allocates nothing, throws nothing, takes bounded time.
 // Failure    Step expects finite errors (the cycle checks); the constructor of LawCoefficients
-//            throws std::invalid_argument for impossible parameters.
+//            throws std::invalid_argument for impossible parameters, and for a schedule, whose laws
+//            are made one by one (law_schedule.hpp).
 // Not done   no polarity, no bias, no supervision: see controller/cycle and controller/supervisor.
 
 #include <cstdint>
@@ -89,6 +90,10 @@ struct LawOutput {
   AxisArray control_current_a{};   ///< ic, within +-limit; zero beyond the axes in use
   std::uint16_t saturated_axes{};  ///< bit i: axis i wanted more than the limit
 };
+
+/// The law changes from one to another of the same filters: what the derivative remembers is the
+/// error before, counted in amperes by the gain of then, and is counted anew by the gain of now.
+void ChangeLaw(const LawCoefficients& from, const LawCoefficients& to, LawState& state) noexcept;
 
 /// Advances one period. Pure: same arguments, same bits.
 [[nodiscard]] LawOutput Step(const LawCoefficients& coefficients, LawState& state,

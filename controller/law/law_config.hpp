@@ -1,5 +1,6 @@
 #pragma once
-// Parameters of a law: decentralised, axis by axis, or a state-space law between all axes.
+// Parameters of a law: decentralised, axis by axis, or a state-space law between all axes; of one
+// speed or over speed.
 //
 // Decentralised:
 //   C(s) = [Kp + Ki/s + Kd s/(1 + s/wd)] . (1 + s/wz)/(1 + s/wp) . N1(s) . N2(s) ...
@@ -65,12 +66,21 @@ struct StateSpaceConfig {
   }
 };
 
-/// A state-space law, or one entry per axis of the rig.
+/// The law of one speed of a schedule: a state-space law, or one entry per axis of the rig.
+struct LawAtSpeed {
+  double speed_rad_per_s{};
+  std::vector<AxisLawConfig> axes;
+  std::optional<StateSpaceConfig> state_space;
+};
+
+/// A state-space law, or one entry per axis of the rig; with a schedule, that of the rotor at rest.
 struct LawConfig {
   std::vector<AxisLawConfig> axes;
   double period_s{};
   double current_limit_a{};  ///< |ic| <= this: min(i0, i_max - i0) keeps both coils in range
   std::optional<StateSpaceConfig> state_space;  ///< when there, it is the law, and `axes` is empty
+  /// Laws of higher speeds, rising (law_schedule.hpp); all have the filters or the blocks of this.
+  std::vector<LawAtSpeed> schedule{};
 
   [[nodiscard]] std::size_t axis_count() const noexcept {
     return state_space ? state_space->axes : axes.size();

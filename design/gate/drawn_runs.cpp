@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/two_pi.hpp"
-#include "controller/law/axis_law.hpp"
+#include "controller/law/law_schedule.hpp"
 #include "plant_sim/plant/plant.hpp"
 
 namespace levitas::design {
@@ -25,7 +25,7 @@ struct Schedule {
   std::size_t kept{};     ///< so many before the end are kept
 };
 
-Schedule ScheduleOf(const RunOptions& options, double period_s) {
+Schedule ScheduleOf(const RunOptions& options, double period_s, double run_up_s) {
   constexpr double kLiftS = 0.3;  // the reference's way to the centre, and as long to settle there
   const double w = options.speed_rad_per_s;
   double watch_s = options.watch_s;
@@ -37,9 +37,19 @@ Schedule ScheduleOf(const RunOptions& options, double period_s) {
   }
   const auto periods = [&](double seconds) { return static_cast<std::size_t>(seconds / period_s); };
   Schedule out{periods(kLiftS), periods(2.0 * kLiftS), 0, 0, periods(kept_s)};
-  out.settle = out.turning + periods(options.settle_s);
-  out.all = out.settle + periods(watch_s);
+  out.settle = out.turning + (run_up_s > 0.0 ? 0 : periods(options.settle_s));
+  out.all = out.settle + periods(run_up_s + watch_s);
   return out;
+}
+
+/// The drive begins: at the speed at once, or on its way up.
+void StartTurning(const RunOptions& options, double rate_rad_per_s2, plant::Plant& plant,
+                  plant::PlantCommand& command) {
+  const double w = options.speed_rad_per_s;
+  if (!options.run_up) plant.SetSpeed(w, 0.0);
+  command.drive_enabled = w > 0.0;
+  command.speed_set_point_rad_per_s = w;
+  command.acceleration_limit_rad_per_s2 = rate_rad_per_s2;
 }
 
 }  // namespace
@@ -62,13 +72,15 @@ RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
   plant::Plant plant(rig.plant, options.seed);
   plant.RestInTouchdown();
   const AxisArray resting_m = plant.SensorOutput();
-  const law::LawCoefficients coefficients(law);
-  law::LawState state(coefficients);
+  const law::LawLadder laws(law);
+  std::size_t rung = 0;
+  law::LawState state(laws[rung]);
   const double period_s = rig.numbers.period_s();
   const std::size_t axes = law.axis_count();
   const std::size_t bearings = (axes + 1) / 2;
   const double w = options.speed_rad_per_s;
-  const Schedule when = ScheduleOf(options, period_s);
+  const double rate = rig.plant.drive.max_acceleration_rad_per_s2;
+  const Schedule when = ScheduleOf(options, period_s, options.run_up ? w / rate : 0.0);
   RunFigures out;
   out.orbit_m.assign(bearings, 0.0);
   Watch watch{std::vector<std::complex<double>>(axes), std::vector<double>(axes), 0, 0};
@@ -76,10 +88,8 @@ RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
   command.bias_current_a = rig.numbers.bias_current_a;
   for (std::size_t n = 0; n < when.all && !out.lost; ++n) {
     if (n == when.turning) {
-      plant.SetSpeed(w, 0.0);
-      command.drive_enabled = w > 0.0;
-      command.speed_set_point_rad_per_s = w;
-      command.acceleration_limit_rad_per_s2 = rig.plant.drive.max_acceleration_rad_per_s2;
+      StartTurning(options, rate, plant, command);
+      rung = laws.Nearest(options.run_up ? 0.0 : w);
     }
     const SensorFrame frame = plant.Sample();
     const double still =
@@ -87,7 +97,8 @@ RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
     AxisArray error_m{};
     for (std::size_t i = 0; i < axes; ++i)
       error_m[i] = rig.numbers.sensor_polarity[i] * (still * resting_m[i] - frame.position_m[i]);
-    const law::LawOutput given = law::Step(coefficients, state, error_m, {}, law.current_limit_a);
+    laws.Follow(frame.speed_rad_per_s, rung, state);
+    const law::LawOutput given = law::Step(laws[rung], state, error_m, {}, law.current_limit_a);
     for (std::size_t i = 0; i < axes; ++i)
       command.control_current_a[i] = rig.numbers.actuator_polarity[i] * given.control_current_a[i];
     const AxisArray y = plant.SensorOutput();

@@ -9,6 +9,7 @@
 #include "analysis/poles.hpp"
 #include "analysis/sensitivity.hpp"
 #include "common/rotational_speed.hpp"
+#include "controller/law/law_schedule.hpp"
 #include "design/uncertainty/healthy_rig.hpp"
 #include "design/uncertainty/mixed_mu.hpp"
 
@@ -111,6 +112,34 @@ void RunDrawn(const config::RigFile& rig, const law::LawConfig& law,
 
 }  // namespace
 
+namespace {
+
+/// Poles of the loop with every law that a schedule may run, at the speed of that law.
+void JudgeRungs(const config::RigFile& rig, const law::LawConfig& law, GateResult& out) {
+  const double last = law.schedule.back().speed_rad_per_s;
+  for (std::size_t i = 0; i < law::kRungs; ++i) {
+    const double speed = last * static_cast<double>(i) / static_cast<double>(law::kRungs - 1);
+    const auto loop = analysis::ClosedLoopPoles(rig.plant, law, speed);
+    ++out.rungs;
+    if (loop.stable || !out.reason.empty()) continue;
+    out.reason = fmt::format("the loop is unstable at {:.0f} rpm, between the speeds of the table",
+                             RadPerSToRpm(speed));
+  }
+}
+
+/// Through every speed with the law that changes on the way.
+void RunUp(const config::RigFile& rig, const law::LawConfig& law, const GateOptions& options,
+           GateResult& out) {
+  const double top = rig.numbers.max_speed_rad_per_s;
+  if (!(top > 0.0) || !(rig.plant.drive.max_acceleration_rad_per_s2 > 0.0)) return;
+  out.run_up = RunOnce(WithThirdHarmonic(rig, options.third_n), law,
+                       {.speed_rad_per_s = top, .seed = options.seed, .run_up = true});
+  if (out.run_up->lost && out.reason.empty())
+    out.reason = fmt::format("the rotor is lost on the way to {:.0f} rpm", RadPerSToRpm(top));
+}
+
+}  // namespace
+
 MuPeaks MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
                  const std::vector<uncertainty::Parameter>& parameters,
                  const uncertainty::AnalysisWeights& weights, double speed) {
@@ -118,7 +147,7 @@ MuPeaks MuPeakAt(const config::RigFile& rig, const law::LawConfig& law,
   constexpr double kBracketed = 1.01;
   constexpr double kLightlyDamped = 0.12;
   const uncertainty::UncertainPlant plant(rig, parameters, speed);
-  const uncertainty::LawResponse response(law);
+  const uncertainty::LawResponse response(law::LawAt(law, speed));
   std::vector<std::pair<double, double>> at;
   const auto mu_of = [&](double hz) {
     const auto point = plant.At(hz);
@@ -190,13 +219,19 @@ GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
   GateResult out;
   std::vector<double> speeds;
   const double top = rig.numbers.max_speed_rad_per_s;
-  for (double w = 0.0; w < options.over_speed * top + 1e-6; w += options.step_rad_per_s)
-    speeds.push_back(w);
+  constexpr double kDenser = 5.0;  // where the law changes with the speed
+  const double step =
+      law.schedule.empty() ? options.step_rad_per_s : options.step_rad_per_s / kDenser;
+  for (double w = 0.0; w < options.over_speed * top + 1e-6; w += step) speeds.push_back(w);
   if (speeds.empty()) speeds.push_back(0.0);
   for (const double speed : speeds) {
     JudgeLoop(rig, law, speed, Of::kFile, out);
     progress(0.2 * speed / std::max(speeds.back(), 1e-9),
              fmt::format("poles and |S| at {:.0f} rpm", RadPerSToRpm(speed)));
+  }
+  if (!law.schedule.empty()) {
+    JudgeRungs(rig, law, out);
+    RunUp(rig, law, options, out);
   }
   Random draw(options.seed + 1000);
   for (std::size_t c = 0; c < options.corners; ++c) {

@@ -10,7 +10,9 @@
 // 4 Rigs    drawn from the uncertainty, simulated with contact, saturation, noise: none is lost.
 //           With `tolerances` everything else that the file states is drawn too
 //           (design/uncertainty/healthy_rig.hpp), and poles and |S| of each rig are judged.
-// Accepted  the first, the second and the fourth pass, the third where asked.
+// 5 Speed   of a law over speed: poles at every law that the loop may run (law_schedule.hpp), |S|
+//           five times as dense, and a run-up of the file's rig at its drive's rate.
+// Accepted  the first, the second, the fourth and the fifth pass, the third where asked.
 // Worst     the drawn rig with the largest orbit, or the first that was lost, as a rig file.
 // Thread    that of the caller; the same seed gives the same answer.
 
@@ -63,6 +65,8 @@ struct GateResult {
   std::size_t rigs{};
   Peak drawn_sensitivity;  ///< of the drawn rigs, with `tolerances`
   std::optional<config::RigFile> worst;
+  std::size_t rungs{};               ///< laws of a schedule whose poles were judged
+  std::optional<RunFigures> run_up;  ///< of a schedule
 };
 
 [[nodiscard]] GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,

@@ -27,12 +27,15 @@ std::vector<PlantToHold> EveryPlant(const config::RigFile& rig,
                                     const std::vector<uncertainty::Parameter>& parameters,
                                     const PidSearchOptions& options) {
   constexpr int kSpeeds = 12;
-  const double top = 1.1 * rig.numbers.max_speed_rad_per_s;
+  const double low = options.least_speed_rad_per_s;
+  const double top = options.most_speed_rad_per_s > 0.0 ? options.most_speed_rad_per_s
+                                                        : 1.1 * rig.numbers.max_speed_rad_per_s;
   const bool turns = rig.numbers.axes() > 1 && !options.first_levitation;
   const Known known = options.first_levitation ? Known::kRigidBody : Known::kAll;
   std::vector<PlantToHold> out;
   for (int i = 0; i <= (turns ? kSpeeds : 0); ++i)
-    out.push_back({std::make_shared<SampledPlant>(rig, top * i / kSpeeds, known), true});
+    out.push_back(
+        {std::make_shared<SampledPlant>(rig, low + (top - low) * i / kSpeeds, known), true});
   std::vector<uncertainty::Parameter> moved;
   for (const auto& parameter : parameters)
     if (!options.first_levitation || parameter.kind == uncertainty::Kind::kCurrentGain ||
@@ -43,8 +46,8 @@ std::vector<PlantToHold> EveryPlant(const config::RigFile& rig,
     auto place = uncertainty::DrawPlace(draw, moved.size());
     for (double& p : place) p = p < 0.0 ? -1.0 : 1.0;
     const auto corner = uncertainty::At(rig, moved, place);
-    for (const double speed : {0.0, top})
-      if (speed == 0.0 || turns)
+    for (const double speed : {low, top})
+      if (speed == low || turns)
         out.push_back({std::make_shared<SampledPlant>(corner, speed, known), false});
   }
   return out;
@@ -128,9 +131,10 @@ namespace {
 /// One search: what is held grows round by round.
 class Rounds {
  public:
-  Rounds(const config::RigFile& rig, const PidLimits& limits,
+  Rounds(const PidPoint* start, const config::RigFile& rig, const PidLimits& limits,
          const std::vector<uncertainty::Parameter>& parameters, const PidSearchOptions& options)
       : options_(options),
+        near_(start != nullptr),
         judge_(rig, limits, options.third_n),
         every_(EveryPlant(rig, parameters, options)) {
     if (const std::string& failure = every_.front().plant->failure(); !failure.empty())
@@ -145,6 +149,11 @@ class Rounds {
     const auto last =
         std::find_if(every_.begin(), every_.end(), [](const PlantToHold& p) { return !p.nominal; });
     Hold(static_cast<std::size_t>(last - every_.begin()) - 1);
+    if (start != nullptr) {
+      shape_ = start->shape;
+      best_.assign(2, {start->x, Cost(start->x)});
+      return;
+    }
     best_ = Starts(shape_, *every_.front().plant, [this](const VectorXd& x) { return Cost(x); });
     while (best_.size() < 2) best_.push_back(best_.front());
   }
@@ -155,7 +164,7 @@ class Rounds {
       SearchTwice(round, watch);
       Keep();
       if (!watch.going()) break;
-      if (round == 0 && options_.own_filters && shape_.bearings > 1) {
+      if (!near_ && round == 0 && options_.own_filters && shape_.bearings > 1) {
         for (auto& candidate : best_) candidate.x = Untied(shape_, candidate.x);
         shape_.own_filters = true;
       } else if (round > 0) {
@@ -171,6 +180,7 @@ class Rounds {
  private:
   static constexpr std::size_t kRounds = 6;
   static constexpr std::size_t kMostHeld = 7;
+  static constexpr double kNearStep = 0.5;  // of a search's from afar
 
   [[nodiscard]] double Cost(const VectorXd& x) const {
     return CostOf(judge_.Of(LawAt(shape_, x), held_));
@@ -189,7 +199,7 @@ class Rounds {
     const auto search = [&](std::size_t island) {
       numerics::EvolutionOptions evolution;
       evolution.evaluations = each;
-      evolution.first_step = kSteps[round];
+      evolution.first_step = near_ ? kNearStep * kSteps[round] : kSteps[round];
       evolution.seed = options_.seed + 17 * round + island;
       return numerics::Evolve(
           best_[island].x, [this](const VectorXd& x) { return Cost(x); }, evolution,
@@ -215,6 +225,7 @@ class Rounds {
     const double cost = CostOf(all);
     if (out_.law.axes.empty() || cost < out_.cost) {
       out_.law = law;
+      out_.point = {shape_, best_[0].x};
       out_.figures = all;
       out_.cost = cost;
     }
@@ -235,6 +246,7 @@ class Rounds {
   }
 
   PidSearchOptions options_;
+  bool near_{};
   PidJudge judge_;
   std::vector<PlantToHold> every_, held_;
   std::vector<std::size_t> indices_;
@@ -249,7 +261,15 @@ PidSearchResult SearchPid(const config::RigFile& rig, const PidLimits& limits,
                           const std::vector<uncertainty::Parameter>& parameters,
                           const PidSearchOptions& options,
                           const std::function<bool(double, const std::string&)>& seen) {
-  return Rounds(rig, limits, parameters, options).Run(seen);
+  return Rounds(nullptr, rig, limits, parameters, options).Run(seen);
+}
+
+PidSearchResult SearchPidFrom(const PidPoint& start, const config::RigFile& rig,
+                              const PidLimits& limits,
+                              const std::vector<uncertainty::Parameter>& parameters,
+                              const PidSearchOptions& options,
+                              const std::function<bool(double, const std::string&)>& seen) {
+  return Rounds(&start, rig, limits, parameters, options).Run(seen);
 }
 
 }  // namespace levitas::design

@@ -32,10 +32,19 @@ struct PidSearchOptions {
   std::uint64_t seed{1};
   double third_n{};
   double current_limit_a{};
+  /// The range to be held; most 0: 1.1 times the rated speed.
+  double least_speed_rad_per_s{}, most_speed_rad_per_s{};
+};
+
+/// A law as a search moves it.
+struct PidPoint {
+  LawShape shape;
+  Eigen::VectorXd x;
 };
 
 struct PidSearchResult {
   law::LawConfig law;
+  PidPoint point;      ///< the same law, for a search that goes on from it
   PidFigures figures;  ///< over every speed and corner
   double cost{};
   std::size_t evaluations{};
@@ -46,6 +55,12 @@ struct PidSearchResult {
 /// `seen(share done, text)`: false ends the search with the best so far.
 [[nodiscard]] PidSearchResult SearchPid(
     const config::RigFile& rig, const PidLimits& limits,
+    const std::vector<uncertainty::Parameter>& parameters, const PidSearchOptions& options,
+    const std::function<bool(double, const std::string&)>& seen);
+
+/// The same from a law that is near already, with its filters: no grid, small steps.
+[[nodiscard]] PidSearchResult SearchPidFrom(
+    const PidPoint& start, const config::RigFile& rig, const PidLimits& limits,
     const std::vector<uncertainty::Parameter>& parameters, const PidSearchOptions& options,
     const std::function<bool(double, const std::string&)>& seen);
 

@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "common/two_pi.hpp"
 #include "controller/law/state_space_law.hpp"
@@ -36,6 +37,7 @@ void AddBlock(const law::ModalBlock& block, Complex z, MatrixXcd& sum) {
 }  // namespace
 
 LawResponse::LawResponse(const law::LawConfig& law) : law_(law) {
+  if (!law.schedule.empty()) throw std::invalid_argument("LawResponse: the law of one speed");
   if (law.state_space) blocks_ = law::DiscretiseBlocks(*law.state_space, law.period_s);
   for (const auto& axis : law.axes) sections_.push_back(law::DiscreteSections(axis, law.period_s));
 }

@@ -16,6 +16,7 @@
 #include "cli/study/written_files.hpp"
 #include "cli/text_file.hpp"
 #include "common/rotational_speed.hpp"
+#include "controller/law/law_schedule.hpp"
 #include "design/gate/gate.hpp"
 #include "report/svg/figure.hpp"
 #include "report/text/text_table.hpp"
@@ -129,7 +130,7 @@ void AddBode(const std::vector<Compared>& compared, const config::RigFile& rig,
                     svg::Scale::kLogarithmic};
     svg::Panel phase{gain.title, "frequency [Hz]", "phase [deg]", svg::Scale::kLogarithmic};
     for (std::size_t c = 0; c < compared.size(); ++c) {
-      const uncertainty::LawResponse response(compared[c].law);
+      const uncertainty::LawResponse response(law::LawAt(compared[c].law, 0.0));
       svg::Series size{compared[c].name};
       size.colour = svg::Colour(c);
       svg::Series angle = size;

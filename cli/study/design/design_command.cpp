@@ -16,6 +16,7 @@ void AddDesignCommand(CLI::App& app, Action& action) {
       "A law is written as accepted only after a check that shares no line with its synthesis.");
   AddDesignHinf(*design, action);
   AddDesignPid(*design, action);
+  AddDesignSchedule(*design, action);
   AddDesignCheck(*design, action);
   AddDesignUncertainty(*design, action);
   AddDesignCompare(*design, action);

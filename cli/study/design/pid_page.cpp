@@ -77,7 +77,7 @@ std::string PidPage(const config::RigFile& rig, const std::vector<NamedLaw>& law
   figure.panel_width = 440;
   figure.panel_height = 400;
   for (const NamedLaw& named : laws) {
-    if (named.law.state_space) continue;
+    if (named.law.axes.empty() || !named.law.schedule.empty()) continue;  // no one set of gains
     figure.panels.push_back(MapPanel(named, design::MapGains(named.law, plants, {})));
   }
   return fmt::format(

@@ -137,6 +137,7 @@ law::LawConfig LawOf(const ControllerOptions& options, const std::vector<LawFit>
                      const config::RigFile& rig, const law::LawConfig& before) {
   law::LawConfig law = before;
   law.axes.clear();
+  law.schedule.clear();
   law::StateSpaceConfig blocks;
   blocks.axes = rig.numbers.axes();
   blocks.discrete = fits.front().options.domain == LawDomain::kDiscrete;

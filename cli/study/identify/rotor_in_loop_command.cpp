@@ -98,6 +98,11 @@ ExitStatus Run(const CommandOptions& given) {
   LoopRecord record = ReadLoopRecord(given.data_path, rig);
   const Index rows = record.series.rows();
   const Index fitted = std::min(given.fitted, rows);
+  if (!controller.law.schedule.empty()) {
+    throw BadInput(controller.name +
+                   ": a law over speed; this identification runs one law for the whole record: "
+                   "give --controller the law of the record's speed");
+  }
   const KnownLoop loop(controller.law, rig.numbers, std::move(record.excitation));
   const auto began = std::chrono::steady_clock::now();
   const SuspendedRotorFit fit =

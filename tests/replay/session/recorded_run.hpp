@@ -30,8 +30,9 @@ inline SessionHeader ShippedHeader() {
 /// Plant and control cycle; keeps every record.
 class RecordedRun {
  public:
-  explicit RecordedRun(std::uint64_t seed = 3)
-      : plant_(test::ShippedRig().plant, seed), control_(test::ShippedCycle()) {
+  explicit RecordedRun(std::uint64_t seed = 3,
+                       const cycle::CycleConfig& config = test::ShippedCycle())
+      : plant_(test::ShippedRig().plant, seed), control_(config) {
     plant_.RestInTouchdown();
   }
 
@@ -74,8 +75,9 @@ class RecordedRun {
 
 /// Everything that can happen to a controller: lift, refused command, excitation, run-up, missing
 /// frames, missed deadlines, a number that is none, the trip after it, reset.
-inline std::vector<cycle::CycleRecord> EventfulRun() {
-  RecordedRun run;
+inline std::vector<cycle::CycleRecord> EventfulRun(
+    const cycle::CycleConfig& config = test::ShippedCycle()) {
+  RecordedRun run(3, config);
   Random draw{11};
   run.Run(100);
   run.Command(OperatorCommand::kSpin, 600.0, 1000.0);  // refused: the rotor lies

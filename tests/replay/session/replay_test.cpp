@@ -58,6 +58,23 @@ TEST_F(Replaying, ReproducesEveryOutputBitOfAnEventfulRun) {
   EXPECT_EQ(report.reproduced, records.size());
 }
 
+TEST_F(Replaying, ReproducesALawThatChangesWithTheSpeed) {
+  auto controller = ShippedController();
+  controller.law.schedule = {{RpmToRadPerS(600.0), controller.law.axes, {}}};
+  for (law::AxisLawConfig& axis : controller.law.schedule[0].axes) axis.kd_a_s_per_m *= 1.2;
+  const auto& rig = test::ShippedRig().numbers;
+  const auto records = EventfulRun({rig, controller.law, controller.supervisor});
+  SessionHeader header = ShippedHeader();
+  header.controller_yaml = config::WriteController(controller, rig);
+  EXPECT_TRUE(ReplayOf(records, header).identical());
+  // Its laws are not those of rest: the law at rest alone gives other currents once it turns.
+  controller.law.schedule.clear();
+  header.controller_yaml = config::WriteController(controller, rig);
+  const ReplayReport fixed = ReplayOf(records, header);
+  ASSERT_FALSE(fixed.identical());
+  EXPECT_NE(records[fixed.different_cycle].in.frame.speed_rad_per_s, 0.0);
+}
+
 TEST_F(Replaying, NamesTheFirstDifferenceOfOneBit) {
   auto records = Records();
   const double recorded = records[9000].out.current.control_current_a[1];

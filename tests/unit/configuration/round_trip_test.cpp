@@ -1,6 +1,9 @@
 // What is written reads back to the same bits.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
 #include "configuration/schema/schema.hpp"
 #include "tests/unit/configuration/field_list.hpp"
 #include "tests/unit/configuration/full_samples.hpp"
@@ -117,6 +120,26 @@ TEST(RoundTrip, WritesADifferentLawUnderItsAxis) {
   const ControllerFile back = ParseController(text, "", rig);
   EXPECT_EQ(back.law.axes[2].notches.size(), 1U);
   EXPECT_EQ(back.law.axes[3].notches.size(), 2U);
+}
+
+TEST(RoundTrip, OfAScheduleKeepsEverySpeed) {
+  const RigNumbers rig = FullRig().numbers;
+  ControllerFile controller = FullController(rig);
+  controller.law.schedule = {{RpmToRadPerS(3000.0), controller.law.axes, {}},
+                             {RpmToRadPerS(6000.0), controller.law.axes, {}}};
+  controller.law.schedule[1].axes[3].kp_a_per_m = 1234.5;
+  const ControllerFile back = ParseController(WriteController(controller, rig), "", rig);
+  ASSERT_EQ(back.law.schedule.size(), 2U);
+  EXPECT_EQ(back.law.schedule[1].speed_rad_per_s, RpmToRadPerS(6000.0));
+  EXPECT_EQ(back.law.schedule[1].axes[3].kp_a_per_m, 1234.5);
+  EXPECT_EQ(back.law.schedule[0].axes[3].kp_a_per_m, controller.law.axes[3].kp_a_per_m);
+  controller.law.schedule[1].axes[0].notches.pop_back();
+  try {
+    (void)ParseController(WriteController(controller, rig), "c.yaml", rig);
+    ADD_FAILURE() << "laws with other filters were read";
+  } catch (const BadInput& refused) {
+    EXPECT_THAT(refused.what(), ::testing::HasSubstr("axis 1 has 2 notches before and 1 here"));
+  }
 }
 
 TEST(RoundTrip, OfAnExcitationWithoutAChannelIsRefusedWhenRead) {

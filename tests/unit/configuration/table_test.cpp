@@ -196,6 +196,11 @@ TEST(Tables, AreDocumentedKeyByKey) {
   for (const FieldList& fields : {blocks, poles}) {
     for (const ListedField& field : fields.fields()) written.insert(field.key);
   }
+  FieldList schedule("controller", 0);
+  ControllerFile scheduled = FullController(FullRig().numbers);
+  scheduled.law.schedule = {{1.0, scheduled.law.axes, {}}};
+  Describe(schedule, scheduled, FullRig().numbers);
+  for (const ListedField& field : schedule.fields()) written.insert(field.key);
   FieldList events("scenario", 0);
   scenario::ScenarioConfig eventful = EventfulScenario(FullRig().numbers);
   Describe(events, eventful, FullRig().numbers);
@@ -265,7 +270,8 @@ TEST(Tables, KnowEveryFieldOfTheStructs) {
   EXPECT_EQ(FieldCount<rotor::TorsionInertia>(), 5U);
   EXPECT_EQ(FieldCount<gear::Wheel>(), 7U);
   EXPECT_EQ(FieldCount<gear::Harmonic>(), 3U);
-  EXPECT_EQ(FieldCount<law::LawConfig>(), 4U);
+  EXPECT_EQ(FieldCount<law::LawConfig>(), 5U);
+  EXPECT_EQ(FieldCount<law::LawAtSpeed>(), 3U);
   EXPECT_EQ(FieldCount<law::AxisLawConfig>(), 6U);
   EXPECT_EQ(FieldCount<law::LeadLag>(), 2U);
   EXPECT_EQ(FieldCount<law::Notch>(), 4U);

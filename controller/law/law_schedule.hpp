@@ -1,0 +1,62 @@
+#pragma once
+// A law over the speed of rotation: gains, filters and blocks between those of a table of speeds.
+//
+// The law of the file holds at rest, those of its schedule at their speeds. Between two of them
+// every number of the law is on the straight line between its two values; above the last it stays.
+// A pole of a filter, and a block of a state-space law, between two stable ones is stable: the
+// half-plane left of the imaginary axis and the unit disc are convex. That the closed loop is
+// stable between them, too, is not a matter of course: `amb margins`, `amb poles` and the gate of
+// `amb design` look at every speed.
+//
+// Ladder     the loop runs one of kRungs fixed laws, which are made before it starts. It takes the
+//            next rung when the speed has come three quarters of the way towards it, so that noise
+//            of the speed does not make it change to and fro, and one rung a period at most, so
+//            that a speed that jumps (a lost tachometer) changes the law in kRungs periods, not in
+//            one. Analyses use the law of the nearest rung, which is what the loop runs.
+// Bumpless   integrators are counted in amperes of output and keep their value, the derivative's
+//            memory is counted anew (ChangeLaw); the memories of filters and blocks belong to
+//            states that change as little as the law does.
+// Speed      of either sign, its size counts. What is no number leaves the rung as it is.
+// Thread     construction allocates; Follow allocates nothing, throws nothing.
+// Failure    std::invalid_argument for laws that do not fit one another (WhyNoSchedule says why).
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "controller/law/axis_law.hpp"
+#include "controller/law/law_config.hpp"
+
+namespace levitas::law {
+
+/// So many laws stand for a schedule: over 6000 rpm one every 23 rpm.
+inline constexpr std::size_t kRungs = 257;
+
+/// Why the laws of this table cannot be a schedule; empty when they can, or when there is none.
+[[nodiscard]] std::string WhyNoSchedule(const LawConfig& config);
+
+/// The law of one speed: that of the nearest rung, without a schedule the law itself.
+[[nodiscard]] LawConfig LawAt(const LawConfig& config, double speed_rad_per_s);
+
+/// The laws that a loop runs, in the order of speed; one without a schedule.
+class LawLadder {
+ public:
+  explicit LawLadder(const LawConfig& config);
+
+  [[nodiscard]] const LawCoefficients& operator[](std::size_t rung) const noexcept {
+    return rungs_[rung];
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return rungs_.size(); }
+  /// For a law that starts.
+  [[nodiscard]] std::size_t Nearest(double speed_rad_per_s) const noexcept;
+  /// For a law that runs: `rung` or a neighbour.
+  [[nodiscard]] std::size_t Next(std::size_t rung, double speed_rad_per_s) const noexcept;
+  /// Takes `rung` there, and the law's memory with it.
+  void Follow(double speed_rad_per_s, std::size_t& rung, LawState& state) const noexcept;
+
+ private:
+  std::vector<LawCoefficients> rungs_;
+  double width_rad_per_s_{};  ///< from rung to rung, from rest; 0 for one rung
+};
+
+}  // namespace levitas::law

@@ -1,0 +1,203 @@
+#include "controller/law/law_schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "common/random.hpp"
+#include "controller/law/discrete_law.hpp"
+#include "tests/support/allocation_guard.hpp"
+#include "tests/unit/law/flexible_rotor_law.hpp"
+
+namespace levitas::law {
+namespace {
+
+constexpr double kTop = 600.0;  // rad/s
+
+/// Rest and one speed, whose gains are `factor` times those at rest.
+LawConfig Scheduled(double factor) {
+  LawConfig config = FlexibleRotorLaw();
+  LawAtSpeed fast{kTop, config.axes, {}};
+  for (AxisLawConfig& axis : fast.axes) {
+    axis.kp_a_per_m *= factor;
+    axis.ki_a_per_m_s *= factor;
+    axis.kd_a_s_per_m *= factor;
+  }
+  config.schedule = {fast};
+  return config;
+}
+
+StateSpaceConfig DrawnBlocks(Random& random) {
+  StateSpaceConfig law;
+  law.axes = 4;
+  law.discrete = true;
+  for (int i = 0; i < 6; ++i) {
+    ModalBlock block;
+    const double radius = std::sqrt(random.Uniform());
+    const double angle = 3.1 * random.Uniform() + 0.01;
+    block.pole_real = radius * std::cos(angle);
+    block.pole_imaginary = i == 0 ? 0.0 : radius * std::sin(angle);
+    block.first_input.fill(1.0);
+    block.first_output.fill(1.0);
+    law.blocks.push_back(block);
+  }
+  law.input_v_per_m.fill(1e6);
+  law.output_a_per_v.fill(1.0);
+  return law;
+}
+
+TEST(LawSchedule, HasTheLawsOfTheTableAtItsSpeedsAndTheMeanHalfway) {
+  const LawConfig config = Scheduled(3.0);
+  const double slow = config.axes[1].kp_a_per_m;
+  EXPECT_EQ(LawAt(config, 0.0).axes[1].kp_a_per_m, slow);
+  EXPECT_EQ(LawAt(config, kTop).axes[1].kp_a_per_m, 3.0 * slow);
+  EXPECT_DOUBLE_EQ(LawAt(config, 0.5 * kTop).axes[1].kp_a_per_m, 2.0 * slow);
+  EXPECT_EQ(LawAt(config, -kTop).axes[1].kp_a_per_m, 3.0 * slow);       // its size counts
+  EXPECT_EQ(LawAt(config, 9.0 * kTop).axes[1].kp_a_per_m, 3.0 * slow);  // it stays beyond the last
+  EXPECT_EQ(LawAt(config, 0.0).axes[1].notches.size(), 2U);
+  EXPECT_TRUE(LawAt(config, 0.0).schedule.empty());
+  EXPECT_EQ(LawAt(FlexibleRotorLaw(), 100.0).axes.size(), 4U);  // without a schedule: itself
+}
+
+TEST(LawSchedule, OfThreeSpeedsGoesThroughTheMiddleOne) {
+  LawConfig config = Scheduled(3.0);
+  config.schedule.insert(config.schedule.begin(), {0.25 * kTop, config.axes, {}});
+  config.schedule[0].axes[0].kp_a_per_m = 9000.0;
+  EXPECT_DOUBLE_EQ(LawAt(config, 0.25 * kTop).axes[0].kp_a_per_m, 9000.0);
+  EXPECT_LT(LawAt(config, 0.2 * kTop).axes[0].kp_a_per_m, 9000.0);
+}
+
+TEST(LawSchedule, StaysStableBetweenStableLawsWhateverTheyAre) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Random random(seed);
+    LawConfig config;
+    config.period_s = kPeriodS;
+    config.state_space = DrawnBlocks(random);
+    config.schedule = {{kTop, {}, DrawnBlocks(random)}};
+    for (int i = 0; i <= 20; ++i) {
+      const LawConfig law = LawAt(config, kTop * i / 20.0);
+      for (const ModalBlock& block : law.state_space->blocks) {
+        ASSERT_LT(std::hypot(block.pole_real, block.pole_imaginary), 1.0) << seed << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(LawSchedule, SaysWhyLawsAreNone) {
+  EXPECT_EQ(WhyNoSchedule(FlexibleRotorLaw()), "");
+  EXPECT_EQ(WhyNoSchedule(Scheduled(2.0)), "");
+  LawConfig falling = Scheduled(2.0);
+  falling.schedule.push_back(falling.schedule[0]);
+  EXPECT_EQ(WhyNoSchedule(falling), "entry 2: its speed is not above that of the entry before");
+  LawConfig resting = Scheduled(2.0);
+  resting.schedule[0].speed_rad_per_s = 0.0;
+  EXPECT_EQ(WhyNoSchedule(resting),
+            "entry 1: its speed is not above rest, where the law of the file holds");
+  LawConfig shorter = Scheduled(2.0);
+  shorter.schedule[0].axes[2].notches.pop_back();
+  EXPECT_EQ(WhyNoSchedule(shorter), "entry 1: axis 3 has 2 notches before and 1 here");
+  LawConfig mixed = Scheduled(2.0);
+  Random random(1);
+  mixed.schedule[0] = {kTop, {}, DrawnBlocks(random)};
+  EXPECT_EQ(WhyNoSchedule(mixed), "entry 1: one has a state-space law, the other laws of axes");
+  LawConfig blocks;
+  blocks.state_space = DrawnBlocks(random);
+  blocks.schedule = {{kTop, {}, DrawnBlocks(random)}};
+  blocks.schedule[0].state_space->blocks[1].pole_imaginary = 0.0;
+  EXPECT_EQ(WhyNoSchedule(blocks),
+            "entry 1: its block 2 is not of the kind of the one before: one state or two, one sign "
+            "of im");
+  EXPECT_THROW((void)LawAt(falling, 0.0), std::invalid_argument);
+  EXPECT_THROW(LawLadder{falling}, std::invalid_argument);
+  EXPECT_THROW(LawCoefficients{Scheduled(2.0)}, std::invalid_argument);
+}
+
+TEST(LawLadder, IsOneLawWithoutASchedule) {
+  const LawLadder ladder(FlexibleRotorLaw());
+  EXPECT_EQ(ladder.size(), 1U);
+  EXPECT_EQ(ladder.Nearest(500.0), 0U);
+  EXPECT_EQ(ladder.Next(0, 500.0), 0U);
+}
+
+TEST(LawLadder, RunsTheLawThatAnalysesTake) {
+  const LawConfig config = Scheduled(3.0);
+  const LawLadder ladder(config);
+  ASSERT_EQ(ladder.size(), kRungs);
+  for (const double speed : {0.0, 1.0, 77.7, 300.0, 599.0, kTop, 2.0 * kTop}) {
+    const LawCoefficients law(LawAt(config, speed));
+    EXPECT_EQ(ladder[ladder.Nearest(speed)].pid().direct.at[2], law.pid().direct.at[2]) << speed;
+  }
+}
+
+TEST(LawLadder, TakesOneRungAPeriodAndIgnoresNoise) {
+  const LawLadder ladder(Scheduled(3.0));
+  const double width = kTop / static_cast<double>(kRungs - 1);
+  EXPECT_EQ(ladder.Next(10, kTop), 11U);
+  EXPECT_EQ(ladder.Next(10, 0.0), 9U);
+  EXPECT_EQ(ladder.Next(0, 0.0), 0U);
+  EXPECT_EQ(ladder.Next(kRungs - 1, 9.0 * kTop), kRungs - 1);
+  EXPECT_EQ(ladder.Next(10, std::numeric_limits<double>::quiet_NaN()), 10U);
+  EXPECT_EQ(ladder.Nearest(std::numeric_limits<double>::quiet_NaN()), 0U);
+  // Between two rungs, with noise of a fifth of their distance, the law changes once at most.
+  std::size_t rung = 10;
+  int changes = 0;
+  Random random(5);
+  for (int n = 0; n < 10'000; ++n) {
+    const double noise = 0.2 * (2.0 * random.Uniform() - 1.0);
+    const std::size_t next = ladder.Next(rung, (10.5 + noise) * width);
+    changes += next != rung ? 1 : 0;
+    rung = next;
+  }
+  EXPECT_LE(changes, 1);
+}
+
+/// Largest step of a current while a constant error is held and the law changes as `next` says.
+template <class Next>
+double LargestStep(const LawConfig& config, const Next& next) {
+  const LawLadder ladder(config);
+  LawState state(ladder[0]);
+  AxisArray error_m{};
+  error_m[0] = 20e-6;
+  std::size_t rung = 0;
+  double last_a = 0.0;
+  double largest_a = 0.0;
+  for (int n = 0; n < 3000; ++n) {
+    if (n >= 2000) next(ladder, rung, state);
+    const double now_a = Step(ladder[rung], state, error_m, {}, 1e30).control_current_a[0];
+    if (n >= 2000) largest_a = std::max(largest_a, std::abs(now_a - last_a));
+    last_a = now_a;
+  }
+  return largest_a;
+}
+
+TEST(LawLadder, ChangesWithoutABump) {
+  const LawConfig config = Scheduled(4.0);
+  const double at_once = LargestStep(config, [](const LawLadder& ladder, std::size_t& rung,
+                                                LawState&) { rung = ladder.size() - 1; });
+  const double by_rungs =
+      LargestStep(config, [](const LawLadder& ladder, std::size_t& rung, LawState& state) {
+        ladder.Follow(kTop, rung, state);
+      });
+  // 20 um at 4514 A/m become four times as much: 0.27 A at once, a 256th of it rung by rung.
+  EXPECT_GT(at_once, 0.2);
+  EXPECT_LT(by_rungs, 0.01);
+}
+
+TEST(LawLadder, AllocatesNothingOnTheWay) {
+  const LawLadder ladder(Scheduled(3.0));
+  LawState state(ladder[0]);
+  std::size_t rung = 0;
+  const test::AllocationGuard guard;
+  for (int n = 0; n < 1000; ++n) {
+    ladder.Follow(kTop, rung, state);
+    (void)Step(ladder[rung], state, {}, {}, 1.0);
+  }
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_EQ(rung, kRungs - 1);
+}
+
+}  // namespace
+}  // namespace levitas::law
