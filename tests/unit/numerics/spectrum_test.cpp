@@ -10,14 +10,14 @@
 namespace levitas::numerics {
 namespace {
 
-Eigen::MatrixXd Drawn(Eigen::Index size, Random& random) {
+Eigen::MatrixXd Drawn(Eigen::Index size, levitas::Random& random) {
   Eigen::MatrixXd a(size, size);
   for (Eigen::Index i = 0; i < a.size(); ++i) a(i) = random.Normal();
   return a;
 }
 
 TEST(Spectrum, SumsToTheTraceAndItsVectorsAreHeld) {
-  Random random(2);
+  levitas::Random random(2);
   for (const Eigen::Index size : {1, 2, 7, 40}) {
     const Eigen::MatrixXd a = Drawn(size, random);
     const Spectrum spectrum = SpectrumOf(a);
