@@ -1,6 +1,7 @@
 #include "cli/json_file.hpp"
 
 #include <fmt/core.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -33,6 +34,8 @@ void WriteToStandardOutput(const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t wrote = ::write(STDOUT_FILENO, text.data() + done, text.size() - done);
     if (wrote < 0 && errno == EINTR) continue;
+    pollfd wait{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+    if (wrote < 0 && errno == EAGAIN && ::poll(&wait, 1, -1) > 0) continue;  // a pipe's other end
     if (wrote < 0 && errno == EPIPE) return;  // its reader has what it wanted
     if (wrote <= 0) CannotWrite("standard output", wrote < 0 ? errno : ENOSPC);
     done += static_cast<std::size_t>(wrote);

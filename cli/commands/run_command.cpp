@@ -144,8 +144,8 @@ ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunP
     WriteJsonFile(options.json_path, verdict::Json(verdict));
     if (!options.record_path.empty()) EnterRun(paths.session, verdict, options.tags);
     if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
-    if (status == ExitStatus::kDone) RequireRun(options.required, verdict);
     const bool incomplete = verdict.outcome == verdict::Outcome::kIncomplete;
+    if (status == ExitStatus::kDone && !incomplete) RequireRun(options.required, verdict);
     return incomplete && status == ExitStatus::kDone ? ExitStatus::kOther : status;
   } catch (const BadInput&) {
     // Files that are not whole follow from what went wrong, and that is what is told.

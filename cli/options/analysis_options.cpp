@@ -42,6 +42,7 @@ std::string NotchesElsewhere(const config::ControllerFile& controller, const Rig
                         stands_hz, fmt::join(names, ", "));
   }
   if (!text.empty()) text += "\n  (Tustin's rule; prewarp: true puts a notch where it is given)";
+  if (!text.empty() && !law.schedule.empty()) text += "\n  (notches of the law at rest)";
   return text;
 }
 

@@ -51,9 +51,10 @@ void AddLoopRequirement(CLI::App& command, std::string& word) {
 }
 
 void AddRunRequirement(CLI::App& command, std::string& word) {
-  AddOption(command, word, {"stable", "zone-b", "zone-a", "accepted"},
-            "Exit status 5 unless the run was completed, its sensitivity peaks are in zone B or A, "
-            "or it is ACCEPTED");
+  AddOption(
+      command, word, {"stable", "zone-b", "zone-a", "accepted"},
+      "Exit status 5 unless the run was completed (a trip keeps 4), its sensitivity peaks are "
+      "in zone B or A, or it is ACCEPTED");
 }
 
 void RequireLoops(const std::string& word, std::span<const analysis::SensitivityResult> loops) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "configuration/schema/schema.hpp"
 #include "controller/law/law_schedule.hpp"
@@ -120,7 +121,14 @@ void DescribeSchedule(Visitor& v, law::LawConfig& law, const RigNumbers& rig) {
                  at.speed_rad_per_s);
         DescribeLaw(v, at.axes, at.state_space, rig);
       });
-  const std::string why = law::WhyNoSchedule(law);
+  // What was refused already is not told twice: its number is none, its laws are empty.
+  const bool read = std::ranges::all_of(law.schedule, [](const law::LawAtSpeed& at) {
+    return std::isfinite(at.speed_rad_per_s) &&
+           (at.state_space || std::ranges::all_of(at.axes, [](const law::AxisLawConfig& axis) {
+              return axis.derivative_hz > 0.0;
+            }));
+  });
+  const std::string why = read ? law::WhyNoSchedule(law) : "";
   v.RefuseIf(!why.empty(), "speeds", why);
 }
 

@@ -110,10 +110,10 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
   }
   if (decision.start_law) {
     law_state.Reset();
-    rung = laws.Nearest(seen.speed_rad_per_s);
+    rung = laws.Nearest(decision.believed_speed_rad_per_s);
   }
   if (!seen.fresh) return;
-  laws.Follow(seen.speed_rad_per_s, rung, law_state);
+  laws.Follow(decision.believed_speed_rad_per_s, rung, law_state);
   AxisArray error_m{};
   AxisArray injected_a{};
   for (std::size_t i = 0; i < rig.axes(); ++i) {

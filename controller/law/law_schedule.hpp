@@ -11,8 +11,8 @@
 // Ladder     the loop runs one of kRungs fixed laws, which are made before it starts. It takes the
 //            next rung when the speed has come three quarters of the way towards it, so that noise
 //            of the speed does not make it change to and fro, and one rung a period at most, so
-//            that a speed that jumps (a lost tachometer) changes the law in kRungs periods, not in
-//            one. Analyses use the law of the nearest rung, which is what the loop runs.
+//            that a speed that jumps changes the law in kRungs periods, not in one. The loop's
+//            speed is the one that its supervisor believes. Analyses use the nearest rung.
 // Bumpless   integrators are counted in amperes of output and keep their value, the derivative's
 //            memory is counted anew (ChangeLaw); the memories of filters and blocks belong to
 //            states that change as little as the law does.

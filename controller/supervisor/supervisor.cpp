@@ -144,6 +144,7 @@ const Decision& Supervisor::Decide(const Observation& seen, const Request& reque
   decision_.command_refused = false;
   decision_.standing = speed_.stands();
   decision_.turning = speed_.may_turn();
+  decision_.believed_speed_rad_per_s = speed_.Estimate();
   ++cycles_in_state_;
   const std::optional<Event> command = CommandEvent(request.command);
   if (finding.fault != Fault::kNone) {

@@ -44,6 +44,7 @@ struct Decision {
   bool command_refused{};
   bool standing{};  ///< proven that the rotor stands (SpeedWatch)
   bool turning{};   ///< must be taken to turn: above standstill as last believed, or unknown
+  double believed_speed_rad_per_s{};  ///< its size (SpeedWatch::Estimate)
   Latch latch;
   Finding released;  ///< why the magnets let go; kNone: they did not, or as planned
 };

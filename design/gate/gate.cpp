@@ -115,15 +115,24 @@ void RunDrawn(const config::RigFile& rig, const law::LawConfig& law,
 namespace {
 
 /// Poles of the loop with every law that a schedule may run, at the speed of that law.
-void JudgeRungs(const config::RigFile& rig, const law::LawConfig& law, GateResult& out) {
+void JudgeRungs(const config::RigFile& rig, const law::LawConfig& law, double most_rad_per_s,
+                GateResult& out) {
   const double last = law.schedule.back().speed_rad_per_s;
   for (std::size_t i = 0; i < law::kRungs; ++i) {
     const double speed = last * static_cast<double>(i) / static_cast<double>(law::kRungs - 1);
+    if (speed > most_rad_per_s) return;  // where the rig never gets
     const auto loop = analysis::ClosedLoopPoles(rig.plant, law, speed);
     ++out.rungs;
+    if (loop.largest_pole_modulus > out.pole_modulus) {
+      out.pole_modulus = loop.largest_pole_modulus;
+      out.pole_speed_rad_per_s = speed;
+    }
     if (loop.stable || !out.reason.empty()) continue;
-    out.reason = fmt::format("the loop is unstable at {:.0f} rpm, between the speeds of the table",
-                             RadPerSToRpm(speed));
+    out.reason =
+        fmt::format("the loop with the schedule's law of {:.0f} rpm {}", RadPerSToRpm(speed),
+                    loop.point.failure.empty()
+                        ? fmt::format("is unstable (|z| {:.6f})", loop.largest_pole_modulus)
+                        : "does not hold the rotor: " + loop.point.failure);
   }
 }
 
@@ -230,7 +239,7 @@ GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
              fmt::format("poles and |S| at {:.0f} rpm", RadPerSToRpm(speed)));
   }
   if (!law.schedule.empty()) {
-    JudgeRungs(rig, law, out);
+    JudgeRungs(rig, law, options.over_speed * top, out);
     RunUp(rig, law, options, out);
   }
   Random draw(options.seed + 1000);

@@ -97,18 +97,22 @@ class TableSearch {
 
   /// Another entry in the middle of two whose laws do not hold what lies between them.
   void FillGaps(std::vector<Entry>& entries) {
-    constexpr int kMostAdded = 8;
+    constexpr int kMostAdded = 3;  // between two speeds that were asked for
     int added = 0;
-    for (std::size_t i = 0; i + 1 < entries.size() && added < kMostAdded && !out_.interrupted;) {
-      if (Holds(entries, i)) {
-        ++i;
-        continue;
-      }
+    for (std::size_t i = 0; i + 1 < entries.size() && !out_.interrupted;) {
       const double below = entries[i].speed_rad_per_s;
       const double above = entries[i + 1].speed_rad_per_s;
-      const Entry middle = Searched(entries[i].point, 0.5 * (below + above), below, above);
-      entries.insert(entries.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
-      ++added;
+      const bool holds = Holds(entries, i);
+      if (!holds && added < kMostAdded && entries.size() < kMostEntries) {
+        const Entry middle = Searched(entries[i].point, 0.5 * (below + above), below, above);
+        entries.insert(entries.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
+        ++added;
+        continue;
+      }
+      if (!holds) out_.open.emplace_back(below, above);
+      const auto& asked = options_.speeds_rad_per_s;
+      if (std::find(asked.begin(), asked.end(), above) != asked.end()) added = 0;
+      ++i;
     }
   }
 

@@ -6,13 +6,17 @@
 //            corners there: neighbours are near one another and hold each other's speeds. What the
 //            loop runs between two entries lies on the straight line between them
 //            (law_schedule.hpp); where that does not hold the rig, or |S| leaves its limit, an
-//            entry is added in the middle, eight at most.
+//            entry is added in the middle, three at most between two speeds that were asked for.
+//            What is left open is told.
 // Judged     by the gate, not here: neighbours that hold are no proof of what lies between.
 // Same seed  same laws. Failure and thread: as of SearchPid.
 
 #include "design/pid/pid_search.hpp"
 
 namespace levitas::design {
+
+/// So many laws, that of rest included, a controller file takes (configuration/schema).
+inline constexpr std::size_t kMostEntries = 33;
 
 struct ScheduleOptions {
   PidSearchOptions search;               ///< `evaluations` for each entry and for the one law
@@ -22,6 +26,8 @@ struct ScheduleOptions {
 struct ScheduleResult {
   PidSearchResult one;  ///< law for all speeds
   law::LawConfig law;   ///< the table
+  /// Speeds [rad/s] between which no laws were found that hold everywhere.
+  std::vector<std::pair<double, double>> open;
   std::size_t evaluations{};
   bool interrupted{};
 };

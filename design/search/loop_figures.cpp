@@ -112,7 +112,7 @@ LoopFigures FigureMaker::Of(const law::LawConfig& law) const {
     const auto loop = analysis::CloseLoop(rig_.plant, law, speed.rad_per_s);
     const Eigen::VectorXcd poles = numerics::EigenvaluesOf(analysis::ClosedLoopMatrix(loop));
     out.pole_modulus = std::max(out.pole_modulus, poles.cwiseAbs().maxCoeff());
-    out.stable = out.stable && out.pole_modulus < 1.0;
+    out.stable = out.stable && poles.cwiseAbs().maxCoeff() < 1.0;  // not by what is no number
     for (const auto& point : speed.grid) Note(speed, point, response.At(point.hz), out);
     for (const Complex& z : poles) {
       if (!(z.imag() > 0.0) || std::abs(z) < 0.5) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/problem.hpp"
+#include "diagnosis/inference/residual.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -45,6 +46,23 @@ std::vector<double> FromFar(const RigView& rig, const Search& search,
   return fine.ok ? fine.theta : start;
 }
 
+/// The records of a rotor that stands; none where all do, or none does.
+std::vector<Record> AtRest(const std::vector<Record>& records) {
+  constexpr double kTurnsRadPerS = 1.0;
+  std::vector<Record> resting;
+  for (const Record& record : records)
+    if (std::abs(record.mean_speed_rad_per_s) < kTurnsRadPerS) resting.push_back(record);
+  if (resting.size() == records.size()) resting.clear();
+  return resting;
+}
+
+/// Whether a calibration ended so far from the records that it may have lost its way.
+bool IsLost(const RigView& rig, const Search& search, const std::vector<Record>& records,
+            const Gains& gains, const Refined& fit) {
+  constexpr double kFar = 100.0;  // standard deviations of the worst band
+  return !fit.ok || !(AnalyseResidual(rig, search.Run(records, gains, fit.theta)).sigma < kFar);
+}
+
 }  // namespace
 
 Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::vector<Term>& terms,
@@ -55,7 +73,17 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
   const std::vector<Record> part = Spans(all, kStartRows);
   const std::vector<double> start =
       FromFar(rig, cautious, held, Spans(all, kFastRows), part, cautious.DesignGains(part, speed));
-  return Refiner(search, terms, records, gains, rig.axes).Approach(start, kWhiteningOrder, passes);
+  const Refiner refiner(search, terms, records, gains, rig.axes);
+  Refined best = refiner.Approach(start, kWhiteningOrder, passes);
+  const std::vector<Record> resting = AtRest(all);
+  if (resting.empty() || !IsLost(rig, search, records, gains, best)) return best;
+  const std::vector<Record> few = Spans(resting, kStartRows);
+  const std::vector<double> other = FromFar(rig, cautious, held, Spans(resting, kFastRows), few,
+                                            cautious.DesignGains(few, speed));
+  Refined again = refiner.Approach(other, kWhiteningOrder, passes);
+  const bool better = again.ok && (!best.ok || refiner.Misfit(again.theta, kWhiteningOrder) <
+                                                   refiner.Misfit(best.theta, kWhiteningOrder));
+  return better ? again : best;
 }
 
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,

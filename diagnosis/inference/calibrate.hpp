@@ -7,6 +7,9 @@
 //            their tolerances: an unexplained orbit or effect would drive gains and delays, which
 //            compensate one another, tens of tolerances away, into a local minimum that a fit free
 //            from the start does not leave.
+// Lost       where it ends a hundred standard deviations from the records, it begins again from
+//            those of the standing rotor alone, which do not lead a mode along its whirl; the
+//            better of the two ends stays.
 // Healthy    tolerances shrink to the root sum of squares of the posterior of the healthy records
 //            and kDaily of themselves, since a rig changes from day to day. This separates
 //            parameters that one record cannot: current gain from sensor gain, gap from bias.

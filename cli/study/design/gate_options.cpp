@@ -116,6 +116,12 @@ design::GateResult JudgeAndPrint(const config::RigFile& rig, const law::LawConfi
   fmt::print("poles    {} loops from rest to {:.0f} rpm and {} corners: largest |z| {:.6f}\n",
              result.loops, gate.over_speed * RadPerSToRpm(rig.numbers.max_speed_rad_per_s),
              options.corners, result.pole_modulus);
+  if (result.rungs > 0)
+    fmt::print("laws     {} of the schedule, each at its speed{}\n", result.rungs,
+               !result.run_up        ? ""
+               : result.run_up->lost ? "; the rotor is lost in a run-up through them"
+                                     : fmt::format("; run-up through them: orbit {} um",
+                                                   Micrometres(result.run_up->orbit_m)));
   fmt::print("|S|      {}; corners {}; largest singular value {}\n", PeakText(result.sensitivity),
              PeakText(result.corner_sensitivity), PeakText(result.singular));
   fmt::print("mu       at most {}, real parameters; were they complex, {}\n", PeakText(result.mu),
@@ -152,6 +158,9 @@ nlohmann::ordered_json GateJson(const design::GateResult& result) {
   json["singular_value"] = PeakJson(result.singular);
   json["mu_upper"] = PeakJson(result.mu);
   json["mu_upper_complex"] = PeakJson(result.mu_complex);
+  if (result.rungs > 0) json["schedule_laws"] = result.rungs;
+  if (result.run_up)
+    json["run_up"] = {{"lost", result.run_up->lost}, {"orbit_m", result.run_up->orbit_m}};
   json["drawn_rigs"] = result.rigs;
   json["drawn_sensitivity"] = PeakJson(result.drawn_sensitivity);
   for (const auto& at : result.drawn)

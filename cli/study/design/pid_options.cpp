@@ -77,7 +77,9 @@ void CompleteSearch(const config::RigFile& rig, PidCommandOptions& options) {
 
 void AddPidSearchOptions(CLI::App& command, PidCommandOptions& options) {
   AddLimitOptions(command, options);
-  command.add_option("--evaluations", options.search.evaluations, "Laws tried")
+  command
+      .add_option("--evaluations", options.search.evaluations,
+                  "Laws tried; of a schedule for each entry")
       ->check(CLI::Range(100, 1000000))
       ->capture_default_str();
   command.add_option("--lead-lags", options.search.lead_lags, "Of each axis")

@@ -27,6 +27,8 @@
 namespace levitas::cli {
 namespace {
 
+constexpr double kFastestRpm = 1e6;  // of a controller file
+
 struct ScheduleCommandOptions {
   PidCommandOptions pid;
   std::vector<double> speeds_rpm;
@@ -42,9 +44,10 @@ Entry EntryOf(const std::string& text) {
   const auto colon = text.find(':');
   double rpm = 0.0;
   if (colon == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, colon), rpm) ||
-      !(rpm >= 0.0) || colon + 1 == text.size()) {
-    throw Problem(ExitStatus::kUsage,
-                  "--law " + text + ": expected RPM:CONTROLLER, as in 6000:fast.yaml");
+      !(rpm >= 0.0 && rpm <= kFastestRpm) || colon + 1 == text.size()) {
+    throw Problem(
+        ExitStatus::kUsage,
+        "--law " + text + ": expected RPM:CONTROLLER, as in 6000:fast.yaml, up to 1e6 rpm");
   }
   return {RpmToRadPerS(rpm), text.substr(colon + 1)};
 }
@@ -52,6 +55,9 @@ Entry EntryOf(const std::string& text) {
 /// The laws of files as a table; their blocks, whose order and scale are free, brought next to
 /// those of the entry before.
 std::vector<NamedLaw> FromFiles(const ScheduleCommandOptions& options, const config::RigFile& rig) {
+  if (options.laws.size() < 2 || options.laws.size() > design::kMostEntries)
+    throw Problem(ExitStatus::kUsage, fmt::format("--law: given {} times, allowed 2 to {}",
+                                                  options.laws.size(), design::kMostEntries));
   std::vector<NamedLaw> named;
   std::vector<law::LawAtSpeed> entries;
   law::LawConfig table;
@@ -73,10 +79,9 @@ std::vector<NamedLaw> FromFiles(const ScheduleCommandOptions& options, const con
   table.axes = entries.front().axes;
   table.state_space = entries.front().state_space;
   if (entries.front().speed_rad_per_s == 0.0) entries.erase(entries.begin());
-  if (entries.empty()) throw Problem(ExitStatus::kUsage, "--law: two speeds at least");
   table.schedule = std::move(entries);
   const std::string why = law::WhyNoSchedule(table);
-  if (!why.empty()) throw BadInput("--law: " + why);
+  if (!why.empty()) throw Problem(ExitStatus::kUsage, "--law: " + why);
   named.push_back({"schedule", table});
   return named;
 }
@@ -89,6 +94,9 @@ std::vector<double> TableSpeeds(const ScheduleCommandOptions& options, const con
   if (out.front() > 0.0) out.insert(out.begin(), 0.0);
   for (std::size_t i = 1; i < out.size(); ++i)
     if (!(out[i] > out[i - 1])) throw Problem(ExitStatus::kUsage, "--speeds: rising, each once");
+  if (out.size() > design::kMostEntries)
+    throw Problem(ExitStatus::kUsage, fmt::format("--speeds: {} with rest, at most {}", out.size(),
+                                                  design::kMostEntries));
   if (out.size() < 2) throw Problem(ExitStatus::kUsage, "--speeds: one above rest at least");
   return out;
 }
@@ -108,6 +116,10 @@ std::vector<NamedLaw> Search(ScheduleCommandOptions& options, const config::RigF
   line.Close();
   fmt::print("search   {} laws for {} speeds{}\n", found.evaluations, found.law.schedule.size() + 1,
              found.interrupted ? "; ended by a signal, the best so far is judged" : "");
+  for (const auto& [from, to] : found.open)
+    fmt::print(
+        "         no laws found that hold, or keep |S|, everywhere from {:.0f} to {:.0f} rpm\n",
+        RadPerSToRpm(from), RadPerSToRpm(to));
   return {{"one law", found.one.law}, {"schedule", found.law}};
 }
 
@@ -160,14 +172,20 @@ void AddDesignSchedule(CLI::App& design, Action& action) {
                    "Speeds of the table [rpm], rising; rest belongs to it; default: half and full "
                    "rated speed")
       ->check(CLI::Range(0.0, 1e6));
-  command->add_option(
-      "--law", options->laws,
-      "RPM:CONTROLLER, an entry of the table from a file, instead of a search; once "
-      "for each speed, rising");
+  CLI::Option* law = command->add_option("--law", options->laws,
+                                         "RPM:CONTROLLER, an entry of the table from a file, "
+                                         "instead of a search; once for each speed, "
+                                         "rising; the first holds from rest");
   command->add_option("--out", pid.out_path, "Controller file to write when accepted");
   command->add_option("--html", pid.html_path,
                       "Page to write: |S| and damping over speed, of the table and without it");
   AddPidSearchOptions(*command, pid);
+  for (const char* of_search :
+       {"--speeds", "--evaluations", "--lead-lags", "--notches", "--shared-filters",
+        "--sensitivity", "--corner-sensitivity", "--complementary", "--control", "--singular-value",
+        "--damping", "--standing-orbit", "--spinning-orbit", "--current", "--noise-current",
+        "--stiffness", "--compliance"})
+    law->excludes(command->get_option(of_search));
   AddGateOptions(*command, pid.gate);
   AddJsonOption(*command, pid.loop);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });

@@ -44,6 +44,44 @@ TEST(ControlCycle, LiftsSpinsCoastsAndLandsAsTheTableSays) {
   EXPECT_EQ(out.current.bias_current_a, 0.0);
 }
 
+/// Currents of a rotor held at 10 um at full speed, from where on `fault` is read instead of it.
+std::vector<double> CurrentsWithSpeedRead(double fault) {
+  CycleConfig config = FlexibleRotorCycle();
+  config.rig.max_acceleration_rad_per_s2 = 50.0;
+  law::LawAtSpeed fast{config.rig.max_speed_rad_per_s, config.law.axes, {}};
+  for (law::AxisLawConfig& axis : fast.axes) axis.kp_a_per_m *= 1.5;
+  config.law.schedule = {fast};
+  ControlCycle control(config);
+  StillRig rig;
+  EXPECT_EQ(Levitate(control, rig).mode, Mode::kLevitating);
+  CycleInputs spin = rig.Next(OperatorCommand::kSpin);
+  spin.op.speed_rad_per_s = config.rig.max_speed_rad_per_s;
+  spin.op.acceleration_rad_per_s2 = 50.0;
+  (void)control.Step(spin);
+  while (rig.speed_rad_per_s < config.rig.max_speed_rad_per_s) {
+    rig.speed_rad_per_s += 0.005;
+    (void)control.Step(rig.Next());
+  }
+  rig.position_m = {10e-6, 10e-6, 10e-6, 10e-6};
+  for (int n = 0; n < 300; ++n) (void)control.Step(rig.Next());
+  rig.speed_rad_per_s = fault;
+  std::vector<double> currents;
+  for (int n = 0; n < 90; ++n) {
+    currents.push_back(control.Step(rig.Next()).current.control_current_a[0]);
+  }
+  return currents;
+}
+
+// A tachometer that is lost at full speed must not bring the law of rest with it.
+TEST(ControlCycle, KeepsTheLawOfTheBelievedSpeedWhenTheReadingIsLost) {
+  const double top = FlexibleRotorCycle().rig.max_speed_rad_per_s;
+  const std::vector<double> held = CurrentsWithSpeedRead(top);
+  EXPECT_EQ(CurrentsWithSpeedRead(0.0), held);
+  EXPECT_EQ(CurrentsWithSpeedRead(std::numeric_limits<double>::quiet_NaN()), held);
+  // A change that the drive can make is followed, within the margin of the belief: 1 % and a bit.
+  EXPECT_NE(CurrentsWithSpeedRead(top - 6.0), held);
+}
+
 TEST(ControlCycle, HoldsTheLastCurrentWhileFramesAreMissingThenDrops) {
   const CycleConfig config = FlexibleRotorCycle();
   ControlCycle control(config);
