@@ -57,7 +57,7 @@ class SpeedWatch {
   }
   [[nodiscard]] bool unknown() const noexcept { return lost_; }
   [[nodiscard]] double Magnitude() const noexcept;
-  /// What the law may take for the speed: as believed; unknown, what the brake has left of it.
+  /// Size of the speed for the law: the believed one; while unknown, that less what the brake took.
   [[nodiscard]] double Estimate() const noexcept { return lost_ ? lowest_rad_per_s_ : Magnitude(); }
   /// What contradicts: the reading (0 for what is no number) and the nearest one that can be.
   [[nodiscard]] Finding Contradiction() const noexcept;

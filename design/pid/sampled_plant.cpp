@@ -82,8 +82,8 @@ bool IsTheModel(const Modal& modal, const StateSpace& of) {
 }
 
 /// Of a rotor that is the same in two directions, a disc in the middle between like bearings, the
-/// eigenvectors of equal poles may be returned nearly parallel. A change of the model far below
-/// what anybody knows of it parts them.
+/// eigenvectors of equal poles may be returned nearly parallel. A relative change of the model by
+/// 1e-8 at most makes the poles differ, and the vectors with them.
 Modal ModalForm(const plant::LinearModel& model, Index channels) {
   StateSpace of{model.a, {}, {}};
   const Eigen::VectorXd scale = ScaleAlike(of.a);

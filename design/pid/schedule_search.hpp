@@ -7,7 +7,7 @@
 //            loop runs between two entries lies on the straight line between them
 //            (law_schedule.hpp); where that does not hold the rig, or |S| leaves its limit, an
 //            entry is added in the middle, three at most between two speeds that were asked for.
-//            What is left open is told.
+//            Intervals that still do not hold are returned in `open`.
 // Judged     by the gate, not here: neighbours that hold are no proof of what lies between.
 // Same seed  same laws. Failure and thread: as of SearchPid.
 
