@@ -2,7 +2,7 @@
 // Natural modes of a rig whose shafts stand on supports of their own, magnets without current.
 //
 // Equation   eigenvalues s of the linear model's displacements and velocities at one speed;
-//            frequency Im(s)/2 pi, damping ratio -Re(s)/|s|. docs/derivations_gears.md (G16).
+//            frequency Im(s)/2 pi, damping ratio -Re(s)/|s|. docs/derivations.md (G16).
 // Torsion    share of the mode's kinetic energy in the torsional coordinates.
 // Whirl      share of forward whirl in the rest: 1 forward, 0 backward, 0.5 motion in one plane.
 // Thread     any; allocates.

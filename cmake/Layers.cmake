@@ -1,4 +1,4 @@
-# Libraries declare the layer they live in, 0 to 5, and the libraries they use (docs/layers.md). A
+# Libraries declare the layer they live in, 0 to 5, and the libraries they use (docs/architecture.md). A
 # library may use what lies on a lower layer, and of its own layer what it names in USES, itself or
 # through what it uses; no library reaches itself that way. Anything else stops the configuration
 # with one sentence.

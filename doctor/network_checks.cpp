@@ -66,10 +66,11 @@ Finding WhoMayCommand(const Probe& probe) {
                     in_use),
         ""};
   }
-  return {Area::kLcm, "who may command", State::kDegraded,
-          fmt::format("a program has joined 239.255.76.67 on {}: it hears every machine there; {}",
-                      fmt::join(outside, ", "), in_use),
-          "ss -ulnp | grep 239.255.76.67 names it; a rig there needs --key FILE (docs/network.md)"};
+  return {
+      Area::kLcm, "who may command", State::kDegraded,
+      fmt::format("a program has joined 239.255.76.67 on {}: it hears every machine there; {}",
+                  fmt::join(outside, ", "), in_use),
+      "ss -ulnp | grep 239.255.76.67 names it; a rig there needs --key FILE (docs/dashboard.md)"};
 }
 
 }  // namespace levitas::doctor

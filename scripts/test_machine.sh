@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A machine with CAN, GPIO lines and virtual time for the tests (docs/test_machine.md).
+# A machine with CAN, GPIO lines and virtual time for the tests (CONTRIBUTING.md).
 #
 #   scripts/test_machine.sh build                    builds its kernel once; prints the path
 #   scripts/test_machine.sh kernel                   prints the path; status 1: not built

@@ -145,7 +145,7 @@ void TakeSession(const std::string& path, const RigNumbers& rig, ColumnWriter& c
 
 void TakeBusLog(const std::string& path, const config::RigFile& rig, const RecordTaker& take) {
   if (rig.buses.empty()) {
-    throw BadInput(rig.numbers.name + ": names no CAN buses (section buses, docs/can.md)");
+    throw BadInput(rig.numbers.name + ": names no CAN buses (section buses, docs/real_rig.md)");
   }
   static_cast<void>(
       ReadCandump(path, can::MakeLayout(rig.numbers, can::FormatOf(rig.buses)), take));

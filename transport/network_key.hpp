@@ -2,7 +2,7 @@
 // The secret that those share who may speak on one network, and what is made of it.
 //
 // File     kBytes random bytes as hexadecimal digits on one line; a regular file of this user or of
-//          root that nobody else may read or write. docs/network.md.
+//          root that nobody else may read or write. docs/dashboard.md.
 // Seal     a keyed BLAKE2b of kSealBytes (libsodium, no allocation), with a key of its own for each
 //          group and port: what was said on one port is worth nothing on another.
 // Thread   after construction any; const.

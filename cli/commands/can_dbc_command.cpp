@@ -43,7 +43,8 @@ nlohmann::ordered_json Json(const DbcOptions& options, const can::Layout& layout
 ExitStatus Write(const DbcOptions& options) {
   const std::string path = config::FindConfig(options.rig, "rigs");
   const config::RigFile rig = config::LoadRig(path);
-  if (rig.buses.empty()) throw BadInput(path + ": names no CAN buses (section buses, docs/can.md)");
+  if (rig.buses.empty())
+    throw BadInput(path + ": names no CAN buses (section buses, docs/real_rig.md)");
   const can::Layout layout = can::MakeLayout(rig.numbers, can::FormatOf(rig.buses));
   session::CheckOutputPath(options.json_path, path);
   const std::string text = options.table ? can::LayoutMarkdown(layout) : can::DbcText(layout);

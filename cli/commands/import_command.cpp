@@ -76,7 +76,7 @@ void Print(const std::string& out_path, const session::ImportReport& report,
 ExitStatus ImportBusLog(const ImportCommandOptions& options, const config::RigFile& rig,
                         const session::ImportOptions& import) {
   if (rig.buses.empty()) {
-    throw BadInput(options.rig_name + ": names no CAN buses (section buses, docs/can.md)");
+    throw BadInput(options.rig_name + ": names no CAN buses (section buses, docs/real_rig.md)");
   }
   const can::Layout layout = can::MakeLayout(rig.numbers, can::FormatOf(rig.buses));
   const session::CandumpReport report = session::ImportCandump(import, layout);

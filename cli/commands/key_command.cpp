@@ -26,7 +26,7 @@ void AddKeyCommand(CLI::App& app, Action& action) {
       return ExitStatus::kDone;
     };
   });
-  command->footer("What a key protects, and what not: docs/network.md");
+  command->footer("What a key protects, and what not: docs/dashboard.md");
 }
 
 }  // namespace levitas::cli

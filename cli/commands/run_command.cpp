@@ -264,7 +264,7 @@ void AddRunCommand(CLI::App& app, Action& action) {
   command->add_option(
       "--port", options->port,
       "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can, or can:IF[,IF...] (the rig then "
-      "stands behind CAN buses, see docs/can.md); default: lcm on free ports");
+      "stands behind CAN buses, see docs/real_rig.md); default: lcm on free ports");
   command->add_flag("--no-simulated-rig", options->rig_is_there,
                     "Start the controller alone, for a rig that is on --port already; on a bus "
                     "that is no virtual "

@@ -100,7 +100,7 @@ void AddBenchCommand(CLI::App& app, Action& action) {
                       "NAME=V,V,...: the same trials with each value of a number that decides");
   command->add_flag(
       "--constants", options->constants,
-      "Print the numbers that decide, with their sources (docs/judging_constants.md)");
+      "Print the numbers that decide, with their sources (docs/diagnosis_results.md)");
   command->add_option("--json", options->json_path, "Every trial");
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

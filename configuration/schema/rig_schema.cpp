@@ -212,7 +212,7 @@ void Describe(Visitor& v, can::BusConfig& bus) {
 }
 
 void DescribeBuses(Visitor& v, RigFile& rig) {
-  v.List({"buses", 0, 4, "CAN buses between controller and rig; see docs/can.md"}, rig.buses,
+  v.List({"buses", 0, 4, "CAN buses between controller and rig; see docs/real_rig.md"}, rig.buses,
          [&](can::BusConfig& bus, std::size_t /*index*/) { Describe(v, bus); });
   if (rig.buses.empty()) return;
   const auto carries = [&](can::Carries wanted) {

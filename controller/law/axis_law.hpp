@@ -3,7 +3,7 @@
 // state_space_law.hpp when the configuration holds one.
 //
 // Equation   u = C(z) e + excitation, e = reference - y;  ic = u limited to +-limit
-//            (docs/derivations_law.md eq. (L1)-(L10)). Order: lead-lags, notches, PID. For a linear
+//            (docs/derivations.md eq. (L1)-(L10)). Order: lead-lags, notches, PID. For a linear
 //            law the order is free; with the PID last its integrator is counted in amperes of
 //            output, so that the limit and the integrator speak of the same quantity.
 // Anti-windup  conditional integration: the integrator of an axis stands still while the axis is

@@ -2,7 +2,7 @@
 // The axis law in discrete time, as numbers: what axis_law.hpp executes and analysis reads.
 //
 // Equation   s -> (2/T)(z-1)/(z+1) (Tustin) in each block of law_config.hpp, without prewarp, but
-//            s -> w/tan(wT/2) (z-1)/(z+1) in a notch at w with prewarp; see docs/derivations_law.md
+//            s -> w/tan(wT/2) (z-1)/(z+1) in a notch at w with prewarp; see docs/derivations.md
 //            eq. (L1)-(L8). Written in q = z^-1:
 //              PID      Kp + g (1+q)/(1-q) + b (1-q)/(1+a q)
 //              section  (b0 + b1 q + b2 q^2) / (1 + a1 q + a2 q^2)

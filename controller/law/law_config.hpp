@@ -6,7 +6,7 @@
 //   C(s) = [Kp + Ki/s + Kd s/(1 + s/wd)] . (1 + s/wz)/(1 + s/wp) . N1(s) . N2(s) ...
 //   N(s) = (s^2/w^2 + 2 zz s/w + 1) / (s^2/w^2 + 2 zp s/w + 1)
 //   ic   = -C(s) (y - reference)
-// Source: A. Sahinkaya & J. T. Sawicki, flexible rotor on two AMBs; docs/derivations_law.md.
+// Source: A. Sahinkaya & J. T. Sawicki, flexible rotor on two AMBs; docs/derivations.md.
 
 #include <array>
 #include <cstddef>

@@ -3,7 +3,7 @@
 //
 // Equation   w[n+1] = A w[n] + B v[n],  i = go (C w[n] + D v[n]) + excitation,  ic = i limited to
 //            +-limit, v = gi (y - reference) the sensors' signal; A is made of blocks
-//            [re im; -im re] (im = 0: one state). docs/derivations_law.md eq. (L13)-(L16).
+//            [re im; -im re] (im = 0: one state). docs/derivations.md eq. (L13)-(L16).
 // Sign       none is added: a law that holds the rotor has its minus inside C, B or D.
 // Sources    modal form and zero-order hold of analogue controllers: H.-L. Chiu (2022), Appl. Sci.
 //            12, 8556, controllers of a turbomolecular pump.

@@ -70,17 +70,16 @@ std::string_view Name(Drive drive) noexcept { return Lookup(kDriveNames, drive);
 
 std::string ModeTableDocument() {
   std::string text =
-      "# Modes\n\n"
+      "## Modes\n\n"
       "Written from the mode table in `controller/supervisor/mode_table.hpp`; a test compares the "
-      "two. `LEVITAS_WRITE_DOCS=1` makes that test write this file anew. Why the safe states are "
-      "what they are: [safety.md](safety.md).\n\n"
+      "two. `LEVITAS_WRITE_DOCS=1` makes that test write this chapter anew.\n\n"
       "A command without an edge here is refused; `excite` changes no state and is refused where "
       "the "
       "excitation is not passed on, `end_excitation` never. An emergency stop is a stop fault, "
       "whether an "
-      "operator asks for it or the rig's own chain opens.\n\n## Diagram\n\n";
+      "operator asks for it or the rig's own chain opens.\n\n### Diagram\n\n";
   text += StateDiagram();
-  text += "\n## States\n\n";
+  text += "\n### States\n\n";
   text += Line({"state", "mode shown", "magnets", "reference", "drive", "excitation", "stop faults",
                 "drop faults"});
   text += "|---|---|---|---|---|---|---|---|\n";
@@ -95,7 +94,7 @@ std::string ModeTableDocument() {
       "fault means that the rotor stays beyond the whole clearance (tripped_stopping) or away from "
       "where it is being lowered (tripped_landing). A rotor that turns in landing has an unknown "
       "speed; under the drive's brake in off is only a rotor that is seen to turn.\n";
-  text += "\n## Edges\n\n";
+  text += "\n### Edges\n\n";
   text += Line({"from", "event", "only if", "to", "action"});
   text += "|---|---|---|---|---|\n";
   for (const Edge& edge : kEdges) {

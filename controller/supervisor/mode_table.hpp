@@ -1,6 +1,6 @@
 #pragma once
 // The mode table: every state, what the rig does in it, and every edge between states, as data.
-// docs/modes.md is written from it; docs/safety.md says why the safe states are what they are.
+// The last chapter of docs/safety.md is written from it; the others say why it is as it is.
 //
 // States     finer than Mode: a trip passes through up to three of them, all Mode::kTripped.
 // Edges      a pair (state, event) that is not in the table: a command is refused, anything else
@@ -230,7 +230,7 @@ inline constexpr std::array kEdges{
 [[nodiscard]] std::string_view Name(Reference reference) noexcept;
 [[nodiscard]] std::string_view Name(Drive drive) noexcept;
 
-/// docs/modes.md as it must read for this table.
+/// The chapter "Modes" of docs/safety.md, its last, as it must read for this table.
 [[nodiscard]] std::string ModeTableDocument();
 
 }  // namespace levitas::supervisor

@@ -46,7 +46,7 @@ struct JudgingRow {
 /// The row of a name; BadInput lists the names.
 [[nodiscard]] const JudgingRow& FindJudging(std::string_view name);
 
-/// docs/judging_constants.md.
+/// docs/diagnosis_results.md.
 [[nodiscard]] std::string JudgingMarkdown();
 
 /// [nat] The first row's value, for whoever reads scores: odds of 150 : 1.

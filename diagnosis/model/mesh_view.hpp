@@ -3,7 +3,7 @@
 // teeth are displaced along a run of the model.
 //
 // Equation   delta = r1 - r2 + run-out 1 - run-out 2 - e(engagement); force on the driven wheel
-//            k delta + c delta'. docs/derivations_gears.md (G1), (G2). Written without
+//            k delta + c delta'. docs/derivations.md (G1), (G2). Written without
 //            plant_sim/gear's step, so that neither can hide an error of the other.
 // Angle      total, from a start at which all wheels stand as in the rig file: of the first shaft
 //            alone it leaves open in which of its turns the others are (turns.hpp).

@@ -6,7 +6,7 @@
 // Bounded     one Read takes at most kMostPerRead frames. When more are waiting it returns none:
 //             what it found may not be the newest. In real time a frame that has waited for two
 //             periods is no news either.
-// Results of faults docs/can.md, tested in tests/unit/can_port and, on a kernel's bus, in
+// Results of faults docs/real_rig.md, tested in tests/unit/can_port and, on a kernel's bus, in
 //             tests/hardware/can. The rest (thread, blocking, staleness, failure) is the contract
 //             of controller/port.
 

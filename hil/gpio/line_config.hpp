@@ -1,8 +1,8 @@
 #pragma once
-// The lines between controller and rig as a rig file describes them. Plain data; docs/gpio.md.
+// The lines between controller and rig as a rig file describes them. Plain data; docs/real_rig.md.
 //
-// Active   each function has one active meaning (docs/gpio.md); `active_high` says which level of
-//          the wire that is. Everything above the adapter speaks of active and inactive only.
+// Active   each function has one active meaning (docs/real_rig.md); `active_high` says which level
+//          of the wire that is. Everything above the adapter speaks of active and inactive only.
 // Absent   a function that the rig does not have is nullopt, never a line number of its own.
 
 #include <cstdint>

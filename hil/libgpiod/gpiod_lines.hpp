@@ -7,7 +7,7 @@
 // Thread     the constructor before any thread is started (it forks); the rest loop thread, except
 //            guard_alive (any).
 // Cost       one system call for each input and cycle, one for each edge of an output. Chips behind
-//            I2C or SPI sleep in that call: not for the cycle (docs/gpio.md).
+//            I2C or SPI sleep in that call: not for the cycle (docs/real_rig.md).
 // Failure    Problem with every line that could not be had and why. Afterwards: hil/gpio/lines.hpp.
 
 #include <memory>

@@ -11,7 +11,7 @@
 // Escape     its own session, deaf to the signals of a terminal, so that ^C or a kill of the
 //            process group reaches the controller alone; a name of its own, "amb-line-guard".
 // Limits     whoever kills both, or stops the kernel, is left to the pull-down and to the rig's
-//            heartbeat watchdog (docs/gpio.md).
+//            heartbeat watchdog (docs/real_rig.md).
 // Thread     construct before any thread is started: the guard is a fork. Arm, Disarm, Beat: one
 //            thread, no system call. alive: any thread.
 // Failure    Problem when the guard cannot be started.

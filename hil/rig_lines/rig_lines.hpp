@@ -3,7 +3,7 @@
 // the key phasor's mark, its stop chain is closed until somebody opens it.
 //
 // Stop chain, fault   set to healthy once, at the start; after that they belong to whoever pulls
-//                     the simulated line (docs/gpio.md says how).
+//                     the simulated line (docs/real_rig.md says how).
 // Key phasor          active for half a mark spacing from each mark on. An edge comes at the next
 //                     period after its mark, so its time stamp is late by up to one period.
 // Thread              Poll, Turn: the rig's loop; two to four system calls, no allocation. The

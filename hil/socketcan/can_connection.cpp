@@ -80,7 +80,7 @@ CanConnection Loaded(const config::RigFile& rig, const std::string& rig_name,
   const std::vector<std::string> interfaces = InterfacesOf(port);
   if (rig.buses.empty()) {
     throw BadInput(
-        fmt::format("{}: names no CAN buses; --port {} needs a section buses, see docs/can.md",
+        fmt::format("{}: names no CAN buses; --port {} needs a section buses, see docs/real_rig.md",
                     rig_name, port));
   }
   if (interfaces.size() > rig.buses.size()) {

@@ -9,7 +9,7 @@
 //            isotropic       all of delta counts: the complex model of the transverse vibration
 //            line_of_action  only its component along n does: spur gears without friction
 //            Friction adds mu N s(t) along j n; s changes sign at the pitch point.
-//            docs/derivations_gears.md (G1)-(G7).
+//            docs/derivations.md (G1)-(G7).
 // Sources    Ozguven & Houser (1988), review of gear dynamics; Kahraman & Singh (1991), backlash;
 //            Vaishya & Singh (2001), friction; Chaari et al. (2009), cracked tooth.
 // Frame      r = x + j y; f acts on the driven gear, -f on the driving one.

@@ -4,7 +4,7 @@
 //
 // Equation   e(t) = sum_i e_i exp(j (i w_e t + phi_i)),  i = -n .. n,  w_e t = teeth x wheel angle
 //            Forward (i > 0) and backward (i < 0) harmonics are independent: the path of e is no
-//            line, and its spectrum is not symmetric. docs/derivations_gears.md (G2).
+//            line, and its spectrum is not symmetric. docs/derivations.md (G2).
 // Frame      r = x + j y of the bearings. Units: m, rad.
 // Thread     any; At and Set allocate nothing.
 

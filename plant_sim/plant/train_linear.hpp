@@ -1,7 +1,7 @@
 #pragma once
 // Geared shafts in the linear model: torsional modes, supports and the mean mesh, added to its A.
 //
-// Equation   docs/derivations_gears.md (G16). Thread: any; allocates.
+// Equation   docs/derivations.md (G16). Thread: any; allocates.
 
 #include <Eigen/Core>
 

@@ -4,7 +4,7 @@
 //
 // Coordinates  the modes of all shafts side by side, the same in both planes, then the torsional
 //              modes. A shape is a row over the modes of one plane, a twist one over the torsional
-//              modes. docs/derivations_gears.md (G13)-(G15).
+//              modes. docs/derivations.md (G13)-(G15).
 // Rotation     shaft s turns at ratio_s times the speed of the first; -z1/z2 through a gear pair.
 // Failure      std::invalid_argument naming the shaft or gear. Thread: any; constant afterwards.
 

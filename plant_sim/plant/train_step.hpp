@@ -1,7 +1,7 @@
 #pragma once
 // Forces of geared shafts within one substep: unbalance at each shaft's own speed, supports, teeth.
 //
-// Equation   docs/derivations_gears.md (G1)-(G7), (G13)-(G15).
+// Equation   docs/derivations.md (G1)-(G7), (G13)-(G15).
 // Thread     one pose per plant. No allocation, no throw.
 
 #include <array>

@@ -4,7 +4,7 @@
 //
 // Equation   flexibility at z = a of a beam of span L = a + b (Timoshenko & Young, beam tables):
 //              ayy = a^2 b^2/(3 EI L), aya = a b (b - a)/(3 EI L), aaa = (a^2 - a b + b^2)/(3 EI L)
-//            docs/derivations_gears.md (G8)-(G10).
+//            docs/derivations.md (G8)-(G10).
 // Thread     any; allocates. Failure: std::invalid_argument naming the number.
 
 #include "plant_sim/rotor/finite_element.hpp"

@@ -3,7 +3,7 @@
 //
 // Equation   J th'' + K th = torque, per inertia; of a beam: G Ip/l per element, its inertia shared
 //            consistently, discs and rings with their polar inertia. Free but for ground stiffness.
-//            docs/derivations_gears.md (G11)-(G12).
+//            docs/derivations.md (G11)-(G12).
 // Units      rad, kg m2, N m/rad. Thread: any; allocates. Failure: std::invalid_argument.
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 #pragma once
 // A chip of the kernel's gpio-sim for one test: made at construction, gone at its end.
 //
-// Needs    root, configfs, gpio-sim: the place hardware tests run in (docs/test_machine.md).
+// Needs    root, configfs, gpio-sim: the place hardware tests run in (CONTRIBUTING.md).
 // Failure  std::runtime_error.
 
 #include <filesystem>

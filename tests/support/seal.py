@@ -1,4 +1,4 @@
-"""The trailer of a network with a key, written from docs/network.md with Python's own BLAKE2b."""
+"""The trailer of a network with a key, written from docs/dashboard.md with Python's own BLAKE2b."""
 
 import hashlib
 import os

@@ -3,7 +3,7 @@
 //
 // Use        Prepare once (allocates, and makes room in the train), then Apply for every set of
 //            strengths (does not allocate). Strength 0 gives the nominal gears, bit for bit.
-// Equations  plant_sim/gear, docs/derivations_gears.md (G1)-(G7); the table of the effects is
+// Equations  plant_sim/gear, docs/derivations.md (G1)-(G7); the table of the effects is
 //            plant_sim/effect/rows_gear.cpp.
 // Thread     any; Apply writes the train alone.
 

@@ -39,7 +39,7 @@ class Files(unittest.TestCase):
 
     def test_no_retired_word_comes_back(self):
         found = violations(rules.retired_words, (".cpp", ".hpp", ".md"))
-        self.assert_none([line for line in found if not line.startswith("docs/glossary.md")])
+        self.assert_none([line for line in found if not line.startswith("docs/conventions.md")])
 
     def test_every_test_asserts_something(self):
         self.assert_none(violations(rules.tests_without_assertion, (".cpp",)))
@@ -61,11 +61,11 @@ class Files(unittest.TestCase):
 
 
 class Tour(unittest.TestCase):
-    """The tour of README.md, done in a clone, leaves git nothing to report."""
+    """The tours of README.md and docs/tour.md, done in a clone, leave git nothing to report."""
 
     @unittest.skipUnless((SOURCE / ".git").exists() and shutil.which("git"), "no clone, or no git")
     def test_files_it_writes_at_top_level_are_ignored_and_only_there(self):
-        tour = (SOURCE / "README.md").read_text(encoding="utf-8")
+        tour = "".join((SOURCE / page).read_text(encoding="utf-8") for page in ("README.md", "docs/tour.md"))
         written = set(re.findall(r"--(?:record|csv|out) ([\w.]+)", tour))
         written |= set(re.findall(r"run_picture.py \S+ (\S+)", tour))
         self.assertIn("run.svg", written)
@@ -78,6 +78,15 @@ class Tour(unittest.TestCase):
         asked = name if "." in name else name + "/"
         return subprocess.run(["git", "-C", str(SOURCE), "check-ignore", "-q", asked],
                               check=False).returncode == 0
+
+
+class Names(unittest.TestCase):
+    @unittest.skipUnless((SOURCE / ".git").exists() and shutil.which("git"), "no clone, or no git")
+    def test_none_reads_as_an_option(self):
+        """What a program without options is given after `--help` becomes a file of that name."""
+        names = subprocess.run(["git", "-C", str(SOURCE), "ls-files", "-z"], capture_output=True, text=True,
+                               check=True).stdout.split("\0")
+        self.assertFalse([name for name in names if Path(name).name.startswith("-")])
 
 
 class Commits(unittest.TestCase):

@@ -74,7 +74,7 @@ def notes_to_self(text):
             if (match := NOTE_TO_SELF.search(line))]
 
 
-# Words that the field does not use, with its own (docs/glossary.md); they do not come back.
+# Words that the field does not use, with its own (docs/conventions.md); they do not come back.
 RETIRED = {"inquiry": "search state", "oracle": "informed diagnosis", "kept back": "validation data",
            "kept aside": "validation data", "rivals": "alternatives", "strays": "diverges",
            "straying": "divergence", "sharpen": "refine", "flown": "levitated",

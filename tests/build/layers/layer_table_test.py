@@ -1,4 +1,4 @@
-"""docs/layers.md names every library on its layer, and nothing else."""
+"""The chapter on layers of docs/architecture.md names every library on its layer, and nothing else."""
 
 import os
 import re
@@ -25,7 +25,8 @@ def declared():
 
 def documented():
     table = {}
-    for layer, names in re.findall(r"^\| (\d+) \| ([^|]*) \|", (SOURCE / "docs/layers.md").read_text(), re.M):
+    chapter = (SOURCE / "docs/architecture.md").read_text().split("\n## Libraries on six layers\n")[1]
+    for layer, names in re.findall(r"^\| (\d+) \| ([^|]*) \|", chapter.split("\n## ")[0], re.M):
         table |= dict.fromkeys(re.findall(r"`([\w-]+)`", names), int(layer))
     return table
 

@@ -1,4 +1,4 @@
-"""What the hardware tests rely on in the place they run in (docs/test_machine.md)."""
+"""What the hardware tests rely on in the place they run in (CONTRIBUTING.md)."""
 
 import os
 import pathlib

@@ -117,7 +117,7 @@ class RealTimeOverCan(unittest.TestCase):
         self.assertEqual(told["provenance"]["pace"], "realtime")
         self.assertTrue(all(record.frame_present for record in self.records()[1:]))
         self.assertEqual(rig.status(), 0, rig.text)  # at the goodbye of the one controller
-        # Two periods: docs/can.md. The path that is simulated is the one that is measured.
+        # Two periods: docs/real_rig.md. The path that is simulated is the one that is measured.
         delay = told["timing"]["delay"]
         self.assertEqual(delay["expected_periods"], 2.0)
         self.assertEqual(delay["acting"]["median_periods"], 2.0)

@@ -141,7 +141,7 @@ class Help(CommandTest):
 
     def test_every_command_of_the_documentation_exists(self):
         told = set()
-        for page in (SOURCE / "docs/analysis.md", SOURCE / "docs/formats.md"):
+        for page in (SOURCE / "docs/judging.md", SOURCE / "docs/formats.md"):
             told |= set(re.findall(r"`amb ([a-z]+)", page.read_text()))
         self.assertGreaterEqual(told, {"modes", "poles", "margins", "simulate", "import", "export",
                                        "replay"})

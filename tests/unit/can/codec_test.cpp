@@ -18,8 +18,8 @@ MessageCodec CodecOf(const Layout& layout, const std::string& name) {
   return {MessageNamed(layout, name), layout.format};
 }
 
-// Written by hand from the table of docs/can.md: 2.5 um is 250 steps of 10 nm (0x00FA), -1 um is
-// -100 (0xFF9C), cycle 0xABC, session 2, speed 100 rad/s is 1000 steps (0x003E8), angle pi is
+// Written by hand from the table of docs/real_rig.md: 2.5 um is 250 steps of 10 nm (0x00FA), -1 um
+// is -100 (0xFF9C), cycle 0xABC, session 2, speed 100 rad/s is 1000 steps (0x003E8), angle pi is
 // 0x8000.
 TEST(Codec, PutsTheBytesOfAPositionFrameWhereTheTableSays) {
   const Layout layout = MakeLayout(TestRig(4), Format::kFd);

@@ -90,8 +90,8 @@ TEST(CanConnection, KnowsItsOwnPorts) {
   EXPECT_FALSE(IsCanPort("canned"));
 }
 
-// The instants of docs/can.md at 100 us: 72.6 us of positions, 30 us until the controller wakes, 5
-// us until it has answered, 64.6 us of currents.
+// The instants of docs/real_rig.md at 100 us: 72.6 us of positions, 30 us until the controller
+// wakes, 5 us until it has answered, 64.6 us of currents.
 TEST(BusDelay, OfACurrentThatActsOnArrivalHoldsTheWayThereAndTheController) {
   config::RigFile rig = Rig();
   rig.buses[1].current_acts = can::Acts::kOnArrival;

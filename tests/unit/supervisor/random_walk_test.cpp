@@ -149,7 +149,8 @@ class Standstill {
   bool turning_{};
 };
 
-/// From docs/modes.md: cause_gone is a fresh plausible frame without a fault bit, the rotor stands.
+/// From docs/safety.md: cause_gone is a fresh plausible frame without a fault bit, and a rotor that
+/// stands.
 /// Whether an axis is frozen is not seen in one frame, so a walk with a frozen axis asks no reset.
 bool CauseGone(const Seen& seen, bool standing) {
   const RigNumbers rig = TestRig();

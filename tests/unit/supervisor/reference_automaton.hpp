@@ -1,5 +1,5 @@
 #pragma once
-// The modes as docs/modes.md describes them, written again from its tables by hand and without the
+// The modes as docs/safety.md describes them, written again from its tables by hand and without the
 // supervisor's own: what two independent readings agree on is not one slip of the pen.
 //
 // Told       the fault that was found in a cycle, the command, and what can be seen; it judges
