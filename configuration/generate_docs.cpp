@@ -6,7 +6,8 @@
 #include "configuration/text/documenter.hpp"
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
+  // An option that is none would become a file of that name.
+  if (argc != 2 || argv[1][0] == '-') {
     std::fputs("usage: generate_docs FILE\n", stderr);
     return 2;
   }

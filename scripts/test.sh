@@ -1,13 +1,15 @@
 # Sourced by ./amb: builds and runs the tests.
 #
-#   run_tests                 every label of preset release
-#   run_tests unit loop       these labels
+#   run_tests                 every label of preset release, without what is long
+#   run_tests unit loop       these labels, with what is long
+#   run_tests long            what is long: minutes for what another test has in small
 #   run_tests -R Pid          single tests by name; whatever ctest understands
 #   run_tests --all           what CI runs: besides, clang-tidy, ASan+UBSan, and fuzzing for a minute each
 #   run_tests --tsan          parts with threads, and the processes, under the thread sanitizer
 #   run_tests --help          says the above
 
 test_labels="unit loop replay process hardware build"
+more_labels="long"  # on tests that bear one of the others, too
 # Unit tests of the parts that start threads or are shared between them.
 threaded_tests="common_test session_test transport_test loop_test rt_test doctor_test gpio_test diagnosis_unit_test dashboard_test"
 
@@ -32,7 +34,7 @@ remedy_of() {
   case $2 in
     process.dashboard.*) echo "./amb test --all runs it: it installs Chromium (packages-browser.txt)" ;;
     build.*) echo "./amb test --all runs it: it installs what it needs (packages-ci.txt, packages-deb.txt)" ;;
-    hardware.*) echo "./amb test hardware runs it, where it can have a kernel for it (docs/test_machine.md)" ;;
+    hardware.*) echo "./amb test hardware runs it, where it can have a kernel for it (CONTRIBUTING.md)" ;;
     *) echo "ctest --test-dir build/$1 -R '$2' -V says what it lacks" ;;
   esac
 }
@@ -92,7 +94,7 @@ prepare_preset() {
 }
 
 # Hardware tests need vcan and gpio-sim: of this kernel, or of a machine whose kernel is built once
-# (docs/test_machine.md). Where neither is possible they are named as not run; nothing else stops.
+# (CONTRIBUTING.md). Where neither is possible they are named as not run; nothing else stops.
 machine_missing() { ! "$root/scripts/test_machine.sh" kernel >/dev/null 2>&1; }
 build_machine() {
   "$root/scripts/test_machine.sh" build >/dev/null ||
@@ -103,7 +105,7 @@ build_machine() {
 # is compiled beside them: it fills the cores where our compiler waits for one long source.
 prepare_whole() {
   local kernel=""
-  if [[ " $* " == *" hardware "* ]] && machine_missing; then
+  if [[ " $* " =~ \ (hardware|long)\  ]] && machine_missing; then
     take_lock
     if (install_packages "$root/packages.txt" "${ci_packages[@]}" "$root/packages-machine.txt"); then
       build_machine 9>&- &
@@ -201,8 +203,9 @@ run_tests() {
   fi
   if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
     cat <<'USAGE'
-./amb test               every test of preset release
-./amb test LABEL...      unit, loop, replay, process, hardware, build
+./amb test               every test of preset release but the long ones
+./amb test LABEL...      unit, loop, replay, process, hardware, build, with the long ones among them
+./amb test long          the long ones: minutes for what another test has in small
 ./amb test -R Pid        single tests by name; whatever ctest understands
 ./amb test --tsan        what has threads, under the thread sanitizer
 ./amb test --all         what CI runs: besides, clang-tidy, ASan+UBSan, and fuzzing for a minute each
@@ -216,10 +219,14 @@ USAGE
   fi
   local labels=() ci_packages=() started=$SECONDS
   while [ $# -gt 0 ] && [[ $1 != -* ]]; do
-    [[ " $test_labels " == *" $1 "* ]] || { say "no test label '$1'; labels: $test_labels"; return 2; }
+    [[ " $test_labels $more_labels " == *" $1 "* ]] ||
+      { say "no test label '$1'; labels: $test_labels $more_labels"; return 2; }
     labels+=("$1")
     shift
   done
+  # What was asked for by a label or by name is run, however long it takes.
+  local without=() long=""
+  [ ${#labels[@]} -ne 0 ] || [ $# -ne 0 ] || { without=(-LE '^long$'); long=yes; }
   # shellcheck disable=SC2206 -- one word per label is meant
   [ ${#labels[@]} -ne 0 ] || labels=($test_labels)
   local selection="(${labels[*]})"
@@ -227,5 +234,15 @@ USAGE
   [ $# -eq 0 ] || selection="(single[.])?$selection"
   prepare_whole "${labels[@]}"
   say "built after $((SECONDS - started)) s"
-  ctest_preset release -L "^${selection// /|}\$" "$@"
+  local status=0
+  ctest_preset release -L "^${selection// /|}\$" "${without[@]}" "$@" || status=$?
+  [ -z "$long" ] || say_long
+  return "$status"
+}
+
+# Names what a run without arguments left out.
+say_long() {
+  local names
+  names=$(ctest --test-dir "$build_root/release" -N -L '^long$' | sed -nE 's/^ *Test +#[0-9]+: //p')
+  say "not run: $(wc -l <<<"$names") long tests ($(paste -sd ' ' <<<"$names")). ./amb test long runs them"
 }

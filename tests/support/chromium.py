@@ -35,7 +35,9 @@ class Browser:
             [find(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
              "--hide-scrollbars", "--no-first-run", "--disable-background-networking",
              "--disable-component-update", "--disable-sync", "--disable-quic",
-             f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}",
+             f"--user-data-dir={self.profile.name}",
+             # Else it puts a folder into the cache of whoever runs the tests, and leaves it there.
+             f"--disk-cache-dir={self.profile.name}/cache", f"--window-size={width},{height}",
              "--remote-debugging-pipe", "about:blank"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=descriptors,
             close_fds=False)
