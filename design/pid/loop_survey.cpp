@@ -47,6 +47,13 @@ class Loop {
       const bool again = i > 0 && Same(laws[i], laws[i - 1]);
       same_as_last_.push_back(again);
     }
+    if (const Coordinates& other = plant.coordinates(); !other.empty()) {
+      channels_ = true;
+      to_channels_ = other.measure.cast<Complex>();
+      to_axes_ = other.measure.inverse().cast<Complex>();
+      drive_ = other.drive.cast<Complex>();
+      from_coils_ = other.drive.inverse().cast<Complex>();
+    }
   }
 
   LoopSurvey Run() {
@@ -108,15 +115,14 @@ class Loop {
     Sample out;
     out.hz = point.hz;
     out.determinant = m.determinant();
-    const Matrix inverse = m.inverse();
-    AddCompliance(point.plant, inverse, factors, out);
+    const AxisLoop loop = AxesOf(m.inverse(), factors);
+    AddCompliance(point.plant, loop.sensitivity, out);
     for (Index i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const double gain = std::norm(factors.law[at]);
       for (Index k = 0; k < n; ++k) {
         const double noise = std::norm(noise_m_[static_cast<std::size_t>(k)]);
-        const Complex s = factors.taken_out[at] * inverse(i, k);
-        const double current = gain * std::norm(inverse(i, k));
+        const Complex s = loop.sensitivity(i, k);
+        const double current = std::norm(loop.control(i, k));
         const double passed = std::norm((i == k ? 1.0 : 0.0) - s);
         out.frobenius += std::norm(s);
         out.current[at] += current * noise;
@@ -131,14 +137,28 @@ class Loop {
     return out;
   }
 
-  void AddCompliance(const AxisMatrix& plant, const Matrix& inverse, const Factors& factors,
-                     Sample& out) const {
+  /// S and C S between the axes, from the inverse of what Return gives.
+  struct AxisLoop {
+    Matrix sensitivity, control;
+  };
+  AxisLoop AxesOf(const Matrix& inverse, const Factors& factors) const {
+    AxisLoop out{inverse, inverse};
     for (Index i = 0; i < inverse.rows(); ++i) {
+      out.sensitivity.row(i) *= factors.taken_out[static_cast<std::size_t>(i)];
+      out.control.row(i) *= factors.law[static_cast<std::size_t>(i)];
+    }
+    if (!channels_) return out;
+    return {to_axes_ * out.sensitivity * to_channels_, drive_ * out.control * to_channels_};
+  }
+
+  void AddCompliance(const AxisMatrix& plant, const Matrix& sensitivity, Sample& out) const {
+    Matrix between = plant;
+    if (channels_) between = to_axes_ * between * from_coils_;
+    for (Index i = 0; i < sensitivity.rows(); ++i) {
       const auto axis = static_cast<std::size_t>(i);
       Complex moved = 0.0;
-      for (Index k = 0; k < inverse.cols(); ++k) moved += inverse(i, k) * plant(k, i);
-      const double per_newton =
-          std::abs(factors.taken_out[axis] * moved) / std::abs(plant_.current_n_per_a()[axis]);
+      for (Index k = 0; k < sensitivity.cols(); ++k) moved += sensitivity(i, k) * between(k, i);
+      const double per_newton = std::abs(moved) / std::abs(plant_.current_n_per_a()[axis]);
       out.metre_per_newton = std::max(out.metre_per_newton, per_newton);
     }
   }
@@ -293,10 +313,8 @@ class Loop {
       if (sample.frobenius <= out.singular.value) continue;
       const SampledPoint point = plant_.AtHz(sample.hz);
       Factors factors;
-      Matrix s = Return(std::conj(point.z), point.plant, factors).inverse();
-      for (Index i = 0; i < s.rows(); ++i)
-        s.row(i) *= factors.taken_out[static_cast<std::size_t>(i)];
-      const double size = std::sqrt(PowerOf(s));
+      const Matrix inverse = Return(std::conj(point.z), point.plant, factors).inverse();
+      const double size = std::sqrt(PowerOf(AxesOf(inverse, factors).sensitivity));
       if (size > out.singular.value) out.singular = {size, sample.hz};
     }
   }
@@ -320,6 +338,8 @@ class Loop {
   const SampledPlant& plant_;
   const std::vector<law::DiscreteLaw>& laws_;
   const std::vector<double>& noise_m_;
+  bool channels_{};
+  Matrix to_channels_, to_axes_, drive_, from_coils_;
   std::vector<bool> same_as_last_;
   std::vector<Sample> samples_;
 };

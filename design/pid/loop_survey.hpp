@@ -12,6 +12,8 @@
 //           pairs are told apart; and, for modes that the law hardly moves, to first order.
 // Noise     white at the sensors, its whole power between 0 and half the sampling rate: current
 //           and motion it makes, by the trapezoid rule.
+// Channels  of a plant with coordinates: one law each; peaks, noise and compliance are those of the
+//           axes all the same, S = M^-1 S' M, C S = R C' S' M.
 // Thread    any; pure.
 
 #include <vector>
@@ -34,7 +36,7 @@ struct LoopSurvey {
   std::vector<double> position_m;  ///< the same
 };
 
-/// Laws as they run, one per axis. `noise_m`: rms of each sensor.
+/// Laws as they run, one per axis or channel. `noise_m`: rms of each sensor.
 [[nodiscard]] LoopSurvey Survey(const SampledPlant& plant,
                                 const std::vector<law::DiscreteLaw>& laws,
                                 const std::vector<double>& noise_m);

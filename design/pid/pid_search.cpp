@@ -34,8 +34,9 @@ std::vector<PlantToHold> EveryPlant(const config::RigFile& rig,
   const Known known = options.first_levitation ? Known::kRigidBody : Known::kAll;
   std::vector<PlantToHold> out;
   for (int i = 0; i <= (turns ? kSpeeds : 0); ++i)
-    out.push_back(
-        {std::make_shared<SampledPlant>(rig, low + (top - low) * i / kSpeeds, known), true});
+    out.push_back({std::make_shared<SampledPlant>(rig, low + (top - low) * i / kSpeeds, known,
+                                                  options.coordinates),
+                   true});
   std::vector<uncertainty::Parameter> moved;
   for (const auto& parameter : parameters)
     if (!options.first_levitation || parameter.kind == uncertainty::Kind::kCurrentGain ||
@@ -48,7 +49,8 @@ std::vector<PlantToHold> EveryPlant(const config::RigFile& rig,
     const auto corner = uncertainty::At(rig, moved, place);
     for (const double speed : {low, top})
       if (speed == low || turns)
-        out.push_back({std::make_shared<SampledPlant>(corner, speed, known), false});
+        out.push_back(
+            {std::make_shared<SampledPlant>(corner, speed, known, options.coordinates), false});
   }
   return out;
 }
@@ -135,7 +137,7 @@ class Rounds {
          const std::vector<uncertainty::Parameter>& parameters, const PidSearchOptions& options)
       : options_(options),
         near_(start != nullptr),
-        judge_(rig, limits, options.third_n),
+        judge_(rig, limits, options.third_n, options.coordinates),
         every_(EveryPlant(rig, parameters, options)) {
     if (const std::string& failure = every_.front().plant->failure(); !failure.empty())
       throw Problem(ExitStatus::kOther, "no law holds this rig: " + failure);

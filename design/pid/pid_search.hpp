@@ -30,6 +30,8 @@ struct PidSearchOptions {
   /// Limit::kAnyMode should be asked.
   bool first_levitation{};
   std::uint64_t seed{1};
+  /// Of the PIDs; empty: axis by axis. The law found then has one entry per channel.
+  Coordinates coordinates{};
   double third_n{};
   double current_limit_a{};
   /// The range to be held; most 0: 1.1 times the rated speed.

@@ -7,6 +7,7 @@
 
 #include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
+#include "numerics/dense/spectrum.hpp"
 #include "plant_sim/plant/linear_parts.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
@@ -29,6 +30,19 @@ void TakePeaks(const LoopSurvey& survey, double speed, PidFigures& out) {
   take(Limit::kControl, survey.current_per_metre);
   take(Limit::kSingular, survey.singular);
   take(Limit::kCompliance, survey.metre_per_newton);
+}
+
+/// What a controller of these values in its channels is between an axis' own sensor and coil.
+std::complex<double> OfAxis(const Coordinates& coordinates,
+                            const std::vector<std::complex<double>>& value, std::size_t axis) {
+  if (coordinates.empty()) return value[axis];
+  const auto at = static_cast<Eigen::Index>(axis);
+  std::complex<double> out;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const auto channel = static_cast<Eigen::Index>(i);
+    out += coordinates.drive(at, channel) * value[i] * coordinates.measure(channel, at);
+  }
+  return out;
 }
 
 double RatioOf(Limit limit, double found, double allowed) {
@@ -67,8 +81,9 @@ PidLimits UsualLimits(const config::RigFile& rig, double current_limit_a) {
   return out;
 }
 
-PidJudge::PidJudge(const config::RigFile& rig, const PidLimits& limits, double third_n)
-    : limits_(limits), unbalance_(rig, third_n) {
+PidJudge::PidJudge(const config::RigFile& rig, const PidLimits& limits, double third_n,
+                   const Coordinates& coordinates)
+    : limits_(limits), coordinates_(coordinates), unbalance_(rig, third_n, coordinates) {
   for (std::size_t axis = 0; axis < rig.numbers.axes(); ++axis)
     noise_m_.push_back(rig.plant.bearings.at(axis / 2).sensor.noise_rms_m);
   const plant::PlantModel model(rig.plant);
@@ -96,13 +111,31 @@ PidJudge::PidJudge(const config::RigFile& rig, const PidLimits& limits, double t
 
 Met PidJudge::AnyMode(const std::vector<law::DiscreteLaw>& laws) const {
   Met out;
-  for (const Unknown& at : unknown_)
-    for (std::size_t axis = 0; axis < laws.size(); ++axis) {
-      const LawValue law = ValueAt(laws[axis], at.q);
-      const auto value = law.integrates ? law.value / (1.0 - at.q) : law.value;
-      TakeMost(out, -(value * at.chain[axis]).imag(), at.hz, 0.0);
+  for (const Unknown& at : unknown_) {
+    std::vector<std::complex<double>> value;
+    for (const auto& law : laws) {
+      const LawValue here = ValueAt(law, at.q);
+      value.push_back(here.integrates ? here.value / (1.0 - at.q) : here.value);
     }
+    for (std::size_t axis = 0; axis < laws.size(); ++axis)
+      TakeMost(out, -(OfAxis(coordinates_, value, axis) * at.chain[axis]).imag(), at.hz, 0.0);
+  }
   return out;
+}
+
+double PidJudge::SoftestAxis(const law::LawConfig& law, const SampledPlant& plant) const {
+  const auto n = static_cast<Eigen::Index>(law.axes.size());
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    stiffness(i, i) = law.axes[static_cast<std::size_t>(i)].kp_a_per_m;
+  if (!coordinates_.empty()) stiffness = coordinates_.drive * stiffness * coordinates_.measure;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    stiffness.row(i) *= plant.current_n_per_a()[axis];
+    stiffness(i, i) -= plant.displacement_n_per_m()[axis];
+  }
+  if (coordinates_.empty()) return stiffness.diagonal().minCoeff();
+  return numerics::EigenvaluesOf(stiffness).real().minCoeff();
 }
 
 PidFigures PidJudge::Of(const law::LawConfig& law, const std::vector<PlantToHold>& plants) const {
@@ -130,11 +163,10 @@ PidFigures PidJudge::Of(const law::LawConfig& law, const std::vector<PlantToHold
       static_a = std::max(static_a, std::abs(plant->static_a().at(i)));
       motion_m = std::max(motion_m, survey.position_m[i]);
       TakeMost(out[Limit::kNoise], survey.current_a[i], 0.0, speed);
-      const double stiffness =
-          plant->current_n_per_a()[i] * law.axes[i].kp_a_per_m - plant->displacement_n_per_m()[i];
-      if (stiffness < out[Limit::kStiffness].found)
-        out[Limit::kStiffness] = {stiffness, 0.0, 0.0, speed};
     }
+    const double stiffness = SoftestAxis(law, *plant);
+    if (stiffness < out[Limit::kStiffness].found)
+      out[Limit::kStiffness] = {stiffness, 0.0, 0.0, speed};
   }
   const UnbalanceFigures spinning = unbalance_.Of(laws);
   out[Limit::kStanding].found = kDeviations * motion_m;

@@ -10,7 +10,8 @@
 // Spinning  the same and the orbit of UnbalanceResponse.
 // Current   static, harmonics' amplitude and three standard deviations of noise, of the worst axis
 //           each; noise alone has a limit of its own: what it fills of the range is lost to others.
-// Stiffness ki Kp - ks of the softest axis: against a step of force, before the integrator has it.
+// Stiffness ki Kp - ks of the softest axis, of channels the least eigenvalue of ki R Kp M - ks:
+//           against a step of force, before the integrator has it.
 // Compliance  what a force at a magnet moves there, largest over frequency. A rig that stands
 //           without control is asked for a fifth of what it has then, and its search weighs a
 //           fiftieth like |S| at its limit: else no law at all would have the largest margin.
@@ -86,7 +87,9 @@ struct PlantToHold {
 
 class PidJudge {
  public:
-  PidJudge(const config::RigFile& rig, const PidLimits& limits, double third_n);
+  /// With coordinates a law has one entry per channel, and plants have the same coordinates.
+  PidJudge(const config::RigFile& rig, const PidLimits& limits, double third_n,
+           const Coordinates& coordinates = {});
 
   [[nodiscard]] PidFigures Of(const law::LawConfig& law,
                               const std::vector<PlantToHold>& plants) const;
@@ -95,7 +98,10 @@ class PidJudge {
  private:
   [[nodiscard]] Met AnyMode(const std::vector<law::DiscreteLaw>& laws) const;
 
+  [[nodiscard]] double SoftestAxis(const law::LawConfig& law, const SampledPlant& plant) const;
+
   PidLimits limits_;
+  Coordinates coordinates_;
   std::vector<double> noise_m_;
   /// ki A/(2 m w^2) of each axis on a grid, for AnyMode.
   struct Unknown {

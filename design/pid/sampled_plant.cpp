@@ -119,8 +119,10 @@ plant::PlantModel ModelOf(const plant::PlantConfig& config, Known known) {
 
 }  // namespace
 
-SampledPlant::SampledPlant(const config::RigFile& rig, double speed_rad_per_s, Known known)
-    : period_s_(static_cast<double>(rig.plant.period_ns) * 1e-9),
+SampledPlant::SampledPlant(const config::RigFile& rig, double speed_rad_per_s, Known known,
+                           Coordinates coordinates)
+    : coordinates_(std::move(coordinates)),
+      period_s_(static_cast<double>(rig.plant.period_ns) * 1e-9),
       speed_rad_per_s_(speed_rad_per_s) {
   const plant::PlantModel model = ModelOf(rig.plant, known);
   const auto channels = static_cast<Index>(model.channels());
@@ -164,6 +166,10 @@ SampledPlant::SampledPlant(const config::RigFile& rig, double speed_rad_per_s, K
   }
   input_ = modal.input;
   output_ = modal.output;
+  if (!coordinates_.empty()) {
+    input_ = input_ * coordinates_.drive;
+    output_ = coordinates_.measure * output_;
+  }
   for (Index i = 0; i < modes; ++i) {
     const Eigen::MatrixXcd one = output_.col(i) * input_.row(i);
     for (Index k = 0; k < one.size(); ++k) residue_.push_back(one.data()[k].real());

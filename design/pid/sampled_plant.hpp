@@ -19,6 +19,7 @@
 
 #include "common/axes.hpp"
 #include "configuration/rig_file.hpp"
+#include "design/pid/coordinates.hpp"
 
 namespace levitas::design {
 
@@ -44,7 +45,9 @@ enum class Known { kAll, kRigidBody };
 
 class SampledPlant {
  public:
-  SampledPlant(const config::RigFile& rig, double speed_rad_per_s, Known known = Known::kAll);
+  /// With coordinates P is M P R, of the channels; what is said of axes stays theirs.
+  SampledPlant(const config::RigFile& rig, double speed_rad_per_s, Known known = Known::kAll,
+               Coordinates coordinates = {});
 
   [[nodiscard]] AxisMatrix At(std::complex<double> z) const;
   [[nodiscard]] SampledPoint AtHz(double hz) const;
@@ -54,6 +57,7 @@ class SampledPlant {
   [[nodiscard]] int growing() const noexcept { return growing_; }
   /// Least damping ratio of the plant's own lightly damped poles; 1 when there are none.
   [[nodiscard]] double own_damping() const noexcept { return own_damping_; }
+  [[nodiscard]] const Coordinates& coordinates() const noexcept { return coordinates_; }
   [[nodiscard]] double period_s() const noexcept { return period_s_; }
   [[nodiscard]] double speed_rad_per_s() const noexcept { return speed_rad_per_s_; }
   [[nodiscard]] Eigen::Index axes() const noexcept { return output_.rows(); }
@@ -71,6 +75,7 @@ class SampledPlant {
   void TakeLightModes(const Eigen::VectorXcd& poles);
   [[nodiscard]] std::complex<double> Gain(Eigen::Index mode, std::complex<double> z) const;
 
+  Coordinates coordinates_;
   double period_s_{}, speed_rad_per_s_{};
   int whole_delay_{};
   int growing_{};

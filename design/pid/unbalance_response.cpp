@@ -21,7 +21,9 @@ double RadiusOf(Complex x, Complex y) {
 
 }  // namespace
 
-UnbalanceResponse::UnbalanceResponse(const config::RigFile& rig, double third_n) {
+UnbalanceResponse::UnbalanceResponse(const config::RigFile& rig, double third_n,
+                                     Coordinates coordinates)
+    : coordinates_(std::move(coordinates)) {
   const double rated = rig.numbers.max_speed_rad_per_s;
   if (!rig.plant.shafts.empty() || rig.numbers.axes() < 2) return;
   if (rig.plant.unbalance.empty() && third_n == 0.0) return;
@@ -44,6 +46,17 @@ UnbalanceResponse::UnbalanceResponse(const config::RigFile& rig, double third_n)
   }
 }
 
+Eigen::MatrixXcd UnbalanceResponse::ControllerAt(const std::vector<law::DiscreteLaw>& laws,
+                                                 Complex q) const {
+  Eigen::VectorXcd law(static_cast<Index>(laws.size()));
+  for (Index a = 0; a < law.size(); ++a) {
+    const LawValue value = ValueAt(laws[static_cast<std::size_t>(a)], q);
+    law[a] = value.integrates ? value.value / (1.0 - q) : value.value;
+  }
+  if (coordinates_.empty()) return law.asDiagonal();
+  return coordinates_.drive * law.asDiagonal() * coordinates_.measure;
+}
+
 UnbalanceFigures UnbalanceResponse::Of(const std::vector<law::DiscreteLaw>& laws) const {
   UnbalanceFigures out;
   for (std::size_t i = 0; i < harmonics_.size(); i += per_speed_) {
@@ -52,16 +65,11 @@ UnbalanceFigures UnbalanceResponse::Of(const std::vector<law::DiscreteLaw>& laws
     Eigen::VectorXd current = Eigen::VectorXd::Zero(axes);
     for (std::size_t k = i; k < i + per_speed_; ++k) {
       const Harmonic& h = harmonics_[k];
-      const Complex q = std::conj(h.point.z);
-      Eigen::VectorXcd law(axes);
-      for (Index a = 0; a < axes; ++a) {
-        const LawValue value = ValueAt(laws[static_cast<std::size_t>(a)], q);
-        law[a] = value.integrates ? value.value / (1.0 - q) : value.value;
-      }
-      AxisMatrix loop = h.point.plant * law.asDiagonal();
+      const Eigen::MatrixXcd controller = ControllerAt(laws, std::conj(h.point.z));
+      AxisMatrix loop = h.point.plant * controller;
       loop.diagonal().array() += 1.0;
       const Eigen::VectorXcd y = loop.inverse() * h.position_m;
-      current += law.cwiseProduct(y).cwiseAbs();
+      current += (controller * y).cwiseAbs();
       for (Index b = 0; b < orbit.size(); ++b) orbit(b) += RadiusOf(y(2 * b), y(2 * b + 1));
     }
     const double w = harmonics_[i].speed_rad_per_s;

@@ -21,8 +21,9 @@ struct UnbalanceFigures {
 
 class UnbalanceResponse {
  public:
-  UnbalanceResponse(const config::RigFile& rig, double third_n);
+  UnbalanceResponse(const config::RigFile& rig, double third_n, Coordinates coordinates = {});
   [[nodiscard]] bool empty() const noexcept { return harmonics_.empty(); }
+  /// Laws of the axes, or of the channels of the coordinates.
   [[nodiscard]] UnbalanceFigures Of(const std::vector<law::DiscreteLaw>& laws) const;
 
  private:
@@ -31,6 +32,10 @@ class UnbalanceResponse {
     SampledPoint point;
     Eigen::VectorXcd position_m;  ///< without control, per axis
   };
+  [[nodiscard]] Eigen::MatrixXcd ControllerAt(const std::vector<law::DiscreteLaw>& laws,
+                                              std::complex<double> q) const;
+
+  Coordinates coordinates_;
   std::size_t per_speed_{1};
   std::vector<Harmonic> harmonics_;  ///< a speed's stand side by side
 };

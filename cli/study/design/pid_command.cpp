@@ -11,6 +11,7 @@
 #include "cli/study/design/design_commands.hpp"
 #include "cli/study/design/gate_options.hpp"
 #include "cli/study/design/judged_law.hpp"
+#include "cli/study/design/pid_channels.hpp"
 #include "cli/study/design/pid_options.hpp"
 #include "cli/study/design/pid_page.hpp"
 #include "cli/study/progress_line.hpp"
@@ -125,27 +126,34 @@ ExitStatus Run(PidCommandOptions options) {
   const std::string delay = TakeDelayOfPort(options.loop, rig);
   const auto template_controller = LoadController(options.loop, rig);
   CompleteSearch(rig, options);
+  if (options.tilt) options.search.coordinates = design::TranslationAndTilt(rig);
   fmt::print("rig {}; protections from {}\n{}", rig.numbers.name, template_controller.path, delay);
   const auto limits = LimitsOf(options, rig);
   const auto found = Search(options, rig, limits);
   PrintRequirements(found.figures, limits);
   RefuseUnmet(found.figures, limits);
-  const auto result = JudgeAndPrint(rig, found.law, options.gate, weights.analysis);
-  const config::ControllerFile file{rig.numbers.name + "_pid", found.law,
+  const auto& coordinates = options.search.coordinates;
+  const law::LawConfig law =
+      coordinates.empty() ? found.law : design::BetweenAxes(found.law, coordinates);
+  if (options.tilt) fmt::print("law      {}\n", ChannelsText(found.law));
+  const auto result = JudgeAndPrint(rig, law, options.gate, weights.analysis);
+  const config::ControllerFile file{rig.numbers.name + "_pid", law,
                                     template_controller.file.supervisor};
-  auto written =
-      WriteJudged(options.out_path, "amb design pid", options.gate.seed, file, rig.numbers, result);
+  const std::string made =
+      options.tilt ? "amb design pid --tilt, " + ChannelsText(found.law) : "amb design pid";
+  auto written = WriteJudged(options.out_path, made, options.gate.seed, file, rig.numbers, result);
   if (!options.html_path.empty())
     WriteTextFile(
         options.html_path,
         PidPage(rig,
                 {{"before: " + template_controller.file.name, template_controller.file.law},
-                 {"after", found.law}},
+                 {"after", found.law, coordinates}},
                 found.figures, limits));
   written.push_back(options.html_path);
   auto json = GateJson(result);
   json["requirements"] = RequirementsJson(found.figures, limits);
   json["laws_tried"] = found.evaluations;
+  if (options.tilt) json["channels"] = ChannelsJson(found.law);
   WriteJsonFile(options.loop.json_path, json);
   written.push_back(options.loop.json_path);
   TellWritten(written);
@@ -166,6 +174,10 @@ void AddDesignPid(CLI::App& design, Action& action) {
       "--html", options->html_path,
       "Page to write: requirements, map of the gains that hold the rig before and after");
   AddPidSearchOptions(*command, *options);
+  command->add_flag(
+      "--tilt", options->tilt,
+      "PIDs of translation and tilt of a rotor in two bearings, each with gains of its "
+      "own; the file holds them as one law between the axes");
   command->add_flag("--first-levitation", options->search.first_levitation,
                     "From ki, ks, mass, inertia and delay alone, at rest: the largest margin with "
                     "which a flexible mode at any frequency stays damped");

@@ -25,6 +25,7 @@ struct PidCommandOptions {
   double corner_sensitivity{};
   double unknown_damping_percent{0.3};
   bool shared_filters{};
+  bool tilt{};  ///< PIDs of translation and tilt instead of the axes
 };
 
 void AddPidSearchOptions(CLI::App& command, PidCommandOptions& options);

@@ -67,24 +67,29 @@ std::string Table(const design::PidFigures& figures, const design::PidLimits& li
 
 std::string PidPage(const config::RigFile& rig, const std::vector<NamedLaw>& laws,
                     const design::PidFigures& figures, const design::PidLimits& limits) {
-  std::vector<std::shared_ptr<const design::SampledPlant>> plants;
-  for (const double share : {0.0, 1.0})
-    if (share == 0.0 || rig.numbers.axes() > 1)
-      plants.push_back(
-          std::make_shared<design::SampledPlant>(rig, share * rig.numbers.max_speed_rad_per_s));
+  const auto plants = [&](const design::Coordinates& coordinates) {
+    std::vector<std::shared_ptr<const design::SampledPlant>> out;
+    for (const double share : {0.0, 1.0})
+      if (share == 0.0 || rig.numbers.axes() > 1)
+        out.push_back(std::make_shared<design::SampledPlant>(
+            rig, share * rig.numbers.max_speed_rad_per_s, design::Known::kAll, coordinates));
+    return out;
+  };
   svg::Figure figure;
   figure.columns = 2;
   figure.panel_width = 440;
   figure.panel_height = 400;
   for (const NamedLaw& named : laws) {
     if (named.law.axes.empty() || !named.law.schedule.empty()) continue;  // no one set of gains
-    figure.panels.push_back(MapPanel(named, design::MapGains(named.law, plants, {})));
+    figure.panels.push_back(
+        MapPanel(named, design::MapGains(named.law, plants(named.coordinates), {})));
   }
   return fmt::format(
       "<!doctype html><meta charset=\"utf-8\"><title>PID design</title>\n"
       "<style>body{{font-family:sans-serif;margin:2em}}td,th{{padding:2px 12px;text-align:left}}"
       "</style>\n<h1>PID design: {}</h1>\n{}"
-      "<h2>Gains that hold the rig</h2>\n<p>Kp (with Ki) and Kd of every axis times a factor, the "
+      "<h2>Gains that hold the rig</h2>\n<p>Kp (with Ki) and Kd of every axis (or of translation "
+      "and tilt) times a factor, the "
       "filters unchanged; at rest and at the rated speed. Where nothing is drawn a loop is "
       "unstable. |S| below 3, 4, 5: zones A, B, C of ISO 14839-3.</p>\n{}\n",
       rig.numbers.name, Table(figures, limits), svg::Draw(figure));

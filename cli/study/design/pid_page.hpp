@@ -10,10 +10,12 @@
 
 namespace levitas::cli {
 
-/// A law by its name; a state-space law has no gains to map and is left out.
+/// A law by its name; a state-space law has no gains to map and is left out. With coordinates the
+/// law has one entry per channel.
 struct NamedLaw {
   std::string name;
   law::LawConfig law;
+  design::Coordinates coordinates{};
 };
 
 [[nodiscard]] std::string PidPage(const config::RigFile& rig, const std::vector<NamedLaw>& laws,

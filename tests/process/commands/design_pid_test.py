@@ -65,6 +65,25 @@ class DesignPid(CommandTest):
         self.assertIn("ended by a signal", process.text)
         self.assertTrue((self.folder / "law.yaml").exists())
 
+    def test_translation_and_tilt_have_gains_of_their_own_in_one_law(self):
+        said = self.call("design", "pid", "--rig", "flexible_rotor", "--tilt", "--evaluations", "600", "--draws",
+                         "1", "--corners", "1", "--out", "tilt.yaml", "--json", "tilt.json", "--html",
+                         "tilt.html").stdout
+        self.assertRegex(said, r"law +translation Kp [\d.]+ A/m.*; tilt Kp [\d.]+ A/m")
+        channels = json.loads((self.folder / "tilt.json").read_text())["channels"]
+        self.assertEqual([channel["name"] for channel in channels], ["translation", "tilt"])
+        self.assertIn(f"translation Kp {channels[0]['kp_a_per_m']:.6g} A/m",
+                      (self.folder / "tilt.yaml").read_text().splitlines()[0])
+        self.assertIn("STABLE", self.call("margins", "--rig", "flexible_rotor", "--controller",
+                                          "tilt.yaml").stdout)
+
+    def test_translation_and_tilt_are_refused_for_a_rig_without_them(self):
+        before = self.files()
+        for rig in ("one_axis", "geared_rotor_4dof"):
+            done = self.call("design", "pid", "--rig", rig, "--tilt", "--out", "law.yaml", status=OTHER)
+            self.assertIn("leave out --tilt", done.stderr)
+        self.assertEqual(self.files(), before)
+
     def test_a_wrong_number_is_usage_and_a_rig_that_is_not_there_bad_input(self):
         self.call("design", "pid", "--sensitivity", "0.5", status=USAGE)
         done = self.call("design", "pid", "--rig", "absent", status=BAD_INPUT)
