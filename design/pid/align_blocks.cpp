@@ -41,6 +41,31 @@ ModalBlock Scaled(const ModalBlock& block, Complex by) {
   return out;
 }
 
+/// Cosine of the angle between the inputs of two blocks, whatever turn and scale of their states.
+double Alike(const ModalBlock& a, const ModalBlock& b) {
+  Complex along{};
+  double size_a = 0.0;
+  double size_b = 0.0;
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    along += std::conj(Input(a, i)) * Input(b, i);
+    size_a += std::norm(Input(a, i));
+    size_b += std::norm(Input(b, i));
+  }
+  if (!(size_a > 0.0) || !(size_b > 0.0)) return 1.0;
+  return std::min(std::abs(along) / std::sqrt(size_a * size_b), 1.0);
+}
+
+/// How far two blocks are from being the same state: their poles, and where poles are as near, as
+/// those of x and y or of all integrators, what they read.
+double Distance(const ModalBlock& a, const ModalBlock& b) {
+  constexpr double kTurned = 10.0;  // by so much farther seems a pole that reads other axes
+  constexpr double kSamePole = 1e-9;
+  const double apart = std::hypot(a.pole_real - b.pole_real,
+                                  std::abs(a.pole_imaginary) - std::abs(b.pole_imaginary));
+  const double unlike = 1.0 - Alike(a, b);
+  return apart * (1.0 + kTurned * unlike) + kSamePole * unlike;
+}
+
 ModalBlock Aligned(const ModalBlock& reference, const ModalBlock& block) {
   Complex along{};
   double size = 0.0;
@@ -49,7 +74,8 @@ ModalBlock Aligned(const ModalBlock& reference, const ModalBlock& block) {
     size += std::norm(Input(block, i));
   }
   if (block.pole_imaginary == 0.0) along = along.real();
-  if (!(size > 0.0) || !(std::abs(along) > 0.0)) return block;
+  constexpr double kAcross = 1e-6;  // they read nothing in common: there is nothing to align
+  if (!(size > 0.0) || Alike(reference, block) < kAcross) return block;
   return Scaled(block, along / size);
 }
 
@@ -71,9 +97,7 @@ law::StateSpaceConfig AlignBlocks(const law::StateSpaceConfig& reference,
     const ModalBlock& to = reference.blocks[r];
     for (std::size_t o = 0; o < count; ++o) {
       if ((to.pole_imaginary == 0.0) != (from[o].pole_imaginary == 0.0)) continue;
-      pairs.push_back({std::hypot(to.pole_real - from[o].pole_real,
-                                  std::abs(to.pole_imaginary) - from[o].pole_imaginary),
-                       r, o});
+      pairs.push_back({Distance(Upright(to), from[o]), r, o});
     }
   }
   std::ranges::stable_sort(pairs, {}, &Pair::distance);

@@ -79,6 +79,29 @@ TEST(AlignBlocks, BringsTheSameLawIntoTheSameCoordinates) {
   }
 }
 
+// Integrators of four channels have one pole, and the filters of x those of y.
+TEST(AlignBlocks, TellsBlocksOfTheSamePoleByTheAxesThatTheyRead) {
+  law::StateSpaceConfig law;
+  law.axes = 2;
+  law.discrete = true;
+  for (const double pole : {1.0, 0.6})
+    for (const std::size_t axis : {0U, 1U}) {
+      law::ModalBlock block;
+      block.pole_real = pole;
+      block.first_input[axis] = 1.0;
+      block.first_output[axis] = 5.0 + pole;
+      law.blocks.push_back(block);
+    }
+  law::StateSpaceConfig other = law;
+  std::ranges::reverse(other.blocks);
+  const law::StateSpaceConfig back = AlignBlocks(law, other);
+  for (std::size_t i = 0; i < law.blocks.size(); ++i) {
+    EXPECT_EQ(back.blocks[i].pole_real, law.blocks[i].pole_real) << i;
+    EXPECT_EQ(back.blocks[i].first_input, law.blocks[i].first_input) << i;
+    EXPECT_EQ(back.blocks[i].first_output, law.blocks[i].first_output) << i;
+  }
+}
+
 TEST(AlignBlocks, LeavesALawOfAnotherKindToBeRefused) {
   Random random(1);
   const law::StateSpaceConfig law = Drawn(random);
