@@ -243,6 +243,6 @@ USAGE
 # Names what a run without arguments left out.
 say_long() {
   local names
-  names=$(ctest --test-dir "$build_root/release" -N -L '^long$' | sed -nE 's/^ *Test +#[0-9]+: //p')
-  say "not run: $(wc -l <<<"$names") long tests ($(paste -sd ' ' <<<"$names")). ./amb test long runs them"
+  mapfile -t names < <(ctest --test-dir "$build_root/release" -N -L '^long$' | sed -nE 's/^ *Test +#[0-9]+: //p')
+  say "not run: ${#names[@]} long tests (${names[*]}). ./amb test long runs them"
 }

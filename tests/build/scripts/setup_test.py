@@ -226,7 +226,19 @@ class Tests(SetUp):
         self.run_tests("")
         targets = "tests_unit tests_loop tests_replay tests_process tests_hardware tests_build"
         self.assertTrue(self.calls("ninja")[-1].endswith(targets), self.calls("ninja"))
-        self.assertIn("-L ^(unit|loop|replay|process|hardware|build)$", self.calls("ctest")[-1])
+        self.assertTrue(self.calls("ctest")[-2].endswith(
+            "-L ^(unit|loop|replay|process|hardware|build)$ -LE ^long$"), self.calls("ctest"))
+
+    def test_without_a_label_what_is_long_is_left_out_and_named(self):
+        """By its label, or among those of another one, it is run."""
+        self.tool("ctest", "echo '  Test #7: process.outside'; echo '  Test #9: loop.evidence_test.0'\n")
+        done = self.run_shell("say_long")
+        self.assertIn("not run: 2 long tests (process.outside loop.evidence_test.0). ./amb test long runs them",
+                      done.stderr)
+        self.run_tests("long")
+        self.assertTrue(self.calls("ctest")[-1].endswith("-L ^(long)$"), self.calls("ctest"))
+        self.run_tests("process")
+        self.assertTrue(self.calls("ctest")[-1].endswith("-L ^(process)$"), self.calls("ctest"))
 
     def test_an_unknown_label_and_all_with_more_are_usage_errors_before_anything_runs(self):
         for words in ("untit", "unit nothing", "--all unit"):
