@@ -19,6 +19,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kPoll{50};
 constexpr milliseconds kSecondSignal{rt::kAgainNs / 1'000'000 + 100};
 constexpr std::size_t kLastWords = 12;
+constexpr int kListens = 20;  // one second of turns that hear nothing
 
 /// "running", "sleeping", "stopped" ...: what the kernel says a process is doing.
 std::string StateOf(pid_t pid) {
@@ -97,7 +98,10 @@ class Run {
   void FollowTelemetry(milliseconds limit) {
     const auto sample = hooks_.telemetry(limit);
     if (!sample) return;
-    if (sample->cycle != last_cycle_) last_progress_ = Clock::now();
+    if (sample->cycle != last_cycle_) {
+      last_progress_ = Clock::now();
+      listened_ = 0;
+    }
     last_cycle_ = sample->cycle;
     hooks_.progress(*sample);
   }
@@ -141,6 +145,8 @@ class Run {
       return;
     }
     if (Clock::now() - last_progress_ < plan_.silence_limit) return;
+    // Not by the clock alone: where this program itself stood still, what it missed lies before it.
+    if (++listened_ < kListens) return;
     std::string why =
         fmt::format("no telemetry for {} s: {} is {}", plan_.silence_limit.count() / 1000,
                     controller_.name(), StateOf(controller_.pid()));
@@ -187,6 +193,7 @@ class Run {
   bool asked_to_land_{false};
   std::uint64_t last_cycle_{0};
   Clock::time_point last_progress_;
+  int listened_{};  ///< turns since, after the limit of silence
 };
 
 }  // namespace

@@ -76,6 +76,20 @@ TEST_F(SuperviseTest, EndsOrderlyWithTheController) {
   EXPECT_FALSE(result.interrupted);
 }
 
+// This program is stopped for longer than the limit (a suspended machine): what it has not heard
+// then says nothing of the run, and what it hears next says that it goes on.
+TEST_F(SuperviseTest, AStandstillOfItsOwnIsNoSilence) {
+  silence_limit_ = milliseconds(200);
+  interrupts_ = [](std::uint64_t cycle) {
+    if (cycle == 3) std::this_thread::sleep_for(milliseconds(400));
+    return 0;
+  };
+  const RunResult result = With("sleep 1; exit 0", "sleep 1.2; exit 0");
+  EXPECT_GT(cycle_, 3U);
+  EXPECT_THAT(result.trouble, IsEmpty());
+  EXPECT_THAT(said_, IsEmpty());
+}
+
 TEST_F(SuperviseTest, RunsTheControllerAloneWhereTheRigIsThereAlready) {
   const RunResult result = With("sleep 0.05; exit 4", "");
   EXPECT_THAT(result.trouble, IsEmpty());
