@@ -83,6 +83,11 @@ void Describe(Visitor& v, hinf::HinfWeights& w) {
   DescribeLimits(v, w, usual);
   v.Number({"mode", kHertz, 1e-6, 1e6, usual.mode_hz, "by which a flexible mode may move"},
            w.mode_hz);
+  v.Number({"speed_ratio", kOne, 0, 10, usual.speed_ratio,
+            "of the top speed, covered by perturbations of the gyroscopic moments; 0: none"},
+           w.speed_ratio);
+  v.Number({"speed_unit", kOne, 1e-6, 1e6, usual.speed_unit, "scale of those perturbations"},
+           w.speed_unit);
   v.Number({"model", kHertz, 1e-3, 1e6, usual.model_hz, "modes above are left out of the model"},
            w.model_hz);
   DescribeShares(v, w);

@@ -21,6 +21,10 @@
 // Modes      each flexible mode below model_hz may move by mode_hz times its share, as a complex
 //            perturbation. In the synthesis only, where it stands for frequency, damping and the
 //            gyroscopic splitting; the analysis has real parameters (design/uncertainty).
+// Speed      speed_ratio > 0: besides, perturbations of the size speed_ratio times the top speed on
+//            the gyroscopic moments, W G = (L d)(W L'), |d| <= 1, as many as G = L L' has columns:
+//            the splitting of all modes over speed by what causes it, W known from the rig file.
+//            Complex, like the modes'; speed_unit scales these channels against the others.
 // Defaults   found by design/search for the rig flexible_rotor (2450 syntheses from neutral
 //            weights; they look nothing like the limits that the analysis judges by, and need not).
 // Lists      entry by entry for bearings or modes; what is beyond the list counts as 1.
@@ -44,6 +48,8 @@ struct HinfWeights {
   double position_m{21.3e-6};
   double position_hz{2.2};
   double mode_hz{25.0};
+  double speed_ratio{0.0};  ///< [1] of the top speed; 0: the modes' perturbations cover it
+  double speed_unit{1.0};   ///< [1]
   double model_hz{1200.0};  ///< modes above are left out of the design's model
   std::vector<double> bearing_disturbance{1.0, 0.597};              ///< [1] share of disturbance_a
   std::vector<double> bearing_position{1.0, 0.808};                 ///< [1] share of position_m

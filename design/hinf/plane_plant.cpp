@@ -11,6 +11,7 @@
 #include "common/problem.hpp"
 #include "common/two_pi.hpp"
 #include "design/synthesis/discretisation.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
@@ -34,6 +35,10 @@ void CheckWeights(const HinfWeights& weights) {
   positive(weights.position_hz, "position_hz");
   positive(weights.mode_hz, "mode_hz");
   positive(weights.model_hz, "model_hz");
+  positive(weights.speed_unit, "speed_unit");
+  if (weights.speed_ratio < 0.0 || !std::isfinite(weights.speed_ratio))
+    throw BadInput(
+        fmt::format("the weight speed_ratio is {:g}, allowed from 0", weights.speed_ratio));
   for (const double share : weights.bearing_disturbance) positive(share, "bearing_disturbance");
   for (const double share : weights.bearing_position) positive(share, "bearing_position");
   for (const double share : weights.mode_share) positive(share, "mode_share");
@@ -92,11 +97,11 @@ StateSpace RisingWeight(double hz) {
 /// The rig at rest with what acts on it.
 struct Parts {
   plant::LinearModel model;
-  MatrixXd force;               ///< states x flexible modes: acceleration of a perturbation
-  MatrixXd seen;                ///< flexible modes x states
+  MatrixXd force;               ///< states x perturbations: acceleration of each
+  MatrixXd seen;                ///< perturbations x states
   Eigen::VectorXd disc;         ///< states: a force along both planes alike
   std::vector<Index> part;      ///< of each state; -1: left out
-  std::vector<Index> velocity;  ///< state of each flexible mode
+  std::vector<Index> velocity;  ///< of each perturbation: a state of the plane that it acts in
 };
 
 /// Unconnected parts of the model's graph, as one number a state.
@@ -142,8 +147,51 @@ Eigen::VectorXd DiscForce(const plant::PlantModel& model, double top_speed, Inde
   return out;
 }
 
+/// What moves a mode by ten micrometres at the sensor that shows it best.
+double UnitOf(const plant::PlantModel& model, std::size_t mode) {
+  constexpr double kShownUm = 10.0;
+  double shown = 1e-9;
+  for (const auto& bearing : model.bearings())
+    shown = std::max(shown, std::abs(bearing.sensor_shape[mode]));
+  return kShownUm * kMicrometre / shown;
+}
+
+/// Perturbations of the gyroscopic moments of both planes, beside those of the modes.
+void AddSpeed(const plant::PlantModel& model, const HinfWeights& weights, double top_speed,
+              const std::vector<bool>& kept, Parts& out) {
+  const auto& at = model.layout();
+  const auto& modes = model.parameters().modes;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> moments(modes.gyroscopic);
+  const double most = moments.eigenvalues().size() > 0 ? moments.eigenvalues().maxCoeff() : 0.0;
+  constexpr double kNothing = 1e-6;
+  constexpr double kRigidHz = 50.0;  // where a levitated body swings, for the scale alone
+  for (const bool y : {false, true})
+    for (Index k = 0; k < moments.eigenvalues().size(); ++k) {
+      if (moments.eigenvalues()[k] <= kNothing * most) continue;
+      Eigen::VectorXd column = std::sqrt(moments.eigenvalues()[k]) * moments.eigenvectors().col(k);
+      const auto first = static_cast<Index>(y ? at.v_y : at.v_x);
+      double unit = 0.0;
+      for (Index i = 0; i < column.size(); ++i) {
+        if (!kept[static_cast<std::size_t>(first + i)]) column[i] = 0.0;
+        const auto mode = static_cast<std::size_t>(i);
+        const double w = std::max(model.frequency()[mode], kTwoPi * kRigidHz);
+        unit = std::max(unit, std::abs(column[i]) * w * UnitOf(model, mode));
+      }
+      if (!(unit > 0.0)) continue;
+      unit *= weights.speed_unit;
+      const Index added = out.force.cols();
+      out.force.conservativeResize(Eigen::NoChange, added + 1);
+      out.seen.conservativeResize(added + 1, Eigen::NoChange);
+      out.force.col(added).setZero();
+      out.seen.row(added).setZero();
+      out.force.col(added).segment(first, column.size()) =
+          column * (weights.speed_ratio * top_speed * unit);
+      out.seen.row(added).segment(first, column.size()) = column.transpose() / unit;
+      out.velocity.push_back(first);
+    }
+}
+
 Parts Prepare(const plant::PlantConfig& rig, const HinfWeights& weights, double top_speed) {
-  constexpr double kShownUm = 10.0;  // a mode's unit: so much at the sensor that shows it best
   const plant::PlantModel model(rig);
   const auto& at = model.layout();
   Parts out;
@@ -168,16 +216,15 @@ Parts Prepare(const plant::PlantConfig& rig, const HinfWeights& weights, double 
   out.force = MatrixXd::Zero(n, modes);
   out.seen = MatrixXd::Zero(modes, n);
   for (Index i = 0; i < modes; ++i) {
-    double shown = 1e-9;
     const auto m = static_cast<std::size_t>(displacement[static_cast<std::size_t>(i)]) %
                    std::max<std::size_t>(at.modes, 1);
-    for (const auto& bearing : model.bearings())
-      shown = std::max(shown, std::abs(bearing.sensor_shape[m]));
-    const double unit = kShownUm * kMicrometre / shown;
+    const double unit = UnitOf(model, m);
     out.force(out.velocity[static_cast<std::size_t>(i)], i) =
         gain[static_cast<std::size_t>(i)] * unit;
     out.seen(i, displacement[static_cast<std::size_t>(i)]) = 1.0 / unit;
   }
+  if (weights.speed_ratio > 0.0 && rig.shafts.empty())
+    AddSpeed(model, weights, top_speed, kept, out);
   out.part = PartsOf(out.model.a, kept);
   return out;
 }

@@ -25,6 +25,7 @@ std::vector<double*> Moved(hinf::HinfWeights& weights, std::size_t bearings, std
     out.push_back(&weights.bearing_position[b]);
   }
   for (double& share : weights.mode_share) out.push_back(&share);
+  if (weights.speed_ratio > 0.0) out.push_back(&weights.speed_unit);
   return out;
 }
 

@@ -85,6 +85,17 @@ TEST(HinfDesign, TrustingTheModesExactlyLosesThemAtTopSpeed) {
       analysis::SensitivityPeaks(Shipped().plant, design.law, RpmToRadPerS(6000.0)).stable);
 }
 
+TEST(HinfDesign, HoldsTheRigAtTopSpeedByItsSpeedInPlaceOfItsModes) {
+  // The same modes trusted, the speed not: what splits them is perturbed instead.
+  HinfWeights weights;
+  weights.mode_hz = 1e-3;
+  weights.speed_ratio = 1.0;
+  const HinfDesign design = MakeLaw(Shipped().plant, weights, ForTheRig());
+  for (const double rpm : {0.0, 3000.0, 6000.0})
+    EXPECT_TRUE(analysis::SensitivityPeaks(Shipped().plant, design.law, RpmToRadPerS(rpm)).stable)
+        << rpm;
+}
+
 TEST(HinfDesign, RefusesALawThatGrowsByItself) {
   HinfWeights weights;
   weights.mode_hz = 1e-3;

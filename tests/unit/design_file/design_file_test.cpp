@@ -24,6 +24,8 @@ void ExpectSame(const hinf::HinfWeights& a, const hinf::HinfWeights& b) {
   EXPECT_EQ(a.position_m, b.position_m);
   EXPECT_EQ(a.position_hz, b.position_hz);
   EXPECT_EQ(a.mode_hz, b.mode_hz);
+  EXPECT_EQ(a.speed_ratio, b.speed_ratio);
+  EXPECT_EQ(a.speed_unit, b.speed_unit);
   EXPECT_EQ(a.model_hz, b.model_hz);
   EXPECT_EQ(a.bearing_disturbance, b.bearing_disturbance);
   EXPECT_EQ(a.bearing_position, b.bearing_position);
@@ -63,6 +65,8 @@ TEST(DesignFile, WhatIsWrittenReadsBackBitForBit) {
   file.synthesis.bearing_disturbance = {1.0};
   file.synthesis.bearing_position = {0.9, 1.1, 1.0 / 7.0};
   file.synthesis.mode_share = {0.3};
+  file.synthesis.speed_ratio = 1.1;
+  file.synthesis.speed_unit = 1.0 / 7.0;
   file.analysis.disturbance_a = {0.25, 0.75, 0.5};
   file.analysis.disturbance_order = 4;
   file.analysis.position_m = 50e-6 / 3.0;
