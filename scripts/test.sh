@@ -33,6 +33,7 @@ counted_in() {
 remedy_of() {
   case $2 in
     process.dashboard.*) echo "./amb test --all runs it: it installs Chromium (packages-browser.txt)" ;;
+    process.python_package | process.python_controller) echo "./amb test --all runs it: it installs numpy (packages-ci.txt)" ;;
     build.*) echo "./amb test --all runs it: it installs what it needs (packages-ci.txt, packages-deb.txt)" ;;
     hardware.*) echo "./amb test hardware runs it, where it can have a kernel for it (CONTRIBUTING.md)" ;;
     *) echo "ctest --test-dir build/$1 -R '$2' -V says what it lacks" ;;

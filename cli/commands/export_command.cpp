@@ -57,6 +57,10 @@ ExitStatus Export(const ExportOptions& options) {
   }
   for (const auto& [path, exporter] : files) {
     session::CheckOutputPath(*path, options.session_path);
+    // Under such a name nobody could read it, this program neither.
+    if (path->ends_with(".xz"))
+      throw Problem(ExitStatus::kUsage,
+                    *path + ": an export is not packed; leave out .xz, and pack the file with xz");
   }
   session::CheckOutputPath(options.json_path, options.session_path);
   session::SessionReader reader(options.session_path);

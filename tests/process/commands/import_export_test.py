@@ -258,6 +258,14 @@ class ImportExport(CommandTest):
         self.assertEqual(amb(self.folder, "export", "a.lcmlog", "--csv", "s.csv").returncode, DONE)
         self.assertEqual(len(table(self.folder / "s.csv")[1]), 700)
 
+    def test_a_packed_export_is_refused_since_none_is_packed(self):
+        self.import_as("s.lcmlog")
+        before = self.files()
+        done = amb(self.folder, "export", "s.lcmlog", "--csv", "s.csv.xz")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("leave out .xz", done.stderr)
+        self.assertEqual(self.files(), before)
+
 
 if __name__ == "__main__":
     unittest.main()
