@@ -178,6 +178,8 @@ def _records(of_size):
              for payloads in of_size.values()]
     if not parts:
         return numpy.empty(0, messages.layout(fields, bytes(1024)))
+    if len(parts) == 1:
+        return _in_order(parts[0])
     most = max(parts, key=lambda part: part.dtype.itemsize)
     whole = numpy.zeros(sum(len(part) for part in parts), most.dtype)
     at = 0
@@ -186,7 +188,12 @@ def _records(of_size):
             if whole[name].shape[1:] == part[name].shape[1:]:
                 whole[name][at:at + len(part)] = part[name]
         at += len(part)
-    return whole[numpy.argsort(whole["cycle"], kind="stable")]
+    return _in_order(whole)
+
+
+def _in_order(records):
+    cycles = records["cycle"].astype("i8")
+    return records if (numpy.diff(cycles) >= 0).all() else records[numpy.argsort(cycles, kind="stable")]
 
 
 def _times(rows, header):
