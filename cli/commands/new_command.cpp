@@ -291,7 +291,7 @@ void AddOptions(CLI::App& command, NewRigOptions& o) {
 }  // namespace
 
 void AddNewCommand(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("new", "NewRigFiles to start with");
+  CLI::App* command = app.add_subcommand("new", "Files to start with");
   command->require_subcommand(1);
   auto options = std::make_shared<NewRigOptions>();
   CLI::App* rig = command->add_subcommand(

@@ -37,9 +37,8 @@ void AddLimitOptions(CLI::App& command, PidCommandOptions& options) {
   add("--stiffness", options.stiffness_n_per_m,
       "Limit [N/m]: least static stiffness of an axis, without its integrator", 1e12);
   add("--compliance", options.compliance_um_per_n,
-      "Limit [um/N]: what a force at a magnet moves at any frequency; default: none, or half of "
-      "what "
-      "it moves without control where the rig stands without",
+      "Limit [um/N]: what a force at a magnet moves at any frequency; default: none, or a fifth "
+      "of what it moves without control where the rig stands without",
       1e9);
 }
 
