@@ -33,7 +33,7 @@ def metadata():
     return ("Metadata-Version: 2.1\n"
             f"Name: levitas\nVersion: {version()}\n"
             "Summary: Sessions of Levitas, a controller for active magnetic bearings, as arrays; its programs as functions\n"
-            "License: MIT\nRequires-Python: >=3.9\nRequires-Dist: numpy\n"
+            "License: MIT\nRequires-Python: >=3.10\nRequires-Dist: numpy\n"
             'Provides-Extra: frame\nRequires-Dist: pandas; extra == "frame"\n').encode()
 
 
