@@ -157,15 +157,20 @@ TEST_F(TripSeries, ATripAmongLostRecordsIsStillToldAndFrozen) {
   // latched, so the first record behind the gap shows it.
   const auto records = WithTrips(kCount, {{kRing + 3000, kCount, Fault::kOverSpeed}});
   std::atomic<bool> go{false};
+  std::atomic<bool> holds{false};
   std::atomic<std::uint64_t> seen{0};
   {
     RecorderOptions options = Options();
     options.on_record = [&](const cycle::CycleRecord&) {
+      holds = true;
       while (!go.load()) std::this_thread::yield();  // a disk that does not answer
       ++seen;
     };
     Recorder recorder(std::move(options));
-    for (std::size_t i = 0; i < kCount - 300; ++i) recorder.Post(records[i]);
+    recorder.Post(records[0]);
+    // Taken later, it would leave a place in the full ring for a record of the trip.
+    ASSERT_TRUE(levitas::test::Eventually([&] { return holds.load(); }));
+    for (std::size_t i = 1; i < kCount - 300; ++i) recorder.Post(records[i]);
     const std::uint64_t lost = recorder.lost();
     ASSERT_GT(lost, 0U);
     go.store(true);
