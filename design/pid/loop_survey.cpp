@@ -358,6 +358,18 @@ LawValue ValueAt(const law::DiscreteLaw& law, Complex q) {
   return out;
 }
 
+AxisMatrix ControllerAt(const std::vector<law::DiscreteLaw>& laws, Complex q,
+                        const Coordinates& coordinates) {
+  const auto n = static_cast<Index>(laws.size());
+  AxisMatrix out = AxisMatrix::Zero(n, n);
+  for (Index i = 0; i < n; ++i) {
+    const LawValue law = ValueAt(laws[static_cast<std::size_t>(i)], q);
+    out(i, i) = law.integrates ? law.value / (1.0 - q) : law.value;
+  }
+  if (coordinates.empty()) return out;
+  return coordinates.drive * out * coordinates.measure;
+}
+
 LoopSurvey Survey(const SampledPlant& plant, const std::vector<law::DiscreteLaw>& laws,
                   const std::vector<double>& noise_m) {
   if (laws.size() == 4) return Loop<4>(plant, laws, noise_m).Run();

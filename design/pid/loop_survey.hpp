@@ -48,4 +48,9 @@ struct LawValue {
 };
 [[nodiscard]] LawValue ValueAt(const law::DiscreteLaw& law, std::complex<double> q);
 
+/// C(z) between the axes, of laws of the axes or of the channels of the coordinates; not at z = 1
+/// where one integrates.
+[[nodiscard]] AxisMatrix ControllerAt(const std::vector<law::DiscreteLaw>& laws,
+                                      std::complex<double> q, const Coordinates& coordinates);
+
 }  // namespace levitas::design

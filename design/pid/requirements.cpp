@@ -32,19 +32,6 @@ void TakePeaks(const LoopSurvey& survey, double speed, PidFigures& out) {
   take(Limit::kCompliance, survey.metre_per_newton);
 }
 
-/// What a controller of these values in its channels is between an axis' own sensor and coil.
-std::complex<double> OfAxis(const Coordinates& coordinates,
-                            const std::vector<std::complex<double>>& value, std::size_t axis) {
-  if (coordinates.empty()) return value[axis];
-  const auto at = static_cast<Eigen::Index>(axis);
-  std::complex<double> out;
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const auto channel = static_cast<Eigen::Index>(i);
-    out += coordinates.drive(at, channel) * value[i] * coordinates.measure(channel, at);
-  }
-  return out;
-}
-
 double RatioOf(Limit limit, double found, double allowed) {
   constexpr double kWorst = 20.0;
   if (!IsFloor(limit)) return std::min(found / allowed, kWorst);
@@ -112,13 +99,11 @@ PidJudge::PidJudge(const config::RigFile& rig, const PidLimits& limits, double t
 Met PidJudge::AnyMode(const std::vector<law::DiscreteLaw>& laws) const {
   Met out;
   for (const Unknown& at : unknown_) {
-    std::vector<std::complex<double>> value;
-    for (const auto& law : laws) {
-      const LawValue here = ValueAt(law, at.q);
-      value.push_back(here.integrates ? here.value / (1.0 - at.q) : here.value);
+    const AxisMatrix controller = ControllerAt(laws, at.q, coordinates_);
+    for (std::size_t axis = 0; axis < laws.size(); ++axis) {
+      const auto i = static_cast<Eigen::Index>(axis);
+      TakeMost(out, -(controller(i, i) * at.chain[axis]).imag(), at.hz, 0.0);
     }
-    for (std::size_t axis = 0; axis < laws.size(); ++axis)
-      TakeMost(out, -(OfAxis(coordinates_, value, axis) * at.chain[axis]).imag(), at.hz, 0.0);
   }
   return out;
 }

@@ -46,17 +46,6 @@ UnbalanceResponse::UnbalanceResponse(const config::RigFile& rig, double third_n,
   }
 }
 
-Eigen::MatrixXcd UnbalanceResponse::ControllerAt(const std::vector<law::DiscreteLaw>& laws,
-                                                 Complex q) const {
-  Eigen::VectorXcd law(static_cast<Index>(laws.size()));
-  for (Index a = 0; a < law.size(); ++a) {
-    const LawValue value = ValueAt(laws[static_cast<std::size_t>(a)], q);
-    law[a] = value.integrates ? value.value / (1.0 - q) : value.value;
-  }
-  if (coordinates_.empty()) return law.asDiagonal();
-  return coordinates_.drive * law.asDiagonal() * coordinates_.measure;
-}
-
 UnbalanceFigures UnbalanceResponse::Of(const std::vector<law::DiscreteLaw>& laws) const {
   UnbalanceFigures out;
   for (std::size_t i = 0; i < harmonics_.size(); i += per_speed_) {
@@ -65,7 +54,7 @@ UnbalanceFigures UnbalanceResponse::Of(const std::vector<law::DiscreteLaw>& laws
     Eigen::VectorXd current = Eigen::VectorXd::Zero(axes);
     for (std::size_t k = i; k < i + per_speed_; ++k) {
       const Harmonic& h = harmonics_[k];
-      const Eigen::MatrixXcd controller = ControllerAt(laws, std::conj(h.point.z));
+      const AxisMatrix controller = ControllerAt(laws, std::conj(h.point.z), coordinates_);
       AxisMatrix loop = h.point.plant * controller;
       loop.diagonal().array() += 1.0;
       const Eigen::VectorXcd y = loop.inverse() * h.position_m;

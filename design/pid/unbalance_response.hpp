@@ -32,9 +32,6 @@ class UnbalanceResponse {
     SampledPoint point;
     Eigen::VectorXcd position_m;  ///< without control, per axis
   };
-  [[nodiscard]] Eigen::MatrixXcd ControllerAt(const std::vector<law::DiscreteLaw>& laws,
-                                              std::complex<double> q) const;
-
   Coordinates coordinates_;
   std::size_t per_speed_{1};
   std::vector<Harmonic> harmonics_;  ///< a speed's stand side by side
