@@ -27,7 +27,7 @@ class Session:
     session.rig_yaml             the files of the run, complete; "" where the file holds none
     session.records              of an LCM log: every field of every record, frames missing or not
     session.events               [(time in s, text)] of an LCM log or MCAP file
-    session.damaged              records that could not be read
+    session.damaged              records and events that could not be read
     """
 
     def __init__(self, path, columns, texts=None, **more):
@@ -157,8 +157,11 @@ def _log(path):
             elif channel == "LEVITAS_HEADER" and header is None and _sound(payload):
                 header = messages.decode(messages.fields("session_header_t"), payload)
             elif channel == "LEVITAS_EVENT":
-                event = messages.decode(event_fields, payload)
-                events.append((event["time_ns"] / 1e9, event["text"]))
+                try:
+                    event = messages.decode(event_fields, payload)
+                    events.append((event["time_ns"] / 1e9, event["text"]))
+                except ValueError:  # events have no CRC
+                    damaged += 1
     if header is None:
         raise Unreadable(f"{path}: an LCM log without a header: no session of this program")
     records = _records(of_size)

@@ -102,6 +102,16 @@ class Package(unittest.TestCase):
         self.assertLess(len(damaged), len(self.run_))
         self.assertGreater(len(damaged), len(self.run_) - 5)
 
+    def test_a_damaged_event_costs_itself_alone(self):
+        data = bytearray((self.folder / "run.lcm").read_bytes())
+        text = data.index(b"off -> self_test")
+        data[text - 4:text] = b"\x7f\xff\xff\xff"  # the length that stands before it
+        (self.folder / "event.lcm").write_bytes(data)
+        damaged = self.levitas.load(self.folder / "event.lcm")
+        self.assertEqual(damaged.damaged, 1)
+        self.assertEqual(len(damaged.events), len(self.run_.events) - 1)
+        self.assertEqual(len(damaged), len(self.run_))
+
     def test_what_is_no_run_is_refused_with_the_reason(self):
         for name, data, said in (("a.bin", b"nothing", "neither a session"), ("a.csv", b"a,b\n1,2\n", "no column 'time_s'"),
                                  ("a.lcm", b"\xed\xa1\xda\x01" + bytes(40), "without a header")):
