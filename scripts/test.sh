@@ -226,8 +226,8 @@ USAGE
     shift
   done
   # What was asked for by a label or by name is run, however long it takes.
-  local without=() long=""
-  [ ${#labels[@]} -ne 0 ] || [ $# -ne 0 ] || { without=(-LE '^long$'); long=yes; }
+  local without=()
+  [ ${#labels[@]} -ne 0 ] || [ $# -ne 0 ] || without=(-LE '^long$')
   # shellcheck disable=SC2206 -- one word per label is meant
   [ ${#labels[@]} -ne 0 ] || labels=($test_labels)
   local selection="(${labels[*]})"
@@ -237,7 +237,7 @@ USAGE
   say "built after $((SECONDS - started)) s"
   local status=0
   ctest_preset release -L "^${selection// /|}\$" "${without[@]}" "$@" || status=$?
-  [ -z "$long" ] || say_long
+  [ ${#without[@]} -eq 0 ] || say_long
   return "$status"
 }
 
