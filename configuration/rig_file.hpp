@@ -14,6 +14,7 @@
 #include "controller/law/law_config.hpp"
 #include "controller/scenario/scenario_config.hpp"
 #include "controller/supervisor/supervisor_config.hpp"
+#include "controller/synchronous/synchronous_config.hpp"
 #include "hil/can/bus_config.hpp"
 #include "hil/gpio/line_config.hpp"
 #include "plant_sim/plant/plant_config.hpp"
@@ -46,6 +47,7 @@ struct ControllerFile {
   std::string name;
   law::LawConfig law;  ///< one entry per axis of the rig it was read for
   supervisor::SupervisorConfig supervisor;
+  synchronous::SynchronousConfig synchronous{};  ///< empty: none
 };
 
 [[nodiscard]] RigFile LoadRig(const std::string& path);

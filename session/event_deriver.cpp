@@ -18,12 +18,40 @@ constexpr const char* kMissedDeadline = "period(s) skipped: the loop was too lat
 
 std::string Speed(double rad_per_s) { return fmt::format("{:.0f} rpm", RadPerSToRpm(rad_per_s)); }
 
+std::string_view Text(synchronous::Ending ending) {
+  using synchronous::Ending;
+  switch (ending) {
+    case Ending::kNone:
+      break;
+    case Ending::kSpeed:
+      return "the speed left its window";
+    case Ending::kAngleLost:
+      return "the rotor's angle is lost";
+    case Ending::kAngleJumped:
+      return "the rotor's angle jumped";
+    case Ending::kSaturated:
+      return "an axis stays at its current limit; it begins again after the speed has left its "
+             "window";
+    case Ending::kOrbitGrew:
+      return "the orbit grew; it begins again after the speed has left its window";
+    case Ending::kCurrentTooLarge:
+      return "it needs more than its largest_current_a; it begins again after the speed has left "
+             "its "
+             "window";
+    case Ending::kNotLevitated:
+      return "the rotor is no longer held about its centre";
+  }
+  return "";
+}
+
 bool FrameUsable(const cycle::CycleRecord& record) noexcept { return record.in.frame_present; }
 
 }  // namespace
 
-EventDeriver::EventDeriver(std::vector<std::string> channels, std::int64_t period_ns)
+EventDeriver::EventDeriver(std::vector<std::string> channels, std::int64_t period_ns,
+                           std::vector<std::string> synchronous_blocks)
     : channels_(std::move(channels)),
+      synchronous_blocks_(std::move(synchronous_blocks)),
       second_cycles_(
           static_cast<std::uint64_t>(1'000'000'000 / std::max<std::int64_t>(period_ns, 1))),
       lift_(1e-9 * static_cast<double>(period_ns)) {}
@@ -94,6 +122,30 @@ void EventDeriver::Turning(const cycle::CycleRecord& record, std::vector<Event>&
   turning_told_ = turning_told_ && off;
 }
 
+// A block that ends by its speed does what it was told; any other end is a warning.
+void EventDeriver::Synchronous(const cycle::CycleRecord& record, std::vector<Event>& events) const {
+  using synchronous::BlockState;
+  for (std::size_t k = 0; k < record.out.synchronous_blocks; ++k) {
+    const synchronous::BlockStatus& now = record.out.synchronous[k];
+    const BlockState before =
+        have_previous_ ? previous_.out.synchronous[k].state : BlockState::kOff;
+    if (now.state == before) continue;
+    const std::string name =
+        k < synchronous_blocks_.size() ? synchronous_blocks_[k] : fmt::format("block {}", k + 1);
+    const std::string where =
+        fmt::format("at {} (cycle {})", Speed(record.in.frame.speed_rad_per_s), record.in.cycle);
+    if (now.state == BlockState::kActing) {
+      events.push_back(Make(record, Event::Severity::kInformation,
+                            fmt::format("synchronous control {} begins {}", name, where)));
+    } else if (now.state == BlockState::kFading || before == BlockState::kActing) {
+      const bool planned = now.ending == synchronous::Ending::kSpeed;
+      events.push_back(
+          Make(record, planned ? Event::Severity::kInformation : Event::Severity::kWarning,
+               fmt::format("synchronous control {} ends {}: {}", name, where, Text(now.ending))));
+    }
+  }
+}
+
 void EventDeriver::Tell(Tally& tally, const cycle::CycleRecord& record, const char* what,
                         std::vector<Event>& events) const {
   events.push_back(
@@ -124,6 +176,7 @@ void EventDeriver::Step(const cycle::CycleRecord& record, std::vector<Event>& ev
   }
   Command(record, events);
   ModeAndFault(record, events);
+  Synchronous(record, events);
   Turning(record, events);
   Add(missed_deadlines_, record.in.missed_deadlines, record.in.cycle, record, kMissedDeadline,
       events);

@@ -1,7 +1,8 @@
 #pragma once
 // Derives what a person should know from consecutive cycle records: mode changes, trips, refused
 // commands, a rotor that turns while the amplifiers are off, missing frames, missed deadlines,
-// restarts of the rig, records lost on the way here.
+// restarts of the rig, blocks of synchronous control that begin or
+// end, records lost on the way here.
 //
 // Purity   same records, same events; no clock, no I/O.
 // Flood    missing frames, missed deadlines and lost records are summed up: one event at the
@@ -20,7 +21,8 @@ namespace levitas::session {
 
 class EventDeriver {
  public:
-  EventDeriver(std::vector<std::string> channels, std::int64_t period_ns);
+  EventDeriver(std::vector<std::string> channels, std::int64_t period_ns,
+               std::vector<std::string> synchronous_blocks = {});
 
   /// Appends what `record`, following the previous one given, has to tell.
   void Step(const cycle::CycleRecord& record, std::vector<Event>& events);
@@ -41,6 +43,7 @@ class EventDeriver {
   void Lost(const cycle::CycleRecord& record, std::vector<Event>& events);
   void Command(const cycle::CycleRecord& record, std::vector<Event>& events) const;
   void ModeAndFault(const cycle::CycleRecord& record, std::vector<Event>& events) const;
+  void Synchronous(const cycle::CycleRecord& record, std::vector<Event>& events) const;
   void Turning(const cycle::CycleRecord& record, std::vector<Event>& events);
   void Add(Tally& tally, std::uint64_t count, std::uint64_t first_cycle,
            const cycle::CycleRecord& record, const char* what, std::vector<Event>& events) const;
@@ -48,6 +51,7 @@ class EventDeriver {
             std::vector<Event>& events) const;
 
   std::vector<std::string> channels_;
+  std::vector<std::string> synchronous_blocks_;
   std::uint64_t second_cycles_;
   bool have_previous_{false};
   cycle::CycleRecord previous_;

@@ -40,7 +40,8 @@ struct Recorder::Impl {
   explicit Impl(RecorderOptions given)
       : options(std::move(given)),
         ring(kRingRecords),
-        deriver(options.header.channels, options.header.period_ns) {
+        deriver(options.header.channels, options.header.period_ns,
+                options.header.synchronous_blocks) {
     if (!options.session_path.empty()) {
       session = std::make_unique<SessionWriter>(options.session_path, options.header,
                                                 Standing::kReplaced, options.patience);

@@ -144,6 +144,9 @@ void Describe(Visitor& v, ControllerFile& controller, const RigNumbers& rig) {
       "number is on the straight line between its values",
       scheduled, [&] { DescribeSchedule(v, controller.law, rig); });
   Describe(v, controller.supervisor);
+  bool synchronous = !controller.synchronous.empty();
+  v.OptionalGroup("synchronous", "what turns with the rotor, kept out of currents or positions",
+                  synchronous, [&] { Describe(v, controller.synchronous, rig); });
   controller.law.period_s = rig.period_s();
   controller.law.current_limit_a =
       std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);

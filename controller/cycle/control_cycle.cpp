@@ -10,6 +10,7 @@
 #include "controller/law/axis_law.hpp"
 #include "controller/law/law_schedule.hpp"
 #include "controller/supervisor/supervisor.hpp"
+#include "controller/synchronous/synchronous_control.hpp"
 
 namespace levitas::cycle {
 namespace {
@@ -56,11 +57,14 @@ struct ControlCycle::Impl {
         probes(config.rig),
         laws(LawAtRigPeriod(config)),
         law_state(laws[0]),
-        supervisor(config.rig, config.supervisor) {}
+        supervisor(config.rig, config.supervisor),
+        synchronous(config.synchronous, config.rig) {}
 
   void Read(const CycleInputs& in) noexcept;
   void RunLaw(const OperatorInput& op, const supervisor::Decision& decision) noexcept;
   void CheckLaw() noexcept;
+  [[nodiscard]] synchronous::Conditions SynchronousConditions(
+      const supervisor::Decision& decision) const noexcept;
   [[nodiscard]] CycleOutputs Outputs(const supervisor::Decision& decision) const noexcept;
 
   RigNumbers rig;
@@ -70,7 +74,9 @@ struct ControlCycle::Impl {
   std::size_t rung{};  ///< which of them runs
   law::LawState law_state;
   supervisor::Supervisor supervisor;
+  synchronous::SynchronousControl synchronous;
   supervisor::Observation seen;
+  double angle_rad{};  ///< of the latest fresh frame
   std::uint64_t frame_cycle{};
   bool any_frame{};
   law::LawOutput given;  // bearing frame
@@ -94,9 +100,25 @@ void ControlCycle::Impl::Read(const CycleInputs& in) noexcept {
   frame_cycle = frame.cycle;
   seen.position_m = probes.Positions({frame.position_m}).at;
   seen.speed_rad_per_s = frame.speed_rad_per_s;
+  angle_rad = frame.angle_rad;
   seen.rig_session = frame.rig_session;
   seen.rig_status = frame.rig_status;
   seen.held_currents = frame.held_currents;
+}
+
+// Test signals pass where the rotor is levitated about its centre and nothing has tripped; synchronous
+// control acts in the same states.
+synchronous::Conditions ControlCycle::Impl::SynchronousConditions(
+    const supervisor::Decision& decision) const noexcept {
+  return {.angle = {.fresh = seen.fresh,
+                    .speed_unknown = (seen.rig_status & kRigSpeedUnknown) != 0,
+                    .angle_rad = angle_rad,
+                    .speed_rad_per_s = seen.speed_rad_per_s,
+                    .periods = 1 + seen.missed_deadlines},
+          .believed_speed_rad_per_s = decision.believed_speed_rad_per_s,
+          .levitated = supervisor::Row(decision.state).excitation,
+          .saturated_axes = seen.saturated_axes,
+          .position_m = seen.position_m};
 }
 
 // Without a fresh frame the last currents are held and the filters wait. Positions are taken at
@@ -104,15 +126,16 @@ void ControlCycle::Impl::Read(const CycleInputs& in) noexcept {
 void ControlCycle::Impl::RunLaw(const OperatorInput& op,
                                 const supervisor::Decision& decision) noexcept {
   const supervisor::StateRow& row = supervisor::Row(decision.state);
-  if (!row.energised) {
-    given = {};
-    return;
-  }
   if (decision.start_law) {
     law_state.Reset();
+    synchronous.Reset();
     rung = laws.Nearest(decision.believed_speed_rad_per_s);
   }
-  if (!seen.fresh) return;
+  if (!row.energised || !seen.fresh) {
+    synchronous.Wait(SynchronousConditions(decision));
+    if (!row.energised) given = {};
+    return;
+  }
   laws.Follow(decision.believed_speed_rad_per_s, rung, law_state);
   AxisArray error_m{};
   AxisArray injected_a{};
@@ -124,6 +147,7 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
     if (std::isfinite(op.excitation_a[i])) injected_a[i] = op.excitation_a[i];
     if (std::isfinite(op.excitation_m[i])) error_m[i] -= op.excitation_m[i];
   }
+  synchronous.Step(SynchronousConditions(decision), error_m, injected_a);
   given = law::Step(laws[rung], law_state, error_m, injected_a, limit_a);
 }
 
@@ -157,6 +181,8 @@ CycleOutputs ControlCycle::Impl::Outputs(const supervisor::Decision& decision) c
   out.fault_value = decision.latch.finding.value;
   out.fault_limit = decision.latch.finding.limit;
   out.command_refused = decision.command_refused;
+  out.synchronous_blocks = static_cast<std::uint8_t>(synchronous.blocks());
+  for (std::size_t k = 0; k < synchronous.blocks(); ++k) out.synchronous[k] = synchronous.status(k);
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include "controller/cycle/cycle_io.hpp"
 #include "controller/law/law_config.hpp"
 #include "controller/supervisor/supervisor_config.hpp"
+#include "controller/synchronous/synchronous_config.hpp"
 
 namespace levitas::supervisor {
 struct Decision;
@@ -26,6 +27,7 @@ struct CycleConfig {
   RigNumbers rig;
   law::LawConfig law;
   supervisor::SupervisorConfig supervisor;
+  synchronous::SynchronousConfig synchronous{};
 };
 
 /// The stages a cycle's time is attributed to.

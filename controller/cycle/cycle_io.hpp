@@ -7,6 +7,7 @@
 #include "common/axes.hpp"
 #include "common/enums.hpp"
 #include "common/frames.hpp"
+#include "controller/synchronous/block_status.hpp"
 
 namespace levitas::cycle {
 
@@ -41,6 +42,9 @@ struct CycleOutputs {
   double fault_value{};    ///< SI, what was measured when it tripped
   double fault_limit{};    ///< SI, what was allowed
   bool command_refused{};  ///< the mode table does not allow the command of this cycle
+  /// What synchronous control does; in memory only, a session holds it as events.
+  std::array<synchronous::BlockStatus, synchronous::kMaxBlocks> synchronous{};
+  std::uint8_t synchronous_blocks{};
 };
 
 /// One line of the session file: inputs first.

@@ -74,6 +74,9 @@ session::SessionHeader Header(const ControllerOptions& options, const Files& fil
   header.machine = rt::MachineText() + '\n' + rt::Text(facts);
   header.source = options.port;
   header.channels = files.rig.numbers.channels;
+  for (const auto& block : files.controller.synchronous.blocks) {
+    header.synchronous_blocks.push_back(block.name);
+  }
   return header;
 }
 
@@ -142,7 +145,8 @@ class Session {
              .on_event = [this](const auto& event) { Heard(event); },
              .on_record = [this](const auto& record) { Saw(record); }}),
         outlet_(recorder_, telemetry_, numbers_.period_ns),
-        cycle_({numbers_, files.controller.law, files.controller.supervisor}),
+        cycle_({numbers_, files.controller.law, files.controller.supervisor,
+                files.controller.synchronous}),
         sequence_(files.controller.supervisor.sequence),
         signal_limits_(scenario::LimitsOf(numbers_, files.controller.law.current_limit_a)) {
     if (files.scenario) {

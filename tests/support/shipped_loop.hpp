@@ -42,7 +42,8 @@ struct ShippedLoop {
     plant.RestInTouchdown();
     plant_run::TimedEvents events(scenario, rig);
     events.Prepare(plant);
-    cycle::ControlCycle cycle({rig.numbers, controller.law, controller.supervisor});
+    cycle::ControlCycle cycle(
+        {rig.numbers, controller.law, controller.supervisor, controller.synchronous});
     scenario::ScenarioPlayer player(scenario, rig.numbers.period_s(),
                                     controller.supervisor.sequence.standstill_rad_per_s);
     cycle::CycleRecord record;

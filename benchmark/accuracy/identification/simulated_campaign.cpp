@@ -67,7 +67,7 @@ class Rig {
   static cycle::CycleConfig Cycle(const config::RigFile& rig) {
     const auto controller = config::LoadController(
         config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
-    return {rig.numbers, controller.law, controller.supervisor};
+    return {rig.numbers, controller.law, controller.supervisor, controller.synchronous};
   }
   void Keep(const cycle::CycleInputs& in, const cycle::CycleOutputs& out) {
     record.cycle.push_back(in.cycle);

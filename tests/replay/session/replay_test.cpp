@@ -63,7 +63,8 @@ TEST_F(Replaying, ReproducesALawThatChangesWithTheSpeed) {
   controller.law.schedule = {{RpmToRadPerS(600.0), controller.law.axes, {}}};
   for (law::AxisLawConfig& axis : controller.law.schedule[0].axes) axis.kd_a_s_per_m *= 1.2;
   const auto& rig = test::ShippedRig().numbers;
-  const auto records = EventfulRun({rig, controller.law, controller.supervisor});
+  const auto records =
+      EventfulRun({rig, controller.law, controller.supervisor, controller.synchronous});
   SessionHeader header = ShippedHeader();
   header.controller_yaml = config::WriteController(controller, rig);
   EXPECT_TRUE(ReplayOf(records, header).identical());

@@ -1,0 +1,56 @@
+#pragma once
+// The sampled loop with synchronous control in it: what a block adapts to, and whether it may.
+//
+// Answer    of the error that the law reads to what a block gives, at z = e^{j n w T_s}:
+//             kCurrent    E = -S (D + c),  S = (I + P C)^-1
+//             kVibration  E = -S (D + P c)
+//           so that T = S^-1, or (S P)^-1, lets every amplitude decay with the block's time
+//           constant (docs/derivations.md eq. (N3), (N5)).
+// Slow      condition for a slow block: every eigenvalue of T times the answer has a positive real
+//           part. Re = 1: decays as its time constant says; 0.5: takes twice as long.
+// Exact     eigenvalues of the whole sampled loop at that constant speed, two states per axis for
+//           each block that acts there: holds for a fast block too, and for several together.
+// Frame     bearing frame; units SI: answer [1] or [m/A].
+// Thread    any; pure. Failure: BadInput when the law's axes do not fit the plant's.
+// Not done  changing speed, saturation: they are run (tests/loop/synchronous).
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "analysis/sampled_loop.hpp"
+#include "controller/synchronous/synchronous_config.hpp"
+
+namespace levitas::analysis {
+
+[[nodiscard]] Eigen::MatrixXcd SynchronousAnswer(const SampledLoop& loop, double speed_rad_per_s,
+                                                 double order, synchronous::Target target);
+
+[[nodiscard]] Eigen::MatrixXcd MatrixOf(const synchronous::ComplexMatrix& matrix, std::size_t axes);
+[[nodiscard]] synchronous::ComplexMatrix ComplexMatrixOf(const Eigen::MatrixXcd& matrix);
+
+struct BlockJudgement {
+  bool acts{};                  ///< its window holds this speed
+  double slowest_decay{};       ///< smallest real part of the eigenvalues of T times the answer
+  double largest_eigenvalue{};  ///< largest modulus of them
+};
+
+struct SynchronousJudgement {
+  double speed_rad_per_s{};
+  std::vector<BlockJudgement> blocks;
+  double largest_pole_modulus{};          ///< of the loop with all blocks that act
+  double largest_pole_modulus_without{};  ///< of the loop without any
+  [[nodiscard]] bool stable() const noexcept;
+};
+
+/// At one speed; `loop` closed at that speed.
+[[nodiscard]] SynchronousJudgement JudgeSynchronous(const SampledLoop& loop,
+                                                    const synchronous::SynchronousConfig& control,
+                                                    double speed_rad_per_s);
+
+/// Speeds at which blocks are judged: `count` over each window, hysteresis included, and the speeds
+/// of its table; ascending.
+[[nodiscard]] std::vector<double> JudgedSpeeds(const synchronous::SynchronousConfig& control,
+                                               std::size_t count);
+
+}  // namespace levitas::analysis

@@ -1,0 +1,203 @@
+#include "controller/synchronous/synchronous_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace levitas::synchronous {
+namespace {
+
+constexpr double kWholeTurn = 2.0 * std::numbers::pi;
+constexpr double kFadeTurns = 0.5;
+constexpr double kLongestFadeS = 0.2;
+constexpr double kRunOutFadeS = 0.1;
+
+}  // namespace
+
+SynchronousControl::Block::Block(const BlockConfig& config, std::size_t axes, double period_s)
+    : inverse(config),
+      order(config.order),
+      target(config.target),
+      rate(2.0 * period_s / config.time_constant_s),
+      slow_fade(period_s / config.time_constant_s),
+      from(config.from_rad_per_s),
+      to(config.to_rad_per_s),
+      hysteresis(config.hysteresis_rad_per_s),
+      largest_current_a(config.largest_current_a),
+      adaptive(config.adaptive),
+      influence(axes, period_s, config.least_change_m) {
+  if (!(order > 0.0) || !(config.time_constant_s > 0.0)) {
+    throw std::invalid_argument("synchronous: order and time constant must be above zero");
+  }
+}
+
+SynchronousControl::SynchronousControl(const SynchronousConfig& config, const RigNumbers& rig)
+    : axes_(rig.axes()),
+      period_s_(rig.period_s()),
+      angle_(config.angle, rig.period_s()),
+      orbit_growth_(config.orbit_growth),
+      saturated_limit_cycles_(
+          static_cast<std::uint32_t>(std::lround(config.saturated_s / rig.period_s()))),
+      run_outs_(config.run_outs) {
+  if (config.blocks.size() > kMaxBlocks) {
+    throw std::invalid_argument("synchronous: more blocks than " + std::to_string(kMaxBlocks));
+  }
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
+    least_orbit_m_[b] = config.least_orbit_fraction * rig.ClearanceOf(b);
+  }
+  for (const BlockConfig& block : config.blocks) blocks_.emplace_back(block, axes_, period_s_);
+}
+
+void SynchronousControl::Reset() noexcept {
+  run_out_gain_ = 0.0;
+  saturated_cycles_ = 0;
+  for (Block& block : blocks_) {
+    block.state = {};
+    block.influence.Reset();
+    block.gain = 0.0;
+    block.status = {};
+  }
+}
+
+// The largest radius of a turn, bearing by bearing; a rotor that hardly turns has no turn to wait
+// for, and none of its blocks acts.
+void SynchronousControl::WatchOrbit(const Conditions& seen) noexcept {
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
+    const double x_m = seen.position_m[2 * b];
+    const double y_m = 2 * b + 1 < axes_ ? seen.position_m[2 * b + 1] : 0.0;
+    const double radius_m = std::sqrt(x_m * x_m + y_m * y_m);
+    if (!(radius_m <= orbit_now_m_[b])) orbit_now_m_[b] = radius_m;
+  }
+  turned_ += std::abs(angle_.speed_rad_per_s()) * period_s_ / kWholeTurn;
+  if (turned_ < 1.0) return;
+  turned_ = 0.0;
+  orbit_turn_m_ = orbit_now_m_;
+  orbit_now_m_ = {};
+}
+
+Ending SynchronousControl::Trouble(const Block& block, const Conditions& seen) const noexcept {
+  if (!seen.levitated) return Ending::kNotLevitated;
+  if (angle_.trouble() == AngleTrouble::kJumped) return Ending::kAngleJumped;
+  if (!angle_.good()) return Ending::kAngleLost;
+  if (saturated_cycles_ > saturated_limit_cycles_) return Ending::kSaturated;
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
+    if (!(orbit_now_m_[b] <= block.orbit_limit_m[b])) return Ending::kOrbitGrew;
+  }
+  if (block.target == Target::kVibration && !(block.status.amplitude <= block.largest_current_a)) {
+    return Ending::kCurrentTooLarge;
+  }
+  const double speed = seen.believed_speed_rad_per_s;
+  if (angle_.speed_rad_per_s() <= 0.0 || !(speed >= block.from - block.hysteresis) ||
+      !(speed <= block.to + block.hysteresis)) {
+    return Ending::kSpeed;
+  }
+  return Ending::kNone;
+}
+
+void SynchronousControl::Begin(Block& block) noexcept {
+  block.state = {};
+  block.influence.Restart();
+  block.gain = 1.0;
+  block.status.state = BlockState::kActing;
+  for (std::size_t b = 0; 2 * b < axes_; ++b) {
+    block.orbit_limit_m[b] =
+        std::max(orbit_growth_ * std::max(orbit_turn_m_[b], orbit_now_m_[b]), least_orbit_m_[b]);
+  }
+}
+
+void SynchronousControl::End(Block& block, Ending why) noexcept {
+  block.status.state = BlockState::kFading;
+  block.status.ending = why;
+  block.fast = why != Ending::kSpeed;
+}
+
+void SynchronousControl::Fade(Block& block) noexcept {
+  double share = block.slow_fade;
+  if (block.fast) {
+    const double turns = std::abs(angle_.speed_rad_per_s()) * period_s_ / kWholeTurn;
+    share = std::max(turns / kFadeTurns, period_s_ / kLongestFadeS);
+  }
+  block.gain -= share;
+  if (block.gain > 0.0) return;
+  block.gain = 0.0;
+  block.state = {};
+  block.status.amplitude = 0.0;
+  const Ending why = block.status.ending;
+  const bool again = why == Ending::kSpeed || why == Ending::kAngleLost ||
+                     why == Ending::kAngleJumped || why == Ending::kNotLevitated;
+  block.status.state = again ? BlockState::kOff : BlockState::kEnded;
+}
+
+void SynchronousControl::Supervise(const Conditions& seen) noexcept {
+  saturated_cycles_ = seen.saturated_axes != 0 ? saturated_cycles_ + 1 : 0;
+  const double speed = seen.believed_speed_rad_per_s;
+  for (Block& block : blocks_) {
+    const bool within = speed >= block.from && speed <= block.to;
+    switch (block.status.state) {
+      case BlockState::kOff:
+        if (within && seen.levitated && angle_.good() && angle_.speed_rad_per_s() > 0.0) {
+          Begin(block);
+        }
+        break;
+      case BlockState::kActing:
+        if (const Ending why = Trouble(block, seen); why != Ending::kNone) End(block, why);
+        break;
+      case BlockState::kFading:
+        break;
+      case BlockState::kEnded:
+        if (!(speed >= block.from - block.hysteresis && speed <= block.to + block.hysteresis)) {
+          block.status.state = BlockState::kOff;
+        }
+        break;
+    }
+    if (block.status.state == BlockState::kFading) Fade(block);
+  }
+  const bool taken = seen.levitated && angle_.good();
+  const double step = period_s_ / kRunOutFadeS;
+  run_out_gain_ = std::clamp(run_out_gain_ + (taken ? step : -step), 0.0, 1.0);
+}
+
+void SynchronousControl::Wait(const Conditions& seen) noexcept {
+  if (empty()) return;
+  angle_.Update(seen.angle);
+  Supervise(seen);
+}
+
+void SynchronousControl::Step(const Conditions& seen, AxisArray& error_m,
+                              AxisArray& added_a) noexcept {
+  if (empty()) return;
+  angle_.Update(seen.angle);
+  WatchOrbit(seen);
+  Supervise(seen);
+  for (const RunOut& run_out : run_outs_) {
+    if (run_out_gain_ == 0.0) break;
+    const UnitPhasor phasor = PhasorOfTurns(angle_.TurnsOf(run_out.order));
+    AddTurning(run_out.real_m, run_out.imaginary_m, phasor, run_out_gain_, error_m);
+  }
+  std::array<UnitPhasor, kMaxBlocks> phasors;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    Block& block = blocks_[k];
+    if (block.gain == 0.0) continue;
+    phasors[k] = PhasorOfTurns(angle_.TurnsOf(block.order));
+    if (block.target == Target::kCurrent) {
+      AddTurning(block.state.real, block.state.imaginary, phasors[k], -block.gain, error_m);
+    } else {
+      AddTurning(block.state.real, block.state.imaginary, phasors[k], block.gain, added_a);
+    }
+  }
+  const double turns = std::abs(angle_.speed_rad_per_s()) * period_s_ / kWholeTurn;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    Block& block = blocks_[k];
+    if (block.status.state != BlockState::kActing || seen.saturated_axes != 0) continue;
+    const InverseLanes* inverse = &block.inverse.At(seen.believed_speed_rad_per_s);
+    if (block.adaptive) {
+      block.influence.Observe(*inverse, phasors[k], turns, error_m, block.state);
+      inverse = &block.influence.Corrected(*inverse);
+    }
+    Adapt(*inverse, phasors[k], block.rate, axes_, error_m, block.state);
+    block.status.amplitude = LargestAmplitude(block.state);
+  }
+}
+
+}  // namespace levitas::synchronous

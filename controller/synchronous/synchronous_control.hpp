@@ -1,0 +1,101 @@
+#pragma once
+// Synchronous control of all axes: run-out taken off, notches in and out of their speeds, and what
+// ends them.
+//
+// Order      in a cycle: the angle is judged; blocks begin or end; run-outs are subtracted; what
+//            kCurrent blocks hold is taken out of the error; all blocks adapt to that error; what
+//            kVibration blocks hold is added to the current.
+// Begins     where the rotor is levitated about its centre, the angle is good, and the speed is
+//            positive and within the block's window. A block begins with nothing: no step.
+// Ends       speed beyond window and hysteresis: fades over its time constant. Angle lost or
+//            jumped, an axis saturated, orbit grown, current too large, levitation given up: fades
+//            within half a turn (and 0.2 s at most), in step with the angle's flywheel.
+// Again      after a fade of the speed, of the angle or of the levitation when the conditions hold
+//            again; after any other end not before the speed has left the window.
+// Empty      without run-outs and blocks Step does nothing: the loop's bits are those without it.
+// Frame      bearing frame; units SI.
+// Thread     construction allocates; Step allocates nothing, throws nothing, takes bounded time.
+// Failure    the constructor throws std::invalid_argument for a table that cannot be.
+// Not done   no proof that a block is stable (amb design notch, amb margins); speeds below zero:
+//            blocks act in the sense x to y only.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/rig_numbers.hpp"
+#include "controller/synchronous/angle_follower.hpp"
+#include "controller/synchronous/block_status.hpp"
+#include "controller/synchronous/generalised_notch.hpp"
+#include "controller/synchronous/influence_estimate.hpp"
+#include "controller/synchronous/synchronous_config.hpp"
+
+namespace levitas::synchronous {
+
+struct Conditions {
+  AngleReading angle;
+  double believed_speed_rad_per_s{};  ///< its size, by the supervisor
+  bool levitated{};                   ///< about the centre, not in a trip
+  std::uint16_t saturated_axes{};     ///< of the previous cycle
+  AxisArray position_m{};             ///< as read
+};
+
+class SynchronousControl {
+ public:
+  SynchronousControl(const SynchronousConfig& config, const RigNumbers& rig);
+
+  /// The law starts from rest: so do the blocks.
+  void Reset() noexcept;
+  /// Changes what the law reads and what is added to its current.
+  void Step(const Conditions& seen, AxisArray& error_m, AxisArray& added_a) noexcept;
+  /// A cycle in which the law does not step (no frame, or no current).
+  void Wait(const Conditions& seen) noexcept;
+
+  [[nodiscard]] bool empty() const noexcept { return blocks_.empty() && run_outs_.empty(); }
+  [[nodiscard]] std::size_t blocks() const noexcept { return blocks_.size(); }
+  [[nodiscard]] const BlockStatus& status(std::size_t block) const noexcept {
+    return blocks_[block].status;
+  }
+
+ private:
+  struct Block {
+    Block(const BlockConfig& config, std::size_t axes, double period_s);
+    InverseLadder inverse;
+    double order;
+    Target target;
+    double rate;       ///< 2 T_s/tau
+    double slow_fade;  ///< share per period
+    double from, to, hysteresis;
+    double largest_current_a;
+    bool adaptive;
+    InfluenceEstimate influence;
+    NotchState state;
+    BlockStatus status;
+    double gain{};
+    bool fast{};
+    AxisArray orbit_limit_m{};  ///< per bearing, since it began
+  };
+
+  void Supervise(const Conditions& seen) noexcept;
+  [[nodiscard]] Ending Trouble(const Block& block, const Conditions& seen) const noexcept;
+  void Begin(Block& block) noexcept;
+  void End(Block& block, Ending why) noexcept;
+  void Fade(Block& block) noexcept;
+  void WatchOrbit(const Conditions& seen) noexcept;
+
+  std::size_t axes_;
+  double period_s_;
+  AngleFollower angle_;
+  double orbit_growth_;
+  AxisArray least_orbit_m_{};  // per bearing
+  std::uint32_t saturated_limit_cycles_;
+  std::uint32_t saturated_cycles_{};
+  AxisArray orbit_now_m_{};   // per bearing, of the turn that goes on
+  AxisArray orbit_turn_m_{};  // of the last whole turn
+  double turned_{};           // turns since that turn ended
+  double run_out_gain_{};
+  std::vector<RunOut> run_outs_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace levitas::synchronous

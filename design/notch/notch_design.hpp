@@ -1,0 +1,71 @@
+#pragma once
+// A block of synchronous control for a rig and its law: T over speed, and the speeds at which it
+// may act.
+//
+// Table     T = inverse of the answer of the linear loop (analysis/synchronous_loop.hpp), at nine
+//           speeds first; a speed is added wherever T between two of them lets an eigenvalue of T
+//           times the answer leave the circle of kBetween about 1, up to kMostSpeeds.
+// Direction forward keeps what turns with the rotor in the plane x + j y of each bearing, backward
+//           what turns against it; both keeps all. T is projected, so that the rest never adapts.
+// Judged    at every speed of JudgedSpeeds with kJudged of them, on the file's rig and on each drawn
+//           one: slowest decay above kLeastDecay of the file's rig and above 0 of the drawn ones,
+//           and the poles of the whole sampled loop within the unit circle. A drawn rig that its
+//           law does not hold without the block is counted apart and not held against the block.
+// Failure   BadInput when the law's axes do not fit the plant's, or the loop is not stable without
+//           the block at a speed of the window (the speed is named).
+// Thread    any; deterministic for the rigs given.
+// Not done  running: the nonlinear rig is asked by tests and by `amb run`.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "configuration/rig_file.hpp"
+#include "controller/law/law_config.hpp"
+#include "controller/synchronous/synchronous_config.hpp"
+
+namespace levitas::design {
+
+inline constexpr double kBetween = 0.05;
+inline constexpr double kLeastDecay = 0.2;
+inline constexpr std::size_t kMostSpeeds = 64;
+inline constexpr std::size_t kJudged = 41;
+
+enum class Direction : std::uint8_t { kBoth, kForward, kBackward };
+
+/// What is asked; `block.inverse` is empty.
+struct NotchRequest {
+  synchronous::BlockConfig block;
+  Direction direction{Direction::kBoth};
+};
+
+/// `request.block` with its table.
+[[nodiscard]] synchronous::BlockConfig WithInverse(const plant::PlantConfig& rig,
+                                                   const law::LawConfig& law,
+                                                   const NotchRequest& request);
+
+struct SpeedFigures {
+  double speed_rad_per_s{};
+  double slowest_decay{};         ///< of the file's rig
+  double worst_decay{};           ///< of all rigs
+  double largest_pole_modulus{};  ///< of all rigs
+  bool allowed{};
+};
+
+struct NotchFigures {
+  std::vector<SpeedFigures> speeds;  ///< ascending
+  std::size_t rigs{};                ///< judged beside the file's
+  std::size_t not_held{};            ///< drawn rigs that the law alone does not hold somewhere
+  [[nodiscard]] bool allowed() const noexcept;
+  /// "1200 to 1450 rpm, 2100 rpm"; empty when all are allowed.
+  [[nodiscard]] std::string RefusedSpeeds() const;
+};
+
+/// Judges `block` alone in the loop.
+[[nodiscard]] NotchFigures JudgeNotch(const plant::PlantConfig& rig,
+                                      const std::vector<plant::PlantConfig>& drawn,
+                                      const law::LawConfig& law,
+                                      const synchronous::BlockConfig& block, Direction direction);
+
+}  // namespace levitas::design
