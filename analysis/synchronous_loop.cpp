@@ -6,6 +6,7 @@
 
 #include "analysis/loop_response.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
+#include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/spectrum.hpp"
 
 namespace levitas::analysis {
@@ -39,73 +40,82 @@ WholeLaw WholeOf(const SampledLoop& loop) {
   return law;
 }
 
+/// Orthonormal basis of what T can give: of a block for one direction half of all amplitudes. The
+/// others are never moved, and no part of a judgement.
+Eigen::MatrixXcd RangeOf(const Eigen::MatrixXcd& inverse) {
+  constexpr double kNothing = 1e-12;  // of the largest, squared
+  const Eigen::MatrixXcd gram = inverse * inverse.adjoint();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(gram);
+  const Eigen::VectorXd& values = solver.eigenvalues();  // ascending
+  Index rank = 0;
+  while (rank < values.size() && values[values.size() - 1 - rank] > kNothing * values.maxCoeff()) {
+    ++rank;
+  }
+  return solver.eigenvectors().rightCols(rank);
+}
+
 bool ActsAt(const synchronous::BlockConfig& block, double speed_rad_per_s) {
   return speed_rad_per_s >= block.from_rad_per_s - block.hysteresis_rad_per_s &&
          speed_rad_per_s <= block.to_rad_per_s + block.hysteresis_rad_per_s;
 }
 
-/// States [x; w; re z; im z; ...] with z the turning amplitude of a block as it stands in the fixed
-/// frame: z <- e^{j a} (z + k T e), a = n w T_s, k = 2 T_s/tau, e = -(C x + re z of kCurrent).
-class LoopWithBlocks {
- public:
-  LoopWithBlocks(const SampledLoop& loop, const WholeLaw& law,
-                 const std::vector<const synchronous::BlockConfig*>& blocks)
-      : plant_(loop.plant),
-        law_(law),
-        axes_(loop.plant.c.rows()),
-        order_(plant_.a.rows() + law.a.rows() + 2 * axes_ * static_cast<Index>(blocks.size())),
-        period_s_(loop.period_s) {
-    // What the law reads, and what the plant is given, as rows over all states.
-    read_ = Eigen::MatrixXd::Zero(axes_, order_);
-    read_.leftCols(plant_.a.rows()) = plant_.c;
-    Eigen::MatrixXd added = Eigen::MatrixXd::Zero(axes_, order_);
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-      Eigen::MatrixXd& into = blocks[k]->target == Target::kCurrent ? read_ : added;
-      into.middleCols(First(k), axes_).setIdentity();
-    }
-    given_ = added - law_.d * read_;
-    given_.middleCols(plant_.a.rows(), law_.a.rows()) -= law_.c;
-  }
+/// A block at one speed: z <- e^{j a} (z + k T e), a = n w T_s, k = 2 T_s/tau, in the basis U of what
+/// T can give: z = U q.
+struct TurningBlock {
+  Target target{};
+  Eigen::MatrixXcd basis;  ///< U
+  Eigen::MatrixXcd input;  ///< e^{j a} k U^H T
+  std::complex<double> turn;
 
-  [[nodiscard]] Eigen::MatrixXd Matrix(const std::vector<const synchronous::BlockConfig*>& blocks,
-                                       double speed_rad_per_s) const {
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(order_, order_);
-    const Index states = plant_.a.rows();
-    all.topRows(states) = plant_.b * given_;
-    all.topLeftCorner(states, states) += plant_.a;
-    all.middleRows(states, law_.a.rows()) = law_.b * read_;
-    all.block(states, states, law_.a.rows(), law_.a.rows()) += law_.a;
-    for (std::size_t k = 0; k < blocks.size(); ++k) AddBlock(*blocks[k], k, speed_rad_per_s, all);
-    return all;
+  TurningBlock(const synchronous::BlockConfig& block, std::size_t axes, double speed_rad_per_s,
+               double period_s)
+      : target(block.target), turn(std::polar(1.0, block.order * speed_rad_per_s * period_s)) {
+    const Eigen::MatrixXcd inverse = MatrixOf(synchronous::InverseAt(block, speed_rad_per_s), axes);
+    basis = RangeOf(inverse);
+    input = (turn * 2.0 * period_s / block.time_constant_s) * (basis.adjoint() * inverse);
   }
-
- private:
-  [[nodiscard]] Index First(std::size_t block) const {
-    return plant_.a.rows() + law_.a.rows() + 2 * axes_ * static_cast<Index>(block);
-  }
-
-  void AddBlock(const synchronous::BlockConfig& block, std::size_t k, double speed_rad_per_s,
-                Eigen::MatrixXd& all) const {
-    const double rate = 2.0 * period_s_ / block.time_constant_s;
-    const Eigen::MatrixXcd inverse =
-        MatrixOf(synchronous::InverseAt(block, speed_rad_per_s), static_cast<std::size_t>(axes_));
-    Eigen::MatrixXcd turning = -rate * inverse * read_.cast<std::complex<double>>();
-    for (Index i = 0; i < axes_; ++i) {
-      turning(i, First(k) + i) += 1.0;
-      turning(i, First(k) + axes_ + i) += std::complex<double>(0.0, 1.0);
-    }
-    turning *= std::polar(1.0, block.order * speed_rad_per_s * period_s_);
-    all.middleRows(First(k), axes_) = turning.real();
-    all.middleRows(First(k) + axes_, axes_) = turning.imag();
-  }
-
-  const plant::LinearModel& plant_;
-  const WholeLaw& law_;
-  Index axes_;
-  Index order_;
-  double period_s_;
-  Eigen::MatrixXd read_, given_;
 };
+
+/// States [x; w; re q; im q; ...]. The law reads e = -(C x + re z of kCurrent), the plant is given
+/// what the law says and re z of kVibration.
+Eigen::MatrixXd LoopWithBlocks(const SampledLoop& loop, const WholeLaw& law,
+                               const std::vector<TurningBlock>& blocks) {
+  const Index states = loop.plant.a.rows();
+  const Index axes = loop.plant.c.rows();
+  const Index of_law = law.a.rows();
+  Index order = states + of_law;
+  std::vector<Index> first;
+  for (const TurningBlock& block : blocks) {
+    first.push_back(order);
+    order += 2 * block.basis.cols();
+  }
+  Eigen::MatrixXd read = Eigen::MatrixXd::Zero(axes, order);
+  Eigen::MatrixXd given = Eigen::MatrixXd::Zero(axes, order);
+  read.leftCols(states) = loop.plant.c;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    Eigen::MatrixXd& into = blocks[k].target == Target::kCurrent ? read : given;
+    const Index rank = blocks[k].basis.cols();
+    into.middleCols(first[k], rank) = blocks[k].basis.real();
+    into.middleCols(first[k] + rank, rank) = -blocks[k].basis.imag();
+  }
+  given -= law.d * read;
+  given.middleCols(states, of_law) -= law.c;
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(order, order);
+  all.topRows(states) = loop.plant.b * given;
+  all.topLeftCorner(states, states) += loop.plant.a;
+  all.middleRows(states, of_law) = law.b * read;
+  all.block(states, states, of_law, of_law) += law.a;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const Index rank = blocks[k].basis.cols();
+    Eigen::MatrixXcd next = -blocks[k].input * read.cast<std::complex<double>>();
+    next.middleCols(first[k], rank).diagonal().array() += blocks[k].turn;
+    next.middleCols(first[k] + rank, rank).diagonal().array() +=
+        blocks[k].turn * std::complex<double>(0.0, 1.0);
+    all.middleRows(first[k], rank) = next.real();
+    all.middleRows(first[k] + rank, rank) = next.imag();
+  }
+  return all;
+}
 
 double LargestModulus(const Eigen::MatrixXd& matrix) {
   return numerics::EigenvaluesOf(matrix).cwiseAbs().maxCoeff();
@@ -168,25 +178,24 @@ SynchronousJudgement JudgeSynchronous(const SampledLoop& loop,
   SynchronousJudgement made;
   made.speed_rad_per_s = speed_rad_per_s;
   const auto axes = static_cast<std::size_t>(loop.plant.c.rows());
-  std::vector<const synchronous::BlockConfig*> acting;
+  std::vector<TurningBlock> acting;
   for (const synchronous::BlockConfig& block : control.blocks) {
     BlockJudgement& judged = made.blocks.emplace_back();
     judged.acts = ActsAt(block, speed_rad_per_s);
     if (!judged.acts) continue;
-    acting.push_back(&block);
+    const TurningBlock& turning = acting.emplace_back(block, axes, speed_rad_per_s, loop.period_s);
+    const Eigen::MatrixXcd inverse = MatrixOf(synchronous::InverseAt(block, speed_rad_per_s), axes);
     const Eigen::MatrixXcd product =
-        MatrixOf(synchronous::InverseAt(block, speed_rad_per_s), axes) *
-        SynchronousAnswer(loop, speed_rad_per_s, block.order, block.target);
+        turning.basis.adjoint() * inverse *
+        SynchronousAnswer(loop, speed_rad_per_s, block.order, block.target) * turning.basis;
     const Eigen::VectorXcd values = WithConjugates(product);
     judged.slowest_decay = values.real().minCoeff();
     judged.largest_eigenvalue = values.cwiseAbs().maxCoeff();
   }
   const WholeLaw law = WholeOf(loop);
-  made.largest_pole_modulus_without = LargestModulus(LoopWithBlocks(loop, law, {}).Matrix({}, 0.0));
-  made.largest_pole_modulus =
-      acting.empty()
-          ? made.largest_pole_modulus_without
-          : LargestModulus(LoopWithBlocks(loop, law, acting).Matrix(acting, speed_rad_per_s));
+  made.largest_pole_modulus_without = LargestModulus(LoopWithBlocks(loop, law, {}));
+  made.largest_pole_modulus = acting.empty() ? made.largest_pole_modulus_without
+                                             : LargestModulus(LoopWithBlocks(loop, law, acting));
   return made;
 }
 

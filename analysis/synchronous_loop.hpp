@@ -10,6 +10,7 @@
 //           part. Re = 1: decays as its time constant says; 0.5: takes twice as long.
 // Exact     eigenvalues of the whole sampled loop at that constant speed, two states per axis for
 //           each block that acts there: holds for a fast block too, and for several together.
+//           What T never moves (the other direction of a block for one) is no part of either.
 // Frame     bearing frame; units SI: answer [1] or [m/A].
 // Thread    any; pure. Failure: BadInput when the law's axes do not fit the plant's.
 // Not done  changing speed, saturation: they are run (tests/loop/synchronous).

@@ -60,8 +60,8 @@ void SynchronousControl::Reset() noexcept {
   }
 }
 
-// The largest radius of a turn, bearing by bearing; a rotor that hardly turns has no turn to wait
-// for, and none of its blocks acts.
+// The largest radius of a turn, bearing by bearing; of the turns before a block's first, the last
+// counts, which is long after the lift: an angle is good after ten.
 void SynchronousControl::WatchOrbit(const Conditions& seen) noexcept {
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     const double x_m = seen.position_m[2 * b];
@@ -69,7 +69,7 @@ void SynchronousControl::WatchOrbit(const Conditions& seen) noexcept {
     const double radius_m = std::sqrt(x_m * x_m + y_m * y_m);
     if (!(radius_m <= orbit_now_m_[b])) orbit_now_m_[b] = radius_m;
   }
-  turned_ += std::abs(angle_.speed_rad_per_s()) * period_s_ / kWholeTurn;
+  turned_ += seen.believed_speed_rad_per_s * period_s_ / kWholeTurn;
   if (turned_ < 1.0) return;
   turned_ = 0.0;
   orbit_turn_m_ = orbit_now_m_;

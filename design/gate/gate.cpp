@@ -10,7 +10,7 @@
 #include "analysis/sensitivity.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/law/law_schedule.hpp"
-#include "design/uncertainty/healthy_rig.hpp"
+#include "design/drawn_rigs/healthy_rig.hpp"
 #include "design/uncertainty/mixed_mu.hpp"
 
 namespace levitas::design {

@@ -9,7 +9,7 @@
 //           by less than 1 %; told, and a limit when `mu` is given.
 // 4 Rigs    drawn from the uncertainty, simulated with contact, saturation, noise: none is lost.
 //           With `tolerances` everything else that the file states is drawn too
-//           (design/uncertainty/healthy_rig.hpp), and poles and |S| of each rig are judged.
+//           (design/drawn_rigs/healthy_rig.hpp), and poles and |S| of each rig are judged.
 // 5 Speed   of a law over speed: poles at every law that the loop may run (law_schedule.hpp), |S|
 //           five times as dense, and a run-up of the file's rig at its drive's rate.
 // Accepted  the first, the second, the fourth and the fifth pass, the third where asked.

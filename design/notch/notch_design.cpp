@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/loop_response.hpp"
 #include "analysis/synchronous_loop.hpp"
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
+#include "common/two_pi.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
+#include "design/notch/synchronous_force.hpp"
 #include "numerics/dense/factorisations.hpp"
 #include "numerics/dense/spectrum.hpp"
 
@@ -79,26 +82,11 @@ void RefuseUnheld(const plant::PlantConfig& rig, const law::LawConfig& law,
       RadPerSToRpm(speed_rad_per_s), judged.largest_pole_modulus));
 }
 
-/// Of the eigenvalues of T times the answer; of one direction those of the other are 0 and no part
-/// of the judgement.
-double SlowestDecay(const plant::PlantConfig& rig, const law::LawConfig& law,
-                    const BlockConfig& block, Direction direction, double speed_rad_per_s) {
-  const MatrixXcd answer = AnswerAt(rig, law, block, speed_rad_per_s);
-  const MatrixXcd projection = Projection(answer.rows(), direction);
-  const MatrixXcd rest = MatrixXcd::Identity(answer.rows(), answer.rows()) - projection;
-  const MatrixXcd product = analysis::MatrixOf(synchronous::InverseAt(block, speed_rad_per_s),
-                                               static_cast<std::size_t>(answer.rows())) *
-                                answer * projection +
-                            rest;
-  Eigen::MatrixXd real(2 * product.rows(), 2 * product.rows());
-  real << product.real(), -product.imag(), product.imag(), product.real();
-  return numerics::EigenvaluesOf(real).real().minCoeff();
-}
-
 }  // namespace
 
-BlockConfig WithInverse(const plant::PlantConfig& rig, const law::LawConfig& law,
+BlockConfig WithInverse(const config::RigFile& file, const law::LawConfig& law,
                         const NotchRequest& request) {
+  const plant::PlantConfig& rig = file.plant;
   BlockConfig block = request.block;
   block.inverse.clear();
   for (std::size_t i = 0; i < kFirstSpeeds; ++i) {
@@ -129,52 +117,110 @@ BlockConfig WithInverse(const plant::PlantConfig& rig, const law::LawConfig& law
 }
 
 bool NotchFigures::allowed() const noexcept {
-  return std::all_of(speeds.begin(), speeds.end(), [](const auto& at) { return at.allowed; });
+  return std::all_of(speeds.begin(), speeds.end(), [](const auto& at) { return at.allowed(); });
 }
 
+// Neighbours of the same reason as one range, with the reason of its first.
 std::string NotchFigures::RefusedSpeeds() const {
   std::string text;
+  const auto kind = [](const SpeedFigures& at) {
+    return at.refused.substr(0, at.refused.find(':'));
+  };
   for (std::size_t i = 0; i < speeds.size(); ++i) {
-    if (speeds[i].allowed) continue;
+    if (speeds[i].allowed()) continue;
     const std::size_t first = i;
-    while (i + 1 < speeds.size() && !speeds[i + 1].allowed) ++i;
+    while (i + 1 < speeds.size() && kind(speeds[i + 1]) == kind(speeds[first])) ++i;
     const double low = RadPerSToRpm(speeds[first].speed_rad_per_s);
     const double high = RadPerSToRpm(speeds[i].speed_rad_per_s);
-    if (!text.empty()) text += ", ";
+    if (!text.empty()) text += "; ";
     text += first == i ? fmt::format("{:.0f} rpm", low)
                        : fmt::format("{:.0f} to {:.0f} rpm", low, high);
+    text += fmt::format(" ({})", kind(speeds[first]));
   }
   return text;
 }
 
-NotchFigures JudgeNotch(const plant::PlantConfig& rig, const std::vector<plant::PlantConfig>& drawn,
-                        const law::LawConfig& law, const BlockConfig& block, Direction direction) {
+namespace {
+
+std::string WhyRefused(const SpeedFigures& at, const NotchRequest& request) {
+  const bool vibration = request.block.target == synchronous::Target::kVibration;
+  if (!vibration && at.growth > request.most_growth) {
+    return fmt::format(
+        "without its synchronous force the orbit could grow more than {:.3g}-fold: {:.3g}-fold",
+        request.most_growth, at.growth);
+  }
+  if (vibration && at.condition > kMostCondition) {
+    return fmt::format("the magnets hardly move what the sensors read: condition {:.3g}",
+                       at.condition);
+  }
+  if (vibration && at.current_a > request.block.largest_current_a) {
+    return fmt::format("more current than its largest_current_a: {:.3g} A", at.current_a);
+  }
+  if (!(at.slowest_decay >= kLeastDecay)) {
+    return fmt::format("an eigenvalue of T times the answer below {}: {:.3g}", kLeastDecay,
+                       at.slowest_decay);
+  }
+  if (!(at.worst_decay > 0.0)) {
+    return fmt::format("a drawn rig has an eigenvalue below 0: {:.3g}", at.worst_decay);
+  }
+  if (!(at.largest_pole_modulus < 1.0)) {
+    return fmt::format("the loop with the block has a pole outside the unit circle: |z| {:.6f}",
+                       at.largest_pole_modulus);
+  }
+  return {};
+}
+
+/// Orbit and current that the rig file's unbalance leaves, and the size of T.
+void AddSize(const config::RigFile& rig, const analysis::SampledLoop& loop,
+             const BlockConfig& block, SpeedFigures& at) {
+  const double speed = at.speed_rad_per_s;
+  const auto axes = static_cast<std::size_t>(loop.plant.c.rows());
+  const MatrixXcd inverse = analysis::MatrixOf(synchronous::InverseAt(block, speed), axes);
+  at.growth = analysis::LargestSingularValue(inverse);
+  at.condition = at.growth * analysis::LargestSingularValue(analysis::SynchronousAnswer(
+                                 loop, speed, block.order, block.target));
+  if (block.order != 1.0) return;
+  const Eigen::VectorXcd open_m = UnbalanceAtSensors(rig, speed);
+  if (open_m.size() == 0) return;
+  if (block.target == synchronous::Target::kCurrent) {
+    at.orbit_m = LargestRadius(open_m);
+    return;
+  }
+  const analysis::LoopResponse response(loop);
+  const Eigen::VectorXcd left_m = response.Sensitivity(speed / kTwoPi) * open_m;
+  at.current_a = (inverse * left_m).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+NotchFigures JudgeNotch(const config::RigFile& rig, const std::vector<config::RigFile>& drawn,
+                        const law::LawConfig& law, const NotchRequest& request) {
   synchronous::SynchronousConfig control;
-  control.blocks.push_back(block);
+  control.blocks.push_back(request.block);
   NotchFigures figures;
   figures.rigs = drawn.size();
   std::vector<bool> unheld(drawn.size(), false);
   for (const double speed : analysis::JudgedSpeeds(control, kJudged)) {
     SpeedFigures at;
     at.speed_rad_per_s = speed;
-    at.slowest_decay = at.worst_decay = SlowestDecay(rig, law, block, direction, speed);
-    at.largest_pole_modulus =
-        analysis::JudgeSynchronous(analysis::CloseLoop(rig, law, speed), control, speed)
-            .largest_pole_modulus;
-    for (std::size_t n = 0; n < drawn.size(); ++n) {
-      const auto judged =
-          analysis::JudgeSynchronous(analysis::CloseLoop(drawn[n], law, speed), control, speed);
+    const auto loop = analysis::CloseLoop(rig.plant, law, speed);
+    const auto nominal = analysis::JudgeSynchronous(loop, control, speed);
+    at.slowest_decay = at.worst_decay = nominal.blocks.front().slowest_decay;
+    at.largest_pole_modulus = nominal.largest_pole_modulus;
+    AddSize(rig, loop, request.block, at);
+    at.refused = WhyRefused(at, request);
+    for (std::size_t n = 0; n < drawn.size() && at.allowed(); ++n) {
+      const auto judged = analysis::JudgeSynchronous(
+          analysis::CloseLoop(drawn[n].plant, law, speed), control, speed);
       if (!(judged.largest_pole_modulus_without < 1.0)) {
         unheld[n] = true;
         continue;
       }
-      at.worst_decay =
-          std::min(at.worst_decay, SlowestDecay(drawn[n], law, block, direction, speed));
+      at.worst_decay = std::min(at.worst_decay, judged.blocks.front().slowest_decay);
       at.largest_pole_modulus = std::max(at.largest_pole_modulus, judged.largest_pole_modulus);
     }
-    at.allowed =
-        at.slowest_decay >= kLeastDecay && at.worst_decay > 0.0 && at.largest_pole_modulus < 1.0;
-    figures.speeds.push_back(at);
+    at.refused = WhyRefused(at, request);
+    figures.speeds.push_back(std::move(at));
   }
   figures.not_held = static_cast<std::size_t>(std::count(unheld.begin(), unheld.end(), true));
   return figures;

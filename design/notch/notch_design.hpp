@@ -7,6 +7,14 @@
 //           times the answer leave the circle of kBetween about 1, up to kMostSpeeds.
 // Direction forward keeps what turns with the rotor in the plane x + j y of each bearing, backward
 //           what turns against it; both keeps all. T is projected, so that the rest never adapts.
+// Growth    with target current the bearing no longer holds the rotor at this order: its orbit is
+//           that of the law alone times T, at most times the largest singular value of T. Beyond
+//           `most_growth` the speed is refused: the law carries the rotor through a critical speed
+//           there (a notch in the feedback cannot cross it).
+// Current   with target vibration the magnets give T times what the law alone leaves. More than the
+//           block's largest_current_a for the rig file's unbalance (order 1) is refused, and so is
+//           a condition number of T beyond kMostCondition: a node of the shaft lies between magnet
+//           and sensor there, and no current moves what is read.
 // Judged    at every speed of JudgedSpeeds with kJudged of them, on the file's rig and on each drawn
 //           one: slowest decay above kLeastDecay of the file's rig and above 0 of the drawn ones,
 //           and the poles of the whole sampled loop within the unit circle. A drawn rig that its
@@ -29,6 +37,7 @@ namespace levitas::design {
 
 inline constexpr double kBetween = 0.05;
 inline constexpr double kLeastDecay = 0.2;
+inline constexpr double kMostCondition = 30.0;
 inline constexpr std::size_t kMostSpeeds = 64;
 inline constexpr std::size_t kJudged = 41;
 
@@ -38,10 +47,11 @@ enum class Direction : std::uint8_t { kBoth, kForward, kBackward };
 struct NotchRequest {
   synchronous::BlockConfig block;
   Direction direction{Direction::kBoth};
+  double most_growth{4.0};
 };
 
 /// `request.block` with its table.
-[[nodiscard]] synchronous::BlockConfig WithInverse(const plant::PlantConfig& rig,
+[[nodiscard]] synchronous::BlockConfig WithInverse(const config::RigFile& rig,
                                                    const law::LawConfig& law,
                                                    const NotchRequest& request);
 
@@ -50,7 +60,12 @@ struct SpeedFigures {
   double slowest_decay{};         ///< of the file's rig
   double worst_decay{};           ///< of all rigs
   double largest_pole_modulus{};  ///< of all rigs
-  bool allowed{};
+  double growth{};                ///< largest singular value of T, of target current [1]
+  double condition{};             ///< of T
+  double orbit_m{};               ///< with the block, rig file's unbalance; 0: none or other order
+  double current_a{};             ///< largest amplitude of the block's current, the same
+  std::string refused;            ///< why; empty: allowed
+  [[nodiscard]] bool allowed() const noexcept { return refused.empty(); }
 };
 
 struct NotchFigures {
@@ -58,14 +73,13 @@ struct NotchFigures {
   std::size_t rigs{};                ///< judged beside the file's
   std::size_t not_held{};            ///< drawn rigs that the law alone does not hold somewhere
   [[nodiscard]] bool allowed() const noexcept;
-  /// "1200 to 1450 rpm, 2100 rpm"; empty when all are allowed.
+  /// "1200 to 1450 rpm (orbit grows 12-fold), 2100 rpm (...)"; empty when all are allowed.
   [[nodiscard]] std::string RefusedSpeeds() const;
 };
 
-/// Judges `block` alone in the loop.
-[[nodiscard]] NotchFigures JudgeNotch(const plant::PlantConfig& rig,
-                                      const std::vector<plant::PlantConfig>& drawn,
-                                      const law::LawConfig& law,
-                                      const synchronous::BlockConfig& block, Direction direction);
+/// Judges `request.block`, its table made, alone in the loop.
+[[nodiscard]] NotchFigures JudgeNotch(const config::RigFile& rig,
+                                      const std::vector<config::RigFile>& drawn,
+                                      const law::LawConfig& law, const NotchRequest& request);
 
 }  // namespace levitas::design

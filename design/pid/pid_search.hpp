@@ -16,7 +16,7 @@
 
 #include "design/pid/law_shape.hpp"
 #include "design/pid/requirements.hpp"
-#include "design/uncertainty/rig_uncertainty.hpp"
+#include "design/drawn_rigs/rig_uncertainty.hpp"
 
 namespace levitas::design {
 

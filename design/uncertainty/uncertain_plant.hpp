@@ -18,7 +18,7 @@
 
 #include "controller/law/discrete_law.hpp"
 #include "design/uncertainty/analysis_weights.hpp"
-#include "design/uncertainty/rig_uncertainty.hpp"
+#include "design/drawn_rigs/rig_uncertainty.hpp"
 
 namespace levitas::uncertainty {
 

@@ -17,6 +17,7 @@ void AddDesignCommand(CLI::App& app, Action& action) {
   AddDesignHinf(*design, action);
   AddDesignPid(*design, action);
   AddDesignSchedule(*design, action);
+  AddDesignNotch(*design, action);
   AddDesignCheck(*design, action);
   AddDesignUncertainty(*design, action);
   AddDesignCompare(*design, action);

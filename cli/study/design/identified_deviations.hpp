@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "design/uncertainty/rig_uncertainty.hpp"
+#include "design/drawn_rigs/rig_uncertainty.hpp"
 
 namespace levitas::cli {
 

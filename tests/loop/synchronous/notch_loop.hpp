@@ -30,7 +30,7 @@ inline design::NotchRequest Asked(synchronous::Target target, double from_rpm, d
 /// The commissioned cycle with this block, its T from the rig's file.
 inline cycle::CycleConfig WithBlock(const design::NotchRequest& request) {
   cycle::CycleConfig config = CommissionedCycle();
-  config.synchronous.blocks.push_back(design::WithInverse(ShippedRig().plant, config.law, request));
+  config.synchronous.blocks.push_back(design::WithInverse(ShippedRig(), config.law, request));
   return config;
 }
 

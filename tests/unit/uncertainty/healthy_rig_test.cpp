@@ -1,5 +1,5 @@
 // Rigs drawn within a file's tolerances.
-#include "design/uncertainty/healthy_rig.hpp"
+#include "design/drawn_rigs/healthy_rig.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // By how much a rig may differ, from its three sources.
-#include "design/uncertainty/rig_uncertainty.hpp"
+#include "design/drawn_rigs/rig_uncertainty.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "design/uncertainty/healthy_rig.hpp"
+#include "design/drawn_rigs/healthy_rig.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "design/uncertainty/rig_uncertainty.hpp"
+#include "design/drawn_rigs/rig_uncertainty.hpp"
 
 #include <fmt/core.h>
 

@@ -1,0 +1,259 @@
+// amb design notch: a block of synchronous control for a controller file, with its T over speed.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "cli/json_file.hpp"
+#include "cli/study/design/design_commands.hpp"
+#include "cli/study/design/gate_options.hpp"
+#include "cli/study/design/judged_law.hpp"
+#include "cli/study/written_files.hpp"
+#include "cli/text_file.hpp"
+#include "common/random.hpp"
+#include "common/rotational_speed.hpp"
+#include "design/drawn_rigs/rig_uncertainty.hpp"
+#include "design/notch/notch_design.hpp"
+#include "report/text/text_table.hpp"
+#include "session/output_path.hpp"
+
+namespace levitas::cli {
+namespace {
+
+struct NotchOptions {
+  AnalysisOptions loop;
+  std::string name{"unbalance"};
+  double order{1.0};
+  std::string target{"current"};
+  std::string direction{"both"};
+  double from_rpm{}, to_rpm{};  ///< 0: a tenth of the rated speed, the rated speed
+  double hysteresis_rpm{30.0};
+  double time_constant_s{0.3};
+  double largest_current_a{};  ///< 0: half of what the coils leave
+  double most_growth{4.0};
+  bool adaptive{};
+  std::string from{"tolerances"};
+  std::size_t draws{20};
+  std::uint64_t seed{1};
+  std::string out_path;
+};
+
+design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFile& rig) {
+  design::NotchRequest request;
+  synchronous::BlockConfig& block = request.block;
+  const double rated = rig.numbers.max_speed_rad_per_s;
+  block.name = options.name;
+  block.order = options.order;
+  block.target = options.target == "vibration" ? synchronous::Target::kVibration
+                                               : synchronous::Target::kCurrent;
+  block.time_constant_s = options.time_constant_s;
+  block.from_rad_per_s = options.from_rpm > 0.0 ? RpmToRadPerS(options.from_rpm) : 0.1 * rated;
+  block.to_rad_per_s = options.to_rpm > 0.0 ? RpmToRadPerS(options.to_rpm) : rated;
+  block.hysteresis_rad_per_s = RpmToRadPerS(options.hysteresis_rpm);
+  block.adaptive = options.adaptive;
+  request.most_growth = options.most_growth;
+  const double limit_a = ControlLimitA(rig.numbers);
+  block.largest_current_a =
+      options.largest_current_a > 0.0 ? options.largest_current_a : 0.5 * limit_a;
+  request.direction = options.direction == "forward"    ? design::Direction::kForward
+                      : options.direction == "backward" ? design::Direction::kBackward
+                                                        : design::Direction::kBoth;
+  if (!(block.to_rad_per_s > block.from_rad_per_s)) {
+    throw Problem(
+        ExitStatus::kUsage,
+        fmt::format("--to-rpm: found {:.6g}, must be above --from-rpm {:.6g}",
+                    RadPerSToRpm(block.to_rad_per_s), RadPerSToRpm(block.from_rad_per_s)));
+  }
+  const double nyquist_rpm = RadPerSToRpm(3.14159265358979 / rig.numbers.period_s()) / block.order;
+  if (RadPerSToRpm(block.to_rad_per_s + block.hysteresis_rad_per_s) >= nyquist_rpm) {
+    throw Problem(
+        ExitStatus::kUsage,
+        fmt::format("--to-rpm: order {:.6g} reaches half the sampling frequency at {:.0f} "
+                    "rpm; choose a lower speed",
+                    block.order, nyquist_rpm));
+  }
+  return request;
+}
+
+std::vector<config::RigFile> Drawn(const NotchOptions& options, const config::RigFile& rig) {
+  const auto parameters = ParametersOf(rig, options.from);
+  Random draw(options.seed);
+  std::vector<config::RigFile> rigs;
+  for (std::size_t n = 0; n < options.draws; ++n) {
+    const auto place = uncertainty::DrawPlace(draw, parameters.size());
+    rigs.push_back(uncertainty::At(rig, parameters, place));
+  }
+  return rigs;
+}
+
+void Print(const design::NotchFigures& figures, bool vibration) {
+  TextTable table;
+  table.Add({"rpm", "decay", "of drawn", "largest |z|", vibration ? "condition" : "growth",
+             vibration ? "current A" : "orbit um", ""});
+  const std::size_t step = std::max<std::size_t>(1, figures.speeds.size() / 12);
+  bool refused = false;
+  for (std::size_t i = 0; i < figures.speeds.size(); ++i) {
+    const design::SpeedFigures& at = figures.speeds[i];
+    const bool edge = refused == at.allowed();
+    refused = !at.allowed();
+    if (!edge && i % step != 0 && i + 1 != figures.speeds.size()) continue;
+    const double size = vibration ? at.current_a : 1e6 * at.orbit_m;
+    table.Add({fmt::format("{:.0f}", RadPerSToRpm(at.speed_rad_per_s)),
+               fmt::format("{:.3f}", at.slowest_decay), fmt::format("{:.3f}", at.worst_decay),
+               fmt::format("{:.6f}", at.largest_pole_modulus),
+               fmt::format("{:.2f}", vibration ? at.condition : at.growth),
+               size > 0.0 ? fmt::format("{:.3g}", size) : "", at.allowed() ? "" : "REFUSED"});
+  }
+  fmt::print("{}", table.Text());
+  fmt::print(
+      "decay: slowest of the block, 1 as its time constant says, below 0 it grows; |z|: of the "
+      "whole sampled loop; {}\n",
+      vibration ? "condition: of T; current: what the rig file's unbalance needs"
+                : "growth: of the orbit at most; orbit: what the rig file's unbalance leaves");
+  if (figures.not_held > 0) {
+    fmt::print("{} of {} drawn rigs are not held by the law alone somewhere: not counted there\n",
+               figures.not_held, figures.rigs);
+  }
+}
+
+nlohmann::ordered_json Json(const synchronous::BlockConfig& block,
+                            const design::NotchFigures& figures) {
+  nlohmann::ordered_json json;
+  json["name"] = block.name;
+  json["order"] = block.order;
+  json["target"] = block.target == synchronous::Target::kVibration ? "vibration" : "current";
+  json["time_constant_s"] = block.time_constant_s;
+  json["from_rpm"] = RadPerSToRpm(block.from_rad_per_s);
+  json["to_rpm"] = RadPerSToRpm(block.to_rad_per_s);
+  json["table_speeds"] = block.inverse.size();
+  json["allowed"] = figures.allowed();
+  json["refused"] = figures.RefusedSpeeds();
+  json["drawn_rigs"] = figures.rigs;
+  json["drawn_rigs_not_held"] = figures.not_held;
+  for (const design::SpeedFigures& at : figures.speeds) {
+    json["speeds"].push_back({{"speed_rpm", RadPerSToRpm(at.speed_rad_per_s)},
+                              {"slowest_decay", at.slowest_decay},
+                              {"slowest_decay_of_drawn", at.worst_decay},
+                              {"largest_pole_modulus", at.largest_pole_modulus},
+                              {"growth", at.growth},
+                              {"condition", at.condition},
+                              {"orbit_m", at.orbit_m},
+                              {"current_a", at.current_a},
+                              {"allowed", at.allowed()},
+                              {"refused", at.refused}});
+  }
+  return json;
+}
+
+/// In place of the block of its name, else behind the others.
+void Put(synchronous::SynchronousConfig& control, const synchronous::BlockConfig& block) {
+  const auto same = std::ranges::find(control.blocks, block.name, &synchronous::BlockConfig::name);
+  if (same != control.blocks.end()) {
+    *same = block;
+    return;
+  }
+  if (control.blocks.size() == synchronous::kMaxBlocks) {
+    throw BadInput(
+        fmt::format("the controller has {} synchronous blocks already, allowed {}: "
+                    "take one's --name to replace it",
+                    control.blocks.size(), synchronous::kMaxBlocks));
+  }
+  control.blocks.push_back(block);
+}
+
+ExitStatus Run(const NotchOptions& options) {
+  for (const std::string& path : {options.out_path, options.loop.json_path}) {
+    session::CheckOutputPath(path, {});
+  }
+  const auto [rig, controller, delay] = LoadLoop(options.loop);
+  design::NotchRequest request = RequestOf(options, rig);
+  config::ControllerFile file = controller.file;
+  request.block = design::WithInverse(rig, file.law, request);
+  const synchronous::BlockConfig& block = request.block;
+  Put(file.synchronous, block);
+  fmt::print("rig {}, controller {}\n{}", rig.numbers.name, ControllerText(controller), delay);
+  fmt::print("block {}: order {:.6g}, target {}, {:.0f} to {:.0f} rpm, T at {} speeds\n",
+             block.name, block.order, options.target, RadPerSToRpm(block.from_rad_per_s),
+             RadPerSToRpm(block.to_rad_per_s), block.inverse.size());
+  const auto figures = design::JudgeNotch(rig, Drawn(options, rig), file.law, request);
+  Print(figures, block.target == synchronous::Target::kVibration);
+  WriteJsonFile(options.loop.json_path, Json(block, figures));
+  if (!figures.allowed()) {
+    throw Problem(
+        ExitStatus::kOther,
+        fmt::format("refused: the block is not stable at {}; nothing was written. A longer "
+                    "--time-constant-s, or a window without these speeds, helps",
+                    figures.RefusedSpeeds()));
+  }
+  if (!options.out_path.empty()) {
+    WriteTextFile(options.out_path,
+                  fmt::format("# amb design notch: block {} accepted at every speed of its window, "
+                              "with {} drawn rigs of seed {}\n",
+                              block.name, options.draws, options.seed) +
+                      config::WriteController(file, rig.numbers));
+  }
+  TellWritten({options.out_path, options.loop.json_path});
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+void AddDesignNotch(CLI::App& design, Action& action) {
+  auto options = std::make_shared<NotchOptions>();
+  CLI::App* command = design.add_subcommand(
+      "notch", "Synchronous control for a controller: what turns, out of currents or positions");
+  command->footer(
+      "  amb design notch --target current --from-rpm 1500 --out quiet.yaml\n"
+      "  amb run --controller quiet.yaml --scenario run_up_6000");
+  AddRigOption(*command, options->loop);
+  AddControllerOption(*command, options->loop);
+  AddPortOption(*command, options->loop);
+  command->add_option("--name", options->name, "Of the block; one of this name is replaced")
+      ->capture_default_str();
+  command->add_option("--order", options->order, "Multiple of the shaft's angle")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  command
+      ->add_option("--target", options->target,
+                   "What goes to zero: current (the rotor turns about its axis of inertia) or "
+                   "vibration (about its centre)")
+      ->check(CLI::IsMember({"current", "vibration"}))
+      ->capture_default_str();
+  command->add_option("--direction", options->direction, "What turns with the shaft, against it")
+      ->check(CLI::IsMember({"both", "forward", "backward"}))
+      ->capture_default_str();
+  command->add_option("--from-rpm", options->from_rpm, "Acts from here; default: rated speed/10")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--to-rpm", options->to_rpm, "To here; default: the rated speed")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--hysteresis-rpm", options->hysteresis_rpm, "Beyond the window it ends")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--time-constant-s", options->time_constant_s, "Of what is left")
+      ->check(CLI::Range(0.001, 100.0))
+      ->capture_default_str();
+  command
+      ->add_option("--largest-current-a", options->largest_current_a,
+                   "With --target vibration: beyond it the block ends; default: half of what the "
+                   "coils leave")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--most-growth", options.most_growth,
+                   "With --target current: the orbit may grow so many times at most")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->capture_default_str();
+  command->add_flag("--adaptive", options->adaptive, "T is corrected while the block runs");
+  AddUncertaintyOption(*command, options->from);
+  command->add_option("--draws", options->draws, "Rigs drawn for the judgement")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the draws")->capture_default_str();
+  command->add_option("--out", options->out_path, "Controller file to write");
+  AddJsonOption(*command, options->loop);
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+}
+
+}  // namespace levitas::cli

@@ -1,0 +1,184 @@
+// Where a block may act: the judgement of the linear loop beside what the nonlinear rig does.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/synchronous_loop.hpp"
+#include "common/random.hpp"
+#include "design/drawn_rigs/rig_uncertainty.hpp"
+#include "tests/loop/synchronous/notch_loop.hpp"
+
+namespace levitas::test {
+namespace {
+
+using synchronous::BlockState;
+using synchronous::Ending;
+using synchronous::Target;
+
+/// T = 1 at every speed: the notch filter of textbooks.
+synchronous::BlockConfig PlainNotch(double from_rpm, double to_rpm) {
+  synchronous::BlockConfig block = Asked(Target::kCurrent, from_rpm, to_rpm).block;
+  synchronous::InverseAtSpeed at;
+  at.speed_rad_per_s = block.from_rad_per_s;
+  for (std::size_t i = 0; i < ShippedRig().numbers.axes(); ++i) at.inverse.real[i][i] = 1.0;
+  block.inverse.push_back(at);
+  return block;
+}
+
+/// The speed at which T = 1 is worst.
+double WorstSpeed() {
+  synchronous::SynchronousConfig control;
+  control.blocks.push_back(PlainNotch(300.0, 6000.0));
+  const auto law = CommissionedCycle().law;
+  double worst = 1.0;
+  double at = 0.0;
+  for (const double speed : analysis::JudgedSpeeds(control, 60)) {
+    const auto judged = analysis::JudgeSynchronous(
+        analysis::CloseLoop(ShippedRig().plant, law, speed), control, speed);
+    if (judged.blocks.front().slowest_decay >= worst) continue;
+    worst = judged.blocks.front().slowest_decay;
+    at = speed;
+  }
+  EXPECT_LT(worst, 0.0) << "T = 1 is stable everywhere on this rig: nothing to show";
+  return at;
+}
+
+cycle::CycleConfig With(const synchronous::BlockConfig& block, double orbit_growth) {
+  cycle::CycleConfig config = CommissionedCycle();
+  config.synchronous.blocks.push_back(block);
+  config.synchronous.orbit_growth = orbit_growth;
+  return config;
+}
+
+TEST(NotchStability, AMatrixThatIsNoInverseTripsTheRigAndTheInverseDoesNot) {
+  const double rpm = RadPerSToRpm(WorstSpeed());
+  const auto plain = PlainNotch(rpm - 50.0, rpm + 50.0);
+  ClosedLoop harmed(With(plain, 1000.0));
+  ASSERT_TRUE(harmed.Levitate());
+  harmed.SpinAt(rpm);
+  const bool tripped = harmed.RunUntil(60.0, [&] { return harmed.out.fault != Fault::kNone; });
+  EXPECT_TRUE(tripped) << "at " << rpm << " rpm";
+
+  ClosedLoop held(WithBlock(Asked(Target::kCurrent, rpm - 50.0, rpm + 50.0)));
+  ASSERT_TRUE(held.Levitate());
+  held.SpinAt(rpm);
+  held.Run(20.0);
+  EXPECT_EQ(held.out.fault, Fault::kNone);
+  EXPECT_EQ(held.out.synchronous[0].state, BlockState::kActing);
+}
+
+TEST(NotchStability, TheGrowingOrbitEndsTheBlockBeforeItTrips) {
+  const double rpm = RadPerSToRpm(WorstSpeed());
+  ClosedLoop loop(With(PlainNotch(rpm - 50.0, rpm + 50.0), 2.0));
+  ASSERT_TRUE(loop.Levitate());
+  loop.SpinAt(rpm);
+  ASSERT_TRUE(
+      loop.RunUntil(60.0, [&] { return loop.out.synchronous[0].state == BlockState::kEnded; }));
+  EXPECT_EQ(loop.out.synchronous[0].ending, Ending::kOrbitGrew);
+  loop.Run(2.0);
+  EXPECT_EQ(loop.out.fault, Fault::kNone);
+  EXPECT_EQ(loop.out.mode, Mode::kSpinning);
+}
+
+/// `request` with its table, judged on the file's rig alone.
+design::NotchFigures Judged(design::NotchRequest request) {
+  const auto law = CommissionedCycle().law;
+  if (request.block.inverse.empty()) {
+    request.block = design::WithInverse(ShippedRig(), law, request);
+  }
+  return design::JudgeNotch(ShippedRig(), {}, law, request);
+}
+
+TEST(NotchStability, TheDesignRefusesItWithItsSpeeds) {
+  design::NotchRequest plain;
+  plain.block = PlainNotch(300.0, 6000.0);
+  const auto refused = Judged(plain);
+  EXPECT_NE(refused.RefusedSpeeds().find("eigenvalue"), std::string::npos);
+  const double worst = WorstSpeed();
+  const auto nearest = std::ranges::min_element(
+      refused.speeds, {}, [&](const auto& at) { return std::abs(at.speed_rad_per_s - worst); });
+  EXPECT_FALSE(nearest->allowed());
+  const auto allowed = Judged(Asked(Target::kCurrent, 300.0, 4400.0));
+  EXPECT_TRUE(allowed.allowed()) << allowed.RefusedSpeeds();
+  for (const auto& at : allowed.speeds) EXPECT_NEAR(at.slowest_decay, 1.0, 0.1);
+}
+
+TEST(NotchStability, NoNotchCrossesACriticalSpeedWithoutTheBearings) {
+  // The first bending mode, held by nothing but the law.
+  const auto figures = Judged(Asked(Target::kCurrent, 1500.0, 6000.0));
+  EXPECT_NE(figures.RefusedSpeeds().find("orbit could grow"), std::string::npos);
+  for (const auto& at : figures.speeds) {
+    const double rpm = RadPerSToRpm(at.speed_rad_per_s);
+    if (rpm > 4900.0 && rpm < 5400.0) {
+      EXPECT_FALSE(at.allowed()) << rpm;
+    }
+    if (rpm < 4300.0) {
+      EXPECT_TRUE(at.allowed()) << rpm << ": " << at.refused;
+    }
+  }
+}
+
+TEST(NotchStability, NoCurrentIsSpentWhereTheMagnetsDoNotMoveTheSensors) {
+  // Near 4000 rpm a node lies between: the shaft bends under the magnet and stands at the sensor.
+  const auto figures = Judged(Asked(Target::kVibration, 1500.0, 6000.0));
+  EXPECT_NE(figures.RefusedSpeeds().find("hardly move"), std::string::npos);
+  EXPECT_TRUE(Judged(Asked(Target::kVibration, 1500.0, 3400.0)).allowed());
+  EXPECT_TRUE(Judged(Asked(Target::kVibration, 4700.0, 6000.0)).allowed());
+}
+
+TEST(NotchStability, ADirectionAloneIsJudgedByItself) {
+  auto request = Asked(Target::kCurrent, 1500.0, 4400.0);
+  request.direction = design::Direction::kForward;
+  const auto figures = Judged(request);
+  EXPECT_TRUE(figures.allowed()) << figures.RefusedSpeeds();
+  for (const auto& at : figures.speeds) EXPECT_NEAR(at.slowest_decay, 1.0, 0.1);
+}
+
+/// Gains +-10 %, modes +-3 %, delay +-0.3 samples, all drawn anew.
+plant::PlantConfig DrawnRig(Random& draw) {
+  const config::RigFile& rig = ShippedRig();
+  std::vector<uncertainty::Parameter> parameters =
+      uncertainty::Stated(rig, {.current_gain = 0.1, .stiffness = 0.1});
+  for (auto& p : parameters) {
+    if (p.kind != uncertainty::Kind::kModeFrequency) continue;
+    p.low = 0.97 * p.nominal;
+    p.high = 1.03 * p.nominal;
+  }
+  config::RigFile drawn =
+      uncertainty::At(rig, parameters, uncertainty::DrawPlace(draw, parameters.size()));
+  drawn.plant.delay_samples += 0.3 * (2.0 * draw.Uniform() - 1.0);
+  return drawn.plant;
+}
+
+class OfDrawnRigs : public testing::TestWithParam<Target> {};
+
+TEST_P(OfDrawnRigs, NoneOfAHundredIsUnstable) {
+  const double top_rpm = GetParam() == Target::kCurrent ? 4400.0 : 3400.0;
+  const auto cycle = WithBlock(Asked(GetParam(), 1500.0, top_rpm));
+  Random draw(41);
+  double slowest = 1.0;
+  for (int n = 0; n < 100; ++n) {
+    const auto rig = DrawnRig(draw);
+    const double rpm = 1550.0 + (top_rpm - 1600.0) * draw.Uniform();
+    const double speed = RpmToRadPerS(rpm);
+    const auto judged = analysis::JudgeSynchronous(analysis::CloseLoop(rig, cycle.law, speed),
+                                                   cycle.synchronous, speed);
+    EXPECT_TRUE(judged.stable()) << "rig " << n << " at " << rpm << " rpm: |z| "
+                                 << judged.largest_pole_modulus;
+    slowest = std::min(slowest, judged.blocks.front().slowest_decay);
+    ClosedLoop loop(cycle, rig, static_cast<std::uint64_t>(n));
+    ASSERT_TRUE(loop.Levitate());
+    loop.SpinAt(rpm);
+    loop.Run(2.0);
+    EXPECT_EQ(loop.out.fault, Fault::kNone) << "rig " << n << " at " << rpm << " rpm";
+    EXPECT_EQ(loop.out.synchronous[0].state, BlockState::kActing) << "rig " << n;
+  }
+  RecordProperty("slowest_decay", std::to_string(slowest));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfBothTargets, OfDrawnRigs,
+                         testing::Values(Target::kCurrent, Target::kVibration));
+
+}  // namespace
+}  // namespace levitas::test

@@ -1,0 +1,188 @@
+#include "controller/synchronous/angle_follower.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tests/unit/synchronous/bench_numbers.hpp"
+
+namespace levitas::synchronous {
+namespace {
+
+/// A shaft and what its sensor reads.
+struct Shaft {
+  double angle_rad{};
+  double speed_rad_per_s{300.0};
+
+  AngleReading Next(double acceleration_rad_per_s2 = 0.0) {
+    angle_rad += speed_rad_per_s * kPeriodS + 0.5 * acceleration_rad_per_s2 * kPeriodS * kPeriodS;
+    speed_rad_per_s += acceleration_rad_per_s2 * kPeriodS;
+    angle_rad -= kTurn * std::floor(angle_rad / kTurn);
+    return {true, false, angle_rad, speed_rad_per_s, 1};
+  }
+};
+
+void Follow(AngleFollower& follower, Shaft& shaft, double time_s, double acceleration = 0.0) {
+  for (int n = 0; n < static_cast<int>(time_s / kPeriodS); ++n) {
+    follower.Update(shaft.Next(acceleration));
+  }
+}
+
+/// Of the first order, wrapped to half a turn [rad].
+double Behind(const AngleFollower& follower, const Shaft& shaft) {
+  return std::remainder(shaft.angle_rad - kTurn * follower.TurnsOf(1.0), kTurn);
+}
+
+TEST(AngleFollower, IsGoodAfterTenTurnsAndThenHasNoLag) {
+  AngleFollower follower({}, kPeriodS);
+  Shaft shaft;
+  const double ten_turns_s = AngleFollower::kGoodTurns * kTurn / shaft.speed_rad_per_s;
+  Follow(follower, shaft, 0.98 * ten_turns_s);
+  EXPECT_FALSE(follower.good());
+  Follow(follower, shaft, 0.5);
+  EXPECT_TRUE(follower.good());
+  EXPECT_NEAR(Behind(follower, shaft), 0.0, 1e-6);
+  EXPECT_NEAR(follower.speed_rad_per_s(), 300.0, 1e-6);
+}
+
+TEST(AngleFollower, LagsByTheAccelerationOverTheSquareOfItsBandwidth) {
+  const AngleConfig config{.bandwidth_hz = 10.0};
+  AngleFollower follower(config, kPeriodS);
+  Shaft shaft;
+  Follow(follower, shaft, 1.0);
+  constexpr double kAcceleration = 80.0;
+  Follow(follower, shaft, 1.0, kAcceleration);
+  const double bandwidth = kTurn * config.bandwidth_hz;
+  EXPECT_NEAR(Behind(follower, shaft), kAcceleration / (bandwidth * bandwidth), 3e-4);
+}
+
+TEST(AngleFollower, TakesOffTheNoiseOfAResolver) {
+  AngleFollower follower({}, kPeriodS);
+  Shaft shaft;
+  double worst = 0.0;
+  for (int n = 0; n < 20'000; ++n) {
+    AngleReading reading = shaft.Next();
+    reading.angle_rad += (n % 2 == 0 ? 0.02 : -0.02);
+    follower.Update(reading);
+    if (n > 10'000) worst = std::max(worst, std::abs(Behind(follower, shaft)));
+  }
+  EXPECT_LT(worst, 0.002);
+}
+
+TEST(AngleFollower, OneJumpEndsItAtOnceAndTheFlywheelKeepsTheOldPhase) {
+  AngleFollower follower({}, kPeriodS);
+  Shaft shaft;
+  Follow(follower, shaft, 1.0);
+  const Shaft before = shaft;
+  shaft.angle_rad += 1.0;
+  follower.Update(shaft.Next());
+  EXPECT_EQ(follower.trouble(), AngleTrouble::kJumped);
+  EXPECT_FALSE(follower.good());
+  Shaft undisturbed = before;
+  (void)undisturbed.Next();
+  for (int n = 0; n < 100; ++n) {
+    (void)undisturbed.Next();
+    follower.Update(shaft.Next());
+    EXPECT_NEAR(Behind(follower, undisturbed), 0.0, 1e-6);
+  }
+  Follow(follower, shaft, 1.0);
+  EXPECT_TRUE(follower.good());
+  EXPECT_NEAR(Behind(follower, shaft), 0.0, 1e-3) << "the new angle is followed in the end";
+}
+
+TEST(AngleFollower, AnAngleThatStandsWhileTheRotorTurnsHasJumpedWithinATurn) {
+  AngleFollower follower({}, kPeriodS);
+  Shaft shaft;
+  Follow(follower, shaft, 1.0);
+  AngleReading stuck = shaft.Next();
+  const int turn = static_cast<int>(kTurn / shaft.speed_rad_per_s / kPeriodS);
+  bool ended = false;
+  for (int n = 0; n < turn && !ended; ++n) {
+    follower.Update(stuck);
+    ended = !follower.good();
+  }
+  EXPECT_TRUE(ended);
+}
+
+TEST(AngleFollower, WithoutAReadingForHalfATurnItIsLost) {
+  AngleFollower follower({}, kPeriodS);
+  Shaft shaft;
+  Follow(follower, shaft, 1.0);
+  const int turn = static_cast<int>(kTurn / shaft.speed_rad_per_s / kPeriodS);
+  int n = 0;
+  while (follower.good() && n < 2 * turn) {
+    (void)shaft.Next();
+    follower.Update({.fresh = false});
+    ++n;
+  }
+  EXPECT_NEAR(n, turn / 2, 2);
+}
+
+TEST(AngleFollower, ASpeedThatIsNotTheAnglesIsNotBelieved) {
+  AngleFollower follower({}, kPeriodS);
+  Shaft shaft;
+  Follow(follower, shaft, 1.0);
+  AngleReading other = shaft.Next();
+  other.speed_rad_per_s = 400.0;
+  follower.Update(other);
+  EXPECT_FALSE(follower.good());
+}
+
+TEST(AngleFollower, WhatIsNoNumberOrUnknownIsLost) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const AngleReading& bad :
+       {AngleReading{true, false, none, 300.0, 1}, AngleReading{true, false, 1.0, none, 1},
+        AngleReading{true, true, 1.0, 300.0, 1}}) {
+    AngleFollower follower({}, kPeriodS);
+    Shaft shaft;
+    Follow(follower, shaft, 1.0);
+    follower.Update(bad);
+    EXPECT_EQ(follower.trouble(), AngleTrouble::kLost);
+    EXPECT_TRUE(std::isfinite(follower.TurnsOf(3.0)));
+  }
+}
+
+TEST(AngleFollower, PeriodsThatWereSkippedAreCounted) {
+  AngleFollower follower({}, kPeriodS);
+  Shaft shaft;
+  Follow(follower, shaft, 1.0);
+  for (int n = 0; n < 20; ++n) (void)shaft.Next();
+  AngleReading late = shaft.Next();
+  late.periods = 21;
+  follower.Update(late);
+  EXPECT_TRUE(follower.good());
+  EXPECT_NEAR(Behind(follower, shaft), 0.0, 1e-6);
+}
+
+TEST(AngleFollower, AnOrderThatIsNoWholeNumberHasNoStepWhereTheAngleWraps) {
+  AngleFollower follower({}, kPeriodS);
+  Shaft shaft;
+  Follow(follower, shaft, 1.0);
+  const double order = 20.0 / 41.0;
+  double before = follower.TurnsOf(order);
+  for (int n = 0; n < 5000; ++n) {
+    follower.Update(shaft.Next());
+    const double now = follower.TurnsOf(order);
+    const double step = now - before - std::floor(now - before + 0.5);
+    EXPECT_NEAR(step, order * shaft.speed_rad_per_s * kPeriodS / kTurn, 1e-7);
+    before = now;
+  }
+}
+
+TEST(AngleFollower, FromTheSpeedAloneAJumpOfTheAngleIsNotSeen) {
+  AngleFollower follower({.source = AngleSource::kSpeed}, kPeriodS);
+  Shaft shaft;
+  Follow(follower, shaft, 1.0);
+  EXPECT_TRUE(follower.good());
+  const double before = follower.TurnsOf(1.0);
+  shaft.angle_rad += 2.0;
+  follower.Update(shaft.Next());
+  EXPECT_TRUE(follower.good());
+  const double step = follower.TurnsOf(1.0) - before;
+  EXPECT_NEAR(step - std::floor(step + 0.5), 300.0 * kPeriodS / kTurn, 1e-9);
+}
+
+}  // namespace
+}  // namespace levitas::synchronous
