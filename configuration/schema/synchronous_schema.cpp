@@ -117,7 +117,7 @@ void DescribeBlock(Visitor& v, synchronous::BlockConfig& block, const RigNumbers
            adaptive);
   block.adaptive = adaptive == 1;
   v.When(block.adaptive, "with adaptive: true", [&] {
-    v.Number({"least_change", kMicrometre, 0.001, 1000, 0.5,
+    v.Number({"least_change", kMicrometre, 0.001, 1000, 2,
               "of the synchronous error; what moves it by less teaches nothing"},
              block.least_change_m);
   });
@@ -176,6 +176,9 @@ void Describe(Visitor& v, synchronous::SynchronousConfig& control, const RigNumb
                          control.angle.bandwidth_hz, 0.02 / rig.period_s()));
   v.Number({"largest_angle_error", kDegree, 1, 170, 20, "beyond it the angle has jumped"},
            control.angle.largest_error_rad);
+  v.Number({"largest_speed_difference", kOne, 0.01, 1, 0.1,
+            "between the angle's speed and the measured one, as a share of it"},
+           control.angle.largest_speed_share);
   v.Number({"orbit_growth", kOne, 1, 100, 2,
             "a block ends when the orbit passes this many times what it was as the block began"},
            control.orbit_growth);

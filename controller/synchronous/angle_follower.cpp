@@ -16,6 +16,7 @@ AngleFollower::AngleFollower(const AngleConfig& config, double period_s) noexcep
     : source_(config.source),
       period_s_(period_s),
       largest_error_turns_(config.largest_error_rad / kTurn),
+      largest_speed_share_(config.largest_speed_share),
       angle_gain_(2.0 * kTurn * config.bandwidth_hz * period_s),
       speed_gain_(kTurn * config.bandwidth_hz * kTurn * config.bandwidth_hz * period_s) {}
 
@@ -73,7 +74,7 @@ void AngleFollower::Update(const AngleReading& reading) noexcept {
   const double error_turns = apart - std::floor(apart + 0.5);
   const double off_rad_per_s = std::abs(followed_.speed_rad_per_s - reading.speed_rad_per_s);
   const bool other_speed =
-      off_rad_per_s > kSpeedShare * std::abs(reading.speed_rad_per_s) + kSpeedMargin;
+      off_rad_per_s > largest_speed_share_ * std::abs(reading.speed_rad_per_s) + kSpeedMargin;
   if (std::abs(error_turns) > largest_error_turns_ || other_speed) {
     Break(AngleTrouble::kJumped);
     Begin(reading);

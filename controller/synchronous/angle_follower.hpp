@@ -10,7 +10,7 @@
 // Good       followed without a break for kGoodTurns turns. A break is: an error beyond the limit
 //            (a jump; also an angle that stands still or comes late while the rotor turns), no
 //            reading for half a turn, a rig that says its speed is unknown, a number that is none,
-//            and a followed speed that differs from the rig's by more than kSpeedShare.
+//            and a followed speed that differs from the rig's by more than the share allowed.
 // Flywheel   from a break until it is good again `phase` goes on from the last prediction at the
 //            last followed speed, so that what is being switched off stays in step meanwhile.
 // Orders     an angle is counted in turns, whole ones apart, so that orders which are no whole
@@ -40,7 +40,6 @@ class AngleFollower {
  public:
   static constexpr double kGoodTurns = 10.0;
   static constexpr double kSilentTurns = 0.5;
-  static constexpr double kSpeedShare = 0.1;
 
   AngleFollower(const AngleConfig& config, double period_s) noexcept;
 
@@ -68,6 +67,7 @@ class AngleFollower {
   AngleSource source_;
   double period_s_;
   double largest_error_turns_;
+  double largest_speed_share_;
   double angle_gain_, speed_gain_;
   Angle followed_, flywheel_;
   bool begun_{};

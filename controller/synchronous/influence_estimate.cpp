@@ -49,6 +49,7 @@ void InfluenceEstimate::Restart() noexcept {
   sum_ = {};
   turned_ = samples_ = 0.0;
   has_before_ = false;
+  windows_ = 0;
 }
 
 void InfluenceEstimate::Observe(const InverseLanes& inverse, const UnitPhasor& phasor, double turns,
@@ -81,34 +82,43 @@ void InfluenceEstimate::EndWindow(const InverseLanes& inverse) noexcept {
     change2 += re * re + im * im;
   }
   const Means before = std::exchange(before_, mean);
-  const bool pair = std::exchange(has_before_, true);
+  const double pace = turned_ / samples_;
+  const double pace_before = std::exchange(turns_per_sample_, pace);
+  const bool steady = std::abs(pace - pace_before) <= kSteady * pace;
+  const bool pair = std::exchange(has_before_, true) && steady;
   sum_ = {};
   turned_ = samples_ = 0.0;
+  ++windows_;
   if (!pair || !(change2 >= least_change_m_ * least_change_m_)) return;
 
   std::array<Complex, kMaxAxes> step{};    // c_1 - c_0
-  std::array<Complex, kMaxAxes> answer{};  // w - A dc
+  std::array<Complex, kMaxAxes> answer{};  // w, then w - A dc
   double step2 = 0.0;
   for (std::size_t i = 0; i < axes_; ++i) {
     step[i] = {mean.given_real[i] - before.given_real[i],
                mean.given_imaginary[i] - before.given_imaginary[i]};
     step2 += std::norm(step[i]);
   }
-  if (!(step2 > 0.0)) return;
+  double answer2 = 0.0;
   for (std::size_t to = 0; to < axes_; ++to) {
     for (std::size_t from = 0; from < axes_; ++from) {
       const Complex change{mean.error_real[from] - before.error_real[from],
                            mean.error_imaginary[from] - before.error_imaginary[from]};
       answer[to] -= Times({inverse.real[from][to], inverse.imaginary[from][to]}, change);
+    }
+    answer2 += std::norm(answer[to]);
+    for (std::size_t from = 0; from < axes_; ++from) {
       answer[to] -= Times(At(answer_, to, from), step[from]);
     }
   }
+  const double damped2 = step2 + answer2 * least_change_m_ * least_change_m_ / change2;
+  if (!(damped2 > 0.0)) return;
   ComplexMatrix tried = answer_;
   bool within = true;
   for (std::size_t to = 0; to < axes_; ++to) {
     for (std::size_t from = 0; from < axes_; ++from) {
       const Complex value =
-          At(answer_, to, from) + Times(answer[to], std::conj(step[from])) / step2;
+          At(answer_, to, from) + Times(answer[to], std::conj(step[from])) / damped2;
       Put(tried, to, from, value);
       const Complex off = value - (to == from ? 1.0 : 0.0);
       within = within && std::norm(off) <= kMost * kMost;  // false for what is no number
@@ -125,9 +135,9 @@ void InfluenceEstimate::EndWindow(const InverseLanes& inverse) noexcept {
   fresh_ = false;
 }
 
-// Gauss-Jordan with row exchange; false where a pivot is as good as none.
+// Gauss-Jordan with row exchange; false where a pivot is as good as none, or an element too large.
 bool InfluenceEstimate::Invert(const ComplexMatrix& answer, ComplexMatrix& inverse) const noexcept {
-  constexpr double kSmallestPivot = 0.05;  // of a matrix that is I when all is right
+  constexpr double kSmallestPivot = 1e-3;  // of a matrix that is I when all is right
   ComplexMatrix left = answer;
   inverse = Identity(axes_);
   for (std::size_t k = 0; k < axes_; ++k) {
@@ -153,6 +163,11 @@ bool InfluenceEstimate::Invert(const ComplexMatrix& answer, ComplexMatrix& inver
         Put(left, row, j, At(left, row, j) - Times(factor, At(left, k, j)));
         Put(inverse, row, j, At(inverse, row, j) - Times(factor, At(inverse, k, j)));
       }
+    }
+  }
+  for (std::size_t to = 0; to < axes_; ++to) {
+    for (std::size_t from = 0; from < axes_; ++from) {
+      if (!(std::norm(At(inverse, to, from)) <= kFastest * kFastest)) return false;
     }
   }
   return true;

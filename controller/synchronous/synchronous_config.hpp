@@ -42,9 +42,9 @@ struct BlockConfig {
   double from_rad_per_s{};      ///< acts from this speed ...
   double to_rad_per_s{};        ///< ... to this one
   double hysteresis_rad_per_s{};
-  double largest_current_a{};  ///< of kVibration: amplitude of one axis; beyond it the block ends
-  bool adaptive{};             ///< T is corrected while the block runs
-  double least_change_m{0.5e-6};        ///< what moves the error by less teaches nothing
+  double largest_current_a{};   ///< of kVibration: amplitude of one axis; beyond it the block ends
+  bool adaptive{};              ///< T is corrected while the block runs
+  double least_change_m{2e-6};  ///< what moves the error by less teaches nothing
   std::vector<InverseAtSpeed> inverse;  ///< rising; between two speeds on the straight line
 };
 
@@ -66,6 +66,7 @@ struct AngleConfig {
   AngleSource source{AngleSource::kRig};
   double bandwidth_hz{10.0};
   double largest_error_rad{0.35};
+  double largest_speed_share{0.1};  ///< by which followed and measured speed may differ
 };
 
 struct SynchronousConfig {

@@ -12,6 +12,8 @@ constexpr double kWholeTurn = 2.0 * std::numbers::pi;
 constexpr double kFadeTurns = 0.5;
 constexpr double kLongestFadeS = 0.2;
 constexpr double kRunOutFadeS = 0.1;
+/// Of a block that corrects its T, while it has not seen yet what it does.
+constexpr double kBeginningPace = 0.25;
 
 }  // namespace
 
@@ -56,6 +58,7 @@ void SynchronousControl::Reset() noexcept {
     block.state = {};
     block.influence.Reset();
     block.gain = 0.0;
+    block.retries = 0;
     block.status = {};
   }
 }
@@ -95,11 +98,22 @@ Ending SynchronousControl::Trouble(const Block& block, const Conditions& seen) c
   return Ending::kNone;
 }
 
+// Before another trial the orbit is well within what ended the one before.
+bool SynchronousControl::Calm(const Block& block) const noexcept {
+  for (std::size_t b = 0; 2 * b < axes_ && block.retries > 0; ++b) {
+    if (!(std::max(orbit_turn_m_[b], orbit_now_m_[b]) <= 0.6 * block.orbit_limit_m[b])) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void SynchronousControl::Begin(Block& block) noexcept {
   block.state = {};
   block.influence.Restart();
   block.gain = 1.0;
   block.status.state = BlockState::kActing;
+  if (block.retries > 0) return;  // the limit of the first time holds
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     block.orbit_limit_m[b] =
         std::max(orbit_growth_ * std::max(orbit_turn_m_[b], orbit_now_m_[b]), least_orbit_m_[b]);
@@ -124,7 +138,11 @@ void SynchronousControl::Fade(Block& block) noexcept {
   block.state = {};
   block.status.amplitude = 0.0;
   const Ending why = block.status.ending;
-  const bool again = why == Ending::kSpeed || why == Ending::kAngleLost ||
+  const bool learned = block.adaptive && why == Ending::kOrbitGrew &&
+                       block.influence.learned() > 0 && block.retries < kRetries;
+  if (learned) ++block.retries;
+  if (why == Ending::kSpeed) block.retries = 0;
+  const bool again = learned || why == Ending::kSpeed || why == Ending::kAngleLost ||
                      why == Ending::kAngleJumped || why == Ending::kNotLevitated;
   block.status.state = again ? BlockState::kOff : BlockState::kEnded;
 }
@@ -136,7 +154,8 @@ void SynchronousControl::Supervise(const Conditions& seen) noexcept {
     const bool within = speed >= block.from && speed <= block.to;
     switch (block.status.state) {
       case BlockState::kOff:
-        if (within && seen.levitated && angle_.good() && angle_.speed_rad_per_s() > 0.0) {
+        if (within && seen.levitated && angle_.good() && angle_.speed_rad_per_s() > 0.0 &&
+            Calm(block)) {
           Begin(block);
         }
         break;
@@ -148,6 +167,7 @@ void SynchronousControl::Supervise(const Conditions& seen) noexcept {
       case BlockState::kEnded:
         if (!(speed >= block.from - block.hysteresis && speed <= block.to + block.hysteresis)) {
           block.status.state = BlockState::kOff;
+          block.retries = 0;
         }
         break;
     }
@@ -195,7 +215,9 @@ void SynchronousControl::Step(const Conditions& seen, AxisArray& error_m,
       block.influence.Observe(*inverse, phasors[k], turns, error_m, block.state);
       inverse = &block.influence.Corrected(*inverse);
     }
-    Adapt(*inverse, phasors[k], block.rate, axes_, error_m, block.state);
+    const bool cautious = block.adaptive && block.influence.beginning();
+    const double rate = cautious ? kBeginningPace * block.rate : block.rate;
+    Adapt(*inverse, phasors[k], rate, axes_, error_m, block.state);
     block.status.amplitude = LargestAmplitude(block.state);
   }
 }

@@ -11,7 +11,9 @@
 //            jumped, an axis saturated, orbit grown, current too large, levitation given up: fades
 //            within half a turn (and 0.2 s at most), in step with the angle's flywheel.
 // Again      after a fade of the speed, of the angle or of the levitation when the conditions hold
-//            again; after any other end not before the speed has left the window.
+//            again; after any other end not before the speed has left the window. A block that
+//            corrects its T may begin kRetries times more after its orbit grew, with what it has
+//            learned from that.
 // Empty      without run-outs and blocks Step does nothing: the loop's bits are those without it.
 // Frame      bearing frame; units SI.
 // Thread     construction allocates; Step allocates nothing, throws nothing, takes bounded time.
@@ -42,6 +44,8 @@ struct Conditions {
 
 class SynchronousControl {
  public:
+  static constexpr int kRetries = 3;
+
   SynchronousControl(const SynchronousConfig& config, const RigNumbers& rig);
 
   /// The law starts from rest: so do the blocks.
@@ -53,6 +57,10 @@ class SynchronousControl {
 
   [[nodiscard]] bool empty() const noexcept { return blocks_.empty() && run_outs_.empty(); }
   [[nodiscard]] std::size_t blocks() const noexcept { return blocks_.size(); }
+  /// What a block that corrects its T has learned.
+  [[nodiscard]] const InfluenceEstimate& influence(std::size_t block) const noexcept {
+    return blocks_[block].influence;
+  }
   [[nodiscard]] const BlockStatus& status(std::size_t block) const noexcept {
     return blocks_[block].status;
   }
@@ -73,11 +81,13 @@ class SynchronousControl {
     BlockStatus status;
     double gain{};
     bool fast{};
+    int retries{};              ///< after a grown orbit, since the speed came into the window
     AxisArray orbit_limit_m{};  ///< per bearing, since it began
   };
 
   void Supervise(const Conditions& seen) noexcept;
   [[nodiscard]] Ending Trouble(const Block& block, const Conditions& seen) const noexcept;
+  [[nodiscard]] bool Calm(const Block& block) const noexcept;
   void Begin(Block& block) noexcept;
   void End(Block& block, Ending why) noexcept;
   void Fade(Block& block) noexcept;

@@ -46,7 +46,8 @@ inline Turning Measure(ClosedLoop& loop, int turns, double order = 1.0) {
   double samples = 0.0;
   const double start_rad = loop.plant.angle_rad();
   double turned_rad = 0.0, last_rad = start_rad;
-  while (turned_rad < 2.0 * std::numbers::pi * turns) {
+  constexpr double kMost = 200'000.0;  // a rotor that stands would turn for ever
+  while (turned_rad < 2.0 * std::numbers::pi * turns && samples < kMost) {
     const double angle_rad = loop.plant.angle_rad();
     const AxisArray seen_m = loop.plant.SensorOutput();
     (void)loop.Step();
