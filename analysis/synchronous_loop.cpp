@@ -1,10 +1,13 @@
 #include "analysis/synchronous_loop.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "analysis/loop_response.hpp"
+#include "common/rotational_speed.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/spectrum.hpp"
@@ -199,7 +202,8 @@ SynchronousJudgement JudgeSynchronous(const SampledLoop& loop,
   return made;
 }
 
-std::vector<double> JudgedSpeeds(const synchronous::SynchronousConfig& control, std::size_t count) {
+std::vector<double> JudgedSpeeds(const synchronous::SynchronousConfig& control, std::size_t count,
+                                 TableSpeeds table) {
   std::vector<double> speeds;
   for (const synchronous::BlockConfig& block : control.blocks) {
     const double low = std::max(0.0, block.from_rad_per_s - block.hysteresis_rad_per_s);
@@ -210,6 +214,7 @@ std::vector<double> JudgedSpeeds(const synchronous::SynchronousConfig& control, 
       speeds.push_back(low + share * (high - low));
     }
     for (const auto& at : block.inverse) {
+      if (table == TableSpeeds::kLeftOut) break;
       if (at.speed_rad_per_s >= low && at.speed_rad_per_s <= high) {
         speeds.push_back(at.speed_rad_per_s);
       }
@@ -218,6 +223,33 @@ std::vector<double> JudgedSpeeds(const synchronous::SynchronousConfig& control, 
   std::sort(speeds.begin(), speeds.end());
   speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
   return speeds;
+}
+
+std::string UnstableBlocks(const plant::PlantConfig& plant, const law::LawConfig& law,
+                           const synchronous::SynchronousConfig& control) {
+  constexpr std::size_t kSpeeds = 25;
+  for (const synchronous::BlockConfig& block : control.blocks) {
+    synchronous::SynchronousConfig alone;
+    alone.blocks.push_back(block);
+    std::vector<double> unstable_rpm;
+    double worst = 1.0;
+    for (const double speed : JudgedSpeeds(alone, kSpeeds, TableSpeeds::kLeftOut)) {
+      // All blocks act together where their windows overlap.
+      const SynchronousJudgement judged =
+          JudgeSynchronous(CloseLoop(plant, law, speed), control, speed);
+      if (judged.stable() || !(judged.largest_pole_modulus_without < 1.0)) continue;
+      unstable_rpm.push_back(RadPerSToRpm(speed));
+      for (const BlockJudgement& each : judged.blocks) {
+        if (each.acts) worst = std::min(worst, each.slowest_decay);
+      }
+    }
+    if (unstable_rpm.empty()) continue;
+    return fmt::format(
+        "synchronous block {} is not stable with this rig from {:.0f} to {:.0f} rpm (slowest decay "
+        "{:.3g}, below 0 it grows)",
+        block.name, unstable_rpm.front(), unstable_rpm.back(), worst);
+  }
+  return {};
 }
 
 }  // namespace levitas::analysis

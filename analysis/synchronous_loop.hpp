@@ -5,7 +5,7 @@
 //             kCurrent    E = -S (D + c),  S = (I + P C)^-1
 //             kVibration  E = -S (D + P c)
 //           so that T = S^-1, or (S P)^-1, lets every amplitude decay with the block's time
-//           constant (docs/derivations.md eq. (N3), (N5)).
+//           constant (docs/derivations.md eq. (N3), (N4)).
 // Slow      condition for a slow block: every eigenvalue of T times the answer has a positive real
 //           part. Re = 1: decays as its time constant says; 0.5: takes twice as long.
 // Exact     eigenvalues of the whole sampled loop at that constant speed, two states per axis for
@@ -49,9 +49,18 @@ struct SynchronousJudgement {
                                                     const synchronous::SynchronousConfig& control,
                                                     double speed_rad_per_s);
 
+enum class TableSpeeds : std::uint8_t { kIncluded, kLeftOut };
+
 /// Speeds at which blocks are judged: `count` over each window, hysteresis included, and the speeds
-/// of its table; ascending.
+/// of its table (they stand closely where T changes fast); ascending.
 [[nodiscard]] std::vector<double> JudgedSpeeds(const synchronous::SynchronousConfig& control,
-                                               std::size_t count);
+                                               std::size_t count,
+                                               TableSpeeds table = TableSpeeds::kIncluded);
+
+/// Why the blocks of a controller must not run with this rig: the first block that is not stable
+/// somewhere, with its speeds. Empty: all are stable at the speeds judged, or there are none. A
+/// speed at which the loop is unstable without any block is no block's fault.
+[[nodiscard]] std::string UnstableBlocks(const plant::PlantConfig& plant, const law::LawConfig& law,
+                                         const synchronous::SynchronousConfig& control);
 
 }  // namespace levitas::analysis

@@ -3,16 +3,20 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "analysis/sensitivity.hpp"
+#include "analysis/synchronous_loop.hpp"
 #include "cli/commands/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
 #include "cli/options/requirement.hpp"
+#include "common/random.hpp"
 #include "common/rotational_speed.hpp"
+#include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -101,6 +105,73 @@ nlohmann::ordered_json Json(const analysis::SensitivityResult& at,
   return json;
 }
 
+/// Blocks of synchronous control over their windows: the file's rig, and the worst of rigs drawn
+/// within its tolerances.
+struct BlocksAt {
+  analysis::SynchronousJudgement rig;
+  double worst_decay{1.0};
+  double worst_modulus{};
+};
+
+std::vector<BlocksAt> JudgeBlocks(const config::RigFile& rig, const config::ControllerFile& file) {
+  constexpr std::size_t kSpeeds = 9;
+  constexpr std::size_t kDrawn = 10;
+  constexpr std::size_t kModes = 4;
+  const auto parameters = uncertainty::FromTolerances(rig, kModes);
+  Random draw(1);
+  std::vector<plant::PlantConfig> drawn;
+  for (std::size_t n = 0; n < kDrawn; ++n) {
+    const auto place = uncertainty::DrawPlace(draw, parameters.size());
+    drawn.push_back(uncertainty::At(rig, parameters, place).plant);
+  }
+  std::vector<BlocksAt> all;
+  const auto judge = [&](const plant::PlantConfig& plant, double speed) {
+    return analysis::JudgeSynchronous(analysis::CloseLoop(plant, file.law, speed), file.synchronous,
+                                      speed);
+  };
+  for (const double speed :
+       analysis::JudgedSpeeds(file.synchronous, kSpeeds, analysis::TableSpeeds::kLeftOut)) {
+    BlocksAt& at = all.emplace_back();
+    at.rig = judge(rig.plant, speed);
+    for (const plant::PlantConfig& plant : drawn) {
+      const auto judged = judge(plant, speed);
+      if (!(judged.largest_pole_modulus_without < 1.0)) continue;  // not the blocks' fault
+      at.worst_modulus = std::max(at.worst_modulus, judged.largest_pole_modulus);
+      for (const auto& block : judged.blocks) {
+        if (block.acts) at.worst_decay = std::min(at.worst_decay, block.slowest_decay);
+      }
+    }
+  }
+  return all;
+}
+
+void PrintBlocks(const std::vector<BlocksAt>& blocks, const config::ControllerFile& file,
+                 nlohmann::ordered_json& json) {
+  fmt::print(
+      "synchronous control: decay of each block (1: as its time constant, below 0: grows)\n");
+  fmt::print("  {:>8}", "rpm");
+  for (const auto& block : file.synchronous.blocks) fmt::print("{:>16}", block.name);
+  fmt::print("{:>12}{:>16}{:>14}\n", "largest |z|", "worst of drawn", "its |z|");
+  for (const BlocksAt& at : blocks) {
+    fmt::print("  {:>8.0f}", RadPerSToRpm(at.rig.speed_rad_per_s));
+    nlohmann::ordered_json row{{"speed_rpm", RadPerSToRpm(at.rig.speed_rad_per_s)},
+                               {"stable", at.rig.stable()},
+                               {"largest_pole_modulus", at.rig.largest_pole_modulus},
+                               {"worst_decay_of_drawn", at.worst_decay},
+                               {"worst_pole_modulus_of_drawn", at.worst_modulus}};
+    for (std::size_t k = 0; k < at.rig.blocks.size(); ++k) {
+      const auto& block = at.rig.blocks[k];
+      fmt::print("{:>16}", block.acts ? fmt::format("{:.3f}", block.slowest_decay) : "-");
+      if (!block.acts) continue;
+      row["blocks"].push_back(
+          {{"name", file.synchronous.blocks[k].name}, {"slowest_decay", block.slowest_decay}});
+    }
+    fmt::print("{:>12.6f}{:>16.3f}{:>14.6f}{}\n", at.rig.largest_pole_modulus, at.worst_decay,
+               at.worst_modulus, at.rig.stable() ? "" : "  UNSTABLE");
+    json["synchronous"].push_back(row);
+  }
+}
+
 ExitStatus Run(const AnalysisOptions& options, const std::string& required) {
   session::CheckOutputPath(options.json_path, {});
   const auto [rig, controller, delay] = LoadLoop(options);
@@ -115,9 +186,21 @@ ExitStatus Run(const AnalysisOptions& options, const std::string& required) {
     Print(result, rig.numbers.channels);
     json["speeds"].push_back(Json(result, rig.numbers.channels));
   }
+  bool blocks_stable = true;
+  if (!controller.file.synchronous.blocks.empty()) {
+    const auto blocks = JudgeBlocks(rig, controller.file);
+    PrintBlocks(blocks, controller.file, json);
+    blocks_stable = std::ranges::all_of(blocks, [](const auto& at) { return at.rig.stable(); });
+  }
   fmt::print("{}", GainsNote(options, rig));
   WriteJsonFile(options.json_path, json);
   RequireLoops(required, loops);
+  if (!required.empty() && !blocks_stable) {
+    throw Problem(ExitStatus::kNotMet,
+                  fmt::format("--require {}: a block of synchronous control is "
+                              "not stable at every speed of its window",
+                              required));
+  }
   return ExitStatus::kDone;
 }
 

@@ -173,14 +173,22 @@ RunFiles WithRigAsRun(const RunOptions& options, RunFiles files, const RunFolder
   return files;
 }
 
-/// Before anything is lifted.
-void WarnOfUnstableLoop(const RunOptions& options, const RunFiles& files) {
+/// Before anything is lifted: an unstable loop is said, an unstable block of synchronous control is
+/// refused.
+void CheckLoop(const RunOptions& options, const RunFiles& files) {
   const config::RigFile rig = config::ParseRig(files.rig_text, files.rig_path);
   const auto controller = config::LoadController(files.controller_path, files.rig);
   const auto scenario = config::LoadScenario(files.scenario_path, files.rig);
   const std::string text = UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario), options.rig,
                                         files.controller_path);
   if (!text.empty()) rt::Say("amb: warning: " + text);
+  const std::string blocks = UnstableBlocksOf(rig, controller);
+  if (blocks.empty()) return;
+  throw BadInput(
+      fmt::format("{}: {}. Nothing was lifted. amb design notch --rig {} makes blocks for it, amb "
+                  "margins shows "
+                  "these",
+                  files.controller_path, blocks, options.rig));
 }
 
 ExitStatus Execute(const RunOptions& asked) {
@@ -214,7 +222,7 @@ ExitStatus Execute(const RunOptions& asked) {
   rt::Say(fmt::format("rig {}{}, controller {}, scenario {}, {}, port {}", files.rig.name,
                       options.rig_is_there ? " (not simulated)" : "", files.controller_path,
                       files.scenario_name, options.pace, port));
-  WarnOfUnstableLoop(options, files);
+  CheckLoop(options, files);
   const PagePlan page = PlanPage(options.page, LookAround(options.pace == "realtime"));
   RunResult result = RunBoth(plan, files, *network, page);
   result.trouble = WithRoom(result.trouble, paths, folder);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "analysis/poles.hpp"
+#include "analysis/synchronous_loop.hpp"
 #include "common/rotational_speed.hpp"
 
 namespace levitas::cli {
@@ -55,6 +56,15 @@ std::string UnstableLoop(const config::RigFile& rig, const law::LawConfig& law,
         PoleText(*at), rig_name, controller_name, rpm, rig_name);
   }
   return {};
+}
+
+std::string UnstableBlocksOf(const config::RigFile& rig, const config::ControllerFile& controller) {
+  if (controller.synchronous.blocks.empty()) return {};
+  try {
+    return analysis::UnstableBlocks(rig.plant, controller.law, controller.synchronous);
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 std::vector<double> ScenarioSpeeds(const scenario::ScenarioConfig& scenario) {

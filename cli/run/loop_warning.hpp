@@ -22,6 +22,11 @@ namespace levitas::cli {
                                        const std::string& rig_name,
                                        const std::string& controller_name);
 
+/// Blocks of synchronous control that this rig's loop cannot have (analysis/synchronous_loop.hpp):
+/// unlike the loop itself they are never tried. Empty where all are stable, or cannot be judged.
+[[nodiscard]] std::string UnstableBlocksOf(const config::RigFile& rig,
+                                           const config::ControllerFile& controller);
+
 /// Standstill, and the fastest speed that the scenario asks for where it spins at all.
 [[nodiscard]] std::vector<double> ScenarioSpeeds(const scenario::ScenarioConfig& scenario);
 

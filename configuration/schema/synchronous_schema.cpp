@@ -182,7 +182,7 @@ void Describe(Visitor& v, synchronous::SynchronousConfig& control, const RigNumb
   v.Number({"orbit_growth", kOne, 1, 100, 2,
             "a block ends when the orbit passes this many times what it was as the block began"},
            control.orbit_growth);
-  v.Number({"least_orbit_fraction", kOne, 0, 0.95, 0.25,
+  v.Number({"least_orbit_fraction", kOne, 0, 0.95, 0.35,
             "of the clearance; a smaller orbit ends no block"},
            control.least_orbit_fraction);
   v.Number({"saturated", kMillisecond, 0.1, 60000, 20,

@@ -6,7 +6,7 @@
 //              w = -T (E_1 - E_0) = A (c_1 - c_0),   A = T M,
 //            A <- A + (w - A dc) dc^H / (dc^H dc + r^2),    (Broyden's update, damped)
 //            r = |w| least_change/|E_1 - E_0|: what noise and other causes may have moved,
-//            and the block adapts with A^-1 T instead of T: (N6) of docs/derivations.md. A = I where
+//            and the block adapts with A^-1 T instead of T: (N5) of docs/derivations.md. A = I where
 //            the model is right; it changes little over speed, since T follows the model there.
 // Window     kTurns whole turns at least, and kLeastS: amplitudes are means over it, so that the
 //            static error and other orders than the block's leave nothing in them.

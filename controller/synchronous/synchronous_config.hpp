@@ -74,7 +74,7 @@ struct SynchronousConfig {
   /// A block ends when the largest radius of a turn passes this many times what it was as the block
   /// began, and at least `least_orbit_fraction` of the clearance.
   double orbit_growth{2.0};
-  double least_orbit_fraction{0.25};
+  double least_orbit_fraction{0.35};
   double saturated_s{0.02};  ///< an axis at its limit for so long ends the blocks
   std::vector<RunOut> run_outs;
   std::vector<BlockConfig> blocks;

@@ -184,8 +184,8 @@ ExitStatus Run(const NotchOptions& options) {
   if (!figures.allowed()) {
     throw Problem(
         ExitStatus::kOther,
-        fmt::format("refused: the block is not stable at {}; nothing was written. A longer "
-                    "--time-constant-s, or a window without these speeds, helps",
+        fmt::format("refused at {}; nothing was written. Choose --from-rpm and --to-rpm without "
+                    "these speeds; blocks of several windows stand in one file, by --name",
                     figures.RefusedSpeeds()));
   }
   if (!options.out_path.empty()) {
@@ -241,7 +241,7 @@ void AddDesignNotch(CLI::App& design, Action& action) {
                    "coils leave")
       ->check(CLI::PositiveNumber);
   command
-      ->add_option("--most-growth", options.most_growth,
+      ->add_option("--most-growth", options->most_growth,
                    "With --target current: the orbit may grow so many times at most")
       ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();

@@ -48,7 +48,7 @@ inline Turning Measure(ClosedLoop& loop, int turns, double order = 1.0) {
   double turned_rad = 0.0, last_rad = start_rad;
   constexpr double kMost = 200'000.0;  // a rotor that stands would turn for ever
   while (turned_rad < 2.0 * std::numbers::pi * turns && samples < kMost) {
-    const double angle_rad = loop.plant.angle_rad();
+    const double angle_rad = start_rad + turned_rad;  // no wrap: orders need not be whole
     const AxisArray seen_m = loop.plant.SensorOutput();
     (void)loop.Step();
     const auto phasor = std::polar(1.0, -order * angle_rad);

@@ -50,7 +50,7 @@ MISSING = {
     "identify full-spectrum": (ABSENT,), "identify controller": (ABSENT,),
     "identify rotor-in-loop": (ABSENT, "--rig", "turbomolecular_pump"),
     "design hinf": ("--rig", ABSENT), "design pid": ("--rig", ABSENT), "design check": ("--controller", ABSENT),
-    "design schedule": ("--rig", ABSENT),
+    "design schedule": ("--rig", ABSENT), "design notch": ("--rig", ABSENT),
     "design uncertainty": ("--rig", ABSENT), "design compare": (ABSENT,),
     "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }

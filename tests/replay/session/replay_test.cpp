@@ -76,6 +76,34 @@ TEST_F(Replaying, ReproducesALawThatChangesWithTheSpeed) {
   EXPECT_NE(records[fixed.different_cycle].in.frame.speed_rad_per_s, 0.0);
 }
 
+TEST_F(Replaying, ReproducesSynchronousControl) {
+  auto controller = ShippedController();
+  synchronous::BlockConfig& block = controller.synchronous.blocks.emplace_back();
+  block.name = "unbalance";
+  block.from_rad_per_s = RpmToRadPerS(100.0);
+  block.to_rad_per_s = RpmToRadPerS(900.0);
+  block.hysteresis_rad_per_s = RpmToRadPerS(30.0);
+  block.adaptive = true;
+  block.least_change_m = 1e-8;
+  synchronous::InverseAtSpeed& at = block.inverse.emplace_back();
+  at.speed_rad_per_s = RpmToRadPerS(500.0);
+  for (std::size_t i = 0; i < 4; ++i) at.inverse.real[i][i] = -0.5;
+  const auto& rig = test::ShippedRig().numbers;
+  const auto records =
+      EventfulRun({rig, controller.law, controller.supervisor, controller.synchronous});
+  const bool acted = std::ranges::any_of(records, [](const auto& r) {
+    return r.out.synchronous[0].state == synchronous::BlockState::kActing &&
+           r.out.synchronous[0].amplitude > 0.0;
+  });
+  ASSERT_TRUE(acted);
+  SessionHeader header = ShippedHeader();
+  header.controller_yaml = config::WriteController(controller, rig);
+  EXPECT_TRUE(ReplayOf(records, header).identical());
+  controller.synchronous = {};
+  header.controller_yaml = config::WriteController(controller, rig);
+  EXPECT_FALSE(ReplayOf(records, header).identical()) << "the block gave nothing";
+}
+
 TEST_F(Replaying, NamesTheFirstDifferenceOfOneBit) {
   auto records = Records();
   const double recorded = records[9000].out.current.control_current_a[1];

@@ -86,4 +86,40 @@ inline scenario::ScenarioConfig EventfulScenario(const RigNumbers& rig) {
   return ParseScenario(text, "eventful.yaml", rig);
 }
 
+/// A controller with a run-out and blocks of both targets, every number of its own.
+inline ControllerFile SynchronousController(const RigNumbers& rig) {
+  ControllerFile controller = FullController(rig);
+  synchronous::SynchronousConfig& control = controller.synchronous;
+  control.angle.bandwidth_hz = 7.5;
+  control.angle.largest_error_rad = 0.5;
+  control.angle.largest_speed_share = 0.2;
+  control.orbit_growth = 3.0;
+  control.least_orbit_fraction = 0.3;
+  control.saturated_s = 0.03;
+  synchronous::RunOut& run_out = control.run_outs.emplace_back();
+  run_out.order = 2.0;
+  run_out.real_m[1] = 3e-6;
+  for (const auto target : {synchronous::Target::kCurrent, synchronous::Target::kVibration}) {
+    synchronous::BlockConfig& block = control.blocks.emplace_back();
+    block.target = target;
+    block.name = target == synchronous::Target::kCurrent ? "low" : "high";
+    block.order = 3.0;
+    block.time_constant_s = 0.25;
+    block.from_rad_per_s = RpmToRadPerS(1500.0);
+    block.to_rad_per_s = RpmToRadPerS(4500.0);
+    block.hysteresis_rad_per_s = RpmToRadPerS(40.0);
+    block.adaptive = target == synchronous::Target::kVibration;
+    if (block.adaptive) block.largest_current_a = 0.125;
+    if (block.adaptive) block.least_change_m = 1e-6;
+    for (const double rpm : {1500.0, 3000.0}) {
+      synchronous::InverseAtSpeed& at = block.inverse.emplace_back();
+      at.speed_rad_per_s = RpmToRadPerS(rpm);
+      at.inverse.real[0][1] = 0.1 + rpm;
+      at.inverse.imaginary[0][1] = -0.3;
+      at.inverse.real[2][2] = 1.0 / 3.0;
+    }
+  }
+  return controller;
+}
+
 }  // namespace levitas::config::test

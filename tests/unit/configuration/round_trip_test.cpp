@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <utility>
+
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
 #include "configuration/schema/schema.hpp"
@@ -140,6 +143,63 @@ TEST(RoundTrip, OfAScheduleKeepsEverySpeed) {
   } catch (const BadInput& refused) {
     EXPECT_THAT(refused.what(), ::testing::HasSubstr("axis 1 has 2 notches before and 1 here"));
   }
+}
+
+TEST(RoundTrip, OfSynchronousControlKeepsEveryNumber) {
+  const RigNumbers rig = FullRig().numbers;
+  const ControllerFile controller = SynchronousController(rig);
+  const std::string text = WriteController(controller, rig);
+  const ControllerFile back = ParseController(text, "", rig);
+  EXPECT_EQ(WriteController(back, rig), text);
+  ASSERT_EQ(back.synchronous.blocks.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const synchronous::BlockConfig& read = back.synchronous.blocks[k];
+    const synchronous::BlockConfig& written = controller.synchronous.blocks[k];
+    EXPECT_EQ(read.name, written.name);
+    EXPECT_EQ(read.order, 3.0);
+    EXPECT_EQ(read.target, written.target);
+    EXPECT_EQ(read.time_constant_s, 0.25);
+    EXPECT_EQ(read.from_rad_per_s, written.from_rad_per_s);
+    EXPECT_EQ(read.to_rad_per_s, written.to_rad_per_s);
+    EXPECT_EQ(read.hysteresis_rad_per_s, written.hysteresis_rad_per_s);
+    EXPECT_EQ(read.adaptive, written.adaptive);
+    EXPECT_EQ(read.largest_current_a, written.largest_current_a);
+    EXPECT_EQ(read.least_change_m, written.least_change_m);
+    ASSERT_EQ(read.inverse.size(), 2U);
+    EXPECT_EQ(read.inverse[1].inverse.real, written.inverse[1].inverse.real);
+    EXPECT_EQ(read.inverse[1].inverse.imaginary, written.inverse[1].inverse.imaginary);
+  }
+  EXPECT_EQ(back.synchronous.angle.bandwidth_hz, 7.5);
+  EXPECT_EQ(back.synchronous.saturated_s, 0.03);
+  ASSERT_EQ(back.synchronous.run_outs.size(), 1U);
+  EXPECT_NEAR(back.synchronous.run_outs[0].real_m[1], 3e-6, 1e-20);
+}
+
+TEST(RoundTrip, OfSynchronousControlNamesWhatCannotBe) {
+  const RigNumbers rig = FullRig().numbers;
+  const auto refusal = [&](const std::function<void(synchronous::SynchronousConfig&)>& spoil) {
+    ControllerFile controller = SynchronousController(rig);
+    spoil(controller.synchronous);
+    try {
+      (void)ParseController(WriteController(controller, rig), "c.yaml", rig);
+      return std::string("accepted");
+    } catch (const BadInput& refused) {
+      return std::string(refused.what());
+    }
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(refusal([](auto& c) { c.blocks[0].to_rad_per_s = 1.0; }),
+              HasSubstr("must be above from_rpm"));
+  EXPECT_THAT(refusal([](auto& c) { c.blocks[0].order = 900.0; }),
+              HasSubstr("above half the sampling frequency"));
+  EXPECT_THAT(refusal([](auto& c) { std::swap(c.blocks[1].inverse[0], c.blocks[1].inverse[1]); }),
+              HasSubstr("the speeds must rise"));
+  EXPECT_THAT(refusal([](auto& c) { c.blocks[1].largest_current_a = 900.0; }),
+              HasSubstr("the coils leave"));
+  EXPECT_THAT(refusal([](auto& c) { c.angle.source = synchronous::AngleSource::kSpeed; }),
+              HasSubstr("run_outs need an angle that is measured"));
+  EXPECT_THAT(refusal([](auto& c) { c.angle.bandwidth_hz = 900.0; }),
+              HasSubstr("a fiftieth of the sampling frequency"));
 }
 
 TEST(RoundTrip, OfAnExcitationWithoutAChannelIsRefusedWhenRead) {

@@ -201,6 +201,10 @@ TEST(Tables, AreDocumentedKeyByKey) {
   scheduled.law.schedule = {{1.0, scheduled.law.axes, {}}};
   Describe(schedule, scheduled, FullRig().numbers);
   for (const ListedField& field : schedule.fields()) written.insert(field.key);
+  FieldList turning("controller", 0);
+  ControllerFile synchronous = SynchronousController(FullRig().numbers);
+  Describe(turning, synchronous, FullRig().numbers);
+  for (const ListedField& field : turning.fields()) written.insert(field.key);
   FieldList events("scenario", 0);
   scenario::ScenarioConfig eventful = EventfulScenario(FullRig().numbers);
   Describe(events, eventful, FullRig().numbers);

@@ -43,6 +43,36 @@ TEST_F(Deriver, TellsAModeChangeOnce) {
   EXPECT_TRUE(Step(record).empty());
 }
 
+TEST_F(Deriver, TellsABlockOfSynchronousControlThatBeginsAndWhyItEnds) {
+  EventDeriver deriver(Header().channels, Header().period_ns, {"unbalance"});
+  std::uint64_t cycle = 0;
+  const auto step = [&](synchronous::BlockState state, synchronous::Ending ending) {
+    auto record = Quiet(cycle++);
+    record.out.synchronous_blocks = 1;
+    record.out.synchronous[0] = {state, ending, 0.0};
+    std::vector<Event> events;
+    deriver.Step(record, events);
+    return events;
+  };
+  using synchronous::BlockState;
+  using synchronous::Ending;
+  EXPECT_TRUE(step(BlockState::kOff, Ending::kNone).empty());
+  const auto begins = step(BlockState::kActing, Ending::kNone);
+  ASSERT_EQ(begins.size(), 1U);
+  EXPECT_THAT(begins[0].text, ::testing::StartsWith("synchronous control unbalance begins at "));
+  EXPECT_EQ(begins[0].severity, Event::Severity::kInformation);
+  EXPECT_TRUE(step(BlockState::kActing, Ending::kNone).empty());
+  const auto ends = step(BlockState::kFading, Ending::kAngleJumped);
+  ASSERT_EQ(ends.size(), 1U);
+  EXPECT_THAT(ends[0].text, HasSubstr("the rotor's angle jumped"));
+  EXPECT_EQ(ends[0].severity, Event::Severity::kWarning);
+  EXPECT_TRUE(step(BlockState::kOff, Ending::kAngleJumped).empty());
+  (void)step(BlockState::kActing, Ending::kAngleJumped);
+  const auto planned = step(BlockState::kFading, Ending::kSpeed);
+  ASSERT_EQ(planned.size(), 1U);
+  EXPECT_EQ(planned[0].severity, Event::Severity::kInformation);
+}
+
 TEST_F(Deriver, TellsATripOnceWithCauseChannelValueLimitCycleSafeStateAndReset) {
   auto record = Quiet(1);
   record.out.mode = Mode::kTripped;

@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(
             true},
         Trouble{"saturated", Ending::kSaturated, [](Conditions& c) { c.saturated_axes = 1; },
                 false},
-        Trouble{"orbit", Ending::kOrbitGrew, [](Conditions& c) { c.position_m[0] = 60e-6; }, false},
+        Trouble{"orbit", Ending::kOrbitGrew, [](Conditions& c) { c.position_m[0] = 80e-6; }, false},
         Trouble{"released", Ending::kNotLevitated, [](Conditions& c) { c.levitated = false; },
                 true}),
     [](const auto& trial) { return trial.param.name; });

@@ -1,0 +1,76 @@
+"""amb design notch: what it accepts is run, replayed and judged by other commands; what it refuses is named."""
+
+import json
+import unittest
+
+from command import BAD_INPUT, DONE, OTHER, USAGE, CommandTest, amb
+
+NOT_MET = 5
+
+QUICK = ("design", "notch", "--draws", "2")
+COMMISSIONED = ("--controller", "flexible_rotor_commissioned")
+
+
+class DesignNotch(CommandTest):
+    def call(self, *arguments, status=DONE):
+        done = amb(self.folder, *arguments)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def test_what_it_accepts_is_run_with_its_events_and_replayed(self):
+        self.call(*QUICK, *COMMISSIONED, "--from-rpm", "1500", "--to-rpm", "3900", "--out", "quiet.yaml", "--json",
+                  "notch.json")
+        self.assertTrue((self.folder / "quiet.yaml").read_text().startswith("# amb design notch: block unbalance"))
+        notch = json.loads((self.folder / "notch.json").read_text())
+        self.assertTrue(notch["allowed"])
+        self.assertTrue(all(abs(at["slowest_decay"] - 1.0) < 0.1 for at in notch["speeds"]))
+        said = self.call("run", "--controller", "quiet.yaml", "--record", "s.lcm")
+        told = said.stdout + said.stderr
+        self.assertIn("ACCEPTED", told)
+        self.assertIn("synchronous control unbalance begins at 1500 rpm", told)
+        self.assertIn("every output bit", self.call("replay", "s.lcm").stdout)
+        margins = self.call("margins", "--controller", "quiet.yaml", "--require", "stable").stdout
+        self.assertIn("synchronous control: decay of each block", margins)
+
+    def test_a_critical_speed_is_refused_with_its_range_and_nothing_is_written(self):
+        before = self.files()
+        done = self.call(*QUICK, "--from-rpm", "1500", "--out", "quiet.yaml", status=OTHER)
+        self.assertRegex(done.stderr, r"^amb: refused at \d+ to \d+ rpm \(without its synchronous force the orbit")
+        self.assertEqual(self.files(), before)
+
+    def test_a_block_that_its_rig_cannot_have_is_never_lifted(self):
+        self.call(*QUICK, "--from-rpm", "1500", "--to-rpm", "3900", "--out", "quiet.yaml")
+        text = (self.folder / "quiet.yaml").read_text()
+        # The same block with T turned by half a turn.
+        turned = []
+        for line in text.splitlines():
+            stem = line.strip()
+            if stem.startswith(("real:", "imaginary:", "- real:")):
+                key, value = line.split(": ")
+                line = f"{key}: {-float(value)!r}"
+            turned.append(line)
+        (self.folder / "bad.yaml").write_text("\n".join(turned) + "\n")
+        done = self.call("run", "--controller", "bad.yaml", status=BAD_INPUT)
+        self.assertIn("synchronous block unbalance is not stable with this rig from 1470 to", done.stderr)
+        self.assertIn("Nothing was lifted", done.stderr)
+        self.call("margins", "--controller", "bad.yaml", "--require", "stable", status=NOT_MET)
+
+    def test_a_second_block_stands_beside_the_first_and_a_name_replaces(self):
+        self.call(*QUICK, "--from-rpm", "1500", "--to-rpm", "3900", "--name", "low", "--out", "a.yaml")
+        for before, after, to in (("a.yaml", "b.yaml", "5800"), ("b.yaml", "c.yaml", "6000")):
+            self.call(*QUICK, "--controller", before, "--target", "vibration", "--from-rpm", "4700", "--to-rpm", to,
+                      "--name", "high", "--out", after)
+        text = (self.folder / "c.yaml").read_text()
+        self.assertEqual(text.count("name: low"), 1)
+        self.assertEqual(text.count("name: high"), 1)
+        self.assertIn("to_rpm: 6000", text)
+
+    def test_bad_options_are_one_sentence(self):
+        self.call(*QUICK, "--from-rpm", "3000", "--to-rpm", "2000", status=USAGE)
+        done = self.call(*QUICK, "--order", "100", status=USAGE)
+        self.assertIn("reaches half the sampling frequency at 3000 rpm", done.stderr)
+        self.call(*QUICK, "--rig", "absent", status=BAD_INPUT)
+
+
+if __name__ == "__main__":
+    unittest.main()
