@@ -1,0 +1,225 @@
+#include "identification/balance/unbalance_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/dense/factorisations.hpp"
+#include "numerics/levenberg_marquardt.hpp"
+
+namespace levitas::balancing {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+/// Neighbouring windows share noise: their amplitudes are correlated by 1/6, each has two.
+constexpr double kOverlap = 4.0 / 3.0;
+/// ISO 21940-11: G 40 is what a crankshaft has; no rotor that runs on magnets has more.
+constexpr double kLargestGradeMPerS = 0.04;
+
+constexpr int kRounds = 3;
+
+struct Trial {
+  VectorXd place;
+  VectorXcd amplitudes;
+};
+
+class FitProblem {
+ public:
+  explicit FitProblem(const Predictor& predictor) : predictor_(predictor) {
+    const config::Tolerances by = predictor.rig().rig().tolerances.value_or(config::Tolerances{});
+    runout_m_ = std::max(by.sensor_runout_m, 1e-9);
+    for (const Unknown& unknown : predictor.rig().unknowns()) {
+      deviation_.conservativeResize(deviation_.size() + 1);
+      deviation_[deviation_.size() - 1] = unknown.deviation;
+    }
+    double fastest = 1.0;
+    for (const auto& window : predictor.windows()) {
+      fastest = std::max(fastest, std::abs(window.speed_rad_per_s));
+    }
+    size_kg_m_ = kLargestGradeMPerS / fastest * predictor.rig().mass_kg();
+  }
+
+  /// The amplitudes that fit best there.
+  [[nodiscard]] numerics::Iterate<Trial> Solve(const VectorXd& place) const {
+    Trial trial{place, {}};
+    const auto equations = predictor_.At(place);
+    MatrixXcd normal;
+    VectorXcd right;
+    AddUp(equations, normal, right);
+    trial.amplitudes = -normal.llt().solve(right);
+    double cost =
+        (place.cwiseQuotient(deviation_)).squaredNorm() + trial.amplitudes.cwiseAbs2().dot(Prior());
+    cost += DataCost(equations, trial.amplitudes);
+    return {std::move(trial), cost};
+  }
+
+  [[nodiscard]] std::optional<numerics::NormalEquations> Linearise(
+      const numerics::Iterate<Trial>& at) const {
+    const auto equations = predictor_.At(at.point.place, at.point.amplitudes);
+    const Sums sums = SumsOf(equations, at.point.amplitudes);
+    numerics::NormalEquations made;
+    const MatrixXcd taken = sums.across.adjoint() * sums.normal.llt().solve(sums.across);
+    made.matrix = (sums.slopes - taken).real();
+    made.gradient = sums.pull;
+    made.matrix.diagonal() += deviation_.cwiseAbs2().cwiseInverse();
+    made.gradient += at.point.place.cwiseQuotient(deviation_.cwiseAbs2());
+    return made;
+  }
+
+  [[nodiscard]] numerics::Iterate<Trial> Step(const Trial& from, const VectorXd& step) const {
+    // No further than six deviations at once: beyond, the rig may be none that can be built.
+    const double longest = step.cwiseQuotient(deviation_).cwiseAbs().maxCoeff();
+    return Solve(from.place + (longest > 6.0 ? 6.0 / longest : 1.0) * step);
+  }
+
+  /// The size of the planes' unbalance as this trial has it.
+  void TakeSize(const Trial& trial) {
+    MatrixXcd normal;
+    VectorXcd right;
+    AddUp(predictor_.At(trial.place), normal, right);
+    const MatrixXcd spread = normal.llt().solve(MatrixXcd::Identity(normal.rows(), normal.cols()));
+    const Index planes = predictor_.rig().planes();
+    const double square = trial.amplitudes.head(planes).squaredNorm() +
+                          2.0 * spread.diagonal().head(planes).real().sum();
+    size_kg_m_ = std::max(std::sqrt(square / static_cast<double>(planes)), 1e-12);
+  }
+
+  [[nodiscard]] UnbalanceFit Finish(const numerics::Iterate<Trial>& at) const;
+
+ private:
+  struct Sums {
+    MatrixXcd normal;  ///< amplitudes, priors included
+    MatrixXcd across;  ///< amplitudes x unknowns
+    MatrixXcd slopes;  ///< unknowns x unknowns
+    VectorXd pull;
+  };
+
+  /// 1/variance of each amplitude's real and imaginary part.
+  [[nodiscard]] VectorXd Prior() const {
+    const Index planes = predictor_.rig().planes();
+    VectorXd prior(predictor_.amplitudes());
+    prior.head(planes).setConstant(2.0 / (size_kg_m_ * size_kg_m_));
+    prior.tail(prior.size() - planes).setConstant(1.0 / (runout_m_ * runout_m_));
+    return prior;
+  }
+
+  void AddUp(const std::vector<WindowEquations>& equations, MatrixXcd& normal,
+             VectorXcd& right) const {
+    const Index n = predictor_.amplitudes();
+    normal = MatrixXcd::Zero(n, n);
+    right = VectorXcd::Zero(n);
+    for (const WindowEquations& one : equations) {
+      const auto columns = one.linear.rightCols(n);
+      normal += columns.adjoint() * columns;
+      right += columns.adjoint() * one.linear.col(0);
+    }
+    normal.diagonal() += Prior().cast<Complex>();
+  }
+
+  [[nodiscard]] double DataCost(const std::vector<WindowEquations>& equations,
+                                const VectorXcd& amplitudes) const {
+    double cost = 0.0;
+    for (const WindowEquations& one : equations) {
+      cost +=
+          (one.linear.col(0) + one.linear.rightCols(amplitudes.size()) * amplitudes).squaredNorm();
+    }
+    return cost;
+  }
+
+  [[nodiscard]] Sums SumsOf(const std::vector<WindowEquations>& equations,
+                            const VectorXcd& amplitudes) const {
+    Sums sums;
+    VectorXcd right;
+    AddUp(equations, sums.normal, right);
+    const Index n = amplitudes.size();
+    const Index unknowns = deviation_.size();
+    sums.across = MatrixXcd::Zero(n, unknowns);
+    sums.slopes = MatrixXcd::Zero(unknowns, unknowns);
+    sums.pull = VectorXd::Zero(unknowns);
+    for (const WindowEquations& one : equations) {
+      const auto columns = one.linear.rightCols(n);
+      const VectorXcd r = one.linear.col(0) + columns * amplitudes;
+      sums.across += columns.adjoint() * one.slopes;
+      sums.slopes += one.slopes.adjoint() * one.slopes;
+      sums.pull += (one.slopes.adjoint() * r).real();
+    }
+    return sums;
+  }
+
+  const Predictor& predictor_;
+  VectorXd deviation_;
+  double runout_m_{}, size_kg_m_{};
+};
+
+/// Stacks real above imaginary parts.
+Eigen::MatrixXd Stacked(const MatrixXcd& m) {
+  Eigen::MatrixXd out(2 * m.rows(), m.cols());
+  out << m.real(), m.imag();
+  return out;
+}
+
+UnbalanceFit FitProblem::Finish(const numerics::Iterate<Trial>& at) const {
+  const auto equations = predictor_.At(at.point.place, at.point.amplitudes);
+  const Sums sums = SumsOf(equations, at.point.amplitudes);
+  const Index n = at.point.amplitudes.size();
+  const Index planes = predictor_.rig().planes();
+  const MatrixXcd inverse = sums.normal.llt().solve(MatrixXcd::Identity(n, n));
+  const auto left = *Linearise(at);
+  const Eigen::MatrixXd rig =
+      left.matrix.ldlt().solve(Eigen::MatrixXd::Identity(deviation_.size(), deviation_.size()));
+  const auto count =
+      static_cast<double>(2 * predictor_.rig().axes()) * static_cast<double>(equations.size());
+  UnbalanceFit fit;
+  fit.windows = equations.size();
+  fit.reduced_chi_square = DataCost(equations, at.point.amplitudes) / std::max(1.0, count);
+  const double wider = kOverlap * std::max(1.0, fit.reduced_chi_square);
+  // A circular part of the noise, and what the rig's unknowns leave.
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  all.topLeftCorner(n, n) = all.bottomRightCorner(n, n) = inverse.real();
+  all.bottomLeftCorner(n, n) = inverse.imag();
+  all.topRightCorner(n, n) = -inverse.imag();
+  const Eigen::MatrixXd moved = Stacked(-inverse * sums.across);
+  all += moved * rig * moved.transpose();
+  all *= wider;
+  fit.covariance.resize(2 * planes, 2 * planes);
+  fit.covariance << all.topLeftCorner(planes, planes), all.block(0, n, planes, planes),
+      all.block(n, 0, planes, planes), all.block(n, n, planes, planes);
+  fit.runout_deviation_m = all.diagonal().segment(planes, n - planes).cwiseSqrt();
+  fit.unbalance_kg_m = at.point.amplitudes.head(planes);
+  fit.runout_m = at.point.amplitudes.tail(n - planes);
+  fit.place = at.point.place;
+  fit.place_deviation = (wider * rig.diagonal()).cwiseSqrt();
+  fit.size_kg_m = size_kg_m_;
+  return fit;
+}
+
+}  // namespace
+
+UnbalanceFit FitUnbalance(Predictor& predictor) {
+  FitProblem problem(predictor);
+  auto at = problem.Solve(VectorXd::Zero(static_cast<Index>(predictor.rig().unknowns().size())));
+  numerics::LevenbergMarquardtOptions options;
+  options.most_steps = 30;
+  options.most_trials = 60;
+  options.least_gain = 1e-3;
+  options.least_relative_gain = 1e-6;
+  bool converged = false;
+  // The size belongs to the amplitudes, the reference to the rig, and they to both.
+  for (int round = 0; round < kRounds; ++round) {
+    problem.TakeSize(at.point);
+    predictor.Refer(at.point.place);
+    at = problem.Solve(at.point.place);
+    const auto found = numerics::LevenbergMarquardt(problem, at, options);
+    at = found.at;
+    converged = found.end != numerics::SearchEnd::kMostSteps;
+  }
+  UnbalanceFit fit = problem.Finish(at);
+  fit.converged = converged;
+  return fit;
+}
+
+}  // namespace levitas::balancing
