@@ -36,6 +36,7 @@ void AddSimulateCommand(CLI::App& app, Action& action);
 void AddEffectsCommand(CLI::App& app, Action& action);
 void AddIdentifyCommand(CLI::App& app, Action& action);
 void AddDesignCommand(CLI::App& app, Action& action);
+void AddBalanceCommand(CLI::App& app, Action& action);
 void AddDiagnoseCommand(CLI::App& app, Action& action);
 void AddManualCommand(CLI::App& app, Action& action);
 

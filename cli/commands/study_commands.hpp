@@ -29,6 +29,7 @@ inline constexpr std::array kStudyCommands{
     StudyCommand{"identify", "A model from a record"},
     StudyCommand{"design",
                  "Controllers from a rig and its uncertainty, judged before they are written"},
+    StudyCommand{"balance", "Correction weights of the rotor from a recorded run-up"},
     StudyCommand{"diagnose", "What the model of a rig gets wrong, and why"},
     StudyCommand{"bench", "How good diagnosis, identification and protections are"},
     StudyCommand{"manual",

@@ -93,24 +93,30 @@ std::size_t Companion(const FreeRunContext& c, const FreeRunSegment& segment, st
 
 }  // namespace
 
-LawOfRecord FindLaw(const std::string& record_path, const std::string& controller_name,
-                    const config::RigFile& rig) {
+std::optional<LawOfRecord> LawIfKnown(const std::string& record_path,
+                                      const std::string& controller_name,
+                                      const config::RigFile& rig) {
   if (!controller_name.empty()) {
     const std::string path = config::FindConfig(controller_name, "controllers");
     const auto file = config::LoadController(path, rig.numbers);
-    return {fmt::format("{} ({})", file.name, path), file.law};
+    return LawOfRecord{fmt::format("{} ({})", file.name, path), file.law};
   }
   std::string text;
   if (session::IsSession(record_path)) {
     text = session::SessionReader(record_path).header().controller_yaml;
   }
-  if (text.empty()) {
-    throw BadInput(record_path +
-                   ": names no controller, and a free run is one of model and law in closed loop: "
-                   "give the law with --controller");
-  }
+  if (text.empty()) return std::nullopt;
   const auto file = config::ParseController(text, record_path + " (header)", rig.numbers);
-  return {file.name + " (of the session)", file.law};
+  return LawOfRecord{file.name + " (of the session)", file.law};
+}
+
+LawOfRecord FindLaw(const std::string& record_path, const std::string& controller_name,
+                    const config::RigFile& rig) {
+  auto known = LawIfKnown(record_path, controller_name, rig);
+  if (known) return std::move(*known);
+  throw BadInput(record_path +
+                 ": names no controller, and a free run is one of model and law in closed loop: "
+                 "give the law with --controller");
 }
 
 void PrintFreeRun(const FreeRunContext& c) {

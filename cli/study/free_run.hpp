@@ -6,6 +6,7 @@
 //          test signal; a file that cannot be written. An empty path writes nothing.
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "analysis/free_run.hpp"
@@ -25,7 +26,12 @@ struct LawOfRecord {
   law::LawConfig law;
 };
 
-/// The law of `controller_name`, a file or shipped name, else that of the session.
+/// The law of `controller_name`, a file or shipped name, else that of the session; nothing where the
+/// record names none.
+[[nodiscard]] std::optional<LawOfRecord> LawIfKnown(const std::string& record_path,
+                                                    const std::string& controller_name,
+                                                    const config::RigFile& rig);
+/// The same, refusing a record that names none.
 [[nodiscard]] LawOfRecord FindLaw(const std::string& record_path,
                                   const std::string& controller_name, const config::RigFile& rig);
 

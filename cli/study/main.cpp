@@ -15,6 +15,7 @@ void AddCommands(CLI::App& app, levitas::cli::Action& action) {
   AddEffectsCommand(app, action);
   AddIdentifyCommand(app, action);
   AddDesignCommand(app, action);
+  AddBalanceCommand(app, action);
   AddDiagnoseCommand(app, action);
   AddBenchCommand(app, action);
   AddManualCommand(app, action);

@@ -31,9 +31,11 @@ OPTIONS = {
                      "--speed-rpm", "--json"},
     "identify modal": {"--rig", "--highest-hz", "--fit-amplifiers", "--fit-sensors", "--out", "--rotor",
                        "--svg", "--starts", "--spread", "--spread-gains", "--json"},
+    "balance": {"--rig", "--controller", "--plane", "--planes", "--drill", "--after", "--applied", "--top-rpm",
+                "--svg", "--json"},
     "doctor": {"--json"},
 }
-POSITIONAL = {"simulate": "session", "import": "DATA", "export": "SESSION", "report": "SESSION", "compare": "RECORD", "replay": "SESSION",
+POSITIONAL = {"simulate": "session", "import": "DATA", "export": "SESSION", "balance": "RECORD", "report": "SESSION", "compare": "RECORD", "replay": "SESSION",
               "identify frf": "DATA", "identify modal": "DATA"}
 
 
