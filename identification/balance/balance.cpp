@@ -78,7 +78,10 @@ void Deviations(Complex value, Index at, const Eigen::MatrixXd& covariance, doub
   angle_rad = std::min(0.5 * kTwoPi, std::sqrt(std::max(0.0, across.dot(both * across))) / size);
 }
 
-std::vector<double> SpeedsTo(double top_rad_per_s) {
+/// In the direction that the last run turns.
+std::vector<double> SpeedsOf(const BalanceRequest& request) {
+  const bool backwards = request.runs.back().windows.back().speed_rad_per_s < 0.0;
+  const double top_rad_per_s = backwards ? -request.top_rad_per_s : request.top_rad_per_s;
   std::vector<double> speeds;
   for (int i = kSlowest; i <= kSpeeds; ++i) speeds.push_back(top_rad_per_s * i / kSpeeds);
   return speeds;
@@ -138,8 +141,7 @@ double ShareLeft(const std::vector<SpeedResponse>& responses, const Eigen::Vecto
 /// The model's responses, put right by what the last weights did where there are two runs.
 std::vector<SpeedResponse> ResponsesOf(const BalanceRequest& request, const BalanceRig& rig,
                                        const std::vector<TrackedRun>& runs, BalanceResult& made) {
-  auto responses =
-      ResponsesOverSpeed(rig, made.fit.place, LawOf(request), SpeedsTo(request.top_rad_per_s));
+  auto responses = ResponsesOverSpeed(rig, made.fit.place, LawOf(request), SpeedsOf(request));
   for (SpeedResponse& at : responses) at.now_m = at.per_unbalance * made.fit.unbalance_kg_m;
   if (runs.size() < 2) return responses;
   const TrackedRun& before = runs[runs.size() - 2];

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/problem.hpp"
+#include "common/two_pi.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
 #include "plant_sim/plant/find_operating_point.hpp"
 #include "plant_sim/plant/linear_parts.hpp"
@@ -154,6 +155,7 @@ BalanceRig::BalanceRig(const config::RigFile& rig, const RecordedPoint& point,
     shapes_.col(p) = nominal_.modes.ShapeAt(planes_z_m_[SizeOf(p)]).transpose();
   }
   const PlantModel model(nominal_);
+  for (const auto& bearing : model.bearings()) magnets_.push_back(bearing.magnet);
   ki_.resize(axes_);
   ks_.resize(axes_);
   for (Index axis = 0; axis < axes_; ++axis) {
@@ -190,6 +192,26 @@ void BalanceRig::ListUnknowns() {
     }
   }
   add(Kind::kDelay, 0, by.delay_samples);
+}
+
+std::complex<double> BalanceRig::ForceBeyondSlopes(Index axis, std::complex<double> current_a,
+                                                   std::complex<double> displacement_m) const {
+  constexpr int kPerTurn = 32;
+  constexpr double kSmall = 1e-3;  // of the amplitudes: there the slopes are all there is
+  const std::size_t i = SizeOf(axis);
+  const double bias_a = nominal_.config.bearings[i / 2].magnet.bias_current_a;
+  const auto harmonic = [&](double share) {
+    std::complex<double> sum = 0.0;
+    for (int n = 0; n < kPerTurn; ++n) {
+      const auto turned = std::polar(1.0, kTwoPi * n / kPerTurn);
+      const double force_n = magnet::Force(
+          magnets_[i / 2], bias_a, point_.control_a[i] + share * (current_a * turned).real(),
+          point_.displacement_m[i] + share * (displacement_m * turned).real());
+      sum += 2.0 / kPerTurn * force_n * std::conj(turned);
+    }
+    return sum / share;
+  };
+  return harmonic(1.0) - harmonic(kSmall);
 }
 
 double BalanceRig::centre_z_m() const {
@@ -233,9 +255,13 @@ RigMatrices BalanceRig::At(const Eigen::VectorXd& place) const {
   made.delay_s = (model.delay_samples() + delay_samples) * period_s_;
   const Index states = made.a0.rows();
   made.push.resize(states, axes_);
+  made.seen.resize(axes_, states);
+  made.coil_current = static_cast<Index>(model.layout().coil_current);
   for (Index axis = 0; axis < axes_; ++axis) {
     made.push.col(axis) =
         plant::Reaction(model, SizeOf(axis / 2), static_cast<int>(axis % 2), states);
+    made.seen.row(axis) =
+        plant::SeenByMagnet(model, SizeOf(axis / 2), static_cast<int>(axis % 2), states);
   }
   Eigen::MatrixXd shapes = shapes_;
   shapes.topRows(rigid_modes) /= std::sqrt(mass);

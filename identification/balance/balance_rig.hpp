@@ -15,10 +15,12 @@
 // Failure    BadInput: geared shafts, a lone axis, coils on a voltage, a plane off the shaft.
 
 #include <Eigen/Core>
+#include <complex>
 #include <string>
 #include <vector>
 
 #include "configuration/rig_file.hpp"
+#include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/operating_point.hpp"
 #include "plant_sim/plant/plant_parameters.hpp"
 
@@ -48,10 +50,12 @@ struct Unknown {
 [[nodiscard]] std::string NameOf(const Unknown& unknown, const RigNumbers& rig);
 
 struct RigMatrices {
-  Eigen::MatrixXd a0, a1;      ///< states x states, per rad/s
-  Eigen::MatrixXd b, c;        ///< states x axes, axes x states
-  Eigen::MatrixXcd unbalance;  ///< H: states x planes
-  Eigen::MatrixXd push;        ///< states x axes: one newton at the magnet of an axis
+  Eigen::MatrixXd a0, a1;       ///< states x states, per rad/s
+  Eigen::MatrixXd b, c;         ///< states x axes, axes x states
+  Eigen::MatrixXcd unbalance;   ///< H: states x planes
+  Eigen::MatrixXd push;         ///< states x axes: one newton at the magnet of an axis
+  Eigen::MatrixXd seen;         ///< axes x states: displacement at the magnet
+  Eigen::Index coil_current{};  ///< first state of the control currents in the coils
   double delay_s{};
 };
 
@@ -69,6 +73,11 @@ class BalanceRig {
   [[nodiscard]] const std::vector<Unknown>& unknowns() const noexcept { return unknowns_; }
   /// `place`: one number per unknown, 0 = as in the rig file.
   [[nodiscard]] RigMatrices At(const Eigen::VectorXd& place) const;
+  /// First harmonic of an axis' magnet force for these amplitudes, less what its slopes at the point
+  /// say [N]: 1.5 (x/s0)^2 of ks x at rest.
+  [[nodiscard]] std::complex<double> ForceBeyondSlopes(Eigen::Index axis,
+                                                       std::complex<double> current_a,
+                                                       std::complex<double> displacement_m) const;
   [[nodiscard]] Eigen::Index axes() const noexcept { return axes_; }
   [[nodiscard]] Eigen::Index planes() const noexcept {
     return static_cast<Eigen::Index>(planes_z_m_.size());
@@ -100,6 +109,7 @@ class BalanceRig {
   plant::PlantParameters nominal_;
   plant::OperatingPoint point_;
   std::vector<Unknown> unknowns_;
+  std::vector<magnet::Magnet> magnets_;  ///< per bearing
   Eigen::MatrixXd shapes_;
   Eigen::VectorXd ki_, ks_;
   Eigen::Index axes_{};

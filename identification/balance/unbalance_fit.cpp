@@ -20,7 +20,11 @@ constexpr double kOverlap = 4.0 / 3.0;
 /// ISO 21940-11: G 40 is what a crankshaft has; no rotor that runs on magnets has more.
 constexpr double kLargestGradeMPerS = 0.04;
 
-constexpr int kRounds = 3;
+/// Of the reference: rounds at most, and the step [deviations of the unknowns] that settles it.
+constexpr int kRounds = 12;
+constexpr double kSettled = 0.02;
+/// Earlier rounds that the next place is drawn from.
+constexpr std::size_t kRemembered = 4;
 
 struct Trial {
   VectorXd place;
@@ -87,6 +91,8 @@ class FitProblem {
                           2.0 * spread.diagonal().head(planes).real().sum();
     size_kg_m_ = std::max(std::sqrt(square / static_cast<double>(planes)), 1e-12);
   }
+
+  [[nodiscard]] const VectorXd& deviation() const noexcept { return deviation_; }
 
   [[nodiscard]] UnbalanceFit Finish(const numerics::Iterate<Trial>& at) const;
 
@@ -197,25 +203,56 @@ UnbalanceFit FitProblem::Finish(const numerics::Iterate<Trial>& at) const {
   return fit;
 }
 
+/// Where rounds lead that each make `step` of `from`: Anderson's mixing (J. ACM 12, 1965) of the last
+/// few. A round alone goes on by a quarter of the way where the record says little of a direction.
+class Rounds {
+ public:
+  [[nodiscard]] VectorXd Next(const VectorXd& from, const VectorXd& step) {
+    from_.push_back(from);
+    step_.push_back(step);
+    if (from_.size() > kRemembered) {
+      from_.erase(from_.begin());
+      step_.erase(step_.begin());
+    }
+    const auto count = static_cast<Index>(from_.size()) - 1;
+    if (count == 0) return from + step;
+    Eigen::MatrixXd steps(step.size(), count);
+    Eigen::MatrixXd places(step.size(), count);
+    for (Index i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      steps.col(i) = step_[at + 1] - step_[at];
+      places.col(i) = from_[at + 1] - from_[at];
+    }
+    const VectorXd share = Eigen::MatrixXd(steps).colPivHouseholderQr().solve(step);
+    return from + step - (places + steps) * share;
+  }
+
+ private:
+  std::vector<VectorXd> from_, step_;
+};
+
 }  // namespace
 
 UnbalanceFit FitUnbalance(Predictor& predictor) {
   FitProblem problem(predictor);
-  auto at = problem.Solve(VectorXd::Zero(static_cast<Index>(predictor.rig().unknowns().size())));
+  const VectorXd& deviation = problem.deviation();
+  auto at = problem.Solve(VectorXd::Zero(deviation.size()));
   numerics::LevenbergMarquardtOptions options;
   options.most_steps = 30;
   options.most_trials = 60;
   options.least_gain = 1e-3;
   options.least_relative_gain = 1e-6;
+  Rounds rounds;
   bool converged = false;
   // The size belongs to the amplitudes, the reference to the rig, and they to both.
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds && !converged; ++round) {
     problem.TakeSize(at.point);
-    predictor.Refer(at.point.place);
-    at = problem.Solve(at.point.place);
-    const auto found = numerics::LevenbergMarquardt(problem, at, options);
-    at = found.at;
-    converged = found.end != numerics::SearchEnd::kMostSteps;
+    const VectorXd from = at.point.place.cwiseQuotient(deviation);
+    predictor.Refer(at.point.place, at.point.amplitudes);
+    at = numerics::LevenbergMarquardt(problem, problem.Solve(at.point.place), options).at;
+    const VectorXd step = at.point.place.cwiseQuotient(deviation) - from;
+    converged = step.cwiseAbs().maxCoeff() < kSettled;
+    if (!converged) at = problem.Solve(rounds.Next(from, step).cwiseProduct(deviation));
   }
   UnbalanceFit fit = problem.Finish(at);
   fit.converged = converged;
