@@ -26,8 +26,8 @@ struct LawOfRecord {
   law::LawConfig law;
 };
 
-/// The law of `controller_name`, a file or shipped name, else that of the session; nothing where the
-/// record names none.
+/// The law of `controller_name`, a file or shipped name, else that of the session; nothing where
+/// the record names none.
 [[nodiscard]] std::optional<LawOfRecord> LawIfKnown(const std::string& record_path,
                                                     const std::string& controller_name,
                                                     const config::RigFile& rig);

@@ -73,8 +73,8 @@ class BalanceRig {
   [[nodiscard]] const std::vector<Unknown>& unknowns() const noexcept { return unknowns_; }
   /// `place`: one number per unknown, 0 = as in the rig file.
   [[nodiscard]] RigMatrices At(const Eigen::VectorXd& place) const;
-  /// First harmonic of an axis' magnet force for these amplitudes, less what its slopes at the point
-  /// say [N]: 1.5 (x/s0)^2 of ks x at rest.
+  /// First harmonic of an axis' magnet force for these amplitudes, less what its slopes at the
+  /// point say [N]: 1.5 (x/s0)^2 of ks x at rest.
   [[nodiscard]] std::complex<double> ForceBeyondSlopes(Eigen::Index axis,
                                                        std::complex<double> current_a,
                                                        std::complex<double> displacement_m) const;

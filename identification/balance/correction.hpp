@@ -1,10 +1,10 @@
 #pragma once
 // Correction weights for the accessible planes of a rotor, and what they leave.
 //
-// Equation   W = argmin sum_k |y_k + T_k E W|^2 + q |W|^2: y_k the synchronous response of the shaft
-//            as it is, T_k what unbalance adds to it (forecast.hpp, influence.hpp), E the accessible
-//            ones among the planes. q keeps a plane that moves nothing from a weight that does
-//            nothing: 1e-6 of the plane's own column.
+// Equation   W = argmin sum_k |y_k + T_k E W|^2 + q |W|^2: y_k the synchronous response of the
+//            shaft as it is, T_k what unbalance adds to it (forecast.hpp, influence.hpp), E the
+//            accessible ones among the planes. q keeps a plane that moves nothing from a weight
+//            that does nothing: 1e-6 of the plane's own column.
 // Sign       W [kg m] is added unbalance: a mass W/radius at the angle of W, or the same mass taken
 //            away on the other side.
 // Interval   of W, from the covariance of the unbalance through the same linear map.

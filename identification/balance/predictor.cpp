@@ -15,8 +15,8 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 
-/// Share of a magnet's force that the model misses. Chosen: of 0.03, 0.1 and 0.3 % this one left the
-/// smallest errors of weights on twenty drawn rigs.
+/// Share of a magnet's force that the model misses. Chosen: of 0.03, 0.1 and 0.3 % this one left
+/// the smallest errors of weights on twenty drawn rigs.
 constexpr double kMissedForce = 0.003;
 /// Of the noise of a reading that every equation has at least: what the observer takes out of it
 /// next to a weakly damped pole would else be trusted to all digits.

@@ -2,9 +2,9 @@
 // What the positions of a window should be, given the currents of that window: the equations that
 // the unbalance is fitted by.
 //
-// Equation   The free rotor on its magnets is unstable, and y = P(jw) i + H(jw) U asks the model for
-//            a response next to its own weakly damped poles. Instead the measured position is fed
-//            back through an observer's gain L, which changes nothing where the model is right:
+// Equation   The free rotor on its magnets is unstable, and y = P(jw) i + H(jw) U asks the model
+//            for a response next to its own weakly damped poles. Instead the measured position is
+//            fed back through an observer's gain L, which changes nothing where the model is right:
 //              x = Z^-1 (B d(jw) i + L (y - R) + H (w^2 - j w') U),  Z = jw - A0 - w A1 + L C
 //              r = (y - R) - C x + C Z^-1 x',    d(s) = e^{-s(delay + T/2)} sinh(sT/2)/(sT/2)
 //            r is white sensor noise when everything is right. x' is how fast the amplitude changes
@@ -14,15 +14,15 @@
 // Added      what is known to have been added to the rotor before a run goes with its U.
 // Linear     in U [kg m] and in the run-out R [m], one per probe: r = first column + the others
 //            times (U, R).
-// Weight     what the noise of a reading becomes, W = 1 - C Z^-1 L, and forces of the magnets that the
-//            linear model misses, a share of ki i and ks y:
-//            covariance 4 d^2/N W W^H + sum_a (share f_a)^2 g_a g_a^H, g_a = C Z^-1 b_a. The equations
-//            come divided by its root: each real and imaginary part has unit variance.
+// Weight     what the noise of a reading becomes, W = 1 - C Z^-1 L, and forces of the magnets that
+//            the linear model misses, a share of ki i and ks y:
+//            covariance 4 d^2/N W W^H + sum_a (share f_a)^2 g_a g_a^H, g_a = C Z^-1 b_a. The
+//            equations come divided by its root: each real and imaginary part has unit variance.
 // Feedback   the law answers the probes' noise, so currents and r share it, and a fit of the rig to
 //            them leans towards P = -1/C. What is differentiated by the rig's unknowns is therefore
-//            what the model answers with the law that the windows beside show, which share no sample
-//            with it: an instrument (L. Ljung, System Identification, 2nd ed., 7.5). At the place of
-//            Refer r is that of the data.
+//            what the model answers with the law that the windows beside show, which share no
+//            sample with it: an instrument (L. Ljung, System Identification, 2nd ed., 7.6). At the
+//            place of Refer r is that of the data.
 // Thread     any; pure after construction; allocates.
 
 #include <Eigen/Core>

@@ -203,8 +203,9 @@ UnbalanceFit FitProblem::Finish(const numerics::Iterate<Trial>& at) const {
   return fit;
 }
 
-/// Where rounds lead that each make `step` of `from`: Anderson's mixing (J. ACM 12, 1965) of the last
-/// few. A round alone goes on by a quarter of the way where the record says little of a direction.
+/// Where rounds lead that each make `step` of `from`: Anderson's mixing (J. ACM 12, 1965) of the
+/// last few. A round alone goes on by a quarter of the way where the record says little of a
+/// direction.
 class Rounds {
  public:
   [[nodiscard]] VectorXd Next(const VectorXd& from, const VectorXd& step) {

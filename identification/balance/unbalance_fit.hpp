@@ -7,10 +7,11 @@
 //            is that of the record's own unbalance: size^2 = mean(|U|^2 + variance), so that what
 //            the speeds do not show stays small instead of becoming noise.
 // Method     U and R solved exactly for every trial of the rig (Golub & Pereyra, SIAM J. Numer.
-//            Anal. 10, 1973), the rig's unknowns by Levenberg-Marquardt with Kaufman's slopes; round
-//            by round until the place that the predictor refers to is the one found.
+//            Anal. 10, 1973), the rig's unknowns by Levenberg-Marquardt with Kaufman's slopes;
+//            round by round until the place that the predictor refers to is the one found.
 // Intervals  of the normal equations at the minimum, times the reduced chi-square where that is
-//            above 1, times 4/3 for windows that overlap by half (their noise is correlated by 1/6).
+//            above 1, times 4/3 for windows that overlap by half (their noise is correlated by
+//            1/6).
 // Units      kg m, m; complex as balance_rig.hpp says. Thread: any; allocates.
 // Failure    none; `converged` says whether the search ended at a minimum.
 

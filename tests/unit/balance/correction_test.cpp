@@ -1,4 +1,5 @@
-// Corrections, what they leave, and influence coefficients put right, against matrices made by hand.
+// Corrections, what they leave, and influence coefficients put right, against matrices made by
+// hand.
 #include "identification/balance/correction.hpp"
 
 #include <gtest/gtest.h>
