@@ -19,6 +19,10 @@ using Eigen::Index;
 using Kind = UnknownKind;
 using plant::PlantModel;
 
+/// Standard deviations of a probe's place that must be on the shaft, to both sides; it moves no
+/// further.
+constexpr double kRoomForProbe = 5.0;
+
 std::size_t SizeOf(Index i) { return static_cast<std::size_t>(i); }
 
 void RefuseUnlessOneRotor(const config::RigFile& rig) {
@@ -96,7 +100,11 @@ void Change(plant::PlantParameters& rig, const Unknown& unknown, double by) {
       plant.bearings[unknown.index].sensor.bandwidth_hz *= std::exp(by);
       break;
     case Kind::kSensorPosition:
-      if (by != 0.0) AddEffect(plant, effect::Id::kSensorPosition, by, unknown.index);
+      if (by != 0.0) {
+        const double most_m = kRoomForProbe * unknown.deviation;
+        AddEffect(plant, effect::Id::kSensorPosition, std::clamp(by, -most_m, most_m),
+                  unknown.index);
+      }
       break;
     case Kind::kCurrentGain:
     case Kind::kStiffness:
@@ -166,6 +174,13 @@ BalanceRig::BalanceRig(const config::RigFile& rig, const RecordedPoint& point,
   ListUnknowns();
 }
 
+bool BalanceRig::MayMove(std::size_t bearing, double deviation_m) const {
+  const auto& nodes = nominal_.modes.node_z_m;
+  const double z_m = rig_.plant.bearings[bearing].sensor_z_m;
+  return z_m - kRoomForProbe * deviation_m >= nodes.front() &&
+         z_m + kRoomForProbe * deviation_m <= nodes.back();
+}
+
 void BalanceRig::ListUnknowns() {
   const config::Tolerances by = rig_.tolerances.value_or(config::Tolerances{});
   const auto add = [this](Kind kind, std::size_t index, double deviation) {
@@ -187,7 +202,7 @@ void BalanceRig::ListUnknowns() {
   for (std::size_t b = 0; b < rig_.plant.bearings.size(); ++b) {
     add(Kind::kAmplifierBandwidth, b, by.amplifier_bandwidth);
     add(Kind::kSensorBandwidth, b, by.sensor_bandwidth);
-    if (!Has(rig_.plant, effect::Id::kSensorPosition, b)) {
+    if (!Has(rig_.plant, effect::Id::kSensorPosition, b) && MayMove(b, by.sensor_position_m)) {
       add(Kind::kSensorPosition, b, by.sensor_position_m);
     }
   }

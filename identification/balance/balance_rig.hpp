@@ -98,11 +98,15 @@ class BalanceRig {
   [[nodiscard]] double centre_z_m() const;
   [[nodiscard]] double mass_kg() const noexcept { return nominal_.modes.total_mass_kg; }
   /// Force of an axis' magnet per ampere and per metre, of the rig file at the point.
+  [[nodiscard]] double gap_m(Eigen::Index axis) const {
+    return nominal_.config.bearings[static_cast<std::size_t>(axis / 2)].magnet.gap_m;
+  }
   [[nodiscard]] const Eigen::VectorXd& ki_n_per_a() const noexcept { return ki_; }
   [[nodiscard]] const Eigen::VectorXd& ks_n_per_m() const noexcept { return ks_; }
 
  private:
   void ListUnknowns();
+  [[nodiscard]] bool MayMove(std::size_t bearing, double deviation_m) const;
 
   config::RigFile rig_;
   std::vector<double> planes_z_m_;

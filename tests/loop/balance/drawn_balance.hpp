@@ -14,6 +14,7 @@
 namespace levitas::balancing {
 
 struct Outcome {
+  double before_peak_m{};   ///< largest orbit before
   double rms_percent{};     ///< synchronous response left: rms over the run-up, all probes
   double peak_percent{};    ///< the same of the largest orbit
   double weight_percent{};  ///< largest error of a weight
@@ -99,6 +100,7 @@ inline Outcome BalanceDrawnRig(const config::RigFile& truth, std::uint64_t seed)
   const config::RigFile corrected = Corrected(truth, found);
   const Response before = Quiet(truth);
   const Response after = Quiet(corrected);
+  out.before_peak_m = before.peak_m;
   out.rms_percent = 100.0 * after.rms_m / before.rms_m;
   out.peak_percent = 100.0 * after.peak_m / before.peak_m;
   out.before_g_mm_per_kg = StaticPerMass(truth, found.mass_kg);

@@ -13,6 +13,13 @@ inline void Print(const char* what, const std::vector<Outcome>& all) {
     const Spread spread = SpreadOf(all, figure);
     fmt::print("  {:<44}{:9.3f}{:9.3f}\n", name, spread.median, spread.worst);
   };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    fmt::print(
+        "  rig {}: largest orbit {:.1f} um, left {:.2f} %, weight {:.2f} % {:.2f} deg, {:.1f} "
+        "deviations\n",
+        i + 1, 1e6 * all[i].before_peak_m, all[i].rms_percent, all[i].weight_percent,
+        all[i].weight_deg, all[i].deviations);
+  }
   fmt::print("{}, {} rigs: median, worst\n", what, all.size());
   line("response left, rms [%]", &Outcome::rms_percent);
   line("response left, largest orbit [%]", &Outcome::peak_percent);
