@@ -14,8 +14,8 @@ using Eigen::Index;
 
 /// A mean and two orders, cosine and sine each.
 constexpr Index kUnknowns = 5;
-/// Of the current limit: a command beyond it is not what flows.
-constexpr double kWithinLimit = 0.999;
+/// Of the current limit: a command beyond it is not what flows; one at it is.
+constexpr double kWithinLimit = 1.001;
 
 /// As turn_windows.hpp wants it.
 struct UsableRows {

@@ -8,8 +8,8 @@
 //           angle, which falls when the rotor turns backwards.
 // Noise     white noise of deviation d leaves a deviation of d sqrt(2/samples) in the real and in
 //           the imaginary part of S, samples = (sum w)^2 / sum w^2.
-// Rows      levitated, positions within the sensors' range, currents within their limit. A test
-//           signal may be on: of the currents all is known.
+// Rows      levitated, positions within the sensors' range, commands not beyond the current limit.
+//           A test signal may be on: of the currents all is known.
 // Frame     bearing frame; units SI; a negative speed is rotation from y to x.
 // Thread    any; offline. Failure: none; without rotation there are no windows.
 // Not done  other orders than the first; geared shafts.

@@ -21,10 +21,12 @@ constexpr double kOverlap = 4.0 / 3.0;
 constexpr double kLargestGradeMPerS = 0.04;
 
 /// Of the reference: rounds at most, and the step [deviations of the unknowns] that settles it.
-constexpr int kRounds = 12;
+constexpr int kRounds = 20;
 constexpr double kSettled = 0.02;
 /// Earlier rounds that the next place is drawn from.
 constexpr std::size_t kRemembered = 4;
+/// Steps that mixing may add to the round's own.
+constexpr double kFurthest = 5.0;
 
 struct Trial {
   VectorXd place;
@@ -209,6 +211,11 @@ UnbalanceFit FitProblem::Finish(const numerics::Iterate<Trial>& at) const {
 class Rounds {
  public:
   [[nodiscard]] VectorXd Next(const VectorXd& from, const VectorXd& step) {
+    // A step longer than the one before: what is remembered led astray.
+    if (!step_.empty() && step.norm() > step_.back().norm()) {
+      from_.clear();
+      step_.clear();
+    }
     from_.push_back(from);
     step_.push_back(step);
     if (from_.size() > kRemembered) {
@@ -225,7 +232,9 @@ class Rounds {
       places.col(i) = from_[at + 1] - from_[at];
     }
     const VectorXd share = Eigen::MatrixXd(steps).colPivHouseholderQr().solve(step);
-    return from + step - (places + steps) * share;
+    const VectorXd further = (places + steps) * share;
+    if (further.norm() > kFurthest * step.norm()) return from + step;
+    return from + step - further;
   }
 
  private:
@@ -253,7 +262,8 @@ UnbalanceFit FitUnbalance(Predictor& predictor) {
     at = numerics::LevenbergMarquardt(problem, problem.Solve(at.point.place), options).at;
     const VectorXd step = at.point.place.cwiseQuotient(deviation) - from;
     converged = step.cwiseAbs().maxCoeff() < kSettled;
-    if (!converged) at = problem.Solve(rounds.Next(from, step).cwiseProduct(deviation));
+    if (!converged && round + 1 < kRounds)
+      at = problem.Solve(rounds.Next(from, step).cwiseProduct(deviation));
   }
   UnbalanceFit fit = problem.Finish(at);
   fit.converged = converged;

@@ -69,7 +69,7 @@ TEST(OrderTrack, FindsAmplitudesWithTheirPhaseAndTheMean) {
   }
 }
 
-TEST(OrderTrack, ReferstoTheRecordedAngleAlsoWhenItFalls) {
+TEST(OrderTrack, RefersToTheRecordedAngleAlsoWhenItFalls) {
   const auto windows = TrackOrder(Record({.speed_rad_per_s = -400.0}, 5'000), {});
   ASSERT_FALSE(windows.empty());
   for (const TrackedWindow& window : windows) {
@@ -100,10 +100,10 @@ TEST(OrderTrack, SaysHowMuchOfTheNoiseIsLeft) {
   EXPECT_NEAR(square / static_cast<double>(windows.size()), 1.0, 0.2);
 }
 
-TEST(OrderTrack, LeavesOutClippedReadingsAndSaturatedCurrents) {
+TEST(OrderTrack, LeavesOutClippedReadingsAndCommandsBeyondTheLimit) {
   session::Recording record = Record({}, 20'000);
   for (std::size_t row = 0; row < 10'000; ++row) record.position_m[0][row] = 2e-3;
-  for (std::size_t row = 15'000; row < 20'000; ++row) record.current_a[0][row] = 1.0;
+  for (std::size_t row = 15'000; row < 20'000; ++row) record.current_a[0][row] = 1.2;
   for (const TrackedWindow& window : TrackOrder(record, {})) {
     EXPECT_GT(window.time_s, 1.0);
     EXPECT_LT(window.time_s, 1.5);
