@@ -72,12 +72,12 @@ RecordedRun ReadRun(const session::Recording& recording, const config::RigFile& 
         "the rotor does not turn in this record; balancing needs a run-up with recorded speed "
         "and angle");
   }
-  RecordedRun run{recording.name, Thinned(analysis::TrackOrder(recording, rule)), 0.0, {}};
+  RecordedRun run{recording.name, analysis::TrackOrder(recording, rule), 0.0, {}};
   if (run.windows.size() < kLeastWindows) {
-    refuse(
-        fmt::format("only {} stretches of six turns without test limits, clipping or gaps, "
-                    "needed {}: record the run-up of the levitated rotor from start to end",
-                    run.windows.size(), kLeastWindows));
+    refuse(fmt::format(
+        "only {} stretches of six turns without clipping, gaps or currents beyond the limit, "
+        "needed {}: record the run-up of the levitated rotor from start to end",
+        run.windows.size(), kLeastWindows));
   }
   double fastest = 0.0;
   for (const auto& window : run.windows) {
@@ -89,6 +89,7 @@ RecordedRun ReadRun(const session::Recording& recording, const config::RigFile& 
                     "anything of its response there",
                     RadPerSToRpm(fastest), RadPerSToRpm(rig.numbers.max_speed_rad_per_s)));
   }
+  run.windows = Thinned(std::move(run.windows));
   if (!recording.bias_current_a.empty()) run.bias_current_a = recording.bias_current_a.back();
   return run;
 }

@@ -112,7 +112,7 @@ class Balance(CommandTest):
     def test_a_record_that_cannot_be_balanced_by_is_refused_in_one_sentence(self):
         make_record(self.folder / "still.csv", "healthy", 0, 5_000)
         self.assertIn("does not turn", self.call("balance", "still.csv", status=BAD_INPUT).stderr)
-        make_record(self.folder / "slow.csv", "healthy", 600, 20_000)
+        make_record(self.folder / "slow.csv", "healthy", 600, 40_000)
         self.assertIn("a fifth of the rig's 6000 rpm",
                       self.call("balance", "slow.csv", status=BAD_INPUT).stderr)
         lines = (self.folder / "slow.csv").read_text().splitlines()

@@ -128,8 +128,9 @@ TEST(UnbalanceFit, FindsUnbalanceAndRunoutTogether) {
   runout << 1e-6, Complex(0.0, -1e-6), Complex(5e-7, 5e-7), 0.0;
   Predictor predictor(rig, {{SteadyRun(rig, Unbalance(), runout), VectorXcd::Zero(3)}});
   const UnbalanceFit fit = FitUnbalance(predictor);
-  // The sizes that keep what the speeds do not show small cost a little of what they show.
-  EXPECT_LT((fit.unbalance_kg_m - Unbalance()).norm(), 2e-3 * Unbalance().norm());
+  // Each run-out is held by its tolerance, 1 um of an orbit of some 20 um, and the size of U by its
+  // own: a tenth of a deviation of either is what the equations leave them.
+  EXPECT_LT((fit.unbalance_kg_m - Unbalance()).norm(), 5e-3 * Unbalance().norm());
   EXPECT_LT((fit.runout_m - runout).norm(), 0.05e-6);
   EXPECT_TRUE(fit.converged);
 }
