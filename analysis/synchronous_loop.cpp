@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "analysis/loop_response.hpp"
@@ -191,6 +192,10 @@ SynchronousJudgement JudgeSynchronous(const SampledLoop& loop,
     const Eigen::MatrixXcd product =
         turning.basis.adjoint() * inverse *
         SynchronousAnswer(loop, speed_rad_per_s, block.order, block.target) * turning.basis;
+    if (product.size() == 0) {  // T gives nothing, or is no number
+      judged.slowest_decay = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
     const Eigen::VectorXcd values = WithConjugates(product);
     judged.slowest_decay = values.real().minCoeff();
     judged.largest_eigenvalue = values.cwiseAbs().maxCoeff();
@@ -233,12 +238,14 @@ std::string UnstableBlocks(const plant::PlantConfig& plant, const law::LawConfig
     alone.blocks.push_back(block);
     std::vector<double> unstable_rpm;
     double worst = 1.0;
+    double largest = 0.0;
     for (const double speed : JudgedSpeeds(alone, kSpeeds, TableSpeeds::kLeftOut)) {
       // All blocks act together where their windows overlap.
       const SynchronousJudgement judged =
           JudgeSynchronous(CloseLoop(plant, law, speed), control, speed);
       if (judged.stable() || !(judged.largest_pole_modulus_without < 1.0)) continue;
       unstable_rpm.push_back(RadPerSToRpm(speed));
+      largest = std::max(largest, judged.largest_pole_modulus);
       for (const BlockJudgement& each : judged.blocks) {
         if (each.acts) worst = std::min(worst, each.slowest_decay);
       }
@@ -246,8 +253,8 @@ std::string UnstableBlocks(const plant::PlantConfig& plant, const law::LawConfig
     if (unstable_rpm.empty()) continue;
     return fmt::format(
         "synchronous block {} is not stable with this rig from {:.0f} to {:.0f} rpm (slowest decay "
-        "{:.3g}, below 0 it grows)",
-        block.name, unstable_rpm.front(), unstable_rpm.back(), worst);
+        "{:.3g}, below 0 it grows; largest |z| of the loop {:.6f})",
+        block.name, unstable_rpm.front(), unstable_rpm.back(), worst, largest);
   }
   return {};
 }

@@ -33,7 +33,7 @@ std::string_view Text(synchronous::Ending ending) {
       return "an axis stays at its current limit; it begins again after the speed has left its "
              "window";
     case Ending::kOrbitGrew:
-      return "the orbit grew; it begins again after the speed has left its window";
+      return "the orbit grew";
     case Ending::kCurrentTooLarge:
       return "it needs more than its largest_current_a; it begins again after the speed has left "
              "its "

@@ -111,6 +111,7 @@ struct BlocksAt {
   analysis::SynchronousJudgement rig;
   double worst_decay{1.0};
   double worst_modulus{};
+  int not_held{};  ///< drawn rigs that the law alone does not hold: no part of the worst
 };
 
 std::vector<BlocksAt> JudgeBlocks(const config::RigFile& rig, const config::ControllerFile& file) {
@@ -135,7 +136,10 @@ std::vector<BlocksAt> JudgeBlocks(const config::RigFile& rig, const config::Cont
     at.rig = judge(rig.plant, speed);
     for (const plant::PlantConfig& plant : drawn) {
       const auto judged = judge(plant, speed);
-      if (!(judged.largest_pole_modulus_without < 1.0)) continue;  // not the blocks' fault
+      if (!(judged.largest_pole_modulus_without < 1.0)) {  // not the blocks' fault
+        ++at.not_held;
+        continue;
+      }
       at.worst_modulus = std::max(at.worst_modulus, judged.largest_pole_modulus);
       for (const auto& block : judged.blocks) {
         if (block.acts) at.worst_decay = std::min(at.worst_decay, block.slowest_decay);
@@ -158,7 +162,8 @@ void PrintBlocks(const std::vector<BlocksAt>& blocks, const config::ControllerFi
                                {"stable", at.rig.stable()},
                                {"largest_pole_modulus", at.rig.largest_pole_modulus},
                                {"worst_decay_of_drawn", at.worst_decay},
-                               {"worst_pole_modulus_of_drawn", at.worst_modulus}};
+                               {"worst_pole_modulus_of_drawn", at.worst_modulus},
+                               {"drawn_rigs_not_held", at.not_held}};
     for (std::size_t k = 0; k < at.rig.blocks.size(); ++k) {
       const auto& block = at.rig.blocks[k];
       fmt::print("{:>16}", block.acts ? fmt::format("{:.3f}", block.slowest_decay) : "-");
@@ -168,6 +173,10 @@ void PrintBlocks(const std::vector<BlocksAt>& blocks, const config::ControllerFi
     }
     fmt::print("{:>12.6f}{:>16.3f}{:>14.6f}{}\n", at.rig.largest_pole_modulus, at.worst_decay,
                at.worst_modulus, at.rig.stable() ? "" : "  UNSTABLE");
+    if (at.not_held > 0) {
+      fmt::print("  {} of the drawn rigs are not held by the law alone, and not counted here\n",
+                 at.not_held);
+    }
     json["synchronous"].push_back(row);
   }
 }

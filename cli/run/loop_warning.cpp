@@ -62,8 +62,8 @@ std::string UnstableBlocksOf(const config::RigFile& rig, const config::Controlle
   if (controller.synchronous.blocks.empty()) return {};
   try {
     return analysis::UnstableBlocks(rig.plant, controller.law, controller.synchronous);
-  } catch (const std::exception&) {
-    return {};
+  } catch (const std::exception& why) {
+    return fmt::format("its synchronous blocks cannot be judged with this rig ({})", why.what());
   }
 }
 

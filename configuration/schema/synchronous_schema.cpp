@@ -7,6 +7,7 @@
 #include <string>
 
 #include "configuration/schema/schema.hpp"
+#include "controller/synchronous/inverse_ladder.hpp"
 
 namespace levitas::config {
 namespace {
@@ -100,6 +101,8 @@ void DescribeBlock(Visitor& v, synchronous::BlockConfig& block, const RigNumbers
   v.RefuseIf(block.to_rad_per_s <= block.from_rad_per_s, "to_rpm", "must be above from_rpm");
   v.Number({"hysteresis", kRpm, 0, kFastestTurningRpm, 30, "so far beyond its window it ends"},
            block.hysteresis_rad_per_s);
+  v.RefuseIf(block.from_rad_per_s <= block.hysteresis_rad_per_s, "from_rpm",
+             "must be above hysteresis_rpm: a block ends before the rotor stands");
   v.When(target == 1, "with target: vibration", [&] {
     const double limit_a =
         std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);
@@ -116,6 +119,8 @@ void DescribeBlock(Visitor& v, synchronous::BlockConfig& block, const RigNumbers
             "true: T is corrected by what the error answers while the block runs"},
            adaptive);
   block.adaptive = adaptive == 1;
+  v.RefuseIf(block.adaptive && block.order != std::floor(block.order), "adaptive",
+             "only an order that is a whole number: amplitudes are taken over whole turns");
   v.When(block.adaptive, "with adaptive: true", [&] {
     v.Number({"least_change", kMicrometre, 0.001, 1000, 2,
               "of the synchronous error; what moves it by less teaches nothing"},
@@ -156,6 +161,22 @@ void DescribeRunOut(Visitor& v, synchronous::RunOut& run_out, const RigNumbers& 
   });
 }
 
+// Two blocks of one order that act at one speed would integrate the same error: how they share it
+// is held by nothing.
+void RefuseSharedWork(Visitor& v, const std::vector<synchronous::BlockConfig>& blocks) {
+  for (std::size_t k = 1; k < blocks.size(); ++k) {
+    for (std::size_t before = 0; before < k; ++before) {
+      const synchronous::BlockConfig& a = blocks[before];
+      const synchronous::BlockConfig& b = blocks[k];
+      v.RefuseIf(a.name == b.name, "blocks", fmt::format("two blocks have the name {}", a.name));
+      v.RefuseIf(synchronous::ShareWork(a, b), "blocks",
+                 fmt::format("{} and {} have one order and act at the same speeds, hysteresis "
+                             "included; leave a gap between their windows",
+                             a.name, b.name));
+    }
+  }
+}
+
 }  // namespace
 
 void Describe(Visitor& v, synchronous::SynchronousConfig& control, const RigNumbers& rig) {
@@ -185,15 +206,19 @@ void Describe(Visitor& v, synchronous::SynchronousConfig& control, const RigNumb
   v.Number({"least_orbit_fraction", kOne, 0, 0.95, 0.35,
             "of the clearance; a smaller orbit ends no block"},
            control.least_orbit_fraction);
-  v.Number({"saturated", kMillisecond, 0.1, 60000, 20,
-            "an axis at its current limit without interruption ends the blocks"},
-           control.saturated_s);
-  v.List({"run_outs", 0, 8, "taken off the positions before anything reads them"}, control.run_outs,
+  v.Number(
+      {"saturated", kMillisecond, 0.1, 60000, 20,
+       "of an axis at its current limit, a cycle without counting back a quarter, end the blocks"},
+      control.saturated_s);
+  v.List({"run_outs", 0, 8,
+          "taken off what law and blocks read; protections and records keep what was measured"},
+         control.run_outs,
          [&](synchronous::RunOut& run_out, std::size_t) { DescribeRunOut(v, run_out, rig); });
   v.RefuseIf(source == 1 && !control.run_outs.empty(), "angle_from",
              "run_outs need an angle that is measured");
   v.List({"blocks", 0, synchronous::kMaxBlocks, "generalised notches"}, control.blocks,
          [&](synchronous::BlockConfig& block, std::size_t) { DescribeBlock(v, block, rig); });
+  RefuseSharedWork(v, control.blocks);
 }
 
 }  // namespace levitas::config

@@ -58,7 +58,7 @@ struct ControlCycle::Impl {
         laws(LawAtRigPeriod(config)),
         law_state(laws[0]),
         supervisor(config.rig, config.supervisor),
-        synchronous(config.synchronous, config.rig) {}
+        synchronous(config.synchronous, config.rig, config.supervisor.protection.orbit_fraction) {}
 
   void Read(const CycleInputs& in) noexcept;
   void RunLaw(const OperatorInput& op, const supervisor::Decision& decision) noexcept;

@@ -35,6 +35,14 @@ ComplexMatrix InverseAt(const BlockConfig& block, double speed_rad_per_s) {
   return table.back().inverse;
 }
 
+bool ShareWork(const BlockConfig& one, const BlockConfig& other) noexcept {
+  return one.order == other.order &&
+         one.from_rad_per_s - one.hysteresis_rad_per_s <=
+             other.to_rad_per_s + other.hysteresis_rad_per_s &&
+         other.from_rad_per_s - other.hysteresis_rad_per_s <=
+             one.to_rad_per_s + one.hysteresis_rad_per_s;
+}
+
 InverseLadder::InverseLadder(const BlockConfig& block) {
   lowest_rad_per_s_ = std::max(0.0, block.from_rad_per_s - block.hysteresis_rad_per_s);
   const double highest = block.to_rad_per_s + block.hysteresis_rad_per_s;

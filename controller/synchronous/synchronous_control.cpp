@@ -11,6 +11,12 @@ namespace {
 constexpr double kWholeTurn = 2.0 * std::numbers::pi;
 constexpr double kFadeTurns = 0.5;
 constexpr double kLongestFadeS = 0.2;
+constexpr double kLongestSlowFadeS = 1.0;
+/// A clipped current is at its limit twice a period, not all the time: a cycle without counts back
+/// a quarter of one with.
+constexpr double kCountBack = 0.25;
+/// Of the supervisor's orbit limit.
+constexpr double kBelowTrip = 0.85;
 constexpr double kRunOutFadeS = 0.1;
 /// Of a block that corrects its T, while it has not seen yet what it does.
 constexpr double kBeginningPace = 0.25;
@@ -22,7 +28,7 @@ SynchronousControl::Block::Block(const BlockConfig& config, std::size_t axes, do
       order(config.order),
       target(config.target),
       rate(2.0 * period_s / config.time_constant_s),
-      slow_fade(period_s / config.time_constant_s),
+      slow_fade(period_s / std::min(config.time_constant_s, kLongestSlowFadeS)),
       from(config.from_rad_per_s),
       to(config.to_rad_per_s),
       hysteresis(config.hysteresis_rad_per_s),
@@ -34,26 +40,30 @@ SynchronousControl::Block::Block(const BlockConfig& config, std::size_t axes, do
   }
 }
 
-SynchronousControl::SynchronousControl(const SynchronousConfig& config, const RigNumbers& rig)
+SynchronousControl::SynchronousControl(const SynchronousConfig& config, const RigNumbers& rig,
+                                       double orbit_trip_fraction)
     : axes_(rig.axes()),
       period_s_(rig.period_s()),
       angle_(config.angle, rig.period_s()),
       orbit_growth_(config.orbit_growth),
-      saturated_limit_cycles_(
-          static_cast<std::uint32_t>(std::lround(config.saturated_s / rig.period_s()))),
+      saturated_limit_cycles_(config.saturated_s / rig.period_s()),
       run_outs_(config.run_outs) {
   if (config.blocks.size() > kMaxBlocks) {
     throw std::invalid_argument("synchronous: more blocks than " + std::to_string(kMaxBlocks));
   }
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     least_orbit_m_[b] = config.least_orbit_fraction * rig.ClearanceOf(b);
+    most_orbit_m_[b] = kBelowTrip * orbit_trip_fraction * rig.ClearanceOf(b);
   }
   for (const BlockConfig& block : config.blocks) blocks_.emplace_back(block, axes_, period_s_);
 }
 
 void SynchronousControl::Reset() noexcept {
   run_out_gain_ = 0.0;
-  saturated_cycles_ = 0;
+  run_out_fades_ = false;
+  saturated_ = {};
+  orbit_now_m_ = orbit_turn_m_ = {};
+  turned_ = 0.0;
   for (Block& block : blocks_) {
     block.state = {};
     block.influence.Reset();
@@ -63,9 +73,13 @@ void SynchronousControl::Reset() noexcept {
   }
 }
 
-// The largest radius of a turn, bearing by bearing; of the turns before a block's first, the last
-// counts, which is long after the lift: an angle is good after ten.
+// The largest radius of a turn, bearing by bearing, of a rotor that is held about its centre.
 void SynchronousControl::WatchOrbit(const Conditions& seen) noexcept {
+  if (!seen.levitated) {
+    orbit_now_m_ = orbit_turn_m_ = {};
+    turned_ = 0.0;
+    return;
+  }
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     const double x_m = seen.position_m[2 * b];
     const double y_m = 2 * b + 1 < axes_ ? seen.position_m[2 * b + 1] : 0.0;
@@ -83,7 +97,9 @@ Ending SynchronousControl::Trouble(const Block& block, const Conditions& seen) c
   if (!seen.levitated) return Ending::kNotLevitated;
   if (angle_.trouble() == AngleTrouble::kJumped) return Ending::kAngleJumped;
   if (!angle_.good()) return Ending::kAngleLost;
-  if (saturated_cycles_ > saturated_limit_cycles_) return Ending::kSaturated;
+  for (std::size_t i = 0; i < axes_; ++i) {
+    if (saturated_[i] > saturated_limit_cycles_) return Ending::kSaturated;
+  }
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     if (!(orbit_now_m_[b] <= block.orbit_limit_m[b])) return Ending::kOrbitGrew;
   }
@@ -98,10 +114,11 @@ Ending SynchronousControl::Trouble(const Block& block, const Conditions& seen) c
   return Ending::kNone;
 }
 
-// Before another trial the orbit is well within what ended the one before.
+// Before another trial the orbit is back near what it was when the block began the first time.
 bool SynchronousControl::Calm(const Block& block) const noexcept {
+  const double share = std::min(0.95, 1.3 / orbit_growth_);
   for (std::size_t b = 0; 2 * b < axes_ && block.retries > 0; ++b) {
-    if (!(std::max(orbit_turn_m_[b], orbit_now_m_[b]) <= 0.6 * block.orbit_limit_m[b])) {
+    if (!(std::max(orbit_turn_m_[b], orbit_now_m_[b]) <= share * block.orbit_limit_m[b])) {
       return false;
     }
   }
@@ -115,8 +132,9 @@ void SynchronousControl::Begin(Block& block) noexcept {
   block.status.state = BlockState::kActing;
   if (block.retries > 0) return;  // the limit of the first time holds
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
+    const double begun_m = std::max(orbit_turn_m_[b], orbit_now_m_[b]);
     block.orbit_limit_m[b] =
-        std::max(orbit_growth_ * std::max(orbit_turn_m_[b], orbit_now_m_[b]), least_orbit_m_[b]);
+        std::min(std::max(orbit_growth_ * begun_m, least_orbit_m_[b]), most_orbit_m_[b]);
   }
 }
 
@@ -147,35 +165,57 @@ void SynchronousControl::Fade(Block& block) noexcept {
   block.status.state = again ? BlockState::kOff : BlockState::kEnded;
 }
 
+void SynchronousControl::CountSaturation(const Conditions& seen) noexcept {
+  for (std::size_t i = 0; i < axes_; ++i) {
+    const bool limited = (seen.saturated_axes & (1U << i)) != 0;
+    saturated_[i] = limited ? std::min(saturated_[i] + 1.0, 2.0 * saturated_limit_cycles_)
+                            : std::max(saturated_[i] - kCountBack, 0.0);
+  }
+}
+
+// Once it goes it goes to the end: the angle it comes back with may be another.
+void SynchronousControl::FadeRunOut(bool wanted) noexcept {
+  if (run_outs_.empty()) return;
+  if (!wanted) run_out_fades_ = true;
+  const double step = period_s_ / kRunOutFadeS;
+  run_out_gain_ = std::clamp(run_out_gain_ + (run_out_fades_ ? -step : step), 0.0, 1.0);
+  if (run_out_gain_ == 0.0 && wanted) run_out_fades_ = false;
+}
+
 void SynchronousControl::Supervise(const Conditions& seen) noexcept {
-  saturated_cycles_ = seen.saturated_axes != 0 ? saturated_cycles_ + 1 : 0;
+  CountSaturation(seen);
   const double speed = seen.believed_speed_rad_per_s;
   for (Block& block : blocks_) {
     const bool within = speed >= block.from && speed <= block.to;
+    const bool left =
+        !(speed >= block.from - block.hysteresis && speed <= block.to + block.hysteresis);
+    Ending why = Ending::kNone;
     switch (block.status.state) {
       case BlockState::kOff:
+        if (left) block.retries = 0;
         if (within && seen.levitated && angle_.good() && angle_.speed_rad_per_s() > 0.0 &&
             Calm(block)) {
           Begin(block);
         }
         break;
       case BlockState::kActing:
-        if (const Ending why = Trouble(block, seen); why != Ending::kNone) End(block, why);
+        why = Trouble(block, seen);
         break;
-      case BlockState::kFading:
+      case BlockState::kFading:  // what fades slowly is watched to its end
+        if (!block.fast) why = Trouble(block, seen);
+        if (why == Ending::kSpeed) why = Ending::kNone;
         break;
       case BlockState::kEnded:
-        if (!(speed >= block.from - block.hysteresis && speed <= block.to + block.hysteresis)) {
+        if (left) {
           block.status.state = BlockState::kOff;
           block.retries = 0;
         }
         break;
     }
+    if (why != Ending::kNone) End(block, why);
     if (block.status.state == BlockState::kFading) Fade(block);
   }
-  const bool taken = seen.levitated && angle_.good();
-  const double step = period_s_ / kRunOutFadeS;
-  run_out_gain_ = std::clamp(run_out_gain_ + (taken ? step : -step), 0.0, 1.0);
+  FadeRunOut(seen.levitated && angle_.good());
 }
 
 void SynchronousControl::Wait(const Conditions& seen) noexcept {

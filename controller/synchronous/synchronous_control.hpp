@@ -7,9 +7,11 @@
 //            kVibration blocks hold is added to the current.
 // Begins     where the rotor is levitated about its centre, the angle is good, and the speed is
 //            positive and within the block's window. A block begins with nothing: no step.
-// Ends       speed beyond window and hysteresis: fades over its time constant. Angle lost or
-//            jumped, an axis saturated, orbit grown, current too large, levitation given up: fades
-//            within half a turn (and 0.2 s at most), in step with the angle's flywheel.
+// Ends       speed beyond window and hysteresis: fades over its time constant, a second at most.
+//            Angle lost or jumped, an axis saturated (a fifth of the time is enough), orbit grown
+//            (below what the supervisor trips at), current too large, levitation given up, also
+//            while it fades already: fades within half a turn (and 0.2 s at most), in step with the
+//            angle's flywheel.
 // Again      after a fade of the speed, of the angle or of the levitation when the conditions hold
 //            again; after any other end not before the speed has left the window. A block that
 //            corrects its T may begin kRetries times more after its orbit grew, with what it has
@@ -46,7 +48,9 @@ class SynchronousControl {
  public:
   static constexpr int kRetries = 3;
 
-  SynchronousControl(const SynchronousConfig& config, const RigNumbers& rig);
+  /// `orbit_trip_fraction`: of the clearance, at which the supervisor trips; a block gives way below.
+  SynchronousControl(const SynchronousConfig& config, const RigNumbers& rig,
+                     double orbit_trip_fraction = 0.5);
 
   /// The law starts from rest: so do the blocks.
   void Reset() noexcept;
@@ -86,6 +90,8 @@ class SynchronousControl {
   };
 
   void Supervise(const Conditions& seen) noexcept;
+  void CountSaturation(const Conditions& seen) noexcept;
+  void FadeRunOut(bool wanted) noexcept;
   [[nodiscard]] Ending Trouble(const Block& block, const Conditions& seen) const noexcept;
   [[nodiscard]] bool Calm(const Block& block) const noexcept;
   void Begin(Block& block) noexcept;
@@ -98,12 +104,14 @@ class SynchronousControl {
   AngleFollower angle_;
   double orbit_growth_;
   AxisArray least_orbit_m_{};  // per bearing
-  std::uint32_t saturated_limit_cycles_;
-  std::uint32_t saturated_cycles_{};
+  AxisArray most_orbit_m_{};   // per bearing, below the supervisor's
+  double saturated_limit_cycles_;
+  AxisArray saturated_{};     // per axis, cycles counted back
   AxisArray orbit_now_m_{};   // per bearing, of the turn that goes on
   AxisArray orbit_turn_m_{};  // of the last whole turn
   double turned_{};           // turns since that turn ended
   double run_out_gain_{};
+  bool run_out_fades_{};  // to the end, before it comes again
   std::vector<RunOut> run_outs_;
   std::vector<Block> blocks_;
 };

@@ -42,12 +42,18 @@ MatrixXcd Projection(Index axes, Direction direction) {
   return projection;
 }
 
-/// T M T projects twice, so that T answers to one direction and moves in it alone.
+/// The inverse on what turns one way: B (B^H M B)^-1 B^H, B its orthonormal basis.
 MatrixXcd InverseOf(const MatrixXcd& answer, Direction direction) {
-  const MatrixXcd projection = Projection(answer.rows(), direction);
   if (direction == Direction::kBoth) return Eigen::FullPivLU<MatrixXcd>(answer).inverse();
-  const MatrixXcd inverse = Eigen::FullPivLU<MatrixXcd>(answer).inverse();
-  return projection * inverse * projection;
+  const Index bearings = answer.rows() / 2;
+  const std::complex<double> j(0.0, direction == Direction::kForward ? -1.0 : 1.0);
+  MatrixXcd basis = MatrixXcd::Zero(answer.rows(), bearings);
+  for (Index b = 0; b < bearings; ++b) {
+    basis(2 * b, b) = std::sqrt(0.5);
+    basis(2 * b + 1, b) = j * std::sqrt(0.5);
+  }
+  const MatrixXcd within = basis.adjoint() * answer * basis;
+  return basis * Eigen::FullPivLU<MatrixXcd>(within).inverse() * basis.adjoint();
 }
 
 synchronous::InverseAtSpeed Node(const plant::PlantConfig& rig, const law::LawConfig& law,

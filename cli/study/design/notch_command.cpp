@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "cli/json_file.hpp"
 #include "cli/study/design/design_commands.hpp"
@@ -15,6 +16,7 @@
 #include "cli/text_file.hpp"
 #include "common/random.hpp"
 #include "common/rotational_speed.hpp"
+#include "controller/synchronous/inverse_ladder.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "design/notch/notch_design.hpp"
 #include "report/text/text_table.hpp"
@@ -61,13 +63,21 @@ design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFil
   request.direction = options.direction == "forward"    ? design::Direction::kForward
                       : options.direction == "backward" ? design::Direction::kBackward
                                                         : design::Direction::kBoth;
+  if (rig.numbers.axes() < 2 && request.direction != design::Direction::kBoth) {
+    throw Problem(ExitStatus::kUsage, "--direction: the rig has one axis, which turns no way");
+  }
+  if (!(block.from_rad_per_s > block.hysteresis_rad_per_s)) {
+    throw Problem(
+        ExitStatus::kUsage,
+        "--from-rpm must be above --hysteresis-rpm: a block ends before the rotor stands");
+  }
   if (!(block.to_rad_per_s > block.from_rad_per_s)) {
     throw Problem(
         ExitStatus::kUsage,
         fmt::format("--to-rpm: found {:.6g}, must be above --from-rpm {:.6g}",
                     RadPerSToRpm(block.to_rad_per_s), RadPerSToRpm(block.from_rad_per_s)));
   }
-  const double nyquist_rpm = RadPerSToRpm(3.14159265358979 / rig.numbers.period_s()) / block.order;
+  const double nyquist_rpm = RadPerSToRpm(std::numbers::pi / rig.numbers.period_s()) / block.order;
   if (RadPerSToRpm(block.to_rad_per_s + block.hysteresis_rad_per_s) >= nyquist_rpm) {
     throw Problem(
         ExitStatus::kUsage,
@@ -164,6 +174,19 @@ void Put(synchronous::SynchronousConfig& control, const synchronous::BlockConfig
   control.blocks.push_back(block);
 }
 
+/// Beside the others of the file.
+void RefuseSharedWork(const synchronous::SynchronousConfig& control,
+                      const synchronous::BlockConfig& block) {
+  for (const synchronous::BlockConfig& other : control.blocks) {
+    if (other.name == block.name || !synchronous::ShareWork(other, block)) continue;
+    throw BadInput(fmt::format(
+        "block {} of the controller has the same order and acts from {:.0f} to {:.0f} rpm, "
+        "hysteresis {:.0f} rpm: leave a gap between the two windows, or take its --name",
+        other.name, RadPerSToRpm(other.from_rad_per_s), RadPerSToRpm(other.to_rad_per_s),
+        RadPerSToRpm(other.hysteresis_rad_per_s)));
+  }
+}
+
 ExitStatus Run(const NotchOptions& options) {
   for (const std::string& path : {options.out_path, options.loop.json_path}) {
     session::CheckOutputPath(path, {});
@@ -171,6 +194,7 @@ ExitStatus Run(const NotchOptions& options) {
   const auto [rig, controller, delay] = LoadLoop(options.loop);
   design::NotchRequest request = RequestOf(options, rig);
   config::ControllerFile file = controller.file;
+  RefuseSharedWork(file.synchronous, request.block);
   request.block = design::WithInverse(rig, file.law, request);
   const synchronous::BlockConfig& block = request.block;
   Put(file.synchronous, block);

@@ -103,7 +103,7 @@ inline ControllerFile SynchronousController(const RigNumbers& rig) {
     synchronous::BlockConfig& block = control.blocks.emplace_back();
     block.target = target;
     block.name = target == synchronous::Target::kCurrent ? "low" : "high";
-    block.order = 3.0;
+    block.order = target == synchronous::Target::kCurrent ? 3.0 : 4.0;
     block.time_constant_s = 0.25;
     block.from_rad_per_s = RpmToRadPerS(1500.0);
     block.to_rad_per_s = RpmToRadPerS(4500.0);

@@ -156,7 +156,7 @@ TEST(RoundTrip, OfSynchronousControlKeepsEveryNumber) {
     const synchronous::BlockConfig& read = back.synchronous.blocks[k];
     const synchronous::BlockConfig& written = controller.synchronous.blocks[k];
     EXPECT_EQ(read.name, written.name);
-    EXPECT_EQ(read.order, 3.0);
+    EXPECT_EQ(read.order, written.order);
     EXPECT_EQ(read.target, written.target);
     EXPECT_EQ(read.time_constant_s, 0.25);
     EXPECT_EQ(read.from_rad_per_s, written.from_rad_per_s);
@@ -198,6 +198,13 @@ TEST(RoundTrip, OfSynchronousControlNamesWhatCannotBe) {
               HasSubstr("the coils leave"));
   EXPECT_THAT(refusal([](auto& c) { c.angle.source = synchronous::AngleSource::kSpeed; }),
               HasSubstr("run_outs need an angle that is measured"));
+  EXPECT_THAT(refusal([](auto& c) { c.blocks[1].order = 3.0; }),
+              HasSubstr("act at the same speeds"));
+  EXPECT_THAT(refusal([](auto& c) { c.blocks[1].name = c.blocks[0].name; }),
+              HasSubstr("two blocks have the name low"));
+  EXPECT_THAT(refusal([](auto& c) { c.blocks[1].order = 2.5; }), HasSubstr("a whole number"));
+  EXPECT_THAT(refusal([](auto& c) { c.blocks[0].hysteresis_rad_per_s = 1e3; }),
+              HasSubstr("must be above hysteresis_rpm"));
   EXPECT_THAT(refusal([](auto& c) { c.angle.bandwidth_hz = 900.0; }),
               HasSubstr("a fiftieth of the sampling frequency"));
 }
