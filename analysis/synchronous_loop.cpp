@@ -63,8 +63,8 @@ bool ActsAt(const synchronous::BlockConfig& block, double speed_rad_per_s) {
          speed_rad_per_s <= block.to_rad_per_s + block.hysteresis_rad_per_s;
 }
 
-/// A block at one speed: z <- e^{j a} (z + k T e), a = n w T_s, k = 2 T_s/tau, in the basis U of what
-/// T can give: z = U q.
+/// A block at one speed: z <- e^{j a} (z + k T e), a = n w T_s, k = 2 T_s/tau, in the basis U of
+/// what T can give: z = U q.
 struct TurningBlock {
   Target target{};
   Eigen::MatrixXcd basis;  ///< U

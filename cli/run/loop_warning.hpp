@@ -22,7 +22,7 @@ namespace levitas::cli {
                                        const std::string& rig_name,
                                        const std::string& controller_name);
 
-/// Why the blocks of synchronous control must not run with this rig (analysis/synchronous_loop.hpp):
+/// Why the blocks of synchronous control must not run with this rig; analysis/synchronous_loop.hpp:
 /// unlike the loop itself they are never tried, nor is what cannot be judged. Empty where all are
 /// stable, or there are none. Costs some 10 ms for each of 25 speeds of a block.
 [[nodiscard]] std::string UnstableBlocksOf(const config::RigFile& rig,

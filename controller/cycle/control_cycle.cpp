@@ -106,8 +106,8 @@ void ControlCycle::Impl::Read(const CycleInputs& in) noexcept {
   seen.held_currents = frame.held_currents;
 }
 
-// Test signals pass where the rotor is levitated about its centre and nothing has tripped; synchronous
-// control acts in the same states.
+// Test signals pass where the rotor is levitated about its centre and nothing has tripped;
+// synchronous control acts in the same states.
 synchronous::Conditions ControlCycle::Impl::SynchronousConditions(
     const supervisor::Decision& decision) const noexcept {
   return {.angle = {.fresh = seen.fresh,

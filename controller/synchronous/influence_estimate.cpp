@@ -113,6 +113,12 @@ void InfluenceEstimate::EndWindow(const InverseLanes& inverse) noexcept {
   }
   const double damped2 = step2 + answer2 * least_change_m_ * least_change_m_ / change2;
   if (!(damped2 > 0.0)) return;
+  Take(answer, step, damped2);
+}
+
+// A + answer step^H / damped2, unless it is out of bounds.
+void InfluenceEstimate::Take(const std::array<Complex, kMaxAxes>& answer,
+                             const std::array<Complex, kMaxAxes>& step, double damped2) noexcept {
   ComplexMatrix tried = answer_;
   bool within = true;
   for (std::size_t to = 0; to < axes_; ++to) {

@@ -6,22 +6,23 @@
 //              w = -T (E_1 - E_0) = A (c_1 - c_0),   A = T M,
 //            A <- A + (w - A dc) dc^H / (dc^H dc + r^2),    (Broyden's update, damped)
 //            r = |w| least_change/|E_1 - E_0|: what noise and other causes may have moved,
-//            and the block adapts with A^-1 T instead of T: (N5) of docs/derivations.md. A = I where
-//            the model is right; it changes little over speed, since T follows the model there.
+//            and the block adapts with A^-1 T instead of T: (N5) of docs/derivations.md. A = I
+//            where the model is right; it changes little over speed, since T follows the model.
 // Window     kTurns whole turns at least, and kLeastS: amplitudes are means over it, so that the
 //            static error and other orders than the block's leave nothing in them.
 // Excited    a pair of windows counts where the error changed by `least_change_m` at least, and the
 //            speed by less than kSteady: over speed the disturbance changes, too.
 // Beginning  until the first pair that counts, and for kFirstWindows windows at most: the block is
 //            to be cautious then, since T may be wrong.
-// Bounded    a correction that takes an element of A further than kMost from the identity, or one of
-//            its inverse beyond kFastest (the block would be so many times faster), is refused; the
+// Bounded    a correction that takes an element of A further than kMost from the identity, or one
+//            of its inverse beyond kFastest (the block would be so many times faster), is refused; the
 //            last one stays.
 // Units      E [m], c [m] or [A]; A has no unit.
 // Thread     loop thread only; no allocation, nothing thrown. A step that ends a window costs the
 //            inverse of one complex matrix of the axes.
 // Not done   learning in a run-up.
 
+#include <array>
 #include <complex>
 #include <cstdint>
 
@@ -70,6 +71,8 @@ class InfluenceEstimate {
   };
 
   void EndWindow(const InverseLanes& inverse) noexcept;
+  void Take(const std::array<std::complex<double>, kMaxAxes>& answer,
+            const std::array<std::complex<double>, kMaxAxes>& step, double damped2) noexcept;
   [[nodiscard]] bool Invert(const ComplexMatrix& answer, ComplexMatrix& inverse) const noexcept;
 
   std::size_t axes_;

@@ -14,9 +14,9 @@
 
 #include <functional>
 
+#include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "design/pid/law_shape.hpp"
 #include "design/pid/requirements.hpp"
-#include "design/drawn_rigs/rig_uncertainty.hpp"
 
 namespace levitas::design {
 

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "controller/law/discrete_law.hpp"
-#include "design/uncertainty/analysis_weights.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
+#include "design/uncertainty/analysis_weights.hpp"
 
 namespace levitas::uncertainty {
 
