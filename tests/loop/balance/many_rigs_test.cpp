@@ -1,5 +1,5 @@
 // What drawn_rigs_test.cpp has in small; the figures of docs/identification.md are these.
-#include "design/uncertainty/healthy_rig.hpp"
+#include "design/drawn_rigs/healthy_rig.hpp"
 #include "tests/loop/balance/drawn_figures.hpp"
 
 namespace levitas::balancing {

@@ -10,7 +10,7 @@
 #include "common/two_pi.hpp"
 #include "configuration/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
-#include "design/uncertainty/rig_uncertainty.hpp"
+#include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "session/recording.hpp"
 
