@@ -15,8 +15,8 @@
 // Beginning  until the first pair that counts, and for kFirstWindows windows at most: the block is
 //            to be cautious then, since T may be wrong.
 // Bounded    a correction that takes an element of A further than kMost from the identity, or one
-//            of its inverse beyond kFastest (the block would be so many times faster), is refused; the
-//            last one stays.
+//            of its inverse beyond kFastest (the block would be so many times faster), is refused;
+//            the last one stays.
 // Units      E [m], c [m] or [A]; A has no unit.
 // Thread     loop thread only; no allocation, nothing thrown. A step that ends a window costs the
 //            inverse of one complex matrix of the axes.

@@ -16,9 +16,10 @@
 //           a condition number of T beyond kMostCondition: a node of the shaft lies between magnet
 //           and sensor there, and no current moves what is read.
 // Judged    at every speed of JudgedSpeeds with kJudged of them, on the file's rig and on each
-//           drawn one: slowest decay above kLeastDecay of the file's rig and above 0 of the drawn ones,
-//           and the poles of the whole sampled loop within the unit circle. A drawn rig that its
-//           law does not hold without the block is counted apart and not held against the block.
+//           drawn one: slowest decay above kLeastDecay of the file's rig and above 0 of the
+//           drawn ones, and the poles of the whole sampled loop within the unit circle. A drawn
+//           rig that its law does not hold without the block is counted apart and not held
+//           against the block.
 // Failure   BadInput when the law's axes do not fit the plant's, or the loop is not stable without
 //           the block at a speed of the window (the speed is named).
 // Thread    any; deterministic for the rigs given.

@@ -30,7 +30,7 @@ struct NotchOptions {
   std::string name{"unbalance"};
   double order{1.0};
   std::string target{"current"};
-  std::string direction{"both"};
+  std::string direction{"all"};
   double from_rpm{}, to_rpm{};  ///< 0: a tenth of the rated speed, the rated speed
   double hysteresis_rpm{30.0};
   double time_constant_s{0.3};
@@ -247,7 +247,7 @@ void AddDesignNotch(CLI::App& design, Action& action) {
       ->check(CLI::IsMember({"current", "vibration"}))
       ->capture_default_str();
   command->add_option("--direction", options->direction, "What turns with the shaft, against it")
-      ->check(CLI::IsMember({"both", "forward", "backward"}))
+      ->check(CLI::IsMember({"all", "forward", "backward"}))
       ->capture_default_str();
   command->add_option("--from-rpm", options->from_rpm, "Acts from here; default: rated speed/10")
       ->check(CLI::PositiveNumber);

@@ -89,8 +89,12 @@ TEST_F(Replaying, ReproducesSynchronousControl) {
   at.speed_rad_per_s = RpmToRadPerS(500.0);
   for (std::size_t i = 0; i < 4; ++i) at.inverse.real[i][i] = -0.5;
   const auto& rig = test::ShippedRig().numbers;
-  const auto records =
-      EventfulRun({rig, controller.law, controller.supervisor, controller.synchronous});
+  testing::RecordedRun run(3, {rig, controller.law, controller.supervisor, controller.synchronous});
+  run.Command(OperatorCommand::kLift);
+  ASSERT_TRUE(run.RunUntil(Mode::kLevitating, 30'000));
+  run.Command(OperatorCommand::kSpin, 600.0, 1000.0);
+  run.Run(25'000);  // ten turns come before the block
+  const auto& records = run.records;
   const bool acted = std::ranges::any_of(records, [](const auto& r) {
     return r.out.synchronous[0].state == synchronous::BlockState::kActing &&
            r.out.synchronous[0].amplitude > 0.0;
