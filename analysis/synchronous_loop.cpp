@@ -58,25 +58,23 @@ Eigen::MatrixXcd RangeOf(const Eigen::MatrixXcd& inverse) {
   return solver.eigenvectors().rightCols(rank);
 }
 
-bool ActsAt(const synchronous::BlockConfig& block, double speed_rad_per_s) {
-  return speed_rad_per_s >= block.from_rad_per_s - block.hysteresis_rad_per_s &&
-         speed_rad_per_s <= block.to_rad_per_s + block.hysteresis_rad_per_s;
-}
-
 /// A block at one speed: z <- e^{j a} (z + k T e), a = n w T_s, k = 2 T_s/tau, in the basis U of
 /// what T can give: z = U q.
 struct TurningBlock {
   Target target{};
-  Eigen::MatrixXcd basis;  ///< U
-  Eigen::MatrixXcd input;  ///< e^{j a} k U^H T
+  Eigen::MatrixXcd basis;    ///< U
+  Eigen::MatrixXcd inverse;  ///< U^H T
   std::complex<double> turn;
+  double rate;  ///< k
 
   TurningBlock(const synchronous::BlockConfig& block, std::size_t axes, double speed_rad_per_s,
                double period_s)
-      : target(block.target), turn(std::polar(1.0, block.order * speed_rad_per_s * period_s)) {
-    const Eigen::MatrixXcd inverse = MatrixOf(synchronous::InverseAt(block, speed_rad_per_s), axes);
-    basis = RangeOf(inverse);
-    input = (turn * 2.0 * period_s / block.time_constant_s) * (basis.adjoint() * inverse);
+      : target(block.target),
+        turn(std::polar(1.0, block.order * speed_rad_per_s * period_s)),
+        rate(2.0 * period_s / block.time_constant_s) {
+    const Eigen::MatrixXcd whole = MatrixOf(synchronous::InverseAt(block, speed_rad_per_s), axes);
+    basis = RangeOf(whole);
+    inverse = basis.adjoint() * whole;
   }
 };
 
@@ -111,7 +109,8 @@ Eigen::MatrixXd LoopWithBlocks(const SampledLoop& loop, const WholeLaw& law,
   all.block(states, states, of_law, of_law) += law.a;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const Index rank = blocks[k].basis.cols();
-    Eigen::MatrixXcd next = -blocks[k].input * read.cast<std::complex<double>>();
+    Eigen::MatrixXcd next =
+        -(blocks[k].turn * blocks[k].rate) * blocks[k].inverse * read.cast<std::complex<double>>();
     next.middleCols(first[k], rank).diagonal().array() += blocks[k].turn;
     next.middleCols(first[k] + rank, rank).diagonal().array() +=
         blocks[k].turn * std::complex<double>(0.0, 1.0);
@@ -125,19 +124,22 @@ double LargestModulus(const Eigen::MatrixXd& matrix) {
   return numerics::EigenvaluesOf(matrix).cwiseAbs().maxCoeff();
 }
 
-/// Eigenvalues of A + j B and their conjugates: those of the real [A -B; B A].
-Eigen::VectorXcd WithConjugates(const Eigen::MatrixXcd& matrix) {
+}  // namespace
+
+// Those of the real [A -B; B A].
+Eigen::VectorXcd EigenvaluesWithConjugates(const Eigen::MatrixXcd& matrix) {
   const Index n = matrix.rows();
   Eigen::MatrixXd real(2 * n, 2 * n);
   real << matrix.real(), -matrix.imag(), matrix.imag(), matrix.real();
   return numerics::EigenvaluesOf(real);
 }
 
-}  // namespace
+double LargestPoleModulus(const SampledLoop& loop) {
+  return LargestModulus(ClosedLoopMatrix(loop));
+}
 
-Eigen::MatrixXcd SynchronousAnswer(const SampledLoop& loop, double speed_rad_per_s, double order,
-                                   Target target) {
-  const LoopResponse response(loop);
+Eigen::MatrixXcd SynchronousAnswer(const LoopResponse& response, double speed_rad_per_s,
+                                   double order, Target target) {
   const double hz = order * speed_rad_per_s / (2.0 * std::numbers::pi);
   const Eigen::MatrixXcd sensitivity = response.Sensitivity(hz);
   if (target == Target::kCurrent) return sensitivity;
@@ -182,28 +184,21 @@ SynchronousJudgement JudgeSynchronous(const SampledLoop& loop,
   SynchronousJudgement made;
   made.speed_rad_per_s = speed_rad_per_s;
   const auto axes = static_cast<std::size_t>(loop.plant.c.rows());
+  const LoopResponse response(loop);
   std::vector<TurningBlock> acting;
   for (const synchronous::BlockConfig& block : control.blocks) {
     BlockJudgement& judged = made.blocks.emplace_back();
-    judged.acts = ActsAt(block, speed_rad_per_s);
+    judged.acts = synchronous::ActsAt(block, speed_rad_per_s);
     if (!judged.acts) continue;
     const TurningBlock& turning = acting.emplace_back(block, axes, speed_rad_per_s, loop.period_s);
-    const Eigen::MatrixXcd inverse = MatrixOf(synchronous::InverseAt(block, speed_rad_per_s), axes);
     const Eigen::MatrixXcd product =
-        turning.basis.adjoint() * inverse *
-        SynchronousAnswer(loop, speed_rad_per_s, block.order, block.target) * turning.basis;
-    if (product.size() == 0) {  // T gives nothing, or is no number
-      judged.slowest_decay = std::numeric_limits<double>::quiet_NaN();
-      continue;
-    }
-    const Eigen::VectorXcd values = WithConjugates(product);
-    judged.slowest_decay = values.real().minCoeff();
-    judged.largest_eigenvalue = values.cwiseAbs().maxCoeff();
+        turning.inverse * SynchronousAnswer(response, speed_rad_per_s, block.order, block.target) *
+        turning.basis;
+    judged.slowest_decay = product.size() == 0  // T gives nothing, or is no number
+                               ? std::numeric_limits<double>::quiet_NaN()
+                               : EigenvaluesWithConjugates(product).real().minCoeff();
   }
-  const WholeLaw law = WholeOf(loop);
-  made.largest_pole_modulus_without = LargestModulus(LoopWithBlocks(loop, law, {}));
-  made.largest_pole_modulus = acting.empty() ? made.largest_pole_modulus_without
-                                             : LargestModulus(LoopWithBlocks(loop, law, acting));
+  made.largest_pole_modulus = LargestModulus(LoopWithBlocks(loop, WholeOf(loop), acting));
   return made;
 }
 
@@ -241,9 +236,9 @@ std::string UnstableBlocks(const plant::PlantConfig& plant, const law::LawConfig
     double largest = 0.0;
     for (const double speed : JudgedSpeeds(alone, kSpeeds, TableSpeeds::kLeftOut)) {
       // All blocks act together where their windows overlap.
-      const SynchronousJudgement judged =
-          JudgeSynchronous(CloseLoop(plant, law, speed), control, speed);
-      if (judged.stable() || !(judged.largest_pole_modulus_without < 1.0)) continue;
+      const SampledLoop loop = CloseLoop(plant, law, speed);
+      const SynchronousJudgement judged = JudgeSynchronous(loop, control, speed);
+      if (judged.stable() || !(LargestPoleModulus(loop) < 1.0)) continue;
       unstable_rpm.push_back(RadPerSToRpm(speed));
       largest = std::max(largest, judged.largest_pole_modulus);
       for (const BlockJudgement& each : judged.blocks) {

@@ -19,30 +19,36 @@
 #include <complex>
 #include <vector>
 
+#include "analysis/loop_response.hpp"
 #include "analysis/sampled_loop.hpp"
 #include "controller/synchronous/synchronous_config.hpp"
 
 namespace levitas::analysis {
 
-[[nodiscard]] Eigen::MatrixXcd SynchronousAnswer(const SampledLoop& loop, double speed_rad_per_s,
-                                                 double order, synchronous::Target target);
+[[nodiscard]] Eigen::MatrixXcd SynchronousAnswer(const LoopResponse& response,
+                                                 double speed_rad_per_s, double order,
+                                                 synchronous::Target target);
 
 [[nodiscard]] Eigen::MatrixXcd MatrixOf(const synchronous::ComplexMatrix& matrix, std::size_t axes);
 [[nodiscard]] synchronous::ComplexMatrix ComplexMatrixOf(const Eigen::MatrixXcd& matrix);
 
 struct BlockJudgement {
-  bool acts{};                  ///< its window holds this speed
-  double slowest_decay{};       ///< smallest real part of the eigenvalues of T times the answer
-  double largest_eigenvalue{};  ///< largest modulus of them
+  bool acts{};             ///< its window holds this speed
+  double slowest_decay{};  ///< smallest real part of the eigenvalues of T times the answer
 };
 
 struct SynchronousJudgement {
   double speed_rad_per_s{};
   std::vector<BlockJudgement> blocks;
-  double largest_pole_modulus{};          ///< of the loop with all blocks that act
-  double largest_pole_modulus_without{};  ///< of the loop without any
+  double largest_pole_modulus{};  ///< of the loop with all blocks that act
   [[nodiscard]] bool stable() const noexcept;
 };
+
+/// Of the loop without any block.
+[[nodiscard]] double LargestPoleModulus(const SampledLoop& loop);
+
+/// Of A + j B and their conjugates.
+[[nodiscard]] Eigen::VectorXcd EigenvaluesWithConjugates(const Eigen::MatrixXcd& matrix);
 
 /// At one speed; `loop` closed at that speed.
 [[nodiscard]] SynchronousJudgement JudgeSynchronous(const SampledLoop& loop,

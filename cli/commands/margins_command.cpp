@@ -126,20 +126,18 @@ std::vector<BlocksAt> JudgeBlocks(const config::RigFile& rig, const config::Cont
     drawn.push_back(uncertainty::At(rig, parameters, place).plant);
   }
   std::vector<BlocksAt> all;
-  const auto judge = [&](const plant::PlantConfig& plant, double speed) {
-    return analysis::JudgeSynchronous(analysis::CloseLoop(plant, file.law, speed), file.synchronous,
-                                      speed);
-  };
   for (const double speed :
        analysis::JudgedSpeeds(file.synchronous, kSpeeds, analysis::TableSpeeds::kLeftOut)) {
     BlocksAt& at = all.emplace_back();
-    at.rig = judge(rig.plant, speed);
+    at.rig = analysis::JudgeSynchronous(analysis::CloseLoop(rig.plant, file.law, speed),
+                                        file.synchronous, speed);
     for (const plant::PlantConfig& plant : drawn) {
-      const auto judged = judge(plant, speed);
-      if (!(judged.largest_pole_modulus_without < 1.0)) {  // not the blocks' fault
+      const auto loop = analysis::CloseLoop(plant, file.law, speed);
+      if (!(analysis::LargestPoleModulus(loop) < 1.0)) {  // not the blocks' fault
         ++at.not_held;
         continue;
       }
+      const auto judged = analysis::JudgeSynchronous(loop, file.synchronous, speed);
       at.worst_modulus = std::max(at.worst_modulus, judged.largest_pole_modulus);
       for (const auto& block : judged.blocks) {
         if (block.acts) at.worst_decay = std::min(at.worst_decay, block.slowest_decay);

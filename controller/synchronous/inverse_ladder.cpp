@@ -35,6 +35,11 @@ ComplexMatrix InverseAt(const BlockConfig& block, double speed_rad_per_s) {
   return table.back().inverse;
 }
 
+bool ActsAt(const BlockConfig& block, double speed_rad_per_s) noexcept {
+  return speed_rad_per_s >= block.from_rad_per_s - block.hysteresis_rad_per_s &&
+         speed_rad_per_s <= block.to_rad_per_s + block.hysteresis_rad_per_s;
+}
+
 bool ShareWork(const BlockConfig& one, const BlockConfig& other) noexcept {
   return one.order == other.order &&
          one.from_rad_per_s - one.hysteresis_rad_per_s <=

@@ -25,6 +25,9 @@ struct InverseLanes {
 /// T of a block at a speed, as the table says it.
 [[nodiscard]] ComplexMatrix InverseAt(const BlockConfig& block, double speed_rad_per_s);
 
+/// Whether the window holds this speed, hysteresis included.
+[[nodiscard]] bool ActsAt(const BlockConfig& block, double speed_rad_per_s) noexcept;
+
 /// Whether both are of one order and act at some speed, hysteresis included.
 [[nodiscard]] bool ShareWork(const BlockConfig& one, const BlockConfig& other) noexcept;
 

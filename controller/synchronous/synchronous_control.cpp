@@ -106,9 +106,7 @@ Ending SynchronousControl::Trouble(const Block& block, const Conditions& seen) c
   if (block.target == Target::kVibration && !(block.status.amplitude <= block.largest_current_a)) {
     return Ending::kCurrentTooLarge;
   }
-  const double speed = seen.believed_speed_rad_per_s;
-  if (angle_.speed_rad_per_s() <= 0.0 || !(speed >= block.from - block.hysteresis) ||
-      !(speed <= block.to + block.hysteresis)) {
+  if (angle_.speed_rad_per_s() <= 0.0 || block.Left(seen.believed_speed_rad_per_s)) {
     return Ending::kSpeed;
   }
   return Ending::kNone;
@@ -187,8 +185,7 @@ void SynchronousControl::Supervise(const Conditions& seen) noexcept {
   const double speed = seen.believed_speed_rad_per_s;
   for (Block& block : blocks_) {
     const bool within = speed >= block.from && speed <= block.to;
-    const bool left =
-        !(speed >= block.from - block.hysteresis && speed <= block.to + block.hysteresis);
+    const bool left = block.Left(speed);
     Ending why = Ending::kNone;
     switch (block.status.state) {
       case BlockState::kOff:

@@ -72,6 +72,10 @@ class SynchronousControl {
  private:
   struct Block {
     Block(const BlockConfig& config, std::size_t axes, double period_s);
+    /// Whether the speed is beyond the window and its hysteresis.
+    [[nodiscard]] bool Left(double speed_rad_per_s) const noexcept {
+      return !(speed_rad_per_s >= from - hysteresis && speed_rad_per_s <= to + hysteresis);
+    }
     InverseLadder inverse;
     double order;
     Target target;

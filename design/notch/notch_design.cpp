@@ -14,7 +14,6 @@
 #include "controller/synchronous/inverse_ladder.hpp"
 #include "design/notch/synchronous_force.hpp"
 #include "numerics/dense/factorisations.hpp"
-#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::design {
 namespace {
@@ -27,31 +26,26 @@ constexpr std::size_t kFirstSpeeds = 9;
 
 MatrixXcd AnswerAt(const plant::PlantConfig& rig, const law::LawConfig& law,
                    const BlockConfig& block, double speed_rad_per_s) {
-  return analysis::SynchronousAnswer(analysis::CloseLoop(rig, law, speed_rad_per_s),
-                                     speed_rad_per_s, block.order, block.target);
+  const analysis::LoopResponse response(analysis::CloseLoop(rig, law, speed_rad_per_s));
+  return analysis::SynchronousAnswer(response, speed_rad_per_s, block.order, block.target);
 }
 
-/// Onto what turns one way: of amplitudes (a, b) of x and y, forward is b = -j a.
-MatrixXcd Projection(Index axes, Direction direction) {
-  MatrixXcd projection = MatrixXcd::Identity(axes, axes);
-  if (direction == Direction::kBoth) return projection;
-  const std::complex<double> j(0.0, direction == Direction::kForward ? 1.0 : -1.0);
-  for (Index x = 0; x + 1 < axes; x += 2) {
-    projection.block(x, x, 2, 2) << 0.5, 0.5 * j, -0.5 * j, 0.5;
-  }
-  return projection;
-}
-
-/// The inverse on what turns one way: B (B^H M B)^-1 B^H, B its orthonormal basis.
-MatrixXcd InverseOf(const MatrixXcd& answer, Direction direction) {
-  if (direction == Direction::kBoth) return Eigen::FullPivLU<MatrixXcd>(answer).inverse();
-  const Index bearings = answer.rows() / 2;
+/// Orthonormal basis of the amplitudes that a block moves: of (a, b) of x and y, forward is
+/// b = -j a.
+MatrixXcd BasisOf(Index axes, Direction direction) {
+  if (direction == Direction::kBoth) return MatrixXcd::Identity(axes, axes);
   const std::complex<double> j(0.0, direction == Direction::kForward ? -1.0 : 1.0);
-  MatrixXcd basis = MatrixXcd::Zero(answer.rows(), bearings);
-  for (Index b = 0; b < bearings; ++b) {
+  MatrixXcd basis = MatrixXcd::Zero(axes, axes / 2);
+  for (Index b = 0; b < basis.cols(); ++b) {
     basis(2 * b, b) = std::sqrt(0.5);
     basis(2 * b + 1, b) = j * std::sqrt(0.5);
   }
+  return basis;
+}
+
+/// The inverse on those: B (B^H M B)^-1 B^H.
+MatrixXcd InverseOf(const MatrixXcd& answer, Direction direction) {
+  const MatrixXcd basis = BasisOf(answer.rows(), direction);
   const MatrixXcd within = basis.adjoint() * answer * basis;
   return basis * Eigen::FullPivLU<MatrixXcd>(within).inverse() * basis.adjoint();
 }
@@ -68,24 +62,21 @@ double Departure(const plant::PlantConfig& rig, const law::LawConfig& law, const
   const MatrixXcd answer = AnswerAt(rig, law, block, speed_rad_per_s);
   const MatrixXcd inverse = analysis::MatrixOf(synchronous::InverseAt(block, speed_rad_per_s),
                                                static_cast<std::size_t>(answer.rows()));
-  const MatrixXcd projection = Projection(answer.rows(), direction);
-  const MatrixXcd off = projection *
-                        (inverse * answer - MatrixXcd::Identity(answer.rows(), answer.rows())) *
-                        projection;
-  Eigen::MatrixXd real(2 * off.rows(), 2 * off.rows());
-  real << off.real(), -off.imag(), off.imag(), off.real();
-  return numerics::EigenvaluesOf(real).cwiseAbs().maxCoeff();
+  const MatrixXcd basis = BasisOf(answer.rows(), direction);
+  const MatrixXcd off =
+      basis.adjoint() * inverse * answer * basis - MatrixXcd::Identity(basis.cols(), basis.cols());
+  return analysis::EigenvaluesWithConjugates(off).cwiseAbs().maxCoeff();
 }
 
 void RefuseUnheld(const plant::PlantConfig& rig, const law::LawConfig& law,
                   double speed_rad_per_s) {
   const auto loop = analysis::CloseLoop(rig, law, speed_rad_per_s);
-  const auto judged = analysis::JudgeSynchronous(loop, {}, speed_rad_per_s);
-  if (judged.largest_pole_modulus < 1.0 && loop.point.failure.empty()) return;
+  const double modulus = analysis::LargestPoleModulus(loop);
+  if (modulus < 1.0 && loop.point.failure.empty()) return;
   throw BadInput(fmt::format(
       "the loop is not stable at {:.0f} rpm without any synchronous control (largest |z| {:.6f}): "
       "choose --from-rpm and --to-rpm where it is, or another law (amb margins shows both)",
-      RadPerSToRpm(speed_rad_per_s), judged.largest_pole_modulus));
+      RadPerSToRpm(speed_rad_per_s), modulus));
 }
 
 }  // namespace
@@ -183,8 +174,9 @@ void AddSize(const config::RigFile& rig, const analysis::SampledLoop& loop,
   const auto axes = static_cast<std::size_t>(loop.plant.c.rows());
   const MatrixXcd inverse = analysis::MatrixOf(synchronous::InverseAt(block, speed), axes);
   at.growth = analysis::LargestSingularValue(inverse);
+  const analysis::LoopResponse response(loop);
   at.condition = at.growth * analysis::LargestSingularValue(analysis::SynchronousAnswer(
-                                 loop, speed, block.order, block.target));
+                                 response, speed, block.order, block.target));
   if (block.order != 1.0) return;
   const Eigen::VectorXcd open_m = UnbalanceAtSensors(rig, speed);
   if (open_m.size() == 0) return;
@@ -192,7 +184,6 @@ void AddSize(const config::RigFile& rig, const analysis::SampledLoop& loop,
     at.orbit_m = LargestRadius(open_m);
     return;
   }
-  const analysis::LoopResponse response(loop);
   const Eigen::VectorXcd left_m = response.Sensitivity(speed / kTwoPi) * open_m;
   at.current_a = (inverse * left_m).cwiseAbs().maxCoeff();
 }
@@ -216,12 +207,12 @@ NotchFigures JudgeNotch(const config::RigFile& rig, const std::vector<config::Ri
     AddSize(rig, loop, request.block, at);
     at.refused = WhyRefused(at, request);
     for (std::size_t n = 0; n < drawn.size() && at.allowed(); ++n) {
-      const auto judged = analysis::JudgeSynchronous(
-          analysis::CloseLoop(drawn[n].plant, law, speed), control, speed);
-      if (!(judged.largest_pole_modulus_without < 1.0)) {
+      const auto drawn_loop = analysis::CloseLoop(drawn[n].plant, law, speed);
+      if (!(analysis::LargestPoleModulus(drawn_loop) < 1.0)) {
         unheld[n] = true;
         continue;
       }
+      const auto judged = analysis::JudgeSynchronous(drawn_loop, control, speed);
       at.worst_decay = std::min(at.worst_decay, judged.blocks.front().slowest_decay);
       at.largest_pole_modulus = std::max(at.largest_pole_modulus, judged.largest_pole_modulus);
     }
