@@ -14,7 +14,6 @@
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
 #include "cli/options/requirement.hpp"
-#include "common/random.hpp"
 #include "common/rotational_speed.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "session/output_path.hpp"
@@ -118,21 +117,16 @@ std::vector<BlocksAt> JudgeBlocks(const config::RigFile& rig, const config::Cont
   constexpr std::size_t kSpeeds = 9;
   constexpr std::size_t kDrawn = 10;
   constexpr std::size_t kModes = 4;
-  const auto parameters = uncertainty::FromTolerances(rig, kModes);
-  Random draw(1);
-  std::vector<plant::PlantConfig> drawn;
-  for (std::size_t n = 0; n < kDrawn; ++n) {
-    const auto place = uncertainty::DrawPlace(draw, parameters.size());
-    drawn.push_back(uncertainty::At(rig, parameters, place).plant);
-  }
+  const auto drawn =
+      uncertainty::DrawRigs(rig, uncertainty::FromTolerances(rig, kModes), kDrawn, 1);
   std::vector<BlocksAt> all;
   for (const double speed :
        analysis::JudgedSpeeds(file.synchronous, kSpeeds, analysis::TableSpeeds::kLeftOut)) {
     BlocksAt& at = all.emplace_back();
     at.rig = analysis::JudgeSynchronous(analysis::CloseLoop(rig.plant, file.law, speed),
                                         file.synchronous, speed);
-    for (const plant::PlantConfig& plant : drawn) {
-      const auto loop = analysis::CloseLoop(plant, file.law, speed);
+    for (const config::RigFile& other : drawn) {
+      const auto loop = analysis::CloseLoop(other.plant, file.law, speed);
       if (!(analysis::LargestPoleModulus(loop) < 1.0)) {  // not the blocks' fault
         ++at.not_held;
         continue;

@@ -14,7 +14,6 @@ namespace {
 using namespace unit;
 
 constexpr std::size_t kMaxFilters = 8;
-constexpr std::array<std::string_view, 2> kNoYes{"false", "true"};
 
 void Describe(Visitor& v, law::AxisLawConfig& law, double nyquist_hz) {
   const auto below_nyquist = [&](double frequency_hz, std::string_view key) {
@@ -46,12 +45,11 @@ void Describe(Visitor& v, law::AxisLawConfig& law, double nyquist_hz) {
                {"pole_damping", kOne, 0.001, 10, kRequired, "zp, damping ratio of the denominator"},
                notch.pole_damping);
            below_nyquist(notch.frequency_hz, "frequency_hz");
-           std::size_t prewarp = notch.prewarp ? 1 : 0;
-           v.Choice({"prewarp", kNoYes, kNoYes[0],
-                     "true: sampled, it stands at this frequency; false: below it, by Tustin's "
-                     "rule, as the gains of published laws are given"},
-                    prewarp);
-           notch.prewarp = prewarp == 1;
+           DescribeSwitch(
+               v, "prewarp",
+               "true: sampled, it stands at this frequency; false: below it, by Tustin's "
+               "rule, as the gains of published laws are given",
+               notch.prewarp);
          });
 }
 

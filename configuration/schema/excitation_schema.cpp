@@ -117,6 +117,19 @@ void SpreadOverAxes(std::vector<scenario::Excitation>& excitations, const RigNum
   excitations = std::move(spread);
 }
 
+void DescribeSwitch(Visitor& v, std::string_view key, std::string_view meaning, bool& on) {
+  constexpr std::array<std::string_view, 2> kWords{"false", "true"};
+  std::size_t word = on ? 1 : 0;
+  v.Choice({key, kWords, kWords[0], meaning}, word);
+  on = word == 1;
+}
+
+void DescribeAxis(Visitor& v, std::string_view key, std::string_view meaning, const RigNumbers& rig,
+                  std::size_t& axis) {
+  const std::vector<std::string_view> names(rig.channels.begin(), rig.channels.end());
+  v.Choice({key, names, kRequired, meaning}, axis);
+}
+
 void DescribeChannel(Visitor& v, const RigNumbers& rig, std::string& channel, std::size_t& axis) {
   std::vector<std::string_view> names(rig.channels.begin(), rig.channels.end());
   if (names.empty()) names.push_back(channel);  // written without its rig

@@ -37,6 +37,11 @@ void SpreadOverAxes(std::vector<scenario::Excitation>& excitations, const RigNum
 /// Hold time, test signals and orbit limit of a step.
 void DescribeExcitations(Visitor& v, scenario::Step& step, const RigNumbers& rig);
 void Describe(Visitor& v, ScheduledRigEvent& event, const RigNumbers& rig);
+/// An axis of the rig by its channel's name, under any key.
+void DescribeAxis(Visitor& v, std::string_view key, std::string_view meaning, const RigNumbers& rig,
+                  std::size_t& axis);
+/// true or false; left out: false.
+void DescribeSwitch(Visitor& v, std::string_view key, std::string_view meaning, bool& on);
 /// Reads and writes the channel of something that a scenario does to one axis.
 void DescribeChannel(Visitor& v, const RigNumbers& rig, std::string& channel, std::size_t& axis);
 /// Refuses a plane beyond the end of the shaft; silent while the shaft itself is not known.

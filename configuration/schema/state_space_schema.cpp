@@ -22,12 +22,6 @@ struct Coupling {
   double second{};
 };
 
-void DescribeChannel(Visitor& v, std::string_view key, std::string_view meaning,
-                     const RigNumbers& rig, std::size_t& axis) {
-  const std::vector<std::string_view> names(rig.channels.begin(), rig.channels.end());
-  v.Choice({key, names, kRequired, meaning}, axis);
-}
-
 void DescribeCouplings(Visitor& v, const ListField& field, const RigNumbers& rig, bool pair,
                        AxisArray& first, AxisArray& second) {
   std::vector<Coupling> couplings;
@@ -36,7 +30,7 @@ void DescribeCouplings(Visitor& v, const ListField& field, const RigNumbers& rig
   }
   first = second = {};
   v.List(field, couplings, [&](Coupling& coupling, std::size_t) {
-    DescribeChannel(v, "channel", "axis of the rig", rig, coupling.axis);
+    DescribeAxis(v, "channel", "axis of the rig", rig, coupling.axis);
     v.Number({"first", kOne, -kLargest, kLargest, kRequired, "coefficient of the first state"},
              coupling.first);
     v.Number({"second", kOne, -kLargest, kLargest, 0, "coefficient of the second state"},
@@ -107,8 +101,8 @@ void DescribeDirect(Visitor& v, law::StateSpaceConfig& law, const RigNumbers& ri
   law.direct = {};
   v.List({"direct", 0, kMaxAxes * kMaxAxes, "what passes at once (an element of D each)"}, entries,
          [&](Direct& entry, std::size_t) {
-           DescribeChannel(v, "output", "axis driven", rig, entry.output);
-           DescribeChannel(v, "input", "axis read", rig, entry.input);
+           DescribeAxis(v, "output", "axis driven", rig, entry.output);
+           DescribeAxis(v, "input", "axis read", rig, entry.input);
            v.Number({"gain", kOne, -kLargest, kLargest, kRequired, "of this path"}, entry.gain);
            double& element = law.direct[entry.output][entry.input];
            v.RefuseIf(element != 0.0, "input", "this path has been given already");

@@ -19,12 +19,6 @@ constexpr double kLargestElement =
 constexpr std::size_t kMostTableSpeeds = 64;
 constexpr double kFastestTurningRpm = 1e6;
 
-void DescribeAxis(Visitor& v, std::string_view key, std::string_view meaning, const RigNumbers& rig,
-                  std::size_t& axis) {
-  const std::vector<std::string_view> names(rig.channels.begin(), rig.channels.end());
-  v.Choice({key, names, kRequired, meaning}, axis);
-}
-
 struct Element {
   std::size_t to{}, from{};
   double real{}, imaginary{};
@@ -113,12 +107,9 @@ void DescribeBlock(Visitor& v, synchronous::BlockConfig& block, const RigNumbers
                fmt::format("found {:.6g} A, the coils leave {:.6g} A to both sides of the bias",
                            block.largest_current_a, limit_a));
   });
-  constexpr std::array<std::string_view, 2> kNoYesOfBlock{"false", "true"};
-  std::size_t adaptive = block.adaptive ? 1 : 0;
-  v.Choice({"adaptive", kNoYesOfBlock, kNoYesOfBlock[0],
-            "true: T is corrected by what the error answers while the block runs"},
-           adaptive);
-  block.adaptive = adaptive == 1;
+  DescribeSwitch(v, "adaptive",
+                 "true: T is corrected by what the error answers while the block runs",
+                 block.adaptive);
   v.RefuseIf(block.adaptive && block.order != std::floor(block.order), "adaptive",
              "only an order that is a whole number: amplitudes are taken over whole turns");
   v.When(block.adaptive, "with adaptive: true", [&] {

@@ -179,4 +179,16 @@ config::RigFile At(const config::RigFile& rig, const std::vector<Parameter>& par
   return out;
 }
 
+std::vector<config::RigFile> DrawRigs(const config::RigFile& rig,
+                                      const std::vector<Parameter>& parameters, std::size_t count,
+                                      std::uint64_t seed) {
+  Random draw(seed);
+  std::vector<config::RigFile> rigs;
+  rigs.reserve(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    rigs.push_back(At(rig, parameters, DrawPlace(draw, parameters.size())));
+  }
+  return rigs;
+}
+
 }  // namespace levitas::uncertainty

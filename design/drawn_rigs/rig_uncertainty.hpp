@@ -63,4 +63,9 @@ struct IdentifiedDeviations {
                                  const std::vector<Parameter>& parameters,
                                  const std::vector<double>& place);
 
+/// So many rigs, every parameter of each drawn by DrawPlace.
+[[nodiscard]] std::vector<config::RigFile> DrawRigs(const config::RigFile& rig,
+                                                    const std::vector<Parameter>& parameters,
+                                                    std::size_t count, std::uint64_t seed);
+
 }  // namespace levitas::uncertainty

@@ -8,11 +8,12 @@
 
 #include "analysis/loop_response.hpp"
 #include "analysis/synchronous_loop.hpp"
+#include "common/ellipse.hpp"
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
-#include "design/notch/synchronous_force.hpp"
+#include "design/uncertainty/uncertain_plant.hpp"
 #include "numerics/dense/factorisations.hpp"
 
 namespace levitas::design {
@@ -177,11 +178,15 @@ void AddSize(const config::RigFile& rig, const analysis::SampledLoop& loop,
   const analysis::LoopResponse response(loop);
   at.condition = at.growth * analysis::LargestSingularValue(analysis::SynchronousAnswer(
                                  response, speed, block.order, block.target));
-  if (block.order != 1.0) return;
-  const Eigen::VectorXcd open_m = UnbalanceAtSensors(rig, speed);
-  if (open_m.size() == 0) return;
+  const bool known =
+      block.order == 1.0 && rig.plant.shafts.empty() && axes > 1 && !rig.plant.unbalance.empty();
+  if (!known) return;
+  const Eigen::VectorXcd open_m =
+      uncertainty::UncertainPlant(rig, {}, speed).PositionOf(rig.plant.unbalance, speed);
   if (block.target == synchronous::Target::kCurrent) {
-    at.orbit_m = LargestRadius(open_m);
+    for (Index x = 0; x + 1 < open_m.size(); x += 2) {
+      at.orbit_m = std::max(at.orbit_m, LargestRadius(open_m[x], open_m[x + 1]));
+    }
     return;
   }
   const Eigen::VectorXcd left_m = response.Sensitivity(speed / kTwoPi) * open_m;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/ellipse.hpp"
 #include "common/two_pi.hpp"
 #include "design/uncertainty/uncertain_plant.hpp"
 #include "numerics/dense/factorisations.hpp"
@@ -13,11 +14,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
-
-double RadiusOf(Complex x, Complex y) {
-  const Complex j(0.0, 1.0);
-  return 0.5 * (std::abs(x + j * y) + std::abs(x - j * y));
-}
 
 }  // namespace
 
@@ -34,12 +30,7 @@ UnbalanceResponse::UnbalanceResponse(const config::RigFile& rig, double third_n,
     const SampledPlant sampled(rig, w);
     const uncertainty::UncertainPlant forced(rig, {}, w);
     const double hz = w / kTwoPi;
-    Harmonic first{w, sampled.AtHz(hz), Eigen::VectorXcd::Zero(sampled.axes())};
-    for (const auto& mass : rig.plant.unbalance) {
-      const Complex force = mass.moment_kg_m * w * w * std::polar(1.0, mass.phase_rad);
-      first.position_m += forced.PositionOf(hz, mass.z_m, force, -j * force);
-    }
-    harmonics_.push_back(std::move(first));
+    harmonics_.push_back({w, sampled.AtHz(hz), forced.PositionOf(rig.plant.unbalance, w)});
     if (third_n > 0.0)
       harmonics_.push_back(
           {w, sampled.AtHz(3.0 * hz), forced.PositionOf(3.0 * hz, 0.0, third_n, j * third_n)});
@@ -59,7 +50,7 @@ UnbalanceFigures UnbalanceResponse::Of(const std::vector<law::DiscreteLaw>& laws
       loop.diagonal().array() += 1.0;
       const Eigen::VectorXcd y = loop.inverse() * h.position_m;
       current += (controller * y).cwiseAbs();
-      for (Index b = 0; b < orbit.size(); ++b) orbit(b) += RadiusOf(y(2 * b), y(2 * b + 1));
+      for (Index b = 0; b < orbit.size(); ++b) orbit(b) += LargestRadius(y(2 * b), y(2 * b + 1));
     }
     const double w = harmonics_[i].speed_rad_per_s;
     if (orbit.maxCoeff() > out.orbit_m) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/sampled_loop.hpp"
+#include "common/ellipse.hpp"
 #include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
 #include "numerics/dense/eigenvalues.hpp"
@@ -34,11 +35,6 @@ std::vector<double> GridHz(const uncertainty::AnalysisWeights& weights, int poin
 
 }  // namespace
 
-double LargestRadius(Complex x, Complex y) {
-  const Complex j(0.0, 1.0);
-  return 0.5 * (std::abs(x + j * y) + std::abs(x - j * y));
-}
-
 FigureMaker::FigureMaker(config::RigFile rig, const std::vector<uncertainty::Parameter>& parameters,
                          FigureOptions options)
     : rig_(std::move(rig)), options_(std::move(options)) {
@@ -51,11 +47,7 @@ FigureMaker::FigureMaker(config::RigFile rig, const std::vector<uncertainty::Par
   const Complex j(0.0, 1.0);
   for (const double w : options_.orbit_speeds_rad_per_s) {
     const uncertainty::UncertainPlant plant(rig_, {}, w);
-    Harmonic first{w, plant.At(w / kTwoPi), Eigen::VectorXcd::Zero(plant.axes())};
-    for (const auto& mass : rig_.plant.unbalance) {
-      const Complex force = mass.moment_kg_m * w * w * std::polar(1.0, mass.phase_rad);
-      first.position_m += plant.PositionOf(w / kTwoPi, mass.z_m, force, -j * force);
-    }
+    Harmonic first{w, plant.At(w / kTwoPi), plant.PositionOf(rig_.plant.unbalance, w)};
     Harmonic third{w, plant.At(3.0 * w / kTwoPi), {}};
     third.position_m =
         plant.PositionOf(3.0 * w / kTwoPi, 0.0, options_.third_n, j * options_.third_n);

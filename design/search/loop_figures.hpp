@@ -64,7 +64,4 @@ class FigureMaker {
   std::vector<Harmonic> harmonics_;  ///< a speed's stand side by side
 };
 
-/// Largest radius of x = Re(X e^{jwt}), y = Re(Y e^{jwt}).
-[[nodiscard]] double LargestRadius(std::complex<double> x, std::complex<double> y);
-
 }  // namespace levitas::design

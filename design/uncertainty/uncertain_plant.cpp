@@ -120,6 +120,18 @@ Eigen::VectorXcd UncertainPlant::PositionOf(double hz, double z_m, Complex force
   return read_ * gain.cwiseProduct(inverse_ * force);
 }
 
+Eigen::VectorXcd UncertainPlant::PositionOf(const std::vector<plant::UnbalanceMass>& unbalance,
+                                            double speed_rad_per_s) const {
+  const Complex j(0.0, 1.0);
+  const double w = speed_rad_per_s;
+  Eigen::VectorXcd position_m = Eigen::VectorXcd::Zero(axes());
+  for (const plant::UnbalanceMass& mass : unbalance) {
+    const Complex force = mass.moment_kg_m * w * w * std::polar(1.0, mass.phase_rad);
+    position_m += PositionOf(w / kTwoPi, mass.z_m, force, -j * force);
+  }
+  return position_m;
+}
+
 std::vector<double> UncertainPlant::ModesHz() const {
   std::vector<double> out;
   for (const Complex& pole : poles_)

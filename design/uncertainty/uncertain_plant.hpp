@@ -37,6 +37,9 @@ class UncertainPlant {
   /// Force phasors along x and y at a place of the shaft -> y [m], one entry per axis.
   [[nodiscard]] Eigen::VectorXcd PositionOf(double hz, double z_m, std::complex<double> force_x,
                                             std::complex<double> force_y) const;
+  /// The same of unbalance, at once the speed: amplitudes of e^{j angle}.
+  [[nodiscard]] Eigen::VectorXcd PositionOf(const std::vector<plant::UnbalanceMass>& unbalance,
+                                            double speed_rad_per_s) const;
   [[nodiscard]] Eigen::Index perturbations() const noexcept { return seen_.rows(); }
   [[nodiscard]] Eigen::Index axes() const noexcept { return read_.rows(); }
   /// Natural frequencies of the free rotor at this speed, for the grid.

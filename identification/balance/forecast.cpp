@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "analysis/sampled_loop.hpp"
+#include "common/ellipse.hpp"
 #include "controller/law/law_schedule.hpp"
 #include "identification/balance/predictor.hpp"
 #include "numerics/dense/factorisations.hpp"
@@ -86,12 +87,9 @@ std::vector<SpeedResponse> ResponsesOverSpeed(const BalanceRig& rig, const Eigen
 }
 
 Eigen::VectorXd Radii(const VectorXcd& position) {
-  const Complex j(0.0, 1.0);
   Eigen::VectorXd radii(position.size() / 2);
   for (Index b = 0; b < radii.size(); ++b) {
-    const Complex x = position[2 * b];
-    const Complex y = position[2 * b + 1];
-    radii[b] = 0.5 * (std::abs(x + j * y) + std::abs(x - j * y));
+    radii[b] = LargestRadius(position[2 * b], position[2 * b + 1]);
   }
   return radii;
 }

@@ -14,7 +14,6 @@
 #include "cli/study/design/judged_law.hpp"
 #include "cli/study/written_files.hpp"
 #include "cli/text_file.hpp"
-#include "common/random.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
@@ -86,17 +85,6 @@ design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFil
                     block.order, nyquist_rpm));
   }
   return request;
-}
-
-std::vector<config::RigFile> Drawn(const NotchOptions& options, const config::RigFile& rig) {
-  const auto parameters = ParametersOf(rig, options.from);
-  Random draw(options.seed);
-  std::vector<config::RigFile> rigs;
-  for (std::size_t n = 0; n < options.draws; ++n) {
-    const auto place = uncertainty::DrawPlace(draw, parameters.size());
-    rigs.push_back(uncertainty::At(rig, parameters, place));
-  }
-  return rigs;
 }
 
 void Print(const design::NotchFigures& figures, bool vibration) {
@@ -202,7 +190,9 @@ ExitStatus Run(const NotchOptions& options) {
   fmt::print("block {}: order {:.6g}, target {}, {:.0f} to {:.0f} rpm, T at {} speeds\n",
              block.name, block.order, options.target, RadPerSToRpm(block.from_rad_per_s),
              RadPerSToRpm(block.to_rad_per_s), block.inverse.size());
-  const auto figures = design::JudgeNotch(rig, Drawn(options, rig), file.law, request);
+  const auto figures = design::JudgeNotch(
+      rig, uncertainty::DrawRigs(rig, ParametersOf(rig, options.from), options.draws, options.seed),
+      file.law, request);
   Print(figures, block.target == synchronous::Target::kVibration);
   WriteJsonFile(options.loop.json_path, Json(block, figures));
   if (!figures.allowed()) {

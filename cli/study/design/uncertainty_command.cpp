@@ -35,11 +35,7 @@ svg::Figure Fan(const config::RigFile& rig, const std::vector<uncertainty::Param
   svg::Figure figure;
   figure.columns = 2;
   figure.panel_width = 520;
-  Random draw(options.seed);
-  std::vector<config::RigFile> rigs;
-  for (std::size_t n = 0; n < options.draws; ++n)
-    rigs.push_back(
-        uncertainty::At(rig, parameters, uncertainty::DrawPlace(draw, parameters.size())));
+  auto rigs = uncertainty::DrawRigs(rig, parameters, options.draws, options.seed);
   rigs.push_back(rig);  // drawn last, on top
   for (const double rpm : options.rig.speeds_rpm) {
     const std::size_t first = figure.panels.size();

@@ -44,7 +44,7 @@ inline Response ResponseOf(const session::Recording& record) {
 }
 
 inline Response Quiet(const config::RigFile& rig) {
-  return ResponseOf(RunUp(WithQuietProbes(rig), {.seed = 77}).record);
+  return ResponseOf(RecordRunUp(WithQuietProbes(rig), {.seed = 77}));
 }
 
 inline std::complex<double> MomentOf(const plant::UnbalanceMass& mass) {
@@ -91,7 +91,7 @@ inline void JudgeWeights(const config::RigFile& truth, const BalanceResult& foun
 }
 
 inline Outcome BalanceDrawnRig(const config::RigFile& truth, std::uint64_t seed) {
-  const session::Recording first = RunUp(truth, {.seed = seed}).record;
+  const session::Recording first = RecordRunUp(truth, {.seed = seed});
   BalanceRequest request = RequestOf(first);
   const BalanceResult found = Balance(request);
   Outcome out;
@@ -106,7 +106,7 @@ inline Outcome BalanceDrawnRig(const config::RigFile& truth, std::uint64_t seed)
   out.before_g_mm_per_kg = StaticPerMass(truth, found.mass_kg);
   out.left_g_mm_per_kg = StaticPerMass(corrected, found.mass_kg);
 
-  request.runs.push_back(ReadRun(RunUp(corrected, {.seed = seed + 1000}).record, request.rig));
+  request.runs.push_back(ReadRun(RecordRunUp(corrected, {.seed = seed + 1000}), request.rig));
   for (const CorrectionResult& one : found.corrections) {
     request.runs.back().applied.push_back({one.plane.name, one.added_kg_m});
   }

@@ -15,7 +15,7 @@ TEST(DrawnRigs, OneRunUpIsEnough) {
 // The other half of the pair: without the unknowns of the rig the same records lead further off.
 TEST(DrawnRigs, ARigFileTakenAtItsWordLeavesMore) {
   const config::RigFile truth = DrawRig(1);
-  BalanceRequest request = RequestOf(RunUp(truth, {.seed = 1}).record);
+  BalanceRequest request = RequestOf(RecordRunUp(truth, {.seed = 1}));
   config::Tolerances& by = request.rig.tolerances.emplace();
   by.current_gain = by.displacement_stiffness = by.modal_frequency = by.modal_damping = 1e-4;
   by.sensor_gain = by.rotor_mass = by.amplifier_bandwidth = by.sensor_bandwidth = 1e-4;
@@ -27,7 +27,7 @@ TEST(DrawnRigs, ARigFileTakenAtItsWordLeavesMore) {
 
 TEST(DrawnRigs, WithoutAKnownLawTheRecordShowsIt) {
   const config::RigFile truth = DrawRig(2);
-  BalanceRequest request = RequestOf(RunUp(truth, {.seed = 2}).record);
+  BalanceRequest request = RequestOf(RecordRunUp(truth, {.seed = 2}));
   const BalanceResult with = Balance(request);
   request.law.reset();
   const BalanceResult without = Balance(request);
@@ -45,7 +45,7 @@ TEST(DrawnRigs, WithoutAKnownLawTheRecordShowsIt) {
 
 TEST(DrawnRigs, TheForecastIsWhatTheNextRunShows) {
   const config::RigFile truth = DrawRig(3);
-  const BalanceRequest request = RequestOf(RunUp(truth, {.seed = 3}).record);
+  const BalanceRequest request = RequestOf(RecordRunUp(truth, {.seed = 3}));
   const BalanceResult found = Balance(request);
   config::RigFile half = truth;
   // Half of the correction leaves orbits that stand out of the noise.
@@ -55,7 +55,7 @@ TEST(DrawnRigs, TheForecastIsWhatTheNextRunShows) {
     half.plant.unbalance[i].phase_rad = std::arg(left);
   }
   const MeasuredResponse next(
-      analysis::TrackOrder(RunUp(WithQuietProbes(half), {.seed = 4}).record, {}));
+      analysis::TrackOrder(RecordRunUp(WithQuietProbes(half), {.seed = 4}), {}));
   for (const OrbitForecast& at : found.orbits) {
     const double forecast_m = 0.5 * at.before_m.maxCoeff();
     if (forecast_m < 2e-6 || !next.Covers(at.speed_rad_per_s)) continue;

@@ -2,9 +2,10 @@
 // A run-up of flexible_rotor in one process, as a record in memory: a drawn rig, the shipped
 // controller, the nonlinear plant with noise, quantisation and gravity.
 
-#include <memory>
 #include <stdexcept>
+#include <utility>
 
+#include "benchmark/accuracy/identification/recorded_bench.hpp"
 #include "common/random.hpp"
 #include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
@@ -13,6 +14,7 @@
 #include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "session/recording.hpp"
+#include "tests/support/modes_within.hpp"
 
 namespace levitas::balancing {
 
@@ -43,80 +45,32 @@ struct RunUpPlan {
   std::uint64_t seed{1};
 };
 
-class RunUp {
- public:
-  RunUp(const config::RigFile& rig, const RunUpPlan& plan)
-      : plant_(rig.plant, plan.seed),
-        cycle_({rig.numbers, ShippedController().law, ShippedController().supervisor}) {
-    record.name = "simulated run-up";
-    record.period_ns = rig.numbers.period_ns;
-    record.channels = rig.numbers.channels;
-    record.sensor_range_m.assign(rig.numbers.axes(), rig.numbers.sensor_range_m);
-    record.current_limit_a = rig.numbers.bias_current_a;
-    for (auto* columns :
-         {&record.position_m, &record.current_a, &record.excitation_a, &record.excitation_m}) {
-      columns->resize(rig.numbers.axes());
-    }
-    plant_.RestInTouchdown();
-    Mode mode = Step({OperatorCommand::kLift, 0.0, 0.0, {}}, false);
-    for (int n = 0; n < 50'000 && mode != Mode::kLevitating; ++n) mode = Step({}, false);
-    if (mode != Mode::kLevitating) throw std::runtime_error("the rig does not levitate");
-    for (int n = 0; n < 3'000; ++n) (void)Step({}, false);
-    (void)Step({OperatorCommand::kSpin,
-                RpmToRadPerS(plan.top_rpm),
-                RpmToRadPerS(plan.acceleration_rpm_per_s),
-                {}});
-    const auto rows =
-        static_cast<long>((plan.top_rpm / plan.acceleration_rpm_per_s + 0.5) / record.period_s());
-    for (long n = 0; n < rows; ++n) mode = Step({});
-    if (mode != Mode::kSpinning) throw std::runtime_error("the rig does not spin");
-  }
-
-  session::Recording record;
-
- private:
-  Mode Step(const cycle::OperatorInput& op, bool keep = true) {
-    cycle::CycleInputs in;
-    in.cycle = count_++;
-    in.frame_present = true;
-    in.frame = plant_.Sample();
-    in.op = op;
-    const cycle::CycleOutputs out = cycle_.Step(in);
-    plant_.Advance({out.current.control_current_a, out.current.bias_current_a,
-                    out.current.amplifiers_enabled, out.current.drive_enabled,
-                    out.current.speed_set_point_rad_per_s,
-                    out.current.acceleration_limit_rad_per_s2});
-    if (keep) Keep(in, out);
-    return out.mode;
-  }
-  void Keep(const cycle::CycleInputs& in, const cycle::CycleOutputs& out) {
-    record.cycle.push_back(in.cycle);
-    record.levitated.push_back(1);
-    record.speed_rad_per_s.push_back(in.frame.speed_rad_per_s);
-    record.angle_rad.push_back(in.frame.angle_rad);
-    record.bias_current_a.push_back(out.current.bias_current_a);
-    for (std::size_t axis = 0; axis < record.axes(); ++axis) {
-      record.position_m[axis].push_back(in.frame.position_m[axis]);
-      record.current_a[axis].push_back(out.current.control_current_a[axis]);
-    }
-  }
-
-  plant::Plant plant_;
-  cycle::ControlCycle cycle_;
-  std::uint64_t count_{};
-};
+/// The record of a run-up from standing to the top speed.
+inline session::Recording RecordRunUp(const config::RigFile& rig, const RunUpPlan& plan) {
+  const config::ControllerFile& controller = ShippedController();
+  accuracy::RecordedBench bench({rig.numbers, controller.law, controller.supervisor},
+                                plant::Plant(rig.plant, plan.seed));
+  bench.record.name = "simulated run-up";
+  bench.Levitate(0.3);
+  (void)bench.Step({OperatorCommand::kSpin,
+                    RpmToRadPerS(plan.top_rpm),
+                    RpmToRadPerS(plan.acceleration_rpm_per_s),
+                    {}});
+  const double time_s = plan.top_rpm / plan.acceleration_rpm_per_s + 0.5;
+  const auto rows = static_cast<long>(time_s / bench.record.period_s());
+  Mode mode = Mode::kOff;
+  for (long n = 0; n < rows; ++n) mode = bench.Step({}, true);
+  if (mode != Mode::kSpinning) throw std::runtime_error("the rig does not spin");
+  bench.record.bias_current_a.assign(bench.record.cycle.size(), rig.numbers.bias_current_a);
+  return std::move(bench.record);
+}
 
 /// A rig as it may be behind flexible_rotor.yaml: ki and ks of every axis within 10 %, frequencies
 /// of the modes within 3 %, damping within 50 %, unbalance of any direction at the three planes.
 inline config::RigFile DrawRig(std::uint64_t seed) {
   Random draw(seed);
-  std::vector<uncertainty::Parameter> parameters =
-      uncertainty::Stated(FlexibleRotor(), {0.0, 0.5, 0.1, 0.1, 6});
-  for (auto& one : parameters) {
-    if (one.kind != uncertainty::Kind::kModeFrequency) continue;
-    one.low = 0.97 * one.nominal;
-    one.high = 1.03 * one.nominal;
-  }
+  const auto parameters =
+      test::ModesWithin(0.03, uncertainty::Stated(FlexibleRotor(), {0.0, 0.5, 0.1, 0.1, 6}));
   config::RigFile rig =
       uncertainty::At(FlexibleRotor(), parameters, uncertainty::DrawPlace(draw, parameters.size()));
   for (plant::UnbalanceMass& mass : rig.plant.unbalance) {

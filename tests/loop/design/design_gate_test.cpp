@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/ellipse.hpp"
 #include "common/rotational_speed.hpp"
 #include "design/search/weight_search.hpp"
 

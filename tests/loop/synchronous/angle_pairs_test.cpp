@@ -17,7 +17,7 @@ using synchronous::Target;
 constexpr double kWholeTurn = 2.0 * std::numbers::pi;
 constexpr double kPairRpm = 3000.0;
 
-/// What the controller is told of the angle, from the angle when the fault began.
+/// A fault of the angle sensor: the angle that the controller receives from the moment it begins.
 struct AngleFault {
   const char* name;
   std::function<double(double true_rad, double begin_rad, double turned_rad)> told;

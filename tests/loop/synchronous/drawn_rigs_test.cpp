@@ -7,6 +7,7 @@
 #include "common/random.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "tests/loop/synchronous/notch_loop.hpp"
+#include "tests/support/modes_within.hpp"
 
 namespace levitas::test {
 namespace {
@@ -17,13 +18,8 @@ using synchronous::Target;
 /// Gains +-10 %, modes +-3 %, delay +-0.3 samples, all drawn anew.
 plant::PlantConfig DrawnRig(Random& draw) {
   const config::RigFile& rig = ShippedRig();
-  std::vector<uncertainty::Parameter> parameters =
-      uncertainty::Stated(rig, {.current_gain = 0.1, .stiffness = 0.1});
-  for (auto& p : parameters) {
-    if (p.kind != uncertainty::Kind::kModeFrequency) continue;
-    p.low = 0.97 * p.nominal;
-    p.high = 1.03 * p.nominal;
-  }
+  const auto parameters =
+      ModesWithin(0.03, uncertainty::Stated(rig, {.current_gain = 0.1, .stiffness = 0.1}));
   config::RigFile drawn =
       uncertainty::At(rig, parameters, uncertainty::DrawPlace(draw, parameters.size()));
   drawn.plant.delay_samples += 0.3 * (2.0 * draw.Uniform() - 1.0);

@@ -87,7 +87,7 @@ TEST(Predictor, LeavesNothingOfARunThatItsModelMade) {
   VectorXcd all(8);
   all << 1.0, Unbalance(), runout;
   for (const WindowEquations& one : predictor.At(Nominal(rig))) {
-    // In deviations of the noise; digits are lost to what is told from measured and smoothed data.
+    // In standard deviations of the noise. Smoothing costs digits, so this is not zero to rounding.
     EXPECT_LT((one.linear * all).norm(), 1e-6);
   }
 }
