@@ -19,7 +19,7 @@ bool Holds(const std::vector<std::string>& list, const std::string& name) {
 }
 
 std::string First(const TrialScore& o) {
-  if (o.verdict != "effect" || o.named.empty()) return o.verdict;
+  if ((o.verdict != "effect" && o.verdict != "suspected") || o.named.empty()) return o.verdict;
   return o.named.front();
 }
 
@@ -49,7 +49,7 @@ struct Count {
 bool TrialScore::Right() const {
   if (truth.empty() && outside.empty()) return verdict == "none";
   if (truth.empty()) return verdict == "unknown";
-  return verdict == "effect" && !named.empty() &&
+  return (verdict == "effect" || verdict == "suspected") && !named.empty() &&
          (named.front() == truth.front() || Holds(ties, truth.front()));
 }
 
@@ -81,9 +81,7 @@ TrialScore Judge(const TrialPlan& plan, const GroundTruth& ground_truth,
   o.in_file = ground_truth.in_file;
   if (ground_truth.outside != Unmodelled::kNothing) o.outside = Name(ground_truth.outside);
   o.drawn = ground_truth.size;
-  o.verdict = report.verdict == diagnosis::Verdict::kEffect    ? "effect"
-              : report.verdict == diagnosis::Verdict::kUnknown ? "unknown"
-                                                               : "none";
+  o.verdict = Word(report.verdict);
   for (const auto& cause : report.causes) o.named.push_back(cause.effect);
   o.ties = report.also_possible;
   o.score_nat = report.candidates.empty() ? 0.0 : report.candidates.front().evidence_nat;

@@ -30,7 +30,7 @@ struct TrialScore {
   std::vector<std::string> in_file;  ///< what the diagnosis's rig file holds
   std::string outside;               ///< empty: nothing outside the vocabulary
   double drawn{};                    ///< size relative to what is drawn as clear
-  std::string verdict;               ///< "none", "effect", "unknown"
+  std::string verdict;               ///< "none", "effect", "suspected", "unknown"
   std::vector<std::string> named;    ///< all causes, in order
   std::vector<std::string> ties;
   double score_nat{};

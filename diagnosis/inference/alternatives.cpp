@@ -7,6 +7,20 @@
 
 namespace levitas::diagnosis {
 
+namespace {
+
+/// Of all sets that were fitted those near the best one, itself left out.
+void KeepContenders(SearchState& state, CauseSet leader, double best, double lead) {
+  const Judging& judging = state.settings.judging;
+  const double near = std::max(judging.decisive_nat, judging.form_share * lead);
+  state.contenders.push_back(std::move(leader));
+  std::erase_if(state.contenders, [&](const CauseSet& set) {
+    return !(set.fit.evidence > best - near) || set.fit.evidence == best;
+  });
+}
+
+}  // namespace
+
 void RankCandidates(SearchState& state) {
   state.ReportProgress(0.75, "ranking");
   double strongest = -1.0;
@@ -54,12 +68,14 @@ void RefitAlternatives(SearchState& state) {
   if (own == state.candidates.end()) return;
   const double lead = own->score;
   own->refitted = true;
+  const double near =
+      std::max(2.0 * state.settings.judging.near_nat, state.settings.judging.form_share * lead);
+  state.contenders.clear();
   CauseSet best{state.causes, leader};
   std::size_t tried = 0;
   for (Candidate& candidate : state.candidates) {
     if (tried == state.effort.alternatives ||
-        candidate.score < std::max(state.settings.judging.decisive_nat,
-                                   lead - 2.0 * state.settings.judging.near_nat))
+        candidate.score < std::max(state.settings.judging.decisive_nat, lead - near))
       break;
     if (candidate.refitted) continue;
     ++tried;
@@ -70,8 +86,10 @@ void RefitAlternatives(SearchState& state) {
     if (!fit.ok) continue;
     candidate.score = lead + fit.evidence - leader.evidence;
     candidate.refitted = true;
+    state.contenders.push_back({causes, fit});
     best.Take(causes, std::move(fit));
   }
+  KeepContenders(state, {state.causes, leader}, best.fit.evidence, lead);
   state.causes = std::move(best.causes);
   state.theta = best.fit.theta;
   state.leader_evidence = best.fit.evidence;

@@ -7,6 +7,8 @@
 #include "diagnosis/inference/moved_calibration.hpp"
 #include "diagnosis/inference/ranking.hpp"
 #include "diagnosis/inference/selection.hpp"
+#include "diagnosis/inference/suspicion.hpp"
+#include "diagnosis/inference/validation.hpp"
 #include "diagnosis/model/divergence.hpp"
 
 namespace levitas::diagnosis {
@@ -76,6 +78,27 @@ void AddEvents(SearchState& state, const Residual& remainder) {
   SortByScore(state.candidates);
 }
 
+/// A cause far ahead of all others, though it leaves a residual.
+bool LeadsFar(const SearchState& state) {
+  const auto& all = state.candidates;
+  if (state.causes.empty() || all.empty() || all.front().effect != state.causes.front().effect)
+    return false;
+  const double suspected = state.settings.judging.suspected_nat;
+  const double next = all.size() > 1 ? all[1].score : 0.0;
+  return all.front().refitted && all.front().score - std::max(0.0, next) > suspected;
+}
+
+Verdict VerdictOf(SearchState& state, bool unexplained) {
+  if (unexplained) {
+    if (!LeadsFar(state)) return Verdict::kUnknown;
+    state.doubt = Doubt::kResidualIsLeft;
+    state.probability = ProbabilityOfLeader(state.candidates, state.settings.judging.decisive_nat);
+    return Verdict::kSuspected;
+  }
+  if (state.causes.empty()) return Verdict::kNone;
+  return state.doubt == Doubt::kNothing ? Verdict::kEffect : Verdict::kSuspected;
+}
+
 SearchResult Conclude(SearchState& state) {
   state.ReportProgress(0.9, "analysing the residual");
   const Judging& judging = state.settings.judging;
@@ -84,7 +107,7 @@ SearchResult Conclude(SearchState& state) {
   auto runs = std::make_shared<const std::vector<Trajectory>>(
       state.search.Run(state.records, state.gains, state.theta));
   const double held = HeldGain(*state.calibrated_runs, *runs, state.view.whitener);
-  if (!state.causes.empty() && held < -judging.harm_nat) {
+  if (!state.causes.empty() && state.doubt == Doubt::kNothing && held < -judging.harm_nat) {
     // What does harm where it was not fitted is no cause.
     state.causes.clear();
     state.theta = state.calibrated;
@@ -98,18 +121,24 @@ SearchResult Conclude(SearchState& state) {
       Explained(AnalyseResidual(state.rig, *state.calibrated_runs), answer.remainder);
   const bool unexplained =
       IsUnexplained(judging, answer.remainder, !state.causes.empty(), answer.explained);
-  if (unexplained) state.causes.clear();
+  const Verdict verdict = VerdictOf(state, unexplained);
+  if (verdict == Verdict::kUnknown) state.causes.clear();
+  const std::size_t found = state.causes.size();
   AddEvents(state, answer.remainder);
   const Fit fit = Evidence(state.view.problem, state.terms, state.causes).Solve();
   const Fit null = Evidence(state.view.problem, state.terms, {}).Solve();
   answer.evidence = fit.log_evidence - null.log_evidence;
   Describe(state, fit, answer);
-  answer.also_possible = Ties(state.candidates, state.causes, judging.decisive_nat);
+  answer.also_possible =
+      Ties(state.candidates, state.causes, judging.decisive_nat, judging.form_share);
   answer.causes = state.causes;
   answer.candidates = state.candidates;
-  answer.verdict = !state.causes.empty() ? Verdict::kEffect
-                   : unexplained         ? Verdict::kUnknown
-                                         : Verdict::kNone;
+  // An event is seen as such: it is named whatever else is doubted.
+  answer.verdict = state.causes.size() > found ? Verdict::kEffect : verdict;
+  if (answer.verdict == Verdict::kSuspected) {
+    answer.doubt = state.doubt;
+    answer.probability = state.probability;
+  }
   state.ReportProgress(1.0, "done");
   return answer;
 }
@@ -117,8 +146,9 @@ SearchResult Conclude(SearchState& state) {
 }  // namespace
 
 SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
-                      const Settings& settings, std::vector<Term>& terms) {
-  SearchState state(rig, records, settings, settings.quick ? kQuick : kThorough, terms);
+                      const std::vector<Record>& validation, const Settings& settings,
+                      std::vector<Term>& terms) {
+  SearchState state(rig, records, validation, settings, settings.quick ? kQuick : kThorough, terms);
   Calibrate(state);
   FindCauses(state);
   if (state.effort.first_cause_only) {
@@ -126,6 +156,8 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
     RankCandidates(state);
     DropUngained(state);
     NameMovedCalibration(state);
+    JudgeOnValidation(state);
+    SuspectCause(state);
     return Conclude(state);
   }
   MergeCauses(state);
@@ -137,6 +169,8 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
   } while (LeaderFails(state));
   DropUngained(state);
   NameMovedCalibration(state);
+  JudgeOnValidation(state);
+  SuspectCause(state);
   return Conclude(state);
 }
 

@@ -14,19 +14,23 @@
 //            4 rank: every effect in place of the first cause, the nearest refitted;
 //            5 no cause stays unless all together fit better than chance would (fit_gain.hpp);
 //              what calibration had to move too far is tried as one (moved_calibration.hpp);
-//            6 analyse the residual (residual.hpp).
+//            6 judge causes by the user's validation data (validation.hpp); without a cause, look
+//              for one that is likely all the same (suspicion.hpp);
+//            7 analyse the residual (residual.hpp).
 // Divergence a model that diverges is held by a faster observer until the causes found make that
 //            unnecessary (divergence.hpp).
 // Quick      kQuickRows of the records, one cause, ranked by the refits of the screen's best; no 4.
 // Enough     Judging::decisive_nat, and a further cause more than form_share of what is explained
 //            already (judging.hpp has all numbers that decide, with their sources).
-// Answer     `effect` when a cause gains enough; ties are all causes within decisive_nat of it;
+// Answer     `effect` when a cause gains enough; ties are all causes within decisive_nat of it, or
+//            within form_share of its evidence; `suspected` for a reason of Doubt (verdict.hpp);
 //            `unknown` when the residual power stands out of the noise and is more than a small
 //            part of the calibrated model's excess; else `none`.
 // Units      evidence in nats. Thread: blocks the caller, two threads inside.
 // Failure    BadInput for records that are too short.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +58,8 @@ struct Candidate {
   double score{};  ///< [nat] evidence beyond nuisances and the other causes
   std::size_t hypothesis{};
   bool refitted{};  ///< on the nonlinear model; else from the screen
+  /// [nat] gain on the user's validation data over the calibrated model (validation.hpp)
+  std::optional<double> validation_nat = std::nullopt;
 };
 
 /// Of the parameter of one term, in its unit.
@@ -65,6 +71,8 @@ struct Estimate {
 
 struct SearchResult {
   Verdict verdict{Verdict::kNone};
+  Doubt doubt{Doubt::kNothing};            ///< why the causes are suspected, not named
+  double probability{};                    ///< of what is suspected
   std::vector<Hypothesis> causes;          ///< in the order of selection
   std::vector<std::string> also_possible;  ///< effects that the data cannot separate from the first
   std::vector<Estimate> parameters;        ///< of the causes
@@ -78,8 +86,10 @@ struct SearchResult {
   double explained{};                    ///< share of the calibrated model's excess over the noise
 };
 
-/// Terms of a family that is named become its best member (refine_shape.hpp).
+/// Terms of a family that is named become its best member (refine_shape.hpp). `validation`: records
+/// that the user kept aside, to judge causes by; may be empty.
 [[nodiscard]] SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
-                                    const Settings& settings, std::vector<Term>& terms);
+                                    const std::vector<Record>& validation, const Settings& settings,
+                                    std::vector<Term>& terms);
 
 }  // namespace levitas::diagnosis

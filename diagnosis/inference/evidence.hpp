@@ -62,6 +62,18 @@ class Evidence {
   [[nodiscard]] Beside StepBeside(const Eigen::VectorXd& theta, const Eigen::VectorXd& cross,
                                   double gradient, double curvature, double most) const;
 
+  /// What other data make of the solution, for which it is the prior, with all that these data
+  /// leave undetermined.
+  struct Adapted {
+    Eigen::VectorXd parameters;  ///< of the base, from the solution
+    Eigen::VectorXd change;      ///< of theta, from the solution; units of Term::scale()
+    double penalty{};            ///< squared sum of the parameters over their prior
+  };
+  /// A Gauss-Newton step from `so_far`, where `there` are the other data's normal equations.
+  [[nodiscard]] Adapted Adapt(const NormalEquations& there, const Adapted& so_far) const;
+  /// No change.
+  [[nodiscard]] Adapted Unchanged() const;
+
  private:
   /// Gradient of half the cost by the parameters of the base.
   [[nodiscard]] Eigen::VectorXd Uphill(const Eigen::VectorXd& theta) const;

@@ -23,6 +23,10 @@ double Squared(double value) { return value * value; }
 
 }  // namespace
 
+std::size_t BlockRows(const RigView& rig) {
+  return static_cast<std::size_t>(std::lround(kBlockS / rig.period_s));
+}
+
 FitGain GainedFit(const std::vector<Trajectory>& first, const std::vector<Trajectory>& second,
                   const Whitener& whitener, std::size_t rows) {
   std::vector<double> blocks;
@@ -62,8 +66,8 @@ double CameBack(const std::vector<Term>& terms, const std::vector<double>& calib
 void DropUngained(SearchState& state) {
   if (state.causes.empty()) return;
   const auto runs = state.search.Run(state.records, state.gains, state.theta);
-  const auto rows = static_cast<std::size_t>(std::lround(kBlockS / state.rig.period_s));
-  const FitGain gain = GainedFit(*state.calibrated_runs, runs, state.view.whitener, rows);
+  const FitGain gain =
+      GainedFit(*state.calibrated_runs, runs, state.view.whitener, BlockRows(state.rig));
   const double back = CameBack(state.terms, state.calibrated, state.theta, state.causes);
   if (gain.value + back > state.settings.judging.gain_deviations * gain.deviation) return;
   state.causes.clear();

@@ -17,6 +17,9 @@
 
 namespace levitas::diagnosis {
 
+/// Rows of a block of 0.05 s.
+[[nodiscard]] std::size_t BlockRows(const RigView& rig);
+
 /// In squared whitened innovations: twice as many as nats.
 struct FitGain {
   double value{};

@@ -9,7 +9,7 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr std::array<JudgingRow, 13> kTable{{
+constexpr std::array<JudgingRow, 15> kTable{{
     {"decisive_nat", &Judging::decisive_nat, "nat",
      "evidence that a cause must gain to be named, and within which alternatives are ties",
      "odds of 148 : 1: `decisive` for Jeffreys (beyond 100 : 1), the border of `strong` and `very "
@@ -69,11 +69,23 @@ constexpr std::array<JudgingRow, 13> kTable{{
      "three were accused (13 and 193 nat), with 0.01 none (2 nat at most; trials 2001 to 2003 of "
      "2026)",
      "--clean 20 --seeds 22 --size 0.4 --sweep model_error_share=0.003,0.01,0.03"},
+    {"number_chance", &Judging::number_chance, "of healthy rigs",
+     "chance that some determined number of a healthy rig lies as far from the file, below which "
+     "its "
+     "effect is suspected",
+     "the share of healthy rigs that may be suspected; it takes the tolerances as normal "
+     "deviations",
+     "--clean 20 --seeds 22 --size 0.4 --sweep number_chance=0.01,0.05,0.2"},
+    {"suspected_nat", &Judging::suspected_nat, "nat",
+     "evidence, and lead over the next effect, from which a cause is suspected although a residual "
+     "is left",
+     "what counts as clear in the benchmark: a hidden effect of so much evidence is not unknown",
+     "--outside 20 --seeds 22 --size 2 --sweep suspected_nat=10,25,100"},
 }};
 
 }  // namespace
 
-const std::array<JudgingRow, 13>& JudgingTable() { return kTable; }
+const std::array<JudgingRow, 15>& JudgingTable() { return kTable; }
 
 const JudgingRow& FindJudging(std::string_view name) {
   const auto* found = std::find_if(kTable.begin(), kTable.end(),

@@ -29,6 +29,8 @@ struct Judging {
   double gain_deviations{1.645};
   double moved_tolerances{3.0};
   double model_error_share{0.01};
+  double number_chance{0.05};
+  double suspected_nat{25.0};
 };
 
 struct JudgingRow {
@@ -41,7 +43,7 @@ struct JudgingRow {
 };
 
 /// In the order of the members.
-[[nodiscard]] const std::array<JudgingRow, 13>& JudgingTable();
+[[nodiscard]] const std::array<JudgingRow, 15>& JudgingTable();
 
 /// The row of a name; BadInput lists the names.
 [[nodiscard]] const JudgingRow& FindJudging(std::string_view name);

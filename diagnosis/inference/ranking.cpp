@@ -28,7 +28,8 @@ void SortByScore(std::vector<Candidate>& candidates) {
 }
 
 std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
-                              const std::vector<Hypothesis>& causes, double tie_nat) {
+                              const std::vector<Hypothesis>& causes, double tie_nat,
+                              double form_share) {
   std::vector<std::string> ties;
   if (causes.empty()) return ties;
   const auto own = std::find_if(candidates.begin(), candidates.end(), [&causes](const auto& c) {
@@ -38,7 +39,10 @@ std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
   for (const Candidate& c : candidates) {
     const bool also = std::any_of(causes.begin(), causes.end(),
                                   [&c](const Hypothesis& h) { return h.effect == c.effect; });
-    if (!also && c.score > own->score - tie_nat) ties.push_back(c.effect);
+    const bool refuted = c.validation_nat && own->validation_nat &&
+                         *c.validation_nat < *own->validation_nat - tie_nat;
+    const double near = c.refitted ? std::max(tie_nat, form_share * own->score) : tie_nat;
+    if (!also && !refuted && c.score > own->score - near) ties.push_back(c.effect);
   }
   return ties;
 }

@@ -18,9 +18,11 @@ std::vector<Record> PartOf(const std::vector<Record>& records, std::size_t rows)
 }  // namespace
 
 SearchState::SearchState(const RigView& of, const std::vector<Record>& recorded,
-                         const Settings& asked, const Effort& spent, std::vector<Term>& all)
+                         const std::vector<Record>& aside, const Settings& asked,
+                         const Effort& spent, std::vector<Term>& all)
     : rig(of),
       all_records(recorded),
+      validation(aside),
       terms(all),
       settings(asked),
       effort(spent),

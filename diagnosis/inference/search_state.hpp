@@ -3,8 +3,8 @@
 // causes found so far.
 //
 // Units   evidence in nats. Thread: blocks the caller, two threads inside. Internal to
-//         diagnose.cpp, selection.cpp, exchange.cpp, alternatives.cpp, fit_gain.cpp and
-//         moved_calibration.cpp.
+//         diagnose.cpp, selection.cpp, exchange.cpp, alternatives.cpp, fit_gain.cpp,
+//         moved_calibration.cpp, validation.cpp and suspicion.cpp.
 
 #include <limits>
 #include <string>
@@ -39,8 +39,9 @@ struct CauseSet {
 };
 
 struct SearchState {
-  SearchState(const RigView& of, const std::vector<Record>& recorded, const Settings& asked,
-              const Effort& spent, std::vector<Term>& all);
+  SearchState(const RigView& of, const std::vector<Record>& recorded,
+              const std::vector<Record>& aside, const Settings& asked, const Effort& spent,
+              std::vector<Term>& all);
   SearchState(const SearchState&) = delete;
   SearchState& operator=(const SearchState&) = delete;
 
@@ -59,6 +60,7 @@ struct SearchState {
 
   const RigView& rig;
   const std::vector<Record>& all_records;
+  const std::vector<Record>& validation;  ///< of the user; may be empty
   std::vector<Term>& terms;
   const Settings& settings;
   Effort effort;
@@ -77,6 +79,9 @@ struct SearchState {
   std::vector<Candidate> refitted;    ///< by the last search for a further cause
   std::vector<Candidate> candidates;  ///< every effect at its best place, best first
   double leader_evidence{};           ///< of all causes with the first one
+  std::vector<CauseSet> contenders;   ///< sets that the leader's evidence does not refute
+  Doubt doubt{Doubt::kNothing};
+  double probability{};  ///< of what is suspected
 
  private:
   mutable double progress_{0.0};  ///< share of the work, by the last progress

@@ -59,6 +59,8 @@ ReportCoverage CoverageFor(const DiagnosisResult& result) {
 
 void AddFound(const SearchResult& found, DiagnosisReport& report) {
   report.verdict = found.verdict;
+  report.doubt = found.doubt;
+  report.probability = found.probability;
   for (const Hypothesis& cause : found.causes) report.causes.push_back({cause.effect, cause.place});
   report.also_possible = found.also_possible;
   report.evidence_nat = found.evidence;
@@ -68,7 +70,7 @@ void AddFound(const SearchResult& found, DiagnosisReport& report) {
                                  .evidence_nat = c.score,
                                  .refitted = c.refitted,
                                  .reason = {},
-                                 .validation_nat = {}});
+                                 .validation_nat = c.validation_nat});
   }
 }
 

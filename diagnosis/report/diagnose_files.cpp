@@ -151,7 +151,7 @@ DiagnosisResult DiagnoseRecords(const config::RigFile& rig, const std::vector<Re
   Describe(fitted, aside, out);
   const auto mains = MainsTerms(*out.view, MainsLines(*out.view, fitted), fitted.size());
   out.terms.insert(out.terms.end(), mains.begin(), mains.end());
-  out.answer = Diagnose(*out.view, fitted, settings, out.terms);
+  out.answer = Diagnose(*out.view, fitted, aside, settings, out.terms);
   const std::vector<Record> used = Spans(fitted, settings.quick ? kQuickRows : kMostRows);
   for (const Record& record : used) out.seconds_used += Seconds(record, *out.view);
   Measure(used, aside, out);

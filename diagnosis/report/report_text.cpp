@@ -92,7 +92,38 @@ std::string UnknownText(const ReportResidual& residual) {
       residual.channel, where, residual.coherent_with);
 }
 
+/// "eddy_current at all axes: tau_us 4.6 us (3 to 6)".
+std::string CauseText(const DiagnosisReport& report, const ReportCause& cause) {
+  return fmt::format("{} at {}{}", cause.effect, cause.place, Size(report, cause));
+}
+
+/// [nat] evidence of the first cause.
+double OwnEvidence(const DiagnosisReport& report) {
+  const auto& causes = report.causes;
+  const auto own =
+      std::find_if(report.candidates.begin(), report.candidates.end(),
+                   [&causes](const auto& c) { return c.effect == causes.front().effect; });
+  return own == report.candidates.end() ? report.evidence_nat : own->evidence_nat;
+}
+
+/// The other causes, and what the data do not separate from the first.
+std::string Others(const DiagnosisReport& report) {
+  std::string text;
+  for (std::size_t i = 1; i < report.causes.size(); ++i) {
+    text += "; and " + CauseText(report, report.causes[i]);
+  }
+  if (!report.also_possible.empty()) {
+    text += "; these data do not separate it from";
+    for (const auto& other : report.also_possible) text += " " + other;
+  }
+  return text;
+}
+
 std::string Finding(const DiagnosisReport& report) {
+  if (report.verdict == Verdict::kSuspected && !report.causes.empty()) {
+    return fmt::format("Suspected: {}{}. {}", CauseText(report, report.causes.front()),
+                       Others(report), report.suspected_because);
+  }
   if (report.verdict == Verdict::kNone) {
     const std::string& limits = report.coverage.sentence;
     return fmt::format("Nothing is hidden{}: {}{}{}",
@@ -102,28 +133,15 @@ std::string Finding(const DiagnosisReport& report) {
   if (report.verdict == Verdict::kUnknown || report.causes.empty()) {
     return UnknownText(report.residual);
   }
-  const auto& causes = report.causes;
-  const auto own =
-      std::find_if(report.candidates.begin(), report.candidates.end(),
-                   [&causes](const auto& c) { return c.effect == causes.front().effect; });
-  const double nat = own == report.candidates.end() ? report.evidence_nat : own->evidence_nat;
-  std::string text = fmt::format("{} at {}{}; ", causes.front().effect, causes.front().place,
-                                 Size(report, causes.front()));
+  const double nat = OwnEvidence(report);
+  std::string text = CauseText(report, report.causes.front()) + "; ";
   text += nat < kDecisive
               ? fmt::format(
                     "named because it is further from the rig file than its tolerances "
                     "allow; calibration could absorb it, which leaves {:.0f} nat for it",
                     nat)
               : fmt::format("{:.0f} nat, which is odds of e^{:.0f} to 1 for it", nat, nat);
-  for (std::size_t i = 1; i < causes.size(); ++i) {
-    text +=
-        fmt::format("; and {} at {}{}", causes[i].effect, causes[i].place, Size(report, causes[i]));
-  }
-  if (!report.also_possible.empty()) {
-    text += "; these data do not separate it from";
-    for (const auto& other : report.also_possible) text += " " + other;
-  }
-  return text + ".";
+  return text + Others(report) + ".";
 }
 
 /// "18 g mm at 0.0 deg"; the amount alone without a phase.
@@ -134,7 +152,53 @@ std::string Amount(double value, const std::string& unit, const double* phase_de
 
 }  // namespace
 
+std::vector<std::string> OutsideTolerance(const std::vector<CalibratedValue>& calibrated) {
+  std::vector<std::string> outside;
+  for (const CalibratedValue& v : calibrated) {
+    if (!(v.from_file > kOutside)) continue;
+    outside.push_back(fmt::format("{}{} of {} ({:.1f} tolerances)",
+                                  v.effect.empty() ? "" : v.effect + " ", v.key, v.place,
+                                  v.from_file));
+  }
+  return outside;
+}
+
+std::string SuspicionSentence(const DiagnosisReport& report) {
+  if (report.verdict != Verdict::kSuspected || report.causes.empty()) return {};
+  const double percent = 100.0 * report.probability;
+  switch (report.doubt) {
+    case Doubt::kWeakEvidence:
+      return fmt::format(
+          "It is more likely than that nothing is hidden ({:.0f} %), but its {:.1f} nat are not "
+          "decisive.",
+          percent, OwnEvidence(report));
+    case Doubt::kMovedNumber:
+      return fmt::format(
+          "Calibration moved this number further from the rig file than chance would in all but "
+          "{:.2g} % of healthy rigs: either it changed, or the file or its tolerance is wrong.",
+          100.0 - percent);
+    case Doubt::kHeldOutHarm:
+      return fmt::format(
+          "Its {:.0f} nat on the fitted data are decisive, but the validation data refute it: "
+          "there "
+          "the calibrated model foretells more without it.",
+          OwnEvidence(report));
+    case Doubt::kResidualIsLeft:
+      return fmt::format(
+          "It is {:.0f} nat ahead of a rig without it and of every other effect, but it does not "
+          "explain all: a residual is left, most of all in {} about {:.0f} Hz, following {}. Its "
+          "law is not exactly that of this rig, or something acts besides.",
+          OwnEvidence(report), report.residual.channel, report.residual.frequency_hz,
+          report.residual.coherent_with);
+    case Doubt::kNothing:
+      break;
+  }
+  return {};
+}
+
 void CompleteReport(DiagnosisReport& report) {
+  report.outside_tolerance = OutsideTolerance(report.calibrated);
+  report.suspected_because = SuspicionSentence(report);
   report.confidence = Confidence(report);
   report.verdict_sentence = VerdictSentence(report);
   for (ReportCandidate& candidate : report.candidates) candidate.reason = Reason(report, candidate);
@@ -142,7 +206,14 @@ void CompleteReport(DiagnosisReport& report) {
 
 std::string VerdictSentence(const DiagnosisReport& report) {
   std::string text = Finding(report);
-  for (const std::string& more : {ValidationSentence(report), report.input_warning}) {
+  std::string outside;
+  for (const std::string& number : report.outside_tolerance) {
+    outside += (outside.empty() ? "" : ", ") + number;
+  }
+  if (!outside.empty()) {
+    outside = fmt::format("More than {:.0f} tolerances from the rig file: {}.", kOutside, outside);
+  }
+  for (const std::string& more : {outside, ValidationSentence(report), report.input_warning}) {
     if (!more.empty()) text += " " + more;
   }
   return text;
@@ -154,11 +225,17 @@ std::string SeparatingExperiment(const DiagnosisReport& report) {
     const std::string& missing = report.coverage.missing_records;
     return missing.empty() ? kNoneNeeded : missing;
   }
-  if (report.verdict == Verdict::kUnknown) {
+  if (report.verdict == Verdict::kUnknown || report.doubt == Doubt::kResidualIsLeft) {
     return "the same with another speed and another bias current: the change of the residual "
            "shows whether it belongs to the rotation, the magnets or neither";
   }
-  if (report.also_possible.empty() || report.causes.empty()) return kNoneNeeded;
+  if (report.doubt == Doubt::kHeldOutHarm) return ValidationExperiment(report);
+  if (report.doubt == Doubt::kMovedNumber) {
+    return "records of the healthy rig (--healthy), or this number measured by itself: the rig "
+           "file may be wrong";
+  }
+  const bool weak = report.doubt == Doubt::kWeakEvidence;
+  if (report.causes.empty() || (report.also_possible.empty() && !weak)) return kNoneNeeded;
   const std::string& cause = report.causes.front().effect;
   for (const auto& pair : kPairs) {
     for (const auto& other : report.also_possible) {
@@ -185,14 +262,20 @@ std::string NextExperiment(const DiagnosisReport& report, const std::string& exp
 double Confidence(const DiagnosisReport& report) {
   const auto& candidates = report.candidates;
   if (report.verdict == Verdict::kUnknown) return 0.0;
+  if (report.verdict == Verdict::kSuspected) return report.probability;
   if (report.verdict == Verdict::kNone) {
     const double rival = candidates.empty() ? -INFINITY : candidates.front().evidence_nat;
     return 1.0 / (1.0 + std::exp(rival));
   }
   if (candidates.empty()) return 0.0;
-  const double best = std::max(0.0, candidates.front().evidence_nat);
+  const ReportCandidate& first = candidates.front();
+  const double best = std::max(0.0, first.evidence_nat);
   double sum = std::exp(-best);
   for (const ReportCandidate& c : candidates) {
+    // What validation data refuted does not count, whatever the fitted data say.
+    if (first.validation_nat && c.validation_nat && *c.validation_nat < *first.validation_nat) {
+      continue;
+    }
     if (std::isfinite(c.evidence_nat)) sum += std::exp(c.evidence_nat - best);
   }
   return std::exp(candidates.front().evidence_nat - best) / sum;
@@ -206,6 +289,12 @@ std::string Reason(const DiagnosisReport& report, const ReportCandidate& candida
   const auto& tied = report.also_possible;
   if (std::find(tied.begin(), tied.end(), candidate.effect) != tied.end()) {
     return "these data do not separate it from the cause";
+  }
+  const auto& first = report.candidates.front();
+  if (candidate.validation_nat && first.validation_nat &&
+      *candidate.validation_nat < *first.validation_nat) {
+    return fmt::format("foretells the validation data {:.0f} nat worse than the cause",
+                       *first.validation_nat - *candidate.validation_nat);
   }
   if (!std::isfinite(candidate.evidence_nat)) {
     return "would have to be negative, or cannot act in these data";

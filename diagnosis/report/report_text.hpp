@@ -15,9 +15,17 @@ namespace levitas::diagnosis {
 /// The next experiment of a diagnosis that leaves nothing open.
 inline constexpr const char* kNoneNeeded = "none needed";
 
-/// Confidence, reasons of the candidates that have none, and the verdict's sentence.
+inline constexpr double kOutside = 3.0;  ///< tolerances from the rig file
+
+/// Confidence, reasons of the candidates that have none, the verdict's sentence, and what is outside
+/// its tolerance.
 void CompleteReport(DiagnosisReport& report);
 
+/// Calibrated numbers that are more than kOutside tolerances from the rig file, each with its place.
+[[nodiscard]] std::vector<std::string> OutsideTolerance(
+    const std::vector<CalibratedValue>& calibrated);
+/// Why a cause is suspected and not named; empty for other verdicts.
+[[nodiscard]] std::string SuspicionSentence(const DiagnosisReport& report);
 [[nodiscard]] std::string VerdictSentence(const DiagnosisReport& report);
 /// The experiment that separates tied causes or excites what the records lack; kNoneNeeded when
 /// nothing is left open.
@@ -26,7 +34,8 @@ void CompleteReport(DiagnosisReport& report);
 [[nodiscard]] std::string NextExperiment(const DiagnosisReport& report,
                                          const std::string& experiment);
 /// Probability that the verdict is right: of a cause, among all candidates and none of them; of
-/// `none`, against the strongest candidate; 0 for `unknown`, which no effect explains.
+/// `none`, against the strongest candidate; 0 for `unknown`, which no effect explains; of
+/// `suspected`, that the cause is there.
 [[nodiscard]] double Confidence(const DiagnosisReport& report);
 /// Why a candidate is not the answer; "named" for a cause.
 [[nodiscard]] std::string Reason(const DiagnosisReport& report, const ReportCandidate& candidate);

@@ -9,21 +9,8 @@
 namespace levitas::cli {
 
 using diagnosis::DiagnosisReport;
-using diagnosis::Verdict;
 
 namespace {
-
-const char* VerdictWord(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kEffect:
-      return "effect";
-    case Verdict::kUnknown:
-      return "unknown";
-    case Verdict::kNone:
-      break;
-  }
-  return "none";
-}
 
 nlohmann::ordered_json ParametersJson(const DiagnosisReport& report) {
   auto json = nlohmann::ordered_json::object();
@@ -127,13 +114,15 @@ void AddRuns(const DiagnosisReport& report, nlohmann::ordered_json& json) {
 
 nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   nlohmann::ordered_json json;
-  json["verdict"] = VerdictWord(report.verdict);
+  json["verdict"] = Word(report.verdict);
   json["cause"] = nullptr;
   if (!report.causes.empty()) json["cause"] = report.causes.front().effect;
   json["also_possible"] = report.also_possible;
   json["all_causes"] = nlohmann::ordered_json::array();
   for (const auto& cause : report.causes) json["all_causes"].push_back(cause.effect);
   json["confidence"] = report.confidence;
+  json["suspected_because"] = report.suspected_because;
+  json["outside_tolerance"] = report.outside_tolerance;
   json["place"] = report.place;
   json["channels"] = report.channels;
   json["parameters"] = ParametersJson(report);

@@ -29,19 +29,41 @@ TEST(RankingTest, TiesAreAllWithinTheDecisiveMargin) {
   const std::vector<Candidate> candidates{{"unbalance", "", 20.0, 0, true},
                                           {"shaft_bow", "", 16.0, 1, true},
                                           {"rotor_mass", "", 14.0, 2, true}};
-  EXPECT_EQ(Ties(candidates, {Named("unbalance")}, 5.0), std::vector<std::string>{"shaft_bow"});
+  EXPECT_EQ(Ties(candidates, {Named("unbalance")}, 5.0, 0.0),
+            std::vector<std::string>{"shaft_bow"});
+}
+
+TEST(RankingTest, StrongCausesTieWithinAShareOfTheirEvidence) {
+  const std::vector<Candidate> candidates{{"sensor_runout", "", 10'000.0, 0, true},
+                                          {"misalignment", "", 9'900.0, 1, true},
+                                          {"shaft_bow", "", 9'700.0, 2, true},
+                                          {"mains_pickup", "", 9'950.0, 3, false}};
+  // What was only screened is not known so exactly.
+  EXPECT_EQ(Ties(candidates, {Named("sensor_runout")}, 5.0, 0.02),
+            std::vector<std::string>{"misalignment"});
+}
+
+TEST(RankingTest, WhatValidationDataRefuteIsNoTie) {
+  std::vector<Candidate> candidates{{"sensor_runout", "", 10'000.0, 0, true},
+                                    {"misalignment", "", 9'900.0, 1, true}};
+  candidates[0].validation_nat = -4000.0;
+  candidates[1].validation_nat = 3000.0;
+  EXPECT_TRUE(Ties(candidates, {Named("misalignment")}, 5.0, 0.02).empty());
+  candidates[0].validation_nat = 3000.0;
+  EXPECT_EQ(Ties(candidates, {Named("misalignment")}, 5.0, 0.02),
+            std::vector<std::string>{"sensor_runout"});
 }
 
 TEST(RankingTest, ACauseThatIsNotNamedForItsEvidenceHasNoTies) {
   const std::vector<Candidate> candidates{{"shaft_bow", "", 4.0, 1, true},
                                           {"current_gain", "", 1.9, 0, true}};
-  EXPECT_TRUE(Ties(candidates, {Named("current_gain")}, 5.0).empty());
+  EXPECT_TRUE(Ties(candidates, {Named("current_gain")}, 5.0, 0.0).empty());
 }
 
 TEST(RankingTest, ACauseOfItsOwnIsNoTie) {
   const std::vector<Candidate> candidates{{"unbalance", "", 20.0, 0, true},
                                           {"shaft_bow", "", 16.0, 1, true}};
-  EXPECT_TRUE(Ties(candidates, {Named("unbalance"), Named("shaft_bow")}, 5.0).empty());
+  EXPECT_TRUE(Ties(candidates, {Named("unbalance"), Named("shaft_bow")}, 5.0, 0.0).empty());
 }
 
 TEST(RankingTest, AModelThatIsWorseOnWhatWasKeptBackLoses) {

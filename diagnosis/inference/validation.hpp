@@ -1,0 +1,40 @@
+#pragma once
+// Causes judged by what they are worth on validation data of the user.
+//
+// Why        evidence on the fitted records prefers the form that has most freedom there: at one
+//            speed a run-out of every probe and order imitates any force bound to the rotation, to
+//            the last nat. Only another speed tells them apart.
+// Adapted    what the fitted records leave undetermined (unbalance against run-out at one speed)
+//            may make any forecast wrong by more than a cause is worth. So each set first adapts its
+//            numbers to the validation data within what the fitted ones leave of them, at the price
+//            of that prior; what it still gets wrong counts.
+// Contender  a set of causes whose evidence comes within `form_share` of the leader's: no force law
+//            of the vocabulary is more exact than that.
+// Chosen     the contender that foretells the validation data better than the leader, in squared
+//            whitened innovations, by more than `gain_deviations` of the scatter of the difference
+//            from block to block; of several the best.
+// Worth      the gain of the chosen set over the calibrated model in which the numbers that the
+//            causes stand for are those of the rig file: a fault that calibration had absorbed is
+//            worth what calibration gained by it.
+// Refuted    a set that loses there by more than `gain_deviations` of the scatter: it is suspected,
+//            not named. Validation data that cannot show a cause (no test signal, for a delay)
+//            neither confirm nor refute it.
+// Without    validation data of the user contenders are ties (ranking.hpp), and nothing is doubted.
+// Thread     Choose: any; pure. The rest blocks the caller, two threads inside.
+
+#include <optional>
+#include <vector>
+
+#include "diagnosis/inference/fit_gain.hpp"
+
+namespace levitas::diagnosis {
+
+/// Which contender replaces the leader, from their gains over it; none: the leader stays.
+[[nodiscard]] std::optional<std::size_t> Choose(const std::vector<FitGain>& over_leader,
+                                                double deviations);
+
+/// Exchanges the leader of the state for a contender that foretells the validation data better, and
+/// says in `state.doubt` when the causes are refuted there.
+void JudgeOnValidation(SearchState& state);
+
+}  // namespace levitas::diagnosis
