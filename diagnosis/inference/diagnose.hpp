@@ -87,7 +87,7 @@ struct SearchResult {
 };
 
 /// Terms of a family that is named become its best member (refine_shape.hpp). `validation`: records
-/// that the user kept aside, to judge causes by; may be empty.
+/// of the user to judge causes by, not fitted; may be empty.
 [[nodiscard]] SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
                                     const std::vector<Record>& validation, const Settings& settings,
                                     std::vector<Term>& terms);

@@ -18,9 +18,9 @@ namespace levitas::diagnosis {
 void SortByScore(std::vector<Candidate>& candidates);
 
 /// Effects that come within `tie_nat` of the first cause, or before it; and those fitted on the
-/// nonlinear model that come within `form_share` of its evidence, as no law is more exact. Not those
-/// that validation data refute. None for a cause that gains less than tie_nat: it is named for where calibration went (moved_calibration.hpp), which no other
-/// effect takes back.
+/// nonlinear model that come within `form_share` of its evidence, as no law is more exact. Not
+/// those that validation data refute. None for a cause that gains less than `tie_nat`: it is named
+/// for where calibration went (moved_calibration.hpp), which no other effect takes back.
 [[nodiscard]] std::vector<std::string> Ties(const std::vector<Candidate>& candidates,
                                             const std::vector<Hypothesis>& causes, double tie_nat,
                                             double form_share);

@@ -5,9 +5,9 @@
 //            speed a run-out of every probe and order imitates any force bound to the rotation, to
 //            the last nat. Only another speed tells them apart.
 // Adapted    what the fitted records leave undetermined (unbalance against run-out at one speed)
-//            may make any forecast wrong by more than a cause is worth. So each set first adapts its
-//            numbers to the validation data within what the fitted ones leave of them, at the price
-//            of that prior; what it still gets wrong counts.
+//            may make any forecast wrong by more than a cause is worth. So each set first adapts
+//            its numbers to the validation data within what the fitted ones leave of them, at the
+//            price of that prior; what it still gets wrong counts.
 // Contender  a set of causes whose evidence comes within `form_share` of the leader's: no force law
 //            of the vocabulary is more exact than that.
 // Chosen     the contender that foretells the validation data better than the leader, in squared

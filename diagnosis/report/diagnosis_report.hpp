@@ -155,10 +155,10 @@ struct DiagnosisReport {
   ReportResidual residual;
   ReportSpectra spectra;
   ReportCoverage coverage;
-  double seconds_of_data{};      ///< in flight
-  double seconds_used{};         ///< of them, by a search that takes spans
-  Doubt doubt{};                 ///< of a suspected cause
-  double probability{};          ///< that it is there
+  double seconds_of_data{};                    ///< in flight
+  double seconds_used{};                       ///< of them, by a search that takes spans
+  Doubt doubt{};                               ///< of a suspected cause
+  double probability{};                        ///< that it is there
   std::string suspected_because;               ///< the doubt in a sentence; else empty
   std::vector<std::string> outside_tolerance;  ///< calibrated numbers beyond kOutside tolerances
   std::string input_warning;     ///< why units, signs or the rig file are to be doubted; or empty

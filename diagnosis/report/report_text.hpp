@@ -17,11 +17,11 @@ inline constexpr const char* kNoneNeeded = "none needed";
 
 inline constexpr double kOutside = 3.0;  ///< tolerances from the rig file
 
-/// Confidence, reasons of the candidates that have none, the verdict's sentence, and what is outside
-/// its tolerance.
+/// Confidence, reasons of the candidates that have none, the verdict's sentence, and what is
+/// outside its tolerance.
 void CompleteReport(DiagnosisReport& report);
 
-/// Calibrated numbers that are more than kOutside tolerances from the rig file, each with its place.
+/// Calibrated numbers more than kOutside tolerances from the rig file, each with its place.
 [[nodiscard]] std::vector<std::string> OutsideTolerance(
     const std::vector<CalibratedValue>& calibrated);
 /// Why a cause is suspected and not named; empty for other verdicts.

@@ -19,14 +19,14 @@ BINARIES = Path(os.environ["LEVITAS_BINARIES"])
 RECORDS = Path(os.environ["LEVITAS_SOURCE"]) / "tests/data/records"
 
 
-def diagnose(campaign):
+def diagnose(campaign, names=("standing", "spinning", "runup"), holdout=None):
     with TemporaryDirectory() as folder:
         out = Path(folder) / "answer"
-        data = sorted(map(str, (RECORDS / campaign).glob("*.csv.xz")))
-        assert len(data) == 3, data
+        data = [str(RECORDS / campaign / f"{name}.csv.xz") for name in names]
+        aside = ["--holdout", str(RECORDS / campaign / f"{holdout}.csv.xz")] if holdout else []
         done = subprocess.run([str(BINARIES / "amb"), "diagnose", "--rig", "flexible_rotor", *data,
-                               "--out", str(out)], cwd=folder, text=True, capture_output=True,
-                              timeout=LIMIT_S, check=False)
+                               *aside, "--out", str(out)], cwd=folder, text=True,
+                              capture_output=True, timeout=LIMIT_S, check=False)
         assert done.returncode == 0, done.stderr
         return json.loads((out / "diagnosis.json").read_text())
 
@@ -41,6 +41,26 @@ class ForeignCampaigns(unittest.TestCase):
 
     def test_an_unbalance_is_named_and_nothing_beside_it(self):
         self.assert_named("unbalance")
+
+    def test_at_one_speed_a_misalignment_is_tied_with_a_run_out(self):
+        answer = diagnose("misalignment", ("standing", "spinning"))
+        self.assertEqual({answer["cause"], *answer["also_possible"]},
+                         {"misalignment", "sensor_runout"}, answer["candidates"][:3])
+        self.assertIn("run-up", answer["next_experiment"])
+
+    def test_a_run_up_kept_aside_names_the_misalignment(self):
+        answer = diagnose("misalignment", ("standing", "spinning"), "runup")
+        self.assertEqual(answer["verdict"], "effect", answer["candidates"][:3])
+        self.assertEqual(answer["all_causes"], ["misalignment"])
+        self.assertEqual(answer["also_possible"], [])
+        worth = {c["effect"]: c.get("held_out_nat") for c in answer["candidates"]}
+        self.assertLess(worth["sensor_runout"], 0.0)
+        self.assertGreater(worth["misalignment"], 0.0)
+
+    def test_a_clear_cause_is_not_doubted_for_a_run_up_that_cannot_show_it(self):
+        answer = diagnose("eddy_current", ("standing", "spinning"), "runup")
+        self.assertEqual(answer["verdict"], "effect", answer["candidates"][:3])
+        self.assertEqual(answer["all_causes"], ["eddy_current"])
 
     def assert_named(self, effect):
         answer = diagnose(effect)
