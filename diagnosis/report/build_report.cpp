@@ -87,6 +87,7 @@ void AddFits(const DiagnosisResult& result, DiagnosisReport& report) {
                     .calibrated = result.ratio_calibrated,
                     .extended = result.ratio_after};
   report.seconds_of_data = result.seconds_of_data;
+  report.record_errors = result.record_errors;
   report.seconds_used = result.seconds_used;
 }
 

@@ -1,16 +1,19 @@
 #include "diagnosis/report/diagnose_files.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "analysis/recorded_rows.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/inference/events.hpp"
 #include "diagnosis/inference/mains_lines.hpp"
 #include "diagnosis/model/turns.hpp"
+#include "diagnosis/record_errors/find.hpp"
 #include "diagnosis/records/input_checks.hpp"
 #include "diagnosis/records/levitated_interval.hpp"
 #include "diagnosis/records/same_rows.hpp"
@@ -25,6 +28,17 @@ std::vector<Record> Load(const std::vector<std::string>& paths, const DiagnosisR
     records.push_back(LoadRecord(path, inputs.rig));
   }
   return records;
+}
+
+/// Takes the columns for what they are; adds the records that were not right to `found`.
+void Mend(const RigView& rig, std::vector<Record>& records, std::vector<RecordErrors>& found) {
+  for (Record& record : records) {
+    RecordErrors errors = FindRecordErrors(rig, record);
+    if (errors.errors.empty()) continue;
+    record = Mended(rig, record, errors);
+    record.mean_speed_rad_per_s = analysis::MeanSpeed(record.rows);
+    found.push_back(std::move(errors));
+  }
 }
 
 double Seconds(const Record& record, const RigView& rig) {
@@ -159,12 +173,23 @@ DiagnosisResult DiagnoseRecords(const config::RigFile& rig, const std::vector<Re
 }
 
 DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs) {
-  const std::vector<Record> data = Load(inputs.data, inputs);
-  const std::vector<Record> holdout = Load(inputs.holdout, inputs);
-  const std::vector<Record> healthy = Load(inputs.healthy, inputs);
+  std::vector<Record> data = Load(inputs.data, inputs);
+  std::vector<Record> holdout = Load(inputs.holdout, inputs);
+  std::vector<Record> healthy = Load(inputs.healthy, inputs);
   RefuseSameRows(data, holdout, "--holdout", "what was fitted cannot judge the fit");
   RefuseSameRows(data, healthy, "--healthy", "it would vouch for itself");
-  return DiagnoseRecords(inputs.rig, data, holdout, inputs.settings, healthy);
+  const RigView view(inputs.rig.numbers, inputs.rig.plant);
+  std::vector<RecordErrors> found;
+  for (std::vector<Record>* records : {&data, &holdout, &healthy}) Mend(view, *records, found);
+  try {
+    DiagnosisResult out = DiagnoseRecords(inputs.rig, data, holdout, inputs.settings, healthy);
+    out.record_errors = std::move(found);
+    return out;
+  } catch (const BadInput& refused) {
+    if (found.empty()) throw;
+    throw BadInput(
+        fmt::format("{}\n{}", fmt::join(RecordErrorSentences(found), "\n"), refused.what()));
+  }
 }
 
 }  // namespace levitas::diagnosis

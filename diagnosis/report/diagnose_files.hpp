@@ -10,6 +10,7 @@
 #include "configuration/rig_file.hpp"
 #include "diagnosis/inference/diagnose.hpp"
 #include "diagnosis/inference/gain.hpp"
+#include "diagnosis/record_errors/record_error.hpp"
 #include "diagnosis/records/load.hpp"
 
 namespace levitas::diagnosis {
@@ -37,8 +38,11 @@ struct DiagnosisResult {
   bool excited{};                         ///< a recorded test signal is in the records
   bool separate_validation{};             ///< the held-out data are records of their own
   double validation_fastest_rad_per_s{};  ///< in those
+  std::vector<RecordErrors>
+      record_errors;  ///< of files; what could be mended was, before the search
 };
 
+/// Looks for errors of the records first (record_errors/find.hpp); a refusal names them.
 [[nodiscard]] DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs);
 /// The same on records that are in memory; empty `holdout` keeps back stretches of `records`
 /// (model_run.hpp).

@@ -17,6 +17,7 @@
 
 #include "diagnosis/inference/verdict.hpp"
 #include "diagnosis/model/location.hpp"
+#include "diagnosis/record_errors/record_error.hpp"
 
 namespace levitas::diagnosis {
 
@@ -161,6 +162,8 @@ struct DiagnosisReport {
   double probability{};                        ///< that it is there
   std::string suspected_because;               ///< the doubt in a sentence; else empty
   std::vector<std::string> outside_tolerance;  ///< calibrated numbers beyond kOutside tolerances
+  /// Mended before the search where columns can mend them.
+  std::vector<RecordErrors> record_errors;
   std::string input_warning;     ///< why units, signs or the rig file are to be doubted; or empty
   std::string healthy_sentence;  ///< changes by healthy records; empty without them
   bool changed_since_healthy{};  ///< a value is far from that of the healthy records

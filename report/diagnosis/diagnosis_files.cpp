@@ -110,6 +110,23 @@ void AddRuns(const DiagnosisReport& report, nlohmann::ordered_json& json) {
   json["runs_fitted"] = RunsJson(report.fitted_runs);
 }
 
+nlohmann::ordered_json RecordErrorsJson(const std::vector<diagnosis::RecordErrors>& found) {
+  auto json = nlohmann::ordered_json::array();
+  for (const diagnosis::RecordErrors& record : found) {
+    for (const diagnosis::RecordError& error : record.errors) {
+      json.push_back({{"record", record.record},
+                      {"kind", diagnosis::Name(error.kind)},
+                      {"channels", error.columns},
+                      {"size", error.size},
+                      {"times_better", error.statistic},
+                      {"sentence", error.sentence},
+                      {"mend", error.mend},
+                      {"by_map", error.by_map}});
+    }
+  }
+  return json;
+}
+
 }  // namespace
 
 nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
@@ -138,6 +155,7 @@ nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   json["cannot_tell"] = {{"sentence", report.coverage.sentence},
                          {"effects", report.coverage.effects},
                          {"record_next", report.coverage.missing_records}};
+  json["record_errors"] = RecordErrorsJson(report.record_errors);
   json["doubt"] = report.input_warning;
   json["healthy_records"] = report.healthy_sentence;
   json["next_experiment"] = report.next_experiment;

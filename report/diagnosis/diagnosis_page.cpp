@@ -221,6 +221,16 @@ std::string RunsTable(const DiagnosisReport& s) {
          rows + "</table>\n";
 }
 
+/// Above the verdict; empty when the records are in order.
+std::string ErrorsOfRecords(const DiagnosisReport& s) {
+  std::string html;
+  for (const std::string& sentence : diagnosis::RecordErrorSentences(s.record_errors)) {
+    html += fmt::format("<p class=\"verdict\"><b>{}</b></p>\n", Escaped(sentence));
+  }
+  if (!html.empty()) html += fmt::format("<p>{}</p>\n", diagnosis::kAsMended);
+  return html;
+}
+
 }  // namespace
 
 std::string DiagnosisPage(const DiagnosisReport& s) {
@@ -228,14 +238,14 @@ std::string DiagnosisPage(const DiagnosisReport& s) {
   return fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
       "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n"
-      "<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{7}{6}{8}"
+      "{14}<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{7}{6}{8}"
       "<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig file. "
       "Calibrated: with the deviations of a healthy rig. Extended: with the causes. Ceiling: the "
       "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",
       Escaped(s.rig_name), kStyle, Escaped(s.verdict_sentence),
       Escaped(fmt::format("{} {}", Summary(s), s.healthy_sentence)), Escaped(s.next_experiment),
       Left(s), ParameterTable(s), Spectra(s), CalibrationTable(s), Ranking(s), FitTable(s), ceiling,
-      ChannelTable(s), RunsTable(s));
+      ChannelTable(s), RunsTable(s), ErrorsOfRecords(s));
 }
 
 }  // namespace levitas::cli

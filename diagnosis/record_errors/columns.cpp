@@ -1,0 +1,68 @@
+#include "diagnosis/record_errors/columns.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/model/repeated_frames.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr std::size_t kSpans = 4;
+
+/// Rows of the record that are taken, in its order.
+std::vector<std::size_t> Taken(const Record& record, std::size_t most_rows) {
+  std::vector<std::size_t> levitated;
+  for (std::size_t n = 0; n < record.rows.size(); ++n) {
+    if (record.rows[n].levitated) levitated.push_back(n);
+  }
+  if (levitated.size() <= most_rows) return levitated;
+  const std::size_t length = most_rows / kSpans;
+  std::vector<std::size_t> taken;
+  for (std::size_t s = 0; s < kSpans; ++s) {
+    const std::size_t from = s * (levitated.size() - length) / (kSpans - 1);
+    for (std::size_t i = from; i < from + length; ++i) taken.push_back(levitated[i]);
+  }
+  return taken;
+}
+
+}  // namespace
+
+Columns ColumnsOf(const Record& record, const RigView& rig, std::size_t most_rows) {
+  const std::vector<std::size_t> taken = Taken(record, most_rows);
+  const auto rows = static_cast<Eigen::Index>(taken.size());
+  const auto axes = static_cast<Eigen::Index>(rig.axes);
+  Columns out;
+  out.name = record.name;
+  for (Eigen::MatrixXd* matrix : {&out.position_m, &out.current_a, &out.excitation_a}) {
+    matrix->resize(rows, axes);
+  }
+  out.angle_rad.resize(rows);
+  out.speed_rad_per_s.resize(rows);
+  out.missing.resize(taken.size());
+  out.repeated.resize(taken.size());
+  for (Eigen::Index n = 0; n < rows; ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    const analysis::RecordedRow& row = record.rows[taken[i]];
+    for (Eigen::Index a = 0; a < axes; ++a) {
+      const auto axis = static_cast<std::size_t>(a);
+      out.position_m(n, a) = row.sample.position_m[axis];
+      out.current_a(n, a) = row.sample.command.control_current_a[axis];
+      out.excitation_a(n, a) = row.excitation_a[axis];
+    }
+    out.angle_rad[n] = row.sample.angle_rad;
+    out.speed_rad_per_s[n] = row.sample.speed_rad_per_s;
+    out.missing[i] = kNewSpan;
+    if (n == 0) continue;
+    const analysis::RecordedRow& before = record.rows[taken[i - 1]];
+    // A span that begins where the one before it ended is the same span.
+    if (row.cycle > before.cycle) out.missing[i] = row.cycle - before.cycle - 1;
+    out.repeated[i] =
+        out.missing[i] == 0 && Repeats(before.sample.position_m, row.sample.position_m, rig.axes)
+            ? 1
+            : 0;
+  }
+  out.mean_speed_rad_per_s = rows > 0 ? out.speed_rad_per_s.mean() : 0.0;
+  return out;
+}
+
+}  // namespace levitas::diagnosis
