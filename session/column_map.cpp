@@ -196,7 +196,13 @@ CsvLayout ParseMappedColumns(const std::vector<std::string>& names, const Column
   if (!problems.empty()) {
     throw BadInput(fmt::format("{}: its columns are {}{}", where, QuotedNames(trimmed), problems));
   }
-  if (map.rate_hz > 0.0) own.emplace_back("time_s");
+  if (map.rate_hz > 0.0) {
+    // The rate stands for the file's own times, which may be what is wrong with it.
+    for (std::string& name : own) {
+      if (name.starts_with("time_")) name = "#times";
+    }
+    own.emplace_back("time_s");
+  }
   CsvLayout layout = ParseColumns(own, where, channels);
   for (std::size_t i = 0; i < names.size(); ++i) {
     layout.columns[i].name = trimmed[i];

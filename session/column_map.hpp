@@ -7,7 +7,8 @@
 //            without a line of names or with names that repeat. `is` names the quantity as a CSV
 //            column of ours does, without its unit: time, rotor_angle, speed, position_de_x, ...
 //            Columns that the map does not name are read by their own names (csv_columns.hpp).
-// Time       from a column, or from `rate_hz`: then row n was sampled at n / rate_hz.
+// Time       from a column, or from `rate_hz`: then row n was sampled at n / rate_hz, and a column
+//            of times that the file has is not read.
 // Thread     any.
 // Failure    BadInput with every problem of the map at once, and those of map and file together:
 //            a column that the file does not have, with the names that it has.

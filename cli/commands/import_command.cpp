@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/command.hpp"
+#include "cli/commands/suggested_map.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/enter_session.hpp"
 #include "configuration/rig_file.hpp"
@@ -19,6 +20,7 @@
 #include "session/column_map.hpp"
 #include "session/csv_import.hpp"
 #include "session/output_path.hpp"
+#include "session/recording.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -29,12 +31,14 @@ constexpr const char* kImportHelp =
     "your own:\n"
     "  amb import mine.csv --rig my_rig.yaml --guess > map.yaml    # what each column probably is\n"
     "  amb import mine.csv --rig my_rig.yaml --map map.yaml --out mine.lcm\n"
-    "Check the map in between, signs and offsets above all.";
+    "Check the map in between, signs and offsets above all. With --suggest the map mends what law "
+    "and rig show to be wrong: exchanged and reversed columns, units, times (docs/diagnosis.md).";
 
 struct ImportCommandOptions {
   std::string data_path;
   std::string map_path;
   bool guess{false};
+  bool suggest{false};
   std::string rig_name;
   std::string out_path;
   std::string json_path;
@@ -132,11 +136,43 @@ ExitStatus Guess(const ImportCommandOptions& options) {
   return ExitStatus::kDone;
 }
 
+/// Of the errors that the record itself has: a map that mends them.
+ExitStatus Suggest(const ImportCommandOptions& options) {
+  session::CheckOutputPath(options.json_path, options.data_path);
+  if (IsBusLog(options.data_path) || session::IsSession(options.data_path)) {
+    throw Problem(
+        ExitStatus::kUsage,
+        "--suggest: sessions and logs of candump have no columns; give a CSV or MAT file");
+  }
+  const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+  const SuggestedMap map =
+      SuggestMap(options.data_path, rig,
+                 fmt::format("amb import {} --rig {} --map MAP.yaml --out SESSION.lcm",
+                             options.data_path, options.rig_name));
+  fmt::print("{}", rt::Printable(map.text));
+  nlohmann::ordered_json json{{"data", options.data_path}, {"rig", rig.numbers.name}};
+  json["record_errors"] = nlohmann::ordered_json::array();
+  for (const diagnosis::RecordError& error : map.found.errors) {
+    json["record_errors"].push_back({{"kind", diagnosis::Name(error.kind)},
+                                     {"channels", error.columns},
+                                     {"size", error.size},
+                                     {"sentence", error.sentence},
+                                     {"mend", error.mend},
+                                     {"by_map", error.by_map}});
+    if (error.by_map) continue;
+    fmt::print(stderr, "{}: {}: {}\n", rt::OneLine(options.data_path), error.sentence, error.mend);
+  }
+  WriteJsonFile(options.json_path, json);
+  return ExitStatus::kDone;
+}
+
 ExitStatus Import(const ImportCommandOptions& options) {
   if (options.guess) return Guess(options);
+  if (options.suggest) return Suggest(options);
   if (options.out_path.empty()) {
-    throw Problem(ExitStatus::kUsage,
-                  "--out is required: the session to write (or --guess, which writes none)");
+    throw Problem(
+        ExitStatus::kUsage,
+        "--out is required: the session to write (or --guess, --suggest, which write none)");
   }
   if (!options.map_path.empty() && IsBusLog(options.data_path)) {
     throw Problem(ExitStatus::kUsage,
@@ -194,14 +230,22 @@ void AddImportCommand(CLI::App& app, Action& action) {
           "CSV file or log of candump (.log), either compressed by xz (.xz), or MAT file (.mat)")
       ->required();
   command->add_option("--rig", options->rig_name, "Rig file, or name of a shipped one")->required();
-  command->add_option("--out", options->out_path, "Session to write; required without --guess");
+  command->add_option("--out", options->out_path,
+                      "Session to write; required without --guess or --suggest");
   auto* map = command->add_option("--map", options->map_path,
                                   "Map of columns: what each column of the file is, its unit, sign "
                                   "and offset (docs/formats.md)");
+  auto* guess = command->add_flag(
+      "--guess", options->guess,
+      "Print a map of columns as it probably is, for you to check; write no session");
+  guess->excludes(map);
   command
-      ->add_flag("--guess", options->guess,
-                 "Print a map of columns as it probably is, for you to check; write no session")
-      ->excludes(map);
+      ->add_flag(
+          "--suggest", options->suggest,
+          "Print the map of columns that mends the errors of the record: exchanged, reversed, "
+          "in another unit, times; write no session")
+      ->excludes(map)
+      ->excludes(guess);
   command->add_flag("--overwrite", options->overwrite, "Replace a session that is there already");
   command->add_option("--tag", options->tags,
                       "Tag in the catalogue (amb sessions); may be repeated");

@@ -11,6 +11,7 @@
 #include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/study/bench_lives.hpp"
+#include "cli/study/bench_spoilt.hpp"
 #include "cli/study/bench_sweep.hpp"
 #include "cli/study/bench_trials.hpp"
 #include "cli/study/identify/geared_commands.hpp"
@@ -42,6 +43,10 @@ ExitStatus Run(const BenchOptions& options) {
     controllers = {"flexible_rotor", "flexible_rotor_commissioned"};
   }
   const accuracy::TestRig bench = accuracy::LoadTestRig(options.rig, controllers);
+  if (options.spoilt > 0) {
+    WriteJsonFile(options.json_path, RunSpoilt(options, bench));
+    return ExitStatus::kDone;
+  }
   if (!options.sweep.empty()) {
     WriteJsonFile(options.json_path, RunSweep(options, bench));
     return ExitStatus::kDone;
@@ -80,6 +85,9 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--outside", options->outside, "Trials outside the vocabulary");
   command->add_option("--pairs", options->pairs, "Trials with two clear effects");
   command->add_option("--weak", options->weak, "Trials with three small effects and a clear one");
+  command->add_option("--spoilt", options->spoilt,
+                      "Instead: so many trials of records with an error of their own, as many "
+                      "healthy ones and two fifths with an effect, of which none may be accused");
   command->add_option("--first", options->first, "Seed of the first trial");
   command->add_option("--effect", options->effects, "Only these effects");
   command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");

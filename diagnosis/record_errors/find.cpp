@@ -7,6 +7,9 @@
 #include "diagnosis/record_errors/law_fit.hpp"
 #include "diagnosis/record_errors/plant_fit.hpp"
 #include "diagnosis/record_errors/position_unit.hpp"
+#include "diagnosis/record_errors/rate.hpp"
+#include "diagnosis/record_errors/readings.hpp"
+#include "diagnosis/record_errors/rotation_unit.hpp"
 #include "diagnosis/record_errors/wiring.hpp"
 #include "diagnosis/records/levitated_interval.hpp"
 
@@ -17,6 +20,25 @@ constexpr std::size_t kMostRows = 16'000;
 /// Between the observers of a search: slow enough to see what columns do, fast enough to follow a
 /// rig that is off its file.
 constexpr ObserverSpeed kObserver{0.003, 1e-5};
+constexpr Eigen::Index kFewestRows = 500;
+
+/// What law and plant tell, of columns whose positions are in metres.
+void FindInTheLoop(const RigView& rig, const Columns& columns, RecordErrors& out) {
+  const std::vector<LawOfColumn> laws = FitLaw(rig, columns);
+  RecordErrors wiring;
+  const PlantFit plant(rig, columns, kObserver);
+  FindWiring(rig, columns, laws, plant, wiring);
+  const Eigen::VectorXd ratios = plant.Ratios(wiring.uses);
+  const bool spoilt = !out.errors.empty() || !wiring.errors.empty();
+  if (ratios.size() > 0 && !spoilt) FindRate(rig, columns, laws, ratios.array().log().sum(), out);
+  for (std::size_t a = 0; a < rig.axes; ++a) {
+    // What the wiring takes a column for is a column whose unit was mended.
+    ColumnUse& use = wiring.uses.position[a];
+    use.factor *= out.uses.position[use.from].factor;
+  }
+  out.uses = wiring.uses;
+  out.errors.insert(out.errors.end(), wiring.errors.begin(), wiring.errors.end());
+}
 
 }  // namespace
 
@@ -37,31 +59,39 @@ Record Mended(const RigView& rig, const Record& record, const RecordErrors& foun
           current.factor * late(current).command.control_current_a[current.from];
     }
     row.sample.speed_rad_per_s *= found.speed_factor;
-    row.sample.angle_rad *= found.angle_factor;
+    if (found.angle_factor == 1.0 || n == 0) continue;
+    // An angle in another unit was wrapped on the way: the speed tells how far it turned.
+    const analysis::RecordedRow& before = out.rows[static_cast<std::size_t>(n - 1)];
+    row.sample.angle_rad =
+        before.sample.angle_rad + rig.period_s * before.sample.speed_rad_per_s *
+                                      static_cast<double>(row.cycle - before.cycle);
   }
   return out;
 }
 
-RecordErrors FindRecordErrors(const RigView& rig, const Record& record) {
+RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
+                              const std::vector<double>& times_s) {
   RecordErrors out;
   out.record = record.name;
+  FindClock(rig, times_s, out);
   FindPositionUnits(rig, record, out);
   Record mended = Mended(rig, record, out);
   LeaveOutContact(rig, mended);
   const Columns columns = ColumnsOf(mended, rig, kMostRows);
-  RecordErrors wiring;
+  if (columns.rows() < kFewestRows) return out;
+  FindQuantised(rig, columns, out);
+  FindClipped(rig, columns, out);
+  FindHeld(rig, columns, out);
+  const bool read_wrong = std::ranges::any_of(out.errors, [](const RecordError& error) {
+    return error.kind == RecordErrorKind::kQuantised || error.kind == RecordErrorKind::kClipped ||
+           error.kind == RecordErrorKind::kHeld;
+  });
+  FindRotationUnit(rig, columns, out);
+  if (read_wrong) return out;  // neither law nor plant is in such readings
   try {
-    const PlantFit plant(rig, columns, kObserver);
-    FindWiring(rig, columns, FitLaw(rig, columns), plant, wiring);
+    FindInTheLoop(rig, columns, out);
   } catch (const Problem&) {  // no observer exists: nothing can be said
-    return out;
   }
-  for (std::size_t a = 0; a < rig.axes; ++a) {
-    // What the wiring takes a column for is a column whose unit was mended.
-    wiring.uses.position[a].factor *= out.uses.position[wiring.uses.position[a].from].factor;
-  }
-  out.uses = wiring.uses;
-  out.errors.insert(out.errors.end(), wiring.errors.begin(), wiring.errors.end());
   return out;
 }
 

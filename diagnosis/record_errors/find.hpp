@@ -1,7 +1,8 @@
 #pragma once
 // Errors of a record itself, looked for before anything is said of the rig.
 //
-// Order      unit of positions (all else needs them in metres), readings, rotation, columns.
+// Order      times, unit of positions (all else needs them in metres), readings, rotation, columns,
+//            rate.
 // Cost       about a second for a record of two seconds with four axes.
 // Thread     any; pure. Failure: none; a record too short for a check passes it.
 // Not done   a record that cannot be read at all; candump and sessions have no columns to exchange,
@@ -15,7 +16,9 @@
 
 namespace levitas::diagnosis {
 
-[[nodiscard]] RecordErrors FindRecordErrors(const RigView& rig, const Record& record);
+/// `times_s`: of all rows of its file, where it has them.
+[[nodiscard]] RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
+                                            const std::vector<double>& times_s = {});
 
 /// The rows as they are with the mends in force.
 [[nodiscard]] Record Mended(const RigView& rig, const Record& record, const RecordErrors& found);

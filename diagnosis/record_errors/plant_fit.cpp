@@ -10,10 +10,10 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr double kStretchS = 0.1;
+constexpr double kShortStretchS = 0.1;
 constexpr double kMostSettlingS = 0.15;
 constexpr std::uint64_t kLongestBridge = 20;  ///< missing rows
-constexpr std::size_t kFewest = 500;          ///< rows that count
+constexpr std::size_t kFewestCounted = 500;   ///< rows that count
 
 /// State: plant, commands on their way, unknown forces.
 struct Filter {
@@ -81,7 +81,7 @@ PlantFit::PlantFit(const RigView& rig, const Columns& columns, const ObserverSpe
                    bool every_place, double period_factor)
     : axes_(rig.axes), every_place_(every_place) {
   Run(rig, columns, speed, period_factor);
-  MakeBasis(columns, static_cast<std::size_t>(std::llround(kStretchS / rig.period_s)));
+  MakeBasis(columns, static_cast<std::size_t>(std::llround(kShortStretchS / rig.period_s)));
 }
 
 void PlantFit::Run(const RigView& rig, const Columns& columns, const ObserverSpeed& speed,
@@ -178,7 +178,7 @@ void PlantFit::MakeBasis(const Columns& columns, std::size_t rows_a_stretch) {
 }
 
 Eigen::VectorXd PlantFit::Ratios(const ColumnUses& uses) const {
-  if (counted_ < kFewest) return {};
+  if (counted_ < kFewestCounted) return {};
   const auto axes = static_cast<Eigen::Index>(axes_);
   Eigen::VectorXd power = Eigen::VectorXd::Zero(axes);
   double count = 0.0;

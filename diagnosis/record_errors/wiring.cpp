@@ -163,7 +163,10 @@ RecordError Describe(const RigView& rig, const Hypothesis& h, double times) {
       error.sentence =
           fmt::format("{} is {} row{} {} the other columns", names, std::abs(h.size),
                       std::abs(h.size) == 1.0 ? "" : "s", h.size > 0.0 ? "behind" : "ahead of");
-      error.mend = fmt::format("delay_rows: {} in a map of columns", h.size);
+      error.mend = fmt::format("move its numbers {} row{} {} in the file; no map of columns does",
+                               std::abs(h.size), std::abs(h.size) == 1.0 ? "" : "s",
+                               h.size > 0.0 ? "up" : "down");
+      error.by_map = false;
       break;
   }
   return error;

@@ -1,0 +1,27 @@
+#pragma once
+// Rows that are further apart, or nearer, than the rig's period.
+//
+// Times      steps of the file's time column over the rig's period, at the start and at the end of
+//            the record: kOff away from 1, a clock that is scaled; different at both, one that
+//            drifts. Only where the file has times (`times_s` not empty).
+// Dynamics   the plant of the rig at whole multiples and parts of its rate (plant_fit.hpp): another
+//            rate is named where the law of the controller is not in the rows (some are missing, or
+//            made from others), and it leaves less of the plant by kRateGain.
+// Thread     any; pure.
+
+#include <vector>
+
+#include "diagnosis/model/rig_view.hpp"
+#include "diagnosis/record_errors/columns.hpp"
+#include "diagnosis/record_errors/law_fit.hpp"
+#include "diagnosis/record_errors/record_error.hpp"
+
+namespace levitas::diagnosis {
+
+void FindClock(const RigView& rig, const std::vector<double>& times_s, RecordErrors& out);
+
+/// `left`: the logarithm of the plant's ratios with the columns as `out` takes them.
+void FindRate(const RigView& rig, const Columns& columns, const std::vector<LawOfColumn>& laws,
+              double left, RecordErrors& out);
+
+}  // namespace levitas::diagnosis
