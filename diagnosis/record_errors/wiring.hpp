@@ -3,8 +3,8 @@
 //
 // Hypotheses  two columns of positions, of currents, or both exchanged; the same of whole bearings;
 //             one column, both of an axis, or all currents reversed; one column of currents, or
-//             all, in the unit a thousand times as large or small; one column early or late by up to
-//             kMostShift rows. At most two of them, one after the other.
+//             all, in the unit a thousand times as large or small; one column early or late by up
+//             to kMostShift rows. At most two of them, one after the other.
 // Law         (law_fit.hpp) breaks: a current that follows another axis's positions or test signal,
 //             pushes away from the centre, answers before it could or later than the others do.
 //             A healthy record breaks nothing, whatever is wrong with the rig.
