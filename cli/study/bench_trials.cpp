@@ -102,7 +102,7 @@ std::string Hidden(const accuracy::TrialScore& o) {
 }
 
 void PrintOne(const accuracy::TrialScore& o) {
-  fmt::print("{:>6} {:<26}{:<9}-> {:<8}{:<60}{:>7.1f} nat {:.1f} s{}\n", o.seed, Hidden(o),
+  fmt::print("{:>6} {:<26}{:<9}-> {:<10}{:<58}{:>7.1f} nat {:.1f} s{}\n", o.seed, Hidden(o),
              o.truth.empty() ? "" : accuracy::Name(o.size()), o.verdict,
              fmt::format("{}{}{}", fmt::join(o.named, ", "), o.ties.empty() ? "" : " | ",
                          fmt::join(o.ties, ", ")),

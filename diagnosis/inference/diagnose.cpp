@@ -78,8 +78,11 @@ void AddEvents(SearchState& state, const Residual& remainder) {
   SortByScore(state.candidates);
 }
 
-/// A cause far ahead of all others, though it leaves a residual.
+/// A cause far ahead of all others, though it leaves a residual. Not of a chain that the search had
+/// to cut off: as many causes as it may have imitate what is not in the vocabulary.
 bool LeadsFar(const SearchState& state) {
+  if (state.causes.size() >= state.settings.most_causes && state.settings.most_causes > 1)
+    return false;
   const auto& all = state.candidates;
   if (state.causes.empty() || all.empty() || all.front().effect != state.causes.front().effect)
     return false;

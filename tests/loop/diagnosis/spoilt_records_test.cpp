@@ -19,7 +19,7 @@ const Trial& TheTrial() {
     plan.seed = 20261126;
     plan.bits_per_axis = 700;
     plan.runup_s = 1.0;
-    return MakeTrial(LoadTestRig("flexible_rotor", {}), plan);
+    return MakeTrial(LoadTestRig("flexible_rotor", {"flexible_rotor"}), plan);
   }();
   return trial;
 }
