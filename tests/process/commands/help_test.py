@@ -15,7 +15,7 @@ OPTIONS = {
     "compare": {"--rig", "--speed-rpm", "--speeds", "--orders", "--page", "--circle-um", "--json"},
     "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--free-run",
                  "--controller", "--csv", "--svg", "--json"},
-    "import": {"--rig", "--out", "--map", "--guess", "--overwrite", "--tag", "--json"},
+    "import": {"--rig", "--out", "--map", "--guess", "--suggest", "--overwrite", "--tag", "--json"},
     "sessions": {"--rig", "--outcome", "--tag", "--text", "--from", "--to", "--catalogue", "--json"},
     "manual": {"--markdown", "--man", "--bash"},
     "export": {"--csv", "--mat", "--mcap", "--from", "--to", "--every", "--columns", "--json"},
