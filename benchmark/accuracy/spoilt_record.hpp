@@ -1,9 +1,8 @@
 #pragma once
 // Records spoilt on purpose, as loggers and cables do: one error, drawn by seed, in all records of
-//         a
-// trial; to measure how often errors of a record are named (diagnosis/record_errors/find.hpp).
+// a trial; to measure how often errors of a record are named (diagnosis/record_errors/find.hpp).
 //
-// Kinds      those of RecordErrorKind, other_rig left out, one after the other. Columns, sizes and
+// Kinds      those of RecordErrorKind, one after the other. Columns, sizes and
 //            variants by seed:
 //            swapped (positions or currents of two axes, or of two bearings), reversed (one
 //            column), unit (one column or all of a kind, 10^3; speed in Hz, rpm or rad/s; angle in

@@ -157,19 +157,15 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
   if (state.effort.first_cause_only) {
     DropUnproven(state);
     RankCandidates(state);
-    DropUngained(state);
-    NameMovedCalibration(state);
-    JudgeOnValidation(state);
-    SuspectCause(state);
-    return Conclude(state);
+  } else {
+    MergeCauses(state);
+    ExchangeCauses(state);
+    do {
+      DropUnproven(state);
+      RankCandidates(state);
+      RefitAlternatives(state);
+    } while (LeaderFails(state));
   }
-  MergeCauses(state);
-  ExchangeCauses(state);
-  do {
-    DropUnproven(state);
-    RankCandidates(state);
-    RefitAlternatives(state);
-  } while (LeaderFails(state));
   DropUngained(state);
   NameMovedCalibration(state);
   JudgeOnValidation(state);

@@ -27,6 +27,11 @@ std::vector<std::size_t> Taken(const Record& record, std::size_t most_rows) {
 
 }  // namespace
 
+double CurrentLimit(const RigView& rig, std::size_t axis) {
+  const auto& magnet = rig.bearing(axis).magnet;
+  return std::min(magnet.bias_current_a, magnet.max_coil_current_a - magnet.bias_current_a);
+}
+
 Columns ColumnsOf(const Record& record, const RigView& rig, std::size_t most_rows) {
   const std::vector<std::size_t> taken = Taken(record, most_rows);
   const auto rows = static_cast<Eigen::Index>(taken.size());

@@ -34,6 +34,9 @@ struct Columns {
   [[nodiscard]] Eigen::Index axes() const noexcept { return position_m.cols(); }
 };
 
+/// Control current at which a coil of the axis is at zero or at its largest current [A].
+[[nodiscard]] double CurrentLimit(const RigView& rig, std::size_t axis);
+
 [[nodiscard]] Columns ColumnsOf(const Record& record, const RigView& rig, std::size_t most_rows);
 
 }  // namespace levitas::diagnosis

@@ -97,9 +97,7 @@ void FindHeld(const RigView& rig, const Columns& columns, RecordErrors& out) {
     std::vector<Repeating> found;
     std::vector<double> shares;
     for (Eigen::Index a = 0; a < columns.axes(); ++a) {
-      const auto& magnet = rig.bearing(static_cast<std::size_t>(a)).magnet;
-      const double limit_a =
-          std::min(magnet.bias_current_a, magnet.max_coil_current_a - magnet.bias_current_a);
+      const double limit_a = CurrentLimit(rig, static_cast<std::size_t>(a));
       found.push_back(Judge(columns, Marks(columns, of, a, position ? 1.0 : 0.999 * limit_a)));
       shares.push_back(found.back().share);
     }

@@ -45,13 +45,8 @@ class Sums {
   double rows_{};
 };
 
-double LimitA(const RigView& rig, Eigen::Index axis) {
-  const auto& magnet = rig.bearing(static_cast<std::size_t>(axis)).magnet;
-  return std::min(magnet.bias_current_a, magnet.max_coil_current_a - magnet.bias_current_a);
-}
-
 std::vector<Eigen::Index> Usable(const RigView& rig, const Columns& columns, Eigen::Index current) {
-  const double limit_a = kAtLimit * LimitA(rig, current);
+  const double limit_a = kAtLimit * CurrentLimit(rig, static_cast<std::size_t>(current));
   std::vector<Eigen::Index> rows;
   Eigen::Index clean = 0;  // rows since the last one that breaks a window
   const Eigen::Index last = columns.rows() - kMostShift;

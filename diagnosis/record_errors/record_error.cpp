@@ -10,8 +10,8 @@
 namespace levitas::diagnosis {
 
 const char* Name(RecordErrorKind kind) noexcept {
-  constexpr std::array kNames{"swapped", "reversed", "unit",    "rate",     "quantised",
-                              "clipped", "held",     "delayed", "other_rig"};
+  constexpr std::array kNames{"swapped",   "reversed", "unit", "rate",
+                              "quantised", "clipped",  "held", "delayed"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 

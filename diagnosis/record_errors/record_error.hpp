@@ -26,8 +26,7 @@ enum class RecordErrorKind : std::uint8_t {
   kQuantised,
   kClipped,
   kHeld,
-  kDelayed,
-  kOtherRig
+  kDelayed
 };
 
 /// "swapped", "reversed", ...: as in diagnosis.json.

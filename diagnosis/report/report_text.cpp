@@ -1,6 +1,7 @@
 #include "diagnosis/report/report_text.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -106,6 +107,12 @@ double OwnEvidence(const DiagnosisReport& report) {
   return own == report.candidates.end() ? report.evidence_nat : own->evidence_nat;
 }
 
+/// Whether validation data say so; not without them.
+bool ForetellsLess(const ReportCandidate& candidate, const ReportCandidate& than) {
+  return candidate.validation_nat && than.validation_nat &&
+         *candidate.validation_nat < *than.validation_nat;
+}
+
 /// The other causes, and what the data do not separate from the first.
 std::string Others(const DiagnosisReport& report) {
   std::string text;
@@ -180,8 +187,7 @@ std::string SuspicionSentence(const DiagnosisReport& report) {
     case Doubt::kHeldOutHarm:
       return fmt::format(
           "Its {:.0f} nat on the fitted data are decisive, but the validation data refute it: "
-          "there "
-          "the calibrated model foretells more without it.",
+          "there the calibrated model foretells more without it.",
           OwnEvidence(report));
     case Doubt::kResidualIsLeft:
       return fmt::format(
@@ -207,11 +213,9 @@ void CompleteReport(DiagnosisReport& report) {
 std::string VerdictSentence(const DiagnosisReport& report) {
   std::string text = Finding(report);
   std::string outside;
-  for (const std::string& number : report.outside_tolerance) {
-    outside += (outside.empty() ? "" : ", ") + number;
-  }
-  if (!outside.empty()) {
-    outside = fmt::format("More than {:.0f} tolerances from the rig file: {}.", kOutside, outside);
+  if (!report.outside_tolerance.empty()) {
+    outside = fmt::format("More than {:.0f} tolerances from the rig file: {}.", kOutside,
+                          fmt::join(report.outside_tolerance, ", "));
   }
   for (const std::string& more : {outside, ValidationSentence(report), report.input_warning}) {
     if (!more.empty()) text += " " + more;
@@ -273,9 +277,7 @@ double Confidence(const DiagnosisReport& report) {
   double sum = std::exp(-best);
   for (const ReportCandidate& c : candidates) {
     // What validation data refuted does not count, whatever the fitted data say.
-    if (first.validation_nat && c.validation_nat && *c.validation_nat < *first.validation_nat) {
-      continue;
-    }
+    if (ForetellsLess(c, first)) continue;
     if (std::isfinite(c.evidence_nat)) sum += std::exp(c.evidence_nat - best);
   }
   return std::exp(candidates.front().evidence_nat - best) / sum;
@@ -291,8 +293,7 @@ std::string Reason(const DiagnosisReport& report, const ReportCandidate& candida
     return "these data do not separate it from the cause";
   }
   const auto& first = report.candidates.front();
-  if (candidate.validation_nat && first.validation_nat &&
-      *candidate.validation_nat < *first.validation_nat) {
+  if (ForetellsLess(candidate, first)) {
     return fmt::format("foretells the validation data {:.0f} nat worse than the cause",
                        *first.validation_nat - *candidate.validation_nat);
   }
