@@ -62,7 +62,8 @@ void FindPositionUnits(const RigView& rig, const Record& record, RecordErrors& o
       if (FactorOf(noise_m[a], expected_m) != factor) continue;
       out.uses.position[a].factor *= factor;
       error.columns.push_back(PositionColumn(rig, a));
-      error.statistic = noise_m[a] / expected_m;
+      const double times = noise_m[a] / expected_m;
+      error.statistic = std::max(times, 1.0 / times);
     }
     if (error.columns.empty()) continue;
     error.sentence = fmt::format("{} {} in another unit: numbers are {} (noise of the readings)",

@@ -36,7 +36,7 @@ struct RecordError {
   RecordErrorKind kind{};
   std::vector<std::string> columns;
   double size{};
-  double statistic{};
+  double statistic{};  ///< how many times better the data fit once mended, > 1
   std::string sentence, mend;
   bool by_map{};
 };

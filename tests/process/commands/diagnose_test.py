@@ -120,18 +120,24 @@ class DiagnoseOwnModel(unittest.TestCase):
         self.refuse(("run.csv", "de_x", "ball_x", "--rig"), "--rig", "two_magnet_levitator",
                     "run.csv")
 
-    def test_columns_in_another_unit_than_their_names_are_refused_with_what_was_found(self):
+    def test_columns_in_another_unit_than_their_names_are_named_and_read_as_they_are(self):
         folder = Path(self.shared.name)
         head, rows = (folder / "run.csv").read_text().split("\n", 1)
         self.assertIn("_m,", head)
-        (folder / "um.csv").write_text(head.replace("_m,", "_um,") + "\n" + rows)
-        self.refuse(("um.csv", "position de_x scatters", "allowed", "_m, _mm, _um"), "--rig",
-                    "flexible_rotor", "um.csv")
-        names = [name[:-2] + "_ma" if name.startswith("control_current") else name
-                 for name in head.split(",")]
-        (folder / "ma.csv").write_text(",".join(names) + "\n" + rows)
-        self.refuse(("ma.csv", "control currents are", "bias current of 1 A", "_a, _ma"), "--rig",
-                    "flexible_rotor", "ma.csv")
+        positions = [f"position_{axis}" for axis in ("de_x", "de_y", "nde_x", "nde_y")]
+        currents = [f"control_current_{axis}" for axis in ("de_x", "de_y", "nde_x", "nde_y")]
+        milliampere = ",".join(name[:-2] + "_ma" if name.startswith("control_current") else name
+                               for name in head.split(","))
+        for name, wrong, columns in (("um.csv", head.replace("_m,", "_um,"), positions),
+                                     ("ma.csv", milliampere, currents)):
+            (folder / name).write_text(wrong + "\n" + rows)
+            printed, answer = self.diagnose(name)
+            errors = answer["record_errors"]
+            self.assertEqual([(e["kind"], e["record"], sorted(e["channels"])) for e in errors],
+                             [("unit", name, columns)], printed)
+            self.assertIn(f"Error of the record {name}: " + ", ".join(columns), printed)
+            self.assertIn("To mend it:", printed)
+            self.assertEqual(answer["verdict"], "none", printed)
 
     def test_a_record_without_flight_is_refused_with_what_was_found(self):
         lines = (Path(self.shared.name) / "run.csv").read_text().splitlines(True)
