@@ -77,7 +77,7 @@ endif()
 # Checks of every index and iterator of the standard library, but not in the arithmetic that runs
 # thousands of times per period or trial: there it costs more than 2 %.
 set(LEVITAS_UNCHECKED_ARITHMETIC law rotor magnet amplifier sensor support gear effect plant analysis
-    identification diagnosis_model diagnosis_terms diagnosis_inference levitator accuracy
+    record_analysis identification diagnosis_model diagnosis_terms diagnosis_inference levitator accuracy
     identification_accuracy synthesis dense spectra)
 function(levitas_check_indices name)
   if(NOT name IN_LIST LEVITAS_UNCHECKED_ARITHMETIC)

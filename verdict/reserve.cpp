@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/observer.hpp"
 #include "analysis/poles.hpp"
+#include "analysis/reading_noise.hpp"
 
 namespace levitas::verdict {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "analysis/recorded_rows.hpp"
+#include "analysis/records/recorded_rows.hpp"
 #include "common/output_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/law/axis_law.hpp"

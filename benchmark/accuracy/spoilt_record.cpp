@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/observer.hpp"
+#include "analysis/reading_noise.hpp"
+#include "analysis/records/observer.hpp"
 #include "common/random.hpp"
 
 namespace levitas::accuracy {

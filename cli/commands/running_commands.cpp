@@ -10,7 +10,6 @@ void AddRunningCommands(CLI::App& app, Action& action) {
   AddPolesCommand(app, action);
   AddMarginsCommand(app, action);
   AddReplayCommand(app, action);
-  AddImportCommand(app, action);
   AddExportCommand(app, action);
   AddCanDbcCommand(app, action);
   AddDashCommand(app, action);

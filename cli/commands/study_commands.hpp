@@ -22,6 +22,9 @@ struct StudyCommand {
 };
 
 inline constexpr std::array kStudyCommands{
+    StudyCommand{
+        "import",
+        "Measured data (CSV, MAT), or a candump log of a rig's CAN buses, becomes a session"},
     StudyCommand{"simulate", "Where the model departs from a recorded session"},
     StudyCommand{"effects",
                  "What a rig may do beyond its nominal model: the catalogue, and the signature of "

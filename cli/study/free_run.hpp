@@ -1,6 +1,6 @@
 #pragma once
 // amb simulate --free-run: model and law in closed loop beside the record, as text, JSON, CSV and a
-// picture. What is computed: analysis/free_run.hpp.
+// picture. What is computed: analysis/records/free_run.hpp.
 //
 // Failure  BadInput, one sentence: a record that names no law when none is given, one without a
 //          test signal; a file that cannot be written. An empty path writes nothing.
@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "analysis/free_run.hpp"
+#include "analysis/records/free_run.hpp"
 #include "configuration/rig_file.hpp"
 
 namespace levitas::cli {

@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 #include "common/rig_numbers.hpp"
 
 namespace levitas::cli {

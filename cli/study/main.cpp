@@ -11,6 +11,7 @@ void AddCommands(CLI::App& app, levitas::cli::Action& action) {
   using namespace levitas::cli;
   RefuseOtherBuild(levitas::BuildMark());
   AddRunningCommands(app, action);
+  AddImportCommand(app, action);
   AddSimulateCommand(app, action);
   AddEffectsCommand(app, action);
   AddIdentifyCommand(app, action);

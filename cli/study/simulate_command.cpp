@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "analysis/coil_prediction.hpp"
-#include "analysis/innovations.hpp"
-#include "analysis/recorded_rows.hpp"
+#include "analysis/records/coil_prediction.hpp"
+#include "analysis/records/innovations.hpp"
+#include "analysis/records/recorded_rows.hpp"
 #include "cli/commands/command.hpp"
 #include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "analysis/spectrum.hpp"
+#include "analysis/records/spectrum.hpp"
 
 namespace levitas::diagnosis {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/recorded_rows.hpp"
+#include "analysis/records/recorded_rows.hpp"
 #include "diagnosis/model/parallel_for.hpp"
 
 namespace levitas::diagnosis {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 #include "configuration/rig_file.hpp"
 
 namespace levitas::levitator {

@@ -1,7 +1,7 @@
 #pragma once
 // The nonlinear model driven through a record: plant, observer and the terms in force.
 //
-// Equation   analysis/observer.hpp, with what the terms add (term.hpp).
+// Equation   analysis/records/observer.hpp, with what the terms add (term.hpp).
 // Lost       up to 20 frames in a row are bridged with the current held and no correction; so are
 //            frames that repeat more often than by chance (repeated_frames.hpp). They do not count.
 // Validation  every sixth stretch of 50 ms when the record asks for it: run and corrected like all
@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 #include "diagnosis/model/rig_view.hpp"
 #include "diagnosis/model/term.hpp"
 

@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 #include "common/axes.hpp"
 
 namespace levitas::diagnosis {

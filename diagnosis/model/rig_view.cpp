@@ -5,7 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "analysis/observer.hpp"
+#include "analysis/reading_noise.hpp"
+#include "analysis/records/observer.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/model/sample_point.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"

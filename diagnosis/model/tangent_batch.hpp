@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-#include "analysis/observer.hpp"
+#include "analysis/records/observer.hpp"
 #include "diagnosis/model/linear_change.hpp"
 #include "diagnosis/model/rig_view.hpp"
 

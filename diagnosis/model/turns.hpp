@@ -7,7 +7,7 @@
 //
 // Thread  any; pure but for the record given. Failure: none.
 
-#include "analysis/observer.hpp"
+#include "analysis/records/observer.hpp"
 #include "diagnosis/model/model_run.hpp"
 
 namespace levitas::diagnosis {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/observer.hpp"
+#include "analysis/records/observer.hpp"
 #include "plant_sim/plant/linear_model.hpp"
 
 namespace levitas::diagnosis {

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 #include "diagnosis/model/model_run.hpp"
 #include "diagnosis/model/rig_view.hpp"
 

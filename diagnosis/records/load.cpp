@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "analysis/recorded_rows.hpp"
+#include "analysis/records/recorded_rows.hpp"
 #include "common/problem.hpp"
 #include "session/recording.hpp"
 

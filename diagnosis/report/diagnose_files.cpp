@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/recorded_rows.hpp"
+#include "analysis/records/recorded_rows.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/inference/events.hpp"

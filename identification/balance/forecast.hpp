@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-#include "analysis/order_track.hpp"
+#include "analysis/records/order_track.hpp"
 #include "controller/law/law_config.hpp"
 #include "identification/balance/balance_rig.hpp"
 

@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "analysis/order_track.hpp"
+#include "analysis/records/order_track.hpp"
 #include "identification/balance/forecast.hpp"
 
 namespace levitas::balancing {

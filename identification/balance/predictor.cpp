@@ -4,7 +4,8 @@
 #include <complex>
 #include <numbers>
 
-#include "analysis/observer.hpp"
+#include "analysis/reading_noise.hpp"
+#include "analysis/records/observer.hpp"
 #include "common/problem.hpp"
 #include "numerics/dense/factorisations.hpp"
 #include "numerics/dense/spectrum.hpp"

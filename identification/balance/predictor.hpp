@@ -28,7 +28,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "analysis/order_track.hpp"
+#include "analysis/records/order_track.hpp"
 #include "identification/balance/balance_rig.hpp"
 
 namespace levitas::balancing {

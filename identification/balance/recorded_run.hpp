@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/order_track.hpp"
+#include "analysis/records/order_track.hpp"
 #include "configuration/rig_file.hpp"
 #include "session/recording.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // A rig whose probes and coils are all wired straight, so that readings and commands of its plant
 // are numbers of the bearing frame: for models that are driven with a recorded run and never meet
-// wires (analysis/observer.hpp, diagnosis).
+// wires (analysis/records/observer.hpp, diagnosis).
 // Thread  any; pure.
 
 #include <utility>

@@ -1,7 +1,7 @@
 // A free run in closed loop beside a record of the nonlinear plant: near it where model and plant
 // are the same, off it where one thing differs.
 
-#include "analysis/free_run.hpp"
+#include "analysis/records/free_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Innovations on records of the nonlinear plant in closed loop: white and at the noise when the
 // model is the plant, and larger at the right place when one thing differs.
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 
 #include <gtest/gtest.h>
 

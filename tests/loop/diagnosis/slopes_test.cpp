@@ -2,6 +2,7 @@
 // no more than the model keeps.
 
 #include "diagnosis/model/slopes.hpp"
+#include "analysis/reading_noise.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <ostream>
 
-#include "analysis/coil_prediction.hpp"
 #include "analysis/poles.hpp"
-#include "analysis/recorded_rows.hpp"
+#include "analysis/records/coil_prediction.hpp"
+#include "analysis/records/recorded_rows.hpp"
 #include "common/problem.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/shipped_loop.hpp"

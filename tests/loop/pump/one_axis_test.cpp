@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/observer.hpp"
 #include "analysis/poles.hpp"
+#include "analysis/records/observer.hpp"
 #include "analysis/sensitivity.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/plant/linear_model.hpp"

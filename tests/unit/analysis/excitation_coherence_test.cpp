@@ -1,6 +1,6 @@
 // How much of the innovations follows a test signal, where the share is known.
 
-#include "analysis/excitation_coherence.hpp"
+#include "analysis/records/excitation_coherence.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,11 @@
-#include "analysis/observer.hpp"
+#include "analysis/records/observer.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/reading_noise.hpp"
 #include "common/problem.hpp"
 #include "common/random.hpp"
 #include "plant_sim/plant/plant_model.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/riccati.hpp"
+#include "analysis/records/riccati.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/spectrum.hpp"
+#include "analysis/records/spectrum.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Complex amplitudes of what turns with the rotor, against signals made in closed form.
-#include "analysis/order_track.hpp"
+#include "analysis/records/order_track.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // Lost frames, the level of the noise and mains, found in records made by hand.
 
 #include "diagnosis/inference/events.hpp"
+#include "analysis/reading_noise.hpp"
 #include "diagnosis/inference/mains_lines.hpp"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/coil_prediction.hpp"
+#include "analysis/records/coil_prediction.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/report_values.hpp"

@@ -17,7 +17,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 #include "controller/law/law_config.hpp"
 #include "session/recording.hpp"
 

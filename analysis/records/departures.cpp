@@ -1,4 +1,4 @@
-#include "analysis/departures.hpp"
+#include "analysis/records/departures.hpp"
 
 #include <fmt/core.h>
 

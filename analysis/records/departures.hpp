@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 
 namespace levitas::analysis {
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 
 namespace levitas::analysis {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 
 namespace levitas::analysis {
 

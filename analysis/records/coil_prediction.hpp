@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 #include "plant_sim/plant/plant_config.hpp"
 
 namespace levitas::analysis {

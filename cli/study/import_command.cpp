@@ -8,9 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/command.hpp"
-#include "cli/commands/suggested_map.hpp"
+#include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/enter_session.hpp"
+#include "cli/study/suggested_map.hpp"
 #include "configuration/rig_file.hpp"
 #include "controller/rt/say.hpp"
 #include "levitas_version.hpp"
@@ -220,9 +221,7 @@ ExitStatus Import(const ImportCommandOptions& options) {
 
 void AddImportCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<ImportCommandOptions>();
-  CLI::App* command = app.add_subcommand(
-      "import",
-      "Measured data (CSV, MAT), or a candump log of a rig's CAN buses, becomes a session");
+  CLI::App* command = AddStudyCommand(app, "import");
   command->footer(kImportHelp);
   command
       ->add_option(

@@ -1,4 +1,4 @@
-#include "analysis/recorded_rows.hpp"
+#include "analysis/records/recorded_rows.hpp"
 
 #include <cmath>
 

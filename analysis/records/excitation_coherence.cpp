@@ -1,9 +1,9 @@
-#include "analysis/excitation_coherence.hpp"
+#include "analysis/records/excitation_coherence.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/spectrum.hpp"
+#include "analysis/records/spectrum.hpp"
 
 namespace levitas::analysis {
 namespace {

@@ -1,4 +1,4 @@
-#include "analysis/coil_prediction.hpp"
+#include "analysis/records/coil_prediction.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,12 @@
-#include "analysis/observer.hpp"
+#include "analysis/records/observer.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/riccati.hpp"
+#include "analysis/reading_noise.hpp"
+#include "analysis/records/riccati.hpp"
 #include "numerics/dense/factorisations.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
@@ -193,12 +194,6 @@ bool IsNear(const ObserverGain& gain, const ObserverGain& stationary) {
 }
 
 }  // namespace
-
-double ReadingNoise(const plant::SensorConfig& sensor) {
-  const double step_m =
-      sensor.adc_bits > 0 ? 2.0 * sensor.range_m / std::ldexp(1.0, sensor.adc_bits) : 0.0;
-  return std::sqrt(sensor.noise_rms_m * sensor.noise_rms_m + step_m * step_m / 12.0);
-}
 
 ObserverGain DesignObserver(const plant::PlantConfig& nominal, const ObserverTuning& tuning) {
   ScaledModel model(nominal, tuning.speed_rad_per_s);

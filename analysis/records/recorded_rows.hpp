@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 #include "session/recording.hpp"
 
 namespace levitas::analysis {

@@ -1,4 +1,4 @@
-#include "analysis/innovations.hpp"
+#include "analysis/records/innovations.hpp"
 
 #include <fmt/core.h>
 
@@ -8,9 +8,9 @@
 #include <complex>
 #include <numbers>
 
-#include "analysis/departures.hpp"
-#include "analysis/excitation_coherence.hpp"
-#include "analysis/spectrum.hpp"
+#include "analysis/records/departures.hpp"
+#include "analysis/records/excitation_coherence.hpp"
+#include "analysis/records/spectrum.hpp"
 #include "common/problem.hpp"
 #include "numerics/hann_window.hpp"
 

@@ -1,4 +1,4 @@
-#include "analysis/free_run.hpp"
+#include "analysis/records/free_run.hpp"
 
 #include <algorithm>
 #include <cmath>

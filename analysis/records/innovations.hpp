@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/observer.hpp"
+#include "analysis/records/observer.hpp"
 
 namespace levitas::analysis {
 

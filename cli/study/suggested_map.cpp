@@ -1,4 +1,4 @@
-#include "cli/commands/suggested_map.hpp"
+#include "cli/study/suggested_map.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "analysis/recorded_rows.hpp"
+#include "analysis/records/recorded_rows.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/record_errors/find.hpp"
 #include "session/column_guess.hpp"

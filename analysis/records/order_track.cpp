@@ -1,4 +1,4 @@
-#include "analysis/order_track.hpp"
+#include "analysis/records/order_track.hpp"
 
 #include <cmath>
 #include <complex>

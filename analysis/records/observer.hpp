@@ -47,9 +47,6 @@ struct ObserverGain {
   double settling_s{};                ///< time in which a start error falls to 1 %
 };
 
-/// rms of what one reading adds to the true position: noise and quantisation.
-[[nodiscard]] double ReadingNoise(const plant::SensorConfig& sensor);
-
 /// Throws Problem when no stationary gain exists (a sensor without any noise, for instance).
 [[nodiscard]] ObserverGain DesignObserver(const plant::PlantConfig& nominal,
                                           const ObserverTuning& tuning);
