@@ -5,8 +5,8 @@
 // Equation   the law's own, from the errors of this period to the control currents it wants. The
 //            cycle adds the test signal, limits the sum to +-limit_a and counts the axes at the
 //            limit; a law that integrates watches the limit itself.
-// Units      SI, named in identifiers. Frame: bearing frame, positive current pulls towards +x, so a
-//            positive error asks for a positive current.
+// Units      SI, named in identifiers. Frame: bearing frame, positive current pulls towards +x, so
+//            a positive error asks for a positive current.
 // Thread     loop thread only; Step and Start neither allocate, lock, wait nor throw, and give the
 //            same for the same: that is what lets a run be repeated.
 // Failure    what is no number releases the rotor in the same cycle (Fault::kLawNotFinite).

@@ -1,5 +1,5 @@
 #pragma once
-// A law that no controller file can say: soft where the rotor stands, stiffer the further it is out.
+// A law that no controller file can say: soft about the centre, stiffer the further the rotor is.
 //
 // Equation   i = k (1 + (e / e0)^2) e + ki * integral of e + kd * filtered de/dt, axis by axis.
 // Why        noise of the sensors meets the small gain, a shock the large one.

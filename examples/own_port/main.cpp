@@ -1,5 +1,5 @@
-// Controller and rig as two processes, joined by a port of one's own (socket_port.hpp). The loops of
-// both are the product's: here in lockstep, each frame answered before simulated time goes on.
+// Controller and rig as two processes, joined by a port of one's own (socket_port.hpp). The loops
+// of both are the product's: here in lockstep, each frame answered before simulated time goes on.
 
 #include <sys/socket.h>
 #include <sys/wait.h>

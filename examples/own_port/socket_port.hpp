@@ -2,9 +2,9 @@
 // A port of one's own: frames and currents over a UNIX socket between two processes of one build.
 //
 // Controller  SocketPort, the RigPort that a ControlLoop reads and writes.
-// Rig         SocketLink, the RigLink that a PlantLoop answers on; a real rig has a bus driver here.
-// Messages    the bytes of SensorFrame and CurrentFrame. That does between two processes of the same
-//             build on one machine; a wire between machines needs a layout of its own.
+// Rig         SocketLink, the RigLink that a PlantLoop answers on; a real rig has its bus here.
+// Messages    the bytes of SensorFrame and CurrentFrame. That does between two processes of the
+//             same build on one machine; a wire between machines needs a layout of its own.
 // Thread      loop thread of its end; no heap, no locks, no exceptions.
 // Waiting     to the deadline at most, and then only for what has not come.
 // Failure     a socket whose other end is gone reads as nothing, and says so once (closed).

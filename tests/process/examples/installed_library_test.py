@@ -13,7 +13,8 @@ import own_program  # noqa: E402
 CONSUMER = Path(__file__).resolve().parent / "consumer"
 ARCHIVE = own_program.BUILD / "lib/liblevitas.a"
 # Nearly ours; and everything that makes copies of inline functions differ: no optimisation, assertions,
-# vectors of this processor (Eigen aligns and allocates otherwise with AVX), contracted arithmetic.
+# vectors of this processor (Eigen aligns and allocates otherwise with AVX), contracted arithmetic. Linked
+# to the plain libraries of the build, the second ends with a double free on a processor with AVX.
 SWITCHES = {"near": "-O1 -DNDEBUG", "far": "-O0 -D_GLIBCXX_ASSERTIONS -march=native -ffp-contract=fast"}
 
 
