@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "configuration/rig_file.hpp"
 #include "controller/loop/control_loop.hpp"
@@ -79,7 +80,9 @@ int RunController(int descriptor) {
   rt::MonotonicClock clock;
   loop::ControlLoop control_loop({.pace = loop::Pace::kLockstep, .period_ns = rig.period_ns}, port,
                                  control, player, watch, clock);
+  port.when_gone = [&control_loop] { control_loop.Abort(); };
   control_loop.Run();
+  if (port.gone()) throw std::runtime_error("the rig has gone");
   port.SayGoodbye({});
   std::printf("%llu cycles, largest orbit %.1f um, %s\n",
               static_cast<unsigned long long>(control_loop.statistics().cycles),

@@ -7,7 +7,8 @@
 //             same build on one machine; a wire between machines needs a layout of its own.
 // Thread      loop thread of its end; no heap, no locks, no exceptions.
 // Waiting     to the deadline at most, and then only for what has not come.
-// Failure     a socket whose other end is gone reads as nothing, and says so once (closed).
+// Failure     a rig that is gone reads as nothing, and ends the loop through `when_gone`; a
+//             controller that is gone is one that said goodbye.
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <ctime>
+#include <functional>
 
 #include "controller/port/rig_link.hpp"
 #include "controller/port/rig_port.hpp"
@@ -77,6 +79,7 @@ class SocketPort final : public levitas::port::RigPort {
   levitas::port::ReadResult Read(levitas::SensorFrame& frame,
                                  std::int64_t deadline_ns) noexcept override {
     const std::uint64_t taken = wire_.TakeNewest(frame, deadline_ns);
+    if (wire_.closed() && when_gone) when_gone();
     counters_.frames_read += std::min<std::uint64_t>(taken, 1);
     counters_.frames_skipped += taken - std::min<std::uint64_t>(taken, 1);
     return taken > 0 ? levitas::port::ReadResult::kFrame : levitas::port::ReadResult::kNothing;
@@ -90,6 +93,10 @@ class SocketPort final : public levitas::port::RigPort {
     (void)wire_.Send(CurrentMessage{last, true});
   }
   [[nodiscard]] levitas::port::PortCounters counters() const noexcept override { return counters_; }
+  [[nodiscard]] bool gone() const noexcept { return wire_.closed(); }
+
+  /// Called in the loop's thread, more than once; set before the loop runs.
+  std::function<void()> when_gone;
 
  private:
   Wire wire_;

@@ -1,6 +1,8 @@
 """The C++ examples, built on an installation and run: what each of them claims."""
 
+import os
 import re
+import signal
 import sys
 import tempfile
 import unittest
@@ -8,6 +10,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 import own_program  # noqa: E402
+from lcm_network import Process  # noqa: E402
+from waiting import until  # noqa: E402
 
 CLEARANCE_UM = 190.0  # config/rigs/flexible_rotor.yaml
 OBJECTIVE_UM = 7.0    # the same file: orbit at standstill to stay below
@@ -66,6 +70,15 @@ class Examples(unittest.TestCase):
         self.assertLess(number(r"largest orbit ([\d.]+) um", done.stdout), OBJECTIVE_UM)
         # scenario levitate: 0.2 s self-test, 0.5 s ramp, 5 s hold, 0.5 s ramp at least, of 100 us each
         self.assertGreater(number(r"(\d+) cycles", done.stdout), 62_000)
+
+    def test_a_port_of_ones_own_ends_the_loop_when_the_rig_has_gone(self):
+        with Process(self.built, self.built / "own_port/own_port",
+                     env={**os.environ, "LEVITAS_CONFIG": str(self.prefix / "share/levitas")}) as example:
+            children = Path(f"/proc/{example.child.pid}/task/{example.child.pid}/children")
+            rig = int(until(lambda: children.read_text(encoding="utf-8").split(), "its second process")[0])
+            os.kill(rig, signal.SIGKILL)
+            self.assertEqual(example.status(), 1)
+            self.assertIn("the rig has gone", example.text)
 
     def test_an_example_names_what_it_does_not_find(self):
         done = own_program.run_on("/nowhere", self.built / "closed_loop/closed_loop")
