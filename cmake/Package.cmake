@@ -1,9 +1,23 @@
 # What an installation holds, and the Debian package made of it by `./amb package`.
 #
 # Places  programs in bin, shipped rigs, controllers, scenarios in share/levitas (looked for above
-#         the program, configuration/find_config.cpp), messages and an example reader in
-#         share/levitas too.
+#         the program, configuration/find_config.cpp), messages and examples in share/levitas too;
+#         headers in include/levitas, the archive in lib (InstalledLibrary.cmake).
 include(GNUInstallDirs)
+include(InstalledLibrary)
+
+if(NOT LEVITAS_SANITIZE)
+  levitas_installed_library(
+    USES cycle loop plant plant_loop scenario configuration
+    HEADERS
+      common/problem.hpp common/rotational_speed.hpp
+      configuration/rig_file.hpp configuration/shipped_names.hpp
+      controller/cycle/control_cycle.hpp controller/law/own_law.hpp controller/loop/control_loop.hpp
+      controller/port/rig_link.hpp controller/port/rig_port.hpp
+      controller/scenario/scenario_player.hpp controller/supervisor/supervisor.hpp
+      plant_sim/plant/plant.hpp plant_sim/plant/command_of.hpp
+      plant_sim/run/loop/plant_loop.hpp)
+endif()
 
 function(levitas_install_programs)
   install(TARGETS amb amb-study amb-controller amb-plant amb-rig RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -14,6 +28,7 @@ function(levitas_install_programs)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/lcmtypes/python/ DESTINATION share/levitas/python
           FILES_MATCHING PATTERN "*.py")
   install(PROGRAMS scripts/read_session.py DESTINATION share/levitas/examples)
+  install(DIRECTORY examples/ DESTINATION share/levitas/examples COMPONENT development)
   install(FILES LICENSE DESTINATION share/doc/levitas RENAME copyright)
   install(DIRECTORY docs/ DESTINATION share/doc/levitas FILES_MATCHING PATTERN "*.md" PATTERN "*.svg")
   # Written by the program itself, so at installation, when it is there.
@@ -44,5 +59,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # exact libraries, found by dpkg-shlibdeps
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "xz-utils")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "iproute2")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "librsvg2-bin")  # amb report: PNG
+# PNG of amb report; programs of one's own (docs/own_program.md).
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "librsvg2-bin, cmake, g++, libfmt-dev, libyaml-cpp-dev, python3-matplotlib")
 include(CPack)

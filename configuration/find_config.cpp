@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 /// The folder that holds rigs/, controllers/ and scenarios/: as told, else above the program (a
 /// build tree inside the checkout, or an installation with share/levitas), else the sources it was
-/// built from.
+/// built from, else where the Debian package puts it: for a program of one's own.
 fs::path ShippedFolder() {
   if (const char* told = std::getenv("LEVITAS_CONFIG"); told != nullptr && *told != '\0') {
     return told;
@@ -29,7 +29,8 @@ fs::path ShippedFolder() {
     }
     folder = folder.parent_path();
   }
-  return LEVITAS_CONFIG_FOLDER;
+  return fs::is_directory(LEVITAS_CONFIG_FOLDER, none) ? LEVITAS_CONFIG_FOLDER
+                                                       : "/usr/share/levitas";
 }
 
 }  // namespace

@@ -23,7 +23,7 @@
 #include "controller/port/rig_port.hpp"
 #include "controller/rt/clock.hpp"
 #include "plant_sim/plant/plant.hpp"
-#include "plant_sim/run/plant_loop.hpp"
+#include "plant_sim/run/loop/plant_loop.hpp"
 
 namespace levitas::lives {
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "common/probe_map.hpp"
 #include "controller/cycle/law_at_rig_period.hpp"
@@ -15,13 +17,18 @@
 namespace levitas::cycle {
 namespace {
 
-const CycleConfig& Checked(const CycleConfig& config) {
+const RigNumbers& CheckedRig(const CycleConfig& config) {
   const std::size_t axes = config.rig.axes();
   if (axes == 0 || axes > kMaxAxes || (axes % 2 != 0 && axes != 1)) {
     throw std::invalid_argument("rig: " + std::to_string(axes) +
                                 " axes, allowed 1 or an even number to " +
                                 std::to_string(kMaxAxes));
   }
+  return config.rig;
+}
+
+law::LawConfig CheckedLaw(const CycleConfig& config) {
+  const std::size_t axes = config.rig.axes();
   if (config.law.axis_count() != axes) {
     throw std::invalid_argument("law for " + std::to_string(config.law.axis_count()) +
                                 " axes, the rig has " + std::to_string(axes));
@@ -32,7 +39,7 @@ const CycleConfig& Checked(const CycleConfig& config) {
                                 std::to_string(config.law.period_s) + " s, the rig samples every " +
                                 std::to_string(config.rig.period_s()) + " s");
   }
-  return config;
+  return LawAtRigPeriod(config);
 }
 
 // Both coils stay within 0 .. maximum: i0 - |ic| >= 0 and i0 + |ic| <= maximum.
@@ -48,20 +55,39 @@ double CurrentLimit(const CycleConfig& config) {
   return limit_a;
 }
 
+std::unique_ptr<law::OwnLaw> Given(std::unique_ptr<law::OwnLaw> own) {
+  if (own == nullptr) throw std::invalid_argument("a law of one's own: there is none");
+  return own;
+}
+
+/// The law of a controller file, with its memory.
+struct FileLaw {
+  explicit FileLaw(const law::LawConfig& config) : laws(config), state(laws[0]) {}
+  law::LawLadder laws;
+  std::size_t rung{};  ///< which of them runs
+  law::LawState state;
+};
+
 }  // namespace
 
 struct ControlCycle::Impl {
-  explicit Impl(const CycleConfig& config)
-      : rig(Checked(config).rig),
+  /// Without a law of one's own, that of the configuration.
+  Impl(const CycleConfig& config, std::unique_ptr<law::OwnLaw> law)
+      : rig(CheckedRig(config)),
         limit_a(CurrentLimit(config)),
         probes(config.rig),
-        laws(LawAtRigPeriod(config)),
-        law_state(laws[0]),
+        own(std::move(law)),
         supervisor(config.rig, config.supervisor),
-        synchronous(config.synchronous, config.rig, config.supervisor.protection.orbit_fraction) {}
+        synchronous(config.synchronous, config.rig, config.supervisor.protection.orbit_fraction) {
+    if (own == nullptr) file.emplace(CheckedLaw(config));
+  }
 
   void Read(const CycleInputs& in) noexcept;
   void RunLaw(const OperatorInput& op, const supervisor::Decision& decision) noexcept;
+  void StartLaw(const supervisor::Decision& decision) noexcept;
+  [[nodiscard]] law::LawOutput StepLaw(const supervisor::Decision& decision,
+                                       const AxisArray& error_m,
+                                       const AxisArray& injected_a) noexcept;
   void CheckLaw() noexcept;
   [[nodiscard]] synchronous::Conditions SynchronousConditions(
       const supervisor::Decision& decision) const noexcept;
@@ -70,9 +96,8 @@ struct ControlCycle::Impl {
   RigNumbers rig;
   double limit_a;
   ProbeMap probes;
-  law::LawLadder laws;
-  std::size_t rung{};  ///< which of them runs
-  law::LawState law_state;
+  std::optional<FileLaw> file;  ///< one of the two is there
+  std::unique_ptr<law::OwnLaw> own;
   supervisor::Supervisor supervisor;
   synchronous::SynchronousControl synchronous;
   supervisor::Observation seen;
@@ -121,22 +146,49 @@ synchronous::Conditions ControlCycle::Impl::SynchronousConditions(
           .position_m = seen.position_m};
 }
 
+void ControlCycle::Impl::StartLaw(const supervisor::Decision& decision) noexcept {
+  synchronous.Reset();
+  if (own != nullptr) {
+    own->Start();
+    return;
+  }
+  file->state.Reset();
+  file->rung = file->laws.Nearest(decision.believed_speed_rad_per_s);
+}
+
+// A law of one's own says what it wants; the limit holds for it as for any other. What is no number
+// passes, for CheckLaw to see.
+law::LawOutput ControlCycle::Impl::StepLaw(const supervisor::Decision& decision,
+                                           const AxisArray& error_m,
+                                           const AxisArray& injected_a) noexcept {
+  if (own == nullptr) {
+    return law::Step(file->laws[file->rung], file->state, error_m, injected_a, limit_a);
+  }
+  const AxisArray wanted_a = own->Step({.error_m = error_m,
+                                        .axes = rig.axes(),
+                                        .limit_a = limit_a,
+                                        .speed_rad_per_s = decision.believed_speed_rad_per_s});
+  law::LawOutput out;
+  for (std::size_t i = 0; i < rig.axes(); ++i) {
+    const double asked_a = wanted_a[i] + injected_a[i];
+    out.control_current_a[i] = std::clamp(asked_a, -limit_a, limit_a);
+    if (std::abs(asked_a) > limit_a) out.saturated_axes |= static_cast<std::uint16_t>(1U << i);
+  }
+  return out;
+}
+
 // Without a fresh frame the last currents are held and the filters wait. Positions are taken at
 // most as far as the converter reaches: beyond it a number means nothing.
 void ControlCycle::Impl::RunLaw(const OperatorInput& op,
                                 const supervisor::Decision& decision) noexcept {
   const supervisor::StateRow& row = supervisor::Row(decision.state);
-  if (decision.start_law) {
-    law_state.Reset();
-    synchronous.Reset();
-    rung = laws.Nearest(decision.believed_speed_rad_per_s);
-  }
+  if (decision.start_law) StartLaw(decision);
   if (!row.energised || !seen.fresh) {
     synchronous.Wait(SynchronousConditions(decision));
     if (!row.energised) given = {};
     return;
   }
-  laws.Follow(decision.believed_speed_rad_per_s, rung, law_state);
+  if (file) file->laws.Follow(decision.believed_speed_rad_per_s, file->rung, file->state);
   AxisArray error_m{};
   AxisArray injected_a{};
   for (std::size_t i = 0; i < rig.axes(); ++i) {
@@ -148,7 +200,7 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
     if (std::isfinite(op.excitation_m[i])) error_m[i] -= op.excitation_m[i];
   }
   synchronous.Step(SynchronousConditions(decision), error_m, injected_a);
-  given = law::Step(laws[rung], law_state, error_m, injected_a, limit_a);
+  given = StepLaw(decision, error_m, injected_a);
 }
 
 // What leaves is a number within the limit, whatever the law's states have come to. Else nothing
@@ -186,7 +238,10 @@ CycleOutputs ControlCycle::Impl::Outputs(const supervisor::Decision& decision) c
   return out;
 }
 
-ControlCycle::ControlCycle(const CycleConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+ControlCycle::ControlCycle(const CycleConfig& config)
+    : impl_(std::make_unique<Impl>(config, nullptr)) {}
+ControlCycle::ControlCycle(const CycleConfig& config, std::unique_ptr<law::OwnLaw> own)
+    : impl_(std::make_unique<Impl>(config, Given(std::move(own)))) {}
 ControlCycle::~ControlCycle() = default;
 ControlCycle::ControlCycle(ControlCycle&&) noexcept = default;
 ControlCycle& ControlCycle::operator=(ControlCycle&&) noexcept = default;

@@ -14,6 +14,7 @@
 #include "common/rig_numbers.hpp"
 #include "controller/cycle/cycle_io.hpp"
 #include "controller/law/law_config.hpp"
+#include "controller/law/own_law.hpp"
 #include "controller/supervisor/supervisor_config.hpp"
 #include "controller/synchronous/synchronous_config.hpp"
 
@@ -54,6 +55,9 @@ class ControlCycle {
  public:
   /// Allocates all it needs. Throws std::invalid_argument when the law's axes do not fit the rig.
   explicit ControlCycle(const CycleConfig& config);
+  /// The same around a law of one's own: of config.law only current_limit_a counts. Throws as
+  /// above, and without a law.
+  ControlCycle(const CycleConfig& config, std::unique_ptr<law::OwnLaw> own);
   ~ControlCycle();
   ControlCycle(ControlCycle&&) noexcept;
   ControlCycle& operator=(ControlCycle&&) noexcept;

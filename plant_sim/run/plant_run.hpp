@@ -12,7 +12,7 @@
 
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
-#include "plant_sim/run/plant_loop.hpp"
+#include "plant_sim/run/loop/plant_loop.hpp"
 #include "plant_sim/run/plant_options.hpp"
 
 namespace levitas::plant_run {

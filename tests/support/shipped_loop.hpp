@@ -10,7 +10,7 @@
 #include "controller/scenario/scenario_player.hpp"
 #include "controller/supervisor/supervisor.hpp"
 #include "plant_sim/plant/plant.hpp"
-#include "plant_sim/run/timed_events.hpp"
+#include "plant_sim/run/loop/timed_events.hpp"
 
 namespace levitas::test {
 

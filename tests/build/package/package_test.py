@@ -9,16 +9,12 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(os.environ["LEVITAS_SOURCE"]) / "tests/support"))
-from waiting import LIMIT_S  # noqa: E402
+import own_program  # noqa: E402
+from own_program import run  # noqa: E402
 
 SOURCE = Path(os.environ["LEVITAS_SOURCE"])
 BUILD = Path(os.environ["LEVITAS_BUILD"])
 SKIP_STATUS = 77
-
-
-def run(*words, **more):
-    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False,
-                          timeout=LIMIT_S, **more)
 
 
 class Package(unittest.TestCase):
@@ -63,8 +59,13 @@ class Package(unittest.TestCase):
         self.assertTrue(any((usr / "share/man/man1").glob("amb.1*")))
 
     def test_nothing_else_lies_in_it(self):
-        beyond = [path for path in (self.root / "usr").iterdir() if path.name not in ("bin", "share")]
-        self.assertEqual(beyond, [])
+        usr = self.root / "usr"
+        self.assertEqual({path.name for path in usr.iterdir()}, {"bin", "share", "include", "lib"})
+        self.assertEqual({path.name for path in (usr / "include").iterdir()}, {"levitas"})
+        self.assertEqual({str(path.relative_to(usr / "lib")) for path in (usr / "lib").rglob("*") if path.is_file()},
+                         {"liblevitas.a", "cmake/Levitas/LevitasConfig.cmake",
+                          "cmake/Levitas/LevitasConfigVersion.cmake"})
+        self.assertEqual({path.suffix for path in (usr / "include").rglob("*") if path.is_file()}, {".hpp"})
         for name in ("amb", "amb-controller"):
             self.assertNotIn("debug_info", run("file", self.root / "usr/bin" / name).stdout)
 
@@ -73,6 +74,17 @@ class Package(unittest.TestCase):
         shutil.copy(rigs / "ufu_rig.yaml", rigs / "only_here.yaml")
         self.addCleanup((rigs / "only_here.yaml").unlink)
         self.assertIn("Hz", self.amb("modes", "--rig", "only_here"))
+
+    def test_an_example_is_built_from_it_alone_and_levitates(self):
+        usr = self.root / "usr"
+        built = self.folder / "example"
+        own_program.build(usr / "share/levitas/examples/closed_loop", built, usr)
+        read = run("ninja", "-C", built, "-t", "deps").stdout
+        self.assertIn(str(usr / "include/levitas/controller/cycle/control_cycle.hpp"), read)
+        self.assertNotIn(f"{SOURCE}/", read.replace(str(self.folder), ""))  # no header of the sources
+        done = own_program.run_on(usr, built / "closed_loop")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"2\.0 s  levitating  orbit +[0-6]\.")  # objective: 7 um
 
     def test_levitates(self):
         self.amb("run", "--duration", "0.5", "--record", "run.lcm")

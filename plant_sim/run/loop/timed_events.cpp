@@ -1,4 +1,4 @@
-#include "plant_sim/run/timed_events.hpp"
+#include "plant_sim/run/loop/timed_events.hpp"
 
 #include <fmt/core.h>
 

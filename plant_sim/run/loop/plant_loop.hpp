@@ -24,7 +24,7 @@
 #include "controller/port/rig_link.hpp"
 #include "controller/rt/clock.hpp"
 #include "plant_sim/plant/plant.hpp"
-#include "plant_sim/run/timed_events.hpp"
+#include "plant_sim/run/loop/timed_events.hpp"
 
 namespace levitas::plant_run {
 

@@ -1,4 +1,4 @@
-#include "plant_sim/run/plant_loop.hpp"
+#include "plant_sim/run/loop/plant_loop.hpp"
 
 #include "common/standard_arithmetic.hpp"
 #include "controller/rt/next_wake.hpp"
