@@ -10,6 +10,7 @@
 
 #include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
+#include "cli/study/bench_forecast.hpp"
 #include "cli/study/bench_lives.hpp"
 #include "cli/study/bench_spoilt.hpp"
 #include "cli/study/bench_sweep.hpp"
@@ -45,6 +46,10 @@ ExitStatus Run(const BenchOptions& options) {
   const accuracy::TestRig bench = accuracy::LoadTestRig(options.rig, controllers);
   if (options.spoilt > 0) {
     WriteJsonFile(options.json_path, RunSpoilt(options, bench));
+    return ExitStatus::kDone;
+  }
+  if (options.forecast > 0) {
+    WriteJsonFile(options.json_path, RunForecast(options, bench));
     return ExitStatus::kDone;
   }
   if (!options.sweep.empty()) {
@@ -88,6 +93,9 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--spoilt", options->spoilt,
                       "Instead: so many trials of records with an error of their own, as many "
                       "healthy ones and two fifths with an effect, of which none may be accused");
+  command->add_option("--forecast", options->forecast,
+                      "Instead: so many healthy rigs, fitted at rest and at one speed, foretell a "
+                      "run-up: does the interval cover, and does calibration gain?");
   command->add_option("--first", options->first, "Seed of the first trial");
   command->add_option("--effect", options->effects, "Only these effects");
   command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");

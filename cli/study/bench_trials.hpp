@@ -22,7 +22,7 @@ struct BenchOptions {
   std::vector<std::string> effects;
   std::vector<double> sizes{1.0, 0.5, 0.25};
   std::uint64_t first{1000};
-  int seeds{0}, clean{0}, outside{0}, pairs{0}, weak{0}, spoilt{0};
+  int seeds{0}, clean{0}, outside{0}, pairs{0}, weak{0}, spoilt{0}, forecast{0};
   bool quick{}, explain{}, in_file{};
   bool shipped{};  ///< the rig file as it is; else rotor, magnets and noise are drawn by seed
   std::size_t jobs{1};

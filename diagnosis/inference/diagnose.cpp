@@ -102,6 +102,15 @@ Verdict VerdictOf(SearchState& state, bool unexplained) {
   return state.doubt == Doubt::kNothing ? Verdict::kEffect : Verdict::kSuspected;
 }
 
+/// Of all fitted numbers, before an unknown verdict forgets the causes that theta holds.
+Eigen::MatrixXd SpreadOf(const SearchState& state) {
+  Eigen::MatrixXd spread = Evidence(state.view.problem, state.terms, state.causes).Spread();
+  for (std::size_t i = 0; i < state.terms.size(); ++i) {
+    spread.row(static_cast<Eigen::Index>(i)) *= state.terms[i].scale();
+  }
+  return spread;
+}
+
 SearchResult Conclude(SearchState& state) {
   state.ReportProgress(0.9, "analysing the residual");
   const Judging& judging = state.settings.judging;
@@ -124,6 +133,7 @@ SearchResult Conclude(SearchState& state) {
       Explained(AnalyseResidual(state.rig, *state.calibrated_runs), answer.remainder);
   const bool unexplained =
       IsUnexplained(judging, answer.remainder, !state.causes.empty(), answer.explained);
+  answer.spread = SpreadOf(state);
   const Verdict verdict = VerdictOf(state, unexplained);
   if (verdict == Verdict::kUnknown) state.causes.clear();
   const std::size_t found = state.causes.size();

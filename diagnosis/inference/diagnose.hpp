@@ -29,6 +29,7 @@
 // Units      evidence in nats. Thread: blocks the caller, two threads inside.
 // Failure    BadInput for records that are too short.
 
+#include <Eigen/Core>
 #include <functional>
 #include <optional>
 #include <string>
@@ -82,8 +83,11 @@ struct SearchResult {
   Residual remainder;
   std::vector<double> theta_calibrated;  ///< nuisances alone
   std::vector<double> theta_extended;    ///< with the causes
-  double evidence{};                     ///< [nat] of all causes together
-  double explained{};                    ///< share of the calibrated model's excess over the noise
+  /// Posterior of theta_extended: terms x parameters, so that theta_extended + spread z with z
+  /// normal of unit variance is a rig that fits as well; in the terms' own units.
+  Eigen::MatrixXd spread;
+  double evidence{};   ///< [nat] of all causes together
+  double explained{};  ///< share of the calibrated model's excess over the noise
 };
 
 /// Terms of a family that is named become its best member (refine_shape.hpp). `validation`: records

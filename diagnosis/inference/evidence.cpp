@@ -61,11 +61,14 @@ double Evidence::Gain(const Hypothesis& h) const {
   return 0.5 * r.dot(u) - l.diagonal().array().log().sum() + h.log_prior + half;
 }
 
+Eigen::MatrixXd Evidence::Spread() const {
+  return factor_.triangularView<Eigen::Lower>().solve(base_.transpose()).transpose();
+}
+
 Fit Evidence::Solve() const {
   Fit fit;
   fit.theta = base_ * solution_;
-  const Eigen::MatrixXd spread = factor_.triangularView<Eigen::Lower>().solve(base_.transpose());
-  fit.deviation = spread.colwise().norm().transpose();
+  fit.deviation = Spread().rowwise().norm();
   fit.penalty = solution_.squaredNorm();
   fit.squared_sum =
       problem_.ete + 2.0 * fit.theta.dot(problem_.jte) + fit.theta.dot(problem_.jtj * fit.theta);

@@ -48,6 +48,8 @@ class Evidence {
   [[nodiscard]] double Gain(const Hypothesis& hypothesis) const;
   /// The base with the accepted causes.
   [[nodiscard]] Fit Solve() const;
+  /// Root of the posterior's covariance: terms x base parameters, units of Term::scale().
+  [[nodiscard]] Eigen::MatrixXd Spread() const;
   /// Towards the solution from `theta` (units of Term::scale()), no further than the linearisation
   /// is good for: steps are held back as if by `damping` more priors about theta, which leaves
   /// those that the data determine and shortens those that they do not (Levenberg 1944).

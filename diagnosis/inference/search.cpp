@@ -16,16 +16,15 @@ namespace {
 /// beside what static loads do.
 constexpr double kSettling = 0.3;  // [s]
 
-/// Below this no rig is, whatever a straight line says.
-double Least(const Term& term) {
+}  // namespace
+
+double LeastPossible(const Term& term) {
   constexpr double kAlmostUndamped = -0.95;  // of the damping that the rig file says
   constexpr double kAlmostNoLag = -0.95;
   if (term.effect == effect::Id::kModalDamping) return kAlmostUndamped;
   if (term.effect == effect::Id::kSensorBandwidth) return kAlmostNoLag;
   return term.positive ? 0.0 : -std::numeric_limits<double>::infinity();
 }
-
-}  // namespace
 
 Search::Search(const RigView& rig, const std::vector<Term>& terms, const std::string& only,
                double model_error_share)
@@ -69,6 +68,16 @@ std::vector<Trajectory> Search::Run(const std::vector<Record>& records, const Ga
   return runs;
 }
 
+std::vector<Trajectory> Search::RunAlone(const std::vector<Record>& records, const Gains& gains,
+                                         const std::vector<double>& theta) const {
+  std::vector<Trajectory> runs;
+  runs.reserve(records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    runs.push_back(RunModel(rig_, records[i], gains[i], terms_, theta, kSettling));
+  }
+  return runs;
+}
+
 View Search::Linearise(const std::vector<Record>& records, const Gains& gains,
                        const std::vector<double>& theta, std::size_t whitening_order,
                        const std::vector<std::size_t>& chosen) const {
@@ -101,7 +110,7 @@ std::vector<double> Search::Unscaled(const Eigen::VectorXd& scaled) const {
   std::vector<double> theta(terms_.size());
   for (std::size_t i = 0; i < theta.size(); ++i) {
     theta[i] = terms_[i].healthy_mean + scaled[static_cast<Eigen::Index>(i)] * terms_[i].scale();
-    theta[i] = std::max(theta[i], Least(terms_[i]));
+    theta[i] = std::max(theta[i], LeastPossible(terms_[i]));
   }
   return theta;
 }

@@ -44,6 +44,10 @@ class Search {
                                   const ObserverSpeed& speed) const;
   [[nodiscard]] std::vector<Trajectory> Run(const std::vector<Record>& records, const Gains& gains,
                                             const std::vector<double>& theta) const;
+  /// The same in the caller's thread alone, for callers that have several.
+  [[nodiscard]] std::vector<Trajectory> RunAlone(const std::vector<Record>& records,
+                                                 const Gains& gains,
+                                                 const std::vector<double>& theta) const;
   /// Runs and linearises. Terms outside `chosen` get sensitivities of zero.
   [[nodiscard]] View Linearise(const std::vector<Record>& records, const Gains& gains,
                                const std::vector<double>& theta, std::size_t whitening_order,
@@ -96,6 +100,9 @@ class Search {
   std::vector<Hypothesis> hypotheses_;
   double model_error_share_;
 };
+
+/// Below this no rig is, whatever a straight line or a normal distribution says.
+[[nodiscard]] double LeastPossible(const Term& term);
 
 inline constexpr std::size_t kQuickRows = 30'000;    ///< of all records, for a first answer
 inline constexpr std::size_t kHealthyRows = 60'000;  ///< to learn what is usual

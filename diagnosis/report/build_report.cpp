@@ -1,5 +1,6 @@
 #include "diagnosis/report/build_report.hpp"
 
+#include "common/rotational_speed.hpp"
 #include "diagnosis/report/affected_part.hpp"
 #include "diagnosis/report/calibrated_rig.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
@@ -36,6 +37,24 @@ ReportFit FitOf(const Gain& gain, const std::vector<std::string>& channels) {
                             at(gain.channel_extended_percent), ShareOf(gain.channel[i])});
   }
   return fit;
+}
+
+ReportForeseen Foreseen(const Interval& interval, double measured, double unit) {
+  return {unit * interval.low, unit * interval.high, unit * measured, interval.Covers(measured)};
+}
+
+ReportForecast ForecastOf(const Forecast& forecast) {
+  constexpr double kMicrometres = 1e6;
+  ReportForecast out;
+  out.fit_percent = Foreseen(forecast.fit_percent, forecast.fit_measured_percent, 1.0);
+  out.residual_um = Foreseen(forecast.residual_m, forecast.residual_measured_m, kMicrometres);
+  out.better_than_file = forecast.better_than_file;
+  for (const ForecastBand& band : forecast.by_speed) {
+    out.by_speed.push_back({RadPerSToRpm(band.from_rad_per_s), RadPerSToRpm(band.to_rad_per_s),
+                            Foreseen(band.fit_percent, band.fit_measured_percent, 1.0),
+                            Foreseen(band.residual_m, band.residual_measured_m, kMicrometres)});
+  }
+  return out;
 }
 
 ReportResidual ResidualOf(const DiagnosisResult& result) {
@@ -77,6 +96,7 @@ void AddFound(const SearchResult& found, DiagnosisReport& report) {
 void AddFits(const DiagnosisResult& result, DiagnosisReport& report) {
   report.fitted = FitOf(result.fitted, report.rig_channels);
   report.validation = FitOf(result.validation, report.rig_channels);
+  if (result.forecast) report.forecast = ForecastOf(*result.forecast);
   report.separate_validation = result.separate_validation;
   report.validation_is_faster =
       IsFaster(result.validation_fastest_rad_per_s, result.fastest_rad_per_s);

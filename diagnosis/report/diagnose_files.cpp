@@ -11,6 +11,7 @@
 #include "common/problem.hpp"
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/inference/events.hpp"
+#include "diagnosis/inference/forecast.hpp"
 #include "diagnosis/inference/mains_lines.hpp"
 #include "diagnosis/model/turns.hpp"
 #include "diagnosis/record_errors/find.hpp"
@@ -115,7 +116,7 @@ std::vector<Record> IsLevitated(const RigView& rig, std::vector<Record> records)
 }
 
 void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdout,
-             DiagnosisResult& out) {
+             const Judging& judging, DiagnosisResult& out) {
   const Search search(*out.view, out.terms);
   const std::vector<double> nothing(out.terms.size(), 0.0);
   std::vector<double> noise_rms_m;
@@ -140,6 +141,8 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdo
   out.validation = holdout.empty()
                        ? MeasureGain(*out.view, runs, noise_rms_m, Part::kKeptBack)
                        : MeasureGain(*out.view, run(holdout), noise_rms_m, Part::kFitted);
+  if (holdout.empty()) return;
+  out.forecast = Foretell(search, out.terms, out.answer, runs.extended, holdout, judging);
 }
 
 }  // namespace
@@ -168,7 +171,7 @@ DiagnosisResult DiagnoseRecords(const config::RigFile& rig, const std::vector<Re
   out.answer = Diagnose(*out.view, fitted, aside, settings, out.terms);
   const std::vector<Record> used = Spans(fitted, settings.quick ? kQuickRows : kMostRows);
   for (const Record& record : used) out.seconds_used += Seconds(record, *out.view);
-  Measure(used, aside, out);
+  Measure(used, aside, settings.judging, out);
   return out;
 }
 

@@ -4,11 +4,13 @@
 // Thread   blocks the caller, two threads inside. Failure: BadInput.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "configuration/rig_file.hpp"
 #include "diagnosis/inference/diagnose.hpp"
+#include "diagnosis/inference/forecast_interval.hpp"
 #include "diagnosis/inference/gain.hpp"
 #include "diagnosis/record_errors/record_error.hpp"
 #include "diagnosis/records/load.hpp"
@@ -28,6 +30,7 @@ struct DiagnosisResult {
   std::vector<double> file_tolerance;  ///< per term, before healthy records; empty without them
   std::shared_ptr<const RigView> view;
   Gain fitted, validation;
+  std::optional<Forecast> forecast;  ///< of the user's validation data
   /// Spectra of the worst channel, over noise.
   std::vector<double> ratio_before, ratio_calibrated, ratio_after;
   double line_spacing_hz{};

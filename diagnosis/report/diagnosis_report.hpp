@@ -87,6 +87,24 @@ struct ReportFit {
   std::vector<Channel> channels;
 };
 
+/// A quantity of a forecast: where 90 of 100 rigs lie that the fitted data cannot tell from this
+/// one, and what was measured.
+struct ReportForeseen {
+  double low{}, high{}, measured{};
+  bool covered{};
+};
+
+/// Forecast of validation records (forecast_interval.hpp).
+struct ReportForecast {
+  ReportForeseen fit_percent, residual_um;
+  double better_than_file{};  ///< chance that it is, before the records are seen
+  struct Band {
+    double from_rpm{}, to_rpm{};
+    ReportForeseen fit_percent, residual_um;
+  };
+  std::vector<Band> by_speed;
+};
+
 /// Residual after calibration and causes (residual.hpp).
 struct ReportResidual {
   double frequency_hz{};
@@ -150,7 +168,8 @@ struct DiagnosisReport {
   std::vector<CalibratedValue> calibrated;
   std::vector<std::string> taken_by_causes;  ///< values not calibrated because a cause has them
   ReportFit fitted, validation;
-  bool separate_validation{};   ///< on records that were given for it
+  std::optional<ReportForecast> forecast;  ///< of validation records that were given
+  bool separate_validation{};              ///< on records that were given for it
   bool validation_is_faster{};  ///< the rotor turns faster in them than in the fitted ones
   std::vector<ReportRun> validation_runs, fitted_runs;
   ReportResidual residual;

@@ -58,6 +58,11 @@ nlohmann::ordered_json FitJson(const DiagnosisReport& report) {
           {"ceiling", report.validation.ceiling_percent}};
 }
 
+/// JSON has no infinity.
+nlohmann::ordered_json Finite(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
 nlohmann::ordered_json ShareJson(const diagnosis::ReportShare& share) {
   return {{"fraction", share.fraction}, {"low", share.low}, {"high", share.high}};
 }
@@ -129,6 +134,28 @@ nlohmann::ordered_json RecordErrorsJson(const std::vector<diagnosis::RecordError
 
 }  // namespace
 
+nlohmann::ordered_json ForecastJson(const diagnosis::ReportForecast& forecast) {
+  const diagnosis::ReportForeseen& fit = forecast.fit_percent;
+  auto bands = nlohmann::ordered_json::array();
+  for (const diagnosis::ReportForecast::Band& band : forecast.by_speed) {
+    bands.push_back({{"speed_rpm_from", band.from_rpm},
+                     {"speed_rpm_to", band.to_rpm},
+                     {"residual_um_low", Finite(band.residual_um.low)},
+                     {"residual_um_high", Finite(band.residual_um.high)},
+                     {"residual_um_measured", Finite(band.residual_um.measured)},
+                     {"fit_percent_low", Finite(band.fit_percent.low)},
+                     {"fit_percent_high", Finite(band.fit_percent.high)},
+                     {"fit_percent_measured", Finite(band.fit_percent.measured)},
+                     {"covered", band.residual_um.covered}});
+  }
+  return {{"fit_percent_low", Finite(fit.low)},
+          {"fit_percent_high", Finite(fit.high)},
+          {"fit_percent_measured", Finite(fit.measured)},
+          {"covered", fit.covered},
+          {"chance_better_than_file", forecast.better_than_file},
+          {"by_speed", std::move(bands)}};
+}
+
 nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   nlohmann::ordered_json json;
   json["verdict"] = Word(report.verdict);
@@ -145,6 +172,8 @@ nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   json["parameters"] = ParametersJson(report);
   json["calibrated"] = CalibratedJson(report);
   json["fit_percent"] = FitJson(report);
+  json["forecast"] = nullptr;
+  if (report.forecast) json["forecast"] = ForecastJson(*report.forecast);
   json["achievable_gain"] = GainJson(report.validation);
   json["residual"] = {{"frequency_hz", report.residual.frequency_hz},
                       {"order", report.residual.order},

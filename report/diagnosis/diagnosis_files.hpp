@@ -12,6 +12,8 @@
 namespace levitas::cli {
 
 [[nodiscard]] nlohmann::ordered_json DiagnosisJson(const diagnosis::DiagnosisReport& report);
+/// Its `forecast`; what is not finite is null.
+[[nodiscard]] nlohmann::ordered_json ForecastJson(const diagnosis::ReportForecast& forecast);
 /// The paths that were written.
 std::vector<std::string> WriteDiagnosis(const diagnosis::DiagnosisReport& report,
                                         const std::string& folder);

@@ -78,6 +78,23 @@ void PrintFits(const DiagnosisReport& s) {
   fmt::print("{}\n{}{}", GainSentence(s), ceiling, ceiling.empty() ? "" : "\n");
 }
 
+/// Speed by speed: what was to be expected of the forecast, and what was measured.
+void PrintForecast(const DiagnosisReport& s) {
+  if (!s.forecast || s.forecast->by_speed.empty()) return;
+  const auto text = [](bool covered) { return covered ? "covered" : "not covered"; };
+  const diagnosis::ReportForeseen& fit = s.forecast->fit_percent;
+  fmt::print(
+      "Forecast of the validation data, 90 % interval from the fitted data alone: fit {:.1f} to "
+      "{:.1f} %, measured {:.1f} %: {}. Chance to beat the rig file: {:.0f} %.\n",
+      fit.low, fit.high, fit.measured, text(fit.covered), 100.0 * s.forecast->better_than_file);
+  for (const auto& band : s.forecast->by_speed) {
+    fmt::print(
+        "  {:>6.0f} to {:>6.0f} rpm: residual {:.4g} to {:.4g} um rms, measured {:.4g}: {}\n",
+        band.from_rpm, band.to_rpm, band.residual_um.low, band.residual_um.high,
+        band.residual_um.measured, text(band.residual_um.covered));
+  }
+}
+
 void PrintRanking(const DiagnosisReport& s, bool complete) {
   const auto& candidates = s.candidates;
   const std::size_t shown = complete ? candidates.size() : std::min(kShown, candidates.size());
@@ -197,6 +214,7 @@ void PrintDiagnosis(const DiagnosisReport& s, bool complete) {
   PrintParameters(s);
   PrintCalibrated(s, complete);
   PrintFits(s);
+  PrintForecast(s);
   PrintRanking(s, complete);
   fmt::print("\nNext: {}\n", s.next_experiment);
   PrintTies(s);
