@@ -84,8 +84,8 @@ void PrintForecast(const DiagnosisReport& s) {
   const auto text = [](bool covered) { return covered ? "covered" : "not covered"; };
   const diagnosis::ReportForeseen& fit = s.forecast->fit_percent;
   fmt::print(
-      "Forecast of the validation data, 90 % interval from the fitted data alone: fit {:.1f} to "
-      "{:.1f} %, measured {:.1f} %: {}. Chance to beat the rig file: {:.0f} %.\n",
+      "Forecast of stretches of the validation data, 90 % interval from the fitted data alone: fit "
+      "{:.1f} to {:.1f} %, measured {:.1f} %: {}. Chance to beat the rig file: {:.0f} %.\n",
       fit.low, fit.high, fit.measured, text(fit.covered), 100.0 * s.forecast->better_than_file);
   for (const auto& band : s.forecast->by_speed) {
     fmt::print(
