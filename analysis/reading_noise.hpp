@@ -1,8 +1,8 @@
 #pragma once
 // What one reading of a position sensor adds to the true position.
 //
-// Equation   sqrt(noise_rms^2 + step^2/12), step = 2 range / 2^bits of the converter; no converter, no
-//            step.
+// Equation   sqrt(noise_rms^2 + step^2/12), step = 2 range / 2^bits of the converter; no
+//            converter, no step.
 // Thread     pure.
 
 #include "plant_sim/plant/plant_config.hpp"

@@ -2,8 +2,9 @@
 // Measured data of a rig with hidden parameters: only the signals that a technician would record.
 //
 // Records    standing with a test signal in one axis after the other, spinning with it, running up.
-//            Rows as the importer would give them (analysis/records/recorded_rows.hpp), in the bearing
-//            frame; the plant of the loop is in it too, and only a CSV file has the rig's wiring.
+//            Rows as the importer would give them (analysis/records/recorded_rows.hpp), in the
+//            bearing frame; the plant of the loop is in it too, and only a CSV file has the rig's
+//            wiring.
 // Loop       plant and axis law alone, one period at a time, from a levitated start that is not
 //            recorded.
 // Failure    `stable` is false if the rotor approached its touchdown bearings or was lost,

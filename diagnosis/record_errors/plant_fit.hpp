@@ -2,10 +2,11 @@
 // How well the rig's linear model foretells the readings of a record when its columns are taken for
 // other ones than their names say.
 //
-// Equation   x' = A (x + K e) + B u, e = y - C x: the stationary observer (analysis/records/observer.hpp)
-//            of the linearised plant at the mean speed, unknown forces included. e is linear in
-//            every column; each column is driven through every place once, and any map of columns
-//            is a sum of these responses: a hypothesis costs a few additions per row.
+// Equation   x' = A (x + K e) + B u, e = y - C x: the stationary observer
+//            (analysis/records/observer.hpp) of the linearised plant at the mean speed, unknown
+//            forces included. e is linear in every column; each column is driven through every
+//            place once, and any map of columns is a sum of these responses: a hypothesis costs a
+//            few additions per row.
 // Ratio      mean square of e per axis, without its mean and its parts at once and twice the
 //            rotation in stretches of 0.1 s (unbalance, bow and runout, which no map can make or
 //            mend), over what the observer expects of a right model.

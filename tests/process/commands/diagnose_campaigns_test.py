@@ -35,6 +35,7 @@ class ForeignCampaigns(unittest.TestCase):
     def test_nothing_is_named_where_nothing_is_hidden(self):
         answer = diagnose("none")
         self.assertEqual(answer["verdict"], "none", answer["candidates"][:3])
+        self.assertIsNone(answer["forecast"], "no validation data were named")
 
     def test_an_eddy_current_is_named_and_nothing_beside_it(self):
         self.assert_named("eddy_current")
@@ -61,6 +62,20 @@ class ForeignCampaigns(unittest.TestCase):
         answer = diagnose("eddy_current", ("standing", "spinning"), "runup")
         self.assertEqual(answer["verdict"], "effect", answer["candidates"][:3])
         self.assertEqual(answer["all_causes"], ["eddy_current"])
+        self.assert_forecast(answer["forecast"])
+
+    def assert_forecast(self, forecast):
+        """Of a run-up that no fitted record has: what was to be expected at each speed."""
+        self.assertTrue(forecast["covered"], forecast)
+        self.assertLess(forecast["fit_percent_low"], forecast["fit_percent_high"])
+        bands = forecast["by_speed"]
+        self.assertGreater(len(bands), 3)
+        for slower, faster in zip(bands, bands[1:]):
+            self.assertLessEqual(slower["speed_rpm_to"], faster["speed_rpm_from"] + 1e-6)
+        for band in bands:
+            within = (band["residual_um_low"] <= band["residual_um_measured"]
+                      <= band["residual_um_high"])
+            self.assertEqual(band["covered"], within, band)
 
     def assert_named(self, effect):
         answer = diagnose(effect)
