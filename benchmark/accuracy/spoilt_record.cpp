@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "analysis/reading_noise.hpp"
-#include "analysis/records/observer.hpp"
 #include "common/random.hpp"
 
 namespace levitas::accuracy {

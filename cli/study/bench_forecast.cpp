@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "benchmark/accuracy/drawn_rig.hpp"
+#include "cli/study/bench_workers.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/report/build_report.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
@@ -128,27 +127,20 @@ nlohmann::ordered_json SumOfForecasts(const std::vector<Forecasted>& outcomes) {
 
 nlohmann::ordered_json RunForecast(const BenchOptions& options, const accuracy::TestRig& bench) {
   std::vector<Forecasted> outcomes(static_cast<std::size_t>(options.forecast));
-  std::atomic<std::size_t> next{0};
   std::mutex printing;
   fmt::print("{:>6} {:<32}{:>8}{:>12}{:>9}   {:<16}{}\n", "seed", "verdict", "file", "calibrated",
              "ceiling", "90 % interval", "chance to beat the file, %");
-  const auto work = [&] {
-    for (std::size_t i = next++; i < outcomes.size(); i = next++) {
-      Forecasted& out = outcomes[i];
-      out.seed = options.first + i;
-      try {
-        out.report = TryForecast(options, bench, out.seed);
-      } catch (const Problem& problem) {  // a rig that does not levitate is no trial
-        out.failure = problem.what();
-      }
-      const std::lock_guard lock(printing);
-      PrintForecast(options, out);
+  ForEachTrial(outcomes.size(), options.jobs, [&](std::size_t i) {
+    Forecasted& out = outcomes[i];
+    out.seed = options.first + i;
+    try {
+      out.report = TryForecast(options, bench, out.seed);
+    } catch (const Problem& problem) {  // a rig that does not levitate is no trial
+      out.failure = problem.what();
     }
-  };
-  std::vector<std::thread> others;
-  for (std::size_t i = 1; i < options.jobs; ++i) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
+    const std::lock_guard lock(printing);
+    PrintForecast(options, out);
+  });
   nlohmann::ordered_json json = SumOfForecasts(outcomes);
   json["trials"] = nlohmann::ordered_json::array();
   for (const Forecasted& outcome : outcomes) json["trials"].push_back(JsonOf(outcome));

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <atomic>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "benchmark/accuracy/drawn_rig.hpp"
 #include "benchmark/accuracy/spoilt_record.hpp"
+#include "cli/study/bench_workers.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/record_errors/find.hpp"
 #include "plant_sim/effect/catalogue.hpp"
@@ -80,28 +79,21 @@ bool Right(const Outcome& o) {
 nlohmann::ordered_json RunSpoilt(const BenchOptions& options, const accuracy::TestRig& bench) {
   const int count = 2 * options.spoilt + 2 * options.spoilt / 5;
   std::vector<Outcome> outcomes(static_cast<std::size_t>(count));
-  std::atomic<int> next{0};
   std::mutex printing;
-  const auto work = [&] {
-    for (int i = next++; i < count; i = next++) {
-      Outcome& out = outcomes[static_cast<std::size_t>(i)];
-      try {
-        out = TrySpoilt(options, bench, i);
-      } catch (const Problem& problem) {  // a rig that does not levitate is no trial
-        out.group = "none";
-        out.failure = problem.what();
-      }
-      const std::lock_guard lock(printing);
-      if (out.failure.empty() && Right(out) && !options.explain) continue;
-      fmt::print("{:>6} {:<8}{:<50} -> {}{}\n", options.first + static_cast<std::uint64_t>(i),
-                 out.group, out.made, fmt::join(out.said, "; "),
-                 Right(out) ? "" : (out.named ? "   (and more)" : "   WRONG"));
+  ForEachTrial(outcomes.size(), options.jobs, [&](std::size_t i) {
+    Outcome& out = outcomes[i];
+    try {
+      out = TrySpoilt(options, bench, static_cast<int>(i));
+    } catch (const Problem& problem) {  // a rig that does not levitate is no trial
+      out.group = "none";
+      out.failure = problem.what();
     }
-  };
-  std::vector<std::thread> others;
-  for (std::size_t i = 1; i < options.jobs; ++i) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
+    const std::lock_guard lock(printing);
+    if (out.failure.empty() && Right(out) && !options.explain) return;
+    fmt::print("{:>6} {:<8}{:<50} -> {}{}\n", options.first + i, out.group, out.made,
+               fmt::join(out.said, "; "),
+               Right(out) ? "" : (out.named ? "   (and more)" : "   WRONG"));
+  });
   auto json = nlohmann::ordered_json::array();
   for (const char* group : {"spoilt", "healthy", "effect"}) {
     int right = 0;

@@ -4,17 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
 #include <filesystem>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "benchmark/accuracy/available_evidence.hpp"
 #include "benchmark/accuracy/drawn_rig.hpp"
 #include "cli/json_file.hpp"
+#include "cli/study/bench_workers.hpp"
 #include "common/output_file.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/report/build_report.hpp"
@@ -197,28 +195,13 @@ std::vector<accuracy::TrialScore> TryAll(const std::vector<accuracy::TrialPlan>&
                                          const accuracy::TestRig& bench,
                                          const BenchOptions& options) {
   std::vector<accuracy::TrialScore> outcomes(plans.size());
-  std::atomic<std::size_t> next{0};
   std::mutex printing;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < plans.size(); i = next++) {
-        outcomes[i] = Try(plans[i], bench, options);
-        const std::lock_guard lock(printing);
-        PrintOne(outcomes[i]);
-        if (options.explain) Explain(outcomes[i]);
-      }
-    } catch (...) {
-      const std::lock_guard lock(printing);
-      failure = std::current_exception();
-      next = plans.size();
-    }
-  };
-  std::vector<std::thread> others;
-  for (std::size_t i = 1; i < options.jobs; ++i) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
-  if (failure) std::rethrow_exception(failure);
+  ForEachTrial(plans.size(), options.jobs, [&](std::size_t i) {
+    outcomes[i] = Try(plans[i], bench, options);
+    const std::lock_guard lock(printing);
+    PrintOne(outcomes[i]);
+    if (options.explain) Explain(outcomes[i]);
+  });
   return outcomes;
 }
 

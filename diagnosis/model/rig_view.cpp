@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "analysis/reading_noise.hpp"
-#include "analysis/records/observer.hpp"
 #include "common/problem.hpp"
 #include "diagnosis/model/sample_point.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
