@@ -96,6 +96,9 @@ void AddFound(const SearchResult& found, DiagnosisReport& report) {
 void AddFits(const DiagnosisResult& result, DiagnosisReport& report) {
   report.fitted = FitOf(result.fitted, report.rig_channels);
   report.validation = FitOf(result.validation, report.rig_channels);
+  for (const ErrorShare& share : result.error_shares) {
+    report.error_shares.push_back({share.effect, share.place, share.share});
+  }
   if (result.forecast) report.forecast = ForecastOf(*result.forecast);
   report.separate_validation = result.separate_validation;
   report.validation_is_faster =

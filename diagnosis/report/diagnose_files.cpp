@@ -141,6 +141,7 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdo
   out.validation = holdout.empty()
                        ? MeasureGain(*out.view, runs, noise_rms_m, Part::kKeptBack)
                        : MeasureGain(*out.view, run(holdout), noise_rms_m, Part::kFitted);
+  out.error_shares = ErrorShares(search, out.terms, out.answer, fitted, noise_rms_m);
   if (holdout.empty()) return;
   out.forecast = Foretell(search, out.terms, out.answer, runs.extended, holdout, judging);
 }

@@ -10,6 +10,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "diagnosis/inference/diagnose.hpp"
+#include "diagnosis/inference/error_shares.hpp"
 #include "diagnosis/inference/forecast_interval.hpp"
 #include "diagnosis/inference/gain.hpp"
 #include "diagnosis/record_errors/record_error.hpp"
@@ -30,7 +31,8 @@ struct DiagnosisResult {
   std::vector<double> file_tolerance;  ///< per term, before healthy records; empty without them
   std::shared_ptr<const RigView> view;
   Gain fitted, validation;
-  std::optional<Forecast> forecast;  ///< of the user's validation data
+  std::vector<ErrorShare> error_shares;  ///< of the rig file's error on the fitted data
+  std::optional<Forecast> forecast;      ///< of the user's validation data
   /// Spectra of the worst channel, over noise.
   std::vector<double> ratio_before, ratio_calibrated, ratio_after;
   double line_spacing_hz{};

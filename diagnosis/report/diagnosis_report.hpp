@@ -105,6 +105,13 @@ struct ReportForecast {
   std::vector<Band> by_speed;
 };
 
+/// Share of the rig file's error on the fitted data (error_shares.hpp).
+struct ReportErrorShare {
+  std::string effect;  ///< empty: shapes of the modes
+  std::string place;   ///< of a cause; empty for the calibrated numbers of an effect
+  double fraction{};
+};
+
 /// Residual after calibration and causes (residual.hpp).
 struct ReportResidual {
   double frequency_hz{};
@@ -168,8 +175,9 @@ struct DiagnosisReport {
   std::vector<CalibratedValue> calibrated;
   std::vector<std::string> taken_by_causes;  ///< values not calibrated because a cause has them
   ReportFit fitted, validation;
-  std::optional<ReportForecast> forecast;  ///< of validation records that were given
-  bool separate_validation{};              ///< on records that were given for it
+  std::vector<ReportErrorShare> error_shares;  ///< the largest first
+  std::optional<ReportForecast> forecast;      ///< of validation records that were given
+  bool separate_validation{};                  ///< on records that were given for it
   bool validation_is_faster{};  ///< the rotor turns faster in them than in the fitted ones
   std::vector<ReportRun> validation_runs, fitted_runs;
   ReportResidual residual;

@@ -107,6 +107,17 @@ nlohmann::ordered_json RunsJson(const std::vector<diagnosis::ReportRun>& runs) {
   return json;
 }
 
+nlohmann::ordered_json ErrorSharesJson(const std::vector<diagnosis::ReportErrorShare>& shares) {
+  auto json = nlohmann::ordered_json::array();
+  for (const diagnosis::ReportErrorShare& e : shares) {
+    json.push_back({{"effect", e.effect.empty() ? "mode_shapes" : e.effect},
+                    {"place", e.place},
+                    {"calibrated", e.place.empty()},
+                    {"share", e.fraction}});
+  }
+  return json;
+}
+
 /// Of a diagnosis that judges records one by one.
 void AddRuns(const DiagnosisReport& report, nlohmann::ordered_json& json) {
   json["ties"] = nlohmann::ordered_json::object();
@@ -172,6 +183,7 @@ nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   json["parameters"] = ParametersJson(report);
   json["calibrated"] = CalibratedJson(report);
   json["fit_percent"] = FitJson(report);
+  json["error_shares"] = ErrorSharesJson(report.error_shares);
   json["forecast"] = nullptr;
   if (report.forecast) json["forecast"] = ForecastJson(*report.forecast);
   json["achievable_gain"] = GainJson(report.validation);

@@ -241,11 +241,11 @@ std::string DiagnosisPage(const DiagnosisReport& s) {
       "{14}<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{7}{6}{8}"
       "<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig file. "
       "Calibrated: with the deviations of a healthy rig. Extended: with the causes. Ceiling: the "
-      "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",
+      "sensors' noise alone. {11}</p>\n<p>{15}</p>\n{12}{13}</body></html>\n",
       Escaped(s.rig_name), kStyle, Escaped(s.verdict_sentence),
       Escaped(fmt::format("{} {}", Summary(s), s.healthy_sentence)), Escaped(s.next_experiment),
       Left(s), ParameterTable(s), Spectra(s), CalibrationTable(s), Ranking(s), FitTable(s), ceiling,
-      ChannelTable(s), RunsTable(s), ErrorsOfRecords(s));
+      ChannelTable(s), RunsTable(s), ErrorsOfRecords(s), Escaped(ErrorSharesSentence(s)));
 }
 
 }  // namespace levitas::cli

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "diagnosis/report/report_text.hpp"
@@ -20,6 +21,7 @@ using diagnosis::ReportRun;
 using diagnosis::ReportRunFit;
 
 constexpr std::size_t kShown = 8;
+constexpr double kLeastShare = 0.01;  ///< of the rig file's error, to be said of calibration
 
 void PrintParameters(const DiagnosisReport& s) {
   const auto parameters = SharedParameters(s);
@@ -76,6 +78,8 @@ void PrintFits(const DiagnosisReport& s) {
   row("  on validation data", s.validation);
   const std::string ceiling = CeilingSentence(s);
   fmt::print("{}\n{}{}", GainSentence(s), ceiling, ceiling.empty() ? "" : "\n");
+  const std::string shares = ErrorSharesSentence(s);
+  if (!shares.empty()) fmt::print("{}\n", shares);
 }
 
 /// Speed by speed: what was to be expected of the forecast, and what was measured.
@@ -196,6 +200,20 @@ std::string GainSentence(const DiagnosisReport& s) {
                                     gained, -beyond)
                       : fmt::format("{}; of what calibration leaves, the cause takes {:.0f} %.",
                                     gained, beyond);
+}
+
+std::string ErrorSharesSentence(const DiagnosisReport& s) {
+  if (!s.fitted.meaningful) return {};
+  std::vector<std::string> parts;
+  for (const diagnosis::ReportErrorShare& e : s.error_shares) {
+    if (e.place.empty() && !(std::abs(e.fraction) >= kLeastShare)) continue;
+    const std::string name = e.effect.empty() ? "shapes of the modes" : e.effect;
+    parts.push_back(fmt::format("{}{} {:.0f} %", name, e.place.empty() ? " (calibrated)" : "",
+                                100.0 * e.fraction));
+  }
+  if (parts.empty()) return {};
+  return fmt::format("Of what the rig file gets wrong on the fitted data: {}.",
+                     fmt::join(parts, ", "));
 }
 
 std::string CeilingSentence(const DiagnosisReport& s) {

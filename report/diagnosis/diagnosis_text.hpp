@@ -27,6 +27,8 @@ struct SharedParameter {
 [[nodiscard]] std::string AtPhase(double value, std::optional<double> phase_rad);
 /// What share of what could be gained is, and by what; or that there was nothing to gain.
 [[nodiscard]] std::string GainSentence(const diagnosis::DiagnosisReport& report);
+/// Who makes how much of the rig file's error, the largest first; empty where there is none.
+[[nodiscard]] std::string ErrorSharesSentence(const diagnosis::DiagnosisReport& report);
 /// Why a fit can lie above its ceiling; empty when none does.
 [[nodiscard]] std::string CeilingSentence(const diagnosis::DiagnosisReport& report);
 
