@@ -1,9 +1,9 @@
 #pragma once
 // Which share of the rig file's error each changed number explains: causes and calibration alike.
 //
-// Why        what a cause gains beyond calibration says whether it is proven, not whether it matters:
-//            calibration absorbs the greater part of many faults, and a small cause can be proven to
-//            a thousand nat. Shares of what the file gets wrong say what to look at first.
+// Why        what a cause gains beyond calibration says whether it is proven, not whether it
+//            matters: calibration absorbs the greater part of many faults, and a small cause can be
+//            proven to a thousand nat. Shares of the file's error say what to look at first.
 // Change     D = innovations of the file's model - innovations of the answer's model, in units of
 //            the sensors' noise; D is what the answer explains, as a signal.
 // Share      of a group g: <D_g, D>/<D, D>, where D_g is what g alone changes, as the mean of g
