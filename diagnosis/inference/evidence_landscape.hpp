@@ -7,9 +7,9 @@
 // Linearised  GainOf, Screen, EvidenceOf and SolutionOf see the model as linearised where
 //             LineariseAt was called last; they cost next to nothing.
 // Fitted      Fit, Refit and RefineShapeOf run the nonlinear model: seconds.
-// Shapes      of families of laws (Family::shape) are part of a point, as theta is. RefineShapeOf moves
-//             them and leaves them where the fit that it returns has them; Shapes and Restore take
-//             them back.
+// Shapes      of families of laws (Family::shape) are part of a point, as theta is. RefineShapeOf
+//             moves them and leaves them where the fit that it returns has them; Shapes and Restore
+//             take them back.
 // Comparable  are fits between two calls of LineariseAt, which whitens anew.
 // Units       evidence and gains in nats; theta in the terms' own units. Thread: blocks the caller,
 //             two threads inside. Failure: a Refined that is not `ok`.
