@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::diagnosis {
 

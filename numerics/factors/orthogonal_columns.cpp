@@ -1,13 +1,8 @@
-#include "numerics/dense/orthogonal.hpp"
+#include "numerics/factors/orthogonal_columns.hpp"
 
-#include "numerics/dense/eigenvalues.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::numerics {
-
-Eigen::MatrixXd OrthogonalFactor(const Eigen::HessenbergDecomposition<Eigen::MatrixXd>& reduced) {
-  return reduced.matrixQ();
-}
 
 Eigen::MatrixXd OrthogonalColumns(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr,
                                   Eigen::Index count) {

@@ -1,4 +1,4 @@
-#include "numerics/levenberg_marquardt.hpp"
+#include "numerics/minimum/levenberg_marquardt.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
