@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/unit/loop/reference_desk.hpp"
 
 namespace levitas::loop::test {
@@ -12,11 +14,18 @@ namespace {
 
 TEST(DeskWalk, TheArbiterAnswersInEveryCycleWhatItsHeadersSay) {
   Met met;
+  std::set<EndState> ends;
+  std::set<SignalState> signals;
+  const auto look = [&](const CommandArbiter& desk) {
+    ends.insert(desk.end_state());
+    signals.insert(desk.signal_state());
+  };
   for (std::uint64_t seed = 1; seed <= 600; ++seed) {
-    ASSERT_NO_FATAL_FAILURE(
-        (Walk<CommandArbiter, ReferenceDesk>(seed, met, [](const CommandArbiter&) {})));
+    ASSERT_NO_FATAL_FAILURE((Walk<CommandArbiter, ReferenceDesk>(seed, met, look)));
   }
   // Walks that go nowhere prove nothing.
+  EXPECT_EQ(ends.size(), kEndStateCount);
+  EXPECT_EQ(signals.size(), kSignalStateCount);
   for (std::uint8_t i = 0; i < kOperatorCommandCount; ++i) {
     EXPECT_GT(met.commands[i], 50U) << Name(static_cast<OperatorCommand>(i));
   }

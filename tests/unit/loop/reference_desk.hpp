@@ -135,7 +135,7 @@ class ReferenceDesk {
     const bool overdue = run_down_.Overdue(view.cycle);
     if (overdue) Tell(news_.overdue);
     if (view.mode == Mode::kTripped) return;  // the levitated stop brakes and lands by itself
-    if (end_->asked && view.cycle - *end_->asked < Cycles(CommandArbiter::kRepeatSeconds)) return;
+    if (end_->asked && view.cycle - *end_->asked < Cycles(EndOfRun::kRepeatSeconds)) return;
     if (overdue) {
       input.command = OperatorCommand::kEmergencyStop;
     } else if (view.mode == Mode::kLanding) {
