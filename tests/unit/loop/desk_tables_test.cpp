@@ -1,4 +1,4 @@
-// The tables of the end of a run and of the network's test signal, and the chapter written from them.
+// The tables of the end of a run and of the remote test signal, and the chapter written from them.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Seeded random walks of what an operator's desk sees and is asked: two desks see and hear the same,
-// and everything they answer is compared in every cycle.
+// Seeded random walks of what an operator's desk sees and is asked: two desks see and hear the
+// same, and everything they answer is compared in every cycle.
 //
 // Rig      modes that follow the desk's commands or do not, readings that jump, speeds that fall or
 //          do not: also what no rig does. One thing is kept: once the end of a run has found the

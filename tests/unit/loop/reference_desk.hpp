@@ -2,9 +2,9 @@
 // The command arbiter as the headers of controller/loop describe it, written again by hand and
 // without its tables: what two independent readings agree on is not one slip of the pen.
 //
-// Borrowed  what has tests of its own: RunDown, ExcitationGuard, the slot of a test signal, the ring
-//           and the latch. Not borrowed: who gives the command, how a run ends, when a test signal
-//           begins and ends.
+// Borrowed  what has tests of its own: RunDown, ExcitationGuard, the slot of a test signal, the
+//           ring and the latch. Not borrowed: who gives the command, how a run ends, when a test
+//           signal begins and ends.
 // Not said  what happens in cycles after Done: the loop makes none.
 
 #include <cmath>
