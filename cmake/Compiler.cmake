@@ -50,7 +50,7 @@ endif()
 # What runs once a run, or waits for people: files, options, pages, the verdict. A first build takes a
 # tenth less time with it at -O1, which changes no bit of what it computes.
 set(LEVITAS_SELDOM configuration verdict dashboard doctor session_index session_report plant_run
-    amb-controller amb-plant amb-rig)
+    controller_program amb-controller amb-plant amb-rig)
 function(levitas_optimise name)
   if(name IN_LIST LEVITAS_SELDOM)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)

@@ -208,7 +208,7 @@ std::string RunsTable(const DiagnosisReport& s) {
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td><td class=n>{:.1f}</td><td class=n>{:.1f}</td>"
         "<td class=n><b>{:.1f}</b> ({})</td><td class=n>{:.1f}</td></tr>\n",
-        run, quantity, fit.nominal.value, fit.calibrated.value, fit.extended.value,
+        Escaped(run), quantity, fit.nominal.value, fit.calibrated.value, fit.extended.value,
         IntervalText(fit), fit.ceiling_percent);
   };
   for (const diagnosis::ReportRun& run : s.validation_runs) {
