@@ -8,6 +8,7 @@
 
 #include "diagnosis/report/report_text.hpp"
 #include "report/diagnosis/diagnosis_text.hpp"
+#include "report/diagnosis/forecast_section.hpp"
 #include "report/svg/escaped_text.hpp"
 #include "report/svg/figure.hpp"
 
@@ -231,6 +232,15 @@ std::string ErrorsOfRecords(const DiagnosisReport& s) {
   return html;
 }
 
+/// Of the rig files that were written; empty when they levitate.
+std::string Levitation(const DiagnosisReport& s) {
+  std::string html;
+  for (const std::string& sentence : s.levitation.sentences) {
+    html += fmt::format("<p><b>{}</b></p>\n", Escaped(sentence));
+  }
+  return html;
+}
+
 }  // namespace
 
 std::string DiagnosisPage(const DiagnosisReport& s) {
@@ -238,14 +248,15 @@ std::string DiagnosisPage(const DiagnosisReport& s) {
   return fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
       "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n"
-      "{14}<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{7}{6}{8}"
-      "<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig file. "
+      "{14}<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{16}{5}{7}{6}{8}"
+      "{15}<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig "
+      "file. "
       "Calibrated: with the deviations of a healthy rig. Extended: with the causes. Ceiling: the "
       "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",
       Escaped(s.rig_name), kStyle, Escaped(s.verdict_sentence),
       Escaped(fmt::format("{} {}", Summary(s), s.healthy_sentence)), Escaped(s.next_experiment),
       Left(s), ParameterTable(s), Spectra(s), CalibrationTable(s), Ranking(s), FitTable(s), ceiling,
-      ChannelTable(s), RunsTable(s), ErrorsOfRecords(s));
+      ChannelTable(s), RunsTable(s), ErrorsOfRecords(s), ForecastSection(s), Levitation(s));
 }
 
 }  // namespace levitas::cli
