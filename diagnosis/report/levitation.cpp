@@ -1,9 +1,9 @@
 #include "diagnosis/report/levitation.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <exception>
+#include <filesystem>
 #include <sstream>
 
 #include "analysis/poles.hpp"
@@ -69,12 +69,19 @@ std::string SentenceOf(const char* file, const ReportLoop& loop, const ReportLev
                      file, of.law, speeds, SpeedText(loop.rpm, loop.rpm), loop.why, file_too);
 }
 
-std::string SentenceOfUnknown(const std::vector<std::string>& records) {
-  if (records.empty()) return {};
+std::string SentenceOfUnknown(const KnownLaws& known) {
+  if (known.without.empty()) return {};
+  std::string names = "the records";
+  if (!known.laws.empty()) {
+    names.clear();
+    for (const std::string& path : known.without) {
+      names += (names.empty() ? "" : ", ") + std::filesystem::path(path).filename().string();
+    }
+  }
   return fmt::format(
       "Whether extended_rig.yaml and calibrated_rig.yaml levitate under the law of {} was not "
       "judged: neither record nor rig file names one (key run, controller).",
-      fmt::join(records, ", "));
+      names);
 }
 
 /// At the head of a rig file: the sentence, broken into lines.
@@ -121,7 +128,7 @@ void JudgeLevitation(const config::RigFile& rig, const KnownLaws& known, Diagnos
     at.slowest_rad_per_s = std::min(at.slowest_rad_per_s, at.fastest_rad_per_s);
     Judge(rig, at, report);
   }
-  Say(SentenceOfUnknown(known.without), {&report.extended_rig, &report.calibrated_rig}, report);
+  Say(SentenceOfUnknown(known), {&report.extended_rig, &report.calibrated_rig}, report);
 }
 
 }  // namespace levitas::diagnosis

@@ -136,7 +136,7 @@ class DiagnoseOwnModel(unittest.TestCase):
         self.assertEqual(answer["levitation"]["records_without_law"], ["run.csv"])
         self.assertIn("not judged", printed)
         for text in self.written("answer_run_csv"):
-            self.assertIn("levitate under the law of run.csv", text)
+            self.assertIn("levitate under the law of the records", text)
             self.assertNotIn("DOES NOT LEVITATE", text)
 
     def written(self, folder):

@@ -44,10 +44,13 @@ DiagnosisReport CalibratedStiffness(double more, const KnownLaws& laws) {
   return BuildReport(s, FlexibleRotor());
 }
 
-std::string LinesBeforeTheFirstKey(const std::string& text) {
+/// The comment that a rig file begins with, its lines joined.
+std::string HeadOf(const std::string& text) {
   std::istringstream lines(text);
   std::string head;
-  for (std::string line; std::getline(lines, line) && line.starts_with('#');) head += line + '\n';
+  for (std::string line; std::getline(lines, line) && line.starts_with('#');) {
+    head += line.substr(1);
+  }
   return head;
 }
 
@@ -71,7 +74,7 @@ TEST(LevitationPair, ACalibratedRigThatDoesNotSaysSoAtItsHead) {
               ElementsAre(AllOf(StartsWith("calibrated_rig.yaml"), HasSubstr(kDoesNot),
                                 HasSubstr("shipped"), HasSubstr("955 to 2865 rpm"),
                                 HasSubstr("rig file as given does levitate"))));
-  EXPECT_THAT(LinesBeforeTheFirstKey(report.calibrated_rig), HasSubstr(kDoesNot));
+  EXPECT_THAT(HeadOf(report.calibrated_rig), HasSubstr(kDoesNot));
   EXPECT_THAT(report.extended_rig, Not(HasSubstr(kDoesNot)));
   // The comment leaves the file a rig file.
   EXPECT_FALSE(
@@ -98,12 +101,20 @@ TEST(LevitationTest, OfALawThatHoldsNoRigSaysThatTheFileDoesNotLevitateEither) {
 
 TEST(LevitationTest, SaysInOneClauseThatNoLawIsKnown) {
   const DiagnosisReport report = CalibratedStiffness(4.0, {{}, {"standing.csv", "runup.csv"}});
-  ASSERT_THAT(
-      report.levitation.sentences,
-      ElementsAre(AllOf(HasSubstr("was not judged"), HasSubstr("standing.csv, runup.csv"))));
+  ASSERT_THAT(report.levitation.sentences,
+              ElementsAre(AllOf(HasSubstr("was not judged"), HasSubstr("the law of the records"))));
   EXPECT_THAT(report.levitation.by_law, IsEmpty());
-  EXPECT_THAT(LinesBeforeTheFirstKey(report.calibrated_rig), HasSubstr("not judged"));
-  EXPECT_THAT(LinesBeforeTheFirstKey(report.extended_rig), HasSubstr("not judged"));
+  EXPECT_THAT(HeadOf(report.calibrated_rig), HasSubstr("not judged"));
+  EXPECT_THAT(HeadOf(report.extended_rig), HasSubstr("not judged"));
+}
+
+TEST(LevitationTest, NamesTheRecordsWithoutALawWhereOthersHaveOne) {
+  KnownLaws some = ShippedLaw();
+  some.without = {"/of/somebody/standing.csv", "runup.csv"};
+  const DiagnosisReport report = CalibratedStiffness(0.0, some);
+  EXPECT_THAT(report.levitation.sentences,
+              ElementsAre(HasSubstr("the law of standing.csv, runup.csv was not judged")));
+  EXPECT_EQ(report.levitation.by_law[0].calibrated_rig.levitates, true);
 }
 
 TEST(LevitationTest, OfALawForAnotherRigSaysWhyItWasNotJudged) {
