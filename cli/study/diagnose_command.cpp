@@ -15,6 +15,7 @@
 #include "cli/study/answer_folder.hpp"
 #include "cli/study/diagnosis_inputs.hpp"
 #include "cli/study/kept_memory.hpp"
+#include "cli/study/laws_of_records.hpp"
 #include "cli/study/progress_line.hpp"
 #include "cli/study/written_files.hpp"
 #include "cli/text_file.hpp"
@@ -96,6 +97,9 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.data = options.data;
   inputs.holdout = options.holdout;
   inputs.healthy = options.healthy;
+  std::vector<std::string> judged = options.data;
+  judged.insert(judged.end(), options.holdout.begin(), options.holdout.end());
+  inputs.known_laws = LawsOfRecords(judged, inputs.rig);
   inputs.settings.quick = options.quick;
   inputs.settings.progress = [&progress](double share, const std::string& what) {
     progress.Show(share, what);

@@ -7,6 +7,7 @@
 #include "diagnosis/report/excitation_coverage.hpp"
 #include "diagnosis/report/extended_rig.hpp"
 #include "diagnosis/report/input_warnings.hpp"
+#include "diagnosis/report/levitation.hpp"
 #include "diagnosis/report/named_values.hpp"
 #include "diagnosis/report/report_text.hpp"
 #include "diagnosis/report/validation_check.hpp"
@@ -147,6 +148,7 @@ DiagnosisReport BuildReport(const DiagnosisResult& result, const config::RigFile
   DiagnosisReport report = BuildReport(result);
   report.extended_rig = ExtendedRig(result, rig);
   report.calibrated_rig = CalibratedRig(result, rig);
+  JudgeLevitation(rig, result.known_laws, report);
   return report;
 }
 

@@ -15,6 +15,7 @@
 #include "diagnosis/inference/gain.hpp"
 #include "diagnosis/record_errors/record_error.hpp"
 #include "diagnosis/records/load.hpp"
+#include "diagnosis/report/levitation.hpp"
 
 namespace levitas::diagnosis {
 
@@ -23,6 +24,7 @@ struct DiagnosisRequest {
   std::vector<std::string> data, holdout;
   std::vector<std::string> healthy;  ///< earlier records of the same rig, known to be well
   Settings settings;
+  KnownLaws known_laws;  ///< of `data` and `holdout`, whose paths they name
 };
 
 struct DiagnosisResult {
@@ -44,7 +46,8 @@ struct DiagnosisResult {
   bool separate_validation{};             ///< the held-out data are records of their own
   double validation_fastest_rad_per_s{};  ///< in those
   std::vector<RecordErrors>
-      record_errors;  ///< of files; what could be mended was, before the search
+      record_errors;     ///< of files; what could be mended was, before the search
+  KnownLaws known_laws;  ///< with the speeds of their records
 };
 
 /// Looks for errors of the records first (record_errors/find.hpp); a refusal names them.

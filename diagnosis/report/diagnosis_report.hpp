@@ -159,6 +159,27 @@ struct ReportRun {
   ReportRunFit motion;
 };
 
+/// A closed loop of a rig and a law over a range of speeds.
+struct ReportLoop {
+  std::optional<bool> levitates{};  ///< none: not judged
+  double rpm{};                     ///< where it is worst, when it does not
+  std::string why{};                ///< not, or not judged
+};
+
+/// Of one law of the records: whether the rig as given and the two that are written levitate.
+struct ReportLevitation {
+  std::string law;  ///< and where it is from
+  double from_rpm{}, to_rpm{};
+  ReportLoop rig_file{}, extended_rig{}, calibrated_rig{};
+};
+
+/// levitation.hpp
+struct ReportLevitations {
+  std::vector<ReportLevitation> by_law;
+  std::vector<std::string> records_without_law;
+  std::vector<std::string> sentences;  ///< of what does not levitate or was not judged
+};
+
 struct DiagnosisReport {
   std::string rig_name;
   std::vector<std::string> rig_channels;
@@ -198,6 +219,7 @@ struct DiagnosisReport {
   std::string next_experiment;
   std::vector<ReportCandidate> candidates;   ///< best first
   std::string extended_rig, calibrated_rig;  ///< text of the rig files; empty where not asked for
+  ReportLevitations levitation;              ///< of those two
 };
 
 }  // namespace levitas::diagnosis

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/report/forecast_text.hpp"
 #include "diagnosis/report/report_text.hpp"
 #include "report/text/text_table.hpp"
 
@@ -89,13 +90,13 @@ void PrintForecast(const DiagnosisReport& s) {
   const diagnosis::ReportForeseen& fit = s.forecast->fit_percent;
   fmt::print(
       "Forecast of stretches of the validation data, 90 % interval from the fitted data alone: fit "
-      "{:.1f} to {:.1f} %, measured {:.1f} %: {}. Chance to beat the rig file: {:.0f} %.\n",
-      fit.low, fit.high, fit.measured, text(fit.covered), 100.0 * s.forecast->better_than_file);
+      "{} %, measured {:.1f} %: {}. Chance to beat the rig file: {:.0f} %.\n",
+      diagnosis::RangeText(fit, 3), fit.measured, text(fit.covered),
+      100.0 * s.forecast->better_than_file);
   for (const auto& band : s.forecast->by_speed) {
-    fmt::print(
-        "  {:>6.0f} to {:>6.0f} rpm: residual {:.4g} to {:.4g} um rms, measured {:.4g}: {}\n",
-        band.from_rpm, band.to_rpm, band.residual_um.low, band.residual_um.high,
-        band.residual_um.measured, text(band.residual_um.covered));
+    fmt::print("  {:>6.0f} to {:>6.0f} rpm: residual {} um rms, measured {:.4g}: {}\n",
+               band.from_rpm, band.to_rpm, diagnosis::RangeText(band.residual_um, 4),
+               band.residual_um.measured, text(band.residual_um.covered));
   }
 }
 
@@ -237,6 +238,7 @@ void PrintDiagnosis(const DiagnosisReport& s, bool complete) {
   fmt::print("\nNext: {}\n", s.next_experiment);
   PrintTies(s);
   PrintRuns(s);
+  for (const std::string& sentence : s.levitation.sentences) fmt::print("\n{}\n", sentence);
 }
 
 }  // namespace levitas::cli

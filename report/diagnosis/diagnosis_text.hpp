@@ -1,7 +1,7 @@
 #pragma once
 // What amb diagnose prints: the verdict, the parameters as they stand in a rig file, what the
-// calibration has moved, fits, the ranking, what to record next; ties and the fits
-// of single records where the report has them.
+// calibration has moved, fits, the ranking, what to record next; ties and the fits of single
+// records where the report has them; last, which of the rig files does not levitate.
 
 #include <optional>
 #include <string>
