@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "controller/program/command_inbox.hpp"
 #include "tests/unit/controller_program/signal_requests.hpp"
 
 namespace levitas::controller_program {

@@ -14,6 +14,7 @@
 
 #include "controller/loop/desk_document.hpp"
 #include "controller/loop/end_of_run.hpp"
+#include "controller/loop/end_table.hpp"
 #include "controller/loop/signal_table.hpp"
 #include "controller/supervisor/mode_table.hpp"
 #include "tests/support/paths.hpp"

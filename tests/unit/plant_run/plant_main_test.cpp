@@ -1,4 +1,4 @@
-// The ends of a simulated rig's program: each is one exit status, and nothing is thrown out of main.
+// The ends of a simulated rig's program: each is one exit status; nothing is thrown out of main.
 
 #include <gtest/gtest.h>
 

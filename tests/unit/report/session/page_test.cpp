@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "whirling_rotor.hpp"
+#include "tests/unit/report/session/whirling_rotor.hpp"
 
 namespace levitas::report {
 namespace {

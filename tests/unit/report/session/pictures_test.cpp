@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "whirling_rotor.hpp"
+#include "tests/unit/report/session/whirling_rotor.hpp"
 
 namespace levitas::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "whirling_rotor.hpp"
+#include "tests/unit/report/session/whirling_rotor.hpp"
 
 namespace levitas::report {
 namespace {
