@@ -28,15 +28,15 @@ diagnosis::DiagnosisReport Judged(bool levitates) {
   return report;
 }
 
-std::string Printed(const diagnosis::DiagnosisReport& report) {
+std::string PrintedText(const diagnosis::DiagnosisReport& report) {
   ::testing::internal::CaptureStdout();
   PrintDiagnosis(report, false);
   return ::testing::internal::GetCapturedStdout();
 }
 
 TEST(LevitationWords, AreOnTheTerminalOfARigThatDoesNotLevitateAlone) {
-  EXPECT_THAT(Printed(Judged(false)), HasSubstr(kSentence));
-  EXPECT_THAT(Printed(Judged(true)), Not(HasSubstr("LEVITATE")));
+  EXPECT_THAT(PrintedText(Judged(false)), HasSubstr(kSentence));
+  EXPECT_THAT(PrintedText(Judged(true)), Not(HasSubstr("LEVITATE")));
 }
 
 TEST(LevitationWords, AreOnThePageOfARigThatDoesNotLevitateAlone) {
