@@ -49,6 +49,7 @@ struct DiagnoseOptions : AnalysisOptions {
   std::vector<std::string> healthy;
   std::vector<std::string> scenarios;
   std::string out, plan;
+  double size{1.0};
   bool quick{}, explain{}, plans{};
 };
 
@@ -72,9 +73,9 @@ ExitStatus PlanBefore(DiagnoseOptions options) {
                   "--holdout, --healthy, --quick and --explain belong to a diagnosis: give --out, "
                   "or leave them out");
   }
-  return Plan(
-      {options.data, options.scenarios, options.controller_name, options.plan, options.json_path},
-      LoadRigOfRecords(options, options.data));
+  return Plan({options.data, options.scenarios, options.controller_name, options.plan, options.size,
+               options.json_path},
+              LoadRigOfRecords(options, options.data));
 }
 
 /// What was found, and the scenario that would separate what is left.
@@ -178,6 +179,11 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
                       "rig instead of a record");
   command->add_option("--controller", options->controller_name,
                       "Of what --plan simulates; default: the one the rig file names");
+  command
+      ->add_option("--size", options->size,
+                   "Of the faults of --plan, as a share of the size that `amb effects` calls clear")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
   command->add_option("--out", options->out,
                       "Folder for the answer; required except to --plan before a diagnosis");
   command->add_flag(

@@ -72,7 +72,8 @@ ExitStatus Plan(const PlanOptions& options, const config::RigFile& rig) {
       progress.Show(from + (to - from) * share, what);
     };
   };
-  const auto all = ForetellAll(model, nullptr, StatedFaults(model.rig()), judging, shown(0.1, 0.4));
+  const auto all = ForetellAll(model, nullptr, StatedFaults(model.rig(), options.size), judging,
+                               shown(0.1, 0.4));
   const auto tried = TryExperiments(rig, controller, model, all, judging, shown(0.4, 1.0));
   progress.Close();
   fmt::print("What {} can tell apart on rig {}, foretold from sensitivities:\n\n{}{}",

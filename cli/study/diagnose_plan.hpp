@@ -17,6 +17,7 @@ struct PlanOptions {
   std::vector<std::string> scenarios;
   std::string controller_name;  ///< empty: the one that the rig names
   std::string scenario_path;    ///< the experiment that splits most is written here; may be empty
+  double size{1.0};             ///< of the faults, as a share of the clear one
   std::string json_path;
 };
 

@@ -65,6 +65,7 @@ nlohmann::ordered_json FaultJson(const Prediction& p) {
           {"answer", Word(p.isolation)},
           {"detectable_nat", Number(p.detectable_nat)},
           {"evidence_nat", Number(p.evidence_nat)},
+          {"visible_from", Number(p.visible_from)},
           {"probability", Number(p.probability)},
           {"by_moved_number", p.by_moved_number},
           {"ties", p.ties}};
@@ -74,19 +75,21 @@ nlohmann::ordered_json FaultJson(const Prediction& p) {
 
 std::string IsolabilityText(const std::vector<Foretold>& all) {
   TextTable table;
-  table.Add({"fault", "where", "size", "nat left", "evidence", "next nat", "chance %"});
+  table.Add({"fault", "where", "size", "nat left", "evidence", "from", "next nat", "chance %"});
   for (const Foretold& one : all) {
     const Prediction& p = one.prediction;
-    table.Add({p.effect, one.fault.place, one.fault.size, Nat(p.detectable_nat),
-               Nat(p.evidence_nat), p.rivals.empty() ? "-" : Nat(p.rivals.front().evidence_nat),
-               fmt::format("{:.0f}", 100.0 * p.probability)});
+    table.Add(
+        {p.effect, one.fault.place, one.fault.size, Nat(p.detectable_nat), Nat(p.evidence_nat),
+         p.visible_from > 0.0 && p.visible_from < 100.0 ? fmt::format("{:.2g}", p.visible_from)
+                                                        : std::string("-"),
+         p.rivals.empty() ? "-" : Nat(p.rivals.front().evidence_nat),
+         fmt::format("{:.0f}", 100.0 * p.probability)});
   }
   std::string text =
       table.Text() +
       "\nnat left: half the squared norm of the signature that calibration cannot take; evidence: "
-      "for the fault\nitself, Occam factor paid; next: of the best other effect; chance: that "
-      "noise "
-      "leaves it decisive.\n\n";
+      "for the\nfault itself, Occam factor paid; from: share of the size from which it would be "
+      "decisive; next: of\nthe best other effect; chance: that noise leaves it decisive.\n\n";
   std::vector<std::string> found;
   std::vector<std::string> hidden;
   for (const Foretold& one : all) {

@@ -65,7 +65,7 @@ class Writer {
     return text;
   }
 
-  [[nodiscard]] double Led() const { return 0.2 * clearance_um_; }
+  [[nodiscard]] double Led() const { return 0.08 * clearance_um_; }
   [[nodiscard]] std::string Lead() const {
     constexpr double kBitS = 0.1;
     constexpr double kPatternS = 0.7;  // of order 3

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "common/problem.hpp"
@@ -67,7 +68,7 @@ HealthyModel::HealthyModel(const config::RigFile& rig, std::vector<Record> recor
   gains_ = search_->DesignGains(records_, kSlow);
   std::vector<double> theta = search_->Usual();
   if (calibrate) {
-    constexpr int kPasses = 10;
+    constexpr int kPasses = 5;
     const Refined fit =
         CalibrateNuisances(rig_, *search_, terms_, records_, records_, gains_, kSlow, kPasses);
     if (!fit.ok) throw BadInput("these records cannot be calibrated: is it the same rig?");
@@ -87,14 +88,32 @@ LinearProblem HealthyModel::Nothing() const {
   return {view_.sum.jtj, Eigen::VectorXd::Zero(view_.sum.jtj.rows()), 0.0, view_.sum.values};
 }
 
+/// A diagnosis has terms for lines that stand out of their neighbourhood alone.
+bool HealthyModel::ShowsLine(const EffectConfig& entry) const {
+  std::vector<Record> spoilt = records_;
+  for (Record& record : spoilt) {
+    for (analysis::RecordedRow& row : record.rows) {
+      const double time_s = rig_.period_s * static_cast<double>(row.cycle);
+      const double reading_m = entry.strength * entry.values[1] *
+                               std::cos(2.0 * std::numbers::pi * entry.values[0] * time_s);
+      for (std::size_t a = 0; a < rig_.axes; ++a) {
+        if (entry.Acts(a)) row.sample.position_m[a] += reading_m;
+      }
+    }
+  }
+  const std::vector<double> lines = MainsLines(rig_, spoilt);
+  return std::find(lines.begin(), lines.end(), entry.values[0]) != lines.end();
+}
+
 LinearProblem HealthyModel::OfMains(const EffectConfig& entry) const {
+  if (!ShowsLine(entry)) return Nothing();
   Eigen::VectorXd size = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(terms_.size()));
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Term& term = terms_[i];
     if (term.effect != Id::kMainsPickup || term.location.frequency_hz != entry.values[0]) continue;
     if (!entry.Acts(term.location.axis.value_or(0))) continue;
     if (term.parameter == "cosine")
-      size[static_cast<Eigen::Index>(i)] = entry.values[1] / term.scale();
+      size[static_cast<Eigen::Index>(i)] = entry.strength * entry.values[1] / term.scale();
   }
   // e falls along J by what the fault has and the model lacks.
   const Eigen::VectorXd moved = view_.sum.jtj * size;
@@ -106,15 +125,46 @@ std::optional<LinearProblem> HealthyModel::SignatureOf(
   if (fault.empty() || EventEvidence(fault)) return std::nullopt;
   if (fault.front().id == Id::kSampleJitter) return std::nullopt;
   if (fault.front().id == Id::kMainsPickup) return OfMains(fault.front());
+  return Calibrated(RunWith(fault, records_, gains_));
+}
+
+std::vector<Trajectory> HealthyModel::RunWith(const std::vector<EffectConfig>& fault,
+                                              const std::vector<Record>& records,
+                                              const Gains& gains) const {
   plant::PlantConfig spoilt = plant_;
   spoilt.effects.insert(spoilt.effects.end(), fault.begin(), fault.end());
   const RigView with(rig_.numbers, spoilt);
   const std::vector<Term> terms = TermsOf(with);
-  const std::vector<Trajectory> runs =
-      Difference(*view_.runs, Search(with, terms).Run(records_, gains_, view_.theta), rig_.axes);
-  NormalEquations sum = view_.sum;
-  view_.slopes->Renew(runs, view_.whitener, sum);
-  return LinearProblem{std::move(sum.jtj), std::move(sum.jte), sum.ete, sum.values};
+  return Search(with, terms).Run(records, gains, view_.theta);
+}
+
+LinearProblem HealthyModel::Calibrated(const std::vector<Trajectory>& faulty) const {
+  const Eigen::VectorXd healthy = search_->Scaled(view_.theta);
+  // About the healthy rig, of the model at theta against that with the fault.
+  const auto problem_at = [&](const std::vector<Trajectory>& runs, const Eigen::VectorXd& away) {
+    NormalEquations sum = view_.sum;
+    view_.slopes->Renew(Difference(runs, faulty, rig_.axes), view_.whitener, sum);
+    return std::pair{AtOrigin(sum, away), 0.5 * sum.ete};
+  };
+  auto [best, cost] = problem_at(*view_.runs, Eigen::VectorXd::Zero(healthy.size()));
+  constexpr int kPasses = 2;  // calibration of a real record converges about as fast
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Fit fit = Evidence(best, terms_, {}).Solve();
+    std::vector<double> theta(terms_.size());
+    for (std::size_t i = 0; i < theta.size(); ++i) {
+      const double scaled =
+          healthy[static_cast<Eigen::Index>(i)] + fit.theta[static_cast<Eigen::Index>(i)];
+      theta[i] =
+          std::max(LeastPossible(terms_[i]), terms_[i].healthy_mean + scaled * terms_[i].scale());
+    }
+    const Eigen::VectorXd away = search_->Scaled(theta) - healthy;
+    auto [next, left] = problem_at(search_->Run(records_, gains_, theta), away);
+    const double now = left + 0.5 * fit.penalty;
+    if (!(now < cost)) break;  // also where a run was lost
+    best = std::move(next);
+    cost = now;
+  }
+  return best;
 }
 
 std::optional<double> HealthyModel::EventEvidence(const std::vector<EffectConfig>& fault) const {
@@ -124,7 +174,7 @@ std::optional<double> HealthyModel::EventEvidence(const std::vector<EffectConfig
     constexpr double kPerFrame = 10.0;  // events.cpp
     double rows = 0.0;
     for (const Record& record : records_) rows += static_cast<double>(record.rows.size());
-    return kPerFrame * (rows * entry.values[0] * entry.values[1] - 1.0);
+    return kPerFrame * (rows * entry.strength * entry.values[0] * entry.values[1] - 1.0);
   }
   if (entry.id != Id::kSensorNoise) return std::nullopt;
   plant::PlantConfig spoilt = plant_;

@@ -5,8 +5,11 @@
 //            recorded commands: what the fault would add to the readings. The effect is the plant's
 //            own (plant_sim/effect), at its size, nonlinear as it is.
 // Equation   J^T J of all terms, J^T s and s^T s, whitened by the healthy innovations, about the
-//            healthy rig (evidence.hpp). The mains are a sine of the file's amplitude in every
-//            record, by their terms.
+//            healthy rig (evidence.hpp). The mains are a sine of the effect's amplitude in every
+//            record, by their terms, and no signature where the line would not be looked for
+//            (mains_lines.hpp).
+// Nonlinear  what calibration takes is fitted on the nonlinear model: e of the calibrated model less
+//            e of the model with the effect, two Gauss-Newton passes with the healthy Jacobian.
 // Calibrated records of a real rig are calibrated first; those of a simulated rig file are not.
 // Single samples  noise and lost frames have no signature: `EventEvidence` (as events.hpp counts).
 // Limits     the loop is not run again: what a fault does to the commands by feedback is left out.
@@ -41,6 +44,12 @@ class HealthyModel {
   [[nodiscard]] std::optional<double> EventEvidence(
       const std::vector<effect::EffectConfig>& fault) const;
 
+  /// Runs of the model of the rig with the fault, with the healthy rig's parameters.
+  [[nodiscard]] std::vector<Trajectory> RunWith(const std::vector<effect::EffectConfig>& fault,
+                                                const std::vector<Record>& records,
+                                                const Gains& gains) const;
+
+  [[nodiscard]] const std::vector<double>& theta() const noexcept { return view_.theta; }
   [[nodiscard]] const RigView& rig() const noexcept { return rig_; }
   [[nodiscard]] const std::vector<Term>& terms() const noexcept { return terms_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return search_->hypotheses(); }
@@ -51,6 +60,9 @@ class HealthyModel {
 
  private:
   [[nodiscard]] std::vector<Term> TermsOf(const RigView& rig) const;
+  /// Of runs with a fault: the model calibrated to them as far as that lowers the cost.
+  [[nodiscard]] LinearProblem Calibrated(const std::vector<Trajectory>& faulty) const;
+  [[nodiscard]] bool ShowsLine(const effect::EffectConfig& entry) const;
   [[nodiscard]] LinearProblem OfMains(const effect::EffectConfig& entry) const;
 
   config::Tolerances tolerances_;

@@ -114,6 +114,9 @@ Prediction Predict(const std::string& effect, const LinearProblem& signature,
   }
   std::stable_sort(p.rivals.begin(), p.rivals.end(),
                    [](const Rival& a, const Rival& b) { return a.evidence_nat > b.evidence_nat; });
+  const double paid = p.detectable_nat - p.evidence_nat;
+  p.visible_from = std::sqrt((judging.decisive_nat + std::max(0.0, paid)) /
+                             std::max(p.detectable_nat, std::numeric_limits<double>::min()));
   p.by_moved_number = MovesItsNumber(effect, calibrated, terms, judging.moved_tolerances);
   p.probability = ChanceOf(p.evidence_nat, judging.decisive_nat);
   Judge(judging, p);

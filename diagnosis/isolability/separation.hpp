@@ -48,7 +48,9 @@ struct Prediction {
   std::string effect;
   Isolation isolation{Isolation::kNotVisible};
   double detectable_nat{};
-  double evidence_nat{};          ///< of its own effect
+  double evidence_nat{};  ///< of its own effect
+  /// Share of the size at which it would be decisive, signature and size in proportion.
+  double visible_from{};
   double probability{};           ///< that noise leaves it decisive
   bool by_moved_number{};         ///< visible by where calibration went alone
   std::vector<std::string> ties;  ///< best first; of kTakenFor: what would be named

@@ -6,7 +6,8 @@
 #include <array>
 
 #include "configuration/schema/unit.hpp"
-#include "plant_sim/effect/catalogue.hpp"
+#include "plant_sim/effect/strength.hpp"
+#include "plant_sim/plant/effects/apply_effects.hpp"
 #include "report/signature/signature.hpp"
 
 namespace levitas::diagnosis {
@@ -29,12 +30,13 @@ std::string PlaceOf(const effect::EffectConfig& entry, const RigView& rig) {
 }
 
 /// The first parameter that grows with the effect: the others are places, phases and shapes.
-std::string SizeOf(const effect::EffectConfig& entry) {
+std::string SizeOf(const effect::EffectConfig& entry, const plant::PlantParameters& rig) {
   const auto parameters = effect::At(entry.id).parameters;
+  const plant::Values own = plant::OwnValues(rig, entry, 0);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const effect::Parameter& p = parameters[i];
     if (p.scaling == effect::Scaling::kFixed) continue;
-    double value = entry.values[i];
+    double value = effect::AtStrength(p, entry.values[i], own[i], entry.strength);
     for (const config::Unit& unit : config::AllUnits()) {
       if (unit.suffix == p.file_suffix) value = std::stod(config::FromSi(value, unit));
     }
@@ -45,13 +47,14 @@ std::string SizeOf(const effect::EffectConfig& entry) {
 
 }  // namespace
 
-std::optional<StatedFault> StatedFaultOf(Id id, const RigView& rig) {
+std::optional<StatedFault> StatedFaultOf(Id id, const RigView& rig, double strength) {
   const effect::Row& row = effect::At(id);
   if (row.place == effect::Place::kGear) return std::nullopt;
   if (row.scope == Scope::kMode && rig.modes < 3) return std::nullopt;
   const plant::PlantParameters& own = rig.model->parameters();
   StatedFault fault;
   fault.entry = signature::ClearOn(own, id);
+  fault.entry.strength = strength;
   if (row.scope == Scope::kChannels) fault.entry.axes = 1U;
   const auto& discs = own.config.rotor.discs;
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
@@ -60,15 +63,15 @@ std::optional<StatedFault> StatedFaultOf(Id id, const RigView& rig) {
     if (!discs.empty()) fault.entry.values[i] = discs[discs.size() / 2].z_m;
   }
   fault.place = PlaceOf(fault.entry, rig);
-  fault.size = SizeOf(fault.entry);
+  fault.size = SizeOf(fault.entry, own);
   return fault;
 }
 
-std::vector<StatedFault> StatedFaults(const RigView& rig) {
+std::vector<StatedFault> StatedFaults(const RigView& rig, double strength) {
   std::vector<StatedFault> faults;
   for (const effect::Row& row : effect::Catalogue()) {
     if (row.id == Id::kSampleJitter) continue;  // no term of the diagnosis describes it
-    if (auto fault = StatedFaultOf(row.id, rig)) faults.push_back(std::move(*fault));
+    if (auto fault = StatedFaultOf(row.id, rig, strength)) faults.push_back(std::move(*fault));
   }
   return faults;
 }

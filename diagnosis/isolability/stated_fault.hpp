@@ -1,7 +1,8 @@
 #pragma once
 // The fault that stands for an effect when it is asked what records would show of it.
 //
-// Size    that of the catalogue, `clear` (`amb effects ID`): what shows clearly on a laboratory rig.
+// Size    that of the catalogue, `clear` (`amb effects ID`), what shows clearly on a laboratory rig,
+//         at a strength from 0 to 1 (strength.hpp).
 // Place   channels: the first one; a bearing: the first; a mode: the first bending; a plane: that
 //         of the first disc, or what the file's unbalance refers to, else the middle between the
 //         bearings.
@@ -23,9 +24,10 @@ struct StatedFault {
 };
 
 /// None for an effect that this rig cannot have: teeth without gears, bending of a rigid rotor.
-[[nodiscard]] std::optional<StatedFault> StatedFaultOf(effect::Id id, const RigView& rig);
+[[nodiscard]] std::optional<StatedFault> StatedFaultOf(effect::Id id, const RigView& rig,
+                                                       double strength = 1.0);
 
 /// All of the catalogue that the rig can have and a diagnosis looks for.
-[[nodiscard]] std::vector<StatedFault> StatedFaults(const RigView& rig);
+[[nodiscard]] std::vector<StatedFault> StatedFaults(const RigView& rig, double strength = 1.0);
 
 }  // namespace levitas::diagnosis

@@ -5,6 +5,7 @@
 
 #include "common/problem.hpp"
 #include "diagnosis/inference/calibrate.hpp"
+#include "diagnosis/isolability/sensors_beside.hpp"
 #include "diagnosis/isolability/simulated_record.hpp"
 #include "diagnosis/records/levitated_interval.hpp"
 #include "plant_sim/effect/catalogue.hpp"
@@ -50,6 +51,20 @@ Tried WithHealthyRecords(const HealthyModel& model, const std::vector<StatedFaul
   return tried;
 }
 
+Tried WithSensor(const HealthyModel& model, const SensorsBeside& sensors, std::size_t which,
+                 const std::vector<StatedFault>& open, const Judging& judging) {
+  Tried tried{"the same experiment with " + sensors.what(which), "", "", {}};
+  for (const StatedFault& fault : open) {
+    auto signature = model.SignatureOf({fault.entry});
+    if (!signature || fault.entry.id == effect::Id::kMainsPickup) continue;
+    sensors.Add(which, {fault.entry}, *signature);
+    const std::string effect(effect::At(fault.entry.id).name);
+    tried.outcomes.push_back(
+        {effect, Predict(effect, *signature, model.terms(), model.hypotheses(), judging)});
+  }
+  return tried;
+}
+
 }  // namespace
 
 bool Splits(const Prediction& before, const Prediction& after) noexcept {
@@ -84,6 +99,10 @@ std::vector<Tried> TryExperiments(const config::RigFile& rig,
     }
   }
   tried.push_back(WithHealthyRecords(model, open, judging));
+  const SensorsBeside sensors(model);
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    tried.push_back(WithSensor(model, sensors, i, open, judging));
+  }
   return tried;
 }
 

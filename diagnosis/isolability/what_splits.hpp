@@ -3,7 +3,7 @@
 //
 // Tried    every experiment, simulated with the rig and law of the files and diagnosed together
 //          with the records in hand; and records of the healthy rig, which narrow the tolerances
-//          (calibrate.hpp).
+//          (calibrate.hpp); and sensors more (sensors_beside.hpp).
 // Splits   the fault is named alone, or fewer effects are tied with it.
 // None     is an answer: no experiment of these does.
 // Failed   an experiment that the simulated rig does not bear, or a scenario that its controller
