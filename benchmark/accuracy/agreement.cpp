@@ -47,7 +47,7 @@ RowEntries CompareRow(const Prediction& prediction, const std::vector<std::strin
     if (Has(foretold, effect) == Has(named_or_tied, effect)) ++entries.right;
   };
   compare(prediction.effect);
-  for (const diagnosis::Rival& rival : prediction.rivals) compare(rival.effect);
+  for (const diagnosis::Alternative& other : prediction.alternatives) compare(other.effect);
   return entries;
 }
 

@@ -82,7 +82,7 @@ std::string IsolabilityText(const std::vector<Foretold>& all) {
         {p.effect, one.fault.place, one.fault.size, Nat(p.detectable_nat), Nat(p.evidence_nat),
          p.visible_from > 0.0 && p.visible_from < 100.0 ? fmt::format("{:.2g}", p.visible_from)
                                                         : std::string("-"),
-         p.rivals.empty() ? "-" : Nat(p.rivals.front().evidence_nat),
+         p.alternatives.empty() ? "-" : Nat(p.alternatives.front().evidence_nat),
          fmt::format("{:.0f}", 100.0 * p.probability)});
   }
   std::string text =
@@ -153,10 +153,10 @@ nlohmann::ordered_json IsolabilityJson(const std::vector<Foretold>& all,
     auto entry = FaultJson(one.prediction);
     entry["place"] = one.fault.place;
     entry["size"] = one.fault.size;
-    for (const diagnosis::Rival& rival : one.prediction.rivals) {
-      entry["matrix"][rival.effect] = {{"evidence_nat", Number(rival.evidence_nat)},
-                                       {"left_nat", Number(rival.left_nat)},
-                                       {"place", rival.place}};
+    for (const diagnosis::Alternative& other : one.prediction.alternatives) {
+      entry["matrix"][other.effect] = {{"evidence_nat", Number(other.evidence_nat)},
+                                       {"left_nat", Number(other.left_nat)},
+                                       {"place", other.place}};
     }
     json["faults"].push_back(entry);
   }

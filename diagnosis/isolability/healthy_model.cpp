@@ -19,6 +19,10 @@ namespace {
 using effect::EffectConfig;
 using effect::Id;
 
+/// Add a force or a reading in proportion to their size.
+constexpr std::array kAdditive{Id::kUnbalance, Id::kShaftBow, Id::kMisalignment, Id::kSensorRunout,
+                               Id::kStaticLoad};
+
 /// Lines that a fault may be, although healthy records do not show them.
 constexpr std::array kLinesHz{50.0, 60.0};
 
@@ -125,7 +129,16 @@ std::optional<LinearProblem> HealthyModel::SignatureOf(
   if (fault.empty() || EventEvidence(fault)) return std::nullopt;
   if (fault.front().id == Id::kSampleJitter) return std::nullopt;
   if (fault.front().id == Id::kMainsPickup) return OfMains(fault.front());
-  return Calibrated(RunWith(fault, records_, gains_));
+  if (std::find(kAdditive.begin(), kAdditive.end(), fault.front().id) == kAdditive.end()) {
+    return Calibrated(RunWith(fault, records_, gains_));
+  }
+  constexpr double kShare = 0.05;
+  std::vector<EffectConfig> small = fault;
+  for (EffectConfig& entry : small) entry.strength *= kShare;
+  LinearProblem of_small = Calibrated(RunWith(small, records_, gains_));
+  const Eigen::VectorXd jte = of_small.jte / kShare;
+  return LinearProblem{std::move(of_small.jtj), jte, of_small.ete / (kShare * kShare),
+                       of_small.values};
 }
 
 std::vector<Trajectory> HealthyModel::RunWith(const std::vector<EffectConfig>& fault,

@@ -8,8 +8,11 @@
 //            healthy rig (evidence.hpp). The mains are a sine of the effect's amplitude in every
 //            record, by their terms, and no signature where the line would not be looked for
 //            (mains_lines.hpp).
-// Nonlinear  what calibration takes is fitted on the nonlinear model: e of the calibrated model less
-//            e of the model with the effect, two Gauss-Newton passes with the healthy Jacobian.
+// Nonlinear  what calibration takes is fitted on the nonlinear model: e of the calibrated model
+//            less e of that with the effect, two Gauss-Newton passes with the healthy Jacobian.
+// Additive   what adds a force or a reading (unbalance, bow, misalignment, run-out, load) is taken
+//            in proportion, from a twentieth of it: driven with the healthy rig's commands, the model of a large unbalance
+//            swings far out of its bearings, which the loop of the real rig prevents.
 // Calibrated records of a real rig are calibrated first; those of a simulated rig file are not.
 // Single samples  noise and lost frames have no signature: `EventEvidence` (as events.hpp counts).
 // Limits     the loop is not run again: what a fault does to the commands by feedback is left out.

@@ -1,8 +1,8 @@
 #pragma once
 // Sensors that the rig does not have, and what they would add to what its records tell apart.
 //
-// Tried     displacement probes in x and y in the middle between the bearings, as noisy as the rig's
-//           own; probes of the control current of every axis, noise kCurrentNoiseA.
+// Tried     displacement probes in x and y in the middle between the bearings, as noisy as the
+//           rig's own; probes of the control current of every axis, noise kCurrentNoiseA.
 // Equation  reading less that of the healthy model, which is driven and corrected as without the
 //           sensor. Slopes by a run of the model for each term at a tenth of its scale; the fault's
 //           by a run with it. Added to J^T J, J^T s and s^T s over the noise squared.

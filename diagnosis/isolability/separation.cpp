@@ -58,17 +58,17 @@ bool MovesItsNumber(const std::string& effect, const Fit& fit, const std::vector
                      [&](std::size_t i) { return terms[i].effect_name() == effect; });
 }
 
-/// From evidence and rivals, which are in order.
+/// From evidence and alternatives, which are in order.
 void Judge(const Judging& judging, Prediction& p) {
   const bool decisive = p.evidence_nat >= judging.decisive_nat;
-  const double first = p.rivals.empty() ? kNever : p.rivals.front().evidence_nat;
+  const double first = p.alternatives.empty() ? kNever : p.alternatives.front().evidence_nat;
   p.by_moved_number = !decisive && p.by_moved_number && p.evidence_nat > 0.0;
   if (!decisive && !p.by_moved_number && !(first >= judging.decisive_nat)) return;
   const double lead = std::max(p.evidence_nat, first);
   const double near = std::max(judging.decisive_nat, judging.form_share * lead);
-  for (const Rival& rival : p.rivals) {
-    if (rival.evidence_nat < judging.decisive_nat || rival.evidence_nat <= lead - near) break;
-    p.ties.push_back(rival.effect);
+  for (const Alternative& other : p.alternatives) {
+    if (other.evidence_nat < judging.decisive_nat || other.evidence_nat <= lead - near) break;
+    p.ties.push_back(other.effect);
   }
   if (p.evidence_nat <= lead - near) {
     p.isolation = Isolation::kTakenFor;
@@ -109,11 +109,12 @@ Prediction Predict(const std::string& effect, const LinearProblem& signature,
       p.evidence_nat = std::max(best.gain, p.detectable_nat - best.paid - kPrior);
       continue;
     }
-    p.rivals.push_back({name, best.place, best.gain,
-                        std::max(0.0, p.detectable_nat - std::max(0.0, best.explained))});
+    p.alternatives.push_back({name, best.place, best.gain,
+                              std::max(0.0, p.detectable_nat - std::max(0.0, best.explained))});
   }
-  std::stable_sort(p.rivals.begin(), p.rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.evidence_nat > b.evidence_nat; });
+  std::stable_sort(
+      p.alternatives.begin(), p.alternatives.end(),
+      [](const Alternative& a, const Alternative& b) { return a.evidence_nat > b.evidence_nat; });
   const double paid = p.detectable_nat - p.evidence_nat;
   p.visible_from = std::sqrt((judging.decisive_nat + std::max(0.0, paid)) /
                              std::max(p.detectable_nat, std::numeric_limits<double>::min()));

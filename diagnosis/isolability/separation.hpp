@@ -37,7 +37,7 @@ enum class Isolation : std::uint8_t {
 [[nodiscard]] const char* Word(Isolation isolation) noexcept;
 
 /// Another effect against the signature of the one in question.
-struct Rival {
+struct Alternative {
   std::string effect;
   std::string place;      ///< that suits best
   double evidence_nat{};  ///< -infinity: it would have to be negative
@@ -51,10 +51,10 @@ struct Prediction {
   double evidence_nat{};  ///< of its own effect
   /// Share of the size at which it would be decisive, signature and size in proportion.
   double visible_from{};
-  double probability{};           ///< that noise leaves it decisive
-  bool by_moved_number{};         ///< visible by where calibration went alone
-  std::vector<std::string> ties;  ///< best first; of kTakenFor: what would be named
-  std::vector<Rival> rivals;      ///< every effect of the hypotheses but itself, best first
+  double probability{};                   ///< that noise leaves it decisive
+  bool by_moved_number{};                 ///< visible by where calibration went alone
+  std::vector<std::string> ties;          ///< best first; of kTakenFor: what would be named
+  std::vector<Alternative> alternatives;  ///< every effect of the hypotheses but itself, best first
 };
 
 /// `signature` has `ete` of the signature alone, about the healthy rig.

@@ -1,8 +1,8 @@
 #pragma once
 // The fault that stands for an effect when it is asked what records would show of it.
 //
-// Size    that of the catalogue, `clear` (`amb effects ID`), what shows clearly on a laboratory rig,
-//         at a strength from 0 to 1 (strength.hpp).
+// Size    that of the catalogue, `clear` (`amb effects ID`), what shows clearly on a laboratory
+//         rig, at a strength from 0 to 1 (strength.hpp).
 // Place   channels: the first one; a bearing: the first; a mode: the first bending; a plane: that
 //         of the first disc, or what the file's unbalance refers to, else the middle between the
 //         bearings.

@@ -30,7 +30,7 @@ TEST(Agreement, EveryEntryOfTheRowCountsOnce) {
   p.effect = "a";
   p.isolation = Isolation::kTied;
   p.ties = {"b"};
-  p.rivals = {{"b", "", 0.0, 0.0}, {"c", "", 0.0, 0.0}};
+  p.alternatives = {{"b", "", 0.0, 0.0}, {"c", "", 0.0, 0.0}};
   EXPECT_EQ(CompareRow(p, {"a", "b"}).right, 3U);
   EXPECT_EQ(CompareRow(p, {"a"}).right, 2U) << "b was not named";
   EXPECT_EQ(CompareRow(p, {"c"}).right, 0U);

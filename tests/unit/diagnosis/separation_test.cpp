@@ -54,8 +54,8 @@ TEST(Separation, ASignatureThatNothingElseHasIsFoundWithHalfItsSquaredNorm) {
   const Prediction p = Of(Signature(0.0, 0.0, 1.0));
   EXPECT_NEAR(p.detectable_nat, 50.0, 1e-9);
   EXPECT_EQ(p.isolation, Isolation::kFound);
-  ASSERT_EQ(p.rivals.size(), 1U);
-  EXPECT_NEAR(p.rivals[0].left_nat, 50.0, 1e-9) << "the other cause takes nothing of it";
+  ASSERT_EQ(p.alternatives.size(), 1U);
+  EXPECT_NEAR(p.alternatives[0].left_nat, 50.0, 1e-9) << "the other cause takes nothing of it";
 }
 
 TEST(Separation, WhatCalibrationMayTakeIsNotVisible) {
@@ -69,7 +69,7 @@ TEST(Separation, CausesOfTheSameSignatureAreTiedAndLeaveNothingOfEachOther) {
   const Prediction p = Of(Signature(0.0, 1.0, 1.0));
   EXPECT_EQ(p.isolation, Isolation::kTied);
   EXPECT_EQ(p.ties, std::vector<std::string>{"shaft_bow"});
-  EXPECT_LT(p.rivals[0].left_nat, 1.0);
+  EXPECT_LT(p.alternatives[0].left_nat, 1.0);
 }
 
 TEST(Separation, GrowsWithTheFaultUntilASimilarCauseIsNoTieAnyMore) {
