@@ -11,8 +11,9 @@
 // Nonlinear  what calibration takes is fitted on the nonlinear model: e of the calibrated model
 //            less e of that with the effect, two Gauss-Newton passes with the healthy Jacobian.
 // Additive   what adds a force or a reading (unbalance, bow, misalignment, run-out, load) is taken
-//            in proportion, from a twentieth of it: driven with the healthy rig's commands, the model of a large unbalance
-//            swings far out of its bearings, which the loop of the real rig prevents.
+//            in proportion, from a twentieth of it: driven with the healthy rig's commands, the
+//            model of a large unbalance swings far out of its bearings, which the loop of the real
+//            rig prevents.
 // Calibrated records of a real rig are calibrated first; those of a simulated rig file are not.
 // Single samples  noise and lost frames have no signature: `EventEvidence` (as events.hpp counts).
 // Limits     the loop is not run again: what a fault does to the commands by feedback is left out.
