@@ -119,6 +119,10 @@ ExitStatus Run(const DiagnoseOptions& options) {
   if (options.plans && options.out.empty()) return PlanBefore(options);
   if (options.data.empty()) throw Problem(ExitStatus::kUsage, "DATA is required");
   if (options.out.empty()) throw Problem(ExitStatus::kUsage, "--out is required");
+  if (options.plans && options.plan.empty()) {
+    throw Problem(ExitStatus::kUsage,
+                  "--plan after a diagnosis needs the file to write: FILE.yaml");
+  }
   if (!options.scenarios.empty() || !options.controller_name.empty()) {
     throw Problem(ExitStatus::kUsage,
                   "--scenario and --controller simulate records for --plan: leave out --out");
