@@ -19,6 +19,7 @@ from waiting import LIMIT_S  # noqa: E402
 BINARIES = Path(os.environ["LEVITAS_BINARIES"])
 RECORDS = Path(os.environ["LEVITAS_SOURCE"]) / "tests/data/records"
 CONFIG = Path(os.environ["LEVITAS_SOURCE"]) / "config"
+USAGE = 2
 BAD_INPUT = 3
 
 
@@ -238,6 +239,46 @@ class DiagnoseForeignCampaigns(unittest.TestCase):
             self.assertEqual(answer["cannot_tell"]["effects"], [])
             self.assertFalse((Path(folder) / "next.yaml").exists())
             self.assertIn("next.yaml is not written", printed)
+
+    def test_a_plan_before_the_diagnosis_says_what_records_can_tell_apart_and_what_would_help(self):
+        with TemporaryDirectory() as folder:
+            (Path(folder) / "rest.yaml").write_text(
+                "kind: scenario\nname: rest\nsteps:\n"
+                "  - {do: lift, until: levitating, timeout_s: 9, hold_s: 1.5}\n"
+                "  - {do: land, until: 'off', timeout_s: 9}\n")
+            printed = amb(folder, "diagnose", "--plan", "next.yaml", "--rig", "flexible_rotor", "--scenario",
+                          "rest.yaml", "--json", "plan.json")
+            plan = json.loads((Path(folder) / "plan.json").read_text())
+            faults = {fault["effect"]: fault for fault in plan["faults"]}
+            self.assertEqual(faults["unbalance"]["answer"], "not_visible", "nothing turns")
+            self.assertEqual(faults["static_load"]["answer"], "found", printed)
+            self.assertEqual(set(faults["static_load"]["matrix"]) | {"static_load"},
+                             set(faults["unbalance"]["matrix"]) | {"unbalance"})
+            ways = {way["what"]: way["helps"] for way in plan["tried"]}
+            for what, helps in ways.items():
+                self.assertEqual("unbalance" in helps, "turning" in what or "run-up" in what, what)
+            # What it proposes can be run.
+            amb(folder, "run", "--scenario", "next.yaml", "--record", "next.lcm")
+            amb(folder, "diagnose", "next.lcm", "--plan", "--json", "after.json")
+            after = json.loads((Path(folder) / "after.json").read_text())
+            answers = {fault["effect"]: fault["answer"] for fault in after["faults"]}
+            self.assertNotEqual(answers["unbalance"], "not_visible")
+
+    def test_a_plan_with_nothing_to_plan_from_or_with_options_of_a_diagnosis_is_refused(self):
+        with TemporaryDirectory() as folder:
+            for arguments, status, word in (
+                    (("--plan",), USAGE, "--scenario"),
+                    (("--plan", "--scenario", "default", "--quick"), USAGE, "--quick"),
+                    (("--scenario", "default", "--out", "d", "x.lcm"), USAGE, "--plan"),
+                    (("x.lcm",), USAGE, "--out is required"),
+                    (("--plan", "absent.lcm"), BAD_INPUT, "absent.lcm"),
+                    (("--plan", "--scenario", "absent"), BAD_INPUT, "absent"),
+                    (("--plan", "--rig", "two_magnet_levitator", "--scenario", "two_magnet_levitator"), BAD_INPUT,
+                     "levitator")):
+                done = finished(folder, "diagnose", *arguments)
+                self.assertEqual(done.returncode, status, (arguments, done.stderr))
+                self.assertIn(word, done.stderr)
+                self.assertEqual(list(Path(folder).iterdir()), [])
 
 
 if __name__ == "__main__":
