@@ -16,6 +16,13 @@
 
 namespace levitas::loop::test {
 
+/// The end of the run, once it has begun.
+struct EndSoFar {
+  std::optional<std::uint64_t> asked;     ///< cycle of the latest request
+  std::optional<std::uint64_t> released;  ///< since when no magnet holds the rotor
+  bool told_to_brake{};
+};
+
 class ReferenceDesk {
  public:
   ReferenceDesk(const DeskOptions& options, scenario::ScenarioPlayer* player,
@@ -59,13 +66,6 @@ class ReferenceDesk {
   [[nodiscard]] const scenario::GuardCounts& signals_reduced() const { return guard_.counts(); }
 
  private:
-  /// The end of the run, once it has begun.
-  struct EndSoFar {
-    std::optional<std::uint64_t> asked;     ///< cycle of the latest request
-    std::optional<std::uint64_t> released;  ///< since when no magnet holds the rotor
-    bool told_to_brake{};
-  };
-
   [[nodiscard]] std::uint64_t Cycles(double seconds) const {
     return static_cast<std::uint64_t>(std::llround(seconds / options_.period_s));
   }
