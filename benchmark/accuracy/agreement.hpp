@@ -2,7 +2,8 @@
 // Whether a diagnosis answered what was foretold of it (diagnosis/isolability).
 //
 // Kind     of an answer: the hidden effect is named first and alone; is among what is named or
-//          tied; something else is named; nothing is. Verdict `suspected` names, `unknown` does not.
+//          tied; something else is named; nothing is. Verdict `suspected` names, `unknown` does
+//          not.
 // Agrees   the kinds are the same. That of a foretold tie also where the hidden effect is not the
 //          first of the tied ones.
 // Entries  of the hidden effect's row of the matrix: for every other effect, whether it is named
