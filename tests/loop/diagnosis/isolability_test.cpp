@@ -59,8 +59,8 @@ class Standing : public testing::Test {
   static diagnosis::Record Recorded(double rpm) {
     const std::string turning =
         rpm > 0.0 ? "  - {do: spin, speed_rpm: " + std::to_string(rpm) +
-                        ", acceleration_rpm_per_s: 3000, until: speed_reached, timeout_s: 9, "
-                        "hold_s: 1}\n  - {do: spin, speed_rpm: 0, acceleration_rpm_per_s: 3000, "
+                        ", acceleration_rpm_per_s: 2000, until: speed_reached, timeout_s: 9, "
+                        "hold_s: 1}\n  - {do: spin, speed_rpm: 0, acceleration_rpm_per_s: 2000, "
                         "until: standstill, timeout_s: 9}\n"
                   : "";
     const auto rig = Rig();
