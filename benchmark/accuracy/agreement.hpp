@@ -1,5 +1,5 @@
 #pragma once
-// Whether a diagnosis answered what was foretold of it (diagnosis/isolability).
+// Agreement of a prediction (diagnosis/isolability) with what the diagnosis answered.
 //
 // Kind     of an answer: the hidden effect is named first and alone; is among what is named or
 //          tied; something else is named; nothing is. Verdict `suspected` names, `unknown` does

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "report/text/text_table.hpp"
 
@@ -113,8 +113,10 @@ std::string IsolabilityText(const std::vector<Foretold>& all) {
 
 std::string SplitsText(const std::vector<Foretold>& all, const std::vector<Tried>& tried) {
   std::string text = "\nWhat would help, beside these records:\n";
+  std::set<std::string> helped_by_any;
   for (const Tried& one : tried) {
     const auto helped = Helped(all, one);
+    helped_by_any.insert(helped.begin(), helped.end());
     text += fmt::format("  {}\n    {}\n", one.what,
                         !one.failed.empty() ? "not possible: " + one.failed
                         : helped.empty()    ? std::string("splits nothing")
@@ -122,12 +124,8 @@ std::string SplitsText(const std::vector<Foretold>& all, const std::vector<Tried
   }
   for (const Foretold& one : all) {
     const Prediction& p = one.prediction;
-    if (p.isolation == Isolation::kFound) continue;
-    const bool any = std::any_of(tried.begin(), tried.end(), [&](const Tried& way) {
-      const auto helped = Helped(all, way);
-      return std::find(helped.begin(), helped.end(), p.effect) != helped.end();
-    });
-    if (!any) text += fmt::format("  {}: {}; none of these helps\n", p.effect, AnswerText(p));
+    if (p.isolation == Isolation::kFound || helped_by_any.contains(p.effect)) continue;
+    text += fmt::format("  {}: {}; none of these helps\n", p.effect, AnswerText(p));
   }
   return text;
 }

@@ -15,6 +15,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/state_table.hpp"
+
 namespace levitas::loop {
 
 enum class EndState : std::uint8_t {
@@ -131,10 +133,7 @@ inline constexpr std::array kEndEdges{
 
 /// The edge of (state, event), or nullptr. The table holds each pair at most once.
 [[nodiscard]] constexpr const EndEdge* FindEdge(EndState state, EndEvent event) noexcept {
-  for (const EndEdge& edge : kEndEdges) {
-    if (edge.from == state && edge.event == event) return &edge;
-  }
-  return nullptr;
+  return FindEdgeIn(kEndEdges, state, event);
 }
 
 /// Which guards hold.

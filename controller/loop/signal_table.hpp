@@ -14,6 +14,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/state_table.hpp"
+
 namespace levitas::loop {
 
 enum class SignalState : std::uint8_t {
@@ -101,10 +103,7 @@ inline constexpr std::array kSignalEdges{
 
 /// The edge of (state, event), or nullptr. The table holds each pair at most once.
 [[nodiscard]] constexpr const SignalEdge* FindEdge(SignalState state, SignalEvent event) noexcept {
-  for (const SignalEdge& edge : kSignalEdges) {
-    if (edge.from == state && edge.event == event) return &edge;
-  }
-  return nullptr;
+  return FindEdgeIn(kSignalEdges, state, event);
 }
 
 struct SignalStep {

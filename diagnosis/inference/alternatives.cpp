@@ -1,6 +1,7 @@
 #include "diagnosis/inference/alternatives.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "diagnosis/inference/ranking.hpp"

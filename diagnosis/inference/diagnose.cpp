@@ -105,7 +105,7 @@ Verdict VerdictOf(const SelectionRules& rules, bool unexplained, CauseSelection&
 
 /// Of all fitted numbers, before an unknown verdict forgets the causes that theta holds.
 Eigen::MatrixXd SpreadOf(const RecordLandscape& landscape, const std::vector<Hypothesis>& causes) {
-  Eigen::MatrixXd spread = Evidence(landscape.view().problem, landscape.terms(), causes).Spread();
+  Eigen::MatrixXd spread = landscape.EvidenceGiven(causes).Spread();
   for (std::size_t i = 0; i < landscape.terms().size(); ++i) {
     spread.row(static_cast<Eigen::Index>(i)) *= landscape.terms()[i].scale();
   }
@@ -140,8 +140,8 @@ SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record
   if (verdict == Verdict::kUnknown) found.causes.clear();
   const std::size_t named = found.causes.size();
   AddEvents(landscape, all_records, judging, answer.remainder, found);
-  const Fit fit = Evidence(landscape.view().problem, landscape.terms(), found.causes).Solve();
-  const Fit null = Evidence(landscape.view().problem, landscape.terms(), {}).Solve();
+  const Fit fit = landscape.EvidenceGiven(found.causes).Solve();
+  const Fit null = landscape.EvidenceGiven({}).Solve();
   answer.evidence = fit.log_evidence - null.log_evidence;
   Describe(landscape.terms(), found, fit, answer);
   answer.also_possible =

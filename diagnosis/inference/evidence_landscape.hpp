@@ -14,7 +14,6 @@
 // Units       evidence and gains in nats; theta in the terms' own units. Thread: blocks the caller,
 //             two threads inside. Failure: a Refined that is not `ok`.
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,6 @@
 #include "diagnosis/inference/refine.hpp"
 
 namespace levitas::diagnosis {
-
-inline constexpr double kAnyEvidence = -std::numeric_limits<double>::infinity();
 
 class EvidenceLandscape {
  public:

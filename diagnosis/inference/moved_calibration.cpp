@@ -16,7 +16,7 @@ constexpr double kSurely = 1.645;  // deviations: 95 %, one side
 /// The hypothesis of the term's effect that moves it and that evidence prefers.
 std::optional<std::size_t> BestOf(const RecordLandscape& landscape,
                                   const std::vector<Hypothesis>& causes, std::size_t term) {
-  const Evidence base(landscape.view().problem, landscape.terms(), causes);
+  const Evidence base = landscape.EvidenceGiven(causes);
   const auto& all = landscape.hypotheses();
   std::optional<std::size_t> best;
   double most = -std::numeric_limits<double>::infinity();
@@ -45,7 +45,7 @@ void Rank(std::vector<Candidate>& candidates, Candidate named) {
 
 /// True when a cause was added.
 bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
-  const Fit fit = Evidence(landscape.view().problem, landscape.terms(), found.causes).Solve();
+  const Fit fit = landscape.EvidenceGiven(found.causes).Solve();
   const std::vector<std::size_t> moved = MovedBeyond(landscape.terms(), fit, found.theta,
                                                      found.causes, rules.judging.moved_tolerances);
   if (moved.empty()) return false;

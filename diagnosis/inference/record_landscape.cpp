@@ -44,7 +44,7 @@ void RecordLandscape::LineariseAt(const std::vector<double>& theta) {
 }
 
 double RecordLandscape::GainOf(const Hypothesis& cause, const Causes& given) const {
-  return Evidence(view_.problem, terms_, given).Gain(cause);
+  return EvidenceGiven(given).Gain(cause);
 }
 
 double RecordLandscape::GainAt(const Refined& fit, const Hypothesis& cause,
@@ -53,7 +53,7 @@ double RecordLandscape::GainAt(const Refined& fit, const Hypothesis& cause,
 }
 
 std::vector<Candidate> RecordLandscape::Screen(const Causes& given) const {
-  return diagnosis::Screen(Evidence(view_.problem, terms_, given), search_.hypotheses());
+  return diagnosis::Screen(EvidenceGiven(given), search_.hypotheses());
 }
 
 double RecordLandscape::EvidenceOf(const Causes& set) const {

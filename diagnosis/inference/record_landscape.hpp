@@ -32,6 +32,10 @@ class RecordLandscape final : public EvidenceLandscape {
   [[nodiscard]] const Gains& gains() const { return gains_; }
   [[nodiscard]] std::size_t speed() const { return speed_; }
   [[nodiscard]] const View& view() const { return view_; }
+  /// On the present linearisation, `given` being part of the base.
+  [[nodiscard]] Evidence EvidenceGiven(const Causes& given) const {
+    return {view_.problem, terms_, given};
+  }
 
   [[nodiscard]] const Causes& hypotheses() const override { return search_.hypotheses(); }
   void LineariseAt(const std::vector<double>& theta) override;

@@ -67,7 +67,7 @@ std::optional<std::size_t> AloneOf(const RecordLandscape& landscape, std::size_t
 
 void SuspectNumber(const RecordLandscape& landscape, const Judging& judging,
                    CauseSelection& found) {
-  const Fit posterior = Evidence(landscape.view().problem, landscape.terms(), {}).Solve();
+  const Fit posterior = landscape.EvidenceGiven({}).Solve();
   const auto moved = FurthestNumber(landscape.terms(), posterior, found.calibrated);
   if (!moved || !(moved->chance < judging.number_chance)) return;
   const auto hypothesis = AloneOf(landscape, moved->term);

@@ -28,7 +28,7 @@ class Judge {
   [[nodiscard]] Forecast Of(const std::vector<Hypothesis>& causes, const std::vector<double>& theta,
                             const std::vector<std::size_t>& movable) const {
     const Whitener& whitener = landscape_.view().whitener;
-    const Evidence fitted(landscape_.view().problem, landscape_.terms(), causes);
+    const Evidence fitted = landscape_.EvidenceGiven(causes);
     Evidence::Adapted adapted = fitted.Unchanged();
     std::vector<double> at = theta;
     Forecast best{RunAt(at), 0.0};

@@ -2,34 +2,19 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "analysis/records/recorded_rows.hpp"
 #include "common/problem.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
+#include "controller/supervisor/radius.hpp"
 #include "controller/supervisor/supervisor.hpp"
+#include "plant_sim/plant/command_of.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "session/record_frame.hpp"
 #include "session/recording.hpp"
 
 namespace levitas::diagnosis {
 namespace {
-
-double LargestRadius(const SensorFrame& frame) {
-  double largest_m = 0.0;
-  for (std::size_t x = 0; x + 1 < frame.axes; x += 2) {
-    largest_m = std::max(largest_m, std::hypot(frame.position_m[x], frame.position_m[x + 1]));
-  }
-  return largest_m;
-}
-
-plant::PlantCommand CommandOf(const CurrentFrame& current) {
-  return {current.control_current_a,         current.bias_current_a,
-          current.amplifiers_enabled,        current.drive_enabled,
-          current.speed_set_point_rad_per_s, current.acceleration_limit_rad_per_s2};
-}
 
 analysis::RecordedRow RowOf(const cycle::CycleRecord& record, const session::RecordFrame& frame,
                             std::size_t axes) {
@@ -38,7 +23,7 @@ analysis::RecordedRow RowOf(const cycle::CycleRecord& record, const session::Rec
   row.cycle = record.in.frame.cycle;
   row.levitated = session::IsLevitated(record, axes);
   row.sample.position_m = sample.position_m;
-  row.sample.command = CommandOf(record.out.current);
+  row.sample.command = plant::CommandOf(record.out.current);
   row.sample.command.control_current_a = sample.current_a;
   row.sample.speed_rad_per_s = record.in.frame.speed_rad_per_s;
   row.sample.angle_rad = record.in.frame.angle_rad;
@@ -77,13 +62,13 @@ Record SimulatedRecord(const config::RigFile& rig, const config::ControllerFile&
     now.in.frame_present = true;
     const scenario::PlayerOutput asked = player.Next(
         now.out.mode, now.in.frame.speed_rad_per_s, now.out.fault, now.out.command_refused,
-        LargestRadius(now.in.frame), cycle.decision().standing);
+        supervisor::LargestRadius(now.in.frame), cycle.decision().standing);
     now.in.op = {asked.command, asked.speed_rad_per_s, asked.acceleration_rad_per_s2,
                  asked.excitation_a, asked.excitation_m};
     now.out = cycle.Step(now.in);
     analysis::RecordedRow row = RowOf(now, frame, rig.numbers.axes());
     if (row.levitated) record.rows.push_back(row);
-    plant.Advance(CommandOf(now.out.current));
+    plant.Advance(plant::CommandOf(now.out.current));
   }
   record.mean_speed_rad_per_s = analysis::MeanSpeed(record.rows);
   return record;

@@ -1,5 +1,6 @@
 #pragma once
-// The fault that stands for an effect when it is asked what records would show of it.
+// A fault of stated place and size for each effect of the vocabulary, to foretell what records
+// would show of it.
 //
 // Size    that of the catalogue, `clear` (`amb effects ID`), what shows clearly on a laboratory
 //         rig, at a strength from 0 to 1 (strength.hpp).

@@ -30,21 +30,19 @@ ReportLoop JudgeLoop(const plant::PlantConfig& plant, const LawOfRecords& at) {
   return loop;
 }
 
-/// Of a rig file's text as a program will read it.
-ReportLoop JudgeText(const std::string& text, const char* name, const LawOfRecords& at) {
+/// What `judge` says, or why it cannot.
+template <class Judge>
+ReportLoop Judged(const Judge& judge) {
   try {
-    return JudgeLoop(config::ParseRig(text, name).plant, at);
+    return judge();
   } catch (const std::exception& reason) {
     return {.levitates = std::nullopt, .why = reason.what()};
   }
 }
 
-ReportLoop JudgePlant(const plant::PlantConfig& plant, const LawOfRecords& at) {
-  try {
-    return JudgeLoop(plant, at);
-  } catch (const std::exception& reason) {
-    return {.levitates = std::nullopt, .why = reason.what()};
-  }
+/// Of a rig file's text as a program will read it.
+ReportLoop JudgeText(const std::string& text, const char* name, const LawOfRecords& at) {
+  return Judged([&] { return JudgeLoop(config::ParseRig(text, name).plant, at); });
 }
 
 std::string SpeedText(double from_rpm, double to_rpm) {
@@ -111,7 +109,7 @@ void Judge(const config::RigFile& rig, const LawOfRecords& at, DiagnosisReport& 
   ReportLevitation of{.law = at.name,
                       .from_rpm = RadPerSToRpm(at.slowest_rad_per_s),
                       .to_rpm = RadPerSToRpm(at.fastest_rad_per_s)};
-  of.rig_file = JudgePlant(rig.plant, at);
+  of.rig_file = Judged([&] { return JudgeLoop(rig.plant, at); });
   of.extended_rig = JudgeText(report.extended_rig, "extended_rig.yaml", at);
   of.calibrated_rig = JudgeText(report.calibrated_rig, "calibrated_rig.yaml", at);
   report.levitation.by_law.push_back(of);

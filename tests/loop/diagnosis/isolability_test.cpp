@@ -1,4 +1,4 @@
-// What is foretold of an experiment, against what is known of it and against a diagnosis of it.
+// Predictions of what records can show, against cases that are known and against a diagnosis.
 
 #include <gtest/gtest.h>
 
