@@ -49,7 +49,7 @@ class DesignSchedule(CommandTest):
         self.assertIn("exchange: true", (self.folder / "both.yaml").read_text())
         self.assertEqual(self.peak("both.yaml", 1400), self.peak(COMMISSIONED, 1400))
         self.assertEqual(self.peak("both.yaml", 1600), self.peak("robust.yaml", 1600))
-        self.call("run", *RIG, "--controller", "both.yaml", "--scenario", "spin_3000", "--record", "run.lcm")
+        self.call("run", *RIG, "--controller", "both.yaml", "--record", "run.lcm")
         self.assertIn("every output bit", self.call("replay", "run.lcm").stdout)
         unmarked = (self.folder / "both.yaml").read_text().replace("exchange: true", "exchange: false")
         (self.folder / "unmarked.yaml").write_text(unmarked)
