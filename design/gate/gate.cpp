@@ -253,6 +253,12 @@ GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
     out.reason = fmt::format("|S| reaches {:.2f} at {:.1f} Hz, {:.0f} rpm; allowed {:.2f}",
                              out.sensitivity.value, out.sensitivity.hz,
                              RadPerSToRpm(out.sensitivity.speed_rad_per_s), options.sensitivity);
+  if (out.reason.empty() && options.corner_sensitivity &&
+      out.corner_sensitivity.value > *options.corner_sensitivity)
+    out.reason = fmt::format(
+        "|S| reaches {:.2f} at {:.1f} Hz, {:.0f} rpm, in a corner; allowed {:.2f}",
+        out.corner_sensitivity.value, out.corner_sensitivity.hz,
+        RadPerSToRpm(out.corner_sensitivity.speed_rad_per_s), *options.corner_sensitivity);
   for (const double speed : {0.0, 0.5 * top, top}) {
     const MuPeaks peak = MuPeakAt(rig, law, parameters, options.weights, speed);
     Raise(out.mu, peak.of_real.value, peak.of_real.hz, speed);

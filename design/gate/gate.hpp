@@ -3,7 +3,8 @@
 //
 // 1 Poles   of the sampled loop with exact delay (analysis/sensitivity.hpp), at speeds from rest to
 //           `over_speed` times the rated speed, of the file's rig and of drawn corners.
-// 2 |S|     on bracketed peaks, the same loops; the limit is the zone's of ISO 14839-3.
+// 2 |S|     on bracketed peaks, the same loops; the limit is the zone's of ISO 14839-3 for the
+//           file's rig; for the corners one that is given.
 // 3 mu      an upper bound with real perturbations (design/uncertainty/mixed_mu.hpp) on a dense
 //           grid; local maxima of the bound with complex ones are bracketed until neighbours differ
 //           by less than 1 %; told, and a limit when `mu` is given.
@@ -32,6 +33,7 @@ struct GateOptions {
   std::size_t draws{20};
   std::uint64_t seed{1};
   double sensitivity{4.0};  ///< upper edge of zone B
+  std::optional<double> corner_sensitivity;  ///< of the corners; told only without it
   std::optional<double> mu;
   bool tolerances{};
   double third_n{};  ///< of WithThirdHarmonic, in the drawn runs

@@ -71,6 +71,13 @@ void AddGateOptions(CLI::App& command, GateCommandOptions& options) {
       ->check(CLI::Range(1.0, 100.0))
       ->capture_default_str();
   command
+      .add_option("--most-corner-sensitivity", options.corner_sensitivity,
+                  "Largest |S| allowed at the corners; without it what they reach is told")
+      ->check(CLI::Range(1.0, 100.0));
+  command
+      .add_option("--most-mu", options.mu, "Largest mu allowed; without it what it reaches is told")
+      ->check(CLI::Range(0.01, 100.0));
+  command
       .add_option("--third-harmonic", options.third_n,
                   "Force [N] at three times the speed, against rotation, in the nonlinear runs")
       ->check(CLI::Range(0.0, 100.0))
@@ -97,6 +104,8 @@ design::GateOptions GateOf(const GateCommandOptions& options,
   gate.corners = options.corners;
   gate.seed = options.seed;
   gate.sensitivity = options.sensitivity;
+  gate.corner_sensitivity = options.corner_sensitivity;
+  gate.mu = options.mu;
   gate.third_n = options.third_n;
   gate.tolerances = options.tolerances;
   gate.weights = weights;

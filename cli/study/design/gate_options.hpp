@@ -4,6 +4,7 @@
 
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/options/analysis_options.hpp"
 #include "design/file/design_file.hpp"
@@ -18,6 +19,7 @@ struct GateCommandOptions {
   std::size_t corners{8};
   std::uint64_t seed{1};
   double sensitivity{4.0};
+  std::optional<double> corner_sensitivity, mu;  ///< limits where given
   double third_n{0.0};
   bool tolerances{};
 };

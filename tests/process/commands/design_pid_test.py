@@ -55,6 +55,15 @@ class DesignPid(CommandTest):
         self.assertFalse((self.folder / "law.yaml").exists())
         self.assertIn("NOT ACCEPTED", (self.folder / "law.rejected.yaml").read_text())
 
+    def test_corners_and_mu_are_limits_where_they_are_asked_for(self):
+        check = ("design", "check", "--rig", "one_axis", "--draws", "1", "--corners", "4")
+        self.call(*check)
+        for option, said in (("--most-corner-sensitivity", "in a corner; allowed 1.01"),
+                             ("--most-mu", "mu reaches")):
+            done = self.call(*check, option, "1.01" if "corner" in option else "0.01", status=OTHER)
+            self.assertIn("NOT ACCEPTED: ", done.stdout)
+            self.assertIn(said, done.stdout)
+
     def test_ctrl_c_judges_the_best_so_far(self):
         process = Process(self.folder, "amb", *QUICK[:4], "--evaluations", "1000000", "--draws", "1",
                           "--out", "law.yaml")
