@@ -133,7 +133,8 @@ void PrintFreeRun(const FreeRunContext& c) {
                                  fmt::format("{:.2f}", TimeOf(c.recording, segment.rows.end - 1)),
                                  fmt::format("{:.0f}", RadPerSToRpm(segment.speed_rad_per_s))};
     for (std::size_t axis = 0; axis < c.rig.axes(); ++axis) {
-      row.push_back((Excited(segment, axis) ? "*" : "") + FitText(segment.fit_percent[axis]));
+      const std::string fit = FitText(segment.fit_percent[axis]);
+      row.push_back(Excited(segment, axis) ? fmt::format("*{}", fit) : fit);
     }
     table.Add(std::move(row));
   }

@@ -1,16 +1,17 @@
 #pragma once
-// A cause that calibration swallowed: fitted together with it, from the rig file on.
+// A cause that calibration swallowed: fitted while the rig is as its file says, then with it.
 //
 // Why        a calibration moves whatever follows the records, mode shapes by seven tolerances if
-//            need be, into a basin from which a fit of the true cause does not come back: the
-//            cause then gains less than it is worth, and a residual is left that nothing explains.
+//            need be, into a basin from which a fit of the true cause does not come back: the cause
+//            then gains less than it is worth, and a residual is left that nothing explains.
 // When       a number of the calibration lies surely beyond `moved_tolerances`.
-// Method     the numbers of the rig's build held near the file (NearFile), everything linearised
-//            there, and the causes that the screen puts first fitted from there, calibration
-//            included, on the whitening of the calibrated model. Evidence counts what calibration
-//            pays for its moves; the best set is taken where it is ahead of the calibrated model by
-//            `decisive_nat`.
-// Cost       two linearisations and up to kTried fits; nothing where calibration stayed near.
+// Method     how the rig is built is held to kFrozen of its tolerances, so that the file has to be
+//            left by the cause or not at all: everything is linearised there, and the causes that
+//            the screen puts first are fitted. The best of them then begin a joint fit with the
+//            tolerances of the file, on the whitening of the calibrated model. Its evidence counts
+//            what calibration pays for its moves; the best set is taken where it is ahead of the
+//            calibrated model by `decisive_nat`.
+// Cost       some ten seconds of a processor; nothing where calibration stayed near.
 // Thread     blocks the caller, two threads inside.
 
 #include "diagnosis/inference/record_landscape.hpp"
