@@ -15,6 +15,19 @@ constexpr std::size_t kStartRows = 30'000;
 constexpr int kStartPasses = 5;
 constexpr double kHeld = 0.2;  ///< of its tolerance
 
+/// How a rig is built is held near its file; what state it is in is not.
+std::vector<Term> Held(std::vector<Term> terms) {
+  using effect::Id;
+  constexpr std::array kState{Id::kUnbalance, Id::kStaticLoad, Id::kSensorOffset,
+                              Id::kSensorRunout};
+  for (Term& term : terms) {
+    const bool of_state =
+        std::any_of(kState.begin(), kState.end(), [&term](Id id) { return term.effect == id; });
+    if (!of_state) term.tolerance *= kHeld;
+  }
+  return terms;
+}
+
 /// From the nominal rig: a fast observer on a few rows, then the one of `gains`.
 std::vector<double> FromFar(const RigView& rig, const Search& search,
                             const std::vector<Term>& terms, const std::vector<Record>& few,
@@ -52,38 +65,21 @@ bool IsLost(const RigView& rig, const Search& search, const std::vector<Record>&
 
 }  // namespace
 
-std::vector<Term> Held(std::vector<Term> terms, double share) {
-  using effect::Id;
-  constexpr std::array kState{Id::kUnbalance, Id::kStaticLoad, Id::kSensorOffset,
-                              Id::kSensorRunout};
-  for (Term& term : terms) {
-    const bool of_state =
-        std::any_of(kState.begin(), kState.end(), [&term](Id id) { return term.effect == id; });
-    if (!of_state) term.tolerance *= share;
-  }
-  return terms;
-}
-
-std::vector<double> NearFile(const RigView& rig, const std::vector<Term>& held,
-                             double model_error_share, const std::vector<Record>& all,
-                             const ObserverSpeed& speed) {
-  const Search cautious(rig, held, "", model_error_share);
-  const std::vector<Record> part = Spans(all, kStartRows);
-  return FromFar(rig, cautious, held, Spans(all, kFastRows), part,
-                 cautious.DesignGains(part, speed));
-}
-
 Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::vector<Term>& terms,
                            const std::vector<Record>& all, const std::vector<Record>& records,
                            const Gains& gains, const ObserverSpeed& speed, int passes) {
-  const std::vector<Term> held = Held(terms, kHeld);
-  const double share = search.model_error_share();
-  const std::vector<double> start = NearFile(rig, held, share, all, speed);
+  const std::vector<Term> held = Held(terms);
+  const Search cautious(rig, held, "", search.model_error_share());
+  const std::vector<Record> part = Spans(all, kStartRows);
+  const std::vector<double> start =
+      FromFar(rig, cautious, held, Spans(all, kFastRows), part, cautious.DesignGains(part, speed));
   const Refiner refiner(search, terms, records, gains, rig.axes);
   Refined best = refiner.Approach(start, kWhiteningOrder, passes);
   const std::vector<Record> resting = AtRest(all);
   if (resting.empty() || !IsLost(rig, search, records, gains, best)) return best;
-  const std::vector<double> other = NearFile(rig, held, share, resting, speed);
+  const std::vector<Record> few = Spans(resting, kStartRows);
+  const std::vector<double> other = FromFar(rig, cautious, held, Spans(resting, kFastRows), few,
+                                            cautious.DesignGains(few, speed));
   Refined again = refiner.Approach(other, kWhiteningOrder, passes);
   const bool better = again.ok && (!best.ok || refiner.Misfit(again.theta, kWhiteningOrder) <
                                                    refiner.Misfit(best.theta, kWhiteningOrder));

@@ -36,15 +36,6 @@ inline constexpr double kDaily = 0.2;  ///< share of its tolerance
                                          const std::vector<Record>& records, const Gains& gains,
                                          const ObserverSpeed& speed, int passes);
 
-/// How a rig is built is held to this share of its tolerances; what state it is in (unbalance, static
-/// load, offset, run-out) is not.
-[[nodiscard]] std::vector<Term> Held(std::vector<Term> terms, double share);
-
-/// Fit of `held` from the rig file on, without causes; what it cannot follow stays in the residual.
-[[nodiscard]] std::vector<double> NearFile(const RigView& rig, const std::vector<Term>& held,
-                                           double model_error_share, const std::vector<Record>& all,
-                                           const ObserverSpeed& speed);
-
 /// Sets `healthy_mean` and narrows `tolerance` of the nuisances.
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
                       const Judging& judging, std::vector<Term>& terms);
