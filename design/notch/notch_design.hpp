@@ -68,7 +68,7 @@ struct SpeedFigures {
   double growth{};                ///< of the orbit at most, of target current [1]
   double condition{};             ///< of the answer
   double orbit_m{};               ///< with the block, rig file's unbalance; 0: none or other order
-  double orbit_alone_m{};         ///< with the law alone, the same; of both targets
+  double orbit_alone_m{};         ///< with the law alone; some per cent off near a resonance
   double current_a{};             ///< largest amplitude of the block's current, the same
   std::string refused;            ///< why; empty: allowed
   [[nodiscard]] bool allowed() const noexcept { return refused.empty(); }
