@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Draws the pictures of docs/ anew, each by the command that a reader would type.
 
-    scripts/pictures.py [NAME...]        run, report, identify, effects, dashboard; default: all
+    scripts/pictures.py [NAME...]        run, report, identify, effects, notch,
+                                         dashboard; default: all
 
 The programs are those of build/release. The dashboard's pictures are screenshots of a headless
 Chromium before a real run; without Chromium (Debian package chromium) they are left as they are.
@@ -67,6 +68,15 @@ def draw_effects(folder):
         PICTURES / "effects")
 
 
+def draw_notch(folder):
+    for target in ("current", "vibration"):  # refused at some speeds, which is what is shown
+        amb(folder, "design", "notch", "--controller", "flexible_rotor_commissioned",
+            "--without-rotor", "--from-rpm", "700", "--target", target, "--json", f"{target}.json",
+            status=1)
+    subprocess.run([sys.executable, ROOT / "scripts/notch_picture.py", folder / "current.json",
+                    folder / "vibration.json", PICTURES / "force_free.svg"], check=True)
+
+
 class Dashboard(unittest.TestCase):
     """Screenshots, taken inside a network of their own."""
 
@@ -105,7 +115,8 @@ class Dashboard(unittest.TestCase):
             phone.picture(PICTURES / "dashboard_phone.png")
 
 
-DRAW = {"run": draw_run, "report": draw_report, "identify": draw_identify, "effects": draw_effects}
+DRAW = {"run": draw_run, "report": draw_report, "identify": draw_identify, "effects": draw_effects,
+        "notch": draw_notch}
 
 
 def main():

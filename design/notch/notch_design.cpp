@@ -13,6 +13,7 @@
 #include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
+#include "design/notch/bearing_phase.hpp"
 #include "design/uncertainty/uncertain_plant.hpp"
 #include "numerics/factors/factors.hpp"
 
@@ -25,9 +26,9 @@ using synchronous::BlockConfig;
 
 constexpr std::size_t kFirstSpeeds = 9;
 
-MatrixXcd AnswerAt(const plant::PlantConfig& rig, const law::LawConfig& law,
-                   const BlockConfig& block, double speed_rad_per_s) {
-  const analysis::LoopResponse response(analysis::CloseLoop(rig, law, speed_rad_per_s));
+MatrixXcd AnswerAt(const analysis::SampledLoop& loop, const BlockConfig& block,
+                   double speed_rad_per_s) {
+  const analysis::LoopResponse response(loop);
   return analysis::SynchronousAnswer(response, speed_rad_per_s, block.order, block.target);
 }
 
@@ -51,19 +52,36 @@ MatrixXcd InverseOf(const MatrixXcd& answer, Direction direction) {
   return basis * Eigen::FullPivLU<MatrixXcd>(within).inverse() * basis.adjoint();
 }
 
-synchronous::InverseAtSpeed Node(const plant::PlantConfig& rig, const law::LawConfig& law,
-                                 const NotchRequest& request, double speed_rad_per_s) {
-  const MatrixXcd answer = AnswerAt(rig, law, request.block, speed_rad_per_s);
-  return {speed_rad_per_s, analysis::ComplexMatrixOf(InverseOf(answer, request.direction))};
+/// T of one speed, as asked for.
+MatrixXcd WantedAt(const plant::PlantConfig& rig, const law::LawConfig& law,
+                   const NotchRequest& request, double speed_rad_per_s) {
+  const auto loop = analysis::CloseLoop(rig, law, speed_rad_per_s);
+  if (request.knowledge == Knowledge::kRotor) {
+    return InverseOf(AnswerAt(loop, request.block, speed_rad_per_s), request.direction);
+  }
+  const MatrixXcd whole = InverseOfBearings(rig, loop, request.block, speed_rad_per_s);
+  const MatrixXcd basis = BasisOf(whole.rows(), request.direction);
+  return basis * (basis.adjoint() * whole * basis) * basis.adjoint();
 }
 
-/// Largest distance from 1 of an eigenvalue of T times the answer, as the table has T there.
+synchronous::InverseAtSpeed Node(const plant::PlantConfig& rig, const law::LawConfig& law,
+                                 const NotchRequest& request, double speed_rad_per_s) {
+  return {speed_rad_per_s, analysis::ComplexMatrixOf(WantedAt(rig, law, request, speed_rad_per_s))};
+}
+
+/// How far the table's T is from the one wanted there: of the rotor's knowledge the largest
+/// distance from 1 of an eigenvalue of T times the answer, else a share of the largest element.
 double Departure(const plant::PlantConfig& rig, const law::LawConfig& law, const BlockConfig& block,
-                 Direction direction, double speed_rad_per_s) {
-  const MatrixXcd answer = AnswerAt(rig, law, block, speed_rad_per_s);
+                 const NotchRequest& request, double speed_rad_per_s) {
+  const auto loop = analysis::CloseLoop(rig, law, speed_rad_per_s);
   const MatrixXcd inverse = analysis::MatrixOf(synchronous::InverseAt(block, speed_rad_per_s),
-                                               static_cast<std::size_t>(answer.rows()));
-  const MatrixXcd basis = BasisOf(answer.rows(), direction);
+                                               static_cast<std::size_t>(loop.plant.c.rows()));
+  if (request.knowledge == Knowledge::kBearings) {
+    const MatrixXcd wanted = WantedAt(rig, law, request, speed_rad_per_s);
+    return (inverse - wanted).cwiseAbs().maxCoeff() / wanted.cwiseAbs().maxCoeff();
+  }
+  const MatrixXcd answer = AnswerAt(loop, block, speed_rad_per_s);
+  const MatrixXcd basis = BasisOf(answer.rows(), request.direction);
   const MatrixXcd off =
       basis.adjoint() * inverse * answer * basis - MatrixXcd::Identity(basis.cols(), basis.cols());
   return analysis::EigenvaluesWithConjugates(off).cwiseAbs().maxCoeff();
@@ -100,7 +118,7 @@ BlockConfig WithInverse(const config::RigFile& file, const law::LawConfig& law,
       if (departure[i] >= 0.0) continue;
       const double middle =
           0.5 * (block.inverse[i].speed_rad_per_s + block.inverse[i + 1].speed_rad_per_s);
-      departure[i] = Departure(rig, law, block, request.direction, middle);
+      departure[i] = Departure(rig, law, block, request, middle);
     }
     const auto worst = std::max_element(departure.begin(), departure.end());
     if (*worst <= kBetween) break;
@@ -168,29 +186,36 @@ std::string WhyRefused(const SpeedFigures& at, const NotchRequest& request) {
   return {};
 }
 
-/// Orbit and current that the rig file's unbalance leaves, and the size of T.
+double LargestOrbit(const Eigen::VectorXcd& position_m) {
+  double largest_m = 0.0;
+  for (Index x = 0; x + 1 < position_m.size(); x += 2) {
+    largest_m = std::max(largest_m, LargestRadius(position_m[x], position_m[x + 1]));
+  }
+  return largest_m;
+}
+
+/// Orbit and current that the rig file's unbalance leaves, once the block has adapted.
 void AddSize(const config::RigFile& rig, const analysis::SampledLoop& loop,
-             const BlockConfig& block, SpeedFigures& at) {
+             const NotchRequest& request, SpeedFigures& at) {
+  const BlockConfig& block = request.block;
   const double speed = at.speed_rad_per_s;
-  const auto axes = static_cast<std::size_t>(loop.plant.c.rows());
-  const MatrixXcd inverse = analysis::MatrixOf(synchronous::InverseAt(block, speed), axes);
-  at.growth = analysis::LargestSingularValue(inverse);
   const analysis::LoopResponse response(loop);
-  at.condition = at.growth * analysis::LargestSingularValue(analysis::SynchronousAnswer(
-                                 response, speed, block.order, block.target));
-  const bool known =
-      block.order == 1.0 && rig.plant.shafts.empty() && axes > 1 && !rig.plant.unbalance.empty();
+  const MatrixXcd answer = analysis::SynchronousAnswer(response, speed, block.order, block.target);
+  const MatrixXcd inverse = InverseOf(answer, request.direction);
+  at.growth = analysis::LargestSingularValue(inverse);
+  at.condition = at.growth * analysis::LargestSingularValue(answer);
+  const bool known = block.order == 1.0 && rig.plant.shafts.empty() && answer.rows() > 1 &&
+                     !rig.plant.unbalance.empty();
   if (!known) return;
   const Eigen::VectorXcd open_m =
       uncertainty::UncertainPlant(rig, {}, speed).PositionOf(rig.plant.unbalance, speed);
-  if (block.target == synchronous::Target::kCurrent) {
-    for (Index x = 0; x + 1 < open_m.size(); x += 2) {
-      at.orbit_m = std::max(at.orbit_m, LargestRadius(open_m[x], open_m[x + 1]));
-    }
-    return;
-  }
   const Eigen::VectorXcd left_m = response.Sensitivity(speed / kTwoPi) * open_m;
-  at.current_a = (inverse * left_m).cwiseAbs().maxCoeff();
+  at.orbit_alone_m = LargestOrbit(left_m);
+  if (block.target == synchronous::Target::kCurrent) {
+    at.orbit_m = LargestOrbit(open_m);
+  } else {
+    at.current_a = (inverse * left_m).cwiseAbs().maxCoeff();
+  }
 }
 
 }  // namespace
@@ -209,7 +234,7 @@ NotchFigures JudgeNotch(const config::RigFile& rig, const std::vector<config::Ri
     const auto nominal = analysis::JudgeSynchronous(loop, control, speed);
     at.slowest_decay = at.worst_decay = nominal.blocks.front().slowest_decay;
     at.largest_pole_modulus = nominal.largest_pole_modulus;
-    AddSize(rig, loop, request.block, at);
+    AddSize(rig, loop, request, at);
     at.refused = WhyRefused(at, request);
     for (std::size_t n = 0; n < drawn.size() && at.allowed(); ++n) {
       const auto drawn_loop = analysis::CloseLoop(drawn[n].plant, law, speed);

@@ -5,6 +5,8 @@
 // Table     T = inverse of the answer of the linear loop (analysis/synchronous_loop.hpp), at nine
 //           speeds first; a speed is added wherever T between two of them lets an eigenvalue of T
 //           times the answer leave the circle of kBetween about 1, up to kMostSpeeds.
+// Knowledge of the rotor: T is that inverse. Of the bearings alone: T is bearing_phase.hpp's, at
+//           speeds close enough for its straight lines; the rotor of the file is only judged with.
 // Direction forward keeps what turns with the rotor in the plane x + j y of each bearing, backward
 //           what turns against it; both keeps all. T is projected, so that the rest never adapts.
 // Growth    with target current the bearing no longer holds the rotor at this order: its orbit is
@@ -43,11 +45,13 @@ inline constexpr std::size_t kMostSpeeds = 64;
 inline constexpr std::size_t kJudged = 41;
 
 enum class Direction : std::uint8_t { kBoth, kForward, kBackward };
+enum class Knowledge : std::uint8_t { kRotor, kBearings };
 
 /// What is asked; `block.inverse` is empty.
 struct NotchRequest {
   synchronous::BlockConfig block;
   Direction direction{Direction::kBoth};
+  Knowledge knowledge{Knowledge::kRotor};
   double most_growth{4.0};
 };
 
@@ -61,9 +65,10 @@ struct SpeedFigures {
   double slowest_decay{};         ///< of the file's rig
   double worst_decay{};           ///< of all rigs
   double largest_pole_modulus{};  ///< of all rigs
-  double growth{};                ///< largest singular value of T, of target current [1]
-  double condition{};             ///< of T
+  double growth{};                ///< of the orbit at most, of target current [1]
+  double condition{};             ///< of the answer
   double orbit_m{};               ///< with the block, rig file's unbalance; 0: none or other order
+  double orbit_alone_m{};         ///< with the law alone; some per cent off near a resonance
   double current_a{};             ///< largest amplitude of the block's current, the same
   std::string refused;            ///< why; empty: allowed
   [[nodiscard]] bool allowed() const noexcept { return refused.empty(); }

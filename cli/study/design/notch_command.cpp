@@ -36,6 +36,7 @@ struct NotchOptions {
   double largest_current_a{};  ///< 0: half of what the coils leave
   double most_growth{4.0};
   bool adaptive{};
+  bool without_rotor{};
   std::string from{"tolerances"};
   std::size_t draws{20};
   std::uint64_t seed{1};
@@ -56,6 +57,7 @@ design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFil
   block.hysteresis_rad_per_s = RpmToRadPerS(options.hysteresis_rpm);
   block.adaptive = options.adaptive;
   request.most_growth = options.most_growth;
+  if (options.without_rotor) request.knowledge = design::Knowledge::kBearings;
   const double limit_a = ControlLimitA(rig.numbers);
   block.largest_current_a =
       options.largest_current_a > 0.0 ? options.largest_current_a : 0.5 * limit_a;
@@ -109,7 +111,7 @@ void Print(const design::NotchFigures& figures, bool vibration) {
   fmt::print(
       "decay: slowest of the block, 1 as its time constant says, below 0 it grows; |z|: of the "
       "whole sampled loop; {}\n",
-      vibration ? "condition: of T; current: what the rig file's unbalance needs"
+      vibration ? "condition: of the answer; current: what the rig file's unbalance needs"
                 : "growth: of the orbit at most; orbit: what the rig file's unbalance leaves");
   if (figures.not_held > 0) {
     fmt::print("{} of {} drawn rigs are not held by the law alone somewhere: not counted there\n",
@@ -139,6 +141,7 @@ nlohmann::ordered_json Json(const synchronous::BlockConfig& block,
                               {"growth", at.growth},
                               {"condition", at.condition},
                               {"orbit_m", at.orbit_m},
+                              {"orbit_alone_m", at.orbit_alone_m},
                               {"current_a", at.current_a},
                               {"allowed", at.allowed()},
                               {"refused", at.refused}});
@@ -260,6 +263,9 @@ void AddDesignNotch(CLI::App& design, Action& action) {
       ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
   command->add_flag("--adaptive", options->adaptive, "T is corrected while the block runs");
+  command->add_flag("--without-rotor", options->without_rotor,
+                    "T from law, amplifier, sensor and delay alone: slower, and right for any "
+                    "rotor that the law damps");
   AddUncertaintyOption(*command, options->from);
   command->add_option("--draws", options->draws, "Rigs drawn for the judgement")
       ->check(CLI::Range(0, 10000))

@@ -56,6 +56,22 @@ class DesignNotch(CommandTest):
         self.assertIn("Nothing was lifted", done.stderr)
         self.call("margins", "--controller", "bad.yaml", "--require", "stable", status=NOT_MET)
 
+    def test_without_a_rotor_it_is_slower_and_judged_with_the_files_rotor_all_the_same(self):
+        self.call(*QUICK, *COMMISSIONED, "--without-rotor", "--from-rpm", "1500", "--to-rpm", "3900", "--out",
+                  "quiet.yaml", "--json", "notch.json")
+        speeds = json.loads((self.folder / "notch.json").read_text())["speeds"]
+        self.assertTrue(all(0.2 <= at["slowest_decay"] < 2.0 for at in speeds))
+        self.assertGreater(max(abs(at["slowest_decay"] - 1.0) for at in speeds), 0.3)
+        self.assertIn("ACCEPTED", self.call("run", "--controller", "quiet.yaml").stdout)
+        # Stable through the first bending, but no bearing holds the rotor there.
+        done = self.call(*QUICK, *COMMISSIONED, "--without-rotor", "--from-rpm", "4800", "--json", "notch.json",
+                         status=OTHER)
+        self.assertIn("without its synchronous force the orbit could grow", done.stderr)
+        speeds = json.loads((self.folder / "notch.json").read_text())["speeds"]
+        self.assertTrue(all(at["slowest_decay"] > 0.0 for at in speeds))
+        self.assertGreater(max(at["orbit_m"] for at in speeds), 190e-6)
+        self.assertLess(max(at["orbit_alone_m"] for at in speeds), 36e-6)
+
     def test_a_second_block_stands_beside_the_first_and_a_name_replaces(self):
         self.call(*QUICK, "--from-rpm", "1500", "--to-rpm", "3900", "--name", "low", "--out", "a.yaml")
         for before, after, to in (("a.yaml", "b.yaml", "5800"), ("b.yaml", "c.yaml", "6000")):
