@@ -54,7 +54,7 @@ std::string WhatItBuys(const std::vector<LawOverSpeed>& laws) {
   return fmt::format("the schedule takes the largest |S| from {:.2f} ({}) to {:.2f}, {:+.0f} %{}",
                      alone->largest_peak(), alone->name, table.largest_peak(),
                      std::abs(gain) < 0.005 ? 0.0 : -100.0 * gain,
-                     gain < 0.0       ? ": one law is better"
+                     gain < 0.0       ? ": by |S| one law is better"
                      : gain < kLittle ? ": one law is simpler and as good"
                                       : "");
 }
