@@ -16,8 +16,8 @@ namespace levitas::law {
 namespace {
 
 constexpr double kExchangeAt = 100.0;  // rad/s
-constexpr double kAbove = 120.0;
-constexpr double kNoLimit = 1e30;
+constexpr double kAboveExchange = 120.0;
+constexpr double kUnlimited = 1e30;
 
 LawConfig TimesAt(double factor, double speed) {
   LawConfig config = FlexibleRotorLaw();
@@ -59,7 +59,7 @@ AxisArray Error(double first_m) {
 }
 
 double Current(RunningLaw& law, double speed, double error_m) {
-  return law.Step(speed, Error(error_m), {}, kNoLimit).control_current_a[0];
+  return law.Step(speed, Error(error_m), {}, kUnlimited).control_current_a[0];
 }
 
 TEST(RunningLaw, OfOneLawIsThatLaw) {
@@ -125,7 +125,7 @@ TEST(RunningLaw, AnIntegratorTakesOverTheCurrentThatWasCarried) {
   ASSERT_GT(run.carried_a, 0.2);
   for (int n = 0; n < 5000; ++n) {
     // e^-5 of it had not been followed when the new law began to act.
-    ASSERT_NEAR(Current(run.law, kAbove, 0.0), run.carried_a, 0.01 * run.carried_a) << n;
+    ASSERT_NEAR(Current(run.law, kAboveExchange, 0.0), run.carried_a, 0.01 * run.carried_a) << n;
   }
   EXPECT_EQ(run.law.rung(), kRungs - 1);
 }
@@ -138,7 +138,7 @@ TEST(RunningLaw, BesideALawWithoutIntegratorTheCurrentThatWasCarriedFades) {
   double last_a = run.carried_a;
   const int second = static_cast<int>(std::lround(kFadeS / kPeriodS));
   for (int n = 0; n < until_it_acts + second; ++n) {
-    const double now_a = Current(run.law, kAbove, 0.0);
+    const double now_a = Current(run.law, kAboveExchange, 0.0);
     largest_a = std::max(largest_a, std::abs(now_a - last_a));
     last_a = now_a;
   }
@@ -148,19 +148,19 @@ TEST(RunningLaw, BesideALawWithoutIntegratorTheCurrentThatWasCarriedFades) {
 
 TEST(RunningLaw, WithoutListeningTheCurrentThatWasCarriedIsLost) {
   Carried run(ToPlain());
-  run.law.Start(kAbove);
-  EXPECT_EQ(Current(run.law, kAbove, 0.0), 0.0);
+  run.law.Start(kAboveExchange);
+  EXPECT_EQ(Current(run.law, kAboveExchange, 0.0), 0.0);
 }
 
 TEST(RunningLaw, AfterAnExchangeIsTheNewLawAlone) {
   RunningLaw running(ToPlain());
-  for (int n = 0; n < 2000; ++n) (void)Current(running, kAbove, 0.0);
+  for (int n = 0; n < 2000; ++n) (void)Current(running, kAboveExchange, 0.0);
   const LawCoefficients plain(PlainAlone());
   LawState state(plain);
   Random random(5);
   for (int n = 0; n < 500; ++n) {
     const AxisArray error_m = Error(1e-5 * random.Normal());
-    const LawOutput one = running.Step(kAbove, error_m, {}, 1.0);
+    const LawOutput one = running.Step(kAboveExchange, error_m, {}, 1.0);
     ASSERT_EQ(one.control_current_a, Step(plain, state, error_m, {}, 1.0).control_current_a) << n;
   }
 }
@@ -169,13 +169,13 @@ TEST(RunningLaw, ASpeedThatGoesBackCallsTheExchangeOff) {
   RunningLaw running(ToPlain());
   const auto listen = static_cast<int>(std::lround(kListenS / kPeriodS));
   for (int n = 0; n < static_cast<int>(kRungs) + listen / 2; ++n)
-    (void)Current(running, kAbove, 0.0);
+    (void)Current(running, kAboveExchange, 0.0);
   const std::size_t below = running.rung();
   EXPECT_EQ(below, kRungs - 2) << "it listens";
   for (int n = 0; n < 10; ++n) (void)Current(running, 0.99 * kExchangeAt, 0.0);
-  for (int n = 0; n < listen / 2 + 10; ++n) (void)Current(running, kAbove, 0.0);
+  for (int n = 0; n < listen / 2 + 10; ++n) (void)Current(running, kAboveExchange, 0.0);
   EXPECT_LT(running.rung(), kRungs - 1) << "it began to listen anew";
-  for (int n = 0; n < listen; ++n) (void)Current(running, kAbove, 0.0);
+  for (int n = 0; n < listen; ++n) (void)Current(running, kAboveExchange, 0.0);
   EXPECT_EQ(running.rung(), kRungs - 1);
 }
 
@@ -190,16 +190,16 @@ TEST(RunningLaw, ASpeedThatIsNoNumberChangesNothing) {
 TEST(RunningLaw, TheLimitHoldsForWhatFadesToo) {
   Carried run(ToPlain(0.0));
   for (int n = 0; n < 3000; ++n) {
-    ASSERT_LE(run.law.Step(kAbove, Error(30e-6), {}, 0.25).control_current_a[0], 0.25) << n;
+    ASSERT_LE(run.law.Step(kAboveExchange, Error(30e-6), {}, 0.25).control_current_a[0], 0.25) << n;
   }
 }
 
 TEST(RunningLaw, AllocatesNothing) {
   RunningLaw running(ToPlain());
   const test::AllocationGuard guard;
-  for (int n = 0; n < 3000; ++n) (void)running.Step(kAbove, {}, {}, 1.0);
+  for (int n = 0; n < 3000; ++n) (void)running.Step(kAboveExchange, {}, {}, 1.0);
   running.JumpTo(0.0);
-  running.Start(kAbove);
+  running.Start(kAboveExchange);
   EXPECT_EQ(guard.count(), 0U);
 }
 
