@@ -42,21 +42,22 @@ void RunningLaw::JumpTo(double speed_rad_per_s) noexcept {
   rung_ = rung;
 }
 
-void RunningLaw::Follow(double speed_rad_per_s) noexcept {
+bool RunningLaw::Follow(double speed_rad_per_s) noexcept {
   const std::size_t next = laws_.Next(rung_, speed_rad_per_s);
   if (laws_.Stretch(next) == laws_.Stretch(rung_)) {
     listened_ = 0;
     if (next != rung_) ChangeLaw(laws_[rung_], laws_[next], Memory(rung_));
     rung_ = next;
-    return;
+    return false;
   }
   if (listened_ == 0) {
     Memory(next).Reset();
     difference_a_ = {};
     listening_ = next;
   }
-  if (listened_ < listen_periods_) return;
+  if (listened_ < listen_periods_) return true;
   TakeOver(listening_, difference_a_);
+  return false;
 }
 
 void RunningLaw::TakeOver(std::size_t rung, const AxisArray& more_a) noexcept {
@@ -86,8 +87,7 @@ LawOutput RunningLaw::Step(double speed_rad_per_s, const AxisArray& error_m,
   if (laws_.size() == 1) {
     return law::Step(laws_[0], memories_[0], error_m, excitation_a, limit_a);
   }
-  Follow(speed_rad_per_s);
-  const bool other = laws_.Stretch(laws_.Next(rung_, speed_rad_per_s)) != laws_.Stretch(rung_);
+  const bool other_listens = Follow(speed_rad_per_s);
   AxisArray beside_a = excitation_a;
   for (std::size_t i = 0; i < axes(); ++i) {
     beside_a[i] += beside_a_[i];
@@ -97,7 +97,7 @@ LawOutput RunningLaw::Step(double speed_rad_per_s, const AxisArray& error_m,
   for (std::size_t i = 0; i < axes(); ++i) {
     given_a_[i] = given.control_current_a[i] - excitation_a[i];
   }
-  if (other) Listen(error_m);
+  if (other_listens) Listen(error_m);
   return given;
 }
 

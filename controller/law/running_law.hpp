@@ -48,7 +48,8 @@ class RunningLaw {
                                const AxisArray& excitation_a, double limit_a) noexcept;
 
  private:
-  void Follow(double speed_rad_per_s) noexcept;
+  /// True where another law is to listen in this period.
+  [[nodiscard]] bool Follow(double speed_rad_per_s) noexcept;
   void Listen(const AxisArray& error_m) noexcept;
   /// The law of this rung goes on with the current that it would not give by itself.
   void TakeOver(std::size_t rung, const AxisArray& more_a) noexcept;

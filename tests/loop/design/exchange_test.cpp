@@ -40,6 +40,7 @@ law::LawConfig Exchanging(const law::LawConfig& below, const law::LawConfig& abo
 struct Moved {
   double before_m{}, after_m{};  ///< largest distance from where it rested, at any bearing
   bool contact{};
+  bool other_acts{};  ///< in the end
 };
 
 /// `at_once`: without listening, and with nothing of what the law before carried.
@@ -84,6 +85,8 @@ Moved Exchange(const law::LawConfig& table, bool upward, bool at_once) {
     plant.Advance(command);
     out.contact = out.contact || (n >= kLift && plant.ContactForce() > 0.0);
   }
+  const law::LawLadder ladder(table);
+  out.other_acts = ladder.Stretch(law.rung()) == ladder.Stretch(ladder.Nearest(to));
   return out;
 }
 
@@ -91,6 +94,7 @@ TEST(Exchange, FromAPidToARobustLawMovesTheRotorNoFurtherThanWhereThatHoldsIt) {
   const law::LawConfig table = Exchanging(Shipped().controller.law, Robust());
   const Moved gently = Exchange(table, true, false);
   const Moved at_once = Exchange(table, true, true);
+  EXPECT_TRUE(gently.other_acts);
   EXPECT_FALSE(gently.contact);
   EXPECT_LT(gently.before_m, 4e-6);
   EXPECT_LT(gently.after_m, 8e-6);
@@ -101,16 +105,32 @@ TEST(Exchange, FromARobustLawToAPidMovesItNoFurtherThanBackToTheCentre) {
   const law::LawConfig table = Exchanging(Shipped().controller.law, Robust());
   const Moved gently = Exchange(table, false, false);
   const Moved at_once = Exchange(table, false, true);
+  EXPECT_TRUE(gently.other_acts);
   EXPECT_FALSE(gently.contact);
   EXPECT_LT(gently.after_m, 8e-6);
   EXPECT_GT(at_once.after_m, 3.0 * gently.after_m);
 }
 
+/// Largest radius from 2900 to 3100 rpm on the way, where the robust law keeps the rotor closer.
+double OrbitAround3000(test::ShippedLoop& loop) {
+  double largest_m = 0.0;
+  EXPECT_EQ(loop.Play(1, 60.0,
+                      [&](const cycle::CycleRecord& record) {
+                        const double rpm = RadPerSToRpm(record.in.frame.speed_rad_per_s);
+                        if (std::abs(rpm - 3000.0) < 100.0)
+                          largest_m =
+                              std::max(largest_m, test::ShippedLoop::Radius(record.in.frame));
+                      }),
+            "");
+  return largest_m;
+}
+
 // The control cycle itself, through the exchange and back: the scenario runs up and down.
 TEST(Exchange, TakesTheRotorThroughItsSpeedsAndBack) {
+  test::ShippedLoop plain = Shipped();
   test::ShippedLoop loop = Shipped();
   loop.controller.law = Exchanging(loop.controller.law, Robust());
-  EXPECT_EQ(loop.Play(1, 60.0), "");
+  EXPECT_LT(OrbitAround3000(loop), 0.85 * OrbitAround3000(plain));
   EXPECT_GT(loop.most.speed_rad_per_s, RpmToRadPerS(5950.0));
   EXPECT_EQ(loop.most.contact_n, 0.0);
   EXPECT_LT(loop.most.orbit_m, loop.rig.numbers.spinning_orbit_objective_m);
