@@ -32,7 +32,7 @@ struct GateOptions {
   std::size_t corners{8};
   std::size_t draws{20};
   std::uint64_t seed{1};
-  double sensitivity{4.0};  ///< upper edge of zone B
+  double sensitivity{4.0};                   ///< upper edge of zone B
   std::optional<double> corner_sensitivity;  ///< of the corners; told only without it
   std::optional<double> mu;
   bool tolerances{};

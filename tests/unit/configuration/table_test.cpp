@@ -275,7 +275,7 @@ TEST(Tables, KnowEveryFieldOfTheStructs) {
   EXPECT_EQ(FieldCount<gear::Wheel>(), 7U);
   EXPECT_EQ(FieldCount<gear::Harmonic>(), 3U);
   EXPECT_EQ(FieldCount<law::LawConfig>(), 5U);
-  EXPECT_EQ(FieldCount<law::LawAtSpeed>(), 3U);
+  EXPECT_EQ(FieldCount<law::LawAtSpeed>(), 4U);
   EXPECT_EQ(FieldCount<law::AxisLawConfig>(), 6U);
   EXPECT_EQ(FieldCount<law::LeadLag>(), 2U);
   EXPECT_EQ(FieldCount<law::Notch>(), 4U);

@@ -170,8 +170,8 @@ TEST(FiledProblems, TheDistillationColumnGainsFromTurnToTurn) {
   EXPECT_TRUE(IsStable(LowerFeedback(plant.system, result.controller)));
 }
 
-/// Mass, spring and damper (3, 2, 1; after K. Zhou, J. C. Doyle, Essentials of Robust Control, 1998),
-/// each number uncertain by a tenth: m x" = u + d - c x' - k x. Disturbances: of mass, damper and
+/// Mass, spring and damper (3, 2, 1; K. Zhou, J. C. Doyle, Essentials of Robust Control, 1998), each
+/// number uncertain by a tenth: m x" = u + d - c x' - k x. Disturbances: of mass, damper and
 /// spring; force, noise. Errors: x", x', x each a tenth; position, control.
 GeneralisedPlant MassSpringDamper(double noise, double control) {
   constexpr double kM = 3.0;
@@ -199,8 +199,9 @@ GeneralisedPlant MassSpringDamper(double noise, double control) {
   return plant;
 }
 
-// MATLAB Answers 2110451: musyn returns an empty controller for such a plant, and no reason. Without
-// noise it is refused with the reason; with noise the controller holds every corner of the three numbers within the bound that was proven.
+// MATLAB Answers 2110451: musyn returns an empty controller for such a plant, and no reason. It is
+// refused with the reason without noise; with noise the controller holds every corner of the three
+// numbers within the bound that was proven.
 TEST(FiledProblems, AMassSpringDamperOfUncertainNumbersHasItsRobustController) {
   EXPECT_THAT(RefusalOf(MassSpringDamper(0.0, 0.1)), ::testing::HasSubstr("carries no noise"));
   const GeneralisedPlant plant = MassSpringDamper(0.01, 0.1);
