@@ -170,7 +170,7 @@ TEST(FiledProblems, TheDistillationColumnGainsFromTurnToTurn) {
   EXPECT_TRUE(IsStable(LowerFeedback(plant.system, result.controller)));
 }
 
-/// Mass, spring and damper (3, 2, 1; K. Zhou, J. C. Doyle, Essentials of Robust Control, 1998), each
+/// Mass, spring and damper (3, 2, 1; Zhou and Doyle, Essentials of Robust Control, 1998), each
 /// number uncertain by a tenth: m x" = u + d - c x' - k x. Disturbances: of mass, damper and
 /// spring; force, noise. Errors: x", x', x each a tenth; position, control.
 GeneralisedPlant MassSpringDamper(double noise, double control) {
