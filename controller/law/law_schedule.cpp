@@ -182,6 +182,15 @@ LawConfig AtRung(const LawConfig& config, const std::vector<LawAtSpeed>& table, 
   return out;
 }
 
+constexpr double kFarEnough = 0.75;  // of a rung
+
+/// [rungs] by which the speed falls below an exchange before it is taken back: a tachometer's noise
+/// of a percent at a speed that stands there must not make the laws change to and fro.
+double BackFrom(std::size_t exchange) noexcept {
+  constexpr double kShare = 0.03;  // of its speed
+  return std::max(kFarEnough, kShare * static_cast<double>(exchange));
+}
+
 /// How many exchanges lie at or below a rung.
 std::size_t ExchangesTo(const Place& place, const std::vector<LawAtSpeed>& table) {
   std::size_t count = 0;
@@ -242,16 +251,20 @@ std::size_t LawLadder::Nearest(double speed_rad_per_s) const noexcept {
 
 std::size_t LawLadder::Next(std::size_t rung, double speed_rad_per_s) const noexcept {
   if (rungs_.size() == 1) return 0;
-  constexpr double kFarEnough = 0.75;  // of a rung
-  constexpr double kBackShare = 0.03;  // of the speed of an exchange
   const double here = width_rad_per_s_ * static_cast<double>(rung);
   const double off = (std::abs(speed_rad_per_s) - here) / width_rad_per_s_;
   if (off > kFarEnough) return std::min(rung + 1, rungs_.size() - 1);
   if (rung == 0) return rung;
   const bool exchange = Stretch(rung) != Stretch(rung - 1);
-  const double far =
-      exchange ? std::max(kFarEnough, kBackShare * static_cast<double>(rung)) : kFarEnough;
-  return off < -far ? rung - 1 : rung;
+  return off < -(exchange ? BackFrom(rung) : kFarEnough) ? rung - 1 : rung;
+}
+
+bool LawLadder::StillAsksFor(std::size_t acting, std::size_t other,
+                             double speed_rad_per_s) const noexcept {
+  const std::size_t exchange = std::max(acting, other);
+  const double off = std::abs(speed_rad_per_s) / width_rad_per_s_ - static_cast<double>(exchange);
+  const double back = -0.5 * BackFrom(exchange);
+  return other > acting ? !(off < back) : !(off > back);
 }
 
 }  // namespace levitas::law

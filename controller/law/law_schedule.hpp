@@ -20,7 +20,7 @@
 //            the derivative's memory is counted anew (ChangeLaw); the memories of filters and
 //            blocks belong to states that change as little as the law does.
 // Speed      of either sign, its size counts. What is no number leaves the rung as it is.
-// Thread     construction allocates; Follow allocates nothing, throws nothing.
+// Thread     construction allocates; all else allocates nothing, throws nothing.
 // Failure    std::invalid_argument for laws that do not fit one another (WhyNoSchedule says why).
 
 #include <cstddef>
@@ -54,6 +54,11 @@ class LawLadder {
   [[nodiscard]] std::size_t Nearest(double speed_rad_per_s) const noexcept;
   /// For a law that runs: `rung` or a neighbour.
   [[nodiscard]] std::size_t Next(std::size_t rung, double speed_rad_per_s) const noexcept;
+  /// Whether a speed still wants the exchange of one rung for the other of another stretch that it
+  /// asked for: not when it is back beyond half of what takes an exchange back. What is no number
+  /// wants what was wanted.
+  [[nodiscard]] bool StillAsksFor(std::size_t acting, std::size_t other,
+                                  double speed_rad_per_s) const noexcept;
   /// Which stretch of alike laws a rung belongs to, counted from rest.
   [[nodiscard]] std::size_t Stretch(std::size_t rung) const noexcept { return stretches_[rung]; }
 

@@ -43,21 +43,22 @@ void RunningLaw::JumpTo(double speed_rad_per_s) noexcept {
 }
 
 bool RunningLaw::Follow(double speed_rad_per_s) noexcept {
+  if (listened_ > 0 && laws_.StillAsksFor(rung_, listening_, speed_rad_per_s)) {
+    if (listened_ < listen_periods_) return true;
+    TakeOver(listening_, difference_a_);
+    return false;
+  }
+  listened_ = 0;
   const std::size_t next = laws_.Next(rung_, speed_rad_per_s);
   if (laws_.Stretch(next) == laws_.Stretch(rung_)) {
-    listened_ = 0;
     if (next != rung_) ChangeLaw(laws_[rung_], laws_[next], Memory(rung_));
     rung_ = next;
     return false;
   }
-  if (listened_ == 0) {
-    Memory(next).Reset();
-    difference_a_ = {};
-    listening_ = next;
-  }
-  if (listened_ < listen_periods_) return true;
-  TakeOver(listening_, difference_a_);
-  return false;
+  Memory(next).Reset();
+  difference_a_ = {};
+  listening_ = next;
+  return true;
 }
 
 void RunningLaw::TakeOver(std::size_t rung, const AxisArray& more_a) noexcept {

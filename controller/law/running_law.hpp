@@ -9,7 +9,9 @@
 //            (a static load that the law before carried) goes into the integrator of a PID, which
 //            counts amperes; beside a law without one it goes on and fades with kFadeS, slowly
 //            enough for the rotor to come to rest where this law holds it. A speed that goes back
-//            while it listens calls the exchange off; one that goes on changes nothing.
+//            by more than half of what takes an exchange back calls it off; one that goes on, or is
+//            no number for a while, changes nothing. Below some 1500 rpm 20 ms are less than half a
+//            turn, and the difference follows the vibration in part.
 // Limit      the fading current is within the limit with the law's own, anti-windup included.
 // Units      SI; bearing frame. Thread: loop thread only; construction allocates, the rest
 //            allocates nothing, throws nothing, takes bounded time (two laws while one listens).

@@ -34,6 +34,12 @@ double Near(const Judging& judging, double lead) {
   return std::max(judging.decisive_nat, judging.form_share * lead);
 }
 
+bool SameCauses(const CauseSet& a, const CauseSet& b) {
+  return std::ranges::equal(a.causes, b.causes, [](const Hypothesis& one, const Hypothesis& other) {
+    return one.effect == other.effect && one.place == other.place && one.terms == other.terms;
+  });
+}
+
 Eigen::Index NumbersOf(const std::vector<Hypothesis>& causes) {
   Eigen::Index numbers = 0;
   for (const Hypothesis& cause : causes) numbers += cause.directions.cols();
@@ -130,7 +136,7 @@ void RefitAlternatives(const EvidenceLandscape& landscape, const SelectionRules&
   const CauseSet chosen = Simplest(rules.judging, best, lead, found.contenders);
   std::erase_if(found.contenders, [&](const CauseSet& set) {
     return !(set.fit.evidence > best.fit.evidence - Near(rules.judging, lead)) ||
-           set.fit.evidence == chosen.fit.evidence;
+           SameCauses(set, chosen);
   });
   found.causes = chosen.causes;
   found.theta = chosen.fit.theta;

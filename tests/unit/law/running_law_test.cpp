@@ -171,11 +171,53 @@ TEST(RunningLaw, ASpeedThatGoesBackCallsTheExchangeOff) {
     (void)Current(running, kAboveExchange, 0.0);
   const std::size_t below = running.rung();
   EXPECT_EQ(below, kRungs - 2) << "it listens";
-  for (int n = 0; n < 10; ++n) (void)Current(running, 0.99 * kExchangeAt, 0.0);
+  for (int n = 0; n < 10; ++n) (void)Current(running, 0.98 * kExchangeAt, 0.0);
   for (int n = 0; n < listen / 2 + 10; ++n) (void)Current(running, kAboveExchange, 0.0);
   EXPECT_LT(running.rung(), kRungs - 1) << "it began to listen anew";
   for (int n = 0; n < listen; ++n) (void)Current(running, kAboveExchange, 0.0);
   EXPECT_EQ(running.rung(), kRungs - 1);
+}
+
+TEST(RunningLaw, NoiseOfASpeedThatStandsAtAnExchangeNeitherPreventsNorRepeatsIt) {
+  RunningLaw running(ToPlain());
+  Random random(6);
+  int exchanges = 0;
+  std::size_t before = running.rung();
+  for (int n = 0; n < 30'000; ++n) {
+    (void)Current(running, kExchangeAt * (1.001 + 0.003 * random.Normal()), 0.0);
+    const std::size_t now = running.rung();
+    exchanges += (now == kRungs - 1) != (before == kRungs - 1) ? 1 : 0;
+    before = now;
+  }
+  EXPECT_EQ(exchanges, 1);
+}
+
+TEST(RunningLaw, SingleSpeedsThatAreNoNumberDoNotCallAnExchangeOff) {
+  RunningLaw running(ToPlain());
+  for (int n = 0; n < 3000; ++n) {
+    const bool lost = n % 100 == 50;
+    (void)Current(running, lost ? std::numeric_limits<double>::quiet_NaN() : kAboveExchange, 0.0);
+  }
+  EXPECT_EQ(running.rung(), kRungs - 1);
+}
+
+// Two exchanges a rung apart: the speed asks for the upper one, and falls while it listens.
+TEST(RunningLaw, ALawThatIsNoLongerAskedForDoesNotTakeOver) {
+  LawConfig config = ToPlain();
+  LawAtSpeed first = config.schedule[0];
+  first.speed_rad_per_s = 0.996 * kExchangeAt;
+  config.schedule.insert(config.schedule.begin(), first);
+  RunningLaw running(config);
+  const int listen = static_cast<int>(std::lround(kListenS / kPeriodS));
+  for (int n = 0; n < static_cast<int>(kRungs) + listen + listen / 2; ++n)
+    (void)Current(running, kAboveExchange, 0.0);
+  const std::size_t middle = running.rung();
+  EXPECT_EQ(middle, kRungs - 2) << "between the two";
+  for (int n = 0; n < 3 * listen; ++n) {
+    (void)Current(running, 0.5 * kExchangeAt, 0.0);
+    ASSERT_LE(running.rung(), middle) << n;
+  }
+  EXPECT_LT(running.rung(), middle);
 }
 
 TEST(RunningLaw, ASpeedThatIsNoNumberChangesNothing) {
