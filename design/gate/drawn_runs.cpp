@@ -87,7 +87,7 @@ RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
   for (std::size_t n = 0; n < when.all && !out.lost; ++n) {
     if (n == when.turning) {
       StartTurning(options, rate, plant, command);
-      running.JumpTo(options.run_up ? 0.0 : w);
+      if (!options.run_up) running.JumpTo(w);
     }
     const SensorFrame frame = plant.Sample();
     const double still =

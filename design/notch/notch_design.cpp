@@ -53,9 +53,8 @@ MatrixXcd InverseOf(const MatrixXcd& answer, Direction direction) {
 }
 
 /// T of one speed, as asked for.
-MatrixXcd WantedAt(const plant::PlantConfig& rig, const law::LawConfig& law,
+MatrixXcd WantedAt(const plant::PlantConfig& rig, const analysis::SampledLoop& loop,
                    const NotchRequest& request, double speed_rad_per_s) {
-  const auto loop = analysis::CloseLoop(rig, law, speed_rad_per_s);
   if (request.knowledge == Knowledge::kRotor) {
     return InverseOf(AnswerAt(loop, request.block, speed_rad_per_s), request.direction);
   }
@@ -66,7 +65,9 @@ MatrixXcd WantedAt(const plant::PlantConfig& rig, const law::LawConfig& law,
 
 synchronous::InverseAtSpeed Node(const plant::PlantConfig& rig, const law::LawConfig& law,
                                  const NotchRequest& request, double speed_rad_per_s) {
-  return {speed_rad_per_s, analysis::ComplexMatrixOf(WantedAt(rig, law, request, speed_rad_per_s))};
+  const auto loop = analysis::CloseLoop(rig, law, speed_rad_per_s);
+  return {speed_rad_per_s,
+          analysis::ComplexMatrixOf(WantedAt(rig, loop, request, speed_rad_per_s))};
 }
 
 /// How far the table's T is from the one wanted there: of the rotor's knowledge the largest
@@ -77,7 +78,7 @@ double Departure(const plant::PlantConfig& rig, const law::LawConfig& law, const
   const MatrixXcd inverse = analysis::MatrixOf(synchronous::InverseAt(block, speed_rad_per_s),
                                                static_cast<std::size_t>(loop.plant.c.rows()));
   if (request.knowledge == Knowledge::kBearings) {
-    const MatrixXcd wanted = WantedAt(rig, law, request, speed_rad_per_s);
+    const MatrixXcd wanted = WantedAt(rig, loop, request, speed_rad_per_s);
     return (inverse - wanted).cwiseAbs().maxCoeff() / wanted.cwiseAbs().maxCoeff();
   }
   const MatrixXcd answer = AnswerAt(loop, block, speed_rad_per_s);

@@ -72,10 +72,10 @@ void AddGateOptions(CLI::App& command, GateCommandOptions& options) {
       ->capture_default_str();
   command
       .add_option("--most-corner-sensitivity", options.corner_sensitivity,
-                  "Largest |S| allowed at the corners; without it what they reach is told")
+                  "Largest |S| allowed at the corners; else it is printed and not judged")
       ->check(CLI::Range(1.0, 100.0));
   command
-      .add_option("--most-mu", options.mu, "Largest mu allowed; without it what it reaches is told")
+      .add_option("--most-mu", options.mu, "Largest mu allowed; else it is printed and not judged")
       ->check(CLI::Range(0.01, 100.0));
   command
       .add_option("--third-harmonic", options.third_n,

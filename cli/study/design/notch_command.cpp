@@ -263,9 +263,11 @@ void AddDesignNotch(CLI::App& design, Action& action) {
       ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
   command->add_flag("--adaptive", options->adaptive, "T is corrected while the block runs");
-  command->add_flag("--without-rotor", options->without_rotor,
-                    "T from law, amplifier, sensor and delay alone: slower, and right for any "
-                    "rotor that the law damps");
+  command->add_flag(
+      "--without-rotor", options->without_rotor,
+      "T from law, amplifier, sensor and delay alone: slower, and stable on any rotor "
+      "of masses, springs and dampers with its sensors at the magnets, where the law "
+      "damps");
   AddUncertaintyOption(*command, options->from);
   command->add_option("--draws", options->draws, "Rigs drawn for the judgement")
       ->check(CLI::Range(0, 10000))

@@ -171,13 +171,6 @@ TEST(ForceFree, NoLawHoldsThatResonanceWithLessThanHalfOfWhatTheUnbalancePulls) 
   RecordProperty("unbalance_n", std::to_string(unbalance_n));
 }
 
-/// Nobody watches the orbit, so that what happens to it is seen.
-cycle::CycleConfig Unwatched(cycle::CycleConfig config) {
-  config.synchronous.orbit_growth = 1000.0;
-  config.supervisor.protection.orbit_fraction = 100.0;
-  return config;
-}
-
 design::NotchRequest OfBearings(Target target, double rpm, double time_constant_s) {
   auto request = Asked(target, rpm - 50.0, rpm + 50.0, time_constant_s);
   request.knowledge = design::Knowledge::kBearings;
@@ -187,18 +180,12 @@ design::NotchRequest OfBearings(Target target, double rpm, double time_constant_
 TEST(ForceFree, ThereItDrivesTheRotorIntoContactAndBearingsThatHoldItDoNot) {
   constexpr double kRpm = 5300.0;
   ClosedLoop harmed(Unwatched(WithBlock(OfBearings(Target::kCurrent, kRpm, 0.1))));
-  ASSERT_TRUE(harmed.Levitate());
-  harmed.SpinAt(kRpm);
-  harmed.Reset();
-  EXPECT_TRUE(harmed.RunUntil(60.0, [&] { return harmed.most.contact_n > 0.0; }));
+  EXPECT_TRUE(TouchesAt(harmed, kRpm));
 
   const cycle::CycleConfig vibration = WithBlock(OfBearings(Target::kVibration, kRpm, 0.1));
   for (const auto& config : {CommissionedCycle(), vibration}) {
     ClosedLoop held(Unwatched(config));
-    ASSERT_TRUE(held.Levitate());
-    held.SpinAt(kRpm);
-    held.Reset();
-    held.Run(20.0);
+    ASSERT_TRUE(TurnsAt(held, kRpm, 20.0));
     EXPECT_EQ(held.out.fault, Fault::kNone);
     EXPECT_EQ(held.most.contact_n, 0.0);
     EXPECT_LT(held.most.orbit_m, 36e-6);  // the objective of the rig

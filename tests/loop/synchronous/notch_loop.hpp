@@ -3,6 +3,7 @@
 //
 // Units SI; bearing frame.
 
+#include <cmath>
 #include <complex>
 #include <numbers>
 #include <vector>
@@ -33,6 +34,40 @@ inline cycle::CycleConfig WithBlock(const design::NotchRequest& request) {
   config.synchronous.blocks.push_back(design::WithInverse(ShippedRig(), config.law, request));
   return config;
 }
+
+/// T = 1 at every speed: the notch filter of textbooks.
+inline synchronous::BlockConfig PlainNotch(double from_rpm, double to_rpm) {
+  synchronous::BlockConfig block = Asked(synchronous::Target::kCurrent, from_rpm, to_rpm).block;
+  synchronous::InverseAtSpeed at;
+  at.speed_rad_per_s = block.from_rad_per_s;
+  for (std::size_t i = 0; i < ShippedRig().numbers.axes(); ++i) at.inverse.real[i][i] = 1.0;
+  block.inverse.push_back(at);
+  return block;
+}
+
+/// Nobody watches the orbit, so that what a block does to it is seen.
+inline cycle::CycleConfig Unwatched(cycle::CycleConfig config) {
+  config.synchronous.orbit_growth = 1000.0;
+  config.supervisor.protection.orbit_fraction = 100.0;
+  return config;
+}
+
+/// Lifted and turning for so long; false where it cannot be lifted.
+[[nodiscard]] inline bool TurnsAt(ClosedLoop& loop, double rpm, double seconds) {
+  if (!loop.Levitate()) return false;
+  loop.SpinAt(rpm);
+  loop.Run(seconds);
+  return true;
+}
+
+/// Lifted, and within a minute at this speed in contact.
+[[nodiscard]] inline bool TouchesAt(ClosedLoop& loop, double rpm) {
+  if (!loop.Levitate()) return false;
+  loop.SpinAt(rpm);
+  return loop.RunUntil(60.0, [&loop] { return loop.most.contact_n > 0.0; });
+}
+
+inline double Decibel(double now, double before) { return 20.0 * std::log10(now / before); }
 
 /// Amplitude of order `order` of currents and of positions over whole turns, largest axis.
 struct Turning {

@@ -12,21 +12,15 @@ namespace {
 using synchronous::BlockState;
 using synchronous::Target;
 
-double Decibel(double now, double before) { return 20.0 * std::log10(now / before); }
-
 class Rejection : public testing::TestWithParam<double> {};
 
 TEST_P(Rejection, TakesTheSynchronousCurrentAway) {
   const double rpm = GetParam();
   ClosedLoop plain(CommissionedCycle());
-  ASSERT_TRUE(plain.Levitate());
-  plain.SpinAt(rpm);
-  plain.Run(3.0);
+  ASSERT_TRUE(TurnsAt(plain, rpm, 3.0));
   const Turning before = Measure(plain, 100);
   ClosedLoop quiet(WithBlock(Asked(Target::kCurrent, 1500.0, 6000.0)));
-  ASSERT_TRUE(quiet.Levitate());
-  quiet.SpinAt(rpm);
-  quiet.Run(5.0);
+  ASSERT_TRUE(TurnsAt(quiet, rpm, 5.0));
   EXPECT_EQ(quiet.out.synchronous[0].state, BlockState::kActing);
   const Turning after = Measure(quiet, 100);
   EXPECT_LT(Decibel(after.current_a, before.current_a), -40.0)
@@ -37,14 +31,10 @@ TEST_P(Rejection, TakesTheSynchronousCurrentAway) {
 TEST_P(Rejection, TakesTheSynchronousVibrationAway) {
   const double rpm = GetParam();
   ClosedLoop plain(CommissionedCycle());
-  ASSERT_TRUE(plain.Levitate());
-  plain.SpinAt(rpm);
-  plain.Run(3.0);
+  ASSERT_TRUE(TurnsAt(plain, rpm, 3.0));
   const Turning before = Measure(plain, 100);
   ClosedLoop still(WithBlock(Asked(Target::kVibration, 1500.0, 6000.0)));
-  ASSERT_TRUE(still.Levitate());
-  still.SpinAt(rpm);
-  still.Run(5.0);
+  ASSERT_TRUE(TurnsAt(still, rpm, 5.0));
   EXPECT_EQ(still.out.synchronous[0].state, BlockState::kActing)
       << static_cast<int>(still.out.synchronous[0].ending);
   const Turning after = Measure(still, 100);

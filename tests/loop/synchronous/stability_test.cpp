@@ -14,16 +14,6 @@ using synchronous::BlockState;
 using synchronous::Ending;
 using synchronous::Target;
 
-/// T = 1 at every speed: the notch filter of textbooks.
-synchronous::BlockConfig PlainNotch(double from_rpm, double to_rpm) {
-  synchronous::BlockConfig block = Asked(Target::kCurrent, from_rpm, to_rpm).block;
-  synchronous::InverseAtSpeed at;
-  at.speed_rad_per_s = block.from_rad_per_s;
-  for (std::size_t i = 0; i < ShippedRig().numbers.axes(); ++i) at.inverse.real[i][i] = 1.0;
-  block.inverse.push_back(at);
-  return block;
-}
-
 /// The speed at which T = 1 is worst.
 double WorstSpeed() {
   synchronous::SynchronousConfig control;
@@ -52,20 +42,11 @@ cycle::CycleConfig With(const synchronous::BlockConfig& block, double orbit_grow
 TEST(NotchStability, AMatrixThatIsNoInverseDrivesTheRotorIntoContactAndTheInverseDoesNot) {
   const double rpm = RadPerSToRpm(WorstSpeed());
   const auto plain = PlainNotch(rpm - 50.0, rpm + 50.0);
-  cycle::CycleConfig careless = With(plain, 1000.0);
-  // Nobody watches the orbit, so that what the block does to it is seen.
-  careless.supervisor.protection.orbit_fraction = 100.0;
-  ClosedLoop harmed(careless);
-  ASSERT_TRUE(harmed.Levitate());
-  harmed.SpinAt(rpm);
-  harmed.Reset();
-  const bool touched = harmed.RunUntil(60.0, [&] { return harmed.most.contact_n > 0.0; });
-  EXPECT_TRUE(touched) << "at " << rpm << " rpm";
+  ClosedLoop harmed(Unwatched(With(plain, 1000.0)));
+  EXPECT_TRUE(TouchesAt(harmed, rpm)) << "at " << rpm << " rpm";
 
   ClosedLoop held(WithBlock(Asked(Target::kCurrent, rpm - 50.0, rpm + 50.0)));
-  ASSERT_TRUE(held.Levitate());
-  held.SpinAt(rpm);
-  held.Run(20.0);
+  ASSERT_TRUE(TurnsAt(held, rpm, 20.0));
   EXPECT_EQ(held.out.fault, Fault::kNone);
   EXPECT_EQ(held.out.synchronous[0].state, BlockState::kActing);
 }

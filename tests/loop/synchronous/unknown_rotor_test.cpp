@@ -32,15 +32,6 @@ synchronous::SynchronousConfig Made(Knowledge knowledge, Target target, double f
   return WithBlock(Request(knowledge, target, from_rpm, to_rpm)).synchronous;
 }
 
-synchronous::SynchronousConfig PlainNotch(double from_rpm, double to_rpm) {
-  synchronous::SynchronousConfig control;
-  auto& block = control.blocks.emplace_back(Asked(Target::kCurrent, from_rpm, to_rpm).block);
-  auto& at = block.inverse.emplace_back();
-  at.speed_rad_per_s = block.from_rad_per_s;
-  for (std::size_t i = 0; i < ShippedRig().numbers.axes(); ++i) at.inverse.real[i][i] = 1.0;
-  return control;
-}
-
 class OfUnknownRotors : public testing::TestWithParam<Target> {};
 
 // Modes +-30 %, gains +-10 %, damping +-50 %; sensors where the file has them, beside the magnets.
@@ -50,7 +41,8 @@ TEST_P(OfUnknownRotors, EveryOneThatItsLawHoldsIsStableFrom1000To6500Rpm) {
   constexpr double kSlowS = 1.0;
   auto bearings = Made(Knowledge::kBearings, GetParam(), 1000.0, 6500.0);
   auto rotor = Made(Knowledge::kRotor, GetParam(), 1000.0, 6500.0);
-  auto plain = PlainNotch(1000.0, 6500.0);
+  synchronous::SynchronousConfig plain;
+  plain.blocks.push_back(PlainNotch(1000.0, 6500.0));
   for (auto* each : {&bearings, &rotor, &plain}) each->blocks.front().time_constant_s = kSlowS;
   const auto parameters =
       ModesWithin(0.3, uncertainty::Stated(ShippedRig(), {.current_gain = 0.1, .stiffness = 0.1}));
@@ -196,17 +188,13 @@ class UnknownRejection : public testing::TestWithParam<double> {};
 TEST_P(UnknownRejection, TakesTheSynchronousCurrentAway) {
   const double rpm = GetParam();
   ClosedLoop plain(CommissionedCycle());
-  ASSERT_TRUE(plain.Levitate());
-  plain.SpinAt(rpm);
-  plain.Run(3.0);
+  ASSERT_TRUE(TurnsAt(plain, rpm, 3.0));
   const Turning before = Measure(plain, 100);
   ClosedLoop quiet(WithBlock(Request(Knowledge::kBearings, Target::kCurrent, 1500.0, 4000.0)));
-  ASSERT_TRUE(quiet.Levitate());
-  quiet.SpinAt(rpm);
-  quiet.Run(10.0);
+  ASSERT_TRUE(TurnsAt(quiet, rpm, 10.0));
   EXPECT_EQ(quiet.out.synchronous[0].state, BlockState::kActing);
   const Turning after = Measure(quiet, 100);
-  const double decibel = 20.0 * std::log10(after.current_a / before.current_a);
+  const double decibel = Decibel(after.current_a, before.current_a);
   EXPECT_LT(decibel, -40.0) << before.current_a << " A to " << after.current_a << " A";
   RecordProperty("current_db", std::to_string(decibel));
 }
@@ -228,26 +216,17 @@ config::RigFile SofterRig() {
 }
 
 cycle::CycleConfig Careless(Knowledge knowledge, double rpm) {
-  auto config = WithBlock(Request(knowledge, Target::kCurrent, rpm - 50.0, rpm + 50.0));
-  config.synchronous.orbit_growth = 1000.0;
-  config.supervisor.protection.orbit_fraction = 100.0;
-  return config;
+  return Unwatched(WithBlock(Request(knowledge, Target::kCurrent, rpm - 50.0, rpm + 50.0)));
 }
 
 TEST(UnknownRotor, TheFilesRotorDrivesAnotherIntoContactAndTheBearingsAloneDoNot) {
   constexpr double kRpm = 4200.0;
   const config::RigFile softer = SofterRig();
   ClosedLoop harmed(Careless(Knowledge::kRotor, kRpm), softer.plant);
-  ASSERT_TRUE(harmed.Levitate());
-  harmed.SpinAt(kRpm);
-  harmed.Reset();
-  EXPECT_TRUE(harmed.RunUntil(60.0, [&] { return harmed.most.contact_n > 0.0; }));
+  EXPECT_TRUE(TouchesAt(harmed, kRpm));
 
   ClosedLoop held(Careless(Knowledge::kBearings, kRpm), softer.plant);
-  ASSERT_TRUE(held.Levitate());
-  held.SpinAt(kRpm);
-  held.Reset();
-  held.Run(20.0);
+  ASSERT_TRUE(TurnsAt(held, kRpm, 20.0));
   EXPECT_EQ(held.out.fault, Fault::kNone);
   EXPECT_EQ(held.most.contact_n, 0.0);
   EXPECT_LT(Measure(held, 100).current_a, 1e-3);

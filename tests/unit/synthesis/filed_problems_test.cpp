@@ -173,7 +173,7 @@ TEST(FiledProblems, TheDistillationColumnGainsFromTurnToTurn) {
 /// Mass, spring and damper (3, 2, 1; Zhou and Doyle, Essentials of Robust Control, 1998), each
 /// number uncertain by a tenth: m x" = u + d - c x' - k x. Disturbances: of mass, damper and
 /// spring; force, noise. Errors: x", x', x each a tenth; position, control.
-GeneralisedPlant MassSpringDamper(double noise, double control) {
+GeneralisedPlant MassSpringDamper(double noise) {
   constexpr double kM = 3.0;
   constexpr double kC = 1.0;
   constexpr double kK = 2.0;
@@ -193,7 +193,7 @@ GeneralisedPlant MassSpringDamper(double noise, double control) {
   system.C(3, 0) = system.C(5, 0) = 1.0;
   system.D = Eigen::MatrixXd::Zero(6, 6);
   system.D.row(0) = 0.1 * forced;
-  system.D(4, 5) = control;
+  system.D(4, 5) = 0.1;
   system.D(5, 4) = noise;
   plant.controls = plant.measurements = 1;
   return plant;
@@ -203,8 +203,8 @@ GeneralisedPlant MassSpringDamper(double noise, double control) {
 // refused with the reason without noise; with noise the controller holds every corner of the three
 // numbers within the bound that was proven.
 TEST(FiledProblems, AMassSpringDamperOfUncertainNumbersHasItsRobustController) {
-  EXPECT_THAT(RefusalOf(MassSpringDamper(0.0, 0.1)), ::testing::HasSubstr("carries no noise"));
-  const GeneralisedPlant plant = MassSpringDamper(0.01, 0.1);
+  EXPECT_THAT(RefusalOf(MassSpringDamper(0.0)), ::testing::HasSubstr("carries no noise"));
+  const GeneralisedPlant plant = MassSpringDamper(0.01);
   const UncertaintyBlocks blocks{{BlockKind::kRepeatedReal, 1, 1},
                                  {BlockKind::kRepeatedReal, 1, 1},
                                  {BlockKind::kRepeatedReal, 1, 1},
