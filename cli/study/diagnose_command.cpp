@@ -44,7 +44,7 @@ struct DiagnoseOptions : AnalysisOptions {
   std::vector<std::string> holdout;
   std::vector<std::string> healthy;
   std::string out, plan;
-  bool quick{}, explain{};
+  bool quick{}, explain{}, as_is{};
 };
 
 /// What was found, and the scenario that would separate what is left.
@@ -97,6 +97,7 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.holdout = options.holdout;
   inputs.healthy = options.healthy;
   inputs.settings.quick = options.quick;
+  inputs.as_is = options.as_is;
   inputs.settings.progress = [&progress](double share, const std::string& what) {
     progress.Show(share, what);
   };
@@ -135,6 +136,9 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
       "First answer: the strongest cause, from at most 30 000 samples of all records");
   command->add_flag("--explain", options->explain,
                     "Print every calibrated value and every candidate");
+  command->add_flag("--as-is", options->as_is,
+                    "Take columns, times and rig file as they are: look for no errors of the "
+                    "records");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

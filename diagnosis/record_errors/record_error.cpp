@@ -10,8 +10,8 @@
 namespace levitas::diagnosis {
 
 const char* Name(RecordErrorKind kind) noexcept {
-  constexpr std::array kNames{"swapped",   "reversed", "unit", "rate",
-                              "quantised", "clipped",  "held", "delayed"};
+  constexpr std::array kNames{"swapped", "reversed", "unit",    "rate", "quantised",
+                              "clipped", "held",     "delayed", "gaps", "other_rig"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 

@@ -31,14 +31,27 @@ std::vector<Record> Load(const std::vector<std::string>& paths, const DiagnosisR
   return records;
 }
 
+/// No search for causes would end well: they would be those of another rig.
+void RefuseOtherRig(const std::vector<RecordErrors>& found) {
+  for (const RecordErrors& record : found) {
+    for (const RecordError& error : record.errors) {
+      if (error.kind != RecordErrorKind::kOtherRig) continue;
+      throw BadInput(fmt::format(
+          "{}: {}. To mend it: {}. Or, if it is its rig, diagnose it all the same by --as-is",
+          record.record, error.sentence, error.mend));
+    }
+  }
+}
+
 /// Takes the columns for what they are; adds the records that were not right to `found`.
 void Mend(const RigView& rig, std::vector<Record>& records, std::vector<RecordErrors>& found) {
-  for (Record& record : records) {
-    RecordErrors errors = FindRecordErrors(rig, record);
-    if (errors.errors.empty()) continue;
-    record = Mended(rig, record, errors);
-    record.mean_speed_rad_per_s = analysis::MeanSpeed(record.rows);
-    found.push_back(std::move(errors));
+  std::vector<RecordErrors> errors = FindErrorsOfRecords(rig, records);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    records[i].times_s = {};
+    if (errors[i].errors.empty()) continue;
+    records[i] = Mended(rig, records[i], errors[i]);
+    records[i].mean_speed_rad_per_s = analysis::MeanSpeed(records[i].rows);
+    found.push_back(std::move(errors[i]));
   }
 }
 
@@ -183,7 +196,10 @@ DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs) {
   RefuseSameRows(data, healthy, "--healthy", "it would vouch for itself");
   const RigView view(inputs.rig.numbers, inputs.rig.plant);
   std::vector<RecordErrors> found;
-  for (std::vector<Record>* records : {&data, &holdout, &healthy}) Mend(view, *records, found);
+  if (!inputs.as_is) {
+    for (std::vector<Record>* records : {&data, &holdout, &healthy}) Mend(view, *records, found);
+    RefuseOtherRig(found);
+  }
   try {
     DiagnosisResult out = DiagnoseRecords(inputs.rig, data, holdout, inputs.settings, healthy);
     out.record_errors = std::move(found);

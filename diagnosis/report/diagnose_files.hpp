@@ -22,6 +22,7 @@ struct DiagnosisRequest {
   std::vector<std::string> data, holdout;
   std::vector<std::string> healthy;  ///< earlier records of the same rig, known to be well
   Settings settings;
+  bool as_is{};  ///< no errors of records are looked for
 };
 
 struct DiagnosisResult {
@@ -45,7 +46,8 @@ struct DiagnosisResult {
       record_errors;  ///< of files; what could be mended was, before the search
 };
 
-/// Looks for errors of the records first (record_errors/find.hpp); a refusal names them.
+/// Looks for errors of the records first (record_errors/find.hpp); a refusal names them, and a
+/// record of another rig than the file's is refused, but for `as_is`.
 [[nodiscard]] DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs);
 /// The same on records that are in memory; empty `holdout` keeps back stretches of `records`
 /// (model_run.hpp).
