@@ -6,7 +6,7 @@
 
 #include "numerics/dense/eigenvalues.hpp"
 #include "numerics/dense/factorisations.hpp"
-#include "numerics/dense/orthogonal.hpp"
+#include "numerics/dense/orthogonal_factor.hpp"
 
 namespace levitas::analysis {
 namespace {

@@ -1,5 +1,7 @@
 #include "analysis/poles.hpp"
 
+#include <fmt/core.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -115,6 +117,22 @@ std::vector<Pole> WorstFirst(std::vector<Pole> poles) {
     return a.damping_ratio < b.damping_ratio;
   });
   return poles;
+}
+
+std::string WhyUnstable(const LoopPoles& loop) {
+  const auto worst = WorstFirst(loop.poles);
+  if (worst.empty() || !Grows(worst.front())) {
+    return "the magnets cannot carry the static load";
+  }
+  const Pole& pole = worst.front();
+  const double rate = pole.s_rad_per_s.real();
+  const std::string grows =
+      rate > 0.0 ? fmt::format("grows e-fold every {:.3g} ms", 1e3 / rate) : "does not decay";
+  if (pole.frequency_hz == 0.0) {
+    return fmt::format("a pole without oscillation {}: too little stiffness against the magnets'",
+                       grows);
+  }
+  return fmt::format("a pole at {:.1f} Hz {}", std::abs(pole.frequency_hz), grows);
 }
 
 LoopPoles ClosedLoopPoles(const plant::PlantConfig& plant, const law::LawConfig& law,

@@ -13,6 +13,7 @@
 // Thread     any.
 
 #include <complex>
+#include <string>
 #include <vector>
 
 #include "controller/law/law_config.hpp"
@@ -40,6 +41,10 @@ struct LoopPoles {
 
 /// On or outside the unit circle: its motion does not decay.
 [[nodiscard]] bool Grows(const Pole& pole);
+
+/// Of a loop that is not stable: "a pole at 90.1 Hz grows e-fold every 12 ms", or that the magnets
+/// cannot carry the static load.
+[[nodiscard]] std::string WhyUnstable(const LoopPoles& loop);
 
 /// The same poles, worst first: those that grow, fastest first, then by rising damping ratio.
 [[nodiscard]] std::vector<Pole> WorstFirst(std::vector<Pole> poles);

@@ -64,7 +64,7 @@ std::size_t StandardOutput::Take(const char* bytes, std::size_t size) noexcept {
     text.append(bytes, size);
     const std::size_t cut = CutBytes(text);
     cut_ = text.substr(text.size() - cut);
-    text.resize(text.size() - cut);
+    text.erase(text.size() - cut);
     Put(rt::Printable(text));
   } catch (const std::exception&) {
     refused_ = "not enough memory";

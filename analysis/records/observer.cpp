@@ -7,7 +7,7 @@
 
 #include "analysis/reading_noise.hpp"
 #include "analysis/records/riccati.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/bearing_frame.hpp"
 #include "plant_sim/plant/linear_model.hpp"

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 
 #include "common/problem.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::analysis {
 namespace {

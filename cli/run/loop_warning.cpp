@@ -14,22 +14,6 @@
 namespace levitas::cli {
 namespace {
 
-std::string PoleText(const analysis::LoopPoles& at) {
-  const auto worst = analysis::WorstFirst(at.poles);
-  if (worst.empty() || !analysis::Grows(worst.front())) {
-    return "the magnets cannot carry the static load";
-  }
-  const analysis::Pole& pole = worst.front();
-  const double rate = pole.s_rad_per_s.real();
-  const std::string grows =
-      rate > 0.0 ? fmt::format("grows e-fold every {:.3g} ms", 1e3 / rate) : "does not decay";
-  if (pole.frequency_hz == 0.0) {
-    return fmt::format("a pole without oscillation {}: too little stiffness against the magnets'",
-                       grows);
-  }
-  return fmt::format("a pole at {:.1f} Hz {}", std::abs(pole.frequency_hz), grows);
-}
-
 std::optional<analysis::LoopPoles> PolesAt(const config::RigFile& rig, const law::LawConfig& law,
                                            double speed_rad_per_s) {
   try {
@@ -53,7 +37,7 @@ std::string UnstableLoop(const config::RigFile& rig, const law::LawConfig& law,
         "--controller {} --speed-rpm {:.0f}; amb design pid --rig {} --out FILE makes a law for "
         "it",
         rig.numbers.name, speed == 0.0 ? "at rest" : fmt::format("at {:.0f} rpm", rpm),
-        PoleText(*at), rig_name, controller_name, rpm, rig_name);
+        analysis::WhyUnstable(*at), rig_name, controller_name, rpm, rig_name);
   }
   return {};
 }

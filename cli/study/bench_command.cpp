@@ -11,6 +11,7 @@
 #include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/study/bench_forecast.hpp"
+#include "cli/study/bench_isolability.hpp"
 #include "cli/study/bench_lives.hpp"
 #include "cli/study/bench_spoilt.hpp"
 #include "cli/study/bench_sweep.hpp"
@@ -46,6 +47,10 @@ ExitStatus Run(const BenchOptions& options) {
   const accuracy::TestRig bench = accuracy::LoadTestRig(options.rig, controllers);
   if (options.spoilt > 0) {
     WriteJsonFile(options.json_path, RunSpoilt(options, bench));
+    return ExitStatus::kDone;
+  }
+  if (options.isolability) {
+    WriteJsonFile(options.json_path, RunIsolability(options, bench));
     return ExitStatus::kDone;
   }
   if (options.forecast > 0) {
@@ -99,6 +104,12 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--forecast", options->forecast,
                       "Instead: so many healthy rigs, fitted at rest and at one speed, foretell a "
                       "run-up: does the interval cover, and does calibration gain?");
+  command->add_flag("--isolability", options->isolability,
+                    "Instead: foretell what `amb diagnose --plan` would of every trial of --seeds, "
+                    "from records without the effect, and compare it with the diagnosis");
+  command->add_option("--answered", options->answered_path,
+                      "With --isolability: the --json of an earlier run of the same trials, whose "
+                      "answers are taken");
   command->add_option("--first", options->first, "Seed of the first trial");
   command->add_option("--effect", options->effects, "Only these effects");
   command->add_option("--size", options->sizes, "Sizes relative to clear, one after the other");

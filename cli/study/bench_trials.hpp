@@ -31,6 +31,8 @@ struct BenchOptions {
   std::string json_path, markdown_path, write_folder;
   std::string sweep;  ///< NAME=V,V,...
   bool constants{};   ///< print them
+  bool isolability{};
+  std::string answered_path;  ///< --json of the same trials; empty: diagnose them
   diagnosis::Judging judging;
 };
 

@@ -13,8 +13,10 @@
 #include "cli/options/analysis_options.hpp"
 #include "cli/options/rig_of_records.hpp"
 #include "cli/study/answer_folder.hpp"
+#include "cli/study/diagnose_plan.hpp"
 #include "cli/study/diagnosis_inputs.hpp"
 #include "cli/study/kept_memory.hpp"
+#include "cli/study/laws_of_records.hpp"
 #include "cli/study/progress_line.hpp"
 #include "cli/study/written_files.hpp"
 #include "cli/text_file.hpp"
@@ -36,16 +38,46 @@ constexpr const char* kDiagnoseHelp =
     "with "
     "a test signal, spinning, running up. Writes diagnosis.json, extended_rig.yaml, "
     "calibrated_rig.yaml and report.html into --out; a terminal shows how far it is.\n"
-    "Records are sessions, or CSV or MAT as in docs/formats.md. Example:\n"
+    "--plan without --out prints before any diagnosis which faults, at the size that `amb effects` "
+    "calls clear, these records can tell apart.\n"
+    "Records are sessions, or CSV or MAT as in docs/formats.md. Examples:\n"
+    "  amb diagnose --plan --rig flexible_rotor --scenario default\n"
     "  amb diagnose --rig flexible_rotor standing.csv spinning.csv runup.csv --out answer";
 
 struct DiagnoseOptions : AnalysisOptions {
   std::vector<std::string> data;
   std::vector<std::string> holdout;
   std::vector<std::string> healthy;
+  std::vector<std::string> scenarios;
   std::string out, plan;
-  bool quick{}, explain{}, as_is{};
+  double size{1.0};
+  bool quick{}, explain{}, plans{}, as_is{};
 };
+
+/// `--plan record.lcm` gives a record to an option whose value may be left out.
+bool IsScenario(const std::string& path) {
+  return path.ends_with(".yaml") || path.ends_with(".yml");
+}
+
+ExitStatus PlanBefore(DiagnoseOptions options) {
+  if (!options.plan.empty() && !IsScenario(options.plan)) {
+    options.data.insert(options.data.begin(), options.plan);
+    options.plan.clear();
+  }
+  if (options.data.empty() && options.scenarios.empty()) {
+    throw Problem(ExitStatus::kUsage,
+                  "--plan: nothing to plan with: give records of the rig, or --rig and --scenario "
+                  "to simulate them");
+  }
+  if (!options.holdout.empty() || !options.healthy.empty() || options.quick || options.explain) {
+    throw Problem(ExitStatus::kUsage,
+                  "--holdout, --healthy, --quick and --explain belong to a diagnosis: give --out, "
+                  "or leave them out");
+  }
+  return Plan({options.data, options.scenarios, options.controller_name, options.plan, options.size,
+               options.json_path},
+              LoadRigOfRecords(options, options.data));
+}
 
 /// What was found, and the scenario that would separate what is left.
 struct Diagnosed {
@@ -85,6 +117,17 @@ void WritePlan(const std::string& path, const Diagnosed& found, std::vector<std:
 
 ExitStatus Run(const DiagnoseOptions& options) {
   KeepFreedMemory();
+  if (options.plans && options.out.empty()) return PlanBefore(options);
+  if (options.data.empty()) throw Problem(ExitStatus::kUsage, "DATA is required");
+  if (options.out.empty()) throw Problem(ExitStatus::kUsage, "--out is required");
+  if (options.plans && options.plan.empty()) {
+    throw Problem(ExitStatus::kUsage,
+                  "--plan after a diagnosis needs the file to write: FILE.yaml");
+  }
+  if (!options.scenarios.empty() || !options.controller_name.empty()) {
+    throw Problem(ExitStatus::kUsage,
+                  "--scenario and --controller simulate records for --plan: leave out --out");
+  }
   diagnosis::DiagnosisRequest inputs;
   std::vector<std::string> records = options.data;
   records.insert(records.end(), options.holdout.begin(), options.holdout.end());
@@ -96,6 +139,9 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.data = options.data;
   inputs.holdout = options.holdout;
   inputs.healthy = options.healthy;
+  std::vector<std::string> judged = options.data;
+  judged.insert(judged.end(), options.holdout.begin(), options.holdout.end());
+  inputs.known_laws = LawsOfRecords(judged, inputs.rig);
   inputs.settings.quick = options.quick;
   inputs.as_is = options.as_is;
   inputs.settings.progress = [&progress](double share, const std::string& what) {
@@ -119,7 +165,8 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<DiagnoseOptions>();
   CLI::App* command = AddStudyCommand(app, "diagnose");
   command->footer(kDiagnoseHelp);
-  command->add_option("DATA", options->data, "Sessions, CSV or MAT files of one rig")->required();
+  command->add_option("DATA", options->data,
+                      "Sessions, CSV or MAT files of one rig; not needed with --scenario");
   AddRigOfRecordsOption(*command, *options);
   command->add_option("--holdout", options->holdout,
                       "Validation data for the gain, none of DATA; without it every sixth "
@@ -127,10 +174,27 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
   command->add_option("--healthy", options->healthy,
                       "Earlier records of the same rig in good condition: they narrow its "
                       "tolerances");
-  command->add_option("--plan", options->plan,
-                      "Write the scenario that would separate what these data cannot; not written "
-                      "when nothing is left to separate");
-  command->add_option("--out", options->out, "Folder for the answer")->required();
+  CLI::Option* plan =
+      command
+          ->add_option(
+              "--plan", options->plan,
+              "Without --out: diagnose nothing, but foretell which faults the records can "
+              "tell apart, and what would help; FILE.yaml: also write the scenario that "
+              "helps most. With --out: write to FILE.yaml the scenario that would separate "
+              "what these data cannot; not written when nothing is left to separate")
+          ->expected(0, 1);
+  command->add_option("--scenario", options->scenarios,
+                      "With --plan: a scenario file or shipped name, simulated with the healthy "
+                      "rig instead of a record");
+  command->add_option("--controller", options->controller_name,
+                      "Of what --plan simulates; default: the one the rig file names");
+  command
+      ->add_option("--size", options->size,
+                   "Of the faults of --plan, as a share of the size that `amb effects` calls clear")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  command->add_option("--out", options->out,
+                      "Folder for the answer; required except to --plan before a diagnosis");
   command->add_flag(
       "--quick", options->quick,
       "First answer: the strongest cause, from at most 30 000 samples of all records");
@@ -140,7 +204,10 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
                     "Take columns, times and rig file as they are: look for no errors of the "
                     "records");
   AddJsonOption(*command, *options);
-  command->callback([options, &action] { action = [options] { return Run(*options); }; });
+  command->callback([options, plan, &action] {
+    options->plans = plan->count() > 0;
+    action = [options] { return Run(*options); };
+  });
 }
 
 }  // namespace levitas::cli

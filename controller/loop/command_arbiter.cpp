@@ -2,127 +2,27 @@
 
 #include <cmath>
 
-#include "controller/supervisor/mode_table.hpp"
-
 namespace levitas::loop {
 
 CommandArbiter::CommandArbiter(const DeskOptions& options, scenario::ScenarioPlayer* player,
                                const RemoteDesk& remote)
-    : options_(options),
+    : duration_cycles_(options.duration_s > 0.0
+                           ? std::optional(static_cast<std::uint64_t>(
+                                 std::llround(options.duration_s / options.period_s)))
+                           : std::nullopt),
       player_(player),
       remote_(remote),
-      run_down_({.period_s = options.period_s,
-                 .deceleration_rad_per_s2 = options.stop_acceleration_rad_per_s2,
-                 .standstill_rad_per_s = options.standstill_rad_per_s,
-                 .landing_ramp_s = options.landing_ramp_s}),
+      end_({.period_s = options.period_s,
+            .deceleration_rad_per_s2 = options.stop_acceleration_rad_per_s2,
+            .standstill_rad_per_s = options.standstill_rad_per_s,
+            .landing_ramp_s = options.landing_ramp_s},
+           options.trip_window_s),
       guard_(options.excitation) {}
 
-std::uint64_t CommandArbiter::Cycles(double seconds) const noexcept {
-  return static_cast<std::uint64_t>(std::llround(seconds / options_.period_s));
-}
-
-bool CommandArbiter::Ending(const OperatorView& view) noexcept {
-  if (ending_) return true;
-  const bool over =
-      options_.duration_s > 0.0 && view.cycle - first_cycle_ >= Cycles(options_.duration_s);
-  const bool played = player_ != nullptr && player_->outcome() != scenario::Outcome::kPlaying;
-  ending_ = over || played || stop_requested_.load(std::memory_order_relaxed);
-  if (!ending_) return false;
-  run_down_.Begin(view.cycle);
-  last_request_ = view.cycle - Cycles(kRepeatSeconds);  // the first request is made at once
-  return ending_;
-}
-
-void CommandArbiter::Tell(std::atomic<bool>& news) noexcept {
-  if (news.load(std::memory_order_relaxed)) return;
-  news_speed_rad_per_s_.store(run_down_.speed_rad_per_s(), std::memory_order_relaxed);
-  news.store(true, std::memory_order_relaxed);
-}
-
-// The magnets have let go; the supervisor brakes for as long as this goes on.
-void CommandArbiter::AwaitStandstill(const OperatorView& view) noexcept {
-  if (!safe_) {
-    safe_since_ = view.cycle;
-    run_down_.Begin(view.cycle);
-  }
-  safe_ = true;
-  const bool recorded =
-      view.mode == Mode::kOff || view.cycle - safe_since_ >= Cycles(options_.trip_window_s);
-  if (run_down_.brake_fails()) Tell(brake_fails_);
-  done_ = recorded && (run_down_.standing() || run_down_.brake_fails());
-}
-
-cycle::OperatorInput CommandArbiter::Stop(const OperatorView& view) noexcept {
-  cycle::OperatorInput input;
-  const bool at_rest = view.mode == Mode::kOff || view.mode == Mode::kTripped;
-  if (at_rest && !view.amplifiers_enabled) {
-    AwaitStandstill(view);
-    return input;
-  }
-  safe_ = false;
-  const bool turns = !run_down_.standing();
-  const bool under_way = view.mode == Mode::kTripped || view.mode == Mode::kLanding ||
-                         (braking_ && view.mode == Mode::kSpinning && turns);
-  const bool overdue = run_down_.Overdue(view.cycle);
-  if (overdue) Tell(overdue_);
-  if (under_way && (!overdue || view.mode == Mode::kTripped)) return input;
-  if (view.cycle - last_request_ < Cycles(kRepeatSeconds)) return input;
-  last_request_ = view.cycle;
-  if (overdue) {
-    input.command = OperatorCommand::kEmergencyStop;
-  } else if (turns) {
-    braking_ = true;
-    input.command = OperatorCommand::kSpin;
-    input.acceleration_rad_per_s2 = options_.stop_acceleration_rad_per_s2;
-  } else {
-    input.command = OperatorCommand::kLand;
-  }
-  return input;
-}
-
-void CommandArbiter::DropExcitation() noexcept {
-  if (playing_ != nullptr) ExcitationPool::GiveBack(playing_);
-  playing_ = nullptr;
-  awaits_answer_ = false;
-}
-
-void CommandArbiter::Begin(const RemoteCommand& remote) noexcept {
-  if (remote.command == OperatorCommand::kExcite) {
-    DropExcitation();
-    playing_ = remote.excitation;
-    awaits_answer_ = true;
-    end_untold_ = false;
-  } else if (remote.command == OperatorCommand::kEndExcitation) {
-    DropExcitation();
-    end_untold_ = false;
-  }
-}
-
-void CommandArbiter::Excite(const OperatorView& view, cycle::OperatorInput& input) noexcept {
-  if (playing_ != nullptr && input.command != OperatorCommand::kExcite) {
-    const bool refused = awaits_answer_ && view.command_refused;
-    awaits_answer_ = false;
-    if (refused) {
-      DropExcitation();
-    } else if (ending_ || !supervisor::PassesExcitation(view.mode) ||
-               !playing_->AddTo(input, view)) {
-      DropExcitation();
-      end_untold_ = true;
-    } else if (playing_->reduced()) {
-      guard_.NoteOrbitLimit();
-    }
-  }
-  if (end_untold_ && input.command == OperatorCommand::kNone) {
-    input.command = OperatorCommand::kEndExcitation;
-    end_untold_ = false;
-  }
-}
-
 cycle::OperatorInput CommandArbiter::Next(const OperatorView& view) noexcept {
-  run_down_.Look(view.cycle, view.speed_rad_per_s, view.standing);
-  stands_.store(run_down_.standing(), std::memory_order_relaxed);
+  end_.Look(view);
   cycle::OperatorInput input = Decide(view);
-  Excite(view, input);
+  if (signal_.AddTo(input, view, !end_.serves())) guard_.NoteOrbitLimit();
   guard_.Limit(view.position_m, input.excitation_a, input.excitation_m);
   return input;
 }
@@ -155,23 +55,36 @@ bool CommandArbiter::TakeRemote(RemoteCommand& remote) noexcept {
   return false;
 }
 
+void CommandArbiter::Serve(const RemoteCommand& remote, std::uint64_t cycle) noexcept {
+  if (remote.command == OperatorCommand::kExcite) signal_.Excite(remote.excitation);
+  if (remote.command == OperatorCommand::kEndExcitation) signal_.End();
+  if (remote_.given != nullptr) remote_.given->Post({cycle, remote.origin});
+}
+
 cycle::OperatorInput CommandArbiter::Decide(const OperatorView& view) noexcept {
-  if (!started_) {
-    started_ = true;
-    first_cycle_ = view.cycle;
-  }
+  if (!first_cycle_) first_cycle_ = view.cycle;
   if (TakeStop(view.cycle)) return {.command = OperatorCommand::kEmergencyStop};
   RemoteCommand remote;
   const bool commanded = TakeRemote(remote);
-  if (commanded && !ending_) {
-    Begin(remote);
-    if (remote_.given != nullptr) remote_.given->Post({view.cycle, remote.origin});
+  if (commanded && end_.serves()) {
+    Serve(remote, view.cycle);
     return {.command = remote.command,
             .speed_rad_per_s = remote.speed_rad_per_s,
             .acceleration_rad_per_s2 = remote.acceleration_rad_per_s2};
   }
   if (commanded && remote.excitation != nullptr) ExcitationPool::GiveBack(remote.excitation);
-  return Ending(view) ? Stop(view) : Played(view);
+  if (const auto why = WhyEnd(view.cycle)) end_.Begin(*why, view);
+  return end_.serves() ? Played(view) : end_.Next(view);
+}
+
+std::optional<EndEvent> CommandArbiter::WhyEnd(std::uint64_t cycle) const noexcept {
+  if (player_ != nullptr && player_->outcome() != scenario::Outcome::kPlaying) {
+    return EndEvent::kScenarioOver;
+  }
+  if (duration_cycles_ && cycle - *first_cycle_ >= *duration_cycles_)
+    return EndEvent::kDurationOver;
+  if (stop_requested_.load(std::memory_order_relaxed)) return EndEvent::kStopRequested;
+  return std::nullopt;
 }
 
 cycle::OperatorInput CommandArbiter::Played(const OperatorView& view) noexcept {

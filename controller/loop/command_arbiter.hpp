@@ -1,18 +1,19 @@
 #pragma once
-// The operator's desk: decides in each cycle who gives the command.
+// The command arbiter, the operator's desk: decides in each cycle who gives the command.
 //
 // Order    an emergency stop before everything, in every state, also in a full ring; then the end
 //          of the program before a remote command before the scenario. A remote command that its
 //          sender gave before a stop is dropped after it: a stop is not undone by what is older.
-// Test signals  a remote one is added to the scenario's. It begins in the cycle after its command,
-//          unless that was refused, and ends by its own length, by command, by a new one, with a
-//          trip and where the mode does not pass it on; each end is a command of the record.
-//          The guard has the last word on all of them (scenario/excitation_guard.hpp).
 // The end  a finished or failed scenario, RequestStop and the duration all end in the same way:
 //          run down under the drive, land, amplifiers off. A trip under a scenario ends the same
 //          way; without a scenario the desk waits for a reset. Where the magnets have let go of a
 //          turning rotor the desk stays, and the supervisor brakes, until the rotor stands or its
-//          brake fails (run_down.hpp).
+//          brake fails. As a table: end_table.hpp; what happens in it: end_of_run.hpp.
+// Test signals  a remote one is added to the scenario's. It begins in the cycle after its command,
+//          unless that was refused, and ends by its own length, by command, by a new one, with a
+//          trip and where the mode does not pass it on; each end is a command of the record. As a
+//          table: signal_table.hpp. The guard has the last word on all of them
+//          (scenario/excitation_guard.hpp).
 // Thread   loop thread, except the requests and the news (any thread, also a signal's) and the
 //          writer's side of the ring. No allocation in Next.
 // Failure  a landing that is overdue (run_down.hpp) becomes an emergency stop, and is news.
@@ -20,13 +21,14 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 #include "common/spsc_ring.hpp"
 #include "common/stop_latch.hpp"
+#include "controller/loop/end_of_run.hpp"
 #include "controller/loop/excitation_pool.hpp"
 #include "controller/loop/operator_source.hpp"
-#include "controller/loop/run_down.hpp"
+#include "controller/loop/remote_signal.hpp"
 #include "controller/scenario/excitation_guard.hpp"
 #include "controller/scenario/scenario_player.hpp"
 
@@ -65,23 +67,14 @@ struct DeskOptions {
   double trip_window_s{0.5};              ///< a trip's recording needs this much after it
 };
 
-/// What became of an end that did not go as planned.
-struct EndNews {
-  bool overdue{};            ///< the landing's limit has passed: it became an emergency stop
-  bool brake_fails{};        ///< released, the speed does not fall: the end was not waited for
-  double speed_rad_per_s{};  ///< magnitude when that was found
-};
-
 class CommandArbiter final : public OperatorSource {
  public:
-  static constexpr double kRepeatSeconds = 0.1;  ///< a refused request of the end is made again
-
   /// `player` may be null.
   CommandArbiter(const DeskOptions& options, scenario::ScenarioPlayer* player,
                  const RemoteDesk& remote);
 
   [[nodiscard]] cycle::OperatorInput Next(const OperatorView& view) noexcept override;
-  [[nodiscard]] bool Done() const noexcept override { return done_; }
+  [[nodiscard]] bool Done() const noexcept override { return end_.state() == EndState::kDone; }
   [[nodiscard]] std::int64_t stop_received_ns() const noexcept override {
     return stop_received_ns_;
   }
@@ -97,49 +90,31 @@ class CommandArbiter final : public OperatorSource {
     emergency_requested_.store(true, std::memory_order_relaxed);
   }
   /// The newest frames show a rotor that stands; any thread.
-  [[nodiscard]] bool standing() const noexcept { return stands_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool standing() const noexcept { return end_.standing(); }
   /// What has happened at the end so far; any thread.
-  [[nodiscard]] EndNews news() const noexcept {
-    return {overdue_.load(std::memory_order_relaxed), brake_fails_.load(std::memory_order_relaxed),
-            news_speed_rad_per_s_.load(std::memory_order_relaxed)};
-  }
+  [[nodiscard]] EndNews news() const noexcept { return end_.news(); }
+  // Loop thread, or after the loop.
+  [[nodiscard]] EndState end_state() const noexcept { return end_.state(); }
+  [[nodiscard]] SignalState signal_state() const noexcept { return signal_.state(); }
 
  private:
   [[nodiscard]] cycle::OperatorInput Decide(const OperatorView& view) noexcept;
   [[nodiscard]] bool TakeStop(std::uint64_t cycle) noexcept;
   [[nodiscard]] bool TakeRemote(RemoteCommand& remote) noexcept;
   [[nodiscard]] cycle::OperatorInput Played(const OperatorView& view) noexcept;
-  void Begin(const RemoteCommand& remote) noexcept;
-  void Excite(const OperatorView& view, cycle::OperatorInput& input) noexcept;
-  void DropExcitation() noexcept;
-  [[nodiscard]] cycle::OperatorInput Stop(const OperatorView& view) noexcept;
-  void AwaitStandstill(const OperatorView& view) noexcept;
-  void Tell(std::atomic<bool>& news) noexcept;
-  [[nodiscard]] bool Ending(const OperatorView& view) noexcept;
-  [[nodiscard]] std::uint64_t Cycles(double seconds) const noexcept;
+  void Serve(const RemoteCommand& remote, std::uint64_t cycle) noexcept;
+  /// What there is to end the run for; nothing while it goes on.
+  [[nodiscard]] std::optional<EndEvent> WhyEnd(std::uint64_t cycle) const noexcept;
 
-  DeskOptions options_;
+  std::optional<std::uint64_t> duration_cycles_;
+  std::optional<std::uint64_t> first_cycle_;
   scenario::ScenarioPlayer* player_;
   RemoteDesk remote_;
-  RunDown run_down_;
   std::int64_t stop_received_ns_{0};
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> emergency_requested_{false};
-  std::atomic<bool> stands_{false};
-  std::atomic<bool> overdue_{false};
-  std::atomic<bool> brake_fails_{false};
-  std::atomic<double> news_speed_rad_per_s_{0.0};
-  ExcitationPool::Slot* playing_{nullptr};
-  bool awaits_answer_{false};  ///< the command to excite was given in the previous cycle
-  bool end_untold_{false};     ///< a test signal has ended and no record says so yet
-  bool ending_{false};
-  bool done_{false};
-  std::uint64_t first_cycle_{0};
-  std::uint64_t safe_since_{0};
-  std::uint64_t last_request_{0};
-  bool started_{false};
-  bool safe_{false};
-  bool braking_{false};
+  EndOfRun end_;
+  RemoteSignal signal_;
   scenario::ExcitationGuard guard_;
 };
 

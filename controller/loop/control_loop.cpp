@@ -1,27 +1,16 @@
 #include "controller/loop/control_loop.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/standard_arithmetic.hpp"
 #include "controller/rt/next_wake.hpp"
+#include "controller/supervisor/radius.hpp"
 #include "controller/supervisor/supervisor.hpp"
 
 namespace levitas::loop {
 
 namespace {
 constexpr std::int64_t kSliceNs = 50'000'000;  // how long a wait may overlook an Abort
-
-double LargestRadius(const SensorFrame& frame) noexcept {
-  double square_m2 = 0.0;
-  for (std::size_t x = 0; x + 1 < kMaxAxes && x < frame.axes; x += 2) {
-    const double here_m2 = frame.position_m[x] * frame.position_m[x] +
-                           frame.position_m[x + 1] * frame.position_m[x + 1];
-    if (std::isnan(here_m2)) return here_m2;  // nothing is known: the excitation is cut off
-    square_m2 = std::max(square_m2, here_m2);
-  }
-  return std::sqrt(square_m2);
-}
 }  // namespace
 
 ControlLoop::ControlLoop(const LoopOptions& options, port::RigPort& port,
@@ -83,7 +72,7 @@ void ControlLoop::Cycle(bool frame_present, const SensorFrame& frame,
                           .command_refused = record_.out.command_refused,
                           .standing = cycle_.decision().standing,
                           .speed_rad_per_s = frame.speed_rad_per_s,
-                          .radius_m = LargestRadius(frame),
+                          .radius_m = supervisor::LargestRadius(frame),
                           .position_m = frame.position_m};
   record_.in.cycle = statistics_.cycles;
   record_.in.frame_present = frame_present;

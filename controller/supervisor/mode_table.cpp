@@ -1,13 +1,9 @@
 #include "controller/supervisor/mode_table.hpp"
 
+#include "common/state_table_text.hpp"
+
 namespace levitas::supervisor {
 namespace {
-
-template <class Enum, std::size_t kCount>
-std::string_view Lookup(const std::array<std::string_view, kCount>& names, Enum value) noexcept {
-  const auto index = static_cast<std::size_t>(value);
-  return index < kCount ? names[index] : "invalid";
-}
 
 constexpr std::array<std::string_view, kStateCount> kStateNames{"off",
                                                                 "self_test",
@@ -42,31 +38,14 @@ std::string FaultNames(FaultSet faults) {
   return text.empty() ? "none" : text;
 }
 
-std::string Line(std::initializer_list<std::string_view> cells) {
-  std::string text = "|";
-  for (const std::string_view cell : cells) text.append(" ").append(cell).append(" |");
-  return text + "\n";
-}
-
-std::string StateDiagram() {
-  std::string text = "```mermaid\nstateDiagram-v2\n  [*] --> off\n";
-  for (const Edge& edge : kEdges) {
-    text.append("  ").append(Name(edge.from)).append(" --> ").append(Name(edge.to));
-    text.append(" : ").append(Name(edge.event));
-    if (edge.guard != Guard::kAlways) text.append(" [").append(Name(edge.guard)).append("]");
-    text += "\n";
-  }
-  return text + "```\n";
-}
-
 }  // namespace
 
-std::string_view Name(State state) noexcept { return Lookup(kStateNames, state); }
-std::string_view Name(Event event) noexcept { return Lookup(kEventNames, event); }
-std::string_view Name(Guard guard) noexcept { return Lookup(kGuardNames, guard); }
-std::string_view Name(Action action) noexcept { return Lookup(kActionNames, action); }
-std::string_view Name(Reference reference) noexcept { return Lookup(kReferenceNames, reference); }
-std::string_view Name(Drive drive) noexcept { return Lookup(kDriveNames, drive); }
+std::string_view Name(State state) noexcept { return NameIn(kStateNames, state); }
+std::string_view Name(Event event) noexcept { return NameIn(kEventNames, event); }
+std::string_view Name(Guard guard) noexcept { return NameIn(kGuardNames, guard); }
+std::string_view Name(Action action) noexcept { return NameIn(kActionNames, action); }
+std::string_view Name(Reference reference) noexcept { return NameIn(kReferenceNames, reference); }
+std::string_view Name(Drive drive) noexcept { return NameIn(kDriveNames, drive); }
 
 std::string ModeTableDocument() {
   std::string text =
@@ -78,16 +57,16 @@ std::string ModeTableDocument() {
       "excitation is not passed on, `end_excitation` never. An emergency stop is a stop fault, "
       "whether an "
       "operator asks for it or the rig's own chain opens.\n\n### Diagram\n\n";
-  text += StateDiagram();
+  text += StateDiagram(State::kOff, kEdges);
   text += "\n### States\n\n";
-  text += Line({"state", "mode shown", "magnets", "reference", "drive", "excitation", "stop faults",
-                "drop faults"});
-  text += "|---|---|---|---|---|---|---|---|\n";
+  text += MarkdownRow({"state", "mode shown", "magnets", "reference", "drive", "excitation",
+                       "stop faults", "drop faults"});
+  text += MarkdownRule(8);
   for (const StateRow& row : kStates) {
-    text += Line({Name(row.state), levitas::Name(row.mode),
-                  row.energised ? "bias and law" : "no current", Name(row.reference),
-                  Name(row.drive), row.excitation ? "passed on" : "none",
-                  FaultNames(row.armed & ~row.drop), FaultNames(row.armed & row.drop)});
+    text += MarkdownRow({Name(row.state), levitas::Name(row.mode),
+                         row.energised ? "bias and law" : "no current", Name(row.reference),
+                         Name(row.drive), row.excitation ? "passed on" : "none",
+                         FaultNames(row.armed & ~row.drop), FaultNames(row.armed & row.drop)});
   }
   text +=
       "\nA fault that is not listed in a state is not looked for in it. orbit_exceeded as a drop "
@@ -95,12 +74,7 @@ std::string ModeTableDocument() {
       "where it is being lowered (tripped_landing). A rotor that turns in landing has an unknown "
       "speed; under the drive's brake in off is only a rotor that is seen to turn.\n";
   text += "\n### Edges\n\n";
-  text += Line({"from", "event", "only if", "to", "action"});
-  text += "|---|---|---|---|---|\n";
-  for (const Edge& edge : kEdges) {
-    text += Line(
-        {Name(edge.from), Name(edge.event), Name(edge.guard), Name(edge.to), Name(edge.action)});
-  }
+  text += EdgeRows(kEdges);
   return text;
 }
 

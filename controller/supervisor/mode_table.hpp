@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "common/enums.hpp"
+#include "common/state_table.hpp"
 
 namespace levitas::supervisor {
 
@@ -216,10 +217,7 @@ inline constexpr std::array kEdges{
 
 /// The edge of (state, event), or nullptr. The table holds each pair at most once.
 [[nodiscard]] constexpr const Edge* FindEdge(State state, Event event) noexcept {
-  for (const Edge& edge : kEdges) {
-    if (edge.from == state && edge.event == event) return &edge;
-  }
-  return nullptr;
+  return FindEdgeIn(kEdges, state, event);
 }
 
 // lower_snake_case names; "invalid" beyond the end.

@@ -1,10 +1,12 @@
 #pragma once
 // Radii in a bearing, as the protections count and report them. Frame: bearing frame; units: SI.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "common/axes.hpp"
+#include "common/frames.hpp"
 
 namespace levitas::supervisor {
 
@@ -19,6 +21,19 @@ namespace levitas::supervisor {
   AxisArray deviation_m = position_m;
   for (std::size_t i = 0; i < kMaxAxes; ++i) deviation_m[i] -= reference_m[i];
   return deviation_m;
+}
+
+/// Over all bearings of the frame; not a number where one of its positions is none: then nothing is
+/// known.
+[[nodiscard]] inline double LargestRadius(const SensorFrame& frame) noexcept {
+  double square_m2 = 0.0;
+  for (std::size_t x = 0; x + 1 < kMaxAxes && x < frame.axes; x += 2) {
+    const double here_m2 = frame.position_m[x] * frame.position_m[x] +
+                           frame.position_m[x + 1] * frame.position_m[x + 1];
+    if (std::isnan(here_m2)) return here_m2;
+    square_m2 = std::max(square_m2, here_m2);
+  }
+  return std::sqrt(square_m2);
 }
 
 }  // namespace levitas::supervisor

@@ -14,7 +14,7 @@
 #include "common/two_pi.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
 #include "design/uncertainty/uncertain_plant.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::design {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "common/problem.hpp"
 #include "common/random.hpp"
-#include "numerics/evolution_strategy.hpp"
+#include "numerics/minimum/evolution_strategy.hpp"
 
 namespace levitas::design {
 namespace {

@@ -2,9 +2,9 @@
 // The gains of a decentralised PID with filters, by search against named requirements.
 //
 // Method     a hundred plain PIDs on a grid of stiffness and damping; from the best two,
-//            numerics/evolution_strategy.hpp twice side by side, in rounds. After each round the
-//            best law meets every speed of the range and drawn corners of the uncertainty; those
-//            that are worst by one of its figures are held from then on.
+//            numerics/minimum/evolution_strategy.hpp twice side by side, in rounds. After each
+//            round the best law meets every speed of the range and drawn corners of the
+//            uncertainty; those that are worst by one of its figures are held from then on.
 // Cost       PidFigures::margin; five times what every ratio is above 1; a tenth of the mean of
 //            all. Unstable loops by their growing poles. So: the largest margin within the limits.
 // Same seed  same law, however many processors. Interrupted: the best so far.

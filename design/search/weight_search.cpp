@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/problem.hpp"
-#include "numerics/evolution_strategy.hpp"
+#include "numerics/minimum/evolution_strategy.hpp"
 
 namespace levitas::design {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 // The synthesis weights that make a law good by the analysis weights.
 //
-// Method     numerics/evolution_strategy.hpp over the logarithms of the synthesis weights; each
-//            point is a synthesis (design/hinf) judged by loop_figures.hpp.
+// Method     numerics/minimum/evolution_strategy.hpp over the logarithms of the synthesis weights;
+//            each point is a synthesis (design/hinf) judged by loop_figures.hpp.
 // Cost       the worst of mu/1, |S|/sensitivity, orbit/orbit_m, current/current_a, and a tenth of
 //            their mean; 2 and more on top for a law with a pole that does not decay; 20 and more
 //            for an unstable loop; 1000 where there is no law.

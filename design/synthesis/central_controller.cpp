@@ -10,8 +10,8 @@
 #include "design/synthesis/riccati.hpp"
 #include "design/synthesis/singular_value.hpp"
 #include "numerics/dense/eigenvalues.hpp"
-#include "numerics/dense/factorisations.hpp"
 #include "numerics/dense/spectrum.hpp"
+#include "numerics/factors/factors.hpp"
 #include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {

@@ -7,8 +7,8 @@
 
 #include "design/synthesis/linear_solve.hpp"
 #include "numerics/dense/eigenvalues.hpp"
-#include "numerics/dense/factorisations.hpp"
 #include "numerics/dense/spectrum.hpp"
+#include "numerics/factors/factors.hpp"
 #include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "numerics/dense/eigenvalues.hpp"
-#include "numerics/dense/factorisations.hpp"
 #include "numerics/dense/spectrum.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::synthesis {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "design/synthesis/structured_singular_value.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 #include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {

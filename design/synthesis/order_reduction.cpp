@@ -11,8 +11,8 @@
 #include "design/synthesis/matrix_sign.hpp"
 #include "design/synthesis/riccati.hpp"
 #include "numerics/dense/eigenvalues.hpp"
-#include "numerics/dense/factorisations.hpp"
-#include "numerics/dense/orthogonal.hpp"
+#include "numerics/factors/factors.hpp"
+#include "numerics/factors/orthogonal_columns.hpp"
 #include "numerics/spectra/spectra.hpp"
 
 namespace levitas::synthesis {

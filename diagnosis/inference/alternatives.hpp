@@ -3,18 +3,22 @@
 //
 // Thread  blocks the caller, two threads inside.
 
-#include "diagnosis/inference/search_state.hpp"
+#include "diagnosis/inference/cause_selection.hpp"
+#include "diagnosis/inference/evidence_landscape.hpp"
 
 namespace levitas::diagnosis {
 
 /// Puts the strongest cause first and tries every effect in its place, on the linearisation.
-void RankCandidates(SearchState& state);
+void RankCandidates(const EvidenceLandscape& landscape, const SelectionRules& rules,
+                    CauseSelection& found);
 
 /// Refits the alternatives near the first cause on the nonlinear model; the best becomes first.
-void RefitAlternatives(SearchState& state);
+void RefitAlternatives(const EvidenceLandscape& landscape, const SelectionRules& rules,
+                       CauseSelection& found);
 
-/// What leads after all refits must still be decisive against the rest of the causes, refitted
-/// without it; else it goes, and the rest is to be ranked anew: true.
-[[nodiscard]] bool LeaderFails(SearchState& state);
+/// Drops the leading cause if it is not decisive once the others are refitted without it. True if
+/// so: the rest is to be ranked again.
+[[nodiscard]] bool DropFailedLeader(EvidenceLandscape& landscape, const SelectionRules& rules,
+                                    CauseSelection& found);
 
 }  // namespace levitas::diagnosis

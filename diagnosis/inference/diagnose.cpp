@@ -3,10 +3,11 @@
 #include "diagnosis/inference/calibrate.hpp"
 #include "diagnosis/inference/events.hpp"
 #include "diagnosis/inference/exchange.hpp"
+#include "diagnosis/inference/find_causes.hpp"
 #include "diagnosis/inference/fit_gain.hpp"
 #include "diagnosis/inference/moved_calibration.hpp"
 #include "diagnosis/inference/ranking.hpp"
-#include "diagnosis/inference/selection.hpp"
+#include "diagnosis/inference/selection_steps.hpp"
 #include "diagnosis/inference/suspicion.hpp"
 #include "diagnosis/inference/validation.hpp"
 #include "diagnosis/model/divergence.hpp"
@@ -26,32 +27,33 @@ constexpr Effort kThorough{40, 6, 8, 5, kMostRows, false};
 
 /// Fits the nuisance parameters only. Causes are searched afterwards: away from the optimum the
 /// linearisation gives every hypothesis spurious evidence.
-void Calibrate(SearchState& state) {
-  state.ReportProgress(0.02, "calibrating");
-  for (;; state.Observe(state.speed + 1)) {
-    const Refined fit =
-        CalibrateNuisances(state.rig, state.search, state.terms, state.all_records, state.records,
-                           state.gains, kSpeeds[state.speed], state.effort.calibrations);
-    const bool fastest = state.speed + 1 == kSpeeds.size();
+void Calibrate(RecordLandscape& landscape, const std::vector<Record>& all_records, int passes,
+               CauseSelection& found) {
+  landscape.ReportProgress(0.02, "calibrating");
+  for (;; landscape.Observe(landscape.speed() + 1)) {
+    const Refined fit = CalibrateNuisances(landscape.rig(), landscape.search(), landscape.terms(),
+                                           all_records, landscape.records(), landscape.gains(),
+                                           kSpeeds[landscape.speed()], passes);
+    const bool fastest = landscape.speed() + 1 == kSpeeds.size();
     if (!fit.ok && fastest) {
       throw BadInput(
           "the model cannot be made to follow these records: is it this rig's file, and are the "
           "units and signs of currents and positions right?");
     }
-    state.theta = state.calibrated = fit.theta;
-    if (fastest || (fit.ok && !ModelDiverges(state.rig, state.search.Run(state.records, state.gains,
-                                                                         state.theta))))
+    found.theta = found.calibrated = fit.theta;
+    if (fastest || (fit.ok && !ModelDiverges(landscape.rig(), landscape.RunAt(found.theta))))
       return;
-    state.ReportProgress(0.02, "calibrating with a faster observer");
+    landscape.ReportProgress(0.02, "calibrating with a faster observer");
   }
 }
 
-void Describe(const SearchState& state, const Fit& fit, SearchResult& answer) {
-  for (std::size_t i = 0; i < state.terms.size(); ++i) {
-    const Term& t = state.terms[i];
+void Describe(const std::vector<Term>& terms, const CauseSelection& found, const Fit& fit,
+              SearchResult& answer) {
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const Term& t = terms[i];
     const double deviation = fit.deviation[static_cast<Eigen::Index>(i)] * t.scale();
-    const Estimate estimate{i, state.theta[i], deviation};
-    if (Moves(state.causes, i)) {
+    const Estimate estimate{i, found.theta[i], deviation};
+    if (Moves(found.causes, i)) {
       answer.parameters.push_back(estimate);
     } else if (t.nuisance()) {
       answer.calibration.push_back(estimate);
@@ -61,98 +63,98 @@ void Describe(const SearchState& state, const Fit& fit, SearchResult& answer) {
 
 /// Causes that no term describes. They explain none of what the other causes do; the stronger one
 /// leads.
-void AddEvents(SearchState& state, const Residual& remainder) {
-  const Judging& judging = state.settings.judging;
-  for (const Candidate& event : FindEvents(state.rig, state.all_records, remainder)) {
+void AddEvents(const RecordLandscape& landscape, const std::vector<Record>& all_records,
+               const Judging& judging, const Residual& remainder, CauseSelection& found) {
+  for (const Candidate& event : FindEvents(landscape.rig(), all_records, remainder)) {
     if (event.effect == "sensor_noise" && remainder.sigma > judging.unexplained_sigma) continue;
-    state.candidates.push_back(event);
+    found.candidates.push_back(event);
     if (event.score < judging.decisive_nat) continue;
     Hypothesis cause;
     cause.effect = event.effect;
     cause.place = event.place;
     cause.directions =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(state.terms.size()), Eigen::Index{0});
-    const bool leads = state.causes.empty() || event.score > state.candidates.front().score;
-    state.causes.insert(leads ? state.causes.begin() : state.causes.end(), cause);
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(landscape.terms().size()), Eigen::Index{0});
+    const bool leads = found.causes.empty() || event.score > found.candidates.front().score;
+    found.causes.insert(leads ? found.causes.begin() : found.causes.end(), cause);
   }
-  SortByScore(state.candidates);
+  SortByScore(found.candidates);
 }
 
 /// A cause far ahead of all others, though it leaves a residual. Not of a chain that the search had
 /// to cut off: as many causes as it may have imitate what is not in the vocabulary.
-bool LeadsFar(const SearchState& state) {
-  if (state.causes.size() >= state.settings.most_causes && state.settings.most_causes > 1)
+bool LeadsFar(const SelectionRules& rules, const CauseSelection& found) {
+  if (found.causes.size() >= rules.most_causes && rules.most_causes > 1) return false;
+  const auto& all = found.candidates;
+  if (found.causes.empty() || all.empty() || all.front().effect != found.causes.front().effect)
     return false;
-  const auto& all = state.candidates;
-  if (state.causes.empty() || all.empty() || all.front().effect != state.causes.front().effect)
-    return false;
-  const double suspected = state.settings.judging.suspected_nat;
+  const double suspected = rules.judging.suspected_nat;
   const double next = all.size() > 1 ? all[1].score : 0.0;
   return all.front().refitted && all.front().score - std::max(0.0, next) > suspected;
 }
 
-Verdict VerdictOf(SearchState& state, bool unexplained) {
+Verdict VerdictOf(const SelectionRules& rules, bool unexplained, CauseSelection& found) {
   if (unexplained) {
-    if (!LeadsFar(state)) return Verdict::kUnknown;
-    state.doubt = Doubt::kResidualIsLeft;
-    state.probability = ProbabilityOfLeader(state.candidates, state.settings.judging.decisive_nat);
+    if (!LeadsFar(rules, found)) return Verdict::kUnknown;
+    found.doubt = Doubt::kResidualIsLeft;
+    found.probability = ProbabilityOfLeader(found.candidates, rules.judging.decisive_nat);
     return Verdict::kSuspected;
   }
-  if (state.causes.empty()) return Verdict::kNone;
-  return state.doubt == Doubt::kNothing ? Verdict::kEffect : Verdict::kSuspected;
+  if (found.causes.empty()) return Verdict::kNone;
+  return found.doubt == Doubt::kNothing ? Verdict::kEffect : Verdict::kSuspected;
 }
 
 /// Of all fitted numbers, before an unknown verdict forgets the causes that theta holds.
-Eigen::MatrixXd SpreadOf(const SearchState& state) {
-  Eigen::MatrixXd spread = Evidence(state.view.problem, state.terms, state.causes).Spread();
-  for (std::size_t i = 0; i < state.terms.size(); ++i) {
-    spread.row(static_cast<Eigen::Index>(i)) *= state.terms[i].scale();
+Eigen::MatrixXd SpreadOf(const RecordLandscape& landscape, const std::vector<Hypothesis>& causes) {
+  Eigen::MatrixXd spread = landscape.EvidenceGiven(causes).Spread();
+  for (std::size_t i = 0; i < landscape.terms().size(); ++i) {
+    spread.row(static_cast<Eigen::Index>(i)) *= landscape.terms()[i].scale();
   }
   return spread;
 }
 
-SearchResult Conclude(SearchState& state) {
-  state.ReportProgress(0.9, "analysing the residual");
-  const Judging& judging = state.settings.judging;
+SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record>& all_records,
+                      const SelectionRules& rules, CauseSelection& found) {
+  landscape.ReportProgress(0.9, "analysing the residual");
+  const Judging& judging = rules.judging;
   SearchResult answer;
-  answer.speed = kSpeeds[state.speed];
-  auto runs = std::make_shared<const std::vector<Trajectory>>(
-      state.search.Run(state.records, state.gains, state.theta));
-  const double held = HeldGain(*state.calibrated_runs, *runs, state.view.whitener);
-  if (!state.causes.empty() && state.doubt == Doubt::kNothing && held < -judging.harm_nat) {
+  answer.speed = kSpeeds[landscape.speed()];
+  auto runs = std::make_shared<const std::vector<Trajectory>>(landscape.RunAt(found.theta));
+  const double held = HeldGain(*found.calibrated_runs, *runs, landscape.view().whitener);
+  if (!found.causes.empty() && found.doubt == Doubt::kNothing && held < -judging.harm_nat) {
     // What does harm where it was not fitted is no cause.
-    state.causes.clear();
-    state.theta = state.calibrated;
-    runs = state.calibrated_runs;
+    found.causes.clear();
+    found.theta = found.calibrated;
+    runs = found.calibrated_runs;
   }
-  answer.theta_extended = state.theta;
-  answer.theta_calibrated = state.calibrated;
-  answer.remainder = AnalyseResidual(state.rig, *runs);
-  if (const std::string why = WhyNotJudged(state.rig, *runs); !why.empty()) throw BadInput(why);
+  answer.theta_extended = found.theta;
+  answer.theta_calibrated = found.calibrated;
+  answer.remainder = AnalyseResidual(landscape.rig(), *runs);
+  if (const std::string why = WhyNotJudged(landscape.rig(), *runs); !why.empty())
+    throw BadInput(why);
   answer.explained =
-      Explained(AnalyseResidual(state.rig, *state.calibrated_runs), answer.remainder);
+      Explained(AnalyseResidual(landscape.rig(), *found.calibrated_runs), answer.remainder);
   const bool unexplained =
-      IsUnexplained(judging, answer.remainder, !state.causes.empty(), answer.explained);
-  answer.spread = SpreadOf(state);
-  const Verdict verdict = VerdictOf(state, unexplained);
-  if (verdict == Verdict::kUnknown) state.causes.clear();
-  const std::size_t found = state.causes.size();
-  AddEvents(state, answer.remainder);
-  const Fit fit = Evidence(state.view.problem, state.terms, state.causes).Solve();
-  const Fit null = Evidence(state.view.problem, state.terms, {}).Solve();
+      IsUnexplained(judging, answer.remainder, !found.causes.empty(), answer.explained);
+  answer.spread = SpreadOf(landscape, found.causes);
+  const Verdict verdict = VerdictOf(rules, unexplained, found);
+  if (verdict == Verdict::kUnknown) found.causes.clear();
+  const std::size_t named = found.causes.size();
+  AddEvents(landscape, all_records, judging, answer.remainder, found);
+  const Fit fit = landscape.EvidenceGiven(found.causes).Solve();
+  const Fit null = landscape.EvidenceGiven({}).Solve();
   answer.evidence = fit.log_evidence - null.log_evidence;
-  Describe(state, fit, answer);
+  Describe(landscape.terms(), found, fit, answer);
   answer.also_possible =
-      Ties(state.candidates, state.causes, judging.decisive_nat, judging.form_share);
-  answer.causes = state.causes;
-  answer.candidates = state.candidates;
+      Ties(found.candidates, found.causes, judging.decisive_nat, judging.form_share);
+  answer.causes = found.causes;
+  answer.candidates = found.candidates;
   // An event is seen as such: it is named whatever else is doubted.
-  answer.verdict = state.causes.size() > found ? Verdict::kEffect : verdict;
+  answer.verdict = found.causes.size() > named ? Verdict::kEffect : verdict;
   if (answer.verdict == Verdict::kSuspected) {
-    answer.doubt = state.doubt;
-    answer.probability = state.probability;
+    answer.doubt = found.doubt;
+    answer.probability = found.probability;
   }
-  state.ReportProgress(1.0, "done");
+  landscape.ReportProgress(1.0, "done");
   return answer;
 }
 
@@ -161,26 +163,30 @@ SearchResult Conclude(SearchState& state) {
 SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
                       const std::vector<Record>& validation, const Settings& settings,
                       std::vector<Term>& terms) {
-  SearchState state(rig, records, validation, settings, settings.quick ? kQuick : kThorough, terms);
-  Calibrate(state);
-  FindCauses(state);
-  if (state.effort.first_cause_only) {
-    DropUnproven(state);
-    RankCandidates(state);
+  const Effort effort = settings.quick ? kQuick : kThorough;
+  const SelectionRules rules{settings.judging, effort, settings.most_causes};
+  RecordLandscape landscape(rig, records, settings, effort, terms);
+  CauseSelection found;
+  found.theta = landscape.search().Usual();
+  Calibrate(landscape, records, effort.calibrations, found);
+  FindCauses(landscape, rules, found);
+  if (effort.first_cause_only) {
+    DropUnproven(landscape, rules, found);
+    RankCandidates(landscape, rules, found);
   } else {
-    MergeCauses(state);
-    ExchangeCauses(state);
+    MergeCauses(landscape, rules, found);
+    ExchangeCauses(landscape, rules, found);
     do {
-      DropUnproven(state);
-      RankCandidates(state);
-      RefitAlternatives(state);
-    } while (LeaderFails(state));
+      DropUnproven(landscape, rules, found);
+      RankCandidates(landscape, rules, found);
+      RefitAlternatives(landscape, rules, found);
+    } while (DropFailedLeader(landscape, rules, found));
   }
-  DropUngained(state);
-  NameMovedCalibration(state);
-  JudgeOnValidation(state);
-  SuspectCause(state);
-  return Conclude(state);
+  DropUngained(landscape, rules.judging, found);
+  NameMovedCalibration(landscape, rules, found);
+  JudgeOnValidation(landscape, validation, rules.judging, found);
+  SuspectCause(landscape, rules.judging, found);
+  return Conclude(landscape, records, rules, found);
 }
 
 }  // namespace levitas::diagnosis

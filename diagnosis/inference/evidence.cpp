@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::diagnosis {
 
@@ -45,7 +45,7 @@ Evidence::Evidence(const LinearProblem& problem, const std::vector<Term>& terms,
   log_determinant_ = 2.0 * factor_.diagonal().array().log().sum();
 }
 
-double Evidence::Gain(const Hypothesis& h) const {
+Evidence::Weight Evidence::Weigh(const Hypothesis& h) const {
   const Eigen::MatrixXd cross =
       factor_.triangularView<Eigen::Lower>().solve(jtj_base_.transpose() * h.directions);
   Eigen::MatrixXd s =
@@ -54,11 +54,12 @@ double Evidence::Gain(const Hypothesis& h) const {
   const Eigen::VectorXd r = -h.directions.transpose() * (problem_.jte + jtj_base_ * solution_);
   const Eigen::LLT<Eigen::MatrixXd> llt(s);
   const Eigen::VectorXd u = llt.solve(r);
-  if (h.positive && u.minCoeff() < 0.0) return -std::numeric_limits<double>::infinity();
   const Eigen::MatrixXd l = llt.matrixL();
   // A cause that cannot be negative has half the prior volume.
   const double half = h.positive ? std::log(2.0) : 0.0;
-  return 0.5 * r.dot(u) - l.diagonal().array().log().sum() + h.log_prior + half;
+  const bool refused = h.positive && u.minCoeff() < 0.0;
+  return {refused ? -std::numeric_limits<double>::infinity() : 0.5 * r.dot(u),
+          l.diagonal().array().log().sum(), h.log_prior, half};
 }
 
 Eigen::MatrixXd Evidence::Spread() const {

@@ -45,7 +45,17 @@ class Evidence {
 
   /// Gain of adding the hypothesis [nats], prior of its place included; -infinity if it would have
   /// to be negative.
-  [[nodiscard]] double Gain(const Hypothesis& hypothesis) const;
+  [[nodiscard]] double Gain(const Hypothesis& hypothesis) const { return Weigh(hypothesis).gain(); }
+  /// The same in its two parts, both in nats.
+  struct Weight {
+    double explained{};  ///< by which it lowers half the squared sum with penalties; -infinity
+    double occam{};      ///< 1/2 log det (S + 1)
+    double prior{};      ///< logarithm of that of its place
+    double half{};       ///< ln 2 where it cannot be negative
+    [[nodiscard]] double gain() const noexcept { return explained - occam + prior + half; }
+    [[nodiscard]] double paid() const noexcept { return occam - prior - half; }
+  };
+  [[nodiscard]] Weight Weigh(const Hypothesis& hypothesis) const;
   /// The base with the accepted causes.
   [[nodiscard]] Fit Solve() const;
   /// Root of the posterior's covariance: terms x base parameters, units of Term::scale().

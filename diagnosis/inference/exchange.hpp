@@ -8,10 +8,13 @@
 //            replaced by the nearest alternatives, all shapes refined again; the best set stays.
 // Thread     blocks the caller, two threads inside.
 
-#include "diagnosis/inference/search_state.hpp"
+#include "diagnosis/inference/cause_selection.hpp"
+#include "diagnosis/inference/evidence_landscape.hpp"
 
 namespace levitas::diagnosis {
 
-void ExchangeCauses(SearchState& state);
+/// Nothing with fewer than two causes.
+void ExchangeCauses(EvidenceLandscape& landscape, const SelectionRules& rules,
+                    CauseSelection& found);
 
 }  // namespace levitas::diagnosis

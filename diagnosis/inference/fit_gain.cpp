@@ -63,17 +63,17 @@ double CameBack(const std::vector<Term>& terms, const std::vector<double>& calib
   return back;
 }
 
-void DropUngained(SearchState& state) {
-  if (state.causes.empty()) return;
-  const auto runs = state.search.Run(state.records, state.gains, state.theta);
-  const FitGain gain =
-      GainedFit(*state.calibrated_runs, runs, state.view.whitener, BlockRows(state.rig));
-  const double back = CameBack(state.terms, state.calibrated, state.theta, state.causes);
-  if (gain.value + back > state.settings.judging.gain_deviations * gain.deviation) return;
-  state.causes.clear();
-  state.theta = state.calibrated;
-  state.LineariseAll();
-  state.calibrated_runs = state.view.runs;
+void DropUngained(RecordLandscape& landscape, const Judging& judging, CauseSelection& found) {
+  if (found.causes.empty()) return;
+  const auto runs = landscape.RunAt(found.theta);
+  const FitGain gain = GainedFit(*found.calibrated_runs, runs, landscape.view().whitener,
+                                 BlockRows(landscape.rig()));
+  const double back = CameBack(landscape.terms(), found.calibrated, found.theta, found.causes);
+  if (gain.value + back > judging.gain_deviations * gain.deviation) return;
+  found.causes.clear();
+  found.theta = found.calibrated;
+  landscape.LineariseAt(found.theta);
+  found.calibrated_runs = landscape.view().runs;
 }
 
 }  // namespace levitas::diagnosis

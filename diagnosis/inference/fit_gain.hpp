@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "diagnosis/inference/search_state.hpp"
+#include "diagnosis/inference/record_landscape.hpp"
 
 namespace levitas::diagnosis {
 
@@ -37,6 +37,6 @@ struct FitGain {
                               const std::vector<Hypothesis>& causes);
 
 /// Drops all causes when they gain less than `gain_deviations` of their gain's deviation.
-void DropUngained(SearchState& state);
+void DropUngained(RecordLandscape& landscape, const Judging& judging, CauseSelection& found);
 
 }  // namespace levitas::diagnosis

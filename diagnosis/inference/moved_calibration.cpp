@@ -14,13 +14,14 @@ namespace {
 constexpr double kSurely = 1.645;  // deviations: 95 %, one side
 
 /// The hypothesis of the term's effect that moves it and that evidence prefers.
-std::optional<std::size_t> BestOf(const SearchState& state, std::size_t term) {
-  const Evidence base(state.view.problem, state.terms, state.causes);
-  const auto& all = state.search.hypotheses();
+std::optional<std::size_t> BestOf(const RecordLandscape& landscape,
+                                  const std::vector<Hypothesis>& causes, std::size_t term) {
+  const Evidence base = landscape.EvidenceGiven(causes);
+  const auto& all = landscape.hypotheses();
   std::optional<std::size_t> best;
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].effect != state.terms[term].effect_name() || !Moves(all[i], term)) continue;
+    if (all[i].effect != landscape.terms()[term].effect_name() || !Moves(all[i], term)) continue;
     const double gain = base.Gain(all[i]);
     if (gain <= most) continue;
     most = gain;
@@ -30,52 +31,51 @@ std::optional<std::size_t> BestOf(const SearchState& state, std::size_t term) {
 }
 
 /// [nat] by which the data alone refuse the number of the file.
-double AgainstFile(const SearchState& state, const Fit& fit, std::size_t term) {
-  const Term& t = state.terms[term];
+double AgainstFile(const Term& t, const Fit& fit, double theta, std::size_t term) {
   const double deviation = fit.deviation[static_cast<Eigen::Index>(term)] * t.scale();
-  return 0.5 * std::pow((state.theta[term] - t.healthy_mean) / deviation, 2);
+  return 0.5 * std::pow((theta - t.healthy_mean) / deviation, 2);
 }
 
 /// Puts the candidate of the effect where its evidence says, or adds it.
-void Rank(SearchState& state, Candidate named) {
-  std::erase_if(state.candidates, [&](const Candidate& c) { return c.effect == named.effect; });
-  state.candidates.push_back(std::move(named));
-  SortByScore(state.candidates);
+void Rank(std::vector<Candidate>& candidates, Candidate named) {
+  std::erase_if(candidates, [&](const Candidate& c) { return c.effect == named.effect; });
+  candidates.push_back(std::move(named));
+  SortByScore(candidates);
 }
 
 /// True when a cause was added.
-bool NameOne(SearchState& state) {
-  const Fit fit = Evidence(state.view.problem, state.terms, state.causes).Solve();
-  const std::vector<std::size_t> moved = MovedBeyond(state.terms, fit, state.theta, state.causes,
-                                                     state.settings.judging.moved_tolerances);
+bool NameOne(const RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
+  const Fit fit = landscape.EvidenceGiven(found.causes).Solve();
+  const std::vector<std::size_t> moved = MovedBeyond(landscape.terms(), fit, found.theta,
+                                                     found.causes, rules.judging.moved_tolerances);
   if (moved.empty()) return false;
-  const Refined before = state.refiner.Fit(state.causes, state.theta, state.view, 1);
+  const Refined before = landscape.Fit(found.causes, found.theta, 1);
   if (!before.ok) return false;
-  const Judging& judging = state.settings.judging;
-  const double explained =
-      std::max(0.0, before.evidence - Refiner::EvidenceOfSet(state.view.problem, state.terms, {}));
+  const Judging& judging = rules.judging;
+  const double explained = std::max(0.0, before.evidence - landscape.EvidenceOf({}));
   const double enough = judging.decisive_nat + judging.form_share * explained;
   CauseSet best;
   for (const std::size_t term : moved) {
-    const auto at = BestOf(state, term);
-    if (!at || AgainstFile(state, fit, term) < enough) continue;
-    std::vector<Hypothesis> causes = state.causes;
-    causes.push_back(state.search.hypotheses()[*at]);
-    state.ReportProgress(0.88, "refitting " + causes.back().effect);
-    best.Take(causes, state.Refit(causes, before.evidence));
+    const auto at = BestOf(landscape, found.causes, term);
+    if (!at || AgainstFile(landscape.terms()[term], fit, found.theta[term], term) < enough)
+      continue;
+    std::vector<Hypothesis> causes = found.causes;
+    causes.push_back(landscape.hypotheses()[*at]);
+    landscape.ReportProgress(0.88, "refitting " + causes.back().effect);
+    best.Take(causes, landscape.Refit(causes, before.evidence));
   }
   if (!best.fit.ok || best.fit.evidence <= before.evidence) return false;
-  const bool first = state.causes.empty();
-  state.causes = std::move(best.causes);
-  state.theta = best.fit.theta;
-  const Hypothesis& named = state.causes.back();
+  const bool first = found.causes.empty();
+  found.causes = std::move(best.causes);
+  found.theta = best.fit.theta;
+  const Hypothesis& named = found.causes.back();
   if (first) {
-    const auto& all = state.search.hypotheses();
+    const auto& all = landscape.hypotheses();
     const auto own = std::find_if(all.begin(), all.end(), [&named](const Hypothesis& h) {
       return h.effect == named.effect && h.place == named.place;
     });
-    Rank(state, {named.effect, named.place, best.fit.evidence - before.evidence,
-                 static_cast<std::size_t>(own - all.begin()), true});
+    Rank(found.candidates, {named.effect, named.place, best.fit.evidence - before.evidence,
+                            static_cast<std::size_t>(own - all.begin()), true});
   }
   return true;
 }
@@ -100,8 +100,9 @@ std::vector<std::size_t> MovedBeyond(const std::vector<Term>& terms, const Fit& 
   return indices;
 }
 
-void NameMovedCalibration(SearchState& state) {
-  while (state.causes.size() < state.settings.most_causes && NameOne(state)) {
+void NameMovedCalibration(const RecordLandscape& landscape, const SelectionRules& rules,
+                          CauseSelection& found) {
+  while (found.causes.size() < rules.most_causes && NameOne(landscape, rules, found)) {
   }
 }
 

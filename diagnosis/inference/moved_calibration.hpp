@@ -18,7 +18,7 @@
 
 #include <vector>
 
-#include "diagnosis/inference/search_state.hpp"
+#include "diagnosis/inference/record_landscape.hpp"
 
 namespace levitas::diagnosis {
 
@@ -28,7 +28,8 @@ namespace levitas::diagnosis {
                                                    const std::vector<Hypothesis>& causes,
                                                    double tolerances);
 
-/// Adds such causes to those of the state, up to Settings::most_causes in all.
-void NameMovedCalibration(SearchState& state);
+/// Adds such causes to those found, up to SelectionRules::most_causes in all.
+void NameMovedCalibration(const RecordLandscape& landscape, const SelectionRules& rules,
+                          CauseSelection& found);
 
 }  // namespace levitas::diagnosis

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "diagnosis/inference/judging.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::diagnosis {
 

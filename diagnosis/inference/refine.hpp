@@ -25,6 +25,9 @@
 
 namespace levitas::diagnosis {
 
+/// As what a fit must be worth: it is finished whatever it reaches.
+inline constexpr double kAnyEvidence = -std::numeric_limits<double>::infinity();
+
 struct Refined {
   std::vector<double> theta;
   double evidence{};
@@ -44,8 +47,7 @@ class Refiner {
   /// not renewed, and a step that was refused not shortened, where even the linear prediction gains
   /// less than `worth`, an evidence. A close Jacobian is never renewed.
   [[nodiscard]] Refined Fit(const std::vector<Hypothesis>& causes, std::vector<double> start,
-                            const View& view, int passes,
-                            double worth = -std::numeric_limits<double>::infinity()) const;
+                            const View& view, int passes, double worth = kAnyEvidence) const;
   struct Along {
     Search::ShapeStep step;
     View here;  ///< nuisances and causes, without runs

@@ -11,7 +11,6 @@
 // Thread     blocks the caller, two threads inside.
 // Failure    none: a step that does not improve the fit is not kept.
 
-#include <limits>
 #include <vector>
 
 #include "diagnosis/inference/refine.hpp"
@@ -27,6 +26,6 @@ namespace levitas::diagnosis {
 [[nodiscard]] Refined RefineShape(const Refiner& refiner, const Hypothesis& cause,
                                   const std::vector<Hypothesis>& causes, const View& view,
                                   int passes, Refined start, std::vector<Term>& terms,
-                                  double worth = -std::numeric_limits<double>::infinity());
+                                  double worth = kAnyEvidence);
 
 }  // namespace levitas::diagnosis

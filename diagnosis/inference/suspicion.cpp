@@ -13,71 +13,76 @@ namespace {
 constexpr double kLikely = 0.5;
 
 /// Fits the candidate's hypothesis and gives it the score of the nonlinear model.
-Refined Confirm(SearchState& state, Candidate& candidate) {
-  const std::vector<Hypothesis> causes{state.search.hypotheses()[candidate.hypothesis]};
-  state.ReportProgress(0.88, "refitting " + candidate.effect);
-  const Refined before = state.refiner.Fit({}, state.calibrated, state.view, 1);
-  Refined fit = state.Refit(causes);
+Refined Confirm(const RecordLandscape& landscape, const std::vector<double>& calibrated,
+                Candidate& candidate) {
+  const std::vector<Hypothesis> causes{landscape.hypotheses()[candidate.hypothesis]};
+  landscape.ReportProgress(0.88, "refitting " + candidate.effect);
+  const Refined before = landscape.Fit({}, calibrated, 1);
+  Refined fit = landscape.Refit(causes);
   if (!before.ok || !fit.ok) return {};
   candidate.score = std::min(candidate.score, fit.evidence - before.evidence);
   candidate.refitted = true;
   return fit;
 }
 
-void Suspect(SearchState& state, std::size_t hypothesis, Refined fit, Doubt doubt,
+void Suspect(CauseSelection& found, const Hypothesis& cause, Refined fit, Doubt doubt,
              double probability) {
-  state.causes = {state.search.hypotheses()[hypothesis]};
-  state.theta = std::move(fit.theta);
-  state.doubt = doubt;
-  state.probability = probability;
+  found.causes = {cause};
+  found.theta = std::move(fit.theta);
+  found.doubt = doubt;
+  found.probability = probability;
 }
 
-bool SuspectLeader(SearchState& state) {
-  const double tie_nat = state.settings.judging.decisive_nat;
-  if (state.candidates.empty() || !(ProbabilityOfLeader(state.candidates, tie_nat) > kLikely))
+bool SuspectLeader(const RecordLandscape& landscape, const Judging& judging,
+                   CauseSelection& found) {
+  const double tie_nat = judging.decisive_nat;
+  if (found.candidates.empty() || !(ProbabilityOfLeader(found.candidates, tie_nat) > kLikely))
     return false;
-  const std::size_t hypothesis = state.candidates.front().hypothesis;
+  const std::size_t hypothesis = found.candidates.front().hypothesis;
   Refined fit;
-  if (!state.candidates.front().refitted) {
-    fit = Confirm(state, state.candidates.front());
-    SortByScore(state.candidates);
-    if (!fit.ok || state.candidates.front().hypothesis != hypothesis) return false;
+  if (!found.candidates.front().refitted) {
+    fit = Confirm(landscape, found.calibrated, found.candidates.front());
+    SortByScore(found.candidates);
+    if (!fit.ok || found.candidates.front().hypothesis != hypothesis) return false;
   } else {
-    fit = state.Refit({state.search.hypotheses()[hypothesis]});
+    fit = landscape.Refit({landscape.hypotheses()[hypothesis]});
   }
-  const double probability = ProbabilityOfLeader(state.candidates, tie_nat);
+  const double probability = ProbabilityOfLeader(found.candidates, tie_nat);
   if (!fit.ok || !(probability > kLikely)) return false;
-  Suspect(state, hypothesis, std::move(fit), Doubt::kWeakEvidence, probability);
+  Suspect(found, landscape.hypotheses()[hypothesis], std::move(fit), Doubt::kWeakEvidence,
+          probability);
   return true;
 }
 
 /// The hypothesis of the term's effect that moves nothing else.
-std::optional<std::size_t> AloneOf(const SearchState& state, std::size_t term) {
-  const auto& all = state.search.hypotheses();
+std::optional<std::size_t> AloneOf(const RecordLandscape& landscape, std::size_t term) {
+  const auto& all = landscape.hypotheses();
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].effect != state.terms[term].effect_name() || !Moves(all[i], term)) continue;
+    if (all[i].effect != landscape.terms()[term].effect_name() || !Moves(all[i], term)) continue;
     if (!best || all[i].terms.size() < all[*best].terms.size()) best = i;
   }
   return best;
 }
 
-void SuspectNumber(SearchState& state) {
-  const Fit posterior = Evidence(state.view.problem, state.terms, {}).Solve();
-  const auto moved = FurthestNumber(state.terms, posterior, state.calibrated);
-  if (!moved || !(moved->chance < state.settings.judging.number_chance)) return;
-  const auto hypothesis = AloneOf(state, moved->term);
+void SuspectNumber(const RecordLandscape& landscape, const Judging& judging,
+                   CauseSelection& found) {
+  const Fit posterior = landscape.EvidenceGiven({}).Solve();
+  const auto moved = FurthestNumber(landscape.terms(), posterior, found.calibrated);
+  if (!moved || !(moved->chance < judging.number_chance)) return;
+  const auto hypothesis = AloneOf(landscape, moved->term);
   if (!hypothesis) return;
-  Refined fit = state.Refit({state.search.hypotheses()[*hypothesis]});
+  Refined fit = landscape.Refit({landscape.hypotheses()[*hypothesis]});
   if (!fit.ok) return;
-  Suspect(state, *hypothesis, std::move(fit), Doubt::kMovedNumber, 1.0 - moved->chance);
-  const auto& cause = state.causes.front();
-  const auto own = std::find_if(state.candidates.begin(), state.candidates.end(),
+  Suspect(found, landscape.hypotheses()[*hypothesis], std::move(fit), Doubt::kMovedNumber,
+          1.0 - moved->chance);
+  const auto& cause = found.causes.front();
+  const auto own = std::find_if(found.candidates.begin(), found.candidates.end(),
                                 [&cause](const Candidate& c) { return c.effect == cause.effect; });
-  if (own == state.candidates.end()) return;
+  if (own == found.candidates.end()) return;
   own->place = cause.place;
   own->hypothesis = *hypothesis;
-  std::rotate(state.candidates.begin(), own, own + 1);
+  std::rotate(found.candidates.begin(), own, own + 1);
 }
 
 }  // namespace
@@ -119,9 +124,9 @@ std::optional<MovedNumber> FurthestNumber(const std::vector<Term>& terms, const 
   return furthest;
 }
 
-void SuspectCause(SearchState& state) {
-  if (!state.causes.empty()) return;
-  if (!SuspectLeader(state)) SuspectNumber(state);
+void SuspectCause(const RecordLandscape& landscape, const Judging& judging, CauseSelection& found) {
+  if (!found.causes.empty()) return;
+  if (!SuspectLeader(landscape, judging, found)) SuspectNumber(landscape, judging, found);
 }
 
 }  // namespace levitas::diagnosis

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/inference/search_state.hpp"
+#include "diagnosis/inference/record_landscape.hpp"
 
 namespace levitas::diagnosis {
 
@@ -37,7 +37,7 @@ struct MovedNumber {
                                                         const std::vector<double>& theta);
 
 /// Without a cause: takes the leading candidate, or the effect of a moved number, as the suspected
-/// cause, fits it, and says so in `state.doubt`.
-void SuspectCause(SearchState& state);
+/// cause, fits it, and says so in `found.doubt`.
+void SuspectCause(const RecordLandscape& landscape, const Judging& judging, CauseSelection& found);
 
 }  // namespace levitas::diagnosis

@@ -33,8 +33,9 @@ namespace levitas::diagnosis {
 [[nodiscard]] std::optional<std::size_t> Choose(const std::vector<FitGain>& over_leader,
                                                 double deviations);
 
-/// Exchanges the leader of the state for a contender that foretells the validation data better, and
-/// says in `state.doubt` when the causes are refuted there.
-void JudgeOnValidation(SearchState& state);
+/// Exchanges the leader for a contender that foretells the user's `validation` data better, and
+/// says in `found.doubt` when the causes are refuted there. Nothing without such data.
+void JudgeOnValidation(RecordLandscape& landscape, const std::vector<Record>& validation,
+                       const Judging& judging, CauseSelection& found);
 
 }  // namespace levitas::diagnosis

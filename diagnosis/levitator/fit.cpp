@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "numerics/dense/factorisations.hpp"
-#include "numerics/levenberg_marquardt.hpp"
+#include "numerics/factors/factors.hpp"
+#include "numerics/minimum/levenberg_marquardt.hpp"
 
 namespace levitas::levitator {
 namespace {

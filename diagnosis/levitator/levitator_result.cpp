@@ -152,8 +152,11 @@ LevitatorResult Diagnose(const diagnosis::DiagnosisRequest& inputs) {
   diagnosis::RefuseSameRows(data, holdout, "--holdout", "what was fitted cannot judge the fit");
   const auto healthy = Load(inputs.healthy, inputs);
   diagnosis::RefuseSameRows(data, healthy, "--healthy", "it would vouch for itself");
-  return Diagnose(inputs.rig, SeriesOf(data, inputs.rig), SeriesOf(holdout, inputs.rig),
-                  inputs.settings, SeriesOf(healthy, inputs.rig));
+  LevitatorResult answer =
+      Diagnose(inputs.rig, SeriesOf(data, inputs.rig), SeriesOf(holdout, inputs.rig),
+               inputs.settings, SeriesOf(healthy, inputs.rig));
+  diagnosis::JudgeLevitation(inputs.rig, inputs.known_laws, answer.report);
+  return answer;
 }
 
 }  // namespace levitas::levitator

@@ -7,6 +7,7 @@
 #include "diagnosis/report/excitation_coverage.hpp"
 #include "diagnosis/report/extended_rig.hpp"
 #include "diagnosis/report/input_warnings.hpp"
+#include "diagnosis/report/levitation.hpp"
 #include "diagnosis/report/named_values.hpp"
 #include "diagnosis/report/report_text.hpp"
 #include "diagnosis/report/validation_check.hpp"
@@ -96,6 +97,9 @@ void AddFound(const SearchResult& found, DiagnosisReport& report) {
 void AddFits(const DiagnosisResult& result, DiagnosisReport& report) {
   report.fitted = FitOf(result.fitted, report.rig_channels);
   report.validation = FitOf(result.validation, report.rig_channels);
+  for (const ErrorShare& share : result.error_shares) {
+    report.error_shares.push_back({share.effect, share.place, share.share});
+  }
   if (result.forecast) report.forecast = ForecastOf(*result.forecast);
   report.separate_validation = result.separate_validation;
   report.validation_is_faster =
@@ -144,6 +148,7 @@ DiagnosisReport BuildReport(const DiagnosisResult& result, const config::RigFile
   DiagnosisReport report = BuildReport(result);
   report.extended_rig = ExtendedRig(result, rig);
   report.calibrated_rig = CalibratedRig(result, rig);
+  JudgeLevitation(rig, result.known_laws, report);
   return report;
 }
 

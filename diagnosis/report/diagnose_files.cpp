@@ -77,6 +77,19 @@ double Fastest(const std::vector<Record>& records) {
   return fastest;
 }
 
+/// To each law the speeds, in flight, of those of its records that are among `paths`.
+void AddSpeeds(const std::vector<std::string>& paths, const std::vector<Record>& records,
+               KnownLaws& known) {
+  for (LawOfRecords& of : known.laws) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (std::find(of.records.begin(), of.records.end(), paths[i]) == of.records.end()) continue;
+      for (const analysis::RecordedRow& row : records[i].rows) {
+        if (row.levitated) of.Add(std::abs(row.sample.speed_rad_per_s));
+      }
+    }
+  }
+}
+
 /// Speed range, duration and excitation of the records.
 void Describe(const std::vector<Record>& records, const std::vector<Record>& holdout,
               DiagnosisResult& out) {
@@ -154,6 +167,7 @@ void Measure(const std::vector<Record>& fitted, const std::vector<Record>& holdo
   out.validation = holdout.empty()
                        ? MeasureGain(*out.view, runs, noise_rms_m, Part::kKeptBack)
                        : MeasureGain(*out.view, run(holdout), noise_rms_m, Part::kFitted);
+  out.error_shares = ErrorShares(search, out.terms, out.answer, fitted, noise_rms_m);
   if (holdout.empty()) return;
   out.forecast = Foretell(search, out.terms, out.answer, runs.extended, holdout, judging);
 }
@@ -200,9 +214,13 @@ DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs) {
     for (std::vector<Record>* records : {&data, &holdout, &healthy}) Mend(view, *records, found);
     RefuseOtherRig(found);
   }
+  KnownLaws laws = inputs.known_laws;
+  AddSpeeds(inputs.data, data, laws);
+  AddSpeeds(inputs.holdout, holdout, laws);
   try {
     DiagnosisResult out = DiagnoseRecords(inputs.rig, data, holdout, inputs.settings, healthy);
     out.record_errors = std::move(found);
+    out.known_laws = std::move(laws);
     return out;
   } catch (const BadInput& refused) {
     if (found.empty()) throw;

@@ -10,10 +10,12 @@
 
 #include "configuration/rig_file.hpp"
 #include "diagnosis/inference/diagnose.hpp"
+#include "diagnosis/inference/error_shares.hpp"
 #include "diagnosis/inference/forecast_interval.hpp"
 #include "diagnosis/inference/gain.hpp"
 #include "diagnosis/record_errors/record_error.hpp"
 #include "diagnosis/records/load.hpp"
+#include "diagnosis/report/levitation.hpp"
 
 namespace levitas::diagnosis {
 
@@ -22,7 +24,8 @@ struct DiagnosisRequest {
   std::vector<std::string> data, holdout;
   std::vector<std::string> healthy;  ///< earlier records of the same rig, known to be well
   Settings settings;
-  bool as_is{};  ///< no errors of records are looked for
+  KnownLaws known_laws;  ///< of `data` and `holdout`, whose paths they name
+  bool as_is{};          ///< no errors of records are looked for
 };
 
 struct DiagnosisResult {
@@ -31,7 +34,8 @@ struct DiagnosisResult {
   std::vector<double> file_tolerance;  ///< per term, before healthy records; empty without them
   std::shared_ptr<const RigView> view;
   Gain fitted, validation;
-  std::optional<Forecast> forecast;  ///< of the user's validation data
+  std::vector<ErrorShare> error_shares;  ///< of the rig file's error on the fitted data
+  std::optional<Forecast> forecast;      ///< of the user's validation data
   /// Spectra of the worst channel, over noise.
   std::vector<double> ratio_before, ratio_calibrated, ratio_after;
   double line_spacing_hz{};
@@ -43,7 +47,8 @@ struct DiagnosisResult {
   bool separate_validation{};             ///< the held-out data are records of their own
   double validation_fastest_rad_per_s{};  ///< in those
   std::vector<RecordErrors>
-      record_errors;  ///< of files; what could be mended was, before the search
+      record_errors;     ///< of files; what could be mended was, before the search
+  KnownLaws known_laws;  ///< with the speeds of their records
 };
 
 /// Looks for errors of the records first (record_errors/find.hpp); a refusal names them, and a

@@ -105,6 +105,13 @@ struct ReportForecast {
   std::vector<Band> by_speed;
 };
 
+/// Share of the rig file's error on the fitted data (error_shares.hpp).
+struct ReportErrorShare {
+  std::string effect;  ///< empty: shapes of the modes
+  std::string place;   ///< of a cause; empty for the calibrated numbers of an effect
+  double fraction{};
+};
+
 /// Residual after calibration and causes (residual.hpp).
 struct ReportResidual {
   double frequency_hz{};
@@ -152,6 +159,27 @@ struct ReportRun {
   ReportRunFit motion;
 };
 
+/// A closed loop of a rig and a law over a range of speeds.
+struct ReportLoop {
+  std::optional<bool> levitates{};  ///< none: not judged
+  double rpm{};                     ///< where it is worst, when it does not
+  std::string why{};                ///< not, or not judged
+};
+
+/// Of one law of the records: whether the rig as given and the two that are written levitate.
+struct ReportLevitation {
+  std::string law;  ///< and where it is from
+  double from_rpm{}, to_rpm{};
+  ReportLoop rig_file{}, extended_rig{}, calibrated_rig{};
+};
+
+/// levitation.hpp
+struct ReportLevitations {
+  std::vector<ReportLevitation> by_law;
+  std::vector<std::string> records_without_law;
+  std::vector<std::string> sentences;  ///< of what does not levitate or was not judged
+};
+
 struct DiagnosisReport {
   std::string rig_name;
   std::vector<std::string> rig_channels;
@@ -168,8 +196,9 @@ struct DiagnosisReport {
   std::vector<CalibratedValue> calibrated;
   std::vector<std::string> taken_by_causes;  ///< values not calibrated because a cause has them
   ReportFit fitted, validation;
-  std::optional<ReportForecast> forecast;  ///< of validation records that were given
-  bool separate_validation{};              ///< on records that were given for it
+  std::vector<ReportErrorShare> error_shares;  ///< the largest first
+  std::optional<ReportForecast> forecast;      ///< of validation records that were given
+  bool separate_validation{};                  ///< on records that were given for it
   bool validation_is_faster{};  ///< the rotor turns faster in them than in the fitted ones
   std::vector<ReportRun> validation_runs, fitted_runs;
   ReportResidual residual;
@@ -190,6 +219,7 @@ struct DiagnosisReport {
   std::string next_experiment;
   std::vector<ReportCandidate> candidates;   ///< best first
   std::string extended_rig, calibrated_rig;  ///< text of the rig files; empty where not asked for
+  ReportLevitations levitation;              ///< of those two
 };
 
 }  // namespace levitas::diagnosis

@@ -327,9 +327,9 @@ std::vector<std::string> TotalSentences(const std::vector<NamedParameter>& param
 }
 
 bool IsSignificant(const CalibratedValue& value) {
-  constexpr double kMoved = 0.5;
-  constexpr double kProven = 2.0;
-  return value.moved > kMoved && value.proven > kProven;
+  constexpr double kTolerances = 0.5;
+  constexpr double kDeviations = 2.0;
+  return value.moved > kTolerances && value.proven > kDeviations;
 }
 
 }  // namespace levitas::diagnosis

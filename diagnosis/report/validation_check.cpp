@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/report/diagnosis_report.hpp"
+#include "diagnosis/report/forecast_text.hpp"
 
 namespace levitas::diagnosis {
 
@@ -27,7 +28,8 @@ std::string ValidationSentence(const DiagnosisReport& s) {
     text +=
         fmt::format(" With the cause it is worse there than without ({:.3g} times).", calibrated);
   }
-  return text;
+  const std::string forecast = ForecastSentence(s);
+  return forecast.empty() ? text : text + " " + forecast;
 }
 
 bool IsFaster(double validation_rad_per_s, double fitted_rad_per_s) {

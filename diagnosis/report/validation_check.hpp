@@ -15,7 +15,8 @@ struct DiagnosisReport;
 inline constexpr double kFarAboveNoise = 1.5;
 
 [[nodiscard]] bool PassesValidation(const DiagnosisReport& report);
-/// Sentence for an answer that does not carry over; empty for one that does.
+/// Sentence for an answer that does not carry over, and whether the forecast's interval had room
+/// for that; empty for one that does.
 [[nodiscard]] std::string ValidationSentence(const DiagnosisReport& report);
 /// The next experiment for an answer that does not carry over.
 [[nodiscard]] std::string ValidationExperiment(const DiagnosisReport& report);

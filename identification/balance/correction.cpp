@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::balancing {
 namespace {

@@ -7,8 +7,8 @@
 #include "analysis/reading_noise.hpp"
 #include "analysis/records/observer.hpp"
 #include "common/problem.hpp"
-#include "numerics/dense/factorisations.hpp"
 #include "numerics/dense/spectrum.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::balancing {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/dense/factorisations.hpp"
-#include "numerics/levenberg_marquardt.hpp"
+#include "numerics/factors/factors.hpp"
+#include "numerics/minimum/levenberg_marquardt.hpp"
 
 namespace levitas::balancing {
 namespace {

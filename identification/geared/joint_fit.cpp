@@ -10,8 +10,8 @@
 
 #include "identification/geared/geared_forces.hpp"
 #include "identification/geared/joint_unknowns.hpp"
-#include "numerics/dense/factorisations.hpp"
-#include "numerics/levenberg_marquardt.hpp"
+#include "numerics/factors/factors.hpp"
+#include "numerics/minimum/levenberg_marquardt.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "numerics/dense/factorisations.hpp"
 #include "numerics/dense/spectrum.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::identification {
 namespace {

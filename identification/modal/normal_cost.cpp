@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::identification {
 namespace {

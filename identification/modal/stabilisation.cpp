@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "identification/modal/mode_scan.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 #include "numerics/spectra/spectra.hpp"
 
 namespace levitas::identification {

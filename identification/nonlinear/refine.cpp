@@ -8,7 +8,7 @@
 
 #include "identification/nonlinear/diverged.hpp"
 #include "numerics/dense/factorisations.hpp"
-#include "numerics/levenberg_marquardt.hpp"
+#include "numerics/minimum/levenberg_marquardt.hpp"
 
 namespace levitas::identification {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/problem.hpp"
-#include "numerics/levenberg_marquardt.hpp"
+#include "numerics/minimum/levenberg_marquardt.hpp"
 
 namespace levitas::identification {
 namespace {

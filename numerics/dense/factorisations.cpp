@@ -4,23 +4,9 @@ namespace Eigen {
 
 template void PartialPivLU<MatrixXd>::compute();
 template void PartialPivLU<MatrixXcd>::compute();
-template void FullPivLU<MatrixXd>::computeInPlace();
-template void FullPivLU<MatrixXcd>::computeInPlace();
-template void FullPivLU<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
-template void FullPivLU<MatrixXcd>::_solve_impl(const MatrixXcd&, MatrixXcd&) const;
-
 template LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
-template LLT<MatrixXcd>& LLT<MatrixXcd>::compute(const EigenBase<MatrixXcd>&);
 template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
-template LDLT<MatrixXcd>& LDLT<MatrixXcd>::compute(const EigenBase<MatrixXcd>&);
-template void LLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
-template void LLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
 template void LDLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
-
-template void HouseholderQR<MatrixXd>::computeInPlace();
-template void HouseholderQR<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
-template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
-template void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 
 }  // namespace Eigen

@@ -1,7 +1,7 @@
 #include "numerics/spectra/spectra.hpp"
 
 #include "numerics/dense/eigenvalues.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace Eigen {
 

@@ -107,6 +107,17 @@ nlohmann::ordered_json RunsJson(const std::vector<diagnosis::ReportRun>& runs) {
   return json;
 }
 
+nlohmann::ordered_json ErrorSharesJson(const std::vector<diagnosis::ReportErrorShare>& shares) {
+  auto json = nlohmann::ordered_json::array();
+  for (const diagnosis::ReportErrorShare& e : shares) {
+    json.push_back({{"effect", e.effect.empty() ? "mode_shapes" : e.effect},
+                    {"place", e.place},
+                    {"calibrated", e.place.empty()},
+                    {"share", e.fraction}});
+  }
+  return json;
+}
+
 /// Of a diagnosis that judges records one by one.
 void AddRuns(const DiagnosisReport& report, nlohmann::ordered_json& json) {
   json["ties"] = nlohmann::ordered_json::object();
@@ -130,6 +141,29 @@ nlohmann::ordered_json RecordErrorsJson(const std::vector<diagnosis::RecordError
     }
   }
   return json;
+}
+
+nlohmann::ordered_json LoopJson(const diagnosis::ReportLoop& loop) {
+  nlohmann::ordered_json json{{"levitates", nullptr}};
+  if (loop.levitates) json["levitates"] = *loop.levitates;
+  if (!loop.levitates.value_or(true)) json["speed_rpm"] = loop.rpm;
+  if (!loop.why.empty()) json["why"] = loop.why;
+  return json;
+}
+
+nlohmann::ordered_json LevitationJson(const diagnosis::ReportLevitations& s) {
+  auto laws = nlohmann::ordered_json::array();
+  for (const diagnosis::ReportLevitation& of : s.by_law) {
+    laws.push_back({{"law", of.law},
+                    {"speed_rpm_from", of.from_rpm},
+                    {"speed_rpm_to", of.to_rpm},
+                    {"rig_file", LoopJson(of.rig_file)},
+                    {"extended_rig", LoopJson(of.extended_rig)},
+                    {"calibrated_rig", LoopJson(of.calibrated_rig)}});
+  }
+  return {{"laws", std::move(laws)},
+          {"records_without_law", s.records_without_law},
+          {"sentences", s.sentences}};
 }
 
 }  // namespace
@@ -172,8 +206,10 @@ nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   json["parameters"] = ParametersJson(report);
   json["calibrated"] = CalibratedJson(report);
   json["fit_percent"] = FitJson(report);
+  json["error_shares"] = ErrorSharesJson(report.error_shares);
   json["forecast"] = nullptr;
   if (report.forecast) json["forecast"] = ForecastJson(*report.forecast);
+  json["levitation"] = LevitationJson(report.levitation);
   json["achievable_gain"] = GainJson(report.validation);
   json["residual"] = {{"frequency_hz", report.residual.frequency_hz},
                       {"order", report.residual.order},

@@ -8,6 +8,7 @@
 
 #include "diagnosis/report/report_text.hpp"
 #include "report/diagnosis/diagnosis_text.hpp"
+#include "report/diagnosis/forecast_section.hpp"
 #include "report/svg/escaped_text.hpp"
 #include "report/svg/figure.hpp"
 
@@ -208,7 +209,7 @@ std::string RunsTable(const DiagnosisReport& s) {
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td><td class=n>{:.1f}</td><td class=n>{:.1f}</td>"
         "<td class=n><b>{:.1f}</b> ({})</td><td class=n>{:.1f}</td></tr>\n",
-        run, quantity, fit.nominal.value, fit.calibrated.value, fit.extended.value,
+        Escaped(run), quantity, fit.nominal.value, fit.calibrated.value, fit.extended.value,
         IntervalText(fit), fit.ceiling_percent);
   };
   for (const diagnosis::ReportRun& run : s.validation_runs) {
@@ -231,21 +232,33 @@ std::string ErrorsOfRecords(const DiagnosisReport& s) {
   return html;
 }
 
+/// Of the rig files that were written; empty when they levitate.
+std::string Levitation(const DiagnosisReport& s) {
+  std::string html;
+  for (const std::string& sentence : s.levitation.sentences) {
+    html += fmt::format("<p><b>{}</b></p>\n", Escaped(sentence));
+  }
+  return html;
+}
+
 }  // namespace
 
 std::string DiagnosisPage(const DiagnosisReport& s) {
-  const std::string ceiling = CeilingSentence(s);
-  return fmt::format(
+  const std::string head = fmt::format(
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
-      "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n"
-      "{14}<p class=\"verdict\">{2}</p>\n<p>{3} <b>Next:</b> {4}.</p>\n{5}{7}{6}{8}"
-      "<h2>Ranking, and why not the others</h2>\n{9}<h2>Fit</h2>\n{10}<p>Nominal: the rig file. "
-      "Calibrated: with the deviations of a healthy rig. Extended: with the causes. Ceiling: the "
-      "sensors' noise alone. {11}</p>\n{12}{13}</body></html>\n",
-      Escaped(s.rig_name), kStyle, Escaped(s.verdict_sentence),
-      Escaped(fmt::format("{} {}", Summary(s), s.healthy_sentence)), Escaped(s.next_experiment),
-      Left(s), ParameterTable(s), Spectra(s), CalibrationTable(s), Ranking(s), FitTable(s), ceiling,
-      ChannelTable(s), RunsTable(s), ErrorsOfRecords(s));
+      "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n",
+      Escaped(s.rig_name), kStyle);
+  const std::string verdict = fmt::format(
+      "<p class=\"verdict\">{}</p>\n<p>{} <b>Next:</b> {}.</p>\n", Escaped(s.verdict_sentence),
+      Escaped(fmt::format("{} {}", Summary(s), s.healthy_sentence)), Escaped(s.next_experiment));
+  const std::string fit = fmt::format(
+      "<h2>Fit</h2>\n{}<p>Nominal: the rig file. Calibrated: with the deviations of a healthy rig. "
+      "Extended: with the causes. Ceiling: the sensors' noise alone. {}</p>\n<p>{}</p>\n",
+      FitTable(s), CeilingSentence(s), Escaped(ErrorSharesSentence(s)));
+  return head + ErrorsOfRecords(s) + verdict + Levitation(s) + Left(s) + Spectra(s) +
+         ParameterTable(s) + CalibrationTable(s) + ForecastSection(s) +
+         "<h2>Ranking, and why not the others</h2>\n" + Ranking(s) + fit + ChannelTable(s) +
+         RunsTable(s) + "</body></html>\n";
 }
 
 }  // namespace levitas::cli

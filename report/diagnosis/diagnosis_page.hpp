@@ -1,8 +1,9 @@
 #pragma once
 // report.html of a diagnosis: one self-contained page for a person in a hurry.
 //
-// Order  the sentence; before and after as pictures; the ranking; what was ruled out and why; what
-//        to record next; fits of single records where the report has them. No script, no network.
+// Order  the sentence; before and after as pictures; the forecast of validation records; the
+//        ranking; what was ruled out and why; what to record next; fits of single records where the
+//        report has them. No script, no network.
 
 #include <string>
 

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
+#include "diagnosis/report/forecast_text.hpp"
 #include "diagnosis/report/report_text.hpp"
 #include "report/text/text_table.hpp"
 
@@ -20,6 +22,7 @@ using diagnosis::ReportRun;
 using diagnosis::ReportRunFit;
 
 constexpr std::size_t kShown = 8;
+constexpr double kLeastShare = 0.01;  ///< of the rig file's error, to be said of calibration
 
 void PrintParameters(const DiagnosisReport& s) {
   const auto parameters = SharedParameters(s);
@@ -76,6 +79,8 @@ void PrintFits(const DiagnosisReport& s) {
   row("  on validation data", s.validation);
   const std::string ceiling = CeilingSentence(s);
   fmt::print("{}\n{}{}", GainSentence(s), ceiling, ceiling.empty() ? "" : "\n");
+  const std::string shares = ErrorSharesSentence(s);
+  if (!shares.empty()) fmt::print("{}\n", shares);
 }
 
 /// Speed by speed: what was to be expected of the forecast, and what was measured.
@@ -85,13 +90,13 @@ void PrintForecast(const DiagnosisReport& s) {
   const diagnosis::ReportForeseen& fit = s.forecast->fit_percent;
   fmt::print(
       "Forecast of stretches of the validation data, 90 % interval from the fitted data alone: fit "
-      "{:.1f} to {:.1f} %, measured {:.1f} %: {}. Chance to beat the rig file: {:.0f} %.\n",
-      fit.low, fit.high, fit.measured, text(fit.covered), 100.0 * s.forecast->better_than_file);
+      "{} %, measured {:.1f} %: {}. Chance to beat the rig file: {:.0f} %.\n",
+      diagnosis::RangeText(fit, 3), fit.measured, text(fit.covered),
+      100.0 * s.forecast->better_than_file);
   for (const auto& band : s.forecast->by_speed) {
-    fmt::print(
-        "  {:>6.0f} to {:>6.0f} rpm: residual {:.4g} to {:.4g} um rms, measured {:.4g}: {}\n",
-        band.from_rpm, band.to_rpm, band.residual_um.low, band.residual_um.high,
-        band.residual_um.measured, text(band.residual_um.covered));
+    fmt::print("  {:>6.0f} to {:>6.0f} rpm: residual {} um rms, measured {:.4g}: {}\n",
+               band.from_rpm, band.to_rpm, diagnosis::RangeText(band.residual_um, 4),
+               band.residual_um.measured, text(band.residual_um.covered));
   }
 }
 
@@ -198,6 +203,20 @@ std::string GainSentence(const DiagnosisReport& s) {
                                     gained, beyond);
 }
 
+std::string ErrorSharesSentence(const DiagnosisReport& s) {
+  if (!s.fitted.meaningful) return {};
+  std::vector<std::string> parts;
+  for (const diagnosis::ReportErrorShare& e : s.error_shares) {
+    if (e.place.empty() && !(std::abs(e.fraction) >= kLeastShare)) continue;
+    const std::string name = e.effect.empty() ? "shapes of the modes" : e.effect;
+    parts.push_back(fmt::format("{}{} {:.0f} %", name, e.place.empty() ? " (calibrated)" : "",
+                                100.0 * e.fraction));
+  }
+  if (parts.empty()) return {};
+  return fmt::format("Of what the rig file gets wrong on the fitted data: {}.",
+                     fmt::join(parts, ", "));
+}
+
 std::string CeilingSentence(const DiagnosisReport& s) {
   if (!Above(s.fitted) && !Above(s.validation)) return {};
   return "A fit above the ceiling is at the ceiling: the noise is read from the highest third of "
@@ -219,6 +238,7 @@ void PrintDiagnosis(const DiagnosisReport& s, bool complete) {
   fmt::print("\nNext: {}\n", s.next_experiment);
   PrintTies(s);
   PrintRuns(s);
+  for (const std::string& sentence : s.levitation.sentences) fmt::print("\n{}\n", sentence);
 }
 
 }  // namespace levitas::cli

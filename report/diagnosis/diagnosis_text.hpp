@@ -1,7 +1,7 @@
 #pragma once
 // What amb diagnose prints: the verdict, the parameters as they stand in a rig file, what the
-// calibration has moved, fits, the ranking, what to record next; ties and the fits
-// of single records where the report has them.
+// calibration has moved, fits, the ranking, what to record next; ties and the fits of single
+// records where the report has them; last, which of the rig files does not levitate.
 
 #include <optional>
 #include <string>
@@ -27,6 +27,8 @@ struct SharedParameter {
 [[nodiscard]] std::string AtPhase(double value, std::optional<double> phase_rad);
 /// What share of what could be gained is, and by what; or that there was nothing to gain.
 [[nodiscard]] std::string GainSentence(const diagnosis::DiagnosisReport& report);
+/// Who makes how much of the rig file's error, the largest first; empty where there is none.
+[[nodiscard]] std::string ErrorSharesSentence(const diagnosis::DiagnosisReport& report);
 /// Why a fit can lie above its ceiling; empty when none does.
 [[nodiscard]] std::string CeilingSentence(const diagnosis::DiagnosisReport& report);
 

@@ -9,6 +9,7 @@
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
 #include "controller/supervisor/supervisor.hpp"
+#include "plant_sim/plant/command_of.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/run/loop/timed_events.hpp"
 
@@ -63,7 +64,7 @@ struct ShippedLoop {
       Note(record, plant);
       if (watch && Free(record.out.mode)) watch(record);
       events.Change(record.in.cycle, plant);
-      plant.Advance(CommandOf(record.out.current));
+      plant.Advance(plant::CommandOf(record.out.current));
     }
     return player.failed() ? player.Text() : player.finished() ? "" : "not finished";
   }
@@ -76,15 +77,6 @@ struct ShippedLoop {
       largest_m = std::max(largest_m, std::hypot(frame.position_m[x], frame.position_m[x + 1]));
     }
     return largest_m;
-  }
-
-  static plant::PlantCommand CommandOf(const CurrentFrame& current) {
-    return {.control_current_a = current.control_current_a,
-            .bias_current_a = current.bias_current_a,
-            .amplifiers_enabled = current.amplifiers_enabled,
-            .drive_enabled = current.drive_enabled,
-            .speed_set_point_rad_per_s = current.speed_set_point_rad_per_s,
-            .acceleration_limit_rad_per_s2 = current.acceleration_limit_rad_per_s2};
   }
 
   void Note(const cycle::CycleRecord& record, const plant::Plant& plant) {

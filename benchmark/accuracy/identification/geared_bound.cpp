@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "common/random.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::accuracy {
 namespace {

@@ -47,6 +47,8 @@ OptionText TextOf(const CLI::Option& option) {
   text.allowed = AllowedIn(type);
   // "UINT:INT in [1 - 20]": what it is, then what is checked.
   text.value = text.allowed.empty() ? type.substr(0, type.find(':')) : type.substr(type.find('{'));
+  const bool optional = text.takes_value && option.get_items_expected_min() == 0;
+  if (optional) text.value = "[" + text.value + "]";
   text.meaning = option.get_description() + RangeIn(type);
   text.preset = option.get_default_str();
   text.required = option.get_required();

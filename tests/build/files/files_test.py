@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import subprocess
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -58,6 +59,35 @@ class Files(unittest.TestCase):
                   "transport/", "cli/run", "cli/main.cpp", "cli/options/enter_session.cpp")
         found = violations(rules.speaks_past_say, (".cpp", ".hpp"))
         self.assert_none([line for line in found if line.startswith(beside)])
+
+
+class Tests(unittest.TestCase):
+    """How much of the C++ is tests, and which headers none of them names."""
+
+    AIM = 0.8
+    LEAST = 0.59  # as far as it has come: it only grows
+
+    # Rooms of which every header with something to be tested is in a test, and what is proven
+    # otherwise.
+    NAMED = ("controller/loop", "controller/program", "plant_sim", "report")
+    OTHERWISE = {
+        "controller/loop/operator_source.hpp": "an interface",
+        "controller/program/controller_run.hpp": "whole processes, tests/process",
+        "plant_sim/effect/parameter_kinds.hpp": "words of the catalogue, through its rows",
+        "plant_sim/plant/plant_impl.hpp": "private to plant.cpp, through Plant",
+    }
+
+    def test_lines_of_tests_over_lines_of_source_do_not_become_less(self):
+        tests, source = rules.lines_of(SOURCE, True), rules.lines_of(SOURCE, False)
+        print(f"C++: {tests} lines of tests, {source} of source: {tests / source:.3f}, aim {self.AIM}")
+        for room in sorted({path.relative_to(SOURCE).parts[0]
+                            for path in rules.source_files(SOURCE, (".hpp",))} - {"tests"}):
+            print(f"  headers without a test in {room}: {len(rules.untested_headers(SOURCE, room))}")
+        self.assertGreaterEqual(tests / source, self.LEAST)
+
+    def test_headers_of_rooms_that_are_named_by_tests_stay_so(self):
+        found = {name for room in self.NAMED for name in rules.untested_headers(SOURCE, room)}
+        self.assertEqual(found, set(self.OTHERWISE), "write a test, or take the exception off the list")
 
 
 class Tour(unittest.TestCase):
@@ -152,6 +182,19 @@ class SeededViolations(unittest.TestCase):
         for call in ('fmt::print(stderr, "x");', 'std::cerr << "x";', 'perror("x");'):
             self.assertIn("line 2", rules.speaks_past_say(f"\n  {call}\n")[0])
         self.assertFalse(rules.speaks_past_say("// not to stderr\nrt::Say(text);  // to stderr\n"))
+
+    def test_a_header_with_a_body_or_a_source_that_no_test_includes_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for name, text in (("room/data.hpp", "struct A {\n  double x{};\n};\n"),
+                               ("room/inline.hpp", "inline int B() { return 1; }\n"),
+                               ("room/declared.hpp", "int C();\n"), ("room/declared.cpp", "int C() { return 1; }\n"),
+                               ("room/tested.hpp", "inline int D() noexcept { return 1; }\n"),
+                               ("tests/unit/room/tested_test.cpp", '#include "room/tested.hpp"\n')):
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(text, encoding="utf-8")
+            self.assertEqual(rules.untested_headers(root, "room"), ["room/declared.hpp", "room/inline.hpp"])
+            self.assertEqual((rules.lines_of(root, True), rules.lines_of(root, False)), (1, 7))
 
     def test_a_header_without_words_is_refused(self):
         self.assertTrue(rules.header_without_description("#pragma once\n\n#include <vector>\n"))

@@ -144,3 +144,24 @@ def lines_of(root, inside_tests):
         if ("tests" in path.relative_to(root).parts) == inside_tests:
             total += path.read_text(encoding="utf-8").count("\n")
     return total
+
+
+TESTED_INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
+# What a header has that a test can prove false: a function with a body, or one declared for a source
+# beside it. Descriptions of plain data have neither.
+BODY = re.compile(r"\)(?: const)?(?: noexcept)?(?: override)? \{|: \w+\(.*\) \{\}")
+
+
+def untested_headers(root, folder):
+    """Headers below `folder` with something to be tested that no file of tests includes."""
+    root = Path(root)
+    included = set()
+    for path in source_files(root / "tests", (".cpp", ".hpp")):
+        included.update(TESTED_INCLUDE.findall(path.read_text(encoding="utf-8")))
+    found = []
+    for path in source_files(root / folder, (".hpp",)):
+        name = path.relative_to(root).as_posix()
+        behaves = path.with_suffix(".cpp").exists() or BODY.search(path.read_text(encoding="utf-8"))
+        if name not in included and behaves:
+            found.append(name)
+    return found

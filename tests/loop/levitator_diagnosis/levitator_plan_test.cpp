@@ -24,7 +24,7 @@ diagnosis::DiagnosisReport Ask(ShippedLoop& loop) {
                         row.cycle = record.in.cycle;
                         row.levitated = true;
                         row.sample.position_m = record.in.frame.position_m;
-                        row.sample.command = ShippedLoop::CommandOf(record.out.current);
+                        row.sample.command = plant::CommandOf(record.out.current);
                         rows.push_back(row);
                       }),
             "");

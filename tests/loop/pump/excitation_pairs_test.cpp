@@ -88,7 +88,7 @@ TEST(Excitation, OfTheMeasuredPositionIsSeenByTheLawAndByNoProtection) {
     record.in.op.command = command;
     record.in.op.excitation_m[0] = excitation_m;
     record.out = cycle.Step(record.in);
-    plant.Advance(ShippedLoop::CommandOf(record.out.current));
+    plant.Advance(plant::CommandOf(record.out.current));
   };
   step(0.0, OperatorCommand::kLift);
   for (int n = 0; n < 15'000; ++n) step(0.0, OperatorCommand::kNone);

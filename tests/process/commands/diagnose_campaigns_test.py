@@ -55,6 +55,9 @@ class ForeignCampaigns(unittest.TestCase):
         self.assertEqual(answer["all_causes"], ["misalignment"])
         self.assertEqual(answer["also_possible"], [])
         worth = {c["effect"]: c.get("held_out_nat") for c in answer["candidates"]}
+        shares = {(s["effect"], s["calibrated"]): s["share"] for s in answer["error_shares"]}
+        self.assertEqual(max(shares, key=shares.get), ("misalignment", False), shares)
+        self.assertAlmostEqual(sum(shares.values()), 1.0, delta=0.1)
         self.assertLess(worth["sensor_runout"], 0.0)
         self.assertGreater(worth["misalignment"], 0.0)
 

@@ -6,6 +6,7 @@ lies in its touchdown bearings are in them and must not be taken for a cause.
 
 import json
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -17,6 +18,8 @@ from waiting import LIMIT_S  # noqa: E402
 
 BINARIES = Path(os.environ["LEVITAS_BINARIES"])
 RECORDS = Path(os.environ["LEVITAS_SOURCE"]) / "tests/data/records"
+CONFIG = Path(os.environ["LEVITAS_SOURCE"]) / "config"
+USAGE = 2
 BAD_INPUT = 3
 
 
@@ -92,6 +95,54 @@ class DiagnoseOwnModel(unittest.TestCase):
         for effect, where in values:
             self.assertTrue(any(effect in line and where in line for line in whole.splitlines()),
                             (effect, where))
+
+    def test_a_rig_that_levitates_under_the_law_of_its_session_is_written_without_a_word(self):
+        printed, answer = self.diagnose("run.lcm")
+        levitation = answer["levitation"]
+        self.assertEqual(levitation["sentences"], [], printed)
+        self.assertEqual(levitation["records_without_law"], [])
+        [law] = levitation["laws"]
+        self.assertIn("of the session", law["law"])
+        self.assertGreater(law["speed_rpm_to"], 1000.0, "the rotor turns in this run")
+        for rig in ("rig_file", "extended_rig", "calibrated_rig"):
+            self.assertIs(law[rig]["levitates"], True, rig)
+        for text in self.written("answer_run_lcm"):
+            self.assertNotIn("LEVITATE", text)
+            self.assertNotIn("levitate under the law", text)
+
+    def test_a_rig_that_falls_under_the_law_that_it_names_says_so_everywhere(self):
+        folder = Path(self.shared.name)
+        # A twentieth of the stiffness: less than that of the magnets, which is negative.
+        law = (CONFIG / "controllers/flexible_rotor.yaml").read_text()
+        weak = re.sub(r"(kp_a_per_m: *)([0-9.e+]+)",
+                      lambda found: f"{found[1]}{0.05 * float(found[2])}", law)
+        self.assertNotEqual(weak, law)
+        (folder / "weak.yaml").write_text(weak)
+        rig = (CONFIG / "rigs/flexible_rotor.yaml").read_text()
+        self.assertNotIn("\nrun:", rig)
+        (folder / "own.yaml").write_text(
+            rig + "\nrun:\n  controller: ./weak.yaml\n  scenario: levitate\n")
+        printed = amb(folder, "diagnose", "--quick", "--rig", "own.yaml", "run.csv", "--out", "weak")
+        answer = json.loads((folder / "weak/diagnosis.json").read_text())
+        sentence = answer["levitation"]["sentences"][0]
+        self.assertIn("calibrated_rig.yaml DOES NOT LEVITATE", sentence)
+        self.assertIn("which the rig file names", sentence)
+        self.assertIn(sentence, printed)
+        for text in self.written("weak"):
+            self.assertIn("DOES NOT LEVITATE", text)
+        amb(folder, "modes", "--rig", "weak/calibrated_rig.yaml")  # the comment leaves it readable
+
+    def test_of_a_record_whose_law_nobody_names_it_is_said_that_it_was_not_judged(self):
+        printed, answer = self.diagnose("run.csv")
+        self.assertEqual(answer["levitation"]["records_without_law"], ["run.csv"])
+        self.assertIn("not judged", printed)
+        for text in self.written("answer_run_csv"):
+            self.assertIn("levitate under the law of the records", text)
+            self.assertNotIn("DOES NOT LEVITATE", text)
+
+    def written(self, folder):
+        names = ("report.html", "calibrated_rig.yaml", "extended_rig.yaml")
+        return [(Path(self.shared.name) / folder / name).read_text() for name in names]
 
     def refuse(self, words, *arguments):
         done = finished(self.shared.name, "diagnose", "--quick", *arguments, "--out", "made/not")
@@ -223,6 +274,41 @@ class DiagnoseForeignCampaigns(unittest.TestCase):
             self.assertEqual(answer["cannot_tell"]["effects"], [])
             self.assertFalse((Path(folder) / "next.yaml").exists())
             self.assertIn("next.yaml is not written", printed)
+
+    def test_a_plan_before_the_diagnosis_says_what_records_can_tell_apart_and_what_would_help(self):
+        with TemporaryDirectory() as folder:
+            (Path(folder) / "rest.yaml").write_text(
+                "kind: scenario\nname: rest\nsteps:\n"
+                "  - {do: lift, until: levitating, timeout_s: 9, hold_s: 1.5}\n"
+                "  - {do: land, until: 'off', timeout_s: 9}\n")
+            printed = amb(folder, "diagnose", "--plan", "next.yaml", "--rig", "flexible_rotor", "--scenario",
+                          "rest.yaml", "--json", "plan.json")
+            plan = json.loads((Path(folder) / "plan.json").read_text())
+            faults = {fault["effect"]: fault for fault in plan["faults"]}
+            self.assertEqual(faults["unbalance"]["answer"], "not_visible", "nothing turns")
+            self.assertEqual(faults["dropped_samples"]["answer"], "found", printed)
+            ways = {way["what"]: way["helps"] for way in plan["tried"]}
+            for what, helps in ways.items():
+                if "turning" not in what and "run-up" not in what:
+                    self.assertNotIn("unbalance", helps, what)
+            self.assertTrue(any("unbalance" in helps for helps in ways.values()), ways)
+            self.assertTrue((Path(folder) / "next.yaml").exists())
+
+    def test_a_plan_with_nothing_to_plan_from_or_with_options_of_a_diagnosis_is_refused(self):
+        with TemporaryDirectory() as folder:
+            for arguments, status, word in (
+                    (("--plan",), USAGE, "--scenario"),
+                    (("--plan", "--scenario", "default", "--quick"), USAGE, "--quick"),
+                    (("--scenario", "default", "--out", "d", "x.lcm"), USAGE, "--plan"),
+                    (("x.lcm",), USAGE, "--out is required"),
+                    (("--plan", "absent.lcm"), BAD_INPUT, "absent.lcm"),
+                    (("--plan", "--scenario", "absent"), BAD_INPUT, "absent"),
+                    (("--plan", "--rig", "two_magnet_levitator", "--scenario", "two_magnet_levitator"), BAD_INPUT,
+                     "levitator")):
+                done = finished(folder, "diagnose", *arguments)
+                self.assertEqual(done.returncode, status, (arguments, done.stderr))
+                self.assertIn(word, done.stderr)
+                self.assertEqual(list(Path(folder).iterdir()), [])
 
 
 if __name__ == "__main__":

@@ -33,9 +33,11 @@ OPTIONS = {
                        "--svg", "--starts", "--spread", "--spread-gains", "--json"},
     "balance": {"--rig", "--controller", "--plane", "--planes", "--drill", "--after", "--applied", "--top-rpm",
                 "--svg", "--json"},
+    "diagnose": {"--rig", "--holdout", "--healthy", "--plan", "--scenario", "--controller", "--size", "--out", "--quick",
+                 "--explain", "--json"},
     "doctor": {"--json"},
 }
-POSITIONAL = {"simulate": "session", "import": "DATA", "export": "SESSION", "balance": "RECORD", "report": "SESSION", "compare": "RECORD", "replay": "SESSION",
+POSITIONAL = {"simulate": "session", "diagnose": "DATA", "import": "DATA", "export": "SESSION", "balance": "RECORD", "report": "SESSION", "compare": "RECORD", "replay": "SESSION",
               "identify frf": "DATA", "identify modal": "DATA"}
 
 

@@ -39,7 +39,10 @@ class Pair(unittest.TestCase):
             self.assertEqual(statistics[count], 0, count)
         rig = json.loads((self.folder / "plant.json").read_text())
         self.assertEqual(rig["messages_lost"], 0)
-        self.assertEqual(rig["cycles"], statistics["cycles"])
+        # Where the last current and the goodbye wait together, on a busy machine, the rig takes the
+        # newer of them: the goodbye, and counts the other as skipped.
+        last = min(rig["currents_skipped"], 1)
+        self.assertIn(statistics["cycles"] - rig["cycles"], {0, last})
 
     def test_same_seed_gives_the_same_bits_and_another_seed_does_not(self):
         first, _ = self.levitate(seed=7, session="first.lcmlog")

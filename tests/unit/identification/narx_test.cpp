@@ -8,7 +8,7 @@
 #include <string>
 
 #include "identification/nonlinear/refine.hpp"
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 #include "tests/unit/identification/synthetic_series.hpp"
 
 namespace levitas::identification {

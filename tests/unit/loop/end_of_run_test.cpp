@@ -137,5 +137,23 @@ TEST(EndOfRun, ALevitatedRotorThatDoesNotSlowDownIsStoppedSaidAndNeverLetGo) {
   EXPECT_TRUE(desk.news().overdue);
 }
 
+// Nothing the desk asks for lifts a rotor that was let go (EndTable.NothingThatAnEndAsksFor...).
+// Whatever else has done so, the rotor is braked and landed like any other.
+TEST(EndOfRun, ARotorThatIsHeldAgainAfterItsReleaseIsBrakedAgain) {
+  CommandArbiter desk(kDesk, nullptr, {});
+  desk.RequestStop();
+  OperatorView view{
+      .cycle = 0, .mode = Mode::kSpinning, .amplifiers_enabled = true, .speed_rad_per_s = kSpeed};
+  EXPECT_EQ(desk.Next(view).command, OperatorCommand::kSpin);
+  EXPECT_EQ(desk.end_state(), EndState::kBraking);
+  view = {.cycle = 200, .mode = Mode::kTripped, .speed_rad_per_s = kSpeed};
+  EXPECT_EQ(desk.Next(view).command, OperatorCommand::kNone);
+  EXPECT_EQ(desk.end_state(), EndState::kAwaitingStandstill);
+  view = {
+      .cycle = 400, .mode = Mode::kSpinning, .amplifiers_enabled = true, .speed_rad_per_s = kSpeed};
+  EXPECT_EQ(desk.Next(view).command, OperatorCommand::kSpin);
+  EXPECT_EQ(desk.end_state(), EndState::kBraking);
+}
+
 }  // namespace
 }  // namespace levitas::loop

@@ -1,4 +1,4 @@
-#include "numerics/evolution_strategy.hpp"
+#include "numerics/minimum/evolution_strategy.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Levenberg-Marquardt against minima that are known in closed form.
 
-#include "numerics/levenberg_marquardt.hpp"
+#include "numerics/minimum/levenberg_marquardt.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "numerics/dense/factorisations.hpp"
+#include "numerics/factors/factors.hpp"
 
 namespace levitas::numerics {
 namespace {

@@ -11,6 +11,7 @@
 #include "plant_sim/plant/parameter_access.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/plant/plant_model.hpp"
+#include "plant_sim/plant/train_model.hpp"
 #include "plant_sim/plant/train_step.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/geared_rigs.hpp"

@@ -1,0 +1,72 @@
+#pragma once
+// What the search for causes asks of the records: the evidence of any set of causes, and its fit.
+//
+// Why         merging, exchanging, dropping, ranking and refitting causes are decisions about
+//             numbers. Behind this interface they need no rig and no record, and a test can give
+//             them numbers of its own (tests/unit/diagnosis/toy_landscape.hpp).
+// Linearised  GainOf, Screen, EvidenceOf and SolutionOf see the model as linearised where
+//             LineariseAt was called last; they cost next to nothing.
+// Fitted      Fit, Refit and RefineShapeOf run the nonlinear model: seconds.
+// Shapes      of families of laws (Family::shape) are part of a point, as theta is. RefineShapeOf
+//             moves them and leaves them where the fit that it returns has them; Shapes and Restore
+//             take them back.
+// Comparable  are fits between two calls of LineariseAt, which whitens anew.
+// Units       evidence and gains in nats; theta in the terms' own units. Thread: blocks the caller,
+//             two threads inside. Failure: a Refined that is not `ok`.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference/diagnose.hpp"
+#include "diagnosis/inference/mode_probe.hpp"
+#include "diagnosis/inference/refine.hpp"
+
+namespace levitas::diagnosis {
+
+class EvidenceLandscape {
+ public:
+  using Causes = std::vector<Hypothesis>;
+  using AllShapes = std::vector<Family::Shape>;
+
+  EvidenceLandscape() = default;
+  EvidenceLandscape(const EvidenceLandscape&) = delete;
+  EvidenceLandscape& operator=(const EvidenceLandscape&) = delete;
+  virtual ~EvidenceLandscape() = default;
+
+  [[nodiscard]] virtual const Causes& hypotheses() const = 0;
+  virtual void LineariseAt(const std::vector<double>& theta) = 0;
+
+  /// What `cause` explains beyond `given`.
+  [[nodiscard]] virtual double GainOf(const Hypothesis& cause, const Causes& given) const = 0;
+  /// The same on the linearisation that a fit ended with.
+  [[nodiscard]] virtual double GainAt(const Refined& fit, const Hypothesis& cause,
+                                      const Causes& given) const = 0;
+  /// Every effect at its best place beyond `given`, best first.
+  [[nodiscard]] virtual std::vector<Candidate> Screen(const Causes& given) const = 0;
+  [[nodiscard]] virtual double EvidenceOf(const Causes& set) const = 0;
+  /// theta of the best fit of the linearised model.
+  [[nodiscard]] virtual std::vector<double> SolutionOf(const Causes& set) const = 0;
+  [[nodiscard]] virtual std::vector<double> SolutionAt(const Refined& fit,
+                                                       const Causes& set) const = 0;
+
+  /// From `start` on. May end early where the evidence `worth` is out of reach.
+  [[nodiscard]] virtual Refined Fit(const Causes& set, const std::vector<double>& start, int passes,
+                                    double worth = kAnyEvidence) const = 0;
+  /// From the linearised solution on, with all passes that a fit may have.
+  [[nodiscard]] virtual Refined Refit(const Causes& set, double worth = kAnyEvidence) const = 0;
+  /// `fit` of `set` with the best shape of the family of set[at]; as it is without a family.
+  [[nodiscard]] virtual Refined RefineShapeOf(const Causes& set, std::size_t at, Refined fit,
+                                              double worth = kAnyEvidence) = 0;
+  [[nodiscard]] virtual bool HasShape(const Hypothesis& cause) const = 0;
+  [[nodiscard]] virtual AllShapes Shapes() const = 0;
+  virtual void Restore(const AllShapes& shapes) = 0;
+  /// A member of a family is called after its present shape, here and among the hypotheses.
+  virtual void TakePlace(Hypothesis& member) = 0;
+  /// Starts for frequencies of modes that the linearisation does not reach.
+  [[nodiscard]] virtual std::vector<ModeProbe> Probes() const = 0;
+
+  /// Share of the whole diagnosis that is done, and what is being done.
+  virtual void ReportProgress(double share, const std::string& what) const = 0;
+};
+
+}  // namespace levitas::diagnosis

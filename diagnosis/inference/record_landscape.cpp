@@ -1,0 +1,121 @@
+#include "diagnosis/inference/record_landscape.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnosis/inference/calibrate.hpp"
+#include "diagnosis/inference/ranking.hpp"
+#include "diagnosis/inference/refine_shape.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+/// Spans of records that are longer than `rows`; empty when they are not.
+std::vector<Record> PartOf(const std::vector<Record>& records, std::size_t rows) {
+  std::size_t total = 0;
+  for (const Record& record : records) total += record.rows.size();
+  return total > rows ? Spans(records, rows) : std::vector<Record>{};
+}
+
+}  // namespace
+
+RecordLandscape::RecordLandscape(const RigView& rig, const std::vector<Record>& recorded,
+                                 const Settings& settings, const Effort& effort,
+                                 std::vector<Term>& terms)
+    : rig_(rig),
+      terms_(terms),
+      settings_(settings),
+      passes_(effort.passes),
+      search_(rig, terms, settings.only, settings.judging.model_error_share),
+      part_(PartOf(recorded, effort.rows)),
+      records_(part_.empty() ? recorded : part_),
+      gains_(search_.DesignGains(records_, kSpeeds[0])),
+      refiner_(search_, terms_, records_, gains_, rig.axes) {}
+
+void RecordLandscape::Observe(std::size_t speed) {
+  speed_ = speed;
+  gains_ = search_.DesignGains(records_, kSpeeds[speed]);
+}
+
+void RecordLandscape::LineariseAt(const std::vector<double>& theta) {
+  for (Term& term : terms_) term.family.linearised_as = term.family.shape;
+  view_ = {};  // two of them do not fit into a gigabyte
+  view_ = search_.Linearise(records_, gains_, theta, kWhiteningOrder, search_.Everything());
+}
+
+double RecordLandscape::GainOf(const Hypothesis& cause, const Causes& given) const {
+  return EvidenceGiven(given).Gain(cause);
+}
+
+double RecordLandscape::GainAt(const Refined& fit, const Hypothesis& cause,
+                               const Causes& given) const {
+  return Evidence(fit.problem, terms_, given).Gain(cause);
+}
+
+std::vector<Candidate> RecordLandscape::Screen(const Causes& given) const {
+  return diagnosis::Screen(EvidenceGiven(given), search_.hypotheses());
+}
+
+double RecordLandscape::EvidenceOf(const Causes& set) const {
+  return Refiner::EvidenceOfSet(view_.problem, terms_, set);
+}
+
+std::vector<double> RecordLandscape::SolutionOf(const Causes& set) const {
+  return search_.Solve(view_.problem, set);
+}
+
+std::vector<double> RecordLandscape::SolutionAt(const Refined& fit, const Causes& set) const {
+  return search_.Solve(fit.problem, set);
+}
+
+Refined RecordLandscape::Fit(const Causes& set, const std::vector<double>& start, int passes,
+                             double worth) const {
+  return refiner_.Fit(set, start, view_, passes, worth);
+}
+
+Refined RecordLandscape::Refit(const Causes& set, double worth) const {
+  return Fit(set, SolutionOf(set), passes_, worth);
+}
+
+Refined RecordLandscape::RefineShapeOf(const Causes& set, std::size_t at, Refined fit,
+                                       double worth) {
+  if (!HasShape(set[at])) return fit;
+  return RefineShape(refiner_, set[at], set, view_, passes_, std::move(fit), terms_, worth);
+}
+
+bool RecordLandscape::HasShape(const Hypothesis& cause) const { return HasFamily(cause, terms_); }
+
+EvidenceLandscape::AllShapes RecordLandscape::Shapes() const {
+  AllShapes shapes;
+  shapes.reserve(terms_.size());
+  for (const Term& term : terms_) shapes.push_back(term.family.shape);
+  return shapes;
+}
+
+void RecordLandscape::Restore(const AllShapes& shapes) {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (!terms_[i].family.member || terms_[i].family.shape == shapes[i]) continue;
+    Term before = terms_[i].family.member(shapes[i]);
+    before.family.linearised_as = terms_[i].family.linearised_as;
+    terms_[i] = std::move(before);
+  }
+}
+
+void RecordLandscape::TakePlace(Hypothesis& member) {
+  if (!HasShape(member)) return;
+  member.place = terms_[member.terms.front()].location.name;
+  search_.Rename(member.terms, member.place);
+}
+
+std::vector<ModeProbe> RecordLandscape::Probes() const {
+  return ProbeModes(rig_, terms_, search_.hypotheses(), *view_.runs);
+}
+
+void RecordLandscape::ReportProgress(double share, const std::string& what) const {
+  if (!settings_.progress) return;
+  // Stage lengths depend on the data: progress never decreases, and 100 % is reported once.
+  progress_ = std::max(progress_, std::min(share, share < 1.0 ? 0.98 : 1.0));
+  settings_.progress(progress_, what);
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,229 @@
+// Adding, merging and dropping causes, on evidence that is known.
+
+#include "diagnosis/inference/selection_steps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "tests/unit/diagnosis/toy_landscape.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names NamesOf(const std::vector<Hypothesis>& causes) {
+  Names names;
+  for (const Hypothesis& h : causes) names.push_back(h.effect);
+  return names;
+}
+
+bool AddTo(ToyLandscape& toy, CauseSelection& found) {
+  return AddCause(toy, ThoroughRules(), 0.2, found);
+}
+
+TEST(AddCause, TakesTheEffectThatExplainsMostAndItsFit) {
+  ToyLandscape toy({10.0, 4.0});
+  toy.Add("lesser", {0.0, 1.0});
+  const Hypothesis greater = toy.Add("greater", {1.0, 0.0});
+  CauseSelection found = toy.Found({});
+  ASSERT_TRUE(AddTo(toy, found));
+  EXPECT_EQ(NamesOf(found.causes), Names{"greater"});
+  EXPECT_NEAR(found.theta[greater.terms.front()], 10.0, 1e-9);
+  ASSERT_FALSE(found.refitted.empty());
+  EXPECT_TRUE(found.refitted.front().refitted);
+}
+
+TEST(AddCause, LeavesWhatIsNotDecisive) {
+  ToyLandscape toy({3.9, 0.0});  // 4.6 nat after its price
+  toy.Add("weak", {1.0, 0.0});
+  CauseSelection found = toy.Found({});
+  EXPECT_FALSE(AddTo(toy, found));
+  EXPECT_TRUE(found.causes.empty());
+  EXPECT_TRUE(toy.fits.empty()) << "nothing was worth a fit";
+}
+
+// A further cause may only be what the law of the first one is not exact in.
+TEST(AddCause, AsksMoreOfAFurtherCauseWhereMuchIsExplainedAlready) {
+  for (const auto& [size, added] : {std::pair{10.0, true}, std::pair{100.0, false}}) {
+    ToyLandscape toy({size, 5.0});  // 9.5 nat for the second
+    const Hypothesis first = toy.Add("first", {1.0, 0.0});
+    toy.Add("second", {0.0, 1.0});
+    CauseSelection found = toy.Found({first});
+    EXPECT_EQ(AddTo(toy, found), added) << size;
+    EXPECT_EQ(found.causes.size(), added ? 2U : 1U);
+  }
+}
+
+TEST(AddCause, IsDecidedByTheNonlinearModel) {
+  ToyLandscape toy({10.0, 9.8});
+  toy.Add("better_on_the_screen", {1.0, 0.0});
+  toy.Add("better_in_fact", {0.0, 1.0});
+  toy.fitted[{"better_on_the_screen"}] = -80.0;
+  CauseSelection found = toy.Found({});
+  ASSERT_TRUE(AddTo(toy, found));
+  EXPECT_EQ(NamesOf(found.causes), Names{"better_in_fact"});
+}
+
+// 12 nat that no fit confirms are none; 47 are linearised anew, for a large step takes passes.
+TEST(AddCause, TakesWithoutConfirmationOnlyWhatIsFarBeyondDoubt) {
+  for (const auto& [size, added] : {std::pair{5.5, false}, std::pair{10.0, true}}) {
+    ToyLandscape toy({size});
+    toy.Add("effect", {1.0});
+    toy.refused.insert({"effect"});
+    CauseSelection found = toy.Found({});
+    EXPECT_EQ(AddTo(toy, found), added) << size;
+    EXPECT_EQ(found.causes.size(), added ? 1U : 0U);
+  }
+}
+
+TEST(AddCause, DropsAnEarlierOneThatItMakesSuperfluous) {
+  ToyLandscape toy({10.0, 0.0});
+  const Hypothesis imitation = toy.Add("imitation", {1.0, 1.0});
+  toy.Add("true_cause", {1.0, 0.0});
+  CauseSelection found = toy.Found({imitation});
+  ASSERT_TRUE(AddTo(toy, found));
+  EXPECT_EQ(NamesOf(found.causes), Names{"true_cause"});
+  EXPECT_NEAR(found.theta[1], 10.0, 1e-9);
+  EXPECT_NEAR(found.theta[0], 0.0, 1e-9);
+}
+
+TEST(AddCause, LooksWhereTheScreenSeesNothing) {
+  ToyLandscape toy({10.0, 0.0});
+  toy.Add("mode", {0.0, 1.0});  // the derivative about the file's frequency says nothing
+  toy.from[0.03] = -1.0;        // but a fit that begins near the mode reaches it
+  CauseSelection found = toy.Found({});
+  EXPECT_FALSE(AddTo(toy, found));
+  toy.probes.push_back({0, 0, 0.02});
+  EXPECT_FALSE(AddTo(toy, found));
+  toy.probes.push_back({0, 0, 0.03});
+  ASSERT_TRUE(AddTo(toy, found));
+  EXPECT_EQ(NamesOf(found.causes), Names{"mode"});
+}
+
+TEST(AddCause, FindsTheShapeOfAFamilyUnlessAFirstAnswerIsAsked) {
+  for (const bool first_only : {false, true}) {
+    ToyLandscape toy({10.0});
+    toy.Add("family", {1.0});
+    toy.shape["family"] = 20.0;
+    SelectionRules rules = ThoroughRules();
+    rules.effort.first_cause_only = first_only;
+    CauseSelection found = toy.Found({});
+    ASSERT_TRUE(AddCause(toy, rules, 0.2, found));
+    EXPECT_EQ(found.causes.front().place, first_only ? "here" : "at its shape");
+  }
+}
+
+TEST(AddCause, WithoutHypothesesAddsNone) {
+  ToyLandscape toy({10.0});
+  CauseSelection found = toy.Found({});
+  EXPECT_FALSE(AddTo(toy, found));
+}
+
+TEST(MergeCauses, PutsOneEffectInThePlaceOfTwoThatImitateIt) {
+  ToyLandscape toy({10.0, 10.0});
+  const Hypothesis x = toy.Add("x", {1.0, 0.0});
+  const Hypothesis y = toy.Add("y", {0.0, 1.0});
+  toy.Add("both", {1.0, 1.0});
+  CauseSelection found = toy.Found({x, y});
+  MergeCauses(toy, ThoroughRules(), found);
+  EXPECT_EQ(NamesOf(found.causes), Names{"both"});
+  EXPECT_NEAR(found.theta[2], 10.0 * std::sqrt(2.0), 1e-9);
+  EXPECT_EQ(toy.linearised.size(), 1U) << "at the new causes";
+}
+
+TEST(MergeCauses, LeavesTwoThatNoSingleEffectExplains) {
+  ToyLandscape toy({10.0, -6.0});
+  const Hypothesis x = toy.Add("x", {1.0, 0.0});
+  const Hypothesis y = toy.Add("y", {0.0, 1.0});
+  toy.Add("both", {1.0, 1.0});
+  CauseSelection found = toy.Found({x, y});
+  MergeCauses(toy, ThoroughRules(), found);
+  EXPECT_EQ(NamesOf(found.causes), (Names{"x", "y"}));
+  EXPECT_EQ(toy.linearised.size(), 0U);
+}
+
+TEST(MergeCauses, FitsNoSetTwice) {
+  ToyLandscape toy({10.0, -8.0, 9.0, 0.0});
+  const Hypothesis x = toy.Add("x", {1.0, 0.0, 0.0, 0.0});
+  const Hypothesis y = toy.Add("y", {0.0, 1.0, 0.0, 0.0});
+  const Hypothesis z = toy.Add("z", {0.0, 0.0, 1.0, 0.0});
+  toy.Add("elsewhere", {0.0, 0.0, 0.0, 1.0});
+  CauseSelection found = toy.Found({x, y, z});
+  MergeCauses(toy, ThoroughRules(), found);
+  EXPECT_EQ(found.causes.size(), 3U);
+  const std::set<ToyLandscape::Effects> different(toy.fits.begin(), toy.fits.end());
+  EXPECT_GT(different.size(), 6U) << "pairs were tried";
+  EXPECT_EQ(different.size(), toy.fits.size());
+}
+
+TEST(MergeCauses, PutsOneInThePlaceOfThree) {
+  ToyLandscape toy({10.0, 10.0, 10.0});
+  const Hypothesis x = toy.Add("x", {1.0, 0.0, 0.0});
+  const Hypothesis y = toy.Add("y", {0.0, 1.0, 0.0});
+  const Hypothesis z = toy.Add("z", {0.0, 0.0, 1.0});
+  toy.Add("all", {1.0, 1.0, 1.0});
+  CauseSelection found = toy.Found({x, y, z});
+  MergeCauses(toy, ThoroughRules(), found);
+  EXPECT_EQ(NamesOf(found.causes), Names{"all"});
+  EXPECT_EQ(toy.linearised.size(), 1U) << "at once, not two after two";
+}
+
+TEST(MergeCauses, PutsOneInThePlaceOfTwoBesideAThirdThatStays) {
+  ToyLandscape toy({10.0, 10.0, 0.0, 9.0});
+  const Hypothesis x = toy.Add("x", {1.0, 0.0, 0.0, 0.0});
+  const Hypothesis other = toy.Add("other", {0.0, 0.0, 0.0, 1.0});
+  const Hypothesis y = toy.Add("y", {0.0, 1.0, 0.0, 0.0});
+  toy.Add("both", {1.0, 1.0, 0.0, 0.0});
+  CauseSelection found = toy.Found({x, other, y});
+  MergeCauses(toy, ThoroughRules(), found);
+  EXPECT_EQ(ToyLandscape::EffectsOf(found.causes), (ToyLandscape::Effects{"both", "other"}));
+}
+
+TEST(MergeCauses, LeavesCausesThatCannotBeFittedAnyMore) {
+  ToyLandscape toy({10.0, 10.0});
+  const Hypothesis x = toy.Add("x", {1.0, 0.0});
+  const Hypothesis y = toy.Add("y", {0.0, 1.0});
+  toy.Add("both", {1.0, 1.0});
+  toy.refused.insert({"x", "y"});
+  CauseSelection found = toy.Found({x, y});
+  MergeCauses(toy, ThoroughRules(), found);
+  EXPECT_EQ(found.causes.size(), 2U);
+}
+
+TEST(DropUnproven, DropsTheWeakestFirstAndAsksTheOthersAgain) {
+  // Beside `x` the imitation explains nothing; without it, it would have been decisive.
+  ToyLandscape toy({10.0, 0.0});
+  const Hypothesis imitation = toy.Add("imitation", {1.0, 1.0});
+  const Hypothesis x = toy.Add("x", {1.0, 0.0});
+  CauseSelection found = toy.Found({imitation, x});
+  DropUnproven(toy, ThoroughRules(), found);
+  EXPECT_EQ(NamesOf(found.causes), Names{"x"});
+  EXPECT_NEAR(found.theta[1], 10.0, 1e-9);
+}
+
+TEST(DropUnproven, KeepsDecisiveOnes) {
+  ToyLandscape toy({10.0, 9.0});
+  const Hypothesis x = toy.Add("x", {1.0, 0.0});
+  const Hypothesis y = toy.Add("y", {0.0, 1.0});
+  CauseSelection found = toy.Found({x, y});
+  DropUnproven(toy, ThoroughRules(), found);
+  EXPECT_EQ(found.causes.size(), 2U);
+}
+
+TEST(DropUnproven, EndsAtTheCalibratedModel) {
+  ToyLandscape toy({2.0, 1.0});
+  const Hypothesis x = toy.Add("x", {1.0, 0.0});
+  const Hypothesis y = toy.Add("y", {0.0, 1.0});
+  CauseSelection found = toy.Found({x, y});
+  found.calibrated = {0.25, -0.5};
+  DropUnproven(toy, ThoroughRules(), found);
+  EXPECT_TRUE(found.causes.empty());
+  EXPECT_EQ(found.theta, found.calibrated);
+}
+
+}  // namespace
+}  // namespace levitas::diagnosis

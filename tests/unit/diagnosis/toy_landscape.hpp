@@ -1,0 +1,177 @@
+#pragma once
+// A landscape of evidence that a test makes: one vector of readings, and effects that are vectors.
+//
+// Evidence   of a set: -|what is left of the readings|^2/2 - kOccam per cause; its fit is exact.
+// Nonlinear  a test may say what the nonlinear model makes of a set instead (`fitted`), that it
+//            cannot be fitted (`refused`), and what a better shape of an effect is worth (`shape`).
+// Seen       which sets were fitted, in order, and how often it was linearised anew.
+
+#include <Eigen/Dense>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/inference/cause_selection.hpp"
+#include "diagnosis/inference/evidence_landscape.hpp"
+#include "diagnosis/inference/ranking.hpp"
+
+namespace levitas::diagnosis {
+
+class ToyLandscape final : public EvidenceLandscape {
+ public:
+  using Effects = std::set<std::string>;
+  static constexpr double kOccam = 3.0;  // [nat]
+  static inline const Family::Shape kBest{2.0};
+
+  explicit ToyLandscape(std::vector<double> readings) : readings_(std::move(readings)) {}
+
+  /// Its direction has unit length afterwards.
+  Hypothesis Add(const std::string& effect, const std::vector<double>& along,
+                 const std::string& place = "here") {
+    Hypothesis h;
+    h.effect = effect;
+    h.place = place;
+    h.terms = {all_.size()};
+    along_.push_back(Vector(along).normalized());
+    shapes_.push_back({1.0});
+    all_.push_back(h);
+    return h;
+  }
+
+  [[nodiscard]] CauseSelection Found(const Causes& causes) const {
+    CauseSelection found;
+    found.calibrated = std::vector<double>(all_.size(), 0.0);
+    found.causes = causes;
+    found.theta = SolutionOf(causes);
+    return found;
+  }
+
+  std::map<Effects, double> fitted;     ///< [nat] evidence of the nonlinear fit
+  std::set<Effects> refused;            ///< sets that no fit follows
+  std::map<std::string, double> shape;  ///< [nat] gained by the best shape of the effect
+  std::vector<ModeProbe> probes;
+  std::map<double, double> from;      ///< [nat] where a fit begins with a theta of this value
+  mutable std::vector<Effects> fits;  ///< in the order of time
+  mutable std::vector<std::vector<double>> starts;  ///< of these fits
+  std::vector<AllShapes> linearised;                ///< the shapes at the time
+
+  [[nodiscard]] const Causes& hypotheses() const override { return all_; }
+  void LineariseAt(const std::vector<double>&) override { linearised.push_back(shapes_); }
+  [[nodiscard]] double GainOf(const Hypothesis& cause, const Causes& given) const override {
+    Causes with = given;
+    with.push_back(cause);
+    return EvidenceOf(with) - EvidenceOf(given);
+  }
+  [[nodiscard]] double GainAt(const Refined&, const Hypothesis& cause,
+                              const Causes& given) const override {
+    return GainOf(cause, given);
+  }
+  [[nodiscard]] std::vector<Candidate> Screen(const Causes& given) const override {
+    std::map<std::string, Candidate> best;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const double gain = GainOf(all_[i], given);
+      Candidate& at =
+          best.try_emplace(all_[i].effect, Candidate{{}, {}, -1e9, 0, false}).first->second;
+      if (gain > at.score) at = {all_[i].effect, all_[i].place, gain, i, false};
+    }
+    std::vector<Candidate> sorted;
+    for (const auto& [effect, candidate] : best) sorted.push_back(candidate);
+    SortByScore(sorted);
+    return sorted;
+  }
+  [[nodiscard]] double EvidenceOf(const Causes& set) const override {
+    const Eigen::VectorXd left = Vector(readings_) - Directions(set) * Amounts(set);
+    return -0.5 * left.squaredNorm() - kOccam * static_cast<double>(set.size());
+  }
+  [[nodiscard]] std::vector<double> SolutionOf(const Causes& set) const override {
+    std::vector<double> theta(all_.size(), 0.0);
+    const Eigen::VectorXd amounts = Amounts(set);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      theta[set[i].terms.front()] += amounts[static_cast<Eigen::Index>(i)];
+    }
+    return theta;
+  }
+  [[nodiscard]] std::vector<double> SolutionAt(const Refined&, const Causes& set) const override {
+    return SolutionOf(set);
+  }
+  [[nodiscard]] Refined Fit(const Causes& set, const std::vector<double>& start, int,
+                            double) const override {
+    const Effects effects = EffectsOf(set);
+    fits.push_back(effects);
+    starts.push_back(start);
+    Refined fit;
+    fit.ok = !refused.contains(effects);
+    fit.theta = SolutionOf(set);
+    const auto known = fitted.find(effects);
+    fit.evidence = known == fitted.end() ? EvidenceOf(set) : known->second;
+    for (const double value : start) {
+      if (from.contains(value)) fit.evidence = from.at(value);
+    }
+    for (const Hypothesis& h : set) {
+      if (HasShape(h) && shapes_[h.terms.front()] == kBest) fit.evidence += shape.at(h.effect);
+    }
+    return fit;
+  }
+  [[nodiscard]] Refined Refit(const Causes& set, double worth) const override {
+    return Fit(set, SolutionOf(set), 1, worth);
+  }
+  [[nodiscard]] Refined RefineShapeOf(const Causes& set, std::size_t at, Refined fit,
+                                      double) override {
+    Family::Shape& present = shapes_[set[at].terms.front()];
+    if (!HasShape(set[at]) || present == kBest) return fit;
+    present = kBest;
+    fit.evidence += shape.at(set[at].effect);
+    return fit;
+  }
+  [[nodiscard]] bool HasShape(const Hypothesis& cause) const override {
+    return shape.contains(cause.effect);
+  }
+  [[nodiscard]] AllShapes Shapes() const override { return shapes_; }
+  void Restore(const AllShapes& shapes) override { shapes_ = shapes; }
+  void TakePlace(Hypothesis& member) override {
+    if (HasShape(member)) member.place = "at its shape";
+  }
+  [[nodiscard]] std::vector<ModeProbe> Probes() const override { return probes; }
+  void ReportProgress(double, const std::string&) const override {}
+
+  [[nodiscard]] static Effects EffectsOf(const Causes& set) {
+    Effects effects;
+    for (const Hypothesis& h : set) effects.insert(h.effect);
+    return effects;
+  }
+
+ private:
+  [[nodiscard]] static Eigen::VectorXd Vector(const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                             static_cast<Eigen::Index>(values.size()));
+  }
+  [[nodiscard]] Eigen::MatrixXd Directions(const Causes& set) const {
+    Eigen::MatrixXd columns(static_cast<Eigen::Index>(readings_.size()),
+                            static_cast<Eigen::Index>(set.size()));
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      columns.col(static_cast<Eigen::Index>(i)) = along_[set[i].terms.front()];
+    }
+    return columns;
+  }
+  /// Least squares; of two that are the same each takes a half.
+  [[nodiscard]] Eigen::VectorXd Amounts(const Causes& set) const {
+    if (set.empty()) return Eigen::VectorXd::Zero(0);
+    return Directions(set).completeOrthogonalDecomposition().solve(Vector(readings_));
+  }
+
+  std::vector<double> readings_;
+  std::vector<Eigen::VectorXd> along_;
+  Causes all_;
+  AllShapes shapes_;
+};
+
+/// What a thorough search goes by.
+inline SelectionRules ThoroughRules() {
+  SelectionRules rules;
+  rules.effort = {40, 6, 8, 5, 1000, false};
+  return rules;
+}
+
+}  // namespace levitas::diagnosis

@@ -1,0 +1,131 @@
+#include "report/diagnosis/diagnosis_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/unit/report/diagnosis/reports.hpp"
+
+namespace levitas::cli {
+namespace {
+
+using diagnosis::DiagnosisReport;
+using diagnosis::test::OneCause;
+using diagnosis::test::ParameterAt;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(SharedParameters, ThatAreTheSameAtSeveralPlacesStandOnce) {
+  DiagnosisReport report = OneCause();
+  report.rig_channels = {"de_x", "de_y", "nde_x"};
+  report.parameters = {ParameterAt("de_x"), ParameterAt("de_y"), ParameterAt("nde_x", 200.0)};
+  const auto shared = SharedParameters(report);
+  ASSERT_EQ(shared.size(), 2U);
+  EXPECT_EQ(shared[0].places, "de_x, de_y");
+  EXPECT_EQ(shared[1].places, "nde_x");
+  EXPECT_EQ(shared[1].parameter.value, 200.0);
+}
+
+TEST(SharedParameters, OfEveryChannelOfTheRigAreOfAllAxes) {
+  DiagnosisReport report = OneCause();
+  report.parameters = {ParameterAt("de_x"), ParameterAt("de_y")};
+  EXPECT_EQ(SharedParameters(report)[0].places, "all axes");
+  // A rig of one channel has a place all the same.
+  report.rig_channels = {"de_x"};
+  report.parameters = {ParameterAt("de_x")};
+  EXPECT_EQ(SharedParameters(report)[0].places, "de_x");
+}
+
+TEST(SharedParameters, WithOtherIntervalsAreNotTheSame) {
+  DiagnosisReport report = OneCause();
+  report.parameters = {ParameterAt("de_x"), ParameterAt("de_y")};
+  report.parameters[1].high += 1.0;
+  EXPECT_EQ(SharedParameters(report).size(), 2U);
+}
+
+TEST(AtPhase, GivesDegreesWhereThereIsAPhaseAndTheValueAloneElsewhere) {
+  EXPECT_EQ(AtPhase(18.5, std::numbers::pi / 2.0), "18.5 at 90.0 deg");
+  EXPECT_EQ(AtPhase(18.5, std::nullopt), "18.5");
+}
+
+TEST(GainSentence, SaysWhatShareOfTheGainIsReachedAndWhoTakesIt) {
+  DiagnosisReport report = OneCause();
+  EXPECT_THAT(GainSentence(report), HasSubstr("reaches 95.0 % (90.0 to 99.0 %)"));
+  EXPECT_THAT(GainSentence(report), HasSubstr("the cause takes 80 %"));
+  report.validation.beyond_calibration = -0.1;
+  EXPECT_THAT(GainSentence(report), HasSubstr("the cause adds 10 %"));
+}
+
+TEST(GainSentence, NamesTheEvidenceWhereCalibrationAloneLeavesNothing) {
+  DiagnosisReport report = OneCause();
+  report.validation.calibration_is_complete = true;
+  EXPECT_THAT(GainSentence(report), HasSubstr("evidence of 40 nat"));
+}
+
+TEST(GainSentence, CreditsCalibrationWhereThereIsNoCause) {
+  DiagnosisReport report = OneCause();
+  report.causes.clear();
+  EXPECT_THAT(GainSentence(report), HasSubstr("by calibration"));
+  EXPECT_THAT(GainSentence(report), Not(HasSubstr("the cause")));
+}
+
+TEST(GainSentence, PromisesNothingWhereTheFileAlreadyFits) {
+  DiagnosisReport report = OneCause();
+  report.validation.meaningful = false;
+  EXPECT_THAT(GainSentence(report), HasSubstr("Nothing to gain"));
+}
+
+TEST(CeilingSentence, IsThereOnlyWhereAFitLiesAboveItsCeiling) {
+  DiagnosisReport report = OneCause();
+  EXPECT_EQ(CeilingSentence(report), "");
+  report.validation.extended_percent = report.validation.ceiling_percent + 0.1;
+  EXPECT_THAT(CeilingSentence(report), HasSubstr("at the ceiling"));
+  // What rounds to the same two digits is not above.
+  report.validation.extended_percent = report.validation.ceiling_percent + 0.001;
+  EXPECT_EQ(CeilingSentence(report), "");
+}
+
+class Printed : public testing::Test {
+ protected:
+  static std::string Of(const DiagnosisReport& report, bool complete) {
+    testing::internal::CaptureStdout();
+    PrintDiagnosis(report, complete);
+    std::fflush(stdout);
+    return testing::internal::GetCapturedStdout();
+  }
+};
+
+TEST_F(Printed, BeginsWithTheVerdictAndEndsWithWhatToRecordNext) {
+  const std::string text = Of(OneCause(), false);
+  EXPECT_TRUE(text.starts_with("Eddy currents on de_x.\n")) << text;
+  EXPECT_TRUE(text.ends_with("Next: record a run-up\n")) << text;
+}
+
+TEST_F(Printed, ShowsTheParametersAsInARigFile) {
+  EXPECT_THAT(Of(OneCause(), false), HasSubstr("eddy_current tau_us: 120 us (110 to 130), de_x"));
+}
+
+TEST_F(Printed, ListsEightCandidatesAndAllOnlyWhenAsked) {
+  DiagnosisReport report = OneCause();
+  report.candidates.clear();
+  for (int i = 0; i < 20; ++i) {
+    report.candidates.push_back({.effect = "effect_" + std::to_string(i),
+                                 .place = "p",
+                                 .reason = "",
+                                 .validation_nat = {}});
+  }
+  EXPECT_THAT(Of(report, false), HasSubstr("effect_7"));
+  EXPECT_THAT(Of(report, false), Not(HasSubstr("effect_8")));
+  EXPECT_THAT(Of(report, true), HasSubstr("effect_19"));
+}
+
+TEST_F(Printed, TellsWhichCandidatesTheScreenAloneHasSeen) {
+  DiagnosisReport report = OneCause();
+  EXPECT_THAT(Of(report, false), HasSubstr("(screen)"));
+  for (auto& candidate : report.candidates) candidate.refitted = true;
+  EXPECT_THAT(Of(report, false), Not(HasSubstr("(screen)")));
+}
+
+}  // namespace
+}  // namespace levitas::cli
