@@ -69,10 +69,12 @@ ExitStatus PlanBefore(DiagnoseOptions options) {
                   "--plan: nothing to plan with: give records of the rig, or --rig and --scenario "
                   "to simulate them");
   }
-  if (!options.holdout.empty() || !options.healthy.empty() || options.quick || options.explain) {
-    throw Problem(ExitStatus::kUsage,
-                  "--holdout, --healthy, --quick and --explain belong to a diagnosis: give --out, "
-                  "or leave them out");
+  if (!options.holdout.empty() || !options.healthy.empty() || options.quick || options.explain ||
+      options.as_is) {
+    throw Problem(
+        ExitStatus::kUsage,
+        "--holdout, --healthy, --quick, --explain and --as-is belong to a diagnosis: give "
+        "--out, or leave them out");
   }
   return Plan({options.data, options.scenarios, options.controller_name, options.plan, options.size,
                options.json_path},

@@ -140,10 +140,11 @@ void FindOtherRig(const RigView& rig, const Columns& columns, const AxisArray& n
        {},
        share->value(),
        std::exp(share->left),
-       fmt::format("this is hardly a record of the rig file's rig: of what its currents do to the "
-                   "rotor the file foretells {:.0f} %, of a rig with any one fault 70 % and more",
+       fmt::format("the rig file may be another rig's: of what the currents do to the rotor it "
+                   "foretells {:.0f} %, of its own rig, healthy or with most faults, 70 % and more",
                    100.0 * share->value()),
-       "the file of the rig that was recorded (--rig): rotor, magnets and places of the probes",
+       "give the file of the rig that was recorded (--rig); compare rotor, magnets and places of "
+       "the probes",
        false});
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// A record of another rig than the file's: nothing of what the currents do to the rotor is as the
-// file says, while a fault changes one thing.
+// A doubt whether the file is that of the recorded rig: nothing of what the currents do to the rotor
+// is as the file says, while a fault changes one thing. A remark, never a refusal.
 //
 // Told       logarithm of the powers that the plant's innovations have without currents over those
 //            with them, summed over the axes: what the file knows of the currents' work.
@@ -9,7 +9,7 @@
 // Share      told / (told + left). Healthy rigs within their tolerances 0.83 to 0.99, every effect
 //            of docs/effects.md at its clear size 0.70 or more, a strong spring at the coupling
 //            excepted; another rotor 0.0 to 0.8.
-// Accused    share below kLeastShare with kFewest left, and below it with a spring at the coupling
+// Doubted    share below kLeastShare with kFewest left, and below it with a spring at the coupling
 //            too (the one effect that changes as much), whatever its stiffness.
 // Noise      of the observer: that of the readings, not the file's, which is another rig's.
 // Only       records with a test signal and at a steady speed: without, little has to be told; at

@@ -9,6 +9,8 @@
 // Statistic  by how much less is left when it is mended: of the observer's innovations (swapped,
 //            reversed, unit of currents), of the law (delayed), else what its file says.
 // Mend       what to change, as a sentence. `by_map`: a map of columns does it.
+// Remark     another rig's file: a doubt that changes nothing and refuses nothing, because a fault
+//            that changes much of the rig can look the same.
 // Thread     plain data.
 
 #include <cstdint>
@@ -44,6 +46,10 @@ struct RecordError {
   bool by_map{};
 };
 
+[[nodiscard]] constexpr bool IsRemark(RecordErrorKind kind) noexcept {
+  return kind == RecordErrorKind::kOtherRig;
+}
+
 /// What was found in one record, and what its columns have to be taken for.
 struct RecordErrors {
   std::string record;  ///< name
@@ -58,12 +64,11 @@ struct RecordErrors {
   std::vector<std::uint64_t> gaps;  ///< cycles of rows before which others are left out
 };
 
-/// What follows the sentences in an answer.
-inline constexpr const char* kAsMended =
-    "What follows is of the records as mended, where that can be done here; mend the files first.";
+/// What follows the sentences in an answer, as a sentence.
+[[nodiscard]] const char* AfterRecordErrors(const std::vector<RecordErrors>& found) noexcept;
 
 /// One sentence for each error, records with the same one together: what is wrong in which columns,
-/// and what to change. Empty: no errors.
+/// and what to change; a remark says that it is one. Empty: no errors.
 [[nodiscard]] std::vector<std::string> RecordErrorSentences(const std::vector<RecordErrors>& found);
 
 }  // namespace levitas::diagnosis

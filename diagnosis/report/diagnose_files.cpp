@@ -31,18 +31,6 @@ std::vector<Record> Load(const std::vector<std::string>& paths, const DiagnosisR
   return records;
 }
 
-/// No search for causes would end well: they would be those of another rig.
-void RefuseOtherRig(const std::vector<RecordErrors>& found) {
-  for (const RecordErrors& record : found) {
-    for (const RecordError& error : record.errors) {
-      if (error.kind != RecordErrorKind::kOtherRig) continue;
-      throw BadInput(fmt::format(
-          "{}: {}. To mend it: {}. Or, if it is its rig, diagnose it all the same by --as-is",
-          record.record, error.sentence, error.mend));
-    }
-  }
-}
-
 /// Takes the columns for what they are; adds the records that were not right to `found`.
 void Mend(const RigView& rig, std::vector<Record>& records, std::vector<RecordErrors>& found) {
   std::vector<RecordErrors> errors = FindErrorsOfRecords(rig, records);
@@ -212,7 +200,6 @@ DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs) {
   std::vector<RecordErrors> found;
   if (!inputs.as_is) {
     for (std::vector<Record>* records : {&data, &holdout, &healthy}) Mend(view, *records, found);
-    RefuseOtherRig(found);
   }
   KnownLaws laws = inputs.known_laws;
   AddSpeeds(inputs.data, data, laws);

@@ -51,8 +51,8 @@ struct DiagnosisResult {
   KnownLaws known_laws;  ///< with the speeds of their records
 };
 
-/// Looks for errors of the records first (record_errors/find.hpp); a refusal names them, and a
-/// record of another rig than the file's is refused, but for `as_is`.
+/// Looks for errors of the records first (record_errors/find.hpp), but for `as_is`; a refusal for
+/// another reason names them.
 [[nodiscard]] DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs);
 /// The same on records that are in memory; empty `holdout` keeps back stretches of `records`
 /// (model_run.hpp).
