@@ -76,9 +76,8 @@ class ColumnWriter {
     recording_.cycle.shrink_to_fit();
     recording_.levitated.shrink_to_fit();
     recording_.amplifiers_enabled.shrink_to_fit();
-    for (Column* column :
-         {&recording_.time_s, &recording_.speed_rad_per_s, &recording_.angle_rad,
-          &recording_.bias_current_a}) {
+    for (Column* column : {&recording_.time_s, &recording_.speed_rad_per_s, &recording_.angle_rad,
+                           &recording_.bias_current_a}) {
       column->shrink_to_fit();
     }
     for (auto* columns : {&recording_.position_m, &recording_.current_a, &recording_.excitation_a,

@@ -51,7 +51,7 @@ struct Recording {
   std::vector<std::string> channels;
   Column sensor_range_m;     ///< per axis
   double current_limit_a{};  ///< of the control current, to both sides
-  Column time_s;  ///< of the sensor frames, as the record has it
+  Column time_s;             ///< of the sensor frames, as the record has it
   std::vector<std::uint64_t> cycle;
   std::vector<std::uint8_t> levitated;
   std::vector<std::uint8_t> amplifiers_enabled;

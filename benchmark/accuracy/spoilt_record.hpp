@@ -2,15 +2,14 @@
 // Records spoilt on purpose, as loggers and cables do: one error, drawn by seed, in all records of
 // a trial; to measure how often errors of a record are named (diagnosis/record_errors/find.hpp).
 //
-// Kinds      those of RecordErrorKind, one after the other. Columns, sizes and
-//            variants by seed:
-//            swapped (positions or currents of two axes, or of two bearings), reversed (one
-//            column, or both of an axis), unit (one column or all of a kind, 10^3; speed in Hz, rpm or rad/s; angle in
-//            degrees), rate (every second row left out, or the times scaled by up to 20 % or
-//            drifting), quantised (steps of 2 to 10 times the noise), clipped (0.5 to 10 % of the
-//            rows), held (one or more of every 2 to 6 rows), delayed (1 to 5 rows), gaps (2 to 200
-//            rows left out at 1 to 6 places, numbers and times closed up). other_rig leaves the
-//            records as they are: DifferentRig is the file to judge them by.
+// Kinds      those of RecordErrorKind, one after the other. Columns, sizes and variants by seed:
+//            swapped (positions or currents of two axes, or of two bearings), reversed (one column,
+//            or both of an axis), unit (one column or all of a kind, 10^3; speed in Hz, rpm or
+//            rad/s; angle in degrees), rate (every second row left out, or the times scaled by up
+//            to 20 % or drifting), quantised (steps of 2 to 10 times the noise), clipped (0.5 to 10
+//            % of the rows), held (one or more of every 2 to 6 rows), delayed (1 to 5 rows), gaps
+//            (2 to 200 rows left out at 1 to 6 places, numbers and times closed up). other_rig
+//            leaves the records as they are: DifferentRig is the file to judge them by.
 // Thread     any; no shared state.
 
 #include <cstdint>

@@ -33,7 +33,8 @@ session::ColumnMap MapOf(const session::ColumnGuess& guess, double rate_hz) {
   return map;
 }
 
-diagnosis::Record Load(const std::string& path, const config::RigFile& rig, const session::ColumnMap& map) {
+diagnosis::Record Load(const std::string& path, const config::RigFile& rig,
+                       const session::ColumnMap& map) {
   diagnosis::Record out;
   out.name = std::filesystem::path(path).filename().string();
   std::unique_ptr<session::RowSource> rows;

@@ -1,8 +1,8 @@
 #pragma once
 // Errors of a record itself, looked for before anything is said of the rig.
 //
-// Order      times, unit of positions (all else needs them in metres), readings, rotation, rows that
-//            are left out, columns, rate; another rig's file where nothing else was found.
+// Order      times, unit of positions (all else needs them in metres), readings, rotation, rows
+//            that are left out, columns, rate; another rig's file where nothing else was found.
 // Cost       about a second for a record of two seconds with four axes.
 // Thread     any; pure. Failure: none; a record too short for a check passes it.
 // Not done   a record that cannot be read at all; candump and sessions have no columns to exchange,

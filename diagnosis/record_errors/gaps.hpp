@@ -1,13 +1,14 @@
 #pragma once
-// Rows that are left out while cycles and times run on, as a recorder does whose buffer was full and
-// a file that was put together of pieces.
+// Rows that are left out while cycles and times run on, as a recorder does whose buffer was full
+// and a file that was put together of pieces.
 //
 // Law        a controller computes its currents: of a record without gaps, each follows from the
 //            positions, currents and test signals of the rows up to it, whatever is wrong with the
 //            rig. Least squares over all columns, so that a law between axes is one too; rows that
 //            do not fit are left out and the rest is fitted again.
-// Gap        a row from which on the currents of half the axes (two at least) are off by kBroken times
-//            the usual, and not for longer than the law remembers. Only where few rows are so.
+// Gap        a row from which on the currents of half the axes (two at least) are off by kBroken
+//            times the usual, and not for longer than the law remembers. Only where few rows are
+//            so.
 // Not found  where the law is not known (left kKnown of the currents), in rows at a limit, beside
 //            missing or repeated frames; how many rows are missing.
 // Rows       the law from the columns, the gaps from all levitated rows of the record.

@@ -1,6 +1,6 @@
 #pragma once
-// A doubt whether the file is that of the recorded rig: nothing of what the currents do to the rotor
-// is as the file says, while a fault changes one thing. A remark, never a refusal.
+// A doubt whether the file is that of the recorded rig: nothing of what the currents do to the
+// rotor is as the file says, while a fault changes one thing. A remark, never a refusal.
 //
 // Told       logarithm of the powers that the plant's innovations have without currents over those
 //            with them, summed over the axes: what the file knows of the currents' work.

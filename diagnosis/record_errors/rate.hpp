@@ -4,8 +4,8 @@
 // Times      steps of the file's time column over the rig's period, at the start and at the end of
 //            the record: kOff away from 1, a clock that is scaled; different at both, one that
 //            drifts. Only where the file has times (`times_s` not empty).
-// Rotation   angle from row to row over speed times period (rotation_unit.hpp) is not 1, and no unit
-//            makes it so: rows are so many periods apart.
+// Rotation   angle from row to row over speed times period (rotation_unit.hpp) is not 1, and no
+//            unit makes it so: rows are so many periods apart.
 // Dynamics   the plant of the rig at whole multiples and parts of its rate (plant_fit.hpp): another
 //            rate is named where the law of the controller is not in the rows (some are missing, or
 //            made from others), and it leaves less of the plant by kRateGain.
