@@ -25,7 +25,7 @@ plant::PlantConfig WithoutNoise(const plant::PlantConfig& given) {
 }
 
 BareLoop::BareLoop(const plant::PlantConfig& rig, const law::LawConfig& law)
-    : plant_(WithoutNoise(rig), 1), laws_(AtPeriodOf(rig, law)), state_(laws_[0]) {
+    : plant_(WithoutNoise(rig), 1), law_(AtPeriodOf(rig, law)) {
   const auto& magnet = rig.bearings.front().magnet;
   const double room_a =
       std::min(magnet.bias_current_a, magnet.max_coil_current_a - magnet.bias_current_a);
@@ -42,16 +42,17 @@ void BareLoop::PlaceAtRest(const AxisArray& actuator_position_m) noexcept {
 void BareLoop::Turn(double speed_rad_per_s, double angle_rad) noexcept {
   plant_.SetSpeed(speed_rad_per_s, angle_rad);
   command_.speed_set_point_rad_per_s = speed_rad_per_s;
-  rung_ = laws_.Nearest(speed_rad_per_s);
+  law_.JumpTo(speed_rad_per_s);
 }
 
 AxisArray BareLoop::Step(const AxisArray& excitation_a, const AxisArray& excitation_m) noexcept {
   AxisArray error_m{};
   const AxisArray seen_m = plant_.SensorOutput();
-  for (std::size_t axis = 0; axis < laws_[rung_].axes(); ++axis) {
+  for (std::size_t axis = 0; axis < axes(); ++axis) {
     error_m[axis] = -seen_m[axis] - excitation_m[axis];
   }
-  const law::LawOutput out = law::Step(laws_[rung_], state_, error_m, excitation_a, limit_a_);
+  const law::LawOutput out =
+      law_.Step(command_.speed_set_point_rad_per_s, error_m, excitation_a, limit_a_);
   command_.control_current_a = out.control_current_a;
   plant_.Advance(command_);
   return seen_m;

@@ -9,8 +9,7 @@
 // Failure  std::invalid_argument of plant and law for descriptions that are impossible.
 
 #include "common/axes.hpp"
-#include "controller/law/axis_law.hpp"
-#include "controller/law/law_schedule.hpp"
+#include "controller/law/running_law.hpp"
 #include "plant_sim/plant/plant.hpp"
 
 namespace levitas::analysis {
@@ -26,14 +25,12 @@ class BareLoop {
   /// positions as the sensors show them at the start of the period.
   AxisArray Step(const AxisArray& excitation_a = {}, const AxisArray& excitation_m = {}) noexcept;
 
-  [[nodiscard]] std::size_t axes() const noexcept { return laws_[0].axes(); }
+  [[nodiscard]] std::size_t axes() const noexcept { return law_.axes(); }
   [[nodiscard]] bool finite() const noexcept { return plant_.finite(); }
 
  private:
   plant::Plant plant_;
-  law::LawLadder laws_;
-  std::size_t rung_{};
-  law::LawState state_;
+  law::RunningLaw law_;
   plant::PlantCommand command_;
   double limit_a_{};
 };

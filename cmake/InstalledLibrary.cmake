@@ -1,5 +1,5 @@
 # What a program of somebody else's is built with: one archive, the headers that it may include, and
-# find_package(Levitas), which gives the target levitas::levitas (docs/own_program.md).
+# find_package(Levitas), which gives the target levitas::levitas (examples/README.md).
 #
 #   levitas_installed_library(USES cycle plant HEADERS controller/cycle/control_cycle.hpp)
 #

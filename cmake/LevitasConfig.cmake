@@ -2,7 +2,7 @@
 # target_link_libraries(my_program PRIVATE levitas::levitas)
 #
 # Needs the development packages libfmt-dev and libyaml-cpp-dev. GCC 12 or later, C++20, x86-64-v2;
-# no promise between versions: a program is compiled anew with each (docs/own_program.md).
+# no promise between versions: a program is compiled anew with each (examples/README.md).
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)
 find_dependency(fmt)

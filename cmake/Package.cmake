@@ -59,6 +59,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # exact libraries, found by dpkg-shlibdeps
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "xz-utils")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "iproute2")
-# PNG of amb report; programs of one's own (docs/own_program.md).
+# PNG of amb report; programs of one's own (examples/README.md).
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "librsvg2-bin, cmake, g++, libfmt-dev, libyaml-cpp-dev, python3-matplotlib")
 include(CPack)

@@ -30,6 +30,11 @@ std::vector<std::string> LawNotes(const law::LawConfig& law) {
     notes.push_back(fmt::format("a schedule: {} laws from rest to {:.0f} rpm",
                                 law.schedule.size() + 1,
                                 RadPerSToRpm(law.schedule.back().speed_rad_per_s)));
+    for (const law::LawAtSpeed& at : law.schedule) {
+      if (!at.exchange) continue;
+      notes.push_back(
+          fmt::format("another law takes over at {:.0f} rpm", RadPerSToRpm(at.speed_rad_per_s)));
+    }
   }
   if (!law.state_space) return notes;
   const law::StateSpaceConfig& blocks = *law.state_space;

@@ -113,10 +113,16 @@ void DescribeSchedule(Visitor& v, law::LawConfig& law, const RigNumbers& rig) {
   constexpr std::size_t kMostSpeeds = 32;
   constexpr double kFastestRpm = 1e6;
   v.List(
-      {"speeds", 1, kMostSpeeds, "rising; each with the filters or the blocks of the file's law"},
+      {"speeds", 1, kMostSpeeds,
+       "rising; each with the filters or the blocks of the law before, save where it is exchanged"},
       law.schedule, [&](law::LawAtSpeed& at, std::size_t) {
         v.Number({"speed", kRpm, 0, kFastestRpm, kRequired, "at which this law holds"},
                  at.speed_rad_per_s);
+        DescribeSwitch(
+            v, "exchange",
+            "true: below this speed the law before stays as it is; here this one, of any "
+            "structure, takes over while the rotor is levitated",
+            at.exchange);
         DescribeLaw(v, at.axes, at.state_space, rig);
       });
   // What was refused already is not told twice: its number is none, its laws are empty.

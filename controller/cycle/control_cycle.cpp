@@ -9,8 +9,7 @@
 
 #include "common/probe_map.hpp"
 #include "controller/cycle/law_at_rig_period.hpp"
-#include "controller/law/axis_law.hpp"
-#include "controller/law/law_schedule.hpp"
+#include "controller/law/running_law.hpp"
 #include "controller/supervisor/supervisor.hpp"
 #include "controller/synchronous/synchronous_control.hpp"
 
@@ -60,14 +59,6 @@ std::unique_ptr<law::OwnLaw> Given(std::unique_ptr<law::OwnLaw> own) {
   return own;
 }
 
-/// The law of a controller file, with its memory.
-struct FileLaw {
-  explicit FileLaw(const law::LawConfig& config) : laws(config), state(laws[0]) {}
-  law::LawLadder laws;
-  std::size_t rung{};  ///< which of them runs
-  law::LawState state;
-};
-
 }  // namespace
 
 struct ControlCycle::Impl {
@@ -96,7 +87,7 @@ struct ControlCycle::Impl {
   RigNumbers rig;
   double limit_a;
   ProbeMap probes;
-  std::optional<FileLaw> file;  ///< one of the two is there
+  std::optional<law::RunningLaw> file;  ///< one of the two is there
   std::unique_ptr<law::OwnLaw> own;
   supervisor::Supervisor supervisor;
   synchronous::SynchronousControl synchronous;
@@ -152,8 +143,7 @@ void ControlCycle::Impl::StartLaw(const supervisor::Decision& decision) noexcept
     own->Start();
     return;
   }
-  file->state.Reset();
-  file->rung = file->laws.Nearest(decision.believed_speed_rad_per_s);
+  file->Start(decision.believed_speed_rad_per_s);
 }
 
 // A law of one's own says what it wants; the limit holds for it as for any other. What is no number
@@ -162,7 +152,7 @@ law::LawOutput ControlCycle::Impl::StepLaw(const supervisor::Decision& decision,
                                            const AxisArray& error_m,
                                            const AxisArray& injected_a) noexcept {
   if (own == nullptr) {
-    return law::Step(file->laws[file->rung], file->state, error_m, injected_a, limit_a);
+    return file->Step(decision.believed_speed_rad_per_s, error_m, injected_a, limit_a);
   }
   const AxisArray wanted_a = own->Step({.error_m = error_m,
                                         .axes = rig.axes(),
@@ -188,7 +178,6 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
     if (!row.energised) given = {};
     return;
   }
-  if (file) file->laws.Follow(decision.believed_speed_rad_per_s, file->rung, file->state);
   AxisArray error_m{};
   AxisArray injected_a{};
   for (std::size_t i = 0; i < rig.axes(); ++i) {

@@ -21,8 +21,7 @@ LawAlone::LawAlone(const CycleConfig& config)
     : axes_(config.rig.axes()),
       limit_a_(PermittedCurrent(config)),
       probes_(config.rig),
-      laws_(LawAtRigPeriod(config)),
-      state_(laws_[0]) {}
+      law_(LawAtRigPeriod(config)) {}
 
 CycleOutputs LawAlone::Step(const CycleInputs& in) noexcept {
   const AxisArray position_m = probes_.Positions({in.frame.position_m}).at;
@@ -35,10 +34,9 @@ CycleOutputs LawAlone::Step(const CycleInputs& in) noexcept {
   }
   if (usable) {
     const double speed = in.frame.speed_rad_per_s;
-    if (!started_) rung_ = laws_.Nearest(speed);
-    laws_.Follow(speed, rung_, state_);
+    if (!started_) law_.Start(speed);
     started_ = true;
-    given_ = law::Step(laws_[rung_], state_, error_m, in.op.excitation_a, limit_a_);
+    given_ = law_.Step(speed, error_m, in.op.excitation_a, limit_a_);
   }
   CycleOutputs out;
   out.current.cycle = in.frame.cycle;

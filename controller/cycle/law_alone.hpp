@@ -8,8 +8,7 @@
 
 #include "common/probe_map.hpp"
 #include "controller/cycle/control_cycle.hpp"
-#include "controller/law/axis_law.hpp"
-#include "controller/law/law_schedule.hpp"
+#include "controller/law/running_law.hpp"
 
 namespace levitas::cycle {
 
@@ -24,10 +23,8 @@ class LawAlone {
   std::size_t axes_;
   double limit_a_;
   ProbeMap probes_;
-  law::LawLadder laws_;
-  std::size_t rung_{};
+  law::RunningLaw law_;
   bool started_{};
-  law::LawState state_;
   law::LawOutput given_;
 };
 

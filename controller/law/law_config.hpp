@@ -71,6 +71,8 @@ struct LawAtSpeed {
   double speed_rad_per_s{};
   std::vector<AxisLawConfig> axes;
   std::optional<StateSpaceConfig> state_space;
+  /// Below this speed the law before stays as it is; here this one, of any structure, takes over.
+  bool exchange{};
 };
 
 /// A state-space law, or one entry per axis of the rig; with a schedule, that of the rotor at rest.
@@ -79,7 +81,8 @@ struct LawConfig {
   double period_s{};
   double current_limit_a{};  ///< |ic| <= this: min(i0, i_max - i0) keeps both coils in range
   std::optional<StateSpaceConfig> state_space;  ///< when there, it is the law, and `axes` is empty
-  /// Laws of higher speeds, rising (law_schedule.hpp); all have the filters or the blocks of this.
+  /// Laws of higher speeds, rising (law_schedule.hpp); each has the filters or the blocks of the
+  /// one before, save where the law is exchanged.
   std::vector<LawAtSpeed> schedule{};
 
   [[nodiscard]] std::size_t axis_count() const noexcept {

@@ -119,6 +119,20 @@ std::string WhyDifferent(const LawAtSpeed& a, const LawAtSpeed& b) {
   return {};
 }
 
+std::size_t AxesOf(const LawAtSpeed& at) {
+  return at.state_space ? at.state_space->axes : at.axes.size();
+}
+
+/// Why one cannot follow the other; empty when it can.
+std::string WhyNoStep(const LawAtSpeed& from, const LawAtSpeed& to) {
+  if (!to.exchange) {
+    const std::string why = WhyDifferent(from, to);
+    return why.empty() ? why : why + "; `exchange: true` lets it take over all the same";
+  }
+  if (AxesOf(from) != AxesOf(to)) return "it has laws for other axes than the one before";
+  return {};
+}
+
 /// The entries of a table, that of rest included.
 std::vector<LawAtSpeed> TableOf(const LawConfig& config) {
   std::vector<LawAtSpeed> table{{0.0, config.axes, config.state_space}};
@@ -137,13 +151,28 @@ std::size_t NearestRung(double speed_rad_per_s, double width_rad_per_s) noexcept
   return rung > 0.0 ? static_cast<std::size_t>(std::lround(std::min(rung, kLast))) : 0;
 }
 
-LawConfig AtRung(const LawConfig& config, const std::vector<LawAtSpeed>& table, std::size_t rung) {
-  const Place place = PlaceOf(table, WidthOf(config) * static_cast<double>(rung));
-  const LawAtSpeed& below = table[place.below];
-  const LawAtSpeed& above = table[place.below + 1];
+/// A law of the table as it stands.
+LawConfig Alone(const LawConfig& config, const LawAtSpeed& at) {
   LawConfig out;
   out.period_s = config.period_s;
   out.current_limit_a = config.current_limit_a;
+  out.axes = at.axes;
+  out.state_space = at.state_space;
+  return out;
+}
+
+Place PlaceOfRung(const LawConfig& config, const std::vector<LawAtSpeed>& table, std::size_t rung) {
+  // The last rung is the last entry, whatever rounding makes of its speed.
+  if (rung + 1 == kRungs) return {table.size() - 2, 1.0};
+  return PlaceOf(table, WidthOf(config) * static_cast<double>(rung));
+}
+
+LawConfig AtRung(const LawConfig& config, const std::vector<LawAtSpeed>& table, std::size_t rung) {
+  const Place place = PlaceOfRung(config, table, rung);
+  const LawAtSpeed& below = table[place.below];
+  const LawAtSpeed& above = table[place.below + 1];
+  if (above.exchange) return Alone(config, place.share < 1.0 ? below : above);
+  LawConfig out = Alone(config, {});
   for (std::size_t axis = 0; axis < below.axes.size(); ++axis) {
     out.axes.push_back(Between(below.axes[axis], above.axes[axis], place.share));
   }
@@ -151,6 +180,16 @@ LawConfig AtRung(const LawConfig& config, const std::vector<LawAtSpeed>& table, 
     out.state_space = Between(*below.state_space, *above.state_space, place.share);
   }
   return out;
+}
+
+/// How many exchanges lie at or below a rung.
+std::size_t ExchangesTo(const Place& place, const std::vector<LawAtSpeed>& table) {
+  std::size_t count = 0;
+  for (std::size_t i = 1; i <= place.below + 1; ++i) {
+    const bool reached = i <= place.below || place.share >= 1.0;
+    if (table[i].exchange && reached) ++count;
+  }
+  return count;
 }
 
 void RefuseNoSchedule(const LawConfig& config) {
@@ -168,7 +207,7 @@ std::string WhyNoSchedule(const LawConfig& config) {
       return where + (i == 1 ? "its speed is not above rest, where the law of the file holds"
                              : "its speed is not above that of the entry before");
     }
-    const std::string why = WhyDifferent(table[i - 1], table[i]);
+    const std::string why = WhyNoStep(table[i - 1], table[i]);
     if (!why.empty()) return where + why;
   }
   return {};
@@ -183,6 +222,7 @@ LawConfig LawAt(const LawConfig& config, double speed_rad_per_s) {
 LawLadder::LawLadder(const LawConfig& config) {
   if (config.schedule.empty()) {
     rungs_.emplace_back(config);
+    stretches_.push_back(0);
     return;
   }
   RefuseNoSchedule(config);
@@ -191,6 +231,7 @@ LawLadder::LawLadder(const LawConfig& config) {
   rungs_.reserve(kRungs);
   for (std::size_t rung = 0; rung < kRungs; ++rung) {
     rungs_.emplace_back(AtRung(config, table, rung));
+    stretches_.push_back(ExchangesTo(PlaceOfRung(config, table, rung), table));
   }
 }
 
@@ -202,18 +243,15 @@ std::size_t LawLadder::Nearest(double speed_rad_per_s) const noexcept {
 std::size_t LawLadder::Next(std::size_t rung, double speed_rad_per_s) const noexcept {
   if (rungs_.size() == 1) return 0;
   constexpr double kFarEnough = 0.75;  // of a rung
+  constexpr double kBackShare = 0.03;  // of the speed of an exchange
   const double here = width_rad_per_s_ * static_cast<double>(rung);
   const double off = (std::abs(speed_rad_per_s) - here) / width_rad_per_s_;
   if (off > kFarEnough) return std::min(rung + 1, rungs_.size() - 1);
-  if (off < -kFarEnough && rung > 0) return rung - 1;
-  return rung;
-}
-
-void LawLadder::Follow(double speed_rad_per_s, std::size_t& rung, LawState& state) const noexcept {
-  const std::size_t next = Next(rung, speed_rad_per_s);
-  if (next == rung) return;
-  ChangeLaw(rungs_[rung], rungs_[next], state);
-  rung = next;
+  if (rung == 0) return rung;
+  const bool exchange = Stretch(rung) != Stretch(rung - 1);
+  const double far =
+      exchange ? std::max(kFarEnough, kBackShare * static_cast<double>(rung)) : kFarEnough;
+  return off < -far ? rung - 1 : rung;
 }
 
 }  // namespace levitas::law

@@ -6,16 +6,19 @@
 // A pole of a filter, and a block of a state-space law, between two stable ones is stable: the
 // half-plane left of the imaginary axis and the unit disc are convex. That the closed loop is
 // stable between them, too, is not a matter of course: `amb margins`, `amb poles` and the gate of
-// `amb design` look at every speed.
+// `amb design` look at every speed. An entry that is an exchange may be of any structure: below its
+// speed the law before stays as it is (running_law.hpp has how one takes over from the other).
 //
 // Ladder     the loop runs one of kRungs fixed laws, which are made before it starts. It takes the
 //            next rung when the speed has come three quarters of the way towards it, so that noise
 //            of the speed does not make it change to and fro, and one rung a period at most, so
 //            that a speed that jumps changes the law in kRungs periods, not in one. The loop's
-//            speed is the one that its supervisor believes. Analyses use the nearest rung.
-// Bumpless   integrators are counted in amperes of output and keep their value, the derivative's
-//            memory is counted anew (ChangeLaw); the memories of filters and blocks belong to
-//            states that change as little as the law does.
+//            speed is the one that its supervisor believes. Analyses use the nearest rung. An
+//            exchange is taken back 3 % below its speed.
+// Stretch    rungs between two exchanges: their laws are alike and share one memory.
+// Bumpless   within a stretch integrators are counted in amperes of output and keep their value,
+//            the derivative's memory is counted anew (ChangeLaw); the memories of filters and
+//            blocks belong to states that change as little as the law does.
 // Speed      of either sign, its size counts. What is no number leaves the rung as it is.
 // Thread     construction allocates; Follow allocates nothing, throws nothing.
 // Failure    std::invalid_argument for laws that do not fit one another (WhyNoSchedule says why).
@@ -51,11 +54,12 @@ class LawLadder {
   [[nodiscard]] std::size_t Nearest(double speed_rad_per_s) const noexcept;
   /// For a law that runs: `rung` or a neighbour.
   [[nodiscard]] std::size_t Next(std::size_t rung, double speed_rad_per_s) const noexcept;
-  /// Takes `rung` there, and the law's memory with it.
-  void Follow(double speed_rad_per_s, std::size_t& rung, LawState& state) const noexcept;
+  /// Which stretch of alike laws a rung belongs to, counted from rest.
+  [[nodiscard]] std::size_t Stretch(std::size_t rung) const noexcept { return stretches_[rung]; }
 
  private:
   std::vector<LawCoefficients> rungs_;
+  std::vector<std::size_t> stretches_;
   double width_rad_per_s_{};  ///< from rung to rung, from rest; 0 for one rung
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/two_pi.hpp"
-#include "controller/law/law_schedule.hpp"
+#include "controller/law/running_law.hpp"
 #include "plant_sim/plant/plant.hpp"
 
 namespace levitas::design {
@@ -72,9 +72,7 @@ RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
   plant::Plant plant(rig.plant, options.seed);
   plant.RestInTouchdown();
   const AxisArray resting_m = plant.SensorOutput();
-  const law::LawLadder laws(law);
-  std::size_t rung = 0;
-  law::LawState state(laws[rung]);
+  law::RunningLaw running(law);
   const double period_s = rig.numbers.period_s();
   const std::size_t axes = law.axis_count();
   const std::size_t bearings = (axes + 1) / 2;
@@ -89,7 +87,7 @@ RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
   for (std::size_t n = 0; n < when.all && !out.lost; ++n) {
     if (n == when.turning) {
       StartTurning(options, rate, plant, command);
-      rung = laws.Nearest(options.run_up ? 0.0 : w);
+      running.JumpTo(options.run_up ? 0.0 : w);
     }
     const SensorFrame frame = plant.Sample();
     const double still =
@@ -97,8 +95,8 @@ RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
     AxisArray error_m{};
     for (std::size_t i = 0; i < axes; ++i)
       error_m[i] = rig.numbers.sensor_polarity[i] * (still * resting_m[i] - frame.position_m[i]);
-    laws.Follow(frame.speed_rad_per_s, rung, state);
-    const law::LawOutput given = law::Step(laws[rung], state, error_m, {}, law.current_limit_a);
+    const law::LawOutput given =
+        running.Step(frame.speed_rad_per_s, error_m, {}, law.current_limit_a);
     for (std::size_t i = 0; i < axes; ++i)
       command.control_current_a[i] = rig.numbers.actuator_polarity[i] * given.control_current_a[i];
     const AxisArray y = plant.SensorOutput();

@@ -29,14 +29,30 @@ void TakeRefitted(CauseSelection& found) {
   }
 }
 
-/// Of all sets that were fitted those near the best one, itself left out.
-void KeepContenders(const Judging& judging, CauseSet leader, double best, double lead,
-                    std::vector<CauseSet>& contenders) {
-  const double near = std::max(judging.decisive_nat, judging.form_share * lead);
-  contenders.push_back(std::move(leader));
-  std::erase_if(contenders, [&](const CauseSet& set) {
-    return !(set.fit.evidence > best - near) || set.fit.evidence == best;
-  });
+/// [nat] within which evidence does not refute a set, `lead` being what its first cause gains.
+double Near(const Judging& judging, double lead) {
+  return std::max(judging.decisive_nat, judging.form_share * lead);
+}
+
+Eigen::Index NumbersOf(const std::vector<Hypothesis>& causes) {
+  Eigen::Index numbers = 0;
+  for (const Hypothesis& cause : causes) numbers += cause.directions.cols();
+  return numbers;
+}
+
+/// No force law is more exact than form_share of what it explains, and a cause with many numbers
+/// gains that share by following what the law of the true one gets wrong. So among sets that this
+/// share does not tell apart the one with the fewest numbers leads, where it has half as many.
+const CauseSet& Simplest(const Judging& judging, const CauseSet& best, double lead,
+                         const std::vector<CauseSet>& fitted) {
+  const CauseSet* simplest = &best;
+  for (const CauseSet& set : fitted) {
+    if (!(set.fit.evidence > best.fit.evidence - judging.form_share * lead)) continue;
+    const bool fewer = NumbersOf(set.causes) < NumbersOf(simplest->causes) &&
+                       2 * NumbersOf(set.causes) <= NumbersOf(best.causes);
+    if (fewer) simplest = &set;
+  }
+  return *simplest;
 }
 
 /// Causes with each near candidate in place of the first; the candidates get their scores of the
@@ -57,7 +73,7 @@ CauseSet BestAlternative(const EvidenceLandscape& landscape, const SelectionRule
                              "refitting " + candidate.effect);
     std::vector<Hypothesis> causes = leader.causes;
     causes[0] = landscape.hypotheses()[candidate.hypothesis];
-    Refined fit = landscape.Refit(causes, best.fit.evidence - judging.decisive_nat);
+    Refined fit = landscape.Refit(causes, best.fit.evidence - Near(judging, lead));
     if (!fit.ok) continue;
     candidate.score = lead + fit.evidence - leader.fit.evidence;
     candidate.refitted = true;
@@ -109,11 +125,16 @@ void RefitAlternatives(const EvidenceLandscape& landscape, const SelectionRules&
   const double lead = own->score;
   own->refitted = true;
   found.contenders.clear();
-  CauseSet best = BestAlternative(landscape, rules, leader, lead, found);
-  KeepContenders(rules.judging, leader, best.fit.evidence, lead, found.contenders);
-  found.causes = std::move(best.causes);
-  found.theta = best.fit.theta;
-  found.leader_evidence = best.fit.evidence;
+  const CauseSet best = BestAlternative(landscape, rules, leader, lead, found);
+  found.contenders.push_back(leader);
+  const CauseSet chosen = Simplest(rules.judging, best, lead, found.contenders);
+  std::erase_if(found.contenders, [&](const CauseSet& set) {
+    return !(set.fit.evidence > best.fit.evidence - Near(rules.judging, lead)) ||
+           set.fit.evidence == chosen.fit.evidence;
+  });
+  found.causes = chosen.causes;
+  found.theta = chosen.fit.theta;
+  found.leader_evidence = chosen.fit.evidence;
   SortByScore(found.candidates);
 }
 

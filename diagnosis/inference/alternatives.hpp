@@ -12,7 +12,9 @@ namespace levitas::diagnosis {
 void RankCandidates(const EvidenceLandscape& landscape, const SelectionRules& rules,
                     CauseSelection& found);
 
-/// Refits the alternatives near the first cause on the nonlinear model; the best becomes first.
+/// Refits the alternatives near the first cause on the nonlinear model. The best becomes first, or
+/// one with half its numbers that comes within `form_share` of it: at one speed a run-out of every
+/// probe and order follows a force at the coupling, and the error of the force's model, too.
 void RefitAlternatives(const EvidenceLandscape& landscape, const SelectionRules& rules,
                        CauseSelection& found);
 

@@ -65,21 +65,25 @@ bool IsLost(const RigView& rig, const Search& search, const std::vector<Record>&
 
 }  // namespace
 
-Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::vector<Term>& terms,
-                           const std::vector<Record>& all, const std::vector<Record>& records,
-                           const Gains& gains, const ObserverSpeed& speed, int passes) {
+std::vector<double> NearFile(const RigView& rig, const Search& search,
+                             const std::vector<Term>& terms, const std::vector<Record>& all,
+                             const ObserverSpeed& speed) {
   const std::vector<Term> held = Held(terms);
   const Search cautious(rig, held, "", search.model_error_share());
   const std::vector<Record> part = Spans(all, kStartRows);
-  const std::vector<double> start =
-      FromFar(rig, cautious, held, Spans(all, kFastRows), part, cautious.DesignGains(part, speed));
+  return FromFar(rig, cautious, held, Spans(all, kFastRows), part,
+                 cautious.DesignGains(part, speed));
+}
+
+Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::vector<Term>& terms,
+                           const std::vector<Record>& all, const std::vector<Record>& records,
+                           const Gains& gains, const ObserverSpeed& speed, int passes) {
+  const std::vector<double> start = NearFile(rig, search, terms, all, speed);
   const Refiner refiner(search, terms, records, gains, rig.axes);
   Refined best = refiner.Approach(start, kWhiteningOrder, passes);
   const std::vector<Record> resting = AtRest(all);
   if (resting.empty() || !IsLost(rig, search, records, gains, best)) return best;
-  const std::vector<Record> few = Spans(resting, kStartRows);
-  const std::vector<double> other = FromFar(rig, cautious, held, Spans(resting, kFastRows), few,
-                                            cautious.DesignGains(few, speed));
+  const std::vector<double> other = NearFile(rig, search, terms, resting, speed);
   Refined again = refiner.Approach(other, kWhiteningOrder, passes);
   const bool better = again.ok && (!best.ok || refiner.Misfit(again.theta, kWhiteningOrder) <
                                                    refiner.Misfit(best.theta, kWhiteningOrder));

@@ -36,6 +36,13 @@ inline constexpr double kDaily = 0.2;  ///< share of its tolerance
                                          const std::vector<Record>& records, const Gains& gains,
                                          const ObserverSpeed& speed, int passes);
 
+/// The first half of a calibration: how the rig is built is held near its file, and what it cannot
+/// follow so is left in the residual.
+[[nodiscard]] std::vector<double> NearFile(const RigView& rig, const Search& search,
+                                           const std::vector<Term>& terms,
+                                           const std::vector<Record>& all,
+                                           const ObserverSpeed& speed);
+
 /// Sets `healthy_mean` and narrows `tolerance` of the nuisances.
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
                       const Judging& judging, std::vector<Term>& terms);

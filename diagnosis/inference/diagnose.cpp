@@ -169,7 +169,7 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
   CauseSelection found;
   found.theta = landscape.search().Usual();
   Calibrate(landscape, records, effort.calibrations, found);
-  FindCauses(landscape, rules, found);
+  FindCauses(landscape, records, rules, found);
   if (effort.first_cause_only) {
     DropUnproven(landscape, rules, found);
     RankCandidates(landscape, rules, found);

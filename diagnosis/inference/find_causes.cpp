@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "diagnosis/inference/selection_steps.hpp"
+#include "diagnosis/inference/unmoved_start.hpp"
 #include "diagnosis/model/divergence.hpp"
 
 namespace levitas::diagnosis {
@@ -35,7 +36,8 @@ void SlowDown(RecordLandscape& landscape, const SelectionRules& rules, std::size
 
 }  // namespace
 
-void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
+void FindCauses(RecordLandscape& landscape, const std::vector<Record>& all,
+                const SelectionRules& rules, CauseSelection& found) {
   std::size_t slowest = 0;  // of the observers that can be gone back to
   for (std::size_t stage = 0;; ++stage) {
     const double share = 0.2 + 0.2 * static_cast<double>(stage);
@@ -52,6 +54,12 @@ void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSe
       landscape.LineariseAt(found.theta);
     }
     if (found.causes.empty()) found.calibrated_runs = landscape.view().runs;
+    if (stage == 0 && !rules.effort.first_cause_only &&
+        StartNearFile(landscape, all, rules, found) && landscape.HasShape(found.causes.back())) {
+      Refined fit = landscape.Fit(found.causes, found.theta, rules.effort.passes);
+      if (fit.ok) RefineLastShape(landscape, fit, found);
+      landscape.LineariseAt(found.theta);
+    }
     if (found.causes.size() >= rules.most_causes || !AddCause(landscape, rules, share, found))
       return;
     if (rules.effort.first_cause_only) return;

@@ -10,6 +10,8 @@ namespace levitas::diagnosis {
 
 /// Adds the best cause while one gains enough (selection_steps.hpp). `found` has the calibrated
 /// model; the landscape ends linearised at the last fit.
-void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found);
+/// `all` are the records before spans were taken.
+void FindCauses(RecordLandscape& landscape, const std::vector<Record>& all,
+                const SelectionRules& rules, CauseSelection& found);
 
 }  // namespace levitas::diagnosis

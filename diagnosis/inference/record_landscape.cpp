@@ -1,6 +1,7 @@
 #include "diagnosis/inference/record_landscape.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "diagnosis/inference/calibrate.hpp"
@@ -41,6 +42,14 @@ void RecordLandscape::LineariseAt(const std::vector<double>& theta) {
   for (Term& term : terms_) term.family.linearised_as = term.family.shape;
   view_ = {};  // two of them do not fit into a gigabyte
   view_ = search_.Linearise(records_, gains_, theta, kWhiteningOrder, search_.Everything());
+}
+
+void RecordLandscape::LineariseAt(const std::vector<double>& theta, const Whitener& whitener) {
+  for (Term& term : terms_) term.family.linearised_as = term.family.shape;
+  const Whitener kept = whitener;  // it may be the view's
+  view_ = {};
+  auto runs = std::make_shared<const std::vector<Trajectory>>(RunAt(theta));
+  view_ = search_.Linearise(std::move(runs), theta, kept, search_.Everything());
 }
 
 double RecordLandscape::GainOf(const Hypothesis& cause, const Causes& given) const {

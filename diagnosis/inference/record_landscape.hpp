@@ -39,6 +39,8 @@ class RecordLandscape final : public EvidenceLandscape {
 
   [[nodiscard]] const Causes& hypotheses() const override { return search_.hypotheses(); }
   void LineariseAt(const std::vector<double>& theta) override;
+  /// With the whitening of another point: evidence of both may then be compared.
+  void LineariseAt(const std::vector<double>& theta, const Whitener& whitener);
   [[nodiscard]] double GainOf(const Hypothesis& cause, const Causes& given) const override;
   [[nodiscard]] double GainAt(const Refined& fit, const Hypothesis& cause,
                               const Causes& given) const override;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "cli/json_file.hpp"
 #include "cli/run/interrupt.hpp"
@@ -52,8 +53,19 @@ Entry EntryOf(const std::string& text) {
   return {RpmToRadPerS(rpm), text.substr(colon + 1)};
 }
 
+/// Whether two entries can be on one straight line; else the second takes over from the first.
+bool Alike(const law::LawConfig& table, const law::LawAtSpeed& before, law::LawAtSpeed at) {
+  law::LawConfig pair;
+  pair.period_s = table.period_s;
+  pair.axes = before.axes;
+  pair.state_space = before.state_space;
+  at.speed_rad_per_s = 1.0;  // above the other, which stands at rest here
+  pair.schedule = {std::move(at)};
+  return law::WhyNoSchedule(pair).empty();
+}
+
 /// The laws of files as a table; their blocks, whose order and scale are free, brought next to
-/// those of the entry before.
+/// those of the entry before. A law of another structure than the one before is exchanged for it.
 std::vector<NamedLaw> FromFiles(const ScheduleCommandOptions& options, const config::RigFile& rig) {
   if (options.laws.size() < 2 || options.laws.size() > design::kMostEntries)
     throw Problem(ExitStatus::kUsage, fmt::format("--law: given {} times, allowed 2 to {}",
@@ -72,6 +84,17 @@ std::vector<NamedLaw> FromFiles(const ScheduleCommandOptions& options, const con
     law::LawAtSpeed at{entry.speed_rad_per_s, found.file.law.axes, found.file.law.state_space};
     if (at.state_space && !entries.empty() && entries.back().state_space)
       at.state_space = design::AlignBlocks(*entries.back().state_space, *at.state_space);
+    if (!entries.empty()) {
+      if (!(at.speed_rad_per_s > entries.back().speed_rad_per_s))
+        throw Problem(ExitStatus::kUsage,
+                      fmt::format("--law {}: the speeds of a table rise, and the one before has "
+                                  "{:g} rpm",
+                                  text, RadPerSToRpm(entries.back().speed_rad_per_s)));
+      at.exchange = !Alike(found.file.law, entries.back(), at);
+      if (at.exchange)
+        fmt::print("exchange {} takes over at {:g} rpm: its structure is another one\n", found.path,
+                   RadPerSToRpm(at.speed_rad_per_s));
+    }
     entries.push_back(std::move(at));
     table = found.file.law;
   }

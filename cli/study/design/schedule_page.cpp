@@ -74,9 +74,12 @@ svg::Panel PanelOf(const std::vector<LawOverSpeed>& laws, const char* title, con
   return panel;
 }
 
-/// Kp and Kd of each bearing over speed; nothing for state-space laws.
+/// Kp and Kd of each bearing over speed; nothing where one of the laws is a state-space law.
 void AddGains(const config::RigFile& rig, const law::LawConfig& table, svg::Figure& figure) {
-  if (table.axes.empty()) return;
+  const bool gains = !table.axes.empty() &&
+                     std::ranges::none_of(
+                         table.schedule, [](const auto& at) { return at.state_space.has_value(); });
+  if (!gains) return;
   svg::Panel kp{"proportional gain", "speed [rpm]", "Kp [A/mm]"};
   svg::Panel kd{"derivative gain", "speed [rpm]", "Kd [A s/m]"};
   for (std::size_t b = 0; b < rig.numbers.bearings.size(); ++b) {

@@ -40,6 +40,22 @@ class DesignSchedule(CommandTest):
         self.assertIn("run.lcm", run)
         self.assertIn("every output bit", self.call("replay", "run.lcm").stdout)
 
+    def test_a_law_of_another_structure_takes_over_while_the_rotor_is_levitated(self):
+        self.call("design", "hinf", *RIG, "--draws", "1", "--corners", "0", "--out", "robust.yaml")
+        said = self.schedule("--law", f"0:{COMMISSIONED}", "--law", "1500:robust.yaml", "--out", "both.yaml",
+                             "--html", "both.html").stdout
+        self.assertIn("robust.yaml takes over at 1500 rpm: its structure is another one", said)
+        self.assertIn("ACCEPTED", said)
+        self.assertIn("exchange: true", (self.folder / "both.yaml").read_text())
+        self.assertEqual(self.peak("both.yaml", 1400), self.peak(COMMISSIONED, 1400))
+        self.assertEqual(self.peak("both.yaml", 1600), self.peak("robust.yaml", 1600))
+        self.call("run", *RIG, "--controller", "both.yaml", "--record", "run.lcm")
+        self.assertIn("every output bit", self.call("replay", "run.lcm").stdout)
+        unmarked = (self.folder / "both.yaml").read_text().replace("exchange: true", "exchange: false")
+        (self.folder / "unmarked.yaml").write_text(unmarked)
+        refused = self.call("margins", *RIG, "--controller", "unmarked.yaml", status=BAD_INPUT).stderr
+        self.assertIn("`exchange: true` lets it take over", refused)
+
     def test_a_search_writes_what_its_check_accepts(self):
         said = self.schedule("--evaluations", "400", "--speeds", "6000", "--out", "table.yaml",
                              "--sensitivity", "4", "--most-sensitivity", "9").stdout
@@ -54,7 +70,7 @@ class DesignSchedule(CommandTest):
                                                                "t.yaml", status=USAGE).stderr)
         done = self.schedule("--law", f"3000:{COMMISSIONED}", "--law", f"2000:{COMMISSIONED}", "--out",
                              "t.yaml", status=USAGE)
-        self.assertIn("its speed is not above", done.stderr)
+        self.assertIn(f"--law 2000:{COMMISSIONED}: the speeds of a table rise", done.stderr)
         done = self.call("design", "schedule", "--rig", "one_axis", "--out", "t.yaml", status=BAD_INPUT)
         self.assertIn("does not turn", done.stderr)
         self.assertEqual(self.files(), before)

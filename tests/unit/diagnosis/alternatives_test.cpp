@@ -97,6 +97,34 @@ TEST(RefitAlternatives, DropsAContenderThatIsRefuted) {
   EXPECT_TRUE(n.found.contenders.empty());
 }
 
+/// A strong cause of many numbers, and one of few that explains as much but for `behind` nat.
+CauseSelection ManyAgainstFew(Eigen::Index many, double behind) {
+  ToyLandscape toy({100.0, 1.0});  // 5000 nat: form_share of it is 100
+  const Hypothesis free = toy.Add("free", {1.0, 0.01}, "all axes", many);
+  toy.Add("few", {1.0, 0.0}, "coupling", 4);
+  toy.fitted[{"few"}] = toy.EvidenceOf({free}) - behind;
+  CauseSelection found = toy.Found({free});
+  RankCandidates(toy, ThoroughRules(), found);
+  RefitAlternatives(toy, ThoroughRules(), found);
+  return found;
+}
+
+TEST(RefitAlternatives, OfTwoThatTheLawsErrorDoesNotTellApartTheSimplerLeads) {
+  const CauseSelection found = ManyAgainstFew(24, 40.0);
+  EXPECT_EQ(found.causes.front().effect, "few");
+  ASSERT_EQ(found.contenders.size(), 1U) << "the free one is a tie";
+  EXPECT_EQ(found.contenders.front().causes.front().effect, "free");
+  EXPECT_EQ(Ties(found.candidates, found.causes, 5.0, 0.02), (std::vector<std::string>{"free"}));
+}
+
+TEST(RefitAlternatives, TheFreerOneLeadsWhereItExplainsMoreThanTheLawsError) {
+  EXPECT_EQ(ManyAgainstFew(24, 140.0).causes.front().effect, "free");
+}
+
+TEST(RefitAlternatives, AboutAsManyNumbersCountForNothing) {
+  EXPECT_EQ(ManyAgainstFew(7, 40.0).causes.front().effect, "free");
+}
+
 TEST(RefitAlternatives, FitsNoMoreThanItMay) {
   Near n;
   for (const double share : {0.12, 0.14, 0.16, 0.18, 0.2, 0.22}) {

@@ -27,12 +27,13 @@ class ToyLandscape final : public EvidenceLandscape {
 
   explicit ToyLandscape(std::vector<double> readings) : readings_(std::move(readings)) {}
 
-  /// Its direction has unit length afterwards.
+  /// Its direction has unit length afterwards; `numbers`: how many it says to move.
   Hypothesis Add(const std::string& effect, const std::vector<double>& along,
-                 const std::string& place = "here") {
+                 const std::string& place = "here", Eigen::Index numbers = 1) {
     Hypothesis h;
     h.effect = effect;
     h.place = place;
+    h.directions = Eigen::MatrixXd::Zero(numbers, numbers);
     h.terms = {all_.size()};
     along_.push_back(Vector(along).normalized());
     shapes_.push_back({1.0});

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "common/random.hpp"
 #include "controller/law/discrete_law.hpp"
-#include "tests/support/allocation_guard.hpp"
 #include "tests/unit/law/flexible_rotor_law.hpp"
 
 namespace levitas::law {
@@ -98,18 +98,25 @@ TEST(LawSchedule, SaysWhyLawsAreNone) {
             "entry 1: its speed is not above rest, where the law of the file holds");
   LawConfig shorter = Scheduled(2.0);
   shorter.schedule[0].axes[2].notches.pop_back();
-  EXPECT_EQ(WhyNoSchedule(shorter), "entry 1: axis 3 has 2 notches before and 1 here");
+  const std::string remedy = "; `exchange: true` lets it take over all the same";
+  EXPECT_EQ(WhyNoSchedule(shorter), "entry 1: axis 3 has 2 notches before and 1 here" + remedy);
+  shorter.schedule[0].exchange = true;
+  EXPECT_EQ(WhyNoSchedule(shorter), "");
+  shorter.schedule[0].axes.pop_back();
+  EXPECT_EQ(WhyNoSchedule(shorter), "entry 1: it has laws for other axes than the one before");
   LawConfig mixed = Scheduled(2.0);
   Random random(1);
   mixed.schedule[0] = {kTop, {}, DrawnBlocks(random)};
-  EXPECT_EQ(WhyNoSchedule(mixed), "entry 1: one has a state-space law, the other laws of axes");
+  EXPECT_EQ(WhyNoSchedule(mixed),
+            "entry 1: one has a state-space law, the other laws of axes" + remedy);
   LawConfig blocks;
   blocks.state_space = DrawnBlocks(random);
   blocks.schedule = {{kTop, {}, DrawnBlocks(random)}};
   blocks.schedule[0].state_space->blocks[1].pole_imaginary = 0.0;
   EXPECT_EQ(WhyNoSchedule(blocks),
             "entry 1: its block 2 is not of the kind of the one before: one state or two, one sign "
-            "of im");
+            "of im" +
+                remedy);
   EXPECT_THROW((void)LawAt(falling, 0.0), std::invalid_argument);
   EXPECT_THROW(LawLadder{falling}, std::invalid_argument);
   EXPECT_THROW(LawCoefficients{Scheduled(2.0)}, std::invalid_argument);
@@ -154,49 +161,24 @@ TEST(LawLadder, TakesOneRungAPeriodAndIgnoresNoise) {
   EXPECT_LE(changes, 1);
 }
 
-/// Largest step of a current while a constant error is held and the law changes as `next` says.
-template <class Next>
-double LargestStep(const LawConfig& config, const Next& next) {
+TEST(LawLadder, CountsTheStretchesBetweenExchanges) {
+  LawConfig config = Scheduled(2.0);
+  LawAtSpeed plain{2.0 * kTop, {FlexibleRotorLaw().axes}, {}, true};
+  for (AxisLawConfig& axis : plain.axes) axis.notches.clear();
+  config.schedule.push_back(plain);
   const LawLadder ladder(config);
-  LawState state(ladder[0]);
-  AxisArray error_m{};
-  error_m[0] = 20e-6;
-  std::size_t rung = 0;
-  double last_a = 0.0;
-  double largest_a = 0.0;
-  for (int n = 0; n < 3000; ++n) {
-    if (n >= 2000) next(ladder, rung, state);
-    const double now_a = Step(ladder[rung], state, error_m, {}, 1e30).control_current_a[0];
-    if (n >= 2000) largest_a = std::max(largest_a, std::abs(now_a - last_a));
-    last_a = now_a;
-  }
-  return largest_a;
-}
-
-TEST(LawLadder, ChangesWithoutABump) {
-  const LawConfig config = Scheduled(4.0);
-  const double at_once = LargestStep(config, [](const LawLadder& ladder, std::size_t& rung,
-                                                LawState&) { rung = ladder.size() - 1; });
-  const double by_rungs =
-      LargestStep(config, [](const LawLadder& ladder, std::size_t& rung, LawState& state) {
-        ladder.Follow(kTop, rung, state);
-      });
-  // 20 um at 4514 A/m become four times as much: 0.27 A at once, a 256th of it rung by rung.
-  EXPECT_GT(at_once, 0.2);
-  EXPECT_LT(by_rungs, 0.01);
-}
-
-TEST(LawLadder, AllocatesNothingOnTheWay) {
-  const LawLadder ladder(Scheduled(3.0));
-  LawState state(ladder[0]);
-  std::size_t rung = 0;
-  const test::AllocationGuard guard;
-  for (int n = 0; n < 1000; ++n) {
-    ladder.Follow(kTop, rung, state);
-    (void)Step(ladder[rung], state, {}, {}, 1.0);
-  }
-  EXPECT_EQ(guard.count(), 0U);
-  EXPECT_EQ(rung, kRungs - 1);
+  const std::size_t middle = ladder.Nearest(kTop);
+  EXPECT_EQ(ladder.Stretch(0), 0U);
+  EXPECT_EQ(ladder.Stretch(middle), 0U);
+  EXPECT_EQ(ladder.Stretch(kRungs - 2), 0U) << "below its speed the law before stays";
+  EXPECT_EQ(ladder.Stretch(kRungs - 1), 1U);
+  EXPECT_EQ(LawAt(config, 1.9 * kTop).axes[0].kp_a_per_m, config.schedule[0].axes[0].kp_a_per_m);
+  EXPECT_TRUE(LawAt(config, 2.0 * kTop).axes[0].notches.empty());
+  // Back across the exchange 3 % lower only; elsewhere three quarters of a rung do.
+  const double width = 2.0 * kTop / static_cast<double>(kRungs - 1);
+  EXPECT_EQ(ladder.Next(kRungs - 1, 2.0 * kTop - 7.0 * width), kRungs - 1);
+  EXPECT_EQ(ladder.Next(kRungs - 1, 2.0 * kTop - 8.0 * width), kRungs - 2);
+  EXPECT_EQ(ladder.Next(100, 99.0 * width), 99U);
 }
 
 }  // namespace

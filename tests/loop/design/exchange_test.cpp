@@ -1,0 +1,120 @@
+// Laws of unlike structure change places while the nonlinear rotor is levitated.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/rotational_speed.hpp"
+#include "controller/law/law_schedule.hpp"
+#include "controller/law/running_law.hpp"
+#include "design/hinf/hinf_design.hpp"
+#include "tests/support/shipped_loop.hpp"
+
+namespace levitas::design {
+namespace {
+
+const double kExchange = RpmToRadPerS(1500.0);
+
+test::ShippedLoop Shipped() { return {"flexible_rotor", "run_up_6000"}; }
+
+/// Made once: a fifth of a second.
+const law::LawConfig& Robust() {
+  static const law::LawConfig law =
+      hinf::DesignHinf(Shipped().rig.plant, hinf::HinfWeights{},
+                       {.current_limit_a = 1.0, .top_speed_rad_per_s = RpmToRadPerS(6000.0)})
+          .law;
+  return law;
+}
+
+/// One law below kExchange, the other from there on.
+law::LawConfig Exchanging(const law::LawConfig& below, const law::LawConfig& above) {
+  law::LawConfig table = below;
+  table.period_s = 1e-4;
+  table.current_limit_a = 1.0;
+  table.schedule = {{kExchange, above.axes, above.state_space, true}};
+  return table;
+}
+
+/// How far a rotor that does not turn moves while its law is told of another speed.
+struct Moved {
+  double before_m{}, after_m{};  ///< largest distance from where it rested, at any bearing
+  bool contact{};
+};
+
+/// `at_once`: without listening, and with nothing of what the law before carried.
+Moved Exchange(const law::LawConfig& table, bool upward, bool at_once) {
+  const test::ShippedLoop loop = Shipped();
+  plant::Plant plant(loop.rig.plant, 1);
+  plant.RestInTouchdown();
+  const AxisArray resting_m = plant.SensorOutput();
+  law::RunningLaw law(table);
+  const double from = upward ? 0.0 : 1.2 * kExchange;
+  const double to = upward ? 1.2 * kExchange : 0.0;
+  law.Start(from);
+  plant::PlantCommand command;
+  command.bias_current_a = loop.rig.numbers.bias_current_a;
+  AxisArray mean_m{};
+  Moved out;
+  constexpr int kLift = 5000;
+  constexpr int kSettle = 60'000;  // the robust law creeps to its place for seconds
+  constexpr int kWatch = 20'000;
+  for (int n = 0; n < kSettle + 2 * kWatch; ++n) {
+    const SensorFrame frame = plant.Sample();
+    const double still = n < kLift ? 1.0 - static_cast<double>(n) / kLift : 0.0;
+    AxisArray error_m{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      error_m[i] =
+          loop.rig.numbers.sensor_polarity[i] * (still * resting_m[i] - frame.position_m[i]);
+    }
+    const bool other = n >= kSettle + kWatch;
+    if (at_once && n == kSettle + kWatch) law.Start(to);
+    const law::LawOutput given = law.Step(other ? to : from, error_m, {}, 1.0);
+    for (std::size_t i = 0; i < 4; ++i)
+      command.control_current_a[i] =
+          loop.rig.numbers.actuator_polarity[i] * given.control_current_a[i];
+    const AxisArray y = plant.SensorOutput();
+    if (n < kSettle) {
+      mean_m = y;  // a resting rotor: within its noise of a micrometre
+    } else {
+      double& largest_m = other ? out.after_m : out.before_m;
+      for (std::size_t x = 0; x < 4; x += 2)
+        largest_m = std::max(largest_m, std::hypot(y[x] - mean_m[x], y[x + 1] - mean_m[x + 1]));
+    }
+    plant.Advance(command);
+    out.contact = out.contact || (n >= kLift && plant.ContactForce() > 0.0);
+  }
+  return out;
+}
+
+TEST(Exchange, FromAPidToARobustLawMovesTheRotorNoFurtherThanWhereThatHoldsIt) {
+  const law::LawConfig table = Exchanging(Shipped().controller.law, Robust());
+  const Moved gently = Exchange(table, true, false);
+  const Moved at_once = Exchange(table, true, true);
+  EXPECT_FALSE(gently.contact);
+  EXPECT_LT(gently.before_m, 4e-6);
+  EXPECT_LT(gently.after_m, 8e-6);
+  EXPECT_GT(at_once.after_m, 3.0 * gently.after_m);
+}
+
+TEST(Exchange, FromARobustLawToAPidMovesItNoFurtherThanBackToTheCentre) {
+  const law::LawConfig table = Exchanging(Shipped().controller.law, Robust());
+  const Moved gently = Exchange(table, false, false);
+  const Moved at_once = Exchange(table, false, true);
+  EXPECT_FALSE(gently.contact);
+  EXPECT_LT(gently.after_m, 8e-6);
+  EXPECT_GT(at_once.after_m, 3.0 * gently.after_m);
+}
+
+// The control cycle itself, through the exchange and back: the scenario runs up and down.
+TEST(Exchange, TakesTheRotorThroughItsSpeedsAndBack) {
+  test::ShippedLoop loop = Shipped();
+  loop.controller.law = Exchanging(loop.controller.law, Robust());
+  EXPECT_EQ(loop.Play(1, 60.0), "");
+  EXPECT_GT(loop.most.speed_rad_per_s, RpmToRadPerS(5950.0));
+  EXPECT_EQ(loop.most.contact_n, 0.0);
+  EXPECT_LT(loop.most.orbit_m, loop.rig.numbers.spinning_orbit_objective_m);
+}
+
+}  // namespace
+}  // namespace levitas::design
