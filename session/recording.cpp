@@ -66,6 +66,7 @@ class ColumnWriter {
     recording_.angle_rad.push_back(frame.angle_rad);
     recording_.bias_current_a.push_back(command.bias_current_a);
     recording_.cycle.push_back(frame.cycle);
+    recording_.time_s.push_back(1e-9 * static_cast<double>(frame.sample_time_ns));
   }
 
   void SetDamage(std::string text) { recording_.damage = std::move(text); }
@@ -75,8 +76,8 @@ class ColumnWriter {
     recording_.cycle.shrink_to_fit();
     recording_.levitated.shrink_to_fit();
     recording_.amplifiers_enabled.shrink_to_fit();
-    for (Column* column :
-         {&recording_.speed_rad_per_s, &recording_.angle_rad, &recording_.bias_current_a}) {
+    for (Column* column : {&recording_.time_s, &recording_.speed_rad_per_s, &recording_.angle_rad,
+                           &recording_.bias_current_a}) {
       column->shrink_to_fit();
     }
     for (auto* columns : {&recording_.position_m, &recording_.current_a, &recording_.excitation_a,

@@ -15,8 +15,8 @@
 // Levitated  the amplifiers are on, the mode is levitating, spinning or coast-down, the frame
 //            arrived and its positions are numbers. CSV and MAT records are levitated wherever
 //            the positions are numbers: such files do not say when the rotor was lifted or landed.
-// Memory     34 bytes a row and 16 per axis (98 bytes with four axes: 1.0 MB a second at 10 kHz,
-//            so 300 s take 294 MB); 8 more per excited axis and measured coil. While
+// Memory     42 bytes a row and 16 per axis (106 bytes with four axes: 1.1 MB a second at 10 kHz,
+//            so 300 s take 318 MB); 8 more per excited axis and measured coil. While
 //            a file is read, up to twice as much, and of a MAT file its own columns too.
 // Thread     any; LoadRecording keeps no state between calls.
 // Failure    BadInput naming the file: unreadable, other period or channels than the rig.
@@ -51,6 +51,7 @@ struct Recording {
   std::vector<std::string> channels;
   Column sensor_range_m;     ///< per axis
   double current_limit_a{};  ///< of the control current, to both sides
+  Column time_s;             ///< of the sensor frames, as the record has it
   std::vector<std::uint64_t> cycle;
   std::vector<std::uint8_t> levitated;
   std::vector<std::uint8_t> amplifiers_enabled;

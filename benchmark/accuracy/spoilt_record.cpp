@@ -6,7 +6,10 @@
 #include <numbers>
 
 #include "analysis/reading_noise.hpp"
+#include "benchmark/accuracy/drawn_rig.hpp"
+#include "common/problem.hpp"
 #include "common/random.hpp"
+#include "diagnosis/model/rig_view.hpp"
 
 namespace levitas::accuracy {
 namespace {
@@ -15,6 +18,15 @@ using LoadedRecord = diagnosis::Record;
 using diagnosis::RecordErrorKind;
 
 constexpr double kHalfTurn = std::numbers::pi;
+
+/// What a file of these rows says.
+void SetTimes(const config::RigFile& rig, std::vector<LoadedRecord>& records) {
+  for (LoadedRecord& record : records) {
+    record.times_s.clear();
+    for (const auto& row : record.rows)
+      record.times_s.push_back(rig.numbers.period_s() * static_cast<double>(row.cycle));
+  }
+}
 
 class Spoiler {
  public:
@@ -26,8 +38,7 @@ class Spoiler {
       case RecordErrorKind::kSwapped:
         return Swap();
       case RecordErrorKind::kReversed:
-        out_.size = -1.0;
-        return Scale({Any()}, random_.Uniform() < 0.5, -1.0);
+        return Reverse();
       case RecordErrorKind::kUnit:
         return Unit();
       case RecordErrorKind::kRate:
@@ -38,8 +49,12 @@ class Spoiler {
         return Clip();
       case RecordErrorKind::kHeld:
         return Hold();
-      default:
+      case RecordErrorKind::kDelayed:
         return Delay();
+      case RecordErrorKind::kGaps:
+        return LeaveOut();
+      case RecordErrorKind::kOtherRig:
+        return;
     }
   }
 
@@ -91,6 +106,14 @@ class Spoiler {
     const std::size_t a = Any();
     const std::size_t b = (a + 1 + random_.Bits() % (axes_ - 1)) % axes_;
     Exchange(position, a, b);
+  }
+
+  void Reverse() {
+    const std::size_t axis = Any();
+    const bool position = random_.Uniform() < 0.5;
+    out_.size = -1.0;
+    Scale({axis}, position, -1.0);
+    if (random_.Uniform() < 0.25) Scale({axis}, !position, -1.0);
   }
 
   void Unit() {
@@ -146,13 +169,7 @@ class Spoiler {
         }
         record.rows = std::move(half);
       }
-      out_.times_s.clear();
-      for (const LoadedRecord& record : out_.records) {
-        auto& times = out_.times_s.emplace_back();
-        for (const auto& row : record.rows) {
-          times.push_back(rig_.numbers.period_s() * static_cast<double>(row.cycle));
-        }
-      }
+      SetTimes(rig_, out_.records);
       return;
     }
     const bool drifts = random_.Uniform() < 0.5;
@@ -161,7 +178,8 @@ class Spoiler {
                : std::exp(std::copysign(0.01 + 0.19 * random_.Uniform(), random_.Uniform() - 0.5));
     const double drift =
         drifts ? std::copysign(0.01 + 0.05 * random_.Uniform(), random_.Uniform() - 0.5) : 0.0;
-    for (auto& times : out_.times_s) {
+    for (LoadedRecord& record : out_.records) {
+      auto& times = record.times_s;
       double now = 0.0;
       double before = times.front();
       for (std::size_t n = 0; n < times.size(); ++n) {
@@ -235,6 +253,29 @@ class Spoiler {
     }
   }
 
+  void LeaveOut() {
+    out_.columns = {"time"};
+    const std::size_t places = 1 + random_.Bits() % 6;
+    for (LoadedRecord& record : out_.records) {
+      const std::uint64_t first = record.rows.front().cycle;
+      const std::size_t piece = record.rows.size() / (places + 1);
+      std::vector<analysis::RecordedRow> left;
+      std::size_t from = 0;
+      for (std::size_t place = 1; place <= places; ++place) {
+        const std::size_t to = place * piece + random_.Bits() % (piece / 4);
+        left.insert(left.end(), record.rows.begin() + static_cast<std::ptrdiff_t>(from),
+                    record.rows.begin() + static_cast<std::ptrdiff_t>(to));
+        from = to + 2 + random_.Bits() % 199;
+      }
+      left.insert(left.end(), record.rows.begin() + static_cast<std::ptrdiff_t>(from),
+                  record.rows.end());
+      for (std::size_t n = 0; n < left.size(); ++n) left[n].cycle = first + n;
+      record.rows = std::move(left);
+    }
+    SetTimes(rig_, out_.records);
+    out_.size = static_cast<double>(places);
+  }
+
   const config::RigFile& rig_;
   std::size_t axes_;
   Random random_;
@@ -245,15 +286,28 @@ class Spoiler {
 
 Spoilt Spoil(const config::RigFile& rig, const std::vector<LoadedRecord>& records,
              RecordErrorKind kind, std::uint64_t seed) {
-  Spoilt out{kind, {}, 0.0, records, {}};
-  for (const LoadedRecord& record : records) {
-    auto& times = out.times_s.emplace_back();
-    for (const auto& row : record.rows) {
-      times.push_back(rig.numbers.period_s() * static_cast<double>(row.cycle));
-    }
-  }
+  Spoilt out{kind, {}, 0.0, records};
+  SetTimes(rig, out.records);
   Spoiler(rig, seed, out).Make();
   return out;
+}
+
+config::RigFile DifferentRig(const TestRig& bench, const config::RigFile& rig, std::uint64_t seed) {
+  constexpr int kMostRigs = 60;
+  constexpr double kFar = 1.2;
+  const auto bending = [](const config::RigFile& of) {
+    const diagnosis::RigView view(of.numbers, of.plant);
+    const auto first = std::ranges::find_if(view.omega_rad_per_s, [](double w) { return w > 0.0; });
+    return first == view.omega_rad_per_s.end() ? 1.0 : *first;
+  };
+  Random random(seed);
+  const double own = bending(rig);
+  for (int i = 0; i < kMostRigs; ++i) {
+    config::RigFile other = DrawRig(bench, random).rig;
+    const double ratio = bending(other) / own;
+    if (ratio > kFar || ratio < 1.0 / kFar) return other;
+  }
+  throw BadInput("none of the rigs drawn is far from this one");
 }
 
 bool IsNamed(const Spoilt& made, const diagnosis::RecordErrors& found) {
@@ -262,8 +316,7 @@ bool IsNamed(const Spoilt& made, const diagnosis::RecordErrors& found) {
   return std::ranges::any_of(found.errors, [&](const diagnosis::RecordError& error) {
     std::vector<std::string> named = error.columns;
     std::ranges::sort(named);
-    const bool sized = made.kind == RecordErrorKind::kSwapped || made.size == 0.0 ||
-                       std::abs(error.size / made.size - 1.0) < 0.1;
+    const bool sized = made.size == 0.0 || std::abs(error.size / made.size - 1.0) < 0.1;
     return error.kind == made.kind && named == columns && sized;
   });
 }

@@ -2,20 +2,21 @@
 // Records spoilt on purpose, as loggers and cables do: one error, drawn by seed, in all records of
 // a trial; to measure how often errors of a record are named (diagnosis/record_errors/find.hpp).
 //
-// Kinds      those of RecordErrorKind, one after the other. Columns, sizes and
-//            variants by seed:
-//            swapped (positions or currents of two axes, or of two bearings), reversed (one
-//            column), unit (one column or all of a kind, 10^3; speed in Hz, rpm or rad/s; angle in
-//            degrees), rate (every second row left out, or the times scaled by up to 20 % or
-//            drifting), quantised (steps of 2 to 10 times the noise), clipped (0.5 to 10 % of the
-//            rows), held (one or more of every 2 to 6 rows), delayed (1 to 5 rows).
-// Times      of the rows as the file would have them, for what only they show.
+// Kinds      those of RecordErrorKind, one after the other. Columns, sizes and variants by seed:
+//            swapped (positions or currents of two axes, or of two bearings), reversed (one column,
+//            or both of an axis), unit (one column or all of a kind, 10^3; speed in Hz, rpm or
+//            rad/s; angle in degrees), rate (every second row left out, or the times scaled by up
+//            to 20 % or drifting), quantised (steps of 2 to 10 times the noise), clipped (0.5 to 10
+//            % of the rows), held (one or more of every 2 to 6 rows), delayed (1 to 5 rows), gaps
+//            (2 to 200 rows left out at 1 to 6 places, numbers and times closed up). other_rig
+//            leaves the records as they are: DifferentRig is the file to judge them by.
 // Thread     any; no shared state.
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "benchmark/accuracy/trial.hpp"
 #include "configuration/rig_file.hpp"
 #include "diagnosis/model/model_run.hpp"
 #include "diagnosis/record_errors/record_error.hpp"
@@ -24,15 +25,19 @@ namespace levitas::accuracy {
 
 struct Spoilt {
   diagnosis::RecordErrorKind kind{};
-  std::vector<std::string> columns;  ///< as a RecordError has them
-  double size{};                     ///< of the mend
-  std::vector<diagnosis::Record> records;
-  std::vector<std::vector<double>> times_s;  ///< per record
+  std::vector<std::string> columns;        ///< as a RecordError has them
+  double size{};                           ///< of the mend
+  std::vector<diagnosis::Record> records;  ///< with the times that their file would have
 };
 
 [[nodiscard]] Spoilt Spoil(const config::RigFile& rig,
                            const std::vector<diagnosis::Record>& records,
                            diagnosis::RecordErrorKind kind, std::uint64_t seed);
+
+/// A rig drawn from `bench` by seed (drawn_rig.hpp) whose first bending mode is at least a fifth
+/// away from that of `rig`; BadInput where none of many is.
+[[nodiscard]] config::RigFile DifferentRig(const TestRig& bench, const config::RigFile& rig,
+                                           std::uint64_t seed);
 
 /// Whether one of the errors is the one that was made, with its columns and size.
 [[nodiscard]] bool IsNamed(const Spoilt& made, const diagnosis::RecordErrors& found);

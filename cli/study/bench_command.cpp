@@ -98,6 +98,9 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   command->add_option("--spoilt", options->spoilt,
                       "Instead: so many trials of records with an error of their own, as many "
                       "healthy ones and two fifths with an effect, of which none may be accused");
+  command->add_option("--kind", options->kinds,
+                      "Of --spoilt only these: a kind of error (swapped, gaps, ...), healthy, "
+                      "effect; so many of each of the three groups");
   command->add_option("--forecast", options->forecast,
                       "Instead: so many healthy rigs, fitted at rest and at one speed, foretell a "
                       "run-up: does the interval cover, and does calibration gain?");

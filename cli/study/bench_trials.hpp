@@ -20,6 +20,7 @@ struct BenchOptions {
   std::string rig{"flexible_rotor"};
   std::vector<std::string> controllers;
   std::vector<std::string> effects;
+  std::vector<std::string> kinds;  ///< of --spoilt: errors of records, healthy, effect
   std::vector<double> sizes{1.0, 0.5, 0.25};
   std::uint64_t first{1000};
   int seeds{0}, clean{0}, outside{0}, pairs{0}, weak{0}, spoilt{0}, forecast{0};

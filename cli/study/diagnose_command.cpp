@@ -51,7 +51,7 @@ struct DiagnoseOptions : AnalysisOptions {
   std::vector<std::string> scenarios;
   std::string out, plan;
   double size{1.0};
-  bool quick{}, explain{}, plans{};
+  bool quick{}, explain{}, plans{}, as_is{};
 };
 
 /// `--plan record.lcm` gives a record to an option whose value may be left out.
@@ -69,10 +69,12 @@ ExitStatus PlanBefore(DiagnoseOptions options) {
                   "--plan: nothing to plan with: give records of the rig, or --rig and --scenario "
                   "to simulate them");
   }
-  if (!options.holdout.empty() || !options.healthy.empty() || options.quick || options.explain) {
-    throw Problem(ExitStatus::kUsage,
-                  "--holdout, --healthy, --quick and --explain belong to a diagnosis: give --out, "
-                  "or leave them out");
+  if (!options.holdout.empty() || !options.healthy.empty() || options.quick || options.explain ||
+      options.as_is) {
+    throw Problem(
+        ExitStatus::kUsage,
+        "--holdout, --healthy, --quick, --explain and --as-is belong to a diagnosis: give "
+        "--out, or leave them out");
   }
   return Plan({options.data, options.scenarios, options.controller_name, options.plan, options.size,
                options.json_path},
@@ -143,6 +145,7 @@ ExitStatus Run(const DiagnoseOptions& options) {
   judged.insert(judged.end(), options.holdout.begin(), options.holdout.end());
   inputs.known_laws = LawsOfRecords(judged, inputs.rig);
   inputs.settings.quick = options.quick;
+  inputs.as_is = options.as_is;
   inputs.settings.progress = [&progress](double share, const std::string& what) {
     progress.Show(share, what);
   };
@@ -199,6 +202,9 @@ void AddDiagnoseCommand(CLI::App& app, Action& action) {
       "First answer: the strongest cause, from at most 30 000 samples of all records");
   command->add_flag("--explain", options->explain,
                     "Print every calibrated value and every candidate");
+  command->add_flag("--as-is", options->as_is,
+                    "Take columns, times and rig file as they are: look for no errors of the "
+                    "records");
   AddJsonOption(*command, *options);
   command->callback([options, plan, &action] {
     options->plans = plan->count() > 0;

@@ -22,11 +22,6 @@ namespace {
 
 using session::GuessedColumn;
 
-struct Loaded {
-  diagnosis::Record record;
-  std::vector<double> times_s;
-};
-
 session::ColumnMap MapOf(const session::ColumnGuess& guess, double rate_hz) {
   session::ColumnMap map;
   map.rate_hz = rate_hz;
@@ -38,9 +33,10 @@ session::ColumnMap MapOf(const session::ColumnGuess& guess, double rate_hz) {
   return map;
 }
 
-Loaded Load(const std::string& path, const config::RigFile& rig, const session::ColumnMap& map) {
-  Loaded out;
-  out.record.name = std::filesystem::path(path).filename().string();
+diagnosis::Record Load(const std::string& path, const config::RigFile& rig,
+                       const session::ColumnMap& map) {
+  diagnosis::Record out;
+  out.name = std::filesystem::path(path).filename().string();
   std::unique_ptr<session::RowSource> rows;
   if (path.ends_with(".mat")) {
     rows = std::make_unique<session::MatRows>(path, rig.numbers.channels, rig.log.matrix,
@@ -60,11 +56,11 @@ Loaded Load(const std::string& path, const config::RigFile& rig, const session::
     row.sample.speed_rad_per_s = cycle.in.frame.speed_rad_per_s;
     row.sample.angle_rad = cycle.in.frame.angle_rad;
     row.excitation_a = cycle.in.op.excitation_a;
-    out.record.rows.push_back(row);
+    out.rows.push_back(row);
     out.times_s.push_back(1e-9 * static_cast<double>(cycle.in.frame.sample_time_ns));
   };
   static_cast<void>(session::ReadRecords(*rows, {.rig = rig.numbers, .coils = {}}, take));
-  out.record.mean_speed_rad_per_s = analysis::MeanSpeed(out.record.rows);
+  out.mean_speed_rad_per_s = analysis::MeanSpeed(out.rows);
   return out;
 }
 
@@ -129,7 +125,7 @@ SuggestedMap SuggestMap(const std::string& data_path, const config::RigFile& rig
                                   : session::SampleColumns(data_path);
   const session::ColumnGuess guess = session::GuessColumns(sampled, rig.numbers);
   const double rate_hz = 1.0 / rig.numbers.period_s();
-  Loaded loaded;
+  diagnosis::Record loaded;
   bool by_rate = guess.periods_a_row == 0.0;
   try {
     loaded = Load(data_path, rig, MapOf(guess, by_rate ? rate_hz : 0.0));
@@ -141,7 +137,7 @@ SuggestedMap SuggestMap(const std::string& data_path, const config::RigFile& rig
     loaded.times_s = TimesOf(sampled, guess);
   }
   const diagnosis::RigView view(rig.numbers, rig.plant);
-  SuggestedMap out{{}, diagnosis::FindRecordErrors(view, loaded.record, loaded.times_s)};
+  SuggestedMap out{{}, diagnosis::FindRecordErrors(view, loaded)};
   by_rate = by_rate || out.found.time_factor != 1.0 || out.found.drifts;
   out.text = fmt::format("# Columns of {} as controller and rig show them to be.\n# Then: {}\n",
                          data_path, import);

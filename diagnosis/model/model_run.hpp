@@ -31,6 +31,8 @@ struct Record {
   double mean_speed_rad_per_s{};
   std::uint32_t number{};   ///< within its diagnosis
   bool keeps_validation{};  ///< part of it is not to be fitted
+  /// [s] of the rows as their file has them, until errors of the record have been looked for.
+  std::vector<double> times_s;
 };
 
 /// A gain from one row after the start phase on, until the next one's.

@@ -4,7 +4,9 @@
 
 #include "common/problem.hpp"
 #include "diagnosis/record_errors/columns.hpp"
+#include "diagnosis/record_errors/gaps.hpp"
 #include "diagnosis/record_errors/law_fit.hpp"
+#include "diagnosis/record_errors/other_rig.hpp"
 #include "diagnosis/record_errors/plant_fit.hpp"
 #include "diagnosis/record_errors/position_unit.hpp"
 #include "diagnosis/record_errors/rate.hpp"
@@ -23,14 +25,16 @@ constexpr ObserverSpeed kObserver{0.003, 1e-5};
 constexpr Eigen::Index kFewestRows = 500;
 
 /// What law and plant tell, of columns whose positions are in metres.
-void FindInTheLoop(const RigView& rig, const Columns& columns, RecordErrors& out) {
+void FindInTheLoop(const RigView& rig, const Columns& columns, const ColumnUses& elsewhere,
+                   RecordErrors& out) {
   const std::vector<LawOfColumn> laws = FitLaw(rig, columns);
   RecordErrors wiring;
   const PlantFit plant(rig, columns, kObserver);
-  FindWiring(rig, columns, laws, plant, wiring);
+  FindWiring(rig, columns, laws, plant, elsewhere, wiring);
   const Eigen::VectorXd ratios = plant.Ratios(wiring.uses);
   const bool spoilt = !out.errors.empty() || !wiring.errors.empty();
   if (ratios.size() > 0 && !spoilt) FindRate(rig, columns, laws, ratios.array().log().sum(), out);
+  out.wiring = wiring.uses;
   for (std::size_t a = 0; a < rig.axes; ++a) {
     // What the wiring takes a column for is a column whose unit was mended.
     ColumnUse& use = wiring.uses.position[a];
@@ -38,6 +42,14 @@ void FindInTheLoop(const RigView& rig, const Columns& columns, RecordErrors& out
   }
   out.uses = wiring.uses;
   out.errors.insert(out.errors.end(), wiring.errors.begin(), wiring.errors.end());
+}
+
+void LeaveGaps(const std::vector<std::uint64_t>& gaps, Record& record) {
+  std::size_t passed = 0;
+  for (analysis::RecordedRow& row : record.rows) {
+    while (passed < gaps.size() && gaps[passed] <= row.cycle) ++passed;
+    row.cycle += passed * kUnknownGap;
+  }
 }
 
 }  // namespace
@@ -66,19 +78,21 @@ Record Mended(const RigView& rig, const Record& record, const RecordErrors& foun
         before.sample.angle_rad + rig.period_s * before.sample.speed_rad_per_s *
                                       static_cast<double>(row.cycle - before.cycle);
   }
+  LeaveGaps(found.gaps, out);
   return out;
 }
 
 RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
-                              const std::vector<double>& times_s) {
+                              const ColumnUses& elsewhere) {
   RecordErrors out;
   out.record = record.name;
-  FindClock(rig, times_s, out);
+  FindClock(rig, record.times_s, out);
   FindPositionUnits(rig, record, out);
   Record mended = Mended(rig, record, out);
   LeaveOutContact(rig, mended);
-  const Columns columns = ColumnsOf(mended, rig, kMostRows);
+  Columns columns = ColumnsOf(mended, rig, kMostRows);
   if (columns.rows() < kFewestRows) return out;
+  out.has_test_signal = columns.excitation_a.cwiseAbs().maxCoeff() > 0.0;
   FindQuantised(rig, columns, out);
   FindClipped(rig, columns, out);
   FindHeld(rig, columns, out);
@@ -87,12 +101,36 @@ RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
            error.kind == RecordErrorKind::kHeld;
   });
   FindRotationUnit(rig, columns, out);
-  if (read_wrong) return out;  // neither law nor plant is in such readings
+  // Neither law nor plant is in such readings, nor in rows of which some are left out.
+  if (read_wrong || FindRateOfRotation(rig, columns, out)) return out;
+  FindGaps(rig, mended, record.rows.front().cycle, out);
+  if (!out.gaps.empty()) {
+    LeaveGaps(out.gaps, mended);
+    columns = ColumnsOf(mended, rig, kMostRows);
+  }
   try {
-    FindInTheLoop(rig, columns, out);
+    FindInTheLoop(rig, columns, elsewhere, out);
   } catch (const Problem&) {  // no observer exists: nothing can be said
   }
+  if (out.errors.empty()) FindOtherRig(rig, columns, NoiseOf(rig, mended), out);
   return out;
+}
+
+std::vector<RecordErrors> FindErrorsOfRecords(const RigView& rig,
+                                              const std::vector<Record>& records) {
+  std::vector<RecordErrors> found;
+  for (const Record& record : records) found.push_back(FindRecordErrors(rig, record));
+  const ColumnUses right;
+  const auto shown = std::ranges::find_if(found, [&](const RecordErrors& errors) {
+    return errors.has_test_signal && !(errors.wiring == right);
+  });
+  if (shown == found.end()) return found;
+  const ColumnUses elsewhere = shown->wiring;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const bool unsure = !found[i].has_test_signal && !(found[i].wiring == elsewhere);
+    if (unsure) found[i] = FindRecordErrors(rig, records[i], elsewhere);
+  }
+  return found;
 }
 
 }  // namespace levitas::diagnosis

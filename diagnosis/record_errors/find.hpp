@@ -1,13 +1,14 @@
 #pragma once
 // Errors of a record itself, looked for before anything is said of the rig.
 //
-// Order      times, unit of positions (all else needs them in metres), readings, rotation, columns,
-//            rate.
+// Order      times, unit of positions (all else needs them in metres), readings, rotation, rows
+//            that are left out, columns, rate; another rig's file where nothing else was found.
 // Cost       about a second for a record of two seconds with four axes.
 // Thread     any; pure. Failure: none; a record too short for a check passes it.
 // Not done   a record that cannot be read at all; candump and sessions have no columns to exchange,
 //            but the same errors by wrong wiring: they are looked for too.
 
+#include <cstdint>
 #include <vector>
 
 #include "diagnosis/model/model_run.hpp"
@@ -16,11 +17,19 @@
 
 namespace levitas::diagnosis {
 
-/// `times_s`: of all rows of its file, where it has them.
-[[nodiscard]] RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
-                                            const std::vector<double>& times_s = {});
+inline constexpr std::uint64_t kUnknownGap = 1000;  ///< cycles
 
-/// The rows as they are with the mends in force.
+/// `elsewhere`: the wiring that other records of the rig show.
+[[nodiscard]] RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
+                                            const ColumnUses& elsewhere = {});
+
+/// Of records of one rig and recorder, one entry each: where a record without a test signal cannot
+/// tell which of two columns is wrong, the records that have one do.
+[[nodiscard]] std::vector<RecordErrors> FindErrorsOfRecords(const RigView& rig,
+                                                            const std::vector<Record>& records);
+
+/// The rows as they are with the mends in force. Where rows are left out the cycles jump by
+/// kUnknownGap, from which every model starts anew.
 [[nodiscard]] Record Mended(const RigView& rig, const Record& record, const RecordErrors& found);
 
 }  // namespace levitas::diagnosis

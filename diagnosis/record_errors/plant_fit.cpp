@@ -177,35 +177,47 @@ void PlantFit::MakeBasis(const Columns& columns, std::size_t rows_a_stretch) {
   }
 }
 
+Eigen::MatrixXd PlantFit::Raw(const Stretch& s, const ColumnUses& uses) const {
+  const Eigen::Index length = s.to - s.from;
+  Eigen::MatrixXd error = Eigen::MatrixXd::Zero(length, static_cast<Eigen::Index>(axes_));
+  const auto add = [&](const std::vector<Eigen::MatrixXd>& of, const ColumnUse& use,
+                       std::size_t place) {
+    const Eigen::MatrixXd& response = of[Slot(use.from, place)];
+    const Eigen::Index from =
+        std::clamp<Eigen::Index>(s.from + use.late, 0, response.rows() - length);
+    error += use.factor * response.middleRows(from, length);
+  };
+  for (std::size_t a = 0; a < axes_; ++a) {
+    add(of_position_, uses.position[a], a);
+    add(of_current_, uses.current[a], a);
+  }
+  for (Eigen::Index n = s.from; n < s.to; ++n) {
+    if (counts_[static_cast<std::size_t>(n)] == 0) error.row(n - s.from).setZero();
+  }
+  return error;
+}
+
+Eigen::MatrixXd PlantFit::Innovations(const ColumnUses& uses) const {
+  const Eigen::Index rows = of_position_.front().rows();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(axes_));
+  for (const Stretch& s : stretches_) {
+    Eigen::MatrixXd error = Raw(s, uses);
+    error -= s.basis * (s.basis.transpose() * error);
+    out.middleRows(s.from, s.to - s.from) = error;
+  }
+  return out;
+}
+
 Eigen::VectorXd PlantFit::Ratios(const ColumnUses& uses) const {
   if (counted_ < kFewestCounted) return {};
   const auto axes = static_cast<Eigen::Index>(axes_);
   Eigen::VectorXd power = Eigen::VectorXd::Zero(axes);
   double count = 0.0;
-  Eigen::MatrixXd error;
   for (const Stretch& s : stretches_) {
-    const Eigen::Index length = s.to - s.from;
-    error.setZero(length, axes);
-    const auto add = [&](const std::vector<Eigen::MatrixXd>& of, const ColumnUse& use,
-                         std::size_t place) {
-      const Eigen::MatrixXd& response = of[Slot(use.from, place)];
-      const Eigen::Index from =
-          std::clamp<Eigen::Index>(s.from + use.late, 0, response.rows() - length);
-      error += use.factor * response.middleRows(from, length);
-    };
-    for (std::size_t a = 0; a < axes_; ++a) {
-      add(of_position_, uses.position[a], a);
-      add(of_current_, uses.current[a], a);
-    }
-    for (Eigen::Index n = s.from; n < s.to; ++n) {
-      if (counts_[static_cast<std::size_t>(n)] == 0) {
-        error.row(n - s.from).setZero();
-      } else {
-        count += 1.0;
-      }
-    }
+    const Eigen::MatrixXd error = Raw(s, uses);
     const Eigen::MatrixXd within = s.basis.transpose() * error;
     power += (error.colwise().squaredNorm() - within.colwise().squaredNorm()).transpose();
+    for (Eigen::Index n = s.from; n < s.to; ++n) count += counts_[static_cast<std::size_t>(n)];
     count -= static_cast<double>(s.basis.cols());
   }
   if (count < 100.0) return {};

@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "diagnosis/record_errors/wiring.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
-constexpr double kFar = 32.0;  ///< times the sensor's noise: half way to a thousand, in ratio
+constexpr double kFar = 32.0;      ///< times the sensor's noise: half way to a thousand, in ratio
+constexpr double kSurely = 150.0;  ///< a sensor is hardly seven times as quiet as its file says
+constexpr double kBeyond = 1.5;    ///< of the touchdown clearance: no rotor gets there
 
 /// The unit of a column whose numbers have to be multiplied by `factor`, one of 10^3 and 10^6 or
 /// their inverses.
@@ -22,12 +25,27 @@ std::string UnitWords(double factor) {
 }
 
 /// 1 where the unit is right.
-double FactorOf(double noise_m, double expected_m) {
+double FactorOf(double noise_m, double expected_m, bool beyond) {
   if (!(noise_m > 0.0) || !(expected_m > 0.0)) return 1.0;
   const double ratio = noise_m / expected_m;
   if (ratio < kFar && ratio > 1.0 / kFar) return 1.0;
+  // Motion adds to the noise of quiet probes, nothing takes away from it.
+  if (ratio > 1.0 && ratio < kSurely && !beyond) return 1.0;
   const double thousands = std::clamp(std::round(std::log10(ratio) / 3.0), -2.0, 2.0);
   return std::pow(1000.0, -thousands);
+}
+
+/// Whether readings of the axis lie where no rotor can be.
+std::vector<bool> BeyondClearance(const RigView& rig, const Record& record) {
+  std::vector<bool> beyond(rig.axes, false);
+  for (std::size_t a = 0; a < rig.axes; ++a) {
+    const double clearance_m = rig.bearing(a).touchdown.clearance_m;
+    beyond[a] =
+        clearance_m > 0.0 && std::ranges::any_of(record.rows, [&](const auto& row) {
+          return row.levitated && std::abs(row.sample.position_m[a]) > kBeyond * clearance_m;
+        });
+  }
+  return beyond;
 }
 
 }  // namespace
@@ -55,11 +73,12 @@ AxisArray NoiseOf(const RigView& rig, const Record& record) {
 
 void FindPositionUnits(const RigView& rig, const Record& record, RecordErrors& out) {
   const AxisArray noise_m = NoiseOf(rig, record);
+  const std::vector<bool> beyond = BeyondClearance(rig, record);
   for (const double factor : {1e3, 1e6, 1e-3, 1e-6}) {
     RecordError error{RecordErrorKind::kUnit, {}, factor, 0.0, {}, {}, true};
     for (std::size_t a = 0; a < rig.axes; ++a) {
       const double expected_m = rig.ReadingNoise(a);
-      if (FactorOf(noise_m[a], expected_m) != factor) continue;
+      if (FactorOf(noise_m[a], expected_m, beyond[a]) != factor) continue;
       out.uses.position[a].factor *= factor;
       error.columns.push_back(PositionColumn(rig, a));
       const double times = noise_m[a] / expected_m;

@@ -7,12 +7,15 @@
 #include <cmath>
 
 #include "diagnosis/record_errors/plant_fit.hpp"
+#include "diagnosis/record_errors/rotation_unit.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
-constexpr double kOff = 2e-3;    ///< crystals are off by 1e-4
-constexpr double kDrift = 1e-3;  ///< between the two ends
+constexpr double kOff = 2e-3;          ///< crystals are off by 1e-4
+constexpr double kDrift = 1e-3;        ///< between the two ends
+constexpr double kOffRotation = 0.05;  ///< a speed that lags in a run-up is off by less
+constexpr double kLeftOut = 0.2;
 constexpr std::size_t kFewestTimes = 200;
 constexpr double kRateGain = 3.0;
 constexpr std::array kFactors{0.25, 0.33, 0.5, 0.67, 1.5, 2.0, 3.0, 4.0};
@@ -62,6 +65,28 @@ void FindClock(const RigView& rig, const std::vector<double>& times_s, RecordErr
       "that is what is wrong",
       rate_hz);
   out.errors.push_back(std::move(error));
+}
+
+bool FindRateOfRotation(const RigView& rig, const Columns& columns, RecordErrors& out) {
+  const double factor = AngleOverSpeed(columns, rig.period_s);
+  const bool known = std::ranges::any_of(out.errors, [](const RecordError& error) {
+    return error.columns.front() == "speed" || error.columns.front() == "rotor_angle" ||
+           error.kind == RecordErrorKind::kRate;
+  });
+  if (factor <= 0.0 || known || std::abs(factor - 1.0) < kOffRotation) return false;
+  const double rate_hz = 1.0 / rig.period_s;
+  out.errors.push_back(
+      {RecordErrorKind::kRate,
+       {"time"},
+       factor,
+       std::abs(factor - 1.0) / kOffRotation,
+       fmt::format("the rotor turns by {:.3g} times its speed times the period from row to row: "
+                   "some {:.4g} rows a second, the rig samples {:.6g} times",
+                   factor, rate_hz / factor, rate_hz),
+       "record every sample; rows that are left out no map of columns brings back. Or the rig "
+       "file's period, or the scale of the speed, if that is what is wrong",
+       false});
+  return std::abs(factor - 1.0) > kLeftOut;
 }
 
 void FindRate(const RigView& rig, const Columns& columns, const std::vector<LawOfColumn>& laws,

@@ -4,6 +4,8 @@
 // Times      steps of the file's time column over the rig's period, at the start and at the end of
 //            the record: kOff away from 1, a clock that is scaled; different at both, one that
 //            drifts. Only where the file has times (`times_s` not empty).
+// Rotation   angle from row to row over speed times period (rotation_unit.hpp) is not 1, and no
+//            unit makes it so: rows are so many periods apart.
 // Dynamics   the plant of the rig at whole multiples and parts of its rate (plant_fit.hpp): another
 //            rate is named where the law of the controller is not in the rows (some are missing, or
 //            made from others), and it leaves less of the plant by kRateGain.
@@ -19,6 +21,9 @@
 namespace levitas::diagnosis {
 
 void FindClock(const RigView& rig, const std::vector<double>& times_s, RecordErrors& out);
+
+/// True where rows are left out (the factor is far from 1), which law and plant cannot be in.
+bool FindRateOfRotation(const RigView& rig, const Columns& columns, RecordErrors& out);
 
 /// `left`: the logarithm of the plant's ratios with the columns as `out` takes them.
 void FindRate(const RigView& rig, const Columns& columns, const std::vector<LawOfColumn>& laws,

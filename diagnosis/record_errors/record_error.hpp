@@ -4,10 +4,13 @@
 // Columns    named as in a CSV file, without unit: "position_de_x", "control_current_nde_y",
 //            "speed", "rotor_angle", "time".
 // Size       by kind: factor of a unit or rate, rows of a delay, metres of a step or plateau, share
-//            of rows that are held; 0 where there is none.
+//            of rows that are held, number of gaps, share that another rig's file foretells; 0
+//            where there is none.
 // Statistic  by how much less is left when it is mended: of the observer's innovations (swapped,
 //            reversed, unit of currents), of the law (delayed), else what its file says.
 // Mend       what to change, as a sentence. `by_map`: a map of columns does it.
+// Remark     another rig's file: a doubt that changes nothing and refuses nothing, because a fault
+//            that changes much of the rig can look the same.
 // Thread     plain data.
 
 #include <cstdint>
@@ -26,7 +29,9 @@ enum class RecordErrorKind : std::uint8_t {
   kQuantised,
   kClipped,
   kHeld,
-  kDelayed
+  kDelayed,
+  kGaps,
+  kOtherRig
 };
 
 /// "swapped", "reversed", ...: as in diagnosis.json.
@@ -41,24 +46,29 @@ struct RecordError {
   bool by_map{};
 };
 
+[[nodiscard]] constexpr bool IsRemark(RecordErrorKind kind) noexcept {
+  return kind == RecordErrorKind::kOtherRig;
+}
+
 /// What was found in one record, and what its columns have to be taken for.
 struct RecordErrors {
   std::string record;  ///< name
   std::vector<RecordError> errors;
   ColumnUses uses;
+  ColumnUses wiring;         ///< part of `uses`: without the units of positions
+  bool has_test_signal{};    ///< a wiring that it shows is certain
   double speed_factor{1.0};  ///< of the speed column; of the angle's where there is none
   double angle_factor{1.0};
-  double time_factor{1.0};  ///< of the times, steady
-  bool drifts{};            ///< no factor mends the times
+  double time_factor{1.0};          ///< of the times, steady
+  bool drifts{};                    ///< no factor mends the times
+  std::vector<std::uint64_t> gaps;  ///< cycles of rows before which others are left out
 };
 
-/// What follows the sentences in an answer.
-inline constexpr const char* kAsMended =
-    "What follows is of the records as mended, where other columns mend them; mend the files "
-    "first.";
+/// What follows the sentences in an answer, as a sentence.
+[[nodiscard]] const char* AfterRecordErrors(const std::vector<RecordErrors>& found) noexcept;
 
 /// One sentence for each error, records with the same one together: what is wrong in which columns,
-/// and what to change. Empty: no errors.
+/// and what to change; a remark says that it is one. Empty: no errors.
 [[nodiscard]] std::vector<std::string> RecordErrorSentences(const std::vector<RecordErrors>& found);
 
 }  // namespace levitas::diagnosis

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -18,21 +19,11 @@ constexpr double kFewestTurns = 3.0;  ///< in a stretch
 constexpr double kOverOwn = 6.0;
 constexpr double kStrong = 0.2;  ///< of the power of a stretch, with the right unit
 constexpr double kWeak = 0.1;    ///< with the wrong one, at most
+constexpr double kLine = 0.03;   ///< a weak one, that stands out from beside it
+constexpr double kOverBeside = 6.0;
 
 constexpr std::array kUnits{60.0,      1.0 / 60.0, 30.0 / kPi,  kPi / 30.0,
                             2.0 * kPi, 0.5 / kPi,  180.0 / kPi, kPi / 180.0};
-
-/// Mean angle from row to row over mean speed times period; 0: nothing turns.
-double AngleOverSpeed(const Columns& columns, double period_s) {
-  double turned = 0.0;
-  double expected = 0.0;
-  for (Eigen::Index n = 1; n < columns.rows(); ++n) {
-    if (columns.missing[static_cast<std::size_t>(n)] != 0) continue;
-    turned += std::remainder(columns.angle_rad[n] - columns.angle_rad[n - 1], 2.0 * kPi);
-    expected += period_s * columns.speed_rad_per_s[n - 1];
-  }
-  return std::abs(expected) > 2.0 * kPi ? turned / expected : 0.0;
-}
 
 /// Share of the readings' power in step with the speed's integral times `factor`; negative: too few
 /// turns.
@@ -61,6 +52,14 @@ double InStep(const Columns& columns, double period_s, double factor) {
     explained += parts.bottomRows(2).squaredNorm();
   }
   return power > 0.0 ? explained / power : -1.0;
+}
+
+/// The same at speeds about it, on average: what moves the rotor without turning with it.
+double Beside(const Columns& columns, double period_s, double factor) {
+  constexpr std::array kAbout{0.6, 0.75, 1.33, 1.67};
+  double sum = 0.0;
+  for (const double about : kAbout) sum += std::max(0.0, InStep(columns, period_s, about * factor));
+  return sum / static_cast<double>(kAbout.size());
 }
 
 double UnitNear(double factor) {
@@ -94,6 +93,30 @@ void AddUnit(const std::string& column, double factor, double statistic, RecordE
 
 }  // namespace
 
+double AngleOverSpeed(const Columns& columns, double period_s) {
+  constexpr int kRowsABlock = 50;
+  std::vector<double> ratios;
+  double turned = 0.0;
+  double expected = 0.0;
+  double all = 0.0;
+  int rows = 0;
+  for (Eigen::Index n = 1; n < columns.rows(); ++n) {
+    if (columns.missing[static_cast<std::size_t>(n)] != 0) continue;
+    turned += std::remainder(columns.angle_rad[n] - columns.angle_rad[n - 1], 2.0 * kPi);
+    expected += period_s * columns.speed_rad_per_s[n - 1];
+    if (++rows < kRowsABlock) continue;
+    if (expected != 0.0) ratios.push_back(turned / expected);
+    all += std::abs(expected);
+    turned = expected = 0.0;
+    rows = 0;
+  }
+  // Of a speed in another unit too: 5 rad of 300.
+  if (all <= 1.0) return 0.0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
 void FindRotationUnit(const RigView& rig, const Columns& columns, RecordErrors& out) {
   const double period_s = rig.period_s;
   const double over = AngleOverSpeed(columns, period_s);
@@ -112,12 +135,13 @@ void FindRotationUnit(const RigView& rig, const Columns& columns, RecordErrors& 
     }
     return;
   }
-  if (own > kWeak) return;
+  if (own > kWeak || std::abs(over - 1.0) > kSame) return;
   double best = std::max(own, 0.0);
   double factor = 0.0;
   for (const double candidate : kUnits) {
     const double share = InStep(columns, period_s, candidate);
-    if (share < kStrong || share < kOverOwn * std::max(own, 1e-3) || share <= best) continue;
+    if (share < kLine || share < kOverOwn * std::max(own, 1e-3) || share <= best) continue;
+    if (share < kStrong && share < kOverBeside * Beside(columns, period_s, candidate)) continue;
     best = share;
     factor = candidate;
   }

@@ -14,8 +14,10 @@ namespace {
 
 constexpr double kAgrees = 0.4;     ///< in the sum of logarithms: a third less left on one axis
 constexpr double kNoWorse = 0.3;    ///< a delay of one column hardly shows in the plant
-constexpr double kAlone = 1.2;      ///< without a broken law
+constexpr double kAlone = 2.0;      ///< without a broken law
 constexpr double kNearNoise = 1.1;  ///< logarithm per axis: three times the expected power
+constexpr double kElsewhere = 2.5;  ///< without a test signal twins are within that
+constexpr double kOverLimit = 1.05;
 constexpr int kRounds = 2;
 
 enum class Which : std::uint8_t { kPositions, kCurrents, kBoth };
@@ -177,12 +179,27 @@ struct Judged {
   ColumnUses uses;
   int breaks{};
   double left{};
+  bool elsewhere{};  ///< what the other records of the rig show
 };
 
-/// A recorder is late; that a column is ahead instead takes evidence.
+/// A recorder is late; that a column is ahead instead takes evidence. Files of one recorder have
+/// one error: what another record shows is taken where this one can hardly tell.
 double Cost(const Judged& judged) {
   const bool early = judged.h->kind == RecordErrorKind::kDelayed && judged.h->size < 0.0;
-  return judged.left + (early ? kNoWorse : 0.0);
+  return judged.left + (early ? kNoWorse : 0.0) - (judged.elsewhere ? kElsewhere : 0.0);
+}
+
+/// Whether coils can carry the currents of a column in another unit, or not those of its own.
+bool IsPossible(const RigView& rig, const Columns& columns, const Hypothesis& h,
+                const ColumnUses& uses) {
+  if (h.kind != RecordErrorKind::kUnit) return true;
+  return std::ranges::all_of(h.axes, [&](std::size_t a) {
+    const double most_a = kOverLimit * rig.bearing(a).magnet.max_coil_current_a;
+    const ColumnUse& use = uses.current[a];
+    const auto of = columns.current_a.col(static_cast<Eigen::Index>(use.from));
+    const double after_a = std::abs(use.factor) * of.cwiseAbs().maxCoeff();
+    return h.size < 1.0 ? after_a / h.size > most_a : !(after_a > most_a);
+  });
 }
 
 }  // namespace
@@ -232,8 +249,7 @@ int Breaks(const std::vector<LawOfColumn>& laws, const ColumnUses& uses, std::si
 }
 
 void FindWiring(const RigView& rig, const Columns& columns, const std::vector<LawOfColumn>& laws,
-                const PlantFit& plant, RecordErrors& out) {
-  static_cast<void>(columns);
+                const PlantFit& plant, const ColumnUses& elsewhere, RecordErrors& out) {
   const Hypotheses hypotheses(rig);
   for (int round = 0; round < kRounds; ++round) {
     const int breaks = Breaks(laws, out.uses, rig.axes);
@@ -244,17 +260,20 @@ void FindWiring(const RigView& rig, const Columns& columns, const std::vector<La
       h.apply(judged.uses);
       judged.breaks = Breaks(laws, judged.uses, rig.axes);
       if (judged.breaks > breaks) continue;
+      if (judged.breaks == breaks && !IsPossible(rig, columns, h, judged.uses)) continue;
       if (best && judged.breaks > best->breaks) continue;
       const bool delay = h.kind == RecordErrorKind::kDelayed;
       if (delay && judged.breaks == breaks) continue;
       judged.left = Logarithm(plant.Ratios(judged.uses));
+      judged.elsewhere = judged.uses == elsewhere;
       if (best && judged.breaks == best->breaks && Cost(judged) >= Cost(*best)) continue;
       best = judged;
     }
     if (!best) return;
     const bool delay = best->h->kind == RecordErrorKind::kDelayed;
     const double gained = left - best->left;
-    const bool by_law = best->breaks < breaks && gained > (delay ? -kNoWorse : kAgrees);
+    const double least = best->elsewhere ? -kElsewhere : delay ? -kNoWorse : kAgrees;
+    const bool by_law = best->breaks < breaks && gained > least;
     const bool alone = gained > kAlone && best->left < kNearNoise * static_cast<double>(rig.axes);
     if (!by_law && !alone) return;
     out.uses = best->uses;

@@ -9,6 +9,7 @@
 //             pushes away from the centre, answers before it could or later than the others do.
 //             A healthy record breaks nothing, whatever is wrong with the rig.
 // Plant       (plant_fit.hpp) sum over the axes of the logarithm of its ratio.
+// Units       of currents: only what the coils can carry, and only away from what they cannot.
 // Accepted    breaks fewer and leaves less of the plant (kAgrees; a delay may leave as much); or,
 //             breaking as many, leaves less by kAlone and at most kNearNoise per axis: near what a
 //             rig within its tolerances leaves.
@@ -23,9 +24,10 @@
 
 namespace levitas::diagnosis {
 
-/// Adds what it finds to `out`, errors and uses.
+/// Adds what it finds to `out`, errors and uses. `elsewhere`: what the columns of other records of
+/// the rig have to be taken for; taken here too where this record tells it hardly from others.
 void FindWiring(const RigView& rig, const Columns& columns, const std::vector<LawOfColumn>& laws,
-                const PlantFit& plant, RecordErrors& out);
+                const PlantFit& plant, const ColumnUses& elsewhere, RecordErrors& out);
 
 /// What the law of a record breaks when its columns are taken so.
 [[nodiscard]] int Breaks(const std::vector<LawOfColumn>& laws, const ColumnUses& uses,

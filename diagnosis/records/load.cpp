@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "analysis/records/recorded_rows.hpp"
 #include "common/problem.hpp"
@@ -15,7 +16,9 @@ namespace levitas::diagnosis {
 Record LoadRecord(const std::string& path, const config::RigFile& rig) {
   Record record;
   record.name = std::filesystem::path(path).filename().string();
-  record.rows = analysis::RowsOf(session::LoadRecording(path, rig));
+  session::Recording recording = session::LoadRecording(path, rig);
+  record.rows = analysis::RowsOf(recording);
+  record.times_s = std::move(recording.time_s);
   const bool flew = std::any_of(record.rows.begin(), record.rows.end(),
                                 [](const analysis::RecordedRow& row) { return row.levitated; });
   if (!flew) {

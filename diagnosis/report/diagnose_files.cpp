@@ -33,12 +33,13 @@ std::vector<Record> Load(const std::vector<std::string>& paths, const DiagnosisR
 
 /// Takes the columns for what they are; adds the records that were not right to `found`.
 void Mend(const RigView& rig, std::vector<Record>& records, std::vector<RecordErrors>& found) {
-  for (Record& record : records) {
-    RecordErrors errors = FindRecordErrors(rig, record);
-    if (errors.errors.empty()) continue;
-    record = Mended(rig, record, errors);
-    record.mean_speed_rad_per_s = analysis::MeanSpeed(record.rows);
-    found.push_back(std::move(errors));
+  std::vector<RecordErrors> errors = FindErrorsOfRecords(rig, records);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    records[i].times_s = {};
+    if (errors[i].errors.empty()) continue;
+    records[i] = Mended(rig, records[i], errors[i]);
+    records[i].mean_speed_rad_per_s = analysis::MeanSpeed(records[i].rows);
+    found.push_back(std::move(errors[i]));
   }
 }
 
@@ -197,7 +198,9 @@ DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs) {
   RefuseSameRows(data, healthy, "--healthy", "it would vouch for itself");
   const RigView view(inputs.rig.numbers, inputs.rig.plant);
   std::vector<RecordErrors> found;
-  for (std::vector<Record>* records : {&data, &holdout, &healthy}) Mend(view, *records, found);
+  if (!inputs.as_is) {
+    for (std::vector<Record>* records : {&data, &holdout, &healthy}) Mend(view, *records, found);
+  }
   KnownLaws laws = inputs.known_laws;
   AddSpeeds(inputs.data, data, laws);
   AddSpeeds(inputs.holdout, holdout, laws);

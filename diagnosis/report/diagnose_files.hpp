@@ -25,6 +25,7 @@ struct DiagnosisRequest {
   std::vector<std::string> healthy;  ///< earlier records of the same rig, known to be well
   Settings settings;
   KnownLaws known_laws;  ///< of `data` and `holdout`, whose paths they name
+  bool as_is{};          ///< no errors of records are looked for
 };
 
 struct DiagnosisResult {
@@ -50,7 +51,8 @@ struct DiagnosisResult {
   KnownLaws known_laws;  ///< with the speeds of their records
 };
 
-/// Looks for errors of the records first (record_errors/find.hpp); a refusal names them.
+/// Looks for errors of the records first (record_errors/find.hpp), but for `as_is`; a refusal for
+/// another reason names them.
 [[nodiscard]] DiagnosisResult DiagnoseFiles(const DiagnosisRequest& inputs);
 /// The same on records that are in memory; empty `holdout` keeps back stretches of `records`
 /// (model_run.hpp).

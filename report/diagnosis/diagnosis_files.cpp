@@ -137,7 +137,8 @@ nlohmann::ordered_json RecordErrorsJson(const std::vector<diagnosis::RecordError
                       {"times_better", error.statistic},
                       {"sentence", error.sentence},
                       {"mend", error.mend},
-                      {"by_map", error.by_map}});
+                      {"by_map", error.by_map},
+                      {"remark", diagnosis::IsRemark(error.kind)}});
     }
   }
   return json;

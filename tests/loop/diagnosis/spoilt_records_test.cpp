@@ -1,11 +1,14 @@
 // Records of the flexible rotor, spoilt one way at a time: the error is named with its columns and
 // size; the same records whole are accused of nothing. Columns and sizes are drawn by seed.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "benchmark/accuracy/spoilt_record.hpp"
 #include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/record_errors/find.hpp"
+#include "diagnosis/records/load.hpp"
+#include "tests/support/paths.hpp"
 
 namespace levitas::accuracy {
 namespace {
@@ -35,8 +38,7 @@ TEST_P(OfKind, IsNamedWithItsColumnsInOneRecordAtLeast) {
   const Spoilt made = Spoil(TheTrial().rig, TheTrial().records, GetParam(), 4);
   bool named = false;
   std::string said;
-  for (std::size_t r = 0; r < made.records.size(); ++r) {
-    const auto found = diagnosis::FindRecordErrors(TheView(), made.records[r], made.times_s[r]);
+  for (const auto& found : diagnosis::FindErrorsOfRecords(TheView(), made.records)) {
     named = named || IsNamed(made, found);
     for (const auto& error : found.errors) said += error.sentence + "\n";
   }
@@ -47,7 +49,8 @@ INSTANTIATE_TEST_SUITE_P(SpoiltRecords, OfKind,
                          ::testing::Values(RecordErrorKind::kSwapped, RecordErrorKind::kReversed,
                                            RecordErrorKind::kUnit, RecordErrorKind::kQuantised,
                                            RecordErrorKind::kClipped, RecordErrorKind::kHeld,
-                                           RecordErrorKind::kDelayed),
+                                           RecordErrorKind::kDelayed, RecordErrorKind::kRate,
+                                           RecordErrorKind::kGaps),
                          [](const auto& of) { return std::string(diagnosis::Name(of.param)); });
 
 TEST(WholeRecords, AreAccusedOfNothing) {
@@ -68,20 +71,58 @@ TEST(MendedRecord, HasTheColumnsThatWereExchangedWhereTheyBelong) {
   }
 }
 
-TEST(Clock, ThatIsScaledOrDriftsIsNamedByTheTimesAlone) {
-  const diagnosis::Record& record = TheTrial().records.front();
-  for (const double drift : {0.0, 0.03}) {
-    std::vector<double> times_s;
-    double now_s = 0.0;
-    for (std::size_t n = 0; n < record.rows.size(); ++n) {
-      times_s.push_back(now_s);
-      const double share = static_cast<double>(n) / static_cast<double>(record.rows.size());
-      now_s += 1e-4 * ((drift == 0.0 ? 1.02 : 1.0) + drift * share);
+/// Files that another program wrote, of rigs within their tolerances and with a fault.
+TEST(WholeRecords, OfAnotherSimulatorAreAccusedOfNothingToo) {
+  const config::RigFile rig = LoadTestRig("flexible_rotor", {"flexible_rotor"}).rig;
+  const diagnosis::RigView view(rig.numbers, rig.plant);
+  for (const char* campaign : {"none", "eddy_current", "unbalance"}) {
+    std::vector<diagnosis::Record> records;
+    for (const char* run : {"standing", "spinning", "runup"}) {
+      records.push_back(diagnosis::LoadRecord(
+          fmt::format("{}/tests/data/records/{}/{}.csv.xz", test::SourceFolder(), campaign, run),
+          rig));
     }
-    const auto found = diagnosis::FindRecordErrors(TheView(), record, times_s);
-    ASSERT_EQ(found.errors.size(), 1U);
-    EXPECT_EQ(found.errors.front().kind, RecordErrorKind::kRate);
-    EXPECT_EQ(found.drifts, drift != 0.0);
+    for (const auto& found : diagnosis::FindErrorsOfRecords(view, records)) {
+      EXPECT_TRUE(found.errors.empty())
+          << campaign << " " << found.record << ": " << found.errors.front().sentence;
+    }
+  }
+}
+
+/// The trial's records judged with the file of a rig with another rotor.
+TEST(OtherRig, IsSaidOfTheFileOfAnotherRotorInsteadOfErrorsOfColumns) {
+  const TestRig bench = LoadTestRig("flexible_rotor", {"flexible_rotor"});
+  const config::RigFile other = DifferentRig(bench, TheTrial().rig, 3);
+  const diagnosis::RigView view(other.numbers, other.plant);
+  const auto found = diagnosis::FindErrorsOfRecords(view, TheTrial().records);
+  ASSERT_EQ(found.front().errors.size(), 1U);
+  EXPECT_EQ(found.front().errors.front().kind, RecordErrorKind::kOtherRig);
+}
+
+TEST(OtherRig, IsNotSaidOfAStrongFaultOfTheSameRig) {
+  for (const effect::Id hidden : {effect::Id::kCouplingStiffness, effect::Id::kCurrentGain}) {
+    TrialPlan plan;
+    plan.seed = 20261126;
+    plan.bits_per_axis = 700;
+    plan.runup_s = 1.0;
+    plan.hidden = {hidden};
+    const Trial trial = MakeTrial(LoadTestRig("flexible_rotor", {"flexible_rotor"}), plan);
+    const diagnosis::RigView view(trial.rig.numbers, trial.rig.plant);
+    for (const auto& found : diagnosis::FindErrorsOfRecords(view, trial.records))
+      EXPECT_TRUE(found.errors.empty()) << found.errors.front().sentence;
+  }
+}
+
+/// A run-up has no test signal: position and current of an axis that pushes to the wrong side look
+/// alike in it, and the records beside it tell which of them has the wrong sign.
+TEST(RecordsOfOneRig, TellWhatARecordWithoutTestSignalCannot) {
+  std::vector<diagnosis::Record> records = TheTrial().records;
+  for (diagnosis::Record& record : records) {
+    for (auto& row : record.rows) row.sample.position_m[0] *= -1.0;
+  }
+  for (const auto& found : diagnosis::FindErrorsOfRecords(TheView(), records)) {
+    ASSERT_EQ(found.errors.size(), 1U) << found.record;
+    EXPECT_EQ(found.errors.front().columns, std::vector<std::string>{"position_de_x"});
   }
 }
 

@@ -190,6 +190,28 @@ class DiagnoseOwnModel(unittest.TestCase):
             self.assertIn("To mend it:", printed)
             self.assertEqual(answer["verdict"], "none", printed)
 
+    def test_times_of_a_clock_that_is_slow_are_named_and_the_rows_taken_as_the_rigs(self):
+        folder = Path(self.shared.name)
+        head, *rows = (folder / "run.csv").read_text().splitlines()
+        at = head.split(",").index("time_s")
+        for n, row in enumerate(rows):
+            cells = row.split(",")
+            cells[at] = repr(1.02 * float(cells[at]))
+            rows[n] = ",".join(cells)
+        (folder / "slow.csv").write_text("\n".join([head, *rows]) + "\n")
+        printed, answer = self.diagnose("slow.csv")
+        self.assertEqual([e["kind"] for e in answer["record_errors"]], ["rate"], printed)
+        self.assertIn("9803.92 rows a second, the rig samples 10000 times", printed)
+        self.assertEqual(answer["verdict"], "none", printed)
+
+    def test_as_is_looks_for_no_errors_of_the_record(self):
+        folder = Path(self.shared.name)
+        (folder / "unit.csv").write_text((folder / "run.csv").read_text().replace("_m,", "_um,", 8))
+        done = finished(folder, "diagnose", "--quick", "--as-is", "--rig", "flexible_rotor",
+                        "unit.csv", "--out", "as_is")
+        self.assertEqual(done.returncode, BAD_INPUT, done.stderr)
+        self.assertNotIn("Error of the record", done.stderr)
+
     def test_a_record_without_flight_is_refused_with_what_was_found(self):
         lines = (Path(self.shared.name) / "run.csv").read_text().splitlines(True)
         # The self-test and the lift: touchdown bearings have 190 um.
@@ -218,6 +240,24 @@ class DiagnoseForeignCampaigns(unittest.TestCase):
                 self.assertEqual(parameter["unit"], "us")
             listed = [line for line in printed.splitlines() if line.startswith("  eddy_current tau_us")]
             self.assertEqual(len(listed), 1, "one value at all axes is told once")
+
+    def test_the_file_of_another_rotor_is_doubted_and_the_diagnosis_made(self):
+        with TemporaryDirectory() as folder:
+            text = (RECORDS.parents[2] / "config/rigs/flexible_rotor.yaml").read_text()
+            self.assertIn("outer_diameter_mm: 9.525", text)
+            Path(folder, "thick.yaml").write_text(
+                text.replace("outer_diameter_mm: 9.525", "outer_diameter_mm: 16"))
+            data = sorted((RECORDS / "none").glob("*.csv.xz"))
+            printed = amb(folder, "diagnose", "--quick", "--rig", "./thick.yaml", *data, "--out",
+                          "answer")
+            answer = json.loads((Path(folder) / "answer/diagnosis.json").read_text())
+            doubts = answer["record_errors"]
+            self.assertTrue(doubts, printed)
+            self.assertEqual({(e["kind"], e["remark"]) for e in doubts}, {("other_rig", True)})
+            for words in ("Doubt about the record", "the rig file may be another rig's",
+                          "What follows takes the rig file for the right one."):
+                self.assertIn(words, printed)
+            self.assertNotIn("Error of the record", printed)
 
     def test_the_calibrated_rig_predicts_what_the_calibrated_model_did(self):
         with TemporaryDirectory() as folder:
