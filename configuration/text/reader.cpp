@@ -34,7 +34,7 @@ const Unit& UnitOf(const NumberField& field, const std::string& key) {
 }
 
 /// The word that a person probably meant: other languages than this one write yes and no.
-std::string Meant(const std::string& found, const std::vector<std::string>& words) {
+std::string WordMeant(const std::string& found, const std::vector<std::string>& words) {
   constexpr std::array kYes{"yes", "on", "y", "1", "True", "TRUE", "Yes", "YES", "On", "ON"};
   if (words == std::vector<std::string>{"false", "true"} &&
       std::ranges::find(kYes, found) != kYes.end()) {
@@ -223,7 +223,7 @@ void Reader::Choice(const ChoiceField& field, std::size_t& index) {
   } else {
     Report(entry.value->place, entry.key,
            fmt::format("found {}, allowed {}; nearest {}", Describe(*entry.value), allowed(),
-                       Meant(*text, words)));
+                       WordMeant(*text, words)));
   }
 }
 
