@@ -156,12 +156,15 @@ GateResult JudgeExchangeAt(const law::LawConfig& below, double speed_rad_per_s) 
 TEST(ExchangeGate, JudgesALawAsFarBeyondTheExchangeAsItGoesOnActing) {
   const law::LawConfig below = OfRestOnly();
   const double holds_to = HoldsTo(below);
-  // The drive takes the rotor on by 80 rpm while the other law listens.
-  const GateResult early = JudgeExchangeAt(below, 0.7 * holds_to);
-  EXPECT_TRUE(early.accepted) << early.reason;
+  // So far the drive takes the rotor while the other law listens.
+  const double listened = Shipped().rig.plant.drive.max_acceleration_rad_per_s2 * law::kListenS;
+  ASSERT_GT(holds_to, 2.0 * listened);
+  const GateResult early = JudgeExchangeAt(below, holds_to - 1.2 * listened);
+  // Its loops hold. The run does not: a law that grows by itself cannot listen on the way back.
+  EXPECT_THAT(early.reason, ::testing::HasSubstr("lost on the way to 6000 rpm and back"));
   EXPECT_EQ(early.exchanges, 1U);
   // Each law holds at its own speeds; the lower one acts a little above them.
-  const GateResult late = JudgeExchangeAt(below, holds_to - 0.02);
+  const GateResult late = JudgeExchangeAt(below, holds_to - 0.5 * listened);
   EXPECT_FALSE(late.accepted);
   EXPECT_THAT(late.reason, ::testing::HasSubstr("unstable"));
 }
