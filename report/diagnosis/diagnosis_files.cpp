@@ -137,8 +137,7 @@ nlohmann::ordered_json RecordErrorsJson(const std::vector<diagnosis::RecordError
                       {"times_better", error.statistic},
                       {"sentence", error.sentence},
                       {"mend", error.mend},
-                      {"by_map", error.by_map},
-                      {"remark", diagnosis::IsRemark(error.kind)}});
+                      {"by_map", error.by_map}});
     }
   }
   return json;

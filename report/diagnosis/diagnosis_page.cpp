@@ -228,8 +228,7 @@ std::string ErrorsOfRecords(const DiagnosisReport& s) {
   for (const std::string& sentence : diagnosis::RecordErrorSentences(s.record_errors)) {
     html += fmt::format("<p class=\"verdict\"><b>{}</b></p>\n", Escaped(sentence));
   }
-  if (!html.empty())
-    html += fmt::format("<p>{}</p>\n", diagnosis::AfterRecordErrors(s.record_errors));
+  if (!html.empty()) html += fmt::format("<p>{}</p>\n", diagnosis::kAsMended);
   return html;
 }
 

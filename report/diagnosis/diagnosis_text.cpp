@@ -227,7 +227,7 @@ void PrintDiagnosis(const DiagnosisReport& s, bool complete) {
   for (const std::string& sentence : diagnosis::RecordErrorSentences(s.record_errors)) {
     fmt::print("{}\n", sentence);
   }
-  if (!s.record_errors.empty()) fmt::print("{}\n\n", diagnosis::AfterRecordErrors(s.record_errors));
+  if (!s.record_errors.empty()) fmt::print("{}\n\n", diagnosis::kAsMended);
   fmt::print("{}\n\n", s.verdict_sentence);
   if (!s.healthy_sentence.empty()) fmt::print("{}\n\n", s.healthy_sentence);
   PrintParameters(s);

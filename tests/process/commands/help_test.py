@@ -33,7 +33,7 @@ OPTIONS = {
                        "--svg", "--starts", "--spread", "--spread-gains", "--json"},
     "balance": {"--rig", "--controller", "--plane", "--planes", "--drill", "--after", "--applied", "--top-rpm",
                 "--svg", "--json"},
-    "diagnose": {"--rig", "--holdout", "--healthy", "--plan", "--scenario", "--controller", "--size", "--out", "--quick",
+    "diagnose": {"--rig", "--holdout", "--healthy", "--plan", "--scenario", "--controller", "--size", "--out", "--quick", "--as-is",
                  "--explain", "--json"},
     "doctor": {"--json"},
 }
