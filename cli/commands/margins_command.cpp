@@ -261,7 +261,7 @@ void AddMarginsCommand(CLI::App& app, Action& action) {
   AddSpeedOption(*command, *options, {0.0});
   AddLoopRequirement(*command, options->required);
   AddSvgOption(*command, options->svg_path,
-               "|S| with the zones of ISO 14839-3 and the Nyquist curve of every axis");
+               "sensitivity with the zones of ISO 14839-3, and the Nyquist curve of every axis");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

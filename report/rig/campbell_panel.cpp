@@ -121,16 +121,18 @@ void AddRated(double rated_rad_per_s, double low, double high, svg::Panel& panel
                          .colour = kGrey});
 }
 
-/// Text of a crossing: of forward whirl below right of it, of the others above left.
-svg::Note CrossingNote(const analysis::CriticalSpeed& crossing, double y) {
+/// Text of a crossing: of forward whirl below right of it, of the others above left; at an edge of
+/// the panel to the other side.
+svg::Note CrossingNote(const analysis::CriticalSpeed& crossing, double y, double end_rpm) {
   constexpr std::array kLetters{"F", "B", "T", "P"};
   const std::size_t kind = KindOf(crossing.mode);
   const double rpm = RadPerSToRpm(crossing.speed_rad_per_s);
+  const bool right = kind == 0 ? rpm < 0.8 * end_rpm : rpm < 0.2 * end_rpm;
   return {.x = rpm,
           .y = y,
           .text = fmt::format("{:.0f} rpm {}", rpm, kLetters[kind]),
-          .anchor = kind == 0 ? svg::Anchor::kStart : svg::Anchor::kEnd,
-          .right_px = kind == 0 ? 7.0 : -7.0,
+          .anchor = right ? svg::Anchor::kStart : svg::Anchor::kEnd,
+          .right_px = right ? 7.0 : -7.0,
           .down_px = kind == 0 ? 11.0 : -9.0};
 }
 
@@ -158,7 +160,7 @@ void AddCrossings(const Campbell& campbell, Value value, bool with_speeds, svg::
   for (const auto& crossing : campbell.crossings) {
     rings.x.push_back(RadPerSToRpm(crossing.speed_rad_per_s));
     rings.y.push_back(value(crossing.mode));
-    notes.push_back(CrossingNote(crossing, rings.y.back()));
+    notes.push_back(CrossingNote(crossing, rings.y.back(), panel.x_range->high));
   }
   if (!rings.x.empty()) panel.series.push_back(rings);
   if (!with_speeds) return;
