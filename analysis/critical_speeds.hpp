@@ -2,13 +2,13 @@
 // Speeds at which a natural frequency of a rotor equals its rotation (crossings of 1x in a Campbell
 // diagram).
 //
-// Equation   |Im s_k(W)| = W for a natural mode s_k of the rotor at speed W. Modes are followed from
-//            speed to speed by the nearest s; a change of sign of |Im s| - W between two of the
-//            given speeds is halved until the speed is known to 1e-9 of the range.
+// Equation   |Im s_k(W)| = W for a natural mode s_k of the rotor at speed W. Modes are followed
+//            from speed to speed by the nearest s; a change of sign of |Im s| - W between two of
+//            the given speeds is halved until the speed is known to 1e-9 of the range.
 // Free       magnets off: undamped free-free bending modes.
 // Shafts     of a rig with several: damped modes, 1x of the first shaft.
 // Levitated  poles of the sampled loop, static load and delay included, with a damping ratio below
-//            1/sqrt(2): better damped, a mode has no resonance. These are what an unbalance excites.
+//            1/sqrt(2): better damped, a mode has no resonance. An unbalance excites these.
 // Missed     what crosses twice between two neighbouring speeds.
 // Thread     any; allocates. Failure: BadInput when the law's axes do not fit the plant's.
 

@@ -1,9 +1,9 @@
 #pragma once
 // S_ii over frequency with its phase, for pictures: |S|, and the loop L_i = 1/S_ii - 1 about -1.
 //
-// Grid     that on which analysis/sensitivity.hpp seeks the peaks: 0.1 Hz to half the sampling rate,
-//          denser about lightly damped poles. The curve's largest point may be a little below the
-//          refined peak.
+// Grid     that on which analysis/sensitivity.hpp seeks the peaks, 0.1 Hz to half the sampling
+//          rate, and denser wherever the loop would have corners. The curve's largest point may be
+//          a little below the refined peak.
 // Thread   any; allocates. Failure: BadInput when the law's axes do not fit the plant's.
 
 #include <complex>

@@ -1,8 +1,8 @@
 #pragma once
 // --svg FILE of the commands that draw a rig or its loop.
 //
-// Failure  as of --json: refused before anything is computed when the file cannot be written, or
-//          is one that is read (output_clash.hpp; of the controller file that a rig file names here).
+// Failure  as of --json: refused before anything is computed when the file cannot be written, or is
+//          one that is read (output_clash.hpp; here of the controller file that a rig file names).
 
 #include <CLI/App.hpp>
 #include <string>
