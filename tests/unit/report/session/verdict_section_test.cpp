@@ -25,7 +25,7 @@ verdict::Verdict OneOrbit() {
   verdict.inputs.rig.channels = {"de_x"};
   analysis::SensitivityResult at;
   at.speed_rad_per_s = 100.0 * std::numbers::pi;
-  at.axes = {{.peak = 3.5, .frequency_hz = 72.0, .zone = analysis::Zone::kB}};
+  at.axes = {{3.5, 72.0, analysis::Zone::kB, {}}};
   verdict.inputs.sensitivity = {at};
   return verdict;
 }
