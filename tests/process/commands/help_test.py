@@ -9,9 +9,11 @@ import unittest
 from command import BINARIES, DONE, SOURCE, USAGE, CommandTest, amb
 
 OPTIONS = {
-    "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--json"},
-    "poles": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--up-to-hz", "--json"},
-    "margins": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--json", "--require"},
+    "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--svg", "--json"},
+    "poles": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--up-to-hz", "--svg",
+              "--json"},
+    "margins": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--svg", "--json",
+                "--require"},
     "compare": {"--rig", "--speed-rpm", "--speeds", "--orders", "--page", "--circle-um", "--json"},
     "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--free-run",
                  "--controller", "--csv", "--svg", "--json"},
