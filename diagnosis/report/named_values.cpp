@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/report/event_values.hpp"
 #include "numerics/normal_distribution.hpp"
 
 namespace levitas::diagnosis {
@@ -121,6 +122,24 @@ class Bracket {
   bool depends_{}, form_{};
 };
 
+/// A delay shorter than the file's, as the file has it: in samples, in all.
+NamedParameter UnderOwnKey(const NamedParameter& added, const RigView& rig) {
+  const double file = rig.model->config().delay_samples;
+  const auto total = [&](double value) {
+    return std::max(0.0, file + value * added.si / rig.period_s);
+  };
+  NamedParameter p = added;
+  p.key = kDelaySamplesKey;
+  p.name = fmt::format("{}[{}]", p.key, p.location.name);
+  p.unit = "samples";
+  p.si = rig.period_s;
+  p.value = total(added.value);
+  p.low = total(added.low);
+  p.high = total(added.high);
+  p.of_file = OfFile{file, p.value};
+  return p;
+}
+
 }  // namespace
 
 std::complex<double> UnbalanceOfFile(const RigView& rig, double z_m) {
@@ -154,10 +173,17 @@ std::vector<NamedParameter> Parameters(const DiagnosisResult& s) {
   for (const PlacedEffect& at : CausesByPlace(s)) {
     const EntryValues values = ValuesOf(*s.view, at);
     for (std::size_t key = 0; key < values.size(); ++key) {
-      if (const auto found = Bracket(s, at, key).Find()) out.push_back(*found);
+      const auto found = Bracket(s, at, key).Find();
+      if (found) out.push_back(IsShorterDelay(at) ? UnderOwnKey(*found, *s.view) : *found);
     }
   }
+  const std::vector<NamedParameter> of_events = EventParameters(s);
+  out.insert(out.end(), of_events.begin(), of_events.end());
   return out;
+}
+
+bool IsShorterDelay(const PlacedEffect& at) {
+  return at.effect == effect::Id::kExtraDelay && at.At("samples") < 0.0;
 }
 
 }  // namespace levitas::diagnosis
