@@ -122,8 +122,8 @@ class Bracket {
   bool depends_{}, form_{};
 };
 
-/// What the data want beyond the least that the law allows, as a mode's damping below zero: its size
-/// is that limit, and how well it is known cannot be said.
+/// What the data want beyond the least that the law allows, as a mode's damping below zero: its
+/// size is that limit, and how well it is known cannot be said.
 void AddAtItsLimit(const PlacedEffect& at, const EntryValues& values,
                    std::vector<NamedParameter>& out) {
   const effect::Words* words = effect::FindWords(at.effect_name());

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "report/diagnosis/rotor_sketch.hpp"
 #include "tests/unit/report/diagnosis/reports.hpp"
 
 namespace levitas::cli {
@@ -84,6 +85,7 @@ TEST(DiagnosisPage, DrawsTheRotorWithThePlaceOfTheCause) {
   DiagnosisReport geared = WithRotor();
   geared.rotor.pieces.clear();
   EXPECT_EQ(Count(DiagnosisPage(geared), "<svg"), 1U);
+  EXPECT_EQ(RotorSketch(geared), "");
 }
 
 TEST(DiagnosisPage, SaysWhenOfWhichFilesAndByWhichVersionItIs) {
