@@ -1,23 +1,28 @@
-// The head of the page: mode, speed, run time, connection, and the trip's sentence.
+// The head of the page: mode, speed, run time and its pace, and the trip's sentence.
 
 const at = (id) => document.getElementById(id);
 const CLASS = { levitating: "on", spinning: "on", self_test: "moving", lift: "moving", coast_down: "moving", landing: "moving", tripped: "tripped" };
 
 export function showRig(rig) {
-  at("rig").textContent = rig.name ? `${rig.name}, ${rig.pace}, ${Math.round(1 / rig.period_s)} Hz, from ${rig.source || "lcm"}` : "–";
+  at("rig").title = rig.name ? `Levitas ${rig.version}, telemetry of ${rig.source || "lcm"}` : "";
+  at("rig").textContent = rig.name ? `${rig.name}, ${Math.round(1 / rig.period_s)} Hz, ${rig.pace}` : "–";
 }
 
-export function showTick(tick) {
+export function showTick(tick, ended) {
   const mode = at("mode");
+  const name = tick.mode?.replace("_", " ");
+  if (tick.mode !== "tripped") at("trip").hidden = true;
+  mode.className = "mode " + (tick.silent && tick.mode !== "tripped" ? "" : CLASS[tick.mode] ?? "");
   if (tick.silent) {
-    mode.textContent = tick.mode ? "controller silent" : "no controller";
-    mode.className = "mode";
+    mode.textContent = !name ? "no controller" : ended ? `ended, ${name}` : "controller silent";
     return;
   }
-  mode.textContent = tick.mode.replace("_", " ");
-  mode.className = "mode " + (CLASS[tick.mode] ?? "");
+  mode.textContent = name;
   at("speed").textContent = tick.speed_rpm === null ? "not known" : tick.speed_rpm + " rpm";
-  if (tick.mode !== "tripped") at("trip").hidden = true;
+}
+
+export function showPace(text) {
+  at("pace").textContent = text;
 }
 
 export function showTime(seconds) {
@@ -27,10 +32,4 @@ export function showTime(seconds) {
 export function showTrip(event) {
   at("trip").textContent = event.text;
   at("trip").hidden = false;
-}
-
-export function showConnection(state) {
-  const place = at("connection");
-  place.textContent = state === "live" ? "live" : "connection lost, trying again";
-  place.className = "connection" + (state === "live" ? "" : " lost");
 }
