@@ -1,5 +1,6 @@
 #include "dashboard/history.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -28,22 +29,16 @@ void Append(std::string& bytes, Number value) {
 void History::Clear(std::size_t axes) {
   const std::lock_guard lock(mutex_);
   axes_ = axes;
-  oldest_ = 0;
-  time_s_.clear();
-  values_.clear();
+  taken_ = 0;
+  time_s_.assign(kRows, 0.0);
+  values_.assign(kRows * (1 + 4 * axes), 0.0F);
 }
 
 void History::Add(const Envelope& bucket) {
   const std::lock_guard lock(mutex_);
+  if (time_s_.empty() || bucket.low_m.size() != axes_) return;  // of no run that was announced
   const std::size_t width = 1 + 4 * axes_;
-  std::size_t row = oldest_;
-  if (time_s_.size() < kRows) {
-    row = time_s_.size();
-    time_s_.resize(row + 1);
-    values_.resize(width * (row + 1));
-  } else {
-    oldest_ = (oldest_ + 1) % kRows;
-  }
+  const auto row = static_cast<std::size_t>(taken_++ % kRows);
   time_s_[row] = bucket.time_s;
   float* place = &values_[width * row];
   *place++ = static_cast<float>(RadPerSToRpm(bucket.speed_rad_per_s));
@@ -60,14 +55,14 @@ void History::Add(const Envelope& bucket) {
 std::string History::Bytes() const {
   const std::lock_guard lock(mutex_);
   std::string bytes;
-  const std::size_t rows = time_s_.size();
+  const std::uint64_t rows = std::min<std::uint64_t>(taken_, kRows);
   if (rows == 0) return bytes;
   const std::size_t width = 1 + 4 * axes_;
   bytes.reserve(sizeof(double) + rows * (width + 1) * sizeof(float));
-  const double first_s = time_s_[oldest_];
+  const double first_s = time_s_[(taken_ - rows) % kRows];
   Append(bytes, first_s);
-  for (std::size_t i = 0; i < rows; ++i) {
-    const std::size_t row = (oldest_ + i) % rows;
+  for (std::uint64_t i = taken_ - rows; i < taken_; ++i) {
+    const auto row = static_cast<std::size_t>(i % kRows);
     Append(bytes, static_cast<float>(time_s_[row] - first_s));
     bytes.append(reinterpret_cast<const char*>(&values_[width * row]), width * sizeof(float));
   }

@@ -4,7 +4,7 @@ import { limitSpeed, wireControls } from "./controls.js";
 import { addEvent } from "./events.js";
 import { noteExcitation, setUpExcitation, wireExcitation } from "./excitation.js";
 import { ended, showConnection, showEnd, showSilence } from "./freshness.js";
-import { addHistory, setUpHistory } from "./history.js";
+import { addHistory, newest as past, setUpHistory } from "./history.js";
 import { listen } from "./link.js";
 import { forgetMarkers, wireMarker } from "./marker.js";
 import { drawOrbits, setUpOrbits, showOrbits } from "./orbit.js";
@@ -27,6 +27,7 @@ let eventsSeen = 0;
 let server = 0;
 let run = 0;
 let period_s = 0;
+let lastMode = "";  // of the newest event: the last state may be a hundred cycles older
 const due = new Set();
 
 const handlers = {
@@ -47,10 +48,14 @@ const handlers = {
       for (const setUp of SET_UPS) setUp(rig);
       releaseTime();
     }
-    setUpHistory(rig).then(() => due.add(drawTraces));
+    setUpHistory(rig).then(() => {
+      if (past() !== null) showTime(past());
+      moveSlider();
+      due.add(drawTraces);
+    });
   },
   tick(tick) {
-    showTick(tick, ended());
+    showTick(tick, ended() ? lastMode : "");
     showSilence(tick.silent);
     showSteps(tick, ended());
     showPace(paceText(pace(tick, period_s)));
@@ -79,6 +84,7 @@ const handlers = {
   log(event) {
     if (event.number <= eventsSeen) return;  // told again after a reconnection
     eventsSeen = event.number;
+    if (event.severity === 2 || event.text.includes(" -> ")) lastMode = event.mode;  // not of a warning
     addEvent(event);
     noteExcitation(event);
     if (event.severity === 2) showTrip(event);

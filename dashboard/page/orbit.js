@@ -139,7 +139,7 @@ function drawEnlarged(context, view, width, height, top) {
 
 export function showOrbits(tick) {
   const orbits = tick.orbit_nm;
-  energised = tick.bias_ma > 0;
+  energised = tick.bias_ma > 0 && !tick.silent;
   keys = tick.orbit_key ?? [];
   turning = keys.length > 0 ? Math.sign(tick.speed_rpm) : 0;
   views.forEach((view, i) => {

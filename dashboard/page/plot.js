@@ -24,7 +24,7 @@ export function makePlot(box, { series, bands = [], y = {}, x = {}, draw = () =>
     height: Math.max(box.clientHeight, 80),
     cursor: { points: { show: false }, y: false, drag: { x: Boolean(zoomed), y: false } },
     legend: { show: false },
-    padding: [6, 8, 0, 0],
+    padding: [6, 16, 0, 0],
     scales: { x: { time: false, ...x.scale }, y: { range, distr: y.log ? 3 : 1 } },
     axes: [{ ...axis, size: 22, gap: 2 }, { ...axis, size: 44, gap: 2, ...y.axis }],
     series: [{}, ...series],

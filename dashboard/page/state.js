@@ -8,17 +8,15 @@ export function showRig(rig) {
   at("rig").textContent = rig.name ? `${rig.name}, ${Math.round(1 / rig.period_s)} Hz, ${rig.pace}` : "–";
 }
 
-export function showTick(tick, ended) {
+/** `end`: the mode in which the run has ended, from its last event; empty while it runs. */
+export function showTick(tick, end) {
   const mode = at("mode");
-  const name = tick.mode?.replace("_", " ");
-  if (tick.mode !== "tripped") at("trip").hidden = true;
-  mode.className = "mode " + (tick.silent && tick.mode !== "tripped" ? "" : CLASS[tick.mode] ?? "");
-  if (tick.silent) {
-    mode.textContent = !name ? "no controller" : ended ? `ended, ${name}` : "controller silent";
-    return;
-  }
-  mode.textContent = name;
-  at("speed").textContent = tick.speed_rpm === null ? "not known" : tick.speed_rpm + " rpm";
+  const now = end || tick.mode;
+  const name = now?.replace("_", " ");
+  if (now !== "tripped") at("trip").hidden = true;
+  mode.className = "mode " + (tick.silent && now !== "tripped" ? "" : CLASS[now] ?? "");
+  mode.textContent = !name ? "no controller" : end ? `ended, ${name}` : tick.silent ? "controller silent" : name;
+  if (tick.mode) at("speed").textContent = tick.speed_rpm === null ? "not known" : tick.speed_rpm + " rpm";
 }
 
 export function showPace(text) {

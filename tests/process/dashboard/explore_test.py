@@ -3,6 +3,7 @@
 import csv
 import io
 import os
+import re
 import sys
 import tempfile
 import unittest
@@ -11,7 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
 from chromium import Browser, find  # noqa: E402
 from dashboard_rig import Rig, until as told  # noqa: E402
-from lcm_network import SKIPPED, run  # noqa: E402
+from lcm_network import SKIPPED, Process, run  # noqa: E402
 from waiting import until  # noqa: E402
 
 MODE = "document.getElementById('mode').textContent"
@@ -92,6 +93,23 @@ class Exploring(unittest.TestCase):
     def test_says_how_fast_the_rigs_time_runs_against_the_clock(self):
         _, page = self.rig_and_page()
         page.until("/^[0-9.]+ × real time$/.test(document.getElementById('pace').textContent)")
+
+    def test_shows_one_who_comes_after_the_end_how_the_run_ended(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        run_ = Process(folder.name, "amb", "run", "--dash", "--pace-factor", "50")
+        self.addCleanup(run_.kill)
+        url = run_.says(re.compile(r"live page: \S+(?=\s)")).rsplit("live page: ", 1)[1]
+        run_.says("live page stays at")
+        page = self.browser.open(url)
+        self.addCleanup(page.close)
+        page.until(f"{STATE} == 'ended' && {MODE} == 'ended, off'")
+        page.until("!document.getElementById('ended').hidden && document.getElementById('trip').hidden")
+        page.until(f"{TIME} > 3 && {OPEN} == ''")
+        self.assertEqual(page.value("document.getElementById('speed').textContent"), "0 rpm")
+        self.assertFalse(page.value("document.getElementById('stop').disabled"))
+        page.until("document.getElementById('back').max > 3")  # what came before it was opened
+        self.assertEqual(page.problems(), [])
 
     # Time
 

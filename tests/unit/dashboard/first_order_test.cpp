@@ -12,13 +12,13 @@ namespace levitas::dashboard {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kRateHz = 10'000.0;
+constexpr double kTurningRateHz = 10'000.0;
 
 /// x = 5 um cos(theta + 60 deg), y = 3 um cos(theta - 90 deg), each with an offset and a second
 /// order; theta(n) as given.
 SampleStore Turning(const std::function<double(double s)>& theta, int cycles = 4096) {
   const auto angle = [&](std::int64_t cycle) {
-    return theta(static_cast<double>(cycle) / kRateHz);
+    return theta(static_cast<double>(cycle) / kTurningRateHz);
   };
   auto batch = Batch(0, cycles, [&](std::int64_t cycle, int axis) {
     const double at = angle(cycle);

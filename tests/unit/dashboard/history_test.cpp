@@ -85,8 +85,10 @@ TEST(History, WritesABucketWithoutAReadingAsNoNumber) {
   EXPECT_FLOAT_EQ(At(history.Bytes(), 0, 4), -2.0F);
 }
 
-TEST(History, ForgetsTheRunBefore) {
+TEST(History, ForgetsTheRunBeforeAndTakesNothingOfOneThatWasNotAnnounced) {
   History history;
+  history.Add(Bucket(1.0));
+  EXPECT_TRUE(history.Bytes().empty());
   history.Clear(kAxes);
   EXPECT_TRUE(history.Bytes().empty());
   history.Add(Bucket(1.0));

@@ -18,7 +18,7 @@
 namespace levitas::plant_run {
 namespace {
 
-constexpr std::int64_t kPeriodNs = 100'000;
+constexpr std::int64_t kPacedPeriodNs = 100'000;
 
 /// A machine that takes `work_ns` for each period and does as the pacer says; the clock after so
 /// many periods, which begins at `now_ns`.
@@ -32,26 +32,26 @@ std::int64_t After(Pacer& pacer, std::uint64_t first, std::uint64_t periods, std
 
 TEST(Pacer, TakesAsLongAsTheFactorSaysWithinOneBurst) {
   for (const double factor : {0.1, 1.0, 3.0}) {
-    Pacer pacer(factor, kPeriodNs);
-    const double wanted_ns = 50'000 * static_cast<double>(kPeriodNs) / factor;
+    Pacer pacer(factor, kPacedPeriodNs);
+    const double wanted_ns = 50'000 * static_cast<double>(kPacedPeriodNs) / factor;
     EXPECT_NEAR(static_cast<double>(After(pacer, 0, 50'000, 10'000, 0)), wanted_ns,
-                static_cast<double>(Pacer::kBurstNs) + static_cast<double>(kPeriodNs) / factor)
+                static_cast<double>(Pacer::kBurstNs) + static_cast<double>(kPacedPeriodNs) / factor)
         << factor;
   }
 }
 
 TEST(Pacer, NeverRunsAheadOfTheClockByMoreThanABurst) {
-  Pacer pacer(1.0, kPeriodNs);
+  Pacer pacer(1.0, kPacedPeriodNs);
   std::int64_t now_ns = 1'000;
   for (std::uint64_t cycle = 0; cycle < 5'000; ++cycle) {
     now_ns = std::max(now_ns, pacer.Due(cycle, now_ns));
-    const auto rig_ns = static_cast<std::int64_t>(cycle) * kPeriodNs;
+    const auto rig_ns = static_cast<std::int64_t>(cycle) * kPacedPeriodNs;
     ASSERT_LE(rig_ns - (now_ns - 1'000), Pacer::kBurstNs) << cycle;
   }
 }
 
 TEST(Pacer, SleepsOncePerBurstAndNotOncePerPeriod) {
-  Pacer pacer(1.0, kPeriodNs);
+  Pacer pacer(1.0, kPacedPeriodNs);
   std::int64_t now_ns = 0;
   int sleeps = 0;
   for (std::uint64_t cycle = 0; cycle < 10'000; ++cycle) {
@@ -64,22 +64,22 @@ TEST(Pacer, SleepsOncePerBurstAndNotOncePerPeriod) {
 }
 
 TEST(Pacer, LetsASlowMachineRunWithoutSleeping) {
-  Pacer pacer(1.0, kPeriodNs);
+  Pacer pacer(1.0, kPacedPeriodNs);
   std::int64_t now_ns = 0;
   for (std::uint64_t cycle = 0; cycle < 5'000; ++cycle) {
     ASSERT_LE(pacer.Due(cycle, now_ns), now_ns) << cycle;
-    now_ns += 2 * kPeriodNs;
+    now_ns += 2 * kPacedPeriodNs;
   }
 }
 
 // Harm without it: ten thousand periods, a whole second of the rig, as fast as the machine allows.
 TEST(Pacer, DoesNotRaceAfterAStall) {
-  Pacer pacer(1.0, kPeriodNs);
+  Pacer pacer(1.0, kPacedPeriodNs);
   constexpr std::int64_t kWorkNs = 1'000;
   std::int64_t now_ns = After(pacer, 0, 1'000, kWorkNs, 0);
   now_ns += 1'000'000'000;
   const std::int64_t later_ns = After(pacer, 1'000, 10'000, kWorkNs, now_ns);
-  EXPECT_GE(later_ns - now_ns, 1'000'000'000 - Pacer::kBurstNs - kPeriodNs);
+  EXPECT_GE(later_ns - now_ns, 1'000'000'000 - Pacer::kBurstNs - kPacedPeriodNs);
 }
 
 /// Time passes while somebody sleeps only.
@@ -117,7 +117,7 @@ std::int64_t ClockAfter(std::uint64_t periods, double pace_factor) {
   plant::Plant plant(test::QuietFlexibleRotor(), 1);
   WillingLink link;
   SleepersClock clock;
-  PlantLoop loop({.pace_factor = pace_factor, .period_ns = kPeriodNs, .rig_session = 1}, plant,
+  PlantLoop loop({.pace_factor = pace_factor, .period_ns = kPacedPeriodNs, .rig_session = 1}, plant,
                  link, clock);
   link.periods = periods;
   link.loop = &loop;
@@ -128,10 +128,10 @@ std::int64_t ClockAfter(std::uint64_t periods, double pace_factor) {
 
 TEST(PacedRig, WaitsForTheClockWhereOneInLockstepDoesNot) {
   EXPECT_EQ(ClockAfter(2'000, 0.0), 0);
-  EXPECT_NEAR(static_cast<double>(ClockAfter(2'000, 1.0)), 2'000.0 * kPeriodNs,
-              static_cast<double>(Pacer::kBurstNs + kPeriodNs));
-  EXPECT_NEAR(static_cast<double>(ClockAfter(2'000, 0.5)), 4'000.0 * kPeriodNs,
-              static_cast<double>(Pacer::kBurstNs + 2 * kPeriodNs));
+  EXPECT_NEAR(static_cast<double>(ClockAfter(2'000, 1.0)), 2'000.0 * kPacedPeriodNs,
+              static_cast<double>(Pacer::kBurstNs + kPacedPeriodNs));
+  EXPECT_NEAR(static_cast<double>(ClockAfter(2'000, 0.5)), 4'000.0 * kPacedPeriodNs,
+              static_cast<double>(Pacer::kBurstNs + 2 * kPacedPeriodNs));
 }
 
 bool Reads(std::vector<std::string> words, PlantOptions& options) {
