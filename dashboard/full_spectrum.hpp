@@ -1,8 +1,8 @@
 #pragma once
 // Full spectrum of each bearing (analysis/full_spectrum.hpp) of the newest samples.
 //
-// Lines    at most kMostLines a side: beyond that the greatest of neighbours stands for them, so that
-//          no peak is lost and a wide spectrum is no longer than a narrow one.
+// Lines    at most kMostLines a side: beyond that the greatest of neighbours stands for them, so
+//          that no peak is lost and a wide spectrum is no longer than a narrow one.
 // Units    metres (amplitude, not density) over hertz. Thread any; allocates.
 // Failure  nothing while fewer than kLength uninterrupted samples are there, or one is no number.
 

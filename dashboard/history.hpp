@@ -5,8 +5,8 @@
 // Bytes     a float64, the time of the first row [s], then rows of float32, little-endian: time
 //           since then [s], speed [rpm], least and greatest position of each axis [um], least and
 //           greatest current of each axis [A]; 2 + 4 axes numbers a row. NaN where there was none.
-// Size      kRows rows at most, the oldest are dropped: 1.8 MB for four axes, all of it taken when a
-//           run begins, so that a long one adds nothing.
+// Size      kRows rows at most, the oldest are dropped: 1.8 MB for four axes, all of it taken when
+//           a run begins, so that a long one adds nothing.
 // Thread    any; locks for as long as copying takes.
 // Failure   none.
 

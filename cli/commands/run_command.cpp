@@ -262,6 +262,34 @@ void AddRigOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options
                      "Write the rig as it is run to this file, for the commands on the record");
 }
 
+void AddPaceOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  command
+      .add_option(
+          "--pace", options->pace,
+          "lockstep (as fast as the machine allows), paced (lockstep held to the clock, for "
+          "eyes) or realtime; default: realtime where the rig is not simulated here, paced "
+          "with --dash or --pace-factor")
+      ->check(CLI::IsMember({"lockstep", "paced", "realtime"}))
+      ->default_str("lockstep");
+  command
+      .add_option("--pace-factor", options->pace_factor,
+                  "How many seconds of the rig pass in one of the clock in a paced run; default: 1")
+      ->check(CLI::Range(0.05, 100.0));
+}
+
+void AddPageOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  auto* dash = command.add_flag_callback(
+      "--dash", [options] { options->page = PageWish::kAlways; },
+      "Serve the live page during the run, at the clock's pace, print its address, and keep it "
+      "after the run until Ctrl-C");
+  command
+      .add_flag_callback(
+          "--no-dash", [options] { options->page = PageWish::kNever; },
+          "No live page; default: on a terminal, when the pace is real time or paced, it is "
+          "served and opened in the desktop's browser")
+      ->excludes(dash);
+}
+
 }  // namespace
 
 void AddRunCommand(CLI::App& app, Action& action) {
@@ -282,19 +310,7 @@ void AddRunCommand(CLI::App& app, Action& action) {
       ->add_option("--duration", options->duration_s,
                    "Land after this long [s of the rig's time], wherever the scenario is")
       ->check(WhyNoTime);
-  command
-      ->add_option(
-          "--pace", options->pace,
-          "lockstep (as fast as the machine allows), paced (lockstep held to the clock, for "
-          "eyes) or realtime; default: realtime where the rig is not simulated here, paced "
-          "with --dash or --pace-factor")
-      ->check(CLI::IsMember({"lockstep", "paced", "realtime"}))
-      ->default_str("lockstep");
-  command
-      ->add_option(
-          "--pace-factor", options->pace_factor,
-          "How many seconds of the rig pass in one of the clock in a paced run; default: 1")
-      ->check(CLI::Range(0.05, 100.0));
+  AddPaceOptions(*command, options);
   command->add_option(
       "--port", options->port,
       "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can, or can:IF[,IF...] (the rig then "
@@ -321,16 +337,7 @@ void AddRunCommand(CLI::App& app, Action& action) {
   command->add_option("--json", options->json_path,
                       "Write the verdict to this file; -: to standard output, the text then to "
                       "standard error");
-  auto* dash = command->add_flag_callback(
-      "--dash", [options] { options->page = PageWish::kAlways; },
-      "Serve the live page during the run, at the clock's pace, print its address, and keep it "
-      "after the run until Ctrl-C");
-  command
-      ->add_flag_callback(
-          "--no-dash", [options] { options->page = PageWish::kNever; },
-          "No live page; default: on a terminal, when the pace is real time or paced, it is "
-          "served and opened in the desktop's browser")
-      ->excludes(dash);
+  AddPageOptions(*command, options);
   command->callback([options, &action] { action = [options] { return Execute(*options); }; });
 }
 

@@ -52,8 +52,8 @@ class LivePage {
   LivePage(const LivePage&) = delete;
   LivePage& operator=(const LivePage&) = delete;
 
-  /// The exit status of `run`, at once without a page. With one: what `run` throws is said, the
-  /// viewers are told that it is over, and the page stays until Ctrl-C unless `interrupted` by then.
+  /// The exit status of `run`, at once without a page. With one: what `run` throws is said, viewers
+  /// are told that it is over, and the page stays until Ctrl-C unless `interrupted` by then.
   [[nodiscard]] ExitStatus Outlive(const std::function<ExitStatus()>& run, const bool& interrupted);
 
  private:
