@@ -9,10 +9,13 @@
 #include "controller/rt/clock.hpp"
 #include "dashboard/announced_rig.hpp"
 #include "dashboard/command_api.hpp"
+#include "dashboard/first_order.hpp"
 #include "dashboard/full_spectrum.hpp"
+#include "dashboard/history.hpp"
 #include "dashboard/live_run.hpp"
 #include "dashboard/scope_controller.hpp"
 #include "dashboard/snapshot.hpp"
+#include "dashboard/spectrum_range.hpp"
 #include "transport/lcm_packet.hpp"
 
 namespace levitas::dashboard {
@@ -48,6 +51,11 @@ struct Dashboard::Impl {
            return AnswerExcitation(body, rig.Get(), [this](const std::string& step_yaml) {
              return commander.SendExcitation(step_yaml);
            });
+         }},
+        {true, "/api/spectrum", [this](const std::string& body) { return range.Ask(body); }},
+        {false, "/api/history",
+         [this](const std::string&) {
+           return HttpAnswer{kHttpOk, history.Bytes(), "application/octet-stream"};
          }},
         {true, "/api/scope", [this](const std::string& body) { return scope.Ask(body); }},
         {false, "/api/scope.json", [this](const std::string&) { return scope.CaptureJson(); }},
@@ -114,6 +122,7 @@ struct Dashboard::Impl {
       told_run = run.run_number();
       rig.Set(*run.rig());
       scope.RunIs(*run.rig());
+      history.Clear(run.rig()->axes());
       hub.Put(Topic::kRig, RigJson(run, started_ns));
     }
   }
@@ -140,8 +149,10 @@ struct Dashboard::Impl {
     next_spectrum_ns = now_ns + Ns(kSpectrumEvery);
     if (run.samples()->count() == spectrum_count) return;
     spectrum_count = run.samples()->count();
-    if (const auto spectrum = SpectrumOf(*run.samples(), kHighestSpectrumHz)) {
-      hub.Put(Topic::kSpectrum, SpectrumJson(*spectrum));
+    if (const auto spectrum = SpectrumOf(*run.samples(), range.highest_hz())) {
+      const auto first_order = FirstOrderOf(*run.samples());
+      hub.Put(Topic::kSpectrum,
+              SpectrumJson(*spectrum, first_order.value_or(std::vector<std::complex<double>>{})));
     }
   }
 
@@ -149,7 +160,9 @@ struct Dashboard::Impl {
   Hub hub;
   transport::MulticastReceiver receiver;
   Commander commander;
-  LiveRun run;  ///< our own thread's
+  History history;
+  SpectrumRange range{kHighestSpectrumHz};
+  LiveRun run{[this](const Envelope& bucket) { history.Add(bucket); }};  ///< our own thread's
   AnnouncedRig rig;
   ScopeController scope;
   std::uint64_t told_run{0};
@@ -167,5 +180,7 @@ Dashboard::Dashboard(const transport::LcmNetwork& network, const WebOptions& web
 Dashboard::~Dashboard() = default;
 
 std::string Dashboard::Url() const { return impl_->server.Url(); }
+
+void Dashboard::RunEnded(const std::string& how) { impl_->hub.Put(Topic::kEnd, EndJson(how)); }
 
 }  // namespace levitas::dashboard

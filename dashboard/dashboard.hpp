@@ -19,7 +19,7 @@ namespace levitas::dashboard {
 
 inline constexpr std::chrono::milliseconds kTick{50};
 inline constexpr std::chrono::milliseconds kSpectrumEvery{250};
-inline constexpr double kHighestSpectrumHz = 500.0;
+inline constexpr double kHighestSpectrumHz = 500.0;  ///< until a viewer asks for another range
 
 class Dashboard {
  public:
@@ -31,6 +31,8 @@ class Dashboard {
   Dashboard& operator=(const Dashboard&) = delete;
 
   [[nodiscard]] std::string Url() const;
+  /// Tells viewers, also those to come, that no more follows. Any thread.
+  void RunEnded(const std::string& how);
 
  private:
   struct Impl;

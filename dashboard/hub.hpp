@@ -21,10 +21,10 @@
 namespace levitas::dashboard {
 
 /// Kinds of which only the newest counts; names are those of the page's events.
-enum class Topic : std::uint8_t { kRig, kTick, kSpectrum, kTiming, kScope };
-inline constexpr std::size_t kTopics = 5;
-inline constexpr std::array<const char*, kTopics> kTopicNames{"rig", "tick", "spectrum", "timing",
-                                                              "scope"};
+enum class Topic : std::uint8_t { kRig, kTick, kSpectrum, kTiming, kScope, kEnd };
+inline constexpr std::size_t kTopics = 6;
+inline constexpr std::array<const char*, kTopics> kTopicNames{"rig",    "tick",  "spectrum",
+                                                              "timing", "scope", "end"};
 
 /// What one viewer has seen.
 struct Seen {

@@ -22,6 +22,15 @@ bool Keep(std::span<const std::uint8_t> payload, std::optional<Message>& newest)
   return true;
 }
 
+double SlowestAmplifier(const plant::PlantConfig& plant) {
+  double slowest_hz = 0.0;
+  for (const plant::BearingConfig& bearing : plant.bearings) {
+    const double one_hz = bearing.amplifier.bandwidth_hz;
+    if (one_hz > 0.0 && (slowest_hz <= 0.0 || one_hz < slowest_hz)) slowest_hz = one_hz;
+  }
+  return slowest_hz;
+}
+
 }  // namespace
 
 void LiveRun::Take(std::string_view channel, std::span<const std::uint8_t> payload,
@@ -51,12 +60,14 @@ bool LiveRun::TakeHeader(std::span<const std::uint8_t> payload) {
                      header.rig_yaml == header_.rig_yaml;
   if (known) return true;
   try {
-    rig_ = config::ParseRig(header.rig_yaml, "the announced rig").numbers;
+    const config::RigFile rig = config::ParseRig(header.rig_yaml, "the announced rig");
+    rig_ = rig.numbers;
+    amplifier_hz_ = SlowestAmplifier(rig.plant);
   } catch (const std::exception&) {
     return false;  // of a program of another version, or no rig at all
   }
   header_ = std::move(header);
-  samples_.emplace(*rig_);
+  samples_.emplace(*rig_, on_bucket_);
   state_.reset();
   timing_.reset();
   histogram_.reset();

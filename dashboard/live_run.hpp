@@ -8,12 +8,14 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <levitas_msg/controller_state_t.hpp>
 #include <levitas_msg/loop_histogram_t.hpp>
 #include <levitas_msg/loop_timing_t.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "common/rig_numbers.hpp"
 #include "dashboard/sample_store.hpp"
@@ -31,12 +33,18 @@ class LiveRun {
  public:
   static constexpr std::size_t kMaxEvents = 200;
 
+  /// `on_bucket` is called with each envelope as it closes, from Take.
+  explicit LiveRun(std::function<void(const Envelope&)> on_bucket = {})
+      : on_bucket_(std::move(on_bucket)) {}
+
   /// A message of LEVITAS_HEADER, _STATE, _TIMING, _HISTOGRAM, _EVENT or _SAMPLES; others are
   /// none of its business.
   void Take(std::string_view channel, std::span<const std::uint8_t> payload, std::int64_t now_ns);
 
   /// Of the run whose header came last; empty before the first.
   [[nodiscard]] const std::optional<RigNumbers>& rig() const noexcept { return rig_; }
+  /// [Hz] of the slowest amplifier: beyond it the loop does little. 0 before the first header.
+  [[nodiscard]] double amplifier_hz() const noexcept { return amplifier_hz_; }
   [[nodiscard]] const session::SessionHeader& header() const noexcept { return header_; }
   /// Counts the runs seen, 0 before the first.
   [[nodiscard]] std::uint64_t run_number() const noexcept { return run_number_; }
@@ -63,7 +71,9 @@ class LiveRun {
   bool TakeEvent(std::span<const std::uint8_t> payload);
   bool TakeSamples(std::span<const std::uint8_t> payload);
 
+  std::function<void(const Envelope&)> on_bucket_;
   session::SessionHeader header_;
+  double amplifier_hz_{0.0};
   std::optional<RigNumbers> rig_;
   std::uint64_t run_number_{0};
   std::optional<levitas_msg::controller_state_t> state_;

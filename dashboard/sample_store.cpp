@@ -4,17 +4,20 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace levitas::dashboard {
 
-SampleStore::SampleStore(const RigNumbers& rig)
+SampleStore::SampleStore(const RigNumbers& rig, std::function<void(const Envelope&)> on_bucket)
     : frame_(rig),
       period_s_(rig.period_s()),
       bucket_cycles_(std::max<std::uint64_t>(
           1, static_cast<std::uint64_t>(std::llround(kBucketSeconds / rig.period_s())))),
       position_m_(rig.axes(), std::vector<float>(kCapacity)),
       current_a_(rig.axes(), std::vector<float>(kCapacity)),
-      speed_rad_per_s_(kCapacity) {
+      speed_rad_per_s_(kCapacity),
+      angle_rad_(kCapacity),
+      on_bucket_(std::move(on_bucket)) {
   OpenBucket();
 }
 
@@ -32,7 +35,7 @@ bool SampleStore::Add(const levitas_msg::sample_batch_t& batch) {
   const bool fits = batch.axes == static_cast<std::int32_t>(axes()) && samples > 0 &&
                     batch.first_cycle >= 0 && batch.position_m.size() == samples * axes() &&
                     batch.control_current_a.size() == samples * axes() &&
-                    batch.speed_rad_per_s.size() == samples;
+                    batch.speed_rad_per_s.size() == samples && batch.angle_rad.size() == samples;
   if (!fits) return false;
   const auto first = static_cast<std::uint64_t>(batch.first_cycle);
   if (count_ == 0 || first != newest_cycle_ + 1) {
@@ -57,6 +60,7 @@ void SampleStore::Put(const levitas_msg::sample_batch_t& batch, std::size_t samp
     current_a_[i][at] = static_cast<float>(shown.current_a[i]);
   }
   speed_rad_per_s_[at] = batch.speed_rad_per_s[sample];
+  angle_rad_[at] = batch.angle_rad[sample];
   ++count_;
   contiguous_ = std::min(contiguous_ + 1, kCapacity);
   newest_cycle_ = static_cast<std::uint64_t>(batch.first_cycle) + sample;
@@ -74,6 +78,7 @@ void SampleStore::Widen(std::size_t at) {
   if (++open_cycles_ < bucket_cycles_) return;
   open_.time_s = static_cast<double>(newest_cycle_) * period_s_;
   open_.speed_rad_per_s = static_cast<double>(speed_rad_per_s_[at]);
+  if (on_bucket_) on_bucket_(open_);
   closed_.push_back(open_);
   if (closed_.size() > kMaxEnvelopes) closed_.pop_front();
   OpenBucket();

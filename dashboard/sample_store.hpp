@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <levitas_msg/sample_batch_t.hpp>
 #include <vector>
 
@@ -31,7 +32,8 @@ class SampleStore {
   static constexpr double kBucketSeconds = 0.025;
   static constexpr std::size_t kMaxEnvelopes = 800;  ///< 20 s; older ones are dropped
 
-  explicit SampleStore(const RigNumbers& rig);
+  /// `on_bucket` is called with each bucket as it closes, from Add.
+  explicit SampleStore(const RigNumbers& rig, std::function<void(const Envelope&)> on_bucket = {});
 
   /// False when the batch does not fit the rig.
   bool Add(const levitas_msg::sample_batch_t& batch);
@@ -61,6 +63,8 @@ class SampleStore {
     return current_a_[axis][At(back)];
   }
   [[nodiscard]] float Speed(std::size_t back) const noexcept { return speed_rad_per_s_[At(back)]; }
+  /// Of the key phasor, 0 to 2 pi.
+  [[nodiscard]] float Angle(std::size_t back) const noexcept { return angle_rad_[At(back)]; }
 
   /// Buckets closed since the last call, oldest first.
   [[nodiscard]] std::vector<Envelope> TakeEnvelopes();
@@ -77,7 +81,8 @@ class SampleStore {
   double period_s_;
   std::uint64_t bucket_cycles_;
   std::vector<std::vector<float>> position_m_, current_a_;
-  std::vector<float> speed_rad_per_s_;
+  std::vector<float> speed_rad_per_s_, angle_rad_;
+  std::function<void(const Envelope&)> on_bucket_;
   std::uint64_t count_{0};
   std::size_t contiguous_{0};
   std::uint64_t newest_cycle_{0};

@@ -54,16 +54,31 @@ std::size_t OrbitSpan(const SampleStore& store) {
   return std::min(wanted, store.contiguous());
 }
 
+/// The points of the orbit at which the key phasor has just passed.
+void PutKeyPhasor(std::string& text, const SampleStore& store, std::size_t points,
+                  std::size_t stride) {
+  std::vector<std::size_t> passes;
+  for (std::size_t back = points * stride - 1; back > 0; --back) {
+    const double step =
+        static_cast<double>(store.Angle(back - 1)) - static_cast<double>(store.Angle(back));
+    if (std::abs(step) > std::numbers::pi) passes.push_back(points - 1 - (back - 1) / stride);
+  }
+  text += ",\"orbit_key\":";
+  PutList(text, passes.size(), [&](std::size_t i) { Put(text, static_cast<double>(passes[i])); });
+}
+
 void PutOrbits(std::string& text, const SampleStore& store) {
   const std::size_t span = OrbitSpan(store);
   const std::size_t stride = std::max<std::size_t>(1, (span + kOrbitPoints - 1) / kOrbitPoints);
   const std::size_t points = span / stride;
+  text += ",\"orbit_nm\":";
   PutList(text, store.bearings(), [&](std::size_t bearing) {
     PutList(text, 2 * points, [&](std::size_t i) {
       const std::size_t back = (points - 1 - i / 2) * stride;
       Put(text, kNano * static_cast<double>(store.Displacement(bearing, i % 2, back)));
     });
   });
+  if (points > 0) PutKeyPhasor(text, store, points, stride);
 }
 
 void PutEnvelopes(std::string& text, std::vector<Envelope> buckets, std::size_t axes) {
@@ -120,6 +135,7 @@ std::string RigJson(const LiveRun& run, std::int64_t server) {
                  {"clearance_m", rig.clearance_m},
                  {"bias_a", rig.bias_current_a},
                  {"max_coil_current_a", rig.max_coil_current_a},
+                 {"amplifier_hz", run.amplifier_hz()},
                  {"max_speed_rpm", RadPerSToRpm(rig.max_speed_rad_per_s)},
                  {"pace", header.pace},
                  {"version", header.program_version},
@@ -132,16 +148,16 @@ std::string TickJson(LiveRun& run, std::int64_t now_ns) {
   std::string text = "{";
   PutState(text, run, now_ns);
   if (auto& store = run.samples(); store && store->count() > 0) {
-    fmt::format_to(std::back_inserter(text),
-                   ",\"sample_ns\":{},\"sent_ns\":{},\"orbit_nm\":", store->newest_time_ns(),
-                   now_ns);
+    fmt::format_to(std::back_inserter(text), ",\"sample_ns\":{},\"sent_ns\":{}",
+                   store->newest_time_ns(), now_ns);
     PutOrbits(text, *store);
     PutEnvelopes(text, store->TakeEnvelopes(), store->axes());
   }
   return text + "}";
 }
 
-std::string SpectrumJson(const FullSpectrum& spectrum) {
+std::string SpectrumJson(const FullSpectrum& spectrum,
+                         const std::vector<std::complex<double>>& first_order) {
   std::string text = fmt::format(
       "{{\"line_hz\":{},\"highest_hz\":{},\"t_ms\":{:.0f},\"rpm\":{:.1f}", spectrum.line_spacing_hz,
       spectrum.highest_hz, kMilli * spectrum.time_s, RadPerSToRpm(spectrum.speed_rad_per_s));
@@ -151,6 +167,14 @@ std::string SpectrumJson(const FullSpectrum& spectrum) {
     const auto& lines = spectrum.amplitude_m[bearing];
     PutList(text, lines.size(), [&](std::size_t i) { Put(text, 10.0 * kNano * lines[i]); });
   });
+  if (first_order.empty()) return text + "}";
+  text += ",\"first_order_nm\":";
+  PutList(text, first_order.size(),
+          [&](std::size_t i) { Put(text, kNano * std::abs(first_order[i])); });
+  constexpr double kTenthsOfDegrees = 1800.0 / std::numbers::pi;
+  text += ",\"first_order_ddeg\":";
+  PutList(text, first_order.size(),
+          [&](std::size_t i) { Put(text, kTenthsOfDegrees * std::arg(first_order[i])); });
   return text + "}";
 }
 
@@ -184,6 +208,11 @@ std::string EventJson(const NumberedEvent& numbered) {
       {"mode", Name(event.mode)},  {"fault", Name(event.fault)},
       {"text", event.text}};
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string EndJson(const std::string& how) {
+  return nlohmann::json{{"text", how}}.dump(-1, ' ', false,
+                                            nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace levitas::dashboard

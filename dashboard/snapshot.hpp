@@ -7,6 +7,7 @@
 //           tick at most kTickEnvelopes buckets.
 // Thread    as the LiveRun given. Failure none: what is not known is null.
 
+#include <complex>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -26,8 +27,12 @@ inline constexpr std::size_t kTickEnvelopes = 80;
 /// State, newest orbit and envelopes; `now_ns` of CLOCK_MONOTONIC.
 [[nodiscard]] std::string TickJson(LiveRun& run, std::int64_t now_ns);
 
-[[nodiscard]] std::string SpectrumJson(const FullSpectrum& spectrum);
+/// `first_order`: of each axis, see first_order.hpp; empty: the rotor does not turn.
+[[nodiscard]] std::string SpectrumJson(const FullSpectrum& spectrum,
+                                       const std::vector<std::complex<double>>& first_order = {});
 [[nodiscard]] std::string TimingJson(const LiveRun& run);
 [[nodiscard]] std::string EventJson(const NumberedEvent& event);
+/// That the run is over, and how it ended, in a sentence.
+[[nodiscard]] std::string EndJson(const std::string& how);
 
 }  // namespace levitas::dashboard

@@ -113,8 +113,7 @@ class Dashboard(unittest.TestCase):
             self.press(page, "#excitation-end")
             self.press(page, "[data-view=overview]")
             self.press(page, "#spin [type=submit]")
-            until(rig.url, lambda name, data: name == "tick" and data.get("speed_rpm", 0) > 1490,
-                  most=20_000)
+            until(rig.url, lambda name, data: name == "tick" and data.get("speed_rpm", 0) > 1490)
             phone = browser.open(rig.url, width=390, height=844, phone=True)
             time.sleep(10)
             page.picture(PICTURES / "dashboard.png")

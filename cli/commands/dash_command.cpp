@@ -7,7 +7,6 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/commands/command.hpp"
 #include "cli/json_file.hpp"
@@ -80,8 +79,7 @@ ExitStatus Serve(DashOptions options) {
   if (!options.web.token.empty()) (void)::umask(S_IRWXG | S_IRWXO);
   WriteJsonFile(options.json_path, {{"page", page.Url()}});
   std::fflush(stdout);
-  constexpr auto kLook = std::chrono::milliseconds(50);
-  while (interrupts.count() == 0) std::this_thread::sleep_for(kLook);
+  interrupts.Await();
   return ExitStatus::kDone;
 }
 

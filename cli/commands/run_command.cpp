@@ -59,8 +59,8 @@ RunPaths PathsOf(const RunOptions& options, const RunFolder& folder) {
   return paths;
 }
 
-RunResult RunBoth(const RunPlan& plan, const RunFiles& files, const transport::LcmNetwork& network,
-                  const PagePlan& page_plan) {
+RunResult RunBoth(const RunPlan& plan, const RunFiles& files,
+                  const transport::LcmNetwork& network) {
   const InterruptGuard interrupts;
   Telemetry telemetry(network);
   const auto draw = [](const std::string& part) { rt::Say(part, rt::Speaker::Kind::kPart); };
@@ -73,7 +73,6 @@ RunResult RunBoth(const RunPlan& plan, const RunFiles& files, const transport::L
     rt::Say(text);
   };
   hooks.interrupts = [&] { return interrupts.count(); };
-  const LivePage page(page_plan, network, hooks.say);
   RunResult result = Supervise(plan, hooks);
   progress.Close();
   static_cast<void>(rt::FlushSaid());  // what follows goes to standard output
@@ -191,6 +190,31 @@ void CheckLoop(const RunOptions& options, const RunFiles& files) {
                   files.controller_path, blocks, options.rig));
 }
 
+std::string PortOf(const RunOptions& options, const transport::LcmNetwork& network) {
+  return socketcan::IsCanPort(options.port) ? options.port
+                                            : network.Url(transport::Direction::kSensor);
+}
+
+std::string PaceText(const RunOptions& options) {
+  if (options.pace != "paced") return options.pace;
+  return fmt::format("paced at {:g} x the clock", options.pace_factor.value_or(1.0));
+}
+
+/// `interrupted` as soon as it is known: a verdict that throws does not undo it.
+ExitStatus RunAndJudge(const RunOptions& options, const RunFiles& files, const RunPlan& plan,
+                       RunFolder& folder, const transport::LcmNetwork& network, bool& interrupted) {
+  const RunPaths paths = PathsOf(options, folder);
+  RunResult result = RunBoth(plan, files, network);
+  interrupted = result.interrupted;
+  result.trouble = WithRoom(result.trouble, paths, folder);
+  for (const std::string& note : TripFolderNotes(paths.controller_log)) rt::Say(note);
+  const ExitStatus status = JudgeRun(options, files, paths, result, PortOf(options, network));
+  if (status == ExitStatus::kTripped && options.record_path.empty()) folder.Keep();
+  std::fflush(stdout);
+  if (!result.trouble.empty()) throw Problem(status, result.trouble);
+  return status;
+}
+
 ExitStatus Execute(const RunOptions& asked) {
   for (const std::string& path : {asked.record_path, asked.json_path, asked.rig_out}) {
     session::CheckOutputPath(path, {});
@@ -214,24 +238,18 @@ ExitStatus Execute(const RunOptions& asked) {
     rt::Say(fmt::format("removed {} older folders of runs beside {}", folder.removed().size(),
                         folder.path()));
   }
-  const RunPaths paths = PathsOf(options, folder);
-  const RunPlan plan = PlanRun(options, WithRigAsRun(options, files, folder), paths, *network);
-  const std::string port = socketcan::IsCanPort(options.port)
-                               ? options.port
-                               : network->Url(transport::Direction::kSensor);
+  const RunPlan plan =
+      PlanRun(options, WithRigAsRun(options, files, folder), PathsOf(options, folder), *network);
   rt::Say(fmt::format("rig {}{}, controller {}, scenario {}, {}, port {}", files.rig.name,
                       options.rig_is_there ? " (not simulated)" : "", files.controller_path,
-                      files.scenario_name, options.pace, port));
+                      files.scenario_name, PaceText(options), PortOf(options, *network)));
   CheckLoop(options, files);
-  const PagePlan page = PlanPage(options.page, LookAround(options.pace == "realtime"));
-  RunResult result = RunBoth(plan, files, *network, page);
-  result.trouble = WithRoom(result.trouble, paths, folder);
-  for (const std::string& note : TripFolderNotes(paths.controller_log)) rt::Say(note);
-  const ExitStatus status = JudgeRun(options, files, paths, result, port);
-  if (status == ExitStatus::kTripped && options.record_path.empty()) folder.Keep();
-  std::fflush(stdout);
-  if (!result.trouble.empty()) throw Problem(status, result.trouble);
-  return status;
+  LivePage page(PlanPage(options.page, LookAround(options.pace != "lockstep")), *network,
+                [](const std::string& line) { rt::Say(line); });
+  bool interrupted = false;
+  return page.Outlive(
+      [&] { return RunAndJudge(options, files, plan, folder, *network, interrupted); },
+      interrupted);
 }
 
 void AddRigOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
@@ -242,6 +260,34 @@ void AddRigOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options
                      "the session holds the rig as it was run");
   command.add_option("--write-rig", options->rig_out,
                      "Write the rig as it is run to this file, for the commands on the record");
+}
+
+void AddPaceOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  command
+      .add_option(
+          "--pace", options->pace,
+          "lockstep (as fast as the machine allows), paced (lockstep held to the clock, for "
+          "eyes) or realtime; default: realtime where the rig is not simulated here, paced "
+          "with --dash or --pace-factor")
+      ->check(CLI::IsMember({"lockstep", "paced", "realtime"}))
+      ->default_str("lockstep");
+  command
+      .add_option("--pace-factor", options->pace_factor,
+                  "How many seconds of the rig pass in one of the clock in a paced run; default: 1")
+      ->check(CLI::Range(0.05, 100.0));
+}
+
+void AddPageOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
+  auto* dash = command.add_flag_callback(
+      "--dash", [options] { options->page = PageWish::kAlways; },
+      "Serve the live page during the run, at the clock's pace, print its address, and keep it "
+      "after the run until Ctrl-C");
+  command
+      .add_flag_callback(
+          "--no-dash", [options] { options->page = PageWish::kNever; },
+          "No live page; default: on a terminal, when the pace is real time or paced, it is "
+          "served and opened in the desktop's browser")
+      ->excludes(dash);
 }
 
 }  // namespace
@@ -264,11 +310,7 @@ void AddRunCommand(CLI::App& app, Action& action) {
       ->add_option("--duration", options->duration_s,
                    "Land after this long [s of the rig's time], wherever the scenario is")
       ->check(WhyNoTime);
-  command
-      ->add_option("--pace", options->pace,
-                   "lockstep or realtime; default: realtime where the rig is not simulated here")
-      ->check(CLI::IsMember({"lockstep", "realtime"}))
-      ->default_str("lockstep");
+  AddPaceOptions(*command, options);
   command->add_option(
       "--port", options->port,
       "lcm, lcm:udpm://<group>:<port>?ttl=<n>, can, or can:IF[,IF...] (the rig then "
@@ -295,15 +337,7 @@ void AddRunCommand(CLI::App& app, Action& action) {
   command->add_option("--json", options->json_path,
                       "Write the verdict to this file; -: to standard output, the text then to "
                       "standard error");
-  auto* dash = command->add_flag_callback(
-      "--dash", [options] { options->page = PageWish::kAlways; },
-      "Serve the live page during the run and print its address");
-  command
-      ->add_flag_callback(
-          "--no-dash", [options] { options->page = PageWish::kNever; },
-          "No live page; default: on a terminal, when the pace is real time, it is served and "
-          "opened in the desktop's browser")
-      ->excludes(dash);
+  AddPageOptions(*command, options);
   command->callback([options, &action] { action = [options] { return Execute(*options); }; });
 }
 

@@ -1,7 +1,9 @@
 #include "cli/run/interrupt.hpp"
 
 #include <array>
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "controller/rt/stop_signal.hpp"
 
@@ -37,5 +39,10 @@ InterruptGuard::~InterruptGuard() {
 }
 
 int InterruptGuard::count() const noexcept { return rt::StopSignals(); }
+
+void InterruptGuard::Await() const {
+  constexpr auto kLook = std::chrono::milliseconds(50);
+  while (count() == 0) std::this_thread::sleep_for(kLook);
+}
 
 }  // namespace levitas::cli

@@ -16,6 +16,8 @@ class InterruptGuard {
 
   /// 0: none since the guard was made; 1: land; 2: end at once.
   [[nodiscard]] int count() const noexcept;
+  /// Returns after the first.
+  void Await() const;
 };
 
 }  // namespace levitas::cli

@@ -7,7 +7,8 @@
 #include <array>
 #include <cstdlib>
 
-#include "common/problem.hpp"
+#include "cli/run/interrupt.hpp"
+#include "controller/rt/say.hpp"
 #include "dashboard/dashboard.hpp"
 
 namespace levitas::cli {
@@ -32,22 +33,34 @@ setsid xdg-open "$1" >/dev/null 2>&1 </dev/null &)";
   return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+const char* EndOf(ExitStatus status) {
+  switch (status) {
+    case ExitStatus::kDone:
+      return "The run has ended.";
+    case ExitStatus::kTripped:
+      return "The run has ended with a trip.";
+    default:
+      return "The run has ended; its terminal says what is wrong.";
+  }
+}
+
 }  // namespace
 
 PagePlan PlanPage(PageWish wish, const PageSurroundings& around) noexcept {
   if (wish == PageWish::kNever) return {};
   const bool watched = around.terminal && !around.automation;
-  if (wish == PageWish::kIfUseful && !(watched && around.realtime)) return {};
+  if (wish == PageWish::kIfUseful && !(watched && around.clocked)) return {};
   return {true, watched && around.desktop};
 }
 
-PageSurroundings LookAround(bool realtime) {
+PageSurroundings LookAround(bool clocked) {
   return {isatty(STDOUT_FILENO) == 1 && isatty(STDERR_FILENO) == 1,
-          IsSet("DISPLAY") || IsSet("WAYLAND_DISPLAY"), IsSet("CI"), realtime};
+          IsSet("DISPLAY") || IsSet("WAYLAND_DISPLAY"), IsSet("CI"), clocked};
 }
 
 LivePage::LivePage(const PagePlan& plan, const transport::LcmNetwork& network,
-                   const std::function<void(const std::string&)>& say) {
+                   const std::function<void(const std::string&)>& say)
+    : say_(say) {
   if (!plan.serve) return;
   try {
     page_ = std::make_unique<dashboard::Dashboard>(network, dashboard::WebOptions{});
@@ -60,5 +73,24 @@ LivePage::LivePage(const PagePlan& plan, const transport::LcmNetwork& network,
 }
 
 LivePage::~LivePage() = default;
+
+ExitStatus LivePage::Outlive(const std::function<ExitStatus()>& run, const bool& interrupted) {
+  if (!page_) return run();
+  ExitStatus status = ExitStatus::kDone;
+  try {
+    status = run();
+  } catch (const Problem& problem) {
+    if (interrupted) throw;
+    say_(std::string("amb: ") + problem.what());
+    status = problem.status();
+  }
+  if (interrupted) return status;
+  page_->RunEnded(EndOf(status));
+  const InterruptGuard interrupts;
+  say_("live page stays at " + page_->Url() + ": Ctrl-C ends it");
+  static_cast<void>(rt::FlushSaid());
+  interrupts.Await();
+  return status;
+}
 
 }  // namespace levitas::cli

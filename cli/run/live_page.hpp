@@ -1,8 +1,11 @@
 #pragma once
 // The live page beside `amb run`: whether it is served, and whether a browser is sent to it.
 //
-// Served    on a terminal when the run keeps the clock's pace (one in lockstep is over before a
-//           browser has started); whenever it is asked for; never when it is refused.
+// Served    on a terminal when the run keeps the clock's pace, real time or paced (one in lockstep
+//           is over before a browser has started); whenever it is asked for; never when it is
+//           refused.
+// Stays     after the run, whatever came of it, until Ctrl-C: whoever looks sees how it ended. Not
+//           where Ctrl-C has ended the run: that was meant for both.
 // Opened    only where somebody sits before a desktop, never under automation (variable CI set).
 // Failure   the page is beside the point of a run: what goes wrong with it is said, not thrown.
 // Thread    construct and destroy from the thread that runs; the page has threads of its own.
@@ -11,6 +14,7 @@
 #include <memory>
 #include <string>
 
+#include "common/problem.hpp"
 #include "transport/lcm_network.hpp"
 
 namespace levitas::dashboard {
@@ -26,7 +30,7 @@ struct PageSurroundings {
   bool terminal{};    ///< somebody reads what is printed
   bool desktop{};     ///< a browser could be shown
   bool automation{};  ///< CI is set
-  bool realtime{};    ///< the run keeps the clock's pace
+  bool clocked{};     ///< the run keeps the clock's pace
 };
 
 struct PagePlan {
@@ -37,7 +41,7 @@ struct PagePlan {
 [[nodiscard]] PagePlan PlanPage(PageWish wish, const PageSurroundings& around) noexcept;
 
 /// Of this process: terminal on stdout and stderr, DISPLAY or WAYLAND_DISPLAY, CI.
-[[nodiscard]] PageSurroundings LookAround(bool realtime);
+[[nodiscard]] PageSurroundings LookAround(bool clocked);
 
 class LivePage {
  public:
@@ -48,8 +52,13 @@ class LivePage {
   LivePage(const LivePage&) = delete;
   LivePage& operator=(const LivePage&) = delete;
 
+  /// The exit status of `run`, at once without a page. With one: what `run` throws is said, viewers
+  /// are told that it is over, and the page stays until Ctrl-C unless `interrupted` by then.
+  [[nodiscard]] ExitStatus Outlive(const std::function<ExitStatus()>& run, const bool& interrupted);
+
  private:
   std::unique_ptr<dashboard::Dashboard> page_;
+  std::function<void(const std::string&)> say_;
 };
 
 }  // namespace levitas::cli

@@ -36,6 +36,27 @@ std::string Choose(const std::string& asked, const std::string& of_rig, const ch
   return of_rig.empty() ? general : of_rig;
 }
 
+/// A factor is meant for a paced run, whatever else would be usual.
+std::string UsualPace(const RunOptions& options) {
+  if (options.rig_is_there) return "realtime";
+  return options.page == PageWish::kAlways || options.pace_factor ? "paced" : "lockstep";
+}
+
+void RefuseWrongPace(const RunOptions& options) {
+  if (options.pace_factor && options.pace != "paced") {
+    throw Problem(
+        ExitStatus::kUsage,
+        fmt::format("--pace-factor is for --pace paced, and the pace is {}", options.pace));
+  }
+  if (options.pace == "paced" && options.rig_is_there) {
+    throw Problem(
+        ExitStatus::kUsage,
+        "--pace paced holds a simulated rig to the clock, and none is started here: a real "
+        "rig keeps --pace realtime, one that is simulated elsewhere is started with --pace "
+        "paced there and --pace lockstep here");
+  }
+}
+
 }  // namespace
 
 RunFiles CheckFiles(const RunOptions& options) {
@@ -83,11 +104,13 @@ RunOptions SettleRig(RunOptions options, const config::RigFile& rig,
                   "--no-simulated-rig needs --port: where the rig is that is there already");
   }
   if (socketcan::IsCanPort(options.port)) {
-    if (options.pace == "lockstep") socketcan::RefuseLockstep(rig, options.port, find);
+    const bool waits = options.pace == "lockstep" || options.pace == "paced";
+    if (waits) socketcan::RefuseLockstep(rig, options.port, find);
     options.rig_is_there =
         options.rig_is_there || !socketcan::RealInterface(rig, options.port, find).empty();
   }
-  if (options.pace.empty()) options.pace = options.rig_is_there ? "realtime" : "lockstep";
+  if (options.pace.empty()) options.pace = UsualPace(options);
+  RefuseWrongPace(options);
   return options;
 }
 
@@ -119,6 +142,10 @@ RunPlan PlanRun(const RunOptions& options, const RunFiles& files, const RunPaths
     plan.plant = {ProgramBeside(can ? "amb-rig" : "amb-plant"), both, paths.plant_log};
     plan.plant.arguments.insert(plan.plant.arguments.end(),
                                 {"--scenario", files.scenario_path, "--json", paths.plant_json});
+    if (options.pace_factor) {
+      plan.plant.arguments.insert(plan.plant.arguments.end(),
+                                  {"--pace-factor", fmt::format("{}", *options.pace_factor)});
+    }
   }
   plan.controller = {ProgramBeside("amb-controller"), both, paths.controller_log, "--life-line"};
   plan.controller.arguments.insert(

@@ -26,8 +26,9 @@ struct RunOptions {
   std::optional<double> bias_current_a;  ///< none: that of the rig file
   std::string rig_out;                   ///< where the rig as run is written; empty: nowhere
   double duration_s{0.0};                ///< 0: as long as the scenario takes
-  std::string pace;               ///< empty: real time where a rig is there already, else lockstep
-  std::string port;               ///< empty: lcm on ports nobody else uses
+  std::string pace;                      ///< empty: see SettleRig
+  std::optional<double> pace_factor;     ///< of a paced run; none: 1
+  std::string port;                      ///< empty: lcm on ports nobody else uses
   bool rig_is_there{};            ///< start the controller alone: the rig is on the port already
   std::string key;                ///< file with the key of those who may speak; empty: none
   bool no_commands{};             ///< nobody commands over the network
@@ -56,8 +57,10 @@ struct RunFiles {
 [[nodiscard]] std::optional<transport::LcmNetwork> CheckPort(const std::string& port);
 
 /// Completes what depends on what is on the port. On a bus that is no virtual one only a real rig
-/// can be: then none is simulated, and the pace is real time. Refuses what contradicts that, and a
-/// rig that is said to be there without a port where it could be.
+/// can be: then none is simulated, and the pace is real time. A simulated rig runs in lockstep, and
+/// held to the clock where the live page is asked for: real time itself is for machines that hold
+/// it. Refuses what contradicts that, and a rig that is said to be there without a port where it
+/// could be.
 [[nodiscard]] RunOptions SettleRig(
     RunOptions options, const config::RigFile& rig,
     socketcan::LinkKind (*find)(const std::string&) = socketcan::FindLink);

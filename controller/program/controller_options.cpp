@@ -52,14 +52,17 @@ void AddRecordingOptions(CLI::App& app, ControllerOptions& options,
 bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStatus& status) {
   CLI::App app{"Magnetic bearing controller: levitates the rig it finds on its port",
                "amb-controller"};
-  const std::map<std::string, bool> paces{{"lockstep", false}, {"realtime", true}};
+  // In a paced run it is the simulated rig that waits for the clock.
+  const std::map<std::string, bool> paces{
+      {"lockstep", false}, {"paced", false}, {"realtime", true}};
   app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
   app.add_option("--controller", options.controller, "Controller file, or a shipped name")
       ->required();
   app.add_option("--scenario", options.scenario,
                  "Scenario to play; without it commands come over the network");
   AddNetworkOptions(app, options);
-  app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
+  app.add_option("--pace", options.realtime,
+                 "lockstep (default), realtime, or paced: lockstep that the rig holds to the clock")
       ->transform(CLI::Transformer(paces))
       ->type_name("PACE");
   app.add_option("--duration", options.duration_s, "Land and end after this long [s]")

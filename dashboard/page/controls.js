@@ -24,7 +24,7 @@ export function wireControls() {
     event.preventDefault();
     stop();
   }, { capture: true });
-  for (const button of document.querySelectorAll("button[data-command]")) {
+  for (const button of document.querySelectorAll("button[type=button][data-command]")) {
     button.addEventListener("click", () => command({ command: button.dataset.command }));
   }
   document.getElementById("spin").addEventListener("submit", (event) => {

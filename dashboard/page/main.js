@@ -3,42 +3,79 @@
 import { limitSpeed, wireControls } from "./controls.js";
 import { addEvent } from "./events.js";
 import { noteExcitation, setUpExcitation, wireExcitation } from "./excitation.js";
+import { ended, showConnection, showEnd, showSilence } from "./freshness.js";
+import { addHistory, newest as past, setUpHistory } from "./history.js";
 import { listen } from "./link.js";
+import { forgetMarkers, wireMarker } from "./marker.js";
 import { drawOrbits, setUpOrbits, showOrbits } from "./orbit.js";
+import { addOverSpeed, drawOverSpeed, setUpOverSpeed, wireOverSpeed } from "./over_speed.js";
+import { pace, paceText } from "./pace.js";
+import { setUpRecord, wireRecord } from "./record.js";
 import { drawScope, setUpScope, showScope, wireScope } from "./scope.js";
 import { drawSpectrum, setUpSpectrum, showSpectrum } from "./spectrum.js";
-import { showConnection, showRig, showTick, showTime, showTrip } from "./state.js";
+import { showPace, showRig, showTick, showTime, showTrip } from "./state.js";
+import { showSteps } from "./steps.js";
+import { isHeld, moveSlider, releaseTime, wireTime } from "./time_window.js";
 import { drawTiming, showTiming } from "./timing.js";
-import { addTraces, drawTraces, setUpTraces } from "./traces.js";
+import { drawTraces, setUpTraces } from "./traces.js";
 import { wireViews } from "./views.js";
 import { addWaterfall, drawWaterfall, setUpWaterfall } from "./waterfall.js";
 
 const DRAW_EVERY_MS = 100;
+const SET_UPS = [setUpOrbits, setUpTraces, setUpSpectrum, setUpWaterfall, setUpOverSpeed, setUpExcitation, setUpScope, setUpRecord];
 let eventsSeen = 0;
 let server = 0;
+let run = 0;
+let period_s = 0;
+let lastMode = "";  // of the newest event: the last state may be a hundred cycles older
 const due = new Set();
 
 const handlers = {
   rig(rig) {
-    if (rig.server !== server) eventsSeen = 0;  // amb was started again and counts anew
-    server = rig.server;
+    if (rig.server !== server) {  // amb was started again and counts anew
+      eventsSeen = 0;
+      showEnd("");
+    }
+    const another = rig.server !== server || rig.run !== run;
+    [server, run] = [rig.server, rig.run];
     showRig(rig);
     if (!rig.channels) return;
+    period_s = rig.period_s;
     limitSpeed(rig);
-    for (const setUp of [setUpOrbits, setUpTraces, setUpSpectrum, setUpWaterfall, setUpExcitation, setUpScope]) setUp(rig);
+    // The same run after a lost connection: what is shown of it stays, what was missed is fetched.
+    if (another) {
+      forgetMarkers();
+      for (const setUp of SET_UPS) setUp(rig);
+      releaseTime();
+    }
+    setUpHistory(rig).then(() => {
+      if (past() !== null) showTime(past());
+      moveSlider();
+      due.add(drawTraces);
+    });
   },
   tick(tick) {
-    showTick(tick);
+    showTick(tick, ended() ? lastMode : "");
+    showSilence(tick.silent);
+    showSteps(tick, ended());
+    showPace(paceText(pace(tick, period_s)));
     if (tick.t_ms?.length) showTime(tick.t_ms.at(-1) / 1000);
-    if (tick.orbit_nm) showOrbits(tick.orbit_nm, tick.bias_ma);
-    addTraces(tick);
+    addHistory(tick);
+    moveSlider();
     newest = tick.sent_ns ?? newest;
+    if (isHeld()) return;
+    if (tick.orbit_nm) showOrbits(tick);
     due.add(drawOrbits).add(drawTraces);
   },
   spectrum(spectrum) {
-    showSpectrum(spectrum);
     addWaterfall(spectrum);
-    due.add(drawSpectrum).add(drawWaterfall);
+    addOverSpeed(spectrum);
+    if (isHeld()) return;
+    showSpectrum(spectrum);
+    due.add(drawSpectrum).add(drawWaterfall).add(drawOverSpeed);
+  },
+  end(end) {
+    showEnd(end.text);
   },
   timing(timing) {
     showTiming(timing);
@@ -47,6 +84,7 @@ const handlers = {
   log(event) {
     if (event.number <= eventsSeen) return;  // told again after a reconnection
     eventsSeen = event.number;
+    if (event.severity === 2 || event.text.includes(" -> ")) lastMode = event.mode;  // not of a warning
     addEvent(event);
     noteExcitation(event);
     if (event.severity === 2) showTrip(event);
@@ -69,11 +107,15 @@ function draw(now) {
   if (newest) document.documentElement.dataset.drawn = newest;  // what is in sight now
 }
 
+const everything = [drawOrbits, drawTraces, drawSpectrum, drawWaterfall, drawOverSpeed, drawTiming, drawScope];
+const drawAll = () => everything.forEach((part) => due.add(part));
 wireControls();
 wireExcitation();
+wireMarker(drawAll);
+wireOverSpeed(drawAll);
+wireRecord();
 wireScope();
-const everything = [drawOrbits, drawTraces, drawSpectrum, drawWaterfall, drawTiming, drawScope];
-const drawAll = () => everything.forEach((part) => due.add(part));
+wireTime(drawAll);
 wireViews(drawAll);
 window.addEventListener("resize", drawAll);
 listen(handlers, showConnection);

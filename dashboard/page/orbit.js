@@ -1,6 +1,8 @@
 // Orbits: where the shaft moves in each bearing, inside its clearance and zones (ISO 14839-2).
 //
-// x and y are the bearing's control axes, x to the right and y up, as docs/conventions.md sees them.
+// x and y are the bearing's control axes, x to the right and y up, as docs/conventions.md sees them:
+// a rotor with positive speed turns from x to y, counter-clockwise. The dot is where the shaft was
+// when the key phasor passed: it stands still at a constant speed and wanders through a resonance.
 
 import { prepare } from "./canvas.js";
 import { lineColour } from "./colours.js";
@@ -11,6 +13,8 @@ const KEEP = 10;  // older orbits, fading
 let views = [];
 let clearance = 0;
 let energised = false;  // zones are of a levitated shaft, not of one that lies
+let turning = 0;  // sense of rotation: 1 from x to y, -1 from y to x, 0 the rotor stands
+let keys = [];  // points of the newest orbit at which the key phasor passed
 
 export function setUpOrbits(rig) {
   const place = document.getElementById("orbits");
@@ -60,6 +64,39 @@ function drawRings(context, radius) {
   context.moveTo(0, -radius);
   context.lineTo(0, radius);
   context.stroke();
+  context.fillStyle = "#5a6775";
+  context.fillText("x", radius - 9, -3);
+  context.fillText("y", 4, -radius + 9);
+}
+
+/** A dot at each passage of the key phasor, the last one filled. */
+function drawKeys(context, points, scale) {
+  context.lineWidth = 1.2;
+  context.strokeStyle = "#1b2733";
+  keys.forEach((key, i) => {
+    if (2 * key + 1 >= points.length) return;
+    context.fillStyle = i === keys.length - 1 ? "#e69f00" : "#fff";
+    context.beginPath();
+    context.arc(points[2 * key] * scale, -points[2 * key + 1] * scale, 3.5, 0, 7);
+    context.fill();
+    context.stroke();
+  });
+}
+
+/** An arrow the way the rotor turns, in the free corner left below the clearance's circle. */
+function drawSense(context, x, y) {
+  const way = -turning;  // the screen's y points down
+  context.strokeStyle = context.fillStyle = "#1b2733";
+  context.lineWidth = 1.5;
+  context.beginPath();
+  context.arc(x, y, 8, 0.75 * Math.PI, 0.75 * Math.PI + way * 1.5 * Math.PI, way < 0);
+  context.stroke();
+  const end = 0.75 * Math.PI + way * 1.5 * Math.PI;
+  const [tipX, tipY] = [x + 8 * Math.cos(end), y + 8 * Math.sin(end)];
+  const along = end + (way * Math.PI) / 2;
+  context.beginPath();
+  for (const turn of [0, 2.4, -2.4]) context.lineTo(tipX + 5 * Math.cos(along + turn), tipY + 5 * Math.sin(along + turn));
+  context.fill();
 }
 
 /**
@@ -87,11 +124,12 @@ function drawEnlarged(context, view, width, height, top) {
   context.beginPath();
   context.rect(-half, -half, 2 * half, 2 * half);
   context.clip();
-  context.strokeStyle = lineColour(1);
+  context.strokeStyle = lineColour(0);
   context.lineWidth = 1.2;
   const scale = half / (nice * 1000);
   context.translate(-middle[0] * scale, middle[1] * scale);
   path(context, newest, scale);
+  drawKeys(context, newest, scale);
   context.restore();
   context.fillStyle = "#5a6775";
   context.textAlign = "right";
@@ -99,8 +137,11 @@ function drawEnlarged(context, view, width, height, top) {
   context.textAlign = "left";
 }
 
-export function showOrbits(orbits, bias) {
-  energised = bias > 0;
+export function showOrbits(tick) {
+  const orbits = tick.orbit_nm;
+  energised = tick.bias_ma > 0 && !tick.silent;
+  keys = tick.orbit_key ?? [];
+  turning = keys.length > 0 ? Math.sign(tick.speed_rpm) : 0;
   views.forEach((view, i) => {
     const points = orbits[i];
     if (!points || points.length < 4 || points.includes(null)) return;
@@ -126,6 +167,7 @@ export function drawOrbits() {
       path(context, points, radius / clearance);
     });
     context.restore();
+    if (turning !== 0) drawSense(context, width / 2 - 0.86 * radius, 18 + 1.86 * radius);
     const share = view.largest / clearance;
     const zone = !energised ? "" : ", zone " + (share < 0.3 ? "A" : share < 0.4 ? "B" : share < 0.5 ? "C" : "D");
     context.fillStyle = "#1b2733";

@@ -1,12 +1,17 @@
-// uPlot with this page's manners: small type, size of its box; a cursor only where one can zoom.
+// uPlot with this page's manners: small type, size of its box, values at the cursor, channels that
+// can be switched off.
+
+import { followCursor } from "./cursor.js";
 
 const FONT = "11px system-ui, 'DejaVu Sans', sans-serif";
 
 /**
  * options: series, bands (as uPlot takes them), y {floor: [low, high] always shown, log}, x {label values}, draw(plot) on top,
  * zoomed(plot, min, max) after the time shown has changed: the user may then drag to zoom.
+ * channels [{name, colour, series, value(plot)}]: what can be switched, with the numbers of its
+ * series, and its text at the cursor; where(x): the cursor's place in words.
  */
-export function makePlot(box, { series, bands = [], y = {}, x = {}, draw = () => {}, zoomed = null }) {
+export function makePlot(box, { series, bands = [], y = {}, x = {}, draw = () => {}, zoomed = null, channels = null, where = null }) {
   const range = (plot, low, high) => {
     if (y.range) return y.range;
     const [least, most] = y.floor ?? [0, 1];
@@ -17,9 +22,9 @@ export function makePlot(box, { series, bands = [], y = {}, x = {}, draw = () =>
   const options = {
     width: Math.max(box.clientWidth, 120),
     height: Math.max(box.clientHeight, 80),
-    cursor: zoomed ? { points: { show: false }, y: false, drag: { x: true, y: false } } : { show: false },
+    cursor: { points: { show: false }, y: false, drag: { x: Boolean(zoomed), y: false } },
     legend: { show: false },
-    padding: [6, 8, 0, 0],
+    padding: [6, 16, 0, 0],
     scales: { x: { time: false, ...x.scale }, y: { range, distr: y.log ? 3 : 1 } },
     axes: [{ ...axis, size: 22, gap: 2 }, { ...axis, size: 44, gap: 2, ...y.axis }],
     series: [{}, ...series],
@@ -31,22 +36,38 @@ export function makePlot(box, { series, bands = [], y = {}, x = {}, draw = () =>
   };
   const plot = new uPlot(options, [[0], ...series.map(() => [null])], box);
   plot.box = box;
-  label(box, series.filter((one) => one.label));
+  const shown = channels ?? series.flatMap((one, i) => (one.label ? [{ name: one.label, colour: one.colour ?? one.stroke, series: [i + 1] }] : []));
+  label(plot, shown);
+  if (where) followCursor(plot, shown, where);
   return plot;
 }
 
-/** Names of the lines in their colours, in the heading before the box: there they hide nothing. */
-function label(box, series) {
-  const heading = box.previousElementSibling;
-  heading.querySelector(".names")?.remove();
+/**
+ * Names of the lines in their colours, in the heading before the box: there they hide nothing. Each
+ * is a switch; what was off stays off when the plot is made anew.
+ */
+function label(plot, channels) {
+  const heading = plot.box.previousElementSibling;
+  const before = heading.querySelector(".names");
+  const off = new Set([...(before?.querySelectorAll("[aria-pressed=false]") ?? [])].map((one) => one.textContent));
   const names = document.createElement("span");
   names.className = "names";
-  for (const one of series) {
-    const name = document.createElement("span");
-    name.textContent = one.label;
-    name.style.color = one.colour ?? one.stroke;
+  for (const channel of channels) {
+    const name = document.createElement("button");
+    name.type = "button";
+    name.textContent = channel.name;
+    name.title = "show or hide " + channel.name;
+    name.style.color = channel.colour;
+    const set = (on) => {
+      name.setAttribute("aria-pressed", String(on));
+      channel.hidden = !on;
+      for (const i of channel.series) plot.setSeries(i, { show: on });
+    };
+    name.addEventListener("click", () => set(channel.hidden));
     names.append(name);
+    set(!off.has(channel.name));
   }
+  before?.remove();
   heading.append(names);
 }
 

@@ -1,23 +1,26 @@
-// The head of the page: mode, speed, run time, connection, and the trip's sentence.
+// The head of the page: mode, speed, run time and its pace, and the trip's sentence.
 
 const at = (id) => document.getElementById(id);
 const CLASS = { levitating: "on", spinning: "on", self_test: "moving", lift: "moving", coast_down: "moving", landing: "moving", tripped: "tripped" };
 
 export function showRig(rig) {
-  at("rig").textContent = rig.name ? `${rig.name}, ${rig.pace}, ${Math.round(1 / rig.period_s)} Hz, from ${rig.source || "lcm"}` : "–";
+  at("rig").title = rig.name ? `Levitas ${rig.version}, telemetry of ${rig.source || "lcm"}` : "";
+  at("rig").textContent = rig.name ? `${rig.name}, ${Math.round(1 / rig.period_s)} Hz, ${rig.pace}` : "–";
 }
 
-export function showTick(tick) {
+/** `end`: the mode in which the run has ended, from its last event; empty while it runs. */
+export function showTick(tick, end) {
   const mode = at("mode");
-  if (tick.silent) {
-    mode.textContent = tick.mode ? "controller silent" : "no controller";
-    mode.className = "mode";
-    return;
-  }
-  mode.textContent = tick.mode.replace("_", " ");
-  mode.className = "mode " + (CLASS[tick.mode] ?? "");
-  at("speed").textContent = tick.speed_rpm === null ? "not known" : tick.speed_rpm + " rpm";
-  if (tick.mode !== "tripped") at("trip").hidden = true;
+  const now = end || tick.mode;
+  const name = now?.replace("_", " ");
+  if (now !== "tripped") at("trip").hidden = true;
+  mode.className = "mode " + (tick.silent && now !== "tripped" ? "" : CLASS[now] ?? "");
+  mode.textContent = !name ? "no controller" : end ? `ended, ${name}` : tick.silent ? "controller silent" : name;
+  if (tick.mode) at("speed").textContent = tick.speed_rpm === null ? "not known" : tick.speed_rpm + " rpm";
+}
+
+export function showPace(text) {
+  at("pace").textContent = text;
 }
 
 export function showTime(seconds) {
@@ -27,10 +30,4 @@ export function showTime(seconds) {
 export function showTrip(event) {
   at("trip").textContent = event.text;
   at("trip").hidden = false;
-}
-
-export function showConnection(state) {
-  const place = at("connection");
-  place.textContent = state === "live" ? "live" : "connection lost, trying again";
-  place.className = "connection" + (state === "live" ? "" : " lost");
 }

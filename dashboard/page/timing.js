@@ -31,9 +31,22 @@ export function drawTiming() {
   context.fillStyle = "#5a6775";
   for (let decade = Math.ceil(low); decade <= high; ++decade) {
     const place = x(10 ** decade);
+    context.fillStyle = "#d5dbe1";
     context.fillRect(place, 0, 0.6, bottom);
+    context.fillStyle = "#5a6775";
     if (place + 38 < width) context.fillText(text(10 ** decade), place + 2, height - 4);
   }
+  const y = (count) => bottom - (Math.log10(1 + count) / most) * (bottom - 8);
+  for (let decade = 0; 10 ** decade < 10 ** most; decade += most > 5 ? 2 : 1) {
+    const place = y(10 ** decade);
+    context.fillStyle = "#d5dbe1";
+    context.fillRect(0, place, width, 0.6);
+    context.fillStyle = "#5a6775";
+    if (place < 11 + 13 * used.length + 8) continue;  // the names of the lines stand there
+    context.textAlign = "right";
+    context.fillText(decade < 4 ? String(10 ** decade) : `10${[..."" + decade].map((d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("")}`, width - 4, place - 2);
+  }
+  context.textAlign = "left";
   used.forEach(([name, colour], i) => {
     context.strokeStyle = lineColour(colour);
     context.fillStyle = lineColour(colour);
@@ -41,9 +54,9 @@ export function drawTiming() {
     context.beginPath();
     context.moveTo(x(newest.edge_ns[0] / 1.2), bottom);
     newest.edge_ns.forEach((edge, bin) => {
-      const y = bottom - (Math.log10(1 + newest[name][bin]) / most) * (bottom - 8);
-      context.lineTo(x(bin === 0 ? edge / 1.2 : newest.edge_ns[bin - 1]), y);
-      context.lineTo(x(edge), y);
+      const height = y(newest[name][bin]);
+      context.lineTo(x(bin === 0 ? edge / 1.2 : newest.edge_ns[bin - 1]), height);
+      context.lineTo(x(edge), height);
     });
     context.stroke();
     context.textAlign = "right";

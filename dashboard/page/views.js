@@ -16,5 +16,6 @@ export function wireViews(onChange) {
       onChange();
     });
   }
-  if (location.hash === "#bench") show("bench");
+  const asked = location.hash.slice(1);
+  if ([...views()].some((view) => view.id === asked)) show(asked);
 }

@@ -1,17 +1,36 @@
 #include "plant_sim/run/plant_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <map>
+#include <string>
 
 #include "common/time_option.hpp"
 #include "common/whole_number.hpp"
 
 namespace levitas::plant_run {
 
+const char* PaceName(const PlantOptions& options) noexcept {
+  if (options.realtime) return "realtime";
+  return options.pace_factor > 0.0 ? "paced" : "lockstep";
+}
+
+namespace {
+
+/// What --pace and --pace-factor say together.
+void SettlePace(const std::string& pace, const CLI::Option& factor, PlantOptions& options) {
+  options.realtime = pace == "realtime";
+  if (factor.count() > 0 && pace != "paced") {
+    throw CLI::ValidationError("--pace-factor", "is for --pace paced");
+  }
+  if (pace != "paced") options.pace_factor = 0.0;
+}
+
+}  // namespace
+
 bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOptions& options,
                      ExitStatus& status) {
   CLI::App app{program.description, program.name};
-  const std::map<std::string, bool> paces{{"lockstep", false}, {"realtime", true}};
+  std::string pace = "lockstep";
+  options.pace_factor = 1.0;
   app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
   app.add_option(
       "--scenario", options.scenario,
@@ -20,9 +39,15 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
   app.add_option("--key", options.key,
                  "amb-plant: file with the key of those who may speak on the network; with ttl "
                  "above 0 it is needed");
-  app.add_option("--pace", options.realtime, "lockstep (default) or realtime")
-      ->transform(CLI::Transformer(paces))
+  app.add_option("--pace", pace,
+                 "lockstep (default), realtime, or paced: lockstep held to the clock")
+      ->check(CLI::IsMember({"lockstep", "realtime", "paced"}))
       ->type_name("PACE");
+  const auto* factor =
+      app.add_option("--pace-factor", options.pace_factor,
+                     "With --pace paced: how many seconds of the rig pass in one of the clock")
+          ->check(CLI::Range(kLeastPaceFactor, kMostPaceFactor))
+          ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of the sensor noise")
       ->check(WhyNoWholeNumber)
       ->capture_default_str();
@@ -45,6 +70,7 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
   app.add_flag("--stay", options.stay, "When the controller ends, wait for the next one");
   try {
     app.parse(argc, argv);
+    SettlePace(pace, *factor, options);
     return true;
   } catch (const CLI::ParseError& error) {
     status = app.exit(error) == 0 ? ExitStatus::kDone : ExitStatus::kUsage;

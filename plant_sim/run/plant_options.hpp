@@ -8,12 +8,17 @@
 
 namespace levitas::plant_run {
 
+/// Bounds of --pace-factor: slower than the least, telemetry would count as silent.
+inline constexpr double kLeastPaceFactor = 0.05;
+inline constexpr double kMostPaceFactor = 100.0;
+
 struct PlantOptions {
   std::string rig;          ///< path or shipped name
   std::string scenario;     ///< path or shipped name; empty: nothing happens to the rig
   std::string port{"lcm"};  ///< lcm or lcm:URL
   std::string key;          ///< file with the key of those who may speak; empty: none
   bool realtime{false};
+  double pace_factor{0.0};  ///< above 0: lockstep, held to the clock times this
   std::uint64_t seed{1};
   std::string json;  ///< statistics go there; empty: nowhere
   double partner_timeout_s{30.0};
@@ -23,6 +28,9 @@ struct PlantOptions {
   bool no_lines{false};       ///< amb-rig: leave the rig file's lines alone
   bool on_a_real_bus{false};  ///< amb-rig: play the rig also on a bus that is no virtual one
 };
+
+/// "lockstep", "paced" or "realtime".
+[[nodiscard]] const char* PaceName(const PlantOptions& options) noexcept;
 
 /// What differs between the programs.
 struct PlantProgram {

@@ -24,7 +24,8 @@ constexpr auto kLookEvery = std::chrono::milliseconds(20);
 nlohmann::ordered_json Json(const PlantSetup& setup, const PlantStatistics& statistics,
                             const std::vector<rt::RealTimeFact>& facts) {
   const port::RigLink::Counters link = setup.link.counters();
-  return {{"pace", setup.options.realtime ? "realtime" : "lockstep"},
+  return {{"pace", PaceName(setup.options)},
+          {"pace_factor", setup.options.pace_factor},
           {"seed", setup.options.seed},
           {"delay_samples", setup.rig.plant.delay_samples},
           {"cycles", statistics.cycles},
@@ -64,6 +65,12 @@ std::string Text(const RigNotice& event) {
                          event.value);
   }
   return "";
+}
+
+std::string PaceText(const PlantOptions& options) {
+  if (options.realtime) return "real-time";
+  if (options.pace_factor <= 0.0) return "lockstep";
+  return fmt::format("{:g} x the clock's", options.pace_factor);
 }
 
 void TellEvents(PlantLoop& loop, const char* program) {
@@ -183,6 +190,7 @@ ExitStatus RunPlant(const PlantSetup& setup) {
   plant.RestInTouchdown();
   rt::MonotonicClock clock;
   PlantLoop loop({.realtime = options.realtime,
+                  .pace_factor = options.pace_factor,
                   .period_ns = numbers.period_ns,
                   .rig_session = static_cast<std::uint32_t>(std::random_device{}()),
                   .stay = options.stay,
@@ -191,7 +199,7 @@ ExitStatus RunPlant(const PlantSetup& setup) {
                  plant, setup.link, clock, setup.gate, &events);
   const std::unique_ptr<rt::RealTimeGuard> guard = PrepareRealTime(setup);
   rt::Say(fmt::format("{}: rig {}, {} axes, {} pace, {}", setup.program.name, numbers.name,
-                      numbers.axes(), options.realtime ? "real-time" : "lockstep", setup.where));
+                      numbers.axes(), PaceText(options), setup.where));
   std::atomic<bool> running{true};
   std::thread thread([&] {
     if (guard) rt::Guarded("loop", [] { rt::EnterThread({}); });

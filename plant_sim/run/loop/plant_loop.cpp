@@ -3,6 +3,7 @@
 #include "common/standard_arithmetic.hpp"
 #include "controller/rt/next_wake.hpp"
 #include "plant_sim/plant/command_of.hpp"
+#include "plant_sim/run/loop/pacer.hpp"
 
 namespace levitas::plant_run {
 
@@ -121,7 +122,10 @@ bool PlantLoop::AwaitCurrent(std::uint64_t cycle, std::int64_t deadline_ns,
 }
 
 void PlantLoop::RunLockstep() noexcept {
+  const bool paced = options_.pace_factor > 0.0;
+  Pacer pacer(paced ? options_.pace_factor : 1.0, options_.period_ns);
   while (!stopped_.load(std::memory_order_relaxed)) {
+    if (paced) clock_.SleepUntil(pacer.Due(statistics_.cycles, clock_.NowNs()));
     const SensorFrame frame =
         Sample(static_cast<std::int64_t>(statistics_.cycles) * options_.period_ns);
     link_.Send(frame);

@@ -3,6 +3,7 @@
 //
 // Lockstep   frame n is sent, and again every 100 ms, until current n answers it; then the plant
 //            advances one period. A restarted controller picks up where the last one stopped.
+//            With `pace_factor` above 0 the periods are held to the clock (pacer.hpp).
 // Real time  its own grid at the whole multiples of the period. Frame n leaves at t_n. The rig
 //            sleeps once per period and looks for current n after that sleep, 12 us before
 //            t_n+1 (a receiver that sleeps on its socket would cost the controller the wake-up:
@@ -42,6 +43,7 @@ struct PlantStatistics {
 
 struct PlantLoopOptions {
   bool realtime{};
+  double pace_factor{0.0};  ///< lockstep: periods T / pace_factor of the clock apart; 0: at once
   std::int64_t period_ns{};
   std::uint32_t rig_session{};
   bool stay{};

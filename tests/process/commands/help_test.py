@@ -25,7 +25,7 @@ OPTIONS = {
     "report": {"--out", "--pictures", "--speeds", "--run-json", "--json"},
     "dash": {"--port", "--key", "--http-port", "--listen", "--allow-network", "--token", "--token-file", "--answer-within",
              "--json"},
-    "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--port", "--record",
+    "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--pace-factor", "--port", "--record",
             "--overwrite", "--tag", "--seed", "--bias-current-a", "--write-rig", "--json", "--dash",
             "--no-dash"},
     "identify": set(),  # its subcommands follow

@@ -44,6 +44,7 @@ TEST(ControllerOptions, WithoutMoreRunInLockstepOverLcmWithoutARecord) {
 TEST(ControllerOptions, TakeThePaceByItsName) {
   EXPECT_TRUE(With({"--pace", "realtime"}).options.realtime);
   EXPECT_FALSE(With({"--pace", "lockstep"}).options.realtime);
+  EXPECT_FALSE(With({"--pace", "paced"}).options.realtime);
   EXPECT_FALSE(With({"--pace", "fast"}).goes_on);
 }
 

@@ -63,6 +63,21 @@ TEST(FullSpectrum, HasItsLinesSymmetricAboutZeroUpToTheHighest) {
   EXPECT_NEAR(FrequencyOf(*spectrum, lines / 2), 0.0, 1e-9);  // rounding
 }
 
+TEST(FullSpectrum, KeepsAPeakAndItsSideHoweverWideItReaches) {
+  for (const double frequency_hz : {700.0 * kLineHz, -701.0 * kLineHz, 3.0 * kLineHz}) {
+    const auto spectrum = SpectrumOf(Circle(5e-6, frequency_hz), 5000.0);
+    ASSERT_TRUE(spectrum);
+    const auto& lines = spectrum->amplitude_m.at(0);
+    EXPECT_LE(lines.size(), 2 * kMostLines + 1);
+    EXPECT_GT(spectrum->highest_hz, 4900.0);
+    const auto peak =
+        static_cast<std::size_t>(std::max_element(lines.begin(), lines.end()) - lines.begin());
+    EXPECT_NEAR(FrequencyOf(*spectrum, peak), frequency_hz, 0.51 * spectrum->line_spacing_hz);
+    EXPECT_NEAR(lines[peak], 5e-6, 1e-11);  // as in one that is not thinned
+    EXPECT_NEAR(FrequencyOf(*spectrum, lines.size() / 2), 0.0, 1e-9);
+  }
+}
+
 TEST(FullSpectrum, IsNotMadeOfSamplesWithAGap) {
   SampleStore store = Circle(5e-6, 100.0);
   ASSERT_TRUE(SpectrumOf(store, 400.0));

@@ -92,6 +92,44 @@ TEST_F(Snapshot, WritesAmplitudesInTenthsOfANanometre) {
   EXPECT_EQ(written["t_ms"], 1500);
 }
 
+TEST_F(Snapshot, WritesWhatTurnsOncePerRevolutionAsAmplitudeAndPhaseOfEachAxis) {
+  const FullSpectrum spectrum{2.5, 2.5, 1.5, 10.0, {{0.0}}};
+  const json turning = json::parse(SpectrumJson(spectrum, {{5e-6, 0.0}, {0.0, -2e-6}}));
+  EXPECT_EQ(turning["first_order_nm"], json::parse("[5000,2000]"));
+  EXPECT_EQ(turning["first_order_ddeg"], json::parse("[0,-900]"));
+  EXPECT_FALSE(json::parse(SpectrumJson(spectrum)).contains("first_order_nm"));
+}
+
+TEST_F(Snapshot, SaysAtWhichPointsOfTheOrbitTheKeyPhasorPassed) {
+  // 3000 rpm: two turns are 400 samples, every fourth of them a point.
+  auto batch = FourAxes(0, 1000, 1e-6F);
+  batch.speed_rad_per_s.assign(1000, 314.0F);
+  for (int n = 0; n < 1000; ++n) {
+    batch.angle_rad[static_cast<std::size_t>(n)] =
+        static_cast<float>((n + 50) % 200) * 0.0314159265F;
+  }
+  run_.Take(channel::kSamples, Encoded(batch), 0);
+  const json tick = json::parse(TickJson(run_, 0));
+  // The samples 600 to 999 hold passages at 750 and 950, where n + 50 is a multiple of 200.
+  const std::size_t points = tick["orbit_nm"].at(0).size() / 2;
+  EXPECT_EQ(points, 100U);
+  EXPECT_EQ(tick["orbit_key"], json::parse("[37,87]"));
+}
+
+TEST_F(Snapshot, NamesNoPassageOfTheKeyPhasorWhereTheRotorStands) {
+  run_.Take(channel::kSamples, Encoded(FourAxes(0, 512, 1e-6F)), 0);
+  EXPECT_TRUE(json::parse(TickJson(run_, 0))["orbit_key"].empty());
+}
+
+TEST_F(Snapshot, TellsThePageHowFarTheAmplifiersReach) {
+  EXPECT_EQ(json::parse(RigJson(run_, 1))["amplifier_hz"],
+            720.0);  // config/rigs/flexible_rotor.yaml
+}
+
+TEST_F(Snapshot, SaysHowARunEnded) {
+  EXPECT_EQ(json::parse(EndJson("with a \"trip\""))["text"], "with a \"trip\"");
+}
+
 TEST_F(Snapshot, KeepsAnEventsTextWhateverBytesItHolds) {
   NumberedEvent event{3, {}, 0.5};
   event.event.text = "a \"quoted\" \n line and \xff";

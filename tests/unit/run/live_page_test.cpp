@@ -15,9 +15,9 @@ namespace {
 using testing::HasSubstr;
 
 constexpr PageSurroundings kBench{
-    .terminal = true, .desktop = true, .automation = false, .realtime = true};
+    .terminal = true, .desktop = true, .automation = false, .clocked = true};
 
-TEST(PlanPage, OpensABrowserWhereSomebodyWatchesARunInRealTime) {
+TEST(PlanPage, OpensABrowserWhereSomebodyWatchesARunAtTheClocksPace) {
   const PagePlan plan = PlanPage(PageWish::kIfUseful, kBench);
   EXPECT_TRUE(plan.serve);
   EXPECT_TRUE(plan.open);
@@ -39,7 +39,7 @@ TEST(PlanPage, BringsNothingUnaskedWhereNobodyLooksOrTheRunIsOverAtOnce) {
   automation.automation = true;
   EXPECT_FALSE(PlanPage(PageWish::kIfUseful, automation).serve);
   PageSurroundings lockstep = kBench;
-  lockstep.realtime = false;
+  lockstep.clocked = false;
   EXPECT_FALSE(PlanPage(PageWish::kIfUseful, lockstep).serve);
 }
 

@@ -82,6 +82,45 @@ TEST(SettleRig, NeedsAPortForARigThatIsSaidToBeThere) {
   EXPECT_EQ(SettleRig(options, Rig(), Wired).pace, "lockstep");
 }
 
+TEST(SettleRig, HoldsASimulatedRigToTheClockForThePageOrAFactor) {
+  RunOptions page;
+  page.page = PageWish::kAlways;
+  EXPECT_EQ(SettleRig(page, Rig(), Wired).pace, "paced");
+  page.pace = "lockstep";  // somebody knows better
+  EXPECT_EQ(SettleRig(page, Rig(), Wired).pace, "lockstep");
+  page.pace = "";
+  page.port = "can:can0,can1";  // a real rig keeps its own time
+  EXPECT_EQ(SettleRig(page, Rig(), Wired).pace, "realtime");
+  RunOptions factor;
+  factor.pace_factor = 0.2;
+  EXPECT_EQ(SettleRig(factor, Rig(), Wired).pace, "paced");
+}
+
+TEST(SettleRig, RefusesAPaceThatNobodyHereCouldKeep) {
+  const auto refusal = [](const RunOptions& options) -> std::string {
+    try {
+      static_cast<void>(SettleRig(options, Rig(), Wired));
+    } catch (const Problem& problem) {
+      EXPECT_EQ(problem.status(), ExitStatus::kUsage);
+      return problem.what();
+    }
+    return "accepted";
+  };
+  RunOptions factor;
+  factor.pace = "realtime";
+  factor.pace_factor = 2.0;
+  EXPECT_THAT(refusal(factor), HasSubstr("--pace-factor is for --pace paced"));
+  RunOptions elsewhere;
+  elsewhere.pace = "paced";
+  elsewhere.rig_is_there = true;
+  elsewhere.port = "lcm";
+  EXPECT_THAT(refusal(elsewhere), HasSubstr("none is started here"));
+  RunOptions bus;
+  bus.pace = "paced";
+  bus.port = "can:can0,can1";
+  EXPECT_THAT(refusal(bus), HasSubstr("--pace realtime"));
+}
+
 TEST(CheckFiles, FindsTheShippedDefaults) {
   const RunFiles files = CheckFiles(RunOptions{});
   EXPECT_EQ(files.rig.name, "flexible_rotor");
