@@ -53,8 +53,8 @@ class LogScanner {
   [[nodiscard]] std::uint64_t file_bytes() const noexcept { return file_bytes_; }
   /// Null for a plain log: what packing hides of damage.
   [[nodiscard]] const PackedReader* packed() const noexcept { return packed_.get(); }
-  /// The log's bytes from `offset` on, at most `count`; empty at its end. Valid until the scanner is
-  /// used again.
+  /// The log's bytes from `offset` on, at most `count`; empty at its end. Valid until the scanner
+  /// is used again.
   [[nodiscard]] std::span<const std::uint8_t> Bytes(std::uint64_t offset, std::size_t count) {
     return Window(offset, count);
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Reads a session, plain or packed, whole or damaged: resynchronises after damage, says what was lost, loses
-// nothing before it.
+// Reads a session, plain or packed, whole or damaged: resynchronises after damage, says what was
+// lost, loses nothing before it.
 //
 // Failure  BadInput when the file cannot be opened or holds no readable header.
 

@@ -66,10 +66,11 @@ std::uint64_t LostByKill(Random& draw, std::uint64_t seed, Shared& shared, const
   return posted > read.size() ? posted - read.size() : 0;
 }
 
-void LosesAtMostAHundredMilliseconds(const char* name) {
+/// How many of at most 100 trials, which end with the second, were within the bound.
+int TrialsWithinAHundredMilliseconds(const char* name) {
   void* memory =
       ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  ASSERT_NE(memory, MAP_FAILED);
+  if (memory == MAP_FAILED) return 0;
   auto* shared = new (memory) Shared;
   Random draw{20261121};
   // 100 ms are 1000 cycles. A machine that gives the recorder's thread no time for longer than that
@@ -82,13 +83,17 @@ void LosesAtMostAHundredMilliseconds(const char* name) {
     ::testing::Test::RecordProperty("lost_cycles_" + std::to_string(trial), static_cast<int>(lost));
     if (lost <= 1000) ++within;
   }
-  EXPECT_EQ(within, 2);
   ::munmap(memory, sizeof(Shared));
+  return within;
 }
 
-TEST(Kill, LosesAtMostTheLastHundredMilliseconds) { LosesAtMostAHundredMilliseconds("s.lcmlog"); }
+TEST(Kill, LosesAtMostTheLastHundredMilliseconds) {
+  EXPECT_EQ(TrialsWithinAHundredMilliseconds("s.lcmlog"), 2);
+}
 
-TEST(Kill, LosesNoMoreOfAPackedSession) { LosesAtMostAHundredMilliseconds("s.lcm.zst"); }
+TEST(Kill, LosesNoMoreOfAPackedSession) {
+  EXPECT_EQ(TrialsWithinAHundredMilliseconds("s.lcm.zst"), 2);
+}
 
 }  // namespace
 }  // namespace levitas::session
