@@ -8,9 +8,9 @@
 
 namespace levitas::plant_run {
 
-bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOptions& options,
-                     ExitStatus& status) {
-  CLI::App app{program.description, program.name};
+void AddOptions(CLI::App& app, const PlantProgram& program, PlantOptions& options) {
+  options.port = program.default_port;
+  options.watchdog_periods = program.watchdog_periods;
   const std::map<std::string, bool> paces{{"lockstep", false}, {"realtime", true}};
   app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
   app.add_option(
@@ -43,6 +43,13 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
       "--on-a-real-bus", options.on_a_real_bus,
       "amb-rig: play the rig also on a bus that is no virtual one; no real rig may be on it");
   app.add_flag("--stay", options.stay, "When the controller ends, wait for the next one");
+  app.footer(program.examples);
+}
+
+bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOptions& options,
+                     ExitStatus& status) {
+  CLI::App app{program.description, program.name};
+  AddOptions(app, program, options);
   try {
     app.parse(argc, argv);
     return true;

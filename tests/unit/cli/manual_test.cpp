@@ -62,7 +62,7 @@ TEST(CommandTree, HoldsCommandsOptionsValuesAndDefaults) {
 
 TEST(Markdown, EscapesWhatWouldEndACellAndNamesDefaults) {
   const Line line;
-  const std::string page = Markdown(TreeOf(line.app));
+  const std::string page = Markdown(TreeOf(line.app), {});
   EXPECT_THAT(page, HasSubstr("| `amb run` | Run \\| judge |"));
   EXPECT_THAT(page, HasSubstr("| `--pace {lockstep,realtime}` | How fast (default lockstep) |"));
   EXPECT_THAT(page, HasSubstr("| `SESSION` | What to read (needed) |"));
@@ -80,7 +80,7 @@ TEST(ManPage, EscapesWhatTroffWouldTakeForItsOwn) {
 
 TEST(BashCompletion, KnowsWordsOfEachCommandAndValuesOfOptions) {
   const Line line;
-  const std::string script = BashCompletion(TreeOf(line.app));
+  const std::string script = BashCompletion(TreeOf(line.app), {});
   EXPECT_THAT(script, HasSubstr("['amb']='run -h --help'"));
   EXPECT_THAT(script, HasSubstr("['amb run --pace']='lockstep realtime'"));
   EXPECT_THAT(script, Not(HasSubstr("amb run --deep']")));
