@@ -25,7 +25,7 @@ namespace levitas::session {
 /// About a second of a rig of four axes at 10 kHz.
 inline constexpr std::size_t kFrameBytes = std::size_t{4} << 20;
 inline constexpr std::uint64_t kMostRatio = 1000;
-/// While recording: 3.5 % of a core at 10 kHz (docs/formats.md). Afterwards there is time.
+/// While recording: some 4 % of a core at 10 kHz (docs/formats.md). Afterwards there is time.
 inline constexpr int kRecordingLevel = 3;
 inline constexpr int kArchiveLevel = 9;
 

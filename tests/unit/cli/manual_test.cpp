@@ -19,6 +19,7 @@ struct Line {
   std::string file;
   std::string hidden;
   int modes{};
+  int turns{};
   bool deep{};
 
   Line() {
@@ -28,6 +29,8 @@ struct Line {
         ->check(CLI::IsMember({"lockstep", "realtime"}))
         ->capture_default_str();
     run->add_option("--modes", modes, "How many")->check(CLI::Range(1, 20));
+    run->add_option("--turns", turns, "Which way")
+        ->transform(CLI::Transformer(std::map<std::string, int>{{"left", -1}, {"right", 1}}));
     run->add_flag("--deep", deep, ".starts with a point");
     run->add_option("--hidden", hidden, "Nobody's business")->group("");
     run->footer("  amb run x.lcm");
@@ -52,6 +55,8 @@ TEST(CommandTree, HoldsCommandsOptionsValuesAndDefaults) {
   EXPECT_TRUE(find("SESSION").positional);
   EXPECT_TRUE(find("SESSION").required);
   EXPECT_THAT(find("--pace").allowed, ElementsAre("lockstep", "realtime"));
+  EXPECT_THAT(find("--turns").allowed, ElementsAre("left", "right"));
+  EXPECT_EQ(find("--turns").value, "{left,right}");
   EXPECT_EQ(find("--pace").preset, "lockstep");
   EXPECT_TRUE(find("--pace").takes_value);
   EXPECT_FALSE(find("--deep").takes_value);
