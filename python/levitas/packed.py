@@ -34,7 +34,7 @@ def unpacked(path):
     log = log if by_amb is None else by_amb
     if shutil.which("zstd"):
         warnings.warn(f"{path}: cut off or damaged, so not everything could be read; what stands in its complete "
-                      f"blocks was ({lost})", stacklevel=4)
+                      f"blocks was ({lost})", stacklevel=3)
     return log
 
 
