@@ -279,7 +279,8 @@ void AddSessionsCompress(CLI::App& sessions, const Options& options, Action& act
   compress
       ->add_option("PATH", options->paths,
                    "Sessions, or folders with .lcm and .lcmlog files in them")
-      ->required();
+      ->required()
+      ->check(CLI::ExistingPath);
   compress->add_flag("--keep", options->keep, "Keep the plain sessions beside the packed ones");
   AddJson(*compress, options);
   compress->callback([options, &action] { action = [options] { return Compress(*options); }; });

@@ -18,8 +18,8 @@ std::vector<std::string> AtCommas(const std::string& list) {
   return words;
 }
 
-/// The words of "{a,b}" within what CLI11 says of a value's type and checks; of "{a->0,b->1}", where
-/// words stand for values, the words.
+/// The words of "{a,b}" within what CLI11 says of a value's type and checks; of "{a->0,b->1}",
+/// where words stand for values, the words.
 std::vector<std::string> AllowedIn(const std::string& type) {
   const std::size_t open = type.find('{');
   const std::size_t close = type.find('}', open);

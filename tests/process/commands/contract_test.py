@@ -46,7 +46,7 @@ MISSING = {
     "import": (ABSENT, "--rig", "flexible_rotor", "--out", "x.lcm"),
     "export": (ABSENT, "--csv", "x.csv"), "can-dbc": ("--rig", ABSENT),
     "report": (ABSENT, "--out", "x.html"), "compare": (ABSENT,), "sessions tag": (ABSENT, "one"),
-    "sessions compress": (ABSENT,), "sessions forget": (ABSENT,), "simulate": (ABSENT,),
+    "sessions forget": (ABSENT,), "simulate": (ABSENT,),
     "identify frf": (ABSENT,), "identify modal": (ABSENT,),
     "identify full-spectrum": (ABSENT,), "identify controller": (ABSENT,),
     "identify rotor-in-loop": (ABSENT, "--rig", "turbomolecular_pump"),
@@ -57,7 +57,8 @@ MISSING = {
     "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }
 # Look for no file that a user names; the nonlinear fits take theirs with more options.
-NO_FILE = {"new", "new rig", "dash", "key", "doctor", "effects", "sessions", "sessions add", "manual", "identify",
+NO_FILE = {"new", "new rig", "dash", "key", "doctor", "effects", "sessions", "sessions add", "sessions compress",
+           "manual", "identify",
            "design", "bench",
            "bench diagnosis", "bench identification", "bench full-spectrum", "bench pump", "bench lives",
            "identify hammerstein-wiener", "identify narx", "identify narmax", "identify grey-box"}
