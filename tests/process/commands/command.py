@@ -28,7 +28,7 @@ UNITS = ("_m", "_hz", "_rpm", "_s", "_a", "_n", "_kg", "_rad", "_n_per_a", "_n_p
 COUNTS = {"samples", "drop_outs", "missing_samples", "rows", "cycles_without_frame", "pieces",
           "gaps", "settling_samples", "not_levitated_samples", "order", "cycles", "compared",
           "first_compared_cycle", "mode_differs", "missing_cycles", "fault_cycle",
-          "corrupt_bytes", "corrupt_records", "seed", "substeps", "compared_with_substeps",
+          "corrupt_bytes", "corrupt_records", "corrupt_blocks", "seed", "substeps", "compared_with_substeps",
           "orders", "turns", "skipped_periods", "missing_frames", "held_currents", "missing_records", "count"}
 RATIOS = {"ratio", "share", "sigmas", "damping_ratio", "largest_pole_modulus", "forward_share",
           "torsion_share", "sensitivity_peak", "gain_margin_up", "gain_margin_down", "largest_singular_value",

@@ -13,7 +13,7 @@ from command import (BINARIES, DONE, LIMIT_S, OTHER, SHIPPED_CONTROLLER, SHIPPED
 
 WRITES = {"--record", "--json", "--csv", "--mat", "--mcap", "--out", "--svg", "--plan", "--picture",
           "--write", "--document", "--html", "--worst-rig", "--write-design", "--page",
-          "--write-rig"}
+          "--write-rig", "--lcm"}
 FOLDERS = {"--pictures"}
 STOP = """kind: scenario
 name: stop
