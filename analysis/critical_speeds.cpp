@@ -36,8 +36,9 @@ double Distance(const Place& a, const Place& b) {
   return std::abs(a.pole_hz - b.pole_hz) + std::abs(a.forward_hz - b.forward_hz);
 }
 
-Place Between(const Place& a, const Place& b) {
-  return {0.5 * (a.pole_hz + b.pole_hz), 0.5 * (a.forward_hz + b.forward_hz)};
+Place Between(const Place& a, const Place& b, double share) {
+  return {a.pole_hz + share * (b.pole_hz - a.pole_hz),
+          a.forward_hz + share * (b.forward_hz - a.forward_hz)};
 }
 
 struct Match {
@@ -78,21 +79,26 @@ const CampbellMode* Nearest(const std::vector<CampbellMode>& modes, const Place&
   return nearest == modes.end() ? nullptr : &*nearest;
 }
 
-/// Halves the interval; the mode is sought where it lies between its ends.
-CriticalSpeed Halve(const ModesAt& modes, double low, CampbellMode at_low, double high,
-                    CampbellMode at_high) {
+/// Narrows the interval, by its chord and every third time by its half, so that a jump ends too.
+/// The mode is sought where it lies between its ends.
+CriticalSpeed Narrow(const ModesAt& modes, double low, CampbellMode at_low, double high,
+                     CampbellMode at_high) {
   const double fine = 1e-9 * high;
-  while (high - low > fine) {
-    const double middle = 0.5 * (low + high);
-    const auto there = modes(middle);
-    const CampbellMode* mode = Nearest(there, Between(PlaceOf(at_low), PlaceOf(at_high)));
+  for (int step = 1; high - low > fine; ++step) {
+    const double below = Excess(at_low, low);
+    const double share = step % 3 == 0 ? 0.5 : below / (below - Excess(at_high, high));
+    const double speed = low + std::clamp(share, 1e-3, 1.0 - 1e-3) * (high - low);
+    const auto there = modes(speed);
+    const CampbellMode* mode =
+        Nearest(there, Between(PlaceOf(at_low), PlaceOf(at_high), (speed - low) / (high - low)));
     if (mode == nullptr) break;
-    const bool above = Excess(*mode, middle) > 0.0;
-    if (above == (Excess(at_low, low) > 0.0)) {
-      low = middle;
+    const double excess = Excess(*mode, speed);
+    if (std::abs(excess) < fine) return {speed, *mode};
+    if ((excess > 0.0) == (below > 0.0)) {
+      low = speed;
       at_low = *mode;
     } else {
-      high = middle;
+      high = speed;
       at_high = *mode;
     }
   }
@@ -138,7 +144,7 @@ Campbell CampbellOf(const ModesAt& modes, double top_rad_per_s, int steps) {
       const CampbellMode& to = after.modes[match.second];
       const bool above = Excess(from, before.speed_rad_per_s) > 0.0;
       if ((Excess(to, after.speed_rad_per_s) > 0.0) == above) continue;
-      const auto at = Halve(modes, before.speed_rad_per_s, from, after.speed_rad_per_s, to);
+      const auto at = Narrow(modes, before.speed_rad_per_s, from, after.speed_rad_per_s, to);
       // A jump to another mode changes the sign too, and is no crossing.
       if (std::abs(Excess(at.mode, at.speed_rad_per_s)) < kSame * at.speed_rad_per_s) {
         campbell.crossings.push_back(at);

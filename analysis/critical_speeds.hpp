@@ -4,7 +4,7 @@
 //
 // Equation   |Im s_k(W)| = W for a natural mode s_k of the rotor at speed W. Modes are followed
 //            from speed to speed by the nearest s; a change of sign of |Im s| - W between two of
-//            the given speeds is halved until the speed is known to 1e-9 of the range.
+//            the given speeds is narrowed until the speed is known to 1e-9 of it.
 // Free       magnets off: undamped free-free bending modes.
 // Shafts     of a rig with several: damped modes, 1x of the first shaft.
 // Levitated  poles of the sampled loop, static load and delay included, with a damping ratio below
