@@ -32,7 +32,8 @@ constexpr const char* kStyle =
     "td.k{font-weight:bold}.origin{color:#555;font-size:.9em}table{border-collapse:collapse}td,th{"
     "padding:.2em .6em;text-align:left;"
     "border-bottom:1px solid "
-    "#ddd}td.n{text-align:right;white-space:nowrap}td.k{white-space:nowrap}svg{margin:1em "
+    "#ddd}td.n{text-align:right;white-space:nowrap}td.k{white-space:nowrap}svg{max-width:100%;"
+    "margin:1em "
     "0}.bar{background:#eee;"
     "width:24em}"
     ".bar div{height:1em}summary{cursor:pointer;padding:.4em 0}";

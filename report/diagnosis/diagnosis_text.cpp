@@ -276,7 +276,7 @@ void PrintDiagnosis(const DiagnosisReport& s, bool complete) {
   PrintFits(s);
   PrintForecast(s);
   PrintRanking(s, complete);
-  fmt::print("\nAction: {}\nFurther records: {}\n", s.action, FurtherRecords(s));
+  fmt::print("\nFurther records: {}\n", FurtherRecords(s));
   PrintTies(s);
   PrintRuns(s);
   for (const std::string& sentence : s.levitation.sentences) fmt::print("\n{}\n", sentence);

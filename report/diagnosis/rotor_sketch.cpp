@@ -118,7 +118,7 @@ class Sketch {
     const double step = rough / power < 2.0   ? 2.0 * power
                         : rough / power < 5.0 ? 5.0 * power
                                               : 10.0 * power;
-    for (double z = std::ceil(from_m_ / step - 1e-9) * step; z <= to_m_ + 1e-9; z += step) {
+    for (double z = std::ceil(from_m_ / step - 1e-9) * step + 0.0; z <= to_m_ + 1e-9; z += step) {
       text += fmt::format(
           "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#555\"/>"
           "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" font-size=\"11\">{4:.0f}"
@@ -127,8 +127,9 @@ class Sketch {
     }
     return text + fmt::format(
                       "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\" font-size=\"11\">z, mm"
-                      "</text>\n",
-                      kSketchWidth - 2.0, y - 4.0);
+                      "</text><text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"11\" fill=\"#555\">blue: "
+                      "magnets, green: sensors</text>\n",
+                      kSketchWidth - 2.0, y - 4.0, X(from_m_), y - 6.0);
   }
 
   [[nodiscard]] std::string Marks() const {

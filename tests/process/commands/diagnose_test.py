@@ -257,7 +257,10 @@ class DiagnoseForeignCampaigns(unittest.TestCase):
     def test_no_plan_is_written_where_nothing_is_left_to_separate(self):
         with TemporaryDirectory() as folder:
             printed, answer = self.diagnose("none", folder, "--plan", "next.yaml")
-            self.assertEqual(answer["next_experiment"], "none needed", printed)
+            off = [v for v in answer["calibrated"] if v["moved_deviations"] > 5.0]
+            self.assertEqual("--healthy" in answer["next_experiment"], bool(off), printed)
+            self.assertEqual(answer["next_experiment"] == "none needed", not off, printed)
+            self.assertFalse(off and "Nothing to gain" in printed, printed)
             self.assertEqual(answer["cannot_tell"]["effects"], [])
             self.assertFalse((Path(folder) / "next.yaml").exists())
             self.assertIn("next.yaml is not written", printed)
