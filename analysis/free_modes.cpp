@@ -1,21 +1,11 @@
 #include "analysis/free_modes.hpp"
 
+#include "analysis/rotor_planes.hpp"
 #include "plant_sim/plant/magnet_of.hpp"
 #include "plant_sim/rotor/finite_element.hpp"
 
 namespace levitas::analysis {
 namespace {
-
-/// Nodes fall where the plant puts them, so that both work on the same mesh.
-std::vector<double> Planes(const plant::PlantConfig& plant) {
-  std::vector<double> planes_m;
-  for (const auto& bearing : plant.bearings) {
-    planes_m.push_back(bearing.actuator_z_m);
-    planes_m.push_back(bearing.sensor_z_m);
-  }
-  for (const auto& mass : plant.unbalance) planes_m.push_back(mass.z_m);
-  return planes_m;
-}
 
 BearingConstants Constants(const plant::BearingConfig& bearing) {
   const plant::MagnetConfig& config = bearing.magnet;
@@ -38,9 +28,9 @@ FreeModes ComputeFreeModes(const plant::PlantConfig& plant,
     }
   };
   if (plant.rotor.given) {
-    add(rotor::FromGivenModes(*plant.rotor.given, Planes(plant)));
+    add(rotor::FromGivenModes(*plant.rotor.given, PlanesOf(plant)));
   } else {
-    add(rotor::Assemble(plant.rotor, Planes(plant)));
+    add(rotor::Assemble(plant.rotor, PlanesOf(plant)));
   }
   return result;
 }

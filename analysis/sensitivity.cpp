@@ -9,6 +9,8 @@
 #include "analysis/loop_response.hpp"
 #include "analysis/poles.hpp"
 #include "analysis/sampled_loop.hpp"
+#include "analysis/sensitivity_curves.hpp"
+#include "numerics/dense/spectrum.hpp"
 
 namespace levitas::analysis {
 namespace {
@@ -56,6 +58,41 @@ std::vector<double> GridFrequencies(const LoopPoles& poles, double nyquist_hz) {
   std::sort(grid_hz.begin(), grid_hz.end());
   grid_hz.erase(std::unique(grid_hz.begin(), grid_hz.end()), grid_hz.end());
   return grid_hz;
+}
+
+/// Frequencies at which a resonance at s has turned by equal angles: 1/S turns so about poles of
+/// the plant, between two points of a grid that is made for the closed loop.
+void AddCircle(std::complex<double> s_rad_per_s, std::vector<double>& grid_hz) {
+  constexpr int kPoints = 18;
+  if (std::abs(s_rad_per_s.real()) > kLightDamping * std::abs(s_rad_per_s)) return;
+  for (int i = 1; i < kPoints; ++i) {
+    const double angle = std::numbers::pi * (static_cast<double>(i) / kPoints - 0.5);
+    const double at_rad_per_s = s_rad_per_s.imag() + s_rad_per_s.real() * std::tan(angle);
+    grid_hz.push_back(at_rad_per_s / (2.0 * std::numbers::pi));
+  }
+}
+
+struct CurvePoint {
+  double frequency_hz{};
+  Eigen::VectorXcd diagonal;
+};
+
+/// With a point between every two whose loops lie apart, near enough to -1 to be looked at.
+std::vector<CurvePoint> Finer(const LoopResponse& response, const std::vector<CurvePoint>& points) {
+  constexpr double kApart = 0.15;
+  constexpr double kLookedAt = 5.0;
+  std::vector<CurvePoint> finer{points.front()};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Eigen::ArrayXcd before = points[i - 1].diagonal.array().inverse() - 1.0;
+    const Eigen::ArrayXcd after = points[i].diagonal.array().inverse() - 1.0;
+    const Eigen::ArrayXd apart = (after - before).abs();
+    if ((apart > kApart && before.abs().min(after.abs()) < kLookedAt).any()) {
+      const double f = std::sqrt(points[i - 1].frequency_hz * points[i].frequency_hz);
+      finer.push_back({f, response.Sensitivity(f).diagonal()});
+    }
+    finer.push_back(points[i]);
+  }
+  return finer;
 }
 
 /// From z = 1 itself, where every loop without an integrator is real, to the lowest peak counted.
@@ -247,6 +284,33 @@ std::vector<std::vector<double>> SensitivityAt(const plant::PlantConfig& plant,
     rows.emplace_back(diagonal.begin(), diagonal.end());
   }
   return rows;
+}
+
+SensitivityCurves CurvesOf(const plant::PlantConfig& plant, const law::LawConfig& law,
+                           double speed_rad_per_s) {
+  const SampledLoop loop = CloseLoop(plant, law, speed_rad_per_s);
+  const LoopResponse response(loop);
+  std::vector<double> grid_hz =
+      GridFrequencies(ClosedLoopPoles(plant, law, speed_rad_per_s), response.nyquist_hz());
+  for (const std::complex<double> z : numerics::EigenvaluesOf(loop.plant.a)) {
+    if (z.imag() > 0.0) AddCircle(std::log(z) / loop.period_s, grid_hz);
+  }
+  std::erase_if(grid_hz, [&](double f) { return f < kLowestHz || f > response.nyquist_hz(); });
+  std::sort(grid_hz.begin(), grid_hz.end());
+  grid_hz.erase(std::unique(grid_hz.begin(), grid_hz.end()), grid_hz.end());
+  std::vector<CurvePoint> points;
+  for (const double f : grid_hz) points.push_back({f, response.Sensitivity(f).diagonal()});
+  constexpr int kHalvings = 6;
+  for (int i = 0; i < kHalvings; ++i) points = Finer(response, points);
+  SensitivityCurves curves;
+  curves.axes.resize(response.axes());
+  for (const CurvePoint& point : points) {
+    curves.frequency_hz.push_back(point.frequency_hz);
+    for (std::size_t i = 0; i < curves.axes.size(); ++i) {
+      curves.axes[i].push_back(point.diagonal[static_cast<Eigen::Index>(i)]);
+    }
+  }
+  return curves;
 }
 
 }  // namespace levitas::analysis

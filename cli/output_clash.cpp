@@ -16,10 +16,10 @@ namespace {
 
 using session::NamedPath;
 
-constexpr std::array<std::string_view, 16> kWrites{
-    "--record",    "--json",         "--csv",     "--mat",      "--mcap",     "--out",
-    "--svg",       "--plan",         "--picture", "--write",    "--document", "--html",
-    "--worst-rig", "--write-design", "--page",    "--write-rig"};
+constexpr std::array<std::string_view, 17> kWrites{
+    "--record",    "--json",         "--csv",     "--mat",       "--mcap",     "--out",
+    "--svg",       "--plan",         "--picture", "--write",     "--document", "--html",
+    "--worst-rig", "--write-design", "--page",    "--write-rig", "--lcm"};
 
 /// Words, not files, although there may be a file of that name.
 constexpr std::array<std::string_view, 5> kWords{"--tag", "TAG", "--text", "--outcome", "--port"};

@@ -26,6 +26,12 @@ find_library(MATIO_LIBRARY matio REQUIRED)
 add_library(matio SHARED IMPORTED)
 set_target_properties(matio PROPERTIES IMPORTED_LOCATION ${MATIO_LIBRARY}
                                        INTERFACE_INCLUDE_DIRECTORIES ${MATIO_INCLUDE})
+# libzstd of Debian has a .pc file only.
+find_path(ZSTD_INCLUDE zstd.h REQUIRED)
+find_library(ZSTD_LIBRARY zstd REQUIRED)
+add_library(zstd SHARED IMPORTED)
+set_target_properties(zstd PROPERTIES IMPORTED_LOCATION ${ZSTD_LIBRARY}
+                                      INTERFACE_INCLUDE_DIRECTORIES ${ZSTD_INCLUDE})
 # libgpiod of Debian 12 (1.6) has a .pc file only.
 find_path(GPIOD_INCLUDE gpiod.h REQUIRED)
 find_library(GPIOD_LIBRARY gpiod REQUIRED)

@@ -20,7 +20,8 @@ if(NOT LEVITAS_SANITIZE)
 endif()
 
 function(levitas_install_programs)
-  install(TARGETS amb amb-study amb-controller amb-plant amb-rig RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set(programs amb amb-study amb-controller amb-plant amb-rig)
+  install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   foreach(kind rigs controllers scenarios)
     install(DIRECTORY config/${kind} DESTINATION share/levitas FILES_MATCHING PATTERN "*.yaml")
   endforeach()
@@ -37,10 +38,16 @@ function(levitas_install_programs)
       execute_process(COMMAND \"${PROJECT_BINARY_DIR}/bin/amb\" manual \${option}
                       OUTPUT_FILE \"${PROJECT_BINARY_DIR}/\${file}\" COMMAND_ERROR_IS_FATAL ANY)
     endfunction()
-    levitas_write(--man amb.1)
+    foreach(program ${programs})
+      levitas_write(\"--man;--of;\${program}\" \${program}.1)
+    endforeach()
     levitas_write(--bash amb.bash)")
-  install(FILES ${PROJECT_BINARY_DIR}/amb.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  install(FILES ${PROJECT_BINARY_DIR}/amb.bash DESTINATION share/bash-completion/completions RENAME amb)
+  # bash looks for a file of the program's name.
+  foreach(program ${programs})
+    install(FILES ${PROJECT_BINARY_DIR}/${program}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+    install(FILES ${PROJECT_BINARY_DIR}/amb.bash DESTINATION share/bash-completion/completions
+            RENAME ${program})
+  endforeach()
 endfunction()
 
 levitas_install_programs()
@@ -58,7 +65,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # exact libraries, found by dpkg-shlibdeps
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "xz-utils")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "iproute2")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "iproute2, zstd")
 # PNG of amb report; programs of one's own (examples/README.md).
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "librsvg2-bin, cmake, g++, libfmt-dev, libyaml-cpp-dev, python3-matplotlib")
 include(CPack)

@@ -70,10 +70,11 @@ class OutputFile {
 
   void Write(std::string_view bytes);
   void Commit();
+  /// Hands everything to the kernel, for who reads `part` before it is committed.
+  void Flush();
+  [[nodiscard]] const PartFile& part() const noexcept { return part_; }
 
  private:
-  void Flush();
-
   PartFile part_;
   std::string buffer_;
 };

@@ -63,6 +63,12 @@ def draw_identify(folder):
                     PICTURES / "identify_frf.png", folder / "frf.svg"], check=True)
 
 
+def draw_rig(folder):
+    amb(folder, "modes", "--svg", PICTURES / "modes.svg")
+    amb(folder, "margins", "--controller", "flexible_rotor_commissioned", "--speeds", "6000", "--svg",
+        PICTURES / "margins.svg")
+
+
 def draw_effects(folder):
     amb(folder, "effects", "--document", ROOT / "docs/effects.md", "--pictures",
         PICTURES / "effects")
@@ -114,8 +120,8 @@ class Dashboard(unittest.TestCase):
             phone.picture(PICTURES / "dashboard_phone.png")
 
 
-DRAW = {"run": draw_run, "report": draw_report, "identify": draw_identify, "effects": draw_effects,
-        "notch": draw_notch}
+DRAW = {"run": draw_run, "report": draw_report, "identify": draw_identify, "rig": draw_rig,
+        "effects": draw_effects, "notch": draw_notch}
 
 
 def main():

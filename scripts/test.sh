@@ -34,6 +34,7 @@ remedy_of() {
   case $2 in
     process.dashboard.*) echo "./amb test --all runs it: it installs Chromium (packages-browser.txt)" ;;
     process.python_package | process.python_controller) echo "./amb test --all runs it: it installs numpy (packages-ci.txt)" ;;
+    process.notebooks) echo "./amb test --all runs it: it installs nbclient and ipykernel (packages-notebooks.txt)" ;;
     build.*) echo "./amb test --all runs it: it installs what it needs (packages-ci.txt, packages-deb.txt)" ;;
     hardware.*) echo "./amb test hardware runs it, where it can have a kernel for it (CONTRIBUTING.md)" ;;
     *) echo "ctest --test-dir build/$1 -R '$2' -V says what it lacks" ;;
@@ -153,7 +154,8 @@ end_aside() {
 # Every stage runs even when an earlier one failed, so that one run names everything. Tests wait as
 # often as they compute: what is compiled and looked at next is done beside them.
 run_all() {
-  local failed=() ci_packages=("$root/packages-ci.txt" "$root/packages-deb.txt" "$root/packages-browser.txt")
+  local failed=() ci_packages=("$root/packages-ci.txt" "$root/packages-deb.txt" "$root/packages-browser.txt"
+    "$root/packages-notebooks.txt")
   SECONDS=0
   # shellcheck disable=SC2086 -- one word per label is meant
   prepare_whole $test_labels
@@ -170,7 +172,7 @@ run_all() {
   # it, as in blind_run, is not supported by it. What is long runs the code of a shorter test on more
   # data: preset release has run it, a sanitizer would see nothing new in three times as long.
   [ -z "$sanitized" ] || ctest_preset asan-ubsan -L '^(unit|loop|replay|process)$' -LE '^long$' \
-    -E '^process\.(dashboard\.memory|blind_run)$' || failed+=("asan-ubsan tests")
+    -E '^process\.(dashboard\.memory|blind_run|notebooks)$' || failed+=("asan-ubsan tests")
   say "asan-ubsan tested after $SECONDS s"
   end_aside || failed+=("clang-tidy or the build for fuzzing")
   say "looked at after $SECONDS s"
@@ -180,11 +182,12 @@ run_all() {
   close_all
 }
 
-# The last word of run_all. The page's tests were given their browser: not run is failed.
+# The last word of run_all. The page's tests were given their browser, the notebooks their runner: not
+# run is failed.
 close_all() {
   local name
   for name in "${left_out[@]}"; do
-    [[ $name != process.dashboard.* ]] || failed+=("$name was not run")
+    [[ $name != process.dashboard.* && $name != process.notebooks ]] || failed+=("$name was not run")
   done
   if [ ${#failed[@]} -ne 0 ]; then
     say "failed: $(IFS=,; echo "${failed[*]}")"

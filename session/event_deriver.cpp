@@ -146,6 +146,17 @@ void EventDeriver::Synchronous(const cycle::CycleRecord& record, std::vector<Eve
   }
 }
 
+// A law that starts with a lift is none that takes over.
+void EventDeriver::ActingLaw(const cycle::CycleRecord& record, std::vector<Event>& events) const {
+  if (!have_previous_ || record.out.acting_law == previous_.out.acting_law) return;
+  if (!record.out.current.amplifiers_enabled || !previous_.out.current.amplifiers_enabled) return;
+  events.push_back(
+      Make(record, Event::Severity::kInformation,
+           fmt::format("law {} of the schedule takes over from law {} at {} (cycle {})",
+                       record.out.acting_law + 1, previous_.out.acting_law + 1,
+                       Speed(record.in.frame.speed_rad_per_s), record.in.cycle)));
+}
+
 void EventDeriver::Tell(Tally& tally, const cycle::CycleRecord& record, const char* what,
                         std::vector<Event>& events) const {
   events.push_back(
@@ -177,6 +188,7 @@ void EventDeriver::Step(const cycle::CycleRecord& record, std::vector<Event>& ev
   Command(record, events);
   ModeAndFault(record, events);
   Synchronous(record, events);
+  ActingLaw(record, events);
   Turning(record, events);
   Add(missed_deadlines_, record.in.missed_deadlines, record.in.cycle, record, kMissedDeadline,
       events);

@@ -2,7 +2,7 @@
 // Derives what a person should know from consecutive cycle records: mode changes, trips, refused
 // commands, a rotor that turns while the amplifiers are off, missing frames, missed deadlines,
 // restarts of the rig, blocks of synchronous control that begin or
-// end, records lost on the way here.
+// end, laws that change places over speed, records lost on the way here.
 //
 // Purity   same records, same events; no clock, no I/O.
 // Flood    missing frames, missed deadlines and lost records are summed up: one event at the
@@ -44,6 +44,7 @@ class EventDeriver {
   void Command(const cycle::CycleRecord& record, std::vector<Event>& events) const;
   void ModeAndFault(const cycle::CycleRecord& record, std::vector<Event>& events) const;
   void Synchronous(const cycle::CycleRecord& record, std::vector<Event>& events) const;
+  void ActingLaw(const cycle::CycleRecord& record, std::vector<Event>& events) const;
   void Turning(const cycle::CycleRecord& record, std::vector<Event>& events);
   void Add(Tally& tally, std::uint64_t count, std::uint64_t first_cycle,
            const cycle::CycleRecord& record, const char* what, std::vector<Event>& events) const;

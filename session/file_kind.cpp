@@ -56,7 +56,11 @@ constexpr std::array<Kind, 19> kKinds{
       "csv FILE.xls."},
      {"\x1F\x8B"sv, "compressed by gzip", "Unpack it first: gunzip FILE.gz.", false},
      {"BZh"sv, "compressed by bzip2", "Unpack it first: bunzip2 FILE.bz2.", false},
-     {"\x28\xB5\x2F\xFD"sv, "compressed by zstd", "Unpack it first: unzstd FILE.zst.", false},
+     {"\x28\xB5\x2F\xFD"sv, "compressed by zstd",
+      "If it is a session (.lcm.zst) it is what every command takes: import nothing. Else unpack "
+      "it "
+      "first: unzstd FILE.zst.",
+      false},
      {"\xFF\xFE"sv, "text in UTF-16",
       "Save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE > FILE.csv."},
      {"\xFE\xFF"sv, "text in UTF-16",

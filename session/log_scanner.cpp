@@ -9,9 +9,11 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
 #include "common/problem.hpp"
 #include "session/log_format.hpp"
+#include "session/packed_log.hpp"
 
 namespace levitas::session {
 namespace {
@@ -43,10 +45,62 @@ LogScanner::LogScanner(const std::string& path) : path_(path) {
     throw BadInput(fmt::format("{}: cannot be read as a session: {}", path,
                                known ? "it is not a file" : std::strerror(error)));
   }
-  size_ = static_cast<std::uint64_t>(status.st_size);
+  file_bytes_ = size_ = static_cast<std::uint64_t>(status.st_size);
+  std::array<std::uint8_t, 4> start{};
+  const std::size_t there = ReadAt(0, start);
+  if (BeginsPacked({start.data(), there}) || (PackedName(path) && there > 0)) {
+    packed_ = std::make_unique<PackedReader>(fd_, file_bytes_, path_);
+    size_ = std::numeric_limits<std::uint64_t>::max();
+  }
 }
 
 LogScanner::~LogScanner() { ::close(fd_); }
+
+std::size_t LogScanner::ReadAt(std::uint64_t at, std::span<std::uint8_t> to) {
+  std::size_t filled = 0;
+  while (filled < to.size()) {
+    const ssize_t got =
+        ::pread(fd_, to.data() + filled, to.size() - filled, static_cast<off_t>(at + filled));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) {
+      throw BadInput(fmt::format("{}: reading at byte {} failed: {}", path_, at + filled,
+                                 std::strerror(errno)));
+    }
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+  }
+  return filled;
+}
+
+void LogScanner::LoadPlain(std::uint64_t from, std::size_t room) {
+  window_.resize(room);
+  window_offset_ = from;
+  window_bytes_ = ReadAt(from, window_);
+}
+
+// What is unpacked comes once and in order: what the window has of it is kept.
+void LogScanner::LoadPacked(std::uint64_t from, std::size_t room) {
+  if (from < window_offset_) {
+    packed_->Rewind();
+    window_offset_ = 0;
+    window_bytes_ = 0;
+  }
+  const auto left =
+      static_cast<std::size_t>(std::min<std::uint64_t>(from - window_offset_, window_bytes_));
+  std::memmove(window_.data(), window_.data() + left, window_bytes_ - left);
+  window_offset_ += left;
+  window_bytes_ -= left;
+  window_.resize(std::max(room, window_bytes_));
+  while (window_offset_ < from) {
+    const std::uint64_t over = from - window_offset_;
+    const std::size_t passed = packed_->Read(
+        std::span(window_).first(static_cast<std::size_t>(std::min<std::uint64_t>(over, room))));
+    window_offset_ += passed;
+    if (passed == 0) break;
+  }
+  window_bytes_ += packed_->Read(std::span(window_).subspan(window_bytes_));
+  if (window_bytes_ < window_.size()) size_ = window_offset_ + window_bytes_;
+}
 
 std::span<const std::uint8_t> LogScanner::Window(std::uint64_t from, std::size_t count) {
   if (from >= size_) return {};
@@ -54,31 +108,22 @@ std::span<const std::uint8_t> LogScanner::Window(std::uint64_t from, std::size_t
   if (from < window_offset_ || from + wanted > window_offset_ + window_bytes_) {
     // Twice what is asked for: whoever goes on behind a length that lied finds the next bytes here,
     // so that a file is read about twice, however many lengths in it lie.
-    const std::uint64_t room = std::max<std::uint64_t>(kChunkBytes, 2 * std::uint64_t{wanted});
-    window_.resize(static_cast<std::size_t>(std::min(room, size_ - from)));
-    window_offset_ = from;
-    window_bytes_ = 0;
-    while (window_bytes_ < window_.size()) {
-      const ssize_t got =
-          ::pread(fd_, window_.data() + window_bytes_, window_.size() - window_bytes_,
-                  static_cast<off_t>(from + window_bytes_));
-      if (got < 0 && errno == EINTR) continue;
-      if (got < 0) {
-        throw BadInput(fmt::format("{}: reading at byte {} failed: {}", path_, from + window_bytes_,
-                                   std::strerror(errno)));
-      }
-      if (got == 0) break;
-      window_bytes_ += static_cast<std::size_t>(got);
+    const std::uint64_t most = std::max<std::uint64_t>(kChunkBytes, 2 * std::uint64_t{wanted});
+    const auto room = static_cast<std::size_t>(std::min(most, size_ - from));
+    if (packed_) {
+      LoadPacked(from, room);
+    } else {
+      LoadPlain(from, room);
     }
   }
+  if (from > window_offset_ + window_bytes_) return {};
   const auto start = static_cast<std::size_t>(from - window_offset_);
-  const std::size_t there = window_bytes_ > start ? window_bytes_ - start : 0;
-  return {window_.data() + start, std::min(wanted, there)};
+  return {window_.data() + start, std::min(wanted, window_bytes_ - start)};
 }
 
 LogScanner::Look LogScanner::At(RawEvent& event) {
-  if (offset_ >= size_) return Look::kEnd;
   const auto head = Window(offset_, kEventHeaderBytes);
+  if (head.empty()) return Look::kEnd;
   if (head.size() < kEventHeaderBytes) {
     const std::size_t compared = std::min(head.size(), kSyncBytes.size());
     const bool starts = std::memcmp(head.data(), kSyncBytes.data(), compared) == 0;

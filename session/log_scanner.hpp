@@ -1,6 +1,8 @@
 #pragma once
-// Walks through the events of an LCM event log, sound or damaged.
+// Walks through the events of an LCM event log, sound or damaged, plain or packed by zstd (told by
+// the file's first bytes or its name; session/packed_log.hpp).
 //
+// Offsets  of the log, so of the unpacked one.
 // Damage   the scanner only judges the frame of an event (sync word, lengths, end of file). The
 //          reader judges its content; when that is bad it calls SkipToSync, which searches from
 //          just behind the bad event's sync word: whatever a damaged length swallowed is found.
@@ -9,12 +11,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace levitas::session {
+
+class PackedReader;
 
 struct RawEvent {
   std::uint64_t offset{};
@@ -44,15 +49,29 @@ class LogScanner {
   /// False in the latter case.
   bool SkipToSync();
   [[nodiscard]] std::uint64_t offset() const noexcept { return offset_; }
-  [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
+  /// Of the file, as it was when it was opened.
+  [[nodiscard]] std::uint64_t file_bytes() const noexcept { return file_bytes_; }
+  /// Null for a plain log: what packing hides of damage.
+  [[nodiscard]] const PackedReader* packed() const noexcept { return packed_.get(); }
+  /// The log's bytes from `offset` on, at most `count`; empty at its end. Valid until the scanner
+  /// is used again.
+  [[nodiscard]] std::span<const std::uint8_t> Bytes(std::uint64_t offset, std::size_t count) {
+    return Window(offset, count);
+  }
 
  private:
   /// Bytes `from` .. `from + count` of the file, fewer at its end.
   std::span<const std::uint8_t> Window(std::uint64_t from, std::size_t count);
+  void LoadPlain(std::uint64_t from, std::size_t room);
+  void LoadPacked(std::uint64_t from, std::size_t room);
+  /// Bytes that stand at `at` of the plain file; fewer at its end.
+  std::size_t ReadAt(std::uint64_t at, std::span<std::uint8_t> to);
 
   std::string path_;
   int fd_{-1};
-  std::uint64_t size_{0};
+  std::unique_ptr<PackedReader> packed_;
+  std::uint64_t file_bytes_{0};
+  std::uint64_t size_{0};  ///< of the log; of a packed one known at its end
   std::uint64_t offset_{0};
   std::uint64_t window_offset_{0};
   std::size_t window_bytes_{0};

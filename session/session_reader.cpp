@@ -7,6 +7,7 @@
 #include "common/problem.hpp"
 #include "session/log_format.hpp"
 #include "session/log_scanner.hpp"
+#include "session/packed_log.hpp"
 #include "session/record_codec.hpp"
 
 namespace levitas::session {
@@ -20,6 +21,7 @@ struct SessionReader::Impl {
   explicit Impl(const std::string& file_path) : path(file_path), scanner(file_path) {
     FindHeader();
     scanner.MoveTo(0);
+    damage.packed = scanner.packed() != nullptr;
   }
 
   /// The first sound header event: normally the first event, after damage one of the copies.
@@ -76,12 +78,12 @@ struct SessionReader::Impl {
   }
 
   [[nodiscard]] std::string MissingHeader(bool any_event, bool header_channel) const {
-    if (scanner.size() == 0) return fmt::format("{}: the file is empty, not a session", path);
+    if (scanner.file_bytes() == 0) return fmt::format("{}: the file is empty, not a session", path);
     if (!any_event) {
       return fmt::format(
           "{}: not a session: there is no LCM log event in its {} bytes. CSV (.csv, .csv.xz) and "
           "MAT (.mat) become a session by amb import; amb diagnose takes them as they are",
-          path, scanner.size());
+          path, scanner.file_bytes());
     }
     if (header_channel) {
       return fmt::format("{}: the session's header is damaged and no sound copy of it follows",
@@ -154,7 +156,19 @@ struct SessionReader::Impl {
         SkipDamage(look, event);
       }
     }
+    if (scanner.packed() != nullptr) CountPacked(*scanner.packed());
     return false;
+  }
+
+  /// What of the damage only unpacking can tell.
+  void CountPacked(const PackedReader& packed) noexcept {
+    damage.corrupt_blocks = packed.bad_frames();
+    const std::uint64_t offset =
+        packed.bad_frames() > 0 ? packed.first_bad_offset() : scanner.offset();
+    if (packed.cut_off()) damage.truncated = true;
+    if (!packed.cut_off() && packed.bad_frames() == 0) return;
+    if (!bad_known || offset < damage.first_bad_offset) damage.first_bad_offset = offset;
+    bad_known = true;
   }
 
   std::string path;
@@ -188,8 +202,13 @@ std::string Damage::Text() const {
   if (corrupt_records > 0) add(fmt::format("{} damaged record(s)", corrupt_records));
   if (corrupt_bytes > 0) add(fmt::format("{} unreadable byte(s)", corrupt_bytes));
   if (missing_cycles > 0) add(fmt::format("{} cycle(s) missing", missing_cycles));
-  if (truncated) add("the file ends inside a record");
-  return fmt::format("{}; first at byte {}; everything else was read", lost, first_bad_offset);
+  if (corrupt_blocks > 0) add(fmt::format("{} damaged packed block(s)", corrupt_blocks));
+  if (truncated) {
+    add(packed ? "the file ends inside a packed block and is read up to its last complete one"
+               : "the file ends inside a record");
+  }
+  return fmt::format("{}; first at byte {}{}; everything else was read", lost, first_bad_offset,
+                     packed ? " of the unpacked log" : "");
 }
 
 }  // namespace levitas::session

@@ -1,6 +1,6 @@
 #pragma once
-// Reads a session, whole or damaged: resynchronises after damage, says what was lost, loses
-// nothing before it.
+// Reads a session, plain or packed, whole or damaged: resynchronises after damage, says what was
+// lost, loses nothing before it.
 //
 // Failure  BadInput when the file cannot be opened or holds no readable header.
 
@@ -18,10 +18,13 @@ struct Damage {
   std::uint64_t corrupt_bytes{};     ///< skipped while searching for the next event
   std::uint64_t corrupt_records{};   ///< wrong CRC or undecodable
   std::uint64_t missing_cycles{};    ///< gaps in the cycle count
-  bool truncated{};                  ///< the file ends inside an event
+  bool truncated{};                  ///< the file ends inside an event, or inside a packed block
+  bool packed{};                     ///< by zstd; offsets are of the unpacked log
+  std::uint64_t corrupt_blocks{};    ///< of a packed file: frames that were left behind
   std::uint64_t first_bad_offset{};  ///< byte offset of the first damage
   [[nodiscard]] bool any() const noexcept {
-    return corrupt_bytes > 0 || corrupt_records > 0 || missing_cycles > 0 || truncated;
+    return corrupt_bytes > 0 || corrupt_records > 0 || corrupt_blocks > 0 || missing_cycles > 0 ||
+           truncated;
   }
   /// One sentence for people; empty when undamaged.
   [[nodiscard]] std::string Text() const;

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "common/output_file.hpp"
 #include "session/log_format.hpp"
+#include "session/packed_log.hpp"
 #include "session/record_codec.hpp"
 
 namespace levitas::session {
@@ -55,6 +57,7 @@ struct SessionWriter::Impl {
         start_utc_ns(header.start_utc_ns),
         fd(descriptor) {
     buffer.reserve(kBufferBytes + kMaxDataBytes / 16);
+    if (PackedName(path)) packer.emplace(kRecordingLevel);
     EncodeHeader(header, header_bytes);
     Append(kHeaderChannel, header_bytes, start_utc_ns / 1000);
   }
@@ -80,9 +83,26 @@ struct SessionWriter::Impl {
   }
 
   void Flush() {
+    if (packer) {
+      packer->Pack(buffer, packed);
+      buffer.clear();
+      WriteOut(packed);
+    } else {
+      WriteOut(buffer);
+    }
+  }
+
+  void End() {
+    Flush();
+    if (!packer) return;
+    packer->End(packed);
+    WriteOut(packed);
+  }
+
+  void WriteOut(Bytes& bytes) {
     std::size_t done = 0;
-    while (done < buffer.size()) {
-      const ssize_t wrote = ::write(fd, buffer.data() + done, buffer.size() - done);
+    while (done < bytes.size()) {
+      const ssize_t wrote = ::write(fd, bytes.data() + done, bytes.size() - done);
       if (wrote < 0 && errno == EINTR) continue;
       if (wrote < 0 && errno == EAGAIN) {
         if (AwaitRoom(fd, patience)) continue;
@@ -90,12 +110,12 @@ struct SessionWriter::Impl {
       }
       if (wrote <= 0) {
         const int error = errno;
-        buffer.clear();  // so that the destructor does not try, and fail, again
+        bytes.clear();  // so that the destructor does not try, and fail, again
         throw WriteFailed(path, error);
       }
       done += static_cast<std::size_t>(wrote);
     }
-    buffer.clear();
+    bytes.clear();
   }
 
   /// Time of a record in the log, so that players keep the recorded pace: the controller's own
@@ -119,6 +139,8 @@ struct SessionWriter::Impl {
   std::int64_t start_utc_ns;
   int fd{-1};
   Bytes buffer;
+  std::optional<Packer> packer;
+  Bytes packed;
   Bytes scratch;
   Bytes header_bytes;
   std::int64_t number{0};
@@ -175,7 +197,7 @@ void SessionWriter::Close() {
     impl_->Append(kHeaderChannel, impl_->header_bytes, impl_->last_time_us);
   }
   impl_->closed = true;
-  impl_->Flush();
+  impl_->End();
 }
 
 }  // namespace levitas::session

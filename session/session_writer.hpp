@@ -2,6 +2,7 @@
 // Writes a session: one LCM event log, header first, then one LEVITAS_CYCLE event per cycle and
 // LEVITAS_EVENT events as they happen. Readable by ordinary LCM tools.
 //
+// Packed     under a name that ends in .zst, by zstd; `zstd -d` gives the log (packed_log.hpp).
 // Integrity  every record carries its cycle number and a CRC-32.
 // Thread     one thread, not the loop's (see Recorder). Write reuses its buffers.
 // File       made new under its name from the first byte on, never through a symbolic link

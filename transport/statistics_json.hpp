@@ -17,7 +17,9 @@ namespace levitas::transport {
           {"max_ns", histogram.max_ns()}};
 }
 
+/// Behind `schema` ("levitas_<kind>_1") and `version`, as every JSON file of the commands begins.
 /// Throws Problem (exit status 1) when the file cannot be written.
-void WriteJson(const nlohmann::ordered_json& value, const std::string& path);
+void WriteJson(const std::string& kind, const nlohmann::ordered_json& value,
+               const std::string& path);
 
 }  // namespace levitas::transport

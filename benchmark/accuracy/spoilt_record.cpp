@@ -6,10 +6,7 @@
 #include <numbers>
 
 #include "analysis/reading_noise.hpp"
-#include "benchmark/accuracy/drawn_rig.hpp"
-#include "common/problem.hpp"
 #include "common/random.hpp"
-#include "diagnosis/model/rig_view.hpp"
 
 namespace levitas::accuracy {
 namespace {
@@ -53,8 +50,6 @@ class Spoiler {
         return Delay();
       case RecordErrorKind::kGaps:
         return LeaveOut();
-      case RecordErrorKind::kOtherRig:
-        return;
     }
   }
 
@@ -290,24 +285,6 @@ Spoilt Spoil(const config::RigFile& rig, const std::vector<LoadedRecord>& record
   SetTimes(rig, out.records);
   Spoiler(rig, seed, out).Make();
   return out;
-}
-
-config::RigFile DifferentRig(const TestRig& bench, const config::RigFile& rig, std::uint64_t seed) {
-  constexpr int kMostRigs = 60;
-  constexpr double kFar = 1.2;
-  const auto bending = [](const config::RigFile& of) {
-    const diagnosis::RigView view(of.numbers, of.plant);
-    const auto first = std::ranges::find_if(view.omega_rad_per_s, [](double w) { return w > 0.0; });
-    return first == view.omega_rad_per_s.end() ? 1.0 : *first;
-  };
-  Random random(seed);
-  const double own = bending(rig);
-  for (int i = 0; i < kMostRigs; ++i) {
-    config::RigFile other = DrawRig(bench, random).rig;
-    const double ratio = bending(other) / own;
-    if (ratio > kFar || ratio < 1.0 / kFar) return other;
-  }
-  throw BadInput("none of the rigs drawn is far from this one");
 }
 
 bool IsNamed(const Spoilt& made, const diagnosis::RecordErrors& found) {

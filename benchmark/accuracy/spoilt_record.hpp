@@ -8,8 +8,7 @@
 //            rad/s; angle in degrees), rate (every second row left out, or the times scaled by up
 //            to 20 % or drifting), quantised (steps of 2 to 10 times the noise), clipped (0.5 to 10
 //            % of the rows), held (one or more of every 2 to 6 rows), delayed (1 to 5 rows), gaps
-//            (2 to 200 rows left out at 1 to 6 places, numbers and times closed up). other_rig
-//            leaves the records as they are: DifferentRig is the file to judge them by.
+//            (2 to 200 rows left out at 1 to 6 places, numbers and times closed up).
 // Thread     any; no shared state.
 
 #include <cstdint>
@@ -33,11 +32,6 @@ struct Spoilt {
 [[nodiscard]] Spoilt Spoil(const config::RigFile& rig,
                            const std::vector<diagnosis::Record>& records,
                            diagnosis::RecordErrorKind kind, std::uint64_t seed);
-
-/// A rig drawn from `bench` by seed (drawn_rig.hpp) whose first bending mode is at least a fifth
-/// away from that of `rig`; BadInput where none of many is.
-[[nodiscard]] config::RigFile DifferentRig(const TestRig& bench, const config::RigFile& rig,
-                                           std::uint64_t seed);
 
 /// Whether one of the errors is the one that was made, with its columns and size.
 [[nodiscard]] bool IsNamed(const Spoilt& made, const diagnosis::RecordErrors& found);

@@ -1,4 +1,4 @@
-// amb export: a session as CSV, MAT or MCAP file for other tools.
+// amb export: a session as CSV, MAT, MCAP or plain LCM file for other tools.
 
 #include <fmt/core.h>
 
@@ -16,6 +16,7 @@
 #include "session/mat_export.hpp"
 #include "session/mcap_export.hpp"
 #include "session/output_path.hpp"
+#include "session/repack.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -25,6 +26,7 @@ struct ExportOptions {
   std::string csv_path;
   std::string mat_path;
   std::string mcap_path;
+  std::string lcm_path;
   std::string json_path;
   session::ExportSelection selection;
 };
@@ -45,23 +47,46 @@ session::ExportReport Write(const ExportOptions& options, const std::string& pat
   return report;
 }
 
+/// The log itself, byte for byte.
+void WriteLog(const ExportOptions& options) {
+  const session::RepackReport report = session::Repack(options.session_path, options.lcm_path);
+  fmt::print("{}: {:.1f} MB of LCM log in {:.1f} MB\n", rt::OneLine(options.lcm_path),
+             static_cast<double>(report.log_bytes) * 1e-6,
+             static_cast<double>(report.out_bytes) * 1e-6);
+}
+
 ExitStatus Export(const ExportOptions& options) {
   const std::array<std::pair<const std::string*, Exporter>, 3> files{
       {{&options.csv_path, session::ExportCsv},
        {&options.mat_path, session::ExportMat},
        {&options.mcap_path, session::ExportMcap}}};
-  if (std::all_of(files.begin(), files.end(),
-                  [](const auto& file) { return file.first->empty(); })) {
-    throw Problem(ExitStatus::kUsage,
-                  "nothing to write: name --csv FILE, --mat FILE, --mcap FILE or several of them");
+  if (options.lcm_path.empty() && std::all_of(files.begin(), files.end(), [](const auto& file) {
+        return file.first->empty();
+      })) {
+    throw Problem(
+        ExitStatus::kUsage,
+        "nothing to write: name --csv FILE, --mat FILE, --mcap FILE, --lcm FILE or several "
+        "of them");
   }
   for (const auto& [path, exporter] : files) {
     session::CheckOutputPath(*path, options.session_path);
     // Under such a name nobody could read it, this program neither.
-    if (path->ends_with(".xz"))
+    for (const char* ending : {".xz", ".zst"}) {
+      if (!path->ends_with(ending)) continue;
       throw Problem(ExitStatus::kUsage,
-                    *path + ": an export is not packed; leave out .xz, and pack the file with xz");
+                    fmt::format("{}: an export is not packed; leave out {}, and "
+                                "pack the file afterwards",
+                                *path, ending));
+    }
   }
+  const session::ExportSelection all;
+  const session::ExportSelection& some = options.selection;
+  if (!options.lcm_path.empty() && (some.from_s != all.from_s || some.to_s != all.to_s ||
+                                    some.every != all.every || !some.columns.empty())) {
+    throw Problem(ExitStatus::kUsage,
+                  "--lcm writes the log whole: leave out --from, --to, --every and --columns");
+  }
+  session::CheckOutputPath(options.lcm_path, options.session_path);
   session::CheckOutputPath(options.json_path, options.session_path);
   session::SessionReader reader(options.session_path);
   fmt::print("{}\n", Describe(options.session_path, reader.header()));
@@ -69,6 +94,7 @@ ExitStatus Export(const ExportOptions& options) {
   for (const auto& [path, exporter] : files) {
     if (!path->empty()) report = Write(options, *path, exporter);
   }
+  if (!options.lcm_path.empty()) WriteLog(options);
   cycle::CycleRecord record;
   while (reader.Next(record)) {
   }  // to its end, for what was lost
@@ -78,6 +104,7 @@ ExitStatus Export(const ExportOptions& options) {
                                     {"csv", options.csv_path},
                                     {"mat", options.mat_path},
                                     {"mcap", options.mcap_path},
+                                    {"lcm", options.lcm_path},
                                     {"rows", report.rows},
                                     {"cycles_without_frame", report.cycles_without_frame},
                                     {"damage", DamageJson(damage)}});
@@ -89,13 +116,16 @@ ExitStatus Export(const ExportOptions& options) {
 void AddExportCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* command =
-      app.add_subcommand("export", "A session as CSV, MAT or MCAP file for other tools");
+      app.add_subcommand("export", "A session as CSV, MAT, MCAP or plain LCM file for other tools");
   command->add_option("SESSION", options->session_path, "Session or trip file")->required();
   command->add_option("--csv", options->csv_path, "CSV file to write");
   command->add_option("--mat", options->mat_path,
                       "MAT file to write (version 5: MATLAB, Octave, SciPy), a vector per column");
   command->add_option("--mcap", options->mcap_path,
                       "MCAP file to write (Foxglove, PlotJuggler, mcap libraries), with events");
+  command->add_option("--lcm", options->lcm_path,
+                      "LCM log to write, of a packed session the plain one, for lcm-logplayer and "
+                      "lcm-spy; packed by zstd under a name that ends in .zst");
   session::ExportSelection& selection = options->selection;
   command->add_option("--from", selection.from_s, "First time of column time_s [s]");
   command->add_option("--to", selection.to_s, "Last time of column time_s [s]");
@@ -111,6 +141,7 @@ void AddExportCommand(CLI::App& app, Action& action) {
   command->callback([options, &action] { action = [options] { return Export(*options); }; });
   command->footer(
       "  amb export run.lcm --csv run.csv --mcap run.mcap\n"
+      "  amb export run.lcm.zst --lcm run.lcm\n"
       "  amb export run.lcm --csv orbit.csv --from 2 --to 3 --columns "
       "position_de_x_m,position_de_y_m");
 }

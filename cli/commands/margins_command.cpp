@@ -14,12 +14,19 @@
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
 #include "cli/options/requirement.hpp"
+#include "cli/options/svg_option.hpp"
 #include "common/rotational_speed.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
+#include "report/rig/margins_picture.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
 namespace {
+
+struct MarginsOptions : AnalysisOptions {
+  std::string required;
+  std::string svg_path;
+};
 
 std::string Text(const std::optional<double>& value, double scale, const char* unit) {
   return value ? fmt::format("{:.2f}{}", *value * scale, unit) : "none";
@@ -173,9 +180,45 @@ void PrintBlocks(const std::vector<BlocksAt>& blocks, const config::ControllerFi
   }
 }
 
-ExitStatus Run(const AnalysisOptions& options, const std::string& required) {
+/// What the picture draws, so that another program can.
+nlohmann::ordered_json CurvesJson(const report::LoopAtSpeed& loop,
+                                  const std::vector<std::string>& channels) {
+  nlohmann::ordered_json json;
+  json["speed_rpm"] = RadPerSToRpm(loop.peaks.speed_rad_per_s);
+  json["frequency_hz"] = loop.curves.frequency_hz;
+  for (std::size_t i = 0; i < loop.curves.axes.size(); ++i) {
+    nlohmann::ordered_json axis{{"channel", channels[i]}};
+    for (const auto value : loop.curves.axes[i]) {
+      axis["sensitivity_real"].push_back(value.real());
+      axis["sensitivity_imaginary"].push_back(value.imag());
+    }
+    json["axes"].push_back(std::move(axis));
+  }
+  return json;
+}
+
+/// Written only when there is a picture: curves make the JSON a hundred times longer.
+void Draw(const MarginsOptions& options, const AnalysedLoop& of,
+          const std::vector<analysis::SensitivityResult>& loops, nlohmann::ordered_json& json) {
+  if (options.svg_path.empty()) return;
+  std::vector<report::LoopAtSpeed> rows;
+  for (const auto& loop : loops) {
+    rows.push_back(
+        {loop, analysis::CurvesOf(of.rig.plant, of.controller.file.law, loop.speed_rad_per_s)});
+    json["curves"].push_back(CurvesJson(rows.back(), of.rig.numbers.channels));
+  }
+  const std::string title =
+      fmt::format("Rig {}, controller {}", of.rig.numbers.name, of.controller.file.name);
+  svg::Write(options.svg_path, report::MarginsPicture(title, rows, of.rig.numbers.channels));
+}
+
+ExitStatus Run(const MarginsOptions& options) {
+  const std::string& required = options.required;
   session::CheckOutputPath(options.json_path, {});
-  const auto [rig, controller, delay] = LoadLoop(options);
+  session::CheckOutputPath(options.svg_path, {});
+  const AnalysedLoop of = LoadLoop(options);
+  const auto& [rig, controller, delay] = of;
+  KeepController(options.svg_path, controller.path);
   nlohmann::ordered_json json =
       LoopJson(rig.numbers, controller, rig.plant.delay_samples * rig.numbers.period_s());
   fmt::print("Sensitivity of the sampled loop, delay included; zones of ISO 14839-3\n");
@@ -194,6 +237,7 @@ ExitStatus Run(const AnalysisOptions& options, const std::string& required) {
     blocks_stable = std::ranges::all_of(blocks, [](const auto& at) { return at.rig.stable(); });
   }
   fmt::print("{}", GainsNote(options, rig));
+  Draw(options, of, loops, json);
   WriteJsonFile(options.json_path, json);
   RequireLoops(required, loops);
   if (!required.empty() && !blocks_stable) {
@@ -208,19 +252,18 @@ ExitStatus Run(const AnalysisOptions& options, const std::string& required) {
 }  // namespace
 
 void AddMarginsCommand(CLI::App& app, Action& action) {
-  auto options = std::make_shared<AnalysisOptions>();
+  auto options = std::make_shared<MarginsOptions>();
   CLI::App* command = app.add_subcommand(
       "margins", "Sensitivity peaks with ISO 14839-3 zones, gain and phase margins, over speed");
   AddRigOption(*command, *options);
   AddControllerOption(*command, *options);
   AddPortOption(*command, *options);
   AddSpeedOption(*command, *options, {0.0});
-  auto required = std::make_shared<std::string>();
-  AddLoopRequirement(*command, *required);
+  AddLoopRequirement(*command, options->required);
+  AddSvgOption(*command, options->svg_path,
+               "sensitivity with the zones of ISO 14839-3, and the Nyquist curve of every axis");
   AddJsonOption(*command, *options);
-  command->callback([options, required, &action] {
-    action = [options, required] { return Run(*options, *required); };
-  });
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }
 
 }  // namespace levitas::cli

@@ -1,4 +1,5 @@
-// amb modes: mass, magnet constants and free whirl frequencies of a rig.
+// amb modes: mass, inertia, static loads, magnet constants, free whirl frequencies and critical
+// speeds of a rig.
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -10,14 +11,20 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/critical_speeds.hpp"
 #include "analysis/damped_modes.hpp"
 #include "analysis/free_modes.hpp"
 #include "analysis/modal_effects.hpp"
+#include "analysis/rotor_figures.hpp"
 #include "cli/commands/command.hpp"
+#include "cli/commands/critical_speeds_text.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/svg_option.hpp"
 #include "common/rotational_speed.hpp"
 #include "plant_sim/effect/catalogue.hpp"
+#include "report/rig/campbell_panel.hpp"
+#include "report/rig/modes_picture.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -28,6 +35,7 @@ constexpr int kCampbellSteps = 12;
 struct ModesOptions : AnalysisOptions {
   bool campbell{};
   std::size_t modes{4};
+  std::string svg_path;
 };
 
 std::vector<double> SpeedsOf(const ModesOptions& options, const config::RigFile& rig) {
@@ -42,11 +50,25 @@ std::vector<double> SpeedsOf(const ModesOptions& options, const config::RigFile&
   return speeds;
 }
 
-void Print(const config::RigFile& rig, const analysis::FreeModes& modes) {
-  fmt::print("Rig {}: rotor mass {:.3f} kg\n", rig.numbers.name, modes.rotor_mass_kg);
-  for (const auto& bearing : modes.bearings) {
-    fmt::print("  bearing {:<6} ki {:8.3f} N/A   ks {:.4e} N/m (destabilising)\n", bearing.name,
-               bearing.ki_n_per_a, bearing.ks_n_per_m);
+constexpr const char* kOfFree = "1x meets a free bending mode, magnets off";
+
+analysis::Campbell CampbellOf(const ModesOptions& options, const config::RigFile& rig) {
+  return analysis::FreeCampbell(rig.plant, report::kBeyondRated * rig.numbers.max_speed_rad_per_s,
+                                options.modes);
+}
+
+void Print(const config::RigFile& rig, const analysis::FreeModes& modes,
+           const analysis::RotorFigures& figures) {
+  fmt::print("Rig {}: rotor mass {:.3f} kg, centre of mass at z = {:.1f} mm\n", rig.numbers.name,
+             modes.rotor_mass_kg, 1e3 * figures.centre_z_m);
+  fmt::print("  inertia about it {:.5g} kg m2 transverse, {:.5g} kg m2 polar\n",
+             figures.transverse_inertia_kg_m2, figures.polar_inertia_kg_m2);
+  for (std::size_t i = 0; i < modes.bearings.size(); ++i) {
+    const auto& bearing = modes.bearings[i];
+    const auto& load = figures.loads[i].load_n;
+    fmt::print("  bearing {:<6} ki {:8.3f} N/A   ks {:.4e} N/m (destabilising)   static load {}\n",
+               bearing.name, bearing.ki_n_per_a, bearing.ks_n_per_m,
+               load ? fmt::format("{:.3f} N", *load) : "as the control shares it");
   }
   fmt::print("Free-free bending, Hz (b backward whirl, f forward whirl)\n{:>10}", "rpm");
   const std::size_t count = modes.whirl.empty() ? 0 : modes.whirl.front().forward_hz.size();
@@ -63,14 +85,28 @@ void Print(const config::RigFile& rig, const analysis::FreeModes& modes) {
   }
 }
 
-nlohmann::ordered_json Json(const config::RigFile& rig, const analysis::FreeModes& modes) {
+nlohmann::ordered_json Json(const config::RigFile& rig, const analysis::FreeModes& modes,
+                            const analysis::RotorFigures& figures) {
   nlohmann::ordered_json json;
   json["rig"] = rig.numbers.name;
   json["rotor_mass_kg"] = modes.rotor_mass_kg;
-  for (const auto& bearing : modes.bearings) {
-    json["bearings"].push_back({{"name", bearing.name},
-                                {"ki_n_per_a", bearing.ki_n_per_a},
-                                {"ks_n_per_m", bearing.ks_n_per_m}});
+  json["centre_of_mass_z_m"] = figures.centre_z_m;
+  json["transverse_inertia_kg_m2"] = figures.transverse_inertia_kg_m2;
+  json["polar_inertia_kg_m2"] = figures.polar_inertia_kg_m2;
+  for (std::size_t i = 0; i < modes.bearings.size(); ++i) {
+    const auto& bearing = modes.bearings[i];
+    const auto& load = figures.loads[i].load_n;
+    json["bearings"].push_back(
+        {{"name", bearing.name},
+         {"ki_n_per_a", bearing.ki_n_per_a},
+         {"ks_n_per_m", bearing.ks_n_per_m},
+         {"static_load_n", load ? nlohmann::ordered_json(*load) : nlohmann::ordered_json()}});
+  }
+  json["shapes"] = nlohmann::ordered_json::array();
+  for (const auto& shape : figures.shapes) {
+    json["shapes"].push_back({{"frequency_hz", shape.frequency_hz},
+                              {"z_m", shape.z_m},
+                              {"relative_deflection", shape.deflection}});
   }
   for (const auto& at : modes.whirl) {
     json["speeds"].push_back({{"speed_rpm", RadPerSToRpm(at.speed_rad_per_s)},
@@ -154,6 +190,26 @@ ExitStatus ShowDamped(const ModesOptions& options, const config::RigFile& rig) {
     PrintDamped(at, 3 * options.modes, " of the first shaft");
     json["speeds"].push_back(DampedJson(at));
   }
+  const auto campbell = CampbellOf(options, rig);
+  ShowCriticalSpeeds(campbell, kOfFree, json);
+  svg::Write(options.svg_path, report::ModesPicture(rig, campbell, std::nullopt));
+  WriteJsonFile(options.json_path, json);
+  return ExitStatus::kDone;
+}
+
+ExitStatus Run(const ModesOptions& options) {
+  session::CheckOutputPath(options.json_path, {});
+  session::CheckOutputPath(options.svg_path, {});
+  const config::RigFile rig = LoadRig(options);
+  if (!rig.plant.shafts.empty()) return ShowDamped(options, rig);
+  const auto modes = analysis::ComputeFreeModes(rig.plant, SpeedsOf(options, rig), options.modes);
+  const auto figures = analysis::FiguresOf(rig.plant, options.modes);
+  Print(rig, modes, figures);
+  nlohmann::ordered_json json = Json(rig, modes, figures);
+  const auto campbell = CampbellOf(options, rig);
+  ShowCriticalSpeeds(campbell, kOfFree, json);
+  ShowEffects(options, rig, json);
+  svg::Write(options.svg_path, report::ModesPicture(rig, campbell, figures));
   WriteJsonFile(options.json_path, json);
   return ExitStatus::kDone;
 }
@@ -170,21 +226,10 @@ void AddModesCommand(CLI::App& app, Action& action) {
   command->add_option("--modes", options->modes, "How many flexible modes")
       ->check(CLI::Range(1, 20))
       ->capture_default_str();
+  AddSvgOption(*command, options->svg_path,
+               "Campbell diagram with its 1x crossings; mode shapes on the shaft, static loads");
   AddJsonOption(*command, *options);
-  command->callback([options, &action] {
-    action = [options] {
-      session::CheckOutputPath(options->json_path, {});
-      const config::RigFile rig = LoadRig(*options);
-      if (!rig.plant.shafts.empty()) return ShowDamped(*options, rig);
-      const auto modes =
-          analysis::ComputeFreeModes(rig.plant, SpeedsOf(*options, rig), options->modes);
-      Print(rig, modes);
-      nlohmann::ordered_json json = Json(rig, modes);
-      ShowEffects(*options, rig, json);
-      WriteJsonFile(options->json_path, json);
-      return ExitStatus::kDone;
-    };
-  });
+  command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }
 
 }  // namespace levitas::cli

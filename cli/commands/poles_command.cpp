@@ -8,11 +8,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/critical_speeds.hpp"
 #include "analysis/poles.hpp"
 #include "cli/commands/command.hpp"
+#include "cli/commands/critical_speeds_text.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/svg_option.hpp"
 #include "common/rotational_speed.hpp"
+#include "report/rig/campbell_panel.hpp"
+#include "report/rig/poles_picture.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {
@@ -20,6 +25,7 @@ namespace {
 
 struct PolesOptions : AnalysisOptions {
   double up_to_hz{1000.0};
+  std::string svg_path;
 };
 
 /// At rest neither direction is the forward one: both planes of the rig may share the pole, and any
@@ -85,16 +91,29 @@ nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
 
 ExitStatus Run(const PolesOptions& options) {
   session::CheckOutputPath(options.json_path, {});
+  session::CheckOutputPath(options.svg_path, {});
   const auto [rig, controller, delay] = LoadLoop(options);
+  KeepController(options.svg_path, controller.path);
   nlohmann::ordered_json json =
       LoopJson(rig.numbers, controller, rig.plant.delay_samples * rig.numbers.period_s());
   fmt::print("Poles of the sampled loop, delay included; rig {}, controller {}\n{}",
              rig.numbers.name, ControllerText(controller), delay);
+  std::vector<analysis::LoopPoles> loops;
   for (const double rpm : options.speeds_rpm) {
-    const auto poles = analysis::ClosedLoopPoles(rig.plant, controller.file.law, RpmToRadPerS(rpm));
+    const auto& poles = loops.emplace_back(
+        analysis::ClosedLoopPoles(rig.plant, controller.file.law, RpmToRadPerS(rpm)));
     Print(poles, options.up_to_hz);
     json["speeds"].push_back(Json(poles));
   }
+  const double rated_rad_per_s = rig.numbers.max_speed_rad_per_s;
+  const auto levitated = analysis::LevitatedCampbell(rig.plant, controller.file.law,
+                                                     report::kBeyondRated * rated_rad_per_s);
+  ShowCriticalSpeeds(levitated, "Critical speeds, levitated", json);
+  svg::Write(options.svg_path,
+             report::PolesPicture(
+                 loops, levitated,
+                 {fmt::format("Rig {}, controller {}", rig.numbers.name, controller.file.name),
+                  options.up_to_hz, rated_rad_per_s}));
   WriteJsonFile(options.json_path, json);
   return ExitStatus::kDone;
 }
@@ -115,6 +134,8 @@ void AddPolesCommand(CLI::App& app, Action& action) {
                    "the five least damped at any")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  AddSvgOption(*command, options->svg_path,
+               "poles and their damping; levitated modes over speed with the critical speeds");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

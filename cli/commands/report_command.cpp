@@ -8,12 +8,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/commands/critical_speeds_text.hpp"
 #include "cli/commands/report_command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/png_pictures.hpp"
 #include "cli/text_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "report/session/page.hpp"
+#include "report/session/run_model.hpp"
 #include "session/output_path.hpp"
 #include "verdict/commission.hpp"
 #include "verdict/report.hpp"
@@ -88,12 +90,17 @@ ExitStatus Report(const ReportOptions& options) {
     judge.session_path = options.session_path;
     judge.provenance.session_file = options.session_path;
     input.verdict = verdict::Commission(judge);
+    const report::RunModel model = report::ModelOf(recording.header, *input.verdict);
+    input.levitated = model.levitated;
+    input.pictures = report::ModelPictures(model, *input.verdict);
   }
   report::PictureOptions pictures;
   for (const double speed_rpm : options.speeds_rpm) {
     pictures.speeds_rad_per_s.push_back(RpmToRadPerS(speed_rpm));
   }
-  input.pictures = report::Pictures(recording, pictures);
+  for (auto& picture : report::Pictures(recording, pictures)) {
+    input.pictures.push_back(std::move(picture));
+  }
   WriteTextFile(options.html_path, report::Page(recording, input));
   fmt::print("{}: {} pictures, {:.0f} kB\n", options.html_path, input.pictures.size(),
              static_cast<double>(fs::file_size(options.html_path)) * 1e-3);
@@ -117,6 +124,8 @@ ExitStatus Report(const ReportOptions& options) {
        {"verdict", input.verdict ? nlohmann::ordered_json(verdict::Name(input.verdict->outcome))
                                  : nlohmann::ordered_json()},
        {"judgement", input.verdict ? verdict::Json(*input.verdict) : nlohmann::ordered_json()},
+       {"critical_speeds",
+        input.levitated ? CriticalSpeedsJson(*input.levitated) : nlohmann::ordered_json::array()},
        {"cycles", recording.records}});
   return ExitStatus::kDone;
 }
@@ -126,7 +135,8 @@ ExitStatus Report(const ReportOptions& options) {
 void AddReportCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app.add_subcommand(
-      "report", "A recorded session as one HTML page: orbits, run-up, zones, currents, events");
+      "report",
+      "A recorded session as one HTML page: verdict, sensitivity, critical speeds, orbits, events");
   command->add_option("SESSION", options->session_path, "Session file")->required();
   command->add_option("--out", options->html_path, "The page; needs nothing beside it")->required();
   command->add_option(

@@ -324,8 +324,9 @@ void AddRunCommand(CLI::App& app, Action& action) {
                       "makes one); with ttl above 0 it is needed");
   command->add_flag("--no-commands", options->no_commands,
                     "Take no commands over the network, not even the live page's");
-  auto* record =
-      command->add_option("--record", options->record_path, "Keep the record in this file");
+  auto* record = command->add_option(
+      "--record", options->record_path,
+      "Keep the record in this file; packed by zstd under a name that ends in .zst");
   command->add_flag("--overwrite", options->overwrite, "Replace a record that is there already");
   command
       ->add_option("--tag", options->tags, "Tag of the record, see amb sessions; may be repeated")

@@ -22,11 +22,9 @@ void PrintDamage(const session::Damage& damage) {
 }
 
 nlohmann::ordered_json DamageJson(const session::Damage& damage) {
-  return {{"corrupt_bytes", damage.corrupt_bytes},
-          {"corrupt_records", damage.corrupt_records},
-          {"missing_cycles", damage.missing_cycles},
-          {"truncated", damage.truncated},
-          {"first_bad_byte", damage.first_bad_offset}};
+  return {{"corrupt_bytes", damage.corrupt_bytes},   {"corrupt_records", damage.corrupt_records},
+          {"corrupt_blocks", damage.corrupt_blocks}, {"missing_cycles", damage.missing_cycles},
+          {"truncated", damage.truncated},           {"first_bad_byte", damage.first_bad_offset}};
 }
 
 }  // namespace levitas::cli

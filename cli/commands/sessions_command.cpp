@@ -13,6 +13,7 @@
 #include <set>
 
 #include "cli/commands/command.hpp"
+#include "cli/commands/compress_sessions.hpp"
 #include "cli/json_file.hpp"
 #include "cli/utc_text.hpp"
 #include "common/rotational_speed.hpp"
@@ -39,6 +40,7 @@ struct SessionsOptions {
   std::vector<std::string> tags;
   bool remove{};
   bool gone{};
+  bool keep{};
 };
 
 std::string PathOfCatalogue(const SessionsOptions& options) {
@@ -127,7 +129,9 @@ std::vector<std::string> Files(const std::vector<std::string>& paths) {
       continue;
     }
     for (const auto& inside : fs::recursive_directory_iterator(path)) {
-      const auto extension = inside.path().extension();
+      fs::path plain = inside.path();
+      if (plain.extension() == ".zst") plain.replace_extension();
+      const auto extension = plain.extension();
       if (inside.is_regular_file() && (extension == ".lcm" || extension == ".lcmlog")) {
         files.push_back(inside.path().string());
       }
@@ -212,6 +216,23 @@ ExitStatus Forget(const SessionsOptions& options) {
   return ExitStatus::kDone;
 }
 
+ExitStatus Compress(const SessionsOptions& options) {
+  CompressOptions wish{.files = Files(options.paths), .keep = options.keep, .catalogue = {}};
+  wish.catalogue = options.catalogue_path.empty() ? session_index::CataloguePath()
+                                                  : std::optional(options.catalogue_path);
+  std::string refused;
+  auto packed = nlohmann::ordered_json::array();
+  for (const Compressed& done : CompressSessions(wish, refused)) {
+    packed.push_back({{"session", done.session},
+                      {"from", done.from},
+                      {"before_byte", done.before_byte},
+                      {"after_byte", done.after_byte}});
+  }
+  WriteJsonFile(options.json_path, {{"sessions", packed}, {"refused", refused}});
+  if (!refused.empty()) throw BadInput(refused);
+  return ExitStatus::kDone;
+}
+
 using Options = std::shared_ptr<SessionsOptions>;
 
 void AddJson(CLI::App& command, const Options& options) {
@@ -222,7 +243,7 @@ void AddSessionsAdd(CLI::App& sessions, const Options& options, Action& action) 
   CLI::App* add = sessions.add_subcommand("add", "Enter sessions, or renew what is known of them");
   add->fallthrough();  // --catalogue is known behind it, too
   add->add_option("PATH", options->paths,
-                  "Sessions, or folders with .lcm and .lcmlog files in them")
+                  "Sessions, or folders with .lcm and .lcmlog files in them, packed ones too")
       ->required()
       ->check(CLI::ExistingPath);
   add->add_option("--tag", options->tags, "Tag them all; may be repeated");
@@ -250,6 +271,21 @@ void AddSessionsForget(CLI::App& sessions, const Options& options, Action& actio
   forget->callback([options, &action] { action = [options] { return Forget(*options); }; });
 }
 
+void AddSessionsCompress(CLI::App& sessions, const Options& options, Action& action) {
+  CLI::App* compress = sessions.add_subcommand(
+      "compress",
+      "Pack recorded sessions by zstd: x.lcm becomes x.lcm.zst, which all commands read");
+  compress->fallthrough();
+  compress
+      ->add_option("PATH", options->paths,
+                   "Sessions, or folders with .lcm and .lcmlog files in them")
+      ->required()
+      ->check(CLI::ExistingPath);
+  compress->add_flag("--keep", options->keep, "Keep the plain sessions beside the packed ones");
+  AddJson(*compress, options);
+  compress->callback([options, &action] { action = [options] { return Compress(*options); }; });
+}
+
 }  // namespace
 
 void AddSessionsCommand(CLI::App& app, Action& action) {
@@ -272,6 +308,7 @@ void AddSessionsCommand(CLI::App& app, Action& action) {
   AddSessionsAdd(*command, options, action);
   AddSessionsTag(*command, options, action);
   AddSessionsForget(*command, options, action);
+  AddSessionsCompress(*command, options, action);
   command->require_subcommand(0, 1);
   command->callback([command, options, &action] {
     if (command->get_subcommands().empty()) action = [options] { return List(*options); };
@@ -280,7 +317,8 @@ void AddSessionsCommand(CLI::App& app, Action& action) {
       "What amb run --record and amb import write is entered by itself.\n"
       "  amb sessions --rig flexible_rotor --outcome tripped --from 2026-11-01\n"
       "  amb sessions tag run.lcm baseline\n"
-      "  amb sessions add ~/measurements");
+      "  amb sessions add ~/measurements\n"
+      "  amb sessions compress ~/measurements");
 }
 
 }  // namespace levitas::cli

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -15,16 +16,19 @@
 #include "cli/study/answer_folder.hpp"
 #include "cli/study/diagnose_plan.hpp"
 #include "cli/study/diagnosis_inputs.hpp"
+#include "cli/study/healthy_session.hpp"
 #include "cli/study/kept_memory.hpp"
 #include "cli/study/laws_of_records.hpp"
 #include "cli/study/progress_line.hpp"
 #include "cli/study/written_files.hpp"
 #include "cli/text_file.hpp"
+#include "cli/utc_text.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/levitator/plan.hpp"
 #include "diagnosis/report/build_report.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
 #include "diagnosis/report/plan.hpp"
+#include "levitas_version.hpp"
 #include "report/diagnosis/diagnosis_files.hpp"
 #include "report/diagnosis/diagnosis_text.hpp"
 
@@ -117,6 +121,20 @@ void WritePlan(const std::string& path, const Diagnosed& found, std::vector<std:
   written.push_back(path);
 }
 
+/// When and of what this answer is.
+diagnosis::ReportOrigin OriginOf(const DiagnoseOptions& options) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  diagnosis::ReportOrigin origin;
+  origin.date_utc = UtcText(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+  origin.program_version = LEVITAS_VERSION;
+  origin.rig_file = options.rig_named;
+  origin.records = options.data;
+  origin.validation = options.holdout;
+  origin.healthy = options.healthy;
+  origin.quick = options.quick;
+  return origin;
+}
+
 ExitStatus Run(const DiagnoseOptions& options) {
   KeepFreedMemory();
   if (options.plans && options.out.empty()) return PlanBefore(options);
@@ -149,9 +167,13 @@ ExitStatus Run(const DiagnoseOptions& options) {
   inputs.settings.progress = [&progress](double share, const std::string& what) {
     progress.Show(share, what);
   };
-  const Diagnosed found =
+  Diagnosed found =
       levitator::IsLevitator(inputs.rig.plant) ? DiagnoseLevitator(inputs) : DiagnoseRotor(inputs);
   progress.Close();
+  found.report.origin = OriginOf(options);
+  if (!found.report.healthy_proposal.empty()) {
+    found.report.healthy_record = LastAcceptedSession(inputs.rig, records);
+  }
   PrintDiagnosis(found.report, options.explain);
   WriteJsonFile(options.json_path, DiagnosisJson(found.report));
   auto written = WriteDiagnosis(found.report, options.out);

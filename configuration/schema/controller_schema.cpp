@@ -109,13 +109,21 @@ void DescribeLaw(Visitor& v, std::vector<law::AxisLawConfig>& axes,
   });
 }
 
+/// What was refused already is not told twice: its number is none, its laws are empty.
+bool WasRead(const law::LawAtSpeed& at) {
+  return std::isfinite(at.speed_rad_per_s) &&
+         (at.state_space || std::ranges::all_of(at.axes, [](const law::AxisLawConfig& axis) {
+            return axis.derivative_hz > 0.0;
+          }));
+}
+
 void DescribeSchedule(Visitor& v, law::LawConfig& law, const RigNumbers& rig) {
   constexpr std::size_t kMostSpeeds = 32;
   constexpr double kFastestRpm = 1e6;
   v.List(
       {"speeds", 1, kMostSpeeds,
        "rising; each with the filters or the blocks of the law before, save where it is exchanged"},
-      law.schedule, [&](law::LawAtSpeed& at, std::size_t) {
+      law.schedule, [&](law::LawAtSpeed& at, std::size_t index) {
         v.Number({"speed", kRpm, 0, kFastestRpm, kRequired, "at which this law holds"},
                  at.speed_rad_per_s);
         DescribeSwitch(
@@ -124,16 +132,12 @@ void DescribeSchedule(Visitor& v, law::LawConfig& law, const RigNumbers& rig) {
             "structure, takes over while the rotor is levitated",
             at.exchange);
         DescribeLaw(v, at.axes, at.state_space, rig);
+        const law::LawAtSpeed rest{0.0, law.axes, law.state_space};
+        const law::LawAtSpeed& before = index == 0 ? rest : law.schedule[index - 1];
+        const bool both = WasRead(before) && WasRead(at);
+        const std::string why = both ? law::WhyNotAfter(before, at) : "";
+        v.RefuseIf(!why.empty(), "speed", why);
       });
-  // What was refused already is not told twice: its number is none, its laws are empty.
-  const bool read = std::ranges::all_of(law.schedule, [](const law::LawAtSpeed& at) {
-    return std::isfinite(at.speed_rad_per_s) &&
-           (at.state_space || std::ranges::all_of(at.axes, [](const law::AxisLawConfig& axis) {
-              return axis.derivative_hz > 0.0;
-            }));
-  });
-  const std::string why = read ? law::WhyNoSchedule(law) : "";
-  v.RefuseIf(!why.empty(), "speeds", why);
 }
 
 }  // namespace

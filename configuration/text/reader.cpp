@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -30,6 +31,16 @@ const Unit& UnitOf(const NumberField& field, const std::string& key) {
     if (unit.dimension == field.unit.dimension && KeyOf(field.stem, unit) == key) return unit;
   }
   return field.unit;
+}
+
+/// The word that a person probably meant: other languages than this one write yes and no.
+std::string WordMeant(const std::string& found, const std::vector<std::string>& words) {
+  constexpr std::array kYes{"yes", "on", "y", "1", "True", "TRUE", "Yes", "YES", "On", "ON"};
+  if (words == std::vector<std::string>{"false", "true"} &&
+      std::ranges::find(kYes, found) != kYes.end()) {
+    return "true";
+  }
+  return Nearest(found, words);
 }
 
 std::string WithSymbol(const std::string& number, const Unit& unit) {
@@ -212,7 +223,7 @@ void Reader::Choice(const ChoiceField& field, std::size_t& index) {
   } else {
     Report(entry.value->place, entry.key,
            fmt::format("found {}, allowed {}; nearest {}", Describe(*entry.value), allowed(),
-                       Nearest(*text, words)));
+                       WordMeant(*text, words)));
   }
 }
 

@@ -222,6 +222,7 @@ CycleOutputs ControlCycle::Impl::Outputs(const supervisor::Decision& decision) c
   out.fault_value = decision.latch.finding.value;
   out.fault_limit = decision.latch.finding.limit;
   out.command_refused = decision.command_refused;
+  if (file) out.acting_law = static_cast<std::uint8_t>(file->stretch());
   out.synchronous_blocks = static_cast<std::uint8_t>(synchronous.blocks());
   for (std::size_t k = 0; k < synchronous.blocks(); ++k) out.synchronous[k] = synchronous.status(k);
   return out;

@@ -45,6 +45,8 @@ struct CycleOutputs {
   /// What synchronous control does; in memory only, a session holds it as events.
   std::array<synchronous::BlockStatus, synchronous::kMaxBlocks> synchronous{};
   std::uint8_t synchronous_blocks{};
+  /// Which of the laws that change places over speed acts, counted from rest; in memory only too.
+  std::uint8_t acting_law{};
 };
 
 /// One line of the session file: inputs first.

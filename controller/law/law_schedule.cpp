@@ -106,31 +106,8 @@ std::string WhyDifferent(const StateSpaceConfig& a, const StateSpaceConfig& b) {
   return {};
 }
 
-std::string WhyDifferent(const LawAtSpeed& a, const LawAtSpeed& b) {
-  if (a.state_space.has_value() != b.state_space.has_value()) {
-    return "one has a state-space law, the other laws of axes";
-  }
-  if (a.state_space) return WhyDifferent(*a.state_space, *b.state_space);
-  if (a.axes.size() != b.axes.size()) return "it has laws for other axes than the one before";
-  for (std::size_t axis = 0; axis < a.axes.size(); ++axis) {
-    std::string why = WhyDifferent(a.axes[axis], b.axes[axis], axis);
-    if (!why.empty()) return why;
-  }
-  return {};
-}
-
 std::size_t AxesOf(const LawAtSpeed& at) {
   return at.state_space ? at.state_space->axes : at.axes.size();
-}
-
-/// Why one cannot follow the other; empty when it can.
-std::string WhyNoStep(const LawAtSpeed& from, const LawAtSpeed& to) {
-  if (!to.exchange) {
-    const std::string why = WhyDifferent(from, to);
-    return why.empty() ? why : why + "; `exchange: true` lets it take over all the same";
-  }
-  if (AxesOf(from) != AxesOf(to)) return "it has laws for other axes than the one before";
-  return {};
 }
 
 /// The entries of a table, that of rest included.
@@ -208,16 +185,37 @@ void RefuseNoSchedule(const LawConfig& config) {
 
 }  // namespace
 
+std::string WhyUnlike(const LawAtSpeed& a, const LawAtSpeed& b) {
+  if (a.state_space.has_value() != b.state_space.has_value()) {
+    return "one has a state-space law, the other laws of axes";
+  }
+  if (a.state_space) return WhyDifferent(*a.state_space, *b.state_space);
+  if (a.axes.size() != b.axes.size()) return "it has laws for other axes than the one before";
+  for (std::size_t axis = 0; axis < a.axes.size(); ++axis) {
+    std::string why = WhyDifferent(a.axes[axis], b.axes[axis], axis);
+    if (!why.empty()) return why;
+  }
+  return {};
+}
+
+std::string WhyNotAfter(const LawAtSpeed& before, const LawAtSpeed& at) {
+  if (!(at.speed_rad_per_s > before.speed_rad_per_s)) {
+    return before.speed_rad_per_s == 0.0
+               ? "its speed is not above rest, where the law of the file holds"
+               : "its speed is not above that of the entry before";
+  }
+  if (at.exchange) {
+    return AxesOf(before) != AxesOf(at) ? "it has laws for other axes than the one before" : "";
+  }
+  const std::string why = WhyUnlike(before, at);
+  return why.empty() ? why : why + "; `exchange: true` lets it take over all the same";
+}
+
 std::string WhyNoSchedule(const LawConfig& config) {
   const std::vector<LawAtSpeed> table = TableOf(config);
   for (std::size_t i = 1; i < table.size(); ++i) {
-    const std::string where = "entry " + std::to_string(i) + ": ";
-    if (!(table[i].speed_rad_per_s > table[i - 1].speed_rad_per_s)) {
-      return where + (i == 1 ? "its speed is not above rest, where the law of the file holds"
-                             : "its speed is not above that of the entry before");
-    }
-    const std::string why = WhyNoStep(table[i - 1], table[i]);
-    if (!why.empty()) return where + why;
+    const std::string why = WhyNotAfter(table[i - 1], table[i]);
+    if (!why.empty()) return "entry " + std::to_string(i) + ": " + why;
   }
   return {};
 }
@@ -226,6 +224,25 @@ LawConfig LawAt(const LawConfig& config, double speed_rad_per_s) {
   if (config.schedule.empty()) return config;
   RefuseNoSchedule(config);
   return AtRung(config, TableOf(config), NearestRung(speed_rad_per_s, WidthOf(config)));
+}
+
+std::vector<Exchange> Exchanges(const LawConfig& config) {
+  std::vector<Exchange> out;
+  if (config.schedule.empty()) return out;
+  RefuseNoSchedule(config);
+  const std::vector<LawAtSpeed> table = TableOf(config);
+  const double width = WidthOf(config);
+  for (std::size_t rung = 1; rung < kRungs; ++rung) {
+    const Place here = PlaceOfRung(config, table, rung);
+    if (ExchangesTo(here, table) == ExchangesTo(PlaceOfRung(config, table, rung - 1), table)) {
+      continue;
+    }
+    const auto at = static_cast<double>(rung);
+    out.push_back({AtRung(config, table, rung - 1), AtRung(config, table, rung), width * at,
+                   width * (at - 1.0 + kFarEnough), width * (at - BackFrom(rung))});
+    out.back().lower_to_rad_per_s = std::max(out.back().lower_to_rad_per_s, width * at);
+  }
+  return out;
 }
 
 LawLadder::LawLadder(const LawConfig& config) {

@@ -35,11 +35,31 @@ namespace levitas::law {
 /// So many laws stand for a schedule: over 6000 rpm one every 23 rpm.
 inline constexpr std::size_t kRungs = 257;
 
+/// Why no straight line leads from one law to the other, speeds and exchange aside; else empty.
+[[nodiscard]] std::string WhyUnlike(const LawAtSpeed& a, const LawAtSpeed& b);
+
+/// Why an entry of a table cannot follow the one before; empty when it can. Rest has speed 0.
+[[nodiscard]] std::string WhyNotAfter(const LawAtSpeed& before, const LawAtSpeed& at);
+
 /// Why the laws of this table cannot be a schedule; empty when they can, or when there is none.
 [[nodiscard]] std::string WhyNoSchedule(const LawConfig& config);
 
 /// The law of one speed: that of the nearest rung, without a schedule the law itself.
 [[nodiscard]] LawConfig LawAt(const LawConfig& config, double speed_rad_per_s);
+
+/// Two laws of unlike structure that change places, and how far each may act: an exchange comes
+/// three quarters of a rung late on the way up and is taken back 3 % below, the time that the other
+/// law listens (running_law.hpp) not counted.
+struct Exchange {
+  LawConfig lower, upper;         ///< each alone, as it stands at the exchange
+  double at_rad_per_s{};          ///< of the table
+  double lower_to_rad_per_s{};    ///< >= at_rad_per_s
+  double upper_from_rad_per_s{};  ///< < at_rad_per_s
+};
+
+/// Those of a table, rising; none where it has no exchange. Two exchanges less than a rung apart
+/// are one, from the law below both to the law above both.
+[[nodiscard]] std::vector<Exchange> Exchanges(const LawConfig& config);
 
 /// The laws that a loop runs, in the order of speed; one without a schedule.
 class LawLadder {

@@ -38,6 +38,8 @@ class RunningLaw {
 
   [[nodiscard]] std::size_t axes() const noexcept { return laws_[0].axes(); }
   [[nodiscard]] std::size_t rung() const noexcept { return rung_; }
+  /// Which of the laws that change places acts, counted from rest.
+  [[nodiscard]] std::size_t stretch() const noexcept { return laws_.Stretch(rung_); }
   /// From rest, with the law of this speed and empty memory.
   void Start(double speed_rad_per_s) noexcept;
   /// The law of this speed from now on, and the memory as it is: for a rig that is set turning

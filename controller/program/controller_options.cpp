@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
-#include <vector>
 
 #include "common/time_option.hpp"
 #include "common/whole_number.hpp"
@@ -32,14 +31,13 @@ void AddNetworkOptions(CLI::App& app, ControllerOptions& options) {
       ->excludes(none);
 }
 
-/// `budget`: files and megabytes of trip files.
-void AddRecordingOptions(CLI::App& app, ControllerOptions& options,
-                         std::vector<std::size_t>& budget) {
-  app.add_option("--record", options.record, "Session file to write");
+void AddRecordingOptions(CLI::App& app, ControllerOptions& options) {
+  app.add_option("--record", options.record,
+                 "Session file to write; packed by zstd under a name that ends in .zst");
   app.add_flag("--overwrite", options.overwrite, "Replace a session that is there already");
   app.add_option("--trip-folder", options.trip_folder, "Where a trip's recording goes")
       ->capture_default_str();
-  app.add_option("--trip-budget", budget,
+  app.add_option("--trip-budget", options.trip_budget,
                  "FILES MB: so many trip files of this run, and so much, stay in that folder; its "
                  "older ones go, those of earlier runs stay")
       ->expected(2)
@@ -49,9 +47,7 @@ void AddRecordingOptions(CLI::App& app, ControllerOptions& options,
 
 }  // namespace
 
-bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStatus& status) {
-  CLI::App app{"Magnetic bearing controller: levitates the rig it finds on its port",
-               "amb-controller"};
+void AddOptions(CLI::App& app, ControllerOptions& options) {
   // In a paced run it is the simulated rig that waits for the clock.
   const std::map<std::string, bool> paces{
       {"lockstep", false}, {"paced", false}, {"realtime", true}};
@@ -67,8 +63,7 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
       ->type_name("PACE");
   app.add_option("--duration", options.duration_s, "Land and end after this long [s]")
       ->check(WhyNoTime);
-  std::vector<std::size_t> budget{options.trip_files, options.trip_megabytes};
-  AddRecordingOptions(app, options, budget);
+  AddRecordingOptions(app, options);
   app.add_option("--seed", options.seed, "Seed of the rig, noted in the session")
       ->check(WhyNoWholeNumber)
       ->capture_default_str();
@@ -86,10 +81,18 @@ bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStat
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--no-lines", options.no_lines,
                "Leave the rig file's lines (emergency stop, enable ...) alone");
+  app.footer(
+      "  amb-controller --rig flexible_rotor --controller flexible_rotor --pace realtime \\\n"
+      "      --record run.lcm.zst\n"
+      "  amb-controller --rig rig.yaml --controller law.yaml --port can --pace realtime \\\n"
+      "      --require-realtime");
+}
+
+bool ReadCommandLine(int argc, char** argv, ControllerOptions& options, ExitStatus& status) {
+  CLI::App app{kDescription, kName};
+  AddOptions(app, options);
   try {
     app.parse(argc, argv);
-    options.trip_files = budget[0];
-    options.trip_megabytes = budget[1];
     session::RefuseClash({{"--record", options.record}, {"--json", options.json}},
                          {{"--rig", options.rig},
                           {"--controller", options.controller},

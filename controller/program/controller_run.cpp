@@ -140,7 +140,7 @@ class Session {
             {.session_path = options.record,
              .trip_folder = options.trip_folder,
              .header = header_,
-             .trip_budget = {options.trip_files, std::uintmax_t{options.trip_megabytes} << 20U},
+             .trip_budget = {options.trip_budget[0], std::uintmax_t{options.trip_budget[1]} << 20U},
              .waits_for_room = !options.realtime,
              .on_event = [this](const auto& event) { Heard(event); },
              .on_record = [this](const auto& record) { Saw(record); }}),
@@ -278,7 +278,8 @@ class Session {
                          .real_time = Facts(),
                          .delay = rig_->delay()};
     rt::Say(ReportText(facts), rt::Speaker::Kind::kReport);
-    if (!options_.json.empty()) transport::WriteJson(ReportJson(facts), options_.json);
+    if (!options_.json.empty())
+      transport::WriteJson("controller", ReportJson(facts), options_.json);
     return Status(facts, end, stayed);
   }
 

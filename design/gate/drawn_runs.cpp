@@ -21,6 +21,7 @@ struct Schedule {
   std::size_t lift{};     ///< the reference is in the centre
   std::size_t turning{};  ///< the rotor turns
   std::size_t settle{};   ///< the watch begins
+  std::size_t down{};     ///< after a run-up, the drive takes the rotor back to rest
   std::size_t all{};      ///< the end
   std::size_t kept{};     ///< so many before the end are kept
 };
@@ -36,9 +37,13 @@ Schedule ScheduleOf(const RunOptions& options, double period_s, double run_up_s)
     kept_s = std::min(2.0 * turn_s, watch_s);
   }
   const auto periods = [&](double seconds) { return static_cast<std::size_t>(seconds / period_s); };
-  Schedule out{periods(kLiftS), periods(2.0 * kLiftS), 0, 0, periods(kept_s)};
+  Schedule out;
+  out.lift = periods(kLiftS);
+  out.turning = periods(2.0 * kLiftS);
   out.settle = out.turning + (run_up_s > 0.0 ? 0 : periods(options.settle_s));
-  out.all = out.settle + periods(run_up_s + watch_s);
+  out.down = out.settle + periods(run_up_s + watch_s);
+  out.all = out.down + periods(run_up_s);
+  out.kept = periods(kept_s);
   return out;
 }
 
@@ -89,6 +94,7 @@ RunFigures RunOnce(const config::RigFile& rig, const law::LawConfig& law,
       StartTurning(options, rate, plant, command);
       if (!options.run_up) running.JumpTo(w);
     }
+    if (n == when.down) command.speed_set_point_rad_per_s = 0.0;
     const SensorFrame frame = plant.Sample();
     const double still =
         n < when.lift ? 1.0 - static_cast<double>(n) / static_cast<double>(when.lift) : 0.0;

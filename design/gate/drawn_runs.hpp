@@ -4,8 +4,8 @@
 // Run        the rotor is lifted out of its touchdown bearings in 0.3 s, stands as long, then turns
 //            at the speed at once, settles for `settle_s`, is watched for `watch_s`. No supervisor:
 //            what it would trip on counts as lost here.
-// Run-up     the drive takes the rotor to the speed at the rig's rate instead; a law over speed
-//            follows as in the control cycle. All of it is watched.
+// Run-up     the drive takes the rotor to the speed at the rig's rate instead, and back to rest; a
+//            law over speed follows as in the control cycle. All of it is watched.
 // Lost       contact, or an orbit beyond half the clearance (what the protections allow).
 // Orbit      largest radius of the noise-free sensors per bearing, static offset included.
 // Current    amplitude at 1x per axis by correlation over whole turns, and the static part.

@@ -10,6 +10,7 @@
 #include "analysis/sensitivity.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/law/law_schedule.hpp"
+#include "controller/law/running_law.hpp"
 #include "design/drawn_rigs/healthy_rig.hpp"
 #include "design/uncertainty/mixed_mu.hpp"
 
@@ -136,7 +137,21 @@ void JudgeRungs(const config::RigFile& rig, const law::LawConfig& law, double mo
   }
 }
 
-/// Through every speed with the law that changes on the way.
+/// Where laws change places, the lower one goes on for a while above the exchange, while the other
+/// listens, and the upper one below it on the way down.
+void JudgeExchanges(const config::RigFile& rig, const law::LawConfig& law, double most_rad_per_s,
+                    GateResult& out) {
+  const double listened = rig.plant.drive.max_acceleration_rad_per_s2 * law::kListenS;
+  for (const law::Exchange& exchange : law::Exchanges(law)) {
+    if (exchange.at_rad_per_s > most_rad_per_s) return;  // where the rig never gets
+    ++out.exchanges;
+    JudgeLoop(rig, exchange.lower, exchange.lower_to_rad_per_s + listened, Of::kFile, out);
+    JudgeLoop(rig, exchange.upper, std::max(0.0, exchange.upper_from_rad_per_s - listened),
+              Of::kFile, out);
+  }
+}
+
+/// Through every speed with the law that changes on the way, and back.
 void RunUp(const config::RigFile& rig, const law::LawConfig& law, const GateOptions& options,
            GateResult& out) {
   const double top = rig.numbers.max_speed_rad_per_s;
@@ -144,7 +159,8 @@ void RunUp(const config::RigFile& rig, const law::LawConfig& law, const GateOpti
   out.run_up = RunOnce(WithThirdHarmonic(rig, options.third_n), law,
                        {.speed_rad_per_s = top, .seed = options.seed, .run_up = true});
   if (out.run_up->lost && out.reason.empty())
-    out.reason = fmt::format("the rotor is lost on the way to {:.0f} rpm", RadPerSToRpm(top));
+    out.reason =
+        fmt::format("the rotor is lost on the way to {:.0f} rpm and back", RadPerSToRpm(top));
 }
 
 }  // namespace
@@ -240,6 +256,7 @@ GateResult Judge(const config::RigFile& rig, const law::LawConfig& law,
   }
   if (!law.schedule.empty()) {
     JudgeRungs(rig, law, options.over_speed * top, out);
+    JudgeExchanges(rig, law, options.over_speed * top, out);
     RunUp(rig, law, options, out);
   }
   Random draw(options.seed + 1000);

@@ -12,7 +12,8 @@
 //           With `tolerances` everything else that the file states is drawn too
 //           (design/drawn_rigs/healthy_rig.hpp), and poles and |S| of each rig are judged.
 // 5 Speed   of a law over speed: poles at every law that the loop may run (law_schedule.hpp), |S|
-//           five times as dense, and a run-up of the file's rig at its drive's rate.
+//           five times as dense, where laws change places both of them as far as either may act,
+//           and a run-up and run-down of the file's rig at its drive's rate.
 // Accepted  the first, the second, the fourth and the fifth pass, the third where asked.
 // Worst     the drawn rig with the largest orbit, or the first that was lost, as a rig file.
 // Thread    that of the caller; the same seed gives the same answer.
@@ -68,6 +69,7 @@ struct GateResult {
   Peak drawn_sensitivity;  ///< of the drawn rigs, with `tolerances`
   std::optional<config::RigFile> worst;
   std::size_t rungs{};               ///< laws of a schedule whose poles were judged
+  std::size_t exchanges{};           ///< of laws that change places, both judged beyond it
   std::optional<RunFigures> run_up;  ///< of a schedule
 };
 

@@ -41,8 +41,8 @@ MatrixXcd LawAt(const analysis::SampledLoop& loop, std::complex<double> z) {
 
 }  // namespace
 
-MatrixXcd InverseOfBearings(const plant::PlantConfig& rig, const analysis::SampledLoop& loop,
-                            const synchronous::BlockConfig& block, double speed_rad_per_s) {
+MatrixXcd PhaseAlignedT(const plant::PlantConfig& rig, const analysis::SampledLoop& loop,
+                        const synchronous::BlockConfig& block, double speed_rad_per_s) {
   const double rad_per_s = block.order * speed_rad_per_s;
   const MatrixXcd law = LawAt(loop, std::polar(1.0, rad_per_s * loop.period_s));
   // A current is held for a period: half of one more.
@@ -56,6 +56,12 @@ MatrixXcd InverseOfBearings(const plant::PlantConfig& rig, const analysis::Sampl
     const std::complex<double> turn =
         std::polar(1.0, PhaseOf(rig.bearings[bearing], delay_s, rad_per_s));
     const double size = law.row(i).norm();
+    if (!(size > 0.0)) {
+      throw BadInput(fmt::format(
+          "the law gives axis {} no current at {:.4g} Hz, so its phase says nothing: leave "
+          "--without-rotor out",
+          i + 1, rad_per_s / kTwoPi));
+    }
     if (block.target == synchronous::Target::kVibration) {
       inverse(i, i) = j * std::conj(turn) * size;
     } else {

@@ -12,7 +12,8 @@
 // Not so    sensors beside the magnets, internal damping above a critical speed, cross-coupled
 //           springs: then it is a choice like another, and JudgeNotch judges it.
 // Frame     bearing frame; units SI. Thread any; pure.
-// Failure   BadInput for coils on a voltage: their current answers to the rotor's motion.
+// Failure   BadInput for coils on a voltage: their current answers to the rotor's motion; for a law
+//           that gives an axis nothing at this frequency: it has no phase to follow.
 
 #include <Eigen/Core>
 
@@ -22,9 +23,9 @@
 namespace levitas::design {
 
 /// `loop`: of this rig at this speed; only its law is read.
-[[nodiscard]] Eigen::MatrixXcd InverseOfBearings(const plant::PlantConfig& rig,
-                                                 const analysis::SampledLoop& loop,
-                                                 const synchronous::BlockConfig& block,
-                                                 double speed_rad_per_s);
+[[nodiscard]] Eigen::MatrixXcd PhaseAlignedT(const plant::PlantConfig& rig,
+                                             const analysis::SampledLoop& loop,
+                                             const synchronous::BlockConfig& block,
+                                             double speed_rad_per_s);
 
 }  // namespace levitas::design

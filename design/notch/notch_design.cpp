@@ -58,7 +58,7 @@ MatrixXcd WantedAt(const plant::PlantConfig& rig, const analysis::SampledLoop& l
   if (request.knowledge == Knowledge::kRotor) {
     return InverseOf(AnswerAt(loop, request.block, speed_rad_per_s), request.direction);
   }
-  const MatrixXcd whole = InverseOfBearings(rig, loop, request.block, speed_rad_per_s);
+  const MatrixXcd whole = PhaseAlignedT(rig, loop, request.block, speed_rad_per_s);
   const MatrixXcd basis = BasisOf(whole.rows(), request.direction);
   return basis * (basis.adjoint() * whole * basis) * basis.adjoint();
 }
@@ -138,6 +138,28 @@ bool NotchFigures::allowed() const noexcept {
 }
 
 // Neighbours of the same reason as one range, with the reason of its first.
+namespace {
+
+std::string RangeText(const SpeedFigures& from, const SpeedFigures& to) {
+  const double low = RadPerSToRpm(from.speed_rad_per_s);
+  return &from == &to ? fmt::format("{:.0f} rpm", low)
+                      : fmt::format("{:.0f} to {:.0f} rpm", low, RadPerSToRpm(to.speed_rad_per_s));
+}
+
+}  // namespace
+
+std::string NotchFigures::AllowedSpeeds() const {
+  std::string text;
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    if (!speeds[i].allowed()) continue;
+    const std::size_t first = i;
+    while (i + 1 < speeds.size() && speeds[i + 1].allowed()) ++i;
+    if (!text.empty()) text += ", ";
+    text += RangeText(speeds[first], speeds[i]);
+  }
+  return text.empty() ? "nowhere" : text;
+}
+
 std::string NotchFigures::RefusedSpeeds() const {
   std::string text;
   const auto kind = [](const SpeedFigures& at) {
@@ -147,12 +169,8 @@ std::string NotchFigures::RefusedSpeeds() const {
     if (speeds[i].allowed()) continue;
     const std::size_t first = i;
     while (i + 1 < speeds.size() && kind(speeds[i + 1]) == kind(speeds[first])) ++i;
-    const double low = RadPerSToRpm(speeds[first].speed_rad_per_s);
-    const double high = RadPerSToRpm(speeds[i].speed_rad_per_s);
     if (!text.empty()) text += "; ";
-    text += first == i ? fmt::format("{:.0f} rpm", low)
-                       : fmt::format("{:.0f} to {:.0f} rpm", low, high);
-    text += fmt::format(" ({})", kind(speeds[first]));
+    text += fmt::format("{} ({})", RangeText(speeds[first], speeds[i]), kind(speeds[first]));
   }
   return text;
 }

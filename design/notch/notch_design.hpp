@@ -81,6 +81,8 @@ struct NotchFigures {
   [[nodiscard]] bool allowed() const noexcept;
   /// "1200 to 1450 rpm (orbit grows 12-fold), 2100 rpm (...)"; empty when all are allowed.
   [[nodiscard]] std::string RefusedSpeeds() const;
+  /// "1000 to 1200 rpm, 2200 to 3900 rpm" of those judged; "nowhere" when none is.
+  [[nodiscard]] std::string AllowedSpeeds() const;
 };
 
 /// Judges `request.block`, its table made, alone in the loop.

@@ -73,6 +73,7 @@ SearchResult SearchWeights(const config::RigFile& rig, const hinf::HinfWeights& 
   evolution.first_step = options.first_step;
   evolution.seed = options.seed;
   evolution.population = 12;
+  evolution.threads = 0;
   const auto found = numerics::Evolve(Eigen::VectorXd::Zero(unknowns), cost, evolution, seen);
   return {WeightsAt(found.best, start, bearings, kModes), found.cost, found.evaluations};
 }

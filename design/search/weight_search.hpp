@@ -6,8 +6,8 @@
 // Cost       the worst of mu/1, |S|/sensitivity, orbit/orbit_m, current/current_a, and a tenth of
 //            their mean; 2 and more on top for a law with a pole that does not decay; 20 and more
 //            for an unstable loop; 1000 where there is no law.
-// Same seed  same law. Interrupted: the best so far.
-// Thread     that of the caller.
+// Same seed  same law, however many processors. Interrupted: the best so far.
+// Thread     that of the caller and one for every other processor; `seen` by the caller's.
 
 #include <functional>
 #include <string>

@@ -12,34 +12,9 @@ namespace {
 /// More in a row are no loss but a pause: another flight, or rows that were left out.
 constexpr std::uint64_t kMostLost = 20;
 
-struct Frames {
-  std::size_t sent{}, lost{};
-};
-
-Frames CountFrames(const RigView& rig, const std::vector<Record>& records) {
-  Frames frames;
-  for (const Record& record : records) {
-    const bool repeats_are_lost = CountRepeats(record.rows, rig.axes).AreLost();
-    for (std::size_t n = 1; n < record.rows.size(); ++n) {
-      const auto& before = record.rows[n - 1];
-      const auto& now = record.rows[n];
-      if (!before.levitated || !now.levitated) continue;
-      if (now.cycle > before.cycle + 1 + kMostLost) continue;
-      const bool missing = now.cycle != before.cycle + 1;
-      const bool repeated = (repeats_are_lost &&
-                             Repeats(before.sample.position_m, now.sample.position_m, rig.axes)) ||
-                            Repeats(before.sample.command.control_current_a,
-                                    now.sample.command.control_current_a, rig.axes);
-      ++frames.sent;
-      if (missing || repeated) ++frames.lost;
-    }
-  }
-  return frames;
-}
-
 /// Lost frames that the rig file states, and as many again as chance may add: three deviations of a
 /// sum of bursts.
-double LostByFile(const RigView& rig, const Frames& frames) {
+double LostByFile(const RigView& rig, const LostFrames& frames) {
   double most = 0.0;
   for (const effect::EffectConfig& entry : rig.by_chance) {
     if (entry.id != effect::Id::kDroppedSamples) continue;
@@ -52,11 +27,36 @@ double LostByFile(const RigView& rig, const Frames& frames) {
 
 }  // namespace
 
+LostFrames CountFrames(const RigView& rig, const std::vector<Record>& records) {
+  LostFrames frames;
+  for (const Record& record : records) {
+    const bool repeats_are_lost = CountRepeats(record.rows, rig.axes).AreLost();
+    bool within = false;
+    for (std::size_t n = 1; n < record.rows.size(); ++n) {
+      const auto& before = record.rows[n - 1];
+      const auto& now = record.rows[n];
+      if (!before.levitated || !now.levitated) continue;
+      if (now.cycle > before.cycle + 1 + kMostLost) continue;
+      const bool missing = now.cycle != before.cycle + 1;
+      const bool repeated = (repeats_are_lost &&
+                             Repeats(before.sample.position_m, now.sample.position_m, rig.axes)) ||
+                            Repeats(before.sample.command.control_current_a,
+                                    now.sample.command.control_current_a, rig.axes);
+      ++frames.sent;
+      const bool lost = missing || repeated;
+      if (lost) ++frames.lost;
+      if (lost && !within) ++frames.bursts;
+      within = lost;
+    }
+  }
+  return frames;
+}
+
 std::vector<Candidate> FindEvents(const RigView& rig, const std::vector<Record>& records,
                                   const Residual& remainder) {
   std::vector<Candidate> found;
   constexpr double kPerFrame = 10.0;  // [nat] a repetition by chance, and a prior of one in ten
-  const Frames frames = CountFrames(rig, records);
+  const LostFrames frames = CountFrames(rig, records);
   const double unforeseen = static_cast<double>(frames.lost) - LostByFile(rig, frames);
   if (unforeseen > 0.0) {
     found.push_back({.effect = "dropped_samples",

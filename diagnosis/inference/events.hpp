@@ -16,6 +16,12 @@ namespace levitas::diagnosis {
 
 inline constexpr double kNoiseTolerance = 0.06;
 
+/// Frames of flight that were to come, those that did not, and the bursts that these make up.
+struct LostFrames {
+  std::size_t sent{}, lost{}, bursts{};
+};
+[[nodiscard]] LostFrames CountFrames(const RigView& rig, const std::vector<Record>& records);
+
 /// Causes found this way with their evidence. Noise counts the channels whose own evidence is
 /// decisive (kDecisive).
 [[nodiscard]] std::vector<Candidate> FindEvents(const RigView& rig,

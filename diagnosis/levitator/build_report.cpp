@@ -11,6 +11,7 @@
 #include "diagnosis/levitator/plan.hpp"
 #include "diagnosis/levitator/report_fits.hpp"
 #include "diagnosis/levitator/report_values.hpp"
+#include "diagnosis/levitator/words.hpp"
 #include "diagnosis/report/affected_part.hpp"
 #include "diagnosis/report/report_text.hpp"
 
@@ -84,6 +85,7 @@ diagnosis::DiagnosisReport BuildReport(const config::RigFile& rig, const Nominal
                                        const LevitatorResult& result) {
   diagnosis::DiagnosisReport report;
   report.rig_name = rig.numbers.name;
+  report.own_words = OwnWords();
   report.rig_channels = rig.numbers.channels;
   AddCauses(result.found, report);
   AddResidual(nominal, data, result.found, report);

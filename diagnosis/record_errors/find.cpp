@@ -6,7 +6,6 @@
 #include "diagnosis/record_errors/columns.hpp"
 #include "diagnosis/record_errors/gaps.hpp"
 #include "diagnosis/record_errors/law_fit.hpp"
-#include "diagnosis/record_errors/other_rig.hpp"
 #include "diagnosis/record_errors/plant_fit.hpp"
 #include "diagnosis/record_errors/position_unit.hpp"
 #include "diagnosis/record_errors/rate.hpp"
@@ -112,7 +111,6 @@ RecordErrors FindRecordErrors(const RigView& rig, const Record& record,
     FindInTheLoop(rig, columns, elsewhere, out);
   } catch (const Problem&) {  // no observer exists: nothing can be said
   }
-  if (out.errors.empty()) FindOtherRig(rig, columns, NoiseOf(rig, mended), out);
   return out;
 }
 

@@ -2,11 +2,12 @@
 // Errors of a record itself, looked for before anything is said of the rig.
 //
 // Order      times, unit of positions (all else needs them in metres), readings, rotation, rows
-//            that are left out, columns, rate; another rig's file where nothing else was found.
+//            that are left out, columns, rate.
 // Cost       about a second for a record of two seconds with four axes.
 // Thread     any; pure. Failure: none; a record too short for a check passes it.
 // Not done   a record that cannot be read at all; candump and sessions have no columns to exchange,
-//            but the same errors by wrong wiring: they are looked for too.
+//            but the same errors by wrong wiring: they are looked for too. Another rig's file: no
+//            share that innovations foretell tells it from a healthy rig within its tolerances.
 
 #include <cstdint>
 #include <vector>

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "diagnosis/model/repeated_frames.hpp"
 #include "diagnosis/record_errors/columns.hpp"
@@ -14,7 +15,8 @@
 namespace levitas::diagnosis {
 namespace {
 
-constexpr Eigen::Index kPositionsBack = 12, kTestsBack = 8, kCurrentsBack = 6;
+constexpr Eigen::Index kPositionsBack = 12, kTestsBack = 8, kCurrentsBack = 8;
+constexpr Eigen::Index kOfAxis = kPositionsBack + 1 + kTestsBack + 1 + kCurrentsBack;
 constexpr std::size_t kMemory = 12;  ///< rows that a row depends on, before it
 constexpr std::size_t kMostFitted = 16'000;
 constexpr double kFewestFitted = 1000.0;
@@ -37,16 +39,13 @@ class Law {
 
   /// Whether the currents of all axes follow from it.
   [[nodiscard]] bool Fit();
-  /// Usable rows, in order, at which it is broken.
+  /// Rows, in order, at which it is broken; none where too many are.
   [[nodiscard]] std::vector<std::size_t> Broken() const;
-  [[nodiscard]] std::size_t usable() const noexcept { return usable_.size(); }
 
  private:
-  [[nodiscard]] Eigen::Index Size() const noexcept {
-    return axes_ * (kPositionsBack + 1 + kTestsBack + 1 + kCurrentsBack) + 1;
-  }
+  [[nodiscard]] Eigen::Index Size() const noexcept { return axes_ * kOfAxis + 1; }
   void FindUsable();
-  [[nodiscard]] bool IsPlain(std::size_t n) const;
+  [[nodiscard]] bool IsRead(std::size_t n) const;
   void Read(std::size_t n, Eigen::Ref<Eigen::VectorXd> regressors) const;
   [[nodiscard]] Eigen::VectorXd Current(std::size_t n) const {
     return Eigen::Map<const Eigen::VectorXd>(rows_[n].sample.command.control_current_a.data(),
@@ -57,13 +56,16 @@ class Law {
   const std::vector<analysis::RecordedRow>& rows_;
   Eigen::Index axes_;
   std::vector<double> limit_a_;
-  std::vector<std::size_t> usable_;
-  Eigen::MatrixXd law_;  ///< regressors x axes
+  std::vector<std::size_t> usable_;      ///< rows whose memory is read and free of limits
+  std::vector<std::size_t> read_;        ///< rows whose memory is read
+  std::vector<std::vector<bool>> free_;  ///< of each of these: axes that were below their limits
+  Eigen::MatrixXd law_;                  ///< regressors x axes
   Eigen::VectorXd usual_a_;
+  bool between_axes_{};
 };
 
-/// Whether a row is the sample after the one before it, was read anew, and is below all limits.
-bool Law::IsPlain(std::size_t n) const {
+/// Whether a row is the sample after the one before it and was read anew.
+bool Law::IsRead(std::size_t n) const {
   if (n == 0 || !rows_[n].levitated) return false;
   const auto& sample = rows_[n].sample;
   const auto& before = rows_[n - 1];
@@ -71,16 +73,25 @@ bool Law::IsPlain(std::size_t n) const {
   if (Repeats(before.sample.position_m, sample.position_m, rig_.axes)) return false;
   for (std::size_t a = 0; a < rig_.axes; ++a) {
     if (!std::isfinite(sample.position_m[a])) return false;
-    if (std::abs(sample.command.control_current_a[a]) >= kNearLimit * limit_a_[a]) return false;
   }
   return true;
 }
 
 void Law::FindUsable() {
-  std::size_t plain = 0;
+  std::size_t read = 0;
+  std::vector<std::size_t> below(rig_.axes);  // rows since an axis was at its limit
   for (std::size_t n = 0; n < rows_.size(); ++n) {
-    plain = IsPlain(n) ? plain + 1 : 0;
-    if (plain > kMemory) usable_.push_back(n);
+    read = IsRead(n) ? read + 1 : 0;
+    for (std::size_t a = 0; a < rig_.axes; ++a) {
+      const double current_a = std::abs(rows_[n].sample.command.control_current_a[a]);
+      below[a] = current_a < kNearLimit * limit_a_[a] ? below[a] + 1 : 0;
+    }
+    if (read <= kMemory) continue;
+    std::vector<bool> free(rig_.axes);
+    for (std::size_t a = 0; a < rig_.axes; ++a) free[a] = below[a] > kMemory;
+    if (std::ranges::all_of(free, [](bool axis) { return axis; })) usable_.push_back(n);
+    read_.push_back(n);
+    free_.push_back(std::move(free));
   }
 }
 
@@ -103,6 +114,34 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
+struct Fitted {
+  Eigen::VectorXd law;
+  double usual_a{};  ///< as a standard deviation
+};
+
+/// Least squares; rows that do not fit are left out, and the rest is fitted again.
+Fitted FitOne(Eigen::MatrixXd regressors, const Eigen::RowVectorXd& target_a, double rms_a) {
+  const Eigen::VectorXd scale = regressors.rowwise().norm().cwiseMax(1e-300);
+  regressors = scale.cwiseInverse().asDiagonal() * regressors;
+  Eigen::RowVectorXd weight = Eigen::RowVectorXd::Ones(target_a.size());
+  Eigen::RowVectorXd before = Eigen::RowVectorXd::Zero(target_a.size());
+  Fitted out;
+  for (int fit = 0; fit < kFits && before != weight; ++fit) {
+    before = weight;
+    const Eigen::MatrixXd weighted = regressors * weight.asDiagonal();
+    Eigen::MatrixXd gram = weighted * regressors.transpose();
+    gram.diagonal().array() += 1e-13;
+    const Eigen::VectorXd solved = gram.ldlt().solve(weighted * target_a.transpose());
+    const Eigen::RowVectorXd left = (target_a - solved.transpose() * regressors).cwiseAbs();
+    out.usual_a = std::max(1.48 * Median({left.begin(), left.end()}), kExact * rms_a);
+    out.law = scale.cwiseInverse().asDiagonal() * solved;
+    weight = (left.array() <= kNotFitted * out.usual_a).cast<double>();
+  }
+  return out;
+}
+
+// A law of each axis alone where there is one: among all columns the laws of the other axes are
+// redundant, and a fit that leans on them breaks wherever one of them is at its limit.
 bool Law::Fit() {
   std::vector<std::size_t> fitted;
   const std::size_t every = 1 + usable_.size() / kMostFitted;
@@ -115,41 +154,50 @@ bool Law::Fit() {
     Read(fitted[static_cast<std::size_t>(i)], regressors.col(i));
     target.col(i) = Current(fitted[static_cast<std::size_t>(i)]);
   }
-  const Eigen::VectorXd scale = regressors.rowwise().norm().cwiseMax(1e-300);
-  regressors = scale.cwiseInverse().asDiagonal() * regressors;
   const Eigen::VectorXd rms_a = (target.colwise() - target.rowwise().mean()).rowwise().norm() /
                                 std::sqrt(static_cast<double>(count));
-  Eigen::VectorXd weight = Eigen::VectorXd::Ones(count);
-  Eigen::VectorXd before = Eigen::VectorXd::Zero(count);
-  for (int fit = 0; fit < kFits && before != weight; ++fit) {
-    before = weight;
-    const Eigen::MatrixXd weighted = regressors * weight.asDiagonal();
-    Eigen::MatrixXd gram = weighted * regressors.transpose();
-    gram.diagonal().array() += 1e-13;
-    const Eigen::MatrixXd solved = gram.ldlt().solve(weighted * target.transpose());
-    const Eigen::MatrixXd left = (target - solved.transpose() * regressors).cwiseAbs();
-    usual_a_ = Eigen::VectorXd(axes_);
-    for (Eigen::Index a = 0; a < axes_; ++a) {
-      const Eigen::VectorXd row = left.row(a).transpose();
-      usual_a_[a] = std::max(1.48 * Median({row.begin(), row.end()}), kExact * rms_a[a]);
-    }
-    law_ = scale.cwiseInverse().asDiagonal() * solved;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      weight[i] = (left.col(i).array() > kNotFitted * usual_a_.array()).any() ? 0.0 : 1.0;
-    }
+  law_ = Eigen::MatrixXd::Zero(Size(), axes_);
+  usual_a_ = Eigen::VectorXd::Zero(axes_);
+  for (Eigen::Index a = 0; a < axes_; ++a) {
+    Eigen::MatrixXd own(kOfAxis + 1, count);
+    own << regressors.middleRows(a * kOfAxis, kOfAxis), regressors.bottomRows(1);
+    const Fitted alone = FitOne(std::move(own), target.row(a), rms_a[a]);
+    usual_a_[a] = alone.usual_a;
+    law_.col(a).segment(a * kOfAxis, kOfAxis) = alone.law.head(kOfAxis);
+    law_(Size() - 1, a) = alone.law[kOfAxis];
   }
-  return (usual_a_.array() < kKnown * rms_a.array()).all();
+  const auto known = [&] { return (usual_a_.array() < kKnown * rms_a.array()).all(); };
+  if (known()) return true;
+  between_axes_ = true;
+  for (Eigen::Index a = 0; a < axes_; ++a) {
+    const Fitted all = FitOne(regressors, target.row(a), rms_a[a]);
+    usual_a_[a] = all.usual_a;
+    law_.col(a) = all.law;
+  }
+  return known();
 }
 
+// An axis at its limit follows no law for as long as the law remembers; a law between axes hands
+// that on to the others.
 std::vector<std::size_t> Law::Broken() const {
   std::vector<std::size_t> broken;
-  const Eigen::Index most = std::max<Eigen::Index>(2, (axes_ + 1) / 2);
+  std::size_t judged = 0;
+  const std::size_t most = std::max<std::size_t>(2, (rig_.axes + 1) / 2);
   Eigen::VectorXd regressors(Size());
-  for (const std::size_t n : usable_) {
-    Read(n, regressors);
-    const Eigen::VectorXd left = (Current(n) - law_.transpose() * regressors).cwiseAbs();
-    if ((left.array() > kBroken * usual_a_.array()).count() >= most) broken.push_back(n);
+  for (std::size_t i = 0; i < read_.size(); ++i) {
+    const auto free = static_cast<std::size_t>(std::ranges::count(free_[i], true));
+    if (free < (between_axes_ ? rig_.axes : most)) continue;
+    ++judged;
+    Read(read_[i], regressors);
+    const Eigen::VectorXd left = (Current(read_[i]) - law_.transpose() * regressors).cwiseAbs();
+    std::size_t off = 0;
+    for (std::size_t a = 0; a < rig_.axes; ++a) {
+      const auto axis = static_cast<Eigen::Index>(a);
+      if (free_[i][a] && left[axis] > kBroken * usual_a_[axis]) ++off;
+    }
+    if (off >= most) broken.push_back(read_[i]);
   }
+  if (static_cast<double>(broken.size()) > kMostBroken * static_cast<double>(judged)) return {};
   return broken;
 }
 
@@ -161,7 +209,6 @@ void FindGaps(const RigView& rig, const Record& record, std::uint64_t first_cycl
   Law law(rig, record);
   if (!law.Fit()) return;
   const std::vector<std::size_t> broken = law.Broken();
-  if (static_cast<double>(broken.size()) > kMostBroken * static_cast<double>(law.usable())) return;
   std::vector<std::uint64_t> first;
   std::size_t end = 0;  // rows before it are broken by the gap that was found last
   for (const std::size_t n : broken) {

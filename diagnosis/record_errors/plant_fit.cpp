@@ -197,17 +197,6 @@ Eigen::MatrixXd PlantFit::Raw(const Stretch& s, const ColumnUses& uses) const {
   return error;
 }
 
-Eigen::MatrixXd PlantFit::Innovations(const ColumnUses& uses) const {
-  const Eigen::Index rows = of_position_.front().rows();
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(axes_));
-  for (const Stretch& s : stretches_) {
-    Eigen::MatrixXd error = Raw(s, uses);
-    error -= s.basis * (s.basis.transpose() * error);
-    out.middleRows(s.from, s.to - s.from) = error;
-  }
-  return out;
-}
-
 Eigen::VectorXd PlantFit::Ratios(const ColumnUses& uses) const {
   if (counted_ < kFewestCounted) return {};
   const auto axes = static_cast<Eigen::Index>(axes_);

@@ -36,10 +36,6 @@ class PlantFit {
   [[nodiscard]] Eigen::VectorXd Ratios(const ColumnUses& uses) const;
   [[nodiscard]] std::size_t counted() const noexcept { return counted_; }
 
-  /// What Ratios squares: rows x axes [m], in the rows of stretches; zero in others and where a row
-  /// does not count.
-  [[nodiscard]] Eigen::MatrixXd Innovations(const ColumnUses& uses) const;
-
  private:
   static constexpr int kEdge = 8;
 

@@ -48,8 +48,7 @@ std::vector<bool> BeyondClearance(const RigView& rig, const Record& record) {
   return beyond;
 }
 
-}  // namespace
-
+/// rms of the readings' noise per axis [m], of the rows as they are; 0: not known.
 AxisArray NoiseOf(const RigView& rig, const Record& record) {
   constexpr std::array kFourth{1.0, -4.0, 6.0, -4.0, 1.0};
   AxisArray noise_m{};
@@ -70,6 +69,8 @@ AxisArray NoiseOf(const RigView& rig, const Record& record) {
   }
   return noise_m;
 }
+
+}  // namespace
 
 void FindPositionUnits(const RigView& rig, const Record& record, RecordErrors& out) {
   const AxisArray noise_m = NoiseOf(rig, record);

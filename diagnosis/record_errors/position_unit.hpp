@@ -14,9 +14,6 @@
 
 namespace levitas::diagnosis {
 
-/// rms of the readings' noise per axis [m], of the rows as they are; 0: not known.
-[[nodiscard]] AxisArray NoiseOf(const RigView& rig, const Record& record);
-
 void FindPositionUnits(const RigView& rig, const Record& record, RecordErrors& out);
 
 }  // namespace levitas::diagnosis

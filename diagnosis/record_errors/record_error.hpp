@@ -4,13 +4,10 @@
 // Columns    named as in a CSV file, without unit: "position_de_x", "control_current_nde_y",
 //            "speed", "rotor_angle", "time".
 // Size       by kind: factor of a unit or rate, rows of a delay, metres of a step or plateau, share
-//            of rows that are held, number of gaps, share that another rig's file foretells; 0
-//            where there is none.
+//            of rows that are held, number of gaps; 0 where there is none.
 // Statistic  by how much less is left when it is mended: of the observer's innovations (swapped,
 //            reversed, unit of currents), of the law (delayed), else what its file says.
 // Mend       what to change, as a sentence. `by_map`: a map of columns does it.
-// Remark     another rig's file: a doubt that changes nothing and refuses nothing, because a fault
-//            that changes much of the rig can look the same.
 // Thread     plain data.
 
 #include <cstdint>
@@ -30,8 +27,7 @@ enum class RecordErrorKind : std::uint8_t {
   kClipped,
   kHeld,
   kDelayed,
-  kGaps,
-  kOtherRig
+  kGaps
 };
 
 /// "swapped", "reversed", ...: as in diagnosis.json.
@@ -45,10 +41,6 @@ struct RecordError {
   std::string sentence, mend;
   bool by_map{};
 };
-
-[[nodiscard]] constexpr bool IsRemark(RecordErrorKind kind) noexcept {
-  return kind == RecordErrorKind::kOtherRig;
-}
 
 /// What was found in one record, and what its columns have to be taken for.
 struct RecordErrors {
@@ -64,11 +56,12 @@ struct RecordErrors {
   std::vector<std::uint64_t> gaps;  ///< cycles of rows before which others are left out
 };
 
-/// What follows the sentences in an answer, as a sentence.
-[[nodiscard]] const char* AfterRecordErrors(const std::vector<RecordErrors>& found) noexcept;
+/// What follows the sentences in an answer.
+inline constexpr const char* kAsMended =
+    "What follows is of the records as mended, where that can be done here; mend the files first.";
 
 /// One sentence for each error, records with the same one together: what is wrong in which columns,
-/// and what to change; a remark says that it is one. Empty: no errors.
+/// and what to change. Empty: no errors.
 [[nodiscard]] std::vector<std::string> RecordErrorSentences(const std::vector<RecordErrors>& found);
 
 }  // namespace levitas::diagnosis

@@ -4,6 +4,7 @@
 #include "diagnosis/report/affected_part.hpp"
 #include "diagnosis/report/calibrated_rig.hpp"
 #include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/report/drawn_rotor.hpp"
 #include "diagnosis/report/excitation_coverage.hpp"
 #include "diagnosis/report/extended_rig.hpp"
 #include "diagnosis/report/input_warnings.hpp"
@@ -135,6 +136,9 @@ DiagnosisReport BuildReport(const DiagnosisResult& result) {
   report.parameters = Parameters(result);
   report.calibrated = CalibratedValues(result);
   report.taken_by_causes = TakenByCauses(result);
+  report.scale = ScaleOf(result);
+  report.rotor = RotorOf(result);
+  report.marks = MarksOf(result, report.parameters);
   report.coverage = CoverageFor(result);
   AddWarnings(result, report);
   const std::string experiment = SeparatingExperiment(report);

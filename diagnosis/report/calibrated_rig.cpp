@@ -46,7 +46,7 @@ std::vector<effect::EffectConfig> CalibratedEntries(const DiagnosisResult& answe
 }
 
 std::string CalibratedRig(const DiagnosisResult& answer, const config::RigFile& rig) {
-  config::RigFile judged = rig;
+  config::RigFile judged = WithOwnKeys(answer, rig);
   std::string comments =
       "# The rig as amb diagnose judged it: its causes, then what was calibrated.\n";
   for (const PlacedEffect& at : CalibrationByPlace(answer)) {

@@ -181,6 +181,7 @@ DiagnosisResult DiagnoseRecords(const config::RigFile& rig, const std::vector<Re
     fitted[i].keeps_validation = holdout.empty();
   }
   Describe(fitted, aside, out);
+  out.lost_frames = CountFrames(*out.view, fitted);
   const auto mains = MainsTerms(*out.view, MainsLines(*out.view, fitted), fitted.size());
   out.terms.insert(out.terms.end(), mains.begin(), mains.end());
   out.answer = Diagnose(*out.view, fitted, aside, settings, out.terms);

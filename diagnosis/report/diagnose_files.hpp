@@ -11,6 +11,7 @@
 #include "configuration/rig_file.hpp"
 #include "diagnosis/inference/diagnose.hpp"
 #include "diagnosis/inference/error_shares.hpp"
+#include "diagnosis/inference/events.hpp"
 #include "diagnosis/inference/forecast_interval.hpp"
 #include "diagnosis/inference/gain.hpp"
 #include "diagnosis/record_errors/record_error.hpp"
@@ -40,6 +41,7 @@ struct DiagnosisResult {
   std::vector<double> ratio_before, ratio_calibrated, ratio_after;
   double line_spacing_hz{};
   std::size_t shown_channel{};
+  LostFrames lost_frames;                 ///< of the fitted records
   double seconds_of_data{};               ///< in flight
   double seconds_used{};                  ///< of them, by a search that takes spans
   double fastest_rad_per_s{};             ///< of the rotor, in flight

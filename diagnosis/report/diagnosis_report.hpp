@@ -18,6 +18,7 @@
 #include "diagnosis/inference/verdict.hpp"
 #include "diagnosis/model/location.hpp"
 #include "diagnosis/record_errors/record_error.hpp"
+#include "plant_sim/effect/workshop.hpp"
 
 namespace levitas::diagnosis {
 
@@ -180,12 +181,55 @@ struct ReportLevitations {
   std::vector<std::string> sentences;  ///< of what does not levitate or was not judged
 };
 
+/// What severity is judged by; 0 where it is not known.
+struct ReportScale {
+  double rotor_mass_kg{}, rated_speed_rad_per_s{}, clearance_m{};
+};
+
+/// The rotor to draw; z along the shaft from the drive end. Empty for geared shafts and a ball.
+struct ReportRotor {
+  struct Piece {
+    double from_m{}, to_m{}, outer_m{}, inner_m{};  ///< diameters
+    bool disc{};                                    ///< on the shaft, its width not known
+  };
+  struct Bearing {
+    std::string name;
+    double magnet_z_m{}, sensor_z_m{};
+  };
+  std::vector<Piece> pieces;
+  std::vector<Bearing> bearings;
+};
+
+/// A place on the drawn rotor that a cause names.
+struct ReportMark {
+  double z_m{};
+  std::string text;
+};
+
+/// When and of which files; what is empty is not said.
+struct ReportOrigin {
+  std::string date_utc, program_version, rig_file;
+  std::vector<std::string> records, validation, healthy;
+  bool quick{};
+};
+
+enum class Severity { kNotSaid, kSlight, kMarked, kSevere };
+
 struct DiagnosisReport {
   std::string rig_name;
   std::vector<std::string> rig_channels;
   Verdict verdict{};
   std::string verdict_sentence;
-  std::vector<ReportCause> causes;         ///< in the order of selection
+  std::string headline;           ///< the verdict in words of the workshop (advice.hpp)
+  std::string certainty;          ///< "nearly certain"
+  Severity severity{};            ///< of the first cause
+  std::string severity_sentence;  ///< what it does to the machine, and how severe that is
+  std::string action;             ///< whether to stop, what to check
+  bool undecided{};               ///< verdict none, with a candidate that may well be there
+  /// Of numbers that are off under verdict none: what healthy records would show.
+  std::string healthy_proposal;
+  std::string healthy_record;       ///< the last accepted session of the rig, where one was found
+  std::vector<ReportCause> causes;  ///< in the order of selection
   std::vector<std::string> also_possible;  ///< effects not separable from the first cause
   std::vector<ReportTie> ties;             ///< of every cause, where the search decides them all
   double evidence_nat{};                   ///< of all causes together
@@ -217,7 +261,13 @@ struct DiagnosisReport {
   bool changed_since_healthy{};  ///< a value is far from that of the healthy records
   bool needs_experiment{};       ///< a further record would decide something
   std::string next_experiment;
-  std::vector<ReportCandidate> candidates;   ///< best first
+  std::vector<ReportCandidate> candidates;  ///< best first
+  /// Words of effects that the catalogue lacks, or means otherwise.
+  std::vector<effect::Words> own_words;
+  ReportScale scale;
+  ReportRotor rotor;
+  std::vector<ReportMark> marks;
+  ReportOrigin origin;
   std::string extended_rig, calibrated_rig;  ///< text of the rig files; empty where not asked for
   ReportLevitations levitation;              ///< of those two
 };

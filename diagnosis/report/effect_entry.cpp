@@ -139,7 +139,7 @@ EntryValues AmplifierEntry(const RigView& rig, Id id, const PlacedEffect& at) {
 
 EntryValues ExternalEntry(const RigView& rig, Id id, const PlacedEffect& at) {
   if (id == Id::kExtraDelay) {
-    return {Number("delay_us", 1e6 * rig.period_s * std::max(0.0, at.At("samples")))};
+    return {Number("delay_us", 1e6 * rig.period_s * at.At("samples"))};
   }
   if (id == Id::kMisalignment) {
     return {Number("z_mm", 0), Number("order", at.location.order.value()),

@@ -29,6 +29,8 @@ using EntryValues = std::vector<EntryValue>;
 
 /// Phases and directions are reported in the unit of rig files.
 inline constexpr const char* kPhaseKey = "phase_deg";
+/// A delay is shorter than the file's only under the file's own key: entries add to it.
+inline constexpr const char* kDelaySamplesKey = "delay_samples";
 [[nodiscard]] EntryValue PhaseValue(double phase_rad);
 
 /// The terms of one effect at one place, by parameter.

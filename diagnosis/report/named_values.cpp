@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "diagnosis/report/diagnose_files.hpp"
+#include "diagnosis/report/event_values.hpp"
 #include "numerics/normal_distribution.hpp"
 
 namespace levitas::diagnosis {
@@ -121,6 +122,44 @@ class Bracket {
   bool depends_{}, form_{};
 };
 
+/// What the data want beyond the least that the law allows, as a mode's damping below zero: its
+/// size is that limit, and how well it is known cannot be said.
+void AddAtItsLimit(const PlacedEffect& at, const EntryValues& values,
+                   std::vector<NamedParameter>& out) {
+  const effect::Words* words = effect::FindWords(at.effect_name());
+  for (const EntryValue& value : values) {
+    if (words == nullptr || !value.key.starts_with(words->size)) continue;
+    const KeyUnit unit = UnitOfKey(value.key);
+    NamedParameter p;
+    p.effect = at.effect_name();
+    p.key = value.key;
+    p.name = fmt::format("{}[{}]", value.key, at.location.name);
+    p.unit = unit.symbol;
+    p.si = unit.si;
+    p.value = p.low = p.high = value.number;
+    p.location = at.location;
+    out.push_back(p);
+  }
+}
+
+/// A delay shorter than the file's, as the file has it: in samples, in all.
+NamedParameter UnderOwnKey(const NamedParameter& added, const RigView& rig) {
+  const double file = rig.model->config().delay_samples;
+  const auto total = [&](double value) {
+    return std::max(0.0, file + value * added.si / rig.period_s);
+  };
+  NamedParameter p = added;
+  p.key = kDelaySamplesKey;
+  p.name = fmt::format("{}[{}]", p.key, p.location.name);
+  p.unit = "samples";
+  p.si = rig.period_s;
+  p.value = total(added.value);
+  p.low = total(added.low);
+  p.high = total(added.high);
+  p.of_file = OfFile{file, p.value};
+  return p;
+}
+
 }  // namespace
 
 std::complex<double> UnbalanceOfFile(const RigView& rig, double z_m) {
@@ -153,11 +192,20 @@ std::vector<NamedParameter> Parameters(const DiagnosisResult& s) {
   std::vector<NamedParameter> out;
   for (const PlacedEffect& at : CausesByPlace(s)) {
     const EntryValues values = ValuesOf(*s.view, at);
+    const std::size_t before = out.size();
     for (std::size_t key = 0; key < values.size(); ++key) {
-      if (const auto found = Bracket(s, at, key).Find()) out.push_back(*found);
+      const auto found = Bracket(s, at, key).Find();
+      if (found) out.push_back(IsShorterDelay(at) ? UnderOwnKey(*found, *s.view) : *found);
     }
+    if (out.size() == before) AddAtItsLimit(at, values, out);
   }
+  const std::vector<NamedParameter> of_events = EventParameters(s);
+  out.insert(out.end(), of_events.begin(), of_events.end());
   return out;
+}
+
+bool IsShorterDelay(const PlacedEffect& at) {
+  return at.effect == effect::Id::kExtraDelay && at.At("samples") < 0.0;
 }
 
 }  // namespace levitas::diagnosis

@@ -25,6 +25,9 @@ struct DiagnosisResult;
 struct Estimate;
 
 [[nodiscard]] std::vector<NamedParameter> Parameters(const DiagnosisResult& answer);
+/// A cause under which the currents act earlier than the file says: no entry can say it, the file's
+/// key `delay_samples` does.
+[[nodiscard]] bool IsShorterDelay(const PlacedEffect& at);
 /// Numbers of the calibration that a cause has made its own, and are therefore not calibrated.
 [[nodiscard]] std::vector<std::string> TakenByCauses(const DiagnosisResult& answer);
 /// Planes closer than this are one: a rig file has its lengths to a tenth of a millimetre.

@@ -70,7 +70,9 @@ std::string PlanScenario(const DiagnosisReport& s, const config::RigFile& rig) {
   if (!PassesValidation(s)) {
     text += fmt::format("# For a model that carries over: {}.\n", s.next_experiment);
   } else if (sound) {
-    text += fmt::format("# What the records lack: {}.\n", s.coverage.missing_records);
+    const std::string& lacks = s.coverage.missing_records;
+    text +=
+        fmt::format("# What the records lack: {}.\n", lacks.empty() ? s.next_experiment : lacks);
   } else if (effects.empty()) {
     text += "# To learn where the remainder belongs.\n";
   } else {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "diagnosis/inference/judging.hpp"
+#include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/effect_entry.hpp"
 #include "diagnosis/report/validation_check.hpp"
 
@@ -62,9 +63,9 @@ std::string Size(const DiagnosisReport& report, const ReportCause& cause) {
   const bool everywhere = std::all_of(first, parameters.end(), [&first](const auto& p) {
     return p.effect != first->effect || p.key != first->key || p.value == first->value;
   });
-  return fmt::format(": {} {:.4g}{}{}{} ({:.4g} to {:.4g})", first->key, first->value,
+  return fmt::format(": {} {:.4g}{}{}{}{}", first->key, first->value,
                      first->unit.empty() ? "" : " ", first->unit,
-                     everywhere ? "" : " at " + first->location.name, first->low, first->high);
+                     everywhere ? "" : " at " + first->location.name, BracketText(*first));
 }
 
 /// Of a rig in which nothing is hidden: how far it is from its file, and what that is worth.
@@ -76,7 +77,7 @@ std::string Explained(const DiagnosisReport& report) {
                                         values.size(), furthest);
   if (!report.validation.meaningful) {
     return "the rig file explains the data to their noise as it stands" +
-           (values.empty() ? "" : ", and " + moved) + ".";
+           (values.empty() ? "" : "; calibration finds it " + moved) + ".";
   }
   return fmt::format(
       "the rig file {} explains the data to their noise; as it stands it does not "
@@ -98,19 +99,40 @@ std::string CauseText(const DiagnosisReport& report, const ReportCause& cause) {
   return fmt::format("{} at {}{}", cause.effect, cause.place, Size(report, cause));
 }
 
-/// [nat] evidence of the first cause.
-double OwnEvidence(const DiagnosisReport& report) {
-  const auto& causes = report.causes;
-  const auto own =
-      std::find_if(report.candidates.begin(), report.candidates.end(),
-                   [&causes](const auto& c) { return c.effect == causes.front().effect; });
-  return own == report.candidates.end() ? report.evidence_nat : own->evidence_nat;
+/// The first cause among the candidates; null where it is not one.
+const ReportCandidate* OwnCandidate(const DiagnosisReport& report) {
+  if (report.causes.empty()) return nullptr;
+  const std::string& effect = report.causes.front().effect;
+  const auto own = std::find_if(report.candidates.begin(), report.candidates.end(),
+                                [&effect](const auto& c) { return c.effect == effect; });
+  return own == report.candidates.end() ? nullptr : &*own;
 }
 
 /// Whether validation data say so; not without them.
 bool ForetellsLess(const ReportCandidate& candidate, const ReportCandidate& than) {
   return candidate.validation_nat && than.validation_nat &&
          *candidate.validation_nat < *than.validation_nat;
+}
+
+/// Every effect with the same prior as a suspected one has (suspicion.hpp).
+double ProbabilityOfNone(const std::vector<ReportCandidate>& candidates) {
+  double sum = 0.0;
+  for (const ReportCandidate& c : candidates) {
+    if (std::isfinite(c.evidence_nat)) sum += std::exp(c.evidence_nat);
+  }
+  const auto effects = static_cast<double>(candidates.size());
+  return candidates.empty() ? 1.0 : effects / (effects + sum);
+}
+
+/// Why a candidate with decisive evidence is not named.
+std::string NotNamed(const DiagnosisReport& report, const ReportCandidate& candidate) {
+  if (!candidate.refitted) {
+    return "is decisive on the linearised model only, which the nonlinear one was not asked to "
+           "confirm";
+  }
+  if (report.verdict == Verdict::kUnknown) return "does not explain the residual that is left";
+  return "is decisive on the fitted samples, but its gain was not confirmed: it scatters like "
+         "chance, or does harm where it was not fitted";
 }
 
 /// The other causes, and what the data do not separate from the first.
@@ -133,7 +155,7 @@ std::string Finding(const DiagnosisReport& report) {
   }
   if (report.verdict == Verdict::kNone) {
     const std::string& limits = report.coverage.sentence;
-    return fmt::format("Nothing is hidden{}: {}{}{}",
+    return fmt::format("{}{}: {}{}{}", report.undecided ? "Nothing is proven" : "No fault found",
                        limits.empty() ? "" : " as far as these records can show", Explained(report),
                        limits.empty() ? "" : " ", limits);
   }
@@ -147,7 +169,7 @@ std::string Finding(const DiagnosisReport& report) {
                     "named because it is further from the rig file than its tolerances "
                     "allow; calibration could absorb it, which leaves {:.0f} nat for it",
                     nat)
-              : fmt::format("{:.0f} nat, which is odds of e^{:.0f} to 1 for it", nat, nat);
+              : fmt::format("{:.0f} nat, which is odds of {} for it", nat, OddsText(nat));
   return text + Others(report) + ".";
 }
 
@@ -176,7 +198,7 @@ std::string SuspicionSentence(const DiagnosisReport& report) {
   switch (report.doubt) {
     case Doubt::kWeakEvidence:
       return fmt::format(
-          "It is more likely than that nothing is hidden ({:.0f} %), but its {:.1f} nat are not "
+          "It is more likely than that nothing is wrong ({:.0f} %), but its {:.1f} nat are not "
           "decisive.",
           percent, OwnEvidence(report));
     case Doubt::kMovedNumber:
@@ -206,8 +228,24 @@ void CompleteReport(DiagnosisReport& report) {
   report.outside_tolerance = OutsideTolerance(report.calibrated);
   report.suspected_because = SuspicionSentence(report);
   report.confidence = Confidence(report);
+  report.undecided = report.verdict == Verdict::kNone && report.confidence < kUndecided;
   report.verdict_sentence = VerdictSentence(report);
   for (ReportCandidate& candidate : report.candidates) candidate.reason = Reason(report, candidate);
+  Advise(report);
+}
+
+double OwnEvidence(const DiagnosisReport& report) {
+  const ReportCandidate* own = OwnCandidate(report);
+  return own == nullptr ? report.evidence_nat : own->evidence_nat;
+}
+
+std::string BracketText(const NamedParameter& p) {
+  if (p.low == p.high) return {};
+  return fmt::format(" ({:.4g} to {:.4g}, {})", p.low, p.high, BracketName(p));
+}
+
+const char* BracketName(const NamedParameter& p) {
+  return p.form ? "neighbouring forms" : "90 % interval";
 }
 
 std::string VerdictSentence(const DiagnosisReport& report) {
@@ -227,7 +265,8 @@ std::string SeparatingExperiment(const DiagnosisReport& report) {
   if (!PassesValidation(report)) return ValidationExperiment(report);
   if (report.verdict == Verdict::kNone) {
     const std::string& missing = report.coverage.missing_records;
-    return missing.empty() ? kNoneNeeded : missing;
+    if (!missing.empty()) return missing;
+    return Confidence(report) < kUndecided ? kToDecide : kNoneNeeded;
   }
   if (report.verdict == Verdict::kUnknown || report.doubt == Doubt::kResidualIsLeft) {
     return "the same with another speed and another bias current: the change of the residual "
@@ -259,6 +298,10 @@ std::string NextExperiment(const DiagnosisReport& report, const std::string& exp
   } else if (report.changed_since_healthy) {
     check = "check that the healthy records are of this rig, as it was before";
   }
+  if (check.empty() && report.verdict == Verdict::kNone && report.healthy_sentence.empty() &&
+      !MeasurablyOff(report).empty()) {
+    check = "records of this rig in good order (--healthy)";
+  }
   if (check.empty()) return experiment;
   return experiment == kNoneNeeded ? check : fmt::format("{}; then {}", check, experiment);
 }
@@ -267,20 +310,21 @@ double Confidence(const DiagnosisReport& report) {
   const auto& candidates = report.candidates;
   if (report.verdict == Verdict::kUnknown) return 0.0;
   if (report.verdict == Verdict::kSuspected) return report.probability;
-  if (report.verdict == Verdict::kNone) {
-    const double rival = candidates.empty() ? -INFINITY : candidates.front().evidence_nat;
-    return 1.0 / (1.0 + std::exp(rival));
-  }
+  if (report.verdict == Verdict::kNone) return ProbabilityOfNone(candidates);
   if (candidates.empty()) return 0.0;
-  const ReportCandidate& first = candidates.front();
-  const double best = std::max(0.0, first.evidence_nat);
+  const ReportCandidate* own = OwnCandidate(report);
+  const ReportCandidate& first = own == nullptr ? candidates.front() : *own;
+  double best = 0.0;
+  for (const ReportCandidate& c : candidates) {
+    if (!ForetellsLess(c, first)) best = std::max(best, c.evidence_nat);
+  }
   double sum = std::exp(-best);
   for (const ReportCandidate& c : candidates) {
     // What validation data refuted does not count, whatever the fitted data say.
     if (ForetellsLess(c, first)) continue;
     if (std::isfinite(c.evidence_nat)) sum += std::exp(c.evidence_nat - best);
   }
-  return std::exp(candidates.front().evidence_nat - best) / sum;
+  return std::exp(first.evidence_nat - best) / sum;
 }
 
 std::string Reason(const DiagnosisReport& report, const ReportCandidate& candidate) {
@@ -292,10 +336,10 @@ std::string Reason(const DiagnosisReport& report, const ReportCandidate& candida
   if (std::find(tied.begin(), tied.end(), candidate.effect) != tied.end()) {
     return "these data do not separate it from the cause";
   }
-  const auto& first = report.candidates.front();
-  if (ForetellsLess(candidate, first)) {
+  const ReportCandidate* own = OwnCandidate(report);
+  if (own != nullptr && ForetellsLess(candidate, *own)) {
     return fmt::format("foretells the validation data {:.0f} nat worse than the cause",
-                       *first.validation_nat - *candidate.validation_nat);
+                       *own->validation_nat - *candidate.validation_nat);
   }
   if (!std::isfinite(candidate.evidence_nat)) {
     return "would have to be negative, or cannot act in these data";
@@ -304,14 +348,20 @@ std::string Reason(const DiagnosisReport& report, const ReportCandidate& candida
     return candidate.evidence_nat < 0.0 ? "explains less than its freedom costs"
                                         : "too little to be decisive";
   }
-  return fmt::format("explains {:.0f} nat less than the cause",
-                     report.candidates.front().evidence_nat - candidate.evidence_nat);
+  const double behind = OwnEvidence(report) - candidate.evidence_nat;
+  if (report.causes.empty() || behind < 0.0) return NotNamed(report, candidate);
+  return fmt::format("explains {:.0f} nat less than the cause", behind);
 }
 
 std::vector<std::string> TotalSentences(const std::vector<NamedParameter>& parameters) {
   std::vector<std::string> sentences;
   for (const NamedParameter& p : parameters) {
     if (!p.of_file || p.key == kPhaseKey) continue;
+    if (p.key == kDelaySamplesKey) {
+      sentences.push_back(fmt::format("the delay is {:.4g} samples, the rig file says {:.4g}",
+                                      p.value, p.of_file->nominal));
+      continue;
+    }
     const auto phase = std::find_if(parameters.begin(), parameters.end(), [&](const auto& other) {
       return other.effect == p.effect && other.location.name == p.location.name &&
              other.key == kPhaseKey && other.of_file;

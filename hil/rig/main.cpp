@@ -19,9 +19,7 @@ using namespace levitas;
 // A controller in lockstep answers within milliseconds, or it is dead or stopped.
 constexpr std::int64_t kSilenceNs = 1'000'000'000;
 
-constexpr plant_run::PlantProgram kProgram{
-    "amb-rig", "Simulated magnetic bearing rig behind CAN buses, with the watchdog of a real one",
-    "can (interfaces of the rig's file), or can:IF[,IF...]", "can", 20};
+constexpr const plant_run::PlantProgram& kProgram = plant_run::kAmbRig;
 
 /// The lines of the rig's file, on chips of gpio-sim.
 class LineGate final : public plant_run::AmplifierGate {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "common/each_in_parallel.hpp"
 #include "common/random.hpp"
 #include "numerics/dense/eigenvalues.hpp"
 
@@ -76,6 +77,17 @@ struct Distribution {
   VectorXd path_sigma, path_c;
 };
 
+/// The steps of least cost, as columns.
+MatrixXd Best(const std::vector<VectorXd>& steps, const std::vector<double>& costs, Index kept) {
+  std::vector<std::size_t> order(costs.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
+  MatrixXd best(steps.front().size(), kept);
+  for (Index i = 0; i < kept; ++i) best.col(i) = steps[order[static_cast<std::size_t>(i)]];
+  return best;
+}
+
 }  // namespace
 
 EvolutionResult Evolve(const VectorXd& start, const std::function<double(const VectorXd&)>& cost,
@@ -95,33 +107,32 @@ EvolutionResult Evolve(const VectorXd& start, const std::function<double(const V
   EvolutionResult out{start, worth(start), 1};
   Random draw(options.seed);
   bool going = seen(out.evaluations, out.cost);
-  for (std::size_t generation = 1; going; ++generation) {
+  for (std::size_t generation = 1; going && out.evaluations < options.evaluations; ++generation) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(now.covariance);
     const MatrixXd root =
         solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    const auto left = static_cast<Index>(options.evaluations - out.evaluations);
+    const bool whole = lambda <= left;
     std::vector<VectorXd> steps;
-    std::vector<double> costs;
-    for (Index i = 0; i < lambda && going; ++i) {
-      if (out.evaluations >= options.evaluations) return out;
-      const VectorXd step = root * VectorXd::NullaryExpr(n, [&] { return draw.Normal(); });
-      const VectorXd x = now.mean + now.sigma * step;
-      steps.push_back(step);
-      costs.push_back(worth(x));
+    for (Index i = 0; i < std::min(lambda, left); ++i)
+      steps.emplace_back(root * VectorXd::NullaryExpr(n, [&] { return draw.Normal(); }));
+    const auto point = [&](std::size_t i) -> VectorXd { return now.mean + now.sigma * steps[i]; };
+    std::vector<double> costs(steps.size());
+    if (options.threads != 1) {
+      EachInParallel(steps.size(), options.threads,
+                     [&](std::size_t i) { costs[i] = worth(point(i)); });
+    }
+    for (std::size_t i = 0; i < steps.size() && going; ++i) {
+      if (options.threads == 1) costs[i] = worth(point(i));
       ++out.evaluations;
-      if (costs.back() < out.cost) {
-        out.cost = costs.back();
-        out.best = x;
+      if (costs[i] < out.cost) {
+        out.cost = costs[i];
+        out.best = point(i);
       }
       going = seen(out.evaluations, out.cost);
     }
-    if (!going) break;
-    std::vector<std::size_t> order(costs.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
-    MatrixXd best(n, constants.weights.size());
-    for (Index i = 0; i < best.cols(); ++i) best.col(i) = steps[order[static_cast<std::size_t>(i)]];
-    now.Update(constants, solver, best, generation);
+    if (!whole || !going) break;
+    now.Update(constants, solver, Best(steps, costs, constants.weights.size()), generation);
   }
   return out;
 }

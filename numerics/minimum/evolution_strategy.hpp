@@ -5,7 +5,7 @@
 //           constants of its table 1, rank-one and rank-mu update, cumulative step length.
 // Draws     common/random.hpp: the same seed gives the same points on every machine.
 // Failure   none. A cost that is no number counts as worse than any other.
-// Thread    that of the caller; allocates.
+// Thread    that of the caller, and as many others as are asked for; allocates.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -18,6 +18,9 @@ struct EvolutionOptions {
   std::size_t evaluations{400};
   std::size_t population{};  ///< 0: 4 + 3 ln(unknowns)
   std::uint64_t seed{1};
+  /// That evaluate the points of a generation side by side, 0: as many as the machine has
+  /// processors. The points and the answer are the same for every number.
+  std::size_t threads{1};
 };
 
 struct EvolutionResult {
@@ -26,8 +29,9 @@ struct EvolutionResult {
   std::size_t evaluations{};
 };
 
-/// `cost(x)`; after every evaluation `seen(evaluations, best cost)`: false ends the search with the
-/// best so far.
+/// `cost(x)`, by any of the threads; for every evaluation `seen(evaluations, best cost)`, by the
+/// caller's: false ends the search with the best so far. With more than one thread it is called
+/// when a generation is done.
 [[nodiscard]] EvolutionResult Evolve(const Eigen::VectorXd& start,
                                      const std::function<double(const Eigen::VectorXd&)>& cost,
                                      const EvolutionOptions& options,

@@ -10,9 +10,7 @@ using namespace levitas;
 // Longer than an answer takes across two cores; see docs/timing.md.
 constexpr std::int64_t kSpinNs = 20'000;
 
-constexpr plant_run::PlantProgram kProgram{
-    "amb-plant", "Simulated magnetic bearing rig: sends sensor frames, takes current frames",
-    "lcm, or lcm:udpm://<group>:<port>?ttl=<n>", "lcm", 1000};
+constexpr const plant_run::PlantProgram& kProgram = plant_run::kAmbPlant;
 
 ExitStatus Run(const plant_run::PlantOptions& options) {
   const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));

@@ -16,20 +16,21 @@ const char* PaceName(const PlantOptions& options) noexcept {
 namespace {
 
 /// What --pace and --pace-factor say together.
-void SettlePace(const std::string& pace, const CLI::Option& factor, PlantOptions& options) {
+void SettlePace(const CLI::App& app, PlantOptions& options) {
+  const auto pace = app.get_option("--pace")->as<std::string>();
   options.realtime = pace == "realtime";
-  if (factor.count() > 0 && pace != "paced") {
+  if (pace == "paced") return;
+  if (app.count("--pace-factor") > 0) {
     throw CLI::ValidationError("--pace-factor", "is for --pace paced");
   }
-  if (pace != "paced") options.pace_factor = 0.0;
+  options.pace_factor = 0.0;
 }
 
 }  // namespace
 
-bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOptions& options,
-                     ExitStatus& status) {
-  CLI::App app{program.description, program.name};
-  std::string pace = "lockstep";
+void AddOptions(CLI::App& app, const PlantProgram& program, PlantOptions& options) {
+  options.port = program.default_port;
+  options.watchdog_periods = program.watchdog_periods;
   options.pace_factor = 1.0;
   app.add_option("--rig", options.rig, "Rig file, or the name of a shipped one")->required();
   app.add_option(
@@ -39,15 +40,15 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
   app.add_option("--key", options.key,
                  "amb-plant: file with the key of those who may speak on the network; with ttl "
                  "above 0 it is needed");
-  app.add_option("--pace", pace,
-                 "lockstep (default), realtime, or paced: lockstep held to the clock")
+  app.add_option("--pace")
+      ->description("lockstep (default), realtime, or paced: lockstep held to the clock")
+      ->default_str("lockstep")
       ->check(CLI::IsMember({"lockstep", "realtime", "paced"}))
       ->type_name("PACE");
-  const auto* factor =
-      app.add_option("--pace-factor", options.pace_factor,
-                     "With --pace paced: how many seconds of the rig pass in one of the clock")
-          ->check(CLI::Range(kLeastPaceFactor, kMostPaceFactor))
-          ->capture_default_str();
+  app.add_option("--pace-factor", options.pace_factor,
+                 "With --pace paced: how many seconds of the rig pass in one of the clock")
+      ->check(CLI::Range(kLeastPaceFactor, kMostPaceFactor))
+      ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of the sensor noise")
       ->check(WhyNoWholeNumber)
       ->capture_default_str();
@@ -68,9 +69,16 @@ bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOp
       "--on-a-real-bus", options.on_a_real_bus,
       "amb-rig: play the rig also on a bus that is no virtual one; no real rig may be on it");
   app.add_flag("--stay", options.stay, "When the controller ends, wait for the next one");
+  app.footer(program.examples);
+}
+
+bool ReadCommandLine(int argc, char** argv, const PlantProgram& program, PlantOptions& options,
+                     ExitStatus& status) {
+  CLI::App app{program.description, program.name};
+  AddOptions(app, program, options);
   try {
     app.parse(argc, argv);
-    SettlePace(pace, *factor, options);
+    SettlePace(app, options);
     return true;
   } catch (const CLI::ParseError& error) {
     status = app.exit(error) == 0 ? ExitStatus::kDone : ExitStatus::kUsage;

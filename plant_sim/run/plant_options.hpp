@@ -6,6 +6,10 @@
 
 #include "common/problem.hpp"
 
+namespace CLI {  // NOLINT(readability-identifier-naming): the library is called so
+class App;
+}
+
 namespace levitas::plant_run {
 
 /// Bounds of --pace-factor: slower than the least, telemetry would count as silent.
@@ -39,7 +43,28 @@ struct PlantProgram {
   const char* port_help;
   const char* default_port;
   std::uint32_t watchdog_periods;
+  const char* examples;
 };
+
+inline constexpr PlantProgram kAmbPlant{
+    "amb-plant",
+    "Simulated magnetic bearing rig: sends sensor frames, takes current frames",
+    "lcm, or lcm:udpm://<group>:<port>?ttl=<n>",
+    "lcm",
+    1000,
+    "  amb-plant --rig flexible_rotor --pace realtime --stay\n"
+    "  amb-plant --rig rig.yaml --scenario scenario.yaml --json plant.json"};
+inline constexpr PlantProgram kAmbRig{
+    "amb-rig",
+    "Simulated magnetic bearing rig behind CAN buses, with the watchdog of a real one",
+    "can (interfaces of the rig's file), or can:IF[,IF...]",
+    "can",
+    20,
+    "  amb-rig --rig flexible_rotor --port can:vcan0 --pace realtime"};
+
+/// Gives `app` the options, and the examples behind them; parsing it fills `options`, whose port
+/// and watchdog become those of the program here.
+void AddOptions(CLI::App& app, const PlantProgram& program, PlantOptions& options);
 
 /// Reads the command line; prints help or a usage message itself. False: end with `status`.
 [[nodiscard]] bool ReadCommandLine(int argc, char** argv, const PlantProgram& program,

@@ -212,7 +212,7 @@ ExitStatus RunPlant(const PlantSetup& setup) {
   TellEnd(setup, loop.statistics());
   if (!options.json.empty()) {
     const std::vector<rt::RealTimeFact> none;
-    transport::WriteJson(Json(setup, loop.statistics(), guard ? guard->facts() : none),
+    transport::WriteJson("plant", Json(setup, loop.statistics(), guard ? guard->facts() : none),
                          options.json);
   }
   return status;
@@ -224,8 +224,6 @@ int Checked(const PlantProgram& program, int argc, char** argv,
             const std::function<ExitStatus(const PlantOptions&)>& run) {
   try {
     PlantOptions options;
-    options.watchdog_periods = program.watchdog_periods;
-    options.port = program.default_port;
     ExitStatus status = ExitStatus::kDone;
     if (ReadCommandLine(argc, argv, program, options, status)) status = run(options);
     return static_cast<int>(status);

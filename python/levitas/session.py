@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy
 
-from . import event_log, mcap, messages
+from . import event_log, mcap, messages, packed
 
 MODES = ("off", "self_test", "lift", "levitating", "spinning", "coast_down", "landing", "tripped")
 
@@ -91,7 +91,8 @@ class Session:
 
 
 def load(path):
-    """The recorded run in `path`: an LCM log, or what `amb export` makes of one (CSV, CSV.xz, MCAP)."""
+    """The recorded run in `path`: an LCM log, plain or packed by zstd, or what `amb export` makes of one (CSV,
+    CSV.xz, MCAP)."""
     path = Path(path)
     name = path.name.lower()
     try:
@@ -101,8 +102,11 @@ def load(path):
             first = file.read(8)
         if first == mcap.MAGIC:
             return _mcap(path)
+        if packed.is_packed(first):
+            return _log(path, packed.unpacked(path))
         if first[:4] == event_log.SYNC:
-            return _log(path)
+            with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+                return _log(path, data)
     except (ValueError, IndexError, KeyError, EOFError, lzma.LZMAError) as error:
         if isinstance(error, Unreadable):
             raise
@@ -143,25 +147,24 @@ def _sound(payload):
     return zlib.crc32(b"\0\0\0\0", zlib.crc32(payload[:-4])) == int.from_bytes(payload[-4:], "big")
 
 
-def _log(path):
+def _log(path, data):
     header, events, damaged = None, [], 0
     of_size = {}
     event_fields = messages.fields("event_t")
-    with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-        for channel, payload in event_log.events(data):
-            if channel == "LEVITAS_CYCLE":
-                if _sound(payload):
-                    of_size.setdefault(len(payload), []).append(payload)
-                else:
-                    damaged += 1
-            elif channel == "LEVITAS_HEADER" and header is None and _sound(payload):
-                header = messages.decode(messages.fields("session_header_t"), payload)
-            elif channel == "LEVITAS_EVENT":
-                try:
-                    event = messages.decode(event_fields, payload)
-                    events.append((event["time_ns"] / 1e9, event["text"]))
-                except ValueError:  # events have no CRC
-                    damaged += 1
+    for channel, payload in event_log.events(data):
+        if channel == "LEVITAS_CYCLE":
+            if _sound(payload):
+                of_size.setdefault(len(payload), []).append(payload)
+            else:
+                damaged += 1
+        elif channel == "LEVITAS_HEADER" and header is None and _sound(payload):
+            header = messages.decode(messages.fields("session_header_t"), payload)
+        elif channel == "LEVITAS_EVENT":
+            try:
+                event = messages.decode(event_fields, payload)
+                events.append((event["time_ns"] / 1e9, event["text"]))
+            except ValueError:  # events have no CRC
+                damaged += 1
     if header is None:
         raise Unreadable(f"{path}: an LCM log without a header: no session of this program")
     records = _records(of_size)

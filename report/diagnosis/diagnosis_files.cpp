@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "common/output_file.hpp"
+#include "diagnosis/report/advice.hpp"
+#include "diagnosis/report/report_text.hpp"
 #include "report/diagnosis/diagnosis_page.hpp"
 
 namespace levitas::cli {
@@ -12,13 +15,18 @@ using diagnosis::DiagnosisReport;
 
 namespace {
 
+const char* BracketWord(const diagnosis::NamedParameter& p) {
+  if (p.low == p.high) return "none";
+  return p.form ? "neighbouring forms" : "5 to 95 %";
+}
+
 nlohmann::ordered_json ParametersJson(const DiagnosisReport& report) {
   auto json = nlohmann::ordered_json::object();
   for (const auto& p : report.parameters) {
     json[p.name] = {{"value", p.value},   {"low", p.low},
                     {"high", p.high},     {"unit", p.unit},
                     {"effect", p.effect}, {"where", p.location.name},
-                    {"key", p.key},       {"bracket", p.form ? "neighbouring forms" : "5 to 95 %"}};
+                    {"key", p.key},       {"bracket", BracketWord(p)}};
     if (!p.of_file) continue;
     json[p.name]["of_file"] = p.of_file->nominal;
     json[p.name]["with_file"] = p.of_file->total;
@@ -83,6 +91,7 @@ nlohmann::ordered_json CandidatesJson(const DiagnosisReport& report) {
     nlohmann::ordered_json entry{{"effect", c.effect}, {"where", c.place}, {"score", nullptr}};
     if (std::isfinite(c.evidence_nat)) entry["score"] = c.evidence_nat;
     entry["refitted"] = c.refitted;
+    entry["reason"] = c.reason;
     if (c.validation_nat) entry["held_out_nat"] = *c.validation_nat;
     json.push_back(entry);
   }
@@ -137,8 +146,7 @@ nlohmann::ordered_json RecordErrorsJson(const std::vector<diagnosis::RecordError
                       {"times_better", error.statistic},
                       {"sentence", error.sentence},
                       {"mend", error.mend},
-                      {"by_map", error.by_map},
-                      {"remark", diagnosis::IsRemark(error.kind)}});
+                      {"by_map", error.by_map}});
     }
   }
   return json;
@@ -165,6 +173,58 @@ nlohmann::ordered_json LevitationJson(const diagnosis::ReportLevitations& s) {
   return {{"laws", std::move(laws)},
           {"records_without_law", s.records_without_law},
           {"sentences", s.sentences}};
+}
+
+const char* SeverityWord(diagnosis::Severity severity) {
+  switch (severity) {
+    case diagnosis::Severity::kSlight:
+      return "slight";
+    case diagnosis::Severity::kMarked:
+      return "marked";
+    case diagnosis::Severity::kSevere:
+      return "severe";
+    case diagnosis::Severity::kNotSaid:
+      break;
+  }
+  return "not said";
+}
+
+/// For who acts on it: what it is in words, how severe, what to do, where.
+void AddAdvice(const DiagnosisReport& report, nlohmann::ordered_json& json) {
+  json["headline"] = report.headline;
+  json["certainty"] = report.certainty;
+  json["undecided"] = report.undecided;
+  json["odds_log10"] = nullptr;
+  if (!report.causes.empty()) {
+    json["odds_log10"] = Finite(diagnosis::OwnEvidence(report) * std::numbers::log10e);
+  }
+  json["severity"] = SeverityWord(report.severity);
+  json["what_it_does"] = report.severity_sentence;
+  json["action"] = report.action;
+  auto causes = nlohmann::ordered_json::array();
+  for (const auto& cause : report.causes) {
+    causes.push_back({{"effect", cause.effect},
+                      {"where", cause.place},
+                      {"words", diagnosis::InWords(report, cause)}});
+  }
+  json["causes_in_words"] = std::move(causes);
+  auto marks = nlohmann::ordered_json::array();
+  for (const auto& mark : report.marks) {
+    marks.push_back({{"effect", mark.text}, {"z_mm", 1e3 * mark.z_m}});
+  }
+  json["places_on_shaft"] = std::move(marks);
+  json["healthy_proposal"] = report.healthy_proposal;
+  json["healthy_record_found"] = report.healthy_record;
+}
+
+nlohmann::ordered_json OriginJson(const diagnosis::ReportOrigin& origin) {
+  return {{"date_utc", origin.date_utc},
+          {"program_version", origin.program_version},
+          {"rig_file", origin.rig_file},
+          {"records", origin.records},
+          {"validation", origin.validation},
+          {"healthy", origin.healthy},
+          {"quick", origin.quick}};
 }
 
 }  // namespace
@@ -226,6 +286,8 @@ nlohmann::ordered_json DiagnosisJson(const DiagnosisReport& report) {
   json["healthy_records"] = report.healthy_sentence;
   json["next_experiment"] = report.next_experiment;
   json["candidates"] = CandidatesJson(report);
+  AddAdvice(report, json);
+  json["origin"] = OriginJson(report.origin);
   if (!report.fitted_runs.empty()) AddRuns(report, json);
   return json;
 }

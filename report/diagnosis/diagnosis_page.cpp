@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/report_text.hpp"
 #include "report/diagnosis/diagnosis_text.hpp"
 #include "report/diagnosis/forecast_section.hpp"
+#include "report/diagnosis/rotor_sketch.hpp"
 #include "report/svg/escaped_text.hpp"
 #include "report/svg/figure.hpp"
 
@@ -24,7 +26,11 @@ constexpr const char* kStyle =
     "body{font:16px/1.5 sans-serif;max-width:64em;margin:2em auto;padding:0 1em;color:#222}"
     "h1{font-size:1.5em}.verdict{font-size:1.25em;padding:.8em "
     "1em;background:#eef4fb;border-left:6px "
-    "solid #1f77b4}table{border-collapse:collapse}td,th{padding:.2em .6em;text-align:left;"
+    "solid #1f77b4}.verdict.severe{background:#fdecea;border-color:#d62728}.verdict.marked{"
+    "background:#fff4e5;border-color:#e08a00}.advice td{vertical-align:top;border:0;padding:.25em "
+    ".6em .25em 0}.advice "
+    "td.k{font-weight:bold}.origin{color:#555;font-size:.9em}table{border-collapse:collapse}td,th{"
+    "padding:.2em .6em;text-align:left;"
     "border-bottom:1px solid "
     "#ddd}td.n{text-align:right;white-space:nowrap}td.k{white-space:nowrap}svg{margin:1em "
     "0}.bar{background:#eee;"
@@ -65,6 +71,11 @@ std::string Spectra(const DiagnosisReport& s) {
   return svg::Draw(figure);
 }
 
+std::string NameInWords(const DiagnosisReport& s, const std::string& effect) {
+  const effect::Words* words = diagnosis::FindWords(s, effect);
+  return words == nullptr ? "" : Escaped(std::string(words->name));
+}
+
 std::string Ranking(const DiagnosisReport& s) {
   constexpr std::size_t kShown = 8;
   std::string rows;
@@ -74,20 +85,25 @@ std::string Ranking(const DiagnosisReport& s) {
     const std::string score =
         std::isfinite(c.evidence_nat) ? fmt::format("{:.1f}", c.evidence_nat) : "-";
     (i < kShown ? rows : rest) +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{}</td><td>{}</td></tr>\n", c.effect,
-                    Escaped(c.place), score, c.reason);
+        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{}</td><td>{}</td></tr>\n",
+                    NameInWords(s, c.effect), c.effect, Escaped(c.place), score, c.reason);
   }
   const std::string head =
-      "<table><tr><th>effect</th><th>where</th><th>evidence, nat</th><th></th></tr>\n";
+      "<table><tr><th>what</th><th>effect</th><th>where</th><th>evidence, nat</th><th>why it is "
+      "not the answer</th></tr>\n";
   return head + rows + "</table>\n<details><summary>All others that were ruled out</summary>" +
          head + rest + "</table></details>\n";
 }
 
-/// One line of the picture of what is left, the noise's power as 1; logarithmic, from a half on.
+constexpr double kMostLinear = 10.0;  ///< times the noise: longer bars are logarithmic
+
+/// One line of the picture of what is left, the noise's power as 1; from 0 on, or logarithmic from
+/// a half on.
 std::string Bar(const char* name, double ratio, double largest, const char* colour) {
   constexpr double kBegin = 0.5;
-  const double width =
-      std::log(std::max(ratio, kBegin) / kBegin) / std::log(std::max(largest, 2.0) / kBegin);
+  const double width = largest <= kMostLinear ? ratio / std::max(largest, 1.0)
+                                              : std::log(std::max(ratio, kBegin) / kBegin) /
+                                                    std::log(largest / kBegin);
   return fmt::format(
       "<tr><td>{}</td><td><div class=bar><div style=\"width:{:.1f}%;background:{}\"></div></div>"
       "</td><td class=n>{:.2f}</td></tr>\n",
@@ -109,7 +125,9 @@ std::string Left(const DiagnosisReport& s) {
   }
   return text +
          "</table><p>Squared error of the one-step prediction, as a multiple of the sensors' "
-         "noise, on data that were not fitted (bars logarithmic). Where calibration alone leaves "
+         "noise, on data that were not fitted" +
+         std::string(largest <= kMostLinear ? "" : " (bars logarithmic)") +
+         ". Where calibration alone leaves "
          "little, the evidence (nat: logarithm of the odds) decides on a cause, not this.</p>\n";
 }
 
@@ -173,7 +191,7 @@ std::string FitTable(const DiagnosisReport& s) {
         name, g.nominal_percent, g.calibrated_percent, g.extended_percent, g.ceiling_percent,
         g.meaningful ? fmt::format("{:.3f} ({:.3f} to {:.3f})", g.achieved.fraction, g.achieved.low,
                                    g.achieved.high)
-                     : "nothing to gain");
+                     : "the file fits to the noise");
   };
   return "<table><tr><th>fit, percent</th><th>nominal</th><th>calibrated</th><th>extended</th>"
          "<th>ceiling</th><th>share of the achievable gain</th></tr>\n" +
@@ -185,11 +203,13 @@ std::string ParameterTable(const DiagnosisReport& s) {
   bool form = false;
   for (const auto& [p, places] : SharedParameters(s)) {
     form = form || p.form;
+    const std::string range =
+        p.low < p.high ? fmt::format("{:.5g} to {:.5g}", p.low, p.high) : std::string("-");
     rows += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{:.5g}</td><td>{:.5g} to {:.5g}{}</td>"
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{:.5g}</td><td>{}</td><td>{}</td>"
         "<td>{}</td></tr>\n",
-        p.effect, Escaped(places), p.key, p.value, p.low, p.high, p.form ? " *" : "",
-        Escaped(p.unit));
+        p.effect, Escaped(places), p.key, p.value, Escaped(p.unit), range,
+        p.low < p.high ? diagnosis::BracketName(p) : "");
   }
   if (rows.empty()) return {};
   std::string totals;
@@ -197,9 +217,11 @@ std::string ParameterTable(const DiagnosisReport& s) {
     totals += fmt::format("<p>{}.</p>\n", Escaped(total));
   }
   return "<h2>Parameters, as in a rig file</h2><table><tr><th>effect</th><th>where</th>"
-         "<th>key</th><th>value</th><th>90 % interval</th><th>unit</th></tr>\n" +
+         "<th>key</th><th>value</th><th>unit</th><th>from, to</th><th>which is</th></tr>\n" +
          rows + "</table>\n" + totals +
-         (form ? "<p>* as far as the neighbouring forms of the law that were tried</p>\n" : "");
+         (form ? "<p>Neighbouring forms: of a grid of laws that was tried; how well the value is "
+                 "known they do not say.</p>\n"
+               : "");
 }
 
 std::string RunsTable(const DiagnosisReport& s) {
@@ -228,9 +250,52 @@ std::string ErrorsOfRecords(const DiagnosisReport& s) {
   for (const std::string& sentence : diagnosis::RecordErrorSentences(s.record_errors)) {
     html += fmt::format("<p class=\"verdict\"><b>{}</b></p>\n", Escaped(sentence));
   }
-  if (!html.empty())
-    html += fmt::format("<p>{}</p>\n", diagnosis::AfterRecordErrors(s.record_errors));
+  if (!html.empty()) html += fmt::format("<p>{}</p>\n", diagnosis::kAsMended);
   return html;
+}
+
+/// "10^8" with its exponent raised, of text that is escaped.
+std::string WithPowers(std::string text) {
+  for (auto at = text.find("10^"); at != std::string::npos; at = text.find("10^", at + 3)) {
+    const auto end = text.find_first_not_of("0123456789", at + 3);
+    const std::string power = text.substr(at + 3, end == std::string::npos ? end : end - at - 3);
+    text.replace(at, 3 + power.size(), "10<sup>" + power + "</sup>");
+  }
+  return text;
+}
+
+std::string Row(const char* name, const std::string& text) {
+  return text.empty() ? "" : fmt::format("<tr><td class=k>{}</td><td>{}</td></tr>\n", name, text);
+}
+
+/// Headline, what it does, what to do, the rotor with the place.
+std::string Advice(const DiagnosisReport& s) {
+  const char* tone = s.severity == diagnosis::Severity::kSevere   ? " severe"
+                     : s.severity == diagnosis::Severity::kMarked ? " marked"
+                                                                  : "";
+  return fmt::format("<p class=\"verdict{}\">{}</p>\n<table class=\"advice\">\n{}{}{}{}</table>\n",
+                     tone, WithPowers(Escaped(s.headline)),
+                     Row("What it does", Escaped(s.severity_sentence)),
+                     Row("Action", Escaped(s.action)), Row("Compare", Escaped(HealthyProposal(s))),
+                     Row("Further records", Escaped(FurtherRecords(s)))) +
+         RotorSketch(s);
+}
+
+std::string Listed(const char* name, const std::vector<std::string>& files) {
+  return files.empty() ? "" : fmt::format(" {}: {}.", name, fmt::join(files, ", "));
+}
+
+/// Date, version, files; empty where none is known.
+std::string Origin(const DiagnosisReport& s) {
+  const diagnosis::ReportOrigin& of = s.origin;
+  std::string text;
+  if (!of.date_utc.empty()) text += of.date_utc + ".";
+  if (!of.program_version.empty()) text += fmt::format(" Levitas {}.", of.program_version);
+  if (!of.rig_file.empty()) text += fmt::format(" Rig file: {}.", of.rig_file);
+  text += Listed("Records", of.records) + Listed("Validation", of.validation) +
+          Listed("Healthy", of.healthy);
+  if (of.quick) text += " First answer (--quick).";
+  return text.empty() ? "" : fmt::format("<p class=\"origin\">{}</p>\n", Escaped(text));
 }
 
 /// Of the rig files that were written; empty when they levitate.
@@ -249,15 +314,15 @@ std::string DiagnosisPage(const DiagnosisReport& s) {
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of "
       "{0}</title><style>{1}</style></head><body>\n<h1>Diagnosis of {0}</h1>\n",
       Escaped(s.rig_name), kStyle);
-  const std::string verdict = fmt::format(
-      "<p class=\"verdict\">{}</p>\n<p>{} <b>Next:</b> {}.</p>\n", Escaped(s.verdict_sentence),
-      Escaped(fmt::format("{} {}", Summary(s), s.healthy_sentence)), Escaped(s.next_experiment));
+  const std::string detail = fmt::format(
+      "<h2>In detail</h2>\n<p>{}</p>\n<p>{}</p>\n", WithPowers(Escaped(s.verdict_sentence)),
+      Escaped(fmt::format("{} {}", Summary(s), s.healthy_sentence)));
   const std::string fit = fmt::format(
       "<h2>Fit</h2>\n{}<p>Nominal: the rig file. Calibrated: with the deviations of a healthy rig. "
       "Extended: with the causes. Ceiling: the sensors' noise alone. {}</p>\n<p>{}</p>\n",
       FitTable(s), CeilingSentence(s), Escaped(ErrorSharesSentence(s)));
-  return head + ErrorsOfRecords(s) + verdict + Levitation(s) + Left(s) + Spectra(s) +
-         ParameterTable(s) + CalibrationTable(s) + ForecastSection(s) +
+  return head + Origin(s) + ErrorsOfRecords(s) + Advice(s) + detail + Levitation(s) + Left(s) +
+         Spectra(s) + ParameterTable(s) + CalibrationTable(s) + ForecastSection(s) +
          "<h2>Ranking, and why not the others</h2>\n" + Ranking(s) + fit + ChannelTable(s) +
          RunsTable(s) + "</body></html>\n";
 }

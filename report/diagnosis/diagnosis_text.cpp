@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/inference/judging.hpp"
+#include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/forecast_text.hpp"
 #include "diagnosis/report/report_text.hpp"
 #include "report/text/text_table.hpp"
@@ -24,18 +26,31 @@ using diagnosis::ReportRunFit;
 constexpr std::size_t kShown = 8;
 constexpr double kLeastShare = 0.01;  ///< of the rig file's error, to be said of calibration
 
+/// What to know first: what it is, what it does, what to do.
+void PrintAdvice(const DiagnosisReport& s) {
+  fmt::print("{}\n", s.headline);
+  if (!s.severity_sentence.empty()) fmt::print("What it does: {}\n", s.severity_sentence);
+  fmt::print("Action: {}\n", s.action);
+  const std::string healthy = HealthyProposal(s);
+  if (!healthy.empty()) fmt::print("{}\n", healthy);
+  fmt::print("\n");
+}
+
 void PrintParameters(const DiagnosisReport& s) {
   const auto parameters = SharedParameters(s);
   if (parameters.empty()) return;
-  fmt::print("Parameters, keys and units as in a rig file (in brackets: 90 % interval):\n");
+  fmt::print("Parameters, keys and units as in a rig file:\n");
   bool form = false;
   for (const auto& [p, places] : parameters) {
     const std::string unit = p.unit.empty() ? "" : " " + p.unit;
-    fmt::print("  {} {}: {:.5g}{} ({:.5g} to {:.5g}){}, {}\n", p.effect, p.key, p.value, unit,
-               p.low, p.high, p.form ? "*" : "", places);
+    fmt::print("  {} {}: {:.5g}{}{}, {}\n", p.effect, p.key, p.value, unit,
+               diagnosis::BracketText(p), places);
     form = form || p.form;
   }
-  if (form) fmt::print("  * as far as the neighbouring forms of the law that were tried\n");
+  if (form) {
+    fmt::print(
+        "  (neighbouring forms: of a grid that was tried; not how well the value is known)\n");
+  }
   for (const std::string& total : diagnosis::TotalSentences(s.parameters))
     fmt::print("  {}\n", total);
   fmt::print("\n");
@@ -107,8 +122,9 @@ void PrintRanking(const DiagnosisReport& s, bool complete) {
   bool screened = false;
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& c = candidates[i];
-    fmt::print("{:<26}{:<42}{:>10.1f}{}\n", c.effect, c.place, c.evidence_nat,
-               c.refitted ? "" : "  (screen)");
+    const bool said = c.evidence_nat >= diagnosis::kDecisive && !c.reason.empty();
+    fmt::print("{:<26}{:<42}{:>10.1f}{}{}{}\n", c.effect, c.place, c.evidence_nat,
+               c.refitted ? "" : "  (screen)", said ? "  " : "", said ? c.reason : "");
     screened = screened || !c.refitted;
   }
   if (screened) {
@@ -181,11 +197,29 @@ std::string AtPhase(double value, std::optional<double> phase_rad) {
              : fmt::format("{:.5g}", value);
 }
 
-std::string GainSentence(const DiagnosisReport& s) {
-  const ReportFit& held = s.validation;
-  if (!held.meaningful) {
+std::string SmallErrorSentence(const DiagnosisReport& s) {
+  if (diagnosis::AllInOrder(s)) {
     return "Nothing to gain: the rig file itself predicts these data nearly to their noise.";
   }
+  const std::string text =
+      "One step ahead the rig file itself predicts the validation data nearly to their noise, so "
+      "the fit says little here; ";
+  if (!s.causes.empty()) {
+    return text + fmt::format("the evidence of {:.0f} nat decides.", diagnosis::OwnEvidence(s));
+  }
+  return text + (s.verdict == diagnosis::Verdict::kUnknown
+                     ? "what is left stands out in few lines of the spectrum."
+                     : "the numbers that are off, and the candidates, do.");
+}
+
+std::string FurtherRecords(const DiagnosisReport& s) {
+  if (s.next_experiment != diagnosis::kNoneNeeded) return s.next_experiment;
+  return s.causes.empty() ? "none needed" : "none needed to name the cause";
+}
+
+std::string GainSentence(const DiagnosisReport& s) {
+  const ReportFit& held = s.validation;
+  if (!held.meaningful) return SmallErrorSentence(s);
   const std::string gained = fmt::format(
       "On validation data this model reaches {:.1f} % ({:.1f} to {:.1f} %) of the achievable gain",
       100.0 * held.achieved.fraction, 100.0 * held.achieved.low, 100.0 * held.achieved.high);
@@ -217,6 +251,12 @@ std::string ErrorSharesSentence(const DiagnosisReport& s) {
                      fmt::join(parts, ", "));
 }
 
+std::string HealthyProposal(const DiagnosisReport& s) {
+  if (s.healthy_proposal.empty() || s.healthy_record.empty()) return s.healthy_proposal;
+  return fmt::format("{} The last accepted session of this rig: --healthy {}", s.healthy_proposal,
+                     s.healthy_record);
+}
+
 std::string CeilingSentence(const DiagnosisReport& s) {
   if (!Above(s.fitted) && !Above(s.validation)) return {};
   return "A fit above the ceiling is at the ceiling: the noise is read from the highest third of "
@@ -227,15 +267,16 @@ void PrintDiagnosis(const DiagnosisReport& s, bool complete) {
   for (const std::string& sentence : diagnosis::RecordErrorSentences(s.record_errors)) {
     fmt::print("{}\n", sentence);
   }
-  if (!s.record_errors.empty()) fmt::print("{}\n\n", diagnosis::AfterRecordErrors(s.record_errors));
-  fmt::print("{}\n\n", s.verdict_sentence);
+  if (!s.record_errors.empty()) fmt::print("{}\n\n", diagnosis::kAsMended);
+  PrintAdvice(s);
+  fmt::print("In detail: {}\n\n", s.verdict_sentence);
   if (!s.healthy_sentence.empty()) fmt::print("{}\n\n", s.healthy_sentence);
   PrintParameters(s);
   PrintCalibrated(s, complete);
   PrintFits(s);
   PrintForecast(s);
   PrintRanking(s, complete);
-  fmt::print("\nNext: {}\n", s.next_experiment);
+  fmt::print("\nAction: {}\nFurther records: {}\n", s.action, FurtherRecords(s));
   PrintTies(s);
   PrintRuns(s);
   for (const std::string& sentence : s.levitation.sentences) fmt::print("\n{}\n", sentence);

@@ -1,7 +1,8 @@
 #pragma once
-// What amb diagnose prints: the verdict, the parameters as they stand in a rig file, what the
-// calibration has moved, fits, the ranking, what to record next; ties and the fits of single
-// records where the report has them; last, which of the rig files does not levitate.
+// What amb diagnose prints: headline, severity and action, the verdict in detail, the parameters as
+// they stand in a rig file, what the calibration has moved, fits, the ranking, what to record next;
+// ties and the fits of single records where the report has them; last, which of the rig files does
+// not levitate.
 
 #include <optional>
 #include <string>
@@ -25,8 +26,15 @@ struct SharedParameter {
 [[nodiscard]] std::string IntervalText(const diagnosis::ReportRunFit& fit);
 /// "18.5 at 120.3 deg", or the value alone.
 [[nodiscard]] std::string AtPhase(double value, std::optional<double> phase_rad);
-/// What share of what could be gained is, and by what; or that there was nothing to gain.
+/// What share of what could be gained is, and by what.
 [[nodiscard]] std::string GainSentence(const diagnosis::DiagnosisReport& report);
+/// Instead of it, where the rig file leaves hardly more than the noise: that nothing is to be
+/// gained only where all is in order.
+[[nodiscard]] std::string SmallErrorSentence(const diagnosis::DiagnosisReport& report);
+/// What to record next; empty hands are said with what they are enough for.
+[[nodiscard]] std::string FurtherRecords(const diagnosis::DiagnosisReport& report);
+/// With the session that was found for it; empty where none is proposed.
+[[nodiscard]] std::string HealthyProposal(const diagnosis::DiagnosisReport& report);
 /// Who makes how much of the rig file's error, the largest first; empty where there is none.
 [[nodiscard]] std::string ErrorSharesSentence(const diagnosis::DiagnosisReport& report);
 /// Why a fit can lie above its ceiling; empty when none does.

@@ -45,7 +45,7 @@ NamedPicture OrbitsOf(const Comparison& c, std::size_t bearing, double circle_um
   for (std::size_t i = 0; i < c.speeds_rad_per_s.size(); ++i) {
     svg::Panel panel{
         fmt::format("{}, {:.0f} rpm", c.bearings[bearing], RadPerSToRpm(c.speeds_rad_per_s[i])),
-        "x, um", "y, um"};
+        "x, µm", "y, µm"};
     panel.x_range = panel.y_range = svg::Range{-reach_um, reach_um};
     panel.same_scale = true;
     if (circle_um > 0.0) {
@@ -130,7 +130,7 @@ std::vector<NamedPicture> ComparisonPictures(const Comparison& comparison, doubl
                                  [](const auto& record) { return !record.over_speed.empty(); });
   if (!turns) return pictures;
   pictures.push_back(OverSpeed(comparison, &analysis::SynchronousRows::position_m,
-                               "position_over_speed", "position", "um", kUm));
+                               "position_over_speed", "position", "µm", kUm));
   pictures.push_back(OverSpeed(comparison, &analysis::SynchronousRows::current_a,
                                "current_over_speed", "control current", "A", 1.0));
   return pictures;

@@ -70,7 +70,7 @@ NamedPicture InClearance(const Recording& r, std::size_t bearing,
                          const std::vector<svg::Series>& paths) {
   const double clearance_um = r.rig.ClearanceOf(bearing) * kUm;
   const std::string& name = r.rig.bearings[bearing];
-  svg::Panel panel{fmt::format("orbits in the clearance, {}", name), "x, um", "y, um"};
+  svg::Panel panel{fmt::format("orbits in the clearance, {}", name), "x, µm", "y, µm"};
   panel.x_range = panel.y_range = svg::Range{-1.1 * clearance_um, 1.1 * clearance_um};
   panel.series = {Circle(clearance_um, "", ""), Circle(0.3 * clearance_um, "", "2 3"),
                   Circle(0.4 * clearance_um, "", "2 3"), Circle(0.5 * clearance_um, "", "2 3")};
@@ -85,7 +85,7 @@ NamedPicture InClearance(const Recording& r, std::size_t bearing,
 NamedPicture Enlarged(const Recording& r, std::size_t bearing,
                       const std::vector<svg::Series>& paths) {
   const std::string& name = r.rig.bearings[bearing];
-  svg::Panel panel{fmt::format("the same enlarged, {}", name), "x, um", "y, um"};
+  svg::Panel panel{fmt::format("the same enlarged, {}", name), "x, µm", "y, µm"};
   double reach = 1.0;
   for (const svg::Series& path : paths) {
     for (std::size_t i = 0; i < path.x.size(); ++i) {

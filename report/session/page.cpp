@@ -6,6 +6,7 @@
 
 #include "common/rotational_speed.hpp"
 #include "report/session/page_parts.hpp"
+#include "report/session/verdict_section.hpp"
 #include "report/svg/escaped_text.hpp"
 #include "verdict/report.hpp"
 
@@ -39,15 +40,6 @@ std::string Identity(const Recording& r, const PageInput& input) {
          Row("excerpt of", header.excerpt_of) + Row("damage", r.damage) + "</table></div>\n";
 }
 
-std::string Judgement(const PageInput& input) {
-  if (!input.verdict) {
-    return "<p class=verdict>Not judged: the record names no controller.</p>\n";
-  }
-  const bool good = input.verdict->outcome == verdict::Outcome::kAccepted;
-  return fmt::format("<p class='verdict{}'>{}</p>\n", good ? " good" : "",
-                     Escaped(input.verdict->sentence));
-}
-
 std::string Events(const Recording& r) {
   std::string rows;
   for (const session::Event& event : r.events) {
@@ -58,22 +50,23 @@ std::string Events(const Recording& r) {
     rows += fmt::format("<tr{}><td class=n>{:.3f}</td><td>{}</td></tr>\n",
                         trip ? " class=trip" : "", time_s, Escaped(event.text));
   }
-  if (rows.empty()) return "<h2>Events</h2>\n<p>None.</p>\n";
-  return "<h2>Events</h2>\n<div class=scroll><table>\n<tr><th class=n>time, "
+  if (rows.empty()) return "<h2 id=events>Events</h2>\n<p>None.</p>\n";
+  return "<h2 id=events>Events</h2>\n<div class=scroll><table>\n<tr><th class=n>time, "
          "s</th><th></th></tr>\n" +
          rows + "</table></div>\n";
 }
 
 std::string Timing(const Recording& r, const PageInput& input) {
   std::string html = fmt::format(
-      "<h2>Timing</h2>\n<p>{} cycles recorded; {} periods skipped, {} cycles without a new sensor "
+      "<h2 id=timing>Timing</h2>\n<p>{} cycles recorded; {} periods skipped, {} cycles without a "
+      "new sensor "
       "frame.</p>\n",
       r.records, r.missed_deadlines, r.without_frame);
   if (input.durations.empty()) return html;
   html +=
       "<div class=scroll><table>\n<tr><th>duration</th><th class=n>count</th><th class=n>p50, "
-      "us</th><th class=n>p99, us</th><th class=n>p99.9, us</th><th class=n>largest, "
-      "us</th></tr>\n";
+      "µs</th><th class=n>p99, µs</th><th class=n>p99.9, µs</th><th class=n>largest, "
+      "µs</th></tr>\n";
   for (const verdict::DurationFigures& d : input.durations) {
     html += fmt::format(
         "<tr><td>{}</td><td class=n>{}</td><td class=n>{:.2f}</td><td class=n>{:.2f}</td><td "
@@ -91,21 +84,29 @@ std::string Folded(const std::string& title, const std::string& text) {
       Escaped(title), Escaped(text));
 }
 
+std::string Contents(const PageInput& input) {
+  std::string links = "<nav>";
+  if (input.levitated) links += "<a href=\"#critical\">Critical speeds</a> ";
+  return links +
+         "<a href=\"#pictures\">Pictures</a> <a href=\"#events\">Events</a> "
+         "<a href=\"#timing\">Timing</a> <a href=\"#configuration\">Configuration</a></nav>\n";
+}
+
 }  // namespace
 
 std::string Page(const Recording& recording, const PageInput& input) {
   const std::string title = recording.rig.name + ", " + Utc(recording.header.start_utc_ns);
   std::string html = PageStart(title);
-  html += Judgement(input) + Identity(recording, input) + Gallery(input.pictures);
-  if (input.verdict) {
-    html += "<h2>Verdict</h2>\n<div class=scroll><pre>" + Escaped(verdict::Table(*input.verdict)) +
-            "</pre></div>\n";
-  }
+  html += VerdictSection(input.verdict) + Contents(input) + Identity(recording, input) +
+          CriticalSpeedSection(input.levitated) + Gallery(input.pictures);
   html += Events(recording) + Timing(recording, input);
-  html += "<h2>Configuration</h2>\n" + Folded("rig", recording.header.rig_yaml) +
+  if (input.verdict) {
+    html += Folded("The whole verdict, as amb run prints it", verdict::Table(*input.verdict));
+  }
+  html += "<h2 id=configuration>Configuration</h2>\n" + Folded("rig", recording.header.rig_yaml) +
           Folded("controller", recording.header.controller_yaml) +
           Folded("scenario", recording.header.scenario_yaml);
-  return html + PageEnd();
+  return html + Cursor() + PageEnd();
 }
 
 }  // namespace levitas::report

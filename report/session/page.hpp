@@ -1,7 +1,10 @@
 #pragma once
-// The report of a session as one HTML page that needs nothing beside it: no script, no network, no
-// other file. Every picture is inside, as SVG with a caption that a screen reader reads.
+// The report of a session as one HTML page that needs nothing beside it: no network, no other file.
+// Every picture is inside, as SVG with a caption that a screen reader reads. It opens with the
+// verdict as tables.
 //
+// Script   of the page itself: cursor and zoom of the pictures (page_parts.hpp). Without it nothing
+//          else is missing.
 // Colours  Okabe & Ito (2008); no meaning rests on a colour alone.
 // Thread   any. Failure: none; text of the session is escaped.
 
@@ -9,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/critical_speeds.hpp"
 #include "report/session/pictures.hpp"
 #include "report/session/recording.hpp"
 #include "verdict/verdict.hpp"
@@ -19,6 +23,7 @@ struct PageInput {
   std::string session_path;
   std::vector<NamedPicture> pictures;
   std::optional<verdict::Verdict> verdict;          ///< absent: the record names no controller
+  std::optional<analysis::Campbell> levitated;      ///< with it the critical speeds
   std::vector<verdict::DurationFigures> durations;  ///< of the loop, as the run reported them
 };
 

@@ -59,7 +59,7 @@ NamedPicture Bode(const Recording& r, const std::vector<SynchronousPoint>& point
   const char* const speed = geared ? "rpm of the first shaft" : "rpm";
   svg::Panel size{geared ? fmt::format("vibration with its own shaft (its 1X), {}", name)
                          : fmt::format("synchronous vibration (1X forward), {}", name),
-                  speed, "um"};
+                  speed, "µm"};
   svg::Panel phase{geared ? "phase to its shaft's mark" : "phase to the rotor's mark", speed,
                    "degrees"};
   for (const Ramp ramp : {Ramp::kUp, Ramp::kDown}) {

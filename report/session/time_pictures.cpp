@@ -43,7 +43,7 @@ svg::Series LargestRadius(const Recording& r, std::size_t bearing, bool judged, 
 }
 
 NamedPicture DistancePicture(const Recording& r) {
-  svg::Panel panel{"distance from the centre of the clearance", "time, s", "um"};
+  svg::Panel panel{"distance from the centre of the clearance", "time, s", "µm"};
   for (std::size_t b = 0; b < r.rig.bearings.size(); ++b) {
     panel.series.push_back(LargestRadius(r, b, false, kUm));
   }

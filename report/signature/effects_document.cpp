@@ -30,7 +30,7 @@ orders and exponents stay. The program reaches every number by name, `effects[0]
 
 Symbols: *ic* control current, *i0* bias, *x* displacement at the actuator, *r* = x + jy, *q* modal coordinate, *w* its
 frequency, *phi* its shape, *W* speed and *angle* of the rotor, *s* Laplace variable. "Clear" is a size that shows on a
-laboratory rig; "x own" means times what the rig has. Pictures: rig `flexible_rotor`, clear size, nominal beside effect;
+laboratory rig; "x own" means times what the rig has. Pictures: rig `flexible_rotor`, clear size, which the title says; the broad pale line is the nominal rig;
 responses are those of the free rotor in its magnets without a controller; "what the effect adds" is the spectrum of the difference
 of two runs with the same noise; effects of teeth are drawn on `geared_rotor_4dof`.
 

@@ -40,6 +40,7 @@ svg::Series Loop(const plant::PlantParameters& rig, const std::string& name, std
 std::vector<svg::Panel> ForcePanels(const Pair& rigs) {
   svg::Panel panel{"force of one axis, 50 Hz", "commanded current, A", "N"};
   panel.series = {Loop(rigs.without, "nominal", 0), Loop(rigs.with, "effect", 1)};
+  MakeNominal(panel.series[0]);
   svg::Panel difference{"effect minus nominal", "commanded current, A", "N"};
   svg::Series line = panel.series[1];
   line.name.clear();

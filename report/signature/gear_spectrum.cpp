@@ -17,7 +17,7 @@ constexpr double kLeastUm = 1e-4;  // less is rounding
 constexpr int kMeshOrders = 50;    // two harmonics of a mesh of 20 teeth and their neighbours
 
 svg::Panel Empty(const char* title) {
-  svg::Panel panel{title, "order of the driving wheel (negative: backward)", "um"};
+  svg::Panel panel{title, "order of the driving wheel (negative: backward)", "µm"};
   panel.y_scale = svg::Scale::kLogarithmic;
   return panel;
 }
@@ -27,6 +27,7 @@ svg::Panel Both(const Turning& with, const Turning& without, int most, const cha
   const Orders orders{kGearMotion.turns, most};
   panel.series = {OrderSpectrum(without.reading_m, orders, "nominal", 0),
                   OrderSpectrum(with.reading_m, orders, "effect", 1)};
+  MakeNominal(panel.series[0]);
   return panel;
 }
 

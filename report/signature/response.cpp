@@ -131,12 +131,14 @@ std::vector<svg::Panel> ResponsePanels(const Pair& rigs) {
   const std::vector<double> grid_hz = Grid(nominal, changed);
   const Response without = Compute(nominal, grid_hz);
   const Response with = Compute(changed, grid_hz);
-  svg::Panel gain{"current to reading at 3000 rpm", "Hz", "um/A"};
+  svg::Panel gain{"current to reading at 3000 rpm", "Hz", "µm/A"};
   gain.x_scale = gain.y_scale = svg::Scale::kLogarithmic;
   gain.series = {Line("nominal", without, without.direct, Micrometres, 0, false),
-                 Line("effect", with, with.direct, Micrometres, 1, false),
                  Line("nominal, x to y", without, without.cross, Micrometres, 0, true),
+                 Line("effect", with, with.direct, Micrometres, 1, false),
                  Line("effect, x to y", with, with.cross, Micrometres, 1, true)};
+  MakeNominal(gain.series[0]);
+  MakeNominal(gain.series[1]);
   return {gain, Change("gain, effect over nominal", "dB", with, without, Decibels, 0.5),
           Change("phase, effect minus nominal", "degrees", with, without, Degrees, 5.0)};
 }

@@ -5,12 +5,49 @@
 #include <algorithm>
 #include <cmath>
 
+#include "configuration/schema/unit.hpp"
 #include "plant_sim/plant/effects/apply_effects.hpp"
 
 namespace levitas::signature {
 
 using effect::Id;
 using effect::Shows;
+
+namespace {
+
+/// The unit that a key of a rig file ends in; of a pure number kOne.
+const config::Unit& UnitOf(const effect::Parameter& parameter) {
+  for (const config::Unit& unit : config::AllUnits()) {
+    if (!unit.suffix.empty() && unit.suffix == parameter.file_suffix) return unit;
+  }
+  return config::unit::kOne;
+}
+
+/// As it is printed: the micro of files' keys is a u.
+std::string Symbol(const config::Unit& unit) {
+  const std::string symbol(unit.symbol);
+  return symbol == "um" || symbol == "us" ? "µ" + symbol.substr(1) : symbol;
+}
+
+std::string InUnit(double value, const config::Unit& unit) {
+  const double per_si = std::pow(10.0, unit.decimal_exponent) * static_cast<double>(unit.factor);
+  return fmt::format("{:.4g}{}{}", value / per_si, unit.symbol.empty() ? "" : " ", Symbol(unit));
+}
+
+}  // namespace
+
+std::string SizeText(const plant::PlantParameters& rig, const effect::EffectConfig& entry) {
+  const plant::Values own = plant::OwnValues(rig, entry, 0);
+  const auto parameters = effect::At(entry.id).parameters;
+  std::string text;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const effect::Parameter& p = parameters[i];
+    const config::Unit& unit = UnitOf(p);
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", p.stem, InUnit(entry.values[i], unit));
+    if (std::isnan(p.neutral)) text += fmt::format(" (the rig has {})", InUnit(own[i], unit));
+  }
+  return text;
+}
 
 effect::EffectConfig ClearOn(const plant::PlantParameters& rig, Id id) {
   effect::EffectConfig entry = effect::ClearEntry(id);
@@ -31,7 +68,8 @@ svg::Figure Picture(const plant::PlantParameters& rig, const effect::EffectConfi
   rigs.without.config.effects.clear();
   rigs.with.config.effects = {entry};
   svg::Figure figure;
-  figure.title = std::string(effect::At(entry.id).name);
+  figure.title = fmt::format("{}: {}", effect::At(entry.id).name, SizeText(rig, entry));
+  figure.lines = {std::string(effect::At(entry.id).meaning)};
   figure.columns = 3;
   switch (effect::At(entry.id).facts.shows_in) {
     case Shows::kResponse:

@@ -9,6 +9,10 @@
 // Gear       effects of teeth: full spectrum of the driving wheel's shaft over its orders, and of
 //            what the effect adds, without a control law.
 // Force      magnets: force over commanded current, the rotor held in the centre.
+// Both       the nominal curve is a broad pale line below the effect's thin one, so that it is seen
+//            where the two lie on each other.
+// Size       the title says it, in the keys and units of a rig file; of what is counted from the
+//            rig's own value that value as well.
 // Units      hertz, newtons, amperes, micrometres.
 // Thread     any; a picture takes some tens of milliseconds.
 // Failure    std::invalid_argument when the rig cannot have the effect.
@@ -25,6 +29,16 @@ namespace levitas::signature {
 /// `rig` without effects beside `rig` with this entry.
 [[nodiscard]] svg::Figure Picture(const plant::PlantParameters& rig,
                                   const effect::EffectConfig& entry);
+
+/// "tau 50 µs", "bandwidth 144 Hz (the rig has 720 Hz)".
+[[nodiscard]] std::string SizeText(const plant::PlantParameters& rig,
+                                   const effect::EffectConfig& entry);
+
+/// A curve of the nominal rig: below the other, and seen beside it.
+inline void MakeNominal(svg::Series& curve) {
+  curve.colour = "#5aa0d8";
+  curve.width = 5.0;
+}
 
 // The panels of effect::Shows; a pair of models: without and with the effect.
 struct Pair {

@@ -55,12 +55,12 @@ svg::Series Path(const std::vector<Complex>& orbit, std::size_t colour) {
 
 /// The same noise with and without, so that what differs is the effect's alone.
 svg::Panel Added(const Turning& with, const Turning& without) {
-  svg::Panel panel{"what the effect adds", "order of rotation", "um, mA"};
+  svg::Panel panel{"what the effect adds", "order of rotation", "µm, mA"};
   panel.y_scale = svg::Scale::kLogarithmic;
   const Orders micrometres{kMotion.turns, kMostOrders, 1e6};
   const Orders milliamperes{kMotion.turns, kMostOrders, 1e3};
   panel.series = {
-      OrderSpectrum(Difference(with.reading_m, without.reading_m), micrometres, "reading, um", 1),
+      OrderSpectrum(Difference(with.reading_m, without.reading_m), micrometres, "reading, µm", 1),
       OrderSpectrum(Difference(with.current_a, without.current_a), milliamperes,
                     "control current, mA", 2)};
   panel.series[1].dashes = "4 3";
@@ -72,14 +72,16 @@ svg::Panel Added(const Turning& with, const Turning& without) {
 std::vector<svg::Panel> SpectrumPanels(const Pair& rigs) {
   const Turning without = Held(rigs.without);
   const Turning with = Held(rigs.with);
-  svg::Panel spectrum{"full spectrum at 2400 rpm", "order of rotation (negative: backward)", "um"};
+  svg::Panel spectrum{"full spectrum at 2400 rpm", "order of rotation (negative: backward)", "µm"};
   spectrum.y_scale = svg::Scale::kLogarithmic;
   const Orders orders{kMotion.turns, kMostOrders};
   spectrum.series = {OrderSpectrum(without.reading_m, orders, "nominal", 0),
                      OrderSpectrum(with.reading_m, orders, "effect", 1)};
-  svg::Panel path{"orbit, two turns", "x, um", "y, um"};
+  MakeNominal(spectrum.series[0]);
+  svg::Panel path{"orbit, two turns", "x, µm", "y, µm"};
   path.same_scale = true;
   path.series = {Path(without.reading_m, 0), Path(with.reading_m, 1)};
+  MakeNominal(path.series[0]);
   return {spectrum, Added(with, without), path};
 }
 

@@ -6,7 +6,8 @@
 //          line; points beyond given limits are cut at the panel's edge.
 // Thread   any; allocates.
 // Failure  std::invalid_argument when a series has x and y of different length.
-// Not done no interaction, no text measurement: labels are taken to be short.
+// Notes    texts at a place of the data, on a white rim so that lines do not cross them out.
+// Not done no interaction, no text measurement: labels are taken to be short, and notes may meet.
 
 #include <optional>
 #include <string>
@@ -16,7 +17,8 @@
 
 namespace levitas::svg {
 
-enum class Mark { kNone, kDot, kCross };
+/// kUp and kDown are triangles, a full and a hollow one: told apart without colour.
+enum class Mark { kNone, kDot, kCross, kRing, kUp, kDown, kSquare };
 
 struct Series {
   std::string name{};  ///< in the legend; empty = not listed
@@ -27,6 +29,20 @@ struct Series {
   std::string dashes{};  ///< "6 3"; empty = solid
   Mark mark{Mark::kNone};
   double mark_size{2.5};
+  std::string fill{};  ///< colour of the area that the line encloses; empty = none
+};
+
+enum class Anchor { kStart, kMiddle, kEnd };
+
+/// A text at a place of the data, moved by some pixels.
+struct Note {
+  double x{};
+  double y{};
+  std::string text{};
+  Anchor anchor{Anchor::kStart};
+  double right_px{};
+  double down_px{};
+  std::string colour{"#1f2430"};
 };
 
 struct Panel {
@@ -39,10 +55,12 @@ struct Panel {
   std::optional<Range> y_range{};
   bool same_scale{};  ///< linear axes: one unit is as long along y as along x, so circles are round
   std::vector<Series> series{};
+  std::vector<Note> notes{};  ///< those beyond the given limits are left out
 };
 
 struct Figure {
   std::string title{};
+  std::vector<std::string> lines{};  ///< of small text below the title
   std::size_t columns{1};
   double panel_width{420};
   double panel_height{260};
@@ -51,6 +69,18 @@ struct Figure {
 
 /// Colour n of a palette that people with colour blindness can tell apart; repeats after eight.
 [[nodiscard]] std::string Colour(std::size_t n);
+
+/// Where a panel's axes stand in the drawing, and what they show: for a cursor.
+struct PanelPlace {
+  double left{}, right{}, top{}, bottom{};
+  Range x{}, y{};
+};
+/// One per panel, in their order.
+[[nodiscard]] std::vector<PanelPlace> Places(const Figure& figure);
+struct Size {
+  double width{}, height{};
+};
+[[nodiscard]] Size SizeOf(const Figure& figure);
 
 [[nodiscard]] std::string Draw(const Figure& figure);
 

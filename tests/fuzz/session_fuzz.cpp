@@ -61,10 +61,8 @@ void Read(const std::string& path) {
   (void)reader.damage().Text();
 }
 
-}  // namespace
-
-std::vector<std::string> Seeds() {
-  const std::string path = ScratchFolder() + "/seed.lcm";
+std::string Seed(const std::string& name) {
+  const std::string path = ScratchFolder() + name;
   {
     session::SessionHeader header;
     header.rig_yaml = "name: test\n";
@@ -82,8 +80,13 @@ std::vector<std::string> Seeds() {
     }
     writer.Write(session::Event{.cycle = 2, .text = "off -> lift"});
   }
-  return {Content(path)};
+  return Content(path);
 }
+
+}  // namespace
+
+/// Plain, and packed by zstd.
+std::vector<std::string> Seeds() { return {Seed("/seed.lcm"), Seed("/seed.lcm.zst")}; }
 
 }  // namespace levitas::fuzz
 

@@ -5,20 +5,21 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
+#include <limits>
 #include <memory>
-#include <numbers>
 
 #include "analysis/sensitivity.hpp"
 #include "cli/json_file.hpp"
+#include "cli/study/design/compare_page.hpp"
 #include "cli/study/design/design_commands.hpp"
 #include "cli/study/design/gate_options.hpp"
 #include "cli/study/written_files.hpp"
 #include "cli/text_file.hpp"
 #include "common/rotational_speed.hpp"
-#include "controller/law/law_schedule.hpp"
+#include "controller/law/running_law.hpp"
 #include "design/gate/gate.hpp"
-#include "report/svg/figure.hpp"
 #include "report/text/text_table.hpp"
 #include "session/output_path.hpp"
 
@@ -32,16 +33,28 @@ struct CompareOptions {
   std::string html_path;
 };
 
-/// What one controller does.
-struct Compared {
-  std::string name;
-  law::LawConfig law;
-  std::vector<design::RunFigures> runs;  ///< at the speeds asked
-  std::vector<double> speed_rpm, peak;   ///< |S| over speed
-  design::Peak mu;
-  std::size_t lost{}, drawn{};
-  double worst_m{};
-};
+/// One period of the law on this machine, without test signals: processor time, the least of some
+/// batches, for others take the processor away.
+double StepNs(const law::LawConfig& law, double speed_rad_per_s) {
+  constexpr int kBatches = 9;
+  constexpr int kSteps = 20'000;
+  law::RunningLaw running(law);
+  running.Start(0.0);
+  running.JumpTo(speed_rad_per_s);
+  double least_ns = std::numeric_limits<double>::infinity();
+  double sum_a = 0.0;
+  for (int batch = 0; batch < kBatches; ++batch) {
+    const std::clock_t from = std::clock();
+    for (int n = 0; n < kSteps; ++n) {
+      AxisArray error_m{};
+      error_m.fill(n % 2 == 0 ? 1e-6 : -1e-6);
+      sum_a += running.Step(speed_rad_per_s, error_m, {}, law.current_limit_a).control_current_a[0];
+    }
+    const double took_s = static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC;
+    least_ns = std::min(least_ns, 1e9 * took_s / kSteps);
+  }
+  return std::isfinite(sum_a) ? least_ns : 0.0;
+}
 
 Compared Measure(const config::RigFile& rig, const std::string& name, const CompareOptions& options,
                  const uncertainty::AnalysisWeights& weights) {
@@ -75,127 +88,10 @@ Compared Measure(const config::RigFile& rig, const std::string& name, const Comp
     if (peak.value > out.mu.value) out.mu = peak;
   }
   const design::GateOptions drawn = GateOf(options.gate, weights, rig);
-  for (const auto& at : design::RunDrawnRigs(rig, out.law, parameters, drawn).drawn) {
-    out.lost += at.lost;
-    out.drawn += drawn.draws;
-    for (const double orbit_m : at.worst_orbit_m) out.worst_m = std::max(out.worst_m, orbit_m);
-  }
+  out.drawn = design::RunDrawnRigs(rig, out.law, parameters, drawn).drawn;
+  out.rigs = drawn.draws;
+  out.step_ns = StepNs(out.law, rig.numbers.max_speed_rad_per_s);
   return out;
-}
-
-std::string Pair(const std::vector<double>& values, double scale, const char* format) {
-  std::string out;
-  for (const double value : values)
-    out += (out.empty() ? "" : "/") + fmt::format(fmt::runtime(format), scale * value);
-  return out;
-}
-
-void Print(const std::vector<Compared>& compared, const std::vector<double>& speeds_rpm) {
-  TextTable table;
-  std::vector<std::string> head{""};
-  for (const auto& c : compared) head.push_back(c.name);
-  table.Add(head);
-  const auto row = [&](const std::string& name, const auto& text_of) {
-    std::vector<std::string> cells{name};
-    for (const auto& c : compared) cells.push_back(text_of(c));
-    table.Add(cells);
-  };
-  for (std::size_t i = 0; i < speeds_rpm.size(); ++i) {
-    row(fmt::format("orbit at {:.0f} rpm [um]", speeds_rpm[i]), [&](const Compared& c) {
-      return c.runs[i].lost ? std::string("LOST") : Pair(c.runs[i].orbit_m, 1e6, "{:.1f}");
-    });
-    row(fmt::format("current at {:.0f} rpm [A]", speeds_rpm[i]), [&](const Compared& c) {
-      return Pair(speeds_rpm[i] > 0.0 ? c.runs[i].synchronous_a : c.runs[i].static_a, 1.0,
-                  "{:.3f}");
-    });
-  }
-  row("|S| over speed, largest", [](const Compared& c) {
-    return fmt::format("{:.2f}", *std::max_element(c.peak.begin(), c.peak.end()));
-  });
-  row("mu, at most",
-      [](const Compared& c) { return fmt::format("{:.2f} at {:.1f} Hz", c.mu.value, c.mu.hz); });
-  row("drawn rigs at 20 speeds: lost, worst [um]", [](const Compared& c) {
-    return fmt::format("{} of {} runs, {:.1f}", c.lost, c.drawn, 1e6 * c.worst_m);
-  });
-  fmt::print("{}", table.Text());
-}
-
-void AddBode(const std::vector<Compared>& compared, const config::RigFile& rig,
-             svg::Figure& figure) {
-  constexpr int kPoints = 400;
-  for (std::size_t b = 0; b < rig.numbers.bearings.size(); ++b) {
-    const std::size_t axis = 2 * b;
-    svg::Panel gain{fmt::format("controller, {}", rig.numbers.channels[axis]), "frequency [Hz]",
-                    "|current/position| [A/mm]", svg::Scale::kLogarithmic,
-                    svg::Scale::kLogarithmic};
-    svg::Panel phase{gain.title, "frequency [Hz]", "phase [deg]", svg::Scale::kLogarithmic};
-    for (std::size_t c = 0; c < compared.size(); ++c) {
-      const uncertainty::LawResponse response(law::LawAt(compared[c].law, 0.0));
-      svg::Series size{compared[c].name};
-      size.colour = svg::Colour(c);
-      svg::Series angle = size;
-      for (int i = 0; i < kPoints; ++i) {
-        const double hz = 0.1 * std::pow(4e4, i / (kPoints - 1.0));
-        const auto k = static_cast<Eigen::Index>(axis);
-        const std::complex<double> at = -response.At(hz)(k, k);
-        size.x.push_back(hz);
-        size.y.push_back(1e-3 * std::abs(at));
-        angle.x.push_back(hz);
-        angle.y.push_back(std::arg(at) * 180.0 / std::numbers::pi);
-      }
-      gain.series.push_back(std::move(size));
-      phase.series.push_back(std::move(angle));
-    }
-    figure.panels.push_back(std::move(gain));
-    figure.panels.push_back(std::move(phase));
-  }
-}
-
-svg::Series Circle(double radius_um) {
-  svg::Series out{"objective"};
-  out.colour = "#666666";
-  out.dashes = "5 3";
-  for (int i = 0; i <= 72; ++i) {
-    const double angle = i * std::numbers::pi / 36.0;
-    out.x.push_back(radius_um * std::cos(angle));
-    out.y.push_back(radius_um * std::sin(angle));
-  }
-  return out;
-}
-
-svg::Figure Picture(const std::vector<Compared>& compared, const config::RigFile& rig,
-                    const std::vector<double>& speeds_rpm) {
-  svg::Figure figure;
-  figure.columns = 2;
-  AddBode(compared, rig, figure);
-  svg::Panel peaks{"largest |S| of an axis", "speed [rpm]", "[1]"};
-  for (std::size_t c = 0; c < compared.size(); ++c) {
-    svg::Series line{compared[c].name, compared[c].speed_rpm, compared[c].peak};
-    line.colour = svg::Colour(c);
-    peaks.series.push_back(std::move(line));
-  }
-  figure.panels.push_back(peaks);
-  figure.panels.push_back({"", "", ""});
-  for (std::size_t i = 0; i < speeds_rpm.size(); ++i)
-    for (std::size_t b = 0; b < rig.numbers.bearings.size(); ++b) {
-      const double objective_m = speeds_rpm[i] > 0.0 ? rig.numbers.spinning_orbit_objective_m
-                                                     : rig.numbers.standing_orbit_objective_m;
-      svg::Panel panel{fmt::format("orbit, {}, {:.0f} rpm", rig.numbers.bearings[b], speeds_rpm[i]),
-                       "x [um]", "y [um]"};
-      panel.same_scale = true;
-      if (objective_m > 0.0) panel.series.push_back(Circle(1e6 * objective_m));
-      for (std::size_t c = 0; c < compared.size(); ++c) {
-        svg::Series orbit{compared[c].name};
-        orbit.colour = svg::Colour(c);
-        for (const AxisArray& at : compared[c].runs[i].positions_m) {
-          orbit.x.push_back(1e6 * at[2 * b]);
-          orbit.y.push_back(1e6 * at[2 * b + 1]);
-        }
-        panel.series.push_back(std::move(orbit));
-      }
-      figure.panels.push_back(std::move(panel));
-    }
-  return figure;
 }
 
 nlohmann::ordered_json Json(const std::vector<Compared>& compared,
@@ -214,9 +110,10 @@ nlohmann::ordered_json Json(const std::vector<Compared>& compared,
     one["sensitivity_peak"] = c.peak;
     one["mu_upper"] = c.mu.value;
     one["mu_frequency_hz"] = c.mu.hz;
-    one["drawn_runs"] = c.drawn;
-    one["lost_runs"] = c.lost;
-    one["worst_orbit_m"] = c.worst_m;
+    one["drawn_runs"] = c.Runs();
+    one["lost_runs"] = c.Lost();
+    one["worst_orbit_m"] = c.WorstOrbit();
+    one["law_step_ns"] = c.step_ns;
     json["controllers"].push_back(std::move(one));
   }
   return json;
@@ -234,13 +131,11 @@ ExitStatus Run(const CompareOptions& options) {
              options.gate.third_n > 0.0
                  ? fmt::format(", {:.2f} N at three times the speed", options.gate.third_n)
                  : "");
-  Print(compared, options.rig.speeds_rpm);
-  if (!options.html_path.empty()) {
-    const std::string picture = svg::Draw(Picture(compared, rig, options.rig.speeds_rpm));
-    WriteTextFile(options.html_path,
-                  "<!doctype html><meta charset=\"utf-8\"><title>controllers compared</title>\n" +
-                      picture + "\n");
-  }
+  TextTable table;
+  for (const auto& row : ComparedRows(compared, options.rig.speeds_rpm)) table.Add(row);
+  fmt::print("{}", table.Text());
+  if (!options.html_path.empty())
+    WriteTextFile(options.html_path, ComparePage(compared, rig, options.rig.speeds_rpm));
   WriteJsonFile(options.rig.json_path, Json(compared, options.rig.speeds_rpm));
   TellWritten({options.html_path, options.rig.json_path});
   return ExitStatus::kDone;

@@ -128,9 +128,12 @@ design::GateResult JudgeAndPrint(const config::RigFile& rig, const law::LawConfi
   if (result.rungs > 0)
     fmt::print("laws     {} of the schedule, each at its speed{}\n", result.rungs,
                !result.run_up        ? ""
-               : result.run_up->lost ? "; the rotor is lost in a run-up through them"
-                                     : fmt::format("; run-up through them: orbit {} um",
+               : result.run_up->lost ? "; the rotor is lost in a run-up through them and back"
+                                     : fmt::format("; run-up through them and back: orbit {} um",
                                                    Micrometres(result.run_up->orbit_m)));
+  if (result.exchanges > 0)
+    fmt::print("exchange {} of laws, each law judged as far beyond it as it may act\n",
+               result.exchanges);
   fmt::print("|S|      {}; corners {}; largest singular value {}\n", PeakText(result.sensitivity),
              PeakText(result.corner_sensitivity), PeakText(result.singular));
   fmt::print("mu       at most {}, real parameters; were they complex, {}\n", PeakText(result.mu),
@@ -168,6 +171,7 @@ nlohmann::ordered_json GateJson(const design::GateResult& result) {
   json["mu_upper"] = PeakJson(result.mu);
   json["mu_upper_complex"] = PeakJson(result.mu_complex);
   if (result.rungs > 0) json["schedule_laws"] = result.rungs;
+  if (result.exchanges > 0) json["exchanges"] = result.exchanges;
   if (result.run_up)
     json["run_up"] = {{"lost", result.run_up->lost}, {"orbit_m", result.run_up->orbit_m}};
   json["drawn_rigs"] = result.rigs;

@@ -30,6 +30,8 @@ struct HinfCommandOptions {
   std::size_t states{48};
   double mu_goal{1.0};
   double sensitivity_goal{3.0};
+  double orbit_goal_um{30.0};
+  double current_goal_a{0.6};
 };
 
 hinf::HinfWeights Search(const HinfCommandOptions& options, const config::RigFile& rig,
@@ -43,8 +45,8 @@ hinf::HinfWeights Search(const HinfCommandOptions& options, const config::RigFil
   design::SearchOptions search;
   search.evaluations = options.evaluations;
   search.seed = options.gate.seed;
-  search.goals.mu = options.mu_goal;
-  search.goals.sensitivity = options.sensitivity_goal;
+  search.goals = {options.mu_goal, options.sensitivity_goal, 1e-6 * options.orbit_goal_um,
+                  options.current_goal_a};
   ProgressLine line(stderr, isatty(STDERR_FILENO) != 0);
   const InterruptGuard interrupt;
   const auto found = design::SearchWeights(
@@ -133,6 +135,18 @@ void AddDesignHinf(CLI::App& design, Action& action) {
       ->add_option("--sensitivity-goal", options->sensitivity_goal,
                    "Of the search: |S| counts as a ratio to this")
       ->check(CLI::Range(1.0, 100.0))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--orbit-goal-um", options->orbit_goal_um,
+          "Of the search: the orbit of unbalance and 0.8 N at three times the speed counts "
+          "as a ratio to this")
+      ->check(CLI::Range(0.1, 10000.0))
+      ->capture_default_str();
+  command
+      ->add_option("--current-goal-a", options->current_goal_a,
+                   "Of the search: the current that they need counts as a ratio to this")
+      ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
   command->add_option("--states", options->states, "Most states of the law, all axes together")
       ->check(CLI::Range(std::size_t{4}, law::StateSpaceConfig::kMaxStates))

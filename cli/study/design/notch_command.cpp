@@ -47,6 +47,11 @@ design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFil
   design::NotchRequest request;
   synchronous::BlockConfig& block = request.block;
   const double rated = rig.numbers.max_speed_rad_per_s;
+  if (!(rated > 0.0)) {
+    throw BadInput(rig.numbers.name +
+                   ": a rig that does not turn (run.max_speed_rpm 0) has nothing for a block of "
+                   "synchronous control to take out");
+  }
   block.name = options.name;
   block.order = options.order;
   block.target = options.target == "vibration" ? synchronous::Target::kVibration
@@ -201,9 +206,11 @@ ExitStatus Run(const NotchOptions& options) {
   if (!figures.allowed()) {
     throw Problem(
         ExitStatus::kOther,
-        fmt::format("refused at {}; nothing was written. Choose --from-rpm and --to-rpm without "
-                    "these speeds; blocks of several windows stand in one file, by --name",
-                    figures.RefusedSpeeds()));
+        fmt::format(
+            "refused at {}; allowed {}; nothing was written. Choose --from-rpm and --to-rpm "
+            "without the speeds refused; blocks of several windows stand in one file, by "
+            "--name",
+            figures.RefusedSpeeds(), figures.AllowedSpeeds()));
   }
   if (!options.out_path.empty()) {
     WriteTextFile(options.out_path,

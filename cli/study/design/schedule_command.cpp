@@ -53,17 +53,6 @@ Entry EntryOf(const std::string& text) {
   return {RpmToRadPerS(rpm), text.substr(colon + 1)};
 }
 
-/// Whether two entries can be on one straight line; else the second takes over from the first.
-bool Alike(const law::LawConfig& table, const law::LawAtSpeed& before, law::LawAtSpeed at) {
-  law::LawConfig pair;
-  pair.period_s = table.period_s;
-  pair.axes = before.axes;
-  pair.state_space = before.state_space;
-  at.speed_rad_per_s = 1.0;  // above the other, which stands at rest here
-  pair.schedule = {std::move(at)};
-  return law::WhyNoSchedule(pair).empty();
-}
-
 /// The laws of files as a table; their blocks, whose order and scale are free, brought next to
 /// those of the entry before. A law of another structure than the one before is exchanged for it.
 std::vector<NamedLaw> FromFiles(const ScheduleCommandOptions& options, const config::RigFile& rig) {
@@ -90,7 +79,7 @@ std::vector<NamedLaw> FromFiles(const ScheduleCommandOptions& options, const con
                       fmt::format("--law {}: the speeds of a table rise, and the one before has "
                                   "{:g} rpm",
                                   text, RadPerSToRpm(entries.back().speed_rad_per_s)));
-      at.exchange = !Alike(found.file.law, entries.back(), at);
+      at.exchange = !law::WhyUnlike(entries.back(), at).empty();
       if (at.exchange)
         fmt::print("exchange {} takes over at {:g} rpm: its structure is another one\n", found.path,
                    RadPerSToRpm(at.speed_rad_per_s));

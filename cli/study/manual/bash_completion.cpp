@@ -45,7 +45,9 @@ void Fill(const CommandText& command, std::string& words, std::string& values) {
 // command that the words so far have named.
 constexpr const char* kFunction = R"(
 _amb() {
-  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} at=amb word words
+  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} word words
+  local at=${COMP_WORDS[0]##*/}
+  [[ $at == amb-study ]] && at=amb
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     [[ -n ${_amb_words["$at $word"]+known} ]] && at+=" $word"
   done
@@ -57,16 +59,19 @@ _amb() {
     while IFS= read -r name; do COMPREPLY+=("$name"); done < <(compgen -f -- "$current")
   fi
 }
-complete -F _amb amb
+complete -F _amb amb amb-study amb-controller amb-plant amb-rig
 )";
 
 }  // namespace
 
-std::string BashCompletion(const CommandText& root) {
+std::string BashCompletion(const CommandText& root, const std::vector<ProgramText>& programs) {
   std::string words;
   std::string values;
   Fill(root, words, values);
-  return "# Completion of amb for bash: source <(amb manual --bash)\n"
+  for (const ProgramText& program : programs) {
+    if (!program.line.options.empty()) Fill(program.line, words, values);
+  }
+  return "# Completion of amb and its programs for bash: source <(amb manual --bash)\n"
          "declare -gA _amb_words=(\n" +
          words + ")\ndeclare -gA _amb_values=(\n" + values + ")" + kFunction;
 }

@@ -1,6 +1,7 @@
 #include "cli/study/manual/command_tree.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 namespace levitas::cli {
 namespace {
@@ -17,12 +18,21 @@ std::vector<std::string> AtCommas(const std::string& list) {
   return words;
 }
 
-/// The words of "{a,b}" within what CLI11 says of a value's type and checks.
+/// The words of "{a,b}" within what CLI11 says of a value's type and checks; of "{a->0,b->1}",
+/// where words stand for values, the words.
 std::vector<std::string> AllowedIn(const std::string& type) {
   const std::size_t open = type.find('{');
   const std::size_t close = type.find('}', open);
   if (open == std::string::npos || close == std::string::npos) return {};
-  return AtCommas(type.substr(open + 1, close - open - 1));
+  std::vector<std::string> words = AtCommas(type.substr(open + 1, close - open - 1));
+  for (std::string& word : words) word.resize(std::min(word.size(), word.find("->")));
+  return words;
+}
+
+std::string InBraces(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "{" : ",") + word;
+  return list + "}";
 }
 
 /// " (1 to 20)" of "UINT:INT in [1 - 20]"; empty when no range is checked.
@@ -46,7 +56,7 @@ OptionText TextOf(const CLI::Option& option) {
   const std::string type = text.takes_value ? option.get_type_name() : "";
   text.allowed = AllowedIn(type);
   // "UINT:INT in [1 - 20]": what it is, then what is checked.
-  text.value = text.allowed.empty() ? type.substr(0, type.find(':')) : type.substr(type.find('{'));
+  text.value = text.allowed.empty() ? type.substr(0, type.find(':')) : InBraces(text.allowed);
   const bool optional = text.takes_value && option.get_items_expected_min() == 0;
   if (optional) text.value = "[" + text.value + "]";
   text.meaning = option.get_description() + RangeIn(type);

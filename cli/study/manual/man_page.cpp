@@ -51,22 +51,59 @@ std::string ManSection(const CommandText& command) {
   return text;
 }
 
+std::string ManHead(const CommandText& line, const std::string& version) {
+  return fmt::format(
+      ".TH {0} 1 \"\" \"levitas {1}\" \"Levitas\"\n"
+      ".SH NAME\n{2} \\- {3}\n",
+      UpperCase(Escaped(line.name)), version, Escaped(line.name), Escaped(line.meaning));
+}
+
+std::string ManFiles(const ProgramText& program) {
+  if (program.files.empty()) return {};
+  std::string text = ".SH FILES\n";
+  for (const auto& [name, meaning] : program.files) {
+    text += fmt::format(".TP\n\\fI{}\\fR\n{}.\n", Escaped(name), Escaped(meaning));
+  }
+  return text;
+}
+
+constexpr const char* kManConfigFolder =
+    ".TP\n\\fBLEVITAS_CONFIG\\fR\nFolder with rigs, controllers and scenarios, instead of the "
+    "shipped ones.\n";
+
 }  // namespace
 
+std::string ManPage(const ProgramText& program, const std::string& version) {
+  const CommandText& line = program.line;
+  const bool of_its_own = !line.options.empty();
+  std::string text = ManHead(line, version);
+  text += fmt::format(".SH SYNOPSIS\n.B {}\n{}[\\fIOPTIONS\\fR]\n", Escaped(line.name),
+                      of_its_own ? "" : "\\fICOMMAND\\fR ");
+  text += ".SH DESCRIPTION\n" + Escaped(program.about) + "\n";
+  if (of_its_own) text += ".SH OPTIONS\n";
+  for (const OptionText& option : line.options) text += Option(option);
+  text += ".SH EXIT STATUS\n" + Escaped(program.exit_status) + "\n" + ManFiles(program);
+  text += std::string(".SH ENVIRONMENT\n") + kManConfigFolder;
+  if (!line.examples.empty()) {
+    text += ".SH EXAMPLES\n.nf\n" + Escaped(line.examples) + "\n.fi\n";
+  }
+  return text + ".SH SEE ALSO\n.BR amb (1)\n";
+}
+
 std::string ManPage(const CommandText& root, const std::string& version) {
-  std::string text = fmt::format(
-      ".TH {0} 1 \"\" \"levitas {1}\" \"Levitas\"\n"
-      ".SH NAME\n{2} \\- {3}\n"
-      ".SH SYNOPSIS\n.B {2}\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n"
-      ".SH COMMANDS\n",
-      UpperCase(root.name), version, root.name, Escaped(root.meaning));
+  std::string text = ManHead(root, version);
+  text += fmt::format(".SH SYNOPSIS\n.B {}\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n.SH COMMANDS\n",
+                      root.name);
   for (const CommandText& command : root.commands) text += ManSection(command);
   text +=
-      ".SH EXIT STATUS\n0 done, 2 usage, 3 bad input file, 4 the rig tripped, 1 other.\n"
-      ".SH ENVIRONMENT\n"
-      ".TP\n\\fBLEVITAS_CONFIG\\fR\nFolder with rigs, controllers and scenarios, instead of the "
-      "shipped ones.\n"
-      ".TP\n\\fBLEVITAS_CATALOGUE\\fR\nSQLite file of \\fBamb sessions\\fR; empty: none.\n";
+      ".SH EXIT STATUS\n0 done, 2 usage, 3 bad input file, 4 the rig tripped, 5 what "
+      "\\fB\\-\\-require\\fR asked is not met, 1 other.\n"
+      ".SH ENVIRONMENT\n";
+  text += kManConfigFolder;
+  text +=
+      ".TP\n\\fBLEVITAS_CATALOGUE\\fR\nSQLite file of \\fBamb sessions\\fR; empty: none.\n"
+      ".SH SEE ALSO\n"
+      ".BR amb\\-controller (1),\n.BR amb\\-plant (1),\n.BR amb\\-rig (1),\n.BR amb\\-study (1)\n";
   return text;
 }
 

@@ -38,7 +38,7 @@ std::string MarkdownSection(const CommandText& command) {
 
 }  // namespace
 
-std::string Markdown(const CommandText& root) {
+std::string Markdown(const CommandText& root, const std::vector<ProgramText>& programs) {
   std::string text =
       "# Commands\n\n"
       "Written by `amb manual --markdown`; the same texts stand in `--help` of each command.\n\n"
@@ -49,6 +49,10 @@ std::string Markdown(const CommandText& root) {
     text += fmt::format("| `{}` | {} |\n", command.path, Cell(command.meaning));
   }
   for (const CommandText& command : root.commands) text += MarkdownSection(command);
+  for (const ProgramText& program : programs) {
+    text += MarkdownSection(program.line) + "\n" + program.about +
+            "\n\nExit status: " + program.exit_status + "\n";
+  }
   return text;
 }
 

@@ -41,7 +41,7 @@ class Package(unittest.TestCase):
     def test_names_the_libraries_it_is_linked_to(self):
         self.assertEqual(self.field("Package"), "levitas")
         for library in ("libfmt9", "libyaml-cpp0.7", "libgpiod2", "libsqlite3-0",
-                        "libsodium23"):
+                        "libsodium23", "libzstd1"):
             self.assertIn(library, self.field("Depends"))
 
     def test_holds_programs_shipped_files_page_and_completion(self):
@@ -56,7 +56,10 @@ class Package(unittest.TestCase):
                      "share/levitas/python/levitas_msg/sensor_frame_t.py",
                      "share/bash-completion/completions/amb"):
             self.assertGreater((usr / name).stat().st_size, 0, name)
-        self.assertTrue(any((usr / "share/man/man1").glob("amb.1*")))
+        for path in (usr / "bin").iterdir():
+            page = (usr / f"share/man/man1/{path.name}.1").read_text(encoding="utf-8")
+            self.assertIn(f".SH NAME\n{path.name} ".replace("-", "\\-"), page)
+            self.assertIn(path.name, (usr / "share/bash-completion/completions" / path.name).read_text())
 
     def test_nothing_else_lies_in_it(self):
         usr = self.root / "usr"

@@ -1,13 +1,17 @@
 // Laws of unlike structure change places while the nonlinear rotor is levitated.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "analysis/sensitivity.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/law/law_schedule.hpp"
 #include "controller/law/running_law.hpp"
+#include "design/gate/gate.hpp"
 #include "design/hinf/hinf_design.hpp"
 #include "tests/support/shipped_loop.hpp"
 
@@ -111,11 +115,68 @@ TEST(Exchange, FromARobustLawToAPidMovesItNoFurtherThanBackToTheCentre) {
   EXPECT_GT(at_once.after_m, 3.0 * gently.after_m);
 }
 
+/// A law that trusts the modes of a rotor at rest, and loses them as they split over speed.
+law::LawConfig OfRestOnly() {
+  hinf::HinfWeights trusting;
+  trusting.mode_hz = 1e-3;
+  return hinf::MakeLaw(Shipped().rig.plant, trusting,
+                       {.current_limit_a = 1.0, .top_speed_rad_per_s = RpmToRadPerS(6000.0)})
+      .law;
+}
+
+/// The lowest speed from which on the law does not hold the rig, to 0.01 rad/s.
+double HoldsTo(const law::LawConfig& law) {
+  constexpr double kStep = 3.0;
+  const config::RigFile rig = Shipped().rig;
+  double loses = 0.0;
+  while (analysis::SensitivityPeaks(rig.plant, law, loses).stable) loses += kStep;
+  double holds = loses - kStep;
+  EXPECT_GT(holds, 0.0);
+  while (loses - holds > 0.01) {
+    const double middle = 0.5 * (holds + loses);
+    (analysis::SensitivityPeaks(rig.plant, law, middle).stable ? holds : loses) = middle;
+  }
+  return holds;
+}
+
+GateResult JudgeExchangeAt(const law::LawConfig& below, double speed_rad_per_s) {
+  const test::ShippedLoop loop = Shipped();
+  law::LawConfig table = Exchanging(below, loop.controller.law);
+  table.schedule.front().speed_rad_per_s = speed_rad_per_s;
+  GateOptions options;
+  options.step_rad_per_s = RpmToRadPerS(6000.0);
+  options.sensitivity = 100.0;  // beside where it loses the rotor no law has a small one
+  options.corners = 0;
+  options.draws = 1;
+  options.run_speeds_rad_per_s = {0.0};
+  return Judge(loop.rig, table, uncertainty::Stated(loop.rig, {}), options,
+               [](double, const std::string&) {});
+}
+
+TEST(ExchangeGate, JudgesALawAsFarBeyondTheExchangeAsItGoesOnActing) {
+  const law::LawConfig below = OfRestOnly();
+  const double holds_to = HoldsTo(below);
+  // So far the drive takes the rotor while the other law listens.
+  const double listened = Shipped().rig.plant.drive.max_acceleration_rad_per_s2 * law::kListenS;
+  ASSERT_GT(holds_to, 2.0 * listened);
+  const GateResult early = JudgeExchangeAt(below, holds_to - 1.2 * listened);
+  // Its loops hold. The run does not: a law that grows by itself cannot listen on the way back.
+  EXPECT_THAT(early.reason, ::testing::HasSubstr("lost on the way to 6000 rpm and back"));
+  EXPECT_EQ(early.exchanges, 1U);
+  // Each law holds at its own speeds; the lower one acts a little above them.
+  const GateResult late = JudgeExchangeAt(below, holds_to - 0.5 * listened);
+  EXPECT_FALSE(late.accepted);
+  EXPECT_THAT(late.reason, ::testing::HasSubstr("unstable"));
+}
+
 /// Largest radius from 2900 to 3100 rpm on the way, where the robust law keeps the rotor closer.
-double OrbitAround3000(test::ShippedLoop& loop) {
+/// `acted`: which of its laws acted one after the other.
+double OrbitAround3000(test::ShippedLoop& loop, std::vector<int>& acted) {
   double largest_m = 0.0;
   EXPECT_EQ(loop.Play(1, 60.0,
                       [&](const cycle::CycleRecord& record) {
+                        if (acted.empty() || acted.back() != record.out.acting_law)
+                          acted.push_back(record.out.acting_law);
                         const double rpm = RadPerSToRpm(record.in.frame.speed_rad_per_s);
                         if (std::abs(rpm - 3000.0) < 100.0)
                           largest_m =
@@ -130,7 +191,11 @@ TEST(Exchange, TakesTheRotorThroughItsSpeedsAndBack) {
   test::ShippedLoop plain = Shipped();
   test::ShippedLoop loop = Shipped();
   loop.controller.law = Exchanging(loop.controller.law, Robust());
-  EXPECT_LT(OrbitAround3000(loop), 0.85 * OrbitAround3000(plain));
+  std::vector<int> acted;
+  std::vector<int> only;
+  EXPECT_LT(OrbitAround3000(loop, acted), 0.85 * OrbitAround3000(plain, only));
+  EXPECT_THAT(only, ::testing::ElementsAre(0));
+  EXPECT_THAT(acted, ::testing::ElementsAre(0, 1, 0));
   EXPECT_GT(loop.most.speed_rad_per_s, RpmToRadPerS(5950.0));
   EXPECT_EQ(loop.most.contact_n, 0.0);
   EXPECT_LT(loop.most.orbit_m, loop.rig.numbers.spinning_orbit_objective_m);

@@ -89,17 +89,7 @@ TEST(WholeRecords, OfAnotherSimulatorAreAccusedOfNothingToo) {
   }
 }
 
-/// The trial's records judged with the file of a rig with another rotor.
-TEST(OtherRig, IsSaidOfTheFileOfAnotherRotorInsteadOfErrorsOfColumns) {
-  const TestRig bench = LoadTestRig("flexible_rotor", {"flexible_rotor"});
-  const config::RigFile other = DifferentRig(bench, TheTrial().rig, 3);
-  const diagnosis::RigView view(other.numbers, other.plant);
-  const auto found = diagnosis::FindErrorsOfRecords(view, TheTrial().records);
-  ASSERT_EQ(found.front().errors.size(), 1U);
-  EXPECT_EQ(found.front().errors.front().kind, RecordErrorKind::kOtherRig);
-}
-
-TEST(OtherRig, IsNotSaidOfAStrongFaultOfTheSameRig) {
+TEST(ErrorsOfRecords, AreNotSeenInAStrongFaultOfTheRig) {
   for (const effect::Id hidden : {effect::Id::kCouplingStiffness, effect::Id::kCurrentGain}) {
     TrialPlan plan;
     plan.seed = 20261126;

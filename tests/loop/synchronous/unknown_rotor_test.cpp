@@ -104,7 +104,7 @@ Decay DecayOf(const plant::PlantConfig& rig, const law::LawConfig& law, double s
   for (const Target target : {Target::kCurrent, Target::kVibration}) {
     synchronous::BlockConfig block;
     block.target = target;
-    const auto inverse = design::InverseOfBearings(rig, loop, block, speed_rad_per_s);
+    const auto inverse = design::PhaseAlignedT(rig, loop, block, speed_rad_per_s);
     if (target == Target::kCurrent) found.damps = inverse.diagonal().real().minCoeff() > 0.0;
     const auto answer = analysis::SynchronousAnswer(response, speed_rad_per_s, 1.0, target);
     const auto values = analysis::EigenvaluesWithConjugates(inverse * answer);
@@ -159,14 +159,22 @@ TEST(UnknownRotor, CoilsOnAVoltageAreRefused) {
   const auto law = CommissionedCycle().law;
   const auto loop = analysis::CloseLoop(ShippedRig().plant, law, 300.0);
   try {
-    (void)design::InverseOfBearings(rig.plant, loop, Asked(Target::kCurrent, 1500.0, 3900.0).block,
-                                    300.0);
+    (void)design::PhaseAlignedT(rig.plant, loop, Asked(Target::kCurrent, 1500.0, 3900.0).block,
+                                300.0);
     FAIL() << "accepted";
   } catch (const BadInput& refused) {
     EXPECT_NE(std::string(refused.what()).find("bearing nde: its coils are on a voltage"),
               std::string::npos)
         << refused.what();
   }
+}
+
+TEST(UnknownRotor, ALawThatGivesAnAxisNothingIsRefused) {
+  auto loop = analysis::CloseLoop(ShippedRig().plant, CommissionedCycle().law, 300.0);
+  loop.law[2] = analysis::ModelOf({law::Section{.b0 = 0.0}});
+  EXPECT_THROW((void)design::PhaseAlignedT(ShippedRig().plant, loop,
+                                           Asked(Target::kCurrent, 1500.0, 3900.0).block, 300.0),
+               BadInput);
 }
 
 TEST(UnknownRotor, NoRotorDataIsInIt) {

@@ -118,14 +118,15 @@ class BadInput(CommandTest):
                     ("replay", "s.lcmlog", "--controller", "flexible_rotor", "--json", ABSENT),
                     *(("simulate", "s.lcmlog", option, bad)
                       for option in ("--json", "--csv", "--svg") for bad in (ABSENT, "folder")),
-                    *((command, "--json", bad) for command in ANALYSES
-                      for bad in (ABSENT, "folder"))]
+                    *((command, option, bad) for command in ANALYSES
+                      for option in ("--json", "--svg") for bad in (ABSENT, "folder"))]
         for command in commands:
             with self.subTest(command=command):
                 self.refuse(BAD_INPUT, "cannot be", *command)
         for command in ANALYSES:
-            with self.subTest(command=command):
-                self.refuse(OTHER, "No space left on device", command, "--json", "/dev/full")
+            for option in ("--json", "--svg"):
+                with self.subTest(command=command, option=option):
+                    self.refuse(OTHER, "No space left on device", command, option, "/dev/full")
 
     @unittest.skipIf(os.geteuid() == 0, "the superuser may write anywhere")
     def test_folder_of_somebody_else(self):

@@ -33,6 +33,7 @@ QUICK = {
     "sessions": (),
     "sessions add": ("s.lcm",),
     "sessions tag": ("s.lcm", "one"),
+    "sessions compress": ("s.lcm", "--keep"),
     "sessions forget": ("s.lcm",),
     "simulate": ("s.lcm",),
     "effects": (),
@@ -56,7 +57,8 @@ MISSING = {
     "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }
 # Look for no file that a user names; the nonlinear fits take theirs with more options.
-NO_FILE = {"new", "new rig", "dash", "key", "doctor", "effects", "sessions", "sessions add", "manual", "identify",
+NO_FILE = {"new", "new rig", "dash", "key", "doctor", "effects", "sessions", "sessions add", "sessions compress",
+           "manual", "identify",
            "design", "bench",
            "bench diagnosis", "bench identification", "bench full-spectrum", "bench pump", "bench lives",
            "identify hammerstein-wiener", "identify narx", "identify narmax", "identify grey-box"}

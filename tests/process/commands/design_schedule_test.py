@@ -1,6 +1,7 @@
 """amb design schedule: tables of laws from files and from a search, and what other commands make of them."""
 
 import json
+import re
 import unittest
 
 from command import BAD_INPUT, DONE, OTHER, USAGE, CommandTest, amb
@@ -49,7 +50,13 @@ class DesignSchedule(CommandTest):
         self.assertIn("exchange: true", (self.folder / "both.yaml").read_text())
         self.assertEqual(self.peak("both.yaml", 1400), self.peak(COMMISSIONED, 1400))
         self.assertEqual(self.peak("both.yaml", 1600), self.peak("robust.yaml", 1600))
-        self.call("run", *RIG, "--controller", "both.yaml", "--record", "run.lcm")
+        self.assertIn("each law judged as far beyond it as it may act", said)
+        self.call("run", *RIG, "--controller", "both.yaml", "--scenario", "run_up_6000", "--record", "run.lcm")
+        told = re.findall(rb"law (\d) of the schedule takes over from law (\d) at (\d+) rpm",
+                          (self.folder / "run.lcm").read_bytes())
+        # 0.1 s of listening at 800 rpm/s, and 3 % below on the way down.
+        self.assertEqual([at[:2] for at in told], [(b"2", b"1"), (b"1", b"2")])
+        self.assertTrue(1570 < int(told[0][2]) < 1600 and 1360 < int(told[1][2]) < 1390, told)
         self.assertIn("every output bit", self.call("replay", "run.lcm").stdout)
         unmarked = (self.folder / "both.yaml").read_text().replace("exchange: true", "exchange: false")
         (self.folder / "unmarked.yaml").write_text(unmarked)

@@ -241,24 +241,6 @@ class DiagnoseForeignCampaigns(unittest.TestCase):
             listed = [line for line in printed.splitlines() if line.startswith("  eddy_current tau_us")]
             self.assertEqual(len(listed), 1, "one value at all axes is told once")
 
-    def test_the_file_of_another_rotor_is_doubted_and_the_diagnosis_made(self):
-        with TemporaryDirectory() as folder:
-            text = (RECORDS.parents[2] / "config/rigs/flexible_rotor.yaml").read_text()
-            self.assertIn("outer_diameter_mm: 9.525", text)
-            Path(folder, "thick.yaml").write_text(
-                text.replace("outer_diameter_mm: 9.525", "outer_diameter_mm: 16"))
-            data = sorted((RECORDS / "none").glob("*.csv.xz"))
-            printed = amb(folder, "diagnose", "--quick", "--rig", "./thick.yaml", *data, "--out",
-                          "answer")
-            answer = json.loads((Path(folder) / "answer/diagnosis.json").read_text())
-            doubts = answer["record_errors"]
-            self.assertTrue(doubts, printed)
-            self.assertEqual({(e["kind"], e["remark"]) for e in doubts}, {("other_rig", True)})
-            for words in ("Doubt about the record", "the rig file may be another rig's",
-                          "What follows takes the rig file for the right one."):
-                self.assertIn(words, printed)
-            self.assertNotIn("Error of the record", printed)
-
     def test_the_calibrated_rig_predicts_what_the_calibrated_model_did(self):
         with TemporaryDirectory() as folder:
             _, first = self.diagnose("eddy_current", folder)

@@ -9,16 +9,18 @@ import unittest
 from command import BINARIES, DONE, SOURCE, USAGE, CommandTest, amb
 
 OPTIONS = {
-    "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--json"},
-    "poles": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--up-to-hz", "--json"},
-    "margins": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--json", "--require"},
+    "modes": {"--rig", "--speed-rpm", "--speeds", "--campbell", "--modes", "--svg", "--json"},
+    "poles": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--up-to-hz", "--svg",
+              "--json"},
+    "margins": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--svg", "--json",
+                "--require"},
     "compare": {"--rig", "--speed-rpm", "--speeds", "--orders", "--page", "--circle-um", "--json"},
     "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--free-run",
                  "--controller", "--csv", "--svg", "--json"},
     "import": {"--rig", "--out", "--map", "--guess", "--suggest", "--overwrite", "--tag", "--json"},
     "sessions": {"--rig", "--outcome", "--tag", "--text", "--from", "--to", "--catalogue", "--json"},
-    "manual": {"--markdown", "--man", "--bash"},
-    "export": {"--csv", "--mat", "--mcap", "--from", "--to", "--every", "--columns", "--json"},
+    "manual": {"--markdown", "--man", "--bash", "--of"},
+    "export": {"--csv", "--mat", "--mcap", "--lcm", "--from", "--to", "--every", "--columns", "--json"},
     "replay": {"--controller", "--csv", "--publish", "--speed", "--port", "--key", "--json"},
     "report": {"--out", "--pictures", "--speeds", "--run-json", "--json"},
     "dash": {"--port", "--key", "--http-port", "--listen", "--allow-network", "--token", "--token-file", "--answer-within",
@@ -33,7 +35,7 @@ OPTIONS = {
                        "--svg", "--starts", "--spread", "--spread-gains", "--json"},
     "balance": {"--rig", "--controller", "--plane", "--planes", "--drill", "--after", "--applied", "--top-rpm",
                 "--svg", "--json"},
-    "diagnose": {"--rig", "--holdout", "--healthy", "--plan", "--scenario", "--controller", "--size", "--out", "--quick",
+    "diagnose": {"--rig", "--holdout", "--healthy", "--plan", "--scenario", "--controller", "--size", "--out", "--quick", "--as-is",
                  "--explain", "--json"},
     "doctor": {"--json"},
 }

@@ -264,6 +264,12 @@ class ImportExport(CommandTest):
         done = amb(self.folder, "export", "s.lcmlog", "--csv", "s.csv.xz")
         self.assertEqual(done.returncode, USAGE)
         self.assertIn("leave out .xz", done.stderr)
+        packed = amb(self.folder, "export", "s.lcmlog", "--mat", "s.mat.zst")
+        self.assertEqual(packed.returncode, USAGE)
+        self.assertIn("leave out .zst", packed.stderr)
+        some = amb(self.folder, "export", "s.lcmlog", "--lcm", "s.lcm", "--every", "2")
+        self.assertEqual(some.returncode, USAGE)
+        self.assertIn("writes the log whole", some.stderr)
         self.assertEqual(self.files(), before)
 
 

@@ -1,11 +1,13 @@
 """amb manual: the committed page is the program's own; completion works in a real bash."""
 
+import re
 import shutil
 import subprocess
 import unittest
 
-from command import DONE, SOURCE, USAGE, CommandTest, amb
+from command import BINARIES, DONE, SOURCE, USAGE, CommandTest, amb
 
+PROGRAMS = ("amb", "amb-controller", "amb-plant", "amb-rig", "amb-study")
 COMPLETE = """
 source "$1"
 COMP_WORDS=("${@:2}")
@@ -17,8 +19,8 @@ printf '%s\\n' "${COMPREPLY[@]}"
 
 
 class Manual(CommandTest):
-    def print(self, form):
-        done = amb(self.folder, "manual", form)
+    def print(self, *form):
+        done = amb(self.folder, "manual", *form)
         self.assertEqual(done.returncode, DONE, done.stderr)
         return done.stdout
 
@@ -48,10 +50,30 @@ class Manual(CommandTest):
     def test_the_manual_page_is_one_that_troff_reads_without_a_warning(self):
         if shutil.which("groff") is None:
             self.skipTest("no groff here")
-        self.write("amb.1", self.print("--man"))
-        done = subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z", self.folder / "amb.1"],
-                              capture_output=True, text=True, check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for program in PROGRAMS:
+            self.write("page.1", self.print("--man", "--of", program))
+            done = subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z", self.folder / "page.1"],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), program)
+
+    def test_the_page_of_a_program_has_each_of_its_options_and_what_a_page_holds(self):
+        whole = self.print("--markdown")
+        for program in PROGRAMS[1:]:
+            page = self.print("--man", "--of", program).replace("\\-", "-")
+            for part in ("NAME", "SYNOPSIS", "DESCRIPTION", "EXIT STATUS", "ENVIRONMENT", "SEE ALSO"):
+                self.assertIn(f".SH {part}\n", page, program)
+            self.assertIn(f"\n## {program}\n", whole)
+            if program == "amb-study":  # its options are amb's
+                continue
+            help_text = subprocess.run([BINARIES / program, "--help"], capture_output=True, text=True,
+                                       check=True).stdout
+            options = set(re.findall(r"^  (?:-h,)?(--[a-z-]+)", help_text, re.M))
+            self.assertGreater(len(options), 10, help_text)
+            examples = page.split(".SH EXAMPLES\n.nf\n")[1].split(".fi")[0]
+            self.assertTrue(examples.startswith(f"  {program} "), examples)
+            self.assertLessEqual(set(re.findall(r"--[a-z-]+", examples)), options)
+            for option in options:
+                self.assertRegex(page, rf"\.TP\n\\fB[^\n]*{option}\\fR", program)
 
     def test_bash_completes_commands_options_values_names_and_files(self):
         self.write("mine.yaml", "")
@@ -64,6 +86,10 @@ class Manual(CommandTest):
         self.assertEqual(self.complete("amb", "replay", "mi"), ["mine.yaml"])
         self.assertIn("forget", self.complete("amb", "sessions", ""))
         self.assertEqual(self.complete("amb", "run", "--no-such"), [])
+        self.assertEqual(self.complete("amb-study", "diag"), ["diagnose"])
+        self.assertEqual(self.complete("/usr/bin/amb-controller", "--reco"), ["--record"])
+        self.assertIn("flexible_rotor", self.complete("amb-plant", "--rig", "f"))
+        self.assertEqual(self.complete("amb-rig", "--on"), ["--on-a-real-bus"])
 
     def test_without_a_form_says_which_there_are(self):
         self.refuse(USAGE, "--bash", "manual")

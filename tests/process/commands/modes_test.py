@@ -51,17 +51,25 @@ class Modes(CommandTest):
         printed, modes = self.compute("modes", "--speeds", "0,2500,6000", "--modes", "3")
         lines = printed.splitlines()
         self.assertIn(f"rotor mass {modes['rotor_mass_kg']:.3f} kg", lines[0])
-        for line, bearing in zip(lines[1:3], modes["bearings"]):
+        self.assertIn(f"z = {1e3 * modes['centre_of_mass_z_m']:.1f} mm", lines[0])
+        self.assertIn(f"{modes['transverse_inertia_kg_m2']:.5g} kg m2 transverse", lines[1])
+        for line, bearing in zip(lines[2:4], modes["bearings"]):
+            self.assertIn(f"static load {bearing['static_load_n']:.3f} N", line)
             self.assertIn(bearing["name"], line)
             self.assertIn(f"{bearing['ki_n_per_a']:.3f} N/A", line)
             self.assertIn(f"{bearing['ks_n_per_m']:.4e} N/m", line)
-        self.assertEqual(len(lines[5:]), 3)
-        for line, at in zip(lines[5:], modes["speeds"]):
+        for line, at in zip(lines[6:9], modes["speeds"]):
             pairs = [f for pair in zip(at["backward_hz"], at["forward_hz"]) for f in pair]
             shown = numbers(line)
             self.assertEqual(len(shown), 7)
             for value, wanted in zip(shown, [at["speed_rpm"], *pairs]):
                 self.assertAlmostEqual(value, wanted, delta=0.00051)  # three decimals are printed
+        self.assertIn(f"up to {modes['up_to_rpm']:.0f} rpm", lines[9])
+        self.assertEqual(len(lines[10:]), len(modes["critical_speeds"]))
+        for line, at in zip(lines[10:], modes["critical_speeds"]):
+            self.assertIn(f"{at['speed_rpm']:.1f} rpm", line)
+            self.assertIn(f"{at['frequency_hz']:.3f} Hz", line)
+            self.assertTrue(line.endswith(at["whirl"]), line)
 
     def test_reversed_rotation_exchanges_forward_and_backward(self):
         _, modes = self.compute("modes", "--speed-rpm=-4000,4000")

@@ -13,7 +13,7 @@ from command import (BINARIES, DONE, LIMIT_S, OTHER, SHIPPED_CONTROLLER, SHIPPED
 
 WRITES = {"--record", "--json", "--csv", "--mat", "--mcap", "--out", "--svg", "--plan", "--picture",
           "--write", "--document", "--html", "--worst-rig", "--write-design", "--page",
-          "--write-rig"}
+          "--write-rig", "--lcm"}
 FOLDERS = {"--pictures"}
 STOP = """kind: scenario
 name: stop
@@ -88,6 +88,9 @@ class Outputs(CommandTest):
         for command in (("margins", "--rig", "r.yaml", "--json", "r.yaml"),
                         ("margins", "--rig", "link", "--json", "r.yaml"),
                         ("modes", "--rig", "r.yaml", "--json", "inode"),
+                        ("modes", "--rig", "r.yaml", "--svg", "r.yaml"),
+                        ("poles", "--svg", "both", "--json", "both"),
+                        ("margins", "--controller", "c.yaml", "--svg", "c.yaml"),
                         ("bench", "lives", "--rig", "r.yaml", "--json", "r.yaml"),
                         ("design", "check", "--rig", "r.yaml", "--worst-rig", "r.yaml"),
                         ("poles", "--controller", "c.yaml", "--json", self.folder / "c.yaml"),
@@ -112,9 +115,10 @@ class Outputs(CommandTest):
         for command, kind in (("margins", "controller"), ("poles", "controller"),
                               ("run", "controller"), ("run", "scenario")):
             with self.subTest(command=command, kind=kind):
-                done = self.call(command, "--rig", "geared_rotor_4dof", "--json", named[kind],
-                                 status=USAGE)
-                self.assertIn(f"the same file as the {kind} file", done.stderr)
+                for option in ("--json",) if command == "run" else ("--json", "--svg"):
+                    done = self.call(command, "--rig", "geared_rotor_4dof", option, named[kind],
+                                     status=USAGE)
+                    self.assertIn(f"the same file as the {kind} file", done.stderr)
         self.assertEqual({kind: path.read_bytes() for kind, path in named.items()}, before)
 
     def test_a_controller_by_itself_writes_over_nothing_it_reads(self):

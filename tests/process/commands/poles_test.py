@@ -62,8 +62,13 @@ class Poles(CommandTest):
 
     def test_what_is_printed_is_what_the_json_holds(self):
         printed, loop = self.compute("poles", "--speed-rpm", "1600", "--up-to-hz", "300")
+        table, critical = printed.split("Critical speeds, levitated, ")
+        self.assertTrue(critical.startswith(f"up to {loop['up_to_rpm']:.0f} rpm:\n"), critical)
+        for row, at in zip(critical.splitlines()[1:], loop["critical_speeds"], strict=True):
+            self.assertIn(f"{at['speed_rpm']:.1f} rpm", row)
+            self.assertIn(f"damping {at['damping_ratio']:.5f}  {at['whirl']}", row)
         at = loop["speeds"][0]
-        lines = [line for line in printed.splitlines()
+        lines = [line for line in table.splitlines()
                  if "the notch given at" not in line and "Tustin's rule" not in line]
         title, delay, head, names, *rows = lines
         self.assertIn("rig flexible_rotor, controller flexible_rotor", title)
@@ -142,8 +147,9 @@ class Poles(CommandTest):
             # 1e-4 Hz: what the eigenvalue solver leaves of a double pole at this size.
             self.assertAlmostEqual(value, -other, delta=1e-4)
         # Without rotation neither direction is the forward one.
-        self.assertNotIn("forward", printed)
-        self.assertNotIn("backward", printed)
+        table = printed.split("Critical speeds")[0]
+        self.assertNotIn("forward", table)
+        self.assertNotIn("backward", table)
 
     def test_same_question_same_numbers(self):
         first, second = (self.compute("poles", "--speed-rpm", "3000")[1] for _ in range(2))

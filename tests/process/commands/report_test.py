@@ -28,7 +28,7 @@ class Report(CommandTest):
         for picture in pictures:
             self.assertTrue(xml.fromstring(urllib.parse.unquote(picture)).tag.endswith("svg"))
         outside = [address for address in re.findall(r'(?:src|href)="([^"]*)"', page)
-                   if not address.startswith("data:")]
+                   if not address.startswith(("data:", "#"))]
         self.assertEqual(outside, [])
         self.assertIn(f"{SPEED_RPM} rpm", page)
 
@@ -73,6 +73,24 @@ class Report(CommandTest):
         printed = amb(self.folder, "report", "inside", "--out", "r.html").stdout
         self.assertIn("INCOMPLETE: the record", printed)
         self.assertIn("Not everything could be read", printed)
+
+    def test_a_run_has_its_verdict_as_tables_its_sensitivity_and_its_critical_speeds(self):
+        done = amb(self.folder, "run", "--duration", "1", "--record", "run.lcm")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        _, told = self.compute("report", "run.lcm", "--out", "r.html")
+        page = (self.folder / "r.html").read_text(encoding="utf-8")
+        self.assertIn("sensitivity_0_rpm", told["pictures"])
+        self.assertIn("campbell", told["pictures"])
+        self.assertLess(page.index("<table id=sensitivity"), page.index("<figure"))
+        for axis in told["judgement"]["sensitivity"][0]["axes"]:
+            self.assertIn(f"<td>{axis['axis']}</td><td class=n>{axis['peak']:.3f}</td>", page)
+        self.assertGreater(len(told["critical_speeds"]), 0)
+        for critical in told["critical_speeds"]:
+            self.assertIn(f"<td class=n>{critical['speed_rpm']:.0f}</td>"
+                          f"<td class=n>{critical['frequency_hz']:.2f}</td>", page)
+        # Those that amb poles prints for the rig and controller of the run.
+        _, poles = self.compute("poles", "--controller", "flexible_rotor_commissioned")
+        self.assertEqual(told["critical_speeds"], poles["critical_speeds"])
 
     def test_refuses_what_is_no_session_and_writes_nothing(self):
         self.write("x", "no session")

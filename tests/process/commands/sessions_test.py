@@ -94,6 +94,37 @@ class Sessions(CommandTest):
             self.assertIn(bad, done.stderr)
         self.assertEqual(self.found(), ["a.lcmlog"])
 
+    def test_compresses_sessions_and_keeps_entries_and_tags(self):
+        self.record("a.lcmlog", "--tag", "x")
+        self.record("b.lcm")
+        plain = {name: (self.folder / name).read_bytes() for name in ("a.lcmlog", "b.lcm")}
+        self.write("z.lcm", "no session")
+        done = self.call("sessions", "compress", ".", "--json", "done.json", status=BAD_INPUT)
+        self.assertIn("z.lcm", done.stderr)
+        self.assertTrue((self.folder / "z.lcm").exists())
+        told = {os.path.basename(one["session"]): one for one in self.json("done.json")["sessions"]}
+        self.assertEqual(set(told), {"a.lcmlog.zst", "b.lcm.zst"})
+        for name, content in plain.items():
+            self.assertFalse((self.folder / name).exists())
+            packed = self.folder / f"{name}.zst"
+            self.assertEqual((told[packed.name]["before_byte"], told[packed.name]["after_byte"]),
+                             (len(content), packed.stat().st_size))
+            self.assertLess(packed.stat().st_size, len(content) / 2)
+            self.call("export", packed, "--lcm", f"again_{name}")
+            self.assertTrue((self.folder / f"again_{name}").read_bytes() == content)
+        self.assertEqual(sorted(self.found()), ["a.lcmlog.zst", "b.lcm.zst"])
+        self.assertEqual(self.found("--tag", "x"), ["a.lcmlog.zst"])
+
+    def test_compress_replaces_nothing_and_passes_over_what_is_packed(self):
+        self.record("a.lcm")
+        before = (self.folder / "a.lcm").read_bytes()
+        self.call("sessions", "compress", "a.lcm", "--keep")
+        self.assertEqual(sorted(self.found()), ["a.lcm", "a.lcm.zst"])
+        done = self.call("sessions", "compress", "a.lcm", status=BAD_INPUT)
+        self.assertIn("is there already and is not replaced", done.stderr)
+        self.assertEqual((self.folder / "a.lcm").read_bytes(), before)
+        self.assertIn("is packed already", self.call("sessions", "compress", "a.lcm.zst").stdout)
+
     def test_a_catalogue_that_cannot_be_written_costs_no_record(self):
         self.environment["LEVITAS_CATALOGUE"] = "/proc/nowhere/sessions.db"
         done = self.record("a.lcmlog")

@@ -76,6 +76,28 @@ class Package(unittest.TestCase):
                     else:
                         numpy.testing.assert_array_equal(exported[column], self.run_[column])
 
+    def packed(self, name):
+        """The same run packed, as a recorder would have left it."""
+        path = self.folder / name
+        subprocess.run([BINARIES / "amb", "export", "run.lcm", "--lcm", name], cwd=self.folder, check=True,
+                       capture_output=True, timeout=LIMIT_S)
+        return path
+
+    def test_a_packed_session_is_the_same_session(self):
+        session = self.levitas.load(self.packed("run.lcm.zst"))
+        numpy.testing.assert_array_equal(session.records, self.run_.records)
+        self.assertEqual(session.events, self.run_.events)
+
+    def test_a_packed_session_that_is_cut_off_is_read_up_to_there_and_says_so(self):
+        path = self.packed("cut.lcm.zst")
+        whole = path.read_bytes()
+        path.write_bytes(whole[:len(whole) // 2])
+        with self.assertWarnsRegex(UserWarning, "cut off or damaged"):
+            session = self.levitas.load(path)
+        self.assertGreater(len(session), len(self.run_) // 3)
+        self.assertLess(len(session), len(self.run_))
+        numpy.testing.assert_array_equal(session.records, self.run_.records[:len(session.records)])
+
     def test_a_session_says_what_ran(self):
         self.assertEqual(self.run_.channels, ["de_x", "de_y", "nde_x", "nde_y"])
         self.assertEqual(self.run_.pace, "lockstep")

@@ -99,8 +99,9 @@ class Sessions(unittest.TestCase):
         self.assertGreater(report["events"], 4)  # commands and modes
         self.assertIn(f"{cycles} cycles reproduced", done.stdout)
 
-    def test_killed_controller_leaves_a_session_that_is_reproduced(self):
-        session = self.folder / "killed.lcmlog"
+    def killed(self, name):
+        """What `amb replay` tells of the session of a controller that was killed."""
+        session = self.folder / name
         draw = random.Random(20261121)
         with plant(self.folder), controller(self.folder, "--scenario", "default", "--record",
                                             session) as control:
@@ -112,6 +113,47 @@ class Sessions(unittest.TestCase):
         self.assertEqual(done.returncode, DONE, done.stdout + done.stderr)
         self.assertGreater(report["cycles_reproduced"], 5_000)
         self.assertEqual(report["damage"]["missing_cycles"], 0)
+        return done
+
+    def test_killed_controller_leaves_a_session_that_is_reproduced(self):
+        self.killed("killed.lcmlog")
+
+    def test_killed_controller_leaves_a_packed_session_that_is_reproduced_and_says_where_it_ends(self):
+        done = self.killed("killed.lcm.zst")
+        self.assertIn("read up to its last complete one", done.stdout)
+
+    def test_packed_recording_is_an_lcm_log_behind_zstd_and_is_reproduced_bit_for_bit(self):
+        with plant(self.folder) as rig, controller(self.folder, "--scenario", "levitate", "--record",
+                                                   self.folder / "run.lcm.zst") as control:
+            self.assertEqual(control.status(), 0, control.text)
+            rig.status()
+        done, report = self.replay("run.lcm.zst")
+        self.assertEqual(done.returncode, DONE, done.stdout + done.stderr)
+        self.assertTrue(report["identical"])
+        self.assertEqual(report["damage"]["corrupt_blocks"], 0)
+        self.assertNotIn("Not everything", done.stdout)
+        packed = self.folder / "run.lcm.zst"
+        exported = amb(self.folder, "export", packed, "--lcm", "run.lcm", "--csv", "packed.csv")
+        self.assertEqual(exported.returncode, DONE, exported.stderr)
+        plain = (self.folder / "run.lcm").read_bytes()
+        self.assertGreater(len(plain), 3 * packed.stat().st_size)
+        # A program that nobody here wrote unpacks the same bytes.
+        if shutil.which("zstd"):
+            by_zstd = subprocess.run(["zstd", "-dcq", packed], capture_output=True, check=True).stdout
+            self.assertTrue(by_zstd == plain)
+        cycles = sum(channel == "LEVITAS_CYCLE" for channel, _ in log_events(self.folder / "run.lcm"))
+        self.assertEqual(cycles, report["cycles_reproduced"])
+        self.assertEqual(amb(self.folder, "export", "run.lcm", "--csv", "plain.csv").returncode, DONE)
+        self.assertEqual((self.folder / "packed.csv").read_bytes(), (self.folder / "plain.csv").read_bytes())
+
+    def test_every_command_on_a_record_takes_a_packed_one(self):
+        packed = self.folder / "whole.lcm.zst"
+        self.assertEqual(amb(self.folder, "export", self.whole, "--lcm", packed).returncode, DONE)
+        for words in (("report", packed, "--out", "p.html"), ("simulate", packed),
+                      ("export", packed, "--mat", "p.mat", "--mcap", "p.mcap"),
+                      ("sessions", "add", packed, "--catalogue", "own.db")):
+            done = amb(self.folder, *words)
+            self.assertEqual(done.returncode, DONE, (words, done.stderr))
 
     def test_damage_in_the_middle_ends_the_replay_and_is_told(self):
         data = bytearray(self.whole.read_bytes())

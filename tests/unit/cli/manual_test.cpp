@@ -19,6 +19,7 @@ struct Line {
   std::string file;
   std::string hidden;
   int modes{};
+  int turns{};
   bool deep{};
 
   Line() {
@@ -28,6 +29,8 @@ struct Line {
         ->check(CLI::IsMember({"lockstep", "realtime"}))
         ->capture_default_str();
     run->add_option("--modes", modes, "How many")->check(CLI::Range(1, 20));
+    run->add_option("--turns", turns, "Which way")
+        ->transform(CLI::Transformer(std::map<std::string, int>{{"left", -1}, {"right", 1}}));
     run->add_flag("--deep", deep, ".starts with a point");
     run->add_option("--hidden", hidden, "Nobody's business")->group("");
     run->footer("  amb run x.lcm");
@@ -52,6 +55,8 @@ TEST(CommandTree, HoldsCommandsOptionsValuesAndDefaults) {
   EXPECT_TRUE(find("SESSION").positional);
   EXPECT_TRUE(find("SESSION").required);
   EXPECT_THAT(find("--pace").allowed, ElementsAre("lockstep", "realtime"));
+  EXPECT_THAT(find("--turns").allowed, ElementsAre("left", "right"));
+  EXPECT_EQ(find("--turns").value, "{left,right}");
   EXPECT_EQ(find("--pace").preset, "lockstep");
   EXPECT_TRUE(find("--pace").takes_value);
   EXPECT_FALSE(find("--deep").takes_value);
@@ -62,7 +67,7 @@ TEST(CommandTree, HoldsCommandsOptionsValuesAndDefaults) {
 
 TEST(Markdown, EscapesWhatWouldEndACellAndNamesDefaults) {
   const Line line;
-  const std::string page = Markdown(TreeOf(line.app));
+  const std::string page = Markdown(TreeOf(line.app), {});
   EXPECT_THAT(page, HasSubstr("| `amb run` | Run \\| judge |"));
   EXPECT_THAT(page, HasSubstr("| `--pace {lockstep,realtime}` | How fast (default lockstep) |"));
   EXPECT_THAT(page, HasSubstr("| `SESSION` | What to read (needed) |"));
@@ -80,7 +85,7 @@ TEST(ManPage, EscapesWhatTroffWouldTakeForItsOwn) {
 
 TEST(BashCompletion, KnowsWordsOfEachCommandAndValuesOfOptions) {
   const Line line;
-  const std::string script = BashCompletion(TreeOf(line.app));
+  const std::string script = BashCompletion(TreeOf(line.app), {});
   EXPECT_THAT(script, HasSubstr("['amb']='run -h --help'"));
   EXPECT_THAT(script, HasSubstr("['amb run --pace']='lockstep realtime'"));
   EXPECT_THAT(script, Not(HasSubstr("amb run --deep']")));

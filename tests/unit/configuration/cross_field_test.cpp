@@ -1,4 +1,5 @@
 // Relations between fields: each is broken once, and once only just kept.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/configuration/samples.hpp"
@@ -55,6 +56,8 @@ TEST(Notch, StandsByTustinsRuleUnlessTheFileAsksForPrewarp) {
   const std::string key = "pole_damping: 0.8\n        prewarp: ";
   EXPECT_TRUE(notch(With(kController, "pole_damping: 0.8", key + "true")).prewarp);
   EXPECT_FALSE(notch(With(kController, "pole_damping: 0.8", key + "false")).prewarp);
+  EXPECT_THAT(ControllerProblems(With(kController, "pole_damping: 0.8", key + "yes")),
+              ::testing::HasSubstr("nearest true"));
 }
 
 TEST(SensorRange, MustCoverTheClearance) {

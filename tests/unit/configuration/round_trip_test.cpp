@@ -142,6 +142,7 @@ TEST(RoundTrip, OfAScheduleKeepsEverySpeed) {
     ADD_FAILURE() << "laws with other filters were read";
   } catch (const BadInput& refused) {
     EXPECT_THAT(refused.what(), ::testing::HasSubstr("axis 1 has 2 notches before and 1 here"));
+    EXPECT_THAT(refused.what(), ::testing::HasSubstr("schedule.speeds[1].speed"));
   }
 }
 

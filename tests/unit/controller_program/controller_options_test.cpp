@@ -51,8 +51,7 @@ TEST(ControllerOptions, TakeThePaceByItsName) {
 TEST(ControllerOptions, TakeTheBudgetOfTripFilesAsFilesAndMegabytes) {
   const Read read = With({"--trip-budget", "7", "55"});
   ASSERT_TRUE(read.goes_on);
-  EXPECT_EQ(read.options.trip_files, 7U);
-  EXPECT_EQ(read.options.trip_megabytes, 55U);
+  EXPECT_EQ(read.options.trip_budget, (std::vector<std::size_t>{7, 55}));
   EXPECT_FALSE(With({"--trip-budget", "7"}).goes_on);
   EXPECT_FALSE(With({"--trip-budget", "0", "55"}).goes_on);
 }

@@ -26,23 +26,9 @@ TEST(RecordErrorSentences, TellRecordsWithTheSameErrorTogether) {
   EXPECT_TRUE(RecordErrorSentences({}).empty());
 }
 
-TEST(RecordErrorSentences, CallADoubtAboutTheRigFileNoError) {
-  EXPECT_THAT(RecordErrorSentences({Of("a.csv", RecordErrorKind::kOtherRig)}),
-              ElementsAre("Doubt about the record a.csv: something is wrong. If so: do that."));
-}
-
-TEST(AfterRecordErrors, SaysThatNothingWasMendedWhereThereIsOnlyADoubt) {
-  const RecordErrors doubt = Of("a.csv", RecordErrorKind::kOtherRig);
-  EXPECT_THAT(AfterRecordErrors({doubt}), HasSubstr("takes the rig file for the right one"));
-  EXPECT_THAT(AfterRecordErrors({doubt, Of("b.csv", RecordErrorKind::kHeld)}),
-              HasSubstr("as mended"));
-}
-
 TEST(RecordErrorKind, HasTheNameOfTheAnswersFile) {
   EXPECT_STREQ(Name(RecordErrorKind::kSwapped), "swapped");
-  EXPECT_STREQ(Name(RecordErrorKind::kOtherRig), "other_rig");
-  EXPECT_TRUE(IsRemark(RecordErrorKind::kOtherRig));
-  EXPECT_FALSE(IsRemark(RecordErrorKind::kGaps));
+  EXPECT_STREQ(Name(RecordErrorKind::kGaps), "gaps");
 }
 
 }  // namespace

@@ -284,13 +284,17 @@ TEST(ConfidenceTest, FallsWithARivalAndWithALowScore) {
   EXPECT_NEAR(BuildReport(s).confidence, 0.5, 1e-9);
 }
 
-TEST(ConfidenceTest, OfNoneIsAgainstTheStrongestCandidateAndOfUnknownZero) {
+TEST(ConfidenceTest, OfNoneIsAgainstAllCandidatesAndOfUnknownZero) {
   DiagnosisResult s = NothingFound();
   EXPECT_EQ(BuildReport(s).confidence, 1.0);
   s.answer.candidates.push_back({.effect = "extra_delay", .place = "all", .score = 0.0});
   EXPECT_NEAR(BuildReport(s).confidence, 0.5, 1e-12);  // even odds
   s.answer.candidates.front().score = -std::log(3.0);
   EXPECT_NEAR(BuildReport(s).confidence, 0.75, 1e-12);  // three to one
+  // Of two effects that explain as much as nothing, each is half as likely as that before.
+  s.answer.candidates.front().score = 0.0;
+  s.answer.candidates.push_back({.effect = "rotor_mass", .place = "rotor", .score = 0.0});
+  EXPECT_NEAR(BuildReport(s).confidence, 0.5, 1e-12);
   s.answer.verdict = Verdict::kUnknown;
   s.answer.candidates.front().score = 334.0;
   EXPECT_EQ(BuildReport(s).confidence, 0.0);
@@ -299,8 +303,8 @@ TEST(ConfidenceTest, OfNoneIsAgainstTheStrongestCandidateAndOfUnknownZero) {
 TEST(VerdictTest, OfACauseSaysItsSizeWithItsIntervalAndWhatItsEvidenceIs) {
   // sqrt(tau) of 2.5e-3, known to 0.25e-3: 1.645 of it to either side, squared
   EXPECT_THAT(BuildReport(Found("eddy_current", "de_x")).verdict_sentence,
-              AllOf(HasSubstr("tau_us 6.25 us (4.363 to 8.475)"),
-                    HasSubstr("20 nat, which is odds of e^20 to 1")));
+              AllOf(HasSubstr("tau_us 6.25 us (4.363 to 8.475, 90 % interval)"),
+                    HasSubstr("20 nat, which is odds of 10^8 : 1")));
   EXPECT_THAT(BuildReport(Found("unbalance", "z 299.2 mm")).verdict_sentence,
               HasSubstr("moment_g_mm 14.14 g mm"));
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "common/random.hpp"
 #include "controller/law/discrete_law.hpp"
@@ -179,6 +180,48 @@ TEST(LawLadder, CountsTheStretchesBetweenExchanges) {
   EXPECT_EQ(ladder.Next(kRungs - 1, 2.0 * kTop - 7.0 * width), kRungs - 1);
   EXPECT_EQ(ladder.Next(kRungs - 1, 2.0 * kTop - 8.0 * width), kRungs - 2);
   EXPECT_EQ(ladder.Next(100, 99.0 * width), 99U);
+}
+
+/// Where the ladder, taken from one speed to another, comes to another stretch.
+std::vector<double> SpeedsOfExchange(const LawLadder& ladder, double from, double to) {
+  constexpr int kSteps = 200'000;
+  std::vector<double> out;
+  std::size_t rung = ladder.Nearest(from);
+  for (int i = 0; i <= kSteps; ++i) {
+    const double speed = std::lerp(from, to, static_cast<double>(i) / kSteps);
+    const std::size_t next = ladder.Next(rung, speed);
+    if (ladder.Stretch(next) != ladder.Stretch(rung)) out.push_back(speed);
+    rung = next;
+  }
+  return out;
+}
+
+TEST(Exchanges, SayHowFarEachLawMayAct) {
+  LawConfig config = FlexibleRotorLaw();
+  for (const double speed : {0.13 * kTop, 0.6 * kTop, kTop}) {
+    LawAtSpeed at{speed, config.axes, {}, true};
+    if (config.schedule.size() != 1) at.axes[0].notches.clear();
+    config.schedule.push_back(at);
+  }
+  const std::vector<Exchange> exchanges = Exchanges(config);
+  const LawLadder ladder(config);
+  ASSERT_EQ(exchanges.size(), 3U);
+  const auto up = SpeedsOfExchange(ladder, 0.0, 1.1 * kTop);
+  auto down = SpeedsOfExchange(ladder, 1.1 * kTop, 0.0);
+  std::ranges::reverse(down);
+  ASSERT_EQ(up.size(), 3U);
+  ASSERT_EQ(down.size(), 3U);
+  const double width = kTop / static_cast<double>(kRungs - 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(exchanges[i].at_rad_per_s, config.schedule[i].speed_rad_per_s, width) << i;
+    EXPECT_LE(up[i], exchanges[i].lower_to_rad_per_s + 0.01) << i;
+    EXPECT_GE(down[i], exchanges[i].upper_from_rad_per_s - 0.01) << i;
+    EXPECT_NEAR(down[i], exchanges[i].upper_from_rad_per_s, 0.02) << i;
+    EXPECT_EQ(exchanges[i].lower.axes[0].notches.empty(), i == 1) << i;
+    EXPECT_EQ(exchanges[i].upper.axes[0].notches.empty(), i != 1) << i;
+  }
+  EXPECT_TRUE(Exchanges(Scheduled(2.0)).empty());
+  EXPECT_TRUE(Exchanges(FlexibleRotorLaw()).empty());
 }
 
 }  // namespace

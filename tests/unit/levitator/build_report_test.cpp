@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/levitator/causes.hpp"
+#include "diagnosis/report/advice.hpp"
 #include "tests/unit/levitator/rig.hpp"
 
 namespace levitas::levitator {
@@ -32,6 +33,17 @@ TEST(LevitatorReport, SaysThePlaceOfEveryCauseAlsoOfThoseNoRotorHas) {
     EXPECT_EQ(report.causes[0].effect, Causes()[c].effect);
     EXPECT_EQ(report.place, Table()[Causes()[c].moves.front()].place) << Causes()[c].effect;
     EXPECT_NE(report.place, "") << Causes()[c].effect;
+  }
+}
+
+TEST(LevitatorReport, SaysEveryCauseInWordsWithWhatToCheck) {
+  for (std::size_t c = 0; c < Causes().size(); ++c) {
+    const diagnosis::DiagnosisReport report = ReportOf({c});
+    const effect::Words* words = diagnosis::FindWords(report, Causes()[c].effect);
+    ASSERT_NE(words, nullptr) << Causes()[c].effect;
+    EXPECT_NE(report.headline.find("[" + Causes()[c].effect + "]"), std::string::npos);
+    EXPECT_NE(report.action.find(words->check), std::string::npos) << report.action;
+    EXPECT_FALSE(report.parameters.empty()) << Causes()[c].effect;
   }
 }
 

@@ -38,6 +38,24 @@ TEST(EvolutionStrategy, RepeatsItselfForASeedAndNotForAnother) {
   EXPECT_NE(one.best, Evolve(start, cost, {.evaluations = 60, .seed = 6}, Always).best);
 }
 
+TEST(EvolutionStrategy, AnswersTheSameForAnyNumberOfThreads) {
+  const auto cost = [](const Eigen::VectorXd& x) { return std::abs(x(0) - 1.0) + x.squaredNorm(); };
+  const Eigen::VectorXd start = Eigen::VectorXd::Zero(4);
+  // 205: the last generation is not a whole one.
+  const auto one = Evolve(start, cost, {.evaluations = 205, .population = 12}, Always);
+  for (const std::size_t threads : {0U, 2U, 5U}) {
+    const auto many =
+        Evolve(start, cost, {.evaluations = 205, .population = 12, .threads = threads}, Always);
+    EXPECT_EQ(many.best, one.best) << threads;
+    EXPECT_EQ(many.evaluations, 205U) << threads;
+  }
+}
+
+TEST(EvolutionStrategy, NeedsNoMoreThanItsStartWhereNothingElseIsAllowed) {
+  const auto cost = [](const Eigen::VectorXd& x) { return x.squaredNorm(); };
+  EXPECT_EQ(Evolve(Eigen::Vector2d::Ones(), cost, {.evaluations = 1}, Always).evaluations, 1U);
+}
+
 TEST(EvolutionStrategy, StopsWhenToldAndKeepsTheBest) {
   const auto cost = [](const Eigen::VectorXd& x) { return x(0) > 0.0 ? NAN : x(0) * x(0); };
   const auto found = Evolve(Eigen::VectorXd::Constant(1, -3.0), cost, {.evaluations = 100},

@@ -43,6 +43,26 @@ TEST_F(Deriver, TellsAModeChangeOnce) {
   EXPECT_TRUE(Step(record).empty());
 }
 
+TEST_F(Deriver, TellsALawThatTakesOverWhileTheRotorIsHeldAndNoneThatALiftBegins) {
+  std::uint64_t cycle = 1;
+  const auto step = [&](std::uint8_t law, bool held) {
+    auto record = Quiet(cycle++);
+    record.out.acting_law = law;
+    record.out.current.amplifiers_enabled = held;
+    return Step(record);
+  };
+  (void)step(0, true);
+  const auto up = step(1, true);
+  ASSERT_EQ(up.size(), 1U);
+  EXPECT_THAT(up[0].text, ::testing::StartsWith("law 2 of the schedule takes over from law 1 at "));
+  EXPECT_EQ(up[0].severity, Event::Severity::kInformation);
+  EXPECT_TRUE(step(1, true).empty());
+  EXPECT_EQ(step(0, true).size(), 1U);
+  (void)step(1, true);
+  EXPECT_TRUE(step(1, false).empty());
+  EXPECT_TRUE(step(0, true).empty());  // lifted anew, from rest
+}
+
 TEST_F(Deriver, TellsABlockOfSynchronousControlThatBeginsAndWhyItEnds) {
   EventDeriver deriver(Header().channels, Header().period_ns, {"unbalance"});
   std::uint64_t cycle = 0;

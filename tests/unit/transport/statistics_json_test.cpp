@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "common/problem.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace levitas::transport {
 namespace {
@@ -17,9 +20,20 @@ TEST(HistogramJson, CarriesCountPercentilesAndMaximum) {
   EXPECT_EQ(json.at("max_ns"), 10);
 }
 
+TEST(WriteJson, BeginsWithItsKindAndTheVersion) {
+  const test::ScratchFolder folder;
+  WriteJson("plant", {{"a", 1}}, folder / "p.json");
+  std::ifstream file(folder / "p.json");
+  const auto json = nlohmann::ordered_json::parse(file);
+  EXPECT_EQ(json.begin().key(), "schema");
+  EXPECT_EQ(json.at("schema"), "levitas_plant_1");
+  EXPECT_FALSE(json.at("version").get<std::string>().empty());
+  EXPECT_EQ(json.at("a"), 1);
+}
+
 TEST(WriteJson, NamesTheFileItCannotWrite) {
   try {
-    WriteJson({{"a", 1}}, "/no/such/folder/statistics.json");
+    WriteJson("plant", {{"a", 1}}, "/no/such/folder/statistics.json");
     FAIL() << "nothing was thrown";
   } catch (const Problem& problem) {
     EXPECT_EQ(problem.status(), ExitStatus::kOther);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "report/diagnosis/rotor_sketch.hpp"
 #include "tests/unit/report/diagnosis/reports.hpp"
 
 namespace levitas::cli {
@@ -43,6 +44,11 @@ TEST(DiagnosisPage, ShowsNamesOfOthersAsTextWhateverTheyHold) {
   DiagnosisReport report = OneCause();
   report.rig_name = kMark;
   report.verdict_sentence = kMark;
+  report.headline = report.action = report.severity_sentence = report.healthy_proposal = kMark;
+  report.healthy_record = kMark;
+  report.rotor = {.pieces = {{0.0, 0.4, 0.03, 0.0, false}}, .bearings = {{kMark, 0.1, 0.1}}};
+  report.marks = {{0.1, kMark}};
+  report.origin.records = {kMark};
   report.next_experiment = kMark;
   report.healthy_sentence = kMark;
   report.spectra.channel = kMark;
@@ -62,6 +68,49 @@ TEST(DiagnosisPage, ShowsNamesOfOthersAsTextWhateverTheyHold) {
   EXPECT_GE(Count(page, "&lt;img src=x&gt;"), 9U);
 }
 
+diagnosis::DiagnosisReport WithRotor() {
+  DiagnosisReport report = OneCause();
+  report.rotor.pieces = {{0.0, 0.4, 0.03, 0.0, false}, {0.19, 0.21, 0.12, 0.03, true}};
+  report.rotor.bearings = {{"de", 0.05, 0.08}, {"nde", 0.35, 0.32}};
+  report.marks = {{0.25, "breathing_crack"}};
+  return report;
+}
+
+TEST(DiagnosisPage, DrawsTheRotorWithThePlaceOfTheCause) {
+  const std::string page = DiagnosisPage(WithRotor());
+  EXPECT_EQ(Count(page, "<svg"), 2U);
+  EXPECT_THAT(page, HasSubstr("Crack in the shaft, z = 250 mm"));
+  // 680 px from 0 to 400 mm, 40 px of margin: 250 mm are at 465.
+  EXPECT_THAT(page, HasSubstr("<line x1=\"465.0\""));
+  DiagnosisReport geared = WithRotor();
+  geared.rotor.pieces.clear();
+  EXPECT_EQ(Count(DiagnosisPage(geared), "<svg"), 1U);
+  EXPECT_EQ(RotorSketch(geared), "");
+}
+
+TEST(DiagnosisPage, SaysWhenOfWhichFilesAndByWhichVersionItIs) {
+  DiagnosisReport report = OneCause();
+  EXPECT_THAT(DiagnosisPage(report), Not(HasSubstr("class=\"origin\"")));
+  report.origin = {.date_utc = "2026-11-27T12:00:00Z",
+                   .program_version = "9.8.7",
+                   .rig_file = "mine.yaml",
+                   .records = {"a.csv", "b<c.csv"},
+                   .validation = {"v.csv"},
+                   .healthy = {},
+                   .quick = true};
+  const std::string page = DiagnosisPage(report);
+  for (const char* part : {"2026-11-27T12:00:00Z", "Levitas 9.8.7", "mine.yaml",
+                           "Records: a.csv, b&lt;c.csv.", "Validation: v.csv.", "--quick"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+}
+
+TEST(DiagnosisPage, RaisesTheExponentOfOdds) {
+  DiagnosisReport report = OneCause();
+  report.headline = "Crack: odds 10^2160 : 1.";
+  EXPECT_THAT(DiagnosisPage(report), HasSubstr("odds 10<sup>2160</sup> : 1."));
+}
+
 TEST(DiagnosisPage, DrawsTheCauseOnlyWhereThereIsOne) {
   EXPECT_THAT(DiagnosisPage(OneCause()), HasSubstr("with the cause<"));
   DiagnosisReport healthy = OneCause();
@@ -71,7 +120,8 @@ TEST(DiagnosisPage, DrawsTheCauseOnlyWhereThereIsOne) {
 
 TEST(DiagnosisPage, ShowsNoNumberForAnEffectThatCannotBe) {
   EXPECT_THAT(DiagnosisPage(OneCause()),
-              HasSubstr("<td>shaft_bow</td><td>rotor</td><td class=n>-</td><td>needs rotation"));
+              HasSubstr("<td>Bent shaft</td><td>shaft_bow</td><td>rotor</td><td "
+                        "class=n>-</td><td>needs rotation"));
 }
 
 TEST(DiagnosisPage, FoldsWhatComesBehindTheFirstEightCandidates) {

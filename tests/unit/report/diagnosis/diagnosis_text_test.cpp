@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "diagnosis/report/report_text.hpp"
 #include "tests/unit/report/diagnosis/reports.hpp"
 
 namespace levitas::cli {
@@ -73,6 +74,8 @@ TEST(GainSentence, CreditsCalibrationWhereThereIsNoCause) {
 TEST(GainSentence, PromisesNothingWhereTheFileAlreadyFits) {
   DiagnosisReport report = OneCause();
   report.validation.meaningful = false;
+  report.causes.clear();
+  report.verdict = diagnosis::Verdict::kNone;
   EXPECT_THAT(GainSentence(report), HasSubstr("Nothing to gain"));
 }
 
@@ -84,6 +87,49 @@ TEST(CeilingSentence, IsThereOnlyWhereAFitLiesAboveItsCeiling) {
   // What rounds to the same two digits is not above.
   report.validation.extended_percent = report.validation.ceiling_percent + 0.001;
   EXPECT_EQ(CeilingSentence(report), "");
+}
+
+TEST(GainSentence, NeverSaysNothingToGainBesideAnythingThatIsNotInOrder) {
+  DiagnosisReport healthy = OneCause();
+  healthy.validation.meaningful = false;
+  healthy.causes.clear();
+  healthy.verdict = diagnosis::Verdict::kNone;
+  DiagnosisReport cause = OneCause();
+  cause.validation.meaningful = false;
+  EXPECT_THAT(GainSentence(cause), HasSubstr("40 nat decides"));
+  DiagnosisReport unknown = healthy;
+  unknown.verdict = diagnosis::Verdict::kUnknown;
+  DiagnosisReport undecided = healthy;
+  undecided.undecided = true;
+  DiagnosisReport off = healthy;
+  off.calibrated.emplace_back();
+  off.calibrated.back().proven = 5.1;
+  DiagnosisReport outside = healthy;
+  outside.outside_tolerance = {"current_gain"};
+  DiagnosisReport doubted = healthy;
+  doubted.input_warning = "units";
+  for (const DiagnosisReport& report : {cause, unknown, undecided, off, outside, doubted}) {
+    EXPECT_THAT(GainSentence(report), Not(HasSubstr("Nothing to gain")));
+    EXPECT_THAT(GainSentence(report), HasSubstr("nearly to their noise"));
+  }
+}
+
+TEST(FurtherRecords, SayWhatTheyAreNotNeededFor) {
+  DiagnosisReport report = OneCause();
+  EXPECT_EQ(FurtherRecords(report), "record a run-up");
+  report.next_experiment = diagnosis::kNoneNeeded;
+  EXPECT_EQ(FurtherRecords(report), "none needed to name the cause");
+  report.causes.clear();
+  EXPECT_EQ(FurtherRecords(report), "none needed");
+}
+
+TEST(HealthyProposal, NamesTheSessionThatWasFound) {
+  DiagnosisReport report = OneCause();
+  EXPECT_EQ(HealthyProposal(report), "");
+  report.healthy_proposal = "Compare.";
+  EXPECT_EQ(HealthyProposal(report), "Compare.");
+  report.healthy_record = "/data/good.lcm";
+  EXPECT_THAT(HealthyProposal(report), HasSubstr("--healthy /data/good.lcm"));
 }
 
 class Printed : public testing::Test {
@@ -98,12 +144,16 @@ class Printed : public testing::Test {
 
 TEST_F(Printed, BeginsWithTheVerdictAndEndsWithWhatToRecordNext) {
   const std::string text = Of(OneCause(), false);
-  EXPECT_TRUE(text.starts_with("Eddy currents on de_x.\n")) << text;
-  EXPECT_TRUE(text.ends_with("Next: record a run-up\n")) << text;
+  EXPECT_TRUE(text.starts_with("Eddy currents slow the magnet at de_x [eddy_current].\n")) << text;
+  EXPECT_THAT(text, HasSubstr("What it does: Force falls off.\nAction: Check the yoke.\n"));
+  EXPECT_THAT(text, HasSubstr("In detail: Eddy currents on de_x.\n"));
+  EXPECT_TRUE(text.ends_with("Further records: record a run-up\n")) << text;
+  EXPECT_THAT(text, Not(HasSubstr("Next:")));
 }
 
 TEST_F(Printed, ShowsTheParametersAsInARigFile) {
-  EXPECT_THAT(Of(OneCause(), false), HasSubstr("eddy_current tau_us: 120 us (110 to 130), de_x"));
+  EXPECT_THAT(Of(OneCause(), false),
+              HasSubstr("eddy_current tau_us: 120 us (110 to 130, 90 % interval), de_x"));
 }
 
 TEST_F(Printed, ListsEightCandidatesAndAllOnlyWhenAsked) {
@@ -118,6 +168,22 @@ TEST_F(Printed, ListsEightCandidatesAndAllOnlyWhenAsked) {
   EXPECT_THAT(Of(report, false), HasSubstr("effect_7"));
   EXPECT_THAT(Of(report, false), Not(HasSubstr("effect_8")));
   EXPECT_THAT(Of(report, true), HasSubstr("effect_19"));
+}
+
+TEST_F(Printed, SaysOfEveryDecisiveCandidateWhyItIsNotTheAnswer) {
+  DiagnosisReport report = OneCause();
+  report.candidates.back().evidence_nat = 12.0;
+  report.candidates.back().reason = "explains 28 nat less than the cause";
+  EXPECT_THAT(Of(report, false), HasSubstr("explains 28 nat less than the cause"));
+  report.candidates.back().evidence_nat = 4.0;
+  EXPECT_THAT(Of(report, false), Not(HasSubstr("explains 28 nat")));
+}
+
+TEST_F(Printed, CallsNeighbouringFormsNoInterval) {
+  DiagnosisReport report = OneCause();
+  report.parameters[0].form = true;
+  EXPECT_THAT(Of(report, false), HasSubstr("(110 to 130, neighbouring forms)"));
+  EXPECT_THAT(Of(report, false), Not(HasSubstr("90 %")));
 }
 
 TEST_F(Printed, TellsWhichCandidatesTheScreenAloneHasSeen) {

@@ -27,6 +27,9 @@ inline DiagnosisReport OneCause() {
   report.rig_channels = {"de_x", "de_y"};
   report.verdict = Verdict::kEffect;
   report.verdict_sentence = "Eddy currents on de_x.";
+  report.headline = "Eddy currents slow the magnet at de_x [eddy_current].";
+  report.severity_sentence = "Force falls off.";
+  report.action = "Check the yoke.";
   report.causes = {{"eddy_current", "de_x"}};
   report.evidence_nat = 40.0;
   report.confidence = 0.98;

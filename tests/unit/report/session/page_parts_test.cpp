@@ -51,6 +51,20 @@ TEST(Gallery, KeepsThePictureWithinItsAddress) {
   EXPECT_TRUE(address.ends_with("%3C/svg%3E") || address.ends_with("%3C/svg%3E%0A"));
 }
 
+// A cursor reads values from them: they must be those of the drawing.
+TEST(Gallery, TellsTheScriptWhereTheAxesStand) {
+  NamedPicture picture = Picture("a", "b");
+  svg::Panel& panel = picture.figure.panels[0];
+  panel.x_label = "it's \"x\"";
+  panel.x_range = svg::Range{1.0, 1000.0};
+  panel.x_scale = svg::Scale::kLogarithmic;
+  panel.y_range = svg::Range{-2.0, 2.0};
+  const std::string html = Gallery({picture});
+  EXPECT_NE(html.find("data-view=\"0 0 420 260\""), std::string::npos) << html.substr(0, 400);
+  EXPECT_NE(html.find("&quot;x&quot;:[1,1000,true],&quot;y&quot;:[-2,2,false]"), std::string::npos);
+  EXPECT_NE(html.find("&quot;it's \\&quot;x\\&quot;:&quot;"), std::string::npos);
+}
+
 TEST(Gallery, ShowsACaptionOfOthersAsText) {
   EXPECT_EQ(Gallery({Picture("a", "<script>")}).find("<script>"), std::string::npos);
 }

@@ -27,7 +27,12 @@ std::size_t Count(const std::string& text, const std::string& what) {
 
 TEST(ReportPage, NeedsNothingBesideIt) {
   const std::string page = PageOf(WhirlingRotor());
-  EXPECT_EQ(Count(page, "<script"), 0U);
+  EXPECT_EQ(Count(page, "<script"), 1U);
+  EXPECT_EQ(Count(page, "<script>"), 1U);  // the page's own, from nowhere else
+  for (const char* outside : {"http:", "https:", "fetch(", "import", "XMLHttpRequest"}) {
+    const std::string script = page.substr(page.find("<script>"));
+    EXPECT_EQ(Count(script, outside), 0U) << outside;
+  }
   EXPECT_EQ(Count(page, "<link"), 0U);
   EXPECT_EQ(Count(page, "src="), Count(page, "src=\"data:image/svg+xml,"));
   EXPECT_EQ(Count(page, "url("), Count(page, "url(%23"));  // within the pictures themselves
@@ -49,10 +54,32 @@ TEST(ReportPage, ShowsTextOfTheSessionAsTextWhateverItHolds) {
   trip.text = "TRIP <img src=x>";
   r.events = {trip};
   const std::string page = PageOf(r);
-  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
   EXPECT_THAT(page, Not(HasSubstr("<img src=x>")));
   EXPECT_THAT(page, HasSubstr("name: &lt;b&gt;&quot;&amp;"));
   EXPECT_THAT(page, HasSubstr("<tr class=trip><td class=n>2.000</td><td>TRIP &lt;img"));
+}
+
+// Before any picture, so that it is what is seen first.
+TEST(ReportPage, OpensWithTheVerdict) {
+  const std::string page = PageOf(WhirlingRotor());
+  EXPECT_LT(page.find("class=verdict"), page.find("<figure"));
+  EXPECT_LT(page.find("class=verdict"), page.find("<nav>"));
+}
+
+TEST(ReportPage, LinksOnlyToPlacesThatItHas) {
+  PageInput input;
+  input.pictures = Pictures(WhirlingRotor(), {});
+  input.levitated = analysis::Campbell{{{1.0, {}}}, {}, {}};
+  for (const bool levitated : {true, false}) {
+    if (!levitated) input.levitated.reset();
+    const std::string page = Page(WhirlingRotor(), input);
+    for (auto at = page.find("href=\"#"); at != std::string::npos; at = page.find("href=\"#", at)) {
+      at += 7;
+      const std::string place = page.substr(at, page.find('"', at) - at);
+      EXPECT_THAT(page, HasSubstr("id=" + place + ">")) << place;
+    }
+  }
 }
 
 TEST(ReportPage, SaysWhatIsNotJudged) {

@@ -61,10 +61,11 @@ TEST(Pictures, ShowEveryEffectBesideTheNominalRig) {
     const bool ratio = figure.panels[0].y_scale == svg::Scale::kLogarithmic;
     double largest = 0.0;
     double difference = 0.0;
-    for (std::size_t pair = 0; pair + 1 < series.size(); pair += 2) {
+    const std::size_t half = series.size() / 2;  // nominal curves first, then the effect's
+    for (std::size_t pair = 0; pair < half; ++pair) {
       for (std::size_t i = 0; i < series[pair].y.size(); ++i) {
         const double a = series[pair].y[i];
-        const double b = series[pair + 1].y[i];
+        const double b = series[pair + half].y[i];
         ASSERT_TRUE(std::isfinite(a) && std::isfinite(b)) << row.name;
         largest = std::max(largest, ratio ? 1.0 : std::abs(a));
         // A cross response that is zero without the effect has no ratio.
@@ -78,6 +79,26 @@ TEST(Pictures, ShowEveryEffectBesideTheNominalRig) {
       EXPECT_GT(difference, 0.03 * largest) << row.name << " does not show";
     }
   }
+}
+
+TEST(Pictures, ShowTheNominalCurveBelowAndBroaderThanTheEffects) {
+  for (const effect::Row& row : effect::Catalogue()) {
+    const svg::Figure figure = Picture(RigFor(row), ClearOn(RigFor(row), row.id));
+    const auto& series = figure.panels[0].series;
+    for (std::size_t i = 0; i < series.size() / 2; ++i) {
+      EXPECT_TRUE(series[i].name.starts_with("nominal")) << row.name;
+      EXPECT_GT(series[i].width, 2.0 * series[i + series.size() / 2].width) << row.name;
+    }
+  }
+}
+
+TEST(Pictures, SayTheSizeOfTheEffectInTheUnitsOfARigFile) {
+  const auto title = [](effect::Id id) { return Picture(Rig(), ClearOn(Rig(), id)).title; };
+  EXPECT_EQ(title(effect::Id::kSensorGain), "sensor_gain: ratio 1.1");
+  EXPECT_EQ(title(effect::Id::kSensorOffset), "sensor_offset: offset 20 µm");
+  // A fifth of the rig's 5000 Hz.
+  EXPECT_EQ(title(effect::Id::kSensorBandwidth),
+            "sensor_bandwidth: bandwidth 1000 Hz (the rig has 5000 Hz)");
 }
 
 // The second panel is about the change alone: it must not be a line at zero. The third one of a

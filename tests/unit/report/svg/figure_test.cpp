@@ -101,6 +101,50 @@ TEST(Figure, DrawsACircleRoundOnlyWhenBothAxesHaveTheSameScale) {
   EXPECT_NEAR(Roundness(Draw(figure)), 1.0, 0.01);  // coordinates have a tenth of a pixel
 }
 
+TEST(Figure, TellsForwardFromBackwardMarksByTheirShape) {
+  Figure figure = OneLine({0}, {0});
+  std::string drawn[2];
+  figure.panels[0].series[0].mark = Mark::kUp;
+  drawn[0] = Draw(figure);
+  figure.panels[0].series[0].mark = Mark::kDown;
+  drawn[1] = Draw(figure);
+  EXPECT_THAT(drawn[0], Not(HasSubstr("fill='white' stroke=")));
+  EXPECT_THAT(drawn[1], HasSubstr("fill='white' stroke="));
+}
+
+TEST(Figure, BreaksALegendThatIsTooLongAndMakesRoomForIt) {
+  Figure figure = OneLine({0, 1}, {0, 1});
+  figure.panels[0].series.resize(8, figure.panels[0].series[0]);
+  for (auto& series : figure.panels[0].series) series.name = "a name of some length";
+  const double below = Places(figure)[0].top;
+  figure.panels[0].series.resize(1);
+  EXPECT_GT(below, Places(figure)[0].top + 30.0);  // three rows more
+}
+
+TEST(Figure, LeavesOutNotesBeyondThePanelAndEscapesTheOthers) {
+  Figure figure = OneLine({0, 1}, {0, 1});
+  figure.panels[0].notes = {{.x = 0.5, .y = 0.5, .text = "in<side"},
+                            {.x = 9.0, .y = 0.5, .text = "out"}};
+  EXPECT_THAT(Draw(figure), HasSubstr("in&lt;side"));
+  EXPECT_THAT(Draw(figure), Not(HasSubstr(">out<")));
+}
+
+TEST(Places, AreWhereTheAxesOfEachPanelStandInTheDrawing) {
+  Figure figure = OneLine({0, 1}, {0, 1});
+  figure.columns = 2;
+  figure.lines = {"one"};
+  figure.panels.resize(3, figure.panels[0]);
+  const auto places = Places(figure);
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_DOUBLE_EQ(places[1].left - places[0].left, figure.panel_width);
+  EXPECT_DOUBLE_EQ(places[2].top - places[0].top, figure.panel_height);
+  EXPECT_LE(places[0].x.low, 0.0);
+  EXPECT_GE(places[0].x.high, 1.0);
+  // The frame of the panel is drawn there.
+  EXPECT_THAT(Draw(figure),
+              HasSubstr("<rect x='62.0' y='" + std::to_string(places[0].top).substr(0, 4)));
+}
+
 TEST(Figure, RefusesASeriesOfUnequalLengths) {
   EXPECT_THROW((void)Draw(OneLine({0, 1, 2}, {0, 1})), std::invalid_argument);
 }

@@ -1,0 +1,185 @@
+#include "analysis/critical_speeds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "analysis/damped_modes.hpp"
+#include "analysis/poles.hpp"
+#include "analysis/rotor_planes.hpp"
+#include "plant_sim/rotor/finite_element.hpp"
+
+namespace levitas::analysis {
+namespace {
+
+constexpr double kPerTurn = 2.0 * std::numbers::pi;
+constexpr double kNoResonance = 0.5 * std::numbers::sqrt2;
+constexpr double kOnePlane = 0.05;  // about one half
+constexpr int kFreeSteps = 24;
+constexpr int kLevitatedSteps = 40;
+
+/// Where a mode stands among the others: its pole in Hz, and its direction, which keeps the two
+/// whirls of one bending mode apart where their frequencies are equal.
+struct Place {
+  std::complex<double> pole_hz;
+  double forward_hz{};
+};
+
+Place PlaceOf(const CampbellMode& mode) {
+  constexpr double kDirection = 0.01;
+  return {{-mode.damping_ratio * mode.frequency_hz, mode.frequency_hz},
+          kDirection * mode.frequency_hz * mode.forward_share};
+}
+
+double Distance(const Place& a, const Place& b) {
+  return std::abs(a.pole_hz - b.pole_hz) + std::abs(a.forward_hz - b.forward_hz);
+}
+
+Place Between(const Place& a, const Place& b) {
+  return {0.5 * (a.pole_hz + b.pole_hz), 0.5 * (a.forward_hz + b.forward_hz)};
+}
+
+struct Match {
+  std::size_t first{}, second{};
+  double distance{};
+};
+
+/// Each mode of one speed with one of the next, the nearest matches first.
+std::vector<Match> Follow(const std::vector<CampbellMode>& from,
+                          const std::vector<CampbellMode>& to) {
+  std::vector<Match> all;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    for (std::size_t k = 0; k < to.size(); ++k) {
+      all.push_back({i, k, Distance(PlaceOf(from[i]), PlaceOf(to[k]))});
+    }
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Match& a, const Match& b) { return a.distance < b.distance; });
+  std::vector<Match> matches;
+  std::vector<bool> left(from.size()), right(to.size());
+  for (const Match& match : all) {
+    if (left[match.first] || right[match.second]) continue;
+    left[match.first] = right[match.second] = true;
+    matches.push_back(match);
+  }
+  return matches;
+}
+
+double Excess(const CampbellMode& mode, double speed_rad_per_s) {
+  return kPerTurn * mode.frequency_hz - speed_rad_per_s;
+}
+
+const CampbellMode* Nearest(const std::vector<CampbellMode>& modes, const Place& place) {
+  const auto nearest = std::min_element(
+      modes.begin(), modes.end(), [&](const CampbellMode& a, const CampbellMode& b) {
+        return Distance(PlaceOf(a), place) < Distance(PlaceOf(b), place);
+      });
+  return nearest == modes.end() ? nullptr : &*nearest;
+}
+
+/// Halves the interval; the mode is sought where it lies between its ends.
+CriticalSpeed Halve(const ModesAt& modes, double low, CampbellMode at_low, double high,
+                    CampbellMode at_high) {
+  const double fine = 1e-9 * high;
+  while (high - low > fine) {
+    const double middle = 0.5 * (low + high);
+    const auto there = modes(middle);
+    const CampbellMode* mode = Nearest(there, Between(PlaceOf(at_low), PlaceOf(at_high)));
+    if (mode == nullptr) break;
+    const bool above = Excess(*mode, middle) > 0.0;
+    if (above == (Excess(at_low, low) > 0.0)) {
+      low = middle;
+      at_low = *mode;
+    } else {
+      high = middle;
+      at_high = *mode;
+    }
+  }
+  return {low, at_low};
+}
+
+std::vector<CampbellMode> FreeModesAt(const rotor::ModalRotor& modal, double speed_rad_per_s,
+                                      std::size_t count) {
+  const auto whirl = rotor::FreeWhirl(modal, speed_rad_per_s, count);
+  std::vector<CampbellMode> modes;
+  for (const double f : whirl.backward_hz) modes.push_back({f, 0.0, 0.0, 0.0});
+  for (const double f : whirl.forward_hz) modes.push_back({f, 0.0, 1.0, 0.0});
+  return modes;
+}
+
+std::vector<CampbellMode> ShaftModesAt(const plant::PlantConfig& plant, double speed_rad_per_s,
+                                       std::size_t count) {
+  std::vector<CampbellMode> modes;
+  for (const DampedMode& mode : DampedModes(plant, speed_rad_per_s).modes) {
+    if (modes.size() == 3 * count) break;  // both planes have their modes, and torsion its own
+    modes.push_back(
+        {mode.frequency_hz, mode.damping_ratio, mode.forward_share, mode.torsion_share});
+  }
+  return modes;
+}
+
+}  // namespace
+
+Campbell CampbellOf(const ModesAt& modes, double top_rad_per_s, int steps) {
+  constexpr double kSame = 1e-6;
+  Campbell campbell;
+  for (int i = 0; i <= steps; ++i) {
+    const double speed = top_rad_per_s * i / steps;
+    campbell.speeds.push_back({speed, modes(speed)});
+  }
+  for (std::size_t i = 1; i < campbell.speeds.size(); ++i) {
+    const CampbellSpeed& before = campbell.speeds[i - 1];
+    const CampbellSpeed& after = campbell.speeds[i];
+    campbell.next.emplace_back(before.modes.size());
+    for (const Match& match : Follow(before.modes, after.modes)) {
+      campbell.next.back()[match.first] = match.second;
+      const CampbellMode& from = before.modes[match.first];
+      const CampbellMode& to = after.modes[match.second];
+      const bool above = Excess(from, before.speed_rad_per_s) > 0.0;
+      if ((Excess(to, after.speed_rad_per_s) > 0.0) == above) continue;
+      const auto at = Halve(modes, before.speed_rad_per_s, from, after.speed_rad_per_s, to);
+      // A jump to another mode changes the sign too, and is no crossing.
+      if (std::abs(Excess(at.mode, at.speed_rad_per_s)) < kSame * at.speed_rad_per_s) {
+        campbell.crossings.push_back(at);
+      }
+    }
+  }
+  std::sort(campbell.crossings.begin(), campbell.crossings.end(),
+            [](const auto& a, const auto& b) { return a.speed_rad_per_s < b.speed_rad_per_s; });
+  return campbell;
+}
+
+Campbell FreeCampbell(const plant::PlantConfig& plant, double top_rad_per_s, std::size_t modes) {
+  if (!plant.shafts.empty()) {
+    return CampbellOf([&](double speed) { return ShaftModesAt(plant, speed, modes); },
+                      top_rad_per_s, kFreeSteps);
+  }
+  // Every mode of the mesh is kept: nothing is lost by modal coordinates.
+  const auto modal = plant.rotor.given
+                         ? rotor::FromGivenModes(*plant.rotor.given, PlanesOf(plant))
+                         : rotor::Reduce(rotor::Assemble(plant.rotor, PlanesOf(plant)), 0, 0.0);
+  return CampbellOf([&](double speed) { return FreeModesAt(modal, speed, modes); }, top_rad_per_s,
+                    kFreeSteps);
+}
+
+Campbell LevitatedCampbell(const plant::PlantConfig& plant, const law::LawConfig& law,
+                           double top_rad_per_s) {
+  const auto modes = [&](double speed) {
+    std::vector<CampbellMode> all;
+    for (const Pole& pole : ClosedLoopPoles(plant, law, speed).poles) {
+      if (pole.frequency_hz == 0.0 || pole.damping_ratio > kNoResonance) continue;
+      all.push_back({std::abs(pole.frequency_hz), pole.damping_ratio, pole.forward_share, 0.0});
+    }
+    return all;
+  };
+  return CampbellOf(modes, top_rad_per_s, kLevitatedSteps);
+}
+
+const char* WhirlName(const CampbellMode& mode) {
+  if (mode.torsion_share > 0.5) return "torsion";
+  if (std::abs(mode.forward_share - 0.5) < kOnePlane) return "plane";
+  return mode.forward_share > 0.5 ? "forward" : "backward";
+}
+
+}  // namespace levitas::analysis

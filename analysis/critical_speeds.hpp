@@ -1,0 +1,64 @@
+#pragma once
+// Speeds at which a natural frequency of a rotor equals its rotation (crossings of 1x in a Campbell
+// diagram).
+//
+// Equation   |Im s_k(W)| = W for a natural mode s_k of the rotor at speed W. Modes are followed
+//            from speed to speed by the nearest s; a change of sign of |Im s| - W between two of
+//            the given speeds is halved until the speed is known to 1e-9 of the range.
+// Free       magnets off: undamped free-free bending modes.
+// Shafts     of a rig with several: damped modes, 1x of the first shaft.
+// Levitated  poles of the sampled loop, static load and delay included, with a damping ratio below
+//            1/sqrt(2): better damped, a mode has no resonance. An unbalance excites these.
+// Missed     what crosses twice between two neighbouring speeds.
+// Thread     any; allocates. Failure: BadInput when the law's axes do not fit the plant's.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "controller/law/law_config.hpp"
+#include "plant_sim/plant/plant_config.hpp"
+
+namespace levitas::analysis {
+
+/// A natural mode at one speed, as a Campbell diagram has it.
+struct CampbellMode {
+  double frequency_hz{};  ///< without sign
+  double damping_ratio{};
+  double forward_share{};  ///< [1] 1 forward whirl, 0 backward, 0.5 motion in one plane
+  double torsion_share{};
+};
+
+struct CampbellSpeed {
+  double speed_rad_per_s{};
+  std::vector<CampbellMode> modes;
+};
+
+struct CriticalSpeed {
+  double speed_rad_per_s{};
+  CampbellMode mode;  ///< there
+};
+
+struct Campbell {
+  std::vector<CampbellSpeed> speeds;  ///< evenly spaced from 0 to the top
+  /// Of each speed but the last: which mode of the next speed a mode becomes; nothing: it ends.
+  std::vector<std::vector<std::optional<std::size_t>>> next;
+  std::vector<CriticalSpeed> crossings;  ///< of 1x, ascending
+};
+
+using ModesAt = std::function<std::vector<CampbellMode>(double speed_rad_per_s)>;
+
+/// Modes at `steps` + 1 speeds from 0 to `top_rad_per_s`, and where they cross 1x.
+[[nodiscard]] Campbell CampbellOf(const ModesAt& modes, double top_rad_per_s, int steps);
+
+/// The first `modes` bending modes of the free rotor, or of the shafts; see above.
+[[nodiscard]] Campbell FreeCampbell(const plant::PlantConfig& plant, double top_rad_per_s,
+                                    std::size_t modes);
+
+[[nodiscard]] Campbell LevitatedCampbell(const plant::PlantConfig& plant, const law::LawConfig& law,
+                                         double top_rad_per_s);
+
+/// "forward", "backward", or "plane" where neither leads; "torsion".
+[[nodiscard]] const char* WhirlName(const CampbellMode& mode);
+
+}  // namespace levitas::analysis

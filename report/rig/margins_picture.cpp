@@ -1,0 +1,188 @@
+#include "report/rig/margins_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/speed_sweep.hpp"
+#include "common/rotational_speed.hpp"
+
+namespace levitas::report {
+namespace {
+
+struct ZoneBand {
+  const char* name;
+  double low;  ///< of |S|
+  const char* colour;
+};
+/// From the worst to the best, so that each is drawn over what is larger about -1.
+constexpr std::array<ZoneBand, 4> kZones{{{"zone A", 0.0, "#ffffff"},
+                                          {"zone B", 3.0, "#fdf3cf"},
+                                          {"zone C", 4.0, "#fbdcb4"},
+                                          {"zone D", 5.0, "#f3b9a6"}}};
+
+std::string SpeedText(const analysis::SensitivityResult& at) {
+  const double rpm = RadPerSToRpm(at.speed_rad_per_s);
+  if (!at.point.failure.empty()) return fmt::format("{:.0f} rpm, not held: no grade", rpm);
+  if (!at.zone) return fmt::format("{:.0f} rpm, UNSTABLE: no grade", rpm);
+  return fmt::format("{:.0f} rpm, zone {}", rpm, analysis::Name(*at.zone));
+}
+
+svg::Series AxisLine(std::size_t axis, const std::vector<std::string>& channels) {
+  constexpr std::array kDashes{"", "7 3", "2 2", "9 3 2 3"};
+  return {.name = channels[axis],
+          .colour = svg::Colour(axis),
+          .width = 1.5,
+          .dashes = kDashes[axis % kDashes.size()]};
+}
+
+svg::Series PeakDot(std::size_t axis, double x, double y) {
+  return {.x = {x},
+          .y = {y},
+          .colour = svg::Colour(axis),
+          .width = 0.0,
+          .mark = svg::Mark::kDot,
+          .mark_size = 3.5};
+}
+
+void AddBands(double first_hz, double last_hz, double high, svg::Panel& panel) {
+  for (std::size_t i = 1; i < kZones.size(); ++i) {
+    const double low = kZones[i].low;
+    const double end = i + 1 < kZones.size() ? kZones[i + 1].low : std::max(high, 10.0);
+    panel.series.push_back({.x = {first_hz, last_hz, last_hz, first_hz},
+                            .y = {low, low, end, end},
+                            .colour = "#b0561f",
+                            .width = 0.0,
+                            .fill = kZones[i].colour});
+    panel.series.push_back(
+        {.x = {first_hz, last_hz}, .y = {low, low}, .colour = "#b0561f", .width = 0.7});
+    panel.notes.push_back({.x = first_hz,
+                           .y = std::sqrt(low * end),
+                           .text = fmt::format("{} from {:g}", kZones[i].name, low),
+                           .right_px = 4,
+                           .colour = "#7a3b12"});
+  }
+}
+
+svg::Series Ring(double radius, const char* fill) {
+  constexpr int kPoints = 72;
+  svg::Series circle{.colour = "#b0561f", .width = 0.7, .fill = fill};
+  for (int i = 0; i <= kPoints; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kPoints;
+    circle.x.push_back(-1.0 + radius * std::cos(angle));
+    circle.y.push_back(radius * std::sin(angle));
+  }
+  return circle;
+}
+
+std::complex<double> LoopOf(std::complex<double> sensitivity) { return 1.0 / sensitivity - 1.0; }
+
+std::size_t NearestPoint(const std::vector<double>& frequency_hz, double wanted_hz) {
+  const auto nearest = std::min_element(
+      frequency_hz.begin(), frequency_hz.end(),
+      [&](double a, double b) { return std::abs(a - wanted_hz) < std::abs(b - wanted_hz); });
+  return static_cast<std::size_t>(nearest - frequency_hz.begin());
+}
+
+void AddRotation(const analysis::SensitivityResult& at, double low, double high,
+                 svg::Panel& panel) {
+  const double hz = std::abs(at.speed_rad_per_s) / (2.0 * std::numbers::pi);
+  if (!(hz > panel.x_range->low && hz < panel.x_range->high)) return;
+  panel.series.push_back({.x = {hz, hz}, .y = {low, high}, .colour = "#666666", .dashes = "3 3"});
+  panel.notes.push_back({.x = hz, .y = low, .text = "1x", .right_px = 3, .down_px = -8});
+}
+
+}  // namespace
+
+svg::Panel SensitivityPanel(const LoopAtSpeed& loop, const std::vector<std::string>& channels) {
+  const auto& at = loop.peaks;
+  svg::Panel panel{.title = "Sensitivity |S| at " + SpeedText(at),
+                   .x_label = "frequency, Hz",
+                   .y_label = "|S|",
+                   .x_scale = svg::Scale::kLogarithmic,
+                   .y_scale = svg::Scale::kLogarithmic};
+  double high = 10.0;
+  double first_hz = 1.0;
+  for (const auto& axis : at.axes) {
+    high = std::max(high, 1.4 * axis.peak);
+    if (axis.frequency_hz < first_hz) first_hz = loop.curves.frequency_hz.front();
+  }
+  constexpr double kLow = 0.05;
+  const double last_hz = loop.curves.frequency_hz.back();
+  panel.x_range = svg::Range{first_hz, last_hz};
+  panel.y_range = svg::Range{kLow, high};
+  AddBands(first_hz, last_hz, high, panel);
+  for (std::size_t i = 0; i < at.axes.size(); ++i) {
+    svg::Series line = AxisLine(i, channels);
+    line.x = loop.curves.frequency_hz;
+    for (const auto value : loop.curves.axes[i]) line.y.push_back(std::abs(value));
+    panel.series.push_back(std::move(line));
+  }
+  for (std::size_t i = 0; i < at.axes.size(); ++i) {
+    panel.series.push_back(PeakDot(i, at.axes[i].frequency_hz, at.axes[i].peak));
+  }
+  AddRotation(at, kLow, high, panel);
+  const std::size_t worst = analysis::WorstAxis(at);
+  const auto& axis = at.axes[worst];
+  const bool right = std::log(axis.frequency_hz / first_hz) > 0.5 * std::log(last_hz / first_hz);
+  panel.notes.push_back(
+      {.x = axis.frequency_hz,
+       .y = axis.peak,
+       .text = fmt::format("{} {:.2f} at {:.1f} Hz", channels[worst], axis.peak, axis.frequency_hz),
+       .anchor = right ? svg::Anchor::kEnd : svg::Anchor::kStart,
+       .right_px = right ? -6.0 : 6.0,
+       .down_px = -8.0});
+  return panel;
+}
+
+svg::Panel NyquistPanel(const LoopAtSpeed& loop, const std::vector<std::string>& channels) {
+  svg::Panel panel{.title = "Nyquist: loop of each axis, the others closed",
+                   .x_label = "Re L",
+                   .y_label = "Im L"};
+  panel.x_range = svg::Range{-3.5, 1.5};
+  panel.y_range = svg::Range{-2.0, 2.0};
+  panel.same_scale = true;
+  for (std::size_t i = 1; i < kZones.size(); ++i) {
+    panel.series.push_back(Ring(1.0 / kZones[i].low, kZones[i].colour));
+  }
+  for (std::size_t i = 0; i < loop.curves.axes.size(); ++i) {
+    svg::Series line = AxisLine(i, channels);
+    for (const auto value : loop.curves.axes[i]) {
+      line.x.push_back(LoopOf(value).real());
+      line.y.push_back(LoopOf(value).imag());
+    }
+    panel.series.push_back(std::move(line));
+  }
+  for (std::size_t i = 0; i < loop.curves.axes.size(); ++i) {
+    const std::size_t at = NearestPoint(loop.curves.frequency_hz, loop.peaks.axes[i].frequency_hz);
+    const auto value = LoopOf(loop.curves.axes[i][at]);
+    panel.series.push_back(PeakDot(i, value.real(), value.imag()));
+  }
+  panel.series.push_back({.x = {-1.0},
+                          .y = {0.0},
+                          .colour = "#000000",
+                          .width = 0.0,
+                          .mark = svg::Mark::kCross,
+                          .mark_size = 7});
+  panel.notes.push_back(
+      {.x = -1.0, .y = 0.0, .text = "-1", .anchor = svg::Anchor::kEnd, .right_px = -6});
+  return panel;
+}
+
+svg::Figure MarginsPicture(const std::string& title, const std::vector<LoopAtSpeed>& loops,
+                           const std::vector<std::string>& channels) {
+  svg::Figure figure{.title = title, .columns = 2, .panel_width = 460, .panel_height = 360};
+  figure.lines.push_back(
+      "Sampled loop, delay included; zones of ISO 14839-3, about -1 circles of radius 1/3, 1/4 "
+      "and 1/5; dots: largest |S| of an axis");
+  for (const LoopAtSpeed& loop : loops) {
+    figure.panels.push_back(SensitivityPanel(loop, channels));
+    figure.panels.push_back(NyquistPanel(loop, channels));
+  }
+  return figure;
+}
+
+}  // namespace levitas::report

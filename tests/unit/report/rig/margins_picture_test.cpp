@@ -1,0 +1,81 @@
+#include "report/rig/margins_picture.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "tests/unit/report/rig/shipped_rig.hpp"
+
+namespace levitas::report {
+namespace {
+
+LoopAtSpeed Loop(double gain = 1.0) {
+  const auto rig = test::Rig("flexible_rotor");
+  auto law = test::Law("flexible_rotor", rig);
+  for (auto& axis : law.axes) axis.kp_a_per_m *= gain;
+  return {analysis::SensitivityPeaks(rig.plant, law, 0.0), analysis::CurvesOf(rig.plant, law, 0.0)};
+}
+
+const std::vector<std::string> kChannels{"de_x", "de_y", "nde_x", "nde_y"};
+
+TEST(SensitivityPanel, HasTheZonesOfTheStandard) {
+  const svg::Panel panel = SensitivityPanel(Loop(), kChannels);
+  std::set<double> levels;
+  for (const auto& series : panel.series) {
+    if (series.x.size() == 2 && series.y[0] == series.y[1]) levels.insert(series.y[0]);
+  }
+  EXPECT_EQ(levels, (std::set<double>{3.0, 4.0, 5.0}));
+  // What is graded A by the library lies below the first of them, and so on.
+  EXPECT_EQ(analysis::ZoneOf(std::nextafter(3.0, 0.0)), analysis::Zone::kA);
+  EXPECT_EQ(analysis::ZoneOf(3.0), analysis::Zone::kB);
+  for (const char* zone : {"zone B from 3", "zone C from 4", "zone D from 5"}) {
+    EXPECT_TRUE(test::HasNote(panel, zone)) << zone;
+  }
+}
+
+TEST(SensitivityPanel, MarksThePeakThatTheCommandPrints) {
+  const LoopAtSpeed loop = Loop();
+  const svg::Panel panel = SensitivityPanel(loop, kChannels);
+  for (std::size_t i = 0; i < kChannels.size(); ++i) {
+    const svg::Series* line = test::Named(panel, kChannels[i]);
+    ASSERT_NE(line, nullptr);
+    double highest = 0.0;
+    for (const double y : line->y) highest = std::max(highest, y);
+    EXPECT_NEAR(highest, loop.peaks.axes[i].peak, 0.01 * loop.peaks.axes[i].peak);
+  }
+  EXPECT_THAT(panel.title, testing::HasSubstr("zone"));
+}
+
+TEST(NyquistPanel, DrawsCirclesOnWhichTheSensitivityIsThatOfAZone) {
+  const svg::Panel panel = NyquistPanel(Loop(), kChannels);
+  std::set<int> found;
+  for (const auto& series : panel.series) {
+    if (series.fill.empty()) continue;
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      const double sensitivity = 1.0 / std::hypot(1.0 + series.x[i], series.y[i]);
+      EXPECT_NEAR(sensitivity, std::round(sensitivity), 1e-9);
+      found.insert(static_cast<int>(std::lround(sensitivity)));
+    }
+  }
+  EXPECT_EQ(found, (std::set<int>{3, 4, 5}));
+  EXPECT_TRUE(panel.same_scale);
+}
+
+TEST(MarginsPicture, GivesAnUnstableLoopNoGrade) {
+  const LoopAtSpeed loop = Loop(0.3);  // weaker than the magnets' negative stiffness
+  ASSERT_FALSE(loop.peaks.stable);
+  EXPECT_THAT(SensitivityPanel(loop, kChannels).title, testing::HasSubstr("UNSTABLE: no grade"));
+}
+
+TEST(MarginsPicture, ShowsNamesOfOthersAsText) {
+  const std::string drawn =
+      svg::Draw(MarginsPicture("rig <script>", {Loop()}, {"a<b", "c&d", "e\"f", "g"}));
+  EXPECT_THAT(drawn, testing::HasSubstr("rig &lt;script&gt;"));
+  EXPECT_THAT(drawn, testing::HasSubstr("a&lt;b"));
+  EXPECT_THAT(drawn, testing::Not(testing::HasSubstr("<script")));
+  EXPECT_THAT(drawn, testing::Not(testing::HasSubstr("nan")));
+}
+
+}  // namespace
+}  // namespace levitas::report
