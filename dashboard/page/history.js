@@ -105,20 +105,23 @@ export function envelopes(kind, from, to, most, columns) {
   const last = rowAt(to);
   const group = Math.max(1, Math.ceil((last - first) / most));
   const place = kind === "position" ? 1 : 1 + 2 * axes;
-  for (let c = 0; c <= 2 * axes; ++c) (columns[c] ??= []).length = 0;
+  for (let c = 0; c <= 2 * axes; ++c) columns[c] ??= [];
+  let point = 0;
   // Groups lie at multiples of their size: else the picture would shimmer as it moves.
   for (let row = first - (first % group); row < last; row += group) {
     const until = Math.min(row + group, last);
     const from = Math.max(row, first);
-    columns[0].push(times[at(until - 1)]);
+    columns[0][point] = times[at(until - 1)];
     for (let c = 0; c < 2 * axes; ++c) {
       let value = NaN;
       for (let r = from; r < until; ++r) {
         const next = values[at(r) * width + place + c];
         if (!(c % 2 === 0 ? value <= next : value >= next)) value = Number.isNaN(next) ? value : next;
       }
-      columns[c + 1].push(Number.isNaN(value) ? null : value);
+      columns[c + 1][point] = Number.isNaN(value) ? null : value;
     }
+    ++point;
   }
+  for (const column of columns) column.length = point;  // written over: ten times a second anew is litter
   return columns;
 }

@@ -6,7 +6,7 @@ import { markerLines } from "./marker.js";
 import { dashedLines, fit, makePlot } from "./plot.js";
 import { timeWindow } from "./time_window.js";
 
-const MOST = 800;  // points: more than a screen shows
+const MOST = 1000;  // points: more than a screen shows, and each 25 ms of 20 s its own
 const FILL = "30";  // opacity between least and most: envelopes lie over each other
 
 const columns = { position: [], current: [] };
