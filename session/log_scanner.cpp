@@ -87,7 +87,8 @@ void LogScanner::LoadPacked(std::uint64_t from, std::size_t room) {
   }
   const auto left =
       static_cast<std::size_t>(std::min<std::uint64_t>(from - window_offset_, window_bytes_));
-  std::memmove(window_.data(), window_.data() + left, window_bytes_ - left);
+  const auto kept = std::span(window_).subspan(left, window_bytes_ - left);
+  std::copy(kept.begin(), kept.end(), window_.begin());
   window_offset_ += left;
   window_bytes_ -= left;
   window_.resize(std::max(room, window_bytes_));
