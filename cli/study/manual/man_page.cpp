@@ -83,7 +83,7 @@ std::string ManPage(const ProgramText& program, const std::string& version) {
   if (of_its_own) text += ".SH OPTIONS\n";
   for (const OptionText& option : line.options) text += Option(option);
   text += ".SH EXIT STATUS\n" + Escaped(program.exit_status) + "\n" + ManFiles(program);
-  text += std::string(".SH ENVIRONMENT\n") + kManConfigFolder;
+  text += fmt::format(".SH ENVIRONMENT\n{}", kManConfigFolder);
   if (!line.examples.empty()) {
     text += ".SH EXAMPLES\n.nf\n" + Escaped(line.examples) + "\n.fi\n";
   }

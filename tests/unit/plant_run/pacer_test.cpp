@@ -135,7 +135,7 @@ TEST(PacedRig, WaitsForTheClockWhereOneInLockstepDoesNot) {
 }
 
 bool Reads(std::vector<std::string> words, PlantOptions& options) {
-  constexpr PlantProgram kProgram{"amb-plant", "a rig", "a port", "lcm", 1000};
+  constexpr PlantProgram kProgram{"amb-plant", "a rig", "a port", "lcm", 1000, ""};
   words.insert(words.begin(), {"amb-plant", "--rig", "flexible_rotor"});
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

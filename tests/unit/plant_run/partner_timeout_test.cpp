@@ -11,7 +11,7 @@
 namespace levitas::plant_run {
 namespace {
 
-constexpr PlantProgram kProgram{"amb-plant", "a rig", "a port", "lcm", 1000};
+constexpr PlantProgram kProgram{"amb-plant", "a rig", "a port", "lcm", 1000, ""};
 
 /// 0 and the time, or the status of the refusal.
 std::pair<int, double> Read(const std::string& time) {

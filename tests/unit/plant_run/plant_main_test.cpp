@@ -15,7 +15,7 @@
 namespace levitas::plant_run {
 namespace {
 
-constexpr PlantProgram kMain{"amb-plant", "a rig", "a port", "lcm", 1000};
+constexpr PlantProgram kMain{"amb-plant", "a rig", "a port", "lcm", 1000, ""};
 
 int MainWith(const std::function<ExitStatus(const PlantOptions&)>& run) {
   std::array<std::string, 3> words{"amb-plant", "--rig", "flexible_rotor"};
