@@ -117,15 +117,16 @@ std::string StartOf(const std::string& path) {
   return start;
 }
 
-/// An LCM event log has a sync word at the beginning of each event.
-bool HasSyncWord(const std::string& start) {
-  return start.find("\xED\xA1\xDA\x01") != std::string::npos;
+/// An LCM event log has a sync word at the beginning of each event, a packed one zstd's number.
+bool MayBeSession(const std::string& start) {
+  return start.find("\xED\xA1\xDA\x01") != std::string::npos ||
+         start.starts_with("\x28\xB5\x2F\xFD");
 }
 
 void TakeSession(const std::string& path, const RigNumbers& rig, ColumnWriter& columns) {
   // What is wrong with an empty, absent or damaged file is for the session reader to say.
   const std::string start = StartOf(path);
-  if (!start.empty() && !HasSyncWord(start)) {
+  if (!start.empty() && !MayBeSession(start)) {
     throw BadInput(fmt::format(
         "{}: not a session. A recorded run is a session (amb run --record), CSV by the ending .csv "
         "or .csv.xz, MAT by .mat, with the columns of docs/formats.md, or a log of candump by .log "
@@ -203,7 +204,7 @@ void RefuseOtherRig(const SessionHeader& header, const RigNumbers& rig) {
 
 bool IsSession(const std::string& path) {
   if (EndsWithEither(path, ".csv") || path.ends_with(".mat")) return false;
-  return !EndsWithEither(path, ".log") || HasSyncWord(StartOf(path));
+  return !EndsWithEither(path, ".log") || MayBeSession(StartOf(path));
 }
 
 Recording LoadRecording(const std::string& path, const config::RigFile& rig) {

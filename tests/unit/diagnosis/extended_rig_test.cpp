@@ -127,7 +127,7 @@ TEST(ExtendedRigTest, NamesTheParametersWithTheirIntervals) {
   const std::string text = ExtendedRig(Found("current_gain", "de_x"), FlexibleRotor());
   // 1.075 and 1.645 standard deviations of 0.0075 either side
   EXPECT_THAT(text, HasSubstr("# current_gain"));
-  EXPECT_THAT(text, HasSubstr("ratio[de_x] = 1.075 (1.0627 to 1.0873)"));
+  EXPECT_THAT(text, HasSubstr("ratio[de_x] = 1.075 (1.063 to 1.087, 90 % interval)"));
 }
 
 TEST(CalibratedRigTest, IsReadBackWithWhatWasCalibratedAndTheCause) {

@@ -17,6 +17,7 @@
 #include "session/csv_export.hpp"
 #include "session/csv_import.hpp"
 #include "session/mat_export.hpp"
+#include "session/repack.hpp"
 #include "tests/unit/session/bus_log.hpp"
 #include "tests/unit/session/synthetic.hpp"
 
@@ -303,6 +304,15 @@ TEST_F(RecordingTest, RefusesASessionOfAnotherRigWithItsName) {
 TEST_F(RecordingTest, OfASessionIsReadWhateverTheEndingOfItsName) {
   WriteSession(folder_ / "run.log", DrawRecords(7));
   EXPECT_EQ(LoadRecording(folder_ / "run.log", Rig()).rows(), 7U);
+}
+
+TEST_F(RecordingTest, OfAPackedSessionIsThatOfThePlainOne) {
+  const Recording plain = OfSession(SomeRun(50));
+  static_cast<void>(Repack(session_, folder_ / "run.lcm.zst"));
+  const Recording packed = LoadRecording(folder_ / "run.lcm.zst", Rig());
+  ASSERT_EQ(packed.rows(), 50U);
+  EXPECT_EQ(packed.cycle, plain.cycle);
+  EXPECT_EQ(packed.position_m, plain.position_m);
 }
 
 TEST_F(RecordingTest, RefusesWhatIsNoRecordedRunWithTheFormatsThereAre) {
