@@ -1,5 +1,6 @@
 // Buttons and keys. Nothing is assumed: the answer line shows what the controller said.
 
+import { ended } from "./freshness.js";
 import { send } from "./link.js";
 
 /** Sends a request and shows on the line what came of it; its outcome. */
@@ -8,7 +9,8 @@ export async function ask(line, path, request, doing) {
   line.textContent = doing + " …";
   const reply = await send(path, request);
   line.className = "answer " + (reply.outcome === "accepted" ? "good" : "bad");
-  line.textContent = `${reply.outcome}: ${reply.text}`;
+  const nobody = reply.outcome === "unanswered" && ended();
+  line.textContent = `${reply.outcome}: ${nobody ? "the run has ended, nothing is there to act" : reply.text}`;
   return reply.outcome;
 }
 
@@ -39,5 +41,15 @@ export function wireControls() {
 
 /** The rig's own limit for the speed field. */
 export function limitSpeed(rig) {
-  if (rig.max_speed_rpm) document.getElementById("rpm").max = Math.round(rig.max_speed_rpm);
+  if (!rig.max_speed_rpm) return;
+  const rpm = document.getElementById("rpm");
+  rpm.max = Math.round(rig.max_speed_rpm);
+  document.getElementById("rpm-most").textContent = `of ${rpm.max}`;
+}
+
+/** Whoever commanded a speed, the field says it: pressed as it stands, Spin changes nothing. */
+export function noteSpeed(event) {
+  const asked = /^command spin to (\d+) rpm/.exec(event.text);
+  const rpm = document.getElementById("rpm");
+  if (asked && document.activeElement !== rpm) rpm.value = asked[1];
 }

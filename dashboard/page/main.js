@@ -1,6 +1,6 @@
 // Puts the parts together: messages go to those who keep them, drawing happens at the screen's pace.
 
-import { limitSpeed, wireControls } from "./controls.js";
+import { limitSpeed, noteSpeed, wireControls } from "./controls.js";
 import { addEvent } from "./events.js";
 import { noteExcitation, setUpExcitation, wireExcitation } from "./excitation.js";
 import { ended, showConnection, showEnd, showSilence } from "./freshness.js";
@@ -87,6 +87,7 @@ const handlers = {
     if (event.severity === 2 || event.text.includes(" -> ")) lastMode = event.mode;  // not of a warning
     addEvent(event);
     noteExcitation(event);
+    noteSpeed(event);
     if (event.severity === 2) showTrip(event);
   },
   scope(state) {

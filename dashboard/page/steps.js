@@ -28,6 +28,7 @@ const ENDED = "The run has ended. The next begins with amb run.";
 
 const next = document.getElementById("next");
 const buttons = [...document.querySelectorAll("[data-command]")];
+const ofTheRun = [...document.querySelectorAll("#excitation button, #scope button")];
 let shown = "";
 
 function turns(tick) {
@@ -49,5 +50,6 @@ export function showSteps(tick, ended) {
   if (now === shown) return;
   shown = now;
   for (const button of buttons) button.disabled = !open.includes(button.dataset.command);
+  for (const button of ofTheRun) button.disabled = Boolean(ended);
   next.textContent = sentence;
 }

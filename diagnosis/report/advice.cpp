@@ -144,9 +144,18 @@ std::string StopText(const Words& words, Severity severity, bool certain) {
              : "The machine may run on. ";
 }
 
+/// Whether the model with the causes foretells the validation data worse than the rig file does.
+bool ForetellsWorse(const DiagnosisReport& report) {
+  constexpr double kWorsePercent = 1.0;
+  return report.verdict == Verdict::kSuspected &&
+         report.validation.extended_percent < report.validation.nominal_percent - kWorsePercent;
+}
+
 std::string ActionOfCauses(const DiagnosisReport& report) {
   const bool certain = report.verdict == Verdict::kEffect;
-  std::string text;
+  std::string text = ForetellsWorse(report)
+                         ? "Change nothing yet: see further records. Meanwhile may be checked: "
+                         : "";
   for (const ReportCause& cause : report.causes) {
     const Words* words = FindWords(report, cause.effect);
     if (words == nullptr) continue;
@@ -220,6 +229,13 @@ std::string HeadlineOfCauses(const DiagnosisReport& report) {
     text += "; and " + CauseLine(report, report.causes[i]);
   }
   const std::string percent = PercentText(report.confidence);
+  if (ForetellsWorse(report)) {
+    // What is that likely is that something is wrong, not that it is this.
+    return fmt::format(
+        "Something is wrong ({}), and what is not proven: the likeliest so far, {}, foretells the "
+        "validation data worse than the rig file itself ({:.1f} against {:.1f} %).",
+        percent, text, report.validation.extended_percent, report.validation.nominal_percent);
+  }
   if (report.verdict == Verdict::kSuspected) {
     text = fmt::format("Suspected, {}: {}", percent, text);
   } else {

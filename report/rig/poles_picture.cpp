@@ -92,8 +92,20 @@ void AddRays(double up_to_hz, svg::Panel& panel) {
   }
 }
 
+/// What the picture leaves out, so that nobody takes its poles for all.
+std::string Beyond(const std::vector<LoopPoles>& loops, double up_to_hz) {
+  std::ptrdiff_t most = 0;
+  for (const LoopPoles& loop : loops) {
+    most = std::max(most, std::ranges::count_if(loop.poles, [&](const Pole& pole) {
+                      return std::abs(pole.frequency_hz) > up_to_hz;
+                    }));
+  }
+  return most == 0 ? "" : fmt::format(", {} beyond", most);
+}
+
 svg::Panel PlanePanel(const std::vector<LoopPoles>& loops, double up_to_hz) {
-  svg::Panel panel{.title = "Poles; dashed: equal damping ratio",
+  svg::Panel panel{.title = fmt::format("Poles to {:g} Hz{}; dashed: equal damping ratio", up_to_hz,
+                                        Beyond(loops, up_to_hz)),
                    .x_label = "Re s, 1/s",
                    .y_label = "frequency, Hz"};
   panel.x_range = RealParts(loops, up_to_hz);

@@ -110,6 +110,21 @@ TEST(Action, StopsTheMachineForACrackAndNotForALateCurrent) {
   EXPECT_THAT(BuildReport(Found("extra_delay", "all axes")).action, HasSubstr("may run on"));
 }
 
+TEST(Headline, DoesNotSuspectWhatForetellsTheRecordsWorseThanTheRigFile) {
+  DiagnosisReport report = BuildReport(Found("extra_delay", "all axes"));
+  report.verdict = Verdict::kSuspected;
+  report.confidence = 0.9999;
+  report.validation.nominal_percent = 60.5;
+  report.validation.extended_percent = 59.9;
+  Advise(report);
+  EXPECT_THAT(report.headline, StartsWith("Suspected, over 99.9 %"));
+  report.validation.extended_percent = 51.1;
+  Advise(report);
+  EXPECT_THAT(report.headline, StartsWith("Something is wrong (over 99.9 %), and what is not"));
+  EXPECT_THAT(report.headline, HasSubstr("51.1 against 60.5 %"));
+  EXPECT_THAT(report.action, StartsWith("Change nothing yet"));
+}
+
 TEST(Action, ChangesNothingOnTheMachineWhileTheInputIsDoubted) {
   DiagnosisReport report = BuildReport(Found("touchdown_rub", RubPlace()));
   report.input_warning = "units are wrong";
