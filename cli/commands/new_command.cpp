@@ -212,8 +212,10 @@ ExitStatus Make(NewRigOptions options) {
   const std::string unstable = UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario),
                                             files.rig.string(), files.controller.string());
   fmt::print("{}\n", unstable.empty() ? PeakText(rig, controller.law) : unstable);
-  fmt::print("next: check what says (assumed) in {0}; amb modes --rig {0}; amb run --rig {0}\n",
-             files.rig.string());
+  fmt::print(
+      "next: check what says (assumed) in {0}; amb modes --rig {0}; amb run --rig {0}; a law with "
+      "more margin: amb design pid --rig {0} --out pid.yaml\n",
+      files.rig.string());
   WriteJsonFile(options.json_path, {{"rig", files.rig.string()},
                                     {"controller", files.controller.string()},
                                     {"scenario", files.scenario.string()},
