@@ -47,9 +47,9 @@ inline constexpr std::size_t kRungs = 257;
 /// The law of one speed: that of the nearest rung, without a schedule the law itself.
 [[nodiscard]] LawConfig LawAt(const LawConfig& config, double speed_rad_per_s);
 
-/// Two laws of unlike structure that change places, and how far each may act: an exchange comes
-/// three quarters of a rung late on the way up and is taken back 3 % below, the time that the other
-/// law listens (running_law.hpp) not counted.
+/// Two laws of unlike structure that change places, and how far each may act: the lower one to the
+/// rung of the exchange, the upper one 3 % below it, the time that the other law listens
+/// (running_law.hpp) not counted.
 struct Exchange {
   LawConfig lower, upper;         ///< each alone, as it stands at the exchange
   double at_rad_per_s{};          ///< of the table

@@ -137,7 +137,6 @@ bool NotchFigures::allowed() const noexcept {
   return std::all_of(speeds.begin(), speeds.end(), [](const auto& at) { return at.allowed(); });
 }
 
-// Neighbours of the same reason as one range, with the reason of its first.
 namespace {
 
 std::string RangeText(const SpeedFigures& from, const SpeedFigures& to) {
@@ -160,6 +159,7 @@ std::string NotchFigures::AllowedSpeeds() const {
   return text.empty() ? "nowhere" : text;
 }
 
+// Neighbours of the same reason as one range, with the reason of its first.
 std::string NotchFigures::RefusedSpeeds() const {
   std::string text;
   const auto kind = [](const SpeedFigures& at) {
