@@ -14,6 +14,7 @@
 #include "session/csv_rows.hpp"
 #include "session/mat_rows.hpp"
 #include "session/measured_data.hpp"
+#include "session/packed_log.hpp"
 #include "session/record_frame.hpp"
 #include "session/session_reader.hpp"
 
@@ -117,10 +118,10 @@ std::string StartOf(const std::string& path) {
   return start;
 }
 
-/// An LCM event log has a sync word at the beginning of each event, a packed one zstd's number.
+/// An LCM event log has a sync word at the beginning of each event; or it is packed.
 bool MayBeSession(const std::string& start) {
   return start.find("\xED\xA1\xDA\x01") != std::string::npos ||
-         start.starts_with("\x28\xB5\x2F\xFD");
+         BeginsPacked(std::vector<std::uint8_t>(start.begin(), start.end()));
 }
 
 void TakeSession(const std::string& path, const RigNumbers& rig, ColumnWriter& columns) {
