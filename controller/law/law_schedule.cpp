@@ -239,8 +239,7 @@ std::vector<Exchange> Exchanges(const LawConfig& config) {
     }
     const auto at = static_cast<double>(rung);
     out.push_back({AtRung(config, table, rung - 1), AtRung(config, table, rung), width * at,
-                   width * (at - 1.0 + kFarEnough), width * (at - BackFrom(rung))});
-    out.back().lower_to_rad_per_s = std::max(out.back().lower_to_rad_per_s, width * at);
+                   width * (at - BackFrom(rung))});
   }
   return out;
 }

@@ -52,8 +52,7 @@ inline constexpr std::size_t kRungs = 257;
 /// (running_law.hpp) not counted.
 struct Exchange {
   LawConfig lower, upper;         ///< each alone, as it stands at the exchange
-  double at_rad_per_s{};          ///< of the table
-  double lower_to_rad_per_s{};    ///< >= at_rad_per_s
+  double at_rad_per_s{};          ///< of its rung: so far the lower one acts
   double upper_from_rad_per_s{};  ///< < at_rad_per_s
 };
 

@@ -145,7 +145,7 @@ void JudgeExchanges(const config::RigFile& rig, const law::LawConfig& law, doubl
   for (const law::Exchange& exchange : law::Exchanges(law)) {
     if (exchange.at_rad_per_s > most_rad_per_s) return;  // where the rig never gets
     ++out.exchanges;
-    JudgeLoop(rig, exchange.lower, exchange.lower_to_rad_per_s + listened, Of::kFile, out);
+    JudgeLoop(rig, exchange.lower, exchange.at_rad_per_s + listened, Of::kFile, out);
     JudgeLoop(rig, exchange.upper, std::max(0.0, exchange.upper_from_rad_per_s - listened),
               Of::kFile, out);
   }

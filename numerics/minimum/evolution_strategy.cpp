@@ -118,12 +118,9 @@ EvolutionResult Evolve(const VectorXd& start, const std::function<double(const V
       steps.emplace_back(root * VectorXd::NullaryExpr(n, [&] { return draw.Normal(); }));
     const auto point = [&](std::size_t i) -> VectorXd { return now.mean + now.sigma * steps[i]; };
     std::vector<double> costs(steps.size());
-    if (options.threads != 1) {
-      EachInParallel(steps.size(), options.threads,
-                     [&](std::size_t i) { costs[i] = worth(point(i)); });
-    }
+    EachInParallel(steps.size(), options.threads,
+                   [&](std::size_t i) { costs[i] = worth(point(i)); });
     for (std::size_t i = 0; i < steps.size() && going; ++i) {
-      if (options.threads == 1) costs[i] = worth(point(i));
       ++out.evaluations;
       if (costs[i] < out.cost) {
         out.cost = costs[i];

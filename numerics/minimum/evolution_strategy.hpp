@@ -30,8 +30,7 @@ struct EvolutionResult {
 };
 
 /// `cost(x)`, by any of the threads; for every evaluation `seen(evaluations, best cost)`, by the
-/// caller's: false ends the search with the best so far. With more than one thread it is called
-/// when a generation is done.
+/// caller's: false ends the search with the best so far. It is called when a generation is done.
 [[nodiscard]] EvolutionResult Evolve(const Eigen::VectorXd& start,
                                      const std::function<double(const Eigen::VectorXd&)>& cost,
                                      const EvolutionOptions& options,

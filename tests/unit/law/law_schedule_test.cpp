@@ -214,7 +214,7 @@ TEST(Exchanges, SayHowFarEachLawMayAct) {
   const double width = kTop / static_cast<double>(kRungs - 1);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(exchanges[i].at_rad_per_s, config.schedule[i].speed_rad_per_s, width) << i;
-    EXPECT_LE(up[i], exchanges[i].lower_to_rad_per_s + 0.01) << i;
+    EXPECT_LE(up[i], exchanges[i].at_rad_per_s + 0.01) << i;
     EXPECT_GE(down[i], exchanges[i].upper_from_rad_per_s - 0.01) << i;
     EXPECT_NEAR(down[i], exchanges[i].upper_from_rad_per_s, 0.02) << i;
     EXPECT_EQ(exchanges[i].lower.axes[0].notches.empty(), i == 1) << i;
