@@ -121,6 +121,16 @@ void PutState(std::string& text, const LiveRun& run, std::int64_t now_ns) {
   Put(text, kMilli * state->bias_current_a);
 }
 
+/// Of a configuration file's text: what stands behind the key `name` of its top level.
+std::string NameIn(const std::string& yaml) {
+  constexpr std::string_view kKey = "name: ";
+  const std::size_t at =
+      yaml.starts_with(kKey) ? 0 : std::min(yaml.find("\nname: "), yaml.size() - 1) + 1;
+  if (at >= yaml.size()) return {};
+  const std::size_t from = at + kKey.size();
+  return yaml.substr(from, std::min(yaml.find('\n', from), yaml.size()) - from);
+}
+
 }  // namespace
 
 std::string RigJson(const LiveRun& run, std::int64_t server) {
@@ -137,6 +147,8 @@ std::string RigJson(const LiveRun& run, std::int64_t server) {
                  {"max_coil_current_a", rig.max_coil_current_a},
                  {"amplifier_hz", run.amplifier_hz()},
                  {"max_speed_rpm", RadPerSToRpm(rig.max_speed_rad_per_s)},
+                 {"controller", NameIn(header.controller_yaml)},
+                 {"scenario", NameIn(header.scenario_yaml)},
                  {"pace", header.pace},
                  {"version", header.program_version},
                  {"source", header.source}});

@@ -17,21 +17,24 @@ using List = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 6> kTime{"time", "t", "zeit", "timestamp", "clock", "temps"};
 constexpr std::array<std::string_view, 6> kAngle{"angle",  "phi",   "theta",
                                                  "winkel", "phase", "azimuth"};
-constexpr std::array<std::string_view, 6> kSpeed{"speed",    "rpm",  "omega",
-                                                 "drehzahl", "revs", "rotfreq"};
-constexpr std::array<std::string_view, 10> kLength{"pos",  "position",  "disp",   "displacement",
-                                                   "weg",  "probe",     "sensor", "gap",
-                                                   "prox", "deflection"};
-constexpr std::array<std::string_view, 6> kCurrent{"current", "curr", "i", "ic", "strom", "amps"};
+constexpr std::array<std::string_view, 7> kSpeed{"speed", "rpm",     "omega",  "drehzahl",
+                                                 "revs",  "rotfreq", "vitesse"};
+constexpr std::array<std::string_view, 11> kLength{
+    "pos",    "position", "disp", "displacement", "weg",        "probe",
+    "sensor", "gap",      "prox", "deflection",   "deplacement"};
+constexpr std::array<std::string_view, 7> kCurrent{"current", "curr", "i",      "ic",
+                                                   "strom",   "amps", "courant"};
 constexpr std::array<std::string_view, 8> kExcitation{
     "exc", "excitation", "inj", "injection", "disturbance", "dist", "excit", "anregung"};
 /// What is neither the motion nor the command of an axis.
 constexpr std::array<std::string_view, 9> kOther{"coil", "temp",  "temperature", "volt", "voltage",
                                                  "bias", "force", "acc",         "spule"};
-constexpr std::array<std::string_view, 9> kFirst{"a",     "1",     "left", "l",  "front",
-                                                 "upper", "drive", "de",   "top"};
-constexpr std::array<std::string_view, 9> kSecond{"b",     "2",        "right", "r",     "rear",
-                                                  "lower", "nondrive", "nde",   "bottom"};
+constexpr std::array<std::string_view, 15> kFirst{"a",     "1",     "left", "l",     "front",
+                                                  "upper", "drive", "de",   "top",   "vorn",
+                                                  "vorne", "links", "oben", "avant", "gauche"};
+constexpr std::array<std::string_view, 14> kSecond{
+    "b",   "2",      "right",  "r",      "rear",  "lower",   "nondrive",
+    "nde", "bottom", "hinten", "rechts", "unten", "arriere", "droite"};
 
 bool Any(const Words& words, List of) {
   return std::ranges::any_of(

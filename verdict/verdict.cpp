@@ -71,6 +71,27 @@ void ObjectToComputed(const analysis::SensitivityResult& result, const Inputs& i
   }
 }
 
+/// One sentence names the first complaint of a kind and counts the others: eight peaks of |S| are one
+/// fault. All of them are in Verdict::objections.
+std::string Summed(const std::vector<std::string>& objections) {
+  constexpr std::array<std::string_view, 2> kKinds{"computed sensitivity peak",
+                                                   "measured sensitivity peak"};
+  std::vector<std::string> said;
+  std::array<std::size_t, 2> first{}, count{};
+  for (const std::string& objection : objections) {
+    const auto* kind = std::ranges::find_if(
+        kKinds, [&](std::string_view words) { return objection.starts_with(words); });
+    const auto k = static_cast<std::size_t>(kind - kKinds.begin());
+    if (k < kKinds.size() && count.at(k)++ > 0) continue;
+    if (k < kKinds.size()) first.at(k) = said.size();
+    said.push_back(objection);
+  }
+  for (std::size_t k = 0; k < kKinds.size(); ++k) {
+    if (count.at(k) > 1) said[first.at(k)] += fmt::format(" (and {} more)", count.at(k) - 1);
+  }
+  return fmt::format("{}", fmt::join(said, "; "));
+}
+
 void JudgeMeasured(const MeasuredSpeed& at, Verdict& verdict) {
   const double speed_rpm = RadPerSToRpm(at.speed_rad_per_s);
   for (const MeasuredAxis& axis : at.axes) {
@@ -173,7 +194,7 @@ Verdict Judge(Inputs inputs) {
     }
   } else if (!verdict.objections.empty()) {
     verdict.outcome = Outcome::kNotAccepted;
-    verdict.sentence = fmt::format("NOT ACCEPTED: {}", fmt::join(verdict.objections, "; "));
+    verdict.sentence = "NOT ACCEPTED: " + Summed(verdict.objections);
   } else {
     verdict.outcome = Outcome::kAccepted;
     verdict.sentence = fmt::format("{}: orbit {}, {}", AcceptedWhere(verdict.range),

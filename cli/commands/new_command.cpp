@@ -1,4 +1,4 @@
-// amb new rig: a first rig file, controller and scenario from the numbers known of a rotor.
+// amb new rig: a first rig file, controller and scenarios from the numbers known of a rotor.
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -18,6 +18,7 @@
 #include "cli/new_rig/ask.hpp"
 #include "cli/new_rig/rig_sketch.hpp"
 #include "cli/new_rig/start_law.hpp"
+#include "cli/new_rig/test_signal.hpp"
 #include "cli/run/loop_warning.hpp"
 #include "cli/text_file.hpp"
 #include "common/problem.hpp"
@@ -68,14 +69,14 @@ struct NewRigOptions {
 };
 
 struct NewRigFiles {
-  fs::path rig, controller, scenario;
+  fs::path rig, controller, scenario, identify;
 };
 
 NewRigFiles NewRigFilesOf(const NewRigOptions& options) {
   const fs::path folder = options.out.empty() ? options.sketch.name : options.out;
   const std::string& name = options.sketch.name;
   return {folder / (name + ".yaml"), folder / (name + "_controller.yaml"),
-          folder / (name + "_scenario.yaml")};
+          folder / (name + "_scenario.yaml"), folder / (name + "_identify.yaml")};
 }
 
 void TakeStrength(NewRigOptions& options) {
@@ -140,7 +141,7 @@ SketchDisc ParseDisc(const std::string& text) {
 }
 
 void RefuseExisting(const NewRigOptions& options, const NewRigFiles& files) {
-  for (const fs::path& path : {files.rig, files.controller, files.scenario}) {
+  for (const fs::path& path : {files.rig, files.controller, files.scenario, files.identify}) {
     std::error_code none;
     if (options.overwrite || !fs::exists(path, none)) continue;
     throw Problem(ExitStatus::kUsage,
@@ -148,8 +149,8 @@ void RefuseExisting(const NewRigOptions& options, const NewRigFiles& files) {
   }
 }
 
-/// Makes the folder and writes the three texts, which were read as any file of ours is.
-void WriteFiles(const NewRigFiles& files, const std::array<std::string, 3>& texts) {
+/// Makes the folder and writes the four texts, which were read as any file of ours is.
+void WriteFiles(const NewRigFiles& files, const std::array<std::string, 4>& texts) {
   std::error_code failed;
   fs::create_directories(files.rig.parent_path(), failed);
   if (failed) {
@@ -159,6 +160,7 @@ void WriteFiles(const NewRigFiles& files, const std::array<std::string, 3>& text
   WriteTextFile(files.rig.string(), texts[0]);
   WriteTextFile(files.controller.string(), texts[1]);
   WriteTextFile(files.scenario.string(), texts[2]);
+  WriteTextFile(files.identify.string(), texts[3]);
 }
 
 /// What each magnet carries of the weight, and whether it can.
@@ -193,14 +195,18 @@ ExitStatus Make(NewRigOptions options) {
   RefuseExisting(options, files);
   Complete(options);
   const SketchNumbers numbers = NumbersOf(options.sketch);
-  std::array<std::string, 3> texts{SketchRig(options.sketch, files.controller.filename().string(),
+  std::array<std::string, 4> texts{SketchRig(options.sketch, files.controller.filename().string(),
                                              files.scenario.filename().string()),
                                    {},
-                                   SketchScenario(options.sketch)};
+                                   SketchScenario(options.sketch),
+                                   {}};
   const config::RigFile rig = config::ParseRig(texts[0], files.rig.string());
   texts[1] = SketchController(options.sketch, ChooseStartLaw(options.sketch, rig));
   const auto controller = config::ParseController(texts[1], files.controller.string(), rig.numbers);
   const auto scenario = config::ParseScenario(texts[2], files.scenario.string(), rig.numbers);
+  const TestSignal signal = TestSignalOf(rig, controller.law);
+  texts[3] = SketchIdentify(options.sketch, rig, signal);
+  static_cast<void>(config::ParseScenario(texts[3], files.identify.string(), rig.numbers));
   WriteFiles(files, texts);
   fmt::print(
       "{}: rig {}, {:.6g} kg on {:.6g} mm, a shaft of {:.4g} mm; ki {:.4g} N/A, ks {:.4g} N/m\n",
@@ -209,6 +215,8 @@ ExitStatus Make(NewRigOptions options) {
   PrintLoads(options.sketch, numbers);
   fmt::print("{}: a start for its law\n{}: lift, {:.6g} rpm, stop, land\n",
              files.controller.string(), files.scenario.string(), options.sketch.max_speed_rpm);
+  fmt::print("{}: test signals of {:.3g} A for amb identify modal and amb diagnose\n",
+             files.identify.string(), signal.amplitude_a);
   const std::string unstable = UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario),
                                             files.rig.string(), files.controller.string());
   fmt::print("{}\n", unstable.empty() ? PeakText(rig, controller.law) : unstable);
@@ -219,6 +227,8 @@ ExitStatus Make(NewRigOptions options) {
   WriteJsonFile(options.json_path, {{"rig", files.rig.string()},
                                     {"controller", files.controller.string()},
                                     {"scenario", files.scenario.string()},
+                                    {"identify", files.identify.string()},
+                                    {"excitation_a", signal.amplitude_a},
                                     {"stable", unstable.empty()},
                                     {"shaft_diameter_m", 1e-3 * numbers.diameter_mm},
                                     {"centre_m", 1e-3 * numbers.centre_mm},
@@ -285,7 +295,7 @@ void AddOptions(CLI::App& command, NewRigOptions& o) {
   command.add_option("--disc", o.discs,
                      "Wheel or disc on the shaft, Z_MM:MASS_KG:DIAMETER_MM; may be repeated");
   command.add_flag("--vertical", o.sketch.vertical, "The shaft stands: no weight on the magnets");
-  command.add_option("--out", o.out, "Folder for the three files; default: NAME");
+  command.add_option("--out", o.out, "Folder for the four files; default: NAME");
   command.add_flag("--overwrite", o.overwrite, "Replace files that are there already");
   command.add_option("--json", o.json_path, "Also write what was made to this file");
 }
@@ -297,7 +307,7 @@ void AddNewCommand(CLI::App& app, Action& action) {
   command->require_subcommand(1);
   auto options = std::make_shared<NewRigOptions>();
   CLI::App* rig = command->add_subcommand(
-      "rig", "A first rig file of your rotor, with controller and scenario, from six numbers");
+      "rig", "A first rig file of your rotor, with controller and scenarios, from six numbers");
   rig->footer(kNewRigHelp);
   AddOptions(*rig, *options);
   rig->callback([options, &action] { action = [options] { return Make(*options); }; });

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/command.hpp"
+#include "cli/commands/next_step.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/enter_session.hpp"
 #include "cli/options/requirement.hpp"
@@ -131,7 +132,7 @@ void SayWhereTheRecordIs(const RunPaths& paths, const std::string& trip_file) {
 
 /// Prints the verdict of what was recorded, if anything was; the run's exit status.
 ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunPaths& paths,
-                    const RunResult& result, const std::string& port) {
+                    const RunResult& result, const std::string& port, std::string& sentence) {
   const ExitStatus status = StatusOf(result);
   const bool keep = !options.record_path.empty() || status == ExitStatus::kTripped;
   if (!fs::exists(paths.session) || fs::file_size(paths.session) == 0) return status;
@@ -140,9 +141,12 @@ ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunP
   try {
     const verdict::Verdict verdict = verdict::Commission(judge);
     fmt::print("{}", verdict::Table(verdict));
+    sentence = verdict.sentence;
     WriteJsonFile(options.json_path, verdict::Json(verdict));
     if (!options.record_path.empty()) EnterRun(paths.session, verdict, options.tags);
     if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
+    const std::string next = NextStep(verdict, options.rig, options.record_path);
+    if (!next.empty()) fmt::print("{}\n", next);
     const bool incomplete = verdict.outcome == verdict::Outcome::kIncomplete;
     if (status == ExitStatus::kDone && !incomplete) RequireRun(options.required, verdict);
     return incomplete && status == ExitStatus::kDone ? ExitStatus::kOther : status;
@@ -200,15 +204,17 @@ std::string PaceText(const RunOptions& options) {
   return fmt::format("paced at {:g} x the clock", options.pace_factor.value_or(1.0));
 }
 
-/// `interrupted` as soon as it is known: a verdict that throws does not undo it.
+/// `ending` is filled as soon as it is known: a verdict that throws does not undo it.
 ExitStatus RunAndJudge(const RunOptions& options, const RunFiles& files, const RunPlan& plan,
-                       RunFolder& folder, const transport::LcmNetwork& network, bool& interrupted) {
+                       RunFolder& folder, const transport::LcmNetwork& network,
+                       LivePage::Ending& ending) {
   const RunPaths paths = PathsOf(options, folder);
   RunResult result = RunBoth(plan, files, network);
-  interrupted = result.interrupted;
+  ending.interrupted = result.interrupted;
   result.trouble = WithRoom(result.trouble, paths, folder);
   for (const std::string& note : TripFolderNotes(paths.controller_log)) rt::Say(note);
-  const ExitStatus status = JudgeRun(options, files, paths, result, PortOf(options, network));
+  const ExitStatus status =
+      JudgeRun(options, files, paths, result, PortOf(options, network), ending.verdict);
   if (status == ExitStatus::kTripped && options.record_path.empty()) folder.Keep();
   std::fflush(stdout);
   if (!result.trouble.empty()) throw Problem(status, result.trouble);
@@ -246,10 +252,9 @@ ExitStatus Execute(const RunOptions& asked) {
   CheckLoop(options, files);
   LivePage page(PlanPage(options.page, LookAround(options.pace != "lockstep")), *network,
                 [](const std::string& line) { rt::Say(line); });
-  bool interrupted = false;
-  return page.Outlive(
-      [&] { return RunAndJudge(options, files, plan, folder, *network, interrupted); },
-      interrupted);
+  return page.Outlive([&](LivePage::Ending& ending) {
+    return RunAndJudge(options, files, plan, folder, *network, ending);
+  });
 }
 
 void AddRigOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {

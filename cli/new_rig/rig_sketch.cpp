@@ -20,10 +20,6 @@ constexpr double kStandingShare = 0.05;
 constexpr double kSpinningShare = 0.3;
 constexpr double kGravity = 9.81;
 
-double AccelerationOf(const RigSketch& sketch) {
-  return std::max(1.0, sketch.max_speed_rpm / kSecondsToTop);
-}
-
 /// Of each bearing plane.
 double UnbalanceGMm(const RigSketch& sketch) {
   const double speed_rad_per_s = sketch.max_speed_rpm * std::numbers::pi / 30.0;
@@ -142,6 +138,14 @@ std::string LawText(const RigSketch& sketch, const SketchNumbers& n, const Start
 
 }  // namespace
 
+double SketchAcceleration(const RigSketch& sketch) {
+  return std::max(1.0, sketch.max_speed_rpm / kSecondsToTop);
+}
+
+double SketchPatience(const RigSketch& sketch) {
+  return 1.5 * sketch.max_speed_rpm / SketchAcceleration(sketch) + 5.0;
+}
+
 SketchNumbers NumbersOf(const RigSketch& sketch) {
   SketchNumbers n;
   double disc_kg = 0.0;
@@ -208,7 +212,7 @@ std::string SketchRig(const RigSketch& sketch, const std::string& controller_fil
       "  max_acceleration_rpm_per_s: {:.6g}  # top speed in {:g} s (assumed)\n"
       "  coast_down_1_per_s: 0.02   # windage: a time constant of 50 s (assumed)\n"
       "  friction_rpm_per_s: 20     # of the motor (assumed)\n\n",
-      sketch.vertical ? 0.0 : kGravity, sketch.max_speed_rpm, AccelerationOf(sketch),
+      sketch.vertical ? 0.0 : kGravity, sketch.max_speed_rpm, SketchAcceleration(sketch),
       kSecondsToTop);
   return text +
          fmt::format(
@@ -242,12 +246,12 @@ std::string SketchController(const RigSketch& sketch, const StartLaw& law) {
                     "  trip_deceleration_rpm_per_s: {:.6g}\n\n"
                     "protection:\n"
                     "  orbit_fraction: 0.5        # trips at half the clearance\n",
-                    0.15 * n.clearance_um, AccelerationOf(sketch));
+                    0.15 * n.clearance_um, SketchAcceleration(sketch));
 }
 
 std::string SketchScenario(const RigSketch& sketch) {
-  const double acceleration = AccelerationOf(sketch);
-  const double patience_s = 1.5 * sketch.max_speed_rpm / acceleration + 5.0;
+  const double acceleration = SketchAcceleration(sketch);
+  const double patience_s = SketchPatience(sketch);
   const auto spin = [&](double rpm, const char* until, double hold_s) {
     return fmt::format(
         "  - {{do: spin, speed_rpm: {:.6g}, acceleration_rpm_per_s: {:.6g}, until: {}, timeout_s: "

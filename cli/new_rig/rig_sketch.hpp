@@ -60,6 +60,10 @@ struct SketchNumbers {
 };
 
 [[nodiscard]] SketchNumbers NumbersOf(const RigSketch& sketch);
+/// Of the drive [rpm/s].
+[[nodiscard]] double SketchAcceleration(const RigSketch& sketch);
+/// How long a step waits for a speed [s].
+[[nodiscard]] double SketchPatience(const RigSketch& sketch);
 
 /// Texts of the three files. The rig names the other two by their file names.
 [[nodiscard]] std::string SketchRig(const RigSketch& sketch, const std::string& controller_file,

@@ -73,12 +73,13 @@ void TellOtherRig(const OwnRig& own, const config::RigFile& named, const std::st
   if (IsRefused(own.rig, named)) return;
   const std::string difference = RigDifference(own.rig, named);
   if (difference.empty()) return;
-  rt::Say(
-      fmt::format("amb: warning: {} was recorded with rig {}, --rig names {} ({}), which is "
-                  "another one ({}): what follows is about {}. Without --rig it is about the "
-                  "session's own rig",
-                  rt::OneLine(own.path), own.rig.numbers.name, named.numbers.name,
-                  rt::OneLine(path), difference, rt::OneLine(path)));
+  const bool same_name = own.rig.numbers.name == named.numbers.name;
+  rt::Say(fmt::format(
+      "amb: warning: {} was recorded with rig {}, --rig names {} ({}), which is {} ({}): what "
+      "follows is about {}. Without --rig it is about the session's own rig",
+      rt::OneLine(own.path), own.rig.numbers.name,
+      same_name ? "one of that name" : named.numbers.name, rt::OneLine(path),
+      same_name ? "not the same" : "another one", difference, rt::OneLine(path)));
 }
 
 void TellEffects(const OwnRig& own) {

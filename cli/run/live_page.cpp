@@ -33,7 +33,7 @@ setsid xdg-open "$1" >/dev/null 2>&1 </dev/null &)";
   return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-const char* EndOf(ExitStatus status) {
+std::string EndOf(ExitStatus status) {
   switch (status) {
     case ExitStatus::kDone:
       return "The run has ended.";
@@ -74,18 +74,19 @@ LivePage::LivePage(const PagePlan& plan, const transport::LcmNetwork& network,
 
 LivePage::~LivePage() = default;
 
-ExitStatus LivePage::Outlive(const std::function<ExitStatus()>& run, const bool& interrupted) {
-  if (!page_) return run();
+ExitStatus LivePage::Outlive(const std::function<ExitStatus(Ending&)>& run) {
+  Ending ending;
+  if (!page_) return run(ending);
   ExitStatus status = ExitStatus::kDone;
   try {
-    status = run();
+    status = run(ending);
   } catch (const Problem& problem) {
-    if (interrupted) throw;
+    if (ending.interrupted) throw;
     say_(std::string("amb: ") + problem.what());
     status = problem.status();
   }
-  if (interrupted) return status;
-  page_->RunEnded(EndOf(status));
+  if (ending.interrupted) return status;
+  page_->RunEnded(EndOf(status) + (ending.verdict.empty() ? "" : " " + ending.verdict));
   const InterruptGuard interrupts;
   say_("live page stays at " + page_->Url() + ": Ctrl-C ends it");
   static_cast<void>(rt::FlushSaid());

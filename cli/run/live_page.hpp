@@ -52,9 +52,16 @@ class LivePage {
   LivePage(const LivePage&) = delete;
   LivePage& operator=(const LivePage&) = delete;
 
+  /// What a run leaves behind as soon as it is known.
+  struct Ending {
+    bool interrupted{};
+    std::string verdict;  ///< its sentence; empty: none was reached
+  };
+
   /// The exit status of `run`, at once without a page. With one: what `run` throws is said, viewers
-  /// are told that it is over, and the page stays until Ctrl-C unless `interrupted` by then.
-  [[nodiscard]] ExitStatus Outlive(const std::function<ExitStatus()>& run, const bool& interrupted);
+  /// are told that it is over and with which verdict, and the page stays until Ctrl-C unless
+  /// interrupted by then.
+  [[nodiscard]] ExitStatus Outlive(const std::function<ExitStatus(Ending&)>& run);
 
  private:
   std::unique_ptr<dashboard::Dashboard> page_;

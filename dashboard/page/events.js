@@ -4,8 +4,23 @@ const MOST = 200;
 const CLASS = ["", "warning", "trip-event"];
 const list = document.getElementById("events");
 
+/** A warning that comes again with other numbers is one line with a count: it buries nothing. */
+function folded(event) {
+  const top = list.firstChild;
+  const same = event.severity === 1 && top?.dataset.words === event.text.replace(/[\d.]+/g, "#");
+  if (!same) return false;
+  top.dataset.times = Number(top.dataset.times) + 1;
+  top.lastChild.textContent = `${event.text} (${top.dataset.times} times since then)`;
+  return true;
+}
+
 export function addEvent(event) {
+  if (folded(event)) return;
   const line = document.createElement("li");
+  if (event.severity === 1) {
+    line.dataset.words = event.text.replace(/[\d.]+/g, "#");
+    line.dataset.times = 1;
+  }
   line.className = CLASS[event.severity] ?? "";
   const time = document.createElement("time");
   time.textContent = event.time_s.toFixed(3) + " s";

@@ -16,13 +16,13 @@ import { drawSpectrum, setUpSpectrum, showSpectrum } from "./spectrum.js";
 import { showPace, showRig, showTick, showTime, showTrip } from "./state.js";
 import { showSteps } from "./steps.js";
 import { isHeld, moveSlider, releaseTime, wireTime } from "./time_window.js";
-import { drawTiming, showTiming } from "./timing.js";
+import { drawTiming, setUpTiming, showTiming } from "./timing.js";
 import { drawTraces, setUpTraces } from "./traces.js";
 import { wireViews } from "./views.js";
 import { addWaterfall, drawWaterfall, setUpWaterfall } from "./waterfall.js";
 
 const DRAW_EVERY_MS = 100;
-const SET_UPS = [setUpOrbits, setUpTraces, setUpSpectrum, setUpWaterfall, setUpOverSpeed, setUpExcitation, setUpScope, setUpRecord];
+const SET_UPS = [setUpOrbits, setUpTraces, setUpSpectrum, setUpWaterfall, setUpOverSpeed, setUpExcitation, setUpScope, setUpRecord, setUpTiming];
 let eventsSeen = 0;
 let server = 0;
 let run = 0;

@@ -8,6 +8,7 @@ import { prepare } from "./canvas.js";
 import { lineColour } from "./colours.js";
 
 const ZONES = [[0.5, "#fdf0e6", "C"], [0.4, "#fbf7e3", "B"], [0.3, "#eaf4ef", "A"]];
+const HELD = ["levitating", "spinning", "coast_down"];
 const KEEP = 10;  // older orbits, fading
 
 let views = [];
@@ -27,7 +28,10 @@ export function setUpOrbits(rig) {
     const cell = document.createElement("div");
     cell.append(canvas);
     place.append(cell);
-    return { name, canvas, history: [], largest: 0 };
+    const view = { name, canvas, history: [], largest: 0, peak: 0 };
+    canvas.title = "dashed: the largest radius since the shaft was lifted; a click begins anew";
+    canvas.addEventListener("click", () => { view.peak = 0; });
+    return view;
   });
 }
 
@@ -67,6 +71,19 @@ function drawRings(context, radius) {
   context.fillStyle = "#5a6775";
   context.fillText("x", radius - 9, -3);
   context.fillText("y", 4, -radius + 9);
+}
+
+/** The largest radius held so far. */
+function drawPeak(context, radius) {
+  if (!(radius > 1)) return;
+  context.globalAlpha = 1;
+  context.strokeStyle = "#d55e00";
+  context.lineWidth = 1;
+  context.setLineDash([3, 3]);
+  context.beginPath();
+  context.arc(0, 0, radius, 0, 7);
+  context.stroke();
+  context.setLineDash([]);
 }
 
 /** A dot at each passage of the key phasor, the last one filled. */
@@ -149,6 +166,8 @@ export function showOrbits(tick) {
     if (view.history.length > KEEP) view.history.shift();
     view.largest = 0;
     for (let k = 0; k < points.length; k += 2) view.largest = Math.max(view.largest, Math.hypot(points[k], points[k + 1]));
+    const held = HELD.includes(tick.mode) && !tick.silent;
+    view.peak = held ? Math.max(view.peak, view.largest) : 0;
   });
 }
 
@@ -166,6 +185,7 @@ export function drawOrbits() {
       context.lineWidth = age === view.history.length - 1 ? 1.8 : 1;
       path(context, points, radius / clearance);
     });
+    drawPeak(context, (view.peak / clearance) * radius);
     context.restore();
     if (turning !== 0) drawSense(context, width / 2 - 0.86 * radius, 18 + 1.86 * radius);
     const share = view.largest / clearance;

@@ -13,6 +13,7 @@ const ALLOWED = {
   landing: [],
   tripped: ["reset"],
 };
+const STANDING = ["land", "reset"];  // only of a rotor that stands
 const NEXT = {
   off: "Next: Lift.",
   self_test: "Being tested; lifting follows.",
@@ -40,7 +41,7 @@ export function steps(tick, ended) {
   const all = buttons.map((button) => button.dataset.command);
   if (ended) return [[], ENDED];
   if (tick.silent || !ALLOWED[tick.mode]) return [all, SILENT];
-  const open = ALLOWED[tick.mode].filter((command) => command !== "land" || !turns(tick));
+  const open = ALLOWED[tick.mode].filter((command) => !STANDING.includes(command) || !turns(tick));
   return [open, NEXT[tick.mode]];
 }
 

@@ -6,6 +6,12 @@ import { lineColour } from "./colours.js";
 const ROWS = [["compute", 0], ["latency", 1], ["wakeup", 2]];
 
 let newest = null;
+let period_ns = 0;
+
+export function setUpTiming(rig) {
+  newest = null;
+  period_ns = Math.round(rig.period_s * 1e9);
+}
 
 export function showTiming(timing) {
   newest = timing;
@@ -47,6 +53,15 @@ export function drawTiming() {
     context.fillText(decade < 4 ? String(10 ** decade) : `10${[..."" + decade].map((d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("")}`, width - 4, place - 2);
   }
   context.textAlign = "left";
+  if (period_ns > 0 && x(period_ns) < width) {
+    context.fillStyle = "#1b2733";
+    for (let y0 = 0; y0 < bottom; y0 += 6) context.fillRect(x(period_ns), y0, 1.2, 3);
+    context.save();
+    context.translate(x(period_ns) + 10, bottom - 4);
+    context.rotate(-Math.PI / 2);
+    context.fillText("period", 0, 0);
+    context.restore();
+  }
   used.forEach(([name, colour], i) => {
     context.strokeStyle = lineColour(colour);
     context.fillStyle = lineColour(colour);

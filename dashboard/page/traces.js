@@ -20,7 +20,8 @@ const over = (values) => (plot) => {
 export function setUpTraces(rig) {
   plots?.position.destroy();
   plots?.current.destroy();
-  const line = (i, label) => ({ label, stroke: lineColour(i), width: 1, points: { show: false } });
+  // Every second axis is dashed: x and y are told apart without their colours.
+  const line = (i, label) => ({ label, stroke: lineColour(i), dash: i % 2 ? [5, 3] : [], width: 1, points: { show: false } });
   const series = rig.channels.flatMap((name, i) => [line(i, ""), line(i, name)]);
   const bands = rig.channels.map((_, i) => ({ series: [2 * i + 2, 2 * i + 1], fill: lineColour(i) + FILL }));
   const clearance = rig.clearance_m * 1e6;

@@ -133,7 +133,7 @@ void WriteBalancePicture(const std::string& path, const BalanceRequest& request,
     }
     svg::Panel panel{.title = request.rig.numbers.bearings[b],
                      .x_label = "rpm",
-                     .y_label = "um",
+                     .y_label = "µm",
                      .y_scale = svg::Scale::kLogarithmic};
     panel.series = {std::move(before), std::move(after), std::move(high)};
     figure.panels.push_back(std::move(panel));

@@ -52,7 +52,7 @@ std::string Picture(const ReportForecast& forecast) {
   svg::Panel panel;
   panel.title = "Residual of the validation data, expected and measured";
   panel.x_label = "rpm";
-  panel.y_label = "um rms";
+  panel.y_label = "µm rms";
   panel.y_scale = svg::Scale::kLogarithmic;
   panel.y_range = Shown(forecast);
   svg::Series boxes{.name = "90 % interval"};
@@ -88,7 +88,7 @@ std::string Table(const ReportForecast& forecast) {
         band.residual_um.measured, Covered(band.residual_um),
         diagnosis::RangeText(band.fit_percent, 3), band.fit_percent.measured);
   }
-  return "<table><tr><th>rpm</th><th>residual expected, um rms</th><th>measured</th><th></th>"
+  return "<table><tr><th>rpm</th><th>residual expected, µm rms</th><th>measured</th><th></th>"
          "<th>fit expected, %</th><th>measured</th></tr>\n" +
          rows + "</table>\n";
 }

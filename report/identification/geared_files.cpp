@@ -28,7 +28,7 @@ svg::Panel SpectrumPanel(const std::string& title,
                          std::complex<double> GearedLine::*position) {
   svg::Panel panel{.title = title,
                    .x_label = "Hz (negative: backward)",
-                   .y_label = "um",
+                   .y_label = "µm",
                    .y_scale = svg::Scale::kLogarithmic};
   std::size_t colour = 0;
   for (const auto& [speed, lines] : speeds) {

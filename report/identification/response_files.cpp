@@ -100,7 +100,7 @@ svg::Range MagnitudeRange(const FrequencyResponse& r, const std::vector<Pair>& p
 
 svg::Panel Magnitude(const FrequencyResponse& r, const ModelLines& model,
                      const std::vector<Pair>& pairs) {
-  svg::Panel panel = EmptyPanel(r, pairs, "um/A");
+  svg::Panel panel = EmptyPanel(r, pairs, "µm/A");
   panel.y_scale = svg::Scale::kLogarithmic;
   panel.y_range = MagnitudeRange(r, pairs, *panel.x_range);
   std::vector<svg::Series> noises, datas, fits;

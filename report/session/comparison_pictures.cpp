@@ -65,7 +65,7 @@ NamedPicture OrbitsOf(const Comparison& c, std::size_t bearing, double circle_um
       fmt::format("Orbits at the sensors of {}, two turns at each speed, all on one scale",
                   c.bearings[bearing]);
   caption += circle_um > 0.0
-                 ? fmt::format("; dashed: the objective, a circle of {:g} um.", circle_um)
+                 ? fmt::format("; dashed: the objective, a circle of {:g} µm.", circle_um)
                  : ".";
   return {"orbits_" + c.bearings[bearing], std::move(caption), std::move(figure)};
 }

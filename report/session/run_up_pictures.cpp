@@ -162,7 +162,7 @@ NamedPicture Waterfall(const Recording& r, const std::vector<SynchronousPoint>& 
   }
   const std::string& name = r.rig.bearings[bearing];
   svg::Panel panel{
-      fmt::format("full spectrum over speed, {}: highest line {:.1f} um", name, highest_m * kUm),
+      fmt::format("full spectrum over speed, {}: highest line {:.1f} µm", name, highest_m * kUm),
       "Hz (negative: backward whirl)", "rpm"};
   for (const double order : {-2.0, -1.0, 1.0, 2.0}) {
     panel.series.push_back(OrderLine(order, top_rpm));

@@ -106,7 +106,7 @@ class Compare(CommandTest):
         self.assertEqual(names[:2], ["orbits_de", "orbits_nde"])
         self.assertEqual(len(names), len(pictures))
         self.assertIn("c00000", urllib.parse.unquote(pictures[0]))
-        self.assertIn("the circle of 36 um", page)
+        self.assertIn("the circle of 36 µm", page)
         self.assertNotIn("<script", page)
         self.compute("compare", "healthy.csv", *RIG, "--page", "without.html")
         page = (self.folder / "without.html").read_text(encoding="utf-8")

@@ -216,6 +216,8 @@ TEST(ColumnGuess, ReadsTheNamesOfLoggers) {
   EXPECT_EQ(QuantityOf("Drehzahl [1/min]"), "speed in rpm");
   EXPECT_EQ(QuantityOf("Angle [deg]"), "rotor_angle in deg");
   EXPECT_EQ(QuantityOf("t", "ms"), "time in ms");
+  EXPECT_EQ(QuantityOf("X_vorn", "um"), "position_front_x in um");
+  EXPECT_EQ(QuantityOf("Strom Y hinten", "a"), "control_current_rear_y in a");
   for (const char* name : {"temperature", "coil_xa_a", "X [mm]", "force_xa", "message"}) {
     EXPECT_EQ(GuessColumns({{name}, {""}, {{1.0}}}, TwoBearings()).columns[0].quantity, "") << name;
   }
