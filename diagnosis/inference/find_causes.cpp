@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "diagnosis/inference/loud_fault.hpp"
 #include "diagnosis/inference/selection_steps.hpp"
 #include "diagnosis/model/divergence.hpp"
 
@@ -52,8 +53,10 @@ void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSe
       landscape.LineariseAt(found.theta);
     }
     if (found.causes.empty()) found.calibrated_runs = landscape.view().runs;
-    if (found.causes.size() >= rules.most_causes || !AddCause(landscape, rules, share, found))
-      return;
+    bool added =
+        found.causes.size() < rules.most_causes && AddCause(landscape, rules, share, found);
+    if (stage == 0) added = TakeLoudFault(landscape, rules, found) || added;
+    if (!added) return;
     if (rules.effort.first_cause_only) return;
   }
 }

@@ -38,9 +38,19 @@ void RecordLandscape::Observe(std::size_t speed) {
 }
 
 void RecordLandscape::LineariseAt(const std::vector<double>& theta) {
+  Linearise(theta, kWhiteningOrder);
+}
+
+void RecordLandscape::LineariseUnfiltered(const std::vector<double>& theta) { Linearise(theta, 0); }
+
+double RecordLandscape::MisfitOf(const Causes& causes, const std::vector<double>& theta) const {
+  return refiner_.Misfit(theta, kWhiteningOrder, causes);
+}
+
+void RecordLandscape::Linearise(const std::vector<double>& theta, std::size_t whitening_order) {
   for (Term& term : terms_) term.family.linearised_as = term.family.shape;
   view_ = {};  // two of them do not fit into a gigabyte
-  view_ = search_.Linearise(records_, gains_, theta, kWhiteningOrder, search_.Everything());
+  view_ = search_.Linearise(records_, gains_, theta, whitening_order, search_.Everything());
 }
 
 double RecordLandscape::GainOf(const Hypothesis& cause, const Causes& given) const {

@@ -25,6 +25,11 @@ class RecordLandscape final : public EvidenceLandscape {
     return search_.Run(records_, gains_, theta);
   }
 
+  /// LineariseAt with every innovation weighed alike: no filter takes a fault for coloured noise.
+  void LineariseUnfiltered(const std::vector<double>& theta);
+  /// [nat] of these causes at theta, with a filter of its own; smaller is better.
+  [[nodiscard]] double MisfitOf(const Causes& causes, const std::vector<double>& theta) const;
+
   [[nodiscard]] const RigView& rig() const { return rig_; }
   [[nodiscard]] const std::vector<Term>& terms() const { return terms_; }
   [[nodiscard]] const Search& search() const { return search_; }
@@ -60,6 +65,8 @@ class RecordLandscape final : public EvidenceLandscape {
   void ReportProgress(double share, const std::string& what) const override;
 
  private:
+  void Linearise(const std::vector<double>& theta, std::size_t whitening_order);
+
   const RigView& rig_;
   std::vector<Term>& terms_;
   const Settings& settings_;

@@ -188,7 +188,8 @@ Refiner::Along Refiner::StepAlong(const std::vector<Hypothesis>& causes,
           here};
 }
 
-double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_order) const {
+double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_order,
+                       const std::vector<Hypothesis>& causes) const {
   const auto runs = search_.Run(records_, gains_, theta);
   const Whitener whitener = MakeWhitener(runs, axes_, whitening_order);
   std::size_t values = 0;
@@ -196,7 +197,7 @@ double Refiner::Misfit(const std::vector<double>& theta, std::size_t whitening_o
   double log_power = 0.0;
   for (const auto& filter : whitener.filter) log_power -= 2.0 * std::log(filter.front());
   const double samples = static_cast<double>(values) / static_cast<double>(axes_);
-  return 0.5 * (log_power * samples + Penalty(theta, {}));
+  return 0.5 * (log_power * samples + Penalty(theta, causes));
 }
 
 Refined Refiner::Approach(std::vector<double> start, std::size_t whitening_order,

@@ -61,9 +61,10 @@ class Refiner {
   /// residual that is not calibrated yet is not noise and must not be weighted down as such.
   [[nodiscard]] Refined Approach(std::vector<double> start, std::size_t whitening_order,
                                  int passes) const;
-  /// [nat] cost of the nuisance parameters at theta, whitened by their own innovations; compares
-  /// starts.
-  [[nodiscard]] double Misfit(const std::vector<double>& theta, std::size_t whitening_order) const;
+  /// [nat] cost of nuisances and causes at theta, whitened by their own innovations; compares
+  /// starts, and answers whose noise differs.
+  [[nodiscard]] double Misfit(const std::vector<double>& theta, std::size_t whitening_order,
+                              const std::vector<Hypothesis>& causes = {}) const;
   /// Evidence of a set on a linearisation of everything.
   [[nodiscard]] static double EvidenceOfSet(const LinearProblem& problem,
                                             const std::vector<Term>& terms,

@@ -77,7 +77,8 @@ void AddBow(const RigView& rig, std::vector<Term>& terms) {
   }
 }
 
-/// A force at the drive end that turns forward (positive order) or backward.
+/// A force at the drive end that turns forward (positive order) or backward. It is one of the shaft's
+/// angle: at rest it stays, and a record that stands and turns shows it come and go otherwise.
 void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
   const auto shape = rig.Shape(0.0);
   for (const int order : {2, -2, 3, -3}) {
@@ -85,7 +86,6 @@ void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
       terms.push_back(MakeTerm({Id::kMisalignment, AtOrder(order), PartName(part), "N"}, 0.0, 0.5,
                                [=, modes = rig.modes, period_s = rig.period_s](
                                    const SamplePoint& m, double theta, Contribution& add) {
-                                 if (m.speed_rad_per_s == 0.0F) return;
                                  const double angle =
                                      order * MidAngle(m, period_s) + part * kQuarterTurn;
                                  const double x = theta * std::cos(angle);
@@ -132,10 +132,8 @@ std::vector<Term> RotatingTerms(const RigView& rig, const Tolerances& t) {
   AddBow(rig, terms);
   AddMisalignment(rig, terms);
   AddStiffness(rig, terms);
-  // Run-out, a bow and flats are there at rest as well.
-  for (Term& term : terms) {
-    term.rotating = term.effect == Id::kUnbalance || term.effect == Id::kMisalignment;
-  }
+  // Run-out, a bow, flats and a coupling's force are there at rest as well.
+  for (Term& term : terms) term.rotating = term.effect == Id::kUnbalance;
   return terms;
 }
 

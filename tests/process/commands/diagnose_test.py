@@ -6,6 +6,7 @@ lies in its touchdown bearings are in them and must not be taken for a cause.
 
 import json
 import os
+import random
 import re
 import subprocess
 import sys
@@ -32,6 +33,50 @@ def amb(folder, *arguments):
     done = finished(folder, *arguments)
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+class DiagnoseOwnRotor(unittest.TestCase):
+    """A run from lift to landing without a test signal, of a rotor that nobody here has shipped."""
+
+    SEED = 3
+    SIX = ("--mass-kg", "12", "--length-mm", "700", "--speed-rpm", "9000", "--gap-mm", "0.5",
+           "--bias-a", "2.5", "--ki-n-per-a", "80", "--disc", "350:4:260")
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = TemporaryDirectory()
+        amb(cls.shared.name, "new", "rig", "blower", *cls.SIX)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.shared.cleanup()
+
+    def answer(self, name, effects=""):
+        """Of a run of the rig with these effects, asked with the rig file without them."""
+        folder = Path(self.shared.name)
+        own = (folder / "blower/blower.yaml").read_text()
+        (folder / "blower" / (name + ".yaml")).write_text(own + effects)
+        amb(folder, "run", "--rig", f"blower/{name}.yaml", "--record", name + ".lcm", "--no-dash")
+        printed = amb(folder, "diagnose", name + ".lcm", "--rig", "blower/blower.yaml", "--quick",
+                      "--out", name)
+        return printed, json.loads((folder / name / "diagnosis.json").read_text())
+
+    def test_a_coupling_that_pushes_at_rest_and_while_it_turns_is_named(self):
+        draw = random.Random(self.SEED)
+        force_n, phase_deg = draw.uniform(2.0, 5.0), draw.uniform(-180.0, 180.0)
+        order = draw.choice((2, -2, 3))
+        printed, answer = self.answer("hidden", "effects:\n  - {id: misalignment, z_mm: 0, "
+                                      f"order: {order}, force_n: {force_n}, phase_deg: {phase_deg}}}\n")
+        self.assertEqual(answer["cause"], "misalignment", printed)
+        forces = {p["where"]: p["value"] for p in answer["parameters"].values()
+                  if (p["effect"], p["key"]) == ("misalignment", "force_n")}
+        largest = max(forces, key=forces.get)
+        self.assertEqual(largest, f"order {order}", forces)
+        self.assertAlmostEqual(forces[largest], force_n, delta=0.1 * force_n)
+
+    def test_the_same_run_without_it_has_no_cause(self):
+        printed, answer = self.answer("healthy")
+        self.assertEqual(answer["verdict"], "none", printed)
 
 
 class DiagnoseOwnModel(unittest.TestCase):

@@ -1,0 +1,59 @@
+#include "diagnosis/inference/loud_fault.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnosis/inference/calibrate.hpp"
+
+namespace levitas::diagnosis {
+namespace {
+
+constexpr double kLoud = 1.5;
+constexpr std::size_t kMostTried = 3;
+
+/// Every filter begins with one over the rms of what it leaves.
+bool IsLoud(const std::vector<Trajectory>& runs, std::size_t axes) {
+  const Whitener behind = MakeWhitener(runs, axes, kWhiteningOrder);
+  const Whitener before = MakeWhitener(runs, axes, 0);
+  for (std::size_t a = 0; a < axes; ++a) {
+    if (behind.filter[a].front() > kLoud * before.filter[a].front()) return true;
+  }
+  return false;
+}
+
+/// The best single cause from the rig file's numbers on, all innovations weighed alike.
+CauseSet FromFile(RecordLandscape& landscape, const SelectionRules& rules) {
+  landscape.LineariseUnfiltered(landscape.search().Usual());
+  const std::vector<Candidate> screened = landscape.Screen({});
+  CauseSet best;
+  for (std::size_t i = 0; i < std::min(screened.size(), kMostTried); ++i) {
+    if (!(screened[i].score > rules.judging.decisive_nat)) break;
+    landscape.ReportProgress(0.4, "asking for " + screened[i].effect + " from the file's numbers");
+    const std::vector<Hypothesis> cause{landscape.hypotheses()[screened[i].hypothesis]};
+    best.Take(cause, landscape.Refit(cause));
+  }
+  return best;
+}
+
+}  // namespace
+
+bool TakeLoudFault(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
+  if (!IsLoud(landscape.RunAt(found.theta), landscape.rig().axes)) return false;
+  const std::vector<double> linearised_at = landscape.view().theta;
+  const double before = landscape.MisfitOf(found.causes, found.theta);
+  CauseSet loud = FromFile(landscape, rules);
+  if (loud.fit.ok) {
+    landscape.LineariseAt(loud.fit.theta);
+    Refined fit = landscape.Fit(loud.causes, loud.fit.theta, rules.effort.passes);
+    if (fit.ok &&
+        landscape.MisfitOf(loud.causes, fit.theta) < before - rules.judging.decisive_nat) {
+      found.causes = std::move(loud.causes);
+      found.theta = std::move(fit.theta);
+      return true;
+    }
+  }
+  landscape.LineariseAt(linearised_at);
+  return false;
+}
+
+}  // namespace levitas::diagnosis
