@@ -44,13 +44,19 @@ class ForeignCampaigns(unittest.TestCase):
         self.assert_named("unbalance")
 
     def test_at_one_speed_a_misalignment_is_tied_with_a_run_out(self):
-        answer = diagnose("misalignment", ("standing", "spinning"))
+        answer = diagnose("misalignment", ("spinning",))
         self.assertEqual({answer["cause"], *answer["also_possible"]},
                          {"misalignment", "sensor_runout"}, answer["candidates"][:3])
         self.assertIn("run-up", answer["next_experiment"])
 
+    def test_beside_a_record_at_rest_it_is_not(self):
+        """A coupling pushes the shaft at rest, too; an offset of a probe has its own tolerance."""
+        answer = diagnose("misalignment", ("standing", "spinning"))
+        self.assertEqual((answer["all_causes"], answer["also_possible"]), (["misalignment"], []),
+                         answer["candidates"][:3])
+
     def test_a_run_up_kept_aside_names_the_misalignment(self):
-        answer = diagnose("misalignment", ("standing", "spinning"), "runup")
+        answer = diagnose("misalignment", ("spinning",), "runup")
         self.assertEqual(answer["verdict"], "effect", answer["candidates"][:3])
         self.assertEqual(answer["all_causes"], ["misalignment"])
         self.assertEqual(answer["also_possible"], [])
@@ -58,7 +64,6 @@ class ForeignCampaigns(unittest.TestCase):
         shares = {(s["effect"], s["calibrated"]): s["share"] for s in answer["error_shares"]}
         self.assertEqual(max(shares, key=shares.get), ("misalignment", False), shares)
         self.assertAlmostEqual(sum(shares.values()), 1.0, delta=0.1)
-        self.assertLess(worth["sensor_runout"], 0.0)
         self.assertGreater(worth["misalignment"], 0.0)
 
     def test_a_clear_cause_is_not_doubted_for_a_run_up_that_cannot_show_it(self):
