@@ -71,8 +71,8 @@ void ObjectToComputed(const analysis::SensitivityResult& result, const Inputs& i
   }
 }
 
-/// One sentence names the first complaint of a kind and counts the others: eight peaks of |S| are one
-/// fault. All of them are in Verdict::objections.
+/// One sentence names the first complaint of a kind and counts the others: eight peaks of |S| are
+/// one fault. All of them are in Verdict::objections.
 std::string Summed(const std::vector<std::string>& objections) {
   constexpr std::array<std::string_view, 2> kKinds{"computed sensitivity peak",
                                                    "measured sensitivity peak"};

@@ -86,7 +86,7 @@ ExitStatus LivePage::Outlive(const std::function<ExitStatus(Ending&)>& run) {
     status = problem.status();
   }
   if (ending.interrupted) return status;
-  page_->RunEnded(EndOf(status) + (ending.verdict.empty() ? "" : " " + ending.verdict));
+  page_->RunEnded(EndOf(status) + (ending.verdict.empty() ? "" : " " + ending.verdict + "."));
   const InterruptGuard interrupts;
   say_("live page stays at " + page_->Url() + ": Ctrl-C ends it");
   static_cast<void>(rt::FlushSaid());

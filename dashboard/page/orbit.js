@@ -167,7 +167,8 @@ export function showOrbits(tick) {
     view.largest = 0;
     for (let k = 0; k < points.length; k += 2) view.largest = Math.max(view.largest, Math.hypot(points[k], points[k + 1]));
     const held = HELD.includes(tick.mode) && !tick.silent;
-    view.peak = held ? Math.max(view.peak, view.largest) : 0;
+    if (tick.mode === "lift") view.peak = 0;
+    if (held) view.peak = Math.max(view.peak, view.largest);
   });
 }
 

@@ -4,9 +4,9 @@ const at = (id) => document.getElementById(id);
 const CLASS = { levitating: "on", spinning: "on", self_test: "moving", lift: "moving", coast_down: "moving", landing: "moving", tripped: "tripped" };
 
 export function showRig(rig) {
-  at("rig").title = rig.name ? `Levitas ${rig.version}, ${rig.pace}, telemetry of ${rig.source || "lcm"}` : "";
   const with_ = [rig.controller && `controller ${rig.controller}`, rig.scenario && `scenario ${rig.scenario}`];
   at("rig").textContent = rig.name ? [rig.name, `${Math.round(1 / rig.period_s)} Hz`, ...with_.filter(Boolean)].join(", ") : "–";
+  at("rig").title = rig.name ? `${at("rig").textContent}; Levitas ${rig.version}, ${rig.pace}, telemetry of ${rig.source || "lcm"}` : "";
 }
 
 /** `end`: the mode in which the run has ended, from its last event; empty while it runs. */

@@ -28,7 +28,7 @@ std::string AgainstCircle(const Comparison& c, double circle_um) {
     const bool inside = largest_um <= circle_um;
     html += fmt::format(
         "<p class='verdict{}'>{}: largest radius {:.1f} µm at {:.0f} rpm, {} the circle of {:g} "
-        "um</p>\n",
+        "µm</p>\n",
         inside ? " good" : "", svg::Escaped(record.label), largest_um, at_rpm,
         inside ? "inside" : "outside", circle_um);
   }

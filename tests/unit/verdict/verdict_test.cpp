@@ -104,6 +104,16 @@ TEST(Judge, GradesSensitivityAndRefusesZoneC) {
             "NOT ACCEPTED: computed sensitivity peak of nde_y is 4.20 at 100 rpm, zone C");
 }
 
+TEST(Judge, CountsPeaksOfOneKindInTheSentenceAndListsThemAll) {
+  Inputs inputs = RunWith(4e-6, 20e-6);
+  inputs.sensitivity = {Loop(4.2), Loop(4.3), Loop(4.4)};
+  const Verdict verdict = Judge(inputs);
+  EXPECT_EQ(verdict.objections.size(), 3U);
+  EXPECT_EQ(verdict.sentence,
+            "NOT ACCEPTED: computed sensitivity peak of nde_y is 4.20 at 100 rpm, zone C (and 2 "
+            "more)");
+}
+
 TEST(Judge, GivesAnUnstableLoopNoGradeAndNoAcceptance) {
   Inputs inputs = RunWith(4e-6, 20e-6);
   inputs.sensitivity = {Loop(2.5, false)};

@@ -66,8 +66,8 @@ TEST(ComparisonPictures, DrawTheCircleOfTheObjectiveOnlyWhereOneIsGiven) {
 
 TEST(ComparisonPage, SaysOfEachRecordWhetherItIsInsideTheCircle) {
   const std::string page = ComparisonPage(Two(), "table", 15.0);
-  EXPECT_THAT(page, HasSubstr("pid: largest radius 20.0 um at 1910 rpm, outside"));
-  EXPECT_THAT(page, HasSubstr("h&lt;8: largest radius 5.0 um at 955 rpm, inside"));
+  EXPECT_THAT(page, HasSubstr("pid: largest radius 20.0 µm at 1910 rpm, outside"));
+  EXPECT_THAT(page, HasSubstr("h&lt;8: largest radius 5.0 µm at 955 rpm, inside"));
   EXPECT_THAT(ComparisonPage(Two(), "table", 0.0), Not(HasSubstr("largest radius")));
 }
 
