@@ -55,13 +55,17 @@ class ThePageOutlivesTheRun(unittest.TestCase):
         said = self.run_.says(STAYS)
         self.assertIn("paced at 1 x the clock", said)
         self.assertIn("Verdict on rig", said.split(STAYS)[0])  # the verdict is not held back
-        self.assertEqual(self.end(), ("The run has ended.", 0))
+        told, status = self.end()
+        self.assertTrue(told.startswith("The run has ended. NOT ACCEPTED: the rotor was not"), told)
+        self.assertEqual(status, 0)
 
     def test_after_a_trip_with_the_exit_status_of_a_trip(self):
         self.start("--dash", hold_s=600)
         until(self.url, in_mode("levitating"))
         self.assertEqual(self.post("emergency_stop")[0], 200)
-        self.assertEqual(self.end(), ("The run has ended with a trip.", 4))
+        told, status = self.end()
+        self.assertTrue(told.startswith("The run has ended with a trip. TRIPPED emergency_stop"), told)
+        self.assertEqual(status, 4)
 
     def test_not_where_ctrl_c_has_ended_the_run(self):
         self.start("--dash", hold_s=600)
