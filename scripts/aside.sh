@@ -3,6 +3,7 @@
 #
 #   setsid scripts/aside.sh build asan-ubsan tests_unit >LOG 2>&1 &    a preset's targets
 #   setsid scripts/aside.sh look >LOG 2>&1 &                           fuzz targets, then clang-tidy
+#   setsid scripts/aside.sh both asan-ubsan tests_unit >LOG 2>&1 &     one after the other
 #
 # For work beside tests: a session of its own with the lowest weight, and the policy for idle
 # processors, so that a test is preempted by nothing here. Where the system refuses a policy the
@@ -24,5 +25,13 @@ look() {
   say "clang-tidy"
   python3 "$root/scripts/tidy.py" --jobs "$(job_count)" || status=1
   return "$status"
+}
+# The status of the build is in a file as soon as it is known: who needs only what was built does not
+# wait for the look.
+both() {
+  local status=0 told=$build_root/amb-aside-build.status
+  (build "$@") || status=$?
+  echo "$status" >"$told.new" && mv "$told.new" "$told"
+  look
 }
 "$@"

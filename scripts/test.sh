@@ -142,6 +142,16 @@ aside() {
   trap 'exit 130' INT TERM
 }
 
+# Waits until what is built aside is built, and returns the status of that.
+await_build_aside() {
+  local told=$build_root/amb-aside-build.status
+  until [ -f "$told" ]; do
+    kill -0 "$aside_pid" 2>/dev/null || return 1
+    sleep 1
+  done
+  return "$(cat "$told")"
+}
+
 # Waits for it, prints what it said, and returns its status.
 end_aside() {
   local status=0
@@ -160,14 +170,14 @@ run_all() {
   # shellcheck disable=SC2086 -- one word per label is meant
   prepare_whole $test_labels
   say "built after $SECONDS s"
-  aside build asan-ubsan tests_unit tests_loop tests_replay tests_process
+  rm -f "$build_root/amb-aside-build.status"
+  aside both asan-ubsan tests_unit tests_loop tests_replay tests_process
   # Three minutes of the page's memory; its other tests need no number.
   LEVITAS_PAGE_SECONDS=180 ctest_preset release -L "^(${test_labels// /|})\$" || failed+=("release tests")
   say "release tested after $SECONDS s"
   local sanitized=yes
-  end_aside || { sanitized="" failed+=("asan-ubsan build"); }
+  await_build_aside || { sanitized="" failed+=("asan-ubsan build"); }
   say "asan-ubsan built after $SECONDS s"
-  aside look
   # A sanitizer keeps what is freed: its memory says nothing about the program's. A library loaded before
   # it, as in blind_run, is not supported by it. What is long runs the code of a shorter test on more
   # data: preset release has run it, a sanitizer would see nothing new in three times as long.

@@ -297,6 +297,26 @@ class Tests(SetUp):
         done = self.aside("exit 5")
         self.assertEqual((done.returncode, done.stdout), (3, "tests\nended with 5\n"), done.stderr)
 
+    def built_aside(self, step):
+        """What the tests hear of what is built beside them, while the rest of the step goes on."""
+        (self.root / "scripts/aside.sh").write_text(f"#!/bin/sh\n{step}\n")
+        (self.root / "scripts/aside.sh").chmod(0o755)
+        return self.run_shell('mkdir -p "$build_root"\nrm -f "$build_root/amb-aside-build.status"\n'
+                              'aside both asan-ubsan unit\nstatus=0\n'
+                              'await_build_aside || status=$?\necho "built with $status"')
+
+    def test_what_is_built_beside_the_tests_is_not_waited_for_longer_than_it_takes(self):
+        never = self.folder / "never"
+        os.mkfifo(never)
+        told = self.root / "build/amb-aside-build.status"
+        for status in (0, 7):
+            done = self.built_aside(f"echo {status} >'{told}.new'\nmv '{told}.new' '{told}'\n"
+                                    f"read line <'{never}'")
+            self.assertEqual(done.stdout, f"built with {status}\n", done.stderr)
+
+    def test_what_is_built_beside_the_tests_and_dies_is_a_failure(self):
+        self.assertEqual(self.built_aside("exit 0").stdout, "built with 1\n")
+
     def test_a_step_beside_the_tests_does_not_outlive_them(self):
         begun, never = self.folder / "begun", self.folder / "never"
         os.mkfifo(begun)
