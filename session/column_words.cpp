@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "session/csv_head.hpp"
@@ -60,7 +61,29 @@ void Add(std::string word, Words& words) {
   }
 }
 
-Words WordsOf(const std::string& name) {
+/// Letters with accents as those without: "déplacement" is one word.
+std::string WithoutAccents(std::string text) {
+  constexpr std::array<std::pair<std::string_view, char>, 11> kAccents{{{"é", 'e'},
+                                                                        {"è", 'e'},
+                                                                        {"ê", 'e'},
+                                                                        {"à", 'a'},
+                                                                        {"â", 'a'},
+                                                                        {"ä", 'a'},
+                                                                        {"ô", 'o'},
+                                                                        {"ö", 'o'},
+                                                                        {"û", 'u'},
+                                                                        {"ü", 'u'},
+                                                                        {"ç", 'c'}}};
+  for (const auto& [accent, letter] : kAccents) {
+    for (auto at = text.find(accent); at != std::string::npos; at = text.find(accent)) {
+      text.replace(at, accent.size(), 1, letter);
+    }
+  }
+  return text;
+}
+
+Words WordsOf(const std::string& written) {
+  const std::string name = WithoutAccents(written);
   Words words;
   std::string word;
   char before = ' ';

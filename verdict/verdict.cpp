@@ -30,33 +30,66 @@ void JudgePhase(const RigNumbers& rig, const PhaseFigures& phase, bool spinning,
   }
 }
 
+/// What a run is not accepted for. Peaks of |S| of one kind are one fault seen at several speeds and
+/// axes: the sentence names the largest.
+struct Objection {
+  enum class Kind : std::uint8_t { kOther, kComputedPeak, kMeasuredPeak } kind{};
+  double peak{};
+  std::string text;
+};
+
+void AddObjection(std::string text, std::vector<Objection>& objections) {
+  objections.push_back({Objection::Kind::kOther, 0.0, std::move(text)});
+}
+
+/// The sentence of them all. Each by itself is in Verdict::objections.
+std::string Summed(const std::vector<Objection>& objections) {
+  std::vector<std::string> said;
+  for (const Objection& one : objections) {
+    const auto same = [&one](const Objection& other) { return other.kind == one.kind; };
+    const auto count = std::ranges::count_if(objections, same);
+    if (one.kind == Objection::Kind::kOther || count == 1) {
+      said.push_back(one.text);
+      continue;
+    }
+    const auto largest =
+        std::ranges::max_element(objections, [&one](const Objection& a, const Objection& b) {
+          return (a.kind == one.kind ? a.peak : -1.0) < (b.kind == one.kind ? b.peak : -1.0);
+        });
+    if (&*largest != &one) continue;
+    said.push_back(fmt::format("{} (the largest of {} such peaks)", one.text, count));
+  }
+  return fmt::format("{}", fmt::join(said, "; "));
+}
+
 std::string While(bool spinning) { return spinning ? "while spinning" : "while standing"; }
 
-void ObjectToOrbit(const OrbitJudgement& at, std::vector<std::string>& objections) {
+void ObjectToOrbit(const OrbitJudgement& at, std::vector<Objection>& objections) {
   const std::string where =
       at.spinning ? fmt::format(" at {:.0f} rpm", RadPerSToRpm(at.orbit.max_speed_rad_per_s)) : "";
   if (!at.met) {
-    objections.push_back(fmt::format("{} orbit {:.1f} um {} exceeds {:.1f} um{}", at.bearing,
-                                     Micrometres(at.orbit.max_m), While(at.spinning),
-                                     Micrometres(at.objective_m), where));
+    AddObjection(fmt::format("{} orbit {:.1f} um {} exceeds {:.1f} um{}", at.bearing,
+                             Micrometres(at.orbit.max_m), While(at.spinning),
+                             Micrometres(at.objective_m), where),
+                 objections);
   }
   if (!Acceptable(at.zone)) {
-    objections.push_back(fmt::format("{} displacement of {:.2f} clearances {} is zone {}{}",
-                                     at.bearing, at.clearance_share, While(at.spinning),
-                                     Letter(at.zone), where));
+    AddObjection(fmt::format("{} displacement of {:.2f} clearances {} is zone {}{}", at.bearing,
+                             at.clearance_share, While(at.spinning), Letter(at.zone), where),
+                 objections);
   }
 }
 
 void ObjectToComputed(const analysis::SensitivityResult& result, const Inputs& in,
-                      std::vector<std::string>& objections) {
+                      std::vector<Objection>& objections) {
   const RigNumbers& rig = in.rig;
   const double speed_rpm = RadPerSToRpm(result.speed_rad_per_s);
   if (!result.point.failure.empty()) {
-    objections.push_back(fmt::format("{} (at {:.0f} rpm)", result.point.failure, speed_rpm));
+    AddObjection(fmt::format("{} (at {:.0f} rpm)", result.point.failure, speed_rpm), objections);
     return;
   }
   if (!result.stable) {
-    objections.push_back(fmt::format("the linear loop is unstable at {:.0f} rpm", speed_rpm));
+    AddObjection(fmt::format("the linear loop is unstable at {:.0f} rpm", speed_rpm), objections);
     return;
   }
   for (std::size_t i = 0; i < result.axes.size(); ++i) {
@@ -65,40 +98,22 @@ void ObjectToComputed(const analysis::SensitivityResult& result, const Inputs& i
     if (in.measured && FindGraded(*in.measured, rig.channels.at(i), result.speed_rad_per_s)) {
       continue;
     }
-    objections.push_back(fmt::format(
-        "computed sensitivity peak of {} is {:.2f} at {:.0f} rpm{}", rig.channels.at(i), axis.peak,
-        speed_rpm, axis.zone ? fmt::format(", zone {}", Letter(*axis.zone)) : ""));
+    objections.push_back(
+        {Objection::Kind::kComputedPeak, axis.peak,
+         fmt::format("computed sensitivity peak of {} is {:.2f} at {:.0f} rpm{}",
+                     rig.channels.at(i), axis.peak, speed_rpm,
+                     axis.zone ? fmt::format(", zone {}", Letter(*axis.zone)) : "")});
   }
 }
 
-/// One sentence names the first complaint of a kind and counts the others: eight peaks of |S| are
-/// one fault. All of them are in Verdict::objections.
-std::string Summed(const std::vector<std::string>& objections) {
-  constexpr std::array<std::string_view, 2> kKinds{"computed sensitivity peak",
-                                                   "measured sensitivity peak"};
-  std::vector<std::string> said;
-  std::array<std::size_t, 2> first{}, count{};
-  for (const std::string& objection : objections) {
-    const auto* kind = std::ranges::find_if(
-        kKinds, [&](std::string_view words) { return objection.starts_with(words); });
-    const auto k = static_cast<std::size_t>(kind - kKinds.begin());
-    if (k < kKinds.size() && count.at(k)++ > 0) continue;
-    if (k < kKinds.size()) first.at(k) = said.size();
-    said.push_back(objection);
-  }
-  for (std::size_t k = 0; k < kKinds.size(); ++k) {
-    if (count.at(k) > 1) said[first.at(k)] += fmt::format(" (and {} more)", count.at(k) - 1);
-  }
-  return fmt::format("{}", fmt::join(said, "; "));
-}
-
-void JudgeMeasured(const MeasuredSpeed& at, Verdict& verdict) {
+void JudgeMeasured(const MeasuredSpeed& at, Verdict& verdict, std::vector<Objection>& objections) {
   const double speed_rpm = RadPerSToRpm(at.speed_rad_per_s);
   for (const MeasuredAxis& axis : at.axes) {
     if (axis.zone && !Acceptable(*axis.zone)) {
-      verdict.objections.push_back(
-          fmt::format("measured sensitivity peak of {} is {:.2f} at {:.0f} rpm, zone {}",
-                      axis.channel, axis.peak, speed_rpm, Letter(*axis.zone)));
+      objections.push_back({Objection::Kind::kMeasuredPeak, axis.peak,
+                            fmt::format("measured sensitivity peak of {} is {:.2f} at {:.0f} rpm, "
+                                        "zone {}",
+                                        axis.channel, axis.peak, speed_rpm, Letter(*axis.zone))});
     }
     if (!axis.differs) continue;
     verdict.warnings.push_back(fmt::format(
@@ -160,23 +175,20 @@ std::string_view Name(Outcome outcome) noexcept {
 
 Verdict Judge(Inputs inputs) {
   Verdict verdict;
+  std::vector<Objection> objections;
   verdict.range = RangeOf(inputs.rig, inputs.session);
   JudgePhase(inputs.rig, inputs.session.standing, false, verdict.orbits);
   JudgePhase(inputs.rig, inputs.session.spinning, true, verdict.orbits);
   if (verdict.orbits.empty()) {
-    verdict.objections.emplace_back(
-        "the rotor was not levitated for longer than the settling time");
+    AddObjection("the rotor was not levitated for longer than the settling time", objections);
   }
-  if (inputs.session.release) {
-    verdict.objections.push_back(ReleaseSentence(*inputs.session.release));
-  }
-  for (const OrbitJudgement& at : verdict.orbits) ObjectToOrbit(at, verdict.objections);
-  for (const auto& result : inputs.sensitivity) {
-    ObjectToComputed(result, inputs, verdict.objections);
-  }
+  if (inputs.session.release) AddObjection(ReleaseSentence(*inputs.session.release), objections);
+  for (const OrbitJudgement& at : verdict.orbits) ObjectToOrbit(at, objections);
+  for (const auto& result : inputs.sensitivity) ObjectToComputed(result, inputs, objections);
   if (inputs.measured) {
-    for (const MeasuredSpeed& at : inputs.measured->speeds) JudgeMeasured(at, verdict);
+    for (const MeasuredSpeed& at : inputs.measured->speeds) JudgeMeasured(at, verdict, objections);
   }
+  for (const Objection& one : objections) verdict.objections.push_back(one.text);
   if (inputs.timing && inputs.timing->delay && !inputs.timing->delay->objection.empty()) {
     verdict.warnings.push_back(inputs.timing->delay->objection);
   }
@@ -194,7 +206,7 @@ Verdict Judge(Inputs inputs) {
     }
   } else if (!verdict.objections.empty()) {
     verdict.outcome = Outcome::kNotAccepted;
-    verdict.sentence = "NOT ACCEPTED: " + Summed(verdict.objections);
+    verdict.sentence = "NOT ACCEPTED: " + Summed(objections);
   } else {
     verdict.outcome = Outcome::kAccepted;
     verdict.sentence = fmt::format("{}: orbit {}, {}", AcceptedWhere(verdict.range),

@@ -160,7 +160,7 @@ void WriteFiles(const NewRigFiles& files, const std::array<std::string, 4>& text
   WriteTextFile(files.rig.string(), texts[0]);
   WriteTextFile(files.controller.string(), texts[1]);
   WriteTextFile(files.scenario.string(), texts[2]);
-  WriteTextFile(files.identify.string(), texts[3]);
+  if (!texts[3].empty()) WriteTextFile(files.identify.string(), texts[3]);
 }
 
 /// What each magnet carries of the weight, and whether it can.
@@ -188,6 +188,28 @@ std::string PeakText(const config::RigFile& rig, const law::LawConfig& law) {
       worst.zone ? analysis::Name(*worst.zone) : "none");
 }
 
+/// What the loop is like, the test signals that it bears, and what to type.
+void PrintWhatNext(const NewRigOptions& options, const config::RigFile& rig,
+                   const NewRigFiles& files, const TestSignal& signal, const std::string& loop) {
+  const std::string rig_file = files.rig.string();
+  if (signal.amplitude_a == 0.0) {
+    fmt::print(
+        "no test signals: the first law does not hold the rotor\n{}\n"
+        "next: check what says (assumed) in {}; a law that holds it: amb design pid --rig {} --out "
+        "pid.yaml\n",
+        loop, rig_file, rig_file);
+    return;
+  }
+  fmt::print(
+      "{}: test signals of {:.3g} A, {:.0f} s of the rig's time\n{}\n"
+      "next: check what says (assumed) in {}; amb modes --rig {}; amb run --rig {}; a law with "
+      "more margin: amb design pid --rig {} --out pid.yaml\n"
+      "to measure modes, ki and ks: amb run --rig {} --scenario {} --record id.lcm, then amb "
+      "identify modal id.lcm\n",
+      files.identify.string(), signal.amplitude_a, DurationOf(options.sketch, rig, signal), loop,
+      rig_file, rig_file, rig_file, rig_file, rig_file, files.identify.string());
+}
+
 ExitStatus Make(NewRigOptions options) {
   for (const std::string& text : options.discs) options.sketch.discs.push_back(ParseDisc(text));
   session::CheckOutputPath(options.json_path, {});
@@ -204,9 +226,14 @@ ExitStatus Make(NewRigOptions options) {
   texts[1] = SketchController(options.sketch, ChooseStartLaw(options.sketch, rig));
   const auto controller = config::ParseController(texts[1], files.controller.string(), rig.numbers);
   const auto scenario = config::ParseScenario(texts[2], files.scenario.string(), rig.numbers);
-  const TestSignal signal = TestSignalOf(rig, controller.law);
-  texts[3] = SketchIdentify(options.sketch, rig, signal);
-  static_cast<void>(config::ParseScenario(texts[3], files.identify.string(), rig.numbers));
+  const std::string unstable = UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario),
+                                            files.rig.string(), files.controller.string());
+  TestSignal signal;
+  if (unstable.empty()) {
+    signal = TestSignalOf(rig, controller.law);
+    texts[3] = SketchIdentify(options.sketch, rig, signal);
+    static_cast<void>(config::ParseScenario(texts[3], files.identify.string(), rig.numbers));
+  }
   WriteFiles(files, texts);
   fmt::print(
       "{}: rig {}, {:.6g} kg on {:.6g} mm, a shaft of {:.4g} mm; ki {:.4g} N/A, ks {:.4g} N/m\n",
@@ -215,19 +242,12 @@ ExitStatus Make(NewRigOptions options) {
   PrintLoads(options.sketch, numbers);
   fmt::print("{}: a start for its law\n{}: lift, {:.6g} rpm, stop, land\n",
              files.controller.string(), files.scenario.string(), options.sketch.max_speed_rpm);
-  fmt::print("{}: test signals of {:.3g} A for amb identify modal and amb diagnose\n",
-             files.identify.string(), signal.amplitude_a);
-  const std::string unstable = UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario),
-                                            files.rig.string(), files.controller.string());
-  fmt::print("{}\n", unstable.empty() ? PeakText(rig, controller.law) : unstable);
-  fmt::print(
-      "next: check what says (assumed) in {0}; amb modes --rig {0}; amb run --rig {0}; a law with "
-      "more margin: amb design pid --rig {0} --out pid.yaml\n",
-      files.rig.string());
+  PrintWhatNext(options, rig, files, signal,
+                unstable.empty() ? PeakText(rig, controller.law) : unstable);
   WriteJsonFile(options.json_path, {{"rig", files.rig.string()},
                                     {"controller", files.controller.string()},
                                     {"scenario", files.scenario.string()},
-                                    {"identify", files.identify.string()},
+                                    {"identify", texts[3].empty() ? "" : files.identify.string()},
                                     {"excitation_a", signal.amplitude_a},
                                     {"stable", unstable.empty()},
                                     {"shaft_diameter_m", 1e-3 * numbers.diameter_mm},

@@ -1,8 +1,10 @@
 #pragma once
-// What to type after a run that its verdict did not accept.
+// What to type after a run.
 //
-// Said     where |S| or an orbit was too large: the commands that show the loop and make a law for
-//          the rig; of a run with test signals, what its record is for.
+// Said     of a run with test signals, what its record is for, whatever its verdict; where a run is
+//          not accepted for |S| or an orbit, the commands that show the loop as it was run and make
+//          a law for the rig, under a file name that is free.
+// Silent   after a run with another bias current than the file's: the file's loop is another one.
 // Thread   any. Failure: none.
 
 #include <string>
@@ -13,9 +15,15 @@ struct Verdict;
 
 namespace levitas::cli {
 
-/// One line without its end; empty where there is nothing to advise. `rig_name` as a command takes
-/// it; `record` the kept session, or empty.
-[[nodiscard]] std::string NextStep(const verdict::Verdict& verdict, const std::string& rig_name,
-                                   const std::string& record);
+/// The run as it was asked for, in words that a command takes.
+struct RunAsAsked {
+  std::string rig{};
+  std::string controller{};  ///< empty: the rig's own
+  std::string record{};      ///< the kept session, or empty
+  bool other_bias{};
+};
+
+/// One line without its end; empty where there is nothing to advise.
+[[nodiscard]] std::string NextStep(const verdict::Verdict& verdict, const RunAsAsked& run);
 
 }  // namespace levitas::cli

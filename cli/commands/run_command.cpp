@@ -145,7 +145,9 @@ ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunP
     WriteJsonFile(options.json_path, verdict::Json(verdict));
     if (!options.record_path.empty()) EnterRun(paths.session, verdict, options.tags);
     if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
-    const std::string next = NextStep(verdict, options.rig, options.record_path);
+    const std::string next = NextStep(
+        verdict,
+        {options.rig, options.controller, options.record_path, options.bias_current_a.has_value()});
     if (!next.empty()) fmt::print("{}\n", next);
     const bool incomplete = verdict.outcome == verdict::Outcome::kIncomplete;
     if (status == ExitStatus::kDone && !incomplete) RequireRun(options.required, verdict);

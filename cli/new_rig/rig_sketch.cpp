@@ -200,7 +200,8 @@ std::string SketchRig(const RigSketch& sketch, const std::string& controller_fil
       "coils:\n"
       "  bias_current_a: {:.6g}\n"
       "  max_current_a: {:.6g}         # twice the bias: the control current may use all of it\n\n",
-      sketch.name, 1e6 / sketch.rate_hz, sketch.delay_samples, sketch.bias_a, 2.0 * sketch.bias_a);
+      sketch.name, 1e-3 * std::round(1e9 / sketch.rate_hz), sketch.delay_samples, sketch.bias_a,
+      2.0 * sketch.bias_a);
   text += RotorText(sketch, n) + "bearings:\n";
   for (std::size_t b = 0; b < 2; ++b) text += BearingText(sketch, n, b);
   text += fmt::format(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "analysis/critical_speeds.hpp"
 #include "analysis/loop_response.hpp"
@@ -47,16 +48,26 @@ double DeviationPerAmpere(const config::RigFile& rig, const law::LawConfig& law,
   return std::sqrt(variance.maxCoeff());
 }
 
-/// The share of top speed nearest to `wanted`, at or below it, that no critical speed is near.
-double Away(double wanted, const std::vector<double>& critical) {
+/// The speed nearest to `wanted`, half of it to one and a half, that no critical speed is near; none
+/// where they leave no room.
+std::optional<double> Away(double wanted, const std::vector<double>& critical) {
   const auto near = [&](double speed) {
     return std::ranges::any_of(
         critical, [&](double at) { return std::abs(speed - at) < kAwayFromCritical * at; });
   };
-  for (double speed = wanted; speed > 0.5 * wanted; speed -= 0.02 * wanted) {
-    if (!near(speed)) return speed;
+  constexpr int kSteps = 25;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double by = 0.5 * wanted * i / kSteps;
+    for (const double speed : {wanted - by, wanted + by}) {
+      if (!near(speed)) return speed;
+    }
   }
-  return wanted;
+  return std::nullopt;
+}
+
+/// Of one axis [s].
+double HoldOf(const RigSketch& sketch, const TestSignal& signal) {
+  return kPeriods * (std::exp2(signal.order) - 1.0) * signal.divisor / sketch.rate_hz;
 }
 
 /// Two figures, downwards: a number one would have typed.
@@ -87,15 +98,27 @@ TestSignal TestSignalOf(const config::RigFile& rig, const law::LawConfig& law) {
     critical.push_back(crossing.speed_rad_per_s);
   }
   for (const double share : {0.25, 0.5}) {
-    signal.speeds_rad_per_s.push_back(Away(share * top, critical));
+    if (const auto speed = Away(share * top, critical)) signal.speeds_rad_per_s.push_back(*speed);
   }
+  std::ranges::sort(signal.speeds_rad_per_s);
   return signal;
+}
+
+double DurationOf(const RigSketch& sketch, const config::RigFile& rig, const TestSignal& signal) {
+  constexpr double kBetween = 0.3;
+  constexpr double kAround = 2.5;  // lift, settle, land
+  const double axes = static_cast<double>(rig.numbers.channels.size());
+  const double each = HoldOf(sketch, signal) + kBetween;
+  const double speeds = static_cast<double>(signal.speeds_rad_per_s.size());
+  const double fastest =
+      signal.speeds_rad_per_s.empty() ? 0.0 : RadPerSToRpm(signal.speeds_rad_per_s.back());
+  return kAround + (1.0 + speeds) * axes * each + 0.5 * speeds +
+         2.0 * fastest / SketchAcceleration(sketch);
 }
 
 std::string SketchIdentify(const RigSketch& sketch, const config::RigFile& rig,
                            const TestSignal& signal) {
-  const double hold_s =
-      kPeriods * (std::exp2(signal.order) - 1.0) * signal.divisor / sketch.rate_hz;
+  const double hold_s = HoldOf(sketch, signal);
   std::string text = fmt::format(
       "kind: scenario\n"
       "name: {}_identify\n\n"

@@ -38,17 +38,20 @@ CauseSet FromFile(RecordLandscape& landscape, const SelectionRules& rules) {
 }  // namespace
 
 bool TakeLoudFault(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
-  if (!IsLoud(landscape.RunAt(found.theta), landscape.rig().axes)) return false;
+  if (rules.most_causes == 0 || !IsLoud(landscape.RunAt(found.theta), landscape.rig().axes))
+    return false;
   const std::vector<double> linearised_at = landscape.view().theta;
   const double before = landscape.MisfitOf(found.causes, found.theta);
   CauseSet loud = FromFile(landscape, rules);
   if (loud.fit.ok) {
     landscape.LineariseAt(loud.fit.theta);
     Refined fit = landscape.Fit(loud.causes, loud.fit.theta, rules.effort.passes);
-    if (fit.ok &&
-        landscape.MisfitOf(loud.causes, fit.theta) < before - rules.judging.decisive_nat) {
+    // By as much as a cause must lead to be suspected: a model is never exact.
+    const double most = before - rules.judging.suspected_nat;
+    if (fit.ok && landscape.MisfitOf(loud.causes, fit.theta) < most) {
       found.causes = std::move(loud.causes);
       found.theta = std::move(fit.theta);
+      found.refitted.clear();  // they were weighed by the filter that hid it
       return true;
     }
   }

@@ -10,7 +10,8 @@
 //          which is nearly white here, it is 1.0 to 1.1.
 // Decides  the likelihood with a filter of its own for each answer (Refiner::Misfit), which no
 //          estimate of the noise from a wrong model can lead astray.
-// Cost     where something is loud two linearisations and three fits, else one run.
+//          The other answer must be better by what suspects a cause (Judging::suspected_nat).
+// Cost     where something is loud three linearisations, four fits and three runs; else one run.
 // Thread   blocks the caller, two threads inside.
 
 #include "diagnosis/inference/record_landscape.hpp"
@@ -18,7 +19,8 @@
 namespace levitas::diagnosis {
 
 /// After the first search for a cause: a single cause that explains the records better than `found`
-/// takes its place. True: it did; the landscape is linearised there. Else both are as they were.
+/// takes its place. True: it did; the landscape is linearised beside it. Else both are as they
+/// were.
 [[nodiscard]] bool TakeLoudFault(RecordLandscape& landscape, const SelectionRules& rules,
                                  CauseSelection& found);
 

@@ -26,12 +26,12 @@ struct Products {
 /// Autoregression of one axis over uninterrupted counting samples. Their sums, with the past as it
 /// is, are nearly an autocorrelation: of a loud narrow line they leave too little power, or less
 /// than none. Those of a signal that is zero where it does not count are one, with blunter lines:
-/// they are taken where the others leave so much less that this is the reason.
+/// they are taken where what the two filters leave differs by more than 30 %.
 std::vector<double> FilterOf(const std::vector<Trajectory>& runs, std::size_t axis,
                              std::size_t order) {
-  constexpr double kTooLittle = 0.7;  // of the rms; of noise both leave the same within 1 %
+  constexpr double kAlike = 0.7;  // ratio of the rms; of noise both leave the same within 1 %
   Products counting(order);
-  Products tapered(order);
+  Products zero_filled(order);
   for (const Trajectory& run : runs) {
     std::vector<double> innovations = InnovationSeries(run, axis, 0);
     const std::vector<std::uint8_t> counts = Counting(run);
@@ -42,16 +42,16 @@ std::vector<double> FilterOf(const std::vector<Trajectory>& runs, std::size_t ax
       if (counts[n] == 0) innovations[n] = 0.0;
     }
     for (std::size_t n = 0; n < innovations.size(); ++n) {
-      if (counts[n] != 0) tapered.Add(innovations, n);
+      if (counts[n] != 0) zero_filled.Add(innovations, n);
     }
   }
   std::vector<double> filter = WhiteningFilter(counting.sum, counting.count);
-  std::vector<double> blunter = WhiteningFilter(tapered.sum, tapered.count);
+  std::vector<double> zero_filled_filter = WhiteningFilter(zero_filled.sum, zero_filled.count);
   // A filter begins with one over the rms of what it leaves; where nothing is left, with one.
   const bool sound =
-      counting.sum.front() == 0.0 || (filter.front() > blunter.front() * kTooLittle &&
-                                      filter.front() * kTooLittle < blunter.front());
-  return sound ? filter : blunter;
+      counting.sum.front() == 0.0 || (filter.front() > zero_filled_filter.front() * kAlike &&
+                                      filter.front() * kAlike < zero_filled_filter.front());
+  return sound ? filter : zero_filled_filter;
 }
 
 /// [m] rms of what each axis measured about its mean in each record, of samples that count.

@@ -77,8 +77,8 @@ void AddBow(const RigView& rig, std::vector<Term>& terms) {
   }
 }
 
-/// A force at the drive end that turns forward (positive order) or backward. It is one of the
-/// shaft's angle: at rest it stays.
+/// A force at the drive end that turns forward (positive order) or backward. It depends on the
+/// shaft's angle only, so it acts at rest, too.
 void AddMisalignment(const RigView& rig, std::vector<Term>& terms) {
   const auto shape = rig.Shape(0.0);
   for (const int order : {2, -2, 3, -3}) {

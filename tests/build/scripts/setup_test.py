@@ -19,7 +19,7 @@ from waiting import LIMIT_S, until  # noqa: E402
 
 SOURCE = Path(os.environ["LEVITAS_SOURCE"])
 NEEDED = ("bash sh env sed sort comm grep head tail tee cut wc date mkdir rm touch flock awk nproc "
-          "cat basename sleep mkfifo tr setsid").split()
+          "cat basename sleep mkfifo mv tr setsid").split()
 RECORDING = '#!/bin/sh\necho "$(basename "$0") $*" >> "$CALLS"\n'
 
 

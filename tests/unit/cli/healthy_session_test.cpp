@@ -20,7 +20,8 @@ class HealthySessionTest : public testing::Test {
   HealthySessionTest() : rig_(config::LoadRig(config::FindConfig("flexible_rotor", "rigs"))) {
     setenv("LEVITAS_CATALOGUE", Catalogue().c_str(), 1);
   }
-  ~HealthySessionTest() override { unsetenv("LEVITAS_CATALOGUE"); }
+  // None, as for every test: what is forgotten here would be the catalogue of whoever tests.
+  ~HealthySessionTest() override { setenv("LEVITAS_CATALOGUE", "", 1); }
 
   [[nodiscard]] std::string Catalogue() const { return folder_ / "sessions.db"; }
 

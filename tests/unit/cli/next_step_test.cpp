@@ -12,6 +12,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Of a loop whose largest |S| lies in this zone.
 verdict::Verdict RunIn(analysis::Zone zone, verdict::Outcome outcome) {
@@ -25,29 +26,50 @@ verdict::Verdict RunIn(analysis::Zone zone, verdict::Outcome outcome) {
 }
 
 TEST(NextStep, NamesTheDesignWhereTheLoopIsPoor) {
-  EXPECT_THAT(NextStep(RunIn(analysis::Zone::kD, verdict::Outcome::kNotAccepted), "my.yaml", ""),
-              AllOf(HasSubstr("amb margins --rig my.yaml"),
-                    HasSubstr("amb design pid --rig my.yaml --out pid.yaml")));
+  EXPECT_THAT(
+      NextStep(RunIn(analysis::Zone::kD, verdict::Outcome::kNotAccepted), {.rig = "my.yaml"}),
+      AllOf(HasSubstr("amb margins --rig 'my.yaml' shows"),
+            HasSubstr("amb design pid --rig 'my.yaml' --out pid")));
 }
 
 TEST(NextStep, NamesTheDesignWhereTheOrbitIsTooLarge) {
   verdict::Verdict verdict = RunIn(analysis::Zone::kA, verdict::Outcome::kNotAccepted);
   verdict.orbits.push_back({.bearing = "de", .spinning = true, .orbit = {}, .met = false});
-  EXPECT_THAT(NextStep(verdict, "my.yaml", ""), HasSubstr("amb design pid"));
+  EXPECT_THAT(NextStep(verdict, {.rig = "my.yaml"}), HasSubstr("amb design pid"));
 }
 
 TEST(NextStep, IsSilentWhereALawWouldNotHelp) {
-  EXPECT_EQ(NextStep(RunIn(analysis::Zone::kA, verdict::Outcome::kAccepted), "my.yaml", ""), "");
+  EXPECT_EQ(NextStep(RunIn(analysis::Zone::kA, verdict::Outcome::kAccepted), {.rig = "my.yaml"}),
+            "");
   // Refused for something else: the amplifiers went off, say.
-  EXPECT_EQ(NextStep(RunIn(analysis::Zone::kB, verdict::Outcome::kNotAccepted), "my.yaml", ""), "");
-  EXPECT_EQ(NextStep(RunIn(analysis::Zone::kD, verdict::Outcome::kTripped), "my.yaml", ""), "");
+  EXPECT_EQ(NextStep(RunIn(analysis::Zone::kB, verdict::Outcome::kNotAccepted), {.rig = "my.yaml"}),
+            "");
+  EXPECT_EQ(NextStep(RunIn(analysis::Zone::kD, verdict::Outcome::kTripped), {.rig = "my.yaml"}),
+            "");
+}
+
+TEST(NextStep, IsAboutTheLawThatWasRunAndSilentAboutAnotherBias) {
+  const verdict::Verdict verdict = RunIn(analysis::Zone::kD, verdict::Outcome::kNotAccepted);
+  EXPECT_THAT(NextStep(verdict, {.rig = "r", .controller = "soft.yaml"}),
+              HasSubstr("amb margins --rig 'r' --controller 'soft.yaml'"));
+  EXPECT_EQ(NextStep(verdict, {.rig = "r", .other_bias = true}), "");
+}
+
+/// The orbit that a test signal makes says nothing of the law.
+TEST(NextStep, BlamesNoLawForTheOrbitOfATestSignal) {
+  verdict::Verdict verdict = RunIn(analysis::Zone::kA, verdict::Outcome::kNotAccepted);
+  verdict.orbits.push_back({.bearing = "de", .spinning = false, .orbit = {}, .met = false});
+  verdict.inputs.measured.emplace();
+  EXPECT_THAT(NextStep(verdict, {.rig = "r"}),
+              AllOf(HasSubstr("--record FILE"), Not(HasSubstr("design"))));
 }
 
 TEST(NextStep, SaysWhatARecordOfTestSignalsIsFor) {
   verdict::Verdict verdict = RunIn(analysis::Zone::kD, verdict::Outcome::kNotAccepted);
   verdict.inputs.measured.emplace();
-  EXPECT_THAT(NextStep(verdict, "my.yaml", "id.lcm"),
-              AllOf(HasSubstr("amb identify modal id.lcm"), HasSubstr("amb diagnose id.lcm")));
+  EXPECT_THAT(
+      NextStep(verdict, {.rig = "my.yaml", .record = "id.lcm"}),
+      AllOf(HasSubstr("amb identify modal 'id.lcm'"), HasSubstr("amb diagnose 'id.lcm' --out")));
 }
 
 }  // namespace

@@ -30,10 +30,9 @@ struct Made {
   TestSignal signal;
 };
 
-Made MakeRig(double rate_hz = 10'000.0, double gap_mm = 0.4) {
+Made MakeRig(double rate_hz = 10'000.0) {
   Made made;
   made.sketch.rate_hz = rate_hz;
-  made.sketch.gap_mm = gap_mm;
   made.rig = config::ParseRig(SketchRig(made.sketch, "c.yaml", "s.yaml"), "own.yaml");
   made.law =
       config::ParseController(SketchController(made.sketch, ChooseStartLaw(made.sketch, made.rig)),
@@ -50,28 +49,46 @@ TEST(TestSignal, NeverTakesMoreThanATenthOfTheBias) {
   EXPECT_NEAR(made.signal.orbit_limit_m, 0.4 * 0.2e-3, 1e-12);
 }
 
-/// With a gap of a tenth the same ampere moves the rotor by a larger share of its clearance.
-TEST(TestSignal, BecomesSmallerWithTheClearance) {
+/// Where the clearance is what limits it, the amplitude is in proportion to it.
+TEST(TestSignal, MovesTheRotorByAShareOfItsClearance) {
   Made made = MakeRig();
-  for (auto& bearing : made.rig.plant.bearings) bearing.touchdown.clearance_m *= 0.01;
-  const TestSignal small = TestSignalOf(made.rig, made.law);
-  EXPECT_LT(small.amplitude_a, 0.5 * made.signal.amplitude_a);
+  const auto with_clearance = [&made](double clearance_m) {
+    for (auto& bearing : made.rig.plant.bearings) bearing.touchdown.clearance_m = clearance_m;
+    return TestSignalOf(made.rig, made.law).amplitude_a;
+  };
+  const double small = with_clearance(10e-6);
+  ASSERT_LT(small, 0.1 * made.sketch.bias_a);
+  // Two figures, rounded down: up to a tenth is lost.
+  EXPECT_NEAR(with_clearance(5e-6), 0.5 * small, 0.1 * small);
 }
 
 TEST(TestSignal, StaysAwayFromCriticalSpeeds) {
-  const Made made = MakeRig();
+  Made made = MakeRig();
   const double top = made.rig.numbers.max_speed_rad_per_s;
-  ASSERT_EQ(made.signal.speeds_rad_per_s.size(), 2U);
-  EXPECT_LT(made.signal.speeds_rad_per_s[0], made.signal.speeds_rad_per_s[1]);
   const auto crossings = analysis::LevitatedCampbell(made.rig.plant, made.law, top).crossings;
   ASSERT_FALSE(crossings.empty());
-  for (const double speed : made.signal.speeds_rad_per_s) {
-    EXPECT_GT(speed, 0.1 * top);
-    EXPECT_LE(speed, 0.5 * top);
-    for (const auto& crossing : crossings) {
-      EXPECT_GE(std::abs(speed - crossing.speed_rad_per_s), 0.12 * crossing.speed_rad_per_s);
+  const double critical = crossings.front().speed_rad_per_s;
+  // A quarter of this top speed, and half of this one, would be the critical one.
+  for (const double share : {0.25, 0.5}) {
+    made.rig.numbers.max_speed_rad_per_s = critical / share;
+    const TestSignal signal = TestSignalOf(made.rig, made.law);
+    ASSERT_FALSE(signal.speeds_rad_per_s.empty());
+    for (const double speed : signal.speeds_rad_per_s) {
+      EXPECT_GE(std::abs(speed - critical), 0.12 * critical) << share;
+      EXPECT_LE(speed, 0.75 * critical / share);
     }
   }
+}
+
+TEST(TestSignal, IsOverWhenItSays) {
+  const Made made = MakeRig();
+  const auto scenario = config::ParseScenario(SketchIdentify(made.sketch, made.rig, made.signal),
+                                              "s.yaml", made.rig.numbers);
+  double held_s = 0.0;
+  for (const auto& step : scenario.steps) held_s += step.hold_s;
+  const double said_s = DurationOf(made.sketch, made.rig, made.signal);
+  EXPECT_GT(said_s, held_s);
+  EXPECT_LT(said_s, held_s + 20.0);  // twice ten seconds to half of the top speed
 }
 
 TEST(TestSignal, HasPeriodsOfAboutASecondAtAnyRate) {

@@ -218,6 +218,7 @@ TEST(ColumnGuess, ReadsTheNamesOfLoggers) {
   EXPECT_EQ(QuantityOf("t", "ms"), "time in ms");
   EXPECT_EQ(QuantityOf("X_vorn", "um"), "position_front_x in um");
   EXPECT_EQ(QuantityOf("Strom Y hinten", "a"), "control_current_rear_y in a");
+  EXPECT_EQ(QuantityOf("déplacement x arrière", "um"), "position_rear_x in um");
   for (const char* name : {"temperature", "coil_xa_a", "X [mm]", "force_xa", "message"}) {
     EXPECT_EQ(GuessColumns({{name}, {""}, {{1.0}}}, TwoBearings()).columns[0].quantity, "") << name;
   }

@@ -104,14 +104,14 @@ TEST(Judge, GradesSensitivityAndRefusesZoneC) {
             "NOT ACCEPTED: computed sensitivity peak of nde_y is 4.20 at 100 rpm, zone C");
 }
 
-TEST(Judge, CountsPeaksOfOneKindInTheSentenceAndListsThemAll) {
+TEST(Judge, NamesTheLargestOfSeveralPeaksInTheSentenceAndListsThemAll) {
   Inputs inputs = RunWith(4e-6, 20e-6);
-  inputs.sensitivity = {Loop(4.2), Loop(4.3), Loop(4.4)};
+  inputs.sensitivity = {Loop(4.2), Loop(4.4), Loop(4.3)};
   const Verdict verdict = Judge(inputs);
   EXPECT_EQ(verdict.objections.size(), 3U);
   EXPECT_EQ(verdict.sentence,
-            "NOT ACCEPTED: computed sensitivity peak of nde_y is 4.20 at 100 rpm, zone C (and 2 "
-            "more)");
+            "NOT ACCEPTED: computed sensitivity peak of nde_y is 4.40 at 100 rpm, zone C (the "
+            "largest of 3 such peaks)");
 }
 
 TEST(Judge, GivesAnUnstableLoopNoGradeAndNoAcceptance) {
