@@ -30,8 +30,8 @@ void JudgePhase(const RigNumbers& rig, const PhaseFigures& phase, bool spinning,
   }
 }
 
-/// What a run is not accepted for. Peaks of |S| of one kind are one fault seen at several speeds and
-/// axes: the sentence names the largest.
+/// What a run is not accepted for. Peaks of |S| of one kind are one fault seen at several speeds
+/// and axes: the sentence names the largest.
 struct Objection {
   enum class Kind : std::uint8_t { kOther, kComputedPeak, kMeasuredPeak } kind{};
   double peak{};

@@ -48,8 +48,8 @@ double DeviationPerAmpere(const config::RigFile& rig, const law::LawConfig& law,
   return std::sqrt(variance.maxCoeff());
 }
 
-/// The speed nearest to `wanted`, half of it to one and a half, that no critical speed is near; none
-/// where they leave no room.
+/// The speed nearest to `wanted`, half of it to one and a half, that no critical speed is near;
+/// none where they leave no room.
 std::optional<double> Away(double wanted, const std::vector<double>& critical) {
   const auto near = [&](double speed) {
     return std::ranges::any_of(

@@ -74,7 +74,8 @@ TEST(TestSignal, StaysAwayFromCriticalSpeeds) {
     const TestSignal signal = TestSignalOf(made.rig, made.law);
     ASSERT_FALSE(signal.speeds_rad_per_s.empty());
     for (const double speed : signal.speeds_rad_per_s) {
-      EXPECT_GE(std::abs(speed - critical), 0.12 * critical) << share;
+      // The sweep of another top speed finds the same crossing to 1e-9 of it.
+      EXPECT_GE(std::abs(speed - critical), (0.12 - 1e-6) * critical) << share;
       EXPECT_LE(speed, 0.75 * critical / share);
     }
   }
