@@ -42,7 +42,7 @@ void Show(std::size_t type, std::span<const std::uint8_t> payload) {
   static const session::Bytes kHeader = dashboard::EncodedHeader(1);
   static dashboard::LiveRun run;
   if (run.run_number() != 1) {
-    run = {};
+    run = dashboard::LiveRun();
     run.Take(channel::kHeader, kHeader, 0);
   }
   run.Take(kHeard[type % kHeard.size()], payload, 0);
