@@ -58,9 +58,9 @@ class LivePage {
     std::string verdict;  ///< its sentence; empty: none was reached
   };
 
-  /// The exit status of `run`, at once without a page. With one: what `run` throws is said, viewers
-  /// are told that it is over and with which verdict, and the page stays until Ctrl-C unless
-  /// interrupted by then.
+  /// The exit status of `run`, at once without a page. With one: what `run` throws is said, and
+  /// viewers are told that it is over, with its verdict. The page then stays until Ctrl-C, unless a
+  /// Ctrl-C has ended the run itself.
   [[nodiscard]] ExitStatus Outlive(const std::function<ExitStatus(Ending&)>& run);
 
  private:

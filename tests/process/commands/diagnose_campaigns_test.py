@@ -65,6 +65,8 @@ class ForeignCampaigns(unittest.TestCase):
         self.assertEqual(max(shares, key=shares.get), ("misalignment", False), shares)
         self.assertAlmostEqual(sum(shares.values()), 1.0, delta=0.1)
         self.assertGreater(worth["misalignment"], 0.0)
+        # Refuted by the run-up where it is still weighed; too far behind to be, it has no number.
+        self.assertLess(-1.0 if worth["sensor_runout"] is None else worth["sensor_runout"], 0.0)
 
     def test_a_clear_cause_is_not_doubted_for_a_run_up_that_cannot_show_it(self):
         answer = diagnose("eddy_current", ("standing", "spinning"), "runup")

@@ -15,24 +15,13 @@
 #include "common/random.hpp"
 #include "common/rotational_speed.hpp"
 #include "configuration/rig_file.hpp"
+#include "tests/unit/cli/own_sketch.hpp"
 
 namespace levitas::cli {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-
-RigSketch Sketch() {
-  return {.name = "own",
-          .mass_kg = 8.0,
-          .length_mm = 600.0,
-          .max_speed_rpm = 12'000.0,
-          .ki_n_per_a = 60.0,
-          .gap_mm = 0.4,
-          .bias_a = 2.0,
-          .bearings_mm = {},
-          .discs = {}};
-}
 
 config::RigFile RigOf(const RigSketch& sketch) {
   return config::ParseRig(SketchRig(sketch, "c.yaml", "s.yaml"), "own.yaml");

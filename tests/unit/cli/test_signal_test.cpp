@@ -11,27 +11,22 @@
 #include "cli/new_rig/test_signal.hpp"
 #include "common/rotational_speed.hpp"
 #include "configuration/rig_file.hpp"
+#include "tests/unit/cli/own_sketch.hpp"
 
 namespace levitas::cli {
 namespace {
 
 struct Made {
-  RigSketch sketch{.name = "own",
-                   .mass_kg = 8.0,
-                   .length_mm = 600.0,
-                   .max_speed_rpm = 12'000.0,
-                   .ki_n_per_a = 60.0,
-                   .gap_mm = 0.4,
-                   .bias_a = 2.0,
-                   .bearings_mm = {120.0, 460.0},
-                   .discs = {{585.0, 1.5, 180.0}}};
+  RigSketch sketch;
   config::RigFile rig;
   law::LawConfig law;
   TestSignal signal;
 };
 
 Made MakeRig(double rate_hz = 10'000.0) {
-  Made made;
+  Made made{.sketch = Sketch(), .rig = {}, .law = {}, .signal = {}};
+  made.sketch.bearings_mm = {120.0, 460.0};
+  made.sketch.discs = {{585.0, 1.5, 180.0}};
   made.sketch.rate_hz = rate_hz;
   made.rig = config::ParseRig(SketchRig(made.sketch, "c.yaml", "s.yaml"), "own.yaml");
   made.law =
