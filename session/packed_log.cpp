@@ -163,6 +163,8 @@ struct PackedReader::Impl {
       again += at - back;
       at = back;
     }
+    // Of a frame whose header it does not understand zstd takes not one byte.
+    at = std::max(at, frame_from + 1);
     for (; Fill(); ++at) {
       const auto start = static_cast<std::size_t>(at - window_from);
       const void* first = std::memchr(input.data() + start, kFrameMagic[0], window_bytes - start);

@@ -149,6 +149,32 @@ TEST_F(Packed, AFileWhoseFirstBytesAreLostIsReadFromItsNextFrame) {
   EXPECT_GE(damage_.corrupt_blocks, 1U);
 }
 
+// A word of the header alone decides whether zstd takes anything of a frame at all.
+TEST_F(Packed, AFrameWhoseHeaderIsNotUnderstoodCostsNoOther) {
+  constexpr std::size_t kFew = 40;
+  WriteSession(plain_path_, DrawRecords(kFew));
+  const std::string plain = ReadFile(plain_path_);
+  const auto frame_of = [](const std::string& part) {
+    std::string frame(ZSTD_compressBound(part.size()), '\0');
+    frame.resize(ZSTD_compress(frame.data(), frame.size(), part.data(), part.size(), 1));
+    return frame;
+  };
+  const std::string first = frame_of(plain.substr(0, plain.size() / 2));
+  const std::string second = frame_of(plain.substr(plain.size() / 2));
+  constexpr std::size_t kDescriptor = 4;  // behind the four bytes by which a frame is known
+  for (int value = 0; value < 256; ++value) {
+    std::string content = first + second;
+    content[first.size() + kDescriptor] = static_cast<char>(value);
+    const auto before = CyclesOf(content);
+    EXPECT_GE(before.size(), kFew / 3) << value;
+    content = first + second;
+    content[kDescriptor] = static_cast<char>(value);
+    const auto behind = CyclesOf(content);
+    ASSERT_GE(behind.size(), kFew / 3) << value;
+    EXPECT_EQ(behind.back(), kFew - 1) << value;
+  }
+}
+
 TEST_F(Packed, WhatFollowsTheLastFrameIsCountedAndCostsNothing) {
   EXPECT_EQ(CyclesOf(packed_ + std::string(10'000, '\0')).size(), kRecords);
   EXPECT_GE(damage_.corrupt_blocks, 1U);
