@@ -46,12 +46,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     add_link_options(-fuse-ld=lld)
   endif()
 endif()
-# For sources that are not hot, tests and commands: with a sanitizer the optimiser would take half of
-# their compile time.
+# For sources that are not hot, tests and commands. With a sanitizer they are compiled like the others:
+# an inline function of the standard library or of Eigen that stands in both is linked once, and
+# unoptimised, from a test, it made all that calls it several times as slow.
 set(levitas_unhot $<$<CONFIG:Release>:-O1>)
-if(LEVITAS_SANITIZE)
-  set(levitas_unhot -O0)
-endif()
 # What runs once a run, or waits for people: files, options, pages, the verdict. A first build takes a
 # tenth less time with it at -O1, which changes no bit of what it computes.
 set(LEVITAS_SELDOM configuration verdict dashboard doctor session_index session_report svg plant_run
