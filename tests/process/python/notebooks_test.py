@@ -5,7 +5,6 @@ Not run (status 77) where no interpreter has nbclient, ipykernel and numpy (pack
 
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -14,11 +13,11 @@ from pathlib import Path
 
 SOURCE = Path(os.environ["LEVITAS_SOURCE"])
 sys.path.insert(0, str(SOURCE / "tests/support"))
+from interpreter import SKIP_STATUS, having  # noqa: E402
 from lcm_network import BINARIES  # noqa: E402
 from waiting import LIMIT_S  # noqa: E402
 
 FOLDER = SOURCE / "examples/notebooks"
-SKIP_STATUS = 77
 # In a process of its own, so that another interpreter than this one may have the packages.
 RUN = """
 import sys, nbclient, nbformat
@@ -35,16 +34,7 @@ nbformat.write(notebook, sys.argv[3] + "/done.ipynb")
 """
 
 
-def interpreter():
-    """One that has the runner; the system's where this one is another."""
-    for name in (sys.executable, "/usr/bin/python3"):
-        if shutil.which(name) and subprocess.run([name, "-c", "import nbclient, ipykernel, numpy"], check=False,
-                                                 capture_output=True).returncode == 0:
-            return name
-    return None
-
-
-PYTHON = interpreter()
+PYTHON = having("nbclient", "ipykernel", "numpy")
 
 
 class Notebooks(unittest.TestCase):
