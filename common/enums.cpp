@@ -32,8 +32,8 @@ constexpr std::array<std::string_view, kFaultCount> kFaults{"none",
                                                             "frames_lost",
                                                             "currents_late"};
 constexpr std::array<std::string_view, kOperatorCommandCount> kCommands{
-    "none",           "lift",  "spin",   "coast_down",    "land",
-    "emergency_stop", "reset", "excite", "end_excitation"};
+    "none",           "lift",  "spin",   "coast_down",     "land",
+    "emergency_stop", "reset", "excite", "end_excitation", "mark"};
 
 }  // namespace
 

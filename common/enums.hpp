@@ -53,8 +53,9 @@ enum class OperatorCommand : std::uint8_t {
   kReset = 6,          ///< acknowledge a trip; tripped -> off
   kExcite = 7,         ///< a test signal begins with the next cycle
   kEndExcitation = 8,  ///< no test signal from this cycle on
+  kMark = 9,           ///< asks for nothing: an instant that somebody wants to find again
 };
-inline constexpr std::uint8_t kOperatorCommandCount = 9;
+inline constexpr std::uint8_t kOperatorCommandCount = 10;
 
 // Stable lower_snake_case names ("levitating", "orbit_exceeded", "spin"); "invalid" beyond the end.
 [[nodiscard]] std::string_view Name(Mode mode) noexcept;

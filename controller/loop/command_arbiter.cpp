@@ -65,8 +65,10 @@ cycle::OperatorInput CommandArbiter::Decide(const OperatorView& view) noexcept {
   if (!first_cycle_) first_cycle_ = view.cycle;
   if (TakeStop(view.cycle)) return {.command = OperatorCommand::kEmergencyStop};
   RemoteCommand remote;
-  const bool commanded = TakeRemote(remote);
-  if (commanded && end_.serves()) {
+  const bool commanded = !mark_ && TakeRemote(remote);
+  if (commanded && remote.command == OperatorCommand::kMark) {
+    mark_ = remote;
+  } else if (commanded && end_.serves()) {
     Serve(remote, view.cycle);
     return {.command = remote.command,
             .speed_rad_per_s = remote.speed_rad_per_s,
@@ -74,7 +76,18 @@ cycle::OperatorInput CommandArbiter::Decide(const OperatorView& view) noexcept {
   }
   if (commanded && remote.excitation != nullptr) ExcitationPool::GiveBack(remote.excitation);
   if (const auto why = WhyEnd(view.cycle)) end_.Begin(*why, view);
-  return end_.serves() ? Played(view) : end_.Next(view);
+  return end_.serves() ? Marked(Played(view), view.cycle) : end_.Next(view);
+}
+
+// A command has its cycle to itself; a mark is no command to the rig, and takes nothing away from
+// the scenario and its test signal: it waits for a cycle without a command.
+cycle::OperatorInput CommandArbiter::Marked(cycle::OperatorInput input,
+                                            std::uint64_t cycle) noexcept {
+  if (!mark_ || input.command != OperatorCommand::kNone) return input;
+  Serve(*mark_, cycle);
+  mark_.reset();
+  input.command = OperatorCommand::kMark;
+  return input;
 }
 
 std::optional<EndEvent> CommandArbiter::WhyEnd(std::uint64_t cycle) const noexcept {

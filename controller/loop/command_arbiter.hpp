@@ -102,6 +102,9 @@ class CommandArbiter final : public OperatorSource {
   [[nodiscard]] bool TakeStop(std::uint64_t cycle) noexcept;
   [[nodiscard]] bool TakeRemote(RemoteCommand& remote) noexcept;
   [[nodiscard]] cycle::OperatorInput Played(const OperatorView& view) noexcept;
+  /// With the mark that waits, if this cycle has no command.
+  [[nodiscard]] cycle::OperatorInput Marked(cycle::OperatorInput input,
+                                            std::uint64_t cycle) noexcept;
   void Serve(const RemoteCommand& remote, std::uint64_t cycle) noexcept;
   /// What there is to end the run for; nothing while it goes on.
   [[nodiscard]] std::optional<EndEvent> WhyEnd(std::uint64_t cycle) const noexcept;
@@ -110,6 +113,7 @@ class CommandArbiter final : public OperatorSource {
   std::optional<std::uint64_t> first_cycle_;
   scenario::ScenarioPlayer* player_;
   RemoteDesk remote_;
+  std::optional<RemoteCommand> mark_;
   std::int64_t stop_received_ns_{0};
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> emergency_requested_{false};

@@ -54,7 +54,8 @@ std::string ModeTableDocument() {
       "two. `LEVITAS_WRITE_DOCS=1` makes that test write this chapter anew.\n\n"
       "A command without an edge here is refused; `excite` changes no state and is refused where "
       "the "
-      "excitation is not passed on, `end_excitation` never. An emergency stop is a stop fault, "
+      "excitation is not passed on, `end_excitation` and `mark` never. An emergency stop is a stop "
+      "fault, "
       "whether an "
       "operator asks for it or the rig's own chain opens.\n\n### Diagram\n\n";
   text += StateDiagram(State::kOff, kEdges);

@@ -38,6 +38,7 @@ std::optional<Event> CommandEvent(OperatorCommand command) noexcept {
     case OperatorCommand::kEmergencyStop:  // a fault, see Protections
     case OperatorCommand::kExcite:         // no edge: the state stays, see Refuses
     case OperatorCommand::kEndExcitation:
+    case OperatorCommand::kMark:
       break;
   }
   return std::nullopt;

@@ -1,8 +1,10 @@
-// Markers: instants that somebody wants to find again. They are this page's own: a line in the
-// traces and the events, and a column of what is saved.
+// Markers: instants that somebody wants to find again. The text is this page's own: a line in the
+// traces and the events, and a column of what is saved. The instant is the controller's, too: its
+// command `mark` asks the rig for nothing and stands in the session, with its cycle.
 
 import { addEvent } from "./events.js";
 import { newest } from "./history.js";
+import { send } from "./link.js";
 
 const MOST = 200;
 let markers = [];  // {time, text}
@@ -19,6 +21,8 @@ export function mark() {
   markers.push({ time, text });
   if (markers.length > MOST) markers.shift();
   addEvent({ time_s: time, severity: 0, text: "⚑ " + text });
+  // Nobody waits for its answer: the controller's own event says that it is in the session.
+  send("api/command", { command: "mark" });
 }
 
 /** Draws them into a plot over time. */

@@ -12,7 +12,7 @@ from . import messages
 from .session import MODES
 
 MAGIC = 0x4C433032
-COMMANDS = {"lift": 1, "spin": 2, "coast_down": 3, "land": 4, "emergency_stop": 5, "reset": 6, "end_excitation": 8}
+COMMANDS = {"lift": 1, "spin": 2, "coast_down": 3, "land": 4, "emergency_stop": 5, "reset": 6, "end_excitation": 8, "mark": 9}
 ACCEPTED = 1
 RPM = 3.141592653589793 / 30.0
 
@@ -126,3 +126,7 @@ class Controller:
 
     def reset(self):
         return self.command("reset")
+
+    def mark(self):
+        """An instant to find again: the event "command mark (cycle N)" of the session."""
+        return self.command("mark")

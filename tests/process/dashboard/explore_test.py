@@ -214,6 +214,7 @@ class Exploring(unittest.TestCase):
         page.value("document.getElementById('marker-text').value = 'a \"knock\"'")
         self.press(page, "#marker [type=submit]")
         page.until("document.getElementById('events').textContent.includes('a \"knock\"')")
+        page.until("document.getElementById('events').textContent.includes('command mark (cycle ')")
         self.later(page, 1)
         self.press(page, "#record")
 

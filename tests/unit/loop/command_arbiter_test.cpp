@@ -41,6 +41,53 @@ TEST(CommandArbiter, PassesARemoteCommandOnOnce) {
   EXPECT_EQ(desk.Next(View(1, Mode::kLevitating)).command, OperatorCommand::kNone);
 }
 
+/// A test signal of 20 cycles, then a landing: the cycles of a scenario that has both.
+scenario::ScenarioConfig SignalThenLand() {
+  scenario::Excitation bits;
+  bits.order = 5;
+  bits.amplitude_a = 0.25;
+  scenario::Step signal;
+  signal.hold_s = 20 * kOptions.period_s;
+  signal.excitation.push_back(bits);
+  scenario::Step land;
+  land.command = OperatorCommand::kLand;
+  land.hold_s = 1.0;
+  return {.name = "marked", .steps = {signal, land}, .rig_events = {}};
+}
+
+TEST(CommandArbiter, AMarkTakesNothingFromTheScenarioAndWaitsForACycleWithoutCommand) {
+  std::optional<std::uint64_t> landed;
+  constexpr std::uint64_t kCycles = 60;
+  std::vector<cycle::OperatorInput> unmarked;
+  {
+    scenario::ScenarioPlayer player(SignalThenLand(), kOptions.period_s, 1.0);
+    CommandArbiter desk(kOptions, &player, {});
+    for (std::uint64_t cycle = 0; cycle < kCycles; ++cycle) {
+      unmarked.push_back(desk.Next(View(cycle, Mode::kLevitating)));
+      if (unmarked.back().command == OperatorCommand::kLand) landed = cycle;
+    }
+  }
+  ASSERT_TRUE(landed);
+  for (const std::uint64_t asked : {std::uint64_t{5}, *landed}) {
+    SpscRing<RemoteCommand> ring(4);
+    SpscRing<GivenCommand> given(4);
+    scenario::ScenarioPlayer player(SignalThenLand(), kOptions.period_s, 1.0);
+    CommandArbiter desk(kOptions, &player, {&ring, nullptr, &given});
+    const std::uint64_t marked = asked == *landed ? asked + 1 : asked;
+    for (std::uint64_t cycle = 0; cycle < kCycles; ++cycle) {
+      if (cycle == asked) ring.Post({.command = OperatorCommand::kMark, .origin = {3, 7}});
+      const auto input = desk.Next(View(cycle, Mode::kLevitating));
+      EXPECT_EQ(input.excitation_a, unmarked[cycle].excitation_a) << cycle;
+      EXPECT_EQ(input.command, cycle == marked ? OperatorCommand::kMark : unmarked[cycle].command)
+          << cycle;
+    }
+    GivenCommand answered;
+    ASSERT_TRUE(given.Take(answered));
+    EXPECT_EQ(answered.cycle, marked);
+    EXPECT_EQ(answered.origin.sequence, 7);
+  }
+}
+
 TEST(CommandArbiter, EndsAtOnceWhenStoppedWithTheRotorDown) {
   CommandArbiter desk(kOptions, nullptr, {});
   desk.RequestStop();

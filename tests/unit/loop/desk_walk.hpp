@@ -235,8 +235,8 @@ class WalkNetwork {
  private:
   void Command(std::uint64_t cycle) {
     using enum OperatorCommand;
-    constexpr std::array kAsked{kLift,   kSpin,   kSpin,          kCoastDown, kReset,
-                                kExcite, kExcite, kEndExcitation, kLand,      kNone};
+    constexpr std::array kAsked{kLift,   kSpin,          kSpin, kCoastDown, kReset, kExcite,
+                                kExcite, kEndExcitation, kLand, kMark,      kNone};
     RemoteCommand command{.command = kAsked[draw_.Bits() % kAsked.size()],
                           .speed_rad_per_s = 50.0,
                           .acceleration_rad_per_s2 = 5.0,

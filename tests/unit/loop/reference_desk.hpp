@@ -51,6 +51,7 @@ class ReferenceDesk {
       } else if (player_ != nullptr) {
         Play(view, input);
       }
+      Mark(view.cycle, input);
     }
     Signal(view, input);
     guard_.Limit(view.position_m, input.excitation_a, input.excitation_m);
@@ -92,9 +93,11 @@ class ReferenceDesk {
   // A command that its sender gave before a stop is dropped after it.
   std::optional<RemoteCommand> Remote() {
     RemoteCommand command;
-    while (remote_.commands != nullptr && remote_.commands->Take(command)) {
+    while (!mark_ && remote_.commands != nullptr && remote_.commands->Take(command)) {
       if (remote_.stops == nullptr || command.stops_before >= remote_.stops->taken()) {
-        return command;
+        if (command.command != OperatorCommand::kMark) return command;
+        mark_ = command;
+        break;
       }
       GiveBack(command.excitation);
     }
@@ -113,6 +116,14 @@ class ReferenceDesk {
     input.speed_rad_per_s = remote.speed_rad_per_s;
     input.acceleration_rad_per_s2 = remote.acceleration_rad_per_s2;
     if (remote_.given != nullptr) remote_.given->Post({cycle, remote.origin});
+  }
+
+  // In the first cycle that nobody commands anything in, beside what the scenario adds to it.
+  void Mark(std::uint64_t cycle, cycle::OperatorInput& input) {
+    if (!mark_ || end_ || input.command != OperatorCommand::kNone) return;
+    input.command = OperatorCommand::kMark;
+    if (remote_.given != nullptr) remote_.given->Post({cycle, mark_->origin});
+    mark_.reset();
   }
 
   [[nodiscard]] bool EndWanted(std::uint64_t cycle) const {
@@ -206,6 +217,7 @@ class ReferenceDesk {
   scenario::ExcitationGuard guard_;
   std::optional<std::uint64_t> first_;
   std::optional<EndSoFar> end_;
+  std::optional<RemoteCommand> mark_;
   ExcitationPool::Slot* playing_{nullptr};
   bool answered_{false};
   bool must_say_end_{false};

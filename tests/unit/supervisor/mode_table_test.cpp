@@ -137,7 +137,8 @@ TEST(ModeTable, LetsATestSignalBeginOnlyWhereCurrentsAreInjectedAndAlwaysLetsItE
   const std::set<State> passing{State::kLevitating, State::kSpinning, State::kCoastDown};
   for (std::size_t i = 0; i < kStateCount; ++i) {
     const State state = At<State>(i);
-    for (const auto command : {OperatorCommand::kExcite, OperatorCommand::kEndExcitation}) {
+    for (const auto command :
+         {OperatorCommand::kExcite, OperatorCommand::kEndExcitation, OperatorCommand::kMark}) {
       Driver driver;
       driver.GoTo(state);
       const Decision& decision = driver.Step(command);

@@ -27,8 +27,9 @@ class Chaos {
     if (draw_.Bits() % 12 != 0) return request;
     // Lift and spin are wanted most: most walks would else stay in off.
     using enum OperatorCommand;
-    static constexpr std::array kWanted{kLift,      kLift,      kSpin, kSpin,          kSpin,
-                                        kCoastDown, kCoastDown, kLand, kEmergencyStop, kReset};
+    static constexpr std::array kWanted{kLift,          kLift,      kSpin,      kSpin,
+                                        kSpin,          kCoastDown, kCoastDown, kLand,
+                                        kEmergencyStop, kReset,     kMark};
     request.command = kWanted[draw_.Bits() % kWanted.size()];
     static constexpr std::array kSpeeds{0.0, 300.0, -600.0, 601.0, kWalkNan};
     static constexpr std::array kRates{50.0, 7.7e7, 1.0, 0.0, kWalkNan};
@@ -238,7 +239,7 @@ TEST(RandomWalk, StaysWithinTheAutomatonOfTheDocument) {
   Visits visits;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     // From a healthy rig to one that is ill half of the time.
-    ASSERT_NO_FATAL_FAILURE(Walk(seed, 0.008 * static_cast<double>(seed), 5000, visits));
+    ASSERT_NO_FATAL_FAILURE(Walk(seed, 0.008 * static_cast<double>(seed), 8000, visits));
   }
   // A walk that goes nowhere proves nothing: every state and nearly every cause was met.
   for (std::size_t i = 0; i < kStateCount; ++i) {

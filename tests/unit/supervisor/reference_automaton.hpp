@@ -37,8 +37,10 @@ class ReferenceAutomaton {
 
   Answer Step(const Cycle& seen) {
     Answer answer;
-    const bool ordinary =
-        seen.command != OperatorCommand::kNone && seen.command != OperatorCommand::kEmergencyStop;
+    // A mark asks for nothing that could be refused.
+    const bool ordinary = seen.command != OperatorCommand::kNone &&
+                          seen.command != OperatorCommand::kEmergencyStop &&
+                          seen.command != OperatorCommand::kMark;
     if (seen.found != Fault::kNone) {
       if (!Tripped()) {
         cause_ = seen.found;
