@@ -1,8 +1,11 @@
 #pragma once
-// The same work for every index, by as many threads as the machine has processors.
+// The same work for every index, by as many threads as this process may use processors.
 //
 // Result  what belongs to an index alone is the same however many threads there are; which thread
-//         does which index is not said.
+//         does which index is not said. A sum whose rounding must not depend on their number is
+//         kept per index, in a number of parts that is a constant.
+// Number  the processors that the process may run on (`taskset -c 0` makes it one), or
+//         LEVITAS_THREADS where that is set.
 // Thread  blocks the caller, which is one of them. Failure: what `work` throws ends the program.
 
 #include <algorithm>
@@ -13,11 +16,13 @@
 
 namespace levitas {
 
-/// work(i) for every i below `count`, the lower ones begun first. `threads` 0: the machine's.
+/// At least 1. Failure: a Problem of status 2 where LEVITAS_THREADS is no number from 1 to 1024.
+[[nodiscard]] std::size_t Processors();
+
+/// work(i) for every i below `count`, the lower ones begun first. `threads` 0: Processors().
 template <class Work>
 void EachInParallel(std::size_t count, std::size_t threads, const Work& work) {
-  const std::size_t processors = std::max<std::size_t>(1, std::thread::hardware_concurrency());
-  const std::size_t used = std::min(threads == 0 ? processors : threads, count);
+  const std::size_t used = std::min(threads == 0 ? Processors() : threads, count);
   std::atomic<std::size_t> next{0};
   const auto share = [&next, &work, count] {
     for (std::size_t i = next++; i < count; i = next++) work(i);

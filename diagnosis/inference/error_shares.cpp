@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/model/parallel_for.hpp"
+#include "common/each_in_parallel.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -73,7 +73,7 @@ std::vector<ErrorShare> ErrorShares(const Search& search, const std::vector<Term
   const double whole = ProjectedChange({file, model, file, model}, noise_rms_m);
   if (!(whole > 0.0)) return {};
   std::vector<Group> groups = GroupsOf(terms, answer);
-  ParallelFor(groups.size(), [&](std::size_t g, std::size_t) {
+  EachInParallel(groups.size(), 0, [&](std::size_t g) {
     std::vector<double> added = of_file;
     std::vector<double> taken_out = answer.theta_extended;
     for (const std::size_t i : groups[g].terms) std::swap(added[i], taken_out[i]);

@@ -6,7 +6,7 @@
 
 #include "common/random.hpp"
 #include "diagnosis/inference/fit_gain.hpp"
-#include "diagnosis/model/parallel_for.hpp"
+#include "common/each_in_parallel.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -144,7 +144,7 @@ Forecast Foretell(const Search& search, const std::vector<Term>& terms, const Se
   for (std::size_t i = 0; i < kForecastDraws; ++i) drawn.push_back(Draw(terms, answer, random));
   std::vector<std::vector<std::vector<double>>> apart(drawn.size());
   auto from_file = apart;
-  ParallelFor(drawn.size(), [&](std::size_t i, std::size_t) {
+  EachInParallel(drawn.size(), 0, [&](std::size_t i) {
     const auto draw = search.RunAlone(records, gains, drawn[i]);
     apart[i] = Apart(bands, model, draw, axes);
     from_file[i] = Apart(bands, file, draw, axes);

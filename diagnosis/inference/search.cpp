@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "analysis/records/recorded_rows.hpp"
-#include "diagnosis/model/parallel_for.hpp"
+#include "diagnosis/model/longest_first.hpp"
 
 namespace levitas::diagnosis {
 namespace {

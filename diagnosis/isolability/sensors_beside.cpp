@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnosis/model/parallel_for.hpp"
+#include "common/each_in_parallel.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -45,7 +45,7 @@ SensorsBeside::SensorsBeside(const HealthyModel& model)
     sensors_[s].healthy = Read(s, healthy);
     sensors_[s].slope.setZero(sensors_[s].healthy.size(), terms);
   }
-  ParallelFor(model.own_terms(), [&](std::size_t i, std::size_t /*thread*/) {
+  EachInParallel(model.own_terms(), 0, [&](std::size_t i) {
     constexpr double kShare = 0.1;  // of its scale
     std::vector<double> theta = model.theta();
     theta[i] += kShare * model.terms()[i].scale();

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/model/levinson.hpp"
-#include "diagnosis/model/parallel_for.hpp"
+#include "common/each_in_parallel.hpp"
 
 namespace levitas::levitator {
 namespace {
@@ -90,7 +90,7 @@ Eigen::VectorXd Misfit::Whitened(const Raw& raw, std::size_t record, const Filte
 
 double Misfit::SquaredSum(const Theta& theta, const Filters& filters) const {
   std::vector<double> sums(series_.size(), 0.0);
-  diagnosis::ParallelFor(series_.size(), [&](std::size_t record, std::size_t) {
+  EachInParallel(series_.size(), 0, [&](std::size_t record) {
     sums[record] = Whitened(RawOf(theta, record), record, filters).squaredNorm();
   });
   double sum = 0.0;
@@ -133,7 +133,7 @@ Sums Misfit::LineariseOne(const Theta& theta, const Filters& filters,
 Sums Misfit::Linearise(const Theta& theta, const Filters& filters,
                        const std::vector<std::size_t>& active) const {
   std::vector<Sums> parts(series_.size());
-  diagnosis::ParallelFor(series_.size(), [&](std::size_t record, std::size_t) {
+  EachInParallel(series_.size(), 0, [&](std::size_t record) {
     parts[record] = LineariseOne(theta, filters, active, record);
   });
   Sums total = parts.front();

@@ -5,12 +5,16 @@
 #include "diagnosis/model/convolve.hpp"
 #include "diagnosis/model/cross_products.hpp"
 #include "diagnosis/model/innovation_series.hpp"
-#include "diagnosis/model/parallel_for.hpp"
+#include "diagnosis/model/longest_first.hpp"
 
 namespace levitas::diagnosis {
 namespace {
 
 using Eigen::Index;
+
+/// Parts that a sum over a record is kept in, each by one thread at a time: as many however many
+/// threads there are, so that its rounding does not depend on their number.
+constexpr std::size_t kParts = 8;
 
 /// Terms that can act in a record: what turns adds nothing at rest.
 std::vector<std::size_t> Acting(const Trajectory& run, const std::vector<Term>& terms,
@@ -181,11 +185,13 @@ NormalEquations Slopes::Sum(const std::vector<Trajectory>& runs, const Whitener&
   for (std::size_t r = 0; r < parts_.size(); ++r) {
     const Part& part = parts_[r];
     const std::size_t samples = runs[r].moments.size();
-    std::vector<Stretch> sums(kThreads, Stretch(part.acting.size()));
+    std::vector<Stretch> sums(kParts, Stretch(part.acting.size()));
     const std::size_t stretches = (samples + kProductRows - 1) / kProductRows;
     const Weighed run(runs[r], axes_, whitener);
-    ParallelFor(stretches * axes_, [&](std::size_t i, std::size_t thread) {
-      sums[thread].Add(run, part.slope, i / stretches, i % stretches * kProductRows);
+    EachInParallel(sums.size(), 0, [&](std::size_t s) {
+      for (std::size_t i = s; i < stretches * axes_; i += kParts) {
+        sums[s].Add(run, part.slope, i / stretches, i % stretches * kProductRows);
+      }
     });
     for (const Stretch& sum : sums) sum.AddTo(part.acting, out);
   }
@@ -196,7 +202,7 @@ void Slopes::Renew(const std::vector<Trajectory>& runs, const Whitener& whitener
                    NormalEquations& sum) const {
   std::vector<Eigen::VectorXd> jte(parts_.size() * axes_);
   std::vector<double> ete(jte.size(), 0.0);
-  ParallelFor(jte.size(), [&](std::size_t i, std::size_t /*thread*/) {
+  EachInParallel(jte.size(), 0, [&](std::size_t i) {
     const std::size_t r = i / axes_;
     const std::size_t a = i % axes_;
     const auto samples = static_cast<Index>(runs[r].moments.size());

@@ -24,9 +24,9 @@ USAGE = 2
 BAD_INPUT = 3
 
 
-def finished(folder, *arguments):
+def finished(folder, *arguments, **variables):
     return subprocess.run([str(BINARIES / "amb"), *map(str, arguments)], cwd=folder, text=True,
-                          capture_output=True, timeout=LIMIT_S, check=False)
+                          capture_output=True, timeout=LIMIT_S, check=False, env={**os.environ, **variables})
 
 
 def amb(folder, *arguments):
@@ -101,6 +101,21 @@ class DiagnoseOwnModel(unittest.TestCase):
         printed, answer = self.diagnose("run.lcm")
         self.assertEqual(answer["verdict"], "none", printed)
         self.assertEqual(answer["all_causes"], [], printed)
+
+    def test_the_answer_is_the_same_bytes_however_many_threads_compute_it(self):
+        answers = set()
+        for threads in ("1", "2", "4"):
+            done = finished(self.shared.name, "diagnose", "--quick", "--rig", "flexible_rotor", "run.csv",
+                            "--out", "threads", "--json", "-", LEVITAS_THREADS=threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            answers.add(re.sub(r'"date_utc": *"[^"]*"', "", done.stdout))
+        self.assertEqual(len(answers), 1)
+        self.assertIn('"verdict"', answers.pop())
+
+    def test_threads_that_are_no_number_are_refused(self):
+        done = finished(self.shared.name, "diagnose", "--quick", "run.csv", "--out", "threads", LEVITAS_THREADS="many")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("LEVITAS_THREADS: found 'many', allowed 1 to 1024", done.stderr)
 
     def test_a_csv_of_the_same_run_lift_to_landing_has_no_cause(self):
         printed, answer = self.diagnose("run.csv")

@@ -5,13 +5,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "common/problem.hpp"
-#include "diagnosis/model/parallel_for.hpp"
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {
@@ -162,31 +160,6 @@ TEST(RigView, WhatComesByChanceIsKnownAndNotForetold) {
   ASSERT_EQ(view.by_chance.size(), 1U);
   EXPECT_EQ(view.by_chance[0].id, effect::Id::kDroppedSamples);
   EXPECT_EQ(view.model->config().effects.size(), own + 1);
-}
-
-TEST(ParallelFor, CallsEveryIndexOnceAndAlwaysOnTheSameThread) {
-  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}}) {
-    std::vector<int> calls(count, 0);
-    std::vector<std::size_t> thread(count, 9);
-    ParallelFor(count, [&](std::size_t i, std::size_t t) {
-      ++calls[i];
-      thread[i] = t;
-    });
-    for (std::size_t i = 0; i < count; ++i) {
-      EXPECT_EQ(calls[i], 1);
-      EXPECT_EQ(thread[i], i % kThreads);
-    }
-  }
-}
-
-TEST(LongestFirst, CallsEveryIndexOnce) {
-  for (const std::size_t count : {0U, 1U, 2U, 9U}) {
-    std::vector<std::size_t> lengths(count);
-    for (std::size_t i = 0; i < count; ++i) lengths[i] = (7 * i) % 5;
-    std::vector<std::atomic<int>> calls(count);
-    LongestFirst(lengths, [&](std::size_t i) { ++calls[i]; });
-    for (const auto& of_index : calls) EXPECT_EQ(of_index, 1);
-  }
 }
 
 }  // namespace
