@@ -6,6 +6,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "lcmtypes/checked_decode.hpp"
+#include "plant_sim/plant/train_model.hpp"
 #include "session/record_codec.hpp"
 #include "transport/lcm_network.hpp"
 
@@ -29,6 +30,16 @@ double SlowestAmplifier(const plant::PlantConfig& plant) {
     if (one_hz > 0.0 && (slowest_hz <= 0.0 || one_hz < slowest_hz)) slowest_hz = one_hz;
   }
   return slowest_hz;
+}
+
+std::vector<double> RatiosOfBearings(const plant::PlantConfig& plant) {
+  std::vector<double> ratios(plant.bearings.size(), 1.0);
+  if (plant.shafts.empty()) return ratios;
+  const std::vector<double> of_shafts = plant::SpeedRatios(plant);
+  for (std::size_t b = 0; b < ratios.size(); ++b) {
+    ratios[b] = of_shafts.at(plant.bearings[b].shaft);
+  }
+  return ratios;
 }
 
 }  // namespace
@@ -63,6 +74,7 @@ bool LiveRun::TakeHeader(std::span<const std::uint8_t> payload) {
     const config::RigFile rig = config::ParseRig(header.rig_yaml, "the announced rig");
     rig_ = rig.numbers;
     amplifier_hz_ = SlowestAmplifier(rig.plant);
+    speed_ratios_ = RatiosOfBearings(rig.plant);
   } catch (const std::exception&) {
     return false;  // of a program of another version, or no rig at all
   }

@@ -45,6 +45,8 @@ class LiveRun {
   [[nodiscard]] const std::optional<RigNumbers>& rig() const noexcept { return rig_; }
   /// [Hz] of the slowest amplifier: beyond it the loop does little. 0 before the first header.
   [[nodiscard]] double amplifier_hz() const noexcept { return amplifier_hz_; }
+  /// Speed of each bearing's shaft over that of the first; negative where it turns the other way.
+  [[nodiscard]] const std::vector<double>& speed_ratios() const noexcept { return speed_ratios_; }
   [[nodiscard]] const session::SessionHeader& header() const noexcept { return header_; }
   /// Counts the runs seen, 0 before the first.
   [[nodiscard]] std::uint64_t run_number() const noexcept { return run_number_; }
@@ -74,6 +76,7 @@ class LiveRun {
   std::function<void(const Envelope&)> on_bucket_;
   session::SessionHeader header_;
   double amplifier_hz_{0.0};
+  std::vector<double> speed_ratios_;
   std::optional<RigNumbers> rig_;
   std::uint64_t run_number_{0};
   std::optional<levitas_msg::controller_state_t> state_;

@@ -141,6 +141,7 @@ std::string RigJson(const LiveRun& run, std::int64_t server) {
     json.update({{"name", rig.name},
                  {"channels", rig.channels},
                  {"bearings", rig.bearings},
+                 {"speed_ratios", run.speed_ratios()},
                  {"period_s", rig.period_s()},
                  {"clearance_m", rig.clearance_m},
                  {"bias_a", rig.bias_current_a},

@@ -211,9 +211,10 @@ ColumnGuess GuessColumns(const SampledColumns& file, const RigNumbers& rig) {
                          range.high};
     // One column for each quantity: of two the first is taken, the other is for a person.
     if (!column.quantity.empty() && !found.insert(column.quantity).second) column.quantity.clear();
-    if (!column.quantity.empty() && column.unit.empty()) {
+    // A column that does not move (a rotor at rest, a first stretch of zeros) tells no unit.
+    if (!column.quantity.empty() && column.unit.empty() && range.low < range.high) {
       column.unit = UnitByValues(meaning, file.values[i], swing[meaning.dimension], rig);
-      column.unit_by_values = true;
+      column.unit_by_values = !column.unit.empty();
     }
     if (column.quantity == "time" && !column.unit.empty()) {
       guess.periods_a_row = MedianStep(file.values[i]) * SecondsOf(column.unit) / rig.period_s();

@@ -188,12 +188,32 @@ bool IsNameOfOurs(std::string_view name) {
          name.starts_with("speed_") || HasPrefixOfOurs(name);
 }
 
+namespace {
+
+bool IsNumeral(char c) { return c >= '0' && c <= '9'; }
+
+/// Every comma stands within a number: 0,5 or -,5.
+bool CommasAreDecimal(std::string_view line) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] != ',') continue;
+    const bool behind = i + 1 < line.size() && IsNumeral(line[i + 1]);
+    const bool before = i == 0 || IsNumeral(line[i - 1]) || line[i - 1] == '-' ||
+                        line[i - 1] == '+' || line[i - 1] == ';' || line[i - 1] == ' ';
+    if (!behind || !before) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 char SeparatorOf(std::string_view line) {
   const auto count = [line](char c) { return std::count(line.begin(), line.end(), c); };
   const auto tabs = count('\t');
   const auto semicolons = count(';');
   const auto commas = count(',');
   if (tabs > 0 && tabs >= semicolons && tabs >= commas) return '\t';
+  // A row of decimal commas may have more of them than of what parts its cells.
+  if (semicolons > 0 && CommasAreDecimal(line)) return ';';
   if (semicolons + commas > 0) return semicolons > commas ? ';' : ',';
   return line.find(' ') != std::string_view::npos ? ' ' : ',';
 }

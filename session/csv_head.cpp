@@ -182,7 +182,7 @@ std::string UnitWord(std::string_view cell) {
   std::ranges::transform(word, word.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kSame{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kSame{
       {{"µm", "um"},
        {"μm", "um"},
        {"micron", "um"},
@@ -198,7 +198,9 @@ std::string UnitWord(std::string_view cell) {
        {"min-1", "rpm"},
        {"rad/s", "rad_per_s"},
        {"°", "deg"},
-       {"degrees", "deg"}}};
+       {"degree", "deg"},
+       {"degrees", "deg"},
+       {"grad", "deg"}}};
   for (const auto& [other, ours] : kSame) {
     if (word == other) return std::string(ours);
   }

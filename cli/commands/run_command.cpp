@@ -29,6 +29,7 @@
 #include "common/whole_number.hpp"
 #include "controller/rt/say.hpp"
 #include "hil/socketcan/can_connection.hpp"
+#include "plant_sim/run/loop/timed_events.hpp"
 #include "session/output_path.hpp"
 #include "verdict/commission.hpp"
 #include "verdict/report.hpp"
@@ -178,12 +179,13 @@ RunFiles WithRigAsRun(const RunOptions& options, RunFiles files, const RunFolder
   return files;
 }
 
-/// Before anything is lifted: an unstable loop is said, an unstable block of synchronous control is
-/// refused.
+/// Before anything is lifted: an unstable loop is said; an unstable block of synchronous control,
+/// and an event for which the rig lacks the part, are refused.
 void CheckLoop(const RunOptions& options, const RunFiles& files) {
   const config::RigFile rig = config::ParseRig(files.rig_text, files.rig_path);
   const auto controller = config::LoadController(files.controller_path, files.rig);
   const auto scenario = config::LoadScenario(files.scenario_path, files.rig);
+  const plant_run::TimedEvents events(scenario, rig);  // throws for an event that cannot be
   const std::string text = UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario), options.rig,
                                         files.controller_path);
   if (!text.empty()) rt::Say("amb: warning: " + text);

@@ -14,21 +14,23 @@ const KEEP = 10;  // older orbits, fading
 let views = [];
 let clearance = 0;
 let energised = false;  // zones are of a levitated shaft, not of one that lies
-let turning = 0;  // sense of rotation: 1 from x to y, -1 from y to x, 0 the rotor stands
+let turning = 0;  // sense of rotation of the first shaft: 1 from x to y, -1 from y to x, 0 it stands
 let keys = [];  // points of the newest orbit at which the key phasor passed
 
 export function setUpOrbits(rig) {
   const place = document.getElementById("orbits");
   place.replaceChildren();
   clearance = rig.clearance_m * 1e9;
-  views = rig.bearings.map((name) => {
+  views = rig.bearings.map((name, bearing) => {
     const canvas = document.createElement("canvas");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", "orbit of bearing " + name);
     const cell = document.createElement("div");
     cell.append(canvas);
     place.append(cell);
-    const view = { name, canvas, history: [], largest: 0, peak: 0 };
+    // A geared shaft may turn the other way.
+    const sense = Math.sign(rig.speed_ratios?.[bearing] ?? 1);
+    const view = { name, canvas, sense, history: [], largest: 0, peak: 0 };
     canvas.title = "dashed: the largest radius since the shaft was lifted; a click begins anew";
     canvas.addEventListener("click", () => { view.peak = 0; });
     return view;
@@ -100,9 +102,9 @@ function drawKeys(context, points, scale) {
   });
 }
 
-/** An arrow the way the rotor turns, in the free corner left below the clearance's circle. */
-function drawSense(context, x, y) {
-  const way = -turning;  // the screen's y points down
+/** An arrow the way the shaft turns, in the free corner left below the clearance's circle. */
+function drawSense(context, x, y, sense) {
+  const way = -turning * sense;  // the screen's y points down
   context.strokeStyle = context.fillStyle = "#1b2733";
   context.lineWidth = 1.5;
   context.beginPath();
@@ -188,7 +190,7 @@ export function drawOrbits() {
     });
     drawPeak(context, (view.peak / clearance) * radius);
     context.restore();
-    if (turning !== 0) drawSense(context, width / 2 - 0.86 * radius, 18 + 1.86 * radius);
+    if (turning !== 0) drawSense(context, width / 2 - 0.86 * radius, 18 + 1.86 * radius, view.sense);
     const share = view.largest / clearance;
     const zone = !energised ? "" : ", zone " + (share < 0.3 ? "A" : share < 0.4 ? "B" : share < 0.5 ? "C" : "D");
     context.fillStyle = "#1b2733";

@@ -3,6 +3,10 @@
 const at = (id) => document.getElementById(id);
 const CLASS = { levitating: "on", spinning: "on", self_test: "moving", lift: "moving", coast_down: "moving", landing: "moving", tripped: "tripped" };
 
+// A trip's sentence foretells what the controller does next; once that is done it says so.
+const RELEASED = " Done: the amplifiers carry no current any more.";
+let tripped = "";
+
 export function showRig(rig) {
   const with_ = [rig.controller && `controller ${rig.controller}`, rig.scenario && `scenario ${rig.scenario}`];
   at("rig").textContent = rig.name ? [rig.name, `${Math.round(1 / rig.period_s)} Hz`, ...with_.filter(Boolean)].join(", ") : "–";
@@ -15,6 +19,7 @@ export function showTick(tick, end) {
   const now = end || tick.mode;
   const name = now?.replace("_", " ");
   if (now !== "tripped") at("trip").hidden = true;
+  if (now === "tripped" && tick.bias_ma === 0 && !end) at("trip").textContent = tripped + RELEASED;
   mode.className = "mode " + (tick.silent && now !== "tripped" ? "" : CLASS[now] ?? "");
   mode.textContent = !name ? "no controller" : end ? `ended, ${name}` : tick.silent ? "controller silent" : name;
   if (tick.mode) at("speed").textContent = tick.speed_rpm === null ? "not known" : tick.speed_rpm + " rpm";
@@ -29,6 +34,7 @@ export function showTime(seconds) {
 }
 
 export function showTrip(event) {
+  tripped = event.text;
   at("trip").textContent = event.text;
   at("trip").hidden = false;
 }

@@ -42,7 +42,7 @@ export function steps(tick, ended) {
   if (ended) return [[], ENDED];
   if (tick.silent || !ALLOWED[tick.mode]) return [all, SILENT];
   const open = ALLOWED[tick.mode].filter((command) => !STANDING.includes(command) || !turns(tick));
-  return [open, NEXT[tick.mode]];
+  return [open, tick.mode === "tripped" && !turns(tick) ? "Next: Reset." : NEXT[tick.mode]];
 }
 
 export function showSteps(tick, ended) {

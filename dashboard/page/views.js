@@ -16,6 +16,12 @@ export function wireViews(onChange) {
       onChange();
     });
   }
-  const asked = location.hash.slice(1);
-  if ([...views()].some((view) => view.id === asked)) show(asked);
+  const follow = () => {
+    const asked = location.hash.slice(1);
+    if (![...views()].some((view) => view.id === asked)) return false;
+    show(asked);
+    return true;
+  };
+  follow();
+  window.addEventListener("hashchange", () => { if (follow()) onChange(); });
 }

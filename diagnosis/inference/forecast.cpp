@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "common/each_in_parallel.hpp"
 #include "common/random.hpp"
 #include "diagnosis/inference/fit_gain.hpp"
-#include "common/each_in_parallel.hpp"
 
 namespace levitas::diagnosis {
 namespace {

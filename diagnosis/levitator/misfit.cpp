@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/model/levinson.hpp"
 #include "common/each_in_parallel.hpp"
+#include "diagnosis/model/levinson.hpp"
 
 namespace levitas::levitator {
 namespace {

@@ -19,7 +19,7 @@ RigFaults::RigFaults(const std::vector<ScheduledRigEvent>& events, double period
   if (!(period_s > 0.0)) throw std::invalid_argument("rig faults: the period must be positive");
   faults_.reserve(events.size());
   for (const ScheduledRigEvent& event : events) {
-    if (event.kind == RigEventKind::kEffect) continue;
+    if (event.kind == RigEventKind::kEffect || event.kind == RigEventKind::kTorque) continue;
     if (event.axis >= kMaxAxes) throw std::invalid_argument("rig faults: no such axis");
     const std::uint64_t end = event.duration_s > 0.0
                                   ? CycleAt(event.at_s + event.duration_s, period_s)
@@ -58,6 +58,7 @@ void RigFaults::Disturb(std::uint64_t cycle, SensorFrame& frame) noexcept {
         frame.rig_status |= kRigEmergencyStop;
         break;
       case RigEventKind::kEffect:
+      case RigEventKind::kTorque:
         break;
     }
   }

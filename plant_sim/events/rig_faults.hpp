@@ -7,7 +7,7 @@
 // Thread   one; Disturb allocates nothing, locks nothing, throws nothing.
 // Failure  the constructor throws std::invalid_argument for a period that is not positive or an
 //          axis beyond kMaxAxes.
-// Not done effects of the plant (RigEventKind::kEffect): those are the plant's own.
+// Not done effects and torques (RigEventKind::kEffect, kTorque): those are the plant's own.
 
 #include <cstdint>
 #include <vector>

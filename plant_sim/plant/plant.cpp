@@ -159,4 +159,20 @@ bool Plant::SetEffectStrength(std::size_t index, double strength) noexcept {
   return true;
 }
 
+void Plant::AllowTorques() { impl_->outside.assign(impl_->model->train().twists, 0.0); }
+
+bool Plant::SetTorque(std::size_t index, double torque_n_m) noexcept {
+  Impl& self = *impl_;
+  const std::vector<TwistInertia>& inertias = self.model->train().inertias;
+  if (self.outside.empty() || index >= inertias.size() || !std::isfinite(torque_n_m)) return false;
+  self.torque_n_m[index] = torque_n_m;
+  std::fill(self.outside.begin(), self.outside.end(), 0.0);
+  for (std::size_t k = 0; k < inertias.size(); ++k) {
+    for (std::size_t i = 0; i < self.outside.size(); ++i) {
+      self.outside[i] += inertias[k].twist[i] * self.torque_n_m[k];
+    }
+  }
+  return true;
+}
+
 }  // namespace levitas::plant

@@ -89,6 +89,13 @@ class Plant {
   void AllowEffectChanges();
   bool SetEffectStrength(std::size_t index, double strength) noexcept;
 
+  /// Torques from outside (a load step, an impact) on the torsional inertias of geared shafts. The
+  /// first before the loop: it allocates. The second sets that on model().train().inertias[index]
+  /// [N m], in the sense in which the first shaft turns, from the next Advance on, and does nothing
+  /// but return false without the first, and for an index or a torque that is not there.
+  void AllowTorques();
+  bool SetTorque(std::size_t index, double torque_n_m) noexcept;
+
   [[nodiscard]] const StateLayout& layout() const noexcept;
   [[nodiscard]] std::span<const double> state() const noexcept;
   [[nodiscard]] std::span<double> mutable_state() noexcept;

@@ -181,6 +181,7 @@ void Plant::Impl::Integrate(const StepTable& table, const CoilCommand& coils,
     Spin end_spin = MakeSpin(rotation, heading);
     TrainPose start_pose;
     if (model->train().shafts > 0) {
+      pose.outside = outside.empty() ? nullptr : outside.data();
       start_pose = pose;
       start_pose.acceleration_rad_per_s2 = rotation.acceleration_rad_per_s2;
       Follow(model->train(), rotation, pose);

@@ -49,6 +49,7 @@ struct Plant::Impl {
     if (scheduled) AllowChanges();
     Energise(true);
     Follow(model->train(), rotation, pose);
+    torque_n_m.assign(model->train().inertias.size(), 0.0);
   }
 
   Impl(const Impl& other) = default;
@@ -141,7 +142,9 @@ struct Plant::Impl {
   AxisArray bias_a{};
   Rotation rotation;
   Heading heading;
-  TrainPose pose;  ///< of geared shafts
+  TrainPose pose;                  ///< of geared shafts
+  std::vector<double> torque_n_m;  ///< from outside, on each inertia of the train
+  std::vector<double> outside;     ///< what they are to the torsional modes; empty: no torque yet
   Workspace work;
   Random random;
   Random chance;

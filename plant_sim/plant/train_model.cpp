@@ -133,6 +133,17 @@ void BuildSupports(TrainModel& train, const PlantConfig& config, const TrainMode
   }
 }
 
+void BuildInertias(TrainModel& train, const PlantConfig& config, const TrainModes& modes) {
+  for (std::size_t s = 0; s < config.shafts.size(); ++s) {
+    const rotor::Torsion& torsion = config.shafts[s].torsion;
+    if (torsion.kind != rotor::TorsionKind::kInertias) continue;
+    for (std::size_t i = 0; i < torsion.inertias.size(); ++i) {
+      const Index row = modes.first_torsion_row[s] + static_cast<Index>(i);
+      train.inertias.push_back({torsion.inertias[i].name, ToVector(modes.torsion.shapes.row(row))});
+    }
+  }
+}
+
 void BuildPlacement(TrainModel& train, const PlantConfig& config, const TrainModes& modes) {
   const Eigen::VectorXd stiffness =
       modes.bending.frequency_rad_per_s.cwiseMax(kFreeModeRadPerS).cwiseAbs2();
@@ -164,6 +175,7 @@ TrainModel BuildTrain(const PlantConfig& config, const TrainModes& modes) {
   }
   BuildUnbalance(train, config, modes);
   BuildSupports(train, config, modes);
+  BuildInertias(train, config, modes);
   BuildPlacement(train, config, modes);
   return train;
 }

@@ -49,6 +49,12 @@ struct TwistDamper {
   double damping_n_m_s_per_rad{};
 };
 
+/// Of a shaft whose torsion is inertias on springs: where a torque from outside can act.
+struct TwistInertia {
+  std::string name;
+  std::vector<double> twist;
+};
+
 struct WheelModel {
   std::size_t shaft{};
   double ratio{};
@@ -72,6 +78,7 @@ struct TrainModel {
   std::vector<ShaftUnbalance> unbalance;
   std::vector<SupportModel> supports;
   std::vector<TwistDamper> dampers;
+  std::vector<TwistInertia> inertias;  ///< of all shafts, one shaft after the other
   std::vector<MeshModel> meshes;
   /// Modal coordinates of one plane that bring the bearings to given places with least strain.
   Eigen::MatrixXd placement;

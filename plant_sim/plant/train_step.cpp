@@ -115,7 +115,9 @@ void Follow(const TrainModel& train, const Rotation& rotation, TrainPose& pose) 
 
 void AddTrain(const TrainModel& train, const TrainPose& pose, std::size_t modes,
               const double* position, const double* velocity, double* acceleration) noexcept {
-  for (std::size_t i = 0; i < train.twists; ++i) acceleration[2 * modes + i] = 0.0;
+  for (std::size_t i = 0; i < train.twists; ++i) {
+    acceleration[2 * modes + i] = pose.outside != nullptr ? pose.outside[i] : 0.0;
+  }
   AddUnbalance(train, pose, modes, acceleration);
   for (const SupportModel& support : train.supports) {
     const double x_n = -support.stiffness_x_n_per_m * Sum(support.shape, position) -

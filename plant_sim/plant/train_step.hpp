@@ -24,6 +24,8 @@ struct TrainPose {
   /// Run-outs and transmission error of each gear pair: the end of a substep is the next one's
   /// start, so they are worth keeping.
   std::array<gear::Prescribed, kMaxGears> prescribed{};
+  /// Modal accelerations of the torsion by torques from outside; null: there are none.
+  const double* outside{nullptr};
 };
 
 /// Follows the rotation; an angle that jumps by more than half a turn has passed a whole one.

@@ -177,7 +177,11 @@ void PrintFit(const ModalResult& r) {
   }
   fmt::print("modes shown by the data up to {:.0f} Hz:", r.options.highest_hz);
   for (const ProposedMode& mode : r.stabilisation.modes) fmt::print(" {:.1f}", mode.frequency_hz);
-  fmt::print(" Hz\n\nmisfit (1: only noise is left) and fit (ceiling: the data's own noise)\n");
+  fmt::print("{}\n\nmisfit (1: only noise is left) and fit (ceiling: the data's own noise)\n",
+             r.stabilisation.modes.empty()
+                 ? " none; one that bends the shaft lies above what was excited, or in no shape "
+                   "that these test signals reach"
+                 : " Hz");
   for (const SpeedQuality& q : r.quality) {
     fmt::print("  {:>6.0f} rpm {:>8.3f} {:>8.2f} % of {:.2f} %  {}\n",
                RadPerSToRpm(q.speed_rad_per_s), q.misfit, q.percent.fit, q.percent.ceiling,

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "common/problem.hpp"
 #include "plant_sim/effect/catalogue.hpp"
@@ -24,6 +25,26 @@ std::vector<double> Strengths(const plant::PlantConfig& rig) {
   return strengths;
 }
 
+// Those of PlantModel::train().inertias, in the same order.
+std::vector<std::string> InertiasOf(const plant::PlantConfig& rig) {
+  std::vector<std::string> names;
+  for (const auto& shaft : rig.shafts) {
+    if (shaft.torsion.kind != rotor::TorsionKind::kInertias) continue;
+    for (const auto& inertia : shaft.torsion.inertias) names.push_back(inertia.name);
+  }
+  return names;
+}
+
+events::TorqueSchedule TorquesOf(const scenario::ScenarioConfig& scenario,
+                                 const config::RigFile& rig) {
+  try {
+    return {scenario.rig_events, InertiasOf(rig.plant), rig.numbers.period_s()};
+  } catch (const std::invalid_argument& problem) {
+    throw BadInput(fmt::format("scenario {} with rig {}: rig_events: {}", scenario.name,
+                               rig.numbers.name, problem.what()));
+  }
+}
+
 // A mistake of the files, not of the program, so it is said as such.
 const scenario::ScenarioConfig& Checked(const scenario::ScenarioConfig& scenario,
                                         const config::RigFile& rig) {
@@ -43,10 +64,12 @@ const scenario::ScenarioConfig& Checked(const scenario::ScenarioConfig& scenario
 TimedEvents::TimedEvents(const scenario::ScenarioConfig& scenario, const config::RigFile& rig)
     : faults_(Checked(scenario, rig).rig_events, rig.numbers.period_s()),
       changes_(scenario.rig_events, EffectIds(rig.plant), Strengths(rig.plant),
-               rig.numbers.period_s()) {}
+               rig.numbers.period_s()),
+      torques_(TorquesOf(scenario, rig)) {}
 
 void TimedEvents::Prepare(plant::Plant& plant) const {
   if (!changes_.empty()) plant.AllowEffectChanges();
+  if (!torques_.empty()) plant.AllowTorques();
 }
 
 void TimedEvents::Answered(std::uint64_t cycle) noexcept {
@@ -59,7 +82,11 @@ void TimedEvents::Disturb(std::uint64_t cycle, SensorFrame& frame) noexcept {
 }
 
 void TimedEvents::Change(std::uint64_t cycle, plant::Plant& plant) noexcept {
-  if (!started_ || changes_.empty()) return;
+  if (!started_) return;
+  torques_.Apply(cycle - start_cycle_, [&plant](std::size_t index, double torque_n_m) {
+    (void)plant.SetTorque(index, torque_n_m);  // both were checked
+  });
+  if (changes_.empty()) return;
   changes_.Apply(cycle - start_cycle_, [&plant](std::size_t index, double strength) {
     (void)plant.SetEffectStrength(index, strength);  // index and strength were checked
   });

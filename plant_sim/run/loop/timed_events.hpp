@@ -3,7 +3,8 @@
 //
 // Time     cycles since the first frame that a controller answered; before that nothing happens.
 // Thread   the loop's; all but construction allocate nothing, lock nothing, throw nothing.
-// Failure  the constructor throws BadInput for an effect that the rig file does not list.
+// Failure  the constructor throws BadInput for an effect that the rig file does not list, and for a
+//          torque on an inertia that it does not have.
 
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "configuration/rig_file.hpp"
 #include "plant_sim/events/effect_schedule.hpp"
 #include "plant_sim/events/rig_faults.hpp"
+#include "plant_sim/events/torque_schedule.hpp"
 #include "plant_sim/plant/plant.hpp"
 
 namespace levitas::plant_run {
@@ -19,7 +21,7 @@ class TimedEvents {
  public:
   TimedEvents(const scenario::ScenarioConfig& scenario, const config::RigFile& rig);
 
-  /// Prepares the plant for changes of its effects; before the loop.
+  /// Prepares the plant for changes of its effects and for torques; before the loop.
   void Prepare(plant::Plant& plant) const;
   /// The frame of this cycle was answered.
   void Answered(std::uint64_t cycle) noexcept;
@@ -29,6 +31,7 @@ class TimedEvents {
  private:
   events::RigFaults faults_;
   events::EffectSchedule changes_;
+  events::TorqueSchedule torques_;
   bool started_{false};
   std::uint64_t start_cycle_{0};
 };

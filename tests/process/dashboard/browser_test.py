@@ -64,6 +64,18 @@ class ThePage(unittest.TestCase):
         self.answer(page, "accepted: command emergency_stop")
         self.assertTrue(page.value("(() => { const p = document.getElementById('answer');"
                                    " return p.scrollHeight <= p.clientHeight + 1; })()"))
+        # What the sentence foretold is done: the rotor lies, and the reset is the next step.
+        page.until("document.getElementById('trip').textContent.endsWith('carry no current any more.')")
+        page.until("document.getElementById('next').textContent == 'Next: Reset.'")
+        self.assertEqual(page.problems(), [])
+
+    def test_follows_its_address_from_view_to_view(self):
+        _, page = self.rig_and_page()
+        for view in ("over-speed", "bench"):
+            page.value(f"location.hash = '#{view}'")
+            page.until(f"!document.getElementById('{view}').hidden")
+        page.value("history.back()")
+        page.until("!document.getElementById('over-speed').hidden && document.getElementById('bench').hidden")
         self.assertEqual(page.problems(), [])
 
     def test_spins_with_the_numbers_that_the_page_proposes(self):

@@ -83,5 +83,42 @@ TEST_F(RigsRunTest, ATimedFaultOfTheRigTripsTheController) {
   EXPECT_EQ(status, 0) << said;  // and all of it repeats, bit for bit
 }
 
+// A pair: the same run with and without a load on the brake.
+TEST_F(RigsRunTest, ALoadStepTakesGearedShaftsFromTheirPlaces) {
+  const std::string steps =
+      "  - {do: lift, until: levitating, timeout_s: 5, hold_s: 1.5}\n"
+      "  - {do: land, until: off, timeout_s: 5}\n";
+  const auto largest_m = [&](const std::string& events) {
+    const std::string json = scratch_ / "verdict.json";
+    AmbRun run(scratch_, "run",
+               {"--rig", "geared_rotor_12dof", "--scenario", Scenario(steps + events), "--json",
+                json, "--overwrite"});
+    EXPECT_EQ(run.Status(), 0) << run.Said();
+    const auto verdict = nlohmann::json::parse(ReadAll(json));
+    return verdict["orbits"][0]["max_m"].get<double>();
+  };
+  const std::string load =
+      "rig_events:\n  - {at_s: 1, what: torque, inertia: brake, torque_n_m: 5}\n";
+  EXPECT_GT(largest_m(load), 3.0 * largest_m(""));
+}
+
+TEST_F(RigsRunTest, AnEffectThatTheRigDoesNotListIsRefusedBeforeAnythingStarts) {
+  const std::string scenario = Scenario(
+      "  - {do: lift, until: levitating, timeout_s: 5, hold_s: 1}\n"
+      "rig_events:\n  - {at_s: 1, what: effect, effect: shaft_bow, strength: 1}\n");
+  AmbRun run(scratch_, "run", {"--scenario", scenario});
+  EXPECT_EQ(run.Status(), 3);
+  EXPECT_THAT(run.Said(), HasSubstr("which rig flexible_rotor does not list under effects"));
+}
+
+TEST_F(RigsRunTest, ATorqueOnARigWithoutTorsionIsRefusedInOneSentence) {
+  const std::string scenario = Scenario(
+      "  - {do: lift, until: levitating, timeout_s: 5, hold_s: 1}\n"
+      "rig_events:\n  - {at_s: 1, what: torque, inertia: brake, torque_n_m: 5}\n");
+  AmbRun run(scratch_, "run", {"--rig", "geared_rotor_4dof", "--scenario", scenario});
+  EXPECT_EQ(run.Status(), 3);
+  EXPECT_THAT(run.Said(), HasSubstr("no shaft of the rig has torsional inertias"));
+}
+
 }  // namespace
 }  // namespace levitas::cli

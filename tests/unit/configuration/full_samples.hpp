@@ -83,6 +83,8 @@ inline scenario::ScenarioConfig EventfulScenario(const RigNumbers& rig) {
   }
   text += "  - {at_s: 2, what: amplifier_fault}\n  - {at_s: 3, what: emergency_stop}\n";
   text += "  - {at_s: 4, what: effect, effect: unbalance, strength: 0.5, ramp_s: 2}\n";
+  text +=
+      "  - {at_s: 5, what: torque, inertia: brake, torque_n_m: -2.5, duration_s: 3, ramp_s: 1}\n";
   return ParseScenario(text, "eventful.yaml", rig);
 }
 

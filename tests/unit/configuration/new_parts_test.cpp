@@ -158,6 +158,12 @@ TEST(RigEvents, RefuseKeysThatDoNotGoWithThem) {
               HasSubstr("only allowed with a fault of a sensor"));
   EXPECT_THAT(problem("effect, effect: unbalance, strength: 1, duration_s: 1"),
               HasSubstr("only allowed with a fault"));
+  EXPECT_EQ(problem("torque, inertia: brake, torque_n_m: 5, duration_s: 0.1, ramp_s: 0.01"),
+            "accepted");
+  EXPECT_THAT(problem("torque, torque_n_m: 5"), HasSubstr("inertia: missing"));
+  EXPECT_THAT(problem("torque, inertia: brake"), HasSubstr("torque_n_m: missing"));
+  EXPECT_THAT(problem("torque, inertia: brake, torque_n_m: 5, strength: 1"),
+              HasSubstr("only allowed with what: effect"));
   EXPECT_THAT(problem("sensor_dead, channel: de_x"), HasSubstr("nearest sensor_"));
 }
 

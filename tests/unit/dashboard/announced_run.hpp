@@ -10,9 +10,10 @@
 
 namespace levitas::dashboard {
 
-inline session::Bytes EncodedHeader(std::int64_t start_utc_ns) {
+inline session::Bytes EncodedHeader(std::int64_t start_utc_ns,
+                                    const std::string& rig = "flexible_rotor") {
   session::SessionHeader header;
-  header.rig_yaml = config::WriteRig(config::LoadRig(config::FindConfig("flexible_rotor", "rigs")));
+  header.rig_yaml = config::WriteRig(config::LoadRig(config::FindConfig(rig, "rigs")));
   header.pace = "lockstep";
   header.source = "lcm";
   header.start_utc_ns = start_utc_ns;

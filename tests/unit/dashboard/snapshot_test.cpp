@@ -126,6 +126,12 @@ TEST_F(Snapshot, TellsThePageHowFarTheAmplifiersReach) {
             720.0);  // config/rigs/flexible_rotor.yaml
 }
 
+TEST_F(Snapshot, TellsThePageWhichWayEachShaftTurns) {
+  EXPECT_EQ(json::parse(RigJson(run_, 1))["speed_ratios"], json::parse("[1.0,1.0]"));
+  run_.Take(channel::kHeader, EncodedHeader(2, "geared_rotor_8dof"), 0);  // 20 teeth on 40
+  EXPECT_EQ(json::parse(RigJson(run_, 1))["speed_ratios"], json::parse("[1.0,-0.5]"));
+}
+
 TEST_F(Snapshot, SaysHowARunEnded) {
   EXPECT_EQ(json::parse(EndJson("with a \"trip\""))["text"], "with a \"trip\"");
 }

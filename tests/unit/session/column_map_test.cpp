@@ -215,6 +215,7 @@ TEST(ColumnGuess, ReadsTheNamesOfLoggers) {
   EXPECT_EQ(QuantityOf("exc_a_x_a"), "excitation_front_x in a");
   EXPECT_EQ(QuantityOf("Drehzahl [1/min]"), "speed in rpm");
   EXPECT_EQ(QuantityOf("Angle [deg]"), "rotor_angle in deg");
+  EXPECT_EQ(QuantityOf("Winkel [Grad]"), "rotor_angle in deg");
   EXPECT_EQ(QuantityOf("t", "ms"), "time in ms");
   EXPECT_EQ(QuantityOf("X_vorn", "um"), "position_front_x in um");
   EXPECT_EQ(QuantityOf("Strom Y hinten", "a"), "control_current_rear_y in a");
@@ -236,6 +237,21 @@ TEST(ColumnGuess, TakesUnitsThatFitTheRigWhereTheFileSaysNone) {
   EXPECT_EQ(unit("i_xa", {-1000.0, 1000.0}), "ma");
   EXPECT_EQ(unit("time", {0.0, 0.1, 0.2, 0.3}), "ms");
   EXPECT_EQ(unit("time", {0.0, 2e-4, 4e-4}), "s");
+  // What does not move tells nothing: a rotor at rest, a first stretch of zeros.
+  EXPECT_EQ(unit("angle", {0.0, 0.0, 0.0}), "");
+  EXPECT_EQ(unit("i_xa", {0.0, 0.0}), "");
+}
+
+TEST(ColumnGuess, FindsTheNamesBelowOtherLinesWhereEveryCellHasADecimalComma) {
+  const Folder folder;
+  const std::string names = "Zeit [ms];XA [mm];YA [mm];XB [mm]\n";
+  const std::string rows = "0,0;0,01;-0,02;0,03\n0,1;0,01;-0,02;0,03\n";
+  for (const char* above : {"", "Bench 4\n", "Bench 4; turbine; run 17\nDate;14.03.2026\n"}) {
+    WriteFile(folder / "d.csv", above + names + rows);
+    const SampledColumns sampled = SampleColumns(folder / "d.csv");
+    EXPECT_THAT(sampled.names, ElementsAre("Zeit [ms]", "XA [mm]", "YA [mm]", "XB [mm]")) << above;
+    EXPECT_THAT(sampled.values.at(2), ElementsAre(-0.02, -0.02)) << above;
+  }
 }
 
 TEST(ColumnGuess, TellsAnotherRateAndWhatIsMissing) {
