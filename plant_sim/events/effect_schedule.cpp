@@ -1,7 +1,8 @@
 #include "plant_sim/events/effect_schedule.hpp"
 
-#include <cmath>
 #include <stdexcept>
+
+#include "plant_sim/events/cycle_at.hpp"
 
 namespace levitas::events {
 
@@ -11,17 +12,14 @@ EffectSchedule::EffectSchedule(const std::vector<ScheduledRigEvent>& events,
     : strengths_(std::move(strengths)) {
   if (!(period_s > 0.0)) throw std::invalid_argument("effects: the period must be positive");
   strengths_.resize(ids.size(), 1.0);
-  const auto cycles = [period_s](double time_s) {
-    return static_cast<std::uint64_t>(std::ceil(std::max(time_s, 0.0) / period_s - 1e-6));
-  };
   for (const ScheduledRigEvent& event : events) {
     if (event.kind != RigEventKind::kEffect) continue;
     bool found = false;
     for (std::size_t i = 0; i < ids.size(); ++i) {
       if (ids[i] != event.effect) continue;
       found = true;
-      changes_.push_back(
-          {i, cycles(event.at_s), cycles(event.ramp_s), 0.0, event.strength, false, false});
+      changes_.push_back({i, CycleAt(event.at_s, period_s), CycleAt(event.ramp_s, period_s), 0.0,
+                          event.strength, false, false});
     }
     if (!found) {
       throw std::invalid_argument("the scenario changes the effect " + event.effect +

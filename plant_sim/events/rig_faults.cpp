@@ -1,19 +1,11 @@
 #include "plant_sim/events/rig_faults.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "plant_sim/events/cycle_at.hpp"
+
 namespace levitas::events {
-namespace {
-
-std::uint64_t CycleAt(double time_s, double period_s) {
-  // The first sample at or after the time; the millionth forgives rounding of the quotient.
-  return static_cast<std::uint64_t>(std::ceil(std::max(time_s, 0.0) / period_s - 1e-6));
-}
-
-}  // namespace
 
 RigFaults::RigFaults(const std::vector<ScheduledRigEvent>& events, double period_s) {
   if (!(period_s > 0.0)) throw std::invalid_argument("rig faults: the period must be positive");

@@ -1,9 +1,10 @@
 #include "plant_sim/events/torque_schedule.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "plant_sim/events/cycle_at.hpp"
 
 namespace levitas::events {
 namespace {
@@ -31,15 +32,13 @@ std::size_t IndexOf(const std::string& inertia, const std::vector<std::string>& 
 TorqueSchedule::TorqueSchedule(const std::vector<ScheduledRigEvent>& events,
                                const std::vector<std::string>& inertias, double period_s) {
   if (!(period_s > 0.0)) throw std::invalid_argument("torques: the period must be positive");
-  const auto cycles = [period_s](double time_s) {
-    return static_cast<std::uint64_t>(std::ceil(std::max(time_s, 0.0) / period_s - 1e-6));
-  };
   for (const ScheduledRigEvent& event : events) {
     if (event.kind != RigEventKind::kTorque) continue;
     const std::size_t index = IndexOf(event.inertia, inertias);
-    torques_.push_back({index, cycles(event.at_s),
-                        event.duration_s > 0.0 ? cycles(event.at_s + event.duration_s) : kForGood,
-                        cycles(event.ramp_s), event.torque_n_m});
+    const std::uint64_t end =
+        event.duration_s > 0.0 ? CycleAt(event.at_s + event.duration_s, period_s) : kForGood;
+    torques_.push_back({index, CycleAt(event.at_s, period_s), end, CycleAt(event.ramp_s, period_s),
+                        event.torque_n_m});
     const auto same = [index](const Inertia& inertia) { return inertia.index == index; };
     if (std::none_of(acted_on_.begin(), acted_on_.end(), same)) acted_on_.push_back({index, 0.0});
   }
