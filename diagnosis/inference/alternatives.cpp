@@ -75,7 +75,7 @@ void RankCandidates(const EvidenceLandscape& landscape, const SelectionRules& ru
   PutStrongestFirst(landscape, found);
   const std::vector<Hypothesis> others = Without(found.causes, 0);
   found.candidates = landscape.Screen(others);
-  if (found.causes.empty() || rules.effort.first_cause_only) {
+  if (found.causes.empty() || (rules.effort.first_cause_only && !found.whitened_anew)) {
     TakeRefitted(found);
     SortByScore(found.candidates);
     return;

@@ -49,6 +49,7 @@ struct CauseSelection {
   std::vector<Candidate> candidates;  ///< every effect at its best place, best first
   double leader_evidence{};           ///< of all causes with the first one
   std::vector<CauseSet> contenders;   ///< sets that the leader's evidence does not refute
+  bool whitened_anew{};               ///< by a search that ends with its first cause
   Doubt doubt{Doubt::kNothing};
   double probability{};  ///< of what is suspected
 };

@@ -22,7 +22,7 @@ bool IsUnexplained(const Judging& judging, const Residual& remainder, bool named
   return !named || explained < (stands_out ? judging.nearly_all_share : judging.explained_share);
 }
 
-constexpr Effort kQuick{5, 3, 3, 0, kQuickRows, true};
+constexpr Effort kQuick{5, 3, 3, 2, kQuickRows, true};
 constexpr Effort kThorough{40, 6, 8, 5, kMostRows, false};
 
 /// Fits the nuisance parameters only. Causes are searched afterwards: away from the optimum the
@@ -173,6 +173,7 @@ SearchResult Diagnose(const RigView& rig, const std::vector<Record>& records,
   if (effort.first_cause_only) {
     DropUnproven(landscape, rules, found);
     RankCandidates(landscape, rules, found);
+    if (found.whitened_anew) RefitAlternatives(landscape, rules, found);
   } else {
     MergeCauses(landscape, rules, found);
     ExchangeCauses(landscape, rules, found);

@@ -4,6 +4,7 @@
 
 #include "diagnosis/inference/loud_fault.hpp"
 #include "diagnosis/inference/selection_steps.hpp"
+#include "diagnosis/inference/whiten_anew.hpp"
 #include "diagnosis/model/divergence.hpp"
 
 namespace levitas::diagnosis {
@@ -57,7 +58,10 @@ void FindCauses(RecordLandscape& landscape, const SelectionRules& rules, CauseSe
         found.causes.size() < rules.most_causes && AddCause(landscape, rules, share, found);
     if (stage == 0) added = TakeLoudFault(landscape, rules, found) || added;
     if (!added) return;
-    if (rules.effort.first_cause_only) return;
+    if (rules.effort.first_cause_only) {
+      found.whitened_anew = WhitenAnew(landscape, rules, found);
+      return;
+    }
   }
 }
 
