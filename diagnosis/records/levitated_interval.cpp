@@ -8,11 +8,12 @@
 namespace levitas::diagnosis {
 namespace {
 
-bool Far(const RigView& rig, const analysis::RecordedRow& row) {
+using Rows = std::vector<analysis::RecordedRow>;
+
+bool Beyond(const RigView& rig, const AxisArray& position_m, double share) {
   for (std::size_t a = 0; a + 1 < rig.axes; a += 2) {
-    const double limit_m = kFree * rig.bearing(a).touchdown.clearance_m;
-    const double radius_m = std::hypot(row.sample.position_m[a], row.sample.position_m[a + 1]);
-    if (limit_m > 0.0 && radius_m > limit_m) return true;
+    const double limit_m = share * rig.bearing(a).touchdown.clearance_m;
+    if (limit_m > 0.0 && std::hypot(position_m[a], position_m[a + 1]) > limit_m) return true;
   }
   return false;
 }
@@ -23,31 +24,71 @@ bool WithoutCurrent(const RigView& rig, const analysis::RecordedRow& row) {
                      [](double value) { return value == 0.0; });
 }
 
-}  // namespace
-
-void LeaveOutContact(const RigView& rig, Record& record) {
-  auto& rows = record.rows;
-  const auto margin = static_cast<std::size_t>(std::llround(kMargin / rig.period_s));
+std::vector<bool> InContact(const RigView& rig, const Rows& rows) {
   std::vector<bool> contact(rows.size(), false);
   std::size_t off = 0;
   for (std::size_t n = 0; n < rows.size(); ++n) {
     off = WithoutCurrent(rig, rows[n]) ? off + 1 : 0;
-    contact[n] = off >= kOff || Far(rig, rows[n]);
+    contact[n] = off >= kOff || Beyond(rig, rows[n].sample.position_m, kFree);
   }
+  return contact;
+}
+
+/// Where the middle of the orbit, a mean over `window` rows, is not at home.
+std::vector<bool> OnTheWay(const RigView& rig, const Rows& rows, std::size_t window) {
+  std::vector<bool> away(rows.size(), false);
+  AxisArray sum_m{};
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    for (std::size_t a = 0; a < rig.axes; ++a) {
+      sum_m[a] += rows[n].sample.position_m[a];
+      if (n >= window) sum_m[a] -= rows[n - window].sample.position_m[a];
+    }
+    if (n + 1 < window) continue;
+    AxisArray mean_m{};
+    for (std::size_t a = 0; a < rig.axes; ++a) mean_m[a] = sum_m[a] / static_cast<double>(window);
+    away[n - window / 2] = Beyond(rig, mean_m, kHome);
+  }
+  return away;
+}
+
+struct Touched {
+  std::vector<bool> contact, away;
+};
+
+/// From every contact on, and back from it, until the rotor has been at home for `margin` rows.
+std::vector<bool> LeftOut(const Touched& touched, std::size_t margin) {
+  std::vector<bool> out(touched.contact.size(), false);
+  const auto pass = [&](std::size_t n, std::size_t& left) {
+    if (touched.contact[n] || (left > 0 && touched.away[n])) left = margin + 1;
+    if (left == 0) return;
+    --left;
+    out[n] = true;
+  };
   // Forwards, then backwards: no row is looked at more than twice.
   std::size_t left = 0;
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    left = contact[n] ? margin + 1 : left;
-    if (left == 0) continue;
-    --left;
-    rows[n].levitated = false;
-  }
+  for (std::size_t n = 0; n < out.size(); ++n) pass(n, left);
   left = 0;
-  for (std::size_t n = rows.size(); n-- > 0;) {
-    left = contact[n] ? margin + 1 : left;
-    if (left == 0) continue;
-    --left;
-    rows[n].levitated = false;
+  for (std::size_t n = out.size(); n-- > 0;) pass(n, left);
+  return out;
+}
+
+}  // namespace
+
+void LeaveOutContact(const RigView& rig, Record& record) {
+  Rows& rows = record.rows;
+  const auto margin = static_cast<std::size_t>(std::llround(kMargin / rig.period_s));
+  Touched touched{InContact(rig, rows), OnTheWay(rig, rows, std::max<std::size_t>(margin, 1))};
+  std::vector<bool> out = LeftOut(touched, margin);
+  const auto kept = [](const std::vector<bool>& left_out) {
+    return std::count(left_out.begin(), left_out.end(), false);
+  };
+  if (2 * kept(out) < std::count(touched.contact.begin(), touched.contact.end(), false)) {
+    // Its place is beside the centre: there is no way home to wait for.
+    touched.away.assign(rows.size(), false);
+    out = LeftOut(touched, margin);
+  }
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    if (out[n]) rows[n].levitated = false;
   }
   std::erase_if(rows, [](const analysis::RecordedRow& row) { return !row.levitated; });
   record.mean_speed_rad_per_s = analysis::MeanSpeed(rows);

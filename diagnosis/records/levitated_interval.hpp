@@ -5,6 +5,10 @@
 //            currents are exactly zero (amplifiers off: a controller with noisy sensors does not
 //            ask for that), kOff rows in a row.
 // Margin     kMargin before and after belongs to it: the blow, and what the lift still swings.
+// Way        from a contact on, and back from it, the rotor is lifted or lowered until the middle of
+//            its orbit, a mean over kMargin, is within kHome of the clearance: there the magnets
+//            are far from where they are linear, and 200 ms of it outweigh a minute of flight. A
+//            rotor whose place is farther out has no such way: most rows would be left out.
 // Why        imported records do not say when the rotor was lifted and landed.
 // Thread     any; pure.
 
@@ -17,6 +21,7 @@
 namespace levitas::diagnosis {
 
 inline constexpr double kFree = 0.5;     ///< of the clearance
+inline constexpr double kHome = 0.2;     ///< of the clearance
 inline constexpr std::size_t kOff = 5;   ///< rows
 inline constexpr double kMargin = 0.05;  ///< [s]
 

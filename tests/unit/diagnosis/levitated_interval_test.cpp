@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/unit/diagnosis/moments.hpp"
 
 namespace levitas::diagnosis {
@@ -58,6 +60,40 @@ TEST(FreeFlight, IsNotBeyondHalfTheClearance) {
   EXPECT_TRUE(Has(record, 9'499));
   EXPECT_TRUE(Has(record, 10'501));
   EXPECT_TRUE(Has(record, 15'000));
+}
+
+// Lowered by 0.1 um a row from row 15 000 on: it is beyond a fifth of the clearance, 38 um, from
+// row 15 268 on (1.414 times the way), beyond half from 15 671 on.
+TEST(FreeFlight, IsNotOnTheWayToTheTouchdownBearings) {
+  Record record = Flight();
+  for (std::size_t n = 15'000; n < kRows; ++n) {
+    const double way_m = -1e-7 * static_cast<double>(n - 15'000);
+    record.rows[n].sample.position_m = {way_m, way_m, way_m, way_m};
+  }
+  LeaveOutContact(TheRig(), record);
+  EXPECT_TRUE(Has(record, 14'700));
+  EXPECT_FALSE(Has(record, 15'270));
+  EXPECT_EQ(record.rows.back().cycle + 1, record.rows.size());
+}
+
+TEST(FreeFlight, IsBesideTheCentreWhereTheRotorsPlaceIsThere) {
+  Record record = Flight();
+  for (auto& row : record.rows) row.sample.position_m = {-40e-6, -40e-6, -40e-6, -40e-6};
+  for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
+  LeaveOutContact(TheRig(), record);
+  EXPECT_FALSE(Has(record, 3000));
+  EXPECT_TRUE(Has(record, 3600));
+}
+
+TEST(FreeFlight, IsALargeOrbitRoundTheCentreToo) {
+  Record record = Flight();
+  for (std::size_t n = 0; n < kRows; ++n) {
+    const double angle = 0.1 * static_cast<double>(n);
+    record.rows[n].sample.position_m = {80e-6 * std::cos(angle), 80e-6 * std::sin(angle), 0, 0};
+    if (n < 3000) record.rows[n].sample.command.control_current_a = {};
+  }
+  LeaveOutContact(TheRig(), record);
+  EXPECT_TRUE(Has(record, 3600));
 }
 
 TEST(FreeFlight, IsNotEndedByASingleZeroCurrent) {
