@@ -69,6 +69,40 @@ double UnitNear(double factor) {
   return 0.0;
 }
 
+/// Share of the rows from which on the angle, wrapped at 2 pi, goes on as the speed times `unit`
+/// says. A unit of more than 1 may turn by more than half a turn from row to row, of which no
+/// difference of angles tells how far it went.
+double GoesOn(const Columns& columns, double period_s, double unit) {
+  constexpr double kNear = 0.1;       // [rad]
+  constexpr double kTurnsRad = 1e-3;  // from row to row
+  std::size_t rows = 0;
+  std::size_t near = 0;
+  for (Eigen::Index n = 1; n < columns.rows(); ++n) {
+    const double turned = period_s * columns.speed_rad_per_s[n - 1];
+    if (columns.missing[static_cast<std::size_t>(n)] != 0 || std::abs(turned) < kTurnsRad) continue;
+    const double passed = columns.angle_rad[n] - columns.angle_rad[n - 1];
+    ++rows;
+    if (std::abs(std::remainder(passed - unit * turned, 2.0 * kPi)) < kNear) ++near;
+  }
+  return rows > 0 ? static_cast<double>(near) / static_cast<double>(rows) : 0.0;
+}
+
+/// The unit in which an angle that turns too far from row to row goes on; 0: none.
+double WrappedUnit(const Columns& columns, double period_s) {
+  constexpr double kMost = 0.85;  // a sawtooth in the other unit jumps once a turn
+  constexpr double kLittle = 0.2;
+  if (GoesOn(columns, period_s, 1.0) > kLittle) return 0.0;
+  double best = kMost;
+  double found = 0.0;
+  for (const double unit : kUnits) {
+    const double share = unit > 1.0 ? GoesOn(columns, period_s, unit) : 0.0;
+    if (share < best) continue;
+    best = share;
+    found = unit;
+  }
+  return found;
+}
+
 std::string Conversion(double factor) {
   const bool less = factor < 1.0;
   const double size = less ? 1.0 / factor : factor;
@@ -122,7 +156,8 @@ void FindRotationUnit(const RigView& rig, const Columns& columns, RecordErrors& 
   const double over = AngleOverSpeed(columns, period_s);
   if (over == 0.0) return;
   const double own = InStep(columns, period_s, 1.0);
-  const double unit = UnitNear(over);
+  const double near = UnitNear(over);
+  const double unit = near != 0.0 ? near : WrappedUnit(columns, period_s);
   if (unit != 0.0) {
     // The angle turns `unit` times as fast as the speed says: which of the two do readings follow?
     const double by_angle = InStep(columns, period_s, unit);

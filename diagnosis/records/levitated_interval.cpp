@@ -51,14 +51,19 @@ std::vector<bool> OnTheWay(const RigView& rig, const Rows& rows, std::size_t win
   return away;
 }
 
+std::size_t RowsOf(double seconds, const RigView& rig) {
+  return static_cast<std::size_t>(std::llround(seconds / rig.period_s));
+}
+
 struct Touched {
   std::vector<bool> contact, away;
 };
 
-/// From every contact on, and back from it, until the rotor has been at home for `margin` rows.
-std::vector<bool> LeftOut(const Touched& touched, std::size_t margin) {
+/// From every contact on, and back from it, until the rotor has been at home: for `after` rows, or `before`
+/// them.
+std::vector<bool> LeftOut(const Touched& touched, std::size_t before, std::size_t after) {
   std::vector<bool> out(touched.contact.size(), false);
-  const auto pass = [&](std::size_t n, std::size_t& left) {
+  const auto pass = [&](std::size_t n, std::size_t margin, std::size_t& left) {
     if (touched.contact[n] || (left > 0 && touched.away[n])) left = margin + 1;
     if (left == 0) return;
     --left;
@@ -66,9 +71,9 @@ std::vector<bool> LeftOut(const Touched& touched, std::size_t margin) {
   };
   // Forwards, then backwards: no row is looked at more than twice.
   std::size_t left = 0;
-  for (std::size_t n = 0; n < out.size(); ++n) pass(n, left);
+  for (std::size_t n = 0; n < out.size(); ++n) pass(n, after, left);
   left = 0;
-  for (std::size_t n = out.size(); n-- > 0;) pass(n, left);
+  for (std::size_t n = out.size(); n-- > 0;) pass(n, before, left);
   return out;
 }
 
@@ -76,16 +81,19 @@ std::vector<bool> LeftOut(const Touched& touched, std::size_t margin) {
 
 void LeaveOutContact(const RigView& rig, Record& record) {
   Rows& rows = record.rows;
-  const auto margin = static_cast<std::size_t>(std::llround(kMargin / rig.period_s));
+  const std::size_t margin = RowsOf(kMargin, rig);
+  const bool mode_known =
+      std::ranges::any_of(rows, [](const analysis::RecordedRow& row) { return !row.levitated; });
+  const auto after = mode_known ? margin : RowsOf(kLift, rig);
   Touched touched{InContact(rig, rows), OnTheWay(rig, rows, std::max<std::size_t>(margin, 1))};
-  std::vector<bool> out = LeftOut(touched, margin);
+  std::vector<bool> out = LeftOut(touched, margin, after);
   const auto kept = [](const std::vector<bool>& left_out) {
     return std::count(left_out.begin(), left_out.end(), false);
   };
   if (2 * kept(out) < std::count(touched.contact.begin(), touched.contact.end(), false)) {
     // Its place is beside the centre: there is no way home to wait for.
     touched.away.assign(rows.size(), false);
-    out = LeftOut(touched, margin);
+    out = LeftOut(touched, margin, after);
   }
   for (std::size_t n = 0; n < rows.size(); ++n) {
     if (out[n]) rows[n].levitated = false;

@@ -9,6 +9,8 @@
 //            its orbit, a mean over kMargin, is within kHome of the clearance: there the magnets
 //            are far from where they are linear, and 200 ms of it outweigh a minute of flight. A
 //            rotor whose place is farther out has no such way: most rows would be left out.
+// Lift       what a lift still swings, and an observer that starts in it, needs kLift to settle. A
+//            session says by its mode where that ends; rows that are all called levitated do not.
 // Why        imported records do not say when the rotor was lifted and landed.
 // Thread     any; pure.
 
@@ -24,6 +26,7 @@ inline constexpr double kFree = 0.5;     ///< of the clearance
 inline constexpr double kHome = 0.2;     ///< of the clearance
 inline constexpr std::size_t kOff = 5;   ///< rows
 inline constexpr double kMargin = 0.05;  ///< [s]
+inline constexpr double kLift = 0.6;     ///< [s]
 
 /// Removes these rows and all that are not levitated; a model that meets a gap starts anew.
 void LeaveOutContact(const RigView& rig, Record& record);

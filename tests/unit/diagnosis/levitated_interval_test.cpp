@@ -45,21 +45,30 @@ TEST(FreeFlight, IsNotWhereTheRotorLiesWithoutCurrent) {
   for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
   LeaveOutContact(TheRig(), record);
   EXPECT_FALSE(Has(record, 2999));
-  EXPECT_FALSE(Has(record, 3000));  // the lift still swings: 50 ms
-  EXPECT_TRUE(Has(record, 3600));
+  EXPECT_FALSE(Has(record, 8999));  // the lift still swings
+  EXPECT_TRUE(Has(record, 9000));
+}
+
+TEST(FreeFlight, BeginsEarlierWhereTheModeTellsTheLift) {
+  Record record = Flight();
+  for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
+  for (std::size_t n = 0; n < 3200; ++n) record.rows[n].levitated = false;
+  LeaveOutContact(TheRig(), record);
+  EXPECT_FALSE(Has(record, 3499));
+  EXPECT_TRUE(Has(record, 3500));
 }
 
 TEST(FreeFlight, IsNotBeyondHalfTheClearance) {
   Record record = Flight();
   // 190 um of clearance; 70 um in both axes are 99 um away from the centre.
   record.rows[10'000].sample.position_m = {0.0, 0.0, 70e-6, 70e-6};
-  record.rows[15'000].sample.position_m = {0.0, 0.0, 60e-6, 60e-6};
+  record.rows[17'000].sample.position_m = {0.0, 0.0, 60e-6, 60e-6};
   LeaveOutContact(TheRig(), record);
   EXPECT_FALSE(Has(record, 9'501));
   EXPECT_FALSE(Has(record, 10'499));
   EXPECT_TRUE(Has(record, 9'499));
-  EXPECT_TRUE(Has(record, 10'501));
-  EXPECT_TRUE(Has(record, 15'000));
+  EXPECT_TRUE(Has(record, 16'501));
+  EXPECT_TRUE(Has(record, 17'000));
 }
 
 // Lowered by 0.1 um a row from row 15 000 on: it is beyond a fifth of the clearance, 38 um, from
@@ -82,7 +91,7 @@ TEST(FreeFlight, IsBesideTheCentreWhereTheRotorsPlaceIsThere) {
   for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
   LeaveOutContact(TheRig(), record);
   EXPECT_FALSE(Has(record, 3000));
-  EXPECT_TRUE(Has(record, 3600));
+  EXPECT_TRUE(Has(record, 9000));
 }
 
 TEST(FreeFlight, IsALargeOrbitRoundTheCentreToo) {
@@ -93,7 +102,7 @@ TEST(FreeFlight, IsALargeOrbitRoundTheCentreToo) {
     if (n < 3000) record.rows[n].sample.command.control_current_a = {};
   }
   LeaveOutContact(TheRig(), record);
-  EXPECT_TRUE(Has(record, 3600));
+  EXPECT_TRUE(Has(record, 9000));
 }
 
 TEST(FreeFlight, IsNotEndedByASingleZeroCurrent) {

@@ -76,6 +76,22 @@ TEST(RotationUnit, ASpeedInRpmOrHzBesideARightAngleIsNamed) {
   }
 }
 
+// 0 to 360, taken for radians and wrapped: at 3000 rad/s it turns by 2.7 turns from row to row.
+TEST(RotationUnit, AnAngleInDegreesThatTurnsByTurnsFromRowToRowIsNamed) {
+  for (const double speed_rad_per_s : {300.0, 785.4, 3000.0}) {
+    Record record =
+        RecordedLoop({.rows = 10'000, .speed_rad_per_s = speed_rad_per_s, .orbit_m = 3e-6});
+    for (auto& row : record.rows) {
+      const double degrees = std::fmod(row.sample.angle_rad, 2.0 * kPi) * 180.0 / kPi;
+      row.sample.angle_rad = std::fmod(degrees, 2.0 * kPi);
+    }
+    const RecordErrors found = RotationUnits(record);
+    ASSERT_EQ(found.errors.size(), 1U) << speed_rad_per_s;
+    EXPECT_EQ(found.errors[0].columns, std::vector<std::string>{"rotor_angle"});
+    EXPECT_NEAR(found.angle_factor, kPi / 180.0, 1e-9) << speed_rad_per_s;
+  }
+}
+
 TEST(RotationUnit, AnAngleInDegreesFromWhichTheSpeedWasMadeIsSeenByTheOrbit) {
   Record record = RecordedLoop(kTurning);
   for (auto& row : record.rows) {
