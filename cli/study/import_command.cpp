@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -140,14 +141,20 @@ ExitStatus Guess(const ImportCommandOptions& options) {
 /// Of the errors that the record itself has: a map that mends them.
 ExitStatus Suggest(const ImportCommandOptions& options) {
   session::CheckOutputPath(options.json_path, options.data_path);
-  if (IsBusLog(options.data_path) || session::IsSession(options.data_path)) {
+  // By its name: a CSV file may have any other. A session of another name is told by what it holds.
+  const bool session =
+      std::filesystem::path(options.data_path).extension().string().starts_with(".lcm");
+  if (IsBusLog(options.data_path) || session) {
     throw Problem(
         ExitStatus::kUsage,
         "--suggest: sessions and logs of candump have no columns; give a CSV or MAT file");
   }
   const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+  const bool mapped = !options.map_path.empty();
+  const session::ColumnMap present =
+      mapped ? session::LoadColumnMap(options.map_path) : session::ColumnMap{};
   const SuggestedMap map =
-      SuggestMap(options.data_path, rig,
+      SuggestMap(options.data_path, rig, mapped ? &present : nullptr,
                  fmt::format("amb import {} --rig {} --map MAP.yaml --out SESSION.lcm",
                              options.data_path, options.rig_name));
   fmt::print("{}", rt::Printable(map.text));
@@ -242,8 +249,7 @@ void AddImportCommand(CLI::App& app, Action& action) {
       ->add_flag(
           "--suggest", options->suggest,
           "Print the map of columns that mends the errors of the record: exchanged, reversed, "
-          "in another unit, times; write no session")
-      ->excludes(map)
+          "in another unit, times; of --map, where one is given; write no session")
       ->excludes(guess);
   command->add_flag("--overwrite", options->overwrite, "Replace a session that is there already");
   command->add_option("--tag", options->tags,

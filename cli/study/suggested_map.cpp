@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -21,13 +22,33 @@ namespace levitas::cli {
 namespace {
 
 using session::GuessedColumn;
+using session::MappedColumn;
 
-session::ColumnMap MapOf(const session::ColumnGuess& guess, double rate_hz) {
+session::ColumnMap MapOf(const session::ColumnGuess& guess) {
   session::ColumnMap map;
-  map.rate_hz = rate_hz;
   for (const GuessedColumn& column : guess.columns) {
     if (column.quantity.empty() || column.unit.empty()) continue;
-    if (rate_hz > 0.0 && column.quantity == "time") continue;
+    map.columns.push_back({column.column, column.quantity, column.unit, 1, 1.0, 0.0});
+  }
+  return map;
+}
+
+session::ColumnMap WithoutTimes(session::ColumnMap map, double rate_hz) {
+  map.rate_hz = rate_hz;
+  std::erase_if(map.columns, [](const MappedColumn& column) { return column.quantity == "time"; });
+  return map;
+}
+
+/// A map that is there already, with the columns that are read by their own names beside it.
+session::ColumnMap Completed(session::ColumnMap map, const session::ColumnGuess& guess) {
+  const std::size_t named = map.columns.size();
+  for (const GuessedColumn& column : guess.columns) {
+    const auto same = [&column](const MappedColumn& other) {
+      return other.column == column.column || other.quantity == column.quantity;
+    };
+    const auto end = map.columns.begin() + static_cast<std::ptrdiff_t>(named);
+    const bool own_name = column.column == column.quantity + "_" + column.unit;
+    if (!own_name || std::any_of(map.columns.begin(), end, same)) continue;
     map.columns.push_back({column.column, column.quantity, column.unit, 1, 1.0, 0.0});
   }
   return map;
@@ -66,11 +87,13 @@ diagnosis::Record Load(const std::string& path, const config::RigFile& rig,
 
 /// [s] of the first rows, as they stand in the file.
 std::vector<double> TimesOf(const session::SampledColumns& sampled,
-                            const session::ColumnGuess& guess) {
-  for (std::size_t i = 0; i < guess.columns.size(); ++i) {
-    if (guess.columns[i].quantity != "time") continue;
-    std::vector<double> times_s = sampled.values[i];
-    const std::string& unit = guess.columns[i].unit;
+                            const session::ColumnMap& columns) {
+  for (const MappedColumn& column : columns.columns) {
+    const auto at = std::ranges::find(sampled.names, column.column);
+    if (column.quantity != "time" || at == sampled.names.end()) continue;
+    std::vector<double> times_s =
+        sampled.values[static_cast<std::size_t>(at - sampled.names.begin())];
+    const std::string& unit = column.unit;
     const double seconds = unit == "ms" ? 1e-3 : unit == "us" ? 1e-6 : unit == "ns" ? 1e-9 : 1.0;
     for (double& time : times_s) time *= seconds;
     return times_s;
@@ -84,7 +107,7 @@ struct Use {
   double factor{1.0};
 };
 
-Use UseOf(const GuessedColumn& column, const RigNumbers& rig, const diagnosis::RecordErrors& found,
+Use UseOf(const MappedColumn& column, const RigNumbers& rig, const diagnosis::RecordErrors& found,
           bool has_speed) {
   if (column.quantity == "speed") return {column.quantity, found.speed_factor};
   if (column.quantity == "rotor_angle") {
@@ -103,7 +126,7 @@ Use UseOf(const GuessedColumn& column, const RigNumbers& rig, const diagnosis::R
   return {column.quantity, 1.0};
 }
 
-std::string LineOf(const GuessedColumn& column, const Use& use) {
+std::string LineOf(const MappedColumn& column, const Use& use) {
   std::string name;
   for (const char c : column.column) {
     if (c == '"' || c == '\\') name += '\\';
@@ -111,30 +134,33 @@ std::string LineOf(const GuessedColumn& column, const Use& use) {
   }
   std::string line =
       fmt::format("  - {{column: \"{}\", is: {}, unit: {}", name, use.quantity, column.unit);
-  if (use.factor < 0.0) line += ", sign: -1";
-  if (std::abs(use.factor) != 1.0) line += fmt::format(", scale: {:.12g}", std::abs(use.factor));
+  const double factor = use.factor * column.sign * column.scale;
+  if (factor < 0.0) line += ", sign: -1";
+  if (std::abs(factor) != 1.0) line += fmt::format(", scale: {:.12g}", std::abs(factor));
+  if (column.offset != 0.0) line += fmt::format(", offset: {:.12g}", column.offset);
   return line + "}\n";
 }
 
 }  // namespace
 
 SuggestedMap SuggestMap(const std::string& data_path, const config::RigFile& rig,
-                        const std::string& import) {
+                        const session::ColumnMap* map, const std::string& import) {
   const session::SampledColumns sampled =
       data_path.ends_with(".mat") ? session::SampleMat(data_path, rig.log.matrix, rig.log.rows)
                                   : session::SampleColumns(data_path);
   const session::ColumnGuess guess = session::GuessColumns(sampled, rig.numbers);
   const double rate_hz = 1.0 / rig.numbers.period_s();
+  const session::ColumnMap columns = map != nullptr ? Completed(*map, guess) : MapOf(guess);
   diagnosis::Record loaded;
-  bool by_rate = guess.periods_a_row == 0.0;
+  bool by_rate = map != nullptr ? map->rate_hz > 0.0 : guess.periods_a_row == 0.0;
   try {
-    loaded = Load(data_path, rig, MapOf(guess, by_rate ? rate_hz : 0.0));
+    loaded = Load(data_path, rig, by_rate ? WithoutTimes(columns, rate_hz) : columns);
     if (by_rate) loaded.times_s.clear();
   } catch (const BadInput&) {
     // Times that are no whole periods of the rig; whatever else is wrong is said once more.
     by_rate = true;
-    loaded = Load(data_path, rig, MapOf(guess, rate_hz));
-    loaded.times_s = TimesOf(sampled, guess);
+    loaded = Load(data_path, rig, WithoutTimes(columns, rate_hz));
+    loaded.times_s = TimesOf(sampled, columns);
   }
   const diagnosis::RigView view(rig.numbers, rig.plant);
   SuggestedMap out{{}, diagnosis::FindRecordErrors(view, loaded)};
@@ -148,12 +174,9 @@ SuggestedMap SuggestMap(const std::string& data_path, const config::RigFile& rig
   out.text += "kind: import_map\n";
   if (by_rate) out.text += fmt::format("rate_hz: {:g}\n", rate_hz);
   out.text += "columns:\n";
-  bool has_speed = false;
-  for (const GuessedColumn& column : guess.columns) {
-    has_speed = has_speed || column.quantity == "speed";
-  }
-  for (const GuessedColumn& column : guess.columns) {
-    if (column.quantity.empty() || column.unit.empty()) continue;
+  const bool has_speed = std::ranges::any_of(
+      columns.columns, [](const MappedColumn& column) { return column.quantity == "speed"; });
+  for (const MappedColumn& column : columns.columns) {
     if (by_rate && column.quantity == "time") continue;
     out.text += LineOf(column, UseOf(column, rig.numbers, out.found, has_speed));
   }

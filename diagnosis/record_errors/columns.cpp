@@ -9,18 +9,49 @@ namespace {
 
 constexpr std::size_t kSpans = 4;
 
+/// Of the axes whose test signal is in none of the spans: where the middle of its rows lies.
+std::vector<std::size_t> MissedTestSignals(const Record& record, std::size_t axes,
+                                           const std::vector<std::size_t>& levitated,
+                                           const std::vector<std::size_t>& starts,
+                                           std::size_t length) {
+  std::vector<std::size_t> missed;
+  for (std::size_t a = 0; a < axes; ++a) {
+    std::vector<std::size_t> excited;
+    for (std::size_t i = 0; i < levitated.size(); ++i) {
+      if (record.rows[levitated[i]].excitation_a[a] != 0.0) excited.push_back(i);
+    }
+    const auto holds = [&](std::size_t from) {
+      const auto first = std::ranges::lower_bound(excited, from);
+      const auto last = std::ranges::lower_bound(excited, from + length);
+      return static_cast<std::size_t>(last - first) >= length / kSpans;
+    };
+    if (excited.empty() || std::ranges::any_of(starts, holds)) continue;
+    missed.push_back(excited[excited.size() / 2]);
+  }
+  return missed;
+}
+
 /// Rows of the record that are taken, in its order.
-std::vector<std::size_t> Taken(const Record& record, std::size_t most_rows) {
+std::vector<std::size_t> Taken(const Record& record, std::size_t axes, std::size_t most_rows) {
   std::vector<std::size_t> levitated;
   for (std::size_t n = 0; n < record.rows.size(); ++n) {
     if (record.rows[n].levitated) levitated.push_back(n);
   }
   if (levitated.size() <= most_rows) return levitated;
   const std::size_t length = most_rows / kSpans;
+  const std::size_t last = levitated.size() - length;
+  std::vector<std::size_t> starts;
+  for (std::size_t s = 0; s < kSpans; ++s) starts.push_back(s * last / (kSpans - 1));
+  for (const std::size_t at : MissedTestSignals(record, axes, levitated, starts, length)) {
+    starts.push_back(std::min(at > length / 2 ? at - length / 2 : 0, last));
+  }
+  std::ranges::sort(starts);
   std::vector<std::size_t> taken;
-  for (std::size_t s = 0; s < kSpans; ++s) {
-    const std::size_t from = s * (levitated.size() - length) / (kSpans - 1);
-    for (std::size_t i = from; i < from + length; ++i) taken.push_back(levitated[i]);
+  std::size_t next = 0;
+  for (const std::size_t from : starts) {
+    for (std::size_t i = std::max(from, next); i < from + length; ++i)
+      taken.push_back(levitated[i]);
+    next = from + length;
   }
   return taken;
 }
@@ -33,7 +64,7 @@ double CurrentLimit(const RigView& rig, std::size_t axis) {
 }
 
 Columns ColumnsOf(const Record& record, const RigView& rig, std::size_t most_rows) {
-  const std::vector<std::size_t> taken = Taken(record, most_rows);
+  const std::vector<std::size_t> taken = Taken(record, rig.axes, most_rows);
   const auto rows = static_cast<Eigen::Index>(taken.size());
   const auto axes = static_cast<Eigen::Index>(rig.axes);
   Columns out;

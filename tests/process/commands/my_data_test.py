@@ -4,7 +4,7 @@ import csv
 import math
 import unittest
 
-from command import BAD_INPUT, BINARIES, SOURCE, USAGE, CommandTest, make_record
+from command import BAD_INPUT, BINARIES, DONE, SOURCE, USAGE, CommandTest, amb, make_record
 
 import page  # of tests/support
 
@@ -55,6 +55,26 @@ class MyData(CommandTest):
         for column in guess["columns"]:
             self.assertIn(f'"{column["column"]}", is: {column["is"]}, unit: {column["unit"]}',
                           printed)
+
+    def test_suggestion_mends_the_map_that_is_there(self):
+        record = make_record(self.folder / "record.csv", "healthy", 3000, 15_000)
+        names, *rows = record.read_text().splitlines()
+        # Of unlike names, probe nde_x in volts and upside down, the other columns as they are.
+        self.write("own.csv", "\n".join([names.replace("position_nde_x_m", "S3"), *(
+            ",".join(f"{-1.5 - 8e3 * float(cell)!r}" if name == "position_nde_x_m" else cell
+                     for name, cell in zip(names.split(","), row.split(","))) for row in rows)]) + "\n")
+        line = '  - {column: "S3", is: position_nde_x, unit: mm, sign: %s, scale: 0.125, offset: -1.5}'
+        self.write("map.yaml", f"kind: import_map\ncolumns:\n{line % 1}\n")
+        printed = self.suggested("map.yaml")
+        self.assertIn("position_nde_x has the wrong sign", printed)
+        self.assertIn(line % -1, printed)
+        self.write("mended.yaml", printed)
+        self.assertIn("No error of the record", self.suggested("mended.yaml"))
+
+    def suggested(self, name):
+        done = amb(self.folder, "import", "own.csv", "--rig", "flexible_rotor", "--map", name, "--suggest")
+        self.assertEqual((done.returncode, done.stderr), (DONE, ""), done.stdout)
+        return done.stdout
 
     def test_column_left_out_is_told_as_what_the_record_lacks(self):
         record = make_record(self.folder / "r.csv", rows=500)

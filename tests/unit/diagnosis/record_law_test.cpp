@@ -48,6 +48,23 @@ TEST(LawFit, DoesNotKnowCurrentsThatFollowNothing) {
   EXPECT_EQ(BreaksOf(record), 0) << "what is not known cannot be broken";
 }
 
+// A minute in which every axis is excited for a few seconds: four spans of 0.4 s miss most.
+TEST(Columns, HoldTheTestSignalOfEveryAxis) {
+  Record record = RecordedLoop({.rows = 100'000});
+  for (std::size_t n = 0; n < record.rows.size(); ++n) {
+    for (std::size_t a = 0; a < 4; ++a) {
+      if (n < 40'000 + 5'000 * a || n >= 45'000 + 5'000 * a) record.rows[n].excitation_a[a] = 0.0;
+    }
+  }
+  const Columns columns = ColumnsOf(record, RotorView(), 16'000);
+  for (Eigen::Index a = 0; a < 4; ++a) {
+    EXPECT_GE((columns.excitation_a.col(a).array() != 0.0).count(), 1000) << a;
+  }
+  EXPECT_LE(columns.rows(), 32'000);
+  EXPECT_EQ(std::count(columns.missing.begin() + 1, columns.missing.end(), 0) + 7,
+            columns.rows() - 1);
+}
+
 TEST(Breaks, ByTwoColumnsThatAreExchangedAndMendedByExchangingThem) {
   Record record = RecordedLoop();
   for (auto& row : record.rows) std::swap(row.sample.position_m[0], row.sample.position_m[3]);
