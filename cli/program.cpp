@@ -33,7 +33,7 @@ void RefuseUnknownCommand(const CLI::App& app, int argc, char** argv) {
         ExitStatus::kUsage,
         fmt::format("'{0}' is of the launcher: ./amb {0} in the folder of the source", found));
   }
-  std::vector<std::string> known;
+  std::vector<std::string> known{"help"};  // the parser's own
   for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
   if (std::find(known.begin(), known.end(), found) != known.end()) return;
   throw Problem(ExitStatus::kUsage, fmt::format("no command '{}'; nearest: {}. All: {}", found,

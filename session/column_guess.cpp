@@ -230,7 +230,7 @@ std::string GuessText(const ColumnGuess& guess, const RigNumbers& rig, const std
   std::string text = fmt::format(
       "# What the columns of {} probably are, from their names, units and first rows.\n"
       "# Check every line; no file tells signs and offsets:\n"
-      "#   quantity = sign * (number of the file - offset), in the rig's directions\n"
+      "#   quantity = sign * scale * (number of the file - offset), in the rig's directions\n"
       "# Then: {}\n"
       "kind: import_map\n",
       data_path, import);

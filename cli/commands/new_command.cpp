@@ -163,12 +163,31 @@ void WriteFiles(const NewRigFiles& files, const std::array<std::string, 4>& text
   if (!texts[3].empty()) WriteTextFile(files.identify.string(), texts[3]);
 }
 
-/// What each magnet carries of the weight, and whether it can.
+/// [N] of the weight in each axis of a bearing; its axes are at 45 degrees to the vertical.
+double LoadOf(const RigSketch& sketch, const SketchNumbers& numbers, std::size_t bearing) {
+  return sketch.vertical ? 0.0 : 9.81 * std::abs(numbers.carried_kg[bearing]) / std::numbers::sqrt2;
+}
+
+/// Of a rotor that no law can lift.
+void RefuseOverload(const RigSketch& sketch, const SketchNumbers& numbers) {
+  const double most_n = sketch.ki_n_per_a * sketch.bias_a;
+  for (std::size_t b = 0; b < numbers.carried_kg.size(); ++b) {
+    const double load_n = LoadOf(sketch, numbers, b);
+    if (load_n < most_n) continue;
+    throw BadInput(fmt::format(
+        "the {} magnet cannot carry the rotor: {:.4g} N of its weight in each axis, and {:.4g} N/A "
+        "times {:.4g} A of bias are {:.4g} N. Half of what a magnet has is for control: give "
+        "--ki-n-per-a {:.0f} or more, more bias, or a lighter rotor",
+        b == 0 ? "front" : "rear", load_n, sketch.ki_n_per_a, sketch.bias_a, most_n,
+        std::ceil(2.0 * load_n / sketch.bias_a)));
+  }
+}
+
+/// What each magnet carries of the weight, and whether it can well.
 void PrintLoads(const RigSketch& sketch, const SketchNumbers& numbers) {
-  constexpr double kHalfAngle = std::numbers::sqrt2;  // of two axes at 45 degrees to the vertical
   for (std::size_t b = 0; b < numbers.carried_kg.size(); ++b) {
     const double newton = sketch.vertical ? 0.0 : 9.81 * numbers.carried_kg[b];
-    const double ampere = std::abs(newton) / kHalfAngle / sketch.ki_n_per_a;
+    const double ampere = LoadOf(sketch, numbers, b) / sketch.ki_n_per_a;
     fmt::print("  {} bearing carries {:.1f} N: {:.2f} A of {:.2f} A in each axis{}\n",
                b == 0 ? "front" : "rear", newton, ampere, sketch.bias_a,
                ampere > 0.5 * sketch.bias_a ? ", which leaves little to control with" : "");
@@ -217,6 +236,7 @@ ExitStatus Make(NewRigOptions options) {
   RefuseExisting(options, files);
   Complete(options);
   const SketchNumbers numbers = NumbersOf(options.sketch);
+  RefuseOverload(options.sketch, numbers);
   std::array<std::string, 4> texts{SketchRig(options.sketch, files.controller.filename().string(),
                                              files.scenario.filename().string()),
                                    {},

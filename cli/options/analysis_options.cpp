@@ -10,6 +10,7 @@
 
 #include "cli/run/general_files.hpp"
 #include "configuration/law_notes.hpp"
+#include "configuration/run_files.hpp"
 #include "controller/law/discrete_law.hpp"
 #include "hil/socketcan/can_connection.hpp"
 #include "session/output_path.hpp"
@@ -124,9 +125,8 @@ config::RigFile LoadRig(const AnalysisOptions& options) {
 }
 
 FoundController LoadController(const AnalysisOptions& options, const config::RigFile& rig) {
-  std::string name = options.controller_name.empty() ? rig.run.controller : options.controller_name;
-  if (name.empty()) name = kReferenceController;
-  const std::string path = config::FindConfig(name, "controllers");
+  const std::string path =
+      config::FindController(rig.run, options.controller_name, kReferenceController);
   session::RefuseClash({{"--json", options.json_path}}, {{"the controller file", path}});
   FoundController found{path, config::LoadController(path, rig.numbers), {}};
   found.notes = NotchesElsewhere(found.file, rig.numbers);

@@ -8,6 +8,7 @@
 #include "cli/run/rig_as_run.hpp"
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
+#include "configuration/run_files.hpp"
 #include "hil/socketcan/can_connection.hpp"
 
 namespace levitas::cli {
@@ -30,11 +31,6 @@ bool Collect(std::string& problems, Read read) {
   }
 }
 
-/// What was asked for, else what the rig names, else what suits most.
-std::string Choose(const std::string& asked, const std::string& of_rig, const char* general) {
-  if (!asked.empty()) return asked;
-  return of_rig.empty() ? general : of_rig;
-}
 
 /// A factor is meant for a paced run, whatever else would be usual.
 std::string UsualPace(const RunOptions& options) {
@@ -79,13 +75,11 @@ RunFiles CheckFiles(const RunOptions& options) {
         fmt::format("\n(the other files are checked against the shipped rig {})", kReferenceRig);
   }
   Collect(problems, [&] {
-    files.controller_path = config::FindConfig(
-        Choose(options.controller, of_rig.controller, kGeneralController), "controllers");
+    files.controller_path = config::FindController(of_rig, options.controller, kGeneralController);
     static_cast<void>(config::LoadController(files.controller_path, reference));
   });
   Collect(problems, [&] {
-    files.scenario_path = config::FindConfig(
-        Choose(options.scenario, of_rig.scenario, kGeneralScenario), "scenarios");
+    files.scenario_path = config::FindScenario(of_rig, options.scenario, kGeneralScenario);
     files.scenario_name = config::LoadScenario(files.scenario_path, reference).name;
   });
   if (!problems.empty()) throw BadInput(problems);

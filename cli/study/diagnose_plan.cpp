@@ -13,6 +13,7 @@
 #include "cli/study/progress_line.hpp"
 #include "cli/study/written_files.hpp"
 #include "cli/text_file.hpp"
+#include "configuration/run_files.hpp"
 #include "diagnosis/isolability/simulated_record.hpp"
 #include "diagnosis/levitator/levitator_result.hpp"
 #include "diagnosis/records/levitated_interval.hpp"
@@ -24,10 +25,8 @@ namespace {
 using diagnosis::Record;
 
 config::ControllerFile ControllerOf(const PlanOptions& options, const config::RigFile& rig) {
-  const std::string name =
-      options.controller_name.empty() ? rig.run.controller : options.controller_name;
   return config::LoadController(
-      config::FindConfig(name.empty() ? "flexible_rotor" : name, "controllers"), rig.numbers);
+      config::FindController(rig.run, options.controller_name, "flexible_rotor"), rig.numbers);
 }
 
 std::vector<Record> RecordsOf(const PlanOptions& options, const config::RigFile& rig,

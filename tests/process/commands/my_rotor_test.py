@@ -73,6 +73,7 @@ class MyRotor(CommandTest):
     def test_what_no_rotor_is_is_refused_and_leaves_nothing(self):
         for status, words, options in (
                 (BAD_INPUT, "the discs have 9 kg", ("--disc", "100:9:50")),
+                (BAD_INPUT, "magnet cannot carry the rotor", ("--mass-kg", "800")),
                 (BAD_INPUT, "allowed 0 to 300 mm", ("--disc", "400:1:50")),
                 (BAD_INPUT, "must lie behind", ("--bearings-mm", "200,100")),
                 (USAGE, "Z_MM:MASS_KG:DIAMETER_MM", ("--disc", "100:1")),

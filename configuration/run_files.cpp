@@ -1,0 +1,47 @@
+#include "configuration/run_files.hpp"
+
+#include <filesystem>
+
+#include "common/problem.hpp"
+
+namespace levitas::config {
+namespace {
+
+/// What a rig names with a slash is a path beside its file; without one, the name of a shipped file.
+std::string FindOwn(const std::string& key, const std::string& name, const std::string& kind) {
+  std::error_code none;
+  const bool path = name.find('/') != std::string::npos;
+  if (path && std::filesystem::is_regular_file(name, none)) return name;
+  const std::string where = "run." + key + " of the rig file: ";
+  if (path) {
+    throw BadInput(where + name +
+                   ": no such file; a path in a rig file counts from the folder of that " +
+                   "file. Give one with --" + key + ", or correct the key");
+  }
+  try {
+    return FindConfig(name, kind);
+  } catch (const BadInput& problem) {
+    throw BadInput(where + problem.what() + "; of a file beside the rig file write ./" + name);
+  }
+}
+
+std::string Find(const std::string& key, const std::string& own, const std::string& given,
+                 const std::string& otherwise) {
+  const std::string kind = key + "s";
+  if (!given.empty()) return FindConfig(given, kind);
+  return own.empty() ? FindConfig(otherwise, kind) : FindOwn(key, own, kind);
+}
+
+}  // namespace
+
+std::string FindController(const RunDefaults& rig, const std::string& given,
+                           const std::string& otherwise) {
+  return Find("controller", rig.controller, given, otherwise);
+}
+
+std::string FindScenario(const RunDefaults& rig, const std::string& given,
+                         const std::string& otherwise) {
+  return Find("scenario", rig.scenario, given, otherwise);
+}
+
+}  // namespace levitas::config

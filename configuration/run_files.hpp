@@ -1,0 +1,22 @@
+#pragma once
+// The controller and the scenario that a rig file names for itself (section run).
+//
+// Failure  BadInput: no such file, with the key that names it and where it was looked for; of a
+//          name that was given, as FindConfig says.
+// Thread   any.
+
+#include <string>
+
+#include "configuration/rig_file.hpp"
+
+namespace levitas::config {
+
+/// Path of the controller file: the `given` one, else the rig's own, else `otherwise`.
+[[nodiscard]] std::string FindController(const RunDefaults& rig, const std::string& given,
+                                         const std::string& otherwise);
+
+/// The same of the scenario.
+[[nodiscard]] std::string FindScenario(const RunDefaults& rig, const std::string& given,
+                                       const std::string& otherwise);
+
+}  // namespace levitas::config
