@@ -32,9 +32,18 @@ const NamedParameter* SizeOf(const DiagnosisReport& report, const Words& words) 
   return largest;
 }
 
-bool IsSame(const DiagnosisReport& report, const NamedParameter& size) {
+/// Of a cause that has a size at every axis by itself: whether this axis has much of it, and to the
+/// same side as the worst one. The sentence about the worst would be wrong of the others.
+bool IsMeant(const NamedParameter& p, const NamedParameter* largest, double neutral) {
+  constexpr double kMuch = 0.2;  // of the largest
+  if (largest == nullptr || p.key != largest->key || largest->value == neutral) return true;
+  return (p.value - neutral) / (largest->value - neutral) >= kMuch;
+}
+
+bool IsSame(const DiagnosisReport& report, const NamedParameter& size, double neutral) {
   return std::all_of(report.parameters.begin(), report.parameters.end(), [&](const auto& p) {
-    return p.effect != size.effect || p.key != size.key || p.value == size.value;
+    return p.effect != size.effect || p.key != size.key || p.value == size.value ||
+           !IsMeant(p, &size, neutral);
   });
 }
 
@@ -45,7 +54,7 @@ std::string SizeText(const DiagnosisReport& report, const Words& words) {
     return fmt::format(", {:.3g} samples where the file says {:.3g}", size->value,
                        size->of_file ? size->of_file->nominal : 0.0);
   }
-  const bool up_to = !IsSame(report, *size);
+  const bool up_to = !IsSame(report, *size, NeutralOf(words));
   std::string number;
   switch (words.form) {
     case SizeForm::kPlain:
@@ -92,9 +101,12 @@ std::string At(const DiagnosisReport& report, const NamedParameter& p) {
 std::string PlaceText(const DiagnosisReport& report, const ReportCause& cause) {
   std::vector<std::string> places;
   std::size_t own = 0;
+  const Words* words = FindWords(report, cause.effect);
+  const NamedParameter* largest = words == nullptr ? nullptr : SizeOf(report, *words);
   for (const NamedParameter& p : report.parameters) {
     if (p.effect != cause.effect) continue;
     ++own;
+    if (words != nullptr && !IsMeant(p, largest, NeutralOf(*words))) continue;
     if (p.key == "z_mm") return fmt::format(" near z = {:.0f} mm", p.value);
     std::string at = At(report, p);
     // "at de_x, de_y", not "at de_x, at de_y".

@@ -83,6 +83,22 @@ TEST(Headline, SaysPlaceAndSizeOnce) {
               StartsWith("A bending mode lies elsewhere (bending mode 1), "));
 }
 
+TEST(Headline, NamesOfEveryAxisByItselfThoseOfWhichItIsTrue) {
+  DiagnosisResult s = Found("current_gain", "every axis by itself");
+  ASSERT_EQ(s.answer.parameters.size(), 4U);
+  const auto say = [&s](const std::vector<double>& gains) {
+    for (std::size_t i = 0; i < gains.size(); ++i) {
+      s.answer.parameters[i].value = gains[i];
+      s.answer.theta_extended[s.answer.parameters[i].term] = gains[i];
+    }
+    return BuildReport(s).headline;
+  };
+  EXPECT_THAT(say({0.1, 0.06, -0.14, 0.03}),
+              HasSubstr("too weakly for its current at nde_x, by 14 %"));
+  EXPECT_THAT(say({-0.1, 0.01, -0.14, 0.0}), HasSubstr("at de_x, nde_x, by up to 14 %"));
+  EXPECT_THAT(say({-0.1, -0.1, -0.14, -0.12}), HasSubstr("on all axes, by up to 14 %"));
+}
+
 TEST(Odds, ArePowersOfTen) {
   EXPECT_EQ(OddsText(4974.0), "10^2160 : 1");  // 4974 / ln 10 = 2160.2
   EXPECT_EQ(OddsText(14.0), "10^6 : 1");       // 1 202 604
