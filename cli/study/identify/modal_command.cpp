@@ -101,6 +101,38 @@ void PrintAxes(const ModalResult& r) {
       r.rig.mass_kg, r.rig.inertia_kg_m2, 1e3 * r.rig.centre_z_m, r.rig.delay_samples);
 }
 
+/// [A] mean over the levitated rows.
+double StaticCurrent(const session::Recording& record, std::size_t axis) {
+  double sum = 0.0;
+  std::size_t rows = 0;
+  for (std::size_t n = 0; n < record.rows(); ++n) {
+    if (record.levitated[n] == 0 || !std::isfinite(record.current_a[axis][n])) continue;
+    sum += record.current_a[axis][n];
+    ++rows;
+  }
+  return rows > 0 ? sum / static_cast<double>(rows) : 0.0;
+}
+
+/// A current that carries weight stiffens its magnet: dF/dx = 4 k (i0^2 + i^2) / s0^3 of two coils
+/// in differential driving mode. A rig file states it without.
+void PrintStaticShare(const config::RigFile& rig, const session::Recording& record,
+                      const ModalResult& r) {
+  constexpr double kSeen = 0.01;
+  std::vector<std::string> axes;
+  for (std::size_t a = 0; a < record.channels.size(); ++a) {
+    const double bias_a = rig.plant.bearings[a / 2].magnet.bias_current_a;
+    const double static_a = StaticCurrent(record, a);
+    const double share = std::pow(static_a / bias_a, 2);
+    if (share < kSeen) continue;
+    axes.push_back(fmt::format("{} {:.3g} A makes {:.1f} % ({:.0f} N/m without)", r.channels[a],
+                               static_a, 100.0 * share,
+                               r.rig.ks_n_per_m[static_cast<Eigen::Index>(a)] / (1.0 + share)));
+  }
+  if (axes.empty()) return;
+  fmt::print("ks is that of the working point, with what static currents add, (i/i0)^2: {}\n",
+             fmt::join(axes, ", "));
+}
+
 void PrintSupport(const ModalResult& r) {
   for (std::size_t i = 0; i < r.support.size(); ++i) {
     const ModeSupport& s = r.support[i];
@@ -218,6 +250,7 @@ ExitStatus Run(const ModalOptions& options) {
   PrintResiduals(result);
   PrintModes(result);
   PrintAxes(result);
+  PrintStaticShare(rig, record, result);
   PrintSupport(result);
   PrintLimits(result);
   PrintStarts(result, responses, options);

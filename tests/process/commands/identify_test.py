@@ -4,12 +4,14 @@ what was identified, and the record against both files.
 
 import csv
 import json
+import re
 import unittest
 from pathlib import Path
 
 from command import BAD_INPUT, DONE, SHIPPED_RIG, CommandTest, amb, edited
 
 KI_N_PER_A = 46.0  # where the file has 40
+BIAS_A = 1.0  # of the file
 PUMP_RIG = SHIPPED_RIG.with_name("turbomolecular_pump.yaml")
 AXES = ("de_x", "nde_x", "de_y", "nde_y")
 # Four periods of 2 x 1023 samples on each axis: a quarter of the shipped campaign, standing only.
@@ -37,6 +39,17 @@ class Identify(CommandTest):
     def run_amb(self, *arguments):
         return amb(self.folder, *arguments)
 
+    def expect_stiffness_without_static_current(self, printed):
+        """The weight's current stiffens the magnets; it is told with what it makes."""
+        axes = re.findall(r"(\w+) ([\d.]+) A makes ([\d.]+) % \((\d+) N/m without\)", printed)
+        self.assertEqual(len(axes), 4, printed)
+        for _, ampere, percent, _ in axes:
+            self.assertAlmostEqual(float(percent), 100.0 * (float(ampere) / BIAS_A) ** 2, delta=0.1)
+        # Both axes of a bearing carry alike: the rotor hangs at 45 degrees between them.
+        carried = {name: float(ampere) for name, ampere, _, _ in axes}
+        for bearing in ("de", "nde"):
+            self.assertLess(abs(carried[bearing + "_x"] / carried[bearing + "_y"] - 1.0), 0.02)
+
     def test_a_rig_with_other_magnets_is_found_run_and_simulated(self):
         worn = edited(SHIPPED_RIG, ("ki_n_per_a: 40", f"ki_n_per_a: {KI_N_PER_A}"))
         self.write("worn.yaml", worn)
@@ -48,6 +61,7 @@ class Identify(CommandTest):
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.assertIn("was recorded with rig", done.stderr)
         self.assertIn("rig file -> identified", done.stdout)
+        self.expect_stiffness_without_static_current(done.stdout)
         told = done.stdout.splitlines()[-1]
         self.assertTrue(told.startswith("wrote "), told)
         for name in told.removeprefix("wrote ").split(", "):
