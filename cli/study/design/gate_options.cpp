@@ -138,6 +138,12 @@ design::GateResult JudgeAndPrint(const config::RigFile& rig, const law::LawConfi
              PeakText(result.corner_sensitivity), PeakText(result.singular));
   fmt::print("mu       at most {}, real parameters; were they complex, {}\n", PeakText(result.mu),
              PeakText(result.mu_complex));
+  if (result.mu.value > 1.0 && !gate.mu) {
+    fmt::print(
+        "         above 1 is no instability: with currents and orbits weighed as for the "
+        "flexible_rotor's design, some rig of the uncertainty exceeds them; a limit with "
+        "--most-mu\n");
+  }
   fmt::print("runs     {} drawn rigs on the nonlinear plant{}\n", result.rigs,
              options.third_n > 0.0
                  ? fmt::format(", {:.2f} N at three times the speed", options.third_n)
