@@ -182,6 +182,8 @@ Campbell LevitatedCampbell(const plant::PlantConfig& plant, const law::LawConfig
   return CampbellOf(modes, top_rad_per_s, kLevitatedSteps);
 }
 
+double AmplificationFactor(const CampbellMode& mode) { return 0.5 / mode.damping_ratio; }
+
 const char* WhirlName(const CampbellMode& mode) {
   if (mode.torsion_share > 0.5) return "torsion";
   if (std::abs(mode.forward_share - 0.5) < kOnePlane) return "plane";

@@ -58,6 +58,12 @@ using ModesAt = std::function<std::vector<CampbellMode>(double speed_rad_per_s)>
 [[nodiscard]] Campbell LevitatedCampbell(const plant::PlantConfig& plant, const law::LawConfig& law,
                                          double top_rad_per_s);
 
+/// 1/(2 zeta): how much larger an unbalance makes the orbit in the resonance than far above it.
+/// API 617 calls a critical speed with less than kCriticallyDamped critically damped: nothing has
+/// to keep away from it.
+[[nodiscard]] double AmplificationFactor(const CampbellMode& mode);
+inline constexpr double kCriticallyDamped = 2.5;
+
 /// "forward", "backward", or "plane" where neither leads; "torsion".
 [[nodiscard]] const char* WhirlName(const CampbellMode& mode);
 

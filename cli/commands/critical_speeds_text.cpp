@@ -28,10 +28,14 @@ void ShowCriticalSpeeds(const analysis::Campbell& campbell, const char* what,
              campbell.crossings.empty() ? " nowhere" : "");
   for (const auto& crossing : campbell.crossings) {
     const double damping = crossing.mode.damping_ratio;
-    fmt::print("{:>10.1f} rpm {:>10.3f} Hz  {}{}\n", RadPerSToRpm(crossing.speed_rad_per_s),
+    const double amplification = analysis::AmplificationFactor(crossing.mode);
+    fmt::print("{:>10.1f} rpm {:>10.3f} Hz  {}{}{}\n", RadPerSToRpm(crossing.speed_rad_per_s),
                crossing.mode.frequency_hz,
                damping == 0.0 ? "" : fmt::format("damping {:.5f}  ", damping),
-               analysis::WhirlName(crossing.mode));
+               analysis::WhirlName(crossing.mode),
+               damping == 0.0 || amplification >= analysis::kCriticallyDamped
+                   ? ""
+                   : fmt::format("  critically damped (amplification {:.1f})", amplification));
   }
 }
 

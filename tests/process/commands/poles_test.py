@@ -2,6 +2,7 @@
 
 import cmath
 import math
+import re
 import unittest
 
 from command import (DONE, SOURCE, CommandTest, amb, numbers, reference_rows,
@@ -60,6 +61,18 @@ class Poles(CommandTest):
         for pole in bending:
             self.assertEqual(pole["forward_share"] > 0.9, pole["frequency_hz"] > 0, pole)
 
+    def test_well_damped_critical_speeds_are_said_to_be(self):
+        shipped = (SOURCE / "config/controllers/flexible_rotor.yaml").read_text()
+        for factor, damped in ((1.0, False), (0.75, True)):
+            self.write("law.yaml", re.sub(r"(kd_a_s_per_m: )([\d.]+)", lambda found: found[1]
+                                          + str(factor * float(found[2])), shipped))
+            printed, loop = self.compute("poles", "--controller", "law.yaml")
+            rows = printed.split("Critical speeds, levitated, ")[1].splitlines()[1:]
+            self.assertGreater(len(rows), 0)
+            for row, at in zip(rows, loop["critical_speeds"], strict=True):
+                self.assertEqual("critically damped" in row, 0.5 / at["damping_ratio"] < 2.5, row)
+            self.assertEqual(any("critically damped" in row for row in rows), damped, rows)
+
     def test_what_is_printed_is_what_the_json_holds(self):
         printed, loop = self.compute("poles", "--speed-rpm", "1600", "--up-to-hz", "300")
         table, critical = printed.split("Critical speeds, levitated, ")
@@ -67,6 +80,7 @@ class Poles(CommandTest):
         for row, at in zip(critical.splitlines()[1:], loop["critical_speeds"], strict=True):
             self.assertIn(f"{at['speed_rpm']:.1f} rpm", row)
             self.assertIn(f"damping {at['damping_ratio']:.5f}  {at['whirl']}", row)
+            self.assertNotIn("critically damped", row)
         at = loop["speeds"][0]
         lines = [line for line in table.splitlines()
                  if "the notch given at" not in line and "Tustin's rule" not in line]
