@@ -7,7 +7,7 @@
 namespace levitas::config {
 namespace {
 
-/// What a rig names with a slash is a path beside its file; without one, the name of a shipped file.
+/// With a slash it is a path beside the rig's file; without one, the name of a shipped file.
 std::string FindOwn(const std::string& key, const std::string& name, const std::string& kind) {
   std::error_code none;
   const bool path = name.find('/') != std::string::npos;

@@ -31,7 +31,6 @@ bool Collect(std::string& problems, Read read) {
   }
 }
 
-
 /// A factor is meant for a paced run, whatever else would be usual.
 std::string UsualPace(const RunOptions& options) {
   if (options.rig_is_there) return "realtime";

@@ -1,8 +1,9 @@
 #pragma once
 // amb import --suggest: the map of columns that mends the errors of a record.
 //
-// From       a map, or without one the columns' names as --guess reads them; and what law and plant say of the rows
-//            (diagnosis/record_errors/find.hpp). What no map mends stands in comments.
+// From       a map, or without one the columns' names as --guess reads them; and what law and plant
+//            say of the rows (diagnosis/record_errors/find.hpp). What no map mends stands in
+//            comments.
 // Times      that are no whole periods of the rig are left out: the map states the rig's rate.
 // Failure    BadInput: as reading the file does. Thread: any; no shared state.
 

@@ -5,7 +5,7 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// Whether the filter takes anything away. Every one begins with one over the rms of what it leaves.
+/// Whether the filter takes anything away. It begins with one over the rms of what it leaves.
 bool Colours(const Whitener& filter, const Whitener& plain) {
   constexpr double kOfTheRms = 1.03;  // 30 nat of a thousand samples
   for (std::size_t a = 0; a < filter.filter.size(); ++a) {

@@ -1,8 +1,8 @@
 #pragma once
 // The levitated rows of a record as matrices, in few spans: what statistics over columns read.
 //
-// Rows       at most `most_rows`: all of a shorter record, else kSpans spans evenly over it, and one
-//            more for every axis whose test signal is in none of them: which of two columns is
+// Rows       at most `most_rows`: all of a shorter record, else kSpans spans evenly over it, and
+//            one more for every axis whose test signal is in none of them: which of two columns is
 //            reversed, only a test signal tells.
 // Missing    cycles between two rows: 0 where a row is the sample after the row before it. A row
 //            that begins a span has kNewSpan.

@@ -59,8 +59,8 @@ struct Touched {
   std::vector<bool> contact, away;
 };
 
-/// From every contact on, and back from it, until the rotor has been at home: for `after` rows, or `before`
-/// them.
+/// From every contact on until the rotor has been at home for `after` rows; and back from it, for
+/// `before` rows.
 std::vector<bool> LeftOut(const Touched& touched, std::size_t before, std::size_t after) {
   std::vector<bool> out(touched.contact.size(), false);
   const auto pass = [&](std::size_t n, std::size_t margin, std::size_t& left) {

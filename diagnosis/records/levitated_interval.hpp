@@ -5,8 +5,8 @@
 //            currents are exactly zero (amplifiers off: a controller with noisy sensors does not
 //            ask for that), kOff rows in a row.
 // Margin     kMargin before and after belongs to it: the blow, and what the lift still swings.
-// Way        from a contact on, and back from it, the rotor is lifted or lowered until the middle of
-//            its orbit, a mean over kMargin, is within kHome of the clearance: there the magnets
+// Way        from a contact on, and back from it, the rotor is lifted or lowered until the middle
+//            of its orbit, a mean over kMargin, is within kHome of the clearance: there the magnets
 //            are far from where they are linear, and 200 ms of it outweigh a minute of flight. A
 //            rotor whose place is farther out has no such way: most rows would be left out.
 // Lift       what a lift still swings, and an observer that starts in it, needs kLift to settle. A
