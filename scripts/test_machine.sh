@@ -124,9 +124,13 @@ run() {
   trap "kill_left '$scratch'; rm -rf '$scratch'" EXIT
   write_init "$scratch/init" "$@"
   # shellcheck disable=SC2086 -- no option is no word
-  TMPDIR=$scratch timeout -k 2 "${LEVITAS_MACHINE_SECONDS:-1500}" \
-    "$linux" mem="${LEVITAS_MACHINE_MEMORY:-512M}" rootfstype=hostfs rootflags=/ rw init="$scratch/init" \
-    con=null con0=fd:0,fd:1 uml_dir="$scratch/" quiet $option </dev/null 2>"$scratch/kernel" |
+  # What a killed machine leaves behind holds the pipe open, for good: it goes before awk has to end.
+  {
+    TMPDIR=$scratch timeout -k 2 "${LEVITAS_MACHINE_SECONDS:-1500}" \
+      "$linux" mem="${LEVITAS_MACHINE_MEMORY:-512M}" rootfstype=hostfs rootflags=/ rw init="$scratch/init" \
+      con=null con0=fd:0,fd:1 uml_dir="$scratch/" quiet $option </dev/null 2>"$scratch/kernel" || true
+    kill_left "$scratch"
+  } |
     awk -v kept="$scratch/status" '
       { sub(/\r$/, "") }
       /^levitas-test-machine: status [0-9]+$/ { print $3 > kept; exit }

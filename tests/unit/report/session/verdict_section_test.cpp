@@ -68,7 +68,7 @@ TEST(CriticalSpeedSection, ListsCrossingsAndSaysWhereThereAreNone) {
   campbell.crossings.push_back({100.0 * std::numbers::pi, {50.0, 0.125, 1.0, 0.0}});
   const std::string html = CriticalSpeedSection(campbell);
   EXPECT_THAT(html, HasSubstr("<td class=n>3000</td><td class=n>50.00</td><td "
-                              "class=n>0.1250</td><td>forward</td>"));
+                              "class=n>0.1250</td><td class=n>4.0</td><td>forward</td>"));
   EXPECT_THAT(html, Not(HasSubstr("None.")));
 }
 
