@@ -27,6 +27,8 @@ effects:
 `strength` scales an entry from 0, where the plant is the nominal one bit for bit, to 1. Between them a value runs linearly from
 its neutral value, or inversely where neutral is infinite, or geometrically from the rig's own (bandwidths, frequencies); phases,
 orders and exponents stay. The program reaches every number by name, `effects[0].tau_s`, and can change a strength while it runs.
+The tables name parameters without their unit and list them in SI; the key of a rig file has one: of `amplitude` write
+`amplitude_um: 1.5` or `amplitude_m: 1.5e-6`.
 
 Symbols: *ic* control current, *i0* bias, *x* displacement at the actuator, *r* = x + jy, *q* modal coordinate, *w* its
 frequency, *phi* its shape, *W* speed and *angle* of the rotor, *s* Laplace variable. "Clear" is a size that shows on a
