@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "benchmark/accuracy/drawn_rig.hpp"
 #include "benchmark/accuracy/scores.hpp"
 #include "diagnosis/report/build_report.hpp"
 
@@ -10,19 +11,17 @@ namespace levitas::accuracy {
 namespace {
 
 /// Records of 0.9 to 1 s each: what a first answer needs, and no more.
-TrialScore Ask(std::uint64_t seed, std::vector<effect::Id> hidden, double size = 1.0,
-               std::size_t most_causes = 1) {
+TrialScore Ask(std::uint64_t seed, std::vector<effect::Id> hidden) {
   const TestRig bench = LoadTestRig("flexible_rotor", {"flexible_rotor"});
   TrialPlan plan;
   plan.seed = seed;
   plan.hidden = std::move(hidden);
-  plan.size = size;
   plan.bits_per_axis = 750;
   plan.runup_s = 1.0;
   const Trial trial = MakeTrial(bench, plan);
   diagnosis::Settings settings;
   settings.quick = true;
-  settings.most_causes = most_causes;
+  settings.most_causes = 1;
   const auto result = diagnosis::DiagnoseRecords(bench.rig, trial.records, {}, settings);
   return Judge(plan, trial.ground_truth, diagnosis::BuildReport(result));
 }
@@ -42,13 +41,22 @@ TEST(HiddenEffect, ThatLosesFramesIsNamed) {
 }
 
 // A hum as strong as the orbit is most of what calibration leaves, and so of the whitening filter:
-// fitted behind that filter it came out up to twice as large, with faults of the magnets beside it.
+// behind that filter it came out up to 81 % too large, with a current gain beside it that no magnet
+// had, and on this rig nothing was named.
 TEST(HiddenEffect, OfAStrongHumIsTheOnlyOneNamedAndRightlySized) {
-  for (const std::uint64_t seed : {9001U, 9007U}) {
-    const TrialScore outcome = Ask(seed, {effect::Id::kMainsPickup}, 15.0, 3);
-    EXPECT_EQ(outcome.named, std::vector<std::string>{"mains_pickup"}) << seed;
-    EXPECT_LT(outcome.parameter_error, 0.10) << seed;
-  }
+  TrialPlan plan;
+  plan.seed = 9007;
+  plan.hidden = {effect::Id::kMainsPickup};
+  plan.size = 12.0;
+  plan.bits_per_axis = 1023;
+  const Trial trial = MakeDrawnTrial(
+      LoadTestRig("flexible_rotor", {"flexible_rotor", "flexible_rotor_commissioned"}), plan);
+  diagnosis::Settings settings;
+  settings.quick = true;
+  const auto answer = diagnosis::DiagnoseRecords(trial.rig, trial.records, {}, settings);
+  const TrialScore outcome = Judge(plan, trial.ground_truth, diagnosis::BuildReport(answer));
+  EXPECT_EQ(outcome.named, std::vector<std::string>{"mains_pickup"});
+  EXPECT_LT(outcome.parameter_error, 0.10);
 }
 
 TEST(HiddenEffect, IsNotFoundWhereNothingIsHidden) {
