@@ -47,7 +47,7 @@ std::optional<double> AvailableEvidence(const config::RigFile& rig,
   spoilt.effects.insert(spoilt.effects.end(), hidden.begin(), hidden.end());
   const diagnosis::RigView with(rig.numbers, spoilt);
   std::vector<Record> levitated = records;
-  for (Record& record : levitated) diagnosis::LeaveOutContact(nominal, record);
+  for (Record& record : levitated) diagnosis::LeaveOutContactAndWays(nominal, record);
 
   const auto terms = [&](const diagnosis::RigView& view) {
     return diagnosis::AllTerms(view, rig.tolerances.value_or(config::Tolerances{}),

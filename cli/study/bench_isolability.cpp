@@ -69,7 +69,7 @@ std::optional<Prediction> PredictionOf(const accuracy::TrialPlan& plan,
   // A rig that did not levitate with the effect has been drawn anew.
   if (config::WriteRig(healthy.rig) != config::WriteRig(trial.rig)) return std::nullopt;
   const diagnosis::RigView view(healthy.rig.numbers, healthy.rig.plant);
-  for (diagnosis::Record& record : healthy.records) diagnosis::LeaveOutContact(view, record);
+  for (diagnosis::Record& record : healthy.records) diagnosis::LeaveOutContactAndWays(view, record);
   const diagnosis::HealthyModel model(healthy.rig, std::move(healthy.records), true,
                                       options.judging);
   return Foretell(model, nullptr, trial.ground_truth.hidden, options.judging);

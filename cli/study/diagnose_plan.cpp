@@ -42,7 +42,7 @@ std::vector<Record> RecordsOf(const PlanOptions& options, const config::RigFile&
     records.push_back(diagnosis::SimulatedRecord(rig, controller, scenario, seed++));
   }
   for (Record& record : records) {
-    diagnosis::LeaveOutContact(view, record);
+    diagnosis::LeaveOutContactAndWays(view, record);
     const double seconds = static_cast<double>(record.rows.size()) * view.period_s;
     if (seconds >= diagnosis::kShortest) continue;
     throw BadInput(fmt::format("{}: {:.2f} s of free flight, --plan needs {} s", record.name,

@@ -91,7 +91,7 @@ std::vector<Tried> TryExperiments(const config::RigFile& rig,
     try {
       const auto scenario = config::ParseScenario(experiment.scenario, "experiment", rig.numbers);
       Record record = SimulatedRecord(rig, controller, scenario, 2);
-      LeaveOutContact(model.rig(), record);
+      LeaveOutContactAndWays(model.rig(), record);
       const HealthyModel further(rig, {std::move(record)}, false, judging, model.orbit_m());
       Take(ForetellAll(model, &further, open, judging, nullptr), out);
     } catch (const BadInput& refused) {

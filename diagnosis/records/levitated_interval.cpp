@@ -77,10 +77,25 @@ std::vector<bool> LeftOut(const Touched& touched, std::size_t before, std::size_
   return out;
 }
 
+void Remove(const std::vector<bool>& out, Record& record) {
+  Rows& rows = record.rows;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    if (out[n]) rows[n].levitated = false;
+  }
+  std::erase_if(rows, [](const analysis::RecordedRow& row) { return !row.levitated; });
+  record.mean_speed_rad_per_s = analysis::MeanSpeed(rows);
+}
+
 }  // namespace
 
 void LeaveOutContact(const RigView& rig, Record& record) {
-  Rows& rows = record.rows;
+  const std::size_t margin = RowsOf(kMargin, rig);
+  const Touched touched{InContact(rig, record.rows), std::vector<bool>(record.rows.size(), false)};
+  Remove(LeftOut(touched, margin, margin), record);
+}
+
+void LeaveOutContactAndWays(const RigView& rig, Record& record) {
+  const Rows& rows = record.rows;
   const std::size_t margin = RowsOf(kMargin, rig);
   const bool mode_known =
       std::ranges::any_of(rows, [](const analysis::RecordedRow& row) { return !row.levitated; });
@@ -95,11 +110,7 @@ void LeaveOutContact(const RigView& rig, Record& record) {
     touched.away.assign(rows.size(), false);
     out = LeftOut(touched, margin, after);
   }
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    if (out[n]) rows[n].levitated = false;
-  }
-  std::erase_if(rows, [](const analysis::RecordedRow& row) { return !row.levitated; });
-  record.mean_speed_rad_per_s = analysis::MeanSpeed(rows);
+  Remove(out, record);
 }
 
 }  // namespace levitas::diagnosis

@@ -119,7 +119,7 @@ std::vector<Record> IsLevitated(const RigView& rig, std::vector<Record> records)
     RefuseWrongUnits(rig, record);
     const double whole_s = Seconds(record, rig);
     const std::string found = NotLevitated(rig, record);
-    LeaveOutContact(rig, record);
+    LeaveOutContactAndWays(rig, record);
     if (Seconds(record, rig) >= kShortest) continue;
     throw BadInput(
         fmt::format("{}: {:.2f} s of free flight in {:.2f} s, a diagnosis needs {} s; {}",

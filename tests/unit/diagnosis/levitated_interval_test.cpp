@@ -36,14 +36,14 @@ bool Has(const Record& record, std::uint64_t cycle) {
 
 TEST(FreeFlight, IsKeptWhole) {
   Record record = Flight();
-  LeaveOutContact(TheRig(), record);
+  LeaveOutContactAndWays(TheRig(), record);
   EXPECT_EQ(record.rows.size(), kRows);
 }
 
 TEST(FreeFlight, IsNotWhereTheRotorLiesWithoutCurrent) {
   Record record = Flight();
   for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
-  LeaveOutContact(TheRig(), record);
+  LeaveOutContactAndWays(TheRig(), record);
   EXPECT_FALSE(Has(record, 2999));
   EXPECT_FALSE(Has(record, 8999));  // the lift still swings
   EXPECT_TRUE(Has(record, 9000));
@@ -53,7 +53,7 @@ TEST(FreeFlight, BeginsEarlierWhereTheModeTellsTheLift) {
   Record record = Flight();
   for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
   for (std::size_t n = 0; n < 3200; ++n) record.rows[n].levitated = false;
-  LeaveOutContact(TheRig(), record);
+  LeaveOutContactAndWays(TheRig(), record);
   EXPECT_FALSE(Has(record, 3499));
   EXPECT_TRUE(Has(record, 3500));
 }
@@ -63,7 +63,7 @@ TEST(FreeFlight, IsNotBeyondHalfTheClearance) {
   // 190 um of clearance; 70 um in both axes are 99 um away from the centre.
   record.rows[10'000].sample.position_m = {0.0, 0.0, 70e-6, 70e-6};
   record.rows[17'000].sample.position_m = {0.0, 0.0, 60e-6, 60e-6};
-  LeaveOutContact(TheRig(), record);
+  LeaveOutContactAndWays(TheRig(), record);
   EXPECT_FALSE(Has(record, 9'501));
   EXPECT_FALSE(Has(record, 10'499));
   EXPECT_TRUE(Has(record, 9'499));
@@ -79,17 +79,32 @@ TEST(FreeFlight, IsNotOnTheWayToTheTouchdownBearings) {
     const double way_m = -1e-7 * static_cast<double>(n - 15'000);
     record.rows[n].sample.position_m = {way_m, way_m, way_m, way_m};
   }
-  LeaveOutContact(TheRig(), record);
+  LeaveOutContactAndWays(TheRig(), record);
   EXPECT_TRUE(Has(record, 14'700));
   EXPECT_FALSE(Has(record, 15'270));
   EXPECT_EQ(record.rows.back().cycle + 1, record.rows.size());
+}
+
+// Its ways are what shows units and wires: a search for errors of the record keeps them.
+TEST(FreeFlight, OfAllThatTheRotorDoesNotTouchHasItsWays) {
+  Record record = Flight();
+  for (std::size_t n = 15'000; n < kRows; ++n) {
+    const double way_m = -1e-7 * static_cast<double>(n - 15'000);
+    record.rows[n].sample.position_m = {way_m, way_m, way_m, way_m};
+  }
+  for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
+  LeaveOutContact(TheRig(), record);
+  EXPECT_FALSE(Has(record, 3499));
+  EXPECT_TRUE(Has(record, 3501));
+  EXPECT_TRUE(Has(record, 15'100));
+  EXPECT_FALSE(Has(record, 15'672));
 }
 
 TEST(FreeFlight, IsBesideTheCentreWhereTheRotorsPlaceIsThere) {
   Record record = Flight();
   for (auto& row : record.rows) row.sample.position_m = {-40e-6, -40e-6, -40e-6, -40e-6};
   for (std::size_t n = 0; n < 3000; ++n) record.rows[n].sample.command.control_current_a = {};
-  LeaveOutContact(TheRig(), record);
+  LeaveOutContactAndWays(TheRig(), record);
   EXPECT_FALSE(Has(record, 3000));
   EXPECT_TRUE(Has(record, 9000));
 }
@@ -101,14 +116,14 @@ TEST(FreeFlight, IsALargeOrbitRoundTheCentreToo) {
     record.rows[n].sample.position_m = {80e-6 * std::cos(angle), 80e-6 * std::sin(angle), 0, 0};
     if (n < 3000) record.rows[n].sample.command.control_current_a = {};
   }
-  LeaveOutContact(TheRig(), record);
+  LeaveOutContactAndWays(TheRig(), record);
   EXPECT_TRUE(Has(record, 9000));
 }
 
 TEST(FreeFlight, IsNotEndedByASingleZeroCurrent) {
   Record record = Flight();
   record.rows[5000].sample.command.control_current_a = {};
-  LeaveOutContact(TheRig(), record);
+  LeaveOutContactAndWays(TheRig(), record);
   EXPECT_EQ(record.rows.size(), kRows);
 }
 
@@ -118,7 +133,7 @@ TEST(FreeFlight, KnowsItsOwnMeanSpeed) {
     record.rows[n].sample.speed_rad_per_s = n < 10'000 ? 0.0 : 300.0;
     if (n < 10'000) record.rows[n].sample.command.control_current_a = {};
   }
-  LeaveOutContact(TheRig(), record);
+  LeaveOutContactAndWays(TheRig(), record);
   EXPECT_DOUBLE_EQ(record.mean_speed_rad_per_s, 300.0);
 }
 
