@@ -28,7 +28,7 @@ inline constexpr std::size_t kOff = 5;   ///< rows
 inline constexpr double kMargin = 0.05;  ///< [s]
 inline constexpr double kLift = 0.6;     ///< [s]
 
-/// Removes the rows in contact and all that are not levitated; a model that meets a gap starts anew.
+/// Removes the rows in contact and all that are not levitated; a model starts anew at a gap.
 /// What is left moves most of all on its ways, which is what tells units and wires.
 void LeaveOutContact(const RigView& rig, Record& record);
 
