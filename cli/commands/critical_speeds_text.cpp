@@ -33,7 +33,7 @@ void ShowCriticalSpeeds(const analysis::Campbell& campbell, const char* what,
                crossing.mode.frequency_hz,
                damping == 0.0 ? "" : fmt::format("damping {:.5f}  ", damping),
                analysis::WhirlName(crossing.mode),
-               damping == 0.0 || amplification >= analysis::kCriticallyDamped
+               amplification >= analysis::kCriticallyDamped
                    ? ""
                    : fmt::format("  critically damped (amplification {:.1f})", amplification));
   }

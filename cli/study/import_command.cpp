@@ -141,9 +141,11 @@ ExitStatus Guess(const ImportCommandOptions& options) {
 /// Of the errors that the record itself has: a map that mends them.
 ExitStatus Suggest(const ImportCommandOptions& options) {
   session::CheckOutputPath(options.json_path, options.data_path);
-  // By its name: a CSV file may have any other. A session of another name is told by what it holds.
+  // What is not called a session may be a file of columns with an ending of its own; one that holds
+  // a session after all is refused when it is read.
+  const std::string name = std::filesystem::path(options.data_path).filename().string();
   const bool session =
-      std::filesystem::path(options.data_path).extension().string().starts_with(".lcm");
+      session::IsSession(options.data_path) && name.find(".lcm") != std::string::npos;
   if (IsBusLog(options.data_path) || session) {
     throw Problem(
         ExitStatus::kUsage,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "diagnosis/inference/calibrate.hpp"
+#include "diagnosis/inference/coloured.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -11,14 +12,8 @@ namespace {
 constexpr double kLoud = 1.5;
 constexpr std::size_t kMostTried = 3;
 
-/// Every filter begins with one over the rms of what it leaves.
 bool IsLoud(const std::vector<Trajectory>& runs, std::size_t axes) {
-  const Whitener behind = MakeWhitener(runs, axes, kWhiteningOrder);
-  const Whitener before = MakeWhitener(runs, axes, 0);
-  for (std::size_t a = 0; a < axes; ++a) {
-    if (behind.filter[a].front() > kLoud * before.filter[a].front()) return true;
-  }
-  return false;
+  return TakesAway(MakeWhitener(runs, axes, kWhiteningOrder), MakeWhitener(runs, axes, 0), kLoud);
 }
 
 /// The best single cause from the rig file's numbers on, all innovations weighed alike.

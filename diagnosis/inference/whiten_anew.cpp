@@ -2,23 +2,15 @@
 
 #include <utility>
 
+#include "diagnosis/inference/coloured.hpp"
+
 namespace levitas::diagnosis {
-namespace {
-
-/// Whether the filter takes anything away. It begins with one over the rms of what it leaves.
-bool Colours(const Whitener& filter, const Whitener& plain) {
-  constexpr double kOfTheRms = 1.03;  // 30 nat of a thousand samples
-  for (std::size_t a = 0; a < filter.filter.size(); ++a) {
-    if (filter.filter[a].front() > kOfTheRms * plain.filter[a].front()) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 bool WhitenAnew(RecordLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
+  constexpr double kSomething = 1.03;  // 30 nat of a thousand samples
   if (found.causes.empty()) return false;
-  if (!Colours(landscape.view().whitener, landscape.search().WhitenerOf(*found.calibrated_runs, 0)))
+  if (!TakesAway(landscape.view().whitener,
+                 landscape.search().WhitenerOf(*found.calibrated_runs, 0), kSomething))
     return false;
   // First without any filter: the next one would hold what the former one left of the cause.
   landscape.ReportProgress(0.6, "whitening anew");

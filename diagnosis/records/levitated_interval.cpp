@@ -38,10 +38,15 @@ std::vector<bool> InContact(const RigView& rig, const Rows& rows) {
 std::vector<bool> OnTheWay(const RigView& rig, const Rows& rows, std::size_t window) {
   std::vector<bool> away(rows.size(), false);
   AxisArray sum_m{};
+  // One reading that is no number would stay in the sum for good.
+  const auto reading = [&rows](std::size_t n, std::size_t a) {
+    const double value_m = rows[n].sample.position_m[a];
+    return std::isfinite(value_m) ? value_m : 0.0;
+  };
   for (std::size_t n = 0; n < rows.size(); ++n) {
     for (std::size_t a = 0; a < rig.axes; ++a) {
-      sum_m[a] += rows[n].sample.position_m[a];
-      if (n >= window) sum_m[a] -= rows[n - window].sample.position_m[a];
+      sum_m[a] += reading(n, a);
+      if (n >= window) sum_m[a] -= reading(n - window, a);
     }
     if (n + 1 < window) continue;
     AxisArray mean_m{};

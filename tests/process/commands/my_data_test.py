@@ -92,6 +92,8 @@ class MyData(CommandTest):
         (self.folder / "bus.log").write_text("")
         for words, options in (
                 ("--out is required", ("mine.txt",)),
+                ("sessions and logs of candump have no columns", ("run.lcm", "--suggest")),
+                ("sessions and logs of candump have no columns", ("run.lcm.zst", "--suggest")),
                 ("--map excludes --guess", ("mine.txt", "--map", "m.yaml", "--guess")),
                 ("a log of candump has no columns",
                  ("bus.log", "--map", "m.yaml", "--out", "x.lcm"))):

@@ -85,6 +85,18 @@ TEST(FreeFlight, IsNotOnTheWayToTheTouchdownBearings) {
   EXPECT_EQ(record.rows.back().cycle + 1, record.rows.size());
 }
 
+TEST(FreeFlight, HasItsWaysLeftOutBehindAReadingThatIsNoNumberToo) {
+  Record record = Flight();
+  record.rows[9'000].sample.position_m[2] = std::nan("");
+  for (std::size_t n = 15'000; n < kRows; ++n) {
+    const double way_m = -1e-7 * static_cast<double>(n - 15'000);
+    record.rows[n].sample.position_m = {way_m, way_m, way_m, way_m};
+  }
+  LeaveOutContactAndWays(TheRig(), record);
+  EXPECT_TRUE(Has(record, 14'700));
+  EXPECT_FALSE(Has(record, 15'270));
+}
+
 // Its ways are what shows units and wires: a search for errors of the record keeps them.
 TEST(FreeFlight, OfAllThatTheRotorDoesNotTouchHasItsWays) {
   Record record = Flight();
