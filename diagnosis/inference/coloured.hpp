@@ -1,8 +1,8 @@
 #pragma once
 // How much of what a model leaves a whitening filter takes away.
 //
-// Why      what is left is nearly white here (1.0 to 1.1 times): a filter that takes more away holds
-//          a fault.
+// Why      what is left is nearly white here (1.0 to 1.1 times): a filter that takes more away
+//          holds a fault.
 // Thread   any; pure.
 
 #include "diagnosis/model/normal_equations.hpp"
