@@ -1,5 +1,7 @@
 #include "analysis/critical_speeds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -8,6 +10,7 @@
 #include "analysis/damped_modes.hpp"
 #include "analysis/poles.hpp"
 #include "analysis/rotor_planes.hpp"
+#include "plant_sim/plant/train_model.hpp"
 #include "plant_sim/rotor/finite_element.hpp"
 
 namespace levitas::analysis {
@@ -67,8 +70,9 @@ std::vector<Match> Follow(const std::vector<CampbellMode>& from,
   return matches;
 }
 
-double Excess(const CampbellMode& mode, double speed_rad_per_s) {
-  return kPerTurn * mode.frequency_hz - speed_rad_per_s;
+/// In turns: how far a mode lies above an order of rotation.
+double Excess(const CampbellMode& mode, double speed_rad_per_s, double per_turn) {
+  return kPerTurn * mode.frequency_hz / per_turn - speed_rad_per_s;
 }
 
 const CampbellMode* Nearest(const std::vector<CampbellMode>& modes, const Place& place) {
@@ -81,19 +85,19 @@ const CampbellMode* Nearest(const std::vector<CampbellMode>& modes, const Place&
 
 /// Narrows the interval, by its chord and every third time by its half, so that a jump ends too.
 /// The mode is sought where it lies between its ends.
-CriticalSpeed Narrow(const ModesAt& modes, double low, CampbellMode at_low, double high,
-                     CampbellMode at_high) {
+CriticalSpeed Narrow(const ModesAt& modes, double per_turn, double low, CampbellMode at_low,
+                     double high, CampbellMode at_high) {
   const double fine = 1e-9 * high;
   for (int step = 1; high - low > fine; ++step) {
-    const double below = Excess(at_low, low);
-    const double share = step % 3 == 0 ? 0.5 : below / (below - Excess(at_high, high));
+    const double below = Excess(at_low, low, per_turn);
+    const double share = step % 3 == 0 ? 0.5 : below / (below - Excess(at_high, high, per_turn));
     const double speed = low + std::clamp(share, 1e-3, 1.0 - 1e-3) * (high - low);
     const auto there = modes(speed);
     const CampbellMode* mode =
         Nearest(there, Between(PlaceOf(at_low), PlaceOf(at_high), (speed - low) / (high - low)));
     if (mode == nullptr) break;
-    const double excess = Excess(*mode, speed);
-    if (std::abs(excess) < fine) return {speed, *mode};
+    const double excess = Excess(*mode, speed, per_turn);
+    if (std::abs(excess) < fine) return {speed, *mode, 0};
     if ((excess > 0.0) == (below > 0.0)) {
       low = speed;
       at_low = *mode;
@@ -102,7 +106,7 @@ CriticalSpeed Narrow(const ModesAt& modes, double low, CampbellMode at_low, doub
       at_high = *mode;
     }
   }
-  return {low, at_low};
+  return {low, at_low, 0};
 }
 
 std::vector<CampbellMode> FreeModesAt(const rotor::ModalRotor& modal, double speed_rad_per_s,
@@ -125,11 +129,48 @@ std::vector<CampbellMode> ShaftModesAt(const plant::PlantConfig& plant, double s
   return modes;
 }
 
+/// A mode at one speed and what it has become at the next.
+struct At {
+  double speed_rad_per_s{};
+  const CampbellMode* mode{};
+};
+
+void AddCrossings(const ModesAt& modes, const At& from, const At& to, Campbell& campbell) {
+  constexpr double kSame = 1e-6;
+  for (std::size_t i = 0; i < campbell.orders.size(); ++i) {
+    const double per_turn = campbell.orders[i].per_turn;
+    const bool above = Excess(*from.mode, from.speed_rad_per_s, per_turn) > 0.0;
+    if ((Excess(*to.mode, to.speed_rad_per_s, per_turn) > 0.0) == above) continue;
+    auto at =
+        Narrow(modes, per_turn, from.speed_rad_per_s, *from.mode, to.speed_rad_per_s, *to.mode);
+    // A jump to another mode changes the sign too, and is no crossing.
+    const double off = std::abs(Excess(at.mode, at.speed_rad_per_s, per_turn));
+    if (off >= kSame * at.speed_rad_per_s) continue;
+    at.order = i;
+    campbell.crossings.push_back(std::move(at));
+  }
+}
+
 }  // namespace
 
-Campbell CampbellOf(const ModesAt& modes, double top_rad_per_s, int steps) {
-  constexpr double kSame = 1e-6;
+std::vector<Order> OrdersOf(const plant::PlantConfig& plant) {
+  if (plant.shafts.empty()) return {{"1x", 1.0}};
+  const std::vector<double> ratio = plant::SpeedRatios(plant);
+  std::vector<Order> orders;
+  for (std::size_t i = 0; i < ratio.size(); ++i) {
+    orders.push_back({"1x of " + plant.shafts[i].name, std::abs(ratio[i])});
+  }
+  for (const gear::GearPair& pair : plant.gears) {
+    const double teeth = std::abs(ratio[pair.driving.shaft]) * pair.driving.teeth;
+    orders.push_back({fmt::format("{} {:g}x", pair.name, teeth), teeth});
+  }
+  return orders;
+}
+
+Campbell CampbellOf(const ModesAt& modes, double top_rad_per_s, int steps,
+                    const std::vector<Order>& orders) {
   Campbell campbell;
+  campbell.orders = orders;
   for (int i = 0; i <= steps; ++i) {
     const double speed = top_rad_per_s * i / steps;
     campbell.speeds.push_back({speed, modes(speed)});
@@ -142,13 +183,7 @@ Campbell CampbellOf(const ModesAt& modes, double top_rad_per_s, int steps) {
       campbell.next.back()[match.first] = match.second;
       const CampbellMode& from = before.modes[match.first];
       const CampbellMode& to = after.modes[match.second];
-      const bool above = Excess(from, before.speed_rad_per_s) > 0.0;
-      if ((Excess(to, after.speed_rad_per_s) > 0.0) == above) continue;
-      const auto at = Narrow(modes, before.speed_rad_per_s, from, after.speed_rad_per_s, to);
-      // A jump to another mode changes the sign too, and is no crossing.
-      if (std::abs(Excess(at.mode, at.speed_rad_per_s)) < kSame * at.speed_rad_per_s) {
-        campbell.crossings.push_back(at);
-      }
+      AddCrossings(modes, {before.speed_rad_per_s, &from}, {after.speed_rad_per_s, &to}, campbell);
     }
   }
   std::sort(campbell.crossings.begin(), campbell.crossings.end(),
@@ -159,7 +194,7 @@ Campbell CampbellOf(const ModesAt& modes, double top_rad_per_s, int steps) {
 Campbell FreeCampbell(const plant::PlantConfig& plant, double top_rad_per_s, std::size_t modes) {
   if (!plant.shafts.empty()) {
     return CampbellOf([&](double speed) { return ShaftModesAt(plant, speed, modes); },
-                      top_rad_per_s, kFreeSteps);
+                      top_rad_per_s, kFreeSteps, OrdersOf(plant));
   }
   // Every mode of the mesh is kept: nothing is lost by modal coordinates.
   const auto modal = plant.rotor.given
@@ -179,7 +214,7 @@ Campbell LevitatedCampbell(const plant::PlantConfig& plant, const law::LawConfig
     }
     return all;
   };
-  return CampbellOf(modes, top_rad_per_s, kLevitatedSteps);
+  return CampbellOf(modes, top_rad_per_s, kLevitatedSteps, OrdersOf(plant));
 }
 
 double AmplificationFactor(const CampbellMode& mode) { return 0.5 / mode.damping_ratio; }

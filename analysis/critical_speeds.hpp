@@ -1,12 +1,14 @@
 #pragma once
-// Speeds at which a natural frequency of a rotor equals its rotation (crossings of 1x in a Campbell
-// diagram).
+// Speeds at which a natural frequency of a rotor equals its rotation, or another order of it
+// (crossings in a Campbell diagram).
 //
-// Equation   |Im s_k(W)| = W for a natural mode s_k of the rotor at speed W. Modes are followed
-//            from speed to speed by the nearest s; a change of sign of |Im s| - W between two of
-//            the given speeds is narrowed until the speed is known to 1e-9 of it.
+// Equation   |Im s_k(W)| = r W for a natural mode s_k of the rotor at speed W and an order r. Modes
+//            are followed from speed to speed by the nearest s; a change of sign of |Im s| - r W
+//            between two of the given speeds is narrowed until the speed is known to 1e-9 of it.
+// Orders     1x of the rotor; of several shafts 1x of each, in turns of the first, and the teeth
+//            of each gear pair: unbalance, runout, and what the mesh excites.
 // Free       magnets off: undamped free-free bending modes.
-// Shafts     of a rig with several: damped modes, 1x of the first shaft.
+// Shafts     of a rig with several: damped modes; speed and sense of whirl are the first shaft's.
 // Levitated  poles of the sampled loop, static load and delay included, with a damping ratio below
 //            1/sqrt(2): better damped, a mode has no resonance. An unbalance excites these.
 // Missed     what crosses twice between two neighbouring speeds.
@@ -14,6 +16,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "controller/law/law_config.hpp"
@@ -34,22 +37,34 @@ struct CampbellSpeed {
   std::vector<CampbellMode> modes;
 };
 
+/// What excites a mode, so many times a turn.
+struct Order {
+  std::string name;  ///< "1x", "1x of pinion", "mesh"
+  double per_turn{};
+};
+
 struct CriticalSpeed {
   double speed_rad_per_s{};
-  CampbellMode mode;  ///< there
+  CampbellMode mode;    ///< there
+  std::size_t order{};  ///< of Campbell::orders
 };
 
 struct Campbell {
   std::vector<CampbellSpeed> speeds;  ///< evenly spaced from 0 to the top
   /// Of each speed but the last: which mode of the next speed a mode becomes; nothing: it ends.
   std::vector<std::vector<std::optional<std::size_t>>> next;
-  std::vector<CriticalSpeed> crossings;  ///< of 1x, ascending
+  std::vector<Order> orders{{"1x", 1.0}};
+  std::vector<CriticalSpeed> crossings;  ///< of the orders, ascending
 };
 
 using ModesAt = std::function<std::vector<CampbellMode>(double speed_rad_per_s)>;
 
-/// Modes at `steps` + 1 speeds from 0 to `top_rad_per_s`, and where they cross 1x.
-[[nodiscard]] Campbell CampbellOf(const ModesAt& modes, double top_rad_per_s, int steps);
+/// See above.
+[[nodiscard]] std::vector<Order> OrdersOf(const plant::PlantConfig& plant);
+
+/// Modes at `steps` + 1 speeds from 0 to `top_rad_per_s`, and where they cross the orders.
+[[nodiscard]] Campbell CampbellOf(const ModesAt& modes, double top_rad_per_s, int steps,
+                                  const std::vector<Order>& orders = {{"1x", 1.0}});
 
 /// The first `modes` bending modes of the free rotor, or of the shafts; see above.
 [[nodiscard]] Campbell FreeCampbell(const plant::PlantConfig& plant, double top_rad_per_s,

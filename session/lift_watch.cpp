@@ -33,7 +33,9 @@ void LiftWatch::Add(const cycle::CycleRecord& record) noexcept {
     };
     mean(place_m_[i], record.in.frame.position_m[i]);
     mean(current_a_[i], record.out.current.control_current_a[i]);
-    mean(limited_share_[i], (record.out.saturated_axes >> i & 1U) != 0U ? 1.0 : 0.0);
+    const double limited = (record.out.saturated_axes >> i & 1U) != 0U ? 1.0 : 0.0;
+    mean(limited_share_[i], limited);
+    mean(limited_side_[i], std::copysign(limited, record.out.current.control_current_a[i]));
   }
 }
 
@@ -41,7 +43,11 @@ LiftReason LiftWatch::ReasonOf(std::size_t axis, double settle_radius_m) const n
   if (!filled_ || axis >= kMaxAxes) return LiftReason::kUnknown;
   const std::size_t x = axis - axis % 2;
   // Half of the cycles: a current that only touches its limit with the noise is no lack of force.
-  if (std::max(limited_share_[x], limited_share_[x + 1]) > 0.5) return LiftReason::kAtLimit;
+  const std::size_t most = limited_share_[x] >= limited_share_[x + 1] ? x : x + 1;
+  if (limited_share_[most] > 0.5) {
+    const bool one_side = std::abs(limited_side_[most]) > 0.5 * limited_share_[most];
+    return one_side ? LiftReason::kAtLimit : LiftReason::kLimitToLimit;
+  }
   return SagOf(axis) > settle_radius_m ? LiftReason::kSags : LiftReason::kSwings;
 }
 

@@ -5,7 +5,8 @@
 //          share of cycles in which it was limited, over the records of mode lift with a new frame.
 // Sag      distance of the mean place of a bearing from the centre, where the lift ends. Probes
 //          and amplifiers turned round change signs only, and a distance has none.
-// Reason   at the limit: the magnets give all they have. Sag beyond the settle radius: the law
+// Reason   at the limit: the magnets give all they have, to one side. From limit to limit: the
+//          loop is unstable, and no load. Sag beyond the settle radius: the law
 //          holds the load too softly, or has not integrated long enough. Else it swings.
 // Units    SI. Thread: the recorder's, or any reader's. Failure: none.
 // Not done the lift itself, which is the supervisor's (controller/supervisor).
@@ -20,7 +21,7 @@ namespace levitas::session {
 
 inline constexpr double kLiftMemoryS = 0.1;  ///< [s] several periods of a rigid mode
 
-enum class LiftReason { kUnknown, kAtLimit, kSags, kSwings };
+enum class LiftReason { kUnknown, kAtLimit, kLimitToLimit, kSags, kSwings };
 
 class LiftWatch {
  public:
@@ -37,7 +38,8 @@ class LiftWatch {
 
  private:
   AxisArray start_m_{}, place_m_{}, current_a_{};
-  std::array<double, kMaxAxes> limited_share_{};
+  /// Of cycles with the current at its limit: their share, and how many more on one side.
+  std::array<double, kMaxAxes> limited_share_{}, limited_side_{};
   double weight_{};  ///< [1] of a new record
   bool filled_{false};
 };

@@ -69,6 +69,12 @@ std::string LiftReasonText(const cycle::CycleOutputs& out, const LiftWatch& lift
           "load is more than the magnets lift from there, or a probe or a coil is the wrong way "
           "round.",
           sag_um);
+    case LiftReason::kLimitToLimit:
+      return fmt::format(
+          " The control current goes from one limit to the other and the rotor swings about a "
+          "place {:.4g} um off the centre: the loop is unstable. amb poles names the pole that "
+          "grows; raise kd, or let amb design pid make a law.",
+          sag_um);
     case LiftReason::kSags:
       return fmt::format(
           " It sags: from where it lay, {:.4g} um off the centre, it came to {:.4g} um, the settle "

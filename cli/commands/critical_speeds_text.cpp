@@ -14,7 +14,8 @@ nlohmann::ordered_json CriticalSpeedsJson(const analysis::Campbell& campbell) {
     json.push_back({{"speed_rpm", RadPerSToRpm(crossing.speed_rad_per_s)},
                     {"frequency_hz", crossing.mode.frequency_hz},
                     {"damping_ratio", crossing.mode.damping_ratio},
-                    {"whirl", analysis::WhirlName(crossing.mode)}});
+                    {"whirl", analysis::WhirlName(crossing.mode)},
+                    {"excited_by", campbell.orders[crossing.order].name}});
   }
   return json;
 }
@@ -29,10 +30,11 @@ void ShowCriticalSpeeds(const analysis::Campbell& campbell, const char* what,
   for (const auto& crossing : campbell.crossings) {
     const double damping = crossing.mode.damping_ratio;
     const double amplification = analysis::AmplificationFactor(crossing.mode);
-    fmt::print("{:>10.1f} rpm {:>10.3f} Hz  {}{}{}\n", RadPerSToRpm(crossing.speed_rad_per_s),
+    fmt::print("{:>10.1f} rpm {:>10.3f} Hz  {}{}{}{}\n", RadPerSToRpm(crossing.speed_rad_per_s),
                crossing.mode.frequency_hz,
                damping == 0.0 ? "" : fmt::format("damping {:.5f}  ", damping),
                analysis::WhirlName(crossing.mode),
+               campbell.orders.size() == 1 ? "" : "  " + campbell.orders[crossing.order].name,
                amplification >= analysis::kCriticallyDamped
                    ? ""
                    : fmt::format("  critically damped (amplification {:.1f})", amplification));

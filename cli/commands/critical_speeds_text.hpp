@@ -1,5 +1,5 @@
 #pragma once
-// Crossings of 1x as a command prints them and writes them into its JSON.
+// Critical speeds as a command prints them and writes them into its JSON.
 //
 // Written   `critical_speeds`: an array, empty where nothing is crossed up to `up_to_rpm`.
 // Thread    any.

@@ -191,7 +191,7 @@ ExitStatus ShowDamped(const ModesOptions& options, const config::RigFile& rig) {
     json["speeds"].push_back(DampedJson(at));
   }
   const auto campbell = CampbellOf(options, rig);
-  ShowCriticalSpeeds(campbell, kOfFree, json);
+  ShowCriticalSpeeds(campbell, "Rotation meets a mode, magnets without current", json);
   svg::Write(options.svg_path, report::ModesPicture(rig, campbell, std::nullopt));
   WriteJsonFile(options.json_path, json);
   return ExitStatus::kDone;

@@ -151,7 +151,7 @@ bool Meet(const svg::Note& a, const svg::Note& b, const svg::Panel& panel) {
 
 /// Rings at all crossings; the speeds of those with room for them, forward whirl first.
 void AddCrossings(const Campbell& campbell, Value value, bool with_speeds, svg::Panel& panel) {
-  svg::Series rings{.name = "crossing of 1x",
+  svg::Series rings{.name = campbell.orders.size() == 1 ? "crossing of 1x" : "crossing",
                     .colour = "#000000",
                     .width = 0.0,
                     .mark = svg::Mark::kRing,
@@ -176,6 +176,22 @@ void AddCrossings(const Campbell& campbell, Value value, bool with_speeds, svg::
   panel.notes.insert(panel.notes.end(), placed.begin(), placed.end());
 }
 
+/// A line from the origin for each order, as far as the panel reaches.
+void AddOrders(const Campbell& campbell, double top_hz, svg::Panel& panel) {
+  constexpr std::array kDashes{"", "12 4", "2 2 8 2", "1 3"};
+  const double top = campbell.speeds.back().speed_rad_per_s;
+  for (std::size_t i = 0; i < campbell.orders.size(); ++i) {
+    const auto& [name, per_turn] = campbell.orders[i];
+    const double end = std::min(top, kPerTurn * top_hz / per_turn);
+    panel.series.push_back({.name = name,
+                            .x = {0.0, RadPerSToRpm(end)},
+                            .y = {0.0, per_turn * end / kPerTurn},
+                            .colour = "#000000",
+                            .width = 1.0,
+                            .dashes = kDashes[i % kDashes.size()]});
+  }
+}
+
 svg::Panel PanelOf(const Campbell& campbell, const std::string& title) {
   svg::Panel panel{.title = title, .x_label = "speed, rpm"};
   panel.x_range = svg::Range{0.0, RadPerSToRpm(campbell.speeds.back().speed_rad_per_s)};
@@ -190,12 +206,7 @@ svg::Panel CampbellPanel(const Campbell& campbell, const CampbellLook& look) {
   panel.y_label = "natural frequency, Hz";
   panel.y_range = svg::Range{0.0, look.top_hz};
   AddModes(campbell, frequency, panel);
-  const double top = campbell.speeds.back().speed_rad_per_s;
-  panel.series.push_back({.name = "1x",
-                          .x = {0.0, RadPerSToRpm(top)},
-                          .y = {0.0, top / kPerTurn},
-                          .colour = "#000000",
-                          .width = 1.0});
+  AddOrders(campbell, look.top_hz, panel);
   AddRated(look.rated_rad_per_s, 0.0, look.top_hz, panel);
   AddCrossings(campbell, frequency, true, panel);
   return panel;

@@ -1,5 +1,6 @@
 #pragma once
-// Campbell diagram as one panel: natural frequencies over speed, 1x, its crossings, rated speed.
+// Campbell diagram as one panel: natural frequencies over speed, the orders that excite
+// them, where they cross, rated speed.
 //
 // Whirl    forward: solid line, full triangles up; backward: dashed, hollow triangles down; torsion
 //          and motion in one plane: dotted. No meaning rests on a colour alone.

@@ -31,7 +31,7 @@ svg::Panel CampbellOfRig(const config::RigFile& rig, const analysis::Campbell& c
   const bool several = !rig.plant.shafts.empty();
   svg::Panel panel = CampbellPanel(
       campbell,
-      {several ? "Campbell diagram: damped modes, magnets without current; 1x of the first shaft"
+      {several ? "Campbell diagram: damped modes, magnets without current; speed of the first shaft"
                : "Campbell diagram: free bending modes, magnets off",
        rig.numbers.max_speed_rad_per_s, TopHz(campbell)});
   if (several) return panel;

@@ -4,7 +4,7 @@
 //
 // Shaft    sections and rings to scale along z; diameters to one scale of their own, discs that the
 //          file gives without a diameter as thin bars. A rotor known by its modes alone is a line.
-// Several  shafts: the Campbell diagram of their damped modes alone; 1x is the first shaft's.
+// Several  shafts: the Campbell diagram of their damped modes alone, over the speed of the first.
 // Thread   any; pure.
 
 #include <optional>

@@ -92,23 +92,25 @@ void AddRays(double up_to_hz, svg::Panel& panel) {
   }
 }
 
-/// What the picture leaves out, so that nobody takes its poles for all.
-std::string Beyond(const std::vector<LoopPoles>& loops, double up_to_hz) {
-  std::ptrdiff_t most = 0;
+/// What the picture leaves out, so that nobody takes its poles for all: of the speed with most.
+std::string LeftOut(const std::vector<LoopPoles>& loops, double up_to_hz, double left_rad_per_s) {
+  std::ptrdiff_t beyond = 0, left = 0;
   for (const LoopPoles& loop : loops) {
-    most = std::max(most, std::ranges::count_if(loop.poles, [&](const Pole& pole) {
-                      return std::abs(pole.frequency_hz) > up_to_hz;
+    const auto is_beyond = [&](const Pole& pole) { return std::abs(pole.frequency_hz) > up_to_hz; };
+    beyond = std::max(beyond, std::ranges::count_if(loop.poles, is_beyond));
+    left = std::max(left, std::ranges::count_if(loop.poles, [&](const Pole& pole) {
+                      return !is_beyond(pole) && pole.s_rad_per_s.real() < left_rad_per_s;
                     }));
   }
-  return most == 0 ? "" : fmt::format(", {} beyond", most);
+  return (beyond == 0 ? "" : fmt::format(", {} beyond", beyond)) +
+         (left == 0 ? "" : fmt::format(", {} further left", left));
 }
 
 svg::Panel PlanePanel(const std::vector<LoopPoles>& loops, double up_to_hz) {
-  svg::Panel panel{.title = fmt::format("Poles to {:g} Hz{}; dashed: equal damping ratio", up_to_hz,
-                                        Beyond(loops, up_to_hz)),
-                   .x_label = "Re s, 1/s",
-                   .y_label = "frequency, Hz"};
+  svg::Panel panel{.x_label = "Re s, 1/s", .y_label = "frequency, Hz"};
   panel.x_range = RealParts(loops, up_to_hz);
+  panel.title = fmt::format("Poles to {:g} Hz{}; dashed: equal damping ratio", up_to_hz,
+                            LeftOut(loops, up_to_hz, panel.x_range->low));
   panel.y_range = svg::Range{-0.02 * up_to_hz, up_to_hz};
   const double right = panel.x_range->high;
   panel.series.push_back({.x = {0.0, right, right, 0.0},
@@ -184,7 +186,7 @@ svg::Figure PolesPicture(const std::vector<LoopPoles>& loops, const analysis::Ca
   svg::Figure figure{.title = look.title, .columns = 2, .panel_width = 460, .panel_height = 380};
   figure.lines.push_back(
       "Sampled loop, delay included; over speed the modes with a damping ratio below 0.71, which "
-      "resonate, and where 1x meets them: critical speeds");
+      "resonate, and where rotation meets them: critical speeds");
   figure.panels = {PlanePanel(loops, look.up_to_hz), DampingOverFrequency(loops, look.up_to_hz),
                    LevitatedPanel(levitated, look.rated_rad_per_s),
                    DampingPanel(levitated, {"Damping over speed", look.rated_rad_per_s, 0.0})};

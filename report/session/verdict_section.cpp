@@ -80,21 +80,23 @@ std::string CriticalSpeedSection(const std::optional<analysis::Campbell>& levita
   const double top_rpm = RadPerSToRpm(levitated->speeds.back().speed_rad_per_s);
   std::string html = fmt::format(
       "<h2 id=critical>Critical speeds</h2>\n<p>Of the levitated rotor, computed from the run's "
-      "files up to {:.0f} rpm: where rotation meets a mode with a damping ratio below 0.71. "
+      "files up to {:.0f} rpm: where an order of rotation meets a mode with a damping ratio below "
+      "0.71. "
       "Amplification is 1/(2 damping); below {:.1f} API 617 calls a critical speed critically "
       "damped.</p>\n",
       top_rpm, analysis::kCriticallyDamped);
   if (levitated->crossings.empty()) return html + "<p>None.</p>\n";
   html +=
       "<div class=scroll><table>\n<tr><th class=n>speed, rpm</th><th class=n>frequency, "
-      "Hz</th><th class=n>damping ratio</th><th class=n>amplification</th><th>whirl</th></tr>\n";
+      "Hz</th><th class=n>damping ratio</th><th class=n>amplification</th><th>whirl</th>"
+      "<th>excited by</th></tr>\n";
   for (const auto& crossing : levitated->crossings) {
     html += fmt::format(
         "<tr><td class=n>{:.0f}</td><td class=n>{:.2f}</td><td class=n>{:.4f}</td><td "
-        "class=n>{:.1f}</td><td>{}</td></tr>\n",
+        "class=n>{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
         RadPerSToRpm(crossing.speed_rad_per_s), crossing.mode.frequency_hz,
         crossing.mode.damping_ratio, analysis::AmplificationFactor(crossing.mode),
-        analysis::WhirlName(crossing.mode));
+        analysis::WhirlName(crossing.mode), Escaped(levitated->orders[crossing.order].name));
   }
   return html + "</table></div>\n";
 }

@@ -8,6 +8,7 @@
 
 #include "analysis/free_modes.hpp"
 #include "analysis/poles.hpp"
+#include "tests/support/geared_rigs.hpp"
 #include "tests/support/test_rigs.hpp"
 #include "tests/unit/analysis/laws.hpp"
 
@@ -29,6 +30,30 @@ TEST(Crossings, OfStraightLinesStandWhereTheFormulaHasThem) {
   EXPECT_NEAR(campbell.crossings[1].speed_rad_per_s, kTurn * 50.0 / 0.8, 1e-5);
   EXPECT_STREQ(WhirlName(campbell.crossings[0].mode), "backward");
   EXPECT_STREQ(WhirlName(campbell.crossings[1].mode), "forward");
+}
+
+// A line f0 meets r times the rotation at W = 2 pi f0/r.
+TEST(Crossings, OfEveryOrderStandWhereItMeetsTheMode) {
+  const auto modes = [](double) { return std::vector<CampbellMode>{{60.0, 0.01, 1.0, 0.0}}; };
+  const Campbell campbell =
+      CampbellOf(modes, kTurn * 100.0, 7, {{"1x", 1.0}, {"wheel", 0.5}, {"mesh", 20.0}});
+  ASSERT_EQ(campbell.crossings.size(), 2U);  // half of the rotation is 50 Hz at most
+  EXPECT_NEAR(campbell.crossings[0].speed_rad_per_s, kTurn * 3.0, 1e-6);
+  EXPECT_EQ(campbell.orders[campbell.crossings[0].order].name, "mesh");
+  EXPECT_NEAR(campbell.crossings[1].speed_rad_per_s, kTurn * 60.0, 1e-5);
+  EXPECT_EQ(campbell.orders[campbell.crossings[1].order].name, "1x");
+}
+
+TEST(Orders, OfGearedShaftsAreTheirRotationAndTheTeeth) {
+  const auto rig = test::GearedRotor8();
+  const auto& pair = rig.gears.at(0);
+  const std::vector<Order> orders = OrdersOf(rig);
+  ASSERT_EQ(orders.size(), 3U);
+  EXPECT_DOUBLE_EQ(orders[0].per_turn, 1.0);
+  // Teeth that mesh pass at the same rate on both wheels.
+  EXPECT_DOUBLE_EQ(orders[1].per_turn * pair.driven.teeth, orders[2].per_turn);
+  EXPECT_DOUBLE_EQ(orders[0].per_turn * pair.driving.teeth, orders[2].per_turn);
+  ASSERT_EQ(OrdersOf(test::QuietFlexibleRotor()).size(), 1U);
 }
 
 TEST(Crossings, AreNotWhereOneModeEndsAndAnotherBegins) {

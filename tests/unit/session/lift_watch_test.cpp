@@ -28,6 +28,7 @@ struct Lifting {
   double hangs_um{};  ///< along its y axis, to the negative side
   double swings_um{};
   bool limited{};
+  double change_hz{};  ///< of the current from one limit to the other; 0: it stays at one
 };
 
 /// The record of one cycle of the lift.
@@ -42,7 +43,8 @@ cycle::CycleRecord LiftCycle(const Lifting& lifting, std::uint64_t cycle) {
   record.in.frame.position_m[2] =
       1e-6 * (-90.0 * left + lifting.swings_um * std::cos(2.0 * 3.14159265358979 * 80.0 * time_s));
   record.in.frame.position_m[3] = 1e-6 * (-120.0 * left - lifting.hangs_um * (1.0 - left));
-  record.out.current.control_current_a[3] = 0.5;
+  const bool other = std::fmod(time_s * lifting.change_hz, 1.0) >= 0.5;
+  record.out.current.control_current_a[3] = other ? -0.5 : 0.5;
   record.out.saturated_axes = lifting.limited ? 0b1000 : 0;
   return record;
 }
@@ -71,6 +73,17 @@ TEST(LiftWatch, ARotorThatHangsBesideTheCentreSagsWithItsFiguresAndARemedy) {
                                     "47 um, the settle radius is 30 um"),
                           HasSubstr("0.5 A, below its limit"), HasSubstr("Raise ki"),
                           HasSubstr("raise settle_radius_um")));
+}
+
+TEST(LiftWatch, ACurrentThatGoesFromLimitToLimitIsTheLoopAndNoLoad) {
+  const Lifting unstable{.swings_um = 200.0, .limited = true, .change_hz = 60.0};
+  EXPECT_THAT(TripAfter(unstable),
+              AllOf(HasSubstr("the loop is unstable"), HasSubstr("amb design pid"),
+                    Not(HasSubstr("more than the magnets lift"))));
+  Lifting heavy = unstable;
+  heavy.change_hz = 0.0;
+  EXPECT_THAT(TripAfter(heavy), AllOf(HasSubstr("more than the magnets lift"),
+                                      Not(HasSubstr("the loop is unstable"))));
 }
 
 TEST(LiftWatch, ARotorThatHardlyLeftItsRestingPlaceIsNotAdvisedToHangThere) {

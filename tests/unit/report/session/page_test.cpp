@@ -70,7 +70,7 @@ TEST(ReportPage, OpensWithTheVerdict) {
 TEST(ReportPage, LinksOnlyToPlacesThatItHas) {
   PageInput input;
   input.pictures = Pictures(WhirlingRotor(), {});
-  input.levitated = analysis::Campbell{{{1.0, {}}}, {}, {}};
+  input.levitated.emplace().speeds.push_back({1.0, {}});
   for (const bool levitated : {true, false}) {
     if (!levitated) input.levitated.reset();
     const std::string page = Page(WhirlingRotor(), input);
