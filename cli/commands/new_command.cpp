@@ -36,8 +36,8 @@ constexpr const char* kNewRigHelp =
     "else "
     "is assumed, and said to be in the file. The strength of a magnet is --ki-n-per-a, or "
     "--ks-n-per-m, or --turns with --pole-area-mm2 (poles at 22.5 degrees).\n"
-    "  amb new rig spindle --mass-kg 8 --length-mm 420 --speed-rpm 12000 --ki-n-per-a 110 --gap-mm "
-    "0.4 --bias-a 2.5 --bearings-mm 90,330 --disc 410:1.5:180\n"
+    "  amb new rig spindle --mass-kg 8 --length-mm 600 --speed-rpm 12000 --gap-mm 0.4 --bias-a 2 "
+    "--ki-n-per-a 60 --bearings-mm 120,460 --disc 585:1.5:180 --amplifier-hz 2000\n"
     "  amb run --rig spindle/spindle.yaml";
 
 constexpr Question kMass{"--mass-kg", "mass of all that turns [kg]", 0.01, 50'000.0};
@@ -117,7 +117,7 @@ void Complete(NewRigOptions& options) {
   TakeStrength(options);
 }
 
-/// "410:1.5:180": place, mass, diameter.
+/// "585:1.5:180": place, mass, diameter.
 SketchDisc ParseDisc(const std::string& text) {
   std::array<double, 3> values{};
   constexpr std::array<Question, 3> kParts{{{"--disc", "place", 0.0, 20'000.0},

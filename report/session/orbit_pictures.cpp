@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "common/rotational_speed.hpp"
@@ -58,6 +60,51 @@ svg::Series Path(const Recording& r, std::size_t bearing, const Stretch& stretch
   return path;
 }
 
+/// Where the mark of the first shaft passes; nothing for bearings of another shaft, whose angle the
+/// record does not have.
+svg::Series KeyPhasor(const Recording& r, std::size_t bearing, const Stretch& stretch,
+                      const std::string& colour) {
+  svg::Series dots{.colour = colour, .width = 0.0, .mark = svg::Mark::kDot, .mark_size = 4.5};
+  if (r.RatioOf(bearing) != 1.0) return dots;
+  const auto turn = [&](std::size_t i) {
+    return std::floor(static_cast<double>(r.angle_rad[i]) / (2.0 * std::numbers::pi));
+  };
+  for (std::size_t i = stretch.first + 1; i <= stretch.last; ++i) {
+    // An angle that starts anew after each turn jumps back; one that is counted on passes a whole.
+    const bool passes = std::abs(r.angle_rad[i] - r.angle_rad[i - 1]) > std::numbers::pi_v<float>;
+    if (!passes && turn(i) == turn(i - 1)) continue;
+    dots.x.push_back(static_cast<double>(r.position_m[2 * bearing][i]) * kUm);
+    dots.y.push_back(static_cast<double>(r.position_m[2 * bearing + 1][i]) * kUm);
+  }
+  return dots;
+}
+
+/// The way an orbit of two turns goes round: a head upon it, from the mean place of a sixteenth of
+/// a turn to that of the next, so that noise does not turn it.
+std::optional<svg::Series> Arrow(const svg::Series& path, double reach_um) {
+  const std::size_t window = path.x.size() / 32;
+  if (window == 0) return std::nullopt;
+  const std::size_t at = path.x.size() / 5;
+  const auto mean = [&](const std::vector<double>& values, std::size_t first) {
+    const auto from = values.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::accumulate(from, from + static_cast<std::ptrdiff_t>(window), 0.0) /
+           static_cast<double>(window);
+  };
+  const std::complex<double> tail{mean(path.x, at), mean(path.y, at)};
+  const std::complex<double> head{mean(path.x, at + window), mean(path.y, at + window)};
+  const double length = std::abs(head - tail);
+  if (length < 0.01 * reach_um) return std::nullopt;
+  const std::complex<double> along = 0.07 * reach_um / length * (head - tail);
+  const std::complex<double> across = 0.5 * along * std::complex<double>(0.0, 1.0);
+  const std::complex<double> middle = 0.5 * (head + tail);
+  svg::Series arrow{.colour = "#000000", .width = 1.4, .fill = path.colour};
+  for (const auto& corner : {middle + along, middle - along + across, middle - along - across}) {
+    arrow.x.push_back(corner.real());
+    arrow.y.push_back(corner.imag());
+  }
+  return arrow;
+}
+
 /// The drawing area is square, so that a circle looks like one.
 svg::Figure Square(svg::Panel panel) {
   svg::Figure figure = Wide(std::move(panel));
@@ -83,7 +130,8 @@ NamedPicture InClearance(const Recording& r, std::size_t bearing,
 }
 
 NamedPicture Enlarged(const Recording& r, std::size_t bearing,
-                      const std::vector<svg::Series>& paths) {
+                      const std::vector<svg::Series>& paths,
+                      const std::vector<Stretch>& stretches) {
   const std::string& name = r.rig.bearings[bearing];
   svg::Panel panel{fmt::format("the same enlarged, {}", name), "x, µm", "y, µm"};
   double reach = 1.0;
@@ -94,8 +142,16 @@ NamedPicture Enlarged(const Recording& r, std::size_t bearing,
   }
   panel.x_range = panel.y_range = svg::Range{-1.15 * reach, 1.15 * reach};
   panel.series = paths;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const double speed = std::abs(static_cast<double>(r.speed_rad_per_s[stretches[i].last]));
+    if (speed <= r.standstill_rad_per_s) continue;
+    panel.series.push_back(KeyPhasor(r, bearing, stretches[i], paths[i].colour));
+    if (const auto arrow = Arrow(paths[i], reach)) panel.series.push_back(*arrow);
+  }
   return {fmt::format("orbit_enlarged_{}", name),
-          fmt::format("The same orbits of {}, enlarged about the centre of the clearance.", name),
+          fmt::format("The same orbits of {}, enlarged about the centre of the clearance; arrow: "
+                      "the way round{}.",
+                      name, r.RatioOf(bearing) == 1.0 ? ", dot: the shaft's mark passes" : ""),
           Square(std::move(panel))};
 }
 
@@ -120,14 +176,16 @@ std::vector<NamedPicture> OrbitPictures(const Recording& recording,
   std::vector<NamedPicture> pictures;
   for (std::size_t b = 0; b < recording.rig.bearings.size(); ++b) {
     std::vector<svg::Series> paths;
+    std::vector<Stretch> stretches;
     for (const double speed : speeds_rad_per_s) {
       if (const auto stretch = Nearest(recording, speed)) {
         paths.push_back(Path(recording, b, *stretch, paths.size()));
+        stretches.push_back(*stretch);
       }
     }
     if (paths.empty()) continue;
     pictures.push_back(InClearance(recording, b, paths));
-    pictures.push_back(Enlarged(recording, b, paths));
+    pictures.push_back(Enlarged(recording, b, paths, stretches));
   }
   return pictures;
 }

@@ -87,7 +87,7 @@ svg::Panel CurrentOverSpeed(const std::vector<Compared>& compared,
 
 svg::Panel WorstOverSpeed(const std::vector<Compared>& compared) {
   svg::Panel panel{"worst orbit of the drawn rigs, those that were lost left out", "speed [rpm]",
-                   "[um]"};
+                   "[µm]"};
   for (std::size_t c = 0; c < compared.size(); ++c) {
     svg::Series line{compared[c].name};
     line.colour = svg::Colour(c);
@@ -118,7 +118,7 @@ svg::Figure Picture(const std::vector<Compared>& compared, const config::RigFile
       const double objective_m = speeds_rpm[i] > 0.0 ? rig.numbers.spinning_orbit_objective_m
                                                      : rig.numbers.standing_orbit_objective_m;
       svg::Panel panel{fmt::format("orbit, {}, {:.0f} rpm", rig.numbers.bearings[b], speeds_rpm[i]),
-                       "x [um]", "y [um]"};
+                       "x [µm]", "y [µm]"};
       panel.same_scale = true;
       if (objective_m > 0.0) panel.series.push_back(Circle(1e6 * objective_m));
       for (std::size_t c = 0; c < compared.size(); ++c) {
@@ -170,19 +170,22 @@ std::vector<std::vector<std::string>> ComparedRows(const std::vector<Compared>& 
     for (const Compared& c : compared) rows.back().push_back(text_of(c));
   };
   for (std::size_t i = 0; i < speeds_rpm.size(); ++i) {
-    row(fmt::format("orbit at {:.0f} rpm [um]", speeds_rpm[i]), [&](const Compared& c) {
-      return c.runs[i].lost ? std::string("LOST") : Slashed(c.runs[i].orbit_m, 1e6, "{:.1f}");
-    });
-    row(fmt::format("current at {:.0f} rpm [A]", speeds_rpm[i]), [&](const Compared& c) {
-      return Slashed(speeds_rpm[i] > 0.0 ? c.runs[i].synchronous_a : c.runs[i].static_a, 1.0,
-                     "{:.3f}");
-    });
+    row(fmt::format("largest orbit of the run at {:.0f} rpm [um]", speeds_rpm[i]),
+        [&](const Compared& c) {
+          return c.runs[i].lost ? std::string("LOST") : Slashed(c.runs[i].orbit_m, 1e6, "{:.1f}");
+        });
+    row(fmt::format("{} current at {:.0f} rpm [A]", speeds_rpm[i] > 0.0 ? "1x" : "static",
+                    speeds_rpm[i]),
+        [&](const Compared& c) {
+          return Slashed(speeds_rpm[i] > 0.0 ? c.runs[i].synchronous_a : c.runs[i].static_a, 1.0,
+                         "{:.3f}");
+        });
   }
   row("|S| over speed, largest",
       [](const Compared& c) { return fmt::format("{:.2f}", Largest(c.peak)); });
   row("mu, at most",
       [](const Compared& c) { return fmt::format("{:.2f} at {:.1f} Hz", c.mu.value, c.mu.hz); });
-  row("drawn rigs at 20 speeds: lost, worst [um]", [](const Compared& c) {
+  row("drawn rigs at 20 speeds: lost, largest orbit [um]", [](const Compared& c) {
     return fmt::format("{} of {} runs, {:.1f}", c.Lost(), c.Runs(), 1e6 * c.WorstOrbit());
   });
   row("one period of the law, here [ns]",

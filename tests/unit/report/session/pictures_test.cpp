@@ -68,6 +68,25 @@ TEST(OrbitPictures, DrawTheOrbitInsideTheClearanceCircle) {
   }
 }
 
+TEST(OrbitPictures, ShowTheWayRoundAndWhereTheMarkPasses) {
+  const Recording r = WhirlingRotor();
+  const auto pictures = OrbitPictures(r, {r.top_speed_rad_per_s});
+  const svg::Panel& panel = PanelOf(pictures, "orbit_enlarged_de");
+  ASSERT_EQ(panel.series.size(), 3U);
+  const svg::Series& dots = panel.series[1];
+  ASSERT_GE(dots.x.size(), 1U);
+  const double step = 10.0 * r.top_speed_rad_per_s * r.rig.period_s();
+  for (std::size_t i = 0; i < dots.x.size(); ++i) {
+    EXPECT_NEAR(dots.x[i], 20.0 + 10.0 * std::cos(test::kLeadRad), step);
+    EXPECT_NEAR(dots.y[i], 10.0 * std::sin(test::kLeadRad), step);
+  }
+  // Forward: from the middle of the head's base to its tip it turns from +x towards +y.
+  const svg::Series& arrow = panel.series[2];
+  const double tail_x = 0.5 * (arrow.x[1] + arrow.x[2]) - 20.0;
+  const double tail_y = 0.5 * (arrow.y[1] + arrow.y[2]);
+  EXPECT_GT(tail_x * arrow.y[0] - tail_y * (arrow.x[0] - 20.0), 0.0);
+}
+
 TEST(OrbitPictures, NeverJoinWhatLiesBesideAGap) {
   Recording r = WhirlingRotor();
   r.cycle.back() += 7;  // the last sample stands alone
