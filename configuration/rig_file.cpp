@@ -47,11 +47,15 @@ scenario::ScenarioConfig ParseScenario(const std::string& text, const std::strin
 
 RigFile LoadRig(const std::string& path) {
   RigFile rig = ParseRig(ReadText(path), path);
-  // What a rig names by a path lies beside it: from here on the path is from where we run.
+  // What a rig names by a path lies beside it. From here on the path is a whole one: the rig is
+  // written into sessions and other folders, and read again from anywhere.
   for (std::string* own : {&rig.run.controller, &rig.run.scenario}) {
     const std::filesystem::path named(*own);
     if (own->find('/') == std::string::npos || named.is_absolute()) continue;
-    *own = (std::filesystem::path(path).parent_path() / named).lexically_normal().string();
+    const std::filesystem::path beside = std::filesystem::path(path).parent_path() / named;
+    std::error_code unknown;
+    const std::filesystem::path whole = std::filesystem::absolute(beside, unknown);
+    *own = (unknown ? beside : whole).lexically_normal().string();
   }
   return rig;
 }

@@ -39,6 +39,18 @@ std::string FindController(const RunDefaults& rig, const std::string& given,
   return Find("controller", rig.controller, given, otherwise);
 }
 
+ControllerFile LoadFound(const std::string& path, const RigFile& rig, const std::string& given) {
+  if (!given.empty() || !rig.run.controller.empty()) return LoadController(path, rig.numbers);
+  try {
+    return LoadController(path, rig.numbers);
+  } catch (const BadInput&) {
+    throw BadInput("the rig file of " + rig.numbers.name +
+                   " names no controller (run.controller), and the usual one is not for its "
+                   "bearings: give one with --controller, or write run: {controller: ./FILE.yaml} "
+                   "into the rig file, with FILE.yaml beside it");
+  }
+}
+
 std::string FindScenario(const RunDefaults& rig, const std::string& given,
                          const std::string& otherwise) {
   return Find("scenario", rig.scenario, given, otherwise);

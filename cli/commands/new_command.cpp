@@ -84,10 +84,13 @@ void TakeStrength(NewRigOptions& options) {
   if (!std::isnan(options.ks_n_per_m)) {
     sketch.ki_n_per_a = options.ks_n_per_m * 1e-3 * sketch.gap_mm / sketch.bias_a;
   } else if (!std::isnan(options.turns)) {
-    const auto law = magnet::LawOfPoles(options.turns, 1e-6 * options.pole_area_mm2,
-                                        22.5 * std::numbers::pi / 180.0, 1e-3 * sketch.gap_mm);
-    sketch.ki_n_per_a = 4.0 * law.force_constant_n_m2_per_a2 * sketch.bias_a /
-                        (1e-6 * sketch.gap_mm * sketch.gap_mm);
+    sketch.turns = options.turns;
+    sketch.pole_area_mm2 = options.pole_area_mm2;
+    const auto law =
+        magnet::LawOfPoles(options.turns, 1e-6 * options.pole_area_mm2,
+                           kHalfPoleAngleDeg * std::numbers::pi / 180.0, 1e-3 * sketch.gap_mm);
+    sketch.ki_n_per_a =
+        4.0 * law.force_constant_n_m2_per_a2 * sketch.bias_a / (law.gap_m * law.gap_m);
   }
 }
 

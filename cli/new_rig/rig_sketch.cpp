@@ -19,6 +19,7 @@ constexpr double kSecondsToTop = 10.0;
 constexpr double kStandingShare = 0.05;
 constexpr double kSpinningShare = 0.3;
 constexpr double kGravity = 9.81;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Of each bearing plane.
 double UnbalanceGMm(const RigSketch& sketch) {
@@ -76,6 +77,19 @@ std::string RotorText(const RigSketch& sketch, const SketchNumbers& n) {
                     std::max(0.1, sketch.length_mm / 40.0));
 }
 
+/// The strength of a magnet as it was given: by its coil, or by ki.
+std::string StrengthText(const RigSketch& sketch, const SketchNumbers& n) {
+  if (sketch.turns > 0.0) {
+    return fmt::format(
+        "      turns: {:.6g}             # of one coil\n"
+        "      pole_area_mm2: {:.6g}\n"
+        "      half_pole_angle_deg: {:g}  # (assumed): ki {:.4g} N/A, ks {:.3g} N/m\n",
+        sketch.turns, sketch.pole_area_mm2, kHalfPoleAngleDeg, sketch.ki_n_per_a, n.ks_n_per_m);
+  }
+  return fmt::format("      ki_n_per_a: {:.6g}       # ks = ki i0 / s0 = {:.3g} N/m\n",
+                     sketch.ki_n_per_a, n.ks_n_per_m);
+}
+
 std::string BearingText(const RigSketch& sketch, const SketchNumbers& n, std::size_t b) {
   return fmt::format(
       "  - name: {}                # axes {}_x and {}_y; carries {:.3g} kg\n"
@@ -83,7 +97,7 @@ std::string BearingText(const RigSketch& sketch, const SketchNumbers& n, std::si
       "    sensor_z_mm: {:.6g}        # beside the magnet (assumed): where is your probe?\n"
       "    magnet:\n"
       "      gap_mm: {:.6g}\n"
-      "      ki_n_per_a: {:.6g}       # ks = ki i0 / s0 = {:.3g} N/m\n"
+      "{}"
       "    amplifier:\n"
       "      bandwidth_hz: {:.6g}     # of the current loop{}\n"
       "      dac_bits: 16           # (assumed)\n"
@@ -96,7 +110,7 @@ std::string BearingText(const RigSketch& sketch, const SketchNumbers& n, std::si
       "(docs/configuration.md)\n"
       "      clearance_um: {:.6g}     # half the air gap (assumed)\n\n",
       kBearingNames[b], kBearingNames[b], kBearingNames[b], n.carried_kg[b], n.bearings_mm[b],
-      SensorOf(sketch, n.bearings_mm[b], b == 0), sketch.gap_mm, sketch.ki_n_per_a, n.ks_n_per_m,
+      SensorOf(sketch, n.bearings_mm[b], b == 0), sketch.gap_mm, StrengthText(sketch, n),
       sketch.amplifier_hz, sketch.amplifier_hz == RigSketch{}.amplifier_hz ? " (assumed)" : "",
       1e3 * sketch.gap_mm, n.clearance_um);
 }
@@ -178,7 +192,9 @@ SketchNumbers NumbersOf(const RigSketch& sketch) {
   }
   const double rear_kg = sketch.mass_kg * (n.centre_mm - n.bearings_mm[0]) / span_mm;
   n.carried_kg = {sketch.mass_kg - rear_kg, rear_kg};
-  n.ks_n_per_m = sketch.ki_n_per_a * sketch.bias_a / (1e-3 * sketch.gap_mm);
+  // Along the axis of a horseshoe the gap is longer than at its poles (docs/derivations.md (16a)).
+  const double along = sketch.turns > 0.0 ? std::cos(kHalfPoleAngleDeg * kDegree) : 1.0;
+  n.ks_n_per_m = sketch.ki_n_per_a * sketch.bias_a * along / (1e-3 * sketch.gap_mm);
   n.clearance_um = 500.0 * sketch.gap_mm;
   return n;
 }

@@ -18,6 +18,9 @@
 
 namespace levitas::cli {
 
+/// Between a pole and its magnet's axis, of eight poles evenly spaced, where the coil is given.
+inline constexpr double kHalfPoleAngleDeg = 22.5;
+
 struct SketchDisc {
   double z_mm{};
   double mass_kg{};
@@ -29,8 +32,10 @@ struct RigSketch {
   double mass_kg{};  ///< of all that turns
   double length_mm{};
   double max_speed_rpm{};
-  double ki_n_per_a{};
-  double gap_mm{};
+  double ki_n_per_a{};  ///< of the coil, where `turns` says it
+  double gap_mm{};      ///< at the pole, where the coil is given
+  double turns{};       ///< of one coil; 0: the strength is ki
+  double pole_area_mm2{};
   double bias_a{};
   double rate_hz{10'000.0};
   double delay_samples{1.0};

@@ -128,7 +128,7 @@ FoundController LoadController(const AnalysisOptions& options, const config::Rig
   const std::string path =
       config::FindController(rig.run, options.controller_name, kReferenceController);
   session::RefuseClash({{"--json", options.json_path}}, {{"the controller file", path}});
-  FoundController found{path, config::LoadController(path, rig.numbers), {}};
+  FoundController found{path, config::LoadFound(path, rig, options.controller_name), {}};
   found.notes = NotchesElsewhere(found.file, rig.numbers);
   for (const std::string& note : config::LawNotes(found.file.law)) found.notes += "\n  " + note;
   return found;

@@ -57,29 +57,28 @@ void RefuseWrongPace(const RunOptions& options) {
 RunFiles CheckFiles(const RunOptions& options) {
   RunFiles files;
   std::string problems;
-  config::RunDefaults of_rig;
+  config::RigFile rig;
   const bool rig_good = Collect(problems, [&] {
     files.rig_path = config::FindConfig(options.rig, "rigs");
     RigAsRun as_run = ReadRigAsRun(files.rig_path, options.bias_current_a);
-    files.rig = as_run.rig.numbers;
+    rig = std::move(as_run.rig);
+    files.rig = rig.numbers;
     files.rig_text = std::move(as_run.text);
-    of_rig = as_run.rig.run;
   });
   // The other two are read for a rig. Without one, the shipped rig shows at least what is wrong in
   // them whatever the rig.
-  RigNumbers reference = files.rig;
   if (!rig_good) {
-    reference = config::LoadRig(config::FindConfig(kReferenceRig, "rigs")).numbers;
+    rig.numbers = config::LoadRig(config::FindConfig(kReferenceRig, "rigs")).numbers;
     problems +=
         fmt::format("\n(the other files are checked against the shipped rig {})", kReferenceRig);
   }
   Collect(problems, [&] {
-    files.controller_path = config::FindController(of_rig, options.controller, kGeneralController);
-    static_cast<void>(config::LoadController(files.controller_path, reference));
+    files.controller_path = config::FindController(rig.run, options.controller, kGeneralController);
+    static_cast<void>(config::LoadFound(files.controller_path, rig, options.controller));
   });
   Collect(problems, [&] {
-    files.scenario_path = config::FindScenario(of_rig, options.scenario, kGeneralScenario);
-    files.scenario_name = config::LoadScenario(files.scenario_path, reference).name;
+    files.scenario_path = config::FindScenario(rig.run, options.scenario, kGeneralScenario);
+    files.scenario_name = config::LoadScenario(files.scenario_path, rig.numbers).name;
   });
   if (!problems.empty()) throw BadInput(problems);
   return files;

@@ -25,8 +25,9 @@ namespace {
 using diagnosis::Record;
 
 config::ControllerFile ControllerOf(const PlanOptions& options, const config::RigFile& rig) {
-  return config::LoadController(
-      config::FindController(rig.run, options.controller_name, "flexible_rotor"), rig.numbers);
+  return config::LoadFound(
+      config::FindController(rig.run, options.controller_name, "flexible_rotor"), rig,
+      options.controller_name);
 }
 
 std::vector<Record> RecordsOf(const PlanOptions& options, const config::RigFile& rig,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/records/recorded_rows.hpp"
+#include "diagnosis/inference/excited_windows.hpp"
 #include "diagnosis/model/longest_first.hpp"
 
 namespace levitas::diagnosis {
@@ -187,11 +188,15 @@ std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows) 
     const std::size_t length = std::min(all, share / spans);
     Record part = record;
     part.rows.clear();
+    std::vector<Window> windows;
     for (std::size_t i = 0; i < spans; ++i) {
       // The first span begins and the last one ends with the record.
       const std::size_t from = spans == 1 ? (all - length) / 2 : i * (all - length) / (spans - 1);
-      const auto first = record.rows.begin() + static_cast<std::ptrdiff_t>(from);
-      part.rows.insert(part.rows.end(), first, first + static_cast<std::ptrdiff_t>(length));
+      windows.push_back({from, length});
+    }
+    for (const Window& window : TellingWindows(record.rows, windows)) {
+      const auto first = record.rows.begin() + static_cast<std::ptrdiff_t>(window.first);
+      part.rows.insert(part.rows.end(), first, first + static_cast<std::ptrdiff_t>(window.length));
     }
     part.mean_speed_rad_per_s = analysis::MeanSpeed(part.rows);
     out.push_back(std::move(part));

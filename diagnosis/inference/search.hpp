@@ -109,7 +109,7 @@ inline constexpr std::size_t kHealthyRows = 60'000;  ///< to learn what is usual
 inline constexpr std::size_t kMostRows = 200'000;    ///< more would take a minute and gigabytes
 
 /// At most about `rows` of all records together, each in proportion, as spans spread evenly over
-/// it: every excitation and every speed stays represented.
+/// it; where those would miss a test signal, around the test signals (excited_windows.hpp).
 [[nodiscard]] std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows);
 
 }  // namespace levitas::diagnosis

@@ -1,6 +1,7 @@
 """docs/my_rotor.md, command by command: from six numbers to an accepted run at 12 000 rpm."""
 
 import json
+import math
 import os
 import pty
 import subprocess
@@ -45,9 +46,14 @@ class MyRotor(CommandTest):
         self.assertAlmostEqual(made["ki_n_per_a"], 60.0)  # ks gap / bias
         _, coil = self.compute("new", "rig", "coil", *without_ki, "--turns", "100",
                                "--pole-area-mm2", "200")
-        # ki = mu0 n^2 A i0 cos(a) / s0^2 of two poles in series, whose gap is s0 / cos(a) less.
-        self.assertGreater(coil["ki_n_per_a"], 20.0)
-        self.assertAlmostEqual(coil["ks_n_per_m"], coil["ki_n_per_a"] * 2 / 0.4e-3, delta=1.0)
+        # ki = mu0 n^2 A i0 cos(a) / s^2 with the gap s at the poles; along the axis it is s / cos(a).
+        along = math.cos(math.radians(22.5))
+        ki = 4e-7 * math.pi * 100**2 * 200e-6 * 2 * along / 0.4e-3**2
+        self.assertAlmostEqual(coil["ki_n_per_a"], ki, delta=1e-6 * ki)
+        self.assertAlmostEqual(coil["ks_n_per_m"], ki * 2 * along / 0.4e-3, delta=1.0)
+        # The rig file has the coil itself, and the same magnet comes of it.
+        magnet = self.compute("modes", "--rig", coil["rig"])[1]["bearings"][0]
+        self.assertAlmostEqual(magnet["ki_n_per_a"], ki, delta=1e-4 * ki)
 
     def test_a_terminal_is_asked_for_what_is_missing(self):
         ours, theirs = pty.openpty()

@@ -45,6 +45,27 @@ TEST(RigSketch, WeighsWhatItShouldAndCarriesItByTheLever) {
   EXPECT_NEAR(7850.0 * section_m2 * 0.6, 6.0, 1e-9);
 }
 
+// Two ways to say one magnet: its coil in the rig file, and what amb new rig makes of it.
+TEST(RigSketch, OfACoilHasTheStrengthOfItsRigFile) {
+  RigSketch sketch = Sketch();
+  const double area_m2 = 420e-6, gap_m = 0.5e-3, turns = 110.0, bias_a = 3.0;
+  const double along = std::cos(std::numbers::pi / 8.0);
+  sketch.gap_mm = 1e3 * gap_m;
+  sketch.bias_a = bias_a;
+  sketch.turns = turns;
+  sketch.pole_area_mm2 = 1e6 * area_m2;
+  // docs/derivations.md (16a): ki as of a pole on the axis, times cos; ks times its square.
+  const double on_axis =
+      4e-7 * std::numbers::pi * turns * turns * area_m2 * bias_a / (gap_m * gap_m);
+  sketch.ki_n_per_a = on_axis * along;
+  const auto rig = RigOf(sketch);
+  const auto& magnet = rig.plant.bearings.front().magnet;
+  const double ki =
+      4.0 * magnet.force_constant_n_m2_per_a2 * bias_a / (magnet.gap_m * magnet.gap_m);
+  EXPECT_NEAR(ki, sketch.ki_n_per_a, 1e-3 * ki);
+  EXPECT_NEAR(ki * bias_a / magnet.gap_m, NumbersOf(sketch).ks_n_per_m, 1e-3 * ki * bias_a / gap_m);
+}
+
 // Ip = 2 Id of a thin disc: each rounded by itself, every fourth file would be refused.
 TEST(RigSketch, HasDiscsWhoseInertiaABodyCanHave) {
   Random random(3);

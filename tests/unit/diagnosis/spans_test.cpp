@@ -38,5 +38,44 @@ TEST(Spans, BeginAndEndWithTheRecord) {
   }
 }
 
+/// 200 000 rows in which axis 2 has a test signal for 8000 of them.
+Record WithASignal() {
+  Record record = Rows(200'000);
+  for (std::size_t n = 0; n < record.rows.size(); ++n) {
+    record.rows[n].levitated = true;
+    record.rows[n].sample.speed_rad_per_s = n > 150'000 ? 100.0 : 0.0;
+    if (n >= 60'000 && n < 68'000) record.rows[n].excitation_a[2] = n % 2 == 0 ? 0.1 : -0.1;
+  }
+  return record;
+}
+
+std::size_t Excited(const Record& record) {
+  std::size_t rows = 0;
+  for (const auto& row : record.rows) rows += row.excitation_a[2] != 0.0 ? 1U : 0U;
+  return rows;
+}
+
+TEST(Spans, HoldTheTestSignalThatEvenOnesWouldMiss) {
+  const auto parts = Spans({WithASignal()}, 30'000);
+  EXPECT_EQ(Excited(parts[0]), 8'000U);
+  EXPECT_LE(parts[0].rows.size(), 30'000U);
+  EXPECT_EQ(parts[0].rows.back().sample.speed_rad_per_s, 100.0);
+  for (std::size_t n = 1; n < parts[0].rows.size(); ++n) {
+    ASSERT_GT(parts[0].rows[n].cycle, parts[0].rows[n - 1].cycle);
+  }
+}
+
+// A signal that lasts is in even stretches as it is in the record.
+TEST(Spans, StayEvenWhereTheSignalLasts) {
+  Record record = Rows(200'000);
+  for (auto& row : record.rows) {
+    row.levitated = true;
+    row.excitation_a[1] = 0.1;
+  }
+  const auto parts = Spans({record}, 30'000);
+  EXPECT_EQ(parts[0].rows.front().cycle, 0U);
+  EXPECT_EQ(parts[0].rows.back().cycle, 199'999U);
+}
+
 }  // namespace
 }  // namespace levitas::diagnosis
