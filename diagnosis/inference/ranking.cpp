@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+
+#include "plant_sim/effect/catalogue.hpp"
 
 namespace levitas::diagnosis {
 
@@ -79,6 +82,14 @@ double HeldGain(const std::vector<Trajectory>& first, const std::vector<Trajecto
     }
   }
   return gain;
+}
+
+std::vector<Hypothesis> OfExactForm(const std::vector<Hypothesis>& causes) {
+  std::vector<Hypothesis> exact;
+  std::ranges::copy_if(causes, std::back_inserter(exact), [](const Hypothesis& cause) {
+    return cause.effect == effect::At(effect::Id::kMainsPickup).name;
+  });
+  return exact;
 }
 
 std::vector<Hypothesis> Without(const std::vector<Hypothesis>& causes, std::size_t at) {

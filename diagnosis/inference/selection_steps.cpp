@@ -127,7 +127,7 @@ void TryBeside(const EvidenceLandscape& landscape, const SelectionRules& rules,
 bool MergeOnce(EvidenceLandscape& landscape, const SelectionRules& rules, CauseSelection& found) {
   const Refined whole = landscape.Fit(found.causes, found.theta, 2);
   if (!whole.ok) return false;
-  const double explained = whole.evidence - landscape.EvidenceOf({});
+  const double explained = whole.evidence - landscape.EvidenceOf(OfExactForm(found.causes));
   const double worth = whole.evidence - Enough(rules.judging, explained);
   Merger merger;
   CauseSet& best = merger.best;
@@ -168,7 +168,7 @@ bool AddCause(EvidenceLandscape& landscape, const SelectionRules& rules, double 
   const Refined before = landscape.Fit(found.causes, found.theta, 2);
   Bar bar;
   bar.null = before.ok ? before.evidence : landscape.EvidenceOf(found.causes);
-  bar.enough = Enough(rules.judging, bar.null - landscape.EvidenceOf({}));
+  bar.enough = Enough(rules.judging, bar.null - landscape.EvidenceOf(OfExactForm(found.causes)));
   if (!(first > bar.enough) && probes.empty()) return false;
   CauseSet best = BestOfScreen(landscape, rules, screened, bar, share, found);
   TryProbes(landscape, rules, probes, bar.null, found, best);

@@ -58,6 +58,17 @@ TEST(AddCause, AsksMoreOfAFurtherCauseWhereMuchIsExplainedAlready) {
   }
 }
 
+// A hum is a sine of a known frequency: what is found beside a loud one is no error of its law.
+TEST(AddCause, AsksNoMoreBesideALoudHum) {
+  for (const auto& [name, added] : {std::pair{"mains_pickup", true}, std::pair{"first", false}}) {
+    ToyLandscape toy({100.0, 5.0});
+    const Hypothesis first = toy.Add(name, {1.0, 0.0});
+    toy.Add("second", {0.0, 1.0});
+    CauseSelection found = toy.Found({first});
+    EXPECT_EQ(AddTo(toy, found), added) << name;
+  }
+}
+
 TEST(AddCause, IsDecidedByTheNonlinearModel) {
   ToyLandscape toy({10.0, 9.8});
   toy.Add("better_on_the_screen", {1.0, 0.0});
@@ -144,6 +155,18 @@ TEST(MergeCauses, LeavesTwoThatNoSingleEffectExplains) {
   MergeCauses(toy, ThoroughRules(), found);
   EXPECT_EQ(NamesOf(found.causes), (Names{"x", "y"}));
   EXPECT_EQ(toy.linearised.size(), 0U);
+}
+
+// Beside a loud hum, a share of what the hum explains is no reason to give up the other cause.
+TEST(MergeCauses, DropsNothingForTheShareOfALoudHum) {
+  for (const auto& [name, left] : {std::pair{"mains_pickup", 2U}, std::pair{"first", 1U}}) {
+    ToyLandscape toy({100.0, 8.0});
+    const Hypothesis first = toy.Add(name, {1.0, 0.0});
+    const Hypothesis second = toy.Add("second", {0.0, 1.0});
+    CauseSelection found = toy.Found({first, second});
+    MergeCauses(toy, ThoroughRules(), found);
+    EXPECT_EQ(found.causes.size(), left) << name;
+  }
 }
 
 TEST(MergeCauses, FitsNoSetTwice) {
