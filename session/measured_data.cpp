@@ -139,11 +139,19 @@ class RecordMaker {
     const double hz = 1.0 / rig_.period_s();
     throw reader.Bad(fmt::format(
         "the file's rate is {:g} Hz, the rig's {:g} Hz: most of its rows are {} periods "
-        "apart. Give a rig file with the period of the data, or resample them",
-        hz / static_cast<double>(periods), hz, periods));
+        "apart. {}",
+        hz / static_cast<double>(periods), hz, periods, RemedyOf(periods)));
   }
 
  private:
+  static const char* RemedyOf(std::uint64_t periods) {
+    if (periods == 1'000 || periods == 1'000'000) {
+      return "Times in ms or us look like this when they are read as s: say so in the map of amb "
+             "import (unit: ms, unit: us), or write them in s";
+    }
+    return "Give a rig file with the period of the data, or resample them";
+  }
+
   // The one axis of the rig: where it is by its gap, what was commanded by its duties.
   void Convert(CsvRow& row, double& bias_a) const {
     if (has_gap_) row.position_m[0] = coils_[0].gap_m - row.gap_m[0];

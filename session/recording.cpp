@@ -131,8 +131,9 @@ void TakeSession(const std::string& path, const RigNumbers& rig, ColumnWriter& c
     throw BadInput(fmt::format(
         "{}: not a session. A recorded run is a session (amb run --record), CSV by the ending .csv "
         "or .csv.xz, MAT by .mat, with the columns of docs/formats.md, or a log of candump by .log "
-        "or .log.xz",
-        path));
+        "or .log.xz. Any other table of measured values: amb import --guess {} shows how to read "
+        "it",
+        path, path));
   }
   try {
     SessionReader session(path);

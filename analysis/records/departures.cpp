@@ -70,8 +70,15 @@ std::vector<Departure> Departures(const std::vector<ChannelReport>& channels) {
   for (std::size_t channel = 0; channel < channels.size(); ++channel) {
     Collect(channel, channels[channel], departures);
   }
+  // A share alone would put the whole of a channel at its noise before most of a wrong one.
+  const auto power = [&](const Departure& departure) {
+    const ChannelReport& report = channels[departure.channel];
+    const double left =
+        report.multiple * report.multiple - report.expected_multiple * report.expected_multiple;
+    return departure.share * std::max(0.0, left);
+  };
   std::stable_sort(departures.begin(), departures.end(),
-                   [](const Departure& a, const Departure& b) { return a.share > b.share; });
+                   [&](const Departure& a, const Departure& b) { return power(a) > power(b); });
   return departures;
 }
 

@@ -8,7 +8,8 @@
 
 namespace levitas::analysis {
 
-/// Orders, bands and windows of all channels beyond kDepartureRatio, largest share first.
+/// Orders, bands and windows of all channels beyond kDepartureRatio, the most unexplained
+/// power first, in units of the noise of its channel.
 [[nodiscard]] std::vector<Departure> Departures(const std::vector<ChannelReport>& channels);
 
 }  // namespace levitas::analysis

@@ -114,7 +114,8 @@ struct InnovationReport {
   double duration_s{};
   double line_spacing_hz{};
   std::vector<ChannelReport> channels;
-  std::vector<Departure> departures;  ///< largest share first; see kDepartureRatio
+  /// The most unexplained power first, in units of each channel's noise; see kDepartureRatio.
+  std::vector<Departure> departures;
 };
 
 /// A place counts as a departure from this multiple of what is expected there.

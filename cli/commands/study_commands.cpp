@@ -47,7 +47,8 @@ void StartStudy(char** argv, const char* mark) {
   setenv(kStartedBy, mark, 1);
   execv(program.c_str(), argv);
   throw Problem(ExitStatus::kOther,
-                fmt::format("{}: {}. amb {} is a part of amb-study, which `./amb {}` builds",
+                fmt::format("{}: {}. amb {} is a part of amb-study, which `./amb {}` builds: "
+                            "once, some ten minutes on two cores",
                             program, std::strerror(errno), argv[1], argv[1]));
 }
 

@@ -12,6 +12,7 @@ namespace levitas::session {
 namespace {
 
 using namespace testing;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -59,7 +60,10 @@ std::string SteppedRows(int rows, int step, int whole = 0) {
 TEST_F(CsvRate, OfHalfTheRateIsRefusedAsSuchAndNotTakenForDropOuts) {
   EXPECT_THAT(Refusal(SteppedRows(2000, 2)),
               HasSubstr("the file's rate is 5000 Hz, the rig's 10000 Hz"));
-  EXPECT_THAT(Refusal(SteppedRows(2000, 10)), HasSubstr("the file's rate is 1000 Hz"));
+  EXPECT_THAT(Refusal(SteppedRows(2000, 10)),
+              AllOf(HasSubstr("the file's rate is 1000 Hz"), HasSubstr("resample")));
+  EXPECT_THAT(Refusal(SteppedRows(200, 1000)),
+              AllOf(HasSubstr("the file's rate is 10 Hz"), HasSubstr("unit: ms")));
   EXPECT_THAT(Refusal(SteppedRows(10, 2)), Not(HasSubstr("rate"))) << "nine steps tell nothing yet";
 }
 
