@@ -17,7 +17,7 @@ constexpr std::array<JudgingRow, 15> kTable{{
      "2026",
      "--clean 20 --seeds 22 --size 0.4 --sweep decisive_nat=2,5,10"},
     {"form_share", &Judging::form_share, "of the evidence explained",
-     "further evidence that a second cause must gain beside a strong first one",
+     "further evidence that a second cause must gain beside a strong first one, a hum excepted",
      "force laws of magnets and contacts differ from the file by a tenth in amplitude, a hundredth "
      "in squared error; twice that",
      "--seeds 22 --size 2 --sweep form_share=0,0.02,0.1"},
