@@ -10,11 +10,12 @@
 namespace levitas::diagnosis {
 namespace {
 
-/// Spans of records that are longer than `rows`; empty when they are not.
-std::vector<Record> PartOf(const std::vector<Record>& records, std::size_t rows) {
+/// Spans of records that are longer than the effort allows; empty when they are not.
+std::vector<Record> PartOf(const std::vector<Record>& records, const Effort& effort) {
   std::size_t total = 0;
   for (const Record& record : records) total += record.rows.size();
-  return total > rows ? Spans(records, rows) : std::vector<Record>{};
+  if (total <= effort.rows) return {};
+  return effort.first_cause_only ? QuickSpans(records) : Spans(records, effort.rows);
 }
 
 }  // namespace
@@ -27,7 +28,7 @@ RecordLandscape::RecordLandscape(const RigView& rig, const std::vector<Record>& 
       settings_(settings),
       passes_(effort.passes),
       search_(rig, terms, settings.only, settings.judging.model_error_share),
-      part_(PartOf(recorded, effort.rows)),
+      part_(PartOf(recorded, effort)),
       records_(part_.empty() ? recorded : part_),
       gains_(search_.DesignGains(records_, kSpeeds[0])),
       refiner_(search_, terms_, records_, gains_, rig.axes) {}

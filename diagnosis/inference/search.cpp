@@ -173,7 +173,22 @@ std::vector<std::size_t> Search::NuisancesAnd(const std::vector<Hypothesis>& cau
   return chosen;
 }
 
-std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows) {
+namespace {
+
+/// The first span begins and the last one ends with the record.
+std::vector<Window> EvenWindows(std::size_t rows, std::size_t spans, std::size_t length) {
+  std::vector<Window> windows;
+  for (std::size_t i = 0; i < spans; ++i) {
+    const std::size_t from = spans == 1 ? (rows - length) / 2 : i * (rows - length) / (spans - 1);
+    windows.push_back({from, length});
+  }
+  return windows;
+}
+
+/// `choose` makes of the rows of a record and even windows those that are kept.
+template <class Choose>
+std::vector<Record> Parts(const std::vector<Record>& records, std::size_t rows,
+                          const Choose& choose) {
   constexpr std::size_t kSpan = 10'000;  // rows; a third of it settles
   std::size_t total = 0;
   for (const Record& record : records) total += record.rows.size();
@@ -188,13 +203,7 @@ std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows) 
     const std::size_t length = std::min(all, share / spans);
     Record part = record;
     part.rows.clear();
-    std::vector<Window> windows;
-    for (std::size_t i = 0; i < spans; ++i) {
-      // The first span begins and the last one ends with the record.
-      const std::size_t from = spans == 1 ? (all - length) / 2 : i * (all - length) / (spans - 1);
-      windows.push_back({from, length});
-    }
-    for (const Window& window : TellingWindows(record.rows, windows)) {
+    for (const Window& window : choose(record.rows, EvenWindows(all, spans, length))) {
       const auto first = record.rows.begin() + static_cast<std::ptrdiff_t>(window.first);
       part.rows.insert(part.rows.end(), first, first + static_cast<std::ptrdiff_t>(window.length));
     }
@@ -202,6 +211,16 @@ std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows) 
     out.push_back(std::move(part));
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows) {
+  return Parts(records, rows, [](const auto&, std::vector<Window> even) { return even; });
+}
+
+std::vector<Record> QuickSpans(const std::vector<Record>& records) {
+  return Parts(records, kQuickRows, TellingWindows);
 }
 
 }  // namespace levitas::diagnosis

@@ -109,7 +109,11 @@ inline constexpr std::size_t kHealthyRows = 60'000;  ///< to learn what is usual
 inline constexpr std::size_t kMostRows = 200'000;    ///< more would take a minute and gigabytes
 
 /// At most about `rows` of all records together, each in proportion, as spans spread evenly over
-/// it; where those would miss a test signal, around the test signals (excited_windows.hpp).
+/// it: every excitation and every speed stays represented.
 [[nodiscard]] std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows);
+
+/// kQuickRows of them: even spans, and where those few would miss a test signal, the spans that hold
+/// the test signals (excited_windows.hpp).
+[[nodiscard]] std::vector<Record> QuickSpans(const std::vector<Record>& records);
 
 }  // namespace levitas::diagnosis
