@@ -73,7 +73,10 @@ std::vector<Window> TellingWindows(const Rows& rows, std::vector<Window> even) {
   if (!missed) return even;
   std::size_t budget = 0;
   for (const Window& window : even) budget += window.length;
-  const std::size_t count = std::max(even.size(), signals.size() + 1);
+  // Shorter ones would hold little but the settling of the model.
+  constexpr std::size_t kShortest = 6'000;  // rows; half of it settles
+  const std::size_t count = std::min(std::max(even.size(), signals.size() + 1), budget / kShortest);
+  if (count < signals.size()) return even;
   const std::size_t length = budget / count;
   std::vector<Window> windows;
   const auto take = [&](const auto& value) {

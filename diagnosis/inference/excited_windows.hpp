@@ -6,6 +6,8 @@
 //          share of the rows: what that magnet does is then hardly in them.
 // Chosen   for each axis with a test signal in turn the stretch that holds most of it, then the
 //          fastest one without overlap: rotation has effects of its own. In order of time.
+// Not      where the rows are too few for a stretch of each axis that is longer than the model's
+//          settling: the even ones stay.
 // Thread   any; pure.
 
 #include <cstddef>

@@ -32,11 +32,11 @@ void SortByScore(std::vector<Candidate>& candidates);
 [[nodiscard]] double HeldGain(const std::vector<Trajectory>& first,
                               const std::vector<Trajectory>& second, const Whitener& whitener);
 
-/// All but one.
-/// Those whose form leaves nothing to be known better: a hum is a sine of a known frequency. What is
-/// left beside the others may be their own law, of which form_share of their evidence speaks.
+/// Those whose form leaves nothing to be known better: a hum is a sine of a known frequency. What
+/// is left beside the others may be their own law, of which form_share of their evidence speaks.
 [[nodiscard]] std::vector<Hypothesis> OfExactForm(const std::vector<Hypothesis>& causes);
 
+/// All but one.
 [[nodiscard]] std::vector<Hypothesis> Without(const std::vector<Hypothesis>& causes,
                                               std::size_t at);
 

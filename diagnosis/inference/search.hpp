@@ -112,8 +112,8 @@ inline constexpr std::size_t kMostRows = 200'000;    ///< more would take a minu
 /// it: every excitation and every speed stays represented.
 [[nodiscard]] std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows);
 
-/// kQuickRows of them: even spans, and where those few would miss a test signal, the spans that hold
-/// the test signals (excited_windows.hpp).
+/// kQuickRows of them: even spans, and where those few would miss a test signal, the spans that
+/// hold the test signals (excited_windows.hpp).
 [[nodiscard]] std::vector<Record> QuickSpans(const std::vector<Record>& records);
 
 }  // namespace levitas::diagnosis

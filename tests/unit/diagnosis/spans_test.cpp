@@ -66,6 +66,19 @@ TEST(QuickSpans, HoldTheTestSignalThatEvenOnesWouldMiss) {
   }
 }
 
+// Three axes in 10 000 rows would be stretches in which the model only settles.
+TEST(QuickSpans, StayEvenWhereTheyWouldBeTooShort) {
+  Record record = WithASignal();
+  for (std::size_t n = 80'000; n < 88'000; ++n) {
+    record.rows[n].excitation_a[0] = record.rows[n + 20'000].excitation_a[1] = 0.1;
+  }
+  const auto parts = QuickSpans({record, record, record});
+  for (const Record& part : parts) {
+    EXPECT_EQ(part.rows.size(), 10'000U);
+    EXPECT_EQ(part.rows.back().cycle - part.rows.front().cycle, 9'999U);  // in one piece
+  }
+}
+
 // A signal that lasts is in even stretches as it is in the record.
 TEST(QuickSpans, StayEvenWhereTheSignalLasts) {
   Record record = Rows(200'000);
