@@ -47,7 +47,9 @@ class Pictures(CommandTest):
 
     def test_a_geared_rig_is_drawn(self):
         texts, _ = self.draw("modes", "--rig", "geared_rotor_8dof")
-        self.assertTrue(any("1x of the first shaft" in text for text in texts))
+        self.assertTrue(any("speed of the first shaft" in text for text in texts))
+        for order in ("1x of pinion", "1x of gear", "mesh 20x"):
+            self.assertIn(order, texts)
 
     def test_poles_have_the_critical_speeds_of_the_levitated_rotor(self):
         texts, told = self.draw("poles", "--speeds", "0,3000")
