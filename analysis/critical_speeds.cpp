@@ -70,7 +70,7 @@ std::vector<Match> Follow(const std::vector<CampbellMode>& from,
   return matches;
 }
 
-/// In turns: how far a mode lies above an order of rotation.
+/// [rad/s] of the shaft: how far a mode lies above an order of its rotation.
 double Excess(const CampbellMode& mode, double speed_rad_per_s, double per_turn) {
   return kPerTurn * mode.frequency_hz / per_turn - speed_rad_per_s;
 }

@@ -15,13 +15,13 @@ namespace levitas::config {
 [[nodiscard]] std::string FindController(const RunDefaults& rig, const std::string& given,
                                          const std::string& otherwise);
 
+/// The same of the scenario.
+[[nodiscard]] std::string FindScenario(const RunDefaults& rig, const std::string& given,
+                                       const std::string& otherwise);
+
 /// Reads what FindController found. A usual controller that nobody named and that does not fit the
 /// rig is no file to mend: the rig then names none, and that is what is said.
 [[nodiscard]] ControllerFile LoadFound(const std::string& path, const RigFile& rig,
                                        const std::string& given);
-
-/// The same of the scenario.
-[[nodiscard]] std::string FindScenario(const RunDefaults& rig, const std::string& given,
-                                       const std::string& otherwise);
 
 }  // namespace levitas::config

@@ -45,7 +45,7 @@ TEST(RigSketch, WeighsWhatItShouldAndCarriesItByTheLever) {
   EXPECT_NEAR(7850.0 * section_m2 * 0.6, 6.0, 1e-9);
 }
 
-// Two ways to say one magnet: its coil in the rig file, and what amb new rig makes of it.
+// The rig file gives the coil; ki and ks that amb new rig computes are those that the file means.
 TEST(RigSketch, OfACoilHasTheStrengthOfItsRigFile) {
   RigSketch sketch = Sketch();
   const double area_m2 = 420e-6, gap_m = 0.5e-3, turns = 110.0, bias_a = 3.0;
