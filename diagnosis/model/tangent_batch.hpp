@@ -47,7 +47,8 @@ struct TangentBatch {
   std::vector<float> correct_coil, correct_sensor, correct_force;  ///< [axis][axis]
   std::vector<Mode> mode;
   std::vector<Axis> axis;
-  std::vector<float> gyroscopic;  ///< [column][row]
+  std::vector<float> turning;    ///< gyroscopic moments' own directions, [direction][mode]
+  std::vector<float> turn_rate;  ///< [s] a quarter of the angle of a period, per speed
   /// Geared shafts: modal accelerations per displacement and velocity, [row][column] over the modes
   /// of both planes. Empty for one rotor.
   std::vector<float> coupled_q, coupled_v;
