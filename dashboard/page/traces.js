@@ -34,7 +34,7 @@ export function setUpTraces(rig) {
   const plot = (box, reach, limit, unit, digits) => makePlot(document.getElementById(box), {
     series, bands, y: { floor: [-reach, reach] }, draw: over([limit, -limit]),
     channels: rig.channels.map((name, i) => ({ name, colour: lineColour(i), series: [2 * i + 1, 2 * i + 2], value: (of) => values(of, i, unit, digits) })),
-    where: (x) => `${x.toFixed(3)} s`,
+    where: (x) => `${x.toFixed(3)} s`, common: "run",
   });
   plots = { position: plot("positions", 5, clearance, "µm", 2), current: plot("currents", 1.1 * most, most, "A", 3) };
 }
