@@ -145,7 +145,8 @@ bool Touches(const Box& box, double x0, double y0, double x1, double y1) {
          cut(y0 - y1, y0 - box.low) && cut(y1 - y0, box.high - y0);
 }
 
-/// The widest and the smallest panel that these go into have axes of so many pixels; letters of 11 pixels.
+/// The widest and the smallest panel that these go into have axes of so many pixels; letters are
+/// 11 pixels high.
 constexpr double kWidest = 822.0;
 constexpr double kAxesWide = 380.0, kAxesHigh = 280.0, kLetter = 6.2, kHigh = 12.0;
 

@@ -4,9 +4,9 @@
 //
 // Whirl    forward: solid line, full triangles up; backward: dashed, hollow triangles down; torsion
 //          and motion in one plane: dotted. No meaning rests on a colour alone.
-// Crossing a ring with its speed in rpm and F, B, T or P, at the nearest place where the text covers
-//          no line, mark or other text; forward whirl first. One without such a place stays without
-//          text: the command's table has them all.
+// Crossing a ring with its speed in rpm and F, B, T or P, at the nearest place where the text
+//          covers no line, mark or other text; forward whirl first. One without such a place stays
+//          without text: the command's table has them all.
 // Thread   any; pure.
 
 #include "analysis/critical_speeds.hpp"
