@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <optional>
 
@@ -150,13 +149,31 @@ std::vector<Place> PlacesOf(const LoopAtSpeed& loop, std::size_t axis) {
   return places;
 }
 
-/// In a column at the left edge, in the order of their heights so that the lines which lead to the
-/// places do not cross; each a line of text from the next.
+/// The order in which lines from a column of texts to the places are shortest together: then none
+/// crosses another. There are four places at most.
+void SortForShortLines(std::complex<double> first, double line, std::vector<Place>& places) {
+  const auto length = [&](const std::vector<Place>& order) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const double down = line * static_cast<double>(i + 1);
+      sum += std::abs(order[i].loop - first + std::complex<double>(0.0, down));
+    }
+    return sum;
+  };
+  const auto by_text = [](const Place& a, const Place& b) { return a.text < b.text; };
+  std::ranges::sort(places, by_text);
+  std::vector<Place> best = places;
+  while (std::next_permutation(places.begin(), places.end(), by_text)) {
+    if (length(places) < length(best)) best = places;
+  }
+  places = std::move(best);
+}
+
+/// In a column at the left edge, each a line of text from the next.
 void AddPlaces(const LoopAtSpeed& loop, const std::vector<std::string>& channels,
                svg::Panel& panel) {
   const std::size_t axis = analysis::WorstAxis(loop.peaks);
   std::vector<Place> places = PlacesOf(loop, axis);
-  std::ranges::stable_sort(places, std::greater{}, [](const Place& p) { return p.loop.imag(); });
   const svg::Range& x = *panel.x_range;
   const svg::Range& y = *panel.y_range;
   const double line = kLineShare * (y.high - y.low);
@@ -167,6 +184,7 @@ void AddPlaces(const LoopAtSpeed& loop, const std::vector<std::string>& channels
   const double right = left + kLetterShare * static_cast<double>(letters + 1) * (x.high - x.low);
   double height = y.low + line * (static_cast<double>(places.size()) + 0.5);
   panel.notes.push_back({.x = left, .y = height, .text = channels[axis] + ":"});
+  SortForShortLines({right, height}, line, places);
   for (const Place& place : places) {
     height -= line;
     panel.series.push_back({.x = {right, place.loop.real()},

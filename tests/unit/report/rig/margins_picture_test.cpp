@@ -75,7 +75,7 @@ TEST(NyquistPanel, NamesPeakAndMarginsWithTheirFrequencies) {
   EXPECT_TRUE(test::HasNote(panel, fmt::format("phase {:.0f} degrees: {:.1f} Hz",
                                                *worst.margins.phase_rad * 180.0 / std::acos(-1.0),
                                                *worst.margins.phase_at_hz)));
-  // Rings: on the unit circle, and on the negative real axis at 1/gain (the grid's width: a percent).
+  // Rings: on the unit circle, and on the negative real axis at 1/gain (to the grid: a percent).
   const auto rings_at = [&](auto condition) {
     return std::ranges::count_if(panel.series, [&](const svg::Series& series) {
       return series.mark == svg::Mark::kRing && condition(series.x[0], series.y[0]);
@@ -102,6 +102,26 @@ TEST(NyquistPanel, PutsNoTextOverAnother) {
   std::ranges::sort(heights);
   // 4 units are some 279 pixels, letters are 11 high.
   for (std::size_t i = 1; i < heights.size(); ++i) EXPECT_GT(heights[i] - heights[i - 1], 0.17);
+}
+
+TEST(NyquistPanel, CrossesNoLineThatLeadsToAPlace) {
+  const svg::Panel panel = NyquistPanel(Loop(), kChannels);
+  std::vector<svg::Series> leads;
+  for (const svg::Series& series : panel.series) {
+    if (series.x.size() == 2 && series.width < 0.7) leads.push_back(series);
+  }
+  ASSERT_GE(leads.size(), 4U);
+  const auto side = [](const svg::Series& line, double x, double y) {
+    return (line.x[1] - line.x[0]) * (y - line.y[0]) - (line.y[1] - line.y[0]) * (x - line.x[0]);
+  };
+  const auto parts = [&](const svg::Series& a, const svg::Series& b) {
+    return side(a, b.x[0], b.y[0]) * side(a, b.x[1], b.y[1]) < 0.0;
+  };
+  for (std::size_t i = 0; i < leads.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_FALSE(parts(leads[i], leads[k]) && parts(leads[k], leads[i])) << i << " and " << k;
+    }
+  }
 }
 
 TEST(MarginsPicture, GivesAnUnstableLoopNoGrade) {
