@@ -18,6 +18,7 @@
 #include "analysis/rotor_figures.hpp"
 #include "cli/commands/command.hpp"
 #include "cli/commands/critical_speeds_text.hpp"
+#include "cli/commands/mode_notes.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
 #include "cli/options/svg_option.hpp"
@@ -179,6 +180,14 @@ void ShowEffects(const ModesOptions& options, const config::RigFile& rig,
   }
 }
 
+/// Of all modes that the rig has when it is run, also those beyond the ones asked for.
+void PrintNotes(const config::RigFile& rig) {
+  const auto at_rest = analysis::DampedModes(rig.plant, 0.0);
+  for (const std::string& note : ModeNotes(at_rest.modes, 1.0 / rig.numbers.period_s())) {
+    fmt::print("{}\n", note);
+  }
+}
+
 /// Shafts on supports of their own are not free: their damped modes, magnets without current.
 ExitStatus ShowDamped(const ModesOptions& options, const config::RigFile& rig) {
   fmt::print("Rig {}: {} shafts, {} gears; damped modes, magnets without current\n",
@@ -190,6 +199,7 @@ ExitStatus ShowDamped(const ModesOptions& options, const config::RigFile& rig) {
     PrintDamped(at, 3 * options.modes, " of the first shaft");
     json["speeds"].push_back(DampedJson(at));
   }
+  PrintNotes(rig);
   const auto campbell = CampbellOf(options, rig);
   ShowCriticalSpeeds(campbell, "Rotation meets a mode, magnets without current", json);
   svg::Write(options.svg_path, report::ModesPicture(rig, campbell, std::nullopt));
@@ -205,6 +215,7 @@ ExitStatus Run(const ModesOptions& options) {
   const auto modes = analysis::ComputeFreeModes(rig.plant, SpeedsOf(options, rig), options.modes);
   const auto figures = analysis::FiguresOf(rig.plant, options.modes);
   Print(rig, modes, figures);
+  PrintNotes(rig);
   nlohmann::ordered_json json = Json(rig, modes, figures);
   const auto campbell = CampbellOf(options, rig);
   ShowCriticalSpeeds(campbell, kOfFree, json);

@@ -215,6 +215,9 @@ ExitStatus RunAndJudge(const RunOptions& options, const RunFiles& files, const R
   const RunPaths paths = PathsOf(options, folder);
   RunResult result = RunBoth(plan, files, network);
   ending.interrupted = result.interrupted;
+  if (result.trouble.empty()) {
+    ending.over(result.controller.code == 0 ? ExitStatus::kDone : ExitStatus::kTripped);
+  }
   result.trouble = WithRoom(result.trouble, paths, folder);
   for (const std::string& note : TripFolderNotes(paths.controller_log)) rt::Say(note);
   const ExitStatus status =

@@ -77,6 +77,9 @@ LivePage::~LivePage() = default;
 ExitStatus LivePage::Outlive(const std::function<ExitStatus(Ending&)>& run) {
   Ending ending;
   if (!page_) return run(ending);
+  ending.over = [this](ExitStatus status) {
+    page_->RunEnded(EndOf(status) + " It is being judged.");
+  };
   ExitStatus status = ExitStatus::kDone;
   try {
     status = run(ending);

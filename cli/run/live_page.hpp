@@ -56,6 +56,9 @@ class LivePage {
   struct Ending {
     bool interrupted{};
     std::string verdict;  ///< its sentence; empty: none was reached
+    /// To be called when the controller has ended orderly: viewers are told so at once. Judging
+    /// takes a second or more, in which the page would take its silence for a loss.
+    std::function<void(ExitStatus)> over{[](ExitStatus) {}};
   };
 
   /// The exit status of `run`, at once without a page. With one: what `run` throws is said, and

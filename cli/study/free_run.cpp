@@ -65,8 +65,8 @@ svg::Panel PanelOf(const FreeRunContext& c, const FreeRunSegment& segment, std::
   panel.title = fmt::format("{}, excited at {}, {:.0f} rpm: fit {} %", c.rig.channels[axis],
                             c.rig.channels[excited], RadPerSToRpm(segment.speed_rad_per_s),
                             FitText(segment.fit_percent[axis]));
-  panel.x_label = "s";
-  panel.y_label = "um";
+  panel.x_label = "time, s";
+  panel.y_label = "position, µm";
   svg::Series measured = Curve(c, c.recording.position_m[axis], rows);
   measured.name = "measured";
   measured.colour = svg::Colour(0);

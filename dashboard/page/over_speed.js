@@ -24,7 +24,7 @@ export function setUpOverSpeed(rig) {
     series: rig.channels.map((name, i) => ({ label: name, stroke: lineColour(i), spanGaps: false, ...options(i) })),
     x: { scale: { range: [0, highest] } }, y, draw: speedLine,
     channels: rig.channels.map((name, i) => ({ name, colour: lineColour(i), series: [i + 1], value: (of) => `${of.data[i + 1][of.cursor.idx]?.toFixed(digits) ?? "–"} ${unit}` })),
-    where: (rpm) => `${Math.round(rpm)} rpm`,
+    where: (rpm) => `${Math.round(rpm)} rpm`, common: "speed",
   });
   plots = [
     plot("first-amplitude", () => ({ width: 1.5, points: { show: true, size: 4 } }), 2, "µm", { floor: [0, 1] }),

@@ -6,12 +6,13 @@ import { followCursor } from "./cursor.js";
 const FONT = "11px system-ui, 'DejaVu Sans', sans-serif";
 
 /**
- * options: series, bands (as uPlot takes them), y {floor: [low, high] always shown, log}, x {label values}, draw(plot) on top,
+ * options: series, y {floor: [low, high] always shown, log}, x {label values}, draw(plot) on top, under(plot) below the lines,
  * zoomed(plot, min, max) after the time shown has changed: the user may then drag to zoom.
  * channels [{name, colour, series, value(plot)}]: what can be switched, with the numbers of its
- * series, and its text at the cursor; where(x): the cursor's place in words.
+ * series, and its text at the cursor; where(x): the cursor's place in words; common: name of what
+ * is along x, where several pictures have it and one cursor.
  */
-export function makePlot(box, { series, bands = [], y = {}, x = {}, draw = () => {}, zoomed = null, channels = null, where = null }) {
+export function makePlot(box, { series, y = {}, x = {}, draw = () => {}, under = () => {}, zoomed = null, channels = null, where = null, common = null }) {
   const range = (plot, low, high) => {
     if (y.range) return y.range;
     const [least, most] = y.floor ?? [0, 1];
@@ -28,8 +29,8 @@ export function makePlot(box, { series, bands = [], y = {}, x = {}, draw = () =>
     scales: { x: { time: false, ...x.scale }, y: { range, distr: y.log ? 3 : 1 } },
     axes: [{ ...axis, size: 22, gap: 2 }, { ...axis, size: 44, gap: 2, ...y.axis }],
     series: [{}, ...series],
-    bands,
     hooks: {
+      drawAxes: [under],
       draw: [draw],
       setScale: zoomed ? [(plot, key) => { if (key === "x" && plot.status === 1) zoomed(plot, plot.scales.x.min, plot.scales.x.max); }] : [],
     },
@@ -38,7 +39,7 @@ export function makePlot(box, { series, bands = [], y = {}, x = {}, draw = () =>
   plot.box = box;
   const shown = channels ?? series.flatMap((one, i) => (one.label ? [{ name: one.label, colour: one.colour ?? one.stroke, series: [i + 1] }] : []));
   label(plot, shown);
-  if (where) followCursor(plot, shown, where);
+  if (where) followCursor(plot, shown, where, common);
   return plot;
 }
 

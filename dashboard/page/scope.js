@@ -100,7 +100,7 @@ function plotOf(kind, capture, time, rows, unit, level) {
   const plot = makePlot(document.getElementById("capture-" + kind), {
     series, y: { floor: kind === "position" ? [-1, 1] : [-0.05, 0.05] }, zoomed: followZoom,
     channels: capture.channels.map((name, i) => ({ name, colour: lineColour(i), series: [i + 1], value: (of) => (kind === "position" ? `${of.data[i + 1][of.cursor.idx]?.toFixed(3)} µm` : `${of.data[i + 1][of.cursor.idx]?.toFixed(4)} A`) })),
-    where: (ms) => `${ms.toFixed(2)} ms`,
+    where: (ms) => `${ms.toFixed(2)} ms`, common: "capture",
     draw: (chart) => { dashedLines(chart, "y", lines); dashedLines(chart, "x", [0]); },
   });
   plot.setData([time, ...rows.map((row) => row.map((v) => (v === null ? null : v / unit)))]);

@@ -132,8 +132,8 @@ void WriteBalancePicture(const std::string& path, const BalanceRequest& request,
       high.y.push_back(1e6 * one.after_high_m[at]);
     }
     svg::Panel panel{.title = request.rig.numbers.bearings[b],
-                     .x_label = "rpm",
-                     .y_label = "µm",
+                     .x_label = "speed, rpm",
+                     .y_label = "amplitude, µm",
                      .y_scale = svg::Scale::kLogarithmic};
     panel.series = {std::move(before), std::move(after), std::move(high)};
     figure.panels.push_back(std::move(panel));

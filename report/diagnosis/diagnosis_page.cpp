@@ -55,8 +55,8 @@ std::string Spectra(const DiagnosisReport& s) {
   svg::Panel panel;
   const diagnosis::ReportSpectra& spectra = s.spectra;
   panel.title = "What the model leaves of the data used, in " + spectra.channel;
-  panel.x_label = "Hz";
-  panel.y_label = "power / sensor noise";
+  panel.x_label = "frequency, Hz";
+  panel.y_label = "residual power / sensor noise power, 1";
   panel.x_scale = svg::Scale::kLogarithmic;
   panel.y_scale = svg::Scale::kLogarithmic;
   panel.series = {Line("rig file", "#888888", spectra.nominal, spectra.line_spacing_hz),

@@ -51,8 +51,8 @@ void AddBox(const ReportForecast::Band& band, const svg::Range& shown, svg::Seri
 std::string Picture(const ReportForecast& forecast) {
   svg::Panel panel;
   panel.title = "Residual of the validation data, expected and measured";
-  panel.x_label = "rpm";
-  panel.y_label = "µm rms";
+  panel.x_label = "speed, rpm";
+  panel.y_label = "residual, µm rms";
   panel.y_scale = svg::Scale::kLogarithmic;
   panel.y_range = Shown(forecast);
   svg::Series boxes{.name = "90 % interval"};

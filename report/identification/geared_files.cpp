@@ -27,8 +27,8 @@ svg::Panel SpectrumPanel(const std::string& title,
                          const std::map<double, std::vector<const GearedLine*>>& speeds,
                          std::complex<double> GearedLine::*position) {
   svg::Panel panel{.title = title,
-                   .x_label = "Hz (negative: backward)",
-                   .y_label = "µm",
+                   .x_label = "frequency, Hz (negative: backward)",
+                   .y_label = "amplitude, µm",
                    .y_scale = svg::Scale::kLogarithmic};
   std::size_t colour = 0;
   for (const auto& [speed, lines] : speeds) {

@@ -27,8 +27,8 @@ svg::Panel BodePanel(const LawFit& fit, bool phase) {
     found.y.push_back(phase ? Degrees(value) : std::abs(value));
   }
   svg::Panel panel{.title = fit.name,
-                   .x_label = "Hz",
-                   .y_label = phase ? "degrees" : "output per input",
+                   .x_label = "frequency, Hz",
+                   .y_label = phase ? "phase, degrees" : "output per input",
                    .x_scale = svg::Scale::kLogarithmic,
                    .y_scale = phase ? svg::Scale::kLinear : svg::Scale::kLogarithmic};
   panel.series = {std::move(measured), std::move(found)};

@@ -48,8 +48,9 @@ svg::Figure StabilisationPicture(const ModalResult& r) {
 svg::Figure Campbell(const ModalResult& r) {
   constexpr int kSpeeds = 31;
   const double highest = std::max(1.2 * r.quality.back().speed_rad_per_s, 300.0);
-  svg::Panel panel{
-      .title = "Bending modes of the free rotor over speed", .x_label = "rpm", .y_label = "Hz"};
+  svg::Panel panel{.title = "Bending modes of the free rotor over speed",
+                   .x_label = "speed, rpm",
+                   .y_label = "frequency, Hz"};
   const std::size_t modes = WhirlFrequenciesHz(r.rig, 0.0).size();
   std::vector<svg::Series> lines(modes);
   for (int n = 0; n < kSpeeds; ++n) {

@@ -66,7 +66,7 @@ svg::Panel EmptyPanel(const FrequencyResponse& r, const std::vector<Pair>& pairs
     panel.title +=
         (panel.title.empty() ? "" : ", ") + Channel(r, p.to) + " from " + Channel(r, p.from);
   }
-  panel.x_label = "Hz";
+  panel.x_label = "frequency, Hz";
   panel.y_label = unit;
   panel.x_scale = svg::Scale::kLogarithmic;
   panel.x_range = svg::Range{5.0, std::min(2000.0, r.frequency_hz.back())};
@@ -100,7 +100,7 @@ svg::Range MagnitudeRange(const FrequencyResponse& r, const std::vector<Pair>& p
 
 svg::Panel Magnitude(const FrequencyResponse& r, const ModelLines& model,
                      const std::vector<Pair>& pairs) {
-  svg::Panel panel = EmptyPanel(r, pairs, "µm/A");
+  svg::Panel panel = EmptyPanel(r, pairs, "gain, µm/A");
   panel.y_scale = svg::Scale::kLogarithmic;
   panel.y_range = MagnitudeRange(r, pairs, *panel.x_range);
   std::vector<svg::Series> noises, datas, fits;
@@ -132,7 +132,7 @@ svg::Panel Magnitude(const FrequencyResponse& r, const ModelLines& model,
 }
 
 svg::Panel Phase(const FrequencyResponse& r, const std::vector<Pair>& pairs) {
-  svg::Panel panel = EmptyPanel(r, pairs, "degrees");
+  svg::Panel panel = EmptyPanel(r, pairs, "phase, degrees");
   panel.y_range = svg::Range{-190.0, 190.0};
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     svg::Series line{.name = Channel(r, pairs[n].to), .colour = svg::Colour(n)};

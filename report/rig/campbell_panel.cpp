@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string_view>
 
 #include "common/rotational_speed.hpp"
@@ -121,32 +122,91 @@ void AddRated(double rated_rad_per_s, double low, double high, svg::Panel& panel
                          .colour = kGrey});
 }
 
-/// Text of a crossing: of forward whirl below right of it, of the others above left; at an edge of
-/// the panel to the other side.
-svg::Note CrossingNote(const analysis::CriticalSpeed& crossing, double y, double end_rpm) {
+/// A rectangle in shares of the panel's axes, from its lower left corner.
+struct Box {
+  double left{}, low{}, right{}, high{};
+};
+
+bool Meet(const Box& a, const Box& b) {
+  return a.left < b.right && b.left < a.right && a.low < b.high && b.low < a.high;
+}
+
+/// Whether a straight line touches the box: cut down to it (Liang and Barsky 1984).
+bool Touches(const Box& box, double x0, double y0, double x1, double y1) {
+  double from = 0.0, to = 1.0;
+  if (!std::isfinite(x0 + y0 + x1 + y1)) return false;  // a gap between two lines
+  const auto cut = [&](double direction, double room) {
+    if (direction == 0.0) return room >= 0.0;
+    const double at = room / direction;
+    (direction < 0.0 ? from : to) = direction < 0.0 ? std::max(from, at) : std::min(to, at);
+    return from <= to;
+  };
+  return cut(x0 - x1, x0 - box.left) && cut(x1 - x0, box.right - x0) &&
+         cut(y0 - y1, y0 - box.low) && cut(y1 - y0, box.high - y0);
+}
+
+/// The widest and the smallest panel that these go into have axes of so many pixels; letters are
+/// 11 pixels high.
+constexpr double kWidest = 822.0;
+constexpr double kAxesWide = 380.0, kAxesHigh = 280.0, kLetter = 6.2, kHigh = 12.0;
+
+Box BoxOf(const svg::Note& note, const svg::Panel& panel) {
+  const double wide = kLetter * static_cast<double>(note.text.size()) / kAxesWide;
+  const double at = note.x / panel.x_range->high;
+  const double near = at + note.right_px / kWidest;  // from there in the widest panel
+  const double x = at + note.right_px / kAxesWide;
+  const double y = note.y / panel.y_range->high - note.down_px / kAxesHigh;
+  const bool start = note.anchor == svg::Anchor::kStart;
+  return {start ? near : x - wide, y - 0.5 * kHigh / kAxesHigh, start ? x + wide : near,
+          y + 0.5 * kHigh / kAxesHigh};
+}
+
+/// Whether a text there would leave the panel, or cover a line, a mark or another text.
+bool Free(const svg::Note& note, const svg::Panel& panel) {
+  const Box box = BoxOf(note, panel);
+  if (box.left < 0.0 || box.right > 1.0 || box.low < 0.0 || box.high > 1.0) return false;
+  for (const svg::Note& other : panel.notes) {
+    if (Meet(box, BoxOf(other, panel))) return false;
+  }
+  for (const svg::Series& series : panel.series) {
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      const double x = series.x[i] / panel.x_range->high, y = series.y[i] / panel.y_range->high;
+      if (series.mark != svg::Mark::kNone) {
+        const double wide = series.mark_size / kAxesWide, high = series.mark_size / kAxesHigh;
+        if (Meet(box, {x - wide, y - high, x + wide, y + high})) return false;
+      }
+      if (series.width <= 0.0 || i == 0) continue;
+      if (Touches(box, series.x[i - 1] / panel.x_range->high, series.y[i - 1] / panel.y_range->high,
+                  x, y)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Text of a crossing at the nearest place that is free: of forward whirl rather below right of it,
+/// of the others above left. None: the command's table has it.
+std::optional<svg::Note> CrossingNote(const analysis::CriticalSpeed& crossing, double y,
+                                      const svg::Panel& panel) {
   constexpr std::array kLetters{"F", "B", "T", "P"};
   const std::size_t kind = KindOf(crossing.mode);
   const double rpm = RadPerSToRpm(crossing.speed_rad_per_s);
-  const bool right = kind == 0 ? rpm < 0.8 * end_rpm : rpm < 0.2 * end_rpm;
-  return {.x = rpm,
-          .y = y,
-          .text = fmt::format("{:.0f} rpm {}", rpm, kLetters[kind]),
-          .anchor = right ? svg::Anchor::kStart : svg::Anchor::kEnd,
-          .right_px = right ? 7.0 : -7.0,
-          .down_px = kind == 0 ? 11.0 : -9.0};
-}
-
-/// Whether two texts would cover each other, in shares of a panel that is some 400 pixels wide.
-bool Meet(const svg::Note& a, const svg::Note& b, const svg::Panel& panel) {
-  constexpr double kWide = 0.2, kHigh = 0.055;
-  const auto middle = [&](const svg::Note& note) {
-    const double side = note.anchor == svg::Anchor::kStart ? 0.5 : -0.5;
-    return note.x / panel.x_range->high + side * kWide;
-  };
-  const auto height = [&](const svg::Note& note) {
-    return note.y / panel.y_range->high - (note.down_px > 0.0 ? 0.5 : -0.5) * kHigh;
-  };
-  return std::abs(middle(a) - middle(b)) < kWide && std::abs(height(a) - height(b)) < kHigh;
+  svg::Note note{.x = rpm, .y = y, .text = fmt::format("{:.0f} rpm {}", rpm, kLetters[kind])};
+  const double first = kind == 0 ? 1.0 : -1.0;
+  for (const double away : {11.0, 15.0, 20.0, 26.0, 34.0}) {
+    for (const double right : {7.0, 14.0, 24.0}) {
+      for (const double side : {first, -first}) {
+        for (const double down : {first, -first}) {
+          note.anchor = side > 0.0 ? svg::Anchor::kStart : svg::Anchor::kEnd;
+          note.right_px = side * right;
+          note.down_px = down * away;
+          if (Free(note, panel)) return note;
+        }
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 /// Rings at all crossings; the speeds of those with room for them, forward whirl first.
@@ -156,24 +216,21 @@ void AddCrossings(const Campbell& campbell, Value value, bool with_speeds, svg::
                     .width = 0.0,
                     .mark = svg::Mark::kRing,
                     .mark_size = 4.5};
-  std::vector<svg::Note> notes;
   for (const auto& crossing : campbell.crossings) {
     rings.x.push_back(RadPerSToRpm(crossing.speed_rad_per_s));
     rings.y.push_back(value(crossing.mode));
-    notes.push_back(CrossingNote(crossing, rings.y.back(), panel.x_range->high));
   }
-  if (!rings.x.empty()) panel.series.push_back(rings);
+  if (rings.x.empty()) return;
+  const std::vector<double> heights = rings.y;
+  panel.series.push_back(std::move(rings));
   if (!with_speeds) return;
-  std::stable_partition(notes.begin(), notes.end(),
-                        [](const svg::Note& note) { return note.anchor == svg::Anchor::kStart; });
-  std::vector<svg::Note> placed;
-  for (const svg::Note& note : notes) {
-    const bool meets = std::any_of(placed.begin(), placed.end(), [&](const svg::Note& other) {
-      return Meet(note, other, panel);
-    });
-    if (!meets) placed.push_back(note);
+  for (const bool forward : {true, false}) {
+    for (std::size_t i = 0; i < campbell.crossings.size(); ++i) {
+      if ((KindOf(campbell.crossings[i].mode) == 0) != forward) continue;
+      auto note = CrossingNote(campbell.crossings[i], heights[i], panel);
+      if (note) panel.notes.push_back(*std::move(note));
+    }
   }
-  panel.notes.insert(panel.notes.end(), placed.begin(), placed.end());
 }
 
 /// A line from the origin for each order, as far as the panel reaches.
@@ -208,6 +265,7 @@ svg::Panel CampbellPanel(const Campbell& campbell, const CampbellLook& look) {
   AddModes(campbell, frequency, panel);
   AddOrders(campbell, look.top_hz, panel);
   AddRated(look.rated_rad_per_s, 0.0, look.top_hz, panel);
+  panel.notes.insert(panel.notes.end(), look.notes.begin(), look.notes.end());
   AddCrossings(campbell, frequency, true, panel);
   return panel;
 }

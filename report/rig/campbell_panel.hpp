@@ -4,9 +4,9 @@
 //
 // Whirl    forward: solid line, full triangles up; backward: dashed, hollow triangles down; torsion
 //          and motion in one plane: dotted. No meaning rests on a colour alone.
-// Crossing a ring with its speed in rpm and F, B, T or P; of forward whirl below right of it, of
-//          the others above left. One that would cover another stays out: the command's table has
-//          them all.
+// Crossing a ring with its speed in rpm and F, B, T or P, at the nearest place where the text
+//          covers no line, mark or other text; forward whirl first. One without such a place stays
+//          without text: the command's table has them all.
 // Thread   any; pure.
 
 #include "analysis/critical_speeds.hpp"
@@ -17,7 +17,8 @@ namespace levitas::report {
 struct CampbellLook {
   std::string title;
   double rated_rad_per_s{};
-  double top_hz{};  ///< of the frequency axis
+  double top_hz{};                 ///< of the frequency axis
+  std::vector<svg::Note> notes{};  ///< of the caller; the texts of crossings keep away from them
 };
 
 [[nodiscard]] svg::Panel CampbellPanel(const analysis::Campbell& campbell,

@@ -4,7 +4,9 @@
 //
 // Zones    A below 3, B below 4, C below 5, D from there on; about -1 circles of radius 1/3, 1/4
 //          and 1/5, which L = 1/S - 1 stays out of.
-// Marks    a dot at the peak of every axis in both panels; figures at the worst.
+// Marks    a dot at the peak of every axis in both panels; figures at the worst. In the Nyquist
+//          panel rings where that axis has its peak of |S|, its phase margin (|L| = 1) and its gain
+//          margins, with their frequencies in a column of texts that lines lead from.
 // Axes     told apart by dashes too. Positive frequencies alone.
 // Thread   any; pure.
 

@@ -29,21 +29,21 @@ double TopHz(const analysis::Campbell& campbell) {
 
 svg::Panel CampbellOfRig(const config::RigFile& rig, const analysis::Campbell& campbell) {
   const bool several = !rig.plant.shafts.empty();
-  svg::Panel panel = CampbellPanel(
-      campbell,
-      {several ? "Campbell diagram: damped modes, magnets without current; speed of the first shaft"
-               : "Campbell diagram: free bending modes, magnets off",
-       rig.numbers.max_speed_rad_per_s, TopHz(campbell)});
-  if (several) return panel;
+  CampbellLook look{
+      several ? "Campbell diagram: damped modes, magnets without current; speed of the first shaft"
+              : "Campbell diagram: free bending modes, magnets off",
+      rig.numbers.max_speed_rad_per_s, TopHz(campbell)};
+  if (several) return CampbellPanel(campbell, look);
   const auto& standing = campbell.speeds.front().modes;
   for (std::size_t i = 0; i < standing.size() / 2; ++i) {
-    panel.notes.push_back(
+    look.notes.push_back(
         {.x = 0.0,
          .y = standing[i].frequency_hz,
          .text = fmt::format("mode {}: {:.1f} Hz at rest", i + 1, standing[i].frequency_hz),
          .right_px = 6,
          .down_px = -9});
   }
+  svg::Panel panel = CampbellPanel(campbell, look);
   if (standing.empty()) {
     panel.notes.push_back({.x = panel.x_range->high / 2,
                            .y = panel.y_range->high / 2,

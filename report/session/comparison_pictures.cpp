@@ -102,7 +102,7 @@ NamedPicture OverSpeed(const Comparison& c, Axes axes, const std::string& name,
   svg::Figure figure;
   figure.columns = 2;
   for (std::size_t axis = 0; axis < c.channels.size(); ++axis) {
-    svg::Panel panel{c.channels[axis], "rpm", label};
+    svg::Panel panel{c.channels[axis], "speed, rpm", label};
     for (std::size_t n = 0; n < c.records.size(); ++n) {
       for (std::size_t k = 0; k < c.orders.size(); ++k) {
         panel.series.push_back(AmplitudeCurve(c, n, k, axis, axes, unit));

@@ -56,12 +56,12 @@ NamedPicture Bode(const Recording& r, const std::vector<SynchronousPoint>& point
                   std::size_t bearing) {
   const std::string& name = r.rig.bearings[bearing];
   const bool geared = !r.shaft_ratio.empty();
-  const char* const speed = geared ? "rpm of the first shaft" : "rpm";
+  const char* const speed = geared ? "speed of the first shaft, rpm" : "speed, rpm";
   svg::Panel size{geared ? fmt::format("vibration with its own shaft (its 1X), {}", name)
                          : fmt::format("synchronous vibration (1X forward), {}", name),
-                  speed, "µm"};
+                  speed, "amplitude, µm"};
   svg::Panel phase{geared ? "phase to its shaft's mark" : "phase to the rotor's mark", speed,
-                   "degrees"};
+                   "phase, degrees"};
   for (const Ramp ramp : {Ramp::kUp, Ramp::kDown}) {
     svg::Series curve = Curve(points, bearing, ramp, false);
     if (curve.x.size() < 2) continue;
@@ -163,7 +163,7 @@ NamedPicture Waterfall(const Recording& r, const std::vector<SynchronousPoint>& 
   const std::string& name = r.rig.bearings[bearing];
   svg::Panel panel{
       fmt::format("full spectrum over speed, {}: highest line {:.1f} µm", name, highest_m * kUm),
-      "Hz (negative: backward whirl)", "rpm"};
+      "frequency, Hz (negative: backward whirl)", "speed, rpm"};
   for (const double order : {-2.0, -1.0, 1.0, 2.0}) {
     panel.series.push_back(OrderLine(order, top_rpm));
   }

@@ -43,7 +43,7 @@ svg::Series LargestRadius(const Recording& r, std::size_t bearing, bool judged, 
 }
 
 NamedPicture DistancePicture(const Recording& r) {
-  svg::Panel panel{"distance from the centre of the clearance", "time, s", "µm"};
+  svg::Panel panel{"distance from the centre of the clearance", "time, s", "distance, µm"};
   for (std::size_t b = 0; b < r.rig.bearings.size(); ++b) {
     panel.series.push_back(LargestRadius(r, b, false, kUm));
   }
@@ -81,7 +81,7 @@ NamedPicture ZonesPicture(const Recording& r) {
 }
 
 NamedPicture SpeedPicture(const Recording& r) {
-  svg::Panel panel{"speed", "time, s", "rpm"};
+  svg::Panel panel{"speed", "time, s", "speed, rpm"};
   svg::Series series;
   ForBuckets(r, [&](std::size_t first, std::size_t) {
     series.x.push_back(r.TimeOf(first));
@@ -115,7 +115,7 @@ std::array<svg::Series, 2> CurrentEdges(const Recording& r, std::size_t axis) {
 
 NamedPicture CurrentPicture(const Recording& r, std::size_t bearing) {
   const std::string& name = r.rig.bearings[bearing];
-  svg::Panel panel{fmt::format("control current, {}", name), "time, s", "A"};
+  svg::Panel panel{fmt::format("control current, {}", name), "time, s", "current, A"};
   const double limit_a =
       std::min(r.rig.bias_current_a, r.rig.max_coil_current_a - r.rig.bias_current_a);
   const double end_s = r.TimeOf(r.size() - 1);
@@ -142,7 +142,7 @@ NamedPicture SamplingPicture(const Recording& r) {
       intervals.Add(r.sample_time_ns[i] - r.sample_time_ns[i - 1]);
     }
   }
-  svg::Panel panel{"time between samples", "us", "count"};
+  svg::Panel panel{"time between samples", "time, µs", "count"};
   panel.y_scale = svg::Scale::kLogarithmic;
   svg::Series series;
   series.mark = svg::Mark::kDot;

@@ -38,10 +38,10 @@ svg::Series Loop(const plant::PlantParameters& rig, const std::string& name, std
 }  // namespace
 
 std::vector<svg::Panel> ForcePanels(const Pair& rigs) {
-  svg::Panel panel{"force of one axis, 50 Hz", "commanded current, A", "N"};
+  svg::Panel panel{"force of one axis, 50 Hz", "commanded current, A", "force, N"};
   panel.series = {Loop(rigs.without, "nominal", 0), Loop(rigs.with, "effect", 1)};
   MakeNominal(panel.series[0]);
-  svg::Panel difference{"effect minus nominal", "commanded current, A", "N"};
+  svg::Panel difference{"effect minus nominal", "commanded current, A", "change of force, N"};
   svg::Series line = panel.series[1];
   line.name.clear();
   for (std::size_t i = 0; i < line.y.size(); ++i) line.y[i] -= panel.series[0].y[i];

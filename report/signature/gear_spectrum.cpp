@@ -17,7 +17,7 @@ constexpr double kLeastUm = 1e-4;  // less is rounding
 constexpr int kMeshOrders = 50;    // two harmonics of a mesh of 20 teeth and their neighbours
 
 svg::Panel Empty(const char* title) {
-  svg::Panel panel{title, "order of the driving wheel (negative: backward)", "µm"};
+  svg::Panel panel{title, "order of the driving wheel (negative: backward)", "amplitude, µm"};
   panel.y_scale = svg::Scale::kLogarithmic;
   return panel;
 }

@@ -110,7 +110,7 @@ double Degrees(Complex ratio) { return std::arg(ratio) * 180.0 / std::numbers::p
 /// straight line and not its rounding errors.
 svg::Panel Change(const char* title, const char* unit, const Response& with,
                   const Response& without, double (*figure)(Complex), double least) {
-  svg::Panel panel{title, "Hz", unit};
+  svg::Panel panel{title, "frequency, Hz", unit};
   panel.x_scale = svg::Scale::kLogarithmic;
   panel.series = {Line("x to x", with, Ratio(with.direct, without.direct), figure, 1, false),
                   Line("x to y", with, Ratio(with.cross, without.cross), figure, 2, true)};
@@ -131,7 +131,7 @@ std::vector<svg::Panel> ResponsePanels(const Pair& rigs) {
   const std::vector<double> grid_hz = Grid(nominal, changed);
   const Response without = Compute(nominal, grid_hz);
   const Response with = Compute(changed, grid_hz);
-  svg::Panel gain{"current to reading at 3000 rpm", "Hz", "µm/A"};
+  svg::Panel gain{"current to reading at 3000 rpm", "frequency, Hz", "gain, µm/A"};
   gain.x_scale = gain.y_scale = svg::Scale::kLogarithmic;
   gain.series = {Line("nominal", without, without.direct, Micrometres, 0, false),
                  Line("nominal, x to y", without, without.cross, Micrometres, 0, true),
@@ -139,8 +139,10 @@ std::vector<svg::Panel> ResponsePanels(const Pair& rigs) {
                  Line("effect, x to y", with, with.cross, Micrometres, 1, true)};
   MakeNominal(gain.series[0]);
   MakeNominal(gain.series[1]);
-  return {gain, Change("gain, effect over nominal", "dB", with, without, Decibels, 0.5),
-          Change("phase, effect minus nominal", "degrees", with, without, Degrees, 5.0)};
+  return {gain,
+          Change("gain, effect over nominal", "change of gain, dB", with, without, Decibels, 0.5),
+          Change("phase, effect minus nominal", "change of phase, degrees", with, without, Degrees,
+                 5.0)};
 }
 
 }  // namespace levitas::signature

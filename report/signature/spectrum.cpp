@@ -55,7 +55,7 @@ svg::Series Path(const std::vector<Complex>& orbit, std::size_t colour) {
 
 /// The same noise with and without, so that what differs is the effect's alone.
 svg::Panel Added(const Turning& with, const Turning& without) {
-  svg::Panel panel{"what the effect adds", "order of rotation", "µm, mA"};
+  svg::Panel panel{"what the effect adds", "order of rotation", "amplitude, µm or mA"};
   panel.y_scale = svg::Scale::kLogarithmic;
   const Orders micrometres{kMotion.turns, kMostOrders, 1e6};
   const Orders milliamperes{kMotion.turns, kMostOrders, 1e3};
@@ -72,7 +72,8 @@ svg::Panel Added(const Turning& with, const Turning& without) {
 std::vector<svg::Panel> SpectrumPanels(const Pair& rigs) {
   const Turning without = Held(rigs.without);
   const Turning with = Held(rigs.with);
-  svg::Panel spectrum{"full spectrum at 2400 rpm", "order of rotation (negative: backward)", "µm"};
+  svg::Panel spectrum{"full spectrum at 2400 rpm", "order of rotation (negative: backward)",
+                      "amplitude, µm"};
   spectrum.y_scale = svg::Scale::kLogarithmic;
   const Orders orders{kMotion.turns, kMostOrders};
   spectrum.series = {OrderSpectrum(without.reading_m, orders, "nominal", 0),

@@ -80,17 +80,46 @@ def until(url, wanted):
     raise AssertionError(f"the message never came; the last of each kind: {last}")
 
 
+# What a hand or an eye needs and does not get: beyond the window or its panel, under another one, or
+# a picture smaller than can be read. Panels that scroll on purpose are asked for their width alone.
+UNREADABLE = """(() => {
+  const name = (e) => (e.id || e.dataset.command || e.dataset.view || e.className || e.textContent);
+  const seen = (e) => e.getClientRects().length > 0;
+  const parts = [...document.querySelectorAll('button, select, input, output, dd, .connection, .mode')]
+    .filter(seen).map((e) => ({ e, r: e.getBoundingClientRect(), panel: e.closest('.panel, header') }));
+  const wrong = [];
+  for (const { e, r, panel } of parts) {
+    const p = panel.getBoundingClientRect();
+    const below = getComputedStyle(panel).overflowY !== 'auto' && r.bottom > p.bottom + 1;
+    if (r.left < p.left - 1 || r.right > p.right + 1 || below) wrong.push(name(e) + ' leaves its panel');
+    if (r.right > innerWidth || r.left < 0) wrong.push(name(e) + ' leaves the window');
+  }
+  parts.forEach((a, i) => parts.slice(i + 1).forEach((b) => {
+    const wide = Math.min(a.r.right, b.r.right) - Math.max(a.r.left, b.r.left);
+    const high = Math.min(a.r.bottom, b.r.bottom) - Math.max(a.r.top, b.r.top);
+    if (wide > 1 && high > 1) wrong.push(name(a.e) + ' covers ' + name(b.e));
+  }));
+  for (const box of [...document.querySelectorAll('.plot, canvas#waterfall, canvas#timing')].filter(seen)) {
+    if (box.clientWidth < 180 || box.clientHeight < 80) {
+      wrong.push(`${box.id} has ${box.clientWidth} x ${box.clientHeight}`);
+    }
+  }
+  return wrong;
+})()"""
+
+
 def fits_screens(test, page_of):
-    """The page fits a small screen without scrolling and a phone's width; stop is always in view.
+    """The page fits small screens without scrolling and a phone's width; stop is always in view.
 
     page_of(width=, height=, phone=) opens it and has waited until everything is there.
     """
-    for width, height, phone in ((1280, 720, False), (390, 844, True)):
+    for width, height, phone in ((1280, 720, False), (1024, 768, False), (390, 844, True)):
         with test.subTest(width=width):
             page = page_of(width=width, height=height, phone=phone)
             test.assertLessEqual(page.value("document.documentElement.scrollWidth"), width)
             if not phone:
                 test.assertLessEqual(page.value("document.documentElement.scrollHeight"), height)
+                test.assertEqual(page.value(UNREADABLE), [])
             page.value("window.scrollTo(0, document.body.scrollHeight)")
             top, bottom, wide = page.value("(() => { const b = document.getElementById('stop')"
                                            ".getBoundingClientRect();"

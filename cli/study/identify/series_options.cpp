@@ -67,7 +67,7 @@ svg::Panel Traces(const Judged& j, Eigen::Index output, const std::string& unit)
     error.y.push_back(y - p);
   }
   return {.title = j.data.output_names[static_cast<std::size_t>(output)] + ", rows " + j.rows,
-          .x_label = "s",
+          .x_label = "time, s",
           .y_label = unit,
           .series = {measured, model, error}};
 }

@@ -47,6 +47,22 @@ class Modes(CommandTest):
             self.assertAlmostEqual(standing["forward_hz"][mode], published_hz, delta=delta)
             self.assertAlmostEqual(standing["backward_hz"][mode], published_hz, delta=delta)
 
+    def test_says_which_modes_lie_beyond_the_sampling_or_are_damped_less_than_material(self):
+        above, bare = "Above half the sampling rate", "Less damped by the rig file"
+        printed, _ = self.compute("modes", "--rig", "turbomolecular_pump")
+        self.assertNotIn(above, printed)
+        self.assertNotIn(bare, printed)
+        # The pump's one bending mode, 561.0 Hz, at 1 kHz of sampling and with 0.004 % of damping.
+        pump = SHIPPED_RIG.parent / "turbomolecular_pump.yaml"
+        for change, note in ((("period_us: 50 ", "period_us: 1000 "), f"{above} (500 Hz)"),
+                             (("damping_ratio: 0.004", "damping_ratio: 0.00004"), bare)):
+            with self.subTest(note):
+                rig = self.write("changed.yaml", edited(pump, change))
+                printed, _ = self.compute("modes", "--rig", rig)
+                lines = [line for line in printed.splitlines() if line.startswith(note)]
+                self.assertEqual(len(lines), 1, printed)
+                self.assertTrue(lines[0].endswith("561.0 Hz."), lines[0])
+
     def test_what_is_printed_is_what_the_json_holds(self):
         printed, modes = self.compute("modes", "--speeds", "0,2500,6000", "--modes", "3")
         lines = printed.splitlines()

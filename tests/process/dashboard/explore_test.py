@@ -159,6 +159,74 @@ class Exploring(unittest.TestCase):
         phone.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
         phone.until(f"!{CURSOR % 'positions'}.hidden")
 
+    def test_has_one_cursor_in_all_pictures_over_time_and_draws_nothing_for_it(self):
+        rig, page = self.rig_and_page()
+        self.later(page, 1)
+        line = """document.querySelector('#%s .u-cursor-x').getBoundingClientRect().left"""
+        time_of = "%s.textContent.split('\\n')[0]"
+        at = {box: (CURSOR % box, line % box, time_of % (CURSOR % box)) for box in ("positions", "currents")}
+        for box, other, unit, share in (("positions", "currents", "A", 0.4), ("currents", "positions", "µm", 0.7)):
+            with self.subTest(box):
+                x, y = self.place(page, box, share)
+                page.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+                page.until(f"!{at[other][0]}.hidden && {at[other][0]}.textContent.includes({unit!r})")
+                # While the run goes on: one time and one place in both, within half a pixel.
+                page.until(f"Math.abs({at[box][1]} - {at[other][1]}) < 0.5 && {at[box][2]} == {at[other][2]}"
+                           f" && Math.abs({at[other][1]} - {x}) < 2")  # whole pixels, of a box between pixels
+        self.press(page, "#hold")
+        page.until("document.body.classList.contains('held')")
+        self.later(page, 0.5)  # what was to be drawn is drawn
+        page.value("""(() => { window.cleared = 0; const was = CanvasRenderingContext2D.prototype.clearRect;
+            CanvasRenderingContext2D.prototype.clearRect = function (...place) {
+              if (this.canvas.closest('#positions, #currents')) ++window.cleared;
+              return was.apply(this, place); }; })()""")
+        for share in (0.2, 0.3, 0.5):
+            x, y = self.place(page, "positions", share)
+            page.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+            page.until(f"Math.abs({at['currents'][1]} - {x}) < 2")
+        self.assertEqual(page.value("window.cleared"), 0)
+        page.call("Input.dispatchMouseEvent", type="mouseMoved", x=1, y=1)
+        page.until(f"{at['positions'][0]}.hidden && {at['currents'][0]}.hidden")
+        self.assertEqual(page.problems(), [])
+
+    def test_keeps_each_traces_colour_where_envelopes_lie_over_each_other(self):
+        _, page = self.rig_and_page()
+        self.levitate(page)
+        # The newest five seconds alone: from here on all four envelopes overlap.
+        page.value("(() => { const w = document.getElementById('window'); w.value = '5';"
+                   " w.dispatchEvent(new Event('change')); })()")
+        self.later(page, 6)
+        self.press(page, "#hold")
+        self.later(page, 0.5)  # what was to be drawn is drawn
+        share = page.value("""(async () => {
+          const { lineColour, lineTint } = await import('/colours.js');
+          const c = document.querySelector('#currents canvas');
+          const bytes = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+          const count = new Map();
+          for (let i = 0; i < bytes.length; i += 4) {
+            const one = bytes.subarray(i, i + 4).join();
+            count.set(one, (count.get(one) ?? 0) + 1);
+          }
+          const probe = document.createElement('canvas').getContext('2d');
+          const bytesOf = (colour) => {
+            probe.fillStyle = colour;
+            probe.fillRect(0, 0, 1, 1);
+            return [...probe.getImageData(0, 0, 1, 1).data].join();
+          };
+          const pixels = (colour) => (count.get(bytesOf(colour)) ?? 0) / (c.width * c.height);
+          const most = [...count].filter(([one, n]) => !one.endsWith(',0') && n > 0.02 * c.width * c.height);
+          const tints = [0, 1, 2, 3].map((i) => bytesOf(lineTint(i)));
+          return { lines: [0, 1, 2, 3].map((i) => pixels(lineColour(i))),
+                   filled: most.map(([one]) => one), tints };
+        })()""")
+        # Every channel's own colour is in the picture: a line of a hundred pixels is a tenth of a percent.
+        for channel, lines in enumerate(share["lines"]):
+            self.assertGreater(lines, 0.001, f"channel {channel}")
+        # What fills a fiftieth of the picture is a channel's tint and no mixture.
+        self.assertGreater(len(share["filled"]), 0)
+        self.assertLessEqual(set(share["filled"]), set(share["tints"]))
+        self.assertEqual(page.problems(), [])
+
     def test_switches_channels_off_and_on(self):
         _, page = self.rig_and_page()
         self.later(page, 1)

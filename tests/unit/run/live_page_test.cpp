@@ -4,9 +4,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <httplib.h>
 #include <unistd.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace levitas::cli {
@@ -73,6 +75,41 @@ TEST(LivePage, IsSilentWhenItIsNotServed) {
   std::vector<std::string> said;
   const LivePage page({}, OwnNetwork(), [&](const auto& line) { said.push_back(line); });
   EXPECT_TRUE(said.empty());
+}
+
+/// What viewers of a page are told of the end of its run; waits until it comes.
+std::string EndTold(const std::string& url) {
+  const std::string host = url.substr(0, url.find('/', std::string("http://").size()));
+  httplib::Client client(host);
+  std::string told, text;
+  static_cast<void>(client.Get("/events", [&](const char* part, std::size_t size) {
+    text.append(part, size);
+    const std::size_t end = text.find("event: end\n");
+    if (end == std::string::npos || text.find("\n\n", end) == std::string::npos) return true;
+    told = text.substr(end, text.find("\n\n", end) - end);
+    return false;
+  }));
+  return told;
+}
+
+TEST(LivePage, TellsItsViewersThatTheRunIsOverBeforeItIsJudged) {
+  std::vector<std::string> said;
+  LivePage page({true, false}, OwnNetwork(), [&](const auto& line) { said.push_back(line); });
+  ASSERT_EQ(said.size(), 1U);
+  const std::string announced = "live page: ";
+  if (said.front().rfind(announced, 0) != 0) GTEST_SKIP() << said.front();
+  for (const auto& [status, sentence] :
+       {std::pair{ExitStatus::kDone, "The run has ended. It is being judged."},
+        std::pair{ExitStatus::kTripped, "The run has ended with a trip. It is being judged."}}) {
+    const ExitStatus came =
+        page.Outlive([&, status = status, sentence = sentence](LivePage::Ending& ending) {
+          ending.over(status);
+          EXPECT_THAT(EndTold(said.front().substr(announced.size())), HasSubstr(sentence));
+          ending.interrupted = true;  // nothing more is to be seen: the page need not stay
+          return status;
+        });
+    EXPECT_EQ(came, status);
+  }
 }
 
 }  // namespace

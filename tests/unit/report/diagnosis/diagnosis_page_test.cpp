@@ -111,6 +111,12 @@ TEST(DiagnosisPage, RaisesTheExponentOfOdds) {
   EXPECT_THAT(DiagnosisPage(report), HasSubstr("odds 10<sup>2160</sup> : 1."));
 }
 
+TEST(DiagnosisPage, NamesTheAxesOfTheResidualWithTheirUnits) {
+  const std::string page = DiagnosisPage(OneCause());
+  EXPECT_THAT(page, HasSubstr(">frequency, Hz<"));
+  EXPECT_THAT(page, HasSubstr(">residual power / sensor noise power, 1<"));
+}
+
 TEST(DiagnosisPage, DrawsTheCauseOnlyWhereThereIsOne) {
   EXPECT_THAT(DiagnosisPage(OneCause()), HasSubstr("with the cause<"));
   DiagnosisReport healthy = OneCause();

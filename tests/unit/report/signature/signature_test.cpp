@@ -50,11 +50,22 @@ TEST(EffectsDocument, NamesEveryEffectWithItsPicture) {
   }
 }
 
+/// "force, N"; an order is a number of its own.
+bool IsNamedWithUnit(const std::string& label) {
+  if (label.rfind("order of ", 0) == 0) return true;
+  const std::size_t comma = label.find(", ");
+  return comma != std::string::npos && comma > 0 && comma + 2 < label.size();
+}
+
 TEST(Pictures, ShowEveryEffectBesideTheNominalRig) {
   for (const effect::Row& row : effect::Catalogue()) {
     const plant::PlantParameters& rig = RigFor(row);
     const svg::Figure figure = Picture(rig, ClearOn(rig, row.id));
     ASSERT_GE(figure.panels.size(), 2U) << row.name;
+    for (const svg::Panel& panel : figure.panels) {
+      EXPECT_TRUE(IsNamedWithUnit(panel.x_label)) << row.name << ": " << panel.x_label;
+      EXPECT_TRUE(IsNamedWithUnit(panel.y_label)) << row.name << ": " << panel.y_label;
+    }
     const auto& series = figure.panels[0].series;
     ASSERT_GE(series.size(), 2U) << row.name;
     // Gains and spectra are drawn on logarithmic axes: a ratio is what the eye sees there.
