@@ -67,7 +67,12 @@ void RefuseOverload(const RigSketch& sketch, const SketchNumbers& numbers) {
 std::string LoadsText(const RigSketch& sketch, const SketchNumbers& numbers) {
   std::string text;
   for (std::size_t b = 0; b < numbers.carried_kg.size(); ++b) {
-    const double newton = sketch.vertical ? 0.0 : 9.81 * numbers.carried_kg[b];
+    if (sketch.vertical) {
+      text += fmt::format("  {} bearing guides {:.3g} kg and carries no weight: the shaft stands\n",
+                          NameOf(b), numbers.carried_kg[b]);
+      continue;
+    }
+    const double newton = 9.81 * numbers.carried_kg[b];
     const double ampere = LoadOf(sketch, numbers, b) / sketch.ki_n_per_a;
     text +=
         fmt::format("  {} bearing carries {:.1f} N: {:.2f} A of {:.2f} A in each axis{}\n",

@@ -38,7 +38,7 @@ class MyRotor(CommandTest):
         self.refuse(USAGE, "--overwrite", "new", "rig", "own", *SIX, "--vertical")
         self.assertEqual((self.folder / made["rig"]).read_text(), before)
         self.compute("new", "rig", "own", *SIX, "--vertical", "--overwrite")
-        self.assertIn("acceleration_m_per_s2: 0\n", (self.folder / made["rig"]).read_text())
+        self.assertIn("acceleration_m_per_s2: 0 ", (self.folder / made["rig"]).read_text())
 
     def test_strength_of_a_magnet_is_ki_or_ks_or_turns(self):
         without_ki = SIX[:-2]
