@@ -170,10 +170,12 @@ void WriteFiles(const NewRigFiles& files, const std::array<std::string, 4>& text
     throw BadInput(
         fmt::format("{}: cannot be made: {}", files.rig.parent_path().string(), failed.message()));
   }
-  WriteTextFile(files.rig.string(), texts[0]);
-  WriteTextFile(files.controller.string(), texts[1]);
-  WriteTextFile(files.scenario.string(), texts[2]);
-  if (!texts[3].empty()) WriteTextFile(files.identify.string(), texts[3]);
+  WriteTextFile(files.rig.string(), texts[0], Earlier::kReplaced);  // --overwrite said so
+  WriteTextFile(files.controller.string(), texts[1], Earlier::kReplaced);
+  WriteTextFile(files.scenario.string(), texts[2], Earlier::kReplaced);
+  if (!texts[3].empty()) {
+    WriteTextFile(files.identify.string(), texts[3], Earlier::kReplaced);
+  }
 }
 
 /// Of a stable loop: how good it is.
