@@ -52,7 +52,7 @@ void WriteJsonFile(const std::string& path, const nlohmann::ordered_json& conten
   if (path == kJsonToStandardOutput) {
     WriteToStandardOutput(text);
   } else {
-    WriteTextFile(path, text);
+    WriteTextFile(path, text, Earlier::kReplaced);  // programs write it again and again
   }
 }
 

@@ -1,11 +1,16 @@
 #include "cli/output_clash.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
+#include "cli/json_file.hpp"
+#include "common/output_file.hpp"
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
 #include "session/output_path.hpp"
@@ -64,6 +69,33 @@ void CollectPaths(const CLI::App& command, std::vector<NamedPath>& written,
   for (const CLI::App* below : command.get_subcommands()) CollectPaths(*below, written, read);
 }
 
+/// A command that computes for minutes would fail at its end. Not the folders that are made when
+/// they are needed, nor the beginnings of names.
+void RefuseUnwritable(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_items_expected_max() == 0 || option->get_lnames().empty()) continue;
+    const std::string name = "--" + option->get_lnames().front();
+    if (std::ranges::find(kWrites, name) == kWrites.end()) continue;
+    if (option->get_description().starts_with("Folder ")) continue;
+    const bool prefix = option->get_description().find("names begin with") != std::string::npos;
+    for (const std::string& path : option->results()) {
+      if (path == kJsonToStandardOutput || IsWrittenAsItIs(path)) continue;
+      prefix ? session::CheckOutputFolder(path) : session::CheckOutputPath(path, {});
+    }
+  }
+  for (const CLI::App* below : command.get_subcommands()) RefuseUnwritable(*below);
+}
+
+/// The earlier file would be kept under a name that is read.
+void RefuseKeptOverRead(const std::vector<NamedPath>& written, const std::vector<NamedPath>& read) {
+  for (const NamedPath& out : written) {
+    std::error_code none;
+    if (out.name == "--json" || !std::filesystem::is_regular_file(out.path, none)) continue;
+    session::RefuseClash(
+        {{fmt::format("what stands under {} is kept as", out.name), out.path + ".old"}}, read);
+  }
+}
+
 }  // namespace
 
 void RefuseClashes(const CLI::App& app) {
@@ -75,6 +107,8 @@ void RefuseClashes(const CLI::App& app) {
     read.push_back({"the catalogue of sessions", *path});
   }
   session::RefuseClash(written, read);
+  RefuseKeptOverRead(written, read);
+  RefuseUnwritable(app);
 }
 
 }  // namespace levitas::cli

@@ -8,7 +8,9 @@
 // Same      see session::SameFile.
 // Not done  files whose names a command makes itself (P_bode.svg of --svg P, those of a folder).
 //           Those that a rig file names: where they are found, session::RefuseClash is called.
-// Failure   a usage Problem that names both. Thread: any.
+// Targets   the folder of every file named is there and can be written to; the name is none.
+// Failure   a usage Problem that names both files; BadInput of a target.
+// Thread    any.
 
 #include <CLI/App.hpp>
 

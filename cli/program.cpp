@@ -16,6 +16,7 @@
 #include "cli/output_clash.hpp"
 #include "cli/standard_output.hpp"
 #include "common/nearest.hpp"
+#include "common/output_file.hpp"
 #include "controller/rt/limits.hpp"
 #include "controller/rt/say.hpp"
 #include "levitas_version.hpp"
@@ -128,6 +129,9 @@ int RunProgram(int argc, char** argv, const AddCommands& add_commands) {
   TakeHelpAsOption(argc, argv);
   StandardOutput output;
   int status = Parse(argc, argv, add_commands, output);
+  if (const auto kept = TakeKeptNames(); !kept.empty()) {
+    rt::Say(fmt::format("amb: earlier files of other content are kept: {}", Listed(kept)));
+  }
   if (const std::string& refused = output.Finish(); !refused.empty()) {
     rt::Say(fmt::format("amb: standard output: writing failed: {}; not all of the result was told",
                         refused));

@@ -1,9 +1,9 @@
 #include "cli/text_file.hpp"
 
-#include "common/output_file.hpp"
-
 namespace levitas::cli {
 
-void WriteTextFile(const std::string& path, const std::string& text) { WriteWholeFile(path, text); }
+void WriteTextFile(const std::string& path, const std::string& text, Earlier earlier) {
+  WriteWholeFile(path, text, earlier);
+}
 
 }  // namespace levitas::cli

@@ -5,8 +5,12 @@
 
 #include <string>
 
+#include "common/output_file.hpp"
+
 namespace levitas::cli {
 
-void WriteTextFile(const std::string& path, const std::string& text);
+/// See common/output_file.hpp of what becomes of an earlier one.
+void WriteTextFile(const std::string& path, const std::string& text,
+                   Earlier earlier = Earlier::kKept);
 
 }  // namespace levitas::cli

@@ -10,6 +10,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <mutex>
 #include <utility>
 
 namespace levitas {
@@ -152,10 +155,53 @@ void OutputFile::Commit() {
   part_.Commit();
 }
 
-void WriteWholeFile(const std::string& path, std::string_view text) {
+namespace {
+
+struct KeptNames {
+  std::mutex mutex;
+  std::vector<std::string> names;
+};
+
+KeptNames& Kept() {
+  static KeptNames kept;
+  return kept;
+}
+
+/// Whether there is an earlier text under the name that is another one.
+bool IsOtherText(const std::string& path, std::string_view text) {
+  struct stat status {};
+  if (IsWrittenAsItIs(path) || ::lstat(path.c_str(), &status) != 0) return false;
+  if (!S_ISREG(status.st_mode) || status.st_size == 0) return false;
+  if (static_cast<std::size_t>(status.st_size) != text.size()) return true;
+  std::ifstream file(path, std::ios::binary);
+  const std::string there{std::istreambuf_iterator<char>(file), {}};
+  return there != text;
+}
+
+/// A second name of the same file first: under PATH there is always the one or the other.
+void KeepEarlier(const std::string& path) {
+  const std::string old = path + ".old";
+  if (::unlink(old.c_str()) != 0 && errno != ENOENT) CannotWrite(old, errno);
+  if (::link(path.c_str(), old.c_str()) != 0 && std::rename(path.c_str(), old.c_str()) != 0) {
+    CannotWrite(old, errno);
+  }
+  const std::lock_guard lock(Kept().mutex);
+  Kept().names.push_back(old);
+}
+
+}  // namespace
+
+std::vector<std::string> TakeKeptNames() {
+  const std::lock_guard lock(Kept().mutex);
+  return std::exchange(Kept().names, {});
+}
+
+void WriteWholeFile(const std::string& path, std::string_view text, Earlier earlier) {
   if (path.empty()) return;
   OutputFile file(path);
   file.Write(text);
+  file.Flush();  // a full disk shows before anything is moved
+  if (earlier == Earlier::kKept && IsOtherText(path, text)) KeepEarlier(path);
   file.Commit();
 }
 

@@ -10,10 +10,11 @@
 //           over or removed.
 // Failure   BadInput for a name that cannot be written; Problem of status 1 when the disk is full,
 //           a quota or limit is used up, or the device fails. Both say what the kernel said.
-// Thread    one per object.
+// Thread    one per object; WriteWholeFile any.
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/file_descriptor.hpp"
 #include "common/problem.hpp"
@@ -79,7 +80,16 @@ class OutputFile {
   std::string buffer_;
 };
 
-/// A whole text; an empty path means that none was asked for.
-void WriteWholeFile(const std::string& path, std::string_view text);
+/// What becomes of an earlier text of other content under the name: an answer that took minutes, or
+/// a file that a person has worked on, stays beside it as PATH.old, in place of one that is there.
+enum class Earlier { kKept, kReplaced };
+
+/// A whole text; an empty path means that none was asked for. What is no regular file, and what has
+/// the same content, is not kept. Failure: also of PATH.old; then PATH is as it was.
+void WriteWholeFile(const std::string& path, std::string_view text,
+                    Earlier earlier = Earlier::kKept);
+
+/// The names PATH.old that WriteWholeFile has made since the last call, for the program to tell.
+[[nodiscard]] std::vector<std::string> TakeKeptNames();
 
 }  // namespace levitas

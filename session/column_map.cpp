@@ -11,6 +11,7 @@
 #include "common/nearest.hpp"
 #include "common/problem.hpp"
 #include "configuration/text/read_file.hpp"
+#include "session/csv_head.hpp"
 
 namespace levitas::session {
 namespace {
@@ -56,20 +57,47 @@ bool Is(const MapQuantity& kind, const std::string& quantity) {
   return quantity.starts_with(kind.prefix) && quantity.size() > kind.prefix.size();
 }
 
-std::vector<std::string> WordsOfUnits() {
-  std::vector<std::string> words;
+/// "ma" of "mA", "rpm" of "1/min": the unit as it is meant; empty: none that maps have.
+std::string UnitMeant(const std::string& written) {
   for (const MapQuantity& kind : Quantities()) {
-    for (const MapUnit& unit : kind.units) {
-      const std::string word(unit.name);
-      if (std::ranges::find(words, word) == words.end()) words.push_back(word);
-    }
+    if (std::ranges::find(kind.units, written, &MapUnit::name) != kind.units.end()) return written;
   }
-  return words;
+  return written == "%" ? "percent" : UnitWord(written);
+}
+
+/// What to do with the numbers of a converter, which are in no unit of the quantity.
+std::string RemedyOfUnit(const std::string& written, const std::vector<std::string>& units) {
+  std::string word = written;
+  std::ranges::transform(word, word.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  const auto is = [&word](auto... others) { return ((word == others) || ...); };
+  const bool volts = is("v", "mv", "uv", "volt", "volts");
+  if (!volts && !is("count", "counts", "lsb", "bit", "bits", "digit", "digits", "adc")) return {};
+  const std::string& unit = units.size() > 1 ? units[1] : units.front();
+  return fmt::format(
+      ". Numbers in {0} need the sensitivity: unit: {1} with scale: as many {1} as one {2} stands "
+      "for (a probe of 8 V/mm has scale: 0.125), and offset: what the file shows at zero",
+      written, unit, volts ? written : "count");
+}
+
+void DescribeUnit(config::Visitor& v, MappedColumn& c) {
+  constexpr std::size_t kLongest = 40;
+  const std::vector<std::string> units = UnitsOf(c.quantity);
+  const std::string meaning = fmt::format("that its numbers are in: {}",
+                                          units.empty() ? "mm, ma, rpm, ..." : Listed(units));
+  std::string written;
+  v.Name({"unit", meaning, {}, kLongest}, written);
+  c.unit = UnitMeant(written);
+  const bool known = units.empty() ? !c.unit.empty() : std::ranges::count(units, c.unit) > 0;
+  if (written.empty() || known) return;
+  v.RefuseIf(true, "unit",
+             units.empty() ? fmt::format("found \"{}\", which is no unit of a map", written)
+                           : fmt::format("found \"{}\", but {} may be in {}{}", written, c.quantity,
+                                         Listed(units), RemedyOfUnit(written, units)));
 }
 
 void Describe(config::Visitor& v, MappedColumn& c) {
-  static const std::vector<std::string> owned = WordsOfUnits();
-  static const std::vector<std::string_view> words(owned.begin(), owned.end());
   constexpr std::size_t kLongest = 200;
   v.Name({"column", "name in the file, or \"#3\" for the third column", {}, kLongest}, c.column);
   v.Name({"is",
@@ -77,9 +105,7 @@ void Describe(config::Visitor& v, MappedColumn& c) {
           {},
           kLongest},
          c.quantity);
-  std::size_t unit = 0;
-  v.Choice({"unit", words, std::nullopt, "that its numbers are in"}, unit);
-  c.unit = words[unit];
+  DescribeUnit(v, c);
   v.Integer({"sign", -1, 1, 1, "-1: the file's plus is the rig's minus"}, c.sign);
   v.RefuseIf(c.sign == 0, "sign", "allowed -1 or 1");
   v.Number({"scale", config::unit::kOne, -1e12, 1e12, 1.0, "of the numbers: volts or counts"},
@@ -87,13 +113,12 @@ void Describe(config::Visitor& v, MappedColumn& c) {
   v.RefuseIf(c.scale == 0.0, "scale", "must not be 0");
   v.Number({"offset", config::unit::kOne, -1e12, 1e12, 0.0, "number of the file at zero"},
            c.offset);
-  const std::vector<std::string> units = UnitsOf(c.quantity);
-  v.RefuseIf(!c.quantity.empty() && units.empty(), "is",
-             "is no quantity; allowed time, rotor_angle, speed, and position_, control_current_, "
-             "excitation_, gap_, duty_towards_, duty_away_, coil_current_towards_ or "
-             "coil_current_away_ with a channel of the rig behind it");
-  v.RefuseIf(!units.empty() && std::ranges::find(units, c.unit) == units.end(), "unit",
-             fmt::format("{} may be in {}", c.quantity, Listed(units)));
+  v.RefuseIf(!c.quantity.empty() && UnitsOf(c.quantity).empty(), "is",
+             fmt::format("\"{}\" is no quantity; allowed time, rotor_angle, speed, and position_, "
+                         "control_current_, excitation_, gap_, duty_towards_, duty_away_, "
+                         "coil_current_towards_ or coil_current_away_ with a channel of the rig "
+                         "behind it",
+                         c.quantity));
 }
 
 void Describe(config::Visitor& v, ColumnMap& map) {

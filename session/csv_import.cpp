@@ -1,6 +1,9 @@
 #include "session/csv_import.hpp"
 
+#include <fmt/core.h>
+
 #include "common/output_file.hpp"
+#include "common/problem.hpp"
 #include "session/csv_rows.hpp"
 #include "session/mat_rows.hpp"
 #include "session/output_path.hpp"
@@ -21,10 +24,24 @@ SessionHeader ImportHeader(const ImportOptions& options) {
   return header;
 }
 
+/// Nothing could be learnt from a session of such numbers, and every command would try.
+void RefuseImpossible(const ImportOptions& options, const ImportReport& report) {
+  std::string text;
+  for (const ImplausibleColumn& column : report.implausible) {
+    if (column.impossible) text += "\n" + column.sentence;
+  }
+  if (text.empty()) return;
+  throw BadInput(fmt::format(
+      "{}: its numbers cannot be of rig {}:{}\nSay the unit, scale or offset in the map of amb "
+      "import (--guess prints one, --map takes it), or give the rig file that the data are of",
+      options.data_path, options.rig.name, text));
+}
+
 ImportReport Import(const ImportOptions& options, RowSource& source) {
   ImportReport report;
   WriteImport(options, [&](const RecordTaker& take) {
     report = ReadRecords(source, {.rig = options.rig, .coils = options.coils}, take);
+    RefuseImpossible(options, report);
   });
   return report;
 }

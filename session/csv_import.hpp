@@ -2,7 +2,8 @@
 // Measured data of others: a CSV or MAT file of the contract in docs/formats.md becomes a session.
 //
 // Records   as measured_data.hpp makes them; a drop-out leaves its cycles out of the session.
-// Failure   BadInput with line and column; then no output file is left behind.
+// Failure   BadInput with line and column, and where no number of a column can be of the rig
+//           (plausible_values.hpp); then no output file is left behind.
 // Thread    any.
 
 #include <cstdint>

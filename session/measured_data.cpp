@@ -238,12 +238,14 @@ void TakeSpeed(const cycle::CycleRecord& second, cycle::CycleRecord& first) {
 ImportReport ReadRecords(RowSource& rows, const MeasuredData& data, const RecordTaker& take) {
   ImportReport report = ReportOf(rows.layout());
   RecordMaker maker(data, rows.layout());
+  PlausibleValues plausible(data.rig);
   // The first row waits for the second: only then is there a slope of the angle.
   std::optional<cycle::CycleRecord> first;
   CsvRow row;
   double first_time_s = 0.0;
   while (rows.Next(row)) {
     const cycle::CycleRecord record = maker.Make(row, rows, report);
+    plausible.Count(record);
     if (report.rows == 1) {
       first = record;
       first_time_s = row.time_s;
@@ -260,6 +262,7 @@ ImportReport ReadRecords(RowSource& rows, const MeasuredData& data, const Record
   maker.RefuseOtherRate(rows);
   if (first) take(*first);
   report.duration_s = row.time_s - first_time_s;
+  report.implausible = plausible.Found(rows.layout());
   return report;
 }
 

@@ -25,6 +25,7 @@
 #include "common/rig_numbers.hpp"
 #include "controller/cycle/cycle_io.hpp"
 #include "session/csv_rows.hpp"
+#include "session/plausible_values.hpp"
 
 namespace levitas::session {
 
@@ -54,6 +55,7 @@ struct ImportReport {
   bool has_excitation{};
   bool has_coil_currents{};
   std::vector<std::string> ignored_columns;
+  std::vector<ImplausibleColumn> implausible;  ///< numbers that this rig cannot have
 };
 
 /// Reads `rows` to their end.

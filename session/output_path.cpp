@@ -54,17 +54,21 @@ void RefuseClash(const std::vector<NamedPath>& written, const std::vector<NamedP
   }
 }
 
+void CheckOutputFolder(const std::string& output_path) {
+  const std::string folder = fs::path(output_path).parent_path().string();
+  if (output_path.empty() || access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) == 0)
+    return;
+  throw BadInput(fmt::format("{}: cannot be written: folder {}: {}", output_path,
+                             folder.empty() ? "." : folder, std::strerror(errno)));
+}
+
 void CheckOutputPath(const std::string& output_path, const std::string& input_path) {
   std::error_code ignored;
   if (fs::is_directory(output_path, ignored)) {
     throw BadInput(
         fmt::format("{}: cannot be written: it is a folder. Name a file in it.", output_path));
   }
-  const std::string folder = fs::path(output_path).parent_path().string();
-  if (!output_path.empty() && access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) {
-    throw BadInput(fmt::format("{}: cannot be written: folder {}: {}", output_path,
-                               folder.empty() ? "." : folder, std::strerror(errno)));
-  }
+  CheckOutputFolder(output_path);
   if (fs::equivalent(output_path, input_path, ignored)) {
     throw Problem(
         ExitStatus::kUsage,

@@ -25,6 +25,9 @@ struct NamedPath {
 /// names both. Empty paths are not looked at.
 void RefuseClash(const std::vector<NamedPath>& written, const std::vector<NamedPath>& read);
 
+/// Refuses a name whose folder is missing or not writable; an empty one is never wrong.
+void CheckOutputFolder(const std::string& output_path);
+
 /// `input_path` is empty when no file is read; an empty `output_path` is never wrong.
 void CheckOutputPath(const std::string& output_path, const std::string& input_path);
 

@@ -11,7 +11,7 @@ void WriteJson(const std::string& kind, const nlohmann::ordered_json& value,
   whole.update(value);
   try {
     const FileDescriptor pipe = RefuseDeafPipe(path);
-    WriteWholeFile(path, whole.dump(2) + '\n');
+    WriteWholeFile(path, whole.dump(2) + '\n', Earlier::kReplaced);
   } catch (const Problem& problem) {  // no fault of an input: the run was done, its report is lost
     throw Problem(ExitStatus::kOther, std::string("--json ") + problem.what());
   }

@@ -18,6 +18,7 @@
 #include "cli/new_rig/ask.hpp"
 #include "cli/new_rig/rig_sketch.hpp"
 #include "cli/new_rig/start_law.hpp"
+#include "cli/new_rig/strength.hpp"
 #include "cli/new_rig/test_signal.hpp"
 #include "cli/run/loop_warning.hpp"
 #include "cli/text_file.hpp"
@@ -44,7 +45,7 @@ constexpr Question kMass{"--mass-kg", "mass of all that turns [kg]", 0.01, 50'00
 constexpr Question kLength{"--length-mm", "length of the rotor [mm]", 10.0, 20'000.0};
 constexpr Question kSpeed{"--speed-rpm", "top speed [rpm]", 1.0, 300'000.0};
 constexpr Question kGap{"--gap-mm", "air gap of the magnets, radial [mm]", 0.02, 10.0};
-constexpr Question kBias{"--bias-a", "bias current [A]", 0.01, 1'000.0};
+constexpr Question kBias{"--bias-a", "bias current [A]", 0.01, 100.0};
 constexpr Question kForce{"--ki-n-per-a", "force per control current of one axis, ki [N/A]", 0.01,
                           1e5};
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -92,6 +93,15 @@ void TakeStrength(NewRigOptions& options) {
     sketch.ki_n_per_a =
         4.0 * law.force_constant_n_m2_per_a2 * sketch.bias_a / (law.gap_m * law.gap_m);
   }
+}
+
+/// What the strength was given by, as a person typed it.
+std::string StrengthOption(const NewRigOptions& options) {
+  if (!std::isnan(options.ks_n_per_m)) return fmt::format("--ks-n-per-m {:g}", options.ks_n_per_m);
+  if (!std::isnan(options.turns)) {
+    return fmt::format("--turns {:g} --pole-area-mm2 {:g}", options.turns, options.pole_area_mm2);
+  }
+  return fmt::format("--ki-n-per-a {:g}", options.sketch.ki_n_per_a);
 }
 
 /// Asks for what is missing; without a terminal that is a usage problem that names all of it.
@@ -160,40 +170,11 @@ void WriteFiles(const NewRigFiles& files, const std::array<std::string, 4>& text
     throw BadInput(
         fmt::format("{}: cannot be made: {}", files.rig.parent_path().string(), failed.message()));
   }
-  WriteTextFile(files.rig.string(), texts[0]);
-  WriteTextFile(files.controller.string(), texts[1]);
-  WriteTextFile(files.scenario.string(), texts[2]);
-  if (!texts[3].empty()) WriteTextFile(files.identify.string(), texts[3]);
-}
-
-/// [N] of the weight in each axis of a bearing; its axes are at 45 degrees to the vertical.
-double LoadOf(const RigSketch& sketch, const SketchNumbers& numbers, std::size_t bearing) {
-  return sketch.vertical ? 0.0 : 9.81 * std::abs(numbers.carried_kg[bearing]) / std::numbers::sqrt2;
-}
-
-/// Of a rotor that no law can lift.
-void RefuseOverload(const RigSketch& sketch, const SketchNumbers& numbers) {
-  const double most_n = sketch.ki_n_per_a * sketch.bias_a;
-  for (std::size_t b = 0; b < numbers.carried_kg.size(); ++b) {
-    const double load_n = LoadOf(sketch, numbers, b);
-    if (load_n < most_n) continue;
-    throw BadInput(fmt::format(
-        "the {} magnet cannot carry the rotor: {:.4g} N of its weight in each axis, and {:.4g} N/A "
-        "times {:.4g} A of bias are {:.4g} N. Half of what a magnet has is for control: give "
-        "--ki-n-per-a {:.0f} or more, more bias, or a lighter rotor",
-        b == 0 ? "front" : "rear", load_n, sketch.ki_n_per_a, sketch.bias_a, most_n,
-        std::ceil(2.0 * load_n / sketch.bias_a)));
-  }
-}
-
-/// What each magnet carries of the weight, and whether it can well.
-void PrintLoads(const RigSketch& sketch, const SketchNumbers& numbers) {
-  for (std::size_t b = 0; b < numbers.carried_kg.size(); ++b) {
-    const double newton = sketch.vertical ? 0.0 : 9.81 * numbers.carried_kg[b];
-    const double ampere = LoadOf(sketch, numbers, b) / sketch.ki_n_per_a;
-    fmt::print("  {} bearing carries {:.1f} N: {:.2f} A of {:.2f} A in each axis{}\n",
-               b == 0 ? "front" : "rear", newton, ampere, sketch.bias_a,
-               ampere > 0.5 * sketch.bias_a ? ", which leaves little to control with" : "");
+  WriteTextFile(files.rig.string(), texts[0], Earlier::kReplaced);  // --overwrite said so
+  WriteTextFile(files.controller.string(), texts[1], Earlier::kReplaced);
+  WriteTextFile(files.scenario.string(), texts[2], Earlier::kReplaced);
+  if (!texts[3].empty()) {
+    WriteTextFile(files.identify.string(), texts[3], Earlier::kReplaced);
   }
 }
 
@@ -232,52 +213,84 @@ void PrintWhatNext(const NewRigOptions& options, const config::RigFile& rig,
       rig_file, rig_file, rig_file, rig_file, rig_file, files.identify.string());
 }
 
+/// What the options give, read back as any file of ours is.
+struct DrawnRig {
+  config::RigFile rig;
+  law::LawConfig law;
+  std::array<std::string, 4> texts;
+  TestSignal signal;
+  std::string unstable;  ///< what grows, in words; empty: nothing
+};
+
+DrawnRig Draw(const RigSketch& sketch, const NewRigFiles& files) {
+  DrawnRig drawn;
+  drawn.texts = {
+      SketchRig(sketch, files.controller.filename().string(), files.scenario.filename().string()),
+      {},
+      SketchScenario(sketch),
+      {}};
+  drawn.rig = config::ParseRig(drawn.texts[0], files.rig.string());
+  const config::RigFile& rig = drawn.rig;
+  drawn.texts[1] = SketchController(sketch, ChooseStartLaw(sketch, rig));
+  const auto controller =
+      config::ParseController(drawn.texts[1], files.controller.string(), rig.numbers);
+  drawn.law = controller.law;
+  const auto scenario = config::ParseScenario(drawn.texts[2], files.scenario.string(), rig.numbers);
+  drawn.unstable = UnstableLoop(rig, drawn.law, ScenarioSpeeds(scenario), files.rig.string(),
+                                files.controller.string());
+  if (drawn.unstable.empty()) {
+    drawn.signal = TestSignalOf(rig, drawn.law);
+    drawn.texts[3] = SketchIdentify(sketch, rig, drawn.signal);
+    static_cast<void>(config::ParseScenario(drawn.texts[3], files.identify.string(), rig.numbers));
+  }
+  return drawn;
+}
+
+/// A refusal names keys of files that were never written: it must lead back to the options.
+DrawnRig DrawOrTellOptions(const RigSketch& sketch, const NewRigFiles& files) {
+  try {
+    return Draw(sketch, files);
+  } catch (const BadInput& problem) {
+    throw BadInput(fmt::format(
+        "the numbers given make a rig beyond what its files can hold, and no file is written. "
+        "Change the options that these keys come from (amb new rig --help):\n{}",
+        problem.what()));
+  }
+}
+
 ExitStatus Make(NewRigOptions options) {
   for (const std::string& text : options.discs) options.sketch.discs.push_back(ParseDisc(text));
   session::CheckOutputPath(options.json_path, {});
   const NewRigFiles files = NewRigFilesOf(options);
   RefuseExisting(options, files);
   Complete(options);
+  RefuseStrength(options.sketch, StrengthOption(options));
   const SketchNumbers numbers = NumbersOf(options.sketch);
+  RefuseDiameter(options.sketch, numbers);
   RefuseOverload(options.sketch, numbers);
-  std::array<std::string, 4> texts{SketchRig(options.sketch, files.controller.filename().string(),
-                                             files.scenario.filename().string()),
-                                   {},
-                                   SketchScenario(options.sketch),
-                                   {}};
-  const config::RigFile rig = config::ParseRig(texts[0], files.rig.string());
-  texts[1] = SketchController(options.sketch, ChooseStartLaw(options.sketch, rig));
-  const auto controller = config::ParseController(texts[1], files.controller.string(), rig.numbers);
-  const auto scenario = config::ParseScenario(texts[2], files.scenario.string(), rig.numbers);
-  const std::string unstable = UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario),
-                                            files.rig.string(), files.controller.string());
-  TestSignal signal;
-  if (unstable.empty()) {
-    signal = TestSignalOf(rig, controller.law);
-    texts[3] = SketchIdentify(options.sketch, rig, signal);
-    static_cast<void>(config::ParseScenario(texts[3], files.identify.string(), rig.numbers));
-  }
-  WriteFiles(files, texts);
+  const DrawnRig drawn = DrawOrTellOptions(options.sketch, files);
+  WriteFiles(files, drawn.texts);
   fmt::print(
       "{}: rig {}, {:.6g} kg on {:.6g} mm, a shaft of {:.4g} mm; ki {:.4g} N/A, ks {:.4g} N/m\n",
-      files.rig.string(), rig.numbers.name, options.sketch.mass_kg, options.sketch.length_mm,
+      files.rig.string(), drawn.rig.numbers.name, options.sketch.mass_kg, options.sketch.length_mm,
       numbers.diameter_mm, options.sketch.ki_n_per_a, numbers.ks_n_per_m);
-  PrintLoads(options.sketch, numbers);
+  fmt::print("{}", LoadsText(options.sketch, numbers));
   fmt::print("{}: a start for its law\n{}: lift, {:.6g} rpm, stop, land\n",
              files.controller.string(), files.scenario.string(), options.sketch.max_speed_rpm);
-  PrintWhatNext(options, rig, files, signal,
-                unstable.empty() ? PeakText(rig, controller.law) : unstable);
-  WriteJsonFile(options.json_path, {{"rig", files.rig.string()},
-                                    {"controller", files.controller.string()},
-                                    {"scenario", files.scenario.string()},
-                                    {"identify", texts[3].empty() ? "" : files.identify.string()},
-                                    {"excitation_a", signal.amplitude_a},
-                                    {"stable", unstable.empty()},
-                                    {"shaft_diameter_m", 1e-3 * numbers.diameter_mm},
-                                    {"centre_m", 1e-3 * numbers.centre_mm},
-                                    {"ki_n_per_a", options.sketch.ki_n_per_a},
-                                    {"ks_n_per_m", numbers.ks_n_per_m},
-                                    {"carried_kg", numbers.carried_kg}});
+  PrintWhatNext(options, drawn.rig, files, drawn.signal,
+                drawn.unstable.empty() ? PeakText(drawn.rig, drawn.law) : drawn.unstable);
+  WriteJsonFile(options.json_path,
+                {{"rig", files.rig.string()},
+                 {"controller", files.controller.string()},
+                 {"scenario", files.scenario.string()},
+                 {"identify", drawn.texts[3].empty() ? "" : files.identify.string()},
+                 {"excitation_a", drawn.signal.amplitude_a},
+                 {"stable", drawn.unstable.empty()},
+                 {"shaft_diameter_m", 1e-3 * numbers.diameter_mm},
+                 {"centre_m", 1e-3 * numbers.centre_mm},
+                 {"ki_n_per_a", options.sketch.ki_n_per_a},
+                 {"ks_n_per_m", numbers.ks_n_per_m},
+                 {"carried_kg", numbers.carried_kg}});
   return ExitStatus::kDone;
 }
 

@@ -90,9 +90,26 @@ std::string StrengthText(const RigSketch& sketch, const SketchNumbers& n) {
                      sketch.ki_n_per_a, n.ks_n_per_m);
 }
 
+/// What a bearing has of the rotor by the lever: its weight, or of a shaft that stands its inertia.
+std::string ShareText(const RigSketch& sketch, double mass_kg) {
+  return sketch.vertical ? fmt::format("guides {:.3g} kg, carries no weight", mass_kg)
+                         : fmt::format("carries {:.3g} kg", mass_kg);
+}
+
+std::string GravityText(const RigSketch& sketch) {
+  return fmt::format(
+      "gravity:\n  acceleration_m_per_s2: {:g}{}\n  direction_deg: 225         # {}\n\n",
+      sketch.vertical ? 0.0 : kGravity,
+      sketch.vertical ? "   # the shaft stands: its axial bearing, which is none of "
+                        "these, carries the weight"
+                      : "",
+      sketch.vertical ? "of no effect without weight"
+                      : "x and y stand at 45 degrees to the vertical (assumed)");
+}
+
 std::string BearingText(const RigSketch& sketch, const SketchNumbers& n, std::size_t b) {
   return fmt::format(
-      "  - name: {}                # axes {}_x and {}_y; carries {:.3g} kg\n"
+      "  - name: {}                # axes {}_x and {}_y; {}\n"
       "    actuator_z_mm: {:.6g}\n"
       "    sensor_z_mm: {:.6g}        # beside the magnet (assumed): where is your probe?\n"
       "    magnet:\n"
@@ -109,10 +126,11 @@ std::string BearingText(const RigSketch& sketch, const SketchNumbers& n, std::si
       "    touchdown:               # stiffness, damping, friction, radius: defaults "
       "(docs/configuration.md)\n"
       "      clearance_um: {:.6g}     # half the air gap (assumed)\n\n",
-      kBearingNames[b], kBearingNames[b], kBearingNames[b], n.carried_kg[b], n.bearings_mm[b],
-      SensorOf(sketch, n.bearings_mm[b], b == 0), sketch.gap_mm, StrengthText(sketch, n),
-      sketch.amplifier_hz, sketch.amplifier_hz == RigSketch{}.amplifier_hz ? " (assumed)" : "",
-      1e3 * sketch.gap_mm, n.clearance_um);
+      kBearingNames[b], kBearingNames[b], kBearingNames[b], ShareText(sketch, n.carried_kg[b]),
+      n.bearings_mm[b], SensorOf(sketch, n.bearings_mm[b], b == 0), sketch.gap_mm,
+      StrengthText(sketch, n), sketch.amplifier_hz,
+      sketch.amplifier_hz == RigSketch{}.amplifier_hz ? " (assumed)" : "", 1e3 * sketch.gap_mm,
+      n.clearance_um);
 }
 
 std::string FiltersText(const RigSketch& sketch, const StartLaw& law) {
@@ -141,12 +159,12 @@ std::string LawText(const RigSketch& sketch, const SketchNumbers& n, const Start
   return fmt::format(
              "  {}:\n"
              "    kp_a_per_m: {:.6g}        # {:g} ks/ki: against the magnet {:g} ks is left over\n"
-             "    ki_a_per_m_s: {:.6g}      # 5 1/s of kp: carries the weight within a quarter "
-             "second\n"
+             "    ki_a_per_m_s: {:.6g}      # 5 1/s of kp: {} within a quarter second\n"
              "    kd_a_s_per_m: {:.6g}      # damping ratio {:g} of {:.3g} kg on it\n"
              "    derivative_corner_hz: {:.6g}\n",
-             kBearingNames[b], kp, law.stiffness, law.stiffness - 1.0, kIntegral * kp, kd,
-             law.damping, mass_kg, 0.15 * sketch.rate_hz) +
+             kBearingNames[b], kp, law.stiffness, law.stiffness - 1.0, kIntegral * kp,
+             sketch.vertical ? "takes up a steady force" : "carries the weight", kd, law.damping,
+             mass_kg, 0.15 * sketch.rate_hz) +
          FiltersText(sketch, law);
 }
 
@@ -220,17 +238,14 @@ std::string SketchRig(const RigSketch& sketch, const std::string& controller_fil
       2.0 * sketch.bias_a);
   text += RotorText(sketch, n) + "bearings:\n";
   for (std::size_t b = 0; b < 2; ++b) text += BearingText(sketch, n, b);
-  text += fmt::format(
-      "gravity:\n"
-      "  acceleration_m_per_s2: {:g}\n"
-      "  direction_deg: 225         # x and y stand at 45 degrees to the vertical (assumed)\n\n"
-      "drive:\n"
-      "  max_speed_rpm: {:.6g}\n"
-      "  max_acceleration_rpm_per_s: {:.6g}  # top speed in {:g} s (assumed)\n"
-      "  coast_down_1_per_s: 0.02   # windage: a time constant of 50 s (assumed)\n"
-      "  friction_rpm_per_s: 20     # of the motor (assumed)\n\n",
-      sketch.vertical ? 0.0 : kGravity, sketch.max_speed_rpm, SketchAcceleration(sketch),
-      kSecondsToTop);
+  text += GravityText(sketch) +
+          fmt::format(
+              "drive:\n"
+              "  max_speed_rpm: {:.6g}\n"
+              "  max_acceleration_rpm_per_s: {:.6g}  # top speed in {:g} s (assumed)\n"
+              "  coast_down_1_per_s: 0.02   # windage: a time constant of 50 s (assumed)\n"
+              "  friction_rpm_per_s: 20     # of the motor (assumed)\n\n",
+              sketch.max_speed_rpm, SketchAcceleration(sketch), kSecondsToTop);
   return text +
          fmt::format(
              "objectives:                  # radius; ISO 14839-2 has zone A up to 0.3 of the "

@@ -1,6 +1,10 @@
 #include "cli/study/answer_folder.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 
 #include "common/problem.hpp"
 
@@ -19,6 +23,10 @@ AnswerFolder::AnswerFolder(const std::string& path) {
   if (failed) {
     throw BadInput(fmt::format("--out {}: cannot be made a folder ({}); name another", path,
                                failed.message()));
+  }
+  if (::access(path.c_str(), W_OK | X_OK) != 0) {
+    throw BadInput(fmt::format("--out {}: cannot be written to ({}); name another folder", path,
+                               std::strerror(errno)));
   }
 }
 

@@ -77,6 +77,7 @@ void Print(const std::string& out_path, const session::ImportReport& report,
   for (const auto& name : report.ignored_columns) {
     fmt::print("column \"{}\" ignored{}\n", rt::OneLine(name), MayBe(name, report, rig));
   }
+  for (const auto& column : report.implausible) rt::Say("amb: warning: " + column.sentence);
 }
 
 ExitStatus ImportBusLog(const ImportCommandOptions& options, const config::RigFile& rig,
@@ -212,6 +213,8 @@ ExitStatus Import(const ImportCommandOptions& options) {
       options.data_path.ends_with(".mat") ? session::ImportMat(import) : session::ImportCsv(import);
   Print(options.out_path, report, rig.numbers);
   EnterSession(options.out_path, options.tags);
+  std::vector<std::string> warnings;
+  for (const auto& column : report.implausible) warnings.push_back(column.sentence);
   WriteJsonFile(options.json_path, {{"data", options.data_path},
                                     {"rig", rig.numbers.name},
                                     {"session", options.out_path},
@@ -222,7 +225,8 @@ ExitStatus Import(const ImportCommandOptions& options) {
                                     {"has_rotation", report.has_rotation},
                                     {"has_excitation", report.has_excitation},
                                     {"has_coil_currents", report.has_coil_currents},
-                                    {"ignored_columns", report.ignored_columns}});
+                                    {"ignored_columns", report.ignored_columns},
+                                    {"warnings", warnings}});
   return ExitStatus::kDone;
 }
 

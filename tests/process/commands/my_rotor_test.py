@@ -38,7 +38,7 @@ class MyRotor(CommandTest):
         self.refuse(USAGE, "--overwrite", "new", "rig", "own", *SIX, "--vertical")
         self.assertEqual((self.folder / made["rig"]).read_text(), before)
         self.compute("new", "rig", "own", *SIX, "--vertical", "--overwrite")
-        self.assertIn("acceleration_m_per_s2: 0\n", (self.folder / made["rig"]).read_text())
+        self.assertIn("acceleration_m_per_s2: 0 ", (self.folder / made["rig"]).read_text())
 
     def test_strength_of_a_magnet_is_ki_or_ks_or_turns(self):
         without_ki = SIX[:-2]
@@ -87,6 +87,30 @@ class MyRotor(CommandTest):
                 (USAGE, "excludes", ("--ks-n-per-m", "1e5"))):
             given = SIX if options[0] != "--mass-kg" else SIX[2:]
             self.refuse(status, words, "new", "rig", "own", *given, *options)
+
+    def test_impossible_strength_is_told_of_its_options_and_of_no_file(self):
+        short = SIX[:-4]  # without bias and ki
+        bias, ki = ("--bias-a", "2"), ("--ki-n-per-a", "60")
+        coil = ("--turns", "10000", "--pole-area-mm2", "1e6")
+        for status, words, options in (
+                (USAGE, "--bias-a: found '500', allowed: 0.01 to 100", ("--bias-a", "500", *ki)),
+                # ki = k 4 bias / gap^2 of the least force constant, 1e-9 N m^2/A^2
+                (BAD_INPUT, "--ki-n-per-a 0.01: found a magnet of 0.01 N/A, allowed 0.05 to 1e+05 N/A",
+                 (*bias, "--ki-n-per-a", "0.01", "--vertical")),
+                (BAD_INPUT, "--ks-n-per-m 1: found a magnet of 0.0002 N/A",
+                 (*bias, "--ks-n-per-m", "1", "--vertical")),
+                (BAD_INPUT, "--turns 10000 --pole-area-mm2 1e+06: found", (*bias, *coil)),
+                # 7850 kg/m3 of steel: a bar of 300 mm that weighs 50 000 kg is 5.2 m thick
+                (BAD_INPUT, "found a steel shaft of 5199 mm diameter, allowed 0.1 to 5000 mm",
+                 (*bias, *ki, "--mass-kg", "50000", "--vertical"))):
+            given = short if "--mass-kg" not in options else short[2:]
+            told = self.refuse(status, words, "new", "rig", "own", *given, *options)
+            self.assertNotIn("own.yaml", told)
+
+    def test_what_no_file_can_hold_is_led_back_to_the_options(self):
+        thin = ("--mass-kg", "0.01", "--length-mm", "20000", *SIX[4:], "--vertical")
+        told = self.refuse(BAD_INPUT, "no file is written. Change the options", "new", "rig", "own", *thin)
+        self.assertIn("frequency_hz", told)
 
     def test_another_rig_names_files_of_its_own_folder(self):
         self.compute("new", "rig", "own", *SIX)

@@ -8,8 +8,8 @@ import shutil
 import subprocess
 import unittest
 
-from command import (BINARIES, DONE, LIMIT_S, OTHER, SHIPPED_CONTROLLER, SHIPPED_RIG, SOURCE, USAGE,
-                     CommandTest, amb, make_record)
+from command import (BAD_INPUT, BINARIES, DONE, LIMIT_S, OTHER, SHIPPED_CONTROLLER, SHIPPED_RIG,
+                     SOURCE, USAGE, CommandTest, amb, make_record)
 
 WRITES = {"--record", "--json", "--csv", "--mat", "--mcap", "--out", "--svg", "--plan", "--picture",
           "--write", "--document", "--html", "--worst-rig", "--write-design", "--page",
@@ -79,6 +79,24 @@ class Outputs(CommandTest):
                     tried += 1
         self.assertGreater(tried, 8)
 
+    def test_every_command_looks_at_its_targets_before_it_computes(self):
+        tried = 0
+        for command, (needed, options) in self.pages().items():
+            for option in sorted(WRITES & set(options)):
+                if options[option].startswith("Folder "):
+                    continue
+                rest = ["--controller", "absent"] if command == "replay" else []
+                for name in needed:
+                    other = name.split()[0]
+                    if other != option:  # nothing that is read is there: reading is not reached
+                        given = "." if other == "PATH" else f"absent{len(rest)}"
+                        rest += [other, given] if name.startswith("--") else [given]
+                with self.subTest(command=command, option=option):
+                    self.refuse(BAD_INPUT, "missing/file: cannot be written: folder missing: No such",
+                                *command.split(), *rest, option, "missing/file")
+                    tried += 1
+        self.assertGreater(tried, 40)
+
     def test_what_is_read_is_not_written_over_by_whatever_name(self):
         self.session()
         self.write("r.yaml", SHIPPED_RIG.read_text())
@@ -133,6 +151,24 @@ class Outputs(CommandTest):
             self.assertIn("would be lost", done.stderr)
         self.assertEqual((self.folder / "c.yaml").read_bytes(), before)
         self.assertFalse((self.folder / "x").exists())
+
+    def test_an_earlier_answer_of_another_input_stays_beside_the_new_one(self):
+        picture = self.folder / "p.svg"
+        first = self.call("modes", "--rig", "flexible_rotor", "--svg", "p.svg")
+        before = picture.read_bytes()
+        again = self.call("modes", "--rig", "flexible_rotor", "--svg", "p.svg")
+        self.assertNotIn("kept", first.stderr + again.stderr)
+        other = self.call("modes", "--rig", "geared_rotor_4dof", "--svg", "p.svg", "--json", "m.json")
+        self.assertIn("earlier files of other content are kept: p.svg.old\n", other.stderr)
+        self.assertNotEqual(picture.read_bytes(), before)
+        self.assertEqual((self.folder / "p.svg.old").read_bytes(), before)
+        self.call("modes", "--rig", "flexible_rotor", "--json", "m.json")
+        self.assertFalse((self.folder / "m.json.old").exists(), "programs write it again and again")
+
+    def test_what_is_read_is_not_lost_to_what_is_kept_either(self):
+        self.write("r.yaml.old", SHIPPED_RIG.read_text())
+        self.write("r.yaml", "an earlier one")
+        self.refuse(USAGE, "would be lost", "modes", "--rig", "r.yaml.old", "--svg", "r.yaml")
 
     def test_one_device_may_take_every_output(self):
         self.session()

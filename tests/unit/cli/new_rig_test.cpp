@@ -10,6 +10,7 @@
 #include "cli/new_rig/ask.hpp"
 #include "cli/new_rig/rig_sketch.hpp"
 #include "cli/new_rig/start_law.hpp"
+#include "cli/new_rig/strength.hpp"
 #include "cli/run/loop_warning.hpp"
 #include "common/problem.hpp"
 #include "common/random.hpp"
@@ -22,6 +23,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 config::RigFile RigOf(const RigSketch& sketch) {
   return config::ParseRig(SketchRig(sketch, "c.yaml", "s.yaml"), "own.yaml");
@@ -90,6 +92,23 @@ TEST(RigSketch, IsARigThatTheStrictReaderTakes) {
   EXPECT_NEAR(rig.plant.bearings[0].touchdown.clearance_m, 0.2e-3, 1e-12);
   sketch.vertical = true;
   EXPECT_EQ(RigOf(sketch).plant.gravity_m_per_s2, 0.0);
+}
+
+// The weight of a shaft that stands is none of its radial bearings', in no comment and no line.
+TEST(RigSketch, SpeaksOfWeightOnlyWhereTheBearingsCarryIt) {
+  RigSketch sketch = Sketch();
+  const auto told = [](const RigSketch& s) {
+    return SketchRig(s, "c.yaml", "s.yaml") + SketchController(s, {}) + LoadsText(s, NumbersOf(s));
+  };
+  EXPECT_THAT(told(sketch), AllOf(HasSubstr("carries 4 kg"), HasSubstr("carries the weight within"),
+                                  HasSubstr("front bearing carries 39.2 N"),
+                                  HasSubstr("45 degrees to the vertical")));
+  sketch.vertical = true;
+  EXPECT_THAT(told(sketch),
+              AllOf(HasSubstr("guides 4 kg, carries no weight"), HasSubstr("the shaft stands"),
+                    HasSubstr("takes up a steady force within"), Not(HasSubstr("carries 4 kg")),
+                    Not(HasSubstr("carries the weight within")), Not(HasSubstr("0.0 N")),
+                    Not(HasSubstr("45 degrees to the vertical"))));
 }
 
 TEST(RigSketch, RefusesWhatNoRotorIs) {

@@ -59,6 +59,34 @@ TEST_F(Output, AppearsUnderItsNameOnlyWithCommit) {
   EXPECT_EQ(Files(), 1);
 }
 
+TEST_F(Output, KeepsAnEarlierTextOfOtherContentBesideIt) {
+  const std::string path = scratch_ / "law.yaml";
+  WriteWholeFile(path, "one");
+  WriteWholeFile(path, "one");
+  EXPECT_TRUE(TakeKeptNames().empty()) << "the same text is nothing to be kept";
+  WriteWholeFile(path, "two");
+  EXPECT_EQ(Content(path), "two");
+  EXPECT_EQ(Content(path + ".old"), "one");
+  EXPECT_EQ(TakeKeptNames(), std::vector<std::string>{path + ".old"});
+  EXPECT_TRUE(TakeKeptNames().empty()) << "told once";
+  WriteWholeFile(path, "six");  // as long as "two"
+  EXPECT_EQ(Content(path + ".old"), "two");
+  WriteWholeFile(path, "four", Earlier::kReplaced);
+  EXPECT_EQ(Content(path + ".old"), "two");
+  EXPECT_EQ(TakeKeptNames().size(), 1U);
+  EXPECT_EQ(Files(), 2);
+}
+
+TEST_F(Output, IsAsItWasWhereTheEarlierTextCannotBeKept) {
+  const std::string path = scratch_ / "law.yaml";
+  WriteWholeFile(path, "one");
+  fs::create_directory(path + ".old");
+  EXPECT_THROW(WriteWholeFile(path, "two"), BadInput);
+  EXPECT_EQ(Content(path), "one");
+  EXPECT_EQ(Files(), 2);
+  EXPECT_TRUE(TakeKeptNames().empty());
+}
+
 TEST_F(Output, UnderItsNameIsNeverMadeThroughALink) {
   Put(scratch_ / "target", "the user's own");
   for (const char* target : {"target", "nowhere"}) {

@@ -160,8 +160,41 @@ columns:
   - {column: b, is: position_front_y, unit: um, sign: 0}
   - {column: c, is: position_front_y, unit: inch}
 )");
-  EXPECT_THAT(text, AllOf(HasSubstr("time may be in s, ms, us, ns"), HasSubstr("is no quantity"),
+  EXPECT_THAT(text, AllOf(HasSubstr("found \"mm\", but time may be in s, ms, us, ns"),
+                          HasSubstr("\"positions_front_x\" is no quantity"),
                           HasSubstr("allowed -1 or 1"), HasSubstr("inch")));
+  EXPECT_THAT(text, HasSubstr("4 problems"));  // a wrong unit is one of them, not two
+}
+
+TEST_F(MappedFile, HasUnitsAsPeopleWriteThem) {
+  const auto unit = [](const std::string& is, const std::string& written) {
+    const std::string map =
+        "kind: import_map\ncolumns:\n  - {column: t, is: " + is + ", unit: \"" + written + "\"}\n";
+    return ParseColumnMap(map, "map.yaml").columns.at(0).unit;
+  };
+  EXPECT_EQ(unit("control_current_front_x", "mA"), "ma");
+  EXPECT_EQ(unit("control_current_front_x", "A"), "a");
+  EXPECT_EQ(unit("position_front_x", "µm"), "um");
+  EXPECT_EQ(unit("speed", "1/min"), "rpm");
+  EXPECT_EQ(unit("speed", "Hz"), "hz");
+  EXPECT_EQ(unit("rotor_angle", "°"), "deg");
+  EXPECT_EQ(unit("duty_away_front_x", "%"), "percent");
+  EXPECT_EQ(unit("duty_away_front_x", "share"), "share");
+  EXPECT_THROW(unit("speed", "mA"), BadInput);
+}
+
+TEST_F(MappedFile, InVoltsIsToldToGiveTheSensitivity) {
+  const std::string text = Refusal("", R"(kind: import_map
+columns:
+  - {column: a, is: position_front_x, unit: V}
+  - {column: b, is: control_current_front_x, unit: counts}
+  - {column: c, is: position_front_y, unit: inch}
+)");
+  EXPECT_THAT(text, AllOf(HasSubstr("found \"V\", but position_front_x may be in m, mm, um, nm. "
+                                    "Numbers in V need the sensitivity: unit: mm with scale: as "
+                                    "many mm as one V stands for"),
+                          HasSubstr("unit: ma with scale: as many ma as one count stands for"),
+                          ::testing::EndsWith("position_front_y may be in m, mm, um, nm")));
 }
 
 TEST_F(MappedFile, IsNotReadWithoutItsMapButTheNamesFoundAndTheWayOutAreTold) {
