@@ -11,7 +11,7 @@ namespace levitas::cli {
 
 std::string Describe(const std::string& path, const session::SessionHeader& header) {
   std::string channels;
-  for (const auto& channel : header.channels) channels += " " + rt::OneLine(channel);
+  for (const auto& channel : header.channels) channels += fmt::format(" {}", rt::OneLine(channel));
   return fmt::format("{}: {} {}, every {} us, channels{}", rt::OneLine(path),
                      rt::OneLine(header.pace), UtcText(header.start_utc_ns),
                      static_cast<double>(header.period_ns) * 1e-3, channels);
