@@ -115,6 +115,12 @@ Eigen::MatrixXd SpreadOf(const RecordLandscape& landscape, const std::vector<Hyp
 SearchResult Conclude(const RecordLandscape& landscape, const std::vector<Record>& all_records,
                       const SelectionRules& rules, CauseSelection& found) {
   landscape.ReportProgress(0.9, "analysing the residual");
+  if (SensitivitiesAreLost(landscape.view().sum)) {
+    throw BadInput(
+        "what the rig's numbers do to these records grows without end under every observer, so "
+        "that nothing can be judged: are the speed's unit, and the modes of the rig file with "
+        "their damping, those of the rig? (amb modes)");
+  }
   const Judging& judging = rules.judging;
   SearchResult answer;
   answer.speed = kSpeeds[landscape.speed()];

@@ -37,4 +37,8 @@ bool SensitivitiesDiverge(const NormalEquations& sum) {
   return !(sum.jtj.diagonal().array() < most).all();
 }
 
+bool SensitivitiesAreLost(const NormalEquations& sum) {
+  return !sum.jtj.allFinite() || !sum.jte.allFinite();
+}
+
 }  // namespace levitas::diagnosis

@@ -23,5 +23,7 @@ namespace levitas::diagnosis {
 [[nodiscard]] bool ModelDiverges(const RigView& rig, const std::vector<Trajectory>& runs);
 /// Sums of all terms' derivatives, each per its scale.
 [[nodiscard]] bool SensitivitiesDiverge(const NormalEquations& sum);
+/// Without end: no evidence can be taken from what is not a number, not even that nothing is wrong.
+[[nodiscard]] bool SensitivitiesAreLost(const NormalEquations& sum);
 
 }  // namespace levitas::diagnosis

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "benchmark/accuracy/trial.hpp"
 #include "diagnosis/inference/search.hpp"
@@ -13,7 +14,8 @@ namespace {
 
 class Sensitivity : public ::testing::Test {
  protected:
-  Sensitivity() {
+  Sensitivity() : Sensitivity(accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"})) {}
+  explicit Sensitivity(accuracy::TestRig bench) : bench_(std::move(bench)) {
     accuracy::TrialPlan plan;
     plan.seed = 21;
     plan.bits_per_axis = 500;
@@ -78,7 +80,7 @@ class Sensitivity : public ::testing::Test {
     return std::sqrt(apart / size);
   }
 
-  accuracy::TestRig bench_ = accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"});
+  accuracy::TestRig bench_;
   RigView view_{bench_.rig.numbers, bench_.rig.plant};
   std::vector<Term> terms_ = AllTerms(view_, Tolerances{}, 50e-6);
   Search search_{view_, terms_};
@@ -143,6 +145,32 @@ TEST_F(SensitivityAway, OfUnbalanceIsTheDifferenceOfTheModel) {
 }
 TEST_F(SensitivityAway, OfAModesDampingIsTheDifferenceOfTheModel) {
   EXPECT_LT(Disagreement("modal_damping", 0.1, Away()), 0.1);
+}
+
+/// Discs of four times the polar inertia at 9000 rpm, under the slow observer: gyroscopic moments
+/// split the bending modes by more than they are damped.
+class SensitivityOfAFastRotor : public Sensitivity {
+ protected:
+  SensitivityOfAFastRotor() : Sensitivity(Fast()) {
+    gains_ = search_.DesignGains({spinning_}, kSlow);
+  }
+
+  static accuracy::TestRig Fast() {
+    accuracy::TestRig bench = accuracy::LoadTestRig("flexible_rotor", {"flexible_rotor"});
+    for (rotor::Disc& disc : bench.rig.plant.rotor.discs) disc.polar_inertia_kg_m2 *= 4.0;
+    bench.trials.spinning_from_rpm = bench.trials.spinning_to_rpm = 9000.0;
+    return bench;
+  }
+};
+
+TEST_F(SensitivityOfAFastRotor, OfAModesFrequencyIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement("modal_frequency", 0.001), 0.1) << spinning_.mean_speed_rad_per_s;
+}
+TEST_F(SensitivityOfAFastRotor, OfAMagnetsGainIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement("current_gain", 0.01), 0.1) << spinning_.mean_speed_rad_per_s;
+}
+TEST_F(Sensitivity, OfTheGyroscopicMomentsIsTheDifferenceOfTheModel) {
+  EXPECT_LT(Disagreement("gyroscopic_inertia", 1e-4), 0.05);
 }
 
 TEST_F(Sensitivity, OfADelayIsTheDifferenceOfTheModel) {

@@ -65,5 +65,17 @@ TEST(RunsAwayTest, DerivativesThatGrowWithoutBoundOrAreNoNumbers) {
   EXPECT_TRUE(SensitivitiesDiverge(WithSlopes(std::numeric_limits<double>::quiet_NaN())));
 }
 
+TEST(LostTest, WhatIsNoNumberOnTheDiagonalOrBesideIt) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  NormalEquations sum = WithSlopes(1e6);
+  sum.jte = Eigen::VectorXd::Zero(3);
+  EXPECT_FALSE(SensitivitiesAreLost(sum));
+  sum.jte[2] = nan;
+  EXPECT_TRUE(SensitivitiesAreLost(sum));
+  sum.jte[2] = 0.0;
+  sum.jtj(0, 2) = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(SensitivitiesAreLost(sum));
+}
+
 }  // namespace
 }  // namespace levitas::diagnosis
