@@ -321,7 +321,7 @@ std::string DiagnosisPage(const DiagnosisReport& s) {
   const std::string fit = fmt::format(
       "<h2>Fit</h2>\n{}<p>Nominal: the rig file. Calibrated: with the deviations of a healthy rig. "
       "Extended: with the causes. Ceiling: the sensors' noise alone. {}</p>\n<p>{}</p>\n",
-      FitTable(s), CeilingSentence(s), Escaped(ErrorSharesSentence(s)));
+      FitTable(s), FitRemarks(s), Escaped(ErrorSharesSentence(s)));
   return head + Origin(s) + ErrorsOfRecords(s) + Advice(s) + detail + Levitation(s) + Left(s) +
          Spectra(s) + ParameterTable(s) + CalibrationTable(s) + ForecastSection(s) +
          "<h2>Ranking, and why not the others</h2>\n" + Ranking(s) + fit + ChannelTable(s) +

@@ -92,8 +92,8 @@ void PrintFits(const DiagnosisReport& s) {
   };
   row("  on fitted data", s.fitted);
   row("  on validation data", s.validation);
-  const std::string ceiling = CeilingSentence(s);
-  fmt::print("{}\n{}{}", GainSentence(s), ceiling, ceiling.empty() ? "" : "\n");
+  const std::string remarks = FitRemarks(s);
+  fmt::print("{}\n{}{}", GainSentence(s), remarks, remarks.empty() ? "" : "\n");
   const std::string shares = ErrorSharesSentence(s);
   if (!shares.empty()) fmt::print("{}\n", shares);
 }
@@ -157,8 +157,10 @@ void PrintRuns(const DiagnosisReport& s) {
   }
 }
 
+constexpr double kSameDigits = 0.005;  // what rounds to the same two digits
+
 bool Above(const ReportFit& g) {
-  return std::max(g.extended_percent, g.calibrated_percent) > g.ceiling_percent + 0.005;
+  return std::max(g.extended_percent, g.calibrated_percent) > g.ceiling_percent + kSameDigits;
 }
 
 }  // namespace
@@ -257,10 +259,19 @@ std::string HealthyProposal(const DiagnosisReport& s) {
                      s.healthy_record);
 }
 
-std::string CeilingSentence(const DiagnosisReport& s) {
-  if (!Above(s.fitted) && !Above(s.validation)) return {};
-  return "A fit above the ceiling is at the ceiling: the noise is read from the highest third of "
-         "the spectrum, to a few per cent.";
+std::string FitRemarks(const DiagnosisReport& s) {
+  std::vector<std::string> remarks;
+  if (Above(s.fitted) || Above(s.validation)) {
+    remarks.emplace_back(
+        "A fit above the ceiling is at the ceiling: the noise is read from the highest third of "
+        "the spectrum, to a few per cent.");
+  }
+  if (s.fitted.calibrated_percent < s.fitted.nominal_percent - kSameDigits) {
+    remarks.emplace_back(
+        "Calibrated below nominal on the fitted data is no loss: calibration weighs every "
+        "frequency by its noise, which a fit in percent does not.");
+  }
+  return fmt::format("{}", fmt::join(remarks, " "));
 }
 
 void PrintDiagnosis(const DiagnosisReport& s, bool complete) {

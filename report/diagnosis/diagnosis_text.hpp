@@ -37,7 +37,8 @@ struct SharedParameter {
 [[nodiscard]] std::string HealthyProposal(const diagnosis::DiagnosisReport& report);
 /// Who makes how much of the rig file's error, the largest first; empty where there is none.
 [[nodiscard]] std::string ErrorSharesSentence(const diagnosis::DiagnosisReport& report);
-/// Why a fit can lie above its ceiling; empty when none does.
-[[nodiscard]] std::string CeilingSentence(const diagnosis::DiagnosisReport& report);
+/// Why a fit can lie above its ceiling, or the calibrated rig's below the rig file's; empty where
+/// neither does.
+[[nodiscard]] std::string FitRemarks(const diagnosis::DiagnosisReport& report);
 
 }  // namespace levitas::cli

@@ -79,14 +79,25 @@ TEST(GainSentence, PromisesNothingWhereTheFileAlreadyFits) {
   EXPECT_THAT(GainSentence(report), HasSubstr("Nothing to gain"));
 }
 
-TEST(CeilingSentence, IsThereOnlyWhereAFitLiesAboveItsCeiling) {
+TEST(FitRemarks, SayWhyAFitLiesAboveItsCeilingOnlyWhereOneDoes) {
   DiagnosisReport report = OneCause();
-  EXPECT_EQ(CeilingSentence(report), "");
+  EXPECT_EQ(FitRemarks(report), "");
   report.validation.extended_percent = report.validation.ceiling_percent + 0.1;
-  EXPECT_THAT(CeilingSentence(report), HasSubstr("at the ceiling"));
+  EXPECT_THAT(FitRemarks(report), HasSubstr("at the ceiling"));
   // What rounds to the same two digits is not above.
   report.validation.extended_percent = report.validation.ceiling_percent + 0.001;
-  EXPECT_EQ(CeilingSentence(report), "");
+  EXPECT_EQ(FitRemarks(report), "");
+}
+
+TEST(FitRemarks, SayWhyCalibrationFitsLessOnlyWhereItDoes) {
+  DiagnosisReport report = OneCause();
+  report.fitted.calibrated_percent = report.fitted.nominal_percent - 0.1;
+  EXPECT_THAT(FitRemarks(report), HasSubstr("is no loss"));
+  report.fitted.calibrated_percent = report.fitted.nominal_percent - 0.001;
+  EXPECT_EQ(FitRemarks(report), "");
+  // On data that were not fitted it is one.
+  report.validation.calibrated_percent = report.validation.nominal_percent - 0.1;
+  EXPECT_EQ(FitRemarks(report), "");
 }
 
 TEST(GainSentence, NeverSaysNothingToGainBesideAnythingThatIsNotInOrder) {
