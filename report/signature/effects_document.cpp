@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "configuration/rig_file.hpp"
+#include "configuration/schema/unit.hpp"
+#include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/signature.hpp"
 
 namespace levitas::signature {
@@ -27,8 +30,8 @@ effects:
 `strength` scales an entry from 0, where the plant is the nominal one bit for bit, to 1. Between them a value runs linearly from
 its neutral value, or inversely where neutral is infinite, or geometrically from the rig's own (bandwidths, frequencies); phases,
 orders and exponents stay. The program reaches every number by name, `effects[0].tau_s`, and can change a strength while it runs.
-The tables name parameters without their unit and list them in SI; the key of a rig file has one: of `amplitude` write
-`amplitude_um: 1.5` or `amplitude_m: 1.5e-6`.
+The tables name the keys of a rig file, each with its unit; another unit of the same kind may take its place (`amplitude_m: 1.5e-6` for
+`amplitude_um: 1.5`). Below each table stands an entry of clear size, for the list `effects` of `flexible_rotor`, or of `geared_rotor_4dof`.
 
 Symbols: *ic* control current, *i0* bias, *x* displacement at the actuator, *r* = x + jy, *q* modal coordinate, *w* its
 frequency, *phi* its shape, *W* speed and *angle* of the rotor, *s* Laplace variable. "Clear" is a size that shows on a
@@ -45,21 +48,58 @@ by the trapezoid rule in ln x with ten points from 1e-4 to 1e2. It follows the h
 
 )";
 
-std::string Number(double value) {
+std::string Number(double value, const config::Unit& unit) {
   if (std::isnan(value)) return "own";
   if (std::isinf(value)) return "infinite";
-  return fmt::format("{:.4g}", value);
+  return fmt::format("{:.4g}", std::stod(config::FromSi(value, unit)));
 }
 
 std::string Parameters(const effect::Row& row) {
-  std::string text =
-      "| parameter | unit | allowed | neutral | clear | meaning |\n|---|---|---|---|---|---|\n";
+  std::string text = "| key | allowed | neutral | clear | meaning |\n|---|---|---|---|---|\n";
   for (const effect::Parameter& p : row.parameters) {
-    text += fmt::format("| `{}` | {} | {} to {} | {} | {}{} | {} |\n", p.stem, p.si_suffix,
-                        Number(p.low), Number(p.high), Number(p.neutral), Number(p.clear),
-                        std::isnan(p.neutral) ? " x own" : "", p.meaning);
+    const config::Unit& unit = FileUnit(p);
+    const bool of_own = std::isnan(p.neutral);  // then a factor on what the rig has
+    text += fmt::format("| `{}` | {} to {} | {} | {} | {} |\n", effect::FileKey(p),
+                        Number(p.low, unit), Number(p.high, unit), Number(p.neutral, unit),
+                        of_own ? fmt::format("{:.4g} x own", p.clear) : Number(p.clear, unit),
+                        p.meaning);
   }
   return text;
+}
+
+/// Where an entry acts, as a rig file says it: the first place of its kind.
+std::string Place(const effect::Row& row, const config::RigFile& rig) {
+  switch (row.scope) {
+    case effect::Scope::kChannels:
+      return fmt::format(", channels: [{}]", rig.numbers.channels.front());
+    case effect::Scope::kBearing:
+      return fmt::format(", bearing: {}{}", rig.numbers.bearings.front(),
+                         row.id == effect::Id::kAxisRotation ? ", of: sensor" : "");
+    case effect::Scope::kMode:
+      return ", mode: 1";
+    case effect::Scope::kGear: {
+      const bool of_a_wheel =
+          row.id == effect::Id::kGearRunout || row.id == effect::Id::kToothCrack;
+      return fmt::format(", gear: {}{}", rig.plant.gears.front().name,
+                         of_a_wheel ? ", wheel: driven" : "");
+    }
+    case effect::Scope::kRig:
+      break;
+  }
+  return "";
+}
+
+std::string Entry(const effect::Row& row) {
+  const bool geared = row.place == effect::Place::kGear;
+  const config::RigFile rig =
+      config::LoadRig(config::FindConfig(geared ? "geared_rotor_4dof" : "flexible_rotor", "rigs"));
+  const effect::EffectConfig clear = ClearOn(plant::Reduce(rig.plant), row.id);
+  std::string text = fmt::format("- {{id: {}{}", row.name, Place(row, rig));
+  for (std::size_t i = 0; i < row.parameters.size(); ++i) {
+    const effect::Parameter& p = row.parameters[i];
+    text += fmt::format(", {}: {}", effect::FileKey(p), Number(clear.values[i], FileUnit(p)));
+  }
+  return text + "}";
 }
 
 std::string_view Where(effect::Scope scope) {
@@ -83,9 +123,10 @@ std::string_view Where(effect::Scope scope) {
 std::string EffectsDocument() {
   std::string text(kIntroduction);
   for (const effect::Row& row : effect::Catalogue()) {
-    text += fmt::format("## `{}`\n\n{}, {}: {}.\n\n    {}\n\nSignature: {}.\n\n{}\nSource: {}.\n\n",
-                        row.name, effect::Name(row.place), Where(row.scope), row.meaning,
-                        row.equation, row.signature, Parameters(row), row.source);
+    text += fmt::format(
+        "## `{}`\n\n{}, {}: {}.\n\n    {}\n\nSignature: {}.\n\n{}\n    {}\n\nSource: {}.\n\n",
+        row.name, effect::Name(row.place), Where(row.scope), row.meaning, row.equation,
+        row.signature, Parameters(row), Entry(row), row.source);
     text += fmt::format("![{0}](pictures/effects/{0}.svg)\n\n", row.name);
   }
   text.pop_back();

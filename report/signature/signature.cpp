@@ -15,14 +15,6 @@ using effect::Shows;
 
 namespace {
 
-/// The unit that a key of a rig file ends in; of a pure number kOne.
-const config::Unit& UnitOf(const effect::Parameter& parameter) {
-  for (const config::Unit& unit : config::AllUnits()) {
-    if (!unit.suffix.empty() && unit.suffix == parameter.file_suffix) return unit;
-  }
-  return config::unit::kOne;
-}
-
 /// As it is printed: the micro of files' keys is a u.
 std::string Symbol(const config::Unit& unit) {
   const std::string symbol(unit.symbol);
@@ -36,13 +28,20 @@ std::string InUnit(double value, const config::Unit& unit) {
 
 }  // namespace
 
+const config::Unit& FileUnit(const effect::Parameter& parameter) {
+  for (const config::Unit& unit : config::AllUnits()) {
+    if (!unit.suffix.empty() && unit.suffix == parameter.file_suffix) return unit;
+  }
+  return config::unit::kOne;
+}
+
 std::string SizeText(const plant::PlantParameters& rig, const effect::EffectConfig& entry) {
   const plant::Values own = plant::OwnValues(rig, entry, 0);
   const auto parameters = effect::At(entry.id).parameters;
   std::string text;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const effect::Parameter& p = parameters[i];
-    const config::Unit& unit = UnitOf(p);
+    const config::Unit& unit = FileUnit(p);
     text += fmt::format("{}{} {}", i == 0 ? "" : ", ", p.stem, InUnit(entry.values[i], unit));
     if (std::isnan(p.neutral)) text += fmt::format(" (the rig has {})", InUnit(own[i], unit));
   }

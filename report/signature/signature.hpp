@@ -21,6 +21,10 @@
 #include "plant_sim/plant/plant_parameters.hpp"
 #include "report/svg/figure.hpp"
 
+namespace levitas::config {
+struct Unit;
+}
+
 namespace levitas::signature {
 
 /// An entry of clear size on a rig: planes inside its shaft, factors on its own values.
@@ -49,6 +53,9 @@ struct Pair {
 [[nodiscard]] std::vector<svg::Panel> SpectrumPanels(const Pair& rigs);
 [[nodiscard]] std::vector<svg::Panel> ForcePanels(const Pair& rigs);
 [[nodiscard]] std::vector<svg::Panel> GearPanels(const Pair& rigs);
+
+/// The unit that a key of a rig file ends in; of a pure number kOne.
+[[nodiscard]] const config::Unit& FileUnit(const effect::Parameter& parameter);
 
 /// docs/effects.md as it must read for the present catalogue.
 [[nodiscard]] std::string EffectsDocument();

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "configuration/rig_file.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/orders.hpp"
 #include "tests/support/geared_rigs.hpp"
@@ -48,6 +49,28 @@ TEST(EffectsDocument, NamesEveryEffectWithItsPicture) {
     EXPECT_NE(text.find(picture), std::string::npos);
     EXPECT_TRUE(std::ifstream(test::SourceFolder() + "/docs/" + picture).good()) << picture;
   }
+}
+
+TEST(EffectsDocument, HasAnEntryOfEveryEffectThatItsRigTakes) {
+  std::istringstream lines(EffectsDocument());
+  std::size_t entries = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("    - {id: ")) continue;
+    const std::string id = line.substr(11, line.find_first_of(",}", 11) - 11);
+    const effect::Row* const row = effect::Find(id);
+    ASSERT_NE(row, nullptr) << id;
+    ++entries;
+    const bool geared = row->place == effect::Place::kGear;
+    const std::string path =
+        config::FindConfig(geared ? "geared_rotor_4dof" : "flexible_rotor", "rigs");
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf() << "\neffects:\n" << line << "\n";
+    const config::RigFile rig = config::ParseRig(text.str(), path);
+    ASSERT_EQ(rig.plant.effects.size(), 1U) << line;
+    EXPECT_EQ(rig.plant.effects.front().id, row->id) << line;
+  }
+  EXPECT_EQ(entries, effect::Catalogue().size());
 }
 
 /// "force, N"; an order is a number of its own.
