@@ -55,7 +55,7 @@ TEST(LawPicture, HasAColumnPerControllerWithMagnitudeAndPhase) {
   const levitas::test::ScratchFolder folder;
   WriteLawPicture(folder / "law.svg", {OnePole("left"), OnePole("right")});
   const std::string svg = test::Content(folder / "law.svg");
-  EXPECT_EQ(test::Count(svg, ">degrees<"), 2U);
+  EXPECT_EQ(test::Count(svg, ">phase, degrees<"), 2U);
   EXPECT_EQ(test::Count(svg, ">output per input<"), 2U);
   EXPECT_EQ(test::Count(svg, ">left<"), 2U);
   EXPECT_EQ(test::Count(svg, ">right<"), 2U);
