@@ -9,6 +9,9 @@
 namespace levitas::session {
 namespace {
 
+/// Of the probe's range: a reading that scatters less is hardly one of a rotor that hovers. A
+/// converter of 16 bit over the range has steps of 3e-5 of it, and noise of some steps.
+constexpr double kStill = 5e-5;
 constexpr double kCurrentMargin = 2.0;  // of what an amplifier gives, before a command is doubted
 
 /// [m] Where a reading is no place of the rotor any more. It bends and tilts beyond the clearance
@@ -55,6 +58,20 @@ std::string LikelyUnit(const CsvColumn& column, double factor, bool length) {
   return std::abs(column.factor) == 1.0 ? unit : fmt::format("{}, or {}", unit, scale);
 }
 
+/// A thousandth of what the unit makes of it, most of the time.
+ImplausibleColumn TooStill(const CsvColumn& column, double deviation_m) {
+  constexpr double kThousand = 1e3;
+  const std::string taken = UnitOfDivisor(column.divisor, true);
+  const std::string likely = UnitOfDivisor(column.divisor / kThousand, true);
+  return {fmt::format("column \"{}\" scatters by {:.3g} um only, which is less than a probe's "
+                      "noise; likely its {}",
+                      column.name, 1e6 * deviation_m,
+                      taken.empty() || likely.empty()
+                          ? "scale is 1000 times too small"
+                          : fmt::format("numbers are in {}, not in {}", likely, taken)),
+          false};
+}
+
 double Share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -91,6 +108,9 @@ ImplausibleColumn PlausibleValues::OfPosition(const CsvColumn& column, const Spr
   const std::size_t bearing = column.axis / 2;
   const double range_m = rig_.SensorRangeOf(bearing);
   const bool mostly = Share(spread.beyond, spread.count) > 0.5;
+  if (range_m > 0.0 && spread.deviation() > 0.0 && spread.deviation() < kStill * range_m) {
+    return TooStill(column, spread.deviation());
+  }
   if (!(range_m > 0.0) || !(mostly || spread.largest > range_m)) return {};
   const bool moves = spread.deviation() > range_m;
   std::string likely;

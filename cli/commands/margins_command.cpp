@@ -236,7 +236,7 @@ ExitStatus Run(const MarginsOptions& options) {
     PrintBlocks(blocks, controller.file, json);
     blocks_stable = std::ranges::all_of(blocks, [](const auto& at) { return at.rig.stable(); });
   }
-  fmt::print("{}", GainsNote(options, rig));
+  fmt::print("{}{}", GainsNote(options, rig), RestNote(options, rig.numbers));
   Draw(options, of, loops, json);
   WriteJsonFile(options.json_path, json);
   RequireLoops(required, loops);

@@ -70,6 +70,11 @@ std::string RotorText(const RigSketch& sketch, const SketchNumbers& n) {
     text += fmt::format("    - {{z_mm: {:.6g}, moment_g_mm: {:.4g}, phase_deg: {}}}\n",
                         n.bearings_mm[b], UnbalanceGMm(sketch), phases[b]);
   }
+  for (std::size_t i = 0; i < sketch.discs.size(); ++i) {
+    text += fmt::format("    - {{z_mm: {:.6g}, moment_g_mm: 0, phase_deg: 0}}{}\n",
+                        sketch.discs[i].z_mm,
+                        i == 0 ? "  # where amb balance and amb diagnose look for more" : "");
+  }
   return text + fmt::format(
                     "  max_element_length_mm: {:.4g}\n"
                     "  modes_per_plane: 5         # two rigid, three bending\n"

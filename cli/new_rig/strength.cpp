@@ -58,9 +58,12 @@ void RefuseOverload(const RigSketch& sketch, const SketchNumbers& numbers) {
     throw BadInput(fmt::format(
         "the {} magnet cannot carry the rotor: {:.4g} N of its weight in each axis, and {:.4g} N/A "
         "times {:.4g} A of bias are {:.4g} N. Half of what a magnet has is for control: give "
-        "--ki-n-per-a {:.0f} or more, more bias, or a lighter rotor",
+        "{}, more bias, or a lighter rotor",
         NameOf(b), load_n, sketch.ki_n_per_a, sketch.bias_a, most_n,
-        std::ceil(2.0 * load_n / sketch.bias_a)));
+        sketch.turns > 0.0
+            ? fmt::format("more turns or a larger pole, {:.1f} times as strong a magnet or more",
+                          2.0 * load_n / most_n)
+            : fmt::format("--ki-n-per-a {:.0f} or more", std::ceil(2.0 * load_n / sketch.bias_a))));
   }
 }
 

@@ -1,4 +1,5 @@
 #include "cli/options/analysis_options.hpp"
+#include "common/rotational_speed.hpp"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -150,6 +151,13 @@ std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig
   if (!options.controller_name.empty() || !rig.run.controller.empty()) return {};
   return fmt::format("These are the reference gains. amb run takes others: --controller {}\n",
                      kGeneralController);
+}
+
+std::string RestNote(const AnalysisOptions& options, const RigNumbers& rig) {
+  const bool rest = options.speeds_rpm.size() == 1 && options.speeds_rpm.front() == 0.0;
+  if (!rest || !(rig.max_speed_rad_per_s > 0.0)) return {};
+  return fmt::format("At rest only; the rated speed too: --speeds 0,{:.6g}\n",
+                     RadPerSToRpm(rig.max_speed_rad_per_s));
 }
 
 }  // namespace levitas::cli

@@ -50,5 +50,7 @@ struct AnalysedLoop {
 [[nodiscard]] std::string ControllerText(const FoundController& controller);
 /// Says so when it is not the one that `amb run` would take; else empty.
 [[nodiscard]] std::string GainsNote(const AnalysisOptions& options, const config::RigFile& rig);
+/// Says so when a rotor that turns was looked at standing alone; else empty.
+[[nodiscard]] std::string RestNote(const AnalysisOptions& options, const RigNumbers& rig);
 
 }  // namespace levitas::cli

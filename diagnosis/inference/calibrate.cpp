@@ -70,16 +70,18 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
                            const Gains& gains, const ObserverSpeed& speed, int passes) {
   const std::vector<Term> held = Held(terms);
   const Search cautious(rig, held, "", search.model_error_share());
-  const std::vector<Record> part = Spans(all, kStartRows);
+  const std::vector<Record> part = Spans(all, kStartRows, rig.period_s);
   const std::vector<double> start =
-      FromFar(rig, cautious, held, Spans(all, kFastRows), part, cautious.DesignGains(part, speed));
+      FromFar(rig, cautious, held, Spans(all, kFastRows, rig.period_s), part,
+              cautious.DesignGains(part, speed));
   const Refiner refiner(search, terms, records, gains, rig.axes);
   Refined best = refiner.Approach(start, kWhiteningOrder, passes);
   const std::vector<Record> resting = AtRest(all);
   if (resting.empty() || !IsLost(rig, search, records, gains, best)) return best;
-  const std::vector<Record> few = Spans(resting, kStartRows);
-  const std::vector<double> other = FromFar(rig, cautious, held, Spans(resting, kFastRows), few,
-                                            cautious.DesignGains(few, speed));
+  const std::vector<Record> few = Spans(resting, kStartRows, rig.period_s);
+  const std::vector<double> other =
+      FromFar(rig, cautious, held, Spans(resting, kFastRows, rig.period_s), few,
+              cautious.DesignGains(few, speed));
   Refined again = refiner.Approach(other, kWhiteningOrder, passes);
   const bool better = again.ok && (!best.ok || refiner.Misfit(again.theta, kWhiteningOrder) <
                                                    refiner.Misfit(best.theta, kWhiteningOrder));
@@ -89,7 +91,7 @@ Refined CalibrateNuisances(const RigView& rig, const Search& search, const std::
 void LearnFromHealthy(const RigView& rig, const std::vector<Record>& healthy,
                       const Judging& judging, std::vector<Term>& terms) {
   const Search search(rig, terms, "", judging.model_error_share);
-  const std::vector<Record> records = Spans(healthy, kHealthyRows);
+  const std::vector<Record> records = Spans(healthy, kHealthyRows, rig.period_s);
   constexpr int kPasses = 8;
   const Refined fit = CalibrateNuisances(rig, search, terms, healthy, records,
                                          search.DesignGains(records, kSlow), kSlow, kPasses);

@@ -65,7 +65,7 @@ double ProjectedChange(const ChangePair& pair, const std::vector<double>& noise_
 std::vector<ErrorShare> ErrorShares(const Search& search, const std::vector<Term>& terms,
                                     const SearchResult& answer, const std::vector<Record>& fitted,
                                     const std::vector<double>& noise_rms_m) {
-  const std::vector<Record> records = Spans(fitted, kShareRows);
+  const std::vector<Record> records = Spans(fitted, kShareRows, search.rig().period_s);
   const Gains gains = search.DesignGains(records, answer.speed);
   const std::vector<double> of_file(terms.size(), 0.0);
   const std::vector<Trajectory> file = search.Run(records, gains, of_file);

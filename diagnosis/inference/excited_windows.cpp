@@ -61,7 +61,8 @@ std::optional<Window> Best(const Rows& rows, std::size_t length, const std::vect
 
 }  // namespace
 
-std::vector<Window> TellingWindows(const Rows& rows, std::vector<Window> even) {
+std::vector<Window> TellingWindows(const Rows& rows, std::vector<Window> even,
+                                   std::size_t shortest) {
   std::vector<std::vector<double>> signals;
   bool missed = false;
   for (std::size_t axis = 0; axis < kMaxAxes; ++axis) {
@@ -73,9 +74,7 @@ std::vector<Window> TellingWindows(const Rows& rows, std::vector<Window> even) {
   if (!missed) return even;
   std::size_t budget = 0;
   for (const Window& window : even) budget += window.length;
-  // Shorter ones would hold little but the settling of the model.
-  constexpr std::size_t kShortest = 6'000;  // rows; half of it settles
-  const std::size_t count = std::min(std::max(even.size(), signals.size() + 1), budget / kShortest);
+  const std::size_t count = std::min(std::max(even.size(), signals.size() + 1), budget / shortest);
   if (count < signals.size()) return even;
   const std::size_t length = budget / count;
   std::vector<Window> windows;

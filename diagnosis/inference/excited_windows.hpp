@@ -21,8 +21,9 @@ struct Window {
   std::size_t first{}, length{};  ///< rows
 };
 
-/// `even` where it misses nothing, or where the record has no test signal.
+/// `even` where it misses nothing, or where the record has no test signal. `shortest` [rows]: less
+/// would hold little but the settling of the model.
 [[nodiscard]] std::vector<Window> TellingWindows(const std::vector<analysis::RecordedRow>& rows,
-                                                 std::vector<Window> even);
+                                                 std::vector<Window> even, std::size_t shortest);
 
 }  // namespace levitas::diagnosis

@@ -132,7 +132,7 @@ Forecast Foretell(const Search& search, const std::vector<Term>& terms, const Se
                   const std::vector<Trajectory>& fitted, const std::vector<Record>& validation,
                   const Judging& judging) {
   const std::size_t axes = search.rig().axes;
-  const std::vector<Record> records = Spans(validation, kForecastRows);
+  const std::vector<Record> records = Spans(validation, kForecastRows, search.rig().period_s);
   const Gains gains = search.DesignGains(records, answer.speed);
   const std::vector<Trajectory> model = search.Run(records, gains, answer.theta_extended);
   const std::vector<Trajectory> file =

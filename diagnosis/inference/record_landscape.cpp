@@ -11,11 +11,13 @@ namespace levitas::diagnosis {
 namespace {
 
 /// Spans of records that are longer than the effort allows; empty when they are not.
-std::vector<Record> PartOf(const std::vector<Record>& records, const Effort& effort) {
+std::vector<Record> PartOf(const std::vector<Record>& records, const Effort& effort,
+                           double period_s) {
   std::size_t total = 0;
   for (const Record& record : records) total += record.rows.size();
   if (total <= effort.rows) return {};
-  return effort.first_cause_only ? QuickSpans(records) : Spans(records, effort.rows);
+  return effort.first_cause_only ? QuickSpans(records, period_s)
+                                 : Spans(records, effort.rows, period_s);
 }
 
 }  // namespace
@@ -28,7 +30,7 @@ RecordLandscape::RecordLandscape(const RigView& rig, const std::vector<Record>& 
       settings_(settings),
       passes_(effort.passes),
       search_(rig, terms, settings.only, settings.judging.model_error_share),
-      part_(PartOf(recorded, effort)),
+      part_(PartOf(recorded, effort, rig.period_s)),
       records_(part_.empty() ? recorded : part_),
       gains_(search_.DesignGains(records_, kSpeeds[0])),
       refiner_(search_, terms_, records_, gains_, rig.axes) {}

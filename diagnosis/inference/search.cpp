@@ -185,11 +185,16 @@ std::vector<Window> EvenWindows(std::size_t rows, std::size_t spans, std::size_t
   return windows;
 }
 
+std::size_t SettlingRows(double period_s) {
+  return static_cast<std::size_t>(std::ceil(kSettling / period_s));
+}
+
 /// `choose` makes of the rows of a record and even windows those that are kept.
 template <class Choose>
-std::vector<Record> Parts(const std::vector<Record>& records, std::size_t rows,
+std::vector<Record> Parts(const std::vector<Record>& records, std::size_t rows, double period_s,
                           const Choose& choose) {
-  constexpr std::size_t kSpan = 10'000;  // rows; a third of it settles
+  constexpr std::size_t kSpan = 10'000;
+  const std::size_t span = std::max(kSpan, 3 * SettlingRows(period_s));
   std::size_t total = 0;
   for (const Record& record : records) total += record.rows.size();
   if (total <= rows) return records;
@@ -199,7 +204,7 @@ std::vector<Record> Parts(const std::vector<Record>& records, std::size_t rows,
     const std::size_t all = record.rows.size();
     const auto share = static_cast<std::size_t>(
         static_cast<double>(rows) * static_cast<double>(all) / static_cast<double>(total));
-    const std::size_t spans = std::max<std::size_t>(1, share / kSpan);
+    const std::size_t spans = std::max<std::size_t>(1, share / span);
     const std::size_t length = std::min(all, share / spans);
     Record part = record;
     part.rows.clear();
@@ -215,12 +220,18 @@ std::vector<Record> Parts(const std::vector<Record>& records, std::size_t rows,
 
 }  // namespace
 
-std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows) {
-  return Parts(records, rows, [](const auto&, std::vector<Window> even) { return even; });
+std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows, double period_s) {
+  return Parts(records, rows, period_s, [](const auto&, std::vector<Window> even) { return even; });
 }
 
-std::vector<Record> QuickSpans(const std::vector<Record>& records) {
-  return Parts(records, kQuickRows, TellingWindows);
+std::vector<Record> QuickSpans(const std::vector<Record>& records, double period_s) {
+  constexpr std::size_t kShortest = 6'000;  // rows of a window; up to half of it settles
+  constexpr std::size_t kWindows = 5;       // one for each of four axes and one while it turns
+  const std::size_t shortest = std::max(kShortest, SettlingRows(period_s) + kShortest / 2);
+  return Parts(records, std::max(kQuickRows, kWindows * shortest), period_s,
+               [shortest](const auto& rows, std::vector<Window> even) {
+                 return TellingWindows(rows, std::move(even), shortest);
+               });
 }
 
 }  // namespace levitas::diagnosis

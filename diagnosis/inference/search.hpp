@@ -110,10 +110,13 @@ inline constexpr std::size_t kMostRows = 200'000;    ///< more would take a minu
 
 /// At most about `rows` of all records together, each in proportion, as spans spread evenly over
 /// it: every excitation and every speed stays represented.
-[[nodiscard]] std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows);
+/// A span is at least three times as long as the model settles, so that at any rate most of it
+/// counts.
+[[nodiscard]] std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows,
+                                        double period_s);
 
-/// kQuickRows of them: even spans, and where those few would miss a test signal, the spans that
+/// kQuickRows of them, and at a high rate as many more as the model settles longer: even spans, and where those few would miss a test signal, the spans that
 /// hold the test signals (excited_windows.hpp).
-[[nodiscard]] std::vector<Record> QuickSpans(const std::vector<Record>& records);
+[[nodiscard]] std::vector<Record> QuickSpans(const std::vector<Record>& records, double period_s);
 
 }  // namespace levitas::diagnosis

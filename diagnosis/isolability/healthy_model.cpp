@@ -57,7 +57,7 @@ HealthyModel::HealthyModel(const config::RigFile& rig, std::vector<Record> recor
     : tolerances_(rig.tolerances.value_or(config::Tolerances{})),
       plant_(rig.plant),
       rig_(rig.numbers, rig.plant),
-      records_(Spans(Numbered(std::move(records)), kMostRows)),
+      records_(Spans(Numbered(std::move(records)), kMostRows, rig_.period_s)),
       orbit_m_(orbit_m.value_or(LargestOrbit(records_, rig_.axes))) {
   if (rig_.geared()) throw BadInput("--plan knows rigs with one rotor, not geared shafts");
   lines_hz_ = MainsLines(rig_, records_);

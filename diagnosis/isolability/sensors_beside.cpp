@@ -27,7 +27,7 @@ double MiddleOf(const RigView& rig) {
 
 SensorsBeside::SensorsBeside(const HealthyModel& model)
     : model_(model),
-      part_(Spans(model.records(), kRows)),
+      part_(Spans(model.records(), kRows, model.rig().period_s)),
       weight_(static_cast<double>(kEvery * RowsOf(model.records())) /
               static_cast<double>(RowsOf(part_))),
       search_(model.rig(), model.terms()),

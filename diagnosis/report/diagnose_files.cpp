@@ -185,7 +185,8 @@ DiagnosisResult DiagnoseRecords(const config::RigFile& rig, const std::vector<Re
   const auto mains = MainsTerms(*out.view, MainsLines(*out.view, fitted), fitted.size());
   out.terms.insert(out.terms.end(), mains.begin(), mains.end());
   out.answer = Diagnose(*out.view, fitted, aside, settings, out.terms);
-  const std::vector<Record> used = settings.quick ? QuickSpans(fitted) : Spans(fitted, kMostRows);
+  const std::vector<Record> used = settings.quick ? QuickSpans(fitted, out.view->period_s)
+                                                  : Spans(fitted, kMostRows, out.view->period_s);
   for (const Record& record : used) out.seconds_used += Seconds(record, *out.view);
   Measure(used, aside, settings.judging, out);
   return out;

@@ -126,6 +126,16 @@ std::string InfluenceTable(const BalanceResult& result) {
   return table.Text();
 }
 
+/// Empty where the planes explain the run.
+std::string UnexplainedText(const BalanceResult& result) {
+  constexpr double kExplained = 1.5;  // of the noise, rms: below it a weight still does its work
+  if (std::sqrt(result.fit.reduced_chi_square) < kExplained) return {};
+  return "WARNING: unbalance in these planes does not explain the run. Is there a wheel or a "
+         "coupling elsewhere (add its plane to rotor.unbalance of the rig file, moment_g_mm: 0), a "
+         "bent shaft, or a run-out? amb diagnose tells them apart; weights are not worth their "
+         "numbers before\n";
+}
+
 }  // namespace
 
 std::string BalanceText(const BalanceRequest& request, const BalanceResult& result) {
@@ -137,6 +147,7 @@ std::string BalanceText(const BalanceRequest& request, const BalanceResult& resu
       RadPerSToRpm(result.highest_rad_per_s), request.rig.numbers.name,
       std::sqrt(result.fit.reduced_chi_square),
       result.fit.converged ? "" : "; WARNING: the fit did not settle");
+  text += UnexplainedText(result);
   text += "\nUnbalance of the rotor, intervals of 95 %:\n" + UnbalanceTable(result);
   text +=
       fmt::format("\nCorrection, {}:\n", request.planes.drill ? "mass taken away" : "mass added");

@@ -68,7 +68,8 @@ void PrintCalibrated(const DiagnosisReport& s, bool complete) {
     fmt::print("{} not among them, being a cause; ", fmt::join(s.taken_by_causes, ", "));
   }
   if (shown.empty()) {
-    fmt::print("none further than half its tolerance from it (--explain lists them).\n\n");
+    fmt::print(
+        "none measurably further than half its tolerance from it (--explain lists them).\n\n");
     return;
   }
   fmt::print("{}:\n", complete ? "all of them" : "furthest out (--explain lists all)");

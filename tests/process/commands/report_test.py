@@ -68,7 +68,7 @@ class Report(CommandTest):
         whole = (self.folder / "run.lcm").read_bytes()
         for name, share in (("inside", 0.5), ("whole", 1.0)):
             (self.folder / name).write_bytes(whole[:int(len(whole) * share) - (share < 1.0)])
-            _, told = self.compute("report", name, "--out", "r.html")
+            _, told = self.compute("report", name, "--out", name + ".html")
             self.assertEqual(told["verdict"] == "incomplete", name == "inside", told)
         printed = amb(self.folder, "report", "inside", "--out", "r.html").stdout
         self.assertIn("INCOMPLETE: the record", printed)

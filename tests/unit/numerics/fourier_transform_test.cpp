@@ -49,6 +49,36 @@ TEST(FourierTransform, IsItsDefinitionAtEveryLengthUpTo70) {
   }
 }
 
+TEST(FourierTransform, IsItsDefinitionAtLengthsWithALongPrime) {
+  for (const std::size_t length : {131U, 262U, 393U, 509U, 1018U, 1031U}) {
+    const auto x = Random(length, length);
+    auto lines = x;
+    FourierTransform(lines);
+    ASSERT_EQ(lines.size(), length);
+    for (std::size_t k = 0; k < length; ++k) {
+      // Three transforms of twice the length and more: ten times the rounding of one.
+      EXPECT_LT(std::abs(lines[k] - Defined(x, k)), 10.0 * kRounding) << length << ", " << k;
+    }
+  }
+}
+
+// A period of 2^13 - 1 bits of two samples: by its factors it would be 8191 squared.
+TEST(HalfSpectrum, OfAPeriodOfAPrimeNumberOfBitsHasItsLine) {
+  constexpr std::size_t kLength = std::size_t{2} * 8191;
+  constexpr std::size_t kLine = 1234;
+  std::vector<double> sine(kLength);
+  for (std::size_t n = 0; n < kLength; ++n) {
+    const auto turns = static_cast<double>(kLine * n % kLength) / static_cast<double>(kLength);
+    sine[n] = std::cos(kTwoPi * turns);
+  }
+  const auto lines = HalfSpectrum(sine);
+  ASSERT_EQ(lines.size(), kLength / 2 + 1);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const double expected = k == kLine ? 0.5 * static_cast<double>(kLength) : 0.0;
+    ASSERT_NEAR(std::abs(lines[k]), expected, 1e-9) << k;  // rounding of 16382 of size one
+  }
+}
+
 TEST(FourierTransform, KeepsTheEnergyOfASignal) {  // Parseval
   for (const std::size_t length : {1000U, 1024U, 2047U, 6000U}) {
     auto values = Random(length, 7);

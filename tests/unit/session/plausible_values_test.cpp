@@ -95,6 +95,15 @@ TEST_F(Plausible, PositionsThatAreAThousandTimesTooLargeAreRefusedWithTheUnitThe
               HasSubstr("its scale is 1000 times too large"));
 }
 
+TEST_F(Plausible, PositionsThatAreAThousandTimesTooSmallAreDoubted) {
+  const auto small = Import(Map("um", "ma"), 0.02, 0.0, 500.0);
+  ASSERT_THAT(small.implausible, SizeIs(1));
+  EXPECT_FALSE(small.implausible[0].impossible);
+  EXPECT_THAT(small.implausible[0].sentence,
+              AllOf(HasSubstr("column \"X\" scatters by 0.0142 um only"),
+                    HasSubstr("likely its numbers are in mm, not in um")));
+}
+
 TEST_F(Plausible, CurrentsThatAreAThousandTimesTooLargeAreRefused) {
   EXPECT_THAT(Refusal(Map("um", "a"), 20.0, 500.0),
               AllOf(HasSubstr("column \"I\" (current of x) reaches 500 A"),
