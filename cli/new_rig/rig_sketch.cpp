@@ -70,10 +70,17 @@ std::string RotorText(const RigSketch& sketch, const SketchNumbers& n) {
     text += fmt::format("    - {{z_mm: {:.6g}, moment_g_mm: {:.4g}, phase_deg: {}}}\n",
                         n.bearings_mm[b], UnbalanceGMm(sketch), phases[b]);
   }
-  for (std::size_t i = 0; i < sketch.discs.size(); ++i) {
-    text += fmt::format("    - {{z_mm: {:.6g}, moment_g_mm: 0, phase_deg: 0}}{}\n",
-                        sketch.discs[i].z_mm,
-                        i == 0 ? "  # where amb balance and amb diagnose look for more" : "");
+  // Two planes in one place would share what one has.
+  const double apart_mm = 0.02 * sketch.length_mm;
+  std::vector<double> taken_mm(n.bearings_mm.begin(), n.bearings_mm.end());
+  for (const SketchDisc& disc : sketch.discs) {
+    const auto near = [&](double z_mm) { return std::abs(z_mm - disc.z_mm) < apart_mm; };
+    if (std::ranges::any_of(taken_mm, near)) continue;
+    text += fmt::format(
+        "    - {{z_mm: {:.6g}, moment_g_mm: 0, phase_deg: 0}}  # amb balance and amb diagnose look "
+        "here, too\n",
+        disc.z_mm);
+    taken_mm.push_back(disc.z_mm);
   }
   return text + fmt::format(
                     "  max_element_length_mm: {:.4g}\n"

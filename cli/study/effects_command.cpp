@@ -14,6 +14,7 @@
 #include "cli/options/analysis_options.hpp"
 #include "common/nearest.hpp"
 #include "common/output_file.hpp"
+#include "configuration/schema/unit.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/signature.hpp"
 
@@ -53,8 +54,10 @@ void PrintOne(const effect::Row& row) {
              effect::Name(row.place), effect::Name(row.scope), row.meaning, row.equation,
              row.signature, row.source);
   for (const effect::Parameter& p : row.parameters) {
-    fmt::print("  {:<22} {} (SI: {:g} to {:g}{})\n", effect::FileKey(p), p.meaning, p.low, p.high,
-               p.fallback ? fmt::format(", default {:g}", *p.fallback) : "");
+    const config::Unit& unit = signature::FileUnit(p);
+    const auto text = [&unit](double si) { return config::FromSi(si, unit); };
+    fmt::print("  {:<22} {} ({} to {}{})\n", effect::FileKey(p), p.meaning, text(p.low),
+               text(p.high), p.fallback ? ", default " + text(*p.fallback) : "");
   }
 }
 

@@ -25,12 +25,14 @@ Reader::Reader(const Document& document, std::string file_name) : file_name_(std
 bool Reader::WrongKind(std::string_view kind) {
   if (!problems_.empty()) return true;
   const Entry entry = Take({"kind"});
+  const std::string_view article = kind.starts_with('i') ? "an" : "a";  // import_map, ...
   if (entry.value == nullptr) {
-    Report({1, 1}, "kind", fmt::format("missing; a {} file begins with `kind: {}`", kind, kind));
+    Report({1, 1}, "kind",
+           fmt::format("missing; {} {} file begins with `kind: {}`", article, kind, kind));
   } else if (entry.value->kind != Node::Kind::kScalar || entry.value->text != kind) {
     Report(entry.value->place, "kind",
-           fmt::format("found \"{}\", but a {} file is needed here (kind: {})", entry.value->text,
-                       kind, kind));
+           fmt::format("found \"{}\", but {} {} file is needed here (kind: {})", entry.value->text,
+                       article, kind, kind));
   }
   return !problems_.empty();
 }

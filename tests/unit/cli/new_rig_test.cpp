@@ -90,6 +90,13 @@ TEST(RigSketch, IsARigThatTheStrictReaderTakes) {
   EXPECT_NEAR(rig.plant.unbalance[0].moment_kg_m,
               0.5 * 8.0 * 2.5e-3 / rig.numbers.max_speed_rad_per_s, 2e-9);
   EXPECT_NEAR(rig.plant.bearings[0].touchdown.clearance_m, 0.2e-3, 1e-12);
+  // Where a wheel sits its unbalance does, too: a plane to look for it.
+  ASSERT_EQ(rig.plant.unbalance.size(), 3U);
+  EXPECT_NEAR(rig.plant.unbalance[2].z_m, 0.585, 1e-12);
+  EXPECT_EQ(rig.plant.unbalance[2].moment_kg_m, 0.0);
+  sketch.discs[0].z_mm =
+      NumbersOf(sketch).bearings_mm[1] + 1.0;  // in the plane of a bearing, which has one
+  EXPECT_EQ(RigOf(sketch).plant.unbalance.size(), 2U);
   sketch.vertical = true;
   EXPECT_EQ(RigOf(sketch).plant.gravity_m_per_s2, 0.0);
 }

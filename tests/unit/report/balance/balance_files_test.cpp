@@ -109,6 +109,13 @@ TEST_F(Balanced, SaysThatACorrectionIsTooSmallForAnyWeight) {
   EXPECT_THAT(Text(), HasSubstr("disc: no weight, the correction is below the smallest"));
 }
 
+TEST_F(Balanced, WarnsWhereItsPlanesDoNotExplainTheRun) {
+  result_.fit.reduced_chi_square = 1.4 * 1.4;
+  EXPECT_THAT(Text(), Not(HasSubstr("WARNING")));
+  result_.fit.reduced_chi_square = 2.6 * 2.6;
+  EXPECT_THAT(Text(), HasSubstr("WARNING: unbalance in these planes does not explain the run"));
+}
+
 TEST_F(Balanced, WarnsOfAFitThatDidNotSettle) {
   EXPECT_THAT(Text(), Not(HasSubstr("WARNING")));
   result_.fit.converged = false;
