@@ -6,8 +6,9 @@
 //           mostly within the clearance; a commanded current and a test signal within twice what an
 //           amplifier gives (a command may ask for more than it gets).
 // Doubted   a column with a number beyond the range or twice the amplifier's current, or mostly
-//           beyond the clearance, or a position that hardly scatters: told with the largest number, the bounds and the unit in which it
-//           would fit, or the offset that may be missing.
+//           beyond the clearance, or a position that hardly scatters: told with the largest
+//           number, the bounds and the unit in which it would fit, or the offset that may be
+//           missing.
 // Refused   where nothing of it can be true: positions mostly beyond the bounds that also move by
 //           more than the range, currents mostly beyond ten times the amplifier's.
 // Thread    one per object. Failure: none, it only says.

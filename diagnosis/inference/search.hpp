@@ -115,8 +115,9 @@ inline constexpr std::size_t kMostRows = 200'000;    ///< more would take a minu
 [[nodiscard]] std::vector<Record> Spans(const std::vector<Record>& records, std::size_t rows,
                                         double period_s);
 
-/// kQuickRows of them, and at a high rate as many more as the model settles longer: even spans, and where those few would miss a test signal, the spans that
-/// hold the test signals (excited_windows.hpp).
+/// kQuickRows of them, and at a high rate as many more as the model settles longer: even spans, and
+/// where those few would miss a test signal, the spans that hold the test signals
+/// (excited_windows.hpp).
 [[nodiscard]] std::vector<Record> QuickSpans(const std::vector<Record>& records, double period_s);
 
 }  // namespace levitas::diagnosis
