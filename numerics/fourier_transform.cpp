@@ -16,7 +16,8 @@ Transform& OfThisThread() {
   return transform;
 }
 
-/// From here on a transform of three times a power of two is faster than a prime step of this size.
+/// A step of a prime p costs p for each value; from about here on three transforms of a power of
+/// two cost less.
 constexpr std::size_t kLongPrime = 128;
 
 bool HasLongPrime(std::size_t length) {

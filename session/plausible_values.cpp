@@ -58,7 +58,7 @@ std::string LikelyUnit(const CsvColumn& column, double factor, bool length) {
   return std::abs(column.factor) == 1.0 ? unit : fmt::format("{}, or {}", unit, scale);
 }
 
-/// A thousandth of what the unit makes of it, most of the time.
+/// Of a position that moves less than a probe's noise: most likely its unit is too small.
 ImplausibleColumn TooStill(const CsvColumn& column, double deviation_m) {
   constexpr double kThousand = 1e3;
   const std::string taken = UnitOfDivisor(column.divisor, true);

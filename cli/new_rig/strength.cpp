@@ -30,8 +30,7 @@ double LoadOf(const RigSketch& sketch, const SketchNumbers& numbers, std::size_t
 
 void RefuseStrength(const RigSketch& sketch, const std::string& option) {
   const double gap_m = 1e-3 * sketch.gap_mm;
-  const double constant = sketch.ki_n_per_a * gap_m * gap_m / (4.0 * sketch.bias_a);
-  const double per_ki = constant / sketch.ki_n_per_a;
+  const double per_ki = gap_m * gap_m / (4.0 * sketch.bias_a);  // the force constant, for a ki of 1
   const double least = std::max(kLeastKi, kLeastConstant / per_ki);
   const double most = std::min(kMostKi, kMostConstant / per_ki);
   if (sketch.ki_n_per_a >= least && sketch.ki_n_per_a <= most) return;
@@ -45,8 +44,7 @@ void RefuseDiameter(const RigSketch& sketch, const SketchNumbers& numbers) {
   if (numbers.diameter_mm >= kLeastDiameterMm && numbers.diameter_mm <= kMostDiameterMm) return;
   throw BadInput(fmt::format(
       "--mass-kg {:g}, --length-mm {:g}: found a steel shaft of {:.4g} mm diameter, allowed {:g} "
-      "to "
-      "{:g} mm. Check mass and length, and what the discs (--disc) have of the mass",
+      "to {:g} mm. Check mass and length, and what the discs (--disc) have of the mass",
       sketch.mass_kg, sketch.length_mm, numbers.diameter_mm, kLeastDiameterMm, kMostDiameterMm));
 }
 

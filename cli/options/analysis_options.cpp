@@ -1,5 +1,4 @@
 #include "cli/options/analysis_options.hpp"
-#include "common/rotational_speed.hpp"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -10,6 +9,7 @@
 #include <map>
 
 #include "cli/run/general_files.hpp"
+#include "common/rotational_speed.hpp"
 #include "configuration/law_notes.hpp"
 #include "configuration/run_files.hpp"
 #include "controller/law/discrete_law.hpp"

@@ -56,7 +56,7 @@ class LivePage {
   struct Ending {
     bool interrupted{};
     std::string verdict;  ///< its sentence; empty: none was reached
-    /// To be called when the controller has ended orderly: viewers are told so at once. Judging
+    /// To be called when the controller has ended in order: viewers are told so at once. Judging
     /// takes a second or more, in which the page would take its silence for a loss.
     std::function<void(ExitStatus)> over{[](ExitStatus) {}};
   };

@@ -133,14 +133,18 @@ LEVITAS_INLINE void AdvanceBody(const TangentBatch& k, const SamplePoint& m,
   // feed the fast modes.
   // Written below as far as they are read; zeroing the rest costs more than the loop.
   std::array<Lane, 2 * kMaxModes> q_mid;  // NOLINT(cppcoreguidelines-pro-type-member-init)
-  std::array<Lane, 2 * kMaxModes> v_mid;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   for (std::size_t i = 0; i < 2 * k.modes; ++i) {
     const TangentBatch::Mode& n = k.mode[i % k.modes];
     q_mid[i].value = n.half_xx * s.q[i].value + n.half_xv * s.v[i].value;
+  }
+  std::array<Lane, 2 * kMaxModes> v_mid;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  const bool coupled = !k.coupled_q.empty();
+  for (std::size_t i = 0; coupled && i < 2 * k.modes; ++i) {
+    const TangentBatch::Mode& n = k.mode[i % k.modes];
     v_mid[i].value = n.half_vx * s.q[i].value + n.half_vv * s.v[i].value;
   }
   Magnets(k, m, q_mid, s);
-  if (!k.coupled_q.empty()) Coupling(k, q_mid, v_mid, s);
+  if (coupled) Coupling(k, q_mid, v_mid, s);
   for (std::size_t i = 0; i < 2 * k.modes; ++i) {
     const TangentBatch::Mode& n = k.mode[i % k.modes];
     const Vector q = s.q[i].value;

@@ -89,10 +89,7 @@ std::string Place(const effect::Row& row, const config::RigFile& rig) {
   return "";
 }
 
-std::string Entry(const effect::Row& row) {
-  const bool geared = row.place == effect::Place::kGear;
-  const config::RigFile rig =
-      config::LoadRig(config::FindConfig(geared ? "geared_rotor_4dof" : "flexible_rotor", "rigs"));
+std::string Entry(const effect::Row& row, const config::RigFile& rig) {
   const effect::EffectConfig clear = ClearOn(plant::Reduce(rig.plant), row.id);
   std::string text = fmt::format("- {{id: {}{}", row.name, Place(row, rig));
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
@@ -121,12 +118,15 @@ std::string_view Where(effect::Scope scope) {
 }  // namespace
 
 std::string EffectsDocument() {
+  const config::RigFile plain = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  const config::RigFile geared = config::LoadRig(config::FindConfig("geared_rotor_4dof", "rigs"));
   std::string text(kIntroduction);
   for (const effect::Row& row : effect::Catalogue()) {
     text += fmt::format(
         "## `{}`\n\n{}, {}: {}.\n\n    {}\n\nSignature: {}.\n\n{}\n    {}\n\nSource: {}.\n\n",
         row.name, effect::Name(row.place), Where(row.scope), row.meaning, row.equation,
-        row.signature, Parameters(row), Entry(row), row.source);
+        row.signature, Parameters(row),
+        Entry(row, row.place == effect::Place::kGear ? geared : plain), row.source);
     text += fmt::format("![{0}](pictures/effects/{0}.svg)\n\n", row.name);
   }
   text.pop_back();
