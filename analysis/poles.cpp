@@ -137,7 +137,10 @@ std::string WhyUnstable(const LoopPoles& loop) {
 
 LoopPoles ClosedLoopPoles(const plant::PlantConfig& plant, const law::LawConfig& law,
                           double speed_rad_per_s) {
-  const SampledLoop loop = CloseLoop(plant, law, speed_rad_per_s);
+  return PolesOf(CloseLoop(plant, law, speed_rad_per_s), speed_rad_per_s);
+}
+
+LoopPoles PolesOf(const SampledLoop& loop, double speed_rad_per_s) {
   Eigen::MatrixXd closed = ClosedLoopMatrix(loop);
   const Eigen::VectorXd scale = Balance(closed);
   const numerics::Spectrum spectrum = numerics::SpectrumOf(closed);

@@ -22,6 +22,8 @@
 
 namespace levitas::analysis {
 
+struct SampledLoop;
+
 struct Pole {
   std::complex<double> z;            ///< [1] conjugate with positive imaginary part
   std::complex<double> s_rad_per_s;  ///< ln(z)/T
@@ -48,6 +50,8 @@ struct LoopPoles {
 
 /// The same poles, worst first: those that grow, fastest first, then by rising damping ratio.
 [[nodiscard]] std::vector<Pole> WorstFirst(std::vector<Pole> poles);
+
+[[nodiscard]] LoopPoles PolesOf(const SampledLoop& loop, double speed_rad_per_s);
 
 /// Throws BadInput when the law's axes do not fit the plant's.
 [[nodiscard]] LoopPoles ClosedLoopPoles(const plant::PlantConfig& plant, const law::LawConfig& law,

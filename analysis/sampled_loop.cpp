@@ -2,7 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "common/problem.hpp"
+#include "controller/bias/bias_saving.hpp"
 #include "controller/law/law_schedule.hpp"
 #include "plant_sim/plant/find_operating_point.hpp"
 #include "plant_sim/plant/plant_model.hpp"
@@ -62,7 +66,7 @@ std::complex<double> AxisModel::At(std::complex<double> z) const {
     value *= (section.b0 + q * (section.b1 + q * section.b2)) /
              (1.0 + q * (section.a1 + q * section.a2));
   }
-  return value;
+  return value + beside;
 }
 
 AxisModel ModelOf(std::vector<law::Section> sections) {
@@ -105,16 +109,37 @@ void TakeLaw(const law::LawConfig& law, SampledLoop& loop) {
   }
 }
 
-}  // namespace
+/// C_b = current C - displacement: x is what the law reads, the error less it.
+void PassOn(const bias::Share& share, AxisModel& axis) {
+  axis.sections.push_back({.b0 = share.current});
+  axis.c *= share.current;
+  axis.beside = -share.displacement_a_per_m;
+  axis.d = share.current * axis.d + axis.beside;
+}
 
-SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
-                      double speed_rad_per_s) {
+void PassOn(const std::vector<bias::Share>& shares, CoupledModel& law) {
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    law.blocks.output_a_per_v[i] *= shares[i].current;
+    law.c.row(row) *= shares[i].current;
+    law.d.row(row) *= shares[i].current;
+    law.d(row, row) -= shares[i].displacement_a_per_m;
+  }
+}
+
+/// Empty shares: the law as it is.
+SampledLoop Close(const plant::PlantConfig& plant, const law::LawConfig& law,
+                  double speed_rad_per_s, const std::vector<bias::Share>& shares) {
   RefuseMismatch(plant, law);
   const law::LawConfig at_speed = law::LawAt(law, speed_rad_per_s);
   const plant::PlantModel model(plant);
   SampledLoop loop;
   loop.period_s = static_cast<double>(plant.period_ns) * 1e-9;
   TakeLaw(at_speed, loop);
+  if (loop.coupled) PassOn(shares, *loop.coupled);
+  for (std::size_t i = 0; i < loop.law.size() && i < shares.size(); ++i) {
+    PassOn(shares[i], loop.law[i]);
+  }
   loop.point = plant::FindOperatingPoint(model, speed_rad_per_s, StaticLawOf(loop, at_speed));
   plant::LinearModel continuous = plant::Linearise(model, speed_rad_per_s, loop.point);
   const auto channels = static_cast<Eigen::Index>(model.channels());
@@ -123,6 +148,33 @@ SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law
   loop.plant = plant::Discretise(continuous, loop.period_s, model.delay_samples());
   loop.modes = static_cast<Eigen::Index>(model.layout().modes);
   return loop;
+}
+
+}  // namespace
+
+SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
+                      double speed_rad_per_s) {
+  return Close(plant, law, speed_rad_per_s, {});
+}
+
+SampledLoop CloseLoopAtBias(const plant::PlantConfig& plant, const law::LawConfig& law,
+                            double speed_rad_per_s, double bias_a) {
+  plant::PlantConfig lower = plant;
+  law::LawConfig limited = law;
+  std::vector<bias::Share> shares;
+  for (plant::BearingConfig& bearing : lower.bearings) {
+    plant::MagnetConfig& magnet = bearing.magnet;
+    if (magnet.exponential) {
+      throw std::invalid_argument("bias: the magnet of " + bearing.name +
+                                  " has no gap s0 of the law F = k (i/s)^2");
+    }
+    const bias::Share share = bias::ShareAt(magnet.bias_current_a, bias_a, magnet.gap_m);
+    shares.insert(shares.end(), bearing.x_only ? 1 : 2, share);
+    magnet.bias_current_a = bias_a;
+    const double room_a = std::min(bias_a, magnet.max_coil_current_a - bias_a);
+    limited.current_limit_a = std::min(limited.current_limit_a, room_a);
+  }
+  return Close(lower, limited, speed_rad_per_s, shares);
 }
 
 namespace {

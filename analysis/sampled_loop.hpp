@@ -30,6 +30,7 @@ struct AxisModel {
   Eigen::VectorXd b;
   Eigen::RowVectorXd c;
   double d{1.0};
+  double beside{};  ///< of d what is beside the cascade, not in it
   /// C(z) [A/m]; z must not be a pole.
   [[nodiscard]] std::complex<double> At(std::complex<double> z) const;
 };
@@ -58,6 +59,13 @@ struct SampledLoop {
 /// Throws BadInput when the law's axes do not fit the plant's.
 [[nodiscard]] SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
                                     double speed_rad_per_s);
+
+/// The loop at a lower bias than the rig's, in all its magnets: the law as bias saving passes it on
+/// (controller/bias/bias_saving.hpp), the magnets' constants at that bias. std::invalid_argument for
+/// a magnet whose force is not that of the gap squared.
+[[nodiscard]] SampledLoop CloseLoopAtBias(const plant::PlantConfig& plant,
+                                          const law::LawConfig& law, double speed_rad_per_s,
+                                          double bias_a);
 
 /// System matrix of the closed loop; the plant's states come first.
 [[nodiscard]] Eigen::MatrixXd ClosedLoopMatrix(const SampledLoop& loop);

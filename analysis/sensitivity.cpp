@@ -238,8 +238,12 @@ Zone ZoneOf(double sensitivity_peak) noexcept {
 
 SensitivityResult SensitivityPeaks(const plant::PlantConfig& plant, const law::LawConfig& law,
                                    double speed_rad_per_s) {
-  const LoopPoles poles = ClosedLoopPoles(plant, law, speed_rad_per_s);
-  const LoopResponse response(CloseLoop(plant, law, speed_rad_per_s));
+  return SensitivityPeaks(CloseLoop(plant, law, speed_rad_per_s), speed_rad_per_s);
+}
+
+SensitivityResult SensitivityPeaks(const SampledLoop& loop, double speed_rad_per_s) {
+  const LoopPoles poles = PolesOf(loop, speed_rad_per_s);
+  const LoopResponse response(loop);
   std::vector<GridPoint> grid;
   for (const double f : GridFrequencies(poles, response.nyquist_hz())) {
     grid.push_back(Evaluate(response, f));

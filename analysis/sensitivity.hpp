@@ -26,6 +26,8 @@
 
 namespace levitas::analysis {
 
+struct SampledLoop;
+
 enum class Zone : std::uint8_t { kA, kB, kC, kD };
 [[nodiscard]] std::string_view Name(Zone zone) noexcept;  ///< "A" .. "D"
 [[nodiscard]] Zone ZoneOf(double sensitivity_peak) noexcept;
@@ -59,6 +61,9 @@ struct SensitivityResult {
 /// Throws BadInput when the law's axes do not fit the plant's.
 [[nodiscard]] SensitivityResult SensitivityPeaks(const plant::PlantConfig& plant,
                                                  const law::LawConfig& law, double speed_rad_per_s);
+
+/// The same of a loop that is closed already.
+[[nodiscard]] SensitivityResult SensitivityPeaks(const SampledLoop& loop, double speed_rad_per_s);
 
 /// |S_ii| at given frequencies, one row per frequency and one entry per axis: for plots and checks.
 [[nodiscard]] std::vector<std::vector<double>> SensitivityAt(

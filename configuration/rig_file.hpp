@@ -11,6 +11,7 @@
 
 #include "common/rig_numbers.hpp"
 #include "configuration/tolerances.hpp"
+#include "controller/bias/bias_config.hpp"
 #include "controller/law/law_config.hpp"
 #include "controller/scenario/scenario_config.hpp"
 #include "controller/supervisor/supervisor_config.hpp"
@@ -48,6 +49,7 @@ struct ControllerFile {
   law::LawConfig law;  ///< one entry per axis of the rig it was read for
   supervisor::SupervisorConfig supervisor;
   synchronous::SynchronousConfig synchronous{};  ///< empty: none
+  bias::BiasConfig bias{};                       ///< empty: the bias stays at the rig's
 };
 
 [[nodiscard]] RigFile LoadRig(const std::string& path);

@@ -19,14 +19,16 @@ cycle::CycleConfig RecordedConfig(const SessionHeader& header, const std::string
   const auto rig = config::ParseRig(header.rig_yaml, session_path + " (its rig)");
   const auto controller = config::ParseController(header.controller_yaml,
                                                   session_path + " (its controller)", rig.numbers);
-  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous};
+  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous,
+          controller.bias};
 }
 
 cycle::CycleConfig OtherConfig(const SessionHeader& header, const std::string& session_path,
                                const std::string& controller_path) {
   const auto rig = config::ParseRig(header.rig_yaml, session_path + " (its rig)");
   const auto controller = config::LoadController(controller_path, rig.numbers);
-  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous};
+  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous,
+          controller.bias};
 }
 
 void RefuseUnlessWhole(const SessionHeader& header, const cycle::CycleRecord& first_record,

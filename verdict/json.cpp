@@ -198,6 +198,12 @@ Object Timing(const Inputs& in) {
   return timing;
 }
 
+Object Bias(const PhaseFigures& phase) {
+  if (phase.cycles == 0) return nullptr;
+  return {{"mean_bias_current_a", Number(phase.mean_bias_a)},
+          {"copper_share", Number(phase.copper_share)}};
+}
+
 Object Reserve(const Inputs& in) {
   Object current = nullptr;
   if (const auto used = CurrentUse(in.rig, in.session)) {
@@ -224,7 +230,11 @@ Object Reserve(const Inputs& in) {
                {"frequency_hz", in.damping->frequency_hz},
                {"speed_rpm", RadPerSToRpm(in.damping->speed_rad_per_s)}};
   }
-  return {{"current", current}, {"probe_noise", noise}, {"least_damping", damping}};
+  return {
+      {"current", current},
+      {"probe_noise", noise},
+      {"least_damping", damping},
+      {"bias", {{"standing", Bias(in.session.standing)}, {"spinning", Bias(in.session.spinning)}}}};
 }
 
 Object TimeStep(const Inputs& in) {

@@ -166,6 +166,9 @@ void SessionStatistics::AddOrbit(const cycle::CycleRecord& record, PhaseSums& su
 
 void SessionStatistics::AddCurrents(const cycle::CycleRecord& record, PhaseSums& sums) const {
   if (record.out.saturated_axes != 0) ++sums.saturated;
+  const double bias_a = record.out.current.bias_current_a;
+  sums.bias_a += bias_a;
+  sums.bias_square_a2 += bias_a * bias_a;
   const AxisArray currents_a = frame_.Bearing(record).current_a;
   for (std::size_t axis = 0; axis < 2 * rig_.bearings.size(); ++axis) {
     const double current_a = currents_a[axis];
@@ -184,6 +187,8 @@ PhaseFigures SessionStatistics::Summary(const PhaseSums& sums) const {
   const double cycles = static_cast<double>(std::max<std::uint64_t>(sums.cycles, 1));
   const double frames = static_cast<double>(std::max<std::uint64_t>(sums.orbit_cycles, 1));
   phase.saturated_share = static_cast<double>(sums.saturated) / cycles;
+  phase.mean_bias_a = sums.bias_a / cycles;
+  double square_a2 = sums.bias_square_a2;
   for (std::size_t b = 0; b < sums.bearings.size(); ++b) {
     const BearingSums& bearing = sums.bearings[b];
     BearingFigures figures{rig_.bearings[b], bearing.worst, {}};
@@ -193,12 +198,14 @@ PhaseFigures SessionStatistics::Summary(const PhaseSums& sums) const {
     for (std::size_t k = 0; k < 2; ++k) {
       const AxisSums& axis = bearing.axis[k];
       const double mean_a = axis.sum_a / cycles;
+      square_a2 += axis.square_a2 / static_cast<double>(rig_.axes());
       const double variance_a2 = std::max(0.0, axis.square_a2 / cycles - mean_a * mean_a);
       figures.current[k] = {mean_a, std::sqrt(variance_a2), axis.peak_a,
                             static_cast<double>(axis.saturated) / cycles};
     }
     phase.bearings.push_back(figures);
   }
+  phase.copper_share = square_a2 / cycles / (rig_.bias_current_a * rig_.bias_current_a);
   return phase;
 }
 

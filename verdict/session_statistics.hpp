@@ -54,6 +54,10 @@ struct PhaseFigures {
   double duration_s{};
   double saturated_share{};  ///< [1] of the cycles with any axis limited
   std::vector<BearingFigures> bearings;
+  double mean_bias_a{};  ///< as commanded
+  /// [1] mean of b^2 + ic^2 over all axes, which is half the square of both coil currents, over
+  /// that of the rig's bias alone: what copper turns into heat.
+  double copper_share{};
 };
 
 /// Largest orbit per bearing while the speed was within one bin of kProfileBinRadPerS.
@@ -131,6 +135,7 @@ class SessionStatistics {
   struct PhaseSums {
     std::uint64_t cycles{}, orbit_cycles{}, saturated{};
     std::vector<BearingSums> bearings;
+    double bias_a{}, bias_square_a2{};
   };
 
   void AddSpeed(double speed_rad_per_s);

@@ -135,6 +135,20 @@ void Sensitivity(const Inputs& in, Out out) {
   WorstSensitivity(in, out);
 }
 
+/// Of a controller that lowers the bias; nothing where it stayed at the rig's.
+void Bias(const Inputs& in, Out out) {
+  for (const bool spinning : {false, true}) {
+    const PhaseFigures& phase = spinning ? in.session.spinning : in.session.standing;
+    constexpr double kStayed = 1e-6;  // of the rig's
+    const double rig_a = in.rig.bias_current_a;
+    if (phase.cycles == 0 || std::abs(phase.mean_bias_a - rig_a) <= kStayed * rig_a) continue;
+    fmt::format_to(out,
+                   "          bias current {}: {:.3f} of {:.3f} A in the mean; the coils heat with "
+                   "{:.0f} % of what that bias alone would\n",
+                   PhaseName(spinning), phase.mean_bias_a, rig_a, 100.0 * phase.copper_share);
+  }
+}
+
 void Reserve(const Inputs& in, Out out) {
   const auto used = CurrentUse(in.rig, in.session);
   if (!used) return;
@@ -162,6 +176,7 @@ void Reserve(const Inputs& in, Out out) {
   if (largest > 0.0) {
     fmt::format_to(out, "          largest singular value of S, computed: {:.2f}\n", largest);
   }
+  Bias(in, out);
 }
 
 void TimeStep(const Inputs& in, Out out) {

@@ -10,6 +10,7 @@
 
 #include "analysis/sensitivity.hpp"
 #include "analysis/synchronous_loop.hpp"
+#include "cli/commands/bias_margins.hpp"
 #include "cli/commands/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
@@ -236,10 +237,14 @@ ExitStatus Run(const MarginsOptions& options) {
     PrintBlocks(blocks, controller.file, json);
     blocks_stable = std::ranges::all_of(blocks, [](const auto& at) { return at.rig.stable(); });
   }
+  const std::vector<LoopAtBias> at_bias = JudgeBias(rig, controller.file, options.speeds_rpm);
+  PrintBias(at_bias, rig.numbers.channels, json);
   fmt::print("{}{}", GainsNote(options, rig), RestNote(options, rig.numbers));
   Draw(options, of, loops, json);
   WriteJsonFile(options.json_path, json);
-  RequireLoops(required, loops);
+  std::vector<analysis::SensitivityResult> required_of = loops;
+  for (const LoopAtBias& at : at_bias) required_of.push_back(at.loop);
+  RequireLoops(required, required_of);
   if (!required.empty() && !blocks_stable) {
     throw Problem(ExitStatus::kNotMet,
                   fmt::format("--require {}: a block of synchronous control is "

@@ -155,6 +155,11 @@ void Describe(Visitor& v, ControllerFile& controller, const RigNumbers& rig) {
   bool synchronous = !controller.synchronous.empty();
   v.OptionalGroup("synchronous", "what turns with the rotor, kept out of currents or positions",
                   synchronous, [&] { Describe(v, controller.synchronous, rig); });
+  bool saves = !controller.bias.empty();
+  v.OptionalGroup("bias_saving",
+                  "a bias current that falls while little force is asked for; without it the bias "
+                  "stays at the rig's",
+                  saves, [&] { Describe(v, controller.bias, rig); });
   controller.law.period_s = rig.period_s();
   controller.law.current_limit_a =
       std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);

@@ -251,6 +251,7 @@ void Derive(RigFile& rig) {
   numbers.bearings.clear();
   numbers.clearances_m.clear();
   numbers.sensor_ranges_m.clear();
+  numbers.magnet_gaps_m.clear();
   for (const plant::BearingConfig& bearing : rig.plant.bearings) {
     numbers.bearings.push_back(bearing.name);
     const bool first = numbers.bearings.size() == 1;
@@ -261,7 +262,9 @@ void Derive(RigFile& rig) {
     numbers.sensor_range_m = smallest(numbers.sensor_range_m, bearing.sensor.range_m);
     numbers.clearances_m.push_back(bearing.touchdown.clearance_m);
     numbers.sensor_ranges_m.push_back(bearing.sensor.range_m);
+    if (!bearing.magnet.exponential) numbers.magnet_gaps_m.push_back(bearing.magnet.gap_m);
   }
+  if (numbers.magnet_gaps_m.size() != numbers.bearings.size()) numbers.magnet_gaps_m.clear();
   numbers.sensor_polarity = rig.plant.sensor_polarity;
   numbers.actuator_polarity = rig.plant.actuator_polarity;
 }

@@ -31,6 +31,7 @@ void DescribeTolerances(Visitor& v, std::optional<Tolerances>& tolerances);
 void DescribeEffects(Visitor& v, RigFile& rig);
 void Describe(Visitor& v, law::StateSpaceConfig& law, const RigNumbers& rig);
 void Describe(Visitor& v, synchronous::SynchronousConfig& control, const RigNumbers& rig);
+void Describe(Visitor& v, bias::BiasConfig& bias, const RigNumbers& rig);
 void Describe(Visitor& v, scenario::Excitation& excitation, const RigNumbers& rig);
 /// Takes a signal of channel: all apart into one for each axis of the rig.
 void SpreadOverAxes(std::vector<scenario::Excitation>& excitations, const RigNumbers& rig);

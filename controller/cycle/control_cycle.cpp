@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/probe_map.hpp"
+#include "controller/bias/bias_saving.hpp"
 #include "controller/cycle/law_at_rig_period.hpp"
 #include "controller/law/running_law.hpp"
 #include "controller/supervisor/supervisor.hpp"
@@ -69,6 +70,7 @@ struct ControlCycle::Impl {
         probes(config.rig),
         own(std::move(law)),
         supervisor(config.rig, config.supervisor),
+        bias(config.bias, config.rig),
         synchronous(config.synchronous, config.rig, config.supervisor.protection.orbit_fraction) {
     if (own == nullptr) file.emplace(CheckedLaw(config));
   }
@@ -77,8 +79,9 @@ struct ControlCycle::Impl {
   void RunLaw(const OperatorInput& op, const supervisor::Decision& decision) noexcept;
   void StartLaw(const supervisor::Decision& decision) noexcept;
   [[nodiscard]] law::LawOutput StepLaw(const supervisor::Decision& decision,
-                                       const AxisArray& error_m,
-                                       const AxisArray& injected_a) noexcept;
+                                       const AxisArray& error_m, const AxisArray& injected_a,
+                                       double allowed_a) noexcept;
+  void MoveBias(const OperatorInput& op, const supervisor::Decision& decision) noexcept;
   void CheckLaw() noexcept;
   [[nodiscard]] synchronous::Conditions SynchronousConditions(
       const supervisor::Decision& decision) const noexcept;
@@ -90,12 +93,14 @@ struct ControlCycle::Impl {
   std::optional<law::RunningLaw> file;  ///< one of the two is there
   std::unique_ptr<law::OwnLaw> own;
   supervisor::Supervisor supervisor;
+  bias::BiasSaving bias;
   synchronous::SynchronousControl synchronous;
   supervisor::Observation seen;
   double angle_rad{};  ///< of the latest fresh frame
   std::uint64_t frame_cycle{};
   bool any_frame{};
-  law::LawOutput given;  // bearing frame
+  law::LawOutput given;       // bearing frame
+  AxisArray law_current_a{};  ///< at the rig's bias
 };
 
 // A frame whose number is not above the last one's (unless the rig has started anew), or that has
@@ -139,6 +144,8 @@ synchronous::Conditions ControlCycle::Impl::SynchronousConditions(
 
 void ControlCycle::Impl::StartLaw(const supervisor::Decision& decision) noexcept {
   synchronous.Reset();
+  bias.Reset();
+  law_current_a = {};
   if (own != nullptr) {
     own->Start();
     return;
@@ -149,20 +156,20 @@ void ControlCycle::Impl::StartLaw(const supervisor::Decision& decision) noexcept
 // A law of one's own says what it wants; the limit holds for it as for any other. What is no number
 // passes, for CheckLaw to see.
 law::LawOutput ControlCycle::Impl::StepLaw(const supervisor::Decision& decision,
-                                           const AxisArray& error_m,
-                                           const AxisArray& injected_a) noexcept {
+                                           const AxisArray& error_m, const AxisArray& injected_a,
+                                           double allowed_a) noexcept {
   if (own == nullptr) {
-    return file->Step(decision.believed_speed_rad_per_s, error_m, injected_a, limit_a);
+    return file->Step(decision.believed_speed_rad_per_s, error_m, injected_a, allowed_a);
   }
   const AxisArray wanted_a = own->Step({.error_m = error_m,
                                         .axes = rig.axes(),
-                                        .limit_a = limit_a,
+                                        .limit_a = allowed_a,
                                         .speed_rad_per_s = decision.believed_speed_rad_per_s});
   law::LawOutput out;
   for (std::size_t i = 0; i < rig.axes(); ++i) {
     const double asked_a = wanted_a[i] + injected_a[i];
-    out.control_current_a[i] = std::clamp(asked_a, -limit_a, limit_a);
-    if (std::abs(asked_a) > limit_a) out.saturated_axes |= static_cast<std::uint16_t>(1U << i);
+    out.control_current_a[i] = std::clamp(asked_a, -allowed_a, allowed_a);
+    if (std::abs(asked_a) > allowed_a) out.saturated_axes |= static_cast<std::uint16_t>(1U << i);
   }
   return out;
 }
@@ -176,6 +183,7 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
   if (!row.energised || !seen.fresh) {
     synchronous.Wait(SynchronousConditions(decision));
     if (!row.energised) given = {};
+    if (!row.energised) bias.Reset();
     return;
   }
   AxisArray error_m{};
@@ -189,7 +197,34 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
     if (std::isfinite(op.excitation_m[i])) error_m[i] -= op.excitation_m[i];
   }
   synchronous.Step(SynchronousConditions(decision), error_m, injected_a);
-  given = StepLaw(decision, error_m, injected_a);
+  MoveBias(op, decision);
+  AxisArray read_m{};
+  for (std::size_t i = 0; i < rig.axes(); ++i) read_m[i] = decision.reference_m[i] - error_m[i];
+  given = StepLaw(decision, error_m, injected_a, bias.LimitOf(limit_a, read_m));
+  law_current_a = given.control_current_a;
+  if (bias.empty()) return;
+  given.control_current_a = bias.At(law_current_a, read_m);
+  for (std::size_t i = 0; i < rig.axes(); ++i) {
+    const bool limited = std::abs(given.control_current_a[i]) >= bias.room_a();
+    if (limited) given.saturated_axes |= static_cast<std::uint16_t>(1U << i);
+  }
+}
+
+// A rotor that is not at its speed yet, or coasts down, will pass what nobody has seen: the bias is
+// there before.
+void ControlCycle::Impl::MoveBias(const OperatorInput& op,
+                                  const supervisor::Decision& decision) noexcept {
+  if (bias.empty()) return;
+  constexpr double kAtSpeed = 0.02;  // of the rated speed
+  const double asked_rad_per_s = decision.drive_enabled ? decision.speed_set_point_rad_per_s : 0.0;
+  const double apart = std::abs(decision.believed_speed_rad_per_s - asked_rad_per_s);
+  bias.Step({.levitated = supervisor::Row(decision.state).excitation,
+             .speed_changes = !(apart <= kAtSpeed * rig.max_speed_rad_per_s),
+             .excited = op.excitation_a != AxisArray{} || op.excitation_m != AxisArray{},
+             .position_m = seen.position_m,
+             .reference_m = decision.reference_m,
+             .saturated_axes = seen.saturated_axes},
+            law_current_a);
 }
 
 // What leaves is a number within the limit, whatever the law's states have come to. Else nothing
@@ -209,7 +244,7 @@ CycleOutputs ControlCycle::Impl::Outputs(const supervisor::Decision& decision) c
   out.current.cycle = frame_cycle;
   out.current.axes = static_cast<std::uint32_t>(rig.axes());
   out.current.control_current_a = probes.Currents({given.control_current_a}).at;
-  out.current.bias_current_a = row.energised ? rig.bias_current_a : 0.0;
+  out.current.bias_current_a = row.energised ? bias.current_a() : 0.0;
   out.current.speed_set_point_rad_per_s = decision.speed_set_point_rad_per_s;
   out.current.acceleration_limit_rad_per_s2 = decision.acceleration_rad_per_s2;
   out.current.amplifiers_enabled = row.energised;

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "common/rig_numbers.hpp"
+#include "controller/bias/bias_config.hpp"
 #include "controller/cycle/cycle_io.hpp"
 #include "controller/law/law_config.hpp"
 #include "controller/law/own_law.hpp"
@@ -29,6 +30,7 @@ struct CycleConfig {
   law::LawConfig law;
   supervisor::SupervisorConfig supervisor;
   synchronous::SynchronousConfig synchronous{};
+  bias::BiasConfig bias{};
 };
 
 /// The stages a cycle's time is attributed to.

@@ -146,7 +146,7 @@ class Session {
              .on_record = [this](const auto& record) { Saw(record); }}),
         outlet_(recorder_, telemetry_, numbers_.period_ns),
         cycle_({numbers_, files.controller.law, files.controller.supervisor,
-                files.controller.synchronous}),
+                files.controller.synchronous, files.controller.bias}),
         sequence_(files.controller.supervisor.sequence),
         signal_limits_(scenario::LimitsOf(numbers_, files.controller.law.current_limit_a)) {
     if (files.scenario) {

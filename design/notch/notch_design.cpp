@@ -26,8 +26,12 @@ using synchronous::BlockConfig;
 
 constexpr std::size_t kFirstSpeeds = 9;
 
-MatrixXcd AnswerAt(const analysis::SampledLoop& loop, const BlockConfig& block,
+MatrixXcd AnswerAt(const analysis::SampledLoop& loop, const NotchRequest& request,
                    double speed_rad_per_s) {
+  const BlockConfig& block = request.block;
+  if (!request.measured.empty()) {
+    return MeasuredAnswer(request.measured, loop, block, speed_rad_per_s);
+  }
   const analysis::LoopResponse response(loop);
   return analysis::SynchronousAnswer(response, speed_rad_per_s, block.order, block.target);
 }
@@ -56,7 +60,7 @@ MatrixXcd InverseOf(const MatrixXcd& answer, Direction direction) {
 MatrixXcd WantedAt(const plant::PlantConfig& rig, const analysis::SampledLoop& loop,
                    const NotchRequest& request, double speed_rad_per_s) {
   if (request.knowledge == Knowledge::kRotor) {
-    return InverseOf(AnswerAt(loop, request.block, speed_rad_per_s), request.direction);
+    return InverseOf(AnswerAt(loop, request, speed_rad_per_s), request.direction);
   }
   const MatrixXcd whole = PhaseAlignedT(rig, loop, request.block, speed_rad_per_s);
   const MatrixXcd basis = BasisOf(whole.rows(), request.direction);
@@ -81,7 +85,7 @@ double Departure(const plant::PlantConfig& rig, const law::LawConfig& law, const
     const MatrixXcd wanted = WantedAt(rig, loop, request, speed_rad_per_s);
     return (inverse - wanted).cwiseAbs().maxCoeff() / wanted.cwiseAbs().maxCoeff();
   }
-  const MatrixXcd answer = AnswerAt(loop, block, speed_rad_per_s);
+  const MatrixXcd answer = AnswerAt(loop, request, speed_rad_per_s);
   const MatrixXcd basis = BasisOf(answer.rows(), request.direction);
   const MatrixXcd off =
       basis.adjoint() * inverse * answer * basis - MatrixXcd::Identity(basis.cols(), basis.cols());
@@ -198,7 +202,7 @@ std::string WhyRefused(const SpeedFigures& at, const NotchRequest& request) {
   if (!(at.worst_decay > 0.0)) {
     return fmt::format("a drawn rig has an eigenvalue below 0: {:.3g}", at.worst_decay);
   }
-  if (!(at.largest_pole_modulus < 1.0)) {
+  if (request.measured.empty() && !(at.largest_pole_modulus < 1.0)) {
     return fmt::format("the loop with the block has a pole outside the unit circle: |z| {:.6f}",
                        at.largest_pole_modulus);
   }
@@ -219,7 +223,7 @@ void AddSize(const config::RigFile& rig, const analysis::SampledLoop& loop,
   const BlockConfig& block = request.block;
   const double speed = at.speed_rad_per_s;
   const analysis::LoopResponse response(loop);
-  const MatrixXcd answer = analysis::SynchronousAnswer(response, speed, block.order, block.target);
+  const MatrixXcd answer = AnswerAt(loop, request, speed);
   const MatrixXcd inverse = InverseOf(answer, request.direction);
   at.growth = analysis::LargestSingularValue(inverse);
   at.condition = at.growth * analysis::LargestSingularValue(answer);
@@ -235,6 +239,19 @@ void AddSize(const config::RigFile& rig, const analysis::SampledLoop& loop,
   } else {
     at.current_a = (inverse * left_m).cwiseAbs().maxCoeff();
   }
+}
+
+/// Slowest decay of the block where the rig answers as it was measured.
+double MeasuredDecay(const analysis::SampledLoop& loop, const NotchRequest& request,
+                     double speed_rad_per_s) {
+  const MatrixXcd answer = AnswerAt(loop, request, speed_rad_per_s);
+  const MatrixXcd inverse =
+      analysis::MatrixOf(synchronous::InverseAt(request.block, speed_rad_per_s),
+                         static_cast<std::size_t>(answer.rows()));
+  const MatrixXcd basis = BasisOf(answer.rows(), request.direction);
+  return analysis::EigenvaluesWithConjugates(basis.adjoint() * inverse * answer * basis)
+      .real()
+      .minCoeff();
 }
 
 }  // namespace
@@ -253,6 +270,9 @@ NotchFigures JudgeNotch(const config::RigFile& rig, const std::vector<config::Ri
     const auto nominal = analysis::JudgeSynchronous(loop, control, speed);
     at.slowest_decay = at.worst_decay = nominal.blocks.front().slowest_decay;
     at.largest_pole_modulus = nominal.largest_pole_modulus;
+    if (!request.measured.empty()) {
+      at.slowest_decay = at.worst_decay = MeasuredDecay(loop, request, speed);
+    }
     AddSize(rig, loop, request, at);
     at.refused = WhyRefused(at, request);
     for (std::size_t n = 0; n < drawn.size() && at.allowed(); ++n) {

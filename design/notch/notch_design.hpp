@@ -7,6 +7,8 @@
 //           times the answer leave the circle of kBetween about 1, up to kMostSpeeds.
 // Knowledge of the rotor: T is that inverse. Of the bearings alone: T is bearing_phase.hpp's, at
 //           speeds close enough for its straight lines; the rotor of the file is only judged with.
+// Measured  T is the inverse of the answer that records give with the law (measured_plant.hpp), and
+//           judged with them: the rig file, which may be wrong, is not asked. Its poles are shown.
 // Direction forward keeps what turns with the rotor in the plane x + j y of each bearing, backward
 //           what turns against it; both keeps all. T is projected, so that the rest never adapts.
 // Growth    with target current the bearing no longer holds the rotor at this order: its orbit is
@@ -35,6 +37,7 @@
 #include "configuration/rig_file.hpp"
 #include "controller/law/law_config.hpp"
 #include "controller/synchronous/synchronous_config.hpp"
+#include "design/notch/measured_plant.hpp"
 
 namespace levitas::design {
 
@@ -53,6 +56,7 @@ struct NotchRequest {
   Direction direction{Direction::kBoth};
   Knowledge knowledge{Knowledge::kRotor};
   double most_growth{4.0};
+  std::vector<MeasuredPlant> measured;  ///< by rising speed; where there is one, T is of them
 };
 
 /// `request.block` with its table.

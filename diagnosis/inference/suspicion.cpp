@@ -11,8 +11,12 @@ namespace levitas::diagnosis {
 namespace {
 
 constexpr double kLikely = 0.5;
+/// Of the leader's evidence: of an effect with less the data say nothing, and what they say of the
+/// leader is not said of it.
+constexpr double kSpokenFor = 0.5;
 
-/// Fits the candidate's hypothesis and gives it the score of the nonlinear model.
+/// Fits the candidate's hypothesis and gives it the score of the nonlinear model, validation data
+/// included: chance that was fitted does not come again where nothing was.
 Refined Confirm(const RecordLandscape& landscape, const std::vector<double>& calibrated,
                 Candidate& candidate) {
   const std::vector<Hypothesis> causes{landscape.hypotheses()[candidate.hypothesis]};
@@ -20,7 +24,9 @@ Refined Confirm(const RecordLandscape& landscape, const std::vector<double>& cal
   const Refined before = landscape.Fit({}, calibrated, 1);
   Refined fit = landscape.Refit(causes);
   if (!before.ok || !fit.ok) return {};
-  candidate.score = std::min(candidate.score, fit.evidence - before.evidence);
+  candidate.score = std::min(candidate.score, fit.evidence - before.evidence) +
+                    HeldGain(landscape.RunAt(before.theta), landscape.RunAt(fit.theta),
+                             landscape.view().whitener);
   candidate.refitted = true;
   return fit;
 }
@@ -39,14 +45,9 @@ bool SuspectLeader(const RecordLandscape& landscape, const Judging& judging,
   if (found.candidates.empty() || !(ProbabilityOfLeader(found.candidates, tie_nat) > kLikely))
     return false;
   const std::size_t hypothesis = found.candidates.front().hypothesis;
-  Refined fit;
-  if (!found.candidates.front().refitted) {
-    fit = Confirm(landscape, found.calibrated, found.candidates.front());
-    SortByScore(found.candidates);
-    if (!fit.ok || found.candidates.front().hypothesis != hypothesis) return false;
-  } else {
-    fit = landscape.Refit({landscape.hypotheses()[hypothesis]});
-  }
+  Refined fit = Confirm(landscape, found.calibrated, found.candidates.front());
+  SortByScore(found.candidates);
+  if (!fit.ok || found.candidates.front().hypothesis != hypothesis) return false;
   const double probability = ProbabilityOfLeader(found.candidates, tie_nat);
   if (!fit.ok || !(probability > kLikely)) return false;
   Suspect(found, landscape.hypotheses()[hypothesis], std::move(fit), Doubt::kWeakEvidence,
@@ -96,7 +97,7 @@ double ProbabilityOfLeader(const std::vector<Candidate>& candidates, double tie_
     if (!std::isfinite(c.score)) continue;
     const double weight = std::exp(c.score - best);
     all += weight;
-    if (c.score > best - tie_nat) leader += weight;
+    if (c.score > best - tie_nat && c.score >= kSpokenFor * best) leader += weight;
   }
   return leader / (all + static_cast<double>(candidates.size()) * std::exp(-best));
 }

@@ -2,9 +2,10 @@
 // What is more likely than not, though nothing is decisive.
 //
 // Evidence   every effect of the vocabulary has the prior 1/N of `nothing is hidden`, N effects:
-//            P = sum of e^s/N over the effects within decisive_nat of the leader, over 1 + the same
-//            sum over all. Suspected above 1/2: one of 34 effects that explains chance as well as
-//            3 nat is not.
+//            P = sum of e^s/N over the effects within decisive_nat of the leader and with half of
+//            its evidence, over 1 + the same sum over all. Suspected above 1/2: one of 34 effects
+//            that explains chance as well as 3 nat is not. The leader's s counts what its fit is
+//            worth on the validation data of the record, too.
 // Number     a calibrated number that the data determine (to half its tolerance) and that lies so
 //            many tolerances from the file that chance would bring one of all such numbers there in
 //            `chance` of healthy rigs only (normal tolerances, Bonferroni).

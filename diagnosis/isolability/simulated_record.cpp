@@ -38,8 +38,8 @@ Record SimulatedRecord(const config::RigFile& rig, const config::ControllerFile&
   const double period_s = rig.numbers.period_s();
   plant::Plant plant(rig.plant, seed);
   plant.RestInTouchdown();
-  cycle::ControlCycle cycle(
-      {rig.numbers, controller.law, controller.supervisor, controller.synchronous});
+  cycle::ControlCycle cycle({rig.numbers, controller.law, controller.supervisor,
+                             controller.synchronous, controller.bias});
   scenario::ScenarioPlayer player(scenario, period_s,
                                   controller.supervisor.sequence.standstill_rad_per_s);
   const session::RecordFrame frame(rig.numbers);

@@ -43,8 +43,8 @@ struct ShippedLoop {
     plant.RestInTouchdown();
     plant_run::TimedEvents events(scenario, rig);
     events.Prepare(plant);
-    cycle::ControlCycle cycle(
-        {rig.numbers, controller.law, controller.supervisor, controller.synchronous});
+    cycle::ControlCycle cycle({rig.numbers, controller.law, controller.supervisor,
+                               controller.synchronous, controller.bias});
     scenario::ScenarioPlayer player(scenario, rig.numbers.period_s(),
                                     controller.supervisor.sequence.standstill_rad_per_s);
     cycle::CycleRecord record;

@@ -17,7 +17,8 @@ namespace {
 cycle::CycleConfig CycleOf(const config::RigFile& rig) {
   const auto controller = config::LoadController(
       config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
-  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous};
+  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous,
+          controller.bias};
 }
 
 scenario::Excitation TestSignal(const ExcitationPlan& plan) {

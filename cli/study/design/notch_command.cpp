@@ -1,6 +1,7 @@
 // amb design notch: a block of synchronous control for a controller file, with its T over speed.
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,8 +19,10 @@
 #include "controller/synchronous/inverse_ladder.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "design/notch/notch_design.hpp"
+#include "identification/frf/frequency_response.hpp"
 #include "report/text/text_table.hpp"
 #include "session/output_path.hpp"
+#include "session/recording.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -37,6 +40,7 @@ struct NotchOptions {
   double most_growth{4.0};
   bool adaptive{};
   bool without_rotor{};
+  std::vector<std::string> measured;
   std::string from{"tolerances"};
   std::size_t draws{20};
   std::uint64_t seed{1};
@@ -154,6 +158,13 @@ nlohmann::ordered_json Json(const synchronous::BlockConfig& block,
   return json;
 }
 
+std::string JudgedWith(const NotchOptions& options) {
+  if (options.measured.empty()) {
+    return fmt::format("{} drawn rigs of seed {}", options.draws, options.seed);
+  }
+  return fmt::format("what {} measured", fmt::join(options.measured, ", "));
+}
+
 /// In place of the block of its name, else behind the others.
 void Put(synchronous::SynchronousConfig& control, const synchronous::BlockConfig& block) {
   const auto same = std::ranges::find(control.blocks, block.name, &synchronous::BlockConfig::name);
@@ -183,6 +194,25 @@ void RefuseSharedWork(const synchronous::SynchronousConfig& control,
   }
 }
 
+/// Frequency responses of the records, by rising speed.
+std::vector<design::MeasuredPlant> MeasuredOf(const NotchOptions& options,
+                                              const config::RigFile& rig) {
+  std::vector<design::MeasuredPlant> all;
+  const double delay_s = rig.plant.delay_samples * rig.numbers.period_s();
+  for (const std::string& path : options.measured) {
+    for (auto& r : identification::EstimateResponses(session::LoadRecording(path, rig), delay_s)) {
+      all.push_back({r.speed_rad_per_s, std::move(r.frequency_hz), std::move(r.plant)});
+    }
+  }
+  std::ranges::sort(all, {}, &design::MeasuredPlant::speed_rad_per_s);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i].speed_rad_per_s - all[i - 1].speed_rad_per_s > RpmToRadPerS(1.0)) continue;
+    throw BadInput(fmt::format("--measured: two responses at {:.0f} rpm; give one for each speed",
+                               RadPerSToRpm(all[i].speed_rad_per_s)));
+  }
+  return all;
+}
+
 ExitStatus Run(const NotchOptions& options) {
   for (const std::string& path : {options.out_path, options.loop.json_path}) {
     session::CheckOutputPath(path, {});
@@ -191,6 +221,7 @@ ExitStatus Run(const NotchOptions& options) {
   design::NotchRequest request = RequestOf(options, rig);
   config::ControllerFile file = controller.file;
   RefuseSharedWork(file.synchronous, request.block);
+  request.measured = MeasuredOf(options, rig);
   request.block = design::WithInverse(rig, file.law, request);
   const synchronous::BlockConfig& block = request.block;
   Put(file.synchronous, block);
@@ -198,9 +229,18 @@ ExitStatus Run(const NotchOptions& options) {
   fmt::print("block {}: order {:.6g}, target {}, {:.0f} to {:.0f} rpm, T at {} speeds\n",
              block.name, block.order, options.target, RadPerSToRpm(block.from_rad_per_s),
              RadPerSToRpm(block.to_rad_per_s), block.inverse.size());
-  const auto figures = design::JudgeNotch(
-      rig, uncertainty::DrawRigs(rig, ParametersOf(rig, options.from), options.draws, options.seed),
-      file.law, request);
+  for (const design::MeasuredPlant& record : request.measured) {
+    fmt::print(
+        "T is of the answer measured at {:.0f} rpm, {:.2f} to {:.0f} Hz, and judged with it\n",
+        RadPerSToRpm(record.speed_rad_per_s), record.frequency_hz.front(),
+        record.frequency_hz.back());
+  }
+  std::vector<config::RigFile> drawn;
+  if (request.measured.empty()) {
+    drawn =
+        uncertainty::DrawRigs(rig, ParametersOf(rig, options.from), options.draws, options.seed);
+  }
+  const auto figures = design::JudgeNotch(rig, drawn, file.law, request);
   Print(figures, block.target == synchronous::Target::kVibration);
   WriteJsonFile(options.loop.json_path, Json(block, figures));
   if (!figures.allowed()) {
@@ -215,8 +255,8 @@ ExitStatus Run(const NotchOptions& options) {
   if (!options.out_path.empty()) {
     WriteTextFile(options.out_path,
                   fmt::format("# amb design notch: block {} accepted at every speed of its window, "
-                              "with {} drawn rigs of seed {}\n",
-                              block.name, options.draws, options.seed) +
+                              "with {}\n",
+                              block.name, JudgedWith(options)) +
                       config::WriteController(file, rig.numbers));
   }
   TellWritten({options.out_path, options.loop.json_path});
@@ -275,6 +315,11 @@ void AddDesignNotch(CLI::App& design, Action& action) {
       "T from law, amplifier, sensor and delay alone: slower, and stable on any rotor "
       "of masses, springs and dampers with its sensors at the magnets, where the law "
       "damps");
+  command
+      ->add_option("--measured", options->measured,
+                   "T from sessions in which each axis was excited (amb identify frf reads the "
+                   "same), one for each speed, instead of the rig file's")
+      ->excludes("--without-rotor");
   AddUncertaintyOption(*command, options->from);
   command->add_option("--draws", options->draws, "Rigs drawn for the judgement")
       ->check(CLI::Range(0, 10000))

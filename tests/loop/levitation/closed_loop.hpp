@@ -29,7 +29,8 @@ inline cycle::CycleConfig ShippedCycle(const std::string& name = "flexible_rotor
   const config::RigFile& rig = ShippedRig();
   const config::ControllerFile controller = config::LoadController(
       levitas::test::SourceFolder() + "/config/controllers/" + name + ".yaml", rig.numbers);
-  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous};
+  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous,
+          controller.bias};
 }
 /// The law commissioned against the rig's objectives.
 inline cycle::CycleConfig CommissionedCycle() {

@@ -27,8 +27,8 @@ struct Bench {
   verdict::Verdict Play(std::uint64_t seed, double limit_s = 60.0) {
     plant::Plant plant(rig.plant, seed);
     plant.RestInTouchdown();
-    cycle::ControlCycle cycle(
-        {rig.numbers, controller.law, controller.supervisor, controller.synchronous});
+    cycle::ControlCycle cycle({rig.numbers, controller.law, controller.supervisor,
+                               controller.synchronous, controller.bias});
     const double standstill = controller.supervisor.sequence.standstill_rad_per_s;
     scenario::ScenarioPlayer player(scenario, rig.numbers.period_s(), standstill);
     verdict::SessionStatistics statistics(rig.numbers, standstill, 0.5);

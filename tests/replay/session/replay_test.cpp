@@ -63,8 +63,8 @@ TEST_F(Replaying, ReproducesALawThatChangesWithTheSpeed) {
   controller.law.schedule = {{RpmToRadPerS(600.0), controller.law.axes, {}}};
   for (law::AxisLawConfig& axis : controller.law.schedule[0].axes) axis.kd_a_s_per_m *= 1.2;
   const auto& rig = test::ShippedRig().numbers;
-  const auto records =
-      EventfulRun({rig, controller.law, controller.supervisor, controller.synchronous});
+  const auto records = EventfulRun(
+      {rig, controller.law, controller.supervisor, controller.synchronous, controller.bias});
   SessionHeader header = ShippedHeader();
   header.controller_yaml = config::WriteController(controller, rig);
   EXPECT_TRUE(ReplayOf(records, header).identical());
@@ -89,7 +89,8 @@ TEST_F(Replaying, ReproducesSynchronousControl) {
   at.speed_rad_per_s = RpmToRadPerS(500.0);
   for (std::size_t i = 0; i < 4; ++i) at.inverse.real[i][i] = -0.5;
   const auto& rig = test::ShippedRig().numbers;
-  testing::RecordedRun run(3, {rig, controller.law, controller.supervisor, controller.synchronous});
+  testing::RecordedRun run(
+      3, {rig, controller.law, controller.supervisor, controller.synchronous, controller.bias});
   run.Command(OperatorCommand::kLift);
   ASSERT_TRUE(run.RunUntil(Mode::kLevitating, 30'000));
   run.Command(OperatorCommand::kSpin, 600.0, 1000.0);

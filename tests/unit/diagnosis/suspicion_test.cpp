@@ -35,6 +35,16 @@ TEST(Suspicion, CountsWhatTheDataDoNotSeparateTogether) {
   EXPECT_NEAR(ProbabilityOfLeader(two, kTie), 2.0 * alone / (1.0 + alone), 1e-9);
 }
 
+// With nothing hidden, what has no evidence has its prior left, half of all together: that is no
+// reason to suspect the one in front of it.
+TEST(Suspicion, IsNotRaisedByEffectsThatTheDataSayNothingOf) {
+  std::vector<Candidate> others = Leading(3.2, 34);
+  const double alone = ProbabilityOfLeader(others, kTie);
+  for (std::size_t i = 1; i < others.size(); ++i) others[i].score = 0.0;
+  EXPECT_LT(ProbabilityOfLeader(others, kTie), alone);
+  EXPECT_LT(alone, 0.5);
+}
+
 TEST(Suspicion, OfNothingIsNone) {
   EXPECT_EQ(ProbabilityOfLeader({}, kTie), 0.0);
   std::vector<Candidate> impossible(2);

@@ -26,7 +26,8 @@ cycle::CycleConfig ShippedConfig() {
       config::LoadRig(levitas::test::SourceFolder() + "/config/rigs/flexible_rotor.yaml");
   const auto controller = config::LoadController(
       levitas::test::SourceFolder() + "/config/controllers/flexible_rotor.yaml", rig.numbers);
-  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous};
+  return {rig.numbers, controller.law, controller.supervisor, controller.synchronous,
+          controller.bias};
 }
 
 // A loop on a fake rig; each test spoils one thing.

@@ -1,0 +1,59 @@
+#include "cli/commands/bias_margins.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/sampled_loop.hpp"
+#include "common/rotational_speed.hpp"
+
+namespace levitas::cli {
+
+std::vector<LoopAtBias> JudgeBias(const config::RigFile& rig,
+                                  const config::ControllerFile& controller,
+                                  const std::vector<double>& speeds_rpm) {
+  constexpr int kSteps = 4;
+  std::vector<LoopAtBias> loops;
+  if (controller.bias.empty()) return loops;
+  const double whole_a = rig.numbers.bias_current_a;
+  const double ratio = controller.bias.lowest_current_a / whole_a;
+  for (const double rpm : speeds_rpm) {
+    const double speed = RpmToRadPerS(rpm);
+    for (int k = 0; k <= kSteps; ++k) {
+      const double bias_a = whole_a * std::pow(ratio, static_cast<double>(k) / kSteps);
+      const auto loop = analysis::CloseLoopAtBias(rig.plant, controller.law, speed, bias_a);
+      loops.push_back({bias_a, analysis::SensitivityPeaks(loop, speed)});
+    }
+  }
+  return loops;
+}
+
+void PrintBias(const std::vector<LoopAtBias>& loops, const std::vector<std::string>& channels,
+               nlohmann::ordered_json& json) {
+  if (loops.empty()) return;
+  fmt::print(
+      "bias saving: the loop from the rig's bias to the lowest\n  {:>8}{:>10}{:>12}{:>8}{:>8}\n",
+      "rpm", "bias A", "max |S|", "of", "zone");
+  for (const LoopAtBias& at : loops) {
+    const auto& axes = at.loop.axes;
+    const auto worst = std::ranges::max_element(axes, {}, &analysis::AxisSensitivity::peak);
+    const std::string& channel = channels[static_cast<std::size_t>(worst - axes.begin())];
+    const std::string zone = at.loop.zone ? std::string(analysis::Name(*at.loop.zone)) : "no grade";
+    const std::string trouble = !at.loop.point.failure.empty()
+                                    ? fmt::format("  NOT HELD: {}", at.loop.point.failure)
+                                : at.loop.stable ? ""
+                                                 : "  UNSTABLE";
+    fmt::print("  {:>8.0f}{:>10.3f}{:>12.3f}{:>8}{:>8}{}\n", RadPerSToRpm(at.loop.speed_rad_per_s),
+               at.bias_a, worst->peak, channel, zone, trouble);
+    json["bias_saving"].push_back({{"speed_rpm", RadPerSToRpm(at.loop.speed_rad_per_s)},
+                                   {"bias_current_a", at.bias_a},
+                                   {"stable", at.loop.stable},
+                                   {"sensitivity_peak", worst->peak},
+                                   {"channel", channel},
+                                   {"not_held_because", at.loop.point.failure}});
+  }
+}
+
+}  // namespace levitas::cli
