@@ -7,6 +7,7 @@
 #include "configuration/rig_file.hpp"
 #include "lcmtypes/checked_decode.hpp"
 #include "plant_sim/plant/train_model.hpp"
+#include "session/block_events.hpp"
 #include "session/record_codec.hpp"
 #include "transport/lcm_network.hpp"
 
@@ -78,6 +79,7 @@ bool LiveRun::TakeHeader(std::span<const std::uint8_t> payload) {
   } catch (const std::exception&) {
     return false;  // of a program of another version, or no rig at all
   }
+  TakeController(header);
   header_ = std::move(header);
   samples_.emplace(*rig_, on_bucket_);
   state_.reset();
@@ -85,6 +87,33 @@ bool LiveRun::TakeHeader(std::span<const std::uint8_t> payload) {
   histogram_.reset();
   ++run_number_;
   return true;
+}
+
+// A controller that cannot be read costs what is shown of its blocks, not the run.
+void LiveRun::TakeController(const session::SessionHeader& header) {
+  blocks_.clear();
+  saves_bias_ = false;
+  if (header.controller_yaml.empty()) return;
+  try {
+    const config::ControllerFile controller =
+        config::ParseController(header.controller_yaml, "the announced controller", *rig_);
+    for (const auto& block : controller.synchronous.blocks) {
+      blocks_.push_back({block.name, false, {}});
+    }
+    saves_bias_ = !controller.bias.empty();
+  } catch (const std::exception&) {
+    return;  // of a program of another version
+  }
+}
+
+void LiveRun::TellBlock(const session::Event& event) {
+  const auto told = session::ReadBlockEvent(event.text);
+  if (!told) return;
+  for (LiveBlock& block : blocks_) {
+    if (block.name != told->name) continue;
+    block.acts = told->begins;
+    block.why = told->why;
+  }
 }
 
 bool LiveRun::TakeState(std::span<const std::uint8_t> payload, std::int64_t now_ns) {
@@ -96,6 +125,7 @@ bool LiveRun::TakeState(std::span<const std::uint8_t> payload, std::int64_t now_
 bool LiveRun::TakeEvent(std::span<const std::uint8_t> payload) {
   session::Event event;
   if (!session::DecodeEvent(payload, event)) return false;
+  TellBlock(event);
   const double period_s = rig_ ? rig_->period_s() : 0.0;
   const double time_s = static_cast<double>(event.cycle) * period_s;
   events_.push_back({++event_count_, std::move(event), time_s});

@@ -29,6 +29,13 @@ struct NumberedEvent {
   double time_s{};  ///< of the run
 };
 
+/// A block of synchronous control, by what the events of this run told of it.
+struct LiveBlock {
+  std::string name;
+  bool acts{};
+  std::string why;  ///< it ended, in words; empty: it never did, or acts
+};
+
 class LiveRun {
  public:
   static constexpr std::size_t kMaxEvents = 200;
@@ -48,6 +55,11 @@ class LiveRun {
   /// Speed of each bearing's shaft over that of the first; negative where it turns the other way.
   [[nodiscard]] const std::vector<double>& speed_ratios() const noexcept { return speed_ratios_; }
   [[nodiscard]] const session::SessionHeader& header() const noexcept { return header_; }
+  /// Of the announced controller, in its order; one that was there before an event was heard is
+  /// taken not to act.
+  [[nodiscard]] const std::vector<LiveBlock>& blocks() const noexcept { return blocks_; }
+  /// Whether the announced controller lowers the bias current.
+  [[nodiscard]] bool saves_bias() const noexcept { return saves_bias_; }
   /// Counts the runs seen, 0 before the first.
   [[nodiscard]] std::uint64_t run_number() const noexcept { return run_number_; }
   [[nodiscard]] const std::optional<levitas_msg::controller_state_t>& state() const noexcept {
@@ -71,12 +83,16 @@ class LiveRun {
   bool TakeHeader(std::span<const std::uint8_t> payload);
   bool TakeState(std::span<const std::uint8_t> payload, std::int64_t now_ns);
   bool TakeEvent(std::span<const std::uint8_t> payload);
+  void TakeController(const session::SessionHeader& header);
+  void TellBlock(const session::Event& event);
   bool TakeSamples(std::span<const std::uint8_t> payload);
 
   std::function<void(const Envelope&)> on_bucket_;
   session::SessionHeader header_;
   double amplifier_hz_{0.0};
   std::vector<double> speed_ratios_;
+  std::vector<LiveBlock> blocks_;
+  bool saves_bias_{};
   std::optional<RigNumbers> rig_;
   std::uint64_t run_number_{0};
   std::optional<levitas_msg::controller_state_t> state_;

@@ -119,6 +119,13 @@ void PutState(std::string& text, const LiveRun& run, std::int64_t now_ns) {
   Put(text, RadPerSToRpm(state->speed_rad_per_s));
   text += ",\"bias_ma\":";
   Put(text, kMilli * state->bias_current_a);
+  if (run.saves_bias()) text += ",\"saves_bias\":true";
+  if (run.blocks().empty()) return;
+  nlohmann::json blocks = nlohmann::json::array();
+  for (const LiveBlock& block : run.blocks()) {
+    blocks.push_back({{"name", block.name}, {"acts", block.acts}, {"why", block.why}});
+  }
+  text += ",\"blocks\":" + blocks.dump();
 }
 
 /// Of a configuration file's text: what stands behind the key `name` of its top level.

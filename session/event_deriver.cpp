@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/rotational_speed.hpp"
+#include "session/block_events.hpp"
 
 namespace levitas::session {
 namespace {
@@ -17,32 +18,6 @@ constexpr const char* kLostRecord =
 constexpr const char* kMissedDeadline = "period(s) skipped: the loop was too late";
 
 std::string Speed(double rad_per_s) { return fmt::format("{:.0f} rpm", RadPerSToRpm(rad_per_s)); }
-
-std::string_view Text(synchronous::Ending ending) {
-  using synchronous::Ending;
-  switch (ending) {
-    case Ending::kNone:
-      break;
-    case Ending::kSpeed:
-      return "the speed left its window";
-    case Ending::kAngleLost:
-      return "the rotor's angle is lost";
-    case Ending::kAngleJumped:
-      return "the rotor's angle jumped";
-    case Ending::kSaturated:
-      return "an axis stays at its current limit; it begins again after the speed has left its "
-             "window";
-    case Ending::kOrbitGrew:
-      return "the orbit grew";
-    case Ending::kCurrentTooLarge:
-      return "it needs more than its largest_current_a; it begins again after the speed has left "
-             "its "
-             "window";
-    case Ending::kNotLevitated:
-      return "the rotor is no longer held about its centre";
-  }
-  return "";
-}
 
 bool FrameUsable(const cycle::CycleRecord& record) noexcept { return record.in.frame_present; }
 
@@ -135,13 +110,12 @@ void EventDeriver::Synchronous(const cycle::CycleRecord& record, std::vector<Eve
     const std::string where =
         fmt::format("at {} (cycle {})", Speed(record.in.frame.speed_rad_per_s), record.in.cycle);
     if (now.state == BlockState::kActing) {
-      events.push_back(Make(record, Event::Severity::kInformation,
-                            fmt::format("synchronous control {} begins {}", name, where)));
+      events.push_back(Make(record, Event::Severity::kInformation, BlockBegins(name, where)));
     } else if (now.state == BlockState::kFading || before == BlockState::kActing) {
       const bool planned = now.ending == synchronous::Ending::kSpeed;
-      events.push_back(
-          Make(record, planned ? Event::Severity::kInformation : Event::Severity::kWarning,
-               fmt::format("synchronous control {} ends {}: {}", name, where, Text(now.ending))));
+      events.push_back(Make(record,
+                            planned ? Event::Severity::kInformation : Event::Severity::kWarning,
+                            BlockEnds(name, where, now.ending)));
     }
   }
 }

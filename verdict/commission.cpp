@@ -68,7 +68,9 @@ Verdict Commission(const CommissionOptions& options) {
                                kSettleAfterLiftS);
   cycle::CycleRecord record;
   bool excited = false;
+  std::uint64_t first_cycle = 0;
   while (reader.Next(record)) {
+    if (first_cycle == 0) first_cycle = record.in.cycle;
     statistics.Add(record);
     excited = excited || Any(record.in.op.excitation_a) || Any(record.in.op.excitation_m);
   }
@@ -94,6 +96,7 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.provenance.rig = rig.numbers.name;
   inputs.provenance.controller = controller.name;
   if (inputs.timing) inputs.provenance.trip_file = inputs.timing->trip_file;
+  inputs.blocks = BlocksOf(reader.events(), first_cycle, record.in.cycle, rig.numbers.period_s());
   inputs.trip_text = FirstTripText(reader.events());
   inputs.incomplete_reason = options.incomplete_reason.empty()
                                  ? BreaksOff(reader.damage(), inputs.session.modes)

@@ -237,6 +237,19 @@ Object Reserve(const Inputs& in) {
       {"bias", {{"standing", Bias(in.session.standing)}, {"spinning", Bias(in.session.spinning)}}}};
 }
 
+Object Blocks(const Inputs& in) {
+  Object blocks = Object::array();
+  for (const BlockUse& block : in.blocks) {
+    blocks.push_back(
+        {{"name", block.name},
+         {"acted_s", block.acted_s},
+         {"times", block.times},
+         {"ended_because", block.last_end},
+         {"ended_at_s", block.last_end.empty() ? Object(nullptr) : Object(block.last_end_s)}});
+  }
+  return blocks;
+}
+
 Object TimeStep(const Inputs& in) {
   if (!in.step_error) return nullptr;
   const analysis::StepError& error = *in.step_error;
@@ -288,6 +301,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
           {"sensitivity", Sensitivity(in)},
           {"sensitivity_not_measured", in.measured ? in.measured->why_not : "no test signal"},
           {"reserve", Reserve(in)},
+          {"synchronous_blocks", Blocks(in)},
           {"time_step", TimeStep(in)},
           {"orbit_over_speed", Profile(in)},
           {"modes", Modes(in)},

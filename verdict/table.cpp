@@ -149,6 +149,17 @@ void Bias(const Inputs& in, Out out) {
   }
 }
 
+void Blocks(const Inputs& in, Out out) {
+  for (const BlockUse& block : in.blocks) {
+    fmt::format_to(out, "{}{}: acted {:.2f} s{}, {}\n",
+                   &block == &in.blocks.front() ? "\nblocks    " : "          ", block.name,
+                   block.acted_s, block.times > 1 ? fmt::format(" in {} times", block.times) : "",
+                   block.last_end.empty()
+                       ? "to the end of the record"
+                       : fmt::format("ended at {:.2f} s: {}", block.last_end_s, block.last_end));
+  }
+}
+
 void Reserve(const Inputs& in, Out out) {
   const auto used = CurrentUse(in.rig, in.session);
   if (!used) return;
@@ -269,6 +280,7 @@ std::string Table(const Verdict& verdict) {
   Currents(verdict.inputs, out);
   Sensitivity(verdict.inputs, out);
   Reserve(verdict.inputs, out);
+  Blocks(verdict.inputs, out);
   TimeStep(verdict.inputs, out);
   Timing(verdict.inputs, out);
   if (!verdict.warnings.empty()) fmt::format_to(out, "\n");

@@ -23,6 +23,7 @@
 #include "analysis/sensitivity.hpp"
 #include "analysis/step_error.hpp"
 #include "common/rig_numbers.hpp"
+#include "verdict/block_use.hpp"
 #include "verdict/measure_sensitivity.hpp"
 #include "verdict/reserve.hpp"
 #include "verdict/session_statistics.hpp"
@@ -73,6 +74,7 @@ struct Inputs {
   std::optional<analysis::StepError> step_error;  ///< of the simulation's time step
   std::optional<TimingFigures> timing;
   std::optional<RigFigures> rig_process;
+  std::vector<BlockUse> blocks;  ///< of synchronous control
   Provenance provenance;
   std::string trip_text;          ///< the recorded sentence of the first trip, may be empty
   std::string incomplete_reason;  ///< why the scenario did not end by itself; empty: it did

@@ -10,12 +10,15 @@
 
 #include "analysis/critical_speeds.hpp"
 #include "analysis/poles.hpp"
+#include "analysis/sampled_loop.hpp"
+#include "analysis/synchronous_loop.hpp"
 #include "cli/commands/command.hpp"
 #include "cli/commands/critical_speeds_text.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
 #include "cli/options/svg_option.hpp"
 #include "common/rotational_speed.hpp"
+#include "controller/synchronous/inverse_ladder.hpp"
 #include "report/rig/campbell_panel.hpp"
 #include "report/rig/poles_picture.hpp"
 #include "session/output_path.hpp"
@@ -89,6 +92,25 @@ nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
   return json;
 }
 
+/// The same loop with the blocks of synchronous control that act at this speed; nothing without.
+void AddBlocks(const config::RigFile& rig, const config::ControllerFile& controller,
+               double speed_rad_per_s, nlohmann::ordered_json& json) {
+  std::string acting;
+  for (const auto& block : controller.synchronous.blocks) {
+    if (!synchronous::ActsAt(block, speed_rad_per_s)) continue;
+    acting += (acting.empty() ? "" : ", ") + block.name;
+  }
+  if (acting.empty()) return;
+  const auto judged =
+      analysis::JudgeSynchronous(analysis::CloseLoop(rig.plant, controller.law, speed_rad_per_s),
+                                 controller.synchronous, speed_rad_per_s);
+  fmt::print("with synchronous control ({}): {} (largest |z| {:.6f})\n", acting,
+             judged.stable() ? "STABLE" : "UNSTABLE", judged.largest_pole_modulus);
+  json["with_synchronous_control"] = {{"blocks", acting},
+                                      {"stable", judged.stable()},
+                                      {"largest_pole_modulus", judged.largest_pole_modulus}};
+}
+
 ExitStatus Run(const PolesOptions& options) {
   session::CheckOutputPath(options.json_path, {});
   session::CheckOutputPath(options.svg_path, {});
@@ -103,7 +125,9 @@ ExitStatus Run(const PolesOptions& options) {
     const auto& poles = loops.emplace_back(
         analysis::ClosedLoopPoles(rig.plant, controller.file.law, RpmToRadPerS(rpm)));
     Print(poles, options.up_to_hz);
-    json["speeds"].push_back(Json(poles));
+    nlohmann::ordered_json row = Json(poles);
+    AddBlocks(rig, controller.file, poles.speed_rad_per_s, row);
+    json["speeds"].push_back(std::move(row));
   }
   const double rated_rad_per_s = rig.numbers.max_speed_rad_per_s;
   const auto levitated = analysis::LevitatedCampbell(rig.plant, controller.file.law,

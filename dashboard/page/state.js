@@ -13,6 +13,13 @@ export function showRig(rig) {
   at("rig").title = rig.name ? `${at("rig").textContent}; Levitas ${rig.version}, ${rig.pace}, telemetry of ${rig.source || "lcm"}` : "";
 }
 
+// What acts is filled; why another one ended is in its title.
+function showBlocks(blocks) {
+  at("blocks-figure").hidden = blocks.length === 0;
+  at("blocks").textContent = blocks.map((b) => `${b.acts ? "●" : "○"} ${b.name}`).join("  ");
+  at("blocks").title = blocks.map((b) => `${b.name}: ${b.acts ? "acts" : b.why ? `ended, ${b.why}` : "waits for its speed"}`).join("\n");
+}
+
 /** `end`: the mode in which the run has ended, from its last event; empty while it runs. */
 export function showTick(tick, end) {
   const mode = at("mode");
@@ -22,6 +29,9 @@ export function showTick(tick, end) {
   if (now === "tripped" && tick.bias_ma === 0 && !end) at("trip").textContent = tripped + RELEASED;
   mode.className = "mode " + (tick.silent && now !== "tripped" ? "" : CLASS[now] ?? "");
   mode.textContent = !name ? "no controller" : end ? `ended, ${name}` : tick.silent ? "controller silent" : name;
+  showBlocks(tick.blocks ?? []);
+  at("bias-figure").hidden = !tick.saves_bias;
+  if (tick.saves_bias) at("bias").textContent = (tick.bias_ma / 1000).toFixed(2) + " A";
   if (tick.mode) at("speed").textContent = tick.speed_rpm === null ? "not known" : tick.speed_rpm + " rpm";
 }
 

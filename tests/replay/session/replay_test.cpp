@@ -109,6 +109,26 @@ TEST_F(Replaying, ReproducesSynchronousControl) {
   EXPECT_FALSE(ReplayOf(records, header).identical()) << "the block gave nothing";
 }
 
+TEST_F(Replaying, ReproducesABiasThatFalls) {
+  auto controller = ShippedController();
+  controller.bias.lowest_current_a = 0.2;
+  controller.bias.largest_share = 0.95;
+  const auto& rig = test::ShippedRig().numbers;
+  testing::RecordedRun run(
+      3, {rig, controller.law, controller.supervisor, controller.synchronous, controller.bias});
+  run.Command(OperatorCommand::kLift);
+  ASSERT_TRUE(run.RunUntil(Mode::kLevitating, 30'000));
+  run.Run(30'000);
+  const auto& records = run.records;
+  ASSERT_LT(records.back().out.current.bias_current_a, 0.95 * rig.bias_current_a);
+  SessionHeader header = ShippedHeader();
+  header.controller_yaml = config::WriteController(controller, rig);
+  EXPECT_TRUE(ReplayOf(records, header).identical());
+  controller.bias = {};
+  header.controller_yaml = config::WriteController(controller, rig);
+  EXPECT_FALSE(ReplayOf(records, header).identical()) << "the bias never fell";
+}
+
 TEST_F(Replaying, NamesTheFirstDifferenceOfOneBit) {
   auto records = Records();
   const double recorded = records[9000].out.current.control_current_a[1];

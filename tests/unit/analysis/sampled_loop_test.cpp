@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "analysis/loop_response.hpp"
 #include "controller/law/axis_law.hpp"
@@ -85,6 +86,43 @@ TEST(LoopResponse, OfTheSensitivityUndoesOnePlusTheLoop) {
     const Eigen::MatrixXcd one = Eigen::MatrixXcd::Identity(4, 4);
     EXPECT_LT(((one + open) * response.Sensitivity(f) - one).norm(), 1e-10);
   }
+}
+
+TEST(LoopAtBias, OfTheRigsBiasIsTheLoop) {
+  const plant::PlantConfig rig = test::QuietFlexibleRotor();
+  const SampledLoop loop = CloseLoop(rig, test::FlexibleRotorLaw(), 300.0);
+  const SampledLoop same = CloseLoopAtBias(rig, test::FlexibleRotorLaw(), 300.0,
+                                           rig.bearings.front().magnet.bias_current_a);
+  EXPECT_LT((ClosedLoopMatrix(same) - ClosedLoopMatrix(loop)).norm(),
+            1e-12 * ClosedLoopMatrix(loop).norm());
+}
+
+// Slow motion, which delay and amplifier follow, cannot tell the bias: the stiffness of law and
+// magnets together is that of the rig's.
+TEST(LoopAtBias, HasTheSameStiffnessBelowTheAmplifiers) {
+  const plant::PlantConfig rig = test::QuietFlexibleRotor();
+  const auto answer = [](const SampledLoop& loop, double f) {
+    const LoopResponse response(loop);
+    const auto z = std::polar(1.0, 2.0 * std::numbers::pi * f * loop.period_s);
+    Eigen::MatrixXcd law = Eigen::MatrixXcd::Zero(4, 4);
+    for (Eigen::Index i = 0; i < 4; ++i) law(i, i) = loop.law[static_cast<std::size_t>(i)].At(z);
+    // What the rotor answers to a force that passes the magnets' ki: P (1 + C P)^-1 over ki.
+    const Eigen::MatrixXcd plant = response.Plant(f);
+    return Eigen::MatrixXcd(plant * (Eigen::MatrixXcd::Identity(4, 4) + law * plant).inverse());
+  };
+  const double whole_a = rig.bearings.front().magnet.bias_current_a;
+  const double bias_a = 0.4 * whole_a;
+  const SampledLoop loop = CloseLoop(rig, test::FlexibleRotorLaw(), 0.0);
+  const SampledLoop low = CloseLoopAtBias(rig, test::FlexibleRotorLaw(), 0.0, bias_a);
+  const Eigen::MatrixXcd before = answer(loop, 5.0);
+  EXPECT_LT((answer(low, 5.0) * (whole_a / bias_a) - before).norm(), 0.03 * before.norm());
+}
+
+TEST(LoopAtBias, RefusesAMagnetOfAnotherLaw) {
+  plant::PlantConfig rig = test::QuietFlexibleRotor();
+  rig.bearings.front().magnet.exponential = plant::ExponentialForce{};
+  EXPECT_THROW((void)CloseLoopAtBias(rig, test::FlexibleRotorLaw(), 0.0, 0.4),
+               std::invalid_argument);
 }
 
 TEST(LargestSingularValue, IsTheGainOfTheWorstDirection) {

@@ -42,7 +42,9 @@ inline RigFile AllEffects(bool of_gears = false) {
 }
 
 inline ControllerFile FullController(const RigNumbers& rig) {
-  return LoadController(FindConfig("flexible_rotor", "controllers"), rig);
+  ControllerFile controller = LoadController(FindConfig("flexible_rotor", "controllers"), rig);
+  controller.bias = {0.25, 0.625, 0.125, 4.0, 0.008};
+  return controller;
 }
 
 inline scenario::ScenarioConfig FullScenario(const RigNumbers& rig) {

@@ -176,6 +176,36 @@ TEST(RoundTrip, OfSynchronousControlKeepsEveryNumber) {
   EXPECT_NEAR(back.synchronous.run_outs[0].real_m[1], 3e-6, 1e-20);
 }
 
+TEST(RoundTrip, OfBiasSaving) {
+  const RigNumbers rig = FullRig().numbers;
+  const ControllerFile back =
+      ParseController(WriteController(FullController(rig), rig), "c.yaml", rig);
+  EXPECT_EQ(back.bias.lowest_current_a, 0.25);
+  EXPECT_EQ(back.bias.largest_share, 0.625);
+  EXPECT_EQ(back.bias.largest_orbit_fraction, 0.125);
+  EXPECT_EQ(back.bias.lowering_time_s, 4.0);
+  EXPECT_EQ(back.bias.raising_time_s, 0.008);
+}
+
+TEST(RoundTrip, OfBiasSavingNamesWhatCannotBe) {
+  RigNumbers rig = FullRig().numbers;
+  const auto refusal = [&] {
+    try {
+      (void)ParseController(WriteController(FullController(FullRig().numbers), rig), "c.yaml", rig);
+      return std::string("accepted");
+    } catch (const BadInput& refused) {
+      return std::string(refused.what());
+    }
+  };
+  EXPECT_EQ(refusal(), "accepted");
+  rig.bias_current_a = 0.25;
+  rig.max_coil_current_a = 2.0;
+  EXPECT_THAT(refusal(), ::testing::HasSubstr("allowed below the rig's bias current, 0.25 A"));
+  rig = FullRig().numbers;
+  rig.magnet_gaps_m.clear();
+  EXPECT_THAT(refusal(), ::testing::HasSubstr("whose force is not that of the gap squared"));
+}
+
 TEST(RoundTrip, OfSynchronousControlNamesWhatCannotBe) {
   const RigNumbers rig = FullRig().numbers;
   const auto refusal = [&](const std::function<void(synchronous::SynchronousConfig&)>& spoil) {

@@ -22,6 +22,37 @@ inline session::Bytes EncodedHeader(std::int64_t start_utc_ns,
   return bytes;
 }
 
+/// The same rig with its commissioned law, one block of synchronous control, and a bias that falls.
+inline session::Bytes HeaderWithBlock(std::int64_t start_utc_ns, const std::string& block_name) {
+  const config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  config::ControllerFile controller = config::LoadController(
+      config::FindConfig("flexible_rotor_commissioned", "controllers"), rig.numbers);
+  synchronous::BlockConfig& block = controller.synchronous.blocks.emplace_back();
+  block.name = block_name;
+  block.from_rad_per_s = 200.0;
+  block.to_rad_per_s = 400.0;
+  block.hysteresis_rad_per_s = 3.0;
+  block.inverse.resize(1);
+  block.inverse[0].speed_rad_per_s = 200.0;
+  block.inverse[0].inverse.real[0][0] = 1.0;
+  controller.bias.lowest_current_a = 0.3;
+  session::SessionHeader header;
+  header.rig_yaml = config::WriteRig(rig);
+  header.controller_yaml = config::WriteController(controller, rig.numbers);
+  header.start_utc_ns = start_utc_ns;
+  session::Bytes bytes;
+  session::EncodeHeader(header, bytes);
+  return bytes;
+}
+
+inline session::Bytes EncodedEvent(const std::string& text) {
+  session::Event event;
+  event.text = text;
+  session::Bytes bytes;
+  session::EncodeEvent(event, bytes);
+  return bytes;
+}
+
 template <class Message>
 std::vector<std::uint8_t> Encoded(const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "announced_run.hpp"
+#include "session/block_events.hpp"
 
 namespace levitas::dashboard {
 namespace {
@@ -130,6 +131,28 @@ TEST_F(Snapshot, TellsThePageWhichWayEachShaftTurns) {
   EXPECT_EQ(json::parse(RigJson(run_, 1))["speed_ratios"], json::parse("[1.0,1.0]"));
   run_.Take(channel::kHeader, EncodedHeader(2, "geared_rotor_8dof"), 0);  // 20 teeth on 40
   EXPECT_EQ(json::parse(RigJson(run_, 1))["speed_ratios"], json::parse("[1.0,-0.5]"));
+}
+
+TEST_F(Snapshot, TellsWhichBlocksActAndWhyOthersEnded) {
+  const auto tick = [this] {
+    run_.Take(channel::kState, Encoded(TrippedState()), 0);
+    return json::parse(TickJson(run_, 0));
+  };
+  EXPECT_FALSE(tick().contains("blocks")) << "a controller without any";
+  run_.Take(channel::kHeader, HeaderWithBlock(2, "low ends at noon"), 0);
+  EXPECT_EQ(tick()["blocks"][0]["acts"], false);
+  EXPECT_EQ(tick()["saves_bias"], true);
+  run_.Take(channel::kEvent,
+            EncodedEvent(session::BlockBegins("low ends at noon", "at 2000 rpm (cycle 7)")), 0);
+  EXPECT_EQ(tick()["blocks"][0], json({{"name", "low ends at noon"}, {"acts", true}, {"why", ""}}));
+  run_.Take(channel::kEvent,
+            EncodedEvent(session::BlockEnds("low ends at noon", "at 2100 rpm (cycle 9)",
+                                            synchronous::Ending::kOrbitGrew)),
+            0);
+  EXPECT_EQ(tick()["blocks"][0]["acts"], false);
+  EXPECT_EQ(tick()["blocks"][0]["why"], "the orbit grew");
+  run_.Take(channel::kHeader, EncodedHeader(3), 0);
+  EXPECT_FALSE(tick().contains("blocks")) << "another run";
 }
 
 TEST_F(Snapshot, SaysHowARunEnded) {

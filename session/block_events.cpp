@@ -1,0 +1,64 @@
+#include "session/block_events.hpp"
+
+#include <fmt/format.h>
+
+namespace levitas::session {
+namespace {
+
+constexpr std::string_view kSubject = "synchronous control ";
+constexpr std::string_view kBegins = " begins at ";
+constexpr std::string_view kEnds = " ends at ";
+constexpr std::string_view kWhy = "): ";
+
+std::string_view Text(synchronous::Ending ending) {
+  using synchronous::Ending;
+  switch (ending) {
+    case Ending::kNone:
+      break;
+    case Ending::kSpeed:
+      return "the speed left its window";
+    case Ending::kAngleLost:
+      return "the rotor's angle is lost";
+    case Ending::kAngleJumped:
+      return "the rotor's angle jumped";
+    case Ending::kSaturated:
+      return "an axis stays at its current limit; it begins again after the speed has left its "
+             "window";
+    case Ending::kOrbitGrew:
+      return "the orbit grew";
+    case Ending::kCurrentTooLarge:
+      return "it needs more than its largest_current_a; it begins again after the speed has left "
+             "its window";
+    case Ending::kNotLevitated:
+      return "the rotor is no longer held about its centre";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string BlockBegins(std::string_view name, std::string_view where) {
+  return fmt::format("{}{} begins {}", kSubject, name, where);
+}
+
+std::string BlockEnds(std::string_view name, std::string_view where, synchronous::Ending why) {
+  return fmt::format("{}{} ends {}: {}", kSubject, name, where, Text(why));
+}
+
+// A name may hold the words of a sentence: what follows the last of them is not the name's.
+std::optional<BlockEvent> ReadBlockEvent(std::string_view text) {
+  if (!text.starts_with(kSubject)) return std::nullopt;
+  text.remove_prefix(kSubject.size());
+  const auto ends = text.rfind(kEnds);
+  const auto begins = text.rfind(kBegins);
+  const bool ending =
+      ends != std::string_view::npos && (begins == std::string_view::npos || ends > begins);
+  const auto at = ending ? ends : begins;
+  if (at == std::string_view::npos) return std::nullopt;
+  BlockEvent event{std::string(text.substr(0, at)), !ending, {}};
+  const auto why = text.find(kWhy, at);
+  if (ending && why != std::string_view::npos) event.why = text.substr(why + kWhy.size());
+  return event;
+}
+
+}  // namespace levitas::session
