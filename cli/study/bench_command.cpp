@@ -13,6 +13,7 @@
 #include "cli/study/bench_forecast.hpp"
 #include "cli/study/bench_isolability.hpp"
 #include "cli/study/bench_lives.hpp"
+#include "cli/study/bench_mesh.hpp"
 #include "cli/study/bench_spoilt.hpp"
 #include "cli/study/bench_sweep.hpp"
 #include "cli/study/bench_trials.hpp"
@@ -86,6 +87,7 @@ void AddBenchCommand(CLI::App& app, Action& action) {
   AddBenchFullSpectrum(*bench, action);
   AddBenchPump(*bench, action);
   AddBenchLives(*bench, action);
+  AddBenchMesh(*bench, action);
   command->footer(kBenchHelp);
   command->add_option("--rig", options->rig, "Nominal rig");
   command->add_option("--controller", options->controllers,

@@ -32,14 +32,14 @@ cycle::CycleConfig Saving() {
 /// [A] of the rig; never lowered.
 double Whole() { return Pump().numbers.bias_current_a; }
 
-struct Run {
+struct Seen {
   double copper{};  ///< mean of b^2 + ic^2 over that of the rig's bias alone
   double orbit_m{};
   double lowest_a{1e9};
 };
 
-Run Watch(ClosedLoop& loop, double seconds) {
-  Run run;
+Seen Watch(ClosedLoop& loop, double seconds) {
+  Seen run;
   loop.Reset();
   const auto periods = std::lround(seconds / Pump().numbers.period_s());
   for (long n = 0; n < periods; ++n) {
@@ -63,8 +63,8 @@ TEST(BiasSavingPair, HeatsTheCoilsLessAtTheSameOrbit) {
     loop->SpinAt(3000.0);
     loop->Run(5.0);
   }
-  const Run before = Watch(plain, 1.0);
-  const Run after = Watch(saving, 1.0);
+  const Seen before = Watch(plain, 1.0);
+  const Seen after = Watch(saving, 1.0);
   EXPECT_EQ(before.lowest_a, Whole());
   EXPECT_GT(before.copper, 0.99);
   EXPECT_LT(after.copper, 0.1) << after.lowest_a << " A";
@@ -75,7 +75,7 @@ TEST(BiasSavingPair, HeatsTheCoilsLessAtTheSameOrbit) {
 TEST(BiasSavingPair, ChangesTheBiasWithoutMovingTheRotor) {
   ClosedLoop plain(Plain(), Pump().plant);
   ClosedLoop saving(Saving(), Pump().plant);
-  Run moved[2];
+  Seen moved[2];
   std::size_t k = 0;
   for (ClosedLoop* loop : {&plain, &saving}) {
     ASSERT_TRUE(loop->Levitate());

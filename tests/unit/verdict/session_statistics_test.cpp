@@ -68,6 +68,22 @@ TEST(SessionStatistics, SplitsTheCurrentIntoStaticAndDynamicPart) {
   EXPECT_EQ(current.saturated_share, 0.0);
 }
 
+// Half the cycles at the rig's bias, half at half of it, i = 0.2 cos on all four axes:
+// (1 + 1/4)/2 + (0.2/2)^2/2 of the square of the bias.
+TEST(SessionStatistics, CountsWhatTheCoilsHeatWithAtALowerBias) {
+  RigNumbers rig = TwoBearingRig();
+  rig.bias_current_a = 2.0;
+  SyntheticSession session;
+  int count = 0;
+  session.Append(Mode::kLevitating, 2 * kTurns, {.amplitude_a = 0.2},
+                 [&](cycle::CycleRecord& record) {
+                   record.out.current.bias_current_a = count++ < kTurns ? 2.0 : 1.0;
+                 });
+  const PhaseFigures standing = session.Figures(rig).standing;
+  EXPECT_NEAR(standing.mean_bias_a, 1.5, 1e-12);
+  EXPECT_NEAR(standing.copper_share, 0.625 + 0.005, 1e-9);
+}
+
 TEST(SessionStatistics, CountsTheShareOfSaturatedCyclesPerAxisAndOverall) {
   SyntheticSession session;
   int count = 0;
