@@ -60,9 +60,9 @@ struct SampledLoop {
 [[nodiscard]] SampledLoop CloseLoop(const plant::PlantConfig& plant, const law::LawConfig& law,
                                     double speed_rad_per_s);
 
-/// The loop at a lower bias than the rig's, in all its magnets: the law as bias saving passes it on
-/// (controller/bias/bias_saving.hpp), the magnets' constants at that bias. std::invalid_argument for
-/// a magnet whose force is not that of the gap squared.
+/// The loop at a lower bias than the rig's, in all its magnets: the law as bias saving passes it
+/// on (controller/bias/bias_saving.hpp), the magnets' constants at that bias. std::invalid_argument
+/// for a magnet whose force is not that of the gap squared.
 [[nodiscard]] SampledLoop CloseLoopAtBias(const plant::PlantConfig& plant,
                                           const law::LawConfig& law, double speed_rad_per_s,
                                           double bias_a);

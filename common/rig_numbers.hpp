@@ -24,7 +24,7 @@ struct RigNumbers {
   std::vector<double> sensor_ranges_m;  ///< [m] the same of the ranges
   /// [m] s0 of F = k (i/s)^2, bearing by bearing; empty: a magnet has another law of force.
   std::vector<double> magnet_gaps_m;
-  double max_speed_rad_per_s{};         ///< [rad/s] rated speed; the over-speed trip refers to it
+  double max_speed_rad_per_s{};  ///< [rad/s] rated speed; the over-speed trip refers to it
   /// [rad/s2] what the drive can do: a faster change of speed is refused.
   double max_acceleration_rad_per_s2{std::numeric_limits<double>::infinity()};
   AxisArray sensor_polarity{};          ///< +1 or -1 per axis, see controller/cycle

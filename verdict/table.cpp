@@ -141,10 +141,11 @@ void Bias(const Inputs& in, Out out) {
     const PhaseFigures& phase = spinning ? in.session.spinning : in.session.standing;
     constexpr double kStayed = 1e-6;  // of the rig's
     const double rig_a = in.rig.bias_current_a;
-    if (phase.cycles == 0 || std::abs(phase.mean_bias_a - rig_a) <= kStayed * rig_a) continue;
+    const bool known = phase.cycles > 0 && phase.mean_bias_a > 0.0;
+    if (!known || std::abs(phase.mean_bias_a - rig_a) <= kStayed * rig_a) continue;
     fmt::format_to(out,
-                   "          bias current {}: {:.3f} of {:.3f} A in the mean; the coils heat with "
-                   "{:.0f} % of what that bias alone would\n",
+                   "          bias {}: {:.3f} of {:.3f} A in the mean, copper losses {:.1f} % of "
+                   "the whole\n",
                    PhaseName(spinning), phase.mean_bias_a, rig_a, 100.0 * phase.copper_share);
   }
 }

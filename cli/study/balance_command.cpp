@@ -14,11 +14,15 @@
 #include "cli/options/rig_of_records.hpp"
 #include "cli/study/free_run.hpp"
 #include "cli/study/written_files.hpp"
+#include "cli/text_file.hpp"
+#include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
 #include "configuration/schema/unit.hpp"
 #include "identification/balance/balance.hpp"
 #include "report/balance/balance_files.hpp"
 #include "session/output_path.hpp"
+#include "session/recording.hpp"
+#include "session/session_reader.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -48,6 +52,7 @@ struct BalanceOptions : AnalysisOptions {
   bool drill{};
   double top_rpm{};
   std::string svg_path;
+  std::string run_outs_path;
 };
 
 CorrectionPlanes PlanesOf(const BalanceOptions& options, const config::RigFile& rig) {
@@ -82,8 +87,51 @@ AppliedWeight WeightOfWord(const std::string& word, const CorrectionPlanes& plan
   throw refuse(fmt::format("no plane is named {}", name));
 }
 
+/// The controller of --controller, else the session's.
+config::ControllerFile ControllerOf(const BalanceOptions& options, const config::RigFile& rig) {
+  if (!options.controller_name.empty()) {
+    return config::LoadController(config::FindConfig(options.controller_name, "controllers"),
+                                  rig.numbers);
+  }
+  if (session::IsSession(options.data_path)) {
+    const std::string text = session::SessionReader(options.data_path).header().controller_yaml;
+    return config::ParseController(text, options.data_path + " (header)", rig.numbers);
+  }
+  throw BadInput("--write-run-outs: " + options.data_path +
+                 " names no controller; give the one to be written with --controller");
+}
+
+/// That controller with the run-out that was found taken off what its law reads, in place of what
+/// it had of order 1. Only what the records show beyond chance: two deviations.
+void WriteRunOuts(const BalanceOptions& options, const config::RigFile& rig,
+                  const UnbalanceFit& fit) {
+  if (options.run_outs_path.empty()) return;
+  constexpr double kDeviations = 2.0;
+  synchronous::RunOut found;
+  std::size_t axes = 0;
+  for (std::size_t i = 0; i < rig.numbers.axes(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (!(std::abs(fit.runout_m[at]) > kDeviations * fit.runout_deviation_m[at])) continue;
+    found.real_m[i] = fit.runout_m[at].real();
+    found.imaginary_m[i] = fit.runout_m[at].imag();
+    ++axes;
+  }
+  if (axes == 0) {
+    throw Problem(ExitStatus::kOther,
+                  "--write-run-outs: no probe's run-out is beyond two deviations of what the "
+                  "records leave open; nothing was written. A slow run-up from near rest shows it");
+  }
+  config::ControllerFile controller = ControllerOf(options, rig);
+  auto& all = controller.synchronous.run_outs;
+  std::erase_if(all, [](const synchronous::RunOut& one) { return one.order == 1.0; });
+  all.push_back(found);
+  WriteTextFile(options.run_outs_path, fmt::format("# amb balance: run-out of {} probes from {}\n",
+                                                   axes, options.data_path) +
+                                           config::WriteController(controller, rig.numbers));
+}
+
 ExitStatus Run(const BalanceOptions& options) {
-  for (const std::string& path : {options.svg_path, options.json_path}) {
+  for (const std::string& path : {options.svg_path, options.json_path, options.run_outs_path}) {
     session::CheckOutputPath(path, options.data_path);
   }
   if (options.after.empty() != options.applied.empty()) {
@@ -110,7 +158,8 @@ ExitStatus Run(const BalanceOptions& options) {
   fmt::print("{}", BalanceText(request, result));
   WriteJsonFile(options.json_path, BalanceJson(request, result));
   WriteBalancePicture(options.svg_path, request, result);
-  TellWritten({options.json_path, options.svg_path});
+  WriteRunOuts(options, request.rig, result.fit);
+  TellWritten({options.json_path, options.svg_path, options.run_outs_path});
   return ExitStatus::kDone;
 }
 
@@ -147,6 +196,9 @@ void AddBalanceCommand(CLI::App& app, Action& action) {
                    "Highest speed of correction and forecast; default: the rig's rated speed")
       ->check(CLI::Range(1.0, 1e6));
   command->add_option("--svg", options->svg_path, "Draw the orbits before and after over speed");
+  command->add_option("--write-run-outs", options->run_outs_path,
+                      "Controller file with the run-out of the probes that was found, which its "
+                      "law then takes off: that of --controller, else the session's");
   AddJsonOption(*command, *options);
   command->callback([options, &action] { action = [options] { return Run(*options); }; });
 }

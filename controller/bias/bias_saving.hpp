@@ -65,7 +65,7 @@ class BiasSaving {
   [[nodiscard]] AxisArray At(const AxisArray& law_current_a,
                              const AxisArray& read_m) const noexcept;
   [[nodiscard]] double current_a() const noexcept { return bias_a_; }
-  /// [A] that a control current may have at the present bias: both coils within 0 and their maximum.
+  /// [A] that a control current may have at the present bias, both coils within their range.
   [[nodiscard]] double room_a() const noexcept {
     return std::min(bias_a_, max_coil_current_a_ - bias_a_);
   }

@@ -215,7 +215,7 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
 void ControlCycle::Impl::MoveBias(const OperatorInput& op,
                                   const supervisor::Decision& decision) noexcept {
   if (bias.empty()) return;
-  constexpr double kAtSpeed = 0.02;  // of the rated speed
+  constexpr double kAtSpeed = 0.005;  // of the rated speed
   const double asked_rad_per_s = decision.drive_enabled ? decision.speed_set_point_rad_per_s : 0.0;
   const double apart = std::abs(decision.believed_speed_rad_per_s - asked_rad_per_s);
   bias.Step({.levitated = supervisor::Row(decision.state).excitation,

@@ -15,8 +15,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXcd;
 
-/// A gap between two lines beyond which P may do anything, of the frequency.
-constexpr double kWidestGap = 0.1;
+/// A gap between two lines beyond which P may do anything, of the frequency. Next to an order of
+/// the rotation lines are left out, and it is there that a block acts.
+constexpr double kWidestGap = 0.2;
 
 MatrixXcd Smoothed(const MeasuredPlant& record, std::size_t line) {
   const double width_hz = kSmoothed * record.frequency_hz[line];

@@ -263,18 +263,8 @@ ExitStatus Run(const NotchOptions& options) {
   return ExitStatus::kDone;
 }
 
-}  // namespace
-
-void AddDesignNotch(CLI::App& design, Action& action) {
-  auto options = std::make_shared<NotchOptions>();
-  CLI::App* command = design.add_subcommand(
-      "notch", "Synchronous control for a controller: what turns, out of currents or positions");
-  command->footer(
-      "  amb design notch --target current --from-rpm 1500 --out quiet.yaml\n"
-      "  amb run --controller quiet.yaml --scenario run_up_6000");
-  AddRigOption(*command, options->loop);
-  AddControllerOption(*command, options->loop);
-  AddPortOption(*command, options->loop);
+/// What the block is.
+void AddBlockOptions(CLI::App* command, const std::shared_ptr<NotchOptions>& options) {
   command->add_option("--name", options->name, "Of the block; one of this name is replaced")
       ->capture_default_str();
   command->add_option("--order", options->order, "Multiple of the shaft's angle")
@@ -310,6 +300,21 @@ void AddDesignNotch(CLI::App& design, Action& action) {
       ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
   command->add_flag("--adaptive", options->adaptive, "T is corrected while the block runs");
+}
+
+}  // namespace
+
+void AddDesignNotch(CLI::App& design, Action& action) {
+  auto options = std::make_shared<NotchOptions>();
+  CLI::App* command = design.add_subcommand(
+      "notch", "Synchronous control for a controller: what turns, out of currents or positions");
+  command->footer(
+      "  amb design notch --target current --from-rpm 1500 --out quiet.yaml\n"
+      "  amb run --controller quiet.yaml --scenario run_up_6000");
+  AddRigOption(*command, options->loop);
+  AddControllerOption(*command, options->loop);
+  AddPortOption(*command, options->loop);
+  AddBlockOptions(command, options);
   command->add_flag(
       "--without-rotor", options->without_rotor,
       "T from law, amplifier, sensor and delay alone: slower, and stable on any rotor "

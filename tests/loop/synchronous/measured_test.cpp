@@ -20,8 +20,8 @@ namespace {
 
 using synchronous::Target;
 
-/// What a record at this speed would give: lines of 1.22 Hz, each entry with 2 % of noise, and those
-/// next to the rotation's first orders left out, as amb identify frf leaves them out.
+/// What a record at this speed would give: lines of 1.22 Hz, each entry with 2 % of noise, without
+/// those next to the rotation's first orders, as amb identify frf leaves them out.
 design::MeasuredPlant MeasuredAt(const plant::PlantConfig& rig, const law::LawConfig& law,
                                  double speed_rad_per_s, Random& noise) {
   const analysis::LoopResponse response(analysis::CloseLoop(rig, law, speed_rad_per_s));

@@ -3,6 +3,7 @@
 import cmath
 import json
 import math
+import re
 import unittest
 
 from command import BAD_INPUT, DONE, SHIPPED_RIG, USAGE, CommandTest, amb, edited, make_record
@@ -108,6 +109,26 @@ class Balance(CommandTest):
         self.assertLess(abs(moment(added) + moment(drilled)), 1e-6)
         # One plane does not reach what three hold.
         self.assertGreater(self.json("add.json")["left_percent"], 5)
+
+    def test_run_out_that_is_found_is_written_for_the_law_to_take_off(self):
+        amplitude_um, phase_deg = 6.0, 40.0
+        hidden = edited(SHIPPED_RIG, ("\nbearings:", f"""
+effects:
+  - {{id: sensor_runout, channels: [nde_x], order: 1, amplitude_um: {amplitude_um}, phase_deg: {phase_deg}}}
+
+bearings:"""))
+        self.write("hidden.yaml", hidden)
+        self.record("run.lcm", "hidden.yaml")
+        self.call("balance", "run.lcm", "--rig", "flexible_rotor", "--write-run-outs", "clean.yaml")
+        written = (self.folder / "clean.yaml").read_text()
+        size, angle = re.search(r"channel: nde_x\s+amplitude_um: (\S+)\s+phase_deg: (\S+)", written).groups()
+        found = cmath.rect(float(size), math.radians(float(angle)))
+        true = cmath.rect(amplitude_um, math.radians(phase_deg))
+        self.assertLess(abs(found - true), 0.1 * abs(true), written)
+        self.call("run", "--rig", "hidden.yaml", "--controller", "clean.yaml", "--no-dash", "--require", "stable")
+        self.call("balance", "run.lcm", "--rig", "flexible_rotor", "--controller", "flexible_rotor",
+                  "--write-run-outs", "other.yaml")
+        self.assertRegex((self.folder / "other.yaml").read_text(), r"(?m)^name: flexible_rotor$")
 
     def test_a_record_that_cannot_be_balanced_by_is_refused_in_one_sentence(self):
         make_record(self.folder / "still.csv", "healthy", 0, 5_000)

@@ -33,6 +33,21 @@ class DesignNotch(CommandTest):
         margins = self.call("margins", "--controller", "quiet.yaml", "--require", "stable").stdout
         self.assertIn("synchronous control: decay of each block", margins)
 
+    def test_what_a_run_measured_serves_instead_of_the_rig_file(self):
+        self.call("run", "--scenario", "identify", "--record", "id.lcm", "--no-dash")
+        said = self.call(*QUICK, *COMMISSIONED, "--measured", "id.lcm", "--from-rpm", "1500", "--to-rpm", "2900",
+                         "--out", "quiet.yaml", "--json", "notch.json").stdout
+        self.assertIn("T is of the answer measured at 1600 rpm", said)
+        notch = json.loads((self.folder / "notch.json").read_text())
+        self.assertTrue(all(abs(at["slowest_decay"] - 1.0) < 0.2 for at in notch["speeds"]))
+        run = self.call("run", "--controller", "quiet.yaml").stdout
+        self.assertRegex(run, r"blocks    unbalance: acted \d+\.\d+ s")
+        poles = self.call("poles", "--controller", "quiet.yaml", "--speeds", "600,2000").stdout
+        self.assertEqual(poles.count("with synchronous control (unbalance): STABLE"), 1)
+        beyond = self.call(*QUICK, *COMMISSIONED, "--measured", "id.lcm", "--order", "0.02", "--from-rpm", "1500",
+                           "--to-rpm", "2200", status=BAD_INPUT)
+        self.assertIn("has no lines around", beyond.stderr)
+
     def test_a_critical_speed_is_refused_with_its_range_and_nothing_is_written(self):
         before = self.files()
         done = self.call(*QUICK, "--from-rpm", "1500", "--out", "quiet.yaml", status=OTHER)

@@ -34,7 +34,7 @@ OPTIONS = {
     "identify modal": {"--rig", "--highest-hz", "--fit-amplifiers", "--fit-sensors", "--out", "--rotor",
                        "--svg", "--starts", "--spread", "--spread-gains", "--json"},
     "balance": {"--rig", "--controller", "--plane", "--planes", "--drill", "--after", "--applied", "--top-rpm",
-                "--svg", "--json"},
+                "--svg", "--write-run-outs", "--json"},
     "diagnose": {"--rig", "--holdout", "--healthy", "--plan", "--scenario", "--controller", "--size", "--out", "--quick", "--as-is",
                  "--explain", "--json"},
     "doctor": {"--json"},

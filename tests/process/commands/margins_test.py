@@ -38,6 +38,19 @@ class Margins(CommandTest):
                     seen.add(axis["zone"])
         self.assertGreater(len(seen), 1)  # the table above was tried at more than one place
 
+    def test_a_bias_that_falls_is_judged_down_to_its_lowest(self):
+        mine = self.write("saving.yaml", (SHIPPED_CONTROLLER.read_text() +
+                                          "\nbias_saving:\n  lowest_current_a: 0.25\n"))
+        printed, margins = self.compute("margins", "--controller", mine, "--speeds", "0,3000")
+        self.assertIn("bias saving: the loop from the rig's bias to the lowest", printed)
+        rows = margins["bias_saving"]
+        self.assertEqual([round(row["bias_current_a"], 6) for row in rows[:5]],
+                         [1.0, 0.707107, 0.5, 0.353553, 0.25])
+        self.assertEqual([row["speed_rpm"] for row in rows], 5 * [0.0] + 5 * [3000.0])
+        # At the rig's bias the loop is the law's own.
+        worst = max(axis["sensitivity_peak"] for axis in margins["speeds"][0]["axes"])
+        self.assertAlmostEqual(rows[0]["sensitivity_peak"], worst, delta=1e-6 * worst)
+
     def test_the_controllers_file_is_told(self):
         mine = self.write("mine.yaml", scaled_controller(1.0))
         printed, margins = self.compute("margins", "--controller", mine)

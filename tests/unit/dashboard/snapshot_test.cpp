@@ -139,14 +139,13 @@ TEST_F(Snapshot, TellsWhichBlocksActAndWhyOthersEnded) {
     return json::parse(TickJson(run_, 0));
   };
   EXPECT_FALSE(tick().contains("blocks")) << "a controller without any";
-  run_.Take(channel::kHeader, HeaderWithBlock(2, "low ends at noon"), 0);
+  run_.Take(channel::kHeader, HeaderWithBlock(2, "low"), 0);
   EXPECT_EQ(tick()["blocks"][0]["acts"], false);
   EXPECT_EQ(tick()["saves_bias"], true);
+  run_.Take(channel::kEvent, EncodedEvent(session::BlockBegins("low", "at 2000 rpm (cycle 7)")), 0);
+  EXPECT_EQ(tick()["blocks"][0], json({{"name", "low"}, {"acts", true}, {"why", ""}}));
   run_.Take(channel::kEvent,
-            EncodedEvent(session::BlockBegins("low ends at noon", "at 2000 rpm (cycle 7)")), 0);
-  EXPECT_EQ(tick()["blocks"][0], json({{"name", "low ends at noon"}, {"acts", true}, {"why", ""}}));
-  run_.Take(channel::kEvent,
-            EncodedEvent(session::BlockEnds("low ends at noon", "at 2100 rpm (cycle 9)",
+            EncodedEvent(session::BlockEnds("low", "at 2100 rpm (cycle 9)",
                                             synchronous::Ending::kOrbitGrew)),
             0);
   EXPECT_EQ(tick()["blocks"][0]["acts"], false);
