@@ -49,7 +49,9 @@ std::vector<CsvColumn> KnownColumns(const std::vector<std::string>& channels) {
                                {CsvQuantity::kAngle, 0, 1.0, "rotor_angle_rad"},
                                {CsvQuantity::kAngle, 0, kDegree, "rotor_angle_deg"},
                                {CsvQuantity::kSpeed, 0, 1.0, "speed_rpm"},
-                               {CsvQuantity::kSpeed, 0, 1.0 / 60.0, "speed_hz"}};
+                               {CsvQuantity::kSpeed, 0, 1.0 / 60.0, "speed_hz"},
+                               {CsvQuantity::kBias, 0, 1.0, "bias_current_a"},
+                               {CsvQuantity::kBias, 0, 1e3, "bias_current_ma"}};
   const auto add = [&](const PerAxis& kind, std::size_t axis, const Unit& unit) {
     known.push_back({kind.quantity, axis, unit.divisor,
                      fmt::format("{}{}{}{}", kind.prefix, channels[axis],

@@ -7,6 +7,7 @@
 //           time_<s|ms|us>, rotor_angle_<rad|deg>, speed_<rpm|hz>, position_<channel>_<m|mm|um>,
 //           control_current_<channel>_<a|ma>, excitation_<channel>_<a|ma> into the current and
 //           excitation_<channel>_<m|mm|um> into the measured position; channels from the rig.
+//           bias_current_<a|ma> where it is not the rig's.
 // Needed    time_s; position (or gap) and control current (or duty) of every channel of the rig.
 // Others    are ignored and listed, unless they look like a misspelt or misplaced name of the
 //           above.
@@ -36,6 +37,7 @@ enum class CsvQuantity : std::uint8_t {
   kDutyAway,
   kCoilTowards,
   kCoilAway,
+  kBias,
 };
 
 struct CsvColumn {

@@ -147,6 +147,9 @@ void Put(const CsvColumn& column, double in_unit, CsvRow& row) noexcept {
     case CsvQuantity::kCoilAway:
       row.coil_current_a[2 * column.axis + 1] = value;
       return;
+    case CsvQuantity::kBias:
+      row.bias_current_a = value;
+      return;
     case CsvQuantity::kIgnored:
       return;
   }

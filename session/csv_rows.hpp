@@ -32,6 +32,7 @@ struct CsvRow {
   AxisArray gap_m{};
   AxisArray duty_towards{};
   AxisArray duty_away{};
+  double bias_current_a{};                            ///< with a column of it
   std::array<double, 2 * kMaxAxes> coil_current_a{};  ///< towards + and away, axis by axis
 };
 

@@ -44,6 +44,7 @@ ExportRows::ExportRows(const SessionHeader& header, const ExportSelection& selec
     : names_{"time_s", "rotor_angle_rad", "speed_rpm"},
       axes_(header.channels.size()),
       injects_position_(header.scenario_yaml.find("point: measured_position") != std::string::npos),
+      lowers_bias_(header.controller_yaml.find("\nbias_saving:") != std::string::npos),
       from_ns_(Nanoseconds(Checked(selection).from_s)),
       to_ns_(Nanoseconds(selection.to_s)),
       every_(selection.every),
@@ -56,6 +57,7 @@ ExportRows::ExportRows(const SessionHeader& header, const ExportSelection& selec
   name_all("control_current_", "_a");
   name_all("excitation_", "_a");
   if (injects_position_) name_all("excitation_", "_m");
+  if (lowers_bias_) names_.emplace_back("bias_current_a");
   names_.emplace_back("mode");
   Choose(selection);
 }
@@ -124,6 +126,7 @@ std::int64_t ExportRows::Next(const cycle::CycleRecord& record, std::vector<doub
   add(record.out.current.control_current_a);
   add(record.in.op.excitation_a);
   if (injects_position_) add(record.in.op.excitation_m);
+  if (lowers_bias_) all_.push_back(record.out.current.bias_current_a);
   all_.push_back(static_cast<double>(record.out.mode));
   for (const std::size_t value : chosen_) values.push_back(all_[value]);
   return time_ns;

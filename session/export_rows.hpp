@@ -3,7 +3,8 @@
 //
 // Columns   time_s, rotor_angle_rad, speed_rpm, then per channel position [m], control current and
 //           excitation [A], an injection into the measured position [m] when the scenario asks for
-//           one, and the mode as its number (docs/formats.md).
+//           one, the bias current [A] when the controller lowers it, and the mode as its number
+//           (docs/formats.md).
 // Time      of the sample. In real time it starts at 0; when the rig restarts it runs on.
 // Selection rows by their time and by counting, columns by their names. Rows are left out as they
 //           are: no filter keeps what is above half the new rate from folding down.
@@ -59,6 +60,7 @@ class ExportRows {
   std::vector<std::size_t> chosen_;  ///< of all values
   std::size_t axes_;
   bool injects_position_;
+  bool lowers_bias_;
   std::int64_t from_ns_, to_ns_;
   std::uint64_t every_;
   std::uint64_t within_{};  ///< rows within the times so far

@@ -92,6 +92,7 @@ class RecordMaker {
         has_speed_(layout.Has(CsvQuantity::kSpeed)),
         has_gap_(layout.Has(CsvQuantity::kGap)),
         has_duty_(layout.Has(CsvQuantity::kDutyTowards)),
+        has_bias_(layout.Has(CsvQuantity::kBias)),
         has_coils_(layout.Has(CsvQuantity::kCoilTowards) || layout.Has(CsvQuantity::kCoilAway)) {
     if ((has_gap_ || has_duty_) && (coils_.size() < rig_.axes() || rig_.axes() != 1)) {
       throw BadInput(
@@ -102,7 +103,7 @@ class RecordMaker {
   cycle::CycleRecord Make(CsvRow row, const RowSource& reader, ImportReport& report) {
     Advance(row, reader, report);
     Rotate(row);
-    double bias_a = rig_.bias_current_a;
+    double bias_a = has_bias_ ? row.bias_current_a : rig_.bias_current_a;
     Convert(row, bias_a);
     last_ = row;
     ++report.rows;
@@ -207,6 +208,7 @@ class RecordMaker {
   bool has_speed_;
   bool has_gap_;
   bool has_duty_;
+  bool has_bias_;
   bool has_coils_;
   SlopeOfAngle slope_;
   std::optional<CsvRow> last_;

@@ -310,6 +310,30 @@ TEST_F(Csv, ForeignRecordImportsFromItsCompressedFile) {
   EXPECT_EQ(records[1].out.current.control_current_a[3], 0.622214);
 }
 
+// Of a controller that lowers it; of all others the rig's is known.
+TEST_F(Csv, ABiasThatMovedIsExportedAndReadBack) {
+  auto records = DrawRecords(20, 7);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    records[i].out.current.bias_current_a = 1.0 - 0.01 * static_cast<double>(i);
+  }
+  SessionHeader header = Header();
+  header.controller_yaml += "\nbias_saving:\n  lowest_current_a: 0.2\n";
+  WriteSession(out_, records, header);
+  {
+    SessionReader reader(out_);
+    ExportCsv(reader, csv_);
+  }
+  EXPECT_NE(ReadFile(csv_).find(",bias_current_a,mode\n"), std::string::npos);
+  ImportOptions options = Options();
+  options.rig.channels = Header().channels;
+  static_cast<void>(ImportCsv(options));
+  const auto read = Records();
+  ASSERT_EQ(read.size(), records.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].out.current.bias_current_a, records[i].out.current.bias_current_a);
+  }
+}
+
 TEST_F(Csv, ExportImportExportGivesTheSameBytes) {
   auto records = DrawRecords(3000, 99);
   for (std::size_t i = 1000; i < 1010; ++i) records[i].in.frame_present = false;
