@@ -134,7 +134,7 @@ std::vector<double> OrdersOf(const config::RigFile& rig) {
       1.0, static_cast<double>(pair.driving.teeth) / static_cast<double>(pair.driven.teeth)};
   for (int k = 1; k <= kHarmonics; ++k) orders.push_back(k * pair.driving.teeth);
   std::ranges::sort(orders);
-  orders.erase(std::ranges::unique(orders).begin(), orders.end());
+  orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
   return orders;
 }
 
@@ -173,11 +173,14 @@ Quiet WithBlocks(const config::RigFile& rig, const config::ControllerFile& contr
 
 }  // namespace
 
+void RefuseWithoutGears(const config::RigFile& rig) {
+  if (!rig.plant.gears.empty()) return;
+  throw BadInput(rig.numbers.name + ": the rig has no gears; see geared_rotor_12dof");
+}
+
 QuietMesh Listen(const config::RigFile& rig, const config::ControllerFile& controller,
                  double speed_rad_per_s) {
-  if (rig.plant.gears.empty()) {
-    throw BadInput(rig.numbers.name + ": the rig has no gears; see geared_rotor_12dof");
-  }
+  RefuseWithoutGears(rig);
   QuietMesh mesh;
   mesh.speed_rad_per_s = speed_rad_per_s;
   mesh.twisted = plant::ShaftLoads(plant::PlantModel(rig.plant)).twisted();

@@ -33,6 +33,9 @@ struct QuietMesh {
   Quiet soft;   ///< blocks of target current
 };
 
+/// Throws BadInput for a rig that this bench says nothing of.
+void RefuseWithoutGears(const config::RigFile& rig);
+
 [[nodiscard]] QuietMesh Listen(const config::RigFile& rig, const config::ControllerFile& controller,
                                double speed_rad_per_s);
 

@@ -10,6 +10,7 @@
 
 #include "benchmark/gears/quiet_mesh.hpp"
 #include "cli/json_file.hpp"
+#include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
 #include "report/text/text_table.hpp"
 
@@ -63,7 +64,11 @@ std::vector<std::string> Row(double hz, const char* what, const gears::Quiet& qu
 
 ExitStatus Run(const MeshOptions& options) {
   const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
+  gears::RefuseWithoutGears(rig);
   const std::string& name = options.controller.empty() ? rig.run.controller : options.controller;
+  if (name.empty()) {
+    throw BadInput(rig.numbers.name + ": the rig names no controller; give one with --controller");
+  }
   const config::ControllerFile controller =
       config::LoadController(config::FindConfig(name, "controllers"), rig.numbers);
   fmt::print("rig {}, controller {}; rms of one second, levels against the rig without current\n",

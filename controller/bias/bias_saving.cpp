@@ -57,9 +57,10 @@ void BiasSaving::Reset() noexcept {
 bool BiasSaving::Whole(const Conditions& seen) const noexcept {
   if (!seen.levitated || seen.speed_changes || seen.excited || seen.saturated_axes != 0)
     return true;
-  for (std::size_t x = 0; x + 1 < axes_; x += 2) {
+  for (std::size_t x = 0; x < axes_; x += 2) {
+    const bool one_axis = x + 1 == axes_;
     const double dx_m = seen.position_m[x] - seen.reference_m[x];
-    const double dy_m = seen.position_m[x + 1] - seen.reference_m[x + 1];
+    const double dy_m = one_axis ? 0.0 : seen.position_m[x + 1] - seen.reference_m[x + 1];
     const double limit_m = orbit_m_[x / 2];
     // False for what is no number: then nothing is known of the orbit.
     if (!(dx_m * dx_m + dy_m * dy_m <= limit_m * limit_m)) return true;

@@ -21,7 +21,7 @@
 //            another law of force, of which the equation does not hold), or a lowest current that
 //            is not below the rig's bias.
 // Not done   the delay of amplifiers and sampling acts on the part (i0^2 - b^2)/(b s0) x, which the
-//            magnet gives without any: what that costs is in amb margins --bias-current-a.
+//            magnet gives without any: amb margins prints the loop over the bias.
 
 #include <algorithm>
 #include <cstdint>

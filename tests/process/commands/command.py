@@ -24,17 +24,17 @@ DONE, OTHER, USAGE, BAD_INPUT = 0, 1, 2, 3
 
 # A number in a JSON file is a quantity whose key ends in its unit, a count, or a pure ratio.
 UNITS = ("_m", "_hz", "_rpm", "_s", "_a", "_n", "_kg", "_rad", "_n_per_a", "_n_per_m",
-         "_1_per_s", "_rad_per_s", "_byte", "_ns", "_percent", "_kg_m2")
+         "_1_per_s", "_rad_per_s", "_byte", "_ns", "_percent", "_kg_m2", "_db")
 COUNTS = {"samples", "drop_outs", "missing_samples", "rows", "cycles_without_frame", "pieces",
           "gaps", "settling_samples", "not_levitated_samples", "order", "cycles", "compared",
           "first_compared_cycle", "mode_differs", "missing_cycles", "fault_cycle",
           "corrupt_bytes", "corrupt_records", "corrupt_blocks", "seed", "substeps", "compared_with_substeps",
-          "orders", "turns", "skipped_periods", "missing_frames", "held_currents", "missing_records", "count"}
+          "orders", "turns", "skipped_periods", "missing_frames", "held_currents", "missing_records", "count", "times"}
 RATIOS = {"ratio", "share", "sigmas", "damping_ratio", "largest_pole_modulus", "forward_share",
           "torsion_share", "sensitivity_peak", "gain_margin_up", "gain_margin_down", "largest_singular_value",
           "multiple_of_noise", "expected_multiple", "lag_one_correlation",
           "dominant_density_ratio", "saturated_share", "clearance_share", "share_of_peak", "peak",
-          "sigma", "computed_peak", "condition", "shown_share",
+          "sigma", "computed_peak", "condition", "shown_share", "copper_share",
           "relative_deflection", "sensitivity_real", "sensitivity_imaginary"}
 
 

@@ -53,7 +53,7 @@ MISSING = {
     "design hinf": ("--rig", ABSENT), "design pid": ("--rig", ABSENT), "design check": ("--controller", ABSENT),
     "design schedule": ("--rig", ABSENT), "design notch": ("--rig", ABSENT),
     "design uncertainty": ("--rig", ABSENT), "design compare": (ABSENT,),
-    "balance": (ABSENT,),
+    "balance": (ABSENT,), "bench mesh": ("--rig", ABSENT),
     "diagnose": (ABSENT, "--rig", "flexible_rotor", "--out", "d"),
 }
 # Look for no file that a user names; the nonlinear fits take theirs with more options.

@@ -7,7 +7,7 @@ import json
 import re
 import unittest
 
-from command import DONE, SHIPPED_RIG, CommandTest, amb
+from command import BAD_INPUT, DONE, SHIPPED_RIG, CommandTest, amb
 
 # What is asked of a commissioning without wrong known numbers; at the shipped noise of 0.3 um and
 # stretches of 2 s the stated deviations are a fifth of it and less.
@@ -65,6 +65,22 @@ class FullSpectrum(CommandTest):
 
     def test_finds_the_12_dof_rig_from_its_own_run(self):
         self.check("geared_rotor_12dof")
+
+    def test_the_mesh_bench_says_what_holding_the_shafts_costs_the_housing(self):
+        _, mesh = self.compute("bench", "mesh", "--rig", "geared_rotor_12dof", "--hz", "15")
+        at = mesh["speeds"][0]
+        self.assertEqual(at["twisted"], ["motor to pinion", "gear to brake"])
+        self.assertEqual([at[kind]["trouble"] for kind in ("off", "law", "vibration", "current")], 4 * [""])
+        self.assertEqual(at["off"]["housing_level_db"], [0.0, 0.0])
+        # What holds a shaft that runs out pushes: the stiller, the harder.
+        moves = [at[kind]["displacement_rms_m"] for kind in ("off", "law", "vibration")]
+        pushes = [at[kind]["housing_force_rms_n"][0] for kind in ("off", "law", "vibration")]
+        self.assertEqual(moves, sorted(moves, reverse=True))
+        self.assertEqual(pushes, sorted(pushes))
+        self.assertLess(at["current"]["housing_force_rms_n"][0], 0.5 * at["law"]["housing_force_rms_n"][0])
+        done = amb(self.folder, "bench", "mesh", "--rig", "flexible_rotor")
+        self.assertEqual(done.returncode, BAD_INPUT)
+        self.assertIn("the rig has no gears", done.stderr)
 
 
 if __name__ == "__main__":

@@ -135,6 +135,18 @@ TEST(BiasSaving, IsWholeBeforeItMayBeNeeded) {
   EXPECT_EQ(raised(unknown), 2.0);
 }
 
+TEST(BiasSaving, IsWholeBeyondTheOrbitOfARigOfOneAxisToo) {
+  RigNumbers rig = Rig();
+  rig.channels = {"x"};
+  BiasSaving saving(Saving(), rig);
+  Go(saving, 3.0, Calm(), {});
+  ASSERT_EQ(saving.current_a(), 0.4);
+  Conditions outside = Calm();
+  outside.position_m[0] = 41e-6;
+  Go(saving, 0.0045, outside, {});
+  EXPECT_EQ(saving.current_a(), 2.0);
+}
+
 TEST(BiasSaving, KeepsBothCoilsAboveNothing) {
   BiasSaving saving(Saving(), Rig());
   Go(saving, 3.0, Calm(), {});
