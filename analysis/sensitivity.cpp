@@ -295,7 +295,7 @@ SensitivityCurves CurvesOf(const plant::PlantConfig& plant, const law::LawConfig
   const SampledLoop loop = CloseLoop(plant, law, speed_rad_per_s);
   const LoopResponse response(loop);
   std::vector<double> grid_hz =
-      GridFrequencies(ClosedLoopPoles(plant, law, speed_rad_per_s), response.nyquist_hz());
+      GridFrequencies(PolesOf(loop, speed_rad_per_s), response.nyquist_hz());
   for (const std::complex<double> z : numerics::EigenvaluesOf(loop.plant.a)) {
     if (z.imag() > 0.0) AddCircle(std::log(z) / loop.period_s, grid_hz);
   }

@@ -45,7 +45,7 @@ std::string BlockEnds(std::string_view name, std::string_view where, synchronous
   return fmt::format("{}{} ends {}: {}", kSubject, name, where, Text(why));
 }
 
-// A name may hold the words of a sentence: what follows the last of them is not the name's.
+// Should a name hold " begins at " or " ends at " itself, the last of them is the sentence's own.
 std::optional<BlockEvent> ReadBlockEvent(std::string_view text) {
   if (!text.starts_with(kSubject)) return std::nullopt;
   text.remove_prefix(kSubject.size());

@@ -13,15 +13,16 @@ namespace levitas::cli {
 
 std::vector<LoopAtBias> JudgeBias(const config::RigFile& rig,
                                   const config::ControllerFile& controller,
-                                  const std::vector<double>& speeds_rpm) {
+                                  const std::vector<analysis::SensitivityResult>& at_rig_bias) {
   constexpr int kSteps = 4;
   std::vector<LoopAtBias> loops;
   if (controller.bias.empty()) return loops;
   const double whole_a = rig.numbers.bias_current_a;
   const double ratio = controller.bias.lowest_current_a / whole_a;
-  for (const double rpm : speeds_rpm) {
-    const double speed = RpmToRadPerS(rpm);
-    for (int k = 0; k <= kSteps; ++k) {
+  for (const analysis::SensitivityResult& whole : at_rig_bias) {
+    loops.push_back({whole_a, whole});
+    const double speed = whole.speed_rad_per_s;
+    for (int k = 1; k <= kSteps; ++k) {
       const double bias_a = whole_a * std::pow(ratio, static_cast<double>(k) / kSteps);
       const auto loop = analysis::CloseLoopAtBias(rig.plant, controller.law, speed, bias_a);
       loops.push_back({bias_a, analysis::SensitivityPeaks(loop, speed)});

@@ -17,10 +17,11 @@ struct LoopAtBias {
   analysis::SensitivityResult loop;
 };
 
-/// From the rig's bias to the lowest in equal ratios, at each speed. Empty without bias saving.
-[[nodiscard]] std::vector<LoopAtBias> JudgeBias(const config::RigFile& rig,
-                                                const config::ControllerFile& controller,
-                                                const std::vector<double>& speeds_rpm);
+/// From the rig's bias, at which the loops are judged already, to the lowest in equal ratios. Empty
+/// without bias saving.
+[[nodiscard]] std::vector<LoopAtBias> JudgeBias(
+    const config::RigFile& rig, const config::ControllerFile& controller,
+    const std::vector<analysis::SensitivityResult>& at_rig_bias);
 
 /// A line for each, and the key `bias_saving` of the answer; nothing without any.
 void PrintBias(const std::vector<LoopAtBias>& loops, const std::vector<std::string>& channels,

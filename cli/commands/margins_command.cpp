@@ -237,7 +237,7 @@ ExitStatus Run(const MarginsOptions& options) {
     PrintBlocks(blocks, controller.file, json);
     blocks_stable = std::ranges::all_of(blocks, [](const auto& at) { return at.rig.stable(); });
   }
-  const std::vector<LoopAtBias> at_bias = JudgeBias(rig, controller.file, options.speeds_rpm);
+  const std::vector<LoopAtBias> at_bias = JudgeBias(rig, controller.file, loops);
   PrintBias(at_bias, rig.numbers.channels, json);
   fmt::print("{}{}", GainsNote(options, rig), RestNote(options, rig.numbers));
   Draw(options, of, loops, json);

@@ -93,7 +93,7 @@ nlohmann::ordered_json Json(const analysis::LoopPoles& at) {
 }
 
 /// The same loop with the blocks of synchronous control that act at this speed; nothing without.
-void AddBlocks(const config::RigFile& rig, const config::ControllerFile& controller,
+void AddBlocks(const analysis::SampledLoop& loop, const config::ControllerFile& controller,
                double speed_rad_per_s, nlohmann::ordered_json& json) {
   std::string acting;
   for (const auto& block : controller.synchronous.blocks) {
@@ -101,9 +101,7 @@ void AddBlocks(const config::RigFile& rig, const config::ControllerFile& control
     acting += (acting.empty() ? "" : ", ") + block.name;
   }
   if (acting.empty()) return;
-  const auto judged =
-      analysis::JudgeSynchronous(analysis::CloseLoop(rig.plant, controller.law, speed_rad_per_s),
-                                 controller.synchronous, speed_rad_per_s);
+  const auto judged = analysis::JudgeSynchronous(loop, controller.synchronous, speed_rad_per_s);
   fmt::print("with synchronous control ({}): {} (largest |z| {:.6f})\n", acting,
              judged.stable() ? "STABLE" : "UNSTABLE", judged.largest_pole_modulus);
   json["with_synchronous_control"] = {{"blocks", acting},
@@ -122,11 +120,12 @@ ExitStatus Run(const PolesOptions& options) {
              rig.numbers.name, ControllerText(controller), delay);
   std::vector<analysis::LoopPoles> loops;
   for (const double rpm : options.speeds_rpm) {
-    const auto& poles = loops.emplace_back(
-        analysis::ClosedLoopPoles(rig.plant, controller.file.law, RpmToRadPerS(rpm)));
+    const double speed = RpmToRadPerS(rpm);
+    const auto loop = analysis::CloseLoop(rig.plant, controller.file.law, speed);
+    const auto& poles = loops.emplace_back(analysis::PolesOf(loop, speed));
     Print(poles, options.up_to_hz);
     nlohmann::ordered_json row = Json(poles);
-    AddBlocks(rig, controller.file, poles.speed_rad_per_s, row);
+    AddBlocks(loop, controller.file, speed, row);
     json["speeds"].push_back(std::move(row));
   }
   const double rated_rad_per_s = rig.numbers.max_speed_rad_per_s;

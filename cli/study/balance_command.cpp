@@ -21,8 +21,6 @@
 #include "identification/balance/balance.hpp"
 #include "report/balance/balance_files.hpp"
 #include "session/output_path.hpp"
-#include "session/recording.hpp"
-#include "session/session_reader.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -87,22 +85,9 @@ AppliedWeight WeightOfWord(const std::string& word, const CorrectionPlanes& plan
   throw refuse(fmt::format("no plane is named {}", name));
 }
 
-/// The controller of --controller, else the session's.
-config::ControllerFile ControllerOf(const BalanceOptions& options, const config::RigFile& rig) {
-  if (!options.controller_name.empty()) {
-    return config::LoadController(config::FindConfig(options.controller_name, "controllers"),
-                                  rig.numbers);
-  }
-  if (session::IsSession(options.data_path)) {
-    const std::string text = session::SessionReader(options.data_path).header().controller_yaml;
-    return config::ParseController(text, options.data_path + " (header)", rig.numbers);
-  }
-  throw BadInput("--write-run-outs: " + options.data_path +
-                 " names no controller; give the one to be written with --controller");
-}
-
-/// That controller with the run-out that was found taken off what its law reads, in place of what
-/// it had of order 1. Only what the records show beyond chance: two deviations.
+/// The controller of --controller, else the session's, with the run-out that was found taken off
+/// what its law reads, in place of what it had of order 1. Only what the records show beyond
+/// chance: two deviations.
 void WriteRunOuts(const BalanceOptions& options, const config::RigFile& rig,
                   const UnbalanceFit& fit) {
   if (options.run_outs_path.empty()) return;
@@ -121,7 +106,12 @@ void WriteRunOuts(const BalanceOptions& options, const config::RigFile& rig,
                   "--write-run-outs: no probe's run-out is beyond two deviations of what the "
                   "records leave open; nothing was written. A slow run-up from near rest shows it");
   }
-  config::ControllerFile controller = ControllerOf(options, rig);
+  auto known = ControllerIfKnown(options.data_path, options.controller_name, rig);
+  if (!known) {
+    throw BadInput("--write-run-outs: " + options.data_path +
+                   " names no controller; give the one to be written with --controller");
+  }
+  config::ControllerFile& controller = known->file;
   auto& all = controller.synchronous.run_outs;
   std::erase_if(all, [](const synchronous::RunOut& one) { return one.order == 1.0; });
   all.push_back(found);

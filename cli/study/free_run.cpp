@@ -93,21 +93,31 @@ std::size_t Companion(const FreeRunContext& c, const FreeRunSegment& segment, st
 
 }  // namespace
 
-std::optional<LawOfRecord> LawIfKnown(const std::string& record_path,
-                                      const std::string& controller_name,
-                                      const config::RigFile& rig) {
+std::optional<ControllerOfRecord> ControllerIfKnown(const std::string& record_path,
+                                                    const std::string& controller_name,
+                                                    const config::RigFile& rig) {
   if (!controller_name.empty()) {
     const std::string path = config::FindConfig(controller_name, "controllers");
-    const auto file = config::LoadController(path, rig.numbers);
-    return LawOfRecord{fmt::format("{} ({})", file.name, path), file.law};
+    auto file = config::LoadController(path, rig.numbers);
+    std::string name = fmt::format("{} ({})", file.name, path);
+    return ControllerOfRecord{std::move(name), std::move(file)};
   }
   std::string text;
   if (session::IsSession(record_path)) {
     text = session::SessionReader(record_path).header().controller_yaml;
   }
   if (text.empty()) return std::nullopt;
-  const auto file = config::ParseController(text, record_path + " (header)", rig.numbers);
-  return LawOfRecord{file.name + " (of the session)", file.law};
+  auto file = config::ParseController(text, record_path + " (header)", rig.numbers);
+  std::string name = file.name + " (of the session)";
+  return ControllerOfRecord{std::move(name), std::move(file)};
+}
+
+std::optional<LawOfRecord> LawIfKnown(const std::string& record_path,
+                                      const std::string& controller_name,
+                                      const config::RigFile& rig) {
+  const auto known = ControllerIfKnown(record_path, controller_name, rig);
+  if (!known) return std::nullopt;
+  return LawOfRecord{known->name, known->file.law};
 }
 
 LawOfRecord FindLaw(const std::string& record_path, const std::string& controller_name,

@@ -21,6 +21,16 @@ struct FreeRunContext {
   std::string law;  ///< name, and where it is from
 };
 
+/// A controller and where it is from: "name (path)" or "name (of the session)".
+struct ControllerOfRecord {
+  std::string name;
+  config::ControllerFile file;
+};
+
+/// That of the option `controller_name`, else of the session; none in other records.
+[[nodiscard]] std::optional<ControllerOfRecord> ControllerIfKnown(
+    const std::string& record_path, const std::string& controller_name, const config::RigFile& rig);
+
 struct LawOfRecord {
   std::string name;
   law::LawConfig law;

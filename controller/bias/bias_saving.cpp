@@ -42,7 +42,12 @@ BiasSaving::BiasSaving(const BiasConfig& config, const RigNumbers& rig)
   fall_a_ = rig_bias_a_ * rig.period_s() / config.lowering_time_s;
   rise_a_ = rig_bias_a_ * rig.period_s() / config.raising_time_s;
   forget_ = std::exp(-kForgotten * rig.period_s() / config.lowering_time_s);
-  for (std::size_t i = 0; i < axes_; ++i) gap_m_[i] = rig.magnet_gaps_m[i / 2];
+  const double lowest_a = config.lowest_current_a;
+  for (std::size_t i = 0; i < axes_; ++i) {
+    gap_m_[i] = rig.magnet_gaps_m[i / 2];
+    pull_a_per_m_[i] =
+        ShareAt(rig_bias_a_, lowest_a, gap_m_[i]).displacement_a_per_m * (lowest_a / rig_bias_a_);
+  }
   for (std::size_t b = 0; b < rig.bearings.size(); ++b) {
     orbit_m_[b] = config.largest_orbit_fraction * rig.ClearanceOf(b);
   }
@@ -70,18 +75,17 @@ bool BiasSaving::Whole(const Conditions& seen) const noexcept {
 
 void BiasSaving::Step(const Conditions& seen, const AxisArray& law_current_a) noexcept {
   if (empty()) return;
-  const double lowest_a = config_.lowest_current_a;
   double asked_a = 0.0;
   for (std::size_t i = 0; i < axes_; ++i) {
-    const double pull =
-        ShareAt(rig_bias_a_, lowest_a, gap_m_[i]).displacement_a_per_m * (lowest_a / rig_bias_a_);
-    asked_a = std::max(asked_a, std::abs(law_current_a[i]) + pull * std::abs(seen.position_m[i]));
+    const double here_a =
+        std::abs(law_current_a[i]) + pull_a_per_m_[i] * std::abs(seen.position_m[i]);
+    asked_a = std::max(asked_a, here_a);
   }
   if (Whole(seen)) asked_a = config_.largest_share * rig_bias_a_;
   // std::max keeps the peak where what is asked is no number.
   peak_a_ = std::max(peak_a_ * forget_, asked_a);
   const double enough_a = std::sqrt(rig_bias_a_ * peak_a_ / config_.largest_share);
-  const double wanted_a = std::clamp(enough_a, lowest_a, rig_bias_a_);
+  const double wanted_a = std::clamp(enough_a, config_.lowest_current_a, rig_bias_a_);
   bias_a_ = std::clamp(wanted_a, bias_a_ - fall_a_, bias_a_ + rise_a_);
   for (std::size_t i = 0; i < axes_; ++i) share_[i] = ShareAt(rig_bias_a_, bias_a_, gap_m_[i]);
 }

@@ -80,6 +80,7 @@ class BiasSaving {
   double fall_a_{}, rise_a_{};  ///< per period
   double forget_{1.0};          ///< of a peak, per period
   AxisArray gap_m_{};           ///< per axis
+  AxisArray pull_a_per_m_{};    ///< per axis: (i0^2 - lowest^2)/(i0 s0)
   AxisArray orbit_m_{};         ///< per bearing
   std::array<Share, kMaxAxes> share_{};
   double peak_a_{};

@@ -183,7 +183,6 @@ void ControlCycle::Impl::RunLaw(const OperatorInput& op,
   if (!row.energised || !seen.fresh) {
     synchronous.Wait(SynchronousConditions(decision));
     if (!row.energised) given = {};
-    if (!row.energised) bias.Reset();
     return;
   }
   AxisArray error_m{};

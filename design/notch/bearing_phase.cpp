@@ -31,6 +31,8 @@ double PhaseOf(const plant::BearingConfig& bearing, double delay_s, double rad_p
          std::atan(rad_per_s / (kTwoPi * bearing.amplifier.bandwidth_hz));
 }
 
+}  // namespace
+
 MatrixXcd LawAt(const analysis::SampledLoop& loop, std::complex<double> z) {
   if (loop.coupled) return loop.coupled->At(z);
   const auto axes = static_cast<Index>(loop.law.size());
@@ -38,8 +40,6 @@ MatrixXcd LawAt(const analysis::SampledLoop& loop, std::complex<double> z) {
   for (Index i = 0; i < axes; ++i) law(i, i) = loop.law[static_cast<std::size_t>(i)].At(z);
   return law;
 }
-
-}  // namespace
 
 MatrixXcd PhaseAlignedT(const plant::PlantConfig& rig, const analysis::SampledLoop& loop,
                         const synchronous::BlockConfig& block, double speed_rad_per_s) {

@@ -16,11 +16,15 @@
 //           that gives an axis nothing at this frequency: it has no phase to follow.
 
 #include <Eigen/Core>
+#include <complex>
 
 #include "analysis/sampled_loop.hpp"
 #include "controller/synchronous/synchronous_config.hpp"
 
 namespace levitas::design {
+
+/// C(z) of the law of `loop`, coupled or axis by axis.
+[[nodiscard]] Eigen::MatrixXcd LawAt(const analysis::SampledLoop& loop, std::complex<double> z);
 
 /// `loop`: of this rig at this speed; only its law is read.
 [[nodiscard]] Eigen::MatrixXcd PhaseAlignedT(const plant::PlantConfig& rig,

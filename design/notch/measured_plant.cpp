@@ -7,12 +7,13 @@
 #include <cmath>
 
 #include "common/problem.hpp"
+#include "common/rotational_speed.hpp"
 #include "common/two_pi.hpp"
+#include "design/notch/bearing_phase.hpp"
 
 namespace levitas::design {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXcd;
 
 /// A gap between two lines beyond which P may do anything, of the frequency. Next to an order of
@@ -48,7 +49,7 @@ MatrixXcd InRecord(const MeasuredPlant& record, double frequency_hz) {
     throw BadInput(fmt::format(
         "the record at {:.0f} rpm has no lines around {:.2f} Hz ({} lines from {:.2f} to {:.2f} "
         "Hz): excite longer and with a wider signal, or choose another window",
-        record.speed_rad_per_s * 60.0 / kTwoPi, frequency_hz, record.frequency_hz.size(),
+        RadPerSToRpm(record.speed_rad_per_s), frequency_hz, record.frequency_hz.size(),
         record.frequency_hz.empty() ? 0.0 : record.frequency_hz.front(),
         record.frequency_hz.empty() ? 0.0 : record.frequency_hz.back()));
   }
@@ -57,15 +58,6 @@ MatrixXcd InRecord(const MeasuredPlant& record, double frequency_hz) {
   const double span_hz = record.frequency_hz[upper] - record.frequency_hz[lower];
   const double share = (frequency_hz - record.frequency_hz[lower]) / span_hz;
   return (1.0 - share) * Smoothed(record, lower) + share * high;
-}
-
-MatrixXcd LawAt(const analysis::SampledLoop& loop, double frequency_hz) {
-  const auto z = std::polar(1.0, kTwoPi * frequency_hz * loop.period_s);
-  if (loop.coupled) return loop.coupled->At(z);
-  const auto axes = static_cast<Index>(loop.law.size());
-  MatrixXcd law = MatrixXcd::Zero(axes, axes);
-  for (Index i = 0; i < axes; ++i) law(i, i) = loop.law[static_cast<std::size_t>(i)].At(z);
-  return law;
 }
 
 }  // namespace
@@ -86,7 +78,8 @@ MatrixXcd MeasuredAnswer(std::span<const MeasuredPlant> records, const analysis:
                          const synchronous::BlockConfig& block, double speed_rad_per_s) {
   const double frequency_hz = block.order * speed_rad_per_s / kTwoPi;
   const MatrixXcd plant = PlantAt(records, speed_rad_per_s, frequency_hz);
-  const MatrixXcd loop_gain = plant * LawAt(loop, frequency_hz);
+  const auto z = std::polar(1.0, kTwoPi * frequency_hz * loop.period_s);
+  const MatrixXcd loop_gain = plant * LawAt(loop, z);
   const MatrixXcd sensitivity =
       Eigen::FullPivLU<MatrixXcd>(MatrixXcd::Identity(plant.rows(), plant.cols()) + loop_gain)
           .inverse();

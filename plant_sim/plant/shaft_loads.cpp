@@ -1,15 +1,10 @@
 #include "plant_sim/plant/shaft_loads.hpp"
 
+#include "plant_sim/plant/modal_sum.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
 namespace levitas::plant {
 namespace {
-
-double Sum(const std::vector<double>& row, const double* modal) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < row.size(); ++i) sum += row[i] * modal[i];
-  return sum;
-}
 
 /// m phi w^2: the row of M Phi W^2, the stiffness of the modes as force on the disc, of a lumped
 /// shaft; a beam is free, and its supports hold it.
@@ -31,8 +26,6 @@ std::vector<double> BendingRow(const PlantConfig& config, const TrainModes& mode
 
 ShaftLoads::ShaftLoads(const PlantModel& model)
     : shafts_(model.config().shafts.size()), layout_(model.layout()) {
-  modes_ = layout_.modes;
-  twists_ = layout_.twists;
   const PlantConfig& config = model.config();
   if (shafts_ == 0) return;
   const TrainModes modes = ReduceTrain(config);
@@ -70,13 +63,14 @@ std::vector<gear::Vector> ShaftLoads::Housing(const Plant& plant) const {
   const double* x = state + layout_.q_x;
   const double* y = state + layout_.q_y;
   for (std::size_t s = 0; s < shafts_; ++s) {
-    force[s] = {Sum(bending_[s], x), Sum(bending_[s], y)};
+    force[s] = {ModalSum(bending_[s], x), ModalSum(bending_[s], y)};
   }
   for (const Foot& foot : feet_) {
     force[foot.shaft] =
-        force[foot.shaft] +
-        gear::Vector{foot.kx * Sum(foot.shape, x) + foot.cx * Sum(foot.shape, state + layout_.v_x),
-                     foot.ky * Sum(foot.shape, y) + foot.cy * Sum(foot.shape, state + layout_.v_y)};
+        force[foot.shaft] + gear::Vector{foot.kx * ModalSum(foot.shape, x) +
+                                             foot.cx * ModalSum(foot.shape, state + layout_.v_x),
+                                         foot.ky * ModalSum(foot.shape, y) +
+                                             foot.cy * ModalSum(foot.shape, state + layout_.v_y)};
   }
   const AxisArray magnet_n = plant.MagnetForce();
   for (std::size_t b = 0; b < shaft_of_bearing_.size(); ++b) {
@@ -90,7 +84,7 @@ std::vector<double> ShaftLoads::Torques(const Plant& plant) const {
   std::vector<double> torque;
   for (const Spring& spring : springs_) {
     torque.push_back(spring.stiffness_n_m_per_rad *
-                     Sum(spring.twist, plant.state().data() + layout_.q_t));
+                     ModalSum(spring.twist, plant.state().data() + layout_.q_t));
   }
   return torque;
 }

@@ -42,7 +42,7 @@ class ShaftLoads {
     double kx{}, ky{}, cx{}, cy{};
   };
 
-  std::size_t shafts_{}, modes_{}, twists_{};
+  std::size_t shafts_{};
   StateLayout layout_;
   std::vector<std::vector<double>> bending_;  ///< per shaft: force per modal displacement [N]
   std::vector<Foot> feet_;

@@ -3,16 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "plant_sim/plant/modal_sum.hpp"
+
 namespace levitas::plant {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-
-double Sum(const std::vector<double>& shape, const double* modal) noexcept {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * modal[i];
-  return sum;
-}
 
 void Project(const std::vector<double>& shape, double force,
              double* __restrict acceleration) noexcept {
@@ -71,14 +67,14 @@ gear::Prescribed Imposed(const MeshModel& mesh, const TrainPose& pose,
 void AddMesh(const MeshModel& mesh, const TrainPose& pose, std::size_t index, std::size_t modes,
              const double* position, const double* velocity, double* acceleration) noexcept {
   const gear::Vector& n = mesh.law.normal;
-  const double twist_m = Sum(mesh.twist, position + 2 * modes);
-  const double twist_m_per_s = Sum(mesh.twist, velocity + 2 * modes);
+  const double twist_m = ModalSum(mesh.twist, position + 2 * modes);
+  const double twist_m_per_s = ModalSum(mesh.twist, velocity + 2 * modes);
   const gear::Prescribed& imposed = pose.prescribed[index];
   const gear::Vector delta_m =
-      gear::Vector{Sum(mesh.shape, position), Sum(mesh.shape, position + modes)} + twist_m * n +
-      imposed.displacement_m;
+      gear::Vector{ModalSum(mesh.shape, position), ModalSum(mesh.shape, position + modes)} +
+      twist_m * n + imposed.displacement_m;
   const gear::Vector rate =
-      gear::Vector{Sum(mesh.shape, velocity), Sum(mesh.shape, velocity + modes)} +
+      gear::Vector{ModalSum(mesh.shape, velocity), ModalSum(mesh.shape, velocity + modes)} +
       twist_m_per_s * n + imposed.rate_m_per_s;
   // Both wheels in their own sense of rotation.
   const double sense = mesh.driven.ratio < 0.0 ? -1.0 : 1.0;
@@ -120,15 +116,16 @@ void AddTrain(const TrainModel& train, const TrainPose& pose, std::size_t modes,
   }
   AddUnbalance(train, pose, modes, acceleration);
   for (const SupportModel& support : train.supports) {
-    const double x_n = -support.stiffness_x_n_per_m * Sum(support.shape, position) -
-                       support.damping_x_n_s_per_m * Sum(support.shape, velocity);
-    const double y_n = -support.stiffness_y_n_per_m * Sum(support.shape, position + modes) -
-                       support.damping_y_n_s_per_m * Sum(support.shape, velocity + modes);
+    const double x_n = -support.stiffness_x_n_per_m * ModalSum(support.shape, position) -
+                       support.damping_x_n_s_per_m * ModalSum(support.shape, velocity);
+    const double y_n = -support.stiffness_y_n_per_m * ModalSum(support.shape, position + modes) -
+                       support.damping_y_n_s_per_m * ModalSum(support.shape, velocity + modes);
     Project(support.shape, x_n, acceleration);
     Project(support.shape, y_n, acceleration + modes);
   }
   for (const TwistDamper& damper : train.dampers) {
-    Project(damper.twist, -damper.damping_n_m_s_per_rad * Sum(damper.twist, velocity + 2 * modes),
+    Project(damper.twist,
+            -damper.damping_n_m_s_per_rad * ModalSum(damper.twist, velocity + 2 * modes),
             acceleration + 2 * modes);
   }
   for (std::size_t m = 0; m < train.meshes.size(); ++m) {

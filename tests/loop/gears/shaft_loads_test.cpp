@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plant_sim/plant/modal_sum.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "tests/loop/gears/gear_motion.hpp"
 #include "tests/support/geared_rigs.hpp"
@@ -76,6 +77,12 @@ TEST_F(ShaftLoadsAtRest, OfAMagnetsPullAreNothingTogether) {
   double x_n = 0.0;
   for (std::size_t s = 0; s < 2; ++s) x_n += pulled.housing_n[s].x - before.housing_n[s].x;
   EXPECT_NEAR(x_n, 0.0, 2e-3 * force_n);
+}
+
+TEST(ModalSum, IsOfTheRowAndOfNoMoreCoordinates) {
+  const double modal[] = {3.0, -1.0, 1e9};
+  EXPECT_EQ(plant::ModalSum({2.0, 4.0}, modal), 2.0);
+  EXPECT_EQ(plant::ModalSum({}, modal), 0.0);
 }
 
 TEST(ShaftLoads, OfARigWithOneRotorAreNone) {

@@ -153,7 +153,7 @@ TEST(BiasSaving, KeepsBothCoilsAboveNothing) {
   const AxisArray out_a = saving.At({1.9, -1.9}, {});
   EXPECT_EQ(out_a[0], 0.4);
   EXPECT_EQ(out_a[1], -0.4);
-  // What the law is told it may ask for is what the coils then give.
+  // A law current at the limit that the law is given becomes a control current at the coils' limit.
   const AxisArray read_m{15e-6, 0.0};
   const double limit_a = saving.LimitOf(2.0, read_m);
   const AxisArray at_limit_a = saving.At({limit_a, limit_a}, read_m);
