@@ -84,6 +84,7 @@ class DiagnoseOwnModel(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.shared = TemporaryDirectory()
+        cls.answers = {}
         amb(cls.shared.name, "run", "--record", "run.lcm")
         amb(cls.shared.name, "export", "run.lcm", "--csv", "run.csv")
 
@@ -92,10 +93,13 @@ class DiagnoseOwnModel(unittest.TestCase):
         cls.shared.cleanup()
 
     def diagnose(self, data):
-        out = Path(self.shared.name) / ("answer_" + data.replace(".", "_"))
-        printed = amb(self.shared.name, "diagnose", "--quick", "--rig", "flexible_rotor", data,
-                      "--out", out)
-        return printed, json.loads((out / "diagnosis.json").read_text())
+        """Each record is asked once: what several tests look at is one answer of half a minute."""
+        if data not in self.answers:
+            out = Path(self.shared.name) / ("answer_" + data.replace(".", "_"))
+            printed = amb(self.shared.name, "diagnose", "--quick", "--explain", "--rig", "flexible_rotor", data,
+                          "--out", out)
+            self.answers[data] = printed, json.loads((out / "diagnosis.json").read_text())
+        return self.answers[data]
 
     def test_a_session_of_the_model_itself_has_no_cause(self):
         printed, answer = self.diagnose("run.lcm")
@@ -104,7 +108,7 @@ class DiagnoseOwnModel(unittest.TestCase):
 
     def test_the_answer_is_the_same_bytes_however_many_threads_compute_it(self):
         answers = set()
-        for threads in ("1", "2", "4"):
+        for threads in ("1", "3"):
             done = finished(self.shared.name, "diagnose", "--quick", "--rig", "flexible_rotor", "run.csv",
                             "--out", "threads", "--json", "-", LEVITAS_THREADS=threads)
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -151,10 +155,8 @@ class DiagnoseOwnModel(unittest.TestCase):
         modes = amb(self.shared.name, "modes", "--rig", "answer_run_lcm/calibrated_rig.yaml")
         self.assertIn("Hz", modes)
         self.assertIn("calibrated_rig.yaml", printed, "files that were written are named")
-        whole = amb(self.shared.name, "diagnose", "--quick", "--explain", "--rig", "flexible_rotor",
-                    "run.lcm", "--out", "explained")
         for effect, where in values:
-            self.assertTrue(any(effect in line and where in line for line in whole.splitlines()),
+            self.assertTrue(any(effect in line and where in line for line in printed.splitlines()),
                             (effect, where))
 
     def test_a_rig_that_levitates_under_the_law_of_its_session_is_written_without_a_word(self):
