@@ -35,10 +35,26 @@ std::string_view Text(synchronous::Ending ending) {
   return "";
 }
 
+std::string_view Text(synchronous::AngleSource angle_from) {
+  using synchronous::AngleSource;
+  switch (angle_from) {
+    case AngleSource::kRig:
+      break;
+    case AngleSource::kSpeed:
+      return "no mark on the shaft, its angle is the integral of the measured speed";
+    case AngleSource::kOrbit:
+      return "no mark on the shaft, its angle is estimated from the orbit";
+  }
+  return "";
+}
+
 }  // namespace
 
-std::string BlockBegins(std::string_view name, std::string_view where) {
-  return fmt::format("{}{} begins {}", kSubject, name, where);
+std::string BlockBegins(std::string_view name, std::string_view where,
+                        synchronous::AngleSource angle_from) {
+  const std::string_view estimated = Text(angle_from);
+  return fmt::format("{}{} begins {}{}{}", kSubject, name, where, estimated.empty() ? "" : ": ",
+                     estimated);
 }
 
 std::string BlockEnds(std::string_view name, std::string_view where, synchronous::Ending why) {
@@ -57,7 +73,7 @@ std::optional<BlockEvent> ReadBlockEvent(std::string_view text) {
   if (at == std::string_view::npos) return std::nullopt;
   BlockEvent event{std::string(text.substr(0, at)), !ending, {}};
   const auto why = text.find(kWhy, at);
-  if (ending && why != std::string_view::npos) event.why = text.substr(why + kWhy.size());
+  if (why != std::string_view::npos) event.why = text.substr(why + kWhy.size());
   return event;
 }
 

@@ -24,9 +24,9 @@ bool FrameUsable(const cycle::CycleRecord& record) noexcept { return record.in.f
 }  // namespace
 
 EventDeriver::EventDeriver(std::vector<std::string> channels, std::int64_t period_ns,
-                           std::vector<std::string> synchronous_blocks)
+                           SynchronousLabels synchronous)
     : channels_(std::move(channels)),
-      synchronous_blocks_(std::move(synchronous_blocks)),
+      synchronous_(std::move(synchronous)),
       second_cycles_(
           static_cast<std::uint64_t>(1'000'000'000 / std::max<std::int64_t>(period_ns, 1))),
       lift_(1e-9 * static_cast<double>(period_ns)) {}
@@ -106,11 +106,12 @@ void EventDeriver::Synchronous(const cycle::CycleRecord& record, std::vector<Eve
         have_previous_ ? previous_.out.synchronous[k].state : BlockState::kOff;
     if (now.state == before) continue;
     const std::string name =
-        k < synchronous_blocks_.size() ? synchronous_blocks_[k] : fmt::format("block {}", k + 1);
+        k < synchronous_.blocks.size() ? synchronous_.blocks[k] : fmt::format("block {}", k + 1);
     const std::string where =
         fmt::format("at {} (cycle {})", Speed(record.in.frame.speed_rad_per_s), record.in.cycle);
     if (now.state == BlockState::kActing) {
-      events.push_back(Make(record, Event::Severity::kInformation, BlockBegins(name, where)));
+      events.push_back(Make(record, Event::Severity::kInformation,
+                            BlockBegins(name, where, synchronous_.angle_from)));
     } else if (now.state == BlockState::kFading || before == BlockState::kActing) {
       const bool planned = now.ending == synchronous::Ending::kSpeed;
       events.push_back(Make(record,

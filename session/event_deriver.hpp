@@ -22,7 +22,7 @@ namespace levitas::session {
 class EventDeriver {
  public:
   EventDeriver(std::vector<std::string> channels, std::int64_t period_ns,
-               std::vector<std::string> synchronous_blocks = {});
+               SynchronousLabels synchronous = {});
 
   /// Appends what `record`, following the previous one given, has to tell.
   void Step(const cycle::CycleRecord& record, std::vector<Event>& events);
@@ -52,7 +52,7 @@ class EventDeriver {
             std::vector<Event>& events) const;
 
   std::vector<std::string> channels_;
-  std::vector<std::string> synchronous_blocks_;
+  SynchronousLabels synchronous_;
   std::uint64_t second_cycles_;
   bool have_previous_{false};
   cycle::CycleRecord previous_;

@@ -40,8 +40,7 @@ struct Recorder::Impl {
   explicit Impl(RecorderOptions given)
       : options(std::move(given)),
         ring(kRingRecords),
-        deriver(options.header.channels, options.header.period_ns,
-                options.header.synchronous_blocks) {
+        deriver(options.header.channels, options.header.period_ns, options.header.synchronous) {
     if (!options.session_path.empty()) {
       session = std::make_unique<SessionWriter>(options.session_path, options.header,
                                                 Standing::kReplaced, options.patience);

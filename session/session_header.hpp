@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/enums.hpp"
+#include "session/block_events.hpp"
 
 namespace levitas::session {
 
@@ -23,7 +24,7 @@ struct SessionHeader {
   std::string machine;
   std::string source;  ///< "lcm", "can:can0", or the imported file's name
   std::vector<std::string> channels;
-  std::vector<std::string> synchronous_blocks{};  ///< names for the events; never written
+  SynchronousLabels synchronous{};  ///< words of the events; never written
   /// Empty for a whole session; in a trip file the path of the session it was cut out of, or
   /// "unrecorded run". Such a file starts in the middle of a run and cannot be replayed.
   std::string excerpt_of;

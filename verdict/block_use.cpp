@@ -17,7 +17,7 @@ std::vector<BlockUse> BlocksOf(std::span<const session::Event> events, std::uint
   const auto of = [&blocks](const std::string& name) -> BlockUse& {
     const auto known = std::ranges::find(blocks, name, &BlockUse::name);
     if (known != blocks.end()) return *known;
-    return blocks.emplace_back(BlockUse{name, 0.0, 0, {}, 0.0});
+    return blocks.emplace_back(BlockUse{name, 0.0, 0, {}, 0.0, {}});
   };
   for (const session::Event& event : events) {
     const auto told = session::ReadBlockEvent(event.text);
@@ -26,6 +26,7 @@ std::vector<BlockUse> BlocksOf(std::span<const session::Event> events, std::uint
     if (told->begins) {
       ++block.times;
       block.last_end.clear();
+      block.angle = told->why;
       acts_since[block.name] = event.cycle;
       continue;
     }

@@ -18,6 +18,7 @@ struct BlockUse {
   int times{};           ///< it began
   std::string last_end;  ///< why, in words; empty: it still acted at the end
   double last_end_s{};   ///< since the start of the record
+  std::string angle;     ///< how its angle was estimated; empty: it was measured
 };
 
 /// In the order of their first beginning. `last_cycle`: of the record.

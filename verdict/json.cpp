@@ -244,6 +244,7 @@ Object Blocks(const Inputs& in) {
         {{"name", block.name},
          {"acted_s", block.acted_s},
          {"times", block.times},
+         {"angle", block.angle.empty() ? "measured" : block.angle},
          {"ended_because", block.last_end},
          {"ended_at_s", block.last_end.empty() ? Object(nullptr) : Object(block.last_end_s)}});
   }

@@ -152,12 +152,13 @@ void Bias(const Inputs& in, Out out) {
 
 void Blocks(const Inputs& in, Out out) {
   for (const BlockUse& block : in.blocks) {
-    fmt::format_to(out, "{}{}: acted {:.2f} s{}, {}\n",
+    fmt::format_to(out, "{}{}: acted {:.2f} s{}, {}{}{}\n",
                    &block == &in.blocks.front() ? "\nblocks    " : "          ", block.name,
                    block.acted_s, block.times > 1 ? fmt::format(" in {} times", block.times) : "",
                    block.last_end.empty()
                        ? "to the end of the record"
-                       : fmt::format("ended at {:.2f} s: {}", block.last_end_s, block.last_end));
+                       : fmt::format("ended at {:.2f} s: {}", block.last_end_s, block.last_end),
+                   block.angle.empty() ? "" : "; ", block.angle);
   }
 }
 

@@ -168,17 +168,42 @@ void RefuseSharedWork(Visitor& v, const std::vector<synchronous::BlockConfig>& b
   }
 }
 
+void DescribeAngleSource(Visitor& v, synchronous::AngleConfig& angle, const RigNumbers& rig) {
+  using synchronous::AngleSource;
+  constexpr std::array<std::string_view, 3> kNames{"rig", "speed", "orbit"};
+  constexpr std::array kSources{AngleSource::kRig, AngleSource::kSpeed, AngleSource::kOrbit};
+  auto source =
+      static_cast<std::size_t>(std::ranges::find(kSources, angle.source) - kSources.begin());
+  v.Choice(
+      {"angle_from", kNames, kNames[0],
+       "rig: the angle that it measures; speed: no mark on the shaft, the integral of the "
+       "measured speed, which a block follows as long as it drifts slowly; orbit: no mark, and a "
+       "speed that is not quite the rotor's, which the orbit mends once a turn"},
+      source);
+  angle.source = kSources[source];
+  v.RefuseIf(angle.source == AngleSource::kOrbit && rig.axes() < 2, "angle_from",
+             "orbit needs a bearing with two axes");
+  v.Number({"least_followed_orbit", kMicrometre, 0.01, 1000, 2,
+            "of angle_from orbit, forward amplitude of one bearing: followed from there on, lost "
+            "below a "
+            "quarter of it"},
+           angle.least_followed_m);
+}
+
+// What takes the orbit away takes away the angle that is read from it.
+void RefuseLostOrbit(Visitor& v, const synchronous::SynchronousConfig& control) {
+  if (control.angle.source != synchronous::AngleSource::kOrbit) return;
+  for (const synchronous::BlockConfig& block : control.blocks) {
+    v.RefuseIf(
+        block.target == synchronous::Target::kVibration && block.order == 1.0, "angle_from",
+        fmt::format("orbit needs one, and {} takes it away: target current leaves it", block.name));
+  }
+}
+
 }  // namespace
 
 void Describe(Visitor& v, synchronous::SynchronousConfig& control, const RigNumbers& rig) {
-  constexpr std::array<std::string_view, 2> kSources{"rig", "speed"};
-  std::size_t source = control.angle.source == synchronous::AngleSource::kSpeed ? 1 : 0;
-  v.Choice({"angle_from", kSources, kSources[0],
-            "rig: the angle that it measures; speed: no mark on the shaft, the integral of the "
-            "measured speed, which a block follows as long as it drifts slowly"},
-           source);
-  control.angle.source =
-      source == 1 ? synchronous::AngleSource::kSpeed : synchronous::AngleSource::kRig;
+  DescribeAngleSource(v, control.angle, rig);
   v.Number(
       {"angle_bandwidth", kHertz, 0.1, 1000, 10,
        "of the follower of the rotor's angle; under an acceleration A it lags by A/(2 pi f)^2"},
@@ -205,11 +230,12 @@ void Describe(Visitor& v, synchronous::SynchronousConfig& control, const RigNumb
           "taken off what law and blocks read; protections and records keep what was measured"},
          control.run_outs,
          [&](synchronous::RunOut& run_out, std::size_t) { DescribeRunOut(v, run_out, rig); });
-  v.RefuseIf(source == 1 && !control.run_outs.empty(), "angle_from",
-             "run_outs need an angle that is measured");
+  v.RefuseIf(control.angle.source != synchronous::AngleSource::kRig && !control.run_outs.empty(),
+             "angle_from", "run_outs need an angle that is measured");
   v.List({"blocks", 0, synchronous::kMaxBlocks, "generalised notches"}, control.blocks,
          [&](synchronous::BlockConfig& block, std::size_t) { DescribeBlock(v, block, rig); });
   RefuseSharedWork(v, control.blocks);
+  RefuseLostOrbit(v, control);
 }
 
 }  // namespace levitas::config

@@ -74,8 +74,9 @@ session::SessionHeader Header(const ControllerOptions& options, const Files& fil
   header.machine = rt::MachineText() + '\n' + rt::Text(facts);
   header.source = options.port;
   header.channels = files.rig.numbers.channels;
+  header.synchronous.angle_from = files.controller.synchronous.angle.source;
   for (const auto& block : files.controller.synchronous.blocks) {
-    header.synchronous_blocks.push_back(block.name);
+    header.synchronous.blocks.push_back(block.name);
   }
   return header;
 }

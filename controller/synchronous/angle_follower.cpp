@@ -1,5 +1,6 @@
 #include "controller/synchronous/angle_follower.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,16 +10,25 @@ namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 /// Beside the share: a rotor that hardly turns has no speed to take a share of.
 constexpr double kSpeedMargin = 2.0;  // [rad/s]
+/// What angle and slip take of an orbit's error, once a turn.
+constexpr double kOrbitPole = 0.8;
+/// Of what angle and slip take, what the reference of the orbit takes.
+constexpr double kReferencePace = 0.25;
+/// An angle that is being found: the slip has still to be learned.
+constexpr double kCloseTurns = 0.02;
 
 }  // namespace
 
-AngleFollower::AngleFollower(const AngleConfig& config, double period_s) noexcept
+AngleFollower::AngleFollower(const AngleConfig& config, double period_s, std::size_t axes) noexcept
     : source_(config.source),
       period_s_(period_s),
       largest_error_turns_(config.largest_error_rad / kTurn),
       largest_speed_share_(config.largest_speed_share),
+      least_followed_m_(config.least_followed_m),
       angle_gain_(2.0 * kTurn * config.bandwidth_hz * period_s),
-      speed_gain_(kTurn * config.bandwidth_hz * kTurn * config.bandwidth_hz * period_s) {}
+      speed_gain_(kTurn * config.bandwidth_hz * kTurn * config.bandwidth_hz * period_s),
+      orbit_(axes),
+      needed_turns_(config.source == AngleSource::kOrbit ? kOrbitTurns : kGoodTurns) {}
 
 void AngleFollower::Angle::Advance(double turns) noexcept {
   within += turns;
@@ -31,6 +41,9 @@ void AngleFollower::Begin(const AngleReading& reading) noexcept {
   followed_.within = 0.0;
   followed_.Advance(reading.angle_rad / kTurn);
   followed_.speed_rad_per_s = reading.speed_rad_per_s;
+  orbit_.Reset();
+  slip_ = 0.0;
+  coast_s_ = follow_s_ = 0.0;
   begun_ = true;
   silent_turns_ = 0.0;
 }
@@ -43,7 +56,7 @@ void AngleFollower::Break(AngleTrouble trouble) noexcept {
   trouble_ = trouble;
 }
 
-void AngleFollower::Update(const AngleReading& reading) noexcept {
+void AngleFollower::Update(const AngleReading& reading, const AxisArray& position_m) noexcept {
   trouble_ = AngleTrouble::kNone;
   const double dt_s = period_s_ * static_cast<double>(reading.periods);
   flywheel_.Advance(flywheel_.speed_rad_per_s * dt_s / kTurn);
@@ -65,11 +78,19 @@ void AngleFollower::Update(const AngleReading& reading) noexcept {
     return;
   }
   silent_turns_ = 0.0;
-  if (source_ == AngleSource::kSpeed) {
-    followed_.speed_rad_per_s = reading.speed_rad_per_s;
-    good_turns_ += std::abs(step_turns);
-    return;
+  switch (source_) {
+    case AngleSource::kRig:
+      return FollowAngle(reading, step_turns);
+    case AngleSource::kOrbit:
+      return FollowOrbit(reading, step_turns, position_m);
+    case AngleSource::kSpeed:
+      break;
   }
+  followed_.speed_rad_per_s = reading.speed_rad_per_s;
+  good_turns_ += std::abs(step_turns);
+}
+
+void AngleFollower::FollowAngle(const AngleReading& reading, double step_turns) noexcept {
   const double apart = reading.angle_rad / kTurn - followed_.within;
   const double error_turns = apart - std::floor(apart + 0.5);
   const double off_rad_per_s = std::abs(followed_.speed_rad_per_s - reading.speed_rad_per_s);
@@ -82,6 +103,40 @@ void AngleFollower::Update(const AngleReading& reading) noexcept {
   }
   followed_.Advance(angle_gain_ * error_turns);
   followed_.speed_rad_per_s += speed_gain_ * kTurn * error_turns;
+  good_turns_ += std::abs(step_turns);
+}
+
+double AngleFollower::OrbitPole() const noexcept {
+  const double speed = std::abs(followed_.speed_rad_per_s);
+  if (follow_s_ == 0.0 || speed == 0.0) return kOrbitPole;
+  return std::max(kOrbitPole, 1.0 - kTurn / speed / follow_s_);
+}
+
+// Before it is good an error is not judged: a slip of a tenth is 36 degrees in the first turn.
+void AngleFollower::FollowOrbit(const AngleReading& reading, double step_turns,
+                                const AxisArray& position_m) noexcept {
+  OrbitTurn turn;
+  if (coast_s_ > 0.0) {
+    coast_s_ -= period_s_ * static_cast<double>(reading.periods);
+    orbit_.Reset();
+  } else {
+    turn = orbit_.Add(position_m, PhasorOfTurns(followed_.within), step_turns,
+                      kReferencePace * (1.0 - OrbitPole()));
+  }
+  if (turn.ended) {
+    const double left = 1.0 - OrbitPole();
+    slip_ += left * left * turn.ahead_turns;
+    const bool seen = turn.forward_m >= (good() ? kKept : 1.0) * least_followed_m_;
+    const bool off = good() && std::abs(turn.ahead_turns) > largest_error_turns_;
+    if (!seen || off || std::abs(slip_) > largest_speed_share_) {
+      Break(seen ? AngleTrouble::kJumped : AngleTrouble::kLost);
+      Begin(reading);
+      return;
+    }
+    followed_.Advance(left * (2.0 - left) * turn.ahead_turns);
+    if (!good() && std::abs(turn.ahead_turns) > kCloseTurns) good_turns_ = 0.0;
+  }
+  followed_.speed_rad_per_s = (1.0 + slip_) * reading.speed_rad_per_s;
   good_turns_ += std::abs(step_turns);
 }
 

@@ -18,10 +18,22 @@
 // Thread     loop thread only; Update allocates nothing, throws nothing. Units: SI.
 // Speed      with AngleSource::kSpeed the prediction at the rig's speed is the angle: nothing is
 //            judged but whether frames and speed are there, and a turn begins anywhere.
-// Not done   no angle from nothing: without a sensor of the angle no block acts.
+// Orbit      with AngleSource::kOrbit the speed is the rig's times 1 + s, and the orbit says once a
+//            turn how far the rotor is ahead (orbit_slip.hpp): angle and s take 1 - p^2 and (1 - p)^2
+//            of it, both poles at p = 0.8 a turn, or slower (Coast). Good after kOrbitTurns close to a forward orbit that is large enough; lost
+//            by one below kKept of that (the block makes it smaller), jumped by an error or an s
+//            beyond what is allowed. Lag: that of the rig's speed, followed like a slip.
+// Coasts     where a block changes the orbit the angle goes on at the rig's speed times 1 + s, unmended
+//            and unjudged; the orbit that is left is followed from then on, slowly: an angle that
+//            moves makes the block lag, which moves the orbit by more than the angle where the block
+//            leaves little of it.
+// Not done   no angle from nothing: without a speed of the rig no block acts.
 
+#include <cstddef>
 #include <cstdint>
 
+#include "common/axes.hpp"
+#include "controller/synchronous/orbit_slip.hpp"
 #include "controller/synchronous/synchronous_config.hpp"
 
 namespace levitas::synchronous {
@@ -39,13 +51,23 @@ enum class AngleTrouble : std::uint8_t { kNone, kLost, kJumped };
 class AngleFollower {
  public:
   static constexpr double kGoodTurns = 10.0;
+  static constexpr double kOrbitTurns = 30.0;
+  static constexpr double kKept = 0.25;
   static constexpr double kSilentTurns = 0.5;
 
-  AngleFollower(const AngleConfig& config, double period_s) noexcept;
+  AngleFollower(const AngleConfig& config, double period_s, std::size_t axes = 0) noexcept;
 
-  void Update(const AngleReading& reading) noexcept;
+  /// `position_m`: of a fresh frame; read with AngleSource::kOrbit.
+  void Update(const AngleReading& reading, const AxisArray& position_m = {}) noexcept;
 
-  [[nodiscard]] bool good() const noexcept { return good_turns_ >= kGoodTurns; }
+  /// With AngleSource::kOrbit: for so long what the orbit does is a block's doing, and from then on
+  /// it is followed with this time constant, or as fast as ever where that is zero.
+  void Coast(double time_s, double follow_s) noexcept {
+    coast_s_ = time_s;
+    follow_s_ = follow_s;
+  }
+
+  [[nodiscard]] bool good() const noexcept { return good_turns_ >= needed_turns_; }
   /// Of the latest Update.
   [[nodiscard]] AngleTrouble trouble() const noexcept { return trouble_; }
   /// Followed where it is good, else the flywheel's [turns].
@@ -63,13 +85,22 @@ class AngleFollower {
   };
   void Begin(const AngleReading& reading) noexcept;
   void Break(AngleTrouble trouble) noexcept;
+  void FollowAngle(const AngleReading& reading, double step_turns) noexcept;
+  [[nodiscard]] double OrbitPole() const noexcept;
+  void FollowOrbit(const AngleReading& reading, double step_turns,
+                   const AxisArray& position_m) noexcept;
 
   AngleSource source_;
   double period_s_;
   double largest_error_turns_;
   double largest_speed_share_;
+  double least_followed_m_;
   double angle_gain_, speed_gain_;
   Angle followed_, flywheel_;
+  OrbitSlip orbit_;
+  double slip_{};  ///< of kOrbit: followed speed over the rig's, less one
+  double needed_turns_;
+  double coast_s_{}, follow_s_{};
   bool begun_{};
   double good_turns_{};
   double silent_turns_{};

@@ -59,6 +59,7 @@ struct RunOut {
 enum class AngleSource : std::uint8_t {
   kRig,    ///< the angle of the rig's frames
   kSpeed,  ///< the integral of the rig's speed: a frequency without a mark on the shaft
+  kOrbit,  ///< the rig's speed, and by how much the orbit says that the rotor leaves it
 };
 
 /// See angle_follower.hpp.
@@ -67,6 +68,7 @@ struct AngleConfig {
   double bandwidth_hz{10.0};
   double largest_error_rad{0.35};
   double largest_speed_share{0.1};  ///< by which followed and measured speed may differ
+  double least_followed_m{2e-6};    ///< of kOrbit: forward orbit from which it is followed
 };
 
 struct SynchronousConfig {

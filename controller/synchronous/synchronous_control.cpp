@@ -18,6 +18,10 @@ constexpr double kCountBack = 0.25;
 /// Of the supervisor's orbit limit.
 constexpr double kBelowTrip = 0.85;
 constexpr double kRunOutFadeS = 0.1;
+/// Time constants after which a block has done what it does to the orbit.
+constexpr double kSettled = 5.0;
+/// Time constants of a block in one of what follows the orbit that it leaves.
+constexpr double kFollowed = 10.0;
 /// Of a block that corrects its T, while it has not seen yet what it does.
 constexpr double kBeginningPace = 0.25;
 
@@ -27,6 +31,7 @@ SynchronousControl::Block::Block(const BlockConfig& config, std::size_t axes, do
     : inverse(config),
       order(config.order),
       target(config.target),
+      time_constant_s(config.time_constant_s),
       rate(2.0 * period_s / config.time_constant_s),
       slow_fade(period_s / std::min(config.time_constant_s, kLongestSlowFadeS)),
       from(config.from_rad_per_s),
@@ -44,7 +49,8 @@ SynchronousControl::SynchronousControl(const SynchronousConfig& config, const Ri
                                        double orbit_trip_fraction)
     : axes_(rig.axes()),
       period_s_(rig.period_s()),
-      angle_(config.angle, rig.period_s()),
+      angle_(config.angle, rig.period_s(), rig.axes()),
+      angle_estimated_(config.angle.source == AngleSource::kOrbit),
       orbit_growth_(config.orbit_growth),
       saturated_limit_cycles_(config.saturated_s / rig.period_s()),
       run_outs_(config.run_outs) {
@@ -128,6 +134,9 @@ void SynchronousControl::Begin(Block& block) noexcept {
   block.influence.Restart();
   block.gain = 1.0;
   block.status.state = BlockState::kActing;
+  if (block.order == 1.0) {
+    angle_.Coast(kSettled * block.time_constant_s, kFollowed * block.time_constant_s);
+  }
   if (block.retries > 0) return;  // the limit of the first time holds
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     const double begun_m = std::max(orbit_turn_m_[b], orbit_now_m_[b]);
@@ -140,6 +149,9 @@ void SynchronousControl::End(Block& block, Ending why) noexcept {
   block.status.state = BlockState::kFading;
   block.status.ending = why;
   block.fast = why != Ending::kSpeed;
+  if (block.order == 1.0) {
+    angle_.Coast(block.fast ? kLongestFadeS : period_s_ / block.slow_fade, 0.0);
+  }
 }
 
 void SynchronousControl::Fade(Block& block) noexcept {
@@ -154,12 +166,13 @@ void SynchronousControl::Fade(Block& block) noexcept {
   block.state = {};
   block.status.amplitude = 0.0;
   const Ending why = block.status.ending;
-  const bool learned = block.adaptive && why == Ending::kOrbitGrew &&
-                       block.influence.learned() > 0 && block.retries < kRetries;
-  if (learned) ++block.retries;
+  const bool angle = why == Ending::kAngleLost || why == Ending::kAngleJumped;
+  const bool learned = block.adaptive && why == Ending::kOrbitGrew && block.influence.learned() > 0;
+  const bool retried = (learned || (angle && angle_estimated_)) && block.retries < kRetries;
+  if (retried) ++block.retries;
   if (why == Ending::kSpeed) block.retries = 0;
-  const bool again = learned || why == Ending::kSpeed || why == Ending::kAngleLost ||
-                     why == Ending::kAngleJumped || why == Ending::kNotLevitated;
+  const bool again = retried || why == Ending::kSpeed || (angle && !angle_estimated_) ||
+                     why == Ending::kNotLevitated;
   block.status.state = again ? BlockState::kOff : BlockState::kEnded;
 }
 
@@ -217,14 +230,14 @@ void SynchronousControl::Supervise(const Conditions& seen) noexcept {
 
 void SynchronousControl::Wait(const Conditions& seen) noexcept {
   if (empty()) return;
-  angle_.Update(seen.angle);
+  angle_.Update(seen.angle, seen.position_m);
   Supervise(seen);
 }
 
 void SynchronousControl::Step(const Conditions& seen, AxisArray& error_m,
                               AxisArray& added_a) noexcept {
   if (empty()) return;
-  angle_.Update(seen.angle);
+  angle_.Update(seen.angle, seen.position_m);
   WatchOrbit(seen);
   Supervise(seen);
   for (const RunOut& run_out : run_outs_) {

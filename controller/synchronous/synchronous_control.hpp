@@ -15,7 +15,7 @@
 // Again      after a fade of the speed, of the angle or of the levitation when the conditions hold
 //            again; after any other end not before the speed has left the window. A block that
 //            corrects its T may begin kRetries times more after its orbit grew, with what it has
-//            learned from that.
+//            learned from that; so may one whose angle is estimated from the orbit and was lost.
 // Empty      without run-outs and blocks Step does nothing: the loop's bits are those without it.
 // Frame      bearing frame; units SI.
 // Thread     construction allocates; Step allocates nothing, throws nothing, takes bounded time.
@@ -79,6 +79,7 @@ class SynchronousControl {
     InverseLadder inverse;
     double order;
     Target target;
+    double time_constant_s;
     double rate;       ///< 2 T_s/tau
     double slow_fade;  ///< share per period
     double from, to, hysteresis;
@@ -89,7 +90,7 @@ class SynchronousControl {
     BlockStatus status;
     double gain{};
     bool fast{};
-    int retries{};              ///< after a grown orbit, since the speed came into the window
+    int retries{};              ///< after a failure, since the speed came into the window
     AxisArray orbit_limit_m{};  ///< per bearing, since it began
   };
 
@@ -106,6 +107,7 @@ class SynchronousControl {
   std::size_t axes_;
   double period_s_;
   AngleFollower angle_;
+  bool angle_estimated_;  ///< from the orbit, which the blocks change
   double orbit_growth_;
   AxisArray least_orbit_m_{};  // per bearing
   AxisArray most_orbit_m_{};   // per bearing, below the supervisor's

@@ -229,6 +229,13 @@ TEST(RoundTrip, OfSynchronousControlNamesWhatCannotBe) {
               HasSubstr("the coils leave"));
   EXPECT_THAT(refusal([](auto& c) { c.angle.source = synchronous::AngleSource::kSpeed; }),
               HasSubstr("run_outs need an angle that is measured"));
+  EXPECT_THAT(refusal([](auto& c) {
+                c.run_outs.clear();
+                c.angle.source = synchronous::AngleSource::kOrbit;
+                c.blocks[0].order = 1.0;
+                c.blocks[0].target = synchronous::Target::kVibration;
+              }),
+              HasSubstr("target current leaves it"));
   EXPECT_THAT(refusal([](auto& c) { c.blocks[1].order = 3.0; }),
               HasSubstr("act at the same speeds"));
   EXPECT_THAT(refusal([](auto& c) { c.blocks[1].name = c.blocks[0].name; }),

@@ -64,7 +64,7 @@ TEST_F(Deriver, TellsALawThatTakesOverWhileTheRotorIsHeldAndNoneThatALiftBegins)
 }
 
 TEST_F(Deriver, TellsABlockOfSynchronousControlThatBeginsAndWhyItEnds) {
-  EventDeriver deriver(Header().channels, Header().period_ns, {"unbalance"});
+  EventDeriver deriver(Header().channels, Header().period_ns, {{"unbalance"}});
   std::uint64_t cycle = 0;
   const auto step = [&](synchronous::BlockState state, synchronous::Ending ending) {
     auto record = Quiet(cycle++);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "common/random.hpp"
 #include "tests/unit/synchronous/bench_numbers.hpp"
 
 namespace levitas::synchronous {
@@ -182,6 +183,98 @@ TEST(AngleFollower, FromTheSpeedAloneAJumpOfTheAngleIsNotSeen) {
   EXPECT_TRUE(follower.good());
   const double step = follower.TurnsOf(1.0) - before;
   EXPECT_NEAR(step - std::floor(step + 0.5), 300.0 * kPeriodS / kTurn, 1e-9);
+}
+
+/// A rotor without a mark: the rig's speed is `told` times the true one, and its orbit turns forward
+/// beside what stands still and what turns backward, in two bearings of opposite phase.
+struct Unmarked {
+  Shaft shaft;
+  double told{1.0};
+  double forward_m{10e-6};
+  double ahead_rad{};  ///< of the orbit before the rotor
+  Random noise{7};
+
+  void Follow(AngleFollower& follower, double time_s, double acceleration = 0.0) {
+    for (int n = 0; n < static_cast<int>(time_s / kPeriodS); ++n) {
+      AngleReading reading = shaft.Next(acceleration);
+      const double forward_rad = reading.angle_rad + ahead_rad;
+      const double backward_rad = -reading.angle_rad;
+      AxisArray position_m{};
+      for (std::size_t b = 0; b < 2; ++b) {
+        const double size_m = b == 0 ? forward_m : -0.7 * forward_m;
+        position_m[2 * b] = 30e-6 + size_m * std::cos(forward_rad) + 4e-6 * std::cos(backward_rad);
+        position_m[2 * b + 1] =
+            -9e-6 + size_m * std::sin(forward_rad) + 4e-6 * std::sin(backward_rad);
+        for (std::size_t i = 2 * b; i < 2 * b + 2; ++i) position_m[i] += 1e-6 * noise.Normal();
+      }
+      reading.angle_rad = 0.0;  // nothing measures it
+      reading.speed_rad_per_s *= told;
+      follower.Update(reading, position_m);
+    }
+  }
+  /// Of the followed speed.
+  [[nodiscard]] double Off(const AngleFollower& follower) const {
+    return follower.speed_rad_per_s() / shaft.speed_rad_per_s - 1.0;
+  }
+};
+
+AngleFollower OfOrbit() { return {{.source = AngleSource::kOrbit}, kPeriodS, 4}; }
+
+TEST(AngleFollower, FromTheOrbitASpeedThatIsToldWrongIsMended) {
+  for (const double told : {0.92, 0.98, 1.0, 1.03, 1.07}) {
+    AngleFollower follower = OfOrbit();
+    Unmarked rotor;
+    rotor.told = told;
+    rotor.Follow(follower, 3.0);
+    EXPECT_TRUE(follower.good());
+    EXPECT_LT(std::abs(rotor.Off(follower)), 1e-3) << told;
+    const double before = Behind(follower, rotor.shaft);
+    rotor.Follow(follower, 2.0);
+    EXPECT_NEAR(Behind(follower, rotor.shaft), before, 0.05) << told;
+  }
+}
+
+TEST(AngleFollower, FromTheOrbitARunUpIsFollowedWithItsSlip) {
+  AngleFollower follower = OfOrbit();
+  Unmarked rotor;
+  rotor.told = 0.97;
+  rotor.Follow(follower, 2.0);
+  rotor.Follow(follower, 3.0, 80.0);
+  EXPECT_TRUE(follower.good());
+  EXPECT_LT(std::abs(rotor.Off(follower)), 2e-3);
+}
+
+TEST(AngleFollower, AnOrbitTooSmallToBeFollowedIsLostWithinATurnAndNeverGood) {
+  AngleFollower follower = OfOrbit();
+  Unmarked rotor;
+  rotor.Follow(follower, 2.0);
+  ASSERT_TRUE(follower.good());
+  rotor.forward_m = 0.5e-6;
+  bool lost = false;
+  for (int n = 0; n < 420 && !lost; ++n) {  // two turns: one may have begun before
+    rotor.Follow(follower, 1.01 * kPeriodS);
+    lost = follower.trouble() == AngleTrouble::kLost;
+  }
+  EXPECT_TRUE(lost);
+  rotor.Follow(follower, 3.0);
+  EXPECT_FALSE(follower.good());
+}
+
+TEST(AngleFollower, AnOrbitThatJumpsOrASlipBeyondWhatIsAllowedIsNoAngle) {
+  AngleFollower follower = OfOrbit();
+  Unmarked rotor;
+  rotor.Follow(follower, 2.0);
+  ASSERT_TRUE(follower.good());
+  rotor.ahead_rad = 2.0;
+  bool jumped = false;
+  for (int n = 0; n < 630 && !jumped; ++n) {
+    rotor.Follow(follower, 1.01 * kPeriodS);
+    jumped = follower.trouble() == AngleTrouble::kJumped;
+  }
+  EXPECT_TRUE(jumped);
+  rotor.told = 0.8;
+  rotor.Follow(follower, 3.0);
+  EXPECT_FALSE(follower.good());
 }
 
 }  // namespace

@@ -22,6 +22,12 @@ TEST(BlockEvents, AreReadAsTheyAreWritten) {
   ASSERT_TRUE(begins.has_value());
   EXPECT_EQ(begins->name, "low");
   EXPECT_TRUE(begins->begins);
+  EXPECT_EQ(begins->why, "") << "its angle is measured";
+  const auto estimated =
+      session::ReadBlockEvent(session::BlockBegins("low", where, synchronous::AngleSource::kOrbit));
+  ASSERT_TRUE(estimated.has_value());
+  EXPECT_EQ(estimated->name, "low");
+  EXPECT_EQ(estimated->why, "no mark on the shaft, its angle is estimated from the orbit");
   for (const Ending why :
        {Ending::kSpeed, Ending::kAngleLost, Ending::kAngleJumped, Ending::kSaturated,
         Ending::kOrbitGrew, Ending::kCurrentTooLarge, Ending::kNotLevitated}) {
