@@ -19,14 +19,15 @@
 // Speed      with AngleSource::kSpeed the prediction at the rig's speed is the angle: nothing is
 //            judged but whether frames and speed are there, and a turn begins anywhere.
 // Orbit      with AngleSource::kOrbit the speed is the rig's times 1 + s, and the orbit says once a
-//            turn how far the rotor is ahead (orbit_slip.hpp): angle and s take 1 - p^2 and (1 - p)^2
-//            of it, both poles at p = 0.8 a turn, or slower (Coast). Good after kOrbitTurns close to a forward orbit that is large enough; lost
-//            by one below kKept of that (the block makes it smaller), jumped by an error or an s
-//            beyond what is allowed. Lag: that of the rig's speed, followed like a slip.
-// Coasts     where a block changes the orbit the angle goes on at the rig's speed times 1 + s, unmended
-//            and unjudged; the orbit that is left is followed from then on, slowly: an angle that
-//            moves makes the block lag, which moves the orbit by more than the angle where the block
-//            leaves little of it.
+//            turn how far the rotor is ahead (orbit_slip.hpp): angle and s take 1 - p^2 and
+//            (1 - p)^2 of it, both poles at p = 0.8 a turn, or slower (Coast). Good after
+//            kOrbitTurns close to a forward orbit that is large enough; lost by one below kKept of
+//            that (the block makes it smaller), jumped by an error or an s beyond what is allowed.
+//            Lag: that of the rig's speed, followed like a slip.
+// Coasts     where a block changes the orbit the angle goes on at the rig's speed times 1 + s,
+//            unmended and unjudged; the orbit that is left is followed from then on, slowly: an
+//            angle that moves makes the block lag, which moves the orbit by more than the angle
+//            where the block leaves little of it.
 // Not done   no angle from nothing: without a speed of the rig no block acts.
 
 #include <cstddef>

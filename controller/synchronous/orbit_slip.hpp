@@ -1,11 +1,11 @@
 #pragma once
-// How far a rotor is ahead of the angle that is believed of it, from what of its orbit turns with it.
+// How far a rotor is ahead of its believed angle, from what of its orbit turns with it.
 //
 // Equation   c_b = mean over a turn of (x + j y)_b e^{-j theta}, bearing by bearing: what stands
-//            still, turns backward, or is another whole order averages out. Ahead by
-//            s/(2 pi) turns, s the sine of arg sum_b c_b conj(r_b), where r_b takes a
-//            share of c_b once a turn; a quarter of a turn where that is more than a right angle. The sine, not
-//            the angle, for the C library's arctangent has other bits on other machines.
+//            still, turns backward, or is another whole order averages out. Ahead by s/(2 pi)
+//            turns, s the sine of arg sum_b c_b conj(r_b), where r_b takes a share of c_b once a
+//            turn; by a quarter of a turn where that is more than a right angle. The sine, not the
+//            angle, for the C library's arctangent has other bits on other machines.
 // Phase      of no mark: the rotor's zero is where its orbit was as this began, and goes with the
 //            orbit where that changes its phase slowly (a critical speed). What needs a mark, a
 //            run-out or a balancing weight, cannot be had from it.

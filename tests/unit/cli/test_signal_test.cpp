@@ -37,8 +37,14 @@ Made MakeRig(double rate_hz = 10'000.0) {
   return made;
 }
 
+/// At the rate of the sketch. Its law is a search of seconds, many times that under a sanitizer.
+const Made& Usual() {
+  static const Made made = MakeRig();
+  return made;
+}
+
 TEST(TestSignal, NeverTakesMoreThanATenthOfTheBias) {
-  const Made made = MakeRig();
+  const Made& made = Usual();
   EXPECT_GT(made.signal.amplitude_a, 0.0);
   EXPECT_LE(made.signal.amplitude_a, 0.2 + 1e-12);
   EXPECT_NEAR(made.signal.orbit_limit_m, 0.4 * 0.2e-3, 1e-12);
@@ -46,7 +52,7 @@ TEST(TestSignal, NeverTakesMoreThanATenthOfTheBias) {
 
 /// Where the clearance is what limits it, the amplitude is in proportion to it.
 TEST(TestSignal, MovesTheRotorByAShareOfItsClearance) {
-  Made made = MakeRig();
+  Made made = Usual();
   const auto with_clearance = [&made](double clearance_m) {
     for (auto& bearing : made.rig.plant.bearings) bearing.touchdown.clearance_m = clearance_m;
     return TestSignalOf(made.rig, made.law).amplitude_a;
@@ -58,7 +64,7 @@ TEST(TestSignal, MovesTheRotorByAShareOfItsClearance) {
 }
 
 TEST(TestSignal, StaysAwayFromCriticalSpeeds) {
-  Made made = MakeRig();
+  Made made = Usual();
   const double top = made.rig.numbers.max_speed_rad_per_s;
   const auto crossings = analysis::LevitatedCampbell(made.rig.plant, made.law, top).crossings;
   ASSERT_FALSE(crossings.empty());
@@ -77,7 +83,7 @@ TEST(TestSignal, StaysAwayFromCriticalSpeeds) {
 }
 
 TEST(TestSignal, IsOverWhenItSays) {
-  const Made made = MakeRig();
+  const Made& made = Usual();
   const auto scenario = config::ParseScenario(SketchIdentify(made.sketch, made.rig, made.signal),
                                               "s.yaml", made.rig.numbers);
   double held_s = 0.0;
@@ -88,7 +94,7 @@ TEST(TestSignal, IsOverWhenItSays) {
 }
 
 TEST(TestSignal, HasPeriodsOfAboutASecondAtAnyRate) {
-  for (const double rate_hz : {2'000.0, 10'000.0, 40'000.0}) {
+  for (const double rate_hz : {2'000.0, 40'000.0}) {
     const Made made = MakeRig(rate_hz);
     const double period_s =
         (std::exp2(made.signal.order) - 1.0) * made.signal.divisor / made.sketch.rate_hz;
@@ -98,7 +104,7 @@ TEST(TestSignal, HasPeriodsOfAboutASecondAtAnyRate) {
 }
 
 TEST(TestSignal, IsAScenarioThatExcitesEveryAxisAtEachSpeed) {
-  const Made made = MakeRig();
+  const Made& made = Usual();
   const auto scenario = config::ParseScenario(SketchIdentify(made.sketch, made.rig, made.signal),
                                               "s.yaml", made.rig.numbers);
   std::size_t excited = 0;

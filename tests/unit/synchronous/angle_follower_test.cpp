@@ -185,8 +185,8 @@ TEST(AngleFollower, FromTheSpeedAloneAJumpOfTheAngleIsNotSeen) {
   EXPECT_NEAR(step - std::floor(step + 0.5), 300.0 * kPeriodS / kTurn, 1e-9);
 }
 
-/// A rotor without a mark: the rig's speed is `told` times the true one, and its orbit turns forward
-/// beside what stands still and what turns backward, in two bearings of opposite phase.
+/// A rotor without a mark: the rig's speed is `told` times the true one, and its orbit turns
+/// forward beside what stands still and what turns backward, in two bearings of opposite phase.
 struct Unmarked {
   Shaft shaft;
   double told{1.0};
