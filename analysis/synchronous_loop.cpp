@@ -211,7 +211,7 @@ std::vector<double> JudgedSpeeds(const synchronous::SynchronousConfig& control, 
     for (std::size_t i = 0; i < count; ++i) {
       const double share =
           count < 2 ? 0.0 : static_cast<double>(i) / static_cast<double>(count - 1);
-      speeds.push_back(low + share * (high - low));
+      speeds.push_back(std::lerp(low, high, share));  // ends at `high`, where the block acts
     }
     for (const auto& at : block.inverse) {
       if (table == TableSpeeds::kLeftOut) break;

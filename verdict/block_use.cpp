@@ -8,7 +8,8 @@
 namespace levitas::verdict {
 
 std::vector<BlockUse> BlocksOf(std::span<const session::Event> events, std::uint64_t first_cycle,
-                               std::uint64_t last_cycle, double period_s) {
+                               std::uint64_t last_cycle, double period_s,
+                               std::span<const std::string> names) {
   std::vector<BlockUse> blocks;
   std::map<std::string, std::uint64_t> acts_since;
   const auto seconds = [period_s](std::uint64_t from, std::uint64_t to) {
@@ -17,7 +18,9 @@ std::vector<BlockUse> BlocksOf(std::span<const session::Event> events, std::uint
   const auto of = [&blocks](const std::string& name) -> BlockUse& {
     const auto known = std::ranges::find(blocks, name, &BlockUse::name);
     if (known != blocks.end()) return *known;
-    return blocks.emplace_back(BlockUse{name, 0.0, 0, {}, 0.0, {}});
+    BlockUse& block = blocks.emplace_back();
+    block.name = name;
+    return block;
   };
   for (const session::Event& event : events) {
     const auto told = session::ReadBlockEvent(event.text);
@@ -34,10 +37,15 @@ std::vector<BlockUse> BlocksOf(std::span<const session::Event> events, std::uint
     if (since == acts_since.end()) continue;
     block.acted_s += seconds(since->second, event.cycle);
     block.last_end = told->why;
+    if (event.severity != session::Event::Severity::kInformation) {
+      ++block.failures;
+      block.last_failure = told->why;
+    }
     block.last_end_s = seconds(first_cycle, event.cycle);
     acts_since.erase(since);
   }
   for (const auto& [name, since] : acts_since) of(name).acted_s += seconds(since, last_cycle);
+  for (const std::string& name : names) (void)of(name);
   return blocks;
 }
 

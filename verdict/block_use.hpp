@@ -19,11 +19,15 @@ struct BlockUse {
   std::string last_end;  ///< why, in words; empty: it still acted at the end
   double last_end_s{};   ///< since the start of the record
   std::string angle;     ///< how its angle was estimated; empty: it was measured
+  int failures{};        ///< ends that were a warning: not of its speed
+  std::string last_failure;
 };
 
-/// In the order of their first beginning. `last_cycle`: of the record.
+/// In the order of their first beginning, then those of `names` that never began. `last_cycle`: of
+/// the record.
 [[nodiscard]] std::vector<BlockUse> BlocksOf(std::span<const session::Event> events,
                                              std::uint64_t first_cycle, std::uint64_t last_cycle,
-                                             double period_s);
+                                             double period_s,
+                                             std::span<const std::string> names = {});
 
 }  // namespace levitas::verdict

@@ -96,7 +96,10 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.provenance.rig = rig.numbers.name;
   inputs.provenance.controller = controller.name;
   if (inputs.timing) inputs.provenance.trip_file = inputs.timing->trip_file;
-  inputs.blocks = BlocksOf(reader.events(), first_cycle, record.in.cycle, rig.numbers.period_s());
+  std::vector<std::string> blocks;
+  for (const auto& block : controller.synchronous.blocks) blocks.push_back(block.name);
+  inputs.blocks =
+      BlocksOf(reader.events(), first_cycle, record.in.cycle, rig.numbers.period_s(), blocks);
   inputs.trip_text = FirstTripText(reader.events());
   inputs.incomplete_reason = options.incomplete_reason.empty()
                                  ? BreaksOff(reader.damage(), inputs.session.modes)

@@ -246,6 +246,8 @@ Object Blocks(const Inputs& in) {
          {"times", block.times},
          {"angle", block.angle.empty() ? "measured" : block.angle},
          {"ended_because", block.last_end},
+         {"failures", block.failures},
+         {"failed_because", block.last_failure},
          {"ended_at_s", block.last_end.empty() ? Object(nullptr) : Object(block.last_end_s)}});
   }
   return blocks;

@@ -150,15 +150,28 @@ void Bias(const Inputs& in, Out out) {
   }
 }
 
+/// What a block did, without its name.
+std::string Deeds(const BlockUse& block) {
+  if (block.times == 0)
+    return "never acted: its speed, a good angle or a levitated rotor was wanting";
+  std::string text = fmt::format("acted {:.2f} s", block.acted_s);
+  if (block.times > 1) text += fmt::format(" in {} times", block.times);
+  text += block.last_end.empty()
+              ? ", to the end of the record"
+              : fmt::format(", ended at {:.2f} s: {}", block.last_end_s, block.last_end);
+  const bool told = block.failures == 1 && block.last_failure == block.last_end;
+  if (block.failures > 0 && !told) {
+    text +=
+        fmt::format("; given up {} times, the last one: {}", block.failures, block.last_failure);
+  }
+  if (!block.angle.empty()) text += "; " + block.angle;
+  return text;
+}
+
 void Blocks(const Inputs& in, Out out) {
   for (const BlockUse& block : in.blocks) {
-    fmt::format_to(out, "{}{}: acted {:.2f} s{}, {}{}{}\n",
-                   &block == &in.blocks.front() ? "\nblocks    " : "          ", block.name,
-                   block.acted_s, block.times > 1 ? fmt::format(" in {} times", block.times) : "",
-                   block.last_end.empty()
-                       ? "to the end of the record"
-                       : fmt::format("ended at {:.2f} s: {}", block.last_end_s, block.last_end),
-                   block.angle.empty() ? "" : "; ", block.angle);
+    fmt::format_to(out, "{}{}: {}\n", &block == &in.blocks.front() ? "\nblocks    " : "          ",
+                   block.name, Deeds(block));
   }
 }
 

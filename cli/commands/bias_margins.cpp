@@ -35,7 +35,7 @@ void PrintBias(const std::vector<LoopAtBias>& loops, const std::vector<std::stri
                nlohmann::ordered_json& json) {
   if (loops.empty()) return;
   fmt::print(
-      "bias saving: the loop from the rig's bias to the lowest\n  {:>8}{:>10}{:>12}{:>8}{:>8}\n",
+      "bias saving: the loop from the rig's bias to the lowest\n  {:>8}{:>10}{:>12}{:>9}{:>10}\n",
       "rpm", "bias A", "max |S|", "of", "zone");
   for (const LoopAtBias& at : loops) {
     const auto& axes = at.loop.axes;
@@ -46,7 +46,7 @@ void PrintBias(const std::vector<LoopAtBias>& loops, const std::vector<std::stri
                                     ? fmt::format("  NOT HELD: {}", at.loop.point.failure)
                                 : at.loop.stable ? ""
                                                  : "  UNSTABLE";
-    fmt::print("  {:>8.0f}{:>10.3f}{:>12.3f}{:>8}{:>8}{}\n", RadPerSToRpm(at.loop.speed_rad_per_s),
+    fmt::print("  {:>8.0f}{:>10.3f}{:>12.3f}{:>9}{:>10}{}\n", RadPerSToRpm(at.loop.speed_rad_per_s),
                at.bias_a, worst->peak, channel, zone, trouble);
     json["bias_saving"].push_back({{"speed_rpm", RadPerSToRpm(at.loop.speed_rad_per_s)},
                                    {"bias_current_a", at.bias_a},

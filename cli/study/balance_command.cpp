@@ -4,17 +4,19 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <complex>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "cli/commands/command.hpp"
 #include "cli/commands/study_commands.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
 #include "cli/options/rig_of_records.hpp"
+#include "cli/study/controller_output.hpp"
 #include "cli/study/free_run.hpp"
 #include "cli/study/written_files.hpp"
-#include "cli/text_file.hpp"
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
 #include "configuration/schema/unit.hpp"
@@ -115,9 +117,18 @@ void WriteRunOuts(const BalanceOptions& options, const config::RigFile& rig,
   auto& all = controller.synchronous.run_outs;
   std::erase_if(all, [](const synchronous::RunOut& one) { return one.order == 1.0; });
   all.push_back(found);
-  WriteTextFile(options.run_outs_path, fmt::format("# amb balance: run-out of {} probes from {}\n",
-                                                   axes, options.data_path) +
-                                           config::WriteController(controller, rig.numbers));
+  WriteControllerFile(
+      options.run_outs_path,
+      fmt::format("# amb balance: run-out of {} probes from {}\n", axes, options.data_path),
+      controller, rig.numbers);
+  for (std::size_t i = 0; i < rig.numbers.axes(); ++i) {
+    const std::complex<double> runout_m{found.real_m[i], found.imaginary_m[i]};
+    if (runout_m == 0.0) continue;
+    fmt::print("run-out of {}: {:.3g} um, give or take {:.2g} um, at {:.1f} deg\n",
+               rig.numbers.channels[i], 1e6 * std::abs(runout_m),
+               1e6 * fit.runout_deviation_m[static_cast<Eigen::Index>(i)],
+               std::arg(runout_m) * 180.0 / std::numbers::pi);
+  }
 }
 
 ExitStatus Run(const BalanceOptions& options) {

@@ -8,6 +8,7 @@
 
 #include "configuration/schema/schema.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
+#include "controller/synchronous/orbit_slip.hpp"
 
 namespace levitas::config {
 namespace {
@@ -194,8 +195,14 @@ void DescribeAngleSource(Visitor& v, synchronous::AngleConfig& angle, const RigN
 void RefuseLostOrbit(Visitor& v, const synchronous::SynchronousConfig& control) {
   if (control.angle.source != synchronous::AngleSource::kOrbit) return;
   for (const synchronous::BlockConfig& block : control.blocks) {
+    v.RefuseIf(block.adaptive, "angle_from",
+               fmt::format("orbit and adaptive do not go together: {} would learn from an angle "
+                           "that follows what it does",
+                           block.name));
     v.RefuseIf(
-        block.target == synchronous::Target::kVibration && block.order == 1.0, "angle_from",
+        block.target == synchronous::Target::kVibration &&
+            synchronous::ChangesFollowedOrbit(block.order),
+        "angle_from",
         fmt::format("orbit needs one, and {} takes it away: target current leaves it", block.name));
   }
 }

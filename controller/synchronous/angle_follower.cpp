@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace levitas::synchronous {
@@ -14,8 +15,14 @@ constexpr double kSpeedMargin = 2.0;  // [rad/s]
 constexpr double kOrbitPole = 0.8;
 /// Of what angle and slip take, what the reference of the orbit takes.
 constexpr double kReferencePace = 0.25;
-/// An angle that is being found: the slip has still to be learned.
+/// An angle that is being found: beyond this the slip has still to be learned.
 constexpr double kCloseTurns = 0.02;
+
+/// An error of the angle as orbit_slip.hpp counts it; from half a turn on there is no limit.
+double OrbitError(double angle_rad) {
+  if (angle_rad >= std::numbers::pi) return std::numeric_limits<double>::infinity();
+  return PhasorOfTurns(std::min(angle_rad / kTurn, 0.25)).sine / kTurn;
+}
 
 }  // namespace
 
@@ -23,6 +30,7 @@ AngleFollower::AngleFollower(const AngleConfig& config, double period_s, std::si
     : source_(config.source),
       period_s_(period_s),
       largest_error_turns_(config.largest_error_rad / kTurn),
+      largest_orbit_error_turns_(OrbitError(config.largest_error_rad)),
       largest_speed_share_(config.largest_speed_share),
       least_followed_m_(config.least_followed_m),
       angle_gain_(2.0 * kTurn * config.bandwidth_hz * period_s),
@@ -39,11 +47,12 @@ void AngleFollower::Angle::Advance(double turns) noexcept {
 
 void AngleFollower::Begin(const AngleReading& reading) noexcept {
   followed_.within = 0.0;
-  followed_.Advance(reading.angle_rad / kTurn);
+  if (source_ == AngleSource::kRig) followed_.Advance(reading.angle_rad / kTurn);
   followed_.speed_rad_per_s = reading.speed_rad_per_s;
   orbit_.Reset();
   slip_ = 0.0;
-  coast_s_ = follow_s_ = 0.0;
+  coast_s_ = 0.0;
+  unended_turns_ = 0.0;
   begun_ = true;
   silent_turns_ = 0.0;
 }
@@ -63,11 +72,13 @@ void AngleFollower::Update(const AngleReading& reading, const AxisArray& positio
   const double step_turns = followed_.speed_rad_per_s * dt_s / kTurn;
   if (begun_) followed_.Advance(step_turns);
   if (!reading.fresh) {
+    orbit_.DropTurn();
     silent_turns_ += std::abs(step_turns);
     if (begun_ && silent_turns_ > kSilentTurns) Break(AngleTrouble::kLost);
     return;
   }
-  const bool readable = !reading.speed_unknown && std::isfinite(reading.angle_rad) &&
+  const bool readable = !reading.speed_unknown &&
+                        (source_ != AngleSource::kRig || std::isfinite(reading.angle_rad)) &&
                         std::isfinite(reading.speed_rad_per_s);
   if (!readable) {
     if (begun_) Break(AngleTrouble::kLost);
@@ -113,31 +124,48 @@ double AngleFollower::OrbitPole() const noexcept {
 }
 
 // Before it is good an error is not judged: a slip of a tenth is 36 degrees in the first turn.
+AngleTrouble AngleFollower::JudgeTurn(const OrbitTurn& turn) const noexcept {
+  const double least_m = (good() ? kLeastKeptShare : 1.0) * least_followed_m_;
+  if (!(turn.forward_m >= least_m)) return AngleTrouble::kLost;
+  const bool off = good() && std::abs(turn.ahead_turns) > largest_orbit_error_turns_;
+  return off || std::abs(slip_) > largest_speed_share_ ? AngleTrouble::kJumped
+                                                       : AngleTrouble::kNone;
+}
+
 void AngleFollower::FollowOrbit(const AngleReading& reading, double step_turns,
                                 const AxisArray& position_m) noexcept {
-  OrbitTurn turn;
-  if (coast_s_ > 0.0) {
-    coast_s_ -= period_s_ * static_cast<double>(reading.periods);
-    orbit_.Reset();
-  } else {
-    turn = orbit_.Add(position_m, PhasorOfTurns(followed_.within), step_turns,
-                      kReferencePace * (1.0 - OrbitPole()));
-  }
-  if (turn.ended) {
-    const double left = 1.0 - OrbitPole();
-    slip_ += left * left * turn.ahead_turns;
-    const bool seen = turn.forward_m >= (good() ? kKept : 1.0) * least_followed_m_;
-    const bool off = good() && std::abs(turn.ahead_turns) > largest_error_turns_;
-    if (!seen || off || std::abs(slip_) > largest_speed_share_) {
-      Break(seen ? AngleTrouble::kJumped : AngleTrouble::kLost);
-      Begin(reading);
-      return;
-    }
-    followed_.Advance(left * (2.0 - left) * turn.ahead_turns);
-    if (!good() && std::abs(turn.ahead_turns) > kCloseTurns) good_turns_ = 0.0;
-  }
   followed_.speed_rad_per_s = (1.0 + slip_) * reading.speed_rad_per_s;
-  good_turns_ += std::abs(step_turns);
+  if (reading.periods > 1) orbit_.DropTurn();
+  const bool steady = std::abs(reading.speed_rad_per_s - reference_speed_rad_per_s_) <=
+                      kSteadyShare * reading.speed_rad_per_s;
+  const bool coasts = coast_s_ > 0.0 || (follow_s_ > 0.0 && !steady);
+  coast_s_ -= period_s_ * static_cast<double>(reading.periods);
+  if (coasts || !(step_turns > 0.0)) {
+    orbit_.Reset();
+    reference_speed_rad_per_s_ = reading.speed_rad_per_s;
+    unended_turns_ = 0.0;
+    return;
+  }
+  const double taken = 1.0 - OrbitPole();
+  const OrbitTurn turn =
+      orbit_.Add(position_m, PhasorOfTurns(followed_.within), step_turns, kReferencePace * taken);
+  unended_turns_ += step_turns;
+  AngleTrouble trouble = unended_turns_ > kGoodTurns ? AngleTrouble::kLost : AngleTrouble::kNone;
+  if (turn.ended) {
+    unended_turns_ = 0.0;
+    slip_ += taken * taken * turn.ahead_turns;
+    trouble = JudgeTurn(turn);
+  }
+  if (trouble != AngleTrouble::kNone) {
+    Break(trouble);
+    Begin(reading);
+    return;
+  }
+  if (!turn.ended) return;
+  followed_.Advance(taken * (2.0 - taken) * turn.ahead_turns);
+  followed_.speed_rad_per_s = (1.0 + slip_) * reading.speed_rad_per_s;
+  const bool close = good() || std::abs(turn.ahead_turns) <= kCloseTurns;
+  good_turns_ = close ? good_turns_ + 1.0 : 0.0;
 }
 
 double AngleFollower::TurnsOf(double order) const noexcept {

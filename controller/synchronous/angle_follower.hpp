@@ -20,16 +20,19 @@
 //            judged but whether frames and speed are there, and a turn begins anywhere.
 // Orbit      with AngleSource::kOrbit the speed is the rig's times 1 + s, and the orbit says once a
 //            turn how far the rotor is ahead (orbit_slip.hpp): angle and s take 1 - p^2 and
-//            (1 - p)^2 of it, both poles at p = 0.8 a turn, or slower (Coast). Good after
-//            kOrbitTurns close to a forward orbit that is large enough; lost by one below kKept of
-//            that (the block makes it smaller), jumped by an error or an s beyond what is allowed.
-//            Lag: that of the rig's speed, followed like a slip.
-// Coasts     where a block changes the orbit the angle goes on at the rig's speed times 1 + s,
-//            unmended and unjudged; the orbit that is left is followed from then on, slowly: an
-//            angle that moves makes the block lag, which moves the orbit by more than the angle
-//            where the block leaves little of it.
+//            (1 - p)^2 of it, both poles at p = 0.8 a turn, or slower (FollowWithin). Good after
+//            kOrbitTurns in a row that end close to a forward orbit that is large enough; lost by
+//            one below kLeastKeptShare of that (a block makes it smaller) or by kGoodTurns that
+//            do not end for missing frames; else jumped by an error or an s beyond what is
+//            allowed. s begins at zero after each. Lag: that of the rig's speed.
+// Coasts     where a block changes the orbit, or acts while the speed changes by more than
+//            kSteadyShare and the orbit's phase with it, the angle goes on at the rig's speed times
+//            1 + s, unmended and unjudged. What is left is followed from then on, slowly: an angle
+//            that moves makes the block lag, which moves the orbit by more than the angle where
+//            the block leaves little of it.
 // Not done   no angle from nothing: without a speed of the rig no block acts.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -53,7 +56,8 @@ class AngleFollower {
  public:
   static constexpr double kGoodTurns = 10.0;
   static constexpr double kOrbitTurns = 30.0;
-  static constexpr double kKept = 0.25;
+  static constexpr double kLeastKeptShare = 0.25;
+  static constexpr double kSteadyShare = 0.005;
   static constexpr double kSilentTurns = 0.5;
 
   AngleFollower(const AngleConfig& config, double period_s, std::size_t axes = 0) noexcept;
@@ -61,12 +65,12 @@ class AngleFollower {
   /// `position_m`: of a fresh frame; read with AngleSource::kOrbit.
   void Update(const AngleReading& reading, const AxisArray& position_m = {}) noexcept;
 
-  /// With AngleSource::kOrbit: for so long what the orbit does is a block's doing, and from then on
-  /// it is followed with this time constant, or as fast as ever where that is zero.
-  void Coast(double time_s, double follow_s) noexcept {
-    coast_s_ = time_s;
-    follow_s_ = follow_s;
-  }
+  /// With AngleSource::kOrbit: from now on for so long, at least, what the orbit does is a block's
+  /// doing.
+  void Coast(double time_s) noexcept { coast_s_ = std::max(coast_s_, time_s); }
+  /// A block acts that is as slow as this: the orbit is followed with this time constant. Zero: none
+  /// acts.
+  void FollowWithin(double time_s) noexcept { follow_s_ = time_s; }
 
   [[nodiscard]] bool good() const noexcept { return good_turns_ >= needed_turns_; }
   /// Of the latest Update.
@@ -88,12 +92,14 @@ class AngleFollower {
   void Break(AngleTrouble trouble) noexcept;
   void FollowAngle(const AngleReading& reading, double step_turns) noexcept;
   [[nodiscard]] double OrbitPole() const noexcept;
+  [[nodiscard]] AngleTrouble JudgeTurn(const OrbitTurn& turn) const noexcept;
   void FollowOrbit(const AngleReading& reading, double step_turns,
                    const AxisArray& position_m) noexcept;
 
   AngleSource source_;
   double period_s_;
   double largest_error_turns_;
+  double largest_orbit_error_turns_;  ///< as OrbitTurn counts it
   double largest_speed_share_;
   double least_followed_m_;
   double angle_gain_, speed_gain_;
@@ -102,6 +108,8 @@ class AngleFollower {
   double slip_{};  ///< of kOrbit: followed speed over the rig's, less one
   double needed_turns_;
   double coast_s_{}, follow_s_{};
+  double reference_speed_rad_per_s_{};  ///< the rig's, as what is followed began
+  double unended_turns_{};
   bool begun_{};
   double good_turns_{};
   double silent_turns_{};

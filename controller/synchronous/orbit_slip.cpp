@@ -7,9 +7,14 @@
 namespace levitas::synchronous {
 
 void OrbitSlip::Reset() noexcept {
-  sum_ = reference_ = {};
-  turned_ = samples_ = 0.0;
+  DropTurn();
+  reference_ = {};
   any_turn_ = false;
+}
+
+void OrbitSlip::DropTurn() noexcept {
+  sum_ = {};
+  turned_ = samples_ = 0.0;
 }
 
 OrbitTurn OrbitSlip::Add(const AxisArray& position_m, const UnitPhasor& phasor, double step_turns,
@@ -32,6 +37,9 @@ OrbitTurn OrbitSlip::Add(const AxisArray& position_m, const UnitPhasor& phasor, 
 
 OrbitTurn OrbitSlip::EndTurn(double reference_share) noexcept {
   OrbitTurn turn{.ended = true};
+  for (const Complex& sum : sum_) {
+    if (!std::isfinite(sum.real) || !std::isfinite(sum.imaginary)) return turn;
+  }
   Complex ahead;
   for (std::size_t b = 0; b < bearings_; ++b) {
     Complex& reference = reference_[b];

@@ -18,10 +18,11 @@ constexpr double kCountBack = 0.25;
 /// Of the supervisor's orbit limit.
 constexpr double kBelowTrip = 0.85;
 constexpr double kRunOutFadeS = 0.1;
-/// Time constants after which a block has done what it does to the orbit.
-constexpr double kSettled = 5.0;
+/// Time constants after which a block has done most of what it does to the orbit, also one that is
+/// slower by its T (amb design notch accepts a fifth of the rate).
+constexpr double kSettled = 10.0;
 /// Time constants of a block in one of what follows the orbit that it leaves.
-constexpr double kFollowed = 10.0;
+constexpr double kFollowed = 30.0;
 /// Of a block that corrects its T, while it has not seen yet what it does.
 constexpr double kBeginningPace = 0.25;
 
@@ -121,6 +122,7 @@ Ending SynchronousControl::Trouble(const Block& block, const Conditions& seen) c
 // Before another trial the orbit is back near what it was when the block began the first time.
 bool SynchronousControl::Calm(const Block& block) const noexcept {
   const double share = std::min(0.95, 1.3 / orbit_growth_);
+  if (angle_estimated_) return true;
   for (std::size_t b = 0; 2 * b < axes_ && block.retries > 0; ++b) {
     if (!(std::max(orbit_turn_m_[b], orbit_now_m_[b]) <= share * block.orbit_limit_m[b])) {
       return false;
@@ -134,10 +136,9 @@ void SynchronousControl::Begin(Block& block) noexcept {
   block.influence.Restart();
   block.gain = 1.0;
   block.status.state = BlockState::kActing;
-  if (block.order == 1.0) {
-    angle_.Coast(kSettled * block.time_constant_s, kFollowed * block.time_constant_s);
-  }
-  if (block.retries > 0) return;  // the limit of the first time holds
+  if (ChangesFollowedOrbit(block.order)) angle_.Coast(kSettled * block.time_constant_s);
+  // After a trial that grew the orbit the limit of the first time holds.
+  if (block.retries > 0 && !angle_estimated_) return;
   for (std::size_t b = 0; 2 * b < axes_; ++b) {
     const double begun_m = std::max(orbit_turn_m_[b], orbit_now_m_[b]);
     block.orbit_limit_m[b] =
@@ -149,8 +150,8 @@ void SynchronousControl::End(Block& block, Ending why) noexcept {
   block.status.state = BlockState::kFading;
   block.status.ending = why;
   block.fast = why != Ending::kSpeed;
-  if (block.order == 1.0) {
-    angle_.Coast(block.fast ? kLongestFadeS : period_s_ / block.slow_fade, 0.0);
+  if (ChangesFollowedOrbit(block.order)) {
+    angle_.Coast(block.fast ? kLongestFadeS : period_s_ / block.slow_fade);
   }
 }
 
@@ -226,6 +227,18 @@ void SynchronousControl::Supervise(const Conditions& seen) noexcept {
     if (block.status.state == BlockState::kFading) Fade(block);
   }
   FadeRunOut(seen.levitated && angle_.good());
+  PaceAngle();
+}
+
+// Blocks come and go: what follows the orbit is as slow as the slowest that changes it asks.
+void SynchronousControl::PaceAngle() noexcept {
+  if (!angle_estimated_) return;
+  double slowest_s = 0.0;
+  for (const Block& block : blocks_) {
+    if (block.gain == 0.0 || !ChangesFollowedOrbit(block.order)) continue;
+    slowest_s = std::max(slowest_s, block.time_constant_s);
+  }
+  angle_.FollowWithin(kFollowed * slowest_s);
 }
 
 void SynchronousControl::Wait(const Conditions& seen) noexcept {

@@ -10,11 +10,11 @@
 #include <numbers>
 
 #include "cli/json_file.hpp"
+#include "cli/study/controller_output.hpp"
 #include "cli/study/design/design_commands.hpp"
 #include "cli/study/design/gate_options.hpp"
 #include "cli/study/design/judged_law.hpp"
 #include "cli/study/written_files.hpp"
-#include "cli/text_file.hpp"
 #include "common/rotational_speed.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
@@ -253,11 +253,11 @@ ExitStatus Run(const NotchOptions& options) {
             figures.RefusedSpeeds(), figures.AllowedSpeeds()));
   }
   if (!options.out_path.empty()) {
-    WriteTextFile(options.out_path,
-                  fmt::format("# amb design notch: block {} accepted at every speed of its window, "
-                              "with {}\n",
-                              block.name, JudgedWith(options)) +
-                      config::WriteController(file, rig.numbers));
+    WriteControllerFile(options.out_path,
+                        fmt::format("# amb design notch: block {} accepted at every speed of its "
+                                    "window, with {}\n",
+                                    block.name, JudgedWith(options)),
+                        file, rig.numbers);
   }
   TellWritten({options.out_path, options.loop.json_path});
   return ExitStatus::kDone;

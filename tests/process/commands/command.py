@@ -29,7 +29,8 @@ COUNTS = {"samples", "drop_outs", "missing_samples", "rows", "cycles_without_fra
           "gaps", "settling_samples", "not_levitated_samples", "order", "cycles", "compared",
           "first_compared_cycle", "mode_differs", "missing_cycles", "fault_cycle",
           "corrupt_bytes", "corrupt_records", "corrupt_blocks", "seed", "substeps", "compared_with_substeps",
-          "orders", "turns", "skipped_periods", "missing_frames", "held_currents", "missing_records", "count", "times"}
+          "orders", "turns", "skipped_periods", "missing_frames", "held_currents", "missing_records", "count", "times",
+          "failures"}
 RATIOS = {"ratio", "share", "sigmas", "damping_ratio", "largest_pole_modulus", "forward_share",
           "torsion_share", "sensitivity_peak", "gain_margin_up", "gain_margin_down", "largest_singular_value",
           "multiple_of_noise", "expected_multiple", "lag_one_correlation",

@@ -54,6 +54,29 @@ class DesignNotch(CommandTest):
         self.assertRegex(done.stderr, r"^amb: refused at \d+ to \d+ rpm \(without its synchronous force the orbit")
         self.assertEqual(self.files(), before)
 
+    def test_a_block_that_the_file_around_it_cannot_have_is_refused_before_it_is_written(self):
+        self.call(*QUICK, *COMMISSIONED, "--from-rpm", "1500", "--to-rpm", "3900", "--out", "quiet.yaml")
+        text = (self.folder / "quiet.yaml").read_text()
+        self.assertIn("angle_from: rig", text)
+        (self.folder / "orbit.yaml").write_text(text.replace("angle_from: rig", "angle_from: orbit"))
+        before = self.files()
+        done = self.call(*QUICK, "--controller", "orbit.yaml", "--target", "vibration", "--name", "high",
+                         "--from-rpm", "4700", "--out", "both.yaml", status=BAD_INPUT)
+        self.assertIn("both.yaml (not written)", done.stderr)
+        self.assertIn("target current leaves it", done.stderr)
+        self.assertEqual(self.files(), before)
+        # The window ends at an odd speed: where the last judged speed rounded beyond it, it was refused.
+        self.call(*QUICK, *COMMISSIONED, "--from-rpm", "1500", "--to-rpm", "3777", "--out", "odd.yaml")
+
+    def test_a_run_with_an_estimated_angle_says_that_it_is_one(self):
+        self.call(*QUICK, *COMMISSIONED, "--from-rpm", "1500", "--to-rpm", "3900", "--out", "quiet.yaml")
+        text = (self.folder / "quiet.yaml").read_text()
+        (self.folder / "orbit.yaml").write_text(text.replace("angle_from: rig", "angle_from: orbit"))
+        run = self.call("run", "--controller", "orbit.yaml", "--scenario", "run_up_6000", "--record", "s.lcm").stdout
+        self.assertRegex(run, r"unbalance: acted \d+\.\d+ s.* no mark on the shaft, its angle is estimated from the orbit")
+        self.assertNotIn(b"angle jumped", (self.folder / "s.lcm").read_bytes())
+        self.assertIn("every output bit", self.call("replay", "s.lcm").stdout)
+
     def test_a_block_that_its_rig_cannot_have_is_never_lifted(self):
         self.call(*QUICK, "--from-rpm", "1500", "--to-rpm", "3900", "--out", "quiet.yaml")
         text = (self.folder / "quiet.yaml").read_text()

@@ -66,6 +66,29 @@ TEST(BlockUse, CountsHowLongEachBlockActedAndWhyItEnded) {
   EXPECT_EQ(blocks[1].last_end, "");
 }
 
+TEST(BlockUse, KeepsAFailureThatALaterEndWouldHide) {
+  const std::string where = "at 1500 rpm (cycle 1)";
+  std::vector<session::Event> events{
+      At(10'000, session::BlockBegins("low", where)),
+      At(20'000, session::BlockEnds("low", where, Ending::kAngleJumped)),
+      At(30'000, session::BlockBegins("low", where)),
+      At(40'000, session::BlockEnds("low", where, Ending::kSpeed))};
+  events[1].severity = session::Event::Severity::kWarning;
+  const auto blocks = BlocksOf(events, 0, 50'000, 1e-4);
+  ASSERT_EQ(blocks.size(), 1U);
+  EXPECT_EQ(blocks[0].last_end, "the speed left its window");
+  EXPECT_EQ(blocks[0].failures, 1);
+  EXPECT_EQ(blocks[0].last_failure, "the rotor's angle jumped");
+}
+
+TEST(BlockUse, NamesABlockThatNeverBegan) {
+  const std::vector<std::string> names{"low"};
+  const auto blocks = BlocksOf({}, 0, 1000, 1e-4, names);
+  ASSERT_EQ(blocks.size(), 1U);
+  EXPECT_EQ(blocks[0].name, "low");
+  EXPECT_EQ(blocks[0].times, 0);
+}
+
 TEST(BlockUse, IsNothingWithoutBlocks) { EXPECT_TRUE(BlocksOf({}, 0, 1000, 1e-4).empty()); }
 
 }  // namespace
