@@ -1,8 +1,8 @@
 #pragma once
 // A controller file that a command writes: read as `amb run` reads it before it is written.
 //
-// Failure  BadInput with the path, of what a reader refuses (a new block beside an angle that cannot
-//          serve it); nothing is written then. Else as WriteTextFile.
+// Failure  BadInput with the path, of what a reader refuses (a new block beside an angle that
+//          cannot serve it); nothing is written then. Else as WriteTextFile.
 
 #include <string>
 

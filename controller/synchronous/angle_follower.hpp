@@ -68,8 +68,8 @@ class AngleFollower {
   /// With AngleSource::kOrbit: from now on for so long, at least, what the orbit does is a block's
   /// doing.
   void Coast(double time_s) noexcept { coast_s_ = std::max(coast_s_, time_s); }
-  /// A block acts that is as slow as this: the orbit is followed with this time constant. Zero: none
-  /// acts.
+  /// The orbit is followed with this time constant, for a block acts that must stay faster. Zero:
+  /// none acts.
   void FollowWithin(double time_s) noexcept { follow_s_ = time_s; }
 
   [[nodiscard]] bool good() const noexcept { return good_turns_ >= needed_turns_; }

@@ -13,8 +13,9 @@
 // Units      m, turns. Frame: bearing frame, forward is x to y.
 // Thread     loop thread only; allocates nothing, throws nothing.
 // Failure    a turn with a position that is no number has no orbit: forward_m is 0.
-// Not done   the shafts of gears: all bearings are taken for the first shaft's. The vibration that a block takes away cannot be followed meanwhile: the schema refuses
-//            that pair. A thrust axis, one axis alone: ignored.
+// Not done   the shafts of gears: all bearings are taken for the first shaft's. The vibration that
+//            a block takes away cannot be followed meanwhile: the schema refuses that pair. A
+//            thrust axis, one axis alone: ignored.
 
 #include <array>
 #include <cstddef>
