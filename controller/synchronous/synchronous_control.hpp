@@ -14,9 +14,6 @@
 //            angle's flywheel.
 // Again      after a fade of the speed, of a measured angle or of the levitation when the
 //            conditions hold again; after any other end not before the speed has left the window. A
-//            block that corrects its T may begin kRetries times more after its orbit grew, with what
-//            it has learned from that; so may one whose angle is estimated from the orbit and was
-//            lost or jumped.
 // Empty      without run-outs and blocks Step does nothing: the loop's bits are those without it.
 // Frame      bearing frame; units SI.
 // Thread     construction allocates; Step allocates nothing, throws nothing, takes bounded time.
