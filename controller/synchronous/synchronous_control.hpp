@@ -13,7 +13,10 @@
 //            while it fades already: fades within half a turn (and 0.2 s at most), in step with the
 //            angle's flywheel.
 // Again      after a fade of the speed, of a measured angle or of the levitation when the
-//            conditions hold again; after any other end not before the speed has left the window. A
+//            conditions hold again; after any other end not before the speed has left the window.
+//            A block that corrects its T may begin kRetries times more after its orbit grew, with
+//            what it has learned from that; so may one whose angle is estimated from the orbit and
+//            was lost or jumped.
 // Empty      without run-outs and blocks Step does nothing: the loop's bits are those without it.
 // Frame      bearing frame; units SI.
 // Thread     construction allocates; Step allocates nothing, throws nothing, takes bounded time.
