@@ -161,8 +161,10 @@ std::string Deeds(const BlockUse& block) {
               : fmt::format(", ended at {:.2f} s: {}", block.last_end_s, block.last_end);
   const bool told = block.failures == 1 && block.last_failure == block.last_end;
   if (block.failures > 0 && !told) {
-    text +=
-        fmt::format("; given up {} times, the last one: {}", block.failures, block.last_failure);
+    text += block.failures == 1
+                ? "; given up once: "
+                : fmt::format("; given up {} times, the last one: ", block.failures);
+    text += block.last_failure;
   }
   if (!block.angle.empty()) text += "; " + block.angle;
   return text;
