@@ -186,8 +186,7 @@ void DescribeAngleSource(Visitor& v, synchronous::AngleConfig& angle, const RigN
              "orbit needs a bearing with two axes");
   v.Number({"least_followed_orbit", kMicrometre, 0.01, 1000, 2,
             "of angle_from orbit, forward amplitude of one bearing: followed from there on, lost "
-            "below a "
-            "quarter of it"},
+            "below a quarter of it"},
            angle.least_followed_m);
 }
 

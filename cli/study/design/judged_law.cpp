@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/study/controller_output.hpp"
 #include "cli/text_file.hpp"
 
 namespace levitas::cli {
@@ -30,7 +31,7 @@ std::vector<std::string> WriteJudged(const std::string& out_path, const std::str
   const std::string head =
       result.accepted ? fmt::format("# {}: accepted by its check with seed {}\n", command, seed)
                       : fmt::format("# {}: NOT ACCEPTED: {}\n", command, result.reason);
-  WriteTextFile(path, head + config::WriteController(file, rig));
+  WriteControllerFile(path, head, file, rig);
   std::vector<std::string> written{path};
   if (!result.accepted && result.worst) {
     written.push_back(Beside(out_path, ".worst_rig.yaml"));

@@ -11,9 +11,9 @@
 
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/study/controller_output.hpp"
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/written_files.hpp"
-#include "cli/text_file.hpp"
 #include "common/problem.hpp"
 #include "common/two_pi.hpp"
 #include "identification/law/law_record.hpp"
@@ -181,7 +181,7 @@ ExitStatus Run(const ControllerOptions& options) {
     const config::ControllerFile file{rig.numbers.name + "_identified",
                                       LawOf(options, fits, rig, before.file.law),
                                       before.file.supervisor};
-    WriteTextFile(options.out_path, config::WriteController(file, rig.numbers));
+    WriteControllerFile(options.out_path, "", file, rig.numbers);
     fmt::print("sequence and protection from {}\n", before.path);
   }
   WriteLawPicture(options.svg_path, fits);

@@ -1,5 +1,6 @@
-// A rotor without a mark whose speed is told wrong: the block that believes it, and the one whose
-// angle is estimated from the orbit.
+// A rotor without a mark, and a controller that is shown a wrong speed of it: a block that
+// integrates that speed leaves most of the current, one that estimates its angle from the orbit
+// takes it away.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -14,7 +15,7 @@ using synchronous::AngleSource;
 using synchronous::BlockState;
 using synchronous::Target;
 
-/// No angle, and this share of the speed.
+/// What the controller is shown: no angle, and the speed times this.
 std::function<void(cycle::CycleInputs&)> Told(double share) {
   return [share](cycle::CycleInputs& in) {
     in.frame.speed_rad_per_s *= share;
@@ -22,7 +23,8 @@ std::function<void(cycle::CycleInputs&)> Told(double share) {
   };
 }
 
-/// Target current at this speed, of which the controller is told a share.
+/// The rotor turns at `rpm`, the controller is shown `told` times that, and a block of target
+/// current acts on it.
 struct Unmarked {
   Unmarked(AngleSource source, double rpm, double told, bool watched = true)
       : loop([=] {
