@@ -245,6 +245,7 @@ void Predictor::Refer(const Eigen::VectorXd& place, const Eigen::VectorXcd& ampl
         curved_n_[k][axis] =
             rig_.ForceBeyondSlopes(axis, states[rig.coil_current + axis], seen[axis]);
       }
+      smooth_[k] = FromModel(rig, responses[k], k, amplitudes);
     }
   }
   const auto measured = Rows(rig, Respond(rig, measured_), measured_);

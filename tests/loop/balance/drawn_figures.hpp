@@ -34,11 +34,10 @@ inline void Print(const char* what, const std::vector<Outcome>& all) {
   line("reduced chi-square", &Outcome::chi_square);
 }
 
-/// What docs/identification.md says of one run-up: nearly all below 3 %, the weights of all within
-/// 5 % and 5 degrees. One rig in some twenty is left with a little more than 3 %.
+/// What docs/identification.md says of one run-up: below 3 %, weights within 5 % and 5 degrees.
 inline void ExpectBalanced(const std::vector<Outcome>& all) {
   for (const Outcome& one : all) {
-    EXPECT_LT(one.rms_percent, 4.0);
+    EXPECT_LT(one.rms_percent, 3.0);
     EXPECT_LT(one.weight_percent, 5.0);
     EXPECT_LT(one.weight_deg, 5.0);
     // Six numbers per rig, normal: beyond five deviations is one of a million.

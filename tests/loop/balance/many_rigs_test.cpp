@@ -26,9 +26,9 @@ TEST(ManyRigs, EverythingThatAHealthyRigMayDifferBy) {
   }
   Print("everything within its tolerances besides", all);
   for (const Outcome& one : all) {
-    EXPECT_LT(one.rms_percent, 5.0);
+    EXPECT_LT(one.rms_percent, 3.0);
   }
-  EXPECT_LT(SpreadOf(all, &Outcome::rms_percent).median, 3.0);
+  EXPECT_LT(SpreadOf(all, &Outcome::rms_percent).median, 1.5);
 }
 
 }  // namespace
