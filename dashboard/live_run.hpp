@@ -33,7 +33,8 @@ struct NumberedEvent {
 struct LiveBlock {
   std::string name;
   bool acts{};
-  std::string why;  ///< it ended, in words; empty: it never did, or acts
+  std::string why;    ///< it ended, in words; empty: it never did, or acts
+  std::string angle;  ///< how it is estimated, while the block acts; empty: it is measured
 };
 
 class LiveRun {

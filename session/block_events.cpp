@@ -22,17 +22,27 @@ std::string_view Text(synchronous::Ending ending) {
     case Ending::kAngleJumped:
       return "the rotor's angle jumped";
     case Ending::kSaturated:
-      return "an axis stays at its current limit; it begins again after the speed has left its "
-             "window";
+      return "an axis stays at its current limit";
     case Ending::kOrbitGrew:
       return "the orbit grew";
     case Ending::kCurrentTooLarge:
-      return "it needs more than its largest_current_a; it begins again after the speed has left "
-             "its window";
+      return "it needs more than its largest_current_a";
     case Ending::kNotLevitated:
       return "the rotor is no longer held about its centre";
   }
   return "";
+}
+
+/// When it may begin again; nothing where that needs no word.
+std::string Again(synchronous::Ending why, bool tries_again) {
+  using synchronous::Ending;
+  if (tries_again) {
+    return fmt::format("; it tries again, {} times at most until the speed has left its window",
+                       synchronous::kRetries);
+  }
+  const bool waits =
+      why == Ending::kSaturated || why == Ending::kOrbitGrew || why == Ending::kCurrentTooLarge;
+  return waits ? "; it begins again after the speed has left its window" : "";
 }
 
 std::string_view Text(synchronous::AngleSource angle_from) {
@@ -57,8 +67,10 @@ std::string BlockBegins(std::string_view name, std::string_view where,
                      estimated);
 }
 
-std::string BlockEnds(std::string_view name, std::string_view where, synchronous::Ending why) {
-  return fmt::format("{}{} ends {}: {}", kSubject, name, where, Text(why));
+std::string BlockEnds(std::string_view name, std::string_view where, synchronous::Ending why,
+                      bool tries_again) {
+  return fmt::format("{}{} ends {}: {}{}", kSubject, name, where, Text(why),
+                     Again(why, tries_again));
 }
 
 // Should a name hold " begins at " or " ends at " itself, the last of them is the sentence's own.
@@ -71,9 +83,11 @@ std::optional<BlockEvent> ReadBlockEvent(std::string_view text) {
       ends != std::string_view::npos && (begins == std::string_view::npos || ends > begins);
   const auto at = ending ? ends : begins;
   if (at == std::string_view::npos) return std::nullopt;
-  BlockEvent event{std::string(text.substr(0, at)), !ending, {}};
+  BlockEvent event{std::string(text.substr(0, at)), !ending, {}, {}};
   const auto why = text.find(kWhy, at);
-  if (why != std::string_view::npos) event.why = text.substr(why + kWhy.size());
+  if (why != std::string_view::npos) {
+    (ending ? event.why : event.angle) = text.substr(why + kWhy.size());
+  }
   return event;
 }
 

@@ -15,21 +15,27 @@
 namespace levitas::session {
 
 struct SynchronousLabels {
-  std::vector<std::string> blocks;  ///< their names, in the order of the controller file
+  struct Block {
+    std::string name;
+    bool adaptive{};
+  };
+  std::vector<Block> blocks;  ///< in the order of the controller file
   synchronous::AngleSource angle_from{synchronous::AngleSource::kRig};
 };
 
-/// `where`: "at 1500 rpm (cycle 4711)". An angle that is no measured one is said to be none.
+/// `where`: "at 1500 rpm (cycle 4711)". An angle that is not measured is named as an estimate.
 [[nodiscard]] std::string BlockBegins(
     std::string_view name, std::string_view where,
     synchronous::AngleSource angle_from = synchronous::AngleSource::kRig);
+/// `tries_again`: it may begin again before the speed has left its window, a few times.
 [[nodiscard]] std::string BlockEnds(std::string_view name, std::string_view where,
-                                    synchronous::Ending why);
+                                    synchronous::Ending why, bool tries_again = false);
 
 struct BlockEvent {
   std::string name;
-  bool begins{};    ///< else it ends
-  std::string why;  ///< it ends, in words; where it begins, how its angle is estimated, if it is
+  bool begins{};      ///< else it ends
+  std::string angle;  ///< where it begins: how its angle is estimated, if it is
+  std::string why;    ///< where it ends
 };
 
 /// Nothing of any other sentence.

@@ -100,6 +100,7 @@ Verdict Commission(const CommissionOptions& options) {
   for (const auto& block : controller.synchronous.blocks) blocks.push_back(block.name);
   inputs.blocks =
       BlocksOf(reader.events(), first_cycle, record.in.cycle, rig.numbers.period_s(), blocks);
+  inputs.saves_bias = !controller.bias.empty();
   inputs.trip_text = FirstTripText(reader.events());
   inputs.incomplete_reason = options.incomplete_reason.empty()
                                  ? BreaksOff(reader.damage(), inputs.session.modes)

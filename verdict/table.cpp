@@ -135,14 +135,22 @@ void Sensitivity(const Inputs& in, Out out) {
   WorstSensitivity(in, out);
 }
 
-/// Of a controller that lowers the bias; nothing where it stayed at the rig's.
+/// Of a controller that may lower the bias, or a record in which it moved.
 void Bias(const Inputs& in, Out out) {
   for (const bool spinning : {false, true}) {
     const PhaseFigures& phase = spinning ? in.session.spinning : in.session.standing;
     constexpr double kStayed = 1e-6;  // of the rig's
     const double rig_a = in.rig.bias_current_a;
     const bool known = phase.cycles > 0 && phase.mean_bias_a > 0.0;
-    if (!known || std::abs(phase.mean_bias_a - rig_a) <= kStayed * rig_a) continue;
+    if (!known) continue;
+    if (std::abs(phase.mean_bias_a - rig_a) <= kStayed * rig_a) {
+      if (!in.saves_bias) continue;
+      fmt::format_to(out,
+                     "          bias {}: {:.3f} A throughout, nothing saved: too short, or "
+                     "current, orbit or speed asked for all of it\n",
+                     PhaseName(spinning), rig_a);
+      continue;
+    }
     fmt::format_to(out,
                    "          bias {}: {:.3f} of {:.3f} A in the mean, copper losses {:.1f} % of "
                    "the whole\n",

@@ -75,6 +75,7 @@ struct Inputs {
   std::optional<TimingFigures> timing;
   std::optional<RigFigures> rig_process;
   std::vector<BlockUse> blocks;  ///< of synchronous control
+  bool saves_bias{};             ///< the controller may lower the bias
   Provenance provenance;
   std::string trip_text;          ///< the recorded sentence of the first trip, may be empty
   std::string incomplete_reason;  ///< why the scenario did not end by itself; empty: it did

@@ -46,12 +46,16 @@ void PrintBias(const std::vector<LoopAtBias>& loops, const std::vector<std::stri
                                     ? fmt::format("  NOT HELD: {}", at.loop.point.failure)
                                 : at.loop.stable ? ""
                                                  : "  UNSTABLE";
-    fmt::print("  {:>8.0f}{:>10.3f}{:>12.3f}{:>9}{:>10}{}\n", RadPerSToRpm(at.loop.speed_rad_per_s),
-               at.bias_a, worst->peak, channel, zone, trouble);
+    // Of a loop that is not held no sensitivity can be told.
+    const bool known = at.loop.point.failure.empty() && at.loop.stable;
+    fmt::print("  {:>8.0f}{:>10.3f}{:>12}{:>9}{:>10}{}\n", RadPerSToRpm(at.loop.speed_rad_per_s),
+               at.bias_a, known ? fmt::format("{:.3f}", worst->peak) : "-", known ? channel : "-",
+               known ? zone : "-", trouble);
     json["bias_saving"].push_back({{"speed_rpm", RadPerSToRpm(at.loop.speed_rad_per_s)},
                                    {"bias_current_a", at.bias_a},
                                    {"stable", at.loop.stable},
-                                   {"sensitivity_peak", worst->peak},
+                                   {"sensitivity_peak", known ? nlohmann::ordered_json(worst->peak)
+                                                              : nlohmann::ordered_json()},
                                    {"channel", channel},
                                    {"not_held_because", at.loop.point.failure}});
   }

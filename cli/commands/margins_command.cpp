@@ -10,6 +10,7 @@
 
 #include "analysis/sensitivity.hpp"
 #include "analysis/synchronous_loop.hpp"
+#include "cli/commands/angle_note.hpp"
 #include "cli/commands/bias_margins.hpp"
 #include "cli/commands/command.hpp"
 #include "cli/json_file.hpp"
@@ -152,7 +153,8 @@ std::vector<BlocksAt> JudgeBlocks(const config::RigFile& rig, const config::Cont
 void PrintBlocks(const std::vector<BlocksAt>& blocks, const config::ControllerFile& file,
                  nlohmann::ordered_json& json) {
   fmt::print(
-      "synchronous control: decay of each block (1: as its time constant, below 0: grows)\n");
+      "synchronous control: decay of each block (1: as its time constant, below 0: grows){}\n",
+      AngleNote(file.synchronous));
   fmt::print("  {:>8}", "rpm");
   for (const auto& block : file.synchronous.blocks) fmt::print("{:>16}", block.name);
   fmt::print("{:>12}{:>16}{:>14}\n", "largest |z|", "worst of drawn", "its |z|");

@@ -12,6 +12,7 @@
 #include "analysis/poles.hpp"
 #include "analysis/sampled_loop.hpp"
 #include "analysis/synchronous_loop.hpp"
+#include "cli/commands/angle_note.hpp"
 #include "cli/commands/command.hpp"
 #include "cli/commands/critical_speeds_text.hpp"
 #include "cli/json_file.hpp"
@@ -102,8 +103,9 @@ void AddBlocks(const analysis::SampledLoop& loop, const config::ControllerFile& 
   }
   if (acting.empty()) return;
   const auto judged = analysis::JudgeSynchronous(loop, controller.synchronous, speed_rad_per_s);
-  fmt::print("with synchronous control ({}): {} (largest |z| {:.6f})\n", acting,
-             judged.stable() ? "STABLE" : "UNSTABLE", judged.largest_pole_modulus);
+  fmt::print("with synchronous control ({}): {} (largest |z| {:.6f}){}\n", acting,
+             judged.stable() ? "STABLE" : "UNSTABLE", judged.largest_pole_modulus,
+             AngleNote(controller.synchronous));
   json["with_synchronous_control"] = {{"blocks", acting},
                                       {"stable", judged.stable()},
                                       {"largest_pole_modulus", judged.largest_pole_modulus}};

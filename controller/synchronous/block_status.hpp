@@ -7,6 +7,9 @@
 namespace levitas::synchronous {
 
 inline constexpr std::size_t kMaxBlocks = 8;
+/// How often a block that corrects its T, or whose angle is estimated, begins anew before the speed
+/// has left its window.
+inline constexpr int kRetries = 3;
 
 enum class BlockState : std::uint8_t {
   kOff = 0,

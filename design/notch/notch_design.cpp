@@ -143,10 +143,9 @@ bool NotchFigures::allowed() const noexcept {
 
 namespace {
 
-std::string RangeText(const SpeedFigures& from, const SpeedFigures& to) {
-  const double low = RadPerSToRpm(from.speed_rad_per_s);
-  return &from == &to ? fmt::format("{:.0f} rpm", low)
-                      : fmt::format("{:.0f} to {:.0f} rpm", low, RadPerSToRpm(to.speed_rad_per_s));
+std::string RangeText(double from_rpm, double to_rpm) {
+  return from_rpm == to_rpm ? fmt::format("{:.0f} rpm", from_rpm)
+                            : fmt::format("{:.0f} to {:.0f} rpm", from_rpm, to_rpm);
 }
 
 }  // namespace
@@ -157,8 +156,13 @@ std::string NotchFigures::AllowedSpeeds() const {
     if (!speeds[i].allowed()) continue;
     const std::size_t first = i;
     while (i + 1 < speeds.size() && speeds[i + 1].allowed()) ++i;
+    // Whole turns a minute, within.
+    const double inside = hysteresis_rad_per_s;
+    const double low = std::ceil(RadPerSToRpm(speeds[first].speed_rad_per_s + inside) - 1e-6);
+    const double high = std::floor(RadPerSToRpm(speeds[i].speed_rad_per_s - inside) + 1e-6);
+    if (!(high > low)) continue;
     if (!text.empty()) text += ", ";
-    text += RangeText(speeds[first], speeds[i]);
+    text += RangeText(low, high);
   }
   return text.empty() ? "nowhere" : text;
 }
@@ -174,7 +178,10 @@ std::string NotchFigures::RefusedSpeeds() const {
     const std::size_t first = i;
     while (i + 1 < speeds.size() && kind(speeds[i + 1]) == kind(speeds[first])) ++i;
     if (!text.empty()) text += "; ";
-    text += fmt::format("{} ({})", RangeText(speeds[first], speeds[i]), kind(speeds[first]));
+    text += fmt::format("{} ({})",
+                        RangeText(RadPerSToRpm(speeds[first].speed_rad_per_s),
+                                  RadPerSToRpm(speeds[i].speed_rad_per_s)),
+                        kind(speeds[first]));
   }
   return text;
 }
@@ -262,6 +269,7 @@ NotchFigures JudgeNotch(const config::RigFile& rig, const std::vector<config::Ri
   control.blocks.push_back(request.block);
   NotchFigures figures;
   figures.rigs = drawn.size();
+  figures.hysteresis_rad_per_s = request.block.hysteresis_rad_per_s;
   std::vector<bool> unheld(drawn.size(), false);
   for (const double speed : analysis::JudgedSpeeds(control, kJudged)) {
     SpeedFigures at;

@@ -82,10 +82,12 @@ struct NotchFigures {
   std::vector<SpeedFigures> speeds;  ///< ascending
   std::size_t rigs{};                ///< judged beside the file's
   std::size_t not_held{};            ///< drawn rigs that the law alone does not hold somewhere
+  double hysteresis_rad_per_s{};     ///< by which they reach beyond the window
   [[nodiscard]] bool allowed() const noexcept;
   /// "1200 to 1450 rpm (orbit grows 12-fold), 2100 rpm (...)"; empty when all are allowed.
   [[nodiscard]] std::string RefusedSpeeds() const;
-  /// "1000 to 1200 rpm, 2200 to 3900 rpm" of those judged; "nowhere" when none is.
+  /// Windows to ask for instead, hysteresis off: "1000 to 1200 rpm, 2200 to 3900 rpm" of those
+  /// judged; "nowhere" when none is.
   [[nodiscard]] std::string AllowedSpeeds() const;
 };
 

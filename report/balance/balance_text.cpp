@@ -67,6 +67,11 @@ std::string CorrectionTable(const BalanceResult& result, bool drill) {
                fmt::format("{:.3f}", 1e6 * std::abs(one.placed.moment_kg_m - one.added_kg_m))});
     const std::string split = HolesText(one.placed);
     if (!split.empty()) holes += fmt::format("  {}: {}\n", one.plane.name, split);
+    if (std::abs(one.added_kg_m) < k95 * one.deviation_kg_m) {
+      holes += fmt::format(
+          "  {}: not told from nothing, {:.3f} g mm with an interval of {:.3f}: leave it out\n",
+          one.plane.name, 1e6 * std::abs(moment), 1e6 * k95 * one.deviation_kg_m);
+    }
     if (one.placed.weights.empty() && mass) {
       holes +=
           fmt::format("  {}: no weight, the correction is below the smallest\n", one.plane.name);

@@ -149,7 +149,8 @@ TEST_F(Snapshot, TellsWhichBlocksActAndWhyOthersEnded) {
                                             synchronous::Ending::kOrbitGrew)),
             0);
   EXPECT_EQ(tick()["blocks"][0]["acts"], false);
-  EXPECT_EQ(tick()["blocks"][0]["why"], "the orbit grew");
+  EXPECT_EQ(tick()["blocks"][0]["why"],
+            "the orbit grew; it begins again after the speed has left its window");
   run_.Take(channel::kHeader, EncodedHeader(3), 0);
   EXPECT_FALSE(tick().contains("blocks")) << "another run";
 }

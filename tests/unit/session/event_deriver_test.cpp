@@ -64,7 +64,7 @@ TEST_F(Deriver, TellsALawThatTakesOverWhileTheRotorIsHeldAndNoneThatALiftBegins)
 }
 
 TEST_F(Deriver, TellsABlockOfSynchronousControlThatBeginsAndWhyItEnds) {
-  EventDeriver deriver(Header().channels, Header().period_ns, {{"unbalance"}});
+  EventDeriver deriver(Header().channels, Header().period_ns, {{{"unbalance", true}}});
   std::uint64_t cycle = 0;
   const auto step = [&](synchronous::BlockState state, synchronous::Ending ending) {
     auto record = Quiet(cycle++);
@@ -91,6 +91,11 @@ TEST_F(Deriver, TellsABlockOfSynchronousControlThatBeginsAndWhyItEnds) {
   const auto planned = step(BlockState::kFading, Ending::kSpeed);
   ASSERT_EQ(planned.size(), 1U);
   EXPECT_EQ(planned[0].severity, Event::Severity::kInformation);
+  (void)step(BlockState::kOff, Ending::kSpeed);
+  (void)step(BlockState::kActing, Ending::kSpeed);
+  const auto grew = step(BlockState::kFading, Ending::kOrbitGrew);
+  ASSERT_EQ(grew.size(), 1U);
+  EXPECT_THAT(grew[0].text, HasSubstr("the orbit grew; it tries again")) << "it is adaptive";
 }
 
 TEST_F(Deriver, TellsATripOnceWithCauseChannelValueLimitCycleSafeStateAndReset) {

@@ -243,12 +243,12 @@ TEST(SynchronousControl, AnotherTrialWaitsForACalmOrbitAndIsCountedUntilTheSpeed
   Bench bench(config);
   bench.Run(2.0);
   ASSERT_GT(bench.control.influence(0).learned(), 0U);
-  for (int trial = 0; trial <= SynchronousControl::kRetries; ++trial) {
+  for (int trial = 0; trial <= kRetries; ++trial) {
     ASSERT_EQ(bench.state(), BlockState::kActing) << trial;
     bench.orbit_m = 80e-6;
     bench.Run(0.2);
     EXPECT_EQ(bench.state(),
-              trial < SynchronousControl::kRetries ? BlockState::kOff : BlockState::kEnded)
+              trial < kRetries ? BlockState::kOff : BlockState::kEnded)
         << "while the orbit is large nothing begins";
     bench.orbit_m = 10e-6;
     bench.Run(0.5);

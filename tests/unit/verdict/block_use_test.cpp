@@ -22,12 +22,12 @@ TEST(BlockEvents, AreReadAsTheyAreWritten) {
   ASSERT_TRUE(begins.has_value());
   EXPECT_EQ(begins->name, "low");
   EXPECT_TRUE(begins->begins);
-  EXPECT_EQ(begins->why, "") << "its angle is measured";
+  EXPECT_EQ(begins->angle, "") << "it is measured";
   const auto estimated =
       session::ReadBlockEvent(session::BlockBegins("low", where, synchronous::AngleSource::kOrbit));
   ASSERT_TRUE(estimated.has_value());
   EXPECT_EQ(estimated->name, "low");
-  EXPECT_EQ(estimated->why, "no mark on the shaft, its angle is estimated from the orbit");
+  EXPECT_EQ(estimated->angle, "no mark on the shaft, its angle is estimated from the orbit");
   for (const Ending why :
        {Ending::kSpeed, Ending::kAngleLost, Ending::kAngleJumped, Ending::kSaturated,
         Ending::kOrbitGrew, Ending::kCurrentTooLarge, Ending::kNotLevitated}) {
@@ -37,6 +37,19 @@ TEST(BlockEvents, AreReadAsTheyAreWritten) {
     EXPECT_FALSE(ends->begins);
     EXPECT_FALSE(ends->why.empty());
   }
+}
+
+TEST(BlockEvents, SayWhenABlockMayBeginAgain) {
+  const std::string where = "at 1500 rpm (cycle 4711)";
+  const auto why = [&](Ending ending, bool tries_again) {
+    return session::ReadBlockEvent(session::BlockEnds("low", where, ending, tries_again))->why;
+  };
+  EXPECT_EQ(why(Ending::kOrbitGrew, true),
+            "the orbit grew; it tries again, 3 times at most until the speed has left its window");
+  EXPECT_EQ(why(Ending::kAngleLost, false), "the rotor's angle is lost");
+  EXPECT_EQ(why(Ending::kSaturated, false),
+            "an axis stays at its current limit; it begins again after the speed has left its "
+            "window");
 }
 
 TEST(BlockEvents, AreNoOtherSentences) {
@@ -60,7 +73,8 @@ TEST(BlockUse, CountsHowLongEachBlockActedAndWhyItEnded) {
   EXPECT_EQ(blocks[0].name, "low");
   EXPECT_NEAR(blocks[0].acted_s, 1.5, 1e-12);
   EXPECT_EQ(blocks[0].times, 2);
-  EXPECT_EQ(blocks[0].last_end, "the orbit grew");
+  EXPECT_EQ(blocks[0].last_end,
+            "the orbit grew; it begins again after the speed has left its window");
   EXPECT_NEAR(blocks[0].last_end_s, 4.5, 1e-12);
   EXPECT_NEAR(blocks[1].acted_s, 3.0, 1e-12) << "until the record ends";
   EXPECT_EQ(blocks[1].last_end, "");
