@@ -31,7 +31,7 @@ struct ScheduledRigEvent {
   std::string channel;  ///< "de_x", of a sensor fault
   std::size_t axis{};   ///< index of the channel in the rig
   double value_m{};
-  double share{};         ///< of the speed
+  double share{};  ///< of the speed
   double angle_rad{};
   std::string effect;     ///< id of an entry of the rig's `effects`
   double strength{};      ///< of the effect from then on

@@ -5,11 +5,10 @@
 #include <functional>
 #include <utility>
 
+#include "benchmark/gears/spinning_rig.hpp"
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
-#include "controller/cycle/control_cycle.hpp"
 #include "design/notch/notch_design.hpp"
-#include "plant_sim/plant/command_of.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "plant_sim/plant/shaft_loads.hpp"
 
@@ -18,7 +17,6 @@ namespace {
 
 constexpr double kSettleS = 4.0;
 constexpr double kListenS = 1.0;
-constexpr double kLiftS = 5.0;
 constexpr double kWindow = 0.03;  ///< of the speed: blocks act so far beside it
 constexpr int kHarmonics = 3;
 
@@ -98,28 +96,11 @@ struct Run {
 
 Run WithCycle(const config::RigFile& rig, const cycle::CycleConfig& config,
               double speed_rad_per_s) {
-  plant::Plant plant(rig.plant, 1);
-  plant.RestInTouchdown();
-  cycle::ControlCycle control(config);
-  cycle::CycleInputs in;
-  cycle::CycleOutputs out;
-  const auto step = [&](cycle::OperatorInput op) {
-    ++in.cycle;
-    in.frame_present = true;
-    in.frame = plant.Sample();
-    in.op = op;
-    out = control.Step(in);
-    plant.Advance(plant::CommandOf(out.current));
-  };
-  step({.command = OperatorCommand::kLift});
-  for (long n = PeriodsOf(rig, kLiftS); n > 0 && out.mode != Mode::kLevitating; --n) step({});
-  const double ramp = rig.plant.drive.max_acceleration_rad_per_s2;
-  step({.command = OperatorCommand::kSpin,
-        .speed_rad_per_s = speed_rad_per_s,
-        .acceleration_rad_per_s2 = ramp});
-  for (long n = PeriodsOf(rig, speed_rad_per_s / ramp + kSettleS); n > 0; --n) step({});
+  SpinningRig spinning(rig, config);
+  spinning.SpinAt(speed_rad_per_s, kSettleS);
   Run run;
-  run.quiet = Measure(rig, plant, [&] { step({}); });
+  run.quiet = Measure(rig, spinning.plant(), [&] { spinning.Step(); });
+  const cycle::CycleOutputs& out = spinning.out();
   for (std::size_t k = 0; k < config.synchronous.blocks.size(); ++k) {
     run.acted.push_back(out.synchronous[k].state == synchronous::BlockState::kActing);
   }

@@ -134,8 +134,7 @@ void WriteRunOuts(const BalanceOptions& options, const config::RigFile& rig,
 /// A controller that knows no mark says so of the rig that it ran.
 void TellOfNoMark(const BalanceOptions& options, const config::RigFile& rig) {
   const auto session = ControllerIfKnown(options.data_path, {}, rig);
-  if (!session ||
-      session->file.synchronous.angle.source == synchronous::AngleSource::kRig) {
+  if (!session || session->file.synchronous.angle.source == synchronous::AngleSource::kRig) {
     return;
   }
   fmt::print(

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/gears/quiet_mesh.hpp"
+#include "benchmark/gears/torque_impact.hpp"
 #include "cli/json_file.hpp"
 #include "common/problem.hpp"
 #include "common/rotational_speed.hpp"
@@ -24,12 +25,17 @@ constexpr const char* kHelp =
     "the probes, of each "
     "shaft's force on the housing, of the torque in each shaft, and the levels against the rig "
     "without current. Figures are the plant's own, not what a probe reads.\n"
+    "--impact-n-m hits the last inertia of the last shaft instead, and prints the torque that each "
+    "shaft passes: with the law, and with the best currents that any compensation could add, once "
+    "the impact has begun or known beforehand.\n"
     "Example: amb bench mesh --rig geared_rotor_12dof --hz 15,22,29";
 
 struct MeshOptions {
   std::string rig{"geared_rotor_12dof"};
   std::string controller;
   std::vector<double> hz{15.0, 22.0, 29.0};
+  double impact_n_m{};
+  double impact_ms{2.0};
   std::string json_path;
 };
 
@@ -62,6 +68,51 @@ std::vector<std::string> Row(double hz, const char* what, const gears::Quiet& qu
   return row;
 }
 
+nlohmann::ordered_json Json(const gears::Passed& passed) {
+  return {{"torque_peak_n_m", passed.torque_n_m},
+          {"largest_current_a", passed.current_a},
+          {"saturated", passed.saturated}};
+}
+
+std::vector<std::string> Row(double hz, const char* what, const gears::Passed& passed,
+                             const gears::Passed& law) {
+  std::vector<std::string> row{fmt::format("{:.1f}", hz), what};
+  for (std::size_t s = 0; s < passed.torque_n_m.size(); ++s) {
+    row.push_back(fmt::format("{:.3f} ({:+.1f} %)", passed.torque_n_m[s],
+                              100.0 * (passed.torque_n_m[s] / law.torque_n_m[s] - 1.0)));
+  }
+  row.push_back(
+      fmt::format("{:.2f}{}", passed.current_a, passed.saturated ? ", at its limit" : ""));
+  return row;
+}
+
+void RunImpacts(const MeshOptions& options, const config::RigFile& rig,
+                const config::ControllerFile& controller, nlohmann::ordered_json& json) {
+  const gears::Impact impact{options.impact_n_m, 1e-3 * options.impact_ms};
+  TextTable table;
+  for (const double hz : options.hz) {
+    const auto relief = gears::Relieve(rig, controller, RpmToRadPerS(60.0 * hz), impact);
+    if (json["impacts"].empty()) {
+      std::vector<std::string> head{"Hz", ""};
+      for (const std::string& twisted : relief.twisted) head.push_back(twisted);
+      head.emplace_back("current A");
+      table.Add(head);
+    }
+    table.Add(Row(hz, "law", relief.law, relief.law));
+    table.Add(Row(hz, "best, once it has begun", relief.answered, relief.law));
+    table.Add(Row(hz, "best, known beforehand", relief.foreseen, relief.law));
+    json["impacts"].push_back({{"speed_hz", hz},
+                               {"twisted", relief.twisted},
+                               {"law", Json(relief.law)},
+                               {"once_begun", Json(relief.answered)},
+                               {"known_beforehand", Json(relief.foreseen)}});
+  }
+  fmt::print("rig {}, controller {}\n", rig.numbers.name, controller.name);
+  fmt::print("largest torque [N m] of an impact of {:g} N m in {:g} ms on the last inertia\n",
+             options.impact_n_m, options.impact_ms);
+  fmt::print("{}", table.Text());
+}
+
 ExitStatus Run(const MeshOptions& options) {
   const config::RigFile rig = config::LoadRig(config::FindConfig(options.rig, "rigs"));
   gears::RefuseWithoutGears(rig);
@@ -71,9 +122,14 @@ ExitStatus Run(const MeshOptions& options) {
   }
   const config::ControllerFile controller =
       config::LoadController(config::FindConfig(name, "controllers"), rig.numbers);
+  nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
+  if (options.impact_n_m != 0.0) {
+    RunImpacts(options, rig, controller, json);
+    WriteJsonFile(options.json_path, json);
+    return ExitStatus::kDone;
+  }
   fmt::print("rig {}, controller {}; rms of one second, levels against the rig without current\n",
              rig.numbers.name, controller.name);
-  nlohmann::ordered_json json{{"rig", rig.numbers.name}, {"controller", controller.name}};
   TextTable table;
   bool first = true;
   for (const double hz : options.hz) {
@@ -116,6 +172,13 @@ void AddBenchMesh(CLI::App& bench, Action& action) {
   command->add_option("--hz", options->hz, "Rotations of the first shaft")
       ->delimiter(',')
       ->check(CLI::Range(0.5, 1000.0))
+      ->capture_default_str();
+  command
+      ->add_option("--impact-n-m", options->impact_n_m,
+                   "Torque impact on the last inertia instead of steady speeds")
+      ->check(CLI::Range(-1e6, 1e6));
+  command->add_option("--impact-ms", options->impact_ms, "How long it lasts")
+      ->check(CLI::Range(0.1, 50.0))
       ->capture_default_str();
   command->add_option("--json", options->json_path, "Every figure");
   command->callback([options, &action] { action = [options] { return Run(*options); }; });

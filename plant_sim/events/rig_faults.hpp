@@ -38,7 +38,7 @@ class RigFaults {
     std::uint64_t first{};
     std::uint64_t end{};
     std::size_t axis{};
-    double value{};        ///< [m], share of the speed, or [rad]
+    double value{};         ///< [m], share of the speed, or [rad]
     double frozen_value{};  ///< [m] or [rad]
     bool frozen{};
   };

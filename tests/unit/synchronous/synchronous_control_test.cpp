@@ -247,8 +247,7 @@ TEST(SynchronousControl, AnotherTrialWaitsForACalmOrbitAndIsCountedUntilTheSpeed
     ASSERT_EQ(bench.state(), BlockState::kActing) << trial;
     bench.orbit_m = 80e-6;
     bench.Run(0.2);
-    EXPECT_EQ(bench.state(),
-              trial < kRetries ? BlockState::kOff : BlockState::kEnded)
+    EXPECT_EQ(bench.state(), trial < kRetries ? BlockState::kOff : BlockState::kEnded)
         << "while the orbit is large nothing begins";
     bench.orbit_m = 10e-6;
     bench.Run(0.5);
