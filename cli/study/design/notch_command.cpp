@@ -16,6 +16,7 @@
 #include "cli/study/design/judged_law.hpp"
 #include "cli/study/written_files.hpp"
 #include "common/rotational_speed.hpp"
+#include "configuration/schema/unit.hpp"
 #include "controller/synchronous/inverse_ladder.hpp"
 #include "design/drawn_rigs/rig_uncertainty.hpp"
 #include "design/notch/notch_design.hpp"
@@ -47,6 +48,9 @@ struct NotchOptions {
   std::string out_path;
 };
 
+/// As the file's reader takes it, so that what is written is the number that was given.
+double SpeedOf(double rpm) { return *config::ToSi(fmt::format("{}", rpm), config::unit::kRpm); }
+
 design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFile& rig) {
   design::NotchRequest request;
   synchronous::BlockConfig& block = request.block;
@@ -61,9 +65,9 @@ design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFil
   block.target = options.target == "vibration" ? synchronous::Target::kVibration
                                                : synchronous::Target::kCurrent;
   block.time_constant_s = options.time_constant_s;
-  block.from_rad_per_s = options.from_rpm > 0.0 ? RpmToRadPerS(options.from_rpm) : 0.1 * rated;
-  block.to_rad_per_s = options.to_rpm > 0.0 ? RpmToRadPerS(options.to_rpm) : rated;
-  block.hysteresis_rad_per_s = RpmToRadPerS(options.hysteresis_rpm);
+  block.from_rad_per_s = options.from_rpm > 0.0 ? SpeedOf(options.from_rpm) : 0.1 * rated;
+  block.to_rad_per_s = options.to_rpm > 0.0 ? SpeedOf(options.to_rpm) : rated;
+  block.hysteresis_rad_per_s = SpeedOf(options.hysteresis_rpm);
   block.adaptive = options.adaptive;
   request.most_growth = options.most_growth;
   if (options.without_rotor) request.knowledge = design::Knowledge::kBearings;

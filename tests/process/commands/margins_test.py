@@ -50,6 +50,11 @@ class Margins(CommandTest):
         # At the rig's bias the loop is the law's own.
         worst = max(axis["sensitivity_peak"] for axis in margins["speeds"][0]["axes"])
         self.assertAlmostEqual(rows[0]["sensitivity_peak"], worst, delta=1e-6 * worst)
+        # What carries no load has no sensitivity.
+        for row in rows:
+            self.assertEqual(row["sensitivity_peak"] is None, bool(row["not_held_because"]), row)
+        self.assertIsNone(rows[4]["sensitivity_peak"])
+        self.assertIn("NOT HELD", printed)
 
     def test_the_controllers_file_is_told(self):
         mine = self.write("mine.yaml", scaled_controller(1.0))

@@ -68,6 +68,14 @@ class Balanced : public testing::Test {
   BalanceResult result_;
 };
 
+TEST_F(Balanced, SaysWhichCorrectionIsNotToldFromNothing) {
+  result_.corrections[0].deviation_kg_m = 25e-6;
+  EXPECT_THAT(Text(), Not(HasSubstr("leave it out")));
+  result_.corrections[0].deviation_kg_m = 26e-6;
+  EXPECT_THAT(Text(), HasSubstr("disc: not told from nothing, 50.000 g mm with an interval of "
+                                "50.960: leave it out"));
+}
+
 TEST_F(Balanced, TellsUnbalanceAndWeightInGramsAndDegrees) {
   const auto json = Json();
   EXPECT_NEAR(json["unbalance"][0]["moment_g_mm"].get<double>(), 50.0, 1e-9);
