@@ -204,9 +204,8 @@ Campbell FreeCampbell(const plant::PlantConfig& plant, double top_rad_per_s, std
                     kFreeSteps);
 }
 
-Campbell LevitatedCampbell(const plant::PlantConfig& plant, const law::LawConfig& law,
-                           double top_rad_per_s) {
-  const auto modes = [&](double speed) {
+ModesAt LevitatedModes(const plant::PlantConfig& plant, const law::LawConfig& law) {
+  return [&plant, &law](double speed) {
     std::vector<CampbellMode> all;
     for (const Pole& pole : ClosedLoopPoles(plant, law, speed).poles) {
       if (pole.frequency_hz == 0.0 || pole.damping_ratio > kNoResonance) continue;
@@ -214,7 +213,11 @@ Campbell LevitatedCampbell(const plant::PlantConfig& plant, const law::LawConfig
     }
     return all;
   };
-  return CampbellOf(modes, top_rad_per_s, kLevitatedSteps, OrdersOf(plant));
+}
+
+Campbell LevitatedCampbell(const plant::PlantConfig& plant, const law::LawConfig& law,
+                           double top_rad_per_s) {
+  return CampbellOf(LevitatedModes(plant, law), top_rad_per_s, kLevitatedSteps, OrdersOf(plant));
 }
 
 double AmplificationFactor(const CampbellMode& mode) { return 0.5 / mode.damping_ratio; }

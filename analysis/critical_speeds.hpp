@@ -70,6 +70,8 @@ using ModesAt = std::function<std::vector<CampbellMode>(double speed_rad_per_s)>
 [[nodiscard]] Campbell FreeCampbell(const plant::PlantConfig& plant, double top_rad_per_s,
                                     std::size_t modes);
 
+/// Poles of the loop that resonate, at any speed. Both have to outlive it.
+[[nodiscard]] ModesAt LevitatedModes(const plant::PlantConfig& plant, const law::LawConfig& law);
 [[nodiscard]] Campbell LevitatedCampbell(const plant::PlantConfig& plant, const law::LawConfig& law,
                                          double top_rad_per_s);
 

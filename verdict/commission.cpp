@@ -86,6 +86,7 @@ Verdict Commission(const CommissionOptions& options) {
         MeasureSensitivity(options.session_path, rig, controller.law, inputs.sensitivity);
   }
   inputs.damping = DampingOver(inputs.sensitivity, rig.plant, controller.law);
+  inputs.modes = DampingOfModes(rig.plant, controller.law, inputs.session.top_speed_rad_per_s);
   inputs.probe_noise_m = ProbeNoise(rig.plant);
   inputs.step_error =
       analysis::MeasureStepError(rig.plant, controller.law, inputs.session.top_speed_rad_per_s);

@@ -230,10 +230,18 @@ Object Reserve(const Inputs& in) {
                {"frequency_hz", in.damping->frequency_hz},
                {"speed_rpm", RadPerSToRpm(in.damping->speed_rad_per_s)}};
   }
+  Object modes = Object::array();
+  for (const ModeDamping& mode : in.modes) {
+    modes.push_back({{"at_rest_hz", mode.at_rest_hz},
+                     {"damping_ratio", mode.least.damping_ratio},
+                     {"frequency_hz", mode.least.frequency_hz},
+                     {"speed_rpm", RadPerSToRpm(mode.least.speed_rad_per_s)}});
+  }
   return {
       {"current", current},
       {"probe_noise", noise},
       {"least_damping", damping},
+      {"modes", modes},
       {"bias", {{"standing", Bias(in.session.standing)}, {"spinning", Bias(in.session.spinning)}}}};
 }
 

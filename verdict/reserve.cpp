@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/critical_speeds.hpp"
 #include "analysis/poles.hpp"
 #include "analysis/reading_noise.hpp"
 
@@ -11,6 +12,8 @@ namespace levitas::verdict {
 namespace {
 
 constexpr double kSlowestHz = 0.1;  // slower is an integrator, not a mode
+constexpr int kModeSteps = 12;      // of the speed, in which modes are followed
+constexpr double kSame = 1e-3;      // frequencies of two planes that are one mode
 
 void TakeLarger(const RigNumbers& rig, const PhaseFigures& phase, bool spinning, double limit_a,
                 std::optional<CurrentReserve>& worst) {
@@ -55,6 +58,39 @@ std::optional<LeastDamping> DampingOver(std::span<const analysis::SensitivityRes
     }
   }
   return least;
+}
+
+std::vector<ModeDamping> DampingOfModes(const plant::PlantConfig& plant, const law::LawConfig& law,
+                                        double top_rad_per_s) {
+  const auto campbell =
+      analysis::CampbellOf(analysis::LevitatedModes(plant, law), top_rad_per_s, kModeSteps, {});
+  std::vector<ModeDamping> modes;
+  // Of each pole at the speed before: its place in `modes`.
+  std::vector<std::size_t> known;
+  for (std::size_t i = 0; i < campbell.speeds.size(); ++i) {
+    const analysis::CampbellSpeed& at = campbell.speeds[i];
+    constexpr std::size_t kNew = ~std::size_t{0};
+    std::vector<std::size_t> here(at.modes.size(), kNew);
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      if (const auto& next = campbell.next[i - 1][k]) here[*next] = known[k];
+    }
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      const analysis::CampbellMode& pole = at.modes[k];
+      const LeastDamping found{pole.damping_ratio, pole.frequency_hz, at.speed_rad_per_s};
+      if (here[k] == kNew) {
+        const auto same = std::ranges::find_if(modes, [&](const ModeDamping& mode) {
+          return i == 0 && std::abs(mode.at_rest_hz - pole.frequency_hz) < kSame * mode.at_rest_hz;
+        });
+        here[k] = static_cast<std::size_t>(same - modes.begin());
+        if (same == modes.end()) modes.push_back({pole.frequency_hz, found});
+      }
+      LeastDamping& least = modes[here[k]].least;
+      if (found.damping_ratio < least.damping_ratio) least = found;
+    }
+    known = std::move(here);
+  }
+  std::ranges::sort(modes, {}, &ModeDamping::at_rest_hz);
+  return modes;
 }
 
 }  // namespace levitas::verdict

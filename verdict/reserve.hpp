@@ -10,6 +10,9 @@
 //          one says that a better probe, not another law, would make the orbit smaller.
 // Damping  least damping ratio of the closed-loop poles that oscillate, at the speeds at which the
 //          sensitivity was computed (0, top of the run, worst between); from the model.
+// Modes    the same of each resonant pole (damping ratio below 1/sqrt(2)), followed over the speeds
+//          of the run (analysis/critical_speeds.hpp); forward and backward whirl that are one at
+//          rest count as one mode.
 // Units    SI. Thread: any, offline. Failure: what a run does not hold is left empty.
 
 #include <optional>
@@ -37,6 +40,11 @@ struct LeastDamping {
   double speed_rad_per_s{};
 };
 
+struct ModeDamping {
+  double at_rest_hz{};  ///< where it is first found, without sign
+  LeastDamping least;   ///< frequency without sign
+};
+
 /// Per bearing [m]; see the head.
 [[nodiscard]] std::vector<double> ProbeNoise(const plant::PlantConfig& plant);
 
@@ -48,5 +56,10 @@ struct LeastDamping {
 [[nodiscard]] std::optional<LeastDamping> DampingOver(
     std::span<const analysis::SensitivityResult> speeds, const plant::PlantConfig& plant,
     const law::LawConfig& law);
+
+/// By rising frequency at rest.
+[[nodiscard]] std::vector<ModeDamping> DampingOfModes(const plant::PlantConfig& plant,
+                                                      const law::LawConfig& law,
+                                                      double top_rad_per_s);
 
 }  // namespace levitas::verdict

@@ -185,6 +185,22 @@ void Blocks(const Inputs& in, Out out) {
   }
 }
 
+/// Those that a resonance can excite up to the frequency of a tenth of the sampling.
+void Modes(const Inputs& in, Out out) {
+  constexpr std::size_t kInALine = 4;
+  const double up_to_hz = 0.1 / in.rig.period_s();
+  std::size_t told = 0;
+  for (const ModeDamping& mode : in.modes) {
+    if (mode.at_rest_hz > up_to_hz) break;
+    const char* begins = told == 0 ? "          each mode's, with its frequency at rest: "
+                         : told % kInALine == 0 ? ",\n          "
+                                                : ", ";
+    fmt::format_to(out, "{}{:.0f} Hz {:.4f}", begins, mode.at_rest_hz, mode.least.damping_ratio);
+    ++told;
+  }
+  if (told > 0) fmt::format_to(out, "\n");
+}
+
 void Reserve(const Inputs& in, Out out) {
   const auto used = CurrentUse(in.rig, in.session);
   if (!used) return;
@@ -207,6 +223,7 @@ void Reserve(const Inputs& in, Out out) {
                    in.damping->damping_ratio, in.damping->frequency_hz,
                    RadPerSToRpm(in.damping->speed_rad_per_s));
   }
+  Modes(in, out);
   double largest = 0.0;
   for (const auto& at : in.sensitivity) largest = std::max(largest, at.largest_singular_value);
   if (largest > 0.0) {

@@ -71,6 +71,7 @@ struct Inputs {
   std::optional<MeasuredSensitivity> measured;
   std::vector<double> probe_noise_m;              ///< rms, per bearing; empty: not known
   std::optional<LeastDamping> damping;            ///< of the model over the speeds of the run
+  std::vector<ModeDamping> modes;                 ///< the same, mode by mode
   std::optional<analysis::StepError> step_error;  ///< of the simulation's time step
   std::optional<TimingFigures> timing;
   std::optional<RigFigures> rig_process;

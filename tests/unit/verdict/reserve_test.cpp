@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "analysis/poles.hpp"
+#include "configuration/rig_file.hpp"
 #include "tests/unit/verdict/synthetic_session.hpp"
 
 namespace levitas::verdict {
@@ -45,6 +48,54 @@ TEST(Reserve, OfNoiseAddsTheStepOfTheConverterToThatOfTheProbe) {
   ASSERT_EQ(noise_m.size(), 2U);
   EXPECT_NEAR(noise_m[0], 3e-6 * std::sqrt(2.0), 1e-15);
   EXPECT_NEAR(noise_m[1], 5e-6 * std::sqrt(2.0), 1e-15);
+}
+
+struct ShippedLoop {
+  config::RigFile rig = config::LoadRig(config::FindConfig("flexible_rotor", "rigs"));
+  law::LawConfig law =
+      config::LoadController(config::FindConfig("flexible_rotor_commissioned", "controllers"),
+                             rig.numbers)
+          .law;
+  [[nodiscard]] std::vector<double> ResonantDamping(double speed_rad_per_s) const {
+    std::vector<double> damping;
+    for (const auto& pole : analysis::ClosedLoopPoles(rig.plant, law, speed_rad_per_s).poles) {
+      const bool resonant = pole.frequency_hz != 0.0 && pole.damping_ratio < std::sqrt(0.5);
+      if (resonant) damping.push_back(pole.damping_ratio);
+    }
+    std::ranges::sort(damping);
+    return damping;
+  }
+};
+
+// Each pole twice, for its two planes.
+TEST(Modes, OfARotorAtRestAreItsPolesOnce) {
+  const ShippedLoop loop;
+  const auto poles = loop.ResonantDamping(0.0);
+  auto modes = DampingOfModes(loop.rig.plant, loop.law, 0.0);
+  ASSERT_EQ(2 * modes.size(), poles.size());
+  EXPECT_TRUE(std::ranges::is_sorted(modes, {}, &ModeDamping::at_rest_hz));
+  std::ranges::sort(modes, {}, [](const ModeDamping& mode) { return mode.least.damping_ratio; });
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    EXPECT_NEAR(modes[i].least.damping_ratio, poles[2 * i], 1e-6);
+  }
+}
+
+TEST(Modes, AreFollowedToTheSpeedAtWhichTheyAreLeastDamped) {
+  const ShippedLoop loop;
+  const double top = loop.rig.numbers.max_speed_rad_per_s;
+  const auto rest = DampingOfModes(loop.rig.plant, loop.law, 0.0);
+  const auto modes = DampingOfModes(loop.rig.plant, loop.law, top);
+  ASSERT_EQ(modes.size(), rest.size()) << "one is lost or counted twice on the way";
+  const auto at_top = loop.ResonantDamping(top);
+  double least = 1.0;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    EXPECT_NEAR(modes[i].at_rest_hz, rest[i].at_rest_hz, 1e-6 * rest[i].at_rest_hz);
+    EXPECT_LE(modes[i].least.damping_ratio, rest[i].least.damping_ratio);
+    // A mode of whirl splits by tens of hertz here, not by the distance to its neighbours.
+    EXPECT_NEAR(modes[i].least.frequency_hz, modes[i].at_rest_hz, 0.12 * modes[i].at_rest_hz);
+    least = std::min(least, modes[i].least.damping_ratio);
+  }
+  EXPECT_LE(least, at_top.front() + 1e-9);
 }
 
 }  // namespace
