@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <new>
 #include <sstream>
 #include <string>
@@ -92,6 +94,21 @@ void PrepareJson(const CLI::App& app, StandardOutput& output) {
   }
 }
 
+/// The parser's ranges let "nan" pass, which is neither below nor above anything.
+void RefuseNoNumbers(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      if (!option->get_type_name().starts_with("FLOAT")) continue;
+      for (const std::string& word : option->results()) {
+        if (!std::isnan(std::strtod(word.c_str(), nullptr))) continue;
+        throw Problem(ExitStatus::kUsage,
+                      fmt::format("{}: found {}, which is no number", option->get_name(), word));
+      }
+    }
+    RefuseNoNumbers(*command);
+  }
+}
+
 int Parse(int argc, char** argv, const AddCommands& add_commands, StandardOutput& output) {
   CLI::App app{"Levitas: active magnetic bearing controller and its hardware-in-the-loop bench",
                "amb"};
@@ -102,6 +119,7 @@ int Parse(int argc, char** argv, const AddCommands& add_commands, StandardOutput
     add_commands(app, action);
     RefuseUnknownCommand(app, argc, argv);
     app.parse(argc, argv);
+    RefuseNoNumbers(app);
     RefuseClashes(app);
     PrepareJson(app, output);
     return static_cast<int>(action ? action() : ExitStatus::kUsage);

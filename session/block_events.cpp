@@ -10,7 +10,7 @@ constexpr std::string_view kBegins = " begins at ";
 constexpr std::string_view kEnds = " ends at ";
 constexpr std::string_view kWhy = "): ";
 
-std::string_view Text(synchronous::Ending ending) {
+std::string_view Text(synchronous::Ending ending, synchronous::AngleSource angle_from) {
   using synchronous::Ending;
   switch (ending) {
     case Ending::kNone:
@@ -20,7 +20,9 @@ std::string_view Text(synchronous::Ending ending) {
     case Ending::kAngleLost:
       return "the rotor's angle is lost";
     case Ending::kAngleJumped:
-      return "the rotor's angle jumped";
+      return angle_from == synchronous::AngleSource::kOrbit
+                 ? "the estimate of the rotor's angle moved"
+                 : "the rotor's angle jumped, or does not turn with its speed";
     case Ending::kSaturated:
       return "an axis stays at its current limit";
     case Ending::kOrbitGrew:
@@ -34,14 +36,15 @@ std::string_view Text(synchronous::Ending ending) {
 }
 
 /// When it may begin again; nothing where that needs no word.
-std::string Again(synchronous::Ending why, bool tries_again) {
+std::string_view Again(const synchronous::BlockStatus& status,
+                       synchronous::AngleSource angle_from) {
   using synchronous::Ending;
-  if (tries_again) {
-    return fmt::format("; it tries again, {} times at most until the speed has left its window",
-                       synchronous::kRetries);
-  }
-  const bool waits =
-      why == Ending::kSaturated || why == Ending::kOrbitGrew || why == Ending::kCurrentTooLarge;
+  if (status.tries_again) return "; it tries again";
+  const Ending why = status.ending;
+  const bool estimate = angle_from == synchronous::AngleSource::kOrbit &&
+                        (why == Ending::kAngleLost || why == Ending::kAngleJumped);
+  const bool waits = estimate || why == Ending::kSaturated || why == Ending::kOrbitGrew ||
+                     why == Ending::kCurrentTooLarge;
   return waits ? "; it begins again after the speed has left its window" : "";
 }
 
@@ -67,10 +70,10 @@ std::string BlockBegins(std::string_view name, std::string_view where,
                      estimated);
 }
 
-std::string BlockEnds(std::string_view name, std::string_view where, synchronous::Ending why,
-                      bool tries_again) {
-  return fmt::format("{}{} ends {}: {}{}", kSubject, name, where, Text(why),
-                     Again(why, tries_again));
+std::string BlockEnds(std::string_view name, std::string_view where,
+                      const synchronous::BlockStatus& status, synchronous::AngleSource angle_from) {
+  return fmt::format("{}{} ends {}: {}{}", kSubject, name, where, Text(status.ending, angle_from),
+                     Again(status, angle_from));
 }
 
 // Should a name hold " begins at " or " ends at " itself, the last of them is the sentence's own.
@@ -86,7 +89,8 @@ std::optional<BlockEvent> ReadBlockEvent(std::string_view text) {
   BlockEvent event{std::string(text.substr(0, at)), !ending, {}, {}};
   const auto why = text.find(kWhy, at);
   if (why != std::string_view::npos) {
-    (ending ? event.why : event.angle) = text.substr(why + kWhy.size());
+    const std::string_view told = text.substr(why + kWhy.size());
+    (ending ? event.why : event.angle) = told.substr(0, told.find("; it "));
   }
   return event;
 }

@@ -15,11 +15,7 @@
 namespace levitas::session {
 
 struct SynchronousLabels {
-  struct Block {
-    std::string name;
-    bool adaptive{};
-  };
-  std::vector<Block> blocks;  ///< in the order of the controller file
+  std::vector<std::string> blocks;  ///< their names, in the order of the controller file
   synchronous::AngleSource angle_from{synchronous::AngleSource::kRig};
 };
 
@@ -27,15 +23,15 @@ struct SynchronousLabels {
 [[nodiscard]] std::string BlockBegins(
     std::string_view name, std::string_view where,
     synchronous::AngleSource angle_from = synchronous::AngleSource::kRig);
-/// `tries_again`: it may begin again before the speed has left its window, a few times.
-[[nodiscard]] std::string BlockEnds(std::string_view name, std::string_view where,
-                                    synchronous::Ending why, bool tries_again = false);
+[[nodiscard]] std::string BlockEnds(
+    std::string_view name, std::string_view where, const synchronous::BlockStatus& status,
+    synchronous::AngleSource angle_from = synchronous::AngleSource::kRig);
 
 struct BlockEvent {
   std::string name;
   bool begins{};      ///< else it ends
   std::string angle;  ///< where it begins: how its angle is estimated, if it is
-  std::string why;    ///< where it ends
+  std::string why;    ///< where it ends, without when it may begin again
 };
 
 /// Nothing of any other sentence.

@@ -105,9 +105,8 @@ void EventDeriver::Synchronous(const cycle::CycleRecord& record, std::vector<Eve
     const BlockState before =
         have_previous_ ? previous_.out.synchronous[k].state : BlockState::kOff;
     if (now.state == before) continue;
-    const bool labelled = k < synchronous_.blocks.size();
     const std::string name =
-        labelled ? synchronous_.blocks[k].name : fmt::format("block {}", k + 1);
+        k < synchronous_.blocks.size() ? synchronous_.blocks[k] : fmt::format("block {}", k + 1);
     const std::string where =
         fmt::format("at {} (cycle {})", Speed(record.in.frame.speed_rad_per_s), record.in.cycle);
     if (now.state == BlockState::kActing) {
@@ -115,14 +114,9 @@ void EventDeriver::Synchronous(const cycle::CycleRecord& record, std::vector<Eve
                             BlockBegins(name, where, synchronous_.angle_from)));
     } else if (now.state == BlockState::kFading || before == BlockState::kActing) {
       const bool planned = now.ending == synchronous::Ending::kSpeed;
-      const bool learns = labelled && synchronous_.blocks[k].adaptive &&
-                          now.ending == synchronous::Ending::kOrbitGrew;
-      const bool estimates = synchronous_.angle_from == synchronous::AngleSource::kOrbit &&
-                             (now.ending == synchronous::Ending::kAngleLost ||
-                              now.ending == synchronous::Ending::kAngleJumped);
       events.push_back(Make(record,
                             planned ? Event::Severity::kInformation : Event::Severity::kWarning,
-                            BlockEnds(name, where, now.ending, learns || estimates)));
+                            BlockEnds(name, where, now, synchronous_.angle_from)));
     }
   }
 }

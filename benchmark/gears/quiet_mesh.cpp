@@ -41,10 +41,6 @@ class Rms {
   std::vector<double> sum_, square_;
 };
 
-long PeriodsOf(const config::RigFile& rig, double seconds) {
-  return std::lround(seconds / rig.numbers.period_s());
-}
-
 /// `step` advances the plant by a period.
 Quiet Measure(const config::RigFile& rig, const plant::Plant& plant,
               const std::function<void()>& step) {
@@ -162,6 +158,7 @@ void RefuseWithoutGears(const config::RigFile& rig) {
 QuietMesh Listen(const config::RigFile& rig, const config::ControllerFile& controller,
                  double speed_rad_per_s) {
   RefuseWithoutGears(rig);
+  RefuseBeyondDrive(rig, speed_rad_per_s);
   QuietMesh mesh;
   mesh.speed_rad_per_s = speed_rad_per_s;
   mesh.twisted = plant::ShaftLoads(plant::PlantModel(rig.plant)).twisted();

@@ -18,18 +18,22 @@ using Eigen::Index;
 constexpr double kSteadyS = 2.0;
 constexpr double kLeadS = 0.010;    ///< before the impact
 constexpr double kFollowS = 0.080;  ///< and behind it
-constexpr Index kPulse = 5;
-constexpr Index kAnswer = 2;
+constexpr double kPulseS = 0.5e-3;
+constexpr Index kAnswer = 2;      ///< periods from the impact to the first current that knows it
 constexpr double kProbeA = 0.05;  ///< of the pulse that shows the rig's answer
-constexpr int kSweeps = 300;
+constexpr int kSweeps = 300;      ///< of all pulses, until none moves
 
-/// Amplitude of each pulse: pulses x axes.
-using Pulses = Eigen::MatrixXd;
+/// Pulses one after the other, from a period on.
+struct Pulses {
+  Index begins{};
+  Eigen::MatrixXd amplitude_a;  ///< pulses x axes
+};
 
 struct Trace {
   Eigen::MatrixXd torque_n_m;  ///< periods x springs
   Eigen::MatrixXd current_a;   ///< periods x axes
   bool saturated{};
+  bool tripped{};
 };
 
 /// A rig that turns steadily with its law, hit again and again from the same state.
@@ -43,15 +47,17 @@ class Turning {
 
   [[nodiscard]] Index lead() const { return Periods(kLeadS); }
   [[nodiscard]] Index length() const { return Periods(kLeadS + kFollowS); }
-  [[nodiscard]] Index pulses() const { return length() / kPulse; }
+  [[nodiscard]] Index pulse() const { return std::max<Index>(1, Periods(kPulseS)); }
   [[nodiscard]] Index axes() const { return static_cast<Index>(rig_.numbers.axes()); }
-  [[nodiscard]] Pulses None() const { return Pulses::Zero(pulses(), axes()); }
+  [[nodiscard]] Pulses None(Index begins = 0) const {
+    return {begins, Eigen::MatrixXd::Zero((length() - begins) / pulse(), axes())};
+  }
 
   [[nodiscard]] Trace Hit(const Impact& impact, const Pulses& pulses) const;
 
  private:
   [[nodiscard]] Index Periods(double seconds) const {
-    return static_cast<Index>(std::lround(seconds / rig_.numbers.period_s()));
+    return static_cast<Index>(PeriodsOf(rig_, seconds));
   }
 
   const config::RigFile& rig_;
@@ -73,9 +79,9 @@ Trace Turning::Hit(const Impact& impact, const Pulses& pulses) const {
   for (Index n = 0; n < length(); ++n) {
     plant.SetTorque(last, n >= lead() && n < ends ? impact.torque_n_m : 0.0);
     cycle::OperatorInput op;
-    const Index pulse = std::min(n / kPulse, pulses.rows() - 1);
-    for (Index a = 0; a < axes(); ++a)
-      op.excitation_a[static_cast<std::size_t>(a)] = pulses(pulse, a);
+    const Index k = n < pulses.begins ? -1 : (n - pulses.begins) / pulse();
+    for (Index a = 0; a < axes() && k >= 0 && k < pulses.amplitude_a.rows(); ++a)
+      op.excitation_a[static_cast<std::size_t>(a)] = pulses.amplitude_a(k, a);
     spinning.Step(op);
     const auto torques = loads.Torques(plant);
     for (std::size_t s = 0; s < torques.size(); ++s)
@@ -85,9 +91,7 @@ Trace Turning::Hit(const Impact& impact, const Pulses& pulses) const {
       trace.current_a(n, a) = out.current.control_current_a[static_cast<std::size_t>(a)];
     trace.saturated = trace.saturated || out.saturated_axes != 0;
   }
-  if (spinning.out().fault != Fault::kNone) {
-    throw BadInput(rig_.numbers.name + ": it trips at this speed under this impact");
-  }
+  trace.tripped = spinning.out().fault != Fault::kNone;
   return trace;
 }
 
@@ -108,29 +112,29 @@ Eigen::VectorXd LeastWithin(const Eigen::MatrixXd& answers, const Eigen::VectorX
   return x;
 }
 
-/// What may be added to each axis, beside what the law asks for while the impact lasts.
-Eigen::VectorXd RoomOf(const Trace& hit, const RigNumbers& rig) {
-  const double limit_a = std::min(rig.bias_current_a, rig.max_coil_current_a - rig.bias_current_a);
-  return (limit_a - hit.current_a.cwiseAbs().colwise().maxCoeff().transpose().array()).max(0.0);
-}
-
-/// Pulses from number `first` on that leave the least of the torque in the first spring.
-Pulses BestFrom(Index first, const Turning& rig, const std::vector<Eigen::VectorXd>& of_axis,
-                const Eigen::VectorXd& torque_n_m, const Eigen::VectorXd& room_a) {
-  const Index count = rig.pulses() - first;
+/// Pulses from period `begins` on that leave the least of the torque in the first spring, each
+/// beside what the law asks of its coil while `hit` lasts.
+Pulses BestFrom(Index begins, const Turning& rig, const RigNumbers& numbers,
+                const std::vector<Eigen::VectorXd>& of_axis, const Eigen::VectorXd& torque_n_m,
+                const Trace& hit) {
+  const double limit_a =
+      std::min(numbers.bias_current_a, numbers.max_coil_current_a - numbers.bias_current_a);
+  Pulses best = rig.None(begins);
+  const Index count = best.amplitude_a.rows();
   Eigen::MatrixXd answers = Eigen::MatrixXd::Zero(rig.length(), count * rig.axes());
   Eigen::VectorXd most(count * rig.axes());
   for (Index k = 0; k < count; ++k) {
-    const Index begins = (first + k) * kPulse;
+    const Index first = begins + k * rig.pulse();
     for (Index a = 0; a < rig.axes(); ++a) {
-      answers.col(k * rig.axes() + a).tail(rig.length() - begins) =
-          of_axis[static_cast<std::size_t>(a)].head(rig.length() - begins);
-      most[k * rig.axes() + a] = room_a[a];
+      const Index at = k * rig.axes() + a;
+      answers.col(at).tail(rig.length() - first) =
+          of_axis[static_cast<std::size_t>(a)].head(rig.length() - first);
+      const double law_a = hit.current_a.col(a).segment(first, rig.pulse()).cwiseAbs().maxCoeff();
+      most[at] = std::max(0.0, limit_a - law_a);
     }
   }
   const Eigen::VectorXd x = LeastWithin(answers, torque_n_m, most);
-  Pulses best = rig.None();
-  for (Index k = 0; k < count; ++k) best.row(first + k) = x.segment(k * rig.axes(), rig.axes());
+  for (Index k = 0; k < count; ++k) best.amplitude_a.row(k) = x.segment(k * rig.axes(), rig.axes());
   return best;
 }
 
@@ -142,6 +146,7 @@ Passed PassedBy(const Trace& trace, const Trace& quiet) {
   }
   passed.current_a = trace.current_a.cwiseAbs().maxCoeff();
   passed.saturated = trace.saturated;
+  passed.tripped = trace.tripped;
   return passed;
 }
 
@@ -159,22 +164,23 @@ ImpactRelief Relieve(const config::RigFile& rig, const config::ControllerFile& c
   const Impact none{0.0, impact.duration_s};
   const Trace quiet = turning.Hit(none, turning.None());
   const Trace hit = turning.Hit(impact, turning.None());
+  if (hit.tripped) {
+    throw BadInput(rig.numbers.name + ": it trips at this speed under this impact");
+  }
   std::vector<Eigen::VectorXd> of_axis;
   for (Index a = 0; a < turning.axes(); ++a) {
     Pulses probe = turning.None();
-    probe(0, a) = kProbeA;
+    probe.amplitude_a(0, a) = kProbeA;
     of_axis.emplace_back((turning.Hit(none, probe).torque_n_m.col(0) - quiet.torque_n_m.col(0)) /
                          kProbeA);
   }
   const Eigen::VectorXd passed = hit.torque_n_m.col(0) - quiet.torque_n_m.col(0);
-  const Eigen::VectorXd room_a = RoomOf(hit, rig.numbers);
-  const Index answer = (turning.lead() + kAnswer + kPulse - 1) / kPulse;
   relief.law = PassedBy(hit, quiet);
-  const auto with = [&](Index first) {
-    const Pulses best = BestFrom(first, turning, of_axis, passed, room_a);
+  const auto with = [&](Index begins) {
+    const Pulses best = BestFrom(begins, turning, rig.numbers, of_axis, passed, hit);
     return PassedBy(turning.Hit(impact, best), quiet);
   };
-  relief.answered = with(answer);
+  relief.answered = with(turning.lead() + kAnswer);
   relief.foreseen = with(0);
   return relief;
 }

@@ -37,6 +37,7 @@ void PrintBias(const std::vector<LoopAtBias>& loops, const std::vector<std::stri
   fmt::print(
       "bias saving: the loop from the rig's bias to the lowest\n  {:>8}{:>10}{:>12}{:>9}{:>10}\n",
       "rpm", "bias A", "max |S|", "of", "zone");
+  bool not_held = false;
   for (const LoopAtBias& at : loops) {
     const auto& axes = at.loop.axes;
     const auto worst = std::ranges::max_element(axes, {}, &analysis::AxisSensitivity::peak);
@@ -51,13 +52,20 @@ void PrintBias(const std::vector<LoopAtBias>& loops, const std::vector<std::stri
     fmt::print("  {:>8.0f}{:>10.3f}{:>12}{:>9}{:>10}{}\n", RadPerSToRpm(at.loop.speed_rad_per_s),
                at.bias_a, known ? fmt::format("{:.3f}", worst->peak) : "-", known ? channel : "-",
                known ? zone : "-", trouble);
-    json["bias_saving"].push_back({{"speed_rpm", RadPerSToRpm(at.loop.speed_rad_per_s)},
-                                   {"bias_current_a", at.bias_a},
-                                   {"stable", at.loop.stable},
-                                   {"sensitivity_peak", known ? nlohmann::ordered_json(worst->peak)
-                                                              : nlohmann::ordered_json()},
-                                   {"channel", channel},
-                                   {"not_held_because", at.loop.point.failure}});
+    json["bias_saving"].push_back(
+        {{"speed_rpm", RadPerSToRpm(at.loop.speed_rad_per_s)},
+         {"bias_current_a", at.bias_a},
+         {"stable", at.loop.stable},
+         {"sensitivity_peak",
+          known ? nlohmann::ordered_json(worst->peak) : nlohmann::ordered_json()},
+         {"channel", known ? nlohmann::ordered_json(channel) : nlohmann::ordered_json()},
+         {"not_held_because", at.loop.point.failure}});
+    not_held = not_held || !at.loop.point.failure.empty();
+  }
+  if (not_held) {
+    fmt::print(
+        "  where it is not held the bias does not fall to: it stays above what the currents of the "
+        "last seconds ask for\n");
   }
 }
 

@@ -94,12 +94,14 @@ void TellEffects(const OwnRig& own) {
 
 config::RigFile OnlyRig(std::vector<OwnRig>& rigs) {
   for (const OwnRig& other : rigs) {
-    const std::string difference = RigDifference(rigs.front().rig, other.rig);
+    const std::string difference =
+        RigDifference(rigs.front().rig, other.rig, {"of the one", "of the other"});
     if (difference.empty()) continue;
     throw BadInput(fmt::format(
-        "{} was recorded with rig {}, {} with rig {}, which is another one: name the rig that the "
-        "model is to have with --rig",
-        rigs.front().path, rigs.front().rig.numbers.name, other.path, other.rig.numbers.name));
+        "{} was recorded with rig {}, {} with rig {}, which is another one ({}): name the rig that "
+        "the model is to have with --rig",
+        rigs.front().path, rigs.front().rig.numbers.name, other.path, other.rig.numbers.name,
+        difference));
   }
   TellEffects(rigs.front());
   return std::move(rigs.front().rig);
@@ -114,17 +116,19 @@ void AddRigOfRecordsOption(CLI::App& command, AnalysisOptions& options) {
                                  options.rig_name));
 }
 
-std::string RigDifference(const config::RigFile& session, const config::RigFile& file) {
-  const auto one = LinesOf(session);
-  const auto other = LinesOf(file);
+std::string RigDifference(const config::RigFile& first_rig, const config::RigFile& second_rig,
+                          const WhichRigs& which) {
+  const auto one = LinesOf(first_rig);
+  const auto other = LinesOf(second_rig);
   const auto [first, second] = std::ranges::mismatch(one, other);
   if (first == one.end() && second == other.end()) return {};
   const auto index = static_cast<std::size_t>(first - one.begin());
   const auto text = [index](const std::vector<std::string>& lines) {
     return index < lines.size() ? Trimmed(lines[index]) : std::string("nothing");
   };
-  return fmt::format("first difference: {}{} in the session, {} in the file",
-                     GroupsOf(index < one.size() ? one : other, index), text(one), text(other));
+  return fmt::format("first difference: {}{} {}, {} {}",
+                     GroupsOf(index < one.size() ? one : other, index), text(one), which.first,
+                     text(other), which.second);
 }
 
 config::RigFile LoadRigOfRecords(const AnalysisOptions& options,

@@ -26,9 +26,15 @@ void AddRigOfRecordsOption(CLI::App& command, AnalysisOptions& options);
 [[nodiscard]] config::RigFile LoadRigOfRecords(const AnalysisOptions& options,
                                                const std::vector<std::string>& records);
 
+struct WhichRigs {
+  const char* first{"in the session"};
+  const char* second{"in the file"};
+};
+
 /// "magnet.gap_mm: 0.5 in the session, 0.4 in the file" of the first value that differs; empty
-/// where `session` and `file` are the same rig.
-[[nodiscard]] std::string RigDifference(const config::RigFile& session,
-                                        const config::RigFile& file);
+/// where both are the same rig.
+[[nodiscard]] std::string RigDifference(const config::RigFile& first_rig,
+                                        const config::RigFile& second_rig,
+                                        const WhichRigs& which = {});
 
 }  // namespace levitas::cli

@@ -131,17 +131,17 @@ void WriteRunOuts(const BalanceOptions& options, const config::RigFile& rig,
   }
 }
 
-/// A controller that knows no mark says so of the rig that it ran.
-void TellOfNoMark(const BalanceOptions& options, const config::RigFile& rig) {
-  const auto session = ControllerIfKnown(options.data_path, {}, rig);
-  if (!session || session->file.synchronous.angle.source == synchronous::AngleSource::kRig) {
-    return;
+/// Where a session's controller says that its rig has no mark on the shaft.
+void TellOfNoMark(const std::vector<std::string>& records, const config::RigFile& rig) {
+  for (const std::string& path : records) {
+    const auto known = ControllerIfKnown(path, {}, rig);
+    if (!known || known->file.synchronous.angle.source == synchronous::AngleSource::kRig) continue;
+    fmt::print(
+        "WARNING: the controller of {} says that the shaft has no mark (angle_from). The recorded "
+        "angle must be that of a mark all the same: from a counted or estimated one the weights "
+        "have no place on the rotor\n",
+        path);
   }
-  fmt::print(
-      "WARNING: the controller of {} says that the shaft has no mark (angle_from): the angle of "
-      "its frames is no place on the rotor, and the directions below are worth nothing unless "
-      "it is\n",
-      options.data_path);
 }
 
 ExitStatus Run(const BalanceOptions& options) {
@@ -169,7 +169,7 @@ ExitStatus Run(const BalanceOptions& options) {
   request.top_rad_per_s = options.top_rpm > 0.0 ? RpmToRadPerS(options.top_rpm)
                                                 : request.rig.numbers.max_speed_rad_per_s;
   const BalanceResult result = Balance(request);
-  TellOfNoMark(options, request.rig);
+  TellOfNoMark(records, request.rig);
   fmt::print("{}", BalanceText(request, result));
   WriteJsonFile(options.json_path, BalanceJson(request, result));
   WriteBalancePicture(options.svg_path, request, result);

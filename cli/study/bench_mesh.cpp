@@ -25,9 +25,11 @@ constexpr const char* kHelp =
     "the probes, of each "
     "shaft's force on the housing, of the torque in each shaft, and the levels against the rig "
     "without current. Figures are the plant's own, not what a probe reads.\n"
-    "--impact-n-m hits the last inertia of the last shaft instead, and prints the torque that each "
-    "shaft passes: with the law, and with the best currents that any compensation could add, once "
-    "the impact has begun or known beforehand.\n"
+    "--impact-n-m hits the last inertia of the last shaft instead, and prints how far the torque "
+    "of "
+    "each shaft leaves that without the impact: with the law, and with the currents beside it that "
+    "make the squares of what the teeth pass on least, once the impact has begun or known "
+    "beforehand.\n"
     "Example: amb bench mesh --rig geared_rotor_12dof --hz 15,22,29";
 
 struct MeshOptions {
@@ -71,18 +73,21 @@ std::vector<std::string> Row(double hz, const char* what, const gears::Quiet& qu
 nlohmann::ordered_json Json(const gears::Passed& passed) {
   return {{"torque_peak_n_m", passed.torque_n_m},
           {"largest_current_a", passed.current_a},
-          {"saturated", passed.saturated}};
+          {"saturated", passed.saturated},
+          {"tripped", passed.tripped}};
 }
 
 std::vector<std::string> Row(double hz, const char* what, const gears::Passed& passed,
                              const gears::Passed& law) {
   std::vector<std::string> row{fmt::format("{:.1f}", hz), what};
   for (std::size_t s = 0; s < passed.torque_n_m.size(); ++s) {
-    row.push_back(fmt::format("{:.3f} ({:+.1f} %)", passed.torque_n_m[s],
+    row.push_back(fmt::format("{:.3g} ({:+.1f} %)", passed.torque_n_m[s],
                               100.0 * (passed.torque_n_m[s] / law.torque_n_m[s] - 1.0)));
   }
-  row.push_back(
-      fmt::format("{:.2f}{}", passed.current_a, passed.saturated ? ", at its limit" : ""));
+  row.push_back(fmt::format("{:.2f}{}", passed.current_a,
+                            passed.tripped     ? ", TRIPS"
+                            : passed.saturated ? ", at its limit"
+                                               : ""));
   return row;
 }
 
@@ -99,8 +104,8 @@ void RunImpacts(const MeshOptions& options, const config::RigFile& rig,
       table.Add(head);
     }
     table.Add(Row(hz, "law", relief.law, relief.law));
-    table.Add(Row(hz, "best, once it has begun", relief.answered, relief.law));
-    table.Add(Row(hz, "best, known beforehand", relief.foreseen, relief.law));
+    table.Add(Row(hz, "added, once it has begun", relief.answered, relief.law));
+    table.Add(Row(hz, "added, known beforehand", relief.foreseen, relief.law));
     json["impacts"].push_back({{"speed_hz", hz},
                                {"twisted", relief.twisted},
                                {"law", Json(relief.law)},
@@ -108,7 +113,7 @@ void RunImpacts(const MeshOptions& options, const config::RigFile& rig,
                                {"known_beforehand", Json(relief.foreseen)}});
   }
   fmt::print("rig {}, controller {}\n", rig.numbers.name, controller.name);
-  fmt::print("largest torque [N m] of an impact of {:g} N m in {:g} ms on the last inertia\n",
+  fmt::print("largest deviation [N m] by an impact of {:g} N m in {:g} ms on the last inertia\n",
              options.impact_n_m, options.impact_ms);
   fmt::print("{}", table.Text());
 }
@@ -128,8 +133,6 @@ ExitStatus Run(const MeshOptions& options) {
     WriteJsonFile(options.json_path, json);
     return ExitStatus::kDone;
   }
-  fmt::print("rig {}, controller {}; rms of one second, levels against the rig without current\n",
-             rig.numbers.name, controller.name);
   TextTable table;
   bool first = true;
   for (const double hz : options.hz) {
@@ -153,6 +156,8 @@ ExitStatus Run(const MeshOptions& options) {
                               {"vibration", Json(mesh.still, mesh.off)},
                               {"current", Json(mesh.soft, mesh.off)}});
   }
+  fmt::print("rig {}, controller {}; rms of one second, levels against the rig without current\n",
+             rig.numbers.name, controller.name);
   fmt::print("{}", table.Text());
   WriteJsonFile(options.json_path, json);
   return ExitStatus::kDone;
@@ -173,11 +178,11 @@ void AddBenchMesh(CLI::App& bench, Action& action) {
       ->delimiter(',')
       ->check(CLI::Range(0.5, 1000.0))
       ->capture_default_str();
-  command
-      ->add_option("--impact-n-m", options->impact_n_m,
-                   "Torque impact on the last inertia instead of steady speeds")
-      ->check(CLI::Range(-1e6, 1e6));
+  CLI::Option* impact = command->add_option("--impact-n-m", options->impact_n_m,
+                                            "Torque impact on the last inertia, at a steady speed");
+  impact->check(CLI::Range(0.001, 1e6));
   command->add_option("--impact-ms", options->impact_ms, "How long it lasts")
+      ->needs(impact)
       ->check(CLI::Range(0.1, 50.0))
       ->capture_default_str();
   command->add_option("--json", options->json_path, "Every figure");

@@ -76,7 +76,7 @@ session::SessionHeader Header(const ControllerOptions& options, const Files& fil
   header.channels = files.rig.numbers.channels;
   header.synchronous.angle_from = files.controller.synchronous.angle.source;
   for (const auto& block : files.controller.synchronous.blocks) {
-    header.synchronous.blocks.push_back({block.name, block.adaptive});
+    header.synchronous.blocks.push_back(block.name);
   }
   return header;
 }

@@ -33,6 +33,8 @@ struct BlockStatus {
   BlockState state{BlockState::kOff};
   Ending ending{Ending::kNone};  ///< why it ended the last time
   double amplitude{};            ///< largest of an axis [m] or [A]
+  /// It has ended by a failure and may begin anew before the speed has left its window.
+  bool tries_again{};
 };
 
 }  // namespace levitas::synchronous

@@ -156,10 +156,11 @@ std::string NotchFigures::AllowedSpeeds() const {
     if (!speeds[i].allowed()) continue;
     const std::size_t first = i;
     while (i + 1 < speeds.size() && speeds[i + 1].allowed()) ++i;
-    // Whole turns a minute, within.
-    const double inside = hysteresis_rad_per_s;
-    const double low = std::ceil(RadPerSToRpm(speeds[first].speed_rad_per_s + inside) - 1e-6);
-    const double high = std::floor(RadPerSToRpm(speeds[i].speed_rad_per_s - inside) + 1e-6);
+    // The window's hysteresis has to be allowed as well; rounded to whole numbers inwards.
+    const double from = speeds[first].speed_rad_per_s + hysteresis_rad_per_s;
+    const double to = speeds[i].speed_rad_per_s - hysteresis_rad_per_s;
+    const double low = std::ceil(RadPerSToRpm(from) - 1e-6);
+    const double high = std::floor(RadPerSToRpm(to) + 1e-6);
     if (!(high > low)) continue;
     if (!text.empty()) text += ", ";
     text += RangeText(low, high);

@@ -77,6 +77,24 @@ void RaiseOrLeaveOut(Complex wanted_kg, const CorrectionPlane& plane, std::vecto
   }
 }
 
+/// Least squares over the holes that have a weight, none of which falls below the smallest.
+void SettleKept(Complex wanted_kg, const CorrectionPlane& plane, std::vector<double>& masses) {
+  Complex left = wanted_kg - SumOf(masses, plane);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    double moved = 0.0;
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      if (masses[i] == 0.0) continue;
+      const Complex direction = std::polar(1.0, AngleOf(plane, i));
+      const double pull = (std::conj(direction) * left).real();
+      const double next = std::clamp(masses[i] + pull, plane.smallest_kg, LargestOf(plane));
+      left -= (next - masses[i]) * direction;
+      moved += std::abs(next - masses[i]);
+      masses[i] = next;
+    }
+    if (moved <= 1e-12 * std::abs(wanted_kg)) break;
+  }
+}
+
 }  // namespace
 
 PlacedWeights PlaceWeights(Complex added_kg_m, const CorrectionPlane& plane, bool drill) {
@@ -100,7 +118,10 @@ PlacedWeights PlaceWeights(Complex added_kg_m, const CorrectionPlane& plane, boo
   }
   // What rounding alone has put there is no weight.
   for (double& mass : masses) mass = mass < 1e-9 * std::abs(wanted_kg) ? 0.0 : mass;
-  RaiseOrLeaveOut(wanted_kg, plane, masses);
+  if (plane.smallest_kg > 0.0) {
+    RaiseOrLeaveOut(wanted_kg, plane, masses);
+    SettleKept(wanted_kg, plane, masses);
+  }
   for (std::size_t i = 0; i < masses.size(); ++i) {
     if (masses[i] > 0.0) made.weights.push_back({i + 1, AngleOf(plane, i), masses[i]});
   }

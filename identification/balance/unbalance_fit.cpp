@@ -27,6 +27,12 @@ constexpr double kSettled = 0.02;
 constexpr std::size_t kRemembered = 4;
 /// Steps that mixing may add to the round's own.
 constexpr double kFurthest = 5.0;
+/// Of the stated deviations: no unknown of the rig is sought further off. Records that ask for more
+/// contradict the rig or each other, and beyond it the rig may be none that can be built.
+constexpr double kSought = 8.0;
+/// Remainder, in squares over the noise's, that ends the rounds after the third: no rig near this
+/// one explains the records.
+constexpr double kHopeless = 100.0;
 
 struct Trial {
   VectorXd place;
@@ -77,9 +83,13 @@ class FitProblem {
   }
 
   [[nodiscard]] numerics::Iterate<Trial> Step(const Trial& from, const VectorXd& step) const {
-    // No further than six deviations at once: beyond, the rig may be none that can be built.
+    // No further than six deviations at once, where the equations are no longer those of the step.
     const double longest = step.cwiseQuotient(deviation_).cwiseAbs().maxCoeff();
-    return Solve(from.place + (longest > 6.0 ? 6.0 / longest : 1.0) * step);
+    return Solve(Sought(from.place + (longest > 6.0 ? 6.0 / longest : 1.0) * step));
+  }
+
+  [[nodiscard]] VectorXd Sought(const VectorXd& place) const {
+    return place.cwiseMax(-kSought * deviation_).cwiseMin(kSought * deviation_);
   }
 
   /// The size of the planes' unbalance as this trial has it.
@@ -94,6 +104,11 @@ class FitProblem {
     size_kg_m_ = std::max(std::sqrt(square / static_cast<double>(planes)), 1e-12);
   }
 
+  /// Real ones, of all windows.
+  [[nodiscard]] double EquationCount() const {
+    return static_cast<double>(2 * predictor_.rig().axes()) *
+           static_cast<double>(predictor_.windows().size());
+  }
   [[nodiscard]] const VectorXd& deviation() const noexcept { return deviation_; }
 
   [[nodiscard]] UnbalanceFit Finish(const numerics::Iterate<Trial>& at) const;
@@ -179,11 +194,10 @@ UnbalanceFit FitProblem::Finish(const numerics::Iterate<Trial>& at) const {
   const auto left = *Linearise(at);
   const Eigen::MatrixXd rig =
       left.matrix.ldlt().solve(Eigen::MatrixXd::Identity(deviation_.size(), deviation_.size()));
-  const auto count =
-      static_cast<double>(2 * predictor_.rig().axes()) * static_cast<double>(equations.size());
   UnbalanceFit fit;
   fit.windows = equations.size();
-  fit.reduced_chi_square = DataCost(equations, at.point.amplitudes) / std::max(1.0, count);
+  fit.reduced_chi_square =
+      DataCost(equations, at.point.amplitudes) / std::max(1.0, EquationCount());
   const double wider = kOverlap * std::max(1.0, fit.reduced_chi_square);
   // A circular part of the noise, and what the rig's unknowns leave.
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -262,8 +276,9 @@ UnbalanceFit FitUnbalance(Predictor& predictor) {
     at = numerics::LevenbergMarquardt(problem, problem.Solve(at.point.place), options).at;
     const VectorXd step = at.point.place.cwiseQuotient(deviation) - from;
     converged = step.cwiseAbs().maxCoeff() < kSettled;
+    if (round >= 2 && at.cost > kHopeless * problem.EquationCount()) break;
     if (!converged && round + 1 < kRounds)
-      at = problem.Solve(rounds.Next(from, step).cwiseProduct(deviation));
+      at = problem.Solve(problem.Sought(rounds.Next(from, step).cwiseProduct(deviation)));
   }
   UnbalanceFit fit = problem.Finish(at);
   fit.converged = converged;

@@ -13,6 +13,7 @@
 //            above 1, times 4/3 for windows that overlap by half (their noise is correlated by
 //            1/6).
 // Units      kg m, m; complex as balance_rig.hpp says. Thread: any; allocates.
+// Bounds     no unknown is sought beyond eight of its deviations.
 // Failure    none; `converged` says whether the search ended at a minimum.
 
 #include <Eigen/Core>

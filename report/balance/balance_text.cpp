@@ -69,7 +69,8 @@ std::string CorrectionTable(const BalanceResult& result, bool drill) {
     if (!split.empty()) holes += fmt::format("  {}: {}\n", one.plane.name, split);
     if (std::abs(one.added_kg_m) < k95 * one.deviation_kg_m) {
       holes += fmt::format(
-          "  {}: not told from nothing, {:.3f} g mm with an interval of {:.3f}: leave it out\n",
+          "  {0}: not told from nothing, {1:.3f} g mm with an interval of {2:.3f}; without a plane "
+          "{0} the others have the smaller intervals\n",
           one.plane.name, 1e6 * std::abs(moment), 1e6 * k95 * one.deviation_kg_m);
     }
     if (one.placed.weights.empty() && mass) {
@@ -132,9 +133,14 @@ std::string InfluenceTable(const BalanceResult& result) {
 }
 
 /// Empty where the planes explain the run.
-std::string UnexplainedText(const BalanceResult& result) {
+std::string UnexplainedText(const BalanceRequest& request, const BalanceResult& result) {
   constexpr double kExplained = 1.5;  // of the noise, rms: below it a weight still does its work
   if (std::sqrt(result.fit.reduced_chi_square) < kExplained) return {};
+  if (request.runs.size() > 1) {
+    return "WARNING: the two runs do not differ by the weights of --applied. Are plane, grams and "
+           "angle right, and is the record of --after the earlier one? Weights are not worth their "
+           "numbers before\n";
+  }
   return "WARNING: unbalance in these planes does not explain the run. Is there a wheel or a "
          "coupling elsewhere (add its plane to rotor.unbalance of the rig file, moment_g_mm: 0), a "
          "bent shaft, or a run-out? amb diagnose tells them apart; weights are not worth their "
@@ -152,7 +158,7 @@ std::string BalanceText(const BalanceRequest& request, const BalanceResult& resu
       RadPerSToRpm(result.highest_rad_per_s), request.rig.numbers.name,
       std::sqrt(result.fit.reduced_chi_square),
       result.fit.converged ? "" : "; WARNING: the fit did not settle");
-  text += UnexplainedText(result);
+  text += UnexplainedText(request, result);
   text += "\nUnbalance of the rotor, intervals of 95 %:\n" + UnbalanceTable(result);
   text +=
       fmt::format("\nCorrection, {}:\n", request.planes.drill ? "mass taken away" : "mass added");

@@ -104,7 +104,7 @@ design::NotchRequest RequestOf(const NotchOptions& options, const config::RigFil
 
 void Print(const design::NotchFigures& figures, bool vibration) {
   TextTable table;
-  table.Add({"rpm", "decay", "of drawn", "largest |z|", vibration ? "condition" : "growth",
+  table.Add({"rpm", "decay", "of drawn", "|z| of all", vibration ? "condition" : "growth",
              vibration ? "current A" : "orbit um", ""});
   const std::size_t step = std::max<std::size_t>(1, figures.speeds.size() / 12);
   bool refused = false;
@@ -122,8 +122,8 @@ void Print(const design::NotchFigures& figures, bool vibration) {
   }
   fmt::print("{}", table.Text());
   fmt::print(
-      "decay: slowest of the block, 1 as its time constant says, below 0 it grows; |z|: of the "
-      "whole sampled loop; {}\n",
+      "decay: slowest of the block, 1 as its time constant says, below 0 it grows; |z|: largest of "
+      "the whole sampled loop, drawn rigs included; {}\n",
       vibration ? "condition: of the answer; current: what the rig file's unbalance needs"
                 : "growth: of the orbit at most; orbit: what the rig file's unbalance leaves");
   if (figures.not_held > 0) {
@@ -284,11 +284,11 @@ void AddBlockOptions(CLI::App* command, const std::shared_ptr<NotchOptions>& opt
       ->check(CLI::IsMember({"all", "forward", "backward"}))
       ->capture_default_str();
   command->add_option("--from-rpm", options->from_rpm, "Acts from here; default: rated speed/10")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.001, 1e6));
   command->add_option("--to-rpm", options->to_rpm, "To here; default: the rated speed")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.001, 1e6));
   command->add_option("--hysteresis-rpm", options->hysteresis_rpm, "Beyond the window it ends")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command->add_option("--time-constant-s", options->time_constant_s, "Of what is left")
       ->check(CLI::Range(0.001, 100.0))

@@ -34,7 +34,7 @@ inline void Print(const char* what, const std::vector<Outcome>& all) {
   line("reduced chi-square", &Outcome::chi_square);
 }
 
-/// What docs/identification.md says of one run-up: below 3 %, weights within 5 % and 5 degrees.
+/// What one run-up has to reach; what it does reach is in docs/identification.md.
 inline void ExpectBalanced(const std::vector<Outcome>& all) {
   for (const Outcome& one : all) {
     EXPECT_LT(one.rms_percent, 3.0);

@@ -54,6 +54,19 @@ TEST(DrawnRigs, WithoutAKnownLawTheRecordShowsIt) {
   }
 }
 
+// A slip of the pen in --applied: no rig within reach explains both runs, and the fit says so
+// instead of seeking one that cannot be built.
+TEST(DrawnRigs, WeightsThatWereNotPutThereLeaveWhatNoRigExplains) {
+  const config::RigFile truth = DrawRig(2);
+  const session::Recording record = RecordRunUp(truth, {.seed = 2});
+  BalanceRequest request = RequestOf(record);
+  request.runs.push_back(ReadRun(record, request.rig));
+  request.runs.back().applied.push_back({request.planes.planes.front().name, {15e-6, 0.0}});
+  const BalanceResult found = Balance(request);
+  EXPECT_GT(found.fit.reduced_chi_square, 100.0);
+  EXPECT_FALSE(found.fit.converged);
+}
+
 TEST(DrawnRigs, TheForecastIsWhatTheNextRunShows) {
   const config::RigFile truth = DrawRig(3);
   const BalanceRequest request = RequestOf(RecordRunUp(truth, {.seed = 3}));

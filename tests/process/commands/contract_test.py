@@ -92,6 +92,15 @@ class Contract(CommandTest):
             self.assertTrue(done.stderr.startswith("amb: "), (command, done.stderr))
         self.assertEqual(self.files() - {str(self.folder / "own")}, set())
 
+    def test_nan_is_no_number(self):
+        for arguments in (("design", "notch", "--hysteresis-rpm", "nan"), ("bench", "mesh", "--impact-n-m", "NaN"),
+                          ("bench", "mesh", "--hz", "15,nan"), ("balance", "absent.lcm", "--top-rpm", "-nan")):
+            done = self.here(*arguments)
+            self.assertEqual(done.returncode, USAGE, (arguments, done.stderr))
+            self.assertEqual(done.stdout, "", arguments)
+            self.assertIn(f"amb: {arguments[-2]}: found", done.stderr)
+            self.assertIn("which is no number", done.stderr)
+
     def test_a_missing_file_is_status_3_is_named_and_leaves_no_json(self):
         for command, arguments in MISSING.items():
             done = self.here(*command.split(), *arguments, "--json", "x.json")

@@ -86,6 +86,17 @@ TEST(HoleSplit, AWeightBelowTheSmallestIsLeftOutOrRaisedWhicheverIsCloser) {
   EXPECT_DOUBLE_EQ(raised.weights[0].mass_kg, 1e-4);
 }
 
+TEST(HoleSplit, WhatAHoleLeftOutWouldHaveTakenGoesToItsNeighbours) {
+  CorrectionPlane plane = Holes(12);
+  plane.smallest_kg = 5e-5;
+  // 1 degree before the first hole: the one behind would take 0.02 g of 0.587 g.
+  const Complex wanted = 0.03 * std::polar(5.87e-4, -kTwoPi / 360.0);
+  const PlacedWeights placed = PlaceWeights(wanted, plane, false);
+  ASSERT_EQ(placed.weights.size(), 1U);
+  EXPECT_EQ(placed.weights[0].hole, 1U);
+  EXPECT_NEAR(placed.weights[0].mass_kg, 5.87e-4 * std::cos(kTwoPi / 360.0), 1e-12);
+}
+
 TEST(HoleSplit, DrillingTakesMassOnTheOtherSide) {
   const Complex wanted = std::polar(6e-6, 0.0);
   const PlacedWeights drilled = PlaceWeights(wanted, Holes(12), true);

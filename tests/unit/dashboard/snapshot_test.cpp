@@ -152,12 +152,12 @@ TEST_F(Snapshot, TellsWhichBlocksActAndWhyOthersEnded) {
                   {"why", ""},
                   {"angle", "no mark on the shaft, its angle is estimated from the orbit"}}));
   run_.Take(channel::kEvent,
-            EncodedEvent(session::BlockEnds("low", "at 2100 rpm (cycle 9)",
-                                            synchronous::Ending::kOrbitGrew)),
+            EncodedEvent(session::BlockEnds(
+                "low", "at 2100 rpm (cycle 9)",
+                {synchronous::BlockState::kFading, synchronous::Ending::kOrbitGrew, 0.0, false})),
             0);
   EXPECT_EQ(tick()["blocks"][0]["acts"], false);
-  EXPECT_EQ(tick()["blocks"][0]["why"],
-            "the orbit grew; it begins again after the speed has left its window");
+  EXPECT_EQ(tick()["blocks"][0]["why"], "the orbit grew");
   EXPECT_EQ(tick()["blocks"][0]["angle"], "");
   run_.Take(channel::kHeader, EncodedHeader(3), 0);
   EXPECT_FALSE(tick().contains("blocks")) << "another run";

@@ -249,6 +249,7 @@ TEST(SynchronousControl, AnotherTrialWaitsForACalmOrbitAndIsCountedUntilTheSpeed
     bench.Run(0.2);
     EXPECT_EQ(bench.state(), trial < kRetries ? BlockState::kOff : BlockState::kEnded)
         << "while the orbit is large nothing begins";
+    EXPECT_EQ(bench.control.status(0).tries_again, trial < kRetries);
     bench.orbit_m = 10e-6;
     bench.Run(0.5);
   }

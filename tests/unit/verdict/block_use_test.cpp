@@ -16,6 +16,10 @@ session::Event At(std::uint64_t cycle, std::string text) {
   return event;
 }
 
+synchronous::BlockStatus Ended(Ending why, bool tries_again = false) {
+  return {synchronous::BlockState::kFading, why, 0.0, tries_again};
+}
+
 TEST(BlockEvents, AreReadAsTheyAreWritten) {
   const std::string where = "at 1500 rpm (cycle 4711)";
   const auto begins = session::ReadBlockEvent(session::BlockBegins("low", where));
@@ -31,7 +35,8 @@ TEST(BlockEvents, AreReadAsTheyAreWritten) {
   for (const Ending why :
        {Ending::kSpeed, Ending::kAngleLost, Ending::kAngleJumped, Ending::kSaturated,
         Ending::kOrbitGrew, Ending::kCurrentTooLarge, Ending::kNotLevitated}) {
-    const auto ends = session::ReadBlockEvent(session::BlockEnds("a begins at b", where, why));
+    const auto ends =
+        session::ReadBlockEvent(session::BlockEnds("a begins at b", where, Ended(why)));
     ASSERT_TRUE(ends.has_value());
     EXPECT_EQ(ends->name, "a begins at b");
     EXPECT_FALSE(ends->begins);
@@ -40,16 +45,19 @@ TEST(BlockEvents, AreReadAsTheyAreWritten) {
 }
 
 TEST(BlockEvents, SayWhenABlockMayBeginAgain) {
-  const std::string where = "at 1500 rpm (cycle 4711)";
-  const auto why = [&](Ending ending, bool tries_again) {
-    return session::ReadBlockEvent(session::BlockEnds("low", where, ending, tries_again))->why;
+  using synchronous::AngleSource;
+  const auto said = [](Ending ending, bool tries_again, AngleSource angle = AngleSource::kRig) {
+    const std::string text =
+        session::BlockEnds("low", "at 9 rpm (cycle 7)", Ended(ending, tries_again), angle);
+    return text.substr(text.find("): ") + 3);
   };
-  EXPECT_EQ(why(Ending::kOrbitGrew, true),
-            "the orbit grew; it tries again, 3 times at most until the speed has left its window");
-  EXPECT_EQ(why(Ending::kAngleLost, false), "the rotor's angle is lost");
-  EXPECT_EQ(why(Ending::kSaturated, false),
-            "an axis stays at its current limit; it begins again after the speed has left its "
-            "window");
+  const std::string later = "; it begins again after the speed has left its window";
+  EXPECT_EQ(said(Ending::kOrbitGrew, true), "the orbit grew; it tries again");
+  EXPECT_EQ(said(Ending::kOrbitGrew, false), "the orbit grew" + later);
+  EXPECT_EQ(said(Ending::kSaturated, false), "an axis stays at its current limit" + later);
+  EXPECT_EQ(said(Ending::kAngleLost, false), "the rotor's angle is lost");
+  EXPECT_EQ(said(Ending::kAngleJumped, false, AngleSource::kOrbit),
+            "the estimate of the rotor's angle moved" + later);
 }
 
 TEST(BlockEvents, AreNoOtherSentences) {
@@ -64,17 +72,16 @@ TEST(BlockUse, CountsHowLongEachBlockActedAndWhyItEnded) {
   const std::vector<session::Event> events{
       At(20'000, session::BlockBegins("low", where)),
       At(25'000, "something else"),
-      At(30'000, session::BlockEnds("low", where, Ending::kSpeed)),
+      At(30'000, session::BlockEnds("low", where, Ended(Ending::kSpeed))),
       At(40'000, session::BlockBegins("high", where)),
       At(50'000, session::BlockBegins("low", where)),
-      At(55'000, session::BlockEnds("low", where, Ending::kOrbitGrew))};
+      At(55'000, session::BlockEnds("low", where, Ended(Ending::kOrbitGrew)))};
   const auto blocks = BlocksOf(events, 10'000, 70'000, 1e-4);
   ASSERT_EQ(blocks.size(), 2U);
   EXPECT_EQ(blocks[0].name, "low");
   EXPECT_NEAR(blocks[0].acted_s, 1.5, 1e-12);
   EXPECT_EQ(blocks[0].times, 2);
-  EXPECT_EQ(blocks[0].last_end,
-            "the orbit grew; it begins again after the speed has left its window");
+  EXPECT_EQ(blocks[0].last_end, "the orbit grew");
   EXPECT_NEAR(blocks[0].last_end_s, 4.5, 1e-12);
   EXPECT_NEAR(blocks[1].acted_s, 3.0, 1e-12) << "until the record ends";
   EXPECT_EQ(blocks[1].last_end, "");
@@ -84,15 +91,15 @@ TEST(BlockUse, KeepsAFailureThatALaterEndWouldHide) {
   const std::string where = "at 1500 rpm (cycle 1)";
   std::vector<session::Event> events{
       At(10'000, session::BlockBegins("low", where)),
-      At(20'000, session::BlockEnds("low", where, Ending::kAngleJumped)),
+      At(20'000, session::BlockEnds("low", where, Ended(Ending::kAngleJumped))),
       At(30'000, session::BlockBegins("low", where)),
-      At(40'000, session::BlockEnds("low", where, Ending::kSpeed))};
+      At(40'000, session::BlockEnds("low", where, Ended(Ending::kSpeed)))};
   events[1].severity = session::Event::Severity::kWarning;
   const auto blocks = BlocksOf(events, 0, 50'000, 1e-4);
   ASSERT_EQ(blocks.size(), 1U);
   EXPECT_EQ(blocks[0].last_end, "the speed left its window");
   EXPECT_EQ(blocks[0].failures, 1);
-  EXPECT_EQ(blocks[0].last_failure, "the rotor's angle jumped");
+  EXPECT_EQ(blocks[0].last_failure, "the rotor's angle jumped, or does not turn with its speed");
 }
 
 TEST(BlockUse, NamesABlockThatNeverBegan) {

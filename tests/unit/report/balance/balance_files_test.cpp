@@ -70,10 +70,18 @@ class Balanced : public testing::Test {
 
 TEST_F(Balanced, SaysWhichCorrectionIsNotToldFromNothing) {
   result_.corrections[0].deviation_kg_m = 25e-6;
-  EXPECT_THAT(Text(), Not(HasSubstr("leave it out")));
+  EXPECT_THAT(Text(), Not(HasSubstr("not told from nothing")));
   result_.corrections[0].deviation_kg_m = 26e-6;
   EXPECT_THAT(Text(), HasSubstr("disc: not told from nothing, 50.000 g mm with an interval of "
-                                "50.960: leave it out"));
+                                "50.960; without a plane disc the others"));
+}
+
+TEST_F(Balanced, SaysWhatIsUnlikelyWhereTheRunIsNotExplained) {
+  EXPECT_THAT(Text(), Not(HasSubstr("WARNING")));
+  result_.fit.reduced_chi_square = 9.0;
+  EXPECT_THAT(Text(), HasSubstr("unbalance in these planes does not explain the run"));
+  request_.runs.push_back(request_.runs.front());
+  EXPECT_THAT(Text(), HasSubstr("the two runs do not differ by the weights of --applied"));
 }
 
 TEST_F(Balanced, TellsUnbalanceAndWeightInGramsAndDegrees) {
