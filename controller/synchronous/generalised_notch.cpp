@@ -41,12 +41,21 @@ void Adapt(const InverseLanes& inverse, const UnitPhasor& phasor, double rate, s
 }
 
 double LargestAmplitude(const NotchState& state) noexcept {
-  double largest2 = 0.0;
+  static_assert((kMaxAxes & (kMaxAxes - 1)) == 0, "it is halved");
+  AxisArray largest{};
   for (std::size_t i = 0; i < kMaxAxes; ++i) {
-    const double here2 = state.real[i] * state.real[i] + state.imaginary[i] * state.imaginary[i];
-    largest2 = here2 <= largest2 ? largest2 : here2;  // what is no number is taken, too
+    largest[i] = state.real[i] * state.real[i] + state.imaginary[i] * state.imaginary[i];
   }
-  return std::sqrt(largest2);
+  AxisArray sum = largest;
+  // In pairs: one after the other each comparison would wait for the one before.
+  for (std::size_t half = kMaxAxes / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) {
+      largest[i] = std::max(largest[i], largest[i + half]);
+      sum[i] += sum[i + half];
+    }
+  }
+  // A comparison loses what is no number; the sum does not.
+  return std::isfinite(sum[0]) ? std::sqrt(largest[0]) : sum[0];
 }
 
 }  // namespace levitas::synchronous

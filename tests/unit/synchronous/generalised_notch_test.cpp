@@ -155,6 +155,11 @@ TEST(GeneralisedNotch, AddsTheRealPartOfItsTurningAmplitude) {
   EXPECT_DOUBLE_EQ(signal[0], 0.0);
   EXPECT_DOUBLE_EQ(signal[1], -3.0) << "Re(3j e^{j 90 deg})";
   EXPECT_DOUBLE_EQ(LargestAmplitude(state), 3.0);
+  for (std::size_t i = 0; i < kMaxAxes; ++i) {
+    NotchState broken = state;
+    broken.imaginary[i] = std::nan("");
+    EXPECT_TRUE(std::isnan(LargestAmplitude(broken))) << i << ": a limit would not see it";
+  }
 }
 
 TEST(InfluenceEstimate, LearnsWhatTheModelHasWrongAndLeavesARightOneAlone) {
