@@ -158,8 +158,10 @@ ImpactRelief Relieve(const config::RigFile& rig, const config::ControllerFile& c
   const Turning turning(rig, controller, speed_rad_per_s);
   ImpactRelief relief;
   relief.twisted = plant::ShaftLoads(plant::PlantModel(rig.plant)).twisted();
-  if (relief.twisted.empty()) {
-    throw BadInput(rig.numbers.name + ": its shafts have no torsion; see geared_rotor_12dof");
+  const rotor::Torsion& torsion = rig.plant.shafts.front().torsion;
+  if (torsion.kind != rotor::TorsionKind::kInertias || torsion.inertias.size() < 2) {
+    throw BadInput(rig.numbers.name +
+                   ": its first shaft has no torsion between inertias; see geared_rotor_12dof");
   }
   const Impact none{0.0, impact.duration_s};
   const Trace quiet = turning.Hit(none, turning.None());
