@@ -18,10 +18,7 @@ enum class RigEventKind : std::uint8_t {
   kAmplifierFault,
   kEmergencyStop,  ///< the rig's emergency stop chain opens
   kEffect,         ///< an effect of the rig file goes to another strength
-  kTorque,         ///< a torque acts on a torsional inertia of a geared shaft
-  kSpeedWrong,     ///< the speed is told `share` of it too high, as by a motor that slips
-  kAngleFrozen,    ///< the angle stays where it was: the key phasor is lost
-  kAngleJump       ///< `angle_rad` is added to the angle that is told
+  kTorque          ///< a torque acts on a torsional inertia of a geared shaft
 };
 
 struct ScheduledRigEvent {
@@ -31,8 +28,6 @@ struct ScheduledRigEvent {
   std::string channel;  ///< "de_x", of a sensor fault
   std::size_t axis{};   ///< index of the channel in the rig
   double value_m{};
-  double share{};  ///< of the speed
-  double angle_rad{};
   std::string effect;     ///< id of an entry of the rig's `effects`
   double strength{};      ///< of the effect from then on
   double ramp_s{};        ///< to get there, and of a torque back; 0: at once

@@ -98,7 +98,7 @@ void LiveRun::TakeController(const session::SessionHeader& header) {
     const config::ControllerFile controller =
         config::ParseController(header.controller_yaml, "the announced controller", *rig_);
     for (const auto& block : controller.synchronous.blocks) {
-      blocks_.push_back({block.name, false, {}, {}});
+      blocks_.push_back({block.name, false, {}});
     }
     saves_bias_ = !controller.bias.empty();
   } catch (const std::exception&) {
@@ -113,7 +113,6 @@ void LiveRun::TellBlock(const session::Event& event) {
     if (block.name != told->name) continue;
     block.acts = told->begins;
     block.why = told->why;
-    block.angle = told->angle;
   }
 }
 

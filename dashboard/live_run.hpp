@@ -33,8 +33,7 @@ struct NumberedEvent {
 struct LiveBlock {
   std::string name;
   bool acts{};
-  std::string why;    ///< it ended, in words; empty: it never did, or acts
-  std::string angle;  ///< how it is estimated, while the block acts; empty: it is measured
+  std::string why;  ///< it ended, in words; empty: it never did, or acts
 };
 
 class LiveRun {

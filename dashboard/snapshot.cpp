@@ -123,8 +123,7 @@ void PutState(std::string& text, const LiveRun& run, std::int64_t now_ns) {
   if (run.blocks().empty()) return;
   nlohmann::json blocks = nlohmann::json::array();
   for (const LiveBlock& block : run.blocks()) {
-    blocks.push_back(
-        {{"name", block.name}, {"acts", block.acts}, {"why", block.why}, {"angle", block.angle}});
+    blocks.push_back({{"name", block.name}, {"acts", block.acts}, {"why", block.why}});
   }
   text += ",\"blocks\":" + blocks.dump();
 }

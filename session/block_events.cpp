@@ -10,7 +10,7 @@ constexpr std::string_view kBegins = " begins at ";
 constexpr std::string_view kEnds = " ends at ";
 constexpr std::string_view kWhy = "): ";
 
-std::string_view Text(synchronous::Ending ending, synchronous::AngleSource angle_from) {
+std::string_view Text(synchronous::Ending ending) {
   using synchronous::Ending;
   switch (ending) {
     case Ending::kNone:
@@ -20,32 +20,19 @@ std::string_view Text(synchronous::Ending ending, synchronous::AngleSource angle
     case Ending::kAngleLost:
       return "the rotor's angle is lost";
     case Ending::kAngleJumped:
-      return angle_from == synchronous::AngleSource::kOrbit
-                 ? "the estimate of the rotor's angle moved"
-                 : "the rotor's angle jumped, or does not turn with its speed";
+      return "the rotor's angle jumped";
     case Ending::kSaturated:
-      return "an axis stays at its current limit";
+      return "an axis stays at its current limit; it begins again after the speed has left its "
+             "window";
     case Ending::kOrbitGrew:
       return "the orbit grew";
     case Ending::kCurrentTooLarge:
-      return "it needs more than its largest_current_a";
+      return "it needs more than its largest_current_a; it begins again after the speed has left "
+             "its window";
     case Ending::kNotLevitated:
       return "the rotor is no longer held about its centre";
   }
   return "";
-}
-
-/// When it may begin again; nothing where that needs no word.
-std::string_view Again(const synchronous::BlockStatus& status,
-                       synchronous::AngleSource angle_from) {
-  using synchronous::Ending;
-  if (status.tries_again) return "; it tries again";
-  const Ending why = status.ending;
-  const bool estimate = angle_from == synchronous::AngleSource::kOrbit &&
-                        (why == Ending::kAngleLost || why == Ending::kAngleJumped);
-  const bool waits = estimate || why == Ending::kSaturated || why == Ending::kOrbitGrew ||
-                     why == Ending::kCurrentTooLarge;
-  return waits ? "; it begins again after the speed has left its window" : "";
 }
 
 std::string_view Text(synchronous::AngleSource angle_from) {
@@ -70,10 +57,8 @@ std::string BlockBegins(std::string_view name, std::string_view where,
                      estimated);
 }
 
-std::string BlockEnds(std::string_view name, std::string_view where,
-                      const synchronous::BlockStatus& status, synchronous::AngleSource angle_from) {
-  return fmt::format("{}{} ends {}: {}{}", kSubject, name, where, Text(status.ending, angle_from),
-                     Again(status, angle_from));
+std::string BlockEnds(std::string_view name, std::string_view where, synchronous::Ending why) {
+  return fmt::format("{}{} ends {}: {}", kSubject, name, where, Text(why));
 }
 
 // Should a name hold " begins at " or " ends at " itself, the last of them is the sentence's own.
@@ -86,12 +71,9 @@ std::optional<BlockEvent> ReadBlockEvent(std::string_view text) {
       ends != std::string_view::npos && (begins == std::string_view::npos || ends > begins);
   const auto at = ending ? ends : begins;
   if (at == std::string_view::npos) return std::nullopt;
-  BlockEvent event{std::string(text.substr(0, at)), !ending, {}, {}};
+  BlockEvent event{std::string(text.substr(0, at)), !ending, {}};
   const auto why = text.find(kWhy, at);
-  if (why != std::string_view::npos) {
-    const std::string_view told = text.substr(why + kWhy.size());
-    (ending ? event.why : event.angle) = told.substr(0, told.find("; it "));
-  }
+  if (why != std::string_view::npos) event.why = text.substr(why + kWhy.size());
   return event;
 }
 

@@ -19,19 +19,17 @@ struct SynchronousLabels {
   synchronous::AngleSource angle_from{synchronous::AngleSource::kRig};
 };
 
-/// `where`: "at 1500 rpm (cycle 4711)". An angle that is not measured is named as an estimate.
+/// `where`: "at 1500 rpm (cycle 4711)". An angle that is no measured one is said to be none.
 [[nodiscard]] std::string BlockBegins(
     std::string_view name, std::string_view where,
     synchronous::AngleSource angle_from = synchronous::AngleSource::kRig);
-[[nodiscard]] std::string BlockEnds(
-    std::string_view name, std::string_view where, const synchronous::BlockStatus& status,
-    synchronous::AngleSource angle_from = synchronous::AngleSource::kRig);
+[[nodiscard]] std::string BlockEnds(std::string_view name, std::string_view where,
+                                    synchronous::Ending why);
 
 struct BlockEvent {
   std::string name;
-  bool begins{};      ///< else it ends
-  std::string angle;  ///< where it begins: how its angle is estimated, if it is
-  std::string why;    ///< where it ends, without when it may begin again
+  bool begins{};    ///< else it ends
+  std::string why;  ///< it ends, in words; where it begins, how its angle is estimated, if it is
 };
 
 /// Nothing of any other sentence.

@@ -116,7 +116,7 @@ void EventDeriver::Synchronous(const cycle::CycleRecord& record, std::vector<Eve
       const bool planned = now.ending == synchronous::Ending::kSpeed;
       events.push_back(Make(record,
                             planned ? Event::Severity::kInformation : Event::Severity::kWarning,
-                            BlockEnds(name, where, now, synchronous_.angle_from)));
+                            BlockEnds(name, where, now.ending)));
     }
   }
 }

@@ -29,7 +29,7 @@ std::vector<BlockUse> BlocksOf(std::span<const session::Event> events, std::uint
     if (told->begins) {
       ++block.times;
       block.last_end.clear();
-      block.angle = told->angle;
+      block.angle = told->why;
       acts_since[block.name] = event.cycle;
       continue;
     }

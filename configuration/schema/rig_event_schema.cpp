@@ -9,10 +9,9 @@ namespace {
 using namespace unit;
 
 // In the order of RigEventKind.
-constexpr std::array<std::string_view, 11> kEventKinds{
+constexpr std::array<std::string_view, 8> kEventKinds{
     "sensor_frozen",   "sensor_stuck",   "sensor_invalid", "sensor_jump",
-    "amplifier_fault", "emergency_stop", "effect",         "torque",
-    "speed_wrong",     "angle_frozen",   "angle_jump"};
+    "amplifier_fault", "emergency_stop", "effect",         "torque"};
 
 }  // namespace
 
@@ -38,12 +37,6 @@ void Describe(Visitor& v, ScheduledRigEvent& event, const RigNumbers& rig) {
   v.When(valued, "with sensor_stuck or sensor_jump", [&] {
     v.Number({"value", kMicrometre, -20000, 20000, kRequired, "what it reads, or reads too much"},
              event.value_m);
-  });
-  v.When(event.kind == RigEventKind::kSpeedWrong, "with speed_wrong", [&] {
-    v.Number({"share", kOne, -0.5, 1, kRequired, "of the true speed, told too much"}, event.share);
-  });
-  v.When(event.kind == RigEventKind::kAngleJump, "with angle_jump", [&] {
-    v.Number({"angle", kDegree, -180, 180, kRequired, "told too much"}, event.angle_rad);
   });
   v.When(effect, "with what: effect", [&] {
     v.Name({"effect", "id of an entry of the rig's effects"}, event.effect);

@@ -7,9 +7,6 @@
 namespace levitas::synchronous {
 
 inline constexpr std::size_t kMaxBlocks = 8;
-/// How often a block that corrects its T, or whose angle is estimated, begins anew before the speed
-/// has left its window.
-inline constexpr int kRetries = 3;
 
 enum class BlockState : std::uint8_t {
   kOff = 0,
@@ -33,8 +30,6 @@ struct BlockStatus {
   BlockState state{BlockState::kOff};
   Ending ending{Ending::kNone};  ///< why it ended the last time
   double amplitude{};            ///< largest of an axis [m] or [A]
-  /// It has ended by a failure and may begin anew before the speed has left its window.
-  bool tries_again{};
 };
 
 }  // namespace levitas::synchronous

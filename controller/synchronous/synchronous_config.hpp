@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -67,7 +66,7 @@ enum class AngleSource : std::uint8_t {
 struct AngleConfig {
   AngleSource source{AngleSource::kRig};
   double bandwidth_hz{10.0};
-  double largest_error_rad{std::numbers::pi / 9.0};
+  double largest_error_rad{0.35};
   double largest_speed_share{0.1};  ///< by which followed and measured speed may differ
   double least_followed_m{2e-6};    ///< of kOrbit: forward orbit from which it is followed
 };

@@ -150,9 +150,6 @@ void SynchronousControl::End(Block& block, Ending why) noexcept {
   block.status.state = BlockState::kFading;
   block.status.ending = why;
   block.fast = why != Ending::kSpeed;
-  const bool angle = why == Ending::kAngleLost || why == Ending::kAngleJumped;
-  const bool learned = block.adaptive && why == Ending::kOrbitGrew && block.influence.learned() > 0;
-  block.status.tries_again = (learned || (angle && angle_estimated_)) && block.retries < kRetries;
   if (ChangesFollowedOrbit(block.order)) {
     angle_.Coast(block.fast ? kLongestFadeS : period_s_ / block.slow_fade);
   }
@@ -171,10 +168,12 @@ void SynchronousControl::Fade(Block& block) noexcept {
   block.status.amplitude = 0.0;
   const Ending why = block.status.ending;
   const bool angle = why == Ending::kAngleLost || why == Ending::kAngleJumped;
-  if (block.status.tries_again) ++block.retries;
+  const bool learned = block.adaptive && why == Ending::kOrbitGrew && block.influence.learned() > 0;
+  const bool retried = (learned || (angle && angle_estimated_)) && block.retries < kRetries;
+  if (retried) ++block.retries;
   if (why == Ending::kSpeed) block.retries = 0;
-  const bool again = block.status.tries_again || why == Ending::kSpeed ||
-                     (angle && !angle_estimated_) || why == Ending::kNotLevitated;
+  const bool again = retried || why == Ending::kSpeed || (angle && !angle_estimated_) ||
+                     why == Ending::kNotLevitated;
   block.status.state = again ? BlockState::kOff : BlockState::kEnded;
 }
 

@@ -47,6 +47,8 @@ struct Conditions {
 
 class SynchronousControl {
  public:
+  static constexpr int kRetries = 3;
+
   /// `orbit_trip_fraction`: of the clearance; the supervisor trips there, a block gives way below.
   SynchronousControl(const SynchronousConfig& config, const RigNumbers& rig,
                      double orbit_trip_fraction = 0.5);

@@ -17,7 +17,7 @@ export function showRig(rig) {
 function showBlocks(blocks) {
   at("blocks-figure").hidden = blocks.length === 0;
   at("blocks").textContent = blocks.map((b) => `${b.acts ? "●" : "○"} ${b.name}`).join("  ");
-  at("blocks").title = blocks.map((b) => `${b.name}: ${b.acts ? ["acts", b.angle].filter(Boolean).join(", ") : b.why ? `ended, ${b.why}` : "waits for its speed and its angle"}`).join("\n");
+  at("blocks").title = blocks.map((b) => `${b.name}: ${b.acts ? ["acts", b.why].filter(Boolean).join(", ") : b.why ? `ended, ${b.why}` : "waits for its speed and its angle"}`).join("\n");
 }
 
 /** `end`: the mode in which the run has ended, from its last event; empty while it runs. */

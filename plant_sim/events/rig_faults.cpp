@@ -1,10 +1,8 @@
 #include "plant_sim/events/rig_faults.hpp"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "common/two_pi.hpp"
 #include "plant_sim/events/cycle_at.hpp"
 
 namespace levitas::events {
@@ -18,11 +16,8 @@ RigFaults::RigFaults(const std::vector<ScheduledRigEvent>& events, double period
     const std::uint64_t end = event.duration_s > 0.0
                                   ? CycleAt(event.at_s + event.duration_s, period_s)
                                   : std::numeric_limits<std::uint64_t>::max();
-    const double value = event.kind == RigEventKind::kSpeedWrong  ? event.share
-                         : event.kind == RigEventKind::kAngleJump ? event.angle_rad
-                                                                  : event.value_m;
     faults_.push_back(
-        {event.kind, CycleAt(event.at_s, period_s), end, event.axis, value, 0.0, false});
+        {event.kind, CycleAt(event.at_s, period_s), end, event.axis, event.value_m, 0.0, false});
   }
 }
 
@@ -35,31 +30,24 @@ void RigFaults::Disturb(std::uint64_t cycle, SensorFrame& frame) noexcept {
     }
     switch (fault.kind) {
       case RigEventKind::kSensorFrozen:
-        reading_m = fault.Freeze(reading_m);
+        if (!fault.frozen) fault.frozen_m = reading_m;
+        fault.frozen = true;
+        reading_m = fault.frozen_m;
         break;
       case RigEventKind::kSensorStuck:
-        reading_m = fault.value;
+        reading_m = fault.value_m;
         break;
       case RigEventKind::kSensorInvalid:
         reading_m = std::numeric_limits<double>::quiet_NaN();
         break;
       case RigEventKind::kSensorJump:
-        reading_m += fault.value;
+        reading_m += fault.value_m;
         break;
       case RigEventKind::kAmplifierFault:
         frame.rig_status |= kRigAmplifierFault;
         break;
       case RigEventKind::kEmergencyStop:
         frame.rig_status |= kRigEmergencyStop;
-        break;
-      case RigEventKind::kSpeedWrong:
-        frame.speed_rad_per_s *= 1.0 + fault.value;
-        break;
-      case RigEventKind::kAngleFrozen:
-        frame.angle_rad = fault.Freeze(frame.angle_rad);
-        break;
-      case RigEventKind::kAngleJump:
-        frame.angle_rad = std::fmod(frame.angle_rad + fault.value + kTwoPi, kTwoPi);
         break;
       case RigEventKind::kEffect:
       case RigEventKind::kTorque:

@@ -28,18 +28,12 @@ class RigFaults {
 
  private:
   struct Fault {
-    /// The reading as it was when the fault began.
-    [[nodiscard]] double Freeze(double reading) noexcept {
-      if (!frozen) frozen_value = reading;
-      frozen = true;
-      return frozen_value;
-    }
     RigEventKind kind{};
     std::uint64_t first{};
     std::uint64_t end{};
     std::size_t axis{};
-    double value{};         ///< [m], share of the speed, or [rad]
-    double frozen_value{};  ///< [m] or [rad]
+    double value_m{};
+    double frozen_m{};
     bool frozen{};
   };
 

@@ -87,9 +87,6 @@ inline scenario::ScenarioConfig EventfulScenario(const RigNumbers& rig) {
   text += "  - {at_s: 4, what: effect, effect: unbalance, strength: 0.5, ramp_s: 2}\n";
   text +=
       "  - {at_s: 5, what: torque, inertia: brake, torque_n_m: -2.5, duration_s: 3, ramp_s: 1}\n";
-  text += "  - {at_s: 6, what: speed_wrong, share: -0.03}\n";
-  text += "  - {at_s: 7, what: angle_frozen, duration_s: 0.1}\n";
-  text += "  - {at_s: 8, what: angle_jump, angle_deg: 60}\n";
   return ParseScenario(text, "eventful.yaml", rig);
 }
 

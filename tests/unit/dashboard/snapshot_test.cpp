@@ -142,23 +142,14 @@ TEST_F(Snapshot, TellsWhichBlocksActAndWhyOthersEnded) {
   run_.Take(channel::kHeader, HeaderWithBlock(2, "low"), 0);
   EXPECT_EQ(tick()["blocks"][0]["acts"], false);
   EXPECT_EQ(tick()["saves_bias"], true);
+  run_.Take(channel::kEvent, EncodedEvent(session::BlockBegins("low", "at 2000 rpm (cycle 7)")), 0);
+  EXPECT_EQ(tick()["blocks"][0], json({{"name", "low"}, {"acts", true}, {"why", ""}}));
   run_.Take(channel::kEvent,
-            EncodedEvent(session::BlockBegins("low", "at 2000 rpm (cycle 7)",
-                                              synchronous::AngleSource::kOrbit)),
-            0);
-  EXPECT_EQ(tick()["blocks"][0],
-            json({{"name", "low"},
-                  {"acts", true},
-                  {"why", ""},
-                  {"angle", "no mark on the shaft, its angle is estimated from the orbit"}}));
-  run_.Take(channel::kEvent,
-            EncodedEvent(session::BlockEnds(
-                "low", "at 2100 rpm (cycle 9)",
-                {synchronous::BlockState::kFading, synchronous::Ending::kOrbitGrew, 0.0, false})),
+            EncodedEvent(session::BlockEnds("low", "at 2100 rpm (cycle 9)",
+                                            synchronous::Ending::kOrbitGrew)),
             0);
   EXPECT_EQ(tick()["blocks"][0]["acts"], false);
   EXPECT_EQ(tick()["blocks"][0]["why"], "the orbit grew");
-  EXPECT_EQ(tick()["blocks"][0]["angle"], "");
   run_.Take(channel::kHeader, EncodedHeader(3), 0);
   EXPECT_FALSE(tick().contains("blocks")) << "another run";
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "tests/support/allocation_guard.hpp"
@@ -73,23 +72,6 @@ TEST(RigFaults, JumpAddsAndInvalidIsNotANumber) {
   faults.Disturb(2, frame);
   EXPECT_EQ(frame.position_m[0], Frame(2).position_m[0] + 5e-6);
   EXPECT_TRUE(std::isnan(frame.position_m[3]));
-}
-
-TEST(RigFaults, SpeedAndAngleAreToldWrong) {
-  ScheduledRigEvent slip = Event(RigEventKind::kSpeedWrong, 0.002, 0.0);
-  slip.share = -0.03;
-  ScheduledRigEvent jump = Event(RigEventKind::kAngleJump, 0.001, 0.001);
-  jump.angle_rad = -1.0;
-  RigFaults faults({slip, jump, Event(RigEventKind::kAngleFrozen, 0.003, 0.002)}, kFaultPeriod_s);
-  const double angles[] = {0.5, 0.5 - 1.0 + 2.0 * std::numbers::pi, 2.5, 3.5, 3.5, 5.5};
-  for (std::uint64_t cycle = 0; cycle < 6; ++cycle) {
-    SensorFrame frame = Frame(cycle);
-    frame.speed_rad_per_s = 100.0;
-    frame.angle_rad = cycle == 1 ? 0.5 : 0.5 + static_cast<double>(cycle);
-    faults.Disturb(cycle, frame);
-    EXPECT_NEAR(frame.angle_rad, angles[cycle], 1e-12) << cycle;
-    EXPECT_NEAR(frame.speed_rad_per_s, cycle < 2 ? 100.0 : 97.0, 1e-12) << cycle;
-  }
 }
 
 TEST(RigFaults, EmergencyStopOpensTheChainForAsLongAsItLasts) {

@@ -66,11 +66,10 @@ TEST_F(Deriver, TellsALawThatTakesOverWhileTheRotorIsHeldAndNoneThatALiftBegins)
 TEST_F(Deriver, TellsABlockOfSynchronousControlThatBeginsAndWhyItEnds) {
   EventDeriver deriver(Header().channels, Header().period_ns, {{"unbalance"}});
   std::uint64_t cycle = 0;
-  const auto step = [&](synchronous::BlockState state, synchronous::Ending ending,
-                        bool tries_again = false) {
+  const auto step = [&](synchronous::BlockState state, synchronous::Ending ending) {
     auto record = Quiet(cycle++);
     record.out.synchronous_blocks = 1;
-    record.out.synchronous[0] = {state, ending, 0.0, tries_again};
+    record.out.synchronous[0] = {state, ending, 0.0};
     std::vector<Event> events;
     deriver.Step(record, events);
     return events;
@@ -92,16 +91,6 @@ TEST_F(Deriver, TellsABlockOfSynchronousControlThatBeginsAndWhyItEnds) {
   const auto planned = step(BlockState::kFading, Ending::kSpeed);
   ASSERT_EQ(planned.size(), 1U);
   EXPECT_EQ(planned[0].severity, Event::Severity::kInformation);
-  (void)step(BlockState::kOff, Ending::kSpeed);
-  (void)step(BlockState::kActing, Ending::kSpeed);
-  const auto grew = step(BlockState::kFading, Ending::kOrbitGrew, true);
-  ASSERT_EQ(grew.size(), 1U);
-  EXPECT_THAT(grew[0].text, ::testing::EndsWith("the orbit grew; it tries again"));
-  (void)step(BlockState::kOff, Ending::kOrbitGrew);
-  (void)step(BlockState::kActing, Ending::kOrbitGrew);
-  const auto last = step(BlockState::kFading, Ending::kOrbitGrew);
-  ASSERT_EQ(last.size(), 1U);
-  EXPECT_THAT(last[0].text, HasSubstr("begins again after the speed has left its window"));
 }
 
 TEST_F(Deriver, TellsATripOnceWithCauseChannelValueLimitCycleSafeStateAndReset) {
