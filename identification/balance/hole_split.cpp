@@ -46,24 +46,32 @@ std::vector<double> BetweenNeighbours(Complex wanted_kg, const CorrectionPlane& 
   return masses;
 }
 
-/// Least squares within the limits, hole by hole until nothing moves.
-std::vector<double> Spread(Complex wanted_kg, const CorrectionPlane& plane) {
-  std::vector<double> masses(plane.holes, 0.0);
+/// Least squares within the limits, hole by hole until nothing moves. `least_kg`: of each hole;
+/// `price_kg`: what a hole has to gain to take more.
+void Descend(Complex wanted_kg, const CorrectionPlane& plane, double least_kg, double price_kg,
+             const std::vector<bool>& takes, std::vector<double>& masses) {
   const double largest = LargestOf(plane);
-  const double price = kLessMass * std::abs(wanted_kg);
-  Complex left = wanted_kg;
+  Complex left = wanted_kg - SumOf(masses, plane);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     double moved = 0.0;
     for (std::size_t i = 0; i < masses.size(); ++i) {
+      if (!takes[i]) continue;
       const Complex direction = std::polar(1.0, AngleOf(plane, i));
-      const double pull = (std::conj(direction) * left).real() - price;
-      const double next = std::clamp(masses[i] + pull, 0.0, largest);
+      const double pull = (std::conj(direction) * left).real() - price_kg;
+      const double next = std::clamp(masses[i] + pull, least_kg, largest);
       left -= (next - masses[i]) * direction;
       moved += std::abs(next - masses[i]);
       masses[i] = next;
     }
     if (moved <= 1e-12 * std::abs(wanted_kg)) break;
   }
+}
+
+/// Over all holes.
+std::vector<double> Spread(Complex wanted_kg, const CorrectionPlane& plane) {
+  std::vector<double> masses(plane.holes, 0.0);
+  const std::vector<bool> all(plane.holes, true);
+  Descend(wanted_kg, plane, 0.0, kLessMass * std::abs(wanted_kg), all, masses);
   return masses;
 }
 
@@ -77,22 +85,11 @@ void RaiseOrLeaveOut(Complex wanted_kg, const CorrectionPlane& plane, std::vecto
   }
 }
 
-/// Least squares over the holes that have a weight, none of which falls below the smallest.
+/// Over the holes that have a weight: none of them falls below the smallest.
 void SettleKept(Complex wanted_kg, const CorrectionPlane& plane, std::vector<double>& masses) {
-  Complex left = wanted_kg - SumOf(masses, plane);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    double moved = 0.0;
-    for (std::size_t i = 0; i < masses.size(); ++i) {
-      if (masses[i] == 0.0) continue;
-      const Complex direction = std::polar(1.0, AngleOf(plane, i));
-      const double pull = (std::conj(direction) * left).real();
-      const double next = std::clamp(masses[i] + pull, plane.smallest_kg, LargestOf(plane));
-      left -= (next - masses[i]) * direction;
-      moved += std::abs(next - masses[i]);
-      masses[i] = next;
-    }
-    if (moved <= 1e-12 * std::abs(wanted_kg)) break;
-  }
+  std::vector<bool> kept;
+  for (const double mass : masses) kept.push_back(mass != 0.0);
+  Descend(wanted_kg, plane, plane.smallest_kg, 0.0, kept, masses);
 }
 
 }  // namespace

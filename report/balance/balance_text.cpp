@@ -69,8 +69,8 @@ std::string CorrectionTable(const BalanceResult& result, bool drill) {
     if (!split.empty()) holes += fmt::format("  {}: {}\n", one.plane.name, split);
     if (std::abs(one.added_kg_m) < k95 * one.deviation_kg_m) {
       holes += fmt::format(
-          "  {0}: not told from nothing, {1:.3f} g mm with an interval of {2:.3f}; without a plane "
-          "{0} the others have the smaller intervals\n",
+          "  {0}: may be none at all: {1:.3f} g mm, give or take {2:.3f}; without a plane {0} the "
+          "others have smaller intervals\n",
           one.plane.name, 1e6 * std::abs(moment), 1e6 * k95 * one.deviation_kg_m);
     }
     if (one.placed.weights.empty() && mass) {
