@@ -62,8 +62,10 @@ std::optional<LeastDamping> DampingOver(std::span<const analysis::SensitivityRes
 
 std::vector<ModeDamping> DampingOfModes(const plant::PlantConfig& plant, const law::LawConfig& law,
                                         double top_rad_per_s) {
+  // A rotor that never turned is the same at every step.
+  const int steps = top_rad_per_s > 0.0 ? kModeSteps : 1;
   const auto campbell =
-      analysis::CampbellOf(analysis::LevitatedModes(plant, law), top_rad_per_s, kModeSteps, {});
+      analysis::CampbellOf(analysis::LevitatedModes(plant, law), top_rad_per_s, steps, {});
   std::vector<ModeDamping> modes;
   // Of each pole at the speed before: its place in `modes`.
   std::vector<std::size_t> known;
