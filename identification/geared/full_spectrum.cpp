@@ -68,7 +68,8 @@ Teeth TeethOf(const std::vector<GearedLine>& lines, const GearedKnown& known,
   Teeth teeth;
   teeth.force.reserve(lines.size());
   for (const GearedLine& line : lines) teeth.force.push_back(MeshForce(line, known, p));
-  teeth.twist = TwistOnLines(lines, teeth.force, known.torsion);
+  teeth.twist = TwistOnLines(lines, teeth.force, TwistPerForceOn(lines, known.torsion),
+                             known.torsion ? known.torsion->normal : 0.0);
   return teeth;
 }
 

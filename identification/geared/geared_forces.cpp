@@ -70,18 +70,33 @@ Complex TwistPerForce(const TorsionKnown& t, double w) {
   return (twist.transpose() * dynamic.partialPivLu().solve(twist))(0);
 }
 
-std::vector<Complex> TwistOnLines(const std::vector<GearedLine>& lines,
-                                  const std::vector<Complex>& force,
-                                  const std::optional<TorsionKnown>& torsion) {
-  std::vector<Complex> twist(lines.size(), 0.0);
-  if (!torsion) return twist;
-  const Complex n = torsion->normal;
+std::vector<Complex> TwistPerForceOn(const std::vector<GearedLine>& lines,
+                                     const std::optional<TorsionKnown>& torsion) {
+  std::vector<Complex> per_force(lines.size(), 0.0);
+  if (!torsion) return per_force;
+  double last = 0.0;
+  Complex found = 0.0;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const double w = lines[k].frequency_rad_per_s;
     if (w == 0.0) continue;
-    const Complex mirror = ForceAt(lines, force, lines[k], -w);
-    const Complex along = 0.5 * (std::conj(n) * force[k] + n * std::conj(mirror));
-    twist[k] = -n * TwistPerForce(*torsion, w) * along;
+    if (std::abs(w) != last) {
+      last = std::abs(w);
+      found = TwistPerForce(*torsion, last);
+    }
+    per_force[k] = w > 0.0 ? found : std::conj(found);
+  }
+  return per_force;
+}
+
+std::vector<Complex> TwistOnLines(const std::vector<GearedLine>& lines,
+                                  const std::vector<Complex>& force,
+                                  const std::vector<Complex>& per_force, Complex normal) {
+  std::vector<Complex> twist(lines.size(), 0.0);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (per_force[k] == 0.0) continue;
+    const Complex mirror = ForceAt(lines, force, lines[k], -lines[k].frequency_rad_per_s);
+    const Complex along = 0.5 * (std::conj(normal) * force[k] + normal * std::conj(mirror));
+    twist[k] = -normal * per_force[k] * along;
   }
   return twist;
 }

@@ -26,9 +26,14 @@ struct MeshForces {
 /// w along n per force along n: -w/F_n. Not for W = 0: the train may turn freely.
 [[nodiscard]] std::complex<double> TwistPerForce(const TorsionKnown& torsion, double w_rad_per_s);
 
-/// n w on every line; zero without torsion, and on lines at rest.
+/// The same on every line; zero without torsion, and on lines at rest. Lines of one frequency share
+/// a factorisation with the line before, forward or backward.
+[[nodiscard]] std::vector<std::complex<double>> TwistPerForceOn(
+    const std::vector<GearedLine>& lines, const std::optional<TorsionKnown>& torsion);
+
+/// n w on every line from its force; `per_force`: TwistPerForceOn of these lines, `normal`: n.
 [[nodiscard]] std::vector<std::complex<double>> TwistOnLines(
     const std::vector<GearedLine>& lines, const std::vector<std::complex<double>>& force,
-    const std::optional<TorsionKnown>& torsion);
+    const std::vector<std::complex<double>>& per_force, std::complex<double> normal);
 
 }  // namespace levitas::identification

@@ -73,12 +73,21 @@ std::vector<Group> GroupsOf(const std::vector<GearedLine>& lines, bool torsion) 
   return groups;
 }
 
-/// Residuals of both equations of every line of the group [N].
-Eigen::VectorXd Residual(const Group& group, const GearedParameters& p) {
+using PerForce = std::vector<Complex>;
+
+/// What the torsion of these parameters makes of a force on the group's lines. It does not depend on
+/// the readings, and a factorisation costs as much as a dozen residuals.
+PerForce PerForceOf(const Group& group, const GearedParameters& p) {
+  return TwistPerForceOn(group, p.corrected.torsion);
+}
+
+/// Residuals of both equations of every line of the group [N]; linear in the readings.
+Eigen::VectorXd Residual(const Group& group, const GearedParameters& p, const PerForce& per_force) {
   std::vector<Complex> force;
   Eigen::VectorXd residual(kEquations * static_cast<Index>(group.size()));
   for (const GearedLine& line : group) force.push_back(MeshForce(line, p.corrected, p));
-  const auto twist = TwistOnLines(group, force, p.corrected.torsion);
+  const Complex normal = p.corrected.torsion ? p.corrected.torsion->normal : 0.0;
+  const auto twist = TwistOnLines(group, force, per_force, normal);
   for (std::size_t n = 0; n < group.size(); ++n) {
     const GearedLine& line = group[n];
     const MeshForces both = MeshForcesOf(line, p.corrected, p);
@@ -116,19 +125,21 @@ struct Whitened {
   Eigen::VectorXd residual;
   Eigen::LLT<Eigen::MatrixXd> noise;
   Group explained;
+  PerForce per_force;
 };
 
 Whitened Whiten(const Group& group, const GearedParameters& p) {
-  const Eigen::VectorXd residual = Residual(group, p);
+  PerForce per_force = PerForceOf(group, p);
+  const Eigen::VectorXd residual = Residual(group, p, per_force);
   const auto numbers = kReadings * static_cast<Index>(group.size());
   Eigen::MatrixXd by_noise(residual.size(), numbers);
   for (Index k = 0; k < numbers; ++k) {
     Group moved = group;
     Move(moved, k, 1.0);
-    by_noise.col(k) = Residual(moved, p) - residual;
+    by_noise.col(k) = Residual(moved, p, per_force) - residual;
   }
   const Eigen::MatrixXd covariance = by_noise * by_noise.transpose();
-  Whitened w{{}, Eigen::LLT<Eigen::MatrixXd>(covariance), group};
+  Whitened w{{}, Eigen::LLT<Eigen::MatrixXd>(covariance), group, std::move(per_force)};
   const Eigen::VectorXd shift = -by_noise.transpose() * w.noise.solve(residual);
   for (Index k = 0; k < numbers; ++k) Move(w.explained, k, shift[k]);
   w.residual = w.noise.matrixL().solve(residual);
@@ -162,12 +173,34 @@ class JointProblem {
   const JointUnknowns& unknowns_;
 };
 
+/// Parameters with one unknown raised and lowered.
+struct Sides {
+  GearedParameters more, less;
+  bool torsion;  ///< that unknown is one of torsion
+};
+
+bool SameTorsion(const GearedParameters& a, const GearedParameters& b) {
+  if (!a.corrected.torsion) return true;
+  return a.corrected.torsion->frequency_rad_per_s == b.corrected.torsion->frequency_rad_per_s &&
+         a.corrected.torsion->twist_m == b.corrected.torsion->twist_m;
+}
+
+/// Of the explained lines by the unknown of these sides.
+Eigen::VectorXd SlopeOf(const Whitened& w, const Sides& sides) {
+  const auto at = [&w, &sides](const GearedParameters& p) {
+    return Residual(w.explained, p, sides.torsion ? PerForceOf(w.explained, p) : w.per_force);
+  };
+  return (at(sides.more) - at(sides.less)) / (2.0 * kStep);
+}
+
 numerics::NormalEquations JointProblem::EquationsAt(const Eigen::VectorXd& x) const {
   const GearedParameters p = unknowns_.At(x);
-  std::vector<std::array<GearedParameters, 2>> sides;
+  std::vector<Sides> sides;
   for (Index k = 0; k < x.size(); ++k) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(x.size(), k);
-    sides.push_back({unknowns_.At(x + step), unknowns_.At(x - step)});
+    Sides both{unknowns_.At(x + step), unknowns_.At(x - step), false};
+    both.torsion = !SameTorsion(both.more, p);
+    sides.push_back(std::move(both));
   }
   const Eigen::MatrixXd& hold = unknowns_.HeldBy();
   numerics::NormalEquations equations{hold.transpose() * hold,
@@ -176,9 +209,7 @@ numerics::NormalEquations JointProblem::EquationsAt(const Eigen::VectorXd& x) co
     const Whitened w = Whiten(group, p);
     Eigen::MatrixXd by_unknowns(w.residual.size(), x.size());
     for (Index k = 0; k < x.size(); ++k) {
-      const auto& [more, less] = sides[static_cast<std::size_t>(k)];
-      by_unknowns.col(k) =
-          (Residual(w.explained, more) - Residual(w.explained, less)) / (2.0 * kStep);
+      by_unknowns.col(k) = SlopeOf(w, sides[static_cast<std::size_t>(k)]);
     }
     const Eigen::MatrixXd jacobian = w.noise.matrixL().solve(by_unknowns);
     equations.matrix += jacobian.transpose() * jacobian;

@@ -135,13 +135,15 @@ TEST(TwistPerForce, OfOneModeIsItsReceptanceAndOfARealSignalConjugateOnTheMirror
   // conjugate; a line without its mirror has half of the force along n.
   const std::vector<GearedLine> lines{At(80.0, 10.0), At(-80.0, 10.0), At(80.0, 20.0)};
   const std::vector<Complex> force{Complex(2.0, 1.0), Complex(-0.5, 3.0), Complex(2.0, 1.0)};
-  const auto twist = TwistOnLines(lines, force, torsion);
+  const auto per_force = TwistPerForceOn(lines, torsion);
+  const auto twist = TwistOnLines(lines, force, per_force, torsion.normal);
   const Complex along = std::conj(torsion.normal) * twist[0];
   EXPECT_LT(std::abs(along - std::conj(std::conj(torsion.normal) * twist[1])), 1e-18);
   const Complex alone =
       -0.5 * torsion.normal * TwistPerForce(torsion, 80.0) * std::conj(torsion.normal) * force[2];
   EXPECT_LT(std::abs(twist[2] - alone), 1e-18);
-  EXPECT_EQ(std::abs(TwistOnLines(lines, force, std::nullopt)[0]), 0.0);
+  const auto none = TwistPerForceOn(lines, std::nullopt);
+  EXPECT_EQ(std::abs(TwistOnLines(lines, force, none, torsion.normal)[0]), 0.0);
 }
 
 // The rig behind the reference file, see tests/data/reference/README.md.

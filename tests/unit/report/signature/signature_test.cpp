@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "configuration/rig_file.hpp"
@@ -31,6 +32,16 @@ const plant::PlantParameters& Rig() {
 const plant::PlantParameters& RigFor(const effect::Row& row) {
   static const plant::PlantParameters geared = plant::Reduce(test::GearedRotor4());
   return row.place == effect::Place::kGear ? geared : Rig();
+}
+
+/// The picture of an effect on the rig for it, drawn once: some need a second, many times that under a
+/// sanitizer.
+const svg::Figure& PictureOf(const effect::Row& row) {
+  static std::map<effect::Id, svg::Figure> drawn;
+  const auto found = drawn.find(row.id);
+  if (found != drawn.end()) return found->second;
+  const plant::PlantParameters& rig = RigFor(row);
+  return drawn.emplace(row.id, Picture(rig, ClearOn(rig, row.id))).first->second;
 }
 
 TEST(EffectsDocument, IsTheOneInDocs) {
@@ -82,8 +93,7 @@ bool IsNamedWithUnit(const std::string& label) {
 
 TEST(Pictures, ShowEveryEffectBesideTheNominalRig) {
   for (const effect::Row& row : effect::Catalogue()) {
-    const plant::PlantParameters& rig = RigFor(row);
-    const svg::Figure figure = Picture(rig, ClearOn(rig, row.id));
+    const svg::Figure& figure = PictureOf(row);
     ASSERT_GE(figure.panels.size(), 2U) << row.name;
     for (const svg::Panel& panel : figure.panels) {
       EXPECT_TRUE(IsNamedWithUnit(panel.x_label)) << row.name << ": " << panel.x_label;
@@ -117,8 +127,7 @@ TEST(Pictures, ShowEveryEffectBesideTheNominalRig) {
 
 TEST(Pictures, ShowTheNominalCurveBelowAndBroaderThanTheEffects) {
   for (const effect::Row& row : effect::Catalogue()) {
-    const svg::Figure figure = Picture(RigFor(row), ClearOn(RigFor(row), row.id));
-    const auto& series = figure.panels[0].series;
+    const auto& series = PictureOf(row).panels[0].series;
     for (std::size_t i = 0; i < series.size() / 2; ++i) {
       EXPECT_TRUE(series[i].name.starts_with("nominal")) << row.name;
       EXPECT_GT(series[i].width, 2.0 * series[i + series.size() / 2].width) << row.name;
@@ -139,8 +148,7 @@ TEST(Pictures, SayTheSizeOfTheEffectInTheUnitsOfARigFile) {
 // response is its phase, in which alone a delay shows.
 TEST(Pictures, ShowWhatTheEffectChangesByItself) {
   for (const effect::Row& row : effect::Catalogue()) {
-    const plant::PlantParameters& rig = RigFor(row);
-    const svg::Figure figure = Picture(rig, ClearOn(rig, row.id));
+    const svg::Figure& figure = PictureOf(row);
     const bool response = row.facts.shows_in == effect::Shows::kResponse;
     const std::size_t added = row.facts.shows_in == effect::Shows::kGearMesh ? 2 : 1;
     double largest = 0.0;
