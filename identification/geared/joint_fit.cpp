@@ -75,8 +75,8 @@ std::vector<Group> GroupsOf(const std::vector<GearedLine>& lines, bool torsion) 
 
 using PerForce = std::vector<Complex>;
 
-/// What the torsion of these parameters makes of a force on the group's lines. It does not depend on
-/// the readings, and a factorisation costs as much as a dozen residuals.
+/// What the torsion of these parameters makes of a force on the group's lines. It does not depend
+/// on the readings, and a factorisation costs as much as a dozen residuals.
 PerForce PerForceOf(const Group& group, const GearedParameters& p) {
   return TwistPerForceOn(group, p.corrected.torsion);
 }

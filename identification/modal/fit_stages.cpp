@@ -136,7 +136,11 @@ std::vector<LineResiduals> Search::AllLines(const StageSetup& setup) const {
   std::vector<LineResiduals> all;
   for (const FitData* data : setup.data) {
     for (const std::size_t line : Lines(data->response, setup.stride)) {
-      all.push_back(Residuals(*data, line, setup.kind));
+      if (setup.marks != nullptr) {
+        all.emplace_back(start_.frame, data->response, data->gains, line, (*setup.marks)[line]);
+      } else {
+        all.push_back(Residuals(*data, line, setup.kind));
+      }
     }
   }
   return all;

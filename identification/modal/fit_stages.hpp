@@ -28,6 +28,8 @@ struct StageSetup {
   bool gyroscopic_free{};
   int iterations{60};
   std::size_t stride{1};  ///< every n-th line
+  /// Weights per line in decibels instead of those of the noise, for a single response.
+  const std::vector<Eigen::MatrixXd>* marks{};
 };
 
 class Search {

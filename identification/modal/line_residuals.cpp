@@ -1,6 +1,7 @@
 #include "identification/modal/line_residuals.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace levitas::identification {
 namespace {
@@ -13,8 +14,7 @@ constexpr double kLogFloor = 0.1;
 }  // namespace
 
 LineResiduals::LineResiduals(const ModalFrame& frame, const FrequencyResponse& data,
-                             const WorkingGains& gains, std::size_t line, LineKind kind,
-                             double floor)
+                             const WorkingGains& gains, std::size_t line, LineKind kind)
     : frame_(frame),
       gains_(gains),
       currents_(data.currents[line]),
@@ -22,7 +22,24 @@ LineResiduals::LineResiduals(const ModalFrame& frame, const FrequencyResponse& d
       speed_rad_per_s_(std::abs(data.speed_rad_per_s) < 1.0 ? 0.0 : data.speed_rad_per_s),
       kind_(kind) {
   entries_.reserve(static_cast<std::size_t>(data.axes() * data.axes()));
+}
+
+LineResiduals::LineResiduals(const ModalFrame& frame, const FrequencyResponse& data,
+                             const WorkingGains& gains, std::size_t line, LineKind kind,
+                             double floor)
+    : LineResiduals(frame, data, gains, line, kind) {
   KeepEntries(data, line, floor);
+}
+
+LineResiduals::LineResiduals(const ModalFrame& frame, const FrequencyResponse& data,
+                             const WorkingGains& gains, std::size_t line,
+                             const Eigen::MatrixXd& weights)
+    : LineResiduals(frame, data, gains, line, LineKind::kLogMagnitude) {
+  constexpr double kDecibelsPerNeper = 20.0 / std::numbers::ln10;
+  for (Index at = 0; at < weights.size(); ++at) {
+    if (weights.data()[at] == 0.0) continue;
+    entries_.push_back({at, data.plant[line].data()[at], kDecibelsPerNeper * weights.data()[at]});
+  }
 }
 
 void LineResiduals::KeepEntries(const FrequencyResponse& data, std::size_t line, double floor) {

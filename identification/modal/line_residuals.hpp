@@ -29,6 +29,11 @@ class LineResiduals {
   LineResiduals(const ModalFrame& frame, const FrequencyResponse& data, const WorkingGains& gains,
                 std::size_t line, LineKind kind, double floor);
 
+  /// kLogMagnitude, in decibels times `weights` (outputs x inputs); an entry of weight 0 is left
+  /// out.
+  LineResiduals(const ModalFrame& frame, const FrequencyResponse& data, const WorkingGains& gains,
+                std::size_t line, const Eigen::MatrixXd& weights);
+
   [[nodiscard]] Eigen::Index rows() const noexcept {
     return static_cast<Eigen::Index>(entries_.size()) * (kind_ == LineKind::kComplex ? 2 : 1);
   }
@@ -45,6 +50,8 @@ class LineResiduals {
     std::complex<double> data;
     double weight;
   };
+  LineResiduals(const ModalFrame& frame, const FrequencyResponse& data, const WorkingGains& gains,
+                std::size_t line, LineKind kind);
   void KeepEntries(const FrequencyResponse& data, std::size_t line, double floor);
   [[nodiscard]] Eigen::MatrixXcd Model(const Physical& rig, ResponseDerivative* derivative) const;
   void Fill(const Eigen::MatrixXcd& model, std::span<double> residuals) const;

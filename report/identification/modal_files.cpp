@@ -127,6 +127,32 @@ Json ModalJson(const ModalResult& r) {
   return json;
 }
 
+Json DecibelJson(const ModalResult& r, const DecibelFit& fit) {
+  const auto left = [](const DecibelLeft& of, double misfit) {
+    return Json{{"weighted_rms_db", of.weighted_rms_db},
+                {"around_extremes_rms_db", of.rms_db[0]},
+                {"noisy_rms_db", of.rms_db[1]},
+                {"elsewhere_rms_db", of.rms_db[2]},
+                {"misfit", misfit}};
+  };
+  const auto stage = [](const DecibelStage& of) {
+    return Json{{"unknowns", of.unknowns}, {"converged", of.converged}};
+  };
+  Json json{{"standing", stage(fit.standing)}, {"gyroscopic", stage(fit.gyroscopic)}};
+  for (const DecibelSpeed& s : fit.speeds) {
+    json["speeds"].push_back({{"speed_rpm", RadPerSToRpm(s.speed_rad_per_s)},
+                              {"around_extremes_percent", 100.0 * s.share[0]},
+                              {"noisy_percent", 100.0 * s.share[1]},
+                              {"of_modal_fit", left(s.modal, s.modal_misfit)},
+                              {"of_this_fit", left(s.decibel, s.decibel_misfit)}});
+  }
+  for (Eigen::Index i = 2; i < 2 + r.start.frame.layout.bending; ++i) {
+    json["modes"].push_back({{"frequency_hz", fit.rig.frequency_rad_per_s[i] / kTwoPi},
+                             {"damping_ratio", fit.rig.damping_ratio[i]}});
+  }
+  return json;
+}
+
 std::vector<std::string> WriteModalPictures(const std::string& prefix, const ModalResult& r,
                                             const std::vector<FrequencyResponse>& responses) {
   if (prefix.empty()) return {};

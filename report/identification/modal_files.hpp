@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "configuration/rig_file.hpp"
-#include "identification/modal/identify_modal.hpp"
+#include "identification/modal/decibel_fit.hpp"
 
 namespace levitas::cli {
 
 [[nodiscard]] nlohmann::ordered_json ModalJson(const identification::ModalResult& result);
+[[nodiscard]] nlohmann::ordered_json DecibelJson(const identification::ModalResult& result,
+                                                 const identification::DecibelFit& fit);
 
 /// <prefix>_bode.svg, _validation.svg, _campbell.svg, _stabilisation.svg; nothing without prefix.
 /// The names of the files.

@@ -16,6 +16,7 @@
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
 #include "cli/options/rig_of_records.hpp"
+#include "cli/study/identify/decibel_table.hpp"
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/identify/start_options.hpp"
 #include "cli/study/written_files.hpp"
@@ -51,6 +52,7 @@ struct ModalOptions : AnalysisOptions {
   std::string rotor{"modes"};
   std::string svg_prefix;
   ModalFitOptions fit;
+  bool decibel_cost{false};
   int starts{0};
   StartSpread spread;
 };
@@ -254,7 +256,13 @@ ExitStatus Run(const ModalOptions& options) {
   PrintSupport(result);
   PrintLimits(result);
   PrintStarts(result, responses, options);
-  WriteJsonFile(options.json_path, ModalJson(result));
+  auto json = ModalJson(result);
+  if (options.decibel_cost) {
+    const DecibelFit decibels = FitDecibels(result, responses);
+    PrintDecibelFit(result, decibels);
+    json["decibel_cost"] = DecibelJson(result, decibels);
+  }
+  WriteJsonFile(options.json_path, json);
   std::vector<std::string> written = WriteModalPictures(options.svg_prefix, result, responses);
   if (!options.out_path.empty()) {
     const RotorForm form = options.rotor == "shaft" ? RotorForm::kShaft : RotorForm::kModes;
@@ -282,6 +290,8 @@ void AddIdentifyModal(CLI::App& identify, Action& action) {
                     "Bandwidths of the amplifiers are unknown too");
   command->add_flag("--fit-sensors", options->fit.fit_sensors,
                     "Bandwidths of the sensors are unknown too");
+  command->add_flag("--decibel-cost", options->decibel_cost,
+                    "Fit by errors in decibels with marked regions, too, and compare");
   command->add_option("--starts", options->starts, "Repeat the fit from random starts")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "benchmark/accuracy/identification/simulated_campaign.hpp"
+#include "identification/modal/decibel_fit.hpp"
 #include "identification/modal/identify_modal.hpp"
 #include "tests/loop/identification/flexible_rotor.hpp"
 
@@ -58,10 +59,13 @@ config::RigFile WrongRig() {
   return rig;
 }
 
+const ModalResult& Found() {
+  static const ModalResult found = IdentifyModal(WrongRig(), Standing(), {.highest_hz = 1000.0});
+  return found;
+}
+
 TEST(Campaign, ModalFitFindsFrequenciesAndDampingFromAWrongRigFile) {
-  ModalFitOptions options;
-  options.highest_hz = 1000.0;
-  const ModalResult result = IdentifyModal(WrongRig(), Standing(), options);
+  const ModalResult& result = Found();
   const ModalStart truth = StartFromRig(FlexibleRotor().plant, 5);
   const Physical rig = ToPhysical(truth.frame, truth.vector);
   ASSERT_EQ(result.start.frame.layout.bending, 5);
@@ -84,6 +88,21 @@ TEST(Campaign, ModalFitFindsFrequenciesAndDampingFromAWrongRigFile) {
   // Only noise is left: 1 within what 0.5 % of nonlinearity and the spread of a variance estimated
   // from three periods allow.
   EXPECT_NEAR(result.fit.reduced_chi_square, 1.0, 0.25);
+}
+
+// Each fit is best by its own cost; that in decibels leaves more than the noise, since half of its
+// weight is on lines that say little.
+TEST(Campaign, TheCostInDecibelsFollowsItsMarksAndLeavesWhatTheNoiseDoesNotExplain) {
+  const DecibelFit found = FitDecibels(Found(), Standing());
+  ASSERT_EQ(found.speeds.size(), 1U);
+  const DecibelSpeed& standing = found.speeds.front();
+  EXPECT_EQ(found.standing.unknowns,
+            static_cast<std::size_t>(std::ranges::count(Found().fit.fitted, true)));
+  EXPECT_EQ(found.gyroscopic.unknowns, 0U) << "nothing was recorded at speed";
+  EXPECT_LT(standing.decibel.weighted_rms_db, standing.modal.weighted_rms_db);
+  EXPECT_NEAR(standing.modal_misfit, 1.0, 0.25);
+  EXPECT_GT(standing.decibel_misfit, 1.5 * standing.modal_misfit);
+  EXPECT_NEAR(standing.share[0] + standing.share[1] + standing.share[2], 1.0, 1e-12);
 }
 
 }  // namespace

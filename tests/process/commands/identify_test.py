@@ -57,8 +57,9 @@ class Identify(CommandTest):
         self.run_amb("run", "--rig", "worn.yaml", "--scenario", "short.yaml", "--record", "c.lcm")
         # From the shipped rig's numbers: the session's own are the answer.
         done = self.run_amb("identify", "modal", "c.lcm", "--rig", "flexible_rotor", "--out",
-                            "identified.yaml", "--svg", "modal", "--json", "m.json")
+                            "identified.yaml", "--svg", "modal", "--json", "m.json", "--decibel-cost")
         self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertRegex(done.stdout, r"cost in decibels, weights 30 within 5 Hz of peaks")
         self.assertIn("was recorded with rig", done.stderr)
         self.assertIn("rig file -> identified", done.stdout)
         self.expect_stiffness_without_static_current(done.stdout)
@@ -78,6 +79,8 @@ class Identify(CommandTest):
                 self.assertLess(after, 1.5)
         for picture in ("bode", "campbell", "stabilisation"):
             self.assertIn("</svg>", (self.folder / f"modal_{picture}.svg").read_text())
+        for speed in found["decibel_cost"]["speeds"]:
+            self.assertLess(speed["of_this_fit"]["weighted_rms_db"], speed["of_modal_fit"]["weighted_rms_db"])
 
         for axis in found["axes"]:
             # 2 % is what is asked of a whole campaign; this one has a quarter of its data.

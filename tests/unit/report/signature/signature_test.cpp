@@ -34,8 +34,8 @@ const plant::PlantParameters& RigFor(const effect::Row& row) {
   return row.place == effect::Place::kGear ? geared : Rig();
 }
 
-/// The picture of an effect on the rig for it, drawn once: some need a second, many times that under a
-/// sanitizer.
+/// The picture of an effect on the rig for it, drawn once: some need a second, many times that
+/// under a sanitizer.
 const svg::Figure& PictureOf(const effect::Row& row) {
   static std::map<effect::Id, svg::Figure> drawn;
   const auto found = drawn.find(row.id);
