@@ -66,18 +66,21 @@ Verdict Commission(const CommissionOptions& options) {
       config::ParseController(header.controller_yaml, within, rig.numbers);
   SessionStatistics statistics(rig.numbers, controller.supervisor.sequence.standstill_rad_per_s,
                                kSettleAfterLiftS);
+  ProbeJumps jumps(rig, controller.supervisor.sequence.standstill_rad_per_s, kSettleAfterLiftS);
   cycle::CycleRecord record;
   bool excited = false;
   std::uint64_t first_cycle = 0;
   while (reader.Next(record)) {
     if (first_cycle == 0) first_cycle = record.in.cycle;
     statistics.Add(record);
+    jumps.Add(record);
     excited = excited || Any(record.in.op.excitation_a) || Any(record.in.op.excitation_m);
   }
 
   Inputs inputs;
   inputs.rig = rig.numbers;
   inputs.session = statistics.Figures();
+  inputs.probe_jumps = jumps.Found();
   analysis::SpeedSweep sweep = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
   inputs.sensitivity = std::move(sweep.speeds);
   inputs.worst_sensitivity = sweep.worst;

@@ -261,6 +261,19 @@ Object Blocks(const Inputs& in) {
   return blocks;
 }
 
+Object Jumps(const Inputs& in) {
+  Object jumps = Object::array();
+  for (const ProbeJump& jump : in.probe_jumps) {
+    jumps.push_back({{"axis", jump.channel},
+                     {"time_s", jump.time_s},
+                     {"step_m", jump.step_m},
+                     {"current_a", jump.current_a},
+                     {"moved_m", jump.moved_m},
+                     {"touches", jump.touches}});
+  }
+  return jumps;
+}
+
 Object TimeStep(const Inputs& in) {
   if (!in.step_error) return nullptr;
   const analysis::StepError& error = *in.step_error;
@@ -313,6 +326,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
           {"sensitivity_not_measured", in.measured ? in.measured->why_not : "no test signal"},
           {"reserve", Reserve(in)},
           {"synchronous_blocks", Blocks(in)},
+          {"probe_jumps", Jumps(in)},
           {"time_step", TimeStep(in)},
           {"orbit_over_speed", Profile(in)},
           {"modes", Modes(in)},

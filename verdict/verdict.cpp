@@ -147,6 +147,20 @@ std::string ReleaseSentence(const ReleaseFigures& release) {
       RadPerSToRpm(release.speed_rad_per_s), release.time_s);
 }
 
+std::string JumpSentence(const ProbeJump& jump) {
+  const std::string what = fmt::format("the probe of {} jumped by {:.1f} um at {:.3f} s",
+                                       jump.channel, Micrometres(jump.step_m), jump.time_s);
+  if (jump.touches) {
+    return what +
+           ": its reading less that is beyond the clearance, so that the rotor lies in its "
+           "touchdown bearing";
+  }
+  return fmt::format(
+      "{}: its static current moved by {:.3f} A, as holding the rotor {:.1f} um off its place "
+      "costs",
+      what, jump.current_a, Micrometres(std::abs(jump.moved_m)));
+}
+
 /// "standing 4.1 um (objective 7.0 um)" for the worst bearing of a phase, or that it was not run.
 std::string WorstOf(const std::vector<OrbitJudgement>& orbits, bool spinning) {
   const OrbitJudgement* worst = nullptr;
@@ -183,6 +197,7 @@ Verdict Judge(Inputs inputs) {
     AddObjection("the rotor was not levitated for longer than the settling time", objections);
   }
   if (inputs.session.release) AddObjection(ReleaseSentence(*inputs.session.release), objections);
+  for (const ProbeJump& jump : inputs.probe_jumps) AddObjection(JumpSentence(jump), objections);
   for (const OrbitJudgement& at : verdict.orbits) ObjectToOrbit(at, objections);
   for (const auto& result : inputs.sensitivity) ObjectToComputed(result, inputs, objections);
   if (inputs.measured) {

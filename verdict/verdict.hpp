@@ -6,7 +6,8 @@
 //              zone A or B of the clearance, every graded sensitivity peak in zone A or B. Where
 //              a peak was measured it counts instead of the one computed for that axis and speed.
 //              A run whose amplifiers went off while the rotor turned is never accepted, whatever
-//              its exit status and orbits were.
+//              its exit status and orbits were, nor one in which a probe jumped: its orbits are
+//              those of the readings.
 // Warned       measured and computed peak more than 20 % apart; a measured delay other than the
 //              files have.
 // Range        the speed up to which the run was shown, beside the rig's rated speed
@@ -25,6 +26,7 @@
 #include "common/rig_numbers.hpp"
 #include "verdict/block_use.hpp"
 #include "verdict/measure_sensitivity.hpp"
+#include "verdict/probe_jumps.hpp"
 #include "verdict/reserve.hpp"
 #include "verdict/session_statistics.hpp"
 #include "verdict/speed_range.hpp"
@@ -76,7 +78,8 @@ struct Inputs {
   std::optional<TimingFigures> timing;
   std::optional<RigFigures> rig_process;
   std::vector<BlockUse> blocks;  ///< of synchronous control
-  bool saves_bias{};             ///< the controller may lower the bias
+  std::vector<ProbeJump> probe_jumps;
+  bool saves_bias{};  ///< the controller may lower the bias
   Provenance provenance;
   std::string trip_text;          ///< the recorded sentence of the first trip, may be empty
   std::string incomplete_reason;  ///< why the scenario did not end by itself; empty: it did

@@ -83,6 +83,33 @@ TEST_F(RigsRunTest, ATimedFaultOfTheRigTripsTheController) {
   EXPECT_EQ(status, 0) << said;  // and all of it repeats, bit for bit
 }
 
+// A pair: the same run with a probe that jumps and with one that reads wrong for a moment. No limit of
+// a reading ends either; only the first leaves the rotor off its place.
+TEST_F(RigsRunTest, AProbeThatJumpsIsNamedByTheVerdictAndAGlitchIsNot) {
+  const auto jumps_of = [&](const std::string& duration) {
+    const std::string json = scratch_ / "verdict.json";
+    const std::string scenario = Scenario(
+        "  - {do: lift, until: levitating, timeout_s: 5, hold_s: 2.5}\n"
+        "  - {do: land, until: off, timeout_s: 5}\n"
+        "rig_events:\n"
+        "  - {at_s: 2, what: sensor_jump, channel: nde_y, value_um: 60" +
+        duration + "}\n");
+    AmbRun run(scratch_, "run", {"--scenario", scenario, "--json", json, "--overwrite"});
+    EXPECT_EQ(run.Status(), 0) << run.Said();
+    const auto verdict = nlohmann::json::parse(ReadAll(json));
+    const bool named = verdict["sentence"].get<std::string>().find("the probe of nde_y jumped") !=
+                       std::string::npos;
+    EXPECT_EQ(named, !verdict["probe_jumps"].empty());
+    return verdict["probe_jumps"];
+  };
+  const auto jumps = jumps_of("");
+  ASSERT_EQ(jumps.size(), 1U);
+  EXPECT_EQ(jumps[0]["axis"], "nde_y");
+  // Two flexible ends and a magnet that stiffens off its centre: within a fifth.
+  EXPECT_NEAR(jumps[0]["moved_m"].get<double>(), 60e-6, 12e-6);
+  EXPECT_TRUE(jumps_of(", duration_s: 0.001").empty());
+}
+
 // A pair: the same run with and without a load on the brake.
 TEST_F(RigsRunTest, ALoadStepTakesGearedShaftsFromTheirPlaces) {
   const std::string steps =
