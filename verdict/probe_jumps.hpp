@@ -2,9 +2,9 @@
 // Probes that jumped while the rotor was levitated: what a law follows and no limit of one reading
 // sees.
 //
-// Seen      a reading that moves in one cycle by more than a rotor can, a tenth of the clearance and
-//           eight times the rms of the steps so far. The law then moves the rotor until the reading
-//           is what it was, and where the rotor stands is no longer what the probe says.
+// Seen      a reading that moves in one cycle by more than a rotor can, a tenth of the clearance
+//           and eight times the rms of the steps so far. The law then moves the rotor until the
+//           reading is what it was, and where the rotor stands is no longer what the probe says.
 // Judged    by the static current that the new place costs. The magnets' static force is the same
 //           before and after, ki di + ks dx = 0, so that the probe has moved by
 //             d = dy - dx = dy + ki di / ks

@@ -60,7 +60,7 @@ std::vector<NamedPicture> Pictures(const Recording& recording, const PictureOpti
   const auto speeds =
       options.speeds_rad_per_s.empty() ? ChosenSpeeds(recording, points) : options.speeds_rad_per_s;
   for (auto group : {OrbitPictures(recording, speeds), RunUpPictures(recording, points),
-                     ClockPictures(recording)}) {
+                     ExcitationPictures(recording), ClockPictures(recording)}) {
     std::move(group.begin(), group.end(), std::back_inserter(pictures));
   }
   return pictures;

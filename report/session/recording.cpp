@@ -42,6 +42,24 @@ void Add(Recording& recording, const cycle::CycleRecord& record,
   }
 }
 
+/// The signals of a channel begin with zeros for the rows before the first of any.
+void AddExcitation(Recording& recording, const cycle::OperatorInput& op) {
+  const std::size_t channels = recording.rig.channels.size();
+  const auto acts = [channels](const AxisArray& signal) {
+    return std::any_of(signal.begin(), signal.begin() + static_cast<std::ptrdiff_t>(channels),
+                       [](double value) { return value != 0.0; });
+  };
+  if (recording.excitation.empty()) {
+    recording.excitation_at_reading = acts(op.excitation_m);
+    if (!recording.excitation_at_reading && !acts(op.excitation_a)) return;
+    recording.excitation.assign(channels, std::vector<float>(recording.size() - 1, 0.0F));
+  }
+  const AxisArray& signal = recording.excitation_at_reading ? op.excitation_m : op.excitation_a;
+  for (std::size_t i = 0; i < channels; ++i) {
+    recording.excitation[i].push_back(static_cast<float>(signal[i]));
+  }
+}
+
 }  // namespace
 
 double Recording::Radius(std::size_t bearing, std::size_t i) const {
@@ -75,7 +93,10 @@ Recording Load(const std::string& path) {
   while (reader.Next(record)) {
     // Numbers that go back (files put together) would make times without meaning.
     const bool forward = recording.cycle.empty() || record.in.cycle > recording.cycle.back();
-    if (forward) Add(recording, record, bearing);
+    if (!forward) continue;
+    const std::size_t rows = recording.size();
+    Add(recording, record, bearing);
+    if (recording.size() > rows) AddExcitation(recording, record.in.op);
   }
   recording.events = reader.events();
   recording.damage = reader.damage().Text();

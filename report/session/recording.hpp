@@ -2,7 +2,8 @@
 // A recorded session in memory, as its pictures need it.
 //
 // Frame    bearing frame: as session/record_frame.hpp gives it.
-// Units    SI; single precision (7 digits: 0.1 nm of 1 mm). About 50 bytes a cycle with four axes.
+// Units    SI; single precision (7 digits: 0.1 nm of 1 mm). About 50 bytes a cycle with four axes,
+//          66 with test signals.
 //          Left out cycles without a new sensor frame; a gap in `cycle` remains.
 // Thread   any; offline. Failure: BadInput when the session or its header cannot be read.
 
@@ -23,6 +24,10 @@ struct Recording {
   std::vector<std::uint64_t> cycle;
   std::vector<std::vector<float>> position_m;  ///< x, y per bearing; a guided y is 0
   std::vector<std::vector<float>> current_a;   ///< as that: commanded, excitation included
+  /// Per channel of the rig [A], or [m] where it is added to the reading; empty without a test
+  /// signal in the run.
+  std::vector<std::vector<float>> excitation;
+  bool excitation_at_reading{};
   std::vector<float> speed_rad_per_s;
   std::vector<float> angle_rad;
   std::vector<std::int64_t> sample_time_ns;

@@ -83,8 +83,8 @@ TEST_F(RigsRunTest, ATimedFaultOfTheRigTripsTheController) {
   EXPECT_EQ(status, 0) << said;  // and all of it repeats, bit for bit
 }
 
-// A pair: the same run with a probe that jumps and with one that reads wrong for a moment. No limit of
-// a reading ends either; only the first leaves the rotor off its place.
+// A pair: the same run with a probe that jumps and with one that reads wrong for a moment. No limit
+// of a reading ends either; only the first leaves the rotor off its place.
 TEST_F(RigsRunTest, AProbeThatJumpsIsNamedByTheVerdictAndAGlitchIsNot) {
   const auto jumps_of = [&](const std::string& duration) {
     const std::string json = scratch_ / "verdict.json";
