@@ -268,8 +268,9 @@ Object Jumps(const Inputs& in) {
                      {"time_s", jump.time_s},
                      {"step_m", jump.step_m},
                      {"current_a", jump.current_a},
-                     {"moved_m", jump.moved_m},
-                     {"touches", jump.touches}});
+                     {"moved_m", jump.moved_m ? Object(*jump.moved_m) : Object(nullptr)},
+                     {"touches", !jump.moved_m.has_value()},
+                     {"returns", jump.returns}});
   }
   return jumps;
 }

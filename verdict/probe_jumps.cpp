@@ -1,18 +1,29 @@
 #include "verdict/probe_jumps.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
-#include "plant_sim/plant/find_operating_point.hpp"
-#include "plant_sim/plant/plant_model.hpp"
+#include "plant_sim/plant/linear_model.hpp"
 
 namespace levitas::verdict {
 namespace {
 
 constexpr double kOfClearance = 0.1;
-constexpr double kOfSteps = 8.0;
-/// Cycles until a slow probe has shown the whole step, before the law has moved the rotor.
-constexpr std::uint64_t kSpread = 4;
+/// Until a slow probe has shown a whole step, before the law has moved the rotor.
+constexpr double kSpreadS = 0.4e-3;
+/// Slow for every mode of a rotor, and not zero: shafts may turn freely.
+constexpr double kNearlyStaticRadPerS = 1.0;
+
+Eigen::MatrixXd StaticResponse(const plant::PlantConfig& plant) {
+  const plant::LinearModel model = plant::Linearise(plant, 0.0);
+  Eigen::MatrixXcd dynamic = -model.a.cast<std::complex<double>>();
+  dynamic.diagonal().array() += std::complex<double>(0.0, kNearlyStaticRadPerS);
+  const Eigen::MatrixXcd states =
+      dynamic.partialPivLu().solve(model.b.cast<std::complex<double>>());
+  return model.c * states.real();
+}
 
 }  // namespace
 
@@ -20,16 +31,12 @@ ProbeJumps::ProbeJumps(const config::RigFile& rig, double standstill_rad_per_s, 
     : frame_(rig.numbers),
       channels_(rig.numbers.channels),
       period_s_(rig.numbers.period_s()),
-      splitter_(standstill_rad_per_s, Cycles(settle_s)) {
-  const plant::PlantModel model(plant::Reduce(rig.plant));
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    const plant::Slopes slopes = plant::SlopesAt(model, i / 2, {});
-    const auto own = static_cast<Eigen::Index>(i % 2);
-    Axis axis;
-    axis.ki_n_per_a = slopes.current(own, own);
-    axis.ks_n_per_m = slopes.displacement(own, own);
-    axis.clearance_m = rig.numbers.ClearanceOf(i / 2);
-    axes_.push_back(axis);
+      splitter_(standstill_rad_per_s, Cycles(settle_s - kBeforeS)),
+      place_per_current_m_per_a_(StaticResponse(rig.plant)),
+      axes_(channels_.size()) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    axes_[i].clearance_m = rig.numbers.ClearanceOf(i / 2);
+    axes_[i].limit_m = kOfClearance * axes_[i].clearance_m;
   }
 }
 
@@ -41,79 +48,113 @@ void ProbeJumps::Forget() noexcept {
   for (Axis& axis : axes_) {
     axis.earlier = axis.recent = {};
     axis.pending.reset();
+    axis.jumped_m = 0.0;
   }
 }
 
 void ProbeJumps::Add(const cycle::CycleRecord& record) {
   const std::uint64_t cycle = record.in.cycle;
-  if (first_cycle_ == 0) first_cycle_ = cycle;
+  if (!first_cycle_) first_cycle_ = cycle;
   const Phase phase = splitter_.Next(cycle, record.out.mode, record.in.frame.speed_rad_per_s);
-  const bool follows = judged_ && cycle == last_cycle_ + 1;
-  last_cycle_ = cycle;
-  judged_ = phase != Phase::kNotJudged && record.in.frame_present;
   if (phase == Phase::kNotJudged) Forget();
-  if (!judged_) return;
+  if (phase == Phase::kNotJudged || !record.in.frame_present) {
+    previous_.reset();
+    return;
+  }
+  const bool follows = previous_ && cycle == *previous_ + 1;
+  previous_ = cycle;
   const session::AxisSample sample = frame_.Bearing(record);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double reading_m = sample.position_m[i];
     if (!std::isfinite(reading_m)) {
-      axes_[i].pending.reset();
+      previous_.reset();
       continue;
     }
-    Look(axes_[i], reading_m, cycle, follows);
-    Measure(axes_[i], i, reading_m, sample.current_a[i], cycle);
+    if (follows) AddStep(axes_[i], reading_m, cycle);
+    AddMeans(i, reading_m, sample.current_a, cycle);
     axes_[i].last_m = reading_m;
   }
 }
 
-void ProbeJumps::Look(Axis& axis, double reading_m, std::uint64_t cycle, bool follows) {
-  if (!follows) return;
+void ProbeJumps::AddStep(Axis& axis, double reading_m, std::uint64_t cycle) {
   const double step_m = reading_m - axis.last_m;
   const double usual_m2 = axis.steps > 0 ? axis.square_m2 / static_cast<double>(axis.steps) : 0.0;
-  const double limit_m = std::max(kOfClearance * axis.clearance_m, kOfSteps * std::sqrt(usual_m2));
-  if (std::abs(step_m) <= limit_m) {
+  const double limit_m = std::max(axis.limit_m, kOfSteps * std::sqrt(usual_m2));
+  const bool large = std::abs(step_m) > limit_m;
+  if (!large) {
     axis.square_m2 += step_m * step_m;
     ++axis.steps;
+  }
+  if (!axis.pending) {
+    if (large && axis.earlier.cycles > 0)
+      axis.pending = Pending{cycle, cycle, step_m, axis.earlier, {}};
     return;
   }
-  if (!axis.pending && axis.earlier.cycles > 0) {
-    axis.pending = Pending{cycle, axis.last_m, step_m, axis.earlier, {}};
+  Pending& pending = *axis.pending;
+  if (large) {
+    pending.last = cycle;
+    pending.after = {};
+  }
+  if (cycle < pending.last + std::max<std::uint64_t>(1, Cycles(kSpreadS))) {
+    if (cycle > pending.first) pending.step_m += step_m;
+  } else if (std::abs(pending.step_m) < limit_m) {
+    axis.earlier = pending.before;  // it is what it was
+    axis.recent = {};
+    axis.pending.reset();
   }
 }
 
-void ProbeJumps::Measure(Axis& axis, std::size_t at, double reading_m, double current_a,
-                         std::uint64_t cycle) {
+void ProbeJumps::Average(Mean& mean, double reading_m, const AxisArray& current_a) const noexcept {
+  const double share = 1.0 / static_cast<double>(++mean.cycles);
+  mean.reading_m += share * (reading_m - mean.reading_m);
+  for (std::size_t j = 0; j < axes_.size(); ++j)
+    mean.current_a[j] += share * (current_a[j] - mean.current_a[j]);
+}
+
+void ProbeJumps::AddMeans(std::size_t at, double reading_m, const AxisArray& current_a,
+                          std::uint64_t cycle) {
+  Axis& axis = axes_[at];
   const std::uint64_t window = Cycles(kBeforeS);
-  const auto add = [&](Mean& to) {
-    const double share = 1.0 / static_cast<double>(++to.cycles);
-    to.reading_m += share * (reading_m - to.reading_m);
-    to.current_a += share * (current_a - to.current_a);
-  };
   if (!axis.pending) {
-    add(axis.recent);
+    Average(axis.recent, reading_m, current_a);
     if (axis.recent.cycles < window) return;
     axis.earlier = axis.recent;
     axis.recent = {};
     return;
   }
-  Pending& step = *axis.pending;
-  if (cycle < step.cycle + kSpread) step.step_m = reading_m - step.from_m;
-  if (cycle < step.cycle + Cycles(kSettleS)) return;
-  add(step.after);
-  if (step.after.cycles < window) return;
-  const double current_step_a = step.after.current_a - step.before.current_a;
-  const double moved_m = step.after.reading_m - step.before.reading_m +
-                         axis.ki_n_per_a * current_step_a / axis.ks_n_per_m;
-  const bool held =
-      axis.ks_n_per_m > 0.0 && std::abs(moved_m - step.step_m) < kAgree * std::abs(step.step_m);
-  const bool touches =
-      !held && std::abs(step.after.reading_m - step.step_m) > kInContact * axis.clearance_m;
-  if (held || touches) {
-    found_.push_back({channels_[at], static_cast<double>(step.cycle - first_cycle_) * period_s_,
-                      step.step_m, current_step_a, held ? moved_m : step.step_m, touches});
-  }
-  axis.earlier = axis.recent = {};
+  if (cycle < axis.pending->last + Cycles(kSettleS)) return;
+  Average(axis.pending->after, reading_m, current_a);
+  if (axis.pending->after.cycles < window) return;
+  Judge(at);
+  axis.earlier = axis.pending->after;
+  axis.recent = {};
   axis.pending.reset();
+}
+
+void ProbeJumps::Judge(std::size_t at) {
+  Axis& axis = axes_[at];
+  const Pending& p = *axis.pending;
+  double placed_m = 0.0;
+  for (std::size_t j = 0; j < axes_.size(); ++j) {
+    placed_m +=
+        place_per_current_m_per_a_(static_cast<Eigen::Index>(at), static_cast<Eigen::Index>(j)) *
+        (p.after.current_a[j] - p.before.current_a[j]);
+  }
+  const double moved_m = p.after.reading_m - p.before.reading_m - placed_m;
+  const double agree_m = kAgree * std::abs(p.step_m);
+  const bool jumped = std::abs(moved_m - p.step_m) < agree_m;
+  const bool touches = !jumped && std::abs(p.after.reading_m - axis.jumped_m - p.step_m) >
+                                      kInContact * axis.clearance_m;
+  if (!jumped && !touches) return;
+  ProbeJump found{.channel = channels_[at],
+                  .time_s = static_cast<double>(p.first - *first_cycle_) * period_s_,
+                  .step_m = p.step_m,
+                  .current_a = p.after.current_a[at] - p.before.current_a[at],
+                  .moved_m = {},
+                  .returns = std::abs(axis.jumped_m + p.step_m) < agree_m};
+  if (jumped) found.moved_m = moved_m;
+  axis.jumped_m += p.step_m;
+  found_.push_back(found);
 }
 
 }  // namespace levitas::verdict

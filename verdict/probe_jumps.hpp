@@ -3,22 +3,26 @@
 // sees.
 //
 // Seen      a reading that moves in one cycle by more than a rotor can, a tenth of the clearance
-//           and eight times the rms of the steps so far. The law then moves the rotor until the
+//           and kOfSteps times the rms of the steps so far. The law then moves the rotor until the
 //           reading is what it was, and where the rotor stands is no longer what the probe says.
-// Judged    by the static current that the new place costs. The magnets' static force is the same
-//           before and after, ki di + ks dx = 0, so that the probe has moved by
-//             d = dy - dx = dy + ki di / ks
-//           with dy and di the change of mean reading and mean current: kBeforeS before the step,
-//           and as long after kSettleS. Where d is the step within kAgree, the probe jumped. A
-//           reading that was wrong for some cycles leaves d near zero and is none.
-// Touching  where the mean reading less the step lies beyond kInContact of the clearance instead,
-//           the rotor lies in its touchdown bearing, which carries what the magnets do not.
-// Model     ki and ks of the rig file at the centre, one axis by itself: probes are near their
-//           magnets, and kAgree is wide.
-// Not seen  probes that drift; jumps below the limit, or with less than kSettleS + kBeforeS to go;
-//           rigs whose magnets have no negative stiffness.
-// Units     SI, bearing frame. Thread: one; offline.
+//           Steps that follow one another are summed; a reading that steps back was wrong for a
+//           while, and is no jump.
+// Judged    by the currents that the new place costs. At rest the rotor moves by P di, with P the
+//           plant from the currents to the places at the sensors at frequency zero and di the
+//           change of all mean currents, so that the probe has moved by
+//             d = dy - (P di)_axis
+//           with dy the change of the mean reading: kBeforeS before the step, and as long after
+//           kSettleS. Where d is the step within kAgree, the probe jumped. On a free rotor with
+//           magnets of negative stiffness P is -ki/ks of an axis, with springs far less.
+// Touching  where the rotor would stand beyond kInContact of the clearance by its reading less the
+//           step, it lies in its touchdown bearing, which carries what the magnets do not.
+// Model     P of the rig file about its centre at standstill: kAgree is wide for that.
+// Not seen  probes that drift; jumps below the limit; what lasts less than kSettleS + kBeforeS, or
+//           begins less than kBeforeS after the settling time; a load that comes within that time
+//           of a jump, or of a reading that is wrong for good.
+// Units     SI, bearing frame. Thread: one; offline, allocates when made.
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,11 +37,11 @@ namespace levitas::verdict {
 
 struct ProbeJump {
   std::string channel;
-  double time_s{};     ///< since the first record
-  double step_m{};     ///< of the reading
-  double current_a{};  ///< change of the mean current
-  double moved_m{};    ///< d, by the currents; where it touches, the step
-  bool touches{};
+  double time_s{};                ///< of the first step, since the first record
+  double step_m{};                ///< of the reading
+  double current_a{};             ///< change of the axis' mean current
+  std::optional<double> moved_m;  ///< d, by the currents; empty: the rotor touches
+  bool returns{};                 ///< takes back the jumps of this probe that were found before
 };
 
 class ProbeJumps {
@@ -46,47 +50,53 @@ class ProbeJumps {
   static constexpr double kSettleS = 0.4;
   static constexpr double kAgree = 0.4;      // [1] of the step
   static constexpr double kInContact = 0.9;  // [1] of the clearance
+  static constexpr double kOfSteps = 8.0;    // chosen: normal noise reaches it once in 1e15 cycles
 
   /// `standstill_rad_per_s`, `settle_s`: as for SessionStatistics.
   ProbeJumps(const config::RigFile& rig, double standstill_rad_per_s, double settle_s);
 
   /// Call once per record, in order.
   void Add(const cycle::CycleRecord& record);
-  /// By time.
+  /// By the time at which they were found.
   [[nodiscard]] const std::vector<ProbeJump>& Found() const noexcept { return found_; }
 
  private:
   struct Mean {
-    double reading_m{}, current_a{};
+    double reading_m{};
+    AxisArray current_a{};
     std::uint64_t cycles{};
   };
-  /// A step whose cost is being measured.
+  /// Steps whose cost is being measured.
   struct Pending {
-    std::uint64_t cycle{};
-    double from_m{}, step_m{};
+    std::uint64_t first{}, last{};  ///< cycles of the first and of the last step
+    double step_m{};
     Mean before, after;
   };
   struct Axis {
-    double ki_n_per_a{}, ks_n_per_m{}, clearance_m{};
+    double limit_m{}, clearance_m{};
     double last_m{}, square_m2{};
     std::uint64_t steps{};
     Mean earlier, recent;  ///< of the last full window, of the one that fills
     std::optional<Pending> pending;
+    double jumped_m{};  ///< sum of what was found
   };
 
   void Forget() noexcept;
-  void Look(Axis& axis, double reading_m, std::uint64_t cycle, bool follows);
-  void Measure(Axis& axis, std::size_t at, double reading_m, double current_a, std::uint64_t cycle);
+  void AddStep(Axis& axis, double reading_m, std::uint64_t cycle);
+  void AddMeans(std::size_t axis, double reading_m, const AxisArray& current_a,
+                std::uint64_t cycle);
+  void Judge(std::size_t axis);
+  void Average(Mean& mean, double reading_m, const AxisArray& current_a) const noexcept;
   [[nodiscard]] std::uint64_t Cycles(double time_s) const noexcept;
 
   session::RecordFrame frame_;
   std::vector<std::string> channels_;
   double period_s_;
   PhaseSplitter splitter_;
+  Eigen::MatrixXd place_per_current_m_per_a_;  ///< P
   std::vector<Axis> axes_;
   std::vector<ProbeJump> found_;
-  std::uint64_t first_cycle_{}, last_cycle_{};
-  bool judged_{false};  ///< the record before was
+  std::optional<std::uint64_t> first_cycle_, previous_;  ///< of all, of one with readings
 };
 
 }  // namespace levitas::verdict

@@ -148,17 +148,17 @@ std::string ReleaseSentence(const ReleaseFigures& release) {
 }
 
 std::string JumpSentence(const ProbeJump& jump) {
-  const std::string what = fmt::format("the probe of {} jumped by {:.1f} um at {:.3f} s",
-                                       jump.channel, Micrometres(jump.step_m), jump.time_s);
-  if (jump.touches) {
+  const std::string what =
+      fmt::format("the probe of {} jumped {} {:.1f} um at {:.3f} s", jump.channel,
+                  jump.returns ? "back by" : "by", Micrometres(jump.step_m), jump.time_s);
+  if (!jump.moved_m) {
     return what +
            ": its reading less that is beyond the clearance, so that the rotor lies in its "
            "touchdown bearing";
   }
   return fmt::format(
-      "{}: its static current moved by {:.3f} A, as holding the rotor {:.1f} um off its place "
-      "costs",
-      what, jump.current_a, Micrometres(std::abs(jump.moved_m)));
+      "{}: its static current moved by {:.3f} A, as shifting the rotor by {:.1f} um costs", what,
+      jump.current_a, Micrometres(std::abs(*jump.moved_m)));
 }
 
 /// "standing 4.1 um (objective 7.0 um)" for the worst bearing of a phase, or that it was not run.

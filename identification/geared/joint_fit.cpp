@@ -75,13 +75,8 @@ std::vector<Group> GroupsOf(const std::vector<GearedLine>& lines, bool torsion) 
 
 using PerForce = std::vector<Complex>;
 
-/// What the torsion of these parameters makes of a force on the group's lines. It does not depend
-/// on the readings, and a factorisation costs as much as a dozen residuals.
-PerForce PerForceOf(const Group& group, const GearedParameters& p) {
-  return TwistPerForceOn(group, p.corrected.torsion);
-}
-
-/// Residuals of both equations of every line of the group [N]; linear in the readings.
+/// Residuals of both equations of every line of the group [N]; linear in the readings. `per_force`:
+/// TwistPerForceOn of the group, which does not depend on readings and costs a dozen residuals.
 Eigen::VectorXd Residual(const Group& group, const GearedParameters& p, const PerForce& per_force) {
   std::vector<Complex> force;
   Eigen::VectorXd residual(kEquations * static_cast<Index>(group.size()));
@@ -129,7 +124,7 @@ struct Whitened {
 };
 
 Whitened Whiten(const Group& group, const GearedParameters& p) {
-  PerForce per_force = PerForceOf(group, p);
+  PerForce per_force = TwistPerForceOn(group, p.corrected.torsion);
   const Eigen::VectorXd residual = Residual(group, p, per_force);
   const auto numbers = kReadings * static_cast<Index>(group.size());
   Eigen::MatrixXd by_noise(residual.size(), numbers);
@@ -179,6 +174,7 @@ struct Sides {
   bool torsion;  ///< that unknown is one of torsion
 };
 
+/// Of the numbers of torsion that JointUnknowns corrects.
 bool SameTorsion(const GearedParameters& a, const GearedParameters& b) {
   if (!a.corrected.torsion) return true;
   return a.corrected.torsion->frequency_rad_per_s == b.corrected.torsion->frequency_rad_per_s &&
@@ -188,7 +184,9 @@ bool SameTorsion(const GearedParameters& a, const GearedParameters& b) {
 /// Of the explained lines by the unknown of these sides.
 Eigen::VectorXd SlopeOf(const Whitened& w, const Sides& sides) {
   const auto at = [&w, &sides](const GearedParameters& p) {
-    return Residual(w.explained, p, sides.torsion ? PerForceOf(w.explained, p) : w.per_force);
+    return Residual(
+        w.explained, p,
+        sides.torsion ? TwistPerForceOn(w.explained, p.corrected.torsion) : w.per_force);
   };
   return (at(sides.more) - at(sides.less)) / (2.0 * kStep);
 }

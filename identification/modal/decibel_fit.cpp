@@ -22,23 +22,24 @@ double Standing(double speed_rad_per_s) {
   return std::abs(speed_rad_per_s) < 1.0 ? 0.0 : speed_rad_per_s;
 }
 
-std::vector<Eigen::MatrixXd> SizeOfModel(const ModalFrame& frame, const Physical& rig,
+/// The rig by itself, as the cost in decibels has it: without the magnets' working gains.
+std::vector<Eigen::MatrixXcd> PlainModel(const ModalFrame& frame, const Physical& rig,
                                          const FrequencyResponse& response) {
-  std::vector<Eigen::MatrixXd> size;
-  size.reserve(response.frequency_hz.size());
+  std::vector<Eigen::MatrixXcd> lines;
+  lines.reserve(response.frequency_hz.size());
   const double speed = Standing(response.speed_rad_per_s);
-  for (const double f : response.frequency_hz)
-    size.emplace_back(ModalResponse(frame, rig, f, speed).cwiseAbs());
-  return size;
+  for (const double f : response.frequency_hz) lines.push_back(ModalResponse(frame, rig, f, speed));
+  return lines;
 }
 
 /// Frequencies at which an entry of the model is larger, or smaller, than on both lines beside.
-std::vector<double> ExtremesHz(const std::vector<Eigen::MatrixXd>& size,
+std::vector<double> ExtremesHz(const std::vector<Eigen::MatrixXcd>& model,
                                const std::vector<double>& frequency_hz, Index i, Index j) {
   std::vector<double> found;
-  for (std::size_t k = 1; k + 1 < size.size(); ++k) {
-    const double rise = size[k](i, j) - size[k - 1](i, j);
-    const double fall = size[k + 1](i, j) - size[k](i, j);
+  const auto size = [&](std::size_t k) { return std::norm(model[k](i, j)); };
+  for (std::size_t k = 1; k + 1 < model.size(); ++k) {
+    const double rise = size(k) - size(k - 1);
+    const double fall = size(k + 1) - size(k);
     if (rise * fall < 0.0) found.push_back(frequency_hz[k]);
   }
   return found;
@@ -80,18 +81,19 @@ struct Judged {
   Sums share;
 };
 
-Judged Judge(const ModalFrame& frame, const Physical& rig, const FrequencyResponse& response,
+using Lines = std::vector<Eigen::MatrixXcd>;
+
+Judged Judge(const Lines& model, const FrequencyResponse& response,
              const std::vector<Eigen::MatrixXd>& weights) {
-  const std::vector<Eigen::MatrixXd> size = SizeOfModel(frame, rig, response);
   Sums squares{};
   Sums counts{};
-  for (std::size_t k = 0; k < size.size(); ++k) {
+  for (std::size_t k = 0; k < model.size(); ++k) {
     for (Index e = 0; e < weights[k].size(); ++e) {
       const double weight = weights[k].data()[e];
       if (weight == 0.0) continue;
       const std::size_t region = RegionOfWeight(weight);
       const double off_db =
-          20.0 * std::log10(size[k].data()[e] / std::abs(response.plant[k].data()[e]));
+          10.0 * std::log10(std::norm(model[k].data()[e]) / std::norm(response.plant[k].data()[e]));
       squares[region] += off_db * off_db;
       counts[region] += 1.0;
     }
@@ -111,7 +113,7 @@ std::size_t FreeIn(const ModalFit& fit) {
 std::vector<Eigen::MatrixXd> DecibelWeights(const ModalFrame& frame, const Physical& rig,
                                             const FrequencyResponse& response,
                                             const ModalFitOptions& options) {
-  const std::vector<Eigen::MatrixXd> size = SizeOfModel(frame, rig, response);
+  const auto model = PlainModel(frame, rig, response);
   const std::vector<double>& f = response.frequency_hz;
   const double least_hz =
       std::max(options.lowest_hz, std::abs(Standing(response.speed_rad_per_s)) / kTwoPi);
@@ -119,7 +121,7 @@ std::vector<Eigen::MatrixXd> DecibelWeights(const ModalFrame& frame, const Physi
   std::vector<Eigen::MatrixXd> weights(f.size(), Eigen::MatrixXd::Zero(axes, axes));
   for (Index j = 0; j < axes; ++j) {
     for (Index i = j % 2; i < axes; i += 2) {
-      const std::vector<double> extremes_hz = ExtremesHz(size, f, i, j);
+      const std::vector<double> extremes_hz = ExtremesHz(model, f, i, j);
       for (std::size_t k = 0; k < f.size(); ++k) {
         if (f[k] < least_hz || f[k] > options.highest_hz) continue;
         const auto region = static_cast<std::size_t>(RegionOf(response, k, i, j, extremes_hz));
@@ -153,13 +155,14 @@ DecibelFit FitDecibels(const ModalResult& modal, const std::vector<FrequencyResp
   }
   found.rig = ToPhysical(frame, fit.vector);
   for (std::size_t n = 0; n < fitted.size(); ++n) {
-    const Judged own = Judge(frame, found.rig, *fitted[n], weights[n]);
-    const Judged other = Judge(frame, modal.rig, *fitted[n], weights[n]);
-    const auto misfit = [&](const Eigen::VectorXd& vector) {
-      return Misfit(*fitted[n], ModelOn(modal.start, vector, *fitted[n]), modal.options);
-    };
-    found.speeds.push_back({fitted[n]->speed_rad_per_s, own.share, other.left, own.left,
-                            misfit(modal.fit.vector), misfit(fit.vector)});
+    // Each by the model that it was fitted with.
+    const auto modal_lines = ModelOn(modal.start, modal.fit.vector, *fitted[n]);
+    const auto own_lines = PlainModel(frame, found.rig, *fitted[n]);
+    const Judged own = Judge(own_lines, *fitted[n], weights[n]);
+    found.speeds.push_back({fitted[n]->speed_rad_per_s, own.share,
+                            Judge(modal_lines, *fitted[n], weights[n]).left, own.left,
+                            Misfit(*fitted[n], modal_lines, modal.options),
+                            Misfit(*fitted[n], own_lines, modal.options)});
   }
   return found;
 }

@@ -9,11 +9,14 @@
 //           There the user marks them by eye; here peaks and valleys are those of the fitted model,
 //           and noise rules where its deviation exceeds a third of the reading, marks or not.
 // Order     standing first; then the gyroscopic matrix alone from the fastest response, without
-//           lines below one per turn, as there. From the optimum of the modal fit on: the search
-//           from elsewhere could only end higher.
+//           lines below one per turn, as there. From the optimum of the modal fit on; other starts
+//           are not tried.
 // Prior     that of the modal fit, a few out of some ten thousand squares: without it bearing
 //           constants have no value.
-// Thread    any; uses `threads` of the options. Needs the responses of the modal fit.
+// Judged    each by the model that it was fitted with: the modal fit with the magnets' working
+//           gains (working_gains.hpp), the other without.
+// Thread    any; uses `threads` of the options. Needs the responses of the modal fit in their
+//           order: standing first, the fastest last.
 
 #include <Eigen/Core>
 #include <array>

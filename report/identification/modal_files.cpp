@@ -144,7 +144,7 @@ Json DecibelJson(const ModalResult& r, const DecibelFit& fit) {
                               {"around_extremes_percent", 100.0 * s.share[0]},
                               {"noisy_percent", 100.0 * s.share[1]},
                               {"of_modal_fit", left(s.modal, s.modal_misfit)},
-                              {"of_this_fit", left(s.decibel, s.decibel_misfit)}});
+                              {"of_decibel_fit", left(s.decibel, s.decibel_misfit)}});
   }
   for (Eigen::Index i = 2; i < 2 + r.start.frame.layout.bending; ++i) {
     json["modes"].push_back({{"frequency_hz", fit.rig.frequency_rad_per_s[i] / kTwoPi},

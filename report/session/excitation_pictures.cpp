@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "report/session/pictures.hpp"
 
@@ -11,6 +13,7 @@ namespace levitas::report {
 namespace {
 
 constexpr std::size_t kPoints = 200;
+constexpr double kGapS = 0.05;
 constexpr int kLags = 20;  ///< points, on either side
 /// Points that the correlation is of: those of a published identification of a pump, twice.
 constexpr std::size_t kCorrelated = 16'000;
@@ -21,38 +24,52 @@ struct Signal {
   std::size_t hold{1};          ///< rows of one point, which a binary sequence holds
 };
 
-std::vector<Signal> Signals(const Recording& r) {
+/// Rows of one point: the shortest time for which a value is held.
+std::size_t HoldOf(const std::vector<float>& values, std::size_t first, std::size_t last) {
+  std::size_t since = first;
+  std::size_t shortest = last - first + 1;
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    if (values[i] == values[i - 1]) continue;
+    shortest = std::min(shortest, i - since);
+    since = i;
+  }
+  return std::max<std::size_t>(shortest, 1);
+}
+
+/// Signals of a channel in turn: what is zero for kGapS lies between two of them.
+std::vector<Signal> SignalsOf(const Recording& r, std::size_t channel) {
+  const std::vector<float>& values = r.excitation[channel];
+  const auto gap = static_cast<std::size_t>(std::lround(kGapS / r.rig.period_s()));
   std::vector<Signal> found;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] == 0.0F) continue;
+    if (found.empty() || i - found.back().last > gap) found.push_back({channel, i, i, 1});
+    found.back().last = i;
+  }
+  for (Signal& signal : found) signal.hold = HoldOf(values, signal.first, signal.last);
+  return found;
+}
+
+std::vector<std::vector<Signal>> Signals(const Recording& r) {
+  std::vector<std::vector<Signal>> found;
   for (std::size_t channel = 0; channel < r.excitation.size(); ++channel) {
-    const std::vector<float>& values = r.excitation[channel];
-    const auto acts = [](float value) { return value != 0.0F; };
-    const auto first = std::ranges::find_if(values, acts);
-    if (first == values.end()) continue;
-    const auto last = std::find_if(values.rbegin(), values.rend(), acts).base() - 1;
-    Signal signal{channel, static_cast<std::size_t>(first - values.begin()),
-                  static_cast<std::size_t>(last - values.begin())};
-    std::size_t since = signal.first;
-    std::size_t shortest = signal.last - signal.first + 1;
-    for (std::size_t i = signal.first + 1; i <= signal.last; ++i) {
-      if (values[i] == values[i - 1]) continue;
-      shortest = std::min(shortest, i - since);
-      since = i;
-    }
-    signal.hold = std::max<std::size_t>(shortest, 1);
-    found.push_back(signal);
+    auto own = SignalsOf(r, channel);
+    if (!own.empty()) found.push_back(std::move(own));
   }
   return found;
 }
 
-/// Channels of the rig; an axis that the rig does not have is no signal's.
 std::string NameOf(const Recording& r, std::size_t channel) { return r.rig.channels.at(channel); }
 
-NamedPicture Beginnings(const Recording& r, const std::vector<Signal>& signals) {
+NamedPicture Beginnings(const Recording& r, const std::vector<std::vector<Signal>>& signals) {
   const double to_unit = r.excitation_at_reading ? kUm : 1.0;
-  const std::string where = r.excitation_at_reading ? "added to the reading" : "added";
+  const std::string where = r.excitation_at_reading ? "at the reading" : "at the current";
   NamedPicture picture{
-      "test_signals", fmt::format("The first {} points of each test signal.", kPoints), {}};
-  for (const Signal& signal : signals) {
+      "test_signals",
+      fmt::format("The first test signal of each axis, its first {} points.", kPoints),
+      {}};
+  for (const std::vector<Signal>& own : signals) {
+    const Signal& signal = own.front();
     svg::Series series{.colour = svg::Colour(0)};
     const std::size_t end = std::min(signal.first + kPoints * signal.hold, signal.last + 1);
     // A value is held until the next: two ends of each step are drawn.
@@ -67,8 +84,8 @@ NamedPicture Beginnings(const Recording& r, const std::vector<Signal>& signals) 
       series.x.push_back(from_ms);
       series.y.push_back(value);
     }
-    svg::Panel panel{fmt::format("{}, {} from {:.3f} s on, a point every {:g} ms",
-                                 NameOf(r, signal.channel), where, r.TimeOf(signal.first),
+    svg::Panel panel{fmt::format("{} {}, from {:.3f} s, {:g} ms a point", NameOf(r, signal.channel),
+                                 where, r.TimeOf(signal.first),
                                  1e3 * r.rig.period_s() * static_cast<double>(signal.hold)),
                      "time since it began, ms",
                      r.excitation_at_reading ? "signal, µm" : "signal, A"};
@@ -120,35 +137,49 @@ double Coefficient(const Both& both, int lag) {
   return sum / both.size;
 }
 
-std::vector<NamedPicture> Correlations(const Recording& r, const std::vector<Signal>& signals) {
-  svg::Panel panel{"correlation of test signals that act at one time", "lag, points",
-                   "coefficient"};
+/// The first two signals of two channels that act at one time for long enough; empty: none do.
+std::optional<Both> Together(const Recording& r, const std::vector<Signal>& some,
+                             const std::vector<Signal>& others) {
+  for (const Signal& one : some) {
+    for (const Signal& other : others) {
+      Both both = Points(r, one, other);
+      if (both.a.size() > static_cast<std::size_t>(2 * kLags) && both.size > 0.0) return both;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<NamedPicture> Correlations(const Recording& r,
+                                       const std::vector<std::vector<Signal>>& signals) {
+  svg::Panel panel{"correlation of test signals that act at one time",
+                   "lag, points of the slower one", "coefficient"};
   std::size_t colour = 0;
   for (std::size_t i = 0; i < signals.size(); ++i) {
     for (std::size_t j = i + 1; j < signals.size(); ++j) {
-      const Both both = Points(r, signals[i], signals[j]);
-      if (both.a.size() <= static_cast<std::size_t>(2 * kLags) || both.size <= 0.0) continue;
-      svg::Series series{.name = fmt::format("{} with {}", NameOf(r, signals[i].channel),
-                                             NameOf(r, signals[j].channel)),
+      const auto both = Together(r, signals[i], signals[j]);
+      if (!both) continue;
+      svg::Series series{.name = fmt::format("{} with {}", NameOf(r, signals[i].front().channel),
+                                             NameOf(r, signals[j].front().channel)),
                          .colour = svg::Colour(colour++)};
       for (int lag = -kLags; lag <= kLags; ++lag) {
         series.x.push_back(lag);
-        series.y.push_back(Coefficient(both, lag));
+        series.y.push_back(Coefficient(*both, lag));
       }
       panel.series.push_back(std::move(series));
     }
   }
   if (panel.series.empty()) return {};
   panel.y_range = svg::Range{-1.0, 1.0};
-  return {{"test_signal_correlation",
-           "Near zero, an identification can tell what each signal alone does.",
-           Wide(std::move(panel))}};
+  return {
+      {"test_signal_correlation",
+       "Near zero the signals are uncorrelated, as an identification of all axes at once needs.",
+       Wide(std::move(panel))}};
 }
 
 }  // namespace
 
 std::vector<NamedPicture> ExcitationPictures(const Recording& recording) {
-  const std::vector<Signal> signals = Signals(recording);
+  const auto signals = Signals(recording);
   if (signals.empty()) return {};
   std::vector<NamedPicture> pictures{Beginnings(recording, signals)};
   for (NamedPicture& picture : Correlations(recording, signals))

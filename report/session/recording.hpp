@@ -24,8 +24,8 @@ struct Recording {
   std::vector<std::uint64_t> cycle;
   std::vector<std::vector<float>> position_m;  ///< x, y per bearing; a guided y is 0
   std::vector<std::vector<float>> current_a;   ///< as that: commanded, excitation included
-  /// Per channel of the rig [A], or [m] where it is added to the reading; empty without a test
-  /// signal in the run.
+  /// Test signals per channel of the rig, of the kind that the run has first: at the current [A] or
+  /// at the reading [m]. Empty without any.
   std::vector<std::vector<float>> excitation;
   bool excitation_at_reading{};
   std::vector<float> speed_rad_per_s;

@@ -19,7 +19,7 @@ void PrintRow(const std::string& of, double modal, double decibel, const char* f
 }
 
 const char* Ended(const DecibelStage& stage) {
-  return stage.converged || stage.unknowns == 0 ? "" : " (it still creeps at its iteration limit)";
+  return stage.converged || stage.unknowns == 0 ? "" : " (not converged)";
 }
 
 void PrintSpeed(const DecibelSpeed& s) {
@@ -28,7 +28,7 @@ void PrintSpeed(const DecibelSpeed& s) {
   constexpr std::array<const char*, kDecibelRegions> kNames{"around peaks and valleys",
                                                             "where noise rules", "elsewhere"};
   for (std::size_t r = 0; r < kDecibelRegions; ++r) {
-    PrintRow(fmt::format("{}, {:.0f} % of it, rms dB", kNames[r], 100.0 * s.share[r]),
+    PrintRow(fmt::format("{}, {:.0f} % of the entries, rms dB", kNames[r], 100.0 * s.share[r]),
              s.modal.rms_db[r], s.decibel.rms_db[r], "{:.4f}");
   }
   PrintRow("misfit, as above", s.modal_misfit, s.decibel_misfit, "{:.3f}");
@@ -42,8 +42,10 @@ void PrintDecibelFit(const ModalResult& modal, const DecibelFit& fit) {
       "{:g} elsewhere\n"
       "{} unknowns standing{}, then {} of the gyroscopic matrix{}\n{:>60}{:>12}\n",
       kDecibelWeights[0], kDecibelWeights[1], kDecibelWeights[2], fit.standing.unknowns,
-      Ended(fit.standing), fit.gyroscopic.unknowns, Ended(fit.gyroscopic), "this fit", "that cost");
+      Ended(fit.standing), fit.gyroscopic.unknowns, Ended(fit.gyroscopic), "modal fit",
+      "decibel fit");
   for (const DecibelSpeed& speed : fit.speeds) PrintSpeed(speed);
+  fmt::print("  free rotor at rest\n");
   for (Eigen::Index i = 2; i < 2 + modal.start.frame.layout.bending; ++i) {
     const auto mode = static_cast<std::size_t>(i - 2);
     if (modal.support[mode].support != Support::kShown) continue;

@@ -90,8 +90,8 @@ TEST(Campaign, ModalFitFindsFrequenciesAndDampingFromAWrongRigFile) {
   EXPECT_NEAR(result.fit.reduced_chi_square, 1.0, 0.25);
 }
 
-// Each fit is best by its own cost; that in decibels leaves more than the noise, since half of its
-// weight is on lines that say little.
+// Each fit is best by its own cost; of that in decibels nearly all weight is on the few marked
+// lines, and what the others know is left.
 TEST(Campaign, TheCostInDecibelsFollowsItsMarksAndLeavesWhatTheNoiseDoesNotExplain) {
   const DecibelFit found = FitDecibels(Found(), Standing());
   ASSERT_EQ(found.speeds.size(), 1U);

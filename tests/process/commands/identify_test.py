@@ -80,7 +80,7 @@ class Identify(CommandTest):
         for picture in ("bode", "campbell", "stabilisation"):
             self.assertIn("</svg>", (self.folder / f"modal_{picture}.svg").read_text())
         for speed in found["decibel_cost"]["speeds"]:
-            self.assertLess(speed["of_this_fit"]["weighted_rms_db"], speed["of_modal_fit"]["weighted_rms_db"])
+            self.assertLess(speed["of_decibel_fit"]["weighted_rms_db"], speed["of_modal_fit"]["weighted_rms_db"])
 
         for axis in found["axes"]:
             # 2 % is what is asked of a whole campaign; this one has a quarter of its data.

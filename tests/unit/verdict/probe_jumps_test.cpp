@@ -27,62 +27,136 @@ double CurrentPerMetre() {
   return magnet.bias_current_a / magnet.gap_m;
 }
 
-/// Levitated at rest with a probe that reads `wrong_m` for the first cycles after 1 s and `later_m`
-/// from then on, under a current that changes by `current_a` 0.1 s after that.
-std::vector<ProbeJump> Found(double wrong_m, double later_m, double current_a,
-                             Mode mode = Mode::kLevitating) {
+/// Levitated at rest. From a cycle on the probe of nde_x reads so much more, and its current is so
+/// much larger.
+struct Change {
+  int cycle{};
+  double reading_m{}, current_a{};
+};
+
+std::vector<ProbeJump> Found(const std::vector<Change>& changes, Mode mode = Mode::kLevitating) {
   SyntheticSession session;
-  session.Append(mode, 10'000, {.static_a = 0.2});
-  session.Append(mode, 1'000, {.static_a = 0.2},
-                 [&](cycle::CycleRecord& record) { record.in.frame.position_m[kAxis] = wrong_m; });
-  session.Append(mode, 10'000, {.static_a = 0.2}, [&](cycle::CycleRecord& record) {
-    record.in.frame.position_m[kAxis] = later_m;
-    record.out.current.control_current_a[kAxis] += current_a;
+  int now = 0;
+  session.Append(mode, 30'000, {.static_a = 0.2}, [&](cycle::CycleRecord& record) {
+    for (const Change& change : changes) {
+      if (now < change.cycle) continue;
+      record.in.frame.position_m[kAxis] += change.reading_m;
+      record.out.current.control_current_a[kAxis] += change.current_a;
+    }
+    ++now;
   });
-  ProbeJumps jumps(Rig(), 1.0, 0.0);
+  ProbeJumps jumps(Rig(), 1.0, 0.5);
   for (const auto& record : session.records()) jumps.Add(record);
   return jumps.Found();
 }
 
+std::vector<Change> operator+(std::vector<Change> a, const std::vector<Change>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// A jump that the law follows within 10 ms: the reading is back, and the magnet holds the rotor
+/// where it stands now.
+std::vector<Change> Slowly(int cycle, double jump_m) {
+  std::vector<Change> changes{{cycle, jump_m, 0.0}};
+  for (int i = 0; i < 100; ++i)
+    changes.push_back({cycle + 20 + i, -0.01 * jump_m, 0.01 * jump_m * CurrentPerMetre()});
+  return changes;
+}
+
 TEST(ProbeJumps, AreFoundByWhatTheNewPlaceCosts) {
-  // The law integrates: the reading is back at zero, the magnet holds what stands 80 um off.
-  const auto found = Found(kJumpM, 0.0, kJumpM * CurrentPerMetre());
+  const auto found = Found(Slowly(10'000, kJumpM));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].channel, "nde_x");
   EXPECT_NEAR(found[0].time_s, 1.0, 1e-9);
   EXPECT_NEAR(found[0].step_m, kJumpM, 1e-12);
-  // ks of an ideal magnet at its centre; what iron takes of both slopes leaves their ratio.
-  EXPECT_NEAR(found[0].moved_m, kJumpM, 0.05 * kJumpM);
-  EXPECT_FALSE(found[0].touches);
+  EXPECT_NEAR(found[0].current_a, kJumpM * CurrentPerMetre(), 1e-6);
+  ASSERT_TRUE(found[0].moved_m.has_value());
+  // The sensor is not at the magnet, and the other end is held: within a tenth.
+  EXPECT_NEAR(*found[0].moved_m, kJumpM, 0.1 * kJumpM);
+  EXPECT_FALSE(found[0].returns);
 }
 
 TEST(ProbeJumps, OfALawThatDoesNotIntegrateLeaveAReading) {
-  const auto found = Found(kJumpM, -0.5 * kJumpM, 1.5 * kJumpM * CurrentPerMetre());
+  // Half a jump is left on the other side, and the magnet holds half as much again.
+  auto changes = Slowly(10'000, 1.5 * kJumpM);
+  changes.front().reading_m = kJumpM;
+  const auto found = Found(changes);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_NEAR(found[0].moved_m, kJumpM, 0.1 * kJumpM);
+  EXPECT_NEAR(found[0].moved_m.value(), kJumpM, 0.15 * kJumpM);
 }
 
-TEST(ProbeJumps, AreNoGlitchThatGoesBack) { EXPECT_TRUE(Found(kJumpM, 0.0, 0.0).empty()); }
+TEST(ProbeJumps, OfTheSameProbeAreSummed) {
+  const auto found = Found(Slowly(10'000, 50e-6) + Slowly(12'000, 50e-6));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].time_s, 1.0, 1e-9);
+  EXPECT_NEAR(found[0].step_m, 100e-6, 1e-9);
+}
+
+TEST(ProbeJumps, ThatGoBackSaySo) {
+  const auto found = Found(Slowly(10'000, kJumpM) + Slowly(20'000, -kJumpM));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_FALSE(found[0].returns);
+  EXPECT_TRUE(found[1].returns);
+}
+
+TEST(ProbeJumps, AreNoGlitchThatGoesBack) {
+  for (const double wrong_m : {80e-6, 185e-6, -80e-6}) {
+    for (const int cycles : {1, 2, 6, 1000}) {
+      EXPECT_TRUE(Found({{10'000, wrong_m, 0.0}, {10'000 + cycles, -wrong_m, 0.0}}).empty())
+          << wrong_m << ", " << cycles;
+    }
+  }
+}
+
+TEST(ProbeJumps, AreNoGlitchBeforeALoadThatCostsAsMuch) {
+  const std::vector<Change> load{{12'000, 0.0, kJumpM * CurrentPerMetre()}};
+  const std::vector<Change> glitch{{10'000, kJumpM, 0.0}, {10'010, -kJumpM, 0.0}};
+  EXPECT_TRUE(Found(glitch + load).empty());
+}
+
+TEST(ProbeJumps, AreFoundSoonAfterAGlitch) {
+  const std::vector<Change> glitch{{10'000, kJumpM, 0.0}, {10'010, -kJumpM, 0.0}};
+  const auto found = Found(glitch + Slowly(13'000, kJumpM));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].time_s, 1.3, 1e-9);
+}
 
 TEST(ProbeJumps, AreNoLoadThatIsCarriedSince) {
-  EXPECT_TRUE(Found(kJumpM, 0.0, -kJumpM * CurrentPerMetre()).empty());
+  auto changes = Slowly(10'000, kJumpM);
+  for (Change& change : changes) change.current_a = -change.current_a;
+  EXPECT_TRUE(Found(changes).empty());
 }
 
 TEST(ProbeJumps, AreNoStepThatARotorCouldMake) {
-  const double small_m = 0.09 * Rig().numbers.ClearanceOf(1);
-  EXPECT_TRUE(Found(small_m, 0.0, small_m * CurrentPerMetre()).empty());
+  EXPECT_TRUE(Found(Slowly(10'000, 0.09 * Rig().numbers.ClearanceOf(1))).empty());
 }
 
 TEST(ProbeJumps, AreNotSoughtWhereTheRotorIsMovedOnPurpose) {
-  EXPECT_TRUE(Found(kJumpM, 0.0, kJumpM * CurrentPerMetre(), Mode::kLift).empty());
+  EXPECT_TRUE(Found(Slowly(10'000, kJumpM), Mode::kLift).empty());
+}
+
+TEST(ProbeJumps, AreFoundFromTheSettlingTimeOn) {
+  EXPECT_EQ(Found(Slowly(5'100, kJumpM)).size(), 1U);  // 0.5 s of settling
 }
 
 TEST(ProbeJumps, ThatPutTheRotorIntoItsTouchdownBearingSaySo) {
-  const double clearance_m = Rig().numbers.ClearanceOf(1);
-  // The bearing carries: the current is far from what the place would cost the magnets.
-  const auto found = Found(kJumpM, kJumpM - 0.95 * clearance_m, 0.3);
+  // The law does not bring the reading back, and the bearing carries: the current is far from what
+  // the place would cost the magnets.
+  const auto found = Found({{10'000, kJumpM, 0.0},
+                            {10'020, -10e-6, 0.3},
+                            {10'021, -18e-6, 0.0},
+                            {10'022, -18e-6, 0.0},
+                            {10'023, -18e-6, 0.0},
+                            {10'024, -18e-6, 0.0},
+                            {10'025, -18e-6, 0.0},
+                            {10'026, -18e-6, 0.0},
+                            {10'027, -18e-6, 0.0},
+                            {10'028, -18e-6, 0.0},
+                            {10'029, -18e-6, 0.0},
+                            {10'030, -18e-6, 0.0}});
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_TRUE(found[0].touches);
+  EXPECT_FALSE(found[0].moved_m.has_value());
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(ExcitationPictures, ShowTheFirstTwoHundredPointsOfEachSignal) {
   const auto pictures = ExcitationPictures(r);
   const svg::Figure& figure = Named(pictures, "test_signals").figure;
   ASSERT_EQ(figure.panels.size(), 2U);
-  EXPECT_EQ(figure.panels[0].title, "de_x, added from 0.100 s on, a point every 0.5 ms");
+  EXPECT_EQ(figure.panels[0].title, "de_x at the current, from 0.100 s, 0.5 ms a point");
   const svg::Series& drawn = figure.panels[0].series.at(0);
   EXPECT_EQ(drawn.x.front(), 0.0);
   EXPECT_NEAR(drawn.x.back(), 100.0, 0.2);  // 200 points of 0.5 ms
@@ -73,7 +73,8 @@ TEST(ExcitationPictures, ShowASignalThatIsAnothersLater) {
 
 TEST(ExcitationPictures, OfSignalsThatActOneAfterTheOtherHaveNoCorrelation) {
   Recording r = Excited({});
-  for (std::size_t row = 0; row < r.size(); ++row) r.excitation[row < 9'000 ? 1 : 0][row] = 0.0F;
+  // In turn, 0.3 s each: de_x, de_y, de_x, de_y ...
+  for (std::size_t row = 0; row < r.size(); ++row) r.excitation[row / 3'000 % 2][row] = 0.0F;
   const auto pictures = ExcitationPictures(r);
   EXPECT_EQ(pictures.size(), 1U);
 }
@@ -85,7 +86,7 @@ TEST(ExcitationPictures, OfSignalsAtTheReadingAreInMicrometres) {
   const auto pictures = ExcitationPictures(r);
   const svg::Panel& panel = Named(pictures, "test_signals").figure.panels.front();
   EXPECT_EQ(panel.y_label, "signal, µm");
-  EXPECT_NE(panel.title.find("added to the reading"), std::string::npos);
+  EXPECT_NE(panel.title.find("at the reading"), std::string::npos);
   EXPECT_NEAR(std::abs(panel.series.front().y.front()), 2.0, 1e-5);
 }
 
