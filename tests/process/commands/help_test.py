@@ -32,7 +32,7 @@ OPTIONS = {
     "identify frf": {"--rig", "--controller", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",
                      "--speed-rpm", "--json"},
     "identify modal": {"--rig", "--highest-hz", "--fit-amplifiers", "--fit-sensors", "--out", "--rotor",
-                       "--svg", "--starts", "--spread", "--spread-gains", "--json"},
+                       "--svg", "--decibel-cost", "--starts", "--spread", "--spread-gains", "--json"},
     "balance": {"--rig", "--controller", "--plane", "--planes", "--drill", "--after", "--applied", "--top-rpm",
                 "--svg", "--write-run-outs", "--json"},
     "diagnose": {"--rig", "--holdout", "--healthy", "--plan", "--scenario", "--controller", "--size", "--out", "--quick", "--as-is",
