@@ -91,9 +91,9 @@ TEST(DecibelResiduals, AreTheDistanceInDecibelsTimesTheWeight) {
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(4, 4);
   weights(2, 0) = 30.0;
   weights(1, 3) = 0.1;
-  data.plant[line](2, 0) *=
-      -0.1;  // 20 dB below the model; the sign is phase, of which nothing is asked
-  data.plant[line](1, 3) *= 10.0;  // 20 dB above
+  // 20 dB below the model, its sign a phase, of which nothing is asked; and 20 dB above it.
+  data.plant[line](2, 0) *= -0.1;
+  data.plant[line](1, 3) *= 10.0;
   const WorkingGains gains;
   const LineResiduals residuals(DecibelStart().frame, data, gains, line, weights);
   ASSERT_EQ(residuals.rows(), 2);

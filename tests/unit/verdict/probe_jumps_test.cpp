@@ -1,4 +1,4 @@
-// A probe that jumps is told from a glitch, from a load and from a rotor that moves.
+// ProbeJumps finds a probe that jumped, and takes no glitch, load or moving rotor for one.
 #include "verdict/probe_jumps.hpp"
 
 #include <gtest/gtest.h>
