@@ -54,7 +54,7 @@ std::string SecondsText(std::int64_t time_ns) {
 
 ExportReport ExportCsv(SessionReader& reader, const std::string& csv_path,
                        const ExportSelection& selection) {
-  ExportRows rows(reader.header(), selection);
+  ExportRows rows(reader.header(), selection, LoadTorsion(reader.path()));
   OutputFile file(csv_path);
   fmt::memory_buffer out;
   file.Write(Joined(rows.names()));

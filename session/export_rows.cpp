@@ -38,13 +38,21 @@ const ExportSelection& Checked(const ExportSelection& selection) {
   return selection;
 }
 
+/// "torque_motor_to_pinion_n_m": names of columns have no blanks.
+std::string ColumnOf(const char* quantity, std::string coupling, const char* unit) {
+  std::replace(coupling.begin(), coupling.end(), ' ', '_');
+  return quantity + coupling + unit;
+}
+
 }  // namespace
 
-ExportRows::ExportRows(const SessionHeader& header, const ExportSelection& selection)
+ExportRows::ExportRows(const SessionHeader& header, const ExportSelection& selection,
+                       TorsionRecording torsion)
     : names_{"time_s", "rotor_angle_rad", "speed_rpm"},
       axes_(header.channels.size()),
       injects_position_(header.scenario_yaml.find("point: measured_position") != std::string::npos),
       lowers_bias_(header.controller_yaml.find("\nbias_saving:") != std::string::npos),
+      torsion_(std::move(torsion)),
       from_ns_(Nanoseconds(Checked(selection).from_s)),
       to_ns_(Nanoseconds(selection.to_s)),
       every_(selection.every),
@@ -58,6 +66,10 @@ ExportRows::ExportRows(const SessionHeader& header, const ExportSelection& selec
   name_all("excitation_", "_a");
   if (injects_position_) name_all("excitation_", "_m");
   if (lowers_bias_) names_.emplace_back("bias_current_a");
+  for (const std::string& name : torsion_.couplings) {
+    names_.push_back(ColumnOf("torque_", name, "_n_m"));
+    names_.push_back(ColumnOf("twist_", name, "_rad"));
+  }
   names_.emplace_back("mode");
   Choose(selection);
 }
@@ -127,6 +139,14 @@ std::int64_t ExportRows::Next(const cycle::CycleRecord& record, std::vector<doub
   add(record.in.op.excitation_a);
   if (injects_position_) add(record.in.op.excitation_m);
   if (lowers_bias_) all_.push_back(record.out.current.bias_current_a);
+  if (!torsion_.couplings.empty()) {
+    const auto row = torsion_.RowOf(frame.rig_session, frame.cycle);
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t c = 0; c < torsion_.couplings.size(); ++c) {
+      all_.push_back(row ? torsion_.torque_n_m[c][*row] : kNone);
+      all_.push_back(row ? torsion_.twist_rad[c][*row] : kNone);
+    }
+  }
   all_.push_back(static_cast<double>(record.out.mode));
   for (const std::size_t value : chosen_) values.push_back(all_[value]);
   return time_ns;

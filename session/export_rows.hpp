@@ -3,8 +3,9 @@
 //
 // Columns   time_s, rotor_angle_rad, speed_rpm, then per channel position [m], control current and
 //           excitation [A], an injection into the measured position [m] when the scenario asks for
-//           one, the bias current [A] when the controller lowers it, and the mode as its number
-//           (docs/formats.md).
+//           one, the bias current [A] when the controller lowers it, torque [N m] and twist [rad] of
+//           couplings where the rig measures them (nan where their batch was lost), and the mode as
+//           its number (docs/formats.md).
 // Time      of the sample. In real time it starts at 0; when the rig restarts it runs on.
 // Selection rows by their time and by counting, columns by their names. Rows are left out as they
 //           are: no filter keeps what is above half the new rate from folding down.
@@ -18,6 +19,7 @@
 
 #include "controller/cycle/cycle_io.hpp"
 #include "session/session_header.hpp"
+#include "session/torsion_recording.hpp"
 
 namespace levitas::session {
 
@@ -38,7 +40,9 @@ struct ExportReport {
 
 class ExportRows {
  public:
-  explicit ExportRows(const SessionHeader& header, const ExportSelection& selection = {});
+  /// Torsion is exported as `torsion` has it, which may be empty.
+  explicit ExportRows(const SessionHeader& header, const ExportSelection& selection = {},
+                      TorsionRecording torsion = {});
 
   /// The time is the first.
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
@@ -61,6 +65,7 @@ class ExportRows {
   std::size_t axes_;
   bool injects_position_;
   bool lowers_bias_;
+  TorsionRecording torsion_;
   std::int64_t from_ns_, to_ns_;
   std::uint64_t every_;
   std::uint64_t within_{};  ///< rows within the times so far

@@ -23,6 +23,7 @@ inline constexpr std::size_t kMaxDataBytes = std::size_t{4} << 20;
 inline constexpr std::string_view kHeaderChannel = "LEVITAS_HEADER";
 inline constexpr std::string_view kCycleChannel = "LEVITAS_CYCLE";
 inline constexpr std::string_view kEventChannel = "LEVITAS_EVENT";
+inline constexpr std::string_view kTorsionChannel = "LEVITAS_TORSION";
 
 struct EventHeader {
   std::uint32_t sync{kSyncWord};

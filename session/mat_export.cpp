@@ -59,7 +59,7 @@ int Reason(int descriptor) {
 
 ExportReport ExportMat(SessionReader& reader, const std::string& mat_path,
                        const ExportSelection& selection) {
-  ExportRows rows(reader.header(), selection);
+  ExportRows rows(reader.header(), selection, LoadTorsion(reader.path()));
   std::vector<std::vector<double>> columns(rows.names().size());
   const ExportReport report =
       rows.ForEach(reader, [&](std::int64_t time_ns, const std::vector<double>& values) {

@@ -53,7 +53,7 @@ void WriteEvents(McapWriter& writer, std::uint16_t channel, const SessionReader&
 
 ExportReport ExportMcap(SessionReader& reader, const std::string& mcap_path,
                         const ExportSelection& selection) {
-  ExportRows rows(reader.header(), selection);
+  ExportRows rows(reader.header(), selection, LoadTorsion(reader.path()));
   OutputFile file(mcap_path);
   McapWriter writer([&file](std::string_view bytes) { file.Write(bytes); }, "levitas");
   const std::uint16_t cycles = AddCycles(writer, rows.names());

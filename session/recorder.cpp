@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -22,6 +23,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 // 3 s at 10 kHz: more than a disk that syncs its journal makes a writer wait.
 constexpr std::size_t kRingRecords = 32'768;
+// 0.2 s at 10 kHz.
+constexpr std::size_t kRingBatches = 64;
 constexpr auto kIdle = std::chrono::milliseconds(5);
 constexpr auto kFullPause = std::chrono::microseconds(200);
 // With kIdle well below the promised 50 ms.
@@ -40,6 +43,7 @@ struct Recorder::Impl {
   explicit Impl(RecorderOptions given)
       : options(std::move(given)),
         ring(kRingRecords),
+        torsion_ring(kRingBatches),
         deriver(options.header.channels, options.header.period_ns, options.header.synchronous) {
     if (!options.session_path.empty()) {
       session = std::make_unique<SessionWriter>(options.session_path, options.header,
@@ -82,6 +86,7 @@ struct Recorder::Impl {
   }
 
   void End() {
+    WriteTorsion(nullptr);
     events.clear();
     deriver.Finish(events);
     Tell();
@@ -93,11 +98,26 @@ struct Recorder::Impl {
   void Take(const cycle::CycleRecord& record) {
     events.clear();
     deriver.Step(record, events);
+    WriteTorsion(&record.in.frame);
     Record([&] { session->Write(record); });
     Freeze([&] { freezer->Take(record, events); });
     Publish();
     Tell();
     if (options.on_record) options.on_record(record);
+  }
+
+  /// Batches that ended before this frame; all of them without one. One that came with a later frame
+  /// waits for its turn, so that the order does not depend on how far behind this thread is.
+  void WriteTorsion(const SensorFrame* before) {
+    TorsionBatch batch;
+    while (waiting || torsion_ring.Take(batch)) {
+      if (!waiting) waiting = batch;
+      const bool later = before != nullptr && waiting->rig_session == before->rig_session &&
+                         waiting->first_cycle + waiting->samples > before->cycle;
+      if (later) return;
+      Record([this] { session->Write(*waiting); });
+      waiting.reset();
+    }
   }
 
   /// Writes and reports the derived events.
@@ -172,6 +192,8 @@ struct Recorder::Impl {
 
   RecorderOptions options;
   SpscRing<cycle::CycleRecord> ring;
+  SpscRing<TorsionBatch> torsion_ring;
+  std::optional<TorsionBatch> waiting;
   EventDeriver deriver;
   std::unique_ptr<SessionWriter> session;
   std::unique_ptr<TripFreezer> freezer;  ///< never null
@@ -200,6 +222,14 @@ void Recorder::Post(const cycle::CycleRecord& record) noexcept {
   }
   impl_->ring.Post(record);
 }
+// All records of a batch's instants but the last are posted before it: this thread's wait ends.
+void Recorder::PostTorsion(const TorsionBatch& batch) noexcept {
+  while (impl_->options.waits_for_room && impl_->torsion_ring.Full()) {
+    std::this_thread::sleep_for(kFullPause);
+  }
+  impl_->torsion_ring.Post(batch);
+}
+
 std::uint64_t Recorder::lost() const noexcept { return impl_->ring.lost(); }
 
 std::string Recorder::trip_file() const {

@@ -10,6 +10,8 @@
 //             the recording with one message (a loop that waits waits that long); of trip files it
 //             ends the one that was being written, and the next trip is frozen again. An exception
 //             elsewhere is noted (controller/rt/thread_trouble.hpp). Records are taken on.
+// Torsion     batches are written as they come, each before the first record of a later sampling
+//             instant, so that a run in lockstep is the same file again. Not in trip files.
 // Events      are also handed to `on_event` (recorder's thread), for telemetry and the console.
 
 #include <atomic>
@@ -19,6 +21,7 @@
 #include <memory>
 #include <string>
 
+#include "common/torsion_batch.hpp"
 #include "controller/cycle/cycle_io.hpp"
 #include "session/session_header.hpp"
 #include "session/session_writer.hpp"
@@ -48,6 +51,8 @@ class Recorder {
 
   /// Loop thread only.
   void Post(const cycle::CycleRecord& record) noexcept;
+  /// Loop thread only; before the record of the frame that it came before. Full as Post.
+  void PostTorsion(const TorsionBatch& batch) noexcept;
   /// Drains the ring, completes an unfinished trip file, tells the last events and joins. Nothing
   /// may be posted any more; called again it does nothing.
   void Finish() noexcept;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/problem.hpp"
+#include "lcmtypes/torsion/torsion_codec.hpp"
 #include "session/log_format.hpp"
 #include "session/log_scanner.hpp"
 #include "session/packed_log.hpp"
@@ -137,6 +138,12 @@ struct SessionReader::Impl {
       events.push_back(std::move(read));
       return true;
     }
+    if (event.channel == kTorsionChannel) {
+      TorsionBatch read;
+      if (!torsion_codec.Decode(event.data, read)) return false;
+      if (keep_torsion) torsion.push_back(read);
+      return true;
+    }
     if (event.channel == kHeaderChannel) {
       SessionHeader copy;
       int version = 0;
@@ -175,6 +182,9 @@ struct SessionReader::Impl {
   LogScanner scanner;
   SessionHeader header;
   RecordCodec codec{0};
+  TorsionCodec torsion_codec;
+  std::vector<TorsionBatch> torsion;
+  bool keep_torsion{false};
   std::vector<Event> events;
   Damage damage;
   bool bad_known{false};
@@ -188,7 +198,10 @@ SessionReader::~SessionReader() = default;
 SessionReader::SessionReader(SessionReader&&) noexcept = default;
 
 const SessionHeader& SessionReader::header() const noexcept { return impl_->header; }
+const std::string& SessionReader::path() const noexcept { return impl_->path; }
 bool SessionReader::Next(cycle::CycleRecord& record) { return impl_->Next(record); }
+void SessionReader::KeepTorsion() noexcept { impl_->keep_torsion = true; }
+const std::vector<TorsionBatch>& SessionReader::torsion() const noexcept { return impl_->torsion; }
 const std::vector<Event>& SessionReader::events() const noexcept { return impl_->events; }
 const Damage& SessionReader::damage() const noexcept { return impl_->damage; }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "common/torsion_batch.hpp"
+
 #include "controller/cycle/cycle_io.hpp"
 #include "session/session_header.hpp"
 
@@ -37,8 +39,13 @@ class SessionReader {
   SessionReader(SessionReader&&) noexcept;
 
   [[nodiscard]] const SessionHeader& header() const noexcept;
+  [[nodiscard]] const std::string& path() const noexcept;
   /// False at the end. `record` is untouched then.
   [[nodiscard]] bool Next(cycle::CycleRecord& record);
+  /// From now on measured torsion is kept (0.5 kB for every 1 ms of two couplings), not only checked.
+  void KeepTorsion() noexcept;
+  /// Kept so far, in the order of the file.
+  [[nodiscard]] const std::vector<TorsionBatch>& torsion() const noexcept;
   /// Events met so far (all of them after Next returned false).
   [[nodiscard]] const std::vector<Event>& events() const noexcept;
   [[nodiscard]] const Damage& damage() const noexcept;

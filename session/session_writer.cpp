@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "common/output_file.hpp"
+#include "lcmtypes/torsion/torsion_codec.hpp"
 #include "session/log_format.hpp"
 #include "session/packed_log.hpp"
 #include "session/record_codec.hpp"
@@ -135,6 +136,7 @@ struct SessionWriter::Impl {
   std::string path;
   std::chrono::milliseconds patience;
   RecordCodec codec;
+  TorsionCodec torsion_codec;
   std::int64_t period_ns;
   std::int64_t start_utc_ns;
   int fd{-1};
@@ -188,6 +190,12 @@ void SessionWriter::Write(const cycle::CycleRecord& record) {
 void SessionWriter::Write(const Event& event) {
   EncodeEvent(event, impl_->scratch);
   impl_->Append(kEventChannel, impl_->scratch, impl_->last_time_us);
+}
+
+void SessionWriter::Write(const TorsionBatch& batch) {
+  impl_->scratch.resize(TorsionCodec::LargestSize());
+  impl_->scratch.resize(impl_->torsion_codec.Encode(batch, impl_->scratch));
+  impl_->Append(kTorsionChannel, impl_->scratch, impl_->last_time_us);
 }
 
 void SessionWriter::Flush() { impl_->Flush(); }

@@ -1,6 +1,6 @@
 #pragma once
 // Writes a session: one LCM event log, header first, then one LEVITAS_CYCLE event per cycle and
-// LEVITAS_EVENT events as they happen. Readable by ordinary LCM tools.
+// LEVITAS_EVENT events as they happen; LEVITAS_TORSION where the rig measures it. Readable by ordinary LCM tools.
 //
 // Packed     under a name that ends in .zst, by zstd; `zstd -d` gives the log (packed_log.hpp).
 // Integrity  every record carries its cycle number and a CRC-32.
@@ -17,6 +17,7 @@
 
 #include "common/output_file.hpp"
 #include "common/problem.hpp"
+#include "common/torsion_batch.hpp"
 #include "controller/cycle/cycle_io.hpp"
 #include "session/session_header.hpp"
 
@@ -49,6 +50,7 @@ class SessionWriter {
 
   void Write(const cycle::CycleRecord& record);
   void Write(const Event& event);
+  void Write(const TorsionBatch& batch);
   /// Hands everything written so far to the kernel: it then survives a kill -9 of this process.
   void Flush();
   /// Writes the last copy of the header; nothing follows. The destructor does it too, but silently.

@@ -20,6 +20,7 @@ enum class Direction : std::uint16_t { kSensor = 0, kCurrent = 1, kTelemetry = 2
 
 namespace channel {
 inline constexpr const char* kSensor = "LEVITAS_SENSOR";    ///< rig -> controller, each period
+inline constexpr const char* kTorsion = "LEVITAS_TORSION";  ///< rig -> controller, in batches
 inline constexpr const char* kCurrent = "LEVITAS_CURRENT";  ///< controller -> rig, each period
 /// controller -> rig: the last current frame (amplifiers off) of a controller that ends orderly.
 inline constexpr const char* kGoodbye = "LEVITAS_GOODBYE";

@@ -20,6 +20,11 @@ bool LcmRigLink::Send(const SensorFrame& frame) noexcept {
   return sent;
 }
 
+bool LcmRigLink::SendTorsion(const TorsionBatch& batch) noexcept {
+  const std::span<const std::uint8_t> datagram = torsion_.Encode(batch);
+  return !datagram.empty() && sender_.Send(datagram);
+}
+
 port::RigLink::ReceiveResult LcmRigLink::Accept(const Received& received,
                                                 CurrentFrame& frame) noexcept {
   const Packet packet = ParsePacket(received.datagram);

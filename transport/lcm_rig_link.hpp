@@ -10,6 +10,7 @@
 #include "transport/multicast_socket.hpp"
 #include "transport/partner_lock.hpp"
 #include "transport/sequence_watch.hpp"
+#include "transport/torsion_packet.hpp"
 
 namespace levitas::transport {
 
@@ -18,6 +19,7 @@ class LcmRigLink final : public port::RigLink {
   LcmRigLink(const LcmNetwork& network, std::size_t axes, std::int64_t spin_ns);
 
   bool Send(const SensorFrame& frame) noexcept override;
+  bool SendTorsion(const TorsionBatch& batch) noexcept override;
   ReceiveResult Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept override;
   [[nodiscard]] Counters counters() const noexcept override;
   [[nodiscard]] std::string TakeNews() override;
@@ -30,6 +32,7 @@ class LcmRigLink final : public port::RigLink {
   MulticastSender sender_;
   SensorFrameCodec sensor_codec_;
   CurrentFrameCodec current_codec_;
+  TorsionPacket torsion_;
   SequenceWatch watch_;
   PartnerLock partner_;
   Counters counters_;

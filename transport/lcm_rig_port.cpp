@@ -17,6 +17,10 @@ LcmRigPort::LcmRigPort(const LcmNetwork& network, std::size_t axes, std::int64_t
 bool LcmRigPort::Accept(const Received& received, SensorFrame& frame) noexcept {
   const Packet packet = ParsePacket(received.datagram);
   if (packet.kind == PacketKind::kFragment) return false;
+  if (packet.kind == PacketKind::kShort && packet.channel == channel::kTorsion) {
+    KeepTorsion(received, packet.payload);
+    return false;
+  }
   const bool ours = packet.kind == PacketKind::kShort && packet.channel == channel::kSensor;
   if (packet.kind == PacketKind::kShort && !ours) return false;  // somebody else's channel
   const std::int64_t now_ns = rt::MonotonicNowNs();
@@ -32,6 +36,23 @@ bool LcmRigPort::Accept(const Received& received, SensorFrame& frame) noexcept {
     ++session_;
   }
   frame.rig_session = session_;
+  return true;
+}
+
+void LcmRigPort::KeepTorsion(const Received& received,
+                             std::span<const std::uint8_t> payload) noexcept {
+  if (!wire_session_ || partner_.Refuses(received.speaker(), rt::MonotonicNowNs())) return;
+  TorsionBatch& batch = torsion_[torsion_came_ % kKeptBatches];
+  if (!torsion_codec_.Decode(payload, batch) || batch.rig_session != *wire_session_) return;
+  batch.rig_session = session_;
+  ++torsion_came_;
+  if (torsion_came_ - torsion_taken_ > kKeptBatches) ++torsion_taken_;
+}
+
+bool LcmRigPort::TakeTorsion(TorsionBatch& batch) noexcept {
+  if (torsion_taken_ == torsion_came_) return false;
+  batch = torsion_[torsion_taken_ % kKeptBatches];
+  ++torsion_taken_;
   return true;
 }
 

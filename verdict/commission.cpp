@@ -7,6 +7,7 @@
 
 #include "analysis/speed_sweep.hpp"
 #include "configuration/rig_file.hpp"
+#include "plant_sim/rotor/torsion_line.hpp"
 #include "session/session_reader.hpp"
 
 namespace levitas::verdict {
@@ -67,6 +68,10 @@ Verdict Commission(const CommissionOptions& options) {
   SessionStatistics statistics(rig.numbers, controller.supervisor.sequence.standstill_rad_per_s,
                                kSettleAfterLiftS);
   ProbeJumps jumps(rig, controller.supervisor.sequence.standstill_rad_per_s, kSettleAfterLiftS);
+  TorsionLoads torsion(controller.supervisor.sequence.standstill_rad_per_s, kSettleAfterLiftS,
+                       rig.numbers.period_s());
+  const std::vector<std::string> couplings = rotor::GaugedCouplings(rig.plant.shafts);
+  if (!couplings.empty()) reader.KeepTorsion();
   cycle::CycleRecord record;
   bool excited = false;
   std::uint64_t first_cycle = 0;
@@ -74,6 +79,7 @@ Verdict Commission(const CommissionOptions& options) {
     if (first_cycle == 0) first_cycle = record.in.cycle;
     statistics.Add(record);
     jumps.Add(record);
+    if (!couplings.empty()) torsion.Add(record);
     excited = excited || Any(record.in.op.excitation_a) || Any(record.in.op.excitation_m);
   }
 
@@ -81,6 +87,7 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.rig = rig.numbers;
   inputs.session = statistics.Figures();
   inputs.probe_jumps = jumps.Found();
+  inputs.torsion = torsion.Of(reader.torsion(), couplings);
   analysis::SpeedSweep sweep = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
   inputs.sensitivity = std::move(sweep.speeds);
   inputs.worst_sensitivity = sweep.worst;

@@ -275,6 +275,19 @@ Object Jumps(const Inputs& in) {
   return jumps;
 }
 
+Object Torsion(const Inputs& in) {
+  Object loads = Object::array();
+  for (const CouplingLoad& load : in.torsion) {
+    loads.push_back({{"coupling", load.coupling},
+                     {"torque_rms_n_m", Number(load.torque_rms_n_m)},
+                     {"torque_peak_n_m", Number(load.torque_peak_n_m)},
+                     {"peak_time_s", load.peak_time_s},
+                     {"peak_speed_rpm", RadPerSToRpm(load.peak_speed_rad_per_s)},
+                     {"twist_peak_rad", Number(load.twist_peak_rad)}});
+  }
+  return loads;
+}
+
 Object TimeStep(const Inputs& in) {
   if (!in.step_error) return nullptr;
   const analysis::StepError& error = *in.step_error;
@@ -328,6 +341,7 @@ nlohmann::ordered_json Json(const Verdict& verdict) {
           {"reserve", Reserve(in)},
           {"synchronous_blocks", Blocks(in)},
           {"probe_jumps", Jumps(in)},
+          {"torsion", Torsion(in)},
           {"time_step", TimeStep(in)},
           {"orbit_over_speed", Profile(in)},
           {"modes", Modes(in)},

@@ -232,6 +232,16 @@ void Reserve(const Inputs& in, Out out) {
   Bias(in, out);
 }
 
+void Torsion(const Inputs& in, Out out) {
+  for (const CouplingLoad& load : in.torsion) {
+    fmt::format_to(out,
+                   "torsion   {}: torque beside the mean load {:.3g} N m rms, at most {:.3g} N m "
+                   "at {:.3f} s and {:.0f} rpm; twist at most {:.0f} urad\n",
+                   load.coupling, load.torque_rms_n_m, load.torque_peak_n_m, load.peak_time_s,
+                   RadPerSToRpm(load.peak_speed_rad_per_s), 1e6 * load.twist_peak_rad);
+  }
+}
+
 void TimeStep(const Inputs& in, Out out) {
   if (!in.step_error) return;
   const analysis::StepError& error = *in.step_error;
@@ -323,6 +333,7 @@ std::string Table(const Verdict& verdict) {
   Sensitivity(verdict.inputs, out);
   Reserve(verdict.inputs, out);
   Blocks(verdict.inputs, out);
+  Torsion(verdict.inputs, out);
   TimeStep(verdict.inputs, out);
   Timing(verdict.inputs, out);
   if (!verdict.warnings.empty()) fmt::format_to(out, "\n");

@@ -13,7 +13,7 @@
 // Range        the speed up to which the run was shown, beside the rig's rated speed
 //              (speed_range.hpp): what is accepted is accepted up to there.
 // Requirement  a limit itself is not met: orbit must be below its objective.
-// Not judged   timing and saturation are reported; what they spoil shows in the orbit or as a trip.
+// Not judged   torque of couplings, timing and saturation are reported; what they spoil shows in the orbit or as a trip.
 // Units        SI; names say which. Thread: any, offline.
 // Failure      none: what was not run is "not run", not a pass (the sentence says so).
 
@@ -31,6 +31,7 @@
 #include "verdict/session_statistics.hpp"
 #include "verdict/speed_range.hpp"
 #include "verdict/timing.hpp"
+#include "verdict/torsion_load.hpp"
 #include "verdict/zones.hpp"
 
 namespace levitas::verdict {
@@ -79,6 +80,7 @@ struct Inputs {
   std::optional<RigFigures> rig_process;
   std::vector<BlockUse> blocks;  ///< of synchronous control
   std::vector<ProbeJump> probe_jumps;
+  std::vector<CouplingLoad> torsion;  ///< of geared rigs whose couplings are measured
   bool saves_bias{};  ///< the controller may lower the bias
   Provenance provenance;
   std::string trip_text;          ///< the recorded sentence of the first trip, may be empty

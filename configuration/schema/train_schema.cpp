@@ -97,6 +97,13 @@ void Describe(Visitor& v, rotor::TorsionInertia& inertia) {
            inertia.ground_damping_n_m_s_per_rad);
 }
 
+void Describe(Visitor& v, rotor::TorsionGauges& gauges) {
+  v.Number({"torque_noise_rms", kNewtonMetre, 0, 1e9, 0, "white, of every sample of the torque"},
+           gauges.torque_noise_rms_n_m);
+  v.Number({"twist_noise_rms", kMicroradian, 0, 1e6, 0, "white, of every sample of the twist"},
+           gauges.twist_noise_rms_rad);
+}
+
 void DescribeTorsion(Visitor& v, rotor::Shaft& shaft) {
   using rotor::TorsionKind;
   constexpr std::array<std::string_view, 3> kTorsionKinds{"none", "inertias", "beam"};
@@ -116,6 +123,8 @@ void DescribeTorsion(Visitor& v, rotor::Shaft& shaft) {
         number > shaft.torsion.inertias.size() && !shaft.torsion.inertias.empty(), "gear_at",
         fmt::format("found {}, but there are {} inertias", number, shaft.torsion.inertias.size()));
     shaft.torsion.gear_at = number - 1;
+    v.OptionalGroup("gauges", "torque and twist between the inertias are measured and recorded",
+                    shaft.torsion.gauges.fitted, [&] { Describe(v, shaft.torsion.gauges); });
   });
   v.Number({"damping_ratio", kOne, 0, 0.5, 0, "of every torsional mode with stiffness"},
            shaft.torsion.damping_ratio);

@@ -30,6 +30,7 @@ constexpr std::array kUnits{
     kRadPerSecond2,
     kDegree,
     kRadian,
+    kMicroradian,
     kAmpere,
     kMilliampere,
     kKilogram,

@@ -42,6 +42,7 @@ inline constexpr Unit kTurnsPerSecond{"rev_per_s", "rev/s", "speed", 0, 2.0L * k
 inline constexpr Unit kRpmPerSecond{"rpm_per_s", "rpm/s", "acceleration", 0, kPi / 30.0L};
 inline constexpr Unit kRadPerSecond2{"rad_per_s2", "rad/s^2", "acceleration"};
 inline constexpr Unit kDegree{"deg", "deg", "angle", 0, kPi / 180.0L};
+inline constexpr Unit kMicroradian{"urad", "urad", "angle", -6};
 inline constexpr Unit kRadian{"rad", "rad", "angle"};
 inline constexpr Unit kAmpere{"a", "A", "current"};
 inline constexpr Unit kMilliampere{"ma", "mA", "current", -3};

@@ -92,6 +92,7 @@ void ControlLoop::Cycle(bool frame_present, const SensorFrame& frame,
   ++statistics_.cycles;
   if (!frame_present) ++statistics_.missing_frames;
   answered_ = true;
+  while (port_.TakeTorsion(torsion_)) sink_.PostTorsion(torsion_);
   sink_.Post(record_);
   if (statistics_.cycles % cycles_per_second_ == 0) sink_.Post(statistics_);
   timer_.Ended(cycle::Stage::kRecord);

@@ -33,6 +33,8 @@ class RecordSink {
  public:
   virtual ~RecordSink() = default;
   virtual void Post(const cycle::CycleRecord& record) noexcept = 0;
+  /// Torsion measured beside the loop, before the record of the cycle whose frame came behind it.
+  virtual void PostTorsion(const TorsionBatch& /*batch*/) noexcept {}
   /// About once a second of cycles.
   virtual void Post(const LoopStatistics& statistics) noexcept = 0;
 };
@@ -91,6 +93,7 @@ class ControlLoop {
   LoopStatistics statistics_;
   StageTimer timer_;
   cycle::CycleRecord record_;
+  TorsionBatch torsion_;
   bool answered_{false};
   std::int64_t written_ns_{0};  ///< when the current of the last cycle had been sent
   std::uint64_t cycles_per_second_;

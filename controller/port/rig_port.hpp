@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/frames.hpp"
+#include "common/torsion_batch.hpp"
 
 namespace levitas::port {
 
@@ -37,6 +38,9 @@ class RigPort {
   /// False when the frame could not be handed to the transport (counted).
   virtual bool Write(const CurrentFrame& frame) noexcept = 0;
   [[nodiscard]] virtual PortCounters counters() const noexcept = 0;
+  /// The next batch of measured torsion that came along with the frames read so far; false when there
+  /// is none, as on every port without such a channel.
+  [[nodiscard]] virtual bool TakeTorsion(TorsionBatch& /*batch*/) noexcept { return false; }
   /// Tells the rig that this controller ends; `last` should have the amplifiers off.
   virtual void SayGoodbye(const CurrentFrame& /*last*/) noexcept {}
   /// What people should hear at once, each thing once; empty when there is nothing new. Any one

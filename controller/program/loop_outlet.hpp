@@ -17,6 +17,7 @@ class LoopOutlet final : public loop::RecordSink {
              std::int64_t period_ns) noexcept;
 
   void Post(const cycle::CycleRecord& record) noexcept override;
+  void PostTorsion(const TorsionBatch& batch) noexcept override { recorder_.PostTorsion(batch); }
   void Post(const loop::LoopStatistics& statistics) noexcept override;
 
   /// First fault that was latched since the start, kNone if there was none.

@@ -42,6 +42,9 @@ class GuardedPort final : public port::RigPort {
   port::ReadResult Read(SensorFrame& frame, std::int64_t deadline_ns) noexcept override;
   bool Write(const CurrentFrame& frame) noexcept override;
   [[nodiscard]] port::PortCounters counters() const noexcept override { return port_.counters(); }
+  [[nodiscard]] bool TakeTorsion(TorsionBatch& batch) noexcept override {
+    return port_.TakeTorsion(batch);
+  }
   /// Drops the enable line, whatever `last` says, and lets the port below say it.
   void SayGoodbye(const CurrentFrame& last) noexcept override;
   [[nodiscard]] std::string TakeNews() override { return port_.TakeNews(); }

@@ -59,7 +59,7 @@ Complex MeshForce(const GearedLine& line, const GearedKnown& known, const Geared
   return 0.5 * (both.from_pinion + both.from_gear);
 }
 
-Complex TwistPerForce(const TorsionKnown& t, double w) {
+Complex TwistBetween(const TorsionKnown& t, const Eigen::VectorXd& shape, double w) {
   const Eigen::Index n = t.frequency_rad_per_s.size();
   Eigen::MatrixXcd dynamic = kJ * w * t.damping_1_per_s.cast<Complex>();
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -67,8 +67,10 @@ Complex TwistPerForce(const TorsionKnown& t, double w) {
     dynamic(i, i) += Complex(own * own - w * w, 2.0 * t.damping_ratio[i] * own * w);
   }
   const Eigen::VectorXcd twist = t.twist_m.cast<Complex>();
-  return (twist.transpose() * dynamic.partialPivLu().solve(twist))(0);
+  return (shape.cast<Complex>().transpose() * dynamic.partialPivLu().solve(twist))(0);
 }
+
+Complex TwistPerForce(const TorsionKnown& t, double w) { return TwistBetween(t, t.twist_m, w); }
 
 std::vector<Complex> TwistPerForceOn(const std::vector<GearedLine>& lines,
                                      const std::optional<TorsionKnown>& torsion) {

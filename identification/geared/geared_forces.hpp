@@ -23,6 +23,11 @@ struct MeshForces {
 [[nodiscard]] std::complex<double> MeshForce(const GearedLine& line, const GearedKnown& known,
                                              const GearedParameters& found);
 
+/// Rotation along `shape` (per torsional mode) per force along n, which turns the wheels by `twist_m`.
+/// Not for W = 0: the train may turn freely.
+[[nodiscard]] std::complex<double> TwistBetween(const TorsionKnown& torsion,
+                                                const Eigen::VectorXd& shape, double w_rad_per_s);
+
 /// w along n per force along n: -w/F_n. Not for W = 0: the train may turn freely.
 [[nodiscard]] std::complex<double> TwistPerForce(const TorsionKnown& torsion, double w_rad_per_s);
 

@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <span>
 
@@ -13,6 +12,7 @@
 #include "common/two_pi.hpp"
 #include "identification/frf/flat_top.hpp"
 #include "identification/geared/imaginary_unit.hpp"
+#include "identification/geared/steady_stretches.hpp"
 #include "numerics/dense/factorisations.hpp"
 
 namespace levitas::identification {
@@ -21,16 +21,7 @@ namespace {
 using Complex = std::complex<double>;
 using Kind = GearedLine::Kind;
 
-constexpr double kSameSpeed = 0.003;
-constexpr double kTransientS = 0.3;
-constexpr double kLeastS = 1.0;
-constexpr double kSlowestRadPerS = 10.0;
 constexpr double kBadShare = 0.001;
-
-struct Stretch {
-  std::size_t begin{}, end{};
-  double speed_rad_per_s{};
-};
 
 /// One line by kind and order of the pinion's angle.
 struct Order {
@@ -51,45 +42,6 @@ Chain ChainOf(const plant::PlantConfig& rig, std::size_t shaft) {
   return {2 * b, bearing.sensor.gain, bearing.sensor.bandwidth_hz, bearing.amplifier.bandwidth_hz};
 }
 
-std::vector<double> Unwrapped(const session::Recording& record) {
-  std::vector<double> angle(record.rows());
-  for (std::size_t n = 0; n < record.rows(); ++n) {
-    angle[n] = record.angle_rad[n];
-    if (n == 0) continue;
-    const auto cycles = static_cast<double>(record.cycle[n] - record.cycle[n - 1]);
-    const double expected = angle[n - 1] + record.speed_rad_per_s[n] * cycles * record.period_s();
-    angle[n] += kTwoPi * std::round((expected - angle[n]) / kTwoPi);
-  }
-  return angle;
-}
-
-std::vector<Stretch> Steady(const session::Recording& record, const std::vector<double>& angle,
-                            double turns_per_repeat) {
-  std::vector<Stretch> stretches;
-  const auto transient = static_cast<std::size_t>(kTransientS / record.period_s());
-  const auto least = static_cast<std::size_t>(kLeastS / record.period_s());
-  for (std::size_t begin = 0; begin < record.rows();) {
-    const double speed = record.speed_rad_per_s[begin];
-    std::size_t end = begin;
-    while (end < record.rows() && record.levitated[end] != 0 &&
-           std::abs(record.speed_rad_per_s[end] - speed) <= kSameSpeed * std::abs(speed)) {
-      ++end;
-    }
-    if (speed > kSlowestRadPerS && end - begin >= least + transient) {
-      Stretch stretch{begin + transient, end, 0.0};
-      const double repeat = kTwoPi * turns_per_repeat;
-      const double whole = std::floor((angle[end - 1] - angle[stretch.begin]) / repeat) * repeat;
-      while (angle[stretch.end - 1] - angle[stretch.begin] >= whole) --stretch.end;
-      stretch.speed_rad_per_s =
-          (angle[stretch.end - 1] - angle[stretch.begin]) /
-          (static_cast<double>(stretch.end - 1 - stretch.begin) * record.period_s());
-      stretches.push_back(stretch);
-    }
-    begin = std::max(end, begin + 1);
-  }
-  return stretches;
-}
-
 std::vector<Order> Orders(const gear::GearPair& pair, int harmonics) {
   const double ratio = static_cast<double>(pair.driving.teeth) / pair.driven.teeth;
   std::vector<Order> orders{{Kind::kTransmissionError, 0, 0.0},
@@ -104,7 +56,7 @@ std::vector<Order> Orders(const gear::GearPair& pair, int harmonics) {
   return orders;
 }
 
-void RefuseBadRows(const session::Recording& record, const Stretch& stretch) {
+void RefuseBadRows(const session::Recording& record, const SteadyStretch& stretch) {
   const auto rows = static_cast<double>(stretch.end - stretch.begin);
   const double at_s = static_cast<double>(stretch.begin) * record.period_s();
   std::string problems;
@@ -149,7 +101,7 @@ struct Amplitudes {
 };
 
 Amplitudes Fit(const session::Recording& record, const std::vector<double>& angle,
-               const Stretch& stretch, const std::vector<Order>& orders, const Chain& pinion,
+               const SteadyStretch& stretch, const std::vector<Order>& orders, const Chain& pinion,
                const Chain& gear) {
   const auto size = static_cast<Eigen::Index>(orders.size());
   Eigen::MatrixXcd normal = Eigen::MatrixXcd::Zero(size, size);
@@ -196,20 +148,17 @@ std::vector<GearedLine> LinesOfRecord(const session::Recording& record, const co
   const gear::GearPair& pair = rig.plant.gears.front();
   const Chain pinion = ChainOf(rig.plant, pair.driving.shaft);
   const Chain gear = ChainOf(rig.plant, pair.driven.shaft);
-  const std::vector<double> angle = Unwrapped(record);
-  // Turns of the driving wheel until the same teeth meet again: a whole number.
-  const int turns = pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);
-  const auto repeat = static_cast<double>(turns);
-  const auto stretches = Steady(record, angle, repeat);
+  const std::vector<double> angle = UnwrappedAngle(record);
+  const auto stretches = SteadyStretches(record, angle, pair);
   if (stretches.size() < 2) {
     throw BadInput(fmt::format(
         "{}: {} stretch(es) of {:.1f} s at one speed, levitated and turning; at least two of "
         "different speed are needed (amb run --rig {})",
-        record.name, stretches.size(), kLeastS + kTransientS, rig.numbers.name));
+        record.name, stretches.size(), kShortestStretchS, rig.numbers.name));
   }
   const double delay_s = rig.plant.delay_samples * record.period_s();
   std::vector<GearedLine> lines;
-  for (const Stretch& stretch : stretches) {
+  for (const SteadyStretch& stretch : stretches) {
     RefuseBadRows(record, stretch);
     const std::vector<Order> orders = Orders(pair, harmonics);
     const Amplitudes found = Fit(record, angle, stretch, orders, pinion, gear);

@@ -1,8 +1,7 @@
 #pragma once
 // Lines of the full spectrum from a record of a geared rig, and what its rig file knows of it.
 //
-// Stretch   rows at one speed (within 0.3 %) for a second or more, the first 0.3 s left out as
-//           transient, cut to whole repeats of the engagement. At least two of different speed.
+// Stretch   of steady_stretches.hpp; at least two of different speed.
 // Lines     least squares of sum_k R_k exp(j k theta) over a stretch, theta the rotor's angle
 //           unwrapped over the whole record: the gear's order is no whole number. k = 0, +-1,
 //           -+ z_p/z_g, +- i z_p. Standard deviations from what remains.

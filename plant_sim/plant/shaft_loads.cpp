@@ -46,7 +46,8 @@ ShaftLoads::ShaftLoads(const PlantModel& model)
     const auto& all = shaft.torsion.inertias;
     for (std::size_t i = 0; i < all.size(); ++i, ++inertia) {
       if (i + 1 == all.size()) continue;
-      Spring spring{train.inertias[inertia + 1].twist, all[i].stiffness_n_m_per_rad};
+      Spring spring{train.inertias[inertia + 1].twist, all[i].stiffness_n_m_per_rad,
+                    shaft.torsion.gauges.fitted};
       for (std::size_t t = 0; t < spring.twist.size(); ++t) {
         spring.twist[t] -= train.inertias[inertia].twist[t];
       }
@@ -87,6 +88,17 @@ std::vector<double> ShaftLoads::Torques(const Plant& plant) const {
                      ModalSum(spring.twist, plant.state().data() + layout_.q_t));
   }
   return torque;
+}
+
+void ShaftLoads::Gauge(const Plant& plant, std::span<double> torque_n_m,
+                       std::span<double> twist_rad) const noexcept {
+  std::size_t at = 0;
+  for (const Spring& spring : springs_) {
+    if (!spring.gauged) continue;
+    twist_rad[at] = ModalSum(spring.twist, plant.state().data() + layout_.q_t);
+    torque_n_m[at] = spring.stiffness_n_m_per_rad * twist_rad[at];
+    ++at;
+  }
 }
 
 }  // namespace levitas::plant

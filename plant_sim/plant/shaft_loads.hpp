@@ -8,10 +8,12 @@
 // Torsion  of each shaft of inertias the torque of the spring behind each but the last,
 //          M = k (theta_next - theta) [N m], relative to the rest of the model: without the mean
 //          that the drive brings.
-// Thread   any; allocates. Failure: none; a rig with one rotor has neither.
+// Gauges   where a shaft has them: torque and twist of its springs as they are, without noise.
+// Thread   any; allocates, Gauge does not. Failure: none; a rig with one rotor has neither.
 // Not done contact forces of touchdown bearings; the housing's own motion.
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,10 @@ class ShaftLoads {
   [[nodiscard]] std::vector<gear::Vector> Housing(const Plant& plant) const;
   /// One per name of twisted().
   [[nodiscard]] std::vector<double> Torques(const Plant& plant) const;
+  /// Of the springs that gauges measure, as rotor::GaugedCouplings lists them: torque [N m] and twist
+  /// [rad] at the present state. Both have room for all of them.
+  void Gauge(const Plant& plant, std::span<double> torque_n_m,
+             std::span<double> twist_rad) const noexcept;
   /// "motor to pinion".
   [[nodiscard]] const std::vector<std::string>& twisted() const noexcept { return twisted_; }
 
@@ -35,6 +41,7 @@ class ShaftLoads {
   struct Spring {
     std::vector<double> twist;  ///< theta_next - theta per torsional mode
     double stiffness_n_m_per_rad{};
+    bool gauged{};
   };
   struct Foot {
     std::size_t shaft{};

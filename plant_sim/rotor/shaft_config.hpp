@@ -46,6 +46,13 @@ struct TorsionInertia {
   double ground_damping_n_m_s_per_rad{};
 };
 
+/// Instruments that measure torque and twist of every spring between a shaft's inertias.
+struct TorsionGauges {
+  bool fitted{};
+  double torque_noise_rms_n_m{};
+  double twist_noise_rms_rad{};
+};
+
 enum class TorsionKind : std::uint8_t { kNone, kInertias, kBeam };
 
 struct Torsion {
@@ -53,6 +60,7 @@ struct Torsion {
   std::vector<TorsionInertia> inertias;  ///< with kInertias, one after the other
   std::size_t gear_at{};                 ///< which of them carries the gear
   double damping_ratio{};                ///< of every mode with stiffness
+  TorsionGauges gauges;                  ///< with kInertias
 };
 
 struct Shaft {

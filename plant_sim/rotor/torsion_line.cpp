@@ -97,4 +97,16 @@ ModalTorsion ReduceTorsion(const RotorConfig& beam, const std::vector<double>& n
   return modal;
 }
 
+std::vector<std::string> GaugedCouplings(const std::vector<Shaft>& shafts) {
+  std::vector<std::string> names;
+  for (const Shaft& shaft : shafts) {
+    const auto& inertias = shaft.torsion.inertias;
+    if (shaft.torsion.kind != TorsionKind::kInertias || !shaft.torsion.gauges.fitted) continue;
+    for (std::size_t i = 0; i + 1 < inertias.size(); ++i) {
+      names.push_back(inertias[i].name + " to " + inertias[i + 1].name);
+    }
+  }
+  return names;
+}
+
 }  // namespace levitas::rotor

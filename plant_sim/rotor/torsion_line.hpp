@@ -7,6 +7,7 @@
 // Units      rad, kg m2, N m/rad. Thread: any; allocates. Failure: std::invalid_argument.
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "plant_sim/rotor/finite_element.hpp"
@@ -24,6 +25,8 @@ struct ModalTorsion {
 
 /// Inertias and springs as given.
 [[nodiscard]] ModalTorsion ReduceTorsion(const Torsion& torsion);
+/// "motor to pinion": the springs that gauges measure, shaft by shaft; the order of every record.
+[[nodiscard]] std::vector<std::string> GaugedCouplings(const std::vector<Shaft>& shafts);
 /// Of a beam on the same nodes as its bending model.
 [[nodiscard]] ModalTorsion ReduceTorsion(const RotorConfig& beam,
                                          const std::vector<double>& node_z_m, double damping_ratio);

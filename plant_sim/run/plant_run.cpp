@@ -188,6 +188,7 @@ ExitStatus RunPlant(const PlantSetup& setup) {
   TimedEvents events(scenario, setup.rig);
   events.Prepare(plant);
   plant.RestInTouchdown();
+  TorsionGauge torsion(plant.model(), options.seed);
   rt::MonotonicClock clock;
   PlantLoop loop({.realtime = options.realtime,
                   .pace_factor = options.pace_factor,
@@ -196,7 +197,8 @@ ExitStatus RunPlant(const PlantSetup& setup) {
                   .stay = options.stay,
                   .watchdog_periods = options.watchdog_periods,
                   .silence_ns = setup.silence_ns},
-                 plant, setup.link, clock, setup.gate, &events);
+                 plant, setup.link, clock, setup.gate, &events,
+                 torsion.fitted() ? &torsion : nullptr);
   const std::unique_ptr<rt::RealTimeGuard> guard = PrepareRealTime(setup);
   rt::Say(fmt::format("{}: rig {}, {} axes, {} pace, {}", setup.program.name, numbers.name,
                       numbers.axes(), PaceText(options), setup.where));

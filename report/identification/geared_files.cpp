@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "common/rotational_speed.hpp"
+#include "common/two_pi.hpp"
 #include "report/svg/figure.hpp"
 
 namespace levitas::cli {
@@ -37,10 +38,40 @@ svg::Panel SpectrumPanel(const std::string& title,
                        .width = 0,
                        .mark = svg::Mark::kDot};
     for (const GearedLine* line : lines) {
-      series.x.push_back(line->frequency_rad_per_s / (2.0 * std::numbers::pi));
+      series.x.push_back(line->frequency_rad_per_s / kTwoPi);
       series.y.push_back(1e6 * std::abs(line->*position));
     }
     panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+/// Measured torque as dots, the identified model's as a line.
+svg::Panel TorsionPanel(const HalfSpectrum& half, std::size_t coupling) {
+  svg::Panel panel{.title = "torque, " + half.couplings[coupling].name + ": measured and model",
+                   .x_label = "frequency, Hz",
+                   .y_label = "amplitude, N m",
+                   .y_scale = svg::Scale::kLogarithmic};
+  std::map<double, std::vector<const TorsionLine*>> speeds;
+  for (const TorsionLine& line : half.lines) {
+    if (line.coupling == coupling) speeds[line.speed_rad_per_s].push_back(&line);
+  }
+  std::size_t colour = 0;
+  for (auto& [speed, lines] : speeds) {
+    std::ranges::sort(lines, {}, &TorsionLine::frequency_rad_per_s);
+    svg::Series measured{.name = fmt::format("{:.0f} rpm", RadPerSToRpm(speed)),
+                         .colour = svg::Colour(colour++),
+                         .width = 0,
+                         .mark = svg::Mark::kDot};
+    svg::Series model{.name = "model", .colour = measured.colour, .width = 0.9};
+    for (const TorsionLine* line : lines) {
+      measured.x.push_back(line->frequency_rad_per_s / kTwoPi);
+      measured.y.push_back(std::abs(line->torque_n_m));
+      model.x.push_back(measured.x.back());
+      model.y.push_back(std::abs(line->model_n_m));
+    }
+    panel.series.push_back(std::move(measured));
+    panel.series.push_back(std::move(model));
   }
   return panel;
 }
@@ -65,13 +96,47 @@ Json GearedJson(const GearedParameters& p) {
   return json;
 }
 
-void WriteGearedPicture(const std::string& path, const std::vector<GearedLine>& lines) {
+Json TorsionJson(const HalfSpectrum& half) {
+  Json couplings = Json::array();
+  for (std::size_t c = 0; c < half.couplings.size(); ++c) {
+    const CouplingFound& at = half.couplings[c];
+    Json lines = Json::array();
+    for (const TorsionLine& line : half.lines) {
+      if (line.coupling != c) continue;
+      lines.push_back({{"line", line.name},
+                       {"pinion_speed_hz", line.speed_rad_per_s / kTwoPi},
+                       {"frequency_hz", line.frequency_rad_per_s / kTwoPi},
+                       {"torque_n_m", std::abs(line.torque_n_m)},
+                       {"torque_phase_rad", std::arg(line.torque_n_m)},
+                       {"torque_sigma_n_m", line.torque_sigma_n_m},
+                       {"twist_rad", std::abs(line.twist_rad)},
+                       {"twist_sigma_rad", line.twist_sigma_rad},
+                       {"model_torque_n_m", std::abs(line.model_n_m)},
+                       {"model_phase_rad", std::arg(line.model_n_m)}});
+    }
+    const bool found = at.lines_used > 0;
+    couplings.push_back(
+        {{"coupling", at.name},
+         {"stiffness_n_m_per_rad", found ? Json(at.stiffness_n_m_per_rad) : Json(nullptr)},
+         {"stiffness_sigma_n_m_per_rad", found ? Json(at.stiffness_sigma) : Json(nullptr)},
+         {"known_n_m_per_rad", at.known_n_m_per_rad},
+         {"unexplained_share", at.unexplained_share},
+         {"lines", lines}});
+  }
+  return couplings;
+}
+
+void WriteGearedPicture(const std::string& path, const std::vector<GearedLine>& lines,
+                        const HalfSpectrum& half) {
   if (path.empty()) return;
   std::map<double, std::vector<const GearedLine*>> speeds;
   for (const GearedLine& line : lines) speeds[line.speed_rad_per_s].push_back(&line);
   svg::Figure figure{.panel_width = 900, .panel_height = 320};
   figure.panels = {SpectrumPanel("pinion", speeds, &GearedLine::pinion_m),
                    SpectrumPanel("gear", speeds, &GearedLine::gear_m)};
+  for (std::size_t c = 0; c < half.couplings.size(); ++c) {
+    figure.panels.push_back(TorsionPanel(half, c));
+  }
   svg::Write(path, figure);
 }
 

@@ -59,8 +59,9 @@ std::vector<NamedPicture> Pictures(const Recording& recording, const PictureOpti
   std::vector<NamedPicture> pictures = TimePictures(recording);
   const auto speeds =
       options.speeds_rad_per_s.empty() ? ChosenSpeeds(recording, points) : options.speeds_rad_per_s;
-  for (auto group : {OrbitPictures(recording, speeds), RunUpPictures(recording, points),
-                     ExcitationPictures(recording), ClockPictures(recording)}) {
+  for (auto group :
+       {OrbitPictures(recording, speeds), RunUpPictures(recording, points),
+        TorsionPictures(recording), ExcitationPictures(recording), ClockPictures(recording)}) {
     std::move(group.begin(), group.end(), std::back_inserter(pictures));
   }
   return pictures;

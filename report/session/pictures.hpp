@@ -34,6 +34,8 @@ struct PictureOptions {
 [[nodiscard]] std::vector<NamedPicture> OrbitPictures(const Recording& recording,
                                                       const std::vector<double>& speeds_rad_per_s);
 [[nodiscard]] std::vector<NamedPicture> ClockPictures(const Recording& recording);
+/// Torque of measured couplings over the run, and its half spectrum at the top speed.
+[[nodiscard]] std::vector<NamedPicture> TorsionPictures(const Recording& recording);
 /// How each test signal begins, and the correlation of those that act at one time.
 [[nodiscard]] std::vector<NamedPicture> ExcitationPictures(const Recording& recording);
 

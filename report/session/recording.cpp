@@ -60,6 +60,12 @@ void AddExcitation(Recording& recording, const cycle::OperatorInput& op) {
   }
 }
 
+void AddTorsion(Recording& recording, const SensorFrame& frame) {
+  if (recording.torsion.couplings.empty()) return;
+  const auto row = recording.torsion.RowOf(frame.rig_session, frame.cycle);
+  recording.torsion_row.push_back(row ? static_cast<std::int64_t>(*row) : -1);
+}
+
 }  // namespace
 
 double Recording::Radius(std::size_t bearing, std::size_t i) const {
@@ -89,6 +95,7 @@ Recording Load(const std::string& path) {
   recording.position_m.resize(2 * recording.rig.bearings.size());
   recording.current_a.resize(2 * recording.rig.bearings.size());
   const session::RecordFrame bearing(recording.rig);
+  recording.torsion = session::LoadTorsion(path);
   cycle::CycleRecord record;
   while (reader.Next(record)) {
     // Numbers that go back (files put together) would make times without meaning.
@@ -96,7 +103,9 @@ Recording Load(const std::string& path) {
     if (!forward) continue;
     const std::size_t rows = recording.size();
     Add(recording, record, bearing);
-    if (recording.size() > rows) AddExcitation(recording, record.in.op);
+    if (recording.size() == rows) continue;
+    AddExcitation(recording, record.in.op);
+    AddTorsion(recording, record.in.frame);
   }
   recording.events = reader.events();
   recording.damage = reader.damage().Text();

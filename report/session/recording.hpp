@@ -14,6 +14,7 @@
 #include "common/enums.hpp"
 #include "common/rig_numbers.hpp"
 #include "session/session_header.hpp"
+#include "session/torsion_recording.hpp"
 
 namespace levitas::report {
 
@@ -31,7 +32,9 @@ struct Recording {
   std::vector<float> speed_rad_per_s;
   std::vector<float> angle_rad;
   std::vector<std::int64_t> sample_time_ns;
-  std::vector<bool> levitated;  ///< imported records throughout
+  std::vector<bool> levitated;            ///< imported records throughout
+  session::TorsionRecording torsion;      ///< no couplings where none is measured
+  std::vector<std::int64_t> torsion_row;  ///< in `torsion`, of each cycle; -1: lost. Empty without
   std::vector<session::Event> events;
   std::string damage;  ///< empty when nothing was lost
   std::uint64_t records{};

@@ -95,11 +95,13 @@ plant::PlantConfig GearedRotor12() {
   c.shafts[0].torsion = {rotor::TorsionKind::kInertias,
                          {{"motor", 5.0e-3, 1.83e3, 13.0, 0.6}, {"pinion", 3.4e-3, 0.0, 0.0, 0.0}},
                          1,
-                         0.01};
+                         0.01,
+                         {}};
   c.shafts[1].torsion = {rotor::TorsionKind::kInertias,
                          {{"gear", 1.15e-2, 1.47e3, 0.0, 0.0}, {"brake", 8.0e-3, 0.0, 0.0, 0.0}},
                          0,
-                         0.01};
+                         0.01,
+                         {}};
   c.gears[0].driving_torque_n_m = 5.0;
   return c;
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,8 @@
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/study/written_files.hpp"
 #include "common/problem.hpp"
+#include "common/two_pi.hpp"
+#include "identification/geared/half_spectrum.hpp"
 #include "identification/geared/record_lines.hpp"
 #include "identification/identified_rig.hpp"
 #include "report/identification/geared_files.hpp"
@@ -30,7 +33,9 @@ constexpr const char* kFullSpectrumHelp =
     "two steady speeds or more: ks and ki of both magnets, both run-outs, mesh stiffness and "
     "damping, mean and varying transmission error with phases, each with a standard deviation. "
     "Masses and shafts are known from the rig file; tilts are eliminated dynamically, torsion by "
-    "its half spectrum.\n"
+    "its half spectrum. Where the rig measures torque and twist of its couplings, their half "
+    "spectrum is held against that of the identified model, and the couplings' stiffnesses are "
+    "found.\n"
     "  amb run --rig geared_rotor_8dof --record geared.lcm\n"
     "  amb identify full-spectrum geared.lcm --rig geared_rotor_8dof --out identified.yaml";
 
@@ -83,6 +88,46 @@ void Print(const SpectrumOptions& options, const std::vector<GearedLine>& lines,
   }
 }
 
+/// Empty without gauges, as of a file that is no session.
+HalfSpectrum Torsion(const SpectrumOptions& options, const config::RigFile& rig,
+                     const std::vector<GearedLine>& lines, const GearedParameters& found) {
+  if (options.data_path.empty() || !session::IsSession(options.data_path)) return {};
+  const session::TorsionRecording torsion = session::LoadTorsion(options.data_path);
+  if (torsion.rows() == 0) return {};
+  return HalfSpectrumOf(session::LoadRecording(options.data_path, rig), torsion, rig, lines, found);
+}
+
+/// Of each coupling the lines that carry most, those of the noise left out.
+void PrintTorsion(const HalfSpectrum& half) {
+  constexpr std::size_t kShown = 5;
+  for (std::size_t c = 0; c < half.couplings.size(); ++c) {
+    const CouplingFound& at = half.couplings[c];
+    fmt::print("\ntorsion, {}", at.name);
+    if (at.lines_used > 0) {
+      fmt::print(": stiffness {:.1f} +- {:.1f} N m/rad from {} lines (rig file {:.1f})",
+                 at.stiffness_n_m_per_rad, 2.0 * at.stiffness_sigma, at.lines_used,
+                 at.known_n_m_per_rad);
+    }
+    fmt::print("\nhalf spectrum: the model leaves {:.2f} % of its power unexplained\n",
+               100.0 * at.unexplained_share);
+    std::vector<const TorsionLine*> lines;
+    for (const TorsionLine& line : half.lines) {
+      if (line.coupling == c) lines.push_back(&line);
+    }
+    std::ranges::sort(lines, [](const TorsionLine* a, const TorsionLine* b) {
+      return std::abs(a->torque_n_m) > std::abs(b->torque_n_m);
+    });
+    fmt::print("{:>12}{:>10}{:>10}{:>12}{:>12}{:>12}\n", "line", "pinion Hz", "Hz", "N m", "+- N m",
+               "model N m");
+    for (std::size_t i = 0; i < std::min(kShown, lines.size()); ++i) {
+      const TorsionLine& line = *lines[i];
+      fmt::print("{:>12}{:>10.2f}{:>10.1f}{:>12.4f}{:>12.4f}{:>12.4f}\n", line.name,
+                 line.speed_rad_per_s / kTwoPi, line.frequency_rad_per_s / kTwoPi,
+                 std::abs(line.torque_n_m), 2.0 * line.torque_sigma_n_m, std::abs(line.model_n_m));
+    }
+  }
+}
+
 ExitStatus Run(const SpectrumOptions& options) {
   if (options.data_path.empty() == options.lines_path.empty()) {
     throw BadInput("full-spectrum: give a record, or --lines with a file of lines");
@@ -98,8 +143,12 @@ ExitStatus Run(const SpectrumOptions& options) {
                          : ReadGearedLines(options.lines_path);
   const GearedParameters found = IdentifyGeared(lines, known);
   Print(options, lines, known, found);
-  WriteJsonFile(options.json_path, GearedJson(found));
-  WriteGearedPicture(options.svg_path, lines);
+  const HalfSpectrum half = Torsion(options, rig, lines, found);
+  PrintTorsion(half);
+  auto json = GearedJson(found);
+  json["torsion"] = TorsionJson(half);
+  WriteJsonFile(options.json_path, json);
+  WriteGearedPicture(options.svg_path, lines, half);
   if (!options.out_path.empty()) WriteRigFile(options.out_path, IdentifiedRig(rig, found));
   TellWritten({options.out_path, options.json_path, options.svg_path});
   return ExitStatus::kDone;

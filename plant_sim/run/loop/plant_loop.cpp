@@ -32,6 +32,10 @@ SensorFrame PlantLoop::Sample(std::int64_t sample_time_ns) noexcept {
   frame.rig_status |= status_ | gate_status_;
   frame.held_currents = static_cast<std::uint32_t>(statistics_.held_currents);
   if (timed_events_ != nullptr) timed_events_->Disturb(frame.cycle, frame);
+  if (torsion_ != nullptr) {
+    const TorsionBatch* batch = torsion_->Sample(plant_, frame.cycle, frame.rig_session);
+    if (batch != nullptr) link_.SendTorsion(*batch);
+  }
   return frame;
 }
 

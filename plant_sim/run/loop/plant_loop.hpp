@@ -14,6 +14,7 @@
 //            In lockstep periods do not pass by themselves: a controller that stays silent for
 //            `silence_ns` of the machine's time is taken for dead, and the rotor moves on without
 //            it (0: never).
+// Torsion    batches of the gauges leave before the frame of the instant that completes them.
 // Gate       the rig's own lines, where it has some: they may keep the amplifiers off.
 // Thread     Run in one thread; Stop, heard, energised, driven and TakeEvent from any one other.
 
@@ -26,6 +27,7 @@
 #include "controller/rt/clock.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/run/loop/timed_events.hpp"
+#include "plant_sim/run/loop/torsion_gauge.hpp"
 
 namespace levitas::plant_run {
 
@@ -85,13 +87,15 @@ class PlantLoop {
  public:
   /// Keeps references to all of them.
   PlantLoop(const PlantLoopOptions& options, plant::Plant& plant, port::RigLink& link,
-            rt::Clock& clock, AmplifierGate* gate = nullptr, TimedEvents* timed = nullptr)
+            rt::Clock& clock, AmplifierGate* gate = nullptr, TimedEvents* timed = nullptr,
+            TorsionGauge* torsion = nullptr)
       : options_(options),
         plant_(plant),
         link_(link),
         clock_(clock),
         gate_(gate),
-        timed_events_(timed) {}
+        timed_events_(timed),
+        torsion_(torsion) {}
 
   /// Returns after the controller's goodbye (unless it stays), or after Stop.
   void Run() noexcept;
@@ -134,6 +138,7 @@ class PlantLoop {
   rt::Clock& clock_;
   AmplifierGate* gate_;
   TimedEvents* timed_events_;
+  TorsionGauge* torsion_;  ///< null: no coupling is measured
   SpscRing<RigNotice> events_{256};
   PlantStatistics statistics_;
   plant::PlantCommand command_{.amplifiers_enabled = false};

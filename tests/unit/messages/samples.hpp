@@ -14,6 +14,7 @@
 #include <levitas_msg/sample_batch_t.hpp>
 #include <levitas_msg/sensor_frame_t.hpp>
 #include <levitas_msg/session_header_t.hpp>
+#include <levitas_msg/torsion_batch_t.hpp>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,7 +27,8 @@ using EveryMessage = std::tuple<
     levitas_msg::command_answer_t, levitas_msg::controller_state_t, levitas_msg::current_frame_t,
     levitas_msg::cycle_record_t, levitas_msg::event_t, levitas_msg::excitation_request_t,
     levitas_msg::loop_histogram_t, levitas_msg::loop_timing_t, levitas_msg::operator_command_t,
-    levitas_msg::sample_batch_t, levitas_msg::sensor_frame_t, levitas_msg::session_header_t>;
+    levitas_msg::sample_batch_t, levitas_msg::sensor_frame_t, levitas_msg::session_header_t,
+    levitas_msg::torsion_batch_t>;
 constexpr std::size_t kEveryMessageCount = std::tuple_size_v<EveryMessage>;
 
 template <class Message>
@@ -82,6 +84,14 @@ inline void Fill(levitas_msg::session_header_t& m) {
   m.pace = "lockstep";
   m.channels = kAxes;
   m.channel = {"de_x", "de_y", "nde_x", "nde_y"};
+}
+
+inline void Fill(levitas_msg::torsion_batch_t& m) {
+  m.couplings = 2;
+  m.samples = 3;
+  m.values = 6;
+  m.torque_n_m.assign(6, 0.5);
+  m.twist_rad.assign(6, 1e-4);
 }
 
 template <class Message>

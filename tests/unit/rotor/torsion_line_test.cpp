@@ -13,7 +13,8 @@ Torsion TwoInertias() {
   return {TorsionKind::kInertias,
           {{"motor", 5.0e-3, 1830.0, 0.0, 0.0}, {"pinion", 3.4e-3, 0.0, 0.0, 0.0}},
           1,
-          0.01};
+          0.01,
+          {}};
 }
 
 TEST(TorsionLine, OfTwoInertiasTurnsFreelyAndVibratesAgainstEachOther) {
