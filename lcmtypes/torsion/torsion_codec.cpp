@@ -58,10 +58,17 @@ std::size_t TorsionCodec::Encode(const TorsionBatch& batch, std::span<std::uint8
 bool TorsionCodec::Decode(std::span<const std::uint8_t> bytes, TorsionBatch& batch) noexcept {
   if (!message::DecodeChecked(bytes, message_)) return false;
   if (CrcOf(bytes) != static_cast<std::uint32_t>(message_.crc)) return false;
+  // Each on its own: a product of two that lie can be right.
+  const auto within = [](std::int32_t count, std::size_t most) {
+    return count > 0 && static_cast<std::size_t>(count) <= most;
+  };
+  if (!within(message_.samples, kTorsionSamples) || !within(message_.couplings, kMaxCouplings)) {
+    return false;
+  }
   const auto samples = static_cast<std::size_t>(message_.samples);
   const auto couplings = static_cast<std::size_t>(message_.couplings);
   const auto values = static_cast<std::size_t>(message_.values);
-  if (samples == 0 || couplings == 0 || values != samples * couplings) return false;
+  if (values != samples * couplings) return false;
   batch.first_cycle = static_cast<std::uint64_t>(message_.first_cycle);
   batch.rig_session = static_cast<std::uint32_t>(message_.rig_session);
   batch.couplings = static_cast<std::uint32_t>(couplings);

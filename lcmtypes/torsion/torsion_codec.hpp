@@ -4,8 +4,8 @@
 // Integrity  a CRC-32 over the message with the CRC field zero.
 // Thread     one codec per thread; after construction Encode into room that is there and Decode
 //            allocate nothing.
-// Failure    Decode is false, and `batch` untouched, for damaged or foreign bytes, for a batch
-//            without a sample, and for values that are not samples times couplings.
+// Failure    Decode is false, and `batch` untouched, for damaged or foreign bytes, for counts
+//            that no batch has, and for values that are not samples times couplings.
 
 #include <cstdint>
 #include <levitas_msg/torsion_batch_t.hpp>

@@ -144,8 +144,7 @@ TEST(CheckedDecode, LimitsOfTheMessagesAreThoseOfTheProgram) {
   EXPECT_EQ(Limits<levitas_msg::session_header_t>(), Counts{kMaxAxes});
   EXPECT_EQ(Limits<levitas_msg::cycle_record_t>(), (Counts{kMaxAxes, 2 * kMaxAxes}));
   EXPECT_EQ(Limits<levitas_msg::loop_histogram_t>(), Counts{Histogram::kBins});
-  EXPECT_EQ(Limits<levitas_msg::torsion_batch_t>(),
-            (Counts{kMaxCouplings, kTorsionSamples, kMaxCouplings * kTorsionSamples}));
+  EXPECT_EQ(Limits<levitas_msg::torsion_batch_t>(), Counts{kMaxCouplings * kTorsionSamples});
   const Counts batch = Limits<levitas_msg::sample_batch_t>();
   EXPECT_GE(batch[0], transport::SampleBatcher::kBatch);
   EXPECT_EQ(batch[1], batch[0] * kMaxAxes);

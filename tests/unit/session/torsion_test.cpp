@@ -8,6 +8,7 @@
 #include "lcmtypes/torsion/torsion_codec.hpp"
 #include "session/log_format.hpp"
 #include "session/log_scanner.hpp"
+#include "session/record_codec.hpp"
 #include "session/recorder.hpp"
 #include "session/torsion_recording.hpp"
 #include "tests/unit/session/synthetic.hpp"
@@ -65,9 +66,26 @@ TEST(TorsionCodec, RefusesEveryByteThatIsNotAsItWasWritten) {
   }
 }
 
-TEST(TorsionCodec, RefusesABatchWithoutSamplesAndWritesNoneThatDoesNotFit) {
+/// A batch whose counts lie; its checksum fits.
+std::vector<std::uint8_t> Lying(std::uint32_t couplings, std::uint32_t samples) {
+  TorsionBatch batch;
+  batch.couplings = couplings;
+  batch.samples = samples;
+  return Encoded(batch);
+}
+
+TEST(TorsionCodec, RefusesCountsThatNoBatchHas) {
   TorsionBatch read;
-  EXPECT_FALSE(TorsionCodec().Decode(Encoded({.couplings = 2, .samples = 0}), read));
+  ASSERT_TRUE(TorsionCodec().Decode(Lying(2, 3), read));
+  EXPECT_FALSE(TorsionCodec().Decode(Lying(2, 0), read));
+  EXPECT_FALSE(TorsionCodec().Decode(Lying(0, 2), read));
+  EXPECT_FALSE(TorsionCodec().Decode(Lying(9, 1), read));
+  EXPECT_FALSE(TorsionCodec().Decode(Lying(1, 33), read));
+  // Twice minus one times minus three are six values.
+  EXPECT_FALSE(TorsionCodec().Decode(Lying(0xFFFF'FFFEU, 0xFFFF'FFFDU), read));
+}
+
+TEST(TorsionCodec, WritesNoneThatDoesNotFit) {
   Random draw{13};
   const TorsionBatch batch = DrawBatch(draw, 5, 4);
   std::vector<std::uint8_t> small(Encoded(batch).size() - 1);
