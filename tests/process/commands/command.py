@@ -35,7 +35,7 @@ RATIOS = {"ratio", "share", "sigmas", "damping_ratio", "largest_pole_modulus", "
           "torsion_share", "sensitivity_peak", "gain_margin_up", "gain_margin_down", "largest_singular_value",
           "multiple_of_noise", "expected_multiple", "lag_one_correlation",
           "dominant_density_ratio", "saturated_share", "clearance_share", "share_of_peak", "peak",
-          "sigma", "computed_peak", "condition", "shown_share", "copper_share",
+          "sigma", "computed_peak", "condition", "shown_share", "copper_share", "unexplained_share",
           "relative_deflection", "sensitivity_real", "sensitivity_imaginary"}
 
 

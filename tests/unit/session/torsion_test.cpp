@@ -81,7 +81,7 @@ TEST(TorsionCodec, RefusesCountsThatNoBatchHas) {
   EXPECT_FALSE(TorsionCodec().Decode(Lying(0, 2), read));
   EXPECT_FALSE(TorsionCodec().Decode(Lying(9, 1), read));
   EXPECT_FALSE(TorsionCodec().Decode(Lying(1, 33), read));
-  // Twice minus one times minus three are six values.
+  // Negative ones, as the message counts.
   EXPECT_FALSE(TorsionCodec().Decode(Lying(0xFFFF'FFFEU, 0xFFFF'FFFDU), read));
 }
 
