@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
 
 #include "analysis/full_spectrum.hpp"
 #include "common/rotational_speed.hpp"
@@ -59,27 +60,27 @@ NamedPicture OverTime(const Recording& r) {
           Wide(std::move(panel))};
 }
 
-/// The last rows at the top speed (within 0.3 %) without a gap; r.size(): there are none.
-std::size_t EndOfTop(const Recording& r) {
+/// Behind the last kLength rows at the top speed (within 0.3 %) of which no torque is lost.
+std::optional<std::size_t> EndOfTop(const Recording& r) {
   constexpr double kSameSpeed = 0.003;
-  std::size_t since = r.size();
+  std::optional<std::size_t> end;
   for (std::size_t i = r.size(); i-- > 0;) {
     const double speed = std::abs(static_cast<double>(r.speed_rad_per_s[i]));
     const bool here = r.torsion_row[i] >= 0 && r.top_speed_rad_per_s > 0.0 &&
                       speed >= (1.0 - kSameSpeed) * r.top_speed_rad_per_s;
     if (!here) {
-      since = r.size();
+      end.reset();
       continue;
     }
-    if (since == r.size()) since = i;
-    if (since - i + 1 == kLength) return since + 1;
+    if (!end) end = i + 1;
+    if (*end - i == kLength) return end;
   }
-  return r.size();
+  return std::nullopt;
 }
 
 std::vector<NamedPicture> AtTopSpeed(const Recording& r) {
-  const std::size_t end = EndOfTop(r);
-  if (end < kLength || end == r.size() || !r.Uninterrupted(end - kLength, end - 1)) return {};
+  const std::optional<std::size_t> end = EndOfTop(r);
+  if (!end || !r.Uninterrupted(*end - kLength, *end - 1)) return {};
   const double line_hz = 1.0 / (r.rig.period_s() * static_cast<double>(kLength));
   svg::Panel panel{
       fmt::format("half spectrum of the torque at {:.0f} rpm", RadPerSToRpm(r.top_speed_rad_per_s)),
@@ -87,7 +88,7 @@ std::vector<NamedPicture> AtTopSpeed(const Recording& r) {
   panel.y_scale = svg::Scale::kLogarithmic;
   for (std::size_t c = 0; c < r.torsion.couplings.size(); ++c) {
     std::vector<std::complex<double>> torque;
-    for (std::size_t i = end - kLength; i < end; ++i) torque.emplace_back(TorqueAt(r, c, i), 0.0);
+    for (std::size_t i = *end - kLength; i < *end; ++i) torque.emplace_back(TorqueAt(r, c, i), 0.0);
     constexpr std::size_t kLines = kLength / 2 - 1;
     const std::vector<double> both = analysis::FullAmplitudes(std::move(torque), kLines);
     svg::Series series{.name = r.torsion.couplings[c], .colour = svg::Colour(c)};
