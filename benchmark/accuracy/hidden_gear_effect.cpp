@@ -44,6 +44,10 @@ std::vector<effect::EffectConfig> DrawGearEffect(Id id, double size,
       entry.values[2] = phase;
       break;
     }
+    case Id::kMisalignment:  // a universal joint: no force, uneven rotation
+      entry.on_driven = pick(2) == 1;
+      entry.values = {0.0, 2.0, 0.0, phase, 2e-4 * size};
+      break;
     case Id::kGearRunout:
       entry.on_driven = pick(2) == 1;
       entry.values[0] = 10e-6 * size;

@@ -71,7 +71,9 @@ class Maker {
     for (std::size_t i = 0; i < plan_.hidden.size(); ++i) {
       const double share = bench_.trials.Factor(plan_.hidden[i]);
       const double drawn_size = share * (i == 0 ? size : beside_);
-      const bool of_teeth = effect::At(plan_.hidden[i]).place == effect::Place::kGear;
+      const bool of_teeth =
+          effect::At(plan_.hidden[i]).place == effect::Place::kGear ||
+          (plan_.hidden[i] == Id::kMisalignment && !nominal_.config.gears.empty());
       const auto drawn = of_teeth ? DrawGearEffect(plan_.hidden[i], drawn_size, nominal_, random)
                                   : DrawEffect(plan_.hidden[i], drawn_size, nominal_, random);
       entries.insert(entries.end(), drawn.begin(), drawn.end());

@@ -24,6 +24,7 @@ void AddModesCommand(CLI::App& app, Action& action);
 void AddPolesCommand(CLI::App& app, Action& action);
 void AddMarginsCommand(CLI::App& app, Action& action);
 void AddCompareCommand(CLI::App& app, Action& action);
+void AddTrendCommand(CLI::App& app, Action& action);
 void AddReplayCommand(CLI::App& app, Action& action);
 void AddImportCommand(CLI::App& app, Action& action);
 void AddExportCommand(CLI::App& app, Action& action);

@@ -15,6 +15,7 @@ void AddRunningCommands(CLI::App& app, Action& action) {
   AddDashCommand(app, action);
   AddReportCommand(app, action);
   AddCompareCommand(app, action);
+  AddTrendCommand(app, action);
   AddSessionsCommand(app, action);
   AddDoctorCommand(app, action);
   AddKeyCommand(app, action);

@@ -77,7 +77,10 @@ void DescribeGear(Visitor& v, const RigFile& rig, EffectConfig& entry) {
   }
   if (names.empty()) names.emplace_back("<gear>");
   v.Choice({"gear", names, kRequired, "which gear pair"}, entry.gear);
-  if (entry.id != effect::Id::kGearRunout && entry.id != effect::Id::kToothCrack) return;
+  if (entry.id != effect::Id::kGearRunout && entry.id != effect::Id::kToothCrack &&
+      entry.id != effect::Id::kMisalignment) {
+    return;
+  }
   std::size_t wheel = entry.on_driven ? 1 : 0;
   v.Choice({"wheel", kWheels, kRequired, "which of its wheels"}, wheel);
   entry.on_driven = wheel == 1;
@@ -101,7 +104,8 @@ void DescribeValues(Visitor& v, const RigFile& rig, EffectConfig& entry) {
   if (row.scope == Scope::kChannels) DescribeChannels(v, rig, entry);
   if (row.scope == Scope::kBearing) DescribeBearing(v, rig, entry);
   if (row.scope == Scope::kMode) DescribeMode(v, rig, entry);
-  if (row.scope == Scope::kGear) DescribeGear(v, rig, entry);
+  const bool of_the_train = entry.id == effect::Id::kMisalignment && !rig.plant.shafts.empty();
+  if (row.scope == Scope::kGear || of_the_train) DescribeGear(v, rig, entry);
   if (entry.id == effect::Id::kAxisRotation) {
     std::size_t side = entry.on_sensor ? 1 : 0;
     v.Choice({"of", kSides, kRequired, "what is turned"}, side);
@@ -110,7 +114,11 @@ void DescribeValues(Visitor& v, const RigFile& rig, EffectConfig& entry) {
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
     DescribeParameter(v, row.parameters[i], entry.values[i]);
   }
-  RefusePlane(v, rig, entry);
+  if (entry.id == effect::Id::kMisalignment) {
+    v.RefuseIf(entry.values[2] == 0.0 && entry.values[4] == 0.0, "force_n",
+               "neither force_n nor rotation_error_deg says what the coupling does; give one");
+  }
+  if (!of_the_train) RefusePlane(v, rig, entry);
 }
 
 void Describe(Visitor& v, const RigFile& rig, EffectConfig& entry) {

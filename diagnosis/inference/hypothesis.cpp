@@ -54,7 +54,8 @@ class Maker {
       return;
     }
     // Grids of a shape parameter are alternatives; these sum up.
-    if (effect == "unbalance" || effect == "misalignment") Free(effect, "all places", indices);
+    const bool adds_up = effect == "misalignment" && !rig_.geared();
+    if (effect == "unbalance" || adds_up) Free(effect, "all places", indices);
     if (effect == "sensor_runout") AddRunout(indices);
     if (effect == "mains_pickup") AddMains(indices);
   }

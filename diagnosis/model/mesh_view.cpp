@@ -10,6 +10,8 @@ WheelView WheelOf(const plant::PlantModel& model, const gear::Wheel& wheel,
   return {wheel.shaft,
           model.train().ratio[wheel.shaft],
           wheel.teeth,
+          wheel.z_m,
+          wheel.base_radius_m,
           wheel.eccentric_mass_kg,
           std::polar(wheel.runout_m, wheel.runout_phase_rad),
           shape};

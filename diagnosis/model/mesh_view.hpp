@@ -30,6 +30,8 @@ struct WheelView {
   std::size_t shaft{};
   double ratio{};  ///< speed over the first shaft's
   int teeth{};
+  double z_m{};
+  double base_radius_m{};
   double eccentric_mass_kg{};
   std::complex<double> runout_m;
   std::vector<double> shape;  ///< per mode

@@ -141,6 +141,7 @@ EntryValues ExternalEntry(const RigView& rig, Id id, const PlacedEffect& at) {
   if (id == Id::kExtraDelay) {
     return {Number("delay_us", 1e6 * rig.period_s * at.At("samples"))};
   }
+  if (id == Id::kMisalignment && at.location.gear) return GearEntry(rig, id, at);
   if (id == Id::kMisalignment) {
     return {Number("z_mm", 0), Number("order", at.location.order.value()),
             Number("force_n", at.Amplitude()), PhaseValue(at.Phase())};

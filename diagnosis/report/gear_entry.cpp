@@ -1,8 +1,14 @@
 #include "diagnosis/report/gear_entry.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace levitas::diagnosis {
+namespace {
+
+constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
+
+}  // namespace
 
 using effect::Id;
 
@@ -28,6 +34,15 @@ EntryValues GearEntry(const RigView& rig, Id id, const PlacedEffect& at) {
   if (id == Id::kToothCrack) {
     return {EntryValue{"depth", std::clamp(at.At("depth"), 0.0, 1.0)},
             EntryValue{"tooth", static_cast<double>(at.location.tooth.value())}};
+  }
+  if (id == Id::kMisalignment) {
+    const EntryValue order{"order", static_cast<double>(at.location.order.value())};
+    if (at.location.z_m) {
+      return {EntryValue{"z_mm", 1e3 * *at.location.z_m}, order,
+              EntryValue{"force_n", at.Amplitude()}, PhaseValue(at.Phase())};
+    }
+    return {order, EntryValue{"rotation_error_deg", kDegreesPerRad * at.Amplitude()},
+            PhaseValue(at.Phase())};
   }
   if (id == Id::kMeshFriction) {
     return {EntryValue{"coefficient", std::clamp(at.At("coefficient"), 0.0, 1.0)}};

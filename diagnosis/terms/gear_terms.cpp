@@ -5,6 +5,7 @@
 //   stiffness   k theta d               damping      c theta delta'
 //   variation   k theta cos(n phi) d    crack        -k theta w(wheel) d
 //   error       -(k + c d/dt) theta e^(j n phi)      run-out   (k + c d/dt) theta e^(j wheel)
+//   coupling    (k + c d/dt) R theta n cos(i wheel), and on its shaft alone  theta e^(j i wheel)
 //   backlash    the law with the gap minus that without; friction  theta |F n| sign(sliding) j n
 #include <fmt/core.h>
 
@@ -176,6 +177,52 @@ void AddRunout(const Teeth& t, const Tolerances& tolerances, bool driven,
   }
 }
 
+/// A misaligned coupling of the wheel's shaft, (G17) and (G18): pushes at twice the shaft's turns,
+/// forward or backward, and turns the wheel unevenly once or twice a turn.
+void AddCoupling(const Teeth& t, bool driven, std::vector<Term>& terms) {
+  const WheelView& wheel = driven ? t.mesh->driven : t.mesh->driving;
+  const auto place = [&](const char* what, int order) {
+    Location at =
+        AtWheel(t.mesh->name, t.at, driven).Named(fmt::format("{}, order {}", what, order));
+    at.order = order;
+    return at;
+  };
+  for (const int order : {2, -2}) {
+    Location at = place("force", order);
+    at.z_m = wheel.z_m;
+    for (int part = 0; part < 2; ++part) {
+      terms.push_back(MakeTerm({Id::kMisalignment, at, PartName(part), "N"}, 0.0, 2.0,
+                               [=, w = &wheel, period_s = t.period_s](
+                                   const SamplePoint& m, double theta, Contribution& add) {
+                                 const Complex force =
+                                     theta * Part(part) *
+                                     std::polar(1.0, order * w->ratio * MidAngle(m, period_s));
+                                 const std::size_t modes = w->shape.size();
+                                 for (std::size_t i = 0; i < modes; ++i) {
+                                   add.Modal(i, w->shape[i] * force.real());
+                                   add.Modal(modes + i, w->shape[i] * force.imag());
+                                 }
+                               }));
+    }
+  }
+  if (wheel.base_radius_m == 0.0) return;
+  for (const int order : {1, 2}) {
+    for (int part = 0; part < 2; ++part) {
+      terms.push_back(MakeTerm(
+          {Id::kMisalignment, place("rotation", order), PartName(part), "rad"}, 0.0, 2e-4,
+          [=, w = &wheel](const SamplePoint& m, double theta, Contribution& add) {
+            const double turns = order * w->ratio;
+            const Complex line = theta * w->base_radius_m * Part(part) *
+                                 std::polar(1.0, turns * MidAngle(m, t.period_s));
+            const double rate = -turns * static_cast<double>(m.speed_rad_per_s) * line.imag();
+            t.Push((t.mesh->stiffness_n_per_m * line.real() + t.mesh->damping_n_s_per_m * rate) *
+                       t.mesh->normal,
+                   add);
+          }));
+    }
+  }
+}
+
 /// How much of a tooth's stiffness counts: one pitch to either side of it, as neighbours share.
 double Carries(double wheel_rad, int tooth, int teeth) {
   const double pitch = wheel_rad * teeth / (2.0 * std::numbers::pi) - tooth;
@@ -295,6 +342,7 @@ std::vector<Term> GearTerms(const RigView& rig, const Tolerances& tolerances) {
     AddError(teeth, tolerances, terms);
     for (const bool driven : {false, true}) {
       AddRunout(teeth, tolerances, driven, terms);
+      AddCoupling(teeth, driven, terms);
       AddCracks(teeth, driven, terms);
     }
     terms.push_back(Friction(teeth));

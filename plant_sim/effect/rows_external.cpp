@@ -13,9 +13,13 @@ constexpr std::array kMisalignment{
     Plane(0.0, 0.0),
     Parameter{"order", "", "", -20.0, 20.0, 2.0, 2.0, Scaling::kFixed, 2.0,
               "times rotation; negative = a force that turns backward", true},
-    Parameter{"force", "n", "n", 0.0, 1e6, 1.0, 0.0, Scaling::kLinear, std::nullopt,
-              "of this order", false},
-    Phase("at rotor angle 0, from x towards y")};
+    Parameter{"force", "n", "n", 0.0, 1e6, 1.0, 0.0, Scaling::kLinear, 0.0, "of this order", false},
+    Phase("at rotor angle 0, from x towards y"),
+    Parameter{
+        "rotation_error", "rad", "deg", 0.0, 5.0 * kDegree, 0.0, 0.0, Scaling::kLinear, 0.0,
+        "of this order, of geared shafts: by how much the coupling turns its shaft on and back; "
+        "a universal joint at angle a: tan^2(a/2) at order 2",
+        false}};
 
 constexpr std::array kCouplingStiffness{
     Plane(0.0, 0.0), Signed("direct", "n_per_m", 1e9, 2e4, std::nullopt, "stiffness in x and in y"),
@@ -50,11 +54,14 @@ constexpr std::array kRub{
 constexpr std::array kExternalRows{
     Row{Id::kMisalignment, "misalignment", Place::kExternal, Scope::kRig, kMisalignment,
         "a misaligned coupling pushes at multiples of rotation",
-        "f(z) = force e^(j(order angle + phase))",
+        "f(z) = force e^(j(order angle + phase));  "
+        "rotation += rotation_error cos(order angle + phase)",
         "one line at order x rotation, of constant force: +2 turns forward; -3 with 1 x unbalance "
-        "makes a diamond orbit",
+        "makes a diamond orbit. Between geared shafts base radius x rotation_error adds to the "
+        "transmission error: forward and backward alike",
         "Gibbons 1976, Proc. 5th Turbomachinery Symp. 111; Sekhar & Prabhu 1995, J. Sound Vib. "
-        "185(4) 655",
+        "185(4) 655; Seherr-Thoss, Schmelz & Aucktor 2006, Universal Joints and Driveshafts, "
+        "2nd ed., ch. 1",
         Facts{.repeats = true, .needs_rotation = true, .shows_in = Shows::kSpectrum}},
     Row{Id::kCouplingStiffness, "coupling_stiffness", Place::kExternal, Scope::kRig,
         kCouplingStiffness, "a spring at the drive end",

@@ -70,6 +70,20 @@ struct MeshModel {
   std::vector<double> driving_shape, driven_shape;  ///< displacement of each wheel
 };
 
+/// A misaligned coupling of one shaft: a force and an uneven rotation at a multiple of the shaft's
+/// own turns, (G17)-(G19). The phasors stand at angle 0 and turn with the shaft.
+struct CouplingModel {
+  std::size_t shaft{};
+  double ratio{};
+  int order{};                ///< negative: against the shaft's sense of rotation
+  std::vector<double> shape;  ///< of the plane that it pushes
+  gear::Vector force_n;
+  gear::Vector rotation_rad;  ///< its real part is the error of rotation
+  std::size_t mesh{};
+  double base_radius_m{};     ///< of the wheel on this shaft; 0: the spring below is twisted
+  std::vector<double> twist;  ///< torque of the coupling's spring per error [N m/rad]; may be empty
+};
+
 struct TrainModel {
   std::size_t shafts{};  ///< 0: the rig has one rotor and none of this
   std::size_t twists{};  ///< torsional modes of all shafts
@@ -80,6 +94,7 @@ struct TrainModel {
   std::vector<TwistDamper> dampers;
   std::vector<TwistInertia> inertias;  ///< of all shafts, one shaft after the other
   std::vector<MeshModel> meshes;
+  std::vector<CouplingModel> couplings;  ///< that are misaligned
   /// Modal coordinates of one plane that bring the bearings to given places with least strain.
   Eigen::MatrixXd placement;
 };

@@ -1,6 +1,7 @@
 #include "plant_sim/plant/train_step.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "plant_sim/plant/modal_sum.hpp"
@@ -43,6 +44,40 @@ gear::Vector Power(gear::Vector turn, int power) noexcept {
     turn = gear::Turned(turn, turn);
   }
   return result;
+}
+
+// A phasor of a coupling at the present angle of its shaft.
+gear::Vector Turning(const CouplingModel& coupling, const gear::Vector& phasor,
+                     const TrainPose& pose) noexcept {
+  const gear::Vector& heading = pose.heading[coupling.shaft];
+  const gear::Vector sense{heading.x, coupling.order < 0 ? -heading.y : heading.y};
+  return gear::Turned(phasor, Power(sense, std::abs(coupling.order)));
+}
+
+// Uneven rotation of the wheels as a displacement of the teeth along n, (G18).
+void AddRotationErrors(const TrainModel& train, std::size_t mesh, const TrainPose& pose,
+                       gear::Prescribed& imposed) noexcept {
+  for (const CouplingModel& coupling : train.couplings) {
+    if (coupling.mesh != mesh || coupling.base_radius_m == 0.0) continue;
+    const gear::Vector& n = train.meshes[mesh].law.normal;
+    const gear::Vector error_m =
+        coupling.base_radius_m * Turning(coupling, coupling.rotation_rad, pose);
+    const double rate_rad_per_s = coupling.order * coupling.ratio * pose.speed_rad_per_s;
+    imposed.displacement_m = imposed.displacement_m + error_m.x * n;
+    imposed.rate_m_per_s = imposed.rate_m_per_s + (-rate_rad_per_s * error_m.y) * n;
+  }
+}
+
+// What misaligned couplings push, and the torque of those whose spring is there, (G17), (G19).
+void AddCouplings(const TrainModel& train, const TrainPose& pose, std::size_t modes,
+                  double* acceleration) noexcept {
+  for (const CouplingModel& coupling : train.couplings) {
+    const gear::Vector force_n = Turning(coupling, coupling.force_n, pose);
+    Project(coupling.shape, force_n.x, acceleration);
+    Project(coupling.shape, force_n.y, acceleration + modes);
+    Project(coupling.twist, Turning(coupling, coupling.rotation_rad, pose).x,
+            acceleration + 2 * modes);
+  }
 }
 
 // Run-out of a wheel as a prescribed displacement.
@@ -106,6 +141,7 @@ void Follow(const TrainModel& train, const Rotation& rotation, TrainPose& pose) 
     const gear::Vector forward{at.x, mesh.driving.ratio < 0.0 ? -at.y : at.y};
     pose.mesh[m] = Power(forward, mesh.law.driving_teeth);
     pose.prescribed[m] = Imposed(mesh, pose, pose.mesh[m]);
+    AddRotationErrors(train, m, pose, pose.prescribed[m]);
   }
 }
 
@@ -115,6 +151,7 @@ void AddTrain(const TrainModel& train, const TrainPose& pose, std::size_t modes,
     acceleration[2 * modes + i] = pose.outside != nullptr ? pose.outside[i] : 0.0;
   }
   AddUnbalance(train, pose, modes, acceleration);
+  AddCouplings(train, pose, modes, acceleration);
   for (const SupportModel& support : train.supports) {
     const double x_n = -support.stiffness_x_n_per_m * ModalSum(support.shape, position) -
                        support.damping_x_n_s_per_m * ModalSum(support.shape, velocity);

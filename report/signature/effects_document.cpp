@@ -40,8 +40,14 @@ responses are those of the free rotor in its magnets without a controller; "what
 of two runs with the same noise; effects of teeth are drawn on `geared_rotor_4dof`.
 
 Not covered by the linear model that `amb poles` and `amb margins` use: hysteresis, slew, rub, anisotropy, crack, and everything
-that is a signal. On rigs with geared shafts the effects of rotor and surroundings, which refer to one rotor, are refused; those of
-gears need such a rig: `{id: tooth_crack, gear: pair, wheel: driven, tooth: 7, depth: 0.5}`.
+that is a signal. On rigs with geared shafts the effects of rotor and surroundings, which refer to one rotor, are refused, but for
+`misalignment`, which there names the wheel on whose shaft the coupling sits; those of gears need such a rig:
+
+```yaml
+effects:
+  - {id: tooth_crack, gear: mesh, wheel: driven, tooth: 7, depth: 0.5}
+  - {id: misalignment, gear: mesh, wheel: driving, order: 2, rotation_error_deg: 0.039}  # a universal joint at 3 degrees
+```
 
 The lag of `eddy_current` is a sum of first-order lags: 1/(1 + sqrt p) = (1/pi) integral over x > 0 of sqrt(x)/((1 + x)(x + p)) dx,
 by the trapezoid rule in ln x with ten points from 1e-4 to 1e2. It follows the half-order law within 0.6 % up to 2 pi f tau = 10.

@@ -128,6 +128,7 @@ void ApplyFromOutside(const EffectConfig& entry, const Values& values,
   };
   switch (entry.id) {
     case Id::kMisalignment: {
+      if (shape.empty()) break;  // of geared shafts, coupling_effects.hpp
       OrderForce& to = model.order_forces[slots.order_force++];
       Store(shape, now, to.shape);
       to.order = static_cast<int>(values[1]);

@@ -41,7 +41,8 @@ void CheckValues(std::size_t index, const EffectConfig& entry) {
 void CheckReference(std::size_t index, const EffectConfig& entry, const PlantConfig& config) {
   const Scope scope = effect::At(entry.id).scope;
   const std::size_t bearings = config.bearings.size();
-  if (scope == Scope::kGear && entry.gear >= config.gears.size()) {
+  const bool of_a_wheel = entry.id == effect::Id::kMisalignment && !config.shafts.empty();
+  if ((scope == Scope::kGear || of_a_wheel) && entry.gear >= config.gears.size()) {
     Refuse(index, entry,
            config.gears.empty()
                ? "needs a rig with gears"
@@ -61,9 +62,37 @@ void CheckReference(std::size_t index, const EffectConfig& entry, const PlantCon
 // Geared shafts have modes and planes of their own: what refers to those of one rotor is refused.
 bool NeedsOneRotor(const EffectConfig& entry) {
   const effect::Row& row = effect::At(entry.id);
-  if (entry.id == effect::Id::kGyroscopicInertia) return false;
+  if (entry.id == effect::Id::kGyroscopicInertia || entry.id == effect::Id::kMisalignment) {
+    return false;
+  }
   return row.place == effect::Place::kRotor || row.place == effect::Place::kExternal ||
          entry.id == effect::Id::kSensorPosition;
+}
+
+/// What a misaligned coupling acts on: the disc of a lumped shaft, the radius of the wheel. Planes of
+/// a beam are known once its elements are, and checked there.
+void CheckCoupling(std::size_t index, const EffectConfig& entry, const PlantConfig& config) {
+  const double z_m = entry.values[0];
+  const double force_n = entry.values[2];
+  const double rotation_rad = entry.values[4];
+  if (config.shafts.empty()) {
+    if (rotation_rad == 0.0) return;
+    Refuse(
+        index, entry,
+        "rotation_error acts between geared shafts; the drive prescribes the rotation of the one "
+        "rotor of this rig");
+  }
+  const gear::GearPair& pair = config.gears[entry.gear];
+  const gear::Wheel& wheel = entry.on_driven ? pair.driven : pair.driving;
+  const rotor::Shaft& shaft = config.shafts[wheel.shaft];
+  if (force_n != 0.0 && !shaft.is_beam && std::abs(z_m - shaft.lumped.z_m) > 1e-9) {
+    Refuse(index, entry,
+           fmt::format("z_mm = {:.6g}, but shaft {} can be pushed at its disc only, at {:.6g}",
+                       1e3 * z_m, shaft.name, 1e3 * shaft.lumped.z_m));
+  }
+  if (rotation_rad != 0.0 && wheel.base_radius_m == 0.0) {
+    Refuse(index, entry, "rotation_error needs the base_radius_mm of the wheel");
+  }
 }
 
 bool SamePlace(const EffectConfig& a, const EffectConfig& b, std::size_t bearings) {
@@ -94,6 +123,7 @@ void CheckEffects(const PlantConfig& config) {
     if (config.rotor.given && entries[i].id == effect::Id::kBreathingCrack) {
       Refuse(i, entries[i], "needs the sections of the shaft, this rotor is given by its modes");
     }
+    if (entries[i].id == effect::Id::kMisalignment) CheckCoupling(i, entries[i], config);
     if (!config.shafts.empty() && NeedsOneRotor(entries[i])) {
       Refuse(i, entries[i], "needs a rig with one rotor, this one has geared shafts");
     }

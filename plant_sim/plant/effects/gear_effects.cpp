@@ -5,6 +5,7 @@
 
 #include "plant_sim/effect/catalogue.hpp"
 #include "plant_sim/plant/effects/apply_effects.hpp"
+#include "plant_sim/plant/effects/coupling_effects.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -80,6 +81,7 @@ void ApplyEntry(const PlantParameters& parameters, const EffectConfig& entry, co
 }  // namespace
 
 NominalGears PrepareGears(const PlantParameters& parameters, TrainModel& train) {
+  PrepareCouplings(parameters, train);
   NominalGears gears{train.meshes, {}, train.unbalance};
   for (const auto& pair : parameters.config.gears) gears.errors.push_back(pair.transmission_error);
   for (const EffectConfig& entry : parameters.config.effects) {
@@ -99,6 +101,7 @@ NominalGears PrepareGears(const PlantParameters& parameters, TrainModel& train) 
 
 void ApplyToGears(const PlantParameters& parameters, std::span<const double> strengths,
                   NominalGears& gears, TrainModel& train) noexcept {
+  ApplyToCouplings(parameters, strengths, train);
   const auto& entries = parameters.config.effects;
   if (std::none_of(entries.begin(), entries.end(), OnGear)) return;
   for (std::size_t s = 0; s < train.unbalance.size(); ++s) {

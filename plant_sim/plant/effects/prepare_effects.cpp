@@ -16,7 +16,13 @@ namespace {
 using effect::EffectConfig;
 using effect::Id;
 
-std::vector<double> ShapeOf(const PlantParameters& parameters, const EffectConfig& entry) {
+// Between geared shafts it belongs to the train, coupling_effects.hpp.
+bool OfTheTrain(const PlantParameters& parameters, const EffectConfig& entry) {
+  return entry.id == Id::kMisalignment && !parameters.config.shafts.empty();
+}
+
+std::vector<double> EntryShape(const PlantParameters& parameters, const EffectConfig& entry) {
+  if (OfTheTrain(parameters, entry)) return {};
   const rotor::ModalRotor& modes = parameters.modes;
   switch (entry.id) {
     case Id::kShaftBow:
@@ -147,7 +153,7 @@ EntryShapes MakeEntryShapes(const PlantParameters& parameters) {
                       "modes kept); correct the rig description",
                       row.name, entry.mode, flexible));
     }
-    shapes.push_back(ShapeOf(parameters, entry));
+    shapes.push_back(EntryShape(parameters, entry));
   }
   return shapes;
 }
@@ -158,6 +164,7 @@ EffectModel PrepareEffects(const PlantParameters& parameters, StateLayout& layou
   model.bearings.resize(bearings);
   model.turns.resize(bearings);
   for (const EffectConfig& entry : parameters.config.effects) {
+    if (OfTheTrain(parameters, entry)) continue;
     Mark(entry, model);
     ReserveOnShaft(parameters, entry, model, layout);
     if (effect::At(entry.id).scope != effect::Scope::kChannels) continue;

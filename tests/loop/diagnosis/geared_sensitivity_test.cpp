@@ -145,6 +145,18 @@ TEST_F(GearedTerms, OfAnEccentricWheelAreThePlantsEffect) {
                          Entry(Id::kGearRunout, {5e-6, 0.0}, true)),
             kHeld);
 }
+TEST_F(GearedTerms, OfAMisalignedCouplingAreThePlantsEffect) {
+  const double phase = 0.5 * 3.14159265358979;
+  EXPECT_LT(FromThePlant(Find("misalignment", "mesh, driving wheel, rotation, order 2", "sine"),
+                         2e-4, Entry(Id::kMisalignment, {0.0, 2.0, 0.0, phase, 2e-4})),
+            kHeld);
+  EXPECT_LT(FromThePlant(Find("misalignment", "mesh, driven wheel, rotation, order 1", "sine"),
+                         2e-4, Entry(Id::kMisalignment, {0.0, 1.0, 0.0, phase, 2e-4}, true)),
+            kHeld);
+  EXPECT_LT(FromThePlant(Find("misalignment", "mesh, driven wheel, force, order -2", "sine"), 1.0,
+                         Entry(Id::kMisalignment, {0.0, -2.0, 1.0, phase}, true)),
+            kHeld);
+}
 TEST_F(GearedTerms, OfACrackedToothAreThePlantsEffect) {
   EXPECT_LT(FromThePlant(Find("tooth_crack", "mesh, driven tooth 7", "depth"), 0.1,
                          Entry(Id::kToothCrack, {0.1, 7.0}, true)),

@@ -45,7 +45,7 @@ MISSING = {
     "margins": ("--controller", ABSENT), "replay": (ABSENT,),
     "import": (ABSENT, "--rig", "flexible_rotor", "--out", "x.lcm"),
     "export": (ABSENT, "--csv", "x.csv"), "can-dbc": ("--rig", ABSENT),
-    "report": (ABSENT, "--out", "x.html"), "compare": (ABSENT,), "sessions tag": (ABSENT, "one"),
+    "report": (ABSENT, "--out", "x.html"), "compare": (ABSENT,), "trend": (ABSENT,), "sessions tag": (ABSENT, "one"),
     "sessions forget": (ABSENT,), "simulate": (ABSENT,),
     "identify frf": (ABSENT,), "identify modal": (ABSENT,),
     "identify full-spectrum": (ABSENT,), "identify controller": (ABSENT,),

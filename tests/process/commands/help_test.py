@@ -15,6 +15,7 @@ OPTIONS = {
     "margins": {"--rig", "--controller", "--port", "--speed-rpm", "--speeds", "--svg", "--json",
                 "--require"},
     "compare": {"--rig", "--speed-rpm", "--speeds", "--orders", "--page", "--circle-um", "--json"},
+    "trend": {"--rig", "--speed-rpm", "--baseline", "--svg", "--json"},
     "simulate": {"--rig", "--from", "--force-noise-percent", "--departures", "--free-run",
                  "--controller", "--csv", "--svg", "--json"},
     "import": {"--rig", "--out", "--map", "--guess", "--suggest", "--overwrite", "--tag", "--json"},
@@ -39,7 +40,7 @@ OPTIONS = {
                  "--explain", "--json"},
     "doctor": {"--json"},
 }
-POSITIONAL = {"simulate": "session", "diagnose": "DATA", "import": "DATA", "export": "SESSION", "balance": "RECORD", "report": "SESSION", "compare": "RECORD", "replay": "SESSION",
+POSITIONAL = {"simulate": "session", "diagnose": "DATA", "import": "DATA", "export": "SESSION", "balance": "RECORD", "report": "SESSION", "compare": "RECORD", "trend": "SESSION", "replay": "SESSION",
               "identify frf": "DATA", "identify modal": "DATA"}
 
 

@@ -91,6 +91,7 @@ TEST(Effects, ThatCannotBeAreRefusedWithWhatIsAllowed) {
            Refused{"  - {id: tooth_crack, gear: <gear>, wheel: driven, depth: 0.5}\n",
                    "needs a rig with gears"},
            Refused{"  - {id: misalignment, order: 1.5, force_n: 1}\n", "not a whole number"},
+           Refused{"  - {id: misalignment, rotation_error_deg: 0.1}\n", "between geared shafts"},
            Refused{"  - {id: axis_rotation, bearing: de, angle_deg: 5}\n", "what is turned"},
            Refused{"  - {id: eddy_current, tau_us: 8}\n  - {id: eddy_current, tau_us: 9}\n",
                    "acts at the same place"},

@@ -109,6 +109,22 @@ TEST(GearedRigs, HaveNoWeight) {
               HasSubstr("must be 0 with shafts"));
 }
 
+TEST(GearedRigs, NameTheWheelWhoseCouplingIsMisaligned) {
+  const auto rig = [](const std::string& entry) {
+    return ShippedText("geared_rotor_12dof") + "effects:\n  - {id: misalignment, " + entry + "}\n";
+  };
+  const RigFile read = ParseRig(
+      rig("gear: mesh, wheel: driven, order: 1, rotation_error_rad: 3e-4, phase_deg: 90"), "rig");
+  ASSERT_EQ(read.plant.effects.size(), 1U);
+  EXPECT_TRUE(read.plant.effects[0].on_driven);
+  EXPECT_DOUBLE_EQ(read.plant.effects[0].values[4], 3e-4);
+  EXPECT_EQ(WriteRig(ParseRig(WriteRig(read), "again")), WriteRig(read));
+  EXPECT_THAT(Refusal(rig("force_n: 1")), HasSubstr("gear"));
+  EXPECT_THAT(Refusal(rig("gear: mesh, wheel: driven, force_n: 1")),
+              HasSubstr("z_mm = 0, but shaft gear can be pushed at its disc only, at 200"));
+  EXPECT_THAT(Refusal(rig("gear: mesh, wheel: driven")), HasSubstr("neither force_n nor"));
+}
+
 TEST(LumpedShafts, HaveOnePlaneAndOneWayToGiveTheirStiffness) {
   EXPECT_THAT(Refusal(With("geared_rotor_8dof", "actuator_z_mm: 200", "actuator_z_mm: 210")),
               HasSubstr("a lumped shaft has one plane, that of its disc at 200 mm"));
