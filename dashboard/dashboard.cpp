@@ -9,6 +9,7 @@
 #include "controller/rt/clock.hpp"
 #include "dashboard/announced_rig.hpp"
 #include "dashboard/command_api.hpp"
+#include "dashboard/convergence.hpp"
 #include "dashboard/first_order.hpp"
 #include "dashboard/full_spectrum.hpp"
 #include "dashboard/history.hpp"
@@ -115,6 +116,7 @@ struct Dashboard::Impl {
       hub.PutEvent(run.newest_event(), EventJson(run.events().back()));
     }
     if (packet.channel == transport::channel::kHistogram) hub.Put(Topic::kTiming, TimingJson(run));
+    if (packet.channel == transport::channel::kConvergence) HearConvergence(packet.payload);
     if (packet.channel == transport::channel::kSamples && run.samples()) {
       scope.Advance(*run.samples());
     }
@@ -123,8 +125,16 @@ struct Dashboard::Impl {
       rig.Set(*run.rig());
       scope.RunIs(*run.rig());
       history.Clear(run.rig()->axes());
+      convergence.RunIs(run.header().start_utc_ns, run.rig()->period_s());
+      hub.Put(Topic::kConvergence, convergence.Json());
       hub.Put(Topic::kRig, RigJson(run, started_ns));
     }
+  }
+
+  void HearConvergence(std::span<const std::uint8_t> payload) {
+    bool told = false;
+    if (!convergence.Take(payload, told)) run.Refuse();
+    if (told) hub.Put(Topic::kConvergence, convergence.Json());
   }
 
   /// A controller whose clock differs from ours is known by its answer to our question.
@@ -165,6 +175,7 @@ struct Dashboard::Impl {
   LiveRun run{[this](const Envelope& bucket) { history.Add(bucket); }};  ///< our own thread's
   AnnouncedRig rig;
   ScopeController scope;
+  ConvergenceHistory convergence;
   std::uint64_t told_run{0};
   std::int64_t next_spectrum_ns{0};
   std::uint64_t spectrum_count{0};

@@ -21,10 +21,10 @@
 namespace levitas::dashboard {
 
 /// Kinds of which only the newest counts; names are those of the page's events.
-enum class Topic : std::uint8_t { kRig, kTick, kSpectrum, kTiming, kScope, kEnd };
-inline constexpr std::size_t kTopics = 6;
-inline constexpr std::array<const char*, kTopics> kTopicNames{"rig",    "tick",  "spectrum",
-                                                              "timing", "scope", "end"};
+enum class Topic : std::uint8_t { kRig, kTick, kSpectrum, kTiming, kScope, kConvergence, kEnd };
+inline constexpr std::size_t kTopics = 7;
+inline constexpr std::array<const char*, kTopics> kTopicNames{
+    "rig", "tick", "spectrum", "timing", "scope", "convergence", "end"};
 
 /// What one viewer has seen.
 struct Seen {

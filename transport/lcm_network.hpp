@@ -31,6 +31,8 @@ inline constexpr const char* kEvent = "LEVITAS_EVENT";
 inline constexpr const char* kAnswer = "LEVITAS_ANSWER";          ///< to one command, by number
 inline constexpr const char* kSamples = "LEVITAS_SAMPLES";        ///< full rate, in batches
 inline constexpr const char* kHeader = "LEVITAS_HEADER";          ///< what runs, once a second
+/// online identification -> viewers, on the port of the telemetry
+inline constexpr const char* kConvergence = "LEVITAS_CONVERGENCE";
 inline constexpr const char* kCommand = "LEVITAS_COMMAND";        ///< operator -> controller
 inline constexpr const char* kExcitation = "LEVITAS_EXCITATION";  ///< operator -> controller
 inline constexpr const char* kHello = "LEVITAS_HELLO";            ///< asks for a challenge

@@ -5,6 +5,7 @@ import { addEvent } from "./events.js";
 import { noteExcitation, setUpExcitation, wireExcitation } from "./excitation.js";
 import { ended, showConnection, showEnd, showSilence } from "./freshness.js";
 import { addHistory, newest as past, setUpHistory } from "./history.js";
+import { addConvergence, drawConvergence, setUpConvergence } from "./convergence.js";
 import { listen } from "./link.js";
 import { forgetMarkers, wireMarker } from "./marker.js";
 import { drawOrbits, setUpOrbits, showOrbits } from "./orbit.js";
@@ -22,7 +23,7 @@ import { wireViews } from "./views.js";
 import { addWaterfall, drawWaterfall, setUpWaterfall } from "./waterfall.js";
 
 const DRAW_EVERY_MS = 100;
-const SET_UPS = [setUpOrbits, setUpTraces, setUpSpectrum, setUpWaterfall, setUpOverSpeed, setUpExcitation, setUpScope, setUpRecord, setUpTiming];
+const SET_UPS = [setUpOrbits, setUpTraces, setUpSpectrum, setUpWaterfall, setUpOverSpeed, setUpExcitation, setUpScope, setUpRecord, setUpTiming, setUpConvergence];
 let eventsSeen = 0;
 let server = 0;
 let run = 0;
@@ -90,6 +91,10 @@ const handlers = {
     noteSpeed(event);
     if (event.severity === 2) showTrip(event);
   },
+  convergence(convergence) {
+    addConvergence(convergence);
+    due.add(drawConvergence);
+  },
   scope(state) {
     showScope(state);
     due.add(drawScope);
@@ -108,7 +113,7 @@ function draw(now) {
   if (newest) document.documentElement.dataset.drawn = newest;  // what is in sight now
 }
 
-const everything = [drawOrbits, drawTraces, drawSpectrum, drawWaterfall, drawOverSpeed, drawTiming, drawScope];
+const everything = [drawOrbits, drawTraces, drawSpectrum, drawWaterfall, drawOverSpeed, drawTiming, drawScope, drawConvergence];
 const drawAll = () => everything.forEach((part) => due.add(part));
 wireControls();
 wireExcitation();

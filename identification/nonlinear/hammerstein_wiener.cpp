@@ -148,6 +148,26 @@ void HammersteinWienerState::PushProducts(const HammersteinWienerModel& m, const
   }
 }
 
+void HammersteinWienerState::Clear() noexcept {
+  phi_.setZero();
+  phi_[phi_.size() - 1] = 1.0;
+  lagged_.setZero();
+  pending_.setZero();
+}
+
+Index MemoryRows(const HammersteinWienerModel& model) {
+  const Index sections = std::max(model.options.order, model.options.noise_order);
+  Eigen::VectorXd bank = Eigen::VectorXd::Zero(sections);
+  PushLaguerre(model.pole, 1.0, bank);
+  Index rows = 0;
+  for (; bank.norm() > kForgotten; ++rows) PushLaguerre(model.pole, 0.0, bank);
+  if (!model.options.products) return rows;
+  // An input goes through delay and lag before the banks of the products see it.
+  const double lag = LagOf(model);
+  const double decay = lag > 0.0 ? std::ceil(std::log(kForgotten) / std::log(lag)) : 0.0;
+  return rows + model.options.input_delay + static_cast<Index>(decay) + 1;
+}
+
 RecursiveHammersteinWiener::RecursiveHammersteinWiener(HammersteinWienerModel start,
                                                        double start_variance)
     : model_(std::move(start)),
@@ -164,9 +184,7 @@ const Eigen::VectorXd& RecursiveHammersteinWiener::Step(const Eigen::VectorXd& u
     ++skipped_;
     return error_;
   }
-  for (Index o = 0; o < model_.outputs; ++o) {
-    v_[o] = model_.sensor(o).Invert(y[o]) / model_.output_scale[o];
-  }
+  Straighten(y);
   const Eigen::VectorXd& phi = state_.phi();
   error_.noalias() = v_ - model_.theta.transpose() * phi;
   gain_.noalias() = p_.selfadjointView<Eigen::Lower>() * phi;
@@ -177,6 +195,20 @@ const Eigen::VectorXd& RecursiveHammersteinWiener::Step(const Eigen::VectorXd& u
   posterior_.noalias() = v_ - model_.theta.transpose() * phi;
   state_.Push(model_, v_, u, posterior_);
   return error_;
+}
+
+void RecursiveHammersteinWiener::Straighten(const Eigen::VectorXd& y) noexcept {
+  for (Index o = 0; o < model_.outputs; ++o) {
+    v_[o] = model_.sensor(o).Invert(y[o]) / model_.output_scale[o];
+  }
+}
+
+void RecursiveHammersteinWiener::Restart() noexcept { state_.Clear(); }
+
+void RecursiveHammersteinWiener::Fill(const Eigen::VectorXd& u, const Eigen::VectorXd& y) noexcept {
+  Straighten(y);
+  posterior_.setZero();
+  state_.Push(model_, v_, u, posterior_);
 }
 
 HammersteinWienerModel EmptyHammersteinWiener(const Series& series,

@@ -80,6 +80,8 @@ class HammersteinWienerState {
   /// Moves on by one sample: v and eps scaled, u as given.
   void Push(const HammersteinWienerModel& model, const Eigen::VectorXd& v, const Eigen::VectorXd& u,
             const Eigen::VectorXd& eps) noexcept;
+  /// As before the first sample.
+  void Clear() noexcept;
 
  private:
   void PushProducts(const HammersteinWienerModel& model, const Eigen::VectorXd& v,
@@ -90,16 +92,30 @@ class HammersteinWienerState {
   Eigen::MatrixXd pending_;  ///< inputs that do not act yet, scaled; oldest first
 };
 
+/// Samples after which nothing is left of what the banks held before, to kForgotten of its size.
+inline constexpr double kForgotten = 1e-4;
+[[nodiscard]] Eigen::Index MemoryRows(const HammersteinWienerModel& model);
+
 /// Online: one sample after the other while the rig runs.
 class RecursiveHammersteinWiener {
  public:
   RecursiveHammersteinWiener(HammersteinWienerModel start, double start_variance);
   /// `u` acts from the next sample on. Returns the prediction error of v, scaled.
   const Eigen::VectorXd& Step(const Eigen::VectorXd& u, const Eigen::VectorXd& y) noexcept;
+  /// Samples are missing before the next one: the past of the signals is cleared, what was learnt
+  /// stays.
+  void Restart() noexcept;
+  /// Moves on by one sample and learns nothing from it: after Restart, until the banks are filled.
+  /// Prediction errors are taken as 0. Both must be finite.
+  void Fill(const Eigen::VectorXd& u, const Eigen::VectorXd& y) noexcept;
+  /// v of the last sample, scaled.
+  [[nodiscard]] const Eigen::VectorXd& straightened() const noexcept { return v_; }
   [[nodiscard]] const HammersteinWienerModel& model() const noexcept { return model_; }
   [[nodiscard]] std::size_t skipped() const noexcept { return skipped_; }
 
  private:
+  void Straighten(const Eigen::VectorXd& y) noexcept;
+
   HammersteinWienerModel model_;
   HammersteinWienerState state_;
   Eigen::MatrixXd p_;

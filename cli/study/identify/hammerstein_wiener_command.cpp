@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/json_file.hpp"
+#include "cli/study/identify/hammerstein_wiener_options.hpp"
 #include "cli/study/identify/identify_commands.hpp"
 #include "cli/study/identify/sensor_options.hpp"
 #include "cli/study/identify/series_options.hpp"
@@ -97,20 +98,7 @@ void AddIdentifyHammersteinWiener(CLI::App& identify, Action& action) {
   command->footer(kHammersteinWienerHelp);
   AddSeriesOptions(*command, *options);
   HammersteinWienerOptions& model = options->model;
-  command->add_option("--order", model.order, "Of every signal's memory")
-      ->check(CLI::Range(1, 60))
-      ->capture_default_str();
-  command->add_option("--noise-order", model.noise_order, "Of the coloured noise; 0 = white")
-      ->check(CLI::Range(0, 20))
-      ->capture_default_str();
-  command->add_option("--degree", model.degree, "Of the input curves; 1 = linear")
-      ->check(CLI::Range(1, 7))
-      ->capture_default_str();
-  command->add_option("--bandwidth-hz", model.bandwidth_hz, "Of the memory; 0 = plain lags")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_flag("--products", model.products,
-                    "Terms of current and position together; inputs and outputs of the same axes");
+  AddMemoryOptions(*command, model);
   command
       ->add_option("--input-lag-hz", model.input_lag_hz, "Of amplifiers, for --products; 0 = none")
       ->check(CLI::NonNegativeNumber)

@@ -20,6 +20,7 @@ void AddIdentifyCommand(CLI::App& app, Action& action) {
   AddIdentifyModal(*identify, action);
   AddIdentifyFullSpectrum(*identify, action);
   AddIdentifyHammersteinWiener(*identify, action);
+  AddIdentifyLive(*identify, action);
   AddIdentifyNarx(*identify, action);
   AddIdentifyGreyBox(*identify, action);
   AddIdentifyRotorInLoop(*identify, action);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <levitas_msg/command_answer_t.hpp>
 #include <levitas_msg/controller_state_t.hpp>
+#include <levitas_msg/convergence_t.hpp>
 #include <levitas_msg/current_frame_t.hpp>
 #include <levitas_msg/cycle_record_t.hpp>
 #include <levitas_msg/event_t.hpp>
@@ -23,12 +24,14 @@ namespace levitas::message::testing {
 
 using Bytes = std::vector<std::uint8_t>;
 
-using EveryMessage = std::tuple<
-    levitas_msg::command_answer_t, levitas_msg::controller_state_t, levitas_msg::current_frame_t,
-    levitas_msg::cycle_record_t, levitas_msg::event_t, levitas_msg::excitation_request_t,
-    levitas_msg::loop_histogram_t, levitas_msg::loop_timing_t, levitas_msg::operator_command_t,
-    levitas_msg::sample_batch_t, levitas_msg::sensor_frame_t, levitas_msg::session_header_t,
-    levitas_msg::torsion_batch_t>;
+using EveryMessage =
+    std::tuple<levitas_msg::command_answer_t, levitas_msg::controller_state_t,
+               levitas_msg::convergence_t, levitas_msg::current_frame_t,
+               levitas_msg::cycle_record_t, levitas_msg::event_t, levitas_msg::excitation_request_t,
+               levitas_msg::loop_histogram_t, levitas_msg::loop_timing_t,
+               levitas_msg::operator_command_t, levitas_msg::sample_batch_t,
+               levitas_msg::sensor_frame_t, levitas_msg::session_header_t,
+               levitas_msg::torsion_batch_t>;
 constexpr std::size_t kEveryMessageCount = std::tuple_size_v<EveryMessage>;
 
 template <class Message>
@@ -44,6 +47,12 @@ inline void Fill(levitas_msg::command_answer_t& m) { m.text = "command lift (cyc
 inline void Fill(levitas_msg::controller_state_t& m) {
   m.axes = kAxes;
   m.position_m = m.reference_m = m.control_current_a = {0.1, 0.2, 0.3, 0.4};
+}
+inline void Fill(levitas_msg::convergence_t& m) {
+  m.outputs = kAxes;
+  m.error_rms_m = {1e-7, 2e-7, 3e-7, 4e-7};
+  m.fit_percent = {99.1, 99.2, 99.3, 99.4};
+  m.changed = "position ux, section 1 for uy";
 }
 inline void Fill(levitas_msg::current_frame_t& m) {
   m.axes = kAxes;
