@@ -13,6 +13,7 @@
 #include "identification/geared/imaginary_unit.hpp"
 #include "identification/geared/joint_fit.hpp"
 #include "identification/geared/line_equations.hpp"
+#include "identification/geared/probe_planes.hpp"
 #include "identification/geared/shaft_equations.hpp"
 
 namespace levitas::identification {
@@ -51,23 +52,33 @@ void RefuseTooFew(const std::vector<GearedLine>& lines) {
 }
 
 /// Standard deviation of a line's mesh force, and of k D on its other side.
-double MeshSigma(const GearedLine& line, const GearedKnown& known, const GearedParameters& p) {
+double MeshSigma(const GearedLine& line, const GearedKnown& known, const GearedParameters& p,
+                 const LineGains& gains) {
   if (line.sigma_m <= 0.0 && known.uncertainty <= 0.0) return 1.0;
   const double k = std::abs(
       Complex(p.mesh_stiffness_n_per_m, line.frequency_rad_per_s * p.mesh_damping_n_s_per_m));
-  return std::hypot(0.5 * std::sqrt(2.0) * SumSigma(line, known, p),
-                    std::sqrt(2.0) * k * line.sigma_m);
+  const double sum = 0.5 * std::sqrt(2.0) * SumSigma(line, known, p);
+  if (!gains.pinion && !gains.gear) return std::hypot(sum, std::sqrt(2.0) * k * line.sigma_m);
+  const ShaftGains pinion = EitherGains(gains.pinion, known.pinion, line, p.pinion);
+  const ShaftGains gear = EitherGains(gains.gear, known.gear, line, p.gear);
+  return std::hypot(
+      sum, k * line.sigma_m * std::hypot(std::abs(pinion.gear_per_m), std::abs(gear.gear_per_m)));
 }
 
 struct Teeth {
+  std::vector<LineGains> gains;
   std::vector<Complex> force, twist;
+  std::vector<GearMotion> gears;
 };
 
 Teeth TeethOf(const std::vector<GearedLine>& lines, const GearedKnown& known,
               const GearedParameters& p) {
   Teeth teeth;
-  teeth.force.reserve(lines.size());
-  for (const GearedLine& line : lines) teeth.force.push_back(MeshForce(line, known, p));
+  teeth.gains = GainsOn(lines, known, p);
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    teeth.force.push_back(MeshForce(lines[n], known, p, teeth.gains[n]));
+    teeth.gears.push_back(GearMotionOf(lines[n], teeth.gains[n]));
+  }
   teeth.twist = TwistOnLines(lines, teeth.force, TwistPerForceOn(lines, known.torsion),
                              known.torsion ? known.torsion->normal : 0.0);
   return teeth;
@@ -81,12 +92,12 @@ void SolveMesh(const std::vector<GearedLine>& lines, const GearedKnown& known, c
   for (std::size_t n = 0; n < lines.size(); ++n) {
     const GearedLine& line = lines[n];
     if (!rotates(line)) continue;
-    Complex deflection = line.pinion_m - line.gear_m + teeth.twist[n];
+    Complex deflection = teeth.gears[n].pinion_m - teeth.gears[n].gear_m + teeth.twist[n];
     if (line.kind == Kind::kPinion) deflection += p.pinion.run_out_m;
     if (line.kind == Kind::kGear) deflection -= p.gear.run_out_m;
     eq.Real(0, deflection);
     eq.Real(1, kJ * line.frequency_rad_per_s * deflection);
-    eq.Close(teeth.force[n], MeshSigma(line, known, p));
+    eq.Close(teeth.force[n], MeshSigma(line, known, p, teeth.gains[n]));
   }
   const Solution mesh = eq.Solve("mesh stiffness and damping");
   p.mesh_stiffness_n_per_m = mesh.value[0];
@@ -110,13 +121,14 @@ void SolveErrors(const std::vector<GearedLine>& lines, const GearedKnown& known,
     if (line.kind != Kind::kTransmissionError) continue;
     const Complex mesh(p.mesh_stiffness_n_per_m,
                        line.frequency_rad_per_s * p.mesh_damping_n_s_per_m);
-    Complex e = line.pinion_m - line.gear_m + teeth.twist[n] - teeth.force[n] / mesh;
+    Complex e =
+        teeth.gears[n].pinion_m - teeth.gears[n].gear_m + teeth.twist[n] - teeth.force[n] / mesh;
     if (known.torsion && line.frequency_rad_per_s == 0.0) {
       const Complex unit = known.torsion->normal;
       e -= unit * (std::conj(unit) * e).real();
       p.mean_along_line_unknown = true;
     }
-    const double sigma = MeshSigma(line, known, p) / std::abs(mesh);
+    const double sigma = MeshSigma(line, known, p, teeth.gains[n]) / std::abs(mesh);
     found[line.harmonic].push_back({e, 1.0 / (sigma * sigma)});
   }
   for (const auto& [harmonic, samples] : found) {
@@ -159,8 +171,9 @@ bool IsWeighted(const std::vector<GearedLine>& lines, const GearedKnown& known) 
 
 GearedParameters Fit(const std::vector<GearedLine>& lines, const GearedKnown& known) {
   GearedParameters p;
-  const bool weighted = IsWeighted(lines, known);
-  for (int round = 0; round < (weighted ? kRounds : 1); ++round) {
+  // An elastic shaft's force is no linear function of ks: rounds are Newton steps.
+  const bool again = IsWeighted(lines, known) || known.pinion.elastic || known.gear.elastic;
+  for (int round = 0; round < (again ? kRounds : 1); ++round) {
     const Solution shafts = SolveShafts(lines, known, p);
     const GearedKnown corrected = Corrected(known, shafts);
     TakeShafts(shafts, corrected, p);
@@ -175,10 +188,12 @@ GearedParameters Fit(const std::vector<GearedLine>& lines, const GearedKnown& kn
 
 }  // namespace
 
-GearedParameters IdentifyGeared(const std::vector<GearedLine>& lines, const GearedKnown& known) {
-  RefuseTooFew(lines);
+GearedParameters IdentifyGeared(const std::vector<GearedLine>& all, const GearedKnown& known) {
+  RefuseTooFew(all);
+  const std::vector<GearedLine> lines = LinesOffNodes(all, known);
   GearedParameters p = Fit(lines, known);
   if (IsWeighted(lines, known)) FitJointly(lines, known, p);
+  TellProbePlanes(all, lines, known, p);
   return p;
 }
 

@@ -25,14 +25,18 @@
 //           backward), mean at 0; with torsion also pinion_-1x and gear_+1x, which carry no
 //           run-out. With torsion the mean error along n is not told apart from the wheels'
 //           rotation.
+// Planes    R is at the gear. Where a shaft's probe, magnet and gear stand at planes of their own,
+//           its elastic model says what one plane of probes tells of the gear (elastic_shaft.hpp);
+//           lines on which the probe stands near a node are left out (probe_planes.hpp).
 // Errors    standard deviations of the joint fit, else from the residual of each step; condition
 //           number of the first step's design with columns of unit length.
 // Units     SI, complex amplitudes. Thread any.
 // Failure   BadInput: fewer than two speeds, lines missing, a design of too small rank, a negative
-//           ki, or forces on the shafts that the model leaves unexplained.
+//           ki, forces on the shafts that the model leaves unexplained, or a probe at a node.
 
 #include <Eigen/Core>
 #include <complex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,12 +54,18 @@ struct GearedLine {
   double sigma_m{}, sigma_a{};  ///< of each amplitude; 0: unknown, all lines count alike
 };
 
+struct ElasticShaft;
+
 struct ShaftKnown {
   double mass_kg{}, damping_n_s_per_m{}, stiffness_n_per_m{};
   double coupling_n{}, tilt_stiffness_n_m{};  ///< k_la, k_aa; both 0: no tilt
   double diametral_kg_m2{}, polar_kg_m2{};
   double ratio{1.0};                  ///< of its speed to the pinion's
   double ki_n_per_a{}, ks_n_per_m{};  ///< of the magnet's drawing: only ks/ki = i0/s0 is used
+  /// A shaft with planes of their own. Then the mass is the one that the run-out moves, the
+  /// stiffness the static one at the magnet, and the ratios are those to the elastic model.
+  std::shared_ptr<const ElasticShaft> elastic{};
+  double mass_ratio{1.0}, damping_ratio{1.0}, stiffness_ratio{1.0}, gyroscopic_ratio{1.0};
 };
 
 /// Torsional modes as seen by the mesh.
@@ -72,11 +82,21 @@ struct GearedKnown {
   double uncertainty{};  ///< relative, of mass, damping and stiffness of the shafts, and torsion
 };
 
+/// How well the probes of an elastic shaft see its gear (probe_planes.hpp).
+struct ProbePlane {
+  double probe_z_m{}, gear_z_m{};
+  double amplification{};         ///< gear per probe, largest of the lines that were used
+  double median_amplification{};  ///< of those lines
+  double at_rad_per_s{};          ///< line with the largest
+  std::size_t left_out{};         ///< lines on which the probe stands near a node
+};
+
 struct ShaftFound {
   double ks_n_per_m{}, ks_sigma{};
   double ki_n_per_a{}, ki_sigma{};
   std::complex<double> run_out_m;
   double run_out_sigma{};
+  std::optional<ProbePlane> plane{};  ///< of an elastic shaft
 };
 
 struct TransmissionError {

@@ -40,13 +40,20 @@ Complex Impedance(const ShaftKnown& s, const GearedLine& line) {
          TiltSoftening(s, line);
 }
 
-MeshForces MeshForcesOf(const GearedLine& line, const GearedKnown& known,
-                        const GearedParameters& p) {
+MeshForces MeshForcesOf(const GearedLine& line, const GearedKnown& known, const GearedParameters& p,
+                        const LineGains& gains) {
   const double w = line.frequency_rad_per_s;
-  Complex from_pinion = p.pinion.ks_n_per_m * line.pinion_m - p.pinion.ki_n_per_a * line.pinion_a -
-                        Impedance(known.pinion, line) * line.pinion_m;
-  Complex from_gear = Impedance(known.gear, line) * line.gear_m - p.gear.ks_n_per_m * line.gear_m +
-                      p.gear.ki_n_per_a * line.gear_a;
+  const auto elastic = [](const ShaftGains& of, Complex m, Complex a) {
+    return of.force_per_m * m + of.force_per_a * a;
+  };
+  Complex from_pinion = gains.pinion ? -elastic(*gains.pinion, line.pinion_m, line.pinion_a)
+                                     : p.pinion.ks_n_per_m * line.pinion_m -
+                                           p.pinion.ki_n_per_a * line.pinion_a -
+                                           Impedance(known.pinion, line) * line.pinion_m;
+  Complex from_gear = gains.gear
+                          ? elastic(*gains.gear, line.gear_m, line.gear_a)
+                          : Impedance(known.gear, line) * line.gear_m -
+                                p.gear.ks_n_per_m * line.gear_m + p.gear.ki_n_per_a * line.gear_a;
   if (line.kind == Kind::kPinion) {
     from_pinion += known.pinion.mass_kg * w * w * p.pinion.run_out_m;
   }
@@ -54,8 +61,9 @@ MeshForces MeshForcesOf(const GearedLine& line, const GearedKnown& known,
   return {from_pinion, from_gear};
 }
 
-Complex MeshForce(const GearedLine& line, const GearedKnown& known, const GearedParameters& p) {
-  const MeshForces both = MeshForcesOf(line, known, p);
+Complex MeshForce(const GearedLine& line, const GearedKnown& known, const GearedParameters& p,
+                  const LineGains& gains) {
+  const MeshForces both = MeshForcesOf(line, known, p, gains);
   return 0.5 * (both.from_pinion + both.from_gear);
 }
 

@@ -2,26 +2,28 @@
 // Forces on the lines of a geared rotor: what the shafts need, what the teeth give, how far the
 // wheels turn under it. Equations: full_spectrum.hpp. Thread any, pure.
 
+#include "identification/geared/elastic_shaft.hpp"
 #include "identification/geared/full_spectrum.hpp"
 
 namespace levitas::identification {
 
-/// Z of one shaft at a line.
+/// Z of one shaft at a line, whose disc is its only plane.
 [[nodiscard]] std::complex<double> Impedance(const ShaftKnown& shaft, const GearedLine& line);
 
 /// k_aa - I_d W^2 + I_p w W turned into what the tilt takes from Z; 0 without tilt.
 [[nodiscard]] std::complex<double> TiltSoftening(const ShaftKnown& shaft, const GearedLine& line);
 
-/// f from what either shaft needs.
+/// f from what either shaft needs. `gains`: GainsOn of this line and these.
 struct MeshForces {
   std::complex<double> from_pinion, from_gear;
 };
 [[nodiscard]] MeshForces MeshForcesOf(const GearedLine& line, const GearedKnown& known,
-                                      const GearedParameters& found);
+                                      const GearedParameters& found, const LineGains& gains = {});
 
 /// The mean of the two accounts.
 [[nodiscard]] std::complex<double> MeshForce(const GearedLine& line, const GearedKnown& known,
-                                             const GearedParameters& found);
+                                             const GearedParameters& found,
+                                             const LineGains& gains = {});
 
 /// Rotation along `shape` (per torsional mode) per force along n, which turns the wheels by `twist_m`.
 /// Not for W = 0: the train may turn freely.

@@ -9,8 +9,10 @@
 
 #include "common/problem.hpp"
 #include "common/two_pi.hpp"
+#include "identification/geared/elastic_shaft.hpp"
 #include "identification/geared/geared_forces.hpp"
 #include "identification/geared/imaginary_unit.hpp"
+#include "identification/geared/probe_planes.hpp"
 #include "identification/geared/steady_stretches.hpp"
 #include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/plant_model.hpp"
@@ -116,17 +118,22 @@ Amplitudes Fit(const session::Recording& record, const std::vector<double>& angl
   return found;
 }
 
-/// (n* f(W) + n f(-W)*)/2 of a line of this speed and frequency.
-Complex AlongOf(const std::vector<GearedLine>& lines, const std::vector<Complex>& force,
-                Complex normal, double speed, double w) {
+/// (n* f(W) + n f(-W)*)/2 of a line of this speed and frequency; none where either is left out.
+std::optional<Complex> AlongOf(const std::vector<GearedLine>& lines,
+                               const std::vector<Complex>& force, Complex normal, double speed,
+                               double w) {
   constexpr double kSame = 1e-6;
   Complex along = 0.0;
+  int halves = 0;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     if (lines[k].speed_rad_per_s != speed) continue;
     const double at = lines[k].frequency_rad_per_s;
-    if (std::abs(at - w) <= kSame * w) along += 0.5 * std::conj(normal) * force[k];
-    if (std::abs(at + w) <= kSame * w) along += 0.5 * normal * std::conj(force[k]);
+    const bool forward = std::abs(at - w) <= kSame * w;
+    if (!forward && std::abs(at + w) > kSame * w) continue;
+    along += 0.5 * (forward ? std::conj(normal) * force[k] : normal * std::conj(force[k]));
+    ++halves;
   }
+  if (halves < 2) return std::nullopt;
   return along;
 }
 
@@ -169,10 +176,10 @@ void FindUnexplained(const std::vector<TorsionLine>& lines, std::size_t index,
   double power = 0.0;
   double left = 0.0;
   for (const TorsionLine& line : lines) {
-    if (line.coupling != index) continue;
+    if (line.coupling != index || !line.model_n_m) continue;
     const double noise = 2.0 * line.torque_sigma_n_m * line.torque_sigma_n_m;
     power += std::norm(line.torque_n_m) - noise;
-    left += std::norm(line.torque_n_m - line.model_n_m) - noise;
+    left += std::norm(line.torque_n_m - *line.model_n_m) - noise;
   }
   coupling.unexplained_share = power > 0.0 ? std::max(left, 0.0) / power : 0.0;
 }
@@ -191,7 +198,11 @@ HalfSpectrum HalfSpectrumOf(const session::Recording& record,
     half.couplings.push_back({torsion.couplings[c], couplings[c].stiffness_n_m_per_rad});
   }
   std::vector<Complex> force;
-  for (const GearedLine& line : lines) force.push_back(MeshForce(line, found.corrected, found));
+  const std::vector<GearedLine> seen = LinesOffNodes(lines, found.corrected);
+  const std::vector<LineGains> gains = GainsOn(seen, found.corrected, found);
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    force.push_back(MeshForce(seen[k], found.corrected, found, gains[k]));
+  }
   const auto orders = HalfOrders(pair, harmonics);
   const std::vector<double> angle = UnwrappedAngle(record);
   for (const SteadyStretch& stretch : SteadyStretches(record, angle, pair)) {
@@ -201,12 +212,14 @@ HalfSpectrum HalfSpectrumOf(const session::Recording& record,
         const auto row = static_cast<Eigen::Index>(k);
         const auto column = static_cast<Eigen::Index>(2 * c);
         const double w = orders[k].order * stretch.speed_rad_per_s;
-        const Complex along =
-            AlongOf(lines, force, found.corrected.torsion->normal, stretch.speed_rad_per_s, w);
-        half.lines.push_back({c, orders[k].name, stretch.speed_rad_per_s, w,
-                              amplitudes.value(row, column), amplitudes.value(row, column + 1),
-                              amplitudes.sigma[column], amplitudes.sigma[column + 1],
-                              ModelTorque(*found.corrected.torsion, couplings[c], w, along)});
+        const std::optional<Complex> along =
+            AlongOf(seen, force, found.corrected.torsion->normal, stretch.speed_rad_per_s, w);
+        half.lines.push_back(
+            {c, orders[k].name, stretch.speed_rad_per_s, w, amplitudes.value(row, column),
+             amplitudes.value(row, column + 1), amplitudes.sigma[column],
+             amplitudes.sigma[column + 1],
+             along ? std::optional(ModelTorque(*found.corrected.torsion, couplings[c], w, *along))
+                   : std::nullopt});
       }
     }
   }

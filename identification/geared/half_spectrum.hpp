@@ -34,8 +34,8 @@ struct TorsionLine {
   double speed_rad_per_s{};
   double frequency_rad_per_s{};
   std::complex<double> torque_n_m, twist_rad;
-  double torque_sigma_n_m{}, twist_sigma_rad{};  ///< of the real and of the imaginary part
-  std::complex<double> model_n_m;
+  double torque_sigma_n_m{}, twist_sigma_rad{};   ///< of the real and of the imaginary part
+  std::optional<std::complex<double>> model_n_m;  ///< none where probes do not see the line
 };
 
 struct CouplingFound {

@@ -73,20 +73,33 @@ std::vector<Group> GroupsOf(const std::vector<GearedLine>& lines, bool torsion) 
   return groups;
 }
 
-using PerForce = std::vector<Complex>;
+/// What a group's lines need of torsion and elastic shafts; it does not depend on readings and
+/// costs a dozen residuals.
+struct OnLines {
+  std::vector<Complex> per_force;  ///< TwistPerForceOn
+  std::vector<LineGains> gains;
+};
 
-/// Residuals of both equations of every line of the group [N]; linear in the readings. `per_force`:
-/// TwistPerForceOn of the group, which does not depend on readings and costs a dozen residuals.
-Eigen::VectorXd Residual(const Group& group, const GearedParameters& p, const PerForce& per_force) {
+OnLines OnLinesOf(const Group& group, const GearedParameters& p) {
+  return {TwistPerForceOn(group, p.corrected.torsion), GainsOn(group, p.corrected, p)};
+}
+
+/// Residuals of both equations of every line of the group [N]; linear in the readings.
+Eigen::VectorXd Residual(const Group& group, const GearedParameters& p, const OnLines& on) {
+  std::vector<MeshForces> forces;
   std::vector<Complex> force;
   Eigen::VectorXd residual(kEquations * static_cast<Index>(group.size()));
-  for (const GearedLine& line : group) force.push_back(MeshForce(line, p.corrected, p));
+  for (std::size_t n = 0; n < group.size(); ++n) {
+    forces.push_back(MeshForcesOf(group[n], p.corrected, p, on.gains[n]));
+    force.push_back(0.5 * (forces[n].from_pinion + forces[n].from_gear));
+  }
   const Complex normal = p.corrected.torsion ? p.corrected.torsion->normal : 0.0;
-  const auto twist = TwistOnLines(group, force, per_force, normal);
+  const auto twist = TwistOnLines(group, force, on.per_force, normal);
   for (std::size_t n = 0; n < group.size(); ++n) {
     const GearedLine& line = group[n];
-    const MeshForces both = MeshForcesOf(line, p.corrected, p);
-    Complex deflection = line.pinion_m - line.gear_m + twist[n];
+    const MeshForces& both = forces[n];
+    const GearMotion gears = GearMotionOf(line, on.gains[n]);
+    Complex deflection = gears.pinion_m - gears.gear_m + twist[n];
     if (line.kind == Kind::kPinion) deflection += p.pinion.run_out_m;
     if (line.kind == Kind::kGear) deflection -= p.gear.run_out_m;
     if (line.kind == Kind::kTransmissionError) {
@@ -120,21 +133,21 @@ struct Whitened {
   Eigen::VectorXd residual;
   Eigen::LLT<Eigen::MatrixXd> noise;
   Group explained;
-  PerForce per_force;
+  OnLines on;
 };
 
 Whitened Whiten(const Group& group, const GearedParameters& p) {
-  PerForce per_force = TwistPerForceOn(group, p.corrected.torsion);
-  const Eigen::VectorXd residual = Residual(group, p, per_force);
+  OnLines on = OnLinesOf(group, p);
+  const Eigen::VectorXd residual = Residual(group, p, on);
   const auto numbers = kReadings * static_cast<Index>(group.size());
   Eigen::MatrixXd by_noise(residual.size(), numbers);
   for (Index k = 0; k < numbers; ++k) {
     Group moved = group;
     Move(moved, k, 1.0);
-    by_noise.col(k) = Residual(moved, p, per_force) - residual;
+    by_noise.col(k) = Residual(moved, p, on) - residual;
   }
   const Eigen::MatrixXd covariance = by_noise * by_noise.transpose();
-  Whitened w{{}, Eigen::LLT<Eigen::MatrixXd>(covariance), group, std::move(per_force)};
+  Whitened w{{}, Eigen::LLT<Eigen::MatrixXd>(covariance), group, std::move(on)};
   const Eigen::VectorXd shift = -by_noise.transpose() * w.noise.solve(residual);
   for (Index k = 0; k < numbers; ++k) Move(w.explained, k, shift[k]);
   w.residual = w.noise.matrixL().solve(residual);
@@ -171,7 +184,7 @@ class JointProblem {
 /// Parameters with one unknown raised and lowered.
 struct Sides {
   GearedParameters more, less;
-  bool torsion;  ///< that unknown is one of torsion
+  bool known;  ///< that unknown changes OnLines
 };
 
 /// Of the numbers of torsion that JointUnknowns corrects.
@@ -181,12 +194,25 @@ bool SameTorsion(const GearedParameters& a, const GearedParameters& b) {
          a.corrected.torsion->twist_m == b.corrected.torsion->twist_m;
 }
 
+bool SameGains(const ShaftKnown& a, const ShaftFound& of_a, const ShaftKnown& b,
+               const ShaftFound& of_b) {
+  return !a.elastic ||
+         (a.mass_ratio == b.mass_ratio && a.damping_ratio == b.damping_ratio &&
+          a.stiffness_ratio == b.stiffness_ratio && a.gyroscopic_ratio == b.gyroscopic_ratio &&
+          of_a.ks_n_per_m == of_b.ks_n_per_m && of_a.ki_n_per_a == of_b.ki_n_per_a);
+}
+
+bool SameOnLines(const GearedParameters& a, const GearedParameters& b) {
+  return SameTorsion(a, b) &&
+         SameGains(a.corrected.pinion, a.pinion, b.corrected.pinion, b.pinion) &&
+         SameGains(a.corrected.gear, a.gear, b.corrected.gear, b.gear);
+}
+
 /// Of the explained lines by the unknown of these sides.
 Eigen::VectorXd SlopeOf(const Whitened& w, const Sides& sides) {
   const auto at = [&w, &sides](const GearedParameters& p) {
-    return Residual(
-        w.explained, p,
-        sides.torsion ? TwistPerForceOn(w.explained, p.corrected.torsion) : w.per_force);
+    return sides.known ? Residual(w.explained, p, OnLinesOf(w.explained, p))
+                       : Residual(w.explained, p, w.on);
   };
   return (at(sides.more) - at(sides.less)) / (2.0 * kStep);
 }
@@ -197,7 +223,7 @@ numerics::NormalEquations JointProblem::EquationsAt(const Eigen::VectorXd& x) co
   for (Index k = 0; k < x.size(); ++k) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(x.size(), k);
     Sides both{unknowns_.At(x + step), unknowns_.At(x - step), false};
-    both.torsion = !SameTorsion(both.more, p);
+    both.known = !SameOnLines(both.more, p);
     sides.push_back(std::move(both));
   }
   const Eigen::MatrixXd& hold = unknowns_.HeldBy();

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "common/problem.hpp"
+#include "identification/geared/elastic_of_rig.hpp"
 #include "identification/geared/record_lines.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/plant_model.hpp"
@@ -8,8 +9,15 @@
 namespace levitas::identification {
 namespace {
 
-ShaftKnown Shaft(const plant::PlantConfig& rig, std::size_t index, double ratio) {
-  const rotor::LumpedShaft& lumped = rig.shafts[index].lumped;
+ShaftKnown Shaft(const config::RigFile& rig, const plant::PlantModel& model,
+                 const gear::Wheel& wheel, double ratio) {
+  const rotor::Shaft& shaft = rig.plant.shafts[wheel.shaft];
+  if (IsElastic(shaft)) {
+    ShaftKnown elastic = ElasticOfRig(rig, model, wheel);
+    elastic.ratio = ratio;
+    return elastic;
+  }
+  const rotor::LumpedShaft& lumped = shaft.lumped;
   ShaftKnown known{lumped.mass_kg, lumped.damping_n_s_per_m, lumped.kll_n_per_m};
   known.ratio = ratio;
   if (lumped.tilts) {
@@ -26,12 +34,15 @@ void RefuseOtherRigs(const config::RigFile& rig) {
   const bool pair = plant.gears.size() == 1 && plant.shafts.size() == 2 &&
                     plant.bearings.size() == 2 &&
                     plant.bearings[0].shaft != plant.bearings[1].shaft;
-  bool lumped = pair;
-  for (const rotor::Shaft& shaft : plant.shafts) lumped = lumped && !shaft.is_beam;
-  if (!lumped) {
+  if (!pair) {
     throw BadInput(rig.numbers.name +
-                   ": full spectrum needs one gear pair on two lumped shafts with a magnetic "
-                   "bearing each (as geared_rotor_4dof)");
+                   ": full spectrum needs one gear pair on two shafts with a magnetic bearing each "
+                   "(as geared_rotor_4dof)");
+  }
+  if (plant.gears.front().direction != gear::Direction::kIsotropic) {
+    throw BadInput(rig.numbers.name +
+                   ": full spectrum takes teeth that transmit the whole displacement; "
+                   "gears[0].direction is line_of_action, allowed isotropic");
   }
 }
 
@@ -40,10 +51,11 @@ void RefuseOtherRigs(const config::RigFile& rig) {
 GearedKnown KnownOfRig(const config::RigFile& rig) {
   RefuseOtherRigs(rig);
   const gear::GearPair& pair = rig.plant.gears.front();
+  const plant::PlantModel model(rig.plant);
   GearedKnown known;
-  known.pinion = Shaft(rig.plant, pair.driving.shaft, 1.0);
-  known.gear = Shaft(rig.plant, pair.driven.shaft,
-                     -static_cast<double>(pair.driving.teeth) / pair.driven.teeth);
+  known.pinion = Shaft(rig, model, pair.driving, 1.0);
+  known.gear =
+      Shaft(rig, model, pair.driven, -static_cast<double>(pair.driving.teeth) / pair.driven.teeth);
   for (std::size_t b = 0; b < 2; ++b) {
     const plant::BearingConfig& bearing = rig.plant.bearings[b];
     const magnet::Magnet magnet{bearing.magnet.force_constant_n_m2_per_a2, bearing.magnet.gap_m,
@@ -52,7 +64,6 @@ GearedKnown KnownOfRig(const config::RigFile& rig) {
     shaft.ki_n_per_a = magnet::ForcePerCurrent(magnet, bearing.magnet.bias_current_a);
     shaft.ks_n_per_m = magnet::NegativeStiffness(magnet, bearing.magnet.bias_current_a);
   }
-  const plant::PlantModel model(rig.plant);
   const auto& modes = model.parameters().torsion;
   const Eigen::Index twists = modes.frequency_rad_per_s.size();
   if (twists == 0) return known;

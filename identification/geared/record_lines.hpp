@@ -11,8 +11,9 @@
 //           (docs/conventions.md); the lines have that of the equations, -ki I, so I = -ic.
 // Limit     the gear's phase counts from the record's first row: a record that begins in another
 //           turn of the pinion gives it with another half turn (20 to 40 teeth).
-// Failure   BadInput: a rig without one gear pair on two lumped shafts with a bearing each; a
-//           record without two steady speeds, missing rows, dead, clipped or saturated channels.
+// Failure   BadInput: a rig without one gear pair on two shafts with a bearing each, or with a
+//           shaft that one plane of probes does not tell (elastic_of_rig.hpp); a record without two
+//           steady speeds, missing rows, dead, clipped or saturated channels.
 // Thread    any.
 
 #include <vector>

@@ -18,10 +18,18 @@ using namespace identification;
 using Json = nlohmann::ordered_json;
 
 Json ShaftJson(const ShaftFound& s) {
-  return {{"ks_n_per_m", s.ks_n_per_m},         {"ks_sigma_n_per_m", s.ks_sigma},
-          {"ki_n_per_a", s.ki_n_per_a},         {"ki_sigma_n_per_a", s.ki_sigma},
-          {"run_out_m", std::abs(s.run_out_m)}, {"run_out_phase_rad", std::arg(s.run_out_m)},
-          {"run_out_sigma_m", s.run_out_sigma}};
+  Json json{{"ks_n_per_m", s.ks_n_per_m},         {"ks_sigma_n_per_m", s.ks_sigma},
+            {"ki_n_per_a", s.ki_n_per_a},         {"ki_sigma_n_per_a", s.ki_sigma},
+            {"run_out_m", std::abs(s.run_out_m)}, {"run_out_phase_rad", std::arg(s.run_out_m)},
+            {"run_out_sigma_m", s.run_out_sigma}};
+  if (!s.plane) return json;
+  json["probe_plane"] = {
+      {"probe_z_m", s.plane->probe_z_m},
+      {"gear_z_m", s.plane->gear_z_m},
+      {"median", {{"ratio", s.plane->median_amplification}}},
+      {"largest", {{"ratio", s.plane->amplification}, {"at_hz", s.plane->at_rad_per_s / kTwoPi}}},
+      {"lines_left_out", {{"count", s.plane->left_out}}}};
+  return json;
 }
 
 svg::Panel SpectrumPanel(const std::string& title,
@@ -67,8 +75,9 @@ svg::Panel TorsionPanel(const HalfSpectrum& half, std::size_t coupling) {
     for (const TorsionLine* line : lines) {
       measured.x.push_back(line->frequency_rad_per_s / kTwoPi);
       measured.y.push_back(std::abs(line->torque_n_m));
+      if (!line->model_n_m) continue;
       model.x.push_back(measured.x.back());
-      model.y.push_back(std::abs(line->model_n_m));
+      model.y.push_back(std::abs(*line->model_n_m));
     }
     panel.series.push_back(std::move(measured));
     panel.series.push_back(std::move(model));
@@ -96,6 +105,15 @@ Json GearedJson(const GearedParameters& p) {
   return json;
 }
 
+std::string ProbePlaneText(const std::string& shaft, const ProbePlane& plane) {
+  return fmt::format(
+      "{:<7} probes {:.6g} mm from the gear (z {:.6g} and {:.6g} mm): it moves {:.3g} times as "
+      "far as they do, {:.3g} times at {:.0f} Hz;\n    {} line(s) left out near nodes\n",
+      shaft, 1e3 * std::abs(plane.probe_z_m - plane.gear_z_m), 1e3 * plane.probe_z_m,
+      1e3 * plane.gear_z_m, plane.median_amplification, plane.amplification,
+      plane.at_rad_per_s / kTwoPi, plane.left_out);
+}
+
 Json TorsionJson(const HalfSpectrum& half) {
   Json couplings = Json::array();
   for (std::size_t c = 0; c < half.couplings.size(); ++c) {
@@ -103,16 +121,17 @@ Json TorsionJson(const HalfSpectrum& half) {
     Json lines = Json::array();
     for (const TorsionLine& line : half.lines) {
       if (line.coupling != c) continue;
-      lines.push_back({{"line", line.name},
-                       {"pinion_speed_hz", line.speed_rad_per_s / kTwoPi},
-                       {"frequency_hz", line.frequency_rad_per_s / kTwoPi},
-                       {"torque_n_m", std::abs(line.torque_n_m)},
-                       {"torque_phase_rad", std::arg(line.torque_n_m)},
-                       {"torque_sigma_n_m", line.torque_sigma_n_m},
-                       {"twist_rad", std::abs(line.twist_rad)},
-                       {"twist_sigma_rad", line.twist_sigma_rad},
-                       {"model_torque_n_m", std::abs(line.model_n_m)},
-                       {"model_phase_rad", std::arg(line.model_n_m)}});
+      lines.push_back(
+          {{"line", line.name},
+           {"pinion_speed_hz", line.speed_rad_per_s / kTwoPi},
+           {"frequency_hz", line.frequency_rad_per_s / kTwoPi},
+           {"torque_n_m", std::abs(line.torque_n_m)},
+           {"torque_phase_rad", std::arg(line.torque_n_m)},
+           {"torque_sigma_n_m", line.torque_sigma_n_m},
+           {"twist_rad", std::abs(line.twist_rad)},
+           {"twist_sigma_rad", line.twist_sigma_rad},
+           {"model_torque_n_m", line.model_n_m ? Json(std::abs(*line.model_n_m)) : Json(nullptr)},
+           {"model_phase_rad", line.model_n_m ? Json(std::arg(*line.model_n_m)) : Json(nullptr)}});
     }
     const bool found = at.lines_used > 0;
     couplings.push_back(

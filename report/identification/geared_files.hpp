@@ -15,6 +15,9 @@ namespace levitas::cli {
 [[nodiscard]] nlohmann::ordered_json GearedJson(const identification::GearedParameters& found);
 /// Couplings and lines of the measured torsion.
 [[nodiscard]] nlohmann::ordered_json TorsionJson(const identification::HalfSpectrum& half);
+/// How well the probes of a shaft see its gear, for people; `shaft` begins the line.
+[[nodiscard]] std::string ProbePlaneText(const std::string& shaft,
+                                         const identification::ProbePlane& plane);
 void WriteGearedPicture(const std::string& path,
                         const std::vector<identification::GearedLine>& lines,
                         const identification::HalfSpectrum& half = {});

@@ -35,7 +35,8 @@ constexpr const char* kFullSpectrumHelp =
     "Masses and shafts are known from the rig file; tilts are eliminated dynamically, torsion by "
     "its half spectrum. Where the rig measures torque and twist of its couplings, their half "
     "spectrum is held against that of the identified model, and the couplings' stiffnesses are "
-    "found.\n"
+    "found. Where probes stand beside the gear, one plane of them for each shaft is enough: the "
+    "shaft's own model says how the gear moves, and the answer how much errors grow by that.\n"
     "  amb run --rig geared_rotor_8dof --record geared.lcm\n"
     "  amb identify full-spectrum geared.lcm --rig geared_rotor_8dof --out identified.yaml";
 
@@ -60,9 +61,11 @@ void Print(const SpectrumOptions& options, const std::vector<GearedLine>& lines,
   std::set<double> speeds;
   for (const GearedLine& line : lines) speeds.insert(line.speed_rad_per_s);
   const int freedom = known.torsion ? 12 : (known.pinion.tilt_stiffness_n_m > 0.0 ? 8 : 4);
-  fmt::print("{}: {} DOF, {} lines of {} speeds; +- two standard deviations\n",
-             options.data_path.empty() ? options.lines_path : options.data_path, freedom,
-             lines.size(), speeds.size());
+  const bool elastic = known.pinion.elastic || known.gear.elastic;
+  fmt::print("{}: {}, {} lines of {} speeds; +- two standard deviations\n",
+             options.data_path.empty() ? options.lines_path : options.data_path,
+             elastic ? "elastic shafts" : fmt::format("{} DOF", freedom), lines.size(),
+             speeds.size());
   PrintShaft("pinion", p.pinion);
   PrintShaft("gear", p.gear);
   fmt::print("mesh    km {:>11.0f} +- {:<8.0f} N/m   cm {:>8.2f} +- {:<7.2f} N s/m\n",
@@ -74,6 +77,8 @@ void Print(const SpectrumOptions& options, const std::vector<GearedLine>& lines,
                2e6 * e.sigma, std::arg(e.amplitude_m));
   }
   fmt::print("\ncondition number {:.1f}\n", p.condition);
+  if (p.pinion.plane) fmt::print("{}", ProbePlaneText("pinion", *p.pinion.plane));
+  if (p.gear.plane) fmt::print("{}", ProbePlaneText("gear", *p.gear.plane));
   fmt::print(
       "shaft stiffness and ks show only as their difference ({:.0f} and {:.0f} N/m): an error of "
       "the one is that of the other;\n    experiment: record at a second bias current, ks goes "
@@ -121,9 +126,10 @@ void PrintTorsion(const HalfSpectrum& half) {
                "model N m");
     for (std::size_t i = 0; i < std::min(kShown, lines.size()); ++i) {
       const TorsionLine& line = *lines[i];
-      fmt::print("{:>12}{:>10.2f}{:>10.1f}{:>12.4f}{:>12.4f}{:>12.4f}\n", line.name,
+      fmt::print("{:>12}{:>10.2f}{:>10.1f}{:>12.4f}{:>12.4f}{:>12}\n", line.name,
                  line.speed_rad_per_s / kTwoPi, line.frequency_rad_per_s / kTwoPi,
-                 std::abs(line.torque_n_m), 2.0 * line.torque_sigma_n_m, std::abs(line.model_n_m));
+                 std::abs(line.torque_n_m), 2.0 * line.torque_sigma_n_m,
+                 line.model_n_m ? fmt::format("{:.4f}", std::abs(*line.model_n_m)) : "not seen");
     }
   }
 }

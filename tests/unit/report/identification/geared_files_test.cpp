@@ -39,6 +39,23 @@ TEST(GearedJson, WithoutALineOfTheErrorHasNoList) {
   EXPECT_FALSE(GearedJson({}).contains("transmission_error"));
 }
 
+TEST(GearedJson, SaysWhereProbesBesideTheGearStandAndNothingOfThoseAtIt) {
+  GearedParameters found;
+  found.gear.plane = {0.26, 0.2, 4.5, 1.3, -200.0 * std::numbers::pi, 2};
+  const auto json = GearedJson(found);
+  EXPECT_FALSE(json["pinion"].contains("probe_plane"));
+  const auto& plane = json["gear"]["probe_plane"];
+  EXPECT_EQ(plane["probe_z_m"], 0.26);
+  EXPECT_EQ(plane["median"]["ratio"], 1.3);
+  EXPECT_EQ(plane["largest"]["ratio"], 4.5);
+  EXPECT_NEAR(plane["largest"]["at_hz"].get<double>(), -100.0, 1e-9);
+  EXPECT_EQ(plane["lines_left_out"]["count"], 2);
+  const std::string text = ProbePlaneText("gear", *found.gear.plane);
+  EXPECT_EQ(test::Count(text, "60 mm from the gear"), 1U);
+  EXPECT_EQ(test::Count(text, "1.3 times as far as they do, 4.5 times at -100 Hz"), 1U);
+  EXPECT_EQ(test::Count(text, "2 line(s) left out"), 1U);
+}
+
 GearedLine At(double speed_rad_per_s, double frequency_hz) {
   GearedLine line;
   line.speed_rad_per_s = speed_rad_per_s;
