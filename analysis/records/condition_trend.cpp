@@ -140,13 +140,13 @@ std::vector<ShaftTrend> FollowCondition(const std::vector<GearCondition>& sessio
   for (std::size_t s = 0; s < shafts; ++s) {
     for (const std::size_t other : sessions.back().shafts[s].shared) {
       for (std::size_t o = 0; o < shafts; ++o) {
-        if (trends[o].shaft != other || !trends[o].risen) continue;
+        if (trends[o].shaft != other || !(trends[o].risen || trends[s].risen)) continue;
         const double growth = per_line(s);
         const double own = per_line(o);
         const bool alike = growth < kAlike * own && kAlike * growth > own;
         ShaftTrend& cause = alike ? trends[o] : trends[s];
         ShaftTrend& follows = alike ? trends[s] : trends[o];
-        if (alike && !rule.loaded) cause.or_else = follows.shaft;
+        if (alike && (!rule.loaded || !trends[o].risen)) cause.or_else = follows.shaft;
         cause.risen = true;
         follows.risen = false;
         follows.explained_by = cause.shaft;

@@ -5,8 +5,8 @@
 // Baseline  the first sessions, which count as healthy: mean of their energies, and as their
 //           scatter the larger of what they scatter and what each is uncertain by.
 // Rise      z = (E - mean)/sqrt(dev^2 + scatter^2/B);  the last session has risen from 5 on, where
-//           the growth lies in at least three lines, (sum g)^2/sum g^2: one line alone is another
-//           tone, not a pulse.
+//           the growth lies in at least two lines, (sum g)^2/sum g^2: one line alone is another
+//           tone, not a pulse, of which a resonance shows some lines more than others.
 // Trend     of the amplitude sqrt(E) per session: median of the slopes of all pairs (Theil 1950;
 //           Sen 1968, J. Am. Stat. Assoc. 63, 1379), its interval by the exact distribution of
 //           Kendall's S; `coverage` is what that number of sessions allows.
@@ -15,7 +15,8 @@
 //           alike; growth per line that differs by more than a factor of 2 is two pulses a turn,
 //           which the first shaft makes. Without a load on the teeth the pinion's two pulses may
 //           differ so much, by the run-out of the gear, that they look like one: then both are
-//           named (`or_else`). Under a load the factor is some hundreds.
+//           named (`or_else`), as where the gear's own multiples have not risen enough alone.
+//           Under a load the factor is some hundreds.
 // Comparable  speeds within 0.5 %, mesh lines within 25 %, means of position and current within 5 %
 //           of clearance and bias of the first session: else Reasons() names what differs.
 // Not done  no forecast: at which size a tooth breaks is not in these data.
@@ -33,7 +34,7 @@ namespace levitas::analysis {
 struct TrendRule {
   std::size_t baseline{3};
   double rise{5.0};         ///< deviations
-  double least_lines{3.0};  ///< among which a growth must lie
+  double least_lines{2.0};  ///< among which a growth must lie
   double confidence{0.9};   ///< of the trend's interval
   bool loaded{true};        ///< the teeth carry a static load
 };

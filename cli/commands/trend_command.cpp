@@ -25,13 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHelp =
+constexpr const char* kTrendHelp =
     "Sessions of one geared rig, the oldest first, each at least five repeats of all wheels long "
     "at "
     "a speed that all hold. From each the part that turns with a wheel but is neither its teeth's "
     "regular engagement nor what shafts do once, twice or three times a turn: a tooth that is "
     "unlike the others makes it. The first sessions (--baseline) count as healthy; five "
-    "deviations above them in at least three lines is a rise. Sessions with another speed, law, "
+    "deviations above them in at least two lines is a rise. Sessions with another speed, law, "
     "rig "
     "(but for its effects), rig events, static load or level of the mesh lines are not compared.\n"
     "  amb trend monday.lcm tuesday.lcm wednesday.lcm thursday.lcm --speed-rpm 1740";
@@ -218,7 +218,7 @@ void AddTrendCommand(CLI::App& app, Action& action) {
   options->rig_name.clear();
   CLI::App* command = app.add_subcommand(
       "trend", "Sessions of a geared rig in order of time: whether a tooth has begun to fail");
-  command->footer(kHelp);
+  command->footer(kTrendHelp);
   command
       ->add_option("SESSION", options->paths,
                    "Sessions, CSV or MAT files (docs/formats.md), the oldest first")
