@@ -28,7 +28,7 @@ rotor::Shaft BeamShaft(const char* name, double diameter_m, const rotor::Disc& d
   shaft.beam.material = {207e9, 0.3, 7850.0};
   shaft.beam.sections = {{0.5, diameter_m, 0.0}};
   shaft.beam.discs = {disc};
-  shaft.beam.max_element_length_m = 0.1;
+  shaft.beam.max_element_length_m = 0.5;  // nodes at the planes only: both sides have them
   shaft.supports = {{0.0, 2e6, 2e6, 400.0, 400.0}, {0.5, 2e6, 2e6, 400.0, 400.0}};
   return shaft;
 }
