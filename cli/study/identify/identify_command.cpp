@@ -5,6 +5,7 @@
 #include "cli/commands/study_commands.hpp"
 #include "cli/study/identify/geared_commands.hpp"
 #include "cli/study/identify/identify_commands.hpp"
+#include "cli/study/identify/live_command.hpp"
 
 namespace levitas::cli {
 

@@ -8,7 +8,6 @@ namespace levitas::cli {
 void AddIdentifyFrf(CLI::App& identify, Action& action);
 void AddIdentifyModal(CLI::App& identify, Action& action);
 void AddIdentifyHammersteinWiener(CLI::App& identify, Action& action);
-void AddIdentifyLive(CLI::App& identify, Action& action);
 /// Two of them: narx and narmax.
 void AddIdentifyNarx(CLI::App& identify, Action& action);
 void AddIdentifyGreyBox(CLI::App& identify, Action& action);

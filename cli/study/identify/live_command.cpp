@@ -10,7 +10,7 @@
 #include "cli/json_file.hpp"
 #include "cli/run/interrupt.hpp"
 #include "cli/study/identify/hammerstein_wiener_options.hpp"
-#include "cli/study/identify/identify_commands.hpp"
+#include "cli/study/identify/live_command.hpp"
 #include "cli/study/identify/live_listener.hpp"
 #include "cli/study/identify/live_report.hpp"
 #include "cli/study/written_files.hpp"
