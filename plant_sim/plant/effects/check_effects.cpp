@@ -69,8 +69,8 @@ bool NeedsOneRotor(const EffectConfig& entry) {
          entry.id == effect::Id::kSensorPosition;
 }
 
-/// What a misaligned coupling acts on: the disc of a lumped shaft, the radius of the wheel. Planes of
-/// a beam are known once its elements are, and checked there.
+/// What a misaligned coupling acts on: the disc of a lumped shaft, the radius of the wheel. Planes
+/// of a beam are known once its elements are, and checked there.
 void CheckCoupling(std::size_t index, const EffectConfig& entry, const PlantConfig& config) {
   const double z_m = entry.values[0];
   const double force_n = entry.values[2];

@@ -5,9 +5,9 @@
 // Force      f = force e^(j (order shaft angle + phase)) on the shaft at z, (G17). The shaft's own
 //            sense of rotation counts: a wheel that turns backwards carries it backwards.
 // Rotation   error cos(order shaft angle + phase), counted like the twist of the shaft. A universal
-//            joint at angle a, tan(out) = tan(in)/cos(a), departs by t = tan^2(a/2) twice a turn, by
-//            t^2/2 four times, and so on (Seherr-Thoss, Schmelz & Aucktor
-//            2006, ch. 1); parallel offsets and shafts that are not parallel in the mesh do so once.
+//            joint at angle a, tan(out) = tan(in)/cos(a), departs by t = tan^2(a/2) twice a turn,
+//            by t^2/2 four times, and so on (Seherr-Thoss, Schmelz & Aucktor 2006, ch. 1);
+//            parallel offsets and shafts that are not parallel in the mesh do so once.
 //   rigid    without inertias on springs the wheel has no rotation of its own: the machine behind
 //            the coupling is taken as heavy, and base radius x error adds to the displacement of
 //            the teeth, (G18).
