@@ -33,6 +33,12 @@ std::string NameOf(const GearedLine& line) {
   return line.frequency_rad_per_s == 0.0 ? "mean" : "1x the other way";
 }
 
+bool AreMirrored(const GearedLine& a, const GearedLine& b) {
+  return a.speed_rad_per_s == b.speed_rad_per_s &&
+         std::abs(a.frequency_rad_per_s + b.frequency_rad_per_s) <=
+             1e-6 * std::abs(b.frequency_rad_per_s);
+}
+
 bool AreEnough(const std::vector<GearedLine>& lines) {
   std::set<double> speeds;
   bool pinion = false;
@@ -104,9 +110,20 @@ std::optional<ProbePlane> PlaneOf(const ShaftKnown& shaft, const ShaftFound& fou
 
 std::vector<GearedLine> LinesOffNodes(const std::vector<GearedLine>& lines,
                                       const GearedKnown& known) {
-  std::vector<GearedLine> seen;
-  std::ranges::copy_if(lines, std::back_inserter(seen), [&known](const GearedLine& line) {
+  const auto is_seen = [&known](const GearedLine& line) {
     return IsSeen(known.pinion, line) && IsSeen(known.gear, line);
+  };
+  std::vector<GearedLine> unseen;
+  std::ranges::remove_copy_if(lines, std::back_inserter(unseen), is_seen);
+  // The wheels turn under the forces of both whirls: without the one the other says nothing.
+  const auto lacks_its_mirror = [&](const GearedLine& line) {
+    return known.torsion && std::ranges::any_of(unseen, [&line](const GearedLine& one) {
+             return AreMirrored(one, line);
+           });
+  };
+  std::vector<GearedLine> seen;
+  std::ranges::copy_if(lines, std::back_inserter(seen), [&](const GearedLine& line) {
+    return is_seen(line) && !lacks_its_mirror(line);
   });
   if (seen.size() < lines.size() && !AreEnough(seen)) Refuse(lines, known, seen.size());
   return seen;

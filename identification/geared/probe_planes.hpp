@@ -8,6 +8,7 @@
 // Left out       lines with more than 30 on either shaft: 1 % of error in the model is a third of
 //                the gear's displacement there. Nodes move along the shaft with frequency: a
 //                plane between supports loses single lines, one on a stiff support all.
+//                With torsion a line goes with its mirror, whose force turns the wheels too.
 // Failure        BadInput where what is left has not two speeds and the 1x lines of both gears: the
 //                probe plane is named, with line and amplification. Thread any, pure.
 
