@@ -43,7 +43,7 @@ std::string NextStep(const verdict::Verdict& verdict, const RunAsAsked& run) {
   if (verdict.inputs.measured) return OfTestSignals(run.record);
   // A loop that cannot be computed (coils on a voltage) is none that amb design knows.
   if (verdict.outcome != verdict::Outcome::kNotAccepted || verdict.inputs.sensitivity.empty() ||
-      run.other_bias) {
+      run.other_rig) {
     return {};
   }
   const bool moves_too_far = std::ranges::any_of(

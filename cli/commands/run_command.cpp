@@ -147,8 +147,7 @@ ExitStatus JudgeRun(const RunOptions& options, const RunFiles& files, const RunP
     if (!options.record_path.empty()) EnterRun(paths.session, verdict, options.tags);
     if (keep) SayWhereTheRecordIs(paths, verdict.inputs.provenance.trip_file);
     const std::string next = NextStep(
-        verdict,
-        {options.rig, options.controller, options.record_path, options.bias_current_a.has_value()});
+        verdict, {options.rig, options.controller, options.record_path, options.changes.any()});
     if (!next.empty()) fmt::print("{}\n", next);
     const bool incomplete = verdict.outcome == verdict::Outcome::kIncomplete;
     if (status == ExitStatus::kDone && !incomplete) RequireRun(options.required, verdict);
@@ -172,11 +171,20 @@ void RefuseWhatCannotBeRead(const std::string& record_path) {
 /// Both programs read the rig from one file; where it is not as in its file, from one of the run.
 RunFiles WithRigAsRun(const RunOptions& options, RunFiles files, const RunFolder& folder) {
   if (!options.rig_out.empty()) WriteTextFile(options.rig_out, files.rig_text);
-  if (!options.bias_current_a) return files;
-  rt::Say(fmt::format("bias current {:g} A", *options.bias_current_a));
+  const RigChanges& changes = options.changes;
+  if (!changes.any()) return files;
+  if (changes.bias_current_a) rt::Say(fmt::format("bias current {:g} A", *changes.bias_current_a));
+  for (const std::string& effect : changes.effects) rt::Say("effect added: " + effect);
   files.rig_path = folder / "rig.yaml";
   WriteTextFile(files.rig_path, files.rig_text);
   return files;
+}
+
+/// The rig as it is run, as a command takes it, and how it is kept where it is not yet.
+std::pair<std::string, std::string> RigForCommands(const RunOptions& options) {
+  if (!options.changes.any()) return {options.rig, ""};
+  if (!options.rig_out.empty()) return {options.rig_out, ""};
+  return {"as_run.yaml", " (--write-rig as_run.yaml keeps the rig as it is run)"};
 }
 
 /// Before anything is lifted: an unstable loop is said; an unstable block of synchronous control,
@@ -186,16 +194,17 @@ void CheckLoop(const RunOptions& options, const RunFiles& files) {
   const auto controller = config::LoadController(files.controller_path, files.rig);
   const auto scenario = config::LoadScenario(files.scenario_path, files.rig);
   const plant_run::TimedEvents events(scenario, rig);  // throws for an event that cannot be
-  const std::string text = UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario), options.rig,
-                                        files.controller_path);
-  if (!text.empty()) rt::Say("amb: warning: " + text);
+  const auto [rig_name, kept] = RigForCommands(options);
+  const std::string text =
+      UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario), rig_name, files.controller_path);
+  if (!text.empty()) rt::Say("amb: warning: " + text + kept);
   const std::string blocks = UnstableBlocksOf(rig, controller);
   if (blocks.empty()) return;
   throw BadInput(
       fmt::format("{}: {}. Nothing was lifted. amb design notch --rig {} makes blocks for it, amb "
                   "margins shows "
-                  "these",
-                  files.controller_path, blocks, options.rig));
+                  "these{}",
+                  files.controller_path, blocks, rig_name, kept));
 }
 
 std::string PortOf(const RunOptions& options, const transport::LcmNetwork& network) {
@@ -267,9 +276,16 @@ ExitStatus Execute(const RunOptions& asked) {
 void AddRigOptions(CLI::App& command, const std::shared_ptr<RunOptions>& options) {
   command.add_option("--rig", options->rig, "Rig file, or the name of a shipped one")
       ->capture_default_str();
-  command.add_option("--bias-current-a", options->bias_current_a,
+  command.add_option("--bias-current-a", options->changes.bias_current_a,
                      "Bias current [A] in place of the rig file's, for the rig and the controller; "
                      "the session holds the rig as it was run");
+  command
+      .add_option("--effect", options->changes.effects,
+                  "Add an effect to the simulated rig, as an entry of a rig file's effects (amb "
+                  "effects lists them, docs/effects.md has one of each to copy); may be repeated; "
+                  "the session holds the rig as it was run")
+      ->expected(1)
+      ->take_all();
   command.add_option("--write-rig", options->rig_out,
                      "Write the rig as it is run to this file, for the commands on the record");
 }

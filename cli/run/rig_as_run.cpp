@@ -2,20 +2,50 @@
 
 #include <fmt/core.h>
 
-namespace levitas::cli {
+#include "plant_sim/effect/effect_config.hpp"
 
-RigAsRun ReadRigAsRun(const std::string& path, std::optional<double> bias_current_a) {
+namespace levitas::cli {
+namespace {
+
+/// "- {id: ...}" and "id: ..." are "{id: ...}".
+std::string InBraces(const std::string& entry) {
+  constexpr const char* kBefore = " \t-";
+  const auto first = entry.find_first_not_of(kBefore);
+  if (first == std::string::npos) return "{}";
+  const std::string bare = entry.substr(first);
+  return bare.front() == '{' ? bare : "{" + bare + "}";
+}
+
+/// One entry, read as that of a rig file is; before the rest, so that its place is in line 1.
+void AddEffect(const std::string& path, const std::string& entry, config::RigFile& rig) {
+  config::RigFile healthy = rig;
+  healthy.plant.effects.clear();
+  std::string text = config::WriteRig(healthy);
+  const std::string none = "\neffects: []\n";
+  if (const auto at = text.find(none); at != std::string::npos) text.replace(at, none.size(), "\n");
+  text = fmt::format("effects: [{}]\n{}", InBraces(entry), text);
+  const config::RigFile read =
+      config::ParseRig(text, fmt::format("{} with --effect '{}'", path, entry));
+  rig.plant.effects.insert(rig.plant.effects.end(), read.plant.effects.begin(),
+                           read.plant.effects.end());
+}
+
+}  // namespace
+
+RigAsRun ReadRigAsRun(const std::string& path, const RigChanges& changes) {
   config::RigFile rig = config::LoadRig(path);
-  if (!bias_current_a) {
-    std::string text = config::WriteRig(rig);
-    return {std::move(rig), std::move(text)};
+  std::string name = path;
+  if (changes.bias_current_a) {
+    rig.numbers.bias_current_a = *changes.bias_current_a;
+    for (auto& bearing : rig.plant.bearings)
+      bearing.magnet.bias_current_a = *changes.bias_current_a;
+    name += fmt::format(" with --bias-current-a {:g}", *changes.bias_current_a);
+    rig = config::ParseRig(config::WriteRig(rig), name);
   }
-  rig.numbers.bias_current_a = *bias_current_a;
-  for (auto& bearing : rig.plant.bearings) bearing.magnet.bias_current_a = *bias_current_a;
+  for (const std::string& entry : changes.effects) AddEffect(name, entry, rig);
   std::string text = config::WriteRig(rig);
-  config::RigFile read =
-      config::ParseRig(text, fmt::format("{} with --bias-current-a {:g}", path, *bias_current_a));
-  return {std::move(read), std::move(text)};
+  if (!changes.effects.empty()) rig = config::ParseRig(text, name + " with --effect");
+  return {std::move(rig), std::move(text)};
 }
 
 }  // namespace levitas::cli

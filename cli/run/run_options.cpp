@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "cli/run/rig_as_run.hpp"
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
 #include "configuration/run_files.hpp"
@@ -60,7 +59,7 @@ RunFiles CheckFiles(const RunOptions& options) {
   config::RigFile rig;
   const bool rig_good = Collect(problems, [&] {
     files.rig_path = config::FindConfig(options.rig, "rigs");
-    RigAsRun as_run = ReadRigAsRun(files.rig_path, options.bias_current_a);
+    RigAsRun as_run = ReadRigAsRun(files.rig_path, options.changes);
     rig = std::move(as_run.rig);
     files.rig = rig.numbers;
     files.rig_text = std::move(as_run.text);
@@ -100,6 +99,10 @@ RunOptions SettleRig(RunOptions options, const config::RigFile& rig,
     if (waits) socketcan::RefuseLockstep(rig, options.port, find);
     options.rig_is_there =
         options.rig_is_there || !socketcan::RealInterface(rig, options.port, find).empty();
+  }
+  if (options.rig_is_there && !options.changes.effects.empty()) {
+    throw Problem(ExitStatus::kUsage,
+                  "--effect changes the simulated rig, and none is simulated here");
   }
   if (options.pace.empty()) options.pace = UsualPace(options);
   RefuseWrongPace(options);

@@ -11,6 +11,7 @@
 
 #include "cli/run/general_files.hpp"
 #include "cli/run/live_page.hpp"
+#include "cli/run/rig_as_run.hpp"
 #include "cli/run/supervise.hpp"
 #include "common/rig_numbers.hpp"
 #include "configuration/rig_file.hpp"
@@ -23,12 +24,12 @@ struct RunOptions {
   std::string rig{"flexible_rotor"};
   std::string controller;  ///< empty: the one that the rig names, else kGeneralController
   std::string scenario;    ///< empty: the one that the rig names, else kGeneralScenario
-  std::optional<double> bias_current_a;  ///< none: that of the rig file
-  std::string rig_out;                   ///< where the rig as run is written; empty: nowhere
-  double duration_s{0.0};                ///< 0: as long as the scenario takes
-  std::string pace;                      ///< empty: see SettleRig
-  std::optional<double> pace_factor;     ///< of a paced run; none: 1
-  std::string port;                      ///< empty: lcm on ports nobody else uses
+  RigChanges changes;      ///< of the rig file
+  std::string rig_out;     ///< where the rig as run is written; empty: nowhere
+  double duration_s{0.0};  ///< 0: as long as the scenario takes
+  std::string pace;        ///< empty: see SettleRig
+  std::optional<double> pace_factor;  ///< of a paced run; none: 1
+  std::string port;                   ///< empty: lcm on ports nobody else uses
   bool rig_is_there{};            ///< start the controller alone: the rig is on the port already
   std::string key;                ///< file with the key of those who may speak; empty: none
   bool no_commands{};             ///< nobody commands over the network

@@ -27,7 +27,7 @@ OPTIONS = {
     "dash": {"--port", "--key", "--http-port", "--listen", "--allow-network", "--token", "--token-file", "--answer-within",
              "--json"},
     "run": {"--rig", "--controller", "--scenario", "--duration", "--pace", "--pace-factor", "--port", "--record",
-            "--overwrite", "--tag", "--seed", "--bias-current-a", "--write-rig", "--json", "--dash",
+            "--overwrite", "--tag", "--seed", "--bias-current-a", "--effect", "--write-rig", "--json", "--dash",
             "--no-dash"},
     "identify": set(),  # its subcommands follow
     "identify frf": {"--rig", "--controller", "--drop", "--highest-hz", "--orbit-um", "--csv", "--svg",

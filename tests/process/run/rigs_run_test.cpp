@@ -138,6 +138,27 @@ TEST_F(RigsRunTest, AnEffectThatTheRigDoesNotListIsRefusedBeforeAnythingStarts) 
   EXPECT_THAT(run.Said(), HasSubstr("which rig flexible_rotor does not list under effects"));
 }
 
+TEST_F(RigsRunTest, AnEffectAddedToTheRunPushesTheSimulatedRotorAndOnlyIt) {
+  const auto pulled_a = [&](const std::vector<std::string>& more) {
+    const std::string json = scratch_ / "verdict.json";
+    std::vector<std::string> words{"--duration", "1.7", "--json", json};
+    words.insert(words.end(), more.begin(), more.end());
+    AmbRun run(scratch_, "run", words);
+    EXPECT_EQ(run.Status(), 0) << run.Said();
+    return nlohmann::json::parse(ReadAll(json))["currents"][0]["mean_a"].get<double>();
+  };
+  const double alone_a = pulled_a({});
+  const double pushed_a = pulled_a({"--effect", "{id: static_load, z_mm: 129.9, force_x_n: 4}"});
+  // ki of its magnet is 40 N/A; a tenth, since the shaft bends between probe and magnet.
+  EXPECT_NEAR(pushed_a - alone_a, -4.0 / 40.0, 0.015);
+}
+
+TEST_F(RigsRunTest, AnEffectThatTheCatalogueDoesNotHaveIsRefusedBeforeAnythingStarts) {
+  AmbRun run(scratch_, "run", {"--effect", "{id: misalinment, force_n: 1}"});
+  EXPECT_EQ(run.Status(), 3);
+  EXPECT_THAT(run.Said(), AllOf(HasSubstr("--effect"), HasSubstr("misalignment")));
+}
+
 TEST_F(RigsRunTest, ATorqueOnARigWithoutTorsionIsRefusedInOneSentence) {
   const std::string scenario = Scenario(
       "  - {do: lift, until: levitating, timeout_s: 5, hold_s: 1}\n"

@@ -52,7 +52,7 @@ TEST(NextStep, IsAboutTheLawThatWasRunAndSilentAboutAnotherBias) {
   const verdict::Verdict verdict = RunIn(analysis::Zone::kD, verdict::Outcome::kNotAccepted);
   EXPECT_THAT(NextStep(verdict, {.rig = "r", .controller = "soft.yaml"}),
               HasSubstr("amb margins --rig 'r' --controller 'soft.yaml'"));
-  EXPECT_EQ(NextStep(verdict, {.rig = "r", .other_bias = true}), "");
+  EXPECT_EQ(NextStep(verdict, {.rig = "r", .other_rig = true}), "");
 }
 
 /// The orbit that a test signal makes says nothing of the law.

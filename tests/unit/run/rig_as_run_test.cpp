@@ -26,20 +26,21 @@ double StiffnessOf(const config::RigFile& rig) {
 
 TEST(RigAsRun, IsTheFilesWithoutABiasCurrentOfItsOwn) {
   const config::RigFile file = config::LoadRig(ShippedRig());
-  const RigAsRun as_run = ReadRigAsRun(ShippedRig(), std::nullopt);
+  const RigAsRun as_run = ReadRigAsRun(ShippedRig(), {});
   EXPECT_EQ(as_run.text, config::WriteRig(file));
   EXPECT_EQ(as_run.rig.numbers.bias_current_a, file.numbers.bias_current_a);
 }
 
 TEST(RigAsRun, KeepsTheMagnetsSoThatTheirForceGrowsWithTheBias) {
   const config::RigFile file = config::LoadRig(ShippedRig());
-  const RigAsRun as_run = ReadRigAsRun(ShippedRig(), 0.8 * file.numbers.bias_current_a);
+  const RigAsRun as_run =
+      ReadRigAsRun(ShippedRig(), {.bias_current_a = 0.8 * file.numbers.bias_current_a});
   EXPECT_NEAR(ForcePerAmpere(as_run.rig) / ForcePerAmpere(file), 0.8, 1e-12);  // ki ~ i0
   EXPECT_NEAR(StiffnessOf(as_run.rig) / StiffnessOf(file), 0.8 * 0.8, 1e-12);  // ks ~ i0^2
 }
 
 TEST(RigAsRun, IsInItsTextAsItIs) {
-  const RigAsRun as_run = ReadRigAsRun(ShippedRig(), 0.8);
+  const RigAsRun as_run = ReadRigAsRun(ShippedRig(), {.bias_current_a = 0.8});
   const config::RigFile read = config::ParseRig(as_run.text, "text");
   EXPECT_EQ(read.numbers.bias_current_a, 0.8);
   for (const auto& bearing : read.plant.bearings) EXPECT_EQ(bearing.magnet.bias_current_a, 0.8);
@@ -48,11 +49,36 @@ TEST(RigAsRun, IsInItsTextAsItIs) {
 TEST(RigAsRun, RefusesWhatNoRigFileMayHaveAndNamesTheOption) {
   for (const double bias_a : {-1.0, 0.0, 1e6, 50.0}) {  // 50 A: beyond the coils' largest current
     try {
-      static_cast<void>(ReadRigAsRun(ShippedRig(), bias_a));
+      static_cast<void>(ReadRigAsRun(ShippedRig(), {.bias_current_a = bias_a}));
       ADD_FAILURE() << bias_a << " A was taken";
     } catch (const BadInput& refused) {
       EXPECT_THAT(refused.what(), HasSubstr("--bias-current-a"));
       EXPECT_THAT(refused.what(), HasSubstr("coils."));
+    }
+  }
+}
+
+TEST(RigAsRun, AddsEffectsBehindThoseOfTheFile) {
+  const RigAsRun as_run = ReadRigAsRun(
+      ShippedRig(), {.effects = {"{id: coupling_stiffness, direct_n_per_m: 0, cross_n_per_m: 5e4}",
+                                 "- id: misalignment, force_n: 0.4, order: -3"}});
+  const auto read = config::ParseRig(as_run.text, "text").plant.effects;
+  ASSERT_EQ(read.size(), config::LoadRig(ShippedRig()).plant.effects.size() + 2);
+  EXPECT_EQ(read[read.size() - 2].id, effect::Id::kCouplingStiffness);
+  EXPECT_EQ(read.back().id, effect::Id::kMisalignment);
+  EXPECT_EQ(as_run.rig.plant.effects.size(), read.size());
+}
+
+TEST(RigAsRun, RefusesAnEntryThatNoRigFileMayHaveAndNamesIt) {
+  for (const std::string entry :
+       {"{id: misalinment, force_n: 1}", "{id: misalignment, force_kg: 1}", "misalignment", "",
+        "{id: support_mode, bearing: middle, mass_kg: 8, frequency_hz: 400}", "{id: backlash",
+        "{id: misalignment}]\nname: other\nkind: [x"}) {
+    try {
+      static_cast<void>(ReadRigAsRun(ShippedRig(), {.effects = {entry}}));
+      ADD_FAILURE() << entry << " was taken";
+    } catch (const BadInput& refused) {
+      EXPECT_THAT(refused.what(), HasSubstr("--effect '" + entry + "'"));
     }
   }
 }
