@@ -11,9 +11,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kLowestHz = 20.0;
-constexpr double kHighestShare = 0.45;  // of the sampling rate
-
 double SixDigits(double value) {
   return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
@@ -22,12 +19,38 @@ double SixDigits(double value) {
 class Taker {
  public:
   Taker(const LawShape& shape, const Eigen::VectorXd& x, Index at)
-      : x_(x), at_(at), highest_hz_(kHighestShare / shape.period_s) {}
+      : x_(x), at_(at), highest_hz_(kHighestCornerShare / shape.period_s) {}
   double Within(double low, double high) {
     return SixDigits(std::clamp(std::exp(x_(at_++)), low, high));
   }
-  double Corner() { return Within(kLowestHz, highest_hz_); }
+  double Corner() { return Within(kLowestCornerHz, highest_hz_); }
   double Damping() { return Within(0.02, 3.0); }
+
+  law::LeadLag AnyLeadLag() {
+    const double zero_hz = Corner();
+    return {zero_hz, Corner()};
+  }
+  law::LeadLag LeadLagAbout(double hz) {
+    // Zero and pole stay where corners may be.
+    const double most = std::max(1.0, std::min(highest_hz_ / hz, hz / kLowestCornerHz));
+    const double half = Within(1.0 / most, most);
+    return {SixDigits(hz / half), SixDigits(hz * half)};
+  }
+  law::Notch AnyNotch() {
+    law::Notch notch;
+    notch.frequency_hz = Corner();
+    notch.zero_damping = Damping();
+    notch.pole_damping = Damping();
+    return notch;
+  }
+  law::Notch NotchAt(double hz) {
+    law::Notch notch;
+    notch.frequency_hz = SixDigits(hz);
+    notch.prewarp = true;  // else it would stand lower in the sampled loop
+    notch.zero_damping = Damping();
+    notch.pole_damping = std::max(Damping(), notch.zero_damping);
+    return notch;
+  }
 
  private:
   const Eigen::VectorXd& x_;
@@ -46,10 +69,17 @@ Eigen::VectorXd StartAt(const LawShape& shape, const PlainGains& gains) {
   values.push_back(gains.integral_1_per_s);
   for (std::size_t b = 0; b < (shape.own_filters ? shape.bearings : 1); ++b) {
     values.push_back(gains.derivative_hz);
-    for (std::size_t i = 0; i < shape.lead_lags; ++i)
-      values.insert(values.end(), {gains.derivative_hz, gains.derivative_hz});
-    for (std::size_t i = 0; i < shape.notches; ++i)
-      values.insert(values.end(), {gains.notch_hz.at(i), 0.7, 0.7});
+    for (std::size_t i = 0; i < shape.lead_lags; ++i) {
+      if (i < shape.lead_lags_at_hz.size()) {
+        values.push_back(1.0);
+      } else {
+        values.insert(values.end(), {gains.derivative_hz, gains.derivative_hz});
+      }
+    }
+    for (std::size_t i = 0; i < shape.notches; ++i) {
+      if (i >= shape.notches_at_hz.size()) values.push_back(gains.notch_hz.at(i));
+      values.insert(values.end(), {0.7, 0.7});
+    }
   }
   Eigen::VectorXd out(static_cast<Index>(values.size()));
   for (std::size_t i = 0; i < values.size(); ++i) out(static_cast<Index>(i)) = std::log(values[i]);
@@ -78,17 +108,13 @@ law::LawConfig LawAt(const LawShape& shape, const Eigen::VectorXd& x) {
     one.kd_a_s_per_m = kd[b];
     one.ki_a_per_m_s = SixDigits(kp[b] * integral);
     one.derivative_hz = filters.Corner();
-    for (std::size_t i = 0; i < shape.lead_lags; ++i) {
-      const double zero_hz = filters.Corner();
-      one.lead_lags.push_back({zero_hz, filters.Corner()});
-    }
-    for (std::size_t i = 0; i < shape.notches; ++i) {
-      law::Notch notch;
-      notch.frequency_hz = filters.Corner();
-      notch.zero_damping = filters.Damping();
-      notch.pole_damping = filters.Damping();
-      one.notches.push_back(notch);
-    }
+    for (std::size_t i = 0; i < shape.lead_lags; ++i)
+      one.lead_lags.push_back(i < shape.lead_lags_at_hz.size()
+                                  ? filters.LeadLagAbout(shape.lead_lags_at_hz[i])
+                                  : filters.AnyLeadLag());
+    for (std::size_t i = 0; i < shape.notches; ++i)
+      one.notches.push_back(i < shape.notches_at_hz.size() ? filters.NotchAt(shape.notches_at_hz[i])
+                                                           : filters.AnyNotch());
     out.axes.push_back(std::move(one));
   }
   return out;

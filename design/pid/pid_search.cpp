@@ -145,6 +145,8 @@ class Rounds {
     shape_.axes = rig.numbers.axes();
     shape_.lead_lags = options.lead_lags;
     shape_.notches = options.notches;
+    shape_.lead_lags_at_hz = options.lead_lags_at_hz;
+    shape_.notches_at_hz = options.notches_at_hz;
     shape_.period_s = rig.numbers.period_s();
     shape_.current_limit_a = options.current_limit_a;
     Hold(0);

@@ -25,6 +25,7 @@ struct PidSearchOptions {
   std::size_t corners{8};
   std::size_t lead_lags{1};
   std::size_t notches{2};
+  std::vector<double> lead_lags_at_hz, notches_at_hz;  ///< see LawShape
   bool own_filters{true};
   /// As if nothing were known but ki, ks, mass, inertia, delay: one speed, no flexible mode, and
   /// Limit::kAnyMode should be asked.

@@ -1,6 +1,11 @@
 #include "cli/study/design/pid_options.hpp"
 
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+
 #include "cli/study/design/judged_law.hpp"
+#include "common/problem.hpp"
 
 namespace levitas::cli {
 
@@ -67,7 +72,29 @@ design::PidLimits LimitsOf(const PidCommandOptions& options, const config::RigFi
   return out;
 }
 
+namespace {
+
+/// Held filters lie where a search may put filters, and belong to those that were asked for.
+void RefuseHeld(const char* option, const std::vector<double>& at_hz, const char* many,
+                std::size_t most, double period_s) {
+  if (at_hz.size() > most)
+    throw Problem(ExitStatus::kUsage, fmt::format("{} names {} filters, but there are {} ({})",
+                                                  option, at_hz.size(), most, many));
+  const double highest_hz = design::kHighestCornerShare / period_s;
+  for (const double hz : at_hz)
+    if (!(hz >= design::kLowestCornerHz && hz <= highest_hz))
+      throw Problem(ExitStatus::kUsage,
+                    fmt::format("{}: found {:g} Hz, allowed {:g} to {:g} Hz at this sampling rate",
+                                option, hz, design::kLowestCornerHz, highest_hz));
+}
+
+}  // namespace
+
 void CompleteSearch(const config::RigFile& rig, PidCommandOptions& options) {
+  const auto& search = options.search;
+  const double period_s = rig.numbers.period_s();
+  RefuseHeld("--lead-lag-hz", search.lead_lags_at_hz, "--lead-lags", search.lead_lags, period_s);
+  RefuseHeld("--notch-hz", search.notches_at_hz, "--notches", search.notches, period_s);
   options.search.current_limit_a = ControlLimitA(rig.numbers);
   options.search.seed = options.gate.seed;
   options.search.third_n = options.gate.third_n;
@@ -87,6 +114,15 @@ void AddPidSearchOptions(CLI::App& command, PidCommandOptions& options) {
   command.add_option("--notches", options.search.notches, "Of each axis")
       ->check(CLI::Range(0, 4))
       ->capture_default_str();
+  command
+      .add_option("--lead-lag-hz", options.search.lead_lags_at_hz,
+                  "Hold a lead-lag about this frequency [Hz], where its lead or lag is largest; "
+                  "several by commas, no more than --lead-lags")
+      ->delimiter(',');
+  command
+      .add_option("--notch-hz", options.search.notches_at_hz,
+                  "Hold a notch at this frequency [Hz]; several by commas, no more than --notches")
+      ->delimiter(',');
   command.add_flag("--shared-filters", options.shared_filters,
                    "One derivative corner, lead-lag and set of notches for all bearings");
 }

@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "analysis/sensitivity.hpp"
 #include "common/problem.hpp"
+#include "common/random.hpp"
 #include "common/rotational_speed.hpp"
 #include "design/pid/pid_search.hpp"
 #include "tests/support/shipped_loop.hpp"
@@ -44,6 +47,40 @@ const PidSearchResult& ForTheFlexibleRotor() {
     return Designed(rig, UsualLimits(rig, kLimitA), Quick(2400));
   }();
   return found;
+}
+
+TEST(LawShape, LeavesHeldFiltersWhereTheyAreWhateverTheSearchDraws) {
+  LawShape shape;
+  shape.bearings = 2;
+  shape.axes = 4;
+  shape.period_s = 1e-4;
+  PlainGains gains{
+      .kp_a_per_m = {4e3, 5e3}, .kd_a_s_per_m = {10.0, 15.0}, .notch_hz = {300.0, 900.0}};
+  const auto free = static_cast<std::size_t>(StartAt(shape, gains).size());
+  shape.lead_lags_at_hz = {510.0};
+  shape.notches_at_hz = {730.0};
+  Eigen::VectorXd x = StartAt(shape, gains);
+  EXPECT_EQ(shape.unknowns(), free - 2);  // of each held filter one
+  ASSERT_EQ(static_cast<std::size_t>(x.size()), shape.unknowns());
+  const auto plain = LawAt(shape, x).axes[0];
+  EXPECT_EQ(plain.lead_lags[0].zero_hz, plain.lead_lags[0].pole_hz);  // does nothing
+  EXPECT_EQ(plain.notches[0].zero_damping, plain.notches[0].pole_damping);
+  Random draw(3);
+  bool leads = false;
+  bool lags = false;
+  for (int n = 0; n < 50; ++n) {
+    for (auto& value : x) value += 0.5 * draw.Normal();
+    for (const auto& axis : LawAt(shape, x).axes) {
+      const auto& lead = axis.lead_lags[0];
+      EXPECT_NEAR(std::sqrt(lead.zero_hz * lead.pole_hz), 510.0, 0.01);
+      (lead.zero_hz < lead.pole_hz ? leads : lags) = true;
+      EXPECT_EQ(axis.notches[0].frequency_hz, 730.0);
+      EXPECT_TRUE(axis.notches[0].prewarp);
+      EXPECT_LE(axis.notches[0].zero_damping, axis.notches[0].pole_damping);
+      EXPECT_NE(axis.notches[1].frequency_hz, 900.0);
+    }
+  }
+  EXPECT_TRUE(leads && lags);
 }
 
 TEST(PidDesign, MeetsItsLimitsAtSpeedsThatAnotherAnalysisTakes) {
