@@ -20,7 +20,8 @@ LiftWatch::LiftWatch(double period_s) noexcept : weight_(std::min(1.0, period_s 
 void LiftWatch::Add(const cycle::CycleRecord& record) noexcept {
   if (record.out.mode != Mode::kLift) {
     // The tripping record itself is no longer of the lift; what led to it is kept until the next.
-    if (record.out.mode == Mode::kSelfTest) *this = LiftWatch(weight_ * kLiftMemoryS);
+    if (record.out.mode == Mode::kSelfTest || record.out.mode == Mode::kLevitating)
+      *this = LiftWatch(weight_ * kLiftMemoryS);
     return;
   }
   if (!record.in.frame_present) return;
@@ -49,6 +50,12 @@ LiftReason LiftWatch::ReasonOf(std::size_t axis, double settle_radius_m) const n
     return one_side ? LiftReason::kAtLimit : LiftReason::kLimitToLimit;
   }
   return SagOf(axis) > settle_radius_m ? LiftReason::kSags : LiftReason::kSwings;
+}
+
+LiftReason LiftWatch::ReasonOfLimit(std::size_t axis) const noexcept {
+  if (!filled_ || axis >= kMaxAxes) return LiftReason::kUnknown;
+  const bool one_side = std::abs(limited_side_[axis]) > 0.5 * limited_share_[axis];
+  return one_side ? LiftReason::kAtLimit : LiftReason::kLimitToLimit;
 }
 
 double LiftWatch::SagOf(std::size_t axis) const noexcept { return DistanceOf(place_m_, axis); }

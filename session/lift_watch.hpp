@@ -8,6 +8,8 @@
 // Reason   at the limit: the magnets give all they have, to one side. From limit to limit: the
 //          loop is unstable, and no load. Sag beyond the settle radius: the law
 //          holds the load too softly, or has not integrated long enough. Else it swings.
+//          Of an axis that was at its limit until a protection tripped, only the first two.
+// Ended    by levitation: a later trip has reasons of its own.
 // Units    SI. Thread: the recorder's, or any reader's. Failure: none.
 // Not done the lift itself, which is the supervisor's (controller/supervisor).
 
@@ -31,6 +33,8 @@ class LiftWatch {
   void Add(const cycle::CycleRecord& record) noexcept;
   /// Why the bearing of this axis did not settle within `settle_radius_m`.
   [[nodiscard]] LiftReason ReasonOf(std::size_t axis, double settle_radius_m) const noexcept;
+  /// Why the current of this axis stayed at its limit; kUnknown but in a lift.
+  [[nodiscard]] LiftReason ReasonOfLimit(std::size_t axis) const noexcept;
   [[nodiscard]] double SagOf(std::size_t axis) const noexcept;    ///< [m] of the axis' bearing
   [[nodiscard]] double StartOf(std::size_t axis) const noexcept;  ///< [m] the same, where it lay
   /// [A] magnitude of the mean control current of the axis.

@@ -55,12 +55,14 @@ std::string Where(const cycle::CycleOutputs& out, const std::vector<std::string>
   return fmt::format(" on {}", channels[axis]);
 }
 
-/// Why a lift was given up, with the figures of its last tenth of a second, and what helps.
+/// Why a lift was given up, with the figures of its last tenth of a second, and what helps; empty
+/// where the rotor was levitated already.
 std::string LiftReasonText(const cycle::CycleOutputs& out, const LiftWatch& lift) {
   const auto axis = static_cast<std::size_t>(std::max<int>(out.fault_axis, 0));
   const double sag_um = lift.SagOf(axis) * kMicro;
   const double radius_um = out.fault_limit * kMicro;
-  switch (lift.ReasonOf(axis, out.fault_limit)) {
+  const bool at_limit = out.fault == Fault::kCoilSaturated;
+  switch (at_limit ? lift.ReasonOfLimit(axis) : lift.ReasonOf(axis, out.fault_limit)) {
     case LiftReason::kUnknown:
       return {};
     case LiftReason::kAtLimit:
@@ -133,9 +135,9 @@ std::string TripText(const cycle::CycleRecord& record, const std::vector<std::st
                           row.unit, record.out.fault_limit * row.factor, row.unit);
   }
   const Fault fault = record.out.fault;
-  const std::string reason = fault == Fault::kLiftFailed && lift != nullptr
-                                 ? LiftReasonText(record.out, *lift)
-                                 : std::string{};
+  const bool may_be_of_a_lift = fault == Fault::kLiftFailed || fault == Fault::kCoilSaturated;
+  const std::string reason =
+      may_be_of_a_lift && lift != nullptr ? LiftReasonText(record.out, *lift) : std::string{};
   const bool of_time = fault == Fault::kFrameMissing || fault == Fault::kDeadlineMissed ||
                        fault == Fault::kFramesLost || fault == Fault::kCurrentsLate;
   return fmt::format(

@@ -88,6 +88,7 @@ Verdict Commission(const CommissionOptions& options) {
   inputs.session = statistics.Figures();
   inputs.probe_jumps = jumps.Found();
   inputs.torsion = torsion.Of(reader.torsion(), couplings);
+  inputs.broken_off_steps = jumps.BrokenOff();
   analysis::SpeedSweep sweep = Sensitivities(rig, controller, inputs.session.top_speed_rad_per_s);
   inputs.sensitivity = std::move(sweep.speeds);
   inputs.worst_sensitivity = sweep.worst;

@@ -44,6 +44,16 @@ std::uint64_t ProbeJumps::Cycles(double time_s) const noexcept {
   return static_cast<std::uint64_t>(std::llround(std::max(time_s, 0.0) / period_s_));
 }
 
+void ProbeJumps::BreakOff(std::size_t at) {
+  const Axis& axis = axes_[at];
+  if (!axis.pending || std::abs(axis.pending->step_m) < axis.limit_m) return;
+  broken_off_.push_back(
+      {.channel = channels_[at],
+       .time_s = static_cast<double>(axis.pending->first - *first_cycle_) * period_s_,
+       .step_m = axis.pending->step_m,
+       .moved_m = {}});
+}
+
 void ProbeJumps::Forget() noexcept {
   for (Axis& axis : axes_) {
     axis.earlier = axis.recent = {};
@@ -56,7 +66,10 @@ void ProbeJumps::Add(const cycle::CycleRecord& record) {
   const std::uint64_t cycle = record.in.cycle;
   if (!first_cycle_) first_cycle_ = cycle;
   const Phase phase = splitter_.Next(cycle, record.out.mode, record.in.frame.speed_rad_per_s);
-  if (phase == Phase::kNotJudged) Forget();
+  if (phase == Phase::kNotJudged) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) BreakOff(i);
+    Forget();
+  }
   if (phase == Phase::kNotJudged || !record.in.frame_present) {
     previous_.reset();
     return;

@@ -14,6 +14,8 @@
 //           with dy the change of the mean reading: kBeforeS before the step, and as long after
 //           kSettleS. Where d is the step within kAgree, the probe jumped. On a free rotor with
 //           magnets of negative stiffness P is -ki/ks of an axis, with springs far less.
+// Broken off  a step after which the rotor did not stay levitated for as long as that takes: the
+//           law's answer to it may have tripped a protection. It is told apart, unjudged.
 // Touching  where the rotor would stand beyond kInContact of the clearance by its reading less the
 //           step, it lies in its touchdown bearing, which carries what the magnets do not.
 // Model     P of the rig file about its centre at standstill: kAgree is wide for that.
@@ -59,6 +61,8 @@ class ProbeJumps {
   void Add(const cycle::CycleRecord& record);
   /// By the time at which they were found.
   [[nodiscard]] const std::vector<ProbeJump>& Found() const noexcept { return found_; }
+  /// Steps that were broken off; their currents are 0.
+  [[nodiscard]] const std::vector<ProbeJump>& BrokenOff() const noexcept { return broken_off_; }
 
  private:
   struct Mean {
@@ -81,6 +85,7 @@ class ProbeJumps {
     double jumped_m{};  ///< sum of what was found
   };
 
+  void BreakOff(std::size_t axis);
   void Forget() noexcept;
   void AddStep(Axis& axis, double reading_m, std::uint64_t cycle);
   void AddMeans(std::size_t axis, double reading_m, const AxisArray& current_a,
@@ -95,7 +100,7 @@ class ProbeJumps {
   PhaseSplitter splitter_;
   Eigen::MatrixXd place_per_current_m_per_a_;  ///< P
   std::vector<Axis> axes_;
-  std::vector<ProbeJump> found_;
+  std::vector<ProbeJump> found_, broken_off_;
   std::optional<std::uint64_t> first_cycle_, previous_;  ///< of all, of one with readings
 };
 

@@ -161,6 +161,21 @@ std::string JumpSentence(const ProbeJump& jump) {
       jump.current_a, Micrometres(std::abs(*jump.moved_m)));
 }
 
+/// Of readings that stepped so shortly before a trip that nothing more is known of them.
+std::string StepsBefore(const Inputs& in) {
+  std::string out;
+  for (const ProbeJump& step : in.broken_off_steps) {
+    const double before_s = in.session.trip->time_s - step.time_s;
+    constexpr double kShortlyS = 0.5;  // the law has answered the step by then
+    if (before_s < 0.0 || before_s > kShortlyS) continue;
+    out += fmt::format(
+        " {:.1f} ms before, the reading of {} stepped by {:.1f} um, further than a rotor moves in "
+        "a cycle: look at that probe.",
+        1e3 * before_s, step.channel, Micrometres(step.step_m));
+  }
+  return out;
+}
+
 /// "standing 4.1 um (objective 7.0 um)" for the worst bearing of a phase, or that it was not run.
 std::string WorstOf(const std::vector<OrbitJudgement>& orbits, bool spinning) {
   const OrbitJudgement* worst = nullptr;
@@ -209,7 +224,7 @@ Verdict Judge(Inputs inputs) {
   }
   if (inputs.session.trip) {
     verdict.outcome = Outcome::kTripped;
-    verdict.sentence = TripSentence(inputs);
+    verdict.sentence = TripSentence(inputs) + StepsBefore(inputs);
     if (inputs.session.release) {
       verdict.sentence += fmt::format(" ({}.)", ReleaseSentence(*inputs.session.release));
     }

@@ -80,8 +80,9 @@ struct Inputs {
   std::optional<RigFigures> rig_process;
   std::vector<BlockUse> blocks;  ///< of synchronous control
   std::vector<ProbeJump> probe_jumps;
-  std::vector<CouplingLoad> torsion;  ///< of geared rigs whose couplings are measured
-  bool saves_bias{};  ///< the controller may lower the bias
+  std::vector<CouplingLoad> torsion;        ///< of geared rigs whose couplings are measured
+  std::vector<ProbeJump> broken_off_steps;  ///< of readings, see ProbeJumps::BrokenOff
+  bool saves_bias{};                        ///< the controller may lower the bias
   Provenance provenance;
   std::string trip_text;          ///< the recorded sentence of the first trip, may be empty
   std::string incomplete_reason;  ///< why the scenario did not end by itself; empty: it did

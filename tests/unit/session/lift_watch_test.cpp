@@ -67,6 +67,37 @@ std::string TripAfter(const Lifting& lifting) {
   return events.back().text;
 }
 
+/// The same where nde_y is at its limit for 50 ms; `levitated`: after the lift, not in it.
+std::string SaturatedAfter(const Lifting& lifting, bool levitated) {
+  EventDeriver deriver(kLiftChannels, kLiftPeriodNs);
+  std::vector<Event> events;
+  for (std::uint64_t cycle = 0; cycle < 2'500; ++cycle) {
+    Lifting now = lifting;
+    now.limited = cycle >= 2'000;
+    cycle::CycleRecord record = LiftCycle(now, cycle);
+    if (levitated && cycle >= 1'000) record.out.mode = Mode::kLevitating;
+    deriver.Step(record, events);
+  }
+  cycle::CycleRecord trip = LiftCycle(lifting, 2'500);
+  trip.out = {};
+  trip.out.mode = Mode::kTripped;
+  trip.out.fault = Fault::kCoilSaturated;
+  trip.out.fault_axis = 3;
+  trip.out.fault_value = trip.out.fault_limit = 0.05;
+  deriver.Step(trip, events);
+  return events.back().text;
+}
+
+TEST(LiftWatch, ACurrentAtItsLimitInALiftNamesWhatMayBeTheWrongWayRound) {
+  const std::string wrong_way = "a probe or a coil is the wrong way round";
+  EXPECT_THAT(SaturatedAfter({.hangs_um = 150}, false),
+              AllOf(HasSubstr("coil_saturated"), HasSubstr(wrong_way)));
+  EXPECT_THAT(SaturatedAfter({.hangs_um = 150, .change_hz = 80}, false),
+              AllOf(HasSubstr("the loop is unstable"), Not(HasSubstr(wrong_way))));
+  EXPECT_THAT(SaturatedAfter({.hangs_um = 150}, true),
+              AllOf(HasSubstr("coil_saturated"), Not(HasSubstr(wrong_way))));
+}
+
 TEST(LiftWatch, ARotorThatHangsBesideTheCentreSagsWithItsFiguresAndARemedy) {
   const std::string text = TripAfter({.hangs_um = 47.0});
   EXPECT_THAT(text, AllOf(HasSubstr("It sags: from where it lay, 150 um off the centre, it came to "

@@ -159,5 +159,31 @@ TEST(ProbeJumps, ThatPutTheRotorIntoItsTouchdownBearingSaySo) {
   EXPECT_FALSE(found[0].moved_m.has_value());
 }
 
+/// Levitated, then tripped; the probe of nde_x reads `step_m` more from `cycle` to `back` on.
+std::vector<ProbeJump> BrokenOff(double step_m, int cycle, int back = 20'000) {
+  SyntheticSession session;
+  int now = 0;
+  session.Append(Mode::kLevitating, 10'100, {.static_a = 0.2}, [&](cycle::CycleRecord& record) {
+    if (now >= cycle && now < back) record.in.frame.position_m[kAxis] += step_m;
+    ++now;
+  });
+  session.Append(Mode::kTripped, 100);
+  ProbeJumps jumps(Rig(), 1.0, 0.5);
+  for (const auto& record : session.records()) jumps.Add(record);
+  EXPECT_TRUE(jumps.Found().empty());
+  return jumps.BrokenOff();
+}
+
+TEST(ProbeJumps, ThatEndTheLevitationAreToldUnjudged) {
+  const auto steps = BrokenOff(kJumpM, 10'000);
+  ASSERT_EQ(steps.size(), 1U);
+  EXPECT_EQ(steps[0].channel, "nde_x");
+  EXPECT_NEAR(steps[0].time_s, 1.0, 1e-9);
+  EXPECT_NEAR(steps[0].step_m, kJumpM, 1e-12);
+  EXPECT_TRUE(BrokenOff(0.05 * kJumpM, 10'000).empty());   // a rotor moves so
+  EXPECT_TRUE(BrokenOff(kJumpM, 10'000, 10'010).empty());  // a glitch that was over
+  EXPECT_TRUE(BrokenOff(kJumpM, 20'000).empty());          // none
+}
+
 }  // namespace
 }  // namespace levitas::verdict
