@@ -98,7 +98,11 @@ double Signal::NextSine() noexcept {
   const double value = std::sin(kTwoPi * phase_turns_);
   phase_turns_ += (kind_ == SignalKind::kChirp ? SweepHz() : StepHz()) * period_s_;
   phase_turns_ -= std::floor(phase_turns_);
-  if (++cycle_ == repeat_cycles_) cycle_ = 0;
+  if (++cycle_ == repeat_cycles_) {
+    cycle_ = 0;
+    // The same sweep again, or a frequency response would find no period in it.
+    if (kind_ == SignalKind::kChirp) phase_turns_ = 0.0;
+  }
   return value;
 }
 

@@ -148,6 +148,16 @@ TEST(Chirp, HasThePhaseOfItsSweep) {
   }
 }
 
+TEST(Chirp, RepeatsItselfWhereASweepIsNoWholeNumberOfTurns) {
+  Excitation e = Of(SignalKind::kChirp);
+  e.from_hz = 3.0;
+  e.to_hz = 700.0;
+  e.repeat_s = 0.1;  // 12.8 turns
+  Signal signal(e, kSignalPeriod_s);
+  const std::vector<double> first = Values(signal, 2000);
+  for (int again = 0; again < 3; ++again) EXPECT_EQ(Values(signal, 2000), first) << again;
+}
+
 TEST(Multisine, HoldsEqualLinesWithinItsBandAndNoneOutside) {
   Excitation e = Of(SignalKind::kMultisine);
   e.from_hz = 20.0;
