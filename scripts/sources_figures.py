@@ -44,11 +44,20 @@ def run(command, folder):
     return left
 
 
+def text_of(file):
+    """What the rows' file holds: a copy with its replacements made, then its own text."""
+    before = (ROOT / file["copy_of"]).read_text(encoding="utf-8") if "copy_of" in file else ""
+    for old, new in file.get("replaced", []):
+        if old not in before:
+            raise ValueError(f"{file['name']}: '{old}' is not in {file.get('copy_of')}")
+        before = before.replace(old, new)
+    return before + file.get("text", "")
+
+
 def run_all(data, folder, wanted=lambda command: True, told=print):
     """name -> what it left, of every wanted command whose predecessors were run."""
     for file in data.get("file", []):
-        before = (ROOT / file["copy_of"]).read_text(encoding="utf-8") if "copy_of" in file else ""
-        (Path(folder) / file["name"]).write_text(before + file["text"], encoding="utf-8")
+        (Path(folder) / file["name"]).write_text(text_of(file), encoding="utf-8")
     left = {}
     for command in data["command"]:
         if wanted(command) and all(name in left for name in command.get("after", [])):

@@ -173,6 +173,11 @@ def needed(row_list, data):
 
 
 def shown_file(file):
+    if "replaced" in file:
+        changes = "\n".join(
+            f"```yaml\n{old}\n```\n\nbecomes\n\n```yaml\n{new}\n```\n" for old, new in file["replaced"]
+        )
+        return f"`{file['name']}` is `{file['copy_of']}`, where\n\n{changes}"
     after = f", after all of `{file['copy_of']}`" if "copy_of" in file else ""
     return f"`{file['name']}`{after}:\n\n```yaml\n{file['text'].strip()}\n```\n"
 
