@@ -264,6 +264,33 @@ Prediction PredictOneStep(const HammersteinWienerModel& model, const Series& ser
   return result;
 }
 
+Prediction PredictAhead(const HammersteinWienerModel& model, const Series& series, Index steps,
+                        Index from) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.outputs);
+  HammersteinWienerState state(model);
+  Prediction result{series.output};
+  // `state` has seen all rows before `origin`; a copy of it goes on without measured outputs.
+  for (Index origin = 0; origin < series.rows(); ++origin) {
+    // The first origin also serves the rows that have less than `steps` rows before them.
+    const Index reached = origin + steps - 1;
+    const Index first = origin == 0 ? std::max<Index>(0, from) : std::max(from, reached);
+    if (first <= std::min(reached, series.rows() - 1)) {
+      HammersteinWienerState ahead = state;
+      for (Index row = origin; row <= std::min(reached, series.rows() - 1); ++row) {
+        const Eigen::VectorXd v = model.theta.transpose() * ahead.phi();
+        const bool left = !(v.cwiseAbs().maxCoeff() < kDivergedScales);
+        if (left && row >= first && !result.diverged_at) result.diverged_at = row;
+        if (row >= first) result.output.row(row) = Bend(model, left ? none : v).transpose();
+        ahead.Push(model, left ? none : v, series.input.row(row).transpose(), none);
+      }
+    }
+    const Eigen::VectorXd v = Straighten(model, series.output.row(origin).transpose());
+    const Eigen::VectorXd predicted = model.theta.transpose() * state.phi();
+    state.Push(model, v, series.input.row(origin).transpose(), v - predicted);
+  }
+  return result;
+}
+
 Prediction SimulateFreeRun(const HammersteinWienerModel& model, const Series& series,
                            const Feedback& feedback) {
   HammersteinWienerState state(model);

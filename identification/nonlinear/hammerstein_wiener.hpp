@@ -144,6 +144,10 @@ using Feedback =
     std::function<void(Eigen::Index row, const Eigen::VectorXd& y, Eigen::VectorXd& u)>;
 
 [[nodiscard]] Prediction PredictOneStep(const HammersteinWienerModel& model, const Series& series);
+/// Rows from `from` on, each from outputs measured up to `steps` rows before it and inputs measured
+/// up to itself; 1 is one step. Rows before `from` are measured ones. Cost: rows x steps.
+[[nodiscard]] Prediction PredictAhead(const HammersteinWienerModel& model, const Series& series,
+                                      Eigen::Index steps, Eigen::Index from);
 /// The inputs are the series' own, or with `feedback` what it makes of the model's outputs; nothing
 /// measured enters then.
 [[nodiscard]] Prediction SimulateFreeRun(const HammersteinWienerModel& model, const Series& series,

@@ -148,6 +148,37 @@ Prediction SimulateFreeRun(const LaggedModel& model, const Series& series) {
   return Run(model, series, true);
 }
 
+Prediction PredictAhead(const LaggedModel& model, const Series& series, Index steps, Index from) {
+  const Eigen::MatrixXd input = series.input * model.input_scale.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd measured = series.output * model.output_scale.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd one_step =
+      PredictOneStep(model, series).output * model.output_scale.cwiseInverse().asDiagonal();
+  // What a single prediction overwrites behind its origin, and puts back before the next one.
+  Eigen::MatrixXd output = measured;
+  Eigen::MatrixXd error = measured - one_step;
+  Eigen::VectorXd window(model.layout.size());
+  Prediction result{series.output};
+  for (Index k = std::max(from, model.layout.Memory()); k < series.rows(); ++k) {
+    const Index first = std::max(model.layout.Memory(), k - steps + 1);
+    bool left = false;
+    for (Index row = first; row <= k && !left; ++row) {
+      FillWindow(model, input, output, error, row, window);
+      for (Index o = 0; o < model.layout.outputs; ++o) output(row, o) = Evaluate(model, o, window);
+      error.row(row).setZero();
+      left = !(output.row(row).cwiseAbs().maxCoeff() < kDivergedScales);
+    }
+    if (left) {
+      if (!result.diverged_at) result.diverged_at = k;
+      output.row(k).setZero();
+    }
+    result.output.row(k) = output.row(k).cwiseProduct(model.output_scale.transpose());
+    const Index rows = k - first + 1;
+    output.middleRows(first, rows) = measured.middleRows(first, rows);
+    error.middleRows(first, rows) = (measured - one_step).middleRows(first, rows);
+  }
+  return result;
+}
+
 Eigen::VectorXd FitPercent(const Eigen::MatrixXd& measured, const Eigen::MatrixXd& predicted,
                            Index skip) {
   const Index rows = measured.rows() - skip;

@@ -79,6 +79,11 @@ struct Prediction {
 
 [[nodiscard]] Prediction PredictOneStep(const LaggedModel& model, const Series& series);
 [[nodiscard]] Prediction SimulateFreeRun(const LaggedModel& model, const Series& series);
+/// Rows from `from` on, each from what was measured of outputs up to `steps` rows before it and of
+/// inputs up to itself; 1 is one step, as many as there are rows the free run with measured inputs.
+/// Rows before `from` are measured ones. Cost: rows x steps.
+[[nodiscard]] Prediction PredictAhead(const LaggedModel& model, const Series& series,
+                                      Eigen::Index steps, Eigen::Index from);
 
 /// 100 (1 - |(y - mean y) - (p - mean p)| / |y - mean y|) per output, from row `skip` on: the
 /// measure of Chiu (2022).

@@ -7,6 +7,7 @@
 #include "benchmark/accuracy/identification/pump_trial.hpp"
 #include "identification/nonlinear/known_loop.hpp"
 #include "identification/nonlinear/narx.hpp"
+#include "identification/nonlinear/refine.hpp"
 #include "identification/nonlinear/suspended_rotor_fit.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 
@@ -52,14 +53,6 @@ class Clock {
   std::chrono::steady_clock::time_point began_{std::chrono::steady_clock::now()};
 };
 
-PumpScore ScoreOf(const PumpTrial& trial, const char* name, const LaggedModel& model,
-                  const KnownLoop& loop, double time_s) {
-  const Eigen::MatrixXd free = RunLags(model, trial.series().rows(), loop.AtRest());
-  const auto most = free.cwiseAbs().colwise().maxCoeff().transpose();
-  return {name, trial.Fit(PredictOneStep(model, trial.series()).output), trial.Fit(free), time_s,
-          (most.array() >= kMost * model.output_scale.array()).any()};
-}
-
 }  // namespace
 
 identification::Series PumpTrial::Fitted() const {
@@ -76,7 +69,19 @@ PumpScore PumpTrial::SuspendedRotor(Index iron) const {
   const auto fit = FitSuspendedRotor(start, Fitted(), [&] { return loop.AtRest(); });
   const double time_s = clock.s();
   const auto run = RunFree(fit.model, record_.series.rows(), loop.AtRest());
-  return {"suspended rotor", {}, Fit(run.output), time_s};
+  return {"suspended rotor", {}, Fit(run.output), {}, time_s};
+}
+
+/// The judged rows, from outputs measured so many rows before each.
+template <typename Model>
+std::vector<Eigen::VectorXd> PumpTrial::Ahead(const Model& model) const {
+  std::vector<Eigen::VectorXd> fits;
+  fits.reserve(plan_.horizons.size());
+  for (const Index steps : plan_.horizons) {
+    const Index from = record_.series.rows() - kJudged;
+    fits.push_back(Fit(PredictAhead(model, record_.series, steps, from).output));
+  }
+  return fits;
 }
 
 PumpScore PumpTrial::HammersteinWiener(bool products) const {
@@ -94,28 +99,47 @@ PumpScore PumpTrial::HammersteinWiener(bool products) const {
   const Clock clock;
   const auto fit = FitHammersteinWiener(Fitted(), options);
   const double time_s = clock.s();
+  const Feedback feedback = plan_.inputs == PumpInputs::kCommanded ? loop.AtRest() : Feedback{};
   return {products ? "Hammerstein-Wiener, products" : "Hammerstein-Wiener",
           Fit(PredictOneStep(fit.model, record_.series).output),
-          Fit(SimulateFreeRun(fit.model, record_.series, loop.AtRest()).output), time_s};
+          Fit(SimulateFreeRun(fit.model, record_.series, feedback).output), Ahead(fit.model),
+          time_s};
+}
+
+PumpScore PumpTrial::Scored(const char* name, const NarxOptions& options) const {
+  const Clock clock;
+  LaggedModel model = FitNarx(Fitted(), options).model;
+  if (plan_.free_run_steps > 0) {
+    const Index rows = std::min(plan_.free_run_rows, plan_.fitted);
+    const Series last = Slice(record_.series, {static_cast<std::size_t>(plan_.fitted - rows),
+                                               static_cast<std::size_t>(plan_.fitted)});
+    constexpr Index kSettling = 300;  // rows in which the loop forgets how the part began
+    model = RefineFreeRun(model, last, {.most_iterations = plan_.free_run_steps, .skip = kSettling})
+                .model;
+  }
+  const double time_s = clock.s();
+  const Eigen::VectorXd one_step = Fit(PredictOneStep(model, record_.series).output);
+  if (plan_.inputs == PumpInputs::kTestSignals) {
+    const Prediction free = SimulateFreeRun(model, record_.series);
+    return {name, one_step, Fit(free.output), Ahead(model), time_s, free.diverged_at.has_value()};
+  }
+  const KnownLoop loop(controller_.law, rig_.numbers, {record_.excitation_m, {}});
+  const Eigen::MatrixXd free = RunLags(model, record_.series.rows(), loop.AtRest());
+  const auto most = free.cwiseAbs().colwise().maxCoeff().transpose();
+  const bool diverged = (most.array() >= kMost * model.output_scale.array()).any();
+  return {name, one_step, Fit(free), Ahead(model), time_s, diverged};
 }
 
 PumpScore PumpTrial::Narx() const {
-  const KnownLoop loop(controller_.law, rig_.numbers, {record_.excitation_m, {}});
   const auto axes = static_cast<Index>(rig_.numbers.axes());
   NarxOptions options{.layout = {axes, axes, 4, 4, 1, 0}, .degree = 2, .most_terms = 200};
   options.network_units = 10;
-  const Clock clock;
-  const auto fit = FitNarx(Fitted(), options);
-  return ScoreOf(*this, "NARX", fit.model, loop, clock.s());
+  return Scored("NARX", options);
 }
 
 PumpScore PumpTrial::Narmax() const {
-  const KnownLoop loop(controller_.law, rig_.numbers, {record_.excitation_m, {}});
   const auto axes = static_cast<Index>(rig_.numbers.axes());
-  const NarxOptions options{.layout = {axes, axes, 4, 4, 1, 3}, .degree = 2, .most_terms = 14};
-  const Clock clock;
-  const auto fit = FitNarx(Fitted(), options);
-  return ScoreOf(*this, "NARMAX", fit.model, loop, clock.s());
+  return Scored("NARMAX", {.layout = {axes, axes, 4, 4, 1, 3}, .degree = 2, .most_terms = 14});
 }
 
 }  // namespace levitas::accuracy

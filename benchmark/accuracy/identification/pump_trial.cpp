@@ -7,6 +7,7 @@
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
 #include "controller/supervisor/supervisor.hpp"
+#include "identification/nonlinear/known_loop.hpp"
 #include "identification/nonlinear/lagged_model.hpp"
 #include "plant_sim/plant/plant.hpp"
 
@@ -72,7 +73,17 @@ PumpTrial::PumpTrial(const PumpPlan& plan)
       controller_(config::LoadController(config::FindConfig(rig_.run.controller, "controllers"),
                                          rig_.numbers)),
       scenario_(ScenarioOf(rig_, plan)),
-      record_(Record(plan.noise_seed, {})) {}
+      record_(Record(plan.noise_seed, {})) {
+  if (plan.inputs == PumpInputs::kCommanded) return;
+  const identification::KnownLoop loop(controller_.law, rig_.numbers, {record_.excitation_m, {}});
+  const identification::Feedback controllers = loop.AtRest();
+  const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(record_.series.outputs());
+  Eigen::VectorXd current_a(record_.series.inputs());
+  for (Index row = 0; row < record_.series.rows(); ++row) {
+    controllers(row, at_rest, current_a);
+    record_.series.input.row(row) = current_a.transpose();
+  }
+}
 
 PumpTrial::PumpRecord PumpTrial::Record(std::uint64_t seed, const Twin& twin) const {
   plant::PlantConfig config = rig_.plant;

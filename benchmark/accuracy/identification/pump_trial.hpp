@@ -8,6 +8,11 @@
 // Ceiling   what no model can exceed: fit of the simulator itself, same excitation, its noise off.
 //           The noise of the readings also passes the controllers and moves the rotor, so this is
 //           less than the noise of the readings alone would leave. Rounding of the readings stays.
+// Inputs    of the models are the commanded currents, or with `kTestSignals` what the controllers
+//           make of the test signals alone (Chiu 2022, 3.3, steps ii to iv): no motion of the rotor
+//           enters them. The models then describe the closed loop, which is stable, and run free
+//           with these inputs; with commanded ones the known controllers close their loop.
+// Ahead     rows predicted from outputs measured up to so many rows before them.
 // Failure   std::runtime_error when the scenario does not play to its end. Thread any.
 
 #include <Eigen/Core>
@@ -18,8 +23,11 @@
 #include "configuration/rig_file.hpp"
 #include "controller/scenario/scenario_config.hpp"
 #include "identification/nonlinear/hammerstein_wiener.hpp"
+#include "identification/nonlinear/narx.hpp"
 
 namespace levitas::accuracy {
+
+enum class PumpInputs : std::uint8_t { kCommanded, kTestSignals };
 
 struct PumpPlan {
   double knee_a{};          ///< of the magnets' iron; 0: straight
@@ -28,6 +36,12 @@ struct PumpPlan {
   double a3_1_per_m2{};
   double amplitude{1.0};  ///< of the shipped excitation
   Eigen::Index fitted{40'000};
+  PumpInputs inputs{PumpInputs::kCommanded};
+  std::vector<Eigen::Index> horizons{};  ///< rows ahead
+  /// Of the lagged models, after the fit one step ahead: the error of their free run is minimised
+  /// in so many steps, on the last `free_run_rows` fitted rows. 0: not. With `kTestSignals` only.
+  int free_run_steps{0};
+  Eigen::Index free_run_rows{40'000};
   std::uint64_t noise_seed{1};
   std::uint64_t excitation_seed{0};  ///< added to those of the scenario
 };
@@ -37,8 +51,9 @@ struct PumpScore {
   std::string model;
   Eigen::VectorXd one_step;  ///< empty: it does not predict from readings
   Eigen::VectorXd free_run;
-  double time_s{};  ///< of the fit
-  bool diverged{};  ///< the free run left all bounds: its fit says nothing
+  std::vector<Eigen::VectorXd> ahead;  ///< of each horizon
+  double time_s{};                     ///< of the fit
+  bool diverged{};                     ///< the free run left all bounds: its fit says nothing
 };
 
 /// Known of the sensor of an axis.
@@ -86,6 +101,10 @@ class PumpTrial {
   };
   [[nodiscard]] PumpRecord Record(std::uint64_t seed, const Twin& twin) const;
   [[nodiscard]] identification::Series Fitted() const;
+  [[nodiscard]] PumpScore Scored(const char* name,
+                                 const identification::NarxOptions& options) const;
+  template <typename Model>
+  [[nodiscard]] std::vector<Eigen::VectorXd> Ahead(const Model& model) const;
 
   PumpPlan plan_;
   config::RigFile nominal_, rig_;

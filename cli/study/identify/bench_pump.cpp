@@ -23,6 +23,7 @@ constexpr const char* kBenchPumpHelp =
     "loop. The first ceiling counts the noise of the readings; the second, which no model can "
     "exceed, also what that noise does in the loop: it is the simulator itself without noise.\n"
     "Example: amb bench pump --noise-seed 7 --excitation-seed 7\n"
+    "         amb bench pump --inputs test_signals --fit-free-run 80   (the paper's table)\n"
     "         amb bench pump --knee-a 0 --a2 0 --a3 0    (the pump as shipped)";
 
 /// Chiu (2022), table 1: UX, UY, LX, LY.
@@ -35,8 +36,10 @@ constexpr std::array<Published, 3> kPublished{{{"Hammerstein-Wiener", {92.11, 93
                                                {"NARMAX", {75.91, 77.88, 78.32, 75.54}}}};
 
 struct PumpOptions {
-  accuracy::PumpPlan plan{.knee_a = 3.0, .a2_1_per_m = 1000.0, .a3_1_per_m2 = 1e7};
+  accuracy::PumpPlan plan{
+      .knee_a = 3.0, .a2_1_per_m = 1000.0, .a3_1_per_m2 = 1e7, .horizons = {5, 10, 20}};
   Eigen::Index iron{3};
+  std::string inputs{"commanded"};
   std::string csv_path;
   std::string json_path;
 };
@@ -73,8 +76,12 @@ void Print(nlohmann::ordered_json& json, const std::string& name, const Eigen::V
   json[name] = std::vector<double>(fit.data(), fit.data() + fit.size());
 }
 
-void Print(nlohmann::ordered_json& json, const accuracy::PumpScore& score) {
+void Print(nlohmann::ordered_json& json, const accuracy::PumpScore& score,
+           const std::vector<Eigen::Index>& horizons) {
   if (score.one_step.size() > 0) Print(json, score.model + ", one step", score.one_step);
+  for (std::size_t n = 0; n < score.ahead.size(); ++n) {
+    Print(json, fmt::format("{}, {} steps ahead", score.model, horizons[n]), score.ahead[n]);
+  }
   if (score.diverged) {
     fmt::print("{:<42}{:>32}{:>9}{:>9.1f}\n", score.model + ", free run", "diverges", "",
                score.time_s);
@@ -84,7 +91,34 @@ void Print(nlohmann::ordered_json& json, const accuracy::PumpScore& score) {
   Print(json, score.model + ", free run", score.free_run, score.time_s);
 }
 
-ExitStatus Run(const PumpOptions& options) {
+/// Models in the loop of the known controllers, near the ceiling.
+void CompareInLoop(const PumpOptions& options, const accuracy::PumpTrial& trial,
+                   const Eigen::VectorXd& ceiling, nlohmann::ordered_json& json) {
+  const std::vector<Eigen::Index>& horizons = options.plan.horizons;
+  const accuracy::PumpScore rotor = trial.SuspendedRotor(options.iron);
+  Print(json, rotor, horizons);
+  Print(json, "  below the ceiling", ceiling - rotor.free_run);
+  if (options.iron > 0) {
+    accuracy::PumpScore straight = trial.SuspendedRotor(0);
+    straight.model = "  with straight iron";
+    Print(json, straight, horizons);
+  }
+  const accuracy::PumpScore products = trial.HammersteinWiener(true);
+  Print(json, products, horizons);
+  Print(json, "  below the ceiling, products", ceiling - products.free_run);
+}
+
+ExitStatus Run(const PumpOptions& given) {
+  PumpOptions options = given;
+  const bool test_signals = options.inputs == "test_signals";
+  options.plan.inputs =
+      test_signals ? accuracy::PumpInputs::kTestSignals : accuracy::PumpInputs::kCommanded;
+  if (options.plan.free_run_steps > 0 && !test_signals) {
+    throw Problem(ExitStatus::kUsage,
+                  "--fit-free-run: with commanded currents as inputs the models describe a rotor "
+                  "without its loop, whose free run leaves all bounds; allowed with --inputs "
+                  "test_signals");
+  }
   const accuracy::PumpTrial trial(options.plan);
   WriteCsv(options.csv_path, trial);
   nlohmann::ordered_json json;
@@ -94,19 +128,9 @@ ExitStatus Run(const PumpOptions& options) {
   Print(json, "ceiling: noise of the readings", trial.CeilingOfReadings());
   Print(json, "ceiling: and what it does in the loop", ceiling);
   Print(json, "the rig again with other noise", trial.Repeated(options.plan.noise_seed + 1));
-  const accuracy::PumpScore rotor = trial.SuspendedRotor(options.iron);
-  Print(json, rotor);
-  Print(json, "  below the ceiling", ceiling - rotor.free_run);
-  if (options.iron > 0) {
-    accuracy::PumpScore straight = trial.SuspendedRotor(0);
-    straight.model = "  with straight iron";
-    Print(json, straight);
-  }
-  const accuracy::PumpScore products = trial.HammersteinWiener(true);
-  Print(json, products);
-  Print(json, "  below the ceiling, products", ceiling - products.free_run);
+  if (!test_signals) CompareInLoop(options, trial, ceiling, json);
   for (const auto& score : {trial.HammersteinWiener(false), trial.Narx(), trial.Narmax()}) {
-    Print(json, score);
+    Print(json, score, options.plan.horizons);
   }
   fmt::print("published, Chiu (2022), on its own rig:\n");
   for (const Published& row : kPublished) {
@@ -143,6 +167,32 @@ void AddBenchPump(CLI::App& bench, Action& action) {
       ->capture_default_str();
   command->add_option("--iron", options->iron, "Coefficients of the iron's curve")
       ->check(CLI::Range(0, 6))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--inputs", options->inputs,
+          "Of the models: the commanded currents, or what the controllers make of the test "
+          "signals alone, as the paper says")
+      ->check(CLI::IsMember({"commanded", "test_signals"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--horizon-rows", plan.horizons,
+          "Also predict so many rows ahead of the last reading, several separated by commas")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 4000))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--fit-free-run", plan.free_run_steps,
+          "NARX and NARMAX by the error of their free run, in so many steps of the search; "
+          "0 = one step ahead only. With --inputs test_signals")
+      ->check(CLI::Range(0, 2000))
+      ->capture_default_str();
+  command
+      ->add_option("--free-run-rows", plan.free_run_rows,
+                   "That --fit-free-run looks at: the last of the fitted ones")
+      ->check(CLI::Range(2000, 75'000))
       ->capture_default_str();
   command->add_option("--noise-seed", plan.noise_seed, "Of the sensors")->capture_default_str();
   command

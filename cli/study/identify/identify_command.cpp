@@ -26,6 +26,7 @@ void AddIdentifyCommand(CLI::App& app, Action& action) {
   AddIdentifyGreyBox(*identify, action);
   AddIdentifyRotorInLoop(*identify, action);
   AddIdentifyController(*identify, action);
+  AddIdentifyCharacteristic(*identify, action);
 }
 
 }  // namespace levitas::cli

@@ -13,5 +13,6 @@ void AddIdentifyNarx(CLI::App& identify, Action& action);
 void AddIdentifyGreyBox(CLI::App& identify, Action& action);
 void AddIdentifyRotorInLoop(CLI::App& identify, Action& action);
 void AddIdentifyController(CLI::App& identify, Action& action);
+void AddIdentifyCharacteristic(CLI::App& identify, Action& action);
 
 }  // namespace levitas::cli

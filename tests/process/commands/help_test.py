@@ -37,6 +37,7 @@ OPTIONS = {
     "identify live": {"--port", "--key", "--order", "--noise-order", "--degree", "--bandwidth-hz", "--products",
                       "--input-lag-hz", "--input-delay", "--sensor-a2", "--sensor-a3", "--forgetting", "--tolerance",
                       "--until-converged", "--patience", "--record", "--json"},
+    "identify characteristic": {"--straight-error-um", "--places", "--rig", "--channel", "--out", "--json"},
     "balance": {"--rig", "--controller", "--plane", "--planes", "--drill", "--after", "--applied", "--top-rpm",
                 "--svg", "--write-run-outs", "--json"},
     "diagnose": {"--rig", "--holdout", "--healthy", "--plan", "--scenario", "--controller", "--size", "--out", "--quick", "--as-is",
@@ -44,7 +45,7 @@ OPTIONS = {
     "doctor": {"--json"},
 }
 POSITIONAL = {"simulate": "session", "diagnose": "DATA", "import": "DATA", "export": "SESSION", "balance": "RECORD", "report": "SESSION", "compare": "RECORD", "trend": "SESSION", "replay": "SESSION",
-              "identify frf": "DATA", "identify modal": "DATA"}
+              "identify frf": "DATA", "identify modal": "DATA", "identify characteristic": "TABLE"}
 
 
 class Help(CommandTest):
