@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -70,18 +71,25 @@ class PointSender {
   std::vector<std::uint8_t> datagram_;
 };
 
-/// Time spent in the recursion, its report included.
+/// Processor time of this thread in the recursion, its report included: that of other programs on
+/// the machine does not count.
 class Busy {
  public:
   template <class Work>
   void With(Work work) {
-    const auto began = Clock::now();
+    const double began_s = ThreadSeconds();
     work();
-    s_ += std::chrono::duration<double>(Clock::now() - began).count();
+    s_ += ThreadSeconds() - began_s;
   }
   [[nodiscard]] double s() const noexcept { return s_; }
 
  private:
+  static double ThreadSeconds() noexcept {
+    timespec now{};
+    static_cast<void>(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now));
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  }
+
   double s_{};
 };
 
