@@ -4,8 +4,8 @@
 //
 // History   the newest kMost points of the run that is shown, ten minutes of them; a recursion that
 //           began anew, or another listener, begins another history.
-// Thread    one at a time: the owner's. Failure: a message that cannot be decoded is refused; one of
-//           another run than the announced one, or before its header, is left out.
+// Thread    one at a time: the owner's. Failure: a message that cannot be decoded is refused; one
+//           of another run than the announced one, or before its header, is left out.
 
 #include <cstdint>
 #include <deque>

@@ -3,9 +3,9 @@
 //
 // Columns   time_s, rotor_angle_rad, speed_rpm, then per channel position [m], control current and
 //           excitation [A], an injection into the measured position [m] when the scenario asks for
-//           one, the bias current [A] when the controller lowers it, torque [N m] and twist [rad] of
-//           couplings where the rig measures them (nan where their batch was lost), and the mode as
-//           its number (docs/formats.md).
+//           one, the bias current [A] when the controller lowers it, torque [N m] and twist [rad]
+//           of couplings where the rig measures them (nan where their batch was lost), and the mode
+//           as its number (docs/formats.md).
 // Time      of the sample. In real time it starts at 0; when the rig restarts it runs on.
 // Selection rows by their time and by counting, columns by their names. Rows are left out as they
 //           are: no filter keeps what is above half the new rate from folding down.

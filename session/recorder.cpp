@@ -106,8 +106,8 @@ struct Recorder::Impl {
     if (options.on_record) options.on_record(record);
   }
 
-  /// Batches that ended before this frame; all of them without one. One that came with a later frame
-  /// waits for its turn, so that the order does not depend on how far behind this thread is.
+  /// Batches that ended before this frame; all of them without one. One that came with a later
+  /// frame waits for its turn, so that the order does not depend on how far behind this thread is.
   void WriteTorsion(const SensorFrame* before) {
     TorsionBatch batch;
     while (waiting || torsion_ring.Take(batch)) {

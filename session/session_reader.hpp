@@ -42,7 +42,7 @@ class SessionReader {
   [[nodiscard]] const std::string& path() const noexcept;
   /// False at the end. `record` is untouched then.
   [[nodiscard]] bool Next(cycle::CycleRecord& record);
-  /// From now on measured torsion is kept (0.5 kB for every 1 ms of two couplings), not only checked.
+  /// From now on measured torsion is kept (4 kB a batch), not only checked.
   void KeepTorsion() noexcept;
   /// Kept so far, in the order of the file.
   [[nodiscard]] const std::vector<TorsionBatch>& torsion() const noexcept;

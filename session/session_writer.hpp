@@ -1,6 +1,7 @@
 #pragma once
 // Writes a session: one LCM event log, header first, then one LEVITAS_CYCLE event per cycle and
-// LEVITAS_EVENT events as they happen; LEVITAS_TORSION where the rig measures it. Readable by ordinary LCM tools.
+// LEVITAS_EVENT events as they happen; LEVITAS_TORSION where the rig measures it. Readable by
+// ordinary LCM tools.
 //
 // Packed     under a name that ends in .zst, by zstd; `zstd -d` gives the log (packed_log.hpp).
 // Integrity  every record carries its cycle number and a CRC-32.

@@ -1,8 +1,8 @@
 #pragma once
 // The measured torsion of a session as columns in memory.
 //
-// Rows      one per sampling instant, in the order of the record; `rig_session` and `cycle` name the
-//           sensor frame of the same instant. Instants whose batch was lost are missing.
+// Rows      one per sampling instant, in the order of the record; `rig_session` and `cycle` name
+//           the sensor frame of the same instant. Instants whose batch was lost are missing.
 // Signs     torsion_batch.hpp. Units SI.
 // Thread    any.
 // Failure   BadInput: no session, or its rig cannot be read. Without gauges: no couplings, no rows.

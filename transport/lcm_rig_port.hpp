@@ -5,7 +5,7 @@
 //          rig it meets, 2 after the next restart and so on: a change is what matters, and two runs
 //          from the same seed then give the same records.
 // Torsion  batches of the rig that is heard are kept until TakeTorsion, the newest kKeptBatches of
-//          them; LCM orders the datagrams of one sender, so that those before a frame came before it.
+//          them; the datagrams of one sender arrive in order.
 // Sender   frames of one rig at a time are taken (partner_lock.hpp); a second one is refused,
 //          counted and named. The rest (thread, blocking, staleness,
 //          failure) is the contract of controller/port.

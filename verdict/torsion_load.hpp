@@ -1,8 +1,8 @@
 #pragma once
-// What the couplings of a geared rig carried while it turned, from the gauges that its record holds.
+// What the couplings of a geared rig carried while it turned, from the gauges in its record.
 //
 // Torque   without the mean of the load (common/torsion_batch.hpp), gauge noise included.
-// Judged   instants whose cycle is in the phase "spinning" (phase.hpp); no limit is held against it.
+// Judged   instants whose cycle is in the phase "spinning" (phase.hpp), against no limit.
 // Units    SI. Thread: one; offline, allocates. Failure: none; a rig without gauges has no loads.
 
 #include <cstdint>

@@ -13,7 +13,8 @@
 // Range        the speed up to which the run was shown, beside the rig's rated speed
 //              (speed_range.hpp): what is accepted is accepted up to there.
 // Requirement  a limit itself is not met: orbit must be below its objective.
-// Not judged   torque of couplings, timing and saturation are reported; what they spoil shows in the orbit or as a trip.
+// Not judged   torque of couplings, timing and saturation are reported; what they spoil shows in
+//              the orbit or as a trip.
 // Units        SI; names say which. Thread: any, offline.
 // Failure      none: what was not run is "not run", not a pass (the sentence says so).
 

@@ -34,7 +34,8 @@ class RigLink {
   virtual ~RigLink() = default;
   virtual bool Send(const SensorFrame& frame) noexcept = 0;
   virtual ReceiveResult Receive(CurrentFrame& frame, std::int64_t deadline_ns) noexcept = 0;
-  /// Measured torsion, before the frame of the next cycle. False where the link has no channel for it.
+  /// Measured torsion, before the frame of the next cycle. False where the link has no channel for
+  /// it.
   virtual bool SendTorsion(const TorsionBatch& /*batch*/) noexcept { return false; }
   [[nodiscard]] virtual Counters counters() const noexcept = 0;
   /// What people should hear at once, each thing once; empty when there is nothing new. Any one

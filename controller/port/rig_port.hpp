@@ -38,8 +38,8 @@ class RigPort {
   /// False when the frame could not be handed to the transport (counted).
   virtual bool Write(const CurrentFrame& frame) noexcept = 0;
   [[nodiscard]] virtual PortCounters counters() const noexcept = 0;
-  /// The next batch of measured torsion that came along with the frames read so far; false when there
-  /// is none, as on every port without such a channel.
+  /// The next batch of measured torsion that came along with the frames read so far; false when
+  /// there is none, as on every port without such a channel.
   [[nodiscard]] virtual bool TakeTorsion(TorsionBatch& /*batch*/) noexcept { return false; }
   /// Tells the rig that this controller ends; `last` should have the amplifiers off.
   virtual void SayGoodbye(const CurrentFrame& /*last*/) noexcept {}

@@ -25,8 +25,8 @@ struct MeshForces {
                                              const GearedParameters& found,
                                              const LineGains& gains = {});
 
-/// Rotation along `shape` (per torsional mode) per force along n, which turns the wheels by `twist_m`.
-/// Not for W = 0: the train may turn freely.
+/// Rotation along `shape` (per torsional mode) per force along n, which turns the wheels by
+/// `twist_m`. Not for W = 0: the train may turn freely.
 [[nodiscard]] std::complex<double> TwistBetween(const TorsionKnown& torsion,
                                                 const Eigen::VectorXd& shape, double w_rad_per_s);
 

@@ -2,8 +2,8 @@
 // Batches of a levitated rotor's samples, row by row into the recursion.
 //
 // Levitated  batches do not say in which mode the rotor was; states do, a hundred times a second. A
-//            row is passed on when the states before and after it both say levitating, spinning or
-//            coast-down; until the later one is here, it waits. Rows left out are a pause, rows that
+//            row is passed on when the states before and after it both say levitating, spinning
+//            or coast-down; until the later one is here, it waits. Rows left out are a pause, rows that
 //            never came a gap (online_recursion.hpp).
 // Waiting    of at most kMostWaiting batches; the oldest are dropped then, as missing.
 // Frame      bearing frame (session/record_frame.hpp). Inputs are the commanded control currents,

@@ -30,8 +30,8 @@ class ShaftLoads {
   [[nodiscard]] std::vector<gear::Vector> Housing(const Plant& plant) const;
   /// One per name of twisted().
   [[nodiscard]] std::vector<double> Torques(const Plant& plant) const;
-  /// Of the springs that gauges measure, as rotor::GaugedCouplings lists them: torque [N m] and twist
-  /// [rad] at the present state. Both have room for all of them.
+  /// Of the springs that gauges measure, as rotor::GaugedCouplings lists them: torque [N m] and
+  /// twist [rad] at the present state. Both have room for all of them.
   void Gauge(const Plant& plant, std::span<double> torque_n_m,
              std::span<double> twist_rad) const noexcept;
   /// "motor to pinion".

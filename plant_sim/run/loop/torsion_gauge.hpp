@@ -21,8 +21,8 @@ class TorsionGauge {
   TorsionGauge(const plant::PlantModel& model, std::uint64_t seed);
   /// False: the rig has no gauge, and nothing is to be done.
   [[nodiscard]] bool fitted() const noexcept { return !noise_.empty(); }
-  /// Takes the plant's present instant. A batch that is now complete, else nullptr; it is valid until
-  /// the next call.
+  /// Takes the plant's present instant. A batch that is now complete, else nullptr; it is valid
+  /// until the next call.
   [[nodiscard]] const TorsionBatch* Sample(const plant::Plant& plant, std::uint64_t cycle,
                                            std::uint32_t rig_session) noexcept;
 
