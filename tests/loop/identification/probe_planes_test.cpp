@@ -177,35 +177,6 @@ TEST(ProbePlanes, AtANodeAreRefusedByName) {
   EXPECT_EQ(Refusal(identify), "accepted");
 }
 
-TEST(ProbePlanes, WithTorsionALineIsLeftOutTogetherWithItsMirror) {
-  const config::RigFile rig = BeamRig({}, {});
-  GearedKnown known = KnownOfRig(rig);
-  std::vector<GearedLine> lines = BeamLines(rig, {15.0, 29.0});  // enough to go on with
-  constexpr int kScan = 100;
-  for (double hz = 100.0; hz < 20'000.0; hz += 5.0) {
-    for (const double sign : {1.0, -1.0}) {
-      GearedLine line;
-      line.kind = GearedLine::Kind::kTransmissionError;
-      line.harmonic = kScan;
-      line.speed_rad_per_s = 180.0;
-      line.frequency_rad_per_s = sign * 2.0 * std::numbers::pi * hz;
-      lines.push_back(line);
-    }
-  }
-  const auto alone = [&known, &lines] {
-    double sum = 0.0;
-    for (const GearedLine& line : LinesOffNodes(lines, known)) {
-      if (line.harmonic == kScan)
-        sum += std::abs(line.frequency_rad_per_s) * (line.frequency_rad_per_s > 0.0 ? 1.0 : -1.0);
-    }
-    return std::abs(sum);  // 0 where every frequency stands with both signs
-  };
-  // The gyroscopic moment parts the nodes of both whirls: some line has lost its mirror.
-  EXPECT_GT(alone(), 1.0);
-  known.torsion.emplace();
-  EXPECT_LT(alone(), 1e-3);
-}
-
 TEST(ProbePlanes, WhatOnePlaneDoesNotTellIsRefusedByName) {
   const auto refusal = [](const std::function<void(plant::PlantConfig&)>& change) {
     config::RigFile rig = BeamRig({}, {});
