@@ -68,7 +68,7 @@ class Help(CommandTest):
     def test_every_option_of_the_contract_is_explained(self):
         for command, options in OPTIONS.items():
             text = self.help_of(command)
-            listed = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", text))
+            listed = set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", text))
             self.assertLessEqual(options, listed, command)
             for option in options - {"--speeds"}:  # another name of --speed-rpm
                 # Something is said behind the option's name and type.
@@ -82,9 +82,9 @@ class Help(CommandTest):
                 continue
             usage = self.help_of(command).split("Options:")[1]
             listed = {name for line in usage.splitlines() if re.match(r"  -", line)
-                      for name in re.findall(r"--[a-z][a-z-]*", line.split(" ... ")[0])}
+                      for name in re.findall(r"--[a-z][a-z0-9-]*", line.split(" ... ")[0])}
             self.assertLessEqual(options, listed, command)
-            own_lines = {name for name in listed if re.search(rf"^  (?:-h,)?(?:--[a-z-]+,)?{name}\b",
+            own_lines = {name for name in listed if re.search(rf"^  (?:-h,)?(?:--[a-z0-9-]+,)?{name}\b",
                                                               usage, re.M)}
             self.assertEqual(own_lines - {"--help"}, options, command)
 

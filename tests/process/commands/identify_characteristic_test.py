@@ -39,7 +39,7 @@ class IdentifyCharacteristic(CommandTest):
                                    "--out", "measured.yaml")
         self.assertEqual(done.returncode, DONE, done.stderr)
         rig = (self.folder / "measured.yaml").read_text()
-        self.assertEqual(rig.count("characteristic:"), 1)
+        self.assertEqual(rig.count("characteristic:\n"), 1)
         self.assertIn("displacement_um: 100", rig)
         modes = amb(self.folder, "modes", "--rig", "measured.yaml")
         self.assertEqual(modes.returncode, DONE, modes.stderr)
