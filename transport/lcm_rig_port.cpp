@@ -42,7 +42,7 @@ bool LcmRigPort::Accept(const Received& received, SensorFrame& frame) noexcept {
 void LcmRigPort::KeepTorsion(const Received& received,
                              std::span<const std::uint8_t> payload) noexcept {
   if (!wire_session_ || partner_.Refuses(received.speaker(), rt::MonotonicNowNs())) return;
-  TorsionBatch& batch = torsion_[torsion_came_ % kKeptBatches];
+  TorsionBatch& batch = torsion_[torsion_came_ % torsion_.size()];
   if (!torsion_codec_.Decode(payload, batch) || batch.rig_session != *wire_session_) return;
   batch.rig_session = session_;
   ++torsion_came_;
@@ -51,7 +51,7 @@ void LcmRigPort::KeepTorsion(const Received& received,
 
 bool LcmRigPort::TakeTorsion(TorsionBatch& batch) noexcept {
   if (torsion_taken_ == torsion_came_) return false;
-  batch = torsion_[torsion_taken_ % kKeptBatches];
+  batch = torsion_[torsion_taken_ % torsion_.size()];
   ++torsion_taken_;
   return true;
 }

@@ -48,7 +48,8 @@ class LcmRigPort final : public port::RigPort {
   SensorFrameCodec sensor_codec_;
   CurrentFrameCodec current_codec_;
   TorsionCodec torsion_codec_;
-  std::array<TorsionBatch, kKeptBatches> torsion_{};
+  /// One more than are kept: what comes is read into the place of none that waits.
+  std::array<TorsionBatch, kKeptBatches + 1> torsion_{};
   std::uint64_t torsion_came_{0}, torsion_taken_{0};
   SequenceWatch watch_;
   PartnerLock partner_;
