@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <vector>
 
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/report/identification/written.hpp"
@@ -15,6 +16,8 @@ namespace {
 
 using identification::GearedLine;
 using identification::GearedParameters;
+using identification::HalfSpectrum;
+using identification::TorsionLine;
 
 TEST(GearedJson, WritesComplexNumbersAsAmplitudeAndPhase) {
   GearedParameters found;
@@ -73,6 +76,88 @@ TEST(GearedPicture, HasAPanelPerShaftAndNamesEachSpeedInBoth) {
   EXPECT_EQ(test::Count(svg, "3000 rpm"), 2U);
   EXPECT_EQ(test::Count(svg, "6000 rpm"), 2U);
   EXPECT_GE(test::Count(svg, "pinion"), 1U);
+}
+
+/// Two couplings, 1x of two speeds each. Of the first a stiffness is found and at the first speed
+/// the model's torque is known; of the second neither.
+HalfSpectrum TwoCouplings(double speed_rad_per_s) {
+  HalfSpectrum half;
+  half.couplings = {{"motor to pinion", 1830.0, 1900.0, 12.0, 2, 0.03},
+                    {"gear to brake", 1470.0, 0.0, 0.0, 0, 0.0}};
+  for (std::size_t coupling = 0; coupling < 2; ++coupling) {
+    for (const double times : {1.0, 2.0}) {
+      TorsionLine line{.coupling = coupling,
+                       .name = "pinion_1x",
+                       .speed_rad_per_s = times * speed_rad_per_s,
+                       .frequency_rad_per_s = times * speed_rad_per_s,
+                       .torque_n_m = std::polar(0.4 * times, -2.5),
+                       .twist_rad = std::polar(2e-4 * times, -2.4),
+                       .torque_sigma_n_m = 6e-5,
+                       .twist_sigma_rad = 3e-8,
+                       .model_n_m = {}};
+      if (coupling == 0 && times == 1.0) line.model_n_m = std::polar(0.38, 1.25);
+      half.lines.push_back(line);
+    }
+  }
+  return half;
+}
+
+TEST(TorsionJson, HoldsTheLinesOfEachCouplingWithTheModelsAsAmplitudeAndPhase) {
+  const auto json = TorsionJson(TwoCouplings(100.0 * std::numbers::pi));
+  ASSERT_EQ(json.size(), 2U);
+  EXPECT_EQ(json[0]["coupling"], "motor to pinion");
+  EXPECT_EQ(json[1]["coupling"], "gear to brake");
+  EXPECT_EQ(json[0]["unexplained_share"], 0.03);
+  ASSERT_EQ(json[0]["lines"].size(), 2U);
+  ASSERT_EQ(json[1]["lines"].size(), 2U);
+  const auto& line = json[0]["lines"][0];
+  EXPECT_EQ(line["line"], "pinion_1x");
+  EXPECT_NEAR(line["pinion_speed_hz"].get<double>(), 50.0, 1e-12);
+  EXPECT_NEAR(line["frequency_hz"].get<double>(), 50.0, 1e-12);
+  EXPECT_NEAR(line["torque_n_m"].get<double>(), 0.4, 1e-15);
+  EXPECT_NEAR(line["torque_phase_rad"].get<double>(), -2.5, 1e-12);
+  EXPECT_EQ(line["torque_sigma_n_m"], 6e-5);
+  EXPECT_NEAR(line["twist_rad"].get<double>(), 2e-4, 1e-18);
+  EXPECT_EQ(line["twist_sigma_rad"], 3e-8);
+  EXPECT_NEAR(line["model_torque_n_m"].get<double>(), 0.38, 1e-15);
+  EXPECT_NEAR(line["model_phase_rad"].get<double>(), 1.25, 1e-12);
+}
+
+TEST(TorsionJson, SaysNullWhereNoLineStandsOutAndWhereTheModelIsNotSeen) {
+  const auto json = TorsionJson(TwoCouplings(314.0));
+  EXPECT_EQ(json[0]["stiffness_n_m_per_rad"], 1900.0);
+  EXPECT_EQ(json[0]["stiffness_sigma_n_m_per_rad"], 12.0);
+  EXPECT_EQ(json[0]["known_n_m_per_rad"], 1830.0);
+  for (const char* of : {"stiffness_n_m_per_rad", "stiffness_sigma_n_m_per_rad"}) {
+    ASSERT_TRUE(json[1].contains(of));
+    EXPECT_TRUE(json[1][of].is_null()) << of;
+  }
+  EXPECT_EQ(json[1]["known_n_m_per_rad"], 1470.0);
+  for (const auto& unseen : {json[0]["lines"][1], json[1]["lines"][0], json[1]["lines"][1]}) {
+    ASSERT_TRUE(unseen.contains("model_torque_n_m"));
+    EXPECT_TRUE(unseen["model_torque_n_m"].is_null());
+    EXPECT_TRUE(unseen["model_phase_rad"].is_null());
+    EXPECT_TRUE(unseen["torque_n_m"].is_number());
+  }
+}
+
+TEST(TorsionJson, IsAnEmptyListWithoutCouplings) { EXPECT_EQ(TorsionJson({}).dump(), "[]"); }
+
+TEST(GearedPicture, HasAPanelOfTheTorqueOfEachCouplingAndNoneWithout) {
+  const levitas::test::ScratchFolder folder;
+  const double first = 100.0 * std::numbers::pi;  // 3000 rpm
+  const std::vector<GearedLine> lines{At(first, 50.0), At(2.0 * first, 100.0)};
+  WriteGearedPicture(folder / "without.svg", lines);
+  WriteGearedPicture(folder / "with.svg", lines, TwoCouplings(first));
+  const std::string without = test::Content(folder / "without.svg");
+  const std::string with = test::Content(folder / "with.svg");
+  EXPECT_EQ(test::Count(without, "torque"), 0U);
+  EXPECT_EQ(test::Count(with, "torque, motor to pinion: measured and model"), 1U);
+  EXPECT_EQ(test::Count(with, "torque, gear to brake: measured and model"), 1U);
+  for (const char* speed : {"3000 rpm", "6000 rpm"}) {  // also of a coupling without a model
+    EXPECT_EQ(test::Count(without, speed), 2U);
+    EXPECT_EQ(test::Count(with, speed), 4U);
+  }
 }
 
 TEST(GearedPicture, WithoutAPathIsNotWritten) {
