@@ -179,13 +179,13 @@ TEST(HeldSpeeds, EndAtGapsTestSignalsAndOtherSpeeds) {
   session::Recording faster = whole;
   for (std::size_t n = 1000; n < rows; ++n) faster.speed_rad_per_s[n] *= 1.006;
   EXPECT_THAT(ranges(faster, 0.5), ElementsAre(before, session::RowRange{1000 + passes, rows}));
-  EXPECT_DOUBLE_EQ(HeldSpeeds(faster, 0.5)[0].speed_rad_per_s, kTau * 20.3);
+  EXPECT_NEAR(HeldSpeeds(faster, 0.5)[0].speed_rad_per_s, kTau * 20.3, 1e-9);
   for (std::size_t n = 1000; n < rows; ++n) faster.speed_rad_per_s[n] = 1.004 * kTau * 20.3;
   EXPECT_THAT(ranges(faster, 0.5), ElementsAre(session::RowRange{passes, rows}));
 }
 
 /// Energies over their deviations, less what was put there, of records that differ by their noise.
-std::vector<double> Departures(double put_m, std::size_t seeds) {
+std::vector<double> OverDeviation(double put_m, std::size_t seeds) {
   std::vector<double> out;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     Random random(seed);
@@ -206,7 +206,7 @@ std::vector<double> Departures(double put_m, std::size_t seeds) {
 // of every line as if it were one: R = 8 repeats leave sqrt((8/7)/(8/7 + 2/e)) = 0.78 of it.
 TEST(MadeGearRecord, OfNoiseIsWithinItsDeviationOverSeeds) {
   for (const auto& [put_m, expected] : {std::pair{0.0, 0.78}, std::pair{3e-7, 1.0}}) {
-    const std::vector<double> departures = Departures(put_m, 60);
+    const std::vector<double> departures = OverDeviation(put_m, 60);
     ASSERT_EQ(departures.size(), 120U);
     double mean = 0.0;
     double square = 0.0;
