@@ -50,7 +50,8 @@ TableColumn ColumnOf(const std::string& quantity, const session::CsvHead& head,
                      const std::string& path) {
   const bool length = quantity == "displacement";
   const std::string allowed = fmt::format("{}_<m|mm|um|nm{}>", quantity, length ? "" : "|v|mv");
-  const std::string where = fmt::format("{}: line {}", path, head.line);
+  const std::string where = head.line > 0 ? fmt::format("{}: line {}", path, head.line)
+                                          : fmt::format("{}: no line of names", path);
   const std::string* named = nullptr;
   for (std::size_t at = 0; at < head.names.size(); ++at) {
     const std::string& name = head.names[at];

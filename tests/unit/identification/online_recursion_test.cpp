@@ -158,8 +158,13 @@ TEST(OnlineRecursion, SignalsThatSwellTenfoldBeginItAnewWithTheirScales) {
   }
   OnlineRecursion online(CubicOptions());
   Feed(online, s, 0, s.rows());
-  EXPECT_EQ(online.counts().begun_anew, 1U);
+  // The first look may fall into the first loud rows, while the output still rises: once more then.
+  EXPECT_GE(online.counts().begun_anew, 1U);
+  EXPECT_LE(online.counts().begun_anew, 2U);
   EXPECT_LT(Deviation(*online.model()), kExact);
+  const double loud =
+      s.output.bottomRows(700).norm() / std::sqrt(700.0);  // of the rows in which it has risen
+  EXPECT_GT(online.model()->output_scale[0], loud / OnlineRecursion::kSwell);
   // Uniform in +-1 has an rms of 0.58; of the looked at rows a part may have been the quiet ones.
   EXPECT_GT(online.model()->input_scale[0], 0.58 / OnlineRecursion::kSwell);
   EXPECT_LT(online.model()->input_scale[0], 0.7);
