@@ -7,7 +7,8 @@
 //           stretch (steady_stretches.hpp), by least squares with the rotor's angle; the standard
 //           deviation from what remains.
 // Model     what the shafts of the identified model need gives the mesh force f
-//           (geared_forces.hpp); along the line of action it turns the wheels, and a coupling c carries
+//           (geared_forces.hpp); along the line of action it turns the wheels, and a coupling c
+//           carries
 //             M_c(W) = -2 k_c s_c' D^-1 t (n* f(W) + n f(-W)*)/2,
 //           D the torsional modes' dynamics, t the twist of the mesh, s_c that of the coupling, per
 //           mode. Nothing of it is fitted to the torque.

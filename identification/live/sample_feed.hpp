@@ -3,8 +3,8 @@
 //
 // Levitated  batches do not say in which mode the rotor was; states do, a hundred times a second. A
 //            row is passed on when the states before and after it both say levitating, spinning
-//            or coast-down; until the later one is here, it waits. Rows left out are a pause, rows that
-//            never came a gap (online_recursion.hpp).
+//            or coast-down; until the later one is here, it waits. Rows left out are a pause, rows
+//            that never came a gap (online_recursion.hpp).
 // Waiting    of at most kMostWaiting batches; the oldest are dropped then, as missing.
 // Frame      bearing frame (session/record_frame.hpp). Inputs are the commanded control currents,
 //            test signal included, outputs the positions read in the same cycle.

@@ -172,8 +172,8 @@ GearCondition Loaded(double position_m, double current_a) {
   return of;
 }
 
-// Five per cent of clearance and bias, half of one of speed, a quarter of the mesh: less is the same
-// state, more is named.
+// Five per cent of clearance and bias, half of one of speed, a quarter of the mesh: less is the
+// same state, more is named.
 TEST(Reasons, BeginWhereTheHeadOfTheFileSays) {
   plant::PlantConfig rig = levitas::test::GearedRotor4();
   for (auto& bearing : rig.bearings) bearing.touchdown.clearance_m = 400e-6;  // bias 1 A
