@@ -160,8 +160,8 @@ void LiveReport::Finish(const LiveIdentification& live, double busy_s) {
       recursion.first_cycle().value_or(0), recursion.last_cycle().value_or(0));
   fmt::print("gaps: {}; pauses: {}; rows that only filled the past: {}; begun anew: {}\n",
              GapsText(counts), counts.pauses, counts.filled, counts.begun_anew);
-  fmt::print("processor time: {:.2f} s, {:.0f} rows a second of it; the loop makes {:.0f}\n", busy_s,
-             busy_s > 0.0 ? learnt / busy_s : 0.0, 1.0 / live.rig()->numbers.period_s());
+  fmt::print("processor time: {:.2f} s, {:.0f} rows a second of it; the loop makes {:.0f}\n",
+             busy_s, busy_s > 0.0 ? learnt / busy_s : 0.0, 1.0 / live.rig()->numbers.period_s());
   PrintAxes(live);
   const double tolerance_percent = 100.0 * model.options.tolerance;
   if (const auto rows = recursion.rows_to_converge()) {

@@ -24,14 +24,12 @@ namespace levitas::message::testing {
 
 using Bytes = std::vector<std::uint8_t>;
 
-using EveryMessage =
-    std::tuple<levitas_msg::command_answer_t, levitas_msg::controller_state_t,
-               levitas_msg::convergence_t, levitas_msg::current_frame_t,
-               levitas_msg::cycle_record_t, levitas_msg::event_t, levitas_msg::excitation_request_t,
-               levitas_msg::loop_histogram_t, levitas_msg::loop_timing_t,
-               levitas_msg::operator_command_t, levitas_msg::sample_batch_t,
-               levitas_msg::sensor_frame_t, levitas_msg::session_header_t,
-               levitas_msg::torsion_batch_t>;
+using EveryMessage = std::tuple<
+    levitas_msg::command_answer_t, levitas_msg::controller_state_t, levitas_msg::convergence_t,
+    levitas_msg::current_frame_t, levitas_msg::cycle_record_t, levitas_msg::event_t,
+    levitas_msg::excitation_request_t, levitas_msg::loop_histogram_t, levitas_msg::loop_timing_t,
+    levitas_msg::operator_command_t, levitas_msg::sample_batch_t, levitas_msg::sensor_frame_t,
+    levitas_msg::session_header_t, levitas_msg::torsion_batch_t>;
 constexpr std::size_t kEveryMessageCount = std::tuple_size_v<EveryMessage>;
 
 template <class Message>
