@@ -28,9 +28,9 @@ inline constexpr const char* kState = "LEVITAS_STATE";
 inline constexpr const char* kTiming = "LEVITAS_TIMING";
 inline constexpr const char* kHistogram = "LEVITAS_HISTOGRAM";
 inline constexpr const char* kEvent = "LEVITAS_EVENT";
-inline constexpr const char* kAnswer = "LEVITAS_ANSWER";          ///< to one command, by number
-inline constexpr const char* kSamples = "LEVITAS_SAMPLES";        ///< full rate, in batches
-inline constexpr const char* kHeader = "LEVITAS_HEADER";          ///< what runs, once a second
+inline constexpr const char* kAnswer = "LEVITAS_ANSWER";    ///< to one command, by number
+inline constexpr const char* kSamples = "LEVITAS_SAMPLES";  ///< full rate, in batches
+inline constexpr const char* kHeader = "LEVITAS_HEADER";    ///< what runs, once a second
 /// online identification -> viewers, on the port of the telemetry
 inline constexpr const char* kConvergence = "LEVITAS_CONVERGENCE";
 inline constexpr const char* kCommand = "LEVITAS_COMMAND";        ///< operator -> controller

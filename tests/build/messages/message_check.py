@@ -8,7 +8,7 @@ sentence per problem, each with file and line.
 import re
 
 KNOWN_UNITS = {
-    "m", "A", "s", "ns", "rad", "rad/s", "rad/s2",
+    "m", "A", "s", "ns", "rad", "rad/s", "rad/s2", "N m", "%",
     "1",     # a count or a yes/no
     "enum",  # words of common/enums.hpp, or listed in the comment
     "bits",  # one meaning per bit
@@ -19,6 +19,7 @@ KNOWN_UNITS = {
 # Longest first: _rad_per_s2 ends in neither _s2 nor _per_s.
 SUFFIX_UNITS = [
     ("_rad_per_s2", "rad/s2"), ("_rad_per_s", "rad/s"), ("_rad", "rad"), ("_ns", "ns"),
+    ("_n_m", "N m"), ("_percent", "%"),
     ("_m", "m"), ("_a", "A"), ("_s", "s"),
 ]
 
