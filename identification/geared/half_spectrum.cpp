@@ -112,7 +112,9 @@ Amplitudes Fit(const session::Recording& record, const std::vector<double>& angl
     found.value.row(at) = solved.row(2 * at + 1) + kJ * solved.row(2 * at + 2);
   }
   for (Eigen::Index c = 0; c < columns; ++c) {
-    const double left = std::max(power[c] - right.col(c).dot(solved.col(c)), 0.0) / rows;
+    // A difference of sums is not known better than to their rounding.
+    const double rounding = 1e-15 * power[c];
+    const double left = std::max(power[c] - right.col(c).dot(solved.col(c)), rounding) / rows;
     found.sigma[c] = std::sqrt(2.0 * left / rows);
   }
   return found;
@@ -151,7 +153,7 @@ void FindStiffness(const std::vector<TorsionLine>& lines, std::size_t index,
     double square = 0.0;
     coupling.lines_used = 0;
     for (const TorsionLine& line : lines) {
-      if (line.coupling != index || std::abs(line.twist_rad) < kStandsOut * line.twist_sigma_rad) {
+      if (line.coupling != index || std::abs(line.twist_rad) <= kStandsOut * line.twist_sigma_rad) {
         continue;
       }
       const double noise = line.torque_sigma_n_m * line.torque_sigma_n_m +

@@ -217,6 +217,7 @@ TEST(HalfSpectrum, MeasuredAndModelAreWhatTwoInertiasAndASpringSay) {
   }
   for (const CouplingFound& coupling : half.couplings) {
     EXPECT_LT(coupling.unexplained_share, 1e-9) << coupling.name;
+    EXPECT_NEAR(coupling.stiffness_n_m_per_rad / coupling.known_n_m_per_rad, 1.0, 1e-6);
   }
 }
 
@@ -278,9 +279,13 @@ TEST(HalfSpectrum, ShareLeftUnexplainedIsWhatTeethOfAnotherStiffnessChange) {
 }
 
 TEST(HalfSpectrum, NothingIsFoundWhereNoLineStandsOutOfTheTwistsNoise) {
-  for (const CouplingFound& found : HalfOf(Noisy(31, 1.0, 1.0)).couplings) {
-    EXPECT_EQ(found.lines_used, 0U);
-    EXPECT_EQ(found.stiffness_n_m_per_rad, 0.0);
+  session::TorsionRecording dead = Noisy(31);
+  for (auto& twist : dead.twist_rad) std::ranges::fill(twist, 0.0);
+  for (const auto& readings : {Noisy(31, 1.0, 1.0), dead}) {
+    for (const CouplingFound& found : HalfOf(readings).couplings) {
+      EXPECT_EQ(found.lines_used, 0U);
+      EXPECT_EQ(found.stiffness_n_m_per_rad, 0.0);
+    }
   }
 }
 

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "common/problem.hpp"
 #include "plant_sim/magnet/magnet.hpp"
 #include "plant_sim/plant/magnet_of.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -80,6 +83,96 @@ TEST(RigAsRun, RefusesAnEntryThatNoRigFileMayHaveAndNamesIt) {
     } catch (const BadInput& refused) {
       EXPECT_THAT(refused.what(), HasSubstr("--effect '" + entry + "'"));
     }
+  }
+}
+
+/// The shipped rig with effects of its own, as a file.
+std::string WithItsOwnEffects(const test::ScratchFolder& folder) {
+  std::string text = config::WriteRig(config::LoadRig(ShippedRig()));
+  const std::string none = "\neffects: []\n";
+  const auto at = text.find(none);
+  EXPECT_NE(at, std::string::npos);
+  text.replace(at, none.size(),
+               "\neffects:\n"
+               "  - {id: misalignment, force_n: 2, order: 1, phase_deg: 90}\n"
+               "  - {id: gyroscopic_inertia, ratio: 1.2, strength: 0.5, at_s: 2}\n");
+  std::ofstream(folder / "own.yaml") << text;
+  return folder / "own.yaml";
+}
+
+// One flow entry or several lines, each once: the file's come first and stay as they are.
+TEST(RigAsRun, KeepsTheEffectsOfTheFileBeforeThoseAdded) {
+  const test::ScratchFolder folder;
+  const std::string path = WithItsOwnEffects(folder);
+  const config::RigFile file = config::LoadRig(path);
+  ASSERT_EQ(file.plant.effects.size(), 2U);
+  const RigAsRun as_run =
+      ReadRigAsRun(path, {.effects = {"id: misalignment, force_n: 4, order: 3",
+                                      "{id: rotor_mass, ratio: 1.1, strength: 0.25, ramp_s: 3}",
+                                      "- {id: misalignment, force_n: 1, order: -2}"}});
+  const auto& effects = as_run.rig.plant.effects;
+  ASSERT_EQ(effects.size(), 5U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(effects[i].id, file.plant.effects[i].id);
+    EXPECT_EQ(effects[i].values, file.plant.effects[i].values);
+    EXPECT_EQ(effects[i].strength, file.plant.effects[i].strength);
+    EXPECT_EQ(effects[i].at_s, file.plant.effects[i].at_s);
+  }
+  EXPECT_EQ(effects[2].values[1], 3.0);  // order
+  EXPECT_EQ(effects[2].values[2], 4.0);
+  EXPECT_EQ(effects[3].id, effect::Id::kRotorMass);
+  EXPECT_EQ(effects[3].strength, 0.25);
+  EXPECT_EQ(effects[3].ramp_s, 3.0);
+  EXPECT_EQ(effects[4].values[1], -2.0);
+}
+
+// Taken out again, the text is the file's own.
+TEST(RigAsRun, ChangesNothingButTheEffects) {
+  const test::ScratchFolder folder;
+  const std::string path = WithItsOwnEffects(folder);
+  config::RigFile as_run = ReadRigAsRun(path, {.effects = {"id: extra_delay, delay_us: 20"}}).rig;
+  ASSERT_EQ(as_run.plant.effects.size(), 3U);
+  as_run.plant.effects.pop_back();
+  EXPECT_EQ(config::WriteRig(as_run), config::WriteRig(config::LoadRig(path)));
+  const RigAsRun both =
+      ReadRigAsRun(path, {.bias_current_a = 0.8, .effects = {"id: extra_delay, delay_us: 20"}});
+  EXPECT_EQ(both.rig.numbers.bias_current_a, 0.8);
+  EXPECT_EQ(both.rig.plant.effects.size(), 3U);
+}
+
+// What acts at one place can be there once: twice among the options, or there and in the file.
+TEST(RigAsRun, RefusesASecondEntryAtTheSamePlaceAndNamesTheOption) {
+  const test::ScratchFolder folder;
+  const std::string path = WithItsOwnEffects(folder);
+  const std::string inertia = "id: gyroscopic_inertia, ratio: 1.1";
+  const std::string delay = "id: extra_delay, delay_us: 20";
+  for (const auto& entries : {std::vector{inertia}, std::vector{delay, delay}}) {
+    try {
+      static_cast<void>(ReadRigAsRun(path, {.effects = entries}));
+      ADD_FAILURE() << entries.front() << " was taken twice";
+    } catch (const BadInput& refused) {
+      EXPECT_THAT(refused.what(), HasSubstr("--effect"));
+      EXPECT_THAT(refused.what(), HasSubstr("acts at the same place"));
+      EXPECT_THAT(refused.what(),
+                  HasSubstr(entries.size() == 1 ? "gyroscopic_inertia" : "extra_delay"));
+    }
+  }
+  // Couplings add up.
+  const std::string coupling = "id: misalignment, force_n: 1";
+  EXPECT_EQ(ReadRigAsRun(path, {.effects = {coupling, coupling}}).rig.plant.effects.size(), 4U);
+}
+
+// The message leads to the entry that is wrong, not to its neighbours.
+TEST(RigAsRun, NamesTheEntryWithAnUnknownKeyAmongSeveral) {
+  const std::string wrong = "id: misalignment, force_n: 1, colour: red";
+  try {
+    static_cast<void>(ReadRigAsRun(
+        ShippedRig(), {.effects = {"id: misalignment, force_n: 2", wrong, "id: no_such_effect"}}));
+    ADD_FAILURE() << "taken";
+  } catch (const BadInput& refused) {
+    EXPECT_THAT(refused.what(), HasSubstr("--effect '" + wrong + "'"));
+    EXPECT_THAT(refused.what(), HasSubstr("colour"));
+    EXPECT_THAT(refused.what(), testing::Not(HasSubstr("no_such_effect")));
   }
 }
 
