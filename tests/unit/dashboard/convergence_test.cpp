@@ -63,6 +63,12 @@ TEST(Convergence, OfAnotherRunIsLeftOut) {
   EXPECT_TRUE(history.Take(Point(10'000, 0.5), told));
   history.RunIs(kStart + 1, kPeriod);
   EXPECT_EQ(history.Json(), "{}");
+  EXPECT_TRUE(history.Take(Point(20'000, 0.5), told));  // late, of the run before
+  EXPECT_FALSE(told);
+  EXPECT_TRUE(history.Take(Point(500, 0.5, kStart + 1), told));
+  EXPECT_TRUE(told);
+  EXPECT_EQ(Told(history)["t_s"].size(), 1U);
+  EXPECT_EQ(Told(history)["rows"], 500);
 }
 
 TEST(Convergence, BegunAnewBeginsAnotherHistory) {
@@ -84,16 +90,25 @@ TEST(Convergence, KeepsTheNewestPointsAndNoMore) {
   const nlohmann::json json = Told(history);
   EXPECT_EQ(json["t_s"].size(), ConvergenceHistory::kMost);
   EXPECT_EQ(json["rows"], kPoints);
+  EXPECT_NEAR(json["t_s"][0].get<double>(), (5000 + 6) * kPeriod, 1e-3);  // five were dropped
 }
 
-TEST(Convergence, RefusesBytesThatAreNoMessage) {
+TEST(Convergence, RefusesBytesThatAreNoMessageAndKeepsWhatItHad) {
   ConvergenceHistory history;
   history.RunIs(kStart, kPeriod);
-  std::vector<std::uint8_t> bytes = Point(10'000, 0.5);
-  bytes.pop_back();
-  bool told = true;
-  EXPECT_FALSE(history.Take(bytes, told));
-  EXPECT_FALSE(told);
+  bool told = false;
+  EXPECT_TRUE(history.Take(Point(10'000, 0.5), told));
+  const std::string before = history.Json();
+  const std::vector<std::uint8_t> whole = Point(20'000, 0.5);
+  for (std::size_t bytes = 0; bytes < whole.size(); ++bytes) {
+    told = true;
+    EXPECT_FALSE(history.Take(std::span(whole).first(bytes), told)) << bytes;
+    EXPECT_FALSE(told) << bytes;
+  }
+  std::vector<std::uint8_t> other = whole;
+  other[0] ^= 1U;  // the type's fingerprint comes first
+  EXPECT_FALSE(history.Take(other, told));
+  EXPECT_EQ(history.Json(), before);
 }
 
 }  // namespace
