@@ -94,7 +94,7 @@ TEST_F(SeriesOptionsTest, AnOutputOverTheDataIsRefused) {
 }
 
 TEST(SensorOptions, GiveOneCharacteristicPerOutput) {
-  const auto sensors = SensorsOf({.a2 = {0.1, 0.2}, .a3 = {}}, 2);
+  const auto sensors = SensorsOf({.a2 = {0.1, 0.2}, .a3 = {}, .tables = {}}, 2);
   ASSERT_EQ(sensors.size(), 2U);
   EXPECT_EQ(sensors[1].a2, 0.2);
   EXPECT_EQ(sensors[1].a3, 0.0);
@@ -111,9 +111,10 @@ TEST(SensorOptions, NameTheOptionWhoseNumbersDoNotFit) {
       return refused.what();
     }
   };
-  EXPECT_THAT(refusal({.a2 = {0.1}, .a3 = {}}),
+  EXPECT_THAT(refusal({.a2 = {0.1}, .a3 = {}, .tables = {}}),
               AllOf(HasSubstr("--sensor-a2"), HasSubstr("1 numbers for 2 outputs")));
-  EXPECT_THAT(refusal({.a2 = {0.1, 0.2}, .a3 = {1.0, 2.0, 3.0}}), HasSubstr("--sensor-a3"));
+  EXPECT_THAT(refusal({.a2 = {0.1, 0.2}, .a3 = {1.0, 2.0, 3.0}, .tables = {}}),
+              HasSubstr("--sensor-a3"));
 }
 
 }  // namespace
