@@ -171,7 +171,7 @@ TEST_F(TorsionPort, AllocatesNothingIn300Batches) {
   std::uint64_t taken = 0;
   SensorFrame frame;
   TorsionBatch into;
-  const test::AllocationGuard guard;
+  const levitas::test::AllocationGuard guard;
   for (std::uint64_t count = 1; count <= 300; ++count) {
     (void)link_->SendTorsion(batch);
     (void)link_->Send(FrameOf(count));
