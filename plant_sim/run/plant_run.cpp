@@ -12,6 +12,7 @@
 #include "controller/rt/say.hpp"
 #include "controller/rt/stop_signal.hpp"
 #include "controller/rt/thread_trouble.hpp"
+#include "plant_sim/run/loop/torsion_gauge.hpp"
 #include "transport/partner_watch.hpp"
 #include "transport/statistics_json.hpp"
 

@@ -4,6 +4,7 @@
 #include "controller/rt/next_wake.hpp"
 #include "plant_sim/plant/command_of.hpp"
 #include "plant_sim/run/loop/pacer.hpp"
+#include "plant_sim/run/loop/torsion_gauge.hpp"
 
 namespace levitas::plant_run {
 

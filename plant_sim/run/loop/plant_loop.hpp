@@ -27,9 +27,10 @@
 #include "controller/rt/clock.hpp"
 #include "plant_sim/plant/plant.hpp"
 #include "plant_sim/run/loop/timed_events.hpp"
-#include "plant_sim/run/loop/torsion_gauge.hpp"
 
 namespace levitas::plant_run {
+
+class TorsionGauge;
 
 struct PlantStatistics {
   std::uint64_t cycles{};

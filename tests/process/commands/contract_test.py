@@ -49,7 +49,7 @@ MISSING = {
     "sessions forget": (ABSENT,), "simulate": (ABSENT,),
     "identify frf": (ABSENT,), "identify modal": (ABSENT,),
     "identify full-spectrum": (ABSENT,), "identify controller": (ABSENT,),
-    "identify characteristic": (ABSENT,),
+    "identify characteristic": (ABSENT,), "identify live": (ABSENT,),
     "identify rotor-in-loop": (ABSENT, "--rig", "turbomolecular_pump"),
     "design hinf": ("--rig", ABSENT), "design pid": ("--rig", ABSENT), "design check": ("--controller", ABSENT),
     "design schedule": ("--rig", ABSENT), "design notch": ("--rig", ABSENT),
