@@ -308,7 +308,7 @@ double ShaftCondition::Amplitude() const noexcept {
 
 std::vector<HeldSpeed> HeldSpeeds(const session::Recording& r, double least_s) {
   std::vector<HeldSpeed> held;
-  const auto settle = static_cast<std::size_t>(std::ceil(kSettleAtSpeed_s / r.period_s()));
+  const auto settle = static_cast<std::size_t>(std::ceil(kSettleAtSpeedS / r.period_s()));
   const auto least = static_cast<std::size_t>(std::ceil(least_s / r.period_s()));
   std::size_t first = 0;
   double sum = 0.0;

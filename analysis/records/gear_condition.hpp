@@ -36,7 +36,7 @@ struct HeldSpeed {
 };
 
 /// What passes after a speed was reached, [s].
-inline constexpr double kSettleAtSpeed_s = 0.3;
+inline constexpr double kSettleAtSpeedS = 0.3;
 
 /// Stretches of at least `least_s` behind what passes, in the order of the record.
 [[nodiscard]] std::vector<HeldSpeed> HeldSpeeds(const session::Recording& recording,

@@ -141,7 +141,7 @@ double CommonSpeed(const std::vector<Held>& all, const TrendOptions& options) {
                     "signal; {} holds {}; record all at one speed, for {} repeats and {} s",
                     analysis::kLeastRepeats, options.paths.front(),
                     of_first.empty() ? "none" : of_first + " rpm", analysis::kLeastRepeats,
-                    analysis::kSettleAtSpeed_s));
+                    analysis::kSettleAtSpeedS));
   }
   return fastest;
 }
