@@ -6,6 +6,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "lcmtypes/checked_decode.hpp"
+#include "plant_sim/plant/slowest_amplifier.hpp"
 #include "plant_sim/plant/train_model.hpp"
 #include "session/block_events.hpp"
 #include "session/record_codec.hpp"
@@ -22,15 +23,6 @@ bool Keep(std::span<const std::uint8_t> payload, std::optional<Message>& newest)
   if (!message::DecodeChecked(payload, message)) return false;
   newest = std::move(message);
   return true;
-}
-
-double SlowestAmplifier(const plant::PlantConfig& plant) {
-  double slowest_hz = 0.0;
-  for (const plant::BearingConfig& bearing : plant.bearings) {
-    const double one_hz = bearing.amplifier.bandwidth_hz;
-    if (one_hz > 0.0 && (slowest_hz <= 0.0 || one_hz < slowest_hz)) slowest_hz = one_hz;
-  }
-  return slowest_hz;
 }
 
 std::vector<double> RatiosOfBearings(const plant::PlantConfig& plant) {
@@ -74,7 +66,7 @@ bool LiveRun::TakeHeader(std::span<const std::uint8_t> payload) {
   try {
     const config::RigFile rig = config::ParseRig(header.rig_yaml, "the announced rig");
     rig_ = rig.numbers;
-    amplifier_hz_ = SlowestAmplifier(rig.plant);
+    amplifier_hz_ = plant::SlowestAmplifierHz(rig.plant);
     speed_ratios_ = RatiosOfBearings(rig.plant);
   } catch (const std::exception&) {
     return false;  // of a program of another version, or no rig at all

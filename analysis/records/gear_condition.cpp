@@ -9,6 +9,7 @@
 
 #include "analysis/turn_windows.hpp"
 #include "numerics/fourier_transform.hpp"
+#include "plant_sim/gear/repeat.hpp"
 #include "plant_sim/plant/train_model.hpp"
 
 namespace levitas::analysis {
@@ -33,7 +34,7 @@ Repeat RepeatOf(const plant::PlantConfig& rig) {
   if (rig.gears.empty()) throw std::invalid_argument("condition of gears: the rig has none");
   Repeat repeat;
   for (const auto& pair : rig.gears) {
-    repeat.turns *= pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);
+    repeat.turns *= gear::TurnsPerRepeat(pair);
   }
   for (const double ratio : plant::SpeedRatios(rig)) {
     repeat.per.push_back(static_cast<std::size_t>(std::lround(std::abs(ratio) * repeat.turns)));
@@ -152,7 +153,7 @@ double Fm4(const std::vector<Complex>& series) {
   return square > 0.0 ? 2.0 * static_cast<double>(series.size()) * fourth / (square * square) : 0.0;
 }
 
-/// One bearing's repeats, and what is asked of them.
+/// The spectra of one bearing's orbit, repeat by repeat, and mean and scatter of their lines.
 class Bearing {
  public:
   Bearing(const Orbits& orbits, std::size_t bearing) {
@@ -214,7 +215,8 @@ std::string WheelsOn(const plant::PlantConfig& rig, std::size_t shaft) {
   return names;
 }
 
-/// The lines by which a shaft is told, and those that it shares when it has none of its own.
+/// Multiples of a shaft's rotation that no other shaft has; where there are none, all of its
+/// multiples, and `of.shared` then names the other shafts.
 std::vector<std::size_t> LinesOf(const Repeat& repeat, const plant::PlantConfig& rig,
                                  std::size_t highest, ShaftCondition& of) {
   std::vector<std::size_t> own;

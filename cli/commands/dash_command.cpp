@@ -10,6 +10,7 @@
 
 #include "cli/commands/command.hpp"
 #include "cli/json_file.hpp"
+#include "cli/options/network_options.hpp"
 #include "cli/run/interrupt.hpp"
 #include "controller/rt/say.hpp"
 #include "dashboard/access.hpp"
@@ -89,13 +90,7 @@ void AddDashCommand(CLI::App& app, Action& action) {
   auto options = std::make_shared<DashOptions>();
   CLI::App* command = app.add_subcommand(
       "dash", "Live page of a run in the browser: orbits, spectra, currents, timing, commands");
-  command
-      ->add_option("--port", options->port,
-                   "Where the run is: lcm, or lcm:udpm://<group>:<port>?ttl=<n> as amb run "
-                   "prints it")
-      ->capture_default_str();
-  command->add_option("--key", options->key,
-                      "File with the key of those who may speak on that network (amb key)");
+  AddNetworkOptions(*command, options->port, options->key);
   auto* http = command
                    ->add_option("--http-port", options->web.port,
                                 "TCP port of the page; default: 8970, or the next free one")

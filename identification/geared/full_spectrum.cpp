@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "common/problem.hpp"
@@ -30,26 +29,6 @@ constexpr double kMostUnexplained = 0.3;
 /// The same in standard deviations of what is known: with wrong numbers that nearly cancel in the
 /// sum of both equations, a large share unexplained is no more than was to be expected.
 constexpr double kMostSigmas = 3.0;
-
-void RefuseTooFew(const std::vector<GearedLine>& lines) {
-  std::set<double> speeds;
-  bool pinion = false;
-  bool gear = false;
-  for (const GearedLine& line : lines) {
-    speeds.insert(line.speed_rad_per_s);
-    pinion = pinion || line.kind == Kind::kPinion;
-    gear = gear || line.kind == Kind::kGear;
-  }
-  if (speeds.size() < 2) {
-    throw BadInput(
-        "full spectrum: lines of one speed only; at least two speeds tell stiffness "
-        "from damping and run-out from transmission error");
-  }
-  if (!pinion || !gear) {
-    throw BadInput(fmt::format("full spectrum: no line {}: the run-out is not determined",
-                               pinion ? "gear_1x" : "pinion_1x"));
-  }
-}
 
 /// Standard deviation of a line's mesh force, and of k D on its other side.
 double MeshSigma(const GearedLine& line, const GearedKnown& known, const GearedParameters& p,
@@ -189,7 +168,8 @@ GearedParameters Fit(const std::vector<GearedLine>& lines, const GearedKnown& kn
 }  // namespace
 
 GearedParameters IdentifyGeared(const std::vector<GearedLine>& all, const GearedKnown& known) {
-  RefuseTooFew(all);
+  const std::string lacks = WhatLacks(all);
+  if (!lacks.empty()) throw BadInput(fmt::format("full spectrum: {}", lacks));
   const std::vector<GearedLine> lines = LinesOffNodes(all, known);
   GearedParameters p = Fit(lines, known);
   if (IsWeighted(lines, known)) FitJointly(lines, known, p);

@@ -12,19 +12,22 @@ namespace {
 using Complex = std::complex<double>;
 using Kind = GearedLine::Kind;
 
-/// Lines of one speed mirror each other when their frequencies add up to less than this share.
-constexpr double kMirror = 1e-6;
+}  // namespace
 
-Complex ForceAt(const std::vector<GearedLine>& lines, const std::vector<Complex>& force,
-                const GearedLine& like, double w) {
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    if (lines[k].speed_rad_per_s != like.speed_rad_per_s) continue;
-    if (std::abs(lines[k].frequency_rad_per_s - w) <= kMirror * std::abs(w)) return force[k];
-  }
-  return 0.0;
+bool StandsAt(const GearedLine& line, double speed_rad_per_s, double w_rad_per_s) {
+  constexpr double kSame = 1e-6;
+  return line.speed_rad_per_s == speed_rad_per_s &&
+         std::abs(line.frequency_rad_per_s - w_rad_per_s) <= kSame * std::abs(w_rad_per_s);
 }
 
-}  // namespace
+std::optional<Complex> ForceAt(const std::vector<GearedLine>& lines,
+                               const std::vector<Complex>& force, double speed_rad_per_s,
+                               double w_rad_per_s) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (StandsAt(lines[k], speed_rad_per_s, w_rad_per_s)) return force[k];
+  }
+  return std::nullopt;
+}
 
 Complex TiltSoftening(const ShaftKnown& s, const GearedLine& line) {
   if (s.tilt_stiffness_n_m <= 0.0) return 0.0;
@@ -104,7 +107,9 @@ std::vector<Complex> TwistOnLines(const std::vector<GearedLine>& lines,
   std::vector<Complex> twist(lines.size(), 0.0);
   for (std::size_t k = 0; k < lines.size(); ++k) {
     if (per_force[k] == 0.0) continue;
-    const Complex mirror = ForceAt(lines, force, lines[k], -lines[k].frequency_rad_per_s);
+    const Complex mirror =
+        ForceAt(lines, force, lines[k].speed_rad_per_s, -lines[k].frequency_rad_per_s)
+            .value_or(0.0);
     const Complex along = 0.5 * (std::conj(normal) * force[k] + normal * std::conj(mirror));
     twist[k] = -normal * per_force[k] * along;
   }

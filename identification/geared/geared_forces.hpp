@@ -25,6 +25,14 @@ struct MeshForces {
                                              const GearedParameters& found,
                                              const LineGains& gains = {});
 
+/// Whether a line is that of this speed and signed frequency.
+[[nodiscard]] bool StandsAt(const GearedLine& line, double speed_rad_per_s, double w_rad_per_s);
+
+/// The force of the line that stands there; none where there is no such line.
+[[nodiscard]] std::optional<std::complex<double>> ForceAt(
+    const std::vector<GearedLine>& lines, const std::vector<std::complex<double>>& force,
+    double speed_rad_per_s, double w_rad_per_s);
+
 /// Rotation along `shape` (per torsional mode) per force along n, which turns the wheels by
 /// `twist_m`. Not for W = 0: the train may turn freely.
 [[nodiscard]] std::complex<double> TwistBetween(const TorsionKnown& torsion,

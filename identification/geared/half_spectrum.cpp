@@ -16,6 +16,7 @@
 #include "identification/geared/steady_stretches.hpp"
 #include "numerics/dense/factorisations.hpp"
 #include "plant_sim/plant/plant_model.hpp"
+#include "plant_sim/rotor/torsion_springs.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -48,18 +49,14 @@ struct Coupling {
 
 std::vector<Coupling> CouplingsOf(const plant::PlantModel& model) {
   std::vector<Coupling> couplings;
-  std::size_t at = 0;
   const auto& inertias = model.train().inertias;
-  for (const rotor::Shaft& shaft : model.config().shafts) {
-    if (shaft.torsion.kind != rotor::TorsionKind::kInertias) continue;
-    const std::size_t count = shaft.torsion.inertias.size();
-    for (std::size_t i = 0; i + 1 < count && shaft.torsion.gauges.fitted; ++i) {
-      const auto modes = static_cast<Eigen::Index>(inertias[at].twist.size());
-      const Eigen::Map<const Eigen::VectorXd> near(inertias[at + i].twist.data(), modes);
-      const Eigen::Map<const Eigen::VectorXd> far(inertias[at + i + 1].twist.data(), modes);
-      couplings.push_back({far - near, shaft.torsion.inertias[i].stiffness_n_m_per_rad});
-    }
-    at += count;
+  for (const rotor::TorsionSpring& spring : rotor::GaugedSprings(model.config().shafts)) {
+    const std::vector<double>& from = inertias[spring.inertia].twist;
+    const std::vector<double>& to = inertias[spring.inertia + 1].twist;
+    const auto modes = static_cast<Eigen::Index>(from.size());
+    const Eigen::Map<const Eigen::VectorXd> near(from.data(), modes);
+    const Eigen::Map<const Eigen::VectorXd> far(to.data(), modes);
+    couplings.push_back({far - near, spring.stiffness_n_m_per_rad});
   }
   return couplings;
 }
@@ -124,19 +121,10 @@ Amplitudes Fit(const session::Recording& record, const std::vector<double>& angl
 std::optional<Complex> AlongOf(const std::vector<GearedLine>& lines,
                                const std::vector<Complex>& force, Complex normal, double speed,
                                double w) {
-  constexpr double kSame = 1e-6;
-  Complex along = 0.0;
-  int halves = 0;
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    if (lines[k].speed_rad_per_s != speed) continue;
-    const double at = lines[k].frequency_rad_per_s;
-    const bool forward = std::abs(at - w) <= kSame * w;
-    if (!forward && std::abs(at + w) > kSame * w) continue;
-    along += 0.5 * (forward ? std::conj(normal) * force[k] : normal * std::conj(force[k]));
-    ++halves;
-  }
-  if (halves < 2) return std::nullopt;
-  return along;
+  const auto forward = ForceAt(lines, force, speed, w);
+  const auto backward = ForceAt(lines, force, speed, -w);
+  if (!forward || !backward) return std::nullopt;
+  return 0.5 * (std::conj(normal) * *forward + normal * std::conj(*backward));
 }
 
 Complex ModelTorque(const TorsionKnown& torsion, const Coupling& coupling, double w,

@@ -9,6 +9,7 @@
 #include "common/problem.hpp"
 #include "common/two_pi.hpp"
 #include "identification/geared/elastic_shaft.hpp"
+#include "identification/geared/geared_forces.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -31,24 +32,6 @@ std::string NameOf(const GearedLine& line) {
     return fmt::format("mesh_{:+d}", line.harmonic);
   }
   return line.frequency_rad_per_s == 0.0 ? "mean" : "1x the other way";
-}
-
-bool AreMirrored(const GearedLine& a, const GearedLine& b) {
-  return a.speed_rad_per_s == b.speed_rad_per_s &&
-         std::abs(a.frequency_rad_per_s + b.frequency_rad_per_s) <=
-             1e-6 * std::abs(b.frequency_rad_per_s);
-}
-
-bool AreEnough(const std::vector<GearedLine>& lines) {
-  std::set<double> speeds;
-  bool pinion = false;
-  bool gear = false;
-  for (const GearedLine& line : lines) {
-    speeds.insert(line.speed_rad_per_s);
-    pinion = pinion || line.kind == Kind::kPinion;
-    gear = gear || line.kind == Kind::kGear;
-  }
-  return speeds.size() >= 2 && pinion && gear;
 }
 
 /// The line that the probes of a shaft see least, one of rotation before all others.
@@ -108,6 +91,23 @@ std::optional<ProbePlane> PlaneOf(const ShaftKnown& shaft, const ShaftFound& fou
 
 }  // namespace
 
+std::string WhatLacks(const std::vector<GearedLine>& lines) {
+  std::set<double> speeds;
+  bool pinion = false;
+  bool gear = false;
+  for (const GearedLine& line : lines) {
+    speeds.insert(line.speed_rad_per_s);
+    pinion = pinion || line.kind == Kind::kPinion;
+    gear = gear || line.kind == Kind::kGear;
+  }
+  if (speeds.size() < 2) {
+    return "lines of one speed only; at least two speeds tell stiffness from damping and run-out "
+           "from transmission error";
+  }
+  if (pinion && gear) return {};
+  return fmt::format("no line {}: the run-out is not determined", pinion ? "gear_1x" : "pinion_1x");
+}
+
 std::vector<GearedLine> LinesOffNodes(const std::vector<GearedLine>& lines,
                                       const GearedKnown& known) {
   const auto is_seen = [&known](const GearedLine& line) {
@@ -118,14 +118,14 @@ std::vector<GearedLine> LinesOffNodes(const std::vector<GearedLine>& lines,
   // The wheels turn under the forces of both whirls: without the one the other says nothing.
   const auto lacks_its_mirror = [&](const GearedLine& line) {
     return known.torsion && std::ranges::any_of(unseen, [&line](const GearedLine& one) {
-             return AreMirrored(one, line);
+             return StandsAt(one, line.speed_rad_per_s, -line.frequency_rad_per_s);
            });
   };
   std::vector<GearedLine> seen;
   std::ranges::copy_if(lines, std::back_inserter(seen), [&](const GearedLine& line) {
     return is_seen(line) && !lacks_its_mirror(line);
   });
-  if (seen.size() < lines.size() && !AreEnough(seen)) Refuse(lines, known, seen.size());
+  if (seen.size() < lines.size() && !WhatLacks(seen).empty()) Refuse(lines, known, seen.size());
   return seen;
 }
 

@@ -12,6 +12,7 @@
 // Failure        BadInput where what is left has not two speeds and the 1x lines of both gears: the
 //                probe plane is named, with line and amplification. Thread any, pure.
 
+#include <string>
 #include <vector>
 
 #include "identification/geared/full_spectrum.hpp"
@@ -19,6 +20,9 @@
 namespace levitas::identification {
 
 inline constexpr double kMostAmplification = 30.0;
+
+/// What an identification needs of lines and these do not have, in words; empty: they are enough.
+[[nodiscard]] std::string WhatLacks(const std::vector<GearedLine>& lines);
 
 /// All lines, in their order, where no shaft is elastic. With ks of the magnets' drawing.
 [[nodiscard]] std::vector<GearedLine> LinesOffNodes(const std::vector<GearedLine>& lines,

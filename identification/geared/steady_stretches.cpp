@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "common/two_pi.hpp"
+#include "plant_sim/gear/repeat.hpp"
 
 namespace levitas::identification {
 namespace {
@@ -31,9 +31,7 @@ std::vector<double> UnwrappedAngle(const session::Recording& record) {
 std::vector<SteadyStretch> SteadyStretches(const session::Recording& record,
                                            const std::vector<double>& angle,
                                            const gear::GearPair& pair) {
-  // Turns of the driving wheel until the same teeth meet again: a whole number.
-  const int turns = pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);
-  const auto turns_per_repeat = static_cast<double>(turns);
+  const double turns_per_repeat = gear::TurnsPerRepeat(pair);
   std::vector<SteadyStretch> stretches;
   const auto transient = static_cast<std::size_t>(kTransientS / record.period_s());
   const auto least = static_cast<std::size_t>(kLeastS / record.period_s());

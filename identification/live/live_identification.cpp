@@ -9,6 +9,7 @@
 
 #include "common/problem.hpp"
 #include "lcmtypes/checked_decode.hpp"
+#include "plant_sim/plant/slowest_amplifier.hpp"
 #include "session/record_codec.hpp"
 #include "transport/lcm_network.hpp"
 
@@ -16,15 +17,6 @@ namespace levitas::identification {
 namespace {
 
 namespace channel = transport::channel;
-
-double SlowestAmplifierHz(const config::RigFile& rig) {
-  double slowest_hz = 0.0;
-  for (const plant::BearingConfig& bearing : rig.plant.bearings) {
-    const double one_hz = bearing.amplifier.bandwidth_hz;
-    if (one_hz > 0.0 && (slowest_hz <= 0.0 || one_hz < slowest_hz)) slowest_hz = one_hz;
-  }
-  return slowest_hz;
-}
 
 void RefuseCount(const char* option, std::size_t given, std::size_t axes) {
   if (given == 0 || given == axes) return;
@@ -83,7 +75,7 @@ OnlineOptions LiveIdentification::OptionsFor(const config::RigFile& rig) const {
   OnlineOptions online{options_.model, static_cast<Eigen::Index>(axes),
                        static_cast<Eigen::Index>(axes), rig.numbers.period_s(), 0};
   online.window_rows = std::max<Eigen::Index>(2, std::lround(options_.window_s / online.period_s));
-  online.model.input_lag_hz = options_.input_lag_hz.value_or(SlowestAmplifierHz(rig));
+  online.model.input_lag_hz = options_.input_lag_hz.value_or(plant::SlowestAmplifierHz(rig.plant));
   online.model.input_delay = options_.input_delay.value_or(
       static_cast<Eigen::Index>(std::lround(rig.plant.delay_samples)));
   if (options_.sensor_a2.empty() && options_.sensor_a3.empty()) return online;

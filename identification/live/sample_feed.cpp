@@ -2,14 +2,9 @@
 
 #include <utility>
 
+#include "verdict/phase.hpp"
+
 namespace levitas::identification {
-namespace {
-
-bool IsHeld(Mode mode) noexcept {
-  return mode == Mode::kLevitating || mode == Mode::kSpinning || mode == Mode::kCoastDown;
-}
-
-}  // namespace
 
 SampleFeed::SampleFeed(const RigNumbers& rig, OnlineRecursion& recursion)
     : frame_(rig),
@@ -36,7 +31,7 @@ void SampleFeed::Take(std::uint64_t cycle, Mode mode) {
   if (any_state_ && cycle <= known_to_) return;
   any_state_ = true;
   known_to_ = cycle;
-  if (!IsHeld(mode)) {
+  if (!verdict::IsLevitated(mode)) {
     levitated_from_.reset();
   } else if (!levitated_from_) {
     levitated_from_ = cycle;

@@ -33,8 +33,8 @@ std::size_t TorsionCodec::LargestSize() {
 }
 
 std::size_t TorsionCodec::Encode(const TorsionBatch& batch, std::span<std::uint8_t> to) noexcept {
-  const std::size_t values =
-      std::min<std::size_t>(kMostValues, std::size_t{batch.couplings} * std::size_t{batch.samples});
+  const std::size_t values = std::size_t{batch.couplings} * std::size_t{batch.samples};
+  if (values > kMostValues) return 0;
   message_.first_cycle = static_cast<std::int64_t>(batch.first_cycle);
   message_.rig_session = static_cast<std::int32_t>(batch.rig_session);
   message_.couplings = static_cast<std::int32_t>(batch.couplings);

@@ -21,7 +21,8 @@ class TorsionCodec {
   TorsionCodec();
   /// Bytes that Encode needs at most.
   [[nodiscard]] static std::size_t LargestSize();
-  /// The number of bytes written to `to`; 0 when they do not fit.
+  /// The number of bytes written to `to`; 0 when they do not fit, or when the batch names
+  /// more values than it has room for.
   [[nodiscard]] std::size_t Encode(const TorsionBatch& batch, std::span<std::uint8_t> to) noexcept;
   [[nodiscard]] bool Decode(std::span<const std::uint8_t> bytes, TorsionBatch& batch) noexcept;
 

@@ -2,6 +2,7 @@
 
 #include "plant_sim/plant/modal_sum.hpp"
 #include "plant_sim/plant/plant_model.hpp"
+#include "plant_sim/rotor/torsion_springs.hpp"
 
 namespace levitas::plant {
 namespace {
@@ -30,7 +31,6 @@ ShaftLoads::ShaftLoads(const PlantModel& model)
   if (shafts_ == 0) return;
   const TrainModes modes = ReduceTrain(config);
   std::size_t foot = 0;
-  std::size_t inertia = 0;
   const TrainModel& train = model.train();
   for (std::size_t s = 0; s < shafts_; ++s) {
     const rotor::Shaft& shaft = config.shafts[s];
@@ -42,18 +42,15 @@ ShaftLoads::ShaftLoads(const PlantModel& model)
       feet_.push_back({s, support.shape, support.stiffness_x_n_per_m, support.stiffness_y_n_per_m,
                        support.damping_x_n_s_per_m, support.damping_y_n_s_per_m});
     }
-    if (shaft.torsion.kind != rotor::TorsionKind::kInertias) continue;
-    const auto& all = shaft.torsion.inertias;
-    for (std::size_t i = 0; i < all.size(); ++i, ++inertia) {
-      if (i + 1 == all.size()) continue;
-      Spring spring{train.inertias[inertia + 1].twist, all[i].stiffness_n_m_per_rad,
-                    shaft.torsion.gauges.fitted};
-      for (std::size_t t = 0; t < spring.twist.size(); ++t) {
-        spring.twist[t] -= train.inertias[inertia].twist[t];
-      }
-      springs_.push_back(std::move(spring));
-      twisted_.push_back(all[i].name + " to " + all[i + 1].name);
+  }
+  for (const rotor::TorsionSpring& from : rotor::TorsionSprings(config.shafts)) {
+    Spring spring{train.inertias[from.inertia + 1].twist, from.stiffness_n_m_per_rad,
+                  from.gauges.fitted};
+    for (std::size_t t = 0; t < spring.twist.size(); ++t) {
+      spring.twist[t] -= train.inertias[from.inertia].twist[t];
     }
+    springs_.push_back(std::move(spring));
+    twisted_.push_back(from.name);
   }
   for (const BearingConfig& bearing : config.bearings) shaft_of_bearing_.push_back(bearing.shaft);
 }

@@ -5,10 +5,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "numerics/dense/factorisations.hpp"
+#include "plant_sim/gear/repeat.hpp"
 #include "plant_sim/plant/eigen_index.hpp"
 
 namespace levitas::plant {
@@ -169,8 +169,7 @@ TrainModel BuildTrain(const PlantConfig& config, const TrainModes& modes) {
   train.twists = static_cast<std::size_t>(modes.torsion.frequency_rad_per_s.size());
   train.ratio = SpeedRatios(config);
   for (const auto& pair : config.gears) {
-    const int turns = pair.driven.teeth / std::gcd(pair.driving.teeth, pair.driven.teeth);
-    train.turns_per_repeat *= turns;
+    train.turns_per_repeat *= gear::TurnsPerRepeat(pair);
     train.meshes.push_back(MeshOf(config, modes, train.ratio, pair));
   }
   BuildUnbalance(train, config, modes);

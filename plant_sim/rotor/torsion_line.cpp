@@ -9,6 +9,7 @@
 #include "numerics/dense/eigenvalues.hpp"
 #include "plant_sim/rotor/beam_element.hpp"
 #include "plant_sim/rotor/section_at.hpp"
+#include "plant_sim/rotor/torsion_springs.hpp"
 
 namespace levitas::rotor {
 namespace {
@@ -99,13 +100,7 @@ ModalTorsion ReduceTorsion(const RotorConfig& beam, const std::vector<double>& n
 
 std::vector<std::string> GaugedCouplings(const std::vector<Shaft>& shafts) {
   std::vector<std::string> names;
-  for (const Shaft& shaft : shafts) {
-    const auto& inertias = shaft.torsion.inertias;
-    if (shaft.torsion.kind != TorsionKind::kInertias || !shaft.torsion.gauges.fitted) continue;
-    for (std::size_t i = 0; i + 1 < inertias.size(); ++i) {
-      names.push_back(inertias[i].name + " to " + inertias[i + 1].name);
-    }
-  }
+  for (const TorsionSpring& spring : GaugedSprings(shafts)) names.push_back(spring.name);
   return names;
 }
 

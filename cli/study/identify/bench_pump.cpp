@@ -23,7 +23,7 @@ constexpr const char* kBenchPumpHelp =
     "loop. The first ceiling counts the noise of the readings; the second, which no model can "
     "exceed, also what that noise does in the loop: it is the simulator itself without noise.\n"
     "Example: amb bench pump --noise-seed 7 --excitation-seed 7\n"
-    "         amb bench pump --inputs test_signals --fit-free-run 80   (the paper's table)\n"
+    "         amb bench pump --inputs test_signals --fit-free-run 60   (the paper's table)\n"
     "         amb bench pump --knee-a 0 --a2 0 --a3 0    (the pump as shipped)";
 
 /// Chiu (2022), table 1: UX, UY, LX, LY.
@@ -51,7 +51,8 @@ void WriteCsv(const std::string& path, const accuracy::PumpTrial& trial) {
   std::string text = "time_s";
   for (const char* name : {"position_{}_m", "control_current_{}_a", "excitation_{}_m"}) {
     for (const std::string& channel : series.output_names) {
-      text += "," + fmt::format(fmt::runtime(name), channel);
+      text += ',';
+      text += fmt::format(fmt::runtime(name), channel);
     }
   }
   text += "\n";

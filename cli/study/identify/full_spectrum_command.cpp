@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "cli/json_file.hpp"
@@ -94,12 +95,13 @@ void Print(const SpectrumOptions& options, const std::vector<GearedLine>& lines,
 }
 
 /// Empty without gauges, as of a file that is no session.
-HalfSpectrum Torsion(const SpectrumOptions& options, const config::RigFile& rig,
-                     const std::vector<GearedLine>& lines, const GearedParameters& found) {
-  if (options.data_path.empty() || !session::IsSession(options.data_path)) return {};
-  const session::TorsionRecording torsion = session::LoadTorsion(options.data_path);
+HalfSpectrum Torsion(const std::optional<session::Recording>& record, const std::string& path,
+                     const config::RigFile& rig, const std::vector<GearedLine>& lines,
+                     const GearedParameters& found) {
+  if (!record || !session::IsSession(path)) return {};
+  const session::TorsionRecording torsion = session::LoadTorsion(path);
   if (torsion.rows() == 0) return {};
-  return HalfSpectrumOf(session::LoadRecording(options.data_path, rig), torsion, rig, lines, found);
+  return HalfSpectrumOf(*record, torsion, rig, lines, found);
 }
 
 /// Of each coupling the lines that carry most, those of the noise left out.
@@ -144,12 +146,12 @@ ExitStatus Run(const SpectrumOptions& options) {
   const config::RigFile rig = LoadRigOfRecords(options, {options.data_path});
   GearedKnown known = KnownOfRig(rig);
   known.uncertainty = 0.01 * options.known_percent;
-  const auto lines = options.lines_path.empty()
-                         ? LinesOfRecord(session::LoadRecording(options.data_path, rig), rig)
-                         : ReadGearedLines(options.lines_path);
+  std::optional<session::Recording> record;
+  if (options.lines_path.empty()) record = session::LoadRecording(options.data_path, rig);
+  const auto lines = record ? LinesOfRecord(*record, rig) : ReadGearedLines(options.lines_path);
   const GearedParameters found = IdentifyGeared(lines, known);
   Print(options, lines, known, found);
-  const HalfSpectrum half = Torsion(options, rig, lines, found);
+  const HalfSpectrum half = Torsion(record, options.data_path, rig, lines, found);
   PrintTorsion(half);
   auto json = GearedJson(found);
   json["torsion"] = TorsionJson(half);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/json_file.hpp"
+#include "cli/options/network_options.hpp"
 #include "cli/run/interrupt.hpp"
 #include "cli/study/identify/hammerstein_wiener_options.hpp"
 #include "cli/study/identify/live_command.hpp"
@@ -229,13 +230,7 @@ void AddIdentifyLive(CLI::App& identify, Action& action) {
   command->footer(kLiveHelp);
   command->add_option("SESSION", options->session_path,
                       "A session instead of the network; without it a running loop is heard");
-  command
-      ->add_option("--port", options->port,
-                   "Where the run is: lcm, or lcm:udpm://<group>:<port>?ttl=<n> as amb run "
-                   "prints it")
-      ->capture_default_str();
-  command->add_option("--key", options->key,
-                      "File with the key of those who may speak on that network (amb key)");
+  AddNetworkOptions(*command, options->port, options->key);
   AddModel(*command, *options);
   command->add_flag("--until-converged", options->until_converged,
                     "End at the first second that is converged; status 1 when none was");

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "plant_sim/plant/plant_model.hpp"
+#include "plant_sim/rotor/torsion_springs.hpp"
 
 namespace levitas::plant_run {
 namespace {
@@ -15,10 +16,8 @@ constexpr std::uint64_t kStream = 0x746F7273696F6EULL;
 
 std::vector<rotor::TorsionGauges> NoiseOf(const std::vector<rotor::Shaft>& shafts) {
   std::vector<rotor::TorsionGauges> noise;
-  for (const rotor::Shaft& shaft : shafts) {
-    const rotor::Torsion& torsion = shaft.torsion;
-    if (torsion.kind != rotor::TorsionKind::kInertias || !torsion.gauges.fitted) continue;
-    noise.insert(noise.end(), torsion.inertias.size() - 1, torsion.gauges);
+  for (const rotor::TorsionSpring& spring : rotor::GaugedSprings(shafts)) {
+    noise.push_back(spring.gauges);
   }
   if (noise.size() > kMaxCouplings) {
     throw std::invalid_argument(fmt::format("gauges on {} couplings; at most {} can be recorded",
