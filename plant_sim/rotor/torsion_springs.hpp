@@ -3,7 +3,7 @@
 //
 // Order    shaft by shaft, as TrainModel::inertias lists the inertias; all records of gauges have
 //          the order of the springs that gauges measure.
-// Thread   any; allocates. Failure: none; only shafts whose torsion is a line of inertias have some.
+// Thread   any; allocates. Failure: none; a shaft whose torsion is no line of inertias has none.
 
 #include <cstddef>
 #include <string>
