@@ -18,6 +18,11 @@ SMALL = ("--order", "2", "--degree", "2", "--noise-order", "0")
 AXES = ("de_x", "de_y", "nde_x", "nde_y")
 
 
+def settles(told):
+    changes = told.get("change_percent", [])
+    return len(changes) > 1 and min(changes[1:]) < changes[0]
+
+
 class BesideTheLoop(unittest.TestCase):
     def test_tells_records_and_shows_how_far_it_has_come(self):
         rig = Rig(self)
@@ -26,9 +31,10 @@ class BesideTheLoop(unittest.TestCase):
         live.says("flexible_rotor: 4 axes, 10 kHz")
         self.assertEqual(rig.command("lift"), (200, "accepted"))
         until(rig.url, in_mode("levitating"))
-        told = until(rig.url, lambda name, data: name == "convergence" and len(data.get("t_s", [])) > 1)
+        # From nothing the first estimate changes by 100 %, the next perhaps by more: rest, lift and the
+        # levitated rotor are three different systems. Levitated, it settles.
+        told = until(rig.url, lambda name, data: name == "convergence" and settles(data))
         self.assertEqual(len(told["fit_percent"]), 4)
-        self.assertGreater(told["change_percent"][0], told["change_percent"][-1])
         live.send_signal(signal.SIGINT)
         self.assertEqual(live.status(), 0, live.text)
         self.assertIn("rows learnt, cycles", live.text)
