@@ -8,6 +8,7 @@
 #include <complex>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "common/problem.hpp"
 #include "identification/frf/checks.hpp"
@@ -155,6 +156,24 @@ std::vector<Eigen::MatrixXd> Smoothed(const std::vector<Eigen::MatrixXd>& power,
   return smooth;
 }
 
+double MeanSquare(const std::vector<Eigen::MatrixXcd>& sensitivity, std::size_t line,
+                  std::size_t neighbours, Index axis) {
+  const std::size_t low = line - std::min(line, neighbours);
+  const std::size_t high = std::min(sensitivity.size() - 1, line + neighbours);
+  double sum = 0.0;
+  for (std::size_t k = low; k <= high; ++k) sum += std::norm(sensitivity[k](axis, axis));
+  return sum / static_cast<double>(high - low + 1);
+}
+
+/// What noise the loop reads reaches the sum as S_ii times it. The mean over the neighbours is too
+/// low where |S_ii|^2 has a peak narrower than they are: its shape is put back, from three lines,
+/// since a line alone holds the noise that is looked for.
+double PeakShare(const std::vector<Eigen::MatrixXcd>& sensitivity, std::size_t line,
+                 std::ptrdiff_t neighbours, Index axis) {
+  return MeanSquare(sensitivity, line, 1, axis) /
+         MeanSquare(sensitivity, line, static_cast<std::size_t>(neighbours), axis);
+}
+
 void FindExtremes(const session::Recording& record, const Campaign& campaign,
                   FrequencyResponse& response) {
   for (const Experiment& e : campaign.experiments) {
@@ -264,8 +283,11 @@ FrequencyResponse EstimateResponse(const session::Recording& record, const Campa
   for (std::size_t k = 0; k < lines.size(); ++k) {
     response.noise.push_back(PerExcitation(all, lines[k], smooth[k], axes));
     response.variance.push_back(response.noise[k] * inverse[k].cwiseAbs2());
-    response.own_variance.emplace_back(
-        PerExcitation(all, lines[k], smooth_own[k], axes).row(0).transpose());
+    Eigen::VectorXd scatter = PerExcitation(all, lines[k], smooth_own[k], axes).row(0);
+    for (Index i = 0; i < axes; ++i) {
+      scatter[i] *= PeakShare(response.sensitivity, k, all.front().neighbours, i);
+    }
+    response.own_variance.push_back(std::move(scatter));
   }
   response.moments = MomentsOf(record, campaign, options.amplifier_hz);
   FindExtremes(record, campaign, response);

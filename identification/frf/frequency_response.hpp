@@ -17,7 +17,9 @@
 // Noise      r = dY - P dU per period, the part that does not repeat: its covariance over the
 //            periods and over 21 neighbouring lines (it is smooth there; 5 held sines) gives
 //            var P_ik = sum_j C_j,ii |Q^-1_jk|^2 / (M |E_j|^2), E|P - P_true|^2 of a complex entry.
-//            What repeats (nonlinearity) is no noise and is not in it.
+//            What repeats (nonlinearity) is no noise and is not in it. The variance of S_ii from
+//            the scatter of its own sum follows |S_ii|^2 within those lines: noise that the loop
+//            reads is multiplied by S_ii before it is recorded.
 // Coherence  |sum Y_m|^2 / (M sum |Y_m|^2) of position i with the excitation of axis j.
 // Units      P [m/A], from the command of a sample to the position read at the sample: delay, hold,
 //            amplifier and sensor are part of P.

@@ -36,6 +36,9 @@ std::string CsvHeader(const FrequencyResponse& r) {
           pair);
     }
   }
+  for (const std::string& axis : r.channels) {
+    text += fmt::format(",sensitivity_sigma_{0}_from_{0}", axis);
+  }
   return text + "\n";
 }
 
@@ -50,6 +53,8 @@ void AppendRows(const FrequencyResponse& r, std::string& text) {
                             r.sensitivity[k](i, j).imag());
       }
     }
+    for (const double variance : r.own_variance[k])
+      text += fmt::format(",{:.4e}", std::sqrt(variance));
     text += '\n';
   }
 }

@@ -58,7 +58,7 @@ TEST(ResponseCsv, HasARowPerSpeedAndLineAndAColumnPerNumberOfEachPair) {
   WriteResponseCsv(folder / "p.csv", {TwoAxes(), faster});
   const auto rows = Cells(Content(folder / "p.csv"));
   ASSERT_EQ(rows.size(), 1U + 2U * 24U);
-  for (const auto& row : rows) EXPECT_EQ(row.size(), 2U + 4U * 6U);
+  for (const auto& row : rows) EXPECT_EQ(row.size(), 2U + 4U * 6U + 2U);
   EXPECT_EQ(rows[1][0], "3000.000");
   EXPECT_EQ(rows[25][0], "6000.000");
 }
@@ -81,6 +81,7 @@ TEST(ResponseCsv, HoldsUnderEachNameTheEntryOfThatOutputAndInput) {
               -Entry(line, 0, 1), 1e-8 * Entry(line, 0, 1));
   // The deviation, not the variance.
   EXPECT_NEAR(std::stod(rows[1 + line][column("plant_sigma_de_x_from_de_x_m_per_a")]), 1e-6, 1e-12);
+  EXPECT_NEAR(std::stod(rows[1 + line][column("sensitivity_sigma_de_y_from_de_y")]), 1e-2, 1e-8);
 }
 
 TEST(ResponseCsv, WithoutAPathOrAResponseIsNotWritten) {
