@@ -19,9 +19,9 @@
 #include "cli/standard_output.hpp"
 #include "common/nearest.hpp"
 #include "common/output_file.hpp"
-#include "controller/rt/limits.hpp"
-#include "controller/rt/say.hpp"
 #include "levitas_version.hpp"
+#include "rt/limits.hpp"
+#include "rt/say.hpp"
 
 namespace levitas::cli {
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "controller/rt/say.hpp"
+#include "rt/say.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -2,13 +2,13 @@
 // What a command prints on standard output, for as long as an object of this class lives: the C
 // stream `stdout` is then one of ours, and every print of every command goes through it.
 //
-// Safe     control characters are written as \x1b (controller/rt/say.hpp: Printable): a file name,
+// Safe     control characters are written as \x1b (rt/say.hpp: Printable): a file name,
 //          a tag or a session of others cannot steer the terminal. Line breaks and tabs stay, so a
 //          foreign name in a table of ours still needs rt::OneLine.
 // Checked  the first refusal of the kernel is kept: a full disk is told by Finish, once, at the
 //          end of the program. A reader that has gone (EPIPE, as with `| head`) is no failure.
 // Not      what is written to /dev/stdout by its name as a file (--csv /dev/stdout): those bytes
-//          are data. Standard error: controller/rt/say.hpp.
+//          are data. Standard error: rt/say.hpp.
 // Thread   one object in the program, made and ended in main before other threads and after them.
 // Failure  none is thrown; without the memory for the stream, `stdout` stays as it was.
 

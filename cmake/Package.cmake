@@ -13,10 +13,10 @@ if(NOT LEVITAS_SANITIZE)
       common/problem.hpp common/rotational_speed.hpp
       configuration/rig_file.hpp configuration/shipped_names.hpp
       controller/cycle/control_cycle.hpp controller/law/own_law.hpp controller/loop/control_loop.hpp
-      controller/port/rig_link.hpp controller/port/rig_port.hpp
+      common/rig_link.hpp common/rig_port.hpp
       controller/scenario/scenario_player.hpp controller/supervisor/supervisor.hpp
       plant_sim/plant/plant.hpp plant_sim/plant/command_of.hpp
-      plant_sim/run/loop/plant_loop.hpp)
+      plant_sim/loop/plant_loop.hpp)
 endif()
 
 function(levitas_install_programs)

@@ -6,7 +6,6 @@
 #include <thread>
 #include <utility>
 
-#include "controller/rt/clock.hpp"
 #include "dashboard/announced_rig.hpp"
 #include "dashboard/command_api.hpp"
 #include "dashboard/convergence.hpp"
@@ -17,6 +16,7 @@
 #include "dashboard/scope_controller.hpp"
 #include "dashboard/snapshot.hpp"
 #include "dashboard/spectrum_range.hpp"
+#include "rt/clock.hpp"
 #include "transport/lcm_packet.hpp"
 
 namespace levitas::dashboard {

@@ -13,7 +13,7 @@
 
 #include "common/problem.hpp"
 #include "common/spsc_ring.hpp"
-#include "controller/rt/thread_trouble.hpp"
+#include "rt/thread_trouble.hpp"
 #include "session/event_deriver.hpp"
 #include "session/trip_freezer.hpp"
 

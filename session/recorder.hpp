@@ -9,7 +9,7 @@
 // Failure     a file that takes no more, or a pipe whose reader has stopped for `patience`, ends
 //             the recording with one message (a loop that waits waits that long); of trip files it
 //             ends the one that was being written, and the next trip is frozen again. An exception
-//             elsewhere is noted (controller/rt/thread_trouble.hpp). Records are taken on.
+//             elsewhere is noted (rt/thread_trouble.hpp). Records are taken on.
 // Torsion     batches are written as they come, each before the first record of a later sampling
 //             instant, so that a run in lockstep is the same file again. Not in trip files.
 // Events      are also handed to `on_event` (recorder's thread), for telemetry and the console.

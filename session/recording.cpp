@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include "common/levitated_modes.hpp"
 #include "common/problem.hpp"
 #include "session/candump_import.hpp"
 #include "session/coil_scales.hpp"
@@ -180,11 +181,9 @@ std::vector<RowRange> Recording::LevitatedIntervals() const {
 }
 
 bool IsLevitated(const cycle::CycleRecord& record, std::size_t axes) noexcept {
-  const Mode mode = record.out.mode;
-  const bool held =
-      mode == Mode::kLevitating || mode == Mode::kSpinning || mode == Mode::kCoastDown;
   const auto& position_m = record.in.frame.position_m;
-  return held && record.in.frame_present && record.out.current.amplifiers_enabled &&
+  return levitas::IsLevitated(record.out.mode) && record.in.frame_present &&
+         record.out.current.amplifiers_enabled &&
          std::all_of(position_m.begin(), position_m.begin() + static_cast<std::ptrdiff_t>(axes),
                      [](double value) { return std::isfinite(value); });
 }

@@ -1,11 +1,11 @@
 #pragma once
 // The rig's end of the LCM network: sensor frames out, current frames in. The contract is that of
-// controller/port/rig_link.hpp; construction throws Problem.
+// common/rig_link.hpp; construction throws Problem.
 //
 // Sender   one controller at a time is obeyed (partner_lock.hpp), until its goodbye; what a second
 //          one sends is refused, counted and named.
 
-#include "controller/port/rig_link.hpp"
+#include "common/rig_link.hpp"
 #include "transport/frame_codec.hpp"
 #include "transport/multicast_socket.hpp"
 #include "transport/partner_lock.hpp"

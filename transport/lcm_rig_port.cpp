@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/read_bound.hpp"
 

@@ -8,13 +8,13 @@
 //          them; the datagrams of one sender arrive in order.
 // Sender   frames of one rig at a time are taken (partner_lock.hpp); a second one is refused,
 //          counted and named. The rest (thread, blocking, staleness,
-//          failure) is the contract of controller/port.
+//          failure) is the contract of common/rig_port.hpp.
 
 #include <array>
 #include <optional>
 #include <span>
 
-#include "controller/port/rig_port.hpp"
+#include "common/rig_port.hpp"
 #include "transport/frame_codec.hpp"
 #include "transport/multicast_socket.hpp"
 #include "transport/partner_lock.hpp"

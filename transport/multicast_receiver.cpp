@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/multicast_options.hpp"
 #include "transport/multicast_socket.hpp"

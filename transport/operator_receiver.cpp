@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "controller/rt/clock.hpp"
-#include "controller/rt/thread_trouble.hpp"
+#include "rt/clock.hpp"
+#include "rt/thread_trouble.hpp"
 
 namespace levitas::transport {
 

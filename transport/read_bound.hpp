@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 
 namespace levitas::transport {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "common/enums.hpp"
-#include "controller/rt/clock.hpp"
-#include "controller/rt/thread_trouble.hpp"
+#include "rt/clock.hpp"
+#include "rt/thread_trouble.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/operator_message.hpp"
 

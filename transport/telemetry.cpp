@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/spsc_ring.hpp"
-#include "controller/rt/thread_trouble.hpp"
+#include "rt/thread_trouble.hpp"
 #include "transport/histogram_message.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/multicast_socket.hpp"

@@ -14,14 +14,11 @@
 #include <cstdint>
 
 #include "common/enums.hpp"
+#include "common/levitated_modes.hpp"
 
 namespace levitas::verdict {
 
 enum class Phase : std::uint8_t { kNotJudged, kStanding, kSpinning };
-
-[[nodiscard]] constexpr bool IsLevitated(Mode mode) noexcept {
-  return mode == Mode::kLevitating || mode == Mode::kSpinning || mode == Mode::kCoastDown;
-}
 
 class PhaseSplitter {
  public:

@@ -19,11 +19,11 @@
 #include "benchmark/lives/fiber.hpp"
 #include "benchmark/lives/mailbox.hpp"
 #include "common/frames.hpp"
-#include "controller/port/rig_link.hpp"
-#include "controller/port/rig_port.hpp"
-#include "controller/rt/clock.hpp"
+#include "common/rig_link.hpp"
+#include "common/rig_port.hpp"
+#include "plant_sim/loop/plant_loop.hpp"
 #include "plant_sim/plant/plant.hpp"
-#include "plant_sim/run/loop/plant_loop.hpp"
+#include "rt/clock.hpp"
 
 namespace levitas::lives {
 

@@ -25,7 +25,7 @@
 #include <memory>
 #include <string>
 
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/lcm_rig_link.hpp"
 #include "transport/lcm_rig_port.hpp"

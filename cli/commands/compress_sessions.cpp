@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "common/problem.hpp"
-#include "controller/rt/say.hpp"
+#include "rt/say.hpp"
 #include "session/repack.hpp"
 #include "session/session_reader.hpp"
 #include "session_index/catalogue.hpp"

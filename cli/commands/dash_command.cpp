@@ -12,9 +12,9 @@
 #include "cli/json_file.hpp"
 #include "cli/options/network_options.hpp"
 #include "cli/run/interrupt.hpp"
-#include "controller/rt/say.hpp"
 #include "dashboard/access.hpp"
 #include "dashboard/dashboard.hpp"
+#include "rt/say.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "cli/commands/command.hpp"
 #include "cli/commands/session_text.hpp"
 #include "cli/json_file.hpp"
-#include "controller/rt/say.hpp"
+#include "rt/say.hpp"
 #include "session/csv_export.hpp"
 #include "session/mat_export.hpp"
 #include "session/mcap_export.hpp"

@@ -15,7 +15,7 @@
 #include "cli/commands/what_if_csv.hpp"
 #include "cli/json_file.hpp"
 #include "configuration/rig_file.hpp"
-#include "controller/rt/say.hpp"
+#include "rt/say.hpp"
 #include "session/output_path.hpp"
 #include "session/replay.hpp"
 #include "session/what_if.hpp"

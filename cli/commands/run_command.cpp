@@ -27,9 +27,9 @@
 #include "common/output_file.hpp"
 #include "common/time_option.hpp"
 #include "common/whole_number.hpp"
-#include "controller/rt/say.hpp"
 #include "hil/socketcan/can_connection.hpp"
-#include "plant_sim/run/loop/timed_events.hpp"
+#include "plant_sim/loop/timed_events.hpp"
+#include "rt/say.hpp"
 #include "session/output_path.hpp"
 #include "verdict/commission.hpp"
 #include "verdict/report.hpp"
@@ -193,7 +193,8 @@ void CheckLoop(const RunOptions& options, const RunFiles& files) {
   const config::RigFile rig = config::ParseRig(files.rig_text, files.rig_path);
   const auto controller = config::LoadController(files.controller_path, files.rig);
   const auto scenario = config::LoadScenario(files.scenario_path, files.rig);
-  const plant_run::TimedEvents events(scenario, rig);  // throws for an event that cannot be
+  const plant_run::TimedEvents events(scenario, rig.numbers,
+                                      rig.plant);  // throws for an event that cannot be
   const auto [rig_name, kept] = RigForCommands(options);
   const std::string text =
       UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario), rig_name, files.controller_path);

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/utc_text.hpp"
-#include "controller/rt/say.hpp"
+#include "rt/say.hpp"
 
 namespace levitas::cli {
 

@@ -17,7 +17,7 @@
 #include "cli/json_file.hpp"
 #include "cli/utc_text.hpp"
 #include "common/rotational_speed.hpp"
-#include "controller/rt/say.hpp"
+#include "rt/say.hpp"
 #include "session_index/catalogue.hpp"
 #include "session_index/catalogue_path.hpp"
 #include "session_index/describe_session.hpp"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/rotational_speed.hpp"
-#include "controller/rt/say.hpp"
 #include "report/text/text_table.hpp"
+#include "rt/say.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -50,7 +50,8 @@ std::string NotchesElsewhere(const config::ControllerFile& controller, const Rig
 
 /// The reason why one real wire in place of the buses of the file would not carry the loop.
 std::string OneWireNote(const AnalysisOptions& options, const config::RigFile& rig) {
-  const std::string refusal = socketcan::RealWireRefusal(rig, options.rig_name, options.port);
+  const std::string refusal =
+      socketcan::RealWireRefusal(rig.numbers, rig.buses, options.rig_name, options.port);
   if (refusal.empty()) return {};
   return fmt::format("  on real wires {} would not carry the loop: {}\n", options.port, refusal);
 }
@@ -90,8 +91,9 @@ std::string TakeDelayOfPort(const AnalysisOptions& options, config::RigFile& rig
   }
   // Nothing is connected here, so no interface has to exist: each bus of the file counts.
   const auto every = [](const std::string&) { return true; };
-  socketcan::ApplyBusDelay(
-      rig, socketcan::PlanConnection(rig, options.rig_name, options.port, every).budget);
+  const auto connection =
+      socketcan::PlanConnection(rig.numbers, rig.buses, options.rig_name, options.port, every);
+  rig.plant.delay_samples = socketcan::DelayOnBuses(of_file, rig.numbers, connection.budget);
   return fmt::format(
       "delay from sample to current: {:.2f} periods, the longer one of {} and the rig file "
       "({:.2f})\n{}",

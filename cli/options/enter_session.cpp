@@ -5,7 +5,7 @@
 #include <exception>
 #include <functional>
 
-#include "controller/rt/say.hpp"
+#include "rt/say.hpp"
 #include "session_index/catalogue.hpp"
 #include "session_index/catalogue_path.hpp"
 #include "session_index/describe_session.hpp"

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "common/problem.hpp"
-#include "controller/rt/say.hpp"
 #include "plant_sim/effect/catalogue.hpp"
+#include "rt/say.hpp"
 #include "session/rig_of_session.hpp"
 
 namespace levitas::cli {

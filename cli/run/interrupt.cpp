@@ -5,7 +5,7 @@
 #include <csignal>
 #include <thread>
 
-#include "controller/rt/stop_signal.hpp"
+#include "rt/stop_signal.hpp"
 
 namespace levitas::cli {
 namespace {

@@ -2,7 +2,7 @@
 // Ctrl-C as a count: the first asks for a landing, the second for an end at once.
 //
 // Signals  SIGINT, SIGTERM and SIGHUP, caught while the guard lives; what is a second request and
-//          what the same one again: controller/rt/stop_signal.hpp.
+//          what the same one again: rt/stop_signal.hpp.
 // Thread   one guard at a time, in the main thread.
 
 namespace levitas::cli {

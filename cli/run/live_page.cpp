@@ -8,8 +8,8 @@
 #include <cstdlib>
 
 #include "cli/run/interrupt.hpp"
-#include "controller/rt/say.hpp"
 #include "dashboard/dashboard.hpp"
+#include "rt/say.hpp"
 
 namespace levitas::cli {
 namespace {

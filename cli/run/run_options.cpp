@@ -96,9 +96,9 @@ RunOptions SettleRig(RunOptions options, const config::RigFile& rig,
   }
   if (socketcan::IsCanPort(options.port)) {
     const bool waits = options.pace == "lockstep" || options.pace == "paced";
-    if (waits) socketcan::RefuseLockstep(rig, options.port, find);
+    if (waits) socketcan::RefuseLockstep(rig.buses, options.port, find);
     options.rig_is_there =
-        options.rig_is_there || !socketcan::RealInterface(rig, options.port, find).empty();
+        options.rig_is_there || !socketcan::RealInterface(rig.buses, options.port, find).empty();
   }
   if (options.rig_is_there && !options.changes.effects.empty()) {
     throw Problem(ExitStatus::kUsage,
@@ -111,8 +111,9 @@ RunOptions SettleRig(RunOptions options, const config::RigFile& rig,
 
 void CheckBuses(const RunOptions& options, const RunFiles& files) {
   if (!socketcan::IsCanPort(options.port)) return;
+  const config::RigFile rig = config::LoadRig(files.rig_path);
   static_cast<void>(
-      socketcan::PlanConnection(config::LoadRig(files.rig_path), files.rig_path, options.port));
+      socketcan::PlanConnection(rig.numbers, rig.buses, files.rig_path, options.port));
 }
 
 std::string ProgramBeside(const std::string& name) {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <thread>
 
-#include "controller/rt/stop_signal.hpp"
+#include "rt/stop_signal.hpp"
 
 namespace levitas::cli {
 namespace {

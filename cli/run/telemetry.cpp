@@ -2,8 +2,8 @@
 
 #include <levitas_msg/controller_state_t.hpp>
 
-#include "controller/rt/clock.hpp"
 #include "lcmtypes/checked_decode.hpp"
+#include "rt/clock.hpp"
 #include "transport/lcm_packet.hpp"
 
 namespace levitas::cli {

@@ -15,6 +15,7 @@
 #include "common/nearest.hpp"
 #include "common/output_file.hpp"
 #include "configuration/schema/unit.hpp"
+#include "plant_sim/plant/effects/clear_entry.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/signature.hpp"
 
@@ -104,7 +105,7 @@ plant::PlantParameters RigFor(const effect::Row& row, const EffectsOptions& opti
 
 void DrawOne(const effect::Row& row, const EffectsOptions& options, const std::string& path) {
   const plant::PlantParameters rig = RigFor(row, options);
-  svg::Write(path, signature::Picture(rig, signature::ClearOn(rig, row.id)));
+  svg::Write(path, signature::Picture(rig, plant::ClearOn(rig, row.id)));
 }
 
 void Draw(const EffectsOptions& options) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "common/standard_arithmetic.hpp"
-#include "controller/rt/next_wake.hpp"
 #include "controller/supervisor/radius.hpp"
 #include "controller/supervisor/supervisor.hpp"
+#include "rt/next_wake.hpp"
 
 namespace levitas::loop {
 

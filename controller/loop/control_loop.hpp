@@ -18,11 +18,11 @@
 #include <atomic>
 #include <cstdint>
 
+#include "common/rig_port.hpp"
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/loop/loop_statistics.hpp"
 #include "controller/loop/operator_source.hpp"
-#include "controller/port/rig_port.hpp"
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 
 namespace levitas::loop {
 

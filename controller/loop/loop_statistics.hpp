@@ -10,7 +10,7 @@
 
 #include "common/histogram.hpp"
 #include "controller/cycle/control_cycle.hpp"
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 
 namespace levitas::loop {
 

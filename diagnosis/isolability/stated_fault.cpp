@@ -8,7 +8,7 @@
 #include "configuration/schema/unit.hpp"
 #include "plant_sim/effect/strength.hpp"
 #include "plant_sim/plant/effects/apply_effects.hpp"
-#include "report/signature/signature.hpp"
+#include "plant_sim/plant/effects/clear_entry.hpp"
 
 namespace levitas::diagnosis {
 namespace {
@@ -53,7 +53,7 @@ std::optional<StatedFault> StatedFaultOf(Id id, const RigView& rig, double stren
   if (row.scope == Scope::kMode && rig.modes < 3) return std::nullopt;
   const plant::PlantParameters& own = rig.model->parameters();
   StatedFault fault;
-  fault.entry = signature::ClearOn(own, id);
+  fault.entry = plant::ClearOn(own, id);
   fault.entry.strength = strength;
   if (row.scope == Scope::kChannels) fault.entry.axes = 1U;
   const auto& discs = own.config.rotor.discs;

@@ -114,7 +114,8 @@ std::string NotLevitated(const RigView& rig, const Record& record) {
       1e6 * nearest_m, 1e6 * farthest_m, 100.0 * kFree, 1e6 * clearance_m);
 }
 
-std::vector<Record> IsLevitated(const RigView& rig, std::vector<Record> records) {
+/// The records without contact and the ways to and from it; refuses what is left too short.
+std::vector<Record> CutToLevitated(const RigView& rig, std::vector<Record> records) {
   for (Record& record : records) {
     RefuseWrongUnits(rig, record);
     const double whole_s = Seconds(record, rig);
@@ -167,28 +168,28 @@ DiagnosisResult DiagnoseRecords(const config::RigFile& rig, const std::vector<Re
                                 const std::vector<Record>& healthy) {
   DiagnosisResult out;
   out.view = std::make_shared<const RigView>(rig.numbers, rig.plant);
-  const std::vector<Record> levitated = IsLevitated(*out.view, healthy);
-  const std::vector<Record> aside = IsLevitated(*out.view, holdout);
-  std::vector<Record> fitted = IsLevitated(*out.view, records);
+  const std::vector<Record> vouched_for = CutToLevitated(*out.view, healthy);
+  const std::vector<Record> validation = CutToLevitated(*out.view, holdout);
+  std::vector<Record> fitted = CutToLevitated(*out.view, records);
   out.terms = AllTerms(*out.view, rig.tolerances.value_or(config::Tolerances{}),
                        LargestOrbit(fitted, out.view->axes));
-  if (!levitated.empty()) {
+  if (!vouched_for.empty()) {
     for (const Term& term : out.terms) out.file_tolerance.push_back(term.tolerance);
-    LearnFromHealthy(*out.view, levitated, settings.judging, out.terms);
+    LearnFromHealthy(*out.view, vouched_for, settings.judging, out.terms);
   }
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     fitted[i].number = static_cast<std::uint32_t>(i);
     fitted[i].keeps_validation = holdout.empty();
   }
-  Describe(fitted, aside, out);
+  Describe(fitted, validation, out);
   out.lost_frames = CountFrames(*out.view, fitted);
   const auto mains = MainsTerms(*out.view, MainsLines(*out.view, fitted), fitted.size());
   out.terms.insert(out.terms.end(), mains.begin(), mains.end());
-  out.answer = Diagnose(*out.view, fitted, aside, settings, out.terms);
+  out.answer = Diagnose(*out.view, fitted, validation, settings, out.terms);
   const std::vector<Record> used = settings.quick ? QuickSpans(fitted, out.view->period_s)
                                                   : Spans(fitted, kMostRows, out.view->period_s);
   for (const Record& record : used) out.seconds_used += Seconds(record, *out.view);
-  Measure(used, aside, settings.judging, out);
+  Measure(used, validation, settings.judging, out);
   return out;
 }
 

@@ -14,7 +14,7 @@
 #include "configuration/rig_file.hpp"
 #include "controller/loop/control_loop.hpp"
 #include "controller/scenario/scenario_player.hpp"
-#include "plant_sim/run/loop/plant_loop.hpp"
+#include "plant_sim/loop/plant_loop.hpp"
 #include "socket_port.hpp"
 
 using namespace levitas;

@@ -19,9 +19,9 @@
 #include <ctime>
 #include <functional>
 
-#include "controller/port/rig_link.hpp"
-#include "controller/port/rig_port.hpp"
-#include "controller/rt/clock.hpp"
+#include "common/rig_link.hpp"
+#include "common/rig_port.hpp"
+#include "rt/clock.hpp"
 
 struct CurrentMessage {
   levitas::CurrentFrame frame;

@@ -1,11 +1,11 @@
 #pragma once
 // The rig's end of the CAN buses: position messages out, current messages in. The contract is that
-// of controller/port/rig_link.hpp; what is bounded and ignored is as in can_rig_port.hpp.
+// of common/rig_link.hpp; what is bounded and ignored is as in can_rig_port.hpp.
 
 #include <string>
 #include <vector>
 
-#include "controller/port/rig_link.hpp"
+#include "common/rig_link.hpp"
 #include "hil/can/assemblers.hpp"
 #include "hil/can/bus_access.hpp"
 #include "hil/can_port/bus_watch.hpp"

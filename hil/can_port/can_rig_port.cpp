@@ -1,6 +1,6 @@
 #include "hil/can_port/can_rig_port.hpp"
 
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 
 namespace levitas::can_port {
 

@@ -8,12 +8,12 @@
 //             periods is no news either.
 // Results of faults docs/real_rig.md, tested in tests/unit/can_port and, on a kernel's bus, in
 //             tests/hardware/can. The rest (thread, blocking, staleness, failure) is the contract
-//             of controller/port.
+//             of common/rig_port.hpp.
 
 #include <string>
 #include <vector>
 
-#include "controller/port/rig_port.hpp"
+#include "common/rig_port.hpp"
 #include "hil/can/assemblers.hpp"
 #include "hil/can/bus_access.hpp"
 #include "hil/can_port/bus_watch.hpp"

@@ -19,7 +19,7 @@
 #include <optional>
 #include <string>
 
-#include "controller/port/rig_port.hpp"
+#include "common/rig_port.hpp"
 #include "hil/gpio/heartbeat.hpp"
 #include "hil/gpio/key_phasor.hpp"
 #include "hil/gpio/line_config.hpp"

@@ -75,25 +75,26 @@ std::string MissingText(const std::vector<can::BusConfig>& buses) {
 }
 
 /// Buses, layout and load, whether or not the load fits.
-CanConnection Loaded(const config::RigFile& rig, const std::string& rig_name,
-                     const std::string& port, bool (*is_virtual)(const std::string&)) {
+CanConnection Loaded(const RigNumbers& rig, const std::vector<can::BusConfig>& buses,
+                     const std::string& rig_name, const std::string& port,
+                     bool (*is_virtual)(const std::string&)) {
   const std::vector<std::string> interfaces = InterfacesOf(port);
-  if (rig.buses.empty()) {
+  if (buses.empty()) {
     throw BadInput(
         fmt::format("{}: names no CAN buses; --port {} needs a section buses, see docs/real_rig.md",
                     rig_name, port));
   }
-  if (interfaces.size() > rig.buses.size()) {
+  if (interfaces.size() > buses.size()) {
     Refuse(port, fmt::format("{} interfaces for the {} buses of {}", interfaces.size(),
-                             rig.buses.size(), rig_name));
+                             buses.size(), rig_name));
   }
   CanConnection connection;
-  connection.buses = rig.buses;
+  connection.buses = buses;
   for (std::size_t at = 0; at < connection.buses.size() && !interfaces.empty(); ++at) {
     connection.buses[at].interface = interfaces[std::min(at, interfaces.size() - 1)];
   }
   connection.buses = MergeShared(connection.buses, is_virtual);
-  connection.layout = can::MakeLayout(rig.numbers, can::FormatOf(connection.buses));
+  connection.layout = can::MakeLayout(rig, can::FormatOf(connection.buses));
   connection.budget = can::MakeBudget(connection.layout, connection.buses);
   return connection;
 }
@@ -107,21 +108,21 @@ std::string LoadRefusal(const can::Budget& budget) {
 
 }  // namespace
 
-std::string RealWireRefusal(const config::RigFile& rig, const std::string& rig_name,
-                            const std::string& port) {
+std::string RealWireRefusal(const RigNumbers& rig, const std::vector<can::BusConfig>& buses,
+                            const std::string& rig_name, const std::string& port) {
   const auto none = [](const std::string&) { return false; };
-  return LoadRefusal(Loaded(rig, rig_name, port, none).budget);
+  return LoadRefusal(Loaded(rig, buses, rig_name, port, none).budget);
 }
 
 bool IsCanPort(const std::string& port) { return port == "can" || port.starts_with("can:"); }
 
 bool IsVirtual(const std::string& interface) { return FindLink(interface) == LinkKind::kVirtual; }
 
-std::string RealInterface(const config::RigFile& rig, const std::string& port,
+std::string RealInterface(const std::vector<can::BusConfig>& buses, const std::string& port,
                           LinkKind (*find)(const std::string&)) {
   std::vector<std::string> names = InterfacesOf(port);
   if (names.empty()) {
-    for (const can::BusConfig& bus : rig.buses) names.push_back(bus.interface);
+    for (const can::BusConfig& bus : buses) names.push_back(bus.interface);
   }
   const auto real = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
     return find(name) == LinkKind::kReal;
@@ -129,9 +130,9 @@ std::string RealInterface(const config::RigFile& rig, const std::string& port,
   return real == names.end() ? std::string{} : *real;
 }
 
-void RefuseLockstep(const config::RigFile& rig, const std::string& port,
+void RefuseLockstep(const std::vector<can::BusConfig>& buses, const std::string& port,
                     LinkKind (*find)(const std::string&)) {
-  const std::string real = RealInterface(rig, port, find);
+  const std::string real = RealInterface(buses, port, find);
   if (real.empty()) return;
   throw Problem(
       ExitStatus::kUsage,
@@ -142,9 +143,10 @@ void RefuseLockstep(const config::RigFile& rig, const std::string& port,
                   port, real));
 }
 
-CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_name,
-                             const std::string& port, bool (*is_virtual)(const std::string&)) {
-  CanConnection connection = Loaded(rig, rig_name, port, is_virtual);
+CanConnection PlanConnection(const RigNumbers& rig, const std::vector<can::BusConfig>& buses,
+                             const std::string& rig_name, const std::string& port,
+                             bool (*is_virtual)(const std::string&)) {
+  CanConnection connection = Loaded(rig, buses, rig_name, port, is_virtual);
   if (!connection.budget.fits()) {
     throw BadInput(fmt::format("{}: {}{}", rig_name, MissingText(connection.buses),
                                LoadRefusal(connection.budget)));
@@ -158,11 +160,10 @@ CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_
   return connection;
 }
 
-void ApplyBusDelay(config::RigFile& rig, const can::Budget& budget) {
+double DelayOnBuses(double of_file, const RigNumbers& rig, const can::Budget& budget) {
   // In whole nanoseconds: a hold until the next sample is a whole period to the bit.
   const auto delay_ns = static_cast<double>(std::llround(can::DelayOf(budget).total_s() * 1e9));
-  rig.plant.delay_samples =
-      std::max(rig.plant.delay_samples, delay_ns / static_cast<double>(rig.numbers.period_ns));
+  return std::max(of_file, delay_ns / static_cast<double>(rig.period_ns));
 }
 
 }  // namespace levitas::socketcan

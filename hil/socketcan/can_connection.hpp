@@ -19,8 +19,9 @@
 #include <string>
 #include <vector>
 
-#include "configuration/rig_file.hpp"
+#include "common/rig_numbers.hpp"
 #include "hil/can/budget.hpp"
+#include "hil/can/bus_config.hpp"
 #include "hil/socketcan/link_kind.hpp"
 
 namespace levitas::socketcan {
@@ -41,23 +42,26 @@ struct CanConnection {
 
 /// The first interface of a CAN port that is there and no virtual one: a real rig may stand behind
 /// it, and no simulated one belongs there. Empty: there is none. `find` is asked once for each.
-[[nodiscard]] std::string RealInterface(const config::RigFile& rig, const std::string& port,
+[[nodiscard]] std::string RealInterface(const std::vector<can::BusConfig>& buses,
+                                        const std::string& port,
                                         LinkKind (*find)(const std::string&) = FindLink);
 
 /// Refuses (exit status 2) the lockstep pace where RealInterface names one.
-void RefuseLockstep(const config::RigFile& rig, const std::string& port,
+void RefuseLockstep(const std::vector<can::BusConfig>& buses, const std::string& port,
                     LinkKind (*find)(const std::string&) = FindLink);
 
 /// `is_virtual` is asked once for each interface.
-[[nodiscard]] CanConnection PlanConnection(const config::RigFile& rig, const std::string& rig_name,
-                                           const std::string& port,
+[[nodiscard]] CanConnection PlanConnection(const RigNumbers& rig,
+                                           const std::vector<can::BusConfig>& buses,
+                                           const std::string& rig_name, const std::string& port,
                                            bool (*is_virtual)(const std::string&) = IsVirtual);
 
 /// Why the loop would not fit if each interface named were one real wire; empty: it would.
-[[nodiscard]] std::string RealWireRefusal(const config::RigFile& rig, const std::string& rig_name,
-                                          const std::string& port);
+[[nodiscard]] std::string RealWireRefusal(const RigNumbers& rig,
+                                          const std::vector<can::BusConfig>& buses,
+                                          const std::string& rig_name, const std::string& port);
 
-/// Lengthens the delay of the rig to that of the loop on its buses where that is longer.
-void ApplyBusDelay(config::RigFile& rig, const can::Budget& budget);
+/// The delay of the rig's file, or that of the loop on its buses where that is longer. In periods.
+[[nodiscard]] double DelayOnBuses(double of_file, const RigNumbers& rig, const can::Budget& budget);
 
 }  // namespace levitas::socketcan

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "controller/rt/clock.hpp"
 #include "hil/socketcan/raw_socket.hpp"
+#include "rt/clock.hpp"
 
 namespace levitas::socketcan {
 

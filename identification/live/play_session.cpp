@@ -9,7 +9,7 @@
 namespace levitas::identification {
 namespace {
 
-constexpr std::int64_t kStateEveryNs = 10'000'000;  // as controller/program/loop_outlet.cpp
+constexpr std::int64_t kStateEveryNs = 10'000'000;  // as programs/controller/loop_outlet.cpp
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 }  // namespace

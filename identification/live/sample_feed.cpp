@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "verdict/phase.hpp"
+#include "common/levitated_modes.hpp"
 
 namespace levitas::identification {
 
@@ -31,7 +31,7 @@ void SampleFeed::Take(std::uint64_t cycle, Mode mode) {
   if (any_state_ && cycle <= known_to_) return;
   any_state_ = true;
   known_to_ = cycle;
-  if (!verdict::IsLevitated(mode)) {
+  if (!IsLevitated(mode)) {
     levitated_from_.reset();
   } else if (!levitated_from_) {
     levitated_from_ = cycle;

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/levitated_modes.hpp"
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
 #include "plant_sim/plant/train_model.hpp"
 #include "session/record_frame.hpp"
 #include "session/session_reader.hpp"
-#include "verdict/phase.hpp"
 
 namespace levitas::report {
 namespace {
@@ -35,7 +35,7 @@ void Add(Recording& recording, const cycle::CycleRecord& record,
   recording.angle_rad.push_back(static_cast<float>(frame.angle_rad));
   recording.sample_time_ns.push_back(frame.sample_time_ns);
   const bool imported = recording.header.controller_yaml.empty();
-  recording.levitated.push_back(imported || verdict::IsLevitated(record.out.mode));
+  recording.levitated.push_back(imported || IsLevitated(record.out.mode));
   if (recording.levitated.back() && std::isfinite(frame.speed_rad_per_s)) {
     recording.top_speed_rad_per_s =
         std::max(recording.top_speed_rad_per_s, std::abs(frame.speed_rad_per_s));

@@ -5,6 +5,7 @@
 
 #include "configuration/rig_file.hpp"
 #include "configuration/schema/unit.hpp"
+#include "plant_sim/plant/effects/clear_entry.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/signature.hpp"
 
@@ -96,7 +97,7 @@ std::string Place(const effect::Row& row, const config::RigFile& rig) {
 }
 
 std::string Entry(const effect::Row& row, const config::RigFile& rig) {
-  const effect::EffectConfig clear = ClearOn(plant::Reduce(rig.plant), row.id);
+  const effect::EffectConfig clear = plant::ClearOn(plant::Reduce(rig.plant), row.id);
   std::string text = fmt::format("- {{id: {}{}", row.name, Place(row, rig));
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
     const effect::Parameter& p = row.parameters[i];

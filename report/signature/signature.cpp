@@ -10,7 +10,6 @@
 
 namespace levitas::signature {
 
-using effect::Id;
 using effect::Shows;
 
 namespace {
@@ -46,20 +45,6 @@ std::string SizeText(const plant::PlantParameters& rig, const effect::EffectConf
     if (std::isnan(p.neutral)) text += fmt::format(" (the rig has {})", InUnit(own[i], unit));
   }
   return text;
-}
-
-effect::EffectConfig ClearOn(const plant::PlantParameters& rig, Id id) {
-  effect::EffectConfig entry = effect::ClearEntry(id);
-  const plant::Values own = plant::OwnValues(rig, entry, 0);
-  const auto parameters = effect::At(id).parameters;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (std::isnan(parameters[i].neutral)) entry.values[i] = parameters[i].clear * own[i];
-    // Planes of the table are those of a shaft of half a metre.
-    if (parameters[i].stem == "z" && parameters[i].clear > 0.0) {
-      entry.values[i] = parameters[i].clear / 0.4572 * rig.modes.node_z_m.back();
-    }
-  }
-  return entry;
 }
 
 svg::Figure Picture(const plant::PlantParameters& rig, const effect::EffectConfig& entry) {

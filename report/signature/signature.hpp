@@ -27,9 +27,6 @@ struct Unit;
 
 namespace levitas::signature {
 
-/// An entry of clear size on a rig: planes inside its shaft, factors on its own values.
-[[nodiscard]] effect::EffectConfig ClearOn(const plant::PlantParameters& rig, effect::Id id);
-
 /// `rig` without effects beside `rig` with this entry.
 [[nodiscard]] svg::Figure Picture(const plant::PlantParameters& rig,
                                   const effect::EffectConfig& entry);

@@ -9,9 +9,9 @@
 #include "controller/cycle/control_cycle.hpp"
 #include "controller/scenario/scenario_player.hpp"
 #include "controller/supervisor/supervisor.hpp"
+#include "plant_sim/loop/timed_events.hpp"
 #include "plant_sim/plant/command_of.hpp"
 #include "plant_sim/plant/plant.hpp"
-#include "plant_sim/run/loop/timed_events.hpp"
 
 namespace levitas::test {
 
@@ -41,7 +41,7 @@ struct ShippedLoop {
                    const std::function<void(const cycle::CycleRecord&)>& watch = nullptr) {
     plant::Plant plant(rig.plant, seed);
     plant.RestInTouchdown();
-    plant_run::TimedEvents events(scenario, rig);
+    plant_run::TimedEvents events(scenario, rig.numbers, rig.plant);
     events.Prepare(plant);
     cycle::ControlCycle cycle({rig.numbers, controller.law, controller.supervisor,
                                controller.synchronous, controller.bias});

@@ -12,9 +12,9 @@
 #include "cli/study/written_files.hpp"
 #include "common/problem.hpp"
 #include "configuration/rig_file.hpp"
-#include "controller/rt/say.hpp"
 #include "identification/probe/probe_characteristic.hpp"
 #include "report/identification/modal_files.hpp"
+#include "rt/say.hpp"
 #include "session/output_path.hpp"
 
 namespace levitas::cli {

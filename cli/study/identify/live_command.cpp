@@ -16,10 +16,10 @@
 #include "cli/study/identify/live_listener.hpp"
 #include "cli/study/identify/live_report.hpp"
 #include "cli/study/written_files.hpp"
-#include "controller/rt/say.hpp"
 #include "identification/live/convergence_message.hpp"
 #include "identification/live/live_identification.hpp"
 #include "identification/live/play_session.hpp"
+#include "rt/say.hpp"
 #include "transport/lcm_packet.hpp"
 
 namespace levitas::cli {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 #include "transport/lcm_packet.hpp"
 
 namespace levitas::cli {

@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "controller/program/controller_options.hpp"
-#include "plant_sim/run/plant_options.hpp"
+#include "programs/controller/controller_options.hpp"
+#include "programs/plant/plant_options.hpp"
 
 namespace levitas::cli {
 namespace {

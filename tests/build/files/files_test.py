@@ -48,6 +48,9 @@ class Files(unittest.TestCase):
     def test_every_header_says_what_it_is(self):
         self.assert_none(violations(rules.header_without_description, (".hpp",)))
 
+    def test_folders_include_each_other_in_one_direction(self):
+        self.assertEqual(rules.folders_in_circles(SOURCE), [])
+
     def test_messages_are_decoded_in_one_place(self):
         found = violations(rules.decodes_unchecked, (".cpp", ".hpp"))
         # A test may read our own bytes as any other program of LCM does.
@@ -55,8 +58,8 @@ class Files(unittest.TestCase):
         self.assertEqual(programs, ["lcmtypes/checked_decode.hpp"])
 
     def test_what_runs_beside_a_rotor_speaks_through_one_path_that_never_waits(self):
-        beside = ("common/", "controller/", "dashboard/", "hil/", "plant_sim/", "session/",
-                  "transport/", "cli/run", "cli/main.cpp", "cli/options/enter_session.cpp")
+        beside = ("common/", "controller/", "dashboard/", "hil/", "plant_sim/", "programs/", "rt/",
+                  "session/", "transport/", "cli/run", "cli/main.cpp", "cli/options/enter_session.cpp")
         found = violations(rules.speaks_past_say, (".cpp", ".hpp"))
         self.assert_none([line for line in found if line.startswith(beside)])
 
@@ -69,10 +72,10 @@ class Tests(unittest.TestCase):
 
     # Rooms of which every header with something to be tested is in a test, and what is proven
     # otherwise.
-    NAMED = ("controller/loop", "controller/program", "plant_sim", "report")
+    NAMED = ("controller/loop", "programs", "plant_sim", "report")
     OTHERWISE = {
         "controller/loop/operator_source.hpp": "an interface",
-        "controller/program/controller_run.hpp": "whole processes, tests/process",
+        "programs/controller/controller_run.hpp": "whole processes, tests/process",
         "plant_sim/effect/parameter_kinds.hpp": "words of the catalogue, through its rows",
         "plant_sim/plant/plant_impl.hpp": "private to plant.cpp, through Plant",
     }
@@ -195,6 +198,18 @@ class SeededViolations(unittest.TestCase):
                 (root / name).write_text(text, encoding="utf-8")
             self.assertEqual(rules.untested_headers(root, "room"), ["room/declared.hpp", "room/inline.hpp"])
             self.assertEqual((rules.lines_of(root, True), rules.lines_of(root, False)), (1, 7))
+
+    def test_folders_that_include_each_other_are_found_and_who_stands_on_them_is_not(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for name, includes in (("ground/a.hpp", ()), ("first/b.hpp", ("ground/a.hpp", "second/c.hpp")),
+                                   ("second/c.hpp", ("third/d.hpp",)), ("third/d.hpp", ("first/b.hpp",)),
+                                   ("roof/e.cpp", ("first/b.hpp", "not_ours.hpp"))):
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text("".join(f'#include "{i}"\n' for i in includes), encoding="utf-8")
+            self.assertEqual(rules.folders_in_circles(root), ["first", "second", "third"])
+            (root / "third/d.hpp").write_text("", encoding="utf-8")
+            self.assertEqual(rules.folders_in_circles(root), [])
 
     def test_a_header_without_words_is_refused(self):
         self.assertTrue(rules.header_without_description("#pragma once\n\n#include <vector>\n"))

@@ -106,7 +106,7 @@ def decodes_unchecked(text):
 
 def speaks_past_say(text):
     """Standard error may be closed, full or stopped: rt::Say alone survives that without waiting."""
-    return [f"line {number}: texts for people go through rt::Say (controller/rt/say.hpp)"
+    return [f"line {number}: texts for people go through rt::Say (rt/say.hpp)"
             for number, line in enumerate(text.splitlines(), 1)
             if STANDARD_ERROR.search(line.partition("//")[0])]
 
@@ -146,7 +146,27 @@ def lines_of(root, inside_tests):
     return total
 
 
-TESTED_INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
+TOP = {"tests", "examples"}  # stand on everything
+
+
+def folders_in_circles(root):
+    """Of the folders at the top those that include each other, themselves or through others."""
+    arrows = {}
+    for path in source_files(root, (".cpp", ".hpp")):
+        folder = path.relative_to(root).parts[0]
+        for name in INCLUDE.findall(path.read_text(encoding="utf-8")):
+            if folder not in TOP and (Path(root) / name).exists():
+                arrows.setdefault(folder, set()).add(name.split("/")[0])
+    for folder, others in arrows.items():
+        others.discard(folder)
+    while ground := {folder for folder, others in arrows.items() if not others & set(arrows)}:
+        arrows = {folder: others for folder, others in arrows.items() if folder not in ground}
+    while roofs := set(arrows) - set().union(*arrows.values()):  # stand on a circle, in none
+        arrows = {folder: others for folder, others in arrows.items() if folder not in roofs}
+    return sorted(arrows)
+
+
 # What a header has that a test can prove false: a function with a body, or one declared for a source
 # beside it. Descriptions of plain data have neither.
 BODY = re.compile(r"\)(?: const)?(?: noexcept)?(?: override)? \{|: \w+\(.*\) \{\}")
@@ -157,7 +177,7 @@ def untested_headers(root, folder):
     root = Path(root)
     included = set()
     for path in source_files(root / "tests", (".cpp", ".hpp")):
-        included.update(TESTED_INCLUDE.findall(path.read_text(encoding="utf-8")))
+        included.update(INCLUDE.findall(path.read_text(encoding="utf-8")))
     found = []
     for path in source_files(root / folder, (".hpp",)):
         name = path.relative_to(root).as_posix()

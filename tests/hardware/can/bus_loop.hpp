@@ -8,13 +8,13 @@
 
 #include "configuration/rig_file.hpp"
 #include "controller/cycle/control_cycle.hpp"
-#include "controller/rt/clock.hpp"
 #include "hil/can_port/can_rig_link.hpp"
 #include "hil/can_port/can_rig_port.hpp"
 #include "hil/socketcan/can_connection.hpp"
 #include "hil/socketcan/socket_can.hpp"
 #include "plant_sim/plant/command_of.hpp"
 #include "plant_sim/plant/plant.hpp"
+#include "rt/clock.hpp"
 
 namespace levitas::test {
 
@@ -27,9 +27,11 @@ class BusLoop {
   explicit BusLoop(const std::string& port, const std::string& controller_port = "",
                    double orbit_fraction = 0.0)
       : rig_file_(config::LoadRig(config::FindConfig("flexible_rotor", "rigs"))),
-        plan_(socketcan::PlanConnection(rig_file_, "flexible_rotor", port)),
-        controller_plan_(socketcan::PlanConnection(
-            rig_file_, "flexible_rotor", controller_port.empty() ? port : controller_port)),
+        plan_(
+            socketcan::PlanConnection(rig_file_.numbers, rig_file_.buses, "flexible_rotor", port)),
+        controller_plan_(
+            socketcan::PlanConnection(rig_file_.numbers, rig_file_.buses, "flexible_rotor",
+                                      controller_port.empty() ? port : controller_port)),
         rig_bus_(plan_.layout, plan_.buses, can::Sender::kRig),
         controller_bus_(controller_plan_.layout, controller_plan_.buses, can::Sender::kController),
         link_(plan_.layout, plan_.buses, rig_bus_),
@@ -92,7 +94,8 @@ class BusLoop {
     return {rig.numbers, controller.law, controller.supervisor};
   }
   static plant::PlantConfig Delayed(config::RigFile rig, const socketcan::CanConnection& plan) {
-    socketcan::ApplyBusDelay(rig, plan.budget);
+    rig.plant.delay_samples =
+        socketcan::DelayOnBuses(rig.plant.delay_samples, rig.numbers, plan.budget);
     return rig.plant;
   }
   /// The rig's side of the answer: hold, and the watchdog.

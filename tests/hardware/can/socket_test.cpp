@@ -5,11 +5,11 @@
 #include <linux/can/error.h>
 
 #include "common/problem.hpp"
-#include "controller/rt/clock.hpp"
 #include "hil/can_port/can_rig_link.hpp"
 #include "hil/can_port/can_rig_port.hpp"
 #include "hil/socketcan/link_kind.hpp"
 #include "hil/socketcan/socket_can.hpp"
+#include "rt/clock.hpp"
 #include "tests/hardware/can/vcan.hpp"
 #include "tests/unit/can/rigs.hpp"
 

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "common/problem.hpp"
-#include "controller/rt/clock.hpp"
 #include "hil/rig_lines/gpio_sim.hpp"
+#include "rt/clock.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/gpio_sim_chip.hpp"
 #include "tests/support/waiting.hpp"

@@ -17,9 +17,9 @@
 #include <string_view>
 #include <thread>
 
-#include "controller/rt/clock.hpp"
 #include "hil/libgpiod/gpiod_lines.hpp"
 #include "hil/rig_lines/gpio_sim.hpp"
+#include "rt/clock.hpp"
 #include "tests/support/gpio_sim_chip.hpp"
 #include "tests/support/waiting.hpp"
 

@@ -27,7 +27,7 @@ class CanLoop {
 
   CanLoop()
       : rig_(config::LoadRig(SourceFolder() + "/config/rigs/flexible_rotor.yaml")),
-        plan_(socketcan::PlanConnection(rig_, "flexible_rotor", "can:vcan0",
+        plan_(socketcan::PlanConnection(rig_.numbers, rig_.buses, "flexible_rotor", "can:vcan0",
                                         [](const std::string&) { return true; })),
         link_(plan_.layout, plan_.buses, rig_bus),
         port_(plan_.layout, plan_.buses, {}, controller_bus),
@@ -113,7 +113,8 @@ class CanLoop {
     return {rig.numbers, controller.law, controller.supervisor};
   }
   static plant::PlantConfig Delayed(config::RigFile rig, const socketcan::CanConnection& plan) {
-    socketcan::ApplyBusDelay(rig, plan.budget);
+    rig.plant.delay_samples =
+        socketcan::DelayOnBuses(rig.plant.delay_samples, rig.numbers, plan.budget);
     return rig.plant;
   }
   [[nodiscard]] bool turning() const { return std::abs(speed_rpm()) > 2.0 * kStandstillRpm; }

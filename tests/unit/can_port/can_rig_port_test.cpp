@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "controller/rt/clock.hpp"
 #include "hil/can_port/can_rig_link.hpp"
+#include "rt/clock.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/unit/can_port/fake_bus.hpp"
 

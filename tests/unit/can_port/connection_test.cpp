@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/problem.hpp"
+#include "configuration/rig_file.hpp"
 #include "hil/socketcan/can_connection.hpp"
 
 namespace levitas::socketcan {
@@ -18,7 +19,7 @@ bool Virtual(const std::string& /*interface*/) { return true; }
 std::string RefusalOf(const config::RigFile& rig, const std::string& port, ExitStatus status,
                       bool (*is_virtual)(const std::string&) = Real) {
   try {
-    static_cast<void>(PlanConnection(rig, "rig.yaml", port, is_virtual));
+    static_cast<void>(PlanConnection(rig.numbers, rig.buses, "rig.yaml", port, is_virtual));
   } catch (const Problem& problem) {
     EXPECT_EQ(problem.status(), status);
     return problem.what();
@@ -26,8 +27,18 @@ std::string RefusalOf(const config::RigFile& rig, const std::string& port, ExitS
   return "not refused";
 }
 
+CanConnection Planned(const config::RigFile& rig, const std::string& port,
+                      bool (*is_virtual)(const std::string&)) {
+  return PlanConnection(rig.numbers, rig.buses, "rig.yaml", port, is_virtual);
+}
+
+/// The rig's delay in periods with its buses between.
+double DelayOf(const config::RigFile& rig) {
+  return DelayOnBuses(rig.plant.delay_samples, rig.numbers, Planned(rig, "can", Real).budget);
+}
+
 TEST(CanConnection, TakesTheInterfacesOfTheRigsFileForPortCan) {
-  const CanConnection connection = PlanConnection(Rig(), "rig.yaml", "can", Real);
+  const CanConnection connection = Planned(Rig(), "can", Real);
   ASSERT_EQ(connection.buses.size(), 2U);
   EXPECT_EQ(connection.buses[0].interface, "can0");
   EXPECT_EQ(connection.buses[1].interface, "can1");
@@ -35,14 +46,14 @@ TEST(CanConnection, TakesTheInterfacesOfTheRigsFileForPortCan) {
 }
 
 TEST(CanConnection, TakesNamedInterfacesInTheOrderOfTheBuses) {
-  const CanConnection connection = PlanConnection(Rig(), "rig.yaml", "can:a,b", Real);
+  const CanConnection connection = Planned(Rig(), "can:a,b", Real);
   EXPECT_EQ(connection.buses[0].interface, "a");
   EXPECT_EQ(connection.buses[1].interface, "b");
   EXPECT_EQ(connection.text, "can:a (positions),b (currents)");
 }
 
 TEST(CanConnection, OneVirtualInterfaceStandsForBothBuses) {
-  const CanConnection connection = PlanConnection(Rig(), "rig.yaml", "can:vcan0", Virtual);
+  const CanConnection connection = Planned(Rig(), "can:vcan0", Virtual);
   ASSERT_EQ(connection.buses.size(), 2U);
   EXPECT_EQ(connection.buses[1].interface, "vcan0");
   EXPECT_TRUE(connection.virtual_bus);
@@ -95,28 +106,22 @@ TEST(CanConnection, KnowsItsOwnPorts) {
 TEST(BusDelay, OfACurrentThatActsOnArrivalHoldsTheWayThereAndTheController) {
   config::RigFile rig = Rig();
   rig.buses[1].current_acts = can::Acts::kOnArrival;
-  ApplyBusDelay(rig, PlanConnection(rig, "rig.yaml", "can", Real).budget);
-  EXPECT_NEAR(rig.plant.delay_samples, 1.722, 1e-9);
+  EXPECT_NEAR(DelayOf(rig), 1.722, 1e-9);
 }
 
-TEST(BusDelay, OfACurrentThatActsAtTheNextSampleIsWholePeriods) {
-  config::RigFile rig = Rig();
-  ApplyBusDelay(rig, PlanConnection(rig, "rig.yaml", "can", Real).budget);
-  EXPECT_EQ(rig.plant.delay_samples, 2.0);
-}
+TEST(BusDelay, OfACurrentThatActsAtTheNextSampleIsWholePeriods) { EXPECT_EQ(DelayOf(Rig()), 2.0); }
 
 TEST(BusDelay, LeavesALongerDelayOfTheRigsFile) {
   config::RigFile rig = Rig();
   rig.plant.delay_samples = 2.5;
-  ApplyBusDelay(rig, PlanConnection(rig, "rig.yaml", "can", Real).budget);
-  EXPECT_EQ(rig.plant.delay_samples, 2.5);
+  EXPECT_EQ(DelayOf(rig), 2.5);
 }
 
 TEST(BusDelay, OfOneBusForBothDirectionsTakesWhatTheCurrentsBusSays) {
   config::RigFile rig = Rig();
   rig.numbers.period_ns = 500'000;  // one bus carries that
   rig.buses[1].current_acts = can::Acts::kOnArrival;
-  const can::LoopDelay delay = can::DelayOf(PlanConnection(rig, "rig.yaml", "can:a", Real).budget);
+  const can::LoopDelay delay = can::DelayOf(Planned(rig, "can:a", Real).budget);
   EXPECT_EQ(delay.hold_s, 0.0);
   EXPECT_NEAR(delay.total_s(), 172.2e-6, 1e-9);
 }
@@ -143,22 +148,22 @@ TEST(LinkKind, IsAskedOfTheKernel) {
 }
 
 TEST(RealInterface, IsTheFirstThatIsThereAndNotVirtual) {
-  EXPECT_EQ(RealInterface(Rig(), "can:v0,can5", Wired), "can5");
-  EXPECT_EQ(RealInterface(Rig(), "can", Wired), "can0");  // of the rig's file
-  EXPECT_EQ(RealInterface(Rig(), "can:v0,v1", Wired), "");
-  EXPECT_EQ(RealInterface(Rig(), "can:no0,v1", Wired), "");
+  EXPECT_EQ(RealInterface(Rig().buses, "can:v0,can5", Wired), "can5");
+  EXPECT_EQ(RealInterface(Rig().buses, "can", Wired), "can0");  // of the rig's file
+  EXPECT_EQ(RealInterface(Rig().buses, "can:v0,v1", Wired), "");
+  EXPECT_EQ(RealInterface(Rig().buses, "can:no0,v1", Wired), "");
 }
 
 TEST(Lockstep, IsRefusedOnAWireAndNamesThePaceThatIsAllowed) {
   try {
-    RefuseLockstep(Rig(), "can:v0,can5", Wired);
+    RefuseLockstep(Rig().buses, "can:v0,can5", Wired);
     FAIL() << "not refused";
   } catch (const Problem& problem) {
     EXPECT_EQ(problem.status(), ExitStatus::kUsage);
     EXPECT_THAT(problem.what(), HasSubstr("can5 is no virtual CAN bus"));
     EXPECT_THAT(problem.what(), HasSubstr("allowed: --pace realtime"));
   }
-  EXPECT_NO_THROW(RefuseLockstep(Rig(), "can:v0", Wired));
+  EXPECT_NO_THROW(RefuseLockstep(Rig().buses, "can:v0", Wired));
 }
 
 }  // namespace

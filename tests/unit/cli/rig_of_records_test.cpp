@@ -9,8 +9,8 @@
 #include <algorithm>
 
 #include "common/problem.hpp"
-#include "controller/rt/say.hpp"
 #include "plant_sim/effect/catalogue.hpp"
+#include "rt/say.hpp"
 #include "session/csv_import.hpp"
 #include "tests/support/scratch_folder.hpp"
 

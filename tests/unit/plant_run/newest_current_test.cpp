@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "plant_sim/run/loop/plant_loop.hpp"
+#include "plant_sim/loop/plant_loop.hpp"
 #include "tests/support/test_rigs.hpp"
 
 namespace levitas::plant_run {

@@ -1,6 +1,6 @@
 // A paced run keeps the clock's pace, whatever the machine does in between.
 
-#include "plant_sim/run/loop/pacer.hpp"
+#include "plant_sim/loop/pacer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "plant_sim/run/loop/plant_loop.hpp"
-#include "plant_sim/run/plant_options.hpp"
+#include "plant_sim/loop/plant_loop.hpp"
+#include "programs/plant/plant_options.hpp"
 #include "tests/support/test_rigs.hpp"
 
 namespace levitas::plant_run {

@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "plant_sim/run/plant_options.hpp"
+#include "programs/plant/plant_options.hpp"
 
 namespace levitas::plant_run {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "plant_sim/run/plant_run.hpp"
+#include "programs/plant/plant_run.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,6 +1,6 @@
 // Gauges of a geared rig's couplings: what they read, their noise, and that the rig does not feel
 // them.
-#include "plant_sim/run/loop/torsion_gauge.hpp"
+#include "plant_sim/loop/torsion_gauge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "common/random.hpp"
-#include "controller/rt/next_wake.hpp"
-#include "controller/rt/spin_margin.hpp"
+#include "rt/next_wake.hpp"
+#include "rt/spin_margin.hpp"
 
 namespace levitas::rt {
 namespace {

@@ -1,4 +1,4 @@
-#include "controller/rt/limits.hpp"
+#include "rt/limits.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

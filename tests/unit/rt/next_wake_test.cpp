@@ -1,4 +1,4 @@
-#include "controller/rt/next_wake.hpp"
+#include "rt/next_wake.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "controller/rt/real_time.hpp"
+#include "rt/real_time.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 
 #include <thread>
 
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 
 namespace levitas::rt {
 namespace {

@@ -1,4 +1,4 @@
-#include "controller/rt/say.hpp"
+#include "rt/say.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "controller/rt/thread_trouble.hpp"
+#include "rt/thread_trouble.hpp"
 
 namespace levitas::rt {
 namespace {

@@ -1,4 +1,4 @@
-#include "controller/rt/spin_margin.hpp"
+#include "rt/spin_margin.hpp"
 
 #include <gtest/gtest.h>
 

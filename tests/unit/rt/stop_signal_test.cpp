@@ -1,4 +1,4 @@
-#include "controller/rt/stop_signal.hpp"
+#include "rt/stop_signal.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -7,7 +7,7 @@
 #include <csignal>
 #include <functional>
 
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 
 namespace levitas::rt {
 namespace {

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "common/problem.hpp"
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/lcm_rig_link.hpp"

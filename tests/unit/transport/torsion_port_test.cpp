@@ -13,7 +13,7 @@
 
 #include "common/problem.hpp"
 #include "common/random.hpp"
-#include "controller/rt/clock.hpp"
+#include "rt/clock.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "transport/lcm_packet.hpp"
 #include "transport/lcm_rig_link.hpp"

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "configuration/rig_file.hpp"
+#include "plant_sim/plant/effects/clear_entry.hpp"
 #include "plant_sim/plant/plant_model.hpp"
 #include "report/signature/orders.hpp"
 #include "tests/support/geared_rigs.hpp"
@@ -41,7 +42,7 @@ const svg::Figure& PictureOf(const effect::Row& row) {
   const auto found = drawn.find(row.id);
   if (found != drawn.end()) return found->second;
   const plant::PlantParameters& rig = RigFor(row);
-  return drawn.emplace(row.id, Picture(rig, ClearOn(rig, row.id))).first->second;
+  return drawn.emplace(row.id, Picture(rig, plant::ClearOn(rig, row.id))).first->second;
 }
 
 TEST(EffectsDocument, IsTheOneInDocs) {
@@ -136,7 +137,7 @@ TEST(Pictures, ShowTheNominalCurveBelowAndBroaderThanTheEffects) {
 }
 
 TEST(Pictures, SayTheSizeOfTheEffectInTheUnitsOfARigFile) {
-  const auto title = [](effect::Id id) { return Picture(Rig(), ClearOn(Rig(), id)).title; };
+  const auto title = [](effect::Id id) { return Picture(Rig(), plant::ClearOn(Rig(), id)).title; };
   EXPECT_EQ(title(effect::Id::kSensorGain), "sensor_gain: ratio 1.1");
   EXPECT_EQ(title(effect::Id::kSensorOffset), "sensor_offset: offset 20 µm");
   // A fifth of the rig's 5000 Hz.
