@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "programs/controller/command_inbox.hpp"
-#include "tests/unit/controller_program/signal_requests.hpp"
+#include "tests/unit/programs/signal_requests.hpp"
 
 namespace levitas::controller_program {
 namespace {

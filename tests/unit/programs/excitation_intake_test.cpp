@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/support/waiting.hpp"
-#include "tests/unit/controller_program/signal_requests.hpp"
+#include "tests/unit/programs/signal_requests.hpp"
 
 namespace levitas::controller_program {
 namespace {
