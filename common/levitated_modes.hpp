@@ -1,6 +1,7 @@
 #pragma once
 // The modes in which the rotor is held free of its touchdown bearings: levitating, spinning,
-// coast_down. In all others (off, self-test, lift, landing, tripped) it lies, or is moved on purpose.
+// coast_down. In all others (off, self-test, lift, landing, tripped) it lies there, or is moved on
+// purpose.
 
 #include "common/enums.hpp"
 
