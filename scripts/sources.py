@@ -8,9 +8,11 @@
 The programs are those of build/release (`./amb manual` builds them), or of the folder LEVITAS_BINARIES.
 """
 
+import argparse
 import re
 import sys
 import tempfile
+import textwrap
 
 import sources_figures
 import sources_rows
@@ -54,7 +56,7 @@ def measure(names):
     data = sources_rows.load()
     unknown = set(names) - {command["name"] for command in data["command"]}
     if unknown:
-        return [f"no such command: {', '.join(sorted(unknown))}"]
+        return [f"no such command: {', '.join(sorted(unknown))}; --help lists them"]
     wanted = sources_rows.with_needed(names, data)
     with tempfile.TemporaryDirectory() as folder:
         left = sources_figures.run_all(
@@ -66,9 +68,15 @@ def measure(names):
 
 
 def main(arguments):
-    if arguments and arguments[0] != "--measure":
-        sys.exit(__doc__)
-    failed = measure(arguments[1:]) if arguments else []
+    data = sources_rows.load()
+    names = [command["name"] for command in data["command"]]
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=textwrap.fill("commands: " + ", ".join(names), 100))
+    parser.add_argument("--measure", nargs="*", metavar="NAME",
+                        help="run these commands, or all of them, and write our figures")
+    wanted = parser.parse_args(arguments).measure
+    failed = [] if wanted is None else measure(wanted)
     data = sources_rows.load()
     try:
         PAGE.write_text(sources_rows.page(data), encoding="utf-8")

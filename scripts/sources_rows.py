@@ -179,7 +179,8 @@ def shown_file(file):
         )
         return f"`{file['name']}` is `{file['copy_of']}`, where\n\n{changes}"
     after = f", after all of `{file['copy_of']}`" if "copy_of" in file else ""
-    return f"`{file['name']}`{after}:\n\n```yaml\n{file['text'].strip()}\n```\n"
+    language = "yaml" if file["name"].endswith(".yaml") else ""
+    return f"`{file['name']}`{after}:\n\n```{language}\n{file['text'].strip()}\n```\n"
 
 
 def page(data):

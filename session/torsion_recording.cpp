@@ -3,6 +3,7 @@
 #include "configuration/rig_file.hpp"
 #include "plant_sim/rotor/torsion_line.hpp"
 #include "session/session_reader.hpp"
+#include "session/torsion_instants.hpp"
 
 namespace levitas::session {
 
@@ -41,17 +42,15 @@ TorsionRecording LoadTorsion(const std::string& path) {
   cycle::CycleRecord record;
   while (reader.Next(record)) {
   }
-  for (const TorsionBatch& batch : reader.torsion()) {
-    if (batch.couplings != couplings) continue;  // of another rig than the header's
-    for (std::uint32_t s = 0; s < batch.samples; ++s) {
-      torsion.rig_session.push_back(batch.rig_session);
-      torsion.cycle.push_back(batch.first_cycle + s);
-      for (std::size_t c = 0; c < couplings; ++c) {
-        torsion.torque_n_m[c].push_back(batch.torque_n_m[s * couplings + c]);
-        torsion.twist_rad[c].push_back(batch.twist_rad[s * couplings + c]);
-      }
-    }
-  }
+  ForEachInstant(reader.torsion(), couplings,
+                 [&](std::uint32_t of_session, std::uint64_t of_cycle, auto torque, auto twist) {
+                   torsion.rig_session.push_back(of_session);
+                   torsion.cycle.push_back(of_cycle);
+                   for (std::size_t c = 0; c < couplings; ++c) {
+                     torsion.torque_n_m[c].push_back(torque[c]);
+                     torsion.twist_rad[c].push_back(twist[c]);
+                   }
+                 });
   return torsion;
 }
 

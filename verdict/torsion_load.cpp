@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "session/torsion_instants.hpp"
+
 namespace levitas::verdict {
 
 TorsionLoads::TorsionLoads(double standstill_rad_per_s, double settle_s, double period_s)
@@ -34,31 +36,30 @@ const TorsionLoads::Span* TorsionLoads::Find(std::uint32_t rig_session,
   return nullptr;
 }
 
+void TorsionLoads::Count(const Span& span, std::uint64_t cycle, double torque_n_m, double twist_rad,
+                         CouplingLoad& load) const noexcept {
+  load.torque_rms_n_m += torque_n_m * torque_n_m;  // a sum of squares until all are counted
+  load.twist_peak_rad = std::max(load.twist_peak_rad, std::abs(twist_rad));
+  ++load.samples;
+  if (std::abs(torque_n_m) <= load.torque_peak_n_m) return;
+  load.torque_peak_n_m = std::abs(torque_n_m);
+  load.peak_time_s = span.first_time_s + static_cast<double>(cycle - span.first) * period_s_;
+  load.peak_speed_rad_per_s = span.speed_rad_per_s[cycle - span.first];
+}
+
 std::vector<CouplingLoad> TorsionLoads::Of(const std::vector<TorsionBatch>& batches,
                                            const std::vector<std::string>& couplings) const {
   std::vector<CouplingLoad> loads;
   for (const std::string& name : couplings) loads.push_back({.coupling = name});
-  for (const TorsionBatch& batch : batches) {
-    if (batch.couplings != couplings.size()) continue;
-    for (std::uint32_t s = 0; s < batch.samples; ++s) {
-      const std::uint64_t cycle = batch.first_cycle + s;
-      const Span* span = Find(batch.rig_session, cycle);
-      if (span == nullptr) continue;
-      for (std::size_t c = 0; c < loads.size(); ++c) {
-        CouplingLoad& load = loads[c];
-        const double torque = batch.torque_n_m[s * loads.size() + c];
-        load.torque_rms_n_m += torque * torque;
-        load.twist_peak_rad =
-            std::max(load.twist_peak_rad, std::abs(batch.twist_rad[s * loads.size() + c]));
-        ++load.samples;
-        if (std::abs(torque) <= load.torque_peak_n_m) continue;
-        load.torque_peak_n_m = std::abs(torque);
-        load.peak_time_s =
-            span->first_time_s + static_cast<double>(cycle - span->first) * period_s_;
-        load.peak_speed_rad_per_s = span->speed_rad_per_s[cycle - span->first];
-      }
-    }
-  }
+  session::ForEachInstant(
+      batches, couplings.size(),
+      [&](std::uint32_t rig_session, std::uint64_t cycle, auto torque_n_m, auto twist_rad) {
+        const Span* span = Find(rig_session, cycle);
+        if (span == nullptr) return;
+        for (std::size_t c = 0; c < loads.size(); ++c) {
+          Count(*span, cycle, torque_n_m[c], twist_rad[c], loads[c]);
+        }
+      });
   std::erase_if(loads, [](const CouplingLoad& load) { return load.samples == 0; });
   for (CouplingLoad& load : loads) {
     load.torque_rms_n_m = std::sqrt(load.torque_rms_n_m / static_cast<double>(load.samples));

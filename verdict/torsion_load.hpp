@@ -44,6 +44,8 @@ class TorsionLoads {
     std::vector<float> speed_rad_per_s;
   };
 
+  void Count(const Span& span, std::uint64_t cycle, double torque_n_m, double twist_rad,
+             CouplingLoad& load) const noexcept;
   [[nodiscard]] const Span* Find(std::uint32_t rig_session, std::uint64_t cycle) const noexcept;
 
   PhaseSplitter splitter_;

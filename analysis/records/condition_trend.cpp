@@ -90,6 +90,9 @@ ShaftTrend Follow(const std::vector<GearCondition>& sessions, std::size_t shaft,
     amplitudes.push_back(of.Amplitude());
     if (i < rule.baseline) once_m += of.once_m / static_cast<double>(rule.baseline);
   }
+  trend.rises_from_m = std::sqrt(
+      std::max(0.0, baseline.mean + rule.rise * baseline.scatter *
+                                        std::sqrt(1.0 + 1.0 / static_cast<double>(rule.baseline))));
   trend.amplitude_m = RobustSlope(amplitudes, rule.confidence);
   trend.lines = LinesOf(GrowthOf(sessions, shaft, rule.baseline));
   trend.once_ratio = once_m > 0.0 ? last.once_m / once_m : 1.0;
@@ -97,9 +100,8 @@ ShaftTrend Follow(const std::vector<GearCondition>& sessions, std::size_t shaft,
   return trend;
 }
 
-/// What of the first session a value differs from by more than `share` of `scale`.
-bool Differs(double value, double first, double share_of_scale) {
-  return std::abs(value - first) > share_of_scale;
+bool Differs(double value, double first, double tolerance) {
+  return std::abs(value - first) > tolerance;
 }
 
 }  // namespace

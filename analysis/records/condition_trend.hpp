@@ -53,6 +53,7 @@ struct ShaftTrend {
   std::string wheels;
   std::vector<double> rise;  ///< z of every session
   Slope amplitude_m;         ///< per session
+  double rises_from_m{};     ///< amplitude at which a session as certain as the baseline has risen
   double lines{};            ///< among which the last session's growth lies
   double once_ratio{1.0};    ///< once a turn: last session over baseline
   bool risen{};

@@ -10,13 +10,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
+#include <utility>
 
 #include "cli/commands/command.hpp"
 #include "cli/commands/trend_text.hpp"
 #include "cli/json_file.hpp"
 #include "cli/options/analysis_options.hpp"
+#include "cli/options/rig_of_records.hpp"
 #include "cli/options/svg_option.hpp"
 #include "common/rotational_speed.hpp"
+#include "rt/say.hpp"
 #include "session/output_path.hpp"
 #include "session/recording.hpp"
 #include "session/session_reader.hpp"
@@ -34,7 +38,8 @@ constexpr const char* kTrendHelp =
     "unlike the others makes it. The first sessions (--baseline) count as healthy; five "
     "deviations above them in at least two lines is a rise. Sessions with another speed, law, "
     "rig "
-    "(but for its effects), rig events, static load or level of the mesh lines are not compared.\n"
+    "(but for its effects), rig events, static load or level of the mesh lines are not compared; "
+    "one that comes twice, or before an older one, is refused.\n"
     "  amb trend monday.lcm tuesday.lcm wednesday.lcm thursday.lcm --speed-rpm 1740";
 
 struct TrendOptions : AnalysisOptions {
@@ -44,10 +49,14 @@ struct TrendOptions : AnalysisOptions {
   std::string svg_path;
 };
 
-/// What must be the same in all sessions, as text.
+/// What must be the same in all sessions. Of a file that is no session nothing is known.
 struct Setting {
-  std::string rig, controller, events;
   bool known{};
+  config::RigFile rig;  ///< without its effects: what has become of the rig is what is asked for
+  std::string controller, events;
+  std::int64_t start_utc_ns{};  ///< of a session made by import: of that
+
+  [[nodiscard]] bool HasLaw() const noexcept { return !controller.empty(); }
 };
 
 /// A file of configuration without the line that names it.
@@ -70,6 +79,20 @@ struct Loaded {
   session::Recording recording;
 };
 
+config::RigFile WithoutEffects(config::RigFile rig) {
+  rig.plant.effects.clear();
+  return rig;
+}
+
+/// That the rig of --rig is not the one that was recorded.
+void WarnOfOtherRig(const std::string& path, const Setting& recorded, const config::RigFile& rig) {
+  const std::string difference =
+      RigDifference(recorded.rig, WithoutEffects(rig), {"in the session", "in --rig"});
+  if (difference.empty()) return;
+  rt::Say(fmt::format("amb: warning: {} was recorded with another rig than --rig {} ({})",
+                      rt::OneLine(path), rt::OneLine(rig.numbers.name), difference));
+}
+
 Loaded LoadOne(const std::string& path, const TrendOptions& options) {
   Loaded one;
   const bool rig_given = !options.rig_name.empty();
@@ -77,11 +100,14 @@ Loaded LoadOne(const std::string& path, const TrendOptions& options) {
   if (session::IsSession(path)) {
     const session::SessionReader reader(path);
     const session::SessionHeader& header = reader.header();
-    if (!rig_given) one.rig = config::ParseRig(header.rig_yaml, path + " (header)");
-    config::RigFile plain = one.rig;
-    plain.plant.effects.clear();  // what has become of the rig is what is asked for
-    one.setting = {WithoutName(config::WriteRig(plain)), WithoutName(header.controller_yaml),
-                   EventsOf(header.scenario_yaml), !header.controller_yaml.empty()};
+    config::RigFile recorded = config::ParseRig(header.rig_yaml, path + " (header)");
+    one.setting = {true, WithoutEffects(recorded), WithoutName(header.controller_yaml),
+                   EventsOf(header.scenario_yaml), header.start_utc_ns};
+    if (rig_given) {
+      WarnOfOtherRig(path, one.setting, one.rig);
+    } else {
+      one.rig = std::move(recorded);
+    }
   } else if (!rig_given) {
     throw Problem(ExitStatus::kUsage, path + " does not say of which rig it is: name it, --rig");
   }
@@ -118,49 +144,96 @@ const analysis::GearCondition* At(const Held& held, double speed_rad_per_s) {
   return best;
 }
 
-/// The fastest speed that all sessions hold long enough.
+std::string SpeedsOf(const Held& held) {
+  std::string text;
+  for (const auto& at : held) {
+    text += fmt::format("{}{:.0f}", text.empty() ? "" : ", ", RadPerSToRpm(at.speed_rad_per_s));
+  }
+  return text.empty() ? "none" : text + " rpm";
+}
+
+bool HoldsLongEnough(const Held& held, double speed_rad_per_s) {
+  const auto* at = At(held, speed_rad_per_s);
+  return at != nullptr && at->repeats >= analysis::kLeastRepeats;
+}
+
+/// The speed that was asked for, or the fastest that all sessions hold long enough.
 double CommonSpeed(const std::vector<Held>& all, const TrendOptions& options) {
+  const auto everywhere = [&](double speed) {
+    return std::ranges::all_of(all, [speed](const Held& h) { return HoldsLongEnough(h, speed); });
+  };
+  if (options.speed_rpm) {
+    const double speed = RpmToRadPerS(*options.speed_rpm);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (HoldsLongEnough(all[i], speed)) continue;
+      throw Problem(ExitStatus::kBadInput,
+                    fmt::format("{}: --speed-rpm {:g} is not held for {} repeats of all wheels "
+                                "without a test signal; it holds {}",
+                                options.paths[i], *options.speed_rpm, analysis::kLeastRepeats,
+                                SpeedsOf(all[i])));
+    }
+    return speed;
+  }
   double fastest = 0.0;
-  std::string of_first;
   for (const auto& candidate : all.front()) {
     const double speed = candidate.speed_rad_per_s;
-    of_first += fmt::format("{}{:.0f}", of_first.empty() ? "" : ", ", RadPerSToRpm(speed));
-    if (options.speed_rpm) continue;
-    bool everywhere = true;
-    for (const Held& held : all) {
-      const auto* at = At(held, speed);
-      everywhere = everywhere && at != nullptr && at->repeats >= analysis::kLeastRepeats;
+    if (std::abs(speed) > std::abs(fastest) && everywhere(speed)) fastest = speed;
+  }
+  if (fastest != 0.0) return fastest;
+  throw Problem(
+      ExitStatus::kBadInput,
+      fmt::format("no speed is held by all sessions for {} repeats of all wheels without a test "
+                  "signal; {} holds {}; record all at one speed, for {} repeats and {} s",
+                  analysis::kLeastRepeats, options.paths.front(), SpeedsOf(all.front()),
+                  analysis::kLeastRepeats, analysis::kSettleAtSpeedS));
+}
+
+/// A trend of sessions out of order, or of one that counts twice, would say nothing or hide a rise.
+void RefuseDisorder(const std::vector<std::string>& paths, const std::vector<Setting>& settings) {
+  for (std::size_t i = 1; i < paths.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const bool timed = settings[i].HasLaw() && settings[k].HasLaw();
+      std::error_code none;
+      if (timed ? settings[i].start_utc_ns == settings[k].start_utc_ns
+                : fs::equivalent(paths[i], paths[k], none)) {
+        throw Problem(ExitStatus::kUsage, fmt::format("{} and {} are the same run; allowed: each "
+                                                      "session once",
+                                                      paths[k], paths[i]));
+      }
+      if (timed && settings[i].start_utc_ns < settings[k].start_utc_ns) {
+        throw Problem(ExitStatus::kUsage,
+                      fmt::format("{} was recorded before {}, which stands before it; allowed: "
+                                  "the oldest session first",
+                                  paths[i], paths[k]));
+      }
     }
-    if (everywhere && std::abs(speed) > std::abs(fastest)) fastest = speed;
   }
-  if (options.speed_rpm) return RpmToRadPerS(*options.speed_rpm);
-  if (fastest == 0.0) {
-    throw Problem(
-        ExitStatus::kBadInput,
-        fmt::format("no speed is held by all sessions for {} repeats of all wheels without a test "
-                    "signal; {} holds {}; record all at one speed, for {} repeats and {} s",
-                    analysis::kLeastRepeats, options.paths.front(),
-                    of_first.empty() ? "none" : of_first + " rpm", analysis::kLeastRepeats,
-                    analysis::kSettleAtSpeedS));
-  }
-  return fastest;
 }
 
 void AddReasons(const std::vector<Setting>& settings, FollowedSessions& followed) {
+  const auto label = [&](auto setting) {
+    return followed.sessions[static_cast<std::size_t>(setting - settings.begin())].label;
+  };
+  const auto first = std::ranges::find_if(settings, &Setting::known);
+  const auto first_law = std::ranges::find_if(settings, &Setting::HasLaw);
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (!settings[i].known || !settings.front().known) {
+    const Setting& here = settings[i];
+    const auto differs = [&](const std::string& what, const std::string& whose) {
+      followed.reasons.push_back(
+          fmt::format("session {}: its {} is not that of {}", i + 1, what, whose));
+    };
+    if (here.known) {
+      const std::string rig = RigDifference(first->rig, here.rig, {"there", "here"});
+      if (!rig.empty()) differs("rig (effects left out; " + rig + ")", label(first));
+    }
+    if (!here.HasLaw()) {
       followed.not_known.push_back(
-          fmt::format("law and rig events of {}", followed.sessions[i].path));
+          fmt::format("{} of {}", here.known ? "law and rig events" : "rig, law and rig events",
+                      followed.sessions[i].path));
       continue;
     }
-    const auto differs = [&](const std::string& one, const std::string& first, const char* what) {
-      if (one == first) return;
-      followed.reasons.push_back(
-          fmt::format("session {}: its {} is not that of the first", i + 1, what));
-    };
-    differs(settings[i].rig, settings.front().rig, "rig (effects left out)");
-    differs(settings[i].controller, settings.front().controller, "controller file");
-    differs(settings[i].events, settings.front().events, "list of rig events");
+    if (here.controller != first_law->controller) differs("controller file", label(first_law));
+    if (here.events != first_law->events) differs("list of rig events", label(first_law));
   }
 }
 
@@ -181,6 +254,7 @@ FollowedSessions Follow(const TrendOptions& options) {
     followed.rig = one.rig.numbers.name;
     rig = one.rig.plant;
   }
+  RefuseDisorder(options.paths, settings);
   followed.speed_rad_per_s = CommonSpeed(all, options);
   std::vector<analysis::GearCondition> conditions;
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -43,10 +43,17 @@ std::string ShaftTable(const FollowedSessions& f, std::size_t shaft) {
   return table.Text();
 }
 
+/// "session", "3 sessions": behind "the first".
+std::string Sessions(std::size_t count) {
+  return count == 1 ? "session" : fmt::format("{} sessions", count);
+}
+
 std::string TrendOf(const ShaftTrend& trend) {
-  return fmt::format("{:+.4f} um per session ({:+.4f} to {:+.4f}, {:.0f} %)",
-                     1e6 * trend.amplitude_m.value, 1e6 * trend.amplitude_m.low,
-                     1e6 * trend.amplitude_m.high, 100.0 * trend.amplitude_m.coverage);
+  const analysis::Slope& slope = trend.amplitude_m;
+  const std::string value = fmt::format("{:+.4f} um per session", 1e6 * slope.value);
+  if (!(slope.coverage > 0.0)) return value;  // two sessions have no interval
+  return value + fmt::format(" ({:+.4f} to {:+.4f}, {:.0f} %)", 1e6 * slope.low, 1e6 * slope.high,
+                             100.0 * slope.coverage);
 }
 
 std::string WheelsOf(const FollowedSessions& f, std::size_t shaft) {
@@ -60,9 +67,9 @@ std::string VerdictOf(const FollowedSessions& f, const ShaftTrend& trend) {
   std::string text;
   if (trend.risen) {
     text = fmt::format(
-        "RISING: {}, {:.1f} deviations above the first {} sessions, in {:.0f} lines; {}. A pulse "
+        "RISING: {}, {:.1f} deviations above the first {}, in {:.0f} lines; {}. A pulse "
         "once a turn, as a cracked or spalled tooth makes: look at the teeth of this wheel",
-        trend.wheels, trend.rise.back(), f.rule.baseline, trend.lines, TrendOf(trend));
+        trend.wheels, trend.rise.back(), Sessions(f.rule.baseline), trend.lines, TrendOf(trend));
     if (trend.or_else) {
       text += fmt::format(
           "; or of the {}: without a load on the teeth the two look alike. Run it under a load",
@@ -136,7 +143,7 @@ nlohmann::ordered_json TrendJson(const FollowedSessions& f) {
   for (const ShaftTrend& trend : f.trends) {
     nlohmann::ordered_json one{{"wheels", trend.wheels},
                                {"risen", trend.risen},
-                               {"sigmas", trend.rise},
+                               {"rise_deviations", trend.rise},
                                {"slope_per_session_m", trend.amplitude_m.value},
                                {"slope_low_per_session_m", trend.amplitude_m.low},
                                {"slope_high_per_session_m", trend.amplitude_m.high},
@@ -180,10 +187,16 @@ svg::Figure TrendFigure(const FollowedSessions& f) {
       amplitude.y.push_back(1e6 * shafts[s].Amplitude());
       noise.y.push_back(1e6 * NoiseOf(shafts[s]));
     }
+    panel.series = {std::move(amplitude), std::move(noise)};
     if (s < f.trends.size()) {
       panel.title += f.trends[s].risen ? ": rising" : ": no rise";
+      const double height_um = 1e6 * f.trends[s].rises_from_m;
+      panel.series.push_back({.name = "risen from here on",
+                              .x = {1.0, static_cast<double>(f.sessions.size())},
+                              .y = {height_um, height_um},
+                              .colour = svg::Colour(2),
+                              .dashes = "2 3"});
     }
-    panel.series = {std::move(amplitude), std::move(noise)};
     figure.panels.push_back(std::move(panel));
   }
   return figure;

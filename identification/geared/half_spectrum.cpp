@@ -47,16 +47,29 @@ struct Coupling {
   double stiffness_n_m_per_rad{};
 };
 
-std::vector<Coupling> CouplingsOf(const plant::PlantModel& model) {
+/// Of the couplings that the record names, in its order; the rig may have its gauges elsewhere.
+std::vector<Coupling> CouplingsOf(const plant::PlantModel& model,
+                                  const std::vector<std::string>& names,
+                                  const std::string& record) {
   std::vector<Coupling> couplings;
   const auto& inertias = model.train().inertias;
-  for (const rotor::TorsionSpring& spring : rotor::GaugedSprings(model.config().shafts)) {
-    const std::vector<double>& from = inertias[spring.inertia].twist;
-    const std::vector<double>& to = inertias[spring.inertia + 1].twist;
+  const std::vector<rotor::TorsionSpring> springs = rotor::TorsionSprings(model.config().shafts);
+  for (const std::string& name : names) {
+    const auto spring = std::ranges::find(springs, name, &rotor::TorsionSpring::name);
+    if (spring == springs.end()) {
+      std::string all;
+      for (const auto& one : springs) all += (all.empty() ? "" : ", ") + one.name;
+      throw BadInput(fmt::format(
+          "{}: its gauges are on the coupling {}, the rig has {}; take the rig that was "
+          "recorded (without --rig: that of the session)",
+          record, name, all));
+    }
+    const std::vector<double>& from = inertias[spring->inertia].twist;
+    const std::vector<double>& to = inertias[spring->inertia + 1].twist;
     const auto modes = static_cast<Eigen::Index>(from.size());
     const Eigen::Map<const Eigen::VectorXd> near(from.data(), modes);
     const Eigen::Map<const Eigen::VectorXd> far(to.data(), modes);
-    couplings.push_back({far - near, spring.stiffness_n_m_per_rad});
+    couplings.push_back({far - near, spring->stiffness_n_m_per_rad});
   }
   return couplings;
 }
@@ -171,7 +184,7 @@ void FindUnexplained(const std::vector<TorsionLine>& lines, std::size_t index,
     power += std::norm(line.torque_n_m) - noise;
     left += std::norm(line.torque_n_m - *line.model_n_m) - noise;
   }
-  coupling.unexplained_share = power > 0.0 ? std::max(left, 0.0) / power : 0.0;
+  if (power > 0.0) coupling.unexplained_share = std::max(left, 0.0) / power;
 }
 
 }  // namespace
@@ -183,9 +196,17 @@ HalfSpectrum HalfSpectrumOf(const session::Recording& record,
   HalfSpectrum half;
   if (torsion.rows() == 0 || !found.corrected.torsion) return half;
   const gear::GearPair& pair = rig.plant.gears.front();
-  const std::vector<Coupling> couplings = CouplingsOf(plant::PlantModel(rig.plant));
+  if (torsion.rig_session.front() != torsion.rig_session.back()) {
+    throw BadInput(record.name +
+                   ": the rig began anew within the record and counted its cycles from 0 again, so "
+                   "that torsion cannot be told of which stretch it is; record without a restart");
+  }
+  const std::vector<Coupling> couplings =
+      CouplingsOf(plant::PlantModel(rig.plant), torsion.couplings, record.name);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
-    half.couplings.push_back({torsion.couplings[c], couplings[c].stiffness_n_m_per_rad});
+    half.couplings.push_back({.name = torsion.couplings[c],
+                              .known_n_m_per_rad = couplings[c].stiffness_n_m_per_rad,
+                              .unexplained_share = {}});
   }
   std::vector<Complex> force;
   const std::vector<GearedLine> seen = LinesOffNodes(lines, found.corrected);

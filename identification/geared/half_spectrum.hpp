@@ -15,7 +15,8 @@
 // Stiffness k_c of the gauge's spring from both of its readings, by total least squares over lines
 //           that stand out of the noise: M = k theta.
 // Units     SI, complex peak amplitudes. Thread any.
-// Failure   BadInput when the record holds no torsion of a stretch.
+// Failure   BadInput when the record holds no torsion of a stretch, when its gauges are on a coupling
+//           that the rig does not have, and when the rig began anew within it.
 
 #include <complex>
 #include <optional>
@@ -44,8 +45,9 @@ struct CouplingFound {
   double known_n_m_per_rad{};  ///< of the rig file
   double stiffness_n_m_per_rad{}, stiffness_sigma{};
   std::size_t lines_used{};  ///< 0: no line stands out, nothing is found
-  /// [1] share of the measured lines' power, less that of their noise, that the model leaves.
-  double unexplained_share{};
+  /// [1] share of the measured lines' power, less that of their noise, that the model leaves; none
+  /// where probes see no line of it.
+  std::optional<double> unexplained_share;
 };
 
 struct HalfSpectrum {

@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include "common/problem.hpp"
 #include "identification/geared/full_spectrum.hpp"
@@ -71,13 +73,16 @@ void SetKind(GearedLine& line, const std::string& name, const std::string& where
 
 std::vector<GearedLine> ReadGearedLines(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw BadInput(path + ": cannot be read");
+  if (!file) {
+    throw BadInput(fmt::format("{}: cannot be read: {}", path,
+                               std::error_code(errno, std::generic_category()).message()));
+  }
   std::string text;
   std::getline(file, text);
   const std::vector<std::string> header = Cells(text);
   if (!std::equal(header.begin(), header.end(), kColumns.begin(), kColumns.end())) {
-    throw BadInput(fmt::format("{}: line 1: found '{}', needed the columns {}, ...", path, text,
-                               "pinion_speed_hz,line,frequency_hz,pinion_re_m"));
+    throw BadInput(fmt::format("{}: line 1: found '{}', needed the columns {}", path, text,
+                               fmt::join(kColumns, ",")));
   }
   std::vector<GearedLine> lines;
   for (std::size_t number = 2; std::getline(file, text); ++number) {

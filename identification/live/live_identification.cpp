@@ -1,13 +1,10 @@
 #include "identification/live/live_identification.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <exception>
 #include <levitas_msg/controller_state_t.hpp>
 #include <utility>
 
-#include "common/problem.hpp"
 #include "lcmtypes/checked_decode.hpp"
 #include "plant_sim/plant/slowest_amplifier.hpp"
 #include "session/record_codec.hpp"
@@ -17,12 +14,6 @@ namespace levitas::identification {
 namespace {
 
 namespace channel = transport::channel;
-
-void RefuseCount(const char* option, std::size_t given, std::size_t axes) {
-  if (given == 0 || given == axes) return;
-  throw BadInput(
-      fmt::format("{}: {} numbers for a rig of {} axes; give one for each", option, given, axes));
-}
 
 }  // namespace
 
@@ -69,20 +60,13 @@ void LiveIdentification::Take(std::uint64_t cycle, Mode mode) {
 }
 
 OnlineOptions LiveIdentification::OptionsFor(const config::RigFile& rig) const {
-  const std::size_t axes = rig.numbers.axes();
-  RefuseCount("--sensor-a2", options_.sensor_a2.size(), axes);
-  RefuseCount("--sensor-a3", options_.sensor_a3.size(), axes);
-  OnlineOptions online{options_.model, static_cast<Eigen::Index>(axes),
-                       static_cast<Eigen::Index>(axes), rig.numbers.period_s(), 0};
+  const auto axes = static_cast<Eigen::Index>(rig.numbers.axes());
+  OnlineOptions online{options_.model, axes, axes, rig.numbers.period_s(), 0};
   online.window_rows = std::max<Eigen::Index>(2, std::lround(options_.window_s / online.period_s));
   online.model.input_lag_hz = options_.input_lag_hz.value_or(plant::SlowestAmplifierHz(rig.plant));
   online.model.input_delay = options_.input_delay.value_or(
       static_cast<Eigen::Index>(std::lround(rig.plant.delay_samples)));
-  if (options_.sensor_a2.empty() && options_.sensor_a3.empty()) return online;
-  for (std::size_t i = 0; i < axes; ++i) {
-    online.model.sensors.push_back({options_.sensor_a2.empty() ? 0.0 : options_.sensor_a2[i],
-                                    options_.sensor_a3.empty() ? 0.0 : options_.sensor_a3[i]});
-  }
+  if (options_.sensors) online.model.sensors = options_.sensors(axes);
   return online;
 }
 

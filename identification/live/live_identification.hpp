@@ -9,12 +9,13 @@
 //           nothing more is taken.
 // Thread    one, not the loop's: what is told is late by what waits for it, the loop never waits.
 // Failure   a message that cannot be decoded or does not fit the rig is counted and dropped.
-//           BadInput: the options do not fit the announced rig.
+//           What `sensors` throws where they do not fit the announced rig; BadInput of that rig.
 
 #include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "configuration/rig_file.hpp"
 #include "identification/live/sample_feed.hpp"
@@ -24,10 +25,11 @@ namespace levitas::identification {
 
 struct LiveOptions {
   HammersteinWienerOptions model;
-  std::optional<double> input_lag_hz{};          ///< none: that of the rig's slowest amplifier
-  std::optional<Eigen::Index> input_delay{};     ///< none: that of the rig
-  double window_s{1.0};                          ///< of a point
-  std::vector<double> sensor_a2{}, sensor_a3{};  ///< per axis; empty: 0
+  std::optional<double> input_lag_hz{};       ///< none: that of the rig's slowest amplifier
+  std::optional<Eigen::Index> input_delay{};  ///< none: that of the rig
+  double window_s{1.0};                       ///< of a point
+  /// Characteristics for so many axes, once these are known; may throw what Take then throws.
+  std::function<std::vector<SensorCharacteristic>(Eigen::Index axes)> sensors{};
 };
 
 class LiveIdentification {

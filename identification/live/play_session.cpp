@@ -1,15 +1,14 @@
 #include "identification/live/play_session.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "transport/lcm_network.hpp"
 #include "transport/sample_batcher.hpp"
+#include "transport/state_cadence.hpp"
 
 namespace levitas::identification {
 namespace {
 
-constexpr std::int64_t kStateEveryNs = 10'000'000;  // as programs/controller/loop_outlet.cpp
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 }  // namespace
@@ -17,9 +16,7 @@ constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 void PlaySession(session::SessionReader& reader, LiveIdentification& live,
                  const std::function<bool()>& wanted) {
   const session::SessionHeader& header = reader.header();
-  live.Take(header);
-  const auto state_every = static_cast<std::uint64_t>(
-      std::max<std::int64_t>(1, kStateEveryNs / std::max<std::int64_t>(1, header.period_ns)));
+  const std::uint64_t state_every = transport::CyclesPerState(header.period_ns);
   bool go_on = true;
   transport::SampleBatcher batcher(header.channels.size(), [&](std::vector<std::uint8_t> batch) {
     live.Take(transport::channel::kSamples, batch);

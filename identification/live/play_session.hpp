@@ -12,7 +12,7 @@
 
 namespace levitas::identification {
 
-/// Until the session ends, or `wanted`, asked at every batch, is false.
+/// `live` has the session's header. Until the session ends, or `wanted`, asked at every batch, is false.
 void PlaySession(session::SessionReader& reader, LiveIdentification& live,
                  const std::function<bool()>& wanted = {});
 

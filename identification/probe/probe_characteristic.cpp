@@ -20,6 +20,9 @@ using Index = Eigen::Index;
 constexpr int kRangeSteps = 2000;
 /// Standard deviations by which a place's mean may miss the cubic: some fifty places are looked at.
 constexpr double kMisfitDeviations = 4.0;
+/// Of a part of the way: rows nearer to each other are at one displacement.
+constexpr double kSameDisplacement = 0.1;
+constexpr std::size_t kCentrePlaces = 5;
 
 /// The rows of one part of the way.
 struct Place {
@@ -130,10 +133,35 @@ std::optional<double> MeanOf(const Place& place, const Cubic& cubic, const Ways&
   return sum / static_cast<double>(count);
 }
 
-void Judge(const std::vector<Place>& places, const Cubic& cubic, const Ways& ways,
-           ProbeCharacteristic& found) {
-  double squares = 0.0;
-  std::size_t freedom = 0;
+/// Sum of squares about what the rows have in common, and what remains of their number.
+struct Scatter {
+  double squares{};
+  std::size_t freedom{};
+};
+
+/// Of the residuals of a place's rows on one way.
+Scatter ScatterOf(const Place& place, const PlatformTable& table, const Cubic& cubic,
+                  const Ways& ways, double way, double part_m) {
+  std::vector<double> x_m, residual;
+  for (const std::size_t k : place.rows) {
+    if (ways.way[k] != way) continue;
+    x_m.push_back(table.displacement_m[k]);
+    residual.push_back(cubic.residual[static_cast<Index>(k)]);
+  }
+  if (x_m.size() < 2) return {};
+  const auto count = static_cast<Index>(x_m.size());
+  Eigen::Map<Eigen::ArrayXd> x(x_m.data(), count), r(residual.data(), count);
+  const bool apart = x.maxCoeff() - x.minCoeff() > kSameDisplacement * part_m;
+  if (apart && count < 3) return {};
+  x -= x.mean();
+  r -= r.mean();
+  if (apart) r -= (x * r).sum() / x.square().sum() * x;
+  return {r.square().sum(), static_cast<std::size_t>(count) - (apart ? 2U : 1U)};
+}
+
+void Judge(const std::vector<Place>& places, const PlatformTable& table, const Cubic& cubic,
+           const Ways& ways, double part_m, ProbeCharacteristic& found) {
+  Scatter pooled;
   for (const Place& place : places) {
     const auto up = MeanOf(place, cubic, ways, 1.0);
     const auto down = MeanOf(place, cubic, ways, -1.0);
@@ -142,23 +170,20 @@ void Judge(const std::vector<Place>& places, const Cubic& cubic, const Ways& way
       found.largest_hysteresis = std::max(found.largest_hysteresis.value_or(0.0), width);
     }
     for (const double way : {1.0, -1.0}) {
-      const auto mean = way > 0.0 ? up : down;
-      std::size_t count = 0;
-      for (const std::size_t k : place.rows) {
-        if (!mean || ways.way[k] != way) continue;
-        squares += std::pow(cubic.residual[static_cast<Index>(k)] - *mean, 2);
-        ++count;
-      }
-      freedom += count > 0 ? count - 1 : 0;
+      const Scatter one = ScatterOf(place, table, cubic, ways, way, part_m);
+      pooled.squares += one.squares;
+      pooled.freedom += one.freedom;
     }
   }
-  if (freedom > 0) found.repeatability = std::sqrt(squares / static_cast<double>(freedom));
-  const double one_row = found.repeatability.value_or(cubic.rms);
-  found.cubic_suffices = true;
+  if (pooled.freedom > 0) {
+    found.repeatability = std::sqrt(pooled.squares / static_cast<double>(pooled.freedom));
+    found.cubic_suffices = true;
+  }
   for (const Place& place : places) {
     const double misfit = std::abs(MeanOf(place, cubic, ways, 0.0).value_or(0.0));
     found.largest_misfit = std::max(found.largest_misfit, misfit);
-    const double allowed = one_row / std::sqrt(static_cast<double>(place.rows.size()));
+    if (!found.repeatability) continue;
+    const double allowed = *found.repeatability / std::sqrt(static_cast<double>(place.rows.size()));
     if (misfit > kMisfitDeviations * allowed) found.cubic_suffices = false;
   }
 }
@@ -182,6 +207,21 @@ void FindStraightRange(double error_m, ProbeCharacteristic& found) {
   }
 }
 
+/// Straight line through the places nearest to the centre.
+void TakeCentreFromPlaces(std::vector<Place> places, ProbeCharacteristic& found) {
+  std::ranges::sort(places, {}, [](const Place& p) { return std::abs(p.displacement_m); });
+  places.resize(std::min(places.size(), kCentrePlaces));
+  const auto count = static_cast<Index>(places.size());
+  Eigen::ArrayXd x(count), y(count);
+  for (Index i = 0; i < count; ++i) {
+    x[i] = places[static_cast<std::size_t>(i)].displacement_m;
+    y[i] = places[static_cast<std::size_t>(i)].reading;
+  }
+  const Eigen::ArrayXd from_mean = x - x.mean();
+  found.points_gain = (from_mean * y).sum() / from_mean.square().sum();
+  found.points_offset = y.mean() - found.points_gain * x.mean();
+}
+
 /// Means of the places without offset and hysteresis; the one at the centre is (0, 0).
 void SetPoints(std::vector<Place>& places, const PlatformTable& table, const Ways& ways,
                double part_m, const std::string& name, ProbeCharacteristic& found) {
@@ -189,12 +229,16 @@ void SetPoints(std::vector<Place>& places, const PlatformTable& table, const Way
   for (Place& place : places) {
     for (const std::size_t k : place.rows) {
       place.displacement_m += table.displacement_m[k];
-      place.reading += table.reading[k] - half * ways.way[k] - found.offset.value;
+      place.reading += table.reading[k] - half * ways.way[k];
     }
     const auto count = static_cast<double>(place.rows.size());
     place.displacement_m /= count;
     place.reading /= count;
   }
+  found.points_offset = found.offset.value;
+  found.points_gain = found.gain.value;
+  if (!found.cubic_suffices.value_or(true)) TakeCentreFromPlaces(places, found);
+  for (Place& place : places) place.reading -= found.points_offset;
   for (std::size_t i = 1; i < places.size(); ++i) {
     if (places[i].reading > places[i - 1].reading) continue;
     constexpr double kMicro = 1e6;
@@ -205,7 +249,7 @@ void SetPoints(std::vector<Place>& places, const PlatformTable& table, const Way
         "of a probe that reads the other way round, or lower --places where noise does it",
         name, kMicro * places[i - 1].displacement_m, kMicro * places[i].displacement_m));
   }
-  const double unit = found.volts ? 1.0 / found.gain.value : 1.0;
+  const double unit = found.volts ? 1.0 / found.points_gain : 1.0;
   bool centred = false;
   for (const Place& place : places) {
     const bool centre = std::abs(place.displacement_m) < 0.5 * part_m;
@@ -249,8 +293,8 @@ ProbeCharacteristic FitProbe(const PlatformTable& table, const std::string& name
   found.a3 = cubic.Ratio(3, 1.0 / (cubic.scale_m * cubic.scale_m));
   if (ways.both) found.hysteresis = cubic.Of(4, 1.0);
   found.residual = cubic.rms;
+  Judge(places, table, cubic, ways, part_m, found);
   SetPoints(places, table, ways, part_m, name, found);
-  Judge(places, cubic, ways, found);
   FindStraightRange(options.straight_error_m, found);
   return found;
 }

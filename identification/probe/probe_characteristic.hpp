@@ -9,11 +9,16 @@
 //              one size, the platform as exact.
 // Places       the way is divided into at most `most_places` equal parts; the rows in one are a
 //              place. A way turns where the platform has come back by more than half a part.
-// Repeatability  standard deviation of the rows of one place and one way about their mean, pooled.
+// Repeatability  standard deviation of the rows of one place and one way about their mean, pooled;
+//              about a line where the rows lie apart within the place, which takes three of them.
+// Suffices     whether the cubic describes the probe: no place's mean off by more than its rows
+//              scatter. Not judged where nothing was repeated: then nothing says what is noise.
 // Straight     from where to where gain and offset alone are off by `straight_error_m` at most,
 //              by the fitted curve, within the table.
 // Points       means of the places without offset and hysteresis, (0, 0) among them, both columns
 //              ascending (plant_sim/sensor/characteristic.hpp). Readings in V are divided by gain.
+//              Offset and gain of the cubic; where it does not suffice those of the straight line
+//              through the five places nearest to the centre.
 // Thread       any. Failure: BadInput: fewer than kLeastPlaces places, a centre that is not in the
 //              table, a reading that does not rise with the displacement.
 // Not done     temperature, the target's material, tilt; the platform's own error.
@@ -51,7 +56,8 @@ struct ProbeCharacteristic {
   std::optional<double> repeatability;       ///< empty: no place has two rows of one way
   double residual{};                         ///< rms of the fit, in the unit of the reading
   double largest_misfit{};                   ///< of a place's mean against the cubic
-  bool cubic_suffices{};                     ///< no place is off by more than its rows allow
+  std::optional<bool> cubic_suffices;        ///< empty: nothing was repeated
+  double points_offset{}, points_gain{};     ///< that the points were made with, as offset and gain
   double low_m{}, high_m{};                  ///< of the table
   double straight_low_m{}, straight_high_m{};
   double largest_curvature_m{};  ///< of gain and offset alone, within the table

@@ -1,19 +1,14 @@
 #include "programs/controller/loop_outlet.hpp"
 
-#include <algorithm>
+#include "transport/state_cadence.hpp"
 
 namespace levitas::controller_program {
-
-namespace {
-constexpr std::int64_t kStateEveryNs = 10'000'000;  // 100 states a second
-}  // namespace
 
 LoopOutlet::LoopOutlet(session::Recorder& recorder, transport::Telemetry& telemetry,
                        std::int64_t period_ns) noexcept
     : recorder_(recorder),
       telemetry_(telemetry),
-      state_every_(
-          static_cast<std::uint64_t>(std::max<std::int64_t>(1, kStateEveryNs / period_ns))) {}
+      state_every_(transport::CyclesPerState(period_ns)) {}
 
 void LoopOutlet::Post(const cycle::CycleRecord& record) noexcept {
   recorder_.Post(record);

@@ -139,7 +139,7 @@ Json TorsionJson(const HalfSpectrum& half) {
          {"stiffness_n_m_per_rad", found ? Json(at.stiffness_n_m_per_rad) : Json(nullptr)},
          {"stiffness_sigma_n_m_per_rad", found ? Json(at.stiffness_sigma) : Json(nullptr)},
          {"known_n_m_per_rad", at.known_n_m_per_rad},
-         {"unexplained_share", at.unexplained_share},
+         {"unexplained_share", at.unexplained_share ? Json(*at.unexplained_share) : Json(nullptr)},
          {"lines", lines}});
   }
   return couplings;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "cli/json_file.hpp"
 #include "cli/study/identify/identify_commands.hpp"
@@ -16,6 +18,7 @@
 #include "report/identification/modal_files.hpp"
 #include "rt/say.hpp"
 #include "session/output_path.hpp"
+#include "session/recording.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -59,6 +62,17 @@ void PrintPoints(const ProbeCharacteristic& found) {
   }
 }
 
+std::string Judgement(const ProbeCharacteristic& found) {
+  if (!found.cubic_suffices) return "not judged, for nothing was measured twice";
+  if (*found.cubic_suffices) return "the cubic suffices";
+  return fmt::format(
+      "NO CUBIC, take the points rather than a2 and a3; theirs is the line through the places "
+      "about "
+      "the centre, offset {:.4g} {}, gain {:.5g} {}",
+      (found.volts ? 1e3 : kMicro) * found.points_offset, found.volts ? "mV" : "um",
+      (found.volts ? 1e-3 : 1.0) * found.points_gain, found.volts ? "V/mm" : "um/um");
+}
+
 void Print(const CharacteristicOptions& options, const ProbeCharacteristic& found) {
   const ReadingUnit unit = found.volts ? ReadingUnit{1e3, "mV"} : ReadingUnit{kMicro, "um"};
   const auto line = [](const char* name, const Estimate& e, double factor, const char* in) {
@@ -87,8 +101,7 @@ void Print(const CharacteristicOptions& options, const ProbeCharacteristic& foun
   }
   fmt::print("residual      {:>12.3g} {} rms; a place's mean is off by {:.3g} {} at most: {}\n",
              unit.factor * found.residual, unit.name, unit.factor * found.largest_misfit, unit.name,
-             found.cubic_suffices ? "the cubic suffices"
-                                  : "NO CUBIC, take the points below rather than a2 and a3");
+             Judgement(found));
   fmt::print(
       "straight within {:.4g} um from {:.4g} to {:.4g} um; in the whole table off by {:.4g} "
       "um at most\n",
@@ -118,7 +131,10 @@ nlohmann::ordered_json JsonOf(const CharacteristicOptions& options,
   if (found.repeatability) json["repeatability" + unit] = *found.repeatability;
   json["residual" + unit] = found.residual;
   json["largest_misfit" + unit] = found.largest_misfit;
-  json["cubic_suffices"] = found.cubic_suffices;
+  json["cubic_suffices"] =
+      found.cubic_suffices ? nlohmann::ordered_json(*found.cubic_suffices) : nullptr;
+  json["points_offset" + unit] = found.points_offset;
+  json[found.volts ? "points_gain_v_per_m" : "points_gain"] = found.points_gain;
   json["from_m"] = found.low_m;
   json["to_m"] = found.high_m;
   json["straight_error_m"] = options.fit.straight_error_m;
@@ -133,9 +149,8 @@ nlohmann::ordered_json JsonOf(const CharacteristicOptions& options,
   return json;
 }
 
-/// The rig of the file with the points as the curve of the channel's bearing.
-config::RigFile WithCurve(const CharacteristicOptions& options, const ProbeCharacteristic& found) {
-  config::RigFile rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+/// The bearing whose probe was measured.
+std::size_t BearingOf(const CharacteristicOptions& options, const config::RigFile& rig) {
   const auto& channels = rig.numbers.channels;
   const auto at = std::ranges::find(channels, options.channel);
   if (at == channels.end()) {
@@ -144,15 +159,22 @@ config::RigFile WithCurve(const CharacteristicOptions& options, const ProbeChara
     throw Problem(ExitStatus::kUsage, fmt::format("--channel {}: rig {} has {}", options.channel,
                                                   rig.numbers.name, all));
   }
-  const auto bearing = static_cast<std::size_t>(at - channels.begin()) / 2;
+  return static_cast<std::size_t>(at - channels.begin()) / 2;
+}
+
+/// Writes the rig with the points as the curve of the bearing.
+void WriteWithCurve(const std::string& path, config::RigFile rig, std::size_t bearing,
+                    const ProbeCharacteristic& found) {
   plant::BearingConfig& config = rig.plant.bearings[bearing];
   config.sensor.characteristic = found.points;
-  fmt::print("bearing {}: the curve is that of both its probes", config.name);
+  const std::size_t probes = std::min<std::size_t>(2, rig.numbers.axes() - 2 * bearing);
+  fmt::print("bearing {}: the curve is that of {}", config.name,
+             probes == 1 ? "its probe" : "both its probes");
   if (config.sensor.gain != 1.0) {
     fmt::print("; gain {:g} of the file multiplies it", config.sensor.gain);
   }
   fmt::print("\n");
-  return rig;
+  WriteRigFile(path, rig);
 }
 
 ExitStatus Run(const CharacteristicOptions& given) {
@@ -167,13 +189,24 @@ ExitStatus Run(const CharacteristicOptions& given) {
   for (const std::string& path : {options.out_path, options.json_path}) {
     session::CheckOutputPath(path, options.table_path);
   }
+  std::optional<config::RigFile> rig;
+  std::size_t bearing = 0;
+  if (!options.out_path.empty()) {
+    rig = config::LoadRig(config::FindConfig(options.rig_name, "rigs"));
+    bearing = BearingOf(options, *rig);
+  }
+  if (session::IsSession(options.table_path)) {
+    throw BadInput(options.table_path +
+                   ": is a recorded session; allowed: a table of a positioning platform, columns "
+                   "displacement_um and reading_um (docs/identification.md)");
+  }
   const ProbeCharacteristic found =
       FitProbe(ReadPlatformTable(options.table_path), options.table_path, options.fit);
   Print(options, found);
-  if (options.out_path.empty()) {
-    PrintPoints(found);
+  if (rig) {
+    WriteWithCurve(options.out_path, std::move(*rig), bearing, found);
   } else {
-    WriteRigFile(options.out_path, WithCurve(options, found));
+    PrintPoints(found);
   }
   WriteJsonFile(options.json_path, JsonOf(options, found));
   TellWritten({options.out_path, options.json_path});

@@ -104,9 +104,10 @@ HalfSpectrum Torsion(const std::optional<session::Recording>& record, const std:
   return HalfSpectrumOf(*record, torsion, rig, lines, found);
 }
 
-/// Of each coupling the lines that carry most, those of the noise left out.
+/// Of each coupling the lines that carry most, those that the noise may have made left out.
 void PrintTorsion(const HalfSpectrum& half) {
   constexpr std::size_t kShown = 5;
+  constexpr double kDeviations = 4.0;
   for (std::size_t c = 0; c < half.couplings.size(); ++c) {
     const CouplingFound& at = half.couplings[c];
     fmt::print("\ntorsion, {}", at.name);
@@ -115,11 +116,15 @@ void PrintTorsion(const HalfSpectrum& half) {
                  at.stiffness_n_m_per_rad, 2.0 * at.stiffness_sigma, at.lines_used,
                  at.known_n_m_per_rad);
     }
-    fmt::print("\nhalf spectrum: the model leaves {:.2f} % of its power unexplained\n",
-               100.0 * at.unexplained_share);
+    fmt::print("\nhalf spectrum: {}\n",
+               at.unexplained_share
+                   ? fmt::format("the model leaves {:.2f} % of its power unexplained",
+                                 100.0 * *at.unexplained_share)
+                   : "not held against the model: the probes see none of its lines");
     std::vector<const TorsionLine*> lines;
     for (const TorsionLine& line : half.lines) {
-      if (line.coupling == c) lines.push_back(&line);
+      const bool stands_out = std::abs(line.torque_n_m) > kDeviations * line.torque_sigma_n_m;
+      if (line.coupling == c && stands_out) lines.push_back(&line);
     }
     std::ranges::sort(lines, [](const TorsionLine* a, const TorsionLine* b) {
       return std::abs(a->torque_n_m) > std::abs(b->torque_n_m);
@@ -138,7 +143,7 @@ void PrintTorsion(const HalfSpectrum& half) {
 
 ExitStatus Run(const SpectrumOptions& options) {
   if (options.data_path.empty() == options.lines_path.empty()) {
-    throw BadInput("full-spectrum: give a record, or --lines with a file of lines");
+    throw Problem(ExitStatus::kUsage, "give a record, or --lines with a file of lines, not both");
   }
   for (const std::string& path : {options.out_path, options.json_path, options.svg_path}) {
     session::CheckOutputPath(path, options.data_path);

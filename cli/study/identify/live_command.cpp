@@ -15,6 +15,7 @@
 #include "cli/study/identify/live_command.hpp"
 #include "cli/study/identify/live_listener.hpp"
 #include "cli/study/identify/live_report.hpp"
+#include "cli/study/identify/sensor_options.hpp"
 #include "cli/study/written_files.hpp"
 #include "identification/live/convergence_message.hpp"
 #include "identification/live/live_identification.hpp"
@@ -43,6 +44,7 @@ constexpr const char* kLiveHelp =
 
 struct LiveCommandOptions {
   LiveOptions live;
+  SensorOptions sensors;
   std::string session_path, port{"lcm"}, key, record_path, json_path;
   double tolerance_percent{1.0};
   double input_lag_hz{-1.0};
@@ -98,8 +100,8 @@ bool Enough(const LiveCommandOptions& options, const LiveIdentification& live) {
   return options.until_converged && live.recursion() && live.recursion()->rows_to_converge();
 }
 
-/// Until Ctrl-C, the end of the run, or silence; false when nothing ever came.
-bool Listen(const LiveCommandOptions& options, const transport::LcmNetwork& network,
+/// Until Ctrl-C, the end of the run, or silence.
+void Listen(const LiveCommandOptions& options, const transport::LcmNetwork& network,
             LiveIdentification& live, const LiveReport& report, Busy& busy) {
   constexpr std::chrono::milliseconds kLook{50};
   const InterruptGuard interrupts;
@@ -127,7 +129,12 @@ bool Listen(const LiveCommandOptions& options, const transport::LcmNetwork& netw
                     "dropped; a smaller --order or no --products needs less\n",
                     listener.dropped()));
   }
-  return told_run;
+  if (live.refused() > 0) {
+    rt::Say(
+        fmt::format("warning: {} messages could not be used: of another version of the "
+                    "controller, damaged, or of another rig\n",
+                    live.refused()));
+  }
 }
 
 void Play(const LiveCommandOptions& options, LiveIdentification& live, const LiveReport& report,
@@ -154,7 +161,8 @@ void RefuseNothing(const LiveCommandOptions& options, const LiveIdentification& 
                              "nothing was learnt; start it when the rotor is levitated, before the "
                              "run ends"
                            : fmt::format("no controller was heard on {} within {:g} s: start one "
-                                         "with the same --port (amb run), or give a session",
+                                         "with the same --port (amb run prints the one it took), "
+                                         "or give a session",
                                          options.port, options.patience_s));
 }
 
@@ -163,6 +171,9 @@ LiveOptions Wanted(const LiveCommandOptions& options) {
   live.model.tolerance = options.tolerance_percent / 100.0;
   if (options.input_lag_hz >= 0.0) live.input_lag_hz = options.input_lag_hz;
   if (options.input_delay >= 0) live.input_delay = options.input_delay;
+  live.sensors = [sensors = options.sensors](Eigen::Index axes) {
+    return SensorsOf(sensors, axes);
+  };
   return live;
 }
 
@@ -180,7 +191,7 @@ ExitStatus Run(const LiveCommandOptions& options) {
     transport::LcmNetwork network = transport::ParseLcmNetwork(options.port);
     transport::TakeKey(network, options.key, "pretend to be the controller");
     sender = std::make_unique<PointSender>(network);
-    (void)Listen(options, network, live, report, busy);
+    Listen(options, network, live, report, busy);
   } else {
     Play(options, live, report, busy);
   }
@@ -205,10 +216,7 @@ void AddModel(CLI::App& command, LiveCommandOptions& options) {
       .add_option("--input-delay", options.input_delay,
                   "Samples of delay, for --products; default: the rig's")
       ->check(CLI::Range(0, 100));
-  command.add_option("--sensor-a2", options.live.sensor_a2, "Known characteristic, per axis")
-      ->delimiter(',');
-  command.add_option("--sensor-a3", options.live.sensor_a3, "Known characteristic, per axis")
-      ->delimiter(',');
+  AddSensorOptions(command, options.sensors);
   command
       .add_option("--forgetting", model.forgetting,
                   "Weight of a row against the one after it; 1 = all count alike")

@@ -6,6 +6,7 @@
 
 #include "common/problem.hpp"
 #include "identification/probe/probe_characteristic.hpp"
+#include "rt/say.hpp"
 
 namespace levitas::cli {
 namespace {
@@ -22,6 +23,12 @@ std::vector<identification::SensorCharacteristic> OfTables(const std::vector<std
   std::vector<identification::SensorCharacteristic> sensors;
   for (const std::string& path : paths) {
     const auto found = identification::FitProbe(identification::ReadPlatformTable(path), path);
+    if (!found.cubic_suffices.value_or(true)) {
+      rt::Say(
+          fmt::format("warning: {}: no cubic describes this probe, a place is off by {:.3g} {}; "
+                      "amb identify characteristic {} shows the curve\n",
+                      path, 1e6 * found.largest_misfit, found.volts ? "uV" : "um", path));
+    }
     sensors.push_back(found.Cubic());
   }
   sensors.resize(count, sensors.front());

@@ -216,7 +216,7 @@ TEST(HalfSpectrum, MeasuredAndModelAreWhatTwoInertiasAndASpringSay) {
     EXPECT_LT(std::abs(*line.model_n_m - torque), 1e-5 * std::abs(torque)) << line.name;
   }
   for (const CouplingFound& coupling : half.couplings) {
-    EXPECT_LT(coupling.unexplained_share, 1e-9) << coupling.name;
+    EXPECT_LT(coupling.unexplained_share.value(), 1e-9) << coupling.name;
     EXPECT_NEAR(coupling.stiffness_n_m_per_rad / coupling.known_n_m_per_rad, 1.0, 1e-6);
   }
 }
@@ -229,7 +229,7 @@ TEST(HalfSpectrum, StiffnessScattersByItsDeviationUnderWhiteNoise) {
       const CouplingFound& found = half.couplings.at(c);
       EXPECT_GT(found.lines_used, 0U);
       square += std::pow((found.stiffness_n_m_per_rad - StiffnessOf(c)) / found.stiffness_sigma, 2);
-      EXPECT_LT(found.unexplained_share, 1e-3);
+      EXPECT_LT(found.unexplained_share.value(), 1e-3);
     }
     for (const TorsionLine& line : half.lines) {
       // Of an amplitude's parts from N samples: sigma sqrt(2/N), known to 0.7 %.
@@ -253,7 +253,7 @@ TEST(HalfSpectrum, StiffnessIsThatOfTheReadingsAndNotOfTheRigFile) {
     EXPECT_NEAR(found.stiffness_n_m_per_rad, 1.1 * StiffnessOf(c), 3.0 * found.stiffness_sigma);
     EXPECT_GT(found.stiffness_n_m_per_rad - StiffnessOf(c), 10.0 * found.stiffness_sigma);
     // The model is 1/1.1 of the torque: what it leaves has (1 - 1/1.1)^2 of its power.
-    EXPECT_NEAR(found.unexplained_share, 1.0 / 121.0, 1e-3);
+    EXPECT_NEAR(found.unexplained_share.value(), 1.0 / 121.0, 1e-3);
   }
 }
 
@@ -272,7 +272,7 @@ TEST(HalfSpectrum, ShareLeftUnexplainedIsWhatTeethOfAnotherStiffnessChange) {
     change[line.coupling] += std::norm(measured - model);
   }
   for (std::size_t c = 0; c < 2; ++c) {
-    const double share = half.couplings.at(c).unexplained_share;
+    const double share = half.couplings.at(c).unexplained_share.value();
     EXPECT_GT(share, 0.01);
     EXPECT_NEAR(share, change[c] / power[c], 1e-4 * share);
   }
@@ -301,7 +301,7 @@ TEST(HalfSpectrum, ALineWhoseMirrorIsNotSeenHasNoModel) {
     const bool unseen = line.name == "mesh_3" && line.speed_rad_per_s < kTwoPi * 20.0;
     EXPECT_EQ(line.model_n_m.has_value(), !unseen) << line.name;
   }
-  EXPECT_LT(half.couplings.at(0).unexplained_share, 1e-9);  // of those that have one
+  EXPECT_LT(half.couplings.at(0).unexplained_share.value(), 1e-9);  // of those that have one
 }
 
 /// Without the instants of the record's second half but for `kept` of ten.
@@ -344,6 +344,56 @@ TEST(HalfSpectrum, IsEmptyWithoutReadingsAndWithoutTorsionOfTheModel) {
   stiff.corrected.torsion.reset();
   EXPECT_TRUE(HalfSpectrumOf(trial.record, ExactReadings(), TwelveDof(), trial.lines, stiff)
                   .couplings.empty());
+}
+
+/// Readings of the second coupling alone, as of a rig with one pair of gauges.
+session::TorsionRecording SecondAlone() {
+  session::TorsionRecording torsion = ExactReadings();
+  torsion.couplings.erase(torsion.couplings.begin());
+  torsion.torque_n_m.erase(torsion.torque_n_m.begin());
+  torsion.twist_rad.erase(torsion.twist_rad.begin());
+  return torsion;
+}
+
+TEST(HalfSpectrum, FewerCouplingsThanTheRigsAreTakenByTheirNames) {
+  const HalfSpectrum both = HalfOf(ExactReadings());
+  const HalfSpectrum one = HalfOf(SecondAlone());
+  ASSERT_EQ(one.couplings.size(), 1U);
+  EXPECT_EQ(one.couplings[0].name, both.couplings[1].name);
+  EXPECT_EQ(one.couplings[0].known_n_m_per_rad, StiffnessOf(1));
+  EXPECT_EQ(one.couplings[0].stiffness_n_m_per_rad, both.couplings[1].stiffness_n_m_per_rad);
+}
+
+std::string RefusalOf(const session::TorsionRecording& torsion) {
+  try {
+    (void)HalfOf(torsion);
+  } catch (const BadInput& problem) {
+    return problem.what();
+  }
+  return "not refused";
+}
+
+TEST(HalfSpectrum, RefusesACouplingThatTheRigDoesNotHaveWithThoseItHas) {
+  session::TorsionRecording other = SecondAlone();
+  other.couplings = {"turbine to pump"};
+  EXPECT_THAT(RefusalOf(other), testing::HasSubstr("turbine to pump, the rig has "));
+  EXPECT_THAT(RefusalOf(other), testing::HasSubstr(ExactReadings().couplings[0]));
+}
+
+TEST(HalfSpectrum, RefusesARigThatBeganAnewWithinTheRecord) {
+  session::TorsionRecording twice = ExactReadings();
+  twice.rig_session.back() += 1;
+  EXPECT_THAT(RefusalOf(twice), testing::HasSubstr("record without a restart"));
+}
+
+TEST(HalfSpectrum, SaysThatItWasNotComparedWhereTheProbesSeeNoLine) {
+  const HalfTrial& trial = ExactTrial();
+  const HalfSpectrum half =
+      HalfSpectrumOf(trial.record, ExactReadings(), TwelveDof(), {}, trial.found);
+  for (const CouplingFound& coupling : half.couplings) {
+    EXPECT_FALSE(coupling.unexplained_share) << coupling.name;
+    EXPECT_GT(coupling.lines_used, 0U);  // torque over twist needs no model
+  }
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ COUNTS = {"samples", "drop_outs", "missing_samples", "rows", "cycles_without_fra
           "corrupt_bytes", "corrupt_records", "corrupt_blocks", "seed", "substeps", "compared_with_substeps",
           "orders", "turns", "skipped_periods", "missing_frames", "held_currents", "missing_records", "count", "times",
           "failures", "repeats", "baseline"}
-RATIOS = {"ratio", "share", "sigmas", "damping_ratio", "largest_pole_modulus", "forward_share",
+RATIOS = {"ratio", "share", "sigmas", "rise_deviations", "points_gain", "damping_ratio", "largest_pole_modulus", "forward_share",
           "torsion_share", "sensitivity_peak", "gain_margin_up", "gain_margin_down", "largest_singular_value",
           "multiple_of_noise", "expected_multiple", "lag_one_correlation",
           "dominant_density_ratio", "saturated_share", "clearance_share", "share_of_peak", "peak",

@@ -35,8 +35,8 @@ OPTIONS = {
     "identify modal": {"--rig", "--highest-hz", "--fit-amplifiers", "--fit-sensors", "--out", "--rotor",
                        "--svg", "--decibel-cost", "--starts", "--spread", "--spread-gains", "--json"},
     "identify live": {"--port", "--key", "--order", "--noise-order", "--degree", "--bandwidth-hz", "--products",
-                      "--input-lag-hz", "--input-delay", "--sensor-a2", "--sensor-a3", "--forgetting", "--tolerance",
-                      "--until-converged", "--patience", "--record", "--json"},
+                      "--input-lag-hz", "--input-delay", "--sensor-a2", "--sensor-a3", "--sensor-table", "--forgetting",
+                      "--tolerance", "--until-converged", "--patience", "--record", "--json"},
     "identify characteristic": {"--straight-error-um", "--places", "--rig", "--channel", "--out", "--json"},
     "balance": {"--rig", "--controller", "--plane", "--planes", "--drill", "--after", "--applied", "--top-rpm",
                 "--svg", "--write-run-outs", "--json"},
@@ -157,6 +157,12 @@ class Help(CommandTest):
         self.assertGreaterEqual(told, {"modes", "poles", "margins", "simulate", "import", "export",
                                        "replay"})
         self.assertLessEqual(told, set(OPTIONS), "documented, but there is no such command")
+
+    def test_the_script_leaves_every_benchmark_of_accuracy_to_the_program(self):
+        """The others are benchmarks of speed, which the script runs itself."""
+        listed = re.search(r"=~ \^\(([a-z|-]+)\)\$ \]\]", (SOURCE / "amb").read_text())[1].split("|")
+        pages = amb(self.folder, "manual", "--markdown").stdout
+        self.assertEqual(set(listed), set(re.findall(r"^## amb bench (\S+)$", pages, re.M)))
 
     def test_help_needs_no_files(self):
         """Also where nothing of the project can be found."""

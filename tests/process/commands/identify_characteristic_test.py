@@ -58,6 +58,35 @@ class IdentifyCharacteristic(CommandTest):
             self.assertEqual((done.returncode, words in done.stderr), (status, True), done.stderr)
             self.assertFalse((self.folder / "r.yaml").exists())
 
+    def test_what_is_wrong_is_said_before_anything_is_printed(self):
+        self.write("probe.csv", table())
+        for rig, channel in (("absent.yaml", "ux"), ("turbomolecular_pump", "vx")):
+            done = self.characteristic("probe.csv", "--rig", rig, "--channel", channel, "--out", "r.yaml")
+            self.assertEqual((done.returncode != DONE, done.stdout), (True, ""))
+
+    def test_a_probe_that_no_cubic_describes_is_told_and_warned_of(self):
+        """A step of 5 um at 20 um, there and back twice."""
+        steps = 2 * (list(range(-25, 26)) + list(range(24, -25, -1)))
+        self.write("step.csv", HEADER + "".join(f"{2 * n},{2 * n + 5 * (n > 10)}\n" for n in steps))
+        done = self.characteristic("step.csv", "--json", "c.json")
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertIn("NO CUBIC", done.stdout)
+        found = json.loads((self.folder / "c.json").read_text())
+        self.assertEqual(found["cubic_suffices"], False)
+        for point in found["points"]:
+            x = point["displacement_m"]
+            self.assertAlmostEqual(point["reading_m"], x + 5e-6 * (x > 21e-6), delta=2e-8)
+        self.write("run.csv", "u,y\n" + "".join(f"{n % 7},{1e-6 * (n % 5)}\n" for n in range(400)))
+        done = amb(self.folder, "identify", "hammerstein-wiener", "run.csv", "--input", "u", "--output", "y",
+                   "--rate-hz", "1000", "--order", "2", "--degree", "1", "--sensor-table", "step.csv")
+        self.assertIn("warning: step.csv: no cubic describes this probe", done.stderr)
+
+    def test_a_table_of_one_sweep_is_not_judged(self):
+        self.write("once.csv", HEADER + "".join(f"{2 * n},{2 * n + 5 * (n > 10)}\n" for n in range(-25, 26)))
+        done = self.characteristic("once.csv", "--json", "c.json")
+        self.assertIn("not judged, for nothing was measured twice", done.stdout)
+        self.assertIsNone(json.loads((self.folder / "c.json").read_text())["cubic_suffices"])
+
     def test_tells_the_identification_what_the_numbers_tell_it(self):
         """A lag of first order behind a curved probe; the curve is known, or it is not."""
         draw, state, rows = random.Random(7), 0.0, ["u,y"]

@@ -48,6 +48,12 @@ TEST(TrendText, NamesTheWheelThatRises) {
   const auto json = TrendJson(followed);
   EXPECT_TRUE(json["trends"][0]["risen"]);
   EXPECT_DOUBLE_EQ(json["sessions"][3]["shafts"][0]["amplitude_m"], 1e-7);
+  EXPECT_DOUBLE_EQ(json["trends"][0]["rise_deviations"][3], followed.trends[0].rise[3]);
+  const svg::Figure figure = TrendFigure(followed);
+  const svg::Series& height = figure.panels.at(0).series.at(2);
+  EXPECT_EQ(height.name, "risen from here on");
+  EXPECT_LT(height.y.at(0), 0.1);  // the last session, 0.1 um, stands above it
+  EXPECT_GT(height.y.at(0), 0.01);
 }
 
 TEST(TrendText, OfNoiseSaysThatNothingRises) {
@@ -65,6 +71,16 @@ TEST(TrendText, AccusesNobodyWhereSessionsCannotBeCompared) {
                               "controller file"));
   EXPECT_THAT(text, Not(HasSubstr("RISING")));
   EXPECT_FALSE(TrendJson(followed)["comparable"]);
+}
+
+TEST(TrendText, OfTwoSessionsClaimsNoInterval) {
+  FollowedSessions followed = WithDrivenWheel(1e-14);
+  followed.sessions.erase(followed.sessions.begin(), followed.sessions.begin() + 2);
+  followed.rule.baseline = 1;
+  followed.trends = TrendsOf(followed);
+  EXPECT_THAT(TrendText(followed), HasSubstr("above the first session, in 10 lines"));
+  EXPECT_THAT(TrendText(followed), HasSubstr("um per session. A pulse"));
+  EXPECT_THAT(TrendText(followed), Not(HasSubstr("0 %")));
 }
 
 TEST(TrendText, OfTooFewSessionsSaysSo) {

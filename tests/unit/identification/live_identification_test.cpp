@@ -138,6 +138,7 @@ TEST(LiveIdentification, GivesTheParametersOfTheSessionBitForBitInWhateverOrderM
   }
   LiveIdentification recorded(Options());
   session::SessionReader reader(path);
+  recorded.Take(reader.header());
   PlaySession(reader, recorded);
 
   const Sent sent = SentOf(records);
@@ -221,11 +222,16 @@ TEST(LiveIdentification, RefusesABatchOfOtherAxesAndBytesThatAreNoMessage) {
   EXPECT_EQ(live.refused(), 2U);
 }
 
-TEST(LiveIdentification, RefusesSensorsOfAnotherNumberOfAxes) {
+TEST(LiveIdentification, AsksForAsManySensorsAsTheRigHasAxesAndSaysWhatTheyAreRefusedWith) {
+  Eigen::Index asked = 0;
   LiveOptions options = Options();
-  options.sensor_a3 = {1.0, 2.0};
+  options.sensors = [&](Eigen::Index axes) -> std::vector<SensorCharacteristic> {
+    asked = axes;
+    throw Problem(ExitStatus::kUsage, "one number for each");
+  };
   LiveIdentification live(options);
-  EXPECT_THROW(TakeHeader(live), BadInput);
+  EXPECT_THROW(TakeHeader(live), Problem);
+  EXPECT_EQ(asked, 1);
 }
 
 TEST(LiveIdentification, APointBecomesAMessageThatSaysTheSame) {

@@ -83,7 +83,7 @@ TEST(GearedPicture, HasAPanelPerShaftAndNamesEachSpeedInBoth) {
 HalfSpectrum TwoCouplings(double speed_rad_per_s) {
   HalfSpectrum half;
   half.couplings = {{"motor to pinion", 1830.0, 1900.0, 12.0, 2, 0.03},
-                    {"gear to brake", 1470.0, 0.0, 0.0, 0, 0.0}};
+                    {"gear to brake", 1470.0, 0.0, 0.0, 0, {}}};
   for (std::size_t coupling = 0; coupling < 2; ++coupling) {
     for (const double times : {1.0, 2.0}) {
       TorsionLine line{.coupling = coupling,
@@ -108,6 +108,7 @@ TEST(TorsionJson, HoldsTheLinesOfEachCouplingWithTheModelsAsAmplitudeAndPhase) {
   EXPECT_EQ(json[0]["coupling"], "motor to pinion");
   EXPECT_EQ(json[1]["coupling"], "gear to brake");
   EXPECT_EQ(json[0]["unexplained_share"], 0.03);
+  EXPECT_TRUE(json[1]["unexplained_share"].is_null());
   ASSERT_EQ(json[0]["lines"].size(), 2U);
   ASSERT_EQ(json[1]["lines"].size(), 2U);
   const auto& line = json[0]["lines"][0];
