@@ -15,8 +15,8 @@
 // Stiffness k_c of the gauge's spring from both of its readings, by total least squares over lines
 //           that stand out of the noise: M = k theta.
 // Units     SI, complex peak amplitudes. Thread any.
-// Failure   BadInput when the record holds no torsion of a stretch, when its gauges are on a coupling
-//           that the rig does not have, and when the rig began anew within it.
+// Failure   BadInput when the record holds no torsion of a stretch, when its gauges are on a
+//           coupling that the rig does not have, and when the rig began anew within it.
 
 #include <complex>
 #include <optional>

@@ -12,7 +12,8 @@
 
 namespace levitas::identification {
 
-/// `live` has the session's header. Until the session ends, or `wanted`, asked at every batch, is false.
+/// Until the session ends, or `wanted`, asked at every batch, is false. `live` has the session's
+/// header.
 void PlaySession(session::SessionReader& reader, LiveIdentification& live,
                  const std::function<bool()>& wanted = {});
 
