@@ -66,9 +66,8 @@ std::string Judgement(const ProbeCharacteristic& found) {
   if (!found.cubic_suffices) return "not judged, for nothing was measured twice";
   if (*found.cubic_suffices) return "the cubic suffices";
   return fmt::format(
-      "NO CUBIC, take the points rather than a2 and a3; theirs is the line through the places "
-      "about "
-      "the centre, offset {:.4g} {}, gain {:.5g} {}",
+      "NO CUBIC, take the points rather than a2 and a3; they count from the line through the "
+      "places about the centre, offset {:.4g} {}, gain {:.5g} {}",
       (found.volts ? 1e3 : kMicro) * found.points_offset, found.volts ? "mV" : "um",
       (found.volts ? 1e-3 : 1.0) * found.points_gain, found.volts ? "V/mm" : "um/um");
 }
