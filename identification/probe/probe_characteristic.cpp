@@ -23,6 +23,9 @@ constexpr double kMisfitDeviations = 4.0;
 /// Of a part of the way: rows nearer to each other are at one displacement.
 constexpr double kSameDisplacement = 0.1;
 constexpr std::size_t kCentrePlaces = 5;
+/// Of a part: displacements just a part apart, as those of equal steps, are two places however they
+/// were rounded.
+constexpr double kRounding = 1e-6;
 
 /// The rows of one part of the way.
 struct Place {
@@ -64,9 +67,9 @@ std::vector<Place> PlacesOf(const PlatformTable& table, double part_m) {
   std::ranges::sort(order, {}, [&](std::size_t k) { return table.displacement_m[k]; });
   std::vector<Place> places;
   for (const std::size_t k : order) {
-    const bool next =
-        places.empty() ||
-        table.displacement_m[k] - table.displacement_m[places.back().rows.front()] >= part_m;
+    const bool next = places.empty() ||
+                      table.displacement_m[k] - table.displacement_m[places.back().rows.front()] >=
+                          (1.0 - kRounding) * part_m;
     if (next) places.emplace_back();
     places.back().rows.push_back(k);
   }

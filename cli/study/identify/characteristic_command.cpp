@@ -228,7 +228,7 @@ void AddIdentifyCharacteristic(CLI::App& identify, Action& action) {
   command
       ->add_option("--places", options->fit.most_places,
                    "Equal parts of the way whose rows are averaged into a point each")
-      ->check(CLI::Range(6, 199))
+      ->check(CLI::Range(6, 198))
       ->capture_default_str();
   command->add_option("--rig", options->rig_name, "Rig file, or name of a shipped one, for --out");
   command->add_option("--channel", options->channel, "Channel whose probe was measured");

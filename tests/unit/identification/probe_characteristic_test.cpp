@@ -151,11 +151,13 @@ TEST(ProbeCharacteristic, TakesThePointsFromThePlacesWhereACubicDoesNotSuffice) 
     const auto found = FitProbe(table, "probe.csv");
     ASSERT_TRUE(found.cubic_suffices);
     EXPECT_FALSE(*found.cubic_suffices);
-    EXPECT_GT(std::abs(found.offset.value / unit - 1e-6), 0.5e-6);
+    EXPECT_EQ(found.places, 51U);  // 50 parts and as many steps: rounding merges none
+    EXPECT_GT(std::abs(found.offset.value / unit - 1e-6), 0.3e-6);
     EXPECT_NEAR(found.points_offset / unit, 1e-6, 1e-12);
     const sensor::Characteristic probe(found.points);
     for (double x = -50e-6; x < 51e-6; x += 2e-6) {
-      EXPECT_NEAR(probe(x), x + (x > 21e-6 ? 5e-6 : 0.0), 1e-9) << x;
+      // The ends are met on one way only: half of the hysteresis that the cubic finds in the step.
+      EXPECT_NEAR(probe(x), x + (x > 21e-6 ? 5e-6 : 0.0), 0.05e-6) << x;
     }
   }
 }
