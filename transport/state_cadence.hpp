@@ -11,7 +11,7 @@ namespace levitas::transport {
 
 inline constexpr std::int64_t kStateEveryNs = 10'000'000;
 
-/// A state is told at the cycles that are multiples of it.
+/// Cycles from one state to the next; the numbers of the cycles that send one are its multiples.
 [[nodiscard]] constexpr std::uint64_t CyclesPerState(std::int64_t period_ns) noexcept {
   return static_cast<std::uint64_t>(
       std::max<std::int64_t>(1, kStateEveryNs / std::max<std::int64_t>(1, period_ns)));

@@ -193,8 +193,8 @@ void CheckLoop(const RunOptions& options, const RunFiles& files) {
   const config::RigFile rig = config::ParseRig(files.rig_text, files.rig_path);
   const auto controller = config::LoadController(files.controller_path, files.rig);
   const auto scenario = config::LoadScenario(files.scenario_path, files.rig);
-  const plant_run::TimedEvents events(scenario, rig.numbers,
-                                      rig.plant);  // throws for an event that cannot be
+  // Throws for an event that cannot be.
+  const plant_run::TimedEvents events(scenario, rig.numbers, rig.plant);
   const auto [rig_name, kept] = RigForCommands(options);
   const std::string text =
       UnstableLoop(rig, controller.law, ScenarioSpeeds(scenario), rig_name, files.controller_path);
